@@ -1,0 +1,78 @@
+# How every room is compiled: the standard, warnings, sanitizers, and the two functions that
+# declare a room's library and its tests.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set_property(GLOBAL PROPERTY USE_FOLDERS ON)
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_C_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+endif()
+
+find_package(Threads REQUIRED)
+
+# Flags of our own code; dependencies come in as SYSTEM headers and are not judged by them.
+add_library(pleinair_build INTERFACE)
+target_include_directories(pleinair_build INTERFACE "${CMAKE_SOURCE_DIR}")
+target_link_libraries(pleinair_build INTERFACE Threads::Threads)
+target_compile_options(pleinair_build INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wold-style-cast -Wnon-virtual-dtor
+  -Woverloaded-virtual -Wcast-qual -Wmissing-declarations
+  -Wno-missing-field-initializers  # designated initialisers leave the rest at its default
+  -Werror)
+if(PLEINAIR_ASSERTIONS)
+  # NDEBUG is what RelWithDebInfo and Release define; assertions stay on where asked for.
+  target_compile_options(pleinair_build INTERFACE -UNDEBUG)
+  target_compile_definitions(pleinair_build INTERFACE _GLIBCXX_ASSERTIONS)
+endif()
+
+if(PLEINAIR_SANITIZE)
+  add_compile_options(-fsanitize=${PLEINAIR_SANITIZE} -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${PLEINAIR_SANITIZE})
+  if(PLEINAIR_SANITIZE MATCHES "undefined")
+    add_compile_options(-fno-sanitize-recover=undefined)
+  endif()
+endif()
+
+# pleinair_library(NAME SOURCES ... [PUBLIC libs ...] [PRIVATE libs ...])
+# A room's static library. PUBLIC names what its headers show, PRIVATE what only its .cpp use.
+function(pleinair_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  target_link_libraries(${name} PUBLIC pleinair_build ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+endfunction()
+
+# pleinair_tests(NAME KIND kind SOURCES ... [LIBS ...] [TIMEOUT seconds] [QUICK])
+# A GoogleTest executable of one kind (unit, conformance, gpu, golden ...), which becomes the
+# tests' CTest label; QUICK adds the label of `./dev test quick`.
+function(pleinair_tests name)
+  cmake_parse_arguments(ARG "QUICK" "KIND;TIMEOUT" "SOURCES;LIBS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE pleinair_build ${ARG_LIBS} GTest::gmock_main)
+  target_compile_definitions(${name} PRIVATE
+    PLEINAIR_SHARED_DATA="${PLEINAIR_SHARED_DATA}"
+    PLEINAIR_TESTS_DIR="${CMAKE_SOURCE_DIR}/tests")
+  set(labels ${ARG_KIND})
+  if(ARG_QUICK)
+    list(APPEND labels quick)
+  endif()
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 120)
+  endif()
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${ARG_KIND}."
+    PROPERTIES LABELS "${labels}" TIMEOUT ${ARG_TIMEOUT}
+    ENVIRONMENT "${PLEINAIR_TEST_ENVIRONMENT}")
+endfunction()
+
+# What GPU tests run under: Mesa's software rasteriser, with blending into 32-bit floats made an
+# error (docs: GPU rules, rule 5), and leak reports of the driver left out.
+set(PLEINAIR_TEST_ENVIRONMENT
+  "LIBGL_ALWAYS_SOFTWARE=1"
+  "MESA_EXTENSION_OVERRIDE=-GL_EXT_float_blend"
+  "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/lsan.supp"
+  "TSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/tsan.supp"
+  "UBSAN_OPTIONS=print_stacktrace=1")

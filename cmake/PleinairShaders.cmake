@@ -1,0 +1,21 @@
+# Shaders are files beside the code that runs them. They are embedded at build under their path
+# from the top of the tree ("pipeline/gpu/shaders/fullscreen.vert"), and a directory given at run
+# time overrides them (gpu::ShaderLibrary).
+
+# pleinair_embed_shaders(TARGET file ...): embeds the files, named relative to the current source
+# directory, into TARGET. They register themselves through gpu::EmbeddedShader.
+function(pleinair_embed_shaders target)
+  set(generated "${CMAKE_CURRENT_BINARY_DIR}/${target}_shaders.cpp")
+  set(inputs)
+  foreach(shader IN LISTS ARGN)
+    list(APPEND inputs "${CMAKE_CURRENT_SOURCE_DIR}/${shader}")
+  endforeach()
+  list(JOIN inputs "|" joined)
+  add_custom_command(
+    OUTPUT "${generated}"
+    COMMAND "${CMAKE_COMMAND}" "-DOUTPUT=${generated}" "-DROOT=${CMAKE_SOURCE_DIR}"
+            "-DTARGET=${target}" "-DINPUTS=${joined}" -P "${CMAKE_SOURCE_DIR}/cmake/EmbedShaders.cmake"
+    DEPENDS ${inputs} "${CMAKE_SOURCE_DIR}/cmake/EmbedShaders.cmake"
+    VERBATIM)
+  target_sources(${target} PRIVATE "${generated}")
+endfunction()

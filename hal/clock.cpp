@@ -1,0 +1,39 @@
+#include "hal/clock.h"
+
+#include <algorithm>
+#include <condition_variable>
+
+namespace pleinair::hal {
+
+TimePoint SteadyClock::now() const {
+  return TimePoint(
+      std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch()));
+}
+
+bool SteadyClock::sleepUntil(TimePoint time, std::stop_token stop) {
+  std::mutex mutex;
+  std::condition_variable_any wake;
+  std::unique_lock lock(mutex);
+  const std::chrono::steady_clock::time_point until(time.time_since_epoch());
+  wake.wait_until(lock, stop, until, [] { return false; });
+  return !stop.stop_requested();
+}
+
+TimePoint SteppedClock::now() const {
+  const std::scoped_lock lock(mutex_);
+  return now_;
+}
+
+bool SteppedClock::sleepUntil(TimePoint time, std::stop_token stop) {
+  if (stop.stop_requested()) return false;
+  const std::scoped_lock lock(mutex_);
+  now_ = std::max(now_, time);
+  return true;
+}
+
+void SteppedClock::advance(Duration by) {
+  const std::scoped_lock lock(mutex_);
+  now_ += by;
+}
+
+}  // namespace pleinair::hal

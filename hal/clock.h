@@ -1,0 +1,54 @@
+#pragma once
+
+#include <chrono>
+#include <mutex>
+#include <stop_token>
+
+namespace pleinair::hal {
+
+using Duration = std::chrono::nanoseconds;
+
+/// The time base of every frame: monotonic, origin arbitrary. On a live system it is
+/// CLOCK_MONOTONIC; under a SteppedClock it is whatever the test or the recording says.
+struct MonotonicTime {
+  using duration = Duration;
+  using rep = duration::rep;
+  using period = duration::period;
+  using time_point = std::chrono::time_point<MonotonicTime, Duration>;
+  static constexpr bool is_steady = true;
+};
+using TimePoint = MonotonicTime::time_point;
+
+/// A deadline that never comes.
+inline constexpr TimePoint kNoDeadline = TimePoint::max();
+
+/// Where time comes from. Injected everywhere, so that no test sleeps. Thread-safe.
+class Clock {
+ public:
+  virtual ~Clock() = default;
+  virtual TimePoint now() const = 0;
+  /// Returns at `time` (at once if it has passed), or early with false once a stop is requested.
+  virtual bool sleepUntil(TimePoint time, std::stop_token stop = {}) = 0;
+};
+
+/// CLOCK_MONOTONIC.
+class SteadyClock final : public Clock {
+ public:
+  TimePoint now() const override;
+  bool sleepUntil(TimePoint time, std::stop_token stop = {}) override;
+};
+
+/// Time that moves only when told to: a sleeper jumps to its wake-up time without waiting.
+class SteppedClock final : public Clock {
+ public:
+  explicit SteppedClock(TimePoint start = TimePoint{}) : now_(start) {}
+  TimePoint now() const override;
+  bool sleepUntil(TimePoint time, std::stop_token stop = {}) override;
+  void advance(Duration by);
+
+ private:
+  mutable std::mutex mutex_;
+  TimePoint now_;
+};
+
+}  // namespace pleinair::hal

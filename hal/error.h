@@ -1,0 +1,65 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include <tl/expected.hpp>
+
+namespace pleinair::hal {
+
+/// What kind of failure it is: what a caller decides by, and what the exit status follows from.
+enum class ErrorKind {
+  kInvalidArgument,  ///< the caller asked for something that makes no sense
+  kInvalidInput,     ///< a file or stream is broken or not of a kind we read
+  kUnsupported,      ///< sound, but beyond what this build or device does
+  kNotFound,
+  kPermissionDenied,
+  kNoSpace,  ///< disk or quota full
+  kBusy,
+  kTimeout,
+  kDeviceLost,
+  kIo,
+  kInternal,
+};
+
+/// Whose numbers `Error::code` holds.
+enum class ErrorDomain { kNone, kErrno, kLibav, kEgl, kGl };
+
+/// A failure of the world, as a value. It reads as one line: what, where, what would be right.
+struct Error {
+  ErrorKind kind = ErrorKind::kInternal;
+  std::string subject;  ///< the device, file or argument: "out/movie.mp4"
+  std::string problem;  ///< the operation and what went wrong: "cannot write: disk full"
+  std::string remedy;   ///< the next step, or empty: "free space or choose another --output"
+  ErrorDomain domain = ErrorDomain::kNone;
+  int code = 0;  ///< in the numbers of `domain`; 0 where there is none
+
+  /// "subject: problem; remedy", without a newline.
+  std::string message() const;
+};
+
+template <class T>
+using Result = tl::expected<T, Error>;
+
+/// An Error with errno's kind, domain and text. `problem` names the operation: "cannot open".
+Error errnoError(std::string subject, std::string problem, int errnoValue, std::string remedy = {});
+
+/// The world failing at start-up, printed as one line and never as a stack trace.
+/// While running, failures are values (`Result`), not exceptions.
+class StartupError : public std::runtime_error {
+ public:
+  explicit StartupError(Error error);
+  const Error& error() const { return error_; }
+
+ private:
+  Error error_;
+};
+
+/// The value, or a StartupError thrown from its error. For start-up code only.
+template <class T>
+T orThrow(Result<T> result) {
+  if (!result) throw StartupError(std::move(result.error()));
+  if constexpr (!std::is_void_v<T>) return std::move(*result);
+}
+
+}  // namespace pleinair::hal
