@@ -47,32 +47,22 @@ function(pleinair_library name)
 endfunction()
 
 # pleinair_tests(NAME KIND kind SOURCES ... [LIBS ...] [TIMEOUT seconds] [QUICK])
-# A GoogleTest executable of one kind (unit, conformance, gpu, golden ...), which becomes the
-# tests' CTest label; QUICK adds the label of `./dev test quick`.
+# A GoogleTest executable of one kind (unit, conformance, gpu, golden ...), which becomes its tests'
+# prefix and CTest label; QUICK makes the label "kind-quick", which `./dev test quick` selects.
 function(pleinair_tests name)
   cmake_parse_arguments(ARG "QUICK" "KIND;TIMEOUT" "SOURCES;LIBS" ${ARGN})
-  add_executable(${name} ${ARG_SOURCES})
+  add_executable(${name} ${ARG_SOURCES} "${CMAKE_SOURCE_DIR}/tests/support/test_environment.cpp")
   target_link_libraries(${name} PRIVATE pleinair_build ${ARG_LIBS} GTest::gmock_main)
   target_compile_definitions(${name} PRIVATE
     PLEINAIR_SHARED_DATA="${PLEINAIR_SHARED_DATA}"
     PLEINAIR_TESTS_DIR="${CMAKE_SOURCE_DIR}/tests")
-  set(labels ${ARG_KIND})
+  set(label ${ARG_KIND})
   if(ARG_QUICK)
-    list(APPEND labels quick)
+    set(label ${ARG_KIND}-quick)
   endif()
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${ARG_KIND}."
-    PROPERTIES LABELS "${labels}" TIMEOUT ${ARG_TIMEOUT}
-    ENVIRONMENT "${PLEINAIR_TEST_ENVIRONMENT}")
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 30
+    TEST_PREFIX "${ARG_KIND}." PROPERTIES LABELS "${label}" TIMEOUT ${ARG_TIMEOUT})
 endfunction()
-
-# What GPU tests run under: Mesa's software rasteriser, with blending into 32-bit floats made an
-# error (docs: GPU rules, rule 5), and leak reports of the driver left out.
-set(PLEINAIR_TEST_ENVIRONMENT
-  "LIBGL_ALWAYS_SOFTWARE=1"
-  "MESA_EXTENSION_OVERRIDE=-GL_EXT_float_blend"
-  "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/lsan.supp"
-  "TSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/tsan.supp"
-  "UBSAN_OPTIONS=print_stacktrace=1")
