@@ -1,9 +1,9 @@
 # Run as a script: writes OUTPUT, a C++ file with the text of every shader in INPUTS and the
-# function `<TARGET>Shaders()` that lists them.
+# function `LISTER()` that lists them.
 set(code "// Made from shader files at build; edit those.\n#include <array>\n#include <span>\n\n")
 string(APPEND code "#include \"pipeline/gpu/embedded_shader.h\"\n\nnamespace pleinair::gpu {\n\n")
-string(APPEND code "std::span<const EmbeddedShader> ${TARGET}Shaders();\n\n")
-string(APPEND code "std::span<const EmbeddedShader> ${TARGET}Shaders() {\n")
+string(APPEND code "std::span<const EmbeddedShader> ${LISTER}();\n\n")
+string(APPEND code "std::span<const EmbeddedShader> ${LISTER}() {\n")
 string(REPLACE "|" ";" INPUTS "${INPUTS}")
 list(LENGTH INPUTS count)
 string(APPEND code "  static constexpr std::array<EmbeddedShader, ${count}> kShaders{{\n")

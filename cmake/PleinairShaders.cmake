@@ -2,9 +2,9 @@
 # from the top of the tree ("pipeline/gpu/shaders/fullscreen.vert"), and a directory given at run
 # time overrides them (gpu::ShaderLibrary).
 
-# pleinair_embed_shaders(TARGET file ...): embeds the files, named relative to the current source
-# directory, into TARGET. They register themselves through gpu::EmbeddedShader.
-function(pleinair_embed_shaders target)
+# pleinair_embed_shaders(TARGET LISTER file ...): embeds the files, named relative to the current
+# source directory, into TARGET, which gains `std::span<const EmbeddedShader> gpu::LISTER()`.
+function(pleinair_embed_shaders target lister)
   set(generated "${CMAKE_CURRENT_BINARY_DIR}/${target}_shaders.cpp")
   set(inputs)
   foreach(shader IN LISTS ARGN)
@@ -14,7 +14,7 @@ function(pleinair_embed_shaders target)
   add_custom_command(
     OUTPUT "${generated}"
     COMMAND "${CMAKE_COMMAND}" "-DOUTPUT=${generated}" "-DROOT=${CMAKE_SOURCE_DIR}"
-            "-DTARGET=${target}" "-DINPUTS=${joined}" -P "${CMAKE_SOURCE_DIR}/cmake/EmbedShaders.cmake"
+            "-DLISTER=${lister}" "-DINPUTS=${joined}" -P "${CMAKE_SOURCE_DIR}/cmake/EmbedShaders.cmake"
     DEPENDS ${inputs} "${CMAKE_SOURCE_DIR}/cmake/EmbedShaders.cmake"
     VERBATIM)
   target_sources(${target} PRIVATE "${generated}")

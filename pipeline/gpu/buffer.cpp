@@ -1,0 +1,38 @@
+#include "pipeline/gpu/buffer.h"
+
+#include <cassert>
+
+namespace pleinair::gpu {
+namespace {
+
+GLenum glUsage(BufferUsage usage) {
+  switch (usage) {
+    case BufferUsage::kStatic:
+      return GL_STATIC_DRAW;
+    case BufferUsage::kDynamic:
+      return GL_DYNAMIC_COPY;
+    case BufferUsage::kReadBack:
+      return GL_STREAM_READ;
+  }
+  return GL_STATIC_DRAW;
+}
+
+}  // namespace
+
+Buffer::Buffer(std::size_t sizeBytes, BufferUsage usage)
+    : handle_(BufferHandle::make()), sizeBytes_(sizeBytes) {
+  assert(sizeBytes > 0);
+  glBindBuffer(GL_COPY_WRITE_BUFFER, handle_.get());
+  glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(sizeBytes), nullptr, glUsage(usage));
+  glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
+}
+
+void Buffer::write(std::span<const std::byte> bytes, std::size_t offsetBytes) {
+  assert(offsetBytes + bytes.size() <= sizeBytes_);
+  glBindBuffer(GL_COPY_WRITE_BUFFER, handle_.get());
+  glBufferSubData(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(offsetBytes),
+                  static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+  glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
+}
+
+}  // namespace pleinair::gpu

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include "hal/pixel_format.h"
+
+namespace pleinair::gpu {
+
+/// How a picture of one size is laid onto another: filled, centred, aspect kept, the overhang cut
+/// off. source px = origin + scale · target px, pixel centres at +0.5.
+struct CoverFit {
+  glm::dvec2 origin{0.0};
+  glm::dvec2 scale{1.0};
+};
+
+CoverFit coverFit(hal::FrameSize source, hal::FrameSize target);
+
+}  // namespace pleinair::gpu

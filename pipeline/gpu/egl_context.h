@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace pleinair::gpu {
+
+/// What the current context runs on.
+struct ContextInfo {
+  std::string renderer;     ///< "llvmpipe (LLVM 15.0.6, 256 bits)"
+  std::string version;      ///< "OpenGL ES 3.2 Mesa 22.3.6"
+  std::string platform;     ///< how the display was opened: "surfaceless", "device", "gbm", "host"
+  bool isSoftware = false;  ///< timer queries lie there (GPU rules, rule 13)
+  bool hasTimerQuery = false;
+};
+
+/// An OpenGL ES 3.1 context of our own, without a window system. It is current on the thread that
+/// made it until destroyed; GL objects made meanwhile belong to that thread.
+class EglContext {
+ public:
+  /// Tries EGL's surfaceless platform, then its devices, then GBM on the render nodes. Throws
+  /// hal::StartupError (kUnsupported) that names what each of them answered.
+  EglContext();
+  ~EglContext();
+  EglContext(const EglContext&) = delete;
+  EglContext& operator=(const EglContext&) = delete;
+
+  const ContextInfo& info() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Describes the context that is current on this thread; throws hal::StartupError if there is none
+/// or if it is older than OpenGL ES 3.1. In builds with assertions, a GL error from then on aborts
+/// with the driver's message: it is always a broken contract of ours.
+ContextInfo inspectCurrentContext(std::string platform);
+
+}  // namespace pleinair::gpu

@@ -1,0 +1,80 @@
+#include "pipeline/gpu/pass_timer.h"
+
+#include <algorithm>
+
+namespace pleinair::gpu {
+namespace {
+
+constexpr GLuint64 kForEver = GL_TIMEOUT_IGNORED;
+
+void waitForGpu() {
+  Fence::insert().passed(kForEver);
+}
+
+PassTiming possible(PassTiming wanted, const ContextInfo* context) {
+  if (wanted != PassTiming::kQueries) return wanted;
+  const bool usable = context != nullptr && context->hasTimerQuery && !context->isSoftware;
+  return usable ? wanted : PassTiming::kOff;
+}
+
+}  // namespace
+
+PassTimer::PassTimer(PassTiming timing, const ContextInfo* context)
+    : timing_(possible(timing, context)) {}
+
+std::size_t PassTimer::slotOf(std::string_view pass) {
+  const auto found = std::ranges::find(times_, pass, &PassTime::pass);
+  if (found != times_.end()) return static_cast<std::size_t>(found - times_.begin());
+  times_.push_back({.pass = std::string(pass)});
+  queries_.emplace_back();
+  return times_.size() - 1;
+}
+
+PassTimer::Scope PassTimer::measure(std::string_view pass) {
+  if (timing_ == PassTiming::kOff) return {nullptr, 0};
+  const std::size_t slot = slotOf(pass);
+  if (timing_ == PassTiming::kFences) {
+    waitForGpu();
+    began_ = std::chrono::steady_clock::now();
+    return {this, slot};
+  }
+  collect(slot);
+  Queries& queries = queries_[slot];
+  if (queries.issued - queries.read == kInFlight) return {nullptr, 0};  // this one goes untimed
+  QueryHandle& query = queries.ring[queries.issued % kInFlight];
+  if (!query) query = QueryHandle::make();
+  glBeginQuery(GL_TIME_ELAPSED_EXT, query.get());
+  return {this, slot};
+}
+
+void PassTimer::end(std::size_t slot) {
+  if (timing_ == PassTiming::kFences) {
+    waitForGpu();
+    add(slot, std::chrono::steady_clock::now() - began_);
+    return;
+  }
+  glEndQuery(GL_TIME_ELAPSED_EXT);
+  ++queries_[slot].issued;
+}
+
+void PassTimer::collect(std::size_t slot) {
+  Queries& queries = queries_[slot];
+  while (queries.read < queries.issued) {
+    const GLuint query = queries.ring[queries.read % kInFlight].get();
+    GLuint available = GL_FALSE;
+    glGetQueryObjectuiv(query, GL_QUERY_RESULT_AVAILABLE, &available);
+    if (available == GL_FALSE) return;
+    GLuint nanoseconds = 0;  // 32 bits hold 4.2 s
+    glGetQueryObjectuiv(query, GL_QUERY_RESULT, &nanoseconds);
+    add(slot, std::chrono::nanoseconds(nanoseconds));
+    ++queries.read;
+  }
+}
+
+void PassTimer::add(std::size_t slot, std::chrono::nanoseconds time) {
+  times_[slot].last = time;
+  times_[slot].total += time;
+  ++times_[slot].count;
+}
+
+}  // namespace pleinair::gpu

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <initializer_list>
+
+#include <glm/vec4.hpp>
+
+#include "pipeline/gpu/handle.h"
+#include "pipeline/gpu/texture.h"
+
+namespace pleinair::gpu {
+
+/// What a pass draws into: up to 4 colour textures of one size and at most one depth texture. The
+/// textures belong to the caller and outlive it.
+class RenderTarget {
+ public:
+  RenderTarget() = default;
+  explicit RenderTarget(std::initializer_list<const Texture*> colours,
+                        const Texture* depth = nullptr);
+
+  hal::FrameSize size() const { return size_; }
+  explicit operator bool() const { return static_cast<bool>(handle_); }
+
+  /// Binds it with its whole area as the viewport, old content invalidated: a tile-based GPU does
+  /// not load it. For passes that write every pixel.
+  void beginDiscarding() const;
+  /// Binds it and keeps what is there: for drawing over it.
+  void beginKeeping() const;
+  /// Clears one bound colour attachment (float or normalised formats).
+  void clearColour(int attachment, glm::vec4 colour) const;
+  /// Clears one bound colour attachment of an unsigned integer format.
+  void clearUnsigned(int attachment, glm::uvec4 value) const;
+  void clearDepth() const;
+  /// Says that depth will not be read again (GPU rules, rule 10).
+  void discardDepth() const;
+
+ private:
+  FramebufferHandle handle_;
+  hal::FrameSize size_;
+  int colourCount_ = 0;
+  bool hasDepth_ = false;
+};
+
+}  // namespace pleinair::gpu

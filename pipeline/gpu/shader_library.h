@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pipeline/gpu/embedded_shader.h"
+#include "pipeline/gpu/program.h"
+
+namespace pleinair::gpu {
+
+/// Shader texts by name, and programs made from them. A name is the file's path from the top of the
+/// tree ("pipeline/gpu/shaders/fullscreen.vert"). A file of that path below the override directory
+/// takes the embedded text's place, for live editing.
+///
+/// Texts are without `#version` and default precisions, which are put before them; a line
+/// `#include "name"` takes in another text of the library (once each).
+class ShaderLibrary {
+ public:
+  explicit ShaderLibrary(std::filesystem::path overrideDirectory = {});
+
+  /// Adds a room's shaders: `library.add(gpuShaders())`. The texts outlive the library.
+  void add(std::span<const EmbeddedShader> shaders);
+
+  /// A full-screen pass: shaders/fullscreen.vert and this fragment shader.
+  Program fragmentPass(std::string_view fragmentName) const;
+  Program compute(std::string_view computeName) const;
+  Program draw(std::string_view vertexName, std::string_view fragmentName) const;
+
+  /// The text as the compiler gets it: version, precisions, includes, `#line` marks.
+  /// Throws hal::StartupError for an unknown name or include.
+  std::string expanded(std::string_view name) const;
+
+ private:
+  std::string text(std::string_view name) const;
+  void expandInto(std::string_view name, std::vector<std::string>& files,
+                  std::string& output) const;
+  ShaderHandle compile(GLenum stage, std::string_view name) const;
+  Program link(std::span<const ShaderHandle> shaders, std::string_view label) const;
+
+  std::filesystem::path overrideDirectory_;
+  std::vector<EmbeddedShader> shaders_;
+};
+
+/// The shaders of pipeline/gpu itself.
+std::span<const EmbeddedShader> gpuShaders();
+
+}  // namespace pleinair::gpu

@@ -1,0 +1,98 @@
+// Purpose: a camera's planes, whatever their layout, become one sRGB-coded RGBA picture of the same
+//          size.
+// Inputs:  plane0..2 as uploaded (FrameUploader), `layoutKind` (FrameUploader::Layout), yuvToRgb and
+//          yuvOffset for Y'CbCr, chromaShift (texels: siting), bayerOrigin (of the red site, 0 or 1).
+// Outputs: RGBA8, alpha 1.
+// Precision: highp: chroma coordinates need sub-texel accuracy.
+uniform sampler2D plane0;
+uniform sampler2D plane1;
+uniform sampler2D plane2;
+uniform int layoutKind;
+uniform mat3 yuvToRgb;
+uniform vec3 yuvOffset;
+uniform vec2 chromaShift;
+uniform ivec2 bayerOrigin;
+uniform ivec2 pictureSize;
+
+layout(location = 0) out vec4 colour;
+
+const int kRgb = 0;
+const int kGrey = 1;
+const int kNv12 = 2;
+const int kI420 = 3;
+const int kYuyv = 4;
+const int kBayer = 5;
+
+vec3 rgbFromYuv(vec3 yuv) { return yuvToRgb * (yuv - yuvOffset); }
+
+vec2 chromaCoordinate(vec2 pixel, ivec2 chromaSize) {
+  return (pixel * 0.5 + chromaShift) / vec2(chromaSize);
+}
+
+vec3 nv12(ivec2 p) {
+  vec2 at = chromaCoordinate(vec2(p) + 0.5, textureSize(plane1, 0));
+  return rgbFromYuv(vec3(texelFetch(plane0, p, 0).r, texture(plane1, at).rg));
+}
+
+vec3 i420(ivec2 p) {
+  vec2 at = chromaCoordinate(vec2(p) + 0.5, textureSize(plane1, 0));
+  return rgbFromYuv(vec3(texelFetch(plane0, p, 0).r, texture(plane1, at).r, texture(plane2, at).r));
+}
+
+// Chroma sits on the even pixels; an odd pixel takes the mean of its neighbours.
+vec3 yuyv(ivec2 p) {
+  ivec2 pair = ivec2(p.x >> 1, p.y);
+  vec4 here = texelFetch(plane0, pair, 0);
+  if ((p.x & 1) == 0) return rgbFromYuv(here.rga);
+  ivec2 next = ivec2(min(pair.x + 1, textureSize(plane0, 0).x - 1), pair.y);
+  return rgbFromYuv(vec3(here.b, 0.5 * (here.ga + texelFetch(plane0, next, 0).ga)));
+}
+
+// A Bayer sample, mirrored at the border so that its colour stays what it is.
+float mosaic(ivec2 p) {
+  ivec2 last = pictureSize - 1;
+  p = abs(p);
+  p = max(last - abs(last - p), ivec2(0));
+  return texelFetch(plane0, p, 0).r;
+}
+
+// Gradient-corrected linear interpolation (Malvar, He and Cutler, ICASSP 2004).
+vec3 bayer(ivec2 p) {
+  float c = mosaic(p);
+  float n = mosaic(p + ivec2(0, -1)), s = mosaic(p + ivec2(0, 1));
+  float w = mosaic(p + ivec2(-1, 0)), e = mosaic(p + ivec2(1, 0));
+  float nn = mosaic(p + ivec2(0, -2)), ss = mosaic(p + ivec2(0, 2));
+  float ww = mosaic(p + ivec2(-2, 0)), ee = mosaic(p + ivec2(2, 0));
+  float diagonal = mosaic(p + ivec2(-1, -1)) + mosaic(p + ivec2(1, -1)) +
+                   mosaic(p + ivec2(-1, 1)) + mosaic(p + ivec2(1, 1));
+  float far = nn + ss + ww + ee;
+  float greenAt = (4.0 * c + 2.0 * (n + s + w + e) - far) / 8.0;
+  float alongRow = (5.0 * c + 4.0 * (w + e) - diagonal - (ww + ee) + 0.5 * (nn + ss)) / 8.0;
+  float alongColumn = (5.0 * c + 4.0 * (n + s) - diagonal - (nn + ss) + 0.5 * (ww + ee)) / 8.0;
+  float across = (6.0 * c + 2.0 * diagonal - 1.5 * far) / 8.0;
+  bool redColumn = (p.x & 1) == bayerOrigin.x;
+  bool redRow = (p.y & 1) == bayerOrigin.y;
+  if (redRow && redColumn) return vec3(c, greenAt, across);
+  if (redRow) return vec3(alongRow, c, alongColumn);
+  if (redColumn) return vec3(alongColumn, c, alongRow);
+  return vec3(across, greenAt, c);
+}
+
+void main() {
+  ivec2 p = ivec2(gl_FragCoord.xy);
+  vec3 rgb;
+  if (layoutKind == kNv12) {
+    rgb = nv12(p);
+  } else if (layoutKind == kI420) {
+    rgb = i420(p);
+  } else if (layoutKind == kYuyv) {
+    rgb = yuyv(p);
+  } else if (layoutKind == kBayer) {
+    rgb = bayer(p);
+  } else if (layoutKind == kGrey) {
+    rgb = texelFetch(plane0, p, 0).rrr;
+  } else {
+    rgb = texelFetch(plane0, p, 0).rgb;
+  }
+  colour = vec4(clamp(rgb, 0.0, 1.0), 1.0);
+}

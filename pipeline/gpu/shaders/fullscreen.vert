@@ -1,0 +1,7 @@
+// Purpose: one triangle that covers the whole target, made from the vertex number alone.
+// Inputs: none. Outputs: the position.
+// Precision: exact in highp.
+void main() {
+  vec2 corner = vec2(float((gl_VertexID << 1) & 2), float(gl_VertexID & 2));
+  gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);
+}

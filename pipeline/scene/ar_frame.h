@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+
+#include "hal/clock.h"
+#include "hal/pixel_format.h"
+#include "pipeline/gpu/texture.h"
+
+namespace pleinair::scene {
+
+/// Object ids of ArFrame::ids: the camera's picture is 0, models count from 1 in the scene's order.
+inline constexpr std::uint32_t kCameraObject = 0;
+/// ArFrame::ids packs an object (upper bits) and a triangle of it (lower bits).
+inline constexpr std::uint32_t kTriangleBits = 22;
+inline constexpr std::uint32_t kMaxObjects = (1U << (32U - kTriangleBits)) - 1U;
+inline constexpr std::uint32_t kMaxTriangles = 1U << kTriangleBits;
+
+/// What a style is given: the camera's picture with the virtual objects composed over it, and what
+/// is known about each pixel. All textures have the size of `colour`, row 0 at the top; they are
+/// valid until the next frame is composed.
+struct ArFrame {
+  const gpu::Texture* colour = nullptr;  ///< RGBA8, sRGB-coded, LINEAR filter
+  const gpu::Texture* ids = nullptr;     ///< R32UI: object << kTriangleBits | triangle
+  const gpu::Texture* normalFocus =
+      nullptr;                          ///< RGBA8: camera-frame normal · 0.5 + 0.5; focus in A
+  const gpu::Texture* depth = nullptr;  ///< kDepth24, window depth; 1 where no object is
+  float nearMetres = 0.0F;              ///< the depth range's planes, for linear depth
+  float farMetres = 0.0F;
+  std::uint64_t sequence = 0;  ///< of the captured frame
+  hal::TimePoint captureTime;
+
+  hal::FrameSize size() const { return colour->size(); }
+};
+
+}  // namespace pleinair::scene

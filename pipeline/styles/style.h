@@ -1,0 +1,42 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "pipeline/gpu/pass_timer.h"
+#include "pipeline/gpu/texture.h"
+#include "pipeline/scene/ar_frame.h"
+
+namespace pleinair::styles {
+
+/// One of a style's inner pictures, for people who want to see how it works.
+struct ViewInfo {
+  std::string_view name;  ///< "cells"
+  std::string_view help;
+};
+
+/// Turns AR frames into pictures. Keeps its own state between frames and knows nothing of cameras,
+/// outputs or other styles. All calls on the thread of the GL context it was made in.
+class Style {
+ public:
+  virtual ~Style() = default;
+  Style() = default;
+  Style(const Style&) = delete;
+  Style& operator=(const Style&) = delete;
+
+  virtual std::string_view name() const = 0;
+  /// Its inner pictures, apart from the finished one.
+  virtual std::span<const ViewInfo> views() const = 0;
+
+  /// Paints `frame`; the RGBA8 result (sRGB-coded, opaque) has the frame's size, row 0 at the top,
+  /// and is valid until the next call. `view` is empty for the finished picture or names one of
+  /// views(); the style's state advances the same whatever is looked at. Frames of another size
+  /// than the last reset it.
+  virtual const gpu::Texture& paint(const scene::ArFrame& frame, std::string_view view,
+                                    gpu::PassTimer& timer) = 0;
+
+  /// Forgets the past: the next frame is painted as a first one.
+  virtual void reset() = 0;
+};
+
+}  // namespace pleinair::styles

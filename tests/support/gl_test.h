@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "hal/image.h"
+#include "pipeline/gpu/buffer.h"
+#include "pipeline/gpu/egl_context.h"
+#include "pipeline/gpu/shader_library.h"
+#include "pipeline/gpu/texture.h"
+
+namespace pleinair::testing_support {
+
+/// A test with an OpenGL ES context of its own, and what tests need to put pictures in and out.
+/// Skips, saying why, where no context can be had.
+class GlTest : public testing::Test {
+ protected:
+  void SetUp() override;
+  void TearDown() override;
+
+  std::unique_ptr<gpu::EglContext> context_;
+};
+
+/// An RGBA8 texture (LINEAR) that holds an RGB8 or RGBA8 image.
+gpu::Texture textureOf(const hal::ImageView& image);
+/// Reads a texture back, blocking. For tests only.
+hal::Image readRgba8(const gpu::Texture& texture);
+std::vector<std::uint32_t> readR32ui(const gpu::Texture& texture);
+/// Reads a floating-point texture (kRgba16f, kRg16f, …) as 4 floats a pixel.
+std::vector<float> readRgba32f(const gpu::Texture& texture);
+/// Reads a whole buffer of T.
+template <class T>
+std::vector<T> readBuffer(const gpu::Buffer& buffer) {
+  std::vector<T> items(buffer.sizeBytes() / sizeof(T));
+  glBindBuffer(GL_COPY_READ_BUFFER, buffer.name());
+  const void* mapped = glMapBufferRange(
+      GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(buffer.sizeBytes()), GL_MAP_READ_BIT);
+  std::memcpy(items.data(), mapped, items.size() * sizeof(T));
+  glUnmapBuffer(GL_COPY_READ_BUFFER);
+  glBindBuffer(GL_COPY_READ_BUFFER, 0);
+  return items;
+}
+
+}  // namespace pleinair::testing_support
