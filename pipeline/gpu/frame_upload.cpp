@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-#include "pipeline/gpu/cover_fit.h"
+#include "pipeline/gpu/ycbcr.h"
 
 namespace pleinair::gpu {
 namespace {
@@ -56,33 +56,9 @@ PlaneTexture planeTexture(const hal::FrameFormat& format, int plane) {
   }
 }
 
-struct YuvConversion {
-  glm::mat3 toRgb;
-  glm::vec3 offset;
-};
-
-/// From the luma weights of the red and blue primaries: ITU-R BT.601-7 §2.5, BT.709-6 §3.
-YuvConversion yuvConversion(hal::ColorEncoding encoding) {
-  const bool is709 = encoding.matrix == hal::ColorMatrix::kBt709;
-  const float kr = is709 ? 0.2126F : 0.299F;
-  const float kb = is709 ? 0.0722F : 0.114F;
-  const float kg = 1.0F - kr - kb;
-  const bool limited = encoding.range == hal::ColorRange::kLimited;
-  const float lumaScale = limited ? 255.0F / 219.0F : 1.0F;
-  const float chromaScale = limited ? 255.0F / 224.0F : 1.0F;
-  const float redFromV = 2.0F * (1.0F - kr) * chromaScale;
-  const float blueFromU = 2.0F * (1.0F - kb) * chromaScale;
-  YuvConversion result{};
-  result.toRgb = glm::mat3(  // columns: Y, U, V
-      glm::vec3(lumaScale), glm::vec3(0.0F, -blueFromU * kb / kg, blueFromU),
-      glm::vec3(redFromV, -redFromV * kr / kg, 0.0F));
-  result.offset = glm::vec3(limited ? 16.0F / 255.0F : 0.0F, 128.0F / 255.0F, 128.0F / 255.0F);
-  return result;
-}
-
 /// Where chroma samples sit, as a shift in chroma texels after halving the pixel coordinate.
-glm::vec2 chromaShift(hal::ColorRange range) {
-  return range == hal::ColorRange::kLimited ? glm::vec2(0.25F, 0.0F) : glm::vec2(0.0F);
+glm::vec2 chromaShift(hal::ColorEncoding encoding) {
+  return isChromaLeftSited(encoding) ? glm::vec2(0.25F, 0.0F) : glm::vec2(0.0F);
 }
 
 /// Column and row (0 or 1) of the red site.
@@ -103,24 +79,13 @@ glm::ivec2 redSite(PixelFormat format) {
 
 FrameUploader::FrameUploader(const ShaderLibrary& library)
     : convert_(library.fragmentPass("pipeline/gpu/shaders/camera_picture.frag")),
-      resample_(library.fragmentPass("pipeline/gpu/shaders/resample.frag")) {}
+      resampler_(library) {}
 
 const Texture& FrameUploader::upload(const hal::ImageView& image, FrameSize size) {
   assert(image.isComplete());
   uploadPlanes(image);
   convert(image.format);
-  if (size == image.format.size) return native_;
-  if (scaled_.size() != size) {
-    scaled_ = Texture(TextureFormat::kRgba8, size, TextureFilter::kLinear);
-    scaledTarget_ = RenderTarget({&scaled_});
-  }
-  const CoverFit fit = coverFit(image.format.size, size);
-  resample_.use()
-      .texture("picture", native_)
-      .set("sourceOrigin", glm::vec2(fit.origin))
-      .set("sourceScale", glm::vec2(fit.scale))
-      .drawFullscreen(scaledTarget_);
-  return scaled_;
+  return resampler_.resample(native_, size);
 }
 
 void FrameUploader::uploadPlanes(const hal::ImageView& image) {
@@ -145,7 +110,7 @@ void FrameUploader::uploadPlanes(const hal::ImageView& image) {
 }
 
 void FrameUploader::convert(const hal::FrameFormat& format) {
-  const YuvConversion yuv = yuvConversion(format.encoding);
+  const YcbcrConversion ycbcr = ycbcrConversion(format.encoding);
   const bool has3 = format.pixelFormat == PixelFormat::kI420;
   const bool has2 = has3 || format.pixelFormat == PixelFormat::kNv12;
   convert_.use()
@@ -153,9 +118,9 @@ void FrameUploader::convert(const hal::FrameFormat& format) {
       .texture("plane1", has2 ? planes_[1] : planes_[0])
       .texture("plane2", has3 ? planes_[2] : planes_[0])
       .set("layoutKind", static_cast<int>(layoutOf(format.pixelFormat)))
-      .set("yuvToRgb", yuv.toRgb)
-      .set("yuvOffset", yuv.offset)
-      .set("chromaShift", chromaShift(format.encoding.range))
+      .set("rgbFromYcbcr", ycbcr.toRgb)
+      .set("ycbcrOffset", ycbcr.offset)
+      .set("chromaShift", chromaShift(format.encoding))
       .set("bayerOrigin", redSite(format.pixelFormat))
       .set("pictureSize", glm::ivec2(format.size.width, format.size.height))
       .drawFullscreen(nativeTarget_);

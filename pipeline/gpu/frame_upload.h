@@ -5,6 +5,7 @@
 #include "hal/image.h"
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/render_target.h"
+#include "pipeline/gpu/resampler.h"
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
 
@@ -27,13 +28,11 @@ class FrameUploader {
   void convert(const hal::FrameFormat& format);
 
   Program convert_;
-  Program resample_;
   hal::FrameFormat planesFormat_;
   std::array<Texture, 3> planes_;
   Texture native_;  // at the frame's own size
   RenderTarget nativeTarget_;
-  Texture scaled_;
-  RenderTarget scaledTarget_;
+  Resampler resampler_;
 };
 
 }  // namespace pleinair::gpu

@@ -1,15 +1,15 @@
 // Purpose: a camera's planes, whatever their layout, become one sRGB-coded RGBA picture of the same
 //          size.
-// Inputs:  plane0..2 as uploaded (FrameUploader), `layoutKind` (FrameUploader::Layout), yuvToRgb and
-//          yuvOffset for Y'CbCr, chromaShift (texels: siting), bayerOrigin (of the red site, 0 or 1).
+// Inputs:  plane0..2 as uploaded (FrameUploader), `layoutKind` (FrameUploader::Layout), rgbFromYcbcr and
+//          ycbcrOffset for Y'CbCr, chromaShift (texels: siting), bayerOrigin (of the red site, 0 or 1).
 // Outputs: RGBA8, alpha 1.
 // Precision: highp: chroma coordinates need sub-texel accuracy.
 uniform sampler2D plane0;
 uniform sampler2D plane1;
 uniform sampler2D plane2;
 uniform int layoutKind;
-uniform mat3 yuvToRgb;
-uniform vec3 yuvOffset;
+uniform mat3 rgbFromYcbcr;
+uniform vec3 ycbcrOffset;
 uniform vec2 chromaShift;
 uniform ivec2 bayerOrigin;
 uniform ivec2 pictureSize;
@@ -23,7 +23,7 @@ const int kI420 = 3;
 const int kYuyv = 4;
 const int kBayer = 5;
 
-vec3 rgbFromYuv(vec3 yuv) { return yuvToRgb * (yuv - yuvOffset); }
+vec3 toRgb(vec3 ycbcr) { return rgbFromYcbcr * (ycbcr - ycbcrOffset); }
 
 vec2 chromaCoordinate(vec2 pixel, ivec2 chromaSize) {
   return (pixel * 0.5 + chromaShift) / vec2(chromaSize);
@@ -31,21 +31,21 @@ vec2 chromaCoordinate(vec2 pixel, ivec2 chromaSize) {
 
 vec3 nv12(ivec2 p) {
   vec2 at = chromaCoordinate(vec2(p) + 0.5, textureSize(plane1, 0));
-  return rgbFromYuv(vec3(texelFetch(plane0, p, 0).r, texture(plane1, at).rg));
+  return toRgb(vec3(texelFetch(plane0, p, 0).r, texture(plane1, at).rg));
 }
 
 vec3 i420(ivec2 p) {
   vec2 at = chromaCoordinate(vec2(p) + 0.5, textureSize(plane1, 0));
-  return rgbFromYuv(vec3(texelFetch(plane0, p, 0).r, texture(plane1, at).r, texture(plane2, at).r));
+  return toRgb(vec3(texelFetch(plane0, p, 0).r, texture(plane1, at).r, texture(plane2, at).r));
 }
 
 // Chroma sits on the even pixels; an odd pixel takes the mean of its neighbours.
 vec3 yuyv(ivec2 p) {
   ivec2 pair = ivec2(p.x >> 1, p.y);
   vec4 here = texelFetch(plane0, pair, 0);
-  if ((p.x & 1) == 0) return rgbFromYuv(here.rga);
+  if ((p.x & 1) == 0) return toRgb(here.rga);
   ivec2 next = ivec2(min(pair.x + 1, textureSize(plane0, 0).x - 1), pair.y);
-  return rgbFromYuv(vec3(here.b, 0.5 * (here.ga + texelFetch(plane0, next, 0).ga)));
+  return toRgb(vec3(here.b, 0.5 * (here.ga + texelFetch(plane0, next, 0).ga)));
 }
 
 // A Bayer sample, mirrored at the border so that its colour stays what it is.
