@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "hal/clock.h"
+
+namespace pleinair::app {
+
+/// A line on standard error that says how far long work is, with its rate and the time left; only
+/// where standard error is a terminal.
+class Progress {
+ public:
+  /// `total`: frames, where known. The clock outlives it.
+  Progress(std::string verb, std::optional<std::uint64_t> total, const hal::Clock& clock);
+  /// Ends the line.
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// After each frame; redraws a few times a second.
+  void advance();
+  std::uint64_t frames() const { return done_; }
+  /// Since the start.
+  double framesPerSecond() const;
+  hal::Duration elapsed() const;
+
+ private:
+  void draw() const;
+
+  std::string verb_;
+  std::optional<std::uint64_t> total_;
+  const hal::Clock& clock_;
+  hal::TimePoint began_;
+  hal::TimePoint drawn_;
+  std::uint64_t done_ = 0;
+  bool isTerminal_;
+};
+
+/// The line itself: "painting 37/150  24.1 frames/s  5 s left".
+std::string progressLine(const std::string& verb, std::uint64_t done,
+                         std::optional<std::uint64_t> total, hal::Duration elapsed);
+
+}  // namespace pleinair::app

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "config/parameter_values.h"
+#include "hal/captured_frame.h"
+#include "hal/image.h"
+#include "pipeline/gpu/egl_context.h"
+#include "pipeline/gpu/pass_timer.h"
+#include "pipeline/scene/scene_file.h"
+#include "pipeline/tracking/tracker.h"
+
+namespace pleinair {
+
+/// Whose GL context a Painter works in.
+enum class PainterContext {
+  kOwn,   ///< its own, on a thread of its own; call the Painter from any one thread
+  kHost,  ///< the one that is current on the caller's thread, always the same
+};
+
+struct PainterOptions {
+  hal::FrameSize pictureSize;  ///< of what is painted; frames are scaled to fill it
+  scene::Scene scene;          ///< empty: the camera's picture alone
+  std::string style = "watercolor";
+  PainterContext context = PainterContext::kOwn;
+  std::filesystem::path shaderDirectory;  ///< overrides embedded shaders; empty: none
+  gpu::PassTiming passTiming = gpu::PassTiming::kOff;
+};
+
+/// What may change from frame to frame: one immutable snapshot.
+struct PaintParameters {
+  config::ParameterValues style;  ///< of the style's list: Painter::defaultParameters()
+  std::string view;               ///< empty for the finished picture, or one of views()
+};
+
+/// A view that can be painted instead of the finished picture.
+struct PainterView {
+  std::string name;
+  std::string help;
+};
+
+/// A painted picture. Its texture belongs to the Painter, lives in the Painter's context and is
+/// valid until the next paint().
+struct Picture {
+  unsigned texture = 0;  ///< GL name, RGBA8, sRGB-coded, row 0 at the top
+  hal::FrameSize size;
+  std::uint64_t sequence = 0;
+  hal::TimePoint captureTime;
+  tracking::TrackingResult tracking;  ///< in pixels of the captured frame
+};
+
+/// A picture in memory, read through a reader of the Painter.
+struct ReadPicture {
+  hal::Image image;
+  std::uint64_t sequence = 0;
+  hal::TimePoint captureTime;
+};
+
+/// The engine: captured frames in, painted pictures out. No globals; several in one process are
+/// independent, and the same frames with the same times give the same pictures, live or not.
+class Painter {
+ public:
+  /// Builds the whole chain and warms it up. Throws hal::StartupError (no GPU, unknown style: lists
+  /// the valid ones, size beyond the limits).
+  explicit Painter(PainterOptions options);
+  ~Painter();
+  Painter(const Painter&) = delete;
+  Painter& operator=(const Painter&) = delete;
+
+  const gpu::ContextInfo& contextInfo() const;
+  PaintParameters defaultParameters() const;
+  std::vector<PainterView> views() const;
+
+  /// Tracks, composes and paints one frame, which may have any size and layout. Returns when the
+  /// work is issued, not when the GPU is done. Throws hal::StartupError for an unknown view, and
+  /// for a frame of another size than the scene's calibration was made for.
+  Picture paint(const hal::CapturedFrame& frame, const PaintParameters& parameters);
+
+  /// Opens a reader: from now on each painted picture is also brought to memory in `format` (RGBA8,
+  /// RGB8, grey, I420, NV12, YUYV; of any size). Up to 3 are under way; a picture that finds the
+  /// reader full is not read and counts as skipped. Returns the reader's number.
+  int openReader(const hal::FrameFormat& format);
+  /// Copies the reader's oldest picture into `picture`, reusing its memory; false if none is ready.
+  /// With `wait`, false only if none is under way.
+  bool take(int reader, ReadPicture& picture, bool wait);
+  /// Whether another paint() would still be read.
+  bool hasRoom(int reader) const;
+  std::uint64_t skipped(int reader) const;
+
+  /// Waits for the last paint and reads it, or what the camera showed of it, as RGB8: for stills.
+  /// Precondition: something was painted.
+  hal::Image still() const;
+  hal::Image cameraStill() const;
+
+  /// Forgets the past, as after a cut.
+  void reset();
+  /// Of each pass so far, where PainterOptions asked for it.
+  std::vector<gpu::PassTime> passTimes() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace pleinair
