@@ -22,48 +22,40 @@ struct ParameterBinding {
 };
 
 template <class P>
-ParameterBinding<P> numberParameter(std::string name, double P::*member, const NumberRange& range,
-                                    std::string help,
+ParameterBinding<P> numberParameter(const std::string& name, double P::*member,
+                                    const NumberRange& range, const std::string& help,
                                     TakesEffect takesEffect = TakesEffect::kLive) {
-  return {{.name = std::move(name),
-           .help = std::move(help),
-           .numberRange = range,
-           .takesEffect = takesEffect},
+  return {{.name = name, .help = help, .numberRange = range, .takesEffect = takesEffect},
           [member](const P& p) { return ParameterValue(p.*member); },
           [member](P& p, const ParameterValue& value) { p.*member = std::get<double>(value); }};
 }
 
 template <class P>
-ParameterBinding<P> integerParameter(std::string name, int P::*member, const IntegerRange& range,
-                                     std::string help,
+ParameterBinding<P> integerParameter(const std::string& name, int P::*member,
+                                     const IntegerRange& range, const std::string& help,
                                      TakesEffect takesEffect = TakesEffect::kLive) {
-  return {{.name = std::move(name),
-           .help = std::move(help),
-           .integerRange = range,
-           .takesEffect = takesEffect},
+  return {{.name = name, .help = help, .integerRange = range, .takesEffect = takesEffect},
           [member](const P& p) { return ParameterValue(p.*member); },
           [member](P& p, const ParameterValue& value) { p.*member = std::get<int>(value); }};
 }
 
 template <class P>
-ParameterBinding<P> switchParameter(std::string name, bool P::*member, std::string help,
+ParameterBinding<P> switchParameter(const std::string& name, bool P::*member,
+                                    const std::string& help,
                                     TakesEffect takesEffect = TakesEffect::kLive) {
-  return {{.name = std::move(name), .help = std::move(help), .takesEffect = takesEffect},
+  return {{.name = name, .help = help, .takesEffect = takesEffect},
           [member](const P& p) { return ParameterValue(p.*member); },
           [member](P& p, const ParameterValue& value) { p.*member = std::get<bool>(value); }};
 }
 
 /// A member of an enumeration, by name. Every value that P may hold is among `choices`.
 template <class P, class E, std::size_t N>
-ParameterBinding<P> choiceParameter(std::string name, E P::*member,
-                                    const std::array<Choice<E>, N>& choices, std::string help,
+ParameterBinding<P> choiceParameter(const std::string& name, E P::*member,
+                                    const std::array<Choice<E>, N>& choices,
+                                    const std::string& help,
                                     TakesEffect takesEffect = TakesEffect::kLive) {
-  std::vector<std::string> names;
-  for (const Choice<E>& each : choices) names.emplace_back(each.name);
-  return {{.name = std::move(name),
-           .help = std::move(help),
-           .choices = std::move(names),
-           .takesEffect = takesEffect},
+  std::vector<std::string> names = namesOf(choices);
+  return {{.name = name, .help = help, .choices = std::move(names), .takesEffect = takesEffect},
           [member, choices](const P& p) {
             std::size_t index = 0;
             while (index < N && choices[index].value != p.*member) ++index;

@@ -22,6 +22,15 @@ struct Choice {
   E value;
 };
 
+/// The names, in order.
+template <class E, std::size_t N>
+std::vector<std::string> namesOf(const std::array<Choice<E>, N>& choices) {
+  std::vector<std::string> names;
+  names.reserve(N);
+  for (const Choice<E>& choice : choices) names.emplace_back(choice.name);
+  return names;
+}
+
 /// A view of one table of a TOML file, read key by key. Copies are the same view; the document
 /// lives as long as any of them. One thread at a time.
 ///
@@ -110,12 +119,6 @@ class TomlTable {
     std::array<double, N> array{};
     for (std::size_t i = 0; i < N; ++i) array[i] = values[i];
     return array;
-  }
-  template <class E, std::size_t N>
-  static std::vector<std::string> namesOf(const std::array<Choice<E>, N>& choices) {
-    std::vector<std::string> names;
-    for (const Choice<E>& choice : choices) names.emplace_back(choice.name);
-    return names;
   }
 
   std::shared_ptr<State> state_;
