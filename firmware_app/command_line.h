@@ -1,0 +1,10 @@
+#pragma once
+
+namespace pleinair::app {
+
+/// Reads the command line, runs the command, and returns the exit status: 0; 1 for internal errors
+/// and devices; 2 for arguments, configuration, input and full disks; 128 + a signal that broke it
+/// off. Errors are one line on standard error.
+int runCommandLine(int argc, const char* const* argv);
+
+}  // namespace pleinair::app
