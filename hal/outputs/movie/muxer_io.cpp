@@ -1,0 +1,37 @@
+#include "hal/outputs/movie/muxer_io.h"
+
+#include <cstdint>
+#include <span>
+
+namespace pleinair::hal::movie {
+
+MuxerIo::MuxerIo(PendingFile& file) : state_(new State{.file = file, .failure = std::nullopt}) {
+  constexpr int kBufferBytes = 256 * 1024;
+  auto* buffer = static_cast<unsigned char*>(av_malloc(kBufferBytes));
+  if (buffer == nullptr) throw std::bad_alloc();
+  AVIOContext* io = avio_alloc_context(buffer, kBufferBytes, 1, state_.get(), nullptr,
+                                       &MuxerIo::write, &MuxerIo::seek);
+  if (io == nullptr) av_free(buffer);
+  io_ = libav::owned<libav::IoContext>(io);
+}
+
+int MuxerIo::write(void* opaque, std::uint8_t* bytes, int size) {
+  auto& state = *static_cast<State*>(opaque);
+  if (state.failure) return AVERROR(EIO);
+  const Result<void> written =
+      state.file.write(std::span<const std::uint8_t>(bytes, static_cast<std::size_t>(size)));
+  if (written) return size;
+  state.failure = written.error();
+  return AVERROR(EIO);
+}
+
+std::int64_t MuxerIo::seek(void* opaque, std::int64_t offset, int whence) {
+  auto& state = *static_cast<State*>(opaque);
+  if ((whence & AVSEEK_SIZE) != 0) return AVERROR(ENOSYS);
+  const Result<std::int64_t> position = state.file.seek(offset, whence & ~AVSEEK_FORCE);
+  if (position) return *position;
+  if (!state.failure) state.failure = position.error();
+  return AVERROR(EIO);
+}
+
+}  // namespace pleinair::hal::movie
