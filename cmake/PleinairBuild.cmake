@@ -46,16 +46,19 @@ function(pleinair_library name)
   target_link_libraries(${name} PUBLIC pleinair_build ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
 endfunction()
 
-# pleinair_tests(NAME KIND kind SOURCES ... [LIBS ...] [TIMEOUT seconds] [QUICK])
+# pleinair_tests(NAME KIND kind SOURCES ... [LIBS ...] [TIMEOUT seconds] [QUICK] [BY_SUITE])
 # A GoogleTest executable of one kind (unit, conformance, gpu, golden ...), which becomes its tests'
 # prefix and CTest label; QUICK makes the label "kind-quick", which `./dev test quick` selects.
+# CTest runs each case in a process of its own; with BY_SUITE, which gpu and golden imply, each
+# suite, so that the GL driver is loaded and its code compiled once a suite.
 function(pleinair_tests name)
-  cmake_parse_arguments(ARG "QUICK" "KIND;TIMEOUT" "SOURCES;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "QUICK;BY_SUITE" "KIND;TIMEOUT" "SOURCES;LIBS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES} "${CMAKE_SOURCE_DIR}/tests/support/test_environment.cpp")
   target_link_libraries(${name} PRIVATE pleinair_build ${ARG_LIBS} GTest::gmock_main)
   target_compile_definitions(${name} PRIVATE
     PLEINAIR_SHARED_DATA="${PLEINAIR_SHARED_DATA}"
-    PLEINAIR_TESTS_DIR="${CMAKE_SOURCE_DIR}/tests")
+    PLEINAIR_TESTS_DIR="${CMAKE_SOURCE_DIR}/tests"
+    PLEINAIR_BUILD_DIR="${CMAKE_BINARY_DIR}")
   set(label ${ARG_KIND})
   if(ARG_QUICK)
     set(label ${ARG_KIND}-quick)
@@ -63,6 +66,15 @@ function(pleinair_tests name)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 30
-    TEST_PREFIX "${ARG_KIND}." PROPERTIES LABELS "${label}" TIMEOUT ${ARG_TIMEOUT})
+  if(ARG_BY_SUITE OR ARG_KIND MATCHES "^(gpu|golden)$")
+    set(list "${CMAKE_CURRENT_BINARY_DIR}/${name}_suites.cmake")
+    file(GENERATE OUTPUT "${list}" CONTENT
+      "include(\"${CMAKE_SOURCE_DIR}/cmake/AddSuites.cmake\")
+pleinair_add_suites(\"$<TARGET_FILE:${name}>\" ${name} ${ARG_KIND} ${label} ${ARG_TIMEOUT})
+")
+    set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${list}")
+  else()
+    gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 30
+      TEST_PREFIX "${ARG_KIND}." PROPERTIES LABELS "${label}" TIMEOUT ${ARG_TIMEOUT})
+  endif()
 endfunction()
