@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/gpu/frame_upload.h"
+#include "pipeline/gpu/pass_timer.h"
+#include "pipeline/gpu/shader_library.h"
+#include "pipeline/painter.h"
+#include "pipeline/present/picture_reader.h"
+#include "pipeline/scene/ar_frame_renderer.h"
+#include "pipeline/styles/style.h"
+#include "pipeline/tracking/tracker.h"
+
+namespace pleinair {
+
+/// What a Painter does, on the thread of its GL context: each stage in its order, once a frame.
+/// Painter's contract, but for threads.
+class PaintChain {
+ public:
+  PaintChain(const PainterOptions& options, const gpu::ContextInfo& context);
+
+  PaintParameters defaultParameters() const;
+  std::vector<PainterView> views() const;
+  Picture paint(const hal::CapturedFrame& frame, const PaintParameters& parameters);
+
+  int openReader(const hal::FrameFormat& format);
+  bool take(int reader, ReadPicture& picture, bool wait);
+  bool hasRoom(int reader) const { return at(reader).ring.hasRoom(); }
+  std::uint64_t skipped(int reader) const { return at(reader).skipped; }
+  hal::Image still() const;
+  hal::Image cameraStill() const;
+
+  void reset();
+  std::vector<gpu::PassTime> passTimes() const;
+
+ private:
+  struct Stamp {
+    std::uint64_t sequence;
+    hal::TimePoint captureTime;
+  };
+  /// A ring of pictures under way, and which frames they are of, oldest first.
+  struct Reader {
+    present::PictureReader ring;
+    std::vector<Stamp> underWay;
+    std::uint64_t skipped = 0;
+  };
+
+  void warmUp();
+  tracking::TrackingResult track(const hal::ImageView& image);
+  const gpu::Texture& paintView(const scene::ArFrame& frame, const gpu::Texture& camera,
+                                const PaintParameters& parameters);
+  void submitToReaders(const gpu::Texture& picture, const hal::CapturedFrame& frame);
+  hal::Image read(const gpu::Texture& texture) const;
+  Reader& at(int reader) { return *readers_.at(static_cast<std::size_t>(reader)); }
+  const Reader& at(int reader) const { return *readers_.at(static_cast<std::size_t>(reader)); }
+
+  hal::FrameSize pictureSize_;
+  scene::Scene scene_;
+  gpu::ShaderLibrary library_;
+  gpu::PassTimer timer_;
+  gpu::FrameUploader uploader_;
+  scene::ArFrameRenderer renderer_;
+  std::unique_ptr<styles::Style> style_;
+  std::optional<tracking::Tracker> tracker_;  // made for the size of the frames that come
+  hal::FrameSize trackedSize_;
+  std::vector<std::unique_ptr<Reader>> readers_;
+  const gpu::Texture* picture_ = nullptr;  // of the last paint
+  const gpu::Texture* camera_ = nullptr;
+};
+
+}  // namespace pleinair

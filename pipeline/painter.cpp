@@ -1,0 +1,133 @@
+#include "pipeline/painter.h"
+
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include "hal/error.h"
+#include "pipeline/gpu/render_thread.h"
+#include "pipeline/paint_chain.h"
+
+namespace pleinair {
+namespace {
+
+void checkSize(hal::FrameSize size) {
+  if (hal::isAcceptedSize(size)) return;
+  throw hal::StartupError(
+      hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
+                 .subject = "picture size",
+                 .problem = std::to_string(size.width) + "x" + std::to_string(size.height),
+                 .remedy = "at least 1 px, at most " + std::to_string(hal::kMaxSidePixels) +
+                           " px a side and " + std::to_string(hal::kMaxPixels / 1'000'000) +
+                           " Mpx are allowed"});
+}
+
+}  // namespace
+
+struct Painter::Impl {
+  std::optional<gpu::RenderThread> thread;    // with kOwn only
+  std::optional<gpu::EglContext> ownContext;  // lives and dies on the thread
+  gpu::ContextInfo contextInfo;
+  std::optional<PaintChain> chain;
+
+  explicit Impl(const PainterOptions& options) {
+    checkSize(options.pictureSize);
+    if (options.context == PainterContext::kOwn) thread.emplace("painter");
+    try {
+      run([&] { build(options); });
+    } catch (...) {
+      run([&] { tearDown(); });
+      throw;
+    }
+  }
+  ~Impl() {
+    run([&] { tearDown(); });
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  void build(const PainterOptions& options) {
+    if (options.context == PainterContext::kOwn) {
+      ownContext.emplace();
+      contextInfo = ownContext->info();
+    } else {
+      contextInfo = gpu::inspectCurrentContext("host");
+    }
+    chain.emplace(options, contextInfo);
+  }
+
+  void tearDown() {
+    chain.reset();
+    ownContext.reset();
+  }
+
+  void run(const std::function<void()>& task) const {
+    if (thread) {
+      thread->run(task);
+    } else {
+      task();
+    }
+  }
+
+  /// What `task` returns, from the context's thread.
+  template <class Task>
+  auto call(Task task) const {
+    std::optional<decltype(task())> result;
+    run([&] { result.emplace(task()); });
+    return std::move(*result);
+  }
+};
+
+Painter::Painter(PainterOptions options) : impl_(std::make_unique<Impl>(options)) {}
+
+Painter::~Painter() = default;
+
+const gpu::ContextInfo& Painter::contextInfo() const {
+  return impl_->contextInfo;
+}
+
+PaintParameters Painter::defaultParameters() const {
+  return impl_->chain->defaultParameters();
+}
+
+std::vector<PainterView> Painter::views() const {
+  return impl_->chain->views();
+}
+
+Picture Painter::paint(const hal::CapturedFrame& frame, const PaintParameters& parameters) {
+  return impl_->call([&] { return impl_->chain->paint(frame, parameters); });
+}
+
+int Painter::openReader(const hal::FrameFormat& format) {
+  return impl_->call([&] { return impl_->chain->openReader(format); });
+}
+
+bool Painter::take(int reader, ReadPicture& picture, bool wait) {
+  return impl_->call([&] { return impl_->chain->take(reader, picture, wait); });
+}
+
+bool Painter::hasRoom(int reader) const {
+  return impl_->chain->hasRoom(reader);
+}
+
+std::uint64_t Painter::skipped(int reader) const {
+  return impl_->chain->skipped(reader);
+}
+
+hal::Image Painter::still() const {
+  return impl_->call([&] { return impl_->chain->still(); });
+}
+
+hal::Image Painter::cameraStill() const {
+  return impl_->call([&] { return impl_->chain->cameraStill(); });
+}
+
+void Painter::reset() {
+  impl_->run([&] { impl_->chain->reset(); });
+}
+
+std::vector<gpu::PassTime> Painter::passTimes() const {
+  return impl_->chain->passTimes();
+}
+
+}  // namespace pleinair

@@ -1,0 +1,165 @@
+// Whatever is wrong with what the user gave: one clear line, exit status 2, and nothing under the
+// output's name.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/program/program.h"
+#include "tests/support/media_files.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pleinair::support {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class BadInput : public testing::Test {
+ protected:
+  BadInput() {
+    writeMedia(path("in.mp4"), 3);
+    writeMedia(path("in.png"), 1);
+  }
+
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(path(name), std::ios::binary) << text;
+    return path(name);
+  }
+
+  /// Renders with these arguments in addition to input and output, and expects the failure.
+  void expectFailure(std::vector<std::string> arguments, const testing::Matcher<std::string>& error,
+                     const ProgramLimits& limits = {}) const {
+    const std::size_t before = folder_.entryCount();
+    arguments.insert(arguments.begin(), "render");
+    addDefault(arguments, "--input", path("in.mp4"));
+    addDefault(arguments, "--output", path("out.mp4"));
+    const ProgramRun run = runProgram(arguments, limits);
+    EXPECT_EQ(run.status, 2) << run.error;
+    EXPECT_THAT(run.error, error);
+    EXPECT_EQ(std::ranges::count(run.error, '\n'), 1) << run.error;
+    EXPECT_THAT(run.error, testing::StartsWith("pleinair: "));
+    EXPECT_EQ(folder_.entryCount(), before) << "something was left behind";
+  }
+
+  TemporaryFolder folder_;
+
+ private:
+  static void addDefault(std::vector<std::string>& arguments, const std::string& name,
+                         const std::string& value) {
+    if (std::ranges::find(arguments, name) != arguments.end()) return;
+    arguments.push_back(name);
+    arguments.push_back(value);
+  }
+};
+
+TEST_F(BadInput, MissingInput) {
+  expectFailure({"--input", path("absent.mp4")}, HasSubstr("absent.mp4"));
+}
+
+TEST_F(BadInput, UnknownStyleListsTheStyles) {
+  expectFailure({"--style", "watercolour"},
+                AllOf(HasSubstr("watercolour"), HasSubstr("watercolor"), HasSubstr("none")));
+}
+
+TEST_F(BadInput, UnknownViewListsTheViews) {
+  expectFailure({"--view", "celsl"}, AllOf(HasSubstr("celsl"), HasSubstr("cells")));
+}
+
+TEST_F(BadInput, UnknownParameterListsTheParameters) {
+  expectFailure({"--set", "cellsize=8"}, AllOf(HasSubstr("cellsize"), HasSubstr("cell_size")));
+}
+
+TEST_F(BadInput, ParameterOutOfRangeSaysTheRange) {
+  expectFailure({"--set", "cell_size=0"}, AllOf(HasSubstr("cell_size"), HasSubstr("px")));
+}
+
+TEST_F(BadInput, MalformedSetting) {
+  expectFailure({"--set", "cell_size"}, HasSubstr("name=value"));
+}
+
+TEST_F(BadInput, UnknownOption) {
+  expectFailure({"--stlye", "x"}, HasSubstr("--stlye"));
+}
+
+TEST_F(BadInput, MalformedSize) {
+  expectFailure({"--size", "640"}, AllOf(HasSubstr("640"), HasSubstr("1280x720")));
+  expectFailure({"--size", "9000x16"}, HasSubstr("8192"));
+}
+
+TEST_F(BadInput, BrokenMovie) {
+  expectFailure({"--input", write("broken.mp4", "no movie at all")}, HasSubstr("broken.mp4"));
+}
+
+TEST_F(BadInput, BrokenPicture) {
+  expectFailure({"--input", write("broken.png", "\x89PNG\r\n\x1a\n and no more")},
+                HasSubstr("broken.png"));
+}
+
+TEST_F(BadInput, PictureBeyondTheLimitsIsRefusedFromItsHeader) {
+  // Signature and an IHDR of 65535 × 65535, and not a byte of pixels.
+  std::string png = "\x89PNG\r\n\x1a\n";
+  png += std::string("\0\0\0\rIHDR\0\0\xff\xff\0\0\xff\xff\x08\x02\0\0\0", 25);
+  png += std::string("\0\0\0\0", 4);
+  expectFailure({"--input", write("huge.png", png)},
+                AllOf(HasSubstr("huge.png"), HasSubstr("65535"), HasSubstr("8192")));
+}
+
+TEST_F(BadInput, BrokenToml) {
+  expectFailure({"--scene", write("scene.toml", "[[tag]\nid = 1\n")}, HasSubstr("scene.toml:1"));
+}
+
+TEST_F(BadInput, UnknownSceneKey) {
+  expectFailure({"--scene", write("scene.toml", "[[tag]]\nid = 0\nedge_m = 0.1\ncolor = 1\n")},
+                AllOf(HasSubstr("scene.toml:4"), HasSubstr("color")));
+}
+
+TEST_F(BadInput, UnknownTagFamily) {
+  expectFailure(
+      {"--scene", write("scene.toml", "[[tag]]\nfamily = \"tag37h11\"\nid = 0\nedge_m = 0.1\n")},
+      AllOf(HasSubstr("tag37h11"), HasSubstr("tag36h11")));
+}
+
+TEST_F(BadInput, CalibrationForAnotherSize) {
+  write("camera.toml",
+        "image_size = [1280, 720]\nfx = 1000\nfy = 1000\ncx = 640\ncy = 360\n"
+        "pixel_centres = \"half\"\n");
+  expectFailure({"--scene", write("scene.toml", "[camera]\ncalibration = \"camera.toml\"\n")},
+                AllOf(HasSubstr("1280"), HasSubstr("64"), HasSubstr("48")));
+}
+
+TEST_F(BadInput, UnknownOutputKind) {
+  expectFailure({"--output", path("out.gif")}, AllOf(HasSubstr("out.gif"), HasSubstr(".mp4")));
+}
+
+TEST_F(BadInput, OutputInAFolderThatIsNotThere) {
+  expectFailure({"--output", path("absent/out.mp4")}, HasSubstr("absent"));
+}
+
+TEST_F(BadInput, OutputThatIsTheInput) {
+  expectFailure({"--output", path("in.mp4")}, HasSubstr("in.mp4"));
+}
+
+TEST_F(BadInput, TwoFramesIntoOnePicture) {
+  expectFailure({"--output", path("out.png")}, HasSubstr("%"));
+}
+
+TEST_F(BadInput, FullDiskInMidMovie) {
+  writeMedia(path("long.y4m"), 60);
+  expectFailure({"--input", path("long.y4m"), "--output", path("out.y4m")}, HasSubstr("out.y4m"),
+                {.fileBytes = 40'000});
+}
+
+TEST_F(BadInput, FullDiskForThePoses) {
+  writeMedia(path("long.y4m"), 60);
+  expectFailure({"--input", path("long.y4m"), "--output", path("out.png"), "--frames", "1",
+                 "--poses", path("absent/poses.jsonl")},
+                HasSubstr("absent"));
+}
+
+}  // namespace
+}  // namespace pleinair::support

@@ -1,0 +1,107 @@
+#include "tests/program/program.h"
+
+#include <array>
+#include <csignal>
+#include <filesystem>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace pleinair::support {
+namespace {
+
+constexpr int kPollMilliseconds = 10;
+constexpr int kPollsAtMost = 12'000;
+
+/// Both ends of a pipe, closed at the end.
+struct Pipe {
+  int read = -1;
+  int write = -1;
+  Pipe() {
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
+    read = ends[0];
+    write = ends[1];
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+  ~Pipe() {
+    closeWrite();
+    close(read);
+  }
+  void closeWrite() {
+    if (write >= 0) close(write);
+    write = -1;
+  }
+};
+
+[[noreturn]] void becomeProgram(const std::vector<std::string>& arguments,
+                                const ProgramLimits& limits, const Pipe& out, const Pipe& error) {
+  dup2(out.write, STDOUT_FILENO);
+  dup2(error.write, STDERR_FILENO);
+  if (limits.fileBytes > 0) {
+    // A write beyond the limit then fails instead of killing.
+    signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{limits.fileBytes, limits.fileBytes};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  std::vector<char*> argv;
+  std::string program = PLEINAIR_PROGRAM;
+  argv.push_back(program.data());
+  std::vector<std::string> copies = arguments;
+  for (std::string& argument : copies) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  execv(program.c_str(), argv.data());
+  _exit(127);
+}
+
+/// Reads what is there; false at the end of the stream.
+bool drain(const pollfd& ready, std::string& text) {
+  if ((ready.revents & (POLLIN | POLLHUP)) == 0) return true;
+  std::array<char, 4096> bytes{};
+  const ssize_t count = read(ready.fd, bytes.data(), bytes.size());
+  if (count <= 0) return false;
+  text.append(bytes.data(), static_cast<std::size_t>(count));
+  return true;
+}
+
+}  // namespace
+
+ProgramRun runProgram(const std::vector<std::string>& arguments, const ProgramLimits& limits) {
+  Pipe out;
+  Pipe error;
+  const pid_t child = fork();
+  if (child == 0) becomeProgram(arguments, limits, out, error);
+  out.closeWrite();
+  error.closeWrite();
+  ProgramRun run;
+  bool outOpen = true;
+  bool errorOpen = true;
+  bool terminated = limits.terminateWhenExists.empty();
+  for (int polls = 0; (outOpen || errorOpen) && polls < kPollsAtMost; ++polls) {
+    std::array<pollfd, 2> ready{pollfd{outOpen ? out.read : -1, POLLIN, 0},
+                                pollfd{errorOpen ? error.read : -1, POLLIN, 0}};
+    if (poll(ready.data(), ready.size(), kPollMilliseconds) > 0) {
+      outOpen = outOpen && drain(ready[0], run.out);
+      errorOpen = errorOpen && drain(ready[1], run.error);
+    }
+    if (!terminated && std::filesystem::exists(limits.terminateWhenExists)) {
+      kill(child, SIGTERM);
+      terminated = true;
+    }
+  }
+  if (outOpen || errorOpen) {
+    ADD_FAILURE() << "the program hangs";
+    kill(child, SIGKILL);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  run.status = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  return run;
+}
+
+}  // namespace pleinair::support

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pleinair::support {
+
+/// What a run of the program left.
+struct ProgramRun {
+  int status = 0;  ///< exit status, or −signal
+  std::string out;
+  std::string error;
+};
+
+struct ProgramLimits {
+  /// No file may grow beyond this: a full disk, as the program sees it. 0: none.
+  unsigned long fileBytes = 0;
+  /// SIGTERM is sent once this file exists; empty: never.
+  std::string terminateWhenExists;
+};
+
+/// Runs `pleinair` with these arguments, killed after two minutes.
+ProgramRun runProgram(const std::vector<std::string>& arguments, const ProgramLimits& limits = {});
+
+}  // namespace pleinair::support

@@ -1,0 +1,188 @@
+// The main job through the program's own door: recordings in, paintings out.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "hal/libav/picture_file.h"
+#include "tests/program/program.h"
+#include "tests/support/media_files.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pleinair::support {
+namespace {
+
+using testing::HasSubstr;
+
+std::string contentOf(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+class Render : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+
+  ProgramRun render(const std::string& input, const std::string& output,
+                    std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments{"render", "--input", path(input), "--output", path(output)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runProgram(arguments);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Render, PaintsAMovieIntoEveryKindOfOutput) {
+  writeMedia(path("in.mp4"), 4);
+  for (const std::string output : {"out.mp4", "out.mkv", "out.y4m", "out/", "%03d.png"}) {
+    const ProgramRun run = render("in.mp4", output);
+    ASSERT_EQ(run.status, 0) << output << ": " << run.error;
+    EXPECT_EQ(run.error, "") << output;
+    const auto played = play(path(output));
+    ASSERT_TRUE(played) << played.error().message();
+    EXPECT_EQ(played->frames.size(), 4u) << output;
+    EXPECT_EQ(played->format.frame.size, (hal::FrameSize{64, 48})) << output;
+  }
+}
+
+TEST_F(Render, KeepsTheTimesOfTheRecording) {
+  using std::chrono_literals::operator""ms;
+  const std::vector<hal::Duration> times{0ms, 33ms, 50ms, 200ms};
+  writeMedia(path("in.mp4"), 4, {64, 48}, times);
+  ASSERT_EQ(render("in.mp4", "out.mp4").status, 0);
+  const auto played = play(path("out.mp4"));
+  ASSERT_TRUE(played);
+  EXPECT_EQ(played->times, times);
+}
+
+TEST_F(Render, GivesTheSameBytesOnEveryRun) {
+  writeMedia(path("in.y4m"), 8, {96, 80});
+  ASSERT_EQ(render("in.y4m", "a.mp4").status, 0);
+  ASSERT_EQ(render("in.y4m", "b.mp4").status, 0);
+  EXPECT_FALSE(contentOf(path("a.mp4")).empty());
+  EXPECT_TRUE(contentOf(path("a.mp4")) == contentOf(path("b.mp4")));
+}
+
+TEST_F(Render, PaintsPicturesFromOnePixelUpwards) {
+  for (const hal::FrameSize size :
+       {hal::FrameSize{1, 1}, {1, 40}, {40, 1}, {2, 3}, {7, 9}, {33, 65}}) {
+    writeMedia(path("in.png"), 1, size);
+    const ProgramRun run = render("in.png", "out.png");
+    ASSERT_EQ(run.status, 0) << size.width << "x" << size.height << ": " << run.error;
+    const auto picture = hal::readPictureRgb(path("out.png"));
+    ASSERT_TRUE(picture);
+    EXPECT_EQ(picture->size(), size);
+  }
+}
+
+TEST_F(Render, ScalesToASizeAndStopsAfterSoManyFrames) {
+  writeMedia(path("in.mp4"), 5);
+  ASSERT_EQ(render("in.mp4", "out.mkv", {"--size", "100x40", "--frames", "2"}).status, 0);
+  const auto played = play(path("out.mkv"));
+  ASSERT_TRUE(played);
+  EXPECT_EQ(played->frames.size(), 2u);
+  EXPECT_EQ(played->format.frame.size, (hal::FrameSize{100, 40}));
+}
+
+TEST_F(Render, ShowsEveryViewAndEachIsAnother) {
+  writeMedia(path("in.png"), 1, {128, 96});
+  ASSERT_EQ(render("in.png", "painted.png").status, 0);
+  std::set<std::string> pictures{contentOf(path("painted.png"))};
+  for (const std::string view : {"camera", "cells", "seeds", "edges", "means"}) {
+    const ProgramRun run = render("in.png", view + ".png", {"--view", view});
+    ASSERT_EQ(run.status, 0) << run.error;
+    EXPECT_TRUE(pictures.insert(contentOf(path(view + ".png"))).second) << view;
+  }
+}
+
+TEST_F(Render, WithoutAStyleGivesThePictureBack) {
+  writeMedia(path("in.png"), 1, {50, 30});
+  ASSERT_EQ(render("in.png", "out.png", {"--style", "none"}).status, 0);
+  auto in = hal::readPictureRgb(path("in.png"));
+  auto out = hal::readPictureRgb(path("out.png"));
+  ASSERT_TRUE(in && out);
+  EXPECT_TRUE(std::ranges::equal(in->plane(0), out->plane(0)));
+}
+
+TEST_F(Render, GivesTheSoundFramesOfARecordingThatBreaksOff) {
+  writeMedia(path("in.mp4"), 40, {96, 80});
+  const std::string whole = contentOf(path("in.mp4"));
+  std::ofstream(path("cut.mp4"), std::ios::binary) << whole.substr(0, whole.size() * 2 / 3);
+  const ProgramRun run = render("cut.mp4", "out.mp4");
+  EXPECT_EQ(run.status, 0) << run.error;
+  EXPECT_THAT(run.error, HasSubstr("pleinair: warning: "));
+  EXPECT_THAT(run.error, HasSubstr("cut.mp4"));
+  const auto played = play(path("out.mp4"));
+  ASSERT_TRUE(played);
+  EXPECT_GT(played->frames.size(), 0u);
+  EXPECT_LT(played->frames.size(), 40u);
+}
+
+TEST_F(Render, WritesPosesALineAFrame) {
+  const ProgramRun recorded =
+      runProgram({"record", "--camera", "synthetic", "--frames", "3", "--output", path("desk.mp4"),
+                  "--write-scene", path("desk.toml")});
+  ASSERT_EQ(recorded.status, 0) << recorded.error;
+  const ProgramRun run =
+      render("desk.mp4", "out.mp4", {"--scene", path("desk.toml"), "--poses", path("poses.jsonl")});
+  ASSERT_EQ(run.status, 0) << run.error;
+  std::ifstream lines(path("poses.jsonl"));
+  int frames = 0;
+  for (std::string line; std::getline(lines, line); ++frames) {
+    const nlohmann::json json = nlohmann::json::parse(line);
+    EXPECT_EQ(json.at("frame"), frames);
+    EXPECT_NEAR(json.at("time_s").get<double>(), frames / 30.0, 1e-4);
+    EXPECT_EQ(json.at("cameraFromWorld").size(), 16u);
+    EXPECT_EQ(json.at("cameraFromWorld").at(15), 1.0);
+    ASSERT_FALSE(json.at("tags").empty());
+    for (const nlohmann::json& tag : json.at("tags")) {
+      EXPECT_EQ(tag.at("corners").size(), 4u);
+      EXPECT_EQ(tag.at("cameraFromTag").size(), 16u);
+    }
+  }
+  EXPECT_EQ(frames, 3);
+}
+
+TEST_F(Render, WritesAContactSheetOfPairs) {
+  writeMedia(path("in.mp4"), 9, {64, 48});
+  ASSERT_EQ(render("in.mp4", "out.mp4", {"--contact-sheet", path("sheet.png")}).status, 0);
+  const auto sheet = hal::readPictureRgb(path("sheet.png"));
+  ASSERT_TRUE(sheet);
+  EXPECT_GT(sheet->size().width, 4 * 64);
+  EXPECT_GT(sheet->size().height, 3 * 48);
+}
+
+TEST_F(Render, LeavesNothingBehindWhenTerminated) {
+  writeMedia(path("in.y4m"), 300, {640, 480});
+  ProgramLimits limits;
+  limits.terminateWhenExists = path(".out.mp4.part");
+  const ProgramRun run =
+      runProgram({"render", "--input", path("in.y4m"), "--output", path("out.mp4")}, limits);
+  EXPECT_EQ(run.status, 128 + 15);
+  EXPECT_EQ(folder_.entryCount(), 1u);
+}
+
+TEST(Program, ListsStylesWithTheirParameters) {
+  const ProgramRun run = runProgram({"styles"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_THAT(run.out, HasSubstr("watercolor"));
+  EXPECT_THAT(run.out, HasSubstr("cell_size"));
+}
+
+TEST(Program, HelpsAndSaysItsVersion) {
+  EXPECT_THAT(runProgram({"--help"}).out, HasSubstr("render"));
+  EXPECT_THAT(runProgram({"render", "--help"}).out, HasSubstr("--input"));
+  EXPECT_EQ(runProgram({"--version"}).status, 0);
+  EXPECT_EQ(runProgram({}).status, 2);
+}
+
+}  // namespace
+}  // namespace pleinair::support
