@@ -3,6 +3,7 @@
 #include <span>
 #include <string_view>
 
+#include "config/parameter_values.h"
 #include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/scene/ar_frame.h"
@@ -27,6 +28,11 @@ class Style {
   virtual std::string_view name() const = 0;
   /// Its inner pictures, apart from the finished one.
   virtual std::span<const ViewInfo> views() const = 0;
+
+  /// The snapshot in force; its list() describes what can be tuned. At first the defaults.
+  virtual const config::ParameterValues& parameters() const = 0;
+  /// Puts another snapshot of the same list in force, from the next paint() on.
+  virtual void setParameters(const config::ParameterValues& values) = 0;
 
   /// Paints `frame`; the RGBA8 result (sRGB-coded, opaque) has the frame's size, row 0 at the top,
   /// and is valid until the next call. `view` is empty for the finished picture or names one of

@@ -1,0 +1,18 @@
+#include "pipeline/styles/plain.h"
+
+#include <cassert>
+#include <memory>
+
+namespace pleinair::styles {
+
+Plain::Plain()
+    : values_(std::make_shared<const config::ParameterList>(
+          std::vector<config::ParameterDescriptor>{})) {}
+
+const gpu::Texture& Plain::paint(const scene::ArFrame& frame, std::string_view view,
+                                 gpu::PassTimer& /*timer*/) {
+  assert(view.empty());
+  return *frame.colour;
+}
+
+}  // namespace pleinair::styles

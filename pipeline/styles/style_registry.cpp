@@ -1,0 +1,79 @@
+#include "pipeline/styles/style_registry.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "hal/error.h"
+#include "pipeline/styles/plain.h"
+#include "pipeline/styles/watercolor/watercolor.h"
+#include "pipeline/styles/watercolor/watercolor_shaders.h"
+
+namespace pleinair::styles {
+namespace {
+
+struct Entry {
+  StyleInfo info;
+  std::unique_ptr<Style> (*make)(const gpu::ShaderLibrary& library);
+};
+
+constexpr std::array<Entry, 2> kEntries{{
+    {{"watercolor", "washes on paper under dark edges (thesis chapter III)"},
+     [](const gpu::ShaderLibrary& library) -> std::unique_ptr<Style> {
+       return std::make_unique<Watercolor>(library);
+     }},
+    {{"none", "the camera's picture with its virtual objects, unpainted"},
+     [](const gpu::ShaderLibrary&) -> std::unique_ptr<Style> { return std::make_unique<Plain>(); }},
+}};
+
+constexpr auto kInfos = [] {
+  std::array<StyleInfo, kEntries.size()> infos{};
+  for (std::size_t i = 0; i < infos.size(); ++i) infos[i] = kEntries[i].info;
+  return infos;
+}();
+
+template <class Items>
+std::string namesOf(const Items& items) {
+  std::string names;
+  for (const auto& item : items) {
+    if (!names.empty()) names += ", ";
+    names += item.name;
+  }
+  return names;
+}
+
+}  // namespace
+
+std::span<const StyleInfo> styleInfos() {
+  return kInfos;
+}
+
+void addStyleShaders(gpu::ShaderLibrary& library) {
+  library.add(gpu::watercolorShaders());
+}
+
+std::unique_ptr<Style> makeStyle(std::string_view name, const gpu::ShaderLibrary& library) {
+  for (const Entry& entry : kEntries) {
+    if (entry.info.name == name) return entry.make(library);
+  }
+  throw hal::StartupError({.kind = hal::ErrorKind::kInvalidArgument,
+                           .subject = fmt::format("style \"{}\"", name),
+                           .problem = "no such style",
+                           .remedy = fmt::format("choose one of: {}", namesOf(kInfos))});
+}
+
+void requireView(const Style& style, std::string_view view) {
+  if (view.empty()) return;
+  const auto views = style.views();
+  if (std::ranges::find(views, view, &ViewInfo::name) != views.end()) return;
+  throw hal::StartupError({.kind = hal::ErrorKind::kInvalidArgument,
+                           .subject = fmt::format("view \"{}\"", view),
+                           .problem = fmt::format("style {} has no such view", style.name()),
+                           .remedy = views.empty()
+                                         ? "leave the view away; it has none"
+                                         : fmt::format("choose one of: {}", namesOf(views))});
+}
+
+}  // namespace pleinair::styles

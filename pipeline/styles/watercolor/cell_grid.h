@@ -1,0 +1,39 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <glm/vec2.hpp>
+
+#include "hal/pixel_format.h"
+
+namespace pleinair::styles {
+
+/// The m×n grid of cells that a picture is divided into (thesis eq. 1): about one cell per
+/// `cellSizePixels` squared, at least one.
+class CellGrid {
+ public:
+  CellGrid(hal::FrameSize picture, int cellSizePixels)
+      : cells_(along(picture.width, cellSizePixels), along(picture.height, cellSizePixels)),
+        cellPixels_(glm::vec2(picture.width, picture.height) / glm::vec2(cells_)) {}
+
+  /// (n, m): columns and rows.
+  glm::ivec2 cells() const { return cells_; }
+  hal::FrameSize size() const { return {cells_.x, cells_.y}; }
+  std::size_t count() const {
+    return static_cast<std::size_t>(cells_.x) * static_cast<std::size_t>(cells_.y);
+  }
+  /// (W/n, H/m).
+  glm::vec2 cellPixels() const { return cellPixels_; }
+
+ private:
+  static int along(int pixels, int cellSizePixels) {
+    return std::max(1, static_cast<int>(std::lround(static_cast<double>(pixels) / cellSizePixels)));
+  }
+
+  glm::ivec2 cells_;
+  glm::vec2 cellPixels_;
+};
+
+}  // namespace pleinair::styles

@@ -1,0 +1,177 @@
+// Purpose: for each pixel the nearest seed (thesis §3.2.1) and the edge strength (eq. 2-4), and for
+//          each cell the sums that its mean colour and its re-tiling need. One invocation does a
+//          block of 4x4 pixels and adds once per cell that the block holds.
+// Inputs:  picture (RGBA8, sRGB-coded), ids (R32UI) if hasObjects, seeds, grid (n, m), cellPixels,
+//          alpha, beta, threshold.
+// Outputs: tiling (R32UI, tiling_word.glsl), sums: per cell 8 words, linear R, G, B in 1/16384,
+//          pixels, and over edge pixels x, y, count; one spare.
+// Precision: integers for distances and sums, so that order does not matter and ties go to the
+//          lower index.
+#include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
+layout(local_size_x = 16, local_size_y = 4) in;
+layout(std430, binding = 0) readonly buffer Seeds { vec2 seeds[]; };
+layout(std430, binding = 1) buffer Sums { uint sums[]; };
+layout(binding = 0, r32ui) writeonly uniform highp uimage2D tiling;
+uniform sampler2D picture;
+uniform highp usampler2D ids;
+uniform bool hasObjects;
+uniform ivec2 grid;
+uniform vec2 cellPixels;
+uniform float alpha;
+uniform float beta;
+uniform float threshold;
+
+const int kSide = 4;
+const int kPixels = 16;
+const uint kTriangleBits = 22u;  // scene::kTriangleBits
+const float kHalfDiagonal = 2.1213204;  // between the block's middle and its corner pixels' centres
+
+ivec2 size;
+ivec2 corner;  // the block's first pixel
+ivec2 bestCell[kPixels];
+
+// Squared distance from the block's middle.
+float fromMiddle(ivec2 cell) {
+  vec2 apart = seeds[cell.y * grid.x + cell.x] - (vec2(corner) + 2.0);
+  return dot(apart, apart);
+}
+
+// What no seed outside the searched rows and columns is nearer than, given that seeds stay within
+// one cell of their own cell's middle.
+float nearestUnsearched(ivec2 low, ivec2 high) {
+  vec2 middle = vec2(corner) + 2.0;
+  vec2 before = middle - (vec2(low) + 0.5) * cellPixels;
+  vec2 after = (vec2(high) + 0.5) * cellPixels - middle;
+  float far = 1.0e6;
+  if (low.x > 0) far = min(far, before.x);
+  if (low.y > 0) far = min(far, before.y);
+  if (high.x < grid.x - 1) far = min(far, after.x);
+  if (high.y < grid.y - 1) far = min(far, after.y);
+  return far;
+}
+
+// Squared distances differ from |s|² − 2 p·s by |p|² alone, and that is linear in p.
+void findNearest() {
+  int best[kPixels];
+  for (int i = 0; i < kPixels; ++i) {
+    best[i] = 0x7FFFFFFF;
+    bestCell[i] = ivec2(0);
+  }
+  ivec2 here = clamp(ivec2((vec2(corner) + 2.0) / cellPixels), ivec2(0), grid - 1);
+  ivec2 low, high;
+  float reach = 0.0;
+  for (int ring = 2;; ++ring) {  // 5x5 nearly always; wider where seeds have moved apart
+    low = max(here - ring, ivec2(0));
+    high = min(here + ring, grid - 1);
+    float nearest = 1.0e12;
+    for (int row = low.y; row <= high.y; ++row) {
+      for (int column = low.x; column <= high.x; ++column) {
+        nearest = min(nearest, fromMiddle(ivec2(column, row)));
+      }
+    }
+    reach = sqrt(nearest) + 2.0 * kHalfDiagonal + 0.03;
+    if (reach < nearestUnsearched(low, high)) break;
+  }
+  float reachSquared = reach * reach;
+  for (int row = low.y; row <= high.y; ++row) {
+    for (int column = low.x; column <= high.x; ++column) {
+      ivec2 cell = ivec2(column, row);
+      if (fromMiddle(cell) > reachSquared) continue;
+      ivec2 s = ivec2((seeds[row * grid.x + column] - vec2(corner)) * 64.0);
+      int start = s.x * s.x + s.y * s.y - 64 * (s.x + s.y);
+      for (int i = 0; i < kPixels; ++i) {
+        int value = start - 128 * ((i & 3) * s.x + (i >> 2) * s.y);
+        if (value < best[i]) {
+          best[i] = value;
+          bestCell[i] = cell;
+        }
+      }
+    }
+  }
+}
+
+// Colour, and the object in alpha.
+vec4 pixelAt(ivec2 at) {
+  at = clamp(at, ivec2(0), size - 1);
+  float object = hasObjects ? float(texelFetch(ids, at, 0).r >> kTriangleBits) : 0.0;
+  return vec4(texelFetch(picture, at, 0).rgb, object);
+}
+
+// Eq. 2 and 3 are linear in the gradients of their channels' magnitudes: one direction's part.
+// YUV is ITU-R BT.601's Y', Cb, Cr.
+float differenceOf(vec4 a, vec4 b) {
+  vec3 d = a.rgb - b.rgb;
+  float y = dot(d, vec3(0.299, 0.587, 0.114));
+  float u = (d.b - y) * (1.0 / 1.772);
+  float v = (d.r - y) * (1.0 / 1.402);
+  float yuv = (1.0 - alpha) * abs(y) + alpha * 0.5 * (abs(u) + abs(v));
+  float rgb = (abs(d.r) + abs(d.g) + abs(d.b)) * (1.0 / 3.0);
+  return (beta * yuv + (1.0 - beta) * rgb) * 0.5;
+}
+
+// IEC 61966-2-1 with y^0.4 as a polynomial: within 0.2/255 of the exact curve.
+vec3 linearFromSrgbFast(vec3 srgb) {
+  vec3 y = (srgb + 0.055) * (1.0 / 1.055);
+  vec3 root = ((((2.121072 * y - 6.588469) * y + 8.066004) * y - 5.157318) * y + 2.353418) * y +
+              0.206812;
+  return mix(y * y * root, srgb * (1.0 / 12.92), lessThanEqual(srgb, vec3(0.04045)));
+}
+
+void addTo(uint index, uvec4 colour, uvec3 edge) {
+  atomicAdd(sums[index * 8u], colour.r);
+  atomicAdd(sums[index * 8u + 1u], colour.g);
+  atomicAdd(sums[index * 8u + 2u], colour.b);
+  atomicAdd(sums[index * 8u + 3u], colour.a);
+  if (edge.z == 0u) return;
+  atomicAdd(sums[index * 8u + 4u], edge.x);
+  atomicAdd(sums[index * 8u + 5u], edge.y);
+  atomicAdd(sums[index * 8u + 6u], edge.z);
+}
+
+void main() {
+  size = textureSize(picture, 0);
+  corner = ivec2(gl_GlobalInvocationID.xy) * kSide;
+  if (any(greaterThanEqual(corner, size))) return;
+  findNearest();
+
+  vec4 block[36];
+  for (int i = 0; i < 36; ++i) block[i] = pixelAt(corner + ivec2(i % 6, i / 6) - 1);
+
+  uvec3 light[kPixels];
+  bool edge[kPixels];
+  uint pending = 0u;
+  for (int i = 0; i < kPixels; ++i) {
+    int at = (i >> 2) * 6 + (i & 3) + 7;
+    ivec2 pixel = corner + ivec2(i & 3, i >> 2);
+    float strength = differenceOf(block[at + 1], block[at - 1]) +
+                     differenceOf(block[at + 6], block[at - 6]);
+    edge[i] = strength > threshold;
+    if (block[at + 1].a != block[at - 1].a || block[at + 6].a != block[at - 6].a) {
+      edge[i] = true;  // an object's silhouette
+      strength = 1.0;
+    }
+    light[i] = uvec3(linearFromSrgbFast(block[at].rgb) * 16384.0 + 0.5);
+    if (all(lessThan(pixel, size))) {
+      pending |= 1u << uint(i);
+      imageStore(tiling, pixel, uvec4(packTiling(bestCell[i], edge[i], strength), 0u, 0u, 0u));
+    }
+  }
+
+  while (pending != 0u) {
+    int first = findLSB(pending);
+    ivec2 cell = bestCell[0];
+    for (int i = 1; i < kPixels; ++i) {
+      if (i == first) cell = bestCell[i];
+    }
+    uvec4 colour = uvec4(0u);
+    uvec3 edges = uvec3(0u);
+    for (int i = 0; i < kPixels; ++i) {
+      uint bit = 1u << uint(i);
+      if ((pending & bit) == 0u || bestCell[i] != cell) continue;
+      pending &= ~bit;
+      colour += uvec4(light[i], 1u);
+      if (edge[i]) edges += uvec3(uvec2(corner + ivec2(i & 3, i >> 2)), 1u);
+    }
+    addTo(uint(cell.y * grid.x + cell.x), colour, edges);
+  }
+}

@@ -1,0 +1,276 @@
+#include "pipeline/styles/watercolor/watercolor.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include "pipeline/styles/watercolor/cell_grid.h"
+
+namespace pleinair::styles {
+namespace {
+
+using gpu::ImageAccess;
+using gpu::RenderTarget;
+using gpu::Texture;
+using gpu::TextureFilter;
+using gpu::TextureFormat;
+
+constexpr int kPaperPixels = 512;  // as in paper.frag
+constexpr int kSettlingRounds = 3;
+constexpr std::size_t kSumWords = 8;
+constexpr int kBlockPixels = 4;  // as in tile.comp
+const std::string kShaders = "pipeline/styles/watercolor/shaders/";
+
+/// In the order of view.frag.
+constexpr std::array<ViewInfo, 7> kViews{{
+    {"seeds", "the cells' seeds over the frame"},
+    {"cells", "the Voronoi cells, each in a colour of its own, with their seeds"},
+    {"means", "each cell in its mean colour: the thesis's tiling"},
+    {"edges", "edge pixels black, weaker colour differences grey"},
+    {"retiling", "edge pixels, and each seed's way from home to where it was drawn"},
+    {"wash", "the washes before edges and paper"},
+    {"paper", "the sheet of paper"},
+}};
+
+/// The share of its way that something with this time constant goes in `step`.
+float shareOf(hal::Duration step, double timeConstantSeconds) {
+  const double seconds = std::chrono::duration<double>(step).count();
+  return static_cast<float>(1.0 - std::exp(-seconds / timeConstantSeconds));
+}
+
+}  // namespace
+
+struct Watercolor::Passes {
+  explicit Passes(const gpu::ShaderLibrary& library)
+      : seedHome(library.compute(kShaders + "seed_home.comp")),
+        tile(library.compute(kShaders + "tile.comp")),
+        cells(library.compute(kShaders + "cells.comp")),
+        wash(library.fragmentPass(kShaders + "wash.frag")),
+        compose(library.fragmentPass(kShaders + "compose.frag")),
+        view(library.fragmentPass(kShaders + "view.frag")),
+        paper(library.fragmentPass(kShaders + "paper.frag")) {}
+
+  gpu::Program seedHome;
+  gpu::Program tile;
+  gpu::Program cells;
+  gpu::Program wash;
+  gpu::Program compose;
+  gpu::Program view;
+  gpu::Program paper;
+};
+
+struct Watercolor::Surfaces {
+  Surfaces(hal::FrameSize frameSize, int cellSizePixels, int tilingSeed)
+      : size(frameSize),
+        grid(frameSize, cellSizePixels),
+        cellSize(cellSizePixels),
+        seed(static_cast<unsigned>(tilingSeed)),
+        seeds(grid.count() * sizeof(glm::vec2), gpu::BufferUsage::kDynamic),
+        sums(grid.count() * kSumWords * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
+        tiling(TextureFormat::kR32ui, size),
+        means(TextureFormat::kRgba16f, grid.size()),
+        shifts(TextureFormat::kRgba16f, grid.size()),
+        flatWash(TextureFormat::kRgba16f, grid.size()),
+        softWash(TextureFormat::kRgba16f, grid.size(), TextureFilter::kLinear),
+        picture(TextureFormat::kRgba8, size, TextureFilter::kLinear),
+        washTarget({&flatWash, &softWash}),
+        pictureTarget({&picture}) {}
+
+  hal::FrameSize size;
+  CellGrid grid;
+  int cellSize;
+  unsigned seed;
+  gpu::Buffer seeds;
+  gpu::Buffer sums;
+  Texture tiling;
+  Texture means;
+  Texture shifts;
+  Texture flatWash;
+  Texture softWash;
+  Texture picture;
+  RenderTarget washTarget;
+  RenderTarget pictureTarget;
+};
+
+Watercolor::Watercolor(const gpu::ShaderLibrary& library)
+    : values_(watercolorParameters().defaults()), passes_(std::make_unique<Passes>(library)) {
+  makePaper();
+  warmUp();
+}
+
+Watercolor::~Watercolor() = default;
+
+std::span<const ViewInfo> Watercolor::views() const {
+  return kViews;
+}
+
+void Watercolor::setParameters(const config::ParameterValues& values) {
+  p_ = watercolorParameters().typed(values);
+  values_ = values;
+}
+
+void Watercolor::reset() {
+  hasPast_ = false;
+}
+
+Watercolor::Inner Watercolor::inner() const {
+  assert(surfaces_ != nullptr);
+  return {.seeds = &surfaces_->seeds,
+          .tiling = &surfaces_->tiling,
+          .means = &surfaces_->means,
+          .flatWash = &surfaces_->flatWash};
+}
+
+const Texture& Watercolor::paint(const scene::ArFrame& frame, std::string_view view,
+                                 gpu::PassTimer& timer) {
+  if (needsNewTiling(frame)) {
+    startTiling(frame);
+    for (int i = 0; i < kSettlingRounds; ++i) tileAndRetile(frame, timer, true);
+  }
+  tileAndRetile(frame, timer, false);
+  paintWashes(timer);
+  lastTime_ = frame.captureTime;
+  hasPast_ = true;
+  if (view.empty()) {
+    compose(timer);
+  } else {
+    showView(frame, view);
+  }
+  return surfaces_->picture;
+}
+
+bool Watercolor::needsNewTiling(const scene::ArFrame& frame) const {
+  return !hasPast_ || surfaces_ == nullptr || surfaces_->size != frame.size() ||
+         surfaces_->cellSize != p_.cellSizePixels ||
+         surfaces_->seed != static_cast<unsigned>(p_.seed);
+}
+
+void Watercolor::startTiling(const scene::ArFrame& frame) {
+  if (surfaces_ == nullptr || surfaces_->size != frame.size() ||
+      surfaces_->cellSize != p_.cellSizePixels) {
+    surfaces_ = std::make_unique<Surfaces>(frame.size(), p_.cellSizePixels, p_.seed);
+  }
+  Surfaces& s = *surfaces_;
+  s.seed = static_cast<unsigned>(p_.seed);
+  passes_->seedHome.use()
+      .storage(0, s.seeds)
+      .storage(1, s.sums)
+      .set("grid", s.grid.cells())
+      .set("cellPixels", s.grid.cellPixels())
+      .set("seed", s.seed)
+      .dispatch(s.grid.cells(), {8, 8}, GL_SHADER_STORAGE_BARRIER_BIT);
+  lastTime_ = frame.captureTime;
+}
+
+/// `atOnce`: seeds go all the way to their edges, whatever the time constants.
+void Watercolor::tileAndRetile(const scene::ArFrame& frame, gpu::PassTimer& timer, bool atOnce) {
+  Surfaces& s = *surfaces_;
+  {
+    const auto scope = timer.measure("watercolor: tile");
+    passes_->tile.use()
+        .storage(0, s.seeds)
+        .storage(1, s.sums)
+        .image(0, s.tiling, ImageAccess::kWrite)
+        .texture("picture", *frame.colour)
+        .texture("ids", frame.ids != nullptr ? *frame.ids : s.tiling)
+        .set("hasObjects", frame.ids != nullptr ? 1 : 0)
+        .set("grid", s.grid.cells())
+        .set("cellPixels", s.grid.cellPixels())
+        .set("alpha", static_cast<float>(p_.edgeAlpha))
+        .set("beta", static_cast<float>(p_.edgeBeta))
+        .set("threshold", static_cast<float>(p_.edgeThreshold))
+        .dispatch({(s.size.width + kBlockPixels - 1) / kBlockPixels,
+                   (s.size.height + kBlockPixels - 1) / kBlockPixels},
+                  {16, 4}, GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+  }
+  const hal::Duration step =
+      std::clamp(frame.captureTime - lastTime_, hal::Duration(0), hal::Duration(1'000'000'000));
+  const bool jump = atOnce || p_.retileTimeSeconds <= 0.0;
+  const bool stay = atOnce || p_.returnTimeSeconds <= 0.0;
+  const auto scope = timer.measure("watercolor: cells");
+  passes_->cells.use()
+      .storage(0, s.seeds)
+      .storage(1, s.sums)
+      .image(0, s.means, ImageAccess::kWrite)
+      .image(1, s.shifts, ImageAccess::kWrite)
+      .texture("picture", *frame.colour)
+      .set("grid", s.grid.cells())
+      .set("cellPixels", s.grid.cellPixels())
+      .set("seed", s.seed)
+      .set("minEdgePixels", static_cast<unsigned>(p_.retilePixels))
+      .set("follow", jump ? 1.0F : shareOf(step, p_.retileTimeSeconds))
+      .set("drift", stay ? 0.0F : shareOf(step, p_.returnTimeSeconds))
+      .dispatch(s.grid.cells(), {8, 8},
+                GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+void Watercolor::paintWashes(gpu::PassTimer& timer) {
+  const Surfaces& s = *surfaces_;
+  const auto scope = timer.measure("watercolor: wash");
+  passes_->wash.use()
+      .texture("means", s.means)
+      .set("seed", s.seed)
+      .set("vividness", static_cast<float>(p_.vividness))
+      .set("luminosity", static_cast<float>(p_.luminosity))
+      .drawFullscreen(s.washTarget);
+}
+
+void Watercolor::compose(gpu::PassTimer& timer) {
+  const Surfaces& s = *surfaces_;
+  const auto scope = timer.measure("watercolor: compose");
+  passes_->compose.use()
+      .texture("tiling", s.tiling)
+      .texture("flatWash", s.flatWash)
+      .texture("softWash", s.softWash)
+      .texture("shifts", s.shifts)
+      .texture("paper", paper_)
+      .set("pictureSize", glm::vec2(s.size.width, s.size.height))
+      .set("threshold", static_cast<float>(p_.edgeThreshold))
+      .set("edgeSoftness", static_cast<float>(p_.edgeSoftness))
+      .set("edgeDarkness", static_cast<float>(p_.edgeDarkness))
+      .set("bleeding", static_cast<float>(p_.bleeding))
+      .set("wobble", static_cast<float>(p_.wobble))
+      .set("rim", static_cast<float>(p_.rim))
+      .set("granulation", static_cast<float>(p_.granulation))
+      .set("variation", static_cast<float>(p_.variation))
+      .set("grain", static_cast<float>(p_.grain))
+      .drawFullscreen(s.pictureTarget);
+}
+
+void Watercolor::showView(const scene::ArFrame& frame, std::string_view view) {
+  const auto* const found = std::ranges::find(kViews, view, &ViewInfo::name);
+  assert(found != kViews.end());
+  const Surfaces& s = *surfaces_;
+  passes_->view.use()
+      .texture("tiling", s.tiling)
+      .texture("means", s.means)
+      .texture("shifts", s.shifts)
+      .texture("softWash", s.softWash)
+      .texture("paper", paper_)
+      .texture("picture", *frame.colour)
+      .set("view", static_cast<int>(found - kViews.begin()))
+      .set("cellPixels", s.grid.cellPixels())
+      .set("pictureSize", glm::vec2(s.size.width, s.size.height))
+      .set("seed", s.seed)
+      .drawFullscreen(s.pictureTarget);
+}
+
+void Watercolor::makePaper() {
+  paper_ = Texture(TextureFormat::kRgba8, {kPaperPixels, kPaperPixels});
+  passes_->paper.use().drawFullscreen(RenderTarget({&paper_}));
+}
+
+/// A program's real cost on software renderers is at its first use: here, not in the first frame.
+void Watercolor::warmUp() {
+  Texture grey(TextureFormat::kRgba8, {16, 16}, TextureFilter::kLinear);
+  grey.upload(std::array<std::uint8_t, std::size_t{16} * 16 * 4>{}, std::size_t{16} * 4);
+  gpu::PassTimer timer;
+  const scene::ArFrame frame{.colour = &grey};
+  paint(frame, "", timer);
+  paint(frame, kViews.front().name, timer);
+  surfaces_.reset();
+  reset();
+}
+
+}  // namespace pleinair::styles

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <memory>
+
+#include "pipeline/gpu/shader_library.h"
+#include "pipeline/styles/style.h"
+#include "pipeline/styles/watercolor/watercolor_parameters.h"
+
+namespace pleinair::styles {
+
+/// Chapter III of the thesis: the frame tiled by the Voronoi cells of jittered seeds, each painted
+/// with its mean colour, dark edges over it, seeds drawn to the edges in every frame; with washes
+/// that run together, granulation and paper. All on the GPU, nothing is read back.
+///
+/// Time: a first frame (after reset(), another size, another `cell_size` or `seed`) starts with
+/// seeds at home and re-tiles a few times at once, so that it looks as settled as later ones. A
+/// seed moves by the share of its way that its time constant gives for the time since the frame
+/// before; a time that runs backwards counts as none, and never more than one second.
+class Watercolor final : public Style {
+ public:
+  /// The library holds gpu::watercolorShaders().
+  explicit Watercolor(const gpu::ShaderLibrary& library);
+  ~Watercolor() override;
+
+  std::string_view name() const override { return "watercolor"; }
+  std::span<const ViewInfo> views() const override;
+  const config::ParameterValues& parameters() const override { return values_; }
+  void setParameters(const config::ParameterValues& values) override;
+  const gpu::Texture& paint(const scene::ArFrame& frame, std::string_view view,
+                            gpu::PassTimer& timer) override;
+  void reset() override;
+
+  /// What the last frame's passes left on the GPU, for tests.
+  struct Inner {
+    const gpu::Buffer* seeds;      ///< vec2 a cell, row by row: px, for the next frame
+    const gpu::Texture* tiling;    ///< R32UI a pixel: shaders/tiling_word.glsl
+    const gpu::Texture* means;     ///< RGBA16F a cell: linear RGB; 0 in A where it has no pixel
+    const gpu::Texture* flatWash;  ///< RGBA16F a cell
+  };
+  Inner inner() const;
+
+ private:
+  struct Passes;
+  struct Surfaces;
+
+  bool needsNewTiling(const scene::ArFrame& frame) const;
+  void startTiling(const scene::ArFrame& frame);
+  void tileAndRetile(const scene::ArFrame& frame, gpu::PassTimer& timer, bool atOnce);
+  void paintWashes(gpu::PassTimer& timer);
+  void compose(gpu::PassTimer& timer);
+  void showView(const scene::ArFrame& frame, std::string_view view);
+  void makePaper();
+  void warmUp();
+
+  config::ParameterValues values_;
+  WatercolorParameters p_;
+  std::unique_ptr<Passes> passes_;
+  std::unique_ptr<Surfaces> surfaces_;
+  gpu::Texture paper_;
+  hal::TimePoint lastTime_;
+  bool hasPast_ = false;
+};
+
+}  // namespace pleinair::styles

@@ -1,0 +1,49 @@
+#include "pipeline/styles/watercolor/watercolor_parameters.h"
+
+namespace pleinair::styles {
+
+using config::integerParameter;
+using config::numberParameter;
+using P = WatercolorParameters;
+
+const config::ParameterTable<WatercolorParameters>& watercolorParameters() {
+  static const config::NumberRange kPart{.min = 0, .max = 1};
+  static const config::ParameterTable<P> table{
+      integerParameter("cell_size", &P::cellSizePixels, {.min = 4, .max = 64, .unit = "px"},
+                       "Side of a Voronoi cell; a change starts a new tiling."),
+      integerParameter("seed", &P::seed, {.min = 0, .max = 1'000'000},
+                       "Which of the random tilings; a change starts a new one."),
+      numberParameter("edge_alpha", &P::edgeAlpha, kPart,
+                      "Edges: chroma's part beside luma's (thesis eq. 2)."),
+      numberParameter("edge_beta", &P::edgeBeta, kPart,
+                      "Edges: YUV's part beside RGB's (thesis eq. 4)."),
+      numberParameter("edge_threshold", &P::edgeThreshold, kPart,
+                      "Edges: the least colour difference that is one (thesis eq. 4)."),
+      numberParameter("edge_darkness", &P::edgeDarkness, kPart,
+                      "How dark edges are drawn over the washes."),
+      integerParameter("retile_pixels", &P::retilePixels, {.min = 1, .max = 4096, .unit = "px"},
+                       "The least edge pixels in a cell that pull its seed to them."),
+      numberParameter("retile_time", &P::retileTimeSeconds, {.min = 0, .max = 10, .unit = "s"},
+                      "Time constant of a seed's way to its edge; 0 jumps, as in the thesis."),
+      numberParameter("return_time", &P::returnTimeSeconds, {.min = 0, .max = 60, .unit = "s"},
+                      "Time constant of the way home without an edge; 0 stays, as in the thesis."),
+      numberParameter("edge_softness", &P::edgeSoftness, kPart,
+                      "Width of the drawn edge's ramp around the threshold, in thresholds."),
+      numberParameter("bleeding", &P::bleeding, kPart,
+                      "How far cells of like colour run together."),
+      numberParameter("wobble", &P::wobble, {.min = 0, .max = 4, .unit = "px"},
+                      "How far the sides of washes stray from straight lines."),
+      numberParameter("rim", &P::rim, kPart, "Pigment that gathers at the rims of dark washes."),
+      numberParameter("granulation", &P::granulation, kPart,
+                      "Pigment that settles in the paper's valleys."),
+      numberParameter("variation", &P::variation, kPart,
+                      "How unevenly the brush is loaded from cell to cell."),
+      numberParameter("grain", &P::grain, kPart, "How much of the paper's relief is seen."),
+      numberParameter("vividness", &P::vividness, kPart, "Added saturation."),
+      numberParameter("luminosity", &P::luminosity, kPart,
+                      "How far washes open up towards the white of the paper."),
+  };
+  return table;
+}
+
+}  // namespace pleinair::styles

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "config/parameter_table.h"
+
+namespace pleinair::styles {
+
+/// What can be tuned of the watercolor, with the defaults. The first group is the thesis's (chapter
+/// III); with the second group all 0 the picture is the thesis's: flat cells under dark edges.
+struct WatercolorParameters {
+  int cellSizePixels = 8;
+  int seed = 1;
+  double edgeAlpha = 0.5;
+  double edgeBeta = 0.5;
+  double edgeThreshold = 0.07;
+  double edgeDarkness = 0.7;
+  int retilePixels = 4;
+  double retileTimeSeconds = 0.1;
+  double returnTimeSeconds = 1.0;
+
+  double edgeSoftness = 0.5;
+  double bleeding = 0.85;
+  double wobble = 2.5;
+  double rim = 0.5;
+  double granulation = 0.5;
+  double variation = 0.4;
+  double grain = 0.5;
+  double vividness = 0.35;
+  double luminosity = 0.45;
+};
+
+const config::ParameterTable<WatercolorParameters>& watercolorParameters();
+
+}  // namespace pleinair::styles
