@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "config/value_range.h"
+
+namespace pleinair::config {
+
+enum class ParameterKind { kNumber, kInteger, kSwitch, kChoice };
+
+enum class TakesEffect {
+  kLive,     ///< at the next frame
+  kRestart,  ///< when the pipeline is built anew
+};
+
+/// Which of a parameter's choices is meant.
+struct ChoiceIndex {
+  std::size_t index = 0;
+  bool operator==(const ChoiceIndex&) const = default;
+};
+
+/// In the order of ParameterKind.
+using ParameterValue = std::variant<double, int, bool, ChoiceIndex>;
+
+/// What consoles, profiles and `--help` know of a parameter.
+struct ParameterDescriptor {
+  std::string name;  ///< lower case with underscores, a TOML key: "cell_size"
+  std::string help;  ///< one line
+  ParameterValue defaultValue;
+  NumberRange numberRange;           ///< of a number
+  IntegerRange integerRange;         ///< of an integer
+  std::vector<std::string> choices;  ///< of a choice, by index
+  TakesEffect takesEffect = TakesEffect::kLive;
+
+  ParameterKind kind() const { return static_cast<ParameterKind>(defaultValue.index()); }
+  /// "px"; empty where there is none.
+  std::string_view unit() const;
+  /// "a number of px in [2, 64]", "true or false", "one of cells, seeds".
+  std::string allowed() const;
+  /// Of this parameter's kind and within its range.
+  bool allows(const ParameterValue& value) const;
+
+  /// The value as a person writes it ("8", "true", "cells"); parse() reads it back exactly.
+  std::string textOf(const ParameterValue& value) const;
+  /// Nothing where the text is not an allowed value.
+  std::optional<ParameterValue> parse(std::string_view text) const;
+};
+
+/// The parameters that one style or part of the program has. Immutable.
+class ParameterList {
+ public:
+  /// Names are unique TOML keys and defaults are allowed values, or it asserts.
+  explicit ParameterList(std::vector<ParameterDescriptor> descriptors);
+
+  std::span<const ParameterDescriptor> descriptors() const { return descriptors_; }
+  std::optional<std::size_t> indexOf(std::string_view name) const;
+  std::vector<std::string> names() const;
+
+ private:
+  std::vector<ParameterDescriptor> descriptors_;
+};
+
+}  // namespace pleinair::config

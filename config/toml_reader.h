@@ -1,0 +1,141 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "config/config_error.h"
+#include "config/value_range.h"
+
+namespace pleinair::config {
+
+/// A name in a file and the value that it stands for.
+template <class E>
+struct Choice {
+  std::string_view name;
+  E value;
+};
+
+/// A view of one table of a TOML file, read key by key. Copies are the same view; the document
+/// lives as long as any of them. One thread at a time.
+///
+/// Each getter makes its key known, and throws a ConfigError with file, line and key where the
+/// value is of another type or out of its range. `xyz(key)` throws also where the key is absent;
+/// `optionalXyz(key)` gives nothing then. Call finish() after the last getter.
+class TomlTable {
+ public:
+  std::string string(std::string_view key) const;
+  std::optional<std::string> optionalString(std::string_view key) const;
+
+  /// Takes TOML integers too; never NaN or an infinity.
+  double number(std::string_view key, const NumberRange& range = {}) const;
+  std::optional<double> optionalNumber(std::string_view key, const NumberRange& range = {}) const;
+
+  int integer(std::string_view key, const IntegerRange& range = {}) const;
+  std::optional<int> optionalInteger(std::string_view key, const IntegerRange& range = {}) const;
+
+  bool boolean(std::string_view key) const;
+  std::optional<bool> optionalBoolean(std::string_view key) const;
+
+  /// An array of numbers, each within `range`.
+  std::vector<double> numbers(std::string_view key, LengthRange length = {},
+                              const NumberRange& range = {}) const;
+  std::optional<std::vector<double>> optionalNumbers(std::string_view key, LengthRange length = {},
+                                                     const NumberRange& range = {}) const;
+
+  /// An array of exactly N numbers: a vector, a quaternion, a matrix by rows.
+  template <std::size_t N>
+  std::array<double, N> vector(std::string_view key, const NumberRange& range = {}) const {
+    return toArray<N>(numbers(key, {N, N}, range));
+  }
+  template <std::size_t N>
+  std::optional<std::array<double, N>> optionalVector(std::string_view key,
+                                                      const NumberRange& range = {}) const {
+    const auto values = optionalNumbers(key, {N, N}, range);
+    if (!values) return std::nullopt;
+    return toArray<N>(*values);
+  }
+
+  /// A string out of `choices`; gives the index of the one found.
+  std::size_t choice(std::string_view key, std::span<const std::string> choices) const;
+  std::optional<std::size_t> optionalChoice(std::string_view key,
+                                            std::span<const std::string> choices) const;
+
+  /// The value that the string found stands for.
+  template <class E, std::size_t N>
+  E choice(std::string_view key, const std::array<Choice<E>, N>& choices) const {
+    return choices[choice(key, namesOf(choices))].value;
+  }
+  template <class E, std::size_t N>
+  std::optional<E> optionalChoice(std::string_view key,
+                                  const std::array<Choice<E>, N>& choices) const {
+    const auto index = optionalChoice(key, namesOf(choices));
+    if (!index) return std::nullopt;
+    return choices[*index].value;
+  }
+
+  /// A table within this one; asked again, it gives the same view.
+  TomlTable table(std::string_view key) const;
+  std::optional<TomlTable> optionalTable(std::string_view key) const;
+
+  /// An array of tables, `[[key]]`. Absent, it is empty.
+  std::vector<TomlTable> tables(std::string_view key) const;
+
+  bool has(std::string_view key) const;    ///< does not make the key known
+  std::vector<std::string> keys() const;   ///< every key in the table, sorted
+  int lineOf(std::string_view key) const;  ///< where absent, its table's line; 0 for the root
+  std::string pathOf(std::string_view key) const;  ///< "tag[0].edge"
+  const std::string& file() const;                 ///< the name for messages
+
+  /// Throws a ConfigError for the first key, here or in a table that was got from here, that no
+  /// getter asked for; it lists the keys that were.
+  void finish() const;
+
+  /// For what a reader finds wrong beyond a single value: `problem` as in "id 3 is used twice".
+  ConfigError error(std::string_view key, std::string problem, std::string allowed = {}) const;
+
+ private:
+  friend class TomlDocument;
+  struct State;
+  explicit TomlTable(std::shared_ptr<State> state) : state_(std::move(state)) {}
+
+  template <std::size_t N>
+  static std::array<double, N> toArray(const std::vector<double>& values) {
+    std::array<double, N> array{};
+    for (std::size_t i = 0; i < N; ++i) array[i] = values[i];
+    return array;
+  }
+  template <class E, std::size_t N>
+  static std::vector<std::string> namesOf(const std::array<Choice<E>, N>& choices) {
+    std::vector<std::string> names;
+    for (const Choice<E>& choice : choices) names.emplace_back(choice.name);
+    return names;
+  }
+
+  std::shared_ptr<State> state_;
+};
+
+/// A parsed TOML file (TOML 1.0), of at most 1 MiB and 16 levels.
+class TomlDocument {
+ public:
+  /// Throws a ConfigError where the file is missing, unreadable, not a regular file, too large,
+  /// nested too deeply, or not TOML.
+  static TomlDocument parseFile(const std::filesystem::path& path);
+  /// As parseFile(); `name` stands for the file in messages.
+  static TomlDocument parseText(std::string_view text, std::string name);
+
+  const TomlTable& root() const { return root_; }
+
+ private:
+  explicit TomlDocument(TomlTable root) : root_(std::move(root)) {}
+
+  TomlTable root_;
+};
+
+}  // namespace pleinair::config
