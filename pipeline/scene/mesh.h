@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace pleinair::scene {
+
+/// A corner of triangles. Where a surface has a hard edge, each side has vertices of its own.
+struct MeshVertex {
+  glm::vec3 position{0.0F};  ///< metres, in the model's frame
+  glm::vec3 normal{0.0F};    ///< unit length, outward
+};
+
+/// A surface. Seen from outside, the vertices of a triangle go against the clock.
+struct Mesh {
+  std::vector<MeshVertex> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+struct BoundingSphere {
+  glm::dvec3 centre{0.0};
+  double radiusMetres = 0.0;
+};
+
+/// A sphere about the middle of the mesh's box; radius 0 for an empty mesh.
+BoundingSphere boundingSphere(const Mesh& mesh);
+
+/// The same surface with no edge longer than `maxEdgeMetres` (> 0). Triangles that shared an edge
+/// still do: longest edges are halved, and an edge's length is the same from both sides.
+Mesh withShortEdges(const Mesh& mesh, float maxEdgeMetres);
+
+}  // namespace pleinair::scene
