@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hal/cameras/recording/frame_source.h"
+#include "hal/cameras/recording/matroska_segment.h"
 #include "hal/cameras/recording/mp4_boxes.h"
 #include "hal/libav/errors.h"
 #include "hal/libav/file_input.h"
@@ -184,6 +185,7 @@ class MovieSource final : public FrameSource {
  private:
   bool isMp4() const { return isOneOf(file_.context->iformat->name, "mp4"); }
   bool isY4m() const { return isOneOf(file_.context->iformat->name, "yuv4mpegpipe"); }
+  bool isMatroska() const { return isOneOf(file_.context->iformat->name, "matroska"); }
   void leaveOut() {
     ++dropped_;
     waitingForKey_ = true;
@@ -284,6 +286,8 @@ std::optional<Error> MovieSource::whyTruncated(const libav::LogCapture& log) con
   } else if (isY4m()) {
     // libav ends without a word where the last picture is too short.
     cut = lastPacketEnd_ != file_.io.file().sizeBytes();
+  } else if (isMatroska() && segmentBreaksOff(file_.io.file())) {
+    cut = true;
   } else if (!log.firstError().empty()) {
     return brokenOff(subject_, "breaks off before its end: " + log.firstError());
   }
