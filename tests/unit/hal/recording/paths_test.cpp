@@ -75,6 +75,16 @@ TEST(RecordingPath, SaysWhatIsWrong) {
   EXPECT_EQ(kindOfPlaying(folder.path() / "text.mp4"), ErrorKind::kInvalidInput);
 }
 
+TEST(RecordingPath, RefusesSizesBeyondTheLimitsFromTheHeader) {
+  const support::TemporaryFolder folder;
+  std::ofstream(folder.path() / "a.y4m") << "YUV4MPEG2 W8193 H16 F30:1 C420jpeg\nFRAME\n";
+  std::ofstream(folder.path() / "b.y4m") << "YUV4MPEG2 W8192 H8192 F30:1 C420jpeg\nFRAME\n";
+  std::ofstream(folder.path() / "c.ppm") << "P6 60000 60000 255\n";
+  for (const char* name : {"a.y4m", "b.y4m", "c.ppm"}) {
+    EXPECT_EQ(kindOfPlaying(folder.path() / name), ErrorKind::kUnsupported) << name;
+  }
+}
+
 TEST(RecordingPath, IsNeverAUrlNorAPlaylist) {
   const support::TemporaryFolder folder;
   const fs::path movie = folder.path() / "a.mp4";
