@@ -15,7 +15,9 @@ namespace {
 
 using std::chrono::milliseconds;
 
-double seconds(Duration time) { return std::chrono::duration<double>(time).count(); }
+double seconds(Duration time) {
+  return std::chrono::duration<double>(time).count();
+}
 
 /// OpenCV's camera at `position`, looking at `target`, the world's z up in the picture.
 glm::dmat4 lookAt(glm::dvec3 position, glm::dvec3 target) {
@@ -35,8 +37,7 @@ Wander::Wander(std::uint64_t seed, double amplitude, Duration period) {
   constexpr std::array<double, 3> kSpeed{1.0, 1.83, 3.19};
   for (std::size_t i = 0; i < waves_.size(); ++i) {
     const double detune = 0.9 + 0.2 * unitRandom(seed, 2 * i);
-    waves_[i] = {amplitude * kShare[i],
-                 2 * std::numbers::pi * kSpeed[i] * detune / seconds(period),
+    waves_[i] = {amplitude * kShare[i], 2 * std::numbers::pi * kSpeed[i] * detune / seconds(period),
                  2 * std::numbers::pi * unitRandom(seed, 2 * i + 1)};
   }
 }
@@ -72,7 +73,8 @@ glm::dmat4 HandheldPath::cameraFromWorld(Duration time) const {
   const glm::dvec3 towardsCamera(std::sin(slant) * std::sin(azimuth),
                                  -std::sin(slant) * std::cos(azimuth), std::cos(slant));
   const glm::dvec3 tremble(trembleBy_[0].at(time), trembleBy_[1].at(time), trembleBy_[2].at(time));
-  glm::dmat4 turn = glm::rotate(glm::dmat4(1), roll_.at(time) + trembleTurn_[2].at(time), {0, 0, 1});
+  glm::dmat4 turn =
+      glm::rotate(glm::dmat4(1), roll_.at(time) + trembleTurn_[2].at(time), {0, 0, 1});
   turn = glm::rotate(turn, trembleTurn_[1].at(time), {0, 1, 0});
   turn = glm::rotate(turn, trembleTurn_[0].at(time), {1, 0, 0});
   return turn * lookAt(target + distance * towardsCamera + tremble, target);

@@ -24,11 +24,12 @@ void DeskCanvas::shadow(const Placement& at, glm::vec2 half, float cornerRadius,
 
 void DeskCanvas::blend(int x, int y, const Paint& paint) {
   if (paint.coverage <= 0) return;
-  Texel& texel = level_.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(level_.width) +
-                               static_cast<std::size_t>(x)];
+  Texel& texel =
+      level_.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(level_.width) +
+                    static_cast<std::size_t>(x)];
   const glm::vec4 below = unpackTexel(texel);
-  texel = packTexel(glm::vec4(paint.linearRgb, 1.0F) * paint.coverage +
-                    below * (1 - paint.coverage));
+  texel =
+      packTexel(glm::vec4(paint.linearRgb, 1.0F) * paint.coverage + below * (1 - paint.coverage));
 }
 
 }  // namespace pleinair::hal::synthetic

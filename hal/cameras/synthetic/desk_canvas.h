@@ -38,7 +38,9 @@ inline float boxDistance(glm::vec2 p, glm::vec2 half, float cornerRadius = 0) {
   const glm::vec2 d = glm::abs(p) - half + cornerRadius;
   return glm::length(glm::max(d, 0.0F)) + std::min(std::max(d.x, d.y), 0.0F) - cornerRadius;
 }
-inline float discDistance(glm::vec2 p, float radius) { return glm::length(p) - radius; }
+inline float discDistance(glm::vec2 p, float radius) {
+  return glm::length(p) - radius;
+}
 inline float ringDistance(glm::vec2 p, float radius, float width) {
   return std::abs(glm::length(p) - radius) - width / 2;
 }

@@ -80,8 +80,9 @@ glm::vec3 lightAt(glm::vec2 p) {
 void lightUp(MipTexture::Level& level, glm::vec2 origin, float texelMetres) {
   for (int y = 0; y < level.height; ++y) {
     for (int x = 0; x < level.width; ++x) {
-      Texel& texel = level.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) +
-                                  static_cast<std::size_t>(x)];
+      Texel& texel =
+          level.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) +
+                       static_cast<std::size_t>(x)];
       if (texel.coverage == 0) continue;
       const glm::vec2 p =
           origin + (glm::vec2(static_cast<float>(x), static_cast<float>(y)) + 0.5F) * texelMetres;
@@ -103,7 +104,7 @@ DeskPicture paintDesk(std::uint32_t seed, double texelMetres) {
   paintWood(canvas, seed);
   paintBigThings(canvas, seed);
   paintSmallThings(canvas);
-  for (const SceneTag& tag : deskTags()) paintTagCard(canvas, tag);
+  for (const DeskTag& tag : deskTags()) paintTagCard(canvas, tag);
   lightUp(desk.texture.base(), origin, texel);
   desk.texture.buildLevels();
   return desk;

@@ -35,16 +35,16 @@ float gearDistance(glm::vec2 p, float radius, int teeth) {
 
 }  // namespace
 
-void paintTagCard(DeskCanvas& canvas, const SceneTag& tag) {
+void paintTagCard(DeskCanvas& canvas, const DeskTag& tag) {
   const TagBitmap bitmap = tag36h11Bitmap(tag.id);
   const auto edge = static_cast<float>(tag.edgeMetres);
   const float cell = edge / kTagCellsPerEdge;
   const glm::vec2 half(cell * kTagCells / 2 + 0.004F);
   const glm::vec3 white(0.80F, 0.80F, 0.78F);
   const glm::vec3 black(0.022F, 0.022F, 0.025F);
-  const Placement at{glm::vec2(tag.worldFromTag[3]),
-                     static_cast<float>(glm::degrees(
-                         std::atan2(tag.worldFromTag[0].y, tag.worldFromTag[0].x)))};
+  const Placement at{
+      glm::vec2(tag.worldFromTag[3]),
+      static_cast<float>(glm::degrees(std::atan2(tag.worldFromTag[0].y, tag.worldFromTag[0].x)))};
   canvas.shadow(at, half, 0.002F, 0.0035F);
   canvas.paint(at, half + canvas.texelMetres(), [&](glm::vec2 p) {
     // The tag's y runs down as it is read, the placement's up.
@@ -90,8 +90,8 @@ void paintWrittenSheet(DeskCanvas& canvas, const Placement& at, std::uint32_t se
                   pencil = linearFromSrgb(0xb8452f);
   canvas.shadow(at, half, 0, 0.0018F);
   canvas.paint(at, half + canvas.texelMetres(), [&](glm::vec2 p) {
-    Paint top = canvas.fill(paper * (0.97F + 0.03F * valueNoise(seed, p * 40.0F)),
-                            boxDistance(p, half));
+    Paint top =
+        canvas.fill(paper * (0.97F + 0.03F * valueNoise(seed, p * 40.0F)), boxDistance(p, half));
     const float fromTop = half.y - p.y;
     const float line = std::floor((fromTop - 0.030F) / 0.0095F);
     if (line >= 0 && line < 15 && std::abs(p.x) < 0.083F) {
@@ -104,8 +104,8 @@ void paintWrittenSheet(DeskCanvas& canvas, const Placement& at, std::uint32_t se
         top = over(canvas.fill(ink, std::abs(fromBaseline) - letters, 0.75F), top);
       }
     }
-    top = over(canvas.fill(ink, boxDistance(p - glm::vec2(-0.035F, 0.131F), {0.048F, 0.0045F})),
-               top);
+    top =
+        over(canvas.fill(ink, boxDistance(p - glm::vec2(-0.035F, 0.131F), {0.048F, 0.0045F})), top);
     const glm::vec2 q = p - glm::vec2(0.010F, -0.088F);
     for (const float distance :
          {std::abs(gearDistance(q, 0.034F, 12)), std::abs(discDistance(q, 0.022F)),
@@ -127,8 +127,8 @@ void paintColourChart(DeskCanvas& canvas, const Placement& at) {
     for (std::size_t wash = 0; wash < kWashes.size(); ++wash) {
       const glm::vec2 centre(-0.0735F + 0.049F * static_cast<float>(wash % 4),
                              wash < 4 ? 0.032F : -0.032F);
-      const float ragged = 0.0025F * fractalNoise(90U + static_cast<std::uint32_t>(wash),
-                                                  p * 260.0F, 2);
+      const float ragged =
+          0.0025F * fractalNoise(90U + static_cast<std::uint32_t>(wash), p * 260.0F, 2);
       const float distance = boxDistance(p - centre, {0.019F, 0.025F}, 0.006F) + ragged;
       const float thin = glm::clamp((p.y - centre.y) / 0.05F + 0.5F, 0.0F, 1.0F);
       const float rim = glm::smoothstep(-0.0022F, 0.0F, distance);
@@ -152,7 +152,8 @@ void paintStickyNote(DeskCanvas& canvas, const Placement& at, std::uint32_t srgb
       const float scribble =
           p.y - y - 0.0026F * std::sin(p.x * 520 + 2.1F * std::sin(p.x * 150 + y * 900));
       const float length = 0.026F - 0.007F * static_cast<float>(line);
-      const float distance = std::max(std::abs(scribble) - 0.0008F, std::abs(p.x + 0.004F) - length);
+      const float distance =
+          std::max(std::abs(scribble) - 0.0008F, std::abs(p.x + 0.004F) - length);
       top = over(canvas.fill(ink, distance, 0.85F), top);
     }
     return top;
@@ -167,16 +168,16 @@ void paintNotebook(DeskCanvas& canvas, const Placement& at, std::uint32_t srgb) 
   canvas.paint(at, half + canvas.texelMetres(), [&](glm::vec2 p) {
     const float weave = 0.9F + 0.2F * valueNoise(55, p * 900.0F);
     const float edge = boxDistance(p, half, 0.006F);
-    const float bevel = 1 + 0.35F * glm::smoothstep(-0.004F, -0.001F, edge) *
-                                (p.y - p.x > 0 ? 1.0F : -1.0F);
+    const float bevel =
+        1 + 0.35F * glm::smoothstep(-0.004F, -0.001F, edge) * (p.y - p.x > 0 ? 1.0F : -1.0F);
     Paint top = canvas.fill(cover * weave * bevel, edge);
     top = over(canvas.fill(cover * 0.45F, std::max(edge, p.x + half.x - 0.022F)), top);
-    top = over(canvas.fill(label, boxDistance(p - glm::vec2(0.012F, 0.055F), {0.055F, 0.028F},
-                                              0.003F)),
-               top);
-    top = over(canvas.fill(cover * 0.6F, boxDistance(p - glm::vec2(0.012F, 0.060F),
-                                                     {0.042F, 0.0012F})),
-               top);
+    top = over(
+        canvas.fill(label, boxDistance(p - glm::vec2(0.012F, 0.055F), {0.055F, 0.028F}, 0.003F)),
+        top);
+    top = over(
+        canvas.fill(cover * 0.6F, boxDistance(p - glm::vec2(0.012F, 0.060F), {0.042F, 0.0012F})),
+        top);
     return over(canvas.fill(band, std::max(edge, std::abs(p.x - 0.082F) - 0.0035F)), top);
   });
 }

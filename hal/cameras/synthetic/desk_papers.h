@@ -8,7 +8,7 @@
 namespace pleinair::hal::synthetic {
 
 /// A white card with a tag on it, shadow included.
-void paintTagCard(DeskCanvas& canvas, const SceneTag& tag);
+void paintTagCard(DeskCanvas& canvas, const DeskTag& tag);
 /// A printed poster, 0.30 × 0.40 m, of bold coloured shapes.
 void paintPoster(DeskCanvas& canvas, const Placement& at);
 /// An A4 sheet with a heading, lines of writing and a drawing of a gear.

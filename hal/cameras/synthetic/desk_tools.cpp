@@ -67,7 +67,8 @@ void paintPencil(DeskCanvas& canvas, const Placement& at, std::uint32_t srgb) {
     const float fromTip = kHalfLength - p.x;
     const float radius = kRadius * glm::clamp(fromTip / kCone, 0.0F, 1.0F);
     const float across = radius > 0 ? p.y / radius : 0.0F;
-    const float facet = 0.80F + 0.32F * glm::clamp(std::round(across * 1.5F) * 0.6F + 0.3F, -1.F, 1.F);
+    const float facet =
+        0.80F + 0.32F * glm::clamp(std::round(across * 1.5F) * 0.6F + 0.3F, -1.F, 1.F);
     const float scallop = kCone - 0.003F * std::abs(std::cos(across * 4.7F));
     glm::vec3 rgb = colour * facet;
     if (fromTip < scallop) rgb = wood * cylinderLight(across);
@@ -116,9 +117,10 @@ void paintPaintBox(DeskCanvas& canvas, const Placement& at) {
       const float rim = boxDistance(q, {0.0155F, 0.0185F}, 0.003F);
       if (rim > canvas.texelMetres()) continue;
       const float dip = discDistance(q - glm::vec2(0.002F, -0.003F), 0.009F);
-      const float wet = 0.82F + 0.36F * valueNoise(410U + static_cast<std::uint32_t>(pan), q * 160.F);
-      const float gloss = std::exp(-glm::dot(q - glm::vec2(-0.005F, 0.008F),
-                                             q - glm::vec2(-0.005F, 0.008F)) / 1.0e-5F);
+      const float wet =
+          0.82F + 0.36F * valueNoise(410U + static_cast<std::uint32_t>(pan), q * 160.F);
+      const float gloss = std::exp(
+          -glm::dot(q - glm::vec2(-0.005F, 0.008F), q - glm::vec2(-0.005F, 0.008F)) / 1.0e-5F);
       const float hollow = 1 - 0.28F * (1 - glm::smoothstep(-0.006F, 0.004F, dip));
       top = over(canvas.fill(well, rim), top);
       top = over(canvas.fill(linearFromSrgb(kPans[pan]) * wet * hollow + 0.22F * gloss,
@@ -161,7 +163,8 @@ void paintCupRing(DeskCanvas& canvas, const Placement& at) {
     const float angle = std::atan2(p.y, p.x);
     const float uneven = 0.5F + 0.5F * std::sin(angle + 0.6F) * std::sin(2 * angle);
     const float distance = std::abs(glm::length(p) - 0.041F) - 0.0006F - 0.0014F * uneven;
-    return Paint{stain, (0.16F + 0.22F * uneven) * (1 - glm::smoothstep(-0.001F, 0.0016F, distance))};
+    return Paint{stain,
+                 (0.16F + 0.22F * uneven) * (1 - glm::smoothstep(-0.001F, 0.0016F, distance))};
   });
 }
 

@@ -11,7 +11,9 @@ namespace {
 constexpr int kLevels = 6;
 constexpr int kCoarsestTexel = 1 << (kLevels - 1);
 
-int roundUp(int size) { return (size + kCoarsestTexel - 1) / kCoarsestTexel * kCoarsestTexel; }
+int roundUp(int size) {
+  return (size + kCoarsestTexel - 1) / kCoarsestTexel * kCoarsestTexel;
+}
 
 std::uint16_t mean(unsigned a, unsigned b, unsigned c, unsigned d) {
   return static_cast<std::uint16_t>((a + b + c + d + 2) / 4);

@@ -14,8 +14,12 @@ float latticeValue(std::uint32_t seed, std::int32_t x, std::int32_t y) {
   return static_cast<float>(hash >> 8) * 0x1p-24F;
 }
 
-float ease(float t) { return t * t * (3 - 2 * t); }
-float mix(float from, float to, float t) { return from + (to - from) * t; }
+float ease(float t) {
+  return t * t * (3 - 2 * t);
+}
+float mix(float from, float to, float t) {
+  return from + (to - from) * t;
+}
 
 }  // namespace
 
@@ -27,8 +31,7 @@ float valueNoise(std::uint32_t seed, glm::vec2 point) {
   const float tx = ease(point.x - floorX);
   const float ty = ease(point.y - floorY);
   const float top = mix(latticeValue(seed, x, y), latticeValue(seed, x + 1, y), tx);
-  const float bottom =
-      mix(latticeValue(seed, x, y + 1), latticeValue(seed, x + 1, y + 1), tx);
+  const float bottom = mix(latticeValue(seed, x, y + 1), latticeValue(seed, x + 1, y + 1), tx);
   return mix(top, bottom, ty);
 }
 

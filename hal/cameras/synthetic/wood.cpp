@@ -51,8 +51,8 @@ float bendAroundKnots(const Plank& plank, float& y) {
     if (std::abs(d.x) > 14 || std::abs(d.y) > 8) continue;
     const float bend = std::exp(-(d.x * d.x / 18 + d.y * d.y / 5));
     y += (d.y / (std::abs(d.y) + 0.5F)) * radius * 1.3F * bend;
-    inKnot = std::max(inKnot, 1 - glm::smoothstep(0.55F, 1.15F,
-                                                  std::sqrt(d.x * d.x * 0.55F + d.y * d.y)));
+    inKnot = std::max(inKnot,
+                      1 - glm::smoothstep(0.55F, 1.15F, std::sqrt(d.x * d.x * 0.55F + d.y * d.y)));
   }
   return inKnot;
 }
@@ -88,7 +88,8 @@ glm::vec3 woodLinearRgb(std::uint32_t seed, glm::vec2 point) {
   const float pore = glm::smoothstep(0.80F, 0.95F, valueNoise(plank.id + 3, {p.x * 70, y * 800}));
 
   const glm::vec3 light = glm::mix(kLight, kReddish, random(plank.id, 3) * 0.8F);
-  glm::vec3 rgb = glm::mix(light, kDark, glm::clamp(0.52F * ring + 0.55F * streak + 0.12F, 0.F, 1.F));
+  glm::vec3 rgb =
+      glm::mix(light, kDark, glm::clamp(0.52F * ring + 0.55F * streak + 0.12F, 0.F, 1.F));
   rgb *= (0.86F + 0.26F * random(plank.id, 4)) * (1 + 0.22F * fibre) * (1 - 0.35F * pore);
   rgb = glm::mix(rgb, kKnot * (0.8F + 0.6F * ring), 0.9F * inKnot);
 
