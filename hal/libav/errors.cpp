@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstdarg>
 #include <mutex>
+#include <string_view>
 #include <utility>
 
 #include "hal/libav/handles.h"
@@ -20,6 +21,10 @@ struct LogRouter {
     int printPrefix = 0;
     av_log_format_line2(context, level, format, arguments, line.data(),
                         static_cast<int>(line.size()), &printPrefix);
+    if (std::string_view(line.data()).starts_with("Not yet implemented")) {
+      current->firstError_ = "unknown coding";
+      return;
+    }
     for (const char c : line) {
       if (c == '\0' || c == '\n') break;
       // What a broken file makes libav say is not to steer a terminal.

@@ -63,8 +63,8 @@ Result<PictureKind> checkHeader(std::span<const std::uint8_t> bytes, const std::
     }
     if (!isAcceptedSize(*size)) return tl::unexpected(tooLarge(subject, *size));
   }
-  if (!hasProperEnd(*kind, bytes)) {
-    return tl::unexpected(broken(subject, "is a broken picture: it breaks off before its end"));
+  if (const auto flaw = flawOf(*kind, bytes)) {
+    return tl::unexpected(broken(subject, "is a broken picture: it " + std::string(*flaw)));
   }
   return *kind;
 }

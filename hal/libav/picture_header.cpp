@@ -85,6 +85,16 @@ bool jpegHasEnd(Bytes bytes) {
          }) != rest.end();
 }
 
+bool pngHasChunk(Bytes bytes, std::string_view type) {
+  constexpr std::size_t kSignature = 8;
+  constexpr std::size_t kChunkOverhead = 12;  // length, type and checksum
+  for (std::size_t at = kSignature; at + kChunkOverhead <= bytes.size();) {
+    if (startsWith(bytes.subspan(at + 4), type)) return true;
+    at += kChunkOverhead + bigEndian(bytes, at, 4);
+  }
+  return false;
+}
+
 std::optional<FrameSize> webpSize(Bytes bytes) {
   if (bytes.size() < 30) return std::nullopt;
   if (startsWith(bytes.subspan(12), "VP8X")) {
@@ -162,8 +172,17 @@ std::optional<FrameSize> peekPictureSize(PictureKind kind, Bytes bytes) {
   return std::nullopt;
 }
 
-bool hasProperEnd(PictureKind kind, Bytes bytes) {
-  return kind != PictureKind::kJpeg || jpegHasEnd(bytes);
+std::optional<std::string_view> flawOf(PictureKind kind, Bytes bytes) {
+  const bool hasEnd = kind == PictureKind::kJpeg  ? jpegHasEnd(bytes)
+                      : kind == PictureKind::kPng ? pngHasChunk(bytes, "IEND")
+                                                  : true;
+  if (!hasEnd) return "breaks off before its end";
+  constexpr std::size_t kColorTypeAt = 25;
+  constexpr std::uint8_t kPaletteColor = 3;
+  const bool needsPalette = kind == PictureKind::kPng && bytes.size() > kColorTypeAt &&
+                            bytes[kColorTypeAt] == kPaletteColor;
+  if (needsPalette && !pngHasChunk(bytes, "PLTE")) return "has no palette";
+  return std::nullopt;
 }
 
 }  // namespace pleinair::hal::libav

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "hal/pixel_format.h"
 
@@ -17,8 +18,9 @@ std::optional<PictureKind> pictureKindOf(std::span<const std::uint8_t> bytes);
 /// where it has none in reach (also of a broken file); TIFF is not looked into.
 std::optional<FrameSize> peekPictureSize(PictureKind kind, std::span<const std::uint8_t> bytes);
 
-/// Whether the file runs to its proper end. Only JPEG needs to be asked: libav fills what is
-/// missing of it with grey and calls that sound.
-bool hasProperEnd(PictureKind kind, std::span<const std::uint8_t> bytes);
+/// What is wrong with a whole file in memory that libav would gloss over (it fills what a JPEG
+/// lacks with grey, and shows a palette picture without its palette): "breaks off before its end".
+/// Nothing where no such flaw is found.
+std::optional<std::string_view> flawOf(PictureKind kind, std::span<const std::uint8_t> bytes);
 
 }  // namespace pleinair::hal::libav

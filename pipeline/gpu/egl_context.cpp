@@ -1,6 +1,7 @@
 #include "pipeline/gpu/egl_context.h"
 
 #include <array>
+#include <cassert>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -65,9 +66,10 @@ struct GbmNode {
 };
 
 #if !defined(NDEBUG)
-void GL_APIENTRY onDebugMessage(GLenum /*source*/, GLenum type, GLuint /*id*/, GLenum /*severity*/,
+void GL_APIENTRY onDebugMessage(GLenum source, GLenum type, GLuint /*id*/, GLenum /*severity*/,
                                 GLsizei /*length*/, const GLchar* message, const void* /*user*/) {
-  if (type != GL_DEBUG_TYPE_ERROR_KHR) return;
+  // A shader that does not compile is the world's failure (live editing): ShaderLibrary throws.
+  if (type != GL_DEBUG_TYPE_ERROR_KHR || source == GL_DEBUG_SOURCE_SHADER_COMPILER_KHR) return;
   std::fputs("pleinair: GL error, a broken contract of our own: ", stderr);
   std::fputs(message, stderr);
   std::fputc('\n', stderr);
@@ -130,6 +132,7 @@ struct EglContext::Impl {
 
   void closeDisplay() {
     if (display == EGL_NO_DISPLAY) return;
+    assert(context == EGL_NO_CONTEXT || eglGetCurrentContext() == context);  // its own thread
     eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
     // The display itself is shared by every context of the process and stays initialised.

@@ -15,7 +15,7 @@ struct ContextInfo {
 };
 
 /// An OpenGL ES 3.1 context of our own, without a window system. It is current on the thread that
-/// made it until destroyed; GL objects made meanwhile belong to that thread.
+/// made it until destroyed there; GL objects made meanwhile belong to that thread.
 class EglContext {
  public:
   /// Tries EGL's surfaceless platform, then its devices, then GBM on the render nodes. Throws

@@ -1,6 +1,7 @@
 #include "pipeline/gpu/pass_timer.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace pleinair::gpu {
 namespace {
@@ -32,9 +33,11 @@ std::size_t PassTimer::slotOf(std::string_view pass) {
 
 PassTimer::Scope PassTimer::measure(std::string_view pass) {
   if (timing_ == PassTiming::kOff) return {nullptr, 0};
+  assert(!isMeasuring_);
   const std::size_t slot = slotOf(pass);
   if (timing_ == PassTiming::kFences) {
     waitForGpu();
+    isMeasuring_ = true;
     began_ = std::chrono::steady_clock::now();
     return {this, slot};
   }
@@ -44,10 +47,12 @@ PassTimer::Scope PassTimer::measure(std::string_view pass) {
   QueryHandle& query = queries.ring[queries.issued % kInFlight];
   if (!query) query = QueryHandle::make();
   glBeginQuery(GL_TIME_ELAPSED_EXT, query.get());
+  isMeasuring_ = true;
   return {this, slot};
 }
 
 void PassTimer::end(std::size_t slot) {
+  isMeasuring_ = false;
   if (timing_ == PassTiming::kFences) {
     waitForGpu();
     add(slot, std::chrono::steady_clock::now() - began_);

@@ -69,6 +69,7 @@ class PassTimer {
   PassTiming timing_;
   std::vector<PassTime> times_;
   std::vector<Queries> queries_;
+  bool isMeasuring_ = false;
   std::chrono::steady_clock::time_point began_;
 };
 

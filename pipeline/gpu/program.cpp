@@ -19,6 +19,18 @@ bool isImageFormat(TextureFormat format) {
          format == TextureFormat::kR32ui;
 }
 
+[[maybe_unused]] bool isCurrent(const ProgramHandle& program) {
+  GLint current = 0;
+  glGetIntegerv(GL_CURRENT_PROGRAM, &current);
+  return program && static_cast<GLuint>(current) == program.get();
+}
+
+[[maybe_unused]] bool hasGroupSize(const ProgramHandle& program, glm::ivec2 size) {
+  std::array<GLint, 3> local{};
+  glGetProgramiv(program.get(), GL_COMPUTE_WORK_GROUP_SIZE, local.data());
+  return local[0] == size.x && local[1] == size.y && local[2] == 1;
+}
+
 GLuint groups(int items, int groupSize) {
   return static_cast<GLuint>((items + groupSize - 1) / groupSize);
 }
@@ -42,6 +54,7 @@ Program::Program(ProgramHandle handle, std::string label)
 }
 
 GLint Program::location(std::string_view uniform) const {
+  assert(isCurrent(handle_));
   const auto found = std::ranges::find(uniforms_, uniform, &Uniform::name);
   return found == uniforms_.end() ? -1 : found->location;
 }
@@ -118,6 +131,7 @@ Program& Program::image(unsigned binding, const Texture& texture, ImageAccess ac
 }
 
 void Program::drawFullscreen(const RenderTarget& target) {
+  assert(isCurrent(handle_));
   target.beginDiscarding();
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
@@ -129,6 +143,7 @@ void Program::drawFullscreen(const RenderTarget& target) {
 
 void Program::dispatch(glm::ivec2 items, glm::ivec2 groupSize, GLbitfield barriers) {
   assert(items.x > 0 && items.y > 0);
+  assert(isCurrent(handle_) && hasGroupSize(handle_, groupSize));
   glDispatchCompute(groups(items.x, groupSize.x), groups(items.y, groupSize.y), 1);
   glMemoryBarrier(barriers);
 }

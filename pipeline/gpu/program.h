@@ -20,8 +20,9 @@ namespace pleinair::gpu {
 enum class ImageAccess { kRead, kWrite, kReadWrite };
 
 /// A linked program. `use()` binds it; the setters then fill its uniforms and bindings, and one of
-/// the draws or dispatch() runs it. Setting a uniform that the compiler removed does nothing;
-/// naming one that the shader never had is the same to GL, so tests compare results, not calls.
+/// the draws or dispatch() runs it. Nothing else may use() another program in between. Setting a
+/// uniform that the compiler removed does nothing; naming one that the shader never had is the same
+/// to GL, so tests compare results, not calls.
 class Program {
  public:
   Program() = default;
@@ -51,13 +52,16 @@ class Program {
   /// only, and read-write only the latter two (GPU rules, rule 6).
   Program& image(unsigned binding, const Texture& texture, ImageAccess access);
 
-  /// Runs a full-screen pass over `target`; every pixel is written, no blending, no depth.
+  /// Runs a full-screen pass over `target`; every pixel is written, no blending, no depth. What was
+  /// in the target is lost, its depth too.
   void drawFullscreen(const RenderTarget& target);
   /// Runs a compute program over `items` invocations, rounded up to whole groups of `groupSize`,
-  /// then makes its writes visible to what `barriers` (GL_*_BARRIER_BIT) names.
+  /// which is the shader's local_size, then makes its writes visible to what `barriers`
+  /// (GL_*_BARRIER_BIT) names.
   void dispatch(glm::ivec2 items, glm::ivec2 groupSize, GLbitfield barriers);
 
  private:
+  /// Asserts that the program is the current one; -1 for a uniform that is not active.
   GLint location(std::string_view uniform) const;
 
   struct Uniform {

@@ -1,5 +1,6 @@
 #include "pipeline/gpu/render_thread.h"
 
+#include <cassert>
 #include <utility>
 
 #include <pthread.h>
@@ -7,7 +8,8 @@
 namespace pleinair::gpu {
 
 RenderThread::RenderThread(const char* name) : thread_([this] { loop(); }) {
-  pthread_setname_np(thread_.native_handle(), name);
+  [[maybe_unused]] const int failed = pthread_setname_np(thread_.native_handle(), name);
+  assert(failed == 0);  // too long
 }
 
 RenderThread::~RenderThread() {
@@ -20,7 +22,9 @@ RenderThread::~RenderThread() {
 }
 
 void RenderThread::run(const std::function<void()>& task) {
+  assert(std::this_thread::get_id() != thread_.get_id());
   std::unique_lock lock(mutex_);
+  assert(task_ == nullptr);
   task_ = &task;
   changed_.notify_all();
   changed_.wait(lock, [this] { return task_ == nullptr; });

@@ -38,24 +38,6 @@ std::string_view includedName(std::string_view line) {
   return line.substr(0, line.find('"'));
 }
 
-/// A compiler's log with its file numbers ("1:23") replaced by file names.
-std::string nameFiles(const std::string& log, std::span<const std::string> files) {
-  std::string result;
-  std::istringstream lines(log);
-  static const std::regex kPlace("^([0-9]+):([0-9]+)");
-  for (std::string line; std::getline(lines, line);) {
-    std::smatch match;
-    if (std::regex_search(line, match, kPlace)) {
-      const auto file = static_cast<std::size_t>(std::stoul(match[1]));
-      if (file < files.size()) {
-        line = fmt::format("{}:{}{}", files[file], match[2].str(), match.suffix().str());
-      }
-    }
-    result += (result.empty() ? "" : "\n") + line;
-  }
-  return result;
-}
-
 Error shaderError(std::string_view name, std::string problem) {
   return Error{.kind = ErrorKind::kInvalidInput,
                .subject = fmt::format("shader {}", name),
@@ -64,6 +46,24 @@ Error shaderError(std::string_view name, std::string problem) {
 }
 
 }  // namespace
+
+std::string nameLinesOfLog(const std::string& log, std::span<const SourceLine> lines) {
+  std::string result;
+  std::istringstream input(log);
+  const std::regex place(R"(^[0-9]+(?::([0-9]+)|\(([0-9]+)\)))");
+  for (std::string text; std::getline(input, text);) {
+    std::smatch match;
+    if (std::regex_search(text, match, place)) {
+      const std::size_t number = std::stoul(match[1].matched ? match[1] : match[2]);
+      if (number >= 1 && number <= lines.size()) {
+        const SourceLine& source = lines[number - 1];
+        text = fmt::format("{}:{}{}", source.file, source.line, match.suffix().str());
+      }
+    }
+    result += (result.empty() ? "" : "\n") + text;
+  }
+  return result;
+}
 
 ShaderLibrary::ShaderLibrary(std::filesystem::path overrideDirectory)
     : overrideDirectory_(std::move(overrideDirectory)) {
@@ -74,50 +74,59 @@ void ShaderLibrary::add(std::span<const EmbeddedShader> shaders) {
   shaders_.insert(shaders_.end(), shaders.begin(), shaders.end());
 }
 
-std::string ShaderLibrary::text(std::string_view name) const {
+std::string ShaderLibrary::text(std::string_view name, std::string_view includer) const {
   if (!overrideDirectory_.empty()) {
     std::ifstream file(overrideDirectory_ / name, std::ios::binary);
     if (file) return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   }
   const auto found = std::ranges::find(shaders_, name, &EmbeddedShader::name);
   if (found == shaders_.end()) {
-    throw hal::StartupError(shaderError(name, "no such shader"));
+    std::vector<std::string_view> known;
+    for (const EmbeddedShader& shader : shaders_) known.push_back(shader.name);
+    Error error = shaderError(name, includer.empty()
+                                        ? "no such shader"
+                                        : fmt::format("no such shader, included by {}", includer));
+    error.kind = ErrorKind::kNotFound;
+    error.remedy = fmt::format("there are {}", fmt::join(known, ", "));
+    throw hal::StartupError(std::move(error));
   }
   return std::string(found->text);
 }
 
-void ShaderLibrary::expandInto(std::string_view name, std::vector<std::string>& files,
-                               std::string& output) const {
-  const std::size_t file = files.size();
-  files.emplace_back(name);
-  output += fmt::format("#line 1 {}\n", file);
-  std::istringstream lines(text(name));
+void ShaderLibrary::expandInto(std::string_view name, std::string_view includer,
+                               Expansion& output) const {
+  output.files.emplace_back(name);
+  std::istringstream lines(text(name, includer));
   int number = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number;
     const std::string_view included = includedName(line);
     if (included.empty()) {
-      output += line + "\n";
-      continue;
+      output.text += line + "\n";
+      output.lines.push_back({std::string(name), number});
+    } else if (std::ranges::find(output.files, included) == output.files.end()) {
+      expandInto(included, name, output);
     }
-    if (std::ranges::find(files, included) == files.end()) expandInto(included, files, output);
-    output += fmt::format("#line {} {}\n", number + 1, file);
   }
 }
 
+ShaderLibrary::Expansion ShaderLibrary::expand(std::string_view name) const {
+  Expansion result{.text = std::string(kHeader)};
+  for (int line = 1; line <= std::ranges::count(kHeader, '\n'); ++line) {
+    result.lines.push_back({"shader library's header", line});
+  }
+  expandInto(name, {}, result);
+  return result;
+}
+
 std::string ShaderLibrary::expanded(std::string_view name) const {
-  std::string output(kHeader);
-  std::vector<std::string> files;
-  expandInto(name, files, output);
-  return output;
+  return expand(name).text;
 }
 
 ShaderHandle ShaderLibrary::compile(GLenum stage, std::string_view name) const {
-  std::string source(kHeader);
-  std::vector<std::string> files;
-  expandInto(name, files, source);
+  const Expansion source = expand(name);
   ShaderHandle shader(glCreateShader(stage));
-  const GLchar* pointer = source.c_str();
+  const GLchar* pointer = source.text.c_str();
   glShaderSource(shader.get(), 1, &pointer, nullptr);
   glCompileShader(shader.get());
   GLint compiled = GL_FALSE;
@@ -125,7 +134,8 @@ ShaderHandle ShaderLibrary::compile(GLenum stage, std::string_view name) const {
   if (compiled == GL_FALSE) {
     std::array<GLchar, 4096> log{};
     glGetShaderInfoLog(shader.get(), static_cast<GLsizei>(log.size()), nullptr, log.data());
-    throw hal::StartupError(shaderError(name, "does not compile: " + nameFiles(log.data(), files)));
+    throw hal::StartupError(
+        shaderError(name, "does not compile: " + nameLinesOfLog(log.data(), source.lines)));
   }
   return shader;
 }

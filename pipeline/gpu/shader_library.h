@@ -11,6 +11,17 @@
 
 namespace pleinair::gpu {
 
+/// Where a line of an expanded text comes from.
+struct SourceLine {
+  std::string file;
+  int line = 0;
+};
+
+/// A compiler's log that tells places in the files people edit: "0:40(7): …" as Mesa has it and
+/// "0(40) : …" as NVIDIA has it become "file:3(7): …", `lines[39]` being line 3 of the file.
+/// (`#line` would be simpler, but Mesa forgets the file's number.)
+std::string nameLinesOfLog(const std::string& log, std::span<const SourceLine> lines);
+
 /// Shader texts by name, and programs made from them. A name is the file's path from the top of the
 /// tree ("pipeline/gpu/shaders/fullscreen.vert"). A file of that path below the override directory
 /// takes the embedded text's place, for live editing.
@@ -29,14 +40,20 @@ class ShaderLibrary {
   Program compute(std::string_view computeName) const;
   Program draw(std::string_view vertexName, std::string_view fragmentName) const;
 
-  /// The text as the compiler gets it: version, precisions, includes, `#line` marks.
-  /// Throws hal::StartupError for an unknown name or include.
+  /// The text as the compiler gets it: version, precisions, includes.
+  /// Throws hal::StartupError for an unknown name or include, as the programs above do, and they
+  /// also for a text that does not compile or link, with the compiler's log.
   std::string expanded(std::string_view name) const;
 
  private:
-  std::string text(std::string_view name) const;
-  void expandInto(std::string_view name, std::vector<std::string>& files,
-                  std::string& output) const;
+  std::string text(std::string_view name, std::string_view includer) const;
+  struct Expansion {
+    std::string text;
+    std::vector<SourceLine> lines;
+    std::vector<std::string> files;
+  };
+  Expansion expand(std::string_view name) const;
+  void expandInto(std::string_view name, std::string_view includer, Expansion& output) const;
   ShaderHandle compile(GLenum stage, std::string_view name) const;
   Program link(std::span<const ShaderHandle> shaders, std::string_view label) const;
 

@@ -103,6 +103,7 @@ bool PictureReader::take(hal::Image& image, bool wait) {
   glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer.name());
   const void* bytes = glMapBufferRange(
       GL_PIXEL_PACK_BUFFER, 0, static_cast<GLsizeiptr>(slot.buffer.sizeBytes()), GL_MAP_READ_BIT);
+  assert(bytes != nullptr);
   unpack(static_cast<const std::uint8_t*>(bytes), image);
   glUnmapBuffer(GL_PIXEL_PACK_BUFFER);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);

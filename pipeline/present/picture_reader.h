@@ -21,7 +21,8 @@ namespace pleinair::present {
 /// thread of the GL context.
 class PictureReader {
  public:
-  /// `format`: RGBA8, RGB8, grey, I420, NV12 or YUYV; `depth`: how many pictures may be under way.
+  /// `library` has presentShaders(); `format`: RGBA8, RGB8, grey, I420, NV12 or YUYV; `depth`: how
+  /// many pictures may be under way.
   PictureReader(const gpu::ShaderLibrary& library, hal::FrameFormat format, int depth = 3);
 
   const hal::FrameFormat& format() const { return format_; }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hal/cameras/recording/frame_source.h"
+#include "hal/cameras/recording/matroska_segment.h"
 #include "hal/cameras/recording/mp4_boxes.h"
 #include "hal/libav/errors.h"
 #include "hal/libav/file_input.h"
@@ -26,6 +27,13 @@ Error broken(const std::string& subject, std::string problem) {
                .subject = subject,
                .problem = std::move(problem),
                .remedy = std::string(kRemedy)};
+}
+
+Error brokenOff(const std::string& subject, std::string problem) {
+  return Error{.kind = ErrorKind::kInvalidInput,
+               .subject = subject,
+               .problem = std::move(problem),
+               .remedy = "record or copy it again if it ought to be whole"};
 }
 
 /// libav's own words where it had any.
@@ -63,6 +71,7 @@ struct DemuxedFile {
   libav::DemuxerIo io;
   libav::InputContext context;
   AVStream* stream = nullptr;  ///< the context's
+  std::string complaint;  ///< libav's first while opening, of a file that it opened all the same
 };
 
 Result<void> openContainer(DemuxedFile& file, const std::string& subject) {
@@ -88,6 +97,7 @@ Result<void> openContainer(DemuxedFile& file, const std::string& subject) {
     return tl::unexpected(broken(subject, "is a broken movie", status, log));
   }
   file.context.reset(context);
+  file.complaint = log.firstError();
   return {};
 }
 
@@ -175,6 +185,7 @@ class MovieSource final : public FrameSource {
  private:
   bool isMp4() const { return isOneOf(file_.context->iformat->name, "mp4"); }
   bool isY4m() const { return isOneOf(file_.context->iformat->name, "yuv4mpegpipe"); }
+  bool isMatroska() const { return isOneOf(file_.context->iformat->name, "matroska"); }
   void leaveOut() {
     ++dropped_;
     waitingForKey_ = true;
@@ -233,7 +244,7 @@ SourceItem MovieSource::next() {
     }
   }
   if (!truncated_ && dropped_ > 0) {
-    truncated_ = broken(subject_, "its last " + std::to_string(dropped_) + " frames are broken");
+    truncated_ = brokenOff(subject_, "its last " + std::to_string(dropped_) + " frames are broken");
   }
   return SourceEnd{.truncated = truncated_};
 }
@@ -266,19 +277,22 @@ void MovieSource::reachEnd(int status, const libav::LogCapture& log) {
 }
 
 std::optional<Error> MovieSource::whyTruncated(const libav::LogCapture& log) const {
-  const Error brokenOff = broken(subject_, "breaks off before its end");
+  bool cut = false;
   if (isMp4()) {
-    const bool samplesMissing = packetsRead_ < avformat_index_get_entries_count(file_.stream);
-    const bool complete = boxes_.fragmentSamples == 0 && !samplesMissing;
-    if (samplesMissing || (boxes_.brokenOff && !complete)) return brokenOff;
-    return std::nullopt;
+    // Edit lists leave samples out on purpose; where libav complained of the index they are lost.
+    const bool indexIsShort = packetsRead_ < avformat_index_get_entries_count(file_.stream);
+    const bool samplesAreLost = !file_.complaint.empty() && packetsRead_ < file_.stream->nb_frames;
+    cut = indexIsShort || samplesAreLost || (boxes_.fragmentSamples > 0 && boxes_.brokenOff);
+  } else if (isY4m()) {
+    // libav ends without a word where the last picture is too short.
+    cut = lastPacketEnd_ != file_.io.file().sizeBytes();
+  } else if (isMatroska() && segmentBreaksOff(file_.io.file())) {
+    cut = true;
+  } else if (!log.firstError().empty()) {
+    return brokenOff(subject_, "breaks off before its end: " + log.firstError());
   }
-  // libav ends a Y4M without a word where the last picture is too short.
-  if (isY4m() && lastPacketEnd_ != file_.io.file().sizeBytes()) return brokenOff;
-  if (!log.firstError().empty()) {
-    return broken(subject_, "breaks off before its end: " + log.firstError());
-  }
-  return std::nullopt;
+  if (!cut) return std::nullopt;
+  return brokenOff(subject_, "breaks off before its end");
 }
 
 }  // namespace
@@ -288,7 +302,7 @@ Result<std::unique_ptr<FrameSource>> openMovie(const std::filesystem::path& path
   const std::string subject = path.string();
   Result<libav::FileInput> input = libav::FileInput::open(path);
   if (!input) return tl::unexpected(input.error());
-  DemuxedFile file{.io = libav::DemuxerIo(*std::move(input)), .context = nullptr};
+  DemuxedFile file{.io = libav::DemuxerIo(*std::move(input)), .context = nullptr, .complaint = {}};
   if (Result<void> opened = openContainer(file, subject); !opened) {
     return tl::unexpected(opened.error());
   }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -12,6 +13,14 @@ namespace pleinair::hal::movie {
 namespace {
 
 constexpr AVRational kMicroseconds = {1, 1'000'000};
+constexpr AVRational kMilliseconds = {1, 1000};
+
+// libav's Matroska muxer counts in milliseconds only. It is given microseconds for them, and the
+// scale in the header says so: element TimestampScale (RFC 9559 §5.1.2.9), 10^6 ns to 10^3 ns.
+constexpr std::array<std::uint8_t, 7> kMillisecondScale = {0x2A, 0xD7, 0xB1, 0x83,
+                                                           0x0F, 0x42, 0x40};
+constexpr std::array<std::uint8_t, 7> kMicrosecondScale = {0x2A, 0xD7, 0xB1, 0x83,
+                                                           0x00, 0x03, 0xE8};
 
 int toEven(int side) {
   return side + side % 2;
@@ -121,14 +130,18 @@ Result<void> H264Writer::openMuxer() {
   if (stream_ == nullptr) throw std::bad_alloc();
   status = avcodec_parameters_from_context(stream_->codecpar, encoder_.get());
   stream_->time_base = kMicroseconds;
-  libav::Dictionary options;
   AVDictionary* raw = nullptr;
   if (isMp4) {
     av_dict_set(&raw, "movflags", "frag_keyframe+empty_moov+default_base_moof", 0);
     av_dict_set(&raw, "video_track_timescale", "1000000", 0);
+  } else {
+    io_.substituteInHeader(kMillisecondScale, kMicrosecondScale);
+    av_dict_set(&raw, "write_crc32", "0", 0);  // which would be of the header before that
   }
   if (status >= 0) status = avformat_write_header(muxer_.get(), &raw);
-  options.reset(raw);
+  const libav::Dictionary unusedOptions(raw);
+  const AVRational expected = isMp4 ? kMicroseconds : kMilliseconds;
+  if (status >= 0 && av_cmp_q(stream_->time_base, expected) != 0) status = AVERROR_BUG;
   return check(status, "cannot write the header");
 }
 
@@ -155,7 +168,6 @@ Result<void> H264Writer::drainEncoder() {
     packet_->stream_index = stream_->index;
     packet_->duration =
         av_rescale_q(format_.framePeriod.count(), {1, 1'000'000'000}, kMicroseconds);
-    av_packet_rescale_ts(packet_.get(), kMicroseconds, stream_->time_base);
     status = av_write_frame(muxer_.get(), packet_.get());
     av_packet_unref(packet_.get());
     if (Result<void> written = check(status, "cannot write"); !written) return written;

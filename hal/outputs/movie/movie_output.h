@@ -9,7 +9,8 @@
 namespace pleinair::hal {
 
 /// A movie file; its ending chooses the kind:
-/// - .mp4: H.264 in fragmented MP4, readable up to where a recording broke off; times to 1 µs
+/// - .mp4: H.264 in fragmented MP4, readable up to where it broke off; times to 1 µs, with at most
+///   35 minutes between two pictures
 /// - .mkv: H.264 in Matroska; times to 1 µs
 /// - .y4m: uncompressed; holds one frame rate only, so the times given to write() are dropped
 ///   and the nominal period (1/30 s where there is none) counts

@@ -39,21 +39,24 @@ vec3 i420(ivec2 p) {
   return toRgb(vec3(texelFetch(plane0, p, 0).r, texture(plane1, at).r, texture(plane2, at).r));
 }
 
-// Chroma sits on the even pixels; an odd pixel takes the mean of its neighbours.
+// A texel is a pair of pixels with one chroma between them, sited as chromaShift says.
 vec3 yuyv(ivec2 p) {
-  ivec2 pair = ivec2(p.x >> 1, p.y);
-  vec4 here = texelFetch(plane0, pair, 0);
-  if ((p.x & 1) == 0) return toRgb(here.rga);
-  ivec2 next = ivec2(min(pair.x + 1, textureSize(plane0, 0).x - 1), pair.y);
-  return toRgb(vec3(here.b, 0.5 * (here.ga + texelFetch(plane0, next, 0).ga)));
+  int last = textureSize(plane0, 0).x - 1;
+  float at = (float(p.x) + 0.5) * 0.5 + chromaShift.x - 0.5;
+  int left = int(floor(at));
+  vec2 leftChroma = texelFetch(plane0, ivec2(max(left, 0), p.y), 0).ga;
+  vec2 rightChroma = texelFetch(plane0, ivec2(min(left + 1, last), p.y), 0).ga;
+  vec4 pair = texelFetch(plane0, ivec2(p.x >> 1, p.y), 0);
+  float luma = (p.x & 1) == 0 ? pair.r : pair.b;
+  return toRgb(vec3(luma, mix(leftChroma, rightChroma, at - float(left))));
 }
 
-// A Bayer sample, mirrored at the border so that its colour stays what it is.
+// A Bayer sample, mirrored at the border so that its colour stays what it is (a side of one pixel
+// has but one colour).
 float mosaic(ivec2 p) {
   ivec2 last = pictureSize - 1;
-  p = abs(p);
-  p = max(last - abs(last - p), ivec2(0));
-  return texelFetch(plane0, p, 0).r;
+  p = abs(last - abs(last - abs(p)));
+  return texelFetch(plane0, min(p, last), 0).r;
 }
 
 // Gradient-corrected linear interpolation (Malvar, He and Cutler, ICASSP 2004).

@@ -1,0 +1,62 @@
+#include "pipeline/tracking/luma.h"
+
+#include <cassert>
+#include <cstddef>
+#include <optional>
+
+#include <opencv2/imgproc.hpp>
+
+namespace pleinair::tracking {
+namespace {
+
+using hal::PixelFormat;
+
+/// A header over somebody else's pixels, which OpenCV only reads.
+cv::Mat matOver(const hal::ImageView& image, int type) {
+  const hal::PlaneView& plane = image.planes[0];
+  auto* const bytes = const_cast<std::uint8_t*>(plane.bytes.data());
+  return {image.format.size.height, image.format.size.width, type, bytes, plane.strideBytes};
+}
+
+/// OpenCV names a mosaic by the second row's second and third pixel: its BG is our RGGB.
+int bayerConversion(PixelFormat format) {
+  switch (format) {
+    case PixelFormat::kBayerRggb8:
+      return cv::COLOR_BayerBG2GRAY;
+    case PixelFormat::kBayerGrbg8:
+      return cv::COLOR_BayerGB2GRAY;
+    case PixelFormat::kBayerGbrg8:
+      return cv::COLOR_BayerGR2GRAY;
+    default:
+      return cv::COLOR_BayerRG2GRAY;
+  }
+}
+
+}  // namespace
+
+hal::PlaneView LumaConverter::convert(const hal::ImageView& image) {
+  assert(image.isComplete());
+  if (const std::optional<hal::PlaneView> own = hal::lumaPlane(image)) return *own;
+
+  const hal::FrameSize size = image.format.size;
+  buffer_.resize(static_cast<std::size_t>(size.pixels()));
+  cv::Mat luma(size.height, size.width, CV_8UC1, buffer_.data());
+  switch (image.format.pixelFormat) {
+    case PixelFormat::kRgb8:
+      cv::cvtColor(matOver(image, CV_8UC3), luma, cv::COLOR_RGB2GRAY);
+      break;
+    case PixelFormat::kRgba8:
+      cv::cvtColor(matOver(image, CV_8UC4), luma, cv::COLOR_RGBA2GRAY);
+      break;
+    case PixelFormat::kYuyv:
+      cv::extractChannel(matOver(image, CV_8UC2), luma, 0);
+      break;
+    default:
+      cv::cvtColor(matOver(image, CV_8UC1), luma, bayerConversion(image.format.pixelFormat));
+      break;
+  }
+  assert(luma.data == buffer_.data());
+  return {.bytes = buffer_, .strideBytes = static_cast<std::size_t>(size.width)};
+}
+
+}  // namespace pleinair::tracking

@@ -1,0 +1,159 @@
+#include "pipeline/tracking/tag_detector.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include <apriltag/apriltag.h>
+#include <apriltag/tag16h5.h>
+#include <apriltag/tag25h9.h>
+#include <apriltag/tag36h10.h>
+#include <apriltag/tag36h11.h>
+#include <apriltag/tagCircle21h7.h>
+#include <apriltag/tagCircle49h12.h>
+#include <apriltag/tagCustom48h12.h>
+#include <apriltag/tagStandard41h12.h>
+#include <apriltag/tagStandard52h13.h>
+#include <fmt/ranges.h>
+
+namespace pleinair::tracking {
+namespace {
+
+struct FamilyEntry {
+  std::string_view name;
+  apriltag_family_t* (*create)();
+  void (*destroy)(apriltag_family_t*);
+  /// The library tabulates every code with up to so many flipped bits: two take 19 MB for
+  /// tag36h11's 587 codes, but gigabytes for tagStandard52h13's 48,714.
+  int correctedBits;
+};
+
+constexpr std::array<FamilyEntry, 9> kFamilies{{
+    {"tag36h11", tag36h11_create, tag36h11_destroy, 2},
+    {"tag36h10", tag36h10_create, tag36h10_destroy, 1},
+    {"tag25h9", tag25h9_create, tag25h9_destroy, 2},
+    {"tag16h5", tag16h5_create, tag16h5_destroy, 2},
+    {"tagCircle21h7", tagCircle21h7_create, tagCircle21h7_destroy, 2},
+    {"tagCircle49h12", tagCircle49h12_create, tagCircle49h12_destroy, 1},
+    {"tagStandard41h12", tagStandard41h12_create, tagStandard41h12_destroy, 1},
+    {"tagStandard52h13", tagStandard52h13_create, tagStandard52h13_destroy, 1},
+    {"tagCustom48h12", tagCustom48h12_create, tagCustom48h12_destroy, 1},
+}};
+
+const FamilyEntry* findFamily(std::string_view name) {
+  const auto* found = std::ranges::find(kFamilies, name, &FamilyEntry::name);
+  return found == kFamilies.end() ? nullptr : found;
+}
+
+const FamilyEntry& familyOrThrow(std::string_view name) {
+  hal::orThrow(checkTagFamily(name));
+  return *findFamily(name);
+}
+
+using FamilyHandle = std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)>;
+using DetectorHandle = std::unique_ptr<apriltag_detector_t, decltype(&apriltag_detector_destroy)>;
+using DetectionsHandle = std::unique_ptr<zarray_t, decltype(&apriltag_detections_destroy)>;
+
+TagDetection toDetection(const apriltag_detection_t& found) {
+  TagDetection tag{.id = found.id,
+                   .hamming = found.hamming,
+                   .decisionMargin = static_cast<double>(found.decision_margin)};
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    tag.corners[corner] = {found.p[corner][0], found.p[corner][1]};
+  }
+  return tag;
+}
+
+}  // namespace
+
+hal::Result<void> checkTagFamily(std::string_view family, std::string subject) {
+  if (findFamily(family) != nullptr) return {};
+  std::vector<std::string_view> names;
+  for (const FamilyEntry& entry : kFamilies) names.push_back(entry.name);
+  return tl::unexpected(hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
+                                   .subject = std::move(subject),
+                                   .problem = fmt::format("unknown tag family '{}'", family),
+                                   .remedy = fmt::format("use one of {}", fmt::join(names, ", "))});
+}
+
+DetectionCounters& DetectionCounters::operator+=(const DetectionCounters& other) {
+  accepted += other.accepted;
+  rejectedHamming += other.rejectedHamming;
+  rejectedMargin += other.rejectedMargin;
+  rejectedDuplicate += other.rejectedDuplicate;
+  skippedSmallPicture += other.skippedSmallPicture;
+  return *this;
+}
+
+std::vector<TagDetection> selectDetections(std::vector<TagDetection> candidates,
+                                           const TagDetectorOptions& options,
+                                           DetectionCounters& counters) {
+  std::ranges::sort(candidates, [](const TagDetection& a, const TagDetection& b) {
+    return a.id != b.id ? a.id < b.id : a.decisionMargin > b.decisionMargin;
+  });
+  std::vector<TagDetection> selected;
+  for (const TagDetection& tag : candidates) {
+    if (tag.hamming > options.maxHamming) {
+      ++counters.rejectedHamming;
+    } else if (tag.decisionMargin < options.minDecisionMargin) {
+      ++counters.rejectedMargin;
+    } else if (!selected.empty() && selected.back().id == tag.id) {
+      ++counters.rejectedDuplicate;
+    } else {
+      ++counters.accepted;
+      selected.push_back(tag);
+    }
+  }
+  return selected;
+}
+
+/// The family outlives the detector that uses it: members are destroyed last to first.
+struct TagDetector::Handles {
+  explicit Handles(const FamilyEntry& entry)
+      : family(entry.create(), entry.destroy),
+        detector(apriltag_detector_create(), apriltag_detector_destroy) {
+    apriltag_detector_add_family_bits(detector.get(), family.get(), entry.correctedBits);
+  }
+  FamilyHandle family;
+  DetectorHandle detector;
+};
+
+TagDetector::TagDetector(TagDetectorOptions options)
+    : options_(std::move(options)),
+      handles_(std::make_unique<Handles>(familyOrThrow(options_.family))) {
+  assert(options_.decimation >= 1.0 && options_.threads >= 1);
+  apriltag_detector_t& detector = *handles_->detector;
+  detector.nthreads = options_.threads;
+  detector.refine_edges = true;
+}
+
+TagDetector::~TagDetector() = default;
+TagDetector::TagDetector(TagDetector&&) noexcept = default;
+TagDetector& TagDetector::operator=(TagDetector&&) noexcept = default;
+
+std::vector<TagDetection> TagDetector::detect(const hal::PlaneView& luma, hal::FrameSize size,
+                                              DetectionCounters& counters) {
+  const int shorterSide = std::min(size.width, size.height);
+  if (shorterSide < kSmallestSearchedSidePx) {  // the library crashes on a few pixels a side
+    ++counters.skippedSmallPicture;
+    return {};
+  }
+  const bool isSmall = shorterSide < kSmallPicturePx * options_.decimation;
+  handles_->detector->quad_decimate = isSmall ? 1.0F : static_cast<float>(options_.decimation);
+
+  image_u8_t picture{.width = size.width,
+                     .height = size.height,
+                     .stride = static_cast<std::int32_t>(luma.strideBytes),
+                     .buf = const_cast<std::uint8_t*>(luma.bytes.data())};  // only read
+  const DetectionsHandle found(apriltag_detector_detect(handles_->detector.get(), &picture),
+                               apriltag_detections_destroy);
+  std::vector<TagDetection> candidates;
+  for (int i = 0; i < zarray_size(found.get()); ++i) {
+    apriltag_detection_t* one = nullptr;
+    zarray_get(found.get(), i, &one);
+    candidates.push_back(toDetection(*one));
+  }
+  return selectDetections(std::move(candidates), options_, counters);
+}
+
+}  // namespace pleinair::tracking

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/error.h"
+#include "hal/image.h"
+#include "pipeline/tracking/tag_frame.h"
+
+namespace pleinair::tracking {
+
+/// The family that is promised to work: others are weaker (16h5 gives false hits) or need far more
+/// memory and time to start (a hundred megabytes and a second for those of 40,000 codes and more).
+inline constexpr std::string_view kDefaultTagFamily = "tag36h11";
+
+/// Whether a family of that name can be detected; else an error (kInvalidArgument) with `subject`
+/// that lists those that can.
+hal::Result<void> checkTagFamily(std::string_view family, std::string subject = "tag family");
+
+struct TagDetectorOptions {
+  std::string family{kDefaultTagFamily};
+  /// Quads are searched in a picture reduced by this factor (≥ 1); codes are read and edges refined
+  /// at full size. Pictures with a shorter side below kSmallPicturePx after it are not reduced.
+  double decimation = 2.0;
+  int threads = 1;
+  /// Corrected bits that are believed; more is counted as rejectedHamming.
+  int maxHamming = 1;
+  /// Least mean difference of a bit to its decision threshold, in grey levels (0..255).
+  double minDecisionMargin = 10.0;
+};
+
+/// Pictures with a side below this are not searched.
+inline constexpr int kSmallestSearchedSidePx = 32;
+inline constexpr int kSmallPicturePx = 160;
+
+struct TagDetection {
+  int id = 0;
+  int hamming = 0;              ///< corrected bits
+  double decisionMargin = 0.0;  ///< grey levels
+  TagCornersPx corners{};       ///< pixel centres at +0.5; order: tagCorners()
+};
+
+/// What became of the quads that read as tags, per picture.
+struct DetectionCounters {
+  std::uint32_t accepted = 0;
+  std::uint32_t rejectedHamming = 0;    ///< too many corrected bits
+  std::uint32_t rejectedMargin = 0;     ///< bits too close to their threshold
+  std::uint32_t rejectedDuplicate = 0;  ///< another tag of the same id had a larger margin
+  std::uint32_t skippedSmallPicture = 0;
+
+  DetectionCounters& operator+=(const DetectionCounters& other);
+  friend bool operator==(const DetectionCounters&, const DetectionCounters&) = default;
+};
+
+/// The accepted of `candidates`, by rising id, each id once. Counts the others by reason.
+std::vector<TagDetection> selectDetections(std::vector<TagDetection> candidates,
+                                           const TagDetectorOptions& options,
+                                           DetectionCounters& counters);
+
+/// Finds the AprilTags of one family (libapriltag: Wang and Olson, AprilTag 2, IROS 2016). Owns its
+/// detector and its family, which threads must not share; one thread at a time.
+class TagDetector {
+ public:
+  /// Throws StartupError for an unknown family. Precondition: options in their ranges.
+  explicit TagDetector(TagDetectorOptions options = {});
+  ~TagDetector();
+  TagDetector(TagDetector&&) noexcept;
+  TagDetector& operator=(TagDetector&&) noexcept;
+  TagDetector(const TagDetector&) = delete;
+  TagDetector& operator=(const TagDetector&) = delete;
+
+  const TagDetectorOptions& options() const { return options_; }
+
+  /// The tags in a luma plane of `size`, by rising id, each id once. Adds to `counters`.
+  std::vector<TagDetection> detect(const hal::PlaneView& luma, hal::FrameSize size,
+                                   DetectionCounters& counters);
+
+ private:
+  struct Handles;
+  TagDetectorOptions options_;
+  std::unique_ptr<Handles> handles_;
+};
+
+}  // namespace pleinair::tracking

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+
+#include "hal/clock.h"
+#include "hal/image.h"
+#include "pipeline/tracking/camera_model.h"
+#include "pipeline/tracking/luma.h"
+#include "pipeline/tracking/tag_detector.h"
+#include "pipeline/tracking/tag_pose.h"
+#include "pipeline/tracking/twin_choice.h"
+#include "pipeline/tracking/world_pose.h"
+
+namespace pleinair::tracking {
+
+/// A tag that is expected.
+struct TagMarker {
+  int id = 0;
+  double edgeMetres = 0.0;  ///< of the black square
+  /// Where it is, in the frame of tagCorners(). A tag without one does not tell where the world is.
+  std::optional<glm::dmat4> worldFromTag;
+};
+
+struct TrackedTag {
+  int id = 0;
+  TagCornersPx corners{};  ///< px of the frame, pixel centres at +0.5, tagCorners()' order
+  /// Where the tag's size and the camera are known. That of the world where the tag agrees with it.
+  std::optional<glm::dmat4> cameraFromTag;
+  TwinChoice choice = TwinChoice::kOnly;  ///< how the pose's twin was rejected
+};
+
+/// What was not used, by reason; sums over a Tracker's life.
+struct TrackingCounters {
+  DetectionCounters detection;
+  std::uint32_t degenerateTags = 0;     ///< corners that allow no pose
+  std::uint32_t ambiguousTags = 0;      ///< nothing told the pose from its twin
+  std::uint32_t contradictingTags = 0;  ///< not where the other tags put them
+};
+
+struct TrackingResult {
+  std::vector<TrackedTag> tags;  ///< by rising id, each id once
+  std::optional<glm::dmat4> cameraFromWorld;
+  double worldRmsPx = 0.0;             ///< reprojection error of the tags that agree
+  double worldRotationSigmaRad = 0.0;  ///< predicted, over all axes
+  double worldTranslationSigmaMetres = 0.0;
+};
+
+struct TrackerOptions {
+  TagDetectorOptions detector;
+  /// A pose seen longer ago does not help to reject a twin.
+  hal::Duration memory = std::chrono::milliseconds(500);
+};
+
+/// Finds tags and poses, frame by frame. One thread at a time.
+class Tracker {
+ public:
+  /// Without a camera it finds tags and no poses. Throws StartupError for an unknown family.
+  Tracker(std::optional<CameraModel> camera, std::vector<TagMarker> markers,
+          TrackerOptions options = {});
+
+  /// Tracks a frame of any format. Precondition: the camera's size, if there is one.
+  TrackingResult track(const hal::ImageView& image, hal::TimePoint captureTime);
+
+  /// Forgets earlier poses, as after a cut.
+  void reset();
+  const TrackingCounters& counters() const { return counters_; }
+
+ private:
+  struct Remembered {
+    glm::dmat4 cameraFromTarget{1.0};
+    hal::TimePoint seen;
+    bool isTrusted = true;
+  };
+  struct Sighting {
+    const TagMarker* marker;
+    std::size_t index;  // in TrackingResult::tags
+    std::vector<PoseEstimate> candidates;
+  };
+
+  std::vector<Sighting> sightings(const TrackingResult& result);
+  std::vector<bool> solveWorld(const std::vector<Sighting>& sightings, hal::TimePoint now,
+                               TrackingResult& result);
+  void solveTags(const std::vector<Sighting>& sightings, const std::vector<bool>& agrees,
+                 hal::TimePoint now, TrackingResult& result);
+  std::optional<PosePrior> prior(const Remembered& remembered, hal::TimePoint now) const;
+
+  std::optional<CameraModel> camera_;
+  std::vector<TagMarker> markers_;
+  TrackerOptions options_;
+  TagDetector detector_;
+  LumaConverter luma_;
+  TrackingCounters counters_;
+  std::optional<Remembered> world_;
+  std::map<int, Remembered> tags_;
+};
+
+/// Throws StartupError (kInvalidInput) that names both sizes where a calibration is not for frames
+/// of this size: scaling it in silence would be wrong for a sensor that crops.
+void requireSize(const CameraModel& camera, hal::FrameSize frame, const std::string& calibration);
+
+}  // namespace pleinair::tracking

@@ -1,0 +1,95 @@
+#include "pipeline/gpu/egl_context.h"
+
+#include <algorithm>
+#include <array>
+#include <thread>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "hal/error.h"
+#include "pipeline/gpu/frame_upload.h"
+#include "pipeline/gpu/render_thread.h"
+#include "tests/support/gl_test.h"
+#include "tests/support/gl_pictures.h"
+
+namespace pleinair::gpu {
+namespace {
+
+using testing::HasSubstr;
+
+class EglContextTest : public testing_support::GlTest {};
+
+TEST_F(EglContextTest, SaysWhatItRunsOn) {
+  const ContextInfo& info = context_->info();
+  EXPECT_THAT(info.version, HasSubstr("OpenGL ES 3."));
+  EXPECT_FALSE(info.renderer.empty());
+  EXPECT_THAT(info.platform, testing::AnyOf("surfaceless", "device", "gbm"));
+  EXPECT_EQ(info.isSoftware, info.renderer.find("pipe") != std::string::npos);
+  EXPECT_EQ(inspectCurrentContext("host").platform, "host");
+}
+
+TEST(InspectCurrentContext, RefusesAThreadWithoutAContext) {
+  try {
+    inspectCurrentContext("host");
+    FAIL();
+  } catch (const hal::StartupError& error) {
+    EXPECT_EQ(error.error().kind, hal::ErrorKind::kUnsupported);
+    EXPECT_STREQ(error.what(),
+                 "GPU: no context is current on this thread; make a context of OpenGL ES 3.1 or "
+                 "later current");
+  }
+}
+
+TEST_F(EglContextTest, CanBeMadeAgainAfterAnother) {
+  for (int i = 0; i < 3; ++i) {
+    context_.reset();
+    context_ = std::make_unique<EglContext>();
+    EXPECT_TRUE(Texture(TextureFormat::kRgba8, {1, 1}));
+  }
+}
+
+/// The bytes that a few converted and scaled frames have.
+std::vector<std::uint8_t> paintedBytes() {
+  const EglContext context;
+  FrameUploader uploader{ShaderLibrary{}};
+  std::vector<std::uint8_t> bytes;
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    const hal::Image frame = testing_support::randomImage(
+        {.pixelFormat = hal::PixelFormat::kNv12, .size = {161, 121}}, seed);
+    hal::Image result = testing_support::readRgba8(uploader.upload(frame.view(), {100, 75}));
+    bytes.insert(bytes.end(), result.plane(0).begin(), result.plane(0).end());
+  }
+  return bytes;
+}
+
+TEST_F(EglContextTest, PaintsTheSameOnTwoThreadsAtOnce) {
+  context_.reset();
+  std::array<std::vector<std::uint8_t>, 2> results;
+  {
+    std::jthread first([&] { results[0] = paintedBytes(); });
+    std::jthread second([&] { results[1] = paintedBytes(); });
+  }
+  EXPECT_EQ(results[0].size(), 5U * 100 * 75 * 4);
+  EXPECT_TRUE(results[0] == results[1]);
+  EXPECT_TRUE(results[0] == paintedBytes());
+}
+
+TEST_F(EglContextTest, LivesOnARenderThreadWhileTheTestHasItsOwn) {
+  RenderThread thread("second");
+  std::unique_ptr<EglContext> context;
+  std::unique_ptr<Texture> texture;
+  thread.run([&] { context = std::make_unique<EglContext>(); });
+  thread.run([&] {
+    texture = std::make_unique<Texture>(TextureFormat::kRgba8, hal::FrameSize{1, 1});
+  });
+  EXPECT_TRUE(Texture(TextureFormat::kRgba8, {1, 1}));
+  thread.run([&] {
+    texture.reset();
+    context.reset();
+  });
+}
+
+}  // namespace
+}  // namespace pleinair::gpu

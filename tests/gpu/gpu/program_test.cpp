@@ -1,0 +1,160 @@
+#include "pipeline/gpu/program.h"
+
+#include <array>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/gl_test.h"
+
+namespace pleinair::gpu {
+namespace {
+
+using testing_support::GlTest;
+using testing_support::readBuffer;
+using testing_support::readR32ui;
+using testing_support::readRgba8;
+
+constexpr std::array kShaders{
+    EmbeddedShader{"t/setters.comp", R"(
+layout(local_size_x = 1) in;
+layout(std430, binding = 1) writeonly buffer Values { float values[]; };
+uniform int anInt;
+uniform uint anUnsigned;
+uniform float aFloat;
+uniform ivec2 anIvec2;
+uniform vec2 aVec2;
+uniform vec3 aVec3;
+uniform vec4 aVec4;
+uniform mat3 aMat3;
+uniform mat4 aMat4;
+void main() {
+  int i = 0;
+  values[i++] = float(anInt);
+  values[i++] = float(anUnsigned);
+  values[i++] = aFloat;
+  for (int k = 0; k < 2; ++k) values[i++] = float(anIvec2[k]);
+  for (int k = 0; k < 2; ++k) values[i++] = aVec2[k];
+  for (int k = 0; k < 3; ++k) values[i++] = aVec3[k];
+  for (int k = 0; k < 4; ++k) values[i++] = aVec4[k];
+  vec3 v3 = aMat3 * vec3(1.0, 2.0, 3.0);
+  for (int k = 0; k < 3; ++k) values[i++] = v3[k];
+  vec4 v4 = aMat4 * vec4(1.0, 2.0, 3.0, 4.0);
+  for (int k = 0; k < 4; ++k) values[i++] = v4[k];
+}
+)"},
+    EmbeddedShader{"t/difference.frag", R"(
+uniform sampler2D first;
+uniform sampler2D second;
+layout(location = 0) out vec4 colour;
+void main() {
+  ivec2 p = ivec2(gl_FragCoord.xy);
+  colour = vec4(texelFetch(first, p, 0).rgb - texelFetch(second, p, 0).rgb, 1.0);
+}
+)"},
+    EmbeddedShader{"t/number.comp", R"(
+layout(local_size_x = 8, local_size_y = 4) in;
+layout(r32ui, binding = 2) writeonly uniform highp uimage2D result;
+void main() {
+  ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  imageStore(result, p, uvec4(uint(p.y * 100 + p.x)));
+}
+)"},
+};
+
+class ProgramTest : public GlTest {
+ protected:
+  ProgramTest() { library_.add(kShaders); }
+  ShaderLibrary library_;
+};
+
+TEST_F(ProgramTest, SetsUniformsOfEveryType) {
+  const Buffer values(21 * sizeof(float), BufferUsage::kDynamic);
+  const glm::mat3 mat3(1, 2, 3, 4, 5, 6, 7, 8, 9);
+  const glm::mat4 mat4(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16);
+  Program program = library_.compute("t/setters.comp");
+  EXPECT_EQ(program.label(), "t/setters.comp");
+  program.use()
+      .storage(1, values)
+      .set("anInt", -3)
+      .set("anUnsigned", 4'000'000'000U)
+      .set("aFloat", 0.5F)
+      .set("anIvec2", glm::ivec2(-1, 2))
+      .set("aVec2", glm::vec2(0.25F, 8.0F))
+      .set("aVec3", glm::vec3(1.0F, 2.0F, 3.0F))
+      .set("aVec4", glm::vec4(4.0F, 5.0F, 6.0F, 7.0F))
+      .set("aMat3", mat3)
+      .set("aMat4", mat4)
+      .dispatch({1, 1}, {1, 1}, GL_BUFFER_UPDATE_BARRIER_BIT);
+  EXPECT_THAT(readBuffer<float>(values),
+              testing::ElementsAre(-3, 4e9F, 0.5F, -1, 2, 0.25F, 8, 1, 2, 3, 4, 5, 6, 7,  //
+                                   30, 36, 42, 90, 100, 110, 120));
+}
+
+TEST_F(ProgramTest, GivesEachTextureAUnitOfItsOwnAndBeginsAnewWithUse) {
+  const std::array<std::uint8_t, 4> bright{200, 100, 50, 255};
+  const std::array<std::uint8_t, 4> dark{20, 30, 40, 255};
+  Texture first(TextureFormat::kRgba8, {1, 1});
+  Texture second(TextureFormat::kRgba8, {1, 1});
+  first.upload(bright, 4);
+  second.upload(dark, 4);
+  const Texture result(TextureFormat::kRgba8, {1, 1});
+  const RenderTarget target({&result});
+  Program program = library_.fragmentPass("t/difference.frag");
+  for (int pass = 0; pass < 20; ++pass) {  // more than there are units
+    program.use().texture("first", first).texture("second", second).drawFullscreen(target);
+  }
+  EXPECT_THAT(readRgba8(result).plane(0), testing::ElementsAre(180, 70, 10, 255));
+  program.use().texture("second", first).texture("first", second).drawFullscreen(target);
+  EXPECT_THAT(readRgba8(result).plane(0), testing::ElementsAre(0, 0, 0, 255));
+}
+
+TEST_F(ProgramTest, DispatchesWholeGroupsOverEveryItem) {
+  const Texture result(TextureFormat::kR32ui, {13, 6});
+  Program program = library_.compute("t/number.comp");
+  program.use()
+      .image(2, result, ImageAccess::kWrite)
+      .dispatch({13, 6}, {8, 4}, GL_FRAMEBUFFER_BARRIER_BIT);
+  const std::vector<std::uint32_t> numbers = readR32ui(result);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    ASSERT_EQ(numbers[i], i / 13 * 100 + i % 13) << i;
+  }
+}
+
+TEST_F(ProgramTest, IgnoresAUniformThatTheShaderLacks) {
+  const Texture result(TextureFormat::kRgba8, {1, 1});
+  Program program = library_.fragmentPass("t/difference.frag");
+  program.use().set("absent", 1.0F).texture("first", result);
+  EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+}
+
+using ProgramDeathTest = ProgramTest;
+
+TEST_F(ProgramDeathTest, WantsToBeInUseAndToKnowItsGroups) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  Program number = library_.compute("t/number.comp");
+  Program setters = library_.compute("t/setters.comp");
+  setters.use();
+  EXPECT_DEATH(number.set("anInt", 1), "isCurrent");
+  EXPECT_DEATH(number.dispatch({8, 8}, {8, 4}, 0), "isCurrent");
+  number.use();
+  EXPECT_DEATH(number.dispatch({8, 8}, {8, 8}, 0), "hasGroupSize");
+  EXPECT_DEATH(number.dispatch({0, 8}, {8, 4}, 0), "items");
+}
+
+TEST_F(ProgramDeathTest, RefusesWhatTheTargetsCannotBind) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  Program program = library_.compute("t/number.comp");
+  program.use();
+  const Buffer buffer(16, BufferUsage::kDynamic);
+  const Texture colours(TextureFormat::kRgba8, {1, 1});
+  const Texture numbers(TextureFormat::kR32ui, {1, 1});
+  const Texture vectors(TextureFormat::kRg16f, {1, 1});
+  EXPECT_DEATH(program.storage(4, buffer), "kMaxStorageBuffers");
+  EXPECT_DEATH(program.image(4, numbers, ImageAccess::kWrite), "kMaxImages");
+  EXPECT_DEATH(program.image(0, vectors, ImageAccess::kWrite), "isImageFormat");
+  EXPECT_DEATH(program.image(0, colours, ImageAccess::kReadWrite), "kReadWrite");
+}
+
+}  // namespace
+}  // namespace pleinair::gpu
