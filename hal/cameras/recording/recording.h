@@ -5,13 +5,9 @@
 #include <memory>
 
 #include "hal/camera.h"
+#include "hal/pacing.h"
 
 namespace pleinair::hal {
-
-enum class Pacing {
-  kStepped,   ///< every frame at once: offline rendering
-  kRealTime,  ///< each frame at its capture time by the clock
-};
 
 struct RecordingOptions {
   Pacing pacing = Pacing::kStepped;

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "hal/cameras/synthetic/mip_texture.h"
+
+namespace pleinair::hal::synthetic {
+
+/// Where a thing lies on the desk: its own x axis is turned counter-clockwise by the angle.
+struct Placement {
+  glm::vec2 centreMetres{0};
+  float angleDegrees = 0;
+};
+
+/// A colour laid over what is there.
+struct Paint {
+  glm::vec3 linearRgb{0};
+  float coverage = 0;
+};
+
+/// `top` over `bottom`.
+inline Paint over(Paint top, Paint bottom) {
+  const float rest = bottom.coverage * (1 - top.coverage);
+  const float coverage = top.coverage + rest;
+  if (coverage <= 0) return {};
+  return {(top.linearRgb * top.coverage + bottom.linearRgb * rest) / coverage, coverage};
+}
+
+/// Signed distances in metres, negative inside.
+inline float boxDistance(glm::vec2 p, glm::vec2 half, float cornerRadius = 0) {
+  const glm::vec2 d = glm::abs(p) - half + cornerRadius;
+  return glm::length(glm::max(d, 0.0F)) + std::min(std::max(d.x, d.y), 0.0F) - cornerRadius;
+}
+inline float discDistance(glm::vec2 p, float radius) {
+  return glm::length(p) - radius;
+}
+inline float ringDistance(glm::vec2 p, float radius, float width) {
+  return std::abs(glm::length(p) - radius) - width / 2;
+}
+inline float strokeDistance(glm::vec2 p, glm::vec2 from, glm::vec2 to, float width) {
+  const glm::vec2 along = to - from;
+  const float t = glm::clamp(glm::dot(p - from, along) / glm::dot(along, along), 0.0F, 1.0F);
+  return glm::length(p - from - along * t) - width / 2;
+}
+/// Of a convex triangle with counter-clockwise corners; exact along its sides.
+inline float triangleDistance(glm::vec2 p, glm::vec2 a, glm::vec2 b, glm::vec2 c) {
+  const auto side = [p](glm::vec2 from, glm::vec2 to) {
+    const glm::vec2 along = glm::normalize(to - from);
+    return glm::dot(p - from, glm::vec2(along.y, -along.x));
+  };
+  return std::max({side(a, b), side(b, c), side(c, a)});
+}
+
+/// A picture of the desk from above that things are painted on, one over the other, in world
+/// coordinates: row 0 is at the smallest y.
+class DeskCanvas {
+ public:
+  /// Paints on `level`, whose first texel's outer corner is at `originMetres`. Keeps a reference.
+  DeskCanvas(MipTexture::Level& level, glm::vec2 originMetres, float texelMetres)
+      : level_(level), origin_(originMetres), texel_(texelMetres) {}
+
+  float texelMetres() const { return texel_; }
+
+  /// How much of a texel whose centre is at this distance lies inside a shape.
+  float inside(float distanceMetres) const {
+    return glm::clamp(0.5F - distanceMetres / texel_, 0.0F, 1.0F);
+  }
+  Paint fill(glm::vec3 linearRgb, float distanceMetres, float opacity = 1) const {
+    return {linearRgb, inside(distanceMetres) * opacity};
+  }
+
+  /// Lays `shade(point) → Paint` over every texel within ±`half` (metres) of a thing; `point` is in
+  /// the thing's own coordinates, metres.
+  template <class Shade>
+  void paint(const Placement& at, glm::vec2 half, Shade&& shade) {
+    const float angle = at.angleDegrees * 0.017453293F;
+    const glm::vec2 xAxis(std::cos(angle), std::sin(angle));
+    const glm::vec2 reach(std::abs(xAxis.x) * half.x + std::abs(xAxis.y) * half.y,
+                          std::abs(xAxis.y) * half.x + std::abs(xAxis.x) * half.y);
+    const glm::vec2 low = (at.centreMetres - reach - origin_) / texel_;
+    const glm::vec2 high = (at.centreMetres + reach - origin_) / texel_;
+    const int endX = std::min(level_.width, static_cast<int>(high.x) + 1);
+    const int endY = std::min(level_.height, static_cast<int>(high.y) + 1);
+    for (int y = std::max(0, static_cast<int>(low.y)); y < endY; ++y) {
+      for (int x = std::max(0, static_cast<int>(low.x)); x < endX; ++x) {
+        const glm::vec2 centre(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+        const glm::vec2 world = origin_ + centre * texel_ - at.centreMetres;
+        const glm::vec2 point(glm::dot(world, xAxis), xAxis.x * world.y - xAxis.y * world.x);
+        if (std::abs(point.x) <= half.x && std::abs(point.y) <= half.y) blend(x, y, shade(point));
+      }
+    }
+  }
+
+  /// The soft shadow of a rounded box that stands `heightMetres` high, lit from the far left.
+  void shadow(const Placement& at, glm::vec2 half, float cornerRadius, float heightMetres);
+
+ private:
+  void blend(int x, int y, const Paint& paint);
+
+  MipTexture::Level& level_;
+  glm::vec2 origin_;
+  float texel_;
+};
+
+}  // namespace pleinair::hal::synthetic

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace pleinair::hal::synthetic {
+
+/// Turns light into bytes: sRGB coding, Gaussian noise, rounding. The noise of a pixel is a pure
+/// function of (seed, frame, row, column, channel). Immutable; thread-safe.
+class Sensor {
+ public:
+  /// `noiseSigma` in 8-bit levels of the coded picture.
+  Sensor(std::uint64_t seed, double noiseSigma);
+
+  /// Row `y` of frame `frame`: three bytes for each value. Precondition: rgb8 has that size.
+  void exposeRow(std::uint64_t frame, int y, std::span<const glm::vec3> linearRgb,
+                 std::span<std::uint8_t> rgb8) const;
+
+ private:
+  std::uint64_t seed_;
+  std::vector<float> levels_;  ///< coded level, 0 to 255, of evenly spaced linear light
+  std::vector<float> noise_;   ///< quantiles of the noise, all equally likely
+};
+
+}  // namespace pleinair::hal::synthetic
