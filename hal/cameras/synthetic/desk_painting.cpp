@@ -94,7 +94,7 @@ void lightUp(MipTexture::Level& level, glm::vec2 origin, float texelMetres) {
 }  // namespace
 
 DeskPicture paintDesk(std::uint32_t seed, double texelMetres) {
-  constexpr double kMarginTexels = 4;  // transparent, so that the edge fades out
+  constexpr double kMarginTexels = 64;  // transparent on every level, for what lies beyond
   const glm::dvec2 texels = (kDeskHigh - kDeskLow) / texelMetres + 2 * kMarginTexels;
   DeskPicture desk{MipTexture(static_cast<int>(texels.x) + 1, static_cast<int>(texels.y) + 1),
                    kDeskLow - kMarginTexels * texelMetres, texelMetres};

@@ -17,6 +17,7 @@ namespace {
 
 // The compilers' portable vectors: SSE and NEON alike.
 using Float4 = float __attribute__((vector_size(16)));
+using Int4 = std::int32_t __attribute__((vector_size(16)));
 using Word4 = std::uint16_t __attribute__((vector_size(8)));
 static_assert(sizeof(Texel) == sizeof(Word4));
 
@@ -29,30 +30,9 @@ Float4 load(const Texel& texel) {
   return __builtin_convertvector(words, Float4);
 }
 
-/// Bilinear; `p` in this level's texels, outer corner at 0. Beyond the border the border goes on.
-Float4 sampleLevel(const MipTexture::Level& level, glm::vec2 p) {
-  const float x = std::clamp(p.x - 0.5F, 0.0F, static_cast<float>(level.width) - 1.01F);
-  const float y = std::clamp(p.y - 0.5F, 0.0F, static_cast<float>(level.height) - 1.01F);
-  const auto column = static_cast<int>(x);
-  const auto row = static_cast<int>(y);
-  const float tx = x - static_cast<float>(column);
-  const float ty = y - static_cast<float>(row);
-  const Texel* texel = level.texels.data() + std::ptrdiff_t{row} * level.width + column;
-  const Float4 near = load(texel[0]) * (1 - tx) + load(texel[1]) * tx;
-  const Texel* below = texel + level.width;
-  const Float4 far = load(below[0]) * (1 - tx) + load(below[1]) * tx;
-  return near * (1 - ty) + far * ty;
-}
-
-/// Trilinear; `p` in the finest level's texels, `lod` in levels.
-Float4 sample(const MipTexture& texture, glm::vec2 p, float lod) {
-  const auto& levels = texture.levels();
-  const float clamped = std::clamp(lod, 0.0F, static_cast<float>(levels.size()) - 1.01F);
-  const auto fine = static_cast<std::size_t>(clamped);
-  const float t = clamped - static_cast<float>(fine);
-  const glm::vec2 atFine = p / static_cast<float>(1U << fine);
-  return sampleLevel(levels[fine], atFine) * (1 - t) +
-         sampleLevel(levels[fine + 1], atFine / 2.0F) * t;
+Float4 clamped(Float4 value, Float4 highest) {
+  const Float4 fromZero = value > 0.0F ? value : Float4{};
+  return fromZero < highest ? fromZero : highest;
 }
 
 /// The ray's foot on a plane this far below the eye, with its derivatives by the pixel's x and y.
@@ -64,7 +44,7 @@ struct Foot {
 
 struct RowRays {
   glm::vec3 eye{0};
-  glm::vec3 first{0};    ///< direction through the row's first pixel centre
+  glm::vec3 first{0};    ///< direction through the first pixel's centre
   glm::vec3 acrossX{0};  ///< its change from pixel to pixel
   glm::vec3 acrossY{0};  ///< its change from row to row
 
@@ -76,52 +56,102 @@ struct RowRays {
   }
 };
 
-RowRays raysOfRow(const CameraView& view, int y) {
-  const Ray first = view.through({0.5, y + 0.5});
-  const Ray right = view.through({1.5, y + 0.5});
-  const Ray below = view.through({0.5, y + 1.5});
+RowRays raysFrom(const CameraView& view, int x, int y) {
+  const Ray first = view.through({x + 0.5, y + 0.5});
+  const Ray right = view.through({x + 1.5, y + 0.5});
+  const Ray below = view.through({x + 0.5, y + 1.5});
   return {glm::vec3(first.origin), glm::vec3(first.direction),
           glm::vec3(right.direction - first.direction),
           glm::vec3(below.direction - first.direction)};
 }
 
-/// Premultiplied linear light and coverage, 65535 for 1.
-Float4 deskUnder(const DeskPicture& desk, const Foot& foot) {
-  const auto texelsAMetre = static_cast<float>(1 / desk.texelMetres);
-  const glm::vec2 p = (foot.point - glm::vec2(desk.originMetres)) * texelsAMetre;
-  const MipTexture::Level& base = desk.texture.levels().front();
-  const bool isOutside = !(p.x >= 0 && p.y >= 0 && p.x <= static_cast<float>(base.width) &&
-                           p.y <= static_cast<float>(base.height));
-  if (isOutside) return Float4{};
-  glm::vec2 longer = foot.alongX * texelsAMetre;
-  glm::vec2 shorter = foot.alongY * texelsAMetre;
+/// The desk's texture, read with one footprint: two taps on each of two levels, in a lane each.
+class FootSampler {
+ public:
+  FootSampler(const DeskPicture& desk, const Foot& foot);
+
+  /// Premultiplied linear light and coverage, 65535 for 1; `point` in metres.
+  Float4 at(glm::vec2 point) const {
+    const Float4 x = clamped(point.x * scale_ + offsetX_, highestX_);
+    const Float4 y = clamped(point.y * scale_ + offsetY_, highestY_);
+    const Int4 column = __builtin_convertvector(x, Int4);
+    const Int4 row = __builtin_convertvector(y, Int4);
+    const Float4 tx = x - __builtin_convertvector(column, Float4);
+    const Float4 ty = y - __builtin_convertvector(row, Float4);
+    const Int4 index = row * width_ + column;
+    const Float4 far = weight_ * ty;
+    const Float4 near = weight_ - far;
+    Float4 sum{};
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const Texel* texel = texels_[lane] + index[lane];
+      const Texel* below = texel + width_[lane];
+      const Float4 left = load(texel[0]) * near[lane] + load(below[0]) * far[lane];
+      const Float4 right = load(texel[1]) * near[lane] + load(below[1]) * far[lane];
+      sum += left + (right - left) * tx[lane];
+    }
+    return sum;
+  }
+
+ private:
+  static constexpr int kLanes = 4;
+  const Texel* texels_[kLanes];
+  Int4 width_{};
+  Float4 scale_{}, offsetX_{}, offsetY_{};  // texels a metre, and texels
+  Float4 highestX_{}, highestY_{};          // so that the next texel is there
+  Float4 weight_{};
+};
+
+FootSampler::FootSampler(const DeskPicture& desk, const Foot& foot) {
+  const auto& levels = desk.texture.levels();
+  glm::vec2 longer = foot.alongX;
+  glm::vec2 shorter = foot.alongY;
   if (glm::dot(longer, longer) < glm::dot(shorter, shorter)) std::swap(longer, shorter);
-  const float footprint =
-      std::max(glm::dot(shorter, shorter), glm::dot(longer, longer) / 4);  // squared, texels
-  const float lod = 0.5F * std::log2(footprint) + kLevelBias;
-  return 0.5F * (sample(desk.texture, p - 0.25F * longer, lod) +
-                 sample(desk.texture, p + 0.25F * longer, lod));
+  const float footprint = std::max(glm::length(shorter), glm::length(longer) / 2);  // metres
+  const float lod = std::log2(footprint / static_cast<float>(desk.texelMetres)) + kLevelBias;
+  const float highest = static_cast<float>(levels.size()) - 1.01F;
+  const float level = lod > 0 ? std::min(lod, highest) : 0.0F;
+  const auto fine = static_cast<std::size_t>(level);
+  const float coarseShare = level - static_cast<float>(fine);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const bool isCoarse = lane >= 2;
+    const std::size_t index = fine + (isCoarse ? 1 : 0);
+    const MipTexture::Level& source = levels[index];
+    const glm::vec2 tap = (lane % 2 == 0 ? -0.25F : 0.25F) * longer;
+    const float scale = static_cast<float>(1 / desk.texelMetres) / static_cast<float>(1U << index);
+    texels_[lane] = source.texels.data();
+    width_[lane] = source.width;
+    scale_[lane] = scale;
+    offsetX_[lane] = (tap.x - static_cast<float>(desk.originMetres.x)) * scale - 0.5F;
+    offsetY_[lane] = (tap.y - static_cast<float>(desk.originMetres.y)) * scale - 0.5F;
+    highestX_[lane] = static_cast<float>(source.width) - 1.01F;
+    highestY_[lane] = static_cast<float>(source.height) - 1.01F;
+    weight_[lane] = 0.5F * (isCoarse ? coarseShare : 1 - coarseShare);
+  }
 }
 
 }  // namespace
 
 Renderer::Renderer(std::shared_ptr<const DeskPicture> desk) : desk_(std::move(desk)) {}
 
-void Renderer::renderRow(const CameraView& view, int y, std::span<glm::vec3> linearRgb) const {
-  const RowRays rays = raysOfRow(view, y);
-  for (std::size_t x = 0; x < linearRgb.size(); ++x) {
-    const glm::vec3 direction = rays.first + static_cast<float>(x) * rays.acrossX;
+void Renderer::renderRun(const CameraView& view, int x, int y,
+                         std::span<glm::vec3> linearRgb) const {
+  const RowRays rays = raysFrom(view, x, y);
+  const auto half = static_cast<float>(linearRgb.size()) / 2;
+  const FootSampler sampler(*desk_, rays.footOf(rays.first + half * rays.acrossX, rays.eye.z));
+  for (std::size_t i = 0; i < linearRgb.size(); ++i) {
+    const glm::vec3 direction = rays.first + static_cast<float>(i) * rays.acrossX;
     if (direction.z >= 0) {
-      linearRgb[x] = hazeLinearRgb();
+      linearRgb[i] = hazeLinearRgb();
       continue;
     }
-    const Float4 desk = deskUnder(*desk_, rays.footOf(direction, rays.eye.z)) / 65535.0F;
-    glm::vec3 rgb(desk[0], desk[1], desk[2]);
+    const glm::vec2 slope = glm::vec2(direction) / direction.z;
+    const glm::vec2 eye(rays.eye);
+    const Float4 desk = sampler.at(eye - rays.eye.z * slope) * (1 / 65535.0F);
+    linearRgb[i] = {desk[0], desk[1], desk[2]};
     if (desk[3] < 0.9999F) {
-      const Foot floor = rays.footOf(direction, rays.eye.z - static_cast<float>(kFloorZ));
-      rgb += (1 - desk[3]) * floorLinearRgb(floor.point);
+      const float depthOfFloor = rays.eye.z - static_cast<float>(kFloorZ);
+      linearRgb[i] += (1 - desk[3]) * floorLinearRgb(eye - depthOfFloor * slope);
     }
-    linearRgb[x] = rgb;
   }
 }
 

@@ -45,15 +45,16 @@ Sensor::Sensor(std::uint64_t seed, double noiseSigma)
   }
 }
 
-void Sensor::exposeRow(std::uint64_t frame, int y, std::span<const glm::vec3> linearRgb,
+void Sensor::exposeRun(std::uint64_t frame, int x, int y, std::span<const glm::vec3> linearRgb,
                        std::span<std::uint8_t> rgb8) const {
   assert(rgb8.size() == 3 * linearRgb.size());
   const std::uint64_t row = mixBits(mixBits(seed_ ^ frame) + static_cast<std::uint64_t>(y));
+  const std::uint64_t first = row + static_cast<std::uint64_t>(x);
   std::uint8_t* out = rgb8.data();
-  for (std::size_t x = 0; x < linearRgb.size(); ++x) {
-    std::uint64_t bits = mixBits(row + x);
+  for (std::size_t i = 0; i < linearRgb.size(); ++i) {
+    std::uint64_t bits = mixBits(first + i);
     for (int channel = 0; channel < 3; ++channel, bits >>= 20) {
-      const float light = std::clamp(linearRgb[x][channel], 0.0F, 1.0F);
+      const float light = std::clamp(linearRgb[i][channel], 0.0F, 1.0F);
       const auto step = static_cast<std::size_t>(light * kLightSteps + 0.5F);
       const float level = levels_[step] + noise_[bits & kNoiseMask];
       *out++ = static_cast<std::uint8_t>(std::clamp(level + 0.5F, 0.0F, 255.0F));

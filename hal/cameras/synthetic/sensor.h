@@ -15,8 +15,8 @@ class Sensor {
   /// `noiseSigma` in 8-bit levels of the coded picture.
   Sensor(std::uint64_t seed, double noiseSigma);
 
-  /// Row `y` of frame `frame`: three bytes for each value. Precondition: rgb8 has that size.
-  void exposeRow(std::uint64_t frame, int y, std::span<const glm::vec3> linearRgb,
+  /// Pixels of row `y` from column `x` on, three bytes each. Precondition: the sizes fit.
+  void exposeRun(std::uint64_t frame, int x, int y, std::span<const glm::vec3> linearRgb,
                  std::span<std::uint8_t> rgb8) const;
 
  private:

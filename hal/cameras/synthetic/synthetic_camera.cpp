@@ -1,9 +1,11 @@
 #include "hal/cameras/synthetic/synthetic_camera.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -13,21 +15,30 @@ namespace {
 using synthetic::CameraView;
 using synthetic::Renderer;
 
+constexpr int kStripPixels = 64;
+
 FrameFormat formatOf(FrameSize size) {
   // The pool wants a size within the limits; start() refuses the others.
   return {.pixelFormat = PixelFormat::kRgb8, .size = isAcceptedSize(size) ? size : FrameSize{1, 1}};
 }
 
+/// Half a pixel's footprint or so, as far as memory allows.
+double texelMetresFor(FrameSize size) {
+  constexpr double kViewingMetres = 0.8;
+  constexpr double kFinest = 0.0006;
+  constexpr double kCoarsest = 0.004;
+  return std::clamp(0.45 * kViewingMetres / syntheticIntrinsics(size).fx, kFinest, kCoarsest);
+}
+
 /// The desk of a seed, painted once for all cameras that look at it at a time.
-std::shared_ptr<const Renderer> deskOf(std::uint32_t seed) {
-  constexpr double kTexelMetres = 0.0006;  // about half a pixel's footprint at 640 × 480
+std::shared_ptr<const Renderer> deskOf(std::uint32_t seed, double texelMetres) {
   static std::mutex mutex;
-  static std::map<std::uint32_t, std::weak_ptr<const Renderer>> desks;
+  static std::map<std::pair<std::uint32_t, double>, std::weak_ptr<const Renderer>> desks;
   const std::scoped_lock lock(mutex);
-  std::weak_ptr<const Renderer>& known = desks[seed];
+  std::weak_ptr<const Renderer>& known = desks[{seed, texelMetres}];
   if (auto renderer = known.lock()) return renderer;
   auto renderer = std::make_shared<const Renderer>(
-      std::make_shared<const synthetic::DeskPicture>(synthetic::paintDesk(seed, kTexelMetres)));
+      std::make_shared<const synthetic::DeskPicture>(synthetic::paintDesk(seed, texelMetres)));
   known = renderer;
   return renderer;
 }
@@ -73,8 +84,7 @@ Result<StreamFormat> SyntheticCamera::start(const StreamRequest&) {
                                   "the noise is not a number from 0 on",
                                   "choose a standard deviation in 8-bit levels, such as 2"));
   }
-  if (!renderer_) renderer_ = deskOf(options_.seed);
-  linearRow_.resize(static_cast<std::size_t>(size.width));
+  if (!renderer_) renderer_ = deskOf(options_.seed, texelMetresFor(size));
   startTime_ = clock_.now();
   nextSequence_ = 0;
   return StreamFormat{.frame = formatOf(size),
@@ -105,9 +115,17 @@ std::uint64_t SyntheticCamera::dueSequence() const {
 CapturedFrame SyntheticCamera::capture(std::uint64_t sequence) {
   const std::shared_ptr<Image> image = pool_.take();
   const CameraView view = viewOf(sequence);
-  for (int y = 0; y < options_.size.height; ++y) {
-    renderer_->renderRow(view, y, linearRow_);
-    sensor_.exposeRow(sequence, y, linearRow_, image->row(0, y));
+  const FrameSize size = options_.size;
+  std::array<glm::vec3, kStripPixels> light{};
+  // In narrow strips: the part of the desk that a strip's row shows is still cached for the next.
+  for (int x = 0; x < size.width; x += kStripPixels) {
+    const auto width = static_cast<std::size_t>(std::min(kStripPixels, size.width - x));
+    const std::span<glm::vec3> linearRgb(light.data(), width);
+    for (int y = 0; y < size.height; ++y) {
+      renderer_->renderRun(view, x, y, linearRgb);
+      const auto rgb8 = image->row(0, y).subspan(static_cast<std::size_t>(x) * 3, width * 3);
+      sensor_.exposeRun(sequence, x, y, linearRgb, rgb8);
+    }
   }
   return {.image = image->view(),
           .dmaBufs = {},

@@ -63,7 +63,6 @@ class SyntheticCamera final : public Camera {
   synthetic::Sensor sensor_;
   synthetic::FramePool pool_;
   std::shared_ptr<const synthetic::Renderer> renderer_;
-  std::vector<glm::vec3> linearRow_;
 
   TimePoint startTime_;
   std::uint64_t nextSequence_ = 0;

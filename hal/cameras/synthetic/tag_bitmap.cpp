@@ -6,7 +6,6 @@
 #include <memory>
 
 #include <apriltag/apriltag.h>
-#include <apriltag/common/image_u8.h>
 #include <apriltag/tag36h11.h>
 
 namespace pleinair::hal::synthetic {
@@ -15,24 +14,23 @@ namespace {
 struct FamilyDeleter {
   void operator()(apriltag_family_t* family) const { tag36h11_destroy(family); }
 };
-struct ImageDeleter {
-  void operator()(image_u8_t* image) const { image_u8_destroy(image); }
-};
 
 }  // namespace
 
 TagBitmap tag36h11Bitmap(int id) {
   const std::unique_ptr<apriltag_family_t, FamilyDeleter> family(tag36h11_create());
   assert(id >= 0 && static_cast<std::uint32_t>(id) < family->ncodes);
-  const std::unique_ptr<image_u8_t, ImageDeleter> image(
-      apriltag_to_image(family.get(), static_cast<std::uint32_t>(id)));
-  assert(image->width == kTagCells && image->height == kTagCells);
+  assert(family->total_width == kTagCells && family->width_at_border == kTagCellsPerEdge);
   TagBitmap bitmap{};
-  for (std::size_t row = 0; row < kTagCells; ++row) {
-    for (std::size_t column = 0; column < kTagCells; ++column) {
-      bitmap[row][column] =
-          image->buf[row * static_cast<std::size_t>(image->stride) + column] > 127;
-    }
+  for (std::size_t i = 0; i < kTagCells; ++i) {
+    bitmap[0][i] = bitmap[kTagCells - 1][i] = bitmap[i][0] = bitmap[i][kTagCells - 1] = true;
+  }
+  // As apriltag_to_image() does, whose picture cannot be freed without a second library.
+  constexpr std::size_t kBorderStart = (kTagCells - kTagCellsPerEdge) / 2;
+  for (std::uint32_t bit = 0; bit < family->nbits; ++bit) {
+    const std::size_t row = family->bit_y[bit] + kBorderStart;
+    const std::size_t column = family->bit_x[bit] + kBorderStart;
+    bitmap[row][column] = (family->codes[id] >> (family->nbits - bit - 1) & 1) != 0;
   }
   return bitmap;
 }
