@@ -1,0 +1,11 @@
+#pragma once
+
+#include "hal/libav/file_input.h"
+
+namespace pleinair::hal::recording {
+
+/// Whether a Matroska file ends before its Segment says that it does (RFC 8794 §4, RFC 9559 §5.1).
+/// False where the size is unknown, as in a live stream.
+bool segmentBreaksOff(const libav::FileInput& file);
+
+}  // namespace pleinair::hal::recording

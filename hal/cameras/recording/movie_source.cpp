@@ -1,0 +1,328 @@
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "hal/cameras/recording/frame_source.h"
+#include "hal/cameras/recording/matroska_segment.h"
+#include "hal/cameras/recording/mp4_boxes.h"
+#include "hal/libav/errors.h"
+#include "hal/libav/file_input.h"
+#include "hal/libav/picture_decoder.h"
+
+namespace pleinair::hal::recording {
+namespace {
+
+constexpr std::string_view kRemedy = "give a movie with a picture track, such as MP4, MKV or Y4M";
+
+/// libav's demuxers that read other files or the network. They could open none (see demuxer());
+/// they are refused by name so that the error says why.
+constexpr std::array<std::string_view, 8> kPlaylists = {"hls",  "concat", "dash",   "sdp",
+                                                        "rtsp", "imf",    "image2", "tty"};
+
+Error broken(const std::string& subject, std::string problem) {
+  return Error{.kind = ErrorKind::kInvalidInput,
+               .subject = subject,
+               .problem = std::move(problem),
+               .remedy = std::string(kRemedy)};
+}
+
+Error brokenOff(const std::string& subject, std::string problem) {
+  return Error{.kind = ErrorKind::kInvalidInput,
+               .subject = subject,
+               .problem = std::move(problem),
+               .remedy = "record or copy it again if it ought to be whole"};
+}
+
+/// libav's own words where it had any.
+Error broken(const std::string& subject, const std::string& problem, int code,
+             const libav::LogCapture& log) {
+  Error error =
+      libav::libavError(subject, problem, code, ErrorKind::kInvalidInput, std::string(kRemedy));
+  if (!log.firstError().empty() && error.kind == ErrorKind::kInvalidInput) {
+    error.problem = problem + ": " + log.firstError();
+  }
+  return error;
+}
+
+bool isOneOf(const char* formatNames, std::string_view name) {
+  return av_match_name(std::string(name).c_str(), formatNames) != 0;
+}
+
+int refuseToOpen(AVFormatContext*, AVIOContext**, const char*, int, AVDictionary**) {
+  return AVERROR(EPERM);
+}
+
+/// A file that keeps libav searching for streams is given up.
+class OpeningDeadline {
+ public:
+  static int hasPassed(void* opaque) {
+    return std::chrono::steady_clock::now() > static_cast<OpeningDeadline*>(opaque)->until_ ? 1 : 0;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point until_ =
+      std::chrono::steady_clock::now() + std::chrono::seconds(10);
+};
+
+struct DemuxedFile {
+  libav::DemuxerIo io;
+  libav::InputContext context;
+  AVStream* stream = nullptr;  ///< the context's
+  std::string complaint;  ///< libav's first while opening, of a file that it opened all the same
+};
+
+Result<void> openContainer(DemuxedFile& file, const std::string& subject) {
+  const libav::LogCapture log;
+  const AVInputFormat* format = nullptr;
+  int status = av_probe_input_buffer2(file.io.context(), &format, "", nullptr, 0, 0);
+  if (status < 0) {
+    return tl::unexpected(broken(subject, "is not a movie of a kind that is read"));
+  }
+  const bool isPlaylist = std::ranges::any_of(
+      kPlaylists, [&](std::string_view name) { return isOneOf(format->name, name); });
+  if (isPlaylist) {
+    return tl::unexpected(broken(subject, "is a playlist or a text, not a movie"));
+  }
+  AVFormatContext* context = avformat_alloc_context();
+  if (context == nullptr) throw std::bad_alloc();
+  context->pb = file.io.context();
+  context->io_open = &refuseToOpen;
+  context->protocol_whitelist = av_strdup("none");
+  context->max_streams = 64;
+  status = avformat_open_input(&context, "", format, nullptr);  // frees it where it fails
+  if (status < 0) {
+    return tl::unexpected(broken(subject, "is a broken movie", status, log));
+  }
+  file.context.reset(context);
+  file.complaint = log.firstError();
+  return {};
+}
+
+/// Each stream's header must be within the limits before any of it is decoded.
+Result<void> checkSizes(const DemuxedFile& file, const std::string& subject) {
+  for (unsigned i = 0; i < file.context->nb_streams; ++i) {
+    const AVCodecParameters& parameters = *file.context->streams[i]->codecpar;
+    const FrameSize size{parameters.width, parameters.height};
+    if (parameters.codec_type != AVMEDIA_TYPE_VIDEO || (size.width == 0 && size.height == 0)) {
+      continue;
+    }
+    if (size.width < 1 || size.height < 1) {
+      return tl::unexpected(broken(subject, "is a broken movie: its size is zero"));
+    }
+    if (!isAcceptedSize(size)) return tl::unexpected(libav::tooLarge(subject, size));
+  }
+  return {};
+}
+
+Result<void> findStreams(DemuxedFile& file, const std::string& subject) {
+  const libav::LogCapture log;
+  AVFormatContext& context = *file.context;
+  OpeningDeadline deadline;
+  context.interrupt_callback = {&OpeningDeadline::hasPassed, &deadline};
+  std::vector<libav::Dictionary> owners(context.nb_streams);
+  std::vector<AVDictionary*> options(context.nb_streams);
+  for (AVDictionary*& option : options) av_dict_set_int(&option, "max_pixels", kMaxPixels, 0);
+  const int status =
+      avformat_find_stream_info(&context, options.empty() ? nullptr : options.data());
+  for (std::size_t i = 0; i < owners.size(); ++i) owners[i].reset(options[i]);
+  context.interrupt_callback = {nullptr, nullptr};
+  if (status < 0) return tl::unexpected(broken(subject, "is a broken movie", status, log));
+  return checkSizes(file, subject);
+}
+
+Result<libav::CodecContext> openDecoder(const AVStream& stream, const std::string& subject) {
+  const AVCodec* codec = avcodec_find_decoder(stream.codecpar->codec_id);
+  if (codec == nullptr) {
+    return tl::unexpected(Error{
+        .kind = ErrorKind::kUnsupported,
+        .subject = subject,
+        .problem = std::string("no decoder for ") + avcodec_get_name(stream.codecpar->codec_id),
+        .remedy = "convert it to H.264"});
+  }
+  auto decoder = libav::owned<libav::CodecContext>(avcodec_alloc_context3(codec));
+  const libav::LogCapture log;
+  int status = avcodec_parameters_to_context(decoder.get(), stream.codecpar);
+  decoder->pkt_timebase = stream.time_base;
+  decoder->max_pixels = kMaxPixels;
+  decoder->thread_count = 2;
+  // Broken frames come out too, marked, so that they are counted.
+  decoder->flags |= AV_CODEC_FLAG_OUTPUT_CORRUPT;
+  if (status >= 0) status = avcodec_open2(decoder.get(), codec, nullptr);
+  if (status < 0) return tl::unexpected(broken(subject, "is a broken movie", status, log));
+  return decoder;
+}
+
+class MovieSource final : public FrameSource {
+ public:
+  MovieSource(std::string subject, DemuxedFile file, libav::CodecContext decoder)
+      : subject_(std::move(subject)), file_(std::move(file)), decoder_(std::move(decoder)) {
+    if (isMp4()) {
+      boxes_ = scanMp4(file_.io.file(), static_cast<std::uint32_t>(file_.stream->id));
+    }
+  }
+
+  std::optional<Duration> framePeriod() const override {
+    const AVRational rate = file_.stream->avg_frame_rate;
+    if (rate.num <= 0 || rate.den <= 0) return std::nullopt;
+    const Duration period(av_rescale_q(1, av_inv_q(rate), {1, 1'000'000'000}));
+    return period > Duration::zero() ? std::optional(period) : std::nullopt;
+  }
+
+  std::optional<std::uint64_t> frameCount() const override {
+    std::int64_t count = file_.stream->nb_frames;
+    // One frame lasts one unit of its time base, and libav divides the file's size by a frame's.
+    if (isY4m()) count = file_.stream->duration;
+    const std::uint64_t total =
+        (count > 0 ? static_cast<std::uint64_t>(count) : 0) + boxes_.fragmentSamples;
+    return total > 0 ? std::optional(total) : std::nullopt;
+  }
+
+  SourceItem next() override;
+
+ private:
+  bool isMp4() const { return isOneOf(file_.context->iformat->name, "mp4"); }
+  bool isY4m() const { return isOneOf(file_.context->iformat->name, "yuv4mpegpipe"); }
+  bool isMatroska() const { return isOneOf(file_.context->iformat->name, "matroska"); }
+  void leaveOut() {
+    ++dropped_;
+    waitingForKey_ = true;
+  }
+  bool isSound(const AVFrame& frame) const;
+  SourceFrame deliver(libav::Frame frame);
+  void feed();
+  void reachEnd(int status, const libav::LogCapture& log);
+  std::optional<Error> whyTruncated(const libav::LogCapture& log) const;
+
+  std::string subject_;
+  DemuxedFile file_;
+  libav::CodecContext decoder_;
+  libav::Packet packet_ = libav::makePacket();
+  Mp4Boxes boxes_;
+  bool waitingForKey_ = false;
+  bool atEnd_ = false;
+  std::uint64_t dropped_ = 0;  ///< since the last frame delivered
+  std::int64_t packetsRead_ = 0;
+  std::int64_t lastPacketEnd_ = 0;
+  std::optional<Error> truncated_;
+};
+
+bool MovieSource::isSound(const AVFrame& frame) const {
+  const bool broken = (frame.flags & AV_FRAME_FLAG_CORRUPT) != 0 || frame.decode_error_flags != 0;
+  // What follows a broken frame is predicted from it, up to the next key frame.
+  return !broken && (!waitingForKey_ || frame.key_frame != 0);
+}
+
+SourceFrame MovieSource::deliver(libav::Frame frame) {
+  waitingForKey_ = false;
+  SourceFrame item{
+      .frame = nullptr, .time = std::nullopt, .droppedBefore = std::exchange(dropped_, 0)};
+  if (frame->best_effort_timestamp != AV_NOPTS_VALUE) {
+    const std::int64_t time =
+        av_rescale_q(frame->best_effort_timestamp, file_.stream->time_base, {1, 1'000'000'000});
+    item.time = Duration(time);
+  }
+  item.frame = std::shared_ptr<const AVFrame>(std::move(frame));
+  return item;
+}
+
+SourceItem MovieSource::next() {
+  for (;;) {
+    libav::Frame frame = libav::makeFrame();
+    const int status = avcodec_receive_frame(decoder_.get(), frame.get());
+    if (status == AVERROR_EOF) break;
+    if (status == AVERROR(EAGAIN)) {
+      feed();
+    } else if (status < 0 || !isSound(*frame)) {
+      leaveOut();
+    } else if (const FrameSize size{frame->width, frame->height}; !isAcceptedSize(size)) {
+      return libav::tooLarge(subject_, size);
+    } else {
+      return deliver(std::move(frame));
+    }
+  }
+  if (!truncated_ && dropped_ > 0) {
+    truncated_ = brokenOff(subject_, "its last " + std::to_string(dropped_) + " frames are broken");
+  }
+  return SourceEnd{.truncated = truncated_};
+}
+
+/// One packet from the file to the decoder, or the end.
+void MovieSource::feed() {
+  if (atEnd_) {
+    // A decoder that asks for more after its end would loop for ever.
+    avcodec_flush_buffers(decoder_.get());
+    avcodec_send_packet(decoder_.get(), nullptr);
+    return;
+  }
+  const libav::LogCapture log;
+  const int status = av_read_frame(file_.context.get(), packet_.get());
+  if (status < 0) return reachEnd(status, log);
+  if (packet_->stream_index == file_.stream->index) {
+    ++packetsRead_;
+    lastPacketEnd_ = packet_->pos + packet_->size;
+    const bool cut = (packet_->flags & AV_PKT_FLAG_CORRUPT) != 0;
+    if (cut || avcodec_send_packet(decoder_.get(), packet_.get()) < 0) leaveOut();
+  }
+  av_packet_unref(packet_.get());
+}
+
+void MovieSource::reachEnd(int status, const libav::LogCapture& log) {
+  atEnd_ = true;
+  truncated_ = status == AVERROR_EOF ? whyTruncated(log)
+                                     : std::optional(broken(subject_, "breaks off", status, log));
+  avcodec_send_packet(decoder_.get(), nullptr);
+}
+
+std::optional<Error> MovieSource::whyTruncated(const libav::LogCapture& log) const {
+  bool cut = false;
+  if (isMp4()) {
+    // Edit lists leave samples out on purpose; where libav complained of the index they are lost.
+    const bool indexIsShort = packetsRead_ < avformat_index_get_entries_count(file_.stream);
+    const bool samplesAreLost = !file_.complaint.empty() && packetsRead_ < file_.stream->nb_frames;
+    cut = indexIsShort || samplesAreLost || (boxes_.fragmentSamples > 0 && boxes_.brokenOff);
+  } else if (isY4m()) {
+    // libav ends without a word where the last picture is too short.
+    cut = lastPacketEnd_ != file_.io.file().sizeBytes();
+  } else if (isMatroska() && segmentBreaksOff(file_.io.file())) {
+    cut = true;
+  } else if (!log.firstError().empty()) {
+    return brokenOff(subject_, "breaks off before its end: " + log.firstError());
+  }
+  if (!cut) return std::nullopt;
+  return brokenOff(subject_, "breaks off before its end");
+}
+
+}  // namespace
+
+Result<std::unique_ptr<FrameSource>> openMovie(const std::filesystem::path& path) {
+  libav::routeLog();
+  const std::string subject = path.string();
+  Result<libav::FileInput> input = libav::FileInput::open(path);
+  if (!input) return tl::unexpected(input.error());
+  DemuxedFile file{.io = libav::DemuxerIo(*std::move(input)), .context = nullptr, .complaint = {}};
+  if (Result<void> opened = openContainer(file, subject); !opened) {
+    return tl::unexpected(opened.error());
+  }
+  if (Result<void> checked = checkSizes(file, subject); !checked) {
+    return tl::unexpected(checked.error());
+  }
+  if (Result<void> found = findStreams(file, subject); !found) {
+    return tl::unexpected(found.error());
+  }
+  const int index = av_find_best_stream(file.context.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
+  if (index < 0 || (file.context->streams[index]->disposition & AV_DISPOSITION_ATTACHED_PIC) != 0) {
+    return tl::unexpected(broken(subject, "holds no video"));
+  }
+  for (unsigned i = 0; i < file.context->nb_streams; ++i) {
+    if (static_cast<int>(i) != index) file.context->streams[i]->discard = AVDISCARD_ALL;
+  }
+  file.stream = file.context->streams[index];
+  Result<libav::CodecContext> decoder = openDecoder(*file.stream, subject);
+  if (!decoder) return tl::unexpected(decoder.error());
+  return std::make_unique<MovieSource>(subject, std::move(file), *std::move(decoder));
+}
+
+}  // namespace pleinair::hal::recording

@@ -1,0 +1,162 @@
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "hal/cameras/recording/frame_source.h"
+#include "hal/cameras/recording/recording.h"
+#include "hal/cameras/recording/timeline.h"
+#include "hal/libav/frame_pixels.h"
+
+namespace pleinair::hal {
+namespace {
+
+using recording::FrameSource;
+using recording::SourceEnd;
+using recording::SourceFrame;
+using recording::SourceItem;
+using recording::Timeline;
+
+class RecordingCamera final : public Camera {
+ public:
+  RecordingCamera(std::filesystem::path path, Clock& clock, RecordingOptions options)
+      : path_(std::move(path)), clock_(clock), options_(options), timeline_(Duration{}) {}
+
+  CameraIdentity identity() const override {
+    return {
+        .backend = "recording", .id = path_.string(), .description = "recording " + path_.string()};
+  }
+
+  Result<StreamFormat> start(const StreamRequest& request) override;
+  NextFrame next(TimePoint deadline) override;
+  void stop() override;
+
+ private:
+  Result<void> open();
+  /// Fills pending_ or, where there is no further frame, ending_.
+  void fetch();
+  void endWith(NextFrame ending) { ending_ = std::move(ending); }
+  void handleEnd(const SourceEnd& end);
+  void accept(SourceFrame item);
+  Error named(Error error) const;
+
+  std::filesystem::path path_;
+  Clock& clock_;
+  RecordingOptions options_;
+
+  std::unique_ptr<FrameSource> source_;
+  StreamFormat format_;
+  Timeline timeline_;
+  TimePoint startTime_;
+  std::optional<CapturedFrame> pending_;
+  std::optional<NextFrame> ending_;
+  std::uint64_t nextSequence_ = 0;
+  bool anyFrameInThisPass_ = false;
+};
+
+Error RecordingCamera::named(Error error) const {
+  if (error.subject.empty()) error.subject = path_.string();
+  return error;
+}
+
+Result<void> RecordingCamera::open() {
+  auto source = recording::openSource(path_, options_.picturePeriod);
+  if (!source) return tl::unexpected(source.error());
+  source_ = *std::move(source);
+  anyFrameInThisPass_ = false;
+  return {};
+}
+
+Result<StreamFormat> RecordingCamera::start(const StreamRequest&) {
+  stop();
+  if (Result<void> opened = open(); !opened) return tl::unexpected(opened.error());
+  timeline_ = Timeline(source_->framePeriod().value_or(options_.picturePeriod));
+  startTime_ = clock_.now();
+  nextSequence_ = 0;
+  fetch();
+  if (!pending_) {
+    Error error{.kind = ErrorKind::kInvalidInput,
+                .problem = "holds no sound picture",
+                .remedy = "give another recording"};
+    if (const auto* end = std::get_if<EndOfStream>(&*ending_); end && end->truncated) {
+      error = *end->truncated;
+    } else if (const auto* failure = std::get_if<Error>(&*ending_)) {
+      error = *failure;
+    }
+    stop();
+    return tl::unexpected(named(std::move(error)));
+  }
+  format_ = {.frame = pending_->image.format,
+             .framePeriod = source_->framePeriod(),
+             .frameCount = options_.loop ? std::nullopt : source_->frameCount()};
+  return format_;
+}
+
+void RecordingCamera::stop() {
+  pending_.reset();
+  ending_.reset();
+  source_.reset();
+}
+
+void RecordingCamera::accept(SourceFrame item) {
+  Result<libav::LentPicture> picture = libav::lendPicture(std::move(item.frame));
+  if (!picture) return endWith(named(picture.error()));
+  nextSequence_ += item.droppedBefore;
+  pending_ =
+      CapturedFrame{.image = picture->view,
+                    .dmaBufs = {},
+                    .sequence = nextSequence_++,
+                    .droppedBefore = item.droppedBefore,
+                    .captureTime = startTime_ + timeline_.place(item.time, item.droppedBefore),
+                    .timestampSource = TimestampSource::kRecording,
+                    .lease = std::move(picture->lease)};
+  anyFrameInThisPass_ = true;
+}
+
+void RecordingCamera::handleEnd(const SourceEnd& end) {
+  if (!options_.loop || !anyFrameInThisPass_) {
+    std::optional<Error> truncated = end.truncated;
+    if (truncated) truncated = named(*std::move(truncated));
+    return endWith(EndOfStream{.truncated = std::move(truncated)});
+  }
+  timeline_.startOver();
+  if (Result<void> opened = open(); !opened) endWith(named(opened.error()));
+}
+
+void RecordingCamera::fetch() {
+  while (!pending_ && !ending_) {
+    SourceItem item = source_->next();
+    if (auto* frame = std::get_if<SourceFrame>(&item)) {
+      accept(std::move(*frame));
+    } else if (const auto* end = std::get_if<SourceEnd>(&item)) {
+      handleEnd(*end);
+    } else {
+      endWith(named(std::get<Error>(std::move(item))));
+    }
+  }
+}
+
+NextFrame RecordingCamera::next(TimePoint deadline) {
+  if (!pending_) fetch();
+  if (!pending_) return *ending_;
+  if (pending_->image.format != format_.frame) {
+    format_.frame = pending_->image.format;
+    return FormatChanged{.format = format_};
+  }
+  if (options_.pacing == Pacing::kRealTime && pending_->captureTime > clock_.now()) {
+    clock_.sleepUntil(std::min(pending_->captureTime, deadline));
+    if (pending_->captureTime > deadline) return CameraTimeout{};
+  }
+  CapturedFrame frame = *std::move(pending_);
+  pending_.reset();
+  return frame;
+}
+
+}  // namespace
+
+std::unique_ptr<Camera> openRecording(std::filesystem::path path, Clock& clock,
+                                      RecordingOptions options) {
+  return std::make_unique<RecordingCamera>(std::move(path), clock, options);
+}
+
+}  // namespace pleinair::hal

@@ -1,0 +1,48 @@
+#include "hal/cameras/recording/timeline.h"
+
+#include <algorithm>
+
+namespace pleinair::hal::recording {
+namespace {
+
+constexpr Duration kLargestGlitch = std::chrono::seconds(1);
+constexpr Duration kLargestGap = std::chrono::hours(24);
+/// Timestamps beyond are nonsense, and would overflow when subtracted.
+constexpr Duration kLargestTime = std::chrono::hours(24 * 365 * 100);
+
+}  // namespace
+
+Duration Timeline::place(std::optional<Duration> time, std::uint64_t droppedBefore) {
+  if (time && std::chrono::abs(*time) > kLargestTime) time.reset();
+  if (!last_) {
+    if (!time) ++mended_;
+    if (!origin_) origin_ = time;
+    last_ = Duration::zero();
+    return *last_;
+  }
+  constexpr std::uint64_t kMostPeriods = 1'000'000;
+  const auto periods = static_cast<std::int64_t>(std::min(droppedBefore, kMostPeriods)) + 1;
+  const Duration expected = *last_ + periods * period_;
+  if (time && !origin_) origin_ = *time - expected;  // the first sound one, or after startOver()
+  const Duration ours = time ? *time - *origin_ : expected;
+  if (!time) {
+    ++mended_;
+    last_ = expected;
+  } else if (ours < *last_ - kLargestGlitch || ours > *last_ + kLargestGap) {
+    ++mended_;
+    origin_ = *time - expected;
+    last_ = expected;
+  } else if (ours <= *last_) {
+    ++mended_;
+    last_ = *last_ + std::max(period_ / 2, Duration(1));
+  } else {
+    last_ = ours;
+  }
+  return *last_;
+}
+
+void Timeline::startOver() {
+  origin_.reset();
+}
+
+}  // namespace pleinair::hal::recording

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "hal/error.h"
+#include "hal/libav/file_input.h"
+#include "hal/libav/handles.h"
+#include "hal/pixel_format.h"
+
+namespace pleinair::hal::libav {
+
+/// "WxH px is too large", as every reader refuses a header beyond the limits.
+Error tooLarge(std::string subject, FrameSize size);
+
+/// Decodes a whole picture; a truncated or corrupt one is refused, never half shown. Its size is
+/// checked in the header first. EXIF orientation is ignored. Errors: as FileInput::open, and
+/// kInvalidInput (not a picture, broken), kUnsupported (size, coding).
+Result<std::shared_ptr<const AVFrame>> decodePicture(const std::filesystem::path& path);
+
+}  // namespace pleinair::hal::libav

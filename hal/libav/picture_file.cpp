@@ -1,0 +1,45 @@
+#include "hal/libav/picture_file.h"
+
+#include <utility>
+
+#include "hal/libav/frame_pixels.h"
+#include "hal/libav/picture_decoder.h"
+#include "hal/libav/png_encoder.h"
+#include "hal/pending_file.h"
+
+namespace pleinair::hal {
+namespace {
+
+Result<Image> read(const std::filesystem::path& path, libav::Delivery delivery) {
+  Result<std::shared_ptr<const AVFrame>> frame = libav::decodePicture(path);
+  if (!frame) return tl::unexpected(frame.error());
+  Result<libav::LentPicture> picture = libav::lendPicture(*std::move(frame), delivery);
+  if (!picture) {
+    picture.error().subject = path.string();
+    return tl::unexpected(picture.error());
+  }
+  return Image(picture->view);
+}
+
+}  // namespace
+
+Result<Image> readPicture(const std::filesystem::path& path) {
+  return read(path, libav::Delivery::kAsStored);
+}
+
+Result<Image> readPictureRgb(const std::filesystem::path& path) {
+  return read(path, libav::Delivery::kRgb);
+}
+
+Result<void> writePng(const std::filesystem::path& path, const ImageView& picture) {
+  Result<libav::PngEncoder> encoder = libav::PngEncoder::open(picture.format);
+  if (!encoder) return tl::unexpected(encoder.error());
+  const Result<std::vector<std::uint8_t>> bytes = encoder->encode(picture);
+  if (!bytes) return tl::unexpected(bytes.error());
+  Result<PendingFile> file = PendingFile::create(path);
+  if (!file) return tl::unexpected(file.error());
+  if (Result<void> written = file->write(*bytes); !written) return written;
+  return file->publish();
+}
+
+}  // namespace pleinair::hal

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+
+#include "hal/error.h"
+#include "hal/image.h"
+
+namespace pleinair::hal {
+
+/// A PNG, JPEG, BMP, TIFF, WebP or PNM file, packed, in the format it is stored in where that is
+/// one of ours (grey, RGB8, I420), else RGB8; alpha is laid over white. EXIF orientation is
+/// ignored. Errors: kNotFound, kPermissionDenied, kInvalidInput (not a picture; truncated or
+/// corrupt), kUnsupported (larger than isAcceptedSize, refused before decoding), kIo.
+Result<Image> readPicture(const std::filesystem::path& path);
+
+/// The same as RGB8 whatever it is stored in.
+Result<Image> readPictureRgb(const std::filesystem::path& path);
+
+/// Writes RGB8, RGBA8 or grey as PNG, under a temporary name first. Errors: kNotFound (no such
+/// folder), kPermissionDenied, kNoSpace, kUnsupported (format), kIo.
+Result<void> writePng(const std::filesystem::path& path, const ImageView& picture);
+
+}  // namespace pleinair::hal

@@ -1,0 +1,178 @@
+#include "hal/outputs/frames/frames_output.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "hal/libav/png_encoder.h"
+#include "hal/numbered_path.h"
+
+namespace pleinair::hal {
+namespace {
+
+bool endsInPng(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return ending == ".png";
+}
+
+/// Where pictures go.
+class PictureSink {
+ public:
+  virtual ~PictureSink() = default;
+  virtual Result<void> write(std::span<const std::uint8_t> png) = 0;
+  virtual Result<void> finish() = 0;
+};
+
+class NumberedPictures final : public PictureSink {
+ public:
+  NumberedPictures(NumberedPath names, FileSystem& files)
+      : names_(std::move(names)), files_(files) {}
+
+  Result<void> write(std::span<const std::uint8_t> png) override {
+    Result<PendingFile> file = PendingFile::create(names_.at(next_), files_);
+    if (!file) return tl::unexpected(file.error());
+    if (Result<void> written = file->write(png); !written) return written;
+    ++next_;
+    return file->publish();
+  }
+  Result<void> finish() override { return {}; }
+
+ private:
+  NumberedPath names_;
+  FileSystem& files_;
+  std::uint64_t next_ = 0;
+};
+
+class SinglePicture final : public PictureSink {
+ public:
+  SinglePicture(std::string subject, PendingFile file)
+      : subject_(std::move(subject)), file_(std::move(file)) {}
+
+  Result<void> write(std::span<const std::uint8_t> png) override {
+    if (std::exchange(taken_, true)) {
+      return tl::unexpected(Error{.kind = ErrorKind::kInvalidArgument,
+                                  .subject = subject_,
+                                  .problem = "holds one picture, and there are more",
+                                  .remedy = "give a pattern such as out/%04d.png, or a folder"});
+    }
+    return file_.write(png);
+  }
+
+  Result<void> finish() override {
+    if (!taken_) {
+      return tl::unexpected(Error{.kind = ErrorKind::kInvalidInput,
+                                  .subject = subject_,
+                                  .problem = "there was no picture to write"});
+    }
+    return file_.publish();
+  }
+
+ private:
+  std::string subject_;
+  PendingFile file_;
+  bool taken_ = false;
+};
+
+using SinkResult = Result<std::unique_ptr<PictureSink>>;
+
+Result<void> makeFolder(const std::filesystem::path& folder) {
+  std::error_code status;
+  std::filesystem::create_directory(folder, status);
+  if (!status) return {};
+  return tl::unexpected(errnoError(folder.string(), "cannot create the folder", status.value(),
+                                   "create its parent first, or choose another place"));
+}
+
+SinkResult numbered(const std::filesystem::path& pattern, FileSystem& files) {
+  const Result<NumberedPath> names = NumberedPath::parse(pattern.string());
+  if (!names) return tl::unexpected(names.error());
+  std::error_code ignored;
+  const std::filesystem::path folder = names->folder();
+  if (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) {
+    return tl::unexpected(Error{.kind = ErrorKind::kNotFound,
+                                .subject = folder.string(),
+                                .problem = "no such folder",
+                                .remedy = "create it first"});
+  }
+  return std::make_unique<NumberedPictures>(*names, files);
+}
+
+SinkResult openSink(const std::filesystem::path& path, FileSystem& files) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored) || !path.has_filename() ||
+      (!path.has_extension() && !looksNumbered(path))) {
+    if (Result<void> made = makeFolder(path); !made) return tl::unexpected(made.error());
+    return numbered(path / "%06d.png", files);
+  }
+  if (!endsInPng(path)) {
+    return tl::unexpected(Error{.kind = ErrorKind::kInvalidArgument,
+                                .subject = path.string(),
+                                .problem = "is not the name of pictures that can be written",
+                                .remedy = "end it in .png, or give a folder"});
+  }
+  if (looksNumbered(path)) return numbered(path, files);
+  Result<PendingFile> file = PendingFile::create(path, files);
+  if (!file) return tl::unexpected(file.error());
+  return std::make_unique<SinglePicture>(path.string(), *std::move(file));
+}
+
+class FramesOutput final : public MemoryOutput {
+ public:
+  FramesOutput(std::filesystem::path path, FileSystem& files)
+      : path_(std::move(path)), files_(files) {}
+
+  OutputIdentity identity() const override { return {.backend = "frames", .id = path_.string()}; }
+
+  Result<OutputFormat> start(const OutputRequest& request) override {
+    assert(sink_ == nullptr);
+    if (!isAcceptedSize(request.size)) {
+      return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
+                                  .subject = path_.string(),
+                                  .problem = "cannot take this size",
+                                  .remedy = "use 1 to 8192 px a side and at most 64 Mpx"});
+    }
+    const FrameFormat format{
+        .pixelFormat = PixelFormat::kRgb8, .size = request.size, .encoding = {}};
+    Result<libav::PngEncoder> encoder = libav::PngEncoder::open(format);
+    if (!encoder) return tl::unexpected(encoder.error());
+    encoder_.emplace(*std::move(encoder));
+    SinkResult sink = openSink(path_, files_);
+    if (!sink) return tl::unexpected(sink.error());
+    sink_ = *std::move(sink);
+    return OutputFormat{.frame = format, .refreshPeriod = std::nullopt};
+  }
+
+  Result<void> write(const ImageView& picture, Duration) override {
+    assert(sink_ != nullptr);
+    const Result<std::vector<std::uint8_t>> png = encoder_->encode(picture);
+    if (!png) return tl::unexpected(png.error());
+    return sink_->write(*png);
+  }
+
+  Result<void> finish() override {
+    assert(sink_ != nullptr);
+    return sink_->finish();
+  }
+
+ private:
+  std::filesystem::path path_;
+  FileSystem& files_;
+  std::optional<libav::PngEncoder> encoder_;
+  std::unique_ptr<PictureSink> sink_;
+};
+
+}  // namespace
+
+std::unique_ptr<MemoryOutput> openFramesOutput(std::filesystem::path path, FileSystem& files) {
+  return std::make_unique<FramesOutput>(std::move(path), files);
+}
+
+}  // namespace pleinair::hal

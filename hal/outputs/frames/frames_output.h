@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "hal/output.h"
+#include "hal/pending_file.h"
+
+namespace pleinair::hal {
+
+/// PNG pictures; takes RGB8. `path` is
+/// - a pattern such as "out/%04d.png" (see NumberedPath), numbered from 0,
+/// - a folder, made if it is missing (its parent must exist), for "%06d.png" in it,
+/// - one .png for one picture, published in finish(); a second picture is an error.
+/// Numbered pictures are published whole, each as it comes. Errors of start() also:
+/// kInvalidArgument (the pattern is malformed, or does not end in .png).
+std::unique_ptr<MemoryOutput> openFramesOutput(std::filesystem::path path,
+                                               FileSystem& files = systemFiles());
+
+}  // namespace pleinair::hal

@@ -1,0 +1,108 @@
+#include "hal/outputs/movie/movie_output.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "hal/outputs/movie/movie_writer.h"
+
+namespace pleinair::hal {
+namespace {
+
+enum class MovieKind { kMp4, kMkv, kY4m };
+
+std::optional<MovieKind> kindOf(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  if (ending == ".mp4") return MovieKind::kMp4;
+  if (ending == ".mkv") return MovieKind::kMkv;
+  if (ending == ".y4m") return MovieKind::kY4m;
+  return std::nullopt;
+}
+
+class MovieOutput final : public MemoryOutput {
+ public:
+  MovieOutput(std::filesystem::path path, FileSystem& files)
+      : path_(std::move(path)), files_(files) {}
+
+  OutputIdentity identity() const override { return {.backend = "movie", .id = path_.string()}; }
+
+  Result<OutputFormat> start(const OutputRequest& request) override;
+
+  Result<void> write(const ImageView& picture, Duration time) override {
+    assert(writer_ != nullptr && picture.format == format_.frame && picture.isComplete());
+    return writer_->write(picture, time);
+  }
+
+  Result<void> finish() override {
+    assert(writer_ != nullptr);
+    Result<void> finished = writer_->finish();
+    if (!finished) return finished;
+    return file_->publish();
+  }
+
+ private:
+  Result<std::unique_ptr<movie::MovieWriter>> openWriter(MovieKind kind);
+
+  std::filesystem::path path_;
+  FileSystem& files_;
+  movie::MovieFormat format_{};
+  std::optional<PendingFile> file_;
+  std::unique_ptr<movie::MovieWriter> writer_;  ///< writes to file_
+};
+
+Result<OutputFormat> MovieOutput::start(const OutputRequest& request) {
+  assert(!file_);
+  const std::optional<MovieKind> kind = kindOf(path_);
+  if (!kind) {
+    return tl::unexpected(Error{.kind = ErrorKind::kInvalidArgument,
+                                .subject = path_.string(),
+                                .problem = "is not the name of a movie that can be written",
+                                .remedy = "end it in .mp4, .mkv or .y4m"});
+  }
+  if (!isAcceptedSize(request.size)) {
+    return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
+                                .subject = path_.string(),
+                                .problem = "cannot take this size",
+                                .remedy = "use 1 to 8192 px a side and at most 64 Mpx"});
+  }
+  constexpr int kFirstHdLine = 720;
+  constexpr Duration kDefaultPeriod = Duration(std::chrono::seconds(1)) / 30;
+  const ColorMatrix matrix =
+      request.size.height >= kFirstHdLine ? ColorMatrix::kBt709 : ColorMatrix::kBt601;
+  const Duration period = request.framePeriod.value_or(kDefaultPeriod);
+  format_ = {.frame = {.pixelFormat = PixelFormat::kI420,
+                       .size = request.size,
+                       .encoding = {.matrix = matrix, .range = ColorRange::kLimited}},
+             .framePeriod = period > Duration::zero() ? period : kDefaultPeriod};
+  Result<PendingFile> file = PendingFile::create(path_, files_);
+  if (!file) return tl::unexpected(file.error());
+  file_.emplace(*std::move(file));
+  auto writer = openWriter(*kind);
+  if (!writer) return tl::unexpected(writer.error());
+  writer_ = *std::move(writer);
+  return OutputFormat{.frame = format_.frame, .refreshPeriod = std::nullopt};
+}
+
+Result<std::unique_ptr<movie::MovieWriter>> MovieOutput::openWriter(MovieKind kind) {
+  if (kind == MovieKind::kY4m) return movie::openY4mWriter(format_, *file_);
+  const auto container = kind == MovieKind::kMp4 ? movie::Container::kMp4 : movie::Container::kMkv;
+  return movie::openH264Writer(container, format_, path_.string(), *file_);
+}
+
+}  // namespace
+
+std::unique_ptr<MemoryOutput> openMovieOutput(std::filesystem::path path, FileSystem& files) {
+  return std::make_unique<MovieOutput>(std::move(path), files);
+}
+
+bool isMovieName(const std::filesystem::path& path) {
+  return kindOf(path).has_value();
+}
+
+}  // namespace pleinair::hal

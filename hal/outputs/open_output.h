@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "hal/output.h"
+
+namespace pleinair::hal {
+
+/// The output that `path` names: a movie (.mp4, .mkv, .y4m), one .png, a numbered pattern such as
+/// "out/%04d.png", or a folder of numbered PNGs (one that exists, ends in a slash, or has no
+/// ending). Opens nothing yet. Errors: kInvalidArgument (another ending; lists those that are
+/// known).
+Result<std::unique_ptr<MemoryOutput>> openFileOutput(const std::filesystem::path& path);
+
+}  // namespace pleinair::hal

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+
+#include <sys/types.h>
+
+#include "hal/error.h"
+
+namespace pleinair::hal {
+
+/// The system calls that writing files needs, so that a full disk is a unit test. Each answers as
+/// the system's does, but −errno in place of −1, and retries EINTR.
+class FileSystem {
+ public:
+  virtual ~FileSystem() = default;
+  virtual int create(const std::filesystem::path& path) = 0;  ///< a file descriptor
+  virtual ssize_t write(int fd, std::span<const std::uint8_t> bytes) = 0;
+  virtual std::int64_t seek(int fd, std::int64_t offset, int whence) = 0;
+  virtual int close(int fd) = 0;
+  virtual int rename(const std::filesystem::path& from, const std::filesystem::path& to) = 0;
+  virtual int unlink(const std::filesystem::path& path) = 0;
+};
+
+/// The real one; stateless, any thread.
+FileSystem& systemFiles();
+
+/// A file that is written under a temporary name (".name.part" in the same folder) and takes its
+/// own name in publish(). Destroyed without, it removes what it wrote; what stood under the name
+/// before stays.
+class PendingFile {
+ public:
+  /// Errors: kNotFound (no such folder), kPermissionDenied, kInvalidArgument (a folder stands
+  /// there), kNoSpace, kIo. `files` must outlive this.
+  static Result<PendingFile> create(const std::filesystem::path& path,
+                                    FileSystem& files = systemFiles());
+
+  PendingFile(PendingFile&& other) noexcept;
+  PendingFile& operator=(PendingFile&&) = delete;
+  PendingFile(const PendingFile&) = delete;
+  PendingFile& operator=(const PendingFile&) = delete;
+  ~PendingFile();
+
+  /// All of `bytes`. Errors: kNoSpace, kIo.
+  Result<void> write(std::span<const std::uint8_t> bytes);
+  /// As lseek; the new offset. Errors: kIo.
+  Result<std::int64_t> seek(std::int64_t offset, int whence);
+  /// Closes and renames. Errors: kNoSpace (some file systems say so only now), kIo.
+  Result<void> publish();
+
+ private:
+  PendingFile(std::filesystem::path path, FileSystem& files);
+  Error failure(const char* operation, std::int64_t minusErrno) const;
+
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;
+  FileSystem* files_;
+  int fd_ = -1;
+};
+
+}  // namespace pleinair::hal
