@@ -28,7 +28,7 @@ const float kHalfDiagonal = 2.1213204;  // between the block's middle and its co
 
 ivec2 size;
 ivec2 corner;  // the block's first pixel
-ivec2 bestCell[kPixels];
+uint nearest[kPixels];  // the cell, as in a tiling word, plus one
 
 // Squared distance from the block's middle.
 float fromMiddle(ivec2 cell) {
@@ -52,39 +52,38 @@ float nearestUnsearched(ivec2 low, ivec2 high) {
 
 // Squared distances differ from |s|² − 2 p·s by |p|² alone, and that is linear in p.
 void findNearest() {
-  int best[kPixels];
-  for (int i = 0; i < kPixels; ++i) {
-    best[i] = 0x7FFFFFFF;
-    bestCell[i] = ivec2(0);
-  }
   ivec2 here = clamp(ivec2((vec2(corner) + 2.0) / cellPixels), ivec2(0), grid - 1);
   ivec2 low, high;
   float reach = 0.0;
   for (int ring = 2;; ++ring) {  // 5x5 nearly always; wider where seeds have moved apart
     low = max(here - ring, ivec2(0));
     high = min(here + ring, grid - 1);
-    float nearest = 1.0e12;
+    float least = 1.0e12;
     for (int row = low.y; row <= high.y; ++row) {
       for (int column = low.x; column <= high.x; ++column) {
-        nearest = min(nearest, fromMiddle(ivec2(column, row)));
+        least = min(least, fromMiddle(ivec2(column, row)));
       }
     }
-    reach = sqrt(nearest) + 2.0 * kHalfDiagonal + 0.03;
+    reach = sqrt(least) + 2.0 * kHalfDiagonal + 0.03;
     if (reach < nearestUnsearched(low, high)) break;
   }
   float reachSquared = reach * reach;
+  int best[kPixels];
+  for (int i = 0; i < kPixels; ++i) {
+    best[i] = 0x7FFFFFFF;
+    nearest[i] = 0u;
+  }
   for (int row = low.y; row <= high.y; ++row) {
     for (int column = low.x; column <= high.x; ++column) {
       ivec2 cell = ivec2(column, row);
       if (fromMiddle(cell) > reachSquared) continue;
+      uint name = packCell(cell) + 1u;
       ivec2 s = ivec2((seeds[row * grid.x + column] - vec2(corner)) * 64.0);
       int start = s.x * s.x + s.y * s.y - 64 * (s.x + s.y);
       for (int i = 0; i < kPixels; ++i) {
         int value = start - 128 * ((i & 3) * s.x + (i >> 2) * s.y);
-        if (value < best[i]) {
-          best[i] = value;
-          bestCell[i] = cell;
-        }
+        nearest[i] = value < best[i] ? name : nearest[i];
+        best[i] = min(best[i], value);
       }
     }
   }
@@ -117,15 +116,16 @@ vec3 linearFromSrgbFast(vec3 srgb) {
   return mix(y * y * root, srgb * (1.0 / 12.92), lessThanEqual(srgb, vec3(0.04045)));
 }
 
-void addTo(uint index, uvec4 colour, uvec3 edge) {
+void addTo(uint index, uvec4 colour, uint edges) {
   atomicAdd(sums[index * 8u], colour.r);
   atomicAdd(sums[index * 8u + 1u], colour.g);
   atomicAdd(sums[index * 8u + 2u], colour.b);
   atomicAdd(sums[index * 8u + 3u], colour.a);
-  if (edge.z == 0u) return;
-  atomicAdd(sums[index * 8u + 4u], edge.x);
-  atomicAdd(sums[index * 8u + 5u], edge.y);
-  atomicAdd(sums[index * 8u + 6u], edge.z);
+  if (edges == 0u) return;
+  uint count = edges >> 16u;
+  atomicAdd(sums[index * 8u + 4u], (edges & 0xFFu) + count * uint(corner.x));
+  atomicAdd(sums[index * 8u + 5u], ((edges >> 8u) & 0xFFu) + count * uint(corner.y));
+  atomicAdd(sums[index * 8u + 6u], count);
 }
 
 void main() {
@@ -138,40 +138,35 @@ void main() {
   for (int i = 0; i < 36; ++i) block[i] = pixelAt(corner + ivec2(i % 6, i / 6) - 1);
 
   uvec3 light[kPixels];
-  bool edge[kPixels];
-  uint pending = 0u;
+  uint edge[kPixels];  // of an edge pixel x, y in the block and 1, 8 bits each
   for (int i = 0; i < kPixels; ++i) {
     int at = (i >> 2) * 6 + (i & 3) + 7;
-    ivec2 pixel = corner + ivec2(i & 3, i >> 2);
+    ivec2 inBlock = ivec2(i & 3, i >> 2);
     float strength = differenceOf(block[at + 1], block[at - 1]) +
                      differenceOf(block[at + 6], block[at - 6]);
-    edge[i] = strength > threshold;
-    if (block[at + 1].a != block[at - 1].a || block[at + 6].a != block[at - 6].a) {
-      edge[i] = true;  // an object's silhouette
-      strength = 1.0;
-    }
+    bool silhouette = block[at + 1].a != block[at - 1].a || block[at + 6].a != block[at - 6].a;
+    bool isEdge = strength > threshold || silhouette;
+    edge[i] = isEdge ? uint(inBlock.x | (inBlock.y << 8) | (1 << 16)) : 0u;
     light[i] = uvec3(linearFromSrgbFast(block[at].rgb) * 16384.0 + 0.5);
-    if (all(lessThan(pixel, size))) {
-      pending |= 1u << uint(i);
-      imageStore(tiling, pixel, uvec4(packTiling(bestCell[i], edge[i], strength), 0u, 0u, 0u));
-    }
+    uint word = packTiling(nearest[i] - 1u, isEdge, silhouette ? 1.0 : strength);
+    imageStore(tiling, corner + inBlock, uvec4(word, 0u, 0u, 0u));  // beyond the border: no effect
+    if (any(greaterThanEqual(corner + inBlock, size))) nearest[i] = 0u;
   }
 
-  while (pending != 0u) {
-    int first = findLSB(pending);
-    ivec2 cell = bestCell[0];
-    for (int i = 1; i < kPixels; ++i) {
-      if (i == first) cell = bestCell[i];
-    }
+  // Cell by cell, from the highest down, without branches.
+  for (uint above = 0xFFFFFFFFu;;) {
+    uint name = 0u;
+    for (int i = 0; i < kPixels; ++i) name = max(name, nearest[i] < above ? nearest[i] : 0u);
+    if (name == 0u) break;
     uvec4 colour = uvec4(0u);
-    uvec3 edges = uvec3(0u);
+    uint edges = 0u;
     for (int i = 0; i < kPixels; ++i) {
-      uint bit = 1u << uint(i);
-      if ((pending & bit) == 0u || bestCell[i] != cell) continue;
-      pending &= ~bit;
-      colour += uvec4(light[i], 1u);
-      if (edge[i]) edges += uvec3(uvec2(corner + ivec2(i & 3, i >> 2)), 1u);
+      uint taken = nearest[i] == name ? 0xFFFFFFFFu : 0u;
+      colour += uvec4(light[i], 1u) & taken;
+      edges += edge[i] & taken;
     }
+    ivec2 cell = cellOf(name - 1u);
     addTo(uint(cell.y * grid.x + cell.x), colour, edges);
+    above = name;
   }
 }
