@@ -53,7 +53,8 @@ glm::dvec3 nabla(const std::array<glm::dvec3, 4>& around) {
 double clampedAlong(double value, double home, double middle, double cell, double extent) {
   const double low = std::max({home - cell, middle - cell, 0.0});
   const double high = std::min({home + cell, middle + cell, extent});
-  return std::clamp(value, low, high);
+  return std::clamp(value, std::ceil(low * 64.0 - 0.01) / 64.0,
+                    std::floor(high * 64.0 + 0.01) / 64.0);
 }
 
 }  // namespace
@@ -130,8 +131,7 @@ std::vector<CellMean> cellMeans(const Grid& grid, const hal::ImageView& image,
   }
   for (std::size_t k = 0; k < seeds.size(); ++k) {
     if (means[k].pixels == 0) {
-      means[k].srgb =
-          pixelAt(image, static_cast<int>(seeds[k].x), static_cast<int>(seeds[k].y));
+      means[k].srgb = pixelAt(image, static_cast<int>(seeds[k].x), static_cast<int>(seeds[k].y));
       continue;
     }
     for (int c = 0; c < 3; ++c) means[k].srgb[c] = srgbFromLinear(sums[k][c] / means[k].pixels);

@@ -53,7 +53,7 @@ std::vector<double> edgeStrengths(const hal::ImageView& image, double alpha, dou
 
 /// §3.2.3: the mean of the edge pixels' centres in the seed's cell if they are at least `least`,
 /// else where it was; never more than a cell from home nor from the cell's middle, and in the
-/// picture.
+/// picture, these bounds rounded inwards to 1/64 px.
 std::vector<glm::dvec2> retiled(const Grid& grid, const std::vector<std::uint32_t>& labels,
                                 const std::vector<bool>& edges,
                                 const std::vector<glm::dvec2>& seeds,

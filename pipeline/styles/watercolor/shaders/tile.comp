@@ -53,18 +53,19 @@ float nearestUnsearched(ivec2 low, ivec2 high) {
 // Squared distances differ from |s|² − 2 p·s by |p|² alone, and that is linear in p.
 void findNearest() {
   ivec2 here = clamp(ivec2((vec2(corner) + 2.0) / cellPixels), ivec2(0), grid - 1);
-  ivec2 low, high;
-  float reach = 0.0;
+  // One near seed bounds how far the nearest can be from any pixel of the block.
+  ivec2 low = max(here - 1, ivec2(0));
+  ivec2 high = min(here + 1, grid - 1);
+  float near = 1.0e12;
+  for (int row = low.y; row <= high.y; ++row) {
+    for (int column = low.x; column <= high.x; ++column) {
+      near = min(near, fromMiddle(ivec2(column, row)));
+    }
+  }
+  float reach = sqrt(near) + 2.0 * kHalfDiagonal + 0.03;
   for (int ring = 2;; ++ring) {  // 5x5 nearly always; wider where seeds have moved apart
     low = max(here - ring, ivec2(0));
     high = min(here + ring, grid - 1);
-    float least = 1.0e12;
-    for (int row = low.y; row <= high.y; ++row) {
-      for (int column = low.x; column <= high.x; ++column) {
-        least = min(least, fromMiddle(ivec2(column, row)));
-      }
-    }
-    reach = sqrt(least) + 2.0 * kHalfDiagonal + 0.03;
     if (reach < nearestUnsearched(low, high)) break;
   }
   float reachSquared = reach * reach;
@@ -89,14 +90,9 @@ void findNearest() {
   }
 }
 
-// Colour, and the object in alpha.
-vec4 pixelAt(ivec2 at) {
-  at = clamp(at, ivec2(0), size - 1);
-  float object = hasObjects ? float(texelFetch(ids, at, 0).r >> kTriangleBits) : 0.0;
-  return vec4(texelFetch(picture, at, 0).rgb, object);
-}
+ivec2 inPicture(ivec2 at) { return clamp(at, ivec2(0), size - 1); }
 
-// Eq. 2 and 3 are linear in the gradients of their channels' magnitudes: one direction's part.
+// Eq. 2 and 3 are sums over the two directions of ∇: one direction's part.
 // YUV is ITU-R BT.601's Y', Cb, Cr.
 float differenceOf(vec4 a, vec4 b) {
   vec3 d = a.rgb - b.rgb;
@@ -134,8 +130,18 @@ void main() {
   if (any(greaterThanEqual(corner, size))) return;
   findNearest();
 
-  vec4 block[36];
-  for (int i = 0; i < 36; ++i) block[i] = pixelAt(corner + ivec2(i % 6, i / 6) - 1);
+  vec4 block[36];  // colours, and objects in alpha
+  ivec2 first = corner - 1;
+  for (int i = 0; i < 36; ++i) {
+    vec3 colour = texelFetch(picture, inPicture(first + ivec2(i % 6, i / 6)), 0).rgb;
+    block[i] = vec4(colour, 0.0);
+  }
+  if (hasObjects) {
+    for (int i = 0; i < 36; ++i) {
+      uint id = texelFetch(ids, inPicture(first + ivec2(i % 6, i / 6)), 0).r;
+      block[i].a = float(id >> kTriangleBits);
+    }
+  }
 
   uvec3 light[kPixels];
   uint edge[kPixels];  // of an edge pixel x, y in the block and 1, 8 bits each
