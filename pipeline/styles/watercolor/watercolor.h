@@ -32,10 +32,9 @@ class Watercolor final : public Style {
 
   /// What the last frame's passes left on the GPU, for tests.
   struct Inner {
-    const gpu::Buffer* seeds;      ///< vec2 a cell, row by row: px, for the next frame
-    const gpu::Texture* tiling;    ///< R32UI a pixel: shaders/tiling_word.glsl
-    const gpu::Texture* means;     ///< RGBA16F a cell: linear RGB; 0 in A where it has no pixel
-    const gpu::Texture* flatWash;  ///< RGBA16F a cell
+    const gpu::Buffer* seeds;    ///< vec2 a cell, row by row: px, for the next frame
+    const gpu::Texture* tiling;  ///< R32UI a pixel: shaders/tiling_word.glsl
+    const gpu::Texture* means;   ///< RGBA16F a cell: linear RGB; 0 in A where it has no pixel
   };
   Inner inner() const;
 
