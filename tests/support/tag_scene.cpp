@@ -79,36 +79,62 @@ class TagPainter {
     const auto clampTo = [](double value, int end) {
       return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(end)));
     };
-    for (int y = clampTo(least.y - kBulgePx, size.height);
-         y < clampTo(most.y + kBulgePx, size.height); ++y) {
-      for (int x = clampTo(least.x - kBulgePx, size.width);
-           x < clampTo(most.x + kBulgePx, size.width); ++x) {
+    const int left = clampTo(least.x - kBulgePx, size.width);
+    const int right = clampTo(most.x + kBulgePx, size.width);
+    const int bottom = clampTo(most.y + kBulgePx, size.height);
+    std::vector<glm::dvec2> above;  // where the paper is at pixel corners, row by row
+    std::vector<glm::dvec2> below;
+    for (int y = clampTo(least.y - kBulgePx, size.height); y < bottom; ++y) {
+      if (above.empty()) above = cellsAlong(left, right, y);
+      below = cellsAlong(left, right, y + 1);
+      for (int x = left; x < right; ++x) {
+        const auto i = static_cast<std::size_t>(x - left);
         float& pixel = grey[static_cast<std::size_t>(y * size.width + x)];
-        pixel = static_cast<float>(pixelValue(x, y, pixel));
+        pixel =
+            static_cast<float>(pixelValue({above[i], above[i + 1], below[i], below[i + 1]}, pixel));
       }
+      above.swap(below);
     }
   }
 
  private:
-  double pixelValue(int x, int y, double behind) const {
+  using PixelCorners = std::array<glm::dvec2, 4>;  // top left, top right, bottom left, bottom right
+
+  /// The places on the paper (cells) of the pixel corners from (left, y) to (right, y).
+  std::vector<glm::dvec2> cellsAlong(int left, int right, int y) const {
+    std::vector<glm::dvec2> cells;
+    const glm::dvec3 origin(tagFromCamera_[3]);
+    for (int x = left; x <= right; ++x) {
+      const auto ray = camera_.unproject({x, y});
+      const glm::dvec3 direction = ray ? glm::dmat3(tagFromCamera_) * *ray : glm::dvec3(0.0);
+      const double distance = -origin.z / direction.z;
+      cells.push_back(ray && distance > 0.0
+                          ? glm::dvec2(origin + distance * direction) / metresPerCell_
+                          : glm::dvec2(1e9));
+    }
+    return cells;
+  }
+
+  /// Within a pixel, the lens is linear to far less than a sample's distance.
+  double pixelValue(const PixelCorners& at, double behind) const {
+    const auto isSameCell = [&](const glm::dvec2& cells) {
+      return glm::floor(cells) == glm::floor(at[0]);
+    };
+    if (std::ranges::all_of(at, isSameCell)) return sample(at[0], behind);
     const int count = options_.samplesPerSide;
     double sum = 0.0;
     for (int sy = 0; sy < count; ++sy) {
+      const double down = (sy + 0.5) / count;
+      const glm::dvec2 first = glm::mix(at[0], at[2], down);
+      const glm::dvec2 last = glm::mix(at[1], at[3], down);
       for (int sx = 0; sx < count; ++sx) {
-        sum += sample({x + (sx + 0.5) / count, y + (sy + 0.5) / count}, behind);
+        sum += sample(glm::mix(first, last, (sx + 0.5) / count), behind);
       }
     }
     return sum / (count * count);
   }
 
-  double sample(const glm::dvec2& px, double behind) const {
-    const auto ray = camera_.unproject(px);
-    if (!ray) return behind;
-    const glm::dvec3 origin(tagFromCamera_[3]);
-    const glm::dvec3 direction = glm::dmat3(tagFromCamera_) * *ray;
-    const double distance = -origin.z / direction.z;
-    if (!(distance > 0.0)) return behind;
-    const glm::dvec2 cells = glm::dvec2(origin + distance * direction) / metresPerCell_;
+  double sample(const glm::dvec2& cells, double behind) const {
     if (std::max(std::abs(cells.x), std::abs(cells.y)) > paperHalfCells_) return behind;
     return bitmap_.isWhiteAt(cells) ? options_.white : options_.black;
   }

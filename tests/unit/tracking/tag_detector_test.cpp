@@ -57,7 +57,7 @@ double worstCornerPx(const TagCornersPx& a, const TagCornersPx& b) {
 /// begin at the bottom left and go against the clock.
 TEST(TagDetector, CornersBeginBottomLeftOfTheUprightTag) {
   const SceneTag tag{.id = 5, .edgeMetres = 0.1, .worldFromTag = poseOf({}, {0.0, 0.0, 0.5})};
-  const auto found = detect(renderTags(webcam(), kIdentity, {&tag, 1}));
+  const auto found = detect(support::renderTags(webcam(), kIdentity, {&tag, 1}));
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].id, 5);
   EXPECT_EQ(found[0].hamming, 0);
@@ -81,10 +81,10 @@ TEST(TagDetector, FindsCornersOfTurnedAndTiltedTags) {
                        .worldFromTag = poseOf({0.0, 0.0, turn}, {0.08 * std::cos(turn),
                                                                  0.06 * std::sin(turn), 0.55}) *
                                        poseOf({tilt, 0.3 * tilt, 0.0}, {})};
-    const auto found = detect(renderTags(camera, kIdentity, {&tag, 1}));
+    const auto found = detect(support::renderTags(camera, kIdentity, {&tag, 1}));
     ASSERT_EQ(idsOf(found), std::vector<int>{20 + i});
-    const double error =
-        worstCornerPx(found[0].corners, trueCorners(camera, tag.worldFromTag, tag.edgeMetres));
+    const double error = worstCornerPx(
+        found[0].corners, support::trueCorners(camera, tag.worldFromTag, tag.edgeMetres));
     sum += error;
     worst = std::max(worst, error);
     ++count;
@@ -106,7 +106,7 @@ TEST(TagDetector, GivesTagsByRisingId) {
   }
   TagDetector detector;
   DetectionCounters counters;
-  const auto found = detect(detector, renderTags(webcam(), kIdentity, tags), counters);
+  const auto found = detect(detector, support::renderTags(webcam(), kIdentity, tags), counters);
   EXPECT_THAT(idsOf(found), testing::ElementsAre(2, 41, 300));
   EXPECT_EQ(counters, (DetectionCounters{.accepted = 3}));
 }
@@ -117,7 +117,7 @@ TEST(TagDetector, TakesOneOfTwoTagsOfTheSameId) {
       {.id = 7, .edgeMetres = 0.08, .worldFromTag = poseOf({}, {0.1, 0.0, 0.5})}};
   TagDetector detector;
   DetectionCounters counters;
-  EXPECT_EQ(detect(detector, renderTags(webcam(), kIdentity, tags), counters).size(), 1U);
+  EXPECT_EQ(detect(detector, support::renderTags(webcam(), kIdentity, tags), counters).size(), 1U);
   EXPECT_EQ(counters, (DetectionCounters{.accepted = 1, .rejectedDuplicate = 1}));
 }
 
@@ -126,9 +126,10 @@ TEST(TagDetector, FindsTagsInSmallPictures) {
        {hal::FrameSize{320, 240}, hal::FrameSize{161, 97}, hal::FrameSize{48, 40}}) {
     const CameraModel camera = webcam(size);
     const SceneTag tag{.id = 3, .edgeMetres = 0.1, .worldFromTag = poseOf({}, {0.0, 0.0, 0.24})};
-    const auto found = detect(renderTags(camera, kIdentity, {&tag, 1}));
+    const auto found = detect(support::renderTags(camera, kIdentity, {&tag, 1}));
     ASSERT_EQ(idsOf(found), std::vector<int>{3}) << size.width;
-    EXPECT_LT(worstCornerPx(found[0].corners, trueCorners(camera, tag.worldFromTag, 0.1)), 0.6);
+    EXPECT_LT(worstCornerPx(found[0].corners, support::trueCorners(camera, tag.worldFromTag, 0.1)),
+              0.6);
   }
 }
 
@@ -147,7 +148,7 @@ TEST(TagDetector, FindsNothingInNoiseAndFlatPictures) {
   TagDetector detector;
   DetectionCounters counters;
   for (const double sigma : {0.0, 60.0}) {
-    const auto image = renderTags(webcam(), kIdentity, {}, {.noiseSigma = sigma});
+    const auto image = support::renderTags(webcam(), kIdentity, {}, {.noiseSigma = sigma});
     EXPECT_TRUE(detect(detector, image, counters).empty());
   }
 }
@@ -155,7 +156,7 @@ TEST(TagDetector, FindsNothingInNoiseAndFlatPictures) {
 /// A picture whose rows are further apart than their length.
 TEST(TagDetector, KeepsToTheStride) {
   const SceneTag tag{.id = 9, .edgeMetres = 0.1, .worldFromTag = poseOf({}, {0.0, 0.0, 0.5})};
-  const hal::Image image = renderTags(webcam({320, 240}), kIdentity, {&tag, 1});
+  const hal::Image image = support::renderTags(webcam({320, 240}), kIdentity, {&tag, 1});
   constexpr std::size_t kStride = 333;
   std::vector<std::uint8_t> spread(kStride * 239 + 320, 200);
   for (int y = 0; y < 240; ++y) {
