@@ -56,7 +56,7 @@ class TagBitmap {
 class TagPainter {
  public:
   TagPainter(const tracking::CameraModel& camera, const glm::dmat4& cameraFromWorld,
-             const tracking::TagMarker& tag, const TagPictureOptions& options)
+             const SceneTag& tag, const TagPictureOptions& options)
       : camera_(camera),
         options_(options),
         bitmap_(tag.id),
@@ -157,11 +157,11 @@ glm::dmat4 poseOf(const glm::dvec3& rotationVector, const glm::dvec3& translatio
 }
 
 hal::Image renderTags(const tracking::CameraModel& camera, const glm::dmat4& cameraFromWorld,
-                      std::span<const tracking::TagMarker> tags, const TagPictureOptions& options) {
+                      std::span<const SceneTag> tags, const TagPictureOptions& options) {
   const hal::FrameSize size = camera.imageSize();
   std::vector<float> grey(static_cast<std::size_t>(size.pixels()),
                           static_cast<float>(options.background));
-  for (const tracking::TagMarker& tag : tags) TagPainter(camera, cameraFromWorld, tag, options).paint(grey);
+  for (const SceneTag& tag : tags) TagPainter(camera, cameraFromWorld, tag, options).paint(grey);
 
   std::mt19937 random(options.noiseSeed);
   std::normal_distribution<float> noise(0.0F, 1.0F);

@@ -12,7 +12,7 @@
 namespace pleinair::support {
 
 /// A tag36h11 in the world. Its paper is white and two cells wider than the black square.
-struct tracking::TagMarker {
+struct SceneTag {
   int id = 0;
   double edgeMetres = 0.1;
   glm::dmat4 worldFromTag{1.0};
@@ -33,7 +33,7 @@ glm::dmat4 poseOf(const glm::dvec3& rotationVector, const glm::dvec3& translatio
 /// A grey picture of tags through a lens, from the library's own bitmaps (apriltag_to_image). Each
 /// tag must lie in front of the camera and face it; later ones cover earlier ones.
 hal::Image renderTags(const tracking::CameraModel& camera, const glm::dmat4& cameraFromWorld,
-                      std::span<const tracking::TagMarker> tags, const TagPictureOptions& options = {});
+                      std::span<const SceneTag> tags, const TagPictureOptions& options = {});
 
 /// Where the lens shows a tag's corners.
 tracking::TagCornersPx trueCorners(const tracking::CameraModel& camera,

@@ -82,7 +82,7 @@ TEST(LumaConverter, TakesPicturesOfAnySize) {
 /// Tags are found at the same place in every format: no mosaic shifts the picture.
 TEST(LumaConverter, ShiftsNoTag) {
   const CameraModel camera({.fx = 500.0, .fy = 500.0, .cx = 160.0, .cy = 120.0}, {}, {320, 240});
-  const support::tracking::TagMarker tag{
+  const support::SceneTag tag{
       .id = 11, .edgeMetres = 0.1, .worldFromTag = support::poseOf({0.3, 0.2, 0.4}, {0, 0, 0.4})};
   const hal::Image grey = support::renderTags(camera, glm::dmat4(1.0), {&tag, 1});
   const TagCornersPx truth = support::trueCorners(camera, tag.worldFromTag, tag.edgeMetres);

@@ -15,7 +15,7 @@ namespace pleinair::tracking {
 namespace {
 
 using support::poseOf;
-using support::tracking::TagMarker;
+using support::SceneTag;
 
 CameraModel webcam(hal::FrameSize size = {640, 480}) {
   const double scale = size.width / 640.0;
@@ -56,7 +56,7 @@ double worstCornerPx(const TagCornersPx& a, const TagCornersPx& b) {
 /// tagCorners() against the picture that the library publishes: upright and unturned, the corners
 /// begin at the bottom left and go against the clock.
 TEST(TagDetector, CornersBeginBottomLeftOfTheUprightTag) {
-  const tracking::TagMarker tag{.id = 5, .edgeMetres = 0.1, .worldFromTag = poseOf({}, {0.0, 0.0, 0.5})};
+  const SceneTag tag{.id = 5, .edgeMetres = 0.1, .worldFromTag = poseOf({}, {0.0, 0.0, 0.5})};
   const auto found = detect(support::renderTags(webcam(), kIdentity, {&tag, 1}));
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].id, 5);
@@ -76,7 +76,7 @@ TEST(TagDetector, FindsCornersOfTurnedAndTiltedTags) {
   for (int i = 0; i < 24; ++i) {
     const double turn = 0.2618 * i;
     const double tilt = 0.04 * i;
-    const tracking::TagMarker tag{.id = 20 + i,
+    const SceneTag tag{.id = 20 + i,
                        .edgeMetres = 0.1,
                        .worldFromTag = poseOf({0.0, 0.0, turn}, {0.08 * std::cos(turn),
                                                                  0.06 * std::sin(turn), 0.55}) *
@@ -97,7 +97,7 @@ TEST(TagDetector, FindsCornersOfTurnedAndTiltedTags) {
 }
 
 TEST(TagDetector, GivesTagsByRisingId) {
-  std::vector<tracking::TagMarker> tags;
+  std::vector<SceneTag> tags;
   for (const int id : {300, 2, 41}) {
     const auto column = static_cast<double>(tags.size());
     tags.push_back({.id = id,
@@ -112,7 +112,7 @@ TEST(TagDetector, GivesTagsByRisingId) {
 }
 
 TEST(TagDetector, TakesOneOfTwoTagsOfTheSameId) {
-  const std::vector<tracking::TagMarker> tags{
+  const std::vector<SceneTag> tags{
       {.id = 7, .edgeMetres = 0.05, .worldFromTag = poseOf({}, {-0.1, 0.0, 0.5})},
       {.id = 7, .edgeMetres = 0.08, .worldFromTag = poseOf({}, {0.1, 0.0, 0.5})}};
   TagDetector detector;
@@ -125,7 +125,7 @@ TEST(TagDetector, FindsTagsInSmallPictures) {
   for (const hal::FrameSize size :
        {hal::FrameSize{320, 240}, hal::FrameSize{161, 97}, hal::FrameSize{48, 40}}) {
     const CameraModel camera = webcam(size);
-    const tracking::TagMarker tag{.id = 3, .edgeMetres = 0.1, .worldFromTag = poseOf({}, {0.0, 0.0, 0.24})};
+    const SceneTag tag{.id = 3, .edgeMetres = 0.1, .worldFromTag = poseOf({}, {0.0, 0.0, 0.24})};
     const auto found = detect(support::renderTags(camera, kIdentity, {&tag, 1}));
     ASSERT_EQ(idsOf(found), std::vector<int>{3}) << size.width;
     EXPECT_LT(worstCornerPx(found[0].corners, support::trueCorners(camera, tag.worldFromTag, 0.1)),
@@ -155,7 +155,7 @@ TEST(TagDetector, FindsNothingInNoiseAndFlatPictures) {
 
 /// A picture whose rows are further apart than their length.
 TEST(TagDetector, KeepsToTheStride) {
-  const tracking::TagMarker tag{.id = 9, .edgeMetres = 0.1, .worldFromTag = poseOf({}, {0.0, 0.0, 0.5})};
+  const SceneTag tag{.id = 9, .edgeMetres = 0.1, .worldFromTag = poseOf({}, {0.0, 0.0, 0.5})};
   const hal::Image image = support::renderTags(webcam({320, 240}), kIdentity, {&tag, 1});
   constexpr std::size_t kStride = 333;
   std::vector<std::uint8_t> spread(kStride * 239 + 320, 200);
