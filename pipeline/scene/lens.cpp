@@ -11,10 +11,12 @@ bool bendsLines(const tracking::Distortion& d) {
 }
 
 double trustedLensRadius(const tracking::Distortion& d) {
-  constexpr double kStep = 1.0 / 256.0;
+  constexpr int kSteps = 1024;
+  constexpr double kStep = kWidestLens / kSteps;
   constexpr double kLeastGrowth = 0.05;  // of the distorted radius against the true one
   double before = 0.0;
-  for (double radius = kStep; radius <= kWidestLens; radius += kStep) {
+  for (int step = 1; step <= kSteps; ++step) {
+    const double radius = step * kStep;
     const double r2 = radius * radius;
     const double below = 1.0 + r2 * (d.k4 + r2 * (d.k5 + r2 * d.k6));
     const double distorted = radius * (1.0 + r2 * (d.k1 + r2 * (d.k2 + r2 * d.k3))) / below;
