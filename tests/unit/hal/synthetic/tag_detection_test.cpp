@@ -84,7 +84,6 @@ TEST(SyntheticTags, AreFoundWhereTheTruthSays) {
   EXPECT_LT(sum / corners, 0.3);
   RecordProperty("meanCornerErrorPx", std::to_string(sum / corners));
   RecordProperty("worstCornerErrorPx", std::to_string(worst));
-  printf("corner error: mean %.3f px, worst %.3f px, %d corners\n", sum / corners, worst, corners);
 }
 
 TEST(SyntheticTags, LieFaceUpInRightHandedFrames) {
