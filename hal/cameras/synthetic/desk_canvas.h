@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 
 #include "hal/cameras/synthetic/mip_texture.h"
+#include "hal/cameras/synthetic/row_threads.h"
 
 namespace pleinair::hal::synthetic {
 
@@ -77,9 +78,9 @@ class DeskCanvas {
   }
 
   /// Lays `shade(point) → Paint` over every texel within ±`half` (metres) of a thing; `point` is in
-  /// the thing's own coordinates, metres.
+  /// the thing's own coordinates, metres. Called from several threads.
   template <class Shade>
-  void paint(const Placement& at, glm::vec2 half, Shade&& shade) {
+  void paint(const Placement& at, glm::vec2 half, const Shade& shade) {
     const float angle = at.angleDegrees * 0.017453293F;
     const glm::vec2 xAxis(std::cos(angle), std::sin(angle));
     const glm::vec2 reach(std::abs(xAxis.x) * half.x + std::abs(xAxis.y) * half.y,
@@ -88,14 +89,17 @@ class DeskCanvas {
     const glm::vec2 high = (at.centreMetres + reach - origin_) / texel_;
     const int endX = std::min(level_.width, static_cast<int>(high.x) + 1);
     const int endY = std::min(level_.height, static_cast<int>(high.y) + 1);
-    for (int y = std::max(0, static_cast<int>(low.y)); y < endY; ++y) {
-      for (int x = std::max(0, static_cast<int>(low.x)); x < endX; ++x) {
-        const glm::vec2 centre(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
-        const glm::vec2 world = origin_ + centre * texel_ - at.centreMetres;
-        const glm::vec2 point(glm::dot(world, xAxis), xAxis.x * world.y - xAxis.y * world.x);
-        if (std::abs(point.x) <= half.x && std::abs(point.y) <= half.y) blend(x, y, shade(point));
+    const int firstX = std::max(0, static_cast<int>(low.x));
+    forRows(std::max(0, static_cast<int>(low.y)), endY, [&](int firstRow, int endRow) {
+      for (int y = firstRow; y < endRow; ++y) {
+        for (int x = firstX; x < endX; ++x) {
+          const glm::vec2 centre(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+          const glm::vec2 world = origin_ + centre * texel_ - at.centreMetres;
+          const glm::vec2 point(glm::dot(world, xAxis), xAxis.x * world.y - xAxis.y * world.x);
+          if (std::abs(point.x) <= half.x && std::abs(point.y) <= half.y) blend(x, y, shade(point));
+        }
       }
-    }
+    });
   }
 
   /// The soft shadow of a rounded box that stands `heightMetres` high, lit from the far left.

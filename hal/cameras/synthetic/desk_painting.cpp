@@ -8,6 +8,7 @@
 #include "hal/cameras/synthetic/desk_tags.h"
 #include "hal/cameras/synthetic/desk_tools.h"
 #include "hal/cameras/synthetic/noise.h"
+#include "hal/cameras/synthetic/row_threads.h"
 #include "hal/cameras/synthetic/wood.h"
 
 namespace pleinair::hal::synthetic {
@@ -78,17 +79,19 @@ glm::vec3 lightAt(glm::vec2 p) {
 }
 
 void lightUp(MipTexture::Level& level, glm::vec2 origin, float texelMetres) {
-  for (int y = 0; y < level.height; ++y) {
-    for (int x = 0; x < level.width; ++x) {
-      Texel& texel =
-          level.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) +
-                       static_cast<std::size_t>(x)];
-      if (texel.coverage == 0) continue;
-      const glm::vec2 p =
-          origin + (glm::vec2(static_cast<float>(x), static_cast<float>(y)) + 0.5F) * texelMetres;
-      texel = packTexel(unpackTexel(texel) * glm::vec4(lightAt(p), 1));
+  const auto width = static_cast<std::size_t>(level.width);
+  forRows(0, level.height, [&](int firstRow, int endRow) {
+    for (int y = firstRow; y < endRow; ++y) {
+      for (int x = 0; x < level.width; ++x) {
+        Texel& texel =
+            level.texels[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
+        if (texel.coverage == 0) continue;
+        const glm::vec2 centre(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+        texel =
+            packTexel(unpackTexel(texel) * glm::vec4(lightAt(origin + centre * texelMetres), 1));
+      }
     }
-  }
+  });
 }
 
 }  // namespace
