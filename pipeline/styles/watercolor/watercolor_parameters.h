@@ -21,7 +21,7 @@ struct WatercolorParameters {
   double bleeding = 0.85;
   double wobble = 2.0;
   double rim = 0.5;
-  double granulation = 0.5;
+  double granulation = 0.4;
   double variation = 0.5;
   double grain = 0.2;
   double vividness = 0.3;
