@@ -124,8 +124,9 @@ void PaintChain::requireView(const std::string& view) const {
   for (const PainterView& each : views()) names.push_back(each.name);
   if (std::ranges::find(names, view) != names.end()) return;
   throw hal::StartupError(hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
-                                     .subject = "--view",
-                                     .problem = config::unknownText("view", view, names)});
+                                     .subject = "view \"" + view + "\"",
+                                     .problem = config::unknownText("view", view, names),
+                                     .remedy = "choose one of: " + config::listText(names)});
 }
 
 int PaintChain::openReader(const hal::FrameFormat& format) {

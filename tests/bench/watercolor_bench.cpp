@@ -168,4 +168,3 @@ BENCHMARK_CAPTURE(onePass, compose, "watercolor: compose")
 
 }  // namespace
 
-BENCHMARK_MAIN();
