@@ -78,3 +78,11 @@ pleinair_add_suites(\"$<TARGET_FILE:${name}>\" ${name} ${ARG_KIND} ${label} ${AR
       TEST_PREFIX "${ARG_KIND}." PROPERTIES LABELS "${label}" TIMEOUT ${ARG_TIMEOUT})
   endif()
 endfunction()
+
+# pleinair_benchmark(NAME SOURCES ... [LIBS ...]): a Google Benchmark executable, run by hand.
+function(pleinair_benchmark name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE pleinair_build ${ARG_LIBS} benchmark::benchmark_main)
+  target_compile_definitions(${name} PRIVATE PLEINAIR_SHARED_DATA="${PLEINAIR_SHARED_DATA}")
+endfunction()

@@ -246,6 +246,11 @@ bool TomlTable::has(std::string_view key) const {
   return state_->table->contains(key);
 }
 
+bool TomlTable::isString(std::string_view key) const {
+  const toml::node* node = state_->table->get(key);
+  return node != nullptr && node->is_string();
+}
+
 std::vector<std::string> TomlTable::keys() const {
   std::vector<std::string> names;
   for (const auto& [key, node] : *state_->table) names.emplace_back(key.str());

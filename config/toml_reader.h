@@ -96,9 +96,10 @@ class TomlTable {
   /// An array of tables, `[[key]]`. Absent, it is empty.
   std::vector<TomlTable> tables(std::string_view key) const;
 
-  bool has(std::string_view key) const;    ///< does not make the key known
-  std::vector<std::string> keys() const;   ///< every key in the table, sorted
-  int lineOf(std::string_view key) const;  ///< where absent, its table's line; 0 for the root
+  bool has(std::string_view key) const;       ///< does not make the key known
+  bool isString(std::string_view key) const;  ///< likewise; for keys of two types
+  std::vector<std::string> keys() const;      ///< every key in the table, sorted
+  int lineOf(std::string_view key) const;     ///< where absent, its table's line; 0 for the root
   std::string pathOf(std::string_view key) const;  ///< "tag[0].edge"
   const std::string& file() const;                 ///< the name for messages
 

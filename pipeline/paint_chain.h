@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pipeline/gpu/frame_upload.h"
@@ -44,22 +45,24 @@ class PaintChain {
   };
   /// A ring of pictures under way, and which frames they are of, oldest first.
   struct Reader {
+    explicit Reader(present::PictureReader reader) : ring(std::move(reader)) {}
     present::PictureReader ring;
     std::vector<Stamp> underWay;
     std::uint64_t skipped = 0;
   };
 
   void warmUp();
-  tracking::TrackingResult track(const hal::ImageView& image);
-  const gpu::Texture& paintView(const scene::ArFrame& frame, const gpu::Texture& camera,
-                                const PaintParameters& parameters);
-  void submitToReaders(const gpu::Texture& picture, const hal::CapturedFrame& frame);
+  tracking::TrackingResult track(const hal::CapturedFrame& frame);
+  const gpu::Texture& paintView(const scene::ArFrame& frame, const PaintParameters& parameters);
+  void requireView(const std::string& view) const;
+  void submitToReaders(const hal::CapturedFrame& frame);
   hal::Image read(const gpu::Texture& texture) const;
   Reader& at(int reader) { return *readers_.at(static_cast<std::size_t>(reader)); }
   const Reader& at(int reader) const { return *readers_.at(static_cast<std::size_t>(reader)); }
 
   hal::FrameSize pictureSize_;
   scene::Scene scene_;
+  bool tracksTags_;
   gpu::ShaderLibrary library_;
   gpu::PassTimer timer_;
   gpu::FrameUploader uploader_;
@@ -67,6 +70,8 @@ class PaintChain {
   std::unique_ptr<styles::Style> style_;
   std::optional<tracking::Tracker> tracker_;  // made for the size of the frames that come
   hal::FrameSize trackedSize_;
+  std::optional<tracking::CameraModel> pictureCamera_;  // of the picture, not of the frame
+  std::vector<scene::TagSighting> sightings_;
   std::vector<std::unique_ptr<Reader>> readers_;
   const gpu::Texture* picture_ = nullptr;  // of the last paint
   const gpu::Texture* camera_ = nullptr;

@@ -61,7 +61,7 @@ struct Painter::Impl {
     ownContext.reset();
   }
 
-  void run(const std::function<void()>& task) const {
+  void run(const std::function<void()>& task) {
     if (thread) {
       thread->run(task);
     } else {
@@ -71,7 +71,7 @@ struct Painter::Impl {
 
   /// What `task` returns, from the context's thread.
   template <class Task>
-  auto call(Task task) const {
+  auto call(Task task) {
     std::optional<decltype(task())> result;
     run([&] { result.emplace(task()); });
     return std::move(*result);

@@ -13,7 +13,7 @@
 #include "hal/image.h"
 #include "pipeline/gpu/egl_context.h"
 #include "pipeline/gpu/pass_timer.h"
-#include "pipeline/scene/scene_file.h"
+#include "pipeline/scene/scene.h"
 #include "pipeline/tracking/tracker.h"
 
 namespace pleinair {
@@ -28,6 +28,7 @@ struct PainterOptions {
   hal::FrameSize pictureSize;  ///< of what is painted; frames are scaled to fill it
   scene::Scene scene;          ///< empty: the camera's picture alone
   std::string style = "watercolor";
+  bool tracksTags = true;  ///< without, no tag is looked for and no model appears
   PainterContext context = PainterContext::kOwn;
   std::filesystem::path shaderDirectory;  ///< overrides embedded shaders; empty: none
   gpu::PassTiming passTiming = gpu::PassTiming::kOff;

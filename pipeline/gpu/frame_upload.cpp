@@ -10,8 +10,8 @@ namespace {
 using hal::FrameSize;
 using hal::PixelFormat;
 
-/// As in camera_picture.frag.
-enum class Layout { kRgb, kGrey, kNv12, kI420, kYuyv, kBayer };
+/// Shaders of their own: the software rasteriser runs every branch of a shared one.
+enum class Layout : std::size_t { kRgb, kGrey, kNv12, kI420, kYuyv, kBayer };
 
 Layout layoutOf(PixelFormat format) {
   switch (format) {
@@ -78,7 +78,12 @@ glm::ivec2 redSite(PixelFormat format) {
 }  // namespace
 
 FrameUploader::FrameUploader(const ShaderLibrary& library)
-    : convert_(library.fragmentPass("pipeline/gpu/shaders/camera_picture.frag")),
+    : convert_{library.fragmentPass("pipeline/gpu/shaders/camera_rgb.frag"),  // in Layout's order
+               library.fragmentPass("pipeline/gpu/shaders/camera_grey.frag"),
+               library.fragmentPass("pipeline/gpu/shaders/camera_nv12.frag"),
+               library.fragmentPass("pipeline/gpu/shaders/camera_i420.frag"),
+               library.fragmentPass("pipeline/gpu/shaders/camera_yuyv.frag"),
+               library.fragmentPass("pipeline/gpu/shaders/camera_bayer.frag")},
       resampler_(library) {}
 
 const Texture& FrameUploader::upload(const hal::ImageView& image, FrameSize size) {
@@ -110,20 +115,22 @@ void FrameUploader::uploadPlanes(const hal::ImageView& image) {
 }
 
 void FrameUploader::convert(const hal::FrameFormat& format) {
-  const YcbcrConversion ycbcr = ycbcrConversion(format.encoding);
-  const bool has3 = format.pixelFormat == PixelFormat::kI420;
-  const bool has2 = has3 || format.pixelFormat == PixelFormat::kNv12;
-  convert_.use()
-      .texture("plane0", planes_[0])
-      .texture("plane1", has2 ? planes_[1] : planes_[0])
-      .texture("plane2", has3 ? planes_[2] : planes_[0])
-      .set("layoutKind", static_cast<int>(layoutOf(format.pixelFormat)))
-      .set("rgbFromYcbcr", ycbcr.toRgb)
-      .set("ycbcrOffset", ycbcr.offset)
-      .set("chromaShift", chromaShift(format.encoding))
-      .set("bayerOrigin", redSite(format.pixelFormat))
-      .set("pictureSize", glm::ivec2(format.size.width, format.size.height))
-      .drawFullscreen(nativeTarget_);
+  constexpr std::array kSamplers{"plane0", "plane1", "plane2"};
+  Program& program = convert_[static_cast<std::size_t>(layoutOf(format.pixelFormat))];
+  program.use();
+  for (int plane = 0; plane < planeCount(format.pixelFormat); ++plane) {
+    const auto i = static_cast<std::size_t>(plane);
+    program.texture(kSamplers[i], planes_[i]);
+  }
+  if (isYCbCr(format.pixelFormat)) {
+    const YcbcrConversion ycbcr = ycbcrConversion(format.encoding);
+    program.set("rgbFromYcbcr", ycbcr.toRgb)
+        .set("ycbcrOffset", ycbcr.offset)
+        .set("chromaShift", chromaShift(format.encoding));
+  } else if (isBayer(format.pixelFormat)) {
+    program.set("bayerOrigin", redSite(format.pixelFormat));
+  }
+  program.drawFullscreen(nativeTarget_);
 }
 
 }  // namespace pleinair::gpu

@@ -27,7 +27,7 @@ class FrameUploader {
   void uploadPlanes(const hal::ImageView& image);
   void convert(const hal::FrameFormat& format);
 
-  Program convert_;
+  std::array<Program, 6> convert_;  // one a layout
   hal::FrameFormat planesFormat_;
   std::array<Texture, 3> planes_;
   Texture native_;  // at the frame's own size

@@ -131,8 +131,20 @@ Program& Program::image(unsigned binding, const Texture& texture, ImageAccess ac
 }
 
 void Program::drawFullscreen(const RenderTarget& target) {
-  assert(isCurrent(handle_));
   target.beginDiscarding();
+  drawTriangle();
+}
+
+void Program::drawArea(const RenderTarget& target, glm::ivec2 origin, hal::FrameSize size) {
+  assert(origin.x >= 0 && origin.y >= 0 && origin.x + size.width <= target.size().width &&
+         origin.y + size.height <= target.size().height);
+  target.beginKeeping();
+  glViewport(origin.x, origin.y, size.width, size.height);
+  drawTriangle();
+}
+
+void Program::drawTriangle() {
+  assert(isCurrent(handle_));
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);

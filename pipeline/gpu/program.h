@@ -55,12 +55,15 @@ class Program {
   /// Runs a full-screen pass over `target`; every pixel is written, no blending, no depth. What was
   /// in the target is lost, its depth too.
   void drawFullscreen(const RenderTarget& target);
+  /// Runs the pass over a part of `target` only and keeps the rest.
+  void drawArea(const RenderTarget& target, glm::ivec2 origin, hal::FrameSize size);
   /// Runs a compute program over `items` invocations, rounded up to whole groups of `groupSize`,
   /// which is the shader's local_size, then makes its writes visible to what `barriers`
   /// (GL_*_BARRIER_BIT) names.
   void dispatch(glm::ivec2 items, glm::ivec2 groupSize, GLbitfield barriers);
 
  private:
+  void drawTriangle();
   /// Asserts that the program is the current one; -1 for a uniform that is not active.
   GLint location(std::string_view uniform) const;
 

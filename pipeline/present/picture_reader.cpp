@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <string_view>
 
 #include "pipeline/gpu/ycbcr.h"
 #include "pipeline/present/present_shaders.h"
@@ -14,38 +15,44 @@ using hal::FrameFormat;
 using hal::FrameSize;
 using hal::PixelFormat;
 
-/// As in pack.frag.
-enum class Layout { kRgba, kRgb, kGrey, kI420, kNv12, kYuyv };
-
-Layout layoutOf(PixelFormat format) {
+/// The shader that packs a plane. One each: the software rasteriser runs every branch of a shared
+/// one.
+std::string_view shaderOf(PixelFormat format, int plane) {
   switch (format) {
     case PixelFormat::kRgba8:
-      return Layout::kRgba;
+      return "pipeline/present/shaders/pack_rgba.frag";
     case PixelFormat::kRgb8:
-      return Layout::kRgb;
-    case PixelFormat::kGrey8:
-      return Layout::kGrey;
-    case PixelFormat::kI420:
-      return Layout::kI420;
-    case PixelFormat::kNv12:
-      return Layout::kNv12;
+      return "pipeline/present/shaders/pack_rgb.frag";
     case PixelFormat::kYuyv:
-      return Layout::kYuyv;
+      return "pipeline/present/shaders/pack_yuyv.frag";
+    case PixelFormat::kI420:
+      if (plane > 0) return "pipeline/present/shaders/pack_i420_chroma.frag";
+      break;
+    case PixelFormat::kNv12:
+      if (plane > 0) return "pipeline/present/shaders/pack_nv12_chroma.frag";
+      break;
     default:
-      assert(false && "no output takes Bayer");
-      return Layout::kRgba;
+      assert(format == PixelFormat::kGrey8 && "no output takes Bayer");
+      break;
   }
+  return "pipeline/present/shaders/pack_luma.frag";
 }
 
-/// The packed texture: a texel holds four bytes; planes lie one below the other.
+/// The packed texels of a plane, four bytes each.
+FrameSize planeTexels(const FrameFormat& format, int plane) {
+  const std::size_t bytes = rowBytes(format.pixelFormat, plane, format.size.width);
+  return {static_cast<int>((bytes + 3) / 4),
+          planeRows(format.pixelFormat, plane, format.size.height)};
+}
+
+/// The packed texture: planes lie one below the other.
 FrameSize packedSize(const FrameFormat& format) {
-  std::size_t widest = 0;
-  int rows = 0;
+  FrameSize size;
   for (int plane = 0; plane < planeCount(format.pixelFormat); ++plane) {
-    widest = std::max(widest, rowBytes(format.pixelFormat, plane, format.size.width));
-    rows += planeRows(format.pixelFormat, plane, format.size.height);
+    const FrameSize texels = planeTexels(format, plane);
+    size = {std::max(size.width, texels.width), size.height + texels.height};
   }
-  return {static_cast<int>((widest + 3) / 4), rows};
+  return size;
 }
 
 /// Luma and chroma as grey, RGB and RGBA outputs need it: full range, so that white stays white.
@@ -58,27 +65,36 @@ hal::ColorEncoding encodingOf(const FrameFormat& format) {
 
 PictureReader::PictureReader(const gpu::ShaderLibrary& library, FrameFormat format, int depth)
     : format_(format),
-      program_(library.fragmentPass("pipeline/present/shaders/pack.frag")),
       resampler_(library),
       packed_(gpu::TextureFormat::kRgba8, packedSize(format)),
       target_({&packed_}),
       ring_(static_cast<std::size_t>(depth)) {
   assert(depth >= 1);
   const std::size_t bytes = static_cast<std::size_t>(packed_.size().pixels()) * 4;
+  int row = 0;
+  for (int plane = 0; plane < planeCount(format.pixelFormat); ++plane) {
+    const FrameSize texels = planeTexels(format, plane);
+    passes_.push_back({library.fragmentPass(shaderOf(format.pixelFormat, plane)), row, texels});
+    row += texels.height;
+  }
   for (Slot& slot : ring_) slot.buffer = gpu::Buffer(bytes, gpu::BufferUsage::kReadBack);
 }
 
 void PictureReader::pack(const gpu::Texture& picture) {
   const hal::ColorEncoding encoding = encodingOf(format_);
   const gpu::YcbcrConversion ycbcr = gpu::ycbcrConversion(encoding);
-  program_.use()
-      .texture("picture", picture)
-      .set("pictureSize", glm::ivec2(format_.size.width, format_.size.height))
-      .set("layoutKind", static_cast<int>(layoutOf(format_.pixelFormat)))
-      .set("ycbcrFromRgb", ycbcr.fromRgb)
-      .set("ycbcrOffset", ycbcr.offset)
-      .set("chromaLeftSited", gpu::isChromaLeftSited(encoding) ? 1 : 0)
-      .drawFullscreen(target_);
+  target_.beginDiscarding();
+  for (std::size_t plane = 0; plane < passes_.size(); ++plane) {
+    PlanePass& pass = passes_[plane];
+    pass.program.use()
+        .texture("picture", picture)
+        .set("ycbcrFromRgb", ycbcr.fromRgb)
+        .set("ycbcrOffset", ycbcr.offset)
+        .set("chromaLeftSited", gpu::isChromaLeftSited(encoding) ? 1 : 0)
+        .set("plane", static_cast<int>(plane))
+        .set("firstRow", pass.firstRow)
+        .drawArea(target_, {0, pass.firstRow}, pass.texels);
+  }
 }
 
 void PictureReader::submit(const gpu::Texture& picture) {

@@ -41,11 +41,17 @@ class PictureReader {
     gpu::Buffer buffer;
     gpu::Fence copied;
   };
+  /// Packs one plane into its rows of the target.
+  struct PlanePass {
+    gpu::Program program;
+    int firstRow;
+    hal::FrameSize texels;
+  };
   void pack(const gpu::Texture& picture);
   void unpack(const std::uint8_t* bytes, hal::Image& image) const;
 
   hal::FrameFormat format_;
-  gpu::Program program_;
+  std::vector<PlanePass> passes_;
   gpu::Resampler resampler_;
   gpu::Texture packed_;
   gpu::RenderTarget target_;

@@ -18,7 +18,7 @@ using Side = SolidBuilder::Side;
 
 constexpr int kDefaultHoles = 5;
 constexpr std::size_t kHoleSegments = 36;
-constexpr int kBorderSegments = 8;
+constexpr int kWebRows = 8;
 constexpr std::size_t kLeastCircleSegments = 90;
 constexpr double kSmoothCosine = 0.9;  // edges of the outline that turn less are round
 const glm::dvec2 kAxis(0.0);
@@ -42,12 +42,16 @@ double widestBore(const GearParameters& gear) {
   return 2.0 * (gearRadii(gear.form).rootMetres - 0.75 * gear.form.moduleMetres);
 }
 
-/// Whether so many holes fit: apart from each other, and each sees all of its part of the web.
+/// Half the angle of the part of the web around a hole: a hole sees all of that part from its
+/// middle, past the hub, so that triangles can fan out from it.
+double halfHoleSector(const GearPlan& plan, int holes) {
+  const double pastHub = 0.9 * std::acos(std::min(1.0, plan.webInner / plan.holeCentre));
+  return std::min(std::numbers::pi / holes, pastHub);
+}
+
 bool holesFit(const GearPlan& plan, int holes) {
-  if (!plan.hasRecess() || holes < 3) return false;
-  const double halfSector = std::numbers::pi / holes;
-  return plan.holeCentre * std::sin(halfSector) > 1.5 * plan.hole &&
-         plan.holeCentre * std::cos(halfSector) > 1.02 * plan.webInner;
+  return plan.hasRecess() &&
+         plan.holeCentre * std::sin(halfHoleSector(plan, holes)) > 1.5 * plan.hole;
 }
 
 GearPlan planOf(const GearParameters& gear) {
@@ -55,12 +59,12 @@ GearPlan planOf(const GearParameters& gear) {
   const double pitchDiameter = m * gear.form.teeth;
   GearPlan plan;
   plan.bore = 0.5 * gear.boreDiameterMetres.value_or(0.18 * pitchDiameter);
-  plan.chamfer = std::min({0.12 * m, 0.1 * gear.thicknessMetres, 0.25 * plan.bore});
+  plan.chamfer = std::min({0.15 * m, 0.1 * gear.thicknessMetres, 0.25 * plan.bore});
   const double hubDiameter = gear.hubDiameterMetres.value_or(
       std::max(0.36 * pitchDiameter, 2.0 * plan.bore + 4.0 * plan.chamfer));
   plan.hub = 0.5 * hubDiameter;
   plan.rim = gearRadii(gear.form).rootMetres - 1.25 * m;
-  const double draft = 0.04 * gear.thicknessMetres;  // castings leave their mould
+  const double draft = std::min(0.12 * gear.thicknessMetres, 0.4 * m);  // as castings have
   plan.webOuter = plan.rim - plan.chamfer - draft;
   plan.webInner = plan.hub + plan.chamfer + draft;
   if (plan.webOuter - plan.webInner < m) plan.webOuter = plan.webInner = 0.0;
@@ -154,24 +158,59 @@ Ring addTeeth(SolidBuilder& solid, Side side, const GearProfile& profile, const 
   return feet;
 }
 
-/// The floor of the recess around one hole, and the hole's chamfer.
+/// The recess' floor as a grid of rings from the hub out, whose points all its faces share.
+std::vector<Ring> webRings(const GearPlan& plan, double z) {
+  std::vector<Ring> rings;
+  for (int i = 0; i <= kWebRows; ++i) {
+    const double t = static_cast<double>(i) / kWebRows;
+    // exact at both ends, where walls join
+    const double radius = (1.0 - t) * plan.webInner + t * plan.webOuter;
+    rings.push_back(circleRing(kAxis, radius, z, plan.segments));
+  }
+  return rings;
+}
+
+/// Fills the columns [from, to) of the grid.
+void addWebColumns(SolidBuilder& solid, Side side, const std::vector<Ring>& web, std::size_t from,
+                   std::size_t to) {
+  const std::size_t segments = web[0].size();
+  for (std::size_t column = from; column < to; ++column) {
+    const std::size_t i = column % segments;
+    const std::size_t j = (column + 1) % segments;
+    for (std::size_t row = 1; row < web.size(); ++row) {
+      solid.addFlat(side, std::array{web[row - 1][i], web[row][i], web[row][j], web[row - 1][j]});
+    }
+  }
+}
+
+/// The outline of the columns [from, to).
+Ring outlineOfColumns(const std::vector<Ring>& web, std::size_t from, std::size_t to) {
+  const std::size_t segments = web[0].size();
+  Ring outline;
+  for (std::size_t i = from; i < to; ++i) outline.push_back(web.back()[i % segments]);
+  for (std::size_t row = web.size(); row-- > 1;) outline.push_back(web[row][to % segments]);
+  for (std::size_t i = to; i > from; --i) outline.push_back(web.front()[i % segments]);
+  for (std::size_t row = 0; row + 1 < web.size(); ++row) {
+    outline.push_back(web[row][from % segments]);
+  }
+  return outline;
+}
+
+/// One hole's share of the recess' floor, and its chamfer.
 void addHole(SolidBuilder& solid, Side side, const GearPlan& plan, const Heights& heights,
              int index) {
-  const std::size_t perHole = plan.segments / static_cast<std::size_t>(plan.holes);
-  const std::size_t first = perHole * static_cast<std::size_t>(index);
-  // The borders to the neighbours are cut up too, for triangles of a good shape.
-  const auto border = [&](std::size_t at, int step) {
-    const double t = static_cast<double>(step) / kBorderSegments;
-    const double radius = plan.webInner + t * (plan.webOuter - plan.webInner);
-    return circleRing(kAxis, radius, heights.web, plan.segments)[at % plan.segments];
-  };
-  const Ring outer = circleRing(kAxis, plan.webOuter, heights.web, plan.segments);
-  const Ring inner = circleRing(kAxis, plan.webInner, heights.web, plan.segments);
-  Ring around;
-  for (std::size_t i = 0; i <= perHole; ++i) around.push_back(outer[(first + i) % plan.segments]);
-  for (int i = kBorderSegments - 1; i > 0; --i) around.push_back(border(first + perHole, i));
-  for (std::size_t i = perHole + 1; i-- > 0;) around.push_back(inner[(first + i) % plan.segments]);
-  for (int i = 1; i < kBorderSegments; ++i) around.push_back(border(first, i));
+  const std::vector<Ring> web = webRings(plan, heights.web);
+  const std::size_t columns = plan.segments / static_cast<std::size_t>(plan.holes);
+  const std::size_t first = columns * static_cast<std::size_t>(index);
+  const double columnRad = 2.0 * std::numbers::pi / static_cast<double>(plan.segments);
+  std::size_t beside = 0;  // columns on either side that the hole leaves whole
+  while (0.5 * static_cast<double>(columns - 2 * beside) * columnRad >
+         halfHoleSector(plan, plan.holes) + 1e-9) {
+    ++beside;
+  }
+  addWebColumns(solid, side, web, first, first + beside);
+  addWebColumns(solid, side, web, first + columns - beside, first + columns);
+  const Ring around = outlineOfColumns(web, first + beside, first + columns - beside);
 
   const double angle = 2.0 * std::numbers::pi * (index + 0.5) / plan.holes;
   const glm::dvec2 centre(plan.holeCentre * std::cos(angle), plan.holeCentre * std::sin(angle));

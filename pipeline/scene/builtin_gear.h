@@ -16,6 +16,7 @@ struct GearParameters {
   std::optional<double> boreDiameterMetres;  ///< default: 0.18 of the pitch diameter
   std::optional<double> hubDiameterMetres;   ///< default: 0.36 of the pitch diameter
   std::optional<int> holes;                  ///< in the web; default: 5 if they fit, else none
+  friend bool operator==(const GearParameters&, const GearParameters&) = default;
 };
 
 /// Why a gear cannot be made.

@@ -94,6 +94,7 @@ GearProfile gearProfile(const ToothForm& form) {
   const GearRadii radii = gearRadii(form);
   const std::vector<Polar> half = halfTooth(form, radii);
   std::vector<Polar> tooth;
+  tooth.reserve(2 * half.size() + kTipSegments + kRootSegments);
   for (const Polar& p : half) tooth.push_back({-p.angleRad, p.radius});
   for (int i = 1; i < kTipSegments; ++i) {
     const double t = 2.0 * i / kTipSegments - 1.0;
@@ -110,6 +111,7 @@ GearProfile gearProfile(const ToothForm& form) {
     tooth.push_back({rootStart + t * (pitchAngle - 2.0 * rootStart), radii.rootMetres});
   }
   profile.pointsPerTooth = tooth.size();
+  profile.points.reserve(static_cast<std::size_t>(form.teeth) * tooth.size());
   for (int k = 0; k < form.teeth; ++k) {
     for (const Polar& p : tooth) {
       profile.points.push_back(toPlane({p.angleRad + k * pitchAngle, p.radius}));

@@ -12,6 +12,7 @@ struct ToothForm {
   int teeth = 18;
   double moduleMetres = 0.005;  ///< pitch diameter = teeth · module
   double pressureAngleRad = 0.3490658503988659;
+  friend bool operator==(const ToothForm&, const ToothForm&) = default;
 };
 
 struct GearRadii {

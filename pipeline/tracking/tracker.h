@@ -13,19 +13,12 @@
 #include "pipeline/tracking/camera_model.h"
 #include "pipeline/tracking/luma.h"
 #include "pipeline/tracking/tag_detector.h"
+#include "pipeline/tracking/tag_marker.h"
 #include "pipeline/tracking/tag_pose.h"
 #include "pipeline/tracking/twin_choice.h"
 #include "pipeline/tracking/world_pose.h"
 
 namespace pleinair::tracking {
-
-/// A tag that is expected.
-struct TagMarker {
-  int id = 0;
-  double edgeMetres = 0.0;  ///< of the black square
-  /// Where it is, in the frame of tagCorners(). A tag without one does not tell where the world is.
-  std::optional<glm::dmat4> worldFromTag;
-};
 
 struct TrackedTag {
   int id = 0;

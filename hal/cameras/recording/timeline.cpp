@@ -13,7 +13,7 @@ constexpr Duration kLargestTime = std::chrono::hours(24 * 365 * 100);
 }  // namespace
 
 Duration Timeline::place(std::optional<Duration> time, std::uint64_t droppedBefore) {
-  if (time && std::chrono::abs(*time) > kLargestTime) time.reset();
+  if (time && (*time > kLargestTime || *time < -kLargestTime)) time.reset();
   if (!last_) {
     if (!time) ++mended_;
     if (!origin_) origin_ = time;

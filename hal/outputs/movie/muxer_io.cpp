@@ -29,8 +29,8 @@ void MuxerIo::substituteInHeader(std::span<const std::uint8_t> from,
 void MuxerIo::substitute(const State& state, std::span<std::uint8_t> bytes) {
   constexpr std::int64_t kHeaderBytes = 4096;
   if (state.from.empty() || state.position >= kHeaderBytes) return;
-  const auto found = std::ranges::search(bytes, state.from);
-  if (!found.empty()) std::ranges::copy(state.to, found.begin());
+  const auto found = std::search(bytes.begin(), bytes.end(), state.from.begin(), state.from.end());
+  if (found != bytes.end()) std::copy(state.to.begin(), state.to.end(), found);
 }
 
 int MuxerIo::write(void* opaque, std::uint8_t* bytes, int size) {

@@ -71,8 +71,8 @@ struct Watercolor::Surfaces {
         tiling(TextureFormat::kR32ui, size),
         means(TextureFormat::kRgba16f, grid.size()),
         shifts(TextureFormat::kRgba16f, grid.size()),
-        flatWash(TextureFormat::kRgba16f, grid.size()),
-        softWash(TextureFormat::kRgba16f, grid.size(), TextureFilter::kLinear),
+        flatWash(TextureFormat::kRg32ui, grid.size()),
+        softWash(TextureFormat::kRgba8, grid.size(), TextureFilter::kLinear),
         picture(TextureFormat::kRgba8, size, TextureFilter::kLinear),
         washTarget({&flatWash, &softWash}),
         pictureTarget({&picture}) {}
@@ -116,10 +116,7 @@ void Watercolor::reset() {
 
 Watercolor::Inner Watercolor::inner() const {
   assert(surfaces_ != nullptr);
-  return {.seeds = &surfaces_->seeds,
-          .tiling = &surfaces_->tiling,
-          .means = &surfaces_->means,
-          .flatWash = &surfaces_->flatWash};
+  return {.seeds = &surfaces_->seeds, .tiling = &surfaces_->tiling, .means = &surfaces_->means};
 }
 
 const Texture& Watercolor::paint(const scene::ArFrame& frame, std::string_view view,
@@ -210,7 +207,9 @@ void Watercolor::paintWashes(gpu::PassTimer& timer) {
   const auto scope = timer.measure("watercolor: wash");
   passes_->wash.use()
       .texture("means", s.means)
+      .texture("shifts", s.shifts)
       .set("seed", s.seed)
+      .set("variation", static_cast<float>(p_.variation))
       .set("vividness", static_cast<float>(p_.vividness))
       .set("luminosity", static_cast<float>(p_.luminosity))
       .drawFullscreen(s.washTarget);
@@ -223,7 +222,6 @@ void Watercolor::compose(gpu::PassTimer& timer) {
       .texture("tiling", s.tiling)
       .texture("flatWash", s.flatWash)
       .texture("softWash", s.softWash)
-      .texture("shifts", s.shifts)
       .texture("paper", paper_)
       .set("pictureSize", glm::vec2(s.size.width, s.size.height))
       .set("threshold", static_cast<float>(p_.edgeThreshold))
@@ -233,7 +231,6 @@ void Watercolor::compose(gpu::PassTimer& timer) {
       .set("wobble", static_cast<float>(p_.wobble))
       .set("rim", static_cast<float>(p_.rim))
       .set("granulation", static_cast<float>(p_.granulation))
-      .set("variation", static_cast<float>(p_.variation))
       .set("grain", static_cast<float>(p_.grain))
       .drawFullscreen(s.pictureTarget);
 }

@@ -12,6 +12,10 @@ namespace pleinair::styles {
 /// with its mean colour, dark edges over it, seeds drawn to the edges in every frame; with washes
 /// that run together, granulation and paper. All on the GPU, nothing is read back.
 ///
+/// What is fixed to what: washes, their unevenness and the grain that pigment settles in belong to
+/// the cells and travel with their seeds; only the sheet's faint relief and the brush's wobble stay
+/// with the screen, as real paper does. An object's silhouette (ids) counts as an edge.
+///
 /// Time: a first frame (after reset(), another size, another `cell_size` or `seed`) starts with
 /// seeds at home and re-tiles a few times at once, so that it looks as settled as later ones. A
 /// seed moves by the share of its way that its time constant gives for the time since the frame
@@ -32,10 +36,9 @@ class Watercolor final : public Style {
 
   /// What the last frame's passes left on the GPU, for tests.
   struct Inner {
-    const gpu::Buffer* seeds;      ///< vec2 a cell, row by row: px, for the next frame
-    const gpu::Texture* tiling;    ///< R32UI a pixel: shaders/tiling_word.glsl
-    const gpu::Texture* means;     ///< RGBA16F a cell: linear RGB; 0 in A where it has no pixel
-    const gpu::Texture* flatWash;  ///< RGBA16F a cell
+    const gpu::Buffer* seeds;    ///< vec2 a cell, row by row: px, for the next frame
+    const gpu::Texture* tiling;  ///< R32UI a pixel: shaders/tiling_word.glsl
+    const gpu::Texture* means;   ///< RGBA16F a cell: linear RGB; 0 in A where it has no pixel
   };
   Inner inner() const;
 

@@ -12,20 +12,20 @@ struct WatercolorParameters {
   double edgeAlpha = 0.5;
   double edgeBeta = 0.5;
   double edgeThreshold = 0.07;
-  double edgeDarkness = 0.7;
+  double edgeDarkness = 0.6;
   int retilePixels = 4;
   double retileTimeSeconds = 0.1;
   double returnTimeSeconds = 1.0;
 
   double edgeSoftness = 0.5;
   double bleeding = 0.85;
-  double wobble = 2.5;
+  double wobble = 2.0;
   double rim = 0.5;
-  double granulation = 0.5;
-  double variation = 0.4;
-  double grain = 0.5;
-  double vividness = 0.35;
-  double luminosity = 0.45;
+  double granulation = 0.4;
+  double variation = 0.5;
+  double grain = 0.2;
+  double vividness = 0.3;
+  double luminosity = 0.65;
 };
 
 const config::ParameterTable<WatercolorParameters>& watercolorParameters();

@@ -106,6 +106,8 @@ TEST_P(GearMeshOf, IsAClosedSolidThatFacesOutward) {
 INSTANTIATE_TEST_SUITE_P(
     Gears, GearMeshOf,
     testing::Values(GearParameters{}, GearParameters{.form = {.teeth = 6}},
+                    GearParameters{.holes = 1}, GearParameters{.holes = 4},
+
                     GearParameters{.form = {.teeth = 7}, .thicknessMetres = 0.2},
                     GearParameters{.form = {.teeth = 12, .pressureAngleRad = 25.0 * kDegree}},
                     GearParameters{.form = {.teeth = 40, .moduleMetres = 0.002}, .holes = 8},
@@ -158,9 +160,9 @@ TEST(GearFault, NamesWhatDoesNotFit) {
   const auto hub = faultOf({.boreDiameterMetres = 0.02, .hubDiameterMetres = 0.01});
   ASSERT_TRUE(hub);
   EXPECT_EQ(hub->key, "hub_diameter_m");
-  const auto holes = faultOf({.holes = 12});
+  const auto holes = faultOf({.holes = 20});
   ASSERT_TRUE(holes);
-  EXPECT_EQ(holes->problem, "found 12, which do not fit into the web");
+  EXPECT_EQ(holes->problem, "found 20, which do not fit into the web");
   EXPECT_FALSE(faultOf({}));
 }
 

@@ -22,12 +22,12 @@ uniform float follow;
 uniform float drift;
 
 // At most one cell from home and from the cell's own middle, which bounds the search of tile.comp,
-// and in the picture.
+// and in the picture; bounds go inwards to the lattice unless they are on it but for rounding.
 vec2 clamped(vec2 position, vec2 home, vec2 middle) {
   vec2 low = max(max(home, middle) - cellPixels, vec2(0.0));
   vec2 high = min(min(home, middle) + cellPixels, cellPixels * vec2(grid));
-  low = ceil(low * kSeedUnits) / kSeedUnits;
-  high = floor(high * kSeedUnits) / kSeedUnits;
+  low = ceil(low * kSeedUnits - 0.01) / kSeedUnits;
+  high = floor(high * kSeedUnits + 0.01) / kSeedUnits;
   return clamp(snapToLattice(position), low, high);
 }
 

@@ -1,13 +1,13 @@
 // Purpose: the picture: washes on paper, edges drawn dark over them (thesis §3.2.2, §3.5).
-// Inputs:  tiling, flatWash and softWash (wash.frag; soft one LINEAR), shifts (cells.comp), paper;
-//          cellPixels, threshold, and the parameters of the same names (watercolor_parameters.h).
+// Inputs:  tiling, flatWash and softWash (wash.frag; the soft one LINEAR), paper;
+//          pictureSize, threshold, and the parameters of the same names (watercolor_parameters.h).
 // Outputs: RGBA8, sRGB-coded, opaque.
 // Precision: highp for places; colours would do with less.
+#include "pipeline/styles/watercolor/shaders/cell_paint.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
 uniform highp usampler2D tiling;
-uniform sampler2D flatWash;
+uniform highp usampler2D flatWash;
 uniform sampler2D softWash;
-uniform sampler2D shifts;
 uniform sampler2D paper;
 uniform vec2 pictureSize;
 uniform float threshold;
@@ -17,19 +17,10 @@ uniform float bleeding;
 uniform float wobble;
 uniform float rim;
 uniform float granulation;
-uniform float variation;
 uniform float grain;
 layout(location = 0) out vec4 picture;
 
 const vec3 kLuma = vec3(0.299, 0.587, 0.114);
-
-// More or less of the same pigment (Bousseau et al., 2006, "Interactive watercolor rendering"):
-// 0 leaves the colour, 1 squares it.
-vec3 withPigment(vec3 colour, float more) { return colour * (1.0 - (1.0 - colour) * more); }
-
-float strengthAt(ivec2 at, ivec2 last) {
-  return strengthOf(texelFetch(tiling, clamp(at, ivec2(0), last), 0).r);
-}
 
 void main() {
   ivec2 p = ivec2(gl_FragCoord.xy);
@@ -39,25 +30,26 @@ void main() {
   ivec2 q = clamp(p + ivec2(floor(wobble * (sheet.ba * 2.0 - 1.0) + 0.5)), ivec2(0), last);
   uint word = texelFetch(tiling, q, 0).r;
   ivec2 cell = cellOf(word);
-  vec4 own = texelFetch(flatWash, cell, 0);
-  vec4 soft = texture(softWash, (vec2(q) + 0.5) / pictureSize);
-  vec3 apart = soft.rgb - own.rgb;
-  float alike = 1.0 / (1.0 + 40.0 * dot(apart, apart));
-  vec3 wash = mix(own.rgb, soft.rgb, bleeding * alike);
+  uvec2 paint = texelFetch(flatWash, cell, 0).rg;
+  vec3 own = colourOf(paint);
+  vec3 soft = texture(softWash, (vec2(q) + 0.5) / pictureSize).rgb;
+  vec3 apart = soft - own;
+  float alike = 1.0 / (1.0 + 8.0 * dot(apart, apart));
+  vec3 wash = mix(own, soft, bleeding * alike);
   float luma = dot(wash, kLuma);
 
   // The grain that pigment settles in travels with its cell; the relief stays with the sheet.
-  ivec2 shift = ivec2(floor(texelFetch(shifts, cell, 0).rg + 0.5));
+  ivec2 shift = ivec2(floor(shiftOf(paint) + 0.5));
   float valley = 0.5 - texelFetch(paper, (q - shift) & 511, 0).r;
   float settles = luma * (1.0 - luma) * 4.0;
   float more = granulation * valley * settles * 3.0;
-  more += variation * (mix(own.a, soft.a, bleeding) - 0.5) * 1.6;
   more += rim * clamp(dot(apart, kLuma) * 3.0, -0.5, 0.5);
   wash = withPigment(wash, clamp(more, -1.0, 1.0));
 
-  float strength = 0.4 * strengthOf(word) +
-                   0.15 * (strengthAt(q + ivec2(1, 0), last) + strengthAt(q - ivec2(1, 0), last) +
-                           strengthAt(q + ivec2(0, 1), last) + strengthAt(q - ivec2(0, 1), last));
+  // Four pixels in one read; the mean takes the steps out of the line.
+  uvec4 words = textureGather(tiling, (vec2(q) + 1.0) / pictureSize);
+  vec4 roots = vec4(words >> 24u) * (1.0 / 255.0);
+  float strength = 0.25 * dot(roots, roots);
   float line = smoothstep(threshold * (1.0 - edgeSoftness), threshold * (1.0 + 2.0 * edgeSoftness),
                           strength);
   line *= edgeDarkness * (0.75 + granulation * valley);

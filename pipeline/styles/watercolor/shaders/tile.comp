@@ -28,7 +28,7 @@ const float kHalfDiagonal = 2.1213204;  // between the block's middle and its co
 
 ivec2 size;
 ivec2 corner;  // the block's first pixel
-ivec2 bestCell[kPixels];
+uint nearest[kPixels];  // the cell, as in a tiling word, plus one
 
 // Squared distance from the block's middle.
 float fromMiddle(ivec2 cell) {
@@ -52,52 +52,47 @@ float nearestUnsearched(ivec2 low, ivec2 high) {
 
 // Squared distances differ from |s|² − 2 p·s by |p|² alone, and that is linear in p.
 void findNearest() {
-  int best[kPixels];
-  for (int i = 0; i < kPixels; ++i) {
-    best[i] = 0x7FFFFFFF;
-    bestCell[i] = ivec2(0);
-  }
   ivec2 here = clamp(ivec2((vec2(corner) + 2.0) / cellPixels), ivec2(0), grid - 1);
-  ivec2 low, high;
-  float reach = 0.0;
+  // One near seed bounds how far the nearest can be from any pixel of the block.
+  ivec2 low = max(here - 1, ivec2(0));
+  ivec2 high = min(here + 1, grid - 1);
+  float near = 1.0e12;
+  for (int row = low.y; row <= high.y; ++row) {
+    for (int column = low.x; column <= high.x; ++column) {
+      near = min(near, fromMiddle(ivec2(column, row)));
+    }
+  }
+  float reach = sqrt(near) + 2.0 * kHalfDiagonal + 0.03;
   for (int ring = 2;; ++ring) {  // 5x5 nearly always; wider where seeds have moved apart
     low = max(here - ring, ivec2(0));
     high = min(here + ring, grid - 1);
-    float nearest = 1.0e12;
-    for (int row = low.y; row <= high.y; ++row) {
-      for (int column = low.x; column <= high.x; ++column) {
-        nearest = min(nearest, fromMiddle(ivec2(column, row)));
-      }
-    }
-    reach = sqrt(nearest) + 2.0 * kHalfDiagonal + 0.03;
     if (reach < nearestUnsearched(low, high)) break;
   }
   float reachSquared = reach * reach;
+  int best[kPixels];
+  for (int i = 0; i < kPixels; ++i) {
+    best[i] = 0x7FFFFFFF;
+    nearest[i] = 0u;
+  }
   for (int row = low.y; row <= high.y; ++row) {
     for (int column = low.x; column <= high.x; ++column) {
       ivec2 cell = ivec2(column, row);
       if (fromMiddle(cell) > reachSquared) continue;
+      uint name = packCell(cell) + 1u;
       ivec2 s = ivec2((seeds[row * grid.x + column] - vec2(corner)) * 64.0);
       int start = s.x * s.x + s.y * s.y - 64 * (s.x + s.y);
       for (int i = 0; i < kPixels; ++i) {
         int value = start - 128 * ((i & 3) * s.x + (i >> 2) * s.y);
-        if (value < best[i]) {
-          best[i] = value;
-          bestCell[i] = cell;
-        }
+        nearest[i] = value < best[i] ? name : nearest[i];
+        best[i] = min(best[i], value);
       }
     }
   }
 }
 
-// Colour, and the object in alpha.
-vec4 pixelAt(ivec2 at) {
-  at = clamp(at, ivec2(0), size - 1);
-  float object = hasObjects ? float(texelFetch(ids, at, 0).r >> kTriangleBits) : 0.0;
-  return vec4(texelFetch(picture, at, 0).rgb, object);
-}
+ivec2 inPicture(ivec2 at) { return clamp(at, ivec2(0), size - 1); }
 
-// Eq. 2 and 3 are linear in the gradients of their channels' magnitudes: one direction's part.
+// Eq. 2 and 3 are sums over the two directions of ∇: one direction's part.
 // YUV is ITU-R BT.601's Y', Cb, Cr.
 float differenceOf(vec4 a, vec4 b) {
   vec3 d = a.rgb - b.rgb;
@@ -117,15 +112,16 @@ vec3 linearFromSrgbFast(vec3 srgb) {
   return mix(y * y * root, srgb * (1.0 / 12.92), lessThanEqual(srgb, vec3(0.04045)));
 }
 
-void addTo(uint index, uvec4 colour, uvec3 edge) {
+void addTo(uint index, uvec4 colour, uint edges) {
   atomicAdd(sums[index * 8u], colour.r);
   atomicAdd(sums[index * 8u + 1u], colour.g);
   atomicAdd(sums[index * 8u + 2u], colour.b);
   atomicAdd(sums[index * 8u + 3u], colour.a);
-  if (edge.z == 0u) return;
-  atomicAdd(sums[index * 8u + 4u], edge.x);
-  atomicAdd(sums[index * 8u + 5u], edge.y);
-  atomicAdd(sums[index * 8u + 6u], edge.z);
+  if (edges == 0u) return;
+  uint count = edges >> 16u;
+  atomicAdd(sums[index * 8u + 4u], (edges & 0xFFu) + count * uint(corner.x));
+  atomicAdd(sums[index * 8u + 5u], ((edges >> 8u) & 0xFFu) + count * uint(corner.y));
+  atomicAdd(sums[index * 8u + 6u], count);
 }
 
 void main() {
@@ -134,44 +130,49 @@ void main() {
   if (any(greaterThanEqual(corner, size))) return;
   findNearest();
 
-  vec4 block[36];
-  for (int i = 0; i < 36; ++i) block[i] = pixelAt(corner + ivec2(i % 6, i / 6) - 1);
-
-  uvec3 light[kPixels];
-  bool edge[kPixels];
-  uint pending = 0u;
-  for (int i = 0; i < kPixels; ++i) {
-    int at = (i >> 2) * 6 + (i & 3) + 7;
-    ivec2 pixel = corner + ivec2(i & 3, i >> 2);
-    float strength = differenceOf(block[at + 1], block[at - 1]) +
-                     differenceOf(block[at + 6], block[at - 6]);
-    edge[i] = strength > threshold;
-    if (block[at + 1].a != block[at - 1].a || block[at + 6].a != block[at - 6].a) {
-      edge[i] = true;  // an object's silhouette
-      strength = 1.0;
-    }
-    light[i] = uvec3(linearFromSrgbFast(block[at].rgb) * 16384.0 + 0.5);
-    if (all(lessThan(pixel, size))) {
-      pending |= 1u << uint(i);
-      imageStore(tiling, pixel, uvec4(packTiling(bestCell[i], edge[i], strength), 0u, 0u, 0u));
+  vec4 block[36];  // colours, and objects in alpha
+  ivec2 first = corner - 1;
+  for (int i = 0; i < 36; ++i) {
+    vec3 colour = texelFetch(picture, inPicture(first + ivec2(i % 6, i / 6)), 0).rgb;
+    block[i] = vec4(colour, 0.0);
+  }
+  if (hasObjects) {
+    for (int i = 0; i < 36; ++i) {
+      uint id = texelFetch(ids, inPicture(first + ivec2(i % 6, i / 6)), 0).r;
+      block[i].a = float(id >> kTriangleBits);
     }
   }
 
-  while (pending != 0u) {
-    int first = findLSB(pending);
-    ivec2 cell = bestCell[0];
-    for (int i = 1; i < kPixels; ++i) {
-      if (i == first) cell = bestCell[i];
-    }
+  uvec3 light[kPixels];
+  uint edge[kPixels];  // of an edge pixel x, y in the block and 1, 8 bits each
+  for (int i = 0; i < kPixels; ++i) {
+    int at = (i >> 2) * 6 + (i & 3) + 7;
+    ivec2 inBlock = ivec2(i & 3, i >> 2);
+    float strength = differenceOf(block[at + 1], block[at - 1]) +
+                     differenceOf(block[at + 6], block[at - 6]);
+    bool silhouette = block[at + 1].a != block[at - 1].a || block[at + 6].a != block[at - 6].a;
+    bool isEdge = strength > threshold || silhouette;
+    edge[i] = isEdge ? uint(inBlock.x | (inBlock.y << 8) | (1 << 16)) : 0u;
+    light[i] = uvec3(linearFromSrgbFast(block[at].rgb) * 16384.0 + 0.5);
+    uint word = packTiling(nearest[i] - 1u, isEdge, silhouette ? 1.0 : strength);
+    imageStore(tiling, corner + inBlock, uvec4(word, 0u, 0u, 0u));  // beyond the border: no effect
+    if (any(greaterThanEqual(corner + inBlock, size))) nearest[i] = 0u;
+  }
+
+  // Cell by cell, from the highest down, without branches.
+  for (uint above = 0xFFFFFFFFu;;) {
+    uint name = 0u;
+    for (int i = 0; i < kPixels; ++i) name = max(name, nearest[i] < above ? nearest[i] : 0u);
+    if (name == 0u) break;
     uvec4 colour = uvec4(0u);
-    uvec3 edges = uvec3(0u);
+    uint edges = 0u;
     for (int i = 0; i < kPixels; ++i) {
-      uint bit = 1u << uint(i);
-      if ((pending & bit) == 0u || bestCell[i] != cell) continue;
-      pending &= ~bit;
-      colour += uvec4(light[i], 1u);
-      if (edge[i]) edges += uvec3(uvec2(corner + ivec2(i & 3, i >> 2)), 1u);
+      uint taken = nearest[i] == name ? 0xFFFFFFFFu : 0u;
+      colour += uvec4(light[i], 1u) & taken;
+      edges += edge[i] & taken;
     }
+    ivec2 cell = cellOf(name - 1u);
     addTo(uint(cell.y * grid.x + cell.x), colour, edges);
+    above = name;
   }
 }

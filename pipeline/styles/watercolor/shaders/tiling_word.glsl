@@ -4,9 +4,10 @@
 const uint kCellBits = 0x3FFFFFu;
 const uint kEdgeBit = 0x400000u;
 
-uint packTiling(ivec2 cell, bool isEdge, float strength) {
+uint packCell(ivec2 cell) { return uint(cell.x) | (uint(cell.y) << 11u); }
+uint packTiling(uint cell, bool isEdge, float strength) {
   uint coded = uint(sqrt(min(strength, 1.0)) * 255.0 + 0.5);
-  return uint(cell.x) | (uint(cell.y) << 11u) | (isEdge ? kEdgeBit : 0u) | (coded << 24u);
+  return cell | (isEdge ? kEdgeBit : 0u) | (coded << 24u);
 }
 ivec2 cellOf(uint word) { return ivec2(word & 0x7FFu, (word >> 11u) & 0x7FFu); }
 bool isEdge(uint word) { return (word & kEdgeBit) != 0u; }

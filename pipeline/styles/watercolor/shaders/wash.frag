@@ -1,16 +1,18 @@
 // Purpose: the colour that each cell is painted with: by itself, and run together with its
 //          neighbours of like colour. One pixel a cell.
-// Inputs:  means (linear), seed; `vividness`, `luminosity` in [0, 1].
-// Outputs: sRGB-coded RGBA16F: `flatWash`, `softWash`; in alpha how much pigment the cell's load of
-//          the brush has (0.5 is the usual amount).
+// Inputs:  means (linear), shifts, seed; `vividness`, `luminosity`, `variation` in [0, 1].
+// Outputs: flatWash (RG32UI, cell_paint.glsl), softWash (RGBA8); both sRGB-coded.
 // Precision: highp; means of like cells are taken in linear light.
 #include "pipeline/gpu/shaders/colour.glsl"
+#include "pipeline/styles/watercolor/shaders/cell_paint.glsl"
 #include "pipeline/styles/watercolor/shaders/hash.glsl"
 uniform sampler2D means;
+uniform sampler2D shifts;
 uniform uint seed;
 uniform float vividness;
 uniform float luminosity;
-layout(location = 0) out vec4 flatWash;
+uniform float variation;
+layout(location = 0) out uvec2 flatWash;
 layout(location = 1) out vec4 softWash;
 
 const vec3 kDarkest = vec3(0.10, 0.11, 0.15);  // no pigment is black: an indigo
@@ -24,6 +26,7 @@ vec3 painted(vec3 linearRgb) {
   return mix(open, kDarkest + (1.0 - kDarkest) * open, luminosity);
 }
 
+// How much pigment a load of the brush has; 0.5 is the usual amount.
 float loadAt(ivec2 cell, int spacing, uint salt) {
   vec2 scaled = (vec2(cell) + 0.5) / float(spacing);
   ivec2 base = ivec2(floor(scaled));
@@ -53,6 +56,8 @@ void main() {
   }
   float load = 0.5 * loadAt(cell, 7, seed + 1u) + 0.3 * loadAt(cell, 3, seed + 2u) +
                0.2 * unitOf(hashOf(cell, seed + 3u));
-  flatWash = vec4(painted(own), load);
-  softWash = vec4(painted(sum / weights), load);
+  float more = variation * (load - 0.5) * 1.6;
+  vec2 shift = texelFetch(shifts, cell, 0).xy;
+  flatWash = packPaint(withPigment(painted(own), more), shift);
+  softWash = vec4(withPigment(painted(sum / weights), more), 1.0);
 }

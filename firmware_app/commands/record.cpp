@@ -1,0 +1,38 @@
+#include "firmware_app/commands/record.h"
+
+#include <fmt/format.h>
+
+#include "firmware_app/desk_scene.h"
+#include "firmware_app/painting.h"
+#include "hal/cameras/synthetic/synthetic_camera.h"
+#include "hal/error.h"
+
+namespace pleinair::app {
+namespace {
+
+void requireKnownCamera(const std::string& name) {
+  if (name == "synthetic") return;
+  throw hal::StartupError(hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
+                                     .subject = "--camera",
+                                     .problem = fmt::format("unknown camera \"{}\"", name),
+                                     .remedy = "allowed: synthetic"});
+}
+
+}  // namespace
+
+int record(const RecordOptions& options) {
+  requireKnownCamera(options.camera);
+  hal::SteppedClock clock;
+  hal::SyntheticCamera camera(
+      {.size = options.size, .frameCount = options.frames, .seed = options.seed}, clock);
+  if (options.writeScene) {
+    hal::orThrow(writeDeskScene(*options.writeScene, camera.truth(0), options.size));
+  }
+  return runPainting({.camera = &camera,
+                      .output = options.output,
+                      .style = "none",
+                      .doing = "recording",
+                      .done = "recorded"});
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,86 @@
+#include "firmware_app/desk_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/mat4x4.hpp>
+
+#include "hal/pending_file.h"
+#include "pipeline/scene/attach_frame.h"
+
+namespace pleinair::app {
+namespace {
+
+/// What stands on the desk: a large gear on the largest tag, a smaller one and a box beside it.
+constexpr const char* kModels = R"(
+[[model]]
+name = "gear"
+source = "builtin:gear"
+attach = "tag:0"
+teeth = 20
+module_m = 0.006
+thickness_m = 0.02
+colour = "#d98a2b"
+
+[[model]]
+name = "pinion"
+source = "builtin:gear"
+attach = "tag:1"
+teeth = 12
+module_m = 0.006
+thickness_m = 0.03
+colour = "#3f8fb5"
+
+[[model]]
+name = "box"
+source = "builtin:box"
+attach = "tag:2"
+size_m = [0.06, 0.05, 0.045]
+colour = "#c2483a"
+)";
+
+/// Turns about the fixed axes x, then y, then z, as scene files have them.
+glm::dvec3 rotationDegrees(const glm::dmat4& pose) {
+  const glm::dvec3 radians(std::atan2(pose[1][2], pose[2][2]),
+                           std::asin(std::clamp(-pose[0][2], -1.0, 1.0)),
+                           std::atan2(pose[0][1], pose[0][0]));
+  return radians * (180.0 / std::numbers::pi);
+}
+
+std::string tagTable(const hal::DeskTag& tag) {
+  const glm::dmat4 worldFromAttach = tag.worldFromTag * scene::kTagFromAttach;
+  const glm::dvec3 rotation = rotationDegrees(worldFromAttach);
+  const glm::dvec3 position(worldFromAttach[3]);
+  return fmt::format(
+      "\n[[tag]]\nfamily = \"{}\"\nid = {}\nedge_m = {}\n"
+      "position_m = [{:.6f}, {:.6f}, {:.6f}]\nrotation_deg = [{:.6f}, {:.6f}, {:.6f}]\n",
+      tag.family, tag.id, tag.edgeMetres, position.x, position.y, position.z, rotation.x,
+      rotation.y, rotation.z);
+}
+
+}  // namespace
+
+std::string deskScene(const hal::GroundTruth& truth, hal::FrameSize size) {
+  std::string text = fmt::format(
+      "# The synthetic camera and its desk.\n[camera]\nimage_size = [{}, {}]\n"
+      "fx = {:.6f}\nfy = {:.6f}\ncx = {:.6f}\ncy = {:.6f}\npixel_centres = \"half\"\n",
+      size.width, size.height, truth.intrinsics.fx, truth.intrinsics.fy, truth.intrinsics.cx,
+      truth.intrinsics.cy);
+  for (const hal::TagTruth& tag : truth.tags) text += tagTable(tag.tag);
+  return text + kModels;
+}
+
+hal::Result<void> writeDeskScene(const std::filesystem::path& path, const hal::GroundTruth& truth,
+                                 hal::FrameSize size) {
+  auto file = hal::PendingFile::create(path);
+  if (!file) return tl::unexpected(std::move(file.error()));
+  const std::string text = deskScene(truth, size);
+  const auto written =
+      file->write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  return written ? file->publish() : written;
+}
+
+}  // namespace pleinair::app

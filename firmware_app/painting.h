@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hal/camera.h"
+#include "hal/pixel_format.h"
+#include "pipeline/scene/scene.h"
+
+namespace pleinair::app {
+
+/// Every frame of a camera through a Painter to an output: what `render` and `record` have in
+/// common.
+struct PaintingJob {
+  hal::Camera* camera = nullptr;  ///< stopped; delivers stepped
+  std::filesystem::path output;
+  std::string style;
+  scene::Scene scene;
+  std::optional<hal::FrameSize> size;   ///< default: the camera's
+  std::optional<std::uint64_t> frames;  ///< default: all
+  std::string view;                     ///< empty: the finished picture
+  std::vector<std::string> set;         ///< "name=value" of the style's parameters
+  std::optional<std::filesystem::path> poses;
+  std::optional<std::filesystem::path> contactSheet;
+  std::filesystem::path shaderDirectory;
+  std::string doing;  ///< for the progress: "painting"
+  std::string done;   ///< for the summary: "painted"
+};
+
+/// Runs the job with progress, and a summary on standard output. Throws hal::StartupError and
+/// config::ConfigError. Returns the exit status: 0, or 128 + the signal that broke it off; then
+/// nothing stands under the outputs' names.
+int runPainting(const PaintingJob& job);
+
+}  // namespace pleinair::app

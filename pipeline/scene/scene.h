@@ -1,0 +1,61 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include "pipeline/scene/mesh.h"
+#include "pipeline/scene/model_source.h"
+#include "pipeline/tracking/camera_model.h"
+#include "pipeline/tracking/tracker.h"
+
+namespace pleinair::scene {
+
+struct SceneModel {
+  std::string name;
+  ModelSource source;
+  /// Shared by models of equal source; cut up finely where the camera's lens bends lines.
+  std::shared_ptr<const Mesh> mesh;
+  std::optional<int> tagId;          ///< what it is attached to; nothing: the world
+  glm::dmat4 attachFromModel{1.0};   ///< rotation, translation and uniform scale
+  glm::vec3 srgb{0.8F, 0.5F, 0.2F};  ///< sRGB-coded colour
+  float focus = 0.0F;                ///< 1: a style keeps it crisp; 0: painted like the rest
+};
+
+/// The one light that models are shaded by; it is far away.
+struct Light {
+  enum class Frame {
+    kCamera,   ///< x right, y up, z towards the viewer
+    kAttached  ///< the attach frame of each model: the light stays put when the camera moves
+  };
+  /// By default fixed to what is lit: bands that wander as the camera moves would flicker.
+  Frame frame = Frame::kAttached;
+  /// Unit vector from the scene to the light. The default is the upper left behind a viewer.
+  glm::dvec3 towardLight{-0.37139068, 0.55708601, 0.74278135};
+};
+
+/// What a scene file says. A value; immutable once made, so any thread may read it.
+struct Scene {
+  std::optional<tracking::CameraModel> camera;  ///< nothing: assumedCamera() has to do
+  std::string tagFamily{tracking::kDefaultTagFamily};
+  /// Each id once. Their worldFromTag is of tracking's tag frame; attach_frame.h has the author's.
+  std::vector<tracking::TagMarker> tags;
+  std::vector<SceneModel> models;  ///< at most kMaxObjects
+  Light light;
+
+  /// Null where no tag has that id.
+  const tracking::TagMarker* findTag(int id) const;
+};
+
+/// A camera for pictures of `size` whose lens nobody has measured: 60° from left to right, square
+/// pixels, no distortion. Poses it gives look right but are no measurements.
+tracking::CameraModel assumedCamera(hal::FrameSize size);
+
+/// The model for a camera's picture as gpu::coverFit() lays it onto `pictureSize`.
+tracking::CameraModel fittedCamera(const tracking::CameraModel& camera, hal::FrameSize pictureSize);
+
+}  // namespace pleinair::scene

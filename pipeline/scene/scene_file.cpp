@@ -1,0 +1,182 @@
+#include "pipeline/scene/scene_file.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+
+#include "config/toml_reader.h"
+#include "pipeline/scene/ar_frame.h"
+#include "pipeline/scene/attach_frame.h"
+#include "pipeline/scene/lens.h"
+#include "pipeline/scene/scene_values.h"
+#include "pipeline/tracking/calibration_file.h"
+
+namespace pleinair::scene {
+namespace {
+
+using config::TomlDocument;
+using config::TomlTable;
+
+constexpr int kHighestId36h11 = 586;
+constexpr int kHighestId = 0xFFFF;
+/// Bounds the memory of a scene; a gear of 200 teeth has 23,000.
+constexpr std::size_t kMaxSceneTriangles = 1'000'000;
+
+tracking::CameraModel readCamera(const TomlTable& table, const std::filesystem::path& directory) {
+  const auto calibration = table.optionalString("calibration");
+  if (!calibration) return tracking::readCalibration(table);
+  return tracking::loadCalibration(directory / *calibration);
+}
+
+tracking::TagMarker readTag(const TomlTable& table, std::string_view family) {
+  tracking::TagMarker tag;
+  const bool isDefault = family == tracking::kDefaultTagFamily;
+  tag.id = table.integer("id", {.min = 0, .max = isDefault ? kHighestId36h11 : kHighestId});
+  tag.edgeMetres =
+      table.number("edge_m", {.min = 0.0, .max = 100.0, .minOpen = true, .unit = "metres"});
+  if (const auto worldFromAttach = readPose(table)) {
+    tag.worldFromTag = *worldFromAttach * kAttachFromTag;
+  }
+  return tag;
+}
+
+void readTags(const TomlTable& root, Scene& scene) {
+  const std::vector<TomlTable> tables = root.tables("tag");
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    const TomlTable& table = tables[i];
+    const std::string family =
+        table.optionalString("family").value_or(std::string(tracking::kDefaultTagFamily));
+    if (const auto known = tracking::checkTagFamily(family); !known) {
+      throw table.error("family", known.error().problem + "; " + known.error().remedy);
+    }
+    if (i == 0) scene.tagFamily = family;
+    if (family != scene.tagFamily) {
+      throw table.error("family", "found " + config::quoted(family),
+                        fmt::format("one family a scene, and tag[0] has \"{}\"", scene.tagFamily));
+    }
+    const tracking::TagMarker tag = readTag(table, family);
+    if (scene.findTag(tag.id) != nullptr) {
+      throw table.error("id", fmt::format("{} is taken by a tag above", tag.id), "each id once");
+    }
+    scene.tags.push_back(tag);
+  }
+}
+
+/// The tag's id; nothing for the world.
+std::optional<int> readAttachment(const TomlTable& table, const Scene& scene) {
+  const std::string text = table.string("attach");
+  const bool hasWorld = std::ranges::any_of(
+      scene.tags, [](const tracking::TagMarker& tag) { return tag.worldFromTag.has_value(); });
+  if (text == "world") {
+    if (hasWorld) return std::nullopt;
+    throw table.error("attach", "no tag says where the world is",
+                      "\"world\" once a [[tag]] has a position_m");
+  }
+  for (const tracking::TagMarker& tag : scene.tags) {
+    if (text == fmt::format("tag:{}", tag.id)) return tag.id;
+  }
+  std::vector<std::string> places;
+  if (hasWorld) places.emplace_back("\"world\"");
+  for (const tracking::TagMarker& tag : scene.tags)
+    places.push_back(fmt::format("\"tag:{}\"", tag.id));
+  throw table.error("attach", "found " + config::quoted(text),
+                    places.empty() ? "the scene's tags, but it has no [[tag]]"
+                                   : fmt::format("{}", fmt::join(places, ", ")));
+}
+
+std::shared_ptr<const Mesh> sharedMesh(const ModelSource& source, const Scene& scene) {
+  for (const SceneModel& model : scene.models) {
+    if (model.source == source) return model.mesh;
+  }
+  Mesh mesh = meshOf(source);
+  if (scene.camera && bendsLines(scene.camera->distortion())) {
+    // An eighth of the radius bends by less than 0.1 px under a lens that moves corners by 20 px.
+    const double shortEdge = 0.125 * boundingSphere(mesh).radiusMetres;
+    mesh = withShortEdges(mesh, static_cast<float>(shortEdge));
+  }
+  return std::make_shared<const Mesh>(std::move(mesh));
+}
+
+SceneModel readModel(const TomlTable& table, const Scene& scene) {
+  SceneModel model;
+  model.name =
+      table.optionalString("name").value_or(fmt::format("model {}", scene.models.size() + 1));
+  if (std::ranges::find(scene.models, model.name, &SceneModel::name) != scene.models.end()) {
+    throw table.error("name", config::quoted(model.name) + " is taken by a model above",
+                      "each name once");
+  }
+  model.source = readSource(table);
+  model.tagId = readAttachment(table, scene);
+  const double scale = table.optionalNumber("scale", {.min = 1e-6, .max = 1e6}).value_or(1.0);
+  model.attachFromModel = glm::scale(readPose(table).value_or(glm::dmat4(1.0)), glm::dvec3(scale));
+  model.srgb = readColour(table).value_or(model.srgb);
+  model.focus =
+      static_cast<float>(table.optionalNumber("focus", {.min = 0.0, .max = 1.0}).value_or(0.0));
+  model.mesh = sharedMesh(model.source, scene);
+  return model;
+}
+
+void readModels(const TomlTable& root, Scene& scene) {
+  const std::vector<TomlTable> tables = root.tables("model");
+  if (tables.size() > kMaxObjects) {
+    throw root.error("model", fmt::format("found {} models", tables.size()),
+                     fmt::format("at most {}", kMaxObjects));
+  }
+  std::size_t triangles = 0;
+  for (const TomlTable& table : tables) {
+    scene.models.push_back(readModel(table, scene));
+    const std::shared_ptr<const Mesh>& mesh = scene.models.back().mesh;
+    if (mesh.use_count() == 1) triangles += mesh->triangles.size();
+    if (triangles > kMaxSceneTriangles) {
+      throw table.error(
+          "source", fmt::format("makes {} triangles in the scene", triangles),
+          fmt::format("at most {} in all; equal models share theirs", kMaxSceneTriangles));
+    }
+  }
+}
+
+Light readLight(const TomlTable& table) {
+  static constexpr std::array<config::Choice<Light::Frame>, 2> kFrames{
+      {{"camera", Light::Frame::kCamera}, {"attached", Light::Frame::kAttached}}};
+  Light light;
+  light.frame = table.optionalChoice("frame", kFrames).value_or(light.frame);
+  if (const auto direction = table.optionalVector<3>("direction", {.min = -1e6, .max = 1e6})) {
+    const glm::dvec3 toward((*direction)[0], (*direction)[1], (*direction)[2]);
+    if (!(glm::length(toward) > 1e-6)) {
+      throw table.error("direction", "has no length", "a vector towards the light");
+    }
+    light.towardLight = glm::normalize(toward);
+  }
+  return light;
+}
+
+Scene readScene(const TomlDocument& document, const std::filesystem::path& directory) {
+  const TomlTable& root = document.root();
+  Scene scene;
+  if (const auto camera = root.optionalTable("camera")) {
+    scene.camera = readCamera(*camera, directory);
+  }
+  if (const auto light = root.optionalTable("light")) scene.light = readLight(*light);
+  readTags(root, scene);
+  readModels(root, scene);
+  root.finish();
+  return scene;
+}
+
+}  // namespace
+
+Scene loadScene(const std::filesystem::path& path) {
+  return readScene(TomlDocument::parseFile(path), path.parent_path());
+}
+
+Scene parseScene(std::string_view text, std::string name, const std::filesystem::path& directory) {
+  return readScene(TomlDocument::parseText(text, std::move(name)), directory);
+}
+
+}  // namespace pleinair::scene

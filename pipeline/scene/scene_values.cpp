@@ -1,0 +1,98 @@
+#include "pipeline/scene/scene_values.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string>
+
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace pleinair::scene {
+namespace {
+
+constexpr config::NumberRange kLength{.min = 0.0, .max = 1000.0, .minOpen = true, .unit = "metres"};
+constexpr config::NumberRange kCoordinate{.min = -1000.0, .max = 1000.0, .unit = "metres"};
+constexpr config::NumberRange kAngle{.min = -360.0, .max = 360.0, .unit = "degrees"};
+
+glm::dvec3 vectorOf(const std::array<double, 3>& values) {
+  return {values[0], values[1], values[2]};
+}
+
+GearSource readGear(const config::TomlTable& table) {
+  GearSource gear;
+  gear.form.teeth =
+      table.optionalInteger("teeth", {.min = 6, .max = 200}).value_or(gear.form.teeth);
+  gear.form.moduleMetres =
+      table.optionalNumber("module_m", kLength).value_or(gear.form.moduleMetres);
+  gear.form.pressureAngleRad = glm::radians(
+      table.optionalNumber("pressure_angle_deg", {.min = 14.5, .max = 25.0, .unit = "degrees"})
+          .value_or(glm::degrees(gear.form.pressureAngleRad)));
+  gear.thicknessMetres =
+      table.optionalNumber("thickness_m", kLength).value_or(gear.thicknessMetres);
+  gear.boreDiameterMetres = table.optionalNumber("bore_diameter_m", kLength);
+  gear.hubDiameterMetres = table.optionalNumber("hub_diameter_m", kLength);
+  gear.holes = table.optionalInteger("holes", {.min = 0, .max = 24});
+  if (const auto fault = faultOf(gear)) {
+    throw table.error(fault->key, fault->problem, fault->allowed);
+  }
+  return gear;
+}
+
+BoxSource readBox(const config::TomlTable& table) {
+  BoxSource box;
+  if (const auto size = table.optionalVector<3>("size_m", kLength)) {
+    box.sizeMetres = vectorOf(*size);
+  }
+  return box;
+}
+
+glm::vec3 readHexColour(const config::TomlTable& table) {
+  const std::string text = table.string("colour");
+  std::array<int, 3> bytes{};
+  bool isHex = text.size() == 7 && text[0] == '#';
+  for (std::size_t i = 0; isHex && i < 3; ++i) {
+    const char* first = text.data() + 1 + 2 * i;
+    const auto [end, code] = std::from_chars(first, first + 2, bytes[i], 16);
+    isHex = code == std::errc{} && end == first + 2 && *first != '-';
+  }
+  if (!isHex) {
+    throw table.error("colour", "found " + config::quoted(text),
+                      "\"#rrggbb\" or an array of 3 numbers in [0, 1]");
+  }
+  return glm::vec3(bytes[0], bytes[1], bytes[2]) / 255.0F;
+}
+
+}  // namespace
+
+std::optional<glm::dmat4> readPose(const config::TomlTable& table) {
+  const auto position = table.optionalVector<3>("position_m", kCoordinate);
+  const auto rotation = table.optionalVector<3>("rotation_deg", kAngle);
+  if (!position && !rotation) return std::nullopt;
+  const glm::dvec3 angles = glm::radians(vectorOf(rotation.value_or(std::array{0.0, 0.0, 0.0})));
+  glm::dmat4 pose =
+      glm::translate(glm::dmat4(1.0), vectorOf(position.value_or(std::array{0.0, 0.0, 0.0})));
+  for (int axis = 2; axis >= 0; --axis) {
+    glm::dvec3 about(0.0);
+    about[axis] = 1.0;
+    pose = glm::rotate(pose, angles[axis], about);
+  }
+  return pose;
+}
+
+std::optional<glm::vec3> readColour(const config::TomlTable& table) {
+  if (table.isString("colour")) return readHexColour(table);
+  const auto values = table.optionalVector<3>("colour", {.min = 0.0, .max = 1.0});
+  if (!values) return std::nullopt;
+  return glm::vec3(vectorOf(*values));
+}
+
+ModelSource readSource(const config::TomlTable& table) {
+  enum class Kind { kBox, kGear };
+  static constexpr std::array<config::Choice<Kind>, 2> kKinds{
+      {{"builtin:box", Kind::kBox}, {"builtin:gear", Kind::kGear}}};
+  if (table.choice("source", kKinds) == Kind::kBox) return readBox(table);
+  return readGear(table);
+}
+
+}  // namespace pleinair::scene

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include "config/toml_reader.h"
+#include "pipeline/scene/model_source.h"
+
+namespace pleinair::scene {
+
+/// position_m and rotation_deg as a transform to the frame that they are given in; nothing where
+/// the table has neither.
+std::optional<glm::dmat4> readPose(const config::TomlTable& table);
+
+/// colour: three sRGB numbers or "#rrggbb".
+std::optional<glm::vec3> readColour(const config::TomlTable& table);
+
+/// source, and the keys that belong to it.
+ModelSource readSource(const config::TomlTable& table);
+
+}  // namespace pleinair::scene

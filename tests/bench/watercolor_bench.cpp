@@ -1,0 +1,171 @@
+// What the watercolor costs, pass by pass and whole, beside OpenCV's stylization of the same frames
+// in the same run. Time is wall time up to a fence, CPU that of all threads; on a shared machine
+// compare ratios within a run.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+#include <opencv2/photo.hpp>
+
+#include "pipeline/gpu/egl_context.h"
+#include "pipeline/gpu/handle.h"
+#include "pipeline/styles/style_registry.h"
+
+namespace {
+
+using namespace pleinair;  // NOLINT(google-build-using-namespace): a program, not a header
+
+constexpr int kFrames = 8;
+constexpr GLuint64 kWaitNs = 10'000'000'000;
+
+/// A moving scene with flat parts, texture, edges and sensor noise, RGBA8.
+std::vector<std::uint8_t> framePixels(hal::FrameSize size, int number) {
+  std::vector<std::uint8_t> pixels(static_cast<std::size_t>(size.pixels()) * 4, 255);
+  std::mt19937 random(static_cast<unsigned>(number));
+  const double scale = size.height / 480.0;
+  std::size_t at = 0;
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x, at += 4) {
+      const double u = x / scale + number * 2.0;
+      const double v = y / scale;
+      const bool disc = std::hypot(std::fmod(u, 160.0) - 80.0, std::fmod(v, 160.0) - 80.0) < 45.0;
+      const double wave = 30.0 * std::sin(u * 0.05) * std::sin(v * 0.07);
+      const double texture = v > 300.0 ? 25.0 * std::sin(u * 0.9) * std::sin(v * 1.1) : 0.0;
+      const double noise = static_cast<double>(random() % 9U) - 4.0;
+      const double base = 130.0 + wave + texture + noise;
+      pixels[at] = static_cast<std::uint8_t>(std::clamp(disc ? base + 80.0 : base, 0.0, 255.0));
+      pixels[at + 1] = static_cast<std::uint8_t>(std::clamp(base - 20.0, 0.0, 255.0));
+      pixels[at + 2] = static_cast<std::uint8_t>(std::clamp(disc ? 40.0 : base, 0.0, 255.0));
+    }
+  }
+  return pixels;
+}
+
+hal::FrameSize sizeOf(const benchmark::State& state) {
+  return {static_cast<int>(state.range(0)), static_cast<int>(state.range(1))};
+}
+
+/// A context, the style, and a few frames already on the GPU.
+struct Bench {
+  explicit Bench(hal::FrameSize size, gpu::PassTiming timing) : timer(timing, &context.info()) {
+    library.add(gpu::gpuShaders());
+    styles::addStyleShaders(library);
+    style = styles::makeStyle("watercolor", library);
+    for (int i = 0; i < kFrames; ++i) {
+      frames.emplace_back(gpu::TextureFormat::kRgba8, size, gpu::TextureFilter::kLinear);
+      frames.back().upload(framePixels(size, i), static_cast<std::size_t>(size.width) * 4);
+    }
+    gpu::PassTimer untimed;
+    for (int i = 0; i < kFrames; ++i) paint(untimed);
+    gpu::Fence::insert().passed(kWaitNs);
+  }
+
+  void paint(gpu::PassTimer& with) {
+    const scene::ArFrame frame{.colour = &frames[static_cast<std::size_t>(number % kFrames)],
+                               .sequence = static_cast<std::uint64_t>(number),
+                               .captureTime = hal::TimePoint(hal::Duration(33'333'333) * number)};
+    ++number;
+    style->paint(frame, "", with);
+  }
+
+  gpu::EglContext context;
+  gpu::ShaderLibrary library;
+  gpu::PassTimer timer;
+  std::unique_ptr<styles::Style> style;
+  std::vector<gpu::Texture> frames;
+  int number = 0;
+};
+
+double medianOf(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return values.empty() ? 0.0 : *middle;
+}
+
+double millisecondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
+}
+
+void wholeStyle(benchmark::State& state) {
+  Bench bench(sizeOf(state), gpu::PassTiming::kOff);
+  std::vector<double> times;
+  for ([[maybe_unused]] auto _ : state) {
+    const auto start = std::chrono::steady_clock::now();
+    bench.paint(bench.timer);
+    gpu::Fence::insert().passed(kWaitNs);
+    times.push_back(millisecondsSince(start));
+  }
+  state.counters["median_ms"] = medianOf(times);
+}
+
+/// One pass out of whole frames: what the timer says of it.
+void onePass(benchmark::State& state, const char* pass) {
+  Bench bench(sizeOf(state), gpu::PassTiming::kFences);
+  std::vector<double> times;
+  for ([[maybe_unused]] auto _ : state) {
+    bench.paint(bench.timer);
+    for (const gpu::PassTime& each : bench.timer.times()) {
+      if (each.pass != pass) continue;
+      const double seconds = std::chrono::duration<double>(each.last).count();
+      state.SetIterationTime(seconds);
+      times.push_back(seconds * 1e3);
+    }
+  }
+  state.counters["median_ms"] = medianOf(times);
+}
+
+void openCvStylization(benchmark::State& state) {
+  const hal::FrameSize size = sizeOf(state);
+  std::vector<cv::Mat> frames;
+  for (int i = 0; i < kFrames; ++i) {
+    std::vector<std::uint8_t> pixels = framePixels(size, i);
+    cv::Mat bgr(size.height, size.width, CV_8UC3);
+    for (std::size_t p = 0; p < pixels.size() / 4; ++p) {
+      for (std::size_t c = 0; c < 3; ++c) bgr.data[p * 3 + c] = pixels[p * 4 + 2 - c];
+    }
+    frames.push_back(bgr);
+  }
+  cv::Mat stylized;
+  cv::stylization(frames[0], stylized);
+  std::vector<double> times;
+  std::size_t number = 0;
+  for ([[maybe_unused]] auto _ : state) {
+    const auto start = std::chrono::steady_clock::now();
+    cv::stylization(frames[number++ % kFrames], stylized);
+    times.push_back(millisecondsSince(start));
+  }
+  state.counters["median_ms"] = medianOf(times);
+}
+
+void atBothSizes(benchmark::internal::Benchmark* benchmark) {
+  benchmark->Args({640, 480})->Args({1280, 720})->Unit(benchmark::kMillisecond)->UseRealTime();
+  benchmark->MeasureProcessCPUTime();  // of all threads
+}
+
+void passAtBothSizes(benchmark::internal::Benchmark* benchmark) {
+  benchmark->Args({640, 480})->Args({1280, 720})->Unit(benchmark::kMillisecond);
+  benchmark->MeasureProcessCPUTime()->UseManualTime()->MinTime(0.2);
+}
+
+BENCHMARK(wholeStyle)->Name("watercolor/whole")->Apply(atBothSizes);
+BENCHMARK(openCvStylization)->Name("opencv/stylization")->Apply(atBothSizes);
+BENCHMARK_CAPTURE(onePass, tile, "watercolor: tile")
+    ->Name("watercolor/tile")
+    ->Apply(passAtBothSizes);
+BENCHMARK_CAPTURE(onePass, cells, "watercolor: cells")
+    ->Name("watercolor/cells")
+    ->Apply(passAtBothSizes);
+BENCHMARK_CAPTURE(onePass, wash, "watercolor: wash")
+    ->Name("watercolor/wash")
+    ->Apply(passAtBothSizes);
+BENCHMARK_CAPTURE(onePass, compose, "watercolor: compose")
+    ->Name("watercolor/compose")
+    ->Apply(passAtBothSizes);
+
+}  // namespace
+
+BENCHMARK_MAIN();

@@ -1,0 +1,202 @@
+// The style as a whole: what it promises about time, sizes and independence.
+#include <cstdlib>
+#include <new>
+
+#include <gmock/gmock.h>
+
+#include "hal/error.h"
+#include "pipeline/styles/watercolor/watercolor.h"
+#include "tests/gpu/watercolor/watercolor_fixture.h"
+
+namespace {
+
+thread_local bool countAllocations = false;
+thread_local int allocations = 0;
+
+void* allocate(std::size_t size) {
+  if (countAllocations) ++allocations;
+  if (void* const memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+  return allocate(size);
+}
+void* operator new[](std::size_t size) {
+  return allocate(size);
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+
+namespace pleinair::styles {
+namespace {
+
+using testing_support::readRgba8;
+using testing_support::textureOf;
+
+std::vector<std::uint8_t> bytesOf(const gpu::Texture& texture) {
+  hal::Image image = readRgba8(texture);
+  return {image.plane(0).begin(), image.plane(0).end()};
+}
+
+class WatercolorTest : public StyleTest {
+ protected:
+  /// The pictures of a camera that moves over the test picture.
+  std::vector<std::uint8_t> paintFrame(Style& style, int number, hal::FrameSize size = {120, 90},
+                                       std::string_view view = {}) {
+    const gpu::Texture picture = textureOf(testPicture(size, 5, number * 3.0).view());
+    return bytesOf(style.paint(frameOf(picture, number), view, timer_));
+  }
+};
+
+TEST_F(WatercolorTest, GivesTheSamePicturesOnEveryRunAndBesideAnother) {
+  Watercolor first(library_);
+  Watercolor second(library_);
+  second.setParameters(second.parameters().with("seed", "9").with("cell_size", "12"));
+  std::vector<std::vector<std::uint8_t>> alone;
+  for (int i = 0; i < 4; ++i) alone.push_back(paintFrame(first, i));
+  first.reset();
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(paintFrame(first, i), alone[static_cast<std::size_t>(i)]) << "frame " << i;
+    EXPECT_NE(paintFrame(second, i), alone[static_cast<std::size_t>(i)]);
+  }
+}
+
+TEST_F(WatercolorTest, AnotherSizeStartsAnew) {
+  Watercolor style(library_);
+  const auto fresh = paintFrame(style, 0);
+  for (int i = 1; i < 4; ++i) paintFrame(style, i);
+  EXPECT_NE(paintFrame(style, 0), fresh) << "the past is to count while the size stays";
+  paintFrame(style, 0, {64, 64});
+  EXPECT_EQ(paintFrame(style, 0), fresh);
+}
+
+TEST_F(WatercolorTest, StateAdvancesTheSameWhateverIsLookedAt) {
+  Watercolor looked(library_);
+  Watercolor finished(library_);
+  for (int i = 0; i < 3; ++i) {
+    paintFrame(looked, i, {120, 90}, "retiling");
+    paintFrame(finished, i);
+  }
+  EXPECT_EQ(paintFrame(looked, 3), paintFrame(finished, 3));
+}
+
+TEST_F(WatercolorTest, EveryViewIsPaintedAtEverySize) {
+  Watercolor style(library_);
+  std::vector<std::vector<std::uint8_t>> pictures{paintFrame(style, 0)};
+  for (const ViewInfo& view : style.views()) {
+    for (const hal::FrameSize size : {hal::FrameSize{1, 1}, {1, 9}, {9, 1}, {120, 90}}) {
+      const auto picture = paintFrame(style, 0, size, view.name);
+      for (std::size_t i = 3; i < picture.size(); i += 4) ASSERT_EQ(picture[i], 255) << view.name;
+      if (size.width == 120) {
+        EXPECT_THAT(pictures, testing::Not(testing::Contains(picture))) << view.name;
+        pictures.push_back(picture);
+      }
+    }
+  }
+}
+
+TEST_F(WatercolorTest, StillSceneComesToRest) {
+  Watercolor style(library_);
+  const gpu::Texture picture = textureOf(testPicture({120, 90}, 5).view());
+  for (int i = 0; i < 250; ++i) style.paint(frameOf(picture, i), "", timer_);
+  const auto settled = bytesOf(style.paint(frameOf(picture, 250), "", timer_));
+  EXPECT_EQ(bytesOf(style.paint(frameOf(picture, 251), "", timer_)), settled);
+}
+
+TEST_F(WatercolorTest, TimeThatStandsOrRunsBackMovesNoSeed) {
+  Watercolor style(library_);
+  paintFrame(style, 5);
+  const auto seedsAt5 = testing_support::readBuffer<float>(*style.inner().seeds);
+  const gpu::Texture other = textureOf(testPicture({120, 90}, 5, 9.0).view());
+  style.paint(frameOf(other, 5), "", timer_);
+  EXPECT_EQ(testing_support::readBuffer<float>(*style.inner().seeds), seedsAt5);
+  style.paint(frameOf(other, 2), "", timer_);
+  EXPECT_EQ(testing_support::readBuffer<float>(*style.inner().seeds), seedsAt5);
+  style.paint(frameOf(other, 4), "", timer_);
+  EXPECT_NE(testing_support::readBuffer<float>(*style.inner().seeds), seedsAt5);
+}
+
+TEST_F(WatercolorTest, AllocatesNothingAfterTheFirstFrameOfASize) {
+  Watercolor style(library_);
+  const gpu::Texture picture = textureOf(testPicture({120, 90}, 5).view());
+  style.paint(frameOf(picture, 0), "", timer_);
+  allocations = 0;
+  countAllocations = true;
+  style.paint(frameOf(picture, 1), "", timer_);
+  countAllocations = false;
+  EXPECT_EQ(allocations, 0);
+  countAllocations = true;
+  style.paint(frameOf(textureOf(testPicture({64, 64}, 5).view()), 2), "", timer_);
+  countAllocations = false;
+  EXPECT_GT(allocations, 0) << "the counter counts";
+}
+
+TEST_F(WatercolorTest, SilhouettesOfObjectsAreEdges) {
+  hal::Image grey({.pixelFormat = hal::PixelFormat::kRgba8, .size = {64, 48}});
+  std::ranges::fill(grey.plane(0), std::uint8_t{128});
+  const gpu::Texture picture = textureOf(grey.view());
+  std::vector<std::uint32_t> ids(std::size_t{64} * 48);
+  for (std::size_t y = 10; y < 30; ++y) {
+    // Triangles of one object make no edge between them.
+    for (std::size_t x = 20; x < 40; ++x) {
+      ids[y * 64 + x] = (3U << scene::kTriangleBits) | static_cast<std::uint32_t>(x & 1U);
+    }
+  }
+  gpu::Texture idTexture(gpu::TextureFormat::kR32ui, {64, 48});
+  idTexture.upload({reinterpret_cast<const std::uint8_t*>(ids.data()), ids.size() * 4}, 64 * 4);
+  scene::ArFrame frame = frameOf(picture);
+  frame.ids = &idTexture;
+  Watercolor style(library_);
+  style.paint(frame, "", timer_);
+  const auto words = testing_support::readR32ui(*style.inner().tiling);
+  for (std::size_t y = 0; y < 48; ++y) {
+    for (std::size_t x = 0; x < 64; ++x) {
+      const auto inside = [](std::size_t u, std::size_t v) {
+        return u >= 20 && u < 40 && v >= 10 && v < 30;
+      };
+      const bool wanted = (x > 0 && inside(x - 1, y) != inside(x + 1, y)) ||
+                          (y > 0 && inside(x, y - 1) != inside(x, y + 1));
+      ASSERT_EQ((words[y * 64 + x] & 0x400000U) != 0, wanted) << x << "," << y;
+    }
+  }
+}
+
+TEST_F(WatercolorTest, MakesStylesByNameAndRefusesOthersWithTheList) {
+  for (const StyleInfo& info : styleInfos()) {
+    EXPECT_EQ(makeStyle(info.name, library_)->name(), info.name);
+  }
+  try {
+    makeStyle("watercolour", library_);
+    FAIL() << "made it";
+  } catch (const hal::StartupError& error) {
+    EXPECT_EQ(error.error().kind, hal::ErrorKind::kInvalidArgument);
+    EXPECT_THAT(error.what(), testing::HasSubstr("watercolour"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("watercolor, none"));
+  }
+  const auto style = makeStyle("watercolor", library_);
+  EXPECT_NO_THROW(requireView(*style, ""));
+  EXPECT_NO_THROW(requireView(*style, "cells"));
+  EXPECT_THROW(requireView(*style, "cell"), hal::StartupError);
+}
+
+TEST_F(WatercolorTest, TheStyleNoneHandsTheFrameThrough) {
+  const auto style = makeStyle("none", library_);
+  const gpu::Texture picture = textureOf(testPicture({9, 7}, 5).view());
+  EXPECT_EQ(&style->paint(frameOf(picture), "", timer_), &picture);
+}
+
+}  // namespace
+}  // namespace pleinair::styles

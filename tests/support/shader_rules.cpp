@@ -1,0 +1,335 @@
+#include "tests/support/shader_rules.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+#include <regex>
+#include <stdexcept>
+
+namespace pleinair::testing_support {
+namespace {
+
+constexpr long kMaxInvocations = 128;
+constexpr long kMaxBindings = 4;
+constexpr long kMaxOutputs = 4;
+constexpr long kMaxSharedBytes = 16L * 1024;
+
+enum class Stage { kVertex, kFragment, kCompute, kIncluded };
+
+Stage stageOf(const ShaderText& shader) {
+  if (shader.name.ends_with(".vert")) return Stage::kVertex;
+  if (shader.name.ends_with(".frag")) return Stage::kFragment;
+  return shader.name.ends_with(".comp") ? Stage::kCompute : Stage::kIncluded;
+}
+
+std::vector<std::smatch> allMatches(const std::string& text, const std::string& pattern) {
+  const std::regex regex(pattern);
+  return {std::sregex_iterator(text.begin(), text.end(), regex), std::sregex_iterator()};
+}
+
+long count(const std::string& text, const std::string& pattern) {
+  return static_cast<long>(allMatches(text, pattern).size());
+}
+
+/// Code without comments and preprocessor lines: statements only.
+std::string statements(std::string_view text) {
+  return std::regex_replace(withoutComments(text), std::regex("(^|\n)[ \t]*#[^\n]*"), "$1");
+}
+
+Complaints forbid(const std::string& code, const std::string& pattern, const std::string& why) {
+  Complaints complaints;
+  for (const std::smatch& match : allMatches(code, pattern)) {
+    complaints.push_back("\"" + match.str() + "\": " + why);
+  }
+  return complaints;
+}
+
+void append(Complaints& to, Complaints from) {
+  std::ranges::move(from, std::back_inserter(to));
+}
+
+/// Recursive descent over a constant expression.
+class Evaluator {
+ public:
+  Evaluator(std::string_view expression, const std::string& code, int depth = 0)
+      : code_(code), depth_(depth) {
+    std::ranges::remove_copy_if(expression, std::back_inserter(rest_),
+                                [](unsigned char c) { return std::isspace(c) != 0; });
+    if (depth > 8) fail();
+  }
+  long all() {
+    const long value = sum();
+    if (at_ != rest_.size()) fail();
+    return value;
+  }
+
+ private:
+  [[noreturn]] void fail() const {
+    throw std::invalid_argument("\"" + rest_ + "\" is no constant that this test can work out");
+  }
+  bool take(char c) {
+    if (at_ >= rest_.size() || rest_[at_] != c) return false;
+    ++at_;
+    return true;
+  }
+  long sum() {
+    long value = product();
+    for (;;) {
+      if (take('+')) {
+        value += product();
+      } else if (take('-')) {
+        value -= product();
+      } else {
+        return value;
+      }
+    }
+  }
+  long product() {
+    long value = atom();
+    for (;;) {
+      if (take('*')) {
+        value *= atom();
+      } else if (take('/')) {
+        const long divisor = atom();
+        if (divisor == 0) fail();
+        value /= divisor;
+      } else {
+        return value;
+      }
+    }
+  }
+  long atom() {
+    if (take('(')) {
+      const long value = sum();
+      if (!take(')')) fail();
+      return value;
+    }
+    std::string word;
+    while (at_ < rest_.size() &&
+           (std::isalnum(static_cast<unsigned char>(rest_[at_])) != 0 || rest_[at_] == '_')) {
+      word += rest_[at_++];
+    }
+    if (word.empty()) fail();
+    if (std::isdigit(static_cast<unsigned char>(word.front())) != 0)
+      return std::stol(word, nullptr, 0);
+    std::smatch match;
+    if (std::regex_search(code_, match,
+                          std::regex("const\\s+u?int\\s+" + word + "\\s*=\\s*([^;]+);")) ||
+        std::regex_search(code_, match, std::regex("#define[ \t]+" + word + "[ \t]+([^\n]+)"))) {
+      return Evaluator(match[1].str(), code_, depth_ + 1).all();
+    }
+    fail();
+  }
+
+  std::string rest_;
+  const std::string& code_;
+  std::size_t at_ = 0;
+  int depth_;
+};
+
+long bytesOfType(const std::string& type, const std::string& code);
+
+/// Bytes of the variables that "float a[4], b" declares.
+long bytesOfDeclaration(const std::string& type, const std::string& names,
+                        const std::string& code) {
+  long bytes = 0;
+  for (const std::smatch& variable : allMatches(names, "\\w+\\s*((?:\\[[^\\]]*\\]\\s*)*)(?:,|$)")) {
+    long elements = 1;
+    const std::string dimensions = variable[1].str();
+    for (const std::smatch& dimension : allMatches(dimensions, "\\[([^\\]]*)\\]")) {
+      elements *= constantValue(dimension[1].str(), code);
+    }
+    bytes += elements * bytesOfType(type, code);
+  }
+  return bytes;
+}
+
+long bytesOfType(const std::string& type, const std::string& code) {
+  static const std::map<std::string, long> kBytes{
+      {"float", 4},  {"int", 4},   {"uint", 4},   {"bool", 4},   {"vec2", 8},  {"ivec2", 8},
+      {"uvec2", 8},  {"vec3", 16}, {"ivec3", 16}, {"uvec3", 16}, {"vec4", 16}, {"ivec4", 16},
+      {"uvec4", 16}, {"mat2", 16}, {"mat3", 48},  {"mat4", 64}};
+  if (const auto known = kBytes.find(type); known != kBytes.end()) return known->second;
+  std::smatch definition;
+  if (!std::regex_search(code, definition, std::regex("struct\\s+" + type + "\\s*\\{([^}]*)\\}"))) {
+    throw std::invalid_argument("nobody knows how large a " + type + " is");
+  }
+  long bytes = 0;
+  const std::string members = definition[1].str();
+  for (const std::smatch& member :
+       allMatches(members, "(?:(?:highp|mediump)\\s+)?(\\w+)\\s+([^;]+);")) {
+    bytes += bytesOfDeclaration(member[1].str(), member[2].str(), code);
+  }
+  return bytes;
+}
+
+const char* const kImageType = "\\b[iu]?image(?:2D|3D|Cube|2DArray|CubeArray|Buffer)\\b";
+
+}  // namespace
+
+std::string withoutComments(std::string_view text) {
+  return std::regex_replace(std::string(text), std::regex("//[^\n]*|/\\*(?:[^*]|\\*(?!/))*\\*/"),
+                            " ");
+}
+
+long constantValue(std::string_view expression, const std::string& code) {
+  return Evaluator(expression, code).all();
+}
+
+Complaints headCommentRule(const ShaderText& shader) {
+  std::smatch match;
+  std::string head;
+  if (std::regex_search(shader.written, match, std::regex("^(?:[ \t]*//[^\n]*\n)+")))
+    head = match.str();
+  std::ranges::transform(head, head.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  Complaints complaints;
+  for (const char* part : {"purpose:", "inputs", "outputs", "precision:"}) {
+    if (head.find(part) == std::string::npos) {
+      complaints.push_back("the head comment (the // lines that the file begins with) lacks \"" +
+                           std::string(part) + "\"");
+    }
+  }
+  return complaints;
+}
+
+Complaints languageRule(const ShaderText& shader) {
+  const std::string code = withoutComments(shader.expanded);
+  Complaints complaints = forbid(code, "#\\s*version", "the shader library puts the version");
+  append(complaints,
+         forbid(code,
+                "\\b(?:gl_PrimitiveID(?:In)?|EmitVertex|EndPrimitive|gl_TessCoord|gl_TessLevel\\w+|"
+                "gl_InvocationID)\\b",
+                "geometry, tessellation and primitive ids are not on every target (rule 1)"));
+  append(complaints,
+         forbid(shader.name, "\\.(?:geom|tesc|tese)$", "no such stage on every target"));
+  return complaints;
+}
+
+Complaints graphicsStageRule(const ShaderText& shader) {
+  const Stage stage = stageOf(shader);
+  if (stage != Stage::kVertex && stage != Stage::kFragment) return {};
+  const std::string code = statements(shader.expanded);
+  const std::string why = "storage belongs in compute shaders (rules 2 and 3)";
+  Complaints complaints = forbid(code, "\\bbuffer\\s+\\w+\\s*\\{", why);
+  append(complaints, forbid(code, kImageType, why));
+  return complaints;
+}
+
+Complaints outputsRule(const ShaderText& shader) {
+  if (stageOf(shader) != Stage::kFragment) return {};
+  long outputs = 0;
+  const std::string code = statements(shader.expanded);
+  for (const std::smatch& output : allMatches(
+           code,
+           "(?:^|[;}])\\s*(?:layout\\s*\\([^)]*\\)\\s*)?(?:(?:highp|mediump|lowp|flat)\\s+)*out\\s+"
+           "(?:(?:highp|mediump|lowp)\\s+)?\\w+\\s+\\w+\\s*(?:\\[([^\\]]*)\\]\\s*)?(?=;)")) {
+    outputs += output[1].matched ? constantValue(output[1].str(), shader.expanded) : 1;
+  }
+  if (outputs <= kMaxOutputs) return {};
+  return {std::to_string(outputs) + " colour targets; 4 are on every target (rule 3)"};
+}
+
+Complaints computeLimitsRule(const ShaderText& shader) {
+  if (stageOf(shader) != Stage::kCompute) return {};
+  const std::string code = statements(shader.expanded);
+  Complaints complaints;
+  const auto sizes = allMatches(code, "local_size_[xyz]\\s*=\\s*([^,)]+)");
+  long invocations = 1;
+  for (const std::smatch& size : sizes) {
+    invocations *= constantValue(size[1].str(), withoutComments(shader.expanded));
+  }
+  if (sizes.empty()) complaints.emplace_back("no local_size");
+  if (invocations > kMaxInvocations) {
+    complaints.push_back("groups of " + std::to_string(invocations) +
+                         "; 128 invocations are on every target (rule 4)");
+  }
+  const long buffers = count(code, "\\bbuffer\\s+\\w+\\s*\\{");
+  if (buffers > kMaxBindings) {
+    complaints.push_back(std::to_string(buffers) +
+                         " storage buffers; 4 are on every target (rule 4)");
+  }
+  const long images = count(code, std::string("\\buniform\\b[^;(){}]*") + kImageType);
+  if (images > kMaxBindings) {
+    complaints.push_back(std::to_string(images) + " images; 4 are on every target (rule 4)");
+  }
+  return complaints;
+}
+
+Complaints sharedMemoryRule(const ShaderText& shader) {
+  const std::string code = statements(shader.expanded);
+  const std::string constants = withoutComments(shader.expanded);
+  long bytes = 0;
+  for (const std::smatch& declaration :
+       allMatches(code, "\\bshared\\s+(?:(?:highp|mediump|lowp)\\s+)?(\\w+)\\s+([^;]+);")) {
+    bytes += bytesOfDeclaration(declaration[1].str(), declaration[2].str(), constants);
+  }
+  if (bytes <= kMaxSharedBytes) return {};
+  return {std::to_string(bytes) + " bytes of shared memory; 16384 are on every target (rule 4)"};
+}
+
+Complaints imageFormatsRule(const ShaderText& shader) {
+  const std::string code = statements(shader.expanded);
+  Complaints complaints =
+      forbid(code, "\\bimageAtomic\\w+", "atomics live in storage buffers (rule 6)");
+  const std::regex allowed("\\b(?:rgba8|rgba16f|rgba32f|r32f|r32ui)\\b");
+  const std::regex readWrite("\\b(?:r32f|r32ui)\\b");
+  const std::regex oneWay("\\b(?:readonly|writeonly)\\b");
+  for (const std::smatch& match : allMatches(
+           code, std::string("(?:layout\\s*\\([^)]*\\)\\s*)?[\\w \t]*\\buniform\\b[^;(){}]*") +
+                     kImageType + "\\s*\\w+")) {
+    const std::string image = match.str();
+    if (!std::regex_search(image, allowed)) {
+      complaints.push_back("\"" + image + "\": its format is not on every target (rule 6)");
+    } else if (!std::regex_search(image, oneWay) && !std::regex_search(image, readWrite)) {
+      complaints.push_back("\"" + image + "\": only r32f and r32ui are read and written (rule 6)");
+    }
+  }
+  return complaints;
+}
+
+Complaints atomicOrderRule(const ShaderText& shader) {
+  const std::string code = statements(shader.expanded);
+  Complaints complaints;
+  for (const std::smatch& match : allMatches(
+           code, "(\\w+|\\S)?\\s*\\batomic(?:Add|CounterIncrement|CounterDecrement)\\s*\\(")) {
+    // As a statement of its own, what it returns goes nowhere.
+    static constexpr std::array<std::string_view, 6> kStatementAfter{"",  ";", "{",
+                                                                     "}", ")", "else"};
+    if (std::ranges::find(kStatementAfter, match[1].str()) == kStatementAfter.end()) {
+      complaints.push_back("\"" + match.str() +
+                           "\": its result is an order that changes from run to run (rule 7)");
+    }
+  }
+  return complaints;
+}
+
+Complaints precisionRule(const ShaderText& shader) {
+  const std::string code = statements(shader.expanded);
+  Complaints complaints = forbid(code, "\\blowp\\b", "colours need 8 bits and more (rule 8)");
+  const std::regex colour("\\bmediump\\s+vec[34]\\s+\\w*(?:[cC]olou?r|[rR]gb)\\w*");
+  for (const std::smatch& match : allMatches(code, "\\bmediump\\s+\\w+(?:\\s+\\w+)?")) {
+    if (!std::regex_match(match.str(), colour)) {
+      complaints.push_back("\"" + match.str() +
+                           "\": mediump is for colours, vec3 or vec4 named so (rule 8)");
+    }
+  }
+  return complaints;
+}
+
+Complaints shaderRules(const ShaderText& shader) {
+  Complaints complaints;
+  for (const auto rule :
+       {headCommentRule, languageRule, graphicsStageRule, outputsRule, computeLimitsRule,
+        sharedMemoryRule, imageFormatsRule, atomicOrderRule, precisionRule}) {
+    try {
+      append(complaints, rule(shader));
+    } catch (const std::invalid_argument& unreadable) {
+      complaints.emplace_back(unreadable.what());
+    }
+  }
+  return complaints;
+}
+
+}  // namespace pleinair::testing_support

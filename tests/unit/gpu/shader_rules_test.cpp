@@ -1,0 +1,201 @@
+#include "tests/support/shader_rules.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <sstream>
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pleinair::testing_support {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+namespace fs = std::filesystem;
+
+std::string read(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error("cannot read " + path.string());
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+std::string expand(const fs::path& root, const std::string& name, std::vector<std::string>& seen) {
+  seen.push_back(name);
+  std::istringstream lines(read(root / name));
+  std::string result;
+  static const std::regex kInclude("#include \"([^\"]+)\".*");
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch match;
+    if (!std::regex_match(line, match, kInclude)) {
+      result += line + "\n";
+    } else if (std::ranges::find(seen, match[1].str()) == seen.end()) {
+      result += expand(root, match[1].str(), seen);
+    }
+  }
+  return result;
+}
+
+std::vector<ShaderText> shadersOfTheTree() {
+  const fs::path root = fs::path(PLEINAIR_TESTS_DIR).parent_path();
+  static constexpr std::array<std::string_view, 7> kEndings{".vert", ".frag", ".comp", ".glsl",
+                                                            ".geom", ".tesc", ".tese"};
+  std::vector<ShaderText> shaders;
+  for (const auto& entry : fs::recursive_directory_iterator(root / "pipeline")) {
+    const std::string ending = entry.path().extension().string();
+    if (std::ranges::find(kEndings, ending) == kEndings.end()) continue;
+    const std::string name = fs::relative(entry.path(), root).generic_string();
+    std::vector<std::string> seen;
+    shaders.push_back({name, read(entry.path()), expand(root, name, seen)});
+  }
+  return shaders;
+}
+
+TEST(ShaderRules, HoldForEveryShaderOfTheTree) {
+  const std::vector<ShaderText> shaders = shadersOfTheTree();
+  EXPECT_GE(shaders.size(), 5U);
+  for (const ShaderText& shader : shaders) {
+    EXPECT_THAT(shaderRules(shader), IsEmpty()) << shader.name;
+  }
+}
+
+constexpr const char* kHead = "// Purpose: p. Inputs: i. Outputs: o. Precision: highp.\n";
+
+ShaderText shader(const std::string& name, const std::string& code) {
+  return {name, kHead + code, kHead + code};
+}
+
+/// Asserts that a shader breaks just one rule, and says so.
+void expectOnly(const ShaderText& text, const std::string& complaint) {
+  const Complaints complaints = shaderRules(text);
+  ASSERT_EQ(complaints.size(), 1U) << testing::PrintToString(complaints);
+  EXPECT_THAT(complaints.front(), HasSubstr(complaint));
+}
+
+TEST(ShaderRules, LetGoodShadersPass) {
+  EXPECT_THAT(shaderRules(shader("a.vert", "in vec2 corner; out vec2 at;\nvoid main() {}")),
+              IsEmpty());
+  EXPECT_THAT(shaderRules(shader("a.frag",
+                                 "in vec2 at;\nlayout(location = 0) out vec4 a;\n"
+                                 "layout(location = 1) out uint b;\nuniform sampler2D picture;\n"
+                                 "void split(vec3 v,\n    out float x) { x = v.x; }\n"
+                                 "void main() { mediump vec3 paintColour; mediump vec4 rgba; }")),
+              IsEmpty());
+  EXPECT_THAT(
+      shaderRules(shader("a.comp",
+                         "const int kSide = 8;\n#define DEEP (2 * kSide)\n"
+                         "layout(local_size_x = kSide, local_size_y = DEEP) in;\n"
+                         "layout(std430, binding = 0) buffer Sums { uint sums[]; };\n"
+                         "layout(rgba8, binding = 0) uniform writeonly highp image2D to;\n"
+                         "layout(r32ui, binding = 1) uniform highp uimage2D both;\n"
+                         "shared vec4 tile[kSide * kSide][DEEP];\n"  // 16 KiB to the byte
+                         "void main() {\n  // x = atomicAdd(a, b)\n  atomicAdd(sums[0], 1u);\n"
+                         "  if (true) atomicAdd(sums[1], 1u); else atomicAdd(sums[2], 1u);\n}")),
+      IsEmpty());
+}
+
+TEST(ShaderRules, WantAHeadCommentWithItsFourParts) {
+  const std::string code = "void main() {}";
+  EXPECT_EQ(shaderRules({"a.frag", code, code}).size(), 4U);
+  expectOnly({"a.frag", "// Purpose: p. Inputs: i. Outputs: o.\n" + code, code}, "\"precision:\"");
+  expectOnly({"a.frag", "// Inputs: i. Outputs: o. Precision: p.\n" + code, code}, "\"purpose:\"");
+}
+
+TEST(ShaderRules, RefuseVersionsAndStagesThatAreNotEverywhere) {
+  expectOnly(shader("a.frag", "#version 320 es\n"), "the shader library puts the version");
+  expectOnly(shader("a.frag", "int i = gl_PrimitiveID;"), "gl_PrimitiveID");
+  expectOnly(shader("a.glsl", "void f() { EmitVertex(); }"), "EmitVertex");
+  expectOnly(shader("a.tese", "void main() {}"), "no such stage");
+  expectOnly(shader("a.geom", "void main() {}"), "no such stage");
+}
+
+TEST(ShaderRules, RefuseStorageInGraphicsStages) {
+  const std::string block = "layout(std430, binding = 0) readonly buffer Seeds { vec2 seeds[]; };";
+  expectOnly(shader("a.vert", block), "rules 2 and 3");
+  expectOnly(shader("a.frag", block), "rules 2 and 3");
+  expectOnly(shader("a.frag", "layout(rgba8) uniform readonly highp image2D i;"), "rules 2 and 3");
+  EXPECT_THAT(shaderRules(shader("a.glsl", block)), IsEmpty());  // judged where it is included
+}
+
+TEST(ShaderRules, CountColourTargets) {
+  std::string code;
+  for (int i = 0; i < 4; ++i) code += "layout(location = 0) out vec4 c" + std::to_string(i) + ";\n";
+  EXPECT_THAT(shaderRules(shader("a.frag", code)), IsEmpty());
+  expectOnly(shader("a.frag", code + "out highp vec4 more;\n"), "5 colour targets");
+  expectOnly(shader("a.frag", "out vec4 many[6];\n"), "6 colour targets");
+}
+
+TEST(ShaderRules, CountWhatComputeHas) {
+  const std::string head = "layout(local_size_x = 64) in;\n";
+  expectOnly(shader("a.comp", "layout(local_size_x = 16, local_size_y = 16) in;"), "groups of 256");
+  expectOnly(shader("a.comp", "void main() {}"), "no local_size");
+  std::string buffers = head;
+  std::string images = head;
+  for (int i = 0; i < 5; ++i) {
+    const std::string number = std::to_string(i);
+    buffers += "buffer B" + number + " { float b" + number + "[]; };\n";
+    images += "layout(r32f) uniform readonly highp image2D i" + number + ";\n";
+  }
+  expectOnly(shader("a.comp", buffers), "5 storage buffers");
+  expectOnly(shader("a.comp", images), "5 images");
+}
+
+TEST(ShaderRules, AddUpSharedMemory) {
+  const std::string head = "layout(local_size_x = 64) in;\n";
+  expectOnly(shader("a.comp", head + "shared float a[4096], b;"), "16388 bytes");
+  expectOnly(shader("a.comp", head + "shared vec4 a[1024];\nshared highp uint b[2];"),
+             "16392 bytes");
+  expectOnly(shader("a.comp", head + "struct S { vec4 a; float b[4]; };\nshared S s[600];"),
+             "19200 bytes");
+  expectOnly(shader("a.comp", head + "shared float a[unknown];"), "no constant");
+  expectOnly(shader("a.comp", head + "shared Strange a;"), "how large a Strange is");
+}
+
+TEST(ShaderRules, KnowImageFormats) {
+  const std::string head = "layout(local_size_x = 64) in;\n";
+  expectOnly(shader("a.comp", head + "layout(rg16f) uniform writeonly highp image2D i;"),
+             "not on every target");
+  expectOnly(shader("a.comp", head + "writeonly uniform highp image2D i;"), "not on every target");
+  expectOnly(shader("a.comp", head + "layout(rgba8) uniform highp image2D i;"),
+             "only r32f and r32ui");
+  expectOnly(shader("a.comp", head + "layout(r32ui) uniform highp uimage2D i;\n"
+                                     "void main() { imageAtomicAdd(i, ivec2(0), 1u); }"),
+             "atomics live in storage buffers");
+}
+
+TEST(ShaderRules, RefuseOrderFromAtomics) {
+  const std::string head = "layout(local_size_x = 64) in;\nbuffer B { uint n; uint b[]; };\n";
+  for (const char* use : {"uint slot = atomicAdd(n, 1u);", "b[atomicAdd(n, 1u)] = 1u;",
+                          "f(1u, atomicCounterIncrement(n));"}) {
+    expectOnly(shader("a.comp", head + "void main() { " + use + " }"), "rule 7");
+  }
+  expectOnly(shader("a.comp", head + "uint f() { return atomicAdd(n, 1u); }"), "rule 7");
+}
+
+TEST(ShaderRules, KeepMediumPrecisionToColours) {
+  expectOnly(shader("a.frag", "precision mediump float;"), "mediump float");
+  expectOnly(shader("a.frag", "uniform mediump vec2 colour;"), "mediump vec2");
+  expectOnly(shader("a.frag", "uniform mediump vec3 position;"), "mediump vec3 position");
+  expectOnly(shader("a.frag", "lowp vec3 colour;"), "lowp");
+}
+
+TEST(ConstantValue, WorksOutWhatShadersWrite) {
+  const std::string code = "const uint kA = 4u;\n#define B (kA + 1)\nconst int kLoop = kLoop;\n";
+  EXPECT_EQ(constantValue("2 * (kA + 3) - B / 2", code), 12);
+  EXPECT_EQ(constantValue("0x10u", code), 16);
+  for (const char* bad : {"", "kA +", "(2", "1/0", "kLoop", "f(2)", "nobody"}) {
+    EXPECT_THROW((void)constantValue(bad, code), std::invalid_argument) << bad;
+  }
+}
+
+TEST(WithoutComments, KeepsCodeOnly) {
+  EXPECT_EQ(withoutComments("a; // b\nc /* d\n * e */ f"), "a;  \nc   f");
+}
+
+}  // namespace
+}  // namespace pleinair::testing_support
