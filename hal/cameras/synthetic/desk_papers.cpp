@@ -16,8 +16,9 @@ float tagWhiteness(const TagBitmap& bitmap, glm::vec2 p, float texelMetres, floa
   constexpr int kSamples = 4;
   int white = 0;
   for (int sample = 0; sample < kSamples * kSamples; ++sample) {
-    const glm::vec2 offset(static_cast<float>(sample % kSamples) - 1.5F,
-                           static_cast<float>(sample / kSamples) - 1.5F);
+    const int column = sample % kSamples;
+    const int row = sample / kSamples;
+    const glm::vec2 offset(static_cast<float>(column) - 1.5F, static_cast<float>(row) - 1.5F);
     const glm::vec2 cell = (p + offset * (texelMetres / kSamples)) / cellMetres + kTagCells / 2.0F;
     const bool onTag = cell.x >= 0 && cell.y >= 0 && cell.x < kTagCells && cell.y < kTagCells;
     if (!onTag || bitmap[static_cast<std::size_t>(cell.y)][static_cast<std::size_t>(cell.x)]) {

@@ -15,8 +15,8 @@ namespace pleinair::hal {
 
 struct TagTruth {
   DeskTag tag;
-  std::array<glm::dvec2, 4> cornersPx;  ///< in AprilTag's order; may lie outside the picture
-  bool isInside = false;                ///< whether the white border, too, is all in the picture
+  std::array<glm::dvec2, 4> cornersPx{};  ///< in AprilTag's order; may lie outside the picture
+  bool isInside = false;                  ///< whether the white border, too, is all in the picture
 };
 
 /// What was true when a frame was taken.

@@ -104,7 +104,7 @@ class FootSampler {
 
  private:
   static constexpr int kLanes = 4;
-  const Texel* texels_[kLanes];
+  const Texel* texels_[kLanes] = {};
   Int4 width_{};
   Float4 scale_{}, offsetX_{}, offsetY_{};  // texels a metre, and texels
   Float4 highestX_{}, highestY_{};          // so that the next texel is there

@@ -36,12 +36,12 @@ double normalQuantile(double probability) {
 Sensor::Sensor(std::uint64_t seed, double noiseSigma)
     : seed_(mixBits(seed ^ 0x5e4507ULL)), levels_(kLightSteps + 1), noise_(kNoiseSteps) {
   for (std::size_t i = 0; i <= kLightSteps; ++i) {
-    const double linear = static_cast<double>(i) / kLightSteps;
+    const double linear = std::min(1.0, (static_cast<double>(i) + 0.5) / kLightSteps);
     levels_[i] = static_cast<float>(255 * srgbFromLinear(linear));
   }
   for (std::size_t i = 0; i < kNoiseSteps; ++i) {
     const double probability = (static_cast<double>(i) + 0.5) / kNoiseSteps;
-    noise_[i] = static_cast<float>(noiseSigma * normalQuantile(probability));
+    noise_[i] = static_cast<float>(noiseSigma * normalQuantile(probability) + 0.5);
   }
 }
 
@@ -55,9 +55,9 @@ void Sensor::exposeRun(std::uint64_t frame, int x, int y, std::span<const glm::v
     std::uint64_t bits = mixBits(first + i);
     for (int channel = 0; channel < 3; ++channel, bits >>= 20) {
       const float light = std::clamp(linearRgb[i][channel], 0.0F, 1.0F);
-      const auto step = static_cast<std::size_t>(light * kLightSteps + 0.5F);
+      const auto step = static_cast<std::size_t>(light * kLightSteps);
       const float level = levels_[step] + noise_[bits & kNoiseMask];
-      *out++ = static_cast<std::uint8_t>(std::clamp(level + 0.5F, 0.0F, 255.0F));
+      *out++ = static_cast<std::uint8_t>(std::clamp(level, 0.0F, 255.0F));
     }
   }
 }

@@ -21,8 +21,8 @@ class Sensor {
 
  private:
   std::uint64_t seed_;
-  std::vector<float> levels_;  ///< coded level, 0 to 255, of evenly spaced linear light
-  std::vector<float> noise_;   ///< quantiles of the noise, all equally likely
+  std::vector<float> levels_;  ///< coded level, 0 to 255, of even steps of linear light
+  std::vector<float> noise_;   ///< equally likely noise, plus the half that rounds when cut off
 };
 
 }  // namespace pleinair::hal::synthetic
