@@ -76,6 +76,13 @@ hal::Result<void> checkTagFamily(std::string_view family, std::string subject) {
                                    .remedy = fmt::format("use one of {}", fmt::join(names, ", "))});
 }
 
+double decimationFor(hal::FrameSize size) {
+  const int shorterSide = std::min(size.width, size.height);
+  if (shorterSide < 400) return 1.0;
+  if (shorterSide < 700) return 1.5;
+  return shorterSide < 1000 ? 2.0 : 3.0;
+}
+
 DetectionCounters& DetectionCounters::operator+=(const DetectionCounters& other) {
   accepted += other.accepted;
   rejectedHamming += other.rejectedHamming;
@@ -121,10 +128,12 @@ struct TagDetector::Handles {
 TagDetector::TagDetector(TagDetectorOptions options)
     : options_(std::move(options)),
       handles_(std::make_unique<Handles>(familyOrThrow(options_.family))) {
-  assert(options_.decimation >= 1.0 && options_.threads >= 1);
+  assert(options_.decimation.value_or(1.0) >= 1.0 && options_.threads >= 1);
   apriltag_detector_t& detector = *handles_->detector;
   detector.nthreads = options_.threads;
   detector.refine_edges = true;
+  detector.qtp.min_white_black_diff =
+      static_cast<int>(std::clamp(2.0 * options_.minDecisionMargin, 1.0, 255.0));
 }
 
 TagDetector::~TagDetector() = default;
@@ -138,13 +147,14 @@ std::vector<TagDetection> TagDetector::detect(const hal::PlaneView& luma, hal::F
     ++counters.skippedSmallPicture;
     return {};
   }
-  const bool isSmall = shorterSide < kSmallPicturePx * options_.decimation;
-  handles_->detector->quad_decimate = isSmall ? 1.0F : static_cast<float>(options_.decimation);
+  double decimation = options_.decimation.value_or(decimationFor(size));
+  if (shorterSide < kSmallestSearchedSidePx * decimation) decimation = 1.0;
+  handles_->detector->quad_decimate = static_cast<float>(decimation);
 
   image_u8_t picture{.width = size.width,
                      .height = size.height,
                      .stride = static_cast<std::int32_t>(luma.strideBytes),
-                     .buf = const_cast<std::uint8_t*>(luma.bytes.data())};  // only read
+                     .buf = const_cast<std::uint8_t*>(luma.bytes.data())};  // read: quad_sigma is 0
   const DetectionsHandle found(apriltag_detector_detect(handles_->detector.get(), &picture),
                                apriltag_detections_destroy);
   std::vector<TagDetection> candidates;

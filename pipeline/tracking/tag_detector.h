@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,18 +24,22 @@ hal::Result<void> checkTagFamily(std::string_view family, std::string subject = 
 struct TagDetectorOptions {
   std::string family{kDefaultTagFamily};
   /// Quads are searched in a picture reduced by this factor (≥ 1); codes are read and edges refined
-  /// at full size. Pictures with a shorter side below kSmallPicturePx after it are not reduced.
-  double decimation = 2.0;
+  /// at full size. Unset: decimationFor() the picture.
+  std::optional<double> decimation;
   int threads = 1;
   /// Corrected bits that are believed; more is counted as rejectedHamming.
   int maxHamming = 1;
-  /// Least mean difference of a bit to its decision threshold, in grey levels (0..255).
+  /// Least mean difference of a bit to its decision threshold, in grey levels (0..255). Places
+  /// whose contrast is less than twice this are not searched: no tag there could be believed.
   double minDecisionMargin = 10.0;
 };
 
 /// Pictures with a side below this are not searched.
 inline constexpr int kSmallestSearchedSidePx = 32;
-inline constexpr int kSmallPicturePx = 160;
+
+/// 1 for pictures up to 399 px high (or wide, if that is less), 1.5 up to 699, 2 up to 999, 3
+/// beyond: small tags are found in small pictures, and large ones are searched in few milliseconds.
+double decimationFor(hal::FrameSize size);
 
 struct TagDetection {
   int id = 0;

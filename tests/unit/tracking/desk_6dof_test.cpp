@@ -33,6 +33,12 @@ struct PoseErrors {
     rotationDegrees.push_back(glm::degrees(rotationBetweenRad(measured, truth)));
     translationMm.push_back(1000.0 * glm::distance(glm::dvec3(measured[3]), glm::dvec3(truth[3])));
   }
+  void expectBelow(double degreesMedian, double degrees95th, double mmMedian, double mm95th) const {
+    EXPECT_LT(percentile(rotationDegrees, 0.5), degreesMedian);
+    EXPECT_LT(percentile(rotationDegrees, 0.95), degrees95th);
+    EXPECT_LT(percentile(translationMm, 0.5), mmMedian);
+    EXPECT_LT(percentile(translationMm, 0.95), mm95th);
+  }
   void report(const std::string& name) const {
     const auto record = [&](const char* what, const std::vector<double>& values) {
       const std::string median = std::to_string(percentile(values, 0.5));
@@ -140,6 +146,11 @@ TEST_F(Desk6dof, EachTagByItself) {
   const double rate = static_cast<double>(allErrors.rotationDegrees.size()) / visibleCount;
   std::printf("detection rate %.4f of %d\n", rate, visibleCount);
   EXPECT_EQ(falseCount, 0);
+  EXPECT_GT(rate, 0.99);
+  EXPECT_LT(percentile(cornerErrors, 0.5), 0.13);
+  EXPECT_LT(percentile(cornerErrors, 0.95), 0.33);
+  EXPECT_LT(glm::length(shift), 0.02);
+  allErrors.expectBelow(0.19, 0.6, 0.57, 3.0);
 }
 
 TEST_F(Desk6dof, AllTagsTogether) {
@@ -157,6 +168,7 @@ TEST_F(Desk6dof, AllTagsTogether) {
   errors.report("world");
   std::printf("predicted rotation sigma: median %.4f deg\n", percentile(sigmas, 0.5));
   EXPECT_EQ(errors.rotationDegrees.size(), frames);
+  errors.expectBelow(0.019, 0.05, 0.085, 0.33);
   EXPECT_EQ(tracker.counters().contradictingTags, 0U);
 }
 

@@ -133,6 +133,28 @@ TEST(TagDetector, FindsTagsInSmallPictures) {
   }
 }
 
+TEST(TagDetector, ReducesLargePicturesOnly) {
+  EXPECT_EQ(decimationFor({320, 240}), 1.0);
+  EXPECT_EQ(decimationFor({640, 480}), 1.5);
+  EXPECT_EQ(decimationFor({720, 1280}), 2.0);
+  EXPECT_EQ(decimationFor({1920, 1080}), 3.0);
+  const CameraModel camera = webcam({48, 40});
+  const SceneTag tag{.id = 3, .edgeMetres = 0.1, .worldFromTag = poseOf({}, {0.0, 0.0, 0.24})};
+  const auto found = detect(support::renderTags(camera, kIdentity, {&tag, 1}), {.decimation = 4.0});
+  EXPECT_EQ(idsOf(found), std::vector<int>{3});
+}
+
+TEST(TagDetector, FindsTagsOfLowContrast) {
+  const SceneTag tag{.id = 12, .edgeMetres = 0.1, .worldFromTag = poseOf({}, {0.0, 0.0, 0.6})};
+  const auto at = [&](double white) {
+    return idsOf(detect(support::renderTags(
+        webcam(), kIdentity, {&tag, 1},
+        {.black = 40.0, .white = white, .background = 45.0, .noiseSigma = 2.0})));
+  };
+  EXPECT_EQ(at(70.0), std::vector<int>{12});
+  EXPECT_TRUE(at(50.0).empty());
+}
+
 TEST(TagDetector, SkipsPicturesOfFewPixels) {
   TagDetector detector;
   DetectionCounters counters;
