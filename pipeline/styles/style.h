@@ -24,6 +24,8 @@ class Style {
   Style() = default;
   Style(const Style&) = delete;
   Style& operator=(const Style&) = delete;
+  Style(Style&&) = delete;
+  Style& operator=(Style&&) = delete;
 
   virtual std::string_view name() const = 0;
   /// Its inner pictures, apart from the finished one.

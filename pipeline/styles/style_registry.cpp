@@ -16,7 +16,7 @@ namespace {
 
 struct Entry {
   StyleInfo info;
-  std::unique_ptr<Style> (*make)(const gpu::ShaderLibrary& library);
+  std::unique_ptr<Style> (*make)(const gpu::ShaderLibrary& library) = nullptr;
 };
 
 constexpr std::array<Entry, 2> kEntries{{

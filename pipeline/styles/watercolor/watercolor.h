@@ -25,6 +25,10 @@ class Watercolor final : public Style {
   /// The library holds gpu::watercolorShaders().
   explicit Watercolor(const gpu::ShaderLibrary& library);
   ~Watercolor() override;
+  Watercolor(const Watercolor&) = delete;
+  Watercolor& operator=(const Watercolor&) = delete;
+  Watercolor(Watercolor&&) = delete;
+  Watercolor& operator=(Watercolor&&) = delete;
 
   std::string_view name() const override { return "watercolor"; }
   std::span<const ViewInfo> views() const override;

@@ -1,44 +1,10 @@
 // The style as a whole: what it promises about time, sizes and independence.
-#include <cstdlib>
-#include <new>
-
 #include <gmock/gmock.h>
 
 #include "hal/error.h"
 #include "pipeline/styles/watercolor/watercolor.h"
+#include "tests/gpu/watercolor/allocation_count.h"
 #include "tests/gpu/watercolor/watercolor_fixture.h"
-
-namespace {
-
-thread_local bool countAllocations = false;
-thread_local int allocations = 0;
-
-void* allocate(std::size_t size) {
-  if (countAllocations) ++allocations;
-  if (void* const memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-  return allocate(size);
-}
-void* operator new[](std::size_t size) {
-  return allocate(size);
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete[](void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-void operator delete[](void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace pleinair::styles {
 namespace {
@@ -66,6 +32,7 @@ TEST_F(WatercolorTest, GivesTheSamePicturesOnEveryRunAndBesideAnother) {
   Watercolor second(library_);
   second.setParameters(second.parameters().with("seed", "9").with("cell_size", "12"));
   std::vector<std::vector<std::uint8_t>> alone;
+  alone.reserve(4);
   for (int i = 0; i < 4; ++i) alone.push_back(paintFrame(first, i));
   first.reset();
   for (int i = 0; i < 4; ++i) {
@@ -133,15 +100,11 @@ TEST_F(WatercolorTest, AllocatesNothingAfterTheFirstFrameOfASize) {
   Watercolor style(library_);
   const gpu::Texture picture = textureOf(testPicture({120, 90}, 5).view());
   style.paint(frameOf(picture, 0), "", timer_);
-  allocations = 0;
-  countAllocations = true;
-  style.paint(frameOf(picture, 1), "", timer_);
-  countAllocations = false;
-  EXPECT_EQ(allocations, 0);
-  countAllocations = true;
-  style.paint(frameOf(textureOf(testPicture({64, 64}, 5).view()), 2), "", timer_);
-  countAllocations = false;
-  EXPECT_GT(allocations, 0) << "the counter counts";
+  EXPECT_EQ(testing_support::allocationsIn([&] { style.paint(frameOf(picture, 1), "", timer_); }),
+            0);
+  const gpu::Texture other = textureOf(testPicture({64, 64}, 5).view());
+  EXPECT_GT(testing_support::allocationsIn([&] { style.paint(frameOf(other, 2), "", timer_); }), 0)
+      << "the counter counts";
 }
 
 TEST_F(WatercolorTest, SilhouettesOfObjectsAreEdges) {
