@@ -15,7 +15,7 @@ struct MonotonicTime {
   using rep = duration::rep;
   using period = duration::period;
   using time_point = std::chrono::time_point<MonotonicTime, Duration>;
-  static constexpr bool is_steady = true;
+  static constexpr bool is_steady = true;  // NOLINT(readability-identifier-naming): the standard's
 };
 using TimePoint = MonotonicTime::time_point;
 
