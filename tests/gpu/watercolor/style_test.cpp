@@ -119,7 +119,7 @@ TEST_F(WatercolorTest, SilhouettesOfObjectsAreEdges) {
     }
   }
   gpu::Texture idTexture(gpu::TextureFormat::kR32ui, {64, 48});
-  idTexture.upload({reinterpret_cast<const std::uint8_t*>(ids.data()), ids.size() * 4}, 64 * 4);
+  idTexture.upload({reinterpret_cast<const std::uint8_t*>(ids.data()), ids.size() * 4}, 256);
   scene::ArFrame frame = frameOf(picture);
   frame.ids = &idTexture;
   Watercolor style(library_);
