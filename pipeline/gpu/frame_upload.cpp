@@ -32,7 +32,7 @@ Layout layoutOf(PixelFormat format) {
 }
 
 struct PlaneTexture {
-  TextureFormat format;
+  TextureFormat format = TextureFormat::kR8;
   FrameSize size;
 };
 

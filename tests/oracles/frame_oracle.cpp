@@ -233,7 +233,9 @@ Picture resampledByTaps(const Picture& picture, hal::FrameSize size) {
     for (int x = 0; x < size.width; ++x) {
       glm::dvec3 sum(0.0);
       for (int tap = 0; tap < taps * taps; ++tap) {
-        const glm::dvec2 within((tap % taps + 0.5) / taps, (tap / taps + 0.5) / taps);
+        const int column = tap % taps;
+        const int row = tap / taps;
+        const glm::dvec2 within((column + 0.5) / taps, (row + 0.5) / taps);
         sum += picture.bilinearAt(cover.origin + cover.scale * (glm::dvec2(x, y) + within));
       }
       result.at(x, y) = sum / double(taps * taps);

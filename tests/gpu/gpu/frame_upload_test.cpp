@@ -198,6 +198,7 @@ void expectBar(FrameUploader& uploader, const Bar& bar, ColorMatrix matrix) {
     std::ranges::fill(image.plane(plane), bar.ycbcr[static_cast<std::size_t>(plane)]);
   }
   hal::Image back = readRgba8(uploader.upload(image.view(), {6, 4}));
+  EXPECT_LE(largestError(back, oracles::rgbOf(image.view())), 1.0);
   for (std::size_t i = 0; i < back.plane(0).size(); ++i) {
     if (i % 4 < 3) {
       // The codes themselves are rounded, which is worth up to 1.3 of blue.
