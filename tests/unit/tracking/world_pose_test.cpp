@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <random>
+#include <string>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -104,7 +104,7 @@ TEST(WorldPose, OfSmallNoisyTagsIsRight) {
     left += static_cast<int>(std::ranges::count(pose->agrees, false));
     EXPECT_NE(pose->choice, TwinChoice::kAmbiguous);
   }
-  std::printf("worst %.3f deg, left out %d\n", worst, left);
+  RecordProperty("worst_rotation_deg", std::to_string(worst));
   EXPECT_LT(worst, 1.0);
   EXPECT_EQ(left, 0);
 }
