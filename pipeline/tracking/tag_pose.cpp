@@ -23,9 +23,20 @@ glm::dmat4 toPose(const cv::Mat& rotationVector, const cv::Mat& translation) {
   return pose;
 }
 
-/// IPPE's up to two poses from rays (x, y, 1). OpenCV asks for a square's corners as (−, +), (+,
-/// +),
-/// (+, −), (−, −) and takes their axes as it finds them, so tagCorners() serves without change.
+/// Whether corners in tagCorners()' order show the front of a square: against the clock (the area
+/// that any three enclose is negative, y down), and none in line with its neighbours.
+bool showFront(const TagCornersPx& corners) {
+  constexpr double kLeastAreaPx = 0.5;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const glm::dvec2 in = corners[(i + 1) % 4] - corners[i];
+    const glm::dvec2 out = corners[(i + 2) % 4] - corners[(i + 1) % 4];
+    if (!(in.x * out.y - in.y * out.x < -kLeastAreaPx)) return false;
+  }
+  return true;
+}
+
+/// IPPE's up to two poses from rays (x, y, 1). OpenCV asks for a square's corners as (−, +),
+/// (+, +), (+, −), (−, −) and takes their axes as it finds them, so tagCorners() serves as it is.
 std::vector<glm::dmat4> ippePoses(const std::array<cv::Point2d, 4>& rays, double edgeMetres) {
   std::array<cv::Point3d, 4> object;
   std::ranges::transform(tagCorners(edgeMetres), object.begin(),
@@ -56,6 +67,7 @@ std::array<Correspondence, 4> tagCorrespondences(const TagCornersPx& corners, do
 
 std::vector<PoseEstimate> tagPoseCandidates(const CameraModel& camera, const TagCornersPx& corners,
                                             double edgeMetres) {
+  if (!showFront(corners)) return {};
   std::array<cv::Point2d, 4> rays;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const std::optional<glm::dvec3> ray = camera.unproject(corners[i]);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 
 #include <glm/matrix.hpp>
 
@@ -10,12 +12,19 @@
 namespace pleinair::tracking {
 namespace {
 
-/// A tag further than this from where the others put it counts no more than this in a hypothesis'
-/// score, and is left out of the solution (RMS over its corners).
+/// A tag whose corners are further than this (RMS) from where the others put it contradicts them,
+/// and is left out of the solution.
 constexpr double kContradictionPx = 4.0;
+/// One small tag's own pose is good for no more than this at the other end of the picture. Further
+/// away, a tag counts no more than this in a hypothesis' score.
+constexpr double kHypothesisPx = 12.0;
 constexpr double kHuberPx = 1.5;
 /// Hypotheses nearer to each other than this are the same solution.
 constexpr double kSamePoseRad = 0.03;
+constexpr int kMaxRounds = 8;
+/// Hypotheses that are refined, the best first: two are wanted, and a contradicting tag's come in
+/// between.
+constexpr int kMaxRefined = 8;
 
 struct Hypothesis {
   glm::dmat4 cameraFromWorld{1.0};
@@ -46,7 +55,7 @@ std::vector<Hypothesis> hypotheses(const CameraModel& camera, std::span<const Wo
                                 candidate.cameraFromTarget * glm::inverse(tag.worldFromTag)};
       for (const TagPoints& each : points) {
         const double rms = rmsPx(camera, each, hypothesis.cameraFromWorld);
-        hypothesis.score += std::min(rms * rms, kContradictionPx * kContradictionPx);
+        hypothesis.score += std::min(rms * rms, kHypothesisPx * kHypothesisPx);
       }
       all.push_back(hypothesis);
     }
@@ -59,15 +68,15 @@ struct Solution {
   PoseEstimate estimate;
   std::vector<bool> agrees;
   double squaredErrorPx = 0.0;
+
+  std::ptrdiff_t agreeing() const { return std::ranges::count(agrees, true); }
 };
 
-/// Which tags are where the pose puts them.
+/// Which tags are where the pose puts them, to so many pixels.
 std::vector<bool> agreement(const CameraModel& camera, std::span<const TagPoints> points,
-                            const glm::dmat4& pose) {
+                            const glm::dmat4& pose, double tolerancePx) {
   std::vector<bool> agrees;
-  for (const TagPoints& each : points) {
-    agrees.push_back(rmsPx(camera, each, pose) <= kContradictionPx);
-  }
+  for (const TagPoints& each : points) agrees.push_back(rmsPx(camera, each, pose) <= tolerancePx);
   return agrees;
 }
 
@@ -80,23 +89,67 @@ std::vector<Correspondence> pointsOf(std::span<const TagPoints> points,
   return all;
 }
 
-/// Refines over the tags that agree, and once more over those that then do.
-std::optional<Solution> refine(const CameraModel& camera, std::span<const TagPoints> points,
-                               const glm::dmat4& start) {
-  Solution solution{.agrees = agreement(camera, points, start)};
+/// Refines over the tags that agree with the start, and again over those that then do, until these
+/// are the same. Nothing where the last of them are lost on the way.
+std::optional<Solution> refineFrom(const CameraModel& camera, std::span<const TagPoints> points,
+                                   const glm::dmat4& start, double tolerancePx) {
+  Solution solution{.agrees = agreement(camera, points, start, tolerancePx)};
   glm::dmat4 pose = start;
-  for (int round = 0; round < 2; ++round) {
+  for (int round = 0; round < kMaxRounds; ++round) {
     const std::vector<Correspondence> used = pointsOf(points, solution.agrees);
     const std::optional<PoseEstimate> refined = refinePose(camera, used, pose, kHuberPx);
     if (!refined) return std::nullopt;
     solution.estimate = *refined;
     pose = refined->cameraFromTarget;
     solution.squaredErrorPx = squaredErrorPx(camera, used, pose);
-    std::vector<bool> agrees = agreement(camera, points, pose);
-    if (agrees == solution.agrees) break;
-    solution.agrees = std::move(agrees);
+    std::vector<bool> agrees = agreement(camera, points, pose, kContradictionPx);
+    if (agrees == solution.agrees) return solution;
+    if (round + 1 < kMaxRounds) solution.agrees = std::move(agrees);
   }
   return solution;
+}
+
+/// With a wide tolerance all sound tags come in although the hypothesis is crude, but a moved one
+/// may bend the pose until none agrees; the narrow one lets tags in one after another.
+std::optional<Solution> refine(const CameraModel& camera, std::span<const TagPoints> points,
+                               const glm::dmat4& start) {
+  std::optional<Solution> wide = refineFrom(camera, points, start, kHypothesisPx);
+  if (wide && wide->agreeing() == std::ssize(points)) return wide;
+  std::optional<Solution> narrow = refineFrom(camera, points, start, kContradictionPx);
+  if (!wide || !narrow) return wide ? wide : narrow;
+  return wide->agreeing() > narrow->agreeing() ? wide : narrow;
+}
+
+/// Whether it can be the other's twin: it explains as many tags by a pose turned otherwise.
+bool isTwin(const Solution& solution, const Solution& other) {
+  return solution.agreeing() == other.agreeing() &&
+         rotationBetweenRad(solution.estimate.cameraFromTarget, other.estimate.cameraFromTarget) >=
+             kSamePoseRad;
+}
+
+/// The solution that explains most tags, and its twin if there is one; the better fit first.
+std::vector<Solution> solve(const CameraModel& camera, std::span<const WorldTag> tags,
+                            std::span<const TagPoints> points) {
+  std::vector<Solution> solutions;
+  int refinedCount = 0;
+  for (const Hypothesis& hypothesis : hypotheses(camera, tags, points)) {
+    if (solutions.size() == 2 || refinedCount == kMaxRefined) break;
+    const auto isKnown = [&](const Solution& other) {
+      return rotationBetweenRad(other.estimate.cameraFromTarget, hypothesis.cameraFromWorld) <
+             kSamePoseRad;
+    };
+    if (std::ranges::any_of(solutions, isKnown)) continue;
+    ++refinedCount;
+    std::optional<Solution> solution = refine(camera, points, hypothesis.cameraFromWorld);
+    if (!solution) continue;
+    if (solutions.empty() || solution->agreeing() > solutions.front().agreeing()) {
+      solutions.assign(1, std::move(*solution));
+    } else if (isTwin(*solution, solutions.front())) {
+      solutions.push_back(std::move(*solution));
+    }
+  }
+  std::ranges::sort(solutions, {}, &Solution::squaredErrorPx);
+  return solutions;
 }
 
 }  // namespace
@@ -105,36 +158,15 @@ std::optional<WorldPose> solveWorldPose(const CameraModel& camera, std::span<con
                                         const std::optional<PosePrior>& prior) {
   std::vector<TagPoints> points;
   for (const WorldTag& tag : tags) points.push_back(worldPoints(tag));
-  std::vector<Solution> solutions;
-  for (const Hypothesis& hypothesis : hypotheses(camera, tags, points)) {
-    if (solutions.size() == 2) break;
-    const auto isKnown = [&](const Solution& other) {
-      return rotationBetweenRad(other.estimate.cameraFromTarget, hypothesis.cameraFromWorld) <
-             kSamePoseRad;
-    };
-    if (std::ranges::any_of(solutions, isKnown)) continue;
-    std::optional<Solution> solution = refine(camera, points, hypothesis.cameraFromWorld);
-    if (!solution || std::ranges::count(solution->agrees, true) == 0) continue;
-    if (!solutions.empty()) {
-      // Only a pose that explains as many tags can be the first one's twin.
-      const bool isTwin =
-          std::ranges::count(solution->agrees, true) ==
-              std::ranges::count(solutions.front().agrees, true) &&
-          rotationBetweenRad(solution->estimate.cameraFromTarget,
-                             solutions.front().estimate.cameraFromTarget) >= kSamePoseRad;
-      if (!isTwin) continue;
-    }
-    solutions.push_back(std::move(*solution));
-  }
+  std::vector<Solution> solutions = solve(camera, tags, points);
   if (solutions.empty()) return std::nullopt;
-  std::ranges::sort(solutions, {}, &Solution::squaredErrorPx);
 
   std::vector<TwinCandidate> twins;
   for (const Solution& solution : solutions) {
     twins.push_back({.cameraFromTarget = solution.estimate.cameraFromTarget,
                      .squaredErrorPx = solution.squaredErrorPx});
   }
-  const auto used = static_cast<double>(std::ranges::count(solutions.front().agrees, true));
+  const auto used = static_cast<double>(solutions.front().agreeing());
   const TwinDecision decision = chooseTwin(twins, 8.0 * used - 6.0, prior);
   Solution& chosen = solutions[decision.index];
   return WorldPose{

@@ -1,6 +1,7 @@
 #include "tests/support/tag_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <random>

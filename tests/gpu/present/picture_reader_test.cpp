@@ -10,7 +10,7 @@
 #include "pipeline/present/present_shaders.h"
 #include "tests/oracles/frame_oracle.h"
 #include "tests/support/gl_test.h"
-#include "tests/support/test_pictures.h"
+#include "tests/support/gl_pictures.h"
 
 namespace pleinair::present {
 namespace {

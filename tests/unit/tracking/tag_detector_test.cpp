@@ -1,6 +1,8 @@
 #include "pipeline/tracking/tag_detector.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <string>
 #include <vector>
 
