@@ -1,5 +1,7 @@
 // Purpose: what a cell is painted with, packed in one RG32UI texel: its sRGB-coded colour, 8 bits a
 //          channel, and its seed's shift from home in 1/128 px (up to 256 px).
+// Inputs, outputs: sRGB-coded colours in [0, 1]; shifts in px.
+// Precision: highp; integers are exact.
 uvec2 packPaint(vec3 srgb, vec2 shiftPixels) {
   return uvec2(packUnorm4x8(vec4(srgb, 1.0)), packSnorm2x16(shiftPixels / 256.0));
 }

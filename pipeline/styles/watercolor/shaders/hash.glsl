@@ -1,5 +1,7 @@
 // Purpose: repeatable randomness from integers, the same on every GPU (PCG, Jarzynski and Olano,
 //          "Hash functions for GPU rendering", 2020).
+// Inputs, outputs: 32-bit integers.
+// Precision: highp; integers are exact.
 uint hashOf(uint value) {
   uint state = value * 747796405u + 2891336453u;
   uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;

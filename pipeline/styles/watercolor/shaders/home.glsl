@@ -1,5 +1,7 @@
 // Purpose: where a cell's seed is at home (thesis eq. 1), on a lattice of 1/64 px, so that distances
 //          are exact integers.
+// Inputs, outputs: cells (column, row); positions in px of the picture.
+// Precision: highp: 1/64 px up to 8192 px.
 #include "pipeline/styles/watercolor/shaders/hash.glsl"
 const float kSeedUnits = 64.0;  // in a pixel
 

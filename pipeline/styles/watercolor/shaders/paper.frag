@@ -1,4 +1,5 @@
 // Purpose: one tile of watercolor paper that repeats without a seam, made once.
+// Inputs:  none.
 // Outputs: RGBA8: R height of a cold-pressed sheet, G light from the top left on that relief (0.5 is
 //          flat), B and A a slow wander in x and y (0.5 is none).
 // Precision: highp.

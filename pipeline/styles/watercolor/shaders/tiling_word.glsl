@@ -1,5 +1,7 @@
 // Purpose: what a pixel of the tiling says, packed in one R32UI word: its cell, whether it is an edge
 //          pixel (thesis eq. 4), and how strong its edge is.
+// Inputs, outputs: cells (column, row); strengths in [0, 1].
+// Precision: highp; integers are exact.
 // Layout:  bits 0..10 column, 11..21 row, 22 edge, 24..31 square root of the strength in 1/255.
 const uint kCellBits = 0x3FFFFFu;
 const uint kEdgeBit = 0x400000u;
