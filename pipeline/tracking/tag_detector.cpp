@@ -69,6 +69,7 @@ TagDetection toDetection(const apriltag_detection_t& found) {
 hal::Result<void> checkTagFamily(std::string_view family, std::string subject) {
   if (findFamily(family) != nullptr) return {};
   std::vector<std::string_view> names;
+  names.reserve(kFamilies.size());
   for (const FamilyEntry& entry : kFamilies) names.push_back(entry.name);
   return tl::unexpected(hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
                                    .subject = std::move(subject),

@@ -92,6 +92,7 @@ std::optional<TagPose> chooseTagPose(const std::vector<PoseEstimate>& candidates
                                      const std::optional<PosePrior>& prior) {
   if (candidates.empty()) return std::nullopt;
   std::vector<TwinCandidate> twins;
+  twins.reserve(candidates.size());
   for (const PoseEstimate& pose : candidates) {
     twins.push_back({.cameraFromTarget = pose.cameraFromTarget,
                      .squaredErrorPx = 4.0 * pose.rmsPx * pose.rmsPx});

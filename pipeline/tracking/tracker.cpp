@@ -29,7 +29,7 @@ void requireSize(const CameraModel& camera, hal::FrameSize frame, const std::str
 
 Tracker::Tracker(std::optional<CameraModel> camera, std::vector<TagMarker> markers,
                  TrackerOptions options)
-    : camera_(std::move(camera)),
+    : camera_(camera),
       markers_(std::move(markers)),
       options_(std::move(options)),
       detector_(options_.detector) {}

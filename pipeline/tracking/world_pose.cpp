@@ -143,7 +143,8 @@ std::vector<Solution> solve(const CameraModel& camera, std::span<const WorldTag>
     std::optional<Solution> solution = refine(camera, points, hypothesis.cameraFromWorld);
     if (!solution) continue;
     if (solutions.empty() || solution->agreeing() > solutions.front().agreeing()) {
-      solutions.assign(1, std::move(*solution));
+      solutions.clear();
+      solutions.push_back(std::move(*solution));
     } else if (isTwin(*solution, solutions.front())) {
       solutions.push_back(std::move(*solution));
     }
@@ -162,6 +163,7 @@ std::optional<WorldPose> solveWorldPose(const CameraModel& camera, std::span<con
   if (solutions.empty()) return std::nullopt;
 
   std::vector<TwinCandidate> twins;
+  twins.reserve(solutions.size());
   for (const Solution& solution : solutions) {
     twins.push_back({.cameraFromTarget = solution.estimate.cameraFromTarget,
                      .squaredErrorPx = solution.squaredErrorPx});

@@ -45,7 +45,7 @@ class TagBitmap {
     const int x = static_cast<int>(std::floor(cells.x + side_ / 2.0));
     const int y = static_cast<int>(std::floor(cells.y + side_ / 2.0));
     if (x < 0 || y < 0 || x >= side_ || y >= side_) return true;
-    return isWhite_[static_cast<std::size_t>(y * side_ + x)];
+    return isWhite_[static_cast<std::size_t>(std::int64_t{y} * side_ + x)];
   }
 
  private:
@@ -90,7 +90,7 @@ class TagPainter {
       below = cellsAlong(left, right, y + 1);
       for (int x = left; x < right; ++x) {
         const auto i = static_cast<std::size_t>(x - left);
-        float& pixel = grey[static_cast<std::size_t>(y * size.width + x)];
+        float& pixel = grey[static_cast<std::size_t>(std::int64_t{y} * size.width + x)];
         pixel =
             static_cast<float>(pixelValue({above[i], above[i + 1], below[i], below[i + 1]}, pixel));
       }

@@ -119,7 +119,8 @@ TEST(DataRecall, TagSheet) {
 TEST(DataRecall, Duckiebot) {
   const auto pictures = picturesOf(sequence("duckiebot"), ".png");
   if (pictures.empty()) GTEST_SKIP() << "no sequence duckiebot in " PLEINAIR_SHARED_DATA;
-  // The ids that the signs bear in any of the pictures.
+  // No list comes with these pictures. These ids were read by the detector, each of the table's in
+  // three pictures or more; that all of them are in each picture is not sure.
   const std::set<int> table{22, 24, 58, 85, 144, 198};
   const std::set<int> single{60, 318, 328, 387};
   TagDetector detector;
@@ -132,7 +133,7 @@ TEST(DataRecall, Duckiebot) {
       ++(expected.contains(id) ? recall.found : recall.wrong);
   }
   report("duckiebot", recall);
-  EXPECT_GE(recall.found, 28);  // 29 of 34; the others are a dozen pixels wide or seen edge-on
+  EXPECT_GE(recall.found, 28);  // 29; 19 with pictures reduced to the half
   EXPECT_EQ(recall.wrong, 0);
 }
 
