@@ -92,12 +92,15 @@ std::optional<TagPose> chooseTagPose(const std::vector<PoseEstimate>& candidates
                                      const std::optional<PosePrior>& prior) {
   if (candidates.empty()) return std::nullopt;
   std::vector<TwinCandidate> twins;
+  twins.reserve(candidates.size());
   for (const PoseEstimate& pose : candidates) {
     twins.push_back({.cameraFromTarget = pose.cameraFromTarget,
                      .squaredErrorPx = 4.0 * pose.rmsPx * pose.rmsPx});
   }
   const TwinDecision decision = chooseTwin(twins, 2.0, prior);
-  TagPose pose{.estimate = candidates[decision.index], .choice = decision.choice};
+  TagPose pose{.estimate = candidates[decision.index],
+               .choice = decision.choice,
+               .twinEvidence = decision.evidence};
   if (candidates.size() > 1) pose.twin = candidates[1 - decision.index];
   return pose;
 }
