@@ -98,7 +98,9 @@ std::optional<TagPose> chooseTagPose(const std::vector<PoseEstimate>& candidates
                      .squaredErrorPx = 4.0 * pose.rmsPx * pose.rmsPx});
   }
   const TwinDecision decision = chooseTwin(twins, 2.0, prior);
-  TagPose pose{.estimate = candidates[decision.index], .choice = decision.choice};
+  TagPose pose{.estimate = candidates[decision.index],
+               .choice = decision.choice,
+               .twinEvidence = decision.evidence};
   if (candidates.size() > 1) pose.twin = candidates[1 - decision.index];
   return pose;
 }

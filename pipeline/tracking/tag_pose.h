@@ -16,6 +16,7 @@ struct TagPose {
   PoseEstimate estimate;
   std::optional<PoseEstimate> twin;  ///< the one that was rejected
   TwinChoice choice = TwinChoice::kOnly;
+  double twinEvidence = kLoneEvidence;  ///< for this one against its twin
 };
 
 /// A tag's corners in its own frame and in the picture.

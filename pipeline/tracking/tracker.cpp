@@ -7,14 +7,6 @@
 #include <fmt/format.h>
 
 namespace pleinair::tracking {
-namespace {
-
-/// A pose whose twin was rejected for a reason helps to reject the next one.
-bool isTrusted(TwinChoice choice) {
-  return choice != TwinChoice::kAmbiguous;
-}
-
-}  // namespace
 
 void requireSize(const CameraModel& camera, hal::FrameSize frame, const std::string& calibration) {
   const hal::FrameSize size = camera.imageSize();
@@ -91,7 +83,7 @@ std::vector<bool> Tracker::solveWorld(const std::vector<Sighting>& sightings, ha
   result.worldRmsPx = pose->estimate.rmsPx;
   result.worldRotationSigmaRad = pose->estimate.rotationSigmaRad();
   result.worldTranslationSigmaMetres = pose->estimate.translationSigmaMetres();
-  world_ = Remembered{*result.cameraFromWorld, now, isTrusted(pose->choice)};
+  world_ = Remembered{*result.cameraFromWorld, now, pose->twinEvidence};
   for (std::size_t i = 0; i < origins.size(); ++i) {
     agrees[origins[i]] = pose->agrees[i];
     if (!pose->agrees[i]) ++counters_.contradictingTags;
@@ -104,7 +96,9 @@ void Tracker::solveTags(const std::vector<Sighting>& sightings, const std::vecto
                         hal::TimePoint now, TrackingResult& result) {
   for (std::size_t i = 0; i < sightings.size(); ++i) {
     TrackedTag& tag = result.tags[sightings[i].index];
+    double twinEvidence = kLoneEvidence;
     if (agrees[i]) {
+      twinEvidence = world_->twinEvidence;
       tag.cameraFromTag = *result.cameraFromWorld * *sightings[i].marker->worldFromTag;
     } else {
       const auto remembered = tags_.find(tag.id);
@@ -113,16 +107,17 @@ void Tracker::solveTags(const std::vector<Sighting>& sightings, const std::vecto
       const std::optional<TagPose> pose = chooseTagPose(sightings[i].candidates, known);
       tag.cameraFromTag = pose->estimate.cameraFromTarget;
       tag.choice = pose->choice;
+      twinEvidence = pose->twinEvidence;
     }
     if (tag.choice == TwinChoice::kAmbiguous) ++counters_.ambiguousTags;
-    tags_[tag.id] = Remembered{*tag.cameraFromTag, now, isTrusted(tag.choice)};
+    tags_[tag.id] = Remembered{*tag.cameraFromTag, now, twinEvidence};
   }
 }
 
 std::optional<PosePrior> Tracker::prior(const Remembered& remembered, hal::TimePoint now) const {
   if (now - remembered.seen > options_.memory) return std::nullopt;
   return PosePrior{.cameraFromTarget = remembered.cameraFromTarget,
-                   .isTrusted = remembered.isTrusted};
+                   .evidence = remembered.twinEvidence};
 }
 
 }  // namespace pleinair::tracking

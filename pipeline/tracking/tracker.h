@@ -68,7 +68,7 @@ class Tracker {
   struct Remembered {
     glm::dmat4 cameraFromTarget{1.0};
     hal::TimePoint seen;
-    bool isTrusted = true;
+    double twinEvidence = kLoneEvidence;
   };
   struct Sighting {
     const TagMarker* marker;

@@ -13,14 +13,22 @@ namespace pleinair::tracking {
 enum class TwinChoice {
   kOnly,      ///< there was but one
   kByError,   ///< it fits the corners clearly better
-  kByPrior,   ///< it agrees with a known pose: other tags' or the previous frame's
-  kAmbiguous  ///< nothing told them apart: the better fit, or what was guessed before
+  kByPrior,   ///< together with what other tags or earlier frames say, it is clearly the one
+  kAmbiguous  ///< the likelier one, but not clearly
 };
 
-/// A pose known from elsewhere. Not trusted: a guess that is kept only so as not to flicker.
+/// Evidence counts by how many variances of a corner's noise the squared errors of two poses differ
+/// (twice a log-likelihood ratio). From kClearEvidence on a choice is clear; more than
+/// kFullEvidence is not kept, so that a mistake is unlearnt in time.
+inline constexpr double kClearEvidence = 16.0;
+inline constexpr double kFullEvidence = 32.0;
+/// For a pose that had no twin: noise may have merged the two.
+inline constexpr double kLoneEvidence = 8.0;
+
+/// A pose known from elsewhere, and how surely it is not the twin.
 struct PosePrior {
   glm::dmat4 cameraFromTarget{1.0};
-  bool isTrusted = true;
+  double evidence = kFullEvidence;
 };
 
 /// One of the poses to choose from.
@@ -32,11 +40,14 @@ struct TwinCandidate {
 struct TwinDecision {
   std::size_t index = 0;
   TwinChoice choice = TwinChoice::kOnly;
+  double evidence = kLoneEvidence;  ///< for the chosen one, the prior's included: a next prior
 };
 
-/// Chooses among one or two candidates, sorted by rising error. The error decides where its
-/// difference is many times what the corners' noise makes; else the prior nearest in rotation;
-/// `residualFreedom` is twice the number of corners, less six.
+/// Chooses among one or two candidates, sorted by rising error. Errors that differ clearly decide
+/// by themselves; else their evidence is added to the prior's, which speaks for the candidate
+/// nearest in rotation and is forgotten by a tenth each time. So a first guess gives way to frames
+/// that contradict it, and many frames make clear what one cannot. `residualFreedom` is twice the
+/// number of corners, less six.
 TwinDecision chooseTwin(std::span<const TwinCandidate> candidates, double residualFreedom,
                         const std::optional<PosePrior>& prior);
 

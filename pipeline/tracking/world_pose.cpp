@@ -153,6 +153,19 @@ std::vector<Solution> solve(const CameraModel& camera, std::span<const WorldTag>
   return solutions;
 }
 
+/// Errors over different tags do not say which solution is right: such two stay ambiguous.
+std::vector<TwinCandidate> asTwins(std::span<const Solution> solutions) {
+  const Solution& first = solutions.front();
+  std::vector<TwinCandidate> twins;
+  twins.reserve(solutions.size());
+  for (const Solution& each : solutions) {
+    const bool isComparable = each.agrees == first.agrees;
+    twins.push_back({.cameraFromTarget = each.estimate.cameraFromTarget,
+                     .squaredErrorPx = isComparable ? each.squaredErrorPx : first.squaredErrorPx});
+  }
+  return twins;
+}
+
 }  // namespace
 
 std::optional<WorldPose> solveWorldPose(const CameraModel& camera, std::span<const WorldTag> tags,
@@ -162,17 +175,13 @@ std::optional<WorldPose> solveWorldPose(const CameraModel& camera, std::span<con
   std::vector<Solution> solutions = solve(camera, tags, points);
   if (solutions.empty()) return std::nullopt;
 
-  std::vector<TwinCandidate> twins;
-  twins.reserve(solutions.size());
-  for (const Solution& solution : solutions) {
-    twins.push_back({.cameraFromTarget = solution.estimate.cameraFromTarget,
-                     .squaredErrorPx = solution.squaredErrorPx});
-  }
   const auto used = static_cast<double>(solutions.front().agreeing());
-  const TwinDecision decision = chooseTwin(twins, 8.0 * used - 6.0, prior);
+  const TwinDecision decision = chooseTwin(asTwins(solutions), 8.0 * used - 6.0, prior);
   Solution& chosen = solutions[decision.index];
-  return WorldPose{
-      .estimate = chosen.estimate, .choice = decision.choice, .agrees = std::move(chosen.agrees)};
+  return WorldPose{.estimate = chosen.estimate,
+                   .choice = decision.choice,
+                   .twinEvidence = decision.evidence,
+                   .agrees = std::move(chosen.agrees)};
 }
 
 }  // namespace pleinair::tracking

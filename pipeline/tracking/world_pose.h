@@ -24,7 +24,8 @@ struct WorldTag {
 struct WorldPose {
   PoseEstimate estimate;  ///< cameraFromTarget is cameraFromWorld
   TwinChoice choice = TwinChoice::kOnly;
-  std::vector<bool> agrees;  ///< for each tag: it was used; the others contradict it
+  double twinEvidence = kLoneEvidence;  ///< for this one against its twin
+  std::vector<bool> agrees;             ///< for each tag: it was used; the others contradict it
 };
 
 /// The camera's pose from all tags together. Each tag's poses, twins included, are hypotheses; the

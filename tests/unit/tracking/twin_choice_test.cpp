@@ -1,58 +1,96 @@
 #include "pipeline/tracking/twin_choice.h"
 
 #include <array>
+#include <cmath>
 
+#include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
-
-#include "tests/support/tag_scene.h"
 
 namespace pleinair::tracking {
 namespace {
 
-constexpr double kFreedom = 2.0;
+constexpr double kFreedom = 2.0;  // of one tag
 
-std::array<TwinCandidate, 2> twins(double firstError, double secondError) {
-  return {{{.cameraFromTarget = support::poseOf({0.2, 0.0, 0.0}, {0.0, 0.0, 1.0}),
-            .squaredErrorPx = firstError},
-           {.cameraFromTarget = support::poseOf({-0.2, 0.0, 0.0}, {0.0, 0.0, 1.0}),
-            .squaredErrorPx = secondError}}};
+glm::dmat4 tilted(double degrees) {
+  const double angle = glm::radians(degrees);
+  glm::dmat4 pose(1.0);
+  pose[1] = {0.0, std::cos(angle), std::sin(angle), 0.0};
+  pose[2] = {0.0, -std::sin(angle), std::cos(angle), 0.0};
+  pose[3] = {0.0, 0.0, 1.0, 1.0};
+  return pose;
 }
 
-PosePrior nearSecond(bool isTrusted) {
-  return {.cameraFromTarget = support::poseOf({-0.15, 0.02, 0.0}, {0.0, 0.0, 1.0}),
-          .isTrusted = isTrusted};
+/// A tag tilted by 20° and its mirror image, with their squared errors (px²).
+std::array<TwinCandidate, 2> twins(double better, double worse) {
+  return {{{tilted(20.0), better}, {tilted(-20.0), worse}}};
 }
 
-TEST(TwinChoice, TakesTheOnlyOne) {
-  const auto both = twins(0.1, 0.2);
-  const TwinDecision decision = chooseTwin(std::span(both).first(1), kFreedom, nearSecond(true));
+TEST(TwinChoice, OneCandidateIsTheOnlyOne) {
+  const std::array<TwinCandidate, 1> one{{{tilted(20.0), 3.0}}};
+  const TwinDecision decision = chooseTwin(one, kFreedom, PosePrior{tilted(-20.0)});
   EXPECT_EQ(decision.index, 0U);
   EXPECT_EQ(decision.choice, TwinChoice::kOnly);
+  EXPECT_LT(decision.evidence, kClearEvidence) << "its twin may be back in the next frame";
 }
 
-TEST(TwinChoice, TakesTheClearlyBetterFitAgainstAnyPrior) {
-  const TwinDecision decision = chooseTwin(twins(0.1, 20.0), kFreedom, nearSecond(true));
+TEST(TwinChoice, AClearErrorOutweighsAnyPrior) {
+  const TwinDecision decision =
+      chooseTwin(twins(0.01, 2.0), kFreedom, PosePrior{tilted(-20.0), kFullEvidence});
   EXPECT_EQ(decision.index, 0U);
   EXPECT_EQ(decision.choice, TwinChoice::kByError);
 }
 
-TEST(TwinChoice, TakesThePriorsWhereTheErrorIsNotClear) {
-  const TwinDecision decision = chooseTwin(twins(0.1, 0.2), kFreedom, nearSecond(true));
+TEST(TwinChoice, TheSameDifferenceIsNotClearAmongLargeErrors) {
+  const TwinDecision decision = chooseTwin(twins(10.0, 12.0), kFreedom, std::nullopt);
+  EXPECT_EQ(decision.index, 0U);
+  EXPECT_EQ(decision.choice, TwinChoice::kAmbiguous);
+}
+
+TEST(TwinChoice, ASurePriorDecidesWhatErrorsCannot) {
+  const TwinDecision decision = chooseTwin(twins(0.01, 0.2), kFreedom, PosePrior{tilted(-17.0)});
   EXPECT_EQ(decision.index, 1U);
   EXPECT_EQ(decision.choice, TwinChoice::kByPrior);
 }
 
-/// The same difference counts for less where both fit badly.
-TEST(TwinChoice, JudgesTheDifferenceByTheResidual) {
-  EXPECT_EQ(chooseTwin(twins(0.0, 1.0), kFreedom, std::nullopt).choice, TwinChoice::kByError);
-  EXPECT_EQ(chooseTwin(twins(4.0, 5.0), kFreedom, std::nullopt).choice, TwinChoice::kAmbiguous);
+TEST(TwinChoice, AWeakPriorGivesWayToErrors) {
+  const TwinDecision decision =
+      chooseTwin(twins(0.01, 0.2), kFreedom, PosePrior{tilted(-17.0), 2.0});
+  EXPECT_EQ(decision.index, 0U);
+  EXPECT_EQ(decision.choice, TwinChoice::kAmbiguous);
 }
 
-TEST(TwinChoice, KeepsAGuessAndSaysSo) {
-  EXPECT_EQ(chooseTwin(twins(0.1, 0.2), kFreedom, std::nullopt).index, 0U);
-  const TwinDecision decision = chooseTwin(twins(0.1, 0.2), kFreedom, nearSecond(false));
-  EXPECT_EQ(decision.index, 1U);
+TEST(TwinChoice, FramesThatAgreeBecomeClear) {
+  TwinDecision decision = chooseTwin(twins(0.01, 0.3), kFreedom, std::nullopt);
   EXPECT_EQ(decision.choice, TwinChoice::kAmbiguous);
+  for (int frame = 0; frame < 4; ++frame) {
+    decision = chooseTwin(twins(0.01, 0.3), kFreedom, PosePrior{tilted(20.0), decision.evidence});
+    EXPECT_EQ(decision.index, 0U);
+  }
+  EXPECT_EQ(decision.choice, TwinChoice::kByPrior);
+  EXPECT_LE(decision.evidence, kFullEvidence);
+}
+
+TEST(TwinChoice, FramesThatContradictUnlearnAMistake) {
+  double evidence = kFullEvidence;
+  double degrees = -20.0;  // wrong
+  int frame = 0;
+  for (; frame < 20 && degrees < 0.0; ++frame) {
+    const TwinDecision decision =
+        chooseTwin(twins(0.01, 0.2), kFreedom, PosePrior{tilted(degrees), evidence});
+    degrees = decision.index == 0 ? 20.0 : -20.0;
+    evidence = decision.evidence;
+  }
+  EXPECT_GT(frame, 1) << "one frame's noise must not turn a tag over";
+  EXPECT_LT(frame, 8);
+}
+
+/// With errors that do not differ, nothing may ever look clear.
+TEST(TwinChoice, EqualErrorsStayAmbiguous) {
+  TwinDecision decision = chooseTwin(twins(0.1, 0.1), kFreedom, std::nullopt);
+  for (int frame = 0; frame < 100; ++frame) {
+    decision = chooseTwin(twins(0.1, 0.12), kFreedom, PosePrior{tilted(20.0), decision.evidence});
+    ASSERT_EQ(decision.choice, TwinChoice::kAmbiguous);
+  }
 }
 
 }  // namespace

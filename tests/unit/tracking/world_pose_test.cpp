@@ -141,6 +141,30 @@ TEST(WorldPose, OfTwoTagsThatDisagreeBelievesOne) {
   }
 }
 
+/// Which of the two was moved, their errors cannot tell; what was known before can.
+TEST(WorldPose, OfTwoTagsThatDisagreeThePriorsIsBelieved) {
+  const CameraModel camera = webcam();
+  std::mt19937 random(6);
+  const glm::dmat4 truth = viewOf(3, 0.6);
+  const PosePrior prior{.cameraFromTarget = truth};
+  for (const std::size_t moved : {std::size_t{0}, std::size_t{1}}) {
+    std::vector<PlacedTag> placed = table(0.05);
+    placed.resize(2);
+    placed[moved].movedBy = poseOf({0.0, 0.0, 0.8}, {});
+    for (int i = 0; i < 10; ++i) {
+      const auto tags = seen(camera, placed, truth, 0.05, random);
+      const auto unknown = solveWorldPose(camera, tags, std::nullopt);
+      ASSERT_TRUE(unknown);
+      EXPECT_EQ(unknown->choice, TwinChoice::kAmbiguous);
+      const auto known = solveWorldPose(camera, tags, prior);
+      ASSERT_TRUE(known);
+      EXPECT_EQ(known->choice, TwinChoice::kByPrior);
+      EXPECT_FALSE(known->agrees[moved]);
+      EXPECT_TRUE(known->agrees[1 - moved]);
+    }
+  }
+}
+
 /// A single tag near the front: only the pose of before tells the twins apart.
 TEST(WorldPose, OfOneTagKeepsToThePrior) {
   const CameraModel camera = webcam();
