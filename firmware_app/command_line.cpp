@@ -111,7 +111,7 @@ void addRecord(CLI::App& app, RecordOptions& options, std::function<int()>& chos
 /// CLI11's own message on one line, under our exit status.
 int reportParseError(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-  fmt::print(stderr, "pleinair: {}; see pleinair --help\n", error.what());
+  printError(fmt::format("{}; see pleinair --help", error.what()));
   return static_cast<int>(ExitStatus::kUsage);
 }
 
@@ -122,7 +122,7 @@ int runCommandLine(int argc, const char* const* argv) {
   CLI::App app("pleinair paints live augmented-reality video with marks that stay put.",
                "pleinair");
   app.set_version_flag("--version", kVersion);
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);  // none is named below: CLI11 would keep quiet about a wrong one
   RenderOptions renderOptions;
   RecordOptions recordOptions;
   std::function<int()> chosen;
@@ -133,6 +133,7 @@ int runCommandLine(int argc, const char* const* argv) {
   });
   try {
     app.parse(argc, argv);
+    if (!chosen) throw CLI::RequiredError("one of render, record and styles");
     return chosen();
   } catch (const CLI::ParseError& error) {
     return reportParseError(app, error);

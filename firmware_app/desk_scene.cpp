@@ -1,12 +1,11 @@
 #include "firmware_app/desk_scene.h"
 
-#include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
 #include <glm/mat4x4.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "hal/pending_file.h"
 #include "pipeline/scene/attach_frame.h"
@@ -44,10 +43,16 @@ colour = "#c2483a"
 
 /// Turns about the fixed axes x, then y, then z, as scene files have them.
 glm::dvec3 rotationDegrees(const glm::dmat4& pose) {
-  const glm::dvec3 radians(std::atan2(pose[1][2], pose[2][2]),
-                           std::asin(std::clamp(-pose[0][2], -1.0, 1.0)),
-                           std::atan2(pose[0][1], pose[0][0]));
-  return radians * (180.0 / std::numbers::pi);
+  const double cosY = std::hypot(pose[0][0], pose[0][1]);
+  glm::dvec3 radians(0.0, std::atan2(-pose[0][2], cosY), 0.0);
+  if (cosY > 1e-9) {
+    radians.x = std::atan2(pose[1][2], pose[2][2]);
+    radians.z = std::atan2(pose[0][1], pose[0][0]);
+  } else {
+    // The axes of x and z have come to lie in one line: all of their turn is given to x.
+    radians.x = std::atan2(-pose[2][1], pose[1][1]);
+  }
+  return glm::degrees(radians);
 }
 
 std::string tagTable(const hal::DeskTag& tag) {

@@ -1,6 +1,8 @@
 #include "firmware_app/exit_status.h"
 
+#include <algorithm>
 #include <new>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -8,13 +10,14 @@
 #include "hal/error.h"
 
 namespace pleinair::app {
-namespace {
 
-void print(const char* message) {
-  fmt::print(stderr, "pleinair: {}\n", message);
+void printError(std::string_view message) {
+  std::string line(message);
+  // File names and arguments may hold anything.
+  std::ranges::replace_if(
+      line, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, '?');
+  fmt::print(stderr, "pleinair: {}\n", line);
 }
-
-}  // namespace
 
 ExitStatus exitStatusOf(const hal::Error& error) {
   if (error.domain == hal::ErrorDomain::kEgl || error.domain == hal::ErrorDomain::kGl) {
@@ -42,15 +45,15 @@ ExitStatus reportCurrentException() {
   try {
     throw;
   } catch (const hal::StartupError& error) {
-    print(error.what());
+    printError(error.what());
     return exitStatusOf(error.error());
   } catch (const config::ConfigError& error) {
-    print(error.what());
+    printError(error.what());
     return ExitStatus::kUsage;
   } catch (const std::bad_alloc&) {
-    print("out of memory");
+    printError("out of memory");
   } catch (const std::exception& error) {
-    fmt::print(stderr, "pleinair: internal error: {}\n", error.what());
+    printError(fmt::format("internal error: {}", error.what()));
   }
   return ExitStatus::kInternal;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <exception>
+#include <string_view>
 
 #include "hal/error.h"
 
@@ -15,7 +15,10 @@ enum class ExitStatus {
 
 ExitStatus exitStatusOf(const hal::Error& error);
 
-/// Prints the exception as one line on standard error. To be called in a catch block.
+/// Prints "pleinair: <message>" as one line on standard error, whatever the message quotes.
+void printError(std::string_view message);
+
+/// Prints the exception as printError() does. To be called in a catch block.
 ExitStatus reportCurrentException();
 
 }  // namespace pleinair::app

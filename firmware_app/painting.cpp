@@ -106,7 +106,7 @@ class Painting {
     if (!firstTime_) firstTime_ = frame.captureTime;
     const hal::Duration time = frame.captureTime - *firstTime_;
     while (!painter_.hasRoom(reader_)) write(true);
-    const Picture picture = painter_.paint(frame, parameters_);
+    const Picture picture = orThrow(painter_.paint(frame, parameters_));
     if (poses_) orThrow(poses_->write(index, time, picture.tracking));
     if (job_.contactSheet && sheet_.wants(index)) {
       sheet_.add(painter_.cameraStill().view(), painter_.still().view(), time);
@@ -133,9 +133,7 @@ class Painting {
   }
 
   const PaintingJob& job_;
-  hal::SteppedClock clock_;    // the recording's
   hal::SteadyClock realTime_;  // for the progress
-  std::unique_ptr<hal::Camera> camera_;
   hal::StreamFormat stream_;
   std::unique_ptr<hal::MemoryOutput> output_;
   hal::OutputFormat outputFormat_;

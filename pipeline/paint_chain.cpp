@@ -23,13 +23,8 @@ gpu::ShaderLibrary makeLibrary(const PainterOptions& options) {
   return library;
 }
 
-tracking::Tracker makeTracker(const scene::Scene& scene, hal::FrameSize frame) {
-  if (scene.camera) tracking::requireSize(*scene.camera, frame, "calibration of the scene");
-  std::optional<tracking::CameraModel> camera = scene.camera;
-  if (!camera && !scene.tags.empty()) camera = scene::assumedCamera(frame);
-  tracking::TrackerOptions options;
-  options.detector.family = scene.tagFamily;
-  return {camera, scene.tags, options};
+bool isOurs(std::string_view view) {
+  return view == kCameraView || view == kArView;
 }
 
 }  // namespace
@@ -43,6 +38,7 @@ PaintChain::PaintChain(const PainterOptions& options, const gpu::ContextInfo& co
       uploader_(library_),
       renderer_(library_, options.scene),
       style_(styles::makeStyle(options.style, library_)) {
+  hal::orThrow(tracking::checkTagFamily(scene_.tagFamily));
   warmUp();
 }
 
@@ -72,8 +68,60 @@ std::vector<PainterView> PaintChain::views() const {
   return views;
 }
 
-Picture PaintChain::paint(const hal::CapturedFrame& frame, const PaintParameters& parameters) {
-  tracking::TrackingResult tracked = track(frame);
+hal::Result<void> PaintChain::checkView(const std::string& view) const {
+  if (view.empty() || isOurs(view)) return {};
+  const auto ofStyle = style_->views();
+  if (std::ranges::find(ofStyle, view, &styles::ViewInfo::name) != ofStyle.end()) return {};
+  std::vector<std::string> names;
+  for (const PainterView& each : views()) names.push_back(each.name);
+  return tl::unexpected(hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
+                                   .subject = "view \"" + view + "\"",
+                                   .problem = config::unknownText("view", view, names),
+                                   .remedy = "choose one of: " + config::listText(names)});
+}
+
+/// Makes ready for frames of this size; nothing changes where the scene's calibration is not.
+hal::Result<void> PaintChain::adaptTo(hal::FrameSize frameSize) {
+  if (frameSize_ == frameSize) return {};
+  if (scene_.camera) {
+    if (auto fits = tracking::checkSize(*scene_.camera, frameSize, "calibration of the scene");
+        !fits) {
+      return fits;
+    }
+  }
+  const tracking::CameraModel camera =
+      scene_.camera ? *scene_.camera : scene::assumedCamera(frameSize);
+  if (tracksTags_) {
+    tracking::TrackerOptions options;
+    options.detector.family = scene_.tagFamily;
+    tracker_.emplace(camera, scene_.tags, options);
+  }
+  pictureCamera_ = scene::fittedCamera(camera, pictureSize_);
+  frameSize_ = frameSize;
+  return {};
+}
+
+hal::Result<Picture> PaintChain::paint(const hal::CapturedFrame& frame,
+                                       const PaintParameters& parameters) {
+  if (auto known = checkView(parameters.view); !known) {
+    return tl::unexpected(std::move(known.error()));
+  }
+  if (auto adapted = adaptTo(frame.image.format.size); !adapted) {
+    return tl::unexpected(std::move(adapted.error()));
+  }
+  tracking::TrackingResult tracked;
+  if (tracker_) tracked = tracker_->track(frame.image, frame.captureTime);
+  picture_ = &paintView(compose(frame, tracked), parameters);
+  submitToReaders(frame);
+  return Picture{.texture = picture_->name(),
+                 .size = picture_->size(),
+                 .sequence = frame.sequence,
+                 .captureTime = frame.captureTime,
+                 .tracking = std::move(tracked)};
+}
+
+const scene::ArFrame& PaintChain::compose(const hal::CapturedFrame& frame,
+                                          const tracking::TrackingResult& tracked) {
   {
     const auto scope = timer_.measure("camera picture");
     camera_ = &uploader_.upload(frame.image, pictureSize_);
@@ -82,51 +130,20 @@ Picture PaintChain::paint(const hal::CapturedFrame& frame, const PaintParameters
   for (const tracking::TrackedTag& tag : tracked.tags) {
     if (tag.cameraFromTag) sightings_.push_back({tag.id, *tag.cameraFromTag});
   }
-  const scene::ArFrame& arFrame = renderer_.compose(
-      *camera_, *pictureCamera_, {.cameraFromWorld = tracked.cameraFromWorld, .tags = sightings_},
-      frame.sequence, frame.captureTime, timer_);
-  picture_ = &paintView(arFrame, parameters);
-  submitToReaders(frame);
-  return {.texture = picture_->name(),
-          .size = picture_->size(),
-          .sequence = frame.sequence,
-          .captureTime = frame.captureTime,
-          .tracking = std::move(tracked)};
-}
-
-tracking::TrackingResult PaintChain::track(const hal::CapturedFrame& frame) {
-  const hal::FrameSize size = frame.image.format.size;
-  if (!tracker_ || trackedSize_ != size) {
-    tracker_.emplace(makeTracker(scene_, size));
-    trackedSize_ = size;
-    pictureCamera_ = scene::fittedCamera(
-        scene_.camera ? *scene_.camera : scene::assumedCamera(size), pictureSize_);
-  }
-  if (!tracksTags_) return {};
-  return tracker_->track(frame.image, frame.captureTime);
+  return renderer_.compose(*camera_, *pictureCamera_,
+                           {.cameraFromWorld = tracked.cameraFromWorld, .tags = sightings_},
+                           frame.sequence, frame.captureTime, timer_);
 }
 
 const gpu::Texture& PaintChain::paintView(const scene::ArFrame& frame,
                                           const PaintParameters& parameters) {
-  const std::string& view = parameters.view;
-  const bool isOurs = view == kCameraView || view == kArView;
-  if (!isOurs) requireView(view);
+  const std::string_view view = parameters.view;
   style_->setParameters(parameters.style);
   // The style's state advances the same whatever is looked at.
-  const gpu::Texture& painted = style_->paint(frame, isOurs ? std::string_view{} : view, timer_);
+  const gpu::Texture& painted =
+      style_->paint(frame, isOurs(view) ? std::string_view{} : view, timer_);
   if (view == kCameraView) return *camera_;
   return view == kArView ? *frame.colour : painted;
-}
-
-void PaintChain::requireView(const std::string& view) const {
-  if (view.empty()) return;
-  std::vector<std::string> names;
-  for (const PainterView& each : views()) names.push_back(each.name);
-  if (std::ranges::find(names, view) != names.end()) return;
-  throw hal::StartupError(hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
-                                     .subject = "view \"" + view + "\"",
-                                     .problem = config::unknownText("view", view, names),
-                                     .remedy = "choose one of: " + config::listText(names)});
 }
 
 int PaintChain::openReader(const hal::FrameFormat& format) {
@@ -156,10 +173,12 @@ bool PaintChain::take(int number, ReadPicture& picture, bool wait) {
 }
 
 hal::Image PaintChain::still() const {
+  assert(picture_ != nullptr);
   return read(*picture_);
 }
 
 hal::Image PaintChain::cameraStill() const {
+  assert(camera_ != nullptr);
   return read(*camera_);
 }
 

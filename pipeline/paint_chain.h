@@ -26,7 +26,7 @@ class PaintChain {
 
   PaintParameters defaultParameters() const;
   std::vector<PainterView> views() const;
-  Picture paint(const hal::CapturedFrame& frame, const PaintParameters& parameters);
+  hal::Result<Picture> paint(const hal::CapturedFrame& frame, const PaintParameters& parameters);
 
   int openReader(const hal::FrameFormat& format);
   bool take(int reader, ReadPicture& picture, bool wait);
@@ -52,9 +52,11 @@ class PaintChain {
   };
 
   void warmUp();
-  tracking::TrackingResult track(const hal::CapturedFrame& frame);
+  hal::Result<void> checkView(const std::string& view) const;
+  hal::Result<void> adaptTo(hal::FrameSize frameSize);
+  const scene::ArFrame& compose(const hal::CapturedFrame& frame,
+                                const tracking::TrackingResult& tracked);
   const gpu::Texture& paintView(const scene::ArFrame& frame, const PaintParameters& parameters);
-  void requireView(const std::string& view) const;
   void submitToReaders(const hal::CapturedFrame& frame);
   hal::Image read(const gpu::Texture& texture) const;
   Reader& at(int reader) { return *readers_.at(static_cast<std::size_t>(reader)); }
@@ -68,8 +70,8 @@ class PaintChain {
   gpu::FrameUploader uploader_;
   scene::ArFrameRenderer renderer_;
   std::unique_ptr<styles::Style> style_;
-  std::optional<tracking::Tracker> tracker_;  // made for the size of the frames that come
-  hal::FrameSize trackedSize_;
+  hal::FrameSize frameSize_;  // of the last frame; what follows is made for it
+  std::optional<tracking::Tracker> tracker_;
   std::optional<tracking::CameraModel> pictureCamera_;  // of the picture, not of the frame
   std::vector<scene::TagSighting> sightings_;
   std::vector<std::unique_ptr<Reader>> readers_;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hal/error.h"
+#include "pipeline/gpu/host_state.h"
 #include "pipeline/gpu/render_thread.h"
 #include "pipeline/paint_chain.h"
 
@@ -32,7 +33,11 @@ struct Painter::Impl {
 
   explicit Impl(const PainterOptions& options) {
     checkSize(options.pictureSize);
-    if (options.context == PainterContext::kOwn) thread.emplace("painter");
+    if (options.context == PainterContext::kOwn) {
+      thread.emplace("painter");
+    } else {
+      contextInfo = gpu::inspectCurrentContext("host");
+    }
     try {
       run([&] { build(options); });
     } catch (...) {
@@ -47,11 +52,9 @@ struct Painter::Impl {
   Impl& operator=(const Impl&) = delete;
 
   void build(const PainterOptions& options) {
-    if (options.context == PainterContext::kOwn) {
+    if (thread) {
       ownContext.emplace();
       contextInfo = ownContext->info();
-    } else {
-      contextInfo = gpu::inspectCurrentContext("host");
     }
     chain.emplace(options, contextInfo);
   }
@@ -65,6 +68,7 @@ struct Painter::Impl {
     if (thread) {
       thread->run(task);
     } else {
+      const gpu::HostState state;
       task();
     }
   }
@@ -78,7 +82,7 @@ struct Painter::Impl {
   }
 };
 
-Painter::Painter(PainterOptions options) : impl_(std::make_unique<Impl>(options)) {}
+Painter::Painter(const PainterOptions& options) : impl_(std::make_unique<Impl>(options)) {}
 
 Painter::~Painter() = default;
 
@@ -94,7 +98,8 @@ std::vector<PainterView> Painter::views() const {
   return impl_->chain->views();
 }
 
-Picture Painter::paint(const hal::CapturedFrame& frame, const PaintParameters& parameters) {
+hal::Result<Picture> Painter::paint(const hal::CapturedFrame& frame,
+                                    const PaintParameters& parameters) {
   return impl_->call([&] { return impl_->chain->paint(frame, parameters); });
 }
 

@@ -10,6 +10,7 @@
 
 #include "config/parameter_values.h"
 #include "hal/captured_frame.h"
+#include "hal/error.h"
 #include "hal/image.h"
 #include "pipeline/gpu/egl_context.h"
 #include "pipeline/gpu/pass_timer.h"
@@ -20,8 +21,11 @@ namespace pleinair {
 
 /// Whose GL context a Painter works in.
 enum class PainterContext {
-  kOwn,   ///< its own, on a thread of its own; call the Painter from any one thread
-  kHost,  ///< the one that is current on the caller's thread, always the same
+  kOwn,  ///< its own, on a thread of its own; call the Painter from any one thread
+  /// The one that is current on the caller's thread, always the same. Each call works whatever the
+  /// host has bound and switched on, and leaves nothing bound and all switches as in a new context;
+  /// the viewport stays.
+  kHost,
 };
 
 struct PainterOptions {
@@ -67,9 +71,9 @@ struct ReadPicture {
 /// independent, and the same frames with the same times give the same pictures, live or not.
 class Painter {
  public:
-  /// Builds the whole chain and warms it up. Throws hal::StartupError (no GPU, unknown style: lists
-  /// the valid ones, size beyond the limits).
-  explicit Painter(PainterOptions options);
+  /// Builds the whole chain and warms it up. Throws hal::StartupError (no GPU, unknown style or tag
+  /// family: lists the valid ones, size beyond the limits).
+  explicit Painter(const PainterOptions& options);
   ~Painter();
   Painter(const Painter&) = delete;
   Painter& operator=(const Painter&) = delete;
@@ -79,13 +83,15 @@ class Painter {
   std::vector<PainterView> views() const;
 
   /// Tracks, composes and paints one frame, which may have any size and layout. Returns when the
-  /// work is issued, not when the GPU is done. Throws hal::StartupError for an unknown view, and
-  /// for a frame of another size than the scene's calibration was made for.
-  Picture paint(const hal::CapturedFrame& frame, const PaintParameters& parameters);
+  /// work is issued, not when the GPU is done. Errors, after which all is as if the frame had not
+  /// come: kInvalidArgument (unknown view: lists the valid ones), kInvalidInput (the frame has
+  /// another size than the scene's calibration is for). Precondition: frame.image.isComplete().
+  hal::Result<Picture> paint(const hal::CapturedFrame& frame, const PaintParameters& parameters);
 
   /// Opens a reader: from now on each painted picture is also brought to memory in `format` (RGBA8,
-  /// RGB8, grey, I420, NV12, YUYV; of any size). Up to 3 are under way; a picture that finds the
-  /// reader full is not read and counts as skipped. Returns the reader's number.
+  /// RGB8, grey, I420, NV12, YUYV; of any accepted size, filled as frames are). Up to 3 are under
+  /// way; a picture that finds the reader full is not read and counts as skipped. Returns the
+  /// reader's number.
   int openReader(const hal::FrameFormat& format);
   /// Copies the reader's oldest picture into `picture`, reusing its memory; false if none is ready.
   /// With `wait`, false only if none is under way.

@@ -114,7 +114,6 @@ ContextInfo inspectCurrentContext(std::string platform) {
                     info.renderer.find("softpipe") != std::string::npos;
   const std::string extensions = glString(GL_EXTENSIONS);
   info.hasTimerQuery = hasWord(extensions.c_str(), "GL_EXT_disjoint_timer_query");
-  abortOnGlErrors();
   return info;
 }
 
@@ -183,6 +182,7 @@ struct EglContext::Impl {
       return false;
     }
     info = inspectCurrentContext(std::string(platform));
+    abortOnGlErrors();
     return true;
   }
 

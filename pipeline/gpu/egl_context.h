@@ -15,7 +15,9 @@ struct ContextInfo {
 };
 
 /// An OpenGL ES 3.1 context of our own, without a window system. It is current on the thread that
-/// made it until destroyed there; GL objects made meanwhile belong to that thread.
+/// made it until destroyed there; GL objects made meanwhile belong to that thread. In builds with
+/// assertions, a GL error in it aborts with the driver's message: it is always a broken contract of
+/// ours.
 class EglContext {
  public:
   /// Tries EGL's surfaceless platform, then its devices, then GBM on the render nodes. Throws
@@ -33,8 +35,7 @@ class EglContext {
 };
 
 /// Describes the context that is current on this thread; throws hal::StartupError if there is none
-/// or if it is older than OpenGL ES 3.1. In builds with assertions, a GL error from then on aborts
-/// with the driver's message: it is always a broken contract of ours.
+/// or if it is older than OpenGL ES 3.1.
 ContextInfo inspectCurrentContext(std::string platform);
 
 }  // namespace pleinair::gpu

@@ -10,9 +10,6 @@
 namespace pleinair::gpu {
 namespace {
 
-constexpr unsigned kMaxStorageBuffers = 4;  // GPU rules, rule 4
-constexpr unsigned kMaxImages = 4;
-
 bool isImageFormat(TextureFormat format) {
   return format == TextureFormat::kRgba8 || format == TextureFormat::kRgba16f ||
          format == TextureFormat::kRgba32f || format == TextureFormat::kR32f ||
@@ -103,10 +100,10 @@ Program& Program::set(std::string_view uniform, const glm::mat4& value) {
 }
 
 Program& Program::texture(std::string_view sampler, const Texture& texture) {
-  assert(nextTextureUnit_ < 16);
-  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(nextTextureUnit_));
+  assert(nextTextureUnit_ < kMaxTextureUnits);
+  glActiveTexture(GL_TEXTURE0 + nextTextureUnit_);
   glBindTexture(GL_TEXTURE_2D, texture.name());
-  glUniform1i(location(sampler), nextTextureUnit_);
+  glUniform1i(location(sampler), static_cast<GLint>(nextTextureUnit_));
   glActiveTexture(GL_TEXTURE0);
   ++nextTextureUnit_;
   return *this;

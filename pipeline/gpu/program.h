@@ -17,6 +17,11 @@
 
 namespace pleinair::gpu {
 
+/// What a program may bind at once (GPU rules, rule 4).
+inline constexpr unsigned kMaxTextureUnits = 16;
+inline constexpr unsigned kMaxStorageBuffers = 4;
+inline constexpr unsigned kMaxImages = 4;
+
 enum class ImageAccess { kRead, kWrite, kReadWrite };
 
 /// A linked program. `use()` binds it; the setters then fill its uniforms and bindings, and one of
@@ -75,7 +80,7 @@ class Program {
   std::string label_;
   std::vector<Uniform> uniforms_;
   VertexArrayHandle emptyVertexArray_;
-  int nextTextureUnit_ = 0;
+  unsigned nextTextureUnit_ = 0;
 };
 
 }  // namespace pleinair::gpu

@@ -8,12 +8,13 @@
 
 namespace pleinair::tracking {
 
-void requireSize(const CameraModel& camera, hal::FrameSize frame, const std::string& calibration) {
+hal::Result<void> checkSize(const CameraModel& camera, hal::FrameSize frame,
+                            std::string calibration) {
   const hal::FrameSize size = camera.imageSize();
-  if (size == frame) return;
-  throw hal::StartupError(
+  if (size == frame) return {};
+  return tl::unexpected(
       hal::Error{.kind = hal::ErrorKind::kInvalidInput,
-                 .subject = calibration,
+                 .subject = std::move(calibration),
                  .problem = fmt::format("the calibration is for {}x{} px, the frames have {}x{}",
                                         size.width, size.height, frame.width, frame.height),
                  .remedy = "calibrate the camera at the size that it delivers"});

@@ -93,8 +93,9 @@ class Tracker {
   std::map<int, Remembered> tags_;
 };
 
-/// Throws StartupError (kInvalidInput) that names both sizes where a calibration is not for frames
-/// of this size: scaling it in silence would be wrong for a sensor that crops.
-void requireSize(const CameraModel& camera, hal::FrameSize frame, const std::string& calibration);
+/// Whether a calibration is for frames of this size, else an error (kInvalidInput) that names both:
+/// scaling it in silence would be wrong for a sensor that crops.
+hal::Result<void> checkSize(const CameraModel& camera, hal::FrameSize frame,
+                            std::string calibration);
 
 }  // namespace pleinair::tracking

@@ -1,0 +1,106 @@
+#include "tests/gpu/painter/painter_fixture.h"
+
+namespace pleinair {
+namespace {
+
+using hal::PixelFormat;
+
+const PainterOptions kPlain{.pictureSize = {96, 64}, .style = "none"};
+
+void paintFrames(Painter& painter, int first, int end) {
+  const PaintParameters parameters = painter.defaultParameters();
+  for (int i = first; i < end; ++i) ASSERT_TRUE(painter.paint(testFrame(i), parameters));
+}
+
+TEST_F(PainterTest, ReadsPicturesInOrder) {
+  Painter painter(kPlain);
+  const int reader = painter.openReader({PixelFormat::kRgb8, {96, 64}});
+  ReadPicture picture;
+  EXPECT_FALSE(painter.take(reader, picture, false));
+  EXPECT_FALSE(painter.take(reader, picture, true));
+  paintFrames(painter, 0, 3);
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_TRUE(painter.take(reader, picture, true));
+    const hal::CapturedFrame frame = testFrame(i);
+    EXPECT_EQ(picture.sequence, frame.sequence);
+    EXPECT_EQ(picture.captureTime, frame.captureTime);
+    EXPECT_EQ(bytesOf(picture.image), bytesOf(hal::Image(frame.image))) << i;
+  }
+  EXPECT_FALSE(painter.take(reader, picture, true));
+  EXPECT_EQ(painter.skipped(reader), 0u);
+}
+
+TEST_F(PainterTest, TakesWithoutWaitingOnceTheGpuIsDone) {
+  Painter painter(kPlain);
+  const int reader = painter.openReader({PixelFormat::kRgb8, {96, 64}});
+  paintFrames(painter, 0, 1);
+  const hal::Image still = painter.still();  // waits for the GPU
+  ReadPicture picture;
+  ASSERT_TRUE(painter.take(reader, picture, false));
+  EXPECT_EQ(bytesOf(picture.image), bytesOf(still));
+  EXPECT_FALSE(painter.take(reader, picture, false));
+}
+
+TEST_F(PainterTest, SkipsPicturesWhileAReaderIsFull) {
+  Painter painter(kPlain);
+  const int slow = painter.openReader({PixelFormat::kGrey8, {48, 32}});
+  EXPECT_TRUE(painter.hasRoom(slow));
+  paintFrames(painter, 0, 3);
+  EXPECT_FALSE(painter.hasRoom(slow));
+  const int late = painter.openReader({PixelFormat::kGrey8, {48, 32}});
+  paintFrames(painter, 3, 5);
+  EXPECT_EQ(painter.skipped(slow), 2u);
+  EXPECT_EQ(painter.skipped(late), 0u);
+  ReadPicture picture;
+  for (const std::uint64_t sequence : {0u, 1u, 2u}) {
+    ASSERT_TRUE(painter.take(slow, picture, true));
+    EXPECT_EQ(picture.sequence, sequence);
+  }
+  EXPECT_FALSE(painter.take(slow, picture, true));
+  paintFrames(painter, 5, 6);
+  ASSERT_TRUE(painter.take(slow, picture, true));
+  EXPECT_EQ(picture.sequence, 5u);
+  for (const std::uint64_t sequence : {3u, 4u, 5u}) {
+    ASSERT_TRUE(painter.take(late, picture, true));
+    EXPECT_EQ(picture.sequence, sequence);
+  }
+}
+
+TEST_F(PainterTest, ReadsIntoSeveralLayoutsAndSizesAtOnce) {
+  const hal::ColorEncoding limited;
+  struct Wanted {
+    hal::FrameFormat format;
+    std::vector<std::uint8_t> planes;  // of light grey, 200; packed ones: what repeats
+  };
+  const std::vector<Wanted> all{{{PixelFormat::kRgba8, {96, 64}, {}}, {200, 200, 200, 255}},
+                                {{PixelFormat::kRgb8, {31, 17}, {}}, {200, 200, 200}},
+                                {{PixelFormat::kGrey8, {7, 90}, {}}, {200}},
+                                {{PixelFormat::kYuyv, {48, 32}, limited}, {188, 128}},
+                                {{PixelFormat::kI420, {33, 21}, limited}, {188, 128, 128}},
+                                {{PixelFormat::kNv12, {34, 20}, limited}, {188, 128}}};
+  Painter painter(kPlain);
+  std::vector<int> readers;
+  for (const Wanted& wanted : all) readers.push_back(painter.openReader(wanted.format));
+  hal::Image grey({.pixelFormat = PixelFormat::kRgb8, .size = {96, 64}});
+  std::ranges::fill(grey.plane(0), std::uint8_t{200});
+  painted(painter, frameOf(std::move(grey), 0));
+  ReadPicture picture;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto& [format, planes] = all[i];
+    ASSERT_TRUE(painter.take(readers[i], picture, true));
+    ASSERT_EQ(picture.image.format(), format);
+    const bool isPlanar =
+        format.pixelFormat == PixelFormat::kI420 || format.pixelFormat == PixelFormat::kNv12;
+    for (int plane = 0; plane < planeCount(format.pixelFormat); ++plane) {
+      const auto bytes = picture.image.plane(plane);
+      for (std::size_t at = 0; at < bytes.size(); ++at) {
+        const auto expected =
+            planes[isPlanar ? static_cast<std::size_t>(plane) : at % planes.size()];
+        ASSERT_EQ(bytes[at], expected) << toString(format.pixelFormat) << ' ' << plane << ' ' << at;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pleinair
