@@ -135,6 +135,8 @@ const ArFrame& ArFrameRenderer::compose(const gpu::Texture& picture,
   frame_.ids = &ids_;
   frame_.normalFocus = &normalFocus_;
   frame_.depth = &depth_;
+  frame_.hasFocus = std::ranges::any_of(
+      visible_, [&](const Visible& each) { return scene_.models[each.model].focus > 0.0F; });
   frame_.sequence = sequence;
   frame_.captureTime = captureTime;
   return frame_;

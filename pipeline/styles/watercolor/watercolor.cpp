@@ -48,6 +48,7 @@ struct Watercolor::Passes {
         cells(library.compute(kShaders + "cells.comp")),
         wash(library.fragmentPass(kShaders + "wash.frag")),
         compose(library.fragmentPass(kShaders + "compose.frag")),
+        composeFocus(library.fragmentPass(kShaders + "compose_focus.frag")),
         view(library.fragmentPass(kShaders + "view.frag")),
         paper(library.fragmentPass(kShaders + "paper.frag")) {}
 
@@ -56,6 +57,7 @@ struct Watercolor::Passes {
   gpu::Program cells;
   gpu::Program wash;
   gpu::Program compose;
+  gpu::Program composeFocus;
   gpu::Program view;
   gpu::Program paper;
 };
@@ -130,7 +132,7 @@ const Texture& Watercolor::paint(const scene::ArFrame& frame, std::string_view v
   lastTime_ = frame.captureTime;
   hasPast_ = true;
   if (view.empty()) {
-    compose(timer);
+    compose(frame, timer);
   } else {
     showView(frame, view);
   }
@@ -215,10 +217,11 @@ void Watercolor::paintWashes(gpu::PassTimer& timer) {
       .drawFullscreen(s.washTarget);
 }
 
-void Watercolor::compose(gpu::PassTimer& timer) {
+void Watercolor::compose(const scene::ArFrame& frame, gpu::PassTimer& timer) {
   const Surfaces& s = *surfaces_;
   const auto scope = timer.measure("watercolor: compose");
-  passes_->compose.use()
+  gpu::Program& pass = frame.hasFocus ? passes_->composeFocus : passes_->compose;
+  pass.use()
       .texture("tiling", s.tiling)
       .texture("flatWash", s.flatWash)
       .texture("softWash", s.softWash)
@@ -231,8 +234,10 @@ void Watercolor::compose(gpu::PassTimer& timer) {
       .set("wobble", static_cast<float>(p_.wobble))
       .set("rim", static_cast<float>(p_.rim))
       .set("granulation", static_cast<float>(p_.granulation))
-      .set("grain", static_cast<float>(p_.grain))
-      .drawFullscreen(s.pictureTarget);
+      .set("grain", static_cast<float>(p_.grain));
+  if (frame.hasFocus)
+    pass.texture("frame", *frame.colour).texture("normalFocus", *frame.normalFocus);
+  pass.drawFullscreen(s.pictureTarget);
 }
 
 void Watercolor::showView(const scene::ArFrame& frame, std::string_view view) {
@@ -265,6 +270,7 @@ void Watercolor::warmUp() {
   gpu::PassTimer timer;
   const scene::ArFrame frame{.colour = &grey};
   paint(frame, "", timer);
+  paint({.colour = &grey, .normalFocus = &grey, .hasFocus = true}, "", timer);
   paint(frame, kViews.front().name, timer);
   surfaces_.reset();
   reset();

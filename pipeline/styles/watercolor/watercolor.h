@@ -54,7 +54,7 @@ class Watercolor final : public Style {
   void startTiling(const scene::ArFrame& frame);
   void tileAndRetile(const scene::ArFrame& frame, gpu::PassTimer& timer, bool atOnce);
   void paintWashes(gpu::PassTimer& timer);
-  void compose(gpu::PassTimer& timer);
+  void compose(const scene::ArFrame& frame, gpu::PassTimer& timer);
   void showView(const scene::ArFrame& frame, std::string_view view);
   void makePaper();
   void warmUp();

@@ -50,6 +50,35 @@ TEST_F(WatercolorTest, AnotherSizeStartsAnew) {
   EXPECT_EQ(paintFrame(style, 0), fresh);
 }
 
+TEST_F(WatercolorTest, KeepsWhatIsInFocusCrisp) {
+  constexpr hal::FrameSize kSize{96, 64};
+  const hal::Image image = testPicture(kSize, 5, 0.0);
+  const gpu::Texture picture = textureOf(image.view());
+  hal::Image focus({.pixelFormat = hal::PixelFormat::kRgba8, .size = kSize});
+  for (int y = 0; y < kSize.height; ++y) {
+    for (std::size_t x = kSize.width / 2; x < std::size_t{kSize.width}; ++x) {
+      focus.row(0, y)[x * 4 + 3] = 255;  // the right half
+    }
+  }
+  gpu::Texture normalFocus(gpu::TextureFormat::kRgba8, kSize);
+  normalFocus.upload(focus.plane(0), std::size_t{kSize.width} * 4);
+
+  Watercolor style(library_);
+  style.setParameters(style.parameters().with("grain", "0"));
+  scene::ArFrame frame = frameOf(picture, 0);
+  const std::vector<std::uint8_t> without = bytesOf(style.paint(frame, {}, timer_));
+  style.reset();
+  frame.normalFocus = &normalFocus;
+  frame.hasFocus = true;
+  const std::vector<std::uint8_t> with = bytesOf(style.paint(frame, {}, timer_));
+  const std::vector<std::uint8_t> crisp = bytesOf(picture);
+  for (std::size_t i = 0; i < with.size(); ++i) {
+    const bool isInFocus = i / 4 % kSize.width >= kSize.width / 2;
+    ASSERT_EQ(with[i], isInFocus ? crisp[i] : without[i]) << "byte " << i;
+  }
+  EXPECT_NE(without, crisp);
+}
+
 TEST_F(WatercolorTest, StateAdvancesTheSameWhateverIsLookedAt) {
   Watercolor looked(library_);
   Watercolor finished(library_);
