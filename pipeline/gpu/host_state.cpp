@@ -1,5 +1,7 @@
 #include "pipeline/gpu/host_state.h"
 
+#include <initializer_list>
+
 #include "pipeline/gpu/program.h"
 
 namespace pleinair::gpu {
@@ -21,17 +23,18 @@ void unbindAll() {
   for (unsigned i = 0; i < kMaxImages; ++i) {
     glBindImageTexture(i, 0, 0, GL_FALSE, 0, GL_READ_ONLY, GL_R32UI);
   }
-  for (const GLenum target : {GL_ARRAY_BUFFER, GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER,
-                              GL_PIXEL_PACK_BUFFER, GL_PIXEL_UNPACK_BUFFER}) {
+  for (const GLenum target :
+       std::initializer_list<GLenum>{GL_ARRAY_BUFFER, GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER,
+                                     GL_PIXEL_PACK_BUFFER, GL_PIXEL_UNPACK_BUFFER}) {
     glBindBuffer(target, 0);
   }
 }
 
 void switchToDefaults() {
-  for (const GLenum feature :
-       {GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_POLYGON_OFFSET_FILL, GL_RASTERIZER_DISCARD,
-        GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_COVERAGE, GL_SAMPLE_MASK, GL_SCISSOR_TEST,
-        GL_STENCIL_TEST}) {
+  for (const GLenum feature : std::initializer_list<GLenum>{
+           GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_POLYGON_OFFSET_FILL, GL_RASTERIZER_DISCARD,
+           GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_COVERAGE, GL_SAMPLE_MASK, GL_SCISSOR_TEST,
+           GL_STENCIL_TEST}) {
     glDisable(feature);
   }
   glEnable(GL_DITHER);
@@ -41,11 +44,13 @@ void switchToDefaults() {
   glDepthRangef(0.0F, 1.0F);
   glCullFace(GL_BACK);
   glFrontFace(GL_CCW);
-  for (const GLenum alignment : {GL_PACK_ALIGNMENT, GL_UNPACK_ALIGNMENT}) {
+  for (const GLenum alignment :
+       std::initializer_list<GLenum>{GL_PACK_ALIGNMENT, GL_UNPACK_ALIGNMENT}) {
     glPixelStorei(alignment, 4);
   }
-  for (const GLenum layout : {GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS,
-                              GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_PIXELS}) {
+  for (const GLenum layout : std::initializer_list<GLenum>{
+           GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS, GL_UNPACK_ROW_LENGTH,
+           GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_PIXELS}) {
     glPixelStorei(layout, 0);
   }
 }

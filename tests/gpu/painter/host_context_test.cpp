@@ -1,4 +1,5 @@
 #include <array>
+#include <initializer_list>
 
 #include <gmock/gmock.h>
 
@@ -27,11 +28,11 @@ GLint stateOf(GLenum name, unsigned index) {
 }
 
 void expectNothingBound() {
-  for (const GLenum binding :
-       {GL_DRAW_FRAMEBUFFER_BINDING, GL_READ_FRAMEBUFFER_BINDING, GL_CURRENT_PROGRAM,
-        GL_VERTEX_ARRAY_BINDING, GL_ARRAY_BUFFER_BINDING, GL_COPY_READ_BUFFER_BINDING,
-        GL_COPY_WRITE_BUFFER_BINDING, GL_PIXEL_PACK_BUFFER_BINDING, GL_PIXEL_UNPACK_BUFFER_BINDING,
-        GL_SHADER_STORAGE_BUFFER_BINDING}) {
+  for (const GLenum binding : std::initializer_list<GLenum>{
+           GL_DRAW_FRAMEBUFFER_BINDING, GL_READ_FRAMEBUFFER_BINDING, GL_CURRENT_PROGRAM,
+           GL_VERTEX_ARRAY_BINDING, GL_ARRAY_BUFFER_BINDING, GL_COPY_READ_BUFFER_BINDING,
+           GL_COPY_WRITE_BUFFER_BINDING, GL_PIXEL_PACK_BUFFER_BINDING,
+           GL_PIXEL_UNPACK_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_BINDING}) {
     EXPECT_EQ(stateOf(binding), 0) << std::hex << binding;
   }
   for (unsigned i = 0; i < gpu::kMaxStorageBuffers; ++i) {
@@ -50,8 +51,9 @@ void expectNothingBound() {
 }
 
 void expectSwitchesOfANewContext() {
-  for (const GLenum feature : {GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_SCISSOR_TEST,
-                               GL_STENCIL_TEST, GL_RASTERIZER_DISCARD}) {
+  for (const GLenum feature :
+       std::initializer_list<GLenum>{GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_SCISSOR_TEST,
+                                     GL_STENCIL_TEST, GL_RASTERIZER_DISCARD}) {
     EXPECT_FALSE(glIsEnabled(feature)) << std::hex << feature;
   }
   EXPECT_EQ(stateOf(GL_DEPTH_WRITEMASK), GL_TRUE);
@@ -75,7 +77,8 @@ class UntidyHost {
 
   void draw() const {
     glViewport(kViewport[0], kViewport[1], kViewport[2], kViewport[3]);
-    for (const GLenum feature : {GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_SCISSOR_TEST}) {
+    for (const GLenum feature :
+         std::initializer_list<GLenum>{GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_SCISSOR_TEST}) {
       glEnable(feature);
     }
     glBlendFunc(GL_ONE, GL_ONE);
