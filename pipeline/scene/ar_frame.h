@@ -24,8 +24,9 @@ struct ArFrame {
   const gpu::Texture* normalFocus =
       nullptr;                          ///< RGBA8: camera-frame normal · 0.5 + 0.5; focus in A
   const gpu::Texture* depth = nullptr;  ///< kDepth24, window depth; 1 where no object is
-  bool hasFocus = false;                ///< whether any pixel's focus may be above 0
-  float nearMetres = 0.0F;              ///< the depth range's planes, for linear depth
+  bool hasObjects = false;  ///< whether any virtual object may be seen; without, ids are all 0
+  bool hasFocus = false;    ///< whether any pixel's focus may be above 0
+  float nearMetres = 0.0F;  ///< the depth range's planes, for linear depth
   float farMetres = 0.0F;
   std::uint64_t sequence = 0;  ///< of the captured frame
   hal::TimePoint captureTime;

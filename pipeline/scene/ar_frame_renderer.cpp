@@ -135,6 +135,7 @@ const ArFrame& ArFrameRenderer::compose(const gpu::Texture& picture,
   frame_.ids = &ids_;
   frame_.normalFocus = &normalFocus_;
   frame_.depth = &depth_;
+  frame_.hasObjects = !visible_.empty();
   frame_.hasFocus = std::ranges::any_of(
       visible_, [&](const Visible& each) { return scene_.models[each.model].focus > 0.0F; });
   frame_.sequence = sequence;

@@ -58,6 +58,13 @@ struct Bench {
       frames.emplace_back(gpu::TextureFormat::kRgba8, size, gpu::TextureFilter::kLinear);
       frames.back().upload(framePixels(size, i), static_cast<std::size_t>(size.width) * 4);
     }
+    ids = gpu::Texture(gpu::TextureFormat::kR32ui, size);
+    std::vector<std::uint32_t> idPixels(static_cast<std::size_t>(size.pixels()), 0);
+    for (std::size_t i = idPixels.size() / 3; i < idPixels.size() / 2; ++i) {
+      idPixels[i] = 1U << scene::kTriangleBits;
+    }
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(idPixels.data());
+    ids.upload({bytes, idPixels.size() * 4}, static_cast<std::size_t>(size.width) * 4);
     gpu::PassTimer untimed;
     for (int i = 0; i < kFrames; ++i) paint(untimed);
     gpu::Fence::insert().passed(kWaitNs);
@@ -65,6 +72,8 @@ struct Bench {
 
   void paint(gpu::PassTimer& with) {
     const scene::ArFrame frame{.colour = &frames[static_cast<std::size_t>(number % kFrames)],
+                               .ids = &ids,
+                               .hasObjects = hasObjects,
                                .sequence = static_cast<std::uint64_t>(number),
                                .captureTime = hal::TimePoint(hal::Duration(33'333'333) * number)};
     ++number;
@@ -76,6 +85,8 @@ struct Bench {
   gpu::PassTimer timer;
   std::unique_ptr<styles::Style> style;
   std::vector<gpu::Texture> frames;
+  gpu::Texture ids;
+  bool hasObjects = false;
   int number = 0;
 };
 
@@ -90,8 +101,9 @@ double millisecondsSince(std::chrono::steady_clock::time_point start) {
       .count();
 }
 
-void wholeStyle(benchmark::State& state) {
+void wholeStyle(benchmark::State& state, bool hasObjects) {
   Bench bench(sizeOf(state), gpu::PassTiming::kOff);
+  bench.hasObjects = hasObjects;
   std::vector<double> times;
   for ([[maybe_unused]] auto _ : state) {
     const auto start = std::chrono::steady_clock::now();
@@ -151,7 +163,10 @@ void passAtBothSizes(benchmark::internal::Benchmark* benchmark) {
   benchmark->MeasureProcessCPUTime()->UseManualTime()->MinTime(0.2);
 }
 
-BENCHMARK(wholeStyle)->Name("watercolor/whole")->Apply(atBothSizes);
+BENCHMARK_CAPTURE(wholeStyle, camera, false)->Name("watercolor/whole")->Apply(atBothSizes);
+BENCHMARK_CAPTURE(wholeStyle, objects, true)
+    ->Name("watercolor/whole with objects")
+    ->Apply(atBothSizes);
 BENCHMARK(openCvStylization)->Name("opencv/stylization")->Apply(atBothSizes);
 BENCHMARK_CAPTURE(onePass, tile, "watercolor: tile")
     ->Name("watercolor/tile")
@@ -167,4 +182,3 @@ BENCHMARK_CAPTURE(onePass, compose, "watercolor: compose")
     ->Apply(passAtBothSizes);
 
 }  // namespace
-

@@ -17,6 +17,9 @@ using gpu::TextureFilter;
 using gpu::TextureFormat;
 
 constexpr int kPaperPixels = 512;  // as in paper.frag
+/// What the next pass reads, and what the next round writes over.
+constexpr GLbitfield kWritten = GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                                GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
 constexpr int kSettlingRounds = 3;
 constexpr std::size_t kSumWords = 8;
 constexpr int kBlockPixels = 4;  // as in tile.comp
@@ -172,8 +175,8 @@ void Watercolor::tileAndRetile(const scene::ArFrame& frame, gpu::PassTimer& time
         .storage(1, s.sums)
         .image(0, s.tiling, ImageAccess::kWrite)
         .texture("picture", *frame.colour)
-        .texture("ids", frame.ids != nullptr ? *frame.ids : s.tiling)
-        .set("hasObjects", frame.ids != nullptr ? 1 : 0)
+        .texture("ids", frame.hasObjects ? *frame.ids : s.tiling)
+        .set("hasObjects", frame.hasObjects ? 1 : 0)
         .set("grid", s.grid.cells())
         .set("cellPixels", s.grid.cellPixels())
         .set("alpha", static_cast<float>(p_.edgeAlpha))
@@ -181,7 +184,7 @@ void Watercolor::tileAndRetile(const scene::ArFrame& frame, gpu::PassTimer& time
         .set("threshold", static_cast<float>(p_.edgeThreshold))
         .dispatch({(s.size.width + kBlockPixels - 1) / kBlockPixels,
                    (s.size.height + kBlockPixels - 1) / kBlockPixels},
-                  {16, 4}, GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+                  {16, 4}, kWritten);
   }
   const hal::Duration step =
       std::clamp(frame.captureTime - lastTime_, hal::Duration(0), hal::Duration(1'000'000'000));
@@ -200,8 +203,7 @@ void Watercolor::tileAndRetile(const scene::ArFrame& frame, gpu::PassTimer& time
       .set("minEdgePixels", static_cast<unsigned>(p_.retilePixels))
       .set("follow", jump ? 1.0F : shareOf(step, p_.retileTimeSeconds))
       .set("drift", stay ? 0.0F : shareOf(step, p_.returnTimeSeconds))
-      .dispatch(s.grid.cells(), {8, 8},
-                GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+      .dispatch(s.grid.cells(), {8, 8}, kWritten);
 }
 
 void Watercolor::paintWashes(gpu::PassTimer& timer) {

@@ -151,6 +151,7 @@ TEST_F(WatercolorTest, SilhouettesOfObjectsAreEdges) {
   idTexture.upload({reinterpret_cast<const std::uint8_t*>(ids.data()), ids.size() * 4}, 256);
   scene::ArFrame frame = frameOf(picture);
   frame.ids = &idTexture;
+  frame.hasObjects = true;
   Watercolor style(library_);
   style.paint(frame, "", timer_);
   const auto words = testing_support::readR32ui(*style.inner().tiling);
