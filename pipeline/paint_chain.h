@@ -40,7 +40,7 @@ class PaintChain {
 
  private:
   struct Stamp {
-    std::uint64_t sequence;
+    std::uint64_t sequence = 0;
     hal::TimePoint captureTime;
   };
   /// A ring of pictures under way, and which frames they are of, oldest first.

@@ -25,6 +25,7 @@ std::vector<Bytes> paintedAlone(const PainterOptions& options) {
   Painter painter(options);
   const PaintParameters parameters = smallCells(painter);
   std::vector<Bytes> pictures;
+  pictures.reserve(kFrames);
   for (int i = 0; i < kFrames; ++i) pictures.push_back(painted(painter, testFrame(i), parameters));
   return pictures;
 }

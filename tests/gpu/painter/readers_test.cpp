@@ -80,6 +80,7 @@ TEST_F(PainterTest, ReadsIntoSeveralLayoutsAndSizesAtOnce) {
                                 {{PixelFormat::kNv12, {34, 20}, limited}, {188, 128}}};
   Painter painter(kPlain);
   std::vector<int> readers;
+  readers.reserve(all.size());
   for (const Wanted& wanted : all) readers.push_back(painter.openReader(wanted.format));
   hal::Image grey({.pixelFormat = PixelFormat::kRgb8, .size = {96, 64}});
   std::ranges::fill(grey.plane(0), std::uint8_t{200});

@@ -10,7 +10,7 @@
 namespace pleinair::app {
 namespace {
 
-using std::chrono_literals::operator""ms;
+using namespace std::chrono_literals;
 
 /// Columns of the numbers by which their rows count.
 const glm::dmat4 kNumbered{0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15};

@@ -5,7 +5,7 @@
 namespace pleinair::app {
 namespace {
 
-using std::chrono_literals::operator""s;
+using namespace std::chrono_literals;
 
 TEST(ProgressLine, SaysRateAndTimeLeft) {
   EXPECT_EQ(progressLine("painting", 37, 150, 2s), "painting 37/150  18.5 frames/s  6 s left");
