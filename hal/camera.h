@@ -70,8 +70,8 @@ class Camera {
   virtual Result<StreamFormat> start(const StreamRequest& request) = 0;
 
   /// The next frame, or why there is none. Waits until `deadline` on the camera's clock at the
-  /// latest; kNoDeadline waits for ever. Precondition: streaming. Sequence numbers rise strictly;
-  /// capture times never fall.
+  /// latest; kNoDeadline waits for ever. Precondition: streaming. Sequence numbers and capture
+  /// times rise strictly.
   virtual NextFrame next(TimePoint deadline) = 0;
 
   /// Stops; idempotent; returns within a bounded time whatever the device does. Frames still leased

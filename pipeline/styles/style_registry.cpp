@@ -64,16 +64,4 @@ std::unique_ptr<Style> makeStyle(std::string_view name, const gpu::ShaderLibrary
                            .remedy = fmt::format("choose one of: {}", namesOf(kInfos))});
 }
 
-void requireView(const Style& style, std::string_view view) {
-  if (view.empty()) return;
-  const auto views = style.views();
-  if (std::ranges::find(views, view, &ViewInfo::name) != views.end()) return;
-  throw hal::StartupError({.kind = hal::ErrorKind::kInvalidArgument,
-                           .subject = fmt::format("view \"{}\"", view),
-                           .problem = fmt::format("style {} has no such view", style.name()),
-                           .remedy = views.empty()
-                                         ? "leave the view away; it has none"
-                                         : fmt::format("choose one of: {}", namesOf(views))});
-}
-
 }  // namespace pleinair::styles

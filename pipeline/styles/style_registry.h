@@ -25,8 +25,4 @@ void addStyleShaders(gpu::ShaderLibrary& library);
 /// hal::StartupError (kInvalidArgument) for an unknown name, with all names.
 std::unique_ptr<Style> makeStyle(std::string_view name, const gpu::ShaderLibrary& library);
 
-/// Throws hal::StartupError (kInvalidArgument) where `view` is neither empty nor one of the style's
-/// views(), with those.
-void requireView(const Style& style, std::string_view view);
-
 }  // namespace pleinair::styles

@@ -130,7 +130,7 @@ TEST_P(CameraConformance, CountsAndTimesRise) {
   EXPECT_GE(taken.front().captureTime, before);
   for (std::size_t i = 1; i < taken.size(); ++i) {
     EXPECT_EQ(taken[i].sequence, taken[i - 1].sequence + 1 + taken[i].droppedBefore);
-    EXPECT_GE(taken[i].captureTime, taken[i - 1].captureTime);
+    EXPECT_GT(taken[i].captureTime, taken[i - 1].captureTime);
     EXPECT_EQ(taken[i].timestampSource, taken[0].timestampSource);
   }
 }

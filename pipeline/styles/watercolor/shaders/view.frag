@@ -1,6 +1,6 @@
 // Purpose: the style's inner pictures, for people.
 // Inputs:  tiling, means, shifts, softWash, paper, picture; `view` as in watercolor.cpp; cellPixels,
-//          seed, threshold.
+//          seed.
 // Outputs: RGBA8, sRGB-coded, opaque. Precision: highp.
 #include "pipeline/gpu/shaders/colour.glsl"
 #include "pipeline/styles/watercolor/shaders/home.glsl"
