@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -29,6 +30,16 @@ class BadInput : public testing::Test {
   std::string write(const std::string& name, const std::string& text) const {
     std::ofstream(path(name), std::ios::binary) << text;
     return path(name);
+  }
+
+  std::string contentOf(const std::string& name) const {
+    std::ifstream file(path(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  std::size_t entriesIn(const std::string& name) const {
+    const std::filesystem::directory_iterator first(path(name));
+    return static_cast<std::size_t>(std::distance(first, std::filesystem::directory_iterator()));
   }
 
   /// Renders with these arguments in addition to input and output, and expects the failure.
@@ -142,6 +153,67 @@ TEST_F(BadInput, OutputInAFolderThatIsNotThere) {
 
 TEST_F(BadInput, OutputThatIsTheInput) {
   expectFailure({"--output", path("in.mp4")}, HasSubstr("in.mp4"));
+}
+
+TEST_F(BadInput, OutputThatLeadsToTheInput) {
+  std::filesystem::create_symlink("in.mp4", path("link.mp4"));
+  expectFailure({"--output", path("link.mp4")}, AllOf(HasSubstr("link.mp4"), HasSubstr("--input")));
+}
+
+TEST_F(BadInput, PatternThatIsTheInputsPattern) {
+  std::filesystem::create_directory(path("in"));
+  writeMedia(path("in/%04d.png"), 3);
+  const std::string before = contentOf("in/0000.png");
+  expectFailure({"--input", path("in/%04d.png"), "--output", path("in/../in/%04d.png")},
+                AllOf(HasSubstr("%04d.png"), HasSubstr("folder of --input")));
+  EXPECT_TRUE(contentOf("in/0000.png") == before);
+}
+
+TEST_F(BadInput, PicturesIntoTheFolderThatIsRead) {
+  std::filesystem::create_directory(path("in"));
+  writeMedia(path("in"), 3);
+  for (const std::string output : {"in", "in/", "in/painted-%d.png"}) {
+    expectFailure({"--input", path("in"), "--output", path(output)},
+                  AllOf(HasSubstr("in"), HasSubstr("folder of --input")));
+  }
+  EXPECT_EQ(entriesIn("in"), 3u);
+}
+
+TEST_F(BadInput, PictureAmongThoseThatAreRead) {
+  std::filesystem::create_directory(path("in"));
+  writeMedia(path("in"), 3);
+  expectFailure({"--input", path("in"), "--contact-sheet", path("in/000001.png")},
+                AllOf(HasSubstr("000001.png"), HasSubstr("--input")));
+  expectFailure({"--input", path("in/000002.png"), "--output", path("in/")},
+                AllOf(HasSubstr("in/"), HasSubstr("--input")));
+}
+
+TEST_F(BadInput, PosesThatAreTheInput) {
+  expectFailure({"--poses", path("in.mp4")}, AllOf(HasSubstr("in.mp4"), HasSubstr("--poses")));
+}
+
+TEST_F(BadInput, PosesThatAreTheScene) {
+  const std::string scene = write("scene.toml", "");
+  expectFailure({"--scene", scene, "--poses", path("./scene.toml")},
+                AllOf(HasSubstr("--scene"), HasSubstr("--poses")));
+}
+
+TEST_F(BadInput, ContactSheetThatIsTheInput) {
+  expectFailure({"--input", path("in.png"), "--contact-sheet", path("in.png")},
+                AllOf(HasSubstr("in.png"), HasSubstr("--contact-sheet")));
+}
+
+TEST_F(BadInput, TwoThingsUnderOneName) {
+  expectFailure({"--poses", path("out.mp4")}, AllOf(HasSubstr("--output"), HasSubstr("--poses")));
+  expectFailure({"--poses", path("a"), "--contact-sheet", path("a")},
+                AllOf(HasSubstr("--poses"), HasSubstr("--contact-sheet")));
+}
+
+TEST_F(BadInput, SceneThatIsTheRecording) {
+  const ProgramRun run = runProgram(
+      {"record", "--frames", "1", "--output", path("out.mp4"), "--write-scene", path("out.mp4")});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.error, AllOf(HasSubstr("--write-scene"), HasSubstr("--output")));
 }
 
 TEST_F(BadInput, TwoFramesIntoOnePicture) {
