@@ -4,10 +4,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <random>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "hal/libav/picture_file.h"
 #include "tests/program/program.h"
 #include "tests/support/media_files.h"
 #include "tests/support/temporary_folder.h"
@@ -226,11 +228,54 @@ TEST_F(BadInput, FullDiskInMidMovie) {
                 {.fileBytes = 40'000});
 }
 
-TEST_F(BadInput, FullDiskForThePoses) {
+TEST_F(BadInput, FullDiskAtTheEndOfAnMp4) {
   writeMedia(path("long.y4m"), 60);
-  expectFailure({"--input", path("long.y4m"), "--output", path("out.png"), "--frames", "1",
-                 "--poses", path("absent/poses.jsonl")},
+  expectFailure({"--input", path("long.y4m"), "--output", path("out.mp4")},
+                AllOf(HasSubstr("out.mp4"), HasSubstr("cannot write")), {.fileBytes = 4'000});
+}
+
+TEST_F(BadInput, FullDiskKeepsTheWholePicturesOfARow) {
+  // A plain picture takes little room, and noise after it has none.
+  std::filesystem::create_directory(path("in"));
+  std::filesystem::create_directory(path("out"));
+  hal::Image picture({.pixelFormat = hal::PixelFormat::kRgb8, .size = {160, 120}, .encoding = {}});
+  hal::orThrow(hal::writePng(path("in/0.png"), picture.view()));
+  std::minstd_rand noise(1);
+  std::ranges::generate(picture.plane(0), [&] { return static_cast<std::uint8_t>(noise() >> 8); });
+  hal::orThrow(hal::writePng(path("in/1.png"), picture.view()));
+  expectFailure({"--style", "none", "--input", path("in/%d.png"), "--output", path("out/%d.png")},
+                AllOf(HasSubstr("out/1.png"), HasSubstr("cannot write")), {.fileBytes = 40'000});
+  EXPECT_EQ(entriesIn("out"), 1u);
+  EXPECT_TRUE(hal::readPicture(path("out/0.png")));
+}
+
+TEST_F(BadInput, FullDiskForThePoses) {
+  // Pictures have room, and 120 lines have not.
+  constexpr int kFrames = 120;
+  std::filesystem::create_directory(path("out"));
+  writeMedia(path("long.y4m"), kFrames, {16, 16});
+  expectFailure(
+      {"--input", path("long.y4m"), "--output", path("out"), "--poses", path("poses.jsonl")},
+      AllOf(HasSubstr("poses.jsonl"), HasSubstr("cannot write")), {.fileBytes = 4'000});
+  ASSERT_GT(entriesIn("out"), 0u);
+  for (const auto& entry : std::filesystem::directory_iterator(path("out"))) {
+    EXPECT_TRUE(hal::readPicture(entry.path())) << entry.path();
+  }
+}
+
+TEST_F(BadInput, PosesInAFolderThatIsNotThere) {
+  expectFailure({"--output", path("new/"), "--poses", path("absent/poses.jsonl")},
                 HasSubstr("absent"));
+}
+
+TEST_F(BadInput, ContactSheetInAFolderThatIsNotThere) {
+  expectFailure({"--output", path("new/"), "--contact-sheet", path("absent/sheet.png")},
+                HasSubstr("absent"));
+}
+
+TEST_F(BadInput, WrongStyleLeavesNoNewFolder) {
+  expectFailure({"--output", path("new/"), "--style", "oil"}, HasSubstr("oil"));
+  expectFailure({"--output", path("new/"), "--set", "cellsize=8"}, HasSubstr("cellsize"));
 }
 
 }  // namespace
