@@ -1,7 +1,10 @@
 #include "firmware_app/command_line.h"
 
+#include <charconv>
 #include <functional>
 #include <string>
+#include <string_view>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -16,13 +19,22 @@
 namespace pleinair::app {
 namespace {
 
+/// Takes a number in digits, and nothing else, off the front.
+bool takeNumber(std::string_view& text, int& number) {
+  // from_chars would take a sign.
+  if (text.empty() || text.front() < '0' || text.front() > '9') return false;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return status == std::errc();
+}
+
 /// "1280x720" as a size within the limits.
-bool parseSize(const std::string& text, hal::FrameSize& size) {
-  char end = 0;
-  int width = 0;
-  int height = 0;
-  if (std::sscanf(text.c_str(), "%5dx%5d%c", &width, &height, &end) != 2) return false;
-  size = {width, height};
+bool parseSize(std::string_view text, hal::FrameSize& size) {
+  hal::FrameSize parsed;
+  if (!takeNumber(text, parsed.width) || !text.starts_with('x')) return false;
+  text.remove_prefix(1);
+  if (!takeNumber(text, parsed.height) || !text.empty()) return false;
+  size = parsed;
   return hal::isAcceptedSize(size);
 }
 

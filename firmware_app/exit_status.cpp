@@ -20,9 +20,13 @@ void printError(std::string_view message) {
 }
 
 ExitStatus exitStatusOf(const hal::Error& error) {
-  if (error.domain == hal::ErrorDomain::kEgl || error.domain == hal::ErrorDomain::kGl) {
-    return ExitStatus::kInternal;
-  }
+  // The GPU's input is a shader of --shaders; whatever else it refuses is the device's.
+  const bool isInput =
+      error.kind == hal::ErrorKind::kInvalidInput || error.kind == hal::ErrorKind::kNotFound;
+  const bool isShader = error.domain == hal::ErrorDomain::kGl && isInput;
+  const bool isGpu =
+      error.domain == hal::ErrorDomain::kEgl || error.domain == hal::ErrorDomain::kGl;
+  if (isGpu && !isShader) return ExitStatus::kInternal;
   switch (error.kind) {
     case hal::ErrorKind::kInvalidArgument:
     case hal::ErrorKind::kInvalidInput:

@@ -1,39 +1,56 @@
 #include "firmware_app/interrupt.h"
 
-#include <csignal>
+#include <atomic>
+#include <cstddef>
 
 namespace pleinair::app {
 namespace {
 
-volatile std::sig_atomic_t receivedSignal = 0;
+std::atomic<int> receivedSignal = 0;
+static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may not wait");
 
 void onSignal(int signal) {
-  receivedSignal = signal;
+  receivedSignal.store(signal);
 }
 
-void install(int signal, void (*handler)(int), int flags) {
-  struct sigaction action = {};
-  action.sa_handler = handler;
-  action.sa_flags = flags;
-  sigaction(signal, &action, nullptr);
+bool isIgnored(const struct sigaction& action) {
+  return (action.sa_flags & SA_SIGINFO) == 0 && action.sa_handler == SIG_IGN;
 }
 
 }  // namespace
 
 Interrupt::Interrupt() {
-  receivedSignal = 0;
-  const int once = static_cast<int>(SA_RESETHAND);
-  install(SIGINT, onSignal, once);
-  install(SIGTERM, onSignal, once);
+  receivedSignal.store(0);
+  struct sigaction once = {};
+  once.sa_handler = onSignal;
+  once.sa_flags = static_cast<int>(SA_RESETHAND);
+  for (std::size_t i = 0; i < kSignals.size(); ++i) {
+    sigaction(kSignals.at(i), nullptr, &former_.at(i));
+    if (!isIgnored(former_.at(i))) sigaction(kSignals.at(i), &once, nullptr);
+  }
 }
 
 Interrupt::~Interrupt() {
-  install(SIGINT, SIG_DFL, 0);
-  install(SIGTERM, SIG_DFL, 0);
+  for (std::size_t i = 0; i < kSignals.size(); ++i) {
+    sigaction(kSignals.at(i), &former_.at(i), nullptr);
+  }
 }
 
 int Interrupt::received() {
-  return receivedSignal;
+  return receivedSignal.load();
+}
+
+std::string_view signalName(int signal) {
+  switch (signal) {
+    case SIGINT:
+      return "SIGINT";
+    case SIGTERM:
+      return "SIGTERM";
+    case SIGHUP:
+      return "SIGHUP";
+    default:
+      return "a signal";
+  }
 }
 
 }  // namespace pleinair::app

@@ -1,9 +1,15 @@
 #pragma once
 
+#include <array>
+#include <csignal>
+#include <string_view>
+
 namespace pleinair::app {
 
-/// Turns SIGINT and SIGTERM into a question that loops ask, so that files are left in order. A
-/// second signal ends the process at once. One a process.
+/// Turns SIGINT, SIGTERM and SIGHUP into a question that loops ask, so that files are left in
+/// order. A second time, each ends the process at once. What
+/// was ignored (as nohup has it) stays ignored. The former actions come back at the end. One a
+/// process.
 class Interrupt {
  public:
   Interrupt();
@@ -13,6 +19,13 @@ class Interrupt {
 
   /// The signal's number, or 0 if there was none. Any thread.
   static int received();
+
+ private:
+  static constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
+  std::array<struct sigaction, kSignals.size()> former_{};
 };
+
+/// "SIGTERM", of those that Interrupt takes.
+std::string_view signalName(int signal);
 
 }  // namespace pleinair::app

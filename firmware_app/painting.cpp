@@ -1,16 +1,21 @@
 #include "firmware_app/painting.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "firmware_app/exit_status.h"
 #include "firmware_app/interrupt.h"
+#include "firmware_app/path_collisions.h"
 #include "firmware_app/poses_file.h"
 #include "firmware_app/progress.h"
 #include "hal/libav/picture_file.h"
 #include "hal/outputs/open_output.h"
+#include "hal/pending_file.h"
 #include "pipeline/painter.h"
 #include "pipeline/present/contact_sheet.h"
 
@@ -45,61 +50,107 @@ std::optional<std::uint64_t> framesToPaint(const hal::StreamFormat& stream,
   return job.frames ? std::min(*job.frames, *stream.frameCount) : stream.frameCount;
 }
 
+/// The style's own, with the job's settings and view.
+PaintParameters parametersOf(const Painter& painter, const PaintingJob& job) {
+  PaintParameters parameters = painter.defaultParameters();
+  parameters.view = job.view;
+  parameters.style = withSettings(parameters.style, job.set);
+  return parameters;
+}
+
+template <class File>
+std::optional<File> created(const std::optional<std::filesystem::path>& path) {
+  if (!path) return std::nullopt;
+  return orThrow(File::create(*path));
+}
+
+template <class... Functions>
+struct Overloaded : Functions... {
+  using Functions::operator()...;
+};
+template <class... Functions>
+Overloaded(Functions...) -> Overloaded<Functions...>;
+
 /// One run of a job: the camera, the painter and everything that is written.
 class Painting {
  public:
+  /// What can be wrong with the job shows before the output starts, which may make a folder.
   explicit Painting(const PaintingJob& job)
       : job_(job),
         stream_(orThrow(job.camera->start({}))),
         output_(orThrow(hal::openFileOutput(job.output))),
-        outputFormat_(
-            orThrow(output_->start({.size = pictureSize(), .framePeriod = stream_.framePeriod}))),
         painter_({.pictureSize = pictureSize(),
                   .scene = job.scene,
                   .style = job.style,
                   .tracksTags = !job.scene.tags.empty() || job.poses,
                   .shaderDirectory = job.shaderDirectory}),
-        parameters_(painter_.defaultParameters()),
-        reader_(painter_.openReader(outputFormat_.frame)) {
-    parameters_.view = job.view;
-    parameters_.style = withSettings(parameters_.style, job.set);
-    if (job.poses) poses_.emplace(orThrow(PosesFile::create(*job.poses)));
-  }
+        parameters_(parametersOf(painter_, job)),
+        poses_(created<PosesFile>(job.poses)),
+        sheetFile_(created<hal::PendingFile>(job.contactSheet)),
+        outputFormat_(
+            orThrow(output_->start({.size = pictureSize(), .framePeriod = stream_.framePeriod}))),
+        reader_(painter_.openReader(outputFormat_.frame)) {}
 
   /// 0, or the signal that broke it off.
   int run() {
-    Progress progress(job_.doing, framesToPaint(stream_, job_), realTime_);
-    while (!job_.frames || progress.frames() < *job_.frames) {
-      if (Interrupt::received() != 0) return Interrupt::received();
-      const std::optional<hal::CapturedFrame> frame = nextFrame();
-      if (!frame) break;
-      paint(*frame, progress.frames());
-      progress.advance();
+    std::string summary;
+    {
+      Progress progress(job_.doing, framesToPaint(stream_, job_), realTime_);
+      if (const int signal = paintAll(progress); signal != 0) return signal;
+      finish();
+      summary =
+          fmt::format("{} {} frames in {:.1f} s ({:.1f} frames/s): {}", job_.done,
+                      progress.frames(), std::chrono::duration<double>(progress.elapsed()).count(),
+                      progress.framesPerSecond(), job_.output.string());
     }
-    finish();
-    fmt::print("{} {} frames in {:.1f} s ({:.1f} frames/s): {}\n", job_.done, progress.frames(),
-               std::chrono::duration<double>(progress.elapsed()).count(),
-               progress.framesPerSecond(), job_.output.string());
+    fmt::print("{}\n", summary);
     return 0;
   }
 
  private:
   hal::FrameSize pictureSize() const { return job_.size.value_or(stream_.frame.size); }
 
-  /// Nothing at the end. A recording that broke off gives what it had, with a warning.
-  std::optional<hal::CapturedFrame> nextFrame() {
-    for (;;) {
-      hal::NextFrame next = job_.camera->next(hal::kNoDeadline);
-      if (auto* frame = std::get_if<hal::CapturedFrame>(&next)) return std::move(*frame);
-      if (const auto* end = std::get_if<hal::EndOfStream>(&next)) {
-        if (end->truncated) spdlog::warn("{}", end->truncated->message());
-        return std::nullopt;
-      }
-      if (auto* lost = std::get_if<hal::CameraLost>(&next)) {
-        throw hal::StartupError(std::move(lost->cause));
-      }
-      if (auto* error = std::get_if<Error>(&next)) throw hal::StartupError(std::move(*error));
+  /// As run().
+  int paintAll(Progress& progress) {
+    while (!job_.frames || progress.frames() < *job_.frames) {
+      if (const int signal = Interrupt::received(); signal != 0) return signal;
+      const std::optional<hal::CapturedFrame> frame = nextFrame(progress);
+      if (!frame) break;
+      paint(*frame, progress.frames());
+      progress.advance();
     }
+    return 0;
+  }
+
+  /// Nothing at the end. A recording that broke off gives what it had, with a warning.
+  std::optional<hal::CapturedFrame> nextFrame(Progress& progress) {
+    std::optional<hal::CapturedFrame> frame;
+    constexpr bool kGoesOn = true;
+    constexpr bool kDone = false;
+    const Overloaded receive{
+        [&](hal::CapturedFrame& next) {
+          frame = std::move(next);
+          return kDone;
+        },
+        // Never without a deadline.
+        [](hal::CameraTimeout&) { return kGoesOn; },
+        // Every frame says its format, and the painter fits it into the picture, whose size stays.
+        [](hal::FormatChanged&) { return kGoesOn; },
+        [&](hal::EndOfStream& end) {
+          if (end.truncated) {
+            progress.interrupt();
+            spdlog::warn("{}", end.truncated->message());
+          }
+          return kDone;
+        },
+        [](hal::CameraLost& lost) -> bool { throw hal::StartupError(std::move(lost.cause)); },
+        [](Error& error) -> bool { throw hal::StartupError(std::move(error)); },
+    };
+    for (bool goesOn = true; goesOn;) {
+      hal::NextFrame next = job_.camera->next(hal::kNoDeadline);
+      goesOn = std::visit(receive, next);
+    }
+    return frame;
   }
 
   void paint(const hal::CapturedFrame& frame, std::uint64_t index) {
@@ -108,7 +159,7 @@ class Painting {
     while (!painter_.hasRoom(reader_)) write(true);
     const Picture picture = orThrow(painter_.paint(frame, parameters_));
     if (poses_) orThrow(poses_->write(index, time, picture.tracking));
-    if (job_.contactSheet && sheet_.wants(index)) {
+    if (sheetFile_ && sheet_.wants(index)) {
       sheet_.add(painter_.cameraStill().view(), painter_.still().view(), time);
     }
     while (write(false)) {
@@ -122,37 +173,46 @@ class Painting {
     return true;
   }
 
+  /// Everything is written before the first thing takes its name.
   void finish() {
     while (write(true)) {
     }
+    const bool hasSheet = sheetFile_ && !sheet_.isEmpty();
+    if (hasSheet) orThrow(sheetFile_->write(orThrow(hal::encodePng(sheet_.sheet().view()))));
     orThrow(output_->finish());
     if (poses_) orThrow(poses_->publish());
-    if (job_.contactSheet && !sheet_.isEmpty()) {
-      orThrow(hal::writePng(*job_.contactSheet, sheet_.sheet().view()));
-    }
+    if (hasSheet) orThrow(sheetFile_->publish());
   }
 
   const PaintingJob& job_;
   hal::SteadyClock realTime_;  // for the progress
   hal::StreamFormat stream_;
   std::unique_ptr<hal::MemoryOutput> output_;
-  hal::OutputFormat outputFormat_;
   Painter painter_;
   PaintParameters parameters_;
+  std::optional<PosesFile> poses_;
+  std::optional<hal::PendingFile> sheetFile_;
+  hal::OutputFormat outputFormat_;
   int reader_;
   ReadPicture read_;
   std::optional<hal::TimePoint> firstTime_;
-  std::optional<PosesFile> poses_;
   present::ContactSheet sheet_;
 };
+
+void reportInterruption(int signal, const PaintingJob& job) {
+  printError(
+      fmt::format("broken off by {}; {}", signalName(signal),
+                  isPictureRow(job.output) ? "frames written so far stay" : "nothing was written"));
+}
 
 }  // namespace
 
 int runPainting(const PaintingJob& job) {
   const Interrupt interrupt;
-  Painting painting(job);
-  const int signal = painting.run();
-  return signal == 0 ? 0 : kSignalExitBase + signal;
+  const int signal = Painting(job).run();
+  if (signal == 0) return 0;
+  reportInterruption(signal, job);
+  return kSignalExitBase + signal;
 }
 
 }  // namespace pleinair::app

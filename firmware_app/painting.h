@@ -32,8 +32,12 @@ struct PaintingJob {
 };
 
 /// Runs the job with progress, and a summary on standard output. Throws hal::StartupError and
-/// config::ConfigError. Returns the exit status: 0, or 128 + the signal that broke it off; then
-/// nothing stands under the outputs' names.
+/// config::ConfigError. Returns the exit status: 0, or 128 + the signal that broke it off, with a
+/// line on standard error.
+///
+/// A movie, a single picture, poses and a contact sheet stand under their names once all of them
+/// are whole, and not at all after a failure or a signal. A folder or a pattern keeps the whole
+/// frames that were written so far. Nothing partial stands under any name.
 int runPainting(const PaintingJob& job);
 
 }  // namespace pleinair::app

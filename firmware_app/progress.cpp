@@ -54,6 +54,13 @@ void Progress::advance() {
   draw();
 }
 
+void Progress::interrupt() {
+  if (!isTerminal_) return;
+  fmt::print(stderr, "\r\x1b[K");
+  std::fflush(stderr);
+  drawn_ = clock_.now() - kRedrawPeriod;
+}
+
 double Progress::framesPerSecond() const {
   return rate(done_, elapsed());
 }

@@ -21,6 +21,8 @@ class Progress {
 
   /// After each frame; redraws a few times a second.
   void advance();
+  /// Clears the line, so that something else can be said; the next advance() redraws it.
+  void interrupt();
   std::uint64_t frames() const { return done_; }
   /// Since the start.
   double framesPerSecond() const;

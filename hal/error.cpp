@@ -29,6 +29,7 @@ ErrorKind kindOfErrno(int value) {
     case ENOTDIR:
     case EISDIR:
     case ENAMETOOLONG:
+    case ELOOP:
       return ErrorKind::kInvalidArgument;
     default:
       return ErrorKind::kIo;

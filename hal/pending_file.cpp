@@ -7,6 +7,8 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace pleinair::hal {
@@ -23,16 +25,31 @@ class SystemFiles final : public FileSystem {
  public:
   int create(const std::filesystem::path& path) override {
     constexpr mode_t kEverybodySubjectToUmask = 0666;
-    return retried([&] {
-      return ::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW,
+    const int fd = retried([&] {
+      return ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK,
                     kEverybodySubjectToUmask);
     });
+    if (fd == -ELOOP || fd == -EISDIR || fd == -ENXIO) return -EEXIST;
+    if (fd < 0) return fd;
+    // The lock ends with the process, however that ends: a file that nobody has locked is stale.
+    // Where a file system knows no locks, the file is taken for stale.
+    const int locked = retried([&] { return ::flock(fd, LOCK_EX | LOCK_NB); });
+    const bool ours = locked != -EWOULDBLOCK && isRegularFileAt(fd, path);
+    const int emptied = ours ? retried([&] { return ::ftruncate(fd, 0); }) : -EEXIST;
+    if (emptied == 0) return fd;
+    ::close(fd);
+    return emptied;
   }
   ssize_t write(int fd, std::span<const std::uint8_t> bytes) override {
     return retried([&] { return ::write(fd, bytes.data(), bytes.size()); });
   }
   std::int64_t seek(int fd, std::int64_t offset, int whence) override {
     return retried([&] { return std::int64_t{::lseek(fd, offset, whence)}; });
+  }
+  int sync(int fd) override {
+    const int synced = retried([&] { return ::fsync(fd); });
+    const bool cannotSay = synced == -EINVAL || synced == -ENOSYS || synced == -EROFS;
+    return cannotSay ? 0 : synced;
   }
   int close(int fd) override {
     // After EINTR the descriptor is gone all the same on Linux: never close twice.
@@ -43,6 +60,16 @@ class SystemFiles final : public FileSystem {
   }
   int unlink(const std::filesystem::path& path) override {
     return retried([&] { return ::unlink(path.c_str()); });
+  }
+
+ private:
+  /// Between open() and flock() another writer may have published the file, or removed it.
+  static bool isRegularFileAt(int fd, const std::filesystem::path& path) {
+    struct stat opened = {};
+    struct stat named = {};
+    return ::fstat(fd, &opened) == 0 && ::lstat(path.c_str(), &named) == 0 &&
+           S_ISREG(opened.st_mode) && opened.st_dev == named.st_dev &&
+           opened.st_ino == named.st_ino;
   }
 };
 
@@ -63,6 +90,34 @@ std::string remedyFor(int errnoValue) {
   }
 }
 
+Error notWritable(const std::filesystem::path& path, std::string problem, std::string remedy) {
+  return Error{.kind = ErrorKind::kInvalidArgument,
+               .subject = path.string(),
+               .problem = "cannot write: " + std::move(problem),
+               .remedy = std::move(remedy)};
+}
+
+/// Where the file is to stand: `path`, or where it leads to.
+Result<std::filesystem::path> targetOf(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (!path.has_filename() || std::filesystem::is_directory(status)) {
+    return tl::unexpected(notWritable(path, "it is a folder", "name a file in it"));
+  }
+  const bool isLink = std::filesystem::is_symlink(std::filesystem::symlink_status(path, ignored));
+  const bool isRegular = std::filesystem::is_regular_file(status);
+  if (!isRegular && (isLink || std::filesystem::exists(status))) {
+    return tl::unexpected(notWritable(
+        path, isLink ? "it is a link and does not lead to a file" : "it is not a regular file",
+        "give another name"));
+  }
+  if (!isLink) return path;
+  std::error_code failed;
+  std::filesystem::path target = std::filesystem::canonical(path, failed);
+  if (failed) return tl::unexpected(errnoError(path.string(), "cannot write", failed.value()));
+  return target;
+}
+
 }  // namespace
 
 FileSystem& systemFiles() {
@@ -70,21 +125,21 @@ FileSystem& systemFiles() {
   return files;
 }
 
-PendingFile::PendingFile(std::filesystem::path path, FileSystem& files)
-    : path_(std::move(path)), temporary_(path_), files_(&files) {
-  temporary_.replace_filename("." + path_.filename().string() + ".part");
-}
+PendingFile::PendingFile(std::filesystem::path path, std::filesystem::path target,
+                         FileSystem& files)
+    : path_(std::move(path)), target_(std::move(target)), files_(&files) {}
 
 PendingFile::PendingFile(PendingFile&& other) noexcept
     : path_(std::move(other.path_)),
+      target_(std::move(other.target_)),
       temporary_(std::move(other.temporary_)),
       files_(other.files_),
       fd_(std::exchange(other.fd_, -1)) {}
 
 PendingFile::~PendingFile() {
   if (fd_ < 0) return;
+  files_->unlink(temporary_);  // first: closing unlocks it for the next writer
   files_->close(fd_);
-  files_->unlink(temporary_);
 }
 
 Error PendingFile::failure(const char* operation, std::int64_t minusErrno) const {
@@ -93,17 +148,25 @@ Error PendingFile::failure(const char* operation, std::int64_t minusErrno) const
 }
 
 Result<PendingFile> PendingFile::create(const std::filesystem::path& path, FileSystem& files) {
-  PendingFile file(path, files);
-  std::error_code ignored;
-  if (!path.has_filename() || std::filesystem::is_directory(path, ignored)) {
-    return tl::unexpected(Error{.kind = ErrorKind::kInvalidArgument,
-                                .subject = path.string(),
-                                .problem = "cannot write: it is a folder",
-                                .remedy = "name a file in it"});
-  }
-  file.fd_ = files.create(file.temporary_);
+  Result<std::filesystem::path> target = targetOf(path);
+  if (!target) return tl::unexpected(std::move(target.error()));
+  PendingFile file(path, *std::move(target), files);
+  file.fd_ = file.createTemporary();
   if (file.fd_ < 0) return tl::unexpected(file.failure("cannot write", file.fd_));
   return file;
+}
+
+int PendingFile::createTemporary() {
+  constexpr int kWritersAtOnce = 100;
+  const std::string name = target_.filename().string();
+  int fd = -EEXIST;
+  for (int writer = 1; writer <= kWritersAtOnce && fd == -EEXIST; ++writer) {
+    const std::string number = writer == 1 ? "" : "." + std::to_string(writer);
+    temporary_ = target_;
+    temporary_.replace_filename("." + name + number + ".part");
+    fd = files_->create(temporary_);
+  }
+  return fd;
 }
 
 Result<void> PendingFile::write(std::span<const std::uint8_t> bytes) {
@@ -123,12 +186,12 @@ Result<std::int64_t> PendingFile::seek(std::int64_t offset, int whence) {
 }
 
 Result<void> PendingFile::publish() {
-  const int closed = files_->close(std::exchange(fd_, -1));
-  const int renamed = closed < 0 ? closed : files_->rename(temporary_, path_);
-  if (renamed < 0) {
-    files_->unlink(temporary_);
-    return tl::unexpected(failure("cannot write", renamed));
-  }
+  const int synced = files_->sync(fd_);
+  const int renamed = synced < 0 ? synced : files_->rename(temporary_, target_);
+  if (renamed < 0) files_->unlink(temporary_);
+  // Closed last, as that unlocks it. After sync() there is nothing left that close() could lose.
+  files_->close(std::exchange(fd_, -1));
+  if (renamed < 0) return tl::unexpected(failure("cannot write", renamed));
   return {};
 }
 

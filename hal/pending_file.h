@@ -17,9 +17,13 @@ namespace pleinair::hal {
 class FileSystem {
  public:
   virtual ~FileSystem() = default;
-  virtual int create(const std::filesystem::path& path) = 0;  ///< a file descriptor
+  /// A file descriptor of an empty file, which others cannot create while it is open; what a
+  /// process that died left is replaced. −EEXIST where it is open elsewhere, or no regular file.
+  virtual int create(const std::filesystem::path& path) = 0;
   virtual ssize_t write(int fd, std::span<const std::uint8_t> bytes) = 0;
   virtual std::int64_t seek(int fd, std::int64_t offset, int whence) = 0;
+  /// Until what was written has reached the disk, where the file system can say so.
+  virtual int sync(int fd) = 0;
   virtual int close(int fd) = 0;
   virtual int rename(const std::filesystem::path& from, const std::filesystem::path& to) = 0;
   virtual int unlink(const std::filesystem::path& path) = 0;
@@ -28,13 +32,14 @@ class FileSystem {
 /// The real one; stateless, any thread.
 FileSystem& systemFiles();
 
-/// A file that is written under a temporary name (".name.part" in the same folder) and takes its
-/// own name in publish(). Destroyed without, it removes what it wrote; what stood under the name
-/// before stays.
+/// A file that is written under a temporary name (".name.part" in the same folder; ".name.2.part"
+/// and so on while another writer has that) and takes its own name in publish(): of two writers,
+/// the later one's stands. Destroyed without, it removes what it wrote; what stood under the name
+/// before stays. A symbolic link to a file stays a link: the file that it leads to is replaced.
 class PendingFile {
  public:
-  /// Errors: kNotFound (no such folder), kPermissionDenied, kInvalidArgument (a folder stands
-  /// there), kNoSpace, kIo. `files` must outlive this.
+  /// Errors: kNotFound (no such folder), kPermissionDenied, kInvalidArgument (a folder, a device or
+  /// anything else but a regular file stands there), kNoSpace, kIo. `files` must outlive this.
   static Result<PendingFile> create(const std::filesystem::path& path,
                                     FileSystem& files = systemFiles());
 
@@ -48,14 +53,17 @@ class PendingFile {
   Result<void> write(std::span<const std::uint8_t> bytes);
   /// As lseek; the new offset. Errors: kIo.
   Result<std::int64_t> seek(std::int64_t offset, int whence);
-  /// Closes and renames. Errors: kNoSpace (some file systems say so only now), kIo.
+  /// Brings it to the disk, renames and closes. Errors: kNoSpace (some file systems say so only
+  /// now), kIo.
   Result<void> publish();
 
  private:
-  PendingFile(std::filesystem::path path, FileSystem& files);
+  PendingFile(std::filesystem::path path, std::filesystem::path target, FileSystem& files);
+  int createTemporary();
   Error failure(const char* operation, std::int64_t minusErrno) const;
 
-  std::filesystem::path path_;
+  std::filesystem::path path_;    ///< as given, for messages
+  std::filesystem::path target_;  ///< links followed
   std::filesystem::path temporary_;
   FileSystem* files_;
   int fd_ = -1;

@@ -4,6 +4,7 @@
 
 #include "firmware_app/desk_scene.h"
 #include "firmware_app/painting.h"
+#include "firmware_app/path_collisions.h"
 #include "hal/cameras/synthetic/synthetic_camera.h"
 #include "hal/error.h"
 
@@ -26,6 +27,7 @@ int record(const RecordOptions& options) {
   hal::SyntheticCamera camera(
       {.size = options.size, .frameCount = options.frames, .seed = options.seed}, clock);
   if (options.writeScene) {
+    refuseCollisions({}, {{"--output", options.output}, {"--write-scene", *options.writeScene}});
     hal::orThrow(writeDeskScene(*options.writeScene, camera.truth(0), options.size));
   }
   return runPainting({.camera = &camera,

@@ -3,27 +3,27 @@
 #include <memory>
 
 #include "firmware_app/painting.h"
+#include "firmware_app/path_collisions.h"
 #include "hal/cameras/recording/recording.h"
-#include "hal/error.h"
 #include "pipeline/scene/scene_file.h"
 
 namespace pleinair::app {
 namespace {
 
-/// The painting would overwrite what it is painted from.
-void refuseSameFile(const RenderOptions& options) {
-  std::error_code error;
-  if (!std::filesystem::equivalent(options.input, options.output, error) || error) return;
-  throw hal::StartupError(hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
-                                     .subject = options.output.string(),
-                                     .problem = "is the input as well",
-                                     .remedy = "give --output another name"});
+/// The painting would overwrite what it is painted from, or itself.
+void refuseCollisionsOf(const RenderOptions& options) {
+  std::vector<NamedPath> read{{"--input", options.input}};
+  if (options.scene) read.push_back({"--scene", *options.scene});
+  std::vector<NamedPath> written{{"--output", options.output}};
+  if (options.poses) written.push_back({"--poses", *options.poses});
+  if (options.contactSheet) written.push_back({"--contact-sheet", *options.contactSheet});
+  refuseCollisions(read, written);
 }
 
 }  // namespace
 
 int render(const RenderOptions& options) {
-  refuseSameFile(options);
+  refuseCollisionsOf(options);
   hal::SteppedClock clock;
   const std::unique_ptr<hal::Camera> recording = hal::openRecording(options.input, clock);
   return runPainting({.camera = recording.get(),

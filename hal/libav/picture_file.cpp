@@ -31,10 +31,14 @@ Result<Image> readPictureRgb(const std::filesystem::path& path) {
   return read(path, libav::Delivery::kRgb);
 }
 
-Result<void> writePng(const std::filesystem::path& path, const ImageView& picture) {
+Result<std::vector<std::uint8_t>> encodePng(const ImageView& picture) {
   Result<libav::PngEncoder> encoder = libav::PngEncoder::open(picture.format);
   if (!encoder) return tl::unexpected(encoder.error());
-  const Result<std::vector<std::uint8_t>> bytes = encoder->encode(picture);
+  return encoder->encode(picture);
+}
+
+Result<void> writePng(const std::filesystem::path& path, const ImageView& picture) {
+  const Result<std::vector<std::uint8_t>> bytes = encodePng(picture);
   if (!bytes) return tl::unexpected(bytes.error());
   Result<PendingFile> file = PendingFile::create(path);
   if (!file) return tl::unexpected(file.error());

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <vector>
 
 #include "hal/error.h"
 #include "hal/image.h"
@@ -15,6 +17,9 @@ Result<Image> readPicture(const std::filesystem::path& path);
 
 /// The same as RGB8 whatever it is stored in.
 Result<Image> readPictureRgb(const std::filesystem::path& path);
+
+/// The bytes of a PNG file of RGB8, RGBA8 or grey. Errors: kUnsupported (format).
+Result<std::vector<std::uint8_t>> encodePng(const ImageView& picture);
 
 /// Writes RGB8, RGBA8 or grey as PNG, under a temporary name first. Errors: kNotFound (no such
 /// folder), kPermissionDenied, kNoSpace, kUnsupported (format), kIo.

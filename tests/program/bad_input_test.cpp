@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <random>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "hal/libav/picture_file.h"
 #include "tests/program/program.h"
 #include "tests/support/media_files.h"
 #include "tests/support/temporary_folder.h"
@@ -29,6 +32,16 @@ class BadInput : public testing::Test {
   std::string write(const std::string& name, const std::string& text) const {
     std::ofstream(path(name), std::ios::binary) << text;
     return path(name);
+  }
+
+  std::string contentOf(const std::string& name) const {
+    std::ifstream file(path(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  std::size_t entriesIn(const std::string& name) const {
+    const std::filesystem::directory_iterator first(path(name));
+    return static_cast<std::size_t>(std::distance(first, std::filesystem::directory_iterator()));
   }
 
   /// Renders with these arguments in addition to input and output, and expects the failure.
@@ -144,6 +157,67 @@ TEST_F(BadInput, OutputThatIsTheInput) {
   expectFailure({"--output", path("in.mp4")}, HasSubstr("in.mp4"));
 }
 
+TEST_F(BadInput, OutputThatLeadsToTheInput) {
+  std::filesystem::create_symlink("in.mp4", path("link.mp4"));
+  expectFailure({"--output", path("link.mp4")}, AllOf(HasSubstr("link.mp4"), HasSubstr("--input")));
+}
+
+TEST_F(BadInput, PatternThatIsTheInputsPattern) {
+  std::filesystem::create_directory(path("in"));
+  writeMedia(path("in/%04d.png"), 3);
+  const std::string before = contentOf("in/0000.png");
+  expectFailure({"--input", path("in/%04d.png"), "--output", path("in/../in/%04d.png")},
+                AllOf(HasSubstr("%04d.png"), HasSubstr("folder of --input")));
+  EXPECT_TRUE(contentOf("in/0000.png") == before);
+}
+
+TEST_F(BadInput, PicturesIntoTheFolderThatIsRead) {
+  std::filesystem::create_directory(path("in"));
+  writeMedia(path("in"), 3);
+  for (const std::string output : {"in", "in/", "in/painted-%d.png"}) {
+    expectFailure({"--input", path("in"), "--output", path(output)},
+                  AllOf(HasSubstr("in"), HasSubstr("folder of --input")));
+  }
+  EXPECT_EQ(entriesIn("in"), 3u);
+}
+
+TEST_F(BadInput, PictureAmongThoseThatAreRead) {
+  std::filesystem::create_directory(path("in"));
+  writeMedia(path("in"), 3);
+  expectFailure({"--input", path("in"), "--contact-sheet", path("in/000001.png")},
+                AllOf(HasSubstr("000001.png"), HasSubstr("--input")));
+  expectFailure({"--input", path("in/000002.png"), "--output", path("in/")},
+                AllOf(HasSubstr("in/"), HasSubstr("--input")));
+}
+
+TEST_F(BadInput, PosesThatAreTheInput) {
+  expectFailure({"--poses", path("in.mp4")}, AllOf(HasSubstr("in.mp4"), HasSubstr("--poses")));
+}
+
+TEST_F(BadInput, PosesThatAreTheScene) {
+  const std::string scene = write("scene.toml", "");
+  expectFailure({"--scene", scene, "--poses", path("./scene.toml")},
+                AllOf(HasSubstr("--scene"), HasSubstr("--poses")));
+}
+
+TEST_F(BadInput, ContactSheetThatIsTheInput) {
+  expectFailure({"--input", path("in.png"), "--contact-sheet", path("in.png")},
+                AllOf(HasSubstr("in.png"), HasSubstr("--contact-sheet")));
+}
+
+TEST_F(BadInput, TwoThingsUnderOneName) {
+  expectFailure({"--poses", path("out.mp4")}, AllOf(HasSubstr("--output"), HasSubstr("--poses")));
+  expectFailure({"--poses", path("a"), "--contact-sheet", path("a")},
+                AllOf(HasSubstr("--poses"), HasSubstr("--contact-sheet")));
+}
+
+TEST_F(BadInput, SceneThatIsTheRecording) {
+  const ProgramRun run = runProgram(
+      {"record", "--frames", "1", "--output", path("out.mp4"), "--write-scene", path("out.mp4")});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.error, AllOf(HasSubstr("--write-scene"), HasSubstr("--output")));
+}
+
 TEST_F(BadInput, TwoFramesIntoOnePicture) {
   expectFailure({"--output", path("out.png")}, HasSubstr("%"));
 }
@@ -154,11 +228,54 @@ TEST_F(BadInput, FullDiskInMidMovie) {
                 {.fileBytes = 40'000});
 }
 
-TEST_F(BadInput, FullDiskForThePoses) {
+TEST_F(BadInput, FullDiskAtTheEndOfAnMp4) {
   writeMedia(path("long.y4m"), 60);
-  expectFailure({"--input", path("long.y4m"), "--output", path("out.png"), "--frames", "1",
-                 "--poses", path("absent/poses.jsonl")},
+  expectFailure({"--input", path("long.y4m"), "--output", path("out.mp4")},
+                AllOf(HasSubstr("out.mp4"), HasSubstr("cannot write")), {.fileBytes = 4'000});
+}
+
+TEST_F(BadInput, FullDiskKeepsTheWholePicturesOfARow) {
+  // A plain picture takes little room, and noise after it has none.
+  std::filesystem::create_directory(path("in"));
+  std::filesystem::create_directory(path("out"));
+  hal::Image picture({.pixelFormat = hal::PixelFormat::kRgb8, .size = {160, 120}, .encoding = {}});
+  hal::orThrow(hal::writePng(path("in/0.png"), picture.view()));
+  std::minstd_rand noise(1);
+  std::ranges::generate(picture.plane(0), [&] { return static_cast<std::uint8_t>(noise() >> 8); });
+  hal::orThrow(hal::writePng(path("in/1.png"), picture.view()));
+  expectFailure({"--style", "none", "--input", path("in/%d.png"), "--output", path("out/%d.png")},
+                AllOf(HasSubstr("out/1.png"), HasSubstr("cannot write")), {.fileBytes = 40'000});
+  EXPECT_EQ(entriesIn("out"), 1u);
+  EXPECT_TRUE(hal::readPicture(path("out/0.png")));
+}
+
+TEST_F(BadInput, FullDiskForThePoses) {
+  // Pictures have room, and 120 lines have not.
+  constexpr int kFrames = 120;
+  std::filesystem::create_directory(path("out"));
+  writeMedia(path("long.y4m"), kFrames, {16, 16});
+  expectFailure(
+      {"--input", path("long.y4m"), "--output", path("out"), "--poses", path("poses.jsonl")},
+      AllOf(HasSubstr("poses.jsonl"), HasSubstr("cannot write")), {.fileBytes = 4'000});
+  ASSERT_GT(entriesIn("out"), 0u);
+  for (const auto& entry : std::filesystem::directory_iterator(path("out"))) {
+    EXPECT_TRUE(hal::readPicture(entry.path())) << entry.path();
+  }
+}
+
+TEST_F(BadInput, PosesInAFolderThatIsNotThere) {
+  expectFailure({"--output", path("new/"), "--poses", path("absent/poses.jsonl")},
                 HasSubstr("absent"));
+}
+
+TEST_F(BadInput, ContactSheetInAFolderThatIsNotThere) {
+  expectFailure({"--output", path("new/"), "--contact-sheet", path("absent/sheet.png")},
+                HasSubstr("absent"));
+}
+
+TEST_F(BadInput, WrongStyleLeavesNoNewFolder) {
+  expectFailure({"--output", path("new/"), "--style", "oil"}, HasSubstr("oil"));
+  expectFailure({"--output", path("new/"), "--set", "cellsize=8"}, HasSubstr("cellsize"));
 }
 
 }  // namespace

@@ -167,7 +167,43 @@ TEST_F(Render, LeavesNothingBehindWhenTerminated) {
   const ProgramRun run =
       runProgram({"render", "--input", path("in.y4m"), "--output", path("out.mp4")}, limits);
   EXPECT_EQ(run.status, 128 + 15);
+  EXPECT_EQ(run.error, "pleinair: broken off by SIGTERM; nothing was written\n");
   EXPECT_EQ(folder_.entryCount(), 1u);
+}
+
+TEST_F(Render, KeepsTheWholePicturesOfAFolderWhenTerminated) {
+  writeMedia(path("in.y4m"), 300, {640, 480});
+  ProgramLimits limits;
+  limits.terminateWhenExists = path("out/000001.png");
+  const ProgramRun run =
+      runProgram({"render", "--input", path("in.y4m"), "--output", path("out/")}, limits);
+  EXPECT_EQ(run.status, 128 + 15);
+  EXPECT_EQ(run.error, "pleinair: broken off by SIGTERM; frames written so far stay\n");
+  for (const auto& entry : std::filesystem::directory_iterator(path("out"))) {
+    EXPECT_TRUE(hal::readPicture(entry.path())) << entry.path();
+  }
+}
+
+TEST_F(Render, PaintsPicturesOfSeveralSizesAndKindsAtTheFirstsSize) {
+  std::filesystem::create_directory(path("in"));
+  writeMedia(path("in/0.png"), 1, {64, 48});
+  hal::Image grey({.pixelFormat = hal::PixelFormat::kGrey8, .size = {90, 120}, .encoding = {}});
+  std::ranges::fill(grey.plane(0), std::uint8_t{200});
+  hal::orThrow(hal::writePng(path("in/1.png"), grey.view()));
+  const ProgramRun run = render("in", "out/", {"--style", "none"});
+  ASSERT_EQ(run.status, 0) << run.error;
+  const ProgramRun movie = render("in", "out.mp4");
+  ASSERT_EQ(movie.status, 0) << movie.error;
+  const auto played = play(path("out.mp4"));
+  ASSERT_TRUE(played);
+  EXPECT_EQ(played->format.frame.size, (hal::FrameSize{64, 48}));
+  EXPECT_EQ(played->frames.size(), 2u);
+  EXPECT_TRUE(played->changes.empty());
+  // The second fills the picture of the first's size, and is what it was.
+  auto second = hal::readPictureRgb(path("out/000001.png"));
+  ASSERT_TRUE(second);
+  ASSERT_EQ(second->size(), (hal::FrameSize{64, 48}));
+  EXPECT_TRUE(std::ranges::all_of(second->plane(0), [](int byte) { return byte == 200; }));
 }
 
 TEST(Program, ListsStylesWithTheirParameters) {

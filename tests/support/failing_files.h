@@ -15,7 +15,7 @@ class FailingFiles final : public hal::FileSystem {
   explicit FailingFiles(std::int64_t freeBytes) : freeBytes_(freeBytes) {}
 
   int renameAnswer = 0;
-  int closeAnswer = 0;
+  int syncAnswer = 0;
 
   int create(const std::filesystem::path& path) override { return real_.create(path); }
   ssize_t write(int fd, std::span<const std::uint8_t> bytes) override {
@@ -30,10 +30,8 @@ class FailingFiles final : public hal::FileSystem {
   std::int64_t seek(int fd, std::int64_t offset, int whence) override {
     return real_.seek(fd, offset, whence);
   }
-  int close(int fd) override {
-    const int closed = real_.close(fd);
-    return closeAnswer != 0 ? closeAnswer : closed;
-  }
+  int sync(int) override { return syncAnswer; }  // the real one would only take time
+  int close(int fd) override { return real_.close(fd); }
   int rename(const std::filesystem::path& from, const std::filesystem::path& to) override {
     return renameAnswer != 0 ? renameAnswer : real_.rename(from, to);
   }

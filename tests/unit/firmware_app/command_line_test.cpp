@@ -57,8 +57,9 @@ TEST(CommandLine, NamesWhatIsMissing) {
 }
 
 TEST(CommandLine, RefusesValuesOutOfRange) {
-  for (const char* size : {"640", "640x", "x480", "640x480x3", "0x480", "-640x480", "9000x9000",
-                           "8192x8192", "wide", "640x480 "}) {
+  for (const char* size :
+       {"640", "640x", "x480", "640x480x3", "0x480", "-640x480", "9000x9000", "8192x8192", "wide",
+        "640x480 ", "640x 480", " 640x480", "+640x480", "640x+480", "640X480", "99999999999x480"}) {
     expectRefused({"record", "--output", "b.mp4", "--size", size}, "WIDTHxHEIGHT");
   }
   for (const char* frames : {"0", "-3", "many", "1.5"}) {

@@ -50,6 +50,12 @@ TEST(ExitStatus, Is1ForTheGpuWhateverItLacks) {
   }
 }
 
+TEST(ExitStatus, Is2ForAShaderThatTheCallerGave) {
+  for (const ErrorKind kind : {ErrorKind::kInvalidInput, ErrorKind::kNotFound}) {
+    EXPECT_EQ(exitStatusOf({.kind = kind, .domain = ErrorDomain::kGl}), ExitStatus::kUsage);
+  }
+}
+
 TEST(ReportCurrentException, PrintsOneLine) {
   const hal::Error error{.kind = ErrorKind::kNotFound,
                          .subject = "in\n\x1b[2J.mp4",

@@ -24,6 +24,7 @@ TEST(Error, TakesKindAndTextFromErrno) {
   EXPECT_THAT(full.message(), testing::HasSubstr("out.mp4: cannot write: No space left"));
   EXPECT_EQ(errnoError("", "", ENOENT).kind, ErrorKind::kNotFound);
   EXPECT_EQ(errnoError("", "", EACCES).kind, ErrorKind::kPermissionDenied);
+  EXPECT_EQ(errnoError("", "", ELOOP).kind, ErrorKind::kInvalidArgument);
   EXPECT_EQ(errnoError("", "", EIO).kind, ErrorKind::kIo);
 }
 

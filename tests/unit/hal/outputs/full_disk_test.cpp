@@ -69,29 +69,5 @@ TEST(FullDiskOfFrames, KeepsTheWholeOnesOnly) {
   }
 }
 
-TEST(PendingFile, ReportsWhatOnlyCloseOrRenameSays) {
-  for (const bool atClose : {true, false}) {
-    const support::TemporaryFolder folder;
-    support::FailingFiles files(1'000'000);
-    (atClose ? files.closeAnswer : files.renameAnswer) = atClose ? -EDQUOT : -EACCES;
-    Result<PendingFile> file = PendingFile::create(folder.path() / "a", files);
-    ASSERT_TRUE(file);
-    const Result<void> published = file->publish();
-    ASSERT_FALSE(published);
-    EXPECT_EQ(published.error().kind, atClose ? ErrorKind::kNoSpace : ErrorKind::kPermissionDenied);
-    EXPECT_EQ(folder.entryCount(), 0u);
-  }
-}
-
-TEST(PendingFile, SaysWhatWouldBeRight) {
-  const support::TemporaryFolder folder;
-  const Result<PendingFile> noFolder = PendingFile::create(folder.path() / "missing" / "a");
-  ASSERT_FALSE(noFolder);
-  EXPECT_EQ(noFolder.error().kind, ErrorKind::kNotFound);
-  const Result<PendingFile> isFolder = PendingFile::create(folder.path());
-  ASSERT_FALSE(isFolder);
-  EXPECT_EQ(isFolder.error().kind, ErrorKind::kInvalidArgument);
-}
-
 }  // namespace
 }  // namespace pleinair::hal
