@@ -58,7 +58,8 @@ class Painting {
                   .scene = job.scene,
                   .style = job.style,
                   .tracksTags = !job.scene.tags.empty() || job.poses,
-                  .shaderDirectory = job.shaderDirectory}),
+                  .shaderDirectory = job.shaderDirectory,
+                  .expectedFormat = stream_.frame}),
         parameters_(painter_.defaultParameters()),
         reader_(painter_.openReader(outputFormat_.frame)) {
     parameters_.view = job.view;
