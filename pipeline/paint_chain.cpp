@@ -23,6 +23,12 @@ gpu::ShaderLibrary makeLibrary(const PainterOptions& options) {
   return library;
 }
 
+/// The context, if it takes pictures of this size: asked before anything is allocated.
+const gpu::ContextInfo& checked(const gpu::ContextInfo& context, hal::FrameSize pictureSize) {
+  hal::orThrow(gpu::checkDeviceLimit(context, pictureSize, "picture size"));
+  return context;
+}
+
 bool isOurs(std::string_view view) {
   return view == kCameraView || view == kArView;
 }
@@ -30,7 +36,8 @@ bool isOurs(std::string_view view) {
 }  // namespace
 
 PaintChain::PaintChain(const PainterOptions& options, const gpu::ContextInfo& context)
-    : pictureSize_(options.pictureSize),
+    : context_(checked(context, options.pictureSize)),
+      pictureSize_(options.pictureSize),
       scene_(options.scene),
       tracksTags_(options.tracksTags),
       library_(makeLibrary(options)),
@@ -39,18 +46,22 @@ PaintChain::PaintChain(const PainterOptions& options, const gpu::ContextInfo& co
       renderer_(library_, options.scene),
       style_(styles::makeStyle(options.style, library_)) {
   hal::orThrow(tracking::checkTagFamily(scene_.tagFamily));
-  warmUp();
+  warmUp(options.expectedFormat);
 }
 
-/// A grey frame through the whole chain: every program is compiled, every texture allocated, and
-/// each state drawn once (GPU rules, rule 14).
-void PaintChain::warmUp() {
-  const hal::Image grey({.pixelFormat = hal::PixelFormat::kGrey8, .size = pictureSize_});
-  const gpu::Texture& camera = uploader_.upload(grey.view(), pictureSize_);
+/// A blank frame through the whole chain, untimed: all that frames of the expected format need is
+/// compiled, allocated and drawn once (GPU rules, rule 14). Conversions of other layouts are linked
+/// by now, but a driver may finish them at their first frame. Readers warm up when they are opened.
+void PaintChain::warmUp(const std::optional<hal::FrameFormat>& expected) {
+  const hal::Image blank(expected.value_or(
+      hal::FrameFormat{.pixelFormat = hal::PixelFormat::kGrey8, .size = pictureSize_}));
+  hal::orThrow(gpu::checkDeviceLimit(context_, blank.size(), "frame size"));
+  gpu::PassTimer untimed;
+  const gpu::Texture& camera = uploader_.upload(blank.view(), pictureSize_);
   renderer_.warmUp(pictureSize_);
   const scene::ArFrame& frame = renderer_.compose(camera, scene::assumedCamera(pictureSize_),
-                                                  scene::PoseSet{}, 0, hal::TimePoint{}, timer_);
-  style_->paint(frame, {}, timer_);
+                                                  scene::PoseSet{}, 0, hal::TimePoint{}, untimed);
+  style_->paint(frame, {}, untimed);
   style_->reset();
 }
 
@@ -103,8 +114,20 @@ hal::Result<void> PaintChain::adaptTo(hal::FrameSize frameSize) {
 
 hal::Result<Picture> PaintChain::paint(const hal::CapturedFrame& frame,
                                        const PaintParameters& parameters) {
+  try {
+    return paintChecked(frame, parameters);
+  } catch (const hal::StartupError& error) {  // no memory for frames of a new size or layout
+    return tl::unexpected(error.error());
+  }
+}
+
+hal::Result<Picture> PaintChain::paintChecked(const hal::CapturedFrame& frame,
+                                              const PaintParameters& parameters) {
   if (auto known = checkView(parameters.view); !known) {
     return tl::unexpected(std::move(known.error()));
+  }
+  if (auto fits = gpu::checkDeviceLimit(context_, frame.image.format.size, "frame"); !fits) {
+    return tl::unexpected(std::move(fits.error()));
   }
   if (auto adapted = adaptTo(frame.image.format.size); !adapted) {
     return tl::unexpected(std::move(adapted.error()));
@@ -147,7 +170,11 @@ const gpu::Texture& PaintChain::paintView(const scene::ArFrame& frame,
 }
 
 int PaintChain::openReader(const hal::FrameFormat& format) {
-  readers_.push_back(std::make_unique<Reader>(present::PictureReader(library_, format)));
+  hal::orThrow(gpu::checkDeviceLimit(context_, present::PictureReader::packedSize(format),
+                                     "picture to be read"));
+  auto reader = std::make_unique<Reader>(present::PictureReader(library_, format));
+  reader->ring.warmUp(pictureSize_);
+  readers_.push_back(std::move(reader));
   return static_cast<int>(readers_.size()) - 1;
 }
 
@@ -172,22 +199,22 @@ bool PaintChain::take(int number, ReadPicture& picture, bool wait) {
   return true;
 }
 
-hal::Image PaintChain::still() const {
+hal::Image PaintChain::still() {
   assert(picture_ != nullptr);
   return read(*picture_);
 }
 
-hal::Image PaintChain::cameraStill() const {
+hal::Image PaintChain::cameraStill() {
   assert(camera_ != nullptr);
   return read(*camera_);
 }
 
-hal::Image PaintChain::read(const gpu::Texture& texture) const {
-  present::PictureReader reader(
-      library_, {.pixelFormat = hal::PixelFormat::kRgb8, .size = texture.size()}, 1);
-  reader.submit(texture);
+hal::Image PaintChain::read(const gpu::Texture& texture) {
+  const hal::FrameFormat format{.pixelFormat = hal::PixelFormat::kRgb8, .size = texture.size()};
+  if (!stills_ || stills_->format() != format) stills_.emplace(library_, format, 1);
+  stills_->submit(texture);
   hal::Image image;
-  reader.take(image, true);
+  stills_->take(image, true);
   return image;
 }
 

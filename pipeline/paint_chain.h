@@ -32,8 +32,8 @@ class PaintChain {
   bool take(int reader, ReadPicture& picture, bool wait);
   bool hasRoom(int reader) const { return at(reader).ring.hasRoom(); }
   std::uint64_t skipped(int reader) const { return at(reader).skipped; }
-  hal::Image still() const;
-  hal::Image cameraStill() const;
+  hal::Image still();
+  hal::Image cameraStill();
 
   void reset();
   std::vector<gpu::PassTime> passTimes() const;
@@ -51,17 +51,20 @@ class PaintChain {
     std::uint64_t skipped = 0;
   };
 
-  void warmUp();
+  void warmUp(const std::optional<hal::FrameFormat>& expected);
   hal::Result<void> checkView(const std::string& view) const;
   hal::Result<void> adaptTo(hal::FrameSize frameSize);
   const scene::ArFrame& compose(const hal::CapturedFrame& frame,
                                 const tracking::TrackingResult& tracked);
   const gpu::Texture& paintView(const scene::ArFrame& frame, const PaintParameters& parameters);
   void submitToReaders(const hal::CapturedFrame& frame);
-  hal::Image read(const gpu::Texture& texture) const;
+  hal::Image read(const gpu::Texture& texture);
+  hal::Result<Picture> paintChecked(const hal::CapturedFrame& frame,
+                                    const PaintParameters& parameters);
   Reader& at(int reader) { return *readers_.at(static_cast<std::size_t>(reader)); }
   const Reader& at(int reader) const { return *readers_.at(static_cast<std::size_t>(reader)); }
 
+  gpu::ContextInfo context_;
   hal::FrameSize pictureSize_;
   scene::Scene scene_;
   bool tracksTags_;
@@ -75,7 +78,8 @@ class PaintChain {
   std::optional<tracking::CameraModel> pictureCamera_;  // of the picture, not of the frame
   std::vector<scene::TagSighting> sightings_;
   std::vector<std::unique_ptr<Reader>> readers_;
-  const gpu::Texture* picture_ = nullptr;  // of the last paint
+  std::optional<present::PictureReader> stills_;  // made for the first still
+  const gpu::Texture* picture_ = nullptr;         // of the last paint
   const gpu::Texture* camera_ = nullptr;
 };
 

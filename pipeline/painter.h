@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -36,6 +37,9 @@ struct PainterOptions {
   PainterContext context = PainterContext::kOwn;
   std::filesystem::path shaderDirectory;  ///< overrides embedded shaders; empty: none
   gpu::PassTiming passTiming = gpu::PassTiming::kOff;
+  /// Of the frames that will come, so that the first one finds all compiled and allocated; without,
+  /// it may take longer. Others may come all the same.
+  std::optional<hal::FrameFormat> expectedFormat = std::nullopt;
 };
 
 /// What may change from frame to frame: one immutable snapshot.
@@ -85,16 +89,18 @@ class Painter {
   /// Tracks, composes and paints one frame, which may have any size and layout. Returns when the
   /// work is issued, not when the GPU is done. Errors, after which all is as if the frame had not
   /// come: kInvalidArgument (unknown view: lists the valid ones), kInvalidInput (the frame has
-  /// another size than the scene's calibration is for). Precondition: frame.image.isComplete().
+  /// another size than the scene's calibration is for), kUnsupported (beyond the GPU's limits or
+  /// memory). Precondition: frame.image.isComplete().
   hal::Result<Picture> paint(const hal::CapturedFrame& frame, const PaintParameters& parameters);
 
   /// Opens a reader: from now on each painted picture is also brought to memory in `format` (RGBA8,
   /// RGB8, grey, I420, NV12, YUYV; of any accepted size, filled as frames are). Up to 3 are under
   /// way; a picture that finds the reader full is not read and counts as skipped. Returns the
-  /// reader's number.
+  /// reader's number. Throws hal::StartupError (kUnsupported) where the GPU has no room for it.
   int openReader(const hal::FrameFormat& format);
   /// Copies the reader's oldest picture into `picture`, reusing its memory; false if none is ready.
-  /// With `wait`, false only if none is under way.
+  /// With `wait`, false only if none is under way. Throws hal::StartupError (kDeviceLost) where the
+  /// GPU is lost, as the stills do: nothing comes out of this Painter any more.
   bool take(int reader, ReadPicture& picture, bool wait);
   /// Whether another paint() would still be read.
   bool hasRoom(int reader) const;

@@ -2,6 +2,10 @@
 
 #include <cassert>
 
+#include <fmt/format.h>
+
+#include "pipeline/gpu/gpu_memory.h"
+
 namespace pleinair::gpu {
 namespace {
 
@@ -25,6 +29,7 @@ Buffer::Buffer(std::size_t sizeBytes, BufferUsage usage)
   glBindBuffer(GL_COPY_WRITE_BUFFER, handle_.get());
   glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(sizeBytes), nullptr, glUsage(usage));
   glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
+  checkMemory(fmt::format("a buffer of {} bytes", sizeBytes));
 }
 
 void Buffer::write(std::span<const std::byte> bytes, std::size_t offsetBytes) {

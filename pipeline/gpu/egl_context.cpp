@@ -1,5 +1,6 @@
 #include "pipeline/gpu/egl_context.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstdio>
@@ -7,7 +8,6 @@
 #include <cstring>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -65,11 +65,18 @@ struct GbmNode {
   }
 };
 
+std::string glString(GLenum name) {
+  const GLubyte* text = glGetString(name);
+  return text == nullptr ? std::string{} : reinterpret_cast<const char*>(text);
+}
+
 #if !defined(NDEBUG)
-void GL_APIENTRY onDebugMessage(GLenum source, GLenum type, GLuint /*id*/, GLenum /*severity*/,
+void GL_APIENTRY onDebugMessage(GLenum source, GLenum type, GLuint id, GLenum /*severity*/,
                                 GLsizei /*length*/, const GLchar* message, const void* /*user*/) {
-  // A shader that does not compile is the world's failure (live editing): ShaderLibrary throws.
+  // A shader that does not compile is the world's failure (live editing): ShaderLibrary throws. So
+  // is a lack of memory: checkMemory() throws.
   if (type != GL_DEBUG_TYPE_ERROR_KHR || source == GL_DEBUG_SOURCE_SHADER_COMPILER_KHR) return;
+  if (id == GL_OUT_OF_MEMORY || std::strstr(message, "GL_OUT_OF_MEMORY") != nullptr) return;
   std::fputs("pleinair: GL error, a broken contract of our own: ", stderr);
   std::fputs(message, stderr);
   std::fputc('\n', stderr);
@@ -78,7 +85,7 @@ void GL_APIENTRY onDebugMessage(GLenum source, GLenum type, GLuint /*id*/, GLenu
 
 void abortOnGlErrors() {
   const auto callback = eglFunction<PFNGLDEBUGMESSAGECALLBACKKHRPROC>("glDebugMessageCallbackKHR");
-  if (callback == nullptr) return;
+  if (callback == nullptr || !hasWord(glString(GL_EXTENSIONS).c_str(), "GL_KHR_debug")) return;
   glEnable(GL_DEBUG_OUTPUT_KHR);
   glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS_KHR);
   callback(onDebugMessage, nullptr);
@@ -87,9 +94,13 @@ void abortOnGlErrors() {
 void abortOnGlErrors() {}
 #endif
 
-std::string glString(GLenum name) {
-  const GLubyte* text = glGetString(name);
-  return text == nullptr ? std::string{} : reinterpret_cast<const char*>(text);
+/// The least of the limits that a picture meets on its way.
+int maxSidePixels() {
+  GLint texture = 0;
+  std::array<GLint, 2> viewport{};
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
+  glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
+  return std::min({texture, viewport[0], viewport[1]});
 }
 
 }  // namespace
@@ -113,61 +124,76 @@ ContextInfo inspectCurrentContext(std::string platform) {
   info.isSoftware = info.renderer.find("llvmpipe") != std::string::npos ||
                     info.renderer.find("softpipe") != std::string::npos;
   const std::string extensions = glString(GL_EXTENSIONS);
+  info.maxSidePixels = maxSidePixels();
   info.hasTimerQuery = hasWord(extensions.c_str(), "GL_EXT_disjoint_timer_query");
   return info;
 }
 
-struct EglContext::Impl {
-  GbmNode gbm;  // outlives the display made from it
-  EGLDisplay display = EGL_NO_DISPLAY;
-  EGLContext context = EGL_NO_CONTEXT;
-  ContextInfo info;
-  std::string attempts;  // what failed so far, for the one error message
+hal::Result<void> checkDeviceLimit(const ContextInfo& context, hal::FrameSize size,
+                                   std::string_view what) {
+  if (size.width <= context.maxSidePixels && size.height <= context.maxSidePixels) return {};
+  return tl::unexpected(Error{
+      .kind = ErrorKind::kUnsupported,
+      .subject = std::string(what),
+      .problem =
+          fmt::format("{}x{} is beyond this GPU ({})", size.width, size.height, context.renderer),
+      .remedy = fmt::format("it takes at most {} px a side", context.maxSidePixels),
+      .domain = ErrorDomain::kGl});
+}
 
-  Impl() = default;
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
-  ~Impl() { closeDisplay(); }
+namespace {
 
-  void closeDisplay() {
-    if (display == EGL_NO_DISPLAY) return;
-    assert(context == EGL_NO_CONTEXT || eglGetCurrentContext() == context);  // its own thread
-    eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
-    // The display itself is shared by every context of the process and stays initialised.
-    eglReleaseThread();
-    context = EGL_NO_CONTEXT;
-    display = EGL_NO_DISPLAY;
-  }
-
-  void noteFailure(std::string_view platform, std::string_view step) {
-    attempts += fmt::format("{}{}: {} (EGL 0x{:04x})", attempts.empty() ? "" : "; ", platform, step,
-                            eglGetError());
-  }
-
-  bool tryDisplay(EGLDisplay candidate, std::string_view platform) {
-    if (candidate == EGL_NO_DISPLAY || !eglInitialize(candidate, nullptr, nullptr)) {
-      noteFailure(platform, "no display");
-      return false;
+/// A context on a display, and what the display was made from.
+class OpenContext {
+ public:
+  OpenContext() = default;
+  OpenContext(const OpenContext&) = delete;
+  OpenContext& operator=(const OpenContext&) = delete;
+  ~OpenContext() {
+    if (display_ == EGL_NO_DISPLAY) return;
+    if (context_ != EGL_NO_CONTEXT) {
+      if (eglGetCurrentContext() == context_) {
+        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+      }
+      eglDestroyContext(display_, context_);
     }
-    display = candidate;
-    if (makeContext(platform)) return true;
-    closeDisplay();
-    return false;
+    // A display of our own device dies before the device. Others are shared by every context of
+    // the process and stay initialised.
+    if (node_.device != nullptr) eglTerminate(display_);
   }
 
-  bool makeContext(std::string_view platform) {
-    const char* extensions = eglQueryString(display, EGL_EXTENSIONS);
-    if (!hasWord(extensions, "EGL_KHR_surfaceless_context")) {
-      noteFailure(platform, "needs a surface");
-      return false;
+  /// What failed, or nothing; then the context is current.
+  std::string_view open(EGLDisplay display, std::string_view platform) {
+    if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) return "no display";
+    display_ = display;
+    if (!hasWord(eglQueryString(display_, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context")) {
+      return "needs a surface";
     }
+    if (!makeContext() || !makeCurrent()) return "no OpenGL ES 3.1";
+    info_ = inspectCurrentContext(std::string(platform));
+    return {};
+  }
+
+  std::string_view openGbm(const std::string& path) {
+    node_ = GbmNode(path);
+    if (node_.device == nullptr) return "no usable render node";
+    return open(eglGetPlatformDisplay(EGL_PLATFORM_GBM_KHR, node_.device, nullptr), "gbm");
+  }
+
+  bool makeCurrent() {
+    return eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE;
+  }
+  EGLContext context() const { return context_; }
+  const ContextInfo& info() const { return info_; }
+
+ private:
+  bool makeContext() {
     eglBindAPI(EGL_OPENGL_ES_API);
     const std::array<EGLint, 5> configAttributes{EGL_RENDERABLE_TYPE, EGL_OPENGL_ES3_BIT,
                                                  EGL_SURFACE_TYPE, 0, EGL_NONE};
     EGLConfig config = EGL_NO_CONFIG_KHR;
     EGLint count = 0;
-    eglChooseConfig(display, configAttributes.data(), &config, 1, &count);
+    eglChooseConfig(display_, configAttributes.data(), &config, 1, &count);
     if (count == 0) config = EGL_NO_CONFIG_KHR;
     std::array<EGLint, 7> attributes{
         EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 1, EGL_NONE, 0, EGL_NONE};
@@ -175,25 +201,69 @@ struct EglContext::Impl {
     attributes[4] = EGL_CONTEXT_OPENGL_DEBUG;
     attributes[5] = EGL_TRUE;
 #endif
-    context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
-    if (context == EGL_NO_CONTEXT ||
-        !eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
-      noteFailure(platform, "no OpenGL ES 3.1");
+    context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, attributes.data());
+    return context_ != EGL_NO_CONTEXT;
+  }
+
+  GbmNode node_;  // outlives the display made from it
+  EGLDisplay display_ = EGL_NO_DISPLAY;
+  EGLContext context_ = EGL_NO_CONTEXT;
+  ContextInfo info_;
+};
+
+/// Whoever sets Mesa's variable wants no hardware looked for.
+bool softwareIsWanted() {
+  const char* value = std::getenv("LIBGL_ALWAYS_SOFTWARE");
+  return value != nullptr && (std::strcmp(value, "1") == 0 || std::strcmp(value, "true") == 0);
+}
+
+bool isSoftwareDevice(EGLDeviceEXT device) {
+  const auto query = eglFunction<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
+  return query != nullptr && hasWord(query(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
+}
+
+}  // namespace
+
+struct EglContext::Impl {
+  std::unique_ptr<OpenContext> chosen;  // software until hardware is found
+  std::string attempts;                 // what failed so far, for the one error message
+
+  Impl() = default;
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+  ~Impl() {
+    assert(chosen == nullptr || eglGetCurrentContext() == chosen->context());  // its own thread
+    chosen.reset();
+    eglReleaseThread();
+  }
+
+  void noteFailure(std::string_view platform, std::string_view step) {
+    attempts += fmt::format("{}{}: {} (EGL 0x{:04x})", attempts.empty() ? "" : "; ", platform, step,
+                            eglGetError());
+  }
+
+  /// Tries one more; true if the search is over. `open` answers as OpenContext::open does.
+  template <class Open>
+  bool attempt(std::string_view platform, Open open) {
+    auto candidate = std::make_unique<OpenContext>();
+    if (const std::string_view failure = open(*candidate); !failure.empty()) {
+      noteFailure(platform, failure);
       return false;
     }
-    info = inspectCurrentContext(std::string(platform));
-    abortOnGlErrors();
-    return true;
+    const bool isEnough = !candidate->info().isSoftware || softwareIsWanted();
+    if (isEnough || chosen == nullptr) chosen = std::move(candidate);
+    return isEnough;
   }
 
   bool trySurfaceless() {
-    const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-    if (!hasWord(client, "EGL_MESA_platform_surfaceless")) {
+    if (!hasWord(eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS), "EGL_MESA_platform_surfaceless")) {
       noteFailure("surfaceless", "not offered");
       return false;
     }
-    return tryDisplay(eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr),
-                      "surfaceless");
+    return attempt("surfaceless", [](OpenContext& context) {
+      return context.open(eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr),
+                          "surfaceless");
+    });
   }
 
   bool tryDevices() {
@@ -207,7 +277,11 @@ struct EglContext::Impl {
     }
     for (EGLint i = 0; i < count; ++i) {
       EGLDeviceEXT device = devices[static_cast<std::size_t>(i)];
-      if (tryDisplay(eglGetPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, device, nullptr), "device")) {
+      if (chosen != nullptr && isSoftwareDevice(device)) continue;
+      if (attempt("device", [device](OpenContext& context) {
+            return context.open(eglGetPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, device, nullptr),
+                                "device");
+          })) {
         return true;
       }
     }
@@ -218,31 +292,34 @@ struct EglContext::Impl {
     constexpr int kFirstRenderNode = 128;
     constexpr int kRenderNodes = 8;
     for (int node = kFirstRenderNode; node < kFirstRenderNode + kRenderNodes; ++node) {
-      gbm = GbmNode(fmt::format("/dev/dri/renderD{}", node));
-      if (gbm.device != nullptr &&
-          tryDisplay(eglGetPlatformDisplay(EGL_PLATFORM_GBM_KHR, gbm.device, nullptr), "gbm")) {
-        return true;
-      }
+      const std::string path = fmt::format("/dev/dri/renderD{}", node);
+      if (access(path.c_str(), F_OK) != 0) continue;
+      if (attempt(path, [&](OpenContext& context) { return context.openGbm(path); })) return true;
     }
-    noteFailure("gbm", "no usable render node");
+    if (chosen == nullptr) noteFailure("gbm", "no usable render node");
     return false;
   }
 };
 
 EglContext::EglContext() : impl_(std::make_unique<Impl>()) {
-  if (impl_->trySurfaceless() || impl_->tryDevices() || impl_->tryGbm()) return;
-  throw hal::StartupError(Error{.kind = ErrorKind::kUnsupported,
-                                .subject = "GPU",
-                                .problem = "no OpenGL ES 3.1 context: " + impl_->attempts,
-                                .remedy = "install Mesa's EGL (libegl1, libgl1-mesa-dri) or the "
-                                          "vendor's driver",
-                                .domain = ErrorDomain::kEgl});
+  const bool isHardware = impl_->trySurfaceless() || impl_->tryDevices() || impl_->tryGbm();
+  const bool isCurrent = impl_->chosen != nullptr && (isHardware || impl_->chosen->makeCurrent());
+  if (!isCurrent) {
+    impl_->chosen.reset();
+    throw hal::StartupError(Error{.kind = ErrorKind::kUnsupported,
+                                  .subject = "GPU",
+                                  .problem = "no OpenGL ES 3.1 context: " + impl_->attempts,
+                                  .remedy = "install Mesa's EGL (libegl1, libgl1-mesa-dri) or the "
+                                            "vendor's driver",
+                                  .domain = ErrorDomain::kEgl});
+  }
+  abortOnGlErrors();
 }
 
 EglContext::~EglContext() = default;
 
 const ContextInfo& EglContext::info() const {
-  return impl_->info;
+  return impl_->chosen->info();
 }
 
 }  // namespace pleinair::gpu

@@ -2,6 +2,10 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
+
+#include "hal/error.h"
+#include "hal/pixel_format.h"
 
 namespace pleinair::gpu {
 
@@ -12,6 +16,7 @@ struct ContextInfo {
   std::string platform;     ///< how the display was opened: "surfaceless", "device", "gbm", "host"
   bool isSoftware = false;  ///< timer queries lie there (GPU rules, rule 13)
   bool hasTimerQuery = false;
+  int maxSidePixels = 0;  ///< of textures and of what can be drawn into
 };
 
 /// An OpenGL ES 3.1 context of our own, without a window system. It is current on the thread that
@@ -20,8 +25,9 @@ struct ContextInfo {
 /// ours.
 class EglContext {
  public:
-  /// Tries EGL's surfaceless platform, then its devices, then GBM on the render nodes. Throws
-  /// hal::StartupError (kUnsupported) that names what each of them answered.
+  /// Tries EGL's surfaceless platform, then its devices, then GBM on the render nodes, and takes
+  /// the first that is hardware, or software where none is or LIBGL_ALWAYS_SOFTWARE asks for it.
+  /// Throws hal::StartupError (kUnsupported) that names what each of them answered.
   EglContext();
   ~EglContext();
   EglContext(const EglContext&) = delete;
@@ -33,6 +39,10 @@ class EglContext {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// An error (kUnsupported) that names the device's limit where a texture of this size exceeds it.
+hal::Result<void> checkDeviceLimit(const ContextInfo& context, hal::FrameSize size,
+                                   std::string_view what);
 
 /// Describes the context that is current on this thread; throws hal::StartupError if there is none
 /// or if it is older than OpenGL ES 3.1.

@@ -1,6 +1,7 @@
 #include "pipeline/gpu/frame_upload.h"
 
 #include <cassert>
+#include <utility>
 
 #include "pipeline/gpu/ycbcr.h"
 
@@ -97,6 +98,7 @@ void FrameUploader::uploadPlanes(const hal::ImageView& image) {
   const int count = planeCount(image.format.pixelFormat);
   const bool changed = !native_ || planesFormat_.size != image.format.size ||
                        planesFormat_.pixelFormat != image.format.pixelFormat;
+  if (changed) planesFormat_ = {};  // stays so where there is no memory for the new planes
   for (int plane = 0; plane < count; ++plane) {
     const auto i = static_cast<std::size_t>(plane);
     if (changed) {
@@ -108,8 +110,10 @@ void FrameUploader::uploadPlanes(const hal::ImageView& image) {
     planes_[i].upload(image.planes[i].bytes, image.planes[i].strideBytes);
   }
   if (!native_ || native_.size() != image.format.size) {
-    native_ = Texture(TextureFormat::kRgba8, image.format.size, TextureFilter::kLinear);
-    nativeTarget_ = RenderTarget({&native_});
+    native_ = Texture();
+    Texture native(TextureFormat::kRgba8, image.format.size, TextureFilter::kLinear);
+    nativeTarget_ = RenderTarget({&native});
+    native_ = std::move(native);
   }
   planesFormat_ = image.format;
 }

@@ -72,6 +72,12 @@ struct ShaderName {
 };
 using ShaderHandle = Handle<ShaderName>;
 
+enum class FenceState {
+  kSignalled,
+  kNotYet,
+  kFailed,  ///< it will never be: the GPU or its context is lost
+};
+
 /// A point in the GPU's command stream that can be asked about or waited for.
 class Fence {
  public:
@@ -99,12 +105,13 @@ class Fence {
   }
 
   explicit operator bool() const { return sync_ != nullptr; }
-  /// Whether the GPU has passed it, waiting `timeoutNs` at most. Flushes, so it is always reached.
-  bool passed(GLuint64 timeoutNs = 0) const {
-    assert(sync_ != nullptr && eglGetCurrentContext() == context_);
-    const GLenum answer = glClientWaitSync(sync_, GL_SYNC_FLUSH_COMMANDS_BIT, timeoutNs);
-    return answer == GL_ALREADY_SIGNALED || answer == GL_CONDITION_SATISFIED;
-  }
+  /// How it stands, after waiting `timeoutNs` at most. Flushes, so that it is reached. An empty
+  /// one, as a driver gives that has lost its GPU, has failed.
+  FenceState state(GLuint64 timeoutNs = 0) const;
+  /// The same for callers who cannot go on after a failure. Throws hal::StartupError (kDeviceLost).
+  bool passed(GLuint64 timeoutNs = 0) const;
+  /// Returns when the GPU has passed it, however long that takes. Throws as passed() does.
+  void wait() const;
 
  private:
   GLsync sync_ = nullptr;

@@ -6,10 +6,12 @@
 namespace pleinair::gpu {
 namespace {
 
-constexpr GLuint64 kForEver = GL_TIMEOUT_IGNORED;
-
+/// Does not throw: it ends scopes. Whoever reads the picture meets a lost GPU.
 void waitForGpu() {
-  Fence::insert().passed(kForEver);
+  constexpr GLuint64 kOnceNs = 1'000'000'000;
+  const Fence fence = Fence::insert();
+  while (fence.state(kOnceNs) == FenceState::kNotYet) {
+  }
 }
 
 PassTiming possible(PassTiming wanted, const ContextInfo* context) {
@@ -62,6 +64,14 @@ void PassTimer::end(std::size_t slot) {
   ++queries_[slot].issued;
 }
 
+/// Reading the flag clears it, so every query that is under way is marked at once.
+void PassTimer::distrustAfterDisjoint() {
+  GLint disjoint = GL_FALSE;
+  glGetIntegerv(GL_GPU_DISJOINT_EXT, &disjoint);
+  if (disjoint == GL_FALSE) return;
+  for (Queries& queries : queries_) queries.soundFrom = queries.issued;
+}
+
 void PassTimer::collect(std::size_t slot) {
   Queries& queries = queries_[slot];
   while (queries.read < queries.issued) {
@@ -69,9 +79,10 @@ void PassTimer::collect(std::size_t slot) {
     GLuint available = GL_FALSE;
     glGetQueryObjectuiv(query, GL_QUERY_RESULT_AVAILABLE, &available);
     if (available == GL_FALSE) return;
+    distrustAfterDisjoint();
     GLuint nanoseconds = 0;  // 32 bits hold 4.2 s
     glGetQueryObjectuiv(query, GL_QUERY_RESULT, &nanoseconds);
-    add(slot, std::chrono::nanoseconds(nanoseconds));
+    if (queries.read >= queries.soundFrom) add(slot, std::chrono::nanoseconds(nanoseconds));
     ++queries.read;
   }
 }

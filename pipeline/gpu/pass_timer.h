@@ -14,7 +14,8 @@ namespace pleinair::gpu {
 
 enum class PassTiming {
   kOff,
-  /// Timer queries, read frames later without waiting. Real GPUs; they lie on llvmpipe.
+  /// Timer queries, read frames later without waiting. Real GPUs; they lie on llvmpipe. What ran
+  /// while the GPU's clock jumped (GL_GPU_DISJOINT_EXT) is not counted.
   kQueries,
   /// Waits for the GPU before and after each pass. Benchmarks only: it stalls the pipeline.
   kFences,
@@ -59,11 +60,13 @@ class PassTimer {
     std::array<QueryHandle, kInFlight> ring;
     std::size_t issued = 0;
     std::size_t read = 0;
+    std::size_t soundFrom = 0;  // earlier ones ran while the GPU's clock jumped
   };
 
   std::size_t slotOf(std::string_view pass);
   void end(std::size_t slot);
   void collect(std::size_t slot);
+  void distrustAfterDisjoint();
   void add(std::size_t slot, std::chrono::nanoseconds time);
 
   PassTiming timing_;

@@ -3,6 +3,11 @@
 #include <array>
 #include <cassert>
 
+#include <fmt/format.h>
+
+#include "hal/error.h"
+#include "pipeline/gpu/gpu_memory.h"
+
 namespace pleinair::gpu {
 namespace {
 
@@ -10,6 +15,16 @@ constexpr int kMaxColourTargets = 4;  // GPU rules, rule 3
 
 GLenum attachment(int i) {
   return GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i);
+}
+
+hal::Error incomplete(hal::FrameSize size, GLenum status) {
+  return {.kind = hal::ErrorKind::kUnsupported,
+          .subject = "GPU",
+          .problem = fmt::format("cannot draw a {}x{} picture: framebuffer status 0x{:04x}",
+                                 size.width, size.height, status),
+          .remedy = "update the GPU's driver",
+          .domain = hal::ErrorDomain::kGl,
+          .code = static_cast<int>(status)};
 }
 
 }  // namespace
@@ -35,8 +50,10 @@ RenderTarget::RenderTarget(std::initializer_list<const Texture*> colours, const 
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth->name(), 0);
   }
   glDrawBuffers(colourCount_, drawBuffers.data());
-  assert(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
+  const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  checkMemory(fmt::format("drawing a {}x{} picture", size_.width, size_.height));
+  if (status != GL_FRAMEBUFFER_COMPLETE) throw hal::StartupError(incomplete(size_, status));
 }
 
 void RenderTarget::beginDiscarding() const {

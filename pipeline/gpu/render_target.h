@@ -14,6 +14,7 @@ namespace pleinair::gpu {
 class RenderTarget {
  public:
   RenderTarget() = default;
+  /// Throws hal::StartupError (kUnsupported) where the GPU cannot draw into them.
   explicit RenderTarget(std::initializer_list<const Texture*> colours,
                         const Texture* depth = nullptr);
 

@@ -1,6 +1,7 @@
 #include "pipeline/gpu/resampler.h"
 
 #include <cassert>
+#include <utility>
 
 #include "pipeline/gpu/cover_fit.h"
 
@@ -13,8 +14,10 @@ const Texture& Resampler::resample(const Texture& picture, hal::FrameSize size) 
   assert(picture.format() == TextureFormat::kRgba8);
   if (picture.size() == size) return picture;
   if (scaled_.size() != size) {
-    scaled_ = Texture(TextureFormat::kRgba8, size, TextureFilter::kLinear);
-    target_ = RenderTarget({&scaled_});
+    scaled_ = Texture();  // stays empty where there is no memory for the new one
+    Texture scaled(TextureFormat::kRgba8, size, TextureFilter::kLinear);
+    target_ = RenderTarget({&scaled});
+    scaled_ = std::move(scaled);
   }
   const CoverFit fit = coverFit(picture.size(), size);
   program_.use()

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <fstream>
+#include <optional>
 #include <regex>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -45,6 +48,26 @@ Error shaderError(std::string_view name, std::string problem) {
                .domain = ErrorDomain::kGl};
 }
 
+/// The file's text; nothing where there is no such file.
+std::optional<std::string> overridingText(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto type = std::filesystem::status(path, error).type();
+  if (type == std::filesystem::file_type::not_found) return std::nullopt;
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (file && file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();
+  if (!file.is_open() || file.bad() || type != std::filesystem::file_type::regular) {
+    const int cause = type == std::filesystem::file_type::directory ? EISDIR
+                      : error                                       ? error.value()
+                                                                    : errno;
+    throw hal::StartupError(
+        hal::errnoError(path.string(), "cannot read this shader", cause,
+                        "mend the file, or remove it: there is a built-in one"));
+  }
+  return text.str();
+}
+
 }  // namespace
 
 std::string nameLinesOfLog(const std::string& log, std::span<const SourceLine> lines) {
@@ -67,6 +90,13 @@ std::string nameLinesOfLog(const std::string& log, std::span<const SourceLine> l
 
 ShaderLibrary::ShaderLibrary(std::filesystem::path overrideDirectory)
     : overrideDirectory_(std::move(overrideDirectory)) {
+  std::error_code ignored;
+  if (!overrideDirectory_.empty() && !std::filesystem::is_directory(overrideDirectory_, ignored)) {
+    throw hal::StartupError(Error{.kind = ErrorKind::kNotFound,
+                                  .subject = overrideDirectory_.string(),
+                                  .problem = "no such directory of shaders",
+                                  .remedy = "name a copy of the source tree"});
+  }
   add(gpuShaders());
 }
 
@@ -76,8 +106,7 @@ void ShaderLibrary::add(std::span<const EmbeddedShader> shaders) {
 
 std::string ShaderLibrary::text(std::string_view name, std::string_view includer) const {
   if (!overrideDirectory_.empty()) {
-    std::ifstream file(overrideDirectory_ / name, std::ios::binary);
-    if (file) return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    if (auto override = overridingText(overrideDirectory_ / name)) return *std::move(override);
   }
   const auto found = std::ranges::find(shaders_, name, &EmbeddedShader::name);
   if (found == shaders_.end()) {

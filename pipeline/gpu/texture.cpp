@@ -2,6 +2,10 @@
 
 #include <cassert>
 
+#include <fmt/format.h>
+
+#include "pipeline/gpu/gpu_memory.h"
+
 namespace pleinair::gpu {
 
 GlFormat glFormat(TextureFormat format) {
@@ -65,6 +69,7 @@ Texture::Texture(TextureFormat format, hal::FrameSize size, TextureFilter filter
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   glBindTexture(GL_TEXTURE_2D, 0);
+  checkMemory(fmt::format("a {}x{} picture", size.width, size.height));
 }
 
 void Texture::upload(std::span<const std::uint8_t> bytes, std::size_t strideBytes) {

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <string>
 #include <string_view>
 
+#include "hal/error.h"
 #include "pipeline/gpu/ycbcr.h"
 #include "pipeline/present/present_shaders.h"
 
@@ -45,23 +47,40 @@ FrameSize planeTexels(const FrameFormat& format, int plane) {
           planeRows(format.pixelFormat, plane, format.size.height)};
 }
 
-/// The packed texture: planes lie one below the other.
-FrameSize packedSize(const FrameFormat& format) {
-  FrameSize size;
-  for (int plane = 0; plane < planeCount(format.pixelFormat); ++plane) {
-    const FrameSize texels = planeTexels(format, plane);
-    size = {std::max(size.width, texels.width), size.height + texels.height};
-  }
-  return size;
-}
-
 /// Luma and chroma as grey, RGB and RGBA outputs need it: full range, so that white stays white.
 hal::ColorEncoding encodingOf(const FrameFormat& format) {
   if (isYCbCr(format.pixelFormat)) return format.encoding;
   return {.matrix = hal::ColorMatrix::kBt601, .range = hal::ColorRange::kFull};
 }
 
+hal::Error unreadable(FrameSize size) {
+  return {.kind = hal::ErrorKind::kDeviceLost,
+          .subject = "GPU",
+          .problem = "cannot read a picture of " + std::to_string(size.width) + "x" +
+                     std::to_string(size.height) + ": no memory, or the GPU is lost",
+          .remedy = "paint smaller, or see the kernel's log and start again",
+          .domain = hal::ErrorDomain::kGl};
+}
+
+/// Where a plane begins in the packed texture: below luma, Cr of I420 beside its Cb, so that the
+/// texture stays within 1.5 times the picture's height.
+glm::ivec2 planeOrigin(const FrameFormat& format, int plane) {
+  if (plane == 0) return {0, 0};
+  return {plane == 1 ? 0 : planeTexels(format, 1).width, planeTexels(format, 0).height};
+}
+
 }  // namespace
+
+FrameSize PictureReader::packedSize(const FrameFormat& format) {
+  FrameSize size;
+  for (int plane = 0; plane < planeCount(format.pixelFormat); ++plane) {
+    const FrameSize texels = planeTexels(format, plane);
+    const glm::ivec2 origin = planeOrigin(format, plane);
+    size = {std::max(size.width, origin.x + texels.width),
+            std::max(size.height, origin.y + texels.height)};
+  }
+  return size;
+}
 
 PictureReader::PictureReader(const gpu::ShaderLibrary& library, FrameFormat format, int depth)
     : format_(format),
@@ -71,13 +90,18 @@ PictureReader::PictureReader(const gpu::ShaderLibrary& library, FrameFormat form
       ring_(static_cast<std::size_t>(depth)) {
   assert(depth >= 1);
   const std::size_t bytes = static_cast<std::size_t>(packed_.size().pixels()) * 4;
-  int row = 0;
   for (int plane = 0; plane < planeCount(format.pixelFormat); ++plane) {
-    const FrameSize texels = planeTexels(format, plane);
-    passes_.push_back({library.fragmentPass(shaderOf(format.pixelFormat, plane)), row, texels});
-    row += texels.height;
+    passes_.push_back({library.fragmentPass(shaderOf(format.pixelFormat, plane)),
+                       planeOrigin(format, plane), planeTexels(format, plane)});
   }
   for (Slot& slot : ring_) slot.buffer = gpu::Buffer(bytes, gpu::BufferUsage::kReadBack);
+}
+
+void PictureReader::warmUp(FrameSize pictureSize) {
+  assert(isEmpty());
+  submit(gpu::Texture(gpu::TextureFormat::kRgba8, pictureSize, gpu::TextureFilter::kLinear));
+  hal::Image dropped;
+  take(dropped, true);
 }
 
 void PictureReader::pack(const gpu::Texture& picture) {
@@ -92,8 +116,8 @@ void PictureReader::pack(const gpu::Texture& picture) {
         .set("ycbcrOffset", ycbcr.offset)
         .set("chromaLeftSited", gpu::isChromaLeftSited(encoding) ? 1 : 0)
         .set("plane", static_cast<int>(plane))
-        .set("firstRow", pass.firstRow)
-        .drawArea(target_, {0, pass.firstRow}, pass.texels);
+        .set("origin", pass.origin)
+        .drawArea(target_, pass.origin, pass.texels);
   }
 }
 
@@ -114,15 +138,19 @@ void PictureReader::submit(const gpu::Texture& picture) {
 bool PictureReader::take(hal::Image& image, bool wait) {
   if (isEmpty()) return false;
   Slot& slot = ring_[taken_ % ring_.size()];
-  if (!slot.copied.passed(wait ? GL_TIMEOUT_IGNORED : 0)) return false;
+  if (wait) {
+    slot.copied.wait();
+  } else if (!slot.copied.passed()) {
+    return false;
+  }
   if (image.format() != format_) image = hal::Image(format_);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer.name());
   const void* bytes = glMapBufferRange(
       GL_PIXEL_PACK_BUFFER, 0, static_cast<GLsizeiptr>(slot.buffer.sizeBytes()), GL_MAP_READ_BIT);
-  assert(bytes != nullptr);
-  unpack(static_cast<const std::uint8_t*>(bytes), image);
-  glUnmapBuffer(GL_PIXEL_PACK_BUFFER);
+  if (bytes != nullptr) unpack(static_cast<const std::uint8_t*>(bytes), image);
+  const bool sound = bytes != nullptr && glUnmapBuffer(GL_PIXEL_PACK_BUFFER) == GL_TRUE;
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  if (!sound) throw hal::StartupError(unreadable(format_.size));
   ++taken_;
   return true;
 }
@@ -130,11 +158,13 @@ bool PictureReader::take(hal::Image& image, bool wait) {
 void PictureReader::unpack(const std::uint8_t* bytes, hal::Image& image) const {
   const std::size_t stride = static_cast<std::size_t>(packed_.size().width) * 4;
   for (int plane = 0; plane < planeCount(format_.pixelFormat); ++plane) {
+    const glm::ivec2 origin = planeOrigin(format_, plane);
+    const std::uint8_t* from = bytes + static_cast<std::size_t>(origin.y) * stride +
+                               static_cast<std::size_t>(origin.x) * 4;
     const int rows = planeRows(format_.pixelFormat, plane, format_.size.height);
-    for (int y = 0; y < rows; ++y) {
+    for (int y = 0; y < rows; ++y, from += stride) {
       const auto row = image.row(plane, y);
-      std::memcpy(row.data(), bytes, row.size());
-      bytes += stride;
+      std::memcpy(row.data(), from, row.size());
     }
   }
 }

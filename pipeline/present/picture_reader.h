@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 #include "hal/clock.h"
 #include "hal/image.h"
 #include "pipeline/gpu/buffer.h"
@@ -25,6 +27,14 @@ class PictureReader {
   /// many pictures may be under way.
   PictureReader(const gpu::ShaderLibrary& library, hal::FrameFormat format, int depth = 3);
 
+  /// Of the texture that a picture of this format goes through: beyond the device's limit, none can
+  /// be made.
+  static hal::FrameSize packedSize(const hal::FrameFormat& format);
+
+  /// Reads one picture of this size, undefined, and drops it: what pictures need is compiled and
+  /// allocated then. Precondition: isEmpty().
+  void warmUp(hal::FrameSize pictureSize);
+
   const hal::FrameFormat& format() const { return format_; }
   bool hasRoom() const { return submitted_ - taken_ < ring_.size(); }
   bool isEmpty() const { return submitted_ == taken_; }
@@ -34,6 +44,7 @@ class PictureReader {
 
   /// Copies the oldest picture into `image`, which gets this reader's format; pictures come in the
   /// order they were submitted. False if none is ready; with `wait` only if there is none at all.
+  /// Throws hal::StartupError (kDeviceLost) where the GPU is lost: no picture comes any more.
   bool take(hal::Image& image, bool wait);
 
  private:
@@ -41,10 +52,10 @@ class PictureReader {
     gpu::Buffer buffer;
     gpu::Fence copied;
   };
-  /// Packs one plane into its rows of the target.
+  /// Packs one plane into its area of the target.
   struct PlanePass {
     gpu::Program program;
-    int firstRow;
+    glm::ivec2 origin;
     hal::FrameSize texels;
   };
   void pack(const gpu::Texture& picture);

@@ -166,8 +166,10 @@ void ArFrameRenderer::clearToCamera() {
 }
 
 void ArFrameRenderer::drawBackground(const gpu::Texture& picture) {
-  background_.use().texture("picture", picture).drawFullscreen(target_);
+  // Depth is cleared where the pass begins: later, a tile-based GPU would split it (GPU rules, 10).
+  target_.beginDiscarding();
   target_.clearDepth();
+  background_.use().texture("picture", picture).drawArea(target_, {0, 0}, target_.size());
 }
 
 void ArFrameRenderer::setCamera(const tracking::CameraModel& camera) {

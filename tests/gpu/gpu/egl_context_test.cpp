@@ -11,8 +11,8 @@
 #include "hal/error.h"
 #include "pipeline/gpu/frame_upload.h"
 #include "pipeline/gpu/render_thread.h"
-#include "tests/support/gl_test.h"
 #include "tests/support/gl_pictures.h"
+#include "tests/support/gl_test.h"
 
 namespace pleinair::gpu {
 namespace {
@@ -40,6 +40,30 @@ TEST(InspectCurrentContext, RefusesAThreadWithoutAContext) {
                  "GPU: no context is current on this thread; make a context of OpenGL ES 3.1 or "
                  "later current");
   }
+}
+
+TEST_F(EglContextTest, KnowsTheDevicesLimit) {
+  ContextInfo info = context_->info();
+  EXPECT_GE(info.maxSidePixels, 2048);  // what OpenGL ES 3.1 promises
+  EXPECT_TRUE(Texture(TextureFormat::kR8, {info.maxSidePixels, 1}));
+  EXPECT_TRUE(checkDeviceLimit(info, {info.maxSidePixels, info.maxSidePixels}, "frame"));
+  info.maxSidePixels = 4096;
+  for (const hal::FrameSize size : {hal::FrameSize{4097, 1}, hal::FrameSize{1, 4097}}) {
+    const auto refused = checkDeviceLimit(info, size, "frame");
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().kind, hal::ErrorKind::kUnsupported);
+    EXPECT_THAT(refused.error().message(),
+                testing::AllOf(HasSubstr("frame: "), HasSubstr("4097"), HasSubstr("4096 px")));
+  }
+}
+
+TEST_F(EglContextTest, TakesSoftwareWhereItIsAskedFor) {
+  context_.reset();
+  setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+  context_ = std::make_unique<EglContext>();
+  unsetenv("LIBGL_ALWAYS_SOFTWARE");
+  EXPECT_EQ(eglGetError(), EGL_SUCCESS);
+  EXPECT_TRUE(Texture(TextureFormat::kRgba8, {1, 1}));
 }
 
 TEST_F(EglContextTest, CanBeMadeAgainAfterAnother) {

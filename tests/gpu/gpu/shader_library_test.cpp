@@ -9,6 +9,7 @@
 
 #include "hal/error.h"
 #include "tests/support/gl_test.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pleinair::gpu {
 namespace {
@@ -123,6 +124,39 @@ TEST_F(ShaderLibraryTest, PrefersTheOverrideDirectory) {
               AllOf(HasSubstr("vec4(1.0, 0.0, 0.0, 1.0)"), Not(HasSubstr("0.2")),
                     HasSubstr("vec4 outer()")));
   std::filesystem::remove_all(directory);
+}
+
+TEST(ShaderOverride, IsRefusedWhereItsDirectoryIsNotThere) {
+  const support::TemporaryFolder folder;
+  std::ofstream(folder.path() / "file") << "text";
+  for (const char* name : {"nowhere", "file"}) {
+    try {
+      const ShaderLibrary refused(folder.path() / name);
+      ADD_FAILURE() << name;
+    } catch (const hal::StartupError& error) {
+      EXPECT_EQ(error.error().kind, hal::ErrorKind::kNotFound);
+      EXPECT_EQ(error.error().subject, (folder.path() / name).string());
+    }
+  }
+}
+
+TEST(ShaderOverride, IsRefusedWhereAFileOfItCannotBeRead) {
+  const support::TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path() / "t/inner.glsl");
+  std::filesystem::create_symlink("outer.glsl", folder.path() / "t/outer.glsl");  // to itself
+  const ShaderLibrary shaders = library(folder.path());
+  EXPECT_THAT(errorOf([&] { shaders.expanded("t/inner.glsl"); }),
+              AllOf(HasSubstr("t/inner.glsl: cannot read this shader: Is a directory")));
+  EXPECT_THAT(errorOf([&] { shaders.expanded("t/outer.glsl"); }),
+              HasSubstr("t/outer.glsl: cannot read this shader: Too many levels"));
+  EXPECT_THAT(shaders.expanded("t/loop.glsl"), HasSubstr("int one"));  // has no file there
+}
+
+TEST(ShaderOverride, MayBeAnEmptyFile) {
+  const support::TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path() / "t");
+  std::ofstream(folder.path() / "t/inner.glsl");
+  EXPECT_THAT(library(folder.path()).expanded("t/inner.glsl"), Not(HasSubstr("inner")));
 }
 
 TEST_F(ShaderLibraryTest, CompilesEveryShaderOfTheRoom) {

@@ -1,11 +1,14 @@
 // Contracts of the texture, target and handle wrappers, which keep the GPU rules where the software
 // rasteriser would let them pass.
 #include <array>
+#include <functional>
+#include <initializer_list>
 #include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "hal/error.h"
 #include "pipeline/gpu/buffer.h"
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/gpu/texture.h"
@@ -117,12 +120,44 @@ TEST_F(WrapperTest, TargetsClearEachAttachment) {
   EXPECT_THAT(testing_support::readR32ui(ids), testing::Each(0xFFFFFFFFU));
 }
 
+TEST_F(WrapperTest, MemoryThatTheGpuLacksIsTheWorldsFailure) {
+  if (!context_->info().isSoftware) GTEST_SKIP() << "a large GPU may have that much";
+  constexpr int kSide = 16384;  // 4 GiB, twice what llvmpipe gives one texture
+  try {
+    const Texture huge(TextureFormat::kRgba32f, {kSide, kSide});
+    FAIL() << "got it";
+  } catch (const hal::StartupError& error) {
+    EXPECT_EQ(error.error().kind, hal::ErrorKind::kUnsupported);
+    EXPECT_EQ(error.error().domain, hal::ErrorDomain::kGl);
+    EXPECT_THAT(error.what(),
+                testing::HasSubstr("the GPU has no memory for a 16384x16384 picture"));
+  }
+  EXPECT_TRUE(Texture(TextureFormat::kRgba8, {1, 1}));  // the context lives on
+}
+
 TEST_F(WrapperTest, FencesPass) {
   const Fence fence = Fence::insert();
   EXPECT_TRUE(fence);
   EXPECT_TRUE(fence.passed(GL_TIMEOUT_IGNORED));
   EXPECT_TRUE(fence.passed());
-  EXPECT_FALSE(Fence());
+  EXPECT_EQ(fence.state(), FenceState::kSignalled);
+  fence.wait();
+}
+
+TEST_F(WrapperTest, FencesThatFailedAreNotTakenForLateOnes) {
+  const Fence lost;  // what glFenceSync gives without a GPU
+  EXPECT_FALSE(lost);
+  EXPECT_EQ(lost.state(), FenceState::kFailed);
+  for (const auto& ask :
+       std::initializer_list<std::function<void()>>{[&] { lost.passed(); }, [&] { lost.wait(); }}) {
+    try {
+      ask();
+      ADD_FAILURE() << "took it for passed";
+    } catch (const hal::StartupError& error) {
+      EXPECT_EQ(error.error().kind, hal::ErrorKind::kDeviceLost);
+      EXPECT_EQ(error.error().domain, hal::ErrorDomain::kGl);
+    }
+  }
 }
 
 }  // namespace

@@ -180,6 +180,43 @@ TEST_F(PainterTest, NamesBothSizesWhereTheCalibrationIsForAnother) {
   EXPECT_TRUE(painter.paint(testFrame(3, {96, 64}), parameters));
 }
 
+TEST_F(PainterTest, PaintsTheSameWhateverFormatItExpected) {
+  const hal::CapturedFrame frame = testFrame(0, {64, 48}, hal::PixelFormat::kI420);
+  Painter unaware(kWide);
+  const auto expected = painted(unaware, frame);
+  for (const hal::PixelFormat format : {hal::PixelFormat::kI420, hal::PixelFormat::kBayerRggb8}) {
+    PainterOptions options = kWide;
+    options.expectedFormat = hal::FrameFormat{.pixelFormat = format, .size = {64, 48}};
+    options.passTiming = gpu::PassTiming::kFences;
+    Painter aware(options);
+    EXPECT_TRUE(aware.passTimes().empty()) << "timed the warm-up";
+    EXPECT_EQ(painted(aware, frame), expected);
+    EXPECT_EQ(aware.passTimes().front().pass, "camera picture");
+    EXPECT_EQ(aware.passTimes().front().count, 1);
+  }
+}
+
+TEST_F(PainterTest, RefusesFramesAndReadersBeyondTheGpusLimitAndGoesOn) {
+  Painter painter({.pictureSize = {96, 64}, .style = "none"});
+  const int side = painter.contextInfo().maxSidePixels;
+  const std::vector<std::uint8_t> bytes(static_cast<std::size_t>(side) + 1);
+  hal::CapturedFrame wide;
+  wide.image.format = {.pixelFormat = hal::PixelFormat::kGrey8, .size = {side + 1, 1}};
+  wide.image.planes[0] = {.bytes = bytes, .strideBytes = bytes.size()};
+  const auto refused = painter.paint(wide, painter.defaultParameters());
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, hal::ErrorKind::kUnsupported);
+  EXPECT_THAT(refused.error().message(), HasSubstr(std::to_string(side) + " px"));
+  try {
+    painter.openReader({hal::PixelFormat::kGrey8, {4, side + 1}});
+    ADD_FAILURE() << "opened";
+  } catch (const hal::StartupError& error) {
+    EXPECT_EQ(error.error().kind, hal::ErrorKind::kUnsupported);
+    EXPECT_THAT(error.what(), HasSubstr(std::to_string(side) + " px"));
+  }
+  EXPECT_TRUE(painter.paint(testFrame(1), painter.defaultParameters()));
+}
+
 TEST_F(PainterTest, RefusesWhatItCannotPaintAtTheStart) {
   EXPECT_THAT(startupErrorOf({.pictureSize = {96, 64}, .style = "watercolour"}),
               AllOf(HasSubstr("\"watercolour\""), HasSubstr("none"), HasSubstr("watercolor")));

@@ -9,8 +9,8 @@
 #include "pipeline/gpu/frame_upload.h"
 #include "pipeline/present/present_shaders.h"
 #include "tests/oracles/frame_oracle.h"
-#include "tests/support/gl_test.h"
 #include "tests/support/gl_pictures.h"
+#include "tests/support/gl_test.h"
 
 namespace pleinair::present {
 namespace {
@@ -155,6 +155,28 @@ TEST_F(PictureReaderTest, HandsPicturesOutInTheirOrder) {
   while (reader.take(image, true)) EXPECT_EQ(image.plane(0)[0], taken++);
   EXPECT_EQ(taken, submitted);
   EXPECT_EQ(submitted, 9);
+}
+
+TEST_F(PictureReaderTest, PacksWithinOneAndAHalfTimesTheHeight) {
+  for (const PixelFormat format : {PixelFormat::kI420, PixelFormat::kNv12}) {
+    EXPECT_EQ(PictureReader::packedSize({format, {3840, 2160}}), (FrameSize{960, 3240}));
+    EXPECT_EQ(PictureReader::packedSize({format, {1, 1}}).height, 2);
+  }
+  EXPECT_EQ(PictureReader::packedSize({PixelFormat::kRgb8, {5, 3}}), (FrameSize{4, 3}));
+}
+
+TEST_F(PictureReaderTest, WarmsUpWithoutATrace) {
+  PictureReader reader(library_, {.pixelFormat = PixelFormat::kGrey8, .size = {4, 4}}, 2);
+  reader.warmUp({6, 5});
+  EXPECT_TRUE(reader.isEmpty());
+  reader.submit(grey(7));
+  reader.submit(grey(8));
+  EXPECT_FALSE(reader.hasRoom());
+  hal::Image image;
+  for (const int expected : {7, 8}) {
+    ASSERT_TRUE(reader.take(image, true));
+    EXPECT_EQ(image.plane(0)[15], expected);
+  }
 }
 
 TEST_F(PictureReaderTest, SaysWhetherThereIsRoom) {
