@@ -235,7 +235,7 @@ std::optional<ColorEncoding> encodingOf(const AVFrame& frame) {
   }
 }
 
-Result<LentPicture> lendPicture(std::shared_ptr<const AVFrame> frame, Delivery delivery) {
+Result<LentPicture> lendPicture(const std::shared_ptr<const AVFrame>& frame, Delivery delivery) {
   const FrameSize size{frame->width, frame->height};
   if (!isAcceptedSize(size)) {
     return tl::unexpected(tooLarge("", size));

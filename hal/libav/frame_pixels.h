@@ -30,7 +30,7 @@ enum class Delivery { kAsStored, kRgb };
 /// else converted: 16-bit grey to grey, everything else to RGB8, alpha laid over white paper.
 /// Where its display matrix turns or mirrors it, an upright copy (of YUYV as RGB8).
 /// Errors: kUnsupported (size beyond the limits, or a layout that libav cannot convert).
-Result<LentPicture> lendPicture(std::shared_ptr<const AVFrame> frame,
+Result<LentPicture> lendPicture(const std::shared_ptr<const AVFrame>& frame,
                                 Delivery delivery = Delivery::kAsStored);
 
 }  // namespace pleinair::hal::libav

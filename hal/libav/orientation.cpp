@@ -27,7 +27,8 @@ std::size_t pixelBytes(PixelFormat format, int plane) {
 template <std::size_t kPixelBytes>
 void turnPlane(const PlaneView& stored, FrameSize size, Orientation orientation,
                std::span<std::uint8_t> target) {
-  std::ptrdiff_t right = kPixelBytes;
+  constexpr auto kBytes = static_cast<std::ptrdiff_t>(kPixelBytes);
+  std::ptrdiff_t right = kBytes;
   auto down = static_cast<std::ptrdiff_t>(stored.strideBytes);
   const std::uint8_t* first = stored.bytes.data();
   if (orientation.fromRight) {
@@ -46,9 +47,9 @@ void turnPlane(const PlaneView& stored, FrameSize size, Orientation orientation,
     const int end = std::min(strip + kStripPixels, shown.width);
     for (int y = 0; y < shown.height; ++y) {
       const std::uint8_t* from = first + right * strip + down * y;
-      std::uint8_t* to = target.data() + (std::ptrdiff_t{y} * shown.width + strip) * kPixelBytes;
-      for (int x = strip; x < end; ++x, from += right, to += kPixelBytes) {
-        std::copy_n(from, kPixelBytes, to);
+      std::uint8_t* to = target.data() + (std::ptrdiff_t{y} * shown.width + strip) * kBytes;
+      for (int x = strip; x < end; ++x, from += right, to += kBytes) {
+        std::copy_n(from, kBytes, to);
       }
     }
   }
