@@ -1,5 +1,8 @@
 #include "hal/libav/frame_pixels.h"
 
+#include <array>
+#include <cstdint>
+#include <cstring>
 #include <string>
 #include <utility>
 
@@ -179,7 +182,37 @@ Result<Frame> convertToOurs(const AVFrame& source) {
   return overWhite(**rgba);
 }
 
+LentPicture upright(const LentPicture& stored, Orientation orientation) {
+  const auto image = std::make_shared<const Image>(oriented(stored.view, orientation));
+  return {.view = image->view(), .lease = image};
+}
+
+/// As stored, not yet turned.
+Result<LentPicture> lendStored(const std::shared_ptr<const AVFrame>& frame, Delivery delivery,
+                               Orientation orientation) {
+  std::optional<LentPicture> lent = lendWithoutCopy(frame);
+  // YUYV's pixels share chroma in pairs, so that it cannot be turned.
+  const bool mayStay =
+      lent && delivery == Delivery::kAsStored &&
+      (lent->view.format.pixelFormat != PixelFormat::kYuyv || orientation.isUpright());
+  const bool serves = lent && (mayStay || lent->view.format.pixelFormat == PixelFormat::kRgb8);
+  if (serves) return *std::move(lent);
+  Result<Frame> converted = (lent || delivery == Delivery::kRgb) && !mayHaveAlpha(*frame)
+                                ? convert(*frame, AV_PIX_FMT_RGB24)
+                                : convertToOurs(*frame);
+  if (!converted) return tl::unexpected(converted.error());
+  return *lendWithoutCopy(*std::move(converted));
+}
+
 }  // namespace
+
+Orientation orientationOf(const AVFrame& frame) {
+  const AVFrameSideData* side = av_frame_get_side_data(&frame, AV_FRAME_DATA_DISPLAYMATRIX);
+  std::array<std::int32_t, 9> matrix{};
+  if (side == nullptr || side->size < sizeof(matrix)) return {};
+  std::memcpy(matrix.data(), side->data, sizeof(matrix));
+  return orientationOf(matrix);
+}
 
 std::optional<ColorEncoding> encodingOf(const AVFrame& frame) {
   constexpr int kFirstHdLine = 720;
@@ -202,21 +235,15 @@ std::optional<ColorEncoding> encodingOf(const AVFrame& frame) {
   }
 }
 
-Result<LentPicture> lendPicture(std::shared_ptr<const AVFrame> frame, Delivery delivery) {
+Result<LentPicture> lendPicture(const std::shared_ptr<const AVFrame>& frame, Delivery delivery) {
   const FrameSize size{frame->width, frame->height};
   if (!isAcceptedSize(size)) {
     return tl::unexpected(tooLarge("", size));
   }
-  std::optional<LentPicture> lent = lendWithoutCopy(frame);
-  const bool serves = lent && (delivery == Delivery::kAsStored ||
-                               lent->view.format.pixelFormat == PixelFormat::kRgb8);
-  if (serves) return *std::move(lent);
-  Result<Frame> converted = delivery == Delivery::kRgb && !mayHaveAlpha(*frame)
-                                ? convert(*frame, AV_PIX_FMT_RGB24)
-                                : convertToOurs(*frame);
-  if (!converted) return tl::unexpected(converted.error());
-  std::shared_ptr<const AVFrame> shared = *std::move(converted);
-  return *lendWithoutCopy(shared);
+  const Orientation orientation = orientationOf(*frame);
+  Result<LentPicture> stored = lendStored(frame, delivery, orientation);
+  if (!stored || orientation.isUpright()) return stored;
+  return upright(*stored, orientation);
 }
 
 }  // namespace pleinair::hal::libav

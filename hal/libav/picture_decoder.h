@@ -14,8 +14,9 @@ namespace pleinair::hal::libav {
 Error tooLarge(std::string subject, FrameSize size);
 
 /// Decodes a whole picture; a truncated or corrupt one is refused, never half shown. Its size is
-/// checked in the header first. EXIF orientation is ignored. Errors: as FileInput::open, and
-/// kInvalidInput (not a picture, broken), kUnsupported (size, coding).
+/// checked in the header first. The frame comes as stored; a JPEG's has its EXIF orientation as a
+/// display matrix. Errors: as FileInput::open, and kInvalidInput (not a picture, broken),
+/// kUnsupported (size, coding).
 Result<std::shared_ptr<const AVFrame>> decodePicture(const std::filesystem::path& path);
 
 }  // namespace pleinair::hal::libav

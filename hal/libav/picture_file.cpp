@@ -1,7 +1,5 @@
 #include "hal/libav/picture_file.h"
 
-#include <utility>
-
 #include "hal/libav/frame_pixels.h"
 #include "hal/libav/picture_decoder.h"
 #include "hal/libav/png_encoder.h"
@@ -11,9 +9,9 @@ namespace pleinair::hal {
 namespace {
 
 Result<Image> read(const std::filesystem::path& path, libav::Delivery delivery) {
-  Result<std::shared_ptr<const AVFrame>> frame = libav::decodePicture(path);
+  const Result<std::shared_ptr<const AVFrame>> frame = libav::decodePicture(path);
   if (!frame) return tl::unexpected(frame.error());
-  Result<libav::LentPicture> picture = libav::lendPicture(*std::move(frame), delivery);
+  Result<libav::LentPicture> picture = libav::lendPicture(*frame, delivery);
   if (!picture) {
     picture.error().subject = path.string();
     return tl::unexpected(picture.error());

@@ -10,9 +10,10 @@
 namespace pleinair::hal {
 
 /// A PNG, JPEG, BMP, TIFF, WebP or PNM file, packed, in the format it is stored in where that is
-/// one of ours (grey, RGB8, I420), else RGB8; alpha is laid over white. EXIF orientation is
-/// ignored. Errors: kNotFound, kPermissionDenied, kInvalidInput (not a picture; truncated or
-/// corrupt), kUnsupported (larger than isAcceptedSize, refused before decoding), kIo.
+/// one of ours (grey, RGB8, I420), else RGB8; alpha is laid over white. A JPEG's EXIF
+/// orientation is applied: pictures come upright. Errors: kNotFound, kPermissionDenied,
+/// kInvalidInput (not a picture; truncated or corrupt), kUnsupported (larger than isAcceptedSize,
+/// refused before decoding), kIo.
 Result<Image> readPicture(const std::filesystem::path& path);
 
 /// The same as RGB8 whatever it is stored in.

@@ -14,9 +14,9 @@
 namespace pleinair::hal::recording {
 
 struct SourceFrame {
-  std::shared_ptr<const AVFrame> frame;
-  std::optional<Duration> time;     ///< as the file says, from an origin of its own
-  std::uint64_t droppedBefore = 0;  ///< broken frames left out since the last one
+  std::shared_ptr<const AVFrame> frame;  ///< as stored, with the display matrix that turns it
+  std::optional<Duration> time;          ///< as the file says, from an origin of its own
+  std::uint64_t droppedBefore = 0;       ///< broken frames left out since the last one
 };
 struct SourceEnd {
   std::optional<Error> truncated;  ///< why it ended before its proper end

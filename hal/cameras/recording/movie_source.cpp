@@ -186,6 +186,7 @@ class MovieSource final : public FrameSource {
   bool isMp4() const { return isOneOf(file_.context->iformat->name, "mp4"); }
   bool isY4m() const { return isOneOf(file_.context->iformat->name, "yuv4mpegpipe"); }
   bool isMatroska() const { return isOneOf(file_.context->iformat->name, "matroska"); }
+  void tagWithOrientation(AVFrame& frame) const;
   void leaveOut() {
     ++dropped_;
     waitingForKey_ = true;
@@ -215,6 +216,18 @@ bool MovieSource::isSound(const AVFrame& frame) const {
   return !broken && (!waitingForKey_ || frame.key_frame != 0);
 }
 
+/// What the container says goes before what the pictures' coding does.
+void MovieSource::tagWithOrientation(AVFrame& frame) const {
+  std::size_t bytes = 0;
+  const std::uint8_t* matrix =
+      av_stream_get_side_data(file_.stream, AV_PKT_DATA_DISPLAYMATRIX, &bytes);
+  if (matrix == nullptr) return;
+  av_frame_remove_side_data(&frame, AV_FRAME_DATA_DISPLAYMATRIX);
+  AVFrameSideData* side = av_frame_new_side_data(&frame, AV_FRAME_DATA_DISPLAYMATRIX, bytes);
+  if (side == nullptr) throw std::bad_alloc();
+  std::copy_n(matrix, bytes, side->data);
+}
+
 SourceFrame MovieSource::deliver(libav::Frame frame) {
   waitingForKey_ = false;
   SourceFrame item{
@@ -224,6 +237,7 @@ SourceFrame MovieSource::deliver(libav::Frame frame) {
         av_rescale_q(frame->best_effort_timestamp, file_.stream->time_base, {1, 1'000'000'000});
     item.time = Duration(time);
   }
+  tagWithOrientation(*frame);
   item.frame = std::shared_ptr<const AVFrame>(std::move(frame));
   return item;
 }

@@ -24,11 +24,13 @@ struct RecordingOptions {
 /// - a pattern such as "in/%04d.png": from the smallest number that exists up to the first gap.
 ///
 /// Frames come as stored where that is I420, NV12, YUYV, grey or RGB8, lent without a copy; else as
-/// RGB8 (alpha over white; 16-bit grey as grey). Rotation tags of movies and pictures are ignored.
-/// captureTime is the clock's time at start() plus the frame's own since the first: exact to 1 ns
-/// of what the file says; missing and falling timestamps are mended. Broken frames, and those
-/// predicted from them, are left out and counted in droppedBefore. A recording that breaks off
-/// answers EndOfStream with `truncated`; one without any sound frame is an error of start().
+/// RGB8 (alpha over white; 16-bit grey as grey). Movies' display matrices and JPEGs' EXIF
+/// orientation are applied: frames that they turn or mirror by quarters come as upright copies
+/// (YUYV as RGB8), their size turned too; other angles are ignored. captureTime is the clock's time
+/// at start() plus the frame's own since the first: exact to 1 ns of what the file says; missing
+/// and falling timestamps are mended. Broken frames, and those predicted from them, are left out
+/// and counted in droppedBefore. A recording that breaks off answers EndOfStream with `truncated`;
+/// one without any sound frame is an error of start().
 ///
 /// The clock must outlive the camera. Nothing is opened before start().
 std::unique_ptr<Camera> openRecording(std::filesystem::path path, Clock& clock,

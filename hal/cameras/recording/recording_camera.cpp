@@ -37,7 +37,7 @@ class RecordingCamera final : public Camera {
   void fetch();
   void endWith(NextFrame ending) { ending_ = std::move(ending); }
   void handleEnd(const SourceEnd& end);
-  void accept(SourceFrame item);
+  void accept(const SourceFrame& item);
   Error named(Error error) const;
 
   std::filesystem::path path_;
@@ -98,8 +98,8 @@ void RecordingCamera::stop() {
   source_.reset();
 }
 
-void RecordingCamera::accept(SourceFrame item) {
-  Result<libav::LentPicture> picture = libav::lendPicture(std::move(item.frame));
+void RecordingCamera::accept(const SourceFrame& item) {
+  Result<libav::LentPicture> picture = libav::lendPicture(item.frame);
   if (!picture) return endWith(named(picture.error()));
   nextSequence_ += item.droppedBefore;
   pending_ =
@@ -126,8 +126,8 @@ void RecordingCamera::handleEnd(const SourceEnd& end) {
 void RecordingCamera::fetch() {
   while (!pending_ && !ending_) {
     SourceItem item = source_->next();
-    if (auto* frame = std::get_if<SourceFrame>(&item)) {
-      accept(std::move(*frame));
+    if (const auto* frame = std::get_if<SourceFrame>(&item)) {
+      accept(*frame);
     } else if (const auto* end = std::get_if<SourceEnd>(&item)) {
       handleEnd(*end);
     } else {
