@@ -185,8 +185,8 @@ Result<std::int64_t> PendingFile::seek(std::int64_t offset, int whence) {
   return position;
 }
 
-Result<void> PendingFile::publish() {
-  const int synced = files_->sync(fd_);
+Result<void> PendingFile::publish(Durability durability) {
+  const int synced = durability == Durability::kSynced ? files_->sync(fd_) : 0;
   const int renamed = synced < 0 ? synced : files_->rename(temporary_, target_);
   if (renamed < 0) files_->unlink(temporary_);
   // Closed last, as that unlocks it. After sync() there is nothing left that close() could lose.

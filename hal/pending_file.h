@@ -32,6 +32,10 @@ class FileSystem {
 /// The real one; stateless, any thread.
 FileSystem& systemFiles();
 
+/// Whether a file has to be on the disk before it takes its name: then a loss of power never leaves
+/// an empty file there, at the cost of waiting for the disk.
+enum class Durability { kSynced, kUnsynced };
+
 /// A file that is written under a temporary name (".name.part" in the same folder; ".name.2.part"
 /// and so on while another writer has that) and takes its own name in publish(): of two writers,
 /// the later one's stands. Destroyed without, it removes what it wrote; what stood under the name
@@ -55,7 +59,7 @@ class PendingFile {
   Result<std::int64_t> seek(std::int64_t offset, int whence);
   /// Brings it to the disk, renames and closes. Errors: kNoSpace (some file systems say so only
   /// now), kIo.
-  Result<void> publish();
+  Result<void> publish(Durability durability = Durability::kSynced);
 
  private:
   PendingFile(std::filesystem::path path, std::filesystem::path target, FileSystem& files);

@@ -41,7 +41,7 @@ class NumberedPictures final : public PictureSink {
     if (!file) return tl::unexpected(file.error());
     if (Result<void> written = file->write(png); !written) return written;
     ++next_;
-    return file->publish();
+    return file->publish(Durability::kUnsynced);  // one of many: the next is waiting
   }
   Result<void> finish() override { return {}; }
 
