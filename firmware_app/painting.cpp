@@ -1,6 +1,8 @@
 #include "firmware_app/painting.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <set>
 #include <string>
 #include <utility>
 #include <variant>
@@ -13,6 +15,7 @@
 #include "firmware_app/path_collisions.h"
 #include "firmware_app/poses_file.h"
 #include "firmware_app/progress.h"
+#include "firmware_app/scene_warnings.h"
 #include "hal/libav/picture_file.h"
 #include "hal/outputs/open_output.h"
 #include "hal/pending_file.h"
@@ -33,7 +36,7 @@ config::ParameterValues withSettings(config::ParameterValues values,
                                      const std::vector<std::string>& settings) {
   for (const std::string& setting : settings) {
     const std::size_t equals = setting.find('=');
-    if (equals == std::string::npos) {
+    if (equals == std::string::npos || equals == 0) {
       throw hal::StartupError(Error{.kind = ErrorKind::kInvalidArgument,
                                     .subject = "--set",
                                     .problem = fmt::format("found \"{}\"", setting),
@@ -56,6 +59,10 @@ PaintParameters parametersOf(const Painter& painter, const PaintingJob& job) {
   parameters.view = job.view;
   parameters.style = withSettings(parameters.style, job.set);
   return parameters;
+}
+
+void warn(const std::optional<std::string>& warning) {
+  if (warning) spdlog::warn("{}", *warning);
 }
 
 template <class File>
@@ -90,7 +97,9 @@ class Painting {
         sheetFile_(created<hal::PendingFile>(job.contactSheet)),
         outputFormat_(
             orThrow(output_->start({.size = pictureSize(), .framePeriod = stream_.framePeriod}))),
-        reader_(painter_.openReader(outputFormat_.frame)) {}
+        reader_(painter_.openReader(outputFormat_.frame)) {
+    warn(assumedCameraWarning(job.scene, stream_.frame.size));
+  }
 
   /// 0, or the signal that broke it off.
   int run() {
@@ -99,12 +108,14 @@ class Painting {
       Progress progress(job_.doing, framesToPaint(stream_, job_), realTime_);
       if (const int signal = paintAll(progress); signal != 0) return signal;
       finish();
-      summary =
-          fmt::format("{} {} frames in {:.1f} s ({:.1f} frames/s): {}", job_.done,
-                      progress.frames(), std::chrono::duration<double>(progress.elapsed()).count(),
-                      progress.framesPerSecond(), job_.output.string());
+      summary = fmt::format("{} {} {} in {:.1f} s ({:.1f} frames/s): {}\n", job_.done,
+                            progress.frames(), progress.frames() == 1 ? "frame" : "frames",
+                            std::chrono::duration<double>(progress.elapsed()).count(),
+                            progress.framesPerSecond(), job_.output.string());
     }
-    fmt::print("{}\n", summary);
+    warn(unseenTagsWarning(job_.scene, seenTags_));
+    // Whether it arrived is looked at once, at the program's end.
+    std::fputs(summary.c_str(), stdout);
     return 0;
   }
 
@@ -159,6 +170,7 @@ class Painting {
     const hal::Duration time = frame.captureTime - *firstTime_;
     while (!painter_.hasRoom(reader_)) write(true);
     const Picture picture = orThrow(painter_.paint(frame, parameters_));
+    for (const tracking::TrackedTag& tag : picture.tracking.tags) seenTags_.insert(tag.id);
     if (poses_) orThrow(poses_->write(index, time, picture.tracking));
     if (sheetFile_ && sheet_.wants(index)) {
       sheet_.add(painter_.cameraStill().view(), painter_.still().view(), time);
@@ -197,6 +209,7 @@ class Painting {
   int reader_;
   ReadPicture read_;
   std::optional<hal::TimePoint> firstTime_;
+  std::set<int> seenTags_;
   present::ContactSheet sheet_;
 };
 

@@ -1,5 +1,8 @@
 #include "firmware_app/commands/styles.h"
 
+#include <cstdio>
+#include <string>
+
 #include <fmt/format.h>
 
 #include "pipeline/painter.h"
@@ -11,25 +14,29 @@ namespace {
 /// Any size serves to ask a style what it has.
 constexpr hal::FrameSize kSize{64, 64};
 
-void list(const styles::StyleInfo& info) {
+std::string describe(const styles::StyleInfo& info) {
   const Painter painter({.pictureSize = kSize, .style = std::string(info.name)});
-  fmt::print("{}: {}\n", info.name, info.help);
-  fmt::print("  parameters (--set NAME=VALUE)\n");
+  std::string text = fmt::format("{}: {}\n", info.name, info.help);
+  text += "  parameters (--set NAME=VALUE)\n";
   const config::ParameterValues values = painter.defaultParameters().style;
   for (const config::ParameterDescriptor& parameter : values.list().descriptors()) {
-    fmt::print("    {:<22} {:<8} {} {}\n", parameter.name, values.text(parameter.name),
-               parameter.allowed(), parameter.help);
+    text += fmt::format("    {:<22} {:<8} {} {}\n", parameter.name, values.text(parameter.name),
+                        parameter.allowed(), parameter.help);
   }
-  fmt::print("  views (--view NAME)\n");
+  text += "  views (--view NAME)\n";
   for (const PainterView& view : painter.views()) {
-    fmt::print("    {:<22} {}\n", view.name, view.help);
+    text += fmt::format("    {:<22} {}\n", view.name, view.help);
   }
+  return text;
 }
 
 }  // namespace
 
 int listStyles() {
-  for (const styles::StyleInfo& info : styles::styleInfos()) list(info);
+  // Whether it arrived is looked at once, at the program's end.
+  for (const styles::StyleInfo& info : styles::styleInfos()) {
+    std::fputs(describe(info).c_str(), stdout);
+  }
   return 0;
 }
 

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "config/suggestion.h"
 #include "hal/error.h"
 #include "pipeline/styles/plain.h"
 #include "pipeline/styles/watercolor/watercolor.h"
@@ -34,16 +36,6 @@ constexpr auto kInfos = [] {
   return infos;
 }();
 
-template <class Items>
-std::string namesOf(const Items& items) {
-  std::string names;
-  for (const auto& item : items) {
-    if (!names.empty()) names += ", ";
-    names += item.name;
-  }
-  return names;
-}
-
 }  // namespace
 
 std::span<const StyleInfo> styleInfos() {
@@ -58,10 +50,12 @@ std::unique_ptr<Style> makeStyle(std::string_view name, const gpu::ShaderLibrary
   for (const Entry& entry : kEntries) {
     if (entry.info.name == name) return entry.make(library);
   }
+  std::vector<std::string> names;
+  for (const StyleInfo& info : kInfos) names.emplace_back(info.name);
   throw hal::StartupError({.kind = hal::ErrorKind::kInvalidArgument,
                            .subject = fmt::format("style \"{}\"", name),
-                           .problem = "no such style",
-                           .remedy = fmt::format("choose one of: {}", namesOf(kInfos))});
+                           .problem = config::unknownText("style", name, names),
+                           .remedy = "choose one of: " + config::listText(names)});
 }
 
 }  // namespace pleinair::styles

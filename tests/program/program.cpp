@@ -41,7 +41,9 @@ struct Pipe {
 
 [[noreturn]] void becomeProgram(const std::vector<std::string>& arguments,
                                 const ProgramLimits& limits, const Pipe& out, const Pipe& error) {
-  dup2(out.write, STDOUT_FILENO);
+  const int file =
+      limits.printsInto.empty() ? out.write : open(limits.printsInto.c_str(), O_WRONLY);
+  if (dup2(file, STDOUT_FILENO) < 0) _exit(127);
   dup2(error.write, STDERR_FILENO);
   if (limits.fileBytes > 0) {
     // A write beyond the limit then fails instead of killing.

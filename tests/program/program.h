@@ -17,6 +17,8 @@ struct ProgramLimits {
   unsigned long fileBytes = 0;
   /// SIGTERM is sent once this file exists; empty: never.
   std::string terminateWhenExists;
+  /// What it prints goes into this instead of ProgramRun::out; empty: nowhere else.
+  std::string printsInto;
 };
 
 /// Runs `pleinair` with these arguments, killed after two minutes.

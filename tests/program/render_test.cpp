@@ -151,6 +151,18 @@ TEST_F(Render, WritesPosesALineAFrame) {
   EXPECT_EQ(frames, 3);
 }
 
+TEST_F(Render, WarnsOfTagsThatNeverAppear) {
+  const ProgramRun recorded = runProgram({"record", "--frames", "1", "--output", path("desk.png")});
+  ASSERT_EQ(recorded.status, 0) << recorded.error;
+  EXPECT_THAT(recorded.out, testing::StartsWith("recorded 1 frame in "));
+  std::ofstream(path("scene.toml")) << "[[tag]]\nid = 40\nedge_m = 0.1\n";
+  const ProgramRun run = render("desk.png", "out.png", {"--scene", path("scene.toml")});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_THAT(run.error, HasSubstr("warning: the scene has no [camera]: a field of view of 60°"));
+  EXPECT_THAT(run.error, HasSubstr("warning: tag 40 of the scene was never seen; seen: 0, "));
+  EXPECT_EQ(std::ranges::count(run.error, '\n'), 2) << run.error;
+}
+
 TEST_F(Render, WritesAContactSheetOfPairs) {
   writeMedia(path("in.mp4"), 9, {64, 48});
   ASSERT_EQ(render("in.mp4", "out.mp4", {"--contact-sheet", path("sheet.png")}).status, 0);
@@ -211,6 +223,16 @@ TEST(Program, ListsStylesWithTheirParameters) {
   EXPECT_EQ(run.status, 0);
   EXPECT_THAT(run.out, HasSubstr("watercolor"));
   EXPECT_THAT(run.out, HasSubstr("cell_size"));
+}
+
+TEST(Program, FailsWhereWhatItPrintsDoesNotArrive) {
+  ProgramLimits limits;
+  limits.printsInto = "/dev/full";
+  for (const std::string command : {"styles", "--help"}) {
+    const ProgramRun run = runProgram({command}, limits);
+    EXPECT_EQ(run.status, 2) << command;
+    EXPECT_EQ(run.error, "pleinair: standard output: cannot write: No space left on device\n");
+  }
 }
 
 TEST(Program, HelpsAndSaysItsVersion) {

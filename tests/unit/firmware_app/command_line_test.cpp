@@ -62,10 +62,50 @@ TEST(CommandLine, RefusesValuesOutOfRange) {
         "640x480 ", "640x 480", " 640x480", "+640x480", "640x+480", "640X480", "99999999999x480"}) {
     expectRefused({"record", "--output", "b.mp4", "--size", size}, "WIDTHxHEIGHT");
   }
-  for (const char* frames : {"0", "-3", "many", "1.5"}) {
-    expectRefused({"record", "--output", "b.mp4", "--frames", frames}, "--frames");
+  for (const std::string frames : {"0", "-3", "+3", "two", "1.5", "3 ", "99999999999999999999"}) {
+    const std::string what =
+        "--frames: found \"" + frames + "\", allowed: a whole number from 1 to 1000000000;";
+    expectRefused({"record", "--output", "b.mp4", "--frames", frames.c_str()}, what);
+    expectRefused({"render", "--input", "a.mp4", "--output", "b.mp4", "--frames", frames.c_str()},
+                  what);
   }
   expectRefused({"record", "--output", "b.mp4", "--seed", "-1"}, "--seed");
+}
+
+TEST(CommandLine, NamesWhatItDoesNotKnowBeforeWhatIsMissing) {
+  expectRefused({"render", "--inpt", "C", "--output", "x.png"},
+                "--inpt: unknown option (did you mean \"--input\"?);");
+  expectRefused({"render", "--inpt=C", "--output", "x.png"},
+                "--inpt: unknown option (did you mean \"--input\"?);");
+  expectRefused({"rendr"}, "rendr: unknown command (did you mean \"render\"?);");
+  expectRefused({"--versoin"}, "--versoin: unknown option (did you mean \"--version\"?);");
+}
+
+TEST(CommandLine, RefusesEmptyValues) {
+  for (const char* option : {"--input", "--output"}) {
+    const char* other = std::string("--input") == option ? "--output" : "--input";
+    expectRefused({"render", option, "", other, "a.mp4"},
+                  std::string(option) + ": is empty, give it a value;");
+  }
+  expectRefused({"render", "--input=", "--output", "b.mp4"}, "--input: is empty, give it a value;");
+  for (const char* option : {"--scene", "--style", "--view", "--set", "--size", "--frames",
+                             "--poses", "--contact-sheet", "--shaders"}) {
+    expectRefused({"render", "--input", "a.mp4", "--output", "b.mp4", option, ""},
+                  std::string(option) + ": is empty, give it a value or leave it out");
+  }
+}
+
+TEST(CommandLine, RefusesNamesThatWouldNotHoldWhatIsWritten) {
+  for (const char* name : {"sheet.jpg", "sheet", ".png", "-"}) {
+    expectRefused(
+        {"render", "--input", "a.mp4", "--output", "b.mp4", "--contact-sheet", name},
+        "--contact-sheet: found \"" + std::string(name) + "\", allowed: a name that ends in .png");
+  }
+  const std::string what = ": found \"-\", allowed: the name of a file;";
+  expectRefused({"render", "--input", "a.mp4", "--output", "-"}, "--output" + what);
+  expectRefused({"record", "--output", "-"}, "--output" + what);
+  expectRefused({"render", "--input", "a.mp4", "--output", "b.mp4", "--poses", "-"},
+                "--poses" + what);
 }
 
 TEST(CommandLine, HelpsAndTellsItsVersion) {
@@ -82,6 +122,7 @@ TEST(CommandLine, HelpsAndTellsItsVersion) {
         "--poses", "--contact-sheet", "--shaders"}) {
     EXPECT_THAT(renderHelp.output, HasSubstr(option));
   }
+  EXPECT_THAT(renderHelp.output, HasSubstr("movies have even sides"));
   const Outcome version = run({"--version"});
   EXPECT_EQ(version.status, 0);
   EXPECT_THAT(version.output, testing::ContainsRegex("[0-9]+\\.[0-9]+\\.[0-9]+"));

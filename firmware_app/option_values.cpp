@@ -1,0 +1,79 @@
+#include "firmware_app/option_values.h"
+
+#include <charconv>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace pleinair::app {
+namespace {
+
+/// A year at 30 frames a second.
+constexpr std::uint64_t kMostFrames = 1'000'000'000;
+
+std::string foundText(std::string_view text, std::string_view allowed) {
+  return fmt::format("found \"{}\", allowed: {}", text, allowed);
+}
+
+/// Takes a number in digits, and nothing else, off the front.
+template <class Number>
+bool takeNumber(std::string_view& text, Number& number) {
+  // from_chars would take a sign.
+  if (text.empty() || text.front() < '0' || text.front() > '9') return false;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return status == std::errc();
+}
+
+bool parseSize(std::string_view text, hal::FrameSize& size) {
+  if (!takeNumber(text, size.width) || !text.starts_with('x')) return false;
+  text.remove_prefix(1);
+  return takeNumber(text, size.height) && text.empty() && hal::isAcceptedSize(size);
+}
+
+}  // namespace
+
+hal::FrameSize sizeOf(const std::string& text) {
+  hal::FrameSize size;
+  if (parseSize(text, size)) return size;
+  throw CLI::ValidationError(
+      "--size", foundText(text, fmt::format("WIDTHxHEIGHT, at most {} px a side and {} Mpx, such "
+                                            "as 1280x720",
+                                            hal::kMaxSidePixels, hal::kMaxPixels / 1'000'000)));
+}
+
+std::uint64_t frameCountOf(const std::string& text) {
+  std::uint64_t count = 0;
+  std::string_view rest = text;
+  if (takeNumber(rest, count) && rest.empty() && count >= 1 && count <= kMostFrames) return count;
+  throw CLI::ValidationError(
+      "--frames", foundText(text, fmt::format("a whole number from 1 to {}", kMostFrames)));
+}
+
+std::string refuseStandardOutput(const std::string& text) {
+  if (text != "-") return {};
+  return foundText(text, "the name of a file; nothing is written to standard output");
+}
+
+std::string requirePngName(const std::string& text) {
+  if (text.empty()) return {};  // refuseEmptyValues() says it better
+  const std::filesystem::path ending = std::filesystem::path(text).extension();
+  if (ending == ".png" || ending == ".PNG") return {};
+  return foundText(text, "a name that ends in .png");
+}
+
+void refuseEmptyValues(CLI::App& command) {
+  for (CLI::Option* option : command.get_options()) {
+    if (option->get_items_expected_max() == 0) continue;  // a flag
+    const char* remedy =
+        option->get_required() ? "give it a value" : "give it a value or leave it out";
+    option->check([remedy](const std::string& text) {
+      return text.empty() ? fmt::format("is empty, {}", remedy) : std::string();
+    });
+  }
+}
+
+}  // namespace pleinair::app
