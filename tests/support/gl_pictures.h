@@ -13,7 +13,7 @@
 #include "hal/image.h"
 #include "tests/oracles/frame_oracle.h"
 
-namespace pleinair::testing_support {
+namespace pleinair::support {
 
 /// Every byte random.
 inline hal::Image randomImage(hal::FrameFormat format, unsigned seed = 1) {
@@ -93,4 +93,4 @@ inline int largestError(hal::Image& image, hal::Image& expected) {
   return largest;
 }
 
-}  // namespace pleinair::testing_support
+}  // namespace pleinair::support

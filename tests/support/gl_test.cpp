@@ -5,7 +5,7 @@
 #include "hal/error.h"
 #include "pipeline/gpu/render_target.h"
 
-namespace pleinair::testing_support {
+namespace pleinair::support {
 namespace {
 
 /// Reads the one colour attachment of a target on `texture`.
@@ -73,4 +73,4 @@ std::vector<float> readRgba32f(const gpu::Texture& texture) {
   return values;
 }
 
-}  // namespace pleinair::testing_support
+}  // namespace pleinair::support

@@ -13,7 +13,7 @@
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
 
-namespace pleinair::testing_support {
+namespace pleinair::support {
 
 /// A test with an OpenGL ES context of its own, and what tests need to put pictures in and out.
 /// Skips, saying why, where no context can be had.
@@ -45,4 +45,4 @@ std::vector<T> readBuffer(const gpu::Buffer& buffer) {
   return items;
 }
 
-}  // namespace pleinair::testing_support
+}  // namespace pleinair::support

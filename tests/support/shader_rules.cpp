@@ -7,7 +7,7 @@
 #include <regex>
 #include <stdexcept>
 
-namespace pleinair::testing_support {
+namespace pleinair::support {
 namespace {
 
 constexpr long kMaxInvocations = 128;
@@ -332,4 +332,4 @@ Complaints shaderRules(const ShaderText& shader) {
   return complaints;
 }
 
-}  // namespace pleinair::testing_support
+}  // namespace pleinair::support

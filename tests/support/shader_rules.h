@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace pleinair::testing_support {
+namespace pleinair::support {
 
 /// A shader as its author wrote it, and as it is compiled.
 struct ShaderText {
@@ -47,4 +47,4 @@ std::string withoutComments(std::string_view text);
 /// `const int`s and `#define`s of `code`; throws std::invalid_argument for anything else.
 long constantValue(std::string_view expression, const std::string& code);
 
-}  // namespace pleinair::testing_support
+}  // namespace pleinair::support

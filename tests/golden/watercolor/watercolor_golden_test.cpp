@@ -50,8 +50,8 @@ class WatercolorGolden : public StyleTest {
     Watercolor style(library_);
     hal::Image result;
     for (int i = 0; i < count; ++i) {
-      const gpu::Texture texture = testing_support::textureOf(picture(i).view());
-      result = testing_support::readRgba8(style.paint(frameOf(texture, i), view, timer_));
+      const gpu::Texture texture = support::textureOf(picture(i).view());
+      result = support::readRgba8(style.paint(frameOf(texture, i), view, timer_));
     }
     return result;
   }
@@ -84,10 +84,10 @@ TEST_F(WatercolorGolden, TheThesissTiling) {
 // The comparison itself can fail, on as little as another tiling.
 TEST_F(WatercolorGolden, AnotherTilingIsNotAlike) {
   Watercolor style(library_);
-  const gpu::Texture texture = testing_support::textureOf(stillLife().view());
-  const hal::Image one = testing_support::readRgba8(style.paint(frameOf(texture), "", timer_));
+  const gpu::Texture texture = support::textureOf(stillLife().view());
+  const hal::Image one = support::readRgba8(style.paint(frameOf(texture), "", timer_));
   style.setParameters(style.parameters().with("seed", "2"));
-  const hal::Image other = testing_support::readRgba8(style.paint(frameOf(texture), "", timer_));
+  const hal::Image other = support::readRgba8(style.paint(frameOf(texture), "", timer_));
   const golden::Likeness found = golden::likeness(one.view(), other.view());
   EXPECT_LT(found.psnrDecibels, kLeast.psnrDecibels);
   EXPECT_LT(found.ssim, kLeast.ssim);

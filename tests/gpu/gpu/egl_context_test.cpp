@@ -19,7 +19,7 @@ namespace {
 
 using testing::HasSubstr;
 
-class EglContextTest : public testing_support::GlTest {};
+class EglContextTest : public support::GlTest {};
 
 TEST_F(EglContextTest, SaysWhatItRunsOn) {
   const ContextInfo& info = context_->info();
@@ -80,9 +80,9 @@ std::vector<std::uint8_t> paintedBytes() {
   FrameUploader uploader{ShaderLibrary{}};
   std::vector<std::uint8_t> bytes;
   for (unsigned seed = 0; seed < 5; ++seed) {
-    const hal::Image frame = testing_support::randomImage(
+    const hal::Image frame = support::randomImage(
         {.pixelFormat = hal::PixelFormat::kNv12, .size = {161, 121}}, seed);
-    hal::Image result = testing_support::readRgba8(uploader.upload(frame.view(), {100, 75}));
+    hal::Image result = support::readRgba8(uploader.upload(frame.view(), {100, 75}));
     bytes.insert(bytes.end(), result.plane(0).begin(), result.plane(0).end());
   }
   return bytes;

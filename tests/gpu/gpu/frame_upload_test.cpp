@@ -17,11 +17,11 @@ using hal::ColorMatrix;
 using hal::ColorRange;
 using hal::FrameSize;
 using hal::PixelFormat;
-using testing_support::GlTest;
-using testing_support::largestError;
-using testing_support::PaddedImage;
-using testing_support::randomImage;
-using testing_support::readRgba8;
+using support::GlTest;
+using support::largestError;
+using support::PaddedImage;
+using support::randomImage;
+using support::readRgba8;
 
 constexpr std::array kSizes{FrameSize{1, 1}, FrameSize{1, 6}, FrameSize{6, 1},
                             FrameSize{2, 2}, FrameSize{5, 3}, FrameSize{7, 5},

@@ -8,7 +8,7 @@
 namespace pleinair::gpu {
 namespace {
 
-class PassTimerTest : public testing_support::GlTest {};
+class PassTimerTest : public support::GlTest {};
 
 TEST_F(PassTimerTest, CountsAndAddsUpPassesUnderTheirNamesWithFences) {
   PassTimer timer(PassTiming::kFences);

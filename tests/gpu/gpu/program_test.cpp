@@ -10,10 +10,10 @@
 namespace pleinair::gpu {
 namespace {
 
-using testing_support::GlTest;
-using testing_support::readBuffer;
-using testing_support::readR32ui;
-using testing_support::readRgba8;
+using support::GlTest;
+using support::readBuffer;
+using support::readR32ui;
+using support::readRgba8;
 
 constexpr std::array kShaders{
     EmbeddedShader{"t/setters.comp", R"(

@@ -15,12 +15,12 @@ namespace {
 using hal::FrameSize;
 using hal::PixelFormat;
 using oracles::Picture;
-using testing_support::GlTest;
-using testing_support::largestError;
-using testing_support::randomImage;
-using testing_support::readRgba8;
-using testing_support::textureOf;
-using testing_support::wavyImage;
+using support::GlTest;
+using support::largestError;
+using support::randomImage;
+using support::readRgba8;
+using support::textureOf;
+using support::wavyImage;
 
 struct Scaling {
   const char* name;

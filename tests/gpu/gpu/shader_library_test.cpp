@@ -18,8 +18,8 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
-using testing_support::GlTest;
-using testing_support::readRgba8;
+using support::GlTest;
+using support::readRgba8;
 
 constexpr std::string_view kMain =
     "layout(location = 0) out vec4 colour;\n"

@@ -17,9 +17,9 @@
 namespace pleinair::gpu {
 namespace {
 
-using testing_support::GlTest;
-using testing_support::readBuffer;
-using testing_support::readRgba8;
+using support::GlTest;
+using support::readBuffer;
+using support::readRgba8;
 
 class WrapperDeathTest : public GlTest {
  protected:
@@ -117,7 +117,7 @@ TEST_F(WrapperTest, TargetsClearEachAttachment) {
   target.clearDepth();
   target.discardDepth();
   EXPECT_THAT(readRgba8(colour).row(0, 1), testing::ElementsAre(255, 0, 51, 255, 255, 0, 51, 255));
-  EXPECT_THAT(testing_support::readR32ui(ids), testing::Each(0xFFFFFFFFU));
+  EXPECT_THAT(support::readR32ui(ids), testing::Each(0xFFFFFFFFU));
 }
 
 TEST_F(WrapperTest, MemoryThatTheGpuLacksIsTheWorldsFailure) {

@@ -98,7 +98,7 @@ class UntidyHost {
   GLuint sampler_ = 0;
 };
 
-class HostContextTest : public testing_support::GlTest {};
+class HostContextTest : public support::GlTest {};
 
 TEST_F(HostContextTest, PaintsAsInAContextOfItsOwn) {
   Painter own({.pictureSize = kSize});

@@ -21,11 +21,11 @@ using hal::ColorRange;
 using hal::FrameFormat;
 using hal::FrameSize;
 using hal::PixelFormat;
-using testing_support::GlTest;
-using testing_support::largestError;
-using testing_support::randomImage;
-using testing_support::textureOf;
-using testing_support::wavyImage;
+using support::GlTest;
+using support::largestError;
+using support::randomImage;
+using support::textureOf;
+using support::wavyImage;
 
 constexpr std::array kSizes{FrameSize{1, 1}, FrameSize{1, 6}, FrameSize{6, 1}, FrameSize{2, 2},
                             FrameSize{5, 3}, FrameSize{7, 5}, FrameSize{9, 4}, FrameSize{64, 48}};
@@ -84,7 +84,7 @@ TEST_P(PictureReaderFormatTest, ComesBackThroughTheUploader) {
   const hal::Image rgb = wavyImage(size);
   hal::Image image = read(rgb, format(size));
   gpu::FrameUploader uploader{library_};
-  hal::Image back = testing_support::readRgba8(uploader.upload(image.view(), size));
+  hal::Image back = support::readRgba8(uploader.upload(image.view(), size));
   double worst = 0.0;
   const oracles::Picture expected = oracles::rgbOf(rgb.view());
   for (int y = 2; y < size.height - 2; ++y) {  // a border's chroma has neighbours on one side only

@@ -9,8 +9,8 @@
 namespace pleinair::scene {
 namespace {
 
-using testing_support::readR32ui;
-using testing_support::readRgba8;
+using support::readR32ui;
+using support::readRgba8;
 
 constexpr hal::FrameSize kSize{160, 120};
 

@@ -17,7 +17,7 @@
 namespace pleinair::scene {
 
 /// A GL test with the shaders of scenes, a plain camera picture, and window depth read back.
-class SceneGlTest : public testing_support::GlTest {
+class SceneGlTest : public support::GlTest {
  protected:
   static constexpr std::array<std::uint8_t, 3> kGround{30, 60, 90};
 
@@ -32,7 +32,7 @@ class SceneGlTest : public testing_support::GlTest {
     hal::Image image({.pixelFormat = hal::PixelFormat::kRgb8, .size = size});
     const auto bytes = image.plane(0);
     for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = kGround[i % 3];
-    return testing_support::textureOf(image.view());
+    return support::textureOf(image.view());
   }
 
   static SceneModel modelOf(ModelSource source, std::optional<int> tagId = std::nullopt) {
@@ -55,7 +55,7 @@ class SceneGlTest : public testing_support::GlTest {
     gpu::Program pass = library_.fragmentPass("tests/depth_bits.frag");
     pass.use().texture("depth", depth).drawFullscreen(target);
     std::vector<float> values;
-    for (const std::uint32_t each : testing_support::readR32ui(bits)) {
+    for (const std::uint32_t each : support::readR32ui(bits)) {
       values.push_back(std::bit_cast<float>(each));
     }
     return values;

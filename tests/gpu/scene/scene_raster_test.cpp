@@ -64,10 +64,10 @@ TEST_P(SceneRaster, ShowsWhatTheOracleShows) {
     placed.push_back({model.mesh.get(), aslant() * model.attachFromModel});
   }
   const auto expected = oracles::rasterise(placed, camera());
-  const auto ids = testing_support::readR32ui(*frame.ids);
+  const auto ids = support::readR32ui(*frame.ids);
   const auto depth = readDepth(*frame.depth);
-  hal::Image colour = testing_support::readRgba8(*frame.colour);
-  hal::Image normalFocus = testing_support::readRgba8(*frame.normalFocus);
+  hal::Image colour = support::readRgba8(*frame.colour);
+  hal::Image normalFocus = support::readRgba8(*frame.normalFocus);
   const double near = frame.nearMetres;
   const double far = frame.farMetres;
   const glm::dvec3 light = glm::dvec3(1.0, -1.0, -1.0) * scene.light.towardLight;

@@ -35,7 +35,7 @@ void operator delete[](void* memory, std::size_t) noexcept {
   std::free(memory);
 }
 
-namespace pleinair::testing_support {
+namespace pleinair::support {
 
 int allocationsIn(const std::function<void()>& work) {
   allocations = 0;
@@ -45,4 +45,4 @@ int allocationsIn(const std::function<void()>& work) {
   return allocations;
 }
 
-}  // namespace pleinair::testing_support
+}  // namespace pleinair::support

@@ -2,10 +2,10 @@
 
 #include <functional>
 
-namespace pleinair::testing_support {
+namespace pleinair::support {
 
 /// How often `work` calls operator new on this thread. A program that links this has its global
 /// operator new replaced.
 int allocationsIn(const std::function<void()>& work);
 
-}  // namespace pleinair::testing_support
+}  // namespace pleinair::support

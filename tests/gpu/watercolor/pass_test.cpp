@@ -8,9 +8,9 @@ namespace pleinair::styles {
 namespace {
 
 using oracles::Grid;
-using testing_support::readBuffer;
-using testing_support::readR32ui;
-using testing_support::readRgba32f;
+using support::readBuffer;
+using support::readR32ui;
+using support::readRgba32f;
 
 constexpr double kThreshold = 0.06;
 constexpr double kTolerance = 0.01;  // px
@@ -39,7 +39,7 @@ class PassTest : public StyleTest, public testing::WithParamInterface<Size> {
     if (IsSkipped()) return;
     style_ = std::make_unique<Watercolor>(library_);
     image_ = testPicture(GetParam().pixels, 7);
-    picture_ = testing_support::textureOf(image_.view());
+    picture_ = support::textureOf(image_.view());
     grid_ = oracles::gridOf(GetParam().pixels, GetParam().cell);
     use(thesisParameters());
   }
@@ -192,7 +192,7 @@ TEST_P(PassTest, EdgesAreTheFormulas) {
 TEST_P(PassTest, SeedsMoveToTheMeanOfTheirEdgePixels) {
   paint(0);
   auto before = seeds();
-  picture_ = testing_support::textureOf(testPicture(GetParam().pixels, 7, 11.0).view());
+  picture_ = support::textureOf(testPicture(GetParam().pixels, 7, 11.0).view());
   paint(1);
   const auto homes = oracles::seedsAtHome(grid_, 1);
   const auto wanted = oracles::retiled(grid_, labels(), edges(), before, homes, 4);

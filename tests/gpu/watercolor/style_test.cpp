@@ -9,8 +9,8 @@
 namespace pleinair::styles {
 namespace {
 
-using testing_support::readRgba8;
-using testing_support::textureOf;
+using support::readRgba8;
+using support::textureOf;
 
 std::vector<std::uint8_t> bytesOf(const gpu::Texture& texture) {
   hal::Image image = readRgba8(texture);
@@ -115,24 +115,24 @@ TEST_F(WatercolorTest, StillSceneComesToRest) {
 TEST_F(WatercolorTest, TimeThatStandsOrRunsBackMovesNoSeed) {
   Watercolor style(library_);
   paintFrame(style, 5);
-  const auto seedsAt5 = testing_support::readBuffer<float>(*style.inner().seeds);
+  const auto seedsAt5 = support::readBuffer<float>(*style.inner().seeds);
   const gpu::Texture other = textureOf(testPicture({120, 90}, 5, 9.0).view());
   style.paint(frameOf(other, 5), "", timer_);
-  EXPECT_EQ(testing_support::readBuffer<float>(*style.inner().seeds), seedsAt5);
+  EXPECT_EQ(support::readBuffer<float>(*style.inner().seeds), seedsAt5);
   style.paint(frameOf(other, 2), "", timer_);
-  EXPECT_EQ(testing_support::readBuffer<float>(*style.inner().seeds), seedsAt5);
+  EXPECT_EQ(support::readBuffer<float>(*style.inner().seeds), seedsAt5);
   style.paint(frameOf(other, 4), "", timer_);
-  EXPECT_NE(testing_support::readBuffer<float>(*style.inner().seeds), seedsAt5);
+  EXPECT_NE(support::readBuffer<float>(*style.inner().seeds), seedsAt5);
 }
 
 TEST_F(WatercolorTest, AllocatesNothingAfterTheFirstFrameOfASize) {
   Watercolor style(library_);
   const gpu::Texture picture = textureOf(testPicture({120, 90}, 5).view());
   style.paint(frameOf(picture, 0), "", timer_);
-  EXPECT_EQ(testing_support::allocationsIn([&] { style.paint(frameOf(picture, 1), "", timer_); }),
+  EXPECT_EQ(support::allocationsIn([&] { style.paint(frameOf(picture, 1), "", timer_); }),
             0);
   const gpu::Texture other = textureOf(testPicture({64, 64}, 5).view());
-  EXPECT_GT(testing_support::allocationsIn([&] { style.paint(frameOf(other, 2), "", timer_); }), 0)
+  EXPECT_GT(support::allocationsIn([&] { style.paint(frameOf(other, 2), "", timer_); }), 0)
       << "the counter counts";
 }
 
@@ -154,7 +154,7 @@ TEST_F(WatercolorTest, SilhouettesOfObjectsAreEdges) {
   frame.hasObjects = true;
   Watercolor style(library_);
   style.paint(frame, "", timer_);
-  const auto words = testing_support::readR32ui(*style.inner().tiling);
+  const auto words = support::readR32ui(*style.inner().tiling);
   for (std::size_t y = 0; y < 48; ++y) {
     for (std::size_t x = 0; x < 64; ++x) {
       const auto inside = [](std::size_t u, std::size_t v) {

@@ -36,7 +36,7 @@ inline hal::Image testPicture(hal::FrameSize size, unsigned seed, double shiftPi
 }
 
 /// A context with the shaders of all styles.
-class StyleTest : public testing_support::GlTest {
+class StyleTest : public support::GlTest {
  protected:
   void SetUp() override {
     GlTest::SetUp();

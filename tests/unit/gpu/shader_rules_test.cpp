@@ -12,7 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace pleinair::testing_support {
+namespace pleinair::support {
 namespace {
 
 using testing::HasSubstr;
@@ -198,4 +198,4 @@ TEST(WithoutComments, KeepsCodeOnly) {
 }
 
 }  // namespace
-}  // namespace pleinair::testing_support
+}  // namespace pleinair::support
