@@ -107,6 +107,7 @@ bool isPictureRow(const fs::path& output) {
 
 void refuseCollisions(const std::vector<NamedPath>& read, const std::vector<NamedPath>& written) {
   std::vector<Place> others;
+  others.reserve(read.size() + written.size());
   for (const NamedPath& named : read) others.push_back(readPlace(named));
   for (const NamedPath& named : written) {
     // Only --output can be a row.

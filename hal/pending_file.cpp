@@ -163,7 +163,7 @@ int PendingFile::createTemporary() {
   for (int writer = 1; writer <= kWritersAtOnce && fd == -EEXIST; ++writer) {
     const std::string number = writer == 1 ? "" : "." + std::to_string(writer);
     temporary_ = target_;
-    temporary_.replace_filename("." + name + number + ".part");
+    temporary_.replace_filename(std::string(".").append(name).append(number).append(".part"));
     fd = files_->create(temporary_);
   }
   return fd;

@@ -52,6 +52,8 @@ struct GbmNode {
   explicit GbmNode(const std::string& path) : fd(open(path.c_str(), O_RDWR | O_CLOEXEC)) {
     if (fd >= 0) device = gbm_create_device(fd);
   }
+  GbmNode(const GbmNode&) = delete;
+  GbmNode& operator=(const GbmNode&) = delete;
   GbmNode(GbmNode&& other) noexcept
       : fd(std::exchange(other.fd, -1)), device(std::exchange(other.device, nullptr)) {}
   GbmNode& operator=(GbmNode&& other) noexcept {
@@ -213,7 +215,7 @@ class OpenContext {
 
 /// Whoever sets Mesa's variable wants no hardware looked for.
 bool softwareIsWanted() {
-  const char* value = std::getenv("LIBGL_ALWAYS_SOFTWARE");
+  const char* value = std::getenv("LIBGL_ALWAYS_SOFTWARE");  // NOLINT(concurrency-mt-unsafe)
   return value != nullptr && (std::strcmp(value, "1") == 0 || std::strcmp(value, "true") == 0);
 }
 

@@ -28,7 +28,7 @@ class ContactSheet {
   struct Moment {
     hal::Image original;
     hal::Image painted;
-    hal::Duration time;
+    hal::Duration time{0};
   };
   std::vector<const Moment*> chosen() const;
 
