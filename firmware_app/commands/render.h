@@ -25,9 +25,9 @@ struct RenderOptions {
 };
 
 /// Paints a recording, frame by frame, none dropped: `pleinair render`. Throws hal::StartupError
-/// and config::ConfigError. Returns the exit status: 0, or 128 + the signal that broke it off. Then,
-/// or after a failure, nothing stands under the output's name, but a folder or a pattern keeps the
-/// whole frames that were written so far.
+/// and config::ConfigError. Returns the exit status: 0, or 128 + the signal that broke it off.
+/// Then, or after a failure, nothing stands under the output's name, but a folder or a pattern
+/// keeps the whole frames that were written so far.
 int render(const RenderOptions& options);
 
 }  // namespace pleinair::app

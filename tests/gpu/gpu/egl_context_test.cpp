@@ -80,8 +80,8 @@ std::vector<std::uint8_t> paintedBytes() {
   FrameUploader uploader{ShaderLibrary{}};
   std::vector<std::uint8_t> bytes;
   for (unsigned seed = 0; seed < 5; ++seed) {
-    const hal::Image frame = support::randomImage(
-        {.pixelFormat = hal::PixelFormat::kNv12, .size = {161, 121}}, seed);
+    const hal::Image frame =
+        support::randomImage({.pixelFormat = hal::PixelFormat::kNv12, .size = {161, 121}}, seed);
     hal::Image result = support::readRgba8(uploader.upload(frame.view(), {100, 75}));
     bytes.insert(bytes.end(), result.plane(0).begin(), result.plane(0).end());
   }

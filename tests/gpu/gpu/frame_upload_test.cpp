@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/oracles/frame_oracle.h"
-#include "tests/support/gl_test.h"
 #include "tests/support/gl_pictures.h"
+#include "tests/support/gl_test.h"
 
 namespace pleinair::gpu {
 namespace {

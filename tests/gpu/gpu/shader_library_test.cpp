@@ -14,12 +14,12 @@
 namespace pleinair::gpu {
 namespace {
 
+using support::GlTest;
+using support::readRgba8;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
-using support::GlTest;
-using support::readRgba8;
 
 constexpr std::string_view kMain =
     "layout(location = 0) out vec4 colour;\n"

@@ -129,8 +129,7 @@ TEST_F(WatercolorTest, AllocatesNothingAfterTheFirstFrameOfASize) {
   Watercolor style(library_);
   const gpu::Texture picture = textureOf(testPicture({120, 90}, 5).view());
   style.paint(frameOf(picture, 0), "", timer_);
-  EXPECT_EQ(support::allocationsIn([&] { style.paint(frameOf(picture, 1), "", timer_); }),
-            0);
+  EXPECT_EQ(support::allocationsIn([&] { style.paint(frameOf(picture, 1), "", timer_); }), 0);
   const gpu::Texture other = textureOf(testPicture({64, 64}, 5).view());
   EXPECT_GT(support::allocationsIn([&] { style.paint(frameOf(other, 2), "", timer_); }), 0)
       << "the counter counts";
