@@ -49,15 +49,15 @@ config::ParameterValues withSettings(config::ParameterValues values,
 
 std::optional<std::uint64_t> framesToPaint(const hal::StreamFormat& stream,
                                            const PaintingJob& job) {
-  if (!stream.frameCount) return job.frames;
-  return job.frames ? std::min(*job.frames, *stream.frameCount) : stream.frameCount;
+  if (!stream.frameCount) return job.options.frames;
+  return job.options.frames ? std::min(*job.options.frames, *stream.frameCount) : stream.frameCount;
 }
 
 /// The style's own, with the job's settings and view.
 PaintParameters parametersOf(const Painter& painter, const PaintingJob& job) {
   PaintParameters parameters = painter.defaultParameters();
-  parameters.view = job.view;
-  parameters.style = withSettings(parameters.style, job.set);
+  parameters.view = job.options.view;
+  parameters.style = withSettings(parameters.style, job.options.set);
   return parameters;
 }
 
@@ -85,16 +85,16 @@ class Painting {
   explicit Painting(const PaintingJob& job)
       : job_(job),
         stream_(orThrow(job.camera->start({}))),
-        output_(orThrow(hal::openFileOutput(job.output))),
+        output_(orThrow(hal::openFileOutput(job.options.output))),
         painter_({.pictureSize = pictureSize(),
                   .scene = job.scene,
-                  .style = job.style,
-                  .tracksTags = !job.scene.tags.empty() || job.poses,
-                  .shaderDirectory = job.shaderDirectory,
+                  .style = job.options.style,
+                  .tracksTags = !job.scene.tags.empty() || job.options.poses,
+                  .shaderDirectory = job.options.shaderDirectory,
                   .expectedFormat = stream_.frame}),
         parameters_(parametersOf(painter_, job)),
-        poses_(created<PosesFile>(job.poses)),
-        sheetFile_(created<hal::PendingFile>(job.contactSheet)),
+        poses_(created<PosesFile>(job.options.poses)),
+        sheetFile_(created<hal::PendingFile>(job.options.contactSheet)),
         outputFormat_(
             orThrow(output_->start({.size = pictureSize(), .framePeriod = stream_.framePeriod}))),
         reader_(painter_.openReader(outputFormat_.frame)) {
@@ -111,7 +111,7 @@ class Painting {
       summary = fmt::format("{} {} {} in {:.1f} s ({:.1f} frames/s): {}\n", job_.done,
                             progress.frames(), progress.frames() == 1 ? "frame" : "frames",
                             std::chrono::duration<double>(progress.elapsed()).count(),
-                            progress.framesPerSecond(), job_.output.string());
+                            progress.framesPerSecond(), job_.options.output.string());
     }
     warn(unseenTagsWarning(job_.scene, seenTags_));
     // Whether it arrived is looked at once, at the program's end.
@@ -120,11 +120,11 @@ class Painting {
   }
 
  private:
-  hal::FrameSize pictureSize() const { return job_.size.value_or(stream_.frame.size); }
+  hal::FrameSize pictureSize() const { return job_.options.size.value_or(stream_.frame.size); }
 
   /// As run().
   int paintAll(Progress& progress) {
-    while (!job_.frames || progress.frames() < *job_.frames) {
+    while (!job_.options.frames || progress.frames() < *job_.options.frames) {
       if (const int signal = Interrupt::received(); signal != 0) return signal;
       const std::optional<hal::CapturedFrame> frame = nextFrame(progress);
       if (!frame) break;
@@ -214,9 +214,9 @@ class Painting {
 };
 
 void reportInterruption(int signal, const PaintingJob& job) {
-  printError(
-      fmt::format("broken off by {}; {}", signalName(signal),
-                  isPictureRow(job.output) ? "frames written so far stay" : "nothing was written"));
+  printError(fmt::format(
+      "broken off by {}; {}", signalName(signal),
+      isPictureRow(job.options.output) ? "frames written so far stay" : "nothing was written"));
 }
 
 }  // namespace

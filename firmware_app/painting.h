@@ -13,13 +13,10 @@
 
 namespace pleinair::app {
 
-/// Every frame of a camera through a Painter to an output: what `render` and `record` have in
-/// common.
-struct PaintingJob {
-  hal::Camera* camera = nullptr;  ///< stopped; delivers stepped
+/// What the user chooses.
+struct PaintingOptions {
   std::filesystem::path output;
-  std::string style;
-  scene::Scene scene;
+  std::string style = "watercolor";
   std::optional<hal::FrameSize> size;   ///< default: the camera's
   std::optional<std::uint64_t> frames;  ///< default: all
   std::string view;                     ///< empty: the finished picture
@@ -27,6 +24,14 @@ struct PaintingJob {
   std::optional<std::filesystem::path> poses;
   std::optional<std::filesystem::path> contactSheet;
   std::filesystem::path shaderDirectory;
+};
+
+/// Every frame of a camera through a Painter to an output: what `render` and `record` have in
+/// common.
+struct PaintingJob {
+  hal::Camera* camera = nullptr;  ///< stopped; delivers stepped
+  PaintingOptions options;
+  scene::Scene scene;
   std::string doing;  ///< for the progress: "painting"
   std::string done;   ///< for the summary: "painted"
 };

@@ -31,8 +31,7 @@ int record(const RecordOptions& options) {
     hal::orThrow(writeDeskScene(*options.writeScene, camera.truth(0), options.size));
   }
   return runPainting({.camera = &camera,
-                      .output = options.output,
-                      .style = "none",
+                      .options = {.output = options.output, .style = "none"},
                       .doing = "recording",
                       .done = "recorded"});
 }

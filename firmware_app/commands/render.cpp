@@ -2,7 +2,6 @@
 
 #include <memory>
 
-#include "firmware_app/painting.h"
 #include "firmware_app/path_collisions.h"
 #include "hal/cameras/recording/recording.h"
 #include "pipeline/scene/scene_file.h"
@@ -27,16 +26,8 @@ int render(const RenderOptions& options) {
   hal::SteppedClock clock;
   const std::unique_ptr<hal::Camera> recording = hal::openRecording(options.input, clock);
   return runPainting({.camera = recording.get(),
-                      .output = options.output,
-                      .style = options.style,
+                      .options = options,
                       .scene = options.scene ? scene::loadScene(*options.scene) : scene::Scene{},
-                      .size = options.size,
-                      .frames = options.frames,
-                      .view = options.view,
-                      .set = options.set,
-                      .poses = options.poses,
-                      .contactSheet = options.contactSheet,
-                      .shaderDirectory = options.shaderDirectory,
                       .doing = "painting",
                       .done = "painted"});
 }

@@ -1,27 +1,15 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <string>
-#include <vector>
 
-#include "hal/pixel_format.h"
+#include "firmware_app/painting.h"
 
 namespace pleinair::app {
 
-struct RenderOptions {
+struct RenderOptions : PaintingOptions {
   std::filesystem::path input;
-  std::filesystem::path output;
-  std::string style = "watercolor";
   std::optional<std::filesystem::path> scene;
-  std::optional<hal::FrameSize> size;   ///< default: the input's
-  std::optional<std::uint64_t> frames;  ///< default: all
-  std::string view;                     ///< empty: the finished picture
-  std::vector<std::string> set;         ///< "name=value" of the style's parameters
-  std::optional<std::filesystem::path> poses;
-  std::optional<std::filesystem::path> contactSheet;
-  std::filesystem::path shaderDirectory;
 };
 
 /// Paints a recording, frame by frame, none dropped: `pleinair render`. Throws hal::StartupError
