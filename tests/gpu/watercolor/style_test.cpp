@@ -3,8 +3,8 @@
 
 #include "hal/error.h"
 #include "pipeline/styles/watercolor/watercolor.h"
-#include "tests/gpu/watercolor/allocation_count.h"
 #include "tests/gpu/watercolor/watercolor_fixture.h"
+#include "tests/support/allocation_count.h"
 
 namespace pleinair::styles {
 namespace {
