@@ -153,7 +153,7 @@ hal::Result<Picture> PaintChain::paintChecked(const hal::CapturedFrame& frame,
                  .size = picture_->size(),
                  .sequence = frame.sequence,
                  .captureTime = frame.captureTime,
-                 .tracking = std::move(tracked)};
+                 .tracking = tracked};
 }
 
 scene::ArFrame PaintChain::compose(const hal::CapturedFrame& frame,
