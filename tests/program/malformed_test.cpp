@@ -16,7 +16,6 @@ namespace pleinair::support {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
 
 constexpr long kMostMebibytes = 250;  // sound pictures of these sizes take up to 180
 const ProgramLimits kLimits{.addressSpaceBytes = 3UL << 30U, .time = std::chrono::seconds(60)};
