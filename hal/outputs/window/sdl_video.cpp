@@ -1,0 +1,55 @@
+#include "hal/outputs/window/sdl_video.h"
+
+#include <cassert>
+#include <cstdlib>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include <SDL.h>
+
+namespace pleinair::hal::window {
+namespace {
+
+// Looked at by the thread that SDL belongs to only, but for the assertion that it is that one.
+int users = 0;
+std::thread::id thread;
+
+Error noDisplay() {
+  const bool isNamed = std::getenv("DISPLAY") != nullptr ||
+                       std::getenv("WAYLAND_DISPLAY") != nullptr ||
+                       std::getenv("SDL_VIDEODRIVER") != nullptr;
+  const std::string cause = isNamed ? SDL_GetError() : "DISPLAY and WAYLAND_DISPLAY are not set";
+  return {.kind = ErrorKind::kNotFound,
+          .subject = "window",
+          .problem = "there is no display to open it on: " + cause,
+          .remedy = "start it on a desktop, or write to a file with --output FILE"};
+}
+
+}  // namespace
+
+Result<SdlVideo> SdlVideo::open() {
+  assert(users == 0 || isOnItsThread());
+  SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // SIGINT and SIGTERM are the program's
+  SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
+  SDL_SetHint(SDL_HINT_OPENGL_ES_DRIVER, "1");  // EGL, as the painter has it, not GLX
+  if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) return tl::unexpected(noDisplay());
+  thread = std::this_thread::get_id();
+  ++users;
+  return SdlVideo();
+}
+
+SdlVideo::SdlVideo(SdlVideo&& other) noexcept : isOpen_(std::exchange(other.isOpen_, false)) {}
+
+SdlVideo::~SdlVideo() {
+  if (!isOpen_) return;
+  assert(isOnItsThread());
+  --users;
+  SDL_QuitSubSystem(SDL_INIT_VIDEO);
+}
+
+bool SdlVideo::isOnItsThread() {
+  return thread == std::this_thread::get_id();
+}
+
+}  // namespace pleinair::hal::window
