@@ -17,6 +17,7 @@
 #include "config/suggestion.h"
 #include "firmware_app/commands/record.h"
 #include "firmware_app/commands/render.h"
+#include "firmware_app/commands/run.h"
 #include "firmware_app/commands/styles.h"
 #include "firmware_app/exit_status.h"
 #include "firmware_app/log.h"
@@ -87,6 +88,43 @@ void addRender(CLI::App& app, RenderOptions& options, std::function<int()>& chos
       ->type_name("DIR");
   refuseEmptyValues(command);
   command.callback([&] { chosen = [&options] { return render(options); }; });
+}
+
+void addRun(CLI::App& app, RunOptions& options, std::function<int()>& chosen) {
+  CLI::App& command = *app.add_subcommand("run", "paint a camera live, in a window");
+  command
+      .add_option("--camera", options.camera,
+                  "synthetic, or a recording's path, played over and over at its own pace")
+      ->capture_default_str()
+      ->type_name("NAME");
+  command.add_option("--output", options.output, "window, or a file or folder as of render")
+      ->capture_default_str()
+      ->check(refuseStandardOutput)
+      ->type_name("NAME");
+  command.add_option("--style", options.style, "how to paint; `pleinair styles` lists them")
+      ->capture_default_str()
+      ->type_name("NAME");
+  command.add_option("--scene", options.scene, "tags and models (TOML)")->type_name("FILE");
+  addSize(
+      command, [&options](hal::FrameSize size) { options.size = size; },
+      "of the painting (default: the camera's)");
+  addFrames(
+      command, [&options](std::uint64_t count) { options.frames = count; }, "end after N");
+  command.add_option("--view", options.view, "an inner picture instead of the finished one")
+      ->type_name("NAME");
+  command.add_option("--set", options.set, "a parameter of the style, such as cell_size=12")
+      ->type_name("NAME=VALUE")
+      ->take_all();
+  command.add_option("--stills", options.stills, "the folder that the key s saves pictures to")
+      ->capture_default_str()
+      ->type_name("DIR");
+  command
+      .add_option("--shaders", options.shaderDirectory,
+                  "a copy of the source tree whose shaders replace the built-in ones")
+      ->type_name("DIR");
+  command.footer("In the window, h lists the keys.");
+  refuseEmptyValues(command);
+  command.callback([&] { chosen = [&options] { return run(options); }; });
 }
 
 void addRecord(CLI::App& app, RecordOptions& options, std::function<int()>& chosen) {
@@ -183,7 +221,9 @@ int parseAndRun(int argc, const char* const* argv) {
   app.require_subcommand(0, 1);  // none is named below: CLI11 would keep quiet about a wrong one
   RenderOptions renderOptions;
   RecordOptions recordOptions;
+  RunOptions runOptions;
   std::function<int()> chosen;
+  addRun(app, runOptions, chosen);
   addRender(app, renderOptions, chosen);
   addRecord(app, recordOptions, chosen);
   app.add_subcommand("styles", "list styles with their views and parameters")->callback([&] {
@@ -191,7 +231,7 @@ int parseAndRun(int argc, const char* const* argv) {
   });
   try {
     app.parse(argumentsReversed(argc, argv));
-    if (!chosen) throw CLI::RequiredError("one of render, record and styles");
+    if (!chosen) throw CLI::RequiredError("one of run, render, record and styles");
     return chosen();
   } catch (const CLI::ParseError& error) {
     return reportParseError(app, error);

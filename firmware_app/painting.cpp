@@ -12,6 +12,7 @@
 
 #include "firmware_app/exit_status.h"
 #include "firmware_app/interrupt.h"
+#include "firmware_app/overloaded.h"
 #include "firmware_app/path_collisions.h"
 #include "firmware_app/poses_file.h"
 #include "firmware_app/progress.h"
@@ -53,14 +54,6 @@ std::optional<std::uint64_t> framesToPaint(const hal::StreamFormat& stream,
   return job.options.frames ? std::min(*job.options.frames, *stream.frameCount) : stream.frameCount;
 }
 
-/// The style's own, with the job's settings and view.
-PaintParameters parametersOf(const Painter& painter, const PaintingJob& job) {
-  PaintParameters parameters = painter.defaultParameters();
-  parameters.view = job.options.view;
-  parameters.style = withSettings(parameters.style, job.options.set);
-  return parameters;
-}
-
 void warn(const std::optional<std::string>& warning) {
   if (warning) spdlog::warn("{}", *warning);
 }
@@ -70,13 +63,6 @@ std::optional<File> created(const std::optional<std::filesystem::path>& path) {
   if (!path) return std::nullopt;
   return orThrow(File::create(*path));
 }
-
-template <class... Functions>
-struct Overloaded : Functions... {
-  using Functions::operator()...;
-};
-template <class... Functions>
-Overloaded(Functions...) -> Overloaded<Functions...>;
 
 /// One run of a job: the camera, the painter and everything that is written.
 class Painting {
@@ -92,7 +78,7 @@ class Painting {
                   .tracksTags = !job.scene.tags.empty() || job.options.poses,
                   .shaderDirectory = job.options.shaderDirectory,
                   .expectedFormat = stream_.frame}),
-        parameters_(parametersOf(painter_, job)),
+        parameters_(parametersOf(painter_, job.options)),
         poses_(created<PosesFile>(job.options.poses)),
         sheetFile_(created<hal::PendingFile>(job.options.contactSheet)),
         outputFormat_(
@@ -220,6 +206,13 @@ void reportInterruption(int signal, const PaintingJob& job) {
 }
 
 }  // namespace
+
+PaintParameters parametersOf(const Painter& painter, const PaintingOptions& options) {
+  PaintParameters parameters = painter.defaultParameters();
+  parameters.view = options.view;
+  parameters.style = withSettings(parameters.style, options.set);
+  return parameters;
+}
 
 int runPainting(const PaintingJob& job) {
   const Interrupt interrupt;

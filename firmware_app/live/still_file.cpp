@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <string>
-#include <system_error>
+#include <utility>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -24,27 +26,31 @@ std::string stem(std::time_t time) {
   return {text.data(), length};
 }
 
+/// 0, or errno.
+int renameToNew(const fs::path& from, const fs::path& to) {
+  const int status = renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE);
+  return status == 0 ? 0 : errno;
+}
+
 }  // namespace
 
 hal::Result<fs::path> saveStill(const fs::path& folder, const hal::ImageView& picture,
                                 std::time_t time) {
   const std::string name = stem(time);
-  // Written whole under a hidden name of this process's, then linked, which replaces nothing.
+  // Written whole under a hidden name of this process's, then renamed, which replaces nothing.
   const fs::path hidden = folder / fmt::format(".{}.{}.png", name, getpid());
   if (auto written = hal::writePng(hidden, picture); !written) {
     return tl::unexpected(std::move(written.error()));
   }
   fs::path path = folder / (name + ".png");
-  std::error_code status;
-  fs::create_hard_link(hidden, path, status);
-  for (int number = 2; status == std::errc::file_exists; ++number) {
+  int status = renameToNew(hidden, path);
+  for (int number = 2; status == EEXIST; ++number) {
     path = folder / fmt::format("{}-{}.png", name, number);
-    fs::create_hard_link(hidden, path, status);
+    status = renameToNew(hidden, path);
   }
-  std::error_code ignored;
-  fs::remove(hidden, ignored);
-  if (status) {
-    return tl::unexpected(hal::errnoError(path.string(), "cannot write", status.value(),
+  if (status != 0) {
+    unlink(hidden.c_str());
+    return tl::unexpected(hal::errnoError(path.string(), "cannot write", status,
                                           "choose another folder with --stills DIR"));
   }
   return path;
