@@ -20,6 +20,7 @@ struct Release {
 using Context = std::unique_ptr<PangoContext, Release<g_object_unref>>;
 using Layout = std::unique_ptr<PangoLayout, Release<g_object_unref>>;
 using Font = std::unique_ptr<PangoFontDescription, Release<pango_font_description_free>>;
+using Text = std::unique_ptr<char, Release<g_free>>;
 using Tabs = std::unique_ptr<PangoTabArray, Release<pango_tab_array_free>>;
 using Surface = std::unique_ptr<cairo_surface_t, Release<cairo_surface_destroy>>;
 using Canvas = std::unique_ptr<cairo_t, Release<cairo_destroy>>;
@@ -34,7 +35,8 @@ Layout layoutOf(PangoContext* context, const std::string& text, int fontPixels, 
   const Tabs tabs(
       pango_tab_array_new_with_positions(1, TRUE, PANGO_TAB_LEFT, kSecondColumnEms * fontPixels));
   pango_layout_set_tabs(layout.get(), tabs.get());
-  pango_layout_set_text(layout.get(), text.data(), static_cast<int>(text.size()));
+  const Text sound(g_utf8_make_valid(text.data(), static_cast<gssize>(text.size())));
+  pango_layout_set_text(layout.get(), sound.get(), -1);
   int width = 0;
   pango_layout_get_pixel_size(layout.get(), &width, nullptr);
   if (width > mostWidth) {

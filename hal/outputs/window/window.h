@@ -12,7 +12,7 @@ namespace pleinair::hal {
 /// A key went down, or repeats while it is held. Keys with Control, Alt or the logo key are the
 /// desktop's and do not come.
 struct KeyPressed {
-  /// What the key says without Shift, in lower case: "a", "1", "tab", "left", "page down", "f1",
+  /// What the key says without Shift, in lower case: "a", "1", "tab", "left", "pagedown", "f1",
   /// "space", "escape"; and "?" however it is typed.
   std::string name;
   bool shift = false;
