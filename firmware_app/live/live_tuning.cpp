@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -21,15 +22,16 @@ std::size_t around(std::size_t index, int direction, std::size_t count) {
   return (index + (direction > 0 ? 1 : count - 1)) % count;
 }
 
+/// "4 to 64", where that says all.
 std::string rangeText(const ParameterDescriptor& parameter) {
-  switch (parameter.kind()) {
-    case ParameterKind::kNumber:
-      return fmt::format("{} to {}", parameter.numberRange.min, parameter.numberRange.max);
-    case ParameterKind::kInteger:
-      return fmt::format("{} to {}", parameter.integerRange.min, parameter.integerRange.max);
-    case ParameterKind::kSwitch:
-    case ParameterKind::kChoice:
-      break;
+  const config::NumberRange& numbers = parameter.numberRange;
+  const bool isPlain =
+      std::isfinite(numbers.max - numbers.min) && !numbers.minOpen && !numbers.maxOpen;
+  if (parameter.kind() == ParameterKind::kNumber && isPlain) {
+    return fmt::format("{} to {}", numbers.min, numbers.max);
+  }
+  if (parameter.kind() == ParameterKind::kInteger) {
+    return fmt::format("{} to {}", parameter.integerRange.min, parameter.integerRange.max);
   }
   return parameter.allowed();
 }
