@@ -14,8 +14,8 @@ namespace pleinair::hal {
 /// known).
 Result<std::unique_ptr<MemoryOutput>> openFileOutput(const std::filesystem::path& path);
 
-/// As openFileOutput(), and "window" is a hal::Window. Errors also: kUnsupported (this build has no
-/// window).
+/// As openFileOutput(), and "window" is a hal::Window. Errors also: kNotFound (there is no
+/// display), kUnsupported (this build has no window).
 Result<std::unique_ptr<MemoryOutput>> openOutput(const std::string& name);
 
 }  // namespace pleinair::hal

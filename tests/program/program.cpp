@@ -2,7 +2,12 @@
 
 #include <array>
 #include <csignal>
+#include <cstdlib>
+#include <exception>
 #include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <thread>
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -51,6 +56,14 @@ struct Pipe {
     const rlimit limit{limits.fileBytes, limits.fileBytes};
     setrlimit(RLIMIT_FSIZE, &limit);
   }
+  for (const std::string& variable : limits.environment) {
+    const std::size_t equals = variable.find('=');
+    if (equals == std::string::npos) {
+      unsetenv(variable.c_str());
+    } else {
+      setenv(variable.substr(0, equals).c_str(), variable.substr(equals + 1).c_str(), 1);
+    }
+  }
   std::vector<char*> argv;
   std::string program = PLEINAIR_PROGRAM;
   argv.push_back(program.data());
@@ -71,6 +84,15 @@ bool drain(const pollfd& ready, std::string& text) {
   return true;
 }
 
+void callMeanwhile(const ProgramLimits& limits, pid_t child) {
+  try {
+    limits.meanwhile(child);
+  } catch (const std::exception& error) {
+    ADD_FAILURE() << error.what();
+    kill(child, SIGTERM);
+  }
+}
+
 }  // namespace
 
 ProgramRun runProgram(const std::vector<std::string>& arguments, const ProgramLimits& limits) {
@@ -80,6 +102,8 @@ ProgramRun runProgram(const std::vector<std::string>& arguments, const ProgramLi
   if (child == 0) becomeProgram(arguments, limits, out, error);
   out.closeWrite();
   error.closeWrite();
+  std::optional<std::jthread> meanwhile;
+  if (limits.meanwhile) meanwhile.emplace([&] { callMeanwhile(limits, child); });
   ProgramRun run;
   bool outOpen = true;
   bool errorOpen = true;

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
+
+#include <sys/types.h>
 
 namespace pleinair::support {
 
@@ -19,6 +22,10 @@ struct ProgramLimits {
   std::string terminateWhenExists;
   /// What it prints goes into this instead of ProgramRun::out; empty: nowhere else.
   std::string printsInto;
+  /// Variables of the environment: "NAME=value", or "NAME" for one that is not to be there.
+  std::vector<std::string> environment;
+  /// Called beside the program, on a thread of its own, with the program's process.
+  std::function<void(pid_t)> meanwhile;
 };
 
 /// Runs `pleinair` with these arguments, killed after two minutes.

@@ -52,7 +52,8 @@ std::optional<Duration> refreshOf(SDL_Window* window) {
 
 class SdlWindow final : public Window {
  public:
-  ~SdlWindow() override { assert(!video_ || SdlVideo::isOnItsThread()); }
+  explicit SdlWindow(SdlVideo video) : video_(std::move(video)) {}
+  ~SdlWindow() override { assert(SdlVideo::isOnItsThread()); }
 
   OutputIdentity identity() const override { return {.backend = "window", .id = "window"}; }
   Result<OutputFormat> start(const OutputRequest& request) override;
@@ -78,7 +79,7 @@ class SdlWindow final : public Window {
   bool isStarted() const { return texture_ != nullptr && SdlVideo::isOnItsThread(); }
 
   FrameFormat format_;
-  std::optional<SdlVideo> video_;
+  SdlVideo video_;
   WindowHandle window_;
   RendererHandle renderer_;
   TextureHandle texture_;
@@ -88,16 +89,13 @@ class SdlWindow final : public Window {
 };
 
 Result<OutputFormat> SdlWindow::start(const OutputRequest& request) {
-  assert(!video_);
+  assert(window_ == nullptr && SdlVideo::isOnItsThread());
   if (!isAcceptedSize(request.size)) {
     return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
                                 .subject = kSubject,
                                 .problem = "cannot take this size",
                                 .remedy = "use 1 to 8192 px a side and at most 64 Mpx"});
   }
-  Result<SdlVideo> video = SdlVideo::open();
-  if (!video) return tl::unexpected(std::move(video.error()));
-  video_.emplace(*std::move(video));
   format_ = {.pixelFormat = PixelFormat::kRgba8, .size = request.size};
   if (Result<void> opened = open(request.size); !opened) return tl::unexpected(opened.error());
   return OutputFormat{.frame = format_, .refreshPeriod = refreshOf(window_.get())};
@@ -247,7 +245,9 @@ void SdlWindow::setFullScreen(bool on) {
 }  // namespace
 
 Result<std::unique_ptr<Window>> openWindow() {
-  return std::make_unique<SdlWindow>();
+  Result<SdlVideo> video = SdlVideo::open();
+  if (!video) return tl::unexpected(std::move(video.error()));
+  return std::make_unique<SdlWindow>(*std::move(video));
 }
 
 }  // namespace pleinair::hal

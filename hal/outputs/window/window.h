@@ -32,8 +32,8 @@ using WindowEvent = std::variant<KeyPressed, WindowClosed, WindowResized>;
 /// A window on a desktop: the last picture, scaled to fit, with black bars where the shapes differ.
 /// All of it, over all windows of the process, on one thread, which is asserted.
 ///
-/// start() opens it in the picture's size where that fits the screen, and answers RGBA8 and the
-/// screen's refresh. Errors of start() also: kNotFound (there is no display).
+/// start() shows it in the picture's size where that fits the screen, and answers RGBA8 and the
+/// screen's refresh.
 class Window : public MemoryOutput {
  public:
   /// What has happened since the last call, oldest first. To be called several times a second, or
@@ -55,8 +55,8 @@ class Window : public MemoryOutput {
   virtual Result<Image> shown() = 0;
 };
 
-/// A window through SDL. Nothing is opened before start(). Errors: kUnsupported (this build has no
-/// window).
+/// A window through SDL, on the display that the environment names; start() shows it. Errors:
+/// kNotFound (there is no display), kUnsupported (this build has no window).
 Result<std::unique_ptr<Window>> openWindow();
 
 }  // namespace pleinair::hal

@@ -239,22 +239,21 @@ TEST_F(WindowTest, SaysThatThereIsNoDisplay) {
   unsetenv("SDL_VIDEODRIVER");
   unsetenv("DISPLAY");
   unsetenv("WAYLAND_DISPLAY");
-  const auto window = orThrow(openWindow());
-  const auto format = window->start({.size = {320, 240}});
-  ASSERT_FALSE(format.has_value());
-  EXPECT_EQ(format.error().kind, ErrorKind::kNotFound);
-  EXPECT_THAT(format.error().message(), HasSubstr("DISPLAY and WAYLAND_DISPLAY are not set"));
-  EXPECT_THAT(format.error().message(), HasSubstr("--output FILE"));
+  const auto window = openWindow();
+  ASSERT_FALSE(window.has_value());
+  EXPECT_EQ(window.error().kind, ErrorKind::kNotFound);
+  EXPECT_THAT(window.error().message(), HasSubstr("DISPLAY and WAYLAND_DISPLAY are not set"));
+  EXPECT_THAT(window.error().message(), HasSubstr("--output FILE"));
 }
 
 TEST_F(WindowTest, SaysThatTheNamedDisplayIsNotThere) {
   unsetenv("SDL_VIDEODRIVER");
   unsetenv("WAYLAND_DISPLAY");
   setenv("DISPLAY", ":49151", 1);
-  const auto format = orThrow(openWindow())->start({.size = {320, 240}});
-  ASSERT_FALSE(format.has_value());
-  EXPECT_EQ(format.error().kind, ErrorKind::kNotFound);
-  EXPECT_THAT(format.error().message(), HasSubstr("x11"));
+  const auto window = openWindow();
+  ASSERT_FALSE(window.has_value());
+  EXPECT_EQ(window.error().kind, ErrorKind::kNotFound);
+  EXPECT_THAT(window.error().message(), HasSubstr("x11"));
 }
 
 using WindowDeathTest = WindowTest;
