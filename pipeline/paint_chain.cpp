@@ -79,6 +79,18 @@ std::vector<PainterView> PaintChain::views() const {
   return views;
 }
 
+std::vector<PainterLook> PaintChain::looks() const {
+  std::vector<PainterLook> looks;
+  for (const styles::Look& look : styles::styleInfo(style_->name()).looks) {
+    looks.push_back({std::string(look.name), std::string(look.help)});
+  }
+  return looks;
+}
+
+config::ParameterValues PaintChain::lookParameters(std::string_view look) const {
+  return styles::styleInfo(style_->name()).parametersOf(look);
+}
+
 hal::Result<void> PaintChain::checkView(const std::string& view) const {
   if (view.empty() || isOurs(view)) return {};
   const auto ofStyle = style_->views();

@@ -26,6 +26,8 @@ class PaintChain {
 
   PaintParameters defaultParameters() const;
   std::vector<PainterView> views() const;
+  std::vector<PainterLook> looks() const;
+  config::ParameterValues lookParameters(std::string_view look) const;
   hal::Result<Picture> paint(const hal::CapturedFrame& frame, const PaintParameters& parameters);
 
   int openReader(const hal::FrameFormat& format);

@@ -106,7 +106,7 @@ Watercolor::Watercolor(const gpu::ShaderLibrary& library)
 
 Watercolor::~Watercolor() = default;
 
-std::span<const ViewInfo> Watercolor::views() const {
+std::span<const ViewInfo> watercolorViews() {
   return kViews;
 }
 

@@ -8,6 +8,9 @@
 
 namespace pleinair::styles {
 
+/// The style's inner pictures, apart from the finished one.
+std::span<const ViewInfo> watercolorViews();
+
 /// Chapter III of the thesis: the frame tiled by the Voronoi cells of jittered seeds, each painted
 /// with its mean colour, dark edges over it, seeds drawn to the edges in every frame; with washes
 /// that run together, granulation and paper. All on the GPU, nothing is read back.
@@ -31,7 +34,7 @@ class Watercolor final : public Style {
   Watercolor& operator=(Watercolor&&) = delete;
 
   std::string_view name() const override { return "watercolor"; }
-  std::span<const ViewInfo> views() const override;
+  std::span<const ViewInfo> views() const override { return watercolorViews(); }
   const config::ParameterValues& parameters() const override { return values_; }
   void setParameters(const config::ParameterValues& values) override;
   const gpu::Texture& paint(const scene::ArFrame& frame, std::string_view view,
