@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "config/config_error.h"
 #include "config/suggestion.h"
 #include "config/toml_text.h"
 
@@ -40,17 +41,15 @@ std::optional<PixelSize> parsedSize(std::string_view text) {
 }
 
 bool hasControlCharacter(std::string_view text) {
-  return std::any_of(text.begin(), text.end(), [](char c) {
-    return static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
-  });
+  return std::any_of(text.begin(), text.end(),
+                     [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
 }
 
 bool isAllowedPath(const ParameterDescriptor& descriptor, const std::string& path) {
   const auto& words = descriptor.choices;
   if (isAmong(words, path)) return true;
-  const bool goesOnFromAWord = std::any_of(words.begin(), words.end(), [&](const auto& word) {
-    return path.starts_with(word + ':');
-  });
+  const bool goesOnFromAWord = std::any_of(
+      words.begin(), words.end(), [&](const auto& word) { return path.starts_with(word + ':'); });
   return !goesOnFromAWord && !path.empty() && path.size() <= kLongestPath &&
          path.find('\0') == std::string::npos && path.ends_with(descriptor.pathEnding);
 }
@@ -122,6 +121,7 @@ std::string ParameterDescriptor::allowed() const {
     case ParameterKind::kChoice:
       return "one of " + listText(choices);
     case ParameterKind::kText:
+      if (!textAllowed.empty()) return textAllowed;
       return fmt::format("a text of 1 to {} bytes on one line", kLongestText);
     case ParameterKind::kPath:
       return allowedPaths(*this);
@@ -177,7 +177,8 @@ std::string ParameterDescriptor::tomlOf(const ParameterValue& value) const {
   }
   const std::optional<std::string> toml = tomlString(text);
   if (!toml) {
-    throw ConfigError({.key = name, .found = quoted(text), .allowed = "UTF-8, to be put into TOML"});
+    throw ConfigError(
+        {.key = name, .found = config::quoted(text), .allowed = "UTF-8, to be put into TOML"});
   }
   return *toml;
 }

@@ -35,13 +35,14 @@ struct ParameterDescriptor {
   std::string name;  ///< lower case with underscores, a TOML key: "cell_size"
   std::string help;  ///< one line
   ParameterValue defaultValue;
-  NumberRange numberRange;           ///< of a number
-  IntegerRange integerRange;         ///< of an integer
-  SizeRange sizeRange;               ///< of a size
+  NumberRange numberRange;    ///< of a number
+  IntegerRange integerRange;  ///< of an integer
+  SizeRange sizeRange;        ///< of a size
   /// Of a choice, by index. Of a path, words that stand for something else ("none"); text that goes
   /// on from one of them after a colon is no path. Of a size, what stands for 0x0, if anything.
   std::vector<std::string> choices;
-  std::string pathEnding;  ///< of a path: ".toml"; empty: any
+  std::string textAllowed;  ///< of a text, for messages: "a name that ... lists"; empty: any
+  std::string pathEnding;   ///< of a path: ".toml"; empty: any
   TakesEffect takesEffect = TakesEffect::kLive;
 
   ParameterKind kind() const { return static_cast<ParameterKind>(defaultValue.index()); }
@@ -56,8 +57,8 @@ struct ParameterDescriptor {
   std::string textOf(const ParameterValue& value) const;
   /// Nothing where the text is not an allowed value.
   std::optional<ParameterValue> parse(std::string_view text) const;
-  /// The value as TOML: strings in quotes, and paths absolute, so that they hold in any file. Throws
-  /// a ConfigError where it is not UTF-8.
+  /// The value as TOML: strings in quotes, and paths absolute, so that they hold in any file.
+  /// Throws a ConfigError where it is not UTF-8.
   std::string tomlOf(const ParameterValue& value) const;
   /// Text that parse() does not take, for a message: `"celsl" (did you mean "cells"?)`.
   std::string foundIn(std::string_view text) const;

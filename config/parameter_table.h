@@ -83,15 +83,15 @@ ParameterBinding<P> choiceParameter(const std::string& name, std::string P::*mem
           }};
 }
 
+/// `allowed` as ParameterDescriptor::textAllowed.
 template <class P>
 ParameterBinding<P> textParameter(const std::string& name, std::string P::*member,
-                                  const std::string& help,
+                                  const std::string& allowed, const std::string& help,
                                   TakesEffect takesEffect = TakesEffect::kLive) {
-  return {{.name = name, .help = help, .takesEffect = takesEffect},
-          [member](const P& p) { return ParameterValue(p.*member); },
-          [member](P& p, const ParameterValue& value) {
-            p.*member = std::get<std::string>(value);
-          }};
+  return {
+      {.name = name, .help = help, .textAllowed = allowed, .takesEffect = takesEffect},
+      [member](const P& p) { return ParameterValue(p.*member); },
+      [member](P& p, const ParameterValue& value) { p.*member = std::get<std::string>(value); }};
 }
 
 /// A file or folder, or one of `words`; `ending` as of ParameterDescriptor.
@@ -117,19 +117,14 @@ ParameterBinding<P> sizeParameter(const std::string& name, PixelSize P::*member,
                                   const SizeRange& range, const std::vector<std::string>& word,
                                   const std::string& help,
                                   TakesEffect takesEffect = TakesEffect::kRestart) {
-  return {{.name = name,
-           .help = help,
-           .sizeRange = range,
-           .choices = word,
-           .takesEffect = takesEffect},
-          [member](const P& p) { return ParameterValue(p.*member); },
-          [member](P& p, const ParameterValue& value) {
-            p.*member = std::get<PixelSize>(value);
-          }};
+  return {
+      {.name = name, .help = help, .sizeRange = range, .choices = word, .takesEffect = takesEffect},
+      [member](const P& p) { return ParameterValue(p.*member); },
+      [member](P& p, const ParameterValue& value) { p.*member = std::get<PixelSize>(value); }};
 }
 
-/// The parameters of one style or part of the program, bound to the members of its struct P, whose initialisers are the
-/// defaults:
+/// The parameters of one style or part of the program, bound to the members of its struct P, whose
+/// initialisers are the defaults:
 ///
 ///     struct WatercolorParameters { double cellSize = 8; bool paper = true; };
 ///     const ParameterTable<WatercolorParameters>& watercolorParameters() {

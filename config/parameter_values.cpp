@@ -137,7 +137,7 @@ std::string ParameterValues::toToml(Printed which) const {
   std::string toml;
   for (std::size_t i = 0; i < data_->values.size(); ++i) {
     const ParameterDescriptor& each = list().descriptors()[i];
-    if (which == Printed::kChanged && at(i) == each.defaultValue) continue;
+    if (which == Printed::kGiven && data_->origins[i] == kDefaultOrigin) continue;
     if (!toml.empty()) toml += '\n';
     toml += fmt::format("# {}\n# {}; default: {}; {}\n{} = {}  # {}\n", each.help, each.allowed(),
                         each.textOf(each.defaultValue),

@@ -16,7 +16,7 @@ inline constexpr std::string_view kDefaultOrigin = "default";
 /// Which values are put into a text.
 enum class Printed {
   kAll,
-  kChanged  ///< those that are not the defaults
+  kGiven  ///< those of another origin than "default"
 };
 
 /// A value for each parameter of a list: an immutable snapshot. A copy is a shared pointer's, so it

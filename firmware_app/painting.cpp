@@ -26,26 +26,9 @@ namespace pleinair::app {
 namespace {
 
 using hal::Error;
-using hal::ErrorKind;
 using hal::orThrow;
 
 constexpr int kSignalExitBase = 128;
-
-/// Applies "name=value" settings to the style's parameters.
-config::ParameterValues withSettings(config::ParameterValues values,
-                                     const std::vector<std::string>& settings) {
-  for (const std::string& setting : settings) {
-    const std::size_t equals = setting.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      throw hal::StartupError(Error{.kind = ErrorKind::kInvalidArgument,
-                                    .subject = "--set",
-                                    .problem = fmt::format("found \"{}\"", setting),
-                                    .remedy = "write name=value"});
-    }
-    values = values.with(setting.substr(0, equals), setting.substr(equals + 1), "--set");
-  }
-  return values;
-}
 
 std::optional<std::uint64_t> framesToPaint(const hal::StreamFormat& stream,
                                            const PaintingJob& job) {
@@ -53,11 +36,11 @@ std::optional<std::uint64_t> framesToPaint(const hal::StreamFormat& stream,
   return job.options.frames ? std::min(*job.options.frames, *stream.frameCount) : stream.frameCount;
 }
 
-/// The style's own, with the job's settings and view.
+/// The style's own, or the job's, with the job's view.
 PaintParameters parametersOf(const Painter& painter, const PaintingJob& job) {
   PaintParameters parameters = painter.defaultParameters();
   parameters.view = job.options.view;
-  parameters.style = withSettings(parameters.style, job.options.set);
+  if (job.options.parameters) parameters.style = *job.options.parameters;
   return parameters;
 }
 
