@@ -45,8 +45,8 @@ const ParameterTable<CameraSettings>& cameraTable() {
       sizeParameter("size", &CameraSettings::size, kSizes, {},
                     "Of the synthetic camera's frames; movies have even sides."),
       numberParameter("rate", &CameraSettings::framesPerSecond,
-                      {.min = 1, .max = 240, .unit = "frames a second"}, "Of the synthetic camera.",
-                      TakesEffect::kRestart),
+                      {.min = 1, .max = 240, .unit = "frames a second"},
+                      "How many frames the synthetic camera makes.", TakesEffect::kRestart),
       integerParameter("seed", &CameraSettings::seed, {.min = 0},
                        "Of the synthetic camera's world and path.", TakesEffect::kRestart),
       numberParameter(
