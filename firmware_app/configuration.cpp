@@ -232,28 +232,28 @@ std::string Configuration::toToml(config::Printed which) const {
          (which == config::Printed::kAll ? sections_ : given_).toToml(which);
 }
 
-std::optional<std::string> Configuration::keyNamedIn(std::string_view message) const {
+ConfigError Configuration::errorAt(std::string_view key, std::string problem,
+                                   std::string allowed) const {
+  return sections_.errorAt(key, std::move(problem), std::move(allowed));
+}
+
+std::optional<std::string> Configuration::keyThatNamed(const std::string& path) const {
   for (const config::Section& section : sections_.all()) {
     const auto descriptors = section.values.list().descriptors();
     for (std::size_t i = 0; i < descriptors.size(); ++i) {
       const config::ParameterDescriptor& each = descriptors[i];
-      const bool isFile = each.kind() == config::ParameterKind::kPath;
-      if (!isFile && each.kind() != config::ParameterKind::kSize) continue;
+      if (each.kind() != config::ParameterKind::kPath) continue;
       const std::string& place = section.values.origin(each.name);
-      // An option's own message needs no more.
-      if (place == config::kDefaultOrigin || place.starts_with("--")) continue;
-      const std::string text = each.textOf(section.values.at(i));
-      const bool isWord = std::ranges::find(each.choices, text) != each.choices.end();
-      if (!isWord && message.find(text) != std::string_view::npos) {
-        return section.name.empty() ? each.name : fmt::format("{}.{}", section.name, each.name);
-      }
+      const bool isSaid = place == config::kDefaultOrigin || place.starts_with("--");
+      if (isSaid || each.textOf(section.values.at(i)) != path) continue;
+      return section.name.empty() ? each.name : fmt::format("{}.{}", section.name, each.name);
     }
   }
   return std::nullopt;
 }
 
 hal::Error Configuration::blamed(hal::Error error) const {
-  if (const auto key = keyNamedIn(error.message())) {
+  if (const auto key = keyThatNamed(error.subject)) {
     error.subject = fmt::format("{}: {}: {}", origin(*key), *key, error.subject);
   }
   return error;
@@ -261,9 +261,8 @@ hal::Error Configuration::blamed(hal::Error error) const {
 
 ConfigError Configuration::blamed(const ConfigError& error) const {
   // A line tells the place within the file that the value names.
-  if (error.line() > 0) return error;
-  const auto key = keyNamedIn(error.what());
-  return key ? sections_.errorAt(*key, error.what(), {}) : error;
+  const auto key = error.line() > 0 ? std::nullopt : keyThatNamed(error.file());
+  return key ? errorAt(*key, error.what(), {}) : error;
 }
 
 }  // namespace pleinair::app

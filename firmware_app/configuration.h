@@ -81,8 +81,11 @@ class Configuration {
   /// As of `pleinair config`.
   std::string toToml(config::Printed which) const;
 
-  /// Runs `action`, which uses what is in force. An error that it throws of a file or a size that
-  /// came from a file or the environment is told with the place that it came from.
+  /// Blames the place that gave the value of a key, as Sections::errorAt().
+  config::ConfigError errorAt(std::string_view key, std::string problem, std::string allowed) const;
+
+  /// Runs `action`, which uses what is in force. An error that it throws of a file which a profile,
+  /// a site file or the environment named is told with the place that named it.
   template <class Action>
   auto blaming(Action&& action) const {
     try {
@@ -95,8 +98,8 @@ class Configuration {
   }
 
  private:
-  /// The key that gave a path or size which the message names, where a place is to be told.
-  std::optional<std::string> keyNamedIn(std::string_view message) const;
+  /// The key that gave the path, unless nobody or the command line did, whose errors need no more.
+  std::optional<std::string> keyThatNamed(const std::string& path) const;
   hal::Error blamed(hal::Error error) const;
   config::ConfigError blamed(const config::ConfigError& error) const;
 

@@ -40,7 +40,7 @@ const ParameterTable<ProfileSettings>& profileTable() {
 
 const ParameterTable<CameraSettings>& cameraTable() {
   static const ParameterTable<CameraSettings> kTable{
-      pathParameter("source", &CameraSettings::source, {"synthetic"},
+      pathParameter("source", &CameraSettings::source, cameraNames(),
                     "The camera: \"synthetic\", a desk made by code, or a recording's path."),
       sizeParameter("size", &CameraSettings::size, kSizes, {},
                     "Of the synthetic camera's frames; movies have even sides."),
@@ -85,6 +85,10 @@ const ParameterTable<OutputSettings>& outputTable() {
 }
 
 }  // namespace
+
+std::vector<std::string> cameraNames() {
+  return {"synthetic"};
+}
 
 config::Sections defaultSections() {
   std::vector<config::Section> sections{

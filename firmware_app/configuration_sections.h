@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "config/sections.h"
 #include "firmware_app/configuration.h"
@@ -14,6 +16,9 @@ inline constexpr std::string_view kDefaultLook = "default";
 inline constexpr std::string_view kFinishedView = "finished";
 inline constexpr std::string_view kLookKey = "painting.look";
 inline constexpr std::string_view kViewKey = "painting.view";
+
+/// The cameras that have a name.
+std::vector<std::string> cameraNames();
 
 /// Every key that the program knows, at its default: the profile, [camera], [painting], [output]
 /// and a [style.…] for each style.

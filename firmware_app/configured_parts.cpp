@@ -1,8 +1,11 @@
 #include "firmware_app/configured_parts.h"
 
+#include <algorithm>
 #include <chrono>
-#include <cmath>
+#include <string>
+#include <system_error>
 
+#include "config/suggestion.h"
 #include "firmware_app/configuration_sections.h"
 #include "pipeline/scene/scene_file.h"
 
@@ -27,6 +30,17 @@ PaintingOptions configuredPainting(const Configuration& configuration, PaintingO
 scene::Scene configuredScene(const Configuration& configuration) {
   const std::filesystem::path file = configuration.painting().scene;
   return file == kNoFile ? scene::Scene{} : scene::loadScene(file);
+}
+
+void refuseSlipOfCamera(const Configuration& configuration) {
+  const std::vector<std::string> names = cameraNames();
+  const std::filesystem::path source = configuration.camera().source;
+  const std::string name = source.filename().string();  // a file's folder may be before it
+  std::error_code ignored;
+  const bool isName = std::ranges::find(names, source.string()) != names.end();
+  if (isName || std::filesystem::exists(source, ignored) || !config::nearest(name, names)) return;
+  throw configuration.errorAt("camera.source", "found " + config::foundText(name, names),
+                              config::listText(names) + ", or a recording that exists");
 }
 
 bool isSynthetic(const CameraSettings& camera) {

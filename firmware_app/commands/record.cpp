@@ -42,6 +42,7 @@ std::unique_ptr<hal::Camera> openCamera(const RecordOptions& options,
 int record(const RecordOptions& options) {
   const Configuration configuration(options.configuration);
   return configuration.blaming([&] {
+    refuseSlipOfCamera(configuration);
     refuseCollisionsOf(options, configuration);
     hal::SteppedClock clock;
     const auto camera = openCamera(options, configuration.camera(), clock);

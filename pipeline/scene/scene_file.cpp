@@ -33,7 +33,13 @@ tracking::CameraModel readCamera(const TomlTable& table, const std::filesystem::
   const auto calibration = table.optionalString("calibration");
   if (!calibration) return tracking::readCalibration(table);
   files.push_back(directory / *calibration);
-  return tracking::loadCalibration(files.back());
+  try {
+    return tracking::loadCalibration(files.back());
+  } catch (const config::ConfigError& error) {
+    // A line is of the calibration; without one, it is this scene that names a wrong file.
+    if (error.line() > 0) throw;
+    throw table.error("calibration", error.what());
+  }
 }
 
 tracking::TagMarker readTag(const TomlTable& table, std::string_view family) {

@@ -19,6 +19,12 @@ struct ProgramLimits {
   std::string terminateWhenExists;
   /// What it prints goes into this instead of ProgramRun::out; empty: nowhere else.
   std::string printsInto;
+  /// "NAME=VALUE" sets a variable, "NAME" takes it away. Without, the environment is the test's,
+  /// with no variable of the program's but an empty PLEINAIR_CONFIG: what the machine is set up for
+  /// does not count.
+  std::vector<std::string> environment = {};
+  /// Its working directory is one that was removed.
+  bool inRemovedFolder = false;
 };
 
 /// Runs `pleinair` with these arguments, killed after two minutes.
