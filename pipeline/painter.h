@@ -64,8 +64,8 @@ struct PainterLook {
   std::string help;
 };
 
-/// A painted picture. Its texture belongs to the Painter, lives in the Painter's context and is
-/// valid until the next paint().
+/// A painted picture. Its texture, which lives in the Painter's context, and the list of its tags
+/// belong to the Painter and are valid until the next paint().
 struct Picture {
   unsigned texture = 0;  ///< GL name, RGBA8, sRGB-coded, row 0 at the top
   hal::FrameSize size;

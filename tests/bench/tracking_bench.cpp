@@ -61,6 +61,7 @@ void solveFiveTags(benchmark::State& state) {
   const CameraModel camera = cameraOf({1280, 720});
   const glm::dmat4 cameraFromWorld = poseOf({0.35, 0.1, 0.2}, {0.0, 0.0, 0.7});
   const auto tags = table();
+  WorldPoseSolver solver;
   for (auto _ : state) {
     std::vector<WorldTag> seen;
     for (const support::SceneTag& tag : tags) {
@@ -70,7 +71,7 @@ void solveFiveTags(benchmark::State& state) {
       world.candidates = tagPoseCandidates(camera, world.corners, tag.edgeMetres);
       seen.push_back(std::move(world));
     }
-    benchmark::DoNotOptimize(solveWorldPose(camera, seen, std::nullopt));
+    benchmark::DoNotOptimize(solver.solve(camera, seen, std::nullopt));
   }
 }
 BENCHMARK(solveFiveTags)->Unit(benchmark::kMicrosecond);

@@ -4,8 +4,8 @@
 #include "config/config_error.h"
 #include "hal/error.h"
 #include "pipeline/styles/watercolor/watercolor.h"
-#include "tests/gpu/watercolor/allocation_count.h"
 #include "tests/gpu/watercolor/watercolor_fixture.h"
+#include "tests/support/allocation_count.h"
 
 namespace pleinair::styles {
 namespace {

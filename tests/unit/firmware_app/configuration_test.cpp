@@ -148,18 +148,20 @@ TEST_F(ConfigurationTest, ALookReplacesDefaults) {
 
 TEST_F(ConfigurationTest, WhatAnyLayerGivesWinsOverTheLookOfAnyOther) {
   const std::string look = "[painting]\nlook = \"wet_in_wet\"\n";
-  const std::string value = "[style.watercolor]\nbleeding = 0.85\n";
-  // The weaker layer's value stands against the stronger one's look, were it the default's.
+  // Against the look's, were it the default's.
+  const std::string usual = styles::styleInfo("watercolor").defaults.text("bleeding");
+  const std::string value = "[style.watercolor]\nbleeding = " + usual + "\n";
+  // The weaker layer's value stands against the stronger one's look.
   request_.profile = write("p.toml", value).string();
   request_.siteFile = write("s.toml", look);
-  EXPECT_EQ(resolved().styleParameters().text("bleeding"), "0.85");
+  EXPECT_EQ(resolved().styleParameters().text("bleeding"), usual);
   EXPECT_EQ(resolved().styleParameters().origin("bleeding"), path("p.toml").string() + ":2");
-  EXPECT_EQ(resolved().styleParameters().origin("granulation"), "look wet_in_wet");
+  EXPECT_EQ(resolved().styleParameters().origin("hardness"), "look wet_in_wet");
   // And the other way round.
   request_.profile = write("p.toml", look).string();
   request_.siteFile = write("s.toml", value);
-  EXPECT_EQ(resolved().styleParameters().text("bleeding"), "0.85");
-  EXPECT_EQ(resolved().styleParameters().origin("granulation"), "look wet_in_wet");
+  EXPECT_EQ(resolved().styleParameters().text("bleeding"), usual);
+  EXPECT_EQ(resolved().styleParameters().origin("hardness"), "look wet_in_wet");
 }
 
 TEST_F(ConfigurationTest, TheStrongestLayersLookIsTheOne) {
@@ -513,7 +515,7 @@ TEST_F(ConfigurationTest, TellsEveryKindOfOrigin) {
   for (const std::string line :
        {"profile = \"kiosk\"  # --profile\n", "cell_size = 12  # profile kiosk:11\n",
         "rate = 12.5  # PLEINAIR_CAMERA_RATE\n", "look = \"wet_in_wet\"  # --look\n",
-        "wobble = 0.1  # --set wobble\n", "bleeding = 1  # look wet_in_wet\n",
+        "wobble = 0.1  # --set wobble\n", "bleeding = 2  # look wet_in_wet\n",
         "view = \"finished\"  # default\n"}) {
     EXPECT_THAT(toml, HasSubstr("\n" + line));
   }
