@@ -19,6 +19,7 @@
 #include "firmware_app/commands/config.h"
 #include "firmware_app/commands/record.h"
 #include "firmware_app/commands/render.h"
+#include "firmware_app/commands/run.h"
 #include "firmware_app/commands/styles.h"
 #include "firmware_app/exit_status.h"
 #include "firmware_app/log.h"
@@ -119,6 +120,31 @@ void addRender(CLI::App& app, RenderOptions& options, std::function<int()>& chos
   command.callback([&] { chosen = [&options] { return render(options); }; });
 }
 
+void addRun(CLI::App& app, RunOptions& options, std::function<int()>& chosen) {
+  CLI::App& command = *app.add_subcommand("run", "paint a camera live, in a window");
+  ConfigurationRequest& configuration = options.configuration;
+  addKey(command, configuration, "--camera", "camera.source",
+         "synthetic (default), or a recording's path, played over and over at its own pace",
+         "NAME|PATH");
+  addKey(command, configuration, "--output", "output.target",
+         "window (default), or a file or folder as of render", "NAME|PATH")
+      ->check(refuseStandardOutput);
+  addPainting(command, configuration);
+  addKey(command, configuration, "--size", "painting.size",
+         "of the painting (default: the camera's)", "WxH");
+  addFrames(
+      command, [&options](std::uint64_t count) { options.frames = count; }, "end after N");
+  addKey(command, configuration, "--stills", "output.stills",
+         "the folder that the key s saves pictures to (default: .)", "DIR");
+  command
+      .add_option("--shaders", options.shaderDirectory,
+                  "a copy of the source tree whose shaders replace the built-in ones")
+      ->type_name("DIR");
+  command.footer("In the window, h lists the keys.");
+  refuseEmptyValues(command);
+  command.callback([&] { chosen = [&options] { return run(options); }; });
+}
+
 void addRecord(CLI::App& app, RecordOptions& options, std::function<int()>& chosen) {
   CLI::App& command = *app.add_subcommand("record", "record a camera");
   ConfigurationRequest& configuration = options.configuration;
@@ -149,7 +175,7 @@ void addConfig(CLI::App& app, ConfigOptions& options, std::function<int()>& chos
   CLI::App& command =
       *app.add_subcommand("config", "print what is in force, and where each value came from");
   addPainting(command, options.configuration);
-  addKey(command, options.configuration, "--camera", "camera.source", "as of record", "NAME|PATH");
+  addKey(command, options.configuration, "--camera", "camera.source", "as of run", "NAME|PATH");
   command.add_flag("--given", options.givenOnly, "leave out what nobody gave: a short site file");
   refuseEmptyValues(command);
   command.callback([&] { chosen = [&options] { return printConfiguration(options); }; });
@@ -223,11 +249,13 @@ int parseAndRun(int argc, const char* const* argv) {
   RenderOptions renderOptions;
   RecordOptions recordOptions;
   ConfigOptions configOptions;
-  for (ConfigurationRequest* each :
-       {&renderOptions.configuration, &recordOptions.configuration, &configOptions.configuration}) {
+  RunOptions runOptions;
+  for (ConfigurationRequest* each : {&renderOptions.configuration, &recordOptions.configuration,
+                                     &runOptions.configuration, &configOptions.configuration}) {
     each->environment = environmentOfProcess();
   }
   std::function<int()> chosen;
+  addRun(app, runOptions, chosen);
   addRender(app, renderOptions, chosen);
   addRecord(app, recordOptions, chosen);
   addConfig(app, configOptions, chosen);
@@ -236,7 +264,7 @@ int parseAndRun(int argc, const char* const* argv) {
   });
   try {
     app.parse(argumentsReversed(argc, argv));
-    if (!chosen) throw CLI::RequiredError("one of render, record, config and styles");
+    if (!chosen) throw CLI::RequiredError("one of run, render, record, config and styles");
     return chosen();
   } catch (const CLI::ParseError& error) {
     return reportParseError(app, error);

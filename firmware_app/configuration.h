@@ -33,6 +33,7 @@ struct PaintingSettings {
 /// [output]
 struct OutputSettings {
   std::filesystem::path target = "window";  ///< or a movie or pictures
+  std::filesystem::path stills = ".";       ///< the folder that stills are saved to
 };
 
 /// A key that an option of the command line gives.

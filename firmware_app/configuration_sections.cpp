@@ -80,7 +80,9 @@ const ParameterTable<PaintingSettings>& paintingTable() {
 const ParameterTable<OutputSettings>& outputTable() {
   static const ParameterTable<OutputSettings> kTable{
       pathParameter("target", &OutputSettings::target, {"window"},
-                    "Where a live painting goes: \"window\", or a movie's or pictures' path.")};
+                    "Where a live painting goes: \"window\", or a movie's or pictures' path."),
+      pathParameter("stills", &OutputSettings::stills, {"."},
+                    "The folder that the window's key s saves to; \".\": where the program runs.")};
   return kTable;
 }
 

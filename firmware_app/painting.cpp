@@ -12,6 +12,7 @@
 
 #include "firmware_app/exit_status.h"
 #include "firmware_app/interrupt.h"
+#include "firmware_app/overloaded.h"
 #include "firmware_app/path_collisions.h"
 #include "firmware_app/poses_file.h"
 #include "firmware_app/progress.h"
@@ -36,14 +37,6 @@ std::optional<std::uint64_t> framesToPaint(const hal::StreamFormat& stream,
   return job.options.frames ? std::min(*job.options.frames, *stream.frameCount) : stream.frameCount;
 }
 
-/// The style's own, or the job's, with the job's view.
-PaintParameters parametersOf(const Painter& painter, const PaintingJob& job) {
-  PaintParameters parameters = painter.defaultParameters();
-  parameters.view = job.options.view;
-  if (job.options.parameters) parameters.style = *job.options.parameters;
-  return parameters;
-}
-
 void warn(const std::optional<std::string>& warning) {
   if (warning) spdlog::warn("{}", *warning);
 }
@@ -53,13 +46,6 @@ std::optional<File> created(const std::optional<std::filesystem::path>& path) {
   if (!path) return std::nullopt;
   return orThrow(File::create(*path));
 }
-
-template <class... Functions>
-struct Overloaded : Functions... {
-  using Functions::operator()...;
-};
-template <class... Functions>
-Overloaded(Functions...) -> Overloaded<Functions...>;
 
 /// One run of a job: the camera, the painter and everything that is written.
 class Painting {
@@ -75,7 +61,7 @@ class Painting {
                   .tracksTags = !job.scene.tags.empty() || job.options.poses,
                   .shaderDirectory = job.options.shaderDirectory,
                   .expectedFormat = stream_.frame}),
-        parameters_(parametersOf(painter_, job)),
+        parameters_(parametersOf(painter_, job.options)),
         poses_(created<PosesFile>(job.options.poses)),
         sheetFile_(created<hal::PendingFile>(job.options.contactSheet)),
         outputFormat_(
@@ -203,6 +189,13 @@ void reportInterruption(int signal, const PaintingJob& job) {
 }
 
 }  // namespace
+
+PaintParameters parametersOf(const Painter& painter, const PaintingOptions& options) {
+  PaintParameters parameters = painter.defaultParameters();
+  parameters.view = options.view;
+  if (options.parameters) parameters.style = *options.parameters;
+  return parameters;
+}
 
 int runPainting(const PaintingJob& job) {
   const Interrupt interrupt;

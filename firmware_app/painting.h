@@ -9,6 +9,7 @@
 #include "config/parameter_values.h"
 #include "hal/camera.h"
 #include "hal/pixel_format.h"
+#include "pipeline/painter.h"
 #include "pipeline/scene/scene.h"
 
 namespace pleinair::app {
@@ -25,6 +26,9 @@ struct PaintingOptions {
   std::optional<std::filesystem::path> contactSheet;
   std::filesystem::path shaderDirectory;
 };
+
+/// The style's own parameters, or those of the options, with their view.
+PaintParameters parametersOf(const Painter& painter, const PaintingOptions& options);
 
 /// Every frame of a camera through a Painter to an output: what `render` and `record` have in
 /// common.

@@ -3,8 +3,12 @@
 #include <array>
 #include <csignal>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
+#include <optional>
+#include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <fcntl.h>
@@ -104,6 +108,15 @@ bool drain(const pollfd& ready, std::string& text) {
   return true;
 }
 
+void callMeanwhile(const ProgramLimits& limits, pid_t child) {
+  try {
+    limits.meanwhile(child);
+  } catch (const std::exception& error) {
+    ADD_FAILURE() << error.what();
+    kill(child, SIGTERM);
+  }
+}
+
 }  // namespace
 
 bool isSanitized() {
@@ -127,6 +140,8 @@ ProgramRun runProgram(const std::vector<std::string>& arguments, const ProgramLi
   if (child == 0) becomeProgram(arguments, limits, out, error);
   out.closeWrite();
   error.closeWrite();
+  std::optional<std::jthread> meanwhile;
+  if (limits.meanwhile) meanwhile.emplace([&] { callMeanwhile(limits, child); });
   ProgramRun run;
   bool outOpen = true;
   bool errorOpen = true;

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <string>
 #include <vector>
+
+#include <sys/types.h>
 
 namespace pleinair::support {
 
@@ -34,6 +37,8 @@ struct ProgramLimits {
   std::vector<std::string> environment = {};
   /// Its working directory is one that was removed.
   bool inRemovedFolder = false;
+  /// Called beside the program, on a thread of its own, with the program's process.
+  std::function<void(pid_t)> meanwhile;
 };
 
 /// Runs `pleinair` with these arguments.

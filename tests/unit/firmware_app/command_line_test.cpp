@@ -38,7 +38,7 @@ void expectRefused(const std::vector<const char*>& arguments, const std::string&
 }
 
 TEST(CommandLine, RefusesWhatItDoesNotKnow) {
-  expectRefused({}, "one of render, record, config and styles is required");
+  expectRefused({}, "one of run, render, record, config and styles is required");
   expectRefused({"paint"}, "paint");
   expectRefused({"--verbose"}, "--verbose");
   expectRefused({"styles", "styles"}, "styles");
@@ -111,11 +111,25 @@ TEST(CommandLine, RefusesNamesThatWouldNotHoldWhatIsWritten) {
                 "--poses" + what);
 }
 
+TEST(CommandLine, ChecksWhatRunIsGivenBeforeItOpensAnything) {
+  expectRefused({"run", "--camera", "webcam"},
+                "webcam: is neither a camera nor a file; choose synthetic");
+  expectRefused({"run", "--output", "out.avi"}, "out.avi: does not say what to write");
+  expectRefused({"run", "--output", "-"}, "--output: found \"-\"");
+  expectRefused({"run", "--stills", "/no-such-folder"}, "/no-such-folder: is not a folder");
+  expectRefused({"run", "--frames", "0"}, "--frames");
+  expectRefused({"run", "--size", "0x0"}, "--size");
+  for (const char* option : {"--camera", "--output", "--scene", "--style", "--view", "--set",
+                             "--size", "--frames", "--stills", "--shaders"}) {
+    expectRefused({"run", option, ""}, std::string(option) + ": is empty");
+  }
+}
+
 TEST(CommandLine, HelpsAndTellsItsVersion) {
   const Outcome help = run({"--help"});
   EXPECT_EQ(help.status, 0);
   EXPECT_EQ(help.error, "");
-  for (const std::string command : {"render", "record", "config", "styles"}) {
+  for (const std::string command : {"run", "render", "record", "config", "styles"}) {
     EXPECT_THAT(help.output, HasSubstr(command));
   }
   const Outcome renderHelp = run({"render", "--help"});
@@ -126,6 +140,12 @@ TEST(CommandLine, HelpsAndTellsItsVersion) {
     EXPECT_THAT(renderHelp.output, HasSubstr(option));
   }
   EXPECT_THAT(renderHelp.output, HasSubstr("movies have even sides"));
+  const Outcome runHelp = run({"run", "--help"});
+  EXPECT_EQ(runHelp.status, 0);
+  for (const std::string option : {"--camera", "--output", "--style", "--set", "--view", "--scene",
+                                   "--size", "--frames", "--stills", "--shaders"}) {
+    EXPECT_THAT(runHelp.output, HasSubstr(option));
+  }
   const Outcome version = run({"--version"});
   EXPECT_EQ(version.status, 0);
   EXPECT_THAT(version.output, testing::ContainsRegex("[0-9]+\\.[0-9]+\\.[0-9]+"));
