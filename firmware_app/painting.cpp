@@ -27,26 +27,9 @@ namespace pleinair::app {
 namespace {
 
 using hal::Error;
-using hal::ErrorKind;
 using hal::orThrow;
 
 constexpr int kSignalExitBase = 128;
-
-/// Applies "name=value" settings to the style's parameters.
-config::ParameterValues withSettings(config::ParameterValues values,
-                                     const std::vector<std::string>& settings) {
-  for (const std::string& setting : settings) {
-    const std::size_t equals = setting.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      throw hal::StartupError(Error{.kind = ErrorKind::kInvalidArgument,
-                                    .subject = "--set",
-                                    .problem = fmt::format("found \"{}\"", setting),
-                                    .remedy = "write name=value"});
-    }
-    values = values.with(setting.substr(0, equals), setting.substr(equals + 1), "--set");
-  }
-  return values;
-}
 
 std::optional<std::uint64_t> framesToPaint(const hal::StreamFormat& stream,
                                            const PaintingJob& job) {
@@ -210,7 +193,7 @@ void reportInterruption(int signal, const PaintingJob& job) {
 PaintParameters parametersOf(const Painter& painter, const PaintingOptions& options) {
   PaintParameters parameters = painter.defaultParameters();
   parameters.view = options.view;
-  parameters.style = withSettings(parameters.style, options.set);
+  if (options.parameters) parameters.style = *options.parameters;
   return parameters;
 }
 

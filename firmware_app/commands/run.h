@@ -1,19 +1,17 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <string>
 
-#include "firmware_app/painting.h"
+#include "firmware_app/configuration.h"
 
 namespace pleinair::app {
 
-struct RunOptions : PaintingOptions {
-  RunOptions() { output = "window"; }
-
-  std::string camera = "synthetic";  ///< or the path of a recording
-  std::optional<std::filesystem::path> scene;
-  std::filesystem::path stills = ".";  ///< the folder that `s` saves to
+struct RunOptions {
+  ConfigurationRequest configuration;
+  std::optional<std::uint64_t> frames;  ///< default: until someone ends it
+  std::filesystem::path shaderDirectory;
 };
 
 /// Paints a camera live: `pleinair run`. Throws hal::StartupError and config::ConfigError. Returns

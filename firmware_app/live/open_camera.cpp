@@ -3,10 +3,8 @@
 #include <filesystem>
 #include <system_error>
 
-#include <fmt/format.h>
-
+#include "firmware_app/configured_parts.h"
 #include "hal/cameras/recording/recording.h"
-#include "hal/cameras/synthetic/synthetic_camera.h"
 #include "hal/error.h"
 #include "hal/numbered_path.h"
 
@@ -20,22 +18,20 @@ bool namesRecording(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::unique_ptr<hal::Camera> openCamera(const std::string& name,
-                                        const std::optional<hal::FrameSize>& size,
-                                        hal::Clock& clock) {
-  if (name == "synthetic") {
-    hal::SyntheticOptions options{.pacing = hal::Pacing::kRealTime};
-    if (size) options.size = *size;
+std::unique_ptr<hal::Camera> openCamera(const CameraSettings& settings, hal::Clock& clock) {
+  if (isSynthetic(settings)) {
+    hal::SyntheticOptions options = syntheticOptions(settings);
+    options.pacing = hal::Pacing::kRealTime;
     return std::make_unique<hal::SyntheticCamera>(options, clock);
   }
-  if (namesRecording(name)) {
-    return hal::openRecording(name, clock, {.pacing = hal::Pacing::kRealTime, .loop = true});
+  if (namesRecording(settings.source)) {
+    return hal::openRecording(settings.source, clock,
+                              {.pacing = hal::Pacing::kRealTime, .loop = true});
   }
-  throw hal::StartupError(
-      hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
-                 .subject = "--camera",
-                 .problem = fmt::format("unknown camera \"{}\", and no file of that name", name),
-                 .remedy = "allowed: synthetic, or the path of a recording"});
+  throw hal::StartupError(hal::Error{.kind = hal::ErrorKind::kNotFound,
+                                     .subject = settings.source.string(),
+                                     .problem = "is neither a camera nor a file",
+                                     .remedy = "choose synthetic, or the path of a recording"});
 }
 
 }  // namespace pleinair::app

@@ -1,20 +1,16 @@
 #pragma once
 
 #include <memory>
-#include <optional>
-#include <string>
 
+#include "firmware_app/configuration.h"
 #include "hal/camera.h"
 #include "hal/clock.h"
-#include "hal/pixel_format.h"
 
 namespace pleinair::app {
 
-/// A camera that delivers in real time: "synthetic", or the path of a recording, which is played
-/// over and over at its own pace. `size` is what a camera that has the choice delivers. Throws
-/// hal::StartupError (kInvalidArgument) for another name. The clock outlives the camera.
-std::unique_ptr<hal::Camera> openCamera(const std::string& name,
-                                        const std::optional<hal::FrameSize>& size,
-                                        hal::Clock& clock);
+/// A camera that delivers in real time: the synthetic one, or a recording, which is played over and
+/// over at its own pace. Throws hal::StartupError (kNotFound) where there is neither. The clock
+/// outlives the camera.
+std::unique_ptr<hal::Camera> openCamera(const CameraSettings& settings, hal::Clock& clock);
 
 }  // namespace pleinair::app

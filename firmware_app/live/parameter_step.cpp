@@ -80,8 +80,10 @@ std::optional<ParameterValue> stepped(const ParameterDescriptor& descriptor,
     next = steppedInteger(descriptor.integerRange, *integer, direction, large);
   } else if (const auto* choice = std::get_if<ChoiceIndex>(&value)) {
     next = ChoiceIndex{steppedChoice(descriptor.choices.size(), choice->index, direction)};
+  } else if (const auto* isOn = std::get_if<bool>(&value)) {
+    next = !*isOn;
   } else {
-    next = !std::get<bool>(value);
+    return std::nullopt;  // texts, paths and sizes have no next one
   }
   if (next == value || !descriptor.allows(next)) return std::nullopt;
   return next;

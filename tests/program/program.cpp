@@ -7,7 +7,9 @@
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -15,6 +17,8 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include "tests/support/temporary_folder.h"
 
 namespace pleinair::support {
 namespace {
@@ -43,6 +47,29 @@ struct Pipe {
   }
 };
 
+void prepareEnvironment(const std::vector<std::string>& wanted) {
+  std::vector<std::string> ours;
+  for (char** each = environ; *each != nullptr; ++each) {
+    const std::string variable = *each;
+    if (variable.starts_with("PLEINAIR_")) ours.push_back(variable.substr(0, variable.find('=')));
+  }
+  for (const std::string& name : ours) unsetenv(name.c_str());
+  setenv("PLEINAIR_CONFIG", "", 1);
+  for (const std::string& variable : wanted) {
+    const std::size_t equals = variable.find('=');
+    if (equals == std::string::npos) {
+      unsetenv(variable.c_str());
+    } else {
+      setenv(variable.substr(0, equals).c_str(), variable.c_str() + equals + 1, 1);
+    }
+  }
+}
+
+void enterRemovedFolder() {
+  const TemporaryFolder folder;
+  if (chdir(folder.path().c_str()) != 0) _exit(127);
+}
+
 [[noreturn]] void becomeProgram(const std::vector<std::string>& arguments,
                                 const ProgramLimits& limits, const Pipe& out, const Pipe& error) {
   const int file =
@@ -55,17 +82,11 @@ struct Pipe {
     const rlimit limit{limits.fileBytes, limits.fileBytes};
     setrlimit(RLIMIT_FSIZE, &limit);
   }
+  prepareEnvironment(limits.environment);
+  if (limits.inRemovedFolder) enterRemovedFolder();
   if (limits.addressSpaceBytes > 0 && !isSanitized()) {
     const rlimit limit{limits.addressSpaceBytes, limits.addressSpaceBytes};
     setrlimit(RLIMIT_AS, &limit);
-  }
-  for (const std::string& variable : limits.environment) {
-    const std::size_t equals = variable.find('=');
-    if (equals == std::string::npos) {
-      unsetenv(variable.c_str());
-    } else {
-      setenv(variable.substr(0, equals).c_str(), variable.substr(equals + 1).c_str(), 1);
-    }
   }
   std::vector<char*> argv;
   std::string program = PLEINAIR_PROGRAM;

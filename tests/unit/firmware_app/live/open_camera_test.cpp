@@ -14,7 +14,7 @@ using testing::HasSubstr;
 
 TEST(OpenCamera, MakesTheSyntheticOneInTheSizeAskedFor) {
   hal::SteppedClock clock;
-  const auto camera = openCamera("synthetic", hal::FrameSize{64, 48}, clock);
+  const auto camera = openCamera({.size = {64, 48}}, clock);
   EXPECT_EQ(camera->identity().backend, "synthetic");
   const hal::StreamFormat format = hal::orThrow(camera->start({}));
   EXPECT_EQ(format.frame.size, (hal::FrameSize{64, 48}));
@@ -25,7 +25,7 @@ TEST(OpenCamera, PlaysRecordingsOverAndOverAtTheirOwnPace) {
   const support::TemporaryFolder folder;
   support::writeMedia(folder.path() / "a.mp4", 3);
   hal::SteppedClock clock;
-  const auto camera = openCamera((folder.path() / "a.mp4").string(), {}, clock);
+  const auto camera = openCamera({.source = folder.path() / "a.mp4"}, clock);
   EXPECT_EQ(camera->identity().backend, "recording");
   const hal::TimePoint start = clock.now();
   ASSERT_TRUE(camera->start({}));
@@ -38,14 +38,14 @@ TEST(OpenCamera, PlaysRecordingsOverAndOverAtTheirOwnPace) {
 
 TEST(OpenCamera, RefusesOthersAndSaysWhatThereIs) {
   hal::SteppedClock clock;
-  for (const std::string name : {"webcam", "", "/no-such-folder/a.mp4", "Synthetic"}) {
+  for (const std::string name : {"webcam", "/no-such-folder/a.mp4", "Synthetic"}) {
     try {
-      openCamera(name, {}, clock);
+      openCamera({.source = name}, clock);
       ADD_FAILURE() << name;
     } catch (const hal::StartupError& error) {
-      EXPECT_EQ(error.error().kind, hal::ErrorKind::kInvalidArgument);
-      EXPECT_THAT(error.what(), HasSubstr("--camera: unknown camera \"" + name + "\""));
-      EXPECT_THAT(error.what(), HasSubstr("allowed: synthetic, or the path of a recording"));
+      EXPECT_EQ(error.error().kind, hal::ErrorKind::kNotFound);
+      EXPECT_THAT(error.what(), testing::StartsWith(name + ": is neither a camera nor a file"));
+      EXPECT_THAT(error.what(), HasSubstr("choose synthetic, or the path of a recording"));
     }
   }
 }
