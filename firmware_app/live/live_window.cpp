@@ -53,7 +53,7 @@ std::string LiveWindow::caption(double framesPerSecond) const {
   const std::string first = notice_.empty() ? tuning_.parameterLine() : notice_;
   const std::string text =
       fmt::format("{}\n{} · {:.0f} frames/s", first, tuning_.state(), framesPerSecond);
-  return tuning_.showsHelp() ? LiveTuning::help() + "\n" + text : text;
+  return tuning_.showsHelp() ? LiveTuning::help() + "\n\n" + text : text;
 }
 
 void LiveWindow::update(double framesPerSecond, bool pictureFollows) {
