@@ -6,6 +6,7 @@
 // Outputs: sRGB-coded colours.
 // Precision: highp for places; colours would do with less.
 #include "pipeline/gpu/shaders/colour.glsl"
+#include "pipeline/styles/watercolor/shaders/palette.glsl"
 #include "pipeline/styles/watercolor/shaders/sheet.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
 uniform highp usampler2D tiling;
@@ -28,19 +29,10 @@ uniform float vividness;
 uniform float luminosity;
 uniform float mosaic;
 const vec3 kLuma = vec3(0.299, 0.587, 0.114);
-const vec3 kDarkest = vec3(0.10, 0.11, 0.15);  // no pigment is black: an indigo
 
 // The sheet's relief, and its warm white.
 vec3 onSheet(vec3 colour, vec4 sheet) {
   return colour * (1.0 + grain * (sheet.g - 0.5)) * mix(vec3(1.0), vec3(1.0, 0.992, 0.97), grain);
-}
-
-// Transparent paint on white: lights open up towards the paper, darks stay coloured.
-vec3 painted(vec3 srgb) {
-  float luma = dot(srgb, kLuma);
-  vec3 vivid = clamp(luma + (srgb - luma) * (1.0 + vividness), 0.0, 1.0);
-  vec3 open = 1.0 - (1.0 - vivid) * (1.0 - luminosity * vivid);
-  return mix(open, kDarkest + (1.0 - kDarkest) * open, min(1.0, 2.0 * luminosity));
 }
 
 // Optical density: what the pigments of layers add up in (Beer and Lambert: they absorb and do not
@@ -78,8 +70,8 @@ vec3 paintedAt(ivec2 p) {
   float glaze = 1.0 - mix(dark.a, isLight, smoothstep(0.02, 0.08, contrast));
 
   // Pigment: the load of the brush, the rim where the glaze has dried, what settles in the valleys.
-  vec3 lightDensity = densityOf(painted(light.rgb));
-  vec3 glazeDensity = densityOf(painted(dark.rgb)) - lightDensity;
+  vec3 lightDensity = densityOf(light.rgb);
+  vec3 glazeDensity = densityOf(dark.rgb) - lightDensity;
   float atRim = hard * smoothstep(0.05, 0.42, where) * (1.0 - isLight);
   vec3 density = lightDensity + glazeDensity * glaze * (1.0 + rim * atRim);
   float more = variation * (light.a - 0.5) * 1.6 + granulation * valley * 2.0;
@@ -87,7 +79,7 @@ vec3 paintedAt(ivec2 p) {
   float thick = dot(density, kLuma);
   density *= max(1.0 + more / (1.0 + 0.2 * thick * thick), 0.2);
   // A loaded brush skips the highest grains.
-  density *= 1.0 - granulation * smoothstep(0.55, 0.9, sheet.r) * smoothstep(1.0, 2.5, thick);
+  density *= 1.0 - 0.5 * granulation * smoothstep(0.55, 0.9, sheet.r) * smoothstep(1.0, 2.5, thick);
   // Where an emptied brush stopped short of a wet border the paper is left.
   float besideGlaze = hard * isLight * (1.0 - smoothstep(0.75, 1.05, where));
   float empty = 0.75 - light.a - 0.15 * valley;
@@ -96,7 +88,7 @@ vec3 paintedAt(ivec2 p) {
 
   if (mosaic > 0.0) {
     ivec2 cell = cellOf(texelFetch(tiling, p, 0).r);
-    wash = mix(wash, painted(srgbFromLinear(texelFetch(means, cell, 0).rgb)), mosaic);
+    wash = mix(wash, painted(srgbFromLinear(texelFetch(means, cell, 0).rgb), vividness, luminosity), mosaic);
   }
   if (edgeDarkness > 0.0) wash *= mix(vec3(1.0), vec3(0.22, 0.2, 0.22), lineAt(p, valley));
   return onSheet(wash, sheet);
