@@ -59,29 +59,36 @@ vec3 paintedAt(ivec2 p) {
   vec4 dark = texture(darkPigment, at);
   vec4 light = texture(lightPigment, at);
 
-  // How much of the dark glaze lies here: a hard border where the two differ much, a soft one where
-  // they hardly do, and none where they are alike.
+  // How much of the dark glaze lies here: a hard border where the picture changes at once from one
+  // of the two to the other, a soft one where it does so slowly, and none where they are alike.
   vec3 apart = light.rgb - dark.rgb;
   float contrast = length(apart);
-  float where = clamp(dot(seen - dark.rgb, apart) / max(contrast * contrast, 1.0e-4), -0.5, 1.5);
-  float hard = hardness * smoothstep(0.08, 0.35, contrast);
-  float width = mix(0.75, 0.16, hard);
-  float isLight = smoothstep(0.5 - width, 0.5 + width, where + 0.25 * hard * valley);
-  float glaze = 1.0 - mix(dark.a, isLight, smoothstep(0.02, 0.08, contrast));
+  vec3 axis = apart / max(contrast * contrast, 1.0e-4);
+  float where = clamp(dot(seen - dark.rgb, axis), -0.5, 1.5);
+  float slope = length(vec2(dot(dFdx(seen), axis), dot(dFdy(seen), axis)));
+  float striking = contrast / (0.3 + 0.8 * dot(light.rgb, kLuma));  // the eye sees ratios
+  float hard = hardness * smoothstep(0.06, 0.25, striking) * smoothstep(0.02, 0.08, slope);
+  float sharp = smoothstep(0.34, 0.66, where + 0.25 * hard * valley);
+  float isLight = mix(clamp(where, 0.0, 1.0), sharp, hard);
+  float glaze = 1.0 - mix(dark.a, isLight, smoothstep(0.02, 0.08, striking));
+
+  // A third colour, which is neither of the two nor between them.
+  vec3 other = seen - dark.rgb - clamp(where, 0.0, 1.0) * apart;
+  other *= smoothstep(0.03, 0.12, length(other));
 
   // Pigment: the load of the brush, the rim where the glaze has dried, what settles in the valleys.
-  vec3 lightDensity = densityOf(light.rgb);
-  vec3 glazeDensity = densityOf(dark.rgb) - lightDensity;
+  vec3 lightDensity = densityOf(light.rgb + other);
+  vec3 glazeDensity = densityOf(dark.rgb + other) - lightDensity;
   float atRim = hard * smoothstep(0.05, 0.42, where) * (1.0 - isLight);
   vec3 density = lightDensity + glazeDensity * glaze * (1.0 + rim * atRim);
   float more = variation * (light.a - 0.5) * 1.6 + granulation * valley * 2.0;
   // Thick paint is even: the eye sees differences of thin layers.
   float thick = dot(density, kLuma);
-  density *= max(1.0 + more / (1.0 + 0.2 * thick * thick), 0.2);
+  density *= max(1.0 + more / (1.0 + 0.7 * thick), 0.2);
   // A loaded brush skips the highest grains.
   density *= 1.0 - 0.5 * granulation * smoothstep(0.55, 0.9, sheet.r) * smoothstep(1.0, 2.5, thick);
   // Where an emptied brush stopped short of a wet border the paper is left.
-  float besideGlaze = hard * isLight * (1.0 - smoothstep(0.75, 1.05, where));
+  float besideGlaze = hard * smoothstep(0.25, 0.6, contrast) * isLight * (1.0 - smoothstep(0.75, 1.05, where));
   float empty = 0.75 - light.a - 0.15 * valley;
   density *= 1.0 - besideGlaze * smoothstep(0.5 - 0.5 * gaps, 0.6 - 0.5 * gaps, empty);
   vec3 wash = exp2(-density);
