@@ -25,11 +25,12 @@ constexpr std::size_t kSumWords = 8;  // a cell, in the shaders of sums and of m
 constexpr int kBlockPixels = 4;       // as in tile.comp
 const std::string kShaders = "pipeline/styles/watercolor/shaders/";
 
+constexpr std::string_view kMeansView = "means";
 /// In the order of view.frag.
 constexpr std::array<ViewInfo, 8> kViews{{
     {"seeds", "the cells' seeds over the frame"},
     {"cells", "the Voronoi cells, each in a colour of its own, with their seeds"},
-    {"means", "each cell in its mean colour: the thesis's tiling"},
+    {kMeansView, "each cell in its mean colour: the thesis's tiling"},
     {"edges", "edge pixels black, weaker colour differences grey"},
     {"retiling", "edge pixels, and each seed's way from home to where it was drawn"},
     {"dark", "the dark washes, before it is decided where they lie"},
@@ -175,9 +176,10 @@ const Texture& Watercolor::paint(const scene::ArFrame& frame, std::string_view v
                                  gpu::PassTimer& timer) {
   if (needsNewTiling(frame)) {
     startTiling(frame);
-    for (int i = 0; i < kSettlingRounds; ++i) tileAndRetile(frame, timer, true);
+    for (int i = 0; i < kSettlingRounds; ++i) tileAndRetile(frame, timer, true, false);
   }
-  tileAndRetile(frame, timer, false);
+  const bool wantsMeans = p_.mosaic > 0.0 || view == kMeansView;
+  tileAndRetile(frame, timer, false, wantsMeans);
   paintWashes(frame, timer);
   lastTime_ = frame.captureTime;
   hasPast_ = true;
@@ -214,7 +216,8 @@ void Watercolor::startTiling(const scene::ArFrame& frame) {
 }
 
 /// `atOnce`: seeds go all the way to their edges, whatever the time constants.
-void Watercolor::tileAndRetile(const scene::ArFrame& frame, gpu::PassTimer& timer, bool atOnce) {
+void Watercolor::tileAndRetile(const scene::ArFrame& frame, gpu::PassTimer& timer, bool atOnce,
+                               bool wantsMeans) {
   Surfaces& s = *surfaces_;
   {
     const auto scope = timer.measure("watercolor: tile");
@@ -230,6 +233,7 @@ void Watercolor::tileAndRetile(const scene::ArFrame& frame, gpu::PassTimer& time
         .set("alpha", static_cast<float>(p_.edgeAlpha))
         .set("beta", static_cast<float>(p_.edgeBeta))
         .set("threshold", static_cast<float>(p_.edgeThreshold))
+        .set("wantsMeans", wantsMeans ? 1 : 0)
         .dispatch({(s.size.width + kBlockPixels - 1) / kBlockPixels,
                    (s.size.height + kBlockPixels - 1) / kBlockPixels},
                   {16, 4}, kWritten);
@@ -263,6 +267,8 @@ void Watercolor::paintWashes(const scene::ArFrame& frame, gpu::PassTimer& timer)
         .texture("picture", *frame.colour)
         .set("texel", 1.0F / glm::vec2(s.size.width, s.size.height))
         .set("reach", static_cast<float>(p_.simplicity))
+        .set("vividness", static_cast<float>(p_.vividness))
+        .set("luminosity", static_cast<float>(p_.luminosity))
         .drawFullscreen(s.guideTarget);
   }
   {
@@ -280,8 +286,9 @@ void Watercolor::paintWashes(const scene::ArFrame& frame, gpu::PassTimer& timer)
         .storage(0, s.moments)
         .image(0, s.darkWash, ImageAccess::kWrite)
         .image(1, s.lightWash, ImageAccess::kWrite)
-        .texture("means", s.means)
+        .texture("guide", s.guide)
         .set("grid", s.grid.cells())
+        .set("cellPixels", s.grid.cellPixels())
         .dispatch(s.grid.cells(), {8, 8}, kWritten);
   }
   const auto scope = timer.measure("watercolor: pigment");

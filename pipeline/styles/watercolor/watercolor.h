@@ -11,11 +11,11 @@ namespace pleinair::styles {
 /// The style's inner pictures, apart from the finished one.
 std::span<const ViewInfo> watercolorViews();
 
-/// Chapter III of the thesis, and on: the frame tiled by the Voronoi cells of jittered seeds that are
-/// drawn to the edges in every frame. Each cell keeps a dark and a light colour; the smoothed picture
-/// decides which of those around a pixel it gets, so that washes end where things do and cells do
-/// not show, unless `mosaic` asks for the thesis's flat ones. Over that dark edges, granulation,
-/// paper. All on the GPU, nothing is read back.
+/// Chapter III of the thesis, and on: the frame tiled by the Voronoi cells of jittered seeds that
+/// are drawn to the edges in every frame. Each cell keeps a dark and a light colour; the smoothed
+/// picture decides which of those around a pixel it gets, so that washes end where things do and
+/// cells do not show, unless `mosaic` asks for the thesis's flat ones. Over that dark edges,
+/// granulation, paper. All on the GPU, nothing is read back.
 ///
 /// The sheet, with all that is uneven about the paint, goes with ArFrame::canvasFromPicture. An
 /// object's silhouette (ids) counts as an edge.
@@ -47,7 +47,8 @@ class Watercolor final : public Style {
   struct Inner {
     const gpu::Buffer* seeds;       ///< vec2 a cell, row by row: px, for the next frame
     const gpu::Texture* tiling;     ///< R32UI a pixel: shaders/tiling_word.glsl
-    const gpu::Texture* means;      ///< RGBA16F a cell: linear RGB; 0 in A where it has no pixel
+    const gpu::Texture* means;      ///< RGBA16F a cell: linear RGB; 0 in A where it has no pixel.
+                                    ///< Only after the view "means" and mosaics
     const gpu::Texture* guide;      ///< RGBA8 for 2×2 px: shaders/guide.frag
     const gpu::Texture* darkWash;   ///< RGBA8 a cell: shaders/washes.comp
     const gpu::Texture* lightWash;  ///< likewise, its share in A
@@ -60,7 +61,8 @@ class Watercolor final : public Style {
 
   bool needsNewTiling(const scene::ArFrame& frame) const;
   void startTiling(const scene::ArFrame& frame);
-  void tileAndRetile(const scene::ArFrame& frame, gpu::PassTimer& timer, bool atOnce);
+  void tileAndRetile(const scene::ArFrame& frame, gpu::PassTimer& timer, bool atOnce,
+                     bool wantsMeans);
   void paintWashes(const scene::ArFrame& frame, gpu::PassTimer& timer);
   void compose(const scene::ArFrame& frame, gpu::PassTimer& timer);
   void showView(const scene::ArFrame& frame, std::string_view view);

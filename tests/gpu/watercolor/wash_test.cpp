@@ -54,6 +54,7 @@ class WashTest : public StyleTest {};
 
 TEST_F(WashTest, TheGuideIsTheSmoothedPicture) {
   Watercolor style(library_);
+  style.setParameters(plainPaint(style));
   hal::Image image = testPicture({61, 47}, 3);
   const gpu::Texture picture = textureOf(image.view());
   style.paint(frameOf(picture), "", timer_);

@@ -1,16 +1,16 @@
 // Purpose: a cell's two washes, the light one that is laid first and the dark one that is glazed over
 //          it: the two colours and their shares that have the moments of the cell's pixels (moment
 //          preserving thresholding: Tsai, 1985; Delp and Mitchell, 1979).
-// Inputs:  moments (split.comp; emptied here for the next frame), means (linear), grid.
+// Inputs:  moments (split.comp; emptied here for the next frame), guide, grid, cellPixels.
 // Outputs: darkWash, lightWash (RGBA8): sRGB-coded; A of the light one: its share.
 // Precision: highp; sums below 2^24 are exact.
-#include "pipeline/gpu/shaders/colour.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 0) buffer Moments { uint moments[]; };
 layout(binding = 0, rgba8) writeonly uniform highp image2D darkWash;
 layout(binding = 1, rgba8) writeonly uniform highp image2D lightWash;
-uniform sampler2D means;
+uniform sampler2D guide;
 uniform ivec2 grid;
+uniform vec2 cellPixels;
 
 const vec3 kLuma = vec3(0.25, 0.625, 0.125);  // split.comp's, in levels
 const float kLeastSpread = 3.0;  // levels: below, a cell is of one colour
@@ -20,7 +20,9 @@ void main() {
   if (any(greaterThanEqual(cell, grid))) return;
   int base = (cell.y * grid.x + cell.x) * 8;
   float count = float(moments[base + 3]);
-  vec3 dark = srgbFromLinear(texelFetch(means, cell, 0).rgb);
+  // A cell without a pixel of the guide has the colour at its place.
+  vec2 middle = (vec2(cell) + 0.5) * cellPixels;
+  vec3 dark = texelFetch(guide, min(ivec2(0.5 * middle), textureSize(guide, 0) - 1), 0).rgb;
   vec3 light = dark;
   float share = 0.5;
   if (count > 0.0) {
