@@ -61,7 +61,8 @@ double steppedNumber(const NumberRange& range, double value, int direction, bool
 }
 
 int steppedInteger(const config::IntegerRange& range, int value, int direction, bool large) {
-  const long long next = static_cast<long long>(value) + direction * (large ? kLargeFactor : 1);
+  const long long distance = large ? kLargeFactor : 1;
+  const long long next = value + direction * distance;
   return static_cast<int>(std::clamp<long long>(next, range.min, range.max));
 }
 

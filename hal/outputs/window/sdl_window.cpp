@@ -53,7 +53,6 @@ std::optional<Duration> refreshOf(SDL_Window* window) {
 class SdlWindow final : public Window {
  public:
   explicit SdlWindow(SdlVideo video) : video_(std::move(video)) {}
-  ~SdlWindow() override { assert(SdlVideo::isOnItsThread()); }
 
   OutputIdentity identity() const override { return {.backend = "window", .id = "window"}; }
   Result<OutputFormat> start(const OutputRequest& request) override;
