@@ -1,11 +1,13 @@
 #pragma once
 
+#include <filesystem>
 #include <variant>
 
 #include <glm/vec3.hpp>
 
+#include "hal/error.h"
 #include "pipeline/scene/builtin_gear.h"
-#include "pipeline/scene/mesh.h"
+#include "pipeline/scene/model.h"
 
 namespace pleinair::scene {
 
@@ -16,10 +18,19 @@ struct BoxSource {
 
 using GearSource = GearParameters;
 
-/// Where a model's surface comes from. Equal sources give equal meshes.
-using ModelSource = std::variant<BoxSource, GearSource>;
+/// A glTF file.
+struct FileSource {
+  std::filesystem::path path;
+  friend bool operator==(const FileSource&, const FileSource&) = default;
+};
 
-/// Precondition: for a gear, faultOf() is nothing.
-Mesh meshOf(const ModelSource& source);
+/// Where a model comes from. Equal sources give equal models.
+using ModelSource = std::variant<BoxSource, GearSource, FileSource>;
+
+/// Errors: readGltf()'s, for files only. Precondition: for a gear, faultOf() is nothing.
+hal::Result<Model> modelOf(const ModelSource& source);
+
+/// Whether its materials are coloured; others are white, to be given a colour.
+bool hasOwnColours(const ModelSource& source);
 
 }  // namespace pleinair::scene

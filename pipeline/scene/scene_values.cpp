@@ -1,10 +1,14 @@
 #include "pipeline/scene/scene_values.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <string>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -63,6 +67,13 @@ glm::vec3 readHexColour(const config::TomlTable& table) {
   return glm::vec3(bytes[0], bytes[1], bytes[2]) / 255.0F;
 }
 
+bool isModelFile(std::string name) {
+  std::ranges::transform(name, name.begin(), [](char c) {
+    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  });
+  return !name.starts_with("builtin:") && (name.ends_with(".glb") || name.ends_with(".gltf"));
+}
+
 }  // namespace
 
 std::optional<glm::dmat4> readPose(const config::TomlTable& table) {
@@ -87,11 +98,19 @@ std::optional<glm::vec3> readColour(const config::TomlTable& table) {
   return glm::vec3(vectorOf(*values));
 }
 
-ModelSource readSource(const config::TomlTable& table) {
+ModelSource readSource(const config::TomlTable& table, const std::filesystem::path& directory) {
   enum class Kind { kBox, kGear };
   static constexpr std::array<config::Choice<Kind>, 2> kKinds{
       {{"builtin:box", Kind::kBox}, {"builtin:gear", Kind::kGear}}};
-  if (table.choice("source", kKinds) == Kind::kBox) return readBox(table);
+  const std::string name = table.string("source");
+  if (isModelFile(name)) return FileSource{directory / name};
+  const auto kind = std::ranges::find(kKinds, name, &config::Choice<Kind>::name);
+  if (kind == kKinds.end()) {
+    throw table.error(
+        "source", "found " + config::quoted(name),
+        fmt::format("{}, or a .glb or .gltf file", fmt::join(config::namesOf(kKinds), ", ")));
+  }
+  if (kind->value == Kind::kBox) return readBox(table);
   return readGear(table);
 }
 

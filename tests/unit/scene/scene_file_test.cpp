@@ -106,7 +106,7 @@ colour = [0.25, 0.5, 1]
   EXPECT_FALSE(box.tagId);
   EXPECT_EQ(std::get<BoxSource>(box.source).sizeMetres, glm::dvec3(1, 2, 3));
   EXPECT_EQ(box.srgb, glm::vec3(0.25F, 0.5F, 1.0F));
-  EXPECT_EQ(box.mesh->triangles.size(), 12u);
+  EXPECT_EQ(box.model->triangleCount(), 12u);
 }
 
 constexpr const char* kInlineCamera =
@@ -133,7 +133,7 @@ TEST(SceneFile, FindsACalibrationBesideItself) {
   ASSERT_TRUE(scene.camera);
   EXPECT_EQ(scene.camera->distortion().k1, -0.2);
   // a lens that bends lines needs shorter ones
-  EXPECT_GT(scene.models[0].mesh->triangles.size(), 500u);
+  EXPECT_GT(scene.models[0].model->triangleCount(), 500u);
   std::filesystem::remove(directory / "camera.toml");
   try {
     loadScene(directory / "scene.toml");
@@ -165,8 +165,8 @@ TEST(SceneFile, SharesTheMeshesOfEqualModels) {
   const Scene scene = parsed(kTag + kGear + "[[model]]\nsource = \"builtin:gear\"\n" +
                              "attach = \"tag:0\"\n[[model]]\nsource = \"builtin:gear\"\n" +
                              "attach = \"tag:0\"\nteeth = 19\n");
-  EXPECT_EQ(scene.models[0].mesh, scene.models[1].mesh);
-  EXPECT_NE(scene.models[0].mesh, scene.models[2].mesh);
+  EXPECT_EQ(scene.models[0].model, scene.models[1].model);
+  EXPECT_NE(scene.models[0].model, scene.models[2].model);
 }
 
 struct Mistake {
@@ -196,7 +196,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "tag[0] has \"tag36h11\""},
         Mistake{kTag + "[[model]]\nsource = \"builtin:gera\"\nattach = \"tag:0\"\n",
                 "scene.toml:6: model[0].source: found \"builtin:gera\", allowed: "
-                "builtin:box, builtin:gear"},
+                "builtin:box, builtin:gear, or a .glb or .gltf file"},
         Mistake{kTag + "[[model]]\nsource = \"builtin:box\"\nattach = \"tag:1\"\n",
                 "scene.toml:7: model[0].attach: found \"tag:1\", allowed: \"world\", \"tag:0\""},
         Mistake{"[[model]]\nsource = \"builtin:box\"\nattach = \"tag:1\"\n",
