@@ -23,6 +23,7 @@
 #include "pipeline/scene/gltf/gltf_resources.h"
 #include "pipeline/scene/gltf/gltf_structure.h"
 #include "pipeline/scene/gltf/gltf_surfaces.h"
+#include "pipeline/scene/gltf/gltf_text.h"
 
 namespace pleinair::scene {
 namespace {
@@ -91,9 +92,9 @@ class ModelBuilder {
     }
     const std::string& meshName = meshes[static_cast<std::size_t>(node.mesh)].name;
     model_.parts.push_back(
-        {.name = !node.name.empty()  ? node.name
-                 : !meshName.empty() ? meshName
-                                     : where,
+        {.name = gltf::oneLine(!node.name.empty()  ? node.name
+                               : !meshName.empty() ? meshName
+                                                   : where),
          .firstSurface = range.first,
          .surfaceCount = range.count,
          // joints say where a skinned mesh is, not its node (section 3.7.3.3)
@@ -167,6 +168,7 @@ class ModelBuilder {
                         shortList(materials_.blended()));
     }
     if (model_.parts.empty()) notices.emplace_back("there is nothing in it to be seen");
+    for (std::string& notice : notices) notice = gltf::oneLine(std::move(notice));
   }
 
   gltf::Container container_;

@@ -117,6 +117,15 @@ std::vector<bool> shownNodes(const tinygltf::Model& gltf, const std::vector<std:
 
 }  // namespace
 
+bool isBounded(const glm::dmat4& matrix) {
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row) {
+      if (!(std::abs(matrix[column][row]) <= kMaxCoordinate)) return false;  // NaN neither
+    }
+  }
+  return true;
+}
+
 NodeTree nodeTreeOf(const tinygltf::Model& gltf) {
   const std::vector<int> parents = parentsOf(gltf);
   const std::vector<std::size_t> order = parentsFirst(gltf, parents);
@@ -129,6 +138,10 @@ NodeTree nodeTreeOf(const tinygltf::Model& gltf) {
         parents[node] == kNoParent
             ? own
             : tree.rootFromNode[static_cast<std::size_t>(parents[node])] * own;
+    if (!isBounded(tree.rootFromNode[node])) {
+      refuse(fmt::format("nodes[{}]", node),
+             "is moved or scaled beyond all measure by its parents");
+    }
     if (isShown[node]) tree.shown.push_back(node);
   }
   return tree;

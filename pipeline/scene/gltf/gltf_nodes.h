@@ -19,4 +19,7 @@ struct NodeTree {
 /// are none.
 NodeTree nodeTreeOf(const tinygltf::Model& gltf);
 
+/// Whether all of it is finite and within kMaxCoordinate.
+bool isBounded(const glm::dmat4& matrix);
+
 }  // namespace pleinair::scene::gltf

@@ -10,6 +10,7 @@
 
 #include "pipeline/scene/gltf/gltf_fault.h"
 #include "pipeline/scene/gltf/gltf_limits.h"
+#include "pipeline/scene/gltf/gltf_nodes.h"
 
 namespace pleinair::scene::gltf {
 namespace {
@@ -203,6 +204,7 @@ void SurfaceReader::pose(const tinygltf::Primitive& primitive, std::span<const g
   for (std::size_t i = 0; i < sums.size(); ++i) {
     if (!(totals[i] > 0.0)) continue;  // held by no joint
     const glm::dmat4 posed = sums[i] / totals[i];
+    if (!isBounded(posed)) refuse(where, "is taken beyond all measure by its joints");
     MeshVertex& vertex = mesh.vertices[i];
     vertex.position = glm::vec3(posed * glm::dvec4(glm::dvec3(vertex.position), 1.0));
     vertex.normal = glm::vec3(glm::dmat3(posed) * glm::dvec3(vertex.normal));
