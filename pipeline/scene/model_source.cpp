@@ -13,6 +13,9 @@ struct ModelMaker {
   hal::Result<Model> operator()(const GearSource& gear) const {
     return singlePartModel("gear", gearMesh(gear));
   }
+  hal::Result<Model> operator()(const GearboxSource& gearbox) const {
+    return gearboxModel(gearbox);
+  }
   hal::Result<Model> operator()(const FileSource& file) const { return readGltf(file.path); }
 };
 
@@ -23,7 +26,8 @@ hal::Result<Model> modelOf(const ModelSource& source) {
 }
 
 bool hasOwnColours(const ModelSource& source) {
-  return std::holds_alternative<FileSource>(source);
+  return std::holds_alternative<FileSource>(source) ||
+         std::holds_alternative<GearboxSource>(source);
 }
 
 }  // namespace pleinair::scene

@@ -7,6 +7,7 @@
 
 #include "hal/error.h"
 #include "pipeline/scene/builtin_gear.h"
+#include "pipeline/scene/builtin_gearbox.h"
 #include "pipeline/scene/model.h"
 
 namespace pleinair::scene {
@@ -18,6 +19,8 @@ struct BoxSource {
 
 using GearSource = GearParameters;
 
+using GearboxSource = GearboxParameters;
+
 /// A glTF file.
 struct FileSource {
   std::filesystem::path path;
@@ -25,9 +28,10 @@ struct FileSource {
 };
 
 /// Where a model comes from. Equal sources give equal models.
-using ModelSource = std::variant<BoxSource, GearSource, FileSource>;
+using ModelSource = std::variant<BoxSource, GearSource, GearboxSource, FileSource>;
 
-/// Errors: readGltf()'s, for files only. Precondition: for a gear, faultOf() is nothing.
+/// Errors: readGltf()'s, for files only. Preconditions: for a gear, faultOf() is
+/// nothing; a gearbox has teeth within its ranges.
 hal::Result<Model> modelOf(const ModelSource& source);
 
 /// Whether its materials are coloured; others are white, to be given a colour.
