@@ -221,7 +221,7 @@ void addFittings(Assembly& assembly, const GearboxPlan& plan) {
   const double plate = 0.5 * (plan.shafts[0].x + plan.shafts[1].x);
   assembly.addPart("name_plate",
                    bevelledBox({-0.013, -0.006, -0.0005}, {0.013, 0.006, 0.0010}, 0.0003),
-                   Finish::kRed, onFront(plate, 0.018));
+                   Finish::kBrass, onFront(plate, 0.018));
 }
 
 void addTop(Assembly& assembly, const GearboxPlan& plan, bool isClosed) {

@@ -12,7 +12,8 @@
 namespace pleinair::scene {
 namespace {
 
-constexpr std::size_t kSegments = 40;
+constexpr std::size_t kSegments = 36;
+constexpr std::size_t kBearingSegments = 28;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kChamfer = 0.0006;
 constexpr double kKeyWidth = 0.005;
@@ -53,8 +54,10 @@ std::vector<glm::dvec2> keyedCircle(double radius) {
         0.25 * kTurn + half + (kTurn - 2.0 * half) * static_cast<double>(i) / kSegments;
     outline.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
   }
-  outline.emplace_back(0.5 * kKeyWidth, radius - kKeySink);
-  outline.emplace_back(-0.5 * kKeyWidth, radius - kKeySink);
+  // narrower at its bottom, so that all of it is seen from the axis
+  const double bottom = 0.48 * kKeyWidth * (radius - kKeySink) / radius;
+  outline.emplace_back(bottom, radius - kKeySink);
+  outline.emplace_back(-bottom, radius - kKeySink);
   return outline;
 }
 
@@ -67,7 +70,7 @@ constexpr double kHalfBearing = 0.5 * (kBearingFar - kBearingNear);
 /// A groove that a ball runs in, as points of a section from z = −width to width (radius first).
 /// `side` 1: in an inner race, seen from outside; −1: in an outer one.
 std::vector<glm::dvec2> groove(const GearboxPlan::Shaft& shaft, double side) {
-  constexpr int kPoints = 6;
+  constexpr int kPoints = 4;
   const double middle = bearingMiddleRadius(shaft);
   const double deep = 1.04 * shaft.ballRadius;
   const double reach = 0.75;  // of the ball's angle on either side
@@ -135,7 +138,7 @@ Mesh couplingMesh() {
                                             {0.0208, kCouplingFace - 0.0008},
                                             {0.0200, kCouplingFace},
                                             {0.0, kCouplingFace}}};
-  return turned(section, false, 48);
+  return turned(section, false, 36);
 }
 
 Mesh outerRaceMesh(const GearboxPlan::Shaft& shaft) {
@@ -150,7 +153,7 @@ Mesh outerRaceMesh(const GearboxPlan::Shaft& shaft) {
                                  {outer, -kHalfBearing + kChamfer},
                                  {outer, kHalfBearing - kChamfer},
                                  {outer - kChamfer, kHalfBearing}});
-  return turned(section, true, kSegments);
+  return turned(section, true, kBearingSegments);
 }
 
 Mesh innerRaceMesh(const GearboxPlan::Shaft& shaft) {
@@ -160,11 +163,11 @@ Mesh innerRaceMesh(const GearboxPlan::Shaft& shaft) {
       {bore, kHalfBearing}, {bore, -kHalfBearing}, {lip, -kHalfBearing}};
   for (const glm::dvec2& p : groove(shaft, 1.0)) section.push_back(p);
   section.emplace_back(lip, kHalfBearing);
-  return turned(section, true, kSegments);
+  return turned(section, true, kBearingSegments);
 }
 
 Mesh ballsMesh(const GearboxPlan::Shaft& shaft) {
-  const Mesh ball = sphere(shaft.ballRadius, 14, 8);
+  const Mesh ball = sphere(shaft.ballRadius, 10, 6);
   const double radius = bearingMiddleRadius(shaft);
   Mesh balls;
   for (int i = 0; i < shaft.balls; ++i) {
@@ -178,7 +181,7 @@ Mesh ballsMesh(const GearboxPlan::Shaft& shaft) {
 
 Mesh cageMesh(const GearboxPlan::Shaft& shaft) {
   const double middle = bearingMiddleRadius(shaft);
-  const double half = 0.42 * shaft.ballRadius;
+  const double half = 0.2 * shaft.ballRadius;  // balls are seen on either side of it
   Mesh cage;
   // two rings beside the balls, and a bar between each two balls
   for (const double z : {-1.15 * shaft.ballRadius, 1.15 * shaft.ballRadius}) {
@@ -187,11 +190,11 @@ Mesh cageMesh(const GearboxPlan::Shaft& shaft) {
                                           {middle + half, z - thin},
                                           {middle + half, z + thin},
                                           {middle - half, z + thin}}};
-    append(cage, turned(ring, true, kSegments));
+    append(cage, turned(ring, true, kBearingSegments));
   }
   const double reach = 1.1 * shaft.ballRadius;
-  const Mesh bar = bevelledBox({-0.35 * shaft.ballRadius, -0.9 * half, -reach},
-                               {0.35 * shaft.ballRadius, 0.9 * half, reach}, 0.0);
+  const Mesh bar = bevelledBox({-0.35 * shaft.ballRadius, -1.6 * half, -reach},
+                               {0.35 * shaft.ballRadius, 1.6 * half, reach}, 0.0);
   for (int i = 0; i < shaft.balls; ++i) {
     const glm::dmat4 turn =
         glm::rotate(glm::dmat4(1.0), kTurn * (i + 0.5) / shaft.balls, {0.0, 0.0, 1.0});
@@ -216,7 +219,7 @@ Mesh endCoverMesh(const GearboxPlan::Shaft& shaft) {
                                            {dome, 0.0058},
                                            {dome - 0.0008, 0.0064},
                                            {0.0, 0.0064}}};
-  return turned(section, false, 48);
+  return turned(section, false, 36);
 }
 
 }  // namespace pleinair::scene

@@ -203,10 +203,10 @@ Mesh hexHead(double width, double height) {
   // the chamfered top, a little within the hexagon
   const std::array<glm::dvec2, 3> top{
       {{0.49 * width, shoulder}, {0.4 * width, height}, {0.0, height}}};
-  append(mesh, turned(top, false, 18));
+  append(mesh, turned(top, false, 12));
   const std::array<glm::dvec2, 4> foot{
       {{0.0, 0.0}, {0.62 * width, 0.0}, {0.62 * width, washer}, {0.0, washer}}};
-  append(mesh, turned(foot, false, 24));
+  append(mesh, turned(foot, false, 16));
   return mesh;
 }
 
