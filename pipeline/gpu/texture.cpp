@@ -76,7 +76,7 @@ GLint glWrap(TextureWrap wrap) {
 
 }  // namespace
 
-Texture::Texture(TextureFormat format, hal::FrameSize size, TextureFilter filter)
+Texture::Texture(TextureFormat format, hal::FrameSize size, TextureFilter filter, TextureWrap wrap)
     : handle_(TextureHandle::make()),
       format_(format),
       size_(size),
@@ -90,9 +90,8 @@ Texture::Texture(TextureFormat format, hal::FrameSize size, TextureFilter filter
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
                   hasLevels_ ? GL_LINEAR_MIPMAP_LINEAR : mode);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, mode);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   glBindTexture(GL_TEXTURE_2D, 0);
+  setWrap(wrap, wrap);
   checkMemory(fmt::format("a {}x{} picture", size.width, size.height));
 }
 

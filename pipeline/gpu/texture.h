@@ -29,7 +29,7 @@ enum class TextureFormat {
 /// rules, rule 5). kTrilinear: with all smaller levels, which upload() makes.
 enum class TextureFilter { kNearest, kLinear, kTrilinear };
 
-/// What samplers read beyond the border: the border's texel, unless setWrap() says otherwise.
+/// What lies beyond the border: its own texel, the texture once more, or its mirror image.
 enum class TextureWrap { kClamp, kRepeat, kMirror };
 
 bool isRenderable(TextureFormat format);
@@ -43,8 +43,8 @@ class Texture {
   Texture() = default;
   /// Undefined content. Preconditions: 1 px or more a side; the filter suits the format. Throws
   /// hal::StartupError (kUnsupported) where the GPU has no memory for it.
-  Texture(TextureFormat format, hal::FrameSize size,
-          TextureFilter filter = TextureFilter::kNearest);
+  Texture(TextureFormat format, hal::FrameSize size, TextureFilter filter = TextureFilter::kNearest,
+          TextureWrap wrap = TextureWrap::kClamp);
 
   TextureFormat format() const { return format_; }
   hal::FrameSize size() const { return size_; }
