@@ -169,6 +169,52 @@ TEST(SceneFile, SharesTheMeshesOfEqualModels) {
   EXPECT_NE(scene.models[0].model, scene.models[2].model);
 }
 
+TEST(SceneFile, FindsModelsBesideItself) {
+  const std::filesystem::path directory = testing::TempDir() + "pleinair_scene_model_test";
+  std::filesystem::create_directories(directory / "parts");
+  std::ofstream(directory / "parts/empty.GLTF") << R"({"asset":{"version":"2.0"}})";
+  const auto sceneWith = [&](const std::string& source) {
+    return parseScene(kTag + "[[model]]\nsource = \"" + source + "\"\nattach = \"tag:0\"\n",
+                      "scene.toml", directory);
+  };
+  const Scene scene = sceneWith("parts/empty.GLTF");
+  EXPECT_EQ(scene.models[0].srgb, glm::vec3(1.0F));  // files have colours of their own
+  ASSERT_EQ(scene.notices.size(), 1u);
+  EXPECT_EQ(scene.notices[0],
+            (directory / "parts/empty.GLTF").string() + ": there is nothing in it to be seen");
+  try {
+    sceneWith("gone.glb");
+    FAIL() << "nothing thrown";
+  } catch (const config::ConfigError& error) {
+    EXPECT_EQ(std::string(error.what())
+                  .find("scene.toml:6: model[0].source: " + (directory / "gone.glb").string()),
+              0u)
+        << error.what();
+  }
+  std::filesystem::remove_all(directory);
+}
+
+TEST(SceneFile, ReadsAGearbox) {
+  const Scene scene = parsed(kTag + R"(
+[[model]]
+source = "builtin:gearbox"
+attach = "tag:0"
+length_m = 0.5
+speed_rpm = -20.5
+stage_1 = [20, 40]
+stage_2 = [16, 60]
+cover = "closed"
+)");
+  const auto& gearbox = std::get<GearboxSource>(scene.models[0].source);
+  EXPECT_EQ(gearbox, (GearboxSource{.lengthMetres = 0.5,
+                                    .inputRevolutions = -20.5,
+                                    .stage1 = {20, 40},
+                                    .stage2 = {16, 60},
+                                    .isClosed = true}));
+  EXPECT_EQ(scene.models[0].srgb, glm::vec3(1.0F));
+  EXPECT_GT(scene.models[0].model->parts.size(), 60u);
+}
+
 struct Mistake {
   std::string text;
   std::string message;
@@ -220,6 +266,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "holes, attach, scale, position_m, rotation_deg, colour, focus"},
         Mistake{kTag + kGear + "teeth = 5\n",
                 "scene.toml:9: model[0].teeth: found 5, allowed: a whole number in [6, 200]"},
+        Mistake{kTag + "[[model]]\nsource = \"builtin:gearbox\"\nattach = \"tag:0\"\n"
+                       "stage_2 = [18, 61]\n",
+                "scene.toml:8: model[0].stage_2: found [18, 61], allowed: teeth of a pinion, 16 to "
+                "30, and of a wheel, 36 to 60"},
         Mistake{kTag + kGear + "bore_diameter_m = 0.08\n",
                 "scene.toml:9: model[0].bore_diameter_m: found 0.08, too wide for the teeth, "
                 "allowed: at most 0.07 here"},
