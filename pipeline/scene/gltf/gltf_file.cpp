@@ -157,9 +157,11 @@ class ModelBuilder {
   void addNotices() {
     auto& notices = model_.notices;
     if (!structure_.animations.empty()) {
-      notices.push_back(fmt::format("its {} animations are not played: {}",
-                                    structure_.animations.size(),
-                                    shortList(structure_.animations)));
+      const std::size_t count = structure_.animations.size();
+      notices.push_back(
+          fmt::format("{} not played: {}",
+                      count == 1 ? "its animation is" : fmt::format("its {} animations are", count),
+                      shortList(structure_.animations)));
     }
     if (hasMorphs_) notices.emplace_back("its morph targets are not shown");
     if (hasLines_) notices.emplace_back("its points and lines are not shown");

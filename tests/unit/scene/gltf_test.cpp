@@ -284,7 +284,7 @@ TEST(Gltf, SaysWhatItDoesNotShow) {
   builder.root["meshes"][0]["primitives"][0]["material"] = 0;
   EXPECT_THAT(
       parsed(builder).notices,
-      testing::ElementsAre("its 1 animations are not played: wave bye",
+      testing::ElementsAre("its animation is not played: wave bye",
                            "its morph targets are not shown", "its points and lines are not shown",
                            "drawn solid or not at all instead of see-through: glass"));
 }
