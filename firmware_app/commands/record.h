@@ -3,23 +3,20 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <string>
 
-#include "hal/pixel_format.h"
+#include "firmware_app/configuration.h"
 
 namespace pleinair::app {
 
 struct RecordOptions {
-  std::string camera = "synthetic";
+  ConfigurationRequest configuration;
   std::filesystem::path output;
   std::uint64_t frames = 150;
-  hal::FrameSize size{640, 480};
-  std::uint32_t seed = 1;
   std::optional<std::filesystem::path> writeScene;
 };
 
-/// Records a camera to a movie or pictures: `pleinair record`. Throws hal::StartupError. Returns
-/// the exit status, as render() does.
+/// Records [camera]'s camera to a movie or pictures, unpainted: `pleinair record`. Throws
+/// hal::StartupError and config::ConfigError. Returns the exit status, as render() does.
 int record(const RecordOptions& options);
 
 }  // namespace pleinair::app

@@ -28,10 +28,18 @@ constexpr int kHighestId = 0xFFFF;
 /// Bounds the memory of a scene; a gear of 200 teeth has 23,000.
 constexpr std::size_t kMaxSceneTriangles = 1'000'000;
 
-tracking::CameraModel readCamera(const TomlTable& table, const std::filesystem::path& directory) {
+tracking::CameraModel readCamera(const TomlTable& table, const std::filesystem::path& directory,
+                                 std::vector<std::filesystem::path>& files) {
   const auto calibration = table.optionalString("calibration");
   if (!calibration) return tracking::readCalibration(table);
-  return tracking::loadCalibration(directory / *calibration);
+  files.push_back(directory / *calibration);
+  try {
+    return tracking::loadCalibration(files.back());
+  } catch (const config::ConfigError& error) {
+    // A line is of the calibration; without one, it is this scene that names a wrong file.
+    if (error.line() > 0) throw;
+    throw table.error("calibration", error.what());
+  }
 }
 
 tracking::TagMarker readTag(const TomlTable& table, std::string_view family) {
@@ -165,6 +173,9 @@ void readModels(const TomlTable& root, const std::filesystem::path& directory, S
           "source", fmt::format("makes {} triangles in the scene", triangles),
           fmt::format("at most {} in all; equal models share theirs", kMaxSceneTriangles));
     }
+    if (const auto* file = std::get_if<FileSource>(&added.source)) {
+      scene.files.push_back(file->path);
+    }
     for (std::string& notice : noticesOf(added)) scene.notices.push_back(std::move(notice));
   }
 }
@@ -188,7 +199,7 @@ Scene readScene(const TomlDocument& document, const std::filesystem::path& direc
   const TomlTable& root = document.root();
   Scene scene;
   if (const auto camera = root.optionalTable("camera")) {
-    scene.camera = readCamera(*camera, directory);
+    scene.camera = readCamera(*camera, directory, scene.files);
   }
   if (const auto light = root.optionalTable("light")) scene.light = readLight(*light);
   readTags(root, scene);
