@@ -193,8 +193,10 @@ hal::Result<Model> withFaultsAsErrors(const std::string& name, Function make) {
   try {
     return make();
   } catch (const gltf::Fault& fault) {
-    return tl::unexpected(hal::Error{
-        .kind = fault.kind(), .subject = name, .problem = fault.what(), .remedy = fault.remedy()});
+    return tl::unexpected(hal::Error{.kind = fault.kind(),
+                                     .subject = name,
+                                     .problem = gltf::oneLine(fault.what()),
+                                     .remedy = fault.remedy()});
   }
 }
 

@@ -1,5 +1,6 @@
 // Purpose: toon shading of a solid surface.
-// Inputs, outputs, precision: model_toon.glsl's.
+// Inputs:  model_toon.glsl's.
+// Outputs: model_toon.glsl's. Precision: as there.
 #include "pipeline/scene/shaders/model_toon.glsl"
 
 void main() {

@@ -1,6 +1,6 @@
 // Purpose: toon shading of a surface that is not there where its coverage is low.
-// Inputs:  model_toon.glsl's; coverageCutoff.
-// Outputs, precision: model_toon.glsl's.
+// Inputs:  model_toon.glsl's; coverageCutoff, below which nothing is.
+// Outputs: model_toon.glsl's. Precision: as there.
 #include "pipeline/scene/shaders/model_toon.glsl"
 
 uniform float coverageCutoff;

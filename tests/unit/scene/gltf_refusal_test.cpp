@@ -177,6 +177,7 @@ TEST(GltfRefusals, BoundTheJson) {
   for (int i = 0; i < 2'000'001; ++i) wide += "0,";
   EXPECT_EQ(refusalOf(wide), "m.glb: its JSON has more than 2000000 values");
   EXPECT_THAT(refusalOf("{\"asset\":1e999}"), testing::StartsWith("m.glb: its JSON is broken: "));
+  EXPECT_THAT(refusalOf("{\"asset\": \x7f\n}"), testing::Not(testing::HasSubstr("\x7f")));
   EXPECT_EQ(refusalOf("solid cube"), "m.glb: is not glTF; give a .glb or .gltf file of version 2");
 }
 
