@@ -66,6 +66,14 @@ std::size_t Model::surfaceTriangles() const {
   return count;
 }
 
+std::uint64_t drawnTriangles(const Model& model) {
+  std::uint64_t count = 0;
+  for (const ModelPart& part : model.parts) {
+    for (const Surface& surface : surfacesOf(model, part)) count += surface.mesh.triangles.size();
+  }
+  return count;
+}
+
 void numberTriangles(Model& model) {
   std::uint32_t next = 0;
   for (ModelPart& part : model.parts) {

@@ -70,7 +70,10 @@ struct Model {
   std::size_t surfaceTriangles() const;
 };
 
-/// Counts each part's triangles.
+/// As Model::triangleCount(), of more than fit its numbers, too.
+std::uint64_t drawnTriangles(const Model& model);
+
+/// Counts each part's triangles; sound where drawnTriangles() fits in 32 bits.
 void numberTriangles(Model& model);
 
 /// A model of a single part and material, white.

@@ -114,6 +114,10 @@ std::shared_ptr<const Model> sharedModel(const ModelSource& source, const TomlTa
     const double shortEdge = 0.125 * boundingSphere(*model).radiusMetres;
     if (shortEdge > 0.0) model = withShortEdges(*model, shortEdge, kMaxSceneTriangles + 1);
   }
+  if (const std::uint64_t drawn = drawnTriangles(*model); drawn > kMaxTriangles) {
+    throw table.error("source", fmt::format("draws {} triangles, cut small for the lens", drawn),
+                      fmt::format("at most {}", kMaxTriangles));
+  }
   return std::make_shared<const Model>(*std::move(model));
 }
 

@@ -131,6 +131,10 @@ Accessors::Elements Accessors::read(int index, const std::string& where) {
     refuse(name + ".count", fmt::format("found {}", accessor.count),
            fmt::format("from 1 to {}", most));
   }
+  numbers_ += elements.count * elements.components;
+  if (numbers_ > mostNumbers_) {
+    refuse(where, "makes too many numbers to read", fmt::format("at most {} in all", mostNumbers_));
+  }
   const std::size_t elementBytes = elements.components * elements.componentBytes;
   elements.bytes.resize(elements.count * elementBytes);
   if (accessor.bufferView >= 0) {

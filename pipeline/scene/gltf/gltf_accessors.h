@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -8,6 +9,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 
+#include "pipeline/scene/gltf/gltf_limits.h"
 #include "pipeline/scene/gltf/gltf_resources.h"
 #include "pipeline/scene/gltf/gltf_structure.h"
 
@@ -17,8 +19,9 @@ namespace pleinair::scene::gltf {
 /// Fault for whatever is out of range, beyond the limits, or no finite number.
 class Accessors {
  public:
-  Accessors(const Structure& structure, Resources& resources)
-      : structure_(structure), resources_(resources) {}
+  /// Reads at most `mostNumbers`, each time that they are read.
+  Accessors(const Structure& structure, Resources& resources, std::size_t mostNumbers = kMaxNumbers)
+      : structure_(structure), resources_(resources), mostNumbers_(mostNumbers) {}
 
   /// Vectors of 1 to 4 numbers; what an element lacks is 0, and 1 as the fourth. Normalised
   /// integers come as fractions.
@@ -46,6 +49,8 @@ class Accessors {
 
   const Structure& structure_;
   Resources& resources_;
+  std::size_t mostNumbers_;
+  std::size_t numbers_ = 0;  ///< read so far
 };
 
 }  // namespace pleinair::scene::gltf

@@ -109,6 +109,11 @@ class ModelBuilder {
 
   SurfaceRange addSurfaces(int meshIndex, const std::vector<glm::dmat4>& joints) {
     const auto& mesh = structure_.gltf.meshes[static_cast<std::size_t>(meshIndex)];
+    primitives_ += mesh.primitives.size();
+    if (primitives_ > gltf::kMaxPrimitives) {
+      refuse(fmt::format("meshes[{}]", meshIndex), "makes too many primitives with its like",
+             fmt::format("at most {} in all", gltf::kMaxPrimitives));
+    }
     SurfaceRange range{.first = model_.surfaces.size()};
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
       const std::string where = fmt::format("meshes[{}].primitives[{}]", meshIndex, i);
@@ -127,7 +132,13 @@ class ModelBuilder {
   }
 
   /// What takes a skin's mesh to where its joints are at rest.
-  std::vector<glm::dmat4> jointsOf(int index, const std::string& where) {
+  const std::vector<glm::dmat4>& jointsOf(int index, const std::string& where) {
+    const auto known = jointsOfSkin_.find(index);
+    if (known != jointsOfSkin_.end()) return known->second;
+    return jointsOfSkin_.emplace(index, readJoints(index, where)).first->second;
+  }
+
+  std::vector<glm::dmat4> readJoints(int index, const std::string& where) {
     const auto& skins = structure_.gltf.skins;
     if (index < 0 || static_cast<std::size_t>(index) >= skins.size()) {
       refuse(where, fmt::format("there is no skins[{}]", index));
@@ -135,6 +146,10 @@ class ModelBuilder {
     const tinygltf::Skin& skin = skins[static_cast<std::size_t>(index)];
     const std::string name = fmt::format("skins[{}]", index);
     if (skin.joints.empty()) refuse(name + ".joints", "is empty");
+    if (skin.joints.size() > tree_.rootFromNode.size()) {  // each node once (section 5.28)
+      refuse(name + ".joints",
+             fmt::format("has {}, of {} nodes", skin.joints.size(), tree_.rootFromNode.size()));
+    }
     std::vector<glm::dmat4> inverseBind(skin.joints.size(), glm::dmat4(1.0));
     if (skin.inverseBindMatrices != -1) {
       inverseBind = accessors_.matrices(skin.inverseBindMatrices, name + ".inverseBindMatrices");
@@ -182,6 +197,8 @@ class ModelBuilder {
   gltf::NodeTree tree_;
   Model model_;
   std::map<int, SurfaceRange> rangeOfMesh_;
+  std::map<int, std::vector<glm::dmat4>> jointsOfSkin_;
+  std::size_t primitives_ = 0;
   std::size_t drawnTriangles_ = 0;
   bool hasMorphs_ = false;
   bool hasLines_ = false;

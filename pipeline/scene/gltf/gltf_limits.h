@@ -16,9 +16,14 @@ inline constexpr int kMaxJsonDepth = 64;
 inline constexpr std::size_t kMaxNodes = 20'000;
 inline constexpr std::size_t kMaxImages = 256;
 inline constexpr int kMaxTextureSide = 4096;  ///< what every GPU that is meant takes
-inline constexpr std::int64_t kMaxTexturePixels = 48'000'000;  ///< of all together
+inline constexpr std::int64_t kMaxTexturePixels =
+    48'000'000;  ///< of all pictures, and of all textures
 inline constexpr std::size_t kMaxSurfaceTriangles = 1'000'000;
 inline constexpr std::size_t kMaxVertices = 3'000'000;
+/// What reading takes, each time that something is read: skins have their meshes read anew for each
+/// node.
+inline constexpr std::size_t kMaxPrimitives = 100'000;
+inline constexpr std::size_t kMaxNumbers = 100'000'000;  ///< of accessors
 inline constexpr double kMaxCoordinate = 1e9;
 
 }  // namespace pleinair::scene::gltf

@@ -88,9 +88,25 @@ std::size_t MaterialReader::texturePlace(int texture, Model& model, const std::s
     made.across = edgeOf(sampler.wrapS);
     made.down = edgeOf(sampler.wrapT);
   }
-  model.textures.push_back(std::move(made));
-  texturePlaces_[texture] = model.textures.size() - 1;
-  return model.textures.size() - 1;
+  const std::size_t place = placeAmong(model.textures, std::move(made), name);
+  texturePlaces_[texture] = place;
+  return place;
+}
+
+/// Each is a texture of the GPU's, also those that share a picture: equal ones are made once.
+std::size_t MaterialReader::placeAmong(std::vector<ModelTexture>& textures, ModelTexture made,
+                                       const std::string& where) {
+  const auto same = std::ranges::find_if(textures, [&](const ModelTexture& each) {
+    return each.picture == made.picture && each.across == made.across && each.down == made.down;
+  });
+  if (same != textures.end()) return static_cast<std::size_t>(same - textures.begin());
+  texturePixels_ += made.picture->size().pixels();
+  if (texturePixels_ > kMaxTexturePixels) {
+    refuse(where, "makes too many pixels with the textures before it",
+           fmt::format("at most {} Mpx in all", kMaxTexturePixels / 1'000'000));
+  }
+  textures.push_back(std::move(made));
+  return textures.size() - 1;
 }
 
 std::size_t MaterialReader::place(int material, Model& model, const std::string& where) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -26,6 +29,8 @@ class MaterialReader {
 
  private:
   std::size_t texturePlace(int texture, Model& model, const std::string& where);
+  std::size_t placeAmong(std::vector<ModelTexture>& textures, ModelTexture made,
+                         const std::string& where);
 
   const Structure& structure_;
   Resources& resources_;
@@ -33,6 +38,7 @@ class MaterialReader {
   std::map<int, std::size_t> texturePlaces_;
   std::vector<TextureMapping> mappings_;
   std::vector<std::string> blended_;
+  std::int64_t texturePixels_ = 0;
 };
 
 }  // namespace pleinair::scene::gltf

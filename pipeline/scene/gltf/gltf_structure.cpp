@@ -22,6 +22,11 @@ constexpr std::array<std::string_view, 2> kExtensions{"KHR_mesh_quantization",
 constexpr std::array<const char*, 7> kAccessorTypes{"SCALAR", "VEC2", "VEC3", "VEC4",
                                                     "MAT2",   "MAT3", "MAT4"};
 
+/// A library's message, which may quote all of a long string.
+std::string firstLine(const std::string& text) {
+  return text.substr(0, std::min<std::size_t>(text.find('\n'), 200));
+}
+
 /// Parses with bounds on nesting and on how many values there are: later readers of it recurse,
 /// and a value takes far more memory than its text.
 json parseBounded(std::string_view text) {
@@ -41,7 +46,7 @@ json parseBounded(std::string_view text) {
   try {
     return json::parse(text.begin(), text.end(), bounded);
   } catch (const json::exception& error) {
-    refuse("", fmt::format("its JSON is broken: {}", error.what()));
+    refuse("", fmt::format("its JSON is broken: {}", firstLine(error.what())));
   }
 }
 
@@ -172,10 +177,6 @@ void removeExtras(json& root) {
   }
 }
 
-std::string firstLine(const std::string& text) {
-  return text.substr(0, std::min<std::size_t>(text.find('\n'), 200));
-}
-
 }  // namespace
 
 Structure readStructure(std::string_view text) {
@@ -204,7 +205,7 @@ Structure readStructure(std::string_view text) {
       refuse("", firstLine(error.empty() ? "cannot be parsed" : error));
     }
   } catch (const json::exception& fault) {  // values of other types than it expects
-    refuse("", fmt::format("its JSON is not glTF's: {}", fault.what()));
+    refuse("", fmt::format("its JSON is not glTF's: {}", firstLine(fault.what())));
   }
   return structure;
 }

@@ -6,8 +6,11 @@
 #include <gmock/gmock.h>
 
 #include "hal/libav/picture_file.h"
+#include "pipeline/scene/gltf/gltf_accessors.h"
+#include "pipeline/scene/gltf/gltf_fault.h"
 #include "pipeline/scene/gltf/gltf_file.h"
 #include "pipeline/scene/gltf/gltf_resources.h"
+#include "pipeline/scene/gltf/gltf_structure.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/scene/gltf_builder.h"
 
@@ -148,6 +151,12 @@ INSTANTIATE_TEST_SUITE_P(
                  "m.glb: accessors[0].type: found \"VEC9\""},
         Spoiling{"Skin", [](json& r) { r["nodes"][0]["skin"] = 1; },
                  "m.glb: nodes[0].skin: there is no skins[1]"},
+        Spoiling{"Joints",
+                 [](json& r) {
+                   r["nodes"][0]["skin"] = 0;
+                   r["skins"] = {{{"joints", {0, 0}}}};
+                 },
+                 "m.glb: skins[0].joints: has 2, of 1 nodes"},
         Spoiling{"Mode", [](json& r) { r["meshes"][0]["primitives"][0]["mode"] = 8; },
                  "m.glb: meshes[0].primitives[0].mode: is none of glTF's"}),
     [](const auto& instance) { return instance.param.name; });
@@ -170,6 +179,61 @@ TEST(GltfRefusals, BoundWhatInstancesDraw) {
             "m.glb: nodes[4194]: makes too many triangles with its like; at most 4194304 drawn");
 }
 
+TEST(GltfRefusals, BoundPrimitivesThatAreReadAnewForEachNode) {
+  GltfBuilder builder;
+  builder.addMesh({0, 0, 0, 1, 0, 0, 0, 1, 0})["mode"] = 0;  // points: no triangle counts
+  json& primitives = builder.root["meshes"][0]["primitives"];
+  while (primitives.size() < 1000) primitives.push_back(json(primitives[0]));
+  builder.root["skins"] = {{{"joints", {0}}}};
+  builder.root["nodes"][0]["skin"] = 0;
+  while (builder.root["nodes"].size() < 100) {
+    builder.root["nodes"].push_back({{"mesh", 0}, {"skin", 0}});
+  }
+  EXPECT_EQ(refusalOf(builder.bytes()), "(was taken)");
+  builder.root["nodes"].push_back({{"mesh", 0}, {"skin", 0}});
+  EXPECT_EQ(refusalOf(builder.bytes()),
+            "m.glb: meshes[0]: makes too many primitives with its like; at most 100000 in all");
+}
+
+TEST(GltfRefusals, BoundWhatAccessorsMakeToRead) {
+  const gltf::Structure structure = gltf::readStructure(
+      R"({"asset":{"version":"2.0"},"accessors":[{"componentType":5126,"count":3,"type":"VEC4"}]})");
+  gltf::Resources resources(structure, std::nullopt, std::nullopt);
+  gltf::Accessors accessors(structure, resources, 24);
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(accessors.vectors(0, "here").size(), 3u);
+  try {
+    accessors.vectors(0, "here");
+    FAIL() << "nothing thrown";
+  } catch (const gltf::Fault& fault) {
+    EXPECT_STREQ(fault.what(), "here: makes too many numbers to read");
+    EXPECT_EQ(fault.remedy(), "at most 24 in all");
+  }
+}
+
+TEST(GltfRefusals, BoundTexturesThatShareAPicture) {
+  GltfBuilder builder = soundModel();
+  const hal::Image picture({.pixelFormat = hal::PixelFormat::kRgb8, .size = {2400, 2240}});
+  const std::vector<std::uint8_t> png = hal::encodePng(picture.view()).value();
+  builder.root["images"] = {{{"bufferView", builder.addView(png.data(), png.size())}}};
+  const json primitive = builder.root["meshes"][0]["primitives"][0];
+  builder.root["meshes"][0]["primitives"] = json::array();
+  builder.root["materials"] = json::array();
+  for (const int across : {10497, 33071, 33648}) {
+    for (const int down : {10497, 33071, 33648}) {
+      const std::size_t index = builder.root["materials"].size();
+      builder.root["samplers"].push_back({{"wrapS", across}, {"wrapT", down}});
+      builder.root["textures"].push_back({{"source", 0}, {"sampler", index}});
+      builder.root["materials"].push_back(
+          {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", index}}}}}});
+      builder.root["meshes"][0]["primitives"].push_back(primitive);
+      builder.root["meshes"][0]["primitives"].back()["material"] = index;
+    }
+  }
+  EXPECT_EQ(refusalOf(builder.bytes()),
+            "m.glb: textures[8]: makes too many pixels with the textures before it; at most 48 Mpx "
+            "in all");
+}
+
 TEST(GltfRefusals, BoundTheJson) {
   const std::string deep = "{\"asset\":" + std::string(100'000, '[');
   EXPECT_EQ(refusalOf(deep), "m.glb: its JSON is nested more than 64 levels deep");
@@ -178,6 +242,9 @@ TEST(GltfRefusals, BoundTheJson) {
   EXPECT_EQ(refusalOf(wide), "m.glb: its JSON has more than 2000000 values");
   EXPECT_THAT(refusalOf("{\"asset\":1e999}"), testing::StartsWith("m.glb: its JSON is broken: "));
   EXPECT_THAT(refusalOf("{\"asset\": \x7f\n}"), testing::Not(testing::HasSubstr("\x7f")));
+  const std::string quoted = refusalOf("{\"asset\": \"" + std::string(100'000, 'a') + "\x01\"}");
+  EXPECT_THAT(quoted, testing::StartsWith("m.glb: its JSON is broken: "));
+  EXPECT_LT(quoted.size(), 300u);
   EXPECT_EQ(refusalOf("solid cube"), "m.glb: is not glTF; give a .glb or .gltf file of version 2");
 }
 

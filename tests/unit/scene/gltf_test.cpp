@@ -249,6 +249,27 @@ TEST(Gltf, ReadsMaterialsAndTheirTextures) {
   EXPECT_NEAR(vertex.texture.y, 0.25 - 2.0, 1e-6);
 }
 
+TEST(Gltf, MakesEqualTexturesOnce) {
+  GltfBuilder builder;
+  const hal::Image picture({.pixelFormat = hal::PixelFormat::kRgb8, .size = {2, 1}});
+  const std::vector<std::uint8_t> png = hal::encodePng(picture.view()).value();
+  builder.root["images"] = {{{"bufferView", builder.addView(png.data(), png.size())}}};
+  builder.root["samplers"] = {{{"wrapS", 33071}}, {{"wrapS", 10497}}};
+  builder.root["textures"] = {
+      {{"source", 0}, {"sampler", 0}}, {{"source", 0}}, {{"source", 0}, {"sampler", 1}}};
+  for (int i = 0; i < 3; ++i) {
+    builder.addMesh(kTriangle)["material"] = i;
+    builder.root["materials"].push_back(
+        {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", i}}}}}});
+  }
+  const Model model = parsed(builder);
+  ASSERT_EQ(model.textures.size(), 2u);
+  EXPECT_EQ(model.textures[0].across, TextureEdge::kClamp);
+  EXPECT_EQ(model.materials[0].texture, 0u);
+  EXPECT_EQ(model.materials[1].texture, 1u);
+  EXPECT_EQ(model.materials[2].texture, 1u);
+}
+
 TEST(Gltf, PosesSkinsByTheirJointsAtRest) {
   GltfBuilder builder;
   auto& primitive = builder.addMesh(kTriangle, "figure");

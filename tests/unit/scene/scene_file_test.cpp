@@ -10,6 +10,7 @@
 
 #include "config/config_error.h"
 #include "pipeline/scene/attach_frame.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pleinair::scene {
 namespace {
@@ -139,7 +140,8 @@ TEST(SceneFile, FindsACalibrationBesideItself) {
     loadScene(directory / "scene.toml");
     FAIL() << "nothing thrown";
   } catch (const config::ConfigError& error) {
-    EXPECT_EQ(error.file(), (directory / "camera.toml").string());
+    EXPECT_EQ(error.file(), (directory / "scene.toml").string());  // it names a wrong file
+    EXPECT_NE(std::string(error.what()).find("camera.toml"), std::string::npos) << error.what();
   }
   std::filesystem::remove_all(directory);
 }
@@ -309,6 +311,35 @@ TEST(SceneFileMistakes, CountTriangles) {
   EXPECT_NE(errorOf(text).find("triangles in the scene, allowed: at most 1000000 in all"),
             std::string::npos)
       << errorOf(text);
+}
+
+TEST(SceneFileMistakes, CountTrianglesThatALensHasCutSmall) {
+  const support::TemporaryFolder folder;
+  std::string model = R"({"asset":{"version":"2.0"},
+    "buffers":[{"byteLength":36,"uri":"data:;base64,)"
+                      "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"
+                      R"("}],
+    "bufferViews":[{"buffer":0,"byteLength":36}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+    "nodes":[{"mesh":0})";
+  for (int i = 1; i < 10'000; ++i) model += R"(,{"mesh":0})";
+  std::ofstream(folder.path() / "many.gltf") << model + "]}";
+  const std::string text = kTag + "[[model]]\nsource = \"many.gltf\"\nattach = \"tag:0\"\n";
+  EXPECT_EQ(parseScene(text, "scene.toml", folder.path()).models[0].model->triangleCount(),
+            10'000u);
+  const std::string lens =
+      "[camera]\nimage_size = [640, 480]\nfx = 500\nfy = 500\ncx = 320\ncy = 240\n"
+      "distortion = [0.1]\n";
+  try {
+    parseScene(lens + text, "scene.toml", folder.path());
+    FAIL() << "nothing thrown";
+  } catch (const config::ConfigError& error) {
+    EXPECT_NE(
+        std::string(error.what()).find("triangles, cut small for the lens, allowed: at most "),
+        std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(SceneFileMistakes, SayThatTheFileIsMissing) {
