@@ -22,6 +22,7 @@
 #include "firmware_app/log.h"
 #include "firmware_app/option_values.h"
 #include "firmware_app/version.h"
+#include "hal/cameras/synthetic/shot.h"
 
 namespace pleinair::app {
 namespace {
@@ -89,9 +90,30 @@ void addRender(CLI::App& app, RenderOptions& options, std::function<int()>& chos
   command.callback([&] { chosen = [&options] { return render(options); }; });
 }
 
+/// What a real camera does to a picture, for the synthetic one.
+void addSensor(CLI::App& command, RecordOptions& options) {
+  const auto add = [&command](const char* name, double& value, double least, double most,
+                              const char* help) {
+    command.add_option(name, value, help)
+        ->capture_default_str()
+        ->check(CLI::Range(least, most))
+        ->type_name("NUMBER");
+  };
+  add("--rate", options.framesPerSecond, 1, 1000, "frames a second");
+  add("--noise", options.noiseSigma, 0, 40, "of the sensor: standard deviation in 8-bit levels");
+  add("--exposure-drift", options.exposureDriftStops, 0, 2, "stops by which brightness wanders");
+  add("--white-balance-drift", options.whiteBalanceDrift, 0, 0.5,
+      "share by which red and blue wander against each other");
+  add("--readout", options.readoutMilliseconds, 0, 1000,
+      "milliseconds that a rolling shutter takes from the first row to the last; 0: global shutter");
+}
+
 void addRecord(CLI::App& app, RecordOptions& options, std::function<int()>& chosen) {
   CLI::App& command = *app.add_subcommand("record", "record a camera");
-  command.add_option("--camera", options.camera, "which camera")
+  command
+      .add_option("--camera", options.camera,
+                  "which camera: synthetic:SHOT, where SHOT is one of " +
+                      hal::syntheticShotNames() + "; synthetic alone is the walkaround")
       ->capture_default_str()
       ->type_name("NAME");
   command.add_option("--output", options.output, "as of render")
@@ -112,6 +134,7 @@ void addRecord(CLI::App& app, RecordOptions& options, std::function<int()>& chos
                   "write a scene file that fits the synthetic camera's world")
       ->check(refuseStandardOutput)
       ->type_name("FILE");
+  addSensor(command, options);
   refuseEmptyValues(command);
   command.callback([&] { chosen = [&options] { return record(options); }; });
 }

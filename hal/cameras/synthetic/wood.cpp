@@ -4,15 +4,15 @@
 
 #include <glm/common.hpp>
 
-#include "hal/cameras/synthetic/mip_texture.h"
 #include "hal/cameras/synthetic/noise.h"
+#include "hal/cameras/synthetic/srgb.h"
 
 namespace pleinair::hal::synthetic {
 namespace {
 
-constexpr float kPlankWidth = 0.152F;
-constexpr float kPlankLength = 1.15F;
-constexpr float kRingSpacing = 0.0062F;
+constexpr float kPlankWidth = 0.184F;
+constexpr float kPlankLength = 2.60F;
+constexpr float kRingSpacing = 0.0105F;
 constexpr int kKnotsAPlank = 2;
 
 struct Plank {
@@ -73,29 +73,27 @@ float yearRings(const Plank& plank, float y) {
 }  // namespace
 
 glm::vec3 woodLinearRgb(std::uint32_t seed, glm::vec2 point) {
-  static const glm::vec3 kLight = linearFromSrgb(0xd9a468);
-  static const glm::vec3 kDark = linearFromSrgb(0x9a6236);
-  static const glm::vec3 kReddish = linearFromSrgb(0xc07f4c);
-  static const glm::vec3 kKnot = linearFromSrgb(0x4a2a15);
+  static const glm::vec3 kLight = linearFromSrgb(0xcf9d66);
+  static const glm::vec3 kDark = linearFromSrgb(0xa4703f);
+  static const glm::vec3 kReddish = linearFromSrgb(0xbb8250);
+  static const glm::vec3 kKnot = linearFromSrgb(0x5a3820);
   const Plank plank = plankAt(seed, point);
   const glm::vec2 p = plank.point;
 
   float y = p.y;
   const float inKnot = bendAroundKnots(plank, y);
   const float ring = yearRings(plank, y);
-  const float fibre = valueNoise(plank.id + 1, {p.x * 14, y * 650}) - 0.5F;
-  const float streak = fractalNoise(plank.id + 2, {p.x * 3, y * 90}, 2) - 0.5F;
-  const float pore = glm::smoothstep(0.80F, 0.95F, valueNoise(plank.id + 3, {p.x * 70, y * 800}));
+  const float streak = fractalNoise(plank.id + 2, {p.x * 2, y * 60}, 2) - 0.5F;
 
   const glm::vec3 light = glm::mix(kLight, kReddish, random(plank.id, 3) * 0.8F);
   glm::vec3 rgb =
-      glm::mix(light, kDark, glm::clamp(0.52F * ring + 0.55F * streak + 0.12F, 0.F, 1.F));
-  rgb *= (0.86F + 0.26F * random(plank.id, 4)) * (1 + 0.22F * fibre) * (1 - 0.35F * pore);
-  rgb = glm::mix(rgb, kKnot * (0.8F + 0.6F * ring), 0.9F * inKnot);
+      glm::mix(light, kDark, glm::clamp(0.34F * ring + 0.40F * streak + 0.14F, 0.F, 1.F));
+  rgb *= 0.90F + 0.18F * random(plank.id, 4);
+  rgb = glm::mix(rgb, kKnot * (0.8F + 0.6F * ring), 0.8F * inKnot);
 
-  const float groove = 1 - glm::smoothstep(0.0004F, 0.0016F, plank.toNeighbour);
-  const float bevel = 1 - glm::smoothstep(0.0016F, 0.0045F, plank.toNeighbour);
-  return rgb * (1 - 0.82F * groove) * (1 - 0.12F * bevel);
+  const float groove = 1 - glm::smoothstep(0.0006F, 0.0020F, plank.toNeighbour);
+  const float bevel = 1 - glm::smoothstep(0.0020F, 0.0060F, plank.toNeighbour);
+  return rgb * (1 - 0.72F * groove) * (1 - 0.14F * bevel);
 }
 
 }  // namespace pleinair::hal::synthetic

@@ -7,7 +7,8 @@
 
 namespace pleinair::hal::synthetic {
 
-/// Oiled oak planks along x, with grain, pores and knots: linear light at a point in metres.
+/// Oiled planks along x, worn by work, with grain and a few knots: linear light at a point in
+/// metres.
 glm::vec3 woodLinearRgb(std::uint32_t seed, glm::vec2 point);
 
 }  // namespace pleinair::hal::synthetic
