@@ -20,13 +20,14 @@ Placement onTop(float x, float y, float degrees = 0) {
 }
 
 void paintTop(Canvas& canvas, std::uint32_t seed) {
+  Wood wood(seed);
   canvas.paintAll([&](glm::vec2 p) {
     const float edge = boxDistance(p, canvas.half());
-    return woodLinearRgb(seed, p) * (1 + 0.18F * glm::smoothstep(-0.006F, -0.001F, edge));
+    return wood.linearRgbAt(p) * (1 + 0.18F * glm::smoothstep(-0.006F, -0.001F, edge));
   });
   paintMugRing(canvas, onTop(0.22F, -0.32F));
   paintDrawing(canvas, onTop(-0.315F, -0.255F, 9));
-  paintNotes(canvas, onTop(0.43F, 0.03F, -16), {0.074F, 0.105F}, 7);
+  paintNotes(canvas, onTop(0.43F, 0.07F, -16), {0.074F, 0.105F}, 7);
   paintStickyNote(canvas, onTop(-0.125F, -0.155F, -7), 0xe3c65a);
   paintRule(canvas, onTop(0.01F, -0.375F, 4));
   paintWrench(canvas, onTop(0.27F, -0.235F, 62), 0.19F);

@@ -10,7 +10,6 @@
 #include <glm/vec3.hpp>
 
 #include "hal/cameras/synthetic/mip_texture.h"
-#include "hal/cameras/synthetic/row_threads.h"
 
 namespace pleinair::hal::synthetic {
 
@@ -86,7 +85,7 @@ class Canvas {
   }
 
   /// Lays `shade(point) → Paint` over every texel within ±`half` (metres) of a thing; `point` is in
-  /// the thing's own coordinates, metres. Called from several threads.
+  /// the thing's own coordinates, metres.
   template <class Shade>
   void paint(const Placement& at, glm::vec2 half, const Shade& shade) {
     const float angle = at.angleDegrees * 0.017453293F;
@@ -98,16 +97,14 @@ class Canvas {
     const int endX = std::min(level_.width, static_cast<int>(high.x) + 1);
     const int endY = std::min(level_.height, static_cast<int>(high.y) + 1);
     const int firstX = std::max(0, static_cast<int>(low.x));
-    forRows(std::max(0, static_cast<int>(low.y)), endY, [&](int firstRow, int endRow) {
-      for (int y = firstRow; y < endRow; ++y) {
-        for (int x = firstX; x < endX; ++x) {
-          const glm::vec2 centre(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
-          const glm::vec2 offset = centre * texel_ - half_ - at.centreMetres;
-          const glm::vec2 point(glm::dot(offset, xAxis), xAxis.x * offset.y - xAxis.y * offset.x);
-          if (std::abs(point.x) <= half.x && std::abs(point.y) <= half.y) blend(x, y, shade(point));
-        }
+    for (int y = std::max(0, static_cast<int>(low.y)); y < endY; ++y) {
+      for (int x = firstX; x < endX; ++x) {
+        const glm::vec2 centre(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+        const glm::vec2 offset = centre * texel_ - half_ - at.centreMetres;
+        const glm::vec2 point(glm::dot(offset, xAxis), xAxis.x * offset.y - xAxis.y * offset.x);
+        if (std::abs(point.x) <= half.x && std::abs(point.y) <= half.y) blend(x, y, shade(point));
       }
-    });
+    }
   }
 
   /// The soft shadow of a thin rounded box that lies `heightMetres` high, lit from the left.

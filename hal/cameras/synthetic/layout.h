@@ -20,7 +20,7 @@ inline const glm::dmat4 kToolboxPose = standing({-0.49, 0.20, 0}, 13);
 inline constexpr glm::dvec3 kToolboxSize{0.40, 0.19, 0.165};
 inline const glm::dmat4 kMachinePose = standing({0.00, 0.29, 0.014}, -5);
 inline constexpr glm::dvec3 kMachineSize{0.23, 0.17, 0.15};
-inline const glm::dmat4 kBooksPose = standing({-0.66, -0.17, 0}, 24);
+inline const glm::dmat4 kBooksPose = standing({-0.59, -0.10, 0}, 22);
 inline constexpr double kBooksHeight = 0.056;
 inline constexpr glm::dvec3 kWallSheetCentre{-0.205, kWallY - 0.002, 0.40};
 

@@ -18,13 +18,14 @@ constexpr float kPi = 3.14159265F;
 constexpr float kLiftMetres = 0.0012F;  // rays start this far off their surface
 
 // Warm against cool: the sun's patch and the lamp, and the sky's blue in every shadow.
-const glm::vec3 kSunDirection = glm::normalize(glm::vec3(-0.80F, -0.30F, 0.58F));
-constexpr glm::vec3 kSunLight{1.02F, 0.80F, 0.52F};
-constexpr float kSunRadius = 0.020F;
-constexpr glm::vec3 kSkyLight{1.05F, 1.22F, 1.42F};
-constexpr glm::vec3 kRoomFromWindowSide{0.300F, 0.335F, 0.375F};
-constexpr glm::vec3 kRoomFromElsewhere{0.235F, 0.222F, 0.205F};
-constexpr glm::vec3 kRoomFromBelow{0.150F, 0.120F, 0.092F};
+const glm::vec3 kSunDirection = glm::normalize(glm::vec3(-0.80F, -0.34F, 0.40F));
+constexpr glm::vec3 kSunLight{1.62F, 1.24F, 0.76F};
+constexpr float kSunRadius = 0.015F;
+constexpr glm::vec3 kSkyLight{1.55F, 1.80F, 2.08F};
+constexpr glm::vec3 kRoomFromWindowSide{0.375F, 0.425F, 0.480F};
+constexpr glm::vec3 kRoomFromElsewhere{0.290F, 0.285F, 0.275F};
+constexpr glm::vec3 kRoomFromBelow{0.190F, 0.155F, 0.120F};
+constexpr glm::vec3 kThrownBack{0.60F, 0.55F, 0.48F};  ///< by what is nearby, of its colour
 constexpr float kNearbyMetres = 0.55F;  // what is farther belongs to the room
 
 /// Point `i` of n evenly spread in the unit square, in two independent ways (R2 sequences).
@@ -32,6 +33,25 @@ glm::vec2 spread(int i, float shift) {
   const auto n = static_cast<float>(i);
   return glm::fract(glm::vec2(shift + n * 0.7548776662F, shift + n * 0.5698402910F));
 }
+
+/// Directions and places of `kCount` rays, the same for every point.
+template <int kCount>
+struct Rays {
+  std::array<glm::vec2, kCount> cell{};    ///< where in the point's cell it starts, ±0.5
+  std::array<glm::vec2, kCount> square{};  ///< in the unit square
+  std::array<glm::vec2, kCount> disc{};    ///< in the unit disc
+
+  Rays(float cellShift, float squareShift) {
+    for (int i = 0; i < kCount; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const glm::vec2 swapped = spread(i, cellShift) - 0.5F;
+      cell[k] = {swapped.y, swapped.x};
+      square[k] = spread(i, squareShift);
+      const float angle = 2 * kPi * square[k].x;
+      disc[k] = std::sqrt(square[k].y) * glm::vec2(std::cos(angle), std::sin(angle));
+    }
+  }
+};
 
 /// Where a ray goes into an occluder, or infinity.
 float entry(const Occluder& occluder, glm::vec3 origin, glm::vec3 direction) {
@@ -195,18 +215,16 @@ glm::vec3 RoomLight::colourOf(const Occluder& occluder) const {
 
 glm::vec3 RoomLight::sunAt(const Point& at, const Near& near) const {
   constexpr int kRays = 16;
+  static const Rays<kRays> kSpread(0.13F, 0.5F);
   const float facing = glm::dot(at.normal, kSunDirection);
   if (facing <= 0) return glm::vec3(0);
   const auto [right, up] = across(kSunDirection);
   int arrived = 0;
-  for (int i = 0; i < kRays; ++i) {
-    const glm::vec2 on = spread(i, 0.5F);
-    const glm::vec2 cell = spread(i, 0.13F) - 0.5F;
-    const float angle = 2 * kPi * on.x;
-    const float radius = kSunRadius * std::sqrt(on.y);
-    const glm::vec3 direction =
-        kSunDirection + radius * (std::cos(angle) * right + std::sin(angle) * up);
-    const glm::vec3 origin = at.point + cell.y * at.alongX + cell.x * at.alongY;
+  for (std::size_t i = 0; i < kRays; ++i) {
+    const glm::vec2 disc = kSunRadius * kSpread.disc[i];
+    const glm::vec3 direction = kSunDirection + disc.x * right + disc.y * up;
+    const glm::vec3 origin =
+        at.point + kSpread.cell[i].x * at.alongX + kSpread.cell[i].y * at.alongY;
     const float t = (kWindowX - origin.x) / direction.x;
     const glm::vec2 yz = glm::vec2(origin.y, origin.z) + t * glm::vec2(direction.y, direction.z);
     const bool isThroughPane = std::ranges::any_of(windowPanes(), [yz](const Pane& pane) {
@@ -220,11 +238,12 @@ glm::vec3 RoomLight::sunAt(const Point& at, const Near& near) const {
 
 glm::vec3 RoomLight::skyAt(const Point& at, const Near& near) const {
   constexpr int kRays = 12;
+  static const Rays<kRays> kSpread(0.77F, 0.31F);
   float sum = 0;
-  for (int i = 0; i < kRays; ++i) {
-    const glm::vec2 on = spread(i, 0.31F);
-    const glm::vec2 cell = spread(i, 0.77F) - 0.5F;
-    const glm::vec3 origin = at.point + cell.y * at.alongX + cell.x * at.alongY;
+  for (std::size_t i = 0; i < kRays; ++i) {
+    const glm::vec2 on = kSpread.square[i];
+    const glm::vec3 origin =
+        at.point + kSpread.cell[i].x * at.alongX + kSpread.cell[i].y * at.alongY;
     const glm::vec3 to(kWindowX, glm::mix(-1.10F, -0.16F, on.x), glm::mix(0.42F, 1.48F, on.y));
     const glm::vec3 direction = to - origin;
     const float squared = glm::dot(direction, direction);
@@ -238,12 +257,12 @@ glm::vec3 RoomLight::skyAt(const Point& at, const Near& near) const {
 
 glm::vec3 RoomLight::lampAt(const Point& at, const Near& near) const {
   constexpr int kRays = 8;
+  static const Rays<kRays> kSpread(0.41F, 0.9F);
   float sum = 0;
-  for (int i = 0; i < kRays; ++i) {
-    const glm::vec2 on = spread(i, 0.9F) - 0.5F;
-    const glm::vec2 cell = spread(i, 0.41F) - 0.5F;
-    const glm::vec3 origin = at.point + cell.y * at.alongX + cell.x * at.alongY;
-    const glm::vec3 bulb = kLampAt + 2 * kLampRadius * glm::vec3(on.x, on.y, 0);
+  for (std::size_t i = 0; i < kRays; ++i) {
+    const glm::vec3 origin =
+        at.point + kSpread.cell[i].x * at.alongX + kSpread.cell[i].y * at.alongY;
+    const glm::vec3 bulb = kLampAt + kLampRadius * glm::vec3(kSpread.disc[i], 0);
     const glm::vec3 direction = bulb - origin;
     const float distance = glm::length(direction);
     const float facing = glm::dot(at.normal, direction) / distance;
@@ -256,16 +275,16 @@ glm::vec3 RoomLight::lampAt(const Point& at, const Near& near) const {
 
 glm::vec3 RoomLight::roomAt(const Point& at, const Near& near) const {
   constexpr int kRays = 20;
+  static const Rays<kRays> kSpread(0.29F, 0.5F);
   const auto [right, up] = across(at.normal);
   glm::vec3 sum(0);
-  for (int i = 0; i < kRays; ++i) {
-    const glm::vec2 on = spread(i, 0.5F);
-    const glm::vec2 cell = spread(i, 0.29F) - 0.5F;
-    const float angle = 2 * kPi * on.x;
-    const float sine = std::sqrt(on.y);
-    const glm::vec3 direction = sine * (std::cos(angle) * right + std::sin(angle) * up) +
-                                std::sqrt(1 - on.y) * at.normal;
-    const glm::vec3 origin = at.point + cell.y * at.alongX + cell.x * at.alongY;
+  for (std::size_t i = 0; i < kRays; ++i) {
+    // Even in the disc below is by the cosine in the hemisphere above.
+    const glm::vec2 disc = kSpread.disc[i];
+    const glm::vec3 direction =
+        disc.x * right + disc.y * up + std::sqrt(1 - kSpread.square[i].y) * at.normal;
+    const glm::vec3 origin =
+        at.point + kSpread.cell[i].x * at.alongX + kSpread.cell[i].y * at.alongY;
     const Occluder* hit = nullptr;
     float nearest = kNearbyMetres;
     for (const Occluder* each : near) {
@@ -281,7 +300,7 @@ glm::vec3 RoomLight::roomAt(const Point& at, const Near& near) const {
       continue;
     }
     const float farness = glm::smoothstep(0.35F * kNearbyMetres, kNearbyMetres, nearest);
-    sum += glm::mix(colourOf(*hit) * glm::vec3(0.44F, 0.40F, 0.36F), room, farness);
+    sum += glm::mix(colourOf(*hit) * kThrownBack, room, farness);
   }
   return sum * (1.0F / kRays);
 }
@@ -361,31 +380,63 @@ RoomLight::Lattice RoomLight::on(const Patch& patch) const {
   return lattice;
 }
 
+namespace {
+
+/// Bright light is taken together at the end, as film does, so that paper in the sun keeps its hue.
+float exposed(float light) {
+  constexpr float kShoulder = 0.60F;
+  if (light <= kShoulder) return light;
+  return 1 - (1 - kShoulder) * std::exp((kShoulder - light) / (1 - kShoulder));
+}
+
+/// exposed() by table.
+class Film {
+ public:
+  Film() {
+    for (std::size_t i = 0; i < table_.size(); ++i) {
+      table_[i] = exposed(static_cast<float>(i) / kSteps);
+    }
+  }
+  float operator()(float light) const {
+    return table_[static_cast<std::size_t>(std::min(light, kMost) * kSteps)];
+  }
+
+ private:
+  static constexpr float kMost = 4;
+  static constexpr float kSteps = 4096;
+  std::array<float, static_cast<std::size_t>(kMost * kSteps) + 1> table_{};
+};
+
+}  // namespace
+
 void shine(const RoomLight::Lattice& light, glm::vec2 half, float texelMetres,
            MipTexture::Level& level) {
+  static const Film kFilm;
   const auto columns = static_cast<std::size_t>(light.columns);
   const glm::vec2 scale = glm::vec2(light.columns - 1, light.rows - 1) / (2.0F * half);
-  const auto at = [&light, columns](int x, int y) {
-    return light.linearRgb[static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(x)];
+  const auto place = [texelMetres](int texel, float perMetre, int points) {
+    return glm::clamp((static_cast<float>(texel) + 0.5F) * texelMetres * perMetre, 0.0F,
+                      static_cast<float>(points) - 1.001F);
   };
+  std::vector<glm::vec3> line(columns);
   std::uint32_t dither = 0x9e3779b9U;
   for (int row = 0; row < level.height; ++row) {
-    const float fy = glm::clamp((static_cast<float>(row) + 0.5F) * texelMetres * scale.y, 0.0F,
-                                static_cast<float>(light.rows) - 1.001F);
-    const int y = static_cast<int>(fy);
+    const float fy = place(row, scale.y, light.rows);
+    const auto y = static_cast<std::size_t>(fy);
     const float ty = fy - static_cast<float>(y);
+    for (std::size_t x = 0; x < columns; ++x) {
+      line[x] = glm::mix(light.linearRgb[y * columns + x], light.linearRgb[(y + 1) * columns + x],
+                         ty);
+    }
     Texel* texel = level.texels.data() + std::ptrdiff_t{row} * level.width;
     for (int column = 0; column < level.width; ++column, ++texel) {
-      const float fx = glm::clamp((static_cast<float>(column) + 0.5F) * texelMetres * scale.x, 0.0F,
-                                  static_cast<float>(light.columns) - 1.001F);
-      const int x = static_cast<int>(fx);
-      const float tx = fx - static_cast<float>(x);
-      const glm::vec3 there =
-          glm::mix(glm::mix(at(x, y), at(x + 1, y), tx),
-                   glm::mix(at(x, y + 1), at(x + 1, y + 1), tx), ty);
+      const float fx = place(column, scale.x, light.columns);
+      const auto x = static_cast<std::size_t>(fx);
+      const glm::vec3 there = glm::mix(line[x], line[x + 1], fx - static_cast<float>(x));
       dither = dither * 1664525U + 1013904223U;
       const float jitter = 1 + 0.006F * (static_cast<float>(dither >> 16) / 65536.0F - 0.5F);
-      *texel = codedTexel(linearRgbOf(*texel) * there * jitter);
+      const glm::vec3 lit = linearRgbOf(*texel) * there * jitter;
+      *texel = codedTexel({kFilm(lit.r), kFilm(lit.g), kFilm(lit.b)});
     }
   }
 }

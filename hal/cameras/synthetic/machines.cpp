@@ -83,7 +83,7 @@ void buildGearMotor(Builder& builder) {
 
 void buildVise(Builder& builder) {
   constexpr std::uint32_t kIron = 0x47606e;
-  const glm::dmat4 pose = standing({0.60, -0.27, 0}, -24);
+  const glm::dmat4 pose = standing({0.50, -0.215, 0}, -24);
   const Painter iron = enamel(kIron);
   builder.finish() = {.coarseness = 1, .lightStep = 0.007};
   builder.cylinder(pose, {0.078, 0.074, 0.024, 28}, plain(kIron), plain(kIron));

@@ -13,8 +13,8 @@
 namespace pleinair::hal::synthetic {
 namespace {
 
-constexpr glm::dvec3 kHomeEye{0.06, -1.22, 0.60};
-constexpr glm::dvec3 kHomeTarget{0.04, 0.06, 0.115};
+constexpr glm::dvec3 kHomeEye{0.04, -1.14, 0.57};
+constexpr glm::dvec3 kHomeTarget{0.025, 0.06, 0.150};
 
 /// OpenCV's camera at `position`, looking at `target`, the world's z up in the picture.
 glm::dmat4 lookAt(glm::dvec3 position, glm::dvec3 target) {

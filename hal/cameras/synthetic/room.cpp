@@ -72,29 +72,29 @@ void paintPegboard(Canvas& canvas) {
     const glm::vec2 cell = p - 0.05F * glm::round(p / 0.05F);
     return canvas.fill(hole, discDistance(cell, 0.0036F), 0.7F);
   });
-  paintSaw(canvas, {{-0.19F, 0.215F}, 0});
-  paintHammer(canvas, {{-0.37F, 0.02F}, 4});
-  float x = -0.255F;
+  paintSaw(canvas, {{-0.13F, 0.205F}, 0});
+  paintHammer(canvas, {{-0.345F, 0.06F}, 4});
+  float x = -0.235F;
   for (const float length : {0.215F, 0.190F, 0.168F, 0.148F}) {
-    paintWrench(canvas, {{x, 0.125F - length / 2}, 0}, length);
-    x += 0.058F;
+    paintWrench(canvas, {{x, 0.120F - length / 2}, 0}, length);
+    x += 0.055F;
   }
-  paintPliers(canvas, {{0.035F, 0.055F}, 0}, 0xb8452c);
-  paintPliers(canvas, {{0.120F, 0.055F}, 0}, 0x35617f);
+  paintPliers(canvas, {{0.030F, 0.040F}, 0}, 0xb8452c);
+  paintPliers(canvas, {{0.108F, 0.040F}, 0}, 0x35617f);
   constexpr std::array<std::uint32_t, 4> kGrips{0xd09a33, 0xb8452c, 0x35617f, 0xd09a33};
   float length = 0.205F;
-  x = 0.185F;
+  x = 0.172F;
   for (const std::uint32_t grip : kGrips) {
-    paintScrewdriver(canvas, {{x, 0.150F - length / 2}, 0}, length, grip);
+    paintScrewdriver(canvas, {{x, 0.125F - length / 2}, 0}, length, grip);
     x += 0.048F;
     length -= 0.018F;
   }
-  paintSquare(canvas, {{0.22F, 0.225F}, 0});
+  paintSquare(canvas, {{0.255F, 0.215F}, 0});
 }
 
 void buildWall(Builder& builder) {
   // The part behind the bench is finer than what lies above and beside it.
-  const Painter sage = plaster(0xa8ad9c);
+  const Painter sage = plaster(0xb7bcab);
   constexpr double kFineLeft = -1.35;
   constexpr double kFineRight = 1.45;
   constexpr double kFineTop = 1.15;
@@ -111,10 +111,10 @@ void buildWall(Builder& builder) {
   wall(kFineLeft, kFineRight, kFloorZ, -0.05);
 
   builder.finish() = {.coarseness = 1.35, .lightStep = 0.012};
-  builder.box(standing({0.60, kWallY - 0.008, 0.215}), {0.90, 0.016, 0.62},
+  builder.box(standing({0.58, kWallY - 0.008, 0.19}), {0.84, 0.016, 0.56},
               {.other = plain(0xa8986f), .front = paintPegboard});
   builder.finish() = {.coarseness = 1.35, .lightStep = 0.02};
-  builder.panel({-0.62, kWallY - 0.002, 0.53}, kX, kZ, {0.165, 0.225}, paintPoster);
+  builder.panel({-0.56, kWallY - 0.002, 0.50}, kX, kZ, {0.155, 0.212}, paintPoster);
   builder.panel(kWallSheetCentre, kX, kZ, {0.078, 0.108}, [](Canvas& canvas) {
     plain(0xe6e1d2)(canvas);
     paintTagCard(canvas, {{0, -0.02F}, 0}, benchTags()[3]);
