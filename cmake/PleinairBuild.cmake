@@ -41,6 +41,13 @@ if(PLEINAIR_SANITIZE)
   endif()
 endif()
 
+if(PLEINAIR_FUZZ)
+  # Counts what our own code does, for libFuzzer to go by; each fuzz target links libFuzzer itself.
+  add_compile_options(-fsanitize=fuzzer-no-link)
+  add_link_options(-fsanitize=fuzzer-no-link)
+  add_custom_target(fuzz)
+endif()
+
 # pleinair_library(NAME SOURCES ... [PUBLIC libs ...] [PRIVATE libs ...])
 # A room's static library. PUBLIC names what its headers show, PRIVATE what only its .cpp use.
 function(pleinair_library name)
@@ -79,6 +86,25 @@ pleinair_add_suites(\"$<TARGET_FILE:${name}>\" ${name} ${ARG_KIND} ${label} ${AR
   else()
     gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 30
       TEST_PREFIX "${ARG_KIND}." PROPERTIES LABELS "${label}" TIMEOUT ${ARG_TIMEOUT})
+  endif()
+endfunction()
+
+# pleinair_fuzz(NAME SOURCES ... [LIBS ...])
+# A fuzz target: SOURCES define LLVMFuzzerTestOneInput (tests/fuzz/fuzz_target.h). In the preset
+# "fuzz" it becomes libFuzzer's program fuzz_NAME, which the target "fuzz" builds with the others;
+# elsewhere a quick test "fuzz.NAME", which runs the inputs kept in tests/fuzz/corpus/NAME once.
+function(pleinair_fuzz name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
+  add_executable(fuzz_${name} ${ARG_SOURCES})
+  target_link_libraries(fuzz_${name} PRIVATE pleinair_build ${ARG_LIBS})
+  if(PLEINAIR_FUZZ)
+    target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
+    add_dependencies(fuzz fuzz_${name})
+  else()
+    target_sources(fuzz_${name} PRIVATE "${CMAKE_SOURCE_DIR}/tests/fuzz/run_corpus.cpp")
+    add_test(NAME fuzz.${name}
+      COMMAND fuzz_${name} "${CMAKE_SOURCE_DIR}/tests/fuzz/corpus/${name}")
+    set_tests_properties(fuzz.${name} PROPERTIES LABELS fuzz-quick TIMEOUT 60)
   endif()
 endfunction()
 

@@ -6,6 +6,7 @@
 
 #include "config/suggestion.h"
 #include "hal/error.h"
+#include "pipeline/gpu/cover_fit.h"
 #include "pipeline/present/present_shaders.h"
 #include "pipeline/styles/style_registry.h"
 
@@ -79,6 +80,18 @@ std::vector<PainterView> PaintChain::views() const {
   return views;
 }
 
+std::vector<PainterLook> PaintChain::looks() const {
+  std::vector<PainterLook> looks;
+  for (const styles::Look& look : styles::styleInfo(style_->name()).looks) {
+    looks.push_back({std::string(look.name), std::string(look.help)});
+  }
+  return looks;
+}
+
+config::ParameterValues PaintChain::lookParameters(std::string_view look) const {
+  return styles::styleInfo(style_->name()).parametersOf(look);
+}
+
 hal::Result<void> PaintChain::checkView(const std::string& view) const {
   if (view.empty() || isOurs(view)) return {};
   const auto ofStyle = style_->views();
@@ -140,11 +153,11 @@ hal::Result<Picture> PaintChain::paintChecked(const hal::CapturedFrame& frame,
                  .size = picture_->size(),
                  .sequence = frame.sequence,
                  .captureTime = frame.captureTime,
-                 .tracking = std::move(tracked)};
+                 .tracking = tracked};
 }
 
-const scene::ArFrame& PaintChain::compose(const hal::CapturedFrame& frame,
-                                          const tracking::TrackingResult& tracked) {
+scene::ArFrame PaintChain::compose(const hal::CapturedFrame& frame,
+                                   const tracking::TrackingResult& tracked) {
   {
     const auto scope = timer_.measure("camera picture");
     camera_ = &uploader_.upload(frame.image, pictureSize_);
@@ -153,9 +166,19 @@ const scene::ArFrame& PaintChain::compose(const hal::CapturedFrame& frame,
   for (const tracking::TrackedTag& tag : tracked.tags) {
     if (tag.cameraFromTag) sightings_.push_back({tag.id, *tag.cameraFromTag});
   }
-  return renderer_.compose(*camera_, *pictureCamera_,
-                           {.cameraFromWorld = tracked.cameraFromWorld, .tags = sightings_},
-                           frame.sequence, frame.captureTime, timer_);
+  scene::ArFrame composed = renderer_.compose(
+      *camera_, *pictureCamera_, {.cameraFromWorld = tracked.cameraFromWorld, .tags = sightings_},
+      frame.sequence, frame.captureTime, timer_);
+  if (style_->usesCanvas()) composed.canvasFromPicture = followCanvas(frame.image);
+  return composed;
+}
+
+/// Motion is followed in the captured frame; the canvas has the picture's pixels.
+tracking::PlaneSimilarity PaintChain::followCanvas(const hal::ImageView& image) {
+  const gpu::CoverFit fit = gpu::coverFit(image.format.size, pictureSize_);
+  const tracking::PlaneSimilarity frameFromPicture{{fit.scale.x, 0.0}, fit.origin};
+  return frameFromPicture.inverse() * motion_.follow(luma_.convert(image), image.format.size) *
+         frameFromPicture;
 }
 
 const gpu::Texture& PaintChain::paintView(const scene::ArFrame& frame,
@@ -220,6 +243,7 @@ hal::Image PaintChain::read(const gpu::Texture& texture) {
 
 void PaintChain::reset() {
   style_->reset();
+  motion_.reset();
   if (tracker_) tracker_->reset();
 }
 

@@ -14,6 +14,8 @@
 #include "pipeline/present/picture_reader.h"
 #include "pipeline/scene/ar_frame_renderer.h"
 #include "pipeline/styles/style.h"
+#include "pipeline/tracking/luma.h"
+#include "pipeline/tracking/picture_motion.h"
 #include "pipeline/tracking/tracker.h"
 
 namespace pleinair {
@@ -26,6 +28,8 @@ class PaintChain {
 
   PaintParameters defaultParameters() const;
   std::vector<PainterView> views() const;
+  std::vector<PainterLook> looks() const;
+  config::ParameterValues lookParameters(std::string_view look) const;
   hal::Result<Picture> paint(const hal::CapturedFrame& frame, const PaintParameters& parameters);
 
   int openReader(const hal::FrameFormat& format);
@@ -54,8 +58,8 @@ class PaintChain {
   void warmUp(const std::optional<hal::FrameFormat>& expected);
   hal::Result<void> checkView(const std::string& view) const;
   hal::Result<void> adaptTo(hal::FrameSize frameSize);
-  const scene::ArFrame& compose(const hal::CapturedFrame& frame,
-                                const tracking::TrackingResult& tracked);
+  scene::ArFrame compose(const hal::CapturedFrame& frame, const tracking::TrackingResult& tracked);
+  tracking::PlaneSimilarity followCanvas(const hal::ImageView& image);
   const gpu::Texture& paintView(const scene::ArFrame& frame, const PaintParameters& parameters);
   void submitToReaders(const hal::CapturedFrame& frame);
   hal::Image read(const gpu::Texture& texture);
@@ -76,6 +80,8 @@ class PaintChain {
   hal::FrameSize frameSize_;  // of the last frame; what follows is made for it
   std::optional<tracking::Tracker> tracker_;
   std::optional<tracking::CameraModel> pictureCamera_;  // of the picture, not of the frame
+  tracking::LumaConverter luma_;
+  tracking::PictureMotion motion_;
   std::vector<scene::TagSighting> sightings_;
   std::vector<std::unique_ptr<Reader>> readers_;
   std::optional<present::PictureReader> stills_;  // made for the first still

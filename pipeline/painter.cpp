@@ -98,6 +98,14 @@ std::vector<PainterView> Painter::views() const {
   return impl_->chain->views();
 }
 
+std::vector<PainterLook> Painter::looks() const {
+  return impl_->chain->looks();
+}
+
+config::ParameterValues Painter::lookParameters(std::string_view look) const {
+  return impl_->chain->lookParameters(look);
+}
+
 hal::Result<Picture> Painter::paint(const hal::CapturedFrame& frame,
                                     const PaintParameters& parameters) {
   return impl_->call([&] { return impl_->chain->paint(frame, parameters); });

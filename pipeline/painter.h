@@ -54,8 +54,14 @@ struct PainterView {
   std::string help;
 };
 
-/// A painted picture. Its texture belongs to the Painter, lives in the Painter's context and is
-/// valid until the next paint().
+/// A named preset of the style's parameters.
+struct PainterLook {
+  std::string name;
+  std::string help;
+};
+
+/// A painted picture. Its texture, which lives in the Painter's context, and the list of its tags
+/// belong to the Painter and are valid until the next paint().
 struct Picture {
   unsigned texture = 0;  ///< GL name, RGBA8, sRGB-coded, row 0 at the top
   hal::FrameSize size;
@@ -85,6 +91,10 @@ class Painter {
   const gpu::ContextInfo& contextInfo() const;
   PaintParameters defaultParameters() const;
   std::vector<PainterView> views() const;
+  std::vector<PainterLook> looks() const;
+  /// The style's defaults under a look's values. Throws config::ConfigError for an unknown one,
+  /// with all names.
+  config::ParameterValues lookParameters(std::string_view look) const;
 
   /// Tracks, composes and paints one frame, which may have any size and layout. Returns when the
   /// work is issued, not when the GPU is done. Errors, after which all is as if the frame had not

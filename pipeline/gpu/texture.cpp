@@ -57,7 +57,7 @@ bool isFilterable(TextureFormat format) {
   }
 }
 
-Texture::Texture(TextureFormat format, hal::FrameSize size, TextureFilter filter)
+Texture::Texture(TextureFormat format, hal::FrameSize size, TextureFilter filter, TextureWrap wrap)
     : handle_(TextureHandle::make()), format_(format), size_(size) {
   assert(size.width >= 1 && size.height >= 1);
   assert(filter == TextureFilter::kNearest || isFilterable(format));
@@ -66,8 +66,9 @@ Texture::Texture(TextureFormat format, hal::FrameSize size, TextureFilter filter
   const GLint mode = filter == TextureFilter::kLinear ? GL_LINEAR : GL_NEAREST;
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, mode);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, mode);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  const GLint beyond = wrap == TextureWrap::kRepeat ? GL_REPEAT : GL_CLAMP_TO_EDGE;
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, beyond);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, beyond);
   glBindTexture(GL_TEXTURE_2D, 0);
   checkMemory(fmt::format("a {}x{} picture", size.width, size.height));
 }

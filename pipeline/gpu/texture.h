@@ -25,11 +25,14 @@ enum class TextureFormat {
 };
 
 /// How samplers read between texels and beyond the border. 32-bit floats and integers are always
-/// read kNearest (GPU rules, rule 5). Reads beyond the border give the border's texel.
+/// read kNearest (GPU rules, rule 5).
 enum class TextureFilter { kNearest, kLinear };
 
 bool isRenderable(TextureFormat format);
 bool isFilterable(TextureFormat format);
+
+/// What lies beyond the border: its own texel, or the texture once more.
+enum class TextureWrap { kClamp, kRepeat };
 
 /// A 2-D texture of immutable size with one level. Belongs to the context it was made in.
 class Texture {
@@ -38,8 +41,8 @@ class Texture {
   Texture() = default;
   /// Undefined content. Preconditions: 1 px or more a side; the filter suits the format. Throws
   /// hal::StartupError (kUnsupported) where the GPU has no memory for it.
-  Texture(TextureFormat format, hal::FrameSize size,
-          TextureFilter filter = TextureFilter::kNearest);
+  Texture(TextureFormat format, hal::FrameSize size, TextureFilter filter = TextureFilter::kNearest,
+          TextureWrap wrap = TextureWrap::kClamp);
 
   TextureFormat format() const { return format_; }
   hal::FrameSize size() const { return size_; }

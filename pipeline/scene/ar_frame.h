@@ -5,6 +5,7 @@
 #include "hal/clock.h"
 #include "hal/pixel_format.h"
 #include "pipeline/gpu/texture.h"
+#include "pipeline/tracking/plane_similarity.h"
 
 namespace pleinair::scene {
 
@@ -28,6 +29,9 @@ struct ArFrame {
   bool hasFocus = false;    ///< whether any pixel's focus may be above 0
   float nearMetres = 0.0F;  ///< the depth range's planes, for linear depth
   float farMetres = 0.0F;
+  /// Takes px of this picture to px of a flat canvas that goes along with the picture as a whole
+  /// (tracking::PictureMotion); the identity where nothing is followed.
+  tracking::PlaneSimilarity canvasFromPicture;
   std::uint64_t sequence = 0;  ///< of the captured frame
   hal::TimePoint captureTime;
 

@@ -5,9 +5,11 @@
 
 namespace pleinair::styles {
 
-Plain::Plain()
-    : values_(std::make_shared<const config::ParameterList>(
-          std::vector<config::ParameterDescriptor>{})) {}
+config::ParameterValues plainParameters() {
+  static const auto kNone =
+      std::make_shared<const config::ParameterList>(std::vector<config::ParameterDescriptor>{});
+  return config::ParameterValues(kNone);
+}
 
 const gpu::Texture& Plain::paint(const scene::ArFrame& frame, std::string_view view,
                                  gpu::PassTimer& /*timer*/) {

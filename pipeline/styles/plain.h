@@ -4,11 +4,12 @@
 
 namespace pleinair::styles {
 
+/// Of the style "none": an empty list.
+config::ParameterValues plainParameters();
+
 /// The style "none": hands the AR frame's own picture through.
 class Plain final : public Style {
  public:
-  Plain();
-
   std::string_view name() const override { return "none"; }
   std::span<const ViewInfo> views() const override { return {}; }
   const config::ParameterValues& parameters() const override { return values_; }
@@ -19,7 +20,7 @@ class Plain final : public Style {
   void reset() override {}
 
  private:
-  config::ParameterValues values_;
+  config::ParameterValues values_ = plainParameters();
 };
 
 }  // namespace pleinair::styles

@@ -31,6 +31,9 @@ class Style {
   /// Its inner pictures, apart from the finished one.
   virtual std::span<const ViewInfo> views() const = 0;
 
+  /// Whether it looks at ArFrame::canvasFromPicture, which costs a little to find.
+  virtual bool usesCanvas() const { return false; }
+
   /// The snapshot in force; its list() describes what can be tuned. At first the defaults.
   virtual const config::ParameterValues& parameters() const = 0;
   /// Puts another snapshot of the same list in force, from the next paint() on.

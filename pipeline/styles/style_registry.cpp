@@ -1,16 +1,17 @@
 #include "pipeline/styles/style_registry.h"
 
-#include <algorithm>
 #include <array>
 #include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
+#include "config/config_error.h"
 #include "config/suggestion.h"
+#include "config/toml_reader.h"
 #include "hal/error.h"
 #include "pipeline/styles/plain.h"
 #include "pipeline/styles/watercolor/watercolor.h"
+#include "pipeline/styles/watercolor/watercolor_looks.h"
 #include "pipeline/styles/watercolor/watercolor_shaders.h"
 
 namespace pleinair::styles {
@@ -21,25 +22,64 @@ struct Entry {
   std::unique_ptr<Style> (*make)(const gpu::ShaderLibrary& library) = nullptr;
 };
 
-constexpr std::array<Entry, 2> kEntries{{
-    {{"watercolor", "washes on paper under dark edges (thesis chapter III)"},
-     [](const gpu::ShaderLibrary& library) -> std::unique_ptr<Style> {
-       return std::make_unique<Watercolor>(library);
-     }},
-    {{"none", "the camera's picture with its virtual objects, unpainted"},
-     [](const gpu::ShaderLibrary&) -> std::unique_ptr<Style> { return std::make_unique<Plain>(); }},
-}};
+const std::array<Entry, 2>& entries() {
+  static const std::array<Entry, 2> kEntries{{
+      {{.name = "watercolor",
+        .help = "washes of pigment on paper (thesis chapter III, and on)",
+        .views = watercolorViews(),
+        .looks = watercolorLooks(),
+        .defaults = watercolorParameters().defaults()},
+       [](const gpu::ShaderLibrary& library) -> std::unique_ptr<Style> {
+         return std::make_unique<Watercolor>(library);
+       }},
+      {{.name = "none",
+        .help = "the camera's picture with its virtual objects, unpainted",
+        .views = {},
+        .looks = {},
+        .defaults = plainParameters()},
+       [](const gpu::ShaderLibrary&) -> std::unique_ptr<Style> {
+         return std::make_unique<Plain>();
+       }},
+  }};
+  return kEntries;
+}
 
-constexpr auto kInfos = [] {
-  std::array<StyleInfo, kEntries.size()> infos{};
-  for (std::size_t i = 0; i < infos.size(); ++i) infos[i] = kEntries[i].info;
-  return infos;
-}();
+const Entry& entryOf(std::string_view name) {
+  std::vector<std::string> names;
+  for (const Entry& entry : entries()) {
+    if (entry.info.name == name) return entry;
+    names.emplace_back(entry.info.name);
+  }
+  throw hal::StartupError({.kind = hal::ErrorKind::kInvalidArgument,
+                           .subject = fmt::format("style \"{}\"", name),
+                           .problem = config::unknownText("style", name, names),
+                           .remedy = "choose one of: " + config::listText(names)});
+}
 
 }  // namespace
 
+config::ParameterValues StyleInfo::parametersOf(std::string_view look) const {
+  std::vector<std::string> names;
+  for (const Look& each : looks) {
+    if (each.name == look) {
+      const auto table = config::TomlDocument::parseText(each.toml, fmt::format("look {}", look));
+      return defaults.with(table.root());
+    }
+    names.emplace_back(each.name);
+  }
+  throw config::ConfigError({.file = fmt::format("style {}", name),
+                             .key = "look",
+                             .found = std::string(look),
+                             .allowed = names.empty() ? "it has none" : config::listText(names)});
+}
+
 std::span<const StyleInfo> styleInfos() {
+  static const std::array<StyleInfo, 2> kInfos{entries()[0].info, entries()[1].info};
   return kInfos;
+}
+
+const StyleInfo& styleInfo(std::string_view name) {
+  return entryOf(name).info;
 }
 
 void addStyleShaders(gpu::ShaderLibrary& library) {
@@ -47,15 +87,7 @@ void addStyleShaders(gpu::ShaderLibrary& library) {
 }
 
 std::unique_ptr<Style> makeStyle(std::string_view name, const gpu::ShaderLibrary& library) {
-  for (const Entry& entry : kEntries) {
-    if (entry.info.name == name) return entry.make(library);
-  }
-  std::vector<std::string> names;
-  for (const StyleInfo& info : kInfos) names.emplace_back(info.name);
-  throw hal::StartupError({.kind = hal::ErrorKind::kInvalidArgument,
-                           .subject = fmt::format("style \"{}\"", name),
-                           .problem = config::unknownText("style", name, names),
-                           .remedy = "choose one of: " + config::listText(names)});
+  return entryOf(name).make(library);
 }
 
 }  // namespace pleinair::styles

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 #include <utility>
 
 #include <apriltag/apriltag.h>
@@ -23,7 +24,7 @@ struct FamilyEntry {
   std::string_view name;
   apriltag_family_t* (*create)();
   void (*destroy)(apriltag_family_t*);
-  /// The library tabulates every code with up to so many flipped bits: two take 19 MB for
+  /// The library tabulates every code with up to so many flipped bits: two take 36 MB for
   /// tag36h11's 587 codes, but gigabytes for tagStandard52h13's 48,714.
   int correctedBits;
 };
@@ -86,41 +87,38 @@ double decimationFor(hal::FrameSize size) {
 
 DetectionCounters& DetectionCounters::operator+=(const DetectionCounters& other) {
   accepted += other.accepted;
-  rejectedHamming += other.rejectedHamming;
   rejectedMargin += other.rejectedMargin;
   rejectedDuplicate += other.rejectedDuplicate;
   skippedSmallPicture += other.skippedSmallPicture;
   return *this;
 }
 
-std::vector<TagDetection> selectDetections(std::vector<TagDetection> candidates,
-                                           const TagDetectorOptions& options,
-                                           DetectionCounters& counters) {
+void selectDetections(std::vector<TagDetection>& candidates, const TagDetectorOptions& options,
+                      DetectionCounters& counters) {
   std::ranges::sort(candidates, [](const TagDetection& a, const TagDetection& b) {
     return a.id != b.id ? a.id < b.id : a.decisionMargin > b.decisionMargin;
   });
-  std::vector<TagDetection> selected;
+  auto selectedEnd = candidates.begin();
   for (const TagDetection& tag : candidates) {
-    if (tag.hamming > options.maxHamming) {
-      ++counters.rejectedHamming;
-    } else if (tag.decisionMargin < options.minDecisionMargin) {
+    if (tag.decisionMargin < options.minDecisionMargin) {
       ++counters.rejectedMargin;
-    } else if (!selected.empty() && selected.back().id == tag.id) {
+    } else if (selectedEnd != candidates.begin() && std::prev(selectedEnd)->id == tag.id) {
       ++counters.rejectedDuplicate;
     } else {
       ++counters.accepted;
-      selected.push_back(tag);
+      *selectedEnd++ = tag;
     }
   }
-  return selected;
+  candidates.erase(selectedEnd, candidates.end());
 }
 
 /// The family outlives the detector that uses it: members are destroyed last to first.
 struct TagDetector::Handles {
-  explicit Handles(const FamilyEntry& entry)
+  Handles(const FamilyEntry& entry, int maxHamming)
       : family(entry.create(), entry.destroy),
         detector(apriltag_detector_create(), apriltag_detector_destroy) {
-    apriltag_detector_add_family_bits(detector.get(), family.get(), entry.correctedBits);
+    apriltag_detector_add_family_bits(detector.get(), family.get(),
+                                      std::min(entry.correctedBits, maxHamming));
   }
   FamilyHandle family;
   DetectorHandle detector;
@@ -128,8 +126,9 @@ struct TagDetector::Handles {
 
 TagDetector::TagDetector(TagDetectorOptions options)
     : options_(std::move(options)),
-      handles_(std::make_unique<Handles>(familyOrThrow(options_.family))) {
+      handles_(std::make_unique<Handles>(familyOrThrow(options_.family), options_.maxHamming)) {
   assert(options_.decimation.value_or(1.0) >= 1.0 && options_.threads >= 1);
+  assert(options_.maxHamming >= 0);
   apriltag_detector_t& detector = *handles_->detector;
   detector.nthreads = options_.threads;
   detector.refine_edges = true;
@@ -141,8 +140,9 @@ TagDetector::~TagDetector() = default;
 TagDetector::TagDetector(TagDetector&&) noexcept = default;
 TagDetector& TagDetector::operator=(TagDetector&&) noexcept = default;
 
-std::vector<TagDetection> TagDetector::detect(const hal::PlaneView& luma, hal::FrameSize size,
-                                              DetectionCounters& counters) {
+std::span<const TagDetection> TagDetector::detect(const hal::PlaneView& luma, hal::FrameSize size,
+                                                  DetectionCounters& counters) {
+  found_.clear();
   const int shorterSide = std::min(size.width, size.height);
   if (shorterSide < kSmallestSearchedSidePx) {  // the library crashes on a few pixels a side
     ++counters.skippedSmallPicture;
@@ -158,13 +158,13 @@ std::vector<TagDetection> TagDetector::detect(const hal::PlaneView& luma, hal::F
                      .buf = const_cast<std::uint8_t*>(luma.bytes.data())};  // read: quad_sigma is 0
   const DetectionsHandle found(apriltag_detector_detect(handles_->detector.get(), &picture),
                                apriltag_detections_destroy);
-  std::vector<TagDetection> candidates;
   for (int i = 0; i < zarray_size(found.get()); ++i) {
     apriltag_detection_t* one = nullptr;
     zarray_get(found.get(), i, &one);
-    candidates.push_back(toDetection(*one));
+    found_.push_back(toDetection(*one));
   }
-  return selectDetections(std::move(candidates), options_, counters);
+  selectDetections(found_, options_, counters);
+  return found_;
 }
 
 }  // namespace pleinair::tracking

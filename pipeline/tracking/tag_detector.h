@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,7 +28,8 @@ struct TagDetectorOptions {
   /// at full size. Unset: decimationFor() the picture.
   std::optional<double> decimation;
   int threads = 1;
-  /// Corrected bits that are believed; more is counted as rejectedHamming.
+  /// Corrected bits that are believed, of those that the family's table has (each more takes
+  /// memory: two 36 MB for tag36h11, one 1 MB). A code with more is no tag.
   int maxHamming = 1;
   /// Least mean difference of a bit to its decision threshold, in grey levels (0..255). Places
   /// whose contrast is less than twice this are not searched: no tag there could be believed.
@@ -51,7 +53,6 @@ struct TagDetection {
 /// What became of the quads that read as tags, per picture.
 struct DetectionCounters {
   std::uint32_t accepted = 0;
-  std::uint32_t rejectedHamming = 0;    ///< too many corrected bits
   std::uint32_t rejectedMargin = 0;     ///< bits too close to their threshold
   std::uint32_t rejectedDuplicate = 0;  ///< another tag of the same id had a larger margin
   std::uint32_t skippedSmallPicture = 0;
@@ -60,10 +61,9 @@ struct DetectionCounters {
   friend bool operator==(const DetectionCounters&, const DetectionCounters&) = default;
 };
 
-/// The accepted of `candidates`, by rising id, each id once. Counts the others by reason.
-std::vector<TagDetection> selectDetections(std::vector<TagDetection> candidates,
-                                           const TagDetectorOptions& options,
-                                           DetectionCounters& counters);
+/// Leaves the accepted of `candidates`, by rising id, each id once. Counts the others by reason.
+void selectDetections(std::vector<TagDetection>& candidates, const TagDetectorOptions& options,
+                      DetectionCounters& counters);
 
 /// Finds the AprilTags of one family (libapriltag: Wang and Olson, AprilTag 2, IROS 2016). Owns its
 /// detector and its family, which threads must not share; one thread at a time.
@@ -79,14 +79,16 @@ class TagDetector {
 
   const TagDetectorOptions& options() const { return options_; }
 
-  /// The tags in a luma plane of `size`, by rising id, each id once. Adds to `counters`.
-  std::vector<TagDetection> detect(const hal::PlaneView& luma, hal::FrameSize size,
-                                   DetectionCounters& counters);
+  /// The tags in a luma plane of `size`, by rising id, each id once; valid until the next call.
+  /// Adds to `counters`.
+  std::span<const TagDetection> detect(const hal::PlaneView& luma, hal::FrameSize size,
+                                       DetectionCounters& counters);
 
  private:
   struct Handles;
   TagDetectorOptions options_;
   std::unique_ptr<Handles> handles_;
+  std::vector<TagDetection> found_;
 };
 
 }  // namespace pleinair::tracking

@@ -37,7 +37,7 @@ bool showFront(const TagCornersPx& corners) {
 
 /// IPPE's up to two poses from rays (x, y, 1). OpenCV asks for a square's corners as (−, +),
 /// (+, +), (+, −), (−, −) and takes their axes as it finds them, so tagCorners() serves as it is.
-std::vector<glm::dmat4> ippePoses(const std::array<cv::Point2d, 4>& rays, double edgeMetres) {
+FixedVector<glm::dmat4, 2> ippePoses(const std::array<cv::Point2d, 4>& rays, double edgeMetres) {
   std::array<cv::Point3d, 4> object;
   std::ranges::transform(tagCorners(edgeMetres), object.begin(),
                          [](const glm::dvec3& p) { return cv::Point3d(p.x, p.y, p.z); });
@@ -49,7 +49,7 @@ std::vector<glm::dmat4> ippePoses(const std::array<cv::Point2d, 4>& rays, double
   } catch (const cv::Exception&) {  // corners on a line or in a point
     return {};
   }
-  std::vector<glm::dmat4> poses;
+  FixedVector<glm::dmat4, 2> poses;
   for (std::size_t i = 0; i < rotations.size(); ++i) {
     poses.push_back(toPose(rotations[i], translations[i]));
   }
@@ -65,8 +65,8 @@ std::array<Correspondence, 4> tagCorrespondences(const TagCornersPx& corners, do
   return points;
 }
 
-std::vector<PoseEstimate> tagPoseCandidates(const CameraModel& camera, const TagCornersPx& corners,
-                                            double edgeMetres) {
+PoseCandidates tagPoseCandidates(const CameraModel& camera, const TagCornersPx& corners,
+                                 double edgeMetres) {
   if (!showFront(corners)) return {};
   std::array<cv::Point2d, 4> rays;
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -75,7 +75,7 @@ std::vector<PoseEstimate> tagPoseCandidates(const CameraModel& camera, const Tag
     rays[i] = {ray->x, ray->y};
   }
   const std::array<Correspondence, 4> points = tagCorrespondences(corners, edgeMetres);
-  std::vector<PoseEstimate> candidates;
+  PoseCandidates candidates;
   for (const glm::dmat4& start : ippePoses(rays, edgeMetres)) {
     const std::optional<PoseEstimate> refined = refinePose(camera, points, start);
     if (!refined) continue;
@@ -84,15 +84,16 @@ std::vector<PoseEstimate> tagPoseCandidates(const CameraModel& camera, const Tag
     });
     if (!isKnown) candidates.push_back(*refined);
   }
-  std::ranges::sort(candidates, {}, &PoseEstimate::rmsPx);
+  if (!std::ranges::is_sorted(candidates, {}, &PoseEstimate::rmsPx)) {
+    std::ranges::reverse(candidates);  // two at the most
+  }
   return candidates;
 }
 
-std::optional<TagPose> chooseTagPose(const std::vector<PoseEstimate>& candidates,
+std::optional<TagPose> chooseTagPose(const PoseCandidates& candidates,
                                      const std::optional<PosePrior>& prior) {
   if (candidates.empty()) return std::nullopt;
-  std::vector<TwinCandidate> twins;
-  twins.reserve(candidates.size());
+  FixedVector<TwinCandidate, 2> twins;
   for (const PoseEstimate& pose : candidates) {
     twins.push_back({.cameraFromTarget = pose.cameraFromTarget,
                      .squaredErrorPx = 4.0 * pose.rmsPx * pose.rmsPx});

@@ -2,9 +2,10 @@
 
 #include <array>
 #include <optional>
-#include <vector>
+#include <span>
 
 #include "pipeline/tracking/camera_model.h"
+#include "pipeline/tracking/fixed_vector.h"
 #include "pipeline/tracking/pose_refinement.h"
 #include "pipeline/tracking/tag_frame.h"
 #include "pipeline/tracking/twin_choice.h"
@@ -22,15 +23,18 @@ struct TagPose {
 /// A tag's corners in its own frame and in the picture.
 std::array<Correspondence, 4> tagCorrespondences(const TagCornersPx& corners, double edgeMetres);
 
+/// A square's pose and its twin.
+using PoseCandidates = FixedVector<PoseEstimate, 2>;
+
 /// The one or two poses that explain a tag's corners, the better fit first; none where the corners
 /// are degenerate. IPPE (Collins and Bartoli, "Infinitesimal Plane-Based Pose Estimation", IJCV
 /// 2014; OpenCV's SOLVEPNP_IPPE_SQUARE) on undistorted corners, both then refined in pixels.
-std::vector<PoseEstimate> tagPoseCandidates(const CameraModel& camera, const TagCornersPx& corners,
-                                            double edgeMetres);
+PoseCandidates tagPoseCandidates(const CameraModel& camera, const TagCornersPx& corners,
+                                 double edgeMetres);
 
 /// One of tagPoseCandidates(), the wrong twin rejected; nothing of none. `prior`: the cameraFromTag
 /// that other tags of the world or the previous frame suggest.
-std::optional<TagPose> chooseTagPose(const std::vector<PoseEstimate>& candidates,
+std::optional<TagPose> chooseTagPose(const PoseCandidates& candidates,
                                      const std::optional<PosePrior>& prior);
 
 }  // namespace pleinair::tracking

@@ -25,94 +25,90 @@ Tracker::Tracker(std::optional<CameraModel> camera, std::vector<TagMarker> marke
     : camera_(camera),
       markers_(std::move(markers)),
       options_(std::move(options)),
-      detector_(options_.detector) {}
+      detector_(options_.detector),
+      remembered_(markers_.size()) {}
 
 void Tracker::reset() {
   world_.reset();
-  tags_.clear();
+  std::ranges::fill(remembered_, std::nullopt);
 }
 
 TrackingResult Tracker::track(const hal::ImageView& image, hal::TimePoint captureTime) {
   assert(!camera_ || camera_->imageSize() == image.format.size);
-  TrackingResult result;
+  tags_.clear();
   for (const TagDetection& detection :
        detector_.detect(luma_.convert(image), image.format.size, counters_.detection)) {
-    result.tags.push_back({.id = detection.id, .corners = detection.corners});
+    tags_.push_back({.id = detection.id, .corners = detection.corners});
   }
+  TrackingResult result{.tags = tags_};
   if (!camera_) return result;
-  const std::vector<Sighting> seen = sightings(result);
-  const std::vector<bool> agrees = solveWorld(seen, captureTime, result);
-  solveTags(seen, agrees, captureTime, result);
+  findSightings();
+  solveWorld(captureTime, result);
+  for (const Sighting& sighting : sightings_) solveTag(sighting, captureTime, result);
   return result;
 }
 
-/// The tags whose size is known, with their possible poses.
-std::vector<Tracker::Sighting> Tracker::sightings(const TrackingResult& result) {
-  std::vector<Sighting> seen;
-  for (std::size_t i = 0; i < result.tags.size(); ++i) {
-    const auto marker = std::ranges::find(markers_, result.tags[i].id, &TagMarker::id);
+void Tracker::findSightings() {
+  sightings_.clear();
+  for (std::size_t i = 0; i < tags_.size(); ++i) {
+    const auto marker = std::ranges::find(markers_, tags_[i].id, &TagMarker::id);
     if (marker == markers_.end()) continue;
-    auto candidates = tagPoseCandidates(*camera_, result.tags[i].corners, marker->edgeMetres);
+    const PoseCandidates candidates =
+        tagPoseCandidates(*camera_, tags_[i].corners, marker->edgeMetres);
     if (candidates.empty()) {
       ++counters_.degenerateTags;
       continue;
     }
-    seen.push_back({&*marker, i, std::move(candidates)});
+    sightings_.push_back({.marker = static_cast<std::size_t>(marker - markers_.begin()),
+                          .tag = i,
+                          .candidates = candidates});
   }
-  return seen;
 }
 
-/// Which of the sightings agree with the world; all false without one.
-std::vector<bool> Tracker::solveWorld(const std::vector<Sighting>& sightings, hal::TimePoint now,
-                                      TrackingResult& result) {
-  std::vector<bool> agrees(sightings.size(), false);
-  std::vector<WorldTag> tags;
-  std::vector<std::size_t> origins;
-  for (std::size_t i = 0; i < sightings.size(); ++i) {
-    const TagMarker& marker = *sightings[i].marker;
+void Tracker::solveWorld(hal::TimePoint now, TrackingResult& result) {
+  worldTags_.clear();
+  worldTagSighting_.clear();
+  for (std::size_t i = 0; i < sightings_.size(); ++i) {
+    const TagMarker& marker = markers_[sightings_[i].marker];
     if (!marker.worldFromTag) continue;
-    tags.push_back({.worldFromTag = *marker.worldFromTag,
-                    .edgeMetres = marker.edgeMetres,
-                    .corners = result.tags[sightings[i].index].corners,
-                    .candidates = sightings[i].candidates});
-    origins.push_back(i);
+    worldTags_.push_back({.worldFromTag = *marker.worldFromTag,
+                          .edgeMetres = marker.edgeMetres,
+                          .corners = tags_[sightings_[i].tag].corners,
+                          .candidates = sightings_[i].candidates});
+    worldTagSighting_.push_back(i);
   }
   const std::optional<PosePrior> known = world_ ? prior(*world_, now) : std::nullopt;
-  const std::optional<WorldPose> pose = solveWorldPose(*camera_, tags, known);
-  if (!pose) return agrees;
+  const std::optional<WorldPose> pose = worldSolver_.solve(*camera_, worldTags_, known);
+  if (!pose) return;
   result.cameraFromWorld = pose->estimate.cameraFromTarget;
   result.worldRmsPx = pose->estimate.rmsPx;
   result.worldRotationSigmaRad = pose->estimate.rotationSigmaRad();
   result.worldTranslationSigmaMetres = pose->estimate.translationSigmaMetres();
   world_ = Remembered{*result.cameraFromWorld, now, pose->twinEvidence};
-  for (std::size_t i = 0; i < origins.size(); ++i) {
-    agrees[origins[i]] = pose->agrees[i];
-    if (!pose->agrees[i]) ++counters_.contradictingTags;
-    result.tags[sightings[origins[i]].index].choice = pose->choice;
+  for (std::size_t i = 0; i < worldTagSighting_.size(); ++i) {
+    Sighting& sighting = sightings_[worldTagSighting_[i]];
+    sighting.agrees = pose->agrees[i] != 0;
+    if (!sighting.agrees) ++counters_.contradictingTags;
+    tags_[sighting.tag].choice = pose->choice;
   }
-  return agrees;
 }
 
-void Tracker::solveTags(const std::vector<Sighting>& sightings, const std::vector<bool>& agrees,
-                        hal::TimePoint now, TrackingResult& result) {
-  for (std::size_t i = 0; i < sightings.size(); ++i) {
-    TrackedTag& tag = result.tags[sightings[i].index];
-    double twinEvidence = kLoneEvidence;
-    if (agrees[i]) {
-      twinEvidence = world_->twinEvidence;
-      tag.cameraFromTag = *result.cameraFromWorld * *sightings[i].marker->worldFromTag;
-    } else {
-      const auto remembered = tags_.find(tag.id);
-      const std::optional<PosePrior> known =
-          remembered == tags_.end() ? std::nullopt : prior(remembered->second, now);
-      const std::optional<TagPose> pose = chooseTagPose(sightings[i].candidates, known);
-      tag.cameraFromTag = pose->estimate.cameraFromTarget;
-      tag.choice = pose->choice;
-      twinEvidence = pose->twinEvidence;
-    }
-    if (tag.choice == TwinChoice::kAmbiguous) ++counters_.ambiguousTags;
-    tags_[tag.id] = Remembered{*tag.cameraFromTag, now, twinEvidence};
+void Tracker::solveTag(const Sighting& sighting, hal::TimePoint now, const TrackingResult& result) {
+  TrackedTag& tag = tags_[sighting.tag];
+  std::optional<Remembered>& remembered = remembered_[sighting.marker];
+  double twinEvidence = kLoneEvidence;
+  if (sighting.agrees) {
+    twinEvidence = world_->twinEvidence;
+    tag.cameraFromTag = *result.cameraFromWorld * *markers_[sighting.marker].worldFromTag;
+  } else {
+    const std::optional<PosePrior> known = remembered ? prior(*remembered, now) : std::nullopt;
+    const std::optional<TagPose> pose = chooseTagPose(sighting.candidates, known);
+    tag.cameraFromTag = pose->estimate.cameraFromTarget;
+    tag.choice = pose->choice;
+    twinEvidence = pose->twinEvidence;
   }
+  if (tag.choice == TwinChoice::kAmbiguous) ++counters_.ambiguousTags;
+  remembered = Remembered{*tag.cameraFromTag, now, twinEvidence};
 }
 
 std::optional<PosePrior> Tracker::prior(const Remembered& remembered, hal::TimePoint now) const {

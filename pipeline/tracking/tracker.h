@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,7 +37,8 @@ struct TrackingCounters {
 };
 
 struct TrackingResult {
-  std::vector<TrackedTag> tags;  ///< by rising id, each id once
+  /// By rising id, each id once; the Tracker's, valid until its next track().
+  std::span<const TrackedTag> tags;
   std::optional<glm::dmat4> cameraFromWorld;
   double worldRmsPx = 0.0;             ///< reprojection error of the tags that agree
   double worldRotationSigmaRad = 0.0;  ///< predicted, over all axes
@@ -50,7 +51,7 @@ struct TrackerOptions {
   hal::Duration memory = std::chrono::milliseconds(500);
 };
 
-/// Finds tags and poses, frame by frame. One thread at a time.
+/// Finds tags and poses, frame by frame, in buffers that it keeps. One thread at a time.
 class Tracker {
  public:
   /// Without a camera it finds tags and no poses. Throws StartupError for an unknown family.
@@ -70,17 +71,17 @@ class Tracker {
     hal::TimePoint seen;
     double twinEvidence = kLoneEvidence;
   };
+  /// A tag whose size is known, with its possible poses.
   struct Sighting {
-    const TagMarker* marker;
-    std::size_t index;  // in TrackingResult::tags
-    std::vector<PoseEstimate> candidates;
+    std::size_t marker = 0;  // in markers_
+    std::size_t tag = 0;     // in tags_
+    PoseCandidates candidates;
+    bool agrees = false;  // with the world
   };
 
-  std::vector<Sighting> sightings(const TrackingResult& result);
-  std::vector<bool> solveWorld(const std::vector<Sighting>& sightings, hal::TimePoint now,
-                               TrackingResult& result);
-  void solveTags(const std::vector<Sighting>& sightings, const std::vector<bool>& agrees,
-                 hal::TimePoint now, TrackingResult& result);
+  void findSightings();
+  void solveWorld(hal::TimePoint now, TrackingResult& result);
+  void solveTag(const Sighting& sighting, hal::TimePoint now, const TrackingResult& result);
   std::optional<PosePrior> prior(const Remembered& remembered, hal::TimePoint now) const;
 
   std::optional<CameraModel> camera_;
@@ -89,8 +90,13 @@ class Tracker {
   TagDetector detector_;
   LumaConverter luma_;
   TrackingCounters counters_;
+  WorldPoseSolver worldSolver_;
   std::optional<Remembered> world_;
-  std::map<int, Remembered> tags_;
+  std::vector<std::optional<Remembered>> remembered_;  // of each marker
+  std::vector<TrackedTag> tags_;                       // of the last frame, as all below
+  std::vector<Sighting> sightings_;
+  std::vector<WorldTag> worldTags_;            // the sightings with a place in the world
+  std::vector<std::size_t> worldTagSighting_;  // of each, in sightings_
 };
 
 /// Whether a calibration is for frames of this size, else an error (kInvalidInput) that names both:

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <utility>
 
 #include <glm/matrix.hpp>
-
-#include "pipeline/tracking/tag_pose.h"
 
 namespace pleinair::tracking {
 namespace {
@@ -26,11 +25,6 @@ constexpr int kMaxRounds = 8;
 /// between.
 constexpr int kMaxRefined = 8;
 
-struct Hypothesis {
-  glm::dmat4 cameraFromWorld{1.0};
-  double score = 0.0;  // px²
-};
-
 using TagPoints = std::array<Correspondence, 4>;
 
 TagPoints worldPoints(const WorldTag& tag) {
@@ -45,143 +39,132 @@ double rmsPx(const CameraModel& camera, const TagPoints& points, const glm::dmat
   return std::sqrt(squaredErrorPx(camera, points, pose) / static_cast<double>(points.size()));
 }
 
+}  // namespace
+
+std::ptrdiff_t WorldPoseSolver::Solution::agreeing() const {
+  return std::ranges::count(agrees, 1);
+}
+
+bool WorldPoseSolver::Solution::isNear(const glm::dmat4& cameraFromWorld) const {
+  return rotationBetweenRad(estimate.cameraFromTarget, cameraFromWorld) < kSamePoseRad;
+}
+
 /// All tags' poses as the camera's, best first.
-std::vector<Hypothesis> hypotheses(const CameraModel& camera, std::span<const WorldTag> tags,
-                                   std::span<const TagPoints> points) {
-  std::vector<Hypothesis> all;
+void WorldPoseSolver::collectHypotheses(const CameraModel& camera, std::span<const WorldTag> tags) {
+  hypotheses_.clear();
   for (const WorldTag& tag : tags) {
     for (const PoseEstimate& candidate : tag.candidates) {
       Hypothesis hypothesis{.cameraFromWorld =
                                 candidate.cameraFromTarget * glm::inverse(tag.worldFromTag)};
-      for (const TagPoints& each : points) {
+      for (const TagPoints& each : points_) {
         const double rms = rmsPx(camera, each, hypothesis.cameraFromWorld);
         hypothesis.score += std::min(rms * rms, kHypothesisPx * kHypothesisPx);
       }
-      all.push_back(hypothesis);
+      hypotheses_.push_back(hypothesis);
     }
   }
-  std::ranges::sort(all, {}, &Hypothesis::score);
-  return all;
+  std::ranges::sort(hypotheses_, {}, &Hypothesis::score);
 }
-
-struct Solution {
-  PoseEstimate estimate;
-  std::vector<bool> agrees;
-  double squaredErrorPx = 0.0;
-
-  std::ptrdiff_t agreeing() const { return std::ranges::count(agrees, true); }
-};
 
 /// Which tags are where the pose puts them, to so many pixels.
-std::vector<bool> agreement(const CameraModel& camera, std::span<const TagPoints> points,
-                            const glm::dmat4& pose, double tolerancePx) {
-  std::vector<bool> agrees;
-  for (const TagPoints& each : points) agrees.push_back(rmsPx(camera, each, pose) <= tolerancePx);
-  return agrees;
-}
-
-std::vector<Correspondence> pointsOf(std::span<const TagPoints> points,
-                                     const std::vector<bool>& used) {
-  std::vector<Correspondence> all;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (used[i]) all.insert(all.end(), points[i].begin(), points[i].end());
+void WorldPoseSolver::judge(const CameraModel& camera, const glm::dmat4& pose, double tolerancePx,
+                            Agreement& agrees) const {
+  agrees.clear();
+  for (const TagPoints& each : points_) {
+    agrees.push_back(rmsPx(camera, each, pose) <= tolerancePx ? 1 : 0);
   }
-  return all;
 }
 
 /// Refines over the tags that agree with the start, and again over those that then do, until these
-/// are the same. Nothing where the last of them are lost on the way.
-std::optional<Solution> refineFrom(const CameraModel& camera, std::span<const TagPoints> points,
-                                   const glm::dmat4& start, double tolerancePx) {
-  Solution solution{.agrees = agreement(camera, points, start, tolerancePx)};
+/// are the same. False where the last of them are lost on the way.
+bool WorldPoseSolver::refineFrom(const CameraModel& camera, const glm::dmat4& start,
+                                 double tolerancePx, Solution& solution) {
+  judge(camera, start, tolerancePx, solution.agrees);
   glm::dmat4 pose = start;
   for (int round = 0; round < kMaxRounds; ++round) {
-    const std::vector<Correspondence> used = pointsOf(points, solution.agrees);
-    const std::optional<PoseEstimate> refined = refinePose(camera, used, pose, kHuberPx);
-    if (!refined) return std::nullopt;
+    used_.clear();
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (solution.agrees[i] != 0) used_.insert(used_.end(), points_[i].begin(), points_[i].end());
+    }
+    const std::optional<PoseEstimate> refined = refinePose(camera, used_, pose, kHuberPx);
+    if (!refined) return false;
     solution.estimate = *refined;
     pose = refined->cameraFromTarget;
-    solution.squaredErrorPx = squaredErrorPx(camera, used, pose);
-    std::vector<bool> agrees = agreement(camera, points, pose, kContradictionPx);
-    if (agrees == solution.agrees) return solution;
-    if (round + 1 < kMaxRounds) solution.agrees = std::move(agrees);
+    solution.squaredErrorPx = squaredErrorPx(camera, used_, pose);
+    judge(camera, pose, kContradictionPx, nextAgrees_);
+    if (nextAgrees_ == solution.agrees) return true;
+    if (round + 1 < kMaxRounds) solution.agrees.swap(nextAgrees_);
   }
-  return solution;
+  return true;
 }
 
 /// With a wide tolerance all sound tags come in although the hypothesis is crude, but a moved one
-/// may bend the pose until none agrees; the narrow one lets tags in one after another.
-std::optional<Solution> refine(const CameraModel& camera, std::span<const TagPoints> points,
-                               const glm::dmat4& start) {
-  std::optional<Solution> wide = refineFrom(camera, points, start, kHypothesisPx);
-  if (wide && wide->agreeing() == std::ssize(points)) return wide;
-  std::optional<Solution> narrow = refineFrom(camera, points, start, kContradictionPx);
-  if (!wide || !narrow) return wide ? wide : narrow;
-  return wide->agreeing() > narrow->agreeing() ? wide : narrow;
+/// may bend the pose until none agrees; the narrow one lets tags in one after another. Null where
+/// neither comes to an end.
+WorldPoseSolver::Solution* WorldPoseSolver::refine(const CameraModel& camera,
+                                                   const glm::dmat4& start) {
+  const bool hasWide = refineFrom(camera, start, kHypothesisPx, wide_);
+  if (hasWide && wide_.agreeing() == std::ssize(points_)) return &wide_;
+  const bool hasNarrow = refineFrom(camera, start, kContradictionPx, narrow_);
+  if (hasWide && hasNarrow) return wide_.agreeing() > narrow_.agreeing() ? &wide_ : &narrow_;
+  if (hasWide) return &wide_;
+  return hasNarrow ? &narrow_ : nullptr;
 }
 
-/// Whether it can be the other's twin: it explains as many tags by a pose turned otherwise.
-bool isTwin(const Solution& solution, const Solution& other) {
-  return solution.agreeing() == other.agreeing() &&
-         rotationBetweenRad(solution.estimate.cameraFromTarget, other.estimate.cameraFromTarget) >=
-             kSamePoseRad;
-}
-
-/// The solution that explains most tags, and its twin if there is one; the better fit first.
-std::vector<Solution> solve(const CameraModel& camera, std::span<const WorldTag> tags,
-                            std::span<const TagPoints> points) {
-  std::vector<Solution> solutions;
-  int refinedCount = 0;
-  for (const Hypothesis& hypothesis : hypotheses(camera, tags, points)) {
-    if (solutions.size() == 2 || refinedCount == kMaxRefined) break;
-    const auto isKnown = [&](const Solution& other) {
-      return rotationBetweenRad(other.estimate.cameraFromTarget, hypothesis.cameraFromWorld) <
-             kSamePoseRad;
-    };
-    if (std::ranges::any_of(solutions, isKnown)) continue;
-    ++refinedCount;
-    std::optional<Solution> solution = refine(camera, points, hypothesis.cameraFromWorld);
-    if (!solution) continue;
-    if (solutions.empty() || solution->agreeing() > solutions.front().agreeing()) {
-      solutions.clear();
-      solutions.push_back(std::move(*solution));
-    } else if (isTwin(*solution, solutions.front())) {
-      solutions.push_back(std::move(*solution));
-    }
+/// Takes a solution that explains more tags than the one there is, or is its twin: it explains as
+/// many by a pose turned otherwise.
+void WorldPoseSolver::accept(Solution& solution) {
+  if (solutionCount_ == 0 || solution.agreeing() > solutions_[0].agreeing()) {
+    std::swap(solutions_[0], solution);
+    solutionCount_ = 1;
+  } else if (solution.agreeing() == solutions_[0].agreeing() &&
+             !solutions_[0].isNear(solution.estimate.cameraFromTarget)) {
+    std::swap(solutions_[solutionCount_++], solution);
   }
-  std::ranges::sort(solutions, {}, &Solution::squaredErrorPx);
-  return solutions;
 }
 
-/// Errors over different tags do not say which solution is right: such two stay ambiguous.
-std::vector<TwinCandidate> asTwins(std::span<const Solution> solutions) {
-  const Solution& first = solutions.front();
-  std::vector<TwinCandidate> twins;
-  twins.reserve(solutions.size());
-  for (const Solution& each : solutions) {
+/// The better fit first.
+void WorldPoseSolver::findSolutions(const CameraModel& camera) {
+  solutionCount_ = 0;
+  int refinedCount = 0;
+  for (const Hypothesis& hypothesis : hypotheses_) {
+    if (solutionCount_ == solutions_.size() || refinedCount == kMaxRefined) break;
+    const bool isKnown = std::ranges::any_of(solutions(), [&](const Solution& other) {
+      return other.isNear(hypothesis.cameraFromWorld);
+    });
+    if (isKnown) continue;
+    ++refinedCount;
+    if (Solution* const solution = refine(camera, hypothesis.cameraFromWorld)) accept(*solution);
+  }
+  if (!std::ranges::is_sorted(solutions(), {}, &Solution::squaredErrorPx)) {
+    std::ranges::reverse(solutions());  // two at the most
+  }
+}
+
+std::optional<WorldPose> WorldPoseSolver::solve(const CameraModel& camera,
+                                                std::span<const WorldTag> tags,
+                                                const std::optional<PosePrior>& prior) {
+  points_.clear();
+  for (const WorldTag& tag : tags) points_.push_back(worldPoints(tag));
+  collectHypotheses(camera, tags);
+  findSolutions(camera);
+  if (solutionCount_ == 0) return std::nullopt;
+
+  // Errors over different tags do not say which solution is right: such two stay ambiguous.
+  const Solution& first = solutions_.front();
+  FixedVector<TwinCandidate, 2> twins;
+  for (const Solution& each : solutions()) {
     const bool isComparable = each.agrees == first.agrees;
     twins.push_back({.cameraFromTarget = each.estimate.cameraFromTarget,
                      .squaredErrorPx = isComparable ? each.squaredErrorPx : first.squaredErrorPx});
   }
-  return twins;
-}
-
-}  // namespace
-
-std::optional<WorldPose> solveWorldPose(const CameraModel& camera, std::span<const WorldTag> tags,
-                                        const std::optional<PosePrior>& prior) {
-  std::vector<TagPoints> points;
-  for (const WorldTag& tag : tags) points.push_back(worldPoints(tag));
-  std::vector<Solution> solutions = solve(camera, tags, points);
-  if (solutions.empty()) return std::nullopt;
-
-  const auto used = static_cast<double>(solutions.front().agreeing());
-  const TwinDecision decision = chooseTwin(asTwins(solutions), 8.0 * used - 6.0, prior);
-  Solution& chosen = solutions[decision.index];
+  const TwinDecision decision =
+      chooseTwin(twins, 8.0 * static_cast<double>(first.agreeing()) - 6.0, prior);
+  const Solution& chosen = solutions_[decision.index];
   return WorldPose{.estimate = chosen.estimate,
                    .choice = decision.choice,
                    .twinEvidence = decision.evidence,
-                   .agrees = std::move(chosen.agrees)};
+                   .agrees = chosen.agrees};
 }
 
 }  // namespace pleinair::tracking

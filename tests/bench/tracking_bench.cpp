@@ -3,6 +3,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include "pipeline/tracking/luma.h"
+#include "pipeline/tracking/picture_motion.h"
 #include "pipeline/tracking/tracker.h"
 #include "tests/support/tag_scene.h"
 
@@ -61,6 +63,7 @@ void solveFiveTags(benchmark::State& state) {
   const CameraModel camera = cameraOf({1280, 720});
   const glm::dmat4 cameraFromWorld = poseOf({0.35, 0.1, 0.2}, {0.0, 0.0, 0.7});
   const auto tags = table();
+  WorldPoseSolver solver;
   for (auto _ : state) {
     std::vector<WorldTag> seen;
     for (const support::SceneTag& tag : tags) {
@@ -70,10 +73,33 @@ void solveFiveTags(benchmark::State& state) {
       world.candidates = tagPoseCandidates(camera, world.corners, tag.edgeMetres);
       seen.push_back(std::move(world));
     }
-    benchmark::DoNotOptimize(solveWorldPose(camera, seen, std::nullopt));
+    benchmark::DoNotOptimize(solver.solve(camera, seen, std::nullopt));
   }
 }
 BENCHMARK(solveFiveTags)->Unit(benchmark::kMicrosecond);
+
+/// The picture's motion as a whole: two pictures by turns, so that every frame moves by a few px.
+void followThePicture(benchmark::State& state) {
+  const hal::FrameSize size{static_cast<int>(state.range(0)), static_cast<int>(state.range(1))};
+  const CameraModel camera = cameraOf(size);
+  LumaConverter luma;
+  std::vector<hal::Image> images;
+  for (const double aside : {0.0, 0.004}) {
+    images.push_back(support::renderTags(camera, poseOf({0.35, 0.1, 0.2}, {aside, 0.0, 0.7}),
+                                         table(), {.noiseSigma = 2.0}));
+  }
+  PictureMotion motion;
+  std::size_t number = 0;
+  for (auto _ : state) {
+    const hal::Image& image = images[number++ % 2];
+    benchmark::DoNotOptimize(motion.follow(luma.convert(image.view()), size));
+  }
+}
+BENCHMARK(followThePicture)
+    ->ArgNames({"width", "height"})
+    ->Args({640, 480})
+    ->Args({1280, 720})
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace pleinair::tracking

@@ -174,8 +174,14 @@ BENCHMARK_CAPTURE(onePass, tile, "watercolor: tile")
 BENCHMARK_CAPTURE(onePass, cells, "watercolor: cells")
     ->Name("watercolor/cells")
     ->Apply(passAtBothSizes);
-BENCHMARK_CAPTURE(onePass, wash, "watercolor: wash")
-    ->Name("watercolor/wash")
+BENCHMARK_CAPTURE(onePass, guide, "watercolor: guide")
+    ->Name("watercolor/guide")
+    ->Apply(passAtBothSizes);
+BENCHMARK_CAPTURE(onePass, split, "watercolor: split")
+    ->Name("watercolor/split")
+    ->Apply(passAtBothSizes);
+BENCHMARK_CAPTURE(onePass, pigment, "watercolor: pigment")
+    ->Name("watercolor/pigment")
     ->Apply(passAtBothSizes);
 BENCHMARK_CAPTURE(onePass, compose, "watercolor: compose")
     ->Name("watercolor/compose")

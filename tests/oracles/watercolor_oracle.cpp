@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <glm/common.hpp>
+
 namespace pleinair::oracles {
 namespace {
 
@@ -153,6 +155,32 @@ std::vector<double> edgeStrengths(const hal::ImageView& image, double alpha, dou
     }
   }
   return strengths;
+}
+
+TwoColours twoColoursOf(const std::vector<glm::dvec3>& colours) {
+  const auto lumaOf = [](glm::dvec3 c) { return 0.25 * c.r + 0.625 * c.g + 0.125 * c.b; };
+  const auto count = static_cast<double>(colours.size());
+  glm::dvec3 mean(0.0);
+  for (const glm::dvec3& c : colours) mean += c / count;
+  double second = 0.0;
+  double third = 0.0;
+  glm::dvec3 covariance(0.0);
+  for (const glm::dvec3& c : colours) {
+    const double apart = lumaOf(c) - lumaOf(mean);
+    second += apart * apart / count;
+    third += apart * apart * apart / count;
+    covariance += apart * (c - mean) / count;
+  }
+  TwoColours result{.dark = mean, .light = mean, .lumaSpread = std::sqrt(second)};
+  if (second <= 0.0) return result;
+  // Two points p and 1 − p apart have the skewness (1 − 2p) / √(p (1 − p)).
+  const double skewness = third / std::pow(second, 1.5);
+  const double p = 0.5 - 0.5 * skewness / std::sqrt(skewness * skewness + 4.0);
+  const glm::dvec3 perSpread = covariance / result.lumaSpread;
+  result.light = glm::clamp(mean + perSpread * std::sqrt((1.0 - p) / p), 0.0, 1.0);
+  result.dark = glm::clamp(mean - perSpread * std::sqrt(p / (1.0 - p)), 0.0, 1.0);
+  result.lightShare = p;
+  return result;
 }
 
 std::vector<glm::dvec2> retiled(const Grid& grid, const std::vector<std::uint32_t>& labels,

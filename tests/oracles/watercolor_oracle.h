@@ -51,6 +51,18 @@ std::vector<CellMean> cellMeans(const Grid& grid, const hal::ImageView& image,
 /// The left side of eq. 4's inequality for each pixel: β Edge_YUV + (1 − β) Edge_RGB.
 std::vector<double> edgeStrengths(const hal::ImageView& image, double alpha, double beta);
 
+/// The two colours and their shares (p of the light one) that have the mean, the variance and the
+/// third moment of the luma of given colours, and the colours' regression on luma (moment
+/// preserving thresholding: Tsai, 1985), with the luma (2 R + 5 G + B) / 8. One colour twice where
+/// luma hardly varies. All in [0, 1].
+struct TwoColours {
+  glm::dvec3 dark{0.0};
+  glm::dvec3 light{0.0};
+  double lightShare = 0.5;
+  double lumaSpread = 0.0;  ///< standard deviation
+};
+TwoColours twoColoursOf(const std::vector<glm::dvec3>& colours);
+
 /// §3.2.3: the mean of the edge pixels' centres in the seed's cell if they are at least `least`,
 /// else where it was; never more than a cell from home nor from the cell's middle, and in the
 /// picture, these bounds rounded inwards to 1/64 px.

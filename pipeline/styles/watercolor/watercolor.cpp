@@ -21,20 +21,47 @@ constexpr int kPaperPixels = 512;  // as in paper.frag
 constexpr GLbitfield kWritten = GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                                 GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
 constexpr int kSettlingRounds = 3;
-constexpr std::size_t kSumWords = 8;
-constexpr int kBlockPixels = 4;  // as in tile.comp
+constexpr std::size_t kSumWords = 8;  // a cell, in the shaders of sums and of moments
+constexpr int kBlockPixels = 4;       // as in tile.comp
 const std::string kShaders = "pipeline/styles/watercolor/shaders/";
 
+constexpr std::string_view kMeansView = "means";
 /// In the order of view.frag.
-constexpr std::array<ViewInfo, 7> kViews{{
+constexpr std::array<ViewInfo, 8> kViews{{
     {"seeds", "the cells' seeds over the frame"},
     {"cells", "the Voronoi cells, each in a colour of its own, with their seeds"},
-    {"means", "each cell in its mean colour: the thesis's tiling"},
+    {kMeansView, "each cell in its mean colour: the thesis's tiling"},
     {"edges", "edge pixels black, weaker colour differences grey"},
     {"retiling", "edge pixels, and each seed's way from home to where it was drawn"},
-    {"wash", "the washes before edges and paper"},
+    {"dark", "the dark washes, before it is decided where they lie"},
+    {"light", "the light washes"},
     {"paper", "the sheet of paper"},
 }};
+
+/// One pixel for `by` of the picture, at least one.
+hal::FrameSize reduced(hal::FrameSize size, int by) {
+  return {(size.width + by - 1) / by, (size.height + by - 1) / by};
+}
+
+/// Where a pixel lies on the paper, which goes with the picture as a whole. The paper keeps its
+/// grain's size on the screen under any zoom: two octaves of it blend into each other.
+struct PaperPlace {
+  glm::vec2 linear;  // of the finer octave: complex, paper px a picture px
+  glm::vec2 shift;   // paper px
+  float coarser;     // how much of the coarser octave is seen
+};
+
+PaperPlace paperPlace(const tracking::PlaneSimilarity& canvasFromPicture) {
+  const double octave = std::log2(canvasFromPicture.scale());
+  const double whole = std::floor(octave + 1e-6);
+  const double finer = std::exp2(-whole);
+  // The lowest frequency that is read is a quarter's (pigment.frag).
+  const double period = 4.0 * kPaperPixels;
+  const glm::dvec2 shift = canvasFromPicture.shift * finer;
+  return {.linear = canvasFromPicture.linear * finer,
+          .shift = shift - 2.0 * period * glm::floor(shift / (2.0 * period)),
+          .coarser = static_cast<float>(std::max(0.0, octave - whole))};
+}
 
 /// The share of its way that something with this time constant goes in `step`.
 float shareOf(hal::Duration step, double timeConstantSeconds) {
@@ -49,7 +76,10 @@ struct Watercolor::Passes {
       : seedHome(library.compute(kShaders + "seed_home.comp")),
         tile(library.compute(kShaders + "tile.comp")),
         cells(library.compute(kShaders + "cells.comp")),
-        wash(library.fragmentPass(kShaders + "wash.frag")),
+        guide(library.fragmentPass(kShaders + "guide.frag")),
+        split(library.compute(kShaders + "split.comp")),
+        washes(library.compute(kShaders + "washes.comp")),
+        pigment(library.fragmentPass(kShaders + "pigment.frag")),
         compose(library.fragmentPass(kShaders + "compose.frag")),
         composeFocus(library.fragmentPass(kShaders + "compose_focus.frag")),
         view(library.fragmentPass(kShaders + "view.frag")),
@@ -58,7 +88,10 @@ struct Watercolor::Passes {
   gpu::Program seedHome;
   gpu::Program tile;
   gpu::Program cells;
-  gpu::Program wash;
+  gpu::Program guide;
+  gpu::Program split;
+  gpu::Program washes;
+  gpu::Program pigment;
   gpu::Program compose;
   gpu::Program composeFocus;
   gpu::Program view;
@@ -76,10 +109,15 @@ struct Watercolor::Surfaces {
         tiling(TextureFormat::kR32ui, size),
         means(TextureFormat::kRgba16f, grid.size()),
         shifts(TextureFormat::kRgba16f, grid.size()),
-        flatWash(TextureFormat::kRg32ui, grid.size()),
-        softWash(TextureFormat::kRgba8, grid.size(), TextureFilter::kLinear),
+        guide(TextureFormat::kRgba8, reduced(size, 2), TextureFilter::kLinear),
+        moments(grid.count() * kSumWords * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
+        darkWash(TextureFormat::kRgba8, grid.size()),
+        lightWash(TextureFormat::kRgba8, grid.size()),
+        darkPigment(TextureFormat::kRgba8, reduced(size, 4), TextureFilter::kLinear),
+        lightPigment(TextureFormat::kRgba8, reduced(size, 4), TextureFilter::kLinear),
         picture(TextureFormat::kRgba8, size, TextureFilter::kLinear),
-        washTarget({&flatWash, &softWash}),
+        guideTarget({&guide}),
+        pigmentTarget({&darkPigment, &lightPigment}),
         pictureTarget({&picture}) {}
 
   hal::FrameSize size;
@@ -91,10 +129,15 @@ struct Watercolor::Surfaces {
   Texture tiling;
   Texture means;
   Texture shifts;
-  Texture flatWash;
-  Texture softWash;
+  Texture guide;
+  gpu::Buffer moments;
+  Texture darkWash;
+  Texture lightWash;
+  Texture darkPigment;
+  Texture lightPigment;
   Texture picture;
-  RenderTarget washTarget;
+  RenderTarget guideTarget;
+  RenderTarget pigmentTarget;
   RenderTarget pictureTarget;
 };
 
@@ -106,7 +149,7 @@ Watercolor::Watercolor(const gpu::ShaderLibrary& library)
 
 Watercolor::~Watercolor() = default;
 
-std::span<const ViewInfo> Watercolor::views() const {
+std::span<const ViewInfo> watercolorViews() {
   return kViews;
 }
 
@@ -121,17 +164,23 @@ void Watercolor::reset() {
 
 Watercolor::Inner Watercolor::inner() const {
   assert(surfaces_ != nullptr);
-  return {.seeds = &surfaces_->seeds, .tiling = &surfaces_->tiling, .means = &surfaces_->means};
+  return {.seeds = &surfaces_->seeds,
+          .tiling = &surfaces_->tiling,
+          .means = &surfaces_->means,
+          .guide = &surfaces_->guide,
+          .darkWash = &surfaces_->darkWash,
+          .lightWash = &surfaces_->lightWash};
 }
 
 const Texture& Watercolor::paint(const scene::ArFrame& frame, std::string_view view,
                                  gpu::PassTimer& timer) {
   if (needsNewTiling(frame)) {
     startTiling(frame);
-    for (int i = 0; i < kSettlingRounds; ++i) tileAndRetile(frame, timer, true);
+    for (int i = 0; i < kSettlingRounds; ++i) tileAndRetile(frame, timer, true, false);
   }
-  tileAndRetile(frame, timer, false);
-  paintWashes(timer);
+  const bool wantsMeans = p_.mosaic > 0.0 || view == kMeansView;
+  tileAndRetile(frame, timer, false, wantsMeans);
+  paintWashes(frame, timer);
   lastTime_ = frame.captureTime;
   hasPast_ = true;
   if (view.empty()) {
@@ -158,6 +207,7 @@ void Watercolor::startTiling(const scene::ArFrame& frame) {
   passes_->seedHome.use()
       .storage(0, s.seeds)
       .storage(1, s.sums)
+      .storage(2, s.moments)
       .set("grid", s.grid.cells())
       .set("cellPixels", s.grid.cellPixels())
       .set("seed", s.seed)
@@ -166,7 +216,8 @@ void Watercolor::startTiling(const scene::ArFrame& frame) {
 }
 
 /// `atOnce`: seeds go all the way to their edges, whatever the time constants.
-void Watercolor::tileAndRetile(const scene::ArFrame& frame, gpu::PassTimer& timer, bool atOnce) {
+void Watercolor::tileAndRetile(const scene::ArFrame& frame, gpu::PassTimer& timer, bool atOnce,
+                               bool wantsMeans) {
   Surfaces& s = *surfaces_;
   {
     const auto scope = timer.measure("watercolor: tile");
@@ -182,6 +233,7 @@ void Watercolor::tileAndRetile(const scene::ArFrame& frame, gpu::PassTimer& time
         .set("alpha", static_cast<float>(p_.edgeAlpha))
         .set("beta", static_cast<float>(p_.edgeBeta))
         .set("threshold", static_cast<float>(p_.edgeThreshold))
+        .set("wantsMeans", wantsMeans ? 1 : 0)
         .dispatch({(s.size.width + kBlockPixels - 1) / kBlockPixels,
                    (s.size.height + kBlockPixels - 1) / kBlockPixels},
                   {16, 4}, kWritten);
@@ -206,36 +258,82 @@ void Watercolor::tileAndRetile(const scene::ArFrame& frame, gpu::PassTimer& time
       .dispatch(s.grid.cells(), {8, 8}, kWritten);
 }
 
-void Watercolor::paintWashes(gpu::PassTimer& timer) {
+/// What the cells hold of the picture becomes two smooth layers of pigment.
+void Watercolor::paintWashes(const scene::ArFrame& frame, gpu::PassTimer& timer) {
   const Surfaces& s = *surfaces_;
-  const auto scope = timer.measure("watercolor: wash");
-  passes_->wash.use()
-      .texture("means", s.means)
-      .texture("shifts", s.shifts)
-      .set("seed", s.seed)
-      .set("variation", static_cast<float>(p_.variation))
-      .set("vividness", static_cast<float>(p_.vividness))
-      .set("luminosity", static_cast<float>(p_.luminosity))
-      .drawFullscreen(s.washTarget);
+  {
+    const auto scope = timer.measure("watercolor: guide");
+    passes_->guide.use()
+        .texture("picture", *frame.colour)
+        .set("texel", 1.0F / glm::vec2(s.size.width, s.size.height))
+        .set("reach", static_cast<float>(p_.simplicity))
+        .set("vividness", static_cast<float>(p_.vividness))
+        .set("luminosity", static_cast<float>(p_.luminosity))
+        .drawFullscreen(s.guideTarget);
+  }
+  {
+    const auto scope = timer.measure("watercolor: split");
+    const hal::FrameSize half = s.guide.size();
+    passes_->split.use()
+        .storage(0, s.moments)
+        .texture("guide", s.guide)
+        .texture("tiling", s.tiling)
+        .set("grid", s.grid.cells())
+        .dispatch({(half.width + kBlockPixels - 1) / kBlockPixels,
+                   (half.height + kBlockPixels - 1) / kBlockPixels},
+                  {16, 4}, kWritten);
+    passes_->washes.use()
+        .storage(0, s.moments)
+        .image(0, s.darkWash, ImageAccess::kWrite)
+        .image(1, s.lightWash, ImageAccess::kWrite)
+        .texture("guide", s.guide)
+        .set("grid", s.grid.cells())
+        .set("cellPixels", s.grid.cellPixels())
+        .dispatch(s.grid.cells(), {8, 8}, kWritten);
+  }
+  const auto scope = timer.measure("watercolor: pigment");
+  const PaperPlace place = paperPlace(frame.canvasFromPicture);
+  passes_->pigment.use()
+      .texture("tiling", s.tiling)
+      .texture("darkWash", s.darkWash)
+      .texture("lightWash", s.lightWash)
+      .set("cellPixels", s.grid.cellPixels())
+      .texture("paper", paper_)
+      .set("paperLinear", place.linear)
+      .set("paperShift", place.shift)
+      .set("coarser", place.coarser)
+      .set("reach", static_cast<float>(p_.bleeding))
+      .drawFullscreen(s.pigmentTarget);
 }
 
 void Watercolor::compose(const scene::ArFrame& frame, gpu::PassTimer& timer) {
   const Surfaces& s = *surfaces_;
   const auto scope = timer.measure("watercolor: compose");
+  const PaperPlace place = paperPlace(frame.canvasFromPicture);
   gpu::Program& pass = frame.hasFocus ? passes_->composeFocus : passes_->compose;
   pass.use()
       .texture("tiling", s.tiling)
-      .texture("flatWash", s.flatWash)
-      .texture("softWash", s.softWash)
+      .texture("means", s.means)
+      .texture("guide", s.guide)
+      .texture("darkPigment", s.darkPigment)
+      .texture("lightPigment", s.lightPigment)
       .texture("paper", paper_)
+      .set("paperLinear", place.linear)
+      .set("paperShift", place.shift)
+      .set("coarser", place.coarser)
       .set("pictureSize", glm::vec2(s.size.width, s.size.height))
       .set("threshold", static_cast<float>(p_.edgeThreshold))
       .set("edgeSoftness", static_cast<float>(p_.edgeSoftness))
       .set("edgeDarkness", static_cast<float>(p_.edgeDarkness))
-      .set("bleeding", static_cast<float>(p_.bleeding))
+      .set("hardness", static_cast<float>(p_.hardness))
       .set("wobble", static_cast<float>(p_.wobble))
       .set("rim", static_cast<float>(p_.rim))
+      .set("gaps", static_cast<float>(p_.gaps))
       .set("granulation", static_cast<float>(p_.granulation))
+      .set("variation", static_cast<float>(p_.variation))
+      .set("vividness", static_cast<float>(p_.vividness))
+      .set("luminosity", static_cast<float>(p_.luminosity))
+      .set("mosaic", static_cast<float>(p_.mosaic))
       .set("grain", static_cast<float>(p_.grain));
   if (frame.hasFocus)
     pass.texture("frame", *frame.colour).texture("normalFocus", *frame.normalFocus);
@@ -250,7 +348,8 @@ void Watercolor::showView(const scene::ArFrame& frame, std::string_view view) {
       .texture("tiling", s.tiling)
       .texture("means", s.means)
       .texture("shifts", s.shifts)
-      .texture("softWash", s.softWash)
+      .texture("darkPigment", s.darkPigment)
+      .texture("lightPigment", s.lightPigment)
       .texture("paper", paper_)
       .texture("picture", *frame.colour)
       .set("view", static_cast<int>(found - kViews.begin()))
@@ -261,7 +360,8 @@ void Watercolor::showView(const scene::ArFrame& frame, std::string_view view) {
 }
 
 void Watercolor::makePaper() {
-  paper_ = Texture(TextureFormat::kRgba8, {kPaperPixels, kPaperPixels});
+  paper_ = Texture(TextureFormat::kRgba8, {kPaperPixels, kPaperPixels}, TextureFilter::kLinear,
+                   gpu::TextureWrap::kRepeat);
   passes_->paper.use().drawFullscreen(RenderTarget({&paper_}));
 }
 

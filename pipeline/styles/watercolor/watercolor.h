@@ -8,13 +8,17 @@
 
 namespace pleinair::styles {
 
-/// Chapter III of the thesis: the frame tiled by the Voronoi cells of jittered seeds, each painted
-/// with its mean colour, dark edges over it, seeds drawn to the edges in every frame; with washes
-/// that run together, granulation and paper. All on the GPU, nothing is read back.
+/// The style's inner pictures, apart from the finished one.
+std::span<const ViewInfo> watercolorViews();
+
+/// Chapter III of the thesis, and on: the frame tiled by the Voronoi cells of jittered seeds that
+/// are drawn to the edges in every frame. Each cell keeps a dark and a light colour; the smoothed
+/// picture decides which of those around a pixel it gets, so that washes end where things do and
+/// cells do not show, unless `mosaic` asks for the thesis's flat ones. Over that dark edges,
+/// granulation, paper. All on the GPU, nothing is read back.
 ///
-/// What is fixed to what: washes, their unevenness and the grain that pigment settles in belong to
-/// the cells and travel with their seeds; only the sheet's faint relief and the brush's wobble stay
-/// with the screen, as real paper does. An object's silhouette (ids) counts as an edge.
+/// The sheet, with all that is uneven about the paint, goes with ArFrame::canvasFromPicture. An
+/// object's silhouette (ids) counts as an edge.
 ///
 /// Time: a first frame (after reset(), another size, another `cell_size` or `seed`) starts with
 /// seeds at home and re-tiles a few times at once, so that it looks as settled as later ones. A
@@ -31,7 +35,8 @@ class Watercolor final : public Style {
   Watercolor& operator=(Watercolor&&) = delete;
 
   std::string_view name() const override { return "watercolor"; }
-  std::span<const ViewInfo> views() const override;
+  std::span<const ViewInfo> views() const override { return watercolorViews(); }
+  bool usesCanvas() const override { return true; }
   const config::ParameterValues& parameters() const override { return values_; }
   void setParameters(const config::ParameterValues& values) override;
   const gpu::Texture& paint(const scene::ArFrame& frame, std::string_view view,
@@ -40,9 +45,13 @@ class Watercolor final : public Style {
 
   /// What the last frame's passes left on the GPU, for tests.
   struct Inner {
-    const gpu::Buffer* seeds;    ///< vec2 a cell, row by row: px, for the next frame
-    const gpu::Texture* tiling;  ///< R32UI a pixel: shaders/tiling_word.glsl
-    const gpu::Texture* means;   ///< RGBA16F a cell: linear RGB; 0 in A where it has no pixel
+    const gpu::Buffer* seeds;       ///< vec2 a cell, row by row: px, for the next frame
+    const gpu::Texture* tiling;     ///< R32UI a pixel: shaders/tiling_word.glsl
+    const gpu::Texture* means;      ///< RGBA16F a cell: linear RGB; 0 in A where it has no pixel.
+                                    ///< Only after the view "means" and mosaics
+    const gpu::Texture* guide;      ///< RGBA8 for 2×2 px: shaders/guide.frag
+    const gpu::Texture* darkWash;   ///< RGBA8 a cell: shaders/washes.comp
+    const gpu::Texture* lightWash;  ///< likewise, its share in A
   };
   Inner inner() const;
 
@@ -52,8 +61,9 @@ class Watercolor final : public Style {
 
   bool needsNewTiling(const scene::ArFrame& frame) const;
   void startTiling(const scene::ArFrame& frame);
-  void tileAndRetile(const scene::ArFrame& frame, gpu::PassTimer& timer, bool atOnce);
-  void paintWashes(gpu::PassTimer& timer);
+  void tileAndRetile(const scene::ArFrame& frame, gpu::PassTimer& timer, bool atOnce,
+                     bool wantsMeans);
+  void paintWashes(const scene::ArFrame& frame, gpu::PassTimer& timer);
   void compose(const scene::ArFrame& frame, gpu::PassTimer& timer);
   void showView(const scene::ArFrame& frame, std::string_view view);
   void makePaper();

@@ -29,11 +29,17 @@ const config::ParameterTable<WatercolorParameters>& watercolorParameters() {
                       "Time constant of the way home without an edge; 0 stays, as in the thesis."),
       numberParameter("edge_softness", &P::edgeSoftness, kPart,
                       "Width of the drawn edge's ramp around the threshold, in thresholds."),
-      numberParameter("bleeding", &P::bleeding, kPart,
+      numberParameter("simplicity", &P::simplicity, {.min = 0.5, .max = 6, .unit = "px"},
+                      "How much smaller things than this are smoothed out of shapes."),
+      numberParameter("hardness", &P::hardness, kPart,
+                      "How sharply washes end where colours differ much."),
+      numberParameter("bleeding", &P::bleeding, {.min = 0.3, .max = 3, .unit = "cells"},
                       "How far cells of like colour run together."),
-      numberParameter("wobble", &P::wobble, {.min = 0, .max = 4, .unit = "px"},
+      numberParameter("wobble", &P::wobble, {.min = 0, .max = 16, .unit = "px"},
                       "How far the sides of washes stray from straight lines."),
       numberParameter("rim", &P::rim, kPart, "Pigment that gathers at the rims of dark washes."),
+      numberParameter("gaps", &P::gaps, kPart,
+                      "Slivers of paper that are left where a wash meets a dark one."),
       numberParameter("granulation", &P::granulation, kPart,
                       "Pigment that settles in the paper's valleys."),
       numberParameter("variation", &P::variation, kPart,
@@ -42,6 +48,7 @@ const config::ParameterTable<WatercolorParameters>& watercolorParameters() {
       numberParameter("vividness", &P::vividness, kPart, "Added saturation."),
       numberParameter("luminosity", &P::luminosity, kPart,
                       "How far washes open up towards the white of the paper."),
+      numberParameter("mosaic", &P::mosaic, kPart, "How much of the flat cells is seen."),
   };
   return table;
 }

@@ -5,27 +5,32 @@
 namespace pleinair::styles {
 
 /// What can be tuned of the watercolor, with the defaults. The first group is the thesis's (chapter
-/// III); with the second group all 0 the picture is the thesis's: flat cells under dark edges.
+/// III); with `mosaic` 1 and the rest of the second group 0 the picture is the thesis's: flat cells
+/// under dark edges.
 struct WatercolorParameters {
   int cellSizePixels = 8;
   int seed = 1;
   double edgeAlpha = 0.5;
   double edgeBeta = 0.5;
   double edgeThreshold = 0.07;
-  double edgeDarkness = 0.6;
+  double edgeDarkness = 0.5;
   int retilePixels = 4;
   double retileTimeSeconds = 0.1;
   double returnTimeSeconds = 1.0;
 
   double edgeSoftness = 0.5;
-  double bleeding = 0.85;
+  double simplicity = 1.5;
+  double hardness = 1.0;
+  double bleeding = 1.0;
   double wobble = 2.0;
   double rim = 0.5;
-  double granulation = 0.4;
+  double gaps = 0.2;
+  double granulation = 0.35;
   double variation = 0.5;
   double grain = 0.2;
   double vividness = 0.3;
-  double luminosity = 0.65;
+  double luminosity = 0.5;
+  double mosaic = 0.0;
 };
 
 const config::ParameterTable<WatercolorParameters>& watercolorParameters();

@@ -85,6 +85,7 @@ TEST_F(WatercolorGolden, TheThesissTiling) {
 TEST_F(WatercolorGolden, AnotherTilingIsNotAlike) {
   Watercolor style(library_);
   const gpu::Texture texture = support::textureOf(stillLife().view());
+  style.setParameters(style.parameters().with("mosaic", "1"));
   const hal::Image one = support::readRgba8(style.paint(frameOf(texture), "", timer_));
   style.setParameters(style.parameters().with("seed", "2"));
   const hal::Image other = support::readRgba8(style.paint(frameOf(texture), "", timer_));

@@ -53,7 +53,7 @@ class PassTest : public StyleTest, public testing::WithParamInterface<Size> {
     p.cellSizePixels = GetParam().cell;
     style_->setParameters(watercolorParameters().valuesOf(p, "test"));
   }
-  void paint(int number) { style_->paint(frameOf(picture_, number), "", timer_); }
+  void paint(int number) { style_->paint(frameOf(picture_, number), "means", timer_); }
 
   std::vector<glm::dvec2> seeds() const {
     std::vector<glm::dvec2> result;

@@ -1,10 +1,11 @@
 // The style as a whole: what it promises about time, sizes and independence.
 #include <gmock/gmock.h>
 
+#include "config/config_error.h"
 #include "hal/error.h"
 #include "pipeline/styles/watercolor/watercolor.h"
-#include "tests/gpu/watercolor/allocation_count.h"
 #include "tests/gpu/watercolor/watercolor_fixture.h"
+#include "tests/support/allocation_count.h"
 
 namespace pleinair::styles {
 namespace {
@@ -179,6 +180,24 @@ TEST_F(WatercolorTest, MakesStylesByNameAndRefusesOthersWithTheList) {
     EXPECT_THAT(error.what(), testing::HasSubstr("watercolor, none"));
   }
   EXPECT_EQ(makeStyle("watercolor", library_)->name(), "watercolor");
+}
+
+TEST(StyleInfos, LooksGiveValuesOfTheStylesListAndUnknownOnesAreRefused) {
+  for (const StyleInfo& info : styleInfos()) {
+    for (const Look& look : info.looks) {
+      SCOPED_TRACE(look.name);
+      const config::ParameterValues values = info.parametersOf(look.name);
+      EXPECT_EQ(&values.list(), &info.defaults.list());
+      EXPECT_EQ(values == info.defaults, &look == &info.looks.front());
+    }
+  }
+  try {
+    styleInfo("watercolor").parametersOf("gouache");
+    FAIL() << "has it";
+  } catch (const config::ConfigError& error) {
+    EXPECT_EQ(error.found(), "gouache");
+    EXPECT_THAT(error.allowed(), testing::HasSubstr("line_and_wash"));
+  }
 }
 
 TEST_F(WatercolorTest, TheStyleNoneHandsTheFrameThrough) {

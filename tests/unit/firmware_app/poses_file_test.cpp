@@ -18,8 +18,9 @@ const glm::dmat4 kNumbered{0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15}
 TEST(PosesLine, SaysWhereWorldAndTagsAreByRows) {
   tracking::TrackingResult tracking;
   tracking.cameraFromWorld = kNumbered;
-  tracking.tags.push_back(
-      {.id = 7, .corners = {{{1, 2.5}, {3, 4}, {5, 6}, {7, 8}}}, .cameraFromTag = glm::dmat4(1.0)});
+  const tracking::TrackedTag tag{
+      .id = 7, .corners = {{{1, 2.5}, {3, 4}, {5, 6}, {7, 8}}}, .cameraFromTag = glm::dmat4(1.0)};
+  tracking.tags = {&tag, 1};
   EXPECT_EQ(posesLine(12, 480ms, tracking),
             R"({"frame":12,"time_s":0.48,)"
             R"("cameraFromWorld":[0.0,1.0,2.0,3.0,4.0,5.0,6.0,7.0,)"
@@ -33,9 +34,8 @@ TEST(PosesLine, SaysWhereWorldAndTagsAreByRows) {
 TEST(PosesLine, LeavesOutWhatIsNotKnown) {
   EXPECT_EQ(posesLine(0, 0ms, {}), R"({"frame":0,"time_s":0.0,"tags":[]})"
                                    "\n");
-  tracking::TrackingResult tracking;
-  tracking.tags.push_back({.id = 1});
-  EXPECT_EQ(posesLine(1, 40ms, tracking),
+  const tracking::TrackedTag tag{.id = 1};
+  EXPECT_EQ(posesLine(1, 40ms, {.tags = {&tag, 1}}),
             R"({"frame":1,"time_s":0.04,"tags":[)"
             R"({"id":1,"corners":[[0.0,0.0],[0.0,0.0],[0.0,0.0],[0.0,0.0]]}]})"
             "\n");

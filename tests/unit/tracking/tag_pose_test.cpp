@@ -52,7 +52,7 @@ TEST(TagPose, OfExactCornersIsExact) {
   for (const glm::dmat4& truth : manyPoses()) {
     const auto candidates = tagPoseCandidates(camera, trueCorners(camera, truth, kEdge), kEdge);
     ASSERT_FALSE(candidates.empty());
-    const PoseEstimate& best = candidates.front();
+    const PoseEstimate& best = candidates[0];
     EXPECT_LT(best.rmsPx, 1e-6);
     EXPECT_LT(rotationBetweenRad(best.cameraFromTarget, truth), 1e-6);
     EXPECT_LT(positionError(best, truth), 1e-7);
@@ -67,7 +67,7 @@ TEST(TagPose, OfAnUprightTagHasNoRotation) {
   const glm::dmat4 truth = poseOf({}, {0.0, 0.0, 0.4});
   const auto candidates = tagPoseCandidates(camera, trueCorners(camera, truth, kEdge), kEdge);
   ASSERT_FALSE(candidates.empty());
-  EXPECT_LT(rotationBetweenRad(candidates.front().cameraFromTarget, glm::dmat4(1.0)), 1e-3);
+  EXPECT_LT(rotationBetweenRad(candidates[0].cameraFromTarget, glm::dmat4(1.0)), 1e-3);
 }
 
 /// Noise of known size: errors stay within what the covariance predicts.

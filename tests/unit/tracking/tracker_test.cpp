@@ -120,7 +120,7 @@ TEST(Tracker, RemembersForAWhile) {
   const hal::Image tilted = pictureAt(0.8);
   const hal::Image front = pictureAt(0.15);
   const hal::TimePoint start{};
-  const auto choiceOf = [](const TrackingResult& result) { return result.tags.at(0).choice; };
+  const auto choiceOf = [](const TrackingResult& result) { return result.tags[0].choice; };
 
   Tracker tracker(webcam(), markers);
   EXPECT_EQ(choiceOf(tracker.track(front.view(), start)), TwinChoice::kAmbiguous);

@@ -9,6 +9,6 @@ layout(location = 0) out vec4 picture;
 
 void main() {
   ivec2 p = ivec2(gl_FragCoord.xy);
-  vec3 crisp = onSheet(texelFetch(frame, p, 0).rgb, texelFetch(paper, p & 511, 0));
+  vec3 crisp = onSheet(texelFetch(frame, p, 0).rgb, sheetAt(onPaper(vec2(p) + 0.5), 1.0));
   picture = vec4(mix(paintedAt(p), crisp, texelFetch(normalFocus, p, 0).a), 1.0);
 }

@@ -1,23 +1,33 @@
-// Purpose: washes on paper, edges drawn dark over them (thesis §3.2.2, §3.5), a pixel at a time.
-// Inputs:  tiling, flatWash and softWash (wash.frag; the soft one LINEAR), paper;
-//          pictureSize, threshold, and the parameters of the same names (watercolor_parameters.h).
+// Purpose: washes on paper, a pixel at a time: a light wash, a dark one glazed over it where the picture
+//          is dark, lines (thesis §3.2.2) and the sheet (§3.5).
+// Inputs:  tiling, means (linear), guide (guide.frag), darkPigment and lightPigment (pigment.frag), all
+//          three LINEAR; sheet.glsl's; pictureSize, threshold, and the parameters of the same names
+//          (watercolor_parameters.h).
 // Outputs: sRGB-coded colours.
 // Precision: highp for places; colours would do with less.
-#include "pipeline/styles/watercolor/shaders/cell_paint.glsl"
+#include "pipeline/gpu/shaders/colour.glsl"
+#include "pipeline/styles/watercolor/shaders/palette.glsl"
+#include "pipeline/styles/watercolor/shaders/sheet.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
 uniform highp usampler2D tiling;
-uniform highp usampler2D flatWash;
-uniform sampler2D softWash;
-uniform sampler2D paper;
+uniform sampler2D means;
+uniform sampler2D guide;
+uniform sampler2D darkPigment;
+uniform sampler2D lightPigment;
 uniform vec2 pictureSize;
 uniform float threshold;
 uniform float edgeSoftness;
 uniform float edgeDarkness;
-uniform float bleeding;
+uniform float hardness;
 uniform float wobble;
 uniform float rim;
+uniform float gaps;
 uniform float granulation;
+uniform float variation;
 uniform float grain;
+uniform float vividness;
+uniform float luminosity;
+uniform float mosaic;
 const vec3 kLuma = vec3(0.299, 0.587, 0.114);
 
 // The sheet's relief, and its warm white.
@@ -25,39 +35,67 @@ vec3 onSheet(vec3 colour, vec4 sheet) {
   return colour * (1.0 + grain * (sheet.g - 0.5)) * mix(vec3(1.0), vec3(1.0, 0.992, 0.97), grain);
 }
 
-// The painted colour of pixel p.
-vec3 paintedAt(ivec2 p) {
-  ivec2 last = textureSize(tiling, 0) - 1;
-  vec4 sheet = texelFetch(paper, p & 511, 0);
-  // Brush and water do not follow the straight sides of cells.
-  ivec2 q = clamp(p + ivec2(floor(wobble * (sheet.ba * 2.0 - 1.0) + 0.5)), ivec2(0), last);
-  uint word = texelFetch(tiling, q, 0).r;
-  ivec2 cell = cellOf(word);
-  uvec2 paint = texelFetch(flatWash, cell, 0).rg;
-  vec3 own = colourOf(paint);
-  vec3 soft = texture(softWash, (vec2(q) + 0.5) / pictureSize).rgb;
-  vec3 apart = soft - own;
-  float alike = 1.0 / (1.0 + 8.0 * dot(apart, apart));
-  vec3 wash = mix(own, soft, bleeding * alike);
-  float luma = dot(wash, kLuma);
+// Optical density: what the pigments of layers add up in (Beer and Lambert: they absorb and do not
+// scatter, which is Kubelka and Munk's model of transparent paint over white).
+vec3 densityOf(vec3 colour) { return -log2(max(colour, vec3(0.004))); }
 
-  // The grain that pigment settles in travels with its cell; the relief stays with the sheet.
-  ivec2 shift = ivec2(floor(shiftOf(paint) + 0.5));
-  float valley = 0.5 - texelFetch(paper, (q - shift) & 511, 0).r;
-  float settles = luma * (1.0 - luma) * 4.0;
-  float more = granulation * valley * settles * 3.0;
-  more += rim * clamp(dot(apart, kLuma) * 3.0, -0.5, 0.5);
-  wash = withPigment(wash, clamp(more, -1.0, 1.0));
-
+// How dark the line is, from 0 to 1.
+float lineAt(ivec2 p, float valley) {
   // Four pixels in one read; the mean takes the steps out of the line.
-  uvec4 words = textureGather(tiling, (vec2(q) + 1.0) / pictureSize);
+  uvec4 words = textureGather(tiling, (vec2(p) + 1.0) / pictureSize);
   vec4 roots = vec4(words >> 24u) * (1.0 / 255.0);
   float strength = 0.25 * dot(roots, roots);
   float line = smoothstep(threshold * (1.0 - edgeSoftness), threshold * (1.0 + 2.0 * edgeSoftness),
                           strength);
-  line *= edgeDarkness * (0.75 + granulation * valley);
-  wash = withPigment(wash, clamp(line, 0.0, 1.0));
-  wash *= 1.0 - 0.35 * clamp(line, 0.0, 1.0);
+  return clamp(edgeDarkness * line * (0.8 + 0.8 * valley), 0.0, 1.0);
+}
 
+// The painted colour of pixel p.
+vec3 paintedAt(ivec2 p) {
+  vec4 sheet = sheetAt(onPaper(vec2(p) + 0.5), 1.0);
+  float valley = 0.5 - sheet.r;
+  vec2 at = (vec2(p) + 0.5 + wobble * (sheet.ba - 0.5)) / pictureSize;
+  vec3 seen = texture(guide, at).rgb;
+  vec4 dark = texture(darkPigment, at);
+  vec4 light = texture(lightPigment, at);
+
+  // How much of the dark glaze lies here: a hard border where the picture changes at once from one
+  // of the two to the other, a soft one where it does so slowly, and none where they are alike.
+  vec3 apart = light.rgb - dark.rgb;
+  float contrast = length(apart);
+  vec3 axis = apart / max(contrast * contrast, 1.0e-4);
+  float where = clamp(dot(seen - dark.rgb, axis), -0.5, 1.5);
+  float slope = length(vec2(dot(dFdx(seen), axis), dot(dFdy(seen), axis)));
+  float hard = hardness * smoothstep(0.08, 0.35, contrast) * smoothstep(0.02, 0.08, slope);
+  float sharp = smoothstep(0.34, 0.66, where + 0.25 * hard * valley);
+  float isLight = mix(clamp(where, 0.0, 1.0), sharp, hard);
+  float glaze = 1.0 - mix(dark.a, isLight, smoothstep(0.02, 0.08, contrast));
+
+  // A third colour, which is neither of the two nor between them.
+  vec3 other = seen - dark.rgb - where * apart;
+  other *= smoothstep(0.04, 0.14, length(other));
+
+  // Pigment: the load of the brush, the rim where the glaze has dried, what settles in the valleys.
+  vec3 lightDensity = densityOf(light.rgb + other);
+  vec3 glazeDensity = densityOf(dark.rgb + other) - lightDensity;
+  float atRim = hard * smoothstep(0.05, 0.42, where) * (1.0 - isLight);
+  vec3 density = lightDensity + glazeDensity * glaze * (1.0 + rim * atRim);
+  float more = variation * (light.a - 0.5) * 1.6 + granulation * valley * 2.0;
+  // Thick paint is even: the eye sees differences of thin layers.
+  float thick = dot(density, kLuma);
+  density *= max(1.0 + more / (1.0 + 0.2 * thick * thick), 0.2);
+  // A loaded brush skips the highest grains.
+  density *= 1.0 - 0.5 * granulation * smoothstep(0.55, 0.9, sheet.r) * smoothstep(1.0, 2.5, thick);
+  // Where an emptied brush stopped short of a wet border the paper is left.
+  float besideGlaze = hard * isLight * (1.0 - smoothstep(0.75, 1.05, where));
+  float empty = 0.75 - light.a - 0.15 * valley;
+  density *= 1.0 - besideGlaze * smoothstep(0.5 - 0.5 * gaps, 0.6 - 0.5 * gaps, empty);
+  vec3 wash = exp2(-density);
+
+  if (mosaic > 0.0) {
+    ivec2 cell = cellOf(texelFetch(tiling, p, 0).r);
+    wash = mix(wash, painted(srgbFromLinear(texelFetch(means, cell, 0).rgb), vividness, luminosity), mosaic);
+  }
+  if (edgeDarkness > 0.0) wash *= mix(vec3(1.0), vec3(0.22, 0.2, 0.22), lineAt(p, valley));
   return onSheet(wash, sheet);
 }

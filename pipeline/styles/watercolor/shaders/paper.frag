@@ -25,13 +25,12 @@ float noise(vec2 at, int spacing, uint salt) {
 
 // Bumps of the felt, tooth and single fibres. The detour breaks up the lattice.
 float heightAt(vec2 at) {
-  vec2 bent = at + 3.0 * vec2(noise(at, 16, 11u), noise(at, 16, 12u));
+  vec2 bent = at + 2.4 * vec2(noise(at, 16, 11u), noise(at, 16, 12u));
   float slow = noise(at, 32, 4u);
   float felt = noise(bent, 8, 1u);
   float tooth = noise(bent, 4, 2u);
-  float fine = noise(at, 2, 3u);
-  float grains = unitOf(hashOf(ivec2(at) & (kTile - 1), 9u)) - 0.5;
-  return 0.5 + 0.08 * slow + 0.16 * felt + 0.2 * tooth + 0.2 * fine + 0.16 * grains;
+  float fine = noise(bent + 0.37, 2, 3u);
+  return 0.5 + 0.08 * slow + 0.2 * felt + 0.26 * tooth + 0.16 * fine;
 }
 
 void main() {

@@ -2,7 +2,7 @@
 //          each cell the sums that its mean colour and its re-tiling need. One invocation does a
 //          block of 4x4 pixels and adds once per cell that the block holds.
 // Inputs:  picture (RGBA8, sRGB-coded), ids (R32UI) if hasObjects, seeds, grid (n, m), cellPixels,
-//          alpha, beta, threshold.
+//          alpha, beta, threshold; wantsMeans: whether colours are summed, too.
 // Outputs: tiling (R32UI, tiling_word.glsl), sums: per cell 8 words, linear R, G, B in 1/16384,
 //          pixels, and over edge pixels x, y, count; one spare.
 // Precision: integers for distances and sums, so that order does not matter and ties go to the
@@ -20,6 +20,7 @@ uniform vec2 cellPixels;
 uniform float alpha;
 uniform float beta;
 uniform float threshold;
+uniform bool wantsMeans;
 
 const int kSide = 4;
 const int kPixels = 16;
@@ -112,11 +113,14 @@ vec3 linearFromSrgbFast(vec3 srgb) {
   return mix(y * y * root, srgb * (1.0 / 12.92), lessThanEqual(srgb, vec3(0.04045)));
 }
 
-void addTo(uint index, uvec4 colour, uint edges) {
+void addColour(uint index, uvec4 colour) {
   atomicAdd(sums[index * 8u], colour.r);
   atomicAdd(sums[index * 8u + 1u], colour.g);
   atomicAdd(sums[index * 8u + 2u], colour.b);
   atomicAdd(sums[index * 8u + 3u], colour.a);
+}
+
+void addEdges(uint index, uint edges) {
   if (edges == 0u) return;
   uint count = edges >> 16u;
   atomicAdd(sums[index * 8u + 4u], (edges & 0xFFu) + count * uint(corner.x));
@@ -143,7 +147,6 @@ void main() {
     }
   }
 
-  uvec3 light[kPixels];
   uint edge[kPixels];  // of an edge pixel x, y in the block and 1, 8 bits each
   for (int i = 0; i < kPixels; ++i) {
     int at = (i >> 2) * 6 + (i & 3) + 7;
@@ -153,7 +156,6 @@ void main() {
     bool silhouette = block[at + 1].a != block[at - 1].a || block[at + 6].a != block[at - 6].a;
     bool isEdge = strength > threshold || silhouette;
     edge[i] = isEdge ? uint(inBlock.x | (inBlock.y << 8) | (1 << 16)) : 0u;
-    light[i] = uvec3(linearFromSrgbFast(block[at].rgb) * 16384.0 + 0.5);
     uint word = packTiling(nearest[i] - 1u, isEdge, silhouette ? 1.0 : strength);
     imageStore(tiling, corner + inBlock, uvec4(word, 0u, 0u, 0u));  // beyond the border: no effect
     if (any(greaterThanEqual(corner + inBlock, size))) nearest[i] = 0u;
@@ -164,15 +166,20 @@ void main() {
     uint name = 0u;
     for (int i = 0; i < kPixels; ++i) name = max(name, nearest[i] < above ? nearest[i] : 0u);
     if (name == 0u) break;
-    uvec4 colour = uvec4(0u);
     uint edges = 0u;
-    for (int i = 0; i < kPixels; ++i) {
-      uint taken = nearest[i] == name ? 0xFFFFFFFFu : 0u;
-      colour += uvec4(light[i], 1u) & taken;
-      edges += edge[i] & taken;
-    }
+    for (int i = 0; i < kPixels; ++i) edges += nearest[i] == name ? edge[i] : 0u;
     ivec2 cell = cellOf(name - 1u);
-    addTo(uint(cell.y * grid.x + cell.x), colour, edges);
+    uint index = uint(cell.y * grid.x + cell.x);
+    addEdges(index, edges);
+    if (wantsMeans) {
+      uvec4 colour = uvec4(0u);
+      for (int i = 0; i < kPixels; ++i) {
+        uint taken = nearest[i] == name ? 0xFFFFFFFFu : 0u;
+        vec3 srgb = block[(i >> 2) * 6 + (i & 3) + 7].rgb;
+        colour += uvec4(uvec3(linearFromSrgbFast(srgb) * 16384.0 + 0.5), 1u) & taken;
+      }
+      addColour(index, colour);
+    }
     above = name;
   }
 }

@@ -1,5 +1,5 @@
 // Purpose: the style's inner pictures, for people.
-// Inputs:  tiling, means, shifts, softWash, paper, picture; `view` as in watercolor.cpp; cellPixels,
+// Inputs:  tiling, means, shifts, darkPigment, lightPigment, paper, picture; `view` as in watercolor.cpp; cellPixels,
 //          seed.
 // Outputs: RGBA8, sRGB-coded, opaque. Precision: highp.
 #include "pipeline/gpu/shaders/colour.glsl"
@@ -8,7 +8,8 @@
 uniform highp usampler2D tiling;
 uniform sampler2D means;
 uniform sampler2D shifts;
-uniform sampler2D softWash;
+uniform sampler2D darkPigment;
+uniform sampler2D lightPigment;
 uniform sampler2D paper;
 uniform sampler2D picture;
 uniform int view;
@@ -22,8 +23,9 @@ const int kCells = 1;
 const int kMeans = 2;
 const int kEdges = 3;
 const int kRetiling = 4;
-const int kWash = 5;
-const int kPaper = 6;
+const int kDark = 5;
+const int kLight = 6;
+const int kPaper = 7;
 
 float distanceToLine(vec2 at, vec2 a, vec2 b) {
   vec2 along = b - a;
@@ -57,8 +59,10 @@ void main() {
     float line = step(distanceToLine(gl_FragCoord.xy, home, at), 0.6);
     rgb = mix(rgb, vec3(0.2, 0.4, 0.9), line);
     rgb = mix(rgb, vec3(0.9, 0.1, 0.1), inDot);
-  } else if (view == kWash) {
-    rgb = texture(softWash, gl_FragCoord.xy / pictureSize).rgb;
+  } else if (view == kDark) {
+    rgb = texture(darkPigment, gl_FragCoord.xy / pictureSize).rgb;
+  } else if (view == kLight) {
+    rgb = texture(lightPigment, gl_FragCoord.xy / pictureSize).rgb;
   } else {
     rgb = texelFetch(paper, p & 511, 0).rgb;
     rgb = vec3(rgb.r * 0.5 + rgb.g * 0.5);

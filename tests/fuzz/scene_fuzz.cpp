@@ -1,0 +1,51 @@
+// Text as a scene file and as a calibration, and what is computed from them before the first frame.
+#include "config/config_error.h"
+#include "config/toml_reader.h"
+#include "pipeline/scene/scene_file.h"
+#include "pipeline/tracking/calibration_file.h"
+#include "tests/fuzz/fuzz_target.h"
+
+namespace {
+
+using namespace pleinair;
+
+/// Nothing is there, so that no file is opened beside the scene.
+constexpr const char* kFolder = "/nonexistent";
+
+template <class Task>
+void expectConfigErrors(Task task) {
+  try {
+    task();
+  } catch (const config::ConfigError& error) {
+    fuzz::expectOneLine(error.what());
+  }
+}
+
+/// Rays through the corners and the middle, and back to where they came from.
+void look(const tracking::CameraModel& camera) {
+  const glm::dvec2 size(camera.imageSize().width, camera.imageSize().height);
+  for (const glm::dvec2 at : {glm::dvec2(0.0), glm::dvec2(0.5), glm::dvec2(1.0)}) {
+    const std::optional<glm::dvec3> ray = camera.unproject(at * size);
+    if (ray && ray->z != 1.0) fuzz::fail("a ray that is no (x, y, 1)");
+    if (ray) camera.project(*ray);
+  }
+  scene::fittedCamera(camera, {640, 480});
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text = fuzz::asText(data, size);
+  expectConfigErrors([&] {
+    const scene::Scene scene = scene::parseScene(text, "scene.toml", kFolder);
+    if (scene.camera) look(*scene.camera);
+    for (const scene::SceneModel& model : scene.models) {
+      if (model.mesh == nullptr) fuzz::fail("a model without a mesh");
+    }
+  });
+  expectConfigErrors([&] {
+    const auto document = config::TomlDocument::parseText(text, "camera.toml");
+    look(tracking::readCalibration(document.root()));
+  });
+  return 0;
+}

@@ -1,0 +1,171 @@
+#include "tests/support/allocation_count.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <new>
+#include <string_view>
+
+#include <execinfo.h>
+#include <link.h>
+
+namespace {
+
+/// Where a module's code is mapped.
+struct Module {
+  std::uintptr_t begin = 0;
+  std::uintptr_t end = 0;
+  bool holds(const void* address) const {
+    const auto at = reinterpret_cast<std::uintptr_t>(address);
+    return at >= begin && at < end;
+  }
+};
+
+struct Modules {
+  Module program;
+  Module library;  // libstdc++
+};
+
+Module mappedAt(const dl_phdr_info& info) {
+  Module module{.begin = ~std::uintptr_t{0}};
+  for (int i = 0; i < info.dlpi_phnum; ++i) {
+    const ElfW(Phdr)& part = info.dlpi_phdr[i];
+    if (part.p_type != PT_LOAD) continue;
+    module.begin = std::min<std::uintptr_t>(module.begin, info.dlpi_addr + part.p_vaddr);
+    module.end = std::max<std::uintptr_t>(module.end, info.dlpi_addr + part.p_vaddr + part.p_memsz);
+  }
+  return module;
+}
+
+int addModule(dl_phdr_info* info, std::size_t, void* found) {
+  Modules& modules = *static_cast<Modules*>(found);
+  if (modules.program.end == 0) modules.program = mappedAt(*info);  // the program comes first
+  if (std::string_view(info->dlpi_name).find("libstdc++") != std::string_view::npos) {
+    modules.library = mappedAt(*info);
+  }
+  return 0;
+}
+
+constexpr std::size_t kSites = 16;
+
+std::atomic<bool> counting = false;
+std::atomic<int> allocations = 0;
+Modules modules;
+std::array<std::atomic<const void*>, kSites> sites;
+thread_local bool judging = false;
+
+/// Who asked the C++ library to allocate: the first address past `inLibrary` that is not its own.
+const void* callerOfLibrary(const void* inLibrary) {
+  std::array<void*, 32> frames{};
+  const int count = backtrace(frames.data(), static_cast<int>(frames.size()));
+  const auto end = frames.begin() + count;
+  const auto from = std::find(frames.begin(), end, inLibrary);
+  const auto* const caller =
+      std::find_if(from, end, [](const void* at) { return !modules.library.holds(at); });
+  return caller == end ? nullptr : *caller;
+}
+
+void judge(const void* caller) {
+  if (!counting || judging) return;
+  judging = true;
+  if (modules.library.holds(caller)) caller = callerOfLibrary(caller);
+  if (modules.program.holds(caller)) {
+    const auto number = static_cast<std::size_t>(allocations++);
+    if (number < kSites) sites[number] = caller;
+  }
+  judging = false;
+}
+
+void* allocate(std::size_t size) {
+  if (void* const memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+
+void* allocate(std::size_t size, std::align_val_t alignment) {
+  const auto step = static_cast<std::size_t>(alignment);
+  if (void* const memory = std::aligned_alloc(step, (size + step - 1) / step * step)) return memory;
+  throw std::bad_alloc();
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+  judge(__builtin_return_address(0));
+  return allocate(size);
+}
+void* operator new[](std::size_t size) {
+  judge(__builtin_return_address(0));
+  return allocate(size);
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  judge(__builtin_return_address(0));
+  return allocate(size, alignment);
+}
+void* operator new[](std::size_t size, std::align_val_t alignment) {
+  judge(__builtin_return_address(0));
+  return allocate(size, alignment);
+}
+// The driver's LLVM uses these and gives back through operator delete.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  judge(__builtin_return_address(0));
+  return std::malloc(size == 0 ? 1 : size);
+}
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept {
+  judge(__builtin_return_address(0));
+  return std::malloc(size == 0 ? 1 : size);
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::align_val_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
+
+namespace pleinair::support {
+
+int allocationsIn(const std::function<void()>& work) {
+  modules = {};
+  dl_iterate_phdr(&addModule, &modules);
+  std::array<void*, 1> once{};
+  backtrace(once.data(), 1);  // loads what it needs
+  allocations = 0;
+  counting = true;
+  work();
+  counting = false;
+  return allocations;
+}
+
+std::string allocationSites() {
+  std::string text;
+  const auto known = std::min(static_cast<std::size_t>(allocations), kSites);
+  for (std::size_t i = 0; i < known; ++i) {
+    std::array<char, 32> offset{};
+    std::snprintf(offset.data(), offset.size(), " 0x%zx",
+                  reinterpret_cast<std::uintptr_t>(sites[i].load()) - modules.program.begin);
+    text += offset.data();
+  }
+  return text;
+}
+
+}  // namespace pleinair::support
