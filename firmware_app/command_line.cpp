@@ -105,7 +105,8 @@ void addSensor(CLI::App& command, RecordOptions& options) {
   add("--white-balance-drift", options.whiteBalanceDrift, 0, 0.5,
       "share by which red and blue wander against each other");
   add("--readout", options.readoutMilliseconds, 0, 1000,
-      "milliseconds that a rolling shutter takes from the first row to the last; 0: global shutter");
+      "milliseconds that a rolling shutter takes from the first row to the last; 0: global "
+      "shutter");
 }
 
 void addRecord(CLI::App& app, RecordOptions& options, std::function<int()>& chosen) {

@@ -72,8 +72,8 @@ std::string workbenchScene(const hal::GroundTruth& truth, hal::FrameSize size) {
   return text + kModels;
 }
 
-hal::Result<void> writeWorkbenchScene(const std::filesystem::path& path, const hal::GroundTruth& truth,
-                                 hal::FrameSize size) {
+hal::Result<void> writeWorkbenchScene(const std::filesystem::path& path,
+                                      const hal::GroundTruth& truth, hal::FrameSize size) {
   auto file = hal::PendingFile::create(path);
   if (!file) return tl::unexpected(std::move(file.error()));
   const std::string text = workbenchScene(truth, size);

@@ -18,11 +18,11 @@ namespace {
 hal::SyntheticShot shotOf(const std::string& camera) {
   const auto shot = hal::orThrow(hal::syntheticShotOf(camera, "--camera"));
   if (shot) return *shot;
-  throw hal::StartupError(hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
-                                     .subject = "--camera",
-                                     .problem = fmt::format("unknown camera \"{}\"", camera),
-                                     .remedy = "allowed: synthetic, synthetic:SHOT with a SHOT of " +
-                                               hal::syntheticShotNames()});
+  throw hal::StartupError(hal::Error{
+      .kind = hal::ErrorKind::kInvalidArgument,
+      .subject = "--camera",
+      .problem = fmt::format("unknown camera \"{}\"", camera),
+      .remedy = "allowed: synthetic, synthetic:SHOT with a SHOT of " + hal::syntheticShotNames()});
 }
 
 hal::Duration seconds(double count) {

@@ -16,10 +16,11 @@ struct RecordOptions {
   hal::FrameSize size{640, 480};
   std::uint32_t seed = 1;
   double framesPerSecond = 30;
-  double noiseSigma = 2;           ///< 8-bit levels
+  double noiseSigma = 2;  ///< 8-bit levels
   double exposureDriftStops = 0;
-  double whiteBalanceDrift = 0;    ///< a share
-  double readoutMilliseconds = 0;  ///< from the first row's exposure to the last's; 0: global shutter
+  double whiteBalanceDrift = 0;  ///< a share
+  double readoutMilliseconds =
+      0;  ///< from the first row's exposure to the last's; 0: global shutter
   std::optional<std::filesystem::path> writeScene;
 };
 

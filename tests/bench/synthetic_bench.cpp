@@ -12,8 +12,9 @@ namespace {
 /// One frame of a shot, the sensor's noise included, on one core.
 void filmFrame(benchmark::State& state) {
   SteppedClock clock;
-  SyntheticOptions options{.size = {static_cast<int>(state.range(0)), static_cast<int>(state.range(1))},
-                           .shot = static_cast<SyntheticShot>(state.range(2))};
+  SyntheticOptions options{
+      .size = {static_cast<int>(state.range(0)), static_cast<int>(state.range(1))},
+      .shot = static_cast<SyntheticShot>(state.range(2))};
   if (state.range(3) != 0) options.rowTime = options.framePeriod / options.size.height;
   SyntheticCamera camera(options, clock);
   if (!camera.start({})) state.SkipWithError("does not start");

@@ -12,7 +12,7 @@ namespace pleinair::hal::synthetic {
 void buildArm(Builder& builder) {
   constexpr std::uint32_t kGlove = 0xb98a4e;
   constexpr std::uint32_t kSleeve = 0x45607c;
-  builder.finish() = {.coarseness = 1, .lightStep = 0.01, .moves = true};
+  builder.finish() = {.coarseness = 1.8, .lightStep = 0.012, .moves = true};
   const glm::dvec3 wrist(0.055, -0.060, 0.018);
   const glm::dvec3 back = glm::normalize(glm::dvec3(0.62, -0.66, 0.30));
   const Painter glove = plain(kGlove);
@@ -32,7 +32,7 @@ void buildArm(Builder& builder) {
               ringed(kGlove, 0x8f6835, 0.030F, 0.8F), glove);
   builder.rod(wrist + 0.035 * back, wrist + 0.075 * back, 0.049, 0.050, 20, plain(0x3a526c),
               plain(0x2e4156));
-  builder.rod(wrist + 0.070 * back, wrist + 0.95 * back, 0.047, 0.066, 20, plain(kSleeve),
+  builder.rod(wrist + 0.070 * back, wrist + 0.95 * back, 0.047, 0.066, 20, cloth(kSleeve),
               plain(0x2e4156));
   // The wrench, lying across the palm.
   builder.box(standing({-0.028, -0.014, -0.030}, 48), {0.21, 0.017, 0.007},

@@ -21,19 +21,21 @@ Placement onTop(float x, float y, float degrees = 0) {
 
 void paintTop(Canvas& canvas, std::uint32_t seed) {
   Wood wood(seed);
-  canvas.paintAll([&](glm::vec2 p) {
+  canvas.paintAllAlongX([&](glm::vec2 p) {
     const float edge = boxDistance(p, canvas.half());
     return wood.linearRgbAt(p) * (1 + 0.18F * glm::smoothstep(-0.006F, -0.001F, edge));
   });
   paintMugRing(canvas, onTop(0.22F, -0.32F));
   paintDrawing(canvas, onTop(-0.315F, -0.255F, 9));
-  paintNotes(canvas, onTop(0.43F, 0.07F, -16), {0.074F, 0.105F}, 7);
+  paintNotes(canvas, onTop(0.80F, -0.27F, -16), {0.074F, 0.105F}, 7);
   paintStickyNote(canvas, onTop(-0.125F, -0.155F, -7), 0xe3c65a);
   paintRule(canvas, onTop(0.01F, -0.375F, 4));
   paintWrench(canvas, onTop(0.27F, -0.235F, 62), 0.19F);
   paintScrewdriver(canvas, onTop(0.905F, -0.10F, 28), 0.21F, 0xc0492e);
-  constexpr std::array<glm::vec3, 4> kWashers{
-      {{0.205F, 0.165F, .011F}, {0.231F, 0.150F, .008F}, {0.17F, -0.19F, .009F}, {0.41F, -0.13F, .011F}}};
+  constexpr std::array<glm::vec3, 4> kWashers{{{0.205F, 0.165F, .011F},
+                                               {0.231F, 0.150F, .008F},
+                                               {0.17F, -0.19F, .009F},
+                                               {0.41F, -0.13F, .011F}}};
   for (const glm::vec3& washer : kWashers) paintWasher(canvas, onTop(washer.x, washer.y), washer.z);
   paintTagCard(canvas, onTop(0, 0), benchTags()[0]);
 }
@@ -65,8 +67,7 @@ void buildBench(Builder& builder, std::uint32_t seed) {
   const Painter edge = board(0xb07c4a, 52);
   builder.finish() = {.coarseness = 1, .lightStep = 0.0065};
   builder.box(standing({0, middleY, -kThickness}), {2 * kBenchHalfWidth, depth, kThickness},
-              {.other = edge, .top = [seed](Canvas& canvas) { paintTop(canvas, seed); },
-               .bottom = plain(0x4a3524)});
+              {.other = edge, .top = [seed](Canvas& canvas) { paintTop(canvas, seed); }});
   builder.finish() = {.coarseness = 1.6, .lightStep = 0.02};
   builder.box(standing({0, kBenchFront + 0.05, -kThickness - 0.13}), {2.1, 0.03, 0.13},
               {.other = edge, .front = paintApron});

@@ -35,8 +35,7 @@ glm::dvec3 tagCorner(double edgeMetres, int corner) {
 std::vector<BenchTag> benchTags() {
   using namespace synthetic;  // NOLINT(google-build-using-namespace): the layout's names
   return {lying(0, 0.10, glm::dmat4(1), {0, 0, 0}),
-          onFront(1, 0.085, kToolboxPose,
-                  {0.02, -kToolboxSize.y / 2, kToolboxSize.z / 2 - 0.012}),
+          onFront(1, 0.085, kToolboxPose, {0.02, -kToolboxSize.y / 2, kToolboxSize.z / 2 - 0.012}),
           onFront(2, 0.08, kMachinePose, {-0.03, -kMachineSize.y / 2, kMachineSize.z / 2}),
           onFront(3, 0.10, glm::translate(glm::dmat4(1), kWallSheetCentre), {0, 0, -0.02}),
           lying(4, 0.08, kBooksPose, {0.0, 0.0, kBooksHeight})};

@@ -17,6 +17,9 @@ namespace {
 /// What moves keeps the light of one place: above the bench, where it spends most of its time.
 constexpr glm::dvec3 kMoverLitAt{0.10, -0.20, 0.22};
 
+/// What faces the wall or the floor this much is hardly ever seen, and need not be fine.
+constexpr double kTurnedAway = 0.7;
+
 glm::dvec3 moved(const glm::dmat4& pose, glm::dvec3 point) {
   return glm::dvec3(pose * glm::dvec4(point, 1));
 }
@@ -97,9 +100,15 @@ void Builder::addFace(const std::vector<glm::dvec3>& corners, glm::dvec3 right,
     high = glm::max(high, p);
   }
   const glm::dvec2 middle = (low + high) / 2.0;
-  frame.centre = frame.right * middle.x + frame.up * middle.y +
-                 normal * glm::dot(normal, corners[0]);
+  frame.centre =
+      frame.right * middle.x + frame.up * middle.y + normal * glm::dot(normal, corners[0]);
+  const Finish kept = finish_;
+  if (!finish_.moves && (normal.y > kTurnedAway || normal.z < -kTurnedAway)) {
+    finish_.coarseness *= 4;
+    finish_.lightStep *= 4;
+  }
   addFacet(corners, addFlatPatch(frame, (high - low) / 2.0, painter), frame);
+  finish_ = kept;
 }
 
 void Builder::beginSolid() {

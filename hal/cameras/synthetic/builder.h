@@ -23,12 +23,12 @@ struct PointAndNormal {
 
 /// A surface, flat or rolled up, with a texture of its own.
 struct Patch {
-  glm::vec2 half{0};                              ///< its canvas, metres
+  glm::vec2 half{0};                            ///< its canvas, metres
   std::function<PointAndNormal(glm::vec2)> at;  ///< where a point of the canvas is
   Painter paint;
-  double coarseness = 1;       ///< its texels, in those of the bench's top
-  double lightStep = 0.007;    ///< metres between points whose light is computed
-  bool glows = false;          ///< not lit by what lights the room
+  double coarseness = 1;     ///< its texels, in those of the bench's top
+  double lightStep = 0.007;  ///< metres between points whose light is computed
+  bool glows = false;        ///< not lit by what lights the room
   bool moves = false;
 };
 

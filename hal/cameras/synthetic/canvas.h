@@ -84,6 +84,29 @@ class Canvas {
     paint({}, half_ + 2 * texel_, [&](glm::vec2 p) { return Paint{shade(p), 1}; });
   }
 
+  /// The same for what changes slowly along x, such as grain: only every fourth texel of a row is
+  /// asked for, and those between are interpolated.
+  template <class Shade>
+  void paintAllAlongX(const Shade& shade) {
+    constexpr int kStep = 4;
+    const auto at = [&](int x, int y) {
+      const glm::vec2 centre(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+      return shade(centre * texel_ - half_);
+    };
+    for (int y = 0; y < level_.height; ++y) {
+      Texel* row = level_.texels.data() + std::ptrdiff_t{y} * level_.width;
+      glm::vec3 from = at(0, y);
+      for (int x = 0; x < level_.width; x += kStep) {
+        const glm::vec3 to = at(x + kStep, y);
+        const int count = std::min(kStep, level_.width - x);
+        for (int i = 0; i < count; ++i) {
+          row[x + i] = codedTexel(glm::mix(from, to, static_cast<float>(i) / kStep));
+        }
+        from = to;
+      }
+    }
+  }
+
   /// Lays `shade(point) → Paint` over every texel within ±`half` (metres) of a thing; `point` is in
   /// the thing's own coordinates, metres.
   template <class Shade>

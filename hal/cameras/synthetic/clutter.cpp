@@ -36,9 +36,7 @@ void buildMug(Builder& builder) {
                                     {0.038, 0, 0.020}}};
   const glm::dmat4 turned = standing(at, -28);
   for (std::size_t i = 0; i + 1 < handle.size(); ++i) {
-    const auto point = [&](std::size_t k) {
-      return glm::dvec3(turned * glm::dvec4(handle[k], 1));
-    };
+    const auto point = [&](std::size_t k) { return glm::dvec3(turned * glm::dvec4(handle[k], 1)); };
     const glm::dvec3 over = 0.06 * (point(i + 1) - point(i));
     builder.rod(point(i) - over, point(i + 1) + over, 0.0058, 0.0058, 10, plain(0xe2dccb));
   }
@@ -51,9 +49,8 @@ void buildBooks(Builder& builder) {
   builder.box(kBooksPose * standing({0, 0, 0}, 5), {0.25, 0.18, 0.030},
               {.other = pages, .top = blue, .left = blue});
   const Painter ochre = enamel(0xc9973c);
-  const Painter cover = layered(ochre, [](Canvas& canvas) {
-    paintTagCard(canvas, {}, benchTags()[4]);
-  });
+  const Painter cover =
+      layered(ochre, [](Canvas& canvas) { paintTagCard(canvas, {}, benchTags()[4]); });
   builder.box(kBooksPose * standing({0, 0, 0.030}), {0.215, 0.152, kBooksHeight - 0.030},
               {.other = pages, .top = cover, .left = ochre});
 }
@@ -92,10 +89,10 @@ void buildBins(Builder& builder) {
     builder.box(pose * standing({side, 0, 0}), {kWall, kDepth, kHeight}, faces);
     builder.box(pose * standing({0, end, 0}), {kWidth - 2 * kWall, kWall, kHeight}, faces);
     builder.box(pose * standing({0, -end, 0}), {kWidth - 2 * kWall, kWall, 0.5 * kHeight},
-                {.other = colour, .front = layered(colour, [](Canvas& canvas) {
+                {.other = colour,
+                 .front = layered(colour, [](Canvas& canvas) {
                    canvas.paint({}, canvas.half(), [&](glm::vec2 p) {
-                     return canvas.fill(linearFromSrgb(0xe6dfca),
-                                        boxDistance(p, {0.036F, 0.013F}));
+                     return canvas.fill(linearFromSrgb(0xe6dfca), boxDistance(p, {0.036F, 0.013F}));
                    });
                  })});
     builder.box(pose * standing({0, 0, 0}), {kWidth - 2 * kWall, kDepth - 2 * kWall, 0.036},
@@ -129,21 +126,24 @@ void buildSmallThings(Builder& builder) {
   buildHexNut(builder, {0.205, -0.135, 0}, 32);
   buildHexNut(builder, {0.305, -0.115, 0}, 5);
   // A pencil on the drawing, and a screwdriver.
-  builder.rod({-0.345, -0.335, 0.0036}, {-0.195, -0.245, 0.0036}, 0.0036, 0.0036, 6, plain(0xc98f2e));
-  builder.rod({-0.195, -0.245, 0.0036}, {-0.183, -0.2378, 0.0036}, 0.0034, 0.0006, 6, plain(0xd9bb8c));
+  builder.rod({-0.345, -0.335, 0.0036}, {-0.195, -0.245, 0.0036}, 0.0036, 0.0036, 6,
+              plain(0xc98f2e));
+  builder.rod({-0.195, -0.245, 0.0036}, {-0.183, -0.2378, 0.0036}, 0.0034, 0.0006, 6,
+              plain(0xd9bb8c));
   builder.rod({0.395, -0.375, 0.0135}, {0.325, -0.300, 0.0135}, 0.0135, 0.0125, 14,
               striped(0xd09a33, 0xb07f24, 0.009F, 0.6F), plain(0xb07f24));
-  builder.rod({0.325, -0.300, 0.0135}, {0.255, -0.225, 0.009}, 0.0032, 0.0032, 10, polished(0xa9adae));
+  builder.rod({0.325, -0.300, 0.0135}, {0.255, -0.225, 0.009}, 0.0032, 0.0032, 10,
+              polished(0xa9adae));
   // A brass gear blank beside the motor, and a roll of tape.
-  builder.cylinder(standing({-0.285, 0.065, 0}), {0.034, 0.034, 0.016, 28},
-                   striped(0xb08b40, 0x7f6228, 0.0089F, 0.55F), [](Canvas& canvas) {
-                     plain(0xc09a4b)(canvas);
-                     canvas.paint({}, canvas.half(), [&](glm::vec2 p) {
-                       const Paint rim =
-                           canvas.fill(linearFromSrgb(0x8f6f30), ringDistance(p, 0.023F, 0.004F));
-                       return over(canvas.fill(linearFromSrgb(0x2c2318), discDistance(p, 0.007F)), rim);
-                     });
-                   });
+  builder.cylinder(
+      standing({-0.285, 0.065, 0}), {0.034, 0.034, 0.016, 28},
+      striped(0xb08b40, 0x7f6228, 0.0089F, 0.55F), [](Canvas& canvas) {
+        plain(0xc09a4b)(canvas);
+        canvas.paint({}, canvas.half(), [&](glm::vec2 p) {
+          const Paint rim = canvas.fill(linearFromSrgb(0x8f6f30), ringDistance(p, 0.023F, 0.004F));
+          return over(canvas.fill(linearFromSrgb(0x2c2318), discDistance(p, 0.007F)), rim);
+        });
+      });
   builder.cylinder(standing({0.925, 0.10, 0}), {0.052, 0.052, 0.048, 32}, plain(0xd3b98a),
                    [](Canvas& canvas) {
                      plain(0xbfa271)(canvas);

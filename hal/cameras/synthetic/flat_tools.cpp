@@ -90,8 +90,8 @@ void paintPliers(Canvas& canvas, const Placement& at, std::uint32_t srgb) {
     top = over(canvas.fill(metal * (1.1F * light), jaws(p)), top);
     top = over(canvas.fill(metal * 0.35F, std::abs(p.x) - 0.0008F, p.y > 0.02F ? top.coverage : 0),
                top);
-    return over(canvas.fill(metal * 0.55F, ringDistance(p - glm::vec2(0, 0.014F), 0.0065F, 0.0018F)),
-                top);
+    return over(
+        canvas.fill(metal * 0.55F, ringDistance(p - glm::vec2(0, 0.014F), 0.0065F, 0.0018F)), top);
   });
 }
 
@@ -133,8 +133,8 @@ void paintSaw(Canvas& canvas, const Placement& at) {
   paintShadowOf(canvas, at, half, shape);
   canvas.paint(at, half, [&](glm::vec2 p) {
     Paint top = canvas.fill(blade * (0.95F + 1.3F * p.x), bladeShape(p));
-    top = over(canvas.fill(brass, boxDistance(p - glm::vec2(0.040F, 0.030F), {0.130F, 0.006F})),
-               top);
+    top =
+        over(canvas.fill(brass, boxDistance(p - glm::vec2(0.040F, 0.030F), {0.130F, 0.006F})), top);
     return over(canvas.fill(grip * (0.95F + 3.0F * p.y), gripShape(p)), top);
   });
 }

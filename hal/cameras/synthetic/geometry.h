@@ -32,7 +32,8 @@ struct Solid {
   bool moves = false;  ///< in the mover's coordinates, not the world's
 };
 
-/// A point on a surface, in its solid's own coordinates, so that it keeps them when the solid moves.
+/// A point on a surface, in its solid's own coordinates, so that it keeps them when the solid
+/// moves.
 struct SurfacePoint {
   glm::dvec3 point{0};
   bool moves = false;

@@ -98,8 +98,8 @@ TagTruth truthOfTag(const Exposure& exposure, const Geometry& geometry, const Be
     if (!truth.isInside) continue;
     // At each corner's own moment, where the shutter rolls.
     const CameraView view = exposure.viewAt(at.y);
-    const bool isTurnedAway =
-        glm::dot(glm::dvec3(tag.worldFromTag[2]), view.eye() - glm::dvec3(tag.worldFromTag[3])) >= 0;
+    const bool isTurnedAway = glm::dot(glm::dvec3(tag.worldFromTag[2]),
+                                       view.eye() - glm::dvec3(tag.worldFromTag[3])) >= 0;
     truth.isVisible &=
         !isTurnedAway && !isHidden(geometry, view, exposure.worldFromMoverAt(at.y), border);
   }

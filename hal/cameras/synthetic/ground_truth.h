@@ -18,7 +18,7 @@ namespace pleinair::hal {
 struct TagTruth {
   BenchTag tag;
   std::array<glm::dvec2, 4> cornersPx{};  ///< in AprilTag's order; may lie outside the picture
-  bool isInside = false;   ///< whether the white border, too, is all in the picture
+  bool isInside = false;                  ///< whether the white border, too, is all in the picture
   bool isVisible = false;  ///< inside, seen from its front, and nothing before any part of it
 };
 
@@ -50,8 +50,7 @@ GroundTruth truthOf(const Exposure& exposure, const Geometry& geometry);
 /// The flow at `pixel` of the first frame; zero and not visible where nothing is seen there.
 FlowVector flowBetween(const Exposure& first, const Exposure& second, const Geometry& geometry,
                        glm::dvec2 pixel);
-FlowField flowFieldBetween(const Exposure& first, const Exposure& second,
-                           const Geometry& geometry);
+FlowField flowFieldBetween(const Exposure& first, const Exposure& second, const Geometry& geometry);
 
 }  // namespace synthetic
 }  // namespace pleinair::hal

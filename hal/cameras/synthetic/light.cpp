@@ -26,7 +26,7 @@ constexpr glm::vec3 kRoomFromWindowSide{0.375F, 0.425F, 0.480F};
 constexpr glm::vec3 kRoomFromElsewhere{0.290F, 0.285F, 0.275F};
 constexpr glm::vec3 kRoomFromBelow{0.190F, 0.155F, 0.120F};
 constexpr glm::vec3 kThrownBack{0.60F, 0.55F, 0.48F};  ///< by what is nearby, of its colour
-constexpr float kNearbyMetres = 0.55F;  // what is farther belongs to the room
+constexpr float kNearbyMetres = 0.55F;                 // what is farther belongs to the room
 
 /// Point `i` of n evenly spread in the unit square, in two independent ways (R2 sequences).
 glm::vec2 spread(int i, float shift) {
@@ -57,8 +57,7 @@ struct Rays {
 float entry(const Occluder& occluder, glm::vec3 origin, glm::vec3 direction) {
   const glm::vec3 toCentre = occluder.centre - origin;
   const glm::vec3 apart = glm::cross(toCentre, direction);
-  if (glm::dot(apart, apart) >
-      occluder.radius * occluder.radius * glm::dot(direction, direction)) {
+  if (glm::dot(apart, apart) > occluder.radius * occluder.radius * glm::dot(direction, direction)) {
     return std::numeric_limits<float>::infinity();
   }
   float in = 0;
@@ -84,9 +83,8 @@ float entry(const Occluder& occluder, glm::vec3 origin, glm::vec3 direction) {
 
 bool isBlocked(const std::vector<const Occluder*>& near, glm::vec3 origin, glm::vec3 direction,
                float distance) {
-  return std::ranges::any_of(near, [&](const Occluder* each) {
-    return entry(*each, origin, direction) < distance;
-  });
+  return std::ranges::any_of(
+      near, [&](const Occluder* each) { return entry(*each, origin, direction) < distance; });
 }
 
 bool isInside(const Occluder& occluder, glm::vec3 point) {
@@ -107,9 +105,8 @@ struct Tile {
 bool isOutside(const Tile& tile, const glm::vec4& plane) {
   const glm::vec3 normal(plane);
   if (!tile.isFlat) return glm::dot(normal, tile.centre) - plane.w > tile.radius;
-  return std::ranges::all_of(tile.corners, [&](const glm::vec3& corner) {
-    return glm::dot(normal, corner) > plane.w;
-  });
+  return std::ranges::all_of(
+      tile.corners, [&](const glm::vec3& corner) { return glm::dot(normal, corner) > plane.w; });
 }
 
 float distanceTo(const Tile& tile, const glm::vec4& plane) {
@@ -122,8 +119,8 @@ std::vector<const Occluder*> between(const std::vector<const Occluder*>& occlude
   std::vector<const Occluder*> near;
   const glm::vec3 along = to - tile.centre;
   for (const Occluder* each : occluders) {
-    const float t = glm::clamp(
-        glm::dot(each->centre - tile.centre, along) / glm::dot(along, along), 0.0F, 1.0F);
+    const float t = glm::clamp(glm::dot(each->centre - tile.centre, along) / glm::dot(along, along),
+                               0.0F, 1.0F);
     const float reach = each->radius + glm::mix(tile.radius, farRadius, t);
     const glm::vec3 apart = each->centre - tile.centre - along * t;
     const bool isAside = std::ranges::any_of(each->planes, [&](const glm::vec4& plane) {
@@ -143,9 +140,8 @@ std::vector<const Occluder*> around(const std::vector<const Occluder*>& occluder
     const glm::vec3 apart = each->centre - tile.centre;
     if (glm::dot(apart, apart) >= reach * reach) continue;
     const bool isBehind = std::ranges::any_of(each->planes, [&](const glm::vec4& plane) {
-      return isOutside(tile, plane) &&
-             (glm::dot(glm::vec3(plane), tile.normal) > 0.9999F ||
-              (tile.isFlat && distanceTo(tile, plane) > kNearbyMetres));
+      return isOutside(tile, plane) && (glm::dot(glm::vec3(plane), tile.normal) > 0.9999F ||
+                                        (tile.isFlat && distanceTo(tile, plane) > kNearbyMetres));
     });
     if (!isBehind) near.push_back(each);
   }
@@ -307,8 +303,8 @@ glm::vec3 RoomLight::roomAt(const Point& at, const Near& near) const {
 
 RoomLight::Lattice RoomLight::on(const Patch& patch) const {
   constexpr int kTile = 8;
-  const glm::vec2 cells = glm::max(
-      glm::ceil(2.0F * patch.half / static_cast<float>(patch.lightStep)), glm::vec2(2));
+  const glm::vec2 cells =
+      glm::max(glm::ceil(2.0F * patch.half / static_cast<float>(patch.lightStep)), glm::vec2(2));
   Lattice lattice{static_cast<int>(cells.x) + 1, static_cast<int>(cells.y) + 1, {}};
   const auto columns = static_cast<std::size_t>(lattice.columns);
   lattice.linearRgb.resize(columns * static_cast<std::size_t>(lattice.rows));
@@ -332,8 +328,8 @@ RoomLight::Lattice RoomLight::on(const Patch& patch) const {
       const int endX = std::min(tileX + kTile, lattice.columns);
       const int endY = std::min(tileY + kTile, lattice.rows);
       const Tile tile = tileOf(pointAt, {tileX, tileY}, {endX - 1, endY - 1});
-      const Near sun = between(all, tile, tile.centre + 3.0F * kSunDirection,
-                               tile.radius + 3.0F * kSunRadius);
+      const Near sun =
+          between(all, tile, tile.centre + 3.0F * kSunDirection, tile.radius + 3.0F * kSunRadius);
       const Near sky = between(all, tile, kWindowCentre, kWindowRadius);
       const Near lamp = between(all, tile, kLampAt, 2 * kLampRadius);
       const Near nearby = around(all, tile);
@@ -364,8 +360,8 @@ RoomLight::Lattice RoomLight::on(const Patch& patch) const {
             if (x + dx < 0 || y + dy < 0 || x + dx >= lattice.columns || y + dy >= lattice.rows) {
               continue;
             }
-            const std::size_t j = static_cast<std::size_t>(y + dy) * columns +
-                                  static_cast<std::size_t>(x + dx);
+            const std::size_t j =
+                static_cast<std::size_t>(y + dy) * columns + static_cast<std::size_t>(x + dx);
             if (covered[j]) continue;
             sum += lattice.linearRgb[j];
             ++count;
@@ -404,7 +400,7 @@ class Film {
  private:
   static constexpr float kMost = 4;
   static constexpr float kSteps = 4096;
-  std::array<float, static_cast<std::size_t>(kMost * kSteps) + 1> table_{};
+  std::array<float, static_cast<std::size_t>(kMost* kSteps) + 1> table_{};
 };
 
 }  // namespace
@@ -425,8 +421,8 @@ void shine(const RoomLight::Lattice& light, glm::vec2 half, float texelMetres,
     const auto y = static_cast<std::size_t>(fy);
     const float ty = fy - static_cast<float>(y);
     for (std::size_t x = 0; x < columns; ++x) {
-      line[x] = glm::mix(light.linearRgb[y * columns + x], light.linearRgb[(y + 1) * columns + x],
-                         ty);
+      line[x] =
+          glm::mix(light.linearRgb[y * columns + x], light.linearRgb[(y + 1) * columns + x], ty);
     }
     Texel* texel = level.texels.data() + std::ptrdiff_t{row} * level.width;
     for (int column = 0; column < level.width; ++column, ++texel) {

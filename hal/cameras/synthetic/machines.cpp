@@ -70,12 +70,14 @@ void buildGearMotor(Builder& builder) {
   const double axle = 0.080;
   builder.rod(moved(pose, {size.x / 2, 0, axle}), moved(pose, {size.x / 2 + 0.016, 0, axle}), 0.066,
               0.066, 28, plain(0x3e6a66), plain(0x3e6a66));
-  builder.rod(moved(pose, {size.x / 2 + 0.016, 0, axle}), moved(pose, {size.x / 2 + 0.135, 0, axle}),
-              0.056, 0.056, 28, striped(0x5a666c, 0x3c464b, 0.0245F, 0.55F), plain(0x4c575c));
-  builder.rod(moved(pose, {size.x / 2 + 0.135, 0, axle}), moved(pose, {size.x / 2 + 0.160, 0, axle}),
-              0.058, 0.050, 28, plain(0x39434a), plain(0x39434a));
-  builder.rod(moved(pose, {-size.x / 2 - 0.010, 0, axle}), moved(pose, {-size.x / 2, 0, axle}), 0.034,
-              0.038, 24, polished(0x6b7274), plain(0x6b7274));
+  builder.rod(moved(pose, {size.x / 2 + 0.016, 0, axle}),
+              moved(pose, {size.x / 2 + 0.135, 0, axle}), 0.056, 0.056, 28,
+              striped(0x5a666c, 0x3c464b, 0.0245F, 0.55F), plain(0x4c575c));
+  builder.rod(moved(pose, {size.x / 2 + 0.135, 0, axle}),
+              moved(pose, {size.x / 2 + 0.160, 0, axle}), 0.058, 0.050, 28, plain(0x39434a),
+              plain(0x39434a));
+  builder.rod(moved(pose, {-size.x / 2 - 0.010, 0, axle}), moved(pose, {-size.x / 2, 0, axle}),
+              0.034, 0.038, 24, polished(0x6b7274), plain(0x6b7274));
   builder.rod(moved(pose, {-size.x / 2 - 0.062, 0, axle}),
               moved(pose, {-size.x / 2 - 0.010, 0, axle}), 0.012, 0.012, 16, polished(0xb9bcbc),
               plain(0xa2a5a5));
@@ -97,7 +99,8 @@ void buildVise(Builder& builder) {
               {.other = iron, .bottom = plain(0x33434c)});
   builder.box(within(pose, {0, -0.046, 0.100}), {0.125, 0.008, 0.038}, {.other = steel()});
   // Held between the jaws: a brass bar.
-  builder.box(within(pose, {0.012, -0.021, 0.094}), {0.030, 0.040, 0.085}, {.other = steel(0xbb9348)});
+  builder.box(within(pose, {0.012, -0.021, 0.094}), {0.030, 0.040, 0.085},
+              {.other = steel(0xbb9348)});
   const glm::dvec3 screw = moved(pose, {0, -0.130, 0.062});
   builder.rod(screw, moved(pose, {0, -0.185, 0.062}), 0.016, 0.016, 16, polished(0x90979a),
               plain(0x7f8688));

@@ -25,7 +25,7 @@ Painter enamel(std::uint32_t srgb) {
       const float uneven = valueNoise(33, p * 40.0F);
       const float worn = glm::smoothstep(-0.0030F - 0.0025F * uneven, -0.0008F, edge);
       const glm::vec3 faded = colour * (0.93F + 0.14F * valueNoise(32, p * 7.0F));
-      return glm::mix(faded, colour * 0.7F + glm::vec3(0.16F, 0.15F, 0.135F), 0.75F * worn);
+      return glm::mix(faded, colour * 0.7F + glm::vec3(0.14F, 0.13F, 0.115F), 0.55F * worn);
     });
   };
 }
@@ -57,12 +57,16 @@ Painter polished(std::uint32_t srgb) {
 Painter board(std::uint32_t srgb, std::uint32_t seed, bool alongY) {
   const glm::vec3 colour = linearFromSrgb(srgb);
   return [=](Canvas& canvas) {
-    canvas.paintAll([&](glm::vec2 p) {
-      if (alongY) p = {p.y, p.x};
+    const auto grain = [&](glm::vec2 p) {
       const float bend = 0.010F * (valueNoise(seed, {p.x * 3.0F, p.y * 9.0F}) - 0.5F);
-      const float grain = fractalNoise(seed + 1, {p.x * 2.4F, (p.y + bend) * 75.0F}, 2);
-      return colour * (0.78F + 0.40F * grain);
-    });
+      return colour *
+             (0.78F + 0.40F * fractalNoise(seed + 1, {p.x * 2.4F, (p.y + bend) * 75.0F}, 2));
+    };
+    if (alongY) {
+      canvas.paintAll([&](glm::vec2 p) { return grain({p.y, p.x}); });
+    } else {
+      canvas.paintAllAlongX(grain);
+    }
   };
 }
 
@@ -95,6 +99,17 @@ Painter cardboard() {
     canvas.paintAll([&](glm::vec2 p) {
       const float uneven = 0.92F + 0.16F * valueNoise(36, p * 9.0F);
       return glm::mix(colour * uneven, tape, 0.8F * canvas.inside(std::abs(p.y) - 0.022F));
+    });
+  };
+}
+
+Painter cloth(std::uint32_t srgb) {
+  const glm::vec3 colour = linearFromSrgb(srgb);
+  return [colour](Canvas& canvas) {
+    canvas.paintAll([&](glm::vec2 p) {
+      const float slant = p.y + 0.35F * p.x;
+      const float folds = fractalNoise(37, {p.x * 9.0F, slant * 17.0F}, 2) - 0.5F;
+      return colour * (1.0F + 0.75F * folds);
     });
   };
 }

@@ -25,6 +25,9 @@ Painter ringed(std::uint32_t srgb, std::uint32_t between, float period, float sh
 /// Corrugated cardboard with a strip of tape.
 Painter cardboard();
 
+/// A sleeve, folded across its length (y).
+Painter cloth(std::uint32_t srgb);
+
 /// One thing painted over another.
 Painter layered(Painter below, Painter above);
 

@@ -85,8 +85,7 @@ glm::dmat4 Motion::heldAt(glm::dvec3 eye, glm::dvec3 target, double seconds) con
 }
 
 glm::dmat4 Motion::walkaround(double seconds) const {
-  const glm::dvec3 target =
-      kHomeTarget + glm::dvec3(targetX_.at(seconds), targetY_.at(seconds), 0);
+  const glm::dvec3 target = kHomeTarget + glm::dvec3(targetX_.at(seconds), targetY_.at(seconds), 0);
   const glm::dvec3 home = kHomeEye - kHomeTarget;
   const double distance = glm::length(home) + distance_.at(seconds);
   const double slant = std::asin(home.z / glm::length(home)) + slant_.at(seconds);

@@ -45,10 +45,10 @@ class Motion {
   glm::dmat4 cut(double seconds) const;
 
   SyntheticShot shot_;
-  Wander targetX_, targetY_, distance_;          // metres
-  Wander slant_, azimuth_, roll_;                // radians
-  std::array<Wander, 3> trembleBy_;              // metres
-  std::array<Wander, 3> trembleTurn_;            // radians
+  Wander targetX_, targetY_, distance_;  // metres
+  Wander slant_, azimuth_, roll_;        // radians
+  std::array<Wander, 3> trembleBy_;      // metres
+  std::array<Wander, 3> trembleTurn_;    // radians
 };
 
 }  // namespace pleinair::hal::synthetic

@@ -12,11 +12,11 @@ Result<std::optional<SyntheticShot>> syntheticShotOf(std::string_view camera,
   const std::string_view name = camera.substr(kName.size() + 1);
   const std::optional<SyntheticShot> shot = syntheticShotNamed(name);
   if (shot) return shot;
-  return tl::unexpected(Error{.kind = ErrorKind::kInvalidArgument,
-                              .subject = std::string(subject),
-                              .problem = "the synthetic camera has no shot \"" +
-                                         std::string(name) + "\"",
-                              .remedy = "allowed: " + syntheticShotNames()});
+  return tl::unexpected(
+      Error{.kind = ErrorKind::kInvalidArgument,
+            .subject = std::string(subject),
+            .problem = "the synthetic camera has no shot \"" + std::string(name) + "\"",
+            .remedy = "allowed: " + syntheticShotNames()});
 }
 
 }  // namespace pleinair::hal

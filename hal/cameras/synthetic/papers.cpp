@@ -74,7 +74,8 @@ void paintPoster(Canvas& canvas) {
     for (int bar = 0; bar < 3; ++bar) {
       const float length = 0.098F - 0.030F * static_cast<float>(bar);
       const float y = -0.152F - 0.014F * static_cast<float>(bar);
-      lay(cream, boxDistance(p - glm::vec2(-0.128F + length, y), {length, bar == 0 ? .005F : .0025F}));
+      lay(cream,
+          boxDistance(p - glm::vec2(-0.128F + length, y), {length, bar == 0 ? .005F : .0025F}));
     }
     lay(ink, boxDistance(p - glm::vec2(-0.075F, 0.172F), {0.055F, 0.008F}));
     return top.linearRgb;
@@ -111,7 +112,8 @@ void paintDrawing(Canvas& canvas, const Placement& at) {
     draw(boxDistance(title, {0.070F, 0.028F}), 0.0010F, line);
     draw(std::max(std::abs(title.y), std::abs(title.x) - 0.070F), 0.0010F, line);
     top = over(canvas.fill(line, boxDistance(title - glm::vec2(-0.020F, 0.014F), {0.042F, 0.004F}),
-                           0.8F * top.coverage), top);
+                           0.8F * top.coverage),
+               top);
     return top;
   });
 }
@@ -152,8 +154,7 @@ void paintStickyNote(Canvas& canvas, const Placement& at, std::uint32_t srgb) {
     for (int line = 0; line < 3; ++line) {
       const float y = 0.016F - 0.014F * static_cast<float>(line);
       const float length = 0.026F - 0.007F * static_cast<float>(line);
-      const float distance =
-          std::max(std::abs(p.y - y) - 0.0012F, std::abs(p.x + 0.004F) - length);
+      const float distance = std::max(std::abs(p.y - y) - 0.0012F, std::abs(p.x + 0.004F) - length);
       top = over(canvas.fill(ink, distance, 0.7F), top);
     }
     return top;

@@ -22,9 +22,9 @@ struct OverPicture {
 /// A facet as a convex outline in the picture. Only what is before the camera is in it.
 struct ProjectedFacet {
   struct Edge {
-    float x = 0, y = 0;       ///< its upper end, px
-    float endY = 0;           ///< > y
-    float slope = 0;          ///< dx/dy
+    float x = 0, y = 0;  ///< its upper end, px
+    float endY = 0;      ///< > y
+    float slope = 0;     ///< dx/dy
   };
   std::uint32_t facet = 0;
   float left = 0, right = 0, top = 0, bottom = 0;  ///< px

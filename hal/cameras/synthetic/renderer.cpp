@@ -81,8 +81,7 @@ ProjectedFacet& Renderer::slotFor(std::size_t index) {
 
 void Renderer::addCandidate(std::uint32_t facet, bool moves, float top, float bottom) {
   const auto height = static_cast<float>(exposure_->size().height);
-  candidates_.push_back({facet, moves,
-                         static_cast<int>(std::floor(std::clamp(top, 0.0F, height))),
+  candidates_.push_back({facet, moves, static_cast<int>(std::floor(std::clamp(top, 0.0F, height))),
                          static_cast<int>(std::ceil(std::clamp(bottom, 0.0F, height)))});
 }
 

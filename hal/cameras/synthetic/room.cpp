@@ -27,9 +27,8 @@ constexpr glm::dvec3 kZ{0, 0, 1};
 Painter plaster(std::uint32_t srgb) {
   const glm::vec3 colour = linearFromSrgb(srgb);
   return [colour](Canvas& canvas) {
-    canvas.paintAll([&](glm::vec2 p) {
-      return colour * (0.95F + 0.10F * fractalNoise(61, p * 1.7F, 2));
-    });
+    canvas.paintAll(
+        [&](glm::vec2 p) { return colour * (0.95F + 0.10F * fractalNoise(61, p * 1.7F, 2)); });
   };
 }
 

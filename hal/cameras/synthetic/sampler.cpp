@@ -32,12 +32,12 @@ struct Reader {
     const float y = std::min(std::max(v * scale - 0.5F, 0.0F), highY) * kSubTexels;
     const auto fixedX = static_cast<std::int32_t>(x);
     const auto fixedY = static_cast<std::int32_t>(y);
-    const Texel* texel = level->texels.data() + std::ptrdiff_t{fixedY >> 7} * level->width +
-                         (fixedX >> 7);
+    const Texel* texel =
+        level->texels.data() + std::ptrdiff_t{fixedY >> 7} * level->width + (fixedX >> 7);
     const auto tx = static_cast<std::uint16_t>(fixedX & 127);
     const auto ty = static_cast<std::uint16_t>(fixedY & 127);
-    const Word8 both = (pair(texel) * static_cast<std::uint16_t>(128 - ty) +
-                        pair(texel + level->width) * ty) >> 6;
+    const Word8 both =
+        (pair(texel) * static_cast<std::uint16_t>(128 - ty) + pair(texel + level->width) * ty) >> 6;
     const auto rest = static_cast<std::uint16_t>(128 - tx);
     const Word8 weights{rest, rest, rest, rest, tx, tx, tx, tx};
     const Word8 weighted = both * weights;

@@ -45,8 +45,8 @@ std::vector<std::int16_t> noiseTable(std::uint64_t seed, double sigma) {
     for (std::size_t copy = i; copy < kNoiseSteps; copy += kValues) table[copy] = fixed;
   }
   for (std::size_t i = kNoiseSteps - 1; i > 0; --i) {
-    std::swap(table[i], table[static_cast<std::size_t>(unitRandom(seed, i) *
-                                                       static_cast<double>(i + 1))]);
+    std::swap(table[i],
+              table[static_cast<std::size_t>(unitRandom(seed, i) * static_cast<double>(i + 1))]);
   }
   return table;
 }

@@ -29,8 +29,8 @@ inline float linearFromLevel(std::uint8_t level) {
 }
 /// levelFromLinear(), rounded; good to half a level.
 inline std::uint8_t roundedLevelFromLinear(float linear) {
-  return kSrgbTables.level[static_cast<std::size_t>(std::clamp(linear, 0.0F, 1.0F) *
-                                                    SrgbTables::kSteps)];
+  return kSrgbTables
+      .level[static_cast<std::size_t>(std::clamp(linear, 0.0F, 1.0F) * SrgbTables::kSteps)];
 }
 
 }  // namespace pleinair::hal::synthetic

@@ -120,8 +120,8 @@ Exposure SyntheticCamera::exposureOf(std::uint64_t sequence) const {
 }
 
 synthetic::SensorGains SyntheticCamera::gainsOf(std::uint64_t sequence) const {
-  const double seconds = static_cast<double>(sequence) *
-                         std::chrono::duration<double>(options_.framePeriod).count();
+  const double seconds =
+      static_cast<double>(sequence) * std::chrono::duration<double>(options_.framePeriod).count();
   const double gain = std::exp2(options_.exposureDriftStops * brightness_.at(seconds));
   const double warmth = 1 + options_.whiteBalanceDrift * balance_.at(seconds);
   return {gain * warmth, gain, gain / warmth};

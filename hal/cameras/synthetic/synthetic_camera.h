@@ -23,8 +23,9 @@ struct SyntheticOptions {
   std::uint32_t seed = 1;         ///< of the wood, the hand that holds the camera, and the noise
   double noiseSigma = 2.0;        ///< of each channel, in 8-bit levels; 0 … 40
   double exposureDriftStops = 0;  ///< brightness wanders within ± this many stops; 0 … 2
-  double whiteBalanceDrift = 0;   ///< red and blue wander against each other by ± this share; 0 … 0.5
-  Duration rowTime{0};            ///< between rows; 0: global shutter. All rows within a frame period
+  double whiteBalanceDrift =
+      0;                ///< red and blue wander against each other by ± this share; 0 … 0.5
+  Duration rowTime{0};  ///< between rows; 0: global shutter. All rows within a frame period
   Pacing pacing = Pacing::kStepped;
 };
 

@@ -32,11 +32,10 @@ void Wood::take(glm::ivec2 place) {
   plank_.ringShift = 0.16F * (random(plank_.id, 1) - 0.5F);
   plank_.ringTilt = 0.07F * (random(plank_.id, 2) - 0.5F);
   for (std::uint32_t i = 0; i < kKnotsAPlank; ++i) {
-    plank_.knots[i] = {{kPlankLength * 0.9F * (random(plank_.id, 40 + i) - 0.5F),
-                        kPlankWidth * 0.6F * (random(plank_.id, 50 + i) - 0.5F)},
-                       random(plank_.id, 20 + i) < 0.45F
-                           ? 0.0F
-                           : 0.005F + 0.007F * random(plank_.id, 30 + i)};
+    plank_.knots[i] = {
+        {kPlankLength * 0.9F * (random(plank_.id, 40 + i) - 0.5F),
+         kPlankWidth * 0.6F * (random(plank_.id, 50 + i) - 0.5F)},
+        random(plank_.id, 20 + i) < 0.45F ? 0.0F : 0.005F + 0.007F * random(plank_.id, 30 + i)};
   }
 }
 

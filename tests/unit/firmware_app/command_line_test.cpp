@@ -44,8 +44,11 @@ TEST(CommandLine, RefusesWhatItDoesNotKnow) {
   expectRefused({"styles", "styles"}, "styles");
   expectRefused({"render", "--input", "a.mp4", "--output", "b.mp4", "--colour"}, "--colour");
   expectRefused({"record", "--output", "b.mp4", "two\nlines"}, "two?lines");
-  expectRefused({"record", "--output", "/no-such-folder/b.mp4", "--camera", "webcam"},
-                "unknown camera \"webcam\"; allowed: synthetic");
+  expectRefused(
+      {"record", "--output", "/no-such-folder/b.mp4", "--camera", "webcam"},
+      "unknown camera \"webcam\"; allowed: synthetic, synthetic:SHOT with a SHOT of walkaround");
+  expectRefused({"record", "--output", "/no-such-folder/b.mp4", "--camera", "synthetic:zoom"},
+                "--camera: the synthetic camera has no shot \"zoom\"; allowed: walkaround, pan,");
 }
 
 TEST(CommandLine, NamesWhatIsMissing) {
@@ -70,6 +73,14 @@ TEST(CommandLine, RefusesValuesOutOfRange) {
                   what);
   }
   expectRefused({"record", "--output", "b.mp4", "--seed", "-1"}, "--seed");
+  expectRefused({"record", "--output", "b.mp4", "--rate", "0"}, "--rate");
+  expectRefused({"record", "--output", "b.mp4", "--noise", "-1"}, "--noise");
+  expectRefused({"record", "--output", "b.mp4", "--noise", "nan"}, "the noise is out of range");
+  expectRefused({"record", "--output", "b.mp4", "--exposure-drift", "3"}, "--exposure-drift");
+  expectRefused({"record", "--output", "b.mp4", "--white-balance-drift", "1"},
+                "--white-balance-drift");
+  expectRefused({"record", "--output", "b.mp4", "--readout", "40"},
+                "the rolling shutter's rows do not fit into the frame period");
 }
 
 TEST(CommandLine, NamesWhatItDoesNotKnowBeforeWhatIsMissing) {

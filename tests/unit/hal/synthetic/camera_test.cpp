@@ -27,6 +27,7 @@ TEST(SyntheticCamera, AFrameDoesNotDependOnThoseBefore) {
   SteppedClock clock;
   SyntheticCamera camera(options, clock);
   ASSERT_TRUE(camera.start({}));
+  keepWorkbenchOf(options);
   clock.advance(5 * options.framePeriod);  // the first five are too late
   const NextFrame next = camera.next(kNoDeadline);
   const auto& frame = std::get<CapturedFrame>(next);
@@ -52,6 +53,7 @@ TEST(SyntheticCamera, SaysWhenEachFrameWasTaken) {
   options.framePeriod = Duration(33'333'333);
   SyntheticCamera camera(options, clock);
   ASSERT_TRUE(camera.start({}));
+  keepWorkbenchOf(options);
   for (int i = 0; i < 3; ++i) {
     const NextFrame next = camera.next(kNoDeadline);
     const auto& frame = std::get<CapturedFrame>(next);
@@ -67,6 +69,7 @@ TEST(SyntheticCamera, InRealTimeWaitsForEachFrame) {
   options.pacing = Pacing::kRealTime;
   SyntheticCamera camera(options, clock);
   ASSERT_TRUE(camera.start({}));
+  keepWorkbenchOf(options);
   for (int i = 0; i < 3; ++i) {
     const NextFrame next = camera.next(kNoDeadline);
     EXPECT_EQ(std::get<CapturedFrame>(next).droppedBefore, 0u);
@@ -81,6 +84,7 @@ TEST(SyntheticCamera, EndsAtItsLastFrameEvenWhenLate) {
   options.frameCount = 4;
   SyntheticCamera camera(options, clock);
   ASSERT_TRUE(camera.start({}));
+  keepWorkbenchOf(options);
   clock.advance(std::chrono::hours(1));
   const NextFrame last = camera.next(kNoDeadline);
   EXPECT_EQ(std::get<CapturedFrame>(last).sequence, 3u);
@@ -91,6 +95,7 @@ TEST(SyntheticCamera, GivesItsBuffersOutAgain) {
   SteppedClock clock;
   SyntheticCamera camera(smallOptions(), clock);
   ASSERT_TRUE(camera.start({}));
+  keepWorkbenchOf(smallOptions());
   NextFrame held = camera.next(kNoDeadline);
   const std::uint8_t* heldPixels = std::get<CapturedFrame>(held).image.planes[0].bytes.data();
   const NextFrame other = camera.next(kNoDeadline);

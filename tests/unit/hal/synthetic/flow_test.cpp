@@ -140,8 +140,7 @@ double warpedDifference(const Image& first, const Image& second, const FlowField
 
 void expectPicturesFollowTheFlow(SyntheticShot shot, std::uint64_t from, std::uint64_t to,
                                  Duration rowTime) {
-  SyntheticOptions options{
-      .size = {320, 240}, .shot = shot, .noiseSigma = 0, .rowTime = rowTime};
+  SyntheticOptions options{.size = {320, 240}, .shot = shot, .noiseSigma = 0, .rowTime = rowTime};
   const std::vector<Image> frames = capturedFrames(options, static_cast<int>(to) + 1);
   SteppedClock clock;
   const SyntheticCamera camera(options, clock);

@@ -2,7 +2,9 @@
 
 #include <cmath>
 
+#include "hal/cameras/synthetic/layout.h"
 #include "hal/cameras/synthetic/sampler.h"
+#include "hal/cameras/synthetic/srgb.h"
 #include "tests/unit/hal/synthetic/captured.h"
 #include "tests/unit/hal/synthetic/ray_oracle.h"
 
@@ -115,30 +117,33 @@ double largestStep(const std::vector<double>& levels, int row, int from, int to)
   double best = 0;
   double at = 0;
   for (int x = from; x + 2 < to; ++x) {
-    const std::size_t i = 3 * (static_cast<std::size_t>(row) * kSize.width +
-                               static_cast<std::size_t>(x));
-    const double whole = levels[i + 6] - levels[i];
+    const std::size_t i =
+        3 * (static_cast<std::size_t>(row) * kSize.width + static_cast<std::size_t>(x));
+    const auto light = [&](std::size_t k) {
+      return static_cast<double>(linearFromLevel(static_cast<std::uint8_t>(levels[k] + 0.5)));
+    };
+    const double whole = light(i + 6) - light(i);
     if (std::abs(whole) <= std::abs(best)) continue;
     best = whole;
-    // The pixel between has as much of the right side as its level is on the way.
-    at = x + 2 - (levels[i + 3] - levels[i]) / whole;
+    // The pixel between has as much of the right side as its light is on the way.
+    at = x + 2 - (light(i + 3) - light(i)) / whole;
   }
   return at;
 }
 
 TEST(Renderer, SlantsAVerticalEdgeAsFarAsTheCameraTurnsMeanwhile) {
-  // The pegboard's left edge stands upright at x = 0.15; the pan turns past it.
+  // The poster's right edge stands upright at x = -0.405; the pan turns past it.
   const Motion motion(SyntheticShot::kPan, 1);
   const Duration rowTime = std::chrono::microseconds(900);
   const auto columns = [&](Duration each) {
     const Exposure exposure(kSize, motion, {}, each);
     const std::vector<double> levels = rendered(exposure);
-    const glm::dvec2 top = *exposure.project({{0.15, 0.4355, 0.55}});
-    const glm::dvec2 low = *exposure.project({{0.15, 0.4355, 0.27}});
+    const glm::dvec2 top = *exposure.project({{-0.405, kWallY - 0.002, 0.60}});
+    const glm::dvec2 low = *exposure.project({{-0.405, kWallY - 0.002, 0.41}});
     for (const glm::dvec2& at : {top, low}) {
       const int middle = static_cast<int>(at.x);
       const double found = largestStep(levels, static_cast<int>(at.y), middle - 6, middle + 7);
-      EXPECT_NEAR(found, at.x, 0.5);
+      EXPECT_NEAR(found, at.x, 0.15);
     }
     return low.x - top.x;
   };

@@ -15,8 +15,7 @@ namespace {
 constexpr std::size_t kPixels = 6000;
 constexpr SensorGains kNoGains{1, 1, 1};
 
-std::vector<std::uint8_t> exposed(Sensor sensor, std::uint64_t frame, int y,
-                                  int level = 128) {
+std::vector<std::uint8_t> exposed(Sensor sensor, std::uint64_t frame, int y, int level = 128) {
   const std::vector<std::int16_t> grey(3 * kPixels, static_cast<std::int16_t>(level << kLevelBits));
   std::vector<std::uint8_t> rgb8(3 * kPixels);
   sensor.beginFrame(frame, kNoGains);

@@ -165,7 +165,8 @@ TEST(SyntheticTags, StickToSurfacesInRightHandedFrames) {
     // Looked at from its front, the tag's middle is what is met there.
     const glm::dvec3 middle(pose[3]);
     const Ray towards{middle - 0.01 * glm::dvec3(pose[2]), glm::dvec3(pose[2])};
-    const auto met = workbenchGeometry().firstAlong(towards, glm::translate(glm::dmat4(1), {0, 0, -9}));
+    const auto met =
+        workbenchGeometry().firstAlong(towards, glm::translate(glm::dmat4(1), {0, 0, -9}));
     ASSERT_TRUE(met);
     EXPECT_LT(glm::distance(met->point, middle), 1e-9) << "tag " << i;
   }
