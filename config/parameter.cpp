@@ -8,7 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "config/config_error.h"
 #include "config/suggestion.h"
+#include "config/toml_text.h"
 
 namespace pleinair::config {
 namespace {
@@ -20,6 +22,47 @@ std::optional<T> wholeTextAs(std::string_view text) {
   const auto [stop, failure] = std::from_chars(text.data(), end, value);
   if (failure != std::errc() || stop != end) return std::nullopt;
   return value;
+}
+
+constexpr std::size_t kLongestText = 255;
+constexpr std::size_t kLongestPath = 4096;
+
+bool isAmong(const std::vector<std::string>& words, std::string_view text) {
+  return std::find(words.begin(), words.end(), text) != words.end();
+}
+
+std::optional<PixelSize> parsedSize(std::string_view text) {
+  const std::size_t cross = text.find('x');
+  if (cross == std::string_view::npos) return std::nullopt;
+  const auto width = wholeTextAs<int>(text.substr(0, cross));
+  const auto height = wholeTextAs<int>(text.substr(cross + 1));
+  if (!width || !height) return std::nullopt;
+  return PixelSize{*width, *height};
+}
+
+bool hasControlCharacter(std::string_view text) {
+  return std::any_of(text.begin(), text.end(),
+                     [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
+}
+
+bool isAllowedPath(const ParameterDescriptor& descriptor, const std::string& path) {
+  const auto& words = descriptor.choices;
+  if (isAmong(words, path)) return true;
+  const bool goesOnFromAWord = std::any_of(
+      words.begin(), words.end(), [&](const auto& word) { return path.starts_with(word + ':'); });
+  return !goesOnFromAWord && !path.empty() && path.size() <= kLongestPath &&
+         path.find('\0') == std::string::npos && path.ends_with(descriptor.pathEnding);
+}
+
+std::string allowedPaths(const ParameterDescriptor& descriptor) {
+  const std::string path =
+      descriptor.pathEnding.empty() ? "a path" : "a path that ends in " + descriptor.pathEnding;
+  return descriptor.choices.empty() ? path : listText(descriptor.choices) + ", or " + path;
+}
+
+std::string allowedSizes(const ParameterDescriptor& descriptor) {
+  const std::string sizes = descriptor.sizeRange.describe();
+  return descriptor.choices.empty() ? sizes : descriptor.choices.front() + ", or " + sizes;
 }
 
 std::optional<ParameterValue> parsedAs(const ParameterDescriptor& descriptor,
@@ -39,6 +82,15 @@ std::optional<ParameterValue> parsedAs(const ParameterDescriptor& descriptor,
       if (found == choices.end()) return std::nullopt;
       return ChoiceIndex{static_cast<std::size_t>(found - choices.begin())};
     }
+    case ParameterKind::kText:
+      return std::string(text);
+    case ParameterKind::kPath:
+      return std::filesystem::path(text);
+    case ParameterKind::kSize:
+      // "0x0" has its word.
+      if (isAmong(descriptor.choices, text)) return PixelSize{};
+      if (const auto size = parsedSize(text); size && *size != PixelSize{}) return *size;
+      return std::nullopt;
   }
   return std::nullopt;
 }
@@ -68,6 +120,13 @@ std::string ParameterDescriptor::allowed() const {
       return "true or false";
     case ParameterKind::kChoice:
       return "one of " + listText(choices);
+    case ParameterKind::kText:
+      if (!textAllowed.empty()) return textAllowed;
+      return fmt::format("a text of 1 to {} bytes on one line", kLongestText);
+    case ParameterKind::kPath:
+      return allowedPaths(*this);
+    case ParameterKind::kSize:
+      return allowedSizes(*this);
   }
   return {};
 }
@@ -77,6 +136,15 @@ bool ParameterDescriptor::allows(const ParameterValue& value) const {
   if (const auto* number = std::get_if<double>(&value)) return numberRange.contains(*number);
   if (const auto* integer = std::get_if<int>(&value)) return integerRange.contains(*integer);
   if (const auto* choice = std::get_if<ChoiceIndex>(&value)) return choice->index < choices.size();
+  if (const auto* text = std::get_if<std::string>(&value)) {
+    return !text->empty() && text->size() <= kLongestText && !hasControlCharacter(*text);
+  }
+  if (const auto* path = std::get_if<std::filesystem::path>(&value)) {
+    return isAllowedPath(*this, path->string());
+  }
+  if (const auto* size = std::get_if<PixelSize>(&value)) {
+    return sizeRange.contains(*size) || (*size == PixelSize{} && !choices.empty());
+  }
   return true;
 }
 
@@ -84,6 +152,12 @@ std::string ParameterDescriptor::textOf(const ParameterValue& value) const {
   if (const auto* number = std::get_if<double>(&value)) return fmt::format("{}", *number);
   if (const auto* integer = std::get_if<int>(&value)) return fmt::format("{}", *integer);
   if (const auto* choice = std::get_if<ChoiceIndex>(&value)) return choices.at(choice->index);
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  if (const auto* path = std::get_if<std::filesystem::path>(&value)) return path->string();
+  if (const auto* size = std::get_if<PixelSize>(&value)) {
+    const bool isWord = *size == PixelSize{} && !choices.empty();
+    return isWord ? choices.front() : fmt::format("{}x{}", size->width, size->height);
+  }
   return std::get<bool>(value) ? "true" : "false";
 }
 
@@ -93,12 +167,34 @@ std::optional<ParameterValue> ParameterDescriptor::parse(std::string_view text) 
   return value;
 }
 
+std::string ParameterDescriptor::tomlOf(const ParameterValue& value) const {
+  if (kind() < ParameterKind::kChoice) return textOf(value);
+  std::string text = textOf(value);
+  if (kind() == ParameterKind::kPath && !isAmong(choices, text)) {
+    std::error_code failure;
+    const std::filesystem::path absolute = std::filesystem::absolute(text, failure);
+    if (!failure) text = absolute.lexically_normal().string();
+  }
+  const std::optional<std::string> toml = tomlString(text);
+  if (!toml) {
+    throw ConfigError(
+        {.key = name, .found = config::quoted(text), .allowed = "UTF-8, to be put into TOML"});
+  }
+  return *toml;
+}
+
+std::string ParameterDescriptor::foundIn(std::string_view text) const {
+  return foundText(text, choices);
+}
+
 ParameterList::ParameterList(std::vector<ParameterDescriptor> descriptors)
     : descriptors_(std::move(descriptors)) {
   for (std::size_t i = 0; i < descriptors_.size(); ++i) {
     [[maybe_unused]] const ParameterDescriptor& each = descriptors_[i];
     assert(isBareName(each.name) && indexOf(each.name) == i);
-    assert(std::all_of(each.choices.begin(), each.choices.end(), isBareName));
+    assert(each.kind() == ParameterKind::kPath ||
+           std::all_of(each.choices.begin(), each.choices.end(), isBareName));
+    assert(each.kind() != ParameterKind::kSize || each.choices.size() <= 1);
     assert(each.help.find('\n') == std::string::npos);
     assert(each.allows(each.defaultValue));
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,7 +13,7 @@
 
 namespace pleinair::config {
 
-enum class ParameterKind { kNumber, kInteger, kSwitch, kChoice };
+enum class ParameterKind { kNumber, kInteger, kSwitch, kChoice, kText, kPath, kSize };
 
 enum class TakesEffect {
   kLive,     ///< at the next frame
@@ -26,22 +27,28 @@ struct ChoiceIndex {
 };
 
 /// In the order of ParameterKind.
-using ParameterValue = std::variant<double, int, bool, ChoiceIndex>;
+using ParameterValue =
+    std::variant<double, int, bool, ChoiceIndex, std::string, std::filesystem::path, PixelSize>;
 
 /// What consoles, profiles and `--help` know of a parameter.
 struct ParameterDescriptor {
   std::string name;  ///< lower case with underscores, a TOML key: "cell_size"
   std::string help;  ///< one line
   ParameterValue defaultValue;
-  NumberRange numberRange;           ///< of a number
-  IntegerRange integerRange;         ///< of an integer
-  std::vector<std::string> choices;  ///< of a choice, by index
+  NumberRange numberRange;    ///< of a number
+  IntegerRange integerRange;  ///< of an integer
+  SizeRange sizeRange;        ///< of a size
+  /// Of a choice, by index. Of a path, words that stand for something else ("none"); text that goes
+  /// on from one of them after a colon is no path. Of a size, what stands for 0x0, if anything.
+  std::vector<std::string> choices;
+  std::string textAllowed;  ///< of a text, for messages: "a name that ... lists"; empty: any
+  std::string pathEnding;   ///< of a path: ".toml"; empty: any
   TakesEffect takesEffect = TakesEffect::kLive;
 
   ParameterKind kind() const { return static_cast<ParameterKind>(defaultValue.index()); }
   /// "px"; empty where there is none.
   std::string_view unit() const;
-  /// "a number of px in [2, 64]", "true or false", "one of cells, seeds".
+  /// "a number of px in [2, 64]", "true or false", "one of cells, seeds", "none, or a path".
   std::string allowed() const;
   /// Of this parameter's kind and within its range.
   bool allows(const ParameterValue& value) const;
@@ -50,6 +57,11 @@ struct ParameterDescriptor {
   std::string textOf(const ParameterValue& value) const;
   /// Nothing where the text is not an allowed value.
   std::optional<ParameterValue> parse(std::string_view text) const;
+  /// The value as TOML: strings in quotes, and paths absolute, so that they hold in any file.
+  /// Throws a ConfigError where it is not UTF-8.
+  std::string tomlOf(const ParameterValue& value) const;
+  /// Text that parse() does not take, for a message: `"celsl" (did you mean "cells"?)`.
+  std::string foundIn(std::string_view text) const;
 };
 
 /// The parameters that one style or part of the program has. Immutable.

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cassert>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -66,8 +68,63 @@ ParameterBinding<P> choiceParameter(const std::string& name, E P::*member,
           }};
 }
 
-/// The parameters of one style, bound to the members of its struct P, whose initialisers are the
-/// defaults:
+/// A member that is one of `names`, which are not known before run time.
+template <class P>
+ParameterBinding<P> choiceParameter(const std::string& name, std::string P::*member,
+                                    const std::vector<std::string>& names, const std::string& help,
+                                    TakesEffect takesEffect = TakesEffect::kLive) {
+  return {{.name = name, .help = help, .choices = names, .takesEffect = takesEffect},
+          [member, names](const P& p) {
+            const auto found = std::find(names.begin(), names.end(), p.*member);
+            return ParameterValue(ChoiceIndex{static_cast<std::size_t>(found - names.begin())});
+          },
+          [member, names](P& p, const ParameterValue& value) {
+            p.*member = names[std::get<ChoiceIndex>(value).index];
+          }};
+}
+
+/// `allowed` as ParameterDescriptor::textAllowed.
+template <class P>
+ParameterBinding<P> textParameter(const std::string& name, std::string P::*member,
+                                  const std::string& allowed, const std::string& help,
+                                  TakesEffect takesEffect = TakesEffect::kLive) {
+  return {
+      {.name = name, .help = help, .textAllowed = allowed, .takesEffect = takesEffect},
+      [member](const P& p) { return ParameterValue(p.*member); },
+      [member](P& p, const ParameterValue& value) { p.*member = std::get<std::string>(value); }};
+}
+
+/// A file or folder, or one of `words`; `ending` as of ParameterDescriptor.
+template <class P>
+ParameterBinding<P> pathParameter(const std::string& name, std::filesystem::path P::*member,
+                                  const std::vector<std::string>& words, const std::string& help,
+                                  TakesEffect takesEffect = TakesEffect::kRestart,
+                                  const std::string& ending = {}) {
+  return {{.name = name,
+           .help = help,
+           .choices = words,
+           .pathEnding = ending,
+           .takesEffect = takesEffect},
+          [member](const P& p) { return ParameterValue(p.*member); },
+          [member](P& p, const ParameterValue& value) {
+            p.*member = std::get<std::filesystem::path>(value);
+          }};
+}
+
+/// A size; with a `word`, that stands for 0x0.
+template <class P>
+ParameterBinding<P> sizeParameter(const std::string& name, PixelSize P::*member,
+                                  const SizeRange& range, const std::vector<std::string>& word,
+                                  const std::string& help,
+                                  TakesEffect takesEffect = TakesEffect::kRestart) {
+  return {
+      {.name = name, .help = help, .sizeRange = range, .choices = word, .takesEffect = takesEffect},
+      [member](const P& p) { return ParameterValue(p.*member); },
+      [member](P& p, const ParameterValue& value) { p.*member = std::get<PixelSize>(value); }};
+}
+
+/// The parameters of one style or part of the program, bound to the members of its struct P, whose
+/// initialisers are the defaults:
 ///
 ///     struct WatercolorParameters { double cellSize = 8; bool paper = true; };
 ///     const ParameterTable<WatercolorParameters>& watercolorParameters() {

@@ -1,14 +1,39 @@
 #include "config/parameter_values.h"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "config/suggestion.h"
+#include "config/toml_text.h"
 
 namespace pleinair::config {
 namespace {
+
+/// Of a path, what its file means by a relative one.
+ParameterValue inItsFolder(ParameterValue value, const ParameterDescriptor& descriptor,
+                           const std::filesystem::path& directory) {
+  auto* path = std::get_if<std::filesystem::path>(&value);
+  if (path == nullptr) return value;
+  const auto& words = descriptor.choices;
+  const bool isWord = std::find(words.begin(), words.end(), path->string()) != words.end();
+  if (!isWord) *path = directory / *path;  // an absolute one stays
+  return value;
+}
+
+/// A value that stands in TOML as a string.
+std::optional<ParameterValue> readText(const TomlTable& table,
+                                       const ParameterDescriptor& descriptor) {
+  const auto text = table.optionalString(descriptor.name, descriptor.allowed());
+  if (!text) return std::nullopt;
+  std::optional<ParameterValue> value = descriptor.parse(*text);
+  if (!value) {
+    throw table.error(descriptor.name, "found " + descriptor.foundIn(*text), descriptor.allowed());
+  }
+  return inItsFolder(std::move(*value), descriptor, table.directory());
+}
 
 std::optional<ParameterValue> read(const TomlTable& table, const ParameterDescriptor& descriptor) {
   const std::string& name = descriptor.name;
@@ -24,6 +49,10 @@ std::optional<ParameterValue> read(const TomlTable& table, const ParameterDescri
         return ChoiceIndex{*index};
       }
       return std::nullopt;
+    case ParameterKind::kText:
+    case ParameterKind::kPath:
+    case ParameterKind::kSize:
+      return readText(table, descriptor);
   }
   return std::nullopt;
 }
@@ -34,7 +63,7 @@ ParameterValues::ParameterValues(std::shared_ptr<const ParameterList> list) {
   auto data = std::make_shared<Data>();
   for (const ParameterDescriptor& each : list->descriptors()) {
     data->values.push_back(each.defaultValue);
-    data->origins.emplace_back("default");
+    data->origins.emplace_back(kDefaultOrigin);
   }
   data->list = std::move(list);
   data_ = std::move(data);
@@ -67,17 +96,17 @@ ParameterValues ParameterValues::with(std::string_view name, std::string_view te
   if (!value) {
     throw ConfigError({.file = std::move(origin),
                        .key = std::string(name),
-                       .found = quoted(std::string(text)),
+                       .found = descriptor.foundIn(text),
                        .allowed = descriptor.allowed()});
   }
-  return with(index, *value, std::move(origin));
+  return with(index, std::move(*value), std::move(origin));
 }
 
 ParameterValues ParameterValues::with(std::size_t index, ParameterValue value,
                                       std::string origin) const {
   assert(list().descriptors()[index].allows(value));
   auto data = std::make_shared<Data>(*data_);
-  data->values[index] = value;
+  data->values[index] = std::move(value);
   data->origins[index] = std::move(origin);
   ParameterValues changed = *this;
   changed.data_ = std::move(data);
@@ -85,30 +114,35 @@ ParameterValues ParameterValues::with(std::size_t index, ParameterValue value,
 }
 
 ParameterValues ParameterValues::with(const TomlTable& table) const {
+  ParameterValues changed = withKnownKeys(table);
+  table.finish();
+  return changed;
+}
+
+ParameterValues ParameterValues::withKnownKeys(const TomlTable& table) const {
   auto data = std::make_shared<Data>(*data_);
   for (std::size_t i = 0; i < data->values.size(); ++i) {
     const ParameterDescriptor& descriptor = list().descriptors()[i];
-    const std::optional<ParameterValue> value = read(table, descriptor);
+    std::optional<ParameterValue> value = read(table, descriptor);
     if (!value) continue;
-    data->values[i] = *value;
+    data->values[i] = std::move(*value);
     data->origins[i] = fmt::format("{}:{}", table.file(), table.lineOf(descriptor.name));
   }
-  table.finish();
   ParameterValues changed = *this;
   changed.data_ = std::move(data);
   return changed;
 }
 
-std::string ParameterValues::toToml() const {
+std::string ParameterValues::toToml(Printed which) const {
   std::string toml;
   for (std::size_t i = 0; i < data_->values.size(); ++i) {
     const ParameterDescriptor& each = list().descriptors()[i];
-    const std::string_view quote = each.kind() == ParameterKind::kChoice ? "\"" : "";
-    if (i > 0) toml += '\n';
-    toml += fmt::format("# {}\n# {}; default: {}; {}\n{} = {}{}{}\n", each.help, each.allowed(),
+    if (which == Printed::kGiven && data_->origins[i] == kDefaultOrigin) continue;
+    if (!toml.empty()) toml += '\n';
+    toml += fmt::format("# {}\n# {}; default: {}; {}\n{} = {}  # {}\n", each.help, each.allowed(),
                         each.textOf(each.defaultValue),
                         each.takesEffect == TakesEffect::kLive ? "live" : "at the next start",
-                        each.name, quote, each.textOf(at(i)), quote);
+                        each.name, each.tomlOf(at(i)), tomlComment(data_->origins[i]));
   }
   return toml;
 }

@@ -10,6 +10,15 @@
 
 namespace pleinair::config {
 
+/// What ParameterValues::origin() says of a value that nobody gave.
+inline constexpr std::string_view kDefaultOrigin = "default";
+
+/// Which values are put into a text.
+enum class Printed {
+  kAll,
+  kGiven  ///< those of another origin than "default"
+};
+
 /// A value for each parameter of a list: an immutable snapshot. A copy is a shared pointer's, so it
 /// is swapped at a frame boundary at no cost; changes make a new snapshot. Any thread may read one.
 /// It knows no style: a style gets its typed struct from its ParameterTable.
@@ -34,13 +43,16 @@ class ParameterValues {
   /// A snapshot with the values that the table gives. Throws a ConfigError for a wrong value, and
   /// for a key that is no parameter.
   [[nodiscard]] ParameterValues with(const TomlTable& table) const;
+  /// As with(), but a key that is no parameter is left to the caller.
+  [[nodiscard]] ParameterValues withKnownKeys(const TomlTable& table) const;
 
   /// A snapshot with the value at `index` changed to one that the descriptor allows, or it asserts.
   [[nodiscard]] ParameterValues with(std::size_t index, ParameterValue value,
                                      std::string origin) const;
 
-  /// The keys of a TOML table, each under its help, range and default as comments.
-  std::string toToml() const;
+  /// The keys of a TOML table, each under its help, range and default and before its origin as
+  /// comments. Throws a ConfigError for a text that is not UTF-8.
+  std::string toToml(Printed which = Printed::kAll) const;
 
   /// The same values of the same list, whatever their origins.
   bool operator==(const ParameterValues& other) const;

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "config/config_error.h"
+
 namespace pleinair::config {
 namespace {
 
@@ -68,6 +70,12 @@ std::string unknownText(std::string_view what, std::string_view word,
   const std::optional<std::string> near = nearest(word, candidates);
   if (!near) return fmt::format("unknown {}", what);
   return fmt::format("unknown {} (did you mean \"{}\"?)", what, *near);
+}
+
+std::string foundText(std::string_view word, std::span<const std::string> candidates) {
+  const std::string found = quoted(std::string(word));
+  const std::optional<std::string> near = nearest(word, candidates);
+  return near ? fmt::format("{} (did you mean \"{}\"?)", found, *near) : found;
 }
 
 std::string listText(std::span<const std::string> names) {

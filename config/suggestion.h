@@ -15,6 +15,9 @@ std::optional<std::string> nearest(std::string_view word, std::span<const std::s
 std::string unknownText(std::string_view what, std::string_view word,
                         std::span<const std::string> candidates);
 
+/// The word in quotes, with the near miss if there is one: `"celsl" (did you mean "cells"?)`.
+std::string foundText(std::string_view word, std::span<const std::string> candidates);
+
 /// "edge, family, id", or "none" where there are none.
 std::string listText(std::span<const std::string> names);
 

@@ -62,6 +62,7 @@ struct TomlTable::State {
   std::shared_ptr<const toml::table> document;  // keeps `table` alive
   const toml::table* table = nullptr;
   std::string file;
+  std::filesystem::path directory;
   std::string path;
   int line = 0;
   std::vector<std::string> known;
@@ -98,6 +99,7 @@ struct TomlTable::State {
     state->document = document;
     state->table = &node;
     state->file = file;
+    state->directory = directory;
     state->path = std::move(childPath);
     state->line = lineOfRegion(node.source());
     return state;
@@ -119,16 +121,17 @@ struct TomlTable::State {
   }
 };
 
-std::optional<std::string> TomlTable::optionalString(std::string_view key) const {
+std::optional<std::string> TomlTable::optionalString(std::string_view key,
+                                                     std::string_view allowed) const {
   const toml::node* node = state_->ask(key);
   if (!node) return std::nullopt;
   const auto* value = node->as_string();
-  if (!value) throw state_->wrong(pathOf(key), *node, true, "a string");
+  if (!value) throw state_->wrong(pathOf(key), *node, true, std::string(allowed));
   return value->get();
 }
 
-std::string TomlTable::string(std::string_view key) const {
-  return orMissing(optionalString(key), *this, key, "a string");
+std::string TomlTable::string(std::string_view key, std::string_view allowed) const {
+  return orMissing(optionalString(key, allowed), *this, key, std::string(allowed));
 }
 
 std::optional<double> TomlTable::optionalNumber(std::string_view key,
@@ -200,7 +203,10 @@ std::optional<std::size_t> TomlTable::optionalChoice(std::string_view key,
   const auto* value = node->as_string();
   const auto found =
       value ? std::find(choices.begin(), choices.end(), value->get()) : choices.end();
-  if (found == choices.end()) throw state_->wrong(pathOf(key), *node, !value, listText(choices));
+  if (found == choices.end() && value) {
+    throw error(key, "found " + foundText(value->get(), choices), listText(choices));
+  }
+  if (!value) throw state_->wrong(pathOf(key), *node, true, listText(choices));
   return static_cast<std::size_t>(found - choices.begin());
 }
 
@@ -270,6 +276,10 @@ const std::string& TomlTable::file() const {
   return state_->file;
 }
 
+const std::filesystem::path& TomlTable::directory() const {
+  return state_->directory;
+}
+
 void TomlTable::finish() const {
   state_->finish();
 }
@@ -282,7 +292,8 @@ ConfigError TomlTable::error(std::string_view key, std::string problem, std::str
                       .allowed = std::move(allowed)});
 }
 
-TomlDocument TomlDocument::parseText(std::string_view text, std::string name) {
+TomlDocument TomlDocument::parseText(std::string_view text, std::string name,
+                                     const std::filesystem::path& directory) {
   if (text.size() > kMostBytes) {
     throw ConfigError(
         {.file = std::move(name), .problem = "too large", .allowed = std::string(kAllowedFile)});
@@ -303,6 +314,7 @@ TomlDocument TomlDocument::parseText(std::string_view text, std::string name) {
   }
   state->table = state->document.get();
   state->file = std::move(name);
+  state->directory = directory;
   return TomlDocument(TomlTable(std::move(state)));
 }
 
@@ -325,7 +337,7 @@ TomlDocument TomlDocument::parseFile(const std::filesystem::path& path) {
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (file.bad()) throw refuse("cannot read");
   text.resize(static_cast<std::size_t>(file.gcount()));
-  return parseText(text, path.string());
+  return parseText(text, path.string(), path.parent_path());
 }
 
 }  // namespace pleinair::config

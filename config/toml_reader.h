@@ -39,8 +39,10 @@ std::vector<std::string> namesOf(const std::array<Choice<E>, N>& choices) {
 /// `optionalXyz(key)` gives nothing then. Call finish() after the last getter.
 class TomlTable {
  public:
-  std::string string(std::string_view key) const;
-  std::optional<std::string> optionalString(std::string_view key) const;
+  /// `allowed` is for the message.
+  std::string string(std::string_view key, std::string_view allowed = "a string") const;
+  std::optional<std::string> optionalString(std::string_view key,
+                                            std::string_view allowed = "a string") const;
 
   /// Takes TOML integers too; never NaN or an infinity.
   double number(std::string_view key, const NumberRange& range = {}) const;
@@ -102,6 +104,8 @@ class TomlTable {
   int lineOf(std::string_view key) const;     ///< where absent, its table's line; 0 for the root
   std::string pathOf(std::string_view key) const;  ///< "tag[0].edge"
   const std::string& file() const;                 ///< the name for messages
+  /// Where the file lies, which its relative paths start from; empty for text.
+  const std::filesystem::path& directory() const;
 
   /// Throws a ConfigError for the first key, here or in a table that was got from here, that no
   /// getter asked for; it lists the keys that were.
@@ -131,8 +135,9 @@ class TomlDocument {
   /// Throws a ConfigError where the file is missing, unreadable, not a regular file, too large,
   /// nested too deeply, or not TOML.
   static TomlDocument parseFile(const std::filesystem::path& path);
-  /// As parseFile(); `name` stands for the file in messages.
-  static TomlDocument parseText(std::string_view text, std::string name);
+  /// As parseFile(); `name` stands for the file in messages, and `directory` is where it lies.
+  static TomlDocument parseText(std::string_view text, std::string name,
+                                const std::filesystem::path& directory = {});
 
   const TomlTable& root() const { return root_; }
 

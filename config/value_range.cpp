@@ -42,6 +42,20 @@ std::string IntegerRange::describe() const {
   return text;
 }
 
+bool SizeRange::contains(PixelSize size) const {
+  const auto fits = [&](int side) { return side >= 1 && side <= maxSide; };
+  return fits(size.width) && fits(size.height) &&
+         static_cast<long long>(size.width) * size.height <= maxPixels;
+}
+
+std::string SizeRange::describe() const {
+  std::string text = fmt::format("WIDTHxHEIGHT, at most {} px a side", maxSide);
+  if (maxPixels < static_cast<long long>(maxSide) * maxSide) {
+    text += fmt::format(" and {} Mpx", maxPixels / 1'000'000);
+  }
+  return text + ", such as 1280x720";
+}
+
 std::string LengthRange::describe(std::string_view elements) const {
   if (min == max) return fmt::format("an array of {} {}", min, elements);
   if (max != std::numeric_limits<std::size_t>::max()) {

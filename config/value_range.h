@@ -33,6 +33,24 @@ struct IntegerRange {
   std::string describe() const;
 };
 
+/// A size in pixels; 0x0 where there is none.
+struct PixelSize {
+  int width = 0;
+  int height = 0;
+  bool operator==(const PixelSize&) const = default;
+};
+
+/// Which sizes are allowed.
+struct SizeRange {
+  int maxSide = 65535;
+  long long maxPixels = std::numeric_limits<long long>::max();
+
+  /// Of at least 1x1.
+  bool contains(PixelSize size) const;
+  /// "WIDTHxHEIGHT, at most 8192 px a side and 64 Mpx, such as 1280x720".
+  std::string describe() const;
+};
+
 /// How many elements an array may have, both ends included.
 struct LengthRange {
   std::size_t min = 0;

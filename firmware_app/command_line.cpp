@@ -14,26 +14,63 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "config/profiles.h"
 #include "config/suggestion.h"
+#include "firmware_app/commands/config.h"
 #include "firmware_app/commands/record.h"
 #include "firmware_app/commands/render.h"
+#include "firmware_app/commands/run.h"
 #include "firmware_app/commands/styles.h"
 #include "firmware_app/exit_status.h"
 #include "firmware_app/log.h"
 #include "firmware_app/option_values.h"
 #include "firmware_app/version.h"
-#include "hal/cameras/synthetic/shot.h"
 
 namespace pleinair::app {
 namespace {
 
-CLI::Option* addSize(CLI::App& command, std::function<void(hal::FrameSize)> assign,
-                     const std::string& help) {
+/// An option that gives a key of the configuration, which checks it.
+CLI::Option* addKey(CLI::App& command, ConfigurationRequest& request, const std::string& option,
+                    const std::string& key, const std::string& help, const std::string& type) {
   return command
       .add_option_function<std::string>(
-          "--size", [assign = std::move(assign)](const std::string& text) { assign(sizeOf(text)); },
+          option,
+          [&request, option, key](const std::string& text) {
+            request.options.push_back({key, text, option});
+          },
           help)
-      ->type_name("WxH");
+      ->type_name(type);
+}
+
+/// Where the configuration comes from.
+void addConfiguration(CLI::App& command, ConfigurationRequest& request) {
+  command
+      .add_option("--profile", request.profile,
+                  fmt::format("what to build on: {}, or a file (.toml)",
+                              config::listText(config::profileNames())))
+      ->type_name("NAME|FILE");
+  command
+      .add_option("--config", request.siteFile,
+                  fmt::format("the site file (default: ${}, else {} where there is one)",
+                              "PLEINAIR_CONFIG", request.defaultSiteFile.string()))
+      ->type_name("FILE");
+  command
+      .add_option("--set", request.set,
+                  "a parameter of the style, such as cell_size=12, or any other key, such as "
+                  "camera.rate=15; `pleinair config` lists them")
+      ->type_name("NAME=VALUE")
+      ->take_all();
+}
+
+/// The options of [painting], for commands that paint.
+void addPainting(CLI::App& command, ConfigurationRequest& request) {
+  addKey(command, request, "--style", "painting.style",
+         "how to paint; `pleinair styles` lists them", "NAME");
+  addKey(command, request, "--look", "painting.look", "a preset of the style's parameters", "NAME");
+  addKey(command, request, "--view", "painting.view",
+         "an inner picture instead of the finished one", "NAME");
+  addKey(command, request, "--scene", "painting.scene", "tags and models (TOML)", "FILE");
+  addConfiguration(command, request);
 }
 
 CLI::Option* addFrames(CLI::App& command, std::function<void(std::uint64_t)> assign,
@@ -54,69 +91,65 @@ void addRender(CLI::App& app, RenderOptions& options, std::function<int()>& chos
       ->required()
       ->type_name("PATH");
   command
-      .add_option("--output", options.output,
+      .add_option("--output", options.painting.output,
                   "movie (.mp4, .mkv), .y4m, one .png, a folder, or a pattern such as out/%04d.png")
       ->required()
       ->check(refuseStandardOutput)
       ->type_name("PATH");
-  command.add_option("--style", options.style, "how to paint; `pleinair styles` lists them")
-      ->capture_default_str()
-      ->type_name("NAME");
-  command.add_option("--scene", options.scene, "tags and models (TOML)")->type_name("FILE");
-  addSize(
-      command, [&options](hal::FrameSize size) { options.size = size; },
-      "of the painting (default: the input's); movies have even sides");
+  addPainting(command, options.configuration);
+  addKey(command, options.configuration, "--size", "painting.size",
+         "of the painting (default: the input's); movies have even sides", "WxH");
   addFrames(
-      command, [&options](std::uint64_t count) { options.frames = count; },
+      command, [&options](std::uint64_t count) { options.painting.frames = count; },
       "paint the first N only");
-  command.add_option("--view", options.view, "an inner picture instead of the finished one")
-      ->type_name("NAME");
-  command.add_option("--set", options.set, "a parameter of the style, such as cell_size=12")
-      ->type_name("NAME=VALUE")
-      ->take_all();
-  command.add_option("--poses", options.poses, "write what was tracked, a JSON object a frame")
+  command
+      .add_option("--poses", options.painting.poses,
+                  "write what was tracked, a JSON object a frame")
       ->check(refuseStandardOutput)
       ->type_name("FILE");
   command
-      .add_option("--contact-sheet", options.contactSheet,
+      .add_option("--contact-sheet", options.painting.contactSheet,
                   "write a PNG of several moments, original beside painting")
       ->check(requirePngName)
       ->type_name("FILE");
   command
-      .add_option("--shaders", options.shaderDirectory,
+      .add_option("--shaders", options.painting.shaderDirectory,
                   "a copy of the source tree whose shaders replace the built-in ones")
       ->type_name("DIR");
   refuseEmptyValues(command);
   command.callback([&] { chosen = [&options] { return render(options); }; });
 }
 
-/// What a real camera does to a picture, for the synthetic one.
-void addSensor(CLI::App& command, RecordOptions& options) {
-  const auto add = [&command](const char* name, double& value, double least, double most,
-                              const char* help) {
-    command.add_option(name, value, help)
-        ->capture_default_str()
-        ->check(CLI::Range(least, most))
-        ->type_name("NUMBER");
-  };
-  add("--rate", options.framesPerSecond, 1, 1000, "frames a second");
-  add("--noise", options.noiseSigma, 0, 40, "of the sensor: standard deviation in 8-bit levels");
-  add("--exposure-drift", options.exposureDriftStops, 0, 2, "stops by which brightness wanders");
-  add("--white-balance-drift", options.whiteBalanceDrift, 0, 0.5,
-      "share by which red and blue wander against each other");
-  add("--readout", options.readoutMilliseconds, 0, 1000,
-      "milliseconds that a rolling shutter takes from the first row to the last; 0: global "
-      "shutter");
+void addRun(CLI::App& app, RunOptions& options, std::function<int()>& chosen) {
+  CLI::App& command = *app.add_subcommand("run", "paint a camera live, in a window");
+  ConfigurationRequest& configuration = options.configuration;
+  addKey(command, configuration, "--camera", "camera.source",
+         "synthetic (default), or a recording's path, played over and over at its own pace",
+         "NAME|PATH");
+  addKey(command, configuration, "--output", "output.target",
+         "window (default), or a file or folder as of render", "NAME|PATH")
+      ->check(refuseStandardOutput);
+  addPainting(command, configuration);
+  addKey(command, configuration, "--size", "painting.size",
+         "of the painting (default: the camera's)", "WxH");
+  addFrames(
+      command, [&options](std::uint64_t count) { options.frames = count; }, "end after N");
+  addKey(command, configuration, "--stills", "output.stills",
+         "the folder that the key s saves pictures to (default: .)", "DIR");
+  command
+      .add_option("--shaders", options.shaderDirectory,
+                  "a copy of the source tree whose shaders replace the built-in ones")
+      ->type_name("DIR");
+  command.footer("In the window, h lists the keys.");
+  refuseEmptyValues(command);
+  command.callback([&] { chosen = [&options] { return run(options); }; });
 }
 
 void addRecord(CLI::App& app, RecordOptions& options, std::function<int()>& chosen) {
   CLI::App& command = *app.add_subcommand("record", "record a camera");
-  command
-      .add_option("--camera", options.camera,
-                  "which camera: synthetic:SHOT, where SHOT is one of " +
-                      hal::syntheticShotNames() + "; synthetic alone is the walkaround")
-      ->capture_default_str()
-      ->type_name("NAME");
+  ConfigurationRequest& configuration = options.configuration;
+  addKey(command, configuration, "--camera", "camera.source", "synthetic (default), or a recording",
+         "NAME|PATH");
   command.add_option("--output", options.output, "as of render")
       ->required()
       ->check(refuseStandardOutput)
@@ -124,20 +157,28 @@ void addRecord(CLI::App& app, RecordOptions& options, std::function<int()>& chos
   addFrames(
       command, [&options](std::uint64_t count) { options.frames = count; }, "how many")
       ->default_str(std::to_string(options.frames));
-  addSize(
-      command, [&options](hal::FrameSize size) { options.size = size; },
-      "of the frames (default: 640x480); movies have even sides");
-  command.add_option("--seed", options.seed, "of the synthetic camera's world and path")
-      ->capture_default_str()
-      ->type_name("N");
+  addKey(command, configuration, "--size", "camera.size",
+         "of the frames (default: 640x480); movies have even sides", "WxH");
+  addKey(command, configuration, "--seed", "camera.seed",
+         "of the synthetic camera's world and path (default: 1)", "N");
   command
       .add_option("--write-scene", options.writeScene,
                   "write a scene file that fits the synthetic camera's world")
       ->check(refuseStandardOutput)
       ->type_name("FILE");
-  addSensor(command, options);
+  addConfiguration(command, configuration);
   refuseEmptyValues(command);
   command.callback([&] { chosen = [&options] { return record(options); }; });
+}
+
+void addConfig(CLI::App& app, ConfigOptions& options, std::function<int()>& chosen) {
+  CLI::App& command =
+      *app.add_subcommand("config", "print what is in force, and where each value came from");
+  addPainting(command, options.configuration);
+  addKey(command, options.configuration, "--camera", "camera.source", "as of run", "NAME|PATH");
+  command.add_flag("--given", options.givenOnly, "leave out what nobody gave: a short site file");
+  refuseEmptyValues(command);
+  command.callback([&] { chosen = [&options] { return printConfiguration(options); }; });
 }
 
 /// What was not recognised, the first option of it where there is one: the rest may be its value.
@@ -207,15 +248,23 @@ int parseAndRun(int argc, const char* const* argv) {
   app.require_subcommand(0, 1);  // none is named below: CLI11 would keep quiet about a wrong one
   RenderOptions renderOptions;
   RecordOptions recordOptions;
+  ConfigOptions configOptions;
+  RunOptions runOptions;
+  for (ConfigurationRequest* each : {&renderOptions.configuration, &recordOptions.configuration,
+                                     &runOptions.configuration, &configOptions.configuration}) {
+    each->environment = environmentOfProcess();
+  }
   std::function<int()> chosen;
+  addRun(app, runOptions, chosen);
   addRender(app, renderOptions, chosen);
   addRecord(app, recordOptions, chosen);
-  app.add_subcommand("styles", "list styles with their views and parameters")->callback([&] {
+  addConfig(app, configOptions, chosen);
+  app.add_subcommand("styles", "list styles with their looks, parameters and views")->callback([&] {
     chosen = listStyles;
   });
   try {
     app.parse(argumentsReversed(argc, argv));
-    if (!chosen) throw CLI::RequiredError("one of render, record and styles");
+    if (!chosen) throw CLI::RequiredError("one of run, render, record, config and styles");
     return chosen();
   } catch (const CLI::ParseError& error) {
     return reportParseError(app, error);

@@ -28,22 +28,7 @@ bool takeNumber(std::string_view& text, Number& number) {
   return status == std::errc();
 }
 
-bool parseSize(std::string_view text, hal::FrameSize& size) {
-  if (!takeNumber(text, size.width) || !text.starts_with('x')) return false;
-  text.remove_prefix(1);
-  return takeNumber(text, size.height) && text.empty() && hal::isAcceptedSize(size);
-}
-
 }  // namespace
-
-hal::FrameSize sizeOf(const std::string& text) {
-  hal::FrameSize size;
-  if (parseSize(text, size)) return size;
-  throw CLI::ValidationError(
-      "--size", foundText(text, fmt::format("WIDTHxHEIGHT, at most {} px a side and {} Mpx, such "
-                                            "as 1280x720",
-                                            hal::kMaxSidePixels, hal::kMaxPixels / 1'000'000)));
-}
 
 std::uint64_t frameCountOf(const std::string& text) {
   std::uint64_t count = 0;

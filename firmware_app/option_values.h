@@ -5,12 +5,7 @@
 
 #include <CLI/App.hpp>
 
-#include "hal/pixel_format.h"
-
 namespace pleinair::app {
-
-/// "1280x720" as a size within the limits. Throws CLI::ValidationError, which says them.
-hal::FrameSize sizeOf(const std::string& text);
 
 /// A whole number from 1. Throws CLI::ValidationError, which says the limits.
 std::uint64_t frameCountOf(const std::string& text);

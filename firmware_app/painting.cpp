@@ -12,6 +12,7 @@
 
 #include "firmware_app/exit_status.h"
 #include "firmware_app/interrupt.h"
+#include "firmware_app/overloaded.h"
 #include "firmware_app/path_collisions.h"
 #include "firmware_app/poses_file.h"
 #include "firmware_app/progress.h"
@@ -26,39 +27,14 @@ namespace pleinair::app {
 namespace {
 
 using hal::Error;
-using hal::ErrorKind;
 using hal::orThrow;
 
 constexpr int kSignalExitBase = 128;
-
-/// Applies "name=value" settings to the style's parameters.
-config::ParameterValues withSettings(config::ParameterValues values,
-                                     const std::vector<std::string>& settings) {
-  for (const std::string& setting : settings) {
-    const std::size_t equals = setting.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      throw hal::StartupError(Error{.kind = ErrorKind::kInvalidArgument,
-                                    .subject = "--set",
-                                    .problem = fmt::format("found \"{}\"", setting),
-                                    .remedy = "write name=value"});
-    }
-    values = values.with(setting.substr(0, equals), setting.substr(equals + 1), "--set");
-  }
-  return values;
-}
 
 std::optional<std::uint64_t> framesToPaint(const hal::StreamFormat& stream,
                                            const PaintingJob& job) {
   if (!stream.frameCount) return job.options.frames;
   return job.options.frames ? std::min(*job.options.frames, *stream.frameCount) : stream.frameCount;
-}
-
-/// The style's own, with the job's settings and view.
-PaintParameters parametersOf(const Painter& painter, const PaintingJob& job) {
-  PaintParameters parameters = painter.defaultParameters();
-  parameters.view = job.options.view;
-  parameters.style = withSettings(parameters.style, job.options.set);
-  return parameters;
 }
 
 void warn(const std::optional<std::string>& warning) {
@@ -70,13 +46,6 @@ std::optional<File> created(const std::optional<std::filesystem::path>& path) {
   if (!path) return std::nullopt;
   return orThrow(File::create(*path));
 }
-
-template <class... Functions>
-struct Overloaded : Functions... {
-  using Functions::operator()...;
-};
-template <class... Functions>
-Overloaded(Functions...) -> Overloaded<Functions...>;
 
 /// One run of a job: the camera, the painter and everything that is written.
 class Painting {
@@ -92,7 +61,7 @@ class Painting {
                   .tracksTags = !job.scene.tags.empty() || job.options.poses,
                   .shaderDirectory = job.options.shaderDirectory,
                   .expectedFormat = stream_.frame}),
-        parameters_(parametersOf(painter_, job)),
+        parameters_(parametersOf(painter_, job.options)),
         poses_(created<PosesFile>(job.options.poses)),
         sheetFile_(created<hal::PendingFile>(job.options.contactSheet)),
         outputFormat_(
@@ -220,6 +189,13 @@ void reportInterruption(int signal, const PaintingJob& job) {
 }
 
 }  // namespace
+
+PaintParameters parametersOf(const Painter& painter, const PaintingOptions& options) {
+  PaintParameters parameters = painter.defaultParameters();
+  parameters.view = options.view;
+  if (options.parameters) parameters.style = *options.parameters;
+  return parameters;
+}
 
 int runPainting(const PaintingJob& job) {
   const Interrupt interrupt;

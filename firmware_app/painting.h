@@ -5,10 +5,11 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
+#include "config/parameter_values.h"
 #include "hal/camera.h"
 #include "hal/pixel_format.h"
+#include "pipeline/painter.h"
 #include "pipeline/scene/scene.h"
 
 namespace pleinair::app {
@@ -17,14 +18,17 @@ namespace pleinair::app {
 struct PaintingOptions {
   std::filesystem::path output;
   std::string style = "watercolor";
-  std::optional<hal::FrameSize> size;   ///< default: the camera's
-  std::optional<std::uint64_t> frames;  ///< default: all
-  std::string view;                     ///< empty: the finished picture
-  std::vector<std::string> set;         ///< "name=value" of the style's parameters
+  std::optional<hal::FrameSize> size;                 ///< default: the camera's
+  std::optional<std::uint64_t> frames;                ///< default: all
+  std::string view;                                   ///< empty: the finished picture
+  std::optional<config::ParameterValues> parameters;  ///< of the style; default: its own
   std::optional<std::filesystem::path> poses;
   std::optional<std::filesystem::path> contactSheet;
   std::filesystem::path shaderDirectory;
 };
+
+/// The style's own parameters, or those of the options, with their view.
+PaintParameters parametersOf(const Painter& painter, const PaintingOptions& options);
 
 /// Every frame of a camera through a Painter to an output: what `render` and `record` have in
 /// common.

@@ -6,9 +6,9 @@
 
 namespace pleinair::app {
 
-/// A file, or a row of pictures, and the option that names it.
+/// A file, or a row of pictures, and the option that names it, or what it is.
 struct NamedPath {
-  std::string option;  ///< "--input"
+  std::string option;  ///< "--input", "a file of the scene"
   std::filesystem::path path;
 };
 
@@ -17,8 +17,7 @@ bool isPictureRow(const std::filesystem::path& output);
 
 /// Nothing may be written over what is read, nor two things into one place; pictures may not go
 /// into the folder that pictures are read from. Links are followed. Throws hal::StartupError
-/// (kInvalidArgument). Files that are named within `read` (a scene's calibration) are not looked
-/// at.
+/// (kInvalidArgument).
 void refuseCollisions(const std::vector<NamedPath>& read, const std::vector<NamedPath>& written);
 
 }  // namespace pleinair::app

@@ -70,14 +70,18 @@ PaintParameters PaintChain::defaultParameters() const {
   return {.style = style_->parameters(), .view = {}};
 }
 
-std::vector<PainterView> PaintChain::views() const {
+std::vector<PainterView> viewsOf(std::string_view style) {
   std::vector<PainterView> views{
       {std::string(kCameraView), "what the camera shows, at the picture's size"},
       {std::string(kArView), "the camera's picture with the models in it, before the style"}};
-  for (const styles::ViewInfo& view : style_->views()) {
+  for (const styles::ViewInfo& view : styles::styleInfo(style).views) {
     views.push_back({std::string(view.name), std::string(view.help)});
   }
   return views;
+}
+
+std::vector<PainterView> PaintChain::views() const {
+  return viewsOf(style_->name());
 }
 
 std::vector<PainterLook> PaintChain::looks() const {

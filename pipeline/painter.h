@@ -54,6 +54,10 @@ struct PainterView {
   std::string help;
 };
 
+/// The views of a style, the engine's own first, without a GPU. Throws hal::StartupError
+/// (kInvalidArgument) for an unknown style, with all names.
+std::vector<PainterView> viewsOf(std::string_view style);
+
 /// A named preset of the style's parameters.
 struct PainterLook {
   std::string name;

@@ -1,60 +1,57 @@
 #include "firmware_app/commands/record.h"
 
-#include <algorithm>
-#include <chrono>
+#include <memory>
 
-#include <fmt/format.h>
-
-#include "firmware_app/painting.h"
-#include "firmware_app/path_collisions.h"
+#include "firmware_app/configured_parts.h"
 #include "firmware_app/workbench_scene.h"
-#include "hal/cameras/synthetic/open_synthetic.h"
-#include "hal/cameras/synthetic/synthetic_camera.h"
-#include "hal/error.h"
+#include "hal/cameras/recording/recording.h"
 
 namespace pleinair::app {
 namespace {
 
-hal::SyntheticShot shotOf(const std::string& camera) {
-  const auto shot = hal::orThrow(hal::syntheticShotOf(camera, "--camera"));
-  if (shot) return *shot;
-  throw hal::StartupError(hal::Error{
-      .kind = hal::ErrorKind::kInvalidArgument,
-      .subject = "--camera",
-      .problem = fmt::format("unknown camera \"{}\"", camera),
-      .remedy = "allowed: synthetic, synthetic:SHOT with a SHOT of " + hal::syntheticShotNames()});
+void refuseCollisionsOf(const RecordOptions& options, const Configuration& configuration) {
+  std::vector<NamedPath> read = configuredFiles(configuration, {});
+  const CameraSettings camera = configuration.camera();
+  if (!isSynthetic(camera)) read.push_back({"--camera", camera.source});
+  std::vector<NamedPath> written{{"--output", options.output}};
+  if (options.writeScene) written.push_back({"--write-scene", *options.writeScene});
+  refuseCollisions(read, written);
 }
 
-hal::Duration seconds(double count) {
-  return std::chrono::round<hal::Duration>(std::chrono::duration<double>(count));
-}
-
-hal::SyntheticOptions cameraOptions(const RecordOptions& options) {
-  const double rows = std::max(options.size.height, 1);
-  return {.size = options.size,
-          .framePeriod = seconds(1 / options.framesPerSecond),
-          .frameCount = options.frames,
-          .shot = shotOf(options.camera),
-          .seed = options.seed,
-          .noiseSigma = options.noiseSigma,
-          .exposureDriftStops = options.exposureDriftStops,
-          .whiteBalanceDrift = options.whiteBalanceDrift,
-          .rowTime = seconds(options.readoutMilliseconds / 1000 / rows)};
+/// The camera, stopped, once what it knows of its scene is written.
+std::unique_ptr<hal::Camera> openCamera(const RecordOptions& options,
+                                        const CameraSettings& settings, hal::Clock& clock) {
+  if (!isSynthetic(settings)) {
+    if (!options.writeScene) return hal::openRecording(settings.source, clock);
+    throw hal::StartupError({.kind = hal::ErrorKind::kInvalidArgument,
+                             .subject = "--write-scene",
+                             .problem = "nothing knows the scene of a recording",
+                             .remedy = "leave it out, or record the synthetic camera"});
+  }
+  hal::SyntheticOptions synthetic = syntheticOptions(settings);
+  synthetic.frameCount = options.frames;
+  auto camera = std::make_unique<hal::SyntheticCamera>(synthetic, clock);
+  if (options.writeScene) {
+    hal::orThrow(writeWorkbenchScene(*options.writeScene, camera->truth(0), synthetic.size));
+  }
+  return camera;
 }
 
 }  // namespace
 
 int record(const RecordOptions& options) {
-  hal::SteppedClock clock;
-  hal::SyntheticCamera camera(cameraOptions(options), clock);
-  if (options.writeScene) {
-    refuseCollisions({}, {{"--output", options.output}, {"--write-scene", *options.writeScene}});
-    hal::orThrow(writeWorkbenchScene(*options.writeScene, camera.truth(0), options.size));
-  }
-  return runPainting({.camera = &camera,
-                      .options = {.output = options.output, .style = "none"},
-                      .doing = "recording",
-                      .done = "recorded"});
+  const Configuration configuration(options.configuration);
+  return configuration.blaming([&] {
+    refuseSlipOfCamera(configuration);
+    refuseCollisionsOf(options, configuration);
+    hal::SteppedClock clock;
+    const auto camera = openCamera(options, configuration.camera(), clock);
+    return runPainting(
+        {.camera = camera.get(),
+         .options = {.output = options.output, .style = "none", .frames = options.frames},
+         .doing = "recording",
+         .done = "recorded"});
+  });
 }
 
 }  // namespace pleinair::app

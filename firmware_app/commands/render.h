@@ -1,15 +1,16 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 
+#include "firmware_app/configuration.h"
 #include "firmware_app/painting.h"
 
 namespace pleinair::app {
 
-struct RenderOptions : PaintingOptions {
+struct RenderOptions {
+  ConfigurationRequest configuration;
   std::filesystem::path input;
-  std::optional<std::filesystem::path> scene;
+  PaintingOptions painting;  ///< of one run alone; the rest is configuration
 };
 
 /// Paints a recording, frame by frame, none dropped: `pleinair render`. Throws hal::StartupError

@@ -11,20 +11,19 @@
 namespace pleinair::app {
 namespace {
 
-/// Any size serves to ask a style what it has.
-constexpr hal::FrameSize kSize{64, 64};
-
 std::string describe(const styles::StyleInfo& info) {
-  const Painter painter({.pictureSize = kSize, .style = std::string(info.name)});
   std::string text = fmt::format("{}: {}\n", info.name, info.help);
+  text += "  looks (--look NAME)\n";
+  for (const styles::Look& look : info.looks) {
+    text += fmt::format("    {:<22} {}\n", look.name, look.help);
+  }
   text += "  parameters (--set NAME=VALUE)\n";
-  const config::ParameterValues values = painter.defaultParameters().style;
-  for (const config::ParameterDescriptor& parameter : values.list().descriptors()) {
-    text += fmt::format("    {:<22} {:<8} {} {}\n", parameter.name, values.text(parameter.name),
-                        parameter.allowed(), parameter.help);
+  for (const config::ParameterDescriptor& parameter : info.defaults.list().descriptors()) {
+    text += fmt::format("    {:<22} {:<8} {} {}\n", parameter.name,
+                        info.defaults.text(parameter.name), parameter.allowed(), parameter.help);
   }
   text += "  views (--view NAME)\n";
-  for (const PainterView& view : painter.views()) {
+  for (const PainterView& view : viewsOf(info.name)) {
     text += fmt::format("    {:<22} {}\n", view.name, view.help);
   }
   return text;

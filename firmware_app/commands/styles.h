@@ -2,7 +2,7 @@
 
 namespace pleinair::app {
 
-/// Lists the styles with their views and parameters: `pleinair styles`.
+/// Lists the styles with their looks, parameters and views, without a GPU: `pleinair styles`.
 int listStyles();
 
 }  // namespace pleinair::app

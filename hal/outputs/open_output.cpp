@@ -4,6 +4,7 @@
 
 #include "hal/outputs/frames/frames_output.h"
 #include "hal/outputs/movie/movie_output.h"
+#include "hal/outputs/window/window.h"
 
 namespace pleinair::hal {
 
@@ -20,6 +21,11 @@ Result<std::unique_ptr<MemoryOutput>> openFileOutput(const std::filesystem::path
                               .problem = "does not say what to write",
                               .remedy = "end it in .mp4, .mkv, .y4m or .png (numbered: "
                                         "out/%04d.png), or give a folder"});
+}
+
+Result<std::unique_ptr<MemoryOutput>> openOutput(const std::string& name) {
+  if (name == "window") return openWindow();
+  return openFileOutput(name);
 }
 
 }  // namespace pleinair::hal

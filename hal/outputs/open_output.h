@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "hal/output.h"
 
@@ -12,5 +13,9 @@ namespace pleinair::hal {
 /// ending). Opens nothing yet. Errors: kInvalidArgument (another ending; lists those that are
 /// known).
 Result<std::unique_ptr<MemoryOutput>> openFileOutput(const std::filesystem::path& path);
+
+/// As openFileOutput(), and "window" is a hal::Window. Errors also: kNotFound (there is no
+/// display), kUnsupported (this build has no window).
+Result<std::unique_ptr<MemoryOutput>> openOutput(const std::string& name);
 
 }  // namespace pleinair::hal

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -46,6 +47,8 @@ struct Scene {
   std::vector<tracking::TagMarker> tags;
   std::vector<SceneModel> models;  ///< at most kMaxObjects
   Light light;
+  /// What it was read from beside the scene file: its calibration and models.
+  std::vector<std::filesystem::path> files;
 
   /// Null where no tag has that id.
   const tracking::TagMarker* findTag(int id) const;

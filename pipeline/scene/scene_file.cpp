@@ -28,10 +28,18 @@ constexpr int kHighestId = 0xFFFF;
 /// Bounds the memory of a scene; a gear of 200 teeth has 23,000.
 constexpr std::size_t kMaxSceneTriangles = 1'000'000;
 
-tracking::CameraModel readCamera(const TomlTable& table, const std::filesystem::path& directory) {
+tracking::CameraModel readCamera(const TomlTable& table, const std::filesystem::path& directory,
+                                 std::vector<std::filesystem::path>& files) {
   const auto calibration = table.optionalString("calibration");
   if (!calibration) return tracking::readCalibration(table);
-  return tracking::loadCalibration(directory / *calibration);
+  files.push_back(directory / *calibration);
+  try {
+    return tracking::loadCalibration(files.back());
+  } catch (const config::ConfigError& error) {
+    // A line is of the calibration; without one, it is this scene that names a wrong file.
+    if (error.line() > 0) throw;
+    throw table.error("calibration", error.what());
+  }
 }
 
 tracking::TagMarker readTag(const TomlTable& table, std::string_view family) {
@@ -160,7 +168,7 @@ Scene readScene(const TomlDocument& document, const std::filesystem::path& direc
   const TomlTable& root = document.root();
   Scene scene;
   if (const auto camera = root.optionalTable("camera")) {
-    scene.camera = readCamera(*camera, directory);
+    scene.camera = readCamera(*camera, directory, scene.files);
   }
   if (const auto light = root.optionalTable("light")) scene.light = readLight(*light);
   readTags(root, scene);

@@ -11,7 +11,7 @@ template <class T, std::size_t N>
 class FixedVector {
  public:
   /// Precondition: size() < N.
-  void push_back(const T& value) {
+  void add(const T& value) {
     assert(size_ < N);
     values_[size_++] = value;
   }

@@ -51,7 +51,7 @@ FixedVector<glm::dmat4, 2> ippePoses(const std::array<cv::Point2d, 4>& rays, dou
   }
   FixedVector<glm::dmat4, 2> poses;
   for (std::size_t i = 0; i < rotations.size(); ++i) {
-    poses.push_back(toPose(rotations[i], translations[i]));
+    poses.add(toPose(rotations[i], translations[i]));
   }
   return poses;
 }
@@ -82,7 +82,7 @@ PoseCandidates tagPoseCandidates(const CameraModel& camera, const TagCornersPx& 
     const bool isKnown = std::ranges::any_of(candidates, [&](const PoseEstimate& other) {
       return rotationBetweenRad(other.cameraFromTarget, refined->cameraFromTarget) < kSamePoseRad;
     });
-    if (!isKnown) candidates.push_back(*refined);
+    if (!isKnown) candidates.add(*refined);
   }
   if (!std::ranges::is_sorted(candidates, {}, &PoseEstimate::rmsPx)) {
     std::ranges::reverse(candidates);  // two at the most
@@ -95,8 +95,8 @@ std::optional<TagPose> chooseTagPose(const PoseCandidates& candidates,
   if (candidates.empty()) return std::nullopt;
   FixedVector<TwinCandidate, 2> twins;
   for (const PoseEstimate& pose : candidates) {
-    twins.push_back({.cameraFromTarget = pose.cameraFromTarget,
-                     .squaredErrorPx = 4.0 * pose.rmsPx * pose.rmsPx});
+    twins.add({.cameraFromTarget = pose.cameraFromTarget,
+               .squaredErrorPx = 4.0 * pose.rmsPx * pose.rmsPx});
   }
   const TwinDecision decision = chooseTwin(twins, 2.0, prior);
   TagPose pose{.estimate = candidates[decision.index],

@@ -155,8 +155,8 @@ std::optional<WorldPose> WorldPoseSolver::solve(const CameraModel& camera,
   FixedVector<TwinCandidate, 2> twins;
   for (const Solution& each : solutions()) {
     const bool isComparable = each.agrees == first.agrees;
-    twins.push_back({.cameraFromTarget = each.estimate.cameraFromTarget,
-                     .squaredErrorPx = isComparable ? each.squaredErrorPx : first.squaredErrorPx});
+    twins.add({.cameraFromTarget = each.estimate.cameraFromTarget,
+               .squaredErrorPx = isComparable ? each.squaredErrorPx : first.squaredErrorPx});
   }
   const TwinDecision decision =
       chooseTwin(twins, 8.0 * static_cast<double>(first.agreeing()) - 6.0, prior);

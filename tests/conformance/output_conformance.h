@@ -32,6 +32,7 @@ struct OutputCase {
   std::string backend;  ///< expected identity().backend
   std::string file;     ///< what it publishes in the folder, at the end; empty: nothing
   int maxPictures = 1000;
+  std::string missing;  ///< why it cannot be tried here; empty: it can
 };
 
 inline void PrintTo(const OutputCase& output, std::ostream* out) {
@@ -43,6 +44,10 @@ inline std::string outputCaseName(const testing::TestParamInfo<OutputCase>& info
 
 class OutputConformance : public testing::TestWithParam<OutputCase> {
  protected:
+  void SetUp() override {
+    if (!GetParam().missing.empty()) GTEST_SKIP() << GetParam().missing;
+  }
+
   std::unique_ptr<MemoryOutput> make() { return GetParam().make(folder_.path()); }
   std::filesystem::path finalPath() const { return folder_.path() / GetParam().file; }
 

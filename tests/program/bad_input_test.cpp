@@ -77,8 +77,8 @@ TEST_F(BadInput, MissingInput) {
 TEST_F(BadInput, UnknownStyleListsTheStyles) {
   expectFailure(
       {"--style", "watercolour"},
-      HasSubstr("style \"watercolour\": unknown style (did you mean \"watercolor\"?); choose "
-                "one of: watercolor, none\n"));
+      HasSubstr("--style: found \"watercolour\" (did you mean \"watercolor\"?), allowed: one of "
+                "watercolor, none\n"));
 }
 
 TEST_F(BadInput, UnknownViewListsTheViews) {
@@ -94,8 +94,8 @@ TEST_F(BadInput, ParameterOutOfRangeSaysTheRange) {
 }
 
 TEST_F(BadInput, MalformedSetting) {
-  expectFailure({"--set", "cell_size"}, HasSubstr("name=value"));
-  expectFailure({"--set", "=8"}, HasSubstr("found \"=8\"; write name=value"));
+  expectFailure({"--set", "cell_size"}, HasSubstr("NAME=VALUE"));
+  expectFailure({"--set", "=8"}, HasSubstr("found \"=8\", allowed: NAME=VALUE"));
 }
 
 TEST_F(BadInput, UnknownOption) {

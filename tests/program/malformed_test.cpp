@@ -16,9 +16,8 @@ namespace pleinair::support {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
 
-constexpr long kMostMebibytes = 300;  // the largest sound one here has 480×360 px
+constexpr long kMostMebibytes = 250;  // sound pictures of these sizes take up to 180
 const ProgramLimits kLimits{.addressSpaceBytes = 3UL << 30U, .time = std::chrono::seconds(60)};
 
 class MalformedRender : public testing::TestWithParam<const char*> {

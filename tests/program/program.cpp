@@ -2,7 +2,14 @@
 
 #include <array>
 #include <csignal>
+#include <cstdlib>
+#include <exception>
 #include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -10,6 +17,8 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include "tests/support/temporary_folder.h"
 
 namespace pleinair::support {
 namespace {
@@ -38,6 +47,29 @@ struct Pipe {
   }
 };
 
+void prepareEnvironment(const std::vector<std::string>& wanted) {
+  std::vector<std::string> ours;
+  for (char** each = environ; *each != nullptr; ++each) {
+    const std::string variable = *each;
+    if (variable.starts_with("PLEINAIR_")) ours.push_back(variable.substr(0, variable.find('=')));
+  }
+  for (const std::string& name : ours) unsetenv(name.c_str());
+  setenv("PLEINAIR_CONFIG", "", 1);
+  for (const std::string& variable : wanted) {
+    const std::size_t equals = variable.find('=');
+    if (equals == std::string::npos) {
+      unsetenv(variable.c_str());
+    } else {
+      setenv(variable.substr(0, equals).c_str(), variable.c_str() + equals + 1, 1);
+    }
+  }
+}
+
+void enterRemovedFolder() {
+  const TemporaryFolder folder;
+  if (chdir(folder.path().c_str()) != 0) _exit(127);
+}
+
 [[noreturn]] void becomeProgram(const std::vector<std::string>& arguments,
                                 const ProgramLimits& limits, const Pipe& out, const Pipe& error) {
   const int file =
@@ -50,6 +82,8 @@ struct Pipe {
     const rlimit limit{limits.fileBytes, limits.fileBytes};
     setrlimit(RLIMIT_FSIZE, &limit);
   }
+  prepareEnvironment(limits.environment);
+  if (limits.inRemovedFolder) enterRemovedFolder();
   if (limits.addressSpaceBytes > 0 && !isSanitized()) {
     const rlimit limit{limits.addressSpaceBytes, limits.addressSpaceBytes};
     setrlimit(RLIMIT_AS, &limit);
@@ -72,6 +106,15 @@ bool drain(const pollfd& ready, std::string& text) {
   if (count <= 0) return false;
   text.append(bytes.data(), static_cast<std::size_t>(count));
   return true;
+}
+
+void callMeanwhile(const ProgramLimits& limits, pid_t child) {
+  try {
+    limits.meanwhile(child);
+  } catch (const std::exception& error) {
+    ADD_FAILURE() << error.what();
+    kill(child, SIGTERM);
+  }
 }
 
 }  // namespace
@@ -97,6 +140,8 @@ ProgramRun runProgram(const std::vector<std::string>& arguments, const ProgramLi
   if (child == 0) becomeProgram(arguments, limits, out, error);
   out.closeWrite();
   error.closeWrite();
+  std::optional<std::jthread> meanwhile;
+  if (limits.meanwhile) meanwhile.emplace([&] { callMeanwhile(limits, child); });
   ProgramRun run;
   bool outOpen = true;
   bool errorOpen = true;

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <string>
 #include <vector>
+
+#include <sys/types.h>
 
 namespace pleinair::support {
 
@@ -28,6 +31,14 @@ struct ProgramLimits {
   std::string terminateWhenExists;
   /// What it prints goes into this instead of ProgramRun::out; empty: nowhere else.
   std::string printsInto;
+  /// "NAME=VALUE" sets a variable, "NAME" takes it away. Without, the environment is the test's,
+  /// with no variable of the program's but an empty PLEINAIR_CONFIG: what the machine is set up for
+  /// does not count.
+  std::vector<std::string> environment = {};
+  /// Its working directory is one that was removed.
+  bool inRemovedFolder = false;
+  /// Called beside the program, on a thread of its own, with the program's process.
+  std::function<void(pid_t)> meanwhile;
 };
 
 /// Runs `pleinair` with these arguments.

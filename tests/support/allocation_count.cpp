@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <new>
+#include <span>
 #include <string_view>
 
 #include <execinfo.h>
@@ -27,6 +28,7 @@ struct Module {
 struct Modules {
   Module program;
   Module library;  // libstdc++
+  Module system;   // libc, which starts threads and main()
 };
 
 Module mappedAt(const dl_phdr_info& info) {
@@ -43,9 +45,9 @@ Module mappedAt(const dl_phdr_info& info) {
 int addModule(dl_phdr_info* info, std::size_t, void* found) {
   Modules& modules = *static_cast<Modules*>(found);
   if (modules.program.end == 0) modules.program = mappedAt(*info);  // the program comes first
-  if (std::string_view(info->dlpi_name).find("libstdc++") != std::string_view::npos) {
-    modules.library = mappedAt(*info);
-  }
+  const std::string_view name(info->dlpi_name);
+  if (name.find("/libstdc++.so") != std::string_view::npos) modules.library = mappedAt(*info);
+  if (name.find("/libc.so") != std::string_view::npos) modules.system = mappedAt(*info);
   return 0;
 }
 
@@ -57,24 +59,30 @@ Modules modules;
 std::array<std::atomic<const void*>, kSites> sites;
 thread_local bool judging = false;
 
-/// Who asked the C++ library to allocate: the first address past `inLibrary` that is not its own.
-const void* callerOfLibrary(const void* inLibrary) {
-  std::array<void*, 32> frames{};
+/// The address in our own code that an allocation was asked for from; null where it is a library's.
+/// `caller` is where operator new returns to. What lies between us and it of the C++ library does
+/// not count; nor do functions of this program that a library entered: nothing of ours is called
+/// back while frames are painted, but the linker shares templates such as std::vector's.
+const void* askedFrom(const void* caller) {
+  std::array<void*, 48> frames{};
   const int count = backtrace(frames.data(), static_cast<int>(frames.size()));
-  const auto end = frames.begin() + count;
-  const auto from = std::find(frames.begin(), end, inLibrary);
-  const auto* const caller =
-      std::find_if(from, end, [](const void* at) { return !modules.library.holds(at); });
-  return caller == end ? nullptr : *caller;
+  const std::span<void*> all(frames.data(), static_cast<std::size_t>(count));
+  const auto own = [](const void* at) { return modules.program.holds(at); };
+  const auto asking = std::find_if(std::ranges::find(all, caller), all.end(),
+                                   [](const void* at) { return !modules.library.holds(at); });
+  if (asking == all.end() || !own(*asking)) return nullptr;
+  const auto entry = std::find_if_not(asking, all.end(), own);
+  const bool isEnteredByLibrary =
+      entry != all.end() && !modules.library.holds(*entry) && !modules.system.holds(*entry);
+  return isEnteredByLibrary ? nullptr : *asking;
 }
 
 void judge(const void* caller) {
   if (!counting || judging) return;
   judging = true;
-  if (modules.library.holds(caller)) caller = callerOfLibrary(caller);
-  if (modules.program.holds(caller)) {
+  if (const void* const place = askedFrom(caller)) {
     const auto number = static_cast<std::size_t>(allocations++);
-    if (number < kSites) sites[number] = caller;
+    if (number < kSites) sites[number] = place;
   }
   judging = false;
 }

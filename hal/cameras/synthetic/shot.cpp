@@ -7,7 +7,6 @@
 namespace pleinair::hal {
 namespace {
 
-/// In the enumeration's order.
 constexpr std::array<std::string_view, 7> kNames{"walkaround", "pan",      "dolly", "roll",
                                                  "still",      "occluder", "cut"};
 
@@ -21,6 +20,10 @@ std::optional<SyntheticShot> syntheticShotNamed(std::string_view name) {
   const auto found = std::ranges::find(kNames, name);
   if (found == kNames.end()) return std::nullopt;
   return static_cast<SyntheticShot>(found - kNames.begin());
+}
+
+std::span<const std::string_view> syntheticShots() {
+  return kNames;
 }
 
 std::string syntheticShotNames() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -20,6 +21,8 @@ enum class SyntheticShot {
 std::string_view toString(SyntheticShot shot);
 /// Nothing where no shot has the name.
 std::optional<SyntheticShot> syntheticShotNamed(std::string_view name);
+/// In the enumeration's order.
+std::span<const std::string_view> syntheticShots();
 /// "walkaround, pan, …"
 std::string syntheticShotNames();
 

@@ -21,11 +21,11 @@ struct WatercolorParameters {
   double edgeSoftness = 0.5;
   double simplicity = 1.5;
   double hardness = 1.0;
-  double bleeding = 1.0;
+  double bleeding = 0.75;
   double wobble = 2.0;
   double rim = 0.5;
   double gaps = 0.2;
-  double granulation = 0.35;
+  double granulation = 0.45;
   double variation = 0.5;
   double grain = 0.2;
   double vividness = 0.3;

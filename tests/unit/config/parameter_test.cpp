@@ -83,6 +83,9 @@ TEST(Parameter, SaysWhatTextIsAllowed) {
   EXPECT_EQ(refusal("paper", "yes"), "--set: paper: found \"yes\", allowed: true or false");
   EXPECT_EQ(refusal("view", "seeds"),
             "--set: view: found \"seeds\", allowed: one of picture, cells");
+  EXPECT_EQ(
+      refusal("view", "cell"),
+      "--set: view: found \"cell\" (did you mean \"cells\"?), allowed: one of picture, cells");
   EXPECT_EQ(refusal("cel_size", "8"),
             "--set: cel_size: unknown parameter (did you mean \"cell_size\"?), allowed: cell_size, "
             "drying, seed, paper, view");
@@ -116,26 +119,35 @@ TEST(Parameter, SaysWhereTomlIsWrong) {
 }
 
 TEST(Parameter, PrintsATomlTableWithItsHelp) {
-  EXPECT_EQ(table().defaults().with("view", "cells").toToml(),
+  EXPECT_EQ(table().defaults().with("view", "cells", "site.toml:3").toToml(),
             "# Side of a Voronoi cell.\n"
             "# a number of px in [2, 64]; default: 8; live\n"
-            "cell_size = 8\n"
+            "cell_size = 8  # default\n"
             "\n"
             "# Time constant of the paint.\n"
             "# a number of s above 0; default: 0.25; live\n"
-            "drying = 0.25\n"
+            "drying = 0.25  # default\n"
             "\n"
             "# Of the noise.\n"
             "# a whole number at least 0; default: 1; at the next start\n"
-            "seed = 1\n"
+            "seed = 1  # default\n"
             "\n"
             "# Lay the picture on paper.\n"
             "# true or false; default: true; live\n"
-            "paper = true\n"
+            "paper = true  # default\n"
             "\n"
             "# What is shown.\n"
             "# one of picture, cells; default: picture; live\n"
-            "view = \"cells\"\n");
+            "view = \"cells\"  # site.toml:3\n");
+}
+
+TEST(Parameter, PrintsWhatWasGivenAlone) {
+  EXPECT_EQ(table().defaults().toToml(Printed::kGiven), "");
+  // Given is given, were it the default's value.
+  EXPECT_EQ(table().defaults().with("seed", "1", "--set").toToml(Printed::kGiven),
+            "# Of the noise.\n"
+            "# a whole number at least 0; default: 1; at the next start\n"
+            "seed = 1  # --set\n");
 }
 
 TEST(Parameter, SurvivesPrintingAndParsing) {

@@ -150,7 +150,8 @@ TEST(TomlTable, TakesChoices) {
   EXPECT_EQ(parsed("").optionalChoice("family", kFamilies), std::nullopt);
   const TomlTable root = parsed(kScene);
   EXPECT_EQ(thrownBy([&] { root.tables("tag")[1].choice("family", kFamilies); }),
-            "scene.toml:15: tag[1].family: found \"tag36h12\", allowed: tag16h5, tag36h11");
+            "scene.toml:15: tag[1].family: found \"tag36h12\" (did you mean \"tag36h11\"?), "
+            "allowed: tag16h5, tag36h11");
   EXPECT_EQ(thrownBy([&] { root.choice("frames", kFamilies); }),
             "scene.toml:2: frames: found 12 (integer), allowed: tag16h5, tag36h11");
 }

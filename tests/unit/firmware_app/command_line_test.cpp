@@ -38,17 +38,19 @@ void expectRefused(const std::vector<const char*>& arguments, const std::string&
 }
 
 TEST(CommandLine, RefusesWhatItDoesNotKnow) {
-  expectRefused({}, "one of render, record and styles is required");
+  expectRefused({}, "one of run, render, record, config and styles is required");
   expectRefused({"paint"}, "paint");
   expectRefused({"--verbose"}, "--verbose");
   expectRefused({"styles", "styles"}, "styles");
   expectRefused({"render", "--input", "a.mp4", "--output", "b.mp4", "--colour"}, "--colour");
   expectRefused({"record", "--output", "b.mp4", "two\nlines"}, "two?lines");
-  expectRefused(
-      {"record", "--output", "/no-such-folder/b.mp4", "--camera", "webcam"},
-      "unknown camera \"webcam\"; allowed: synthetic, synthetic:SHOT with a SHOT of walkaround");
-  expectRefused({"record", "--output", "/no-such-folder/b.mp4", "--camera", "synthetic:zoom"},
-                "--camera: the synthetic camera has no shot \"zoom\"; allowed: walkaround, pan,");
+  expectRefused({"record", "--output", "/no-such-folder/b.mp4", "--camera", "webcam"}, "webcam");
+  for (const char* camera : {"synthetic:x", "synthetic:zoom", "synthetic:", "synthetic:pann"}) {
+    expectRefused(
+        {"record", "--output", "/no-such-folder/b.mp4", "--camera", camera},
+        "synthetic, synthetic:walkaround, synthetic:pan, synthetic:dolly, synthetic:roll, "
+        "synthetic:still, synthetic:occluder, synthetic:cut");
+  }
 }
 
 TEST(CommandLine, NamesWhatIsMissing) {
@@ -73,14 +75,6 @@ TEST(CommandLine, RefusesValuesOutOfRange) {
                   what);
   }
   expectRefused({"record", "--output", "b.mp4", "--seed", "-1"}, "--seed");
-  expectRefused({"record", "--output", "b.mp4", "--rate", "0"}, "--rate");
-  expectRefused({"record", "--output", "b.mp4", "--noise", "-1"}, "--noise");
-  expectRefused({"record", "--output", "b.mp4", "--noise", "nan"}, "the noise is out of range");
-  expectRefused({"record", "--output", "b.mp4", "--exposure-drift", "3"}, "--exposure-drift");
-  expectRefused({"record", "--output", "b.mp4", "--white-balance-drift", "1"},
-                "--white-balance-drift");
-  expectRefused({"record", "--output", "b.mp4", "--readout", "40"},
-                "the rolling shutter's rows do not fit into the frame period");
 }
 
 TEST(CommandLine, NamesWhatItDoesNotKnowBeforeWhatIsMissing) {
@@ -99,8 +93,9 @@ TEST(CommandLine, RefusesEmptyValues) {
                   std::string(option) + ": is empty, give it a value;");
   }
   expectRefused({"render", "--input=", "--output", "b.mp4"}, "--input: is empty, give it a value;");
-  for (const char* option : {"--scene", "--style", "--view", "--set", "--size", "--frames",
-                             "--poses", "--contact-sheet", "--shaders"}) {
+  for (const char* option :
+       {"--profile", "--config", "--scene", "--style", "--look", "--view", "--set", "--size",
+        "--frames", "--poses", "--contact-sheet", "--shaders"}) {
     expectRefused({"render", "--input", "a.mp4", "--output", "b.mp4", option, ""},
                   std::string(option) + ": is empty, give it a value or leave it out");
   }
@@ -119,21 +114,41 @@ TEST(CommandLine, RefusesNamesThatWouldNotHoldWhatIsWritten) {
                 "--poses" + what);
 }
 
+TEST(CommandLine, ChecksWhatRunIsGivenBeforeItOpensAnything) {
+  expectRefused({"run", "--camera", "webcam"},
+                "webcam: is neither a camera nor a file; choose synthetic");
+  expectRefused({"run", "--output", "out.avi"}, "out.avi: does not say what to write");
+  expectRefused({"run", "--output", "-"}, "--output: found \"-\"");
+  expectRefused({"run", "--stills", "/no-such-folder"}, "/no-such-folder: is not a folder");
+  expectRefused({"run", "--frames", "0"}, "--frames");
+  expectRefused({"run", "--size", "0x0"}, "--size");
+  for (const char* option : {"--camera", "--output", "--scene", "--style", "--view", "--set",
+                             "--size", "--frames", "--stills", "--shaders"}) {
+    expectRefused({"run", option, ""}, std::string(option) + ": is empty");
+  }
+}
+
 TEST(CommandLine, HelpsAndTellsItsVersion) {
   const Outcome help = run({"--help"});
   EXPECT_EQ(help.status, 0);
   EXPECT_EQ(help.error, "");
-  for (const std::string command : {"render", "record", "styles"}) {
+  for (const std::string command : {"run", "render", "record", "config", "styles"}) {
     EXPECT_THAT(help.output, HasSubstr(command));
   }
   const Outcome renderHelp = run({"render", "--help"});
   EXPECT_EQ(renderHelp.status, 0);
   for (const std::string option :
-       {"--input", "--output", "--style", "--set", "--view", "--scene", "--size", "--frames",
-        "--poses", "--contact-sheet", "--shaders"}) {
+       {"--input", "--output", "--profile", "--config", "--style", "--look", "--set", "--view",
+        "--scene", "--size", "--frames", "--poses", "--contact-sheet", "--shaders"}) {
     EXPECT_THAT(renderHelp.output, HasSubstr(option));
   }
   EXPECT_THAT(renderHelp.output, HasSubstr("movies have even sides"));
+  const Outcome runHelp = run({"run", "--help"});
+  EXPECT_EQ(runHelp.status, 0);
+  for (const std::string option : {"--camera", "--output", "--style", "--set", "--view", "--scene",
+                                   "--size", "--frames", "--stills", "--shaders"}) {
+    EXPECT_THAT(runHelp.output, HasSubstr(option));
+  }
   const Outcome version = run({"--version"});
   EXPECT_EQ(version.status, 0);
   EXPECT_THAT(version.output, testing::ContainsRegex("[0-9]+\\.[0-9]+\\.[0-9]+"));

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "config/config_error.h"
+#include "firmware_app/configuration.h"
 #include "pipeline/scene/scene_file.h"
 #include "pipeline/tracking/calibration_file.h"
 #include "tests/support/temporary_folder.h"
@@ -75,6 +77,47 @@ TEST(DocumentedFiles, GuideShowsTheMessageOfAMistake) {
     EXPECT_THAT(textOf(kRoot / "docs" / "scene-files.md"),
                 testing::HasSubstr("pleinair: " + std::string(error.what())));
   }
+}
+
+/// What resolves the text as the site file "site.toml"; the error's text, or "".
+std::string resolved(const std::string& text, const std::vector<std::string>& set = {}) {
+  const support::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "site.toml";
+  std::ofstream(file) << text;
+  ConfigurationRequest request;
+  request.siteFile = file;
+  request.set = set;
+  try {
+    const Configuration configuration(request);
+  } catch (const config::ConfigError& error) {
+    const std::string message = error.what();
+    const std::size_t at = message.find("site.toml:");
+    return "pleinair: " + message.substr(at == std::string::npos ? 0 : at) + "\n";
+  }
+  return {};
+}
+
+TEST(DocumentedFiles, GuideToTheConfigurationShowsAFileThatIsTaken) {
+  const auto blocks = tomlBlocks(kRoot / "docs" / "configuration.md");
+  ASSERT_EQ(blocks.size(), 1u);
+  EXPECT_EQ(resolved(blocks[0]), "");
+  // And every key: whatever is printed is shown, but for the style's.
+  ConfigurationRequest request;
+  request.defaultSiteFile.clear();
+  const std::string all = Configuration(request).toToml(config::Printed::kAll);
+  std::istringstream lines(all.substr(0, all.find("[style.")));
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t equals = line.find(" = ");
+    if (line.starts_with('#') || equals == std::string::npos) continue;
+    EXPECT_THAT("\n" + blocks[0], testing::HasSubstr("\n" + line.substr(0, equals) + " = "));
+  }
+}
+
+TEST(DocumentedFiles, GuideToTheConfigurationShowsTheMessagesOfMistakes) {
+  const std::string guide = textOf(kRoot / "docs" / "configuration.md");
+  EXPECT_THAT(guide, testing::HasSubstr(resolved("\n\n\n\n\n[painting]\nstlye = \"none\"\n")));
+  EXPECT_THAT(guide, testing::HasSubstr(resolved("\ncell_size = 8\n")));
+  EXPECT_THAT(guide, testing::HasSubstr(resolved("", {"cell_size=0"})));
 }
 
 }  // namespace

@@ -66,14 +66,15 @@ vec3 paintedAt(ivec2 p) {
   vec3 axis = apart / max(contrast * contrast, 1.0e-4);
   float where = clamp(dot(seen - dark.rgb, axis), -0.5, 1.5);
   float slope = length(vec2(dot(dFdx(seen), axis), dot(dFdy(seen), axis)));
-  float hard = hardness * smoothstep(0.08, 0.35, contrast) * smoothstep(0.02, 0.08, slope);
+  float striking = contrast / (0.3 + 0.8 * dot(light.rgb, kLuma));  // the eye sees ratios
+  float hard = hardness * smoothstep(0.06, 0.25, striking) * smoothstep(0.02, 0.08, slope);
   float sharp = smoothstep(0.34, 0.66, where + 0.25 * hard * valley);
   float isLight = mix(clamp(where, 0.0, 1.0), sharp, hard);
-  float glaze = 1.0 - mix(dark.a, isLight, smoothstep(0.02, 0.08, contrast));
+  float glaze = 1.0 - mix(dark.a, isLight, smoothstep(0.02, 0.08, striking));
 
   // A third colour, which is neither of the two nor between them.
-  vec3 other = seen - dark.rgb - where * apart;
-  other *= smoothstep(0.04, 0.14, length(other));
+  vec3 other = seen - dark.rgb - clamp(where, 0.0, 1.0) * apart;
+  other *= smoothstep(0.03, 0.12, length(other));
 
   // Pigment: the load of the brush, the rim where the glaze has dried, what settles in the valleys.
   vec3 lightDensity = densityOf(light.rgb + other);
@@ -83,11 +84,11 @@ vec3 paintedAt(ivec2 p) {
   float more = variation * (light.a - 0.5) * 1.6 + granulation * valley * 2.0;
   // Thick paint is even: the eye sees differences of thin layers.
   float thick = dot(density, kLuma);
-  density *= max(1.0 + more / (1.0 + 0.2 * thick * thick), 0.2);
+  density *= max(1.0 + more / (1.0 + 0.7 * thick), 0.2);
   // A loaded brush skips the highest grains.
   density *= 1.0 - 0.5 * granulation * smoothstep(0.55, 0.9, sheet.r) * smoothstep(1.0, 2.5, thick);
   // Where an emptied brush stopped short of a wet border the paper is left.
-  float besideGlaze = hard * isLight * (1.0 - smoothstep(0.75, 1.05, where));
+  float besideGlaze = hard * smoothstep(0.25, 0.6, contrast) * isLight * (1.0 - smoothstep(0.75, 1.05, where));
   float empty = 0.75 - light.a - 0.15 * valley;
   density *= 1.0 - besideGlaze * smoothstep(0.5 - 0.5 * gaps, 0.6 - 0.5 * gaps, empty);
   vec3 wash = exp2(-density);

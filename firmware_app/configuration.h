@@ -1,0 +1,115 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "config/sections.h"
+#include "hal/error.h"
+
+namespace pleinair::app {
+
+/// [camera]
+struct CameraSettings {
+  std::filesystem::path source = "synthetic";  ///< or a recording
+  config::PixelSize size{640, 480};            ///< of the synthetic camera, as all below
+  double framesPerSecond = 30.0;
+  int seed = 1;
+  double exposureDriftStops = 0;
+  double whiteBalanceDrift = 0;  ///< a share
+  double readout = 0;            ///< of the frame period; 0: global shutter
+  double noise = 2.0;
+};
+
+/// [painting]
+struct PaintingSettings {
+  std::string style = "watercolor";
+  std::string look = "default";
+  std::string view = "finished";
+  config::PixelSize size;  ///< 0x0: the camera's
+  std::filesystem::path scene = "none";
+};
+
+/// [output]
+struct OutputSettings {
+  std::filesystem::path target = "window";  ///< or a movie or pictures
+  std::filesystem::path stills = ".";       ///< the folder that stills are saved to
+};
+
+/// A key that an option of the command line gives.
+struct OptionValue {
+  std::string key;  ///< "painting.style"
+  std::string text;
+  std::string option;  ///< "--style"
+};
+
+/// Where a configuration comes from.
+struct ConfigurationRequest {
+  std::optional<std::string> profile;             ///< --profile: a name or a file
+  std::optional<std::filesystem::path> siteFile;  ///< --config
+  std::vector<OptionValue> options;
+  std::vector<std::string> set;                          ///< --set: "cell_size=8", "camera.rate=15"
+  std::vector<config::EnvironmentVariable> environment;  ///< all that begin with PLEINAIR_
+  std::filesystem::path defaultSiteFile = "/etc/pleinair/site.toml";
+};
+
+/// The variables of this process that begin with PLEINAIR_.
+std::vector<config::EnvironmentVariable> environmentOfProcess();
+
+/// What is in force, and where each value came from. Immutable; one thread at a time.
+class Configuration {
+ public:
+  /// Lays over the defaults: the profile, the site file, the environment, the command line; a look
+  /// goes right above the defaults of its style, whichever layer names it. A layer that changes the
+  /// style drops the look and the view that a weaker one named, for they are the former style's.
+  ///
+  /// The site file is --config's, else PLEINAIR_CONFIG's (empty: none), else the default one where
+  /// there is one. The profile is --profile's, PLEINAIR_PROFILE's or the site file's.
+  ///
+  /// Throws config::ConfigError, which names the place, for whatever is wrong or unknown in any
+  /// layer, in force or not.
+  explicit Configuration(const ConfigurationRequest& request);
+
+  CameraSettings camera() const;
+  PaintingSettings painting() const;
+  OutputSettings output() const;
+  /// Of the style in force.
+  const config::ParameterValues& styleParameters() const;
+
+  const std::string& origin(std::string_view key) const { return sections_.origin(key); }
+  /// The profile and the site file, where there are any: nothing may be written over them.
+  const std::vector<std::filesystem::path>& files() const { return files_; }
+  /// As of `pleinair config`.
+  std::string toToml(config::Printed which) const;
+
+  /// Blames the place that gave the value of a key, as Sections::errorAt().
+  config::ConfigError errorAt(std::string_view key, std::string problem, std::string allowed) const;
+
+  /// Runs `action`, which uses what is in force. An error that it throws of a file which a profile,
+  /// a site file or the environment named is told with the place that named it.
+  template <class Action>
+  auto blaming(Action&& action) const {
+    try {
+      return std::forward<Action>(action)();
+    } catch (const hal::StartupError& error) {
+      throw hal::StartupError(blamed(error.error()));
+    } catch (const config::ConfigError& error) {
+      throw blamed(error);
+    }
+  }
+
+ private:
+  /// The key that gave the path, unless nobody or the command line did, whose errors need no more.
+  std::optional<std::string> keyThatNamed(const std::string& path) const;
+  hal::Error blamed(hal::Error error) const;
+  config::ConfigError blamed(const config::ConfigError& error) const;
+
+  config::Sections sections_;
+  config::Sections given_;  ///< without the look's values
+  std::vector<std::filesystem::path> files_;
+};
+
+}  // namespace pleinair::app

@@ -1,0 +1,141 @@
+#include "firmware_app/configuration_sections.h"
+
+#include <fmt/format.h>
+
+#include "config/parameter_table.h"
+#include "config/profiles.h"
+#include "hal/cameras/synthetic/shot.h"
+#include "hal/pixel_format.h"
+#include "pipeline/styles/style_registry.h"
+
+namespace pleinair::app {
+namespace {
+
+using config::choiceParameter;
+using config::integerParameter;
+using config::numberParameter;
+using config::ParameterTable;
+using config::pathParameter;
+using config::sizeParameter;
+using config::TakesEffect;
+using config::textParameter;
+
+constexpr config::SizeRange kSizes{.maxSide = hal::kMaxSidePixels, .maxPixels = hal::kMaxPixels};
+
+struct ProfileSettings {
+  std::filesystem::path profile{kNoFile};
+};
+
+const ParameterTable<ProfileSettings>& profileTable() {
+  static const ParameterTable<ProfileSettings> kTable{pathParameter(
+      "profile", &ProfileSettings::profile,
+      [] {
+        std::vector<std::string> words = config::profileNames();
+        words.emplace_back(kNoFile);
+        return words;
+      }(),
+      "What all this builds on: a profile of the program's, or a file.", TakesEffect::kRestart,
+      ".toml")};
+  return kTable;
+}
+
+const ParameterTable<CameraSettings>& cameraTable() {
+  static const ParameterTable<CameraSettings> kTable{
+      pathParameter(
+          "source", &CameraSettings::source, cameraNames(),
+          "The camera: \"synthetic\", a workbench made by code, one of its other shots, or a "
+          "recording's path."),
+      sizeParameter("size", &CameraSettings::size, kSizes, {},
+                    "Of the synthetic camera's frames; movies have even sides."),
+      numberParameter("rate", &CameraSettings::framesPerSecond,
+                      {.min = 1, .max = 240, .unit = "frames a second"},
+                      "How many frames the synthetic camera makes.", TakesEffect::kRestart),
+      integerParameter("seed", &CameraSettings::seed, {.min = 0},
+                       "Of the synthetic camera's world and path.", TakesEffect::kRestart),
+      numberParameter(
+          "noise", &CameraSettings::noise, {.min = 0, .max = 40, .unit = "8-bit levels"},
+          "Standard deviation of the synthetic camera's sensor.", TakesEffect::kRestart),
+      numberParameter("exposure_drift", &CameraSettings::exposureDriftStops,
+                      {.min = 0, .max = 2, .unit = "stops"},
+                      "How far the synthetic camera's brightness wanders.", TakesEffect::kRestart),
+      numberParameter(
+          "white_balance_drift", &CameraSettings::whiteBalanceDrift, {.min = 0, .max = 0.5},
+          "How far its red and blue wander against each other, as a share.", TakesEffect::kRestart),
+      numberParameter("readout", &CameraSettings::readout, {.min = 0, .max = 1},
+                      "The share of a frame's time that its rolling shutter takes; 0: all rows at "
+                      "once.",
+                      TakesEffect::kRestart)};
+  return kTable;
+}
+
+std::vector<std::string> styleNames() {
+  std::vector<std::string> names;
+  for (const styles::StyleInfo& info : styles::styleInfos()) names.emplace_back(info.name);
+  return names;
+}
+
+const ParameterTable<PaintingSettings>& paintingTable() {
+  using P = PaintingSettings;
+  static const ParameterTable<P> kTable{
+      choiceParameter("style", &P::style, styleNames(),
+                      "How to paint; `pleinair styles` lists styles, looks and views.",
+                      TakesEffect::kRestart),
+      textParameter("look", &P::look, "default, or a look of the style",
+                    "A preset of the style's parameters; \"default\" is its first one."),
+      textParameter("view", &P::view, "finished, or a view of the style",
+                    "What is shown of the painting."),
+      sizeParameter("size", &P::size, kSizes, {"camera"},
+                    "Of the painting; \"camera\": as its frames. Movies have even sides."),
+      pathParameter("scene", &P::scene, {std::string(kNoFile)}, "Tags and models (TOML).")};
+  return kTable;
+}
+
+const ParameterTable<OutputSettings>& outputTable() {
+  static const ParameterTable<OutputSettings> kTable{
+      pathParameter("target", &OutputSettings::target, {"window"},
+                    "Where a live painting goes: \"window\", or a movie's or pictures' path."),
+      pathParameter("stills", &OutputSettings::stills, {"."},
+                    "The folder that the window's key s saves to; \".\": where the program runs.")};
+  return kTable;
+}
+
+}  // namespace
+
+std::vector<std::string> cameraNames() {
+  std::vector<std::string> names{"synthetic"};
+  for (const std::string_view shot : hal::syntheticShots()) {
+    names.push_back(fmt::format("synthetic:{}", shot));
+  }
+  return names;
+}
+
+config::Sections defaultSections() {
+  std::vector<config::Section> sections{
+      {"", "", profileTable().defaults()},
+      {"camera", "What is painted live and recorded.", cameraTable().defaults()},
+      {"painting", "What is made of it.", paintingTable().defaults()},
+      {"output", "Where it goes.", outputTable().defaults()}};
+  for (const styles::StyleInfo& info : styles::styleInfos()) {
+    sections.push_back({fmt::format("style.{}", info.name),
+                        fmt::format("The style {}: {}.", info.name, info.help), info.defaults});
+  }
+  return config::Sections(std::move(sections), std::string(kVariablePrefix));
+}
+
+std::filesystem::path profileOf(const config::Sections& sections) {
+  return profileTable().typed(sections.values("")).profile;
+}
+
+CameraSettings cameraOf(const config::Sections& sections) {
+  return cameraTable().typed(sections.values("camera"));
+}
+
+PaintingSettings paintingOf(const config::Sections& sections) {
+  return paintingTable().typed(sections.values("painting"));
+}
+
+OutputSettings outputOf(const config::Sections& sections) {
+  return outputTable().typed(sections.values("output"));
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "config/sections.h"
+#include "firmware_app/configuration.h"
+
+namespace pleinair::app {
+
+inline constexpr std::string_view kVariablePrefix = "PLEINAIR_";
+inline constexpr std::string_view kNoFile = "none";
+inline constexpr std::string_view kDefaultLook = "default";
+inline constexpr std::string_view kFinishedView = "finished";
+inline constexpr std::string_view kLookKey = "painting.look";
+inline constexpr std::string_view kViewKey = "painting.view";
+
+/// The cameras that have a name.
+std::vector<std::string> cameraNames();
+
+/// Every key that the program knows, at its default: the profile, [camera], [painting], [output]
+/// and a [style.…] for each style.
+config::Sections defaultSections();
+
+// The settings in force of what defaultSections() made.
+std::filesystem::path profileOf(const config::Sections& sections);
+CameraSettings cameraOf(const config::Sections& sections);
+PaintingSettings paintingOf(const config::Sections& sections);
+OutputSettings outputOf(const config::Sections& sections);
+
+}  // namespace pleinair::app

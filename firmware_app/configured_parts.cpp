@@ -1,0 +1,88 @@
+#include "firmware_app/configured_parts.h"
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <system_error>
+
+#include "config/suggestion.h"
+#include "firmware_app/configuration_sections.h"
+#include "hal/cameras/synthetic/open_synthetic.h"
+#include "pipeline/scene/scene_file.h"
+
+namespace pleinair::app {
+namespace {
+
+hal::Result<std::optional<hal::SyntheticShot>> shotOf(const CameraSettings& camera) {
+  return hal::syntheticShotOf(camera.source.string(), "camera.source");
+}
+
+hal::FrameSize frameSizeOf(const config::PixelSize& size) {
+  return {size.width, size.height};
+}
+
+}  // namespace
+
+PaintingOptions configuredPainting(const Configuration& configuration, PaintingOptions options) {
+  const PaintingSettings painting = configuration.painting();
+  options.style = painting.style;
+  options.view = painting.view == kFinishedView ? "" : painting.view;
+  if (painting.size != config::PixelSize{}) options.size = frameSizeOf(painting.size);
+  options.parameters = configuration.styleParameters();
+  return options;
+}
+
+scene::Scene configuredScene(const Configuration& configuration) {
+  const std::filesystem::path file = configuration.painting().scene;
+  return file == kNoFile ? scene::Scene{} : scene::loadScene(file);
+}
+
+void refuseSlipOfCamera(const Configuration& configuration) {
+  const std::vector<std::string> names = cameraNames();
+  const std::filesystem::path source = configuration.camera().source;
+  const std::string name = source.filename().string();  // a file's folder may be before it
+  std::error_code ignored;
+  if (!shotOf(configuration.camera())) {
+    throw configuration.errorAt("camera.source",
+                                "found " + config::foundText(source.string(), names),
+                                config::listText(names));
+  }
+  const bool isName = std::ranges::find(names, source.string()) != names.end();
+  if (isName || std::filesystem::exists(source, ignored) || !config::nearest(name, names)) return;
+  throw configuration.errorAt("camera.source", "found " + config::foundText(name, names),
+                              config::listText(names) + ", or a recording that exists");
+}
+
+bool isSynthetic(const CameraSettings& camera) {
+  return shotOf(camera).value_or(std::nullopt).has_value();
+}
+
+hal::SyntheticOptions syntheticOptions(const CameraSettings& camera) {
+  const std::chrono::duration<double> period(1.0 / camera.framesPerSecond);
+  const auto rowTime =
+      period * (camera.readout / std::max(camera.size.height, 1));  // rounded down: it must fit
+  return {.size = frameSizeOf(camera.size),
+          .framePeriod = std::chrono::round<hal::Duration>(period),
+          .shot = shotOf(camera).value_or(std::nullopt).value_or(hal::SyntheticOptions().shot),
+          .seed = static_cast<std::uint32_t>(camera.seed),
+          .noiseSigma = camera.noise,
+          .exposureDriftStops = camera.exposureDriftStops,
+          .whiteBalanceDrift = camera.whiteBalanceDrift,
+          .rowTime = std::chrono::duration_cast<hal::Duration>(rowTime)};
+}
+
+std::vector<NamedPath> configuredFiles(const Configuration& configuration,
+                                       const scene::Scene& scene) {
+  std::vector<NamedPath> files;
+  for (const std::filesystem::path& file : configuration.files()) {
+    files.push_back({"the configuration", file});
+  }
+  const std::filesystem::path file = configuration.painting().scene;
+  if (file != kNoFile) files.push_back({"--scene", file});
+  for (const std::filesystem::path& each : scene.files) {
+    files.push_back({"a file of the scene", each});
+  }
+  return files;
+}
+
+}  // namespace pleinair::app

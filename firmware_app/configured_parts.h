@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "firmware_app/configuration.h"
+#include "firmware_app/painting.h"
+#include "firmware_app/path_collisions.h"
+#include "hal/cameras/synthetic/synthetic_camera.h"
+#include "pipeline/scene/scene.h"
+
+namespace pleinair::app {
+
+// What a configuration means to the parts of the program.
+
+/// `options` with what [painting] and the style's table say.
+PaintingOptions configuredPainting(const Configuration& configuration, PaintingOptions options);
+
+/// [painting]'s scene; without one, an empty scene. Throws config::ConfigError.
+scene::Scene configuredScene(const Configuration& configuration);
+
+/// Throws config::ConfigError where [camera]'s source is most likely a slip of a name.
+void refuseSlipOfCamera(const Configuration& configuration);
+bool isSynthetic(const CameraSettings& camera);
+hal::SyntheticOptions syntheticOptions(const CameraSettings& camera);
+
+/// The files that the configuration and the scene were read from: nothing may be written over them.
+std::vector<NamedPath> configuredFiles(const Configuration& configuration,
+                                       const scene::Scene& scene);
+
+}  // namespace pleinair::app

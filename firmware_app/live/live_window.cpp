@@ -1,0 +1,71 @@
+#include "firmware_app/live/live_window.h"
+
+#include <chrono>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "firmware_app/overloaded.h"
+
+namespace pleinair::app {
+namespace {
+
+/// Of the caption where no picture draws it.
+constexpr hal::Duration kRedrawPeriod = std::chrono::milliseconds(33);
+
+}  // namespace
+
+LiveWindow::LiveWindow(hal::Window& window, LiveTuning& tuning, const hal::Clock& clock)
+    : window_(window), tuning_(tuning), clock_(clock), notice_("h: help") {
+  fading_.callUp(clock.now());
+}
+
+LiveWindow::Wishes LiveWindow::takeWishes() {
+  Wishes wishes;
+  for (const hal::WindowEvent& event : window_.takeEvents()) {
+    std::visit(Overloaded{[&](const hal::KeyPressed& key) { press(key, wishes); },
+                          [&](const hal::WindowClosed&) { wishes.quit = true; },
+                          [](const hal::WindowResized&) {}},  // it scales by itself
+               event);
+  }
+  return wishes;
+}
+
+void LiveWindow::press(const hal::KeyPressed& key, Wishes& wishes) {
+  const LiveTuning::Wish wish = tuning_.press(key);
+  if (wish == LiveTuning::Wish::kUnknownKey) return;
+  notice_.clear();
+  fading_.callUp(clock_.now());
+  if (wish == LiveTuning::Wish::kQuit) wishes.quit = true;
+  if (wish == LiveTuning::Wish::kStill) wishes.still = true;
+  if (wish == LiveTuning::Wish::kFullScreen) {
+    isFullScreen_ = !isFullScreen_;
+    window_.setFullScreen(isFullScreen_);
+  }
+}
+
+void LiveWindow::notify(const std::string& notice) {
+  notice_ = notice;
+  fading_.callUp(clock_.now());
+}
+
+std::string LiveWindow::caption(double framesPerSecond) const {
+  const std::string first = notice_.empty() ? tuning_.parameterLine() : notice_;
+  const std::string text =
+      fmt::format("{}\n{} · {:.0f} frames/s", first, tuning_.state(), framesPerSecond);
+  return tuning_.showsHelp() ? LiveTuning::help() + "\n\n" + text : text;
+}
+
+void LiveWindow::update(double framesPerSecond, bool pictureFollows) {
+  const hal::TimePoint now = clock_.now();
+  if (!pictureFollows && now - updated_ < kRedrawPeriod) return;
+  updated_ = now;
+  window_.setTitle(fmt::format("pleinair: {}", tuning_.state()));
+  const double opacity = tuning_.showsHelp() ? 1.0 : fading_.opacity(now);
+  window_.setCaption(opacity > 0.0 ? caption(framesPerSecond) : std::string(), opacity);
+  const bool isSeen = opacity > 0.0 || drawnOpacity_ > 0.0;
+  drawnOpacity_ = opacity;
+  if (!pictureFollows && isSeen) hal::orThrow(window_.redraw());
+}
+
+}  // namespace pleinair::app

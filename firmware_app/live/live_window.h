@@ -1,0 +1,47 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "firmware_app/live/fading.h"
+#include "firmware_app/live/live_tuning.h"
+#include "hal/clock.h"
+#include "hal/outputs/window/window.h"
+
+namespace pleinair::app {
+
+/// The window of a live painting: keys to the tuning, and what the tuning says to the title and the
+/// caption. On the window's thread.
+class LiveWindow {
+ public:
+  /// All outlive this.
+  LiveWindow(hal::Window& window, LiveTuning& tuning, const hal::Clock& clock);
+
+  /// What the user has asked for since the last call.
+  struct Wishes {
+    bool quit = false;
+    bool still = false;
+  };
+  Wishes takeWishes();
+
+  /// Says something in the caption until the next key.
+  void notify(const std::string& notice);
+  /// Brings title and caption up to date; to be called before each picture, and while none comes.
+  /// Throws hal::StartupError where the window can no longer be drawn.
+  void update(double framesPerSecond, bool pictureFollows);
+
+ private:
+  void press(const hal::KeyPressed& key, Wishes& wishes);
+  std::string caption(double framesPerSecond) const;
+
+  hal::Window& window_;
+  LiveTuning& tuning_;
+  const hal::Clock& clock_;
+  Fading fading_;
+  std::string notice_;
+  bool isFullScreen_ = false;
+  double drawnOpacity_ = 0.0;
+  hal::TimePoint updated_;
+};
+
+}  // namespace pleinair::app

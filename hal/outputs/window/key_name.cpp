@@ -1,0 +1,19 @@
+#include "hal/outputs/window/key_name.h"
+
+#include <algorithm>
+
+namespace pleinair::hal::window {
+
+std::string keyName(const SDL_Keysym& key) {
+  constexpr int kDesktops = KMOD_CTRL | KMOD_ALT | KMOD_GUI;
+  if ((key.mod & kDesktops) != 0) return {};
+  const bool isShifted = (key.mod & KMOD_SHIFT) != 0;
+  if (key.sym == SDLK_QUESTION || (key.sym == SDLK_SLASH && isShifted)) return "?";
+  std::string name = SDL_GetKeyName(key.sym);
+  std::ranges::transform(name, name.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return name;
+}
+
+}  // namespace pleinair::hal::window

@@ -1,0 +1,69 @@
+#include "hal/outputs/window/sdl_video.h"
+
+#include <cassert>
+#include <cstdlib>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include <SDL.h>
+
+namespace pleinair::hal::window {
+namespace {
+
+// Looked at by the thread that SDL belongs to only, but for the assertion that it is that one.
+int users = 0;
+std::thread::id thread;
+
+bool isSet(const char* variable) {
+  const char* value = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe): nothing sets any
+  return value != nullptr && *value != '\0';
+}
+
+/// The display servers that the environment names. SDL, left alone, goes on to windows that nobody
+/// sees. SDL_VIDEODRIVER overrides this.
+std::string namedDrivers() {
+  std::string drivers = isSet("DISPLAY") ? "x11" : "";
+  if (isSet("WAYLAND_DISPLAY")) drivers += drivers.empty() ? "wayland" : ",wayland";
+  return drivers;
+}
+
+Error noDisplay(const std::string& cause) {
+  return {.kind = ErrorKind::kNotFound,
+          .subject = "window",
+          .problem = "there is no display to open it on: " + cause,
+          .remedy = "start it on a desktop, or write to a file with --output FILE"};
+}
+
+}  // namespace
+
+Result<SdlVideo> SdlVideo::open() {
+  assert(users == 0 || isOnItsThread());
+  const std::string drivers = namedDrivers();
+  if (drivers.empty() && !isSet("SDL_VIDEODRIVER")) {
+    return tl::unexpected(noDisplay("DISPLAY and WAYLAND_DISPLAY are not set"));
+  }
+  SDL_SetHint(SDL_HINT_VIDEODRIVER, drivers.c_str());
+  SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // SIGINT and SIGTERM are the program's
+  SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
+  SDL_SetHint(SDL_HINT_OPENGL_ES_DRIVER, "1");  // EGL, as the painter has it, not GLX
+  if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) return tl::unexpected(noDisplay(SDL_GetError()));
+  thread = std::this_thread::get_id();
+  ++users;
+  return SdlVideo();
+}
+
+SdlVideo::SdlVideo(SdlVideo&& other) noexcept : isOpen_(std::exchange(other.isOpen_, false)) {}
+
+SdlVideo::~SdlVideo() {
+  if (!isOpen_) return;
+  assert(isOnItsThread());
+  --users;
+  SDL_QuitSubSystem(SDL_INIT_VIDEO);
+}
+
+bool SdlVideo::isOnItsThread() {
+  return thread == std::this_thread::get_id();
+}
+
+}  // namespace pleinair::hal::window

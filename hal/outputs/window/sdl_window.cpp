@@ -1,0 +1,252 @@
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "hal/outputs/window/caption.h"
+#include "hal/outputs/window/key_name.h"
+#include "hal/outputs/window/sdl_handles.h"
+#include "hal/outputs/window/sdl_video.h"
+#include "hal/outputs/window/window.h"
+#include "hal/outputs/window/window_layout.h"
+
+namespace pleinair::hal {
+namespace {
+
+using window::RendererHandle;
+using window::SdlVideo;
+using window::TextureHandle;
+using window::WindowHandle;
+
+constexpr const char* kSubject = "window";
+constexpr const char* kSelf = "self";  // under which an SDL window knows its SdlWindow
+
+Error failure(ErrorKind kind, const char* problem, std::string remedy = {}) {
+  return {.kind = kind,
+          .subject = kSubject,
+          .problem = std::string(problem) + ": " + SDL_GetError(),
+          .remedy = std::move(remedy)};
+}
+
+/// A renderer on OpenGL ES where there is a GPU; SDL's choice otherwise, its software at the worst.
+RendererHandle makeRenderer(SDL_Window* window) {
+  for (int i = 0; i < SDL_GetNumRenderDrivers(); ++i) {
+    SDL_RendererInfo info{};
+    if (SDL_GetRenderDriverInfo(i, &info) != 0 || std::string(info.name) != "opengles2") continue;
+    constexpr auto kFlags = SDL_RENDERER_ACCELERATED | SDL_RENDERER_PRESENTVSYNC;
+    RendererHandle renderer(SDL_CreateRenderer(window, i, kFlags));
+    if (renderer != nullptr) return renderer;
+  }
+  return RendererHandle(SDL_CreateRenderer(window, -1, 0));
+}
+
+std::optional<Duration> refreshOf(SDL_Window* window) {
+  SDL_DisplayMode mode{};
+  if (SDL_GetWindowDisplayMode(window, &mode) != 0 || mode.refresh_rate <= 0) return std::nullopt;
+  return Duration(std::chrono::seconds(1)) / mode.refresh_rate;
+}
+
+class SdlWindow final : public Window {
+ public:
+  explicit SdlWindow(SdlVideo video) : video_(std::move(video)) {}
+
+  OutputIdentity identity() const override { return {.backend = "window", .id = "window"}; }
+  Result<OutputFormat> start(const OutputRequest& request) override;
+  Result<void> write(const ImageView& picture, Duration time) override;
+  Result<void> finish() override { return {}; }
+
+  std::vector<WindowEvent> takeEvents() override;
+  void setCaption(const std::string& text, double opacity) override;
+  Result<void> redraw() override;
+  void setTitle(const std::string& title) override;
+  void setFullScreen(bool on) override;
+  Result<Image> shown() override;
+
+ private:
+  Result<void> open(FrameSize picture);
+  Result<void> draw();
+  /// Of what is drawn on, which on dense screens has more pixels than the window has units.
+  FrameSize pixelSize() const;
+  double pixelScale() const;
+  /// Puts an event of SDL's into the queue of the window that it is for.
+  void route(const SDL_Event& event);
+  void accept(const SDL_WindowEvent& event);
+  bool isStarted() const { return texture_ != nullptr && SdlVideo::isOnItsThread(); }
+
+  FrameFormat format_;
+  SdlVideo video_;
+  WindowHandle window_;
+  RendererHandle renderer_;
+  TextureHandle texture_;
+  window::Caption caption_;
+  bool hasPicture_ = false;
+  std::vector<WindowEvent> events_;
+};
+
+Result<OutputFormat> SdlWindow::start(const OutputRequest& request) {
+  assert(window_ == nullptr && SdlVideo::isOnItsThread());
+  if (!isAcceptedSize(request.size)) {
+    return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
+                                .subject = kSubject,
+                                .problem = "cannot take this size",
+                                .remedy = "use 1 to 8192 px a side and at most 64 Mpx"});
+  }
+  format_ = {.pixelFormat = PixelFormat::kRgba8, .size = request.size};
+  if (Result<void> opened = open(request.size); !opened) return tl::unexpected(opened.error());
+  return OutputFormat{.frame = format_, .refreshPeriod = refreshOf(window_.get())};
+}
+
+Result<void> SdlWindow::open(FrameSize picture) {
+  SDL_Rect room{.x = 0, .y = 0, .w = picture.width, .h = picture.height};
+  SDL_GetDisplayUsableBounds(0, &room);
+  const FrameSize size = window::openingSize(picture, {room.w, room.h});
+  constexpr auto kFlags = SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI;
+  window_.reset(SDL_CreateWindow("pleinair", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
+                                 size.width, size.height, kFlags));
+  if (window_ == nullptr) return tl::unexpected(failure(ErrorKind::kIo, "cannot open"));
+  SDL_SetWindowData(window_.get(), kSelf, this);
+  renderer_ = makeRenderer(window_.get());
+  if (renderer_ == nullptr) return tl::unexpected(failure(ErrorKind::kIo, "cannot draw"));
+  texture_.reset(SDL_CreateTexture(renderer_.get(), SDL_PIXELFORMAT_RGBA32,
+                                   SDL_TEXTUREACCESS_STREAMING, picture.width, picture.height));
+  if (texture_ == nullptr) {
+    return tl::unexpected(
+        failure(ErrorKind::kUnsupported, "cannot take this size", "choose a smaller --size"));
+  }
+  SDL_SetTextureBlendMode(texture_.get(), SDL_BLENDMODE_NONE);
+  SDL_SetTextureScaleMode(texture_.get(), SDL_ScaleModeLinear);
+  return draw();
+}
+
+FrameSize SdlWindow::pixelSize() const {
+  FrameSize size{1, 1};
+  SDL_GetRendererOutputSize(renderer_.get(), &size.width, &size.height);
+  return {std::max(1, size.width), std::max(1, size.height)};
+}
+
+double SdlWindow::pixelScale() const {
+  int height = 0;
+  SDL_GetWindowSize(window_.get(), nullptr, &height);
+  return static_cast<double>(pixelSize().height) / std::max(1, height);
+}
+
+Result<void> SdlWindow::draw() {
+  SDL_SetRenderDrawColor(renderer_.get(), 0, 0, 0, SDL_ALPHA_OPAQUE);
+  if (SDL_RenderClear(renderer_.get()) != 0) {
+    return tl::unexpected(failure(ErrorKind::kDeviceLost, "cannot draw"));
+  }
+  const window::Area area = window::letterBox(format_.size, pixelSize());
+  const SDL_Rect box{.x = area.x, .y = area.y, .w = area.size.width, .h = area.size.height};
+  if (hasPicture_ && SDL_RenderCopy(renderer_.get(), texture_.get(), nullptr, &box) != 0) {
+    return tl::unexpected(failure(ErrorKind::kDeviceLost, "cannot draw"));
+  }
+  caption_.draw(renderer_.get(), pixelScale());
+  return {};
+}
+
+Result<void> SdlWindow::write(const ImageView& picture, Duration) {
+  assert(isStarted() && picture.format == format_ && picture.isComplete());
+  void* pixels = nullptr;
+  int strideBytes = 0;
+  if (SDL_LockTexture(texture_.get(), nullptr, &pixels, &strideBytes) != 0) {
+    return tl::unexpected(failure(ErrorKind::kDeviceLost, "cannot take a picture"));
+  }
+  for (int y = 0; y < format_.size.height; ++y) {
+    const auto row = picture.row(0, y);
+    std::ranges::copy(row, static_cast<std::uint8_t*>(pixels) + std::ptrdiff_t{strideBytes} * y);
+  }
+  SDL_UnlockTexture(texture_.get());
+  hasPicture_ = true;
+  return redraw();
+}
+
+Result<void> SdlWindow::redraw() {
+  assert(isStarted());
+  if (Result<void> drawn = draw(); !drawn) return drawn;
+  SDL_RenderPresent(renderer_.get());
+  return {};
+}
+
+Result<Image> SdlWindow::shown() {
+  assert(isStarted());
+  if (Result<void> drawn = draw(); !drawn) return tl::unexpected(drawn.error());
+  Image image({.pixelFormat = PixelFormat::kRgb8, .size = pixelSize()});
+  // Before it is presented: afterwards it may be gone.
+  if (SDL_RenderReadPixels(renderer_.get(), nullptr, SDL_PIXELFORMAT_RGB24, image.plane(0).data(),
+                           3 * image.size().width) != 0) {
+    return tl::unexpected(failure(ErrorKind::kDeviceLost, "cannot read what it shows"));
+  }
+  SDL_RenderPresent(renderer_.get());
+  return image;
+}
+
+std::vector<WindowEvent> SdlWindow::takeEvents() {
+  assert(isStarted());
+  SDL_Event event;
+  while (SDL_PollEvent(&event) != 0) route(event);
+  return std::exchange(events_, {});
+}
+
+void SdlWindow::route(const SDL_Event& event) {
+  const auto windowOf = [this](Uint32 id) {
+    SDL_Window* named = SDL_GetWindowFromID(id);
+    // Without the focus a key is nobody's: the one that asks takes it.
+    return named == nullptr ? this : static_cast<SdlWindow*>(SDL_GetWindowData(named, kSelf));
+  };
+  if (event.type == SDL_WINDOWEVENT) {
+    windowOf(event.window.windowID)->accept(event.window);
+  } else if (event.type == SDL_KEYDOWN) {
+    std::string name = window::keyName(event.key.keysym);
+    if (name.empty()) return;
+    const bool shift = (event.key.keysym.mod & KMOD_SHIFT) != 0;
+    windowOf(event.key.windowID)
+        ->events_.emplace_back(
+            KeyPressed{.name = std::move(name), .shift = shift, .isRepeat = event.key.repeat != 0});
+  }
+}
+
+void SdlWindow::accept(const SDL_WindowEvent& event) {
+  switch (event.event) {
+    case SDL_WINDOWEVENT_CLOSE:
+      events_.emplace_back(WindowClosed{});
+      break;
+    case SDL_WINDOWEVENT_SIZE_CHANGED:
+      events_.emplace_back(WindowResized{pixelSize()});
+      [[fallthrough]];
+    case SDL_WINDOWEVENT_EXPOSED:
+      static_cast<void>(redraw());  // the next write() says what is wrong
+      break;
+    default:
+      break;
+  }
+}
+
+void SdlWindow::setCaption(const std::string& text, double opacity) {
+  assert(SdlVideo::isOnItsThread());
+  caption_.set(text, opacity);
+}
+
+void SdlWindow::setTitle(const std::string& title) {
+  assert(isStarted());
+  SDL_SetWindowTitle(window_.get(), title.c_str());
+}
+
+void SdlWindow::setFullScreen(bool on) {
+  assert(isStarted());
+  SDL_SetWindowFullscreen(window_.get(), on ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
+  SDL_ShowCursor(on ? SDL_DISABLE : SDL_ENABLE);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Window>> openWindow() {
+  Result<SdlVideo> video = SdlVideo::open();
+  if (!video) return tl::unexpected(std::move(video.error()));
+  return std::make_unique<SdlWindow>(*std::move(video));
+}
+
+}  // namespace pleinair::hal

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "hal/output.h"
+
+namespace pleinair::hal {
+
+/// A key went down, or repeats while it is held. Keys with Control, Alt or the logo key are the
+/// desktop's and do not come.
+struct KeyPressed {
+  /// What the key says without Shift, in lower case: "a", "1", "tab", "left", "pagedown", "f1",
+  /// "space", "escape"; and "?" however it is typed.
+  std::string name;
+  bool shift = false;
+  bool isRepeat = false;
+  friend bool operator==(const KeyPressed&, const KeyPressed&) = default;
+};
+/// The user wants it gone; it stays until it is destroyed.
+struct WindowClosed {
+  friend bool operator==(const WindowClosed&, const WindowClosed&) = default;
+};
+struct WindowResized {
+  FrameSize size;  ///< in pixels of the screen, which a picture is scaled to
+  friend bool operator==(const WindowResized&, const WindowResized&) = default;
+};
+using WindowEvent = std::variant<KeyPressed, WindowClosed, WindowResized>;
+
+/// A window on a desktop: the last picture, scaled to fit, with black bars where the shapes differ.
+/// All of it, over all windows of the process, on one thread, which is asserted.
+///
+/// start() shows it in the picture's size where that fits the screen, and answers RGBA8 and the
+/// screen's refresh.
+class Window : public MemoryOutput {
+ public:
+  /// What has happened since the last call, oldest first. To be called several times a second, or
+  /// the desktop takes the program for dead.
+  virtual std::vector<WindowEvent> takeEvents() = 0;
+
+  // These show with the next write() or redraw().
+
+  /// Lines over the lower left corner, in the window's pixels; '\t' goes to a second column.
+  /// `opacity` from 0 (nothing is drawn) to 1.
+  virtual void setCaption(const std::string& text, double opacity) = 0;
+  /// The last picture again, with the caption as it is now.
+  virtual Result<void> redraw() = 0;
+
+  virtual void setTitle(const std::string& title) = 0;
+  virtual void setFullScreen(bool on) = 0;
+
+  /// What the window shows, as RGB8, drawn anew. Errors: kDeviceLost.
+  virtual Result<Image> shown() = 0;
+};
+
+/// A window through SDL, on the display that the environment names; start() shows it. Errors:
+/// kNotFound (there is no display), kUnsupported (this build has no window).
+Result<std::unique_ptr<Window>> openWindow();
+
+}  // namespace pleinair::hal

@@ -1,0 +1,264 @@
+// Live painting through the program's own door: on an X server of the test's own, and without one.
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <optional>
+#include <regex>
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "hal/libav/picture_file.h"
+#include "tests/program/program.h"
+#include "tests/support/media_files.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/x_server.h"
+
+namespace pleinair::support {
+namespace {
+
+using testing::HasSubstr;
+using namespace std::chrono_literals;
+
+constexpr hal::FrameSize kScreen{800, 600};
+constexpr hal::FrameSize kSize{320, 240};
+constexpr hal::FrameFormat kRgb{.pixelFormat = hal::PixelFormat::kRgb8, .size = kSize};
+
+/// The numbers of the summary: "showed 30 frames in …; dropped 5: 3 replaced …".
+struct Summary {
+  int shown = -1;
+  int dropped = -1;
+  int reasons = 0;  ///< what they add up to
+};
+Summary summaryOf(const std::string& text) {
+  Summary summary;
+  std::smatch match;
+  static const std::regex kLine(
+      R"(showed (\d+) frames? in [\d.]+ s \([\d.]+ frames/s\); dropped (\d+)(: [^:]*)?: \S+\n)");
+  if (!std::regex_match(text, match, kLine)) return summary;
+  summary.shown = std::stoi(match[1]);
+  summary.dropped = std::stoi(match[2]);
+  const std::string reasons = match[3];
+  static const std::regex kNumber(R"(\d+)");
+  for (std::sregex_iterator each(reasons.begin(), reasons.end(), kNumber), end; each != end;
+       ++each) {
+    summary.reasons += std::stoi(each->str());
+  }
+  return summary;
+}
+
+class Run : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+
+  static ProgramRun run(std::vector<std::string> arguments, ProgramLimits limits = {}) {
+    arguments.insert(arguments.begin(), "run");
+    for (const char* variable : {"SDL_VIDEODRIVER", "WAYLAND_DISPLAY", "DISPLAY"}) {
+      limits.environment.insert(limits.environment.begin(), variable);
+    }
+    return runProgram(arguments, limits);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Run, PaintsIntoAFileWithoutADisplay) {
+  writeMedia(path("in.y4m"), 5);
+  const ProgramRun live =
+      run({"--camera", path("in.y4m"), "--output", path("out.mp4"), "--frames", "12"});
+  ASSERT_EQ(live.status, 0) << live.error;
+  EXPECT_EQ(live.error, "");
+  const Summary summary = summaryOf(live.out);
+  EXPECT_EQ(summary.shown, 12) << live.out;
+  EXPECT_EQ(summary.dropped, summary.reasons) << live.out;
+  const auto played = play(path("out.mp4"));
+  ASSERT_TRUE(played);
+  EXPECT_EQ(played->frames.size(), 12u) << "the recording goes on at its start";
+  EXPECT_GE(played->times.back(), 11 * 40ms) << "in real time";
+}
+
+TEST_F(Run, FinishesItsFileWhenItIsTerminated) {
+  writeMedia(path("in.y4m"), 5);
+  ProgramLimits limits;
+  limits.terminateWhenExists = path(".out.mp4.part");
+  const ProgramRun live = run({"--camera", path("in.y4m"), "--output", path("out.mp4")}, limits);
+  EXPECT_EQ(live.status, 0) << live.error;
+  EXPECT_THAT(live.out, testing::StartsWith("showed "));
+  const int shown = summaryOf(live.out).shown;
+  if (shown > 0) {
+    const auto played = play(path("out.mp4"));
+    ASSERT_TRUE(played);
+    EXPECT_EQ(played->frames.size(), static_cast<std::size_t>(shown));
+  }
+}
+
+TEST_F(Run, RefusesToPaintOverItsCamera) {
+  writeMedia(path("in.mp4"), 3);
+  const ProgramRun live = run({"--camera", path("in.mp4"), "--output", path("in.mp4")});
+  EXPECT_EQ(live.status, 2);
+  EXPECT_THAT(live.error, HasSubstr("is --camera as well"));
+}
+
+TEST_F(Run, RefusesUnknownViews) {
+  writeMedia(path("in.mp4"), 3);
+  const ProgramRun live =
+      run({"--camera", path("in.mp4"), "--output", path("out.mp4"), "--view", "cels"});
+  EXPECT_EQ(live.status, 2);
+  EXPECT_THAT(live.error, HasSubstr("did you mean \"cells\"?"));
+  EXPECT_EQ(folder_.entryCount(), 1u);
+}
+
+#ifdef PLEINAIR_WINDOW
+
+TEST_F(Run, SaysThatThereIsNoDisplay) {
+  const ProgramRun live = run({"--frames", "3"});
+  EXPECT_EQ(live.status, 2);
+  EXPECT_EQ(live.out, "");
+  EXPECT_EQ(live.error,
+            "pleinair: window: there is no display to open it on: DISPLAY and WAYLAND_DISPLAY are "
+            "not set; start it on a desktop, or write to a file with --output FILE\n");
+}
+
+/// On a screen of its own.
+class RunInWindow : public Run {
+ protected:
+  void SetUp() override {
+    if (const std::string missing = XServer::missing(); !missing.empty()) GTEST_SKIP() << missing;
+    server_.emplace(kScreen);
+  }
+
+  ProgramRun runShown(const std::vector<std::string>& arguments,
+                      std::function<void(pid_t)> meanwhile = {}) {
+    return run(arguments, {.environment = {"DISPLAY=" + server_->display()},
+                           .meanwhile = std::move(meanwhile)});
+  }
+
+  /// Goes on once the title matches.
+  void waitForTitle(const std::string& pattern) const {
+    if (server_->waitForTitle("^pleinair: " + pattern + "$")) return;
+    throw std::runtime_error("no window has a title like " + pattern);
+  }
+
+  /// Whether the screen comes to show this in its middle, down to where the caption is.
+  bool comesToShow(hal::Image& picture) const {
+    const auto deadline = std::chrono::steady_clock::now() + 20s;
+    do {
+      if (shows(picture)) return true;
+    } while (std::chrono::steady_clock::now() < deadline);
+    return false;
+  }
+
+  bool shows(hal::Image& picture) const {
+    constexpr int kCaptionLines = 80;
+    hal::Image screen = server_->screen();
+    const hal::FrameSize size = picture.size();
+    const int left = (kScreen.width - size.width) / 2;
+    const int top = (kScreen.height - size.height) / 2;
+    for (int y = 0; y < size.height - kCaptionLines; ++y) {
+      const auto shown = screen.row(0, top + y).subspan(static_cast<std::size_t>(3 * left));
+      const auto row = picture.row(0, y);
+      if (!std::equal(row.begin(), row.end(), shown.begin())) return false;
+    }
+    return true;
+  }
+
+  std::optional<XServer> server_;
+};
+
+TEST_F(RunInWindow, ShowsTheSyntheticCameraAndSumsUp) {
+  const ProgramRun live = runShown({"--frames", "30"});
+  EXPECT_EQ(live.status, 0) << live.error;
+  const Summary summary = summaryOf(live.out);
+  EXPECT_EQ(summary.shown, 30) << live.out;
+  EXPECT_EQ(summary.dropped, summary.reasons) << live.out;
+  EXPECT_THAT(live.out, testing::EndsWith(": window\n"));
+}
+
+TEST_F(RunInWindow, ShowsExactlyWhatWasPainted) {
+  hal::Image picture = testPicture(kRgb, 0);
+  for (std::size_t i = 0; i < picture.plane(0).size(); i += 3) picture.plane(0)[i] ^= 0x40;
+  hal::orThrow(hal::writePng(path("in.png"), picture.view()));
+  const ProgramRun live = runShown({"--camera", path("in.png"), "--style", "none"}, [&](pid_t) {
+    EXPECT_TRUE(comesToShow(picture));
+    server_->press({"q"});
+  });
+  EXPECT_EQ(live.status, 0) << live.error;
+  EXPECT_GT(summaryOf(live.out).shown, 0);
+}
+
+TEST_F(RunInWindow, ObeysKeys) {
+  writeMedia(path("in.y4m"), 10, kSize);
+  const ProgramRun live =
+      runShown({"--camera", path("in.y4m"), "--stills", folder_.path().string()}, [&](pid_t) {
+        waitForTitle("watercolor.*");
+        server_->press({"Right"});
+        waitForTitle("watercolor.*, changed");
+        server_->press({"BackSpace", "v"});
+        waitForTitle("watercolor.*[a-z_] .*view camera");
+        server_->press({"shift+v", "shift+v", "space"});
+        waitForTitle("watercolor.*view [b-z][a-z]+ .*paused");
+        server_->press({"s"});
+        server_->press({"v", "space", "shift+l"});
+        waitForTitle("watercolor.*[^d]");
+        server_->press({"Escape"});
+      });
+  EXPECT_EQ(live.status, 0) << live.error;
+  EXPECT_THAT(live.error, HasSubstr("pleinair: info: saved " + folder_.path().string()));
+  EXPECT_THAT(live.out, HasSubstr(" while paused"));
+  EXPECT_EQ(summaryOf(live.out).dropped, summaryOf(live.out).reasons) << live.out;
+  EXPECT_EQ(folder_.entryCount(), 2u) << "the recording and the still";
+}
+
+TEST_F(RunInWindow, SavesTheFinishedPictureUnderAnyView) {
+  hal::Image picture = testPicture(kRgb, 0);
+  hal::orThrow(hal::writePng(path("in.png"), picture.view()));
+  std::filesystem::create_directory(path("stills"));
+  const ProgramRun live = runShown(
+      {"--camera", path("in.png"), "--style", "none", "--view", "camera", "--stills",
+       path("stills"), "--size", "160x120"},
+      [&](pid_t) {
+        waitForTitle("none .*view camera");
+        server_->press({"s", "s"});
+        const auto count = [&] {
+          const std::filesystem::directory_iterator first(path("stills"));
+          return std::ranges::count_if(
+              first, std::filesystem::directory_iterator(),
+              [](const auto& entry) { return entry.path().filename().string()[0] != '.'; });
+        };
+        const auto deadline = std::chrono::steady_clock::now() + 20s;
+        while (count() < 1 && std::chrono::steady_clock::now() < deadline) {
+        }
+        server_->press({"q"});
+      });
+  EXPECT_EQ(live.status, 0) << live.error;
+  for (const auto& entry : std::filesystem::directory_iterator(path("stills"))) {
+    EXPECT_TRUE(std::regex_match(entry.path().filename().string(),
+                                 std::regex(R"(pleinair-\d{8}-\d{6}(-\d)?\.png)")))
+        << entry.path();
+    const auto still = hal::readPictureRgb(entry.path());
+    ASSERT_TRUE(still);
+    EXPECT_EQ(still->size(), (hal::FrameSize{160, 120})) << "of the painting, not of the window";
+  }
+}
+
+TEST_F(RunInWindow, StopsWithinTwoSecondsOfASignal) {
+  writeMedia(path("in.y4m"), 10, kSize);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    std::chrono::steady_clock::time_point sent;
+    const ProgramRun live = runShown({"--camera", path("in.y4m")}, [&](pid_t program) {
+      waitForTitle("watercolor.*");
+      sent = std::chrono::steady_clock::now();
+      kill(program, signal);
+    });
+    EXPECT_LT(std::chrono::steady_clock::now() - sent, 2s);
+    EXPECT_EQ(live.status, 0) << live.error;
+    EXPECT_THAT(live.out, testing::StartsWith("showed "));
+  }
+}
+
+#endif
+
+}  // namespace
+}  // namespace pleinair::support

@@ -1,0 +1,245 @@
+#include "firmware_app/live/live_tuning.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "config/parameter_table.h"
+
+namespace pleinair::app {
+namespace {
+
+using testing::HasSubstr;
+using Wish = LiveTuning::Wish;
+
+struct Brush {
+  int size = 8;
+  double water = 0.5;
+  int restart = 1;
+  bool paper = true;
+};
+
+const config::ParameterTable<Brush>& brush() {
+  static const config::ParameterTable<Brush> table{
+      config::integerParameter("size", &Brush::size, {.min = 4, .max = 64, .unit = "px"},
+                               "Of the brush."),
+      config::numberParameter("water", &Brush::water, {.min = 0, .max = 1}, "On the brush."),
+      config::integerParameter("restart", &Brush::restart, {.min = 0, .max = 9}, "Not live.",
+                               config::TakesEffect::kRestart),
+      config::switchParameter("paper", &Brush::paper, "Under the paint."),
+  };
+  return table;
+}
+
+const std::vector<PainterView> kViews{{"camera", ""}, {"cells", ""}};
+
+std::vector<LiveLook> looks() {
+  return {{"dry", brush().defaults()},
+          {"wet", brush().defaults().with("water", "0.9", "look wet").with("size", "20", "look")}};
+}
+
+class Tuning : public testing::Test {
+ protected:
+  explicit Tuning(std::vector<LiveLook> looks = app::looks())
+      : tuning_("brush", {.style = brush().defaults(), .view = {}}, kViews, std::move(looks)) {}
+
+  Wish press(const std::string& name, bool shift = false, bool isRepeat = false) {
+    return tuning_.press({.name = name, .shift = shift, .isRepeat = isRepeat});
+  }
+  Wish shiftPress(const std::string& name) { return press(name, true); }
+  Brush values() const { return brush().typed(tuning_.parameters().style); }
+  std::string chosen() const {
+    return tuning_.parameterLine().substr(0, tuning_.parameterLine().find(' '));
+  }
+
+  LiveTuning tuning_;
+};
+
+TEST_F(Tuning, StartsWithWhatItIsGiven) {
+  EXPECT_EQ(tuning_.parameters().style, brush().defaults());
+  EXPECT_EQ(tuning_.parameters().view, "");
+  EXPECT_FALSE(tuning_.isPaused());
+  EXPECT_FALSE(tuning_.showsHelp());
+  EXPECT_EQ(tuning_.state(), "brush · dry");
+  EXPECT_EQ(tuning_.parameterLine(), "size 8 px  (4 to 64)  Of the brush.");
+}
+
+TEST_F(Tuning, ChoosesParametersRoundAndRoundButThoseThatAreNotLive) {
+  for (const std::string next : {"water", "paper", "size", "water"}) {
+    EXPECT_EQ(press("tab"), Wish::kNone);
+    EXPECT_EQ(chosen(), next);
+  }
+  for (const std::string before : {"size", "paper", "water"}) {
+    EXPECT_EQ(shiftPress("tab"), Wish::kNone);
+    EXPECT_EQ(chosen(), before);
+  }
+  press("down");
+  EXPECT_EQ(chosen(), "paper");
+  press("up");
+  EXPECT_EQ(chosen(), "water");
+}
+
+TEST_F(Tuning, ChangesTheChosenOneWithinItsRange) {
+  EXPECT_EQ(press("right"), Wish::kNone);
+  EXPECT_EQ(values().size, 9);
+  EXPECT_EQ(shiftPress("right"), Wish::kNone);
+  EXPECT_EQ(values().size, 19);
+  press("left");
+  EXPECT_EQ(values().size, 18);
+  for (int i = 0; i < 9; ++i) shiftPress("left");
+  EXPECT_EQ(values().size, 4);
+  EXPECT_EQ(press("left"), Wish::kNone);
+  EXPECT_EQ(values().size, 4);
+  EXPECT_EQ(values().water, 0.5) << "the others stay";
+  press("tab");
+  shiftPress("right");
+  EXPECT_EQ(values().water, 0.6);
+  press("tab");
+  press("right");
+  EXPECT_FALSE(values().paper);
+  EXPECT_EQ(tuning_.parameters().style.origin("paper"), "a key");
+}
+
+TEST_F(Tuning, MakesNewSnapshotsAndLeavesThoseInUseAlone) {
+  const PaintParameters inUse = tuning_.parameters();
+  press("right");
+  EXPECT_EQ(brush().typed(inUse.style).size, 8);
+  EXPECT_EQ(values().size, 9);
+}
+
+TEST_F(Tuning, ResetsTheChosenOneOnly) {
+  press("right");
+  press("tab");
+  press("right");
+  EXPECT_EQ(press("backspace"), Wish::kNone);
+  EXPECT_EQ(values().water, 0.5);
+  EXPECT_EQ(values().size, 9);
+  press("l");
+  press("right");
+  EXPECT_EQ(values().water, 0.91);
+  press("backspace");
+  EXPECT_EQ(values().water, 0.9) << "as the look has it";
+}
+
+TEST_F(Tuning, CyclesViewsFromTheFinishedPictureAndBackToIt) {
+  for (const std::string view : {"camera", "cells", "", "camera"}) {
+    EXPECT_EQ(press("v"), Wish::kNone);
+    EXPECT_EQ(tuning_.parameters().view, view);
+  }
+  for (const std::string view : {"", "cells", "camera"}) {
+    EXPECT_EQ(shiftPress("v"), Wish::kNone);
+    EXPECT_EQ(tuning_.parameters().view, view);
+  }
+  EXPECT_EQ(tuning_.state(), "brush · dry · view camera");
+}
+
+TEST_F(Tuning, PutsLooksOn) {
+  EXPECT_EQ(press("l"), Wish::kNone);
+  EXPECT_EQ(values().water, 0.9);
+  EXPECT_EQ(values().size, 20);
+  EXPECT_EQ(tuning_.state(), "brush · wet");
+  press("right");
+  EXPECT_EQ(tuning_.state(), "brush · wet, changed");
+  press("left");
+  EXPECT_EQ(tuning_.state(), "brush · wet");
+  press("l");
+  EXPECT_EQ(values().size, 8);
+  EXPECT_EQ(tuning_.state(), "brush · dry");
+  shiftPress("l");
+  EXPECT_EQ(tuning_.state(), "brush · wet");
+}
+
+TEST_F(Tuning, KeepsTheViewUnderAnotherLook) {
+  press("v");
+  press("l");
+  EXPECT_EQ(tuning_.parameters().view, "camera");
+}
+
+TEST_F(Tuning, PausesAndHelpsAndGoesOn) {
+  EXPECT_EQ(press("space"), Wish::kNone);
+  EXPECT_TRUE(tuning_.isPaused());
+  EXPECT_THAT(tuning_.state(), HasSubstr(" · paused"));
+  EXPECT_EQ(press("space"), Wish::kNone);
+  EXPECT_FALSE(tuning_.isPaused());
+  for (const std::string key : {"h", "?", "f1"}) {
+    EXPECT_EQ(press(key), Wish::kNone);
+    EXPECT_TRUE(tuning_.showsHelp());
+    EXPECT_EQ(press(key), Wish::kNone);
+    EXPECT_FALSE(tuning_.showsHelp());
+  }
+}
+
+TEST_F(Tuning, WishesWhatOthersDo) {
+  EXPECT_EQ(press("s"), Wish::kStill);
+  EXPECT_EQ(press("f"), Wish::kFullScreen);
+  EXPECT_EQ(press("q"), Wish::kQuit);
+  EXPECT_EQ(press("escape"), Wish::kQuit);
+  EXPECT_EQ(tuning_.parameters().style, brush().defaults());
+}
+
+TEST_F(Tuning, KnowsNoOtherKey) {
+  for (const std::string key : {"a", "1", "return", "f2", "pagedown", "", "S"}) {
+    EXPECT_EQ(press(key), Wish::kUnknownKey) << key;
+  }
+  EXPECT_EQ(tuning_.parameters().style, brush().defaults());
+  EXPECT_EQ(tuning_.state(), "brush · dry");
+}
+
+TEST_F(Tuning, RepeatsOnlyWhatCanBeHeld) {
+  for (int i = 0; i < 5; ++i) press("right", false, true);
+  EXPECT_EQ(values().size, 13);
+  press("tab", false, true);
+  EXPECT_EQ(chosen(), "water");
+  for (const std::string key : {"space", "f", "s", "h", "v", "l", "q", "escape", "backspace"}) {
+    EXPECT_EQ(press(key, false, true), Wish::kUnknownKey) << key;
+  }
+  EXPECT_FALSE(tuning_.isPaused());
+  EXPECT_EQ(tuning_.state(), "brush · dry, changed");
+}
+
+TEST_F(Tuning, HelpNamesEveryKey) {
+  for (const std::string key : {"Tab", "Down", "Left", "Right", "Shift", "Backspace", "l", "v",
+                                "Space", "s", "f", "h", "?", "q", "Escape"}) {
+    EXPECT_THAT(LiveTuning::help(), HasSubstr(key));
+  }
+}
+
+TEST(TuningStart, WearsNoLookWhereValuesWereSet) {
+  LiveTuning tuning("brush", {.style = brush().defaults().with("size", "10", "--set"), .view = {}},
+                    kViews, looks());
+  EXPECT_EQ(tuning.state(), "brush");
+  tuning.press({.name = "backspace"});
+  EXPECT_EQ(brush().typed(tuning.parameters().style).size, 8) << "the style's default";
+  tuning.press({.name = "l"});
+  EXPECT_EQ(tuning.state(), "brush · dry") << "the first look";
+}
+
+TEST(TuningStart, GoesBackToTheLastLookFirst) {
+  LiveTuning tuning("brush", {.style = brush().defaults().with("size", "10", "--set"), .view = {}},
+                    kViews, looks());
+  tuning.press({.name = "l", .shift = true});
+  EXPECT_EQ(tuning.state(), "brush · wet");
+}
+
+TEST(TuningStart, KeepsTheViewThatWasAskedFor) {
+  LiveTuning tuning("brush", {.style = brush().defaults(), .view = "cells"}, kViews, looks());
+  EXPECT_EQ(tuning.parameters().view, "cells");
+  tuning.press({.name = "v"});
+  EXPECT_EQ(tuning.parameters().view, "");
+}
+
+TEST(TuningStart, DoesWithoutLooksAndParameters) {
+  const auto none =
+      std::make_shared<const config::ParameterList>(std::vector<config::ParameterDescriptor>{});
+  const config::ParameterValues nothing(none);
+  LiveTuning tuning("none", {.style = nothing, .view = {}}, {}, {});
+  EXPECT_EQ(tuning.parameterLine(), "none has nothing to tune");
+  for (const std::string key : {"tab", "up", "left", "right", "backspace", "l", "v"}) {
+    EXPECT_EQ(tuning.press({.name = key}), Wish::kNone) << key;
+    EXPECT_EQ(tuning.press({.name = key, .shift = true}), Wish::kNone) << key;
+  }
+  EXPECT_EQ(tuning.state(), "none");
+  EXPECT_EQ(tuning.parameters().view, "");
+}
+
+}  // namespace
+}  // namespace pleinair::app

@@ -1,0 +1,272 @@
+// The window on SDL's "dummy" driver: all but the display.
+#include "hal/outputs/window/window.h"
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <thread>
+
+#include <SDL.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pleinair::hal {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// Coloured, opaque, without two pixels alike beside each other.
+Image colours(FrameSize size) {
+  Image image({.pixelFormat = PixelFormat::kRgba8, .size = size});
+  for (int y = 0; y < size.height; ++y) {
+    const auto row = image.row(0, y);
+    for (int x = 0; x < size.width; ++x) {
+      const auto at = static_cast<std::size_t>(4 * x);
+      row[at] = static_cast<std::uint8_t>(7 * x + 3 * y + 1);
+      row[at + 1] = static_cast<std::uint8_t>(x * y);
+      row[at + 2] = static_cast<std::uint8_t>(255 - x);
+      row[at + 3] = 255;
+    }
+  }
+  return image;
+}
+
+struct Rgb {
+  int r, g, b;
+  friend bool operator==(const Rgb&, const Rgb&) = default;
+};
+
+Rgb at(Image& image, int x, int y) {
+  const std::size_t channels = image.format().pixelFormat == PixelFormat::kRgba8 ? 4 : 3;
+  const auto pixel = image.row(0, y).subspan(static_cast<std::size_t>(x) * channels, 3);
+  return {pixel[0], pixel[1], pixel[2]};
+}
+
+/// The window that SDL opened last.
+SDL_Window* newestSdlWindow() {
+  SDL_Window* newest = nullptr;
+  for (Uint32 id = 1; id < 100; ++id) {
+    if (SDL_Window* window = SDL_GetWindowFromID(id); window != nullptr) newest = window;
+  }
+  return newest;
+}
+
+void pushKey(SDL_Window* window, SDL_Keycode code, int modifiers = KMOD_NONE, bool repeat = false) {
+  SDL_Event event{};
+  event.type = SDL_KEYDOWN;
+  event.key.windowID = window == nullptr ? 0 : SDL_GetWindowID(window);
+  event.key.repeat = repeat ? 1 : 0;
+  event.key.keysym.sym = code;
+  event.key.keysym.mod = static_cast<Uint16>(modifiers);
+  SDL_PushEvent(&event);
+}
+
+void pushClose(SDL_Window* window) {
+  SDL_Event event{};
+  event.type = SDL_WINDOWEVENT;
+  event.window.windowID = SDL_GetWindowID(window);
+  event.window.event = SDL_WINDOWEVENT_CLOSE;
+  SDL_PushEvent(&event);
+}
+
+class WindowTest : public testing::Test {
+ protected:
+  WindowTest() { setenv("SDL_VIDEODRIVER", "dummy", 1); }
+
+  static std::unique_ptr<Window> open(FrameSize size) {
+    std::unique_ptr<Window> window = orThrow(openWindow());
+    const OutputFormat format = orThrow(window->start({.size = size}));
+    EXPECT_EQ(format.frame, (FrameFormat{.pixelFormat = PixelFormat::kRgba8, .size = size}));
+    window->takeEvents();  // those of opening
+    return window;
+  }
+};
+
+TEST_F(WindowTest, IsBlackBeforeTheFirstPicture) {
+  const auto window = open({320, 240});
+  Image shown = orThrow(window->shown());
+  EXPECT_EQ(shown.size(), (FrameSize{320, 240}));
+  EXPECT_TRUE(std::ranges::all_of(shown.plane(0), [](int byte) { return byte == 0; }));
+}
+
+TEST_F(WindowTest, ShowsAPictureOfItsSizeExactly) {
+  const auto window = open({320, 240});
+  Image picture = colours({320, 240});
+  ASSERT_TRUE(window->write(picture.view(), {}));
+  Image shown = orThrow(window->shown());
+  int wrong = 0;
+  for (int y = 0; y < 240; ++y) {
+    for (int x = 0; x < 320; ++x) wrong += at(shown, x, y) == at(picture, x, y) ? 0 : 1;
+  }
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST_F(WindowTest, ScalesLinearlyWhenItIsResized) {
+  const auto window = open({240, 240});
+  Image halves({.pixelFormat = PixelFormat::kRgba8, .size = {240, 240}});
+  for (int y = 0; y < 240; ++y) std::ranges::fill(halves.row(0, y).subspan(4 * 120), 255);
+  ASSERT_TRUE(window->write(halves.view(), {}));
+  SDL_SetWindowSize(newestSdlWindow(), 960, 960);
+  EXPECT_THAT(window->takeEvents(), ElementsAre(WindowEvent(WindowResized{{960, 960}})));
+  Image shown = orThrow(window->shown());
+  ASSERT_EQ(shown.size(), (FrameSize{960, 960}));
+  EXPECT_EQ(at(shown, 470, 480), (Rgb{0, 0, 0}));
+  EXPECT_EQ(at(shown, 490, 480), (Rgb{255, 255, 255}));
+  int between = 0;  // the ramp of a linear filter, which the nearest pixel would not give
+  for (int x = 470; x < 490; ++x) {
+    const int grey = at(shown, x, 480).r;
+    between += grey > 10 && grey < 245 ? 1 : 0;
+  }
+  EXPECT_GE(between, 2);
+  EXPECT_LE(between, 5);
+}
+
+TEST_F(WindowTest, LaysBlackBarsBesideAPictureOfAnotherShape) {
+  const auto window = open({320, 240});
+  Image white({.pixelFormat = PixelFormat::kRgba8, .size = {320, 240}});
+  std::ranges::fill(white.plane(0), std::uint8_t{255});
+  ASSERT_TRUE(window->write(white.view(), {}));
+  SDL_SetWindowSize(newestSdlWindow(), 400, 240);
+  window->takeEvents();
+  Image shown = orThrow(window->shown());
+  EXPECT_EQ(at(shown, 39, 120), (Rgb{0, 0, 0}));
+  EXPECT_EQ(at(shown, 40, 120), (Rgb{255, 255, 255}));
+  EXPECT_EQ(at(shown, 359, 120), (Rgb{255, 255, 255}));
+  EXPECT_EQ(at(shown, 360, 120), (Rgb{0, 0, 0}));
+}
+
+TEST_F(WindowTest, DrawsACaptionOverTheLowerLeftCornerOnly) {
+  const auto window = open({640, 480});
+  Image white({.pixelFormat = PixelFormat::kRgba8, .size = {640, 480}});
+  std::ranges::fill(white.plane(0), std::uint8_t{255});
+  ASSERT_TRUE(window->write(white.view(), {}));
+  const auto darkened = [&](int fromY, int toY) {
+    Image shown = orThrow(window->shown());
+    int count = 0;
+    for (int y = fromY; y < toY; ++y) {
+      for (int x = 0; x < 640; ++x) count += at(shown, x, y).g < 200 ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_EQ(darkened(0, 480), 0);
+  window->setCaption("cell_size 8 px\nwatercolor", 1.0);
+  EXPECT_EQ(darkened(0, 400), 0);
+  EXPECT_GT(darkened(400, 480), 2000);
+  window->setCaption("cell_size 8 px\nwatercolor", 0.0);
+  EXPECT_EQ(darkened(0, 480), 0);
+  window->setCaption("", 1.0);
+  EXPECT_EQ(darkened(0, 480), 0);
+}
+
+TEST_F(WindowTest, FadesItsCaption) {
+  const auto window = open({640, 480});
+  const auto darkestAt = [&](double opacity) {
+    Image white({.pixelFormat = PixelFormat::kRgba8, .size = {640, 480}});
+    std::ranges::fill(white.plane(0), std::uint8_t{255});
+    EXPECT_TRUE(window->write(white.view(), {}));
+    window->setCaption("watercolor", opacity);
+    Image shown = orThrow(window->shown());
+    return static_cast<int>(std::ranges::min(shown.plane(0)));
+  };
+  const int full = darkestAt(1.0);
+  const int half = darkestAt(0.5);
+  EXPECT_NEAR(full, 255 * 0.4, 3);
+  EXPECT_NEAR(half, 255 * 0.7, 3);
+}
+
+TEST_F(WindowTest, GivesKeysInTheirOrder) {
+  const auto window = open({320, 240});
+  SDL_Window* sdl = newestSdlWindow();
+  pushKey(sdl, SDLK_TAB, KMOD_LSHIFT);
+  pushKey(sdl, SDLK_RIGHT, KMOD_NONE, true);
+  pushKey(sdl, SDLK_q, KMOD_LCTRL);
+  pushKey(sdl, SDLK_s);
+  pushClose(sdl);
+  EXPECT_THAT(window->takeEvents(),
+              ElementsAre(WindowEvent(KeyPressed{.name = "tab", .shift = true}),
+                          WindowEvent(KeyPressed{.name = "right", .isRepeat = true}),
+                          WindowEvent(KeyPressed{.name = "s"}), WindowEvent(WindowClosed{})));
+  EXPECT_THAT(window->takeEvents(), IsEmpty());
+}
+
+TEST_F(WindowTest, LeavesTheEventsOfOtherWindowsToThem) {
+  const auto first = open({320, 240});
+  SDL_Window* firstSdl = newestSdlWindow();
+  const auto second = open({320, 240});
+  first->takeEvents();
+  pushKey(newestSdlWindow(), SDLK_a);
+  pushKey(firstSdl, SDLK_b);
+  EXPECT_THAT(first->takeEvents(), ElementsAre(WindowEvent(KeyPressed{.name = "b"})));
+  EXPECT_THAT(second->takeEvents(), ElementsAre(WindowEvent(KeyPressed{.name = "a"})));
+}
+
+TEST_F(WindowTest, TakesKeysThatAreNobodys) {
+  const auto window = open({320, 240});
+  pushKey(nullptr, SDLK_q);
+  EXPECT_THAT(window->takeEvents(), ElementsAre(WindowEvent(KeyPressed{.name = "q"})));
+}
+
+TEST_F(WindowTest, BearsItsTitle) {
+  const auto window = open({320, 240});
+  window->setTitle("pleinair: watercolor · wash");
+  EXPECT_STREQ(SDL_GetWindowTitle(newestSdlWindow()), "pleinair: watercolor · wash");
+}
+
+TEST_F(WindowTest, FillsTheScreenAndComesBack) {
+  const auto window = open({320, 240});
+  const auto isFull = [] {
+    return (SDL_GetWindowFlags(newestSdlWindow()) & SDL_WINDOW_FULLSCREEN_DESKTOP) ==
+           SDL_WINDOW_FULLSCREEN_DESKTOP;
+  };
+  EXPECT_FALSE(isFull());
+  window->setFullScreen(true);
+  EXPECT_TRUE(isFull());
+  window->takeEvents();
+  EXPECT_GT(orThrow(window->shown()).size().width, 320);
+  window->setFullScreen(false);
+  EXPECT_FALSE(isFull());
+}
+
+TEST_F(WindowTest, LeavesSignalsToTheProgram) {
+  const auto before = std::signal(SIGINT, SIG_DFL);
+  const auto window = open({320, 240});
+  EXPECT_EQ(std::signal(SIGINT, before), SIG_DFL);
+}
+
+TEST_F(WindowTest, SaysThatThereIsNoDisplay) {
+  unsetenv("SDL_VIDEODRIVER");
+  unsetenv("DISPLAY");
+  unsetenv("WAYLAND_DISPLAY");
+  const auto window = openWindow();
+  ASSERT_FALSE(window.has_value());
+  EXPECT_EQ(window.error().kind, ErrorKind::kNotFound);
+  EXPECT_THAT(window.error().message(), HasSubstr("DISPLAY and WAYLAND_DISPLAY are not set"));
+  EXPECT_THAT(window.error().message(), HasSubstr("--output FILE"));
+}
+
+TEST_F(WindowTest, SaysThatTheNamedDisplayIsNotThere) {
+  unsetenv("SDL_VIDEODRIVER");
+  unsetenv("WAYLAND_DISPLAY");
+  setenv("DISPLAY", ":49151", 1);
+  const auto window = openWindow();
+  ASSERT_FALSE(window.has_value());
+  EXPECT_EQ(window.error().kind, ErrorKind::kNotFound);
+  EXPECT_THAT(window.error().message(), HasSubstr("x11"));
+}
+
+using WindowDeathTest = WindowTest;
+
+TEST_F(WindowDeathTest, BelongsToOneThread) {
+  testing::GTEST_FLAG(death_test_style) = "threadsafe";
+  EXPECT_DEATH(
+      {
+        const auto window = open({320, 240});
+        std::jthread([&] { window->takeEvents(); }).join();
+      },
+      "isStarted");
+}
+
+}  // namespace
+}  // namespace pleinair::hal
