@@ -18,6 +18,9 @@ struct CameraSettings {
   config::PixelSize size{640, 480};            ///< of the synthetic camera, as all below
   double framesPerSecond = 30.0;
   int seed = 1;
+  double exposureDriftStops = 0;
+  double whiteBalanceDrift = 0;  ///< a share
+  double readout = 0;            ///< of the frame period; 0: global shutter
   double noise = 2.0;
 };
 

@@ -4,6 +4,7 @@
 
 #include "config/parameter_table.h"
 #include "config/profiles.h"
+#include "hal/cameras/synthetic/shot.h"
 #include "hal/pixel_format.h"
 #include "pipeline/styles/style_registry.h"
 
@@ -40,8 +41,10 @@ const ParameterTable<ProfileSettings>& profileTable() {
 
 const ParameterTable<CameraSettings>& cameraTable() {
   static const ParameterTable<CameraSettings> kTable{
-      pathParameter("source", &CameraSettings::source, cameraNames(),
-                    "The camera: \"synthetic\", a desk made by code, or a recording's path."),
+      pathParameter(
+          "source", &CameraSettings::source, cameraNames(),
+          "The camera: \"synthetic\", a workbench made by code, one of its other shots, or a "
+          "recording's path."),
       sizeParameter("size", &CameraSettings::size, kSizes, {},
                     "Of the synthetic camera's frames; movies have even sides."),
       numberParameter("rate", &CameraSettings::framesPerSecond,
@@ -50,8 +53,18 @@ const ParameterTable<CameraSettings>& cameraTable() {
       integerParameter("seed", &CameraSettings::seed, {.min = 0},
                        "Of the synthetic camera's world and path.", TakesEffect::kRestart),
       numberParameter(
-          "noise", &CameraSettings::noise, {.min = 0, .max = 64, .unit = "8-bit levels"},
-          "Standard deviation of the synthetic camera's sensor.", TakesEffect::kRestart)};
+          "noise", &CameraSettings::noise, {.min = 0, .max = 40, .unit = "8-bit levels"},
+          "Standard deviation of the synthetic camera's sensor.", TakesEffect::kRestart),
+      numberParameter("exposure_drift", &CameraSettings::exposureDriftStops,
+                      {.min = 0, .max = 2, .unit = "stops"},
+                      "How far the synthetic camera's brightness wanders.", TakesEffect::kRestart),
+      numberParameter(
+          "white_balance_drift", &CameraSettings::whiteBalanceDrift, {.min = 0, .max = 0.5},
+          "How far its red and blue wander against each other, as a share.", TakesEffect::kRestart),
+      numberParameter("readout", &CameraSettings::readout, {.min = 0, .max = 1},
+                      "The share of a frame's time that its rolling shutter takes; 0: all rows at "
+                      "once.",
+                      TakesEffect::kRestart)};
   return kTable;
 }
 
@@ -89,7 +102,11 @@ const ParameterTable<OutputSettings>& outputTable() {
 }  // namespace
 
 std::vector<std::string> cameraNames() {
-  return {"synthetic"};
+  std::vector<std::string> names{"synthetic"};
+  for (const std::string_view shot : hal::syntheticShots()) {
+    names.push_back(fmt::format("synthetic:{}", shot));
+  }
+  return names;
 }
 
 config::Sections defaultSections() {

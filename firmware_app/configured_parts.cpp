@@ -7,10 +7,15 @@
 
 #include "config/suggestion.h"
 #include "firmware_app/configuration_sections.h"
+#include "hal/cameras/synthetic/open_synthetic.h"
 #include "pipeline/scene/scene_file.h"
 
 namespace pleinair::app {
 namespace {
+
+hal::Result<std::optional<hal::SyntheticShot>> shotOf(const CameraSettings& camera) {
+  return hal::syntheticShotOf(camera.source.string(), "camera.source");
+}
 
 hal::FrameSize frameSizeOf(const config::PixelSize& size) {
   return {size.width, size.height};
@@ -37,6 +42,11 @@ void refuseSlipOfCamera(const Configuration& configuration) {
   const std::filesystem::path source = configuration.camera().source;
   const std::string name = source.filename().string();  // a file's folder may be before it
   std::error_code ignored;
+  if (!shotOf(configuration.camera())) {
+    throw configuration.errorAt("camera.source",
+                                "found " + config::foundText(source.string(), names),
+                                config::listText(names));
+  }
   const bool isName = std::ranges::find(names, source.string()) != names.end();
   if (isName || std::filesystem::exists(source, ignored) || !config::nearest(name, names)) return;
   throw configuration.errorAt("camera.source", "found " + config::foundText(name, names),
@@ -44,15 +54,21 @@ void refuseSlipOfCamera(const Configuration& configuration) {
 }
 
 bool isSynthetic(const CameraSettings& camera) {
-  return camera.source == "synthetic";
+  return shotOf(camera).value_or(std::nullopt).has_value();
 }
 
 hal::SyntheticOptions syntheticOptions(const CameraSettings& camera) {
   const std::chrono::duration<double> period(1.0 / camera.framesPerSecond);
+  const auto rowTime =
+      period * (camera.readout / std::max(camera.size.height, 1));  // rounded down: it must fit
   return {.size = frameSizeOf(camera.size),
           .framePeriod = std::chrono::round<hal::Duration>(period),
+          .shot = shotOf(camera).value_or(std::nullopt).value_or(hal::SyntheticOptions().shot),
           .seed = static_cast<std::uint32_t>(camera.seed),
-          .noiseSigma = camera.noise};
+          .noiseSigma = camera.noise,
+          .exposureDriftStops = camera.exposureDriftStops,
+          .whiteBalanceDrift = camera.whiteBalanceDrift,
+          .rowTime = std::chrono::duration_cast<hal::Duration>(rowTime)};
 }
 
 std::vector<NamedPath> configuredFiles(const Configuration& configuration,

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "firmware_app/configured_parts.h"
-#include "firmware_app/desk_scene.h"
+#include "firmware_app/workbench_scene.h"
 #include "hal/cameras/recording/recording.h"
 
 namespace pleinair::app {
@@ -32,7 +32,7 @@ std::unique_ptr<hal::Camera> openCamera(const RecordOptions& options,
   synthetic.frameCount = options.frames;
   auto camera = std::make_unique<hal::SyntheticCamera>(synthetic, clock);
   if (options.writeScene) {
-    hal::orThrow(writeDeskScene(*options.writeScene, camera->truth(0), synthetic.size));
+    hal::orThrow(writeWorkbenchScene(*options.writeScene, camera->truth(0), synthetic.size));
   }
   return camera;
 }

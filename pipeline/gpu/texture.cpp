@@ -66,7 +66,7 @@ namespace {
 
 /// Down to a single pixel.
 int levelsOf(hal::FrameSize size) {
-  return std::bit_width(static_cast<unsigned>(std::max(size.width, size.height)));
+  return static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(size.width, size.height))));
 }
 
 GLint glWrap(TextureWrap wrap) {

@@ -151,6 +151,20 @@ TEST_F(Render, WritesPosesALineAFrame) {
   EXPECT_EQ(frames, 3);
 }
 
+TEST_F(Render, RecordsTheShotsOfTheWorkbench) {
+  const auto record = [this](const std::string& shot, const std::string& name) {
+    const ProgramRun run = runProgram({"record", "--camera", "synthetic:" + shot, "--frames", "2",
+                                       "--set", "camera.rate=1", "--set", "camera.noise=0",
+                                       "--size", "64x48", "--output", path(name)});
+    EXPECT_EQ(run.status, 0) << run.error;
+    return run;
+  };
+  record("still", "still/");
+  record("pan", "pan/");
+  EXPECT_TRUE(contentOf(path("still/000000.png")) == contentOf(path("still/000001.png")));
+  EXPECT_FALSE(contentOf(path("pan/000000.png")) == contentOf(path("pan/000001.png")));
+}
+
 TEST_F(Render, WarnsOfTagsThatNeverAppear) {
   const ProgramRun recorded = runProgram({"record", "--frames", "1", "--output", path("desk.png")});
   ASSERT_EQ(recorded.status, 0) << recorded.error;

@@ -17,6 +17,10 @@ PinholeIntrinsics syntheticIntrinsics(FrameSize size) {
 
 namespace pleinair::hal::synthetic {
 
+glm::dvec3 CameraView::eye() const {
+  return -(glm::transpose(glm::dmat3(cameraFromWorld)) * glm::dvec3(cameraFromWorld[3]));
+}
+
 std::optional<glm::dvec2> CameraView::project(glm::dvec3 world) const {
   constexpr double kNearestMetres = 1e-6;
   const glm::dvec3 p(cameraFromWorld * glm::dvec4(world, 1));
@@ -29,7 +33,7 @@ Ray CameraView::through(glm::dvec2 pixel) const {
   const glm::dmat3 worldFromCamera = glm::transpose(glm::dmat3(cameraFromWorld));
   const glm::dvec3 inCamera((pixel.x - intrinsics.cx) / intrinsics.fx,
                             (pixel.y - intrinsics.cy) / intrinsics.fy, 1);
-  return {-(worldFromCamera * glm::dvec3(cameraFromWorld[3])), worldFromCamera * inCamera};
+  return {eye(), worldFromCamera * inCamera};
 }
 
 }  // namespace pleinair::hal::synthetic

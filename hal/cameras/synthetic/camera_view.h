@@ -34,6 +34,8 @@ struct CameraView {
   PinholeIntrinsics intrinsics;
   glm::dmat4 cameraFromWorld{1};  ///< rigid; OpenCV's camera frame
 
+  /// The point it looks from, in the world.
+  glm::dvec3 eye() const;
   /// Where a world point appears, px; nothing where it is behind the camera.
   std::optional<glm::dvec2> project(glm::dvec3 world) const;
   /// What may be seen at a pixel coordinate.

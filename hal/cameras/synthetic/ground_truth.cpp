@@ -1,65 +1,147 @@
 #include "hal/cameras/synthetic/ground_truth.h"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
-#include "hal/cameras/synthetic/desk_world.h"
 #include "hal/cameras/synthetic/tag_bitmap.h"
 
 namespace pleinair::hal::synthetic {
 namespace {
 
+using Quad = std::array<glm::dvec3, 4>;
+using Outline = std::vector<glm::dvec3>;
+
 bool isInside(glm::dvec2 pixel, FrameSize size) {
   return pixel.x >= 0 && pixel.y >= 0 && pixel.x < size.width && pixel.y < size.height;
 }
 
-glm::dvec2 projected(const CameraView& view, const DeskTag& tag, double edgeMetres, int corner) {
-  constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
-  const glm::dvec3 world(tag.worldFromTag * glm::dvec4(tagCorner(edgeMetres, corner), 1));
-  return view.project(world).value_or(glm::dvec2(kNowhere));
+Quad worldCorners(const BenchTag& tag, double edgeMetres) {
+  Quad corners;
+  for (int corner = 0; corner < 4; ++corner) {
+    corners[static_cast<std::size_t>(corner)] =
+        glm::dvec3(tag.worldFromTag * glm::dvec4(tagCorner(edgeMetres, corner), 1));
+  }
+  return corners;
 }
 
-TagTruth truthOfTag(const CameraView& view, FrameSize size, const DeskTag& tag) {
-  TagTruth truth{.tag = tag, .cornersPx = {}, .isInside = true};
-  const double borderEdge = tag.edgeMetres * kTagCells / kTagCellsPerEdge;
-  for (int corner = 0; corner < 4; ++corner) {
-    truth.cornersPx[static_cast<std::size_t>(corner)] =
-        projected(view, tag, tag.edgeMetres, corner);
-    truth.isInside &= isInside(projected(view, tag, borderEdge, corner), size);
+/// The part of a convex outline where normal · p ≤ offset.
+Outline clipped(const Outline& outline, glm::dvec3 normal, double offset) {
+  Outline kept;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const glm::dvec3& from = outline[i];
+    const glm::dvec3& to = outline[(i + 1) % outline.size()];
+    const double a = glm::dot(normal, from) - offset;
+    const double b = glm::dot(normal, to) - offset;
+    if (a <= 0) kept.push_back(from);
+    if ((a <= 0) != (b <= 0)) kept.push_back(from + (to - from) * (a / (a - b)));
   }
+  return kept;
+}
+
+double areaOf(const Outline& outline) {
+  glm::dvec3 sum(0);
+  for (std::size_t i = 2; i < outline.size(); ++i) {
+    sum += glm::cross(outline[i - 1] - outline[0], outline[i] - outline[0]);
+  }
+  return glm::length(sum) / 2;
+}
+
+/// Whether a part of a convex outline lies in the pyramid between an eye and a quad before it.
+bool isBetween(Outline outline, glm::dvec3 eye, const Quad& quad, glm::dvec3 normal) {
+  constexpr double kAboveMetres = 1e-4;  // what the quad is painted on is not before it
+  constexpr double kLeastArea = 1e-10;
+  const double side = glm::dot(normal, eye - quad[0]) > 0 ? 1 : -1;
+  outline = clipped(outline, -side * normal, -side * glm::dot(normal, quad[0]) - kAboveMetres);
+  const glm::dvec3 middle = (quad[0] + quad[2]) / 2.0;
+  for (std::size_t i = 0; i < 4 && !outline.empty(); ++i) {
+    glm::dvec3 out = glm::normalize(glm::cross(quad[i] - eye, quad[(i + 1) % 4] - eye));
+    if (glm::dot(out, middle - eye) > 0) out = -out;
+    outline = clipped(outline, out, glm::dot(out, eye));
+  }
+  return areaOf(outline) > kLeastArea;
+}
+
+bool isHidden(const Geometry& geometry, const CameraView& view, const glm::dmat4& worldFromMover,
+              const Quad& quad) {
+  const glm::dvec3 eye = view.eye();
+  const glm::dvec3 normal = glm::normalize(glm::cross(quad[1] - quad[0], quad[2] - quad[0]));
+  for (const Solid& solid : geometry.solids) {
+    const glm::dmat4 pose = solid.moves ? worldFromMover : glm::dmat4(1);
+    for (std::uint32_t i = solid.firstFacet; i < solid.firstFacet + solid.facets; ++i) {
+      const Facet& facet = geometry.facets[i];
+      Outline outline;
+      for (const glm::dvec3& corner : geometry.cornersOf(facet)) {
+        outline.emplace_back(pose * glm::dvec4(corner, 1));
+      }
+      const glm::dvec3 front(pose * glm::dvec4(facet.normal, 0));
+      const bool isTurnedAway = glm::dot(front, eye - outline.front()) <= 0;
+      if (!isTurnedAway && isBetween(std::move(outline), eye, quad, normal)) return true;
+    }
+  }
+  return false;
+}
+
+TagTruth truthOfTag(const Exposure& exposure, const Geometry& geometry, const BenchTag& tag) {
+  constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+  TagTruth truth{.tag = tag, .cornersPx = {}, .isInside = true, .isVisible = false};
+  const Quad corners = worldCorners(tag, tag.edgeMetres);
+  const Quad border = worldCorners(tag, tag.edgeMetres * kTagCells / kTagCellsPerEdge);
+  truth.isVisible = true;
+  for (std::size_t i = 0; i < 4; ++i) {
+    truth.cornersPx[i] = exposure.project({corners[i]}).value_or(glm::dvec2(kNowhere));
+    const glm::dvec2 at = exposure.project({border[i]}).value_or(glm::dvec2(kNowhere));
+    truth.isInside &= isInside(at, exposure.size());
+    if (!truth.isInside) continue;
+    // At each corner's own moment, where the shutter rolls.
+    const CameraView view = exposure.viewAt(at.y);
+    const bool isTurnedAway = glm::dot(glm::dvec3(tag.worldFromTag[2]),
+                                       view.eye() - glm::dvec3(tag.worldFromTag[3])) >= 0;
+    truth.isVisible &=
+        !isTurnedAway && !isHidden(geometry, view, exposure.worldFromMoverAt(at.y), border);
+  }
+  truth.isVisible &= truth.isInside;
   return truth;
 }
 
 }  // namespace
 
-GroundTruth truthOf(const CameraView& view, FrameSize size) {
+GroundTruth truthOf(const Exposure& exposure, const Geometry& geometry) {
+  const CameraView middle = exposure.viewAt(exposure.size().height / 2 + 0.5);
   GroundTruth truth{
-      .intrinsics = view.intrinsics, .cameraFromWorld = view.cameraFromWorld, .tags = {}};
-  for (const DeskTag& tag : deskTags()) truth.tags.push_back(truthOfTag(view, size, tag));
+      .intrinsics = middle.intrinsics, .cameraFromWorld = middle.cameraFromWorld, .tags = {}};
+  for (const BenchTag& tag : benchTags()) {
+    truth.tags.push_back(truthOfTag(exposure, geometry, tag));
+  }
   return truth;
 }
 
-FlowVector flowBetween(const CameraView& first, const CameraView& second, FrameSize size,
+FlowVector flowBetween(const Exposure& first, const Exposure& second, const Geometry& geometry,
                        glm::dvec2 pixel) {
   constexpr double kSamePointMetres = 1e-6;
-  const std::optional<glm::dvec3> surface = surfaceAlong(first.through(pixel));
+  const std::optional<SurfacePoint> surface = first.seenAt(geometry, pixel);
   if (!surface) return {};
   const std::optional<glm::dvec2> moved = second.project(*surface);
   if (!moved) return {};
-  const std::optional<glm::dvec3> seen = surfaceAlong(second.through(*moved));
-  const bool isHidden = !seen || glm::distance(*seen, *surface) > kSamePointMetres;
-  return {.px = *moved - pixel, .visible = isInside(*moved, size) && !isHidden};
+  if (!isInside(*moved, second.size())) return {.px = *moved - pixel, .visible = false};
+  const std::optional<SurfacePoint> seen = second.seenAt(geometry, *moved);
+  const bool isSame = seen && seen->moves == surface->moves &&
+                      glm::distance(seen->point, surface->point) < kSamePointMetres;
+  return {.px = *moved - pixel, .visible = isSame};
 }
 
-FlowField flowFieldBetween(const CameraView& first, const CameraView& second, FrameSize size) {
+FlowField flowFieldBetween(const Exposure& first, const Exposure& second,
+                           const Geometry& geometry) {
+  const FrameSize size = first.size();
   FlowField field{.size = size, .px = {}, .visible = {}};
   field.px.reserve(static_cast<std::size_t>(size.pixels()));
   field.visible.reserve(static_cast<std::size_t>(size.pixels()));
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
-      const FlowVector flow = flowBetween(first, second, size, {x + 0.5, y + 0.5});
+      const FlowVector flow = flowBetween(first, second, geometry, {x + 0.5, y + 0.5});
       field.px.emplace_back(flow.px);
       field.visible.push_back(flow.visible ? 1 : 0);
     }

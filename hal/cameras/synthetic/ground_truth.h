@@ -7,29 +7,33 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 
+#include "hal/cameras/synthetic/bench_tags.h"
 #include "hal/cameras/synthetic/camera_view.h"
-#include "hal/cameras/synthetic/desk_tags.h"
+#include "hal/cameras/synthetic/exposure.h"
+#include "hal/cameras/synthetic/geometry.h"
 #include "hal/pixel_format.h"
 
 namespace pleinair::hal {
 
 struct TagTruth {
-  DeskTag tag;
+  BenchTag tag;
   std::array<glm::dvec2, 4> cornersPx{};  ///< in AprilTag's order; may lie outside the picture
   bool isInside = false;                  ///< whether the white border, too, is all in the picture
+  bool isVisible = false;  ///< inside, seen from its front, and nothing before any part of it
 };
 
-/// What was true when a frame was taken.
+/// What was true when a frame was taken. With a rolling shutter, the pose is the middle row's
+/// (SyntheticCamera::cameraFromWorld() has each row's), while corners are where they appear.
 struct GroundTruth {
   PinholeIntrinsics intrinsics;
-  glm::dmat4 cameraFromWorld{1};  ///< OpenCV's camera frame; world: z up from the desk, metres
+  glm::dmat4 cameraFromWorld{1};  ///< OpenCV's camera frame; world: z up from the bench, metres
   std::vector<TagTruth> tags;
 };
 
 /// How a surface point moves from one frame to another.
 struct FlowVector {
   glm::dvec2 px{0};      ///< position in the second frame − position in the first
-  bool visible = false;  ///< in the second frame: inside the picture and not behind the desk
+  bool visible = false;  ///< in the second frame: inside the picture, not behind anything
 };
 
 /// The flow at every pixel centre of the first frame, row by row.
@@ -41,12 +45,12 @@ struct FlowField {
 
 namespace synthetic {
 
-GroundTruth truthOf(const CameraView& view, FrameSize size);
+GroundTruth truthOf(const Exposure& exposure, const Geometry& geometry);
 
-/// The flow at `pixel` of the first view; zero and not visible where nothing is seen there.
-FlowVector flowBetween(const CameraView& first, const CameraView& second, FrameSize size,
+/// The flow at `pixel` of the first frame; zero and not visible where nothing is seen there.
+FlowVector flowBetween(const Exposure& first, const Exposure& second, const Geometry& geometry,
                        glm::dvec2 pixel);
-FlowField flowFieldBetween(const CameraView& first, const CameraView& second, FrameSize size);
+FlowField flowFieldBetween(const Exposure& first, const Exposure& second, const Geometry& geometry);
 
 }  // namespace synthetic
 }  // namespace pleinair::hal

@@ -4,19 +4,25 @@
 #include <vector>
 
 #include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
+
+#include "hal/cameras/synthetic/srgb.h"
 
 namespace pleinair::hal::synthetic {
 
-/// Linear light and coverage, 65535 for 1; the colour is multiplied by the coverage.
+/// sRGB-coded.
 struct Texel {
-  std::uint16_t red = 0, green = 0, blue = 0, coverage = 0;
+  std::uint8_t red = 0, green = 0, blue = 0, unused = 0;
 };
 
-Texel packTexel(glm::vec4 linearPremultiplied);
-glm::vec4 unpackTexel(Texel texel);
+inline Texel codedTexel(glm::vec3 linearRgb) {
+  return {roundedLevelFromLinear(linearRgb.r), roundedLevelFromLinear(linearRgb.g),
+          roundedLevelFromLinear(linearRgb.b)};
+}
+inline glm::vec3 linearRgbOf(Texel texel) {
+  return {linearFromLevel(texel.red), linearFromLevel(texel.green), linearFromLevel(texel.blue)};
+}
 
-/// A picture in linear light at full, half, quarter … resolution.
+/// A picture at full, half, quarter … resolution.
 class MipTexture {
  public:
   struct Level {
@@ -25,19 +31,17 @@ class MipTexture {
     std::vector<Texel> texels;  ///< row-major, packed
   };
 
-  /// A transparent texture of at least this size, rounded up so that every level halves evenly.
-  MipTexture(int minimumWidth, int minimumHeight);
+  /// A black texture of this size, at least 2 × 2.
+  MipTexture(int width, int height);
 
   Level& base() { return levels_.front(); }
   const std::vector<Level>& levels() const { return levels_; }
-  /// Makes the coarser levels, each texel the mean of the four below it.
+  /// Makes the coarser levels, each texel the mean, in linear light, of the four below it. The last
+  /// row or column of an odd level counts twice. No level is smaller than 2 × 2.
   void buildLevels();
 
  private:
   std::vector<Level> levels_;
 };
-
-/// sRGB-coded 0xRRGGBB in linear light, 0 to 1 (IEC 61966-2-1).
-glm::vec3 linearFromSrgb(std::uint32_t rrggbb);
 
 }  // namespace pleinair::hal::synthetic

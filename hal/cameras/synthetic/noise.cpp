@@ -1,7 +1,5 @@
 #include "hal/cameras/synthetic/noise.h"
 
-#include <cmath>
-
 namespace pleinair::hal::synthetic {
 namespace {
 
@@ -14,6 +12,12 @@ float latticeValue(std::uint32_t seed, std::int32_t x, std::int32_t y) {
   return static_cast<float>(hash >> 8) * 0x1p-24F;
 }
 
+/// Of what fits into 32 bits; std::floor is a call where SSE4.1 may be absent.
+std::int32_t floorOf(float value) {
+  const auto towardsZero = static_cast<std::int32_t>(value);
+  return towardsZero - (value < static_cast<float>(towardsZero) ? 1 : 0);
+}
+
 float ease(float t) {
   return t * t * (3 - 2 * t);
 }
@@ -24,12 +28,10 @@ float mix(float from, float to, float t) {
 }  // namespace
 
 float valueNoise(std::uint32_t seed, glm::vec2 point) {
-  const float floorX = std::floor(point.x);
-  const float floorY = std::floor(point.y);
-  const auto x = static_cast<std::int32_t>(floorX);
-  const auto y = static_cast<std::int32_t>(floorY);
-  const float tx = ease(point.x - floorX);
-  const float ty = ease(point.y - floorY);
+  const std::int32_t x = floorOf(point.x);
+  const std::int32_t y = floorOf(point.y);
+  const float tx = ease(point.x - static_cast<float>(x));
+  const float ty = ease(point.y - static_cast<float>(y));
   const float top = mix(latticeValue(seed, x, y), latticeValue(seed, x + 1, y), tx);
   const float bottom = mix(latticeValue(seed, x, y + 1), latticeValue(seed, x + 1, y + 1), tx);
   return mix(top, bottom, ty);

@@ -1,167 +1,199 @@
 #include "hal/cameras/synthetic/renderer.h"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
+#include <limits>
+#include <numeric>
 #include <utility>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
-#include "hal/cameras/synthetic/desk_world.h"
+#include "hal/cameras/synthetic/sampler.h"
+#include "hal/cameras/synthetic/srgb.h"
 
 namespace pleinair::hal::synthetic {
 namespace {
 
-// The compilers' portable vectors: SSE and NEON alike.
-using Float4 = float __attribute__((vector_size(16)));
-using Int4 = std::int32_t __attribute__((vector_size(16)));
-using Word8 = std::uint16_t __attribute__((vector_size(16)));
-static_assert(2 * sizeof(Texel) == sizeof(Word8));
+constexpr std::size_t kCodedSteps = 4096;
 
-/// Finer than the footprint's own level: crisp edges, which the two taps keep from shimmering.
-constexpr float kLevelBias = -0.8F;
-
-struct TexelPair {
-  Float4 left, right;
-};
-
-/// A texel and the next in its row, 65535 for 1. Widens with zero words, for little-endian machines
-/// (all of ours): the compilers convert 16-bit vectors one by one.
-TexelPair load(const Texel* texel) {
-  Word8 words;
-  std::memcpy(&words, texel, sizeof(words));
-  const Word8 zero{};
-  const Word8 left = __builtin_shufflevector(words, zero, 0, 8, 1, 9, 2, 10, 3, 11);
-  const Word8 right = __builtin_shufflevector(words, zero, 4, 12, 5, 13, 6, 14, 7, 15);
-  return {__builtin_convertvector(Int4(left), Float4),
-          __builtin_convertvector(Int4(right), Float4)};
-}
-
-Float4 clamped(Float4 value, Float4 highest) {
-  const Float4 fromZero = value > 0.0F ? value : Float4{};
-  return fromZero < highest ? fromZero : highest;
-}
-
-/// The ray's foot on a plane this far below the eye, with its derivatives by the pixel's x and y.
-struct Foot {
-  glm::vec2 point{0};
-  glm::vec2 alongX{0};
-  glm::vec2 alongY{0};
-};
-
-struct RowRays {
-  glm::vec3 eye{0};
-  glm::vec3 first{0};    ///< direction through the first pixel's centre
-  glm::vec3 acrossX{0};  ///< its change from pixel to pixel
-  glm::vec3 acrossY{0};  ///< its change from row to row
-
-  Foot footOf(glm::vec3 direction, float depthBelowEye) const {
-    const float t = -depthBelowEye / direction.z;
-    const glm::vec2 slope = glm::vec2(direction) / direction.z;
-    return {glm::vec2(eye) + glm::vec2(direction) * t, (glm::vec2(acrossX) - slope * acrossX.z) * t,
-            (glm::vec2(acrossY) - slope * acrossY.z) * t};
+/// Between coded levels in sixty-fourths and linear light.
+struct Coding {
+  std::array<float, (kLevelSteps >> 4) + 2> linear{};  // quarters of a level
+  std::array<std::int16_t, kCodedSteps + 1> level{};
+  Coding() {
+    for (std::size_t i = 0; i < linear.size(); ++i) {
+      const float coded = static_cast<float>(i) / 4;
+      const auto below = static_cast<std::uint8_t>(std::min(coded, 254.0F));
+      const float low = linearFromLevel(below);
+      const float high = linearFromLevel(static_cast<std::uint8_t>(below + 1));
+      linear[i] = low + (high - low) * (coded - static_cast<float>(below));
+    }
+    for (std::size_t i = 0; i <= kCodedSteps; ++i) {
+      const float light = static_cast<float>(i) / kCodedSteps;
+      level[i] = static_cast<std::int16_t>(std::lround(levelFromLinear(light) * 64));
+    }
+  }
+  float linearOf(std::int16_t coded) const {
+    return linear[static_cast<std::size_t>(std::max<std::int16_t>(coded, 0)) >> 4];
+  }
+  std::int16_t levelOf(float light) const {
+    return level[static_cast<std::size_t>(std::clamp(light, 0.0F, 1.0F) * kCodedSteps)];
   }
 };
 
-RowRays raysFrom(const CameraView& view, int x, int y) {
-  const Ray first = view.through({x + 0.5, y + 0.5});
-  const Ray right = view.through({x + 1.5, y + 0.5});
-  const Ray below = view.through({x + 0.5, y + 1.5});
-  return {glm::vec3(first.origin), glm::vec3(first.direction),
-          glm::vec3(right.direction - first.direction),
-          glm::vec3(below.direction - first.direction)};
-}
-
-/// The desk's texture, read with one footprint: two taps on each of two levels, in a lane each.
-class FootSampler {
- public:
-  FootSampler(const DeskPicture& desk, const Foot& foot);
-
-  /// Premultiplied linear light and coverage, 65535 for 1; `point` in metres.
-  Float4 at(glm::vec2 point) const {
-    const Float4 x = clamped(point.x * scale_ + offsetX_, highestX_);
-    const Float4 y = clamped(point.y * scale_ + offsetY_, highestY_);
-    const Int4 column = __builtin_convertvector(x, Int4);
-    const Int4 row = __builtin_convertvector(y, Int4);
-    const Float4 tx = x - __builtin_convertvector(column, Float4);
-    const Float4 ty = y - __builtin_convertvector(row, Float4);
-    const Int4 index = row * width_ + column;
-    const Float4 far = weight_ * ty;
-    const Float4 near = weight_ - far;
-    const auto tap = [&](int lane) {
-      const Texel* texel = texels_[lane] + index[lane];
-      const TexelPair above = load(texel);
-      const TexelPair below = load(texel + width_[lane]);
-      const Float4 left = above.left * near[lane] + below.left * far[lane];
-      const Float4 right = above.right * near[lane] + below.right * far[lane];
-      return left + (right - left) * tx[lane];
-    };
-    return tap(0) + tap(1) + tap(2) + tap(3);  // by hand: in a loop, lanes go through memory
-  }
-
- private:
-  static constexpr int kLanes = 4;
-  const Texel* texels_[kLanes] = {};
-  Int4 width_{};
-  Float4 scale_{}, offsetX_{}, offsetY_{};  // texels a metre, and texels
-  Float4 highestX_{}, highestY_{};          // so that the next texel is there
-  Float4 weight_{};
-};
-
-FootSampler::FootSampler(const DeskPicture& desk, const Foot& foot) {
-  const auto& levels = desk.texture.levels();
-  glm::vec2 longer = foot.alongX;
-  glm::vec2 shorter = foot.alongY;
-  if (glm::dot(longer, longer) < glm::dot(shorter, shorter)) std::swap(longer, shorter);
-  const float footprint = std::max(glm::length(shorter), glm::length(longer) / 2);  // metres
-  const float lod = std::log2(footprint / static_cast<float>(desk.texelMetres)) + kLevelBias;
-  const float highest = static_cast<float>(levels.size()) - 1.01F;
-  const float level = lod > 0 ? std::min(lod, highest) : 0.0F;
-  const auto fine = static_cast<std::size_t>(level);
-  const float coarseShare = level - static_cast<float>(fine);
-  for (int lane = 0; lane < kLanes; ++lane) {
-    const bool isCoarse = lane >= 2;
-    const std::size_t index = fine + (isCoarse ? 1 : 0);
-    const MipTexture::Level& source = levels[index];
-    const glm::vec2 tap = (lane % 2 == 0 ? -0.25F : 0.25F) * longer;
-    const float scale = static_cast<float>(1 / desk.texelMetres) / static_cast<float>(1U << index);
-    texels_[lane] = source.texels.data();
-    width_[lane] = source.width;
-    scale_[lane] = scale;
-    offsetX_[lane] = (tap.x - static_cast<float>(desk.originMetres.x)) * scale - 0.5F;
-    offsetY_[lane] = (tap.y - static_cast<float>(desk.originMetres.y)) * scale - 0.5F;
-    highestX_[lane] = static_cast<float>(source.width) - 1.01F;
-    highestY_[lane] = static_cast<float>(source.height) - 1.01F;
-    weight_[lane] = 0.5F * (isCoarse ? coarseShare : 1 - coarseShare);
-  }
+const Coding& coding() {
+  static const Coding kCoding;
+  return kCoding;
 }
 
 }  // namespace
 
-Renderer::Renderer(std::shared_ptr<const DeskPicture> desk) : desk_(std::move(desk)) {}
+void Renderer::begin(const Exposure& exposure) {
+  exposure_ = &exposure;
+  row_ = 0;
+  next_ = 0;
+  active_.clear();
+  line_.resize(exposure.size().width);
+  levels_.assign(3 * static_cast<std::size_t>(exposure.size().width) + 1, 0);
+  candidates_.clear();
+  for (const Solid& solid : world_->geometry.solids) {
+    exposure.rolls() ? addRolling(solid) : addStanding(solid);
+  }
+  order_.resize(candidates_.size());
+  std::iota(order_.begin(), order_.end(), std::uint16_t{0});
+  std::ranges::sort(order_, {}, [this](std::uint16_t i) { return candidates_[i].firstRow; });
+}
 
-void Renderer::renderRun(const CameraView& view, int x, int y,
-                         std::span<glm::vec3> linearRgb) const {
-  const RowRays rays = raysFrom(view, x, y);
-  const auto half = static_cast<float>(linearRgb.size()) / 2;
-  const FootSampler sampler(*desk_, rays.footOf(rays.first + half * rays.acrossX, rays.eye.z));
-  for (std::size_t i = 0; i < linearRgb.size(); ++i) {
-    const glm::vec3 direction = rays.first + static_cast<float>(i) * rays.acrossX;
-    if (direction.z >= 0) {
-      linearRgb[i] = hazeLinearRgb();
+bool Renderer::isWithin(const ProjectedFacet& facet, float margin) const {
+  const FrameSize size = exposure_->size();
+  return facet.right + margin > 0 && facet.left - margin < static_cast<float>(size.width) &&
+         facet.bottom + margin > 0 && facet.top - margin < static_cast<float>(size.height);
+}
+
+ProjectedFacet& Renderer::slotFor(std::size_t index) {
+  assert(index < ScanLine::kNothing);
+  if (projected_.size() <= index) projected_.resize(index + 1);
+  return projected_[index];
+}
+
+void Renderer::addCandidate(std::uint32_t facet, bool moves, float top, float bottom) {
+  const auto height = static_cast<float>(exposure_->size().height);
+  candidates_.push_back({facet, moves, static_cast<int>(std::floor(std::clamp(top, 0.0F, height))),
+                         static_cast<int>(std::ceil(std::clamp(bottom, 0.0F, height)))});
+}
+
+void Renderer::addStanding(const Solid& solid) {
+  const CameraView view = exposure_->viewAt(0);
+  const glm::dmat4 pose =
+      solid.moves ? view.cameraFromWorld * exposure_->worldFromMoverAt(0) : view.cameraFromWorld;
+  if (!mayShow(solid, pose, view.intrinsics, exposure_->size(), 0)) return;
+  for (std::uint32_t i = solid.firstFacet; i < solid.firstFacet + solid.facets; ++i) {
+    ProjectedFacet& slot = slotFor(candidates_.size());
+    if (!project(world_->geometry, i, pose, view.intrinsics, slot)) continue;
+    if (isWithin(slot, 0)) addCandidate(i, solid.moves, slot.top, slot.bottom);
+  }
+}
+
+/// Where a facet is seen from several rows' moments, and as far beyond as it moves between them.
+void Renderer::addRolling(const Solid& solid) {
+  constexpr int kMoments = 9;
+  constexpr float kMarginPx = 3;
+  const int height = exposure_->size().height;
+  for (std::uint32_t i = solid.firstFacet; i < solid.firstFacet + solid.facets; ++i) {
+    float top = std::numeric_limits<float>::infinity();
+    float bottom = -top;
+    float margin = kMarginPx;
+    float lastTop = 0;
+    float lastBottom = 0;
+    bool isSeen = false;
+    for (int moment = 0; moment < kMoments; ++moment) {
+      const double y = height * (moment / (kMoments - 1.0));
+      const CameraView view = exposure_->viewAt(y);
+      const glm::dmat4 pose = solid.moves ? view.cameraFromWorld * exposure_->worldFromMoverAt(y)
+                                          : view.cameraFromWorld;
+      if (!project(world_->geometry, i, pose, view.intrinsics, scratch_)) continue;
+      if (top <= bottom) {
+        margin = std::max({margin, kMarginPx + std::abs(scratch_.top - lastTop),
+                           kMarginPx + std::abs(scratch_.bottom - lastBottom)});
+      }
+      lastTop = scratch_.top;
+      lastBottom = scratch_.bottom;
+      top = std::min(top, scratch_.top);
+      bottom = std::max(bottom, scratch_.bottom);
+      isSeen |= isWithin(scratch_, static_cast<float>(height) / 8);
+    }
+    if (!isSeen) continue;
+    slotFor(candidates_.size());
+    addCandidate(i, solid.moves, top - margin, bottom + margin);
+  }
+}
+
+std::span<const std::int16_t> Renderer::nextRow() {
+  assert(exposure_ != nullptr && row_ < exposure_->size().height);
+  std::erase_if(active_, [this](std::uint16_t i) { return candidates_[i].endRow <= row_; });
+  for (; next_ < order_.size() && candidates_[order_[next_]].firstRow <= row_; ++next_) {
+    if (candidates_[order_[next_]].endRow > row_) active_.push_back(order_[next_]);
+  }
+  if (exposure_->rolls()) projectActive();
+  line_.follow(row_, projected_, active_);
+  shade();
+  ++row_;
+  return std::span(levels_).first(levels_.size() - 1);
+}
+
+void Renderer::projectActive() {
+  const double y = row_ + 0.5;
+  const CameraView view = exposure_->viewAt(y);
+  const glm::dmat4 cameraFromMover = view.cameraFromWorld * exposure_->worldFromMoverAt(y);
+  for (const std::uint16_t slot : active_) {
+    const Candidate& candidate = candidates_[slot];
+    ProjectedFacet& facet = projected_[slot];
+    const glm::dmat4& pose = candidate.moves ? cameraFromMover : view.cameraFromWorld;
+    if (!project(world_->geometry, candidate.facet, pose, view.intrinsics, facet)) {
+      facet.top = facet.bottom = -1;  // turned away at this row's moment
+    }
+  }
+}
+
+void Renderer::shade() {
+  const int width = exposure_->size().width;
+  for (int x = 0; x < width;) {
+    const std::uint16_t index = line_.indexAt(x);
+    if (index == ScanLine::kMixed) {
+      shadeMixed(x++);
       continue;
     }
-    const glm::vec2 slope = glm::vec2(direction) / direction.z;
-    const glm::vec2 eye(rays.eye);
-    const Float4 desk = sampler.at(eye - rays.eye.z * slope) * (1 / 65535.0F);
-    linearRgb[i] = {desk[0], desk[1], desk[2]};
-    if (desk[3] < 0.9999F) {
-      const float depthOfFloor = rays.eye.z - static_cast<float>(kFloorZ);
-      linearRgb[i] += (1 - desk[3]) * floorLinearRgb(eye - depthOfFloor * slope);
-    }
+    int end = x + 1;
+    while (end < width && line_.indexAt(end) == index) ++end;
+    sampleOrDark(index, x, end - x, levels_.data() + std::ptrdiff_t{3} * x);
+    x = end;
+  }
+}
+
+void Renderer::sampleOrDark(std::uint16_t index, int x, int count, std::int16_t* levels) const {
+  if (index == ScanLine::kNothing) {
+    std::fill_n(levels, 3 * count + 1, std::int16_t{0});
+    return;
+  }
+  const ProjectedFacet& facet = projected_[index];
+  const Facet& flat = world_->geometry.facets[facet.facet];
+  sample(facet, world_->textures[flat.patch], x, row_, count, levels);
+}
+
+void Renderer::shadeMixed(int x) {
+  glm::vec3 light(0);
+  for (const ScanLine::Share& share : line_.sharesAt(x)) {
+    std::array<std::int16_t, 4> levels{};
+    sampleOrDark(share.index, x, 1, levels.data());
+    light += share.coverage * glm::vec3(coding().linearOf(levels[0]), coding().linearOf(levels[1]),
+                                        coding().linearOf(levels[2]));
+  }
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    levels_[3 * static_cast<std::size_t>(x) + channel] =
+        coding().levelOf(light[static_cast<glm::vec3::length_type>(channel)]);
   }
 }
 

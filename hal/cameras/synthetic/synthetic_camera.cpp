@@ -1,21 +1,18 @@
 #include "hal/cameras/synthetic/synthetic_camera.h"
 
 #include <algorithm>
-#include <array>
+#include <chrono>
 #include <cmath>
-#include <map>
-#include <mutex>
-#include <span>
 #include <string>
 #include <utility>
+
+#include "hal/cameras/synthetic/noise.h"
+#include "hal/cameras/synthetic/world.h"
 
 namespace pleinair::hal {
 namespace {
 
-using synthetic::CameraView;
-using synthetic::Renderer;
-
-constexpr int kStripPixels = 64;
+using synthetic::Exposure;
 
 FrameFormat formatOf(FrameSize size) {
   // The pool wants a size within the limits; start() refuses the others.
@@ -24,23 +21,10 @@ FrameFormat formatOf(FrameSize size) {
 
 /// Half a pixel's footprint or so, as far as memory allows.
 double texelMetresFor(FrameSize size) {
-  constexpr double kViewingMetres = 0.8;
+  constexpr double kViewingMetres = 1.0;
   constexpr double kFinest = 0.0006;
   constexpr double kCoarsest = 0.004;
   return std::clamp(0.45 * kViewingMetres / syntheticIntrinsics(size).fx, kFinest, kCoarsest);
-}
-
-/// The desk of a seed, painted once for all cameras that look at it at a time.
-std::shared_ptr<const Renderer> deskOf(std::uint32_t seed, double texelMetres) {
-  static std::mutex mutex;
-  static std::map<std::pair<std::uint32_t, double>, std::weak_ptr<const Renderer>> desks;
-  const std::scoped_lock lock(mutex);
-  std::weak_ptr<const Renderer>& known = desks[{seed, texelMetres}];
-  if (auto renderer = known.lock()) return renderer;
-  auto renderer = std::make_shared<const Renderer>(
-      std::make_shared<const synthetic::DeskPicture>(synthetic::paintDesk(seed, texelMetres)));
-  known = renderer;
-  return renderer;
 }
 
 Error refused(ErrorKind kind, std::string problem, std::string remedy) {
@@ -50,41 +34,71 @@ Error refused(ErrorKind kind, std::string problem, std::string remedy) {
           .remedy = std::move(remedy)};
 }
 
+/// What is wrong with the options, if anything.
+std::optional<Error> problemOf(const SyntheticOptions& options) {
+  const auto outside = [](double value, double most) { return !(value >= 0 && value <= most); };
+  const auto invalid = [](std::string problem, std::string remedy) {
+    return refused(ErrorKind::kInvalidArgument, std::move(problem), std::move(remedy));
+  };
+  const FrameSize size = options.size;
+  if (!isAcceptedSize(size)) {
+    return refused(
+        ErrorKind::kUnsupported,
+        "cannot make frames of " + std::to_string(size.width) + "x" + std::to_string(size.height),
+        "choose sides of 1 to " + std::to_string(kMaxSidePixels) + " pixels");
+  }
+  if (options.framePeriod <= Duration::zero()) {
+    return invalid("the frame period is not positive", "choose one such as 33 ms");
+  }
+  if (outside(options.noiseSigma, synthetic::Sensor::kMostNoise)) {
+    return invalid("the noise is out of range",
+                   "choose a standard deviation of 0 to 40 8-bit levels, such as 2");
+  }
+  if (outside(options.exposureDriftStops, 2)) {
+    return invalid("the exposure's drift is out of range", "choose 0 to 2 stops, such as 0.3");
+  }
+  if (outside(options.whiteBalanceDrift, 0.5)) {
+    return invalid("the white balance's drift is out of range",
+                   "choose a share of 0 to 0.5, such as 0.1");
+  }
+  if (options.rowTime < Duration::zero() ||
+      options.rowTime > options.framePeriod / std::max(size.height, 1)) {
+    return invalid("the rolling shutter's rows do not fit into the frame period",
+                   "choose a row time of 0 to " +
+                       std::to_string((options.framePeriod / std::max(size.height, 1)).count()) +
+                       " ns");
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 SyntheticCamera::SyntheticCamera(SyntheticOptions options, Clock& clock)
     : options_(options),
       clock_(clock),
-      path_(options.seed),
-      sensor_(options.seed, options.noiseSigma),
+      motion_(options.shot, options.seed),
+      brightness_(synthetic::mixBits(options.seed) + 21, 1, 5.3),
+      balance_(synthetic::mixBits(options.seed) + 22, 1, 7.9),
+      sensor_(options.seed, problemOf(options) ? 0 : options.noiseSigma),
       pool_(formatOf(options.size)) {}
 
 CameraIdentity SyntheticCamera::identity() const {
+  const std::string shot(toString(options_.shot));
   const std::string seed = std::to_string(options_.seed);
   return {.backend = "synthetic",
-          .id = "synthetic:" + seed,
-          .description = "simulated camera over a desk with tags, seed " + seed};
+          .id = "synthetic:" + shot + ":" + seed,
+          .description = "simulated camera before a workbench, shot " + shot + ", seed " + seed};
 }
 
 Result<StreamFormat> SyntheticCamera::start(const StreamRequest&) {
   stop();
+  if (std::optional<Error> problem = problemOf(options_)) {
+    return tl::unexpected(*std::move(problem));
+  }
   const FrameSize size = options_.size;
-  if (!isAcceptedSize(size)) {
-    return tl::unexpected(refused(
-        ErrorKind::kUnsupported,
-        "cannot make frames of " + std::to_string(size.width) + "x" + std::to_string(size.height),
-        "choose sides of 1 to " + std::to_string(kMaxSidePixels) + " pixels"));
+  if (!renderer_) {
+    renderer_.emplace(synthetic::sharedWorkbench(options_.seed, texelMetresFor(size)));
   }
-  if (options_.framePeriod <= Duration::zero()) {
-    return tl::unexpected(refused(ErrorKind::kInvalidArgument, "the frame period is not positive",
-                                  "choose one such as 33 ms"));
-  }
-  if (!std::isfinite(options_.noiseSigma) || options_.noiseSigma < 0) {
-    return tl::unexpected(refused(ErrorKind::kInvalidArgument,
-                                  "the noise is not a number from 0 on",
-                                  "choose a standard deviation in 8-bit levels, such as 2"));
-  }
-  if (!renderer_) renderer_ = deskOf(options_.seed, texelMetresFor(size));
   startTime_ = clock_.now();
   nextSequence_ = 0;
   return StreamFormat{.frame = formatOf(size),
@@ -100,9 +114,17 @@ TimePoint SyntheticCamera::captureTimeOf(std::uint64_t sequence) const {
   return startTime_ + static_cast<Duration::rep>(sequence) * options_.framePeriod;
 }
 
-CameraView SyntheticCamera::viewOf(std::uint64_t sequence) const {
+Exposure SyntheticCamera::exposureOf(std::uint64_t sequence) const {
   const Duration time = static_cast<Duration::rep>(sequence) * options_.framePeriod;
-  return {syntheticIntrinsics(options_.size), path_.cameraFromWorld(time)};
+  return {options_.size, motion_, time, options_.rowTime};
+}
+
+synthetic::SensorGains SyntheticCamera::gainsOf(std::uint64_t sequence) const {
+  const double seconds =
+      static_cast<double>(sequence) * std::chrono::duration<double>(options_.framePeriod).count();
+  const double gain = std::exp2(options_.exposureDriftStops * brightness_.at(seconds));
+  const double warmth = 1 + options_.whiteBalanceDrift * balance_.at(seconds);
+  return {gain * warmth, gain, gain / warmth};
 }
 
 std::uint64_t SyntheticCamera::dueSequence() const {
@@ -114,18 +136,11 @@ std::uint64_t SyntheticCamera::dueSequence() const {
 
 CapturedFrame SyntheticCamera::capture(std::uint64_t sequence) {
   const std::shared_ptr<Image> image = pool_.take();
-  const CameraView view = viewOf(sequence);
-  const FrameSize size = options_.size;
-  std::array<glm::vec3, kStripPixels> light{};
-  // In narrow strips: the part of the desk that a strip's row shows is still cached for the next.
-  for (int x = 0; x < size.width; x += kStripPixels) {
-    const auto width = static_cast<std::size_t>(std::min(kStripPixels, size.width - x));
-    const std::span<glm::vec3> linearRgb(light.data(), width);
-    for (int y = 0; y < size.height; ++y) {
-      renderer_->renderRun(view, x, y, linearRgb);
-      const auto rgb8 = image->row(0, y).subspan(static_cast<std::size_t>(x) * 3, width * 3);
-      sensor_.exposeRun(sequence, x, y, linearRgb, rgb8);
-    }
+  const Exposure exposure = exposureOf(sequence);
+  sensor_.beginFrame(sequence, gainsOf(sequence));
+  renderer_->begin(exposure);
+  for (int y = 0; y < options_.size.height; ++y) {
+    sensor_.exposeRow(y, renderer_->nextRow(), image->row(0, y));
   }
   return {.image = image->view(),
           .dmaBufs = {},
@@ -153,15 +168,21 @@ NextFrame SyntheticCamera::next(TimePoint deadline) {
 }
 
 GroundTruth SyntheticCamera::truth(std::uint64_t sequence) const {
-  return synthetic::truthOf(viewOf(sequence), options_.size);
+  return synthetic::truthOf(exposureOf(sequence), synthetic::workbenchGeometry());
+}
+
+glm::dmat4 SyntheticCamera::cameraFromWorld(std::uint64_t sequence, int row) const {
+  return exposureOf(sequence).viewAt(row + 0.5).cameraFromWorld;
 }
 
 FlowVector SyntheticCamera::flow(std::uint64_t from, std::uint64_t to, glm::dvec2 pixel) const {
-  return synthetic::flowBetween(viewOf(from), viewOf(to), options_.size, pixel);
+  return synthetic::flowBetween(exposureOf(from), exposureOf(to), synthetic::workbenchGeometry(),
+                                pixel);
 }
 
 FlowField SyntheticCamera::flowField(std::uint64_t from, std::uint64_t to) const {
-  return synthetic::flowFieldBetween(viewOf(from), viewOf(to), options_.size);
+  return synthetic::flowFieldBetween(exposureOf(from), exposureOf(to),
+                                     synthetic::workbenchGeometry());
 }
 
 }  // namespace pleinair::hal

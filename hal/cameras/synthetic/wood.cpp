@@ -4,53 +4,50 @@
 
 #include <glm/common.hpp>
 
-#include "hal/cameras/synthetic/mip_texture.h"
 #include "hal/cameras/synthetic/noise.h"
+#include "hal/cameras/synthetic/srgb.h"
 
 namespace pleinair::hal::synthetic {
 namespace {
 
-constexpr float kPlankWidth = 0.152F;
-constexpr float kPlankLength = 1.15F;
-constexpr float kRingSpacing = 0.0062F;
-constexpr int kKnotsAPlank = 2;
-
-struct Plank {
-  std::uint32_t id = 0;
-  glm::vec2 point{0};     ///< metres from the plank's centre
-  float toNeighbour = 0;  ///< distance to the nearest joint
-};
+constexpr float kPlankWidth = 0.184F;
+constexpr float kPlankLength = 2.60F;
+constexpr float kRingSpacing = 0.0135F;
 
 float random(std::uint32_t id, std::uint32_t index) {
   return static_cast<float>(unitRandom(id, index));
 }
 
-Plank plankAt(std::uint32_t seed, glm::vec2 point) {
-  const float row = std::floor(point.y / kPlankWidth);
-  const auto rowId = static_cast<std::uint32_t>(static_cast<std::int32_t>(row));
-  const float along = point.x + kPlankLength * random(seed ^ 0x51U, rowId);
-  const float column = std::floor(along / kPlankLength);
-  const auto columnId = static_cast<std::uint32_t>(static_cast<std::int32_t>(column));
-  Plank plank;
-  plank.id = static_cast<std::uint32_t>(mixBits(mixBits(seed ^ rowId) + columnId));
-  plank.point = {along - (column + 0.5F) * kPlankLength, point.y - (row + 0.5F) * kPlankWidth};
-  plank.toNeighbour = std::min(kPlankLength / 2 - std::abs(plank.point.x),
-                               kPlankWidth / 2 - std::abs(plank.point.y));
-  return plank;
+}  // namespace
+
+void Wood::take(glm::ivec2 place) {
+  static const glm::vec3 kLight = linearFromSrgb(0xcaa273);
+  static const glm::vec3 kReddish = linearFromSrgb(0xb98c5e);
+  const auto rowId = static_cast<std::uint32_t>(place.y);
+  const auto columnId = static_cast<std::uint32_t>(place.x);
+  plank_.place = place;
+  plank_.id = static_cast<std::uint32_t>(mixBits(mixBits(seed_ ^ rowId) + columnId));
+  plank_.light = glm::mix(kLight, kReddish, random(plank_.id, 3) * 0.8F);
+  plank_.tone = 0.90F + 0.18F * random(plank_.id, 4);
+  plank_.ringShift = 0.16F * (random(plank_.id, 1) - 0.5F);
+  plank_.ringTilt = 0.07F * (random(plank_.id, 2) - 0.5F);
+  for (std::uint32_t i = 0; i < kKnotsAPlank; ++i) {
+    plank_.knots[i] = {
+        {kPlankLength * 0.9F * (random(plank_.id, 40 + i) - 0.5F),
+         kPlankWidth * 0.6F * (random(plank_.id, 50 + i) - 0.5F)},
+        random(plank_.id, 20 + i) < 0.45F ? 0.0F : 0.005F + 0.007F * random(plank_.id, 30 + i)};
+  }
 }
 
 /// Bends the grain around the plank's knots and says how deep inside one the point lies.
-float bendAroundKnots(const Plank& plank, float& y) {
+float Wood::bendAroundKnots(glm::vec2 p, float& y) const {
   float inKnot = 0;
-  for (std::uint32_t knot = 0; knot < kKnotsAPlank; ++knot) {
-    if (random(plank.id, 20 + knot) < 0.45F) continue;
-    const float radius = 0.005F + 0.007F * random(plank.id, 30 + knot);
-    const glm::vec2 centre(kPlankLength * 0.9F * (random(plank.id, 40 + knot) - 0.5F),
-                           kPlankWidth * 0.6F * (random(plank.id, 50 + knot) - 0.5F));
-    const glm::vec2 d = (plank.point - centre) / radius;
+  for (const Knot& knot : plank_.knots) {
+    if (knot.radius == 0) continue;
+    const glm::vec2 d = (p - knot.centre) / knot.radius;
     if (std::abs(d.x) > 14 || std::abs(d.y) > 8) continue;
     const float bend = std::exp(-(d.x * d.x / 18 + d.y * d.y / 5));
-    y += (d.y / (std::abs(d.y) + 0.5F)) * radius * 1.3F * bend;
+    y += (d.y / (std::abs(d.y) + 0.5F)) * knot.radius * 1.3F * bend;
     inKnot = std::max(inKnot,
                       1 - glm::smoothstep(0.55F, 1.15F, std::sqrt(d.x * d.x * 0.55F + d.y * d.y)));
   }
@@ -58,44 +55,44 @@ float bendAroundKnots(const Plank& plank, float& y) {
 }
 
 /// 0 in early wood, 1 in the dark line that ends a year.
-float yearRings(const Plank& plank, float y) {
-  const glm::vec2 p = plank.point;
-  const float warp = fractalNoise(plank.id, {p.x * 2.1F, p.y * 9}, 3) - 0.5F;
-  const float acrossMetres = y + 0.16F * (random(plank.id, 1) - 0.5F) + 0.022F * warp;
-  const float depthMetres = 0.035F + p.x * 0.07F * (random(plank.id, 2) - 0.5F) +
-                            0.03F * (valueNoise(plank.id + 7, {p.x * 1.6F, 0}) - 0.5F);
+float Wood::yearRings(glm::vec2 p, float y) const {
+  const float warp = fractalNoise(plank_.id, {p.x * 2.1F, p.y * 9}, 2) - 0.5F;
+  const float acrossMetres = y + plank_.ringShift + 0.022F * warp;
+  const float depthMetres = 0.035F + p.x * plank_.ringTilt;
   const float rings =
       std::sqrt(acrossMetres * acrossMetres + depthMetres * depthMetres) / kRingSpacing;
   const float phase = rings - std::floor(rings);
   return glm::smoothstep(0.1F, 0.85F, phase) * (1 - glm::smoothstep(0.86F, 1.0F, phase));
 }
 
-}  // namespace
-
-glm::vec3 woodLinearRgb(std::uint32_t seed, glm::vec2 point) {
-  static const glm::vec3 kLight = linearFromSrgb(0xd9a468);
-  static const glm::vec3 kDark = linearFromSrgb(0x9a6236);
-  static const glm::vec3 kReddish = linearFromSrgb(0xc07f4c);
-  static const glm::vec3 kKnot = linearFromSrgb(0x4a2a15);
-  const Plank plank = plankAt(seed, point);
-  const glm::vec2 p = plank.point;
+glm::vec3 Wood::linearRgbAt(glm::vec2 point) {
+  static const glm::vec3 kDark = linearFromSrgb(0xa2774b);
+  static const glm::vec3 kKnot = linearFromSrgb(0x5a3a22);
+  const float row = std::floor(point.y / kPlankWidth);
+  if (static_cast<std::int32_t>(row) != row_) {
+    row_ = static_cast<std::int32_t>(row);
+    rowShift_ = kPlankLength * random(seed_ ^ 0x51U, static_cast<std::uint32_t>(row_));
+  }
+  const float along = point.x + rowShift_;
+  const float column = std::floor(along / kPlankLength);
+  const glm::ivec2 place(static_cast<std::int32_t>(column), row_);
+  if (place != plank_.place) take(place);
+  const glm::vec2 p(along - (column + 0.5F) * kPlankLength, point.y - (row + 0.5F) * kPlankWidth);
+  const float toNeighbour =
+      std::min(kPlankLength / 2 - std::abs(p.x), kPlankWidth / 2 - std::abs(p.y));
 
   float y = p.y;
-  const float inKnot = bendAroundKnots(plank, y);
-  const float ring = yearRings(plank, y);
-  const float fibre = valueNoise(plank.id + 1, {p.x * 14, y * 650}) - 0.5F;
-  const float streak = fractalNoise(plank.id + 2, {p.x * 3, y * 90}, 2) - 0.5F;
-  const float pore = glm::smoothstep(0.80F, 0.95F, valueNoise(plank.id + 3, {p.x * 70, y * 800}));
-
-  const glm::vec3 light = glm::mix(kLight, kReddish, random(plank.id, 3) * 0.8F);
+  const float inKnot = bendAroundKnots(p, y);
+  const float ring = yearRings(p, y);
+  const float streak = fractalNoise(plank_.id + 2, {p.x * 1.5F, y * 34}, 2) - 0.5F;
   glm::vec3 rgb =
-      glm::mix(light, kDark, glm::clamp(0.52F * ring + 0.55F * streak + 0.12F, 0.F, 1.F));
-  rgb *= (0.86F + 0.26F * random(plank.id, 4)) * (1 + 0.22F * fibre) * (1 - 0.35F * pore);
-  rgb = glm::mix(rgb, kKnot * (0.8F + 0.6F * ring), 0.9F * inKnot);
+      glm::mix(plank_.light, kDark, glm::clamp(0.30F * ring + 0.26F * streak + 0.14F, 0.F, 1.F));
+  rgb *= plank_.tone;
+  rgb = glm::mix(rgb, kKnot * (0.8F + 0.6F * ring), 0.8F * inKnot);
 
-  const float groove = 1 - glm::smoothstep(0.0004F, 0.0016F, plank.toNeighbour);
-  const float bevel = 1 - glm::smoothstep(0.0016F, 0.0045F, plank.toNeighbour);
-  return rgb * (1 - 0.82F * groove) * (1 - 0.12F * bevel);
+  const float groove = 1 - glm::smoothstep(0.0006F, 0.0020F, toNeighbour);
+  const float bevel = 1 - glm::smoothstep(0.0020F, 0.0060F, toNeighbour);
+  return rgb * (1 - 0.72F * groove) * (1 - 0.14F * bevel);
 }
 
 }  // namespace pleinair::hal::synthetic

@@ -49,7 +49,7 @@ class ModelBuilder {
         structure_(gltf::readStructure(container_.json)),
         resources_(structure_, container_.binary, std::move(folder)),
         accessors_(structure_, resources_),
-        surfaces_(structure_, accessors_),
+        surfaces_(accessors_),
         materials_(structure_, resources_) {}
 
   Model build() {

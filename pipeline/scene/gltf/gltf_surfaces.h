@@ -22,8 +22,7 @@ struct TextureMapping {
 /// Reads primitives as meshes, within limits on how much all of them are together.
 class SurfaceReader {
  public:
-  SurfaceReader(const Structure& structure, Accessors& accessors)
-      : structure_(structure), accessors_(accessors) {}
+  explicit SurfaceReader(Accessors& accessors) : accessors_(accessors) {}
 
   /// The triangles of a primitive; nothing for points and lines. With `joints`, posed by them: they
   /// take it to where the joints are. Throws Fault.
@@ -37,7 +36,6 @@ class SurfaceReader {
   void pose(const tinygltf::Primitive& primitive, std::span<const glm::dmat4> joints,
             const std::string& where, Mesh& mesh);
 
-  const Structure& structure_;
   Accessors& accessors_;
   std::size_t vertices_ = 0;
   std::size_t triangles_ = 0;

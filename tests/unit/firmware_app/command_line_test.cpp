@@ -45,9 +45,12 @@ TEST(CommandLine, RefusesWhatItDoesNotKnow) {
   expectRefused({"render", "--input", "a.mp4", "--output", "b.mp4", "--colour"}, "--colour");
   expectRefused({"record", "--output", "b.mp4", "two\nlines"}, "two?lines");
   expectRefused({"record", "--output", "/no-such-folder/b.mp4", "--camera", "webcam"}, "webcam");
-  expectRefused({"record", "--output", "/no-such-folder/b.mp4", "--camera", "synthetic:x"},
-                "--camera: found \"synthetic:x\" (did you mean \"synthetic\"?), allowed: "
-                "synthetic, or a path");
+  for (const char* camera : {"synthetic:x", "synthetic:zoom", "synthetic:", "synthetic:pann"}) {
+    expectRefused(
+        {"record", "--output", "/no-such-folder/b.mp4", "--camera", camera},
+        "synthetic, synthetic:walkaround, synthetic:pan, synthetic:dolly, synthetic:roll, "
+        "synthetic:still, synthetic:occluder, synthetic:cut");
+  }
 }
 
 TEST(CommandLine, NamesWhatIsMissing) {

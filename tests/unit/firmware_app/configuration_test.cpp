@@ -540,7 +540,14 @@ TEST_F(ConfigurationTest, BecomesAPaintersOptions) {
 }
 
 TEST_F(ConfigurationTest, BecomesASyntheticCamerasOptions) {
-  request_.set = {"camera.rate=25", "camera.size=320x240", "camera.seed=7", "camera.noise=0"};
+  request_.set = {"camera.rate=25",
+                  "camera.size=320x240",
+                  "camera.seed=7",
+                  "camera.noise=0",
+                  "camera.source=synthetic:roll",
+                  "camera.exposure_drift=0.5",
+                  "camera.white_balance_drift=0.1",
+                  "camera.readout=0.5"};
   const CameraSettings camera = resolved().camera();
   EXPECT_TRUE(isSynthetic(camera));
   const hal::SyntheticOptions options = syntheticOptions(camera);
@@ -548,11 +555,17 @@ TEST_F(ConfigurationTest, BecomesASyntheticCamerasOptions) {
   EXPECT_EQ(options.size, (hal::FrameSize{320, 240}));
   EXPECT_EQ(options.seed, 7u);
   EXPECT_EQ(options.noiseSigma, 0);
+  EXPECT_EQ(options.shot, hal::SyntheticShot::kRoll);
+  EXPECT_EQ(options.exposureDriftStops, 0.5);
+  EXPECT_EQ(options.whiteBalanceDrift, 0.1);
+  EXPECT_EQ(options.rowTime, std::chrono::nanoseconds(40'000'000 / 2 / 240));
   // The defaults are the camera's own.
   const hal::SyntheticOptions defaults = syntheticOptions(CameraSettings());
   EXPECT_EQ(defaults.framePeriod, hal::SyntheticOptions().framePeriod);
   EXPECT_EQ(defaults.noiseSigma, hal::SyntheticOptions().noiseSigma);
   EXPECT_EQ(defaults.seed, hal::SyntheticOptions().seed);
+  EXPECT_EQ(defaults.shot, hal::SyntheticOptions().shot);
+  EXPECT_EQ(defaults.rowTime, hal::SyntheticOptions().rowTime);
   EXPECT_EQ(defaults.size, hal::SyntheticOptions().size);
 }
 

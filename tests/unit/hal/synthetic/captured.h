@@ -1,5 +1,8 @@
 #pragma once
 
+#include <map>
+#include <memory>
+#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -15,12 +18,24 @@ inline SyntheticOptions smallOptions() {
   return {.size = {160, 120}, .framePeriod = std::chrono::milliseconds(200)};
 }
 
+/// Keeps the workbench of a seed and size alive: it is painted once for a suite, not for each case.
+inline void keepWorkbenchOf(const SyntheticOptions& options) {
+  static SteppedClock clock;
+  static std::map<std::tuple<std::uint32_t, int, int>, std::unique_ptr<SyntheticCamera>> keepers;
+  auto& keeper = keepers[{options.seed, options.size.width, options.size.height}];
+  if (keeper) return;
+  keeper = std::make_unique<SyntheticCamera>(
+      SyntheticOptions{.size = options.size, .seed = options.seed}, clock);
+  EXPECT_TRUE(keeper->start({}));
+}
+
 /// The first `count` frames of a new camera.
 inline std::vector<Image> capturedFrames(const SyntheticOptions& options, int count) {
   SteppedClock clock;
   SyntheticCamera camera(options, clock);
   std::vector<Image> images;
   const Result<StreamFormat> format = camera.start({});
+  keepWorkbenchOf(options);
   EXPECT_TRUE(format) << format.error().message();
   while (format && static_cast<int>(images.size()) < count) {
     const NextFrame next = camera.next(kNoDeadline);

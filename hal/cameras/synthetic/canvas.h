@@ -10,11 +10,10 @@
 #include <glm/vec3.hpp>
 
 #include "hal/cameras/synthetic/mip_texture.h"
-#include "hal/cameras/synthetic/row_threads.h"
 
 namespace pleinair::hal::synthetic {
 
-/// Where a thing lies on the desk: its own x axis is turned counter-clockwise by the angle.
+/// Where a thing lies on a canvas: its own x axis is turned counter-clockwise by the angle.
 struct Placement {
   glm::vec2 centreMetres{0};
   float angleDegrees = 0;
@@ -59,15 +58,17 @@ inline float triangleDistance(glm::vec2 p, glm::vec2 a, glm::vec2 b, glm::vec2 c
   return std::max({side(a, b), side(b, c), side(c, a)});
 }
 
-/// A picture of the desk from above that things are painted on, one over the other, in world
-/// coordinates: row 0 is at the smallest y.
-class DeskCanvas {
+/// A flat surface that things are painted on, one over the other, in metres: as it is looked at, x
+/// runs to the right and y up. Row 0 of the texture is at the smallest y.
+class Canvas {
  public:
-  /// Paints on `level`, whose first texel's outer corner is at `originMetres`. Keeps a reference.
-  DeskCanvas(MipTexture::Level& level, glm::vec2 originMetres, float texelMetres)
-      : level_(level), origin_(originMetres), texel_(texelMetres) {}
+  /// Paints on `level`, whose first texel's outer corner is at −`half`. Keeps a reference.
+  Canvas(MipTexture::Level& level, glm::vec2 half, float texelMetres)
+      : level_(level), half_(half), texel_(texelMetres) {}
 
   float texelMetres() const { return texel_; }
+  /// The surface spans ±half() around the origin.
+  glm::vec2 half() const { return half_; }
 
   /// How much of a texel whose centre is at this distance lies inside a shape.
   float inside(float distanceMetres) const {
@@ -77,39 +78,66 @@ class DeskCanvas {
     return {linearRgb, inside(distanceMetres) * opacity};
   }
 
+  /// Lays shade(point) → linear RGB over the whole surface.
+  template <class Shade>
+  void paintAll(const Shade& shade) {
+    paint({}, half_ + 2 * texel_, [&](glm::vec2 p) { return Paint{shade(p), 1}; });
+  }
+
+  /// The same for what changes slowly along x, such as grain: only every fourth texel of a row is
+  /// asked for, and those between are interpolated.
+  template <class Shade>
+  void paintAllAlongX(const Shade& shade) {
+    constexpr int kStep = 4;
+    const auto at = [&](int x, int y) {
+      const glm::vec2 centre(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+      return shade(centre * texel_ - half_);
+    };
+    for (int y = 0; y < level_.height; ++y) {
+      Texel* row = level_.texels.data() + std::ptrdiff_t{y} * level_.width;
+      glm::vec3 from = at(0, y);
+      for (int x = 0; x < level_.width; x += kStep) {
+        const glm::vec3 to = at(x + kStep, y);
+        const int count = std::min(kStep, level_.width - x);
+        for (int i = 0; i < count; ++i) {
+          row[x + i] = codedTexel(glm::mix(from, to, static_cast<float>(i) / kStep));
+        }
+        from = to;
+      }
+    }
+  }
+
   /// Lays `shade(point) → Paint` over every texel within ±`half` (metres) of a thing; `point` is in
-  /// the thing's own coordinates, metres. Called from several threads.
+  /// the thing's own coordinates, metres.
   template <class Shade>
   void paint(const Placement& at, glm::vec2 half, const Shade& shade) {
     const float angle = at.angleDegrees * 0.017453293F;
     const glm::vec2 xAxis(std::cos(angle), std::sin(angle));
     const glm::vec2 reach(std::abs(xAxis.x) * half.x + std::abs(xAxis.y) * half.y,
                           std::abs(xAxis.y) * half.x + std::abs(xAxis.x) * half.y);
-    const glm::vec2 low = (at.centreMetres - reach - origin_) / texel_;
-    const glm::vec2 high = (at.centreMetres + reach - origin_) / texel_;
+    const glm::vec2 low = (at.centreMetres - reach + half_) / texel_;
+    const glm::vec2 high = (at.centreMetres + reach + half_) / texel_;
     const int endX = std::min(level_.width, static_cast<int>(high.x) + 1);
     const int endY = std::min(level_.height, static_cast<int>(high.y) + 1);
     const int firstX = std::max(0, static_cast<int>(low.x));
-    forRows(std::max(0, static_cast<int>(low.y)), endY, [&](int firstRow, int endRow) {
-      for (int y = firstRow; y < endRow; ++y) {
-        for (int x = firstX; x < endX; ++x) {
-          const glm::vec2 centre(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
-          const glm::vec2 world = origin_ + centre * texel_ - at.centreMetres;
-          const glm::vec2 point(glm::dot(world, xAxis), xAxis.x * world.y - xAxis.y * world.x);
-          if (std::abs(point.x) <= half.x && std::abs(point.y) <= half.y) blend(x, y, shade(point));
-        }
+    for (int y = std::max(0, static_cast<int>(low.y)); y < endY; ++y) {
+      for (int x = firstX; x < endX; ++x) {
+        const glm::vec2 centre(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+        const glm::vec2 offset = centre * texel_ - half_ - at.centreMetres;
+        const glm::vec2 point(glm::dot(offset, xAxis), xAxis.x * offset.y - xAxis.y * offset.x);
+        if (std::abs(point.x) <= half.x && std::abs(point.y) <= half.y) blend(x, y, shade(point));
       }
-    });
+    }
   }
 
-  /// The soft shadow of a rounded box that stands `heightMetres` high, lit from the far left.
+  /// The soft shadow of a thin rounded box that lies `heightMetres` high, lit from the left.
   void shadow(const Placement& at, glm::vec2 half, float cornerRadius, float heightMetres);
 
  private:
   void blend(int x, int y, const Paint& paint);
 
   MipTexture::Level& level_;
-  glm::vec2 origin_;
+  glm::vec2 half_;
   float texel_;
 };
 

@@ -1,4 +1,4 @@
-#include "firmware_app/desk_scene.h"
+#include "firmware_app/workbench_scene.h"
 
 #include <cmath>
 #include <utility>
@@ -13,32 +13,26 @@
 namespace pleinair::app {
 namespace {
 
-/// What stands on the desk: a large gear on the largest tag, a smaller one and a box beside it.
+/// A gear on the tag that lies free on the bench, where there is room for larger models, and
+/// something on what else lies flat.
 constexpr const char* kModels = R"(
 [[model]]
 name = "gear"
 source = "builtin:gear"
 attach = "tag:0"
-teeth = 20
+teeth = 24
 module_m = 0.006
-thickness_m = 0.02
+thickness_m = 0.022
 colour = "#d98a2b"
 
 [[model]]
 name = "pinion"
 source = "builtin:gear"
-attach = "tag:1"
+attach = "tag:4"
 teeth = 12
 module_m = 0.006
 thickness_m = 0.03
 colour = "#3f8fb5"
-
-[[model]]
-name = "box"
-source = "builtin:box"
-attach = "tag:2"
-size_m = [0.06, 0.05, 0.045]
-colour = "#c2483a"
 )";
 
 /// Turns about the fixed axes x, then y, then z, as scene files have them.
@@ -55,7 +49,7 @@ glm::dvec3 rotationDegrees(const glm::dmat4& pose) {
   return glm::degrees(radians);
 }
 
-std::string tagTable(const hal::DeskTag& tag) {
+std::string tagTable(const hal::BenchTag& tag) {
   const glm::dmat4 worldFromAttach = tag.worldFromTag * scene::kTagFromAttach;
   const glm::dvec3 rotation = rotationDegrees(worldFromAttach);
   const glm::dvec3 position(worldFromAttach[3]);
@@ -68,9 +62,9 @@ std::string tagTable(const hal::DeskTag& tag) {
 
 }  // namespace
 
-std::string deskScene(const hal::GroundTruth& truth, hal::FrameSize size) {
+std::string workbenchScene(const hal::GroundTruth& truth, hal::FrameSize size) {
   std::string text = fmt::format(
-      "# The synthetic camera and its desk.\n[camera]\nimage_size = [{}, {}]\n"
+      "# The synthetic camera and its workbench.\n[camera]\nimage_size = [{}, {}]\n"
       "fx = {:.6f}\nfy = {:.6f}\ncx = {:.6f}\ncy = {:.6f}\npixel_centres = \"half\"\n",
       size.width, size.height, truth.intrinsics.fx, truth.intrinsics.fy, truth.intrinsics.cx,
       truth.intrinsics.cy);
@@ -78,11 +72,11 @@ std::string deskScene(const hal::GroundTruth& truth, hal::FrameSize size) {
   return text + kModels;
 }
 
-hal::Result<void> writeDeskScene(const std::filesystem::path& path, const hal::GroundTruth& truth,
-                                 hal::FrameSize size) {
+hal::Result<void> writeWorkbenchScene(const std::filesystem::path& path,
+                                      const hal::GroundTruth& truth, hal::FrameSize size) {
   auto file = hal::PendingFile::create(path);
   if (!file) return tl::unexpected(std::move(file.error()));
-  const std::string text = deskScene(truth, size);
+  const std::string text = workbenchScene(truth, size);
   const auto written =
       file->write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   return written ? file->publish() : written;

@@ -1,4 +1,4 @@
-#include "firmware_app/desk_scene.h"
+#include "firmware_app/workbench_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,13 +16,13 @@ namespace {
 
 constexpr hal::FrameSize kSize{640, 480};
 
-hal::GroundTruth deskTruth() {
+hal::GroundTruth benchTruth() {
   hal::SteppedClock clock;
   return hal::SyntheticCamera({.size = kSize}, clock).truth(0);
 }
 
 scene::Scene parsed(const hal::GroundTruth& truth) {
-  return scene::parseScene(deskScene(truth, kSize), "desk.toml", {});
+  return scene::parseScene(workbenchScene(truth, kSize), "workbench.toml", {});
 }
 
 double largestDifference(const glm::dmat4& a, const glm::dmat4& b) {
@@ -47,7 +47,7 @@ void expectTagsOf(const hal::GroundTruth& truth) {
   const scene::Scene scene = parsed(truth);
   ASSERT_EQ(scene.tags.size(), truth.tags.size());
   for (std::size_t i = 0; i < truth.tags.size(); ++i) {
-    const hal::DeskTag& tag = truth.tags[i].tag;
+    const hal::BenchTag& tag = truth.tags[i].tag;
     EXPECT_EQ(scene.tags[i].id, tag.id);
     EXPECT_EQ(scene.tags[i].edgeMetres, tag.edgeMetres);
     ASSERT_TRUE(scene.tags[i].worldFromTag);
@@ -55,8 +55,8 @@ void expectTagsOf(const hal::GroundTruth& truth) {
   }
 }
 
-TEST(DeskScene, HasTheCameraAndTheTagsOfTheDesk) {
-  const hal::GroundTruth truth = deskTruth();
+TEST(WorkbenchScene, HasTheCameraAndTheTagsOfTheDesk) {
+  const hal::GroundTruth truth = benchTruth();
   ASSERT_FALSE(truth.tags.empty());
   expectTagsOf(truth);
   const scene::Scene scene = parsed(truth);
@@ -69,11 +69,11 @@ TEST(DeskScene, HasTheCameraAndTheTagsOfTheDesk) {
   EXPECT_FALSE(scene.models.empty());
 }
 
-TEST(DeskScene, HasTagsThatAreTurnedAnyWay) {
+TEST(WorkbenchScene, HasTagsThatAreTurnedAnyWay) {
   for (const double x : {0.0, 33.0, -120.0, 180.0}) {
     for (const double y : {0.0, 41.0, -89.0}) {
       for (const double z : {0.0, 77.0, -160.0}) {
-        hal::GroundTruth truth = deskTruth();
+        hal::GroundTruth truth = benchTruth();
         glm::dmat4& pose = truth.tags[1].tag.worldFromTag;
         pose = turned(x, y, z) * scene::kAttachFromTag;
         pose[3] = glm::dvec4(0.1, -0.2, 0.3, 1.0);
@@ -83,12 +83,12 @@ TEST(DeskScene, HasTagsThatAreTurnedAnyWay) {
   }
 }
 
-TEST(DeskScene, HasTagsThatStandOnTheirEdge) {
+TEST(WorkbenchScene, HasTagsThatStandOnTheirEdge) {
   // y at a right angle: the turns about x and z are one
   for (const double y : {90.0, -90.0}) {
     for (const double x : {0.0, 33.0, -120.0}) {
       for (const double z : {0.0, 77.0}) {
-        hal::GroundTruth truth = deskTruth();
+        hal::GroundTruth truth = benchTruth();
         truth.tags[0].tag.worldFromTag = turned(x, y, z) * scene::kAttachFromTag;
         expectTagsOf(truth);
       }

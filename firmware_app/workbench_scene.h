@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "hal/cameras/synthetic/ground_truth.h"
+#include "hal/error.h"
+#include "hal/pixel_format.h"
+
+namespace pleinair::app {
+
+/// A scene file for recordings of the synthetic camera: its intrinsics, the tags of its workbench,
+/// and models on some of them, so that there is something to paint.
+std::string workbenchScene(const hal::GroundTruth& truth, hal::FrameSize size);
+
+/// Writes it. Errors as hal::PendingFile.
+hal::Result<void> writeWorkbenchScene(const std::filesystem::path& path,
+                                      const hal::GroundTruth& truth, hal::FrameSize size);
+
+}  // namespace pleinair::app
