@@ -90,6 +90,7 @@ class LivePainting {
     }
     fmt::print("{}: {}\n", counts_.summary(job_.clock->now() - began),
                job_.options.output.string());
+    if (failure_) throw hal::StartupError(*std::move(failure_));
   }
 
  private:
@@ -106,8 +107,8 @@ class LivePainting {
     if (taken.frame) {
       paint(*taken.frame);
     } else if (taken.hasEnded) {
-      if (taken.failure) throw hal::StartupError(*std::move(taken.failure));
       hasEnded_ = true;
+      failure_ = std::move(taken.failure);
     }
   }
 
@@ -181,12 +182,13 @@ class LivePainting {
     }
   }
 
+  /// Also after the camera is lost: what was painted is kept. Of nothing there is no file.
   void finish() {
     camera_.stop();
     if (takeFrame(0ms).frame) counts_.drop(DropReason::kStopped);
     while (show(true)) {
     }
-    orThrow(output_->finish());
+    if (!failure_ || painted_ > 0) orThrow(output_->finish());
   }
 
   const LiveJob& job_;
@@ -207,6 +209,7 @@ class LivePainting {
   Progress* progress_ = nullptr;  ///< while it runs
   std::uint64_t painted_ = 0;
   bool hasEnded_ = false;
+  std::optional<hal::Error> failure_;  ///< why it ended, where that is not its proper end
   bool wantsToQuit_ = false;
   bool wantsStill_ = false;
 };

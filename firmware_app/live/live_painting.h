@@ -23,7 +23,7 @@ struct LiveJob {
 /// signal says so; then prints a summary on standard output and gives 0: ending it is no failure,
 /// and a file has all that was painted. A newer frame takes the place of one that waits; what was
 /// not shown is counted. Throws hal::StartupError and config::ConfigError, also for a camera that
-/// is lost.
+/// is lost, then after the summary and with all in the file that was painted before.
 int runLive(const LiveJob& job);
 
 }  // namespace pleinair::app
