@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cmath>
+#include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -192,20 +193,24 @@ std::vector<WindowEvent> SdlWindow::takeEvents() {
 }
 
 void SdlWindow::route(const SDL_Event& event) {
-  const auto windowOf = [this](Uint32 id) {
-    SDL_Window* named = SDL_GetWindowFromID(id);
-    // Without the focus a key is nobody's: the one that asks takes it.
-    return named == nullptr ? this : static_cast<SdlWindow*>(SDL_GetWindowData(named, kSelf));
+  // Null for one that a host program has opened, or that did not start.
+  const auto started = [](SDL_Window* named) {
+    auto* const self = static_cast<SdlWindow*>(SDL_GetWindowData(named, kSelf));
+    return self != nullptr && self->isStarted() ? self : nullptr;
   };
   if (event.type == SDL_WINDOWEVENT) {
-    windowOf(event.window.windowID)->accept(event.window);
+    SDL_Window* const named = SDL_GetWindowFromID(event.window.windowID);
+    SdlWindow* const self = named == nullptr ? nullptr : started(named);  // one that is gone
+    if (self != nullptr) self->accept(event.window);
   } else if (event.type == SDL_KEYDOWN) {
+    SDL_Window* const named = SDL_GetWindowFromID(event.key.windowID);
+    // Without the focus a key is nobody's: the one that asks takes it.
+    SdlWindow* const self = named == nullptr ? this : started(named);
     std::string name = window::keyName(event.key.keysym);
-    if (name.empty()) return;
+    if (name.empty() || self == nullptr) return;
     const bool shift = (event.key.keysym.mod & KMOD_SHIFT) != 0;
-    windowOf(event.key.windowID)
-        ->events_.emplace_back(
-            KeyPressed{.name = std::move(name), .shift = shift, .isRepeat = event.key.repeat != 0});
+    self->events_.emplace_back(
+        KeyPressed{.name = std::move(name), .shift = shift, .isRepeat = event.key.repeat != 0});
   }
 }
 
@@ -232,6 +237,8 @@ void SdlWindow::setCaption(const std::string& text, double opacity) {
 
 void SdlWindow::setTitle(const std::string& title) {
   assert(isStarted());
+  // Each time the desktop is told, and this may be called for every picture.
+  if (title == SDL_GetWindowTitle(window_.get())) return;
   SDL_SetWindowTitle(window_.get(), title.c_str());
 }
 

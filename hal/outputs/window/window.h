@@ -13,7 +13,7 @@ namespace pleinair::hal {
 /// desktop's and do not come.
 struct KeyPressed {
   /// What the key says without Shift, in lower case: "a", "1", "tab", "left", "pagedown", "f1",
-  /// "space", "escape"; and "?" however it is typed.
+  /// "space", "escape"; and "?" where it has a key of its own, or that of "/".
   std::string name;
   bool shift = false;
   bool isRepeat = false;

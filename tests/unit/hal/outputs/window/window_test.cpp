@@ -203,6 +203,30 @@ TEST_F(WindowTest, LeavesTheEventsOfOtherWindowsToThem) {
   EXPECT_THAT(second->takeEvents(), ElementsAre(WindowEvent(KeyPressed{.name = "a"})));
 }
 
+TEST_F(WindowTest, LeavesAHostProgramsWindowsAlone) {
+  const auto window = open({320, 240});
+  const std::unique_ptr<SDL_Window, decltype(&SDL_DestroyWindow)> hosts(
+      SDL_CreateWindow("host", 0, 0, 64, 64, 0), SDL_DestroyWindow);
+  ASSERT_NE(hosts, nullptr);
+  pushKey(hosts.get(), SDLK_q);
+  pushClose(hosts.get());
+  EXPECT_THAT(window->takeEvents(), IsEmpty());
+}
+
+TEST_F(WindowTest, TakesNoCloseOfAWindowThatIsGone) {
+  const auto window = open({320, 240});
+  SDL_Window* gone = SDL_CreateWindow("gone", 0, 0, 64, 64, 0);
+  ASSERT_NE(gone, nullptr);
+  const Uint32 id = SDL_GetWindowID(gone);
+  SDL_DestroyWindow(gone);
+  SDL_Event event{};
+  event.type = SDL_WINDOWEVENT;
+  event.window.windowID = id;
+  event.window.event = SDL_WINDOWEVENT_CLOSE;
+  SDL_PushEvent(&event);
+  EXPECT_THAT(window->takeEvents(), IsEmpty());
+}
+
 TEST_F(WindowTest, TakesKeysThatAreNobodys) {
   const auto window = open({320, 240});
   pushKey(nullptr, SDLK_q);
