@@ -29,6 +29,7 @@ constexpr double kStillPx = 0.33;       // of the frame
 /// A new key frame is taken when a corner has moved by this part of the picture's side, or half of
 /// the points are lost.
 constexpr double kKeyShift = 0.15;
+constexpr double kMostZoom = 2.0;  // from a key frame: more, or less than its inverse, is no motion
 const cv::Size kWindow{15, 15};
 
 double distance(cv::Point2f a, cv::Point2f b) {
@@ -115,6 +116,9 @@ struct PictureMotion::State {
         cv::estimateAffinePartial2D(from, to, cv::noArray(), cv::RANSAC, kOutlierPx, 500, 0.995, 5);
     if (fit.empty()) return false;
     frameFromKey.linear = {fit.at<double>(0, 0), fit.at<double>(1, 0)};
+    // Points that have run together fit a plane without size, which has no inverse.
+    const double zoom = frameFromKey.scale();
+    if (!(zoom < kMostZoom && zoom > 1.0 / kMostZoom)) return false;
     // Integer pixel centres there, +0.5 here.
     const glm::dvec2 half(0.5);
     const glm::dvec2 shift(fit.at<double>(0, 2), fit.at<double>(1, 2));

@@ -81,8 +81,9 @@ void main() {
     vec4 d = vec4(dark[i].rgb, 1.0) * dark[i].a;
     vec4 l = vec4(light[i].rgb, 1.0) * light[i].a;
     float steep = 4.0 / spread;
-    float wd = 1.0 / (1.0 + exp(-steep * a));
-    float wl = 1.0 / (1.0 + exp(-steep * b));
+    // Bounded: what exp() gives beyond a float's range is left to the GPU.
+    float wd = 1.0 / (1.0 + exp(min(-steep * a, 60.0)));
+    float wl = 1.0 / (1.0 + exp(min(-steep * b, 60.0)));
     low += d * (1.0 - wd) + l * (1.0 - wl);
     high += d * wd + l * wl;
   }
