@@ -14,6 +14,9 @@ pkg_check_modules(GLES REQUIRED IMPORTED_TARGET glesv2)
 pkg_check_modules(TOMLPLUSPLUS REQUIRED IMPORTED_TARGET tomlplusplus)
 pkg_check_modules(APRILTAG REQUIRED IMPORTED_TARGET apriltag)
 
+# Only its header: Debian's library decodes pictures and opens files by itself, ours do both.
+find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)
+
 # Debian's OpenCVConfig.cmake comes only with libopencv-dev, which pulls in every module and VTK; the
 # few modules that are used come without it.
 find_path(OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)

@@ -67,6 +67,7 @@ class Painting {
         outputFormat_(
             orThrow(output_->start({.size = pictureSize(), .framePeriod = stream_.framePeriod}))),
         reader_(painter_.openReader(outputFormat_.frame)) {
+    for (const std::string& notice : job.scene.notices) spdlog::warn("{}", notice);
     warn(assumedCameraWarning(job.scene, stream_.frame.size));
   }
 

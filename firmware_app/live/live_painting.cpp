@@ -66,6 +66,7 @@ class LivePainting {
     if (auto* window = dynamic_cast<hal::Window*>(output_.get()); window != nullptr) {
       window_.emplace(*window, tuning_, *job.clock);
     }
+    for (const std::string& notice : job.scene.notices) spdlog::warn("{}", notice);
     if (const auto warning = assumedCameraWarning(job.scene, stream_.frame.size)) {
       spdlog::warn("{}", *warning);
     }

@@ -187,6 +187,14 @@ LentPicture upright(const LentPicture& stored, Orientation orientation) {
   return {.view = image->view(), .lease = image};
 }
 
+Result<LentPicture> lendRgba(const AVFrame& frame) {
+  Result<Frame> converted = convert(frame, AV_PIX_FMT_RGBA);
+  if (!converted) return tl::unexpected(converted.error());
+  const std::shared_ptr<const AVFrame> rgba = *std::move(converted);
+  const FrameFormat format{.pixelFormat = PixelFormat::kRgba8, .size = {rgba->width, rgba->height}};
+  return LentPicture{.view = viewOf(*rgba, format), .lease = rgba};
+}
+
 /// As stored, not yet turned.
 Result<LentPicture> lendStored(const std::shared_ptr<const AVFrame>& frame, Delivery delivery,
                                Orientation orientation) {
@@ -240,6 +248,7 @@ Result<LentPicture> lendPicture(const std::shared_ptr<const AVFrame>& frame, Del
   if (!isAcceptedSize(size)) {
     return tl::unexpected(tooLarge("", size));
   }
+  if (delivery == Delivery::kRgba) return lendRgba(*frame);
   const Orientation orientation = orientationOf(*frame);
   Result<LentPicture> stored = lendStored(frame, delivery, orientation);
   if (!stored || orientation.isUpright()) return stored;

@@ -23,8 +23,8 @@ std::optional<ColorEncoding> encodingOf(const AVFrame& frame);
 /// Of the frame's display matrix; upright where it has none.
 Orientation orientationOf(const AVFrame& frame);
 
-/// kRgb: RGB8 always.
-enum class Delivery { kAsStored, kRgb };
+/// kRgb: RGB8 always. kRgba: RGBA8 always, alpha kept, rows and columns as stored.
+enum class Delivery { kAsStored, kRgb, kRgba };
 
 /// The frame as I420, NV12, YUYV, grey or RGB8 without a copy where its layout is one of these;
 /// else converted: 16-bit grey to grey, everything else to RGB8, alpha laid over white paper.

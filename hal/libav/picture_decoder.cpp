@@ -1,5 +1,6 @@
 #include "hal/libav/picture_decoder.h"
 
+#include <cstring>
 #include <optional>
 #include <span>
 #include <string>
@@ -79,26 +80,9 @@ CodecContext openDecoder(AVCodecID id) {
   return avcodec_open2(decoder.get(), codec, nullptr) < 0 ? nullptr : std::move(decoder);
 }
 
-}  // namespace
-
-Error tooLarge(std::string subject, FrameSize size) {
-  return Error{.kind = ErrorKind::kUnsupported,
-               .subject = std::move(subject),
-               .problem = "size of " + std::to_string(size.width) + "x" +
-                          std::to_string(size.height) + " px is beyond the limits",
-               .remedy = "give at most " + std::to_string(kMaxSidePixels) + " px a side and " +
-                         std::to_string(kMaxPixels / 1'000'000) + " Mpx"};
-}
-
-Result<std::shared_ptr<const AVFrame>> decodePicture(const std::filesystem::path& path) {
+Result<std::shared_ptr<const AVFrame>> decode(const AVPacket& packet, const std::string& subject) {
   routeLog();
-  const std::string subject = path.string();
-  const Result<FileInput> file = FileInput::open(path);
-  if (!file) return tl::unexpected(file.error());
-  const Result<Packet> packet = readWhole(*file, subject);
-  if (!packet) return tl::unexpected(packet.error());
-  const std::span<const std::uint8_t> bytes((*packet)->data,
-                                            static_cast<std::size_t>((*packet)->size));
+  const std::span<const std::uint8_t> bytes(packet.data, static_cast<std::size_t>(packet.size));
   const Result<PictureKind> kind = checkHeader(bytes, subject);
   if (!kind) return tl::unexpected(kind.error());
 
@@ -111,7 +95,7 @@ Result<std::shared_ptr<const AVFrame>> decodePicture(const std::filesystem::path
                                 .remedy = "convert it to PNG"});
   }
   Frame frame = makeFrame();
-  int status = avcodec_send_packet(decoder.get(), packet->get());
+  int status = avcodec_send_packet(decoder.get(), &packet);
   if (status >= 0) status = avcodec_send_packet(decoder.get(), nullptr);
   if (status >= 0) status = avcodec_receive_frame(decoder.get(), frame.get());
   // Where the decoder complained it has filled in what it could not read.
@@ -125,6 +109,37 @@ Result<std::shared_ptr<const AVFrame>> decodePicture(const std::filesystem::path
   const FrameSize size{frame->width, frame->height};
   if (!isAcceptedSize(size)) return tl::unexpected(tooLarge(subject, size));
   return std::shared_ptr<const AVFrame>(std::move(frame));
+}
+
+}  // namespace
+
+Error tooLarge(std::string subject, FrameSize size) {
+  return Error{.kind = ErrorKind::kUnsupported,
+               .subject = std::move(subject),
+               .problem = "size of " + std::to_string(size.width) + "x" +
+                          std::to_string(size.height) + " px is beyond the limits",
+               .remedy = "give at most " + std::to_string(kMaxSidePixels) + " px a side and " +
+                         std::to_string(kMaxPixels / 1'000'000) + " Mpx"};
+}
+
+Result<std::shared_ptr<const AVFrame>> decodePicture(const std::filesystem::path& path) {
+  const std::string subject = path.string();
+  const Result<FileInput> file = FileInput::open(path);
+  if (!file) return tl::unexpected(file.error());
+  const Result<Packet> packet = readWhole(*file, subject);
+  if (!packet) return tl::unexpected(packet.error());
+  return decode(**packet, subject);
+}
+
+Result<std::shared_ptr<const AVFrame>> decodePicture(std::span<const std::uint8_t> bytes,
+                                                     const std::string& subject) {
+  if (std::cmp_greater(bytes.size(), kMaxPictureFileBytes)) {
+    return tl::unexpected(broken(subject, "is too large a file for a picture"));
+  }
+  const Packet packet = makePacket();  // libav reads a little beyond the end: a padded copy
+  if (av_new_packet(packet.get(), static_cast<int>(bytes.size())) < 0) throw std::bad_alloc();
+  if (!bytes.empty()) std::memcpy(packet->data, bytes.data(), bytes.size());
+  return decode(*packet, subject);
 }
 
 }  // namespace pleinair::hal::libav

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
+#include <string>
 
 #include "hal/error.h"
 #include "hal/libav/file_input.h"
@@ -18,5 +21,9 @@ Error tooLarge(std::string subject, FrameSize size);
 /// display matrix. Errors: as FileInput::open, and kInvalidInput (not a picture, broken),
 /// kUnsupported (size, coding).
 Result<std::shared_ptr<const AVFrame>> decodePicture(const std::filesystem::path& path);
+
+/// The same for a whole file in memory; `subject` names it in errors.
+Result<std::shared_ptr<const AVFrame>> decodePicture(std::span<const std::uint8_t> bytes,
+                                                     const std::string& subject);
 
 }  // namespace pleinair::hal::libav

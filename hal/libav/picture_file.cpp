@@ -29,6 +29,17 @@ Result<Image> readPictureRgb(const std::filesystem::path& path) {
   return read(path, libav::Delivery::kRgb);
 }
 
+Result<Image> decodeRgba(std::span<const std::uint8_t> bytes, const std::string& subject) {
+  const Result<std::shared_ptr<const AVFrame>> frame = libav::decodePicture(bytes, subject);
+  if (!frame) return tl::unexpected(frame.error());
+  Result<libav::LentPicture> picture = libav::lendPicture(*frame, libav::Delivery::kRgba);
+  if (!picture) {
+    picture.error().subject = subject;
+    return tl::unexpected(picture.error());
+  }
+  return Image(picture->view);
+}
+
 Result<std::vector<std::uint8_t>> encodePng(const ImageView& picture) {
   Result<libav::PngEncoder> encoder = libav::PngEncoder::open(picture.format);
   if (!encoder) return tl::unexpected(encoder.error());

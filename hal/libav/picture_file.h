@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "hal/error.h"
@@ -18,6 +20,10 @@ Result<Image> readPicture(const std::filesystem::path& path);
 
 /// The same as RGB8 whatever it is stored in.
 Result<Image> readPictureRgb(const std::filesystem::path& path);
+
+/// A whole picture file in memory as RGBA8, alpha kept, its EXIF orientation left alone: a model's
+/// texture. `subject` names it in errors, which are readPicture()'s.
+Result<Image> decodeRgba(std::span<const std::uint8_t> bytes, const std::string& subject);
 
 /// The bytes of a PNG file of RGB8, RGBA8 or grey. Errors: kUnsupported (format).
 Result<std::vector<std::uint8_t>> encodePng(const ImageView& picture);

@@ -1,5 +1,7 @@
 #include "pipeline/gpu/texture.h"
 
+#include <algorithm>
+#include <bit>
 #include <cassert>
 
 #include <fmt/format.h>
@@ -18,6 +20,8 @@ GlFormat glFormat(TextureFormat format) {
       return {GL_RGB8, GL_RGB, GL_UNSIGNED_BYTE, 3};
     case TextureFormat::kRgba8:
       return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+    case TextureFormat::kSrgba8:
+      return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
     case TextureFormat::kRgba16f:
       return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8};
     case TextureFormat::kRg16f:
@@ -39,8 +43,8 @@ GlFormat glFormat(TextureFormat format) {
 
 bool isRenderable(TextureFormat format) {
   // 32-bit floats are not core render targets of OpenGL ES 3.1; compute writes them as images.
-  return format != TextureFormat::kRgb8 && format != TextureFormat::kR32f &&
-         format != TextureFormat::kRgba32f;
+  return format != TextureFormat::kRgb8 && format != TextureFormat::kSrgba8 &&
+         format != TextureFormat::kR32f && format != TextureFormat::kRgba32f;
 }
 
 bool isFilterable(TextureFormat format) {
@@ -49,6 +53,7 @@ bool isFilterable(TextureFormat format) {
     case TextureFormat::kRg8:
     case TextureFormat::kRgb8:
     case TextureFormat::kRgba8:
+    case TextureFormat::kSrgba8:
     case TextureFormat::kRgba16f:
     case TextureFormat::kRg16f:
       return true;
@@ -57,20 +62,44 @@ bool isFilterable(TextureFormat format) {
   }
 }
 
+namespace {
+
+/// Down to a single pixel.
+int levelsOf(hal::FrameSize size) {
+  return std::bit_width(static_cast<unsigned>(std::max(size.width, size.height)));
+}
+
+GLint glWrap(TextureWrap wrap) {
+  if (wrap == TextureWrap::kRepeat) return GL_REPEAT;
+  return wrap == TextureWrap::kMirror ? GL_MIRRORED_REPEAT : GL_CLAMP_TO_EDGE;
+}
+
+}  // namespace
+
 Texture::Texture(TextureFormat format, hal::FrameSize size, TextureFilter filter, TextureWrap wrap)
-    : handle_(TextureHandle::make()), format_(format), size_(size) {
+    : handle_(TextureHandle::make()),
+      format_(format),
+      size_(size),
+      hasLevels_(filter == TextureFilter::kTrilinear) {
   assert(size.width >= 1 && size.height >= 1);
   assert(filter == TextureFilter::kNearest || isFilterable(format));
   glBindTexture(GL_TEXTURE_2D, handle_.get());
-  glTexStorage2D(GL_TEXTURE_2D, 1, glFormat(format).internal, size.width, size.height);
-  const GLint mode = filter == TextureFilter::kLinear ? GL_LINEAR : GL_NEAREST;
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, mode);
+  const int levels = hasLevels_ ? levelsOf(size) : 1;
+  glTexStorage2D(GL_TEXTURE_2D, levels, glFormat(format).internal, size.width, size.height);
+  const GLint mode = filter == TextureFilter::kNearest ? GL_NEAREST : GL_LINEAR;
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
+                  hasLevels_ ? GL_LINEAR_MIPMAP_LINEAR : mode);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, mode);
-  const GLint beyond = wrap == TextureWrap::kRepeat ? GL_REPEAT : GL_CLAMP_TO_EDGE;
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, beyond);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, beyond);
   glBindTexture(GL_TEXTURE_2D, 0);
+  setWrap(wrap, wrap);
   checkMemory(fmt::format("a {}x{} picture", size.width, size.height));
+}
+
+void Texture::setWrap(TextureWrap across, TextureWrap down) {
+  glBindTexture(GL_TEXTURE_2D, handle_.get());
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, glWrap(across));
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, glWrap(down));
+  glBindTexture(GL_TEXTURE_2D, 0);
 }
 
 void Texture::upload(std::span<const std::uint8_t> bytes, std::size_t strideBytes) {
@@ -95,6 +124,7 @@ void Texture::upload(std::span<const std::uint8_t> bytes, std::size_t strideByte
   }
   glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  if (hasLevels_) glGenerateMipmap(GL_TEXTURE_2D);
   glBindTexture(GL_TEXTURE_2D, 0);
 }
 

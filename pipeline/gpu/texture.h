@@ -15,6 +15,7 @@ enum class TextureFormat {
   kRg8,
   kRgb8,  ///< upload only; not a render target
   kRgba8,
+  kSrgba8,  ///< upload only; sampled as linear light, alpha as it is
   kRgba16f,
   kRg16f,
   kR32f,
@@ -24,17 +25,18 @@ enum class TextureFormat {
   kDepth24,
 };
 
-/// How samplers read between texels and beyond the border. 32-bit floats and integers are always
-/// read kNearest (GPU rules, rule 5).
-enum class TextureFilter { kNearest, kLinear };
+/// How samplers read between texels. 32-bit floats and integers are always read kNearest (GPU
+/// rules, rule 5). kTrilinear: with all smaller levels, which upload() makes.
+enum class TextureFilter { kNearest, kLinear, kTrilinear };
+
+/// What lies beyond the border: its own texel, the texture once more, or its mirror image.
+enum class TextureWrap { kClamp, kRepeat, kMirror };
 
 bool isRenderable(TextureFormat format);
 bool isFilterable(TextureFormat format);
 
-/// What lies beyond the border: its own texel, or the texture once more.
-enum class TextureWrap { kClamp, kRepeat };
-
-/// A 2-D texture of immutable size with one level. Belongs to the context it was made in.
+/// A 2-D texture of immutable size, with one level unless it is kTrilinear. Belongs to the context
+/// it was made in.
 class Texture {
  public:
   /// Holds nothing; only assignment and size() are allowed.
@@ -49,6 +51,8 @@ class Texture {
   GLuint name() const { return handle_.get(); }
   explicit operator bool() const { return static_cast<bool>(handle_); }
 
+  /// Beyond the left and right edges, and beyond the upper and lower ones.
+  void setWrap(TextureWrap across, TextureWrap down);
   /// Replaces the content. `strideBytes` may exceed the packed row. Not for depth.
   void upload(std::span<const std::uint8_t> bytes, std::size_t strideBytes);
 
@@ -56,6 +60,7 @@ class Texture {
   TextureHandle handle_;
   TextureFormat format_ = TextureFormat::kRgba8;
   hal::FrameSize size_;
+  bool hasLevels_ = false;
 };
 
 /// GL's names of a format, for image bindings and read-back.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "pipeline/gpu/buffer.h"
@@ -18,12 +19,13 @@
 namespace pleinair::scene {
 
 /// Composes AR frames: a scene's models, toon-shaded (thesis §3.2.2), over the camera's picture.
-/// Silhouettes are not anti-aliased: each pixel has one object. All calls on the thread of the GL
-/// context it was made in.
+/// Parts that turn do so by the frames' capture times, counted from the first frame. Silhouettes
+/// are not anti-aliased: each pixel has one object. All calls on the thread of the GL context it
+/// was made in.
 class ArFrameRenderer {
  public:
-  /// Uploads the scene's meshes. `library` has gpu::sceneShaders(). ArFrame::ids counts models in
-  /// the scene's order and triangles in their meshes' order.
+  /// Uploads the scene's models. `library` has gpu::gpuShaders() and gpu::sceneShaders().
+  /// ArFrame::ids counts models in the scene's order and triangles as their parts do.
   ArFrameRenderer(const gpu::ShaderLibrary& library, Scene scene);
 
   /// Allocates for pictures of `size` and runs each program once, so that the first frame does not
@@ -39,11 +41,16 @@ class ArFrameRenderer {
                          gpu::PassTimer& timer);
 
  private:
-  /// A mesh's place in the vertex buffer.
-  struct MeshSlot {
-    const Mesh* mesh = nullptr;
+  /// A surface's place in the vertex buffer.
+  struct SurfaceSlot {
     GLint firstVertex = 0;
     GLsizei vertexCount = 0;
+  };
+  /// What the GPU has of a model.
+  struct ModelSlot {
+    const Model* model = nullptr;
+    std::vector<SurfaceSlot> surfaces;
+    std::vector<gpu::Texture> textures;
     BoundingSphere sphere;
   };
   /// A model in this frame.
@@ -52,23 +59,29 @@ class ArFrameRenderer {
     glm::dmat4 cameraFromAttach{1.0};
     glm::dmat4 cameraFromModel{1.0};
   };
-
-  void uploadMeshes();
+  void uploadModels();
+  void uploadVertices();
   void allocate(hal::FrameSize size);
   void findVisible(const PoseSet& poses);
   void clearToCamera();
   void drawBackground(const gpu::Texture& picture);
   void setCamera(const tracking::CameraModel& camera);
-  void drawModels();
-  void drawModel(const Visible& visible);
+  void drawModels(hal::Duration time);
+  void drawModel(const Visible& visible, hal::Duration time);
+  void drawPart(const ModelSlot& slot, const SceneModel& model, const ModelPart& part,
+                const glm::dmat4& cameraFromPart);
+  void setMaterial(const ModelSlot& slot, const SceneModel& model, const Material& material);
+  gpu::Program& programOf(const Material& material);
 
   Scene scene_;
   gpu::Program background_;
   gpu::Program toon_;
+  gpu::Program toonWithHoles_;  // only where a material has holes
+  gpu::Texture white_;          // of materials without a texture
   gpu::Buffer vertices_;
   gpu::VertexArrayHandle vertexArray_;
-  std::vector<MeshSlot> meshes_;
-  std::vector<std::size_t> meshOfModel_;
+  std::vector<ModelSlot> slots_;
+  std::vector<std::size_t> slotOfModel_;
   std::vector<Visible> visible_;
 
   gpu::Texture colour_;
@@ -77,7 +90,8 @@ class ArFrameRenderer {
   gpu::Texture depth_;
   gpu::RenderTarget target_;         // all of them
   gpu::RenderTarget withoutColour_;  // for frames that show the camera's picture only
-  bool showsCameraOnly_ = false;     // what ids, normals and depth hold
+  std::optional<hal::TimePoint> firstTime_;
+  bool showsCameraOnly_ = false;  // what ids, normals and depth hold
   ArFrame frame_;
 };
 

@@ -18,8 +18,8 @@ using Side = SolidBuilder::Side;
 
 constexpr int kDefaultHoles = 5;
 constexpr std::size_t kHoleSegments = 36;
-constexpr int kWebRows = 8;
-constexpr std::size_t kLeastCircleSegments = 90;
+constexpr int kWebRows = 4;
+constexpr std::size_t kLeastCircleSegments = 72;
 constexpr double kSmoothCosine = 0.9;  // edges of the outline that turn less are round
 const glm::dvec2 kAxis(0.0);
 

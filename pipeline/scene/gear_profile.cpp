@@ -12,7 +12,7 @@ constexpr double kAddendum = 1.0;  // all in modules
 constexpr double kDedendum = 1.25;
 constexpr double kThinnestTip = 0.3;
 constexpr int kFilletSegments = 4;
-constexpr int kFlankSegments = 8;
+constexpr int kFlankSegments = 6;
 constexpr int kTipSegments = 3;
 constexpr int kRootSegments = 2;
 

@@ -19,8 +19,12 @@ float squaredLength(const MeshVertex& a, const MeshVertex& b) {
 }
 
 MeshVertex midpoint(const MeshVertex& a, const MeshVertex& b) {
+  const glm::vec3 sum = a.normal + b.normal;
+  const float length = glm::length(sum);
   return {.position = 0.5F * (a.position + b.position),
-          .normal = glm::normalize(a.normal + b.normal)};
+          .normal = length > 1e-6F ? sum / length : a.normal,
+          .texture = 0.5F * (a.texture + b.texture),
+          .colour = 0.5F * (a.colour + b.colour)};
 }
 
 void append(Mesh& mesh, const Corners& corners) {
@@ -47,7 +51,7 @@ BoundingSphere boundingSphere(const Mesh& mesh) {
   return sphere;
 }
 
-Mesh withShortEdges(const Mesh& mesh, float maxEdgeMetres) {
+Mesh withShortEdges(const Mesh& mesh, float maxEdgeMetres, std::size_t mostTriangles) {
   assert(maxEdgeMetres > 0.0F);
   Mesh result;
   std::vector<Corners> pending;
@@ -66,7 +70,8 @@ Mesh withShortEdges(const Mesh& mesh, float maxEdgeMetres) {
           longestSquared = squared;
         }
       }
-      if (longestSquared <= maxEdgeMetres * maxEdgeMetres) {
+      if (longestSquared <= maxEdgeMetres * maxEdgeMetres ||
+          result.triangles.size() + pending.size() >= mostTriangles) {
         append(result, corners);
         continue;
       }

@@ -1,10 +1,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 namespace pleinair::scene {
 
@@ -12,6 +16,8 @@ namespace pleinair::scene {
 struct MeshVertex {
   glm::vec3 position{0.0F};  ///< metres, in the model's frame
   glm::vec3 normal{0.0F};    ///< unit length, outward
+  glm::vec2 texture{0.0F};   ///< across and down the picture, which is 1 wide and high
+  glm::vec4 colour{1.0F};    ///< linear light and coverage; multiplies the material's
 };
 
 /// A surface. Seen from outside, the vertices of a triangle go against the clock.
@@ -29,7 +35,9 @@ struct BoundingSphere {
 BoundingSphere boundingSphere(const Mesh& mesh);
 
 /// The same surface with no edge longer than `maxEdgeMetres` (> 0). Triangles that shared an edge
-/// still do: longest edges are halved, and an edge's length is the same from both sides.
-Mesh withShortEdges(const Mesh& mesh, float maxEdgeMetres);
+/// still do: longest edges are halved, and an edge's length is the same from both sides. Beyond
+/// about `mostTriangles` the rest is left as it is.
+Mesh withShortEdges(const Mesh& mesh, float maxEdgeMetres,
+                    std::size_t mostTriangles = std::numeric_limits<std::size_t>::max());
 
 }  // namespace pleinair::scene

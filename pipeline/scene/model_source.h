@@ -1,11 +1,14 @@
 #pragma once
 
+#include <filesystem>
 #include <variant>
 
 #include <glm/vec3.hpp>
 
+#include "hal/error.h"
 #include "pipeline/scene/builtin_gear.h"
-#include "pipeline/scene/mesh.h"
+#include "pipeline/scene/builtin_gearbox.h"
+#include "pipeline/scene/model.h"
 
 namespace pleinair::scene {
 
@@ -16,10 +19,22 @@ struct BoxSource {
 
 using GearSource = GearParameters;
 
-/// Where a model's surface comes from. Equal sources give equal meshes.
-using ModelSource = std::variant<BoxSource, GearSource>;
+using GearboxSource = GearboxParameters;
 
-/// Precondition: for a gear, faultOf() is nothing.
-Mesh meshOf(const ModelSource& source);
+/// A glTF file.
+struct FileSource {
+  std::filesystem::path path;
+  friend bool operator==(const FileSource&, const FileSource&) = default;
+};
+
+/// Where a model comes from. Equal sources give equal models.
+using ModelSource = std::variant<BoxSource, GearSource, GearboxSource, FileSource>;
+
+/// Errors: readGltf()'s, for files only. Preconditions: for a gear, faultOf() is
+/// nothing; a gearbox has teeth within its ranges.
+hal::Result<Model> modelOf(const ModelSource& source);
+
+/// Whether its materials are coloured; others are white, to be given a colour.
+bool hasOwnColours(const ModelSource& source);
 
 }  // namespace pleinair::scene

@@ -9,7 +9,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
-#include "pipeline/scene/mesh.h"
+#include "pipeline/scene/model.h"
 #include "pipeline/scene/model_source.h"
 #include "pipeline/tracking/camera_model.h"
 #include "pipeline/tracking/tracker.h"
@@ -20,10 +20,10 @@ struct SceneModel {
   std::string name;
   ModelSource source;
   /// Shared by models of equal source; cut up finely where the camera's lens bends lines.
-  std::shared_ptr<const Mesh> mesh;
+  std::shared_ptr<const Model> model;
   std::optional<int> tagId;          ///< what it is attached to; nothing: the world
   glm::dmat4 attachFromModel{1.0};   ///< rotation, translation and uniform scale
-  glm::vec3 srgb{0.8F, 0.5F, 0.2F};  ///< sRGB-coded colour
+  glm::vec3 srgb{0.8F, 0.5F, 0.2F};  ///< sRGB-coded; its materials' colours are multiplied by it
   float focus = 0.0F;                ///< 1: a style keeps it crisp; 0: painted like the rest
 };
 
@@ -47,6 +47,7 @@ struct Scene {
   std::vector<tracking::TagMarker> tags;
   std::vector<SceneModel> models;  ///< at most kMaxObjects
   Light light;
+  std::vector<std::string> notices;  ///< what of its files is not shown, a line each
   /// What it was read from beside the scene file: its calibration and models.
   std::vector<std::filesystem::path> files;
 

@@ -98,20 +98,27 @@ std::optional<int> readAttachment(const TomlTable& table, const Scene& scene) {
                                    : fmt::format("{}", fmt::join(places, ", ")));
 }
 
-std::shared_ptr<const Mesh> sharedMesh(const ModelSource& source, const Scene& scene) {
+/// Reads or makes it unless a model above has it already.
+std::shared_ptr<const Model> sharedModel(const ModelSource& source, const TomlTable& table,
+                                         const Scene& scene) {
   for (const SceneModel& model : scene.models) {
-    if (model.source == source) return model.mesh;
+    if (model.source == source) return model.model;
   }
-  Mesh mesh = meshOf(source);
+  hal::Result<Model> model = modelOf(source);
+  if (!model) {
+    const hal::Error& error = model.error();
+    throw table.error("source", error.subject + ": " + error.problem, error.remedy);
+  }
   if (scene.camera && bendsLines(scene.camera->distortion())) {
     // An eighth of the radius bends by less than 0.1 px under a lens that moves corners by 20 px.
-    const double shortEdge = 0.125 * boundingSphere(mesh).radiusMetres;
-    mesh = withShortEdges(mesh, static_cast<float>(shortEdge));
+    const double shortEdge = 0.125 * boundingSphere(*model).radiusMetres;
+    if (shortEdge > 0.0) model = withShortEdges(*model, shortEdge, kMaxSceneTriangles + 1);
   }
-  return std::make_shared<const Mesh>(std::move(mesh));
+  return std::make_shared<const Model>(*std::move(model));
 }
 
-SceneModel readModel(const TomlTable& table, const Scene& scene) {
+SceneModel readModel(const TomlTable& table, const std::filesystem::path& directory,
+                     const Scene& scene) {
   SceneModel model;
   model.name =
       table.optionalString("name").value_or(fmt::format("model {}", scene.models.size() + 1));
@@ -119,18 +126,37 @@ SceneModel readModel(const TomlTable& table, const Scene& scene) {
     throw table.error("name", config::quoted(model.name) + " is taken by a model above",
                       "each name once");
   }
-  model.source = readSource(table);
+  model.source = readSource(table, directory);
   model.tagId = readAttachment(table, scene);
   const double scale = table.optionalNumber("scale", {.min = 1e-6, .max = 1e6}).value_or(1.0);
   model.attachFromModel = glm::scale(readPose(table).value_or(glm::dmat4(1.0)), glm::dvec3(scale));
-  model.srgb = readColour(table).value_or(model.srgb);
+  const glm::vec3 untinted = hasOwnColours(model.source) ? glm::vec3(1.0F) : model.srgb;
+  model.srgb = readColour(table).value_or(untinted);
   model.focus =
       static_cast<float>(table.optionalNumber("focus", {.min = 0.0, .max = 1.0}).value_or(0.0));
-  model.mesh = sharedMesh(model.source, scene);
+  model.model = sharedModel(model.source, table, scene);
   return model;
 }
 
-void readModels(const TomlTable& root, Scene& scene) {
+/// What of a model's file is not shown, and whether it is far larger than anything with tags.
+std::vector<std::string> noticesOf(const SceneModel& model) {
+  constexpr double kHugeMetres = 10.0;
+  std::vector<std::string> notices;
+  const auto* file = std::get_if<FileSource>(&model.source);
+  if (file == nullptr) return notices;
+  for (const std::string& notice : model.model->notices) {
+    notices.push_back(fmt::format("{}: {}", file->path.string(), notice));
+  }
+  const double scale = glm::length(glm::dvec3(model.attachFromModel[0]));
+  const double width = 2.0 * scale * boundingSphere(*model.model).radiusMetres;
+  if (width > kHugeMetres) {
+    notices.push_back(fmt::format("{}: is {:.3g} m wide here; a scale of {:.2g} makes it 0.2 m",
+                                  file->path.string(), width, 0.2 * scale / width));
+  }
+  return notices;
+}
+
+void readModels(const TomlTable& root, const std::filesystem::path& directory, Scene& scene) {
   const std::vector<TomlTable> tables = root.tables("model");
   if (tables.size() > kMaxObjects) {
     throw root.error("model", fmt::format("found {} models", tables.size()),
@@ -138,14 +164,19 @@ void readModels(const TomlTable& root, Scene& scene) {
   }
   std::size_t triangles = 0;
   for (const TomlTable& table : tables) {
-    scene.models.push_back(readModel(table, scene));
-    const std::shared_ptr<const Mesh>& mesh = scene.models.back().mesh;
-    if (mesh.use_count() == 1) triangles += mesh->triangles.size();
+    scene.models.push_back(readModel(table, directory, scene));
+    const SceneModel& added = scene.models.back();
+    if (added.model.use_count() > 1) continue;
+    triangles += added.model->surfaceTriangles();
     if (triangles > kMaxSceneTriangles) {
       throw table.error(
           "source", fmt::format("makes {} triangles in the scene", triangles),
           fmt::format("at most {} in all; equal models share theirs", kMaxSceneTriangles));
     }
+    if (const auto* file = std::get_if<FileSource>(&added.source)) {
+      scene.files.push_back(file->path);
+    }
+    for (std::string& notice : noticesOf(added)) scene.notices.push_back(std::move(notice));
   }
 }
 
@@ -172,7 +203,7 @@ Scene readScene(const TomlDocument& document, const std::filesystem::path& direc
   }
   if (const auto light = root.optionalTable("light")) scene.light = readLight(*light);
   readTags(root, scene);
-  readModels(root, scene);
+  readModels(root, directory, scene);
   root.finish();
   return scene;
 }

@@ -23,7 +23,9 @@ namespace pleinair::scene {
 ///     rotation_deg = [0, 0, 0]
 ///     [[model]]
 ///     name = "gear"
-///     source = "builtin:gear"     # or "builtin:box", which has size_m = [x, y, z]
+///     source = "builtin:gear"     # or "builtin:box", which has size_m = [x, y, z],
+///                                 # "builtin:gearbox" with length_m, speed_rpm, stage_1, stage_2
+///                                 # and cover, or a glTF file beside the scene file
 ///     attach = "tag:0"            # or "world"
 ///     position_m = [0, 0, 0]
 ///     rotation_deg = [0, 0, 0]

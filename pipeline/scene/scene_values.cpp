@@ -1,10 +1,14 @@
 #include "pipeline/scene/scene_values.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <string>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -39,6 +43,35 @@ GearSource readGear(const config::TomlTable& table) {
   return gear;
 }
 
+std::array<int, 2> readStage(const config::TomlTable& table, std::string_view key,
+                             const std::array<int, 2>& otherwise) {
+  const auto teeth = table.optionalVector<2>(key, {.min = 1.0, .max = 1000.0});
+  if (!teeth) return otherwise;
+  const std::array<int, 2> stage{static_cast<int>((*teeth)[0]), static_cast<int>((*teeth)[1])};
+  const bool areWhole = stage[0] == (*teeth)[0] && stage[1] == (*teeth)[1];
+  if (!areWhole || stage[0] < kLeastPinionTeeth || stage[0] > kMostPinionTeeth ||
+      stage[1] < kLeastWheelTeeth || stage[1] > kMostWheelTeeth) {
+    throw table.error(
+        key, fmt::format("found [{}, {}]", (*teeth)[0], (*teeth)[1]),
+        fmt::format("teeth of a pinion, {} to {}, and of a wheel, {} to {}", kLeastPinionTeeth,
+                    kMostPinionTeeth, kLeastWheelTeeth, kMostWheelTeeth));
+  }
+  return stage;
+}
+
+GearboxSource readGearbox(const config::TomlTable& table) {
+  static constexpr std::array<config::Choice<bool>, 2> kCovers{{{"open", false}, {"closed", true}}};
+  GearboxSource gearbox;
+  gearbox.lengthMetres = table.optionalNumber("length_m", kLength).value_or(gearbox.lengthMetres);
+  gearbox.inputRevolutions =
+      table.optionalNumber("speed_rpm", {.min = -600.0, .max = 600.0, .unit = "turns a minute"})
+          .value_or(gearbox.inputRevolutions);
+  gearbox.stage1 = readStage(table, "stage_1", gearbox.stage1);
+  gearbox.stage2 = readStage(table, "stage_2", gearbox.stage2);
+  gearbox.isClosed = table.optionalChoice("cover", kCovers).value_or(gearbox.isClosed);
+  return gearbox;
+}
+
 BoxSource readBox(const config::TomlTable& table) {
   BoxSource box;
   if (const auto size = table.optionalVector<3>("size_m", kLength)) {
@@ -61,6 +94,13 @@ glm::vec3 readHexColour(const config::TomlTable& table) {
                       "\"#rrggbb\" or an array of 3 numbers in [0, 1]");
   }
   return glm::vec3(bytes[0], bytes[1], bytes[2]) / 255.0F;
+}
+
+bool isModelFile(std::string name) {
+  std::ranges::transform(name, name.begin(), [](char c) {
+    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  });
+  return !name.starts_with("builtin:") && (name.ends_with(".glb") || name.ends_with(".gltf"));
 }
 
 }  // namespace
@@ -87,12 +127,29 @@ std::optional<glm::vec3> readColour(const config::TomlTable& table) {
   return glm::vec3(vectorOf(*values));
 }
 
-ModelSource readSource(const config::TomlTable& table) {
-  enum class Kind { kBox, kGear };
-  static constexpr std::array<config::Choice<Kind>, 2> kKinds{
-      {{"builtin:box", Kind::kBox}, {"builtin:gear", Kind::kGear}}};
-  if (table.choice("source", kKinds) == Kind::kBox) return readBox(table);
-  return readGear(table);
+ModelSource readSource(const config::TomlTable& table, const std::filesystem::path& directory) {
+  enum class Kind { kBox, kGear, kGearbox };
+  static constexpr std::array<config::Choice<Kind>, 3> kKinds{
+      {{"builtin:box", Kind::kBox},
+       {"builtin:gear", Kind::kGear},
+       {"builtin:gearbox", Kind::kGearbox}}};
+  const std::string name = table.string("source");
+  if (isModelFile(name)) return FileSource{directory / name};
+  const auto kind = std::ranges::find(kKinds, name, &config::Choice<Kind>::name);
+  if (kind == kKinds.end()) {
+    throw table.error(
+        "source", "found " + config::quoted(name),
+        fmt::format("{}, or a .glb or .gltf file", fmt::join(config::namesOf(kKinds), ", ")));
+  }
+  switch (kind->value) {
+    case Kind::kBox:
+      return readBox(table);
+    case Kind::kGear:
+      return readGear(table);
+    case Kind::kGearbox:
+      return readGearbox(table);
+  }
+  return readBox(table);
 }
 
 }  // namespace pleinair::scene

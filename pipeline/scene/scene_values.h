@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 
 #include <glm/mat4x4.hpp>
@@ -17,7 +18,7 @@ std::optional<glm::dmat4> readPose(const config::TomlTable& table);
 /// colour: three sRGB numbers or "#rrggbb".
 std::optional<glm::vec3> readColour(const config::TomlTable& table);
 
-/// source, and the keys that belong to it.
-ModelSource readSource(const config::TomlTable& table);
+/// source, and the keys that belong to it. Files are relative to `directory`.
+ModelSource readSource(const config::TomlTable& table, const std::filesystem::path& directory);
 
 }  // namespace pleinair::scene

@@ -40,7 +40,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const scene::Scene scene = scene::parseScene(text, "scene.toml", kFolder);
     if (scene.camera) look(*scene.camera);
     for (const scene::SceneModel& model : scene.models) {
-      if (model.mesh == nullptr) fuzz::fail("a model without a mesh");
+      if (model.model == nullptr) fuzz::fail("a model without a surface");
     }
   });
   expectConfigErrors([&] {

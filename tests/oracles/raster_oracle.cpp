@@ -17,6 +17,8 @@ struct Corner {
   glm::dvec2 px;
   double depth;
   glm::dvec3 normal;
+  glm::dvec2 texture;
+  glm::dvec4 colour;
 };
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) {
@@ -72,6 +74,10 @@ class Picture {
     pixel.depthMetres = depth;
     pixel.cameraNormal = glm::normalize(overDepth[0] * c[0].normal + overDepth[1] * c[1].normal +
                                         overDepth[2] * c[2].normal);
+    pixel.texture = depth * (overDepth[0] * c[0].texture + overDepth[1] * c[1].texture +
+                             overDepth[2] * c[2].texture);
+    pixel.colour = depth * (overDepth[0] * c[0].colour + overDepth[1] * c[1].colour +
+                            overDepth[2] * c[2].colour);
   }
 
   hal::FrameSize size_;
@@ -94,7 +100,8 @@ std::vector<RasterPixel> rasterise(std::span<const PlacedMesh> meshes,
         const scene::MeshVertex& vertex = placed.mesh->vertices[placed.mesh->triangles[t][i]];
         const glm::dvec3 p(placed.cameraFromModel * glm::dvec4(glm::dvec3(vertex.position), 1.0));
         assert(p.z > 0.0);
-        corners[i] = {camera.project(p), p.z, rotation * glm::dvec3(vertex.normal)};
+        corners[i] = {camera.project(p), p.z, rotation * glm::dvec3(vertex.normal),
+                      glm::dvec2(vertex.texture), glm::dvec4(vertex.colour)};
       }
       picture.draw(corners, object << scene::kTriangleBits | t);
     }

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include "pipeline/scene/mesh.h"
 #include "pipeline/tracking/camera_model.h"
@@ -23,6 +25,8 @@ struct RasterPixel {
   std::uint32_t id = 0;          ///< as scene::ArFrame::ids
   double depthMetres = 0.0;      ///< along the camera's axis
   glm::dvec3 cameraNormal{0.0};  ///< unit, interpolated; zero where no model is
+  glm::dvec2 texture{0.0};       ///< the vertices' attributes, interpolated
+  glm::dvec4 colour{0.0};
   /// An edge of a triangle that faces the camera is this near, in pixels; large where none is.
   double edgeDistancePx = 1e9;
 };

@@ -157,7 +157,8 @@ class RunInWindow : public Run {
     const int left = (kScreen.width - size.width) / 2;
     const int top = (kScreen.height - size.height) / 2;
     for (int y = 0; y < size.height - kCaptionLines; ++y) {
-      const auto shown = screen.row(0, top + y).subspan(static_cast<std::size_t>(3 * left));
+      const auto shown =
+          screen.row(0, top + y).subspan(std::size_t{3} * static_cast<std::size_t>(left));
       const auto row = picture.row(0, y);
       if (!std::equal(row.begin(), row.end(), shown.begin())) return false;
     }

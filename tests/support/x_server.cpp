@@ -18,13 +18,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/support/environment.h"
+
 namespace pleinair::support {
 namespace {
 
 constexpr int kPatienceMilliseconds = 20'000;
 
 bool isOnPath(const std::string& program) {
-  const char* path = std::getenv("PATH");
+  const char* path = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe)
   std::istringstream folders(path == nullptr ? "" : path);
   for (std::string folder; std::getline(folders, folder, ':');) {
     if (access((std::filesystem::path(folder) / program).c_str(), X_OK) == 0) return true;
@@ -36,6 +38,7 @@ bool isOnPath(const std::string& program) {
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   dup2(nowhere, STDERR_FILENO);
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
   execvp(argv.front(), argv.data());
@@ -131,7 +134,7 @@ hal::Image XServer::screen() const {
 int XServer::xdotool(const std::vector<std::string>& arguments) const {
   const pid_t child = fork();
   if (child == 0) {
-    setenv("DISPLAY", display_.c_str(), 1);
+    setVariable("DISPLAY", display_.c_str());
     std::vector<std::string> command{"xdotool"};
     command.insert(command.end(), arguments.begin(), arguments.end());
     dup2(open("/dev/null", O_WRONLY | O_CLOEXEC), STDOUT_FILENO);

@@ -1,12 +1,13 @@
 // Purpose: a model's vertices through the camera, lens distortion included (Brown-Conrady with
 //          OpenCV's rational terms, as tracking/camera_model.h has it). Image rows grow with y, so
 //          row 0 of the target is the picture's top.
-// Inputs:  position, normal in the model's frame, not indexed; cameraFromModel, its rotation,
-//          pinhole terms in clip space, distortion.
-// Outputs: position, normal in the camera's frame, the triangle's number.
+// Inputs:  position, normal in the part's frame, not indexed; cameraFromPart and what takes normals
+//          (of any length) along; pinhole terms in clip space, distortion; place on the texture,
+//          linear colour; the number of the surface's first triangle.
+// Outputs: normal in the camera's frame, place, colour, the triangle's number.
 // Precision: highp; a hundredth of a pixel at 1280 px needs 17 bits.
-uniform mat4 cameraFromModel;
-uniform mat3 cameraFromModelRotation;
+uniform mat4 cameraFromPart;
+uniform mat3 cameraFromPartNormals;
 uniform vec2 clipFocal;   // 2 f / size
 uniform vec2 clipCentre;  // 2 c / size - 1
 uniform vec2 clipDepth;   // clip z = x * camera z + y
@@ -15,11 +16,16 @@ uniform vec2 tangential;  // p1 p2
 uniform vec3 radialBelow; // k4 k5 k6
 uniform float trustedRadius;
 uniform int firstVertex;
+uniform uint firstTriangle;
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
+layout(location = 2) in vec2 place;
+layout(location = 3) in vec4 colour;
 
 out vec3 cameraNormal;
+out vec2 texturePlace;
+out vec4 vertexColour;
 flat out uint triangle;
 
 // What the lens adds to a point of the plane z = 1. Outside the trusted radius: what it adds there.
@@ -34,10 +40,13 @@ vec2 lensShift(vec2 p) {
 }
 
 void main() {
-  vec3 p = (cameraFromModel * vec4(position, 1.0)).xyz;
+  vec3 p = (cameraFromPart * vec4(position, 1.0)).xyz;
   // The shift is bounded, so that it fades to none towards z = 0, and stays none behind the camera.
   if (p.z > 0.0) p.xy += p.z * lensShift(p.xy / p.z);
   gl_Position = vec4(clipFocal * p.xy + clipCentre * p.z, clipDepth.x * p.z + clipDepth.y, p.z);
-  cameraNormal = cameraFromModelRotation * normal;
-  triangle = uint((gl_VertexID - firstVertex) / 3);
+  vec3 turned = cameraFromPartNormals * normal;
+  cameraNormal = turned / max(length(turned), 1e-12);
+  texturePlace = place;
+  vertexColour = colour;
+  triangle = firstTriangle + uint((gl_VertexID - firstVertex) / 3);
 }

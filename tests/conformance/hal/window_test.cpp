@@ -1,8 +1,7 @@
 #include "hal/outputs/window/window.h"
 
-#include <cstdlib>
-
 #include "tests/conformance/output_conformance.h"
+#include "tests/support/environment.h"
 #include "tests/support/x_server.h"
 
 namespace pleinair::hal::conformance {
@@ -13,7 +12,7 @@ OutputCase dummy() {
   return {.name = "Dummy",
           .make =
               [](const auto&) {
-                setenv("SDL_VIDEODRIVER", "dummy", 1);
+                support::setVariable("SDL_VIDEODRIVER", "dummy");
                 return orThrow(openWindow());
               },
           .backend = "window",
@@ -26,9 +25,9 @@ OutputCase x11() {
           .make =
               [server = std::shared_ptr<support::XServer>()](const auto&) mutable {
                 if (!server) server = std::make_shared<support::XServer>();
-                unsetenv("SDL_VIDEODRIVER");
-                unsetenv("WAYLAND_DISPLAY");
-                setenv("DISPLAY", server->display().c_str(), 1);
+                support::setVariable("SDL_VIDEODRIVER", nullptr);
+                support::setVariable("WAYLAND_DISPLAY", nullptr);
+                support::setVariable("DISPLAY", server->display().c_str());
                 return orThrow(openWindow());
               },
           .backend = "window",

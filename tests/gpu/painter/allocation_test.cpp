@@ -27,7 +27,7 @@ const std::array<support::SceneTag, 4> kTags{
 scene::SceneModel modelOn(std::optional<int> tag, const scene::ModelSource& source) {
   return {.name = "model",
           .source = source,
-          .mesh = std::make_shared<const scene::Mesh>(scene::meshOf(source)),
+          .model = std::make_shared<const scene::Model>(scene::modelOf(source).value()),
           .tagId = tag};
 }
 

@@ -33,11 +33,12 @@ scene::Scene boxOnTheTag() {
   scene.camera = camera();
   scene.tags.push_back({.id = 3, .edgeMetres = kTagMetres});
   const scene::BoxSource box{glm::dvec3(kBoxMetres)};
-  scene.models.push_back({.name = "box",
-                          .source = box,
-                          .mesh = std::make_shared<const scene::Mesh>(scene::meshOf(box)),
-                          .tagId = 3,
-                          .srgb = {0.1F, 0.2F, 0.9F}});
+  scene.models.push_back(
+      {.name = "box",
+       .source = box,
+       .model = std::make_shared<const scene::Model>(scene::modelOf(box).value()),
+       .tagId = 3,
+       .srgb = {0.1F, 0.2F, 0.9F}});
   return scene;
 }
 

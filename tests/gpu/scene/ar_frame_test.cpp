@@ -47,7 +47,7 @@ class ArFrameTest : public SceneGlTest {
   static Scene signPost(std::optional<int> tagId) {
     Scene scene;
     scene.tags.push_back({.id = 4, .edgeMetres = 0.1});
-    scene.models.push_back(modelOf(BoxSource{{0.1, 0.06, 0.001}}, tagId));
+    scene.models.push_back(placed(BoxSource{{0.1, 0.06, 0.001}}, tagId));
     scene.models[0].attachFromModel = glm::translate(glm::dmat4(1.0), {0.2, 0.1, 0.0});
     return scene;
   }
@@ -158,7 +158,7 @@ TEST_F(ArFrameTest, CutsWhatReachesBehindTheCameraAtTheHorizon) {
   // a floor 1 m below the camera, 40 m before and behind it, under lenses that fold far out
   for (const double k1 : {0.0, -0.3, 0.3}) {
     Scene scene;
-    scene.models.push_back(modelOf(BoxSource{{80.0, 80.0, 0.01}}));
+    scene.models.push_back(placed(BoxSource{{80.0, 80.0, 0.01}}));
     ArFrameRenderer renderer(library_, scene);
     const gpu::Texture picture = plainPicture(kSize);
     const glm::dmat4 below = glm::translate(glm::dmat4(1.0), {0.0, 1.01, 0.0}) *
@@ -183,7 +183,7 @@ TEST_F(ArFrameTest, CutsWhatReachesBehindTheCameraAtTheHorizon) {
 TEST_F(ArFrameTest, DoesNotFoldWhatIsFarAsideIntoThePicture) {
   // at 62° off the axis the polynomial gives x = -0.158, which is column 48
   Scene scene;
-  scene.models.push_back(modelOf(BoxSource{{0.1, 0.1, 0.1}}));
+  scene.models.push_back(placed(BoxSource{{0.1, 0.1, 0.1}}));
   ArFrameRenderer renderer(library_, scene);
   const gpu::Texture picture = plainPicture(kSize);
   const tracking::CameraModel camera({.fx = 200.0, .fy = 200.0, .cx = 80.0, .cy = 60.0},
@@ -213,9 +213,9 @@ TEST_F(ArFrameTest, LightsFromWhereTheSceneSays) {
   // the face is turned by 60° from the viewer, to the left
   EXPECT_EQ(centreRed({Light::Frame::kCamera, {0.0, 0.0, 1.0}}), 102);
   EXPECT_EQ(centreRed({Light::Frame::kCamera, {-1.0, 0.0, 0.0}}), 255);
-  EXPECT_EQ(centreRed({Light::Frame::kCamera, {1.0, 0.0, 0.0}}), 26);
+  EXPECT_NEAR(centreRed({Light::Frame::kCamera, {1.0, 0.0, 0.0}}), 25.5, 0.5);
   EXPECT_EQ(centreRed({Light::Frame::kAttached, {0.0, 0.0, 1.0}}), 255);
-  EXPECT_EQ(centreRed({Light::Frame::kAttached, {1.0, 0.0, 0.0}}), 26);
+  EXPECT_NEAR(centreRed({Light::Frame::kAttached, {1.0, 0.0, 0.0}}), 25.5, 0.5);
 }
 
 }  // namespace

@@ -35,9 +35,9 @@ class SceneGlTest : public support::GlTest {
     return support::textureOf(image.view());
   }
 
-  static SceneModel modelOf(ModelSource source, std::optional<int> tagId = std::nullopt) {
+  static SceneModel placed(ModelSource source, std::optional<int> tagId = std::nullopt) {
     SceneModel model;
-    model.mesh = std::make_shared<const Mesh>(meshOf(source));
+    model.model = std::make_shared<const Model>(modelOf(source).value());
     model.source = std::move(source);
     model.tagId = tagId;
     return model;

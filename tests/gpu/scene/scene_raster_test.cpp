@@ -32,7 +32,8 @@ Scene mixedScene() {
   Scene scene;
   const auto add = [&](ModelSource source, const glm::dvec3& at, double turnDeg, double scale) {
     SceneModel model;
-    model.mesh = std::make_shared<const Mesh>(withShortEdges(meshOf(source), 0.02F));
+    model.model =
+        std::make_shared<const Model>(withShortEdges(modelOf(source).value(), 0.02, 1'000'000));
     model.source = std::move(source);
     model.attachFromModel = glm::scale(
         glm::rotate(glm::translate(glm::dmat4(1.0), at), glm::radians(turnDeg), {0.3, 0.5, 0.8}),
@@ -61,7 +62,7 @@ TEST_P(SceneRaster, ShowsWhatTheOracleShows) {
 
   std::vector<oracles::PlacedMesh> placed;
   for (const SceneModel& model : scene.models) {
-    placed.push_back({model.mesh.get(), aslant() * model.attachFromModel});
+    placed.push_back({&model.model->surfaces[0].mesh, aslant() * model.attachFromModel});
   }
   const auto expected = oracles::rasterise(placed, camera());
   const auto ids = support::readR32ui(*frame.ids);

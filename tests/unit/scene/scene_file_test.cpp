@@ -106,7 +106,7 @@ colour = [0.25, 0.5, 1]
   EXPECT_FALSE(box.tagId);
   EXPECT_EQ(std::get<BoxSource>(box.source).sizeMetres, glm::dvec3(1, 2, 3));
   EXPECT_EQ(box.srgb, glm::vec3(0.25F, 0.5F, 1.0F));
-  EXPECT_EQ(box.mesh->triangles.size(), 12u);
+  EXPECT_EQ(box.model->triangleCount(), 12u);
 }
 
 constexpr const char* kInlineCamera =
@@ -133,13 +133,14 @@ TEST(SceneFile, FindsACalibrationBesideItself) {
   ASSERT_TRUE(scene.camera);
   EXPECT_EQ(scene.camera->distortion().k1, -0.2);
   // a lens that bends lines needs shorter ones
-  EXPECT_GT(scene.models[0].mesh->triangles.size(), 500u);
+  EXPECT_GT(scene.models[0].model->triangleCount(), 500u);
   std::filesystem::remove(directory / "camera.toml");
   try {
     loadScene(directory / "scene.toml");
     FAIL() << "nothing thrown";
   } catch (const config::ConfigError& error) {
-    EXPECT_EQ(error.file(), (directory / "camera.toml").string());
+    EXPECT_EQ(error.file(), (directory / "scene.toml").string());  // it names a wrong file
+    EXPECT_NE(std::string(error.what()).find("camera.toml"), std::string::npos) << error.what();
   }
   std::filesystem::remove_all(directory);
 }
@@ -165,8 +166,54 @@ TEST(SceneFile, SharesTheMeshesOfEqualModels) {
   const Scene scene = parsed(kTag + kGear + "[[model]]\nsource = \"builtin:gear\"\n" +
                              "attach = \"tag:0\"\n[[model]]\nsource = \"builtin:gear\"\n" +
                              "attach = \"tag:0\"\nteeth = 19\n");
-  EXPECT_EQ(scene.models[0].mesh, scene.models[1].mesh);
-  EXPECT_NE(scene.models[0].mesh, scene.models[2].mesh);
+  EXPECT_EQ(scene.models[0].model, scene.models[1].model);
+  EXPECT_NE(scene.models[0].model, scene.models[2].model);
+}
+
+TEST(SceneFile, FindsModelsBesideItself) {
+  const std::filesystem::path directory = testing::TempDir() + "pleinair_scene_model_test";
+  std::filesystem::create_directories(directory / "parts");
+  std::ofstream(directory / "parts/empty.GLTF") << R"({"asset":{"version":"2.0"}})";
+  const auto sceneWith = [&](const std::string& source) {
+    return parseScene(kTag + "[[model]]\nsource = \"" + source + "\"\nattach = \"tag:0\"\n",
+                      "scene.toml", directory);
+  };
+  const Scene scene = sceneWith("parts/empty.GLTF");
+  EXPECT_EQ(scene.models[0].srgb, glm::vec3(1.0F));  // files have colours of their own
+  ASSERT_EQ(scene.notices.size(), 1u);
+  EXPECT_EQ(scene.notices[0],
+            (directory / "parts/empty.GLTF").string() + ": there is nothing in it to be seen");
+  try {
+    sceneWith("gone.glb");
+    FAIL() << "nothing thrown";
+  } catch (const config::ConfigError& error) {
+    EXPECT_EQ(std::string(error.what())
+                  .find("scene.toml:6: model[0].source: " + (directory / "gone.glb").string()),
+              0u)
+        << error.what();
+  }
+  std::filesystem::remove_all(directory);
+}
+
+TEST(SceneFile, ReadsAGearbox) {
+  const Scene scene = parsed(kTag + R"(
+[[model]]
+source = "builtin:gearbox"
+attach = "tag:0"
+length_m = 0.5
+speed_rpm = -20.5
+stage_1 = [20, 40]
+stage_2 = [16, 60]
+cover = "closed"
+)");
+  const auto& gearbox = std::get<GearboxSource>(scene.models[0].source);
+  EXPECT_EQ(gearbox, (GearboxSource{.lengthMetres = 0.5,
+                                    .inputRevolutions = -20.5,
+                                    .stage1 = {20, 40},
+                                    .stage2 = {16, 60},
+                                    .isClosed = true}));
+  EXPECT_EQ(scene.models[0].srgb, glm::vec3(1.0F));
+  EXPECT_GT(scene.models[0].model->parts.size(), 60u);
 }
 
 struct Mistake {
@@ -196,7 +243,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "tag[0] has \"tag36h11\""},
         Mistake{kTag + "[[model]]\nsource = \"builtin:gera\"\nattach = \"tag:0\"\n",
                 "scene.toml:6: model[0].source: found \"builtin:gera\", allowed: "
-                "builtin:box, builtin:gear"},
+                "builtin:box, builtin:gear, builtin:gearbox, or a .glb or .gltf file"},
         Mistake{kTag + "[[model]]\nsource = \"builtin:box\"\nattach = \"tag:1\"\n",
                 "scene.toml:7: model[0].attach: found \"tag:1\", allowed: \"world\", \"tag:0\""},
         Mistake{"[[model]]\nsource = \"builtin:box\"\nattach = \"tag:1\"\n",
@@ -220,6 +267,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "holes, attach, scale, position_m, rotation_deg, colour, focus"},
         Mistake{kTag + kGear + "teeth = 5\n",
                 "scene.toml:9: model[0].teeth: found 5, allowed: a whole number in [6, 200]"},
+        Mistake{kTag + "[[model]]\nsource = \"builtin:gearbox\"\nattach = \"tag:0\"\n"
+                       "stage_2 = [18, 61]\n",
+                "scene.toml:8: model[0].stage_2: found [18, 61], allowed: teeth of a pinion, 16 to "
+                "30, and of a wheel, 36 to 60"},
         Mistake{kTag + kGear + "bore_diameter_m = 0.08\n",
                 "scene.toml:9: model[0].bore_diameter_m: found 0.08, too wide for the teeth, "
                 "allowed: at most 0.07 here"},

@@ -1,13 +1,13 @@
 #include "firmware_app/live/still_file.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <ctime>
 #include <fstream>
 
 #include <gtest/gtest.h>
 
 #include "hal/libav/picture_file.h"
+#include "tests/support/environment.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_pictures.h"
 
@@ -20,7 +20,7 @@ constexpr std::time_t kTime = 1'750'000'000;  // 2025-06-15 15:06:40 UTC
 class StillFile : public testing::Test {
  protected:
   StillFile() {
-    setenv("TZ", "UTC", 1);
+    support::setVariable("TZ", "UTC");
     tzset();
   }
   support::TemporaryFolder folder_;

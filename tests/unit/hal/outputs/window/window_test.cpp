@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <csignal>
-#include <cstdlib>
 #include <thread>
 
 #include <SDL.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "tests/support/environment.h"
 
 namespace pleinair::hal {
 namespace {
@@ -23,7 +24,7 @@ Image colours(FrameSize size) {
   for (int y = 0; y < size.height; ++y) {
     const auto row = image.row(0, y);
     for (int x = 0; x < size.width; ++x) {
-      const auto at = static_cast<std::size_t>(4 * x);
+      const auto at = std::size_t{4} * static_cast<std::size_t>(x);
       row[at] = static_cast<std::uint8_t>(7 * x + 3 * y + 1);
       row[at + 1] = static_cast<std::uint8_t>(x * y);
       row[at + 2] = static_cast<std::uint8_t>(255 - x);
@@ -73,7 +74,7 @@ void pushClose(SDL_Window* window) {
 
 class WindowTest : public testing::Test {
  protected:
-  WindowTest() { setenv("SDL_VIDEODRIVER", "dummy", 1); }
+  WindowTest() { support::setVariable("SDL_VIDEODRIVER", "dummy"); }
 
   static std::unique_ptr<Window> open(FrameSize size) {
     std::unique_ptr<Window> window = orThrow(openWindow());
@@ -106,7 +107,7 @@ TEST_F(WindowTest, ShowsAPictureOfItsSizeExactly) {
 TEST_F(WindowTest, ScalesLinearlyWhenItIsResized) {
   const auto window = open({240, 240});
   Image halves({.pixelFormat = PixelFormat::kRgba8, .size = {240, 240}});
-  for (int y = 0; y < 240; ++y) std::ranges::fill(halves.row(0, y).subspan(4 * 120), 255);
+  for (int y = 0; y < 240; ++y) std::ranges::fill(halves.row(0, y).subspan(480), 255);
   ASSERT_TRUE(window->write(halves.view(), {}));
   SDL_SetWindowSize(newestSdlWindow(), 960, 960);
   EXPECT_THAT(window->takeEvents(), ElementsAre(WindowEvent(WindowResized{{960, 960}})));
@@ -236,9 +237,9 @@ TEST_F(WindowTest, LeavesSignalsToTheProgram) {
 }
 
 TEST_F(WindowTest, SaysThatThereIsNoDisplay) {
-  unsetenv("SDL_VIDEODRIVER");
-  unsetenv("DISPLAY");
-  unsetenv("WAYLAND_DISPLAY");
+  support::setVariable("SDL_VIDEODRIVER", nullptr);
+  support::setVariable("DISPLAY", nullptr);
+  support::setVariable("WAYLAND_DISPLAY", nullptr);
   const auto window = openWindow();
   ASSERT_FALSE(window.has_value());
   EXPECT_EQ(window.error().kind, ErrorKind::kNotFound);
@@ -247,9 +248,9 @@ TEST_F(WindowTest, SaysThatThereIsNoDisplay) {
 }
 
 TEST_F(WindowTest, SaysThatTheNamedDisplayIsNotThere) {
-  unsetenv("SDL_VIDEODRIVER");
-  unsetenv("WAYLAND_DISPLAY");
-  setenv("DISPLAY", ":49151", 1);
+  support::setVariable("SDL_VIDEODRIVER", nullptr);
+  support::setVariable("WAYLAND_DISPLAY", nullptr);
+  support::setVariable("DISPLAY", ":49151");
   const auto window = openWindow();
   ASSERT_FALSE(window.has_value());
   EXPECT_EQ(window.error().kind, ErrorKind::kNotFound);

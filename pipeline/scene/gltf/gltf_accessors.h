@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+
+#include "pipeline/scene/gltf/gltf_resources.h"
+#include "pipeline/scene/gltf/gltf_structure.h"
+
+namespace pleinair::scene::gltf {
+
+/// Reads accessors of any layout, sparse ones too. `where` is who refers to the accessor; all throw
+/// Fault for whatever is out of range, beyond the limits, or no finite number.
+class Accessors {
+ public:
+  Accessors(const Structure& structure, Resources& resources)
+      : structure_(structure), resources_(resources) {}
+
+  /// Vectors of 1 to 4 numbers; what an element lacks is 0, and 1 as the fourth. Normalised
+  /// integers come as fractions.
+  std::vector<glm::vec4> vectors(int accessor, const std::string& where);
+  /// Unsigned integers: indices, or a component each of joints.
+  std::vector<glm::uvec4> integers(int accessor, const std::string& where);
+  /// 4 × 4 floats.
+  std::vector<glm::dmat4> matrices(int accessor, const std::string& where);
+
+ private:
+  struct Elements {
+    std::vector<std::uint8_t> bytes;  ///< packed
+    std::size_t count = 0;
+    std::size_t components = 0;
+    std::size_t componentBytes = 0;
+    int componentType = 0;
+    bool isNormalized = false;
+    std::span<const std::uint8_t> component(std::size_t element, std::size_t index) const {
+      return std::span(bytes).subspan((element * components + index) * componentBytes,
+                                      componentBytes);
+    }
+  };
+  Elements read(int accessor, const std::string& where);
+  void applySparse(const tinygltf::Accessor& accessor, Elements& elements, const std::string& name);
+
+  const Structure& structure_;
+  Resources& resources_;
+};
+
+}  // namespace pleinair::scene::gltf

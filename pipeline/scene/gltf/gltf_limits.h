@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace pleinair::scene::gltf {
+
+// What one model may be. A file can come from anywhere; with these, the worst one takes some
+// hundred megabytes and a second or two, and is then refused by name.
+inline constexpr std::int64_t kMaxFileBytes = 256LL << 20;  ///< the file itself
+/// With all that it refers to: files beside it, data: URIs.
+inline constexpr std::int64_t kMaxResourceBytes = 256LL << 20;
+inline constexpr std::size_t kMaxJsonBytes = std::size_t{64} << 20;
+inline constexpr std::size_t kMaxJsonValues = 2'000'000;
+inline constexpr int kMaxJsonDepth = 64;
+inline constexpr std::size_t kMaxNodes = 20'000;
+inline constexpr std::size_t kMaxImages = 256;
+inline constexpr int kMaxTextureSide = 4096;  ///< what every GPU that is meant takes
+inline constexpr std::int64_t kMaxTexturePixels = 48'000'000;  ///< of all together
+inline constexpr std::size_t kMaxSurfaceTriangles = 1'000'000;
+inline constexpr std::size_t kMaxVertices = 3'000'000;
+inline constexpr double kMaxCoordinate = 1e9;
+
+}  // namespace pleinair::scene::gltf

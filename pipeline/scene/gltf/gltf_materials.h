@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/scene/gltf/gltf_resources.h"
+#include "pipeline/scene/gltf/gltf_structure.h"
+#include "pipeline/scene/gltf/gltf_surfaces.h"
+#include "pipeline/scene/model.h"
+
+namespace pleinair::scene::gltf {
+
+/// Makes the materials that are used, with their pictures.
+class MaterialReader {
+ public:
+  MaterialReader(const Structure& structure, Resources& resources)
+      : structure_(structure), resources_(resources) {}
+
+  /// The place in model.materials of the file's material; -1 is glTF's default one. Reads it when
+  /// first asked for. Throws Fault.
+  std::size_t place(int material, Model& model, const std::string& where);
+  /// How the textures lie, by place.
+  const TextureMapping& mapping(std::size_t place) const { return mappings_[place]; }
+  /// Materials whose blending is drawn as holes.
+  const std::vector<std::string>& blended() const { return blended_; }
+
+ private:
+  std::size_t texturePlace(int texture, Model& model, const std::string& where);
+
+  const Structure& structure_;
+  Resources& resources_;
+  std::map<int, std::size_t> places_;
+  std::map<int, std::size_t> texturePlaces_;
+  std::vector<TextureMapping> mappings_;
+  std::vector<std::string> blended_;
+};
+
+}  // namespace pleinair::scene::gltf

@@ -1,0 +1,212 @@
+#include "pipeline/scene/gltf/gltf_structure.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "config/config_error.h"
+#include "pipeline/scene/gltf/gltf_fault.h"
+#include "pipeline/scene/gltf/gltf_limits.h"
+
+namespace pleinair::scene::gltf {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array<std::string_view, 2> kExtensions{"KHR_mesh_quantization",
+                                                      "KHR_texture_transform"};
+constexpr std::array<const char*, 7> kAccessorTypes{"SCALAR", "VEC2", "VEC3", "VEC4",
+                                                    "MAT2",   "MAT3", "MAT4"};
+
+/// Parses with bounds on nesting and on how many values there are: later readers of it recurse,
+/// and a value takes far more memory than its text.
+json parseBounded(std::string_view text) {
+  std::size_t values = 0;
+  const auto bounded = [&](int depth, json::parse_event_t event, const json&) {
+    if (depth > kMaxJsonDepth) {
+      refuse("", fmt::format("its JSON is nested more than {} levels deep", kMaxJsonDepth));
+    }
+    const bool isValue = event == json::parse_event_t::value ||
+                         event == json::parse_event_t::object_start ||
+                         event == json::parse_event_t::array_start;
+    if (isValue && ++values > kMaxJsonValues) {
+      refuse("", fmt::format("its JSON has more than {} values", kMaxJsonValues));
+    }
+    return true;
+  };
+  try {
+    return json::parse(text.begin(), text.end(), bounded);
+  } catch (const json::exception& error) {
+    refuse("", fmt::format("its JSON is broken: {}", error.what()));
+  }
+}
+
+const json* find(const json& object, const char* key) {
+  if (!object.is_object()) return nullptr;
+  const auto found = object.find(key);
+  return found == object.end() ? nullptr : &*found;
+}
+
+std::optional<std::string> stringAt(const json& object, const char* key, const std::string& where) {
+  const json* value = find(object, key);
+  if (value == nullptr) return std::nullopt;
+  if (!value->is_string()) refuse(where + "." + key, "is not a string");
+  return value->get<std::string>();
+}
+
+std::optional<std::uint64_t> countAt(const json& object, const char* key,
+                                     const std::string& where) {
+  const json* value = find(object, key);
+  if (value == nullptr) return std::nullopt;
+  if (!value->is_number_unsigned()) refuse(where + "." + key, "is not a whole number from 0 up");
+  return value->get<std::uint64_t>();
+}
+
+/// The objects of a top-level array; none where it is absent.
+std::vector<const json*> listAt(const json& root, const char* key) {
+  const json* list = find(root, key);
+  std::vector<const json*> objects;
+  if (list == nullptr) return objects;
+  if (!list->is_array()) refuse(key, "is not an array");
+  for (const json& each : *list) {
+    if (!each.is_object()) refuse(fmt::format("{}[{}]", key, objects.size()), "is not an object");
+    objects.push_back(&each);
+  }
+  return objects;
+}
+
+void checkVersion(const json& root) {
+  const json* asset = find(root, "asset");
+  if (asset == nullptr) refuse("asset", "missing: it says glTF's version");
+  for (const char* key : {"version", "minVersion"}) {
+    const auto version = stringAt(*asset, key, "asset");
+    if (!version && std::string_view(key) == "version") refuse("asset.version", "missing");
+    if (!version) continue;
+    const bool isKnown =
+        key == std::string_view("version") ? version->starts_with("2.") : *version == "2.0";
+    if (!isKnown) {
+      refuseUnsupported(fmt::format("asset.{}", key), "found " + config::quoted(*version),
+                        "version 2.0");
+    }
+  }
+}
+
+void checkExtensions(const json& root) {
+  const json* required = find(root, "extensionsRequired");
+  if (required == nullptr) return;
+  if (!required->is_array()) refuse("extensionsRequired", "is not an array");
+  std::vector<std::string> unknown;
+  for (const json& each : *required) {
+    if (!each.is_string()) refuse("extensionsRequired", "holds something that is not a string");
+    const auto name = each.get<std::string>();
+    if (std::ranges::find(kExtensions, name) == kExtensions.end()) {
+      unknown.push_back(config::quoted(name));
+    }
+  }
+  if (unknown.empty()) return;
+  if (unknown.size() > 8) unknown.resize(8);
+  refuseUnsupported("extensionsRequired",
+                    fmt::format("needs {}, which is not supported", fmt::join(unknown, ", ")),
+                    fmt::format("export without; supported are {}", fmt::join(kExtensions, ", ")));
+}
+
+std::vector<BufferEntry> readBuffers(const json& root) {
+  std::vector<BufferEntry> buffers;
+  for (const json* each : listAt(root, "buffers")) {
+    const std::string where = fmt::format("buffers[{}]", buffers.size());
+    const auto length = countAt(*each, "byteLength", where);
+    if (!length) refuse(where + ".byteLength", "missing");
+    if (*length < 1) refuse(where + ".byteLength", "found 0");
+    buffers.push_back({stringAt(*each, "uri", where), *length});
+  }
+  return buffers;
+}
+
+std::vector<ImageEntry> readImages(const json& root) {
+  std::vector<ImageEntry> images;
+  for (const json* each : listAt(root, "images")) {
+    const std::string where = fmt::format("images[{}]", images.size());
+    images.push_back({stringAt(*each, "uri", where), countAt(*each, "bufferView", where)});
+  }
+  if (images.size() > kMaxImages) {
+    refuse("images", fmt::format("there are {}", images.size()),
+           fmt::format("at most {}", kMaxImages));
+  }
+  return images;
+}
+
+std::vector<std::string> readAnimations(const json& root) {
+  std::vector<std::string> names;
+  for (const json* each : listAt(root, "animations")) {
+    const json* name = find(*each, "name");
+    names.push_back(name != nullptr && name->is_string() ? name->get<std::string>()
+                                                         : fmt::format("{}", names.size()));
+  }
+  return names;
+}
+
+/// tinygltf refuses a file for an accessor of a type that it does not know, though nobody may use
+/// it: puts a sound one in its place and remembers what it was.
+std::map<std::size_t, std::string> replaceUnknownTypes(json& root) {
+  std::map<std::size_t, std::string> unknown;
+  const auto list = root.find("accessors");
+  if (list == root.end() || !list->is_array()) return unknown;
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const json* type = find((*list)[i], "type");
+    if (type == nullptr || !type->is_string()) continue;
+    const auto name = type->get<std::string>();
+    if (std::ranges::find(kAccessorTypes, name) != kAccessorTypes.end()) continue;
+    unknown[i] = name;
+    (*list)[i] = {{"componentType", 5126}, {"count", 1}, {"type", "SCALAR"}};
+  }
+  return unknown;
+}
+
+void removeExtras(json& root) {
+  for (const char* key : {"buffers", "images", "animations", "cameras", "extensions", "extras"}) {
+    root.erase(key);
+  }
+}
+
+std::string firstLine(const std::string& text) {
+  return text.substr(0, std::min<std::size_t>(text.find('\n'), 200));
+}
+
+}  // namespace
+
+Structure readStructure(std::string_view text) {
+  json root = parseBounded(text);
+  if (!root.is_object()) refuse("", "its JSON is not an object");
+  checkVersion(root);
+  checkExtensions(root);
+  if (const std::size_t nodes = listAt(root, "nodes").size(); nodes > kMaxNodes) {
+    refuse("nodes", fmt::format("there are {}", nodes), fmt::format("at most {}", kMaxNodes));
+  }
+  Structure structure;
+  structure.buffers = readBuffers(root);
+  structure.images = readImages(root);
+  structure.animations = readAnimations(root);
+  structure.unknownTypes = replaceUnknownTypes(root);
+  removeExtras(root);
+
+  const std::string rest = root.dump(-1, ' ', false, json::error_handler_t::replace);
+  root = nullptr;
+  tinygltf::TinyGLTF parser;
+  std::string error;
+  std::string warning;
+  try {
+    if (!parser.LoadASCIIFromString(&structure.gltf, &error, &warning, rest.data(),
+                                    static_cast<unsigned>(rest.size()), "")) {
+      refuse("", firstLine(error.empty() ? "cannot be parsed" : error));
+    }
+  } catch (const json::exception& fault) {  // values of other types than it expects
+    refuse("", fmt::format("its JSON is not glTF's: {}", fault.what()));
+  }
+  return structure;
+}
+
+}  // namespace pleinair::scene::gltf

@@ -1,0 +1,102 @@
+// Bytes as a glTF model: container, JSON, nodes, accessors, textures. Nothing touches the disk.
+// Input is a .glb or a .gltf; where it is text, also as a .glb of its own making, so that a
+// mutation need not keep chunk lengths right: JSON up to the first NUL, and BIN after it.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "pipeline/scene/gltf/gltf_file.h"
+#include "pipeline/scene/model.h"
+#include "tests/fuzz/fuzz_target.h"
+
+namespace {
+
+using namespace pleinair;
+
+void require(bool holds, const char* what) {
+  if (!holds) fuzz::fail(what);
+}
+
+void requireSound(const scene::Surface& surface, const scene::Model& model) {
+  require(surface.material < model.materials.size(), "no such material");
+  for (const auto& triangle : surface.mesh.triangles) {
+    for (const std::uint32_t corner : triangle) {
+      require(corner < surface.mesh.vertices.size(), "no such vertex");
+    }
+  }
+  for (const scene::MeshVertex& vertex : surface.mesh.vertices) {
+    for (int i = 0; i < 3; ++i) {
+      require(std::isfinite(vertex.position[i]), "a position that is none");
+    }
+    require(std::abs(glm::length(vertex.normal) - 1.0F) < 1e-3F, "a normal that is none");
+    require(std::isfinite(vertex.texture.x) && std::isfinite(vertex.texture.y),
+            "a place that is none");
+  }
+}
+
+void requireSound(const scene::Model& model) {
+  for (const scene::Surface& surface : model.surfaces) requireSound(surface, model);
+  for (const scene::Material& material : model.materials) {
+    require(!material.texture || *material.texture < model.textures.size(), "no such texture");
+  }
+  for (const scene::ModelPart& part : model.parts) {
+    require(part.firstSurface + part.surfaceCount <= model.surfaces.size(), "no such surface");
+    if (part.triangleCount > 0) {
+      require(partOfTriangle(model, part.firstTriangle) == &part,
+              "a first triangle of another part");
+      require(partOfTriangle(model, part.firstTriangle + part.triangleCount - 1) == &part,
+              "a last triangle of another part");
+    }
+  }
+  require(partOfTriangle(model, model.triangleCount()) == nullptr, "a triangle too many");
+  require(std::isfinite(boundingSphere(model).radiusMetres), "no bounds");
+}
+
+void load(std::span<const std::uint8_t> bytes) {
+  const hal::Result<scene::Model> model = scene::parseGltf(bytes, "fuzz.glb");
+  if (model) {
+    requireSound(*model);
+  } else {
+    fuzz::expectOneLine(model.error().message());
+  }
+}
+
+void append(std::vector<std::uint8_t>& to, std::uint32_t word) {
+  for (int i = 0; i < 4; ++i) to.push_back(static_cast<std::uint8_t>(word >> (8 * i)));
+}
+
+void appendChunk(std::vector<std::uint8_t>& to, std::uint32_t type,
+                 std::span<const std::uint8_t> bytes, std::uint8_t padding) {
+  const std::size_t padded = (bytes.size() + 3) / 4 * 4;
+  append(to, static_cast<std::uint32_t>(padded));
+  append(to, type);
+  to.insert(to.end(), bytes.begin(), bytes.end());
+  to.insert(to.end(), padded - bytes.size(), padding);
+}
+
+std::vector<std::uint8_t> asBinary(std::span<const std::uint8_t> bytes) {
+  const auto nul = static_cast<std::size_t>(std::ranges::find(bytes, 0) - bytes.begin());
+  std::vector<std::uint8_t> chunks;
+  appendChunk(chunks, 0x4E4F534A, bytes.first(nul), ' ');
+  if (nul + 1 < bytes.size()) appendChunk(chunks, 0x004E4942, bytes.subspan(nul + 1), 0);
+  std::vector<std::uint8_t> file;
+  append(file, 0x46546C67);
+  append(file, 2);
+  append(file, static_cast<std::uint32_t>(12 + chunks.size()));
+  file.insert(file.end(), chunks.begin(), chunks.end());
+  return file;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::span bytes(data, size);
+  load(bytes);
+  if (size > 0 && data[0] == '{') load(asBinary(bytes));
+  return 0;
+}

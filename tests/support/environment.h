@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdlib>
+
+namespace pleinair::support {
+
+/// Sets a variable of the environment, or takes it away (nullptr). While there is one thread.
+inline void setVariable(const char* name, const char* value) {
+  // NOLINTBEGIN(concurrency-mt-unsafe)
+  if (value == nullptr) {
+    unsetenv(name);
+  } else {
+    setenv(name, value, 1);
+  }
+  // NOLINTEND(concurrency-mt-unsafe)
+}
+
+}  // namespace pleinair::support
