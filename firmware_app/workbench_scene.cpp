@@ -17,14 +17,14 @@ namespace {
 /// lies flat.
 constexpr const char* kModels = R"(
 [light]
-direction = [-0.6, -0.7, 0.8]
+direction = [-0.1, -1.0, 0.6]
 
 [[model]]
 name = "gearbox"
 source = "builtin:gearbox"
 attach = "tag:0"
 length_m = 0.26
-rotation_deg = [0, 0, 20]
+rotation_deg = [0, 0, 12]
 
 [[model]]
 name = "pinion"
