@@ -13,17 +13,18 @@
 namespace pleinair::app {
 namespace {
 
-/// A gear on the tag that lies free on the bench, where there is room for larger models, and
-/// something on what else lies flat.
+/// Light as the window's, a machine on the tag that lies free on the bench, and a gear on what else
+/// lies flat.
 constexpr const char* kModels = R"(
+[light]
+direction = [-0.1, -1.0, 0.6]
+
 [[model]]
-name = "gear"
-source = "builtin:gear"
+name = "gearbox"
+source = "builtin:gearbox"
 attach = "tag:0"
-teeth = 24
-module_m = 0.006
-thickness_m = 0.022
-colour = "#d98a2b"
+length_m = 0.26
+rotation_deg = [0, 0, 12]
 
 [[model]]
 name = "pinion"

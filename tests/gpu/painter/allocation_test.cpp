@@ -42,6 +42,7 @@ scene::Scene sceneOfTags() {
   }
   scene.models.push_back(modelOn(3, scene::BoxSource{glm::dvec3(0.05)}));
   scene.models.push_back(modelOn(0, scene::GearSource{}));
+  scene.models.push_back(modelOn(1, scene::GearboxSource{}));
   scene.models.push_back(modelOn(std::nullopt, scene::BoxSource{glm::dvec3(0.03)}));
   scene.models.back().focus = 1.0F;
   return scene;
