@@ -88,8 +88,10 @@ class LivePainting {
       finish();
       progress_ = nullptr;
     }
-    fmt::print("{}: {}\n", counts_.summary(job_.clock->now() - began),
-               job_.options.output.string());
+    if (hasResult()) {
+      fmt::print("{}: {}\n", counts_.summary(job_.clock->now() - began),
+                 job_.options.output.string());
+    }
     if (failure_) throw hal::StartupError(*std::move(failure_));
   }
 
@@ -182,13 +184,15 @@ class LivePainting {
     }
   }
 
-  /// Also after the camera is lost: what was painted is kept. Of nothing there is no file.
+  /// Also after the camera is lost what was painted is kept; of nothing there is no file.
+  bool hasResult() const { return !failure_ || painted_ > 0; }
+
   void finish() {
     camera_.stop();
     if (takeFrame(0ms).frame) counts_.drop(DropReason::kStopped);
     while (show(true)) {
     }
-    if (!failure_ || painted_ > 0) orThrow(output_->finish());
+    if (hasResult()) orThrow(output_->finish());
   }
 
   const LiveJob& job_;

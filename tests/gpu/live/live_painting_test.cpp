@@ -58,7 +58,7 @@ class LivePaintingTest : public testing::Test {
     try {
       runLive({.camera = &camera,
                .clock = &clock,
-               .options = {.output = output_},
+               .options = {.output = output_, .style = "none"},
                .scene = {},
                .stills = folder_.path()});
     } catch (const hal::StartupError& error) {
