@@ -1,5 +1,5 @@
-// The whole chain from decoded frames to planes in memory: tags, poses, the gearbox, watercolor, paper
-// and read-back, on the workbench's walkaround; beside the same with the style "none".
+// The whole chain from decoded frames to planes in memory: tags, poses, the gearbox, watercolor,
+// paper and read-back, on the workbench's walkaround; beside the same with the style "none".
 #include <cstdint>
 #include <utility>
 #include <variant>
@@ -56,7 +56,8 @@ void wholeChain(benchmark::State& state, const char* style) {
   const auto paint = [&] {
     hal::CapturedFrame frame = recording.frames[frameAt(number)];
     frame.sequence = number;
-    frame.captureTime = hal::TimePoint(hal::Duration(33'333'333) * static_cast<std::int64_t>(number));
+    frame.captureTime =
+        hal::TimePoint(hal::Duration(33'333'333) * static_cast<std::int64_t>(number));
     ++number;
     const hal::Result<Picture> painted = painter.paint(frame, parameters);
     if (!painted || painted->tracking.tags.empty()) state.SkipWithError("no tag was found");
@@ -73,7 +74,9 @@ void atBothSizes(benchmark::internal::Benchmark* benchmark) {
   benchmark->MeasureProcessCPUTime()->MinTime(2.0);
 }
 
-BENCHMARK_CAPTURE(wholeChain, watercolor, "watercolor")->Name("chain/watercolor")->Apply(atBothSizes);
+BENCHMARK_CAPTURE(wholeChain, watercolor, "watercolor")
+    ->Name("chain/watercolor")
+    ->Apply(atBothSizes);
 BENCHMARK_CAPTURE(wholeChain, none, "none")->Name("chain/none")->Apply(atBothSizes);
 
 }  // namespace

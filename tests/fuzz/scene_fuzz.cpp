@@ -1,9 +1,8 @@
 // Text as a scene file and as a calibration, and what is computed from them before the first frame.
-#include "config/config_error.h"
 #include "config/toml_reader.h"
 #include "pipeline/scene/scene_file.h"
 #include "pipeline/tracking/calibration_file.h"
-#include "tests/fuzz/fuzz_target.h"
+#include "tests/fuzz/config_errors.h"
 
 namespace {
 
@@ -11,15 +10,6 @@ using namespace pleinair;
 
 /// Nothing is there, so that no file is opened beside the scene.
 constexpr const char* kFolder = "/nonexistent";
-
-template <class Task>
-void expectConfigErrors(Task task) {
-  try {
-    task();
-  } catch (const config::ConfigError& error) {
-    fuzz::expectOneLine(error.what());
-  }
-}
 
 /// Rays through the corners and the middle, and back to where they came from.
 void look(const tracking::CameraModel& camera) {
@@ -36,14 +26,14 @@ void look(const tracking::CameraModel& camera) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text = fuzz::asText(data, size);
-  expectConfigErrors([&] {
+  fuzz::expectConfigErrors([&] {
     const scene::Scene scene = scene::parseScene(text, "scene.toml", kFolder);
     if (scene.camera) look(*scene.camera);
     for (const scene::SceneModel& model : scene.models) {
       if (model.model == nullptr) fuzz::fail("a model without a surface");
     }
   });
-  expectConfigErrors([&] {
+  fuzz::expectConfigErrors([&] {
     const auto document = config::TomlDocument::parseText(text, "camera.toml");
     look(tracking::readCalibration(document.root()));
   });

@@ -12,6 +12,7 @@ edge_darkness = 0
 simplicity = 2
 rim = 1
 gaps = 0.45
+granulation = 0.4
 variation = 0.6
 vividness = 0.4
 )"},

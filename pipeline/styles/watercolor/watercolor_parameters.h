@@ -25,8 +25,8 @@ struct WatercolorParameters {
   double wobble = 2.0;
   double rim = 0.5;
   double gaps = 0.2;
-  double granulation = 0.45;
-  double variation = 0.5;
+  double granulation = 0.3;
+  double variation = 0.4;
   double grain = 0.2;
   double vividness = 0.3;
   double luminosity = 0.5;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <ostream>
 #include <string>
 
 #include <glm/geometric.hpp>
@@ -220,6 +221,9 @@ cover = "closed"
 struct Mistake {
   std::string text;
   std::string message;
+  friend std::ostream& operator<<(std::ostream& out, const Mistake& each) {
+    return out << each.message;
+  }
 };
 
 class SceneFileMistake : public testing::TestWithParam<Mistake> {};
