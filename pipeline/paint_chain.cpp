@@ -153,6 +153,7 @@ hal::Result<Picture> PaintChain::paintChecked(const hal::CapturedFrame& frame,
   if (tracker_) tracked = tracker_->track(frame.image, frame.captureTime);
   picture_ = &paintView(compose(frame, tracked), parameters);
   submitToReaders(frame);
+  glFlush();  // the GPU works on while the next frame is tracked
   return Picture{.texture = picture_->name(),
                  .size = picture_->size(),
                  .sequence = frame.sequence,

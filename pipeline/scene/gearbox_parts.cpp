@@ -12,8 +12,8 @@
 namespace pleinair::scene {
 namespace {
 
-constexpr std::size_t kSegments = 36;
-constexpr std::size_t kBearingSegments = 28;
+constexpr std::size_t kSegments = 28;
+constexpr std::size_t kBearingSegments = 20;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kChamfer = 0.0006;
 constexpr double kKeyWidth = 0.005;
@@ -138,7 +138,7 @@ Mesh couplingMesh() {
                                             {0.0208, kCouplingFace - 0.0008},
                                             {0.0200, kCouplingFace},
                                             {0.0, kCouplingFace}}};
-  return turned(section, false, 36);
+  return turned(section, false, kSegments);
 }
 
 Mesh outerRaceMesh(const GearboxPlan::Shaft& shaft) {
@@ -167,7 +167,7 @@ Mesh innerRaceMesh(const GearboxPlan::Shaft& shaft) {
 }
 
 Mesh ballsMesh(const GearboxPlan::Shaft& shaft) {
-  const Mesh ball = sphere(shaft.ballRadius, 10, 6);
+  const Mesh ball = sphere(shaft.ballRadius, 8, 5);
   const double radius = bearingMiddleRadius(shaft);
   Mesh balls;
   for (int i = 0; i < shaft.balls; ++i) {
@@ -219,7 +219,7 @@ Mesh endCoverMesh(const GearboxPlan::Shaft& shaft) {
                                            {dome, 0.0058},
                                            {dome - 0.0008, 0.0064},
                                            {0.0, 0.0064}}};
-  return turned(section, false, 36);
+  return turned(section, false, kSegments);
 }
 
 }  // namespace pleinair::scene

@@ -144,7 +144,7 @@ SceneModel readModel(const TomlTable& table, const std::filesystem::path& direct
 
 /// What of a model's file is not shown, and whether it is far larger than anything with tags.
 std::vector<std::string> noticesOf(const SceneModel& model) {
-  constexpr double kHugeMetres = 10.0;
+  constexpr double kHugeMetres = 2.0;
   std::vector<std::string> notices;
   const auto* file = std::get_if<FileSource>(&model.source);
   if (file == nullptr) return notices;

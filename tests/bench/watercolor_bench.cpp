@@ -183,6 +183,9 @@ BENCHMARK_CAPTURE(onePass, split, "watercolor: split")
 BENCHMARK_CAPTURE(onePass, pigment, "watercolor: pigment")
     ->Name("watercolor/pigment")
     ->Apply(passAtBothSizes);
+BENCHMARK_CAPTURE(onePass, layers, "watercolor: layers")
+    ->Name("watercolor/layers")
+    ->Apply(passAtBothSizes);
 BENCHMARK_CAPTURE(onePass, compose, "watercolor: compose")
     ->Name("watercolor/compose")
     ->Apply(passAtBothSizes);

@@ -1,0 +1,11 @@
+// Purpose: paint as optical density: what the pigments of layers add up in (Beer and Lambert: they absorb
+//          and do not scatter, which is Kubelka and Munk's model of transparent paint over white).
+// Inputs, outputs: sRGB-coded colours; densities in [0, 8] in base 2; both packed as in a texture of 8
+//          bits: the root, because thin layers matter most.
+// Precision: highp.
+const vec3 kLuma = vec3(0.299, 0.587, 0.114);
+
+vec3 densityOf(vec3 colour) { return -log2(max(colour, vec3(0.004))); }
+vec3 colourOf(vec3 density) { return exp2(-density); }
+vec3 packDensity(vec3 density) { return sqrt(clamp(density * 0.125, 0.0, 1.0)); }
+vec3 unpackDensity(vec3 packed_) { return 8.0 * packed_ * packed_; }
