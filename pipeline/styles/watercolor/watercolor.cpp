@@ -91,7 +91,7 @@ struct Watercolor::Passes {
         pigment(library.fragmentPass(kShaders + "pigment.frag")),
         layers(library.fragmentPass(kShaders + "layers.frag")),
         compose(library.fragmentPass(kShaders + "compose.frag")),
-        composeFocus(library.fragmentPass(kShaders + "compose_focus.frag")),
+        composeMore(library.fragmentPass(kShaders + "compose_more.frag")),
         view(library.fragmentPass(kShaders + "view.frag")),
         paper(library.fragmentPass(kShaders + "paper.frag")) {}
 
@@ -104,7 +104,7 @@ struct Watercolor::Passes {
   gpu::Program pigment;
   gpu::Program layers;
   gpu::Program compose;
-  gpu::Program composeFocus;
+  gpu::Program composeMore;
   gpu::Program view;
   gpu::Program paper;
 };
@@ -338,10 +338,10 @@ void Watercolor::compose(const scene::ArFrame& frame, gpu::PassTimer& timer) {
   const Surfaces& s = *surfaces_;
   const auto scope = timer.measure("watercolor: compose");
   const PaperPlace place = paperPlace(frame.canvasFromPicture);
-  gpu::Program& pass = frame.hasFocus ? passes_->composeFocus : passes_->compose;
+  const bool needsMore = frame.hasFocus || p_.mosaic > 0.0;
+  gpu::Program& pass = needsMore ? passes_->composeMore : passes_->compose;
   pass.use()
       .texture("tiling", s.tiling)
-      .texture("means", s.means)
       .texture("darkLayer", s.darkLayer)
       .texture("lightLayer", s.lightLayer)
       .texture("paper", paper_)
@@ -355,12 +355,16 @@ void Watercolor::compose(const scene::ArFrame& frame, gpu::PassTimer& timer) {
       .set("wobble", static_cast<float>(p_.wobble))
       .set("rim", static_cast<float>(p_.rim))
       .set("granulation", static_cast<float>(p_.granulation))
-      .set("vividness", static_cast<float>(p_.vividness))
-      .set("luminosity", static_cast<float>(p_.luminosity))
-      .set("mosaic", static_cast<float>(p_.mosaic))
       .set("grain", static_cast<float>(p_.grain));
-  if (frame.hasFocus)
-    pass.texture("frame", *frame.colour).texture("normalFocus", *frame.normalFocus);
+  if (needsMore) {
+    pass.texture("means", s.means)
+        .texture("frame", *frame.colour)
+        .texture("normalFocus", frame.hasFocus ? *frame.normalFocus : *frame.colour)
+        .set("hasFocus", frame.hasFocus ? 1 : 0)
+        .set("vividness", static_cast<float>(p_.vividness))
+        .set("luminosity", static_cast<float>(p_.luminosity))
+        .set("mosaic", static_cast<float>(p_.mosaic));
+  }
   pass.drawFullscreen(s.pictureTarget);
 }
 

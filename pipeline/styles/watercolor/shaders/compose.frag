@@ -1,8 +1,12 @@
-// Purpose: the picture where nothing is to be kept crisp.
+// Purpose: the picture as most looks have it.
 // Inputs:  composition.glsl's.
 // Outputs: RGBA8, sRGB-coded, opaque.
 // Precision: highp, as composition.glsl says.
 #include "pipeline/styles/watercolor/shaders/composition.glsl"
 layout(location = 0) out vec4 picture;
 
-void main() { picture = vec4(paintedAt(ivec2(gl_FragCoord.xy)), 1.0); }
+void main() {
+  ivec2 p = ivec2(gl_FragCoord.xy);
+  vec4 sheet = sheetAt(onPaper(gl_FragCoord.xy), 1.0);
+  picture = vec4(finished(washAt(p, sheet), p, sheet), 1.0);
+}

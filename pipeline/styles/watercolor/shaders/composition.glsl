@@ -1,16 +1,13 @@
 // Purpose: washes on paper, a pixel at a time: a light wash, a dark one glazed over it where the picture
 //          is dark, lines (thesis §3.2.2) and the sheet (§3.5).
-// Inputs:  tiling, means (linear), darkLayer and lightLayer (layers.frag, LINEAR); sheet.glsl's;
+// Inputs:  tiling, darkLayer and lightLayer (layers.frag, LINEAR); sheet.glsl's;
 //          pictureSize, threshold, and the parameters of the same names (watercolor_parameters.h).
 // Outputs: sRGB-coded colours.
 // Precision: highp for places; colours would do with less.
-#include "pipeline/gpu/shaders/colour.glsl"
 #include "pipeline/styles/watercolor/shaders/density.glsl"
-#include "pipeline/styles/watercolor/shaders/palette.glsl"
 #include "pipeline/styles/watercolor/shaders/sheet.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
 uniform highp usampler2D tiling;
-uniform sampler2D means;
 uniform sampler2D darkLayer;
 uniform sampler2D lightLayer;
 uniform vec2 pictureSize;
@@ -21,9 +18,6 @@ uniform float wobble;
 uniform float rim;
 uniform float granulation;
 uniform float grain;
-uniform float vividness;
-uniform float luminosity;
-uniform float mosaic;
 
 // The sheet's relief, and its warm white.
 vec3 onSheet(vec3 colour, vec4 sheet) {
@@ -41,9 +35,8 @@ float lineAt(ivec2 p, float valley) {
   return clamp(edgeDarkness * line * (0.8 + 0.8 * valley), 0.0, 1.0);
 }
 
-// The painted colour of pixel p.
-vec3 paintedAt(ivec2 p) {
-  vec4 sheet = sheetAt(onPaper(vec2(p) + 0.5), 1.0);
+// The paint on pixel p.
+vec3 washAt(ivec2 p, vec4 sheet) {
   float valley = 0.5 - sheet.r;
   vec2 at = (vec2(p) + 0.5 + wobble * (sheet.ba - 0.5)) / pictureSize;
   vec4 dark = texture(darkLayer, at);
@@ -63,13 +56,11 @@ vec3 paintedAt(ivec2 p) {
   float thick = dot(density, kLuma);
   float grains = 2.0 * valley / (1.0 + 0.7 * thick) -
                  0.5 * smoothstep(0.55, 0.9, sheet.r) * smoothstep(1.0, 2.5, thick);
-  vec3 wash = colourOf(density * max(1.0 + granulation * grains, 0.2));
+  return colourOf(density * max(1.0 + granulation * grains, 0.2));
+}
 
-  if (mosaic > 0.0) {
-    ivec2 cell = cellOf(texelFetch(tiling, p, 0).r);
-    vec3 mean = srgbFromLinear(texelFetch(means, cell, 0).rgb);
-    wash = mix(wash, painted(mean, vividness, luminosity), mosaic);
-  }
-  if (edgeDarkness > 0.0) wash *= mix(vec3(1.0), vec3(0.22, 0.2, 0.22), lineAt(p, valley));
-  return onSheet(wash, sheet);
+// The line over it, and the sheet under it.
+vec3 finished(vec3 wash, ivec2 p, vec4 sheet) {
+  vec3 ink = mix(vec3(1.0), vec3(0.22, 0.2, 0.22), lineAt(p, 0.5 - sheet.r));
+  return onSheet(wash * ink, sheet);
 }

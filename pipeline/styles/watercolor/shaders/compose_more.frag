@@ -1,0 +1,29 @@
+// Purpose: the picture with flat cells mixed in (the thesis's mosaic), and with what is in focus kept
+//          crisp: drawn on the paper instead of painted. A program of its own, because software
+//          renderers pay for both sides of a branch.
+// Inputs:  composition.glsl's and palette.glsl's; means (linear); mosaic in [0, 1]; frame, the AR frame's
+//          colour; hasFocus, and then normalFocus with the frame's focus in A.
+// Outputs: RGBA8, sRGB-coded, opaque.
+// Precision: highp, as composition.glsl says.
+#include "pipeline/gpu/shaders/colour.glsl"
+#include "pipeline/styles/watercolor/shaders/composition.glsl"
+#include "pipeline/styles/watercolor/shaders/palette.glsl"
+uniform sampler2D means;
+uniform sampler2D frame;
+uniform sampler2D normalFocus;
+uniform bool hasFocus;
+uniform float vividness;
+uniform float luminosity;
+uniform float mosaic;
+layout(location = 0) out vec4 picture;
+
+void main() {
+  ivec2 p = ivec2(gl_FragCoord.xy);
+  vec4 sheet = sheetAt(onPaper(gl_FragCoord.xy), 1.0);
+  ivec2 cell = cellOf(texelFetch(tiling, p, 0).r);
+  vec3 mean = srgbFromLinear(texelFetch(means, cell, 0).rgb);
+  vec3 wash = mix(washAt(p, sheet), painted(mean, vividness, luminosity), mosaic);
+  vec3 crisp = onSheet(texelFetch(frame, p, 0).rgb, sheet);
+  float focus = hasFocus ? texelFetch(normalFocus, p, 0).a : 0.0;
+  picture = vec4(mix(finished(wash, p, sheet), crisp, focus), 1.0);
+}
