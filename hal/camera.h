@@ -5,6 +5,7 @@
 #include <string>
 #include <variant>
 
+#include "hal/camera_controls.h"
 #include "hal/captured_frame.h"
 #include "hal/clock.h"
 #include "hal/error.h"
@@ -17,6 +18,7 @@ struct StreamRequest {
   std::optional<FrameSize> size;
   std::optional<PixelFormat> pixelFormat;
   std::optional<Duration> framePeriod;
+  CameraControls controls;
 };
 
 /// What a camera does deliver, read back after negotiation.

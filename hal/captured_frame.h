@@ -35,7 +35,9 @@ struct CapturedFrame {
   std::array<DmaBufPlane, 3> dmaBufs;  ///< set where the driver exports them
   std::uint64_t sequence = 0;          ///< counts frames the device made, from 0
   std::uint64_t droppedBefore = 0;     ///< frames lost between the last one and this
-  TimePoint captureTime;               ///< on the steady clock
+  /// Of those, how many for want of a buffer, all being leased: the consumer was too slow.
+  std::uint64_t starvedBefore = 0;
+  TimePoint captureTime;  ///< on the steady clock
   TimestampSource timestampSource = TimestampSource::kArrival;
   std::optional<Duration> deviceTime;  ///< the device's own clock, where it has one
   FrameHealth health = FrameHealth::kSound;
