@@ -16,7 +16,8 @@ namespace pleinair::hal {
 
 /// A back end as the selector sees it.
 struct SelectableBackend {
-  std::unique_ptr<CameraBackend> backend;
+  /// Shared with cameras that were abandoned in the middle of a call.
+  std::shared_ptr<CameraBackend> backend;
   /// Whether its cameras are devices, which come and go: "auto" and "serial:" look among those, and
   /// the supervisor watches them for silence. Recordings and simulations are not.
   bool isDevice = true;
@@ -29,11 +30,10 @@ struct OpenedCamera {
   bool isDevice = true;
 };
 
-/// Puts a device's camera onto something, such as a thread of its own (hal/supervisor/
-/// worker_camera.h), before it is started. Called with a function that makes the camera for a
-/// clock.
+/// Makes a camera that tells time by that clock; keeps alive what the camera needs.
 using CameraFactory = std::function<std::unique_ptr<Camera>(Clock& clock)>;
-using CameraWrapper = std::function<std::unique_ptr<Camera>(CameraFactory make, Clock& clock)>;
+/// Puts a device's camera onto something else, such as a thread of its own (worker_camera.h).
+using CameraWrapper = std::function<std::unique_ptr<Camera>(CameraFactory make)>;
 
 /// Finds the camera that a choice names among those of all back ends, and opens it:
 /// - "v4l2": the back end's first that works,
@@ -43,7 +43,8 @@ using CameraWrapper = std::function<std::unique_ptr<Camera>(CameraFactory make, 
 /// One thread at a time.
 class CameraSelector {
  public:
-  /// The clock outlives the cameras. Precondition: some back end; names differ.
+  /// `wrapper` is for devices only. The clock outlives the cameras. Precondition: some back end;
+  /// their names differ.
   CameraSelector(std::vector<SelectableBackend> backends, std::string choice, Clock& clock,
                  CameraWrapper wrapper = {});
   CameraSelector(const CameraSelector&) = delete;
@@ -67,20 +68,23 @@ class CameraSelector {
 
  private:
   struct Candidate {
-    SelectableBackend* backend;
+    const SelectableBackend* backend;
     CameraDescription description;
   };
-  /// What does not lead to a candidate.
   struct Candidates {
     std::vector<Candidate> found;
-    std::vector<Error> problems;
+    std::vector<Error> problems;  ///< of back ends that could not list theirs
   };
-  SelectableBackend* backendNamed(std::string_view name);
-  Candidates candidates();
-  void addAllOf(SelectableBackend& backend, Candidates& candidates);
-  Result<OpenedCamera> openOne(SelectableBackend& backend, const std::string& id,
-                               const StreamRequest& request);
-  std::string choices() const;
+  Candidates listed(const std::vector<const SelectableBackend*>& backends) const;
+  std::vector<const SelectableBackend*> devices() const;
+  const SelectableBackend* backendNamed(std::string_view name) const;
+
+  Result<OpenedCamera> openFirst(Candidates candidates, const StreamRequest& request);
+  Result<OpenedCamera> openSerial(std::string_view serial, const StreamRequest& request);
+  Result<OpenedCamera> openNamed(const SelectableBackend& backend, std::string_view name,
+                                 const StreamRequest& request);
+  Result<OpenedCamera> start(const Candidate& candidate, const StreamRequest& request);
+  void sortLastOnesLast(std::vector<Candidate>& candidates) const;
 
   std::vector<SelectableBackend> backends_;
   std::string choice_;

@@ -1,14 +1,16 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
+#include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <mutex>
 #include <optional>
 #include <stop_token>
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "hal/camera.h"
 #include "hal/clock.h"
@@ -117,24 +119,31 @@ class CameraSupervisor {
   SupervisorStatus status() const;                     ///< any thread
 
  private:
-  bool hasPending() const { return !pending_.empty(); }
-  SupervisedNext takePending();
+  SupervisedNext advance(TimePoint deadline);
+  std::optional<SupervisedNext> takePending();
   void enter(CameraState state, std::string reason, std::optional<Error> cause = std::nullopt);
   void tell(const StreamFormat& format);
 
+  void step(TimePoint deadline);
   void open();
   void close();
-  void lose(std::string reason, std::optional<Error> cause);
-  void end(std::string reason, std::optional<Error> truncated);
-  /// One look at the open camera, until `deadline` at the latest.
+  /// Takes one look at the open camera, until `deadline` at the latest.
   void look(TimePoint deadline);
   void receive(CapturedFrame frame);
+  void receiveEnd(EndOfStream end);
+  void hand(SupervisedFrame frame);
   void noteSilence();
+  std::string silenceText() const;
+  void lose(std::string reason, std::optional<Error> cause = std::nullopt);
+  void end(std::string reason, std::optional<Error> truncated = std::nullopt);
+  void closeAndBackOff();
   /// Waits for the time to open again, or `deadline`.
   void backOff(TimePoint deadline);
+
   void noteDeviceChange();
   bool takeWake();
   std::stop_token wakeToken() const;
+  void publishCounts();
 
   CameraSelector& selector_;
   Clock& clock_;
@@ -144,15 +153,18 @@ class CameraSupervisor {
   std::optional<OpenedCamera> opened_;
   std::optional<CameraIdentity> camera_;
   std::optional<StreamFormat> told_;
-  std::deque<SupervisedNext> pending_;
   std::optional<Error> truncated_;
-  bool isFirstOpening_ = true;
   TimePoint startedAt_;
   TimePoint streamingSince_;
   TimePoint openAgainAt_;
   BackOff backOff_;
   FrameWatchdog watchdog_;
   SessionFrames frames_;
+  FrameCounts framesBeforeSilence_;
+  SupervisorCounts counts_;
+  // Handed out one by one; its memory is kept, for there is one for each frame.
+  std::vector<SupervisedNext> pending_;
+  std::size_t handedOut_ = 0;
 
   std::atomic<CameraState> state_ = CameraState::kOpening;
   std::atomic<bool> isStopped_ = false;

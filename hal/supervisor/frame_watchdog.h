@@ -23,7 +23,9 @@ class FrameWatchdog {
   /// A look that took longer than `longestLook` counts as that.
   FrameWatchdog(WatchdogRule rule, Duration longestLook) : rule_(rule), longestLook_(longestLook) {}
 
-  void begin(std::optional<Duration> framePeriod, TimePoint now);
+  /// The camera's frame period, from now on.
+  void expect(std::optional<Duration> framePeriod);
+  /// Silence begins anew.
   void frameCame(TimePoint now);
   /// Nothing usable came until now.
   void nothingCame(TimePoint now);

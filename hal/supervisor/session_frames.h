@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <variant>
@@ -33,6 +34,7 @@ struct FrameCounts {
   std::uint64_t corrupt = 0;
   std::uint64_t misTimed = 0;
   std::uint64_t made() const { return delivered + dropped + lostInStall + corrupt + misTimed; }
+  FrameCounts operator+(const FrameCounts& other) const;
   friend bool operator==(const FrameCounts&, const FrameCounts&) = default;
 };
 
@@ -53,14 +55,13 @@ class SessionFrames {
   std::variant<SupervisedFrame, FrameRefusal> take(CapturedFrame frame, TimePoint now,
                                                    bool isStalled);
 
-  /// Counts a loss once the frame after it has gone out.
-  const FrameCounts& counts() const { return counts_; }
+  /// With those that came after the last frame that went out.
+  FrameCounts counts() const { return counts_ + waiting_; }
 
  private:
   std::optional<FrameRefusal> refusalOf(const CapturedFrame& frame, TimePoint now) const;
 
   bool isDevice_ = true;
-  std::uint64_t nextSequence_ = 0;
   std::optional<TimePoint> lastTime_;
   FrameCounts waiting_;  // since the last frame that went out
   FrameCounts counts_;
