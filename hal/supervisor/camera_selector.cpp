@@ -80,7 +80,7 @@ Result<void> CameraSelector::check() const {
     choices.push_back(std::string(each.backend->name()) + ":ID");
   }
   return tl::unexpected(Error{.kind = ErrorKind::kInvalidArgument,
-                              .subject = choice_,
+                              .subject = choice_.empty() ? "\"\"" : choice_,
                               .problem = "is no camera",
                               .remedy = "choose one of: " + joined(choices, ", ")});
 }
