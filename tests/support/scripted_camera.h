@@ -208,7 +208,7 @@ class ScriptedBackend final : public hal::CameraBackend {
   std::unique_ptr<hal::Camera> make(const std::string& id, hal::Clock&) override {
     const auto found = std::ranges::find_if(
         devices_, [&](const auto& device) { return device->description.identity.id == id; });
-    assert(found != devices_.end());
+    if (found == devices_.end()) return std::make_unique<ScriptedCamera>(absent_, clock_);
     return std::make_unique<ScriptedCamera>(*found, clock_);
   }
 
@@ -216,6 +216,7 @@ class ScriptedBackend final : public hal::CameraBackend {
   std::string name_;
   hal::SteppedClock& clock_;
   std::vector<std::shared_ptr<ScriptedDevice>> devices_;
+  std::shared_ptr<ScriptedDevice> absent_ = std::make_shared<ScriptedDevice>();
   std::optional<hal::Error> listError_;
 };
 
