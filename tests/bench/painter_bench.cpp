@@ -61,7 +61,7 @@ void wholeChain(benchmark::State& state, const char* style) {
     ++number;
     const hal::Result<Picture> painted = painter.paint(frame, parameters);
     if (!painted || painted->tracking.tags.empty()) state.SkipWithError("no tag was found");
-    painter.take(reader, picture, !painter.hasRoom(reader));
+    hal::orThrow(painter.take(reader, picture, !painter.hasRoom(reader)));
   };
   for (int i = 0; i < 4; ++i) paint();
   for ([[maybe_unused]] auto _ : state) paint();

@@ -51,7 +51,8 @@ struct PaperPlace {
   float coarser;     // how much of the coarser octave is seen
 };
 
-PaperPlace paperPlace(const tracking::PlaneSimilarity& canvasFromPicture) {
+PaperPlace paperPlace(const scene::ArFrame& frame) {
+  const tracking::PlaneSimilarity& canvasFromPicture = frame.canvasFromPicture;
   // The blend takes the middle of an octave; elsewhere one octave is enough, and half the reads.
   constexpr double kBlendFrom = 0.3;
   constexpr double kBlendTo = 0.7;
@@ -67,7 +68,7 @@ PaperPlace paperPlace(const tracking::PlaneSimilarity& canvasFromPicture) {
   // The lowest frequency that is read is an eighth's (pigment.frag, and its coarser octave).
   const double period = 8.0 * kPaperPixels;
   const glm::dvec2 shift = canvasFromPicture.shift * finer;
-  return {.linear = canvasFromPicture.linear * finer,
+  return {.linear = canvasFromPicture.linear * finer / frame.pixelsOfFull().x,
           .shift = shift - period * glm::floor(shift / period),
           .coarser = static_cast<float>(coarser)};
 }
@@ -310,7 +311,7 @@ void Watercolor::paintWashes(const scene::ArFrame& frame, gpu::PassTimer& timer)
   }
   {
     const auto scope = timer.measure("watercolor: pigment");
-    const PaperPlace place = paperPlace(frame.canvasFromPicture);
+    const PaperPlace place = paperPlace(frame);
     passes_->pigment.use()
         .texture("tiling", s.tiling)
         .texture("darkWash", s.darkWash)
@@ -337,7 +338,7 @@ void Watercolor::paintWashes(const scene::ArFrame& frame, gpu::PassTimer& timer)
 void Watercolor::compose(const scene::ArFrame& frame, gpu::PassTimer& timer) {
   const Surfaces& s = *surfaces_;
   const auto scope = timer.measure("watercolor: compose");
-  const PaperPlace place = paperPlace(frame.canvasFromPicture);
+  const PaperPlace place = paperPlace(frame);
   const bool needsMore = frame.hasFocus || p_.mosaic > 0.0;
   gpu::Program& pass = needsMore ? passes_->composeMore : passes_->compose;
   pass.use()

@@ -78,7 +78,7 @@ struct Show {
       ++painted;
       mostTags = std::max(mostTags, result->tracking.tags.size());
       everWorld |= result->tracking.cameraFromWorld.has_value();
-      while (painter.take(reader, picture, !painter.hasRoom(reader))) {
+      while (hal::orThrow(painter.take(reader, picture, !painter.hasRoom(reader)))) {
       }
     }
   }
