@@ -276,10 +276,14 @@ int PaintChain::openReader(const hal::FrameFormat& format) {
   hal::orThrow(gpu::checkDeviceLimit(context_, present::PictureReader::packedSize(format),
                                      "picture to be read"));
   hal::orThrow(watch_.check());
-  auto reader =
-      std::make_unique<Reader>(present::PictureReader(library_, format, kPicturesUnderWay, seam_));
-  for (const Level& level : levels_) reader->ring.warmUp(level.size);
-  readers_.push_back(std::move(reader));
+  try {
+    auto reader = std::make_unique<Reader>(
+        present::PictureReader(library_, format, kPicturesUnderWay, seam_));
+    for (const Level& level : levels_) reader->ring.warmUp(level.size);
+    readers_.push_back(std::move(reader));
+  } catch (const hal::StartupError& error) {
+    throw hal::StartupError(metLoss(error.error()));
+  }
   return static_cast<int>(readers_.size()) - 1;
 }
 

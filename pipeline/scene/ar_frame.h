@@ -43,10 +43,10 @@ struct ArFrame {
   std::optional<hal::FrameSize> fullSize;
 
   hal::FrameSize size() const { return colour->size(); }
+  hal::FrameSize full() const { return fullSize.value_or(size()); }
   /// Px of this picture for one of the full one.
   glm::dvec2 pixelsOfFull() const {
-    const hal::FrameSize full = fullSize.value_or(size());
-    return glm::dvec2(size().width, size().height) / glm::dvec2(full.width, full.height);
+    return glm::dvec2(size().width, size().height) / glm::dvec2(full().width, full().height);
   }
 };
 
