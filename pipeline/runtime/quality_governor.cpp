@@ -34,7 +34,9 @@ bool QualityGovernor::painted(double load, std::size_t level, hal::TimePoint now
   if (rules_.pinned || level != level_) return false;
   if (seen_ == 0) cheapSince_ = now;
   recent_.at(seen_ % kWindow) = load;
-  smooth_ = seen_ == 0 ? load : smooth_ + 0.1 * (load - smooth_);
+  // One frame says little, however dear it was.
+  const double counted = std::min(load, 2.0);
+  smooth_ = seen_ == 0 ? counted : smooth_ + 0.1 * (counted - smooth_);
   ++seen_;
   if (seen_ == kWindow) learnRatio(now);
   if (raisedAt_ && now - *raisedAt_ >= kProof) {
