@@ -120,15 +120,35 @@ void addRender(CLI::App& app, RenderOptions& options, std::function<int()>& chos
   command.callback([&] { chosen = [&options] { return render(options); }; });
 }
 
+/// --output, up to three times: the targets in their order.
+void addOutputs(CLI::App& command, ConfigurationRequest& request) {
+  static constexpr std::array kKeys{"output.target", "output.second_target", "output.third_target"};
+  const auto assign = [&request](const std::vector<std::string>& targets) {
+    if (targets.size() > kKeys.size()) throw CLI::ValidationError("--output: three at the most");
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+      if (const std::string refusal = refuseStandardOutput(targets[i]); !refusal.empty()) {
+        throw CLI::ValidationError("--output: " + refusal);
+      }
+      request.options.push_back({kKeys.at(i), targets[i], "--output"});
+    }
+  };
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--output", assign,
+          "window (default), loopback (a V4L2 device that others read as a camera), or a file or "
+          "folder as of render; may be given up to three times")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("NAME|PATH");
+}
+
 void addRun(CLI::App& app, RunOptions& options, std::function<int()>& chosen) {
   CLI::App& command = *app.add_subcommand("run", "paint a camera live, in a window");
   ConfigurationRequest& configuration = options.configuration;
   addKey(command, configuration, "--camera", "camera.source",
          "synthetic (default), or a recording's path, played over and over at its own pace",
          "NAME|PATH");
-  addKey(command, configuration, "--output", "output.target",
-         "window (default), or a file or folder as of render", "NAME|PATH")
-      ->check(refuseStandardOutput);
+  addOutputs(command, configuration);
   addPainting(command, configuration);
   addKey(command, configuration, "--size", "painting.size",
          "of the painting (default: the camera's)", "WxH");

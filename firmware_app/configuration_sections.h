@@ -33,5 +33,6 @@ std::filesystem::path profileOf(const config::Sections& sections);
 CameraSettings cameraOf(const config::Sections& sections);
 PaintingSettings paintingOf(const config::Sections& sections);
 OutputSettings outputOf(const config::Sections& sections);
+RuntimeSettings runtimeOf(const config::Sections& sections);
 
 }  // namespace pleinair::app
