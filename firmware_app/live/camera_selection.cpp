@@ -11,6 +11,7 @@
 #include "hal/cameras/synthetic/synthetic_backend.h"
 #include "hal/error.h"
 #include "hal/numbered_path.h"
+#include "hal/supervisor/worker_camera.h"
 
 namespace pleinair::app {
 namespace {
@@ -60,8 +61,8 @@ std::unique_ptr<hal::CameraSelector> makeCameraSelector(const CameraSettings& se
   std::vector<hal::SelectableBackend> backends = deviceBackends();
   backends.push_back(synthetic(settings));
   backends.push_back(recordings());
-  auto selector =
-      std::make_unique<hal::CameraSelector>(std::move(backends), choiceOf(settings), clock);
+  auto selector = std::make_unique<hal::CameraSelector>(std::move(backends), choiceOf(settings),
+                                                        clock, hal::onThreadsOfTheirOwn());
   if (!selector->check()) throw hal::StartupError(noCamera(settings.source.string()));
   return selector;
 }
@@ -70,6 +71,17 @@ std::unique_ptr<hal::Camera> chosenCamera(const CameraSettings& settings, hal::C
   hal::OpenedCamera opened = hal::orThrow(makeCameraSelector(settings, clock)->open({}));
   opened.camera->stop();
   return std::move(opened.camera);
+}
+
+std::unique_ptr<hal::HotplugMonitor> watchDevices(hal::CameraSupervisor& supervisor,
+                                                  std::string& why) {
+  hal::Result<std::unique_ptr<hal::DeviceEvents>> events = hal::udevEvents();
+  if (!events) {
+    why = events.error().message();
+    return nullptr;
+  }
+  return std::make_unique<hal::HotplugMonitor>(
+      std::move(*events), [&supervisor](const hal::DeviceEvent&) { supervisor.devicesChanged(); });
 }
 
 }  // namespace pleinair::app
