@@ -124,7 +124,8 @@ void addRun(CLI::App& app, RunOptions& options, std::function<int()>& chosen) {
   CLI::App& command = *app.add_subcommand("run", "paint a camera live, in a window");
   ConfigurationRequest& configuration = options.configuration;
   addKey(command, configuration, "--camera", "camera.source",
-         "synthetic (default), or a recording's path, played over and over at its own pace",
+         "synthetic (default), auto, a device as docs/cameras.md says, or a recording's path, "
+         "played over and over at its own pace",
          "NAME|PATH");
   addKey(command, configuration, "--output", "output.target",
          "window (default), or a file or folder as of render", "NAME|PATH")
@@ -148,7 +149,7 @@ void addRun(CLI::App& app, RunOptions& options, std::function<int()>& chosen) {
 void addRecord(CLI::App& app, RecordOptions& options, std::function<int()>& chosen) {
   CLI::App& command = *app.add_subcommand("record", "record a camera");
   ConfigurationRequest& configuration = options.configuration;
-  addKey(command, configuration, "--camera", "camera.source", "synthetic (default), or a recording",
+  addKey(command, configuration, "--camera", "camera.source", "as of run (default: synthetic)",
          "NAME|PATH");
   command.add_option("--output", options.output, "as of render")
       ->required()
