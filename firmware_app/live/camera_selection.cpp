@@ -9,6 +9,7 @@
 #include "firmware_app/configured_parts.h"
 #include "hal/cameras/recording/recording_backend.h"
 #include "hal/cameras/synthetic/synthetic_backend.h"
+#include "hal/cameras/v4l2/v4l2_backend.h"
 #include "hal/error.h"
 #include "hal/numbered_path.h"
 #include "hal/supervisor/worker_camera.h"
@@ -53,7 +54,7 @@ hal::Error noCamera(const std::string& source) {
 }  // namespace
 
 std::vector<hal::SelectableBackend> deviceBackends() {
-  return {};
+  return {{.backend = std::make_shared<hal::v4l2::V4l2Backend>()}};
 }
 
 std::unique_ptr<hal::CameraSelector> makeCameraSelector(const CameraSettings& settings,
