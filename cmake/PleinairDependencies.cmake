@@ -50,6 +50,14 @@ else()
   pleinair_optional("window" "in (SDL ${SDL2_VERSION})")
 endif()
 
+# News of cameras that are plugged in.
+pkg_check_modules(LIBUDEV QUIET IMPORTED_TARGET libudev)
+if(LIBUDEV_FOUND)
+  pleinair_optional("hot-plug by udev" "in (libudev ${LIBUDEV_VERSION})")
+else()
+  pleinair_optional("hot-plug by udev" "not in: libudev-dev is not installed")
+endif()
+
 if(CCACHE_PROGRAM)
   pleinair_optional("compiler cache" "in (${CCACHE_PROGRAM})")
 else()

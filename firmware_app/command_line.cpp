@@ -146,7 +146,8 @@ void addRun(CLI::App& app, RunOptions& options, std::function<int()>& chosen) {
   CLI::App& command = *app.add_subcommand("run", "paint a camera live, in a window");
   ConfigurationRequest& configuration = options.configuration;
   addKey(command, configuration, "--camera", "camera.source",
-         "synthetic (default), or a recording's path, played over and over at its own pace",
+         "synthetic (default), auto, a device as docs/cameras.md says, or a recording's path, "
+         "played over and over at its own pace",
          "NAME|PATH");
   addOutputs(command, configuration);
   addPainting(command, configuration);
@@ -168,7 +169,7 @@ void addRun(CLI::App& app, RunOptions& options, std::function<int()>& chosen) {
 void addRecord(CLI::App& app, RecordOptions& options, std::function<int()>& chosen) {
   CLI::App& command = *app.add_subcommand("record", "record a camera");
   ConfigurationRequest& configuration = options.configuration;
-  addKey(command, configuration, "--camera", "camera.source", "synthetic (default), or a recording",
+  addKey(command, configuration, "--camera", "camera.source", "as of run (default: synthetic)",
          "NAME|PATH");
   command.add_option("--output", options.output, "as of render")
       ->required()

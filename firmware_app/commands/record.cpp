@@ -1,8 +1,10 @@
 #include "firmware_app/commands/record.h"
 
 #include <memory>
+#include <string>
 
 #include "firmware_app/configured_parts.h"
+#include "firmware_app/live/camera_selection.h"
 #include "firmware_app/workbench_scene.h"
 #include "hal/cameras/recording/recording.h"
 
@@ -12,21 +14,29 @@ namespace {
 void refuseCollisionsOf(const RecordOptions& options, const Configuration& configuration) {
   std::vector<NamedPath> read = configuredFiles(configuration, {});
   const CameraSettings camera = configuration.camera();
-  if (!isSynthetic(camera)) read.push_back({"--camera", camera.source});
+  if (isRecording(camera)) read.push_back({"--camera", camera.source});
   std::vector<NamedPath> written{{"--output", options.output}};
   if (options.writeScene) written.push_back({"--write-scene", *options.writeScene});
   refuseCollisions(read, written);
+}
+
+bool isDevice(const CameraSettings& settings) {
+  return !isSynthetic(settings) && !isRecording(settings);
 }
 
 /// The camera, stopped, once what it knows of its scene is written.
 std::unique_ptr<hal::Camera> openCamera(const RecordOptions& options,
                                         const CameraSettings& settings, hal::Clock& clock) {
   if (!isSynthetic(settings)) {
-    if (!options.writeScene) return hal::openRecording(settings.source, clock);
-    throw hal::StartupError({.kind = hal::ErrorKind::kInvalidArgument,
-                             .subject = "--write-scene",
-                             .problem = "nothing knows the scene of a recording",
-                             .remedy = "leave it out, or record the synthetic camera"});
+    if (options.writeScene) {
+      const std::string what = isDevice(settings) ? "a device" : "a recording";
+      throw hal::StartupError({.kind = hal::ErrorKind::kInvalidArgument,
+                               .subject = "--write-scene",
+                               .problem = "nothing knows the scene of " + what,
+                               .remedy = "leave it out, or record the synthetic camera"});
+    }
+    if (isDevice(settings)) return chosenCamera(settings, clock);
+    return hal::openRecording(settings.source, clock);
   }
   hal::SyntheticOptions synthetic = syntheticOptions(settings);
   synthetic.frameCount = options.frames;
@@ -44,8 +54,11 @@ int record(const RecordOptions& options) {
   return configuration.blaming([&] {
     refuseSlipOfCamera(configuration);
     refuseCollisionsOf(options, configuration);
-    hal::SteppedClock clock;
-    const auto camera = openCamera(options, configuration.camera(), clock);
+    const CameraSettings settings = configuration.camera();
+    hal::SteppedClock stepped;
+    hal::SteadyClock steady;  // what a device films goes by
+    hal::Clock& clock = isDevice(settings) ? static_cast<hal::Clock&>(steady) : stepped;
+    const auto camera = openCamera(options, settings, clock);
     return runPainting(
         {.camera = camera.get(),
          .options = {.output = options.output, .style = "none", .frames = options.frames},

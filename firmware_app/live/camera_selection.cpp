@@ -9,8 +9,10 @@
 #include "firmware_app/configured_parts.h"
 #include "hal/cameras/recording/recording_backend.h"
 #include "hal/cameras/synthetic/synthetic_backend.h"
+#include "hal/cameras/v4l2/v4l2_backend.h"
 #include "hal/error.h"
 #include "hal/numbered_path.h"
+#include "hal/supervisor/worker_camera.h"
 
 namespace pleinair::app {
 namespace {
@@ -52,7 +54,7 @@ hal::Error noCamera(const std::string& source) {
 }  // namespace
 
 std::vector<hal::SelectableBackend> deviceBackends() {
-  return {};
+  return {{.backend = std::make_shared<hal::v4l2::V4l2Backend>()}};
 }
 
 std::unique_ptr<hal::CameraSelector> makeCameraSelector(const CameraSettings& settings,
@@ -60,8 +62,8 @@ std::unique_ptr<hal::CameraSelector> makeCameraSelector(const CameraSettings& se
   std::vector<hal::SelectableBackend> backends = deviceBackends();
   backends.push_back(synthetic(settings));
   backends.push_back(recordings());
-  auto selector =
-      std::make_unique<hal::CameraSelector>(std::move(backends), choiceOf(settings), clock);
+  auto selector = std::make_unique<hal::CameraSelector>(std::move(backends), choiceOf(settings),
+                                                        clock, hal::onThreadsOfTheirOwn());
   if (!selector->check()) throw hal::StartupError(noCamera(settings.source.string()));
   return selector;
 }
@@ -70,6 +72,17 @@ std::unique_ptr<hal::Camera> chosenCamera(const CameraSettings& settings, hal::C
   hal::OpenedCamera opened = hal::orThrow(makeCameraSelector(settings, clock)->open({}));
   opened.camera->stop();
   return std::move(opened.camera);
+}
+
+std::unique_ptr<hal::HotplugMonitor> watchDevices(hal::CameraSupervisor& supervisor,
+                                                  std::string& why) {
+  hal::Result<std::unique_ptr<hal::DeviceEvents>> events = hal::udevEvents();
+  if (!events) {
+    why = events.error().message();
+    return nullptr;
+  }
+  return std::make_unique<hal::HotplugMonitor>(
+      std::move(*events), [&supervisor](const hal::DeviceEvent&) { supervisor.devicesChanged(); });
 }
 
 }  // namespace pleinair::app

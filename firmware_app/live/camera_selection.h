@@ -7,6 +7,8 @@
 #include "firmware_app/configuration.h"
 #include "hal/clock.h"
 #include "hal/supervisor/camera_selector.h"
+#include "hal/supervisor/camera_supervisor.h"
+#include "hal/supervisor/hotplug_monitor.h"
 
 namespace pleinair::app {
 
@@ -23,5 +25,11 @@ std::unique_ptr<hal::CameraSelector> makeCameraSelector(const CameraSettings& se
 /// The camera that the settings choose now, stopped. Throws hal::StartupError: as above, or why it
 /// cannot be opened, with each candidate's reason where there are several.
 std::unique_ptr<hal::Camera> chosenCamera(const CameraSettings& settings, hal::Clock& clock);
+
+/// Tells the supervisor when something is plugged or unplugged, while what is returned lives, which
+/// the supervisor outlives. Nothing, and `why` set, where udev is not to be had: a lost camera is
+/// then found again by the supervisor's back-off alone.
+std::unique_ptr<hal::HotplugMonitor> watchDevices(hal::CameraSupervisor& supervisor,
+                                                  std::string& why);
 
 }  // namespace pleinair::app

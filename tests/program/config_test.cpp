@@ -209,7 +209,7 @@ TEST_F(ConfigVerb, LateErrorsNameThePlaceOfTheValue) {
                 HasSubstr(site + ":4: painting.scene: " + path("gone.toml") + ": cannot open: "));
   expectRefused(runProgram({"record", "--output", path("o.png"), "--camera", "synthtic"}),
                 HasSubstr("--camera: found \"synthtic\" (did you mean \"synthetic\"?), allowed: "
-                          "synthetic, synthetic:walkaround, "));
+                          "auto, v4l2, synthetic, synthetic:walkaround, "));
 }
 
 TEST_F(ConfigVerb, NothingIsWrittenOverWhatWasRead) {

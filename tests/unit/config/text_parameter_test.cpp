@@ -124,6 +124,31 @@ TEST(TextParameter, RelativePathsOfAFileStartAtTheFile) {
   EXPECT_EQ(sceneOf("scene = \"none\""), fs::path("none"));
 }
 
+struct Source {
+  fs::path source = "none";
+};
+
+TEST(TextParameter, NamesThatGoOnAfterAColonAreNoPaths) {
+  const ParameterTable<Source> sources{pathParameter("source", &Source::source, {"none", "usb"},
+                                                     "Where from.", TakesEffect::kRestart, {},
+                                                     {"usb:ID", "serial:NUMBER"})};
+  const support::TemporaryFolder folder;
+  const fs::path file = folder.path() / "site.toml";
+  const auto sourceOf = [&](const std::string& text) {
+    std::ofstream(file) << "source = \"" << text << "\"";
+    return sources.typed(sources.defaults().with(TomlDocument::parseFile(file).root())).source;
+  };
+  for (const std::string name : {"usb:046d:0825", "usb:/dev/video0", "serial:A"}) {
+    EXPECT_EQ(sourceOf(name), fs::path(name));
+    EXPECT_THAT(sources.defaults().with("source", name, "--set").toToml(),
+                testing::HasSubstr("source = \"" + name + "\"  # --set\n"));
+  }
+  EXPECT_EQ(sourceOf("serials"), folder.path() / "serials");
+  EXPECT_EQ(sourceOf("serial:"), folder.path() / "serial:");
+  EXPECT_THAT(thrownBy([&] { sourceOf("usb:"); }),
+              testing::HasSubstr("allowed: none, usb, usb:ID, serial:NUMBER, or a path"));
+}
+
 TEST(TextParameter, SurvivesPrintingAndParsing) {
   const Parameters given{.title = "a \"b\" \\ Ünï # no comment",
                          .style = "ink",

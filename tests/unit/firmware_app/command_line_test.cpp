@@ -116,7 +116,7 @@ TEST(CommandLine, RefusesNamesThatWouldNotHoldWhatIsWritten) {
 
 TEST(CommandLine, ChecksWhatRunIsGivenBeforeItOpensAnything) {
   expectRefused({"run", "--camera", "webcam"},
-                "webcam: is neither a camera nor a file; choose synthetic");
+                "webcam: is neither a camera nor a file; choose auto, ");
   expectRefused({"run", "--output", "out.avi"}, "out.avi: does not say what to write");
   expectRefused({"run", "--output", "-"}, "--output: found \"-\"");
   expectRefused({"run", "--stills", "/no-such-folder"}, "/no-such-folder: is not a folder");

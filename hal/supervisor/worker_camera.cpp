@@ -1,0 +1,282 @@
+#include "hal/supervisor/worker_camera.h"
+
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include <pthread.h>
+
+#include "hal/supervisor/duration_text.h"
+
+namespace pleinair::hal {
+namespace {
+
+/// How late the thread notices that it is to stop.
+constexpr Duration kLook = std::chrono::milliseconds(50);
+
+/// `condition` of `lock`'s mutex, within `limit` of real time.
+template <class Condition>
+bool holdsWithin(std::condition_variable& changed, std::unique_lock<std::mutex>& lock,
+                 Duration limit, Condition condition) {
+  return changed.wait_until(lock, std::chrono::steady_clock::now() + limit, condition);
+}
+
+}  // namespace
+
+/// What the thread and its owner share; whoever is last frees it.
+class WorkerCamera::Worker {
+ public:
+  Worker(CameraFactory make, std::shared_ptr<std::atomic<int>> hanging)
+      : make_(std::move(make)), hanging_(std::move(hanging)), camera_(make_(clock_)) {
+    identity_ = camera_->identity();
+  }
+
+  CameraIdentity identity() {
+    const std::scoped_lock lock(mutex_);
+    return identity_;
+  }
+  Result<StreamFormat> start(const StreamRequest& request, Duration limit,
+                             const std::stop_token& interrupted);
+  NextFrame next(TimePoint deadline);
+  /// Whether it did within the limit.
+  bool stop(Duration limit);
+  bool quit(Duration limit);
+
+  /// The thread.
+  void run();
+
+ private:
+  void stream();
+  void post(NextFrame next);
+  /// Takes the waiting frame out of the mail, and counts it.
+  void replace(std::optional<CapturedFrame>& replaced);
+  void clearMail();
+  bool shallStream() {
+    const std::scoped_lock lock(mutex_);
+    return shallStream_;
+  }
+
+  SteadyClock clock_;   // the camera's
+  CameraFactory make_;  // and whatever that keeps alive
+  std::shared_ptr<std::atomic<int>> hanging_;
+
+  std::mutex mutex_;  // of what follows, but for the camera
+  std::condition_variable changed_;
+  CameraIdentity identity_;
+  StreamRequest request_;
+  bool shallStream_ = false;
+  bool shallQuit_ = false;
+  bool isIdle_ = true;
+  bool hasQuit_ = false;
+  bool isAbandoned_ = false;
+  std::optional<Result<StreamFormat>> started_;
+  // The mail, in the order in which it is taken.
+  std::optional<FormatChanged> format_;
+  std::optional<CapturedFrame> frame_;
+  std::optional<NextFrame> ending_;
+  std::uint64_t dropped_ = 0;  // of frames that were replaced, and before them
+  std::uint64_t starved_ = 0;
+
+  std::unique_ptr<Camera> camera_;  // the thread's
+};
+
+Result<StreamFormat> WorkerCamera::Worker::start(const StreamRequest& request, Duration limit,
+                                                 const std::stop_token& interrupted) {
+  const std::stop_callback wake(interrupted, [this] {
+    const std::scoped_lock lock(mutex_);
+    changed_.notify_all();
+  });
+  std::unique_lock lock(mutex_);
+  if (!isIdle_) {
+    return tl::unexpected(Error{.kind = ErrorKind::kBusy,
+                                .subject = identity_.backend + ":" + identity_.id,
+                                .problem = "its driver still hangs in an earlier call",
+                                .remedy = "unplug the camera"});
+  }
+  request_ = request;
+  isIdle_ = false;
+  shallStream_ = true;
+  started_.reset();
+  clearMail();
+  changed_.notify_all();
+  holdsWithin(changed_, lock, limit,
+              [&] { return started_.has_value() || interrupted.stop_requested(); });
+  if (started_) return *started_;
+  shallStream_ = false;
+  if (interrupted.stop_requested()) {
+    return tl::unexpected(Error{.kind = ErrorKind::kBusy,
+                                .subject = identity_.backend + ":" + identity_.id,
+                                .problem = "its opening was broken off: the program stops"});
+  }
+  return tl::unexpected(
+      Error{.kind = ErrorKind::kTimeout,
+            .subject = identity_.backend + ":" + identity_.id,
+            .problem = "its driver gave no answer for " + durationText(limit) + " when opened",
+            .remedy = "unplug the camera"});
+}
+
+NextFrame WorkerCamera::Worker::next(TimePoint deadline) {
+  const auto hasMail = [this] { return format_ || frame_ || ending_; };
+  std::unique_lock lock(mutex_);
+  if (deadline == kNoDeadline) {
+    changed_.wait(lock, hasMail);
+  } else {
+    const std::chrono::steady_clock::time_point until(deadline.time_since_epoch());
+    if (!changed_.wait_until(lock, until, hasMail)) return CameraTimeout{};
+  }
+  if (format_) return *std::exchange(format_, std::nullopt);
+  if (!frame_) return *ending_;
+  CapturedFrame frame = *std::exchange(frame_, std::nullopt);
+  frame.droppedBefore += std::exchange(dropped_, 0);
+  frame.starvedBefore += std::exchange(starved_, 0);
+  return frame;
+}
+
+bool WorkerCamera::Worker::stop(Duration limit) {
+  std::unique_lock lock(mutex_);
+  shallStream_ = false;
+  changed_.notify_all();
+  const bool isIdle = holdsWithin(changed_, lock, limit, [this] { return isIdle_; });
+  clearMail();
+  return isIdle;
+}
+
+bool WorkerCamera::Worker::quit(Duration limit) {
+  std::unique_lock lock(mutex_);
+  shallStream_ = false;
+  shallQuit_ = true;
+  changed_.notify_all();
+  if (holdsWithin(changed_, lock, limit, [this] { return hasQuit_; })) return true;
+  isAbandoned_ = true;
+  ++*hanging_;
+  return false;
+}
+
+void WorkerCamera::Worker::run() {
+  pthread_setname_np(pthread_self(), "camera");
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [this] { return !isIdle_ || shallQuit_; });
+    if (isIdle_) break;
+    const StreamRequest request = request_;
+    lock.unlock();
+    Result<StreamFormat> format = camera_->start(request);
+    const bool isStreaming = format.has_value();
+    CameraIdentity identity = camera_->identity();
+    lock.lock();
+    identity_ = std::move(identity);
+    started_ = std::move(format);
+    changed_.notify_all();
+    lock.unlock();
+    if (isStreaming) stream();
+    camera_->stop();
+    lock.lock();
+    isIdle_ = true;
+    changed_.notify_all();
+  }
+  lock.unlock();
+  camera_.reset();
+  lock.lock();
+  hasQuit_ = true;
+  if (isAbandoned_) --*hanging_;
+  changed_.notify_all();
+}
+
+void WorkerCamera::Worker::stream() {
+  while (shallStream()) {
+    NextFrame next = camera_->next(clock_.now() + kLook);
+    if (std::holds_alternative<CameraTimeout>(next)) continue;
+    const bool goesOn =
+        std::holds_alternative<CapturedFrame>(next) || std::holds_alternative<FormatChanged>(next);
+    post(std::move(next));
+    if (goesOn) continue;
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return !shallStream_; });
+    return;
+  }
+}
+
+void WorkerCamera::Worker::post(NextFrame next) {
+  std::optional<CapturedFrame> replaced;  // its lease goes back without the lock
+  const std::scoped_lock lock(mutex_);
+  if (!shallStream_) return;
+  if (auto* frame = std::get_if<CapturedFrame>(&next)) {
+    replace(replaced);
+    frame_ = std::move(*frame);
+  } else if (auto* changed = std::get_if<FormatChanged>(&next)) {
+    replace(replaced);  // it is of the former format
+    format_ = std::move(*changed);
+  } else {
+    ending_ = std::move(next);
+  }
+  changed_.notify_all();
+}
+
+void WorkerCamera::Worker::replace(std::optional<CapturedFrame>& replaced) {
+  if (!frame_) return;
+  dropped_ += frame_->droppedBefore + 1;
+  starved_ += frame_->starvedBefore + 1;
+  replaced = std::exchange(frame_, std::nullopt);
+}
+
+void WorkerCamera::Worker::clearMail() {
+  format_.reset();
+  frame_.reset();
+  ending_.reset();
+  dropped_ = 0;
+  starved_ = 0;
+}
+
+WorkerCamera::WorkerCamera(CameraFactory make, WorkerLimits limits,
+                           std::shared_ptr<std::atomic<int>> hanging, std::stop_token interrupted)
+    : limits_(limits),
+      hanging_(hanging ? std::move(hanging) : std::make_shared<std::atomic<int>>(0)),
+      interrupted_(std::move(interrupted)),
+      worker_(std::make_shared<Worker>(std::move(make), hanging_)),
+      thread_([worker = worker_] { worker->run(); }) {}
+
+WorkerCamera::~WorkerCamera() {
+  stop();
+  if (worker_->quit(isHanging_ ? Duration::zero() : limits_.stop)) {
+    thread_.join();
+  } else {
+    thread_.detach();  // it owns what it uses
+  }
+}
+
+CameraIdentity WorkerCamera::identity() const {
+  return worker_->identity();
+}
+
+Result<StreamFormat> WorkerCamera::start(const StreamRequest& request) {
+  if (const int count = *hanging_; count >= limits_.mostHanging) {
+    const CameraIdentity who = identity();
+    return tl::unexpected(Error{
+        .kind = ErrorKind::kBusy,
+        .subject = who.backend + ":" + who.id,
+        .problem = std::to_string(count) + " earlier openings of cameras still hang in a driver",
+        .remedy = "unplug the camera, or start the program anew"});
+  }
+  return worker_->start(request, limits_.start, interrupted_);
+}
+
+NextFrame WorkerCamera::next(TimePoint deadline) {
+  return worker_->next(deadline);
+}
+
+void WorkerCamera::stop() {
+  isHanging_ = !worker_->stop(isHanging_ ? Duration::zero() : limits_.stop);
+}
+
+CameraWrapper onThreadsOfTheirOwn(WorkerLimits limits) {
+  return [limits, hanging = std::make_shared<std::atomic<int>>(0)](CameraFactory make,
+                                                                   std::stop_token stop) {
+    return std::make_unique<WorkerCamera>(std::move(make), limits, hanging, std::move(stop));
+  };
+}
+
+}  // namespace pleinair::hal
