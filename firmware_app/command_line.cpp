@@ -17,6 +17,8 @@
 #include "config/profiles.h"
 #include "config/suggestion.h"
 #include "firmware_app/commands/config.h"
+#include "firmware_app/commands/devices.h"
+#include "firmware_app/commands/doctor.h"
 #include "firmware_app/commands/record.h"
 #include "firmware_app/commands/render.h"
 #include "firmware_app/commands/run.h"
@@ -127,7 +129,8 @@ void addRun(CLI::App& app, RunOptions& options, std::function<int()>& chosen) {
          "synthetic (default), or a recording's path, played over and over at its own pace",
          "NAME|PATH");
   addKey(command, configuration, "--output", "output.target",
-         "window (default), or a file or folder as of render", "NAME|PATH")
+         "window (default), loopback, loopback:/dev/video50, or a file or folder as of render",
+         "NAME|PATH")
       ->check(refuseStandardOutput);
   addPainting(command, configuration);
   addKey(command, configuration, "--size", "painting.size",
@@ -179,6 +182,21 @@ void addConfig(CLI::App& app, ConfigOptions& options, std::function<int()>& chos
   command.add_flag("--given", options.givenOnly, "leave out what nobody gave: a short site file");
   refuseEmptyValues(command);
   command.callback([&] { chosen = [&options] { return printConfiguration(options); }; });
+}
+
+void addDevices(CLI::App& app, DevicesOptions& options, std::function<int()>& chosen) {
+  CLI::App& command = *app.add_subcommand("devices", "list the cameras and outputs that are there");
+  command.add_flag("--json", options.json, "for programs");
+  command.callback([&] { chosen = [&options] { return listDevices(options); }; });
+}
+
+void addDoctor(CLI::App& app, DoctorOptions& options, std::function<int()>& chosen) {
+  CLI::App& command =
+      *app.add_subcommand("doctor", "say what works on this machine, and what mends the rest");
+  command.add_flag("--json", options.json, "for programs");
+  addConfiguration(command, options.configuration);
+  refuseEmptyValues(command);
+  command.callback([&] { chosen = [&options] { return examineMachine(options); }; });
 }
 
 /// What was not recognised, the first option of it where there is one: the rest may be its value.
@@ -250,8 +268,11 @@ int parseAndRun(int argc, const char* const* argv) {
   RecordOptions recordOptions;
   ConfigOptions configOptions;
   RunOptions runOptions;
-  for (ConfigurationRequest* each : {&renderOptions.configuration, &recordOptions.configuration,
-                                     &runOptions.configuration, &configOptions.configuration}) {
+  DevicesOptions devicesOptions;
+  DoctorOptions doctorOptions;
+  for (ConfigurationRequest* each :
+       {&renderOptions.configuration, &recordOptions.configuration, &runOptions.configuration,
+        &configOptions.configuration, &doctorOptions.configuration}) {
     each->environment = environmentOfProcess();
   }
   std::function<int()> chosen;
@@ -259,12 +280,15 @@ int parseAndRun(int argc, const char* const* argv) {
   addRender(app, renderOptions, chosen);
   addRecord(app, recordOptions, chosen);
   addConfig(app, configOptions, chosen);
+  addDevices(app, devicesOptions, chosen);
+  addDoctor(app, doctorOptions, chosen);
   app.add_subcommand("styles", "list styles with their looks, parameters and views")->callback([&] {
     chosen = listStyles;
   });
   try {
     app.parse(argumentsReversed(argc, argv));
-    if (!chosen) throw CLI::RequiredError("one of run, render, record, config and styles");
+    if (!chosen)
+      throw CLI::RequiredError("one of run, render, record, config, devices, doctor and styles");
     return chosen();
   } catch (const CLI::ParseError& error) {
     return reportParseError(app, error);

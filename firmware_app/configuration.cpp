@@ -221,6 +221,10 @@ OutputSettings Configuration::output() const {
   return outputOf(sections_);
 }
 
+StatusSettings Configuration::status() const {
+  return statusOf(sections_);
+}
+
 const ParameterValues& Configuration::styleParameters() const {
   return sections_.values(styleSection(painting().style));
 }

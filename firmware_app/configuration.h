@@ -9,6 +9,7 @@
 
 #include "config/sections.h"
 #include "hal/error.h"
+#include "hal/pixel_format.h"
 
 namespace pleinair::app {
 
@@ -35,8 +36,14 @@ struct PaintingSettings {
 
 /// [output]
 struct OutputSettings {
-  std::filesystem::path target = "window";  ///< or a movie or pictures
-  std::filesystem::path stills = ".";       ///< the folder that stills are saved to
+  std::filesystem::path target = "window";         ///< or a movie or pictures, or "loopback…"
+  std::filesystem::path stills = ".";              ///< the folder that stills are saved to
+  std::optional<hal::PixelFormat> loopbackFormat;  ///< unset: what the device takes
+};
+
+/// [status]
+struct StatusSettings {
+  std::string listen = "off";  ///< or ADDRESS:PORT
 };
 
 /// A key that an option of the command line gives.
@@ -76,6 +83,7 @@ class Configuration {
   CameraSettings camera() const;
   PaintingSettings painting() const;
   OutputSettings output() const;
+  StatusSettings status() const;
   /// Of the style in force.
   const config::ParameterValues& styleParameters() const;
 

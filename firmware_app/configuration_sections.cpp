@@ -1,9 +1,13 @@
 #include "firmware_app/configuration_sections.h"
 
+#include <array>
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "config/parameter_table.h"
 #include "config/profiles.h"
+#include "firmware_app/status_server/listen_address.h"
 #include "hal/cameras/synthetic/shot.h"
 #include "hal/pixel_format.h"
 #include "pipeline/styles/style_registry.h"
@@ -90,12 +94,30 @@ const ParameterTable<PaintingSettings>& paintingTable() {
   return kTable;
 }
 
+constexpr std::array<config::Choice<std::optional<hal::PixelFormat>>, 4> kLoopbackFormats{
+    {{"auto", std::nullopt},
+     {"yuyv", hal::PixelFormat::kYuyv},
+     {"nv12", hal::PixelFormat::kNv12},
+     {"i420", hal::PixelFormat::kI420}}};
+
 const ParameterTable<OutputSettings>& outputTable() {
   static const ParameterTable<OutputSettings> kTable{
-      pathParameter("target", &OutputSettings::target, {"window"},
-                    "Where a live painting goes: \"window\", or a movie's or pictures' path."),
+      pathParameter("target", &OutputSettings::target, {"window", "loopback"},
+                    "Where a live painting goes: \"window\", a V4L2 loopback device (\"loopback\", "
+                    "\"loopback:/dev/video50\", \"loopback:LABEL\"), or a movie's or pictures' "
+                    "path."),
+      choiceParameter("loopback_format", &OutputSettings::loopbackFormat, kLoopbackFormats,
+                      "Of the pictures that a loopback takes; \"auto\": the first that it does.",
+                      TakesEffect::kRestart),
       pathParameter("stills", &OutputSettings::stills, {"."},
                     "The folder that the window's key s saves to; \".\": where the program runs.")};
+  return kTable;
+}
+
+const ParameterTable<StatusSettings>& statusTable() {
+  static const ParameterTable<StatusSettings> kTable{textParameter(
+      "listen", &StatusSettings::listen, std::string(kAllowedListen),
+      "Where /status, /metrics and /healthz are served over HTTP.", TakesEffect::kRestart)};
   return kTable;
 }
 
@@ -114,7 +136,8 @@ config::Sections defaultSections() {
       {"", "", profileTable().defaults()},
       {"camera", "What is painted live and recorded.", cameraTable().defaults()},
       {"painting", "What is made of it.", paintingTable().defaults()},
-      {"output", "Where it goes.", outputTable().defaults()}};
+      {"output", "Where it goes.", outputTable().defaults()},
+      {"status", "What is told of the running program.", statusTable().defaults()}};
   for (const styles::StyleInfo& info : styles::styleInfos()) {
     sections.push_back({fmt::format("style.{}", info.name),
                         fmt::format("The style {}: {}.", info.name, info.help), info.defaults});
@@ -136,6 +159,10 @@ PaintingSettings paintingOf(const config::Sections& sections) {
 
 OutputSettings outputOf(const config::Sections& sections) {
   return outputTable().typed(sections.values("output"));
+}
+
+StatusSettings statusOf(const config::Sections& sections) {
+  return statusTable().typed(sections.values("status"));
 }
 
 }  // namespace pleinair::app

@@ -20,8 +20,8 @@ inline constexpr std::string_view kViewKey = "painting.view";
 /// The cameras that have a name.
 std::vector<std::string> cameraNames();
 
-/// Every key that the program knows, at its default: the profile, [camera], [painting], [output]
-/// and a [style.…] for each style.
+/// Every key that the program knows, at its default: the profile, [camera], [painting], [output],
+/// [status] and a [style.…] for each style.
 config::Sections defaultSections();
 
 // The settings in force of what defaultSections() made.
@@ -29,5 +29,6 @@ std::filesystem::path profileOf(const config::Sections& sections);
 CameraSettings cameraOf(const config::Sections& sections);
 PaintingSettings paintingOf(const config::Sections& sections);
 OutputSettings outputOf(const config::Sections& sections);
+StatusSettings statusOf(const config::Sections& sections);
 
 }  // namespace pleinair::app

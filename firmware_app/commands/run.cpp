@@ -61,7 +61,8 @@ int run(const RunOptions& options) {
                                                        .frames = options.frames,
                                                        .shaderDirectory = options.shaderDirectory}),
          .scene = std::move(scene),
-         .stills = output.stills});
+         .stills = output.stills,
+         .output = {.loopbackLayout = output.loopbackFormat}});
   });
 }
 
