@@ -7,6 +7,7 @@
 
 #include "config/parameter_table.h"
 #include "config/profiles.h"
+#include "firmware_app/live/camera_selection.h"
 #include "firmware_app/status_server/listen_address.h"
 #include "hal/cameras/synthetic/shot.h"
 #include "hal/pixel_format.h"
@@ -47,8 +48,9 @@ const ParameterTable<CameraSettings>& cameraTable() {
   static const ParameterTable<CameraSettings> kTable{
       pathParameter(
           "source", &CameraSettings::source, cameraNames(),
-          "The camera: \"synthetic\", a workbench made by code, one of its other shots, or a "
-          "recording's path."),
+          "The camera: a device, by id or serial number or the first that works; \"synthetic\", a "
+          "workbench made by code, or another of its shots; or a recording's path.",
+          TakesEffect::kRestart, {}, openCameraNames()),
       sizeParameter("size", &CameraSettings::size, kSizes, {},
                     "Of the synthetic camera's frames; movies have even sides."),
       numberParameter("rate", &CameraSettings::framesPerSecond,
@@ -103,9 +105,9 @@ constexpr std::array<config::Choice<std::optional<hal::PixelFormat>>, 4> kLoopba
 const ParameterTable<OutputSettings>& outputTable() {
   static const ParameterTable<OutputSettings> kTable{
       pathParameter("target", &OutputSettings::target, {"window", "loopback"},
-                    "Where a live painting goes: \"window\", a V4L2 loopback device (\"loopback\", "
-                    "\"loopback:/dev/video50\", \"loopback:LABEL\"), or a movie's or pictures' "
-                    "path."),
+                    "Where a live painting goes: \"window\", a V4L2 loopback (the first one, or by "
+                    "node or label), or a movie's or pictures' path.",
+                    TakesEffect::kRestart, {}, {"loopback:DEVICE"}),
       choiceParameter("loopback_format", &OutputSettings::loopbackFormat, kLoopbackFormats,
                       "Of the pictures that a loopback takes; \"auto\": the first that it does.",
                       TakesEffect::kRestart),
@@ -124,11 +126,28 @@ const ParameterTable<StatusSettings>& statusTable() {
 }  // namespace
 
 std::vector<std::string> cameraNames() {
-  std::vector<std::string> names{"synthetic"};
+  std::vector<std::string> names{"auto"};
+  for (const hal::SelectableBackend& each : deviceBackends()) {
+    names.emplace_back(each.backend->name());
+  }
+  names.emplace_back("synthetic");
   for (const std::string_view shot : hal::syntheticShots()) {
     names.push_back(fmt::format("synthetic:{}", shot));
   }
   return names;
+}
+
+std::vector<std::string> openCameraNames() {
+  std::vector<std::string> names;
+  for (const hal::SelectableBackend& each : deviceBackends()) {
+    names.push_back(fmt::format("{}:ID", each.backend->name()));
+  }
+  names.emplace_back("serial:NUMBER");
+  return names;
+}
+
+bool isCameraName(std::string_view source) {
+  return !cameraTable().defaults().list().descriptors()[0].isPath(source);
 }
 
 config::Sections defaultSections() {

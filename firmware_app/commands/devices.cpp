@@ -3,13 +3,14 @@
 #include <cstdio>
 
 #include "firmware_app/devices/inventory.h"
+#include "firmware_app/live/camera_selection.h"
 #include "hal/outputs/window/window.h"
 
 namespace pleinair::app {
 namespace {
 
 Inventory takeInventory() {
-  Inventory inventory{.cameras = listDeviceCameras()};
+  Inventory inventory{.cameras = listDeviceCameras(deviceBackends())};
   inventory.loopbacks = hal::listLoopbacks();
   inventory.displays = listDisplays();
   // Not shown before start().

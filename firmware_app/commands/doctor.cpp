@@ -9,11 +9,12 @@
 #include "config/config_error.h"
 #include "firmware_app/devices/device_cameras.h"
 #include "firmware_app/doctor/checks.h"
+#include "firmware_app/live/camera_selection.h"
 
 namespace pleinair::app {
 int examineMachine(const DoctorOptions& options) {
   doctor::Probes probes = doctor::systemProbes();
-  probes.cameras = listDeviceCameras;
+  probes.cameras = [] { return listDeviceCameras(deviceBackends()); };
   probes.stills = ".";
   std::optional<std::string> configurationError;
   try {

@@ -2,20 +2,13 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace pleinair::app {
-namespace {
-
-std::vector<std::shared_ptr<hal::CameraBackend>> backends() {
-  return {};
-}
-
-}  // namespace
-
-DeviceCameras listDeviceCameras() {
+DeviceCameras listDeviceCameras(std::span<const hal::SelectableBackend> backends) {
   DeviceCameras all;
-  for (const auto& backend : backends()) {
-    hal::Result<std::vector<hal::CameraDescription>> cameras = backend->list();
+  for (const hal::SelectableBackend& each : backends) {
+    hal::Result<std::vector<hal::CameraDescription>> cameras = each.backend->list();
     if (cameras) {
       std::ranges::move(*cameras, std::back_inserter(all.cameras));
     } else {

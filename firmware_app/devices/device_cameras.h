@@ -1,10 +1,11 @@
 #pragma once
 
-#include <memory>
+#include <span>
 #include <vector>
 
 #include "hal/camera_backend.h"
 #include "hal/error.h"
+#include "hal/supervisor/camera_selector.h"
 
 namespace pleinair::app {
 
@@ -14,6 +15,6 @@ struct DeviceCameras {
   std::vector<hal::Error> problems;  ///< of back ends that could not list theirs
 };
 
-DeviceCameras listDeviceCameras();
+DeviceCameras listDeviceCameras(std::span<const hal::SelectableBackend> backends);
 
 }  // namespace pleinair::app

@@ -27,12 +27,6 @@ bool isSameCamera(const CameraIdentity& a, const CameraIdentity& b) {
   return a.backend == b.backend && a.id == b.id;
 }
 
-std::string nameOf(const CameraDescription& camera) {
-  std::string name = camera.identity.backend + ":" + camera.identity.id;
-  if (!camera.node.empty() && camera.node != camera.identity.id) name += " (" + camera.node + ")";
-  return name;
-}
-
 std::string joined(const std::vector<std::string>& texts, std::string_view between) {
   std::string all;
   for (const std::string& text : texts) {
@@ -80,7 +74,7 @@ Result<void> CameraSelector::check() const {
     choices.push_back(std::string(each.backend->name()) + ":ID");
   }
   return tl::unexpected(Error{.kind = ErrorKind::kInvalidArgument,
-                              .subject = choice_,
+                              .subject = choice_.empty() ? "\"\"" : choice_,
                               .problem = "is no camera",
                               .remedy = "choose one of: " + joined(choices, ", ")});
 }
@@ -162,21 +156,13 @@ Result<OpenedCamera> CameraSelector::openSerial(std::string_view serial,
 Result<OpenedCamera> CameraSelector::openNamed(const SelectableBackend& backend,
                                                std::string_view name,
                                                const StreamRequest& request) {
-  Candidates candidates = listed({&backend});
-  if (!candidates.problems.empty()) return tl::unexpected(candidates.problems.front());
-  std::vector<std::string> names;
-  for (const Candidate& each : candidates.found) {
-    const CameraDescription& description = each.description;
-    if (description.identity.id == name || description.node == name) return start(each, request);
-    names.push_back(nameOf(description));
+  for (const Candidate& each : listed({&backend}).found) {
+    if (each.description.node == name) return start(each, request);
   }
-  return tl::unexpected(Error{.kind = ErrorKind::kNotFound,
-                              .subject = choice_,
-                              .problem = "is not there",
-                              .remedy = names.empty()
-                                            ? "plug it in; there is no other " +
-                                                  std::string(backend.backend->name()) + " camera"
-                                            : "there are: " + joined(names, ", ")});
+  // What is not listed may be another name that the back end knows; if not, it says what there is.
+  const CameraIdentity identity{
+      .backend = std::string(backend.backend->name()), .id = std::string(name), .description = {}};
+  return start({.backend = &backend, .description = {.identity = identity}}, request);
 }
 
 Result<OpenedCamera> CameraSelector::start(const Candidate& candidate,
