@@ -32,6 +32,11 @@ TEST(CheckPriority, WantsSome) {
   const Finding finding = checkPriority(machine.probes());
   EXPECT_EQ(finding.verdict, Verdict::kWarning);
   EXPECT_THAT(finding.remedy, HasSubstr("rtprio"));
+  std::string& status = machine.files["/proc/self/status"];
+  status = "CapPrm:\t0000000000800000\nCapEff:\t0000000000000000\n";
+  EXPECT_EQ(checkPriority(machine.probes()).verdict, Verdict::kWarning);
+  status = "Name:\tpleinair\nCapEff:\t0000000000800000\nCapBnd:\t0\n";
+  EXPECT_EQ(checkPriority(machine.probes()).text, "real-time up to 99") << "CAP_SYS_NICE";
 }
 
 TEST(CheckLockedMemory, WantsWhatDriversCountOn) {
