@@ -5,7 +5,7 @@
 namespace pleinair::app::doctor {
 
 Finding checkGraphics(const Probes& probes) {
-  Finding finding{.check = "graphics"};
+  Finding finding{.check = "OpenGL ES"};
   const hal::Result<gpu::ContextInfo> context = probes.graphics();
   if (!context) {
     const hal::Error& error = context.error();
