@@ -129,8 +129,7 @@ void addRun(CLI::App& app, RunOptions& options, std::function<int()>& chosen) {
          "synthetic (default), or a recording's path, played over and over at its own pace",
          "NAME|PATH");
   addKey(command, configuration, "--output", "output.target",
-         "window (default), loopback, loopback:/dev/video50, or a file or folder as of render",
-         "NAME|PATH")
+         "window (default), or a file or folder as of render", "NAME|PATH")
       ->check(refuseStandardOutput);
   addPainting(command, configuration);
   addKey(command, configuration, "--size", "painting.size",

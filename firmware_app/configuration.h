@@ -9,7 +9,6 @@
 
 #include "config/sections.h"
 #include "hal/error.h"
-#include "hal/pixel_format.h"
 
 namespace pleinair::app {
 
@@ -36,9 +35,8 @@ struct PaintingSettings {
 
 /// [output]
 struct OutputSettings {
-  std::filesystem::path target = "window";         ///< or a movie or pictures, or "loopback…"
-  std::filesystem::path stills = ".";              ///< the folder that stills are saved to
-  std::optional<hal::PixelFormat> loopbackFormat;  ///< unset: what the device takes
+  std::filesystem::path target = "window";  ///< or a movie or pictures
+  std::filesystem::path stills = ".";       ///< the folder that stills are saved to
 };
 
 /// [status]

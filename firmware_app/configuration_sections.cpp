@@ -1,8 +1,5 @@
 #include "firmware_app/configuration_sections.h"
 
-#include <array>
-#include <optional>
-
 #include <fmt/format.h>
 
 #include "config/parameter_table.h"
@@ -96,21 +93,10 @@ const ParameterTable<PaintingSettings>& paintingTable() {
   return kTable;
 }
 
-constexpr std::array<config::Choice<std::optional<hal::PixelFormat>>, 4> kLoopbackFormats{
-    {{"auto", std::nullopt},
-     {"yuyv", hal::PixelFormat::kYuyv},
-     {"nv12", hal::PixelFormat::kNv12},
-     {"i420", hal::PixelFormat::kI420}}};
-
 const ParameterTable<OutputSettings>& outputTable() {
   static const ParameterTable<OutputSettings> kTable{
-      pathParameter("target", &OutputSettings::target, {"window", "loopback"},
-                    "Where a live painting goes: \"window\", a V4L2 loopback (the first one, or by "
-                    "node or label), or a movie's or pictures' path.",
-                    TakesEffect::kRestart, {}, {"loopback:DEVICE"}),
-      choiceParameter("loopback_format", &OutputSettings::loopbackFormat, kLoopbackFormats,
-                      "Of the pictures that a loopback takes; \"auto\": the first that it does.",
-                      TakesEffect::kRestart),
+      pathParameter("target", &OutputSettings::target, {"window"},
+                    "Where a live painting goes: \"window\", or a movie's or pictures' path."),
       pathParameter("stills", &OutputSettings::stills, {"."},
                     "The folder that the window's key s saves to; \".\": where the program runs.")};
   return kTable;

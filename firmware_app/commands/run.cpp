@@ -61,8 +61,7 @@ int run(const RunOptions& options) {
                                                        .frames = options.frames,
                                                        .shaderDirectory = options.shaderDirectory}),
          .scene = std::move(scene),
-         .stills = output.stills,
-         .output = {.loopbackLayout = output.loopbackFormat}});
+         .stills = output.stills});
   });
 }
 

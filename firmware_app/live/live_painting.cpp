@@ -50,7 +50,7 @@ class LivePainting {
  public:
   explicit LivePainting(const LiveJob& job)
       : job_(job),
-        output_(orThrow(hal::openOutput(job.options.output.string(), job.output))),
+        output_(orThrow(hal::openOutput(job.options.output.string()))),
         camera_(*job.camera, *job.clock, {.size = job.options.size}),
         stream_(camera_.format()),
         painter_({.pictureSize = pictureSize(),

@@ -6,7 +6,6 @@
 #include "firmware_app/painting.h"
 #include "hal/camera.h"
 #include "hal/clock.h"
-#include "hal/outputs/open_output.h"
 #include "pipeline/scene/scene.h"
 
 namespace pleinair::app {
@@ -18,7 +17,6 @@ struct LiveJob {
   PaintingOptions options;
   scene::Scene scene;
   std::filesystem::path stills;  ///< the folder that stills go to
-  hal::OutputOptions output;
 };
 
 /// Runs the job until its frames are shown, the recording ends, a window is closed, a key or a

@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-class OutputConfiguration : public testing::Test {
+class StatusConfiguration : public testing::Test {
  protected:
   Configuration of(const std::string& toml) {
     const std::filesystem::path file = folder_.path() / "site.toml";
@@ -24,26 +24,11 @@ class OutputConfiguration : public testing::Test {
   support::TemporaryFolder folder_;
 };
 
-TEST_F(OutputConfiguration, ALoopbackIsNoPath) {
-  for (const std::string name : {"loopback", "loopback:/dev/video50", "loopback:the hall"}) {
-    EXPECT_EQ(of("[output]\ntarget = \"" + name + "\"").output().target, name);
-  }
-  EXPECT_EQ(of("[output]\ntarget = \"a.mp4\"").output().target, folder_.path() / "a.mp4");
-  EXPECT_THROW(of("[output]\ntarget = \"loopback:\""), config::ConfigError);
-}
-
-TEST_F(OutputConfiguration, NamesTheLayoutOfALoopback) {
-  EXPECT_EQ(of("").output().loopbackFormat, std::nullopt);
-  EXPECT_EQ(of("[output]\nloopback_format = \"nv12\"").output().loopbackFormat,
-            hal::PixelFormat::kNv12);
-  EXPECT_THROW(of("[output]\nloopback_format = \"rgb8\""), config::ConfigError);
-}
-
-TEST_F(OutputConfiguration, StatusIsOffUnlessTold) {
+TEST_F(StatusConfiguration, IsOffUnlessTold) {
   EXPECT_EQ(configuredStatusServer(of(""), {}), nullptr);
 }
 
-TEST_F(OutputConfiguration, BlamesThePlaceOfAnAddressThatIsNone) {
+TEST_F(StatusConfiguration, BlamesThePlaceOfAnAddressThatIsNone) {
   try {
     configuredStatusServer(of("[status]\nlisten = \"9117\""), {});
     ADD_FAILURE();
