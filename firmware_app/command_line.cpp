@@ -17,6 +17,8 @@
 #include "config/profiles.h"
 #include "config/suggestion.h"
 #include "firmware_app/commands/config.h"
+#include "firmware_app/commands/devices.h"
+#include "firmware_app/commands/doctor.h"
 #include "firmware_app/commands/record.h"
 #include "firmware_app/commands/render.h"
 #include "firmware_app/commands/run.h"
@@ -202,6 +204,21 @@ void addConfig(CLI::App& app, ConfigOptions& options, std::function<int()>& chos
   command.callback([&] { chosen = [&options] { return printConfiguration(options); }; });
 }
 
+void addDevices(CLI::App& app, DevicesOptions& options, std::function<int()>& chosen) {
+  CLI::App& command = *app.add_subcommand("devices", "list the cameras and outputs that are there");
+  command.add_flag("--json", options.json, "for programs");
+  command.callback([&] { chosen = [&options] { return listDevices(options); }; });
+}
+
+void addDoctor(CLI::App& app, DoctorOptions& options, std::function<int()>& chosen) {
+  CLI::App& command =
+      *app.add_subcommand("doctor", "say what works on this machine, and what mends the rest");
+  command.add_flag("--json", options.json, "for programs");
+  addConfiguration(command, options.configuration);
+  refuseEmptyValues(command);
+  command.callback([&] { chosen = [&options] { return examineMachine(options); }; });
+}
+
 /// What was not recognised, the first option of it where there is one: the rest may be its value.
 std::string unknownText(const CLI::App& app, const std::vector<std::string>& unknown) {
   const auto option =
@@ -271,8 +288,11 @@ int parseAndRun(int argc, const char* const* argv) {
   RecordOptions recordOptions;
   ConfigOptions configOptions;
   RunOptions runOptions;
-  for (ConfigurationRequest* each : {&renderOptions.configuration, &recordOptions.configuration,
-                                     &runOptions.configuration, &configOptions.configuration}) {
+  DevicesOptions devicesOptions;
+  DoctorOptions doctorOptions;
+  for (ConfigurationRequest* each :
+       {&renderOptions.configuration, &recordOptions.configuration, &runOptions.configuration,
+        &configOptions.configuration, &doctorOptions.configuration}) {
     each->environment = environmentOfProcess();
   }
   std::function<int()> chosen;
@@ -280,12 +300,15 @@ int parseAndRun(int argc, const char* const* argv) {
   addRender(app, renderOptions, chosen);
   addRecord(app, recordOptions, chosen);
   addConfig(app, configOptions, chosen);
+  addDevices(app, devicesOptions, chosen);
+  addDoctor(app, doctorOptions, chosen);
   app.add_subcommand("styles", "list styles with their looks, parameters and views")->callback([&] {
     chosen = listStyles;
   });
   try {
     app.parse(argumentsReversed(argc, argv));
-    if (!chosen) throw CLI::RequiredError("one of run, render, record, config and styles");
+    if (!chosen)
+      throw CLI::RequiredError("one of run, render, record, config, devices, doctor and styles");
     return chosen();
   } catch (const CLI::ParseError& error) {
     return reportParseError(app, error);

@@ -225,6 +225,10 @@ RuntimeSettings Configuration::runtime() const {
   return runtimeOf(sections_);
 }
 
+StatusSettings Configuration::status() const {
+  return statusOf(sections_);
+}
+
 const ParameterValues& Configuration::styleParameters() const {
   return sections_.values(styleSection(painting().style));
 }

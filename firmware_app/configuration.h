@@ -54,6 +54,11 @@ struct RuntimeSettings {
   double rate = 0;               ///< frames a second that quality is lowered for; 0: the camera's
 };
 
+/// [status]
+struct StatusSettings {
+  std::string listen = "off";  ///< or ADDRESS:PORT
+};
+
 /// A key that an option of the command line gives.
 struct OptionValue {
   std::string key;  ///< "painting.style"
@@ -92,6 +97,7 @@ class Configuration {
   PaintingSettings painting() const;
   OutputSettings output() const;
   RuntimeSettings runtime() const;
+  StatusSettings status() const;
   /// Of the style in force.
   const config::ParameterValues& styleParameters() const;
 

@@ -5,6 +5,7 @@
 #include "config/parameter_table.h"
 #include "config/profiles.h"
 #include "firmware_app/live/camera_selection.h"
+#include "firmware_app/status_server/listen_address.h"
 #include "hal/cameras/synthetic/shot.h"
 #include "hal/pixel_format.h"
 #include "pipeline/painter.h"
@@ -135,6 +136,13 @@ const ParameterTable<RuntimeSettings>& runtimeTable() {
   return kTable;
 }
 
+const ParameterTable<StatusSettings>& statusTable() {
+  static const ParameterTable<StatusSettings> kTable{textParameter(
+      "listen", &StatusSettings::listen, std::string(kAllowedListen),
+      "Where /status, /metrics and /healthz are served over HTTP.", TakesEffect::kRestart)};
+  return kTable;
+}
+
 }  // namespace
 
 std::vector<std::string> cameraNames() {
@@ -168,7 +176,8 @@ config::Sections defaultSections() {
       {"camera", "What is painted live and recorded.", cameraTable().defaults()},
       {"painting", "What is made of it.", paintingTable().defaults()},
       {"output", "Where it goes.", outputTable().defaults()},
-      {"runtime", "How it keeps up.", runtimeTable().defaults()}};
+      {"runtime", "How it keeps up.", runtimeTable().defaults()},
+      {"status", "What is told of the running program.", statusTable().defaults()}};
   for (const styles::StyleInfo& info : styles::styleInfos()) {
     sections.push_back({fmt::format("style.{}", info.name),
                         fmt::format("The style {}: {}.", info.name, info.help), info.defaults});
@@ -194,6 +203,10 @@ OutputSettings outputOf(const config::Sections& sections) {
 
 RuntimeSettings runtimeOf(const config::Sections& sections) {
   return runtimeTable().typed(sections.values("runtime"));
+}
+
+StatusSettings statusOf(const config::Sections& sections) {
+  return statusTable().typed(sections.values("status"));
 }
 
 }  // namespace pleinair::app
