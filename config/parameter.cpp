@@ -45,19 +45,30 @@ bool hasControlCharacter(std::string_view text) {
                      [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
 }
 
+/// Whether text follows "serial:", where "serial:NUMBER" is among the choices.
+bool isAmongOpen(const std::vector<std::string>& openChoices, std::string_view text) {
+  return std::any_of(openChoices.begin(), openChoices.end(), [&](const std::string& choice) {
+    const std::string_view word = std::string_view(choice).substr(0, choice.find(':') + 1);
+    return text.starts_with(word) && text.size() > word.size();
+  });
+}
+
 bool isAllowedPath(const ParameterDescriptor& descriptor, const std::string& path) {
   const auto& words = descriptor.choices;
+  const bool isPlain = path.size() <= kLongestPath && path.find('\0') == std::string::npos;
   if (isAmong(words, path)) return true;
+  if (isAmongOpen(descriptor.openChoices, path)) return isPlain;
   const bool goesOnFromAWord = std::any_of(
       words.begin(), words.end(), [&](const auto& word) { return path.starts_with(word + ':'); });
-  return !goesOnFromAWord && !path.empty() && path.size() <= kLongestPath &&
-         path.find('\0') == std::string::npos && path.ends_with(descriptor.pathEnding);
+  return !goesOnFromAWord && !path.empty() && isPlain && path.ends_with(descriptor.pathEnding);
 }
 
 std::string allowedPaths(const ParameterDescriptor& descriptor) {
   const std::string path =
       descriptor.pathEnding.empty() ? "a path" : "a path that ends in " + descriptor.pathEnding;
-  return descriptor.choices.empty() ? path : listText(descriptor.choices) + ", or " + path;
+  std::vector<std::string> words = descriptor.choices;
+  words.insert(words.end(), descriptor.openChoices.begin(), descriptor.openChoices.end());
+  return words.empty() ? path : listText(words) + ", or " + path;
 }
 
 std::string allowedSizes(const ParameterDescriptor& descriptor) {
@@ -148,6 +159,10 @@ bool ParameterDescriptor::allows(const ParameterValue& value) const {
   return true;
 }
 
+bool ParameterDescriptor::isPath(std::string_view text) const {
+  return !isAmong(choices, text) && !isAmongOpen(openChoices, text);
+}
+
 std::string ParameterDescriptor::textOf(const ParameterValue& value) const {
   if (const auto* number = std::get_if<double>(&value)) return fmt::format("{}", *number);
   if (const auto* integer = std::get_if<int>(&value)) return fmt::format("{}", *integer);
@@ -170,7 +185,7 @@ std::optional<ParameterValue> ParameterDescriptor::parse(std::string_view text) 
 std::string ParameterDescriptor::tomlOf(const ParameterValue& value) const {
   if (kind() < ParameterKind::kChoice) return textOf(value);
   std::string text = textOf(value);
-  if (kind() == ParameterKind::kPath && !isAmong(choices, text)) {
+  if (kind() == ParameterKind::kPath && isPath(text)) {
     std::error_code failure;
     const std::filesystem::path absolute = std::filesystem::absolute(text, failure);
     if (!failure) text = absolute.lexically_normal().string();

@@ -41,6 +41,9 @@ struct ParameterDescriptor {
   /// Of a choice, by index. Of a path, words that stand for something else ("none"); text that goes
   /// on from one of them after a colon is no path. Of a size, what stands for 0x0, if anything.
   std::vector<std::string> choices;
+  /// Of a path, names of other things, with what follows them: "serial:NUMBER" allows any text that
+  /// goes on from "serial:".
+  std::vector<std::string> openChoices;
   std::string textAllowed;  ///< of a text, for messages: "a name that ... lists"; empty: any
   std::string pathEnding;   ///< of a path: ".toml"; empty: any
   TakesEffect takesEffect = TakesEffect::kLive;
@@ -53,6 +56,8 @@ struct ParameterDescriptor {
   /// Of this parameter's kind and within its range.
   bool allows(const ParameterValue& value) const;
 
+  /// Of a path's text: that it is one, and neither of the choices nor of the open choices.
+  bool isPath(std::string_view text) const;
   /// The value as a person writes it ("8", "true", "cells"); parse() reads it back exactly.
   std::string textOf(const ParameterValue& value) const;
   /// Nothing where the text is not an allowed value.

@@ -94,15 +94,18 @@ ParameterBinding<P> textParameter(const std::string& name, std::string P::*membe
       [member](P& p, const ParameterValue& value) { p.*member = std::get<std::string>(value); }};
 }
 
-/// A file or folder, or one of `words`; `ending` as of ParameterDescriptor.
+/// A file or folder, or one of `words`; `ending` and `openWords` (openChoices) as of
+/// ParameterDescriptor.
 template <class P>
 ParameterBinding<P> pathParameter(const std::string& name, std::filesystem::path P::*member,
                                   const std::vector<std::string>& words, const std::string& help,
                                   TakesEffect takesEffect = TakesEffect::kRestart,
-                                  const std::string& ending = {}) {
+                                  const std::string& ending = {},
+                                  const std::vector<std::string>& openWords = {}) {
   return {{.name = name,
            .help = help,
            .choices = words,
+           .openChoices = openWords,
            .pathEnding = ending,
            .takesEffect = takesEffect},
           [member](const P& p) { return ParameterValue(p.*member); },

@@ -17,9 +17,7 @@ ParameterValue inItsFolder(ParameterValue value, const ParameterDescriptor& desc
                            const std::filesystem::path& directory) {
   auto* path = std::get_if<std::filesystem::path>(&value);
   if (path == nullptr) return value;
-  const auto& words = descriptor.choices;
-  const bool isWord = std::find(words.begin(), words.end(), path->string()) != words.end();
-  if (!isWord) *path = directory / *path;  // an absolute one stays
+  if (descriptor.isPath(path->string())) *path = directory / *path;  // an absolute one stays
   return value;
 }
 

@@ -4,6 +4,7 @@
 
 #include "config/parameter_table.h"
 #include "config/profiles.h"
+#include "firmware_app/live/camera_selection.h"
 #include "hal/cameras/synthetic/shot.h"
 #include "hal/pixel_format.h"
 #include "pipeline/styles/style_registry.h"
@@ -43,8 +44,9 @@ const ParameterTable<CameraSettings>& cameraTable() {
   static const ParameterTable<CameraSettings> kTable{
       pathParameter(
           "source", &CameraSettings::source, cameraNames(),
-          "The camera: \"synthetic\", a workbench made by code, one of its other shots, or a "
-          "recording's path."),
+          "The camera: a device, by id or serial number or the first that works; \"synthetic\", a "
+          "workbench made by code, or another of its shots; or a recording's path.",
+          TakesEffect::kRestart, {}, openCameraNames()),
       sizeParameter("size", &CameraSettings::size, kSizes, {},
                     "Of the synthetic camera's frames; movies have even sides."),
       numberParameter("rate", &CameraSettings::framesPerSecond,
@@ -102,11 +104,28 @@ const ParameterTable<OutputSettings>& outputTable() {
 }  // namespace
 
 std::vector<std::string> cameraNames() {
-  std::vector<std::string> names{"synthetic"};
+  std::vector<std::string> names{"auto"};
+  for (const hal::SelectableBackend& each : deviceBackends()) {
+    names.emplace_back(each.backend->name());
+  }
+  names.emplace_back("synthetic");
   for (const std::string_view shot : hal::syntheticShots()) {
     names.push_back(fmt::format("synthetic:{}", shot));
   }
   return names;
+}
+
+std::vector<std::string> openCameraNames() {
+  std::vector<std::string> names;
+  for (const hal::SelectableBackend& each : deviceBackends()) {
+    names.push_back(fmt::format("{}:ID", each.backend->name()));
+  }
+  names.emplace_back("serial:NUMBER");
+  return names;
+}
+
+bool isCameraName(std::string_view source) {
+  return !cameraTable().defaults().list().descriptors()[0].isPath(source);
 }
 
 config::Sections defaultSections() {

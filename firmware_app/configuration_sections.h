@@ -17,8 +17,12 @@ inline constexpr std::string_view kFinishedView = "finished";
 inline constexpr std::string_view kLookKey = "painting.look";
 inline constexpr std::string_view kViewKey = "painting.view";
 
-/// The cameras that have a name.
+/// The cameras that have a name: "auto", "v4l2", "synthetic:pan" …
 std::vector<std::string> cameraNames();
+/// Those whose names go on after a colon: "serial:NUMBER".
+std::vector<std::string> openCameraNames();
+/// Whether camera.source is one of either; else it is a recording's path.
+bool isCameraName(std::string_view source);
 
 /// Every key that the program knows, at its default: the profile, [camera], [painting], [output]
 /// and a [style.…] for each style.

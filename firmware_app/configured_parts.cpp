@@ -4,6 +4,7 @@
 #include <chrono>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "config/suggestion.h"
 #include "firmware_app/configuration_sections.h"
@@ -19,6 +20,15 @@ hal::Result<std::optional<hal::SyntheticShot>> shotOf(const CameraSettings& came
 
 hal::FrameSize frameSizeOf(const config::PixelSize& size) {
   return {size.width, size.height};
+}
+
+/// "serail:123", where "serial:NUMBER" is known.
+bool isSlipOfOpenName(const std::string& name) {
+  const std::size_t colon = name.find(':');
+  if (colon == std::string::npos) return false;
+  std::vector<std::string> words;
+  for (const std::string& each : openCameraNames()) words.push_back(each.substr(0, each.find(':')));
+  return config::nearest(name.substr(0, colon), words).has_value();
 }
 
 }  // namespace
@@ -47,10 +57,15 @@ void refuseSlipOfCamera(const Configuration& configuration) {
                                 "found " + config::foundText(source.string(), names),
                                 config::listText(names));
   }
-  const bool isName = std::ranges::find(names, source.string()) != names.end();
-  if (isName || std::filesystem::exists(source, ignored) || !config::nearest(name, names)) return;
+  if (isCameraName(source.string()) || std::filesystem::exists(source, ignored)) return;
+  if (!config::nearest(name, names) && !isSlipOfOpenName(name)) return;
   throw configuration.errorAt("camera.source", "found " + config::foundText(name, names),
-                              config::listText(names) + ", or a recording that exists");
+                              config::listText(names) + ", " + config::listText(openCameraNames()) +
+                                  ", or a recording that exists");
+}
+
+bool isRecording(const CameraSettings& camera) {
+  return !isCameraName(camera.source.string());
 }
 
 bool isSynthetic(const CameraSettings& camera) {

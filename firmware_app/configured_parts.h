@@ -21,6 +21,8 @@ scene::Scene configuredScene(const Configuration& configuration);
 /// Throws config::ConfigError where [camera]'s source is most likely a slip of a name.
 void refuseSlipOfCamera(const Configuration& configuration);
 bool isSynthetic(const CameraSettings& camera);
+/// Whether the source is a path, and no camera's name.
+bool isRecording(const CameraSettings& camera);
 hal::SyntheticOptions syntheticOptions(const CameraSettings& camera);
 
 /// The files that the configuration and the scene were read from: nothing may be written over them.

@@ -143,7 +143,9 @@ class Painting {
     for (const tracking::TrackedTag& tag : picture.tracking.tags) seenTags_.insert(tag.id);
     if (poses_) orThrow(poses_->write(index, time, picture.tracking));
     if (sheetFile_ && sheet_.wants(index)) {
-      sheet_.add(painter_.cameraStill().view(), painter_.still().view(), time);
+      const hal::Image camera = orThrow(painter_.cameraStill());
+      const hal::Image painted = orThrow(painter_.still());
+      sheet_.add(camera.view(), painted.view(), time);
     }
     while (write(false)) {
     }
@@ -151,7 +153,7 @@ class Painting {
 
   /// Takes one picture that has been read to the output; false if there is none.
   bool write(bool wait) {
-    if (!painter_.take(reader_, read_, wait)) return false;
+    if (!orThrow(painter_.take(reader_, read_, wait))) return false;
     orThrow(output_->write(read_.image.view(), read_.captureTime - *firstTime_));
     return true;
   }

@@ -51,6 +51,10 @@ class MemoryOutput {
   /// kDeviceLost; after one, only destruction is allowed.
   virtual Result<void> write(const ImageView& picture, Duration time) = 0;
 
+  /// How many of the pictures that write() took were dropped, because whoever reads them was too
+  /// slow; of outputs to devices that must not be waited for.
+  virtual std::uint64_t skippedPictures() const { return 0; }
+
   /// Completes and publishes. Errors as write(). Afterwards only destruction is allowed.
   virtual Result<void> finish() = 0;
 };

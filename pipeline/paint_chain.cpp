@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cassert>
+#include <chrono>
 #include <utility>
 
 #include "config/suggestion.h"
 #include "hal/error.h"
 #include "pipeline/gpu/cover_fit.h"
 #include "pipeline/present/present_shaders.h"
+#include "pipeline/quality_levels.h"
 #include "pipeline/styles/style_registry.h"
 
 namespace pleinair {
@@ -15,6 +17,7 @@ namespace {
 
 constexpr std::string_view kCameraView = "camera";
 constexpr std::string_view kArView = "ar";
+constexpr int kPicturesUnderWay = 3;  // of a reader
 
 gpu::ShaderLibrary makeLibrary(const PainterOptions& options) {
   gpu::ShaderLibrary library(options.shaderDirectory);
@@ -30,6 +33,14 @@ const gpu::ContextInfo& checked(const gpu::ContextInfo& context, hal::FrameSize 
   return context;
 }
 
+/// A processor does not hang; it may only have much to do.
+gpu::GpuSeam seamOf(const PainterOptions& options, const gpu::ContextInfo& context) {
+  gpu::GpuSeam seam = options.seam;
+  if (context.isSoftware && seam.patience == gpu::GpuSeam{}.patience)
+    seam.patience = std::chrono::minutes(1);
+  return seam;
+}
+
 bool isOurs(std::string_view view) {
   return view == kCameraView || view == kArView;
 }
@@ -38,6 +49,8 @@ bool isOurs(std::string_view view) {
 
 PaintChain::PaintChain(const PainterOptions& options, const gpu::ContextInfo& context)
     : context_(checked(context, options.pictureSize)),
+      seam_(seamOf(options, context)),
+      watch_(seam_),
       pictureSize_(options.pictureSize),
       scene_(options.scene),
       tracksTags_(options.tracksTags),
@@ -47,27 +60,45 @@ PaintChain::PaintChain(const PainterOptions& options, const gpu::ContextInfo& co
       renderer_(library_, options.scene),
       style_(styles::makeStyle(options.style, library_)) {
   hal::orThrow(tracking::checkTagFamily(scene_.tagFamily));
-  warmUp(options.expectedFormat);
+  for (const QualityPlan& plan : qualityPlans()) {
+    if (levels_.empty() || options.qualityLevels) levels_.push_back({sizeAt(pictureSize_, plan)});
+  }
+  warmUp(options.expectedFormat.value_or(
+      hal::FrameFormat{.pixelFormat = hal::PixelFormat::kGrey8, .size = pictureSize_}));
 }
 
-/// A blank frame through the whole chain, untimed: all that frames of the expected format need is
-/// compiled, allocated and drawn once (GPU rules, rule 14). Conversions of other layouts are linked
-/// by now, but a driver may finish them at their first frame. Readers warm up when they are opened.
-void PaintChain::warmUp(const std::optional<hal::FrameFormat>& expected) {
-  const hal::Image blank(expected.value_or(
-      hal::FrameFormat{.pixelFormat = hal::PixelFormat::kGrey8, .size = pictureSize_}));
-  hal::orThrow(gpu::checkDeviceLimit(context_, blank.size(), "frame size"));
-  gpu::PassTimer untimed;
-  const gpu::Texture& camera = uploader_.upload(blank.view(), pictureSize_);
-  renderer_.warmUp(pictureSize_);
-  const scene::ArFrame& frame = renderer_.compose(camera, scene::assumedCamera(pictureSize_),
-                                                  scene::PoseSet{}, 0, hal::TimePoint{}, untimed);
-  style_->paint(frame, {}, untimed);
+/// A blank frame through the whole chain at each level, untimed: all that frames of the expected
+/// format need is compiled, allocated and drawn once (GPU rules, rule 14). Conversions of other
+/// layouts are linked by now, but a driver may finish them at their first frame. Readers warm up
+/// when they are opened.
+void PaintChain::warmUp(const hal::FrameFormat& expected) {
+  hal::orThrow(gpu::checkDeviceLimit(context_, expected.size, "frame size"));
+  const hal::Image blank(expected);
+  for (const Level& level : levels_) warmUp(level, blank);
   style_->reset();
+}
+
+void PaintChain::warmUp(const Level& level, const hal::Image& blank) {
+  gpu::PassTimer untimed;
+  const gpu::Texture& camera =
+      uploader_.upload(blank.view(), level.size, fitTo(level, blank.size()));
+  renderer_.warmUp(level.size);
+  scene::ArFrame frame = renderer_.compose(camera, scene::assumedCamera(level.size),
+                                           scene::PoseSet{}, 0, hal::TimePoint{}, untimed);
+  frame.fullSize = pictureSize_;
+  style_->paint(frame, {}, untimed);
 }
 
 PaintParameters PaintChain::defaultParameters() const {
   return {.style = style_->parameters(), .view = {}};
+}
+
+std::vector<QualityLevel> qualityLevels() {
+  std::vector<QualityLevel> levels;
+  for (const QualityPlan& plan : qualityPlans()) {
+    levels.push_back({std::string(plan.name), std::string(plan.help)});
+  }
+  return levels;
 }
 
 std::vector<PainterView> viewsOf(std::string_view style) {
@@ -108,6 +139,21 @@ hal::Result<void> PaintChain::checkView(const std::string& view) const {
                                    .remedy = "choose one of: " + config::listText(names)});
 }
 
+hal::Result<void> PaintChain::checkQuality(std::size_t quality) const {
+  if (quality < levels_.size()) return {};
+  std::vector<std::string> numbers;
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    numbers.push_back(std::to_string(i) + " (" + std::string(qualityPlans()[i].name) + ")");
+  }
+  const bool wasLeftOut = quality < qualityPlans().size();
+  return tl::unexpected(hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
+                                   .subject = "quality " + std::to_string(quality),
+                                   .problem = wasLeftOut
+                                                  ? "this painter was made without quality levels"
+                                                  : "there is no such level",
+                                   .remedy = "choose one of: " + config::listText(numbers)});
+}
+
 /// Makes ready for frames of this size; nothing changes where the scene's calibration is not.
 hal::Result<void> PaintChain::adaptTo(hal::FrameSize frameSize) {
   if (frameSize_ == frameSize) return {};
@@ -124,61 +170,90 @@ hal::Result<void> PaintChain::adaptTo(hal::FrameSize frameSize) {
     options.detector.family = scene_.tagFamily;
     tracker_.emplace(camera, scene_.tags, options);
   }
-  pictureCamera_ = scene::fittedCamera(camera, pictureSize_);
+  const tracking::CameraModel fitted = scene::fittedCamera(camera, pictureSize_);
+  for (Level& level : levels_) {
+    level.camera = fitted.resampled(pixelsOfFull(level), glm::dvec2(0.0), level.size);
+  }
   frameSize_ = frameSize;
   return {};
 }
 
+/// Px of a level's picture for one of the full one.
+glm::dvec2 PaintChain::pixelsOfFull(const Level& level) const {
+  return glm::dvec2(level.size.width, level.size.height) /
+         glm::dvec2(pictureSize_.width, pictureSize_.height);
+}
+
+/// All levels show the same part of a frame, to the fraction of a pixel.
+gpu::CoverFit PaintChain::fitTo(const Level& level, hal::FrameSize frameSize) const {
+  return gpu::coverFit(frameSize, pictureSize_).withPixels(glm::dvec2(1.0), pixelsOfFull(level));
+}
+
 hal::Result<Picture> PaintChain::paint(const hal::CapturedFrame& frame,
                                        const PaintParameters& parameters) {
+  if (auto sound = watch_.check(); !sound) return tl::unexpected(std::move(sound.error()));
   try {
     return paintChecked(frame, parameters);
   } catch (const hal::StartupError& error) {  // no memory for frames of a new size or layout
-    return tl::unexpected(error.error());
+    return tl::unexpected(metLoss(error.error()));
   }
+}
+
+/// `error`, or the loss of the GPU where that is behind it.
+hal::Error PaintChain::metLoss(const hal::Error& error) {
+  if (error.kind == hal::ErrorKind::kDeviceLost) watch_.note(error);
+  const auto sound = watch_.check();
+  return sound ? error : sound.error();
+}
+
+/// Whether it can be painted; what follows a frame's size is ready then.
+hal::Result<void> PaintChain::checkFrame(const hal::CapturedFrame& frame,
+                                         const PaintParameters& parameters) {
+  if (auto known = checkView(parameters.view); !known) return known;
+  if (auto known = checkQuality(parameters.quality); !known) return known;
+  if (auto fits = gpu::checkDeviceLimit(context_, frame.image.format.size, "frame"); !fits) {
+    return fits;
+  }
+  return adaptTo(frame.image.format.size);
 }
 
 hal::Result<Picture> PaintChain::paintChecked(const hal::CapturedFrame& frame,
                                               const PaintParameters& parameters) {
-  if (auto known = checkView(parameters.view); !known) {
-    return tl::unexpected(std::move(known.error()));
-  }
-  if (auto fits = gpu::checkDeviceLimit(context_, frame.image.format.size, "frame"); !fits) {
-    return tl::unexpected(std::move(fits.error()));
-  }
-  if (auto adapted = adaptTo(frame.image.format.size); !adapted) {
-    return tl::unexpected(std::move(adapted.error()));
+  if (auto sound = checkFrame(frame, parameters); !sound) {
+    return tl::unexpected(std::move(sound.error()));
   }
   tracking::TrackingResult tracked;
   if (tracker_) tracked = tracker_->track(frame.image, frame.captureTime);
-  picture_ = &paintView(compose(frame, tracked), parameters);
+  picture_ = &paintView(compose(frame, tracked, levels_[parameters.quality]), parameters);
   submitToReaders(frame);
   glFlush();  // the GPU works on while the next frame is tracked
   return Picture{.texture = picture_->name(),
                  .size = picture_->size(),
                  .sequence = frame.sequence,
                  .captureTime = frame.captureTime,
-                 .tracking = tracked};
+                 .tracking = tracked,
+                 .quality = parameters.quality};
 }
 
 scene::ArFrame PaintChain::compose(const hal::CapturedFrame& frame,
-                                   const tracking::TrackingResult& tracked) {
+                                   const tracking::TrackingResult& tracked, const Level& level) {
   {
     const auto scope = timer_.measure("camera picture");
-    camera_ = &uploader_.upload(frame.image, pictureSize_);
+    camera_ = &uploader_.upload(frame.image, level.size, fitTo(level, frame.image.format.size));
   }
   sightings_.clear();
   for (const tracking::TrackedTag& tag : tracked.tags) {
     if (tag.cameraFromTag) sightings_.push_back({tag.id, *tag.cameraFromTag});
   }
   scene::ArFrame composed = renderer_.compose(
-      *camera_, *pictureCamera_, {.cameraFromWorld = tracked.cameraFromWorld, .tags = sightings_},
+      *camera_, *level.camera, {.cameraFromWorld = tracked.cameraFromWorld, .tags = sightings_},
       frame.sequence, frame.captureTime, timer_);
+  composed.fullSize = pictureSize_;
   if (style_->usesCanvas()) composed.canvasFromPicture = followCanvas(frame.image);
   return composed;
 }
 
-/// Motion is followed in the captured frame; the canvas has the picture's pixels.
+/// Motion is followed in the captured frame; the canvas has the full picture's pixels.
 tracking::PlaneSimilarity PaintChain::followCanvas(const hal::ImageView& image) {
   const gpu::CoverFit fit = gpu::coverFit(image.format.size, pictureSize_);
   const tracking::PlaneSimilarity frameFromPicture{{fit.scale.x, 0.0}, fit.origin};
@@ -200,9 +275,15 @@ const gpu::Texture& PaintChain::paintView(const scene::ArFrame& frame,
 int PaintChain::openReader(const hal::FrameFormat& format) {
   hal::orThrow(gpu::checkDeviceLimit(context_, present::PictureReader::packedSize(format),
                                      "picture to be read"));
-  auto reader = std::make_unique<Reader>(present::PictureReader(library_, format));
-  reader->ring.warmUp(pictureSize_);
-  readers_.push_back(std::move(reader));
+  hal::orThrow(watch_.check());
+  try {
+    auto reader = std::make_unique<Reader>(
+        present::PictureReader(library_, format, kPicturesUnderWay, seam_));
+    for (const Level& level : levels_) reader->ring.warmUp(level.size);
+    readers_.push_back(std::move(reader));
+  } catch (const hal::StartupError& error) {
+    throw hal::StartupError(metLoss(error.error()));
+  }
   return static_cast<int>(readers_.size()) - 1;
 }
 
@@ -213,37 +294,44 @@ void PaintChain::submitToReaders(const hal::CapturedFrame& frame) {
       ++reader->skipped;
       continue;
     }
-    reader->ring.submit(*picture_);
+    reader->ring.submit(*picture_, pictureSize_);
     reader->underWay.push_back({frame.sequence, frame.captureTime});
   }
 }
 
-bool PaintChain::take(int number, ReadPicture& picture, bool wait) {
+hal::Result<bool> PaintChain::take(int number, ReadPicture& picture, bool wait) {
+  if (loss()) return tl::unexpected(*loss());
   Reader& reader = at(number);
-  if (!reader.ring.take(picture.image, wait)) return false;
+  const hal::Result<bool> taken = reader.ring.take(picture.image, wait);
+  if (!taken) return tl::unexpected(metLoss(taken.error()));
+  if (!*taken) return false;
   picture.sequence = reader.underWay.front().sequence;
   picture.captureTime = reader.underWay.front().captureTime;
   reader.underWay.erase(reader.underWay.begin());
   return true;
 }
 
-hal::Image PaintChain::still() {
-  assert(picture_ != nullptr);
-  return read(*picture_);
+hal::Result<hal::Image> PaintChain::still() {
+  return read(picture_);
 }
 
-hal::Image PaintChain::cameraStill() {
-  assert(camera_ != nullptr);
-  return read(*camera_);
+hal::Result<hal::Image> PaintChain::cameraStill() {
+  return read(camera_);
 }
 
-hal::Image PaintChain::read(const gpu::Texture& texture) {
-  const hal::FrameFormat format{.pixelFormat = hal::PixelFormat::kRgb8, .size = texture.size()};
-  if (!stills_ || stills_->format() != format) stills_.emplace(library_, format, 1);
-  stills_->submit(texture);
-  hal::Image image;
-  stills_->take(image, true);
-  return image;
+hal::Result<hal::Image> PaintChain::read(const gpu::Texture* texture) {
+  if (auto sound = watch_.check(); !sound) return tl::unexpected(std::move(sound.error()));
+  assert(texture != nullptr);
+  try {
+    const hal::FrameFormat format{.pixelFormat = hal::PixelFormat::kRgb8, .size = pictureSize_};
+    if (!stills_) stills_.emplace(library_, format, 1, seam_);
+    stills_->submit(*texture, pictureSize_);
+    hal::Image image;
+    hal::orThrow(stills_->take(image, true));
+    return image;
+  } catch (const hal::StartupError& error) {
+    return tl::unexpected(metLoss(error.error()));
+  }
 }
 
 void PaintChain::reset() {

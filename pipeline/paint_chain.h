@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "pipeline/gpu/cover_fit.h"
 #include "pipeline/gpu/frame_upload.h"
+#include "pipeline/gpu/gpu_loss.h"
 #include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/painter.h"
@@ -33,13 +35,15 @@ class PaintChain {
   hal::Result<Picture> paint(const hal::CapturedFrame& frame, const PaintParameters& parameters);
 
   int openReader(const hal::FrameFormat& format);
-  bool take(int reader, ReadPicture& picture, bool wait);
+  hal::Result<bool> take(int reader, ReadPicture& picture, bool wait);
   bool hasRoom(int reader) const { return at(reader).ring.hasRoom(); }
   std::uint64_t skipped(int reader) const { return at(reader).skipped; }
-  hal::Image still();
-  hal::Image cameraStill();
+  hal::Result<hal::Image> still();
+  hal::Result<hal::Image> cameraStill();
 
   void reset();
+  /// Why nothing comes any more, once the GPU is lost.
+  const std::optional<hal::Error>& loss() const { return watch_.loss(); }
   std::vector<gpu::PassTime> passTimes() const;
 
  private:
@@ -55,21 +59,37 @@ class PaintChain {
     std::uint64_t skipped = 0;
   };
 
-  void warmUp(const std::optional<hal::FrameFormat>& expected);
+  /// A level of quality that can be painted at.
+  struct Level {
+    hal::FrameSize size;
+    std::optional<tracking::CameraModel> camera;  // of the picture at this size, not of the frame
+  };
+
+  void warmUp(const hal::FrameFormat& expected);
+  void warmUp(const Level& level, const hal::Image& blank);
   hal::Result<void> checkView(const std::string& view) const;
+  hal::Result<void> checkQuality(std::size_t quality) const;
+  hal::Result<void> checkFrame(const hal::CapturedFrame& frame, const PaintParameters& parameters);
   hal::Result<void> adaptTo(hal::FrameSize frameSize);
-  scene::ArFrame compose(const hal::CapturedFrame& frame, const tracking::TrackingResult& tracked);
+  glm::dvec2 pixelsOfFull(const Level& level) const;
+  gpu::CoverFit fitTo(const Level& level, hal::FrameSize frameSize) const;
+  scene::ArFrame compose(const hal::CapturedFrame& frame, const tracking::TrackingResult& tracked,
+                         const Level& level);
   tracking::PlaneSimilarity followCanvas(const hal::ImageView& image);
   const gpu::Texture& paintView(const scene::ArFrame& frame, const PaintParameters& parameters);
   void submitToReaders(const hal::CapturedFrame& frame);
-  hal::Image read(const gpu::Texture& texture);
+  hal::Result<hal::Image> read(const gpu::Texture* texture);
+  hal::Error metLoss(const hal::Error& error);
   hal::Result<Picture> paintChecked(const hal::CapturedFrame& frame,
                                     const PaintParameters& parameters);
   Reader& at(int reader) { return *readers_.at(static_cast<std::size_t>(reader)); }
   const Reader& at(int reader) const { return *readers_.at(static_cast<std::size_t>(reader)); }
 
   gpu::ContextInfo context_;
+  gpu::GpuSeam seam_;
+  gpu::LossWatch watch_;
   hal::FrameSize pictureSize_;
+  std::vector<Level> levels_;
   scene::Scene scene_;
   bool tracksTags_;
   gpu::ShaderLibrary library_;
@@ -79,7 +99,6 @@ class PaintChain {
   std::unique_ptr<styles::Style> style_;
   hal::FrameSize frameSize_;  // of the last frame; what follows is made for it
   std::optional<tracking::Tracker> tracker_;
-  std::optional<tracking::CameraModel> pictureCamera_;  // of the picture, not of the frame
   tracking::LumaConverter luma_;
   tracking::PictureMotion motion_;
   std::vector<scene::TagSighting> sightings_;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hal/error.h"
+#include "pipeline/gpu/handle.h"
 #include "pipeline/gpu/host_state.h"
 #include "pipeline/gpu/render_thread.h"
 #include "pipeline/paint_chain.h"
@@ -59,14 +60,23 @@ struct Painter::Impl {
     chain.emplace(options, contextInfo);
   }
 
+  bool isLost() const { return chain && chain->loss(); }
+
+  /// A lost context's objects go with it; nothing more is asked of its driver than that.
   void tearDown() {
-    chain.reset();
+    {
+      std::optional<gpu::AbandonObjects> abandon;
+      if (isLost()) abandon.emplace();
+      chain.reset();
+    }
     ownContext.reset();
   }
 
   void run(const std::function<void()>& task) {
     if (thread) {
       thread->run(task);
+    } else if (isLost()) {
+      task();  // the host's context may be another one by now: it stays as it is
     } else {
       const gpu::HostState state;
       task();
@@ -115,7 +125,7 @@ int Painter::openReader(const hal::FrameFormat& format) {
   return impl_->call([&] { return impl_->chain->openReader(format); });
 }
 
-bool Painter::take(int reader, ReadPicture& picture, bool wait) {
+hal::Result<bool> Painter::take(int reader, ReadPicture& picture, bool wait) {
   return impl_->call([&] { return impl_->chain->take(reader, picture, wait); });
 }
 
@@ -127,11 +137,11 @@ std::uint64_t Painter::skipped(int reader) const {
   return impl_->chain->skipped(reader);
 }
 
-hal::Image Painter::still() const {
+hal::Result<hal::Image> Painter::still() const {
   return impl_->call([&] { return impl_->chain->still(); });
 }
 
-hal::Image Painter::cameraStill() const {
+hal::Result<hal::Image> Painter::cameraStill() const {
   return impl_->call([&] { return impl_->chain->cameraStill(); });
 }
 

@@ -14,6 +14,7 @@
 #include "hal/error.h"
 #include "hal/image.h"
 #include "pipeline/gpu/egl_context.h"
+#include "pipeline/gpu/gpu_loss.h"
 #include "pipeline/gpu/pass_timer.h"
 #include "pipeline/scene/scene.h"
 #include "pipeline/tracking/tracker.h"
@@ -29,6 +30,15 @@ enum class PainterContext {
   kHost,
 };
 
+/// A level of quality, from which the time and memory of painting follow.
+struct QualityLevel {
+  std::string name;
+  std::string help;
+};
+
+/// All levels, best first; each paints in about two thirds of the time of the one before it.
+std::vector<QualityLevel> qualityLevels();
+
 struct PainterOptions {
   hal::FrameSize pictureSize;  ///< of what is painted; frames are scaled to fill it
   scene::Scene scene;          ///< empty: the camera's picture alone
@@ -40,12 +50,19 @@ struct PainterOptions {
   /// Of the frames that will come, so that the first one finds all compiled and allocated; without,
   /// it may take longer. Others may come all the same.
   std::optional<hal::FrameFormat> expectedFormat = std::nullopt;
+  /// Whether PaintParameters::quality may be other than 0: all levels are allocated and warmed up
+  /// then, for about twice the memory (docs/decisions/0008-quality-levels.md).
+  bool qualityLevels = false;
+  /// In place of what the driver is asked; for tests.
+  gpu::GpuSeam seam = {};
 };
 
 /// What may change from frame to frame: one immutable snapshot.
 struct PaintParameters {
   config::ParameterValues style;  ///< of the style's list: Painter::defaultParameters()
   std::string view;               ///< empty for the finished picture, or one of views()
+  /// In qualityLevels(). A change keeps the past: the picture goes on, softer or sharper.
+  std::size_t quality = 0;
 };
 
 /// A view that can be painted instead of the finished picture.
@@ -68,10 +85,11 @@ struct PainterLook {
 /// belong to the Painter and are valid until the next paint().
 struct Picture {
   unsigned texture = 0;  ///< GL name, RGBA8, sRGB-coded, row 0 at the top
-  hal::FrameSize size;
+  hal::FrameSize size;   ///< smaller than PainterOptions::pictureSize at lower levels of quality
   std::uint64_t sequence = 0;
   hal::TimePoint captureTime;
   tracking::TrackingResult tracking;  ///< in pixels of the captured frame
+  std::size_t quality = 0;            ///< in qualityLevels()
 };
 
 /// A picture in memory, read through a reader of the Painter.
@@ -83,6 +101,12 @@ struct ReadPicture {
 
 /// The engine: captured frames in, painted pictures out. No globals; several in one process are
 /// independent, and the same frames with the same times give the same pictures, live or not.
+///
+/// The GPU may be lost (a reset after a fault or a hang, a device taken away, a fence that does not
+/// come within two seconds). From then on this Painter answers each call with kDeviceLost, does
+/// nothing and can only be destroyed; another one can be made in the same process. In a host's
+/// context, the host makes a new context first, and the old one keeps what the Painter had in it
+/// until the host destroys it.
 class Painter {
  public:
   /// Builds the whole chain and warms it up. Throws hal::StartupError (no GPU, unknown style or tag
@@ -102,28 +126,29 @@ class Painter {
 
   /// Tracks, composes and paints one frame, which may have any size and layout. Returns when the
   /// work is issued, not when the GPU is done. Errors, after which all is as if the frame had not
-  /// come: kInvalidArgument (unknown view: lists the valid ones), kInvalidInput (the frame has
-  /// another size than the scene's calibration is for), kUnsupported (beyond the GPU's limits or
-  /// memory). Precondition: frame.image.isComplete().
+  /// come: kInvalidArgument (unknown view or level: lists the valid ones), kInvalidInput (the frame
+  /// has another size than the scene's calibration is for), kUnsupported (beyond the GPU's limits
+  /// or memory). Then, for ever: kDeviceLost. Precondition: frame.image.isComplete().
   hal::Result<Picture> paint(const hal::CapturedFrame& frame, const PaintParameters& parameters);
 
   /// Opens a reader: from now on each painted picture is also brought to memory in `format` (RGBA8,
   /// RGB8, grey, I420, NV12, YUYV; of any accepted size, filled as frames are). Up to 3 are under
   /// way; a picture that finds the reader full is not read and counts as skipped. Returns the
-  /// reader's number. Throws hal::StartupError (kUnsupported) where the GPU has no room for it.
+  /// reader's number. Throws hal::StartupError (kUnsupported where the GPU has no room for it,
+  /// kDeviceLost).
   int openReader(const hal::FrameFormat& format);
   /// Copies the reader's oldest picture into `picture`, reusing its memory; false if none is ready.
-  /// With `wait`, false only if none is under way. Throws hal::StartupError (kDeviceLost) where the
-  /// GPU is lost, as the stills do: nothing comes out of this Painter any more.
-  bool take(int reader, ReadPicture& picture, bool wait);
+  /// With `wait`, false only if none is under way. Error: kDeviceLost, for ever.
+  hal::Result<bool> take(int reader, ReadPicture& picture, bool wait);
   /// Whether another paint() would still be read.
   bool hasRoom(int reader) const;
   std::uint64_t skipped(int reader) const;
 
-  /// Waits for the last paint and reads it, or what the camera showed of it, as RGB8: for stills.
+  /// Waits for the last paint and reads it, or what the camera showed of it, as RGB8 of the
+  /// picture's full size: for stills. Errors: kDeviceLost, for ever; kUnsupported (no memory).
   /// Precondition: something was painted.
-  hal::Image still() const;
-  hal::Image cameraStill() const;
+  hal::Result<hal::Image> still() const;
+  hal::Result<hal::Image> cameraStill() const;
 
   /// Forgets the past, as after a cut.
   void reset();

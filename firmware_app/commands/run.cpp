@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "firmware_app/configured_parts.h"
+#include "firmware_app/live/camera_selection.h"
 #include "firmware_app/live/live_painting.h"
-#include "firmware_app/live/open_camera.h"
 #include "hal/clock.h"
 #include "hal/error.h"
 
@@ -20,7 +20,7 @@ void refuseCollisionsOf(const Configuration& configuration, const scene::Scene& 
   if (target == "window") return;
   std::vector<NamedPath> read = configuredFiles(configuration, scene);
   const CameraSettings camera = configuration.camera();
-  if (!isSynthetic(camera)) read.insert(read.begin(), {"--camera", camera.source});
+  if (isRecording(camera)) read.insert(read.begin(), {"--camera", camera.source});
   refuseCollisions(read, {{"--output", target}});
 }
 
@@ -53,7 +53,7 @@ int run(const RunOptions& options) {
     refuseCollisionsOf(configuration, scene);
     requireFolder(output.stills);
     hal::SteadyClock clock;
-    const std::unique_ptr<hal::Camera> camera = openCamera(liveCamera(configuration), clock);
+    const std::unique_ptr<hal::Camera> camera = chosenCamera(liveCamera(configuration), clock);
     return runLive(
         {.camera = camera.get(),
          .clock = &clock,

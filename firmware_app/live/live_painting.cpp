@@ -152,7 +152,7 @@ class LivePainting {
 
   /// Takes one picture that has been read to the output; false if there is none.
   bool show(bool wait) {
-    if (!painter_.take(reader_, read_, wait)) return false;
+    if (!orThrow(painter_.take(reader_, read_, wait))) return false;
     const bool isRepeat = underWay_.front();
     underWay_.pop_front();
     rate_.count(job_.clock->now());
@@ -173,7 +173,8 @@ class LivePainting {
   }
 
   void saveStill() {
-    const auto saved = app::saveStill(job_.stills, painter_.still().view(), std::time(nullptr));
+    const hal::Image still = orThrow(painter_.still());
+    const auto saved = app::saveStill(job_.stills, still.view(), std::time(nullptr));
     const std::string text = saved ? "saved " + saved->string() : saved.error().message();
     window_->notify(text);
     progress_->interrupt();

@@ -4,6 +4,7 @@
 
 #include "hal/outputs/frames/frames_output.h"
 #include "hal/outputs/movie/movie_output.h"
+#include "hal/outputs/v4l2_loopback/loopback_output.h"
 #include "hal/outputs/window/window.h"
 
 namespace pleinair::hal {
@@ -23,8 +24,10 @@ Result<std::unique_ptr<MemoryOutput>> openFileOutput(const std::filesystem::path
                                         "out/%04d.png), or give a folder"});
 }
 
-Result<std::unique_ptr<MemoryOutput>> openOutput(const std::string& name) {
+Result<std::unique_ptr<MemoryOutput>> openOutput(const std::string& name,
+                                                 const OutputOptions& options) {
   if (name == "window") return openWindow();
+  if (isLoopbackName(name)) return openLoopback(name, options.loopbackLayout);
   return openFileOutput(name);
 }
 

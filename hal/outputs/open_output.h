@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "hal/output.h"
@@ -14,8 +15,16 @@ namespace pleinair::hal {
 /// known).
 Result<std::unique_ptr<MemoryOutput>> openFileOutput(const std::filesystem::path& path);
 
-/// As openFileOutput(), and "window" is a hal::Window. Errors also: kNotFound (there is no
+/// What only some outputs ask for.
+struct OutputOptions {
+  /// Of a loopback: kYuyv, kNv12 or kI420; unset: what the device takes.
+  std::optional<PixelFormat> loopbackLayout;
+};
+
+/// As openFileOutput(); "window" is a hal::Window; "loopback", "loopback:/dev/video50" and
+/// "loopback:LABEL" are V4L2 devices (openLoopback()). Errors also: kNotFound (there is no
 /// display), kUnsupported (this build has no window).
-Result<std::unique_ptr<MemoryOutput>> openOutput(const std::string& name);
+Result<std::unique_ptr<MemoryOutput>> openOutput(const std::string& name,
+                                                 const OutputOptions& options = {});
 
 }  // namespace pleinair::hal

@@ -11,6 +11,13 @@ namespace pleinair::gpu {
 struct CoverFit {
   glm::dvec2 origin{0.0};
   glm::dvec2 scale{1.0};
+
+  /// The same fit where the two pictures have other pixels: so many new ones for an old one.
+  CoverFit withPixels(const glm::dvec2& ofSource, const glm::dvec2& ofTarget) const {
+    return {.origin = origin * ofSource, .scale = scale * ofSource / ofTarget};
+  }
+  /// Whether it leaves a picture of the target's size as it is, but for rounding.
+  bool isIdentity() const;
 };
 
 CoverFit coverFit(hal::FrameSize source, hal::FrameSize target);

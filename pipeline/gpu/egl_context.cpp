@@ -8,6 +8,7 @@
 #include <cstring>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -18,6 +19,7 @@
 
 #include "hal/error.h"
 #include "pipeline/gpu/gl.h"
+#include "pipeline/gpu/gpu_loss.h"
 
 namespace pleinair::gpu {
 namespace {
@@ -78,6 +80,8 @@ void GL_APIENTRY onDebugMessage(GLenum source, GLenum type, GLuint id, GLenum /*
   // A shader that does not compile is the world's failure (live editing): ShaderLibrary throws. So
   // is a lack of memory: checkMemory() throws.
   if (type != GL_DEBUG_TYPE_ERROR_KHR || source == GL_DEBUG_SOURCE_SHADER_COMPILER_KHR) return;
+  // A lost context: LossWatch.
+  if (id == GL_CONTEXT_LOST_KHR || std::strstr(message, "GL_CONTEXT_LOST") != nullptr) return;
   if (id == GL_OUT_OF_MEMORY || std::strstr(message, "GL_OUT_OF_MEMORY") != nullptr) return;
   std::fputs("pleinair: GL error, a broken contract of our own: ", stderr);
   std::fputs(message, stderr);
@@ -127,6 +131,7 @@ ContextInfo inspectCurrentContext(std::string platform) {
                     info.renderer.find("softpipe") != std::string::npos;
   const std::string extensions = glString(GL_EXTENSIONS);
   info.maxSidePixels = maxSidePixels();
+  info.tellsOfResets = tellsOfResets();
   info.hasTimerQuery = hasWord(extensions.c_str(), "GL_EXT_disjoint_timer_query");
   return info;
 }
@@ -197,14 +202,39 @@ class OpenContext {
     EGLint count = 0;
     eglChooseConfig(display_, configAttributes.data(), &config, 1, &count);
     if (count == 0) config = EGL_NO_CONFIG_KHR;
-    std::array<EGLint, 7> attributes{
-        EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 1, EGL_NONE, 0, EGL_NONE};
+    // A driver may list the one way to be told of resets, or the other, and refuse it all the same.
+    for (const EGLint resetNotification : resetNotifications()) {
+      context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT,
+                                  contextAttributes(resetNotification).data());
+      if (context_ != EGL_NO_CONTEXT) return true;
+    }
+    return false;
+  }
+
+  /// The attributes to ask for it with, in the order of trying; EGL_NONE: do without.
+  std::vector<EGLint> resetNotifications() const {
+    std::vector<EGLint> ways;
+    if (hasWord(eglQueryString(display_, EGL_EXTENSIONS), "EGL_EXT_create_context_robustness")) {
+      ways.push_back(EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT);
+    }
+    const char* version = eglQueryString(display_, EGL_VERSION);
+    if (version != nullptr && std::string_view(version).starts_with("1.5")) {
+      ways.push_back(EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY);
+    }
+    ways.push_back(EGL_NONE);
+    return ways;
+  }
+
+  static std::vector<EGLint> contextAttributes(EGLint resetNotification) {
+    std::vector<EGLint> attributes{EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 1};
 #if !defined(NDEBUG)
-    attributes[4] = EGL_CONTEXT_OPENGL_DEBUG;
-    attributes[5] = EGL_TRUE;
+    attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE});
 #endif
-    context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, attributes.data());
-    return context_ != EGL_NO_CONTEXT;
+    if (resetNotification != EGL_NONE) {
+      attributes.insert(attributes.end(), {resetNotification, EGL_LOSE_CONTEXT_ON_RESET});
+    }
+    attributes.push_back(EGL_NONE);
+    return attributes;
   }
 
   GbmNode node_;  // outlives the display made from it

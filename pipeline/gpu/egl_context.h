@@ -16,10 +16,12 @@ struct ContextInfo {
   std::string platform;     ///< how the display was opened: "surfaceless", "device", "gbm", "host"
   bool isSoftware = false;  ///< timer queries lie there (GPU rules, rule 13)
   bool hasTimerQuery = false;
-  int maxSidePixels = 0;  ///< of textures and of what can be drawn into
+  bool tellsOfResets = false;  ///< or else a lost GPU shows only where something fails
+  int maxSidePixels = 0;       ///< of textures and of what can be drawn into
 };
 
-/// An OpenGL ES 3.1 context of our own, without a window system. It is current on the thread that
+/// An OpenGL ES 3.1 context of our own, without a window system, that tells of resets where the
+/// driver can. It is current on the thread that
 /// made it until destroyed there; GL objects made meanwhile belong to that thread. In builds with
 /// assertions, a GL error in it aborts with the driver's message: it is always a broken contract of
 /// ours.

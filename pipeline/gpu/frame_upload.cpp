@@ -87,11 +87,12 @@ FrameUploader::FrameUploader(const ShaderLibrary& library)
                library.fragmentPass("pipeline/gpu/shaders/camera_bayer.frag")},
       resampler_(library) {}
 
-const Texture& FrameUploader::upload(const hal::ImageView& image, FrameSize size) {
+const Texture& FrameUploader::upload(const hal::ImageView& image, FrameSize size,
+                                     const CoverFit& fit) {
   assert(image.isComplete());
   uploadPlanes(image);
   convert(image.format);
-  return resampler_.resample(native_, size);
+  return resampler_.resample(native_, size, fit);
 }
 
 void FrameUploader::uploadPlanes(const hal::ImageView& image) {

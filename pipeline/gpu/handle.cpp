@@ -1,13 +1,37 @@
 #include "pipeline/gpu/handle.h"
 
-#include "hal/error.h"
+#include <chrono>
+
+#include <fmt/format.h>
 
 namespace pleinair::gpu {
+namespace {
 
-FenceState Fence::state(GLuint64 timeoutNs) const {
+thread_local int abandonsObjects = 0;
+
+hal::Error waitFailed() {
+  return gpuLost("cannot wait for it: it or its context is lost", GL_WAIT_FAILED);
+}
+
+}  // namespace
+
+AbandonObjects::AbandonObjects() {
+  ++abandonsObjects;
+}
+
+AbandonObjects::~AbandonObjects() {
+  --abandonsObjects;
+}
+
+bool AbandonObjects::isInForce() {
+  return abandonsObjects > 0;
+}
+
+FenceState Fence::state(GLuint64 timeoutNs, const GpuSeam& seam) const {
   if (sync_ == nullptr) return FenceState::kFailed;
   assert(eglGetCurrentContext() == context_);
-  switch (glClientWaitSync(sync_, GL_SYNC_FLUSH_COMMANDS_BIT, timeoutNs)) {
+  switch (seam.waitForFence ? seam.waitForFence(timeoutNs)
+                            : glClientWaitSync(sync_, GL_SYNC_FLUSH_COMMANDS_BIT, timeoutNs)) {
     case GL_ALREADY_SIGNALED:
     case GL_CONDITION_SATISFIED:
       return FenceState::kSignalled;
@@ -18,23 +42,25 @@ FenceState Fence::state(GLuint64 timeoutNs) const {
   }
 }
 
-bool Fence::passed(GLuint64 timeoutNs) const {
-  const FenceState now = state(timeoutNs);
-  if (now == FenceState::kFailed) {
-    throw hal::StartupError(hal::Error{.kind = hal::ErrorKind::kDeviceLost,
-                                       .subject = "GPU",
-                                       .problem = "cannot wait for it: it or its context is lost",
-                                       .remedy = "see the kernel's log; start again",
-                                       .domain = hal::ErrorDomain::kGl,
-                                       .code = GL_WAIT_FAILED});
-  }
-  return now == FenceState::kSignalled;
+hal::Result<bool> Fence::passed(const GpuSeam& seam) const {
+  const FenceState now = state(0, seam);
+  if (now != FenceState::kFailed) return now == FenceState::kSignalled;
+  return tl::unexpected(waitFailed());
 }
 
-void Fence::wait() const {
-  constexpr GLuint64 kOnceNs = 1'000'000'000;  // drivers may cap longer waits
-  while (!passed(kOnceNs)) {
+hal::Result<void> Fence::wait(const GpuSeam& seam) const {
+  const hal::SteadyClock steady;
+  const hal::Clock& clock = seam.clock != nullptr ? *seam.clock : steady;
+  const hal::TimePoint deadline = clock.now() + seam.patience;
+  for (hal::Duration left = seam.patience; left > hal::Duration::zero();  // drivers may cap waits
+       left = deadline - clock.now()) {
+    const FenceState now = state(static_cast<GLuint64>(left.count()), seam);
+    if (now == FenceState::kSignalled) return {};
+    if (now == FenceState::kFailed) return tl::unexpected(waitFailed());
   }
+  const double seconds = std::chrono::duration<double>(seam.patience).count();
+  return tl::unexpected(
+      gpuLost(fmt::format("hangs: no answer for {:.0f} s", seconds), GL_TIMEOUT_EXPIRED));
 }
 
 }  // namespace pleinair::gpu

@@ -5,9 +5,23 @@
 
 #include <EGL/egl.h>
 
+#include "hal/error.h"
 #include "pipeline/gpu/gl.h"
+#include "pipeline/gpu/gpu_loss.h"
 
 namespace pleinair::gpu {
+
+/// While one lives, the objects that go on this thread are left in their context as they are: for
+/// one that is lost, whose driver is not to be called. It may be current or not.
+class AbandonObjects {
+ public:
+  AbandonObjects();
+  ~AbandonObjects();
+  AbandonObjects(const AbandonObjects&) = delete;
+  AbandonObjects& operator=(const AbandonObjects&) = delete;
+
+  static bool isInForce();
+};
 
 /// Owns one GL object's name. Made, used and destroyed with the same context current, which is
 /// asserted. `Traits` has create() and destroy(GLuint).
@@ -28,7 +42,7 @@ class Handle {
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
   ~Handle() {
-    if (name_ == 0) return;
+    if (name_ == 0 || AbandonObjects::isInForce()) return;
     assert(eglGetCurrentContext() == context_);
     Traits::destroy(name_);
   }
@@ -99,7 +113,7 @@ class Fence {
   Fence(const Fence&) = delete;
   Fence& operator=(const Fence&) = delete;
   ~Fence() {
-    if (sync_ == nullptr) return;
+    if (sync_ == nullptr || AbandonObjects::isInForce()) return;
     assert(eglGetCurrentContext() == context_);
     glDeleteSync(sync_);
   }
@@ -107,13 +121,16 @@ class Fence {
   explicit operator bool() const { return sync_ != nullptr; }
   /// How it stands, after waiting `timeoutNs` at most. Flushes, so that it is reached. An empty
   /// one, as a driver gives that has lost its GPU, has failed.
-  FenceState state(GLuint64 timeoutNs = 0) const;
-  /// The same for callers who cannot go on after a failure. Throws hal::StartupError (kDeviceLost).
-  bool passed(GLuint64 timeoutNs = 0) const;
-  /// Returns when the GPU has passed it, however long that takes. Throws as passed() does.
-  void wait() const;
+  FenceState state(GLuint64 timeoutNs = 0) const { return state(timeoutNs, {}); }
+  /// Whether the GPU has passed it. Error: kDeviceLost, where it never will.
+  hal::Result<bool> passed(const GpuSeam& seam = {}) const;
+  /// Returns when the GPU has passed it. Error: kDeviceLost, where it never will or does not within
+  /// the seam's patience.
+  hal::Result<void> wait(const GpuSeam& seam = {}) const;
 
  private:
+  FenceState state(GLuint64 timeoutNs, const GpuSeam& seam) const;
+
   GLsync sync_ = nullptr;
   EGLContext context_ = EGL_NO_CONTEXT;
 };

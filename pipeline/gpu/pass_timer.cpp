@@ -6,12 +6,9 @@
 namespace pleinair::gpu {
 namespace {
 
-/// Does not throw: it ends scopes. Whoever reads the picture meets a lost GPU.
+/// Whoever reads the picture meets a lost GPU.
 void waitForGpu() {
-  constexpr GLuint64 kOnceNs = 1'000'000'000;
-  const Fence fence = Fence::insert();
-  while (fence.state(kOnceNs) == FenceState::kNotYet) {
-  }
+  (void)Fence::insert().wait();
 }
 
 PassTiming possible(PassTiming wanted, const ContextInfo* context) {

@@ -17,13 +17,13 @@ bool isImageFormat(TextureFormat format) {
 }
 
 [[maybe_unused]] bool isCurrent(const ProgramHandle& program) {
-  GLint current = 0;
+  auto current = static_cast<GLint>(program.get());  // a lost context answers nothing
   glGetIntegerv(GL_CURRENT_PROGRAM, &current);
   return program && static_cast<GLuint>(current) == program.get();
 }
 
 [[maybe_unused]] bool hasGroupSize(const ProgramHandle& program, glm::ivec2 size) {
-  std::array<GLint, 3> local{};
+  std::array<GLint, 3> local{size.x, size.y, 1};  // a lost context answers nothing
   glGetProgramiv(program.get(), GL_COMPUTE_WORK_GROUP_SIZE, local.data());
   return local[0] == size.x && local[1] == size.y && local[2] == 1;
 }

@@ -1,31 +1,35 @@
 #include "pipeline/gpu/resampler.h"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
-
-#include "pipeline/gpu/cover_fit.h"
 
 namespace pleinair::gpu {
 
 Resampler::Resampler(const ShaderLibrary& library)
     : program_(library.fragmentPass("pipeline/gpu/shaders/resample.frag")) {}
 
-const Texture& Resampler::resample(const Texture& picture, hal::FrameSize size) {
+const Texture& Resampler::resample(const Texture& picture, hal::FrameSize size,
+                                   const CoverFit& fit) {
   assert(picture.format() == TextureFormat::kRgba8);
-  if (picture.size() == size) return picture;
-  if (scaled_.size() != size) {
-    scaled_ = Texture();  // stays empty where there is no memory for the new one
-    Texture scaled(TextureFormat::kRgba8, size, TextureFilter::kLinear);
-    target_ = RenderTarget({&scaled});
-    scaled_ = std::move(scaled);
-  }
-  const CoverFit fit = coverFit(picture.size(), size);
+  if (picture.size() == size && fit.isIdentity()) return picture;
+  const Scaled& scaled = scaledOf(size);
   program_.use()
       .texture("picture", picture)
       .set("sourceOrigin", glm::vec2(fit.origin))
       .set("sourceScale", glm::vec2(fit.scale))
-      .drawFullscreen(target_);
-  return scaled_;
+      .drawFullscreen(scaled.target);
+  return scaled.texture;
+}
+
+const Resampler::Scaled& Resampler::scaledOf(hal::FrameSize size) {
+  const auto known =
+      std::ranges::find_if(scaled_, [&](const auto& each) { return each->texture.size() == size; });
+  if (known != scaled_.end()) return **known;
+  auto made = std::make_unique<Scaled>();
+  made->texture = Texture(TextureFormat::kRgba8, size, TextureFilter::kLinear);
+  made->target = RenderTarget({&made->texture});
+  return *scaled_.emplace_back(std::move(made));
 }
 
 }  // namespace pleinair::gpu

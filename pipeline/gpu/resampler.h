@@ -1,6 +1,10 @@
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "hal/pixel_format.h"
+#include "pipeline/gpu/cover_fit.h"
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/gpu/shader_library.h"
@@ -8,19 +12,29 @@
 
 namespace pleinair::gpu {
 
-/// Brings a picture to another size: filled, centred, the overhang cut off (CoverFit).
+/// Brings a picture to other sizes. Keeps a texture for each size it was asked for.
 class Resampler {
  public:
   explicit Resampler(const ShaderLibrary& library);
 
-  /// `picture` itself if it has the size already, else a scaled one, valid until the next call.
-  /// Precondition: RGBA8 with the LINEAR filter.
-  const Texture& resample(const Texture& picture, hal::FrameSize size);
+  /// `picture`, filling `size`: centred, the overhang cut off. Itself if it has the size already,
+  /// else a scaled one, valid until the next call with this size. Precondition: RGBA8 with the
+  /// LINEAR filter.
+  const Texture& resample(const Texture& picture, hal::FrameSize size) {
+    return resample(picture, size, coverFit(picture.size(), size));
+  }
+  /// The same with another fit.
+  const Texture& resample(const Texture& picture, hal::FrameSize size, const CoverFit& fit);
 
  private:
+  struct Scaled {
+    Texture texture;
+    RenderTarget target;
+  };
+  const Scaled& scaledOf(hal::FrameSize size);
+
   Program program_;
-  Texture scaled_;
-  RenderTarget target_;
+  std::vector<std::unique_ptr<Scaled>> scaled_;
 };
 
 }  // namespace pleinair::gpu

@@ -5,8 +5,10 @@
 #include <cstring>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "hal/error.h"
+#include "pipeline/gpu/cover_fit.h"
 #include "pipeline/gpu/ycbcr.h"
 #include "pipeline/present/present_shaders.h"
 
@@ -82,8 +84,10 @@ FrameSize PictureReader::packedSize(const FrameFormat& format) {
   return size;
 }
 
-PictureReader::PictureReader(const gpu::ShaderLibrary& library, FrameFormat format, int depth)
+PictureReader::PictureReader(const gpu::ShaderLibrary& library, FrameFormat format, int depth,
+                             gpu::GpuSeam seam)
     : format_(format),
+      seam_(std::move(seam)),
       resampler_(library),
       packed_(gpu::TextureFormat::kRgba8, packedSize(format)),
       target_({&packed_}),
@@ -101,7 +105,7 @@ void PictureReader::warmUp(FrameSize pictureSize) {
   assert(isEmpty());
   submit(gpu::Texture(gpu::TextureFormat::kRgba8, pictureSize, gpu::TextureFilter::kLinear));
   hal::Image dropped;
-  take(dropped, true);
+  hal::orThrow(take(dropped, true));
 }
 
 void PictureReader::pack(const gpu::Texture& picture) {
@@ -121,9 +125,13 @@ void PictureReader::pack(const gpu::Texture& picture) {
   }
 }
 
-void PictureReader::submit(const gpu::Texture& picture) {
+void PictureReader::submit(const gpu::Texture& picture, FrameSize fullSize) {
   assert(hasRoom());
-  pack(resampler_.resample(picture, format_.size));
+  const glm::dvec2 pixelsOfFull = glm::dvec2(picture.size().width, picture.size().height) /
+                                  glm::dvec2(fullSize.width, fullSize.height);
+  pack(resampler_.resample(
+      picture, format_.size,
+      gpu::coverFit(fullSize, format_.size).withPixels(pixelsOfFull, glm::dvec2(1.0))));
   Slot& slot = ring_[submitted_ % ring_.size()];
   target_.beginKeeping();
   glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer.name());
@@ -135,13 +143,13 @@ void PictureReader::submit(const gpu::Texture& picture) {
   ++submitted_;
 }
 
-bool PictureReader::take(hal::Image& image, bool wait) {
+hal::Result<bool> PictureReader::take(hal::Image& image, bool wait) {
   if (isEmpty()) return false;
   Slot& slot = ring_[taken_ % ring_.size()];
   if (wait) {
-    slot.copied.wait();
-  } else if (!slot.copied.passed()) {
-    return false;
+    if (const auto copied = slot.copied.wait(seam_); !copied) return tl::unexpected(copied.error());
+  } else if (const auto copied = slot.copied.passed(seam_); !copied || !*copied) {
+    return copied;
   }
   if (image.format() != format_) image = hal::Image(format_);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer.name());
@@ -150,7 +158,7 @@ bool PictureReader::take(hal::Image& image, bool wait) {
   if (bytes != nullptr) unpack(static_cast<const std::uint8_t*>(bytes), image);
   const bool sound = bytes != nullptr && glUnmapBuffer(GL_PIXEL_PACK_BUFFER) == GL_TRUE;
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  if (!sound) throw hal::StartupError(unreadable(format_.size));
+  if (!sound) return tl::unexpected(unreadable(format_.size));
   ++taken_;
   return true;
 }

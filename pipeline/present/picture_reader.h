@@ -25,27 +25,30 @@ class PictureReader {
  public:
   /// `library` has presentShaders(); `format`: RGBA8, RGB8, grey, I420, NV12 or YUYV; `depth`: how
   /// many pictures may be under way.
-  PictureReader(const gpu::ShaderLibrary& library, hal::FrameFormat format, int depth = 3);
+  PictureReader(const gpu::ShaderLibrary& library, hal::FrameFormat format, int depth = 3,
+                gpu::GpuSeam seam = {});
 
   /// Of the texture that a picture of this format goes through: beyond the device's limit, none can
   /// be made.
   static hal::FrameSize packedSize(const hal::FrameFormat& format);
 
   /// Reads one picture of this size, undefined, and drops it: what pictures need is compiled and
-  /// allocated then. Precondition: isEmpty().
+  /// allocated then. Throws hal::StartupError (kDeviceLost). Precondition: isEmpty().
   void warmUp(hal::FrameSize pictureSize);
 
   const hal::FrameFormat& format() const { return format_; }
   bool hasRoom() const { return submitted_ - taken_ < ring_.size(); }
   bool isEmpty() const { return submitted_ == taken_; }
 
-  /// Begins to read `picture` (RGBA8, LINEAR). Precondition: hasRoom().
-  void submit(const gpu::Texture& picture);
+  /// Begins to read `picture` (RGBA8, LINEAR), laid onto the format's size as one of `fullSize` is,
+  /// which it may be a smaller version of. Precondition: hasRoom().
+  void submit(const gpu::Texture& picture, hal::FrameSize fullSize);
+  void submit(const gpu::Texture& picture) { submit(picture, picture.size()); }
 
   /// Copies the oldest picture into `image`, which gets this reader's format; pictures come in the
   /// order they were submitted. False if none is ready; with `wait` only if there is none at all.
-  /// Throws hal::StartupError (kDeviceLost) where the GPU is lost: no picture comes any more.
-  bool take(hal::Image& image, bool wait);
+  /// Error: kDeviceLost; no picture comes any more.
+  hal::Result<bool> take(hal::Image& image, bool wait);
 
  private:
   struct Slot {
@@ -62,6 +65,7 @@ class PictureReader {
   void unpack(const std::uint8_t* bytes, hal::Image& image) const;
 
   hal::FrameFormat format_;
+  gpu::GpuSeam seam_;
   std::vector<PlanePass> passes_;
   gpu::Resampler resampler_;
   gpu::Texture packed_;

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+
+#include <glm/vec2.hpp>
 
 #include "hal/clock.h"
 #include "hal/pixel_format.h"
@@ -29,13 +32,22 @@ struct ArFrame {
   bool hasFocus = false;    ///< whether any pixel's focus may be above 0
   float nearMetres = 0.0F;  ///< the depth range's planes, for linear depth
   float farMetres = 0.0F;
-  /// Takes px of this picture to px of a flat canvas that goes along with the picture as a whole
-  /// (tracking::PictureMotion); the identity where nothing is followed.
+  /// Takes px of the full picture to px of a flat canvas that goes along with the picture as a
+  /// whole (tracking::PictureMotion); the identity where nothing is followed.
   tracking::PlaneSimilarity canvasFromPicture;
   std::uint64_t sequence = 0;  ///< of the captured frame
   hal::TimePoint captureTime;
 
+  /// Of the picture that this one is a smaller version of, to save time (quality levels): the
+  /// lengths that styles have in px are of that one's.
+  std::optional<hal::FrameSize> fullSize;
+
   hal::FrameSize size() const { return colour->size(); }
+  hal::FrameSize full() const { return fullSize.value_or(size()); }
+  /// Px of this picture for one of the full one.
+  glm::dvec2 pixelsOfFull() const {
+    return glm::dvec2(size().width, size().height) / glm::dvec2(full().width, full().height);
+  }
 };
 
 }  // namespace pleinair::scene

@@ -175,20 +175,27 @@ void ArFrameRenderer::uploadVertices() {
   }
 }
 
-void ArFrameRenderer::allocate(hal::FrameSize size) {
-  if (ids_ && ids_.size() == size) return;
-  ids_ = gpu::Texture(gpu::TextureFormat::kR32ui, size);
-  normalFocus_ = gpu::Texture(gpu::TextureFormat::kRgba8, size);
-  depth_ = gpu::Texture(gpu::TextureFormat::kDepth24, size);
-  withoutColour_ = gpu::RenderTarget({&ids_, &normalFocus_}, &depth_);
-  showsCameraOnly_ = false;
-  if (scene_.models.empty()) return;
-  colour_ = gpu::Texture(gpu::TextureFormat::kRgba8, size, gpu::TextureFilter::kLinear);
-  target_ = gpu::RenderTarget({&colour_, &ids_, &normalFocus_}, &depth_);
+ArFrameRenderer::Surfaces::Surfaces(hal::FrameSize size, bool hasModels)
+    : ids(gpu::TextureFormat::kR32ui, size),
+      normalFocus(gpu::TextureFormat::kRgba8, size),
+      depth(gpu::TextureFormat::kDepth24, size),
+      withoutColour({&ids, &normalFocus}, &depth) {
+  if (!hasModels) return;
+  colour = gpu::Texture(gpu::TextureFormat::kRgba8, size, gpu::TextureFilter::kLinear);
+  target = gpu::RenderTarget({&colour, &ids, &normalFocus}, &depth);
+}
+
+void ArFrameRenderer::takeSurfaces(hal::FrameSize size) {
+  const auto isOfSize = [&](const auto& each) { return each->ids.size() == size; };
+  const auto known = std::ranges::find_if(surfaces_, isOfSize);
+  now_ =
+      known != surfaces_.end()
+          ? known->get()
+          : surfaces_.emplace_back(std::make_unique<Surfaces>(size, !scene_.models.empty())).get();
 }
 
 void ArFrameRenderer::warmUp(hal::FrameSize size) {
-  allocate(size);
+  takeSurfaces(size);
   if (scene_.models.empty()) return;
   const gpu::Texture picture(gpu::TextureFormat::kRgba8, size, gpu::TextureFilter::kLinear);
   drawBackground(picture);
@@ -196,7 +203,7 @@ void ArFrameRenderer::warmUp(hal::FrameSize size) {
   for (std::size_t i = 0; i < scene_.models.size(); ++i) visible_.push_back({.model = i});
   setCamera(assumedCamera(size));
   drawModels(hal::Duration::zero());
-  showsCameraOnly_ = false;
+  now_->showsCameraOnly = false;
 }
 
 const ArFrame& ArFrameRenderer::compose(const gpu::Texture& picture,
@@ -205,7 +212,7 @@ const ArFrame& ArFrameRenderer::compose(const gpu::Texture& picture,
                                         gpu::PassTimer& timer) {
   assert(picture.size() == camera.imageSize());
   const auto scope = timer.measure("compose");
-  allocate(picture.size());
+  takeSurfaces(picture.size());
   if (!firstTime_) firstTime_ = captureTime;
   findVisible(poses);
   frame_ = kCameraOnly;
@@ -215,12 +222,12 @@ const ArFrame& ArFrameRenderer::compose(const gpu::Texture& picture,
     drawBackground(picture);
     setCamera(camera);
     drawModels(captureTime - *firstTime_);
-    showsCameraOnly_ = false;
+    now_->showsCameraOnly = false;
   }
-  frame_.colour = visible_.empty() ? &picture : &colour_;
-  frame_.ids = &ids_;
-  frame_.normalFocus = &normalFocus_;
-  frame_.depth = &depth_;
+  frame_.colour = visible_.empty() ? &picture : &now_->colour;
+  frame_.ids = &now_->ids;
+  frame_.normalFocus = &now_->normalFocus;
+  frame_.depth = &now_->depth;
   frame_.hasObjects = !visible_.empty();
   frame_.hasFocus = std::ranges::any_of(
       visible_, [&](const Visible& each) { return scene_.models[each.model].focus > 0.0F; });
@@ -244,19 +251,19 @@ void ArFrameRenderer::findVisible(const PoseSet& poses) {
 }
 
 void ArFrameRenderer::clearToCamera() {
-  if (showsCameraOnly_) return;
-  withoutColour_.beginDiscarding();
-  withoutColour_.clearUnsigned(0, glm::uvec4(0U));
-  withoutColour_.clearColour(1, kNoNormal);
-  withoutColour_.clearDepth();
-  showsCameraOnly_ = true;
+  if (now_->showsCameraOnly) return;
+  now_->withoutColour.beginDiscarding();
+  now_->withoutColour.clearUnsigned(0, glm::uvec4(0U));
+  now_->withoutColour.clearColour(1, kNoNormal);
+  now_->withoutColour.clearDepth();
+  now_->showsCameraOnly = true;
 }
 
 void ArFrameRenderer::drawBackground(const gpu::Texture& picture) {
   // Depth is cleared where the pass begins: later, a tile-based GPU would split it (GPU rules, 10).
-  target_.beginDiscarding();
-  target_.clearDepth();
-  background_.use().texture("picture", picture).drawArea(target_, {0, 0}, target_.size());
+  now_->target.beginDiscarding();
+  now_->target.clearDepth();
+  background_.use().texture("picture", picture).drawArea(now_->target, {0, 0}, now_->target.size());
 }
 
 void ArFrameRenderer::setCamera(const tracking::CameraModel& camera) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -34,7 +35,7 @@ class ArFrameRenderer {
 
   /// The next AR frame, valid until the next call and as long as `picture`, which it refers to
   /// where no model is seen. A model is drawn where the pose is known of what it is attached to; a
-  /// tag that is hidden is where the world has it. No allocation while the size stays.
+  /// tag that is hidden is where the world has it. Each size is allocated for once.
   /// Precondition: picture (RGBA8, LINEAR) has camera.imageSize() (see fittedCamera()).
   const ArFrame& compose(const gpu::Texture& picture, const tracking::CameraModel& camera,
                          const PoseSet& poses, std::uint64_t sequence, hal::TimePoint captureTime,
@@ -53,6 +54,18 @@ class ArFrameRenderer {
     std::vector<gpu::Texture> textures;
     BoundingSphere sphere;
   };
+  /// What frames of one size are drawn into.
+  struct Surfaces {
+    Surfaces(hal::FrameSize size, bool hasModels);
+
+    gpu::Texture ids;
+    gpu::Texture normalFocus;
+    gpu::Texture depth;
+    gpu::Texture colour;              // where there are models
+    gpu::RenderTarget target;         // all of them
+    gpu::RenderTarget withoutColour;  // for frames that show the camera's picture only
+    bool showsCameraOnly = false;     // what ids, normals and depth hold
+  };
   /// A model in this frame.
   struct Visible {
     std::size_t model = 0;
@@ -61,7 +74,7 @@ class ArFrameRenderer {
   };
   void uploadModels();
   void uploadVertices();
-  void allocate(hal::FrameSize size);
+  void takeSurfaces(hal::FrameSize size);
   void findVisible(const PoseSet& poses);
   void clearToCamera();
   void drawBackground(const gpu::Texture& picture);
@@ -84,14 +97,9 @@ class ArFrameRenderer {
   std::vector<std::size_t> slotOfModel_;
   std::vector<Visible> visible_;
 
-  gpu::Texture colour_;
-  gpu::Texture ids_;
-  gpu::Texture normalFocus_;
-  gpu::Texture depth_;
-  gpu::RenderTarget target_;         // all of them
-  gpu::RenderTarget withoutColour_;  // for frames that show the camera's picture only
+  std::vector<std::unique_ptr<Surfaces>> surfaces_;  // of each size that was composed
+  Surfaces* now_ = nullptr;                          // of this frame's size
   std::optional<hal::TimePoint> firstTime_;
-  bool showsCameraOnly_ = false;  // what ids, normals and depth hold
   ArFrame frame_;
 };
 

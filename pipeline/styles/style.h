@@ -41,8 +41,9 @@ class Style {
 
   /// Paints `frame`; the RGBA8 result (sRGB-coded, opaque) has the frame's size, row 0 at the top,
   /// and is valid until the next call. `view` is empty for the finished picture or names one of
-  /// views(); the style's state advances the same whatever is looked at. Frames of another size
-  /// than the last reset it.
+  /// views(); the style's state advances the same whatever is looked at. Frames of another full
+  /// size than the last reset it; of another size alone (a level of quality) they go on where it
+  /// was. Each size is allocated for once.
   virtual const gpu::Texture& paint(const scene::ArFrame& frame, std::string_view view,
                                     gpu::PassTimer& timer) = 0;
 

@@ -5,6 +5,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "hal/error.h"
 #include "hal/image.h"
 #include "pipeline/gpu/egl_context.h"
 #include "pipeline/gpu/frame_upload.h"
@@ -43,7 +44,7 @@ hal::Image gradient(PixelFormat format, FrameSize size) {
 }
 
 void waitForGpu() {
-  gpu::Fence::insert().passed(GL_TIMEOUT_IGNORED);
+  hal::orThrow(gpu::Fence::insert().wait());
 }
 
 /// Warms the pass up, which compiles its shaders, and times it.
@@ -85,7 +86,7 @@ void packAndReadBack(benchmark::State& state, PixelFormat format) {
   hal::Image image;
   timePass(state, [&] {
     reader.submit(picture);
-    reader.take(image, true);
+    hal::orThrow(reader.take(image, true));
   });
 }
 

@@ -45,11 +45,15 @@ std::size_t frameAt(std::uint64_t number) {
   return place < kFrames ? place : 2 * kFrames - 2 - place;
 }
 
-void wholeChain(benchmark::State& state, const char* style) {
+void wholeChain(benchmark::State& state, const char* style, std::size_t quality = 0) {
   const hal::FrameSize size{static_cast<int>(state.range(0)), static_cast<int>(state.range(1))};
   const Recording recording(size);
-  Painter painter({.pictureSize = size, .scene = recording.scene, .style = style});
-  const PaintParameters parameters = painter.defaultParameters();
+  Painter painter({.pictureSize = size,
+                   .scene = recording.scene,
+                   .style = style,
+                   .qualityLevels = quality > 0});
+  PaintParameters parameters = painter.defaultParameters();
+  parameters.quality = quality;
   const int reader = painter.openReader({hal::PixelFormat::kI420, size});
   ReadPicture picture;
   std::uint64_t number = 0;
@@ -61,7 +65,7 @@ void wholeChain(benchmark::State& state, const char* style) {
     ++number;
     const hal::Result<Picture> painted = painter.paint(frame, parameters);
     if (!painted || painted->tracking.tags.empty()) state.SkipWithError("no tag was found");
-    painter.take(reader, picture, !painter.hasRoom(reader));
+    hal::orThrow(painter.take(reader, picture, !painter.hasRoom(reader)));
   };
   for (int i = 0; i < 4; ++i) paint();
   for ([[maybe_unused]] auto _ : state) paint();
@@ -78,5 +82,23 @@ BENCHMARK_CAPTURE(wholeChain, watercolor, "watercolor")
     ->Name("chain/watercolor")
     ->Apply(atBothSizes);
 BENCHMARK_CAPTURE(wholeChain, none, "none")->Name("chain/none")->Apply(atBothSizes);
+
+/// Each level below the full one, under its name.
+void levels(benchmark::State& state, std::size_t quality) {
+  wholeChain(state, "watercolor", quality);
+}
+
+const bool kLevelsAreRegistered = [] {
+  const std::vector<QualityLevel> all = qualityLevels();
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    benchmark::RegisterBenchmark(("chain/watercolor/" + all[i].name).c_str(), levels, i)
+        ->Args({640, 480})
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime()
+        ->MeasureProcessCPUTime()
+        ->MinTime(2.0);
+  }
+  return true;
+}();
 
 }  // namespace

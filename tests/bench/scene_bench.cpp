@@ -7,6 +7,7 @@
 #include <benchmark/benchmark.h>
 #include <glm/ext/matrix_transform.hpp>
 
+#include "hal/error.h"
 #include "pipeline/gpu/egl_context.h"
 #include "pipeline/scene/ar_frame_renderer.h"
 #include "pipeline/scene/scene_file.h"
@@ -73,7 +74,7 @@ void compose(benchmark::State& state, const std::string& text) {
   for (auto _ : state) {
     const hal::TimePoint time(++sequence * std::chrono::milliseconds(33));  // what turns, turns
     renderer.compose(picture, camera, {.tags = {&sighting, 1}}, sequence, time, timer);
-    gpu::Fence::insert().passed(GL_TIMEOUT_IGNORED);
+    hal::orThrow(gpu::Fence::insert().wait());
   }
 }
 

@@ -10,6 +10,7 @@
 #include <benchmark/benchmark.h>
 #include <opencv2/photo.hpp>
 
+#include "hal/error.h"
 #include "pipeline/gpu/egl_context.h"
 #include "pipeline/gpu/handle.h"
 #include "pipeline/styles/style_registry.h"
@@ -19,7 +20,6 @@ namespace {
 using namespace pleinair;  // NOLINT(google-build-using-namespace): a program, not a header
 
 constexpr int kFrames = 8;
-constexpr GLuint64 kWaitNs = 10'000'000'000;
 
 /// A moving scene with flat parts, texture, edges and sensor noise, RGBA8.
 std::vector<std::uint8_t> framePixels(hal::FrameSize size, int number) {
@@ -67,7 +67,7 @@ struct Bench {
     ids.upload({bytes, idPixels.size() * 4}, static_cast<std::size_t>(size.width) * 4);
     gpu::PassTimer untimed;
     for (int i = 0; i < kFrames; ++i) paint(untimed);
-    gpu::Fence::insert().passed(kWaitNs);
+    hal::orThrow(gpu::Fence::insert().wait());
   }
 
   void paint(gpu::PassTimer& with) {
@@ -108,7 +108,7 @@ void wholeStyle(benchmark::State& state, bool hasObjects) {
   for ([[maybe_unused]] auto _ : state) {
     const auto start = std::chrono::steady_clock::now();
     bench.paint(bench.timer);
-    gpu::Fence::insert().passed(kWaitNs);
+    hal::orThrow(gpu::Fence::insert().wait());
     times.push_back(millisecondsSince(start));
   }
   state.counters["median_ms"] = medianOf(times);

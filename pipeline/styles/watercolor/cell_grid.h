@@ -15,8 +15,7 @@ namespace pleinair::styles {
 class CellGrid {
  public:
   CellGrid(hal::FrameSize picture, int cellSizePixels)
-      : cells_(along(picture.width, cellSizePixels), along(picture.height, cellSizePixels)),
-        cellPixels_(glm::vec2(picture.width, picture.height) / glm::vec2(cells_)) {}
+      : cells_(along(picture.width, cellSizePixels), along(picture.height, cellSizePixels)) {}
 
   /// (n, m): columns and rows.
   glm::ivec2 cells() const { return cells_; }
@@ -24,8 +23,10 @@ class CellGrid {
   std::size_t count() const {
     return static_cast<std::size_t>(cells_.x) * static_cast<std::size_t>(cells_.y);
   }
-  /// (W/n, H/m).
-  glm::vec2 cellPixels() const { return cellPixels_; }
+  /// (W/n, H/m) of a picture of this size, which the cells divide as they do the first.
+  glm::vec2 cellPixels(hal::FrameSize size) const {
+    return glm::vec2(size.width, size.height) / glm::vec2(cells_);
+  }
 
  private:
   static int along(int pixels, int cellSizePixels) {
@@ -33,7 +34,6 @@ class CellGrid {
   }
 
   glm::ivec2 cells_;
-  glm::vec2 cellPixels_;
 };
 
 }  // namespace pleinair::styles

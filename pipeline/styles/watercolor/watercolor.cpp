@@ -5,13 +5,10 @@
 #include <cassert>
 #include <cmath>
 
-#include "pipeline/styles/watercolor/cell_grid.h"
-
 namespace pleinair::styles {
 namespace {
 
 using gpu::ImageAccess;
-using gpu::RenderTarget;
 using gpu::Texture;
 using gpu::TextureFilter;
 using gpu::TextureFormat;
@@ -21,8 +18,7 @@ constexpr int kPaperPixels = 512;  // as in paper.frag
 constexpr GLbitfield kWritten = GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                                 GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
 constexpr int kSettlingRounds = 3;
-constexpr std::size_t kSumWords = 8;  // a cell, in the shaders of sums and of moments
-constexpr int kBlockPixels = 4;       // as in tile.comp
+constexpr int kBlockPixels = 4;  // as in tile.comp
 const std::string kShaders = "pipeline/styles/watercolor/shaders/";
 
 constexpr std::string_view kMeansView = "means";
@@ -38,11 +34,6 @@ constexpr std::array<ViewInfo, 8> kViews{{
     {"paper", "the sheet of paper"},
 }};
 
-/// One pixel for `by` of the picture, at least one.
-hal::FrameSize reduced(hal::FrameSize size, int by) {
-  return {(size.width + by - 1) / by, (size.height + by - 1) / by};
-}
-
 /// Where a pixel lies on the paper, which goes with the picture as a whole. The paper keeps its
 /// grain's size on the screen under any zoom: two octaves of it blend into each other.
 struct PaperPlace {
@@ -51,7 +42,8 @@ struct PaperPlace {
   float coarser;     // how much of the coarser octave is seen
 };
 
-PaperPlace paperPlace(const tracking::PlaneSimilarity& canvasFromPicture) {
+PaperPlace paperPlace(const scene::ArFrame& frame) {
+  const tracking::PlaneSimilarity& canvasFromPicture = frame.canvasFromPicture;
   // The blend takes the middle of an octave; elsewhere one octave is enough, and half the reads.
   constexpr double kBlendFrom = 0.3;
   constexpr double kBlendTo = 0.7;
@@ -67,9 +59,15 @@ PaperPlace paperPlace(const tracking::PlaneSimilarity& canvasFromPicture) {
   // The lowest frequency that is read is an eighth's (pigment.frag, and its coarser octave).
   const double period = 8.0 * kPaperPixels;
   const glm::dvec2 shift = canvasFromPicture.shift * finer;
-  return {.linear = canvasFromPicture.linear * finer,
+  return {.linear = canvasFromPicture.linear * finer / frame.pixelsOfFull().x,
           .shift = shift - period * glm::floor(shift / period),
           .coarser = static_cast<float>(coarser)};
+}
+
+/// An edge in a cell has the fewer pixels the smaller the picture is.
+unsigned minEdgePixels(int ofFull, float pixelsOfFull) {
+  return static_cast<unsigned>(
+      std::max(1L, std::lround(pixelsOfFull * static_cast<float>(ofFull))));
 }
 
 /// The share of its way that something with this time constant goes in `step`.
@@ -83,6 +81,7 @@ float shareOf(hal::Duration step, double timeConstantSeconds) {
 struct Watercolor::Passes {
   explicit Passes(const gpu::ShaderLibrary& library)
       : seedHome(library.compute(kShaders + "seed_home.comp")),
+        seedScale(library.compute(kShaders + "seed_scale.comp")),
         tile(library.compute(kShaders + "tile.comp")),
         cells(library.compute(kShaders + "cells.comp")),
         guide(library.fragmentPass(kShaders + "guide.frag")),
@@ -96,6 +95,7 @@ struct Watercolor::Passes {
         paper(library.fragmentPass(kShaders + "paper.frag")) {}
 
   gpu::Program seedHome;
+  gpu::Program seedScale;
   gpu::Program tile;
   gpu::Program cells;
   gpu::Program guide;
@@ -107,55 +107,6 @@ struct Watercolor::Passes {
   gpu::Program composeMore;
   gpu::Program view;
   gpu::Program paper;
-};
-
-struct Watercolor::Surfaces {
-  Surfaces(hal::FrameSize frameSize, int cellSizePixels, int tilingSeed)
-      : size(frameSize),
-        grid(frameSize, cellSizePixels),
-        cellSize(cellSizePixels),
-        seed(static_cast<unsigned>(tilingSeed)),
-        seeds(grid.count() * sizeof(glm::vec2), gpu::BufferUsage::kDynamic),
-        sums(grid.count() * kSumWords * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
-        tiling(TextureFormat::kR32ui, size),
-        means(TextureFormat::kRgba16f, grid.size()),
-        shifts(TextureFormat::kRgba16f, grid.size()),
-        guide(TextureFormat::kRgba8, reduced(size, 2), TextureFilter::kLinear),
-        moments(grid.count() * kSumWords * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
-        darkWash(TextureFormat::kRgba8, grid.size()),
-        lightWash(TextureFormat::kRgba8, grid.size()),
-        darkPigment(TextureFormat::kRgba8, reduced(size, 4), TextureFilter::kLinear),
-        lightPigment(TextureFormat::kRgba8, reduced(size, 4), TextureFilter::kLinear),
-        darkLayer(TextureFormat::kRgba8, reduced(size, 2), TextureFilter::kLinear),
-        lightLayer(TextureFormat::kRgba8, reduced(size, 2), TextureFilter::kLinear),
-        picture(TextureFormat::kRgba8, size, TextureFilter::kLinear),
-        guideTarget({&guide}),
-        pigmentTarget({&darkPigment, &lightPigment}),
-        layersTarget({&darkLayer, &lightLayer}),
-        pictureTarget({&picture}) {}
-
-  hal::FrameSize size;
-  CellGrid grid;
-  int cellSize;
-  unsigned seed;
-  gpu::Buffer seeds;
-  gpu::Buffer sums;
-  Texture tiling;
-  Texture means;
-  Texture shifts;
-  Texture guide;
-  gpu::Buffer moments;
-  Texture darkWash;
-  Texture lightWash;
-  Texture darkPigment;
-  Texture lightPigment;
-  Texture darkLayer;
-  Texture lightLayer;
-  Texture picture;
-  RenderTarget guideTarget;
-  RenderTarget pigmentTarget;
-  RenderTarget layersTarget;
-  RenderTarget pictureTarget;
 };
 
 Watercolor::Watercolor(const gpu::ShaderLibrary& library)
@@ -180,20 +131,25 @@ void Watercolor::reset() {
 }
 
 Watercolor::Inner Watercolor::inner() const {
-  assert(surfaces_ != nullptr);
-  return {.seeds = &surfaces_->seeds,
-          .tiling = &surfaces_->tiling,
-          .means = &surfaces_->means,
-          .guide = &surfaces_->guide,
-          .darkWash = &surfaces_->darkWash,
-          .lightWash = &surfaces_->lightWash};
+  assert(canvas_ != nullptr);
+  return {.seeds = &cells_->seeds,
+          .tiling = &canvas_->tiling,
+          .means = &cells_->means,
+          .guide = &canvas_->guide,
+          .darkWash = &cells_->darkWash,
+          .lightWash = &cells_->lightWash};
 }
 
 const Texture& Watercolor::paint(const scene::ArFrame& frame, std::string_view view,
                                  gpu::PassTimer& timer) {
-  if (needsNewTiling(frame)) {
+  const bool isFirst = needsNewTiling(frame);
+  const hal::FrameSize before = canvas_ == nullptr ? frame.size() : canvas_->size;
+  takeCanvas(frame);
+  if (isFirst) {
     startTiling(frame);
     for (int i = 0; i < kSettlingRounds; ++i) tileAndRetile(frame, timer, true, false);
+  } else if (before != frame.size()) {
+    scaleSeeds(before);
   }
   const bool wantsMeans = p_.mosaic > 0.0 || view == kMeansView;
   tileAndRetile(frame, timer, false, wantsMeans);
@@ -205,48 +161,71 @@ const Texture& Watercolor::paint(const scene::ArFrame& frame, std::string_view v
   } else {
     showView(frame, view);
   }
-  return surfaces_->picture;
+  return canvas_->picture;
 }
 
 bool Watercolor::needsNewTiling(const scene::ArFrame& frame) const {
-  return !hasPast_ || surfaces_ == nullptr || surfaces_->size != frame.size() ||
-         surfaces_->cellSize != p_.cellSizePixels ||
-         surfaces_->seed != static_cast<unsigned>(p_.seed);
+  return !hasPast_ || canvas_ == nullptr || cells_->full != frame.full() ||
+         cells_->cellSize != p_.cellSizePixels || seed_ != static_cast<unsigned>(p_.seed);
+}
+
+/// Cells and canvas of this frame's size; those of other sizes stay, for levels of quality.
+void Watercolor::takeCanvas(const scene::ArFrame& frame) {
+  canvas_ = nullptr;  // where there is no memory for the new ones, nothing is left half made
+  if (cells_ == nullptr || cells_->full != frame.full() || cells_->cellSize != p_.cellSizePixels) {
+    if (cells_ != nullptr && cells_->full != frame.full()) canvases_.clear();
+    cells_.reset();
+    cells_ = std::make_unique<WatercolorCells>(frame.full(), p_.cellSizePixels);
+  }
+  const auto isOfSize = [&](const auto& each) { return each->size == frame.size(); };
+  const auto known = std::ranges::find_if(canvases_, isOfSize);
+  canvas_ = known != canvases_.end()
+                ? known->get()
+                : canvases_.emplace_back(std::make_unique<WatercolorCanvas>(frame.size())).get();
+  cellPixels_ = cells_->grid.cellPixels(frame.size());
+  pixelsOfFull_ = static_cast<float>(frame.pixelsOfFull().x);
 }
 
 void Watercolor::startTiling(const scene::ArFrame& frame) {
-  if (surfaces_ == nullptr || surfaces_->size != frame.size() ||
-      surfaces_->cellSize != p_.cellSizePixels) {
-    surfaces_ = std::make_unique<Surfaces>(frame.size(), p_.cellSizePixels, p_.seed);
-  }
-  Surfaces& s = *surfaces_;
-  s.seed = static_cast<unsigned>(p_.seed);
+  seed_ = static_cast<unsigned>(p_.seed);
   passes_->seedHome.use()
-      .storage(0, s.seeds)
-      .storage(1, s.sums)
-      .storage(2, s.moments)
-      .set("grid", s.grid.cells())
-      .set("cellPixels", s.grid.cellPixels())
-      .set("seed", s.seed)
-      .dispatch(s.grid.cells(), {8, 8}, GL_SHADER_STORAGE_BARRIER_BIT);
+      .storage(0, cells_->seeds)
+      .storage(1, cells_->sums)
+      .storage(2, cells_->moments)
+      .set("grid", cells_->grid.cells())
+      .set("cellPixels", cellPixels_)
+      .set("seed", seed_)
+      .dispatch(cells_->grid.cells(), {8, 8}, GL_SHADER_STORAGE_BARRIER_BIT);
   lastTime_ = frame.captureTime;
+}
+
+void Watercolor::scaleSeeds(hal::FrameSize from) {
+  passes_->seedScale.use()
+      .storage(0, cells_->seeds)
+      .set("grid", cells_->grid.cells())
+      .set("cellPixels", cellPixels_)
+      .set("seed", seed_)
+      .set("newPixels", glm::vec2(canvas_->size.width, canvas_->size.height) /
+                            glm::vec2(from.width, from.height))
+      .dispatch(cells_->grid.cells(), {8, 8}, GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 /// `atOnce`: seeds go all the way to their edges, whatever the time constants.
 void Watercolor::tileAndRetile(const scene::ArFrame& frame, gpu::PassTimer& timer, bool atOnce,
                                bool wantsMeans) {
-  Surfaces& s = *surfaces_;
+  const WatercolorCanvas& s = *canvas_;
+  const WatercolorCells& cells = *cells_;
   {
     const auto scope = timer.measure("watercolor: tile");
     passes_->tile.use()
-        .storage(0, s.seeds)
-        .storage(1, s.sums)
+        .storage(0, cells.seeds)
+        .storage(1, cells.sums)
         .image(0, s.tiling, ImageAccess::kWrite)
         .texture("picture", *frame.colour)
         .texture("ids", frame.hasObjects ? *frame.ids : s.tiling)
         .set("hasObjects", frame.hasObjects ? 1 : 0)
-        .set("grid", s.grid.cells())
-        .set("cellPixels", s.grid.cellPixels())
+        .set("grid", cells.grid.cells())
+        .set("cellPixels", cellPixels_)
         .set("alpha", static_cast<float>(p_.edgeAlpha))
         .set("beta", static_cast<float>(p_.edgeBeta))
         .set("threshold", static_cast<float>(p_.edgeThreshold))
@@ -261,29 +240,30 @@ void Watercolor::tileAndRetile(const scene::ArFrame& frame, gpu::PassTimer& time
   const bool stay = atOnce || p_.returnTimeSeconds <= 0.0;
   const auto scope = timer.measure("watercolor: cells");
   passes_->cells.use()
-      .storage(0, s.seeds)
-      .storage(1, s.sums)
-      .image(0, s.means, ImageAccess::kWrite)
-      .image(1, s.shifts, ImageAccess::kWrite)
+      .storage(0, cells.seeds)
+      .storage(1, cells.sums)
+      .image(0, cells.means, ImageAccess::kWrite)
+      .image(1, cells.shifts, ImageAccess::kWrite)
       .texture("picture", *frame.colour)
-      .set("grid", s.grid.cells())
-      .set("cellPixels", s.grid.cellPixels())
-      .set("seed", s.seed)
-      .set("minEdgePixels", static_cast<unsigned>(p_.retilePixels))
+      .set("grid", cells.grid.cells())
+      .set("cellPixels", cellPixels_)
+      .set("seed", seed_)
+      .set("minEdgePixels", minEdgePixels(p_.retilePixels, pixelsOfFull_))
       .set("follow", jump ? 1.0F : shareOf(step, p_.retileTimeSeconds))
       .set("drift", stay ? 0.0F : shareOf(step, p_.returnTimeSeconds))
-      .dispatch(s.grid.cells(), {8, 8}, kWritten);
+      .dispatch(cells.grid.cells(), {8, 8}, kWritten);
 }
 
 /// What the cells hold of the picture becomes two smooth layers of pigment.
 void Watercolor::paintWashes(const scene::ArFrame& frame, gpu::PassTimer& timer) {
-  const Surfaces& s = *surfaces_;
+  const WatercolorCanvas& s = *canvas_;
+  const WatercolorCells& cells = *cells_;
   {
     const auto scope = timer.measure("watercolor: guide");
     passes_->guide.use()
         .texture("picture", *frame.colour)
         .set("texel", 1.0F / glm::vec2(s.size.width, s.size.height))
-        .set("reach", static_cast<float>(p_.simplicity))
+        .set("reach", static_cast<float>(p_.simplicity) * pixelsOfFull_)
         .set("vividness", static_cast<float>(p_.vividness))
         .set("luminosity", static_cast<float>(p_.luminosity))
         .drawFullscreen(s.guideTarget);
@@ -292,30 +272,30 @@ void Watercolor::paintWashes(const scene::ArFrame& frame, gpu::PassTimer& timer)
     const auto scope = timer.measure("watercolor: split");
     const hal::FrameSize half = s.guide.size();
     passes_->split.use()
-        .storage(0, s.moments)
+        .storage(0, cells.moments)
         .texture("guide", s.guide)
         .texture("tiling", s.tiling)
-        .set("grid", s.grid.cells())
+        .set("grid", cells.grid.cells())
         .dispatch({(half.width + kBlockPixels - 1) / kBlockPixels,
                    (half.height + kBlockPixels - 1) / kBlockPixels},
                   {16, 4}, kWritten);
     passes_->washes.use()
-        .storage(0, s.moments)
-        .image(0, s.darkWash, ImageAccess::kWrite)
-        .image(1, s.lightWash, ImageAccess::kWrite)
+        .storage(0, cells.moments)
+        .image(0, cells.darkWash, ImageAccess::kWrite)
+        .image(1, cells.lightWash, ImageAccess::kWrite)
         .texture("guide", s.guide)
-        .set("grid", s.grid.cells())
-        .set("cellPixels", s.grid.cellPixels())
-        .dispatch(s.grid.cells(), {8, 8}, kWritten);
+        .set("grid", cells.grid.cells())
+        .set("cellPixels", cellPixels_)
+        .dispatch(cells.grid.cells(), {8, 8}, kWritten);
   }
   {
     const auto scope = timer.measure("watercolor: pigment");
-    const PaperPlace place = paperPlace(frame.canvasFromPicture);
+    const PaperPlace place = paperPlace(frame);
     passes_->pigment.use()
         .texture("tiling", s.tiling)
-        .texture("darkWash", s.darkWash)
-        .texture("lightWash", s.lightWash)
-        .set("cellPixels", s.grid.cellPixels())
+        .texture("darkWash", cells.darkWash)
+        .texture("lightWash", cells.lightWash)
+        .set("cellPixels", cellPixels_)
         .texture("paper", paper_)
         .set("paperLinear", place.linear)
         .set("paperShift", place.shift)
@@ -328,6 +308,7 @@ void Watercolor::paintWashes(const scene::ArFrame& frame, gpu::PassTimer& timer)
       .texture("guide", s.guide)
       .texture("darkPigment", s.darkPigment)
       .texture("lightPigment", s.lightPigment)
+      .set("pixelsOfFull", pixelsOfFull_)
       .set("hardness", static_cast<float>(p_.hardness))
       .set("gaps", static_cast<float>(p_.gaps))
       .set("variation", static_cast<float>(p_.variation))
@@ -335,9 +316,10 @@ void Watercolor::paintWashes(const scene::ArFrame& frame, gpu::PassTimer& timer)
 }
 
 void Watercolor::compose(const scene::ArFrame& frame, gpu::PassTimer& timer) {
-  const Surfaces& s = *surfaces_;
+  const WatercolorCanvas& s = *canvas_;
+  const WatercolorCells& cells = *cells_;
   const auto scope = timer.measure("watercolor: compose");
-  const PaperPlace place = paperPlace(frame.canvasFromPicture);
+  const PaperPlace place = paperPlace(frame);
   const bool needsMore = frame.hasFocus || p_.mosaic > 0.0;
   gpu::Program& pass = needsMore ? passes_->composeMore : passes_->compose;
   pass.use()
@@ -352,12 +334,12 @@ void Watercolor::compose(const scene::ArFrame& frame, gpu::PassTimer& timer) {
       .set("threshold", static_cast<float>(p_.edgeThreshold))
       .set("edgeSoftness", static_cast<float>(p_.edgeSoftness))
       .set("edgeDarkness", static_cast<float>(p_.edgeDarkness))
-      .set("wobble", static_cast<float>(p_.wobble))
+      .set("wobble", static_cast<float>(p_.wobble) * pixelsOfFull_)
       .set("rim", static_cast<float>(p_.rim))
       .set("granulation", static_cast<float>(p_.granulation))
       .set("grain", static_cast<float>(p_.grain));
   if (needsMore) {
-    pass.texture("means", s.means)
+    pass.texture("means", cells.means)
         .texture("frame", *frame.colour)
         .texture("normalFocus", frame.hasFocus ? *frame.normalFocus : *frame.colour)
         .set("hasFocus", frame.hasFocus ? 1 : 0)
@@ -371,26 +353,27 @@ void Watercolor::compose(const scene::ArFrame& frame, gpu::PassTimer& timer) {
 void Watercolor::showView(const scene::ArFrame& frame, std::string_view view) {
   const auto* const found = std::ranges::find(kViews, view, &ViewInfo::name);
   assert(found != kViews.end());
-  const Surfaces& s = *surfaces_;
+  const WatercolorCanvas& s = *canvas_;
+  const WatercolorCells& cells = *cells_;
   passes_->view.use()
       .texture("tiling", s.tiling)
-      .texture("means", s.means)
-      .texture("shifts", s.shifts)
+      .texture("means", cells.means)
+      .texture("shifts", cells.shifts)
       .texture("darkPigment", s.darkPigment)
       .texture("lightPigment", s.lightPigment)
       .texture("paper", paper_)
       .texture("picture", *frame.colour)
       .set("view", static_cast<int>(found - kViews.begin()))
-      .set("cellPixels", s.grid.cellPixels())
+      .set("cellPixels", cellPixels_)
       .set("pictureSize", glm::vec2(s.size.width, s.size.height))
-      .set("seed", s.seed)
+      .set("seed", seed_)
       .drawFullscreen(s.pictureTarget);
 }
 
 void Watercolor::makePaper() {
   paper_ = Texture(TextureFormat::kRgba8, {kPaperPixels, kPaperPixels}, TextureFilter::kLinear,
                    gpu::TextureWrap::kRepeat);
-  passes_->paper.use().drawFullscreen(RenderTarget({&paper_}));
+  passes_->paper.use().drawFullscreen(gpu::RenderTarget({&paper_}));
 }
 
 /// A program's real cost on software renderers is at its first use: here, not in the first frame.
@@ -402,7 +385,10 @@ void Watercolor::warmUp() {
   paint(frame, "", timer);
   paint({.colour = &grey, .normalFocus = &grey, .hasFocus = true}, "", timer);
   paint(frame, kViews.front().name, timer);
-  surfaces_.reset();
+  scaleSeeds(grey.size());
+  canvas_ = nullptr;
+  canvases_.clear();
+  cells_.reset();
   reset();
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/styles/style.h"
 #include "pipeline/styles/watercolor/watercolor_parameters.h"
+#include "pipeline/styles/watercolor/watercolor_surfaces.h"
 
 namespace pleinair::styles {
 
@@ -20,10 +22,11 @@ std::span<const ViewInfo> watercolorViews();
 /// The sheet, with all that is uneven about the paint, goes with ArFrame::canvasFromPicture. An
 /// object's silhouette (ids) counts as an edge.
 ///
-/// Time: a first frame (after reset(), another size, another `cell_size` or `seed`) starts with
-/// seeds at home and re-tiles a few times at once, so that it looks as settled as later ones. A
-/// seed moves by the share of its way that its time constant gives for the time since the frame
-/// before; a time that runs backwards counts as none, and never more than one second.
+/// Time: a first frame (after reset(), another full size, another `cell_size` or `seed`) starts
+/// with seeds at home and re-tiles a few times at once, so that it looks as settled as later ones.
+/// At another level of quality (ArFrame::fullSize) the same cells go on, their seeds scaled. A seed
+/// moves by the share of its way that its time constant gives for the time since the frame before;
+/// a time that runs backwards counts as none, and never more than one second.
 class Watercolor final : public Style {
  public:
   /// The library holds gpu::watercolorShaders().
@@ -45,7 +48,7 @@ class Watercolor final : public Style {
 
   /// What the last frame's passes left on the GPU, for tests.
   struct Inner {
-    const gpu::Buffer* seeds;       ///< vec2 a cell, row by row: px, for the next frame
+    const gpu::Buffer* seeds;       ///< vec2 a cell, row by row: px of the last, for the next
     const gpu::Texture* tiling;     ///< R32UI a pixel: shaders/tiling_word.glsl
     const gpu::Texture* means;      ///< RGBA16F a cell: linear RGB; 0 in A where it has no pixel.
                                     ///< Only after the view "means" and mosaics
@@ -57,10 +60,11 @@ class Watercolor final : public Style {
 
  private:
   struct Passes;
-  struct Surfaces;
 
   bool needsNewTiling(const scene::ArFrame& frame) const;
+  void takeCanvas(const scene::ArFrame& frame);
   void startTiling(const scene::ArFrame& frame);
+  void scaleSeeds(hal::FrameSize from);
   void tileAndRetile(const scene::ArFrame& frame, gpu::PassTimer& timer, bool atOnce,
                      bool wantsMeans);
   void paintWashes(const scene::ArFrame& frame, gpu::PassTimer& timer);
@@ -72,7 +76,12 @@ class Watercolor final : public Style {
   config::ParameterValues values_;
   WatercolorParameters p_;
   std::unique_ptr<Passes> passes_;
-  std::unique_ptr<Surfaces> surfaces_;
+  std::unique_ptr<WatercolorCells> cells_;
+  std::vector<std::unique_ptr<WatercolorCanvas>> canvases_;  // of each size that was painted
+  const WatercolorCanvas* canvas_ = nullptr;                 // of this frame
+  glm::vec2 cellPixels_{1.0F};                               // on it
+  float pixelsOfFull_ = 1.0F;                                // likewise
+  unsigned seed_ = 0;                                        // of the tiling
   gpu::Texture paper_;
   hal::TimePoint lastTime_;
   bool hasPast_ = false;

@@ -1,7 +1,9 @@
 #include "hal/outputs/frames/frames_output.h"
 #include "hal/outputs/headless/headless_output.h"
 #include "hal/outputs/movie/movie_output.h"
+#include "hal/outputs/v4l2_loopback/loopback_output.h"
 #include "tests/conformance/output_conformance.h"
+#include "tests/support/fake_loopback.h"
 
 namespace pleinair::hal::conformance {
 namespace {
@@ -29,6 +31,20 @@ OutputCase headless(const std::string& name, PixelFormat format) {
           .file = ""};
 }
 
+/// On a fake device that every output of a test opens.
+OutputCase loopback(const std::string& name, PixelFormat layout) {
+  const auto fake = std::make_shared<support::FakeLoopback>();
+  fake->node("/dev/video50");
+  return {.name = name,
+          .make =
+              [fake, layout](const auto&) {
+                return *openLoopback("loopback:/dev/video50", layout, {.calls = fake.get()});
+              },
+          .backend = "loopback",
+          .file = "",
+          .hasEvenSides = true};
+}
+
 INSTANTIATE_TEST_SUITE_P(Outputs, OutputConformance,
                          testing::Values(movie("Mp4", "movie.mp4"), movie("Mkv", "movie.mkv"),
                                          movie("Y4m", "movie.y4m"),
@@ -36,7 +52,10 @@ INSTANTIATE_TEST_SUITE_P(Outputs, OutputConformance,
                                          frames("Folder", "pictures", ""),
                                          frames("Pattern", "%03d.png", ""),
                                          headless("HeadlessRgb", PixelFormat::kRgb8),
-                                         headless("HeadlessI420", PixelFormat::kI420)),
+                                         headless("HeadlessI420", PixelFormat::kI420),
+                                         loopback("LoopbackYuyv", PixelFormat::kYuyv),
+                                         loopback("LoopbackNv12", PixelFormat::kNv12),
+                                         loopback("LoopbackI420", PixelFormat::kI420)),
                          outputCaseName);
 
 }  // namespace

@@ -64,7 +64,8 @@ std::vector<hal::CapturedFrame> framesOf(hal::PixelFormat format) {
 /// A row of frames as an output has them painted.
 struct Show {
   Painter& painter;
-  const PaintParameters parameters = painter.defaultParameters();
+  bool changesLevels = false;
+  PaintParameters parameters = painter.defaultParameters();
   const int reader = painter.openReader({hal::PixelFormat::kI420, kFrame});
   ReadPicture picture;
   std::size_t painted = 0;
@@ -73,12 +74,13 @@ struct Show {
 
   void play(const std::vector<hal::CapturedFrame>& frames) {
     for (const hal::CapturedFrame& frame : frames) {
+      if (changesLevels && painted % 2 == 0) parameters.quality = (parameters.quality + 2) % 5;
       const hal::Result<Picture> result = painter.paint(frame, parameters);
       if (!result) continue;
       ++painted;
       mostTags = std::max(mostTags, result->tracking.tags.size());
       everWorld |= result->tracking.cameraFromWorld.has_value();
-      while (painter.take(reader, picture, !painter.hasRoom(reader))) {
+      while (hal::orThrow(painter.take(reader, picture, !painter.hasRoom(reader)))) {
       }
     }
   }
@@ -104,6 +106,20 @@ INSTANTIATE_TEST_SUITE_P(Formats, PainterAllocations,
                          testing::Values(hal::PixelFormat::kI420, hal::PixelFormat::kNv12,
                                          hal::PixelFormat::kRgb8, hal::PixelFormat::kYuyv,
                                          hal::PixelFormat::kBayerRggb8));
+
+TEST_F(PainterTest, ChangesOfLevelAllocateNothing) {
+  const std::vector<hal::CapturedFrame> frames = framesOf(hal::PixelFormat::kI420);
+  Painter painter({.pictureSize = kFrame,
+                   .scene = sceneOfTags(),
+                   .expectedFormat = frames[0].image.format,
+                   .qualityLevels = true});
+  ASSERT_EQ(qualityLevels().size(), 5U);
+  Show show{.painter = painter};
+  show.play(frames);  // at full only: the others are ready
+  show.changesLevels = true;
+  EXPECT_EQ(support::allocationsIn([&] { show.play(frames); }), 0) << support::allocationSites();
+  EXPECT_EQ(show.painted, 2 * frames.size());
+}
 
 TEST_F(PainterTest, AllocationsAreCountedOnThePaintersThread) {
   Painter painter({.pictureSize = kFrame, .scene = sceneOfTags()});

@@ -120,7 +120,7 @@ TEST_F(HostContextTest, HandsTheHostItsTexture) {
   std::vector<std::uint8_t> rgba(static_cast<std::size_t>(kSize.pixels()) * 4);
   glReadPixels(0, 0, kSize.width, kSize.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  const auto rgb = bytesOf(painter.still());
+  const auto rgb = bytesOf(hal::orThrow(painter.still()));
   for (std::size_t i = 0; i < rgb.size(); ++i) ASSERT_EQ(rgba[i / 3 * 4 + i % 3], rgb[i]) << i;
 }
 
@@ -136,8 +136,8 @@ TEST_F(HostContextTest, LeavesTheHostsContextAsNew) {
       expectNothingBound();
       expectSwitchesOfANewContext();
     }
-    ASSERT_TRUE(painter.take(reader, picture, true));
-    painter.still();
+    ASSERT_TRUE(hal::orThrow(painter.take(reader, picture, true)));
+    hal::orThrow(painter.still());
     expectNothingBound();
     expectSwitchesOfANewContext();
   }
@@ -156,7 +156,7 @@ TEST_F(HostContextTest, PaintsWhateverTheHostHasSet) {
     expectNothingBound();
     expectSwitchesOfANewContext();
     host.draw();
-    EXPECT_EQ(bytesOf(painter.still()), painted(own, testFrame(i))) << i;
+    EXPECT_EQ(bytesOf(hal::orThrow(painter.still())), painted(own, testFrame(i))) << i;
   }
   const gpu::HostState tidy;
 }

@@ -42,7 +42,7 @@ inline std::vector<std::uint8_t> painted(Painter& painter, const hal::CapturedFr
                                          const PaintParameters& parameters) {
   const auto picture = painter.paint(frame, parameters);
   EXPECT_TRUE(picture) << picture.error().message();
-  return bytesOf(painter.still());
+  return bytesOf(hal::orThrow(painter.still()));
 }
 
 inline std::vector<std::uint8_t> painted(Painter& painter, const hal::CapturedFrame& frame,

@@ -97,11 +97,11 @@ TEST_F(PainterTest, ReadsStillsOfThePaintingAndOfTheCamera) {
   Painter painter(kWide);
   const hal::CapturedFrame frame = testFrame(0);
   ASSERT_TRUE(painter.paint(frame, painter.defaultParameters()));
-  const hal::Image camera = painter.cameraStill();
+  const hal::Image camera = hal::orThrow(painter.cameraStill());
   EXPECT_EQ(camera.format().pixelFormat, hal::PixelFormat::kRgb8);
   EXPECT_EQ(bytesOf(camera), bytesOf(hal::Image(frame.image)));
-  EXPECT_EQ(painter.still().format(), camera.format());
-  EXPECT_NE(bytesOf(painter.still()), bytesOf(camera));
+  EXPECT_EQ(hal::orThrow(painter.still()).format(), camera.format());
+  EXPECT_NE(bytesOf(hal::orThrow(painter.still())), bytesOf(camera));
 }
 
 TEST_F(PainterTest, ShowsEveryViewAndGoesOnTheSame) {
@@ -146,7 +146,7 @@ TEST_F(PainterTest, PaintsASinglePixel) {
         Painter painter({.pictureSize = picture, .style = style});
         painted(painter, testFrame(0, frame));
         painted(painter, testFrame(1, frame));
-        EXPECT_EQ(painter.still().size(), picture) << style;
+        EXPECT_EQ(hal::orThrow(painter.still()).size(), picture) << style;
       }
     }
   }

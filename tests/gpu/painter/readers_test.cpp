@@ -16,17 +16,17 @@ TEST_F(PainterTest, ReadsPicturesInOrder) {
   Painter painter(kPlain);
   const int reader = painter.openReader({PixelFormat::kRgb8, {96, 64}});
   ReadPicture picture;
-  EXPECT_FALSE(painter.take(reader, picture, false));
-  EXPECT_FALSE(painter.take(reader, picture, true));
+  EXPECT_FALSE(hal::orThrow(painter.take(reader, picture, false)));
+  EXPECT_FALSE(hal::orThrow(painter.take(reader, picture, true)));
   paintFrames(painter, 0, 3);
   for (int i = 0; i < 3; ++i) {
-    ASSERT_TRUE(painter.take(reader, picture, true));
+    ASSERT_TRUE(hal::orThrow(painter.take(reader, picture, true)));
     const hal::CapturedFrame frame = testFrame(i);
     EXPECT_EQ(picture.sequence, frame.sequence);
     EXPECT_EQ(picture.captureTime, frame.captureTime);
     EXPECT_EQ(bytesOf(picture.image), bytesOf(hal::Image(frame.image))) << i;
   }
-  EXPECT_FALSE(painter.take(reader, picture, true));
+  EXPECT_FALSE(hal::orThrow(painter.take(reader, picture, true)));
   EXPECT_EQ(painter.skipped(reader), 0u);
 }
 
@@ -34,11 +34,11 @@ TEST_F(PainterTest, TakesWithoutWaitingOnceTheGpuIsDone) {
   Painter painter(kPlain);
   const int reader = painter.openReader({PixelFormat::kRgb8, {96, 64}});
   paintFrames(painter, 0, 1);
-  const hal::Image still = painter.still();  // waits for the GPU
+  const hal::Image still = hal::orThrow(painter.still());  // waits for the GPU
   ReadPicture picture;
-  ASSERT_TRUE(painter.take(reader, picture, false));
+  ASSERT_TRUE(hal::orThrow(painter.take(reader, picture, false)));
   EXPECT_EQ(bytesOf(picture.image), bytesOf(still));
-  EXPECT_FALSE(painter.take(reader, picture, false));
+  EXPECT_FALSE(hal::orThrow(painter.take(reader, picture, false)));
 }
 
 TEST_F(PainterTest, SkipsPicturesWhileAReaderIsFull) {
@@ -53,15 +53,15 @@ TEST_F(PainterTest, SkipsPicturesWhileAReaderIsFull) {
   EXPECT_EQ(painter.skipped(late), 0u);
   ReadPicture picture;
   for (const std::uint64_t sequence : {0u, 1u, 2u}) {
-    ASSERT_TRUE(painter.take(slow, picture, true));
+    ASSERT_TRUE(hal::orThrow(painter.take(slow, picture, true)));
     EXPECT_EQ(picture.sequence, sequence);
   }
-  EXPECT_FALSE(painter.take(slow, picture, true));
+  EXPECT_FALSE(hal::orThrow(painter.take(slow, picture, true)));
   paintFrames(painter, 5, 6);
-  ASSERT_TRUE(painter.take(slow, picture, true));
+  ASSERT_TRUE(hal::orThrow(painter.take(slow, picture, true)));
   EXPECT_EQ(picture.sequence, 5u);
   for (const std::uint64_t sequence : {3u, 4u, 5u}) {
-    ASSERT_TRUE(painter.take(late, picture, true));
+    ASSERT_TRUE(hal::orThrow(painter.take(late, picture, true)));
     EXPECT_EQ(picture.sequence, sequence);
   }
 }
@@ -88,7 +88,7 @@ TEST_F(PainterTest, ReadsIntoSeveralLayoutsAndSizesAtOnce) {
   ReadPicture picture;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto& [format, planes] = all[i];
-    ASSERT_TRUE(painter.take(readers[i], picture, true));
+    ASSERT_TRUE(hal::orThrow(painter.take(readers[i], picture, true)));
     ASSERT_EQ(picture.image.format(), format);
     const bool isPlanar =
         format.pixelFormat == PixelFormat::kI420 || format.pixelFormat == PixelFormat::kNv12;

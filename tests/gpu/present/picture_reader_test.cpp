@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hal/error.h"
 #include "pipeline/gpu/frame_upload.h"
 #include "pipeline/present/present_shaders.h"
 #include "tests/oracles/frame_oracle.h"
@@ -43,7 +44,7 @@ class PictureReaderTest : public GlTest {
     PictureReader reader(library_, format);
     reader.submit(textureOf(rgb.view()));
     hal::Image image;
-    EXPECT_TRUE(reader.take(image, true));
+    EXPECT_TRUE(hal::orThrow(reader.take(image, true)));
     EXPECT_EQ(image.format(), format);
     return image;
   }
@@ -148,11 +149,11 @@ TEST_F(PictureReaderTest, HandsPicturesOutInTheirOrder) {
   for (int round = 0; round < 4; ++round) {  // the ring turns over
     while (reader.hasRoom()) reader.submit(grey(submitted++));
     for (int i = 0; i < 2; ++i) {
-      ASSERT_TRUE(reader.take(image, true));
+      ASSERT_TRUE(hal::orThrow(reader.take(image, true)));
       EXPECT_EQ(image.plane(0)[0], taken++);
     }
   }
-  while (reader.take(image, true)) EXPECT_EQ(image.plane(0)[0], taken++);
+  while (hal::orThrow(reader.take(image, true))) EXPECT_EQ(image.plane(0)[0], taken++);
   EXPECT_EQ(taken, submitted);
   EXPECT_EQ(submitted, 9);
 }
@@ -174,7 +175,7 @@ TEST_F(PictureReaderTest, WarmsUpWithoutATrace) {
   EXPECT_FALSE(reader.hasRoom());
   hal::Image image;
   for (const int expected : {7, 8}) {
-    ASSERT_TRUE(reader.take(image, true));
+    ASSERT_TRUE(hal::orThrow(reader.take(image, true)));
     EXPECT_EQ(image.plane(0)[15], expected);
   }
 }
@@ -189,21 +190,21 @@ TEST_F(PictureReaderTest, SaysWhetherThereIsRoom) {
   reader.submit(grey(2));
   EXPECT_FALSE(reader.hasRoom());
   hal::Image image;
-  EXPECT_TRUE(reader.take(image, true));
+  EXPECT_TRUE(hal::orThrow(reader.take(image, true)));
   EXPECT_TRUE(reader.hasRoom());
 }
 
 TEST_F(PictureReaderTest, TakesNothingWhereNothingIsAndWithoutWaitingOnlyWhatIsReady) {
   PictureReader reader(library_, {.pixelFormat = PixelFormat::kGrey8, .size = {4, 4}});
   hal::Image image;
-  EXPECT_FALSE(reader.take(image, false));
-  EXPECT_FALSE(reader.take(image, true));
+  EXPECT_FALSE(hal::orThrow(reader.take(image, false)));
+  EXPECT_FALSE(hal::orThrow(reader.take(image, true)));
   EXPECT_EQ(image.size(), FrameSize{});
   reader.submit(grey(9));
-  EXPECT_TRUE(gpu::Fence::insert().passed(GL_TIMEOUT_IGNORED));  // so the earlier one has, too
-  EXPECT_TRUE(reader.take(image, false));
+  EXPECT_TRUE(gpu::Fence::insert().wait());  // so the earlier one has, too
+  EXPECT_TRUE(hal::orThrow(reader.take(image, false)));
   EXPECT_EQ(image.plane(0)[15], 9);
-  EXPECT_FALSE(reader.take(image, false));
+  EXPECT_FALSE(hal::orThrow(reader.take(image, false)));
 }
 
 TEST_F(PictureReaderTest, KeepsTheMemoryOfTheImageItFills) {
@@ -211,7 +212,7 @@ TEST_F(PictureReaderTest, KeepsTheMemoryOfTheImageItFills) {
   hal::Image image(reader.format());
   const std::uint8_t* const memory = image.plane(0).data();
   reader.submit(grey(9));
-  ASSERT_TRUE(reader.take(image, true));
+  ASSERT_TRUE(hal::orThrow(reader.take(image, true)));
   EXPECT_EQ(image.plane(0).data(), memory);
 }
 

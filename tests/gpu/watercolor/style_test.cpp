@@ -51,6 +51,26 @@ TEST_F(WatercolorTest, AnotherSizeStartsAnew) {
   EXPECT_EQ(paintFrame(style, 0), fresh);
 }
 
+/// Another level of quality: the cells go on, seeds in the new size's px.
+TEST_F(WatercolorTest, ASmallerVersionKeepsTheSeeds) {
+  Watercolor style(library_);
+  for (int i = 0; i < 4; ++i) paintFrame(style, i);
+  const auto before = support::readBuffer<float>(*style.inner().seeds);
+  const gpu::Texture smaller = textureOf(testPicture({66, 50}, 5, 9.0).view());
+  scene::ArFrame frame = frameOf(smaller, 3);  // no time passes
+  frame.fullSize = hal::FrameSize{120, 90};
+  style.paint(frame, "", timer_);
+  const auto after = support::readBuffer<float>(*style.inner().seeds);
+  ASSERT_EQ(after.size(), before.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const float side = i % 2 == 0 ? 66.0F / 120.0F : 50.0F / 90.0F;
+    EXPECT_NEAR(after[i], side * before[i], 0.02) << i;
+  }
+  paintFrame(style, 3);
+  const auto back = support::readBuffer<float>(*style.inner().seeds);
+  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_NEAR(back[i], before[i], 0.03) << i;
+}
+
 TEST_F(WatercolorTest, KeepsWhatIsInFocusCrisp) {
   constexpr hal::FrameSize kSize{96, 64};
   const hal::Image image = testPicture(kSize, 5, 0.0);

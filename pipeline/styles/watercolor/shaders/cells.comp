@@ -21,16 +21,6 @@ uniform uint minEdgePixels;
 uniform float follow;
 uniform float drift;
 
-// At most one cell from home and from the cell's own middle, which bounds the search of tile.comp,
-// and in the picture; bounds go inwards to the lattice unless they are on it but for rounding.
-vec2 clamped(vec2 position, vec2 home, vec2 middle) {
-  vec2 low = max(max(home, middle) - cellPixels, vec2(0.0));
-  vec2 high = min(min(home, middle) + cellPixels, cellPixels * vec2(grid));
-  low = ceil(low * kSeedUnits - 0.01) / kSeedUnits;
-  high = floor(high * kSeedUnits + 0.01) / kSeedUnits;
-  return clamp(snapToLattice(position), low, high);
-}
-
 void main() {
   ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(cell, grid))) return;
@@ -59,6 +49,6 @@ void main() {
     vec2 target = vec2(whole) + vec2(edgeSum - whole * edges) / float(edges) + 0.5;
     next = mix(at, target, follow);
   }
-  seeds[index] = clamped(next, home, (vec2(cell) + 0.5) * cellPixels);
+  seeds[index] = clampedSeed(next, cell, home, grid, cellPixels);
   for (int i = 0; i < 8; ++i) sums[index * 8 + i] = 0u;
 }

@@ -1,8 +1,8 @@
 // Purpose: the two layers of paint that a place gets, the light wash and what lies there with the dark
 //          glaze over it, and how far the place is from the one to the other: all that changes slowly
 //          enough for one pixel in 2x2 of the picture.
-// Inputs:  guide (guide.frag), darkPigment and lightPigment (pigment.frag), both LINEAR; hardness, gaps
-//          and variation (watercolor_parameters.h).
+// Inputs:  guide (guide.frag), darkPigment and lightPigment (pigment.frag), both LINEAR; pixelsOfFull
+//          (ArFrame); hardness, gaps and variation (watercolor_parameters.h).
 // Outputs: darkLayer, lightLayer (RGBA8): packed densities (density.glsl); A of the dark one: the place,
 //          0 all dark, 1 all light, as 0.5 x + 0.25; of the light one: how hard the border is.
 // Precision: highp.
@@ -10,6 +10,7 @@
 uniform sampler2D guide;
 uniform sampler2D darkPigment;
 uniform sampler2D lightPigment;
+uniform float pixelsOfFull;
 uniform float hardness;
 uniform float gaps;
 uniform float variation;
@@ -34,7 +35,8 @@ void main() {
   float contrast = length(apart);
   vec3 axis = apart / max(contrast * contrast, 1.0e-4);
   float place = clamp(dot(seen - dark.rgb, axis), -0.5, 1.5);
-  float slope = 0.5 * length(vec2(dot(dFdx(seen), axis), dot(dFdy(seen), axis)));  // a px
+  float slope = 0.5 * length(vec2(dot(dFdx(seen), axis), dot(dFdy(seen), axis)));
+  slope *= pixelsOfFull;  // a px of the full picture
   float striking = contrast / (0.3 + 0.8 * dot(light.rgb, kLuma));  // the eye sees ratios
   float hard = hardness * smoothstep(0.06, 0.25, striking) * smoothstep(0.02, 0.08, slope);
 

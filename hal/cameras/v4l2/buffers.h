@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "hal/cameras/v4l2/device.h"
+#include "hal/v4l2/descriptor.h"
+#include "hal/v4l2/system_calls.h"
+
+namespace pleinair::hal::v4l2 {
+
+/// A part of a driver's buffer in our memory; unmaps itself on any thread.
+class Mapping {
+ public:
+  Mapping(SystemCalls& calls, void* address, std::size_t length)
+      : calls_(&calls), address_(address), length_(length) {}
+  Mapping(Mapping&& other) noexcept
+      : calls_(other.calls_),
+        address_(std::exchange(other.address_, nullptr)),
+        length_(other.length_) {}
+  Mapping& operator=(Mapping&&) = delete;
+  ~Mapping() {
+    if (address_ != nullptr) calls_->unmap(address_, length_);
+  }
+
+  std::span<const std::uint8_t> bytes() const {
+    return {static_cast<const std::uint8_t*>(address_), length_};
+  }
+
+ private:
+  SystemCalls* calls_;
+  void* address_;
+  std::size_t length_;
+};
+
+/// One memory plane of a buffer.
+///
+/// No sync brackets the CPU's reads: an MMAP buffer is coherent for the CPU between DQBUF and QBUF,
+/// where the driver itself cleans and invalidates its caches (vb2's finish and prepare; we ask for
+/// no V4L2_MEMORY_FLAG_NON_COHERENT). DMA_BUF_IOCTL_SYNC is for those who map the exported dma-buf.
+struct BufferPlane {
+  Mapping mapping;
+  Descriptor dmaBuf;  ///< unset where the driver exports none
+};
+
+/// The mappings of a buffer. They stay valid after the stream and its device are closed, until the
+/// last lease goes: the kernel keeps the memory of a mapping.
+struct Buffer {
+  std::vector<BufferPlane> planes;
+};
+
+/// Buffers whose leases have been dropped, on their way back to the camera's thread, which alone
+/// may give them to the driver. Thread-safe.
+class Returns {
+ public:
+  void put(std::uint32_t index) {
+    const std::scoped_lock lock(mutex_);
+    indices_.push_back(index);
+  }
+  /// Swaps what came back into `into`, which is empty and keeps its memory.
+  void take(std::vector<std::uint32_t>& into) {
+    const std::scoped_lock lock(mutex_);
+    std::swap(indices_, into);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::uint32_t> indices_;
+};
+
+/// The buffers of one stream, shared with the driver. Gives them back when destroyed; leased ones
+/// live on as orphans.
+class BufferSet {
+ public:
+  /// Allocates, maps and exports. `neededBytes` of each memory plane; 0 of a JPEG's. Errors: kBusy,
+  /// kUnsupported (too few, or too small for the format), kIo.
+  static Result<BufferSet> allocate(const Device& device,
+                                    const std::vector<std::size_t>& neededBytes);
+
+  BufferSet(BufferSet&& other) noexcept
+      : device_(std::exchange(other.device_, nullptr)), buffers_(std::move(other.buffers_)) {}
+  BufferSet& operator=(BufferSet&&) = delete;
+  ~BufferSet();
+
+  std::uint32_t count() const { return static_cast<std::uint32_t>(buffers_.size()); }
+  const std::shared_ptr<const Buffer>& at(std::uint32_t index) const { return buffers_.at(index); }
+
+ private:
+  explicit BufferSet(const Device& device) : device_(&device) {}
+
+  const Device* device_;
+  std::vector<std::shared_ptr<const Buffer>> buffers_;
+};
+
+}  // namespace pleinair::hal::v4l2

@@ -1,0 +1,45 @@
+#include "hal/cameras/v4l2/chronology.h"
+
+#include <algorithm>
+
+#include <linux/videodev2.h>
+
+namespace pleinair::hal::v4l2 {
+namespace {
+
+/// Of two 32-bit numbers that wrap; a step of half the range and more is one backwards.
+std::uint32_t framesBetween(std::uint32_t last, std::uint32_t next) {
+  const std::uint32_t step = next - last;
+  return step == 0 || step > 0x7FFFFFFF ? 0 : step - 1;
+}
+
+TimestampSource sourceOf(std::uint32_t flags) {
+  const bool isStart = (flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
+  return isStart ? TimestampSource::kStartOfExposure : TimestampSource::kEndOfReadout;
+}
+
+}  // namespace
+
+void Chronology::stamp(const Filled& filled, bool wasStarving, TimePoint now,
+                       CapturedFrame& frame) {
+  frame.droppedBefore =
+      lastDeviceSequence_ ? framesBetween(*lastDeviceSequence_, filled.sequence) : 0;
+  frame.starvedBefore = wasStarving ? frame.droppedBefore : 0;
+  frame.sequence = nextSequence_ + frame.droppedBefore;
+  lastDeviceSequence_ = filled.sequence;
+  nextSequence_ = frame.sequence + 1;
+
+  const bool isMonotonic =
+      (filled.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
+  const TimePoint deviceTime(filled.timestamp);
+  const bool isSet = filled.timestamp > Duration::zero();
+  const bool isTrusted =
+      isMonotonic && isSet && deviceTime <= now && (!lastTime_ || deviceTime > *lastTime_);
+  frame.captureTime = isTrusted ? deviceTime : now;
+  frame.timestampSource = isTrusted ? sourceOf(filled.flags) : TimestampSource::kArrival;
+  if (isSet) frame.deviceTime = filled.timestamp;
+  if (lastTime_) frame.captureTime = std::max(frame.captureTime, *lastTime_ + Duration(1));
+  lastTime_ = frame.captureTime;
+}
+
+}  // namespace pleinair::hal::v4l2

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "hal/cameras/v4l2/stream.h"
+#include "hal/captured_frame.h"
+#include "hal/clock.h"
+
+namespace pleinair::hal::v4l2 {
+
+/// Numbers and dates a device's frames so that both rise strictly, whatever its driver says.
+class Chronology {
+ public:
+  /// The device counts anew (it was restarted); our numbers go on. What was lost meanwhile nobody
+  /// knows.
+  void deviceRestarted() { lastDeviceSequence_.reset(); }
+
+  /// Sets sequence, droppedBefore, starvedBefore, captureTime, timestampSource and deviceTime.
+  ///
+  /// A gap in the driver's numbers is frames lost: for want of a buffer where `wasStarving`. Its
+  /// first number counts as ours 0, since some drivers count on from their last stream; a number
+  /// that does not rise is taken for the next one.
+  ///
+  /// The driver's time holds where it is CLOCK_MONOTONIC's, lies in the past and rises: the start
+  /// of the exposure where the driver says so, else the end of the read-out. Else it is `now`.
+  void stamp(const Filled& filled, bool wasStarving, TimePoint now, CapturedFrame& frame);
+
+ private:
+  std::optional<std::uint32_t> lastDeviceSequence_;
+  std::uint64_t nextSequence_ = 0;
+  std::optional<TimePoint> lastTime_;
+};
+
+}  // namespace pleinair::hal::v4l2

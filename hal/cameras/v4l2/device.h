@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "hal/error.h"
+#include "hal/v4l2/capability.h"
+#include "hal/v4l2/descriptor.h"
+#include "hal/v4l2/system_calls.h"
+
+namespace pleinair::hal::v4l2 {
+
+/// An open capture node. One thread at a time; closes with its last owner.
+class Device {
+ public:
+  /// Opens without blocking. Errors: kNotFound, kPermissionDenied, kBusy, kUnsupported (it captures
+  /// no video, or cannot stream it), kIo.
+  static Result<Device> open(SystemCalls& calls, const std::string& node);
+
+  /// 0 or more, or −errno.
+  template <class Argument>
+  int ask(unsigned long request, Argument& argument) const {
+    return calls_->ioctl(descriptor_.get(), request, &argument);
+  }
+
+  SystemCalls& calls() const { return *calls_; }
+  int fd() const { return descriptor_.get(); }
+  const std::string& node() const { return node_; }
+  const Capability& capability() const { return capability_; }
+  /// The multi-planar interface where the device has only that.
+  bool isMultiPlanar() const;
+  /// V4L2_BUF_TYPE_VIDEO_CAPTURE or …_MPLANE.
+  std::uint32_t bufferType() const;
+
+  /// "/dev/video0: `problem`: the system's text". `answer` is a negative one of ask().
+  Error failure(std::string problem, int answer) const;
+
+ private:
+  Device(SystemCalls& calls, std::string node, Descriptor descriptor, Capability capability);
+
+  SystemCalls* calls_;
+  std::string node_;
+  Descriptor descriptor_;
+  Capability capability_;
+};
+
+/// Whether −errno says that the device has been unplugged, or will answer nothing any more.
+bool meansLost(int answer);
+
+}  // namespace pleinair::hal::v4l2

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "hal/camera.h"
+#include "hal/cameras/v4l2/chronology.h"
+#include "hal/cameras/v4l2/device.h"
+#include "hal/cameras/v4l2/format.h"
+#include "hal/cameras/v4l2/stream.h"
+
+namespace pleinair::hal::v4l2 {
+
+/// A camera from start() to stop(). One thread; the frames go anywhere.
+class Session {
+ public:
+  Session(Device device, const StreamRequest& request, Clock& clock);
+
+  /// Sets the controls, negotiates and starts. Errors as of Camera::start().
+  Result<StreamFormat> begin();
+  /// As Camera::next().
+  NextFrame next(TimePoint deadline);
+
+ private:
+  /// What ends a wait, or nothing where the driver only seemed to have something.
+  std::optional<NextFrame> step(TimePoint deadline);
+  std::optional<NextFrame> readFrame(TimePoint deadline);
+  CapturedFrame frameOf(Filled filled);
+  /// Whether the pixels begin where a whole picture has room; puts them there if not.
+  bool fitIntoBuffer(Filled& filled) const;
+  void lendPixels(const Filled& filled, CapturedFrame& frame);
+  void decodePixels(const Filled& filled, CapturedFrame& frame);
+  ImageView viewOf(const Filled& filled) const;
+  bool isSourceChanged() const;
+  Result<void> restart();
+  std::optional<NextFrame> followSource();
+  /// Keeps the answer for every later call.
+  NextFrame end(NextFrame answer);
+  NextFrame fail(std::string problem, int answer);
+
+  Device device_;
+  StreamRequest request_;
+  Clock& clock_;
+  Negotiated negotiated_;
+  Chronology chronology_;
+  std::unique_ptr<Stream> stream_;  ///< before device_ goes
+  bool wasStarving_ = false;
+  int requeueFailure_ = 0;
+  std::shared_ptr<const void> lastLease_;  ///< of the last sound JPEG
+  ImageView lastPicture_;
+  std::optional<NextFrame> ended_;
+};
+
+}  // namespace pleinair::hal::v4l2

@@ -1,0 +1,137 @@
+#include "hal/cameras/v4l2/stream.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <utility>
+
+#include <linux/videodev2.h>
+
+namespace pleinair::hal::v4l2 {
+namespace {
+
+/// Tells the stream, when the last copy goes, that its buffer is free; keeps the mapping until
+/// then.
+class Lease {
+ public:
+  Lease(std::shared_ptr<const Buffer> buffer, std::shared_ptr<Returns> returns, std::uint32_t index)
+      : buffer_(std::move(buffer)), returns_(std::move(returns)), index_(index) {}
+  ~Lease() { returns_->put(index_); }
+  Lease(const Lease&) = delete;
+  Lease& operator=(const Lease&) = delete;
+
+ private:
+  std::shared_ptr<const Buffer> buffer_;
+  std::shared_ptr<Returns> returns_;
+  std::uint32_t index_;
+};
+
+/// A v4l2_buffer with the planes that the multi-planar interface wants.
+struct BufferRequest {
+  explicit BufferRequest(const Device& device) {
+    buffer.type = device.bufferType();
+    buffer.memory = V4L2_MEMORY_MMAP;
+    if (!device.isMultiPlanar()) return;
+    buffer.m.planes = planes.data();
+    buffer.length = static_cast<std::uint32_t>(planes.size());
+  }
+  BufferRequest(const BufferRequest&) = delete;
+  BufferRequest& operator=(const BufferRequest&) = delete;
+
+  v4l2_buffer buffer{};
+  std::array<v4l2_plane, VIDEO_MAX_PLANES> planes{};
+};
+
+Duration durationOf(const timeval& time) {
+  return std::chrono::seconds(time.tv_sec) + std::chrono::microseconds(time.tv_usec);
+}
+
+std::vector<std::size_t> neededBytesOf(const Negotiated& negotiated) {
+  std::vector<std::size_t> needed;
+  for (int i = 0; i < negotiated.layout->memoryPlanes; ++i) {
+    needed.push_back(negotiated.layout->isJpeg
+                         ? 0
+                         : neededBytes(negotiated.places, negotiated.stream.frame.pixelFormat, i));
+  }
+  return needed;
+}
+
+/// Whether the device tells when its source changes; many have no such event.
+bool subscribeToSourceChanges(const Device& device) {
+  v4l2_event_subscription subscription{};
+  subscription.type = V4L2_EVENT_SOURCE_CHANGE;
+  return device.ask(VIDIOC_SUBSCRIBE_EVENT, subscription) >= 0;
+}
+
+}  // namespace
+
+Stream::Stream(const Device& device, BufferSet buffers)
+    : device_(device), buffers_(std::move(buffers)) {}
+
+Result<std::unique_ptr<Stream>> Stream::start(const Device& device, const Negotiated& negotiated) {
+  Result<BufferSet> buffers = BufferSet::allocate(device, neededBytesOf(negotiated));
+  if (!buffers) return tl::unexpected(std::move(buffers.error()));
+  std::unique_ptr<Stream> stream(new Stream(device, *std::move(buffers)));
+  for (std::uint32_t index = 0; index < stream->buffers_.count(); ++index) {
+    if (const int answer = stream->queue(index); answer < 0) {
+      return tl::unexpected(device.failure("does not take its buffers", answer));
+    }
+  }
+  stream->hasEvents_ = subscribeToSourceChanges(device);
+  int type = static_cast<int>(device.bufferType());
+  if (const int answer = device.ask(VIDIOC_STREAMON, type); answer < 0) {
+    return tl::unexpected(device.failure("cannot start streaming", answer));
+  }
+  return stream;
+}
+
+Stream::~Stream() {
+  int type = static_cast<int>(device_.bufferType());
+  device_.ask(VIDIOC_STREAMOFF, type);  // a device that is gone refuses, and does not stream either
+}
+
+int Stream::queue(std::uint32_t index) {
+  BufferRequest request(device_);
+  request.buffer.index = index;
+  return device_.ask(VIDIOC_QBUF, request.buffer);
+}
+
+int Stream::queueReturned() {
+  returned_.clear();
+  returns_->take(returned_);
+  int failure = 0;
+  for (const std::uint32_t index : returned_) {
+    --lent_;
+    if (const int answer = queue(index); answer < 0) failure = answer;
+  }
+  return failure;
+}
+
+int Stream::dequeue(Filled& filled) {
+  BufferRequest request(device_);
+  if (const int answer = device_.ask(VIDIOC_DQBUF, request.buffer); answer < 0) return answer;
+  const v4l2_buffer& buffer = request.buffer;
+  if (buffer.index >= buffers_.count()) return -EIO;  // a driver that answers nonsense
+  filled = {.index = buffer.index,
+            .flags = buffer.flags,
+            .sequence = buffer.sequence,
+            .timestamp = durationOf(buffer.timestamp),
+            .planes = {}};
+  if (!device_.isMultiPlanar()) {
+    filled.planes[0].usedBytes = buffer.bytesused;
+    return 0;
+  }
+  for (std::size_t i = 0; i < filled.planes.size(); ++i) {
+    const v4l2_plane& plane = request.planes.at(i);
+    const std::size_t offset = std::min(plane.data_offset, plane.bytesused);
+    filled.planes.at(i) = {.offsetBytes = offset, .usedBytes = plane.bytesused - offset};
+  }
+  return 0;
+}
+
+std::shared_ptr<const void> Stream::lend(std::uint32_t index) {
+  ++lent_;
+  return std::make_shared<const Lease>(buffers_.at(index), returns_, index);
+}
+
+}  // namespace pleinair::hal::v4l2

@@ -1,0 +1,180 @@
+#include "hal/outputs/v4l2_loopback/loopback_output.h"
+
+#include <cassert>
+#include <cerrno>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <linux/videodev2.h>
+
+#include "hal/outputs/v4l2_loopback/negotiation.h"
+#include "hal/v4l2/capability.h"
+#include "hal/v4l2/descriptor.h"
+
+namespace pleinair::hal {
+namespace {
+
+constexpr std::string_view kName = "loopback";
+
+std::string remedyOfOpening(int errnoValue) {
+  switch (errnoValue) {
+    case ENOENT:
+    case ENXIO:
+    case ENODEV:
+      return kLoadLoopback;
+    case EACCES:
+    case EPERM:
+      return kJoinVideo;
+    case EBUSY:
+      return "too many programs have it open: end one, or raise v4l2loopback's max_openers";
+    default:
+      return {};
+  }
+}
+
+class LoopbackOutput final : public MemoryOutput {
+ public:
+  LoopbackOutput(std::string device, std::optional<PixelFormat> layout, const V4l2System& system)
+      : device_(std::move(device)), layout_(layout), system_(system) {}
+  ~LoopbackOutput() override { stopStream(); }
+
+  OutputIdentity identity() const override {
+    return {.backend = std::string(kName), .id = device_.empty() ? std::string(kName) : device_};
+  }
+
+  Result<OutputFormat> start(const OutputRequest& request) override {
+    assert(!descriptor_);
+    if (!isAcceptedSize(request.size)) {
+      return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
+                                  .subject = identity().id,
+                                  .problem = "cannot take this size",
+                                  .remedy = "use 1 to 8192 px a side and at most 64 Mpx"});
+    }
+    Result<std::string> node = findLoopback(device_, system_);
+    if (!node) return tl::unexpected(node.error());
+    device_ = *std::move(node);
+    if (Result<void> opened = open(); !opened) return tl::unexpected(opened.error());
+    const Result<loopback::Agreement> agreement =
+        loopback::negotiate(calls(), descriptor_.get(), device_, request, layout_);
+    if (!agreement) return tl::unexpected(agreement.error());
+    frame_.assign(agreement->frameBytes, 0);
+    picture_ = agreement->layout;
+    if (request.framePeriod) {
+      loopback::announceRate(calls(), descriptor_.get(), *request.framePeriod);
+    }
+    startStream();
+    return OutputFormat{.frame = picture_.format, .refreshPeriod = std::nullopt};
+  }
+
+  Result<void> write(const ImageView& picture, Duration) override {
+    assert(descriptor_);
+    picture_.pack(picture, frame_);
+    const std::int64_t written = calls().write(descriptor_.get(), frame_);
+    if (written == -EAGAIN) {
+      ++skipped_;
+      return {};
+    }
+    if (written < 0) return tl::unexpected(failure(static_cast<int>(-written)));
+    if (written == static_cast<std::int64_t>(frame_.size())) return {};
+    return tl::unexpected(Error{.kind = ErrorKind::kIo,
+                                .subject = device_,
+                                .problem = "took " + std::to_string(written) + " of the " +
+                                           std::to_string(frame_.size()) + " bytes of a picture",
+                                .remedy = "something else changed its format: start again"});
+  }
+
+  Result<void> finish() override {
+    assert(descriptor_);
+    stopStream();
+    descriptor_.reset();
+    return {};
+  }
+
+  std::uint64_t skippedPictures() const override { return skipped_; }
+
+ private:
+  v4l2::SystemCalls& calls() const { return *system_.calls; }
+
+  Result<void> open() {
+    const int opened = calls().open(device_.c_str(), O_RDWR | O_NONBLOCK);
+    if (opened < 0) {
+      return tl::unexpected(errnoError(device_, "cannot open", -opened, remedyOfOpening(-opened)));
+    }
+    descriptor_ = v4l2::Descriptor(calls(), opened);
+    const Result<v4l2::Capability> capability = v4l2::queryCapability(calls(), opened, device_);
+    if (!capability) return tl::unexpected(capability.error());
+    if (capability->has(V4L2_CAP_VIDEO_OUTPUT) && capability->has(V4L2_CAP_READWRITE)) return {};
+    if (capability->driver == "v4l2 loopback") return tl::unexpected(loopbackInUse(device_));
+    return tl::unexpected(
+        Error{.kind = ErrorKind::kUnsupported,
+              .subject = device_,
+              .problem = "(" + capability->card + ") takes no pictures by write()",
+              .remedy = "give a loopback's node; `pleinair devices` lists them"});
+  }
+
+  /// Newer versions of v4l2loopback refuse without buffers of ours, and start with the first
+  /// write(). Those before 0.13 want it: closed without, a device with exclusive_caps=1 takes no
+  /// pictures any more until the module is loaded again (its issue 470).
+  void startStream() {
+    int type = V4L2_BUF_TYPE_VIDEO_OUTPUT;
+    isStreaming_ = calls().ioctl(descriptor_.get(), VIDIOC_STREAMON, &type) >= 0;
+  }
+  /// 0.13 counts these: without, a reader that stays holds the format for good.
+  void stopStream() {
+    int type = V4L2_BUF_TYPE_VIDEO_OUTPUT;
+    if (!std::exchange(isStreaming_, false)) return;
+    calls().ioctl(descriptor_.get(), VIDIOC_STREAMOFF, &type);
+  }
+
+  Error failure(int errnoValue) const {
+    if (errnoValue == EBUSY) return loopbackInUse(device_);
+    Error error = errnoError(device_, "cannot write", errnoValue);
+    const bool isLost = errnoValue == ENODEV || errnoValue == ENXIO || errnoValue == EIO;
+    error.kind = isLost ? ErrorKind::kDeviceLost : ErrorKind::kIo;
+    return error;
+  }
+
+  std::string device_;  ///< as named, then its node
+  std::optional<PixelFormat> layout_;
+  V4l2System system_;
+  v4l2::Descriptor descriptor_;
+  loopback::FrameLayout picture_;
+  std::vector<std::uint8_t> frame_;
+  std::uint64_t skipped_ = 0;
+  bool isStreaming_ = false;
+};
+
+Error invalid(const std::string& name, std::string problem, std::string remedy) {
+  return {.kind = ErrorKind::kInvalidArgument,
+          .subject = name,
+          .problem = std::move(problem),
+          .remedy = std::move(remedy)};
+}
+
+}  // namespace
+
+bool isLoopbackName(const std::string& name) {
+  return name == kName || name.starts_with(std::string(kName) + ":");
+}
+
+Result<std::unique_ptr<MemoryOutput>> openLoopback(const std::string& name,
+                                                   std::optional<PixelFormat> layout,
+                                                   const V4l2System& system) {
+  const bool isBare = name == kName;
+  if (!isLoopbackName(name) || (!isBare && name.size() == kName.size() + 1)) {
+    return tl::unexpected(invalid(name, "names no loopback",
+                                  "give loopback, loopback:/dev/video50 or loopback:LABEL"));
+  }
+  if (layout && *layout != PixelFormat::kYuyv && *layout != PixelFormat::kNv12 &&
+      *layout != PixelFormat::kI420) {
+    return tl::unexpected(
+        invalid(name, "cannot write " + std::string(toString(*layout)), "give yuyv, nv12 or i420"));
+  }
+  const std::string device = isBare ? "" : name.substr(kName.size() + 1);
+  return std::make_unique<LoopbackOutput>(device, layout, system);
+}
+
+}  // namespace pleinair::hal

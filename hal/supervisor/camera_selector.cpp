@@ -1,0 +1,201 @@
+#include "hal/supervisor/camera_selector.h"
+
+#include <algorithm>
+#include <cassert>
+#include <iterator>
+#include <utility>
+
+namespace pleinair::hal {
+namespace {
+
+constexpr std::string_view kAuto = "auto";
+constexpr std::string_view kSerial = "serial";
+
+/// "BACKEND:NAME" or "BACKEND".
+struct Choice {
+  std::string_view backend;
+  std::string_view name;
+};
+
+Choice choiceOf(std::string_view text) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string_view::npos) return {.backend = text, .name = {}};
+  return {.backend = text.substr(0, colon), .name = text.substr(colon + 1)};
+}
+
+bool isSameCamera(const CameraIdentity& a, const CameraIdentity& b) {
+  return a.backend == b.backend && a.id == b.id;
+}
+
+std::string joined(const std::vector<std::string>& texts, std::string_view between) {
+  std::string all;
+  for (const std::string& text : texts) {
+    if (!all.empty()) all += between;
+    all += text;
+  }
+  return all;
+}
+
+/// "1) …; 2) …", as one error of the kind that all agree on.
+Error noneWorks(const std::string& choice, const std::vector<Error>& reasons) {
+  Error error{.kind = ErrorKind::kNotFound,
+              .subject = choice,
+              .problem = "there is no camera",
+              .remedy = "plug one in, or choose another camera.source"};
+  if (reasons.empty()) return error;
+  std::vector<std::string> texts;
+  for (const Error& reason : reasons) {
+    texts.push_back(std::to_string(texts.size() + 1) + ") " + reason.message());
+  }
+  error.problem = "no camera works: " + joined(texts, "; ");
+  const auto isOfTheFirstKind = [&](const Error& each) { return each.kind == reasons[0].kind; };
+  if (std::ranges::all_of(reasons, isOfTheFirstKind)) error.kind = reasons[0].kind;
+  return error;
+}
+
+}  // namespace
+
+CameraSelector::CameraSelector(std::vector<SelectableBackend> backends, std::string choice,
+                               Clock& clock, CameraWrapper wrapper)
+    : backends_(std::move(backends)),
+      choice_(std::move(choice)),
+      clock_(clock),
+      wrapper_(std::move(wrapper)) {
+  assert(!backends_.empty());
+}
+
+Result<void> CameraSelector::check() const {
+  const auto [backend, name] = choiceOf(choice_);
+  const bool isSerial = backend == kSerial && !name.empty();
+  if (choice_ == kAuto || isSerial || backendNamed(backend)) return {};
+  std::vector<std::string> choices{std::string(kAuto), std::string(kSerial) + ":NUMBER"};
+  for (const SelectableBackend& each : backends_) {
+    choices.emplace_back(each.backend->name());
+    choices.push_back(std::string(each.backend->name()) + ":ID");
+  }
+  return tl::unexpected(Error{.kind = ErrorKind::kInvalidArgument,
+                              .subject = choice_.empty() ? "\"\"" : choice_,
+                              .problem = "is no camera",
+                              .remedy = "choose one of: " + joined(choices, ", ")});
+}
+
+Result<OpenedCamera> CameraSelector::open(const StreamRequest& request) {
+  if (const Result<void> sound = check(); !sound) return tl::unexpected(sound.error());
+  const auto [backendName, name] = choiceOf(choice_);
+  if (choice_ == kAuto) return openFirst(listed(devices()), request);
+  if (const SelectableBackend* backend = backendNamed(backendName)) {
+    return name.empty() ? openFirst(listed({backend}), request)
+                        : openNamed(*backend, name, request);
+  }
+  return openSerial(name, request);
+}
+
+CameraSelector::Candidates CameraSelector::listed(
+    const std::vector<const SelectableBackend*>& backends) const {
+  Candidates candidates;
+  for (const SelectableBackend* backend : backends) {
+    Result<std::vector<CameraDescription>> list = backend->backend->list();
+    if (!list) {
+      candidates.problems.push_back(std::move(list.error()));
+      continue;
+    }
+    for (CameraDescription& description : *list) {
+      candidates.found.push_back({.backend = backend, .description = std::move(description)});
+    }
+  }
+  return candidates;
+}
+
+std::vector<const SelectableBackend*> CameraSelector::devices() const {
+  std::vector<const SelectableBackend*> devices;
+  for (const SelectableBackend& each : backends_) {
+    if (each.isDevice) devices.push_back(&each);
+  }
+  return devices;
+}
+
+const SelectableBackend* CameraSelector::backendNamed(std::string_view name) const {
+  const auto found = std::ranges::find_if(
+      backends_, [&](const SelectableBackend& each) { return each.backend->name() == name; });
+  return found == backends_.end() ? nullptr : &*found;
+}
+
+Result<OpenedCamera> CameraSelector::openFirst(Candidates candidates,
+                                               const StreamRequest& request) {
+  sortLastOnesLast(candidates.found);
+  std::vector<Error> reasons = std::move(candidates.problems);
+  for (const Candidate& candidate : candidates.found) {
+    if (candidate.description.problem) {
+      reasons.push_back(*candidate.description.problem);
+      continue;
+    }
+    Result<OpenedCamera> opened = start(candidate, request);
+    if (opened) return opened;
+    reasons.push_back(std::move(opened.error()));
+  }
+  return tl::unexpected(noneWorks(choice_, reasons));
+}
+
+Result<OpenedCamera> CameraSelector::openSerial(std::string_view serial,
+                                                const StreamRequest& request) {
+  Candidates candidates = listed(devices());
+  std::vector<std::string> serials;
+  for (const Candidate& each : candidates.found) {
+    if (each.description.serial == serial) return start(each, request);
+    if (!each.description.serial.empty()) serials.push_back(each.description.serial);
+  }
+  std::string problem = "no camera with that serial number is there";
+  for (const Error& each : candidates.problems) problem += "; " + each.message();
+  return tl::unexpected(Error{.kind = ErrorKind::kNotFound,
+                              .subject = choice_,
+                              .problem = std::move(problem),
+                              .remedy = serials.empty() ? "none that is there has one"
+                                                        : "there are: " + joined(serials, ", ")});
+}
+
+Result<OpenedCamera> CameraSelector::openNamed(const SelectableBackend& backend,
+                                               std::string_view name,
+                                               const StreamRequest& request) {
+  for (const Candidate& each : listed({&backend}).found) {
+    if (each.description.node == name) return start(each, request);
+  }
+  // What is not listed may be another name that the back end knows; if not, it says what there is.
+  const CameraIdentity identity{
+      .backend = std::string(backend.backend->name()), .id = std::string(name), .description = {}};
+  return start({.backend = &backend, .description = {.identity = identity}}, request);
+}
+
+Result<OpenedCamera> CameraSelector::start(const Candidate& candidate,
+                                           const StreamRequest& request) {
+  const SelectableBackend& from = *candidate.backend;
+  const CameraFactory make = [backend = from.backend, id = candidate.description.identity.id](
+                                 Clock& clock) { return backend->make(id, clock); };
+  OpenedCamera opened{.camera = from.isDevice && wrapper_ ? wrapper_(make) : make(clock_),
+                      .format = {},
+                      .isDevice = from.isDevice};
+  Result<StreamFormat> format = opened.camera->start(request);
+  if (!format) return tl::unexpected(std::move(format.error()));
+  opened.format = *format;
+  return opened;
+}
+
+void CameraSelector::putLast(const CameraIdentity& camera) {
+  wasOfUse(camera);
+  last_.push_back(camera);
+}
+
+void CameraSelector::wasOfUse(const CameraIdentity& camera) {
+  std::erase_if(last_, [&](const CameraIdentity& each) { return isSameCamera(each, camera); });
+}
+
+void CameraSelector::sortLastOnesLast(std::vector<Candidate>& candidates) const {
+  const auto rank = [&](const Candidate& candidate) {
+    const auto found = std::ranges::find_if(last_, [&](const CameraIdentity& each) {
+      return isSameCamera(each, candidate.description.identity);
+    });
+    return found == last_.end() ? std::ptrdiff_t{-1} : std::distance(last_.begin(), found);
+  };
+  std::ranges::stable_sort(candidates, {}, rank);
+}
+
+}  // namespace pleinair::hal

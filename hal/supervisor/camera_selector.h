@@ -1,0 +1,96 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/camera.h"
+#include "hal/camera_backend.h"
+#include "hal/clock.h"
+#include "hal/error.h"
+
+namespace pleinair::hal {
+
+/// A back end as the selector sees it.
+struct SelectableBackend {
+  /// Shared with cameras that were abandoned in the middle of a call.
+  std::shared_ptr<CameraBackend> backend;
+  /// Whether its cameras are devices, which come and go: "auto" and "serial:" look among those, and
+  /// the supervisor watches them for silence. Recordings and simulations are not.
+  bool isDevice = true;
+};
+
+/// A camera that was started.
+struct OpenedCamera {
+  std::unique_ptr<Camera> camera;
+  StreamFormat format;
+  bool isDevice = true;
+};
+
+/// Makes a camera that tells time by that clock; keeps alive what the camera needs.
+using CameraFactory = std::function<std::unique_ptr<Camera>(Clock& clock)>;
+/// Puts a device's camera onto something else, such as a thread of its own (worker_camera.h).
+using CameraWrapper = std::function<std::unique_ptr<Camera>(CameraFactory make)>;
+
+/// Finds the camera that a choice names among those of all back ends, and opens it:
+/// - "v4l2": the back end's first that works,
+/// - "v4l2:usb-046d…": by stable id, or by node: "v4l2:/dev/video0",
+/// - "serial:ABC123": the device with that serial number, whichever back end has it,
+/// - "auto": the first device that works, the back ends in their order.
+/// One thread at a time.
+class CameraSelector {
+ public:
+  /// `wrapper` is for devices only. The clock outlives the cameras. Precondition: some back end;
+  /// their names differ.
+  CameraSelector(std::vector<SelectableBackend> backends, std::string choice, Clock& clock,
+                 CameraWrapper wrapper = {});
+  CameraSelector(const CameraSelector&) = delete;
+  CameraSelector& operator=(const CameraSelector&) = delete;
+
+  const std::string& choice() const { return choice_; }
+
+  /// Whether the choice names something that could be: kInvalidArgument with the choices there are
+  /// where it has no known back end's name. Nothing is opened.
+  Result<void> check() const;
+
+  /// Starts the camera that the choice means. Errors: that of check(); the camera's own where one
+  /// was named; where there were several or none, kNotFound or the kind they agree on, with each
+  /// candidate and the reason why not.
+  Result<OpenedCamera> open(const StreamRequest& request);
+
+  /// A camera opened but was of no use: where there is a choice, it is tried after the others from
+  /// now on, until it has been of use.
+  void putLast(const CameraIdentity& camera);
+  void wasOfUse(const CameraIdentity& camera);
+
+ private:
+  struct Candidate {
+    const SelectableBackend* backend;
+    CameraDescription description;
+  };
+  struct Candidates {
+    std::vector<Candidate> found;
+    std::vector<Error> problems;  ///< of back ends that could not list theirs
+  };
+  Candidates listed(const std::vector<const SelectableBackend*>& backends) const;
+  std::vector<const SelectableBackend*> devices() const;
+  const SelectableBackend* backendNamed(std::string_view name) const;
+
+  Result<OpenedCamera> openFirst(Candidates candidates, const StreamRequest& request);
+  Result<OpenedCamera> openSerial(std::string_view serial, const StreamRequest& request);
+  Result<OpenedCamera> openNamed(const SelectableBackend& backend, std::string_view name,
+                                 const StreamRequest& request);
+  Result<OpenedCamera> start(const Candidate& candidate, const StreamRequest& request);
+  void sortLastOnesLast(std::vector<Candidate>& candidates) const;
+
+  std::vector<SelectableBackend> backends_;
+  std::string choice_;
+  Clock& clock_;
+  CameraWrapper wrapper_;
+  std::vector<CameraIdentity> last_;
+};
+
+}  // namespace pleinair::hal

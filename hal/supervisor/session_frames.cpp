@@ -1,0 +1,52 @@
+#include "hal/supervisor/session_frames.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace pleinair::hal {
+
+FrameCounts FrameCounts::operator+(const FrameCounts& other) const {
+  return {.delivered = delivered + other.delivered,
+          .dropped = dropped + other.dropped,
+          .starved = starved + other.starved,
+          .lostInStall = lostInStall + other.lostInStall,
+          .corrupt = corrupt + other.corrupt,
+          .misTimed = misTimed + other.misTimed};
+}
+
+std::variant<SupervisedFrame, FrameRefusal> SessionFrames::take(CapturedFrame frame, TimePoint now,
+                                                                bool isStalled) {
+  const std::uint64_t starved = std::min(frame.starvedBefore, frame.droppedBefore);
+  const std::uint64_t lost = frame.droppedBefore - starved;
+  waiting_.starved += starved;
+  waiting_.dropped += starved + (isStalled ? 0 : lost);
+  waiting_.lostInStall += isStalled ? lost : 0;
+  if (const auto refusal = refusalOf(frame, now)) {
+    ++(*refusal == FrameRefusal::kCorrupt ? waiting_.corrupt : waiting_.misTimed);
+    return *refusal;
+  }
+
+  frame.sequence = (counts_ + waiting_).made();
+  frame.droppedBefore = waiting_.dropped + waiting_.lostInStall;
+  frame.starvedBefore = waiting_.starved;
+  lastTime_ = frame.captureTime;
+  SupervisedFrame taken{.frame = std::move(frame),
+                        .lostInStall = waiting_.lostInStall,
+                        .corruptBefore = waiting_.corrupt,
+                        .misTimedBefore = waiting_.misTimed};
+  waiting_.delivered = 1;
+  counts_ = counts_ + waiting_;
+  waiting_ = {};
+  return taken;
+}
+
+std::optional<FrameRefusal> SessionFrames::refusalOf(const CapturedFrame& frame,
+                                                     TimePoint now) const {
+  if (!frame.image.isComplete()) return FrameRefusal::kCorrupt;
+  if (lastTime_ && frame.captureTime <= *lastTime_) return FrameRefusal::kMisTimed;
+  // One such frame would make all that follow look late.
+  if (isDevice_ && frame.captureTime > now + kFutureTolerance) return FrameRefusal::kMisTimed;
+  return std::nullopt;
+}
+
+}  // namespace pleinair::hal

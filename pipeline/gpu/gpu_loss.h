@@ -1,0 +1,50 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "hal/clock.h"
+#include "hal/error.h"
+
+namespace pleinair::gpu {
+
+/// How a lost GPU is noticed. Empty functions are the driver's own; tests put theirs in their
+/// place.
+struct GpuSeam {
+  std::function<unsigned()> resetStatus;  ///< glGetGraphicsResetStatus()
+  /// glClientWaitSync() with this timeout, ns
+  std::function<unsigned(std::uint64_t timeoutNs)> waitForFence;
+  /// A GPU that has not done by then what it was given is taken for lost.
+  hal::Duration patience = std::chrono::seconds(2);
+  const hal::Clock* clock = nullptr;  ///< of the patience; CLOCK_MONOTONIC
+};
+
+/// The error (kDeviceLost) of a GPU that is gone.
+hal::Error gpuLost(std::string problem, int glCode);
+
+/// Notices that the current context's GPU was reset, and remembers it. On the context's thread.
+class LossWatch {
+ public:
+  /// Of the current context. A driver that cannot be asked is taken for sound until something
+  /// fails.
+  explicit LossWatch(GpuSeam seam = {});
+
+  /// Asks the driver unless the GPU is known to be lost.
+  hal::Result<void> check();
+  /// Remembers a loss that was met elsewhere.
+  void note(const hal::Error& loss);
+  /// What happened, once the GPU is lost. Any thread that does not run beside the above.
+  const std::optional<hal::Error>& loss() const { return loss_; }
+
+ private:
+  GpuSeam seam_;
+  std::optional<hal::Error> loss_;
+};
+
+/// Whether the current context says when it is reset.
+bool tellsOfResets();
+
+}  // namespace pleinair::gpu

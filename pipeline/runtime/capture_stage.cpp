@@ -1,0 +1,92 @@
+#include "pipeline/runtime/capture_stage.h"
+
+#include <utility>
+#include <variant>
+
+namespace pleinair::runtime {
+
+CaptureStage::CaptureStage(hal::CameraSupervisor& camera, hal::Clock& clock, FrameLedger& ledger,
+                           HandOff<ArrivedFrame>& frames)
+    : camera_(camera), clock_(clock), ledger_(ledger), frames_(frames) {}
+
+void CaptureStage::open() {
+  const std::scoped_lock lock(mutex_);
+  isOpen_ = true;
+}
+
+void CaptureStage::step(hal::TimePoint deadline) {
+  if (hasEnded_) {
+    clock_.sleepUntil(deadline);
+    return;
+  }
+  hal::SupervisedNext next = camera_.next(deadline);
+  if (auto* frame = std::get_if<hal::SupervisedFrame>(&next)) {
+    receive(*frame);
+    return;
+  }
+  const std::scoped_lock lock(mutex_);
+  if (auto* changed = std::get_if<hal::FormatChanged>(&next)) {
+    status_.format = changed->format;
+  } else if (auto* state = std::get_if<hal::CameraStateChanged>(&next)) {
+    status_.state = state->state;
+    status_.reason = std::move(state->reason);
+    if (state->camera) status_.camera = std::move(state->camera);
+    if (state->state == hal::CameraState::kLost) status_.cause = std::move(state->cause);
+  } else if (auto* end = std::get_if<hal::EndOfStream>(&next)) {
+    status_.hasEnded = true;
+    status_.cause = std::move(end->truncated);
+    hasEnded_ = true;
+  }
+  frames_.wake();
+}
+
+void CaptureStage::receive(hal::SupervisedFrame& next) {
+  countLost(next);
+  if (next.frame.health == hal::FrameHealth::kCorrupt) {
+    ledger_.count(Fate::kCorrupt);
+  } else if (next.frame.health == hal::FrameHealth::kIncomplete) {
+    ledger_.count(Fate::kIncomplete);
+  } else {
+    handOn(std::move(next.frame));
+  }
+}
+
+void CaptureStage::countLost(const hal::SupervisedFrame& next) {
+  const std::uint64_t dropped = next.frame.droppedBefore - next.lostInStall;
+  const std::uint64_t starved = std::min(next.frame.starvedBefore, dropped);
+  ledger_.count(Fate::kStalled, next.lostInStall);
+  ledger_.count(Fate::kStarved, starved);
+  ledger_.count(Fate::kLeftOut, dropped - starved);
+  ledger_.count(Fate::kCorrupt, next.corruptBefore);
+  ledger_.count(Fate::kMisTimed, next.misTimedBefore);
+}
+
+void CaptureStage::handOn(hal::CapturedFrame frame) {
+  const hal::TimePoint now = clock_.now();
+  {
+    const std::scoped_lock lock(mutex_);
+    rate_.count(now);
+    delay_.add(now - frame.captureTime, now);
+    if (!isOpen_) {
+      ledger_.count(Fate::kStarting);
+      return;
+    }
+  }
+  const FrameLedger::Ticket ticket = ledger_.open();
+  const auto replaced = frames_.put({std::move(frame), ticket, now});
+  if (replaced) ledger_.settle(replaced->ticket, Fate::kReplaced);
+}
+
+CaptureStage::Status CaptureStage::status() const {
+  const hal::SupervisorCounts counts = camera_.status().counts;
+  const std::scoped_lock lock(mutex_);
+  Status status = status_;
+  status.perSecond = rate_.perSecond(clock_.now());
+  status.stalls = counts.stalls;
+  status.losses = counts.losses;
+  status.opens = counts.opens;
+  status.delay = delay_.recent().percentile(0.5);
+  return status;
+}
+
+}  // namespace pleinair::runtime

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "hal/clock.h"
+
+namespace pleinair::runtime {
+
+/// Durations sorted into buckets that grow with them, so that any percentile is known to 3 % in
+/// fixed memory (after HdrHistogram). From 1 µs to about a minute; beyond counts as that.
+class DurationHistogram {
+ public:
+  void add(hal::Duration duration);
+  void add(const DurationHistogram& other);
+  void clear();
+
+  std::uint64_t count() const { return count_; }
+  hal::Duration sum() const { return sum_; }
+  hal::Duration max() const { return max_; }
+  /// The duration that a share (0 … 1) of all do not exceed; 0 where there are none.
+  hal::Duration percentile(double share) const;
+
+ private:
+  static constexpr int kSubBuckets = 32;  // of each power of two
+  static constexpr int kPowers = 22;
+  static std::size_t bucketOf(std::uint64_t microseconds);
+  static std::uint64_t upperEdge(std::size_t bucket);
+
+  std::array<std::uint64_t, std::size_t{kSubBuckets} * kPowers> buckets_{};
+  std::uint64_t count_ = 0;
+  hal::Duration sum_{0};
+  hal::Duration max_{0};
+};
+
+/// A histogram of what was added lately: between half a minute and a minute of the clock.
+class RecentDurations {
+ public:
+  static constexpr hal::Duration kHalf = std::chrono::seconds(30);
+
+  void add(hal::Duration duration, hal::TimePoint now);
+  /// What was added lately.
+  DurationHistogram recent() const;
+  std::uint64_t count() const { return count_; }  ///< of all
+  hal::Duration sum() const { return sum_; }      ///< likewise
+
+ private:
+  std::array<DurationHistogram, 2> halves_;
+  std::size_t current_ = 0;
+  hal::TimePoint turned_;
+  std::uint64_t count_ = 0;
+  hal::Duration sum_{0};
+};
+
+}  // namespace pleinair::runtime

@@ -1,0 +1,78 @@
+#include "pipeline/runtime/frame_ledger.h"
+
+#include <cassert>
+#include <chrono>
+#include <numeric>
+
+#include <fmt/format.h>
+
+namespace pleinair::runtime {
+
+std::uint64_t LedgerCounts::dropped() const {
+  return std::accumulate(ended.begin(), ended.end(), std::uint64_t{0}) - shown();
+}
+
+bool LedgerCounts::addsUp() const {
+  return captured == underWay + shown() + dropped();
+}
+
+std::string LedgerCounts::summary(hal::Duration elapsed) const {
+  const double seconds = std::chrono::duration<double>(elapsed).count();
+  const double rate = seconds > 0.0 ? static_cast<double>(shown()) / seconds : 0.0;
+  std::string text = fmt::format("showed {} {} in {:.1f} s ({:.1f} frames/s)", shown(),
+                                 shown() == 1 ? "frame" : "frames", seconds, rate);
+  if (const auto late = of(Fate::kShownLate); late > 0) text += fmt::format(", {} late", late);
+  text += fmt::format("; dropped {}", dropped());
+  const char* separator = ": ";
+  for (const Fate fate : allFates()) {
+    if (isShown(fate) || of(fate) == 0) continue;
+    text += fmt::format("{}{} {}", separator, of(fate), describe(fate));
+    separator = ", ";
+  }
+  return text;
+}
+
+FrameLedger::Ticket FrameLedger::open() {
+  const std::scoped_lock lock(mutex_);
+  assert(counts_.underWay < kMostUnderWay);
+  while (slots_.at(next_).parts != 0) next_ = (next_ + 1) % kMostUnderWay;
+  slots_.at(next_) = {.parts = 1};
+  ++counts_.captured;
+  ++counts_.underWay;
+  return {static_cast<std::uint16_t>(next_)};
+}
+
+void FrameLedger::count(Fate fate, std::uint64_t frames) {
+  const std::scoped_lock lock(mutex_);
+  counts_.captured += frames;
+  counts_.ended.at(static_cast<std::size_t>(fate)) += frames;
+}
+
+FrameLedger::Slot& FrameLedger::at(Ticket ticket) {
+  Slot& slot = slots_.at(ticket.slot);
+  assert(slot.parts > 0);
+  return slot;
+}
+
+void FrameLedger::split(Ticket ticket, int parts) {
+  assert(parts >= 1);
+  const std::scoped_lock lock(mutex_);
+  at(ticket).parts = parts;
+}
+
+void FrameLedger::settle(Ticket ticket, Fate fate) {
+  const std::scoped_lock lock(mutex_);
+  Slot& slot = at(ticket);
+  if (!slot.hasFate || fate < slot.best) slot.best = fate;
+  slot.hasFate = true;
+  if (--slot.parts > 0) return;
+  --counts_.underWay;
+  ++counts_.ended.at(static_cast<std::size_t>(slot.best));
+}
+
+LedgerCounts FrameLedger::counts() const {
+  const std::scoped_lock lock(mutex_);
+  return counts_;
+}
+
+}  // namespace pleinair::runtime

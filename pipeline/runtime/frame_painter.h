@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "hal/captured_frame.h"
+#include "hal/error.h"
+#include "hal/pixel_format.h"
+#include "pipeline/painter.h"
+
+namespace pleinair::runtime {
+
+/// What live frames are painted with: the engine's Painter, or a test's. All on the thread that
+/// made it, which destroys it.
+class FramePainter {
+ public:
+  virtual ~FramePainter() = default;
+  FramePainter() = default;
+  FramePainter(const FramePainter&) = delete;
+  FramePainter& operator=(const FramePainter&) = delete;
+
+  /// Begins to paint `frame` at a level of quality (0: the best), for each of its outputs. Errors:
+  /// kDeviceLost: nothing comes out of this painter any more, and a new one is needed; others: this
+  /// frame could not be painted.
+  virtual hal::Result<void> paint(const hal::CapturedFrame& frame, std::size_t quality) = 0;
+  /// Copies an output's oldest finished picture into `picture`, whose memory is reused; false if
+  /// none is ready. Never waits. Errors: kDeviceLost.
+  virtual hal::Result<bool> take(std::size_t output, ReadPicture& picture) = 0;
+};
+
+/// Makes a painter that brings its pictures to memory in these formats, one an output. Throws
+/// hal::StartupError.
+using PainterFactory =
+    std::function<std::unique_ptr<FramePainter>(const std::vector<hal::FrameFormat>& outputs)>;
+
+}  // namespace pleinair::runtime

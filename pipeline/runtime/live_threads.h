@@ -1,0 +1,71 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "hal/clock.h"
+#include "hal/error.h"
+#include "pipeline/runtime/live_chain.h"
+#include "pipeline/runtime/thread_role.h"
+
+namespace pleinair::runtime {
+
+/// Runs a live chain: a thread each for the camera, the painter and every output but those that the
+/// caller steps itself. All calls from one thread.
+class LiveThreads {
+ public:
+  /// Starts the camera's thread. The chain outlives this.
+  explicit LiveThreads(LiveChain& chain);
+  /// Precondition: stop() has been called, and left nobody behind.
+  ~LiveThreads();
+  LiveThreads(const LiveThreads&) = delete;
+  LiveThreads& operator=(const LiveThreads&) = delete;
+
+  /// Starts the painter's thread, which makes the painter.
+  void startPainter();
+  /// Whether the painter is there; throws what it failed with (hal::StartupError).
+  bool isPainterReady();
+  /// Lets frames flow to the outputs, each on its thread; `stepped`: which the caller steps itself.
+  void startOutputs(const std::vector<std::size_t>& stepped = {});
+
+  /// Ends the camera, the painter and the outputs in that order, and completes what they write.
+  /// Gives what the outputs failed with, apart from those that the caller steps; and, in
+  /// `stuck`, the threads that did not end within `patience`: nothing that they use may be
+  /// destroyed any more, so that the process has to be left at once.
+  struct Stopped {
+    std::vector<hal::Error> failures;
+    std::vector<std::string> stuck;
+  };
+  Stopped stop(hal::Duration patience);
+
+ private:
+  void launch(const std::string& name, ThreadRole role, std::function<void()> body);
+  void runCamera();
+  void runPainter();
+  void runOutput(OutputStage& output);
+  void join(const std::string& name, std::chrono::steady_clock::time_point deadline,
+            Stopped& stopped);
+
+  LiveChain& chain_;
+  std::atomic<bool> stopsCamera_ = false;
+  std::atomic<bool> stopsPainter_ = false;
+  std::atomic<bool> stopsOutputs_ = false;
+  std::map<std::string, std::thread> threads_;
+  std::vector<std::string> outputNames_;
+
+  std::mutex mutex_;  // of what follows
+  std::condition_variable changed_;
+  std::vector<std::string> ended_;
+  bool isPainterReady_ = false;
+  std::optional<hal::Error> painterFailure_;
+  std::vector<hal::Error> failures_;
+};
+
+}  // namespace pleinair::runtime

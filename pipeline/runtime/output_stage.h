@@ -1,0 +1,128 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hal/clock.h"
+#include "hal/output.h"
+#include "pipeline/painter.h"
+#include "pipeline/runtime/duration_histogram.h"
+#include "pipeline/runtime/frame_ledger.h"
+#include "pipeline/runtime/frame_rate.h"
+#include "pipeline/runtime/presentation_queue.h"
+
+namespace pleinair::runtime {
+
+struct OutputStageOptions {
+  std::string name;
+  PresentationRules rules;
+  /// How many pictures can wait; one more is being taken.
+  std::size_t waiting = 8;
+  /// How many it gets; what comes after them ends as kStopped.
+  std::optional<std::uint64_t> limit = std::nullopt;
+  /// Opens the output anew after it has failed; without, that is the end of it.
+  std::function<hal::Result<std::unique_ptr<hal::MemoryOutput>>()> reopen;
+  hal::OutputRequest request;  ///< what it was started with
+};
+
+/// Where pictures are handed to an output, each at its due time: its own thread, so that one that
+/// stalls holds up nobody else. The painter's thread fills buffers; where all are waiting, the
+/// oldest picture gives way.
+class OutputStage {
+ public:
+  /// `output` was started and answered `format`. Ledger and clock outlive this.
+  OutputStage(std::unique_ptr<hal::MemoryOutput> output, hal::OutputFormat format,
+              OutputStageOptions options, hal::Clock& clock, FrameLedger& ledger);
+
+  const std::string& name() const { return options_.name; }
+  const hal::OutputFormat& format() const { return format_; }
+  bool isPaced() const { return options_.rules.isPaced; }
+
+  // The painter's thread.
+
+  /// A picture to be filled, which belongs to the caller until submit() or a second call.
+  ReadPicture& buffer();
+  /// Takes that picture. `ticket`: none for repeats.
+  void submit(std::optional<FrameLedger::Ticket> ticket, hal::TimePoint ready, hal::TimePoint due);
+
+  // The output's thread.
+
+  /// Hands over what is due. When to call again at the latest: none while nothing waits.
+  std::optional<hal::TimePoint> step();
+  /// Until `time`, wake() or submit(); by the clock's real time.
+  void wait(std::optional<hal::TimePoint> time);
+  /// Hands over what is due, ends what is not as kStopped, and completes what the output writes.
+  hal::Result<void> finish();
+
+  // Any thread.
+
+  void wake();
+  /// Whether it has got as many as it may.
+  bool isFull() const;
+  /// Whether all that was submitted has ended.
+  bool isIdle() const;
+
+  struct Status {
+    std::string name;
+    hal::FrameFormat format;
+    std::uint64_t submitted = 0;
+    std::uint64_t waiting = 0;
+    std::uint64_t repeats = 0;  ///< of those submitted: without a frame of their own
+    std::array<std::uint64_t, kFates> ended{};
+    double perSecond = 0.0;
+    std::uint64_t presented = 0;
+    hal::Duration latencySum{0};  ///< of all that were presented
+    DurationHistogram latency;    ///< from capture to being handed over, of late
+    DurationHistogram writing;    ///< how long the output took, of late
+    std::uint64_t failures = 0;
+    bool isFailed = false;
+    bool isFinal = false;               ///< and will not be opened again
+    std::optional<hal::Error> failure;  ///< the last
+    bool addsUp() const;
+  };
+  Status status() const;
+
+ private:
+  struct Due {
+    WaitingPicture picture;
+    Fate fate{};
+  };
+  std::optional<Due> takeDue();
+  void present(const Due& due);
+  void end(const WaitingPicture& picture, Fate fate);
+  void endAll(Fate fate);
+  std::size_t freeBuffer();
+  void fail(hal::Error error);
+  void tryToReopen();
+  hal::Duration timeOf(const WaitingPicture& picture);
+
+  std::unique_ptr<hal::MemoryOutput> output_;
+  hal::OutputFormat format_;
+  OutputStageOptions options_;
+  hal::Clock& clock_;
+  FrameLedger& ledger_;
+  std::optional<hal::TimePoint> firstTime_;  ///< of what the output has got
+  hal::Duration reopenAfter_;
+  std::vector<std::unique_ptr<ReadPicture>> buffers_;
+
+  mutable std::mutex mutex_;  // of what follows
+  std::condition_variable changed_;
+  bool isWoken_ = false;
+  PresentationQueue queue_;
+  std::vector<std::size_t> free_;
+  std::optional<std::size_t> filling_;
+  bool isWriting_ = false;
+  hal::TimePoint reopenAt_;
+  Status status_;
+  FrameRate rate_;
+  RecentDurations latency_;
+  RecentDurations writing_;
+};
+
+}  // namespace pleinair::runtime

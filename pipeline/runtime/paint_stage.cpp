@@ -1,0 +1,267 @@
+#include "pipeline/runtime/paint_stage.h"
+
+#include <algorithm>
+#include <cassert>
+#include <thread>
+#include <utility>
+
+namespace pleinair::runtime {
+namespace {
+
+constexpr hal::Duration kFirstRevival = std::chrono::milliseconds(100);
+constexpr hal::Duration kLongestRevival = std::chrono::seconds(5);
+
+/// A picture that takes longer will not come any more.
+constexpr hal::Duration kNeverReady = std::chrono::seconds(2);
+
+hal::Error neverReady() {
+  return {.kind = hal::ErrorKind::kDeviceLost,
+          .subject = "GPU",
+          .problem = "has not finished a picture for 2 s",
+          .remedy = {}};
+}
+
+constexpr std::array<std::string_view, 5> kStageNames{
+    "delivery",    // from capture to arrival
+    "hand_off",    // from arrival to the painter
+    "tracking",    // tracking and issuing of the GPU's work
+    "painting",    // from there until the picture is in memory
+    "until_ready"  // from capture until the picture is in memory
+};
+
+double ratio(hal::Duration part, hal::Duration whole) {
+  return std::chrono::duration<double>(part) / std::chrono::duration<double>(whole);
+}
+
+}  // namespace
+
+PaintStage::PaintStage(PainterFactory factory, std::vector<OutputStage*> outputs,
+                       PaintStageOptions options, hal::Clock& clock, FrameLedger& ledger,
+                       HandOff<ArrivedFrame>& frames)
+    : factory_(std::move(factory)),
+      outputs_(std::move(outputs)),
+      options_(options),
+      clock_(clock),
+      ledger_(ledger),
+      frames_(frames),
+      reviveAfter_(kFirstRevival),
+      taken_(outputs_.size(), 0),
+      governor_(options.governor),
+      latency_(options.latency) {
+  assert(!outputs_.empty());
+  for (const OutputStage* output : outputs_) formats_.push_back(output->format().frame);
+}
+
+PaintStage::~PaintStage() = default;
+
+void PaintStage::start() {
+  painter_ = factory_(formats_);
+  const std::scoped_lock lock(mutex_);
+  hasPainter_ = true;
+}
+
+bool PaintStage::step() {
+  noteSuspension();
+  if (!painter_ && !revive()) return false;
+  bool didAnything = collect();
+  if (painter_ && underWay_.size() < kMostUnderWay) didAnything = paintNewest() || didAnything;
+  busy_ = underWay_.size();
+  return didAnything;
+}
+
+/// Where the clock jumps, the GPU stood still as well, and is not to blame.
+void PaintStage::noteSuspension() {
+  constexpr hal::Duration kJump = std::chrono::seconds(1);
+  const hal::TimePoint now = clock_.now();
+  if (now - lastStep_ > kJump) resumedAt_ = now;
+  lastStep_ = now;
+}
+
+bool PaintStage::collect() {
+  bool tookAny = false;
+  for (std::size_t i = 0; painter_ && i < outputs_.size(); ++i) {
+    while (painter_ && taken_.at(i) < underWay_.size() && collectFor(i)) tookAny = true;
+  }
+  while (!underWay_.empty() && underWay_.front().takenBy == outputs_.size()) {
+    finished(underWay_.front(), clock_.now());
+    underWay_.pop_front();
+    for (std::size_t& taken : taken_) --taken;
+  }
+  if (!underWay_.empty()) {
+    const hal::TimePoint since = std::max(underWay_.front().issued, resumedAt_);
+    if (clock_.now() - since > kNeverReady) lose(neverReady());
+  }
+  return tookAny;
+}
+
+bool PaintStage::collectFor(std::size_t output) {
+  const hal::Result<bool> taken = painter_->take(output, outputs_.at(output)->buffer());
+  if (!taken) {
+    lose(taken.error());
+    return false;
+  }
+  if (!*taken) return false;
+  UnderWay& frame = underWay_.at(taken_.at(output)++);
+  ++frame.takenBy;
+  hal::Duration latency{};
+  {
+    const std::scoped_lock lock(mutex_);
+    latency = latency_.latency();
+  }
+  outputs_.at(output)->submit(frame.ticket, clock_.now(),
+                              dueTime(frame.captured, latency, options_.refresh));
+  return true;
+}
+
+/// Of the frame period what the painter was busy with it, of the latency what has passed.
+double PaintStage::loadOf(const UnderWay& frame, hal::TimePoint now) const {
+  const hal::Duration cost = now - std::max(frame.began, lastFinished_);
+  const double ofLatency = ratio(now - frame.captured, latency_.latency());
+  return options_.framePeriod ? std::max(ratio(cost, *options_.framePeriod), ofLatency) : ofLatency;
+}
+
+void PaintStage::finished(const UnderWay& frame, hal::TimePoint now) {
+  const std::scoped_lock lock(mutex_);
+  stages_.at(kFinishing).add(now - frame.issued, now);
+  rate_.count(now);
+  ++painted_;
+  if (frame.ticket) {
+    stages_.at(kReady).add(now - frame.captured, now);
+    load_ = loadOf(frame, now);
+    governor_.painted(load_, frame.quality, now);
+    latency_.ready(frame.captured + latency_.latency() - now, governor_.isLowest(), now);
+  }
+  lastFinished_ = now;
+  reviveAfter_ = kFirstRevival;
+}
+
+bool PaintStage::paintNewest() {
+  std::optional<ArrivedFrame> arrived = frames_.take();
+  if (!arrived) return false;
+  if (const auto painted = paint(*arrived); !painted) refuse(*arrived, painted.error());
+  return true;
+}
+
+hal::Result<void> PaintStage::paint(const ArrivedFrame& arrived) {
+  const hal::CapturedFrame& frame = arrived.frame;
+  const bool isRepeat = isPaused_ && held_;
+  if (!isRepeat) hold(frame);
+  UnderWay painting{.ticket = arrived.ticket, .captured = frame.captureTime, .began = clock_.now()};
+  {
+    const std::scoped_lock lock(mutex_);
+    painting.quality = governor_.level();
+  }
+  hal::CapturedFrame repeated = frame;
+  if (isRepeat) repeated.image = held_->view();
+  if (auto painted = painter_->paint(repeated, painting.quality); !painted) return painted;
+  painting.issued = clock_.now();
+  if (isRepeat) {
+    ledger_.settle(arrived.ticket, Fate::kPaused);
+    painting.ticket.reset();
+  } else {
+    ledger_.split(arrived.ticket, static_cast<int>(outputs_.size()));
+  }
+  underWay_.push_back(painting);
+  const std::scoped_lock lock(mutex_);
+  stages_.at(kDelay).add(arrived.arrived - frame.captureTime, painting.began);
+  stages_.at(kWaiting).add(painting.began - arrived.arrived, painting.began);
+  stages_.at(kIssuing).add(painting.issued - painting.began, painting.issued);
+  return {};
+}
+
+void PaintStage::hold(const hal::CapturedFrame& frame) {
+  held_.reset();
+  if (isPaused_) held_.emplace(frame.image);
+}
+
+void PaintStage::refuse(const ArrivedFrame& arrived, const hal::Error& error) {
+  const bool isLost = error.kind == hal::ErrorKind::kDeviceLost;
+  ledger_.settle(arrived.ticket, isLost ? Fate::kContextLost : Fate::kNotPainted);
+  if (isLost) {
+    lose(error);
+    return;
+  }
+  const std::scoped_lock lock(mutex_);
+  ++failures_;
+  failure_ = error;
+}
+
+/// The GPU is gone, with all that was on it.
+void PaintStage::lose(const hal::Error& error) {
+  painter_.reset();
+  for (const UnderWay& frame : underWay_) {
+    for (std::size_t i = frame.takenBy; frame.ticket && i < outputs_.size(); ++i) {
+      ledger_.settle(*frame.ticket, Fate::kContextLost);
+    }
+  }
+  underWay_.clear();
+  std::ranges::fill(taken_, 0);
+  reviveAt_ = clock_.now() + reviveAfter_;
+  reviveAfter_ = std::min(2 * reviveAfter_, kLongestRevival);
+  const std::scoped_lock lock(mutex_);
+  ++contextLosses_;
+  failure_ = error;
+  hasPainter_ = false;
+}
+
+bool PaintStage::revive() {
+  if (clock_.now() < reviveAt_) return false;
+  try {
+    start();
+    return true;
+  } catch (const hal::StartupError& error) {
+    reviveAt_ = clock_.now() + reviveAfter_;
+    reviveAfter_ = std::min(2 * reviveAfter_, kLongestRevival);
+    const std::scoped_lock lock(mutex_);
+    failure_ = error.error();
+    return false;
+  }
+}
+
+void PaintStage::wait() {
+  // A picture's end is seen by asking only.
+  constexpr hal::Duration kLook = std::chrono::microseconds(500);
+  constexpr hal::Duration kIdle = std::chrono::milliseconds(50);
+  if (underWay_.size() >= kMostUnderWay || !painter_) {
+    std::this_thread::sleep_for(kLook);
+  } else {
+    frames_.wait(underWay_.empty() ? kIdle : kLook);
+  }
+}
+
+void PaintStage::stop() {
+  for (const UnderWay& frame : underWay_) {
+    for (std::size_t i = frame.takenBy; frame.ticket && i < outputs_.size(); ++i) {
+      ledger_.settle(*frame.ticket, Fate::kStopped);
+    }
+  }
+  underWay_.clear();
+  if (const auto waiting = frames_.take()) ledger_.settle(waiting->ticket, Fate::kStopped);
+  painter_.reset();
+  busy_ = 0;
+}
+
+PaintStage::Status PaintStage::status() const {
+  const std::scoped_lock lock(mutex_);
+  Status status{.quality = governor_.level(),
+                .qualityLowered = governor_.lowered(),
+                .qualityRaised = governor_.raised(),
+                .latency = latency_.latency(),
+                .configuredLatency = options_.latency.configured,
+                .latencyRaised = latency_.raised(),
+                .latencyLowered = latency_.lowered(),
+                .painted = painted_,
+                .failures = failures_,
+                .contextLosses = contextLosses_,
+                .hasPainter = hasPainter_,
+                .failure = failure_,
+                .perSecond = rate_.perSecond(clock_.now()),
+                .load = load_};
+  for (std::size_t i = 0; i < stages_.size(); ++i) {
+    const RecentDurations& each = stages_.at(i);
+    status.stages.push_back({kStageNames.at(i), each.recent(), each.count(), each.sum()});
+  }
+  return status;
+}
+
+}  // namespace pleinair::runtime

@@ -1,0 +1,135 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hal/clock.h"
+#include "hal/image.h"
+#include "pipeline/runtime/capture_stage.h"
+#include "pipeline/runtime/duration_histogram.h"
+#include "pipeline/runtime/frame_ledger.h"
+#include "pipeline/runtime/frame_painter.h"
+#include "pipeline/runtime/frame_rate.h"
+#include "pipeline/runtime/hand_off.h"
+#include "pipeline/runtime/latency_control.h"
+#include "pipeline/runtime/output_stage.h"
+#include "pipeline/runtime/quality_governor.h"
+
+namespace pleinair::runtime {
+
+struct PaintStageOptions {
+  GovernorRules governor;
+  LatencyRules latency;
+  /// What a frame may take at the most, whatever the latency: the camera's period, or a longer one
+  /// where fewer frames are wanted; unset: only the latency counts.
+  std::optional<hal::Duration> framePeriod;
+  std::optional<Refresh> refresh;  ///< of the outputs' display, where there is one
+};
+
+/// Paints the newest frame, watches what that costs, and gives the pictures to the outputs. step()
+/// and start() are one thread's, on which the painter lives and dies; the rest is any thread's.
+class PaintStage {
+ public:
+  PaintStage(PainterFactory factory, std::vector<OutputStage*> outputs, PaintStageOptions options,
+             hal::Clock& clock, FrameLedger& ledger, HandOff<ArrivedFrame>& frames);
+  ~PaintStage();
+
+  /// Makes the painter. Throws hal::StartupError.
+  void start();
+  /// Collects what is finished and begins to paint what has come. Whether it did anything.
+  bool step();
+  /// Until there may be something for step() to do; by real time.
+  void wait();
+  /// Ends what is under way as kStopped; frees the painter.
+  void stop();
+
+  /// During a pause the frame that came last is painted again and again, so that tuning shows.
+  void setPaused(bool on) { isPaused_ = on; }
+  /// Whether something is being painted.
+  bool isBusy() const { return busy_.load() > 0; }
+
+  struct Stage {
+    std::string_view name;
+    DurationHistogram recent;
+    std::uint64_t count = 0;  ///< of all
+    hal::Duration sum{0};     ///< likewise
+  };
+  struct Status {
+    std::size_t quality = 0;
+    std::uint64_t qualityLowered = 0, qualityRaised = 0;
+    hal::Duration latency{0}, configuredLatency{0};
+    std::uint64_t latencyRaised = 0, latencyLowered = 0;
+    std::uint64_t painted = 0, failures = 0, contextLosses = 0;
+    bool hasPainter = false;
+    std::optional<hal::Error> failure;  ///< the last
+    double perSecond = 0.0;
+    double load = 0.0;  ///< of the budget, the last frame's
+    std::vector<Stage> stages;
+  };
+  Status status() const;
+
+ private:
+  /// A frame that is being painted.
+  struct UnderWay {
+    std::optional<FrameLedger::Ticket> ticket;  ///< none for repeats
+    hal::TimePoint captured;
+    hal::TimePoint began;
+    hal::TimePoint issued;
+    std::size_t quality = 0;
+    std::size_t takenBy = 0;  ///< how many outputs have it
+  };
+  /// One on the GPU while the next is tracked; more would only wait there and grow old.
+  static constexpr std::size_t kMostUnderWay = 2;
+
+  void noteSuspension();
+  bool collect();
+  bool collectFor(std::size_t output);
+  void finished(const UnderWay& frame, hal::TimePoint now);
+  double loadOf(const UnderWay& frame, hal::TimePoint now) const;
+  bool paintNewest();
+  hal::Result<void> paint(const ArrivedFrame& arrived);
+  void hold(const hal::CapturedFrame& frame);
+  void refuse(const ArrivedFrame& arrived, const hal::Error& error);
+  void lose(const hal::Error& error);
+  bool revive();
+
+  PainterFactory factory_;
+  std::vector<OutputStage*> outputs_;
+  std::vector<hal::FrameFormat> formats_;
+  PaintStageOptions options_;
+  hal::Clock& clock_;
+  FrameLedger& ledger_;
+  HandOff<ArrivedFrame>& frames_;
+
+  std::unique_ptr<FramePainter> painter_;
+  hal::TimePoint reviveAt_;
+  hal::Duration reviveAfter_;
+  std::deque<UnderWay> underWay_;
+  std::vector<std::size_t> taken_;  ///< of each output: how many of underWay_ it has
+  std::optional<hal::Image> held_;  ///< of a pause
+  hal::TimePoint lastFinished_;
+  hal::TimePoint lastStep_;
+  hal::TimePoint resumedAt_;
+  std::atomic<bool> isPaused_ = false;
+  std::atomic<std::size_t> busy_ = 0;
+
+  enum StageIndex : std::size_t { kDelay, kWaiting, kIssuing, kFinishing, kReady };
+  mutable std::mutex mutex_;  // of what follows
+  QualityGovernor governor_;
+  LatencyControl latency_;
+  std::array<RecentDurations, 5> stages_;
+  FrameRate rate_;
+  std::uint64_t painted_ = 0, failures_ = 0, contextLosses_ = 0;
+  std::optional<hal::Error> failure_;
+  bool hasPainter_ = false;
+  double load_ = 0.0;
+};
+
+}  // namespace pleinair::runtime

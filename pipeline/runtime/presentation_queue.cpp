@@ -1,0 +1,81 @@
+#include "pipeline/runtime/presentation_queue.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace pleinair::runtime {
+
+hal::TimePoint dueTime(hal::TimePoint captured, hal::Duration latency,
+                       const std::optional<Refresh>& refresh) {
+  const hal::TimePoint earliest = captured + latency;
+  if (!refresh) return earliest;
+  assert(refresh->period > hal::Duration::zero());
+  hal::Duration past = (earliest - refresh->reference) % refresh->period;
+  if (past < hal::Duration::zero()) past += refresh->period;
+  return past == hal::Duration::zero() ? earliest : earliest + (refresh->period - past);
+}
+
+PresentationQueue::PresentationQueue(PresentationRules rules, std::size_t capacity)
+    : rules_(rules), capacity_(capacity) {
+  waiting_.reserve(capacity);
+}
+
+void PresentationQueue::push(WaitingPicture picture) {
+  assert(!isFull());
+  if (!waiting_.empty()) {
+    assert(picture.captured > waiting_.back().captured);
+    picture.due = std::max(picture.due, waiting_.back().due);
+  }
+  if (lastReady_) readyGap_ = picture.ready - *lastReady_;
+  lastReady_ = picture.ready;
+  waiting_.push_back(picture);
+}
+
+WaitingPicture PresentationQueue::removeOldest() {
+  assert(!waiting_.empty());
+  const WaitingPicture oldest = waiting_.front();
+  waiting_.erase(waiting_.begin());
+  return oldest;
+}
+
+std::optional<hal::TimePoint> PresentationQueue::nextTime() const {
+  if (waiting_.empty()) return std::nullopt;
+  return rules_.isPaced ? waiting_.front().due : waiting_.front().ready;
+}
+
+std::optional<PresentationQueue::Ruling> PresentationQueue::next(hal::TimePoint now) {
+  const std::optional<hal::TimePoint> time = nextTime();
+  if (!time || *time > now) return std::nullopt;
+  const bool hasNewer = waiting_.size() > 1 && waiting_[1].due <= now;
+  const WaitingPicture picture = removeOldest();
+  Fate fate = Fate::kShown;
+  if (rules_.isPaced) {
+    fate = hasNewer ? fateOfDropped(picture, hasNewer) : fateOfNewest(picture, now);
+  }
+  if (isShown(fate)) shown_ = now;
+  return Ruling{picture, fate};
+}
+
+bool PresentationQueue::isReadyInTime(const WaitingPicture& picture) const {
+  return picture.ready <= picture.due + rules_.tolerance;
+}
+
+bool PresentationQueue::wouldFreeze(hal::TimePoint now) const {
+  if (!shown_) return true;
+  const hal::Duration untilNext = std::min(readyGap_, rules_.longestGap);
+  return now - *shown_ + untilNext > rules_.longestGap;
+}
+
+Fate PresentationQueue::fateOfDropped(const WaitingPicture& picture, bool hasNewer) const {
+  if (!isReadyInTime(picture)) return Fate::kLate;
+  const bool wasBusy = picture.due < busyUntil_;
+  return hasNewer && !wasBusy ? Fate::kOvertaken : Fate::kOutputBusy;
+}
+
+Fate PresentationQueue::fateOfNewest(const WaitingPicture& picture, hal::TimePoint now) const {
+  if (std::max(picture.ready, now) <= picture.due + rules_.tolerance) return Fate::kShown;
+  if (wouldFreeze(now)) return Fate::kShownLate;
+  return fateOfDropped(picture, false);
+}
+
+}  // namespace pleinair::runtime

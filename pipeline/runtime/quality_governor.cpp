@@ -1,0 +1,119 @@
+#include "pipeline/runtime/quality_governor.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <cmath>
+
+namespace pleinair::runtime {
+namespace {
+
+/// How much dearer the next better level is taken to be until it was left once.
+constexpr double kUsualRatio = 1.5;
+/// A rise that lasts so long was right.
+constexpr hal::Duration kProof = std::chrono::seconds(10);
+/// From this load on a few frames are enough to act on …
+constexpr double kClearlyTooDear = 1.25;
+/// … and from this on, one level less will not do.
+constexpr double kFarTooDear = 1.9;
+/// What was learnt of a ratio counts half after so long: the load may have been another's.
+constexpr double kRatioHalfLifeSeconds = 60.0;
+
+}  // namespace
+
+QualityGovernor::QualityGovernor(GovernorRules rules)
+    : rules_(rules),
+      level_(rules.pinned.value_or(0)),
+      learnt_(rules.levels, {kUsualRatio, hal::TimePoint{}}),
+      raiseAfter_(rules.raiseAfter) {
+  assert(rules.levels > 0 && level_ < rules.levels);
+}
+
+bool QualityGovernor::painted(double load, std::size_t level, hal::TimePoint now) {
+  // What was under way at the change says nothing of the level that is in force.
+  if (rules_.pinned || level != level_) return false;
+  if (seen_ == 0) cheapSince_ = now;
+  recent_.at(seen_ % kWindow) = load;
+  // One frame says little, however dear it was.
+  const double counted = std::min(load, 2.0);
+  smooth_ = seen_ == 0 ? counted : smooth_ + 0.1 * (counted - smooth_);
+  ++seen_;
+  if (seen_ == kWindow) learnRatio(now);
+  if (raisedAt_ && now - *raisedAt_ >= kProof) {
+    raisedAt_.reset();
+    raiseAfter_ = std::max(raiseAfter_ / 2, rules_.raiseAfter);
+  }
+  if (level_ + 1 < rules_.levels && isTooDear()) {
+    lower(now);
+    return true;
+  }
+  if (level_ > 0 && mayRaise(now)) {
+    raise(now);
+    return true;
+  }
+  return false;
+}
+
+bool QualityGovernor::isTooDear() const {
+  const auto filled = recent_.begin() + static_cast<std::ptrdiff_t>(std::min(seen_, kWindow));
+  const auto dear =
+      std::count_if(recent_.begin(), filled, [](double load) { return load > kClearlyTooDear; });
+  if (static_cast<std::size_t>(dear) >= kEnough) return true;
+  return seen_ >= 2 * kWindow && smooth_ > rules_.tooDear;
+}
+
+double QualityGovernor::median() const {
+  std::array<double, kWindow> sorted = recent_;
+  const auto count = static_cast<std::ptrdiff_t>(std::min(seen_, kWindow));
+  std::sort(sorted.begin(), sorted.begin() + count);
+  return sorted.at(static_cast<std::size_t>(count) / 2);
+}
+
+/// The level below has run for a few frames: what did leaving the one above bring?
+void QualityGovernor::learnRatio(hal::TimePoint now) {
+  if (!loadBefore_) return;
+  constexpr double kLeast = 1.05;
+  constexpr double kMost = 4.0;
+  const double ratio = std::clamp(*loadBefore_ / std::max(median(), 0.01), kLeast, kMost);
+  learnt_.at(level_ - 1) = {ratio, now};
+  loadBefore_.reset();
+}
+
+double QualityGovernor::ratioAbove(hal::TimePoint now) const {
+  const Learnt& learnt = learnt_.at(level_ - 1);
+  const double age = std::chrono::duration<double>(now - learnt.at).count();
+  return kUsualRatio + (learnt.ratio - kUsualRatio) * std::exp2(-age / kRatioHalfLifeSeconds);
+}
+
+bool QualityGovernor::mayRaise(hal::TimePoint now) {
+  const double expected = std::max(smooth_, median()) * ratioAbove(now);
+  if (expected > rules_.cheapEnough) cheapSince_ = now;
+  return seen_ >= kWindow && now - cheapSince_ >= raiseAfter_;
+}
+
+void QualityGovernor::lower(hal::TimePoint now) {
+  const double load = median();
+  if (raisedAt_) {
+    raiseAfter_ = std::min(raiseAfter_ * 2, rules_.longestRaiseAfter);
+    raisedAt_.reset();
+  }
+  const std::size_t steps = load > kFarTooDear && level_ + 2 < rules_.levels ? 2 : 1;
+  ++lowered_;
+  change(level_ + steps, now);
+  if (steps == 1) loadBefore_ = load;
+}
+
+void QualityGovernor::raise(hal::TimePoint now) {
+  ++raised_;
+  change(level_ - 1, now);
+  raisedAt_ = now;
+}
+
+void QualityGovernor::change(std::size_t level, hal::TimePoint now) {
+  level_ = level;
+  seen_ = 0;
+  loadBefore_.reset();
+  cheapSince_ = now;
+}
+
+}  // namespace pleinair::runtime

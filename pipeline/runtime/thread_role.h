@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+namespace pleinair::runtime {
+
+/// What a thread is for, and so how urgently it runs.
+enum class ThreadRole {
+  kOrdinary,
+  kPrompt,  ///< does little, but at its time: captures and presents
+};
+
+/// Names the calling thread (15 characters are kept) and sets its priority. A prompt one gets
+/// SCHED_RR at a low priority where the system allows it (RLIMIT_RTPRIO, CAP_SYS_NICE), which is
+/// what it returns.
+bool setThreadRole(const std::string& name, ThreadRole role);
+
+}  // namespace pleinair::runtime

@@ -1,0 +1,166 @@
+// A lost GPU, injected where the driver is asked.
+#include <atomic>
+
+#include <gmock/gmock.h>
+
+#include "pipeline/gpu/gl.h"
+#include "tests/gpu/painter/painter_fixture.h"
+#include "tests/support/gl_test.h"
+
+namespace pleinair {
+namespace {
+
+constexpr hal::FrameSize kSize{96, 64};
+
+/// A driver that loses the GPU when told to.
+struct BadDriver {
+  unsigned status = GL_NO_ERROR;
+  bool hangs = false;
+  int fencesAsked = 0;
+  mutable hal::SteppedClock clock;
+
+  gpu::GpuSeam seam() {
+    return {.resetStatus = [this] { return status; },
+            .waitForFence = [this](std::uint64_t timeoutNs) -> unsigned {
+              ++fencesAsked;
+              if (!hangs) {
+                glFinish();
+                return GL_ALREADY_SIGNALED;
+              }
+              // Like drivers that cap waits.
+              clock.advance(std::min(hal::Duration(timeoutNs), hal::Duration(700'000'000)));
+              return GL_TIMEOUT_EXPIRED;
+            },
+            .patience = std::chrono::milliseconds(1999),
+            .clock = &clock};
+  }
+};
+
+template <class T>
+void expectLost(const hal::Result<T>& result) {
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().kind, hal::ErrorKind::kDeviceLost);
+}
+
+/// All calls of a Painter whose GPU is gone.
+void expectNothingComes(Painter& painter, int reader) {
+  ReadPicture picture;
+  const PaintParameters parameters = painter.defaultParameters();
+  for (int round = 0; round < 2; ++round) {
+    expectLost(painter.paint(testFrame(7), parameters));
+    expectLost(painter.take(reader, picture, false));
+    expectLost(painter.take(reader, picture, true));
+    expectLost(painter.still());
+    expectLost(painter.cameraStill());
+    painter.reset();
+    EXPECT_EQ(painter.skipped(reader), 0U);
+    EXPECT_FALSE(painter.views().empty());
+    try {
+      painter.openReader({hal::PixelFormat::kRgb8, kSize});
+      ADD_FAILURE() << "opened";
+    } catch (const hal::StartupError& error) {
+      EXPECT_EQ(error.error().kind, hal::ErrorKind::kDeviceLost);
+    }
+  }
+}
+
+TEST_F(PainterTest, AnswersALostGpuWithValuesForEver) {
+  Painter sound({.pictureSize = kSize});
+  const auto wanted = painted(sound, testFrame(0));
+  for (const unsigned why :
+       {GL_GUILTY_CONTEXT_RESET_KHR, GL_INNOCENT_CONTEXT_RESET_KHR, GL_UNKNOWN_CONTEXT_RESET_KHR}) {
+    BadDriver driver;
+    {
+      Painter painter({.pictureSize = kSize, .qualityLevels = true, .seam = driver.seam()});
+      const int reader = painter.openReader({hal::PixelFormat::kRgb8, kSize});
+      EXPECT_EQ(painted(painter, testFrame(0)), wanted);
+      driver.status = why;
+      const auto refused = painter.paint(testFrame(1), painter.defaultParameters());
+      expectLost(refused);
+      EXPECT_EQ(refused.error().code, static_cast<int>(why));
+      EXPECT_THAT(refused.error().message(), testing::StartsWith("GPU: was reset"));
+      driver.status = GL_NO_ERROR;  // as drivers answer once they have told
+      expectNothingComes(painter, reader);
+    }
+    Painter next({.pictureSize = kSize});
+    EXPECT_EQ(painted(next, testFrame(0)), wanted) << "another one works";
+  }
+}
+
+TEST_F(PainterTest, TakesAGpuThatDoesNotAnswerForLost) {
+  BadDriver driver;
+  Painter painter({.pictureSize = kSize, .seam = driver.seam()});
+  const int reader = painter.openReader({hal::PixelFormat::kRgb8, kSize});
+  ASSERT_TRUE(painter.paint(testFrame(0), painter.defaultParameters()));
+  driver.hangs = true;
+  ReadPicture picture;
+  EXPECT_FALSE(hal::orThrow(painter.take(reader, picture, false))) << "it may only be late";
+  const hal::TimePoint before = driver.clock.now();
+  driver.fencesAsked = 0;
+  const auto taken = painter.take(reader, picture, true);
+  expectLost(taken);
+  EXPECT_THAT(taken.error().message(), testing::HasSubstr("hangs"));
+  EXPECT_EQ(driver.fencesAsked, 3);
+  EXPECT_EQ(driver.clock.now() - before, std::chrono::milliseconds(1999));
+  driver.hangs = false;
+  expectNothingComes(painter, reader);
+}
+
+TEST_F(PainterTest, NoticesALossWhileAStillIsWaitedFor) {
+  BadDriver driver;
+  Painter painter({.pictureSize = kSize, .seam = driver.seam()});
+  const int reader = painter.openReader({hal::PixelFormat::kRgb8, kSize});
+  ASSERT_TRUE(painter.paint(testFrame(0), painter.defaultParameters()));
+  driver.hangs = true;
+  expectLost(painter.still());
+  driver.hangs = false;
+  expectNothingComes(painter, reader);
+}
+
+TEST_F(PainterTest, SaysAtStartWhereTheGpuIsLostByThen) {
+  BadDriver driver;
+  driver.hangs = true;
+  Painter painter({.pictureSize = kSize, .seam = driver.seam()});
+  EXPECT_THROW(painter.openReader({hal::PixelFormat::kRgb8, kSize}), hal::StartupError);
+}
+
+TEST_F(PainterTest, ItsContextTellsOfResetsWhereTheDriverCan) {
+  const Painter painter({.pictureSize = kSize});
+  if (!painter.contextInfo().tellsOfResets) {
+    GTEST_SKIP() << painter.contextInfo().renderer << " has no reset notification";
+  }
+  gpu::EglContext context;
+  EXPECT_TRUE(gpu::LossWatch().check()) << "a sound one";
+}
+
+class LostHostContextTest : public support::GlTest {};
+
+/// What the Painter had stays in the dead context; a new one in the host's next context works.
+TEST_F(LostHostContextTest, IsLeftAsItIs) {
+  BadDriver driver;
+  auto lost = std::make_unique<Painter>(PainterOptions{
+      .pictureSize = kSize, .context = PainterContext::kHost, .seam = driver.seam()});
+  const int reader = lost->openReader({hal::PixelFormat::kRgb8, kSize});
+  const auto picture = lost->paint(testFrame(0), lost->defaultParameters());
+  ASSERT_TRUE(picture);
+  const unsigned texture = picture->texture;
+  driver.status = GL_UNKNOWN_CONTEXT_RESET_KHR;
+  expectLost(lost->paint(testFrame(1), lost->defaultParameters()));
+  {
+    EGLDisplay display = eglGetCurrentDisplay();
+    EGLContext dead = eglGetCurrentContext();
+    eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    {
+      const gpu::EglContext anew;
+      Painter next({.pictureSize = kSize, .context = PainterContext::kHost});
+      expectNothingComes(*lost, reader);
+      lost.reset();  // with another context current
+      EXPECT_TRUE(next.paint(testFrame(0), next.defaultParameters()));
+    }
+    eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, dead);
+  }
+  EXPECT_TRUE(glIsTexture(texture)) << "not touched";
+}
+
+}  // namespace
+}  // namespace pleinair

@@ -1,0 +1,153 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <linux/videodev2.h>
+
+#include "hal/cameras/v4l2/device_nodes.h"
+#include "hal/clock.h"
+#include "hal/image.h"
+#include "hal/v4l2/system_calls.h"
+
+namespace pleinair::support {
+
+/// A pixel format that a fake device offers, at some sizes and rates.
+struct FakeFormat {
+  std::uint32_t fourcc = V4L2_PIX_FMT_YUYV;
+  std::vector<hal::FrameSize> sizes{{64, 48}};
+  std::vector<v4l2_fract> periods{{1, 25}};
+  /// Instead of single sizes: anything from the first of `sizes` to the last, by this step.
+  std::optional<hal::FrameSize> step;
+};
+
+struct FakeControl {
+  std::uint32_t id = 0;
+  int min = 0, max = 100, step = 1, value = 0;
+  std::uint32_t flags = 0;
+  std::set<std::uint32_t> menu;
+};
+
+/// What is unlike the others about one frame, numbered from 0 at each STREAMON.
+struct FakeFrame {
+  std::uint32_t skipped = 0;  ///< frames that the device loses before it
+  std::uint32_t addedFlags = 0;
+  std::optional<std::uint32_t> bytesUsed;  ///< of the first memory plane
+  std::optional<hal::Duration> timestamp;
+  std::optional<std::uint32_t> dataOffset;
+  std::optional<std::vector<std::uint8_t>> jpeg;
+  std::optional<hal::FrameSize> changesSourceTo;  ///< instead of the frame comes an event
+};
+
+/// A device, as its driver would present it. Frame n holds testPicture(format, n), or `jpeg`.
+struct FakeVideo {
+  std::string node = "/dev/video0";
+  std::string driver = "fake";
+  std::string card = "Fake camera";
+  std::string bus = "platform:fake-000";
+  std::uint32_t caps = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
+  std::vector<FakeFormat> formats{FakeFormat{}};
+  std::size_t rowPadding = 0;
+  bool reportsNoStride = false;
+  std::uint32_t colorspace = V4L2_COLORSPACE_SRGB;
+  std::uint32_t encoding = 0;
+  std::uint32_t quantization = 0;
+  std::vector<FakeControl> controls;
+  std::uint32_t mostBuffers = 32;
+  std::size_t missingBufferBytes = 0;  ///< by which buffers are smaller than they should be
+  bool exportsDmaBufs = true;
+  bool keepsMappedBuffers = false;  ///< an old driver: REQBUFS(0) is EBUSY while one is mapped
+  std::uint32_t timestampFlags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
+  std::uint32_t firstSequence = 0;
+  std::vector<std::uint8_t> jpeg;
+  std::map<std::uint64_t, FakeFrame> frames;
+  std::optional<std::uint64_t> stallsAt;          ///< from this frame on none comes
+  std::map<unsigned long, int> failures;          ///< errno that a request always fails with
+  std::optional<int> openFailure;                 ///< errno
+  int spuriousReadies = 0;                        ///< times that poll() is ready for nothing
+  std::function<void(v4l2_format&)> amendFormat;  ///< last word on S_FMT's answer
+};
+
+/// A kernel with fake V4L2 devices, as strict as videobuf2 about states. Time is `clock`'s, which a
+/// wait moves on. Thread-safe; outlives all that uses it.
+class FakeV4l2 final : public hal::v4l2::SystemCalls {
+ public:
+  explicit FakeV4l2(hal::Clock& clock) : clock_(clock) {}
+
+  /// Replaces the device at the same node. Its reference is good until it is unplugged.
+  FakeVideo& plug(FakeVideo video);
+  /// From now on every request of it answers this errno; its node is gone.
+  void unplug(const std::string& node, int errnoValue);
+
+  // What has not been given back.
+  int descriptors() const;  ///< of devices
+  int dmaBufs() const;
+  int mappings() const;
+  int buffers() const;  ///< driver's buffers whose memory is held by anybody
+
+  int controlValue(const std::string& node, std::uint32_t id) const;
+  int opens() const;
+
+  int open(const char* path, int flags) override;
+  int close(int fd) override;
+  int ioctl(int fd, unsigned long request, void* argument) override;
+  int map(int fd, std::size_t length, std::int64_t offset, void*& address) override;
+  int unmap(void* address, std::size_t length) override;
+  int poll(std::span<pollfd> waitFor, std::optional<hal::Duration> timeout) override;
+  std::int64_t write(int fd, std::span<const std::uint8_t> bytes) override;
+
+ private:
+  struct Device;
+  struct File;
+  struct Answerer;
+  using Memory = std::vector<std::uint8_t>;
+  struct Mapped {
+    std::shared_ptr<Memory> memory;
+    std::shared_ptr<Device> device;
+  };
+
+  std::shared_ptr<Device> deviceOf(int fd) const;
+  int pollOne(pollfd& waitFor, const Device& device) const;
+
+  hal::Clock& clock_;
+  mutable std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<Device>> devices_;
+  std::map<int, std::shared_ptr<Device>> files_;
+  std::map<int, std::shared_ptr<Memory>> dmaBufs_;
+  std::map<void*, Mapped> mapped_;
+  std::vector<std::weak_ptr<Memory>> made_;
+  int nextFd_ = 1000;
+  int opens_ = 0;
+};
+
+/// Folders, links and files that are made up.
+class FakeNodes final : public hal::v4l2::DeviceNodes {
+ public:
+  std::map<std::string, std::vector<std::string>> folders;
+  std::map<std::string, std::string> links;
+  std::map<std::string, std::string> files;
+
+  std::vector<std::string> list(const std::string& folder) override {
+    const auto found = folders.find(folder);
+    return found == folders.end() ? std::vector<std::string>() : found->second;
+  }
+  std::optional<std::string> target(const std::string& link) override { return at(links, link); }
+  std::optional<std::string> firstLine(const std::string& file) override { return at(files, file); }
+
+ private:
+  static std::optional<std::string> at(const std::map<std::string, std::string>& map,
+                                       const std::string& key) {
+    const auto found = map.find(key);
+    return found == map.end() ? std::nullopt : std::optional(found->second);
+  }
+};
+
+}  // namespace pleinair::support

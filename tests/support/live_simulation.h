@@ -1,0 +1,287 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hal/camera_backend.h"
+#include "hal/supervisor/camera_selector.h"
+#include "hal/supervisor/camera_supervisor.h"
+#include "pipeline/runtime/live_chain.h"
+
+namespace pleinair::support {
+
+// A live chain under a stepped clock: a camera that is paced by it, a painter whose GPU takes as
+// long as a test says, an output that notes when it got what. One thread; the same on every run.
+
+/// An endless camera with a frame each period, each handed out some time after its capture.
+struct PacedCameraOptions {
+  hal::Duration period = std::chrono::microseconds(33'333);
+  std::function<hal::Duration(std::uint64_t)> delay = [](std::uint64_t) {
+    return std::chrono::milliseconds(3);
+  };
+  std::function<hal::FrameHealth(std::uint64_t)> health = [](std::uint64_t) {
+    return hal::FrameHealth::kSound;
+  };
+  std::optional<std::uint64_t> frames;  ///< unset: it goes on for ever
+  hal::FrameSize size{8, 6};
+};
+
+class PacedCamera final : public hal::Camera {
+ public:
+  PacedCamera(PacedCameraOptions options, hal::Clock& clock)
+      : options_(std::move(options)),
+        clock_(clock),
+        image_(std::make_shared<hal::Image>(format())) {}
+
+  hal::CameraIdentity identity() const override { return {"paced", "paced", "paced"}; }
+  hal::Result<hal::StreamFormat> start(const hal::StreamRequest&) override {
+    started_ = clock_.now();
+    next_ = 0;
+    return hal::StreamFormat{.frame = format(), .framePeriod = options_.period};
+  }
+  hal::NextFrame next(hal::TimePoint deadline) override {
+    if (options_.frames && next_ == *options_.frames) return hal::EndOfStream{};
+    const hal::TimePoint captured = started_ + next_ * options_.period;
+    const hal::TimePoint arrival = captured + options_.delay(next_);
+    clock_.sleepUntil(std::min(arrival, deadline));
+    if (clock_.now() < arrival) return hal::CameraTimeout{};
+    const std::uint64_t sequence = next_++;
+    return hal::CapturedFrame{.image = image_->view(),
+                              .sequence = sequence,
+                              .captureTime = captured,
+                              .health = options_.health(sequence),
+                              .lease = image_};
+  }
+  void stop() override {}
+
+ private:
+  hal::FrameFormat format() const {
+    return {.pixelFormat = hal::PixelFormat::kGrey8, .size = options_.size};
+  }
+
+  PacedCameraOptions options_;
+  hal::Clock& clock_;
+  std::shared_ptr<hal::Image> image_;
+  hal::TimePoint started_;
+  std::uint64_t next_ = 0;
+};
+
+/// A back end of one camera.
+class SingleBackend final : public hal::CameraBackend {
+ public:
+  using Make = std::function<std::unique_ptr<hal::Camera>(hal::Clock&)>;
+  explicit SingleBackend(Make make) : make_(std::move(make)) {}
+  std::string_view name() const override { return "single"; }
+  hal::Result<std::vector<hal::CameraDescription>> list() override {
+    return std::vector<hal::CameraDescription>{{.identity = {"single", "only", "the only one"},
+                                                .serial = {},
+                                                .node = {},
+                                                .modes = {},
+                                                .problem = {}}};
+  }
+  std::unique_ptr<hal::Camera> make(const std::string&, hal::Clock& clock) override {
+    return make_(clock);
+  }
+
+ private:
+  Make make_;
+};
+
+inline hal::CameraSelector selectorOf(SingleBackend::Make make, hal::Clock& clock,
+                                      bool isDevice = false) {
+  std::vector<hal::SelectableBackend> backends;
+  backends.push_back({std::make_unique<SingleBackend>(std::move(make)), isDevice});
+  return {std::move(backends), "single", clock};
+}
+
+/// What a simulated GPU does; shared by the painters of one chain, which come and go.
+struct SimulatedGpu {
+  /// How long it works on a frame at a quality.
+  std::function<hal::Duration(std::uint64_t sequence, std::size_t quality)> cost =
+      [](std::uint64_t, std::size_t) { return std::chrono::milliseconds(20); };
+  std::function<bool(std::uint64_t sequence)> isLostAt = [](std::uint64_t) { return false; };
+  int failingStarts = 0;  ///< how many painters cannot be made from now on
+  int painters = 0;       ///< that exist
+  int made = 0;
+  std::optional<hal::TimePoint> nextReady;
+  bool isLost = false;
+};
+
+/// Works on one frame after another.
+class SimulatedPainter final : public runtime::FramePainter {
+ public:
+  SimulatedPainter(SimulatedGpu& gpu, const std::vector<hal::FrameFormat>& outputs,
+                   hal::Clock& clock)
+      : gpu_(gpu), formats_(outputs), clock_(clock), taken_(outputs.size(), 0) {
+    ++gpu_.painters;
+    ++gpu_.made;
+    gpu_.nextReady.reset();
+    gpu_.isLost = false;
+  }
+  ~SimulatedPainter() override {
+    --gpu_.painters;
+    gpu_.nextReady.reset();
+  }
+
+  hal::Result<void> paint(const hal::CapturedFrame& frame, std::size_t quality) override {
+    if (gpu_.isLostAt(frame.sequence)) gpu_.isLost = true;
+    if (gpu_.isLost) return tl::unexpected(lost());
+    busyUntil_ = std::max(busyUntil_, clock_.now()) + gpu_.cost(frame.sequence, quality);
+    work_.push_back({frame.sequence, frame.captureTime, busyUntil_});
+    tellNext();
+    return {};
+  }
+
+  hal::Result<bool> take(std::size_t output, ReadPicture& picture) override {
+    if (gpu_.isLost) return tl::unexpected(lost());
+    const std::size_t index = taken_.at(output) - done_;
+    if (index >= work_.size() || work_.at(index).ready > clock_.now()) return false;
+    if (picture.image.format() != formats_.at(output)) picture.image = hal::Image(formats_[output]);
+    picture.sequence = work_.at(index).sequence;
+    picture.captureTime = work_.at(index).captured;
+    ++taken_.at(output);
+    while (!work_.empty() && std::ranges::all_of(taken_, [&](auto t) { return t > done_; })) {
+      work_.pop_front();
+      ++done_;
+    }
+    tellNext();
+    return true;
+  }
+
+ private:
+  struct Work {
+    std::uint64_t sequence;
+    hal::TimePoint captured;
+    hal::TimePoint ready;
+  };
+  static hal::Error lost() {
+    return {.kind = hal::ErrorKind::kDeviceLost, .subject = "GPU", .problem = "was lost"};
+  }
+  void tellNext() {
+    gpu_.nextReady = work_.empty() ? std::nullopt : std::optional(work_.front().ready);
+  }
+
+  SimulatedGpu& gpu_;
+  std::vector<hal::FrameFormat> formats_;
+  hal::Clock& clock_;
+  hal::TimePoint busyUntil_;
+  std::deque<Work> work_;
+  std::size_t done_ = 0;
+  std::vector<std::size_t> taken_;
+};
+
+/// Notes when it got which picture.
+class NotingOutput final : public hal::MemoryOutput {
+ public:
+  struct Note {
+    hal::Duration time;  ///< of capture, since the first's
+    hal::TimePoint presented;
+    friend bool operator==(const Note&, const Note&) = default;
+  };
+  NotingOutput(std::vector<Note>& notes, hal::Clock& clock) : notes_(notes), clock_(clock) {}
+  hal::OutputIdentity identity() const override { return {"noting", "noting"}; }
+  hal::Result<hal::OutputFormat> start(const hal::OutputRequest& request) override {
+    return hal::OutputFormat{
+        .frame = {.pixelFormat = hal::PixelFormat::kGrey8, .size = request.size}};
+  }
+  hal::Result<void> write(const hal::ImageView&, hal::Duration time) override {
+    notes_.push_back({time, clock_.now()});
+    return {};
+  }
+  hal::Result<void> finish() override { return {}; }
+
+ private:
+  std::vector<Note>& notes_;
+  hal::Clock& clock_;
+};
+
+/// The chain with all its stages stepped in turn.
+class LiveSimulation {
+ public:
+  hal::SteppedClock clock{hal::TimePoint(std::chrono::seconds(100))};
+  SimulatedGpu gpu;
+  runtime::PaintStageOptions painting{.governor = {.levels = 5, .pinned = {}},
+                                      .latency = {},
+                                      .framePeriod = std::chrono::microseconds(33'333),
+                                      .refresh = {}};
+  std::vector<NotingOutput::Note> notes;
+
+  /// Begins with this camera; `makeOutput` adds another output.
+  void begin(hal::CameraSelector& selector, hal::SupervisorOptions options = {}) {
+    supervisor_ = std::make_unique<hal::CameraSupervisor>(selector, clock, options);
+    chain = std::make_unique<runtime::LiveChain>(*supervisor_, clock);
+    while (!chain->capture().status().format) chain->capture().step(clock.now());
+    addOutput({.name = "noting"});
+  }
+  void addOutput(runtime::OutputStageOptions options) {
+    auto output = std::make_unique<NotingOutput>(notes, clock);
+    const auto format = *output->start({.size = {8, 6}});
+    chain->addOutput(std::move(output), format, std::move(options));
+  }
+  void start() {
+    chain->makePaintStage(
+        [this](const std::vector<hal::FrameFormat>& outputs)
+            -> std::unique_ptr<runtime::FramePainter> {
+          if (gpu.failingStarts > 0) {
+            --gpu.failingStarts;
+            throw hal::StartupError({.kind = hal::ErrorKind::kUnsupported,
+                                     .subject = "GPU",
+                                     .problem = "is still gone"});
+          }
+          return std::make_unique<SimulatedPainter>(gpu, outputs, clock);
+        },
+        painting);
+    chain->paint().start();
+    chain->capture().open();
+  }
+
+  void runFor(hal::Duration duration) { runUntil(clock.now() + duration); }
+  void runUntil(hal::TimePoint end) {
+    while (clock.now() < end) {
+      stepAll();
+      chain->capture().step(nextEvent(end));
+    }
+    stepAll();
+  }
+  /// Until the camera has ended, with all of its frames.
+  void drain() {
+    while (!chain->isDrained()) runFor(std::chrono::milliseconds(10));
+  }
+
+  std::unique_ptr<runtime::LiveChain> chain;
+
+ private:
+  void stepAll() {
+    wake_.reset();
+    do {
+      for (std::size_t i = 0; i < chain->outputCount(); ++i) {
+        if (const auto next = chain->output(i).step())
+          wake_ = wake_ ? std::min(*wake_, *next) : next;
+      }
+    } while (chain->paint().step());
+    for (std::size_t i = 0; i < chain->outputCount(); ++i) {
+      if (const auto next = chain->output(i).step()) wake_ = wake_ ? std::min(*wake_, *next) : next;
+    }
+  }
+  /// The next moment at which anything but the camera has something to do.
+  hal::TimePoint nextEvent(hal::TimePoint end) const {
+    // What has no time of its own (a painter that is to be made anew) is looked at so often.
+    hal::TimePoint next = std::min(end, clock.now() + std::chrono::milliseconds(20));
+    if (gpu.nextReady) next = std::min(next, std::max(*gpu.nextReady, clock.now()));
+    if (wake_) next = std::min(next, std::max(*wake_, clock.now()));
+    return next;
+  }
+
+  std::optional<hal::TimePoint> wake_;
+  std::unique_ptr<hal::CameraSupervisor> supervisor_;
+};
+
+}  // namespace pleinair::support

@@ -1,0 +1,244 @@
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "hal/camera.h"
+#include "hal/camera_backend.h"
+#include "hal/image.h"
+
+namespace pleinair::support {
+
+// Cameras that do what a script says, by the clock, and nothing else.
+
+struct ScriptedFrame {
+  hal::Duration after = std::chrono::milliseconds(33);  ///< the step before
+  std::uint64_t dropped = 0;
+  std::uint64_t starved = 0;
+  hal::Duration timeError{};  ///< of its capture time
+  bool isTooShort = false;    ///< its plane does not hold its format
+  std::optional<hal::FrameFormat> format;
+};
+/// Nothing happens; a camera whose script is over stays silent.
+struct ScriptedSilence {
+  hal::Duration duration;
+};
+/// The clock jumps in the middle of a wait, as of a computer that was suspended.
+struct ScriptedJump {
+  hal::Duration by;
+};
+using ScriptedStep = std::variant<ScriptedFrame, ScriptedSilence, ScriptedJump, hal::FormatChanged,
+                                  hal::EndOfStream, hal::CameraLost, hal::Error>;
+
+inline hal::FrameFormat scriptedFormat(int width = 8, int height = 6) {
+  return {.pixelFormat = hal::PixelFormat::kGrey8, .size = {width, height}};
+}
+
+/// From one start() to its stop().
+struct ScriptedSession {
+  std::optional<hal::Error> startError;
+  hal::Duration startTakes{};
+  hal::StreamFormat format{.frame = scriptedFormat(), .framePeriod = std::chrono::milliseconds(33)};
+  std::vector<ScriptedStep> steps;
+};
+
+/// A device and what becomes of it, start by start; after the last session it is not there.
+struct ScriptedDevice {
+  hal::CameraDescription description;
+  std::vector<ScriptedSession> sessions;
+  bool repeatsLast = false;
+  // What was done to it:
+  std::size_t starts = 0;
+  std::vector<hal::TimePoint> startTimes;
+  hal::Duration jumped{};  ///< by ScriptedJump and startTakes, beyond any deadline
+  int alive = 0;           ///< cameras of it that exist
+  int streaming = 0;       ///< of those, started and not stopped
+};
+
+inline hal::Error scriptedError(hal::ErrorKind kind, std::string problem) {
+  return {.kind = kind, .subject = "scripted", .problem = std::move(problem)};
+}
+
+class ScriptedCamera final : public hal::Camera {
+ public:
+  ScriptedCamera(std::shared_ptr<ScriptedDevice> device, hal::SteppedClock& clock)
+      : device_(std::move(device)), clock_(clock) {
+    ++device_->alive;
+  }
+  ~ScriptedCamera() override {
+    stop();
+    --device_->alive;
+  }
+
+  hal::CameraIdentity identity() const override { return device_->description.identity; }
+
+  hal::Result<hal::StreamFormat> start(const hal::StreamRequest&) override {
+    assert(!session_);
+    const std::size_t index = device_->starts++;
+    device_->startTimes.push_back(clock_.now());
+    const std::size_t count = device_->sessions.size();
+    if (index >= count && !(device_->repeatsLast && count > 0)) {
+      return tl::unexpected(scriptedError(hal::ErrorKind::kNotFound, "is not there"));
+    }
+    const ScriptedSession& session = device_->sessions[std::min(index, count - 1)];
+    clock_.advance(session.startTakes);
+    device_->jumped += session.startTakes;
+    if (session.startError) return tl::unexpected(*session.startError);
+    session_ = session;
+    format_ = session.format.frame;
+    step_ = 0;
+    time_ = clock_.now();
+    ++device_->streaming;
+    return session_->format;
+  }
+
+  hal::NextFrame next(hal::TimePoint deadline) override {
+    assert(session_);
+    while (step_ < session_->steps.size()) {
+      const ScriptedStep& step = session_->steps[step_];
+      const hal::TimePoint due = time_ + durationOf(step);
+      if (due > deadline) break;
+      clock_.sleepUntil(due);
+      if (const auto* jump = std::get_if<ScriptedJump>(&step)) {
+        clock_.advance(jump->by);
+        device_->jumped += jump->by;
+        time_ = clock_.now();
+        ++step_;
+        continue;
+      }
+      time_ = due;
+      if (endsSession(step)) return answerOf(step);  // again and again, until stop()
+      ++step_;
+      if (!std::holds_alternative<ScriptedSilence>(step)) return answerOf(step);
+    }
+    clock_.sleepUntil(deadline);
+    return hal::CameraTimeout{};
+  }
+
+  void stop() override {
+    if (session_) --device_->streaming;
+    session_.reset();
+  }
+
+ private:
+  static hal::Duration durationOf(const ScriptedStep& step) {
+    if (const auto* frame = std::get_if<ScriptedFrame>(&step)) return frame->after;
+    if (const auto* silence = std::get_if<ScriptedSilence>(&step)) return silence->duration;
+    return {};
+  }
+  static bool endsSession(const ScriptedStep& step) {
+    return std::holds_alternative<hal::EndOfStream>(step) ||
+           std::holds_alternative<hal::CameraLost>(step) ||
+           std::holds_alternative<hal::Error>(step);
+  }
+
+  hal::NextFrame answerOf(const ScriptedStep& step) {
+    if (const auto* frame = std::get_if<ScriptedFrame>(&step)) return frameOf(*frame);
+    if (const auto* changed = std::get_if<hal::FormatChanged>(&step)) {
+      format_ = changed->format.frame;
+      return *changed;
+    }
+    if (const auto* end = std::get_if<hal::EndOfStream>(&step)) return *end;
+    if (const auto* lost = std::get_if<hal::CameraLost>(&step)) return *lost;
+    return std::get<hal::Error>(step);
+  }
+
+  hal::CapturedFrame frameOf(const ScriptedFrame& scripted) {
+    const auto image = std::make_shared<hal::Image>(scripted.format.value_or(format_));
+    hal::CapturedFrame frame{.image = image->view(),
+                             .dmaBufs = {},
+                             .sequence = 0,  // wrong on purpose: the supervisor counts by itself
+                             .droppedBefore = scripted.dropped,
+                             .starvedBefore = scripted.starved,
+                             .captureTime = time_ + scripted.timeError,
+                             .lease = image};
+    if (scripted.isTooShort) {
+      std::span<const std::uint8_t>& bytes = frame.image.planes[0].bytes;
+      bytes = bytes.first(bytes.size() - 1);
+    }
+    return frame;
+  }
+
+  std::shared_ptr<ScriptedDevice> device_;
+  hal::SteppedClock& clock_;
+  std::optional<ScriptedSession> session_;
+  hal::FrameFormat format_;
+  std::size_t step_ = 0;
+  hal::TimePoint time_;
+};
+
+/// A back end whose devices are scripted.
+class ScriptedBackend final : public hal::CameraBackend {
+ public:
+  ScriptedBackend(std::string name, hal::SteppedClock& clock)
+      : name_(std::move(name)), clock_(clock) {}
+
+  std::shared_ptr<ScriptedDevice> add(std::string id, std::vector<ScriptedSession> sessions,
+                                      std::string node = {}, std::string serial = {}) {
+    auto device = std::make_shared<ScriptedDevice>();
+    device->description = {.identity = {.backend = name_, .id = std::move(id), .description = ""},
+                           .serial = std::move(serial),
+                           .node = std::move(node),
+                           .modes = {},
+                           .problem = {}};
+    device->sessions = std::move(sessions);
+    devices_.push_back(device);
+    return device;
+  }
+  void failListing(hal::Error error) { listError_ = std::move(error); }
+
+  std::string_view name() const override { return name_; }
+  hal::Result<std::vector<hal::CameraDescription>> list() override {
+    if (listError_) return tl::unexpected(*listError_);
+    std::vector<hal::CameraDescription> descriptions;
+    for (const auto& device : devices_) descriptions.push_back(device->description);
+    return descriptions;
+  }
+  std::unique_ptr<hal::Camera> make(const std::string& id, hal::Clock&) override {
+    const auto found = std::ranges::find_if(
+        devices_, [&](const auto& device) { return device->description.identity.id == id; });
+    if (found == devices_.end()) return std::make_unique<ScriptedCamera>(absent_, clock_);
+    return std::make_unique<ScriptedCamera>(*found, clock_);
+  }
+
+ private:
+  std::string name_;
+  hal::SteppedClock& clock_;
+  std::vector<std::shared_ptr<ScriptedDevice>> devices_;
+  std::shared_ptr<ScriptedDevice> absent_ = std::make_shared<ScriptedDevice>();
+  std::optional<hal::Error> listError_;
+};
+
+/// `count` frames, a period apart.
+inline std::vector<ScriptedStep> scriptedFrames(
+    int count, hal::Duration period = std::chrono::milliseconds(33)) {
+  return std::vector<ScriptedStep>(static_cast<std::size_t>(count), ScriptedFrame{.after = period});
+}
+
+/// The steps of all, one after another.
+template <class... Steps>
+std::vector<ScriptedStep> scriptOf(Steps... steps) {
+  std::vector<ScriptedStep> script;
+  const auto append = [&]<class T>(T step) {
+    if constexpr (std::is_same_v<T, std::vector<ScriptedStep>>) {
+      script.insert(script.end(), step.begin(), step.end());
+    } else {
+      script.emplace_back(std::move(step));
+    }
+  };
+  (append(std::move(steps)), ...);
+  return script;
+}
+
+}  // namespace pleinair::support

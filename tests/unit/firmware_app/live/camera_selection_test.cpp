@@ -1,0 +1,95 @@
+#include "firmware_app/live/camera_selection.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "firmware_app/configuration_sections.h"
+#include "firmware_app/configured_parts.h"
+#include "hal/error.h"
+#include "tests/support/media_files.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pleinair::app {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+TEST(CameraSelection, MakesTheSyntheticOnesShotInTheSizeAskedFor) {
+  hal::SteppedClock clock;
+  const auto camera = chosenCamera({.source = "synthetic:pan", .size = {64, 48}}, clock);
+  EXPECT_EQ(camera->identity().backend, "synthetic");
+  EXPECT_THAT(camera->identity().id, StartsWith("synthetic:pan"));
+  const hal::StreamFormat format = hal::orThrow(camera->start({}));
+  EXPECT_EQ(format.frame.size, (hal::FrameSize{64, 48}));
+  EXPECT_FALSE(format.frameCount);
+}
+
+TEST(CameraSelection, PlaysRecordingsOverAndOverAtTheirOwnPace) {
+  const support::TemporaryFolder folder;
+  support::writeMedia(folder.path() / "a.mp4", 3);
+  hal::SteppedClock clock;
+  const auto camera = chosenCamera({.source = folder.path() / "a.mp4"}, clock);
+  EXPECT_EQ(camera->identity().backend, "recording");
+  const hal::TimePoint start = clock.now();
+  ASSERT_TRUE(camera->start({}));
+  for (int i = 0; i < 7; ++i) {
+    const hal::NextFrame next = camera->next(hal::kNoDeadline);
+    ASSERT_TRUE(std::holds_alternative<hal::CapturedFrame>(next)) << i;
+    EXPECT_EQ(clock.now() - start, i * std::chrono::milliseconds(40)) << "real time";
+  }
+}
+
+/// The failure of choosing `source`.
+hal::Error failureOf(const std::string& source) {
+  hal::SteppedClock clock;
+  try {
+    chosenCamera({.source = source}, clock);
+  } catch (const hal::StartupError& error) {
+    return error.error();
+  }
+  ADD_FAILURE() << source;
+  return {};
+}
+
+TEST(CameraSelection, RefusesOthersAndSaysWhatThereIs) {
+  for (const std::string source : {"webcam", "/no-such-folder/a.mp4", "Synthetic", "serial:"}) {
+    const hal::Error error = failureOf(source);
+    EXPECT_EQ(error.kind, hal::ErrorKind::kNotFound);
+    EXPECT_THAT(error.message(), StartsWith(source + ": is neither a camera nor a file; choose "));
+    EXPECT_THAT(error.message(), HasSubstr("auto, "));
+    EXPECT_THAT(error.message(), HasSubstr("synthetic:pan"));
+    EXPECT_THAT(error.message(), HasSubstr("serial:NUMBER, or the path of a recording"));
+  }
+}
+
+TEST(CameraSelection, SaysThatNoDeviceHasTheSerialNumber) {
+  const hal::Error error = failureOf("serial:no-device-has-this");
+  EXPECT_EQ(error.kind, hal::ErrorKind::kNotFound);
+  EXPECT_THAT(error.message(),
+              StartsWith("serial:no-device-has-this: no camera with that serial "));
+}
+
+TEST(CameraSelection, EveryDeviceBackEndHasItsNames) {
+  EXPECT_THAT(cameraNames(), Contains("auto"));
+  for (const hal::SelectableBackend& each : deviceBackends()) {
+    const std::string name(each.backend->name());
+    EXPECT_TRUE(each.isDevice) << name;
+    EXPECT_THAT(cameraNames(), Contains(name));
+    EXPECT_THAT(openCameraNames(), Contains(name + ":ID"));
+  }
+}
+
+TEST(CameraSelection, NamesAreNoPaths) {
+  for (const std::string name : {"auto", "synthetic", "synthetic:pan", "serial:A/1"}) {
+    EXPECT_TRUE(isCameraName(name)) << name;
+    EXPECT_FALSE(isRecording({.source = name})) << name;
+  }
+  for (const std::string path : {"a.mp4", "./auto", "serial", "serial:", "synthetic:x"}) {
+    EXPECT_FALSE(isCameraName(path)) << path;
+  }
+}
+
+}  // namespace
+}  // namespace pleinair::app

@@ -1,0 +1,118 @@
+#include "pipeline/runtime/presentation_queue.h"
+
+#include <gtest/gtest.h>
+
+namespace pleinair::runtime {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr hal::TimePoint kStart{1h};
+
+hal::TimePoint at(hal::Duration time) {
+  return kStart + time;
+}
+
+/// Captured 100 ms before its due time.
+WaitingPicture picture(hal::Duration ready, hal::Duration due) {
+  return {
+      .buffer = 0, .ticket = {}, .captured = at(due - 100ms), .ready = at(ready), .due = at(due)};
+}
+
+class PresentationQueueTest : public testing::Test {
+ protected:
+  /// The fate of the next picture that is ruled on now, or nothing.
+  std::optional<Fate> fateAt(hal::Duration now) {
+    const auto ruling = queue_.next(at(now));
+    return ruling ? std::optional(ruling->fate) : std::nullopt;
+  }
+  /// Something has been shown just now, so that nothing threatens to freeze.
+  void showOneAt(hal::Duration now) {
+    queue_.push(picture(now, now));
+    ASSERT_EQ(fateAt(now), Fate::kShown);
+  }
+
+  PresentationQueue queue_{{}, 4};
+};
+
+TEST(DueTime, IsTheFirstRefreshAtOrAfterTheLatency) {
+  const Refresh refresh{.period = 16ms, .reference = at(5ms)};
+  EXPECT_EQ(dueTime(at(0ms), 100ms, std::nullopt), at(100ms));
+  EXPECT_EQ(dueTime(at(0ms), 101ms, refresh), at(101ms)) << "exactly on one";
+  EXPECT_EQ(dueTime(at(0ms), 102ms, refresh), at(117ms));
+  EXPECT_EQ(dueTime(at(-500ms), 0ms, refresh), at(-491ms)) << "before the reference";
+}
+
+TEST_F(PresentationQueueTest, LetsEarlyPicturesWait) {
+  queue_.push(picture(20ms, 100ms));
+  EXPECT_EQ(queue_.nextTime(), at(100ms));
+  EXPECT_EQ(fateAt(99ms), std::nullopt);
+  EXPECT_EQ(fateAt(100ms), Fate::kShown);
+  EXPECT_EQ(queue_.nextTime(), std::nullopt);
+}
+
+TEST_F(PresentationQueueTest, DropsWhatWasReadyTooLate) {
+  showOneAt(60ms);
+  queue_.push(picture(110ms, 100ms));
+  EXPECT_EQ(fateAt(110ms), Fate::kLate);
+}
+
+TEST_F(PresentationQueueTest, ToleratesAWakingThatIsALittleLate) {
+  showOneAt(0ms);
+  queue_.push(picture(50ms, 100ms));
+  EXPECT_EQ(fateAt(107ms), Fate::kShown);
+}
+
+TEST_F(PresentationQueueTest, ShowsALatePictureRatherThanFreeze) {
+  showOneAt(0ms);
+  queue_.push(picture(180ms, 130ms));  // 180 ms after the one before: the next comes after 360
+  EXPECT_EQ(fateAt(180ms), Fate::kShownLate);
+  queue_.push(picture(230ms, 190ms));  // 50 ms after it: the next one comes before 200 ms are over
+  EXPECT_EQ(fateAt(230ms), Fate::kLate);
+}
+
+TEST_F(PresentationQueueTest, ShowsTheVeryFirstPictureHoweverLate) {
+  queue_.push(picture(900ms, 100ms));
+  EXPECT_EQ(fateAt(900ms), Fate::kShownLate);
+}
+
+TEST_F(PresentationQueueTest, ShowsTheNewestOfThoseDue) {
+  showOneAt(0ms);
+  queue_.push(picture(20ms, 100ms));
+  queue_.push(picture(30ms, 102ms));
+  queue_.push(picture(40ms, 140ms));
+  EXPECT_EQ(fateAt(103ms), Fate::kOvertaken);
+  EXPECT_EQ(fateAt(103ms), Fate::kShown);
+  EXPECT_EQ(fateAt(103ms), std::nullopt);
+}
+
+TEST_F(PresentationQueueTest, BlamesTheOutputForWhatFellDueWhileItWasBusy) {
+  showOneAt(0ms);
+  queue_.push(picture(20ms, 30ms));
+  queue_.push(picture(40ms, 60ms));
+  queue_.push(picture(60ms, 90ms));
+  queue_.presented(at(80ms));
+  EXPECT_EQ(fateAt(80ms), Fate::kOutputBusy);
+  EXPECT_EQ(fateAt(80ms), Fate::kOutputBusy) << "20 ms late";
+  EXPECT_EQ(fateAt(90ms), Fate::kShown);
+}
+
+TEST_F(PresentationQueueTest, KeepsTheOrderWhenTheLatencyFalls) {
+  queue_.push({.captured = at(0ms), .ready = at(20ms), .due = at(200ms)});
+  queue_.push({.captured = at(30ms), .ready = at(50ms), .due = at(130ms)});
+  EXPECT_EQ(fateAt(130ms), std::nullopt);
+  EXPECT_EQ(fateAt(200ms), Fate::kOvertaken);
+  EXPECT_EQ(fateAt(200ms), Fate::kShown);
+}
+
+TEST(UnpacedQueue, HandsOnEachPictureAtOnce) {
+  PresentationQueue queue({.isPaced = false}, 4);
+  queue.push(picture(20ms, 10ms));
+  queue.push(picture(30ms, 500ms));
+  EXPECT_EQ(queue.nextTime(), at(20ms));
+  EXPECT_EQ(queue.next(at(600ms))->fate, Fate::kShown);
+  EXPECT_EQ(queue.next(at(600ms))->fate, Fate::kShown);
+}
+
+}  // namespace
+}  // namespace pleinair::runtime

@@ -1,0 +1,116 @@
+#include "pipeline/runtime/status_text.h"
+
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace pleinair::runtime {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+const std::vector<std::string>& levels() {
+  static const std::vector<std::string> kLevels{"full", "high"};
+  return kLevels;
+}
+
+RuntimeStatus someStatus() {
+  RuntimeStatus status;
+  status.uptime = 90s;
+  status.camera = {.state = hal::CameraState::kStreaming,
+                   .reason = "frames come",
+                   .camera = hal::CameraIdentity{"v4l2", "usb-1", "A \"good\"\ncamera"},
+                   .format = hal::StreamFormat{.frame = {.size = {640, 480}}, .framePeriod = {}},
+                   .perSecond = 30.0};
+  status.painting = {
+      .quality = 1, .latency = 120ms, .configuredLatency = 120ms, .hasPainter = true};
+  DurationHistogram latency;
+  for (int i = 0; i < 100; ++i) latency.add(121ms);
+  status.painting.stages = {{"tracking", latency, 100, 12'100ms}};
+  OutputStage::Status output{.name = "loopback", .submitted = 100, .perSecond = 29.9};
+  output.presented = 100;
+  output.latencySum = 12'100ms;
+  output.latency = latency;
+  output.ended.at(0) = 100;
+  status.outputs = {output};
+  status.ledger.captured = 103;
+  status.ledger.ended.at(static_cast<std::size_t>(Fate::kShown)) = 100;
+  status.ledger.ended.at(static_cast<std::size_t>(Fate::kReplaced)) = 3;
+  return status;
+}
+
+TEST(StatusLine, SaysTheMostImportant) {
+  EXPECT_EQ(statusLine(someStatus(), levels()),
+            "streaming · 30.0 → 29.9 frames/s · 120 ms (p95 121) · high · 3 dropped");
+}
+
+TEST(StatusJson, HoldsEverything) {
+  const auto json = nlohmann::json::parse(statusJson(someStatus(), levels()));
+  EXPECT_EQ(json["camera"]["description"], "A \"good\"\ncamera");
+  EXPECT_EQ(json["camera"]["format"]["width"], 640);
+  EXPECT_EQ(json["painting"]["quality"], "high");
+  EXPECT_EQ(json["painting"]["latency_ms"], 120.0);
+  EXPECT_EQ(json["frames"]["captured"], 103);
+  EXPECT_EQ(json["frames"]["ended"]["replaced"], 3);
+  EXPECT_EQ(json["frames"]["ended"].size(), kFates);
+  EXPECT_EQ(json["outputs"][0]["name"], "loopback");
+  EXPECT_NEAR(json["outputs"][0]["latency"]["p95_ms"], 121.0, 0.1);
+  EXPECT_EQ(json["healthy"], true);
+}
+
+TEST(StatusJson, SurvivesNamesThatAreNoText) {
+  RuntimeStatus status = someStatus();
+  status.camera.camera->description = "\xff\xfe";
+  EXPECT_NO_THROW(nlohmann::json::parse(statusJson(status, levels())));
+}
+
+/// The syntax of Prometheus's text format 0.0.4, line by line.
+TEST(StatusMetrics, AreInPrometheusFormat) {
+  const std::string text = statusMetrics(someStatus(), levels());
+  static const std::regex kComment(
+      R"(# (HELP pleinair_\w+ .+|TYPE pleinair_\w+ (counter|gauge|summary)))");
+  static const std::regex kSample(
+      R"((pleinair_\w+)(\{\w+="(\\.|[^"\\])*"(,\w+="(\\.|[^"\\])*")*\})? [-+.\deE]+)");
+  std::istringstream lines(text);
+  std::set<std::string> seen;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('#')) {
+      EXPECT_TRUE(std::regex_match(line, kComment)) << line;
+    } else {
+      EXPECT_TRUE(std::regex_match(line, kSample)) << line;
+      EXPECT_TRUE(seen.insert(line.substr(0, line.rfind(' '))).second) << "twice: " << line;
+    }
+  }
+  EXPECT_EQ(text.back(), '\n');
+  EXPECT_THAT(text, HasSubstr("pleinair_frames_total{fate=\"replaced\"} 3\n"));
+  EXPECT_THAT(text, HasSubstr("pleinair_quality_level{level=\"high\"} 1\n"));
+  EXPECT_THAT(text,
+              HasSubstr("pleinair_capture_to_present_seconds_sum{output=\"loopback\"} 12.1\n"));
+  EXPECT_THAT(
+      text,
+      HasSubstr("pleinair_capture_to_present_seconds{output=\"loopback\",quantile=\"0.95\"} 0.12"));
+}
+
+TEST(StatusMetrics, EscapeLabels) {
+  RuntimeStatus status = someStatus();
+  status.outputs[0].name = "a\"b\\c\nd";
+  EXPECT_THAT(statusMetrics(status, levels()), HasSubstr(R"(output="a\"b\\c\nd")"));
+}
+
+TEST(RuntimeStatusTest, IsHealthyWhilePicturesComeOut) {
+  RuntimeStatus status = someStatus();
+  EXPECT_TRUE(status.isHealthy());
+  status.camera.state = hal::CameraState::kBackingOff;
+  EXPECT_FALSE(status.isHealthy());
+  status = someStatus();
+  status.outputs[0].perSecond = 0.0;
+  EXPECT_FALSE(status.isHealthy());
+}
+
+}  // namespace
+}  // namespace pleinair::runtime
