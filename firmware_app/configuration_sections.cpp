@@ -20,6 +20,7 @@ using config::numberParameter;
 using config::ParameterTable;
 using config::pathParameter;
 using config::sizeParameter;
+using config::switchParameter;
 using config::TakesEffect;
 using config::textParameter;
 
@@ -49,6 +50,10 @@ const ParameterTable<CameraSettings>& cameraTable() {
           "The camera: a device, by id or serial number or the first that works; \"synthetic\", a "
           "workbench made by code, or another of its shots; or a recording's path.",
           TakesEffect::kRestart, {}, openCameraNames()),
+      switchParameter("wait", &CameraSettings::wait,
+                      "Whether to wait for a camera where there is none at the start; one that is "
+                      "lost later is always waited for.",
+                      TakesEffect::kRestart),
       sizeParameter("size", &CameraSettings::size, kSizes, {},
                     "Of the synthetic camera's frames; movies have even sides."),
       numberParameter("rate", &CameraSettings::framesPerSecond,

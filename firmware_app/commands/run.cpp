@@ -115,6 +115,7 @@ int run(const RunOptions& options) {
          .outputs = targetsOf(output),
          .outputOptions = outputOptions(output),
          .runtime = configuration.runtime(),
+         .listen = configuration.status().listen,
          .waitsForCamera = camera.wait,
          .scene = std::move(scene),
          .stills = output.stills});

@@ -24,6 +24,7 @@ struct LiveJob {
   std::vector<std::string> outputs;  ///< as of hal::openOutput(); at least one
   hal::OutputOptions outputOptions;
   RuntimeSettings runtime;
+  std::string listen = "off";  ///< of the status server
   bool waitsForCamera = false;  ///< at the start, where there is none; later it always does
   scene::Scene scene;
   std::filesystem::path stills;  ///< the folder that stills go to

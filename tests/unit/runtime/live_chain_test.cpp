@@ -164,7 +164,7 @@ TEST_F(LiveChainTest, GivesUpAPictureThatIsNeverReady) {
   EXPECT_EQ(live_.gpu.made, 2);
   EXPECT_EQ(live_.gpu.painters, 1) << "the first one is gone";
   EXPECT_EQ(counts().of(Fate::kContextLost), 2u) << "it, and the one behind it";
-  EXPECT_LT(longestGap(), 2'500ms);
+  EXPECT_LT(longestGap(), 10'500ms);
   expectSumsToAgree();
 }
 
