@@ -100,15 +100,18 @@ const ParameterTable<PaintingSettings>& paintingTable() {
 }
 
 const ParameterTable<OutputSettings>& outputTable() {
+  static const std::vector<std::string> kLoopbackNames{"loopback:DEVICE"};
   static const ParameterTable<OutputSettings> kTable{
       pathParameter(
-          "target", &OutputSettings::target, {"window"},
+          "target", &OutputSettings::target, {"window", "loopback"},
           "Where a live painting goes: \"window\", \"loopback\" (a V4L2 device that others "
-          "read as a camera; \"loopback:/dev/video50\"), or a movie's or pictures' path."),
-      pathParameter("second_target", &OutputSettings::secondTarget, {kNoTarget, "window"},
-                    "Where it goes as well."),
-      pathParameter("third_target", &OutputSettings::thirdTarget, {kNoTarget, "window"},
-                    "And where else."),
+          "read as a camera; \"loopback:/dev/video50\"), or a movie's or pictures' path.",
+          TakesEffect::kRestart, {}, kLoopbackNames),
+      pathParameter("second_target", &OutputSettings::secondTarget,
+                    {kNoTarget, "window", "loopback"}, "Where it goes as well.",
+                    TakesEffect::kRestart, {}, kLoopbackNames),
+      pathParameter("third_target", &OutputSettings::thirdTarget, {kNoTarget, "window", "loopback"},
+                    "And where else.", TakesEffect::kRestart, {}, kLoopbackNames),
       choiceParameter("loopback_format", &OutputSettings::loopbackFormat,
                       {"auto", "yuyv", "nv12", "i420"},
                       "The layout of a loopback's pictures; \"auto\": what the device takes.",
