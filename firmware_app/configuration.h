@@ -15,9 +15,14 @@ namespace pleinair::app {
 /// [camera]
 struct CameraSettings {
   std::filesystem::path source = "synthetic";  ///< or a recording
-  config::PixelSize size{640, 480};            ///< of the synthetic camera, as all below
+  config::PixelSize size{640, 480};            ///< made, or asked of a device, as the rate
   double framesPerSecond = 30.0;
-  int seed = 1;
+  std::string exposure =
+      "device";  ///< of a device, as the next three (firmware_app/control_text.h)
+  std::string gain = "device";
+  std::string focus = "device";
+  std::string whiteBalance = "device";
+  int seed = 1;  ///< of the synthetic camera, as all below
   double exposureDriftStops = 0;
   double whiteBalanceDrift = 0;  ///< a share
   double readout = 0;            ///< of the frame period; 0: global shutter

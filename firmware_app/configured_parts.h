@@ -5,6 +5,7 @@
 #include "firmware_app/configuration.h"
 #include "firmware_app/painting.h"
 #include "firmware_app/path_collisions.h"
+#include "hal/camera.h"
 #include "hal/cameras/synthetic/synthetic_camera.h"
 #include "pipeline/scene/scene.h"
 
@@ -24,6 +25,8 @@ bool isSynthetic(const CameraSettings& camera);
 /// Whether the source is a path, and no camera's name.
 bool isRecording(const CameraSettings& camera);
 hal::SyntheticOptions syntheticOptions(const CameraSettings& camera);
+/// What a device is asked for: size, rate and controls.
+hal::StreamRequest streamRequestOf(const CameraSettings& camera);
 
 /// The files that the configuration and the scene were read from: nothing may be written over them.
 std::vector<NamedPath> configuredFiles(const Configuration& configuration,
