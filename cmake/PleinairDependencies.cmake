@@ -58,6 +58,16 @@ else()
   pleinair_optional("hot-plug by udev" "not in: libudev-dev is not installed")
 endif()
 
+# The status server.
+pkg_check_modules(MICROHTTPD QUIET IMPORTED_TARGET libmicrohttpd)
+set(PLEINAIR_STATUS_SERVER OFF)
+if(MICROHTTPD_FOUND)
+  set(PLEINAIR_STATUS_SERVER ON)
+  pleinair_optional("status server" "in (libmicrohttpd ${MICROHTTPD_VERSION})")
+else()
+  pleinair_optional("status server" "not in: libmicrohttpd-dev is not installed")
+endif()
+
 if(CCACHE_PROGRAM)
   pleinair_optional("compiler cache" "in (${CCACHE_PROGRAM})")
 else()

@@ -17,6 +17,8 @@
 #include "config/profiles.h"
 #include "config/suggestion.h"
 #include "firmware_app/commands/config.h"
+#include "firmware_app/commands/devices.h"
+#include "firmware_app/commands/doctor.h"
 #include "firmware_app/commands/record.h"
 #include "firmware_app/commands/render.h"
 #include "firmware_app/commands/run.h"
@@ -120,6 +122,28 @@ void addRender(CLI::App& app, RenderOptions& options, std::function<int()>& chos
   command.callback([&] { chosen = [&options] { return render(options); }; });
 }
 
+/// --output, up to three times: the targets in their order.
+void addOutputs(CLI::App& command, ConfigurationRequest& request) {
+  static constexpr std::array kKeys{"output.target", "output.second_target", "output.third_target"};
+  const auto assign = [&request](const std::vector<std::string>& targets) {
+    if (targets.size() > kKeys.size()) throw CLI::ValidationError("--output: three at the most");
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+      if (const std::string refusal = refuseStandardOutput(targets[i]); !refusal.empty()) {
+        throw CLI::ValidationError("--output: " + refusal);
+      }
+      request.options.push_back({kKeys.at(i), targets[i], "--output"});
+    }
+  };
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--output", assign,
+          "window (default), loopback (a V4L2 device that others read as a camera), or a file or "
+          "folder as of render; may be given up to three times")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("NAME|PATH");
+}
+
 void addRun(CLI::App& app, RunOptions& options, std::function<int()>& chosen) {
   CLI::App& command = *app.add_subcommand("run", "paint a camera live, in a window");
   ConfigurationRequest& configuration = options.configuration;
@@ -127,9 +151,7 @@ void addRun(CLI::App& app, RunOptions& options, std::function<int()>& chosen) {
          "synthetic (default), auto, a device as docs/cameras.md says, or a recording's path, "
          "played over and over at its own pace",
          "NAME|PATH");
-  addKey(command, configuration, "--output", "output.target",
-         "window (default), or a file or folder as of render", "NAME|PATH")
-      ->check(refuseStandardOutput);
+  addOutputs(command, configuration);
   addPainting(command, configuration);
   addKey(command, configuration, "--size", "painting.size",
          "of the painting (default: the camera's)", "WxH");
@@ -180,6 +202,21 @@ void addConfig(CLI::App& app, ConfigOptions& options, std::function<int()>& chos
   command.add_flag("--given", options.givenOnly, "leave out what nobody gave: a short site file");
   refuseEmptyValues(command);
   command.callback([&] { chosen = [&options] { return printConfiguration(options); }; });
+}
+
+void addDevices(CLI::App& app, DevicesOptions& options, std::function<int()>& chosen) {
+  CLI::App& command = *app.add_subcommand("devices", "list the cameras and outputs that are there");
+  command.add_flag("--json", options.json, "for programs");
+  command.callback([&] { chosen = [&options] { return listDevices(options); }; });
+}
+
+void addDoctor(CLI::App& app, DoctorOptions& options, std::function<int()>& chosen) {
+  CLI::App& command =
+      *app.add_subcommand("doctor", "say what works on this machine, and what mends the rest");
+  command.add_flag("--json", options.json, "for programs");
+  addConfiguration(command, options.configuration);
+  refuseEmptyValues(command);
+  command.callback([&] { chosen = [&options] { return examineMachine(options); }; });
 }
 
 /// What was not recognised, the first option of it where there is one: the rest may be its value.
@@ -251,8 +288,11 @@ int parseAndRun(int argc, const char* const* argv) {
   RecordOptions recordOptions;
   ConfigOptions configOptions;
   RunOptions runOptions;
-  for (ConfigurationRequest* each : {&renderOptions.configuration, &recordOptions.configuration,
-                                     &runOptions.configuration, &configOptions.configuration}) {
+  DevicesOptions devicesOptions;
+  DoctorOptions doctorOptions;
+  for (ConfigurationRequest* each :
+       {&renderOptions.configuration, &recordOptions.configuration, &runOptions.configuration,
+        &configOptions.configuration, &doctorOptions.configuration}) {
     each->environment = environmentOfProcess();
   }
   std::function<int()> chosen;
@@ -260,12 +300,15 @@ int parseAndRun(int argc, const char* const* argv) {
   addRender(app, renderOptions, chosen);
   addRecord(app, recordOptions, chosen);
   addConfig(app, configOptions, chosen);
+  addDevices(app, devicesOptions, chosen);
+  addDoctor(app, doctorOptions, chosen);
   app.add_subcommand("styles", "list styles with their looks, parameters and views")->callback([&] {
     chosen = listStyles;
   });
   try {
     app.parse(argumentsReversed(argc, argv));
-    if (!chosen) throw CLI::RequiredError("one of run, render, record, config and styles");
+    if (!chosen)
+      throw CLI::RequiredError("one of run, render, record, config, devices, doctor and styles");
     return chosen();
   } catch (const CLI::ParseError& error) {
     return reportParseError(app, error);

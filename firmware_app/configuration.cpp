@@ -221,6 +221,14 @@ OutputSettings Configuration::output() const {
   return outputOf(sections_);
 }
 
+RuntimeSettings Configuration::runtime() const {
+  return runtimeOf(sections_);
+}
+
+StatusSettings Configuration::status() const {
+  return statusOf(sections_);
+}
+
 const ParameterValues& Configuration::styleParameters() const {
   return sections_.values(styleSection(painting().style));
 }

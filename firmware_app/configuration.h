@@ -12,13 +12,16 @@
 
 namespace pleinair::app {
 
+/// An output that is not there.
+inline constexpr const char* kNoTarget = "none";
+
 /// [camera]
 struct CameraSettings {
   std::filesystem::path source = "synthetic";  ///< or a recording
+  bool wait = false;                           ///< for a camera where there is none at the start
   config::PixelSize size{640, 480};            ///< made, or asked of a device, as the rate
   double framesPerSecond = 30.0;
-  std::string exposure =
-      "device";  ///< of a device, as the next three (firmware_app/control_text.h)
+  std::string exposure = "device";  ///< of a device (control_text.h), as the next three
   std::string gain = "device";
   std::string focus = "device";
   std::string whiteBalance = "device";
@@ -40,8 +43,24 @@ struct PaintingSettings {
 
 /// [output]
 struct OutputSettings {
-  std::filesystem::path target = "window";  ///< or a movie or pictures
-  std::filesystem::path stills = ".";       ///< the folder that stills are saved to
+  std::filesystem::path target = "window";  ///< or a loopback, a movie or pictures
+  std::filesystem::path secondTarget{kNoTarget};
+  std::filesystem::path thirdTarget{kNoTarget};
+  std::string loopbackFormat = "auto";
+  std::filesystem::path stills = ".";  ///< the folder that stills are saved to
+};
+
+/// [runtime]
+struct RuntimeSettings {
+  double latencyMs = 120;  ///< from capture to being shown
+  double maxLatencyMs = 400;
+  std::string quality = "auto";  ///< or a level that is kept
+  double rate = 0;               ///< frames a second that quality is lowered for; 0: the camera's
+};
+
+/// [status]
+struct StatusSettings {
+  std::string listen = "off";  ///< or ADDRESS:PORT
 };
 
 /// A key that an option of the command line gives.
@@ -81,6 +100,8 @@ class Configuration {
   CameraSettings camera() const;
   PaintingSettings painting() const;
   OutputSettings output() const;
+  RuntimeSettings runtime() const;
+  StatusSettings status() const;
   /// Of the style in force.
   const config::ParameterValues& styleParameters() const;
 

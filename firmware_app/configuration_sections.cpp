@@ -6,8 +6,10 @@
 #include "config/profiles.h"
 #include "firmware_app/control_text.h"
 #include "firmware_app/live/camera_selection.h"
+#include "firmware_app/status_server/listen_address.h"
 #include "hal/cameras/synthetic/shot.h"
 #include "hal/pixel_format.h"
+#include "pipeline/painter.h"
 #include "pipeline/styles/style_registry.h"
 
 namespace pleinair::app {
@@ -113,10 +115,50 @@ const ParameterTable<PaintingSettings>& paintingTable() {
 
 const ParameterTable<OutputSettings>& outputTable() {
   static const ParameterTable<OutputSettings> kTable{
-      pathParameter("target", &OutputSettings::target, {"window"},
-                    "Where a live painting goes: \"window\", or a movie's or pictures' path."),
+      pathParameter(
+          "target", &OutputSettings::target, {"window"},
+          "Where a live painting goes: \"window\", \"loopback\" (a V4L2 device that others "
+          "read as a camera; \"loopback:/dev/video50\"), or a movie's or pictures' path."),
+      pathParameter("second_target", &OutputSettings::secondTarget, {kNoTarget, "window"},
+                    "Where it goes as well."),
+      pathParameter("third_target", &OutputSettings::thirdTarget, {kNoTarget, "window"},
+                    "And where else."),
+      choiceParameter("loopback_format", &OutputSettings::loopbackFormat,
+                      {"auto", "yuyv", "nv12", "i420"},
+                      "The layout of a loopback's pictures; \"auto\": what the device takes.",
+                      TakesEffect::kRestart),
       pathParameter("stills", &OutputSettings::stills, {"."},
                     "The folder that the window's key s saves to; \".\": where the program runs.")};
+  return kTable;
+}
+
+std::vector<std::string> qualityChoices() {
+  std::vector<std::string> names{"auto"};
+  for (const QualityLevel& level : qualityLevels()) names.push_back(level.name);
+  return names;
+}
+
+const ParameterTable<RuntimeSettings>& runtimeTable() {
+  using R = RuntimeSettings;
+  static const ParameterTable<R> kTable{
+      numberParameter("latency", &R::latencyMs, {.min = 10, .max = 2000, .unit = "ms"},
+                      "From a frame's capture until it is shown.", TakesEffect::kRestart),
+      numberParameter("max_latency", &R::maxLatencyMs, {.min = 10, .max = 4000, .unit = "ms"},
+                      "How far that may rise where even the lowest quality misses it.",
+                      TakesEffect::kRestart),
+      choiceParameter("quality", &R::quality, qualityChoices(),
+                      "\"auto\": the best that keeps up; or a level that is kept.",
+                      TakesEffect::kRestart),
+      numberParameter("rate", &R::rate, {.min = 0, .max = 240, .unit = "frames a second"},
+                      "What quality is lowered for to keep up with; 0: the camera's rate.",
+                      TakesEffect::kRestart)};
+  return kTable;
+}
+
+const ParameterTable<StatusSettings>& statusTable() {
+  static const ParameterTable<StatusSettings> kTable{textParameter(
+      "listen", &StatusSettings::listen, std::string(kAllowedListen),
+      "Where /status, /metrics and /healthz are served over HTTP.", TakesEffect::kRestart)};
   return kTable;
 }
 
@@ -152,7 +194,9 @@ config::Sections defaultSections() {
       {"", "", profileTable().defaults()},
       {"camera", "What is painted live and recorded.", cameraTable().defaults()},
       {"painting", "What is made of it.", paintingTable().defaults()},
-      {"output", "Where it goes.", outputTable().defaults()}};
+      {"output", "Where it goes.", outputTable().defaults()},
+      {"runtime", "How it keeps up.", runtimeTable().defaults()},
+      {"status", "What is told of the running program.", statusTable().defaults()}};
   for (const styles::StyleInfo& info : styles::styleInfos()) {
     sections.push_back({fmt::format("style.{}", info.name),
                         fmt::format("The style {}: {}.", info.name, info.help), info.defaults});
@@ -174,6 +218,14 @@ PaintingSettings paintingOf(const config::Sections& sections) {
 
 OutputSettings outputOf(const config::Sections& sections) {
   return outputTable().typed(sections.values("output"));
+}
+
+RuntimeSettings runtimeOf(const config::Sections& sections) {
+  return runtimeTable().typed(sections.values("runtime"));
+}
+
+StatusSettings statusOf(const config::Sections& sections) {
+  return statusTable().typed(sections.values("status"));
 }
 
 }  // namespace pleinair::app

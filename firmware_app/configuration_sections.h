@@ -24,8 +24,8 @@ std::vector<std::string> openCameraNames();
 /// Whether camera.source is one of either; else it is a recording's path.
 bool isCameraName(std::string_view source);
 
-/// Every key that the program knows, at its default: the profile, [camera], [painting], [output]
-/// and a [style.…] for each style.
+/// Every key that the program knows, at its default: the profile, [camera], [painting], [output],
+/// [status] and a [style.…] for each style.
 config::Sections defaultSections();
 
 // The settings in force of what defaultSections() made.
@@ -33,5 +33,7 @@ std::filesystem::path profileOf(const config::Sections& sections);
 CameraSettings cameraOf(const config::Sections& sections);
 PaintingSettings paintingOf(const config::Sections& sections);
 OutputSettings outputOf(const config::Sections& sections);
+RuntimeSettings runtimeOf(const config::Sections& sections);
+StatusSettings statusOf(const config::Sections& sections);
 
 }  // namespace pleinair::app

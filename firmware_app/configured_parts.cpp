@@ -4,11 +4,14 @@
 #include <chrono>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
+#include "config/config_error.h"
 #include "config/suggestion.h"
 #include "firmware_app/configuration_sections.h"
 #include "firmware_app/control_text.h"
+#include "firmware_app/status_server/listen_address.h"
 #include "hal/cameras/synthetic/open_synthetic.h"
 #include "pipeline/scene/scene_file.h"
 
@@ -103,6 +106,16 @@ hal::StreamRequest streamRequestOf(const CameraSettings& camera) {
                                     : std::chrono::round<hal::Duration>(Milliseconds(*time));
   }
   return request;
+}
+
+std::unique_ptr<StatusServer> configuredStatusServer(const Configuration& configuration,
+                                                     StatusPages pages) {
+  const std::string listen = configuration.status().listen;
+  if (!parseListen(listen)) {
+    throw configuration.errorAt("status.listen", "found " + config::quoted(listen),
+                                std::string(kAllowedListen));
+  }
+  return startStatusServer(listen, std::move(pages));
 }
 
 std::vector<NamedPath> configuredFiles(const Configuration& configuration,

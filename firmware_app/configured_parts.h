@@ -1,10 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "firmware_app/configuration.h"
 #include "firmware_app/painting.h"
 #include "firmware_app/path_collisions.h"
+#include "firmware_app/status_server/status_server.h"
 #include "hal/camera.h"
 #include "hal/cameras/synthetic/synthetic_camera.h"
 #include "pipeline/scene/scene.h"
@@ -27,6 +29,11 @@ bool isRecording(const CameraSettings& camera);
 hal::SyntheticOptions syntheticOptions(const CameraSettings& camera);
 /// What a device is asked for: size, rate and controls.
 hal::StreamRequest streamRequestOf(const CameraSettings& camera);
+
+/// [status]'s server, started; null where it is off. Throws config::ConfigError (no such address)
+/// and hal::StartupError as startStatusServer().
+std::unique_ptr<StatusServer> configuredStatusServer(const Configuration& configuration,
+                                                     StatusPages pages);
 
 /// The files that the configuration and the scene were read from: nothing may be written over them.
 std::vector<NamedPath> configuredFiles(const Configuration& configuration,

@@ -36,7 +36,8 @@ struct QualityLevel {
   std::string help;
 };
 
-/// All levels, best first; each paints in about two thirds of the time of the one before it.
+/// All levels, best first. A style takes about two thirds of the time of the level before; what
+/// does not depend on the picture's size (tracking, models, read-back) stays.
 std::vector<QualityLevel> qualityLevels();
 
 struct PainterOptions {

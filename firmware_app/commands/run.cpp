@@ -1,6 +1,10 @@
 #include "firmware_app/commands/run.h"
 
+#include <algorithm>
+#include <map>
 #include <memory>
+#include <optional>
+#include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -10,18 +14,46 @@
 #include "firmware_app/live/live_painting.h"
 #include "hal/clock.h"
 #include "hal/error.h"
+#include "hal/outputs/open_output.h"
+#include "hal/outputs/v4l2_loopback/loopback_output.h"
 
 namespace pleinair::app {
 namespace {
 
-/// The painting would overwrite what it is painted from.
+/// In their order, without those that are not there.
+std::vector<std::string> targetsOf(const OutputSettings& output) {
+  std::vector<std::string> targets{output.target.string()};
+  for (const auto& each : {output.secondTarget, output.thirdTarget}) {
+    if (each != kNoTarget) targets.push_back(each.string());
+  }
+  return targets;
+}
+
+bool isFile(const std::string& target) {
+  return target != "window" && !hal::isLoopbackName(target);
+}
+
+void refuseTwice(std::vector<std::string> targets) {
+  std::ranges::sort(targets);
+  const auto twice = std::ranges::adjacent_find(targets);
+  if (twice == targets.end()) return;
+  throw hal::StartupError(hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
+                                     .subject = "--output",
+                                     .problem = "is given twice: " + *twice,
+                                     .remedy = "give each output once"});
+}
+
+/// The painting would overwrite what it is painted from, or itself.
 void refuseCollisionsOf(const Configuration& configuration, const scene::Scene& scene) {
-  const std::filesystem::path target = configuration.output().target;
-  if (target == "window") return;
   std::vector<NamedPath> read = configuredFiles(configuration, scene);
   const CameraSettings camera = configuration.camera();
   if (isRecording(camera)) read.insert(read.begin(), {"--camera", camera.source});
-  refuseCollisions(read, {{"--output", target}});
+  std::vector<NamedPath> written;
+  for (const std::string& target : targetsOf(configuration.output())) {
+    if (isFile(target)) written.push_back({"--output", target});
+  }
+  refuseCollisions(read, written);
+  refuseTwice(targetsOf(configuration.output()));
 }
 
 void requireFolder(const std::filesystem::path& folder) {
@@ -42,6 +74,15 @@ CameraSettings liveCamera(const Configuration& configuration) {
   return camera;
 }
 
+hal::OutputOptions outputOptions(const OutputSettings& output) {
+  static const std::map<std::string, hal::PixelFormat> kLayouts{{"yuyv", hal::PixelFormat::kYuyv},
+                                                                {"nv12", hal::PixelFormat::kNv12},
+                                                                {"i420", hal::PixelFormat::kI420}};
+  const auto layout = kLayouts.find(output.loopbackFormat);
+  return {.loopbackLayout =
+              layout == kLayouts.end() ? std::nullopt : std::optional(layout->second)};
+}
+
 }  // namespace
 
 int run(const RunOptions& options) {
@@ -53,13 +94,19 @@ int run(const RunOptions& options) {
     refuseCollisionsOf(configuration, scene);
     requireFolder(output.stills);
     hal::SteadyClock clock;
-    const std::unique_ptr<hal::Camera> camera = chosenCamera(liveCamera(configuration), clock);
+    const CameraSettings camera = liveCamera(configuration);
+    const auto selector = makeCameraSelector(camera, clock);
     return runLive(
-        {.camera = camera.get(),
+        {.selector = selector.get(),
+         .request = streamRequestOf(camera),
          .clock = &clock,
-         .options = configuredPainting(configuration, {.output = output.target,
-                                                       .frames = options.frames,
-                                                       .shaderDirectory = options.shaderDirectory}),
+         .options = configuredPainting(
+             configuration,
+             {.output = {}, .frames = options.frames, .shaderDirectory = options.shaderDirectory}),
+         .outputs = targetsOf(output),
+         .outputOptions = outputOptions(output),
+         .runtime = configuration.runtime(),
+         .waitsForCamera = camera.wait,
          .scene = std::move(scene),
          .stills = output.stills});
   });

@@ -1,29 +1,35 @@
 #include "firmware_app/live/live_painting.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <ctime>
-#include <deque>
+#include <cstdlib>
 #include <memory>
 #include <optional>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "config/suggestion.h"
 #include "firmware_app/interrupt.h"
-#include "firmware_app/live/camera_thread.h"
-#include "firmware_app/live/frame_counts.h"
-#include "firmware_app/live/frame_rate.h"
+#include "firmware_app/live/live_controls.h"
+#include "firmware_app/live/live_painter.h"
+#include "firmware_app/live/live_reporter.h"
 #include "firmware_app/live/live_tuning.h"
 #include "firmware_app/live/live_window.h"
-#include "firmware_app/live/still_file.h"
-#include "firmware_app/progress.h"
+#include "firmware_app/live/runtime_rules.h"
+#include "firmware_app/live/still_saver.h"
 #include "firmware_app/scene_warnings.h"
-#include "hal/outputs/open_output.h"
 #include "hal/outputs/window/window.h"
+#include "hal/supervisor/camera_supervisor.h"
 #include "pipeline/painter.h"
+#include "pipeline/runtime/live_chain.h"
+#include "pipeline/runtime/live_threads.h"
+#include "pipeline/runtime/status_text.h"
+#include "pipeline/styles/style_registry.h"
 
 namespace pleinair::app {
 namespace {
@@ -31,137 +37,173 @@ namespace {
 using hal::orThrow;
 using namespace std::chrono_literals;
 
-/// How long the loop waits for a frame: while the GPU works, not past the picture that it brings.
-constexpr hal::Duration kBusyPatience = 2ms;
-constexpr hal::Duration kIdlePatience = 20ms;
-/// One on the GPU while the next is tracked; more would only wait there and grow old.
-constexpr std::size_t kMostUnderWay = 2;
+/// How often the program's own thread looks at keys, signals and the state of things.
+constexpr hal::Duration kLook = 10ms;
+constexpr hal::Duration kBetweenReports = 100ms;
+constexpr hal::Duration kBetweenCaptions = 33ms;
+/// From this rate on, the next picture draws the caption soon enough.
+constexpr double kRateOfPictures = 8.0;
+/// Within the two seconds that ending may take, with some left for leaving.
+constexpr hal::Duration kStopPatience = 1500ms;
 
-LiveTuning tuningOf(const Painter& painter, const PaintingOptions& options) {
-  std::vector<LiveLook> looks;
-  for (const PainterLook& look : painter.looks()) {
-    looks.push_back({look.name, painter.lookParameters(look.name)});
-  }
-  return {options.style, parametersOf(painter, options), painter.views(), std::move(looks)};
+PaintParameters startOf(const PaintingOptions& options) {
+  return {.style = options.parameters.value_or(styles::styleInfo(options.style).defaults),
+          .view = options.view};
 }
 
-/// The live loop, all on one thread but for the camera.
+LiveTuning tuningOf(const PaintingOptions& options) {
+  const styles::StyleInfo& info = styles::styleInfo(options.style);
+  std::vector<LiveLook> looks;
+  for (const styles::Look& look : info.looks) {
+    looks.push_back({std::string(look.name), info.parametersOf(look.name)});
+  }
+  return {options.style, startOf(options), viewsOf(options.style), std::move(looks)};
+}
+
+void checkView(const PaintingOptions& options) {
+  std::vector<std::string> names;
+  for (const PainterView& view : viewsOf(options.style)) names.push_back(view.name);
+  if (options.view.empty() || std::ranges::find(names, options.view) != names.end()) return;
+  throw hal::StartupError({.kind = hal::ErrorKind::kInvalidArgument,
+                           .subject = "view \"" + options.view + "\"",
+                           .problem = config::unknownText("view", options.view, names),
+                           .remedy = "choose one of: " + config::listText(names)});
+}
+
+/// The live chain with all that is around it, on the program's own thread.
 class LivePainting {
  public:
   explicit LivePainting(const LiveJob& job)
       : job_(job),
-        output_(orThrow(hal::openOutput(job.options.output.string()))),
-        camera_(*job.camera, *job.clock, {.size = job.options.size}),
-        stream_(camera_.format()),
-        painter_({.pictureSize = pictureSize(),
-                  .scene = job.scene,
-                  .style = job.options.style,
-                  .tracksTags = !job.scene.tags.empty(),
-                  .shaderDirectory = job.options.shaderDirectory,
-                  .expectedFormat = stream_.frame}),
-        tuning_(tuningOf(painter_, job.options)),
-        reader_(painter_.openReader(
-            orThrow(output_->start({.size = pictureSize(), .framePeriod = stream_.framePeriod}))
-                .frame)) {
-    if (auto* window = dynamic_cast<hal::Window*>(output_.get()); window != nullptr) {
-      window_.emplace(*window, tuning_, *job.clock);
-    }
-    for (const std::string& notice : job.scene.notices) spdlog::warn("{}", notice);
-    if (const auto warning = assumedCameraWarning(job.scene, stream_.frame.size)) {
-      spdlog::warn("{}", *warning);
+        supervisor_(*job.selector, *job.clock, {}, job.request),
+        chain_(supervisor_, *job.clock),
+        tuning_(tuningOf(job.options)),
+        controls_(startOf(job.options)),
+        saver_(job.stills),
+        reporter_(qualityNames()) {
+    checkView(job.options);
+    for (const std::string& name : job.outputs) {
+      opened_.push_back(orThrow(hal::openOutput(name, job.outputOptions)));
     }
   }
+  ~LivePainting() { stopThreads(); }
+  LivePainting(const LivePainting&) = delete;
+  LivePainting& operator=(const LivePainting&) = delete;
 
   void run() {
-    const hal::TimePoint began = job_.clock->now();
-    {
-      Progress progress("showing", job_.options.frames, *job_.clock);
-      progress_ = &progress;
-      camera_.begin();
-      while (!isOver()) {
-        if (isPaintingFull()) show(true);
-        paintNewest();
-        while (show(false)) {
-        }
-        attendWindow();
-      }
-      finish();
-      progress_ = nullptr;
-    }
-    if (hasResult()) {
-      fmt::print("{}: {}\n", counts_.summary(job_.clock->now() - began),
-                 job_.options.output.string());
-    }
-    if (failure_) throw hal::StartupError(*std::move(failure_));
+    threads_.emplace(chain_);
+    if (!awaitStream()) return;
+    startOutputs();
+    if (!awaitPainter()) return;
+    threads_->startOutputs(stepped_);
+    began_ = job_.clock->now();
+    while (!isOver()) look();
+    finish();
   }
 
  private:
+  /// False where it was broken off before.
+  bool awaitStream() {
+    for (;;) {
+      if (Interrupt::received() != 0) return false;
+      const runtime::CaptureStage::Status camera = chain_.capture().status();
+      if (camera.format) {
+        stream_ = *camera.format;
+        return true;
+      }
+      const bool gaveUp = camera.hasEnded || (camera.cause && !job_.waitsForCamera);
+      if (gaveUp) throw hal::StartupError(camera.cause.value_or(noFrames()));
+      if (camera.cause) tellOfWaiting(camera.cause->message());
+      job_.clock->sleepUntil(job_.clock->now() + kLook);
+    }
+  }
+
+  static hal::Error noFrames() {
+    return {.kind = hal::ErrorKind::kInvalidInput,
+            .subject = "camera",
+            .problem = "has ended before its first frame",
+            .remedy = {}};
+  }
+
+  void tellOfWaiting(const std::string& cause) {
+    if (std::exchange(waitedFor_, cause) != cause) spdlog::warn("waiting for a camera: {}", cause);
+  }
+
   hal::FrameSize pictureSize() const { return job_.options.size.value_or(stream_.frame.size); }
-  bool isPaintingFull() const { return underWay_.size() >= kMostUnderWay; }
+
+  void startOutputs() {
+    for (const std::string& notice : job_.scene.notices) spdlog::warn("{}", notice);
+    if (const auto warning = assumedCameraWarning(job_.scene, stream_.frame.size)) {
+      spdlog::warn("{}", *warning);
+    }
+    for (std::size_t i = 0; i < opened_.size(); ++i) startOutput(i);
+    chain_.makePaintStage([this](const auto& formats) { return makePainter(formats); },
+                          paintRules(job_.runtime, stream_));
+    threads_->startPainter();
+  }
+
+  void startOutput(std::size_t index) {
+    const hal::OutputRequest request{.size = pictureSize(), .framePeriod = stream_.framePeriod};
+    auto* window = dynamic_cast<hal::Window*>(opened_.at(index).get());
+    const hal::OutputFormat format = orThrow(opened_.at(index)->start(request));
+    if (window != nullptr) {
+      window_.emplace(*window, tuning_, *job_.clock);
+      stepped_.push_back(index);
+    }
+    runtime::OutputStageOptions options =
+        outputRules(job_.outputs.at(index), job_.outputOptions, job_.runtime, stream_);
+    options.request = request;
+    options.limit = job_.options.frames;
+    chain_.addOutput(std::move(opened_.at(index)), format, std::move(options));
+  }
+
+  std::unique_ptr<runtime::FramePainter> makePainter(const std::vector<hal::FrameFormat>& formats) {
+    const PainterOptions options{.pictureSize = pictureSize(),
+                                 .scene = job_.scene,
+                                 .style = job_.options.style,
+                                 .tracksTags = !job_.scene.tags.empty(),
+                                 .shaderDirectory = job_.options.shaderDirectory,
+                                 .expectedFormat = stream_.frame,
+                                 .qualityLevels = job_.runtime.quality != qualityNames().front()};
+    return std::make_unique<LivePainter>(options, formats, controls_);
+  }
+
+  bool awaitPainter() {
+    while (!threads_->isPainterReady()) {
+      if (Interrupt::received() != 0) return false;
+      job_.clock->sleepUntil(job_.clock->now() + kLook);
+    }
+    return true;
+  }
 
   bool isOver() const {
-    const bool isEnough = job_.options.frames && painted_ >= *job_.options.frames;
-    return isEnough || hasEnded_ || wantsToQuit_ || Interrupt::received() != 0;
+    return Interrupt::received() != 0 || wantsToQuit_ || failure_ || haveOutputsEnded() ||
+           chain_.isDrained();
   }
 
-  void paintNewest() {
-    CameraThread::Taken taken = takeFrame(underWay_.empty() ? kIdlePatience : kBusyPatience);
-    if (taken.frame) {
-      paint(*taken.frame);
-    } else if (taken.hasEnded) {
-      hasEnded_ = true;
-      failure_ = std::move(taken.failure);
+  /// Whether each has got its frames, or has failed for good.
+  bool haveOutputsEnded() const {
+    for (std::size_t i = 0; i < chain_.outputCount(); ++i) {
+      const runtime::OutputStage& output = chain_.output(i);
+      if (!output.isFull() && !output.status().isFinal) return false;
     }
-  }
-
-  CameraThread::Taken takeFrame(hal::Duration patience) {
-    CameraThread::Taken taken = camera_.take(patience);
-    counts_.drop(DropReason::kCamera, taken.leftOut);
-    counts_.drop(DropReason::kReplaced, taken.replaced);
-    return taken;
-  }
-
-  void paint(const hal::CapturedFrame& frame) {
-    if (!firstTime_) firstTime_ = frame.captureTime;
-    const bool isRepeat = tuning_.isPaused() && held_;
-    PaintParameters parameters = tuning_.parameters();
-    if (wantsStill_) parameters.view.clear();
-    orThrow(painter_.paint(isRepeat ? heldAt(frame) : frame, parameters));
-    underWay_.push_back(isRepeat);
-    if (isRepeat) {
-      counts_.drop(DropReason::kPaused);
-    } else {
-      ++painted_;
-      hold(frame);
-    }
-    if (std::exchange(wantsStill_, false)) saveStill();
-  }
-
-  /// During a pause the first frame is painted again and again, so that tuning shows on it.
-  void hold(const hal::CapturedFrame& frame) {
-    held_.reset();
-    if (tuning_.isPaused()) held_.emplace(frame.image);
-  }
-
-  hal::CapturedFrame heldAt(const hal::CapturedFrame& frame) const {
-    return {.image = held_->view(),
-            .sequence = frame.sequence,
-            .captureTime = frame.captureTime,
-            .timestampSource = frame.timestampSource};
-  }
-
-  /// Takes one picture that has been read to the output; false if there is none.
-  bool show(bool wait) {
-    if (!orThrow(painter_.take(reader_, read_, wait))) return false;
-    const bool isRepeat = underWay_.front();
-    underWay_.pop_front();
-    rate_.count(job_.clock->now());
-    if (window_) window_->update(rate_.perSecond(), true);
-    orThrow(output_->write(read_.image.view(), read_.captureTime - *firstTime_));
-    if (isRepeat) return true;
-    counts_.show();
-    progress_->advance();
     return true;
+  }
+
+  /// One round of the program's own thread.
+  void look() {
+    hal::TimePoint wake = job_.clock->now() + kLook;
+    for (const std::size_t index : stepped_) {
+      if (const auto next = chain_.output(index).step()) wake = std::min(wake, *next);
+    }
+    attendWindow();
+    attendStills();
+    report();
+    if (stepped_.empty()) {
+      job_.clock->sleepUntil(wake);
+    } else {
+      chain_.output(stepped_.front()).wait(wake);
+    }
   }
 
   void attendWindow() {
@@ -169,51 +211,101 @@ class LivePainting {
     const LiveWindow::Wishes wishes = window_->takeWishes();
     wantsToQuit_ = wantsToQuit_ || wishes.quit;
     wantsStill_ = wantsStill_ || wishes.still;
-    window_->update(rate_.perSecond(), false);
+    if (wishes.tuned) controls_.setParameters(tuning_.parameters());
+    chain_.paint().setPaused(tuning_.isPaused());
+    const hal::TimePoint now = job_.clock->now();
+    if (now - captioned_ < kBetweenCaptions) return;
+    captioned_ = now;
+    const double rate = chain_.output(stepped_.front()).status().perSecond;
+    window_->update(rate, rate > kRateOfPictures);
   }
 
-  void saveStill() {
-    const hal::Image still = orThrow(painter_.still());
-    const auto saved = app::saveStill(job_.stills, still.view(), std::time(nullptr));
-    const std::string text = saved ? "saved " + saved->string() : saved.error().message();
-    window_->notify(text);
-    progress_->interrupt();
-    if (saved) {
-      spdlog::info("{}", text);
-    } else {
-      spdlog::warn("{}", text);
+  void attendStills() {
+    if (wantsStill_ && !saver_.isBusy()) {
+      wantsStill_ = false;
+      controls_.askForStill();
+    }
+    if (auto still = controls_.takeStill()) {
+      if (*still) {
+        saver_.save(**std::move(still));
+      } else {
+        tell(still->error().message(), false);
+      }
+    }
+    if (const auto saved = saver_.takeResult()) {
+      tell(*saved ? "saved " + (*saved)->string() : saved->error().message(), saved->has_value());
     }
   }
 
-  /// Also after the camera is lost what was painted is kept; of nothing there is no file.
-  bool hasResult() const { return !failure_ || painted_ > 0; }
+  void tell(const std::string& text, bool isGood) {
+    if (window_) window_->notify(text);
+    reporter_.interrupt();
+    spdlog::log(isGood ? spdlog::level::info : spdlog::level::warn, "{}", text);
+  }
+
+  void report() {
+    const hal::TimePoint now = job_.clock->now();
+    if (now - reported_ < kBetweenReports) return;
+    reported_ = now;
+    const runtime::RuntimeStatus status = chain_.status();
+    reporter_.update(status, now);
+    // Where not one frame can be painted, none of the others can.
+    const bool isHopeless = status.painting.painted == 0 && status.painting.failures > 0;
+    if (isHopeless) failure_ = status.painting.failure;
+  }
 
   void finish() {
-    camera_.stop();
-    if (takeFrame(0ms).frame) counts_.drop(DropReason::kStopped);
-    while (show(true)) {
+    const hal::Duration elapsed = job_.clock->now() - began_;
+    stopThreads();
+    reporter_.interrupt();
+    const runtime::LedgerCounts ledger = chain_.ledger().counts();
+    fmt::print("{}: {}\n", ledger.summary(elapsed), fmt::join(job_.outputs, ", "));
+    if (!failure_ && !failures_.empty()) failure_ = failures_.front();
+    if (failure_) throw hal::StartupError(*failure_);
+  }
+
+  /// Idempotent. Does not come back where something hangs.
+  void stopThreads() {
+    if (!threads_) return;
+    const runtime::LiveThreads::Stopped stopped = threads_->stop(kStopPatience);
+    if (!stopped.stuck.empty()) leave(stopped.stuck);
+    failures_ = stopped.failures;
+    for (const std::size_t index : stepped_) {
+      if (auto finished = chain_.output(index).finish(); !finished) {
+        failures_.push_back(std::move(finished.error()));
+      }
     }
-    if (hasResult()) orThrow(output_->finish());
+    threads_.reset();
+  }
+
+  /// What hangs still uses what would be destroyed.
+  [[noreturn]] void leave(const std::vector<std::string>& stuck) {
+    reporter_.interrupt();
+    fmt::print("{}: {}\n", chain_.ledger().counts().summary(job_.clock->now() - began_),
+               fmt::join(job_.outputs, ", "));
+    spdlog::error("{} did not end in time and was left behind", fmt::join(stuck, ", "));
+    std::fflush(nullptr);
+    std::_Exit(EXIT_FAILURE);
   }
 
   const LiveJob& job_;
-  std::unique_ptr<hal::MemoryOutput> output_;
-  CameraThread camera_;
+  hal::CameraSupervisor supervisor_;
+  runtime::LiveChain chain_;
   hal::StreamFormat stream_;
-  Painter painter_;
   LiveTuning tuning_;
-  int reader_;
-  std::optional<LiveWindow> window_;  ///< where the output is one
+  LiveControls controls_;
+  StillSaver saver_;
+  LiveReporter reporter_;
+  std::vector<std::unique_ptr<hal::MemoryOutput>> opened_;  ///< until they are the chain's
+  std::vector<std::size_t> stepped_;                        ///< outputs of this thread: the window
+  std::optional<LiveWindow> window_;
+  std::optional<runtime::LiveThreads> threads_;
 
-  std::deque<bool> underWay_;       ///< pictures to be read, and whether each is a repeat
-  std::optional<hal::Image> held_;  ///< of a pause
-  std::optional<hal::TimePoint> firstTime_;
-  ReadPicture read_;
-  FrameCounts counts_;
-  FrameRate rate_;
-  Progress* progress_ = nullptr;  ///< while it runs
-  std::uint64_t painted_ = 0;
-  bool hasEnded_ = false;
+  hal::TimePoint began_;
+  hal::TimePoint reported_;
+  hal::TimePoint captioned_;
+  std::string waitedFor_;
+  std::vector<hal::Error> failures_;   ///< of outputs, at the end
   std::optional<hal::Error> failure_;  ///< why it ended, where that is not its proper end
   bool wantsToQuit_ = false;
   bool wantsStill_ = false;

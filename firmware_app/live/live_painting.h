@@ -1,29 +1,42 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <vector>
 
+#include "firmware_app/configuration.h"
 #include "firmware_app/painting.h"
 #include "hal/camera.h"
 #include "hal/clock.h"
+#include "hal/outputs/open_output.h"
+#include "hal/supervisor/camera_selector.h"
 #include "pipeline/scene/scene.h"
 
 namespace pleinair::app {
 
 /// A camera's frames, painted as they come.
 struct LiveJob {
-  hal::Camera* camera = nullptr;  ///< stopped; delivers in real time by `clock`
+  hal::CameraSelector* selector = nullptr;
+  hal::StreamRequest request;
   hal::Clock* clock = nullptr;
-  PaintingOptions options;
+  PaintingOptions options;           ///< its output is not looked at
+  std::vector<std::string> outputs;  ///< as of hal::openOutput(); at least one
+  hal::OutputOptions outputOptions;
+  RuntimeSettings runtime;
+  bool waitsForCamera = false;  ///< at the start, where there is none; later it always does
   scene::Scene scene;
   std::filesystem::path stills;  ///< the folder that stills go to
 };
 
 /// Runs the job until its frames are shown, the recording ends, a window is closed, a key or a
-/// signal says so; then prints a summary on standard output and gives 0: ending it is no failure,
-/// and a file has all that was painted. A newer frame takes the place of one that waits; what was
-/// not shown is counted. Throws hal::StartupError and config::ConfigError, also for a camera that
-/// is lost, then after the summary and with all in the file that was painted before.
+/// signal says so; then prints the ledger on standard output and gives 0: ending it is no failure,
+/// and a file has all that was written to it. A camera or a GPU that is lost, and an output that
+/// can be opened again, are waited for. Throws hal::StartupError and config::ConfigError; where an
+/// output failed for good, after the ledger.
+///
+/// All ends within two seconds of a signal: what does not (a driver that hangs) is left behind, and
+/// the process ends here, with status 1.
 int runLive(const LiveJob& job);
 
 }  // namespace pleinair::app

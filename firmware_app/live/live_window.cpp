@@ -34,6 +34,7 @@ LiveWindow::Wishes LiveWindow::takeWishes() {
 void LiveWindow::press(const hal::KeyPressed& key, Wishes& wishes) {
   const LiveTuning::Wish wish = tuning_.press(key);
   if (wish == LiveTuning::Wish::kUnknownKey) return;
+  wishes.tuned = true;
   notice_.clear();
   fading_.callUp(clock_.now());
   if (wish == LiveTuning::Wish::kQuit) wishes.quit = true;

@@ -21,6 +21,7 @@ class LiveWindow {
   struct Wishes {
     bool quit = false;
     bool still = false;
+    bool tuned = false;  ///< parameters, view or look may have changed
   };
   Wishes takeWishes();
 

@@ -167,12 +167,18 @@ Result<OpenedCamera> CameraSelector::openNamed(const SelectableBackend& backend,
 
 Result<OpenedCamera> CameraSelector::start(const Candidate& candidate,
                                            const StreamRequest& request) {
+  if (stopping_.stop_requested()) {
+    return tl::unexpected(Error{.kind = ErrorKind::kBusy,
+                                .subject = choice_,
+                                .problem = "is not opened: the program stops"});
+  }
   const SelectableBackend& from = *candidate.backend;
   const CameraFactory make = [backend = from.backend, id = candidate.description.identity.id](
                                  Clock& clock) { return backend->make(id, clock); };
-  OpenedCamera opened{.camera = from.isDevice && wrapper_ ? wrapper_(make) : make(clock_),
-                      .format = {},
-                      .isDevice = from.isDevice};
+  OpenedCamera opened{
+      .camera = from.isDevice && wrapper_ ? wrapper_(make, stopping_.get_token()) : make(clock_),
+      .format = {},
+      .isDevice = from.isDevice};
   Result<StreamFormat> format = opened.camera->start(request);
   if (!format) return tl::unexpected(std::move(format.error()));
   opened.format = *format;

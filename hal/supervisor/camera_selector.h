@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,7 +34,9 @@ struct OpenedCamera {
 /// Makes a camera that tells time by that clock; keeps alive what the camera needs.
 using CameraFactory = std::function<std::unique_ptr<Camera>(Clock& clock)>;
 /// Puts a device's camera onto something else, such as a thread of its own (worker_camera.h).
-using CameraWrapper = std::function<std::unique_ptr<Camera>(CameraFactory make)>;
+/// Once a stop is requested, a start() that waits for the device returns.
+using CameraWrapper =
+    std::function<std::unique_ptr<Camera>(CameraFactory make, std::stop_token stop)>;
 
 /// Finds the camera that a choice names among those of all back ends, and opens it:
 /// - "v4l2": the back end's first that works,
@@ -66,6 +69,10 @@ class CameraSelector {
   void putLast(const CameraIdentity& camera);
   void wasOfUse(const CameraIdentity& camera);
 
+  /// Nothing is opened from now on, and an open() that waits for a device on a thread of its own
+  /// returns at once. Any thread.
+  void interrupt() { stopping_.request_stop(); }
+
  private:
   struct Candidate {
     const SelectableBackend* backend;
@@ -90,6 +97,7 @@ class CameraSelector {
   std::string choice_;
   Clock& clock_;
   CameraWrapper wrapper_;
+  std::stop_source stopping_;
   std::vector<CameraIdentity> last_;
 };
 

@@ -293,6 +293,7 @@ void CameraSupervisor::devicesChanged() {
 
 void CameraSupervisor::stop() {
   isStopped_ = true;
+  selector_.interrupt();
   wake();
 }
 

@@ -111,8 +111,8 @@ class CameraSupervisor {
   /// Something was plugged or unplugged: a back-off is cut short, and starts small again. Any
   /// thread.
   void devicesChanged();
-  /// The next next() closes the camera and ends; one that waits is woken. Returns at once. Any
-  /// thread.
+  /// The next next() closes the camera and ends; one that waits is woken, in an opening too. The
+  /// selector opens nothing more. Returns at once. Any thread.
   void stop();
 
   CameraState state() const { return state_.load(); }  ///< any thread

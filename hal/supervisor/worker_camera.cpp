@@ -39,7 +39,8 @@ class WorkerCamera::Worker {
     const std::scoped_lock lock(mutex_);
     return identity_;
   }
-  Result<StreamFormat> start(const StreamRequest& request, Duration limit);
+  Result<StreamFormat> start(const StreamRequest& request, Duration limit,
+                             const std::stop_token& interrupted);
   NextFrame next(TimePoint deadline);
   /// Whether it did within the limit.
   bool stop(Duration limit);
@@ -83,7 +84,12 @@ class WorkerCamera::Worker {
   std::unique_ptr<Camera> camera_;  // the thread's
 };
 
-Result<StreamFormat> WorkerCamera::Worker::start(const StreamRequest& request, Duration limit) {
+Result<StreamFormat> WorkerCamera::Worker::start(const StreamRequest& request, Duration limit,
+                                                 const std::stop_token& interrupted) {
+  const std::stop_callback wake(interrupted, [this] {
+    const std::scoped_lock lock(mutex_);
+    changed_.notify_all();
+  });
   std::unique_lock lock(mutex_);
   if (!isIdle_) {
     return tl::unexpected(Error{.kind = ErrorKind::kBusy,
@@ -97,10 +103,15 @@ Result<StreamFormat> WorkerCamera::Worker::start(const StreamRequest& request, D
   started_.reset();
   clearMail();
   changed_.notify_all();
-  if (holdsWithin(changed_, lock, limit, [this] { return started_.has_value(); })) {
-    return *started_;
-  }
+  holdsWithin(changed_, lock, limit,
+              [&] { return started_.has_value() || interrupted.stop_requested(); });
+  if (started_) return *started_;
   shallStream_ = false;
+  if (interrupted.stop_requested()) {
+    return tl::unexpected(Error{.kind = ErrorKind::kBusy,
+                                .subject = identity_.backend + ":" + identity_.id,
+                                .problem = "its opening was broken off: the program stops"});
+  }
   return tl::unexpected(
       Error{.kind = ErrorKind::kTimeout,
             .subject = identity_.backend + ":" + identity_.id,
@@ -221,15 +232,16 @@ void WorkerCamera::Worker::clearMail() {
 }
 
 WorkerCamera::WorkerCamera(CameraFactory make, WorkerLimits limits,
-                           std::shared_ptr<std::atomic<int>> hanging)
+                           std::shared_ptr<std::atomic<int>> hanging, std::stop_token interrupted)
     : limits_(limits),
       hanging_(hanging ? std::move(hanging) : std::make_shared<std::atomic<int>>(0)),
+      interrupted_(std::move(interrupted)),
       worker_(std::make_shared<Worker>(std::move(make), hanging_)),
       thread_([worker = worker_] { worker->run(); }) {}
 
 WorkerCamera::~WorkerCamera() {
   stop();
-  if (worker_->quit(limits_.stop)) {
+  if (worker_->quit(isHanging_ ? Duration::zero() : limits_.stop)) {
     thread_.join();
   } else {
     thread_.detach();  // it owns what it uses
@@ -249,7 +261,7 @@ Result<StreamFormat> WorkerCamera::start(const StreamRequest& request) {
         .problem = std::to_string(count) + " earlier openings of cameras still hang in a driver",
         .remedy = "unplug the camera, or start the program anew"});
   }
-  return worker_->start(request, limits_.start);
+  return worker_->start(request, limits_.start, interrupted_);
 }
 
 NextFrame WorkerCamera::next(TimePoint deadline) {
@@ -257,12 +269,13 @@ NextFrame WorkerCamera::next(TimePoint deadline) {
 }
 
 void WorkerCamera::stop() {
-  worker_->stop(limits_.stop);
+  isHanging_ = !worker_->stop(isHanging_ ? Duration::zero() : limits_.stop);
 }
 
 CameraWrapper onThreadsOfTheirOwn(WorkerLimits limits) {
-  return [limits, hanging = std::make_shared<std::atomic<int>>(0)](CameraFactory make) {
-    return std::make_unique<WorkerCamera>(std::move(make), limits, hanging);
+  return [limits, hanging = std::make_shared<std::atomic<int>>(0)](CameraFactory make,
+                                                                   std::stop_token stop) {
+    return std::make_unique<WorkerCamera>(std::move(make), limits, hanging, std::move(stop));
   };
 }
 

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <memory>
+#include <stop_token>
 #include <thread>
 
 #include "hal/camera.h"
@@ -24,12 +25,15 @@ struct WorkerLimits {
 /// all, if ever the driver lets go; until then start() answers kBusy.
 ///
 /// Real time only: deadlines are the SteadyClock's. Contract as of Camera; start() also answers
-/// kTimeout and kBusy. The destructor takes no longer than twice the limit of stop().
+/// kTimeout and kBusy. stop() and the destructor together
+/// wait once for the limit of a stop.
 class WorkerCamera final : public Camera {
  public:
   /// `hanging` counts the abandoned threads of all cameras that share it.
+  /// Once `interrupted`, start() does not wait.
   explicit WorkerCamera(CameraFactory make, WorkerLimits limits = {},
-                        std::shared_ptr<std::atomic<int>> hanging = nullptr);
+                        std::shared_ptr<std::atomic<int>> hanging = nullptr,
+                        std::stop_token interrupted = {});
   ~WorkerCamera() override;
 
   CameraIdentity identity() const override;
@@ -41,7 +45,9 @@ class WorkerCamera final : public Camera {
   class Worker;
   WorkerLimits limits_;
   std::shared_ptr<std::atomic<int>> hanging_;
+  std::stop_token interrupted_;
   std::shared_ptr<Worker> worker_;  // with the thread, which may outlive this
+  bool isHanging_ = false;
   std::thread thread_;
 };
 

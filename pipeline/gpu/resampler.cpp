@@ -7,14 +7,17 @@
 namespace pleinair::gpu {
 
 Resampler::Resampler(const ShaderLibrary& library)
-    : program_(library.fragmentPass("pipeline/gpu/shaders/resample.frag")) {}
+    : mean_(library.fragmentPass("pipeline/gpu/shaders/resample.frag")),
+      once_(library.fragmentPass("pipeline/gpu/shaders/resample_once.frag")) {}
 
 const Texture& Resampler::resample(const Texture& picture, hal::FrameSize size,
                                    const CoverFit& fit) {
   assert(picture.format() == TextureFormat::kRgba8);
   if (picture.size() == size && fit.isIdentity()) return picture;
   const Scaled& scaled = scaledOf(size);
-  program_.use()
+  const bool oneTapIsEnough = fit.scale.x <= 2.0 && fit.scale.y <= 2.0;
+  (oneTapIsEnough ? once_ : mean_)
+      .use()
       .texture("picture", picture)
       .set("sourceOrigin", glm::vec2(fit.origin))
       .set("sourceScale", glm::vec2(fit.scale))

@@ -33,7 +33,8 @@ class Resampler {
   };
   const Scaled& scaledOf(hal::FrameSize size);
 
-  Program program_;
+  Program mean_;
+  Program once_;
   std::vector<std::unique_ptr<Scaled>> scaled_;
 };
 

@@ -38,6 +38,7 @@ class LiveChain {
   PaintStage& paint() { return *paint_; }
   std::size_t outputCount() const { return outputs_.size(); }
   OutputStage& output(std::size_t index) { return *outputs_.at(index); }
+  const OutputStage& output(std::size_t index) const { return *outputs_.at(index); }
   const FrameLedger& ledger() const { return ledger_; }
 
   /// Whether the camera has ended and every frame of it too. Any thread.

@@ -333,7 +333,7 @@ void Watercolor::compose(const scene::ArFrame& frame, gpu::PassTimer& timer) {
       .set("pictureSize", glm::vec2(s.size.width, s.size.height))
       .set("threshold", static_cast<float>(p_.edgeThreshold))
       .set("edgeSoftness", static_cast<float>(p_.edgeSoftness))
-      .set("edgeDarkness", static_cast<float>(p_.edgeDarkness))
+      .set("edgeDarkness", static_cast<float>(p_.edgeDarkness) * pixelsOfFull_)  // wider lines
       .set("wobble", static_cast<float>(p_.wobble) * pixelsOfFull_)
       .set("rim", static_cast<float>(p_.rim))
       .set("granulation", static_cast<float>(p_.granulation))

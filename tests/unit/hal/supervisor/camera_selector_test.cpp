@@ -151,7 +151,7 @@ TEST_F(CameraSelectorTest, WrapsDevicesOnly) {
   usb_->add("a", {sound_});
   files_->add("film", {sound_});
   int wrapped = 0;
-  const CameraWrapper wrapper = [&](const CameraFactory& make) {
+  const CameraWrapper wrapper = [&](const CameraFactory& make, const std::stop_token&) {
     ++wrapped;
     return make(clock_);
   };

@@ -45,6 +45,10 @@ class Driver {
     hangs_.reset();
     changed_.notify_all();
   }
+  void waitUntilHanging() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return isHanging_; });
+  }
   void waitUntilGone() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return isGone_; });
@@ -53,7 +57,10 @@ class Driver {
   // The camera's side.
   void call(Call call) {
     std::unique_lock lock(mutex_);
+    isHanging_ = hangs_ == call;
+    changed_.notify_all();
     changed_.wait(lock, [&] { return hangs_ != call; });
+    isHanging_ = false;
   }
   NextFrame next() {
     call(Call::kNext);
@@ -83,6 +90,7 @@ class Driver {
   std::optional<Call> hangs_;
   bool isAsked_ = false;
   bool isGone_ = false;
+  bool isHanging_ = false;
 };
 
 class DrivenCamera final : public Camera {
@@ -98,6 +106,22 @@ class DrivenCamera final : public Camera {
   }
   NextFrame next(TimePoint) override { return driver_->next(); }
   void stop() override { driver_->call(Driver::Call::kStop); }
+
+ private:
+  std::shared_ptr<Driver> driver_;
+};
+
+/// A back end of one driven camera.
+class DrivenBackend final : public CameraBackend {
+ public:
+  explicit DrivenBackend(std::shared_ptr<Driver> driver) : driver_(std::move(driver)) {}
+  std::string_view name() const override { return "driven"; }
+  Result<std::vector<CameraDescription>> list() override {
+    return std::vector<CameraDescription>{{.identity = {.backend = "driven", .id = "a"}}};
+  }
+  std::unique_ptr<Camera> make(const std::string&, Clock&) override {
+    return std::make_unique<DrivenCamera>(driver_);
+  }
 
  private:
   std::shared_ptr<Driver> driver_;
@@ -196,6 +220,25 @@ TEST_F(WorkerCameraTest, ADriverThatHangsInStartIsATimeout) {
   driver_->waitUntilGone();
 }
 
+TEST_F(WorkerCameraTest, StoppingASupervisorBreaksOffAnOpeningThatHangs) {
+  driver_->hangIn(Driver::Call::kStart);
+  SteadyClock clock;
+  CameraSelector selector({{.backend = std::make_shared<DrivenBackend>(driver_)}}, "driven", clock,
+                          onThreadsOfTheirOwn({.start = kPatient.start, .stop = Duration::zero()}));
+  {
+    CameraSupervisor supervisor(selector, clock);
+    std::thread consumer([&] {
+      while (!std::holds_alternative<EndOfStream>(supervisor.next(kNoDeadline))) continue;
+    });
+    driver_->waitUntilHanging();
+    supervisor.stop();
+    consumer.join();
+  }
+  EXPECT_FALSE(selector.open({})) << "nothing more";
+  driver_->letGo();
+  driver_->waitUntilGone();
+}
+
 TEST_F(WorkerCameraTest, OpensNothingMoreOnceTooManyHang) {
   *hanging_ = 4;
   const auto worker = camera(kPatient);
@@ -216,22 +259,6 @@ TEST_F(WorkerCameraTest, FramesMayOutliveIt) {
   worker.reset();
   EXPECT_EQ(lease.use_count(), 2);
 }
-
-/// A back end of one driven camera.
-class DrivenBackend final : public CameraBackend {
- public:
-  explicit DrivenBackend(std::shared_ptr<Driver> driver) : driver_(std::move(driver)) {}
-  std::string_view name() const override { return "driven"; }
-  Result<std::vector<CameraDescription>> list() override {
-    return std::vector<CameraDescription>{{.identity = {.backend = "driven", .id = "a"}}};
-  }
-  std::unique_ptr<Camera> make(const std::string&, Clock&) override {
-    return std::make_unique<DrivenCamera>(driver_);
-  }
-
- private:
-  std::shared_ptr<Driver> driver_;
-};
 
 TEST_F(WorkerCameraTest, ASupervisorOnAThreadIsStoppedFromAnother) {
   for (int i = 0; i < 50; ++i) {

@@ -1,0 +1,30 @@
+#include "firmware_app/commands/devices.h"
+
+#include <cstdio>
+
+#include "firmware_app/devices/inventory.h"
+#include "firmware_app/live/camera_selection.h"
+#include "hal/outputs/window/window.h"
+
+namespace pleinair::app {
+namespace {
+
+Inventory takeInventory() {
+  Inventory inventory{.cameras = listDeviceCameras(deviceBackends())};
+  inventory.loopbacks = hal::listLoopbacks();
+  inventory.displays = listDisplays();
+  // Not shown before start().
+  if (const auto window = hal::openWindow(); !window) inventory.noWindow = window.error();
+  return inventory;
+}
+
+}  // namespace
+
+int listDevices(const DevicesOptions& options) {
+  const Inventory inventory = takeInventory();
+  // Whether it arrived is looked at once, at the program's end.
+  std::fputs((options.json ? asJson(inventory) : asText(inventory)).c_str(), stdout);
+  return 0;
+}
+
+}  // namespace pleinair::app

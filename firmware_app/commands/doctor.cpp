@@ -1,0 +1,34 @@
+#include "firmware_app/commands/doctor.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/config_error.h"
+#include "firmware_app/devices/device_cameras.h"
+#include "firmware_app/doctor/checks.h"
+#include "firmware_app/live/camera_selection.h"
+
+namespace pleinair::app {
+int examineMachine(const DoctorOptions& options) {
+  doctor::Probes probes = doctor::systemProbes();
+  probes.cameras = [] { return listDeviceCameras(deviceBackends()); };
+  probes.stills = ".";
+  std::optional<std::string> configurationError;
+  try {
+    probes.stills = Configuration(options.configuration).output().stills;
+  } catch (const config::ConfigError& error) {
+    configurationError = error.what();
+  }
+  probes.configurationError = [&] { return configurationError; };
+  const std::vector<doctor::Finding> findings = doctor::examine(probes);
+  // Whether it arrived is looked at once, at the program's end.
+  std::fputs((options.json ? doctor::asJson(findings) : doctor::asText(findings)).c_str(), stdout);
+  const bool isWrong = std::ranges::find(findings, doctor::Verdict::kWrong,
+                                         &doctor::Finding::verdict) != findings.end();
+  return isWrong ? 1 : 0;
+}
+
+}  // namespace pleinair::app

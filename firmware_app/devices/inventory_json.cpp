@@ -1,0 +1,70 @@
+#include <nlohmann/json.hpp>
+
+#include "firmware_app/devices/inventory.h"
+
+namespace pleinair::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json problemOf(const std::optional<hal::Error>& problem) {
+  return problem ? Json(problem->message()) : Json();
+}
+
+Json modeOf(const hal::CameraMode& mode) {
+  Json rates = Json::array();
+  for (const hal::Duration period : mode.periods) {
+    if (period.count() > 0) rates.push_back(1e9 / static_cast<double>(period.count()));
+  }
+  return {{"layout", mode.layout},
+          {"width", mode.size.width},
+          {"height", mode.size.height},
+          {"rates", std::move(rates)},
+          {"read", mode.isSupported}};
+}
+
+Json cameraOf(const hal::CameraDescription& camera) {
+  Json formats = Json::array();
+  for (const hal::CameraMode& mode : camera.modes) formats.push_back(modeOf(mode));
+  return {{"backend", camera.identity.backend},
+          {"id", camera.identity.id},
+          {"name", camera.identity.description},
+          {"serial", camera.serial},
+          {"node", camera.node},
+          {"formats", std::move(formats)},
+          {"problem", problemOf(camera.problem)}};
+}
+
+Json loopbackOf(const hal::LoopbackDevice& device) {
+  return {{"node", device.node},       {"card", device.card},
+          {"driver", device.driver},   {"writable", device.isWritable},
+          {"layouts", device.layouts}, {"problem", problemOf(device.problem)}};
+}
+
+Json displayOf(const Display& display) {
+  return {{"name", display.name}, {"connected", display.isConnected}, {"modes", display.modes}};
+}
+
+template <class Items, class Make>
+Json arrayOf(const Items& items, Make make) {
+  Json array = Json::array();
+  for (const auto& each : items) array.push_back(make(each));
+  return array;
+}
+
+}  // namespace
+
+std::string asJson(const Inventory& inventory) {
+  const Json outputs{{"window", !inventory.noWindow.has_value()},
+                     {"loopbacks", arrayOf(inventory.loopbacks, loopbackOf)},
+                     {"displays", arrayOf(inventory.displays, displayOf)}};
+  const Json document{{"cameras", arrayOf(inventory.cameras.cameras, cameraOf)},
+                      {"outputs", outputs},
+                      {"problems", arrayOf(inventory.cameras.problems, [](const hal::Error& error) {
+                         return error.message();
+                       })}};
+  // Labels come from devices, and may hold anything.
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace pleinair::app

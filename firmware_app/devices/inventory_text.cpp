@@ -1,0 +1,122 @@
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "firmware_app/devices/inventory.h"
+
+namespace pleinair::app {
+namespace {
+
+/// "30", "29.97"
+std::string rateText(hal::Duration period) {
+  const double rate = 1e9 / static_cast<double>(period.count());
+  const double whole = std::round(rate);
+  return std::abs(rate - whole) < 0.005 ? fmt::format("{:.0f}", whole)
+                                        : fmt::format("{:.2f}", rate);
+}
+
+/// "640x480 at 30, 15"
+std::string sizeText(const hal::CameraMode& mode) {
+  std::string text = fmt::format("{}x{}", mode.size.width, mode.size.height);
+  std::vector<std::string> rates;
+  for (const hal::Duration period : mode.periods) {
+    if (period.count() > 0) rates.push_back(rateText(period));
+  }
+  if (!rates.empty()) text += fmt::format(" at {}", fmt::join(rates, ", "));
+  return text;
+}
+
+/// The sizes of a layout, in the order in which the device has them.
+struct LayoutLines {
+  std::string layout;
+  bool isSupported = true;
+  std::vector<std::string> sizes;
+};
+
+std::vector<LayoutLines> byLayout(const std::vector<hal::CameraMode>& modes) {
+  std::vector<LayoutLines> layouts;
+  for (const hal::CameraMode& mode : modes) {
+    if (layouts.empty() || layouts.back().layout != mode.layout) {
+      layouts.push_back({.layout = mode.layout, .isSupported = mode.isSupported, .sizes = {}});
+    }
+    layouts.back().sizes.push_back(sizeText(mode));
+  }
+  return layouts;
+}
+
+std::string problemText(const hal::Error& problem) {
+  std::string text = "    " + problem.problem + "\n";
+  if (!problem.remedy.empty()) text += "    -> " + problem.remedy + "\n";
+  return text;
+}
+
+std::string cameraText(const hal::CameraDescription& camera) {
+  std::string text = fmt::format("  {}:{}", camera.identity.backend, camera.identity.id);
+  if (!camera.identity.description.empty()) text += "  " + camera.identity.description;
+  if (!camera.node.empty()) text += "  " + camera.node;
+  if (!camera.serial.empty()) text += "  serial:" + camera.serial;
+  text += "\n";
+  if (camera.problem) text += problemText(*camera.problem);
+  for (const LayoutLines& layout : byLayout(camera.modes)) {
+    text += fmt::format("    {:<5} {}{}\n", layout.layout, fmt::join(layout.sizes, "; "),
+                        layout.isSupported ? "" : " (not read)");
+  }
+  if (!camera.problem && camera.modes.empty()) text += "    offers no formats\n";
+  return text;
+}
+
+std::string camerasText(const Inventory& inventory) {
+  std::string text = "Cameras (--camera ID)\n";
+  for (const hal::CameraDescription& each : inventory.cameras.cameras) text += cameraText(each);
+  for (const hal::Error& each : inventory.cameras.problems) text += "  " + each.message() + "\n";
+  if (inventory.cameras.cameras.empty() && inventory.cameras.problems.empty()) {
+    text +=
+        "  none. Plug one in, or see `pleinair doctor`; without one, --camera synthetic and the\n"
+        "  path of a recording do.\n";
+  }
+  return text;
+}
+
+std::string loopbackText(const hal::LoopbackDevice& device) {
+  if (device.problem) return fmt::format("  {}\n", device.node) + problemText(*device.problem);
+  return fmt::format("  loopback:{}  {}  {}\n", device.node, device.card,
+                     !device.isWritable ? "(another program writes to it)"
+                                        : fmt::format("{}", fmt::join(device.layouts, " ")));
+}
+
+std::string outputsText(const Inventory& inventory) {
+  std::string text = "Outputs (--output NAME)\n";
+  if (inventory.noWindow) {
+    text += fmt::format("  no window: {}\n", inventory.noWindow->problem);
+    if (!inventory.noWindow->remedy.empty()) text += "    -> " + inventory.noWindow->remedy + "\n";
+  } else {
+    text += "  window\n";
+  }
+  for (const hal::LoopbackDevice& each : inventory.loopbacks) text += loopbackText(each);
+  if (inventory.loopbacks.empty()) {
+    text += fmt::format("  no loopback: {} makes one\n", hal::kLoadLoopback);
+  }
+  text += "  FILE or FOLDER: a movie or pictures\n";
+  return text;
+}
+
+std::string displaysText(const Inventory& inventory) {
+  std::string text = "Displays\n";
+  for (const Display& each : inventory.displays) {
+    text += fmt::format("  {}  {}\n", each.name,
+                        each.isConnected ? fmt::format("{}", fmt::join(each.modes, " "))
+                                         : std::string("nothing is connected"));
+  }
+  if (inventory.displays.empty()) text += "  none that the kernel knows\n";
+  return text;
+}
+
+}  // namespace
+
+std::string asText(const Inventory& inventory) {
+  return camerasText(inventory) + "\n" + outputsText(inventory) + "\n" + displaysText(inventory);
+}
+
+}  // namespace pleinair::app

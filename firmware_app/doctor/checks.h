@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "firmware_app/doctor/finding.h"
+#include "firmware_app/doctor/probes.h"
+
+namespace pleinair::app::doctor {
+
+// One check each, in the order in which they are told. What they hold for enough is at the top of
+// their files.
+
+Finding checkGraphics(const Probes& probes);       ///< an OpenGL ES 3.1 context, and on what
+Finding checkRenderNodes(const Probes& probes);    ///< /dev/dri may be used
+Finding checkCameras(const Probes& probes);        ///< there, permitted, not in use
+Finding checkUsbCameras(const Probes& probes);     ///< the module uvcvideo
+Finding checkLoopback(const Probes& probes);       ///< the module v4l2loopback, for all readers
+Finding checkSocketBuffers(const Probes& probes);  ///< large enough for GigE cameras
+Finding checkPriority(const Probes& probes);       ///< real-time priority may be had
+Finding checkLockedMemory(const Probes& probes);
+Finding checkClock(const Probes& probes);          ///< a clock source that is exact and cheap
+Finding checkUdev(const Probes& probes);           ///< tells of cameras that come and go
+Finding checkConfiguration(const Probes& probes);  ///< profile, site file, variables
+Finding checkDisk(const Probes& probes);           ///< the folder of stills
+Finding checkMemory(const Probes& probes);
+
+/// All of them.
+std::vector<Finding> examine(const Probes& probes);
+
+}  // namespace pleinair::app::doctor

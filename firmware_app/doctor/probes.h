@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware_app/devices/device_cameras.h"
+#include "hal/error.h"
+#include "hal/outputs/v4l2_loopback/loopback_devices.h"
+#include "pipeline/gpu/egl_context.h"
+
+namespace pleinair::app::doctor {
+
+/// What the checks look at; tests put their own behind it. One thread.
+struct Probes {
+  /// The text of a small file without white space at its end; nothing where it cannot be read.
+  std::function<std::optional<std::string>(const std::filesystem::path&)> read;
+  /// What is in a folder, sorted; nothing where there is no such folder.
+  std::function<std::vector<std::filesystem::path>(const std::filesystem::path&)> list;
+  /// Whether it may be read and written (a folder: entered, too): 0, or errno.
+  std::function<int(const std::filesystem::path&)> access;
+  std::function<std::optional<std::uint64_t>(const std::filesystem::path&)> freeBytes;
+  /// The soft limit of RLIMIT_…
+  std::function<std::uint64_t(int)> limit;
+  /// Makes a context and lets it go.
+  std::function<hal::Result<gpu::ContextInfo>()> graphics;
+  std::function<DeviceCameras()> cameras;
+  std::function<std::vector<hal::LoopbackDevice>()> loopbacks;
+  /// What is wrong with the configuration, in a line; nothing where it is sound.
+  std::function<std::optional<std::string>()> configurationError;
+  std::filesystem::path stills;  ///< the folder that stills go to
+};
+
+/// This machine's, but for `cameras`, `configurationError` and `stills`.
+Probes systemProbes();
+
+}  // namespace pleinair::app::doctor

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "hal/error.h"
+#include "hal/image.h"
+#include "pipeline/painter.h"
+
+namespace pleinair::app {
+
+/// What whoever operates a live painting asks of the painter's thread, and what comes back.
+/// Thread-safe.
+class LiveControls {
+ public:
+  explicit LiveControls(PaintParameters parameters) { setParameters(std::move(parameters)); }
+
+  /// One snapshot, in force from the next frame on.
+  void setParameters(PaintParameters parameters) {
+    auto snapshot = std::make_shared<const PaintParameters>(std::move(parameters));
+    const std::scoped_lock lock(mutex_);
+    parameters_ = std::move(snapshot);
+  }
+  std::shared_ptr<const PaintParameters> parameters() const {
+    const std::scoped_lock lock(mutex_);
+    return parameters_;
+  }
+
+  /// The next frame is to be kept as a still.
+  void askForStill() {
+    const std::scoped_lock lock(mutex_);
+    wantsStill_ = true;
+  }
+  bool takeWishForStill() {
+    const std::scoped_lock lock(mutex_);
+    return std::exchange(wantsStill_, false);
+  }
+  void putStill(hal::Result<hal::Image> still) {
+    const std::scoped_lock lock(mutex_);
+    still_ = std::move(still);
+  }
+  std::optional<hal::Result<hal::Image>> takeStill() {
+    const std::scoped_lock lock(mutex_);
+    return std::exchange(still_, std::nullopt);
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::shared_ptr<const PaintParameters> parameters_;
+  bool wantsStill_ = false;
+  std::optional<hal::Result<hal::Image>> still_;
+};
+
+}  // namespace pleinair::app

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "firmware_app/live/live_controls.h"
+#include "pipeline/painter.h"
+#include "pipeline/runtime/frame_painter.h"
+
+namespace pleinair::app {
+
+/// The engine's Painter for a live chain, with the parameters and stills that are asked for
+/// meanwhile. `controls` outlives it.
+class LivePainter final : public runtime::FramePainter {
+ public:
+  /// Throws hal::StartupError.
+  LivePainter(const PainterOptions& options, const std::vector<hal::FrameFormat>& outputs,
+              LiveControls& controls);
+
+  hal::Result<void> paint(const hal::CapturedFrame& frame, std::size_t quality) override;
+  hal::Result<bool> take(std::size_t output, ReadPicture& picture) override;
+
+ private:
+  Painter painter_;
+  LiveControls& controls_;
+  std::vector<int> readers_;
+  std::shared_ptr<const PaintParameters> seen_;  ///< what parameters_ was made from
+  PaintParameters parameters_;
+};
+
+}  // namespace pleinair::app

@@ -1,0 +1,74 @@
+#include "firmware_app/live/runtime_rules.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "hal/outputs/v4l2_loopback/loopback_output.h"
+#include "pipeline/painter.h"
+
+namespace pleinair::app {
+namespace {
+
+hal::Duration ofMilliseconds(double milliseconds) {
+  return std::chrono::round<hal::Duration>(std::chrono::duration<double, std::milli>(milliseconds));
+}
+
+constexpr hal::Duration kUsualPeriod = std::chrono::microseconds(33'333);
+
+/// As many as fall due within the longest latency, and two to spare.
+std::size_t waitingPictures(hal::Duration longestLatency, hal::Duration period) {
+  constexpr std::int64_t kMost = 64;
+  return static_cast<std::size_t>(std::clamp<std::int64_t>(longestLatency / period + 2, 3, kMost));
+}
+
+}  // namespace
+
+std::vector<std::string> qualityNames() {
+  std::vector<std::string> names;
+  for (const QualityLevel& level : qualityLevels()) names.push_back(level.name);
+  return names;
+}
+
+runtime::PaintStageOptions paintRules(const RuntimeSettings& settings,
+                                      const hal::StreamFormat& stream) {
+  const std::vector<std::string> names = qualityNames();
+  const auto pinned = std::ranges::find(names, settings.quality);
+  runtime::PaintStageOptions options{.governor = {.levels = names.size(), .pinned = {}},
+                                     .latency = {},
+                                     .framePeriod = stream.framePeriod,
+                                     .refresh = {}};
+  if (pinned != names.end()) {
+    options.governor.pinned = static_cast<std::size_t>(pinned - names.begin());
+  }
+  options.latency.configured = ofMilliseconds(settings.latencyMs);
+  options.latency.maximum =
+      std::max(options.latency.configured, ofMilliseconds(settings.maxLatencyMs));
+  if (settings.rate > 0.0) {
+    const hal::Duration wanted = ofMilliseconds(1000.0 / settings.rate);
+    options.framePeriod = std::max(wanted, stream.framePeriod.value_or(wanted));
+  }
+  return options;
+}
+
+runtime::OutputStageOptions outputRules(const std::string& name,
+                                        const hal::OutputOptions& outputOptions,
+                                        const RuntimeSettings& settings,
+                                        const hal::StreamFormat& stream) {
+  const hal::Duration period = stream.framePeriod.value_or(kUsualPeriod);
+  const hal::Duration longest = ofMilliseconds(std::max(settings.latencyMs, settings.maxLatencyMs));
+  constexpr hal::Duration kMostTolerance = std::chrono::milliseconds(8);
+  runtime::OutputStageOptions options{
+      .name = name,
+      .rules = {.isPaced = name == "window" || hal::isLoopbackName(name),
+                .tolerance = std::min(period / 4, kMostTolerance)},
+      .waiting = waitingPictures(longest, period),
+      .limit = {},
+      .reopen = {},
+      .request = {}};
+  if (hal::isLoopbackName(name)) {
+    options.reopen = [name, outputOptions] { return hal::openOutput(name, outputOptions); };
+  }
+  return options;
+}
+
+}  // namespace pleinair::app

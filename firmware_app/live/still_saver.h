@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <future>
+#include <optional>
+
+#include "hal/error.h"
+#include "hal/image.h"
+
+namespace pleinair::app {
+
+/// Saves stills beside the live painting, one at a time. One thread.
+class StillSaver {
+ public:
+  explicit StillSaver(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  bool isBusy() const { return saving_.valid(); }
+  /// Begins to save; precondition: !isBusy().
+  void save(hal::Image still);
+  /// Where it was saved to, or why not, once that is known.
+  std::optional<hal::Result<std::filesystem::path>> takeResult();
+
+ private:
+  std::filesystem::path folder_;
+  std::future<hal::Result<std::filesystem::path>> saving_;
+};
+
+}  // namespace pleinair::app

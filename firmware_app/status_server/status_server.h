@@ -1,0 +1,39 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "hal/error.h"
+
+namespace pleinair::app {
+
+/// What is told of the running program. Each is called on the server's thread for every request,
+/// and must neither wait nor touch the GPU. One that throws is answered with status 500.
+struct StatusPages {
+  std::function<std::string()> json;     ///< /status
+  std::function<std::string()> metrics;  ///< /metrics: Prometheus' text format 0.0.4
+  std::function<bool()> healthy;         ///< /healthz: 200, else 503
+};
+
+/// A small HTTP server on a thread of its own: GET and HEAD of /status, /metrics and /healthz; 404
+/// for other pages, 405 for other methods. Clients can neither hold up the program nor make it
+/// grow: requests have at most 8 KiB, a client that is silent for 5 s is dropped, and of more than
+/// a few connections the oldest is closed.
+class StatusServer {
+ public:
+  virtual ~StatusServer() = default;  ///< stops; waits for a page that is being made, for no client
+  StatusServer() = default;
+  StatusServer(const StatusServer&) = delete;
+  StatusServer& operator=(const StatusServer&) = delete;
+
+  /// "127.0.0.1:9117", with the port that port 0 was given.
+  virtual const std::string& address() const = 0;
+};
+
+/// `listen` is [status]'s: "off", which gives null, or an address and a port (listen_address.h).
+/// Says in the log where it listens. Throws hal::StartupError: kInvalidArgument (no such address),
+/// kBusy (the port is taken), kPermissionDenied, kUnsupported (this build has none), kIo.
+std::unique_ptr<StatusServer> startStatusServer(const std::string& listen, StatusPages pages);
+
+}  // namespace pleinair::app

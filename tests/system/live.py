@@ -1,0 +1,146 @@
+"""What scenarios share: the drivers, the program under way, and those who read what it paints."""
+import json
+import os
+import re
+
+import frames
+
+CAMERA = "/dev/video0"
+LOOPBACK = "/dev/video50"
+CAMERA_SIZE = (320, 180)  # the smallest of vivid's as a webcam
+SIZE = (160, 90)  # of the painting
+STATUS = "127.0.0.1:9117"
+
+
+def load_drivers(guest, loopbacks=1, inputs=""):
+    """vivid as /dev/video0 and v4l2loopback as /dev/video50 and on. A moving picture with small frames;
+    readers see a loopback only while somebody writes to it."""
+    numbers = [str(50 + i) for i in range(loopbacks)]
+    guest.run(
+        f"modprobe vivid n_devs=1 node_types=0x1 {inputs}\n"
+        f"modprobe v4l2loopback video_nr={','.join(numbers)} "
+        f"card_label={','.join('loop' + n for n in numbers)} "
+        f"exclusive_caps={','.join('1' for _ in numbers)}\n"
+        "udevadm settle")
+    set_camera(guest, "YUYV")
+
+
+def set_camera(guest, fourcc, size=CAMERA_SIZE):
+    """What the driver gives until somebody asks for something else."""
+    guest.run(f"v4l2-ctl -d {CAMERA} "
+              f"--set-fmt-video=width={size[0]},height={size[1]},pixelformat={fourcc}")
+
+
+def control(guest, **values):
+    """Sets controls of vivid's."""
+    listing = ",".join(f"{name}={value}" for name, value in values.items())
+    guest.run(f"v4l2-ctl -d {CAMERA} --set-ctrl {listing}")
+
+
+def unplug(guest):
+    guest.run("echo vivid.0 >/sys/bus/platform/drivers/vivid/unbind")
+
+
+def plug(guest):
+    guest.run("echo vivid.0 >/sys/bus/platform/drivers/vivid/bind")
+
+
+def uptime(guest):
+    """The guest's monotonic clock in seconds, which V4L2's timestamps are on as well."""
+    return float(guest.run("cut -d' ' -f1 /proc/uptime").output)
+
+
+class Program:
+    """`pleinair run` with a V4L2 camera and loopbacks."""
+
+    def __init__(self, guest, arguments="", camera=f"v4l2:{CAMERA}", outputs=(LOOPBACK,),
+                 style="none"):
+        self._guest = guest
+        targets = " ".join(f"--output loopback:{node}" for node in outputs)
+        self.command = guest.start(
+            f"./pleinair run --camera {camera} {targets} --style {style} "
+            f"--size {SIZE[0]}x{SIZE[1]} --set status.listen={STATUS} {arguments}", "pleinair")
+
+    def status(self):
+        """The JSON that its status page shows; nothing before there is one."""
+        page = self._guest.run(f"busybox wget -q -T 5 -O - http://{STATUS}/status", check=False)
+        return json.loads(page.output) if page.status == 0 else None
+
+    def shown(self):
+        status = self.status()
+        ended = status["frames"]["ended"] if status else {}
+        return ended.get("shown", 0) + ended.get("shown_late", 0)
+
+    def wait_until(self, condition, what, seconds=30):
+        """Waits until a condition on its status holds; returns that status."""
+        seen = []
+
+        def holds():
+            assert self.command.is_running(), "the program ended:\n" + self.command.output()
+            status = self.status()
+            if status is not None:
+                seen.append(status)
+            return status is not None and condition(status)
+
+        try:
+            self._guest.wait_for(holds, what, seconds)
+        except Exception:
+            if seen:
+                print(json.dumps(seen[-1]["camera"]), json.dumps(seen[-1]["frames"]))
+            raise
+        return seen[-1]
+
+    def wait_for_more(self, count, seconds=60):
+        """Waits until it has shown so many frames more."""
+        goal = self.shown() + count
+        return self.wait_until(lambda status: shown_of(status) >= goal, f"{goal} frames shown",
+                               seconds)
+
+    def stop(self, seconds=2):
+        """Ends it by SIGTERM: within so long, with status 0 and a ledger that adds up, which it returns."""
+        begin = uptime(self._guest)
+        self.command.signal("TERM")
+        finished = self.command.wait(seconds + 5)
+        took = uptime(self._guest) - begin
+        assert finished.status == 0, f"status {finished.status}:\n{finished.output}"
+        assert took < self._guest.patient(seconds), f"it took {took:.1f} s to end"
+        return ledger(finished.output)
+
+
+def shown_of(status):
+    ended = status["frames"]["ended"]
+    return ended["shown"] + ended["shown_late"]
+
+
+def check_sums(status):
+    """Every captured frame is under way or has ended, under one name."""
+    sums = status["frames"]
+    total = sums["under_way"] + sum(sums["ended"].values())
+    assert sums["captured"] == total, f"captured {sums['captured']}, accounted for {total}: {sums}"
+
+
+def ledger(output):
+    """The numbers of the program's last line: shown, dropped, and each reason; the sums are checked."""
+    match = re.search(r"^showed (\d+) frames? in [\d.]+ s .*?; dropped (\d+)(?:: ([^:\n]*))?", output,
+                      re.MULTILINE)
+    assert match, "no ledger in:\n" + output
+    reasons = {}
+    for part in (match[3] or "").split(", "):
+        if part:
+            number, reason = part.split(" ", 1)
+            reasons[reason] = int(number)
+    assert sum(reasons.values()) == int(match[2]), "the reasons do not add up:\n" + match[0]
+    return {"shown": int(match[1]), "dropped": int(match[2]), **reasons}
+
+
+def read_frames(guest, count, device=LOOPBACK, name="read", skip=0, seconds=60):
+    """What another program reads of a device: `count` frames, as v4l2-ctl takes them."""
+    form = frames.Format(guest.run(f"v4l2-ctl -d {device} --get-fmt-video").output)
+    guest.run(f"timeout {guest.patient(seconds):.0f} v4l2-ctl -d {device} --stream-mmap "
+              f"--stream-skip={skip} --stream-count={count} --stream-to=/host/{name}.raw",
+              seconds + 5)
+    with open(os.path.join(guest.folder, name + ".raw"), "rb") as file:
+        taken = frames.split(file.read(), form)
+    assert len(taken) == count, f"{len(taken)} frames, not {count}"
+    taken[-1].write_png(os.path.join(guest.folder, name + ".png"))
+    return taken

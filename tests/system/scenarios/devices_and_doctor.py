@@ -1,0 +1,48 @@
+"""`pleinair devices` lists the camera and the loopback with what they can do; `pleinair doctor` finds them
+well, and says what is wrong once they are gone."""
+import json
+
+import live
+
+
+def run(guest):
+    live.load_drivers(guest)
+    devices = json.loads(guest.run("./pleinair devices --json").output)
+    (camera,) = devices["cameras"]
+    assert camera["backend"] == "v4l2", camera
+    assert camera["node"] == live.CAMERA, camera
+    assert "vivid" in camera["id"], camera
+    assert camera["problem"] is None, camera
+    formats = {entry["layout"]: entry for entry in camera["formats"]}
+    assert {"YUYV", "NV12", "GREY", "RGGB"} <= set(formats), sorted(formats)
+    assert formats["YUYV"]["read"], formats["YUYV"]
+    (loopback,) = devices["outputs"]["loopbacks"]
+    assert loopback["node"] == live.LOOPBACK, loopback
+    assert loopback["writable"], loopback
+    assert {"YUYV", "NV12", "YU12"} <= set(loopback["layouts"]), loopback
+
+    checks = doctor(guest)
+    for check in ("OpenGL ES", "cameras", "loopback"):
+        assert verdict(checks, check) == "ok", checks
+
+    guest.run("modprobe -r v4l2loopback vivid")
+    checks = doctor(guest)
+    assert verdict(checks, "loopback") != "ok", checks
+    assert "modprobe v4l2loopback" in remedy(checks, "loopback"), checks
+
+
+def doctor(guest):
+    # Its exit status says whether anything is wrong; the findings are in its text.
+    return json.loads(guest.run("./pleinair doctor --json", seconds=40, check=False).output)["checks"]
+
+
+def find(checks, word):
+    return next(check for check in checks if word.lower() in check["check"].lower())
+
+
+def verdict(checks, word):
+    return find(checks, word)["verdict"]
+
+
+def remedy(checks, word):
+    return find(checks, word)["remedy"]

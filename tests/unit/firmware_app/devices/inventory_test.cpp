@@ -1,0 +1,106 @@
+#include "firmware_app/devices/inventory.h"
+
+#include <chrono>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace pleinair::app {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+using testing::HasSubstr;
+
+Inventory full() {
+  Inventory inventory;
+  inventory.cameras.cameras = {
+      {.identity = {.backend = "v4l2", .id = "usb-046d", .description = "C920"},
+       .serial = "A1",
+       .node = "/dev/video0",
+       .modes = {{.layout = "YUYV",
+                  .size = {640, 480},
+                  .periods = {nanoseconds(33366667), milliseconds(100)}},
+                 {.layout = "YUYV", .size = {1280, 720}, .periods = {}},
+                 {.layout = "H264", .size = {1920, 1080}, .periods = {}, .isSupported = false}}},
+      {.identity = {.backend = "v4l2", .id = "usb-2", .description = ""},
+       .node = "/dev/video2",
+       .problem = hal::Error{.kind = hal::ErrorKind::kPermissionDenied,
+                             .subject = "/dev/video2",
+                             .problem = "cannot open: Permission denied",
+                             .remedy = "join the group video"}}};
+  inventory.loopbacks = {{.node = "/dev/video50",
+                          .card = "pleinair",
+                          .driver = "v4l2 loopback",
+                          .isLoopback = true,
+                          .isWritable = true,
+                          .layouts = {"YUYV", "NV12"}}};
+  inventory.displays = {
+      {.name = "card0-HDMI-A-1", .isConnected = true, .modes = {"1920x1080", "1280x720"}},
+      {.name = "card0-DP-1"}};
+  return inventory;
+}
+
+TEST(Inventory, IsALineADeviceAndALayout) {
+  EXPECT_EQ(asText(full()),
+            "Cameras (--camera ID)\n"
+            "  v4l2:usb-046d  C920  /dev/video0  serial:A1\n"
+            "    YUYV  640x480 at 29.97, 10; 1280x720\n"
+            "    H264  1920x1080 (not read)\n"
+            "  v4l2:usb-2  /dev/video2\n"
+            "    cannot open: Permission denied\n"
+            "    -> join the group video\n"
+            "\n"
+            "Outputs (--output NAME)\n"
+            "  window\n"
+            "  loopback:/dev/video50  pleinair  YUYV NV12\n"
+            "  FILE or FOLDER: a movie or pictures\n"
+            "\n"
+            "Displays\n"
+            "  card0-HDMI-A-1  1920x1080 1280x720\n"
+            "  card0-DP-1  nothing is connected\n");
+}
+
+TEST(Inventory, SaysWhatToDoWhereThereIsNothing) {
+  Inventory empty;
+  empty.noWindow = hal::Error{.kind = hal::ErrorKind::kNotFound,
+                              .subject = "window",
+                              .problem = "there is no display",
+                              .remedy = "start a desktop"};
+  const std::string text = asText(empty);
+  EXPECT_THAT(text, HasSubstr("  none. Plug one in, or see `pleinair doctor`"));
+  EXPECT_THAT(text, HasSubstr("  no window: there is no display\n    -> start a desktop\n"));
+  EXPECT_THAT(text, HasSubstr("  no loopback: sudo modprobe v4l2loopback"));
+  EXPECT_THAT(text, HasSubstr("  none that the kernel knows\n"));
+}
+
+TEST(Inventory, TellsOfBackEndsThatFail) {
+  Inventory inventory;
+  inventory.cameras.problems = {
+      {.kind = hal::ErrorKind::kIo, .subject = "v4l2", .problem = "cannot list /dev"}};
+  const std::string text = asText(inventory);
+  EXPECT_THAT(text, HasSubstr("  v4l2: cannot list /dev\n"));
+  EXPECT_THAT(text, testing::Not(HasSubstr("none. Plug")));
+}
+
+TEST(Inventory, IsJson) {
+  Inventory inventory = full();
+  inventory.loopbacks[0].card = "l\xff";
+  const nlohmann::json document = nlohmann::json::parse(asJson(inventory));
+  const nlohmann::json& camera = document["cameras"][0];
+  EXPECT_EQ(camera["id"], "usb-046d");
+  EXPECT_EQ(camera["formats"].size(), 3u);
+  EXPECT_NEAR(camera["formats"][0]["rates"][0].get<double>(), 29.97, 1e-4);
+  EXPECT_EQ(camera["formats"][2]["read"], false);
+  EXPECT_TRUE(camera["problem"].is_null());
+  EXPECT_EQ(document["cameras"][1]["problem"],
+            "/dev/video2: cannot open: Permission denied; join the group video");
+  EXPECT_EQ(document["outputs"]["window"], true);
+  EXPECT_EQ(document["outputs"]["loopbacks"][0]["layouts"][1], "NV12");
+  EXPECT_EQ(document["outputs"]["displays"][0]["connected"], true);
+  EXPECT_TRUE(document["problems"].empty());
+}
+
+}  // namespace
+}  // namespace pleinair::app

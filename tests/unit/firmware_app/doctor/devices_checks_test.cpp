@@ -1,0 +1,124 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/firmware_app/doctor/healthy_machine.h"
+
+namespace pleinair::app::doctor {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+TEST(CheckCameras, NamesThose) {
+  HealthyMachine machine;
+  const Finding finding = checkCameras(machine.probes());
+  EXPECT_EQ(finding.verdict, Verdict::kOk);
+  EXPECT_EQ(finding.text, "/dev/video0 (C920)");
+}
+
+TEST(CheckCameras, WarnsOfNone) {
+  HealthyMachine machine;
+  machine.cameras.cameras.clear();
+  const Finding finding = checkCameras(machine.probes());
+  EXPECT_EQ(finding.verdict, Verdict::kWarning);
+  EXPECT_THAT(finding.remedy, HasSubstr("lsusb"));
+}
+
+TEST(CheckCameras, WarnsOfFormatsThatAreNotRead) {
+  HealthyMachine machine;
+  machine.cameras.cameras[0].modes[0].isSupported = false;
+  const Finding finding = checkCameras(machine.probes());
+  EXPECT_EQ(finding.verdict, Verdict::kWarning);
+  EXPECT_THAT(finding.remedy, HasSubstr("pleinair devices"));
+}
+
+TEST(CheckCameras, AsksForTheGroupThoughAnotherWorks) {
+  HealthyMachine machine;
+  hal::CameraDescription other = machine.cameras.cameras[0];
+  other.node = "/dev/video2";
+  other.problem = errorOf(hal::ErrorKind::kPermissionDenied, "cannot open: Permission denied");
+  machine.cameras.cameras.push_back(other);
+  const Finding finding = checkCameras(machine.probes());
+  EXPECT_EQ(finding.verdict, Verdict::kWrong);
+  EXPECT_THAT(finding.text, HasSubstr("/dev/video2 (C920): cannot open"));
+  EXPECT_THAT(finding.remedy, HasSubstr("usermod -aG video"));
+}
+
+TEST(CheckCameras, TellsWhoUsesABusyOne) {
+  HealthyMachine machine;
+  machine.cameras.cameras[0].problem = errorOf(hal::ErrorKind::kBusy, "is in use");
+  const Finding finding = checkCameras(machine.probes());
+  EXPECT_EQ(finding.verdict, Verdict::kWarning);
+  EXPECT_THAT(finding.remedy, HasSubstr("fuser -v /dev/video0"));
+}
+
+TEST(CheckCameras, IsWrongWhereTheyCannotBeListed) {
+  HealthyMachine machine;
+  machine.cameras.problems = {errorOf(hal::ErrorKind::kIo, "cannot read /dev")};
+  EXPECT_EQ(checkCameras(machine.probes()).verdict, Verdict::kWrong);
+}
+
+TEST(CheckUsbCameras, WarnsWithoutTheModule) {
+  HealthyMachine machine;
+  EXPECT_EQ(checkUsbCameras(machine.probes()).verdict, Verdict::kOk);
+  machine.folders.erase("/sys/module/uvcvideo");
+  const Finding finding = checkUsbCameras(machine.probes());
+  EXPECT_EQ(finding.verdict, Verdict::kWarning);
+  EXPECT_EQ(finding.remedy, "sudo modprobe uvcvideo");
+}
+
+TEST(CheckLoopback, NamesTheDevice) {
+  HealthyMachine machine;
+  Finding finding = checkLoopback(machine.probes());
+  EXPECT_EQ(finding.verdict, Verdict::kOk);
+  EXPECT_EQ(finding.text, "/dev/video50 (pleinair)");
+  EXPECT_THAT(finding.remedy, IsEmpty());
+  machine.loopbacks[0].isWritable = false;
+  finding = checkLoopback(machine.probes());
+  EXPECT_EQ(finding.verdict, Verdict::kOk);
+  EXPECT_THAT(finding.text, HasSubstr("another program writes to it now"));
+}
+
+TEST(CheckLoopback, TellsNotLoadedFromNotInstalled) {
+  HealthyMachine machine;
+  machine.folders.erase("/sys/module/v4l2loopback");
+  Finding finding = checkLoopback(machine.probes());
+  EXPECT_EQ(finding.verdict, Verdict::kWarning);
+  EXPECT_THAT(finding.text, HasSubstr("not installed"));
+  EXPECT_THAT(finding.remedy, HasSubstr("apt install v4l2loopback-dkms"));
+  machine.folders["/lib/modules/6.1.0-28-amd64/updates/dkms"] = {
+      "/lib/modules/6.1.0-28-amd64/updates/dkms/v4l2loopback.ko.xz"};
+  finding = checkLoopback(machine.probes());
+  EXPECT_EQ(finding.verdict, Verdict::kWarning);
+  EXPECT_THAT(finding.text, HasSubstr("not loaded"));
+  EXPECT_EQ(finding.remedy, hal::kLoadLoopback);
+}
+
+TEST(CheckLoopback, WarnsWithoutExclusiveCapabilities) {
+  HealthyMachine machine;
+  machine.files["/sys/module/v4l2loopback/parameters/exclusive_caps"] = "N,N,N,N,N,N,N,N";
+  const Finding finding = checkLoopback(machine.probes());
+  EXPECT_EQ(finding.verdict, Verdict::kWarning);
+  EXPECT_THAT(finding.text, HasSubstr("browsers"));
+  EXPECT_THAT(finding.remedy, HasSubstr("modprobe -r v4l2loopback && "));
+}
+
+TEST(CheckLoopback, WarnsWithoutADevice) {
+  HealthyMachine machine;
+  machine.loopbacks.clear();
+  EXPECT_EQ(checkLoopback(machine.probes()).verdict, Verdict::kWarning);
+}
+
+TEST(CheckLoopback, AsksForTheGroup) {
+  HealthyMachine machine;
+  machine.loopbacks = {
+      {.node = "/dev/video50",
+       .problem = errorOf(hal::ErrorKind::kPermissionDenied, "cannot open: Permission denied")}};
+  const Finding finding = checkLoopback(machine.probes());
+  EXPECT_EQ(finding.verdict, Verdict::kWrong);
+  EXPECT_THAT(finding.remedy, HasSubstr("usermod -aG video"));
+}
+
+}  // namespace
+}  // namespace pleinair::app::doctor
