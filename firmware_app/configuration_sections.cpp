@@ -4,6 +4,7 @@
 
 #include "config/parameter_table.h"
 #include "config/profiles.h"
+#include "firmware_app/control_text.h"
 #include "firmware_app/live/camera_selection.h"
 #include "firmware_app/status_server/listen_address.h"
 #include "hal/cameras/synthetic/shot.h"
@@ -43,6 +44,14 @@ const ParameterTable<ProfileSettings>& profileTable() {
   return kTable;
 }
 
+config::ParameterBinding<CameraSettings> controlParameter(const std::string& name,
+                                                          std::string CameraSettings::*member,
+                                                          const ControlText& control,
+                                                          const std::string& help) {
+  return textParameter(name, member, control.allowed(), help, TakesEffect::kRestart,
+                       [control](std::string_view text) { return control.takes(text); });
+}
+
 const ParameterTable<CameraSettings>& cameraTable() {
   static const ParameterTable<CameraSettings> kTable{
       pathParameter(
@@ -55,10 +64,20 @@ const ParameterTable<CameraSettings>& cameraTable() {
                       "lost later is always waited for.",
                       TakesEffect::kRestart),
       sizeParameter("size", &CameraSettings::size, kSizes, {},
-                    "Of the synthetic camera's frames; movies have even sides."),
+                    "Of the synthetic camera's frames, or what a device is asked for; it gives the "
+                    "nearest that it has. Movies have even sides."),
       numberParameter("rate", &CameraSettings::framesPerSecond,
                       {.min = 1, .max = 240, .unit = "frames a second"},
-                      "How many frames the synthetic camera makes.", TakesEffect::kRestart),
+                      "How many frames the synthetic camera makes, or a device is asked for.",
+                      TakesEffect::kRestart),
+      controlParameter("exposure", &CameraSettings::exposure, kExposureText,
+                       "Of a device, in milliseconds; \"device\": as it is set."),
+      controlParameter("gain", &CameraSettings::gain, kShareText,
+                       "Of a device, as a share of its range; \"device\": as it is set."),
+      controlParameter("focus", &CameraSettings::focus, kShareText,
+                       "Of a device, as a share of its range; \"device\": as it is set."),
+      controlParameter("white_balance", &CameraSettings::whiteBalance, kWhiteBalanceText,
+                       "Of a device, the light's colour temperature; \"device\": as it is set."),
       integerParameter("seed", &CameraSettings::seed, {.min = 0},
                        "Of the synthetic camera's world and path.", TakesEffect::kRestart),
       numberParameter(
