@@ -106,7 +106,10 @@ int run(const RunOptions& options) {
          .outputs = targetsOf(output),
          .outputOptions = outputOptions(output),
          .runtime = configuration.runtime(),
-         .listen = configuration.status().listen,
+         .serveStatus =
+             [&](StatusPages pages) {
+               return configuredStatusServer(configuration, std::move(pages));
+             },
          .waitsForCamera = camera.wait,
          .scene = std::move(scene),
          .stills = output.stills});

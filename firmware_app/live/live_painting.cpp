@@ -24,7 +24,6 @@
 #include "firmware_app/live/runtime_rules.h"
 #include "firmware_app/live/still_saver.h"
 #include "firmware_app/scene_warnings.h"
-#include "firmware_app/status_server/status_server.h"
 #include "hal/outputs/window/window.h"
 #include "hal/supervisor/camera_supervisor.h"
 #include "hal/supervisor/hotplug_monitor.h"
@@ -146,7 +145,7 @@ class LivePainting {
     chain_.makePaintStage([this](const auto& formats) { return makePainter(formats); },
                           paintRules(job_.runtime, stream_));
     threads_->startPainter();
-    server_ = startStatusServer(job_.listen, statusPages());
+    if (job_.serveStatus) server_ = job_.serveStatus(statusPages());
   }
 
   StatusPages statusPages() const {
@@ -314,7 +313,7 @@ class LivePainting {
   std::optional<LiveWindow> window_;
   std::optional<runtime::LiveThreads> threads_;
   std::unique_ptr<hal::HotplugMonitor> hotplug_;  ///< tells the supervisor
-  std::unique_ptr<StatusServer> server_;  ///< asks the chain
+  std::unique_ptr<StatusServer> server_;          ///< asks the chain
 
   hal::TimePoint began_;
   hal::TimePoint reported_;
