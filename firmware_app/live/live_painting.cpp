@@ -93,16 +93,15 @@ class LivePainting {
   LivePainting& operator=(const LivePainting&) = delete;
 
   void run() {
+    began_ = job_.clock->now();
     threads_.emplace(chain_);
     std::string why;
     hotplug_ = watchDevices(supervisor_, why);
     if (!hotplug_) spdlog::debug("no news of plugged cameras: {}", why);
-    if (!awaitStream()) return;
-    startOutputs();
-    if (!awaitPainter()) return;
-    threads_->startOutputs(stepped_);
-    began_ = job_.clock->now();
-    while (!isOver()) look();
+    if (awaitStream()) {
+      startOutputs();
+      if (awaitPainter()) paint();
+    }
     finish();
   }
 
@@ -186,6 +185,12 @@ class LivePainting {
       job_.clock->sleepUntil(job_.clock->now() + kLook);
     }
     return true;
+  }
+
+  void paint() {
+    threads_->startOutputs(stepped_);
+    began_ = job_.clock->now();
+    while (!isOver()) look();
   }
 
   bool isOver() const {

@@ -25,8 +25,8 @@ hal::Error neverReady() {
 constexpr std::array<std::string_view, 5> kStageNames{
     "delivery",    // from capture to arrival
     "hand_off",    // from arrival to the painter
-    "tracking",    // tracking and issuing of the GPU's work
-    "painting",    // from there until the picture is in memory
+    "issuing",     // tracking and issuing of the GPU's work
+    "finishing",   // from there until the picture is in memory
     "until_ready"  // from capture until the picture is in memory
 };
 
