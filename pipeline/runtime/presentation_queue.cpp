@@ -28,6 +28,7 @@ void PresentationQueue::push(WaitingPicture picture) {
   }
   if (lastReady_) readyGap_ = picture.ready - *lastReady_;
   lastReady_ = picture.ready;
+  picture.readyGap = readyGap_;
   waiting_.push_back(picture);
 }
 
@@ -47,7 +48,7 @@ std::optional<hal::TimePoint> PresentationQueue::nextTime() const {
 hal::TimePoint PresentationQueue::timeOf(const WaitingPicture& picture) const {
   if (!rules_.isPaced) return picture.ready;
   // Pictures keep coming, so that a pause would be one of ours.
-  if (shown_ && readyGap_ <= rules_.longestGap) {
+  if (shown_ && picture.readyGap <= rules_.longestGap) {
     return std::min(picture.due, std::max(picture.ready, *shown_ + rules_.longestGap));
   }
   return picture.due;

@@ -29,6 +29,7 @@ struct WaitingPicture {
   hal::TimePoint captured;
   hal::TimePoint ready;  ///< when it was painted
   hal::TimePoint due;
+  hal::Duration readyGap{0};  ///< since the one before it was ready; push() sets it
 };
 
 struct PresentationRules {
