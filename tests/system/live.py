@@ -12,12 +12,12 @@ SIZE = (160, 90)  # of the painting
 STATUS = "127.0.0.1:9117"
 
 
-def load_drivers(guest, loopbacks=1, inputs=""):
-    """vivid as /dev/video0 and v4l2loopback as /dev/video50 and on. A moving picture with small frames;
-    readers see a loopback only while somebody writes to it."""
+def load_drivers(guest, vivid="", loopbacks=1):
+    """vivid, with more parameters, as /dev/video0, and v4l2loopback as /dev/video50 and on. Frames are
+    small; readers see a loopback only while somebody writes to it."""
     numbers = [str(50 + i) for i in range(loopbacks)]
     guest.run(
-        f"modprobe vivid n_devs=1 node_types=0x1 {inputs}\n"
+        f"modprobe vivid n_devs=1 node_types=0x1 {vivid}\n"
         f"modprobe v4l2loopback video_nr={','.join(numbers)} "
         f"card_label={','.join('loop' + n for n in numbers)} "
         f"exclusive_caps={','.join('1' for _ in numbers)}\n"
@@ -110,6 +110,10 @@ class Program:
 def shown_of(status):
     ended = status["frames"]["ended"]
     return ended["shown"] + ended["shown_untimely"]
+
+
+def is_without_camera(status):
+    return status["camera"]["state"] != "streaming"
 
 
 def check_sums(status):

@@ -3,12 +3,19 @@ reads them, every bar has the colour that the pattern's definition gives it."""
 import colour_bars
 import live
 
+# A loopback's layout, its fourcc, and how the camera's own frames are encoded: vivid's controls for BT.601
+# in limited range, BT.709, and full range.
+LAYOUTS = (("yuyv", "YUYV", {"y_cbcr_encoding": 1, "quantization": 2}),
+           ("nv12", "NV12", {"y_cbcr_encoding": 2, "quantization": 2}),
+           ("i420", "YU12", {"y_cbcr_encoding": 1, "quantization": 1}))
+
 
 def run(guest):
     live.load_drivers(guest)
     live.control(guest, osd_text_mode=2)  # no text over the bars
     check_oracle(guest)
-    for layout, fourcc in (("yuyv", "YUYV"), ("nv12", "NV12"), ("i420", "YU12")):
+    for layout, fourcc, camera in LAYOUTS:
+        live.control(guest, **camera)
         program = live.Program(guest, f"--set output.loopback_format={layout}")
         program.wait_for_more(2)
         frame = live.read_frames(guest, 2, name=layout)[-1]

@@ -30,7 +30,7 @@ def while_read(guest, program):
 def without_camera(guest, program):
     program.wait_for_more(2)
     live.unplug(guest)
-    program.wait_until(lambda status: status["camera"]["state"] != "streaming", "the loss")
+    program.wait_until(live.is_without_camera, "the loss")
 
 
 def check_nothing_left(guest):

@@ -11,8 +11,7 @@ def run(guest):
     program.wait_for_more(5)
     for time in (1, 2):
         live.unplug(guest)
-        status = program.wait_until(
-            lambda status: status["camera"]["state"] != "streaming", "the loss to be seen")
+        status = program.wait_until(live.is_without_camera, "the loss to be seen")
         live.check_sums(status)
         shown = program.shown()
         begin = live.uptime(guest)
