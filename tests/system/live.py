@@ -63,8 +63,11 @@ class Program:
 
     def status(self):
         """The JSON that its status page shows; nothing before there is one."""
-        page = self._guest.run(f"busybox wget -q -T 5 -O - http://{STATUS}/status", check=False)
-        return json.loads(page.output) if page.status == 0 else None
+        host, port = STATUS.split(":")
+        page = self._guest.run(
+            f"exec 3<>/dev/tcp/{host}/{port} || exit 1\n"
+            "printf 'GET /status HTTP/1.0\\r\\n\\r\\n' >&3; cat <&3", check=False)
+        return json.loads(page.output.split("\r\n\r\n", 1)[1]) if page.status == 0 else None
 
     def shown(self):
         status = self.status()
@@ -85,8 +88,7 @@ class Program:
         try:
             self._guest.wait_for(holds, what, seconds)
         except Exception:
-            if seen:
-                print(json.dumps(seen[-1]["camera"]), json.dumps(seen[-1]["frames"]))
+            print("its last status:", json.dumps(seen[-1]) if seen else "none")
             raise
         return seen[-1]
 

@@ -21,7 +21,7 @@ import time
 BOOT_SECONDS = 120  # 8 on two idle cores under emulation
 # A boot on hardware; how much longer it takes says how much slower everything is here.
 USUAL_BOOT_SECONDS = 1.5
-MOST_PATIENCE = 20
+MOST_PATIENCE = 8
 
 
 class GuestError(Exception):
