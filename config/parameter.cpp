@@ -148,7 +148,9 @@ bool ParameterDescriptor::allows(const ParameterValue& value) const {
   if (const auto* integer = std::get_if<int>(&value)) return integerRange.contains(*integer);
   if (const auto* choice = std::get_if<ChoiceIndex>(&value)) return choice->index < choices.size();
   if (const auto* text = std::get_if<std::string>(&value)) {
-    return !text->empty() && text->size() <= kLongestText && !hasControlCharacter(*text);
+    const bool isText =
+        !text->empty() && text->size() <= kLongestText && !hasControlCharacter(*text);
+    return isText && (!takesText || takesText(*text));
   }
   if (const auto* path = std::get_if<std::filesystem::path>(&value)) {
     return isAllowedPath(*this, path->string());

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -44,6 +45,8 @@ struct ParameterDescriptor {
   /// Of a path, names of other things, with what follows them: "serial:NUMBER" allows any text that
   /// goes on from "serial:".
   std::vector<std::string> openChoices;
+  /// Which texts a text may be; unset: any.
+  std::function<bool(std::string_view)> takesText;
   std::string textAllowed;  ///< of a text, for messages: "a name that ... lists"; empty: any
   std::string pathEnding;   ///< of a path: ".toml"; empty: any
   TakesEffect takesEffect = TakesEffect::kLive;

@@ -83,13 +83,18 @@ ParameterBinding<P> choiceParameter(const std::string& name, std::string P::*mem
           }};
 }
 
-/// `allowed` as ParameterDescriptor::textAllowed.
+/// `allowed` and `takes` as ParameterDescriptor::textAllowed and takesText.
 template <class P>
 ParameterBinding<P> textParameter(const std::string& name, std::string P::*member,
                                   const std::string& allowed, const std::string& help,
-                                  TakesEffect takesEffect = TakesEffect::kLive) {
+                                  TakesEffect takesEffect = TakesEffect::kLive,
+                                  std::function<bool(std::string_view)> takes = {}) {
   return {
-      {.name = name, .help = help, .textAllowed = allowed, .takesEffect = takesEffect},
+      {.name = name,
+       .help = help,
+       .takesText = std::move(takes),
+       .textAllowed = allowed,
+       .takesEffect = takesEffect},
       [member](const P& p) { return ParameterValue(p.*member); },
       [member](P& p, const ParameterValue& value) { p.*member = std::get<std::string>(value); }};
 }

@@ -19,9 +19,13 @@ inline constexpr const char* kNoTarget = "none";
 struct CameraSettings {
   std::filesystem::path source = "synthetic";  ///< or a recording
   bool wait = false;                           ///< for a camera where there is none at the start
-  config::PixelSize size{640, 480};            ///< of the synthetic camera, as all below
+  config::PixelSize size{640, 480};            ///< made, or asked of a device, as the rate
   double framesPerSecond = 30.0;
-  int seed = 1;
+  std::string exposure = "device";  ///< of a device (control_text.h), as the next three
+  std::string gain = "device";
+  std::string focus = "device";
+  std::string whiteBalance = "device";
+  int seed = 1;  ///< of the synthetic camera, as all below
   double exposureDriftStops = 0;
   double whiteBalanceDrift = 0;  ///< a share
   double readout = 0;            ///< of the frame period; 0: global shutter

@@ -4,6 +4,7 @@
 
 #include "config/parameter_table.h"
 #include "config/profiles.h"
+#include "firmware_app/control_text.h"
 #include "firmware_app/live/camera_selection.h"
 #include "firmware_app/status_server/listen_address.h"
 #include "hal/cameras/synthetic/shot.h"
@@ -20,6 +21,7 @@ using config::numberParameter;
 using config::ParameterTable;
 using config::pathParameter;
 using config::sizeParameter;
+using config::switchParameter;
 using config::TakesEffect;
 using config::textParameter;
 
@@ -42,6 +44,14 @@ const ParameterTable<ProfileSettings>& profileTable() {
   return kTable;
 }
 
+config::ParameterBinding<CameraSettings> controlParameter(const std::string& name,
+                                                          std::string CameraSettings::*member,
+                                                          const ControlText& control,
+                                                          const std::string& help) {
+  return textParameter(name, member, control.allowed(), help, TakesEffect::kRestart,
+                       [control](std::string_view text) { return control.takes(text); });
+}
+
 const ParameterTable<CameraSettings>& cameraTable() {
   static const ParameterTable<CameraSettings> kTable{
       pathParameter(
@@ -49,11 +59,25 @@ const ParameterTable<CameraSettings>& cameraTable() {
           "The camera: a device, by id or serial number or the first that works; \"synthetic\", a "
           "workbench made by code, or another of its shots; or a recording's path.",
           TakesEffect::kRestart, {}, openCameraNames()),
+      switchParameter("wait", &CameraSettings::wait,
+                      "Whether to wait for a camera where there is none at the start; one that is "
+                      "lost later is always waited for.",
+                      TakesEffect::kRestart),
       sizeParameter("size", &CameraSettings::size, kSizes, {},
-                    "Of the synthetic camera's frames; movies have even sides."),
+                    "Of the synthetic camera's frames, or what a device is asked for; it gives the "
+                    "nearest that it has. Movies have even sides."),
       numberParameter("rate", &CameraSettings::framesPerSecond,
                       {.min = 1, .max = 240, .unit = "frames a second"},
-                      "How many frames the synthetic camera makes.", TakesEffect::kRestart),
+                      "How many frames the synthetic camera makes, or a device is asked for.",
+                      TakesEffect::kRestart),
+      controlParameter("exposure", &CameraSettings::exposure, kExposureText,
+                       "Of a device, in milliseconds; \"device\": as it is set."),
+      controlParameter("gain", &CameraSettings::gain, kShareText,
+                       "Of a device, as a share of its range; \"device\": as it is set."),
+      controlParameter("focus", &CameraSettings::focus, kShareText,
+                       "Of a device, as a share of its range; \"device\": as it is set."),
+      controlParameter("white_balance", &CameraSettings::whiteBalance, kWhiteBalanceText,
+                       "Of a device, the light's colour temperature; \"device\": as it is set."),
       integerParameter("seed", &CameraSettings::seed, {.min = 0},
                        "Of the synthetic camera's world and path.", TakesEffect::kRestart),
       numberParameter(
@@ -95,15 +119,18 @@ const ParameterTable<PaintingSettings>& paintingTable() {
 }
 
 const ParameterTable<OutputSettings>& outputTable() {
+  static const std::vector<std::string> kLoopbackNames{"loopback:DEVICE"};
   static const ParameterTable<OutputSettings> kTable{
       pathParameter(
-          "target", &OutputSettings::target, {"window"},
+          "target", &OutputSettings::target, {"window", "loopback"},
           "Where a live painting goes: \"window\", \"loopback\" (a V4L2 device that others "
-          "read as a camera; \"loopback:/dev/video50\"), or a movie's or pictures' path."),
-      pathParameter("second_target", &OutputSettings::secondTarget, {kNoTarget, "window"},
-                    "Where it goes as well."),
-      pathParameter("third_target", &OutputSettings::thirdTarget, {kNoTarget, "window"},
-                    "And where else."),
+          "read as a camera; \"loopback:/dev/video50\"), or a movie's or pictures' path.",
+          TakesEffect::kRestart, {}, kLoopbackNames),
+      pathParameter("second_target", &OutputSettings::secondTarget,
+                    {kNoTarget, "window", "loopback"}, "Where it goes as well.",
+                    TakesEffect::kRestart, {}, kLoopbackNames),
+      pathParameter("third_target", &OutputSettings::thirdTarget, {kNoTarget, "window", "loopback"},
+                    "And where else.", TakesEffect::kRestart, {}, kLoopbackNames),
       choiceParameter("loopback_format", &OutputSettings::loopbackFormat,
                       {"auto", "yuyv", "nv12", "i420"},
                       "The layout of a loopback's pictures; \"auto\": what the device takes.",

@@ -10,6 +10,7 @@
 #include "config/config_error.h"
 #include "config/suggestion.h"
 #include "firmware_app/configuration_sections.h"
+#include "firmware_app/control_text.h"
 #include "firmware_app/status_server/listen_address.h"
 #include "hal/cameras/synthetic/open_synthetic.h"
 #include "pipeline/scene/scene_file.h"
@@ -87,6 +88,24 @@ hal::SyntheticOptions syntheticOptions(const CameraSettings& camera) {
           .exposureDriftStops = camera.exposureDriftStops,
           .whiteBalanceDrift = camera.whiteBalanceDrift,
           .rowTime = std::chrono::duration_cast<hal::Duration>(rowTime)};
+}
+
+hal::StreamRequest streamRequestOf(const CameraSettings& camera) {
+  const std::chrono::duration<double> period(1.0 / camera.framesPerSecond);
+  hal::StreamRequest request{
+      .size = frameSizeOf(camera.size),
+      .framePeriod = std::chrono::round<hal::Duration>(period),
+      .controls = {.gain = kShareText.parsed(camera.gain),
+                   .focus = kShareText.parsed(camera.focus),
+                   .whiteBalance = kWhiteBalanceText.parsed(camera.whiteBalance)}};
+  if (const auto exposure = kExposureText.parsed(camera.exposure)) {
+    using Milliseconds = std::chrono::duration<double, std::milli>;
+    const double* time = std::get_if<double>(&*exposure);
+    request.controls.exposure = time == nullptr
+                                    ? hal::AutomaticOr<hal::Duration>(hal::Automatic{})
+                                    : std::chrono::round<hal::Duration>(Milliseconds(*time));
+  }
+  return request;
 }
 
 std::unique_ptr<StatusServer> configuredStatusServer(const Configuration& configuration,

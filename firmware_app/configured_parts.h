@@ -7,6 +7,7 @@
 #include "firmware_app/painting.h"
 #include "firmware_app/path_collisions.h"
 #include "firmware_app/status_server/status_server.h"
+#include "hal/camera.h"
 #include "hal/cameras/synthetic/synthetic_camera.h"
 #include "pipeline/scene/scene.h"
 
@@ -26,6 +27,8 @@ bool isSynthetic(const CameraSettings& camera);
 /// Whether the source is a path, and no camera's name.
 bool isRecording(const CameraSettings& camera);
 hal::SyntheticOptions syntheticOptions(const CameraSettings& camera);
+/// What a device is asked for: size, rate and controls.
+hal::StreamRequest streamRequestOf(const CameraSettings& camera);
 
 /// [status]'s server, started; null where it is off. Throws config::ConfigError (no such address)
 /// and hal::StartupError as startStatusServer().

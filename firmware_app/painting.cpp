@@ -53,7 +53,7 @@ class Painting {
   /// What can be wrong with the job shows before the output starts, which may make a folder.
   explicit Painting(const PaintingJob& job)
       : job_(job),
-        stream_(orThrow(job.camera->start({}))),
+        stream_(orThrow(job.camera->start(job.request))),
         output_(orThrow(hal::openFileOutput(job.options.output))),
         painter_({.pictureSize = pictureSize(),
                   .scene = job.scene,

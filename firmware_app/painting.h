@@ -34,6 +34,7 @@ PaintParameters parametersOf(const Painter& painter, const PaintingOptions& opti
 /// common.
 struct PaintingJob {
   hal::Camera* camera = nullptr;  ///< stopped; delivers stepped
+  hal::StreamRequest request;     ///< of a device
   PaintingOptions options;
   scene::Scene scene;
   std::string doing;  ///< for the progress: "painting"

@@ -61,6 +61,7 @@ int record(const RecordOptions& options) {
     const auto camera = openCamera(options, settings, clock);
     return runPainting(
         {.camera = camera.get(),
+         .request = streamRequestOf(settings),
          .options = {.output = options.output, .style = "none", .frames = options.frames},
          .doing = "recording",
          .done = "recorded"});

@@ -1,7 +1,6 @@
 #include "firmware_app/commands/run.h"
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <memory>
 #include <optional>
@@ -75,14 +74,6 @@ CameraSettings liveCamera(const Configuration& configuration) {
   return camera;
 }
 
-hal::StreamRequest requestOf(const CameraSettings& camera) {
-  return {.size = hal::FrameSize{camera.size.width, camera.size.height},
-          .pixelFormat = {},
-          .framePeriod = std::chrono::round<hal::Duration>(
-              std::chrono::duration<double>(1.0 / camera.framesPerSecond)),
-          .controls = {}};
-}
-
 hal::OutputOptions outputOptions(const OutputSettings& output) {
   static const std::map<std::string, hal::PixelFormat> kLayouts{{"yuyv", hal::PixelFormat::kYuyv},
                                                                 {"nv12", hal::PixelFormat::kNv12},
@@ -107,7 +98,7 @@ int run(const RunOptions& options) {
     const auto selector = makeCameraSelector(camera, clock);
     return runLive(
         {.selector = selector.get(),
-         .request = requestOf(camera),
+         .request = streamRequestOf(camera),
          .clock = &clock,
          .options = configuredPainting(
              configuration,
@@ -115,6 +106,10 @@ int run(const RunOptions& options) {
          .outputs = targetsOf(output),
          .outputOptions = outputOptions(output),
          .runtime = configuration.runtime(),
+         .serveStatus =
+             [&](StatusPages pages) {
+               return configuredStatusServer(configuration, std::move(pages));
+             },
          .waitsForCamera = camera.wait,
          .scene = std::move(scene),
          .stills = output.stills});

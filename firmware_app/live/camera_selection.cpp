@@ -69,7 +69,8 @@ std::unique_ptr<hal::CameraSelector> makeCameraSelector(const CameraSettings& se
 }
 
 std::unique_ptr<hal::Camera> chosenCamera(const CameraSettings& settings, hal::Clock& clock) {
-  hal::OpenedCamera opened = hal::orThrow(makeCameraSelector(settings, clock)->open({}));
+  hal::OpenedCamera opened =
+      hal::orThrow(makeCameraSelector(settings, clock)->open(streamRequestOf(settings)));
   opened.camera->stop();
   return std::move(opened.camera);
 }

@@ -15,6 +15,7 @@
 
 #include "config/suggestion.h"
 #include "firmware_app/interrupt.h"
+#include "firmware_app/live/camera_selection.h"
 #include "firmware_app/live/live_controls.h"
 #include "firmware_app/live/live_painter.h"
 #include "firmware_app/live/live_reporter.h"
@@ -25,6 +26,7 @@
 #include "firmware_app/scene_warnings.h"
 #include "hal/outputs/window/window.h"
 #include "hal/supervisor/camera_supervisor.h"
+#include "hal/supervisor/hotplug_monitor.h"
 #include "pipeline/painter.h"
 #include "pipeline/runtime/live_chain.h"
 #include "pipeline/runtime/live_threads.h"
@@ -91,13 +93,15 @@ class LivePainting {
   LivePainting& operator=(const LivePainting&) = delete;
 
   void run() {
-    threads_.emplace(chain_);
-    if (!awaitStream()) return;
-    startOutputs();
-    if (!awaitPainter()) return;
-    threads_->startOutputs(stepped_);
     began_ = job_.clock->now();
-    while (!isOver()) look();
+    threads_.emplace(chain_);
+    std::string why;
+    hotplug_ = watchDevices(supervisor_, why);
+    if (!hotplug_) spdlog::debug("no news of plugged cameras: {}", why);
+    if (awaitStream()) {
+      startOutputs();
+      if (awaitPainter()) paint();
+    }
     finish();
   }
 
@@ -140,6 +144,13 @@ class LivePainting {
     chain_.makePaintStage([this](const auto& formats) { return makePainter(formats); },
                           paintRules(job_.runtime, stream_));
     threads_->startPainter();
+    if (job_.serveStatus) server_ = job_.serveStatus(statusPages());
+  }
+
+  StatusPages statusPages() const {
+    return {.json = [this] { return runtime::statusJson(chain_.status(), qualityNames()); },
+            .metrics = [this] { return runtime::statusMetrics(chain_.status(), qualityNames()); },
+            .healthy = [this] { return chain_.status().isHealthy(); }};
   }
 
   void startOutput(std::size_t index) {
@@ -174,6 +185,12 @@ class LivePainting {
       job_.clock->sleepUntil(job_.clock->now() + kLook);
     }
     return true;
+  }
+
+  void paint() {
+    threads_->startOutputs(stepped_);
+    began_ = job_.clock->now();
+    while (!isOver()) look();
   }
 
   bool isOver() const {
@@ -300,6 +317,8 @@ class LivePainting {
   std::vector<std::size_t> stepped_;                        ///< outputs of this thread: the window
   std::optional<LiveWindow> window_;
   std::optional<runtime::LiveThreads> threads_;
+  std::unique_ptr<hal::HotplugMonitor> hotplug_;  ///< tells the supervisor
+  std::unique_ptr<StatusServer> server_;          ///< asks the chain
 
   hal::TimePoint began_;
   hal::TimePoint reported_;

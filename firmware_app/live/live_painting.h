@@ -2,11 +2,13 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "firmware_app/configuration.h"
 #include "firmware_app/painting.h"
+#include "firmware_app/status_server/status_server.h"
 #include "hal/camera.h"
 #include "hal/clock.h"
 #include "hal/outputs/open_output.h"
@@ -24,6 +26,8 @@ struct LiveJob {
   std::vector<std::string> outputs;  ///< as of hal::openOutput(); at least one
   hal::OutputOptions outputOptions;
   RuntimeSettings runtime;
+  /// Begins to serve what is told of the painting; may give none.
+  std::function<std::unique_ptr<StatusServer>(StatusPages)> serveStatus;
   bool waitsForCamera = false;  ///< at the start, where there is none; later it always does
   scene::Scene scene;
   std::filesystem::path stills;  ///< the folder that stills go to

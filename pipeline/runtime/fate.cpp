@@ -11,7 +11,7 @@ struct Words {
 // In the order of Fate.
 constexpr std::array<Words, kFates> kWords{{
     {"shown", "shown"},
-    {"shown_late", "shown late"},
+    {"shown_untimely", "shown untimely"},
     {"late", "late"},
     {"overtaken", "overtaken by a newer one"},
     {"output_busy", "while an output was busy"},

@@ -21,7 +21,8 @@ std::string LedgerCounts::summary(hal::Duration elapsed) const {
   const double rate = seconds > 0.0 ? static_cast<double>(shown()) / seconds : 0.0;
   std::string text = fmt::format("showed {} {} in {:.1f} s ({:.1f} frames/s)", shown(),
                                  shown() == 1 ? "frame" : "frames", seconds, rate);
-  if (const auto late = of(Fate::kShownLate); late > 0) text += fmt::format(", {} late", late);
+  const std::uint64_t untimely = of(Fate::kShownUntimely);
+  if (untimely > 0) text += fmt::format(", {} untimely", untimely);
   text += fmt::format("; dropped {}", dropped());
   const char* separator = ": ";
   for (const Fate fate : allFates()) {

@@ -17,7 +17,7 @@ struct LedgerCounts {
   std::array<std::uint64_t, kFates> ended{};
 
   std::uint64_t of(Fate fate) const { return ended.at(static_cast<std::size_t>(fate)); }
-  std::uint64_t shown() const { return of(Fate::kShown) + of(Fate::kShownLate); }
+  std::uint64_t shown() const { return of(Fate::kShown) + of(Fate::kShownUntimely); }
   /// Ended without having been shown.
   std::uint64_t dropped() const;
   /// Whether captured = underWay + all that ended.

@@ -32,16 +32,13 @@ OutputStage::OutputStage(std::unique_ptr<hal::MemoryOutput> output, hal::OutputF
   status_.format = format.frame;
 }
 
-std::size_t OutputStage::freeBuffer() {
-  if (free_.empty() || queue_.isFull()) end(queue_.removeOldest(), Fate::kOutputBusy);
-  const std::size_t buffer = free_.back();
-  free_.pop_back();
-  return buffer;
-}
-
 ReadPicture& OutputStage::buffer() {
   const std::scoped_lock lock(mutex_);
-  if (!filling_) filling_ = freeBuffer();
+  if (!filling_) {
+    assert(!free_.empty());
+    filling_ = free_.back();
+    free_.pop_back();
+  }
   return *buffers_.at(*filling_);
 }
 
@@ -61,7 +58,14 @@ void OutputStage::submit(std::optional<FrameLedger::Ticket> ticket, hal::TimePoi
     end(picture, Fate::kOutputFailed);
     return;
   }
-  if (queue_.isFull()) end(queue_.removeOldest(), Fate::kOutputBusy);
+  if (queue_.isFull()) {
+    // Where the oldest is still waiting for its time, dropping it again and again would show none.
+    if (*queue_.nextTime() > clock_.now()) {
+      end(picture, Fate::kOutputBusy);
+      return;
+    }
+    end(queue_.removeOldest(), Fate::kOutputBusy);
+  }
   queue_.push(picture);
   isWoken_ = true;
   changed_.notify_all();

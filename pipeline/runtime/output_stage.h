@@ -22,7 +22,8 @@ namespace pleinair::runtime {
 struct OutputStageOptions {
   std::string name;
   PresentationRules rules;
-  /// How many pictures can wait; one more is being taken.
+  /// How many pictures can wait, beside one that is being taken: as many as fall due within the
+  /// longest latency.
   std::size_t waiting = 8;
   /// How many it gets; what comes after them ends as kStopped.
   std::optional<std::uint64_t> limit = std::nullopt;
@@ -32,8 +33,8 @@ struct OutputStageOptions {
 };
 
 /// Where pictures are handed to an output, each at its due time: its own thread, so that one that
-/// stalls holds up nobody else. The painter's thread fills buffers; where all are waiting, the
-/// oldest picture gives way.
+/// stalls holds up nobody else. The painter's thread fills buffers; where too many pictures wait,
+/// one gives way: the oldest, unless even that is still to come.
 class OutputStage {
  public:
   /// `output` was started and answered `format`. Ledger and clock outlive this.
@@ -97,7 +98,6 @@ class OutputStage {
   void present(const Due& due);
   void end(const WaitingPicture& picture, Fate fate);
   void endAll(Fate fate);
-  std::size_t freeBuffer();
   void fail(hal::Error error);
   void tryToReopen();
   hal::Duration timeOf(const WaitingPicture& picture);

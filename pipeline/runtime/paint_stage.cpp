@@ -11,21 +11,22 @@ namespace {
 constexpr hal::Duration kFirstRevival = std::chrono::milliseconds(100);
 constexpr hal::Duration kLongestRevival = std::chrono::seconds(5);
 
-/// A picture that takes longer will not come any more.
-constexpr hal::Duration kNeverReady = std::chrono::seconds(2);
+/// A picture that takes longer will not come any more. The painter itself gives up a GPU sooner,
+/// where it can tell; this is for those that say nothing, software ones on a crowded machine apart.
+constexpr hal::Duration kNeverReady = std::chrono::seconds(10);
 
 hal::Error neverReady() {
   return {.kind = hal::ErrorKind::kDeviceLost,
           .subject = "GPU",
-          .problem = "has not finished a picture for 2 s",
+          .problem = "has not finished a picture for 10 s",
           .remedy = {}};
 }
 
 constexpr std::array<std::string_view, 5> kStageNames{
     "delivery",    // from capture to arrival
     "hand_off",    // from arrival to the painter
-    "tracking",    // tracking and issuing of the GPU's work
-    "painting",    // from there until the picture is in memory
+    "issuing",     // tracking and issuing of the GPU's work
+    "finishing",   // from there until the picture is in memory
     "until_ready"  // from capture until the picture is in memory
 };
 

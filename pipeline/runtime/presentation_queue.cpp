@@ -28,6 +28,7 @@ void PresentationQueue::push(WaitingPicture picture) {
   }
   if (lastReady_) readyGap_ = picture.ready - *lastReady_;
   lastReady_ = picture.ready;
+  picture.readyGap = readyGap_;
   waiting_.push_back(picture);
 }
 
@@ -40,7 +41,17 @@ WaitingPicture PresentationQueue::removeOldest() {
 
 std::optional<hal::TimePoint> PresentationQueue::nextTime() const {
   if (waiting_.empty()) return std::nullopt;
-  return rules_.isPaced ? waiting_.front().due : waiting_.front().ready;
+  return timeOf(waiting_.front());
+}
+
+/// When a picture is shown, as far as is known now.
+hal::TimePoint PresentationQueue::timeOf(const WaitingPicture& picture) const {
+  if (!rules_.isPaced) return picture.ready;
+  // Pictures keep coming, so that a pause would be one of ours.
+  if (shown_ && picture.readyGap <= rules_.longestGap) {
+    return std::min(picture.due, std::max(picture.ready, *shown_ + rules_.longestGap));
+  }
+  return picture.due;
 }
 
 std::optional<PresentationQueue::Ruling> PresentationQueue::next(hal::TimePoint now) {
@@ -73,8 +84,9 @@ Fate PresentationQueue::fateOfDropped(const WaitingPicture& picture, bool hasNew
 }
 
 Fate PresentationQueue::fateOfNewest(const WaitingPicture& picture, hal::TimePoint now) const {
+  if (now < picture.due) return Fate::kShownUntimely;
   if (std::max(picture.ready, now) <= picture.due + rules_.tolerance) return Fate::kShown;
-  if (wouldFreeze(now)) return Fate::kShownLate;
+  if (wouldFreeze(now)) return Fate::kShownUntimely;
   return fateOfDropped(picture, false);
 }
 

@@ -29,6 +29,7 @@ struct WaitingPicture {
   hal::TimePoint captured;
   hal::TimePoint ready;  ///< when it was painted
   hal::TimePoint due;
+  hal::Duration readyGap{0};  ///< since the one before it was ready; push() sets it
 };
 
 struct PresentationRules {
@@ -37,7 +38,8 @@ struct PresentationRules {
   /// How long after its due time a picture still counts as being in time. A refresh allows none for
   /// painting; the clock's own waking may be so late.
   hal::Duration tolerance = std::chrono::milliseconds(8);
-  /// Late pictures are shown where else nothing new would be seen for longer than this.
+  /// Late pictures are shown where else nothing new would be seen for longer than this; and those
+  /// that are still to come, where the latency has just risen.
   hal::Duration longestGap = std::chrono::milliseconds(200);
 };
 
@@ -69,6 +71,7 @@ class PresentationQueue {
   void presented(hal::TimePoint now) { busyUntil_ = now; }
 
  private:
+  hal::TimePoint timeOf(const WaitingPicture& picture) const;
   bool isReadyInTime(const WaitingPicture& picture) const;
   bool wouldFreeze(hal::TimePoint now) const;
   Fate fateOfDropped(const WaitingPicture& picture, bool hasNewer) const;

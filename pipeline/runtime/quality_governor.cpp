@@ -36,7 +36,8 @@ bool QualityGovernor::painted(double load, std::size_t level, hal::TimePoint now
   recent_.at(seen_ % kWindow) = load;
   // One frame says little, however dear it was.
   const double counted = std::min(load, 2.0);
-  smooth_ = seen_ == 0 ? counted : smooth_ + 0.1 * (counted - smooth_);
+  const double share = std::max(0.1, 1.0 / static_cast<double>(seen_ + 1));
+  smooth_ += share * (counted - smooth_);
   ++seen_;
   if (seen_ == kWindow) learnRatio(now);
   if (raisedAt_ && now - *raisedAt_ >= kProof) {
@@ -112,6 +113,7 @@ void QualityGovernor::raise(hal::TimePoint now) {
 void QualityGovernor::change(std::size_t level, hal::TimePoint now) {
   level_ = level;
   seen_ = 0;
+  smooth_ = 0.0;
   loadBefore_.reset();
   cheapSince_ = now;
 }

@@ -36,7 +36,7 @@ Summary summaryOf(const std::string& text) {
   Summary summary;
   std::smatch match;
   static const std::regex kLine(
-      R"(showed (\d+) frames? in [\d.]+ s \([\d.]+ frames/s\); dropped (\d+)(: [^:]*)?: \S+\n)");
+      R"(showed (\d+) frames? in [\d.]+ s \([\d.]+ frames/s\)(?:, \d+ untimely)?; dropped (\d+)(: [^:]*)?: \S+\n)");
   if (!std::regex_match(text, match, kLine)) return summary;
   summary.shown = std::stoi(match[1]);
   summary.dropped = std::stoi(match[2]);

@@ -123,7 +123,8 @@ int FakeV4l2::pollOne(pollfd& waitFor, const Device& device) const {
   } else if (!device.streaming) {
     waitFor.revents = POLLERR;
   } else {
-    if (!device.done.empty()) waitFor.revents |= POLLIN;
+    // With a change of source comes a last, empty buffer.
+    if (!device.done.empty() || device.sourceChanging) waitFor.revents |= POLLIN;
     if (device.eventPending) waitFor.revents |= static_cast<short>(waitFor.events & POLLPRI);
   }
   return waitFor.revents != 0 ? 1 : 0;

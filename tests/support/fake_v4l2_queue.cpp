@@ -211,7 +211,7 @@ void FakeV4l2::Device::fill(Buffer& buffer, const FakeFrame& script) {
   buffer.dataOffset = script.dataOffset.value_or(0);
   if (layout.isJpeg) {
     const std::vector<std::uint8_t>& jpeg = script.jpeg.value_or(video.jpeg);
-    std::memcpy(buffer.planes[0]->data(), jpeg.data(), jpeg.size());
+    std::ranges::copy(jpeg, buffer.planes[0]->begin());  // it may be empty
     buffer.bytesUsed = script.bytesUsed.value_or(u32(jpeg.size()));
     return;
   }

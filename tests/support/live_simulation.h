@@ -215,11 +215,11 @@ class LiveSimulation {
   std::vector<NotingOutput::Note> notes;
 
   /// Begins with this camera; `makeOutput` adds another output.
-  void begin(hal::CameraSelector& selector, hal::SupervisorOptions options = {}) {
-    supervisor_ = std::make_unique<hal::CameraSupervisor>(selector, clock, options);
+  void begin(hal::CameraSelector& selector, std::size_t waiting = 16) {
+    supervisor_ = std::make_unique<hal::CameraSupervisor>(selector, clock);
     chain = std::make_unique<runtime::LiveChain>(*supervisor_, clock);
     while (!chain->capture().status().format) chain->capture().step(clock.now());
-    addOutput({.name = "noting"});
+    addOutput({.name = "noting", .waiting = waiting});
   }
   void addOutput(runtime::OutputStageOptions options) {
     auto output = std::make_unique<NotingOutput>(notes, clock);

@@ -72,7 +72,7 @@ class Program:
     def shown(self):
         status = self.status()
         ended = status["frames"]["ended"] if status else {}
-        return ended.get("shown", 0) + ended.get("shown_late", 0)
+        return ended.get("shown", 0) + ended.get("shown_untimely", 0)
 
     def wait_until(self, condition, what, seconds=30):
         """Waits until a condition on its status holds; returns that status."""
@@ -111,7 +111,7 @@ class Program:
 
 def shown_of(status):
     ended = status["frames"]["ended"]
-    return ended["shown"] + ended["shown_late"]
+    return ended["shown"] + ended["shown_untimely"]
 
 
 def is_without_camera(status):

@@ -1,11 +1,14 @@
 #include "hal/cameras/v4l2/chronology.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include <linux/videodev2.h>
 
 namespace pleinair::hal::v4l2 {
 namespace {
+
+constexpr Duration kMostAhead = std::chrono::milliseconds(100);
 
 /// Of two 32-bit numbers that wrap; a step of half the range and more is one backwards.
 std::uint32_t framesBetween(std::uint32_t last, std::uint32_t next) {
@@ -33,10 +36,11 @@ void Chronology::stamp(const Filled& filled, bool wasStarving, TimePoint now,
       (filled.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
   const TimePoint deviceTime(filled.timestamp);
   const bool isSet = filled.timestamp > Duration::zero();
-  const bool isTrusted =
-      isMonotonic && isSet && deviceTime <= now && (!lastTime_ || deviceTime > *lastTime_);
-  frame.captureTime = isTrusted ? deviceTime : now;
+  const bool rises = !lastDeviceTime_ || deviceTime > *lastDeviceTime_;
+  const bool isTrusted = isMonotonic && isSet && rises && deviceTime <= now + kMostAhead;
+  frame.captureTime = isTrusted ? std::min(deviceTime, now) : now;
   frame.timestampSource = isTrusted ? sourceOf(filled.flags) : TimestampSource::kArrival;
+  if (isTrusted) lastDeviceTime_ = deviceTime;
   if (isSet) frame.deviceTime = filled.timestamp;
   if (lastTime_) frame.captureTime = std::max(frame.captureTime, *lastTime_ + Duration(1));
   lastTime_ = frame.captureTime;

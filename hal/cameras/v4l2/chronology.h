@@ -22,13 +22,16 @@ class Chronology {
   /// first number counts as ours 0, since some drivers count on from their last stream; a number
   /// that does not rise is taken for the next one.
   ///
-  /// The driver's time holds where it is CLOCK_MONOTONIC's, lies in the past and rises: the start
-  /// of the exposure where the driver says so, else the end of the read-out. Else it is `now`.
+  /// The driver's time holds where it is CLOCK_MONOTONIC's, rises, and lies at most 100 ms ahead:
+  /// the start of the exposure where the driver says so, else the end of the read-out. Else it is
+  /// `now`, as it is where the driver's lies ahead (vivid dates the end of a read-out when it
+  /// begins).
   void stamp(const Filled& filled, bool wasStarving, TimePoint now, CapturedFrame& frame);
 
  private:
   std::optional<std::uint32_t> lastDeviceSequence_;
   std::uint64_t nextSequence_ = 0;
+  std::optional<TimePoint> lastDeviceTime_;  ///< that was trusted
   std::optional<TimePoint> lastTime_;
 };
 

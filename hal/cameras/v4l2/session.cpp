@@ -51,6 +51,7 @@ Result<void> Session::restart() {
   lastLease_.reset();
   wasStarving_ = false;
   requeueFailure_ = 0;
+  hasFrames_ = false;
   chronology_.deviceRestarted();
   Result<Negotiated> negotiated = negotiate(device_, request_);
   if (!negotiated) return tl::unexpected(std::move(negotiated.error()));
@@ -106,8 +107,10 @@ std::optional<NextFrame> Session::readFrame(TimePoint deadline) {
     clock_.sleepUntil(std::min(deadline, now + kNap));  // or this would spin
     return std::nullopt;
   }
-  if (answer == -EPIPE) return followSource();  // the last buffer before a change of source
+  // The last buffer before a change of source; a driver that says it before the first has no other.
+  if (answer == -EPIPE && hasFrames_) return followSource();
   if (answer < 0) return fail("gives no more frames", answer);
+  hasFrames_ = true;
   return frameOf(filled);
 }
 

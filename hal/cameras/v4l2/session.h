@@ -45,7 +45,8 @@ class Session {
   Chronology chronology_;
   std::unique_ptr<Stream> stream_;  ///< before device_ goes
   bool wasStarving_ = false;
-  int requeueFailure_ = 0;
+  int requeueFailure_ = 0;                 ///< −errno, told by the next call
+  bool hasFrames_ = false;                 ///< since the device was last started
   std::shared_ptr<const void> lastLease_;  ///< of the last sound JPEG
   ImageView lastPicture_;
   std::optional<NextFrame> ended_;

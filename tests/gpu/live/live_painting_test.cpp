@@ -21,13 +21,19 @@ namespace {
 
 constexpr hal::FrameFormat kFormat{.pixelFormat = hal::PixelFormat::kRgb8, .size = {64, 48}};
 
-/// Delivers so many frames, and is gone then.
+/// Delivers so many frames, and is gone then; fewer than none: is not there at all.
 class LostCamera final : public hal::Camera {
  public:
   LostCamera(int frames, hal::Clock& clock) : frames_(frames), clock_(clock) {}
 
   hal::CameraIdentity identity() const override { return {"lost", "lost", "lost"}; }
   hal::Result<hal::StreamFormat> start(const hal::StreamRequest&) override {
+    if (frames_ < 0) {
+      return tl::unexpected(hal::Error{.kind = hal::ErrorKind::kNotFound,
+                                       .subject = "lost",
+                                       .problem = "is not there",
+                                       .remedy = {}});
+    }
     next_ = 0;
     return hal::StreamFormat{.frame = kFormat, .framePeriod = std::chrono::milliseconds(40)};
   }
@@ -89,18 +95,7 @@ TEST_F(LivePaintingTest, GoesOnWhenTheCameraComesBack) {
 }
 
 TEST_F(LivePaintingTest, SaysAtTheStartThatThereIsNoCamera) {
-  hal::SteadyClock clock;
-  hal::CameraSelector selector({}, "v4l2", clock);
-  LiveJob job{.selector = &selector,
-              .request = {},
-              .clock = &clock,
-              .options = {.output = {}, .style = "none"},
-              .outputs = {output_.string()},
-              .outputOptions = {},
-              .runtime = {},
-              .scene = {},
-              .stills = folder_.path()};
-  EXPECT_THROW(runLive(job), hal::StartupError);
+  EXPECT_THAT(paintFrom(-1, 3), testing::HasSubstr("is not there"));
   EXPECT_EQ(folder_.entryCount(), 0u) << "and leaves no file";
 }
 

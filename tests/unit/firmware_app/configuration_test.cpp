@@ -285,7 +285,7 @@ TEST_F(ConfigurationTest, ProfilesNameTheirMistakes) {
   request_.profile = "dmeo";
   EXPECT_EQ(refusal(),
             "--profile: found \"dmeo\" (did you mean \"demo\"?), allowed: demo, kiosk, "
-            "repair_station, none, or a path that ends in .toml");
+            "loopback, repair_station, none, or a path that ends in .toml");
   request_.profile = path("absent.toml").string();
   EXPECT_EQ(refusal(), "--profile: " + path("absent.toml").string() +
                            ": cannot open: No such file or directory, allowed: a TOML file of at "

@@ -62,12 +62,13 @@ TEST(FrameLedgerDeathTest, RefusesToEndAFrameTwice) {
 TEST(FrameLedger, SumsUpInALine) {
   FrameLedger ledger;
   ledger.count(Fate::kShown, 90);
-  ledger.count(Fate::kShownLate, 1);
+  ledger.count(Fate::kShownUntimely, 1);
   ledger.count(Fate::kReplaced, 2);
   ledger.count(Fate::kLate);
-  EXPECT_EQ(ledger.counts().summary(3s),
-            "showed 91 frames in 3.0 s (30.3 frames/s), 1 late; dropped 3: 1 late, 2 replaced by a "
-            "newer one");
+  EXPECT_EQ(
+      ledger.counts().summary(3s),
+      "showed 91 frames in 3.0 s (30.3 frames/s), 1 untimely; dropped 3: 1 late, 2 replaced by a "
+      "newer one");
 }
 
 TEST(Fates, HaveNamesOfTheirOwn) {

@@ -66,14 +66,14 @@ TEST_F(PresentationQueueTest, ToleratesAWakingThatIsALittleLate) {
 TEST_F(PresentationQueueTest, ShowsALatePictureRatherThanFreeze) {
   showOneAt(0ms);
   queue_.push(picture(180ms, 130ms));  // 180 ms after the one before: the next comes after 360
-  EXPECT_EQ(fateAt(180ms), Fate::kShownLate);
+  EXPECT_EQ(fateAt(180ms), Fate::kShownUntimely);
   queue_.push(picture(230ms, 190ms));  // 50 ms after it: the next one comes before 200 ms are over
   EXPECT_EQ(fateAt(230ms), Fate::kLate);
 }
 
 TEST_F(PresentationQueueTest, ShowsTheVeryFirstPictureHoweverLate) {
   queue_.push(picture(900ms, 100ms));
-  EXPECT_EQ(fateAt(900ms), Fate::kShownLate);
+  EXPECT_EQ(fateAt(900ms), Fate::kShownUntimely);
 }
 
 TEST_F(PresentationQueueTest, ShowsTheNewestOfThoseDue) {

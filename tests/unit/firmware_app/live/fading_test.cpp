@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "firmware_app/live/frame_rate.h"
-
 namespace pleinair::app {
 namespace {
 
@@ -24,20 +22,6 @@ TEST(Fading, StaysForThreeSecondsAndGoes) {
   EXPECT_EQ(fading.opacity(kStart + 1h), 0.0);
   fading.callUp(kStart + 1h);
   EXPECT_EQ(fading.opacity(kStart + 1h + 1s), 1.0);
-}
-
-TEST(FrameRate, LooksBackASecond) {
-  FrameRate rate;
-  EXPECT_EQ(rate.perSecond(), 0.0);
-  hal::TimePoint now = kStart;
-  rate.count(now);
-  EXPECT_EQ(rate.perSecond(), 0.0);
-  for (int i = 0; i < 20; ++i) rate.count(now += 100ms);
-  EXPECT_NEAR(rate.perSecond(), 10.0, 1e-9);
-  for (int i = 0; i < 50; ++i) rate.count(now += 20ms);
-  EXPECT_NEAR(rate.perSecond(), 50.0, 1e-9) << "the slow ones are forgotten";
-  rate.count(now += 1min);
-  EXPECT_EQ(rate.perSecond(), 0.0);
 }
 
 }  // namespace

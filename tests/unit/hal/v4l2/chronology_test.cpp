@@ -82,7 +82,14 @@ TEST_F(V4l2Chronology, TrustsNoOtherClock) {
   }
 }
 
-TEST_F(V4l2Chronology, TrustsNoTimeThatIsMissingOrToCome) {
+TEST_F(V4l2Chronology, TakesATimeThatIsALittleAheadForNow) {
+  const CapturedFrame frame = dated(kMonotonic, now_.time_since_epoch() + 40ms + 36ms);
+  EXPECT_EQ(frame.timestampSource, TimestampSource::kEndOfReadout);
+  EXPECT_EQ(frame.captureTime, now_);
+  EXPECT_EQ(frame.deviceTime, now_.time_since_epoch() + 36ms);
+}
+
+TEST_F(V4l2Chronology, TrustsNoTimeThatIsMissingOrFarAhead) {
   const CapturedFrame unset = dated(kMonotonic, 0s);
   EXPECT_EQ(unset.timestampSource, TimestampSource::kArrival);
   EXPECT_EQ(unset.deviceTime, std::nullopt);

@@ -143,6 +143,22 @@ TEST_F(V4l2Faults, ASourceThatComesBackAsItWasIsNoChange) {
   EXPECT_EQ(frameOrFail().sequence, 1u);
 }
 
+TEST_F(V4l2Faults, ASourceThatOnlyEverChangesIsAnError) {
+  support::FakeVideo& video = plug();
+  startOrFail();
+  frameOrFail();
+  video.failures[VIDIOC_DQBUF] = EPIPE;
+  EXPECT_EQ(answerOrFail<Error>().code, EPIPE);
+}
+
+TEST_F(V4l2Faults, ASourceWhoseEventIsMissedIsFollowedAtItsLastBuffer) {
+  plug({.frames = {{1, {.changesSourceTo = FrameSize{32, 24}}}},
+        .failures = {{VIDIOC_SUBSCRIBE_EVENT, ENOTTY}}});
+  startOrFail();
+  frameOrFail();
+  EXPECT_EQ(answerOrFail<FormatChanged>().format.frame.size, (FrameSize{32, 24}));
+}
+
 TEST_F(V4l2Faults, ASourceWithoutASignalIsLost) {
   support::FakeVideo& video = plug({.frames = {{1, {.changesSourceTo = FrameSize{32, 24}}}}});
   startOrFail();
