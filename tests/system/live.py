@@ -67,7 +67,7 @@ class Program:
         page = self._guest.run(
             f"exec 3<>/dev/tcp/{host}/{port} || exit 1\n"
             "printf 'GET /status HTTP/1.0\\r\\n\\r\\n' >&3; cat <&3", check=False)
-        return json.loads(page.output.split("\r\n\r\n", 1)[1]) if page.status == 0 else None
+        return json.loads(page.output.split("\n\n", 1)[1]) if page.status == 0 else None
 
     def shown(self):
         status = self.status()
