@@ -98,13 +98,16 @@ class Program:
         return self.wait_until(lambda status: shown_of(status) >= goal, f"{goal} frames shown",
                                seconds)
 
-    def stop(self, seconds=2):
-        """Ends it by SIGTERM: within so long, with status 0 and a ledger that adds up, which it returns."""
+    def stop(self, seconds=2, may_leave_painter=False):
+        """Ends it by SIGTERM: within so long, with status 0 and a ledger that adds up, which it returns.
+        `may_leave_painter`: a painter that is compiling its shaders may be left behind, with status 1."""
         begin = uptime(self._guest)
         self.command.signal("TERM")
         finished = self.command.wait(seconds + 5)
         took = uptime(self._guest) - begin
-        assert finished.status == 0, f"status {finished.status}:\n{finished.output}"
+        is_left = finished.status == 1 and "painter did not end in time" in finished.output
+        assert finished.status == 0 or (may_leave_painter and is_left), \
+            f"status {finished.status}:\n{finished.output}"
         assert took < self._guest.patient(seconds), f"it took {took:.1f} s to end"
         return ledger(finished.output)
 

@@ -48,6 +48,11 @@ class Background:
         """Sends a signal, such as "TERM", to the command itself."""
         self._guest.run(f"kill -{name} $(cat {self._base}.pid)")
 
+    def caught_signals(self):
+        """Those that it handles itself, as a mask: proc(5), SigCgt."""
+        line = self._guest.run(f"grep SigCgt /proc/$(cat {self._base}.pid)/status").output
+        return int(line.split()[1], 16)
+
     def output(self):
         """What it printed so far."""
         try:
