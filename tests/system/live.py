@@ -100,16 +100,19 @@ class Program:
         return self.wait_until(lambda status: shown_of(status) >= goal, f"{goal} frames shown",
                                seconds)
 
-    def stop(self, seconds=2, may_leave_painter=False):
+    def stop(self, seconds=2):
         """Ends it by SIGTERM: within so long, with status 0 and a ledger that adds up, which it returns.
-        `may_leave_painter`: a painter that is compiling its shaders may be left behind, with status 1."""
+        Under emulation one call of GL's may take longer than a stop; then the program says that it left
+        the painter behind, with status 1."""
         begin = uptime(self._guest)
         self.command.signal("TERM")
         finished = self.command.wait(seconds + 5)
         took = uptime(self._guest) - begin
         is_left = finished.status == 1 and "painter did not end in time" in finished.output
-        assert finished.status == 0 or (may_leave_painter and is_left), \
+        assert finished.status == 0 or (is_left and self._guest.accelerator != "kvm"), \
             f"status {finished.status}:\n{finished.output}"
+        if is_left:
+            print("too slow here for a clean end: the painter was left behind")
         assert took < self._guest.patient(seconds), f"it took {took:.1f} s to end"
         return ledger(finished.output)
 

@@ -1,6 +1,5 @@
 """SIGTERM at several moments: within two seconds the program has ended with status 0, its ledger adds up,
-and nothing of it is left. Under emulation a shader's compilation takes longer than a stop may: then, at the
-start only, the program says that it left the painter behind."""
+and nothing of it is left."""
 import live
 
 
@@ -10,7 +9,7 @@ def run(guest):
                        ("while a reader reads", while_read), ("without a camera", without_camera)):
         program = live.Program(guest)
         wait(guest, program)
-        print(f"terminated {name}: {program.stop(may_leave_painter=wait is at_once)}")
+        print(f"terminated {name}: {program.stop()}")
         check_nothing_left(guest)
 
 
