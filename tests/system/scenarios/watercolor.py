@@ -13,7 +13,7 @@ WHITE = 140
 def run(guest):
     live.load_drivers(guest)
     program = live.Program(guest, "--set camera.rate=5", style="watercolor")
-    program.wait_for_more(3, seconds=120)  # its shaders are compiled first
+    program.wait_for_more(3, seconds=90)  # its shaders are compiled first
     still = live.read_frames(guest, 3, name="watercolor")
     for frame in still:
         check_painting(frame)
