@@ -50,6 +50,7 @@ PaintStage::PaintStage(PainterFactory factory, std::vector<OutputStage*> outputs
       governor_(options.governor),
       latency_(options.latency) {
   assert(!outputs_.empty());
+  underWay_.reserve(kMostUnderWay);
   for (const OutputStage* output : outputs_) formats_.push_back(output->format().frame);
 }
 
@@ -66,7 +67,6 @@ bool PaintStage::step() {
   if (!painter_ && !revive()) return false;
   bool didAnything = collect();
   if (painter_ && underWay_.size() < kMostUnderWay) didAnything = paintNewest() || didAnything;
-  busy_ = underWay_.size();
   return didAnything;
 }
 
@@ -85,7 +85,7 @@ bool PaintStage::collect() {
   }
   while (!underWay_.empty() && underWay_.front().takenBy == outputs_.size()) {
     finished(underWay_.front(), clock_.now());
-    underWay_.pop_front();
+    underWay_.erase(underWay_.begin());
     for (std::size_t& taken : taken_) --taken;
   }
   if (!underWay_.empty()) {
@@ -187,16 +187,21 @@ void PaintStage::refuse(const ArrivedFrame& arrived, const hal::Error& error) {
   failure_ = error;
 }
 
-/// The GPU is gone, with all that was on it.
-void PaintStage::lose(const hal::Error& error) {
-  painter_.reset();
+/// Ends what is being painted, for the outputs that have not got it.
+void PaintStage::endUnderWay(Fate fate) {
   for (const UnderWay& frame : underWay_) {
     for (std::size_t i = frame.takenBy; frame.ticket && i < outputs_.size(); ++i) {
-      ledger_.settle(*frame.ticket, Fate::kContextLost);
+      ledger_.settle(*frame.ticket, fate);
     }
   }
   underWay_.clear();
   std::ranges::fill(taken_, 0);
+}
+
+/// The GPU is gone, with all that was on it.
+void PaintStage::lose(const hal::Error& error) {
+  painter_.reset();
+  endUnderWay(Fate::kContextLost);
   reviveAt_ = clock_.now() + reviveAfter_;
   reviveAfter_ = std::min(2 * reviveAfter_, kLongestRevival);
   const std::scoped_lock lock(mutex_);
@@ -231,15 +236,9 @@ void PaintStage::wait() {
 }
 
 void PaintStage::stop() {
-  for (const UnderWay& frame : underWay_) {
-    for (std::size_t i = frame.takenBy; frame.ticket && i < outputs_.size(); ++i) {
-      ledger_.settle(*frame.ticket, Fate::kStopped);
-    }
-  }
-  underWay_.clear();
+  endUnderWay(Fate::kStopped);
   if (const auto waiting = frames_.take()) ledger_.settle(waiting->ticket, Fate::kStopped);
   painter_.reset();
-  busy_ = 0;
 }
 
 PaintStage::Status PaintStage::status() const {

@@ -3,7 +3,6 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -52,8 +51,6 @@ class PaintStage {
 
   /// During a pause the frame that came last is painted again and again, so that tuning shows.
   void setPaused(bool on) { isPaused_ = on; }
-  /// Whether something is being painted.
-  bool isBusy() const { return busy_.load() > 0; }
 
   struct Stage {
     std::string_view name;
@@ -97,6 +94,7 @@ class PaintStage {
   hal::Result<void> paint(const ArrivedFrame& arrived);
   void hold(const hal::CapturedFrame& frame);
   void refuse(const ArrivedFrame& arrived, const hal::Error& error);
+  void endUnderWay(Fate fate);
   void lose(const hal::Error& error);
   bool revive();
 
@@ -111,14 +109,13 @@ class PaintStage {
   std::unique_ptr<FramePainter> painter_;
   hal::TimePoint reviveAt_;
   hal::Duration reviveAfter_;
-  std::deque<UnderWay> underWay_;
+  std::vector<UnderWay> underWay_;  ///< oldest first, kMostUnderWay at the most
   std::vector<std::size_t> taken_;  ///< of each output: how many of underWay_ it has
   std::optional<hal::Image> held_;  ///< of a pause
   hal::TimePoint lastFinished_;
   hal::TimePoint lastStep_;
   hal::TimePoint resumedAt_;
   std::atomic<bool> isPaused_ = false;
-  std::atomic<std::size_t> busy_ = 0;
 
   enum StageIndex : std::size_t { kDelay, kWaiting, kIssuing, kFinishing, kReady };
   mutable std::mutex mutex_;  // of what follows

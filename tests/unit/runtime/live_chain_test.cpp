@@ -289,6 +289,15 @@ TEST_F(LostCameraTest, CountsWhatWasLostInAStallApart) {
   expectSumsToAgree();
 }
 
+TEST_F(LostCameraTest, CountsBrokenFramesAlsoWhereNoSoundOneFollows) {
+  const std::vector<support::ScriptedStep> broken(20, support::ScriptedFrame{.isTooShort = true});
+  begin({{.startError = {}, .steps = support::scriptOf(support::scriptedFrames(10), broken)}});
+  live_.runFor(2s);
+  EXPECT_EQ(counts().captured, 30u);
+  EXPECT_EQ(counts().of(Fate::kCorrupt), 20u);
+  expectSumsToAgree();
+}
+
 /// Random loads, delays and faults, the same for the same seed.
 class RandomLive : public testing::TestWithParam<unsigned> {};
 
