@@ -114,10 +114,12 @@ bool PaintStage::collectFor(std::size_t output) {
   return true;
 }
 
-/// Of the frame period what the painter was busy with it, of the latency what has passed.
+/// Of the frame period what the painter was busy with it; of what the camera left of the latency,
+/// which no quality brings back, what has passed.
 double PaintStage::loadOf(const UnderWay& frame, hal::TimePoint now) const {
   const hal::Duration cost = now - std::max(frame.began, lastFinished_);
-  const double ofLatency = ratio(now - frame.captured, latency_.latency());
+  const hal::Duration left = frame.captured + latency_.latency() - frame.arrived;
+  const double ofLatency = left > hal::Duration::zero() ? ratio(now - frame.arrived, left) : 2.0;
   return options_.framePeriod ? std::max(ratio(cost, *options_.framePeriod), ofLatency) : ofLatency;
 }
 
@@ -147,7 +149,10 @@ hal::Result<void> PaintStage::paint(const ArrivedFrame& arrived) {
   const hal::CapturedFrame& frame = arrived.frame;
   const bool isRepeat = isPaused_ && held_;
   if (!isRepeat) hold(frame);
-  UnderWay painting{.ticket = arrived.ticket, .captured = frame.captureTime, .began = clock_.now()};
+  UnderWay painting{.ticket = arrived.ticket,
+                    .captured = frame.captureTime,
+                    .arrived = arrived.arrived,
+                    .began = clock_.now()};
   {
     const std::scoped_lock lock(mutex_);
     painting.quality = governor_.level();

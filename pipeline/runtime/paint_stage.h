@@ -77,6 +77,7 @@ class PaintStage {
   struct UnderWay {
     std::optional<FrameLedger::Ticket> ticket;  ///< none for repeats
     hal::TimePoint captured;
+    hal::TimePoint arrived;
     hal::TimePoint began;
     hal::TimePoint issued;
     std::size_t quality = 0;

@@ -114,6 +114,18 @@ TEST_F(LiveChainTest, LowersQualityAndKeepsTheLatencyUnderTwiceTheLoad) {
   expectSumsToAgree();
 }
 
+TEST_F(LiveChainTest, RaisesQualityAgainWithACameraThatDeliversLate) {
+  hal::Duration cost = 20ms;
+  live_.gpu.cost = [&](auto, std::size_t quality) { return quality == 0 ? cost : 3 * cost / 4; };
+  begin({.delay = [](auto) { return 75ms; }});
+  cost = 40ms;
+  live_.runFor(5s);
+  EXPECT_GT(status().painting.quality, 0u);
+  cost = 20ms;
+  live_.runFor(60s);
+  EXPECT_EQ(status().painting.quality, 0u) << "95 of 120 ms, of which 75 are the camera's";
+}
+
 TEST_F(LiveChainTest, RaisesTheLatencyOnlyWhereNothingElseHelpsAndBringsItBack) {
   hal::Duration cost = 20ms;
   live_.gpu.cost = [&](auto, auto) { return cost; };
