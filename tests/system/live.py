@@ -63,8 +63,11 @@ class Program:
 
     def status(self):
         """The JSON that its status page shows; nothing before there is one."""
-        page = self._guest.run(f"busybox wget -q -T 5 -O - http://{STATUS}/status", check=False)
-        return json.loads(page.output) if page.status == 0 else None
+        host, port = STATUS.split(":")
+        page = self._guest.run(
+            f"exec 3<>/dev/tcp/{host}/{port} || exit 1\n"
+            "printf 'GET /status HTTP/1.0\\r\\n\\r\\n' >&3; cat <&3", check=False)
+        return json.loads(page.output.split("\n\n", 1)[1]) if page.status == 0 else None
 
     def shown(self):
         status = self.status()
@@ -85,8 +88,7 @@ class Program:
         try:
             self._guest.wait_for(holds, what, seconds)
         except Exception:
-            if seen:
-                print(json.dumps(seen[-1]["camera"]), json.dumps(seen[-1]["frames"]))
+            print("its last status:", json.dumps(seen[-1]) if seen else "none")
             raise
         return seen[-1]
 
@@ -96,13 +98,16 @@ class Program:
         return self.wait_until(lambda status: shown_of(status) >= goal, f"{goal} frames shown",
                                seconds)
 
-    def stop(self, seconds=2):
-        """Ends it by SIGTERM: within so long, with status 0 and a ledger that adds up, which it returns."""
+    def stop(self, seconds=2, may_leave_painter=False):
+        """Ends it by SIGTERM: within so long, with status 0 and a ledger that adds up, which it returns.
+        `may_leave_painter`: a painter that is compiling its shaders may be left behind, with status 1."""
         begin = uptime(self._guest)
         self.command.signal("TERM")
         finished = self.command.wait(seconds + 5)
         took = uptime(self._guest) - begin
-        assert finished.status == 0, f"status {finished.status}:\n{finished.output}"
+        is_left = finished.status == 1 and "painter did not end in time" in finished.output
+        assert finished.status == 0 or (may_leave_painter and is_left), \
+            f"status {finished.status}:\n{finished.output}"
         assert took < self._guest.patient(seconds), f"it took {took:.1f} s to end"
         return ledger(finished.output)
 

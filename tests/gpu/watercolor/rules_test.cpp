@@ -41,7 +41,7 @@ TEST(WatercolorShaders, KeepWithinWhatTheTargetsAllow) {
       EXPECT_EQ(storage + images, 0);
     }
   }
-  EXPECT_EQ(compute, 5);
+  EXPECT_EQ(compute, 6);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ import time
 BOOT_SECONDS = 120  # 8 on two idle cores under emulation
 # A boot on hardware; how much longer it takes says how much slower everything is here.
 USUAL_BOOT_SECONDS = 1.5
-MOST_PATIENCE = 20
+MOST_PATIENCE = 8
 
 
 class GuestError(Exception):
@@ -47,6 +47,11 @@ class Background:
     def signal(self, name):
         """Sends a signal, such as "TERM", to the command itself."""
         self._guest.run(f"kill -{name} $(cat {self._base}.pid)")
+
+    def caught_signals(self):
+        """Those that it handles itself, as a mask: proc(5), SigCgt."""
+        line = self._guest.run(f"grep SigCgt /proc/$(cat {self._base}.pid)/status").output
+        return int(line.split()[1], 16)
 
     def output(self):
         """What it printed so far."""

@@ -1,5 +1,6 @@
 """SIGTERM at several moments: within two seconds the program has ended with status 0, its ledger adds up,
-and nothing of it is left."""
+and nothing of it is left. Under emulation a shader's compilation takes longer than a stop may: then, at the
+start only, the program says that it left the painter behind."""
 import live
 
 
@@ -9,12 +10,14 @@ def run(guest):
                        ("while a reader reads", while_read), ("without a camera", without_camera)):
         program = live.Program(guest)
         wait(guest, program)
-        print(f"terminated {name}: {program.stop()}")
+        print(f"terminated {name}: {program.stop(may_leave_painter=wait is at_once)}")
         check_nothing_left(guest)
 
 
 def at_once(guest, program):
-    pass
+    """As soon as it listens for signals: its libraries are loaded, its GPU is not yet set up."""
+    sigterm = 1 << 14
+    guest.wait_for(lambda: program.command.caught_signals() & sigterm, "it to listen for signals")
 
 
 def with_first_frame(guest, program):

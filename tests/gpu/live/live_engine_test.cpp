@@ -1,0 +1,141 @@
+// The engine's painter in the live chain: many frames, a GPU that is lost, starts and stops.
+#include <atomic>
+#include <chrono>
+
+#include <gtest/gtest.h>
+
+#include "firmware_app/live/live_painter.h"
+#include "pipeline/runtime/live_chain.h"
+#include "pipeline/styles/style_registry.h"
+#include "tests/support/live_simulation.h"
+#include "tests/support/process_resources.h"
+
+namespace pleinair::app {
+namespace {
+
+using namespace std::chrono_literals;
+using runtime::Fate;
+using support::ProcessResources;
+
+constexpr hal::FrameSize kSize{160, 120};
+constexpr unsigned kGuiltyContextReset = 0x8253;  // GL_GUILTY_CONTEXT_RESET
+
+PaintParameters watercolorParameters() {
+  return {.style = styles::styleInfo("watercolor").defaults, .view = {}};
+}
+
+/// Live painting under a stepped clock: the painter takes as long as it takes, the clock stands
+/// still meanwhile.
+class LiveEngine {
+ public:
+  explicit LiveEngine(std::uint64_t frames, PainterOptions options = {.pictureSize = kSize})
+      : selector_(support::selectorOf(
+            [frames](hal::Clock& clock) {
+              return std::make_unique<support::PacedCamera>(
+                  support::PacedCameraOptions{.frames = frames, .size = kSize}, clock);
+            },
+            clock_)),
+        supervisor_(selector_, clock_),
+        controls_(watercolorParameters()) {
+    options.qualityLevels = true;
+    while (!chain_.capture().status().format) chain_.capture().step(clock_.now());
+    auto output = std::make_unique<support::NotingOutput>(notes_, clock_);
+    const auto format = *output->start({.size = kSize, .framePeriod = {}});
+    chain_.addOutput(std::move(output), format, {.name = "noting", .waiting = 16});
+    chain_.makePaintStage(
+        [this, options](const auto& formats) {
+          return std::make_unique<LivePainter>(options, formats, controls_);
+        },
+        {.governor = {.levels = qualityLevels().size(), .pinned = {}},
+         .latency = {},
+         .framePeriod = 33'333us,
+         .refresh = {}});
+    chain_.paint().start();
+    chain_.capture().open();
+  }
+
+  runtime::LiveChain& chain() { return chain_; }
+  LiveControls& controls() { return controls_; }
+
+  /// One frame's time: what is under way is finished before the clock goes on.
+  void step() {
+    while (chain_.paint().step() || chain_.paint().isBusy()) {
+    }
+    const auto wake = chain_.output(0).step();
+    const hal::TimePoint frame = clock_.now() + 33ms;
+    chain_.capture().step(wake ? std::clamp(*wake, clock_.now(), frame) : frame);
+  }
+  void drain() {
+    while (!chain_.isDrained()) step();
+  }
+  void stop() { chain_.paint().stop(); }
+
+ private:
+  hal::SteppedClock clock_{hal::TimePoint(100s)};
+  std::vector<support::NotingOutput::Note> notes_;
+  hal::CameraSelector selector_;
+  hal::CameraSupervisor supervisor_;
+  LiveControls controls_;
+  runtime::LiveChain chain_{supervisor_, clock_};
+};
+
+TEST(LiveEngineTest, PaintsFiveThousandFramesInTheSameMemory) {
+  constexpr std::uint64_t kFrames = 5'000;
+  LiveEngine live(kFrames);
+  const auto captured = [&] { return live.chain().ledger().counts().captured; };
+  while (captured() < kFrames / 5) live.step();
+  const std::size_t resident = ProcessResources::now().residentKiB;
+  const std::size_t allocated = ProcessResources::allocatedBytes();
+  live.drain();
+  const runtime::LedgerCounts counts = live.chain().ledger().counts();
+  EXPECT_EQ(counts.captured, kFrames);
+  EXPECT_EQ(counts.of(Fate::kShown), kFrames);
+  EXPECT_LE(ProcessResources::now().residentKiB, resident + 4 * 1024) << "KiB";
+  EXPECT_LE(ProcessResources::allocatedBytes(), allocated + 512 * 1024);
+}
+
+TEST(LiveEngineTest, GoesOnWithANewContextWhenTheGpuIsLost) {
+  int asked = 0;
+  LiveEngine live(200, {.pictureSize = kSize, .seam = {.resetStatus = [&asked] {
+                                                return ++asked == 60 ? kGuiltyContextReset : 0u;
+                                              }}});
+  live.drain();
+  const runtime::RuntimeStatus status = live.chain().status();
+  EXPECT_EQ(status.painting.contextLosses, 1u);
+  EXPECT_GE(status.ledger.of(Fate::kContextLost), 1u);
+  EXPECT_GT(status.ledger.of(Fate::kShown), 190u);
+  EXPECT_TRUE(status.ledger.addsUp());
+  EXPECT_GT(asked, 150) << "the new context is asked as well";
+}
+
+TEST(LiveEngineTest, GivesTheFinishedPictureAsAStillUnderAnyView) {
+  LiveEngine live(20);
+  PaintParameters parameters = watercolorParameters();
+  parameters.view = "cells";
+  live.controls().setParameters(parameters);
+  live.step();
+  live.controls().askForStill();
+  live.drain();
+  const auto still = live.controls().takeStill();
+  ASSERT_TRUE(still);
+  ASSERT_TRUE(*still);
+  EXPECT_EQ((*still)->size(), kSize);
+}
+
+TEST(LiveEngineTest, StartsAndStopsWithoutLeavingAnything) {
+  const auto cycle = [] {
+    LiveEngine live(3);
+    live.drain();
+    live.stop();
+  };
+  for (int i = 0; i < 3; ++i) cycle();
+  const ProcessResources before = ProcessResources::now();
+  for (int i = 0; i < 25; ++i) cycle();
+  const ProcessResources after = ProcessResources::now();
+  EXPECT_EQ(after.descriptors, before.descriptors);
+  EXPECT_EQ(after.threads, before.threads);
+  EXPECT_LE(after.residentKiB, before.residentKiB + 8 * 1024) << "KiB";
+}
+
+}  // namespace
+}  // namespace pleinair::app

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "hal/image.h"
+#include "pipeline/runtime/frame_painter.h"
+
+namespace pleinair::support {
+
+/// Gives each frame as it came, at once, to all outputs: grey, of the frame's size. No GPU.
+class PassThroughPainter final : public runtime::FramePainter {
+ public:
+  explicit PassThroughPainter(std::size_t outputs) : waiting_(outputs) {}
+
+  hal::Result<void> paint(const hal::CapturedFrame& frame, std::size_t) override {
+    for (auto& pictures : waiting_) pictures.push_back(frame);
+    return {};
+  }
+  hal::Result<bool> take(std::size_t output, ReadPicture& picture) override {
+    auto& pictures = waiting_.at(output);
+    if (pictures.empty()) return false;
+    const hal::CapturedFrame frame = std::move(pictures.front());
+    pictures.pop_front();
+    if (picture.image.format() != frame.image.format) {
+      picture.image = hal::Image(frame.image);
+    } else {
+      for (int y = 0; y < picture.image.size().height; ++y) {
+        std::ranges::copy(frame.image.row(0, y), picture.image.row(0, y).begin());
+      }
+    }
+    picture.sequence = frame.sequence;
+    picture.captureTime = frame.captureTime;
+    return true;
+  }
+
+ private:
+  std::vector<std::deque<hal::CapturedFrame>> waiting_;
+};
+
+}  // namespace pleinair::support

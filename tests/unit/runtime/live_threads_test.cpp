@@ -1,0 +1,193 @@
+// The live chain on its threads and the real clock: what may block, hang or be stopped at any
+// moment. Nothing here depends on how fast the machine is; waits have generous limits.
+#include "pipeline/runtime/live_threads.h"
+
+#include <chrono>
+#include <future>
+#include <semaphore>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/live_simulation.h"
+#include "tests/support/pass_through_painter.h"
+#include "tests/support/process_resources.h"
+
+namespace pleinair::runtime {
+namespace {
+
+using namespace std::chrono_literals;
+using support::PacedCamera;
+using support::PassThroughPainter;
+using support::ProcessResources;
+
+/// Counts what it gets, and blocks where it is told to.
+class BlockingOutput final : public hal::MemoryOutput {
+ public:
+  struct Control {
+    std::atomic<int> written = 0;
+    std::atomic<bool> blocks = false;
+    std::atomic<bool> finished = false;
+    std::binary_semaphore release{0};
+  };
+  explicit BlockingOutput(Control& control) : control_(control) {}
+  hal::OutputIdentity identity() const override { return {"blocking", "blocking"}; }
+  hal::Result<hal::OutputFormat> start(const hal::OutputRequest& request) override {
+    return hal::OutputFormat{
+        .frame = {.pixelFormat = hal::PixelFormat::kGrey8, .size = request.size, .encoding = {}},
+        .refreshPeriod = {}};
+  }
+  hal::Result<void> write(const hal::ImageView&, hal::Duration) override {
+    if (control_.blocks) control_.release.acquire();
+    ++control_.written;
+    return {};
+  }
+  hal::Result<void> finish() override {
+    control_.finished = true;
+    return {};
+  }
+
+ private:
+  Control& control_;
+};
+
+/// A chain of a paced camera, a painter that passes on, and outputs that block.
+class Live {
+ public:
+  explicit Live(std::size_t outputs, hal::Duration period = 4ms)
+      : selector_(support::selectorOf(
+            [period](hal::Clock& clock) {
+              return std::make_unique<PacedCamera>(
+                  support::PacedCameraOptions{.period = period, .delay = noDelay}, clock);
+            },
+            clock_)),
+        supervisor_(selector_, clock_),
+        chain_(supervisor_, clock_),
+        threads_(chain_),
+        controls_(outputs) {
+    while (!chain_.capture().status().format) std::this_thread::sleep_for(1ms);
+    for (BlockingOutput::Control& control : controls_) addOutput(control);
+    chain_.makePaintStage(
+        [outputs](const auto&) { return std::make_unique<PassThroughPainter>(outputs); },
+        {.governor = {.levels = 5, .pinned = {}},
+         .latency = {.configured = 20ms},
+         .framePeriod = period,
+         .refresh = {}});
+    threads_.startPainter();
+    while (!threads_.isPainterReady()) std::this_thread::sleep_for(1ms);
+    threads_.startOutputs();
+  }
+
+  LiveChain& chain() { return chain_; }
+  BlockingOutput::Control& output(std::size_t index) { return controls_.at(index); }
+  LiveThreads::Stopped stop(hal::Duration patience = 20s) { return threads_.stop(patience); }
+  void waitForPictures(std::size_t index, int count) {
+    const int wanted = output(index).written + count;
+    const auto deadline = std::chrono::steady_clock::now() + 60s;
+    while (output(index).written < wanted && std::chrono::steady_clock::now() < deadline) {
+      std::this_thread::sleep_for(1ms);
+    }
+    ASSERT_GE(output(index).written, wanted);
+  }
+
+ private:
+  static hal::Duration noDelay(std::uint64_t) { return hal::Duration{0}; }
+  void addOutput(BlockingOutput::Control& control) {
+    auto output = std::make_unique<BlockingOutput>(control);
+    const auto format = *output->start({.size = {8, 6}, .framePeriod = {}});
+    chain_.addOutput(std::move(output), format, {.name = "output", .waiting = 8});
+  }
+
+  hal::SteadyClock clock_;
+  hal::CameraSelector selector_;
+  hal::CameraSupervisor supervisor_;
+  LiveChain chain_;
+  LiveThreads threads_;
+  std::deque<BlockingOutput::Control> controls_;
+};
+
+TEST(LiveThreadsTest, OneOutputThatStallsDoesNotSlowTheOther) {
+  Live live(2);
+  live.waitForPictures(1, 5);
+  live.output(0).blocks = true;
+  const int before = live.output(0).written;
+  live.waitForPictures(1, 200);
+  EXPECT_LE(live.output(0).written, before + 1);
+  const RuntimeStatus status = live.chain().status();
+  EXPECT_TRUE(status.outputs[0].addsUp());
+  EXPECT_GT(status.outputs[0].ended.at(static_cast<std::size_t>(Fate::kOutputBusy)), 100u);
+  live.output(0).blocks = false;
+  live.output(0).release.release();
+  live.waitForPictures(0, 5);
+  EXPECT_TRUE(live.stop().stuck.empty());
+  EXPECT_TRUE(live.chain().ledger().counts().addsUp());
+  EXPECT_EQ(live.chain().ledger().counts().underWay, 0u);
+}
+
+TEST(LiveThreadsTest, LeavesBehindAnOutputThatNeverComesBack) {
+  Live live(2);
+  live.waitForPictures(1, 5);
+  live.output(0).blocks = true;
+  live.waitForPictures(1, 20);
+  const LiveThreads::Stopped stopped = live.stop(200ms);
+  EXPECT_THAT(stopped.stuck, testing::ElementsAre("output 0"));
+  EXPECT_TRUE(live.output(1).finished) << "the other one is completed";
+  live.output(0).blocks = false;  // so that this test can end
+  live.output(0).release.release();
+  EXPECT_TRUE(live.stop().stuck.empty());
+}
+
+TEST(LiveThreadsTest, StartsAndStopsAHundredTimesWithoutLeavingAnything) {
+  {
+    Live warmUp(2);
+    warmUp.waitForPictures(0, 1);
+    warmUp.stop();
+  }
+  const ProcessResources before = ProcessResources::now();
+  const std::size_t allocated = ProcessResources::allocatedBytes();
+  for (int i = 0; i < 100; ++i) {
+    Live live(2, 1ms);
+    if (i % 2 == 0) live.waitForPictures(0, 3);  // and at once
+    ASSERT_TRUE(live.stop().stuck.empty());
+    ASSERT_EQ(live.chain().ledger().counts().underWay, 0u);
+    ASSERT_TRUE(live.chain().ledger().counts().addsUp());
+  }
+  const ProcessResources after = ProcessResources::now();
+  EXPECT_EQ(after.descriptors, before.descriptors);
+  EXPECT_EQ(after.threads, before.threads);
+  EXPECT_LT(ProcessResources::allocatedBytes(), allocated + 64 * 1024);
+}
+
+TEST(LiveThreadsTest, TellsWhatThePainterFailedWithAtTheStart) {
+  hal::SteadyClock clock;
+  auto selector = support::selectorOf(
+      [](hal::Clock& cameraClock) {
+        return std::make_unique<PacedCamera>(support::PacedCameraOptions{}, cameraClock);
+      },
+      clock);
+  hal::CameraSupervisor supervisor(selector, clock);
+  LiveChain chain(supervisor, clock);
+  LiveThreads threads(chain);
+  BlockingOutput::Control control;
+  chain.addOutput(std::make_unique<BlockingOutput>(control), {}, {.name = "output"});
+  chain.makePaintStage(
+      [](const auto&) -> std::unique_ptr<FramePainter> {
+        throw hal::StartupError({.kind = hal::ErrorKind::kUnsupported,
+                                 .subject = "GPU",
+                                 .problem = "is not there",
+                                 .remedy = {}});
+      },
+      {});
+  threads.startPainter();
+  const auto waitForPainter = [&] {
+    const auto deadline = std::chrono::steady_clock::now() + 60s;
+    while (!threads.isPainterReady() && std::chrono::steady_clock::now() < deadline) {
+      std::this_thread::sleep_for(1ms);
+    }
+  };
+  EXPECT_THROW(waitForPainter(), hal::StartupError);
+  EXPECT_TRUE(threads.stop(20s).stuck.empty());
+}
+
+}  // namespace
+}  // namespace pleinair::runtime
