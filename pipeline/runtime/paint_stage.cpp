@@ -67,6 +67,7 @@ bool PaintStage::step() {
   if (!painter_ && !revive()) return false;
   bool didAnything = collect();
   if (painter_ && underWay_.size() < kMostUnderWay) didAnything = paintNewest() || didAnything;
+  busy_ = underWay_.size();
   return didAnything;
 }
 
@@ -244,6 +245,7 @@ void PaintStage::stop() {
   endUnderWay(Fate::kStopped);
   if (const auto waiting = frames_.take()) ledger_.settle(waiting->ticket, Fate::kStopped);
   painter_.reset();
+  busy_ = 0;
 }
 
 PaintStage::Status PaintStage::status() const {

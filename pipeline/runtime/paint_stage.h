@@ -51,6 +51,8 @@ class PaintStage {
 
   /// During a pause the frame that came last is painted again and again, so that tuning shows.
   void setPaused(bool on) { isPaused_ = on; }
+  /// Whether something is being painted.
+  bool isBusy() const { return busy_.load() > 0; }
 
   struct Stage {
     std::string_view name;
@@ -117,6 +119,7 @@ class PaintStage {
   hal::TimePoint lastStep_;
   hal::TimePoint resumedAt_;
   std::atomic<bool> isPaused_ = false;
+  std::atomic<std::size_t> busy_ = 0;
 
   enum StageIndex : std::size_t { kDelay, kWaiting, kIssuing, kFinishing, kReady };
   mutable std::mutex mutex_;  // of what follows
