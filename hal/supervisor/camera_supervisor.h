@@ -115,6 +115,9 @@ class CameraSupervisor {
   /// selector opens nothing more. Returns at once. Any thread.
   void stop();
 
+  /// All frames so far, with those that came after the last one that was let out. The thread of
+  /// next(); status() has them for the others.
+  FrameCounts frameCounts() const { return frames_.counts(); }
   CameraState state() const { return state_.load(); }  ///< any thread
   SupervisorStatus status() const;                     ///< any thread
 
