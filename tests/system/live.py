@@ -57,8 +57,10 @@ class Program:
                  style="none"):
         self._guest = guest
         targets = " ".join(f"--output loopback:{node}" for node in outputs)
+        # Under emulation compiling shaders is dear and running them cheap: Mesa's compiler is told not to
+        # optimise, which halves the start.
         self.command = guest.start(
-            f"./pleinair run --camera {camera} {targets} --style {style} "
+            f"env GALLIVM_PERF=nopt ./pleinair run --camera {camera} {targets} --style {style} "
             f"--size {SIZE[0]}x{SIZE[1]} --set status.listen={STATUS} {arguments}", "pleinair")
 
     def status(self):
