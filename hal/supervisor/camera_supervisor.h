@@ -35,7 +35,7 @@ enum class CameraState {
 std::string_view toString(CameraState state);  ///< "opening", "backing off" …
 
 struct CameraStateChanged {
-  CameraState state;
+  CameraState state = CameraState::kOpening;
   std::string reason;  ///< one line: what the device did, or what opening it failed with
   /// The camera that it is about; none while one is looked for.
   std::optional<CameraIdentity> camera;
