@@ -145,7 +145,7 @@ void addOutputs(CLI::App& command, ConfigurationRequest& request) {
 }
 
 void addRun(CLI::App& app, RunOptions& options, std::function<int()>& chosen) {
-  CLI::App& command = *app.add_subcommand("run", "paint a camera live, in a window");
+  CLI::App& command = *app.add_subcommand("run", "paint a camera live");
   ConfigurationRequest& configuration = options.configuration;
   addKey(command, configuration, "--camera", "camera.source",
          "synthetic (default), auto, a device as docs/cameras.md says, or a recording's path, "

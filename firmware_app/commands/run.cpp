@@ -15,7 +15,6 @@
 #include "hal/clock.h"
 #include "hal/error.h"
 #include "hal/outputs/open_output.h"
-#include "hal/outputs/v4l2_loopback/loopback_output.h"
 
 namespace pleinair::app {
 namespace {
@@ -27,10 +26,6 @@ std::vector<std::string> targetsOf(const OutputSettings& output) {
     if (each != kNoTarget) targets.push_back(each.string());
   }
   return targets;
-}
-
-bool isFile(const std::string& target) {
-  return target != "window" && !hal::isLoopbackName(target);
 }
 
 void refuseTwice(std::vector<std::string> targets) {
@@ -50,7 +45,7 @@ void refuseCollisionsOf(const Configuration& configuration, const scene::Scene& 
   if (isRecording(camera)) read.insert(read.begin(), {"--camera", camera.source});
   std::vector<NamedPath> written;
   for (const std::string& target : targetsOf(configuration.output())) {
-    if (isFile(target)) written.push_back({"--output", target});
+    if (hal::isFileOutputName(target)) written.push_back({"--output", target});
   }
   refuseCollisions(read, written);
   refuseTwice(targetsOf(configuration.output()));

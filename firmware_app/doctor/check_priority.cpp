@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <string>
@@ -6,6 +7,7 @@
 #include <sys/resource.h>
 
 #include "firmware_app/doctor/checks.h"
+#include "pipeline/runtime/thread_role.h"
 
 namespace pleinair::app::doctor {
 namespace {
@@ -25,16 +27,18 @@ bool isExempt(const Probes& probes) {
 }  // namespace
 
 Finding checkPriority(const Probes& probes) {
-  const std::uint64_t most = probes.limit(RLIMIT_RTPRIO);
-  if (most > 0 || isExempt(probes)) {
-    constexpr std::uint64_t kHighest = 99;
-    const bool isLimited = most > 0 && most < kHighest && !isExempt(probes);
-    return {.check = "priority",
-            .text = fmt::format("real-time up to {}", isLimited ? most : kHighest)};
+  constexpr std::uint64_t kHighest = 99;
+  const std::uint64_t most =
+      isExempt(probes) ? kHighest : std::min(kHighest, probes.limit(RLIMIT_RTPRIO));
+  if (most >= runtime::kPromptPriority) {
+    return {.check = "priority", .text = fmt::format("real-time up to {}", most)};
   }
+  const std::string found =
+      most == 0 ? "no real-time priority"
+                : fmt::format("real-time up to {} of {}", most, runtime::kPromptPriority);
   return {.check = "priority",
           .verdict = Verdict::kWarning,
-          .text = "no real-time priority: other programs' load shows as late frames",
+          .text = found + ": other programs' load shows as late frames",
           .remedy =
               "echo '@video - rtprio 50' | sudo tee /etc/security/limits.d/60-pleinair.conf, "
               "then log in again (systemd: LimitRTPRIO=50)"};

@@ -88,7 +88,10 @@ void LiveReporter::tellPainting(const runtime::RuntimeStatus& status) {
     inform("latency is back at {:.0f} ms", milliseconds(now.latency));
   }
   if (now.contextLosses > before.contextLosses && now.failure) {
-    warn("{}; painting goes on with a new context", now.failure->message());
+    warn("{}; a new context is made", now.failure->message());
+  }
+  if (now.hasPainter && !before.hasPainter && now.contextLosses > 0) {
+    inform("painting goes on with a new context");
   }
   if (now.failures > before.failures && now.failure && now.failure->message() != lastRefusal_) {
     lastRefusal_ = now.failure->message();

@@ -57,14 +57,13 @@ runtime::OutputStageOptions outputRules(const std::string& name,
   const hal::Duration period = stream.framePeriod.value_or(kUsualPeriod);
   const hal::Duration longest = ofMilliseconds(std::max(settings.latencyMs, settings.maxLatencyMs));
   constexpr hal::Duration kMostTolerance = std::chrono::milliseconds(8);
-  runtime::OutputStageOptions options{
-      .name = name,
-      .rules = {.isPaced = name == "window" || hal::isLoopbackName(name),
-                .tolerance = std::min(period / 4, kMostTolerance)},
-      .waiting = waitingPictures(longest, period),
-      .limit = {},
-      .reopen = {},
-      .request = {}};
+  runtime::OutputStageOptions options{.name = name,
+                                      .rules = {.isPaced = !hal::isFileOutputName(name),
+                                                .tolerance = std::min(period / 4, kMostTolerance)},
+                                      .waiting = waitingPictures(longest, period),
+                                      .limit = {},
+                                      .reopen = {},
+                                      .request = {}};
   if (hal::isLoopbackName(name)) {
     options.reopen = [name, outputOptions] { return hal::openOutput(name, outputOptions); };
   }

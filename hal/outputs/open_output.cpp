@@ -24,11 +24,15 @@ Result<std::unique_ptr<MemoryOutput>> openFileOutput(const std::filesystem::path
                                         "out/%04d.png), or give a folder"});
 }
 
+bool isFileOutputName(const std::string& name) {
+  return name != "window" && !isLoopbackName(name);
+}
+
 Result<std::unique_ptr<MemoryOutput>> openOutput(const std::string& name,
                                                  const OutputOptions& options) {
-  if (name == "window") return openWindow();
+  if (isFileOutputName(name)) return openFileOutput(name);
   if (isLoopbackName(name)) return openLoopback(name, options.loopbackLayout);
-  return openFileOutput(name);
+  return openWindow();
 }
 
 }  // namespace pleinair::hal

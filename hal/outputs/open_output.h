@@ -27,4 +27,7 @@ struct OutputOptions {
 Result<std::unique_ptr<MemoryOutput>> openOutput(const std::string& name,
                                                  const OutputOptions& options = {});
 
+/// Whether openOutput() takes `name` for a path, not for a device.
+bool isFileOutputName(const std::string& name);
+
 }  // namespace pleinair::hal

@@ -50,6 +50,7 @@ class CameraSelector {
   /// their names differ.
   CameraSelector(std::vector<SelectableBackend> backends, std::string choice, Clock& clock,
                  CameraWrapper wrapper = {});
+  ~CameraSelector() = default;
   CameraSelector(const CameraSelector&) = delete;
   CameraSelector& operator=(const CameraSelector&) = delete;
 
@@ -75,7 +76,7 @@ class CameraSelector {
 
  private:
   struct Candidate {
-    const SelectableBackend* backend;
+    const SelectableBackend* backend = nullptr;
     CameraDescription description;
   };
   struct Candidates {

@@ -35,7 +35,7 @@ enum class CameraState {
 std::string_view toString(CameraState state);  ///< "opening", "backing off" …
 
 struct CameraStateChanged {
-  CameraState state;
+  CameraState state = CameraState::kOpening;
   std::string reason;  ///< one line: what the device did, or what opening it failed with
   /// The camera that it is about; none while one is looked for.
   std::optional<CameraIdentity> camera;
@@ -115,6 +115,9 @@ class CameraSupervisor {
   /// selector opens nothing more. Returns at once. Any thread.
   void stop();
 
+  /// All frames so far, with those that came after the last one that was let out. The thread of
+  /// next(); status() has them for the others.
+  FrameCounts frameCounts() const { return frames_.counts(); }
   CameraState state() const { return state_.load(); }  ///< any thread
   SupervisorStatus status() const;                     ///< any thread
 

@@ -20,6 +20,7 @@ void CaptureStage::step(hal::TimePoint deadline) {
     return;
   }
   hal::SupervisedNext next = camera_.next(deadline);
+  countLost();
   if (auto* frame = std::get_if<hal::SupervisedFrame>(&next)) {
     receive(*frame);
     return;
@@ -41,7 +42,6 @@ void CaptureStage::step(hal::TimePoint deadline) {
 }
 
 void CaptureStage::receive(hal::SupervisedFrame& next) {
-  countLost(next);
   if (next.frame.health == hal::FrameHealth::kCorrupt) {
     ledger_.count(Fate::kCorrupt);
   } else if (next.frame.health == hal::FrameHealth::kIncomplete) {
@@ -51,14 +51,16 @@ void CaptureStage::receive(hal::SupervisedFrame& next) {
   }
 }
 
-void CaptureStage::countLost(const hal::SupervisedFrame& next) {
-  const std::uint64_t dropped = next.frame.droppedBefore - next.lostInStall;
-  const std::uint64_t starved = std::min(next.frame.starvedBefore, dropped);
-  ledger_.count(Fate::kStalled, next.lostInStall);
+/// Enters what never came out of the supervisor, also where no sound frame follows any more.
+void CaptureStage::countLost() {
+  const hal::FrameCounts counts = camera_.frameCounts();
+  const std::uint64_t starved = counts.starved - counted_.starved;
+  ledger_.count(Fate::kStalled, counts.lostInStall - counted_.lostInStall);
   ledger_.count(Fate::kStarved, starved);
-  ledger_.count(Fate::kLeftOut, dropped - starved);
-  ledger_.count(Fate::kCorrupt, next.corruptBefore);
-  ledger_.count(Fate::kMisTimed, next.misTimedBefore);
+  ledger_.count(Fate::kLeftOut, counts.dropped - counted_.dropped - starved);
+  ledger_.count(Fate::kCorrupt, counts.corrupt - counted_.corrupt);
+  ledger_.count(Fate::kMisTimed, counts.misTimed - counted_.misTimed);
+  counted_ = counts;
 }
 
 void CaptureStage::handOn(hal::CapturedFrame frame) {

@@ -50,7 +50,7 @@ class CaptureStage {
 
  private:
   void receive(hal::SupervisedFrame& next);
-  void countLost(const hal::SupervisedFrame& next);
+  void countLost();
   void handOn(hal::CapturedFrame frame);
 
   hal::CameraSupervisor& camera_;
@@ -58,6 +58,7 @@ class CaptureStage {
   FrameLedger& ledger_;
   HandOff<ArrivedFrame>& frames_;
   bool hasEnded_ = false;
+  hal::FrameCounts counted_;  ///< what the ledger has of the supervisor's
 
   mutable std::mutex mutex_;  // of what follows
   bool isOpen_ = false;

@@ -33,7 +33,8 @@ class DurationHistogram {
   hal::Duration max_{0};
 };
 
-/// A histogram of what was added lately: between half a minute and a minute of the clock.
+/// A histogram of what was added lately: within the last half a minute to a minute in which
+/// anything was. Two of them, turned about each half a minute; allocates nothing.
 class RecentDurations {
  public:
   static constexpr hal::Duration kHalf = std::chrono::seconds(30);

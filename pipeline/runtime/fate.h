@@ -12,7 +12,7 @@ enum class Fate {
   kShownUntimely,  ///< before or after it, lest the picture freeze
   kLate,           ///< its picture was ready too late for its due time
   kOvertaken,      ///< a newer picture fell due at the same time
-  kOutputBusy,     ///< its outputs were still taking an earlier one
+  kOutputBusy,     ///< its outputs were still taking an earlier one, or skipped it for that
   kOutputFailed,   ///< its outputs took no picture
   kReplaced,       ///< a newer frame came before it was painted
   kPaused,         ///< it came during a pause

@@ -4,6 +4,12 @@
 #include <cassert>
 
 namespace pleinair::runtime {
+namespace {
+
+/// Fewer pictures say nothing, such as the first after the camera was away for seconds.
+constexpr std::uint64_t kFewest = 3;
+
+}  // namespace
 
 LatencyControl::LatencyControl(LatencyRules rules) : rules_(rules), latency_(rules.configured) {
   assert(rules.maximum >= rules.configured && rules.step > hal::Duration::zero());
@@ -26,7 +32,7 @@ bool LatencyControl::ready(hal::Duration slack, bool isLowestQuality, hal::TimeP
   if (slack < hal::Duration::zero()) lateness_.add(-slack);
   // Room for a step less, and half a step so that the next picture does not miss it.
   if (slack < rules_.step + rules_.step / 2) roomSince_ = now;
-  if (now - windowBegan_ >= rules_.raiseAfter) {
+  if (now - windowBegan_ >= rules_.raiseAfter && pictures_ >= kFewest) {
     const bool misses = 2 * lateness_.count() > pictures_;
     const bool changed = isLowestQuality && misses && raise(now);
     beginWindow(now);

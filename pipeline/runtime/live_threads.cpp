@@ -113,6 +113,8 @@ LiveThreads::Stopped LiveThreads::stop(hal::Duration patience) {
   stopsOutputs_ = true;
   for (std::size_t i = 0; i < chain_.outputCount(); ++i) chain_.output(i).wake();
   for (const std::string& name : outputNames_) join(name, deadline, stopped);
+  // What was not waited for long enough, for the others' sake.
+  for (const std::string& name : std::exchange(stopped.stuck, {})) join(name, deadline, stopped);
   const std::scoped_lock lock(mutex_);
   stopped.failures = failures_;
   return stopped;

@@ -97,9 +97,13 @@ std::optional<OutputStage::Due> OutputStage::takeDue() {
   return std::nullopt;
 }
 
+void OutputStage::handOver() {
+  while (const std::optional<Due> due = takeDue()) present(*due);
+}
+
 std::optional<hal::TimePoint> OutputStage::step() {
   tryToReopen();
-  while (const std::optional<Due> due = takeDue()) present(*due);
+  handOver();
   const std::scoped_lock lock(mutex_);
   std::optional<hal::TimePoint> next = queue_.nextTime();
   if (status_.isFailed && !status_.isFinal) next = next ? std::min(*next, reopenAt_) : reopenAt_;
@@ -115,7 +119,9 @@ hal::Duration OutputStage::timeOf(const WaitingPicture& picture) {
 void OutputStage::present(const Due& due) {
   const hal::TimePoint began = clock_.now();
   const hal::ImageView view = buffers_.at(due.picture.buffer)->image.view();
+  const std::uint64_t skippedBefore = output_->skippedPictures();
   hal::Result<void> written = output_->write(view, timeOf(due.picture));
+  const bool isSkipped = output_->skippedPictures() > skippedBefore;
   const hal::TimePoint ended = clock_.now();
   const std::scoped_lock lock(mutex_);
   isWriting_ = false;
@@ -124,6 +130,11 @@ void OutputStage::present(const Due& due) {
   if (!written) {
     end(due.picture, Fate::kOutputFailed);
     fail(std::move(written.error()));
+    return;
+  }
+  reopenAfter_ = kFirstReopening;
+  if (isSkipped) {
+    end(due.picture, Fate::kOutputBusy);
     return;
   }
   ++status_.presented;
@@ -163,7 +174,6 @@ void OutputStage::tryToReopen() {
   }
   output_ = std::move(*opened);
   firstTime_.reset();
-  reopenAfter_ = kFirstReopening;
   status_.isFailed = false;
 }
 
@@ -183,7 +193,7 @@ void OutputStage::wake() {
 }
 
 hal::Result<void> OutputStage::finish() {
-  step();
+  handOver();
   {
     const std::scoped_lock lock(mutex_);
     endAll(Fate::kStopped);

@@ -27,7 +27,8 @@ struct OutputStageOptions {
   std::size_t waiting = 8;
   /// How many it gets; what comes after them ends as kStopped.
   std::optional<std::uint64_t> limit = std::nullopt;
-  /// Opens the output anew after it has failed; without, that is the end of it.
+  /// Opens the output anew after it has failed, on the output's thread; without, that is the end of
+  /// it. It has to take the same format again.
   std::function<hal::Result<std::unique_ptr<hal::MemoryOutput>>()> reopen;
   hal::OutputRequest request;  ///< what it was started with
 };
@@ -59,6 +60,7 @@ class OutputStage {
   /// Until `time`, wake() or submit(); by the clock's real time.
   void wait(std::optional<hal::TimePoint> time);
   /// Hands over what is due, ends what is not as kStopped, and completes what the output writes.
+  /// Errors: that of the output; the last one where it has failed and was not opened again.
   hal::Result<void> finish();
 
   // Any thread.
@@ -94,6 +96,7 @@ class OutputStage {
     WaitingPicture picture;
     Fate fate{};
   };
+  void handOver();
   std::optional<Due> takeDue();
   void present(const Due& due);
   void end(const WaitingPicture& picture, Fate fate);
@@ -108,7 +111,7 @@ class OutputStage {
   hal::Clock& clock_;
   FrameLedger& ledger_;
   std::optional<hal::TimePoint> firstTime_;  ///< of what the output has got
-  hal::Duration reopenAfter_;
+  hal::Duration reopenAfter_;                ///< grows until a picture is taken
   std::vector<std::unique_ptr<ReadPicture>> buffers_;
 
   mutable std::mutex mutex_;  // of what follows

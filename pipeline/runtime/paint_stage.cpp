@@ -50,6 +50,7 @@ PaintStage::PaintStage(PainterFactory factory, std::vector<OutputStage*> outputs
       governor_(options.governor),
       latency_(options.latency) {
   assert(!outputs_.empty());
+  underWay_.reserve(kMostUnderWay);
   for (const OutputStage* output : outputs_) formats_.push_back(output->format().frame);
 }
 
@@ -85,7 +86,7 @@ bool PaintStage::collect() {
   }
   while (!underWay_.empty() && underWay_.front().takenBy == outputs_.size()) {
     finished(underWay_.front(), clock_.now());
-    underWay_.pop_front();
+    underWay_.erase(underWay_.begin());
     for (std::size_t& taken : taken_) --taken;
   }
   if (!underWay_.empty()) {
@@ -114,10 +115,12 @@ bool PaintStage::collectFor(std::size_t output) {
   return true;
 }
 
-/// Of the frame period what the painter was busy with it, of the latency what has passed.
+/// Of the frame period what the painter was busy with it; of what the camera left of the latency,
+/// which no quality brings back, what has passed.
 double PaintStage::loadOf(const UnderWay& frame, hal::TimePoint now) const {
   const hal::Duration cost = now - std::max(frame.began, lastFinished_);
-  const double ofLatency = ratio(now - frame.captured, latency_.latency());
+  const hal::Duration left = frame.captured + latency_.latency() - frame.arrived;
+  const double ofLatency = left > hal::Duration::zero() ? ratio(now - frame.arrived, left) : 2.0;
   return options_.framePeriod ? std::max(ratio(cost, *options_.framePeriod), ofLatency) : ofLatency;
 }
 
@@ -147,7 +150,10 @@ hal::Result<void> PaintStage::paint(const ArrivedFrame& arrived) {
   const hal::CapturedFrame& frame = arrived.frame;
   const bool isRepeat = isPaused_ && held_;
   if (!isRepeat) hold(frame);
-  UnderWay painting{.ticket = arrived.ticket, .captured = frame.captureTime, .began = clock_.now()};
+  UnderWay painting{.ticket = arrived.ticket,
+                    .captured = frame.captureTime,
+                    .arrived = arrived.arrived,
+                    .began = clock_.now()};
   {
     const std::scoped_lock lock(mutex_);
     painting.quality = governor_.level();
@@ -187,16 +193,21 @@ void PaintStage::refuse(const ArrivedFrame& arrived, const hal::Error& error) {
   failure_ = error;
 }
 
-/// The GPU is gone, with all that was on it.
-void PaintStage::lose(const hal::Error& error) {
-  painter_.reset();
+/// Ends what is being painted, for the outputs that have not got it.
+void PaintStage::endUnderWay(Fate fate) {
   for (const UnderWay& frame : underWay_) {
     for (std::size_t i = frame.takenBy; frame.ticket && i < outputs_.size(); ++i) {
-      ledger_.settle(*frame.ticket, Fate::kContextLost);
+      ledger_.settle(*frame.ticket, fate);
     }
   }
   underWay_.clear();
   std::ranges::fill(taken_, 0);
+}
+
+/// The GPU is gone, with all that was on it.
+void PaintStage::lose(const hal::Error& error) {
+  painter_.reset();
+  endUnderWay(Fate::kContextLost);
   reviveAt_ = clock_.now() + reviveAfter_;
   reviveAfter_ = std::min(2 * reviveAfter_, kLongestRevival);
   const std::scoped_lock lock(mutex_);
@@ -231,12 +242,7 @@ void PaintStage::wait() {
 }
 
 void PaintStage::stop() {
-  for (const UnderWay& frame : underWay_) {
-    for (std::size_t i = frame.takenBy; frame.ticket && i < outputs_.size(); ++i) {
-      ledger_.settle(*frame.ticket, Fate::kStopped);
-    }
-  }
-  underWay_.clear();
+  endUnderWay(Fate::kStopped);
   if (const auto waiting = frames_.take()) ledger_.settle(waiting->ticket, Fate::kStopped);
   painter_.reset();
   busy_ = 0;

@@ -3,7 +3,6 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -80,6 +79,7 @@ class PaintStage {
   struct UnderWay {
     std::optional<FrameLedger::Ticket> ticket;  ///< none for repeats
     hal::TimePoint captured;
+    hal::TimePoint arrived;
     hal::TimePoint began;
     hal::TimePoint issued;
     std::size_t quality = 0;
@@ -97,6 +97,7 @@ class PaintStage {
   hal::Result<void> paint(const ArrivedFrame& arrived);
   void hold(const hal::CapturedFrame& frame);
   void refuse(const ArrivedFrame& arrived, const hal::Error& error);
+  void endUnderWay(Fate fate);
   void lose(const hal::Error& error);
   bool revive();
 
@@ -111,7 +112,7 @@ class PaintStage {
   std::unique_ptr<FramePainter> painter_;
   hal::TimePoint reviveAt_;
   hal::Duration reviveAfter_;
-  std::deque<UnderWay> underWay_;
+  std::vector<UnderWay> underWay_;  ///< oldest first, kMostUnderWay at the most
   std::vector<std::size_t> taken_;  ///< of each output: how many of underWay_ it has
   std::optional<hal::Image> held_;  ///< of a pause
   hal::TimePoint lastFinished_;

@@ -59,7 +59,7 @@ class QualityGovernor {
   double smooth_ = 0.0;
   std::optional<double> loadBefore_;  ///< of the level that was left downwards last
   struct Learnt {
-    double ratio;  ///< how much dearer than level i + 1 level i was
+    double ratio = 1.0;  ///< how much dearer than level i + 1 level i was
     hal::TimePoint at;
   };
   std::vector<Learnt> learnt_;

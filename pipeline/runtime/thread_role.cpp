@@ -9,9 +9,7 @@ bool setThreadRole(const std::string& name, ThreadRole role) {
   constexpr std::size_t kLongestName = 15;
   pthread_setname_np(pthread_self(), name.substr(0, kLongestName).c_str());
   if (role == ThreadRole::kOrdinary) return false;
-  // Above all ordinary threads, below the kernel's own interrupt threads (50).
-  constexpr int kPriority = 10;
-  const sched_param parameters{.sched_priority = kPriority};
+  const sched_param parameters{.sched_priority = kPromptPriority};
   return pthread_setschedparam(pthread_self(), SCHED_RR, &parameters) == 0;
 }
 

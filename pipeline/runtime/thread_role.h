@@ -4,6 +4,9 @@
 
 namespace pleinair::runtime {
 
+/// Of prompt threads: above all ordinary ones, below the kernel's own interrupt threads (50).
+inline constexpr int kPromptPriority = 10;
+
 /// What a thread is for, and so how urgently it runs.
 enum class ThreadRole {
   kOrdinary,
@@ -11,7 +14,7 @@ enum class ThreadRole {
 };
 
 /// Names the calling thread (15 characters are kept) and sets its priority. A prompt one gets
-/// SCHED_RR at a low priority where the system allows it (RLIMIT_RTPRIO, CAP_SYS_NICE), which is
+/// SCHED_RR at kPromptPriority where the system allows it (RLIMIT_RTPRIO, CAP_SYS_NICE), which is
 /// what it returns.
 bool setThreadRole(const std::string& name, ThreadRole role);
 

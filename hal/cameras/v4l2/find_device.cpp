@@ -1,14 +1,13 @@
 #include "hal/cameras/v4l2/find_device.h"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 #include "hal/cameras/v4l2/device.h"
 #include "hal/cameras/v4l2/modes.h"
+#include "hal/v4l2/node_name.h"
 
 namespace pleinair::hal::v4l2 {
 namespace {
@@ -16,21 +15,11 @@ namespace {
 constexpr const char* kById = "/dev/v4l/by-id";
 constexpr const char* kByPath = "/dev/v4l/by-path";
 
-/// 3 of "video3"; nothing of other names.
-std::optional<int> numberOf(const std::string& name) {
-  constexpr std::string_view kPrefix = "video";
-  if (!name.starts_with(kPrefix)) return std::nullopt;
-  int number = 0;
-  const char* end = name.data() + name.size();
-  const auto [stop, failure] = std::from_chars(name.data() + kPrefix.size(), end, number);
-  return failure == std::errc() && stop == end ? std::optional(number) : std::nullopt;
-}
-
 /// "video0", "video1" …, by number.
 std::vector<std::string> nodeNames(DeviceNodes& nodes) {
   std::vector<std::string> names = nodes.list("/dev");
-  std::erase_if(names, [](const std::string& name) { return !numberOf(name); });
-  std::ranges::sort(names, {}, [](const std::string& name) { return *numberOf(name); });
+  std::erase_if(names, [](const std::string& name) { return !videoNumber(name); });
+  std::ranges::sort(names, {}, [](const std::string& name) { return *videoNumber(name); });
   return names;
 }
 

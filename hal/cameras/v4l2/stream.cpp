@@ -35,6 +35,7 @@ struct BufferRequest {
     buffer.m.planes = planes.data();
     buffer.length = static_cast<std::uint32_t>(planes.size());
   }
+  ~BufferRequest() = default;
   BufferRequest(const BufferRequest&) = delete;
   BufferRequest& operator=(const BufferRequest&) = delete;
 

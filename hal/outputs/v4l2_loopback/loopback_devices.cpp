@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "hal/v4l2/capability.h"
 #include "hal/v4l2/descriptor.h"
 #include "hal/v4l2/fourcc.h"
+#include "hal/v4l2/node_name.h"
 
 namespace pleinair::hal {
 namespace {
@@ -20,18 +20,21 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kLoopbackDriver = "v4l2 loopback";
-constexpr std::string_view kNodePrefix = "video";
 constexpr __u32 kMostLayouts = 256;  // a driver that never ends its list
 
-std::optional<int> nodeNumber(const fs::path& path) {
-  const std::string name = path.filename().string();
-  if (!name.starts_with(kNodePrefix)) return std::nullopt;
-  const char* const first = name.data() + kNodePrefix.size();
-  const char* const last = name.data() + name.size();
-  int number = 0;
-  const auto [end, status] = std::from_chars(first, last, number);
-  if (status != std::errc() || end != last || number < 0) return std::nullopt;
-  return number;
+/// "video0", "video1" … in `folder`, by number. Nothing where there is no such folder.
+std::vector<fs::path> videoNodes(const fs::path& folder) {
+  std::vector<std::pair<int, fs::path>> nodes;
+  std::error_code failure;
+  for (fs::directory_iterator each(folder, failure), end; !failure && each != end;
+       each.increment(failure)) {
+    const auto number = v4l2::videoNumber(each->path().filename().string());
+    if (number) nodes.emplace_back(*number, each->path());
+  }
+  std::ranges::sort(nodes);
+  std::vector<fs::path> paths;
+  for (auto& node : nodes) paths.push_back(std::move(node.second));
+  return paths;
 }
 
 std::vector<std::string> layoutsOf(v4l2::SystemCalls& calls, int fd) {
@@ -106,19 +109,6 @@ Error loopbackInUse(const std::string& node) {
       .problem = "takes no pictures now: another program writes to it, or one did and left it so",
       .remedy = "end that program, or load the module again: sudo modprobe -r v4l2loopback && " +
                 std::string(kLoadLoopback)};
-}
-
-std::vector<fs::path> videoNodes(const fs::path& folder) {
-  std::vector<std::pair<int, fs::path>> nodes;
-  std::error_code failure;
-  for (fs::directory_iterator each(folder, failure), end; !failure && each != end;
-       each.increment(failure)) {
-    if (const auto number = nodeNumber(each->path())) nodes.emplace_back(*number, each->path());
-  }
-  std::ranges::sort(nodes);
-  std::vector<fs::path> paths;
-  for (auto& node : nodes) paths.push_back(std::move(node.second));
-  return paths;
 }
 
 std::vector<LoopbackDevice> listLoopbacks(const V4l2System& system) {

@@ -33,9 +33,6 @@ struct LoopbackDevice {
   std::optional<Error> problem;  ///< why it could not be looked at; all above but `node` is open
 };
 
-/// "video0", "video1" … in `folder`, by number. Nothing where there is no such folder.
-std::vector<std::filesystem::path> videoNodes(const std::filesystem::path& folder);
-
 /// All that take pictures, loopbacks whether somebody writes to them or not, and all that cannot be
 /// looked at.
 std::vector<LoopbackDevice> listLoopbacks(const V4l2System& system = {});

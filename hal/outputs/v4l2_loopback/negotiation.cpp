@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "hal/v4l2/color_encoding.h"
 #include "hal/v4l2/fourcc.h"
 
 namespace pleinair::hal::loopback {
@@ -54,17 +55,6 @@ v4l2_format wanted(PixelFormat layout, __u32 fourcc, FrameSize size) {
   pix.quantization = V4L2_QUANTIZATION_LIM_RANGE;
   pix.xfer_func = V4L2_XFER_FUNC_SRGB;
   return format;
-}
-
-/// What "default" stands for is linux/videodev2.h's.
-ColorEncoding encodingOf(const v4l2_pix_format& pix) {
-  __u32 matrix = pix.ycbcr_enc;
-  if (matrix == V4L2_YCBCR_ENC_DEFAULT) matrix = V4L2_MAP_YCBCR_ENC_DEFAULT(pix.colorspace);
-  const bool isFull =
-      pix.quantization == V4L2_QUANTIZATION_FULL_RANGE ||
-      (pix.quantization == V4L2_QUANTIZATION_DEFAULT && pix.colorspace == V4L2_COLORSPACE_JPEG);
-  return {.matrix = matrix == V4L2_YCBCR_ENC_709 ? ColorMatrix::kBt709 : ColorMatrix::kBt601,
-          .range = isFull ? ColorRange::kFull : ColorRange::kLimited};
 }
 
 Error held(const std::string& subject, const std::string& by) {
@@ -136,9 +126,11 @@ Result<Agreement> agreed(v4l2::SystemCalls& calls, int fd, const std::string& su
                                 .remedy = "close what holds it at that size; even sides of at most "
                                           "8192 px can be written"});
   }
-  const auto layout =
-      FrameLayout::of({.pixelFormat = pixelFormat, .size = size, .encoding = encodingOf(answer)},
-                      answer.bytesperline);
+  const auto layout = FrameLayout::of(
+      {.pixelFormat = pixelFormat,
+       .size = size,
+       .encoding = v4l2::colorEncodingOf(answer.colorspace, answer.ycbcr_enc, answer.quantization)},
+      answer.bytesperline);
   const std::size_t frameBytes = frameBytesOf(calls, fd, answer);
   if (!layout || frameBytes < layout->bytes) {
     return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,

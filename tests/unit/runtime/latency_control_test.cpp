@@ -74,5 +74,13 @@ TEST_F(LatencyControlTest, ForgivesSingleLatePictures) {
   EXPECT_EQ(control_.latency(), 120ms);
 }
 
+TEST_F(LatencyControlTest, ForgivesTheFirstPictureAfterAPause) {
+  run(1050ms, 100ms, true);  // a second has just been judged
+  now_ += 30s;
+  control_.ready(-150ms, true, now_);
+  run(10s, 100ms, true);
+  EXPECT_EQ(control_.raised(), 0u);
+}
+
 }  // namespace
 }  // namespace pleinair::runtime

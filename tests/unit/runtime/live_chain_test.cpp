@@ -114,6 +114,18 @@ TEST_F(LiveChainTest, LowersQualityAndKeepsTheLatencyUnderTwiceTheLoad) {
   expectSumsToAgree();
 }
 
+TEST_F(LiveChainTest, RaisesQualityAgainWithACameraThatDeliversLate) {
+  hal::Duration cost = 20ms;
+  live_.gpu.cost = [&](auto, std::size_t quality) { return quality == 0 ? cost : 3 * cost / 4; };
+  begin({.delay = [](auto) { return 75ms; }});
+  cost = 40ms;
+  live_.runFor(5s);
+  EXPECT_GT(status().painting.quality, 0u);
+  cost = 20ms;
+  live_.runFor(60s);
+  EXPECT_EQ(status().painting.quality, 0u) << "95 of 120 ms, of which 75 are the camera's";
+}
+
 TEST_F(LiveChainTest, RaisesTheLatencyOnlyWhereNothingElseHelpsAndBringsItBack) {
   hal::Duration cost = 20ms;
   live_.gpu.cost = [&](auto, auto) { return cost; };
@@ -286,6 +298,15 @@ TEST_F(LostCameraTest, CountsWhatWasLostInAStallApart) {
   EXPECT_EQ(counts().of(Fate::kLeftOut), 2u);
   EXPECT_EQ(counts().of(Fate::kStalled), 30u);
   EXPECT_EQ(counts().of(Fate::kShown), 62u);
+  expectSumsToAgree();
+}
+
+TEST_F(LostCameraTest, CountsBrokenFramesAlsoWhereNoSoundOneFollows) {
+  const std::vector<support::ScriptedStep> broken(20, support::ScriptedFrame{.isTooShort = true});
+  begin({{.startError = {}, .steps = support::scriptOf(support::scriptedFrames(10), broken)}});
+  live_.runFor(2s);
+  EXPECT_EQ(counts().captured, 30u);
+  EXPECT_EQ(counts().of(Fate::kCorrupt), 20u);
   expectSumsToAgree();
 }
 

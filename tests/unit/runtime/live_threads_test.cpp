@@ -129,7 +129,7 @@ TEST(LiveThreadsTest, LeavesBehindAnOutputThatNeverComesBack) {
   live.waitForPictures(1, 5);
   live.output(0).blocks = true;
   live.waitForPictures(1, 20);
-  const LiveThreads::Stopped stopped = live.stop(200ms);
+  const LiveThreads::Stopped stopped = live.stop(1s);
   EXPECT_THAT(stopped.stuck, testing::ElementsAre("output 0"));
   EXPECT_TRUE(live.output(1).finished) << "the other one is completed";
   live.output(0).blocks = false;  // so that this test can end

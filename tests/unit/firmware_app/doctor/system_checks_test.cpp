@@ -28,6 +28,8 @@ TEST(CheckPriority, WantsSome) {
   EXPECT_EQ(checkPriority(machine.probes()).text, "real-time up to 50");
   machine.limits[RLIMIT_RTPRIO] = RLIM_INFINITY;
   EXPECT_EQ(checkPriority(machine.probes()).text, "real-time up to 99");
+  machine.limits[RLIMIT_RTPRIO] = 5;
+  EXPECT_EQ(checkPriority(machine.probes()).verdict, Verdict::kWarning) << "10 is asked for";
   machine.limits[RLIMIT_RTPRIO] = 0;
   const Finding finding = checkPriority(machine.probes());
   EXPECT_EQ(finding.verdict, Verdict::kWarning);

@@ -1,0 +1,171 @@
+// One output's stage under a stepped clock: failing, opening anew, skipping.
+#include "pipeline/runtime/output_stage.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+namespace pleinair::runtime {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr hal::FrameFormat kFormat{.pixelFormat = hal::PixelFormat::kGrey8, .size = {8, 6}};
+
+/// What a device does; shared by the outputs that open it one after another.
+struct Device {
+  bool isBroken = false;  ///< write() fails
+  bool isFull = false;    ///< write() skips
+  bool isGone = false;    ///< start() fails
+  hal::FrameFormat format = kFormat;
+  int opened = 0;
+  int written = 0;
+};
+
+class DeviceOutput final : public hal::MemoryOutput {
+ public:
+  explicit DeviceOutput(Device& device) : device_(device) {}
+  hal::OutputIdentity identity() const override { return {"device", "device"}; }
+  hal::Result<hal::OutputFormat> start(const hal::OutputRequest&) override {
+    if (device_.isGone) return tl::unexpected(error("is not there"));
+    ++device_.opened;
+    return hal::OutputFormat{.frame = device_.format, .refreshPeriod = {}};
+  }
+  hal::Result<void> write(const hal::ImageView&, hal::Duration) override {
+    if (device_.isBroken) return tl::unexpected(error("cannot write"));
+    if (device_.isFull) {
+      ++skipped_;
+    } else {
+      ++device_.written;
+    }
+    return {};
+  }
+  std::uint64_t skippedPictures() const override { return skipped_; }
+  hal::Result<void> finish() override { return {}; }
+
+ private:
+  static hal::Error error(std::string problem) {
+    return {.kind = hal::ErrorKind::kDeviceLost,
+            .subject = "device",
+            .problem = std::move(problem),
+            .remedy = {}};
+  }
+  Device& device_;
+  std::uint64_t skipped_ = 0;
+};
+
+class OutputStageTest : public testing::Test {
+ protected:
+  void begin(bool reopens) {
+    OutputStageOptions options{.name = "device"};
+    if (reopens) {
+      options.reopen = [this]() -> hal::Result<std::unique_ptr<hal::MemoryOutput>> {
+        return std::make_unique<DeviceOutput>(device_);
+      };
+    }
+    auto output = std::make_unique<DeviceOutput>(device_);
+    const auto format = output->start({});
+    stage_ = std::make_unique<OutputStage>(std::move(output), *format, std::move(options), clock_,
+                                           ledger_);
+  }
+  /// So many frames, a picture each, all on time.
+  void run(int frames) {
+    for (int i = 0; i < frames; ++i) {
+      const hal::TimePoint now = clock_.now();
+      ReadPicture& picture = stage_->buffer();
+      picture.image = hal::Image(kFormat);
+      picture.captureTime = now;
+      stage_->submit(ledger_.open(), now, now + 10ms);
+      for (const hal::TimePoint end = now + 33ms; clock_.now() < end;) {
+        const auto next = stage_->step();
+        clock_.sleepUntil(next ? std::clamp(*next, clock_.now() + 1ms, end) : end);
+      }
+    }
+  }
+  std::uint64_t of(Fate fate) const { return ledger_.counts().of(fate); }
+  void expectSumsToAgree() const {
+    EXPECT_TRUE(ledger_.counts().addsUp());
+    EXPECT_TRUE(stage_->status().addsUp());
+  }
+
+  hal::SteppedClock clock_{hal::TimePoint(100s)};
+  FrameLedger ledger_;
+  Device device_;
+  std::unique_ptr<OutputStage> stage_;
+};
+
+TEST_F(OutputStageTest, OpensADeviceAnewOnceItIsBack) {
+  begin(true);
+  run(30);
+  device_.isBroken = device_.isGone = true;
+  run(30);
+  EXPECT_TRUE(stage_->status().isFailed);
+  EXPECT_FALSE(stage_->status().isFinal);
+  EXPECT_EQ(of(Fate::kOutputFailed), 30u);
+  device_.isBroken = device_.isGone = false;
+  run(90);
+  EXPECT_FALSE(stage_->status().isFailed);
+  EXPECT_EQ(device_.opened, 2);
+  EXPECT_EQ(static_cast<std::uint64_t>(device_.written), of(Fate::kShown));
+  EXPECT_GT(of(Fate::kShown), 80u);
+  expectSumsToAgree();
+}
+
+TEST_F(OutputStageTest, TriesLessAndLessOftenWhereWhatOpensTakesNoPicture) {
+  begin(true);
+  device_.isBroken = true;
+  run(30 * 60);  // a minute
+  EXPECT_EQ(device_.opened, 11) << "at first; after 0.5, 1, 2, 4 s; then each 8 s";
+  expectSumsToAgree();
+}
+
+TEST_F(OutputStageTest, RefusesADeviceThatHasAnotherFormatThanBefore) {
+  begin(true);
+  device_.isBroken = true;
+  run(1);
+  device_.isBroken = false;
+  device_.format.size.width = 16;
+  run(30);
+  EXPECT_TRUE(stage_->status().isFailed);
+  EXPECT_EQ(device_.written, 0);
+}
+
+TEST_F(OutputStageTest, EndsForGoodWhatCannotBeOpenedAnew) {
+  begin(false);
+  device_.isBroken = true;
+  run(3);
+  EXPECT_TRUE(stage_->status().isFinal);
+  EXPECT_EQ(of(Fate::kOutputFailed), 3u);
+  const auto finished = stage_->finish();
+  ASSERT_FALSE(finished);
+  EXPECT_EQ(finished.error().problem, "cannot write");
+  expectSumsToAgree();
+}
+
+TEST_F(OutputStageTest, CallsNoPictureShownThatTheDeviceSkipped) {
+  begin(true);
+  run(5);
+  device_.isFull = true;
+  run(5);
+  EXPECT_EQ(of(Fate::kShown), 5u);
+  EXPECT_EQ(of(Fate::kOutputBusy), 5u);
+  EXPECT_EQ(stage_->status().presented, 5u);
+  EXPECT_FALSE(stage_->status().isFailed);
+  expectSumsToAgree();
+}
+
+TEST_F(OutputStageTest, OpensNothingMoreAtTheEnd) {
+  begin(true);
+  device_.isBroken = true;
+  run(1);
+  clock_.advance(10s);
+  EXPECT_FALSE(stage_->finish());
+  EXPECT_EQ(device_.opened, 1);
+}
+
+}  // namespace
+}  // namespace pleinair::runtime
