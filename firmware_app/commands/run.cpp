@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "firmware_app/configured_parts.h"
+#include "firmware_app/interrupt.h"
 #include "firmware_app/live/camera_selection.h"
 #include "firmware_app/live/live_painting.h"
 #include "hal/clock.h"
@@ -81,6 +82,7 @@ hal::OutputOptions outputOptions(const OutputSettings& output) {
 }  // namespace
 
 int run(const RunOptions& options) {
+  const Interrupt interrupt;  // from the first moment on, a signal ends it in order
   const Configuration configuration(options.configuration);
   return configuration.blaming([&] {
     scene::Scene scene = configuredScene(configuration);

@@ -188,6 +188,7 @@ class LivePainting {
   }
 
   void paint() {
+    hasBegun_ = true;
     threads_->startOutputs(stepped_);
     began_ = job_.clock->now();
     while (!isOver()) look();
@@ -295,14 +296,22 @@ class LivePainting {
     threads_.reset();
   }
 
-  /// What hangs still uses what would be destroyed.
+  /// What hangs still uses what would be destroyed. A painter that is still being made is no
+  /// failure: drivers compile and cannot be broken off, and nothing was painted that could be lost.
   [[noreturn]] void leave(const std::vector<std::string>& stuck) {
     reporter_.interrupt();
+    if (!hasBegun_) {
+      for (std::size_t i = 0; i < chain_.outputCount(); ++i) chain_.output(i).discard();
+    }
     fmt::print("{}: {}\n", chain_.ledger().counts().summary(job_.clock->now() - began_),
                fmt::join(job_.outputs, ", "));
-    spdlog::error("{} did not end in time and was left behind", fmt::join(stuck, ", "));
+    const bool isOnlyStarting =
+        !hasBegun_ && stuck.size() == 1 && stuck.front() == runtime::LiveThreads::kPainter;
+    if (!isOnlyStarting) {
+      spdlog::error("{} did not end in time and was left behind", fmt::join(stuck, ", "));
+    }
     std::fflush(nullptr);
-    std::_Exit(EXIT_FAILURE);
+    std::_Exit(isOnlyStarting ? EXIT_SUCCESS : EXIT_FAILURE);
   }
 
   const LiveJob& job_;
@@ -326,6 +335,7 @@ class LivePainting {
   std::string waitedFor_;
   std::vector<hal::Error> failures_;   ///< of outputs, at the end
   std::optional<hal::Error> failure_;  ///< why it ended, where that is not its proper end
+  bool hasBegun_ = false;              ///< to hand pictures to outputs
   bool wantsToQuit_ = false;
   bool wantsStill_ = false;
 };
@@ -333,7 +343,6 @@ class LivePainting {
 }  // namespace
 
 int runLive(const LiveJob& job) {
-  const Interrupt interrupt;
   LivePainting(job).run();
   return 0;
 }

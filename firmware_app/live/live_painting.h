@@ -39,8 +39,9 @@ struct LiveJob {
 /// can be opened again, are waited for. Throws hal::StartupError and config::ConfigError; where an
 /// output failed for good, after the ledger.
 ///
-/// All ends within two seconds of a signal: what does not (a driver that hangs) is left behind, and
-/// the process ends here, with status 1.
+/// All ends within two seconds of a signal, which the caller's Interrupt takes: what does not (a
+/// driver that hangs) is left behind, and the process ends here, with status 1, or 0 where nothing
+/// had been painted yet.
 int runLive(const LiveJob& job);
 
 }  // namespace pleinair::app

@@ -70,10 +70,16 @@ void LiveReporter::tellCamera(const runtime::RuntimeStatus& status) {
                          camera.state == hal::CameraState::kLost ||
                          camera.state == hal::CameraState::kBackingOff;
   if (!isTrouble || camera.hasEnded) return;
-  // Lost and backing off follow each other at once: one line for both.
-  const bool isSame = wasLost_ && last_ && last_->camera.reason == camera.reason;
-  wasLost_ = true;
-  if (!isSame) warn("{}: {}: {}", name, hal::toString(camera.state), camera.reason);
+  const bool isAgain = std::exchange(wasLost_, true);
+  if (camera.state == hal::CameraState::kStalled) {
+    warn("{}: {}", name, camera.reason);
+    return;
+  }
+  // Lost and backing off follow each other at once, and again at every try: one line for each
+  // cause.
+  const bool isNews = !isAgain || lastLoss_ != camera.lastLoss;
+  lastLoss_ = camera.lastLoss;
+  if (isNews) warn("{}: lost: {}; it is tried again until it is back", name, camera.lastLoss);
 }
 
 void LiveReporter::tellPainting(const runtime::RuntimeStatus& status) {
@@ -81,8 +87,8 @@ void LiveReporter::tellPainting(const runtime::RuntimeStatus& status) {
   const runtime::PaintStage::Status before =
       last_ ? last_->painting : runtime::PaintStage::Status{.hasPainter = true};
   if (now.latencyRaised > before.latencyRaised) {
-    warn("painting takes too long at the lowest quality: latency raised to {:.0f} ms",
-         milliseconds(now.latency));
+    warn("painting takes too long at quality {}: latency raised to {:.0f} ms",
+         qualityNames_.at(now.quality), milliseconds(now.latency));
   }
   if (now.latencyLowered > before.latencyLowered && now.latency == now.configuredLatency) {
     inform("latency is back at {:.0f} ms", milliseconds(now.latency));

@@ -40,6 +40,7 @@ class LiveReporter {
   std::optional<hal::TimePoint> drawn_;
   std::optional<runtime::RuntimeStatus> last_;
   bool wasLost_ = false;
+  std::string lastLoss_;
   std::string lastRefusal_;
 };
 

@@ -10,6 +10,12 @@
 namespace pleinair::hal {
 
 Result<std::unique_ptr<MemoryOutput>> openFileOutput(const std::filesystem::path& path) {
+  if (path.native().starts_with("/dev/") && !path.native().starts_with("/dev/shm/")) {
+    return tl::unexpected(Error{.kind = ErrorKind::kInvalidArgument,
+                                .subject = path.string(),
+                                .problem = "is a device's place, not a file's",
+                                .remedy = "a V4L2 loopback is loopback:" + path.string()});
+  }
   std::error_code ignored;
   const bool isFolder = std::filesystem::is_directory(path, ignored);
   if (isMovieName(path) && !isFolder) return openMovieOutput(path);

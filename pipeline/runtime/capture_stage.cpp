@@ -32,7 +32,10 @@ void CaptureStage::step(hal::TimePoint deadline) {
     status_.state = state->state;
     status_.reason = std::move(state->reason);
     if (state->camera) status_.camera = std::move(state->camera);
-    if (state->state == hal::CameraState::kLost) status_.cause = std::move(state->cause);
+    if (state->state == hal::CameraState::kLost) {
+      status_.lastLoss = status_.reason;
+      status_.cause = std::move(state->cause);
+    }
   } else if (auto* end = std::get_if<hal::EndOfStream>(&next)) {
     status_.hasEnded = true;
     status_.cause = std::move(end->truncated);

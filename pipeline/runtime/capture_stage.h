@@ -38,6 +38,7 @@ class CaptureStage {
   struct Status {
     hal::CameraState state = hal::CameraState::kOpening;
     std::string reason;
+    std::string lastLoss;  ///< why the camera was lost last; empty: never
     std::optional<hal::CameraIdentity> camera;
     std::optional<hal::StreamFormat> format;  ///< the last one told
     double perSecond = 0.0;

@@ -8,7 +8,6 @@ namespace pleinair::runtime {
 namespace {
 
 constexpr const char* kCamera = "camera";
-constexpr const char* kPainter = "live painter";
 /// How long the camera may be asked at a time: how late its thread notices the end.
 constexpr hal::Duration kCameraLook = std::chrono::milliseconds(100);
 

@@ -21,6 +21,9 @@ namespace pleinair::runtime {
 /// caller steps itself. All calls from one thread.
 class LiveThreads {
  public:
+  /// The painter's thread, among those that are stuck.
+  static constexpr const char* kPainter = "live painter";
+
   /// Starts the camera's thread. The chain outlives this.
   explicit LiveThreads(LiveChain& chain);
   /// Precondition: stop() has been called, and left nobody behind.

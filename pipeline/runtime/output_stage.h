@@ -62,6 +62,8 @@ class OutputStage {
   /// Hands over what is due, ends what is not as kStopped, and completes what the output writes.
   /// Errors: that of the output; the last one where it has failed and was not opened again.
   hal::Result<void> finish();
+  /// Lets go of the output without completing it; only destruction is allowed then.
+  void discard() { output_.reset(); }
 
   // Any thread.
 

@@ -58,6 +58,7 @@ Json cameraJson(const CaptureStage::Status& camera) {
             {"opens", camera.opens},
             {"losses", camera.losses},
             {"stalls", camera.stalls}};
+  if (!camera.lastLoss.empty()) json["last_loss"] = camera.lastLoss;
   if (camera.camera) {
     json["backend"] = camera.camera->backend;
     json["id"] = camera.camera->id;

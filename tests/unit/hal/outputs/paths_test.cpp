@@ -90,5 +90,12 @@ TEST(Outputs, SayThatTheFolderIsMissing) {
   }
 }
 
+TEST(FileOutput, IsNotMadeAmongDevices) {
+  const auto opened = openFileOutput("/dev/video7");
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().kind, ErrorKind::kInvalidArgument);
+  EXPECT_NE(opened.error().remedy.find("loopback:/dev/video7"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace pleinair::hal
