@@ -73,7 +73,7 @@ class Assembly {
   }
 
   Model take() {
-    numberTriangles(model_);
+    numberParts(model_);
     return std::move(model_);
   }
 

@@ -20,10 +20,24 @@ struct MeshVertex {
   glm::vec4 colour{1.0F};    ///< linear light and coverage; multiplies the material's
 };
 
+/// The joints that hold a vertex, of its part's skin, and how much each does: weights sum to 1.
+struct JointWeights {
+  std::array<std::uint16_t, 4> joints{};
+  std::array<float, 4> weights{1.0F, 0.0F, 0.0F, 0.0F};
+};
+
+/// What is added to each vertex's position and normal, times a weight.
+struct MorphTarget {
+  std::vector<glm::vec3> positions;  ///< metres, one a vertex
+  std::vector<glm::vec3> normals;    ///< one a vertex, or none
+};
+
 /// A surface. Seen from outside, the vertices of a triangle go against the clock.
 struct Mesh {
   std::vector<MeshVertex> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<JointWeights> joints{};       ///< of each vertex where a skin bends it, else none
+  std::vector<MorphTarget> morphTargets{};  ///< applied before joints
 };
 
 struct BoundingSphere {

@@ -74,14 +74,23 @@ std::uint64_t drawnTriangles(const Model& model) {
   return count;
 }
 
-void numberTriangles(Model& model) {
-  std::uint32_t next = 0;
+void numberParts(Model& model) {
+  std::uint32_t nextTriangle = 0;
+  std::size_t nextMatrix = 0;
+  std::size_t nextWeight = 0;
   for (ModelPart& part : model.parts) {
-    part.firstTriangle = next;
+    part.firstTriangle = nextTriangle;
+    part.firstMatrix = nextMatrix;
+    part.matrixCount = part.skin ? model.rig.skins[*part.skin].joints.size() : 1;
+    part.firstWeight = nextWeight;
+    part.weightCount = 0;
     for (const Surface& surface : surfacesOf(model, part)) {
-      next += static_cast<std::uint32_t>(surface.mesh.triangles.size());
+      nextTriangle += static_cast<std::uint32_t>(surface.mesh.triangles.size());
+      part.weightCount = std::max(part.weightCount, surface.mesh.morphTargets.size());
     }
-    part.triangleCount = next - part.firstTriangle;
+    part.triangleCount = nextTriangle - part.firstTriangle;
+    nextMatrix += part.matrixCount;
+    nextWeight += part.weightCount;
   }
 }
 
@@ -90,7 +99,7 @@ Model singlePartModel(std::string name, Mesh mesh) {
   model.surfaces.push_back({.mesh = std::move(mesh)});
   model.materials.emplace_back();
   model.parts.push_back({.name = std::move(name), .surfaceCount = 1});
-  numberTriangles(model);
+  numberParts(model);
   return model;
 }
 
@@ -154,7 +163,7 @@ Model withShortEdges(const Model& model, double maxEdgeMetres, std::size_t mostT
     result.surfaces[i].mesh = withShortEdges(model.surfaces[i].mesh, edge, mostTriangles);
     mostTriangles -= std::min(mostTriangles, result.surfaces[i].mesh.triangles.size());
   }
-  numberTriangles(result);
+  numberParts(result);
   return result;
 }
 

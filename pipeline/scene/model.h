@@ -14,6 +14,7 @@
 #include "hal/clock.h"
 #include "hal/image.h"
 #include "pipeline/scene/mesh.h"
+#include "pipeline/scene/rig.h"
 
 namespace pleinair::scene {
 
@@ -42,13 +43,21 @@ struct Surface {
   std::size_t material = 0;  ///< of Model::materials
 };
 
-/// A rigid piece with a name of its own: a node of a glTF, a gear of a gearbox. Parts may share
-/// surfaces.
+/// A piece with a name of its own: a node of a glTF, a gear of a gearbox. It is rigid, or bent by a
+/// skin and morph targets. Parts may share surfaces.
 struct ModelPart {
   std::string name;
   std::size_t firstSurface = 0;  ///< of Model::surfaces
   std::size_t surfaceCount = 0;
   glm::dmat4 modelFromPart{1.0};  ///< where it is at rest; any affine transform
+  std::optional<std::size_t>
+      node;  ///< of Model::rig, that it goes with; its joints, if it has a skin
+  std::optional<std::size_t> skin;  ///< of Model::rig
+  /// Of ModelPose::matrices: one, or one for each joint of the skin.
+  std::size_t firstMatrix = 0;
+  std::size_t matrixCount = 1;
+  std::size_t firstWeight = 0;  ///< of ModelPose::weights
+  std::size_t weightCount = 0;  ///< as many as its surfaces have morph targets at most
   /// It turns about its own z axis, against the clock as seen from where that points.
   double radiansPerSecond = 0.0;
   /// Of the triangles of ArFrame::ids: parts count theirs one after another.
@@ -62,6 +71,7 @@ struct Model {
   std::vector<Material> materials;
   std::vector<ModelTexture> textures;
   std::vector<ModelPart> parts;
+  Rig rig;                           ///< empty where nothing but what turns by itself moves
   std::vector<std::string> notices;  ///< what of its file is not shown, a line each
 
   /// As drawn: a surface counts in each part that shows it.
@@ -73,8 +83,9 @@ struct Model {
 /// As Model::triangleCount(), of more than fit its numbers, too.
 std::uint64_t drawnTriangles(const Model& model);
 
-/// Counts each part's triangles; sound where drawnTriangles() fits in 32 bits.
-void numberTriangles(Model& model);
+/// Counts each part's triangles, matrices and weights; sound where drawnTriangles() fits in 32
+/// bits.
+void numberParts(Model& model);
 
 /// A model of a single part and material, white.
 Model singlePartModel(std::string name, Mesh mesh);
@@ -82,7 +93,7 @@ Model singlePartModel(std::string name, Mesh mesh);
 /// Where a part is after `time` of turning.
 glm::dmat4 modelFromPart(const ModelPart& part, hal::Duration time);
 
-/// Around all parts, wherever they turn to.
+/// Around all parts at rest, wherever they turn to.
 BoundingSphere boundingSphere(const Model& model);
 
 /// The part that a triangle of ArFrame::ids belongs to; null where the model has no such triangle.

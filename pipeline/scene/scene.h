@@ -11,6 +11,7 @@
 
 #include "pipeline/scene/model.h"
 #include "pipeline/scene/model_source.h"
+#include "pipeline/scene/playback.h"
 #include "pipeline/tracking/camera_model.h"
 #include "pipeline/tracking/tracker.h"
 
@@ -25,6 +26,16 @@ struct SceneModel {
   glm::dmat4 attachFromModel{1.0};   ///< rotation, translation and uniform scale
   glm::vec3 srgb{0.8F, 0.5F, 0.2F};  ///< sRGB-coded; its materials' colours are multiplied by it
   float focus = 0.0F;                ///< 1: a style keeps it crisp; 0: painted like the rest
+  Playback playback;
+  bool isOccluder = false;  ///< a real thing's shape: hides what is behind it and is not drawn
+};
+
+/// A flat real thing, so that its motion in the picture is known: a desk, a wall, a machine's face.
+struct ScenePlane {
+  std::string name;
+  std::optional<int> tagId;         ///< what it is attached to; nothing: the world
+  glm::dmat4 attachFromPlane{1.0};  ///< rotation and translation; it lies on its z = 0
+  glm::dvec2 sizeMetres{0.0};       ///< along its x and y, its middle in the origin
 };
 
 /// The one light that models are shaded by; it is far away.
@@ -39,6 +50,8 @@ struct Light {
   glm::dvec3 towardLight{-0.37139068, 0.55708601, 0.74278135};
 };
 
+inline constexpr std::size_t kMaxPlanes = 8;
+
 /// What a scene file says. A value; immutable once made, so any thread may read it.
 struct Scene {
   std::optional<tracking::CameraModel> camera;  ///< nothing: assumedCamera() has to do
@@ -46,6 +59,7 @@ struct Scene {
   /// Each id once. Their worldFromTag is of tracking's tag frame; attach_frame.h has the author's.
   std::vector<tracking::TagMarker> tags;
   std::vector<SceneModel> models;  ///< at most kMaxObjects
+  std::vector<ScenePlane> planes;  ///< at most kMaxPlanes
   Light light;
   std::vector<std::string> notices;  ///< what of its files is not shown, a line each
   /// What it was read from beside the scene file: its calibration and models.

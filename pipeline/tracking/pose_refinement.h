@@ -19,14 +19,16 @@ struct Correspondence {
   glm::dvec2 px;
 };
 
+/// Row-major 6 × 6 covariance of a small motion of a pose's target in camera axes: rotation about
+/// the target's origin (rad), then translation (m).
+using PoseCovariance = std::array<double, 36>;
+
 /// A pose and how good it is.
 struct PoseEstimate {
   glm::dmat4 cameraFromTarget{1.0};
   /// Root mean square of the distances of points to their reprojections, in pixels.
   double rmsPx = 0.0;
-  /// Row-major 6 × 6 covariance of a small motion of the target in camera axes: rotation about the
-  /// target's origin (rad), then translation (m). From the corners' residuals, at least 0.1 px.
-  std::array<double, 36> covariance{};
+  PoseCovariance covariance{};  ///< from the corners' residuals, at least 0.1 px
 
   /// Predicted standard deviations over all axes.
   double rotationSigmaRad() const;

@@ -25,6 +25,7 @@ struct TrackedTag {
   TagCornersPx corners{};  ///< px of the frame, pixel centres at +0.5, tagCorners()' order
   /// Where the tag's size and the camera are known. That of the world where the tag agrees with it.
   std::optional<glm::dmat4> cameraFromTag;
+  PoseCovariance covariance{};            ///< of cameraFromTag
   TwinChoice choice = TwinChoice::kOnly;  ///< how the pose's twin was rejected
 };
 
@@ -40,6 +41,7 @@ struct TrackingResult {
   /// By rising id, each id once; the Tracker's, valid until its next track().
   std::span<const TrackedTag> tags;
   std::optional<glm::dmat4> cameraFromWorld;
+  PoseCovariance worldCovariance{};
   double worldRmsPx = 0.0;             ///< reprojection error of the tags that agree
   double worldRotationSigmaRad = 0.0;  ///< predicted, over all axes
   double worldTranslationSigmaMetres = 0.0;

@@ -55,7 +55,7 @@ class ModelBuilder {
   Model build() {
     tree_ = gltf::nodeTreeOf(structure_.gltf);
     for (const std::size_t node : tree_.shown) addNode(node);
-    numberTriangles(model_);
+    numberParts(model_);
     const BoundingSphere sphere = boundingSphere(model_);
     if (!(sphere.radiusMetres + glm::length(sphere.centre) <= kWidestMetres)) {
       refuse("", fmt::format("is {:.3g} m wide or away", sphere.radiusMetres),

@@ -208,7 +208,7 @@ TEST_F(ModelDrawing, NumbersTrianglesByPart) {
   model.parts.push_back(model.parts[0]);
   model.parts[1].name = "right";
   model.parts[1].modelFromPart = glm::translate(glm::dmat4(1.0), {0.08, 0.0, 0.0});
-  numberTriangles(model);
+  numberParts(model);
   const Drawn drawn = draw(sceneOf(model), glm::translate(glm::dmat4(1.0), {0.0, 0.0, 0.4}));
   const auto partAt = [&](std::size_t x) {
     return partOfTriangle(model, drawn.ids[60 * 160 + x] & (kMaxTriangles - 1))->name;

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+namespace pleinair::scene {
+
+/// Where a node is in its parent's frame: scaled, then turned, then moved (glTF 2.0, section 3.5).
+struct NodePlace {
+  glm::dvec3 translation{0.0};
+  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  ///< unit length
+  glm::dvec3 scale{1.0};
+};
+
+/// A frame that others hang on: a node of a glTF.
+struct RigNode {
+  std::optional<std::size_t> parent;  ///< of Rig::nodes, and before this one
+  NodePlace rest;
+  /// In place of `rest` where a file gives a matrix; such a node is not animated.
+  std::optional<glm::dmat4> parentFromNode;
+  std::vector<float> weights;  ///< of the morph targets of what it shows, at rest
+};
+
+enum class Interpolation { kStep, kLinear, kCubicSpline };
+enum class AnimatedProperty { kTranslation, kRotation, kScale, kWeights };
+
+/// How one property of a node changes (glTF 2.0, section 3.11 and appendix C).
+struct Channel {
+  std::size_t node = 0;  ///< of Rig::nodes
+  AnimatedProperty property = AnimatedProperty::kTranslation;
+  Interpolation interpolation = Interpolation::kLinear;
+  std::vector<float> seconds;  ///< of each key, rising, from 0 up; at least one
+  /// `width` numbers a key (x y z, x y z w, or a weight each); for cubic splines three times as
+  /// many: in-tangent, value, out-tangent.
+  std::vector<float> values;
+  std::size_t width = 3;
+};
+
+/// An animation. Before a channel's first key and after its last it stands still.
+struct Clip {
+  std::string name;
+  double seconds = 0.0;  ///< of the last key
+  std::vector<Channel> channels;
+};
+
+/// What bends a mesh: joints, and what takes the mesh to each joint's frame at rest (the inverse
+/// bind matrix).
+struct Skin {
+  std::vector<std::size_t> joints;  ///< of Rig::nodes; at most kMaxJoints
+  std::vector<glm::dmat4> jointFromMesh;
+};
+
+inline constexpr std::size_t kMaxJoints = 128;       ///< of a skin
+inline constexpr std::size_t kMaxMorphTargets = 64;  ///< of a surface
+
+/// What makes a model move: a tree of nodes, the clips that move them, and skins.
+struct Rig {
+  std::vector<RigNode> nodes;
+  std::vector<Clip> clips;
+  std::vector<Skin> skins;
+  glm::dmat4 modelFromRoot{1.0};  ///< into the model's axes
+};
+
+}  // namespace pleinair::scene
