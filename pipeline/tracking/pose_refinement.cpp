@@ -39,7 +39,8 @@ double robustCost(const CameraModel& camera, std::span<const Correspondence> poi
   for (const Correspondence& point : points) {
     const glm::dvec3 inCamera = transform(pose, point.target);
     if (!(inCamera.z > kNearestMetres)) return std::numeric_limits<double>::infinity();
-    cost += huberCost(glm::distance(camera.project(inCamera), point.px), huberPx);
+    const glm::dvec2 error = point.whitening * (camera.project(inCamera) - point.px);
+    cost += huberCost(glm::length(error), huberPx);
   }
   return cost;
 }
@@ -51,7 +52,8 @@ NormalEquations normalEquations(const CameraModel& camera, std::span<const Corre
   for (const Correspondence& point : points) {
     const glm::dvec3 inCamera = transform(pose, point.target);
     const Projection shown = camera.projectWithJacobian(inCamera);
-    const glm::dvec2 error = shown.px - point.px;
+    const glm::dvec2 error = point.whitening * (shown.px - point.px);
+    const glm::dmat3x2 pxByCameraPoint = point.whitening * shown.pxByCameraPoint;
     const double distance = glm::length(error);
     const double weight = distance <= huberPx ? 1.0 : huberPx / distance;
     out.cost += huberCost(distance, huberPx);
@@ -61,8 +63,8 @@ NormalEquations normalEquations(const CameraModel& camera, std::span<const Corre
     for (int axis = 0; axis < 3; ++axis) {
       glm::dvec3 unit(0.0);
       unit[axis] = 1.0;
-      columns[static_cast<std::size_t>(axis)] = shown.pxByCameraPoint * glm::cross(unit, arm);
-      columns[static_cast<std::size_t>(axis) + 3] = shown.pxByCameraPoint[axis];
+      columns[static_cast<std::size_t>(axis)] = pxByCameraPoint * glm::cross(unit, arm);
+      columns[static_cast<std::size_t>(axis) + 3] = pxByCameraPoint[axis];
     }
     for (int row = 0; row < 6; ++row) {
       const glm::dvec2& byRow = columns[static_cast<std::size_t>(row)];
@@ -160,7 +162,8 @@ std::optional<PoseEstimate> refinePose(const CameraModel& camera,
   }
 
   const double squaredError = squaredErrorPx(camera, points, pose);
-  const auto covariance = covarianceOf(now.matrix, squaredError, points.size());
+  const double whitened = robustCost(camera, points, pose, std::numeric_limits<double>::infinity());
+  const auto covariance = covarianceOf(now.matrix, whitened, points.size());
   if (!covariance || !std::isfinite(squaredError)) return std::nullopt;
   return PoseEstimate{.cameraFromTarget = pose,
                       .rmsPx = std::sqrt(squaredError / static_cast<double>(points.size())),
@@ -169,7 +172,14 @@ std::optional<PoseEstimate> refinePose(const CameraModel& camera,
 
 double squaredErrorPx(const CameraModel& camera, std::span<const Correspondence> points,
                       const glm::dmat4& cameraFromTarget) {
-  return robustCost(camera, points, cameraFromTarget, std::numeric_limits<double>::infinity());
+  double sum = 0.0;
+  for (const Correspondence& point : points) {
+    const glm::dvec3 inCamera = transform(cameraFromTarget, point.target);
+    if (!(inCamera.z > kNearestMetres)) return std::numeric_limits<double>::infinity();
+    const glm::dvec2 error = camera.project(inCamera) - point.px;
+    sum += glm::dot(error, error);
+  }
+  return sum;
 }
 
 double rotationBetweenRad(const glm::dmat4& a, const glm::dmat4& b) {

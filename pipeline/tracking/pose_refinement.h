@@ -17,6 +17,9 @@ namespace pleinair::tracking {
 struct Correspondence {
   glm::dvec3 target;
   glm::dvec2 px;
+  /// Takes an error to px of a plain point's noise: less than one in a direction in which the point
+  /// is less sure.
+  glm::dmat2 whitening{1.0};
 };
 
 /// Row-major 6 × 6 covariance of a small motion of a pose's target in camera axes: rotation about
@@ -28,7 +31,7 @@ struct PoseEstimate {
   glm::dmat4 cameraFromTarget{1.0};
   /// Root mean square of the distances of points to their reprojections, in pixels.
   double rmsPx = 0.0;
-  PoseCovariance covariance{};  ///< from the corners' residuals, at least 0.1 px
+  PoseCovariance covariance{};  ///< from the points' whitened residuals, at least 0.1 px
 
   /// Predicted standard deviations over all axes.
   double rotationSigmaRad() const;
@@ -37,7 +40,7 @@ struct PoseEstimate {
 
 /// Minimises the reprojection error from a start (Levenberg–Marquardt; beyond `huberPx` an error
 /// counts linearly, Huber 1964). Nothing where the start shows a point behind the camera or the
-/// points do not determine a pose. rmsPx is the plain one.
+/// points do not determine a pose. Errors are whitened; rmsPx is the plain one.
 std::optional<PoseEstimate> refinePose(const CameraModel& camera,
                                        std::span<const Correspondence> points,
                                        const glm::dmat4& startCameraFromTarget,

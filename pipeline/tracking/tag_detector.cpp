@@ -16,6 +16,7 @@
 #include <apriltag/tagStandard41h12.h>
 #include <apriltag/tagStandard52h13.h>
 #include <fmt/ranges.h>
+#include <glm/geometric.hpp>
 
 namespace pleinair::tracking {
 namespace {
@@ -65,6 +66,12 @@ TagDetection toDetection(const apriltag_detection_t& found) {
   return tag;
 }
 
+double squaredDistance(const TagCornersPx& a, const TagCornersPx& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += glm::dot(a[i] - b[i], a[i] - b[i]);
+  return sum;
+}
+
 }  // namespace
 
 hal::Result<void> checkTagFamily(std::string_view family, std::string subject) {
@@ -94,9 +101,12 @@ DetectionCounters& DetectionCounters::operator+=(const DetectionCounters& other)
 }
 
 void selectDetections(std::vector<TagDetection>& candidates, const TagDetectorOptions& options,
-                      DetectionCounters& counters) {
-  std::ranges::sort(candidates, [](const TagDetection& a, const TagDetection& b) {
-    return a.id != b.id ? a.id < b.id : a.decisionMargin > b.decisionMargin;
+                      DetectionCounters& counters, std::span<const ExpectedTag> expected) {
+  std::ranges::sort(candidates, [&](const TagDetection& a, const TagDetection& b) {
+    if (a.id != b.id) return a.id < b.id;
+    const auto known = std::ranges::find(expected, a.id, &ExpectedTag::id);
+    if (known == expected.end()) return a.decisionMargin > b.decisionMargin;
+    return squaredDistance(a.corners, known->corners) < squaredDistance(b.corners, known->corners);
   });
   auto selectedEnd = candidates.begin();
   for (const TagDetection& tag : candidates) {
@@ -141,7 +151,8 @@ TagDetector::TagDetector(TagDetector&&) noexcept = default;
 TagDetector& TagDetector::operator=(TagDetector&&) noexcept = default;
 
 std::span<const TagDetection> TagDetector::detect(const hal::PlaneView& luma, hal::FrameSize size,
-                                                  DetectionCounters& counters) {
+                                                  DetectionCounters& counters,
+                                                  std::span<const ExpectedTag> expected) {
   found_.clear();
   const int shorterSide = std::min(size.width, size.height);
   if (shorterSide < kSmallestSearchedSidePx) {  // the library crashes on a few pixels a side
@@ -163,7 +174,7 @@ std::span<const TagDetection> TagDetector::detect(const hal::PlaneView& luma, ha
     zarray_get(found.get(), i, &one);
     found_.push_back(toDetection(*one));
   }
-  selectDetections(found_, options_, counters);
+  selectDetections(found_, options_, counters, expected);
   return found_;
 }
 

@@ -54,16 +54,23 @@ struct TagDetection {
 struct DetectionCounters {
   std::uint32_t accepted = 0;
   std::uint32_t rejectedMargin = 0;     ///< bits too close to their threshold
-  std::uint32_t rejectedDuplicate = 0;  ///< another tag of the same id had a larger margin
+  std::uint32_t rejectedDuplicate = 0;  ///< another of its id was expected there, or clearer
   std::uint32_t skippedSmallPicture = 0;
 
   DetectionCounters& operator+=(const DetectionCounters& other);
   friend bool operator==(const DetectionCounters&, const DetectionCounters&) = default;
 };
 
-/// Leaves the accepted of `candidates`, by rising id, each id once. Counts the others by reason.
+/// Where a tag should be, by what is known from before.
+struct ExpectedTag {
+  int id = 0;
+  TagCornersPx corners{};
+};
+
+/// Leaves the accepted of `candidates`, by rising id, each id once: of several the one that is
+/// where the tag is expected, or else whose margin is largest. Counts the others by reason.
 void selectDetections(std::vector<TagDetection>& candidates, const TagDetectorOptions& options,
-                      DetectionCounters& counters);
+                      DetectionCounters& counters, std::span<const ExpectedTag> expected = {});
 
 /// Finds the AprilTags of one family (libapriltag: Wang and Olson, AprilTag 2, IROS 2016). Owns its
 /// detector and its family, which threads must not share; one thread at a time.
@@ -82,7 +89,8 @@ class TagDetector {
   /// The tags in a luma plane of `size`, by rising id, each id once; valid until the next call.
   /// Adds to `counters`.
   std::span<const TagDetection> detect(const hal::PlaneView& luma, hal::FrameSize size,
-                                       DetectionCounters& counters);
+                                       DetectionCounters& counters,
+                                       std::span<const ExpectedTag> expected = {});
 
  private:
   struct Handles;

@@ -2,11 +2,58 @@
 
 #include <algorithm>
 #include <cassert>
+#include <chrono>
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "pipeline/tracking/small_motion.h"
 
 namespace pleinair::tracking {
+namespace {
+
+/// Key frames are made no more often than this, unless something new is seen.
+constexpr hal::Duration kKeyPeriod = std::chrono::milliseconds(60);
+
+/// The corners of a cube on a tag.
+std::vector<glm::dvec3> standingOn(double edgeMetres) {
+  std::vector<glm::dvec3> points;
+  for (const double height : {0.0, edgeMetres}) {
+    for (const glm::dvec3& foot : tagCorners(edgeMetres)) {
+      points.push_back(foot - glm::dvec3(0.0, 0.0, height));
+    }
+  }
+  return points;
+}
+
+/// Where a tag appears; nothing where it does not: behind the camera, or far beside the picture,
+/// where a lens' model may fold it back.
+std::optional<TagCornersPx> projectedCorners(const CameraModel& camera,
+                                             const glm::dmat4& cameraFromTag, double edgeMetres) {
+  const auto points = tagCorners(edgeMetres);
+  const glm::dvec2 size(camera.imageSize().width, camera.imageSize().height);
+  TagCornersPx corners{};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const glm::dvec3 inCamera(cameraFromTag * glm::dvec4(points[i], 1.0));
+    if (!(inCamera.z > 1e-3)) return std::nullopt;
+    corners[i] = camera.project(inCamera);
+    const glm::dvec2 outside = glm::abs(corners[i] - 0.5 * size) / size;
+    if (!(std::max(outside.x, outside.y) < 1.0)) return std::nullopt;
+  }
+  return corners;
+}
+
+double leastEdge(const TagCornersPx& corners) {
+  double least = glm::distance(corners[3], corners[0]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    least = std::min(least, glm::distance(corners[i], corners[i + 1]));
+  }
+  return least;
+}
+
+}  // namespace
 
 hal::Result<void> checkSize(const CameraModel& camera, hal::FrameSize frame,
                             std::string calibration) {
@@ -26,46 +73,97 @@ Tracker::Tracker(std::optional<CameraModel> camera, std::vector<TagMarker> marke
       markers_(std::move(markers)),
       options_(std::move(options)),
       detector_(options_.detector),
-      remembered_(markers_.size()) {}
+      world_{.pose = TargetPose(options_.poses)},
+      targets_(markers_.size(), Target{.pose = TargetPose(options_.poses)}),
+      isWithWorld_(markers_.size()),
+      isSeen_(markers_.size()) {
+  for (const TagMarker& marker : markers_) {
+    models_.push_back(standingOn(marker.edgeMetres));
+    if (!marker.worldFromTag) continue;
+    worldPlanes_.push_back(
+        {.targetFromTag = *marker.worldFromTag, .edgeMetres = marker.edgeMetres});
+    for (const glm::dvec3& point : models_.back()) {
+      worldModel_.emplace_back(*marker.worldFromTag * glm::dvec4(point, 1.0));
+    }
+  }
+}
 
 void Tracker::reset() {
-  world_.reset();
-  std::ranges::fill(remembered_, std::nullopt);
+  world_.pose.reset();
+  for (Target& target : targets_) target.pose.reset();
+  std::ranges::fill(isWithWorld_, std::uint8_t{0});
+  features_.reset();
 }
 
 TrackingResult Tracker::track(const hal::ImageView& image, hal::TimePoint captureTime) {
   assert(!camera_ || camera_->imageSize() == image.format.size);
+  const hal::PlaneView luma = luma_.convert(image);
+  if (camera_) predict(luma, image.format.size, captureTime);
   tags_.clear();
   for (const TagDetection& detection :
-       detector_.detect(luma_.convert(image), image.format.size, counters_.detection)) {
+       detector_.detect(luma, image.format.size, counters_.detection, expected_)) {
     tags_.push_back({.id = detection.id, .corners = detection.corners});
   }
-  TrackingResult result{.tags = tags_};
-  if (!camera_) return result;
-  findSightings();
-  solveWorld(captureTime, result);
-  for (const Sighting& sighting : sightings_) solveTag(sighting, captureTime, result);
+  TrackingResult result;
+  if (camera_) {
+    findSightings();
+    solveWorld(captureTime);
+    for (const Sighting& sighting : sightings_) solveTag(sighting, captureTime);
+    missTags(captureTime);
+    keepKeyFrame(captureTime);
+    publishTags(captureTime);
+    publishWorld(captureTime, result);
+  }
+  result.tags = tags_;
   return result;
+}
+
+/// Follows features, and with them what is known, into this frame.
+void Tracker::predict(const hal::PlaneView& luma, hal::FrameSize size, hal::TimePoint now) {
+  if (markers_.empty()) return;
+  if (options_.poses.filters || options_.poses.carries) features_.follow(luma, size);
+  world_.pose.predict(*camera_, features_.tracks(), now);
+  for (Target& target : targets_) target.pose.predict(*camera_, features_.tracks(), now);
+  expectTags(now);
+}
+
+/// Where tags should be, by what was known before this frame.
+void Tracker::expectTags(hal::TimePoint now) {
+  expected_.clear();
+  for (std::size_t i = 0; i < markers_.size(); ++i) {
+    const std::optional<PoseEstimate> pose = drawnTag(i, now);
+    if (!pose) continue;
+    const auto corners = projectedCorners(*camera_, pose->cameraFromTarget, markers_[i].edgeMetres);
+    if (corners) expected_.push_back({.id = markers_[i].id, .corners = *corners});
+  }
 }
 
 void Tracker::findSightings() {
   sightings_.clear();
+  std::ranges::fill(isSeen_, std::uint8_t{0});
   for (std::size_t i = 0; i < tags_.size(); ++i) {
     const auto marker = std::ranges::find(markers_, tags_[i].id, &TagMarker::id);
-    if (marker == markers_.end()) continue;
+    if (marker == markers_.end()) {
+      ++counters_.unknownTags;
+      continue;
+    }
+    if (leastEdge(tags_[i].corners) < options_.leastEdgePx) {
+      ++counters_.smallTags;
+      continue;
+    }
     const PoseCandidates candidates =
         tagPoseCandidates(*camera_, tags_[i].corners, marker->edgeMetres);
     if (candidates.empty()) {
       ++counters_.degenerateTags;
       continue;
     }
-    sightings_.push_back({.marker = static_cast<std::size_t>(marker - markers_.begin()),
-                          .tag = i,
-                          .candidates = candidates});
+    const auto index = static_cast<std::size_t>(marker - markers_.begin());
+    isSeen_[index] = 1;
+    sightings_.push_back({.marker = index, .tag = i, .candidates = candidates});
   }
 }
 
-void Tracker::solveWorld(hal::TimePoint now, TrackingResult& result) {
+void Tracker::solveWorld(hal::TimePoint now) {
   worldTags_.clear();
   worldTagSighting_.clear();
   for (std::size_t i = 0; i < sightings_.size(); ++i) {
@@ -77,14 +175,10 @@ void Tracker::solveWorld(hal::TimePoint now, TrackingResult& result) {
                           .candidates = sightings_[i].candidates});
     worldTagSighting_.push_back(i);
   }
-  const std::optional<PosePrior> known = world_ ? prior(*world_, now) : std::nullopt;
-  const std::optional<WorldPose> pose = worldSolver_.solve(*camera_, worldTags_, known);
-  if (!pose) return;
-  result.cameraFromWorld = pose->estimate.cameraFromTarget;
-  result.worldRmsPx = pose->estimate.rmsPx;
-  result.worldRotationSigmaRad = pose->estimate.rotationSigmaRad();
-  result.worldTranslationSigmaMetres = pose->estimate.translationSigmaMetres();
-  world_ = Remembered{*result.cameraFromWorld, now, pose->twinEvidence};
+  const std::optional<WorldPose> pose = worldSolver_.solve(*camera_, worldTags_, prior(world_));
+  if (!pose) return world_.pose.miss(now);
+  world_.pose.see(*camera_, features_.tracks(), pose->estimate, worldModel_, now);
+  world_.twinEvidence = pose->twinEvidence;
   for (std::size_t i = 0; i < worldTagSighting_.size(); ++i) {
     Sighting& sighting = sightings_[worldTagSighting_[i]];
     sighting.agrees = pose->agrees[i] != 0;
@@ -93,28 +187,99 @@ void Tracker::solveWorld(hal::TimePoint now, TrackingResult& result) {
   }
 }
 
-void Tracker::solveTag(const Sighting& sighting, hal::TimePoint now, const TrackingResult& result) {
+void Tracker::solveTag(const Sighting& sighting, hal::TimePoint now) {
   TrackedTag& tag = tags_[sighting.tag];
-  std::optional<Remembered>& remembered = remembered_[sighting.marker];
-  double twinEvidence = kLoneEvidence;
+  Target& target = targets_[sighting.marker];
+  isWithWorld_[sighting.marker] = sighting.agrees ? 1 : 0;
   if (sighting.agrees) {
-    twinEvidence = world_->twinEvidence;
-    tag.cameraFromTag = *result.cameraFromWorld * *markers_[sighting.marker].worldFromTag;
+    target.pose.reset();
   } else {
-    const std::optional<PosePrior> known = remembered ? prior(*remembered, now) : std::nullopt;
-    const std::optional<TagPose> pose = chooseTagPose(sighting.candidates, known);
-    tag.cameraFromTag = pose->estimate.cameraFromTarget;
+    const std::optional<TagPose> pose = chooseTagPose(sighting.candidates, prior(target));
+    target.pose.see(*camera_, features_.tracks(), pose->estimate, models_[sighting.marker], now);
+    target.twinEvidence = pose->twinEvidence;
     tag.choice = pose->choice;
-    twinEvidence = pose->twinEvidence;
   }
   if (tag.choice == TwinChoice::kAmbiguous) ++counters_.ambiguousTags;
-  remembered = Remembered{*tag.cameraFromTag, now, twinEvidence};
 }
 
-std::optional<PosePrior> Tracker::prior(const Remembered& remembered, hal::TimePoint now) const {
-  if (now - remembered.seen > options_.memory) return std::nullopt;
-  return PosePrior{.cameraFromTarget = remembered.cameraFromTarget,
-                   .evidence = remembered.twinEvidence};
+void Tracker::missTags(hal::TimePoint now) {
+  for (std::size_t i = 0; i < markers_.size(); ++i) {
+    if (isSeen_[i] == 0) targets_[i].pose.miss(now);
+  }
+}
+
+/// Makes this frame the features' key frame where the old one shows too little of it, or where
+/// something was seen for the first time.
+void Tracker::keepKeyFrame(hal::TimePoint now) {
+  if (!options_.poses.filters && !options_.poses.carries) return;
+  bool isNew = world_.pose.needsLandmarks();
+  for (const Target& target : targets_) isNew = isNew || target.pose.needsLandmarks();
+  if (!isNew && !(now - keyMade_ >= kKeyPeriod && features_.isKeyWorn())) return;
+  keyMade_ = now;
+  keyTags_.clear();
+  for (const TrackedTag& tag : tags_) keyTags_.push_back(tag.corners);
+  features_.makeKey(keyTags_);
+  world_.pose.anchor(*camera_, features_.tracks(), worldPlanes_);
+  for (std::size_t i = 0; i < markers_.size(); ++i) {
+    const TagPlane plane{.targetFromTag = glm::dmat4(1.0), .edgeMetres = markers_[i].edgeMetres};
+    targets_[i].pose.anchor(*camera_, features_.tracks(), {&plane, 1});
+  }
+}
+
+/// A marker's pose: the world's, or its own.
+std::optional<PoseEstimate> Tracker::drawnTag(std::size_t marker, hal::TimePoint now) const {
+  if (isWithWorld_[marker] == 0) return targets_[marker].pose.drawn(now);
+  std::optional<PoseEstimate> pose = world_.pose.drawn(now);
+  if (!pose) return pose;
+  const glm::dmat4& worldFromTag = *markers_[marker].worldFromTag;
+  const glm::dvec3 arm = glm::dmat3(pose->cameraFromTarget) * glm::dvec3(worldFromTag[3]);
+  pose->covariance = atPoint(pose->covariance, arm);
+  pose->cameraFromTarget = pose->cameraFromTarget * worldFromTag;
+  return pose;
+}
+
+void Tracker::publishTags(hal::TimePoint now) {
+  for (const Sighting& sighting : sightings_) {
+    const std::optional<PoseEstimate> pose = drawnTag(sighting.marker, now);
+    tags_[sighting.tag].cameraFromTag = pose->cameraFromTarget;
+    tags_[sighting.tag].covariance = pose->covariance;
+  }
+  for (std::size_t i = 0; i < markers_.size(); ++i) publishCarried(i, now);
+  std::ranges::sort(tags_, {}, &TrackedTag::id);
+}
+
+void Tracker::publishCarried(std::size_t marker, hal::TimePoint now) {
+  if (isSeen_[marker] != 0 || !options_.poses.carries) return;
+  const std::optional<PoseEstimate> pose = drawnTag(marker, now);
+  if (!pose) return;
+  const auto corners =
+      projectedCorners(*camera_, pose->cameraFromTarget, markers_[marker].edgeMetres);
+  if (!corners) return;
+  std::erase_if(tags_, [&](const TrackedTag& tag) { return tag.id == markers_[marker].id; });
+  tags_.push_back({.id = markers_[marker].id,
+                   .corners = *corners,
+                   .cameraFromTag = pose->cameraFromTarget,
+                   .covariance = pose->covariance,
+                   .choice = TwinChoice::kByPrior,
+                   .source = PoseSource::kCarried});
+}
+
+void Tracker::publishWorld(hal::TimePoint now, TrackingResult& result) const {
+  const std::optional<PoseEstimate> pose = world_.pose.drawn(now);
+  if (!pose) return;
+  result.cameraFromWorld = pose->cameraFromTarget;
+  result.worldCovariance = pose->covariance;
+  result.worldSource = world_.pose.source();
+  result.worldRmsPx = pose->rmsPx;
+  result.worldRotationSigmaRad = pose->rotationSigmaRad();
+  result.worldTranslationSigmaMetres = pose->translationSigmaMetres();
+}
+
+std::optional<PosePrior> Tracker::prior(const Target& target) {
+  const std::optional<PoseEstimate> predicted = target.pose.predicted();
+  if (!predicted) return std::nullopt;
+  return PosePrior{.cameraFromTarget = predicted->cameraFromTarget,
+                   .evidence = target.twinEvidence};
 }
 
 }  // namespace pleinair::tracking

@@ -11,10 +11,12 @@
 #include "hal/clock.h"
 #include "hal/image.h"
 #include "pipeline/tracking/camera_model.h"
+#include "pipeline/tracking/feature_tracks.h"
 #include "pipeline/tracking/luma.h"
 #include "pipeline/tracking/tag_detector.h"
 #include "pipeline/tracking/tag_marker.h"
 #include "pipeline/tracking/tag_pose.h"
+#include "pipeline/tracking/target_pose.h"
 #include "pipeline/tracking/twin_choice.h"
 #include "pipeline/tracking/world_pose.h"
 
@@ -22,35 +24,41 @@ namespace pleinair::tracking {
 
 struct TrackedTag {
   int id = 0;
-  TagCornersPx corners{};  ///< px of the frame, pixel centres at +0.5, tagCorners()' order
+  /// px of the frame, pixel centres at +0.5, tagCorners()' order; where a carried tag would be.
+  TagCornersPx corners{};
   /// Where the tag's size and the camera are known. That of the world where the tag agrees with it.
   std::optional<glm::dmat4> cameraFromTag;
   PoseCovariance covariance{};            ///< of cameraFromTag
   TwinChoice choice = TwinChoice::kOnly;  ///< how the pose's twin was rejected
+  PoseSource source = PoseSource::kSeen;
 };
 
 /// What was not used, by reason; sums over a Tracker's life.
 struct TrackingCounters {
   DetectionCounters detection;
+  std::uint32_t unknownTags = 0;        ///< ids that are not in the scene
+  std::uint32_t smallTags = 0;          ///< too few pixels for a pose
   std::uint32_t degenerateTags = 0;     ///< corners that allow no pose
   std::uint32_t ambiguousTags = 0;      ///< nothing told the pose from its twin
   std::uint32_t contradictingTags = 0;  ///< not where the other tags put them
 };
 
 struct TrackingResult {
-  /// By rising id, each id once; the Tracker's, valid until its next track().
+  /// By rising id, each id once; the Tracker's, valid until its next track(). Carried ones too.
   std::span<const TrackedTag> tags;
   std::optional<glm::dmat4> cameraFromWorld;
   PoseCovariance worldCovariance{};
-  double worldRmsPx = 0.0;             ///< reprojection error of the tags that agree
+  PoseSource worldSource = PoseSource::kSeen;
+  double worldRmsPx = 0.0;             ///< reprojection error of the tags that agree, last seen
   double worldRotationSigmaRad = 0.0;  ///< predicted, over all axes
   double worldTranslationSigmaMetres = 0.0;
 };
 
 struct TrackerOptions {
   TagDetectorOptions detector;
-  /// A pose seen longer ago does not help to reject a twin.
-  hal::Duration memory = std::chrono::milliseconds(500);
+  TargetPoseOptions poses;
+  /// The least edge of a tag in the picture whose pose is used.
+  double leastEdgePx = 12.0;
 };
 
 /// Finds tags and poses, frame by frame, in buffers that it keeps. One thread at a time.
@@ -68,9 +76,9 @@ class Tracker {
   const TrackingCounters& counters() const { return counters_; }
 
  private:
-  struct Remembered {
-    glm::dmat4 cameraFromTarget{1.0};
-    hal::TimePoint seen;
+  /// What is known of a marker, or of the world, from frame to frame.
+  struct Target {
+    TargetPose pose;
     double twinEvidence = kLoneEvidence;
   };
   /// A tag whose size is known, with its possible poses.
@@ -81,24 +89,41 @@ class Tracker {
     bool agrees = false;  // with the world
   };
 
+  void predict(const hal::PlaneView& luma, hal::FrameSize size, hal::TimePoint now);
+  void expectTags(hal::TimePoint now);
   void findSightings();
-  void solveWorld(hal::TimePoint now, TrackingResult& result);
-  void solveTag(const Sighting& sighting, hal::TimePoint now, const TrackingResult& result);
-  std::optional<PosePrior> prior(const Remembered& remembered, hal::TimePoint now) const;
+  void solveWorld(hal::TimePoint now);
+  void solveTag(const Sighting& sighting, hal::TimePoint now);
+  void missTags(hal::TimePoint now);
+  void keepKeyFrame(hal::TimePoint now);
+  void publishTags(hal::TimePoint now);
+  void publishCarried(std::size_t marker, hal::TimePoint now);
+  void publishWorld(hal::TimePoint now, TrackingResult& result) const;
+  std::optional<PoseEstimate> drawnTag(std::size_t marker, hal::TimePoint now) const;
+  static std::optional<PosePrior> prior(const Target& target);
 
   std::optional<CameraModel> camera_;
   std::vector<TagMarker> markers_;
   TrackerOptions options_;
   TagDetector detector_;
   LumaConverter luma_;
+  FeatureTracks features_;
   TrackingCounters counters_;
   WorldPoseSolver worldSolver_;
-  std::optional<Remembered> world_;
-  std::vector<std::optional<Remembered>> remembered_;  // of each marker
-  std::vector<TrackedTag> tags_;                       // of the last frame, as all below
+  Target world_;
+  std::vector<Target> targets_;            // of each marker, where it is not with the world
+  std::vector<std::uint8_t> isWithWorld_;  // of each marker: agreed when it was seen last
+  std::vector<std::uint8_t> isSeen_;       // of each marker, in the last frame
+  std::vector<TagPlane> worldPlanes_;
+  std::vector<glm::dvec3> worldModel_;           // points that must look right
+  std::vector<std::vector<glm::dvec3>> models_;  // of each marker
+  hal::TimePoint keyMade_;
+  std::vector<TrackedTag> tags_;  // of the last frame, as all below
+  std::vector<ExpectedTag> expected_;
   std::vector<Sighting> sightings_;
   std::vector<WorldTag> worldTags_;            // the sightings with a place in the world
   std::vector<std::size_t> worldTagSighting_;  // of each, in sightings_
+  std::vector<TagCornersPx> keyTags_;
 };
 
 /// Whether a calibration is for frames of this size, else an error (kInvalidInput) that names both:

@@ -94,8 +94,7 @@ std::vector<Told> trackAll(const TruthSequence& sequence, Layout layout,
     }
     const TrackingResult result =
         tracker.track(retouch ? retouched.view() : frame.luma.view(), frame.time);
-    Told told{.cameraFromWorld = result.cameraFromWorld,
-              .worldCovariance = result.worldCovariance};
+    Told told{.cameraFromWorld = result.cameraFromWorld, .worldCovariance = result.worldCovariance};
     for (const TrackedTag& tag : result.tags) {
       if (tag.cameraFromTag) told.tags[tag.id] = tag;
     }
@@ -133,11 +132,11 @@ ModelError modelError(const TruthSequence& sequence, std::size_t frame, int id,
                       const glm::dmat4& cameraFromTag) {
   const TagMarker& marker = sequence.marker(id);
   const glm::dmat4 truth = sequence.frames[frame].cameraFromWorld * *marker.worldFromTag;
-  return {.rotationDegrees = glm::degrees(rotationBetweenRad(cameraFromTag, truth)),
-          .translationMm =
-              1000.0 * glm::distance(glm::dvec3(cameraFromTag[3]), glm::dvec3(truth[3])),
-          .px = rmsBetween(modelPx(sequence.camera, cameraFromTag, marker.edgeMetres),
-                           modelPx(sequence.camera, truth, marker.edgeMetres))};
+  return {
+      .rotationDegrees = glm::degrees(rotationBetweenRad(cameraFromTag, truth)),
+      .translationMm = 1000.0 * glm::distance(glm::dvec3(cameraFromTag[3]), glm::dvec3(truth[3])),
+      .px = rmsBetween(modelPx(sequence.camera, cameraFromTag, marker.edgeMetres),
+                       modelPx(sequence.camera, truth, marker.edgeMetres))};
 }
 
 double percentile(std::vector<double> values, double part) {
@@ -172,7 +171,7 @@ Tremble trembleOf(const TruthSequence& sequence, std::span<const Told> told, int
 }
 
 double lagMs(const TruthSequence& sequence, std::span<const Told> told, int id) {
-  constexpr double kStep = 0.01;  // frames
+  constexpr double kStep = 0.02;  // frames
   double best = 0.0;
   double least = std::numeric_limits<double>::infinity();
   for (double shift = -1.5; shift <= 1.5; shift += kStep) {
@@ -203,8 +202,7 @@ HiddenResult hiddenResult(const TruthSequence& sequence, std::span<const Told> t
   constexpr std::size_t kAfter = 10;
   HiddenResult out;
   for (std::size_t begin = hiding.firstFrame;
-       begin + hiding.hiddenFrames + kAfter < sequence.frames.size();
-       begin += hiding.everyFrames) {
+       begin + hiding.hiddenFrames + kAfter < sequence.frames.size(); begin += hiding.everyFrames) {
     const std::size_t end = begin + hiding.hiddenFrames;
     bool wasVisible = true;
     for (std::size_t i = begin - 1; i <= end + kAfter; ++i) {

@@ -91,10 +91,10 @@ Retouch hidden(const Hiding& hiding, std::optional<int> onlyId = std::nullopt);
 struct HiddenResult {
   std::size_t times = 0;
   std::size_t framesHidden = 0;
-  std::size_t framesLost = 0;      ///< without a pose
-  std::vector<double> driftPx;     ///< the largest error of each time, less the one before
-  std::vector<double> jumpPx;      ///< largest frame-to-frame change of the error at each return
-  std::vector<double> settlePx;    ///< error 10 frames after each return
+  std::size_t framesLost = 0;    ///< without a pose
+  std::vector<double> driftPx;   ///< the largest error of each time, less the one before
+  std::vector<double> jumpPx;    ///< largest frame-to-frame change of the error at each return
+  std::vector<double> settlePx;  ///< error 10 frames after each return
 };
 /// Jumps are looked for in the frame of the return and the five after it.
 HiddenResult hiddenResult(const TruthSequence& sequence, std::span<const Told> told, int id,

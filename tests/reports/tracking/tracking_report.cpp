@@ -55,17 +55,19 @@ void reportPoses(const TruthSequence& sequence, Layout layout) {
 }
 
 void reportAllPoses(const std::vector<TruthSequence>& sequences) {
-  std::printf("\n### Poses: median / 95th percentile\n\n"
-              "| | tags with a pose, of visible ones | mm | degrees | px of a cube on the tag |\n"
-              "|---|---|---|---|---|\n");
+  std::printf(
+      "\n### Poses: median / 95th percentile\n\n"
+      "| | tags with a pose, of visible ones | mm | degrees | px of a cube on the tag |\n"
+      "|---|---|---|---|---|\n");
   for (const TruthSequence& sequence : sequences) {
     for (const Layout layout : {Layout::kWorld, Layout::kLoose}) reportPoses(sequence, layout);
   }
 }
 
 void reportTremble(const TruthSequence& still) {
-  std::printf("\n### Tremble: RMS px of a cube on a tag, a still camera with noise of 2 levels\n\n"
-              "| | tag | about its mean | frame to frame |\n|---|---|---|---|\n");
+  std::printf(
+      "\n### Tremble: RMS px of a cube on a tag, a still camera with noise of 2 levels\n\n"
+      "| | tag | about its mean | frame to frame |\n|---|---|---|---|\n");
   for (const Layout layout : {Layout::kWorld, Layout::kLoose}) {
     const std::vector<Told> told = trackAll(still, layout);
     for (const int id : idsOf(still)) {
@@ -78,9 +80,10 @@ void reportTremble(const TruthSequence& still) {
 }
 
 void reportLag(const std::vector<TruthSequence>& sequences) {
-  std::printf("\n### Lag: ms that a model comes after the truth, and what is the error then\n\n"
-              "| | tags: ms | the fastest fifth of frames: px, median / 95th percentile |\n"
-              "|---|---|---|\n");
+  std::printf(
+      "\n### Lag: ms that a model comes after the truth, and what is the error then\n\n"
+      "| | tags: ms | the fastest fifth of frames: px, median / 95th percentile |\n"
+      "|---|---|---|\n");
   for (const TruthSequence& sequence : sequences) {
     for (const Layout layout : {Layout::kWorld, Layout::kLoose}) {
       const std::vector<Told> told = trackAll(sequence, layout);
@@ -138,14 +141,13 @@ void reportHiddenRow(const TruthSequence& sequence, Layout layout, const Hiding&
       add(hiddenResult(sequence, told, id, hiding));
     }
   }
-  std::printf("| %s, %s%s | %.2f s × %zu | %zu of %zu | %.2f / %.2f | %.2f / %.2f | %.2f |\n",
-              sequence.name.c_str(),
-              layout == Layout::kWorld ? "all tags hidden" : "a tag by itself",
-              hiding.part < 1.0 ? ", half of it" : "",
-              static_cast<double>(hiding.hiddenFrames) / 30.0, all.times, all.framesLost,
-              all.framesHidden, percentile(all.driftPx, 0.5), percentile(all.driftPx, 0.95),
-              percentile(all.jumpPx, 0.5), percentile(all.jumpPx, 0.95),
-              percentile(all.settlePx, 0.5));
+  std::printf(
+      "| %s, %s%s | %.2f s × %zu | %zu of %zu | %.2f / %.2f | %.2f / %.2f | %.2f |\n",
+      sequence.name.c_str(), layout == Layout::kWorld ? "all tags hidden" : "a tag by itself",
+      hiding.part < 1.0 ? ", half of it" : "", static_cast<double>(hiding.hiddenFrames) / 30.0,
+      all.times, all.framesLost, all.framesHidden, percentile(all.driftPx, 0.5),
+      percentile(all.driftPx, 0.95), percentile(all.jumpPx, 0.5), percentile(all.jumpPx, 0.95),
+      percentile(all.settlePx, 0.5));
 }
 
 void reportHidden(const std::vector<TruthSequence>& sequences) {

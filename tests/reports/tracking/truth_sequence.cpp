@@ -78,9 +78,9 @@ glm::dmat3 matrix3(const json& rows) {
 /// The file's tag poses are in solvePnP's square: x right, y up, z to the viewer.
 TagMarker virtualMarker(int id, double edgeMetres, const json& tag) {
   cv::Matx33d rotation;
-  cv::Rodrigues(cv::Vec3d(tag.at("rvec_photo").at(0), tag.at("rvec_photo").at(1),
-                          tag.at("rvec_photo").at(2)),
-                rotation);
+  cv::Rodrigues(
+      cv::Vec3d(tag.at("rvec_photo").at(0), tag.at("rvec_photo").at(1), tag.at("rvec_photo").at(2)),
+      rotation);
   glm::dmat4 pose(1.0);
   for (int row = 0; row < 3; ++row) {
     pose[0][row] = rotation(row, 0);
@@ -176,8 +176,8 @@ TruthSequence readVirtualCamera() {
 
 TruthSequence filmWorkbench(const WorkbenchTake& take) {
   hal::SteppedClock clock;
-  hal::SyntheticCamera camera(
-      {.size = take.size, .shot = take.shot, .noiseSigma = take.noiseSigma}, clock);
+  hal::SyntheticCamera camera({.size = take.size, .shot = take.shot, .noiseSigma = take.noiseSigma},
+                              clock);
   const hal::PinholeIntrinsics k = hal::syntheticIntrinsics(take.size);
   TruthSequence out{.name = "workbench " + std::string(toString(take.shot)),
                     .camera = {{.fx = k.fx, .fy = k.fy, .cx = k.cx, .cy = k.cy}, {}, take.size},
@@ -189,8 +189,7 @@ TruthSequence filmWorkbench(const WorkbenchTake& take) {
   }
   forEachFrame(camera, take.frameCount, [&](std::size_t i, hal::Image luma, hal::TimePoint t) {
     const hal::GroundTruth truth = camera.truth(i);
-    TruthFrame frame{
-        .luma = std::move(luma), .time = t, .cameraFromWorld = truth.cameraFromWorld};
+    TruthFrame frame{.luma = std::move(luma), .time = t, .cameraFromWorld = truth.cameraFromWorld};
     for (const hal::TagTruth& tag : truth.tags) {
       frame.corners[tag.tag.id] = tag.cornersPx;
       if (tag.isVisible) frame.visible.insert(tag.tag.id);
