@@ -18,8 +18,8 @@ constexpr double kPaper = 1.2;
 constexpr double kReach = 24.0;
 /// How unsure an inverse depth is on a tag, and for each half edge that it is away.
 constexpr double kSigmaOnTag = 0.002;
-constexpr double kSigmaByDistance = 0.03;
-constexpr double kMostSigma = 0.3;
+constexpr double kSigmaByDistance = 0.1;
+constexpr double kMostSigma = 0.5;
 /// A plane seen at less than this sine is not cut.
 constexpr double kGrazing = 0.08;
 constexpr std::size_t kLeastUsed = 6;
@@ -98,25 +98,37 @@ std::optional<Landmarks::Landmark> Landmarks::placed(const CameraModel& camera,
 }
 
 void Landmarks::anchor(const CameraModel& camera, std::span<const FeatureTrack> tracks,
-                       const glm::dmat4& keyFromTarget, std::span<const TagPlane> planes,
-                       bool onTagsOnly) {
-  const bool samePlanes = planes.size() == planes_.size();
+                       const glm::dmat4& keyFromTarget, const glm::dmat4& oldKeyFromTarget,
+                       std::span<const TagPlane> planes, bool onTagsOnly) {
+  places_.clear();
+  const glm::dmat4 targetFromOldKey = rigidInverse(oldKeyFromTarget);
+  for (const Landmark& landmark : landmarks_) {
+    places_.push_back(place(landmark, oldKeyFromTarget));
+    if (places_.back()) places_.back() = transform(targetFromOldKey, *places_.back());
+  }
   planes_.assign(planes.begin(), planes.end());
   next_.clear();
   for (const FeatureTrack& track : tracks) {
     std::optional<Landmark> landmark = placed(camera, track, keyFromTarget, onTagsOnly);
     if (!landmark) continue;
     const auto old = std::ranges::lower_bound(landmarks_, track.id, {}, &Landmark::id);
-    if (samePlanes && old != landmarks_.end() && old->id == track.id) {
-      landmark->plane = old->plane;
-      landmark->correction = old->correction;
-      landmark->sigma = old->sigma;
-      landmark->contradictions = old->contradictions;
-      if (!place(*landmark, keyFromTarget)) continue;
+    if (old != landmarks_.end() && old->id == track.id) {
+      const auto& was = places_[static_cast<std::size_t>(old - landmarks_.begin())];
+      if (was) goOn(*landmark, *old, transform(keyFromTarget, *was).z, keyFromTarget);
     }
     next_.push_back(*landmark);
   }
   landmarks_.swap(next_);
+}
+
+/// A landmark keeps its depth, and what was learnt of it, from one key frame to the next.
+void Landmarks::goOn(Landmark& landmark, const Landmark& old, double depth,
+                     const glm::dmat4& keyFromTarget) const {
+  const auto plane = planeInverseDepth(landmark, keyFromTarget);
+  if (!plane || !(depth > 0.0)) return;
+  landmark.correction = 1.0 / (depth * *plane) - 1.0;
+  landmark.sigma = old.sigma * (1.0 + landmark.correction) / (1.0 + old.correction);
+  landmark.contradictions = old.contradictions;
 }
 
 /// The found landmarks as points of the target.

@@ -41,8 +41,10 @@ class Landmarks {
   /// What the tracks' key frame, where the target was at `keyFromTarget`, shows of them; landmarks
   /// of tracks that go on keep their place and what was learnt. `onTagsOnly`: none beside the tags'
   /// paper, for a target that moves against what is around it.
+  /// `oldKeyFromTarget`: of the key frame before.
   void anchor(const CameraModel& camera, std::span<const FeatureTrack> tracks,
-              const glm::dmat4& keyFromTarget, std::span<const TagPlane> planes, bool onTagsOnly);
+              const glm::dmat4& keyFromTarget, const glm::dmat4& oldKeyFromTarget,
+              std::span<const TagPlane> planes, bool onTagsOnly);
 
   /// cameraFromTarget by the found tracks, robustly: nothing where fewer than six agree, or fewer
   /// than half. `noisePx`: of a feature.
@@ -69,6 +71,8 @@ class Landmarks {
 
   std::optional<Landmark> placed(const CameraModel& camera, const FeatureTrack& track,
                                  const glm::dmat4& keyFromTarget, bool onTagsOnly) const;
+  void goOn(Landmark& landmark, const Landmark& old, double depth,
+            const glm::dmat4& keyFromTarget) const;
   std::optional<double> planeInverseDepth(const Landmark& landmark,
                                           const glm::dmat4& keyFromTarget) const;
   /// In the key camera; nothing where the plane is not before it.
@@ -81,6 +85,7 @@ class Landmarks {
   std::vector<Landmark> landmarks_;  // by rising id
   std::vector<Landmark> next_;
   std::vector<TagPlane> planes_;
+  std::vector<std::optional<glm::dvec3>> places_;  // of each landmark, in the target
   std::vector<Correspondence> points_;
   std::vector<double> errors_;
 };

@@ -18,6 +18,9 @@ struct SmallMotion {
   friend SmallMotion operator*(double part, const SmallMotion& motion) {
     return {part * motion.rotation, part * motion.shift};
   }
+  friend SmallMotion operator+(const SmallMotion& a, const SmallMotion& b) {
+    return {a.rotation + b.rotation, a.shift + b.shift};
+  }
 };
 
 glm::dmat4 movedBy(const glm::dmat4& pose, const SmallMotion& motion);

@@ -18,6 +18,10 @@ constexpr double kDoubtPx = 0.5;
 /// So many doubts in a row say that the target does not move with the features around it.
 constexpr int kManyDoubts = 4;
 constexpr auto kAloneFor = std::chrono::seconds(2);
+/// How fast the mean of differences follows them, and how far it may lie from zero, in sigmas of
+/// one (by chance: a third of one).
+constexpr double kBiasRate = 0.2;
+constexpr double kBiasSigmas = 0.4;
 /// Jumps larger than this part of the picture are cuts: not blended.
 constexpr double kLargestBlend = 0.1;
 /// Without features: what is left of a velocity after a second, and what it is good for.
@@ -54,6 +58,7 @@ void TargetPose::reset() {
   doubts_ = 0;
   velocity_ = {};
   offset_ = {};
+  bias_ = {};
   landmarks_.clear();
 }
 
@@ -119,25 +124,7 @@ void TargetPose::see(const CameraModel& camera, std::span<const FeatureTrack> tr
     filter_.start(seen);
     if (!wasKnown) offset_ = {};
   } else {
-    const double apart =
-        rmsDistancePx(camera, filter_.cameraFromTarget(), seen.cameraFromTarget, modelPoints);
-    const double expected = std::sqrt(projectedVariancePx(
-        camera, filter_.cameraFromTarget(), filter_.covariance() + seen.covariance, modelPoints));
-    const double most = std::max(kDoubtPx, kDoubtSigmas * expected);
-    const bool isDoubtful = !(apart <= most);
-    doubts_ = isDoubtful ? doubts_ + 1 : 0;
-    if (!std::isfinite(apart)) {
-      filter_.start(seen);
-    } else {
-      filter_.correct(seen, isDoubtful ? 2.0 * apart / expected : 1.0);
-    }
-    if (doubts_ >= kManyDoubts) {
-      if (!movesAlone_) isAnchored_ = false;  // again, with what lies on its tags only
-      movesAlone_ = true;
-      movedAlone_ = now;
-    } else if (movesAlone_ && now - movedAlone_ > kAloneFor) {
-      movesAlone_ = false;
-    }
+    correct(camera, seen, modelPoints, now);
   }
   keyFromTarget_ = rigidInverse(cameraFromKey_) * filter_.cameraFromTarget();
   if (options_.filters) {
@@ -153,6 +140,35 @@ void TargetPose::see(const CameraModel& camera, std::span<const FeatureTrack> tr
   }
 }
 
+/// The more sightings lie, now or all lately, on one side of what was predicted, the more they
+/// count.
+void TargetPose::correct(const CameraModel& camera, const PoseEstimate& seen,
+                         std::span<const glm::dvec3> modelPoints, hal::TimePoint now) {
+  const glm::dmat4 predicted = filter_.cameraFromTarget();
+  const double apart = rmsDistancePx(camera, predicted, seen.cameraFromTarget, modelPoints);
+  if (!std::isfinite(apart)) return filter_.start(seen);
+  const double expected = std::sqrt(
+      projectedVariancePx(camera, predicted, filter_.covariance() + seen.covariance, modelPoints));
+  bias_ = (1.0 - kBiasRate) * bias_ + kBiasRate * motionBetween(predicted, seen.cameraFromTarget);
+  const double bias = rmsDistancePx(camera, predicted, movedBy(predicted, bias_), modelPoints);
+
+  const bool isDoubtful = apart > std::max(kDoubtPx, kDoubtSigmas * expected);
+  const double byBias = bias / (kBiasSigmas * expected);
+  filter_.correct(seen, std::max({1.0, byBias, isDoubtful ? 2.0 * apart / expected : 0.0}));
+  const double left =
+      rmsDistancePx(camera, filter_.cameraFromTarget(), seen.cameraFromTarget, modelPoints);
+  if (apart > 0.0) bias_ = std::min(1.0, left / apart) * bias_;
+
+  doubts_ = isDoubtful ? doubts_ + 1 : 0;
+  if (doubts_ >= kManyDoubts) {
+    if (!movesAlone_) isAnchored_ = false;  // again, with what lies on its tags only
+    movesAlone_ = true;
+    movedAlone_ = now;
+  } else if (movesAlone_ && now - movedAlone_ > kAloneFor) {
+    movesAlone_ = false;
+  }
+}
+
 void TargetPose::miss(hal::TimePoint now) {
   if (!isKnown_) return;
   if (!options_.carries || now - seen_ > options_.carryFor) return reset();
@@ -164,9 +180,10 @@ void TargetPose::anchor(const CameraModel& camera, std::span<const FeatureTrack>
                         std::span<const TagPlane> planes) {
   if (!isKnown_) return landmarks_.clear();
   isAnchored_ = true;
-  keyFromTarget_ = filter_.cameraFromTarget();
+  const glm::dmat4 keyFromTarget = filter_.cameraFromTarget();
+  landmarks_.anchor(camera, tracks, keyFromTarget, keyFromTarget_, planes, movesAlone_);
+  keyFromTarget_ = keyFromTarget;
   cameraFromKey_ = glm::dmat4(1.0);
-  landmarks_.anchor(camera, tracks, keyFromTarget_, planes, movesAlone_);
 }
 
 /// Falls smoothly from one to zero.

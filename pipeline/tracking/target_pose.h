@@ -53,6 +53,9 @@ class TargetPose {
   /// Whether it is known, and has not been anchored since.
   bool needsLandmarks() const { return isKnown_ && !isAnchored_; }
 
+  /// Whether it moves against the features around it.
+  bool movesAlone() const { return movesAlone_; }
+
   /// What is to be drawn; nothing where nothing is known.
   std::optional<PoseEstimate> drawn(hal::TimePoint now) const;
   PoseSource source() const { return source_; }
@@ -62,6 +65,8 @@ class TargetPose {
  private:
   void moveByFeatures(const LandmarkPose& moved);
   void moveOn(const CameraModel& camera, double seconds);
+  void correct(const CameraModel& camera, const PoseEstimate& seen,
+               std::span<const glm::dvec3> modelPoints, hal::TimePoint now);
   double partOfBlend(hal::TimePoint now) const;
   double noisePx(const CameraModel& camera) const;
 
@@ -80,6 +85,7 @@ class TargetPose {
   glm::dmat4 lastDrawn_{1.0};
   glm::dmat4 before_{1.0};  ///< the pose of the last frame
   SmallMotion velocity_;    ///< a second
+  SmallMotion bias_;        ///< mean of what sightings lately differed from the predicted by
   SmallMotion offset_;      ///< from the filtered pose to the drawn one, when blending began
   hal::TimePoint blendFrom_;
   PoseSource source_ = PoseSource::kSeen;

@@ -221,8 +221,23 @@ void Tracker::keepKeyFrame(hal::TimePoint now) {
   features_.makeKey(keyTags_);
   world_.pose.anchor(*camera_, features_.tracks(), worldPlanes_);
   for (std::size_t i = 0; i < markers_.size(); ++i) {
-    const TagPlane plane{.targetFromTag = glm::dmat4(1.0), .edgeMetres = markers_[i].edgeMetres};
-    targets_[i].pose.anchor(*camera_, features_.tracks(), {&plane, 1});
+    findPlanes(i);
+    targets_[i].pose.anchor(*camera_, features_.tracks(), planes_);
+  }
+}
+
+/// A tag's own plane, and those of the other tags, if they stand still together.
+void Tracker::findPlanes(std::size_t marker) {
+  planes_.clear();
+  const std::optional<PoseEstimate> own = targets_[marker].pose.predicted();
+  if (!own) return;
+  planes_.push_back({.targetFromTag = glm::dmat4(1.0), .edgeMetres = markers_[marker].edgeMetres});
+  const glm::dmat4 tagFromCamera = rigidInverse(own->cameraFromTarget);
+  for (std::size_t i = 0; i < markers_.size(); ++i) {
+    const std::optional<PoseEstimate> other = targets_[i].pose.predicted();
+    if (i == marker || !other || targets_[i].pose.movesAlone()) continue;
+    planes_.push_back({.targetFromTag = tagFromCamera * other->cameraFromTarget,
+                       .edgeMetres = markers_[i].edgeMetres});
   }
 }
 

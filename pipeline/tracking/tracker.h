@@ -96,6 +96,7 @@ class Tracker {
   void solveTag(const Sighting& sighting, hal::TimePoint now);
   void missTags(hal::TimePoint now);
   void keepKeyFrame(hal::TimePoint now);
+  void findPlanes(std::size_t marker);
   void publishTags(hal::TimePoint now);
   void publishCarried(std::size_t marker, hal::TimePoint now);
   void publishWorld(hal::TimePoint now, TrackingResult& result) const;
@@ -115,6 +116,7 @@ class Tracker {
   std::vector<std::uint8_t> isWithWorld_;  // of each marker: agreed when it was seen last
   std::vector<std::uint8_t> isSeen_;       // of each marker, in the last frame
   std::vector<TagPlane> worldPlanes_;
+  std::vector<TagPlane> planes_;
   std::vector<glm::dvec3> worldModel_;           // points that must look right
   std::vector<std::vector<glm::dvec3>> models_;  // of each marker
   hal::TimePoint keyMade_;

@@ -8,6 +8,8 @@
 #include <glm/trigonometric.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "pipeline/tracking/small_motion.h"
+
 namespace pleinair::tracking {
 namespace {
 
@@ -137,6 +139,24 @@ ModelError modelError(const TruthSequence& sequence, std::size_t frame, int id,
       .translationMm = 1000.0 * glm::distance(glm::dvec3(cameraFromTag[3]), glm::dvec3(truth[3])),
       .px = rmsBetween(modelPx(sequence.camera, cameraFromTag, marker.edgeMetres),
                        modelPx(sequence.camera, truth, marker.edgeMetres))};
+}
+
+PredictedErrors predictedErrors(const TruthSequence& sequence, std::span<const Told> told,
+                                PoseSource source) {
+  double actual = 0.0;
+  double predicted = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    for (const auto& [id, tag] : told[i].tags) {
+      if (!sequence.frames[i].visible.contains(id) || tag.source != source) continue;
+      const double px = modelError(sequence, i, id, *tag.cameraFromTag).px;
+      actual += px * px;
+      predicted += projectedVariancePx(sequence.camera, *tag.cameraFromTag, tag.covariance,
+                                       modelPoints(sequence.marker(id).edgeMetres));
+      count += 1.0;
+    }
+  }
+  return {.actualPx = std::sqrt(actual / count), .predictedPx = std::sqrt(predicted / count)};
 }
 
 double percentile(std::vector<double> values, double part) {

@@ -54,6 +54,14 @@ struct ModelError {
 ModelError modelError(const TruthSequence& sequence, std::size_t frame, int id,
                       const glm::dmat4& cameraFromTag);
 
+/// RMS px of a model's points, over all visible tags with a pose from `source`.
+struct PredictedErrors {
+  double actualPx = 0.0;
+  double predictedPx = 0.0;  ///< by the poses' covariances
+};
+PredictedErrors predictedErrors(const TruthSequence& sequence, std::span<const Told> told,
+                                PoseSource source = PoseSource::kSeen);
+
 /// What stands at `part` (0 … 1) of the sorted values; not a number of none.
 double percentile(std::vector<double> values, double part);
 double rootMeanSquare(std::span<const double> values);

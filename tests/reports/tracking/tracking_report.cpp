@@ -1,7 +1,9 @@
-// Prints what docs/measured.md says of poses, as Markdown: `tracking_report [PART ...]`, where a
-// part is poses, tremble, lag or hidden; all without one. Takes minutes.
+// Prints what docs/measured.md says of poses, as Markdown: `tracking_report [PART ...] [SHOT ...]`,
+// where a part is lag, hidden, tremble, poses or covariance, and a shot desk, virtual or one of the
+// workbench's; all without one. Takes minutes.
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstring>
@@ -166,26 +168,55 @@ void reportHidden(const std::vector<TruthSequence>& sequences) {
   }
 }
 
-int report(const std::set<std::string>& parts) {
+/// How much larger errors are than what was predicted, as a model on a tag shows them.
+void reportCovariance(const std::vector<TruthSequence>& sequences) {
+  std::printf(
+      "\n### Errors against predicted ones, px of a cube on a tag, RMS\n\n"
+      "| | seen: actual / predicted | hidden for 0.47 s: actual / predicted |\n"
+      "|---|---|---|\n");
+  for (const TruthSequence& sequence : sequences) {
+    for (const Layout layout : {Layout::kWorld, Layout::kLoose}) {
+      const Hiding hiding{.hiddenFrames = 14};
+      const auto plain = predictedErrors(sequence, trackAll(sequence, layout));
+      const auto hiddenTold = trackAll(sequence, layout, {}, hidden(hiding));
+      const auto covered = predictedErrors(sequence, hiddenTold, PoseSource::kCarried);
+      std::printf("| %s, %s | %.3f / %.3f = %.2f | %.3f / %.3f = %.2f |\n", sequence.name.c_str(),
+                  nameOf(layout), plain.actualPx, plain.predictedPx,
+                  plain.actualPx / plain.predictedPx, covered.actualPx, covered.predictedPx,
+                  covered.actualPx / covered.predictedPx);
+    }
+  }
+}
+
+constexpr std::array<const char*, 5> kParts{"lag", "hidden", "tremble", "poses", "covariance"};
+
+int report(const std::set<std::string>& words) {
+  std::set<std::string> parts;
+  std::set<std::string> names;
+  for (const std::string& word : words) {
+    (std::ranges::find(kParts, word) != kParts.end() ? parts : names).insert(word);
+  }
   const auto wants = [&](const char* part) { return parts.empty() || parts.contains(part); };
+  const auto wantsSequence = [&](const char* name) {
+    return names.empty() || names.contains(name);
+  };
   std::vector<TruthSequence> moving;
-  if (hasDeskSequence()) moving.push_back(readDesk());
-  if (hasVirtualCamera()) moving.push_back(readVirtualCamera());
+  if (hasDeskSequence() && wantsSequence("desk")) moving.push_back(readDesk());
+  if (hasVirtualCamera() && wantsSequence("virtual")) moving.push_back(readVirtualCamera());
   for (const SyntheticShot shot : {SyntheticShot::kWalkaround, SyntheticShot::kPan,
                                    SyntheticShot::kDolly, SyntheticShot::kRoll}) {
-    moving.push_back(bench(shot, 150));
+    if (wantsSequence(toString(shot).data())) moving.push_back(bench(shot, 150));
   }
   if (wants("lag")) reportLag(moving);
   if (wants("hidden")) reportHidden(moving);
-  if (wants("tremble") || wants("poses")) {
+  if (wantsSequence("still")) {
     const TruthSequence still = bench(SyntheticShot::kStill, 150);
     if (wants("tremble")) reportTremble(still);
     moving.push_back(still);
   }
-  if (wants("poses")) {
-    moving.push_back(bench(SyntheticShot::kOccluder, 180));
-    reportAllPoses(moving);
-  }
+  if (wantsSequence("occluder")) moving.push_back(bench(SyntheticShot::kOccluder, 180));
+  if (wants("poses")) reportAllPoses(moving);
+  if (wants("covariance")) reportCovariance(moving);
   return 0;
 }
 
