@@ -16,6 +16,7 @@
 #include <apriltag/tagStandard41h12.h>
 #include <apriltag/tagStandard52h13.h>
 #include <fmt/ranges.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace pleinair::tracking {
@@ -70,6 +71,55 @@ double squaredDistance(const TagCornersPx& a, const TagCornersPx& b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += glm::dot(a[i] - b[i], a[i] - b[i]);
   return sum;
+}
+
+/// Around a tag, its white border and what it may have moved by: a third of its size, or more for
+/// small ones. Aligned, so that reduced pictures of a part have the pixels of the whole one's.
+std::optional<PixelRect> partAround(const TagCornersPx& corners, hal::FrameSize size) {
+  constexpr double kMargin = 0.35;
+  constexpr double kLeastMarginPx = 16.0;
+  constexpr int kAlignment = 12;  // of all decimations
+  glm::dvec2 least = corners[0];
+  glm::dvec2 most = corners[0];
+  for (const glm::dvec2& corner : corners) {
+    least = glm::min(least, corner);
+    most = glm::max(most, corner);
+  }
+  const glm::dvec2 extent = most - least;
+  const glm::dvec2 margin(std::max({kMargin * extent.x, kMargin * extent.y, kLeastMarginPx}));
+  least -= margin;
+  most += margin;
+  if (!(most.x > 0.0 && most.y > 0.0 && least.x < size.width && least.y < size.height)) {
+    return std::nullopt;
+  }
+  const auto within = [](double px, int end) {
+    return static_cast<int>(std::clamp(px, 0.0, static_cast<double>(end)));
+  };
+  const auto aligned = [&](double px, int end) {
+    return within(px, end - std::min(end, kSmallestSearchedSidePx)) / kAlignment * kAlignment;
+  };
+  PixelRect part{.left = aligned(least.x, size.width),
+                 .top = aligned(least.y, size.height),
+                 .right = within(most.x, size.width),
+                 .bottom = within(most.y, size.height)};
+  part.right = std::min(size.width, std::max(part.right, part.left + kSmallestSearchedSidePx));
+  part.bottom = std::min(size.height, std::max(part.bottom, part.top + kSmallestSearchedSidePx));
+  if (part.right - part.left < kSmallestSearchedSidePx ||
+      part.bottom - part.top < kSmallestSearchedSidePx) {
+    return std::nullopt;
+  }
+  return part;
+}
+
+bool overlap(const PixelRect& a, const PixelRect& b) {
+  return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+}
+
+PixelRect hull(const PixelRect& a, const PixelRect& b) {
+  return {.left = std::min(a.left, b.left),
+          .top = std::min(a.top, b.top),
+          .right = std::max(a.right, b.right),
+          .bottom = std::max(a.bottom, b.bottom)};
 }
 
 }  // namespace
@@ -150,30 +200,75 @@ TagDetector::~TagDetector() = default;
 TagDetector::TagDetector(TagDetector&&) noexcept = default;
 TagDetector& TagDetector::operator=(TagDetector&&) noexcept = default;
 
-std::span<const TagDetection> TagDetector::detect(const hal::PlaneView& luma, hal::FrameSize size,
-                                                  DetectionCounters& counters,
-                                                  std::span<const ExpectedTag> expected) {
-  found_.clear();
-  const int shorterSide = std::min(size.width, size.height);
-  if (shorterSide < kSmallestSearchedSidePx) {  // the library crashes on a few pixels a side
-    ++counters.skippedSmallPicture;
-    return {};
+void findSearchParts(std::span<const ExpectedTag> expected, hal::FrameSize size,
+                     std::vector<PixelRect>& parts) {
+  parts.clear();
+  for (const ExpectedTag& tag : expected) {
+    const std::optional<PixelRect> part = partAround(tag.corners, size);
+    if (part) parts.push_back(*part);
   }
+  for (std::size_t i = 0; i < parts.size();) {
+    const auto other = std::find_if(parts.begin() + std::ptrdiff_t(i) + 1, parts.end(),
+                                    [&](const PixelRect& each) { return overlap(parts[i], each); });
+    if (other == parts.end()) {
+      ++i;
+      continue;
+    }
+    parts[i] = hull(parts[i], *other);
+    parts.erase(other);
+    i = 0;  // what was disjoint may now overlap
+  }
+}
+
+void TagDetector::search(const hal::PlaneView& luma, hal::FrameSize size, const PixelRect& part) {
+  const int width = part.right - part.left;
+  const int height = part.bottom - part.top;
   double decimation = options_.decimation.value_or(decimationFor(size));
-  if (shorterSide < kSmallestSearchedSidePx * decimation) decimation = 1.0;
+  if (std::min(width, height) < kSmallestSearchedSidePx * decimation) decimation = 1.0;
   handles_->detector->quad_decimate = static_cast<float>(decimation);
 
-  image_u8_t picture{.width = size.width,
-                     .height = size.height,
+  const std::size_t first =
+      static_cast<std::size_t>(part.top) * luma.strideBytes + static_cast<std::size_t>(part.left);
+  // Only read: quad_sigma is 0.
+  image_u8_t picture{.width = width,
+                     .height = height,
                      .stride = static_cast<std::int32_t>(luma.strideBytes),
-                     .buf = const_cast<std::uint8_t*>(luma.bytes.data())};  // read: quad_sigma is 0
+                     .buf = const_cast<std::uint8_t*>(luma.bytes.data() + first)};
   const DetectionsHandle found(apriltag_detector_detect(handles_->detector.get(), &picture),
                                apriltag_detections_destroy);
   for (int i = 0; i < zarray_size(found.get()); ++i) {
     apriltag_detection_t* one = nullptr;
     zarray_get(found.get(), i, &one);
-    found_.push_back(toDetection(*one));
+    TagDetection& tag = found_.emplace_back(toDetection(*one));
+    for (glm::dvec2& corner : tag.corners) corner += glm::dvec2(part.left, part.top);
   }
+}
+
+std::span<const TagDetection> TagDetector::detect(const hal::PlaneView& luma, hal::FrameSize size,
+                                                  DetectionCounters& counters,
+                                                  std::span<const ExpectedTag> expected) {
+  found_.clear();
+  if (std::min(size.width, size.height) < kSmallestSearchedSidePx) {
+    ++counters.skippedSmallPicture;  // the library crashes on a few pixels a side
+    return {};
+  }
+  search(luma, size, {.left = 0, .top = 0, .right = size.width, .bottom = size.height});
+  selectDetections(found_, options_, counters, expected);
+  return found_;
+}
+
+std::span<const TagDetection> TagDetector::detectExpected(const hal::PlaneView& luma,
+                                                          hal::FrameSize size,
+                                                          DetectionCounters& counters,
+                                                          std::span<const ExpectedTag> expected) {
+  findSearchParts(expected, size, parts_);
+  std::int64_t area = 0;
+  for (const PixelRect& part : parts_) {
+    area += std::int64_t{part.right - part.left} * (part.bottom - part.top);
+  }
+  if (area > size.pixels() / 2) return detect(luma, size, counters, expected);
+  found_.clear();
+  for (const PixelRect& part : parts_) search(luma, size, part);
   selectDetections(found_, options_, counters, expected);
   return found_;
 }

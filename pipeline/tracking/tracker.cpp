@@ -45,6 +45,13 @@ std::optional<TagCornersPx> projectedCorners(const CameraModel& camera,
   return corners;
 }
 
+bool isInside(const TagCornersPx& corners, const CameraModel& camera) {
+  return std::ranges::all_of(corners, [&](const glm::dvec2& px) {
+    return px.x > 0.0 && px.y > 0.0 && px.x < camera.imageSize().width &&
+           px.y < camera.imageSize().height;
+  });
+}
+
 double leastEdge(const TagCornersPx& corners) {
   double least = glm::distance(corners[3], corners[0]);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -93,17 +100,16 @@ void Tracker::reset() {
   for (Target& target : targets_) target.pose.reset();
   std::ranges::fill(isWithWorld_, std::uint8_t{0});
   features_.reset();
+  tags_.clear();
+  expected_.clear();
+  searched_.reset();
 }
 
 TrackingResult Tracker::track(const hal::ImageView& image, hal::TimePoint captureTime) {
   assert(!camera_ || camera_->imageSize() == image.format.size);
   const hal::PlaneView luma = luma_.convert(image);
   if (camera_) predict(luma, image.format.size, captureTime);
-  tags_.clear();
-  for (const TagDetection& detection :
-       detector_.detect(luma, image.format.size, counters_.detection, expected_)) {
-    tags_.push_back({.id = detection.id, .corners = detection.corners});
-  }
+  findTags(luma, image.format.size, captureTime);
   TrackingResult result;
   if (camera_) {
     findSightings();
@@ -127,15 +133,46 @@ void Tracker::predict(const hal::PlaneView& luma, hal::FrameSize size, hal::Time
   expectTags(now);
 }
 
-/// Where tags should be, by what was known before this frame.
+/// Where tags should be, by what was known before this frame: those of the scene as predicted,
+/// others where they were.
 void Tracker::expectTags(hal::TimePoint now) {
   expected_.clear();
+  for (const TrackedTag& tag : tags_) {
+    if (!tag.cameraFromTag) expected_.push_back({.id = tag.id, .corners = tag.corners});
+  }
   for (std::size_t i = 0; i < markers_.size(); ++i) {
-    const std::optional<PoseEstimate> pose = drawnTag(i, now);
+    std::optional<PoseEstimate> pose = drawnTag(i, now);
+    if (!pose) pose = worldTag(i, now);
     if (!pose) continue;
     const auto corners = projectedCorners(*camera_, pose->cameraFromTarget, markers_[i].edgeMetres);
     if (corners) expected_.push_back({.id = markers_[i].id, .corners = *corners});
   }
+}
+
+void Tracker::findTags(const hal::PlaneView& luma, hal::FrameSize size, hal::TimePoint now) {
+  if (!needsSearch(now)) {
+    takeTags(detector_.detectExpected(luma, size, counters_.detection, expected_));
+    if (!tags_.empty()) return;
+  }
+  searched_ = now;
+  takeTags(detector_.detect(luma, size, counters_.detection, expected_));
+}
+
+/// Whether to search the whole picture: nothing is known, something is missed, or it is time.
+bool Tracker::needsSearch(hal::TimePoint now) const {
+  if (expected_.empty() || !searched_ || now < *searched_) return true;
+  return now - *searched_ >= (isMissing_ ? options_.searchPeriod / 2 : options_.searchPeriod);
+}
+
+void Tracker::takeTags(std::span<const TagDetection> detections) {
+  tags_.clear();
+  for (const TagDetection& detection : detections) {
+    tags_.push_back({.id = detection.id, .corners = detection.corners});
+  }
+  isMissing_ = std::ranges::any_of(expected_, [&](const ExpectedTag& tag) {
+    return std::ranges::find(tags_, tag.id, &TrackedTag::id) == tags_.end() &&
+           isInside(tag.corners, *camera_);
+  });
 }
 
 void Tracker::findSightings() {
@@ -243,7 +280,12 @@ void Tracker::findPlanes(std::size_t marker) {
 
 /// A marker's pose: the world's, or its own.
 std::optional<PoseEstimate> Tracker::drawnTag(std::size_t marker, hal::TimePoint now) const {
-  if (isWithWorld_[marker] == 0) return targets_[marker].pose.drawn(now);
+  return isWithWorld_[marker] != 0 ? worldTag(marker, now) : targets_[marker].pose.drawn(now);
+}
+
+/// Where the world puts a marker.
+std::optional<PoseEstimate> Tracker::worldTag(std::size_t marker, hal::TimePoint now) const {
+  if (!markers_[marker].worldFromTag) return std::nullopt;
   std::optional<PoseEstimate> pose = world_.pose.drawn(now);
   if (!pose) return pose;
   const glm::dmat4& worldFromTag = *markers_[marker].worldFromTag;

@@ -57,6 +57,9 @@ struct TrackingResult {
 struct TrackerOptions {
   TagDetectorOptions detector;
   TargetPoseOptions poses;
+  /// The whole picture is searched for tags at least so often; between, only where known ones must
+  /// be. Zero: always.
+  hal::Duration searchPeriod = std::chrono::milliseconds(150);
   /// The least edge of a tag in the picture whose pose is used.
   double leastEdgePx = 12.0;
 };
@@ -91,6 +94,9 @@ class Tracker {
 
   void predict(const hal::PlaneView& luma, hal::FrameSize size, hal::TimePoint now);
   void expectTags(hal::TimePoint now);
+  void findTags(const hal::PlaneView& luma, hal::FrameSize size, hal::TimePoint now);
+  bool needsSearch(hal::TimePoint now) const;
+  void takeTags(std::span<const TagDetection> detections);
   void findSightings();
   void solveWorld(hal::TimePoint now);
   void solveTag(const Sighting& sighting, hal::TimePoint now);
@@ -101,6 +107,7 @@ class Tracker {
   void publishCarried(std::size_t marker, hal::TimePoint now);
   void publishWorld(hal::TimePoint now, TrackingResult& result) const;
   std::optional<PoseEstimate> drawnTag(std::size_t marker, hal::TimePoint now) const;
+  std::optional<PoseEstimate> worldTag(std::size_t marker, hal::TimePoint now) const;
   static std::optional<PosePrior> prior(const Target& target);
 
   std::optional<CameraModel> camera_;
@@ -120,7 +127,9 @@ class Tracker {
   std::vector<glm::dvec3> worldModel_;           // points that must look right
   std::vector<std::vector<glm::dvec3>> models_;  // of each marker
   hal::TimePoint keyMade_;
-  std::vector<TrackedTag> tags_;  // of the last frame, as all below
+  std::optional<hal::TimePoint> searched_;  // the whole picture
+  bool isMissing_ = false;                  // an expected tag, in the last frame
+  std::vector<TrackedTag> tags_;            // of the last frame, as all below
   std::vector<ExpectedTag> expected_;
   std::vector<Sighting> sightings_;
   std::vector<WorldTag> worldTags_;            // the sightings with a place in the world
