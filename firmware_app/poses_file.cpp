@@ -17,10 +17,15 @@ Json rowMajor(const glm::dmat4& matrix) {
   return numbers;
 }
 
+const char* nameOf(tracking::PoseSource source) {
+  return source == tracking::PoseSource::kSeen ? "seen" : "carried";
+}
+
 Json tagJson(const tracking::TrackedTag& tag) {
   Json json{{"id", tag.id}, {"corners", Json::array()}};
   for (const glm::dvec2& corner : tag.corners) json["corners"].push_back({corner.x, corner.y});
   if (tag.cameraFromTag) json["cameraFromTag"] = rowMajor(*tag.cameraFromTag);
+  if (tag.source != tracking::PoseSource::kSeen) json["source"] = nameOf(tag.source);
   return json;
 }
 
@@ -29,9 +34,17 @@ Json tagJson(const tracking::TrackedTag& tag) {
 std::string posesLine(std::uint64_t frame, hal::Duration time,
                       const tracking::TrackingResult& tracking) {
   Json json{{"frame", frame}, {"time_s", std::chrono::duration<double>(time).count()}};
-  if (tracking.cameraFromWorld) json["cameraFromWorld"] = rowMajor(*tracking.cameraFromWorld);
+  if (tracking.cameraFromWorld) {
+    json["cameraFromWorld"] = rowMajor(*tracking.cameraFromWorld);
+    if (tracking.worldSource != tracking::PoseSource::kSeen) {
+      json["worldSource"] = nameOf(tracking.worldSource);
+    }
+  }
   json["tags"] = Json::array();
   for (const tracking::TrackedTag& tag : tracking.tags) json["tags"].push_back(tagJson(tag));
+  for (const tracking::Rejection& rejection : tracking::rejections(tracking.counted)) {
+    if (rejection.count > 0) json["rejected"][std::string(rejection.reason)] = rejection.count;
+  }
   return json.dump() + "\n";
 }
 

@@ -15,10 +15,13 @@ namespace pleinair::app {
 ///   frame           counted from 0
 ///   time_s          since the first frame
 ///   cameraFromWorld 16 numbers by rows; absent without a world or when lost
+///   worldSource     "carried" where no tag tells it in this frame, but features of the picture do
 ///   tags            by rising id: id; corners, 4 × [x, y] px of the captured frame, pixel centres
 ///   at
 ///                   +0.5, AprilTag's order; cameraFromTag (AprilTag's tag frame), where the tag's
-///                   size and the camera are known
+///                   size and the camera are known; source: "carried" where it is not seen
+///   rejected        what was read and not used, by reason, where anything was: faint, duplicate,
+///                   unknown, mirrored, small, degenerate; ambiguous and contradicting are used
 class PosesFile {
  public:
   /// Errors as PendingFile::create. Nothing stands under the name until publish().

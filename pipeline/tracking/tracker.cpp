@@ -17,6 +17,9 @@ namespace {
 /// Key frames are made no more often than this, unless something new is seen.
 constexpr hal::Duration kKeyPeriod = std::chrono::milliseconds(60);
 
+/// How often a picture without tags is searched for mirrored ones.
+constexpr hal::Duration kMirrorPeriod = std::chrono::seconds(1);
+
 /// The corners of a cube on a tag.
 std::vector<glm::dvec3> standingOn(double edgeMetres) {
   std::vector<glm::dvec3> points;
@@ -103,10 +106,12 @@ void Tracker::reset() {
   tags_.clear();
   expected_.clear();
   searched_.reset();
+  searchedMirrored_.reset();
 }
 
 TrackingResult Tracker::track(const hal::ImageView& image, hal::TimePoint captureTime) {
   assert(!camera_ || camera_->imageSize() == image.format.size);
+  const TrackingCounters before = counters_;
   const hal::PlaneView luma = luma_.convert(image);
   if (camera_) predict(luma, image.format.size, captureTime);
   findTags(luma, image.format.size, captureTime);
@@ -121,6 +126,7 @@ TrackingResult Tracker::track(const hal::ImageView& image, hal::TimePoint captur
     publishWorld(captureTime, result);
   }
   result.tags = tags_;
+  result.counted = countedSince(before, counters_);
   return result;
 }
 
@@ -156,6 +162,30 @@ void Tracker::findTags(const hal::PlaneView& luma, hal::FrameSize size, hal::Tim
   }
   searched_ = now;
   takeTags(detector_.detect(luma, size, counters_.detection, expected_));
+  if (tags_.empty()) searchMirrored(luma, size, now);
+}
+
+/// A camera that mirrors its picture shows no tag at all. Once a second without any, that is looked
+/// for, so that the counters can say it.
+void Tracker::searchMirrored(const hal::PlaneView& luma, hal::FrameSize size, hal::TimePoint now) {
+  if (markers_.empty() || std::min(size.width, size.height) < kSmallestSearchedSidePx) return;
+  const bool isEarly =
+      searchedMirrored_ && now >= *searchedMirrored_ && now - *searchedMirrored_ < kMirrorPeriod;
+  if (isEarly) return;
+  searchedMirrored_ = now;
+  const auto width = static_cast<std::size_t>(size.width);
+  mirrored_.resize(width * static_cast<std::size_t>(size.height));
+  for (std::size_t y = 0; y < static_cast<std::size_t>(size.height); ++y) {
+    std::ranges::reverse_copy(luma.bytes.subspan(y * luma.strideBytes, width),
+                              mirrored_.begin() + static_cast<std::ptrdiff_t>(y * width));
+  }
+  DetectionCounters uncounted;
+  const hal::PlaneView plane{.bytes = mirrored_, .strideBytes = width};
+  for (const TagDetection& tag : detector_.detect(plane, size, uncounted)) {
+    if (std::ranges::find(markers_, tag.id, &TagMarker::id) != markers_.end()) {
+      ++counters_.mirroredTags;
+    }
+  }
 }
 
 /// Whether to search the whole picture: nothing is known, something is missed, or it is time.

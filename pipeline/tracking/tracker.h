@@ -17,6 +17,7 @@
 #include "pipeline/tracking/tag_marker.h"
 #include "pipeline/tracking/tag_pose.h"
 #include "pipeline/tracking/target_pose.h"
+#include "pipeline/tracking/tracking_counters.h"
 #include "pipeline/tracking/twin_choice.h"
 #include "pipeline/tracking/world_pose.h"
 
@@ -33,16 +34,6 @@ struct TrackedTag {
   PoseSource source = PoseSource::kSeen;
 };
 
-/// What was not used, by reason; sums over a Tracker's life.
-struct TrackingCounters {
-  DetectionCounters detection;
-  std::uint32_t unknownTags = 0;        ///< ids that are not in the scene
-  std::uint32_t smallTags = 0;          ///< too few pixels for a pose
-  std::uint32_t degenerateTags = 0;     ///< corners that allow no pose
-  std::uint32_t ambiguousTags = 0;      ///< nothing told the pose from its twin
-  std::uint32_t contradictingTags = 0;  ///< not where the other tags put them
-};
-
 struct TrackingResult {
   /// By rising id, each id once; the Tracker's, valid until its next track(). Carried ones too.
   std::span<const TrackedTag> tags;
@@ -52,6 +43,7 @@ struct TrackingResult {
   double worldRmsPx = 0.0;             ///< reprojection error of the tags that agree, last seen
   double worldRotationSigmaRad = 0.0;  ///< predicted, over all axes
   double worldTranslationSigmaMetres = 0.0;
+  TrackingCounters counted;  ///< in this frame
 };
 
 struct TrackerOptions {
@@ -60,8 +52,9 @@ struct TrackerOptions {
   /// The whole picture is searched for tags at least so often; between, only where known ones must
   /// be. Zero: always.
   hal::Duration searchPeriod = std::chrono::milliseconds(150);
-  /// The least edge of a tag in the picture whose pose is used.
-  double leastEdgePx = 12.0;
+  /// The least edge of a tag in the picture whose pose is used: of smaller ones, every eighth pose
+  /// is its twin (docs/measured.md).
+  double leastEdgePx = 15.0;
 };
 
 /// Finds tags and poses, frame by frame, in buffers that it keeps. One thread at a time.
@@ -96,6 +89,7 @@ class Tracker {
   void expectTags(hal::TimePoint now);
   void findTags(const hal::PlaneView& luma, hal::FrameSize size, hal::TimePoint now);
   bool needsSearch(hal::TimePoint now) const;
+  void searchMirrored(const hal::PlaneView& luma, hal::FrameSize size, hal::TimePoint now);
   void takeTags(std::span<const TagDetection> detections);
   void findSightings();
   void solveWorld(hal::TimePoint now);
@@ -129,7 +123,9 @@ class Tracker {
   hal::TimePoint keyMade_;
   std::optional<hal::TimePoint> searched_;  // the whole picture
   bool isMissing_ = false;                  // an expected tag, in the last frame
-  std::vector<TrackedTag> tags_;            // of the last frame, as all below
+  std::optional<hal::TimePoint> searchedMirrored_;
+  std::vector<std::uint8_t> mirrored_;  // the picture
+  std::vector<TrackedTag> tags_;        // of the last frame, as all below
   std::vector<ExpectedTag> expected_;
   std::vector<Sighting> sightings_;
   std::vector<WorldTag> worldTags_;            // the sightings with a place in the world
