@@ -1,0 +1,125 @@
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "pipeline/tracking/tracker.h"
+#include "tests/support/tag_scene.h"
+
+namespace pleinair::tracking {
+namespace {
+
+using namespace std::chrono_literals;
+using support::poseOf;
+using support::SceneTag;
+
+constexpr double kEdge = 0.06;
+
+CameraModel webcam() {
+  return {{.fx = 600.0, .fy = 600.0, .cx = 320.0, .cy = 240.0}, {}, {640, 480}};
+}
+
+hal::Image picture(const std::vector<SceneTag>& tags,
+                   const support::TagPictureOptions& options = {.noiseSigma = 1.0}) {
+  return support::renderTags(webcam(), glm::dmat4(1.0), tags, options);
+}
+
+SceneTag tagAt(int id, const glm::dvec3& position) {
+  return {.id = id, .edgeMetres = kEdge, .worldFromTag = poseOf({0.5, 0.1, 0.2}, position)};
+}
+
+std::uint32_t countOf(const TrackingCounters& counters, std::string_view reason) {
+  const auto all = rejections(counters);
+  const auto found = std::ranges::find(all, reason, &Rejection::reason);
+  return found == all.end() ? 999 : found->count;
+}
+
+/// What was rejected in all; the reasons that are only noted are not.
+std::uint32_t sumOf(const TrackingCounters& counters) {
+  std::uint32_t sum = 0;
+  for (const Rejection& each : rejections(counters)) {
+    if (each.reason != "ambiguous" && each.reason != "contradicting") sum += each.count;
+  }
+  return sum;
+}
+
+TEST(TagRejection, NothingIsCountedWhereAllIsWell) {
+  Tracker tracker(webcam(), {{.id = 4, .edgeMetres = kEdge}});
+  const hal::Image image = picture({tagAt(4, {0, 0, 0.6})});
+  EXPECT_TRUE(tracker.track(image.view(), {}).tags[0].cameraFromTag);
+  EXPECT_EQ(sumOf(tracker.counters()), 0U);
+}
+
+TEST(TagRejection, AnIdThatIsNotInTheSceneHasNoPose) {
+  Tracker tracker(webcam(), {{.id = 4, .edgeMetres = kEdge}});
+  const hal::Image image = picture({tagAt(9, {0, 0, 0.6})});
+  const TrackingResult result = tracker.track(image.view(), {});
+  ASSERT_EQ(result.tags.size(), 1U);
+  EXPECT_FALSE(result.tags[0].cameraFromTag);
+  EXPECT_EQ(countOf(result.counted, "unknown"), 1U);
+  EXPECT_EQ(sumOf(result.counted), 1U);
+}
+
+TEST(TagRejection, AMirroredPictureIsToldOnceASecond) {
+  hal::Image image = picture({tagAt(4, {0, 0, 0.6})});
+  for (int y = 0; y < 480; ++y) std::ranges::reverse(image.row(0, y));
+  Tracker tracker(webcam(), {{.id = 4, .edgeMetres = kEdge}});
+  for (int i = 0; i < 40; ++i) {
+    EXPECT_TRUE(tracker.track(image.view(), hal::TimePoint(33ms * i)).tags.empty());
+  }
+  EXPECT_EQ(countOf(tracker.counters(), "mirrored"), 2U);
+  EXPECT_EQ(sumOf(tracker.counters()), 2U);
+}
+
+/// Two of the same id: the one that was there goes on, although the other is nearer and clearer.
+TEST(TagRejection, OfDuplicatesTheOneThatWasThereGoesOn) {
+  Tracker tracker(webcam(), {{.id = 4, .edgeMetres = kEdge}});
+  const glm::dvec3 place(-0.15, 0.0, 0.8);
+  const hal::Image alone = picture({tagAt(4, place)});
+  const hal::Image both = picture({tagAt(4, place), tagAt(4, {0.1, 0.0, 0.45})});
+  const auto positionIn = [&](const hal::Image& image, int frame) {
+    const TrackingResult result = tracker.track(image.view(), hal::TimePoint(200ms * frame));
+    EXPECT_EQ(result.tags.size(), 1U);
+    return glm::dvec3((*result.tags[0].cameraFromTag)[3]);
+  };
+  EXPECT_LT(glm::distance(positionIn(alone, 0), place), 0.01);
+  for (int i = 1; i < 4; ++i) EXPECT_LT(glm::distance(positionIn(both, i), place), 0.01);
+  EXPECT_EQ(countOf(tracker.counters(), "duplicate"), 3U);
+
+  tracker.reset();  // nothing is known: the clearer
+  EXPECT_GT(glm::distance(positionIn(both, 5), place), 0.1);
+}
+
+TEST(TagRejection, AVerySmallTagHasNoPose) {
+  Tracker tracker(webcam(), {{.id = 4, .edgeMetres = kEdge}}, {.leastEdgePx = 40.0});
+  const auto edgeAt = [&](double metres) {
+    const hal::Image image = picture(
+        {{.id = 4, .edgeMetres = kEdge, .worldFromTag = poseOf({0.0, 0.0, 0.1}, {0, 0, metres})}});
+    tracker.reset();
+    return tracker.track(image.view(), {});
+  };
+  EXPECT_TRUE(edgeAt(0.85).tags[0].cameraFromTag);  // 42 px
+  EXPECT_EQ(countOf(tracker.counters(), "small"), 0U);
+  const TrackingResult small = edgeAt(0.95);  // 38 px
+  ASSERT_EQ(small.tags.size(), 1U);
+  EXPECT_FALSE(small.tags[0].cameraFromTag);
+  EXPECT_EQ(countOf(tracker.counters(), "small"), 1U);
+}
+
+/// A small tag, of which the quad has contrast enough, but the bits run into each other.
+TEST(TagRejection, ATagWithFaintBitsIsNone) {
+  TrackerOptions options;
+  options.detector.minDecisionMargin = 60.0;
+  Tracker tracker(webcam(), {{.id = 4, .edgeMetres = kEdge}}, options);
+  const hal::Image small = picture({tagAt(4, {0, 0, 1.6})}, {.black = 50.0, .white = 185.0});
+  EXPECT_TRUE(tracker.track(small.view(), {}).tags.empty());
+  EXPECT_EQ(countOf(tracker.counters(), "faint"), 1U);
+  const hal::Image large = picture({tagAt(4, {0, 0, 0.5})}, {.black = 50.0, .white = 185.0});
+  EXPECT_EQ(tracker.track(large.view(), hal::TimePoint(33ms)).tags.size(), 1U);
+}
+
+}  // namespace
+}  // namespace pleinair::tracking
