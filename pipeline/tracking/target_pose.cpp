@@ -12,6 +12,9 @@ namespace {
 /// A feature's noise in pictures up to 640 px wide; those of wider ones are followed reduced.
 constexpr double kFeatureNoisePx = 0.12;
 constexpr double kFollowedSidePx = 640.0;
+/// The part of a sighting's variance that others from the same place share, so that no filter
+/// averages it away: what a corner's edges, lens and pixels do to it (docs/measured.md).
+constexpr double kShared = 0.25;
 /// A sighting further than this from what was predicted, in sigmas and px, puts that in doubt.
 constexpr double kDoubtSigmas = 3.0;
 constexpr double kDoubtPx = 0.5;
@@ -119,6 +122,7 @@ void TargetPose::see(const CameraModel& camera, std::span<const FeatureTrack> tr
   last_ = now;
   source_ = PoseSource::kSeen;
   rmsPx_ = seen.rmsPx;
+  shared_ = kShared * seen.covariance;
   isKnown_ = true;
   if (!wasKnown || !options_.filters) {
     filter_.start(seen);

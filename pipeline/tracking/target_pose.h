@@ -89,6 +89,7 @@ class TargetPose {
   SmallMotion offset_;      ///< from the filtered pose to the drawn one, when blending began
   hal::TimePoint blendFrom_;
   PoseSource source_ = PoseSource::kSeen;
+  PoseCovariance shared_{};  ///< of what all sightings from here are wrong by alike
   double rmsPx_ = 0.0;
 };
 
