@@ -21,10 +21,12 @@
 #include "firmware_app/overloaded.h"
 #include "hal/cameras/recording/picture_paths.h"
 #include "hal/cameras/recording/recording.h"
+#include "hal/libav/picture_file.h"
 #include "hal/numbered_path.h"
 #include "hal/pending_file.h"
 #include "pipeline/calibration/calibration_text.h"
 #include "pipeline/calibration/session.h"
+#include "pipeline/calibration/view_picture.h"
 #include "pipeline/tracking/calibration_file.h"
 
 namespace pleinair::app {
@@ -65,6 +67,20 @@ bool replacesCalibration(const fs::path& output) {
   return true;
 }
 
+/// Where pictures of views go, which are numbered: others of an earlier run would mix with them.
+void requireEmptyFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder)) {
+    refuse(hal::ErrorKind::kInvalidArgument, folder.string(),
+           "cannot make the folder: " + error.message(), "give another --views-folder");
+  }
+  if (!fs::is_empty(folder, error)) {
+    refuse(hal::ErrorKind::kInvalidArgument, folder.string(), "is not empty",
+           "give --views-folder a new or an empty folder");
+  }
+}
+
 /// One calibration: where pictures come from, and where it goes.
 class Calibrating {
  public:
@@ -91,6 +107,7 @@ class Calibrating {
       return kSignalExitBase + signal;
     }
     const CalibrationReport report = session_.solve();
+    if (options_.viewsFolder) writeViews(report);  // of a refused one too: they show why
     if (!report.isGood()) refuseReport(report);
     const std::string text = calibration::calibrationText(session_.board(), report);
     hal::orThrow(file_.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
@@ -150,6 +167,19 @@ class Calibrating {
   void warn(const std::string& text) {
     progress_.interrupt();
     spdlog::warn("{}", text);
+  }
+
+  void writeViews(const CalibrationReport& report) const {
+    const calibration::ViewSelector& selector = session_.selector();
+    for (std::size_t i = 0; i < selector.views().size(); ++i) {
+      const calibration::SelectedView& view = selector.views()[i];
+      const hal::Image picture = calibration::viewPicture(session_.pictureOf(view).view(), view, i,
+                                                          session_.board(), report);
+      hal::orThrow(hal::writePng(*options_.viewsFolder / fmt::format("view-{:02}.png", i + 1),
+                                 picture.view()));
+    }
+    const hal::Image coverage = coveragePicture(selector, report, format_.frame.size);
+    hal::orThrow(hal::writePng(*options_.viewsFolder / "coverage.png", coverage.view()));
   }
 
   [[noreturn]] void refuseReport(const CalibrationReport& report) const {
@@ -213,6 +243,7 @@ int calibrate(const CalibrateOptions& options) {
     boardOf(options.board);  // what is wrong with it shows before a camera is opened
     if (!options.input) refuseSlipOfCamera(configuration);
     refuseCollisionsOf(options, configuration);
+    if (options.viewsFolder) requireEmptyFolder(*options.viewsFolder);
     if (options.input) {
       hal::SteppedClock clock;
       const auto recording = hal::openRecording(*options.input, clock);

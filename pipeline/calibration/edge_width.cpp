@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kLeastContrast = 12.0;  // grey levels
 constexpr double kLongestReachPx = 10.0;
-constexpr double kShortestReachPx = 2.0;
+constexpr double kShortestReachPx = 3.0;  // what is blurred beyond its reach would look sharp
 constexpr int kStepsPerPx = 4;
 
 /// Bilinear; pixel centres at +0.5. Precondition: at least 1 px inside of the picture.

@@ -20,6 +20,7 @@ constexpr double kSameView = 0.025;     // of the diagonal, the corners' mean di
 constexpr double kDistinctView = 0.08;  // taken although it fills nothing that is wanted
 constexpr double kSharperShare = 0.85;
 constexpr std::size_t kEnoughViews = 15;
+constexpr std::size_t kSharpestCount = 5;
 constexpr hal::Duration kLongestPause = std::chrono::milliseconds(500);
 
 }  // namespace
@@ -46,8 +47,13 @@ ViewSelector::ViewSelector(const Board& board, hal::FrameSize size, ViewSelectio
       options_(options),
       diagonalPx_(std::hypot(size.width, size.height)) {}
 
+double ViewSelector::sharpestEdgePx() const {
+  if (sharpest_.empty()) return 0.0;
+  return sharpest_.size() < kSharpestCount ? sharpest_.front() : sharpest_.back();
+}
+
 double ViewSelector::widestEdgePx() const {
-  return sharpestPx_ > 0.0 ? std::min(kWidestEdgePx, kBlurShare * sharpestPx_) : kWidestEdgePx;
+  return sharpest_.empty() ? kWidestEdgePx : std::min(kWidestEdgePx, kBlurShare * sharpestEdgePx());
 }
 
 bool ViewSelector::isComplete() const {
@@ -83,8 +89,8 @@ std::optional<double> ViewSelector::speedOf(hal::TimePoint time,
 }
 
 void ViewSelector::noteSharpness(double edgeWidthPx) {
-  if (sharpestPx_ > 0.0 && edgeWidthPx >= sharpestPx_) return;
-  sharpestPx_ = edgeWidthPx;
+  sharpest_.insert(std::ranges::upper_bound(sharpest_, edgeWidthPx), edgeWidthPx);
+  if (sharpest_.size() > kSharpestCount) sharpest_.pop_back();
   for (std::size_t i = views_.size(); i-- > 0;) {
     if (views_[i].sighting.edgeWidthPx > widestEdgePx()) drop(i);
   }

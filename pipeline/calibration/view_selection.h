@@ -48,8 +48,9 @@ class ViewSelector {
   const std::vector<SelectedView>& views() const { return views_; }
   const Coverage& coverage() const { return coverage_; }
   const ViewCounts& counts() const { return counts_; }
-  /// The sharpest board that was seen; 0 before any.
-  double sharpestEdgePx() const { return sharpestPx_; }
+  /// How sharp the board has been seen; 0 before. Of the fifth sharpest picture, once there are
+  /// five: a single one may be a mistake.
+  double sharpestEdgePx() const;
   /// Boards whose edges are wider than this are not taken.
   double widestEdgePx() const;
   /// Whether all that is wanted is there, and enough views.
@@ -75,7 +76,7 @@ class ViewSelector {
   std::vector<SelectedView> views_;
   Coverage coverage_;
   ViewCounts counts_;
-  double sharpestPx_ = 0.0;
+  std::vector<double> sharpest_;  ///< edge widths, rising; the first few
   std::optional<BoardSighting> last_;
   hal::TimePoint lastTime_;
 };
