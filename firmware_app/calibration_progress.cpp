@@ -36,8 +36,14 @@ std::string_view fateText(ViewFate fate) {
 }
 
 std::string wishText(const ViewSelector& selector) {
+  if (selector.counts().withBoard == 0) return "show the board, all of it";
   if (const auto wish = selector.coverage().nextWish()) return *wish;
   return selector.isComplete() ? "enough" : "show it in a few more ways";
+}
+
+std::string viewsText(const ViewSelector& selector) {
+  const std::size_t views = selector.views().size();
+  return fmt::format("{} {}", views, views == 1 ? "view" : "views");
 }
 
 std::string cellsText(const Coverage& coverage, int row) {
@@ -65,8 +71,8 @@ std::vector<std::string> coveragePanel(const ViewSelector& selector, ViewFate la
   const Coverage& coverage = selector.coverage();
   const calibration::ViewCounts& counts = selector.counts();
   const std::array<std::string, calibration::kCellRows> beside{
-      fmt::format("{} views; the board in {} of {} pictures", selector.views().size(),
-                  counts.withBoard, counts.pictures),
+      fmt::format("{}; the board in {} of {} pictures", viewsText(selector), counts.withBoard,
+                  counts.pictures),
       tiltsText(coverage),
       fmt::format("{:.0f} % of the picture reached", coverage.coveredShare() * 100.0),
       selector.sharpestEdgePx() > 0.0

@@ -188,7 +188,7 @@ class Calibrating {
     std::string remedy = report.refusals.front().remedy;
     if (report.refusals.front().reason == calibration::RefusalReason::kNoBoard) {
       if (const auto other = session_.otherBoard()) {
-        reasons.push_back("but there is " + *other);
+        reasons.push_back("there is " + *other + " instead");
       }
     }
     refuse(hal::ErrorKind::kInvalidInput, subject_,

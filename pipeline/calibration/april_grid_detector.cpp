@@ -111,13 +111,18 @@ class AprilGridDetector final : public BoardDetector {
     if (found.empty()) return {};  // in a row
     const cv::Matx33d pictureFromBoard(found);
     std::vector<SightedCorner> corners;
-    for (const GridTag& tag : tags) addCorners(tag, pictureFromBoard, corners);
+    std::size_t inPlace = 0;
+    for (const GridTag& tag : tags) inPlace += addCorners(tag, pictureFromBoard, corners) ? 1 : 0;
+    // Another grid's ids are elsewhere.
+    constexpr double kLeastInPlace = 0.75;
+    if (static_cast<double>(inPlace) < kLeastInPlace * static_cast<double>(tags.size())) return {};
     return corners;
   }
 
   /// Each of the four at the detected corner that is nearest to where it should be, relative to the
   /// centre, which a lens moves more than it bends a tag.
-  void addCorners(const GridTag& tag, const cv::Matx33d& pictureFromBoard,
+  /// False where the tag is not where the grid has it.
+  bool addCorners(const GridTag& tag, const cv::Matx33d& pictureFromBoard,
                   std::vector<SightedCorner>& corners) const {
     const std::size_t first = firstCorner(tag);
     const auto project = [&](const glm::dvec3& point) {
@@ -126,6 +131,7 @@ class AprilGridDetector final : public BoardDetector {
     };
     const glm::dvec2 shift =
         centreOf(tag.seen) - project((board_.corners()[first] + board_.corners()[first + 2]) / 2.0);
+    if (glm::length(shift) > edgePx(tag.seen)) return false;
     std::array<bool, 4> isTaken{};
     std::array<SightedCorner, 4> four{};
     for (std::size_t i = 0; i < 4; ++i) {
@@ -140,8 +146,9 @@ class AprilGridDetector final : public BoardDetector {
       isTaken[nearest] = true;
       four[i] = {static_cast<int>(first + i), tag.seen.corners[nearest]};
     }
-    if (std::ranges::count(isTaken, true) < 4) return;  // this tag lies askew: not of the grid
+    if (std::ranges::count(isTaken, true) < 4) return false;
     corners.insert(corners.end(), four.begin(), four.end());
+    return true;
   }
 
   const Board& board_;

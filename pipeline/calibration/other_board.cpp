@@ -30,7 +30,7 @@ std::optional<std::string> tagsIn(const hal::PlaneView& luma, hal::FrameSize siz
   tracking::DetectionCounters counters;
   const auto tags = detector.detect(luma, size, counters);
   if (tags.empty()) return std::nullopt;
-  return fmt::format("{} tags of {}, ids {} to {}", tags.size(), tracking::kDefaultTagFamily,
+  return fmt::format("a board with tags of {} from id {} to {}", tracking::kDefaultTagFamily,
                      tags.front().id, tags.back().id);
 }
 

@@ -73,10 +73,11 @@ Refusal tooFewViews(const ViewSelector& selector, std::size_t usable) {
                         counts.moving, counts.withBoard),
             "hold the board still for a second at each place"};
   }
-  return {RefusalReason::kTooFewViews,
-          fmt::format("{} different views of the board in {} pictures{}, and it takes {}", usable,
-                      counts.pictures, countsText(counts), kFewestViews),
-          "show the board in more places and tilted more ways"};
+  return {
+      RefusalReason::kTooFewViews,
+      fmt::format("only {} of {} pictures {} of use{}, and it takes {}", usable, counts.pictures,
+                  usable == 1 ? "is" : "are", countsText(counts), kFewestViews),
+      "show the board in more places and tilted more ways"};
 }
 
 void judgeCoverage(const CalibrationReport& report, std::vector<Refusal>& refusals) {
