@@ -1,6 +1,7 @@
 #include "tests/support/board_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -285,6 +286,71 @@ std::vector<BoardHold> goodTour(const calibration::Board& board,
   }
   for (BoardHold& hold : tour) hold = pulledIn(board, camera, hold);
   return tour;
+}
+
+calibration::BoardSighting idealSighting(const calibration::Board& board,
+                                         const tracking::CameraModel& camera,
+                                         const glm::dmat4& cameraFromBoard, double noisePx,
+                                         std::uint32_t seed) {
+  const hal::FrameSize size = camera.imageSize();
+  std::mt19937 random(seed);
+  std::normal_distribution<double> noise(0.0, 1.0);
+  calibration::BoardSighting sighting{.edgeWidthPx = 1.5};
+  for (std::size_t i = 0; i < board.corners().size(); ++i) {
+    const glm::dvec2 error(noise(random), noise(random));
+    const glm::dvec3 seen(cameraFromBoard * glm::dvec4(board.corners()[i], 1.0));
+    if (!(seen.z > 0.0)) continue;
+    const glm::dvec2 px = camera.project(seen) + noisePx * error;
+    if (px.x < 0.0 || px.y < 0.0 || px.x > size.width || px.y > size.height) continue;
+    sighting.corners.push_back({static_cast<int>(i), px});
+  }
+  return sighting;
+}
+
+double rayErrorPx(const tracking::CameraModel& truth, const tracking::CameraModel& estimate) {
+  const hal::FrameSize size = truth.imageSize();
+  std::vector<glm::dvec2> places;
+  std::vector<glm::dvec3> rays;
+  for (int y = 0; y <= 12; ++y) {
+    for (int x = 0; x <= 16; ++x) {
+      places.emplace_back(size.width * x / 16.0, size.height * y / 12.0);
+      const auto ray = truth.unproject(places.back());
+      if (!ray) return std::numeric_limits<double>::infinity();
+      rays.push_back(*ray);
+    }
+  }
+  for (int step = 0; step < 3; ++step) {  // Gauss–Newton
+    glm::dmat3 squares(0.0);
+    glm::dvec3 score(0.0);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const tracking::Projection seen = estimate.projectWithJacobian(rays[i]);
+      const glm::dvec2 error = places[i] - seen.px;
+      std::array<glm::dvec2, 3> byTurn;
+      for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 unit(0.0);
+        unit[axis] = 1.0;
+        byTurn.at(static_cast<std::size_t>(axis)) =
+            seen.pxByCameraPoint * glm::cross(unit, rays[i]);
+      }
+      for (int a = 0; a < 3; ++a) {
+        const glm::dvec2& one = byTurn.at(static_cast<std::size_t>(a));
+        score[a] += glm::dot(one, error);
+        for (int b = 0; b < 3; ++b) {
+          squares[b][a] += glm::dot(one, byTurn.at(static_cast<std::size_t>(b)));
+        }
+      }
+    }
+    const glm::dvec3 turn = glm::inverse(squares) * score;
+    for (glm::dvec3& ray : rays) {
+      ray += glm::cross(turn, ray);
+      ray /= ray.z;
+    }
+  }
+  double worst = 0.0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    worst = std::max(worst, glm::distance(estimate.project(rays[i]), places[i]));
+  }
+  return worst;
 }
 
 }  // namespace pleinair::support

@@ -8,6 +8,7 @@
 
 #include "hal/image.h"
 #include "pipeline/calibration/board.h"
+#include "pipeline/calibration/board_detector.h"
 #include "pipeline/tracking/camera_model.h"
 
 namespace pleinair::support {
@@ -60,5 +61,16 @@ glm::dmat4 cameraFromBoard(const calibration::Board& board, const tracking::Came
 /// and in every corner. All of it in the picture.
 std::vector<BoardHold> goodTour(const calibration::Board& board,
                                 const tracking::CameraModel& camera);
+
+/// The board as a detector without fault but noise would see it: its corners that are in the
+/// picture.
+calibration::BoardSighting idealSighting(const calibration::Board& board,
+                                         const tracking::CameraModel& camera,
+                                         const glm::dmat4& cameraFromBoard, double noisePx = 0.0,
+                                         std::uint32_t seed = 1);
+
+/// How far apart two cameras see the same rays: the largest distance over the first one's picture,
+/// border to border, once the second is turned such that they agree best (a turn goes into poses).
+double rayErrorPx(const tracking::CameraModel& truth, const tracking::CameraModel& estimate);
 
 }  // namespace pleinair::support
