@@ -8,6 +8,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "pipeline/calibration/grey_at.h"
+
 namespace pleinair::calibration {
 namespace {
 
@@ -15,20 +17,6 @@ constexpr double kLeastContrast = 12.0;  // grey levels
 constexpr double kLongestReachPx = 10.0;
 constexpr double kShortestReachPx = 3.0;  // what is blurred beyond its reach would look sharp
 constexpr int kStepsPerPx = 4;
-
-/// Bilinear; pixel centres at +0.5. Precondition: at least 1 px inside of the picture.
-double greyAt(const hal::PlaneView& luma, const glm::dvec2& px) {
-  const glm::dvec2 place = px - 0.5;
-  const glm::dvec2 whole = glm::floor(place);
-  const glm::dvec2 part = place - whole;
-  const std::size_t at =
-      static_cast<std::size_t>(whole.y) * luma.strideBytes + static_cast<std::size_t>(whole.x);
-  const auto& grey = luma.bytes;
-  return glm::mix(
-      glm::mix<double>(grey[at], grey[at + 1], part.x),
-      glm::mix<double>(grey[at + luma.strideBytes], grey[at + luma.strideBytes + 1], part.x),
-      part.y);
-}
 
 /// The width of one edge: the mean profile of its middle fifth, straight across.
 std::optional<double> widthOf(const hal::PlaneView& luma, hal::FrameSize size, const glm::dvec2& a,

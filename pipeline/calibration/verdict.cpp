@@ -187,6 +187,7 @@ CalibrationReport solveCalibration(const ViewSelector& selector, hal::FrameSize 
   const std::vector<FitView> views = selector.fitViews();
   if (views.size() < kFewestViews) {
     report.refusals.push_back(tooFewViews(selector, views.size()));
+    if (!views.empty()) judgeCoverage(report, report.refusals);
     return report;
   }
   report.choice = chooseLens(views, size);

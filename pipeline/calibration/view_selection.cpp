@@ -18,6 +18,7 @@ constexpr double kFastest = 0.05;       // diagonals a second: 40 px at 640×480
 constexpr double kLeastGain = 4.0;      // cells' worth
 constexpr double kSameView = 0.025;     // of the diagonal, the corners' mean distance
 constexpr double kDistinctView = 0.08;  // taken although it fills nothing that is wanted
+constexpr double kSlopeWorth = 0.25;    // diagonals: a turn by 18° is as good as another place
 constexpr double kSharperShare = 0.85;
 constexpr std::size_t kEnoughViews = 15;
 constexpr std::size_t kSharpestCount = 5;
@@ -111,13 +112,12 @@ ViewFate ViewSelector::judge(std::uint64_t frame, const BoardSighting& sighting,
   double nearest = std::numeric_limits<double>::infinity();
   std::size_t nearestView = 0;
   for (std::size_t i = 0; i < views_.size(); ++i) {
-    const auto distance = cornerDistancePx(views_[i].sighting, sighting);
-    if (distance && *distance < nearest) {
-      nearest = *distance;
-      nearestView = i;
-    }
+    const double difference = differenceOf(views_[i], view);
+    if (difference >= nearest) continue;
+    nearest = difference;
+    nearestView = i;
   }
-  if (nearest < kSameView * diagonalPx_) {
+  if (nearest < kSameView) {
     const SelectedView& same = views_[nearestView];
     if (sighting.edgeWidthPx > kSharperShare * same.sighting.edgeWidthPx) {
       return ViewFate::kNothingNew;
@@ -130,12 +130,19 @@ ViewFate ViewSelector::judge(std::uint64_t frame, const BoardSighting& sighting,
   const bool isFull = views_.size() >= options_.mostViews;
   if (isFull && isWanted) {
     if (const auto spare = spareView()) drop(*spare);
-  } else if (!isWanted && nearest < kDistinctView * diagonalPx_) {
+  } else if (!isWanted && nearest < kDistinctView) {
     return ViewFate::kNothingNew;
   }
   if (views_.size() >= options_.mostViews) return ViewFate::kNothingNew;
   take(std::move(view));
   return ViewFate::kTaken;
+}
+
+double ViewSelector::differenceOf(const SelectedView& a, const SelectedView& b) const {
+  const std::optional<double> distance = cornerDistancePx(a.sighting, b.sighting);
+  if (!distance) return std::numeric_limits<double>::infinity();
+  return std::hypot(*distance / diagonalPx_,
+                    kSlopeWorth * glm::distance(a.traits.slope, b.traits.slope));
 }
 
 void ViewSelector::take(SelectedView view) {

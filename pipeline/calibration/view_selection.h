@@ -63,6 +63,8 @@ class ViewSelector {
   ViewFate judge(std::uint64_t frame, const BoardSighting& sighting, std::optional<double> speed);
   /// px a second against the last picture; nothing where that cannot be told.
   std::optional<double> speedOf(hal::TimePoint time, const BoardSighting& sighting) const;
+  /// In diagonals of the picture; a board that is turned otherwise counts as one elsewhere.
+  double differenceOf(const SelectedView& a, const SelectedView& b) const;
   void noteSharpness(double edgeWidthPx);
   void take(SelectedView view);
   void drop(std::size_t index);

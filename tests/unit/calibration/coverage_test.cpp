@@ -50,17 +50,18 @@ TEST(Coverage, WishesForWhatIsMissing) {
   Coverage coverage;
   EXPECT_THAT(*coverage.nextWish(), HasSubstr("left side is nearer"));
   for (int i = 0; i < 2; ++i) {
-    coverage.add(traitsOfHold({.span = 0.75, .yaw = 0.4}));
-    coverage.add(traitsOfHold({.span = 0.75, .yaw = -0.4}));
-    coverage.add(traitsOfHold({.span = 0.75, .pitch = 0.4}));
+    coverage.add(traitsOfHold({.at = {0.4, 0.6}, .span = 0.62, .yaw = 0.4}));
+    coverage.add(traitsOfHold({.at = {0.4, 0.6}, .span = 0.62, .yaw = -0.4}));
+    coverage.add(traitsOfHold({.at = {0.4, 0.6}, .span = 0.62, .pitch = 0.4}));
   }
   EXPECT_THAT(*coverage.nextWish(), HasSubstr("lower side is nearer"));
-  for (int i = 0; i < 2; ++i) coverage.add(traitsOfHold({.span = 0.75, .pitch = -0.4}));
+  for (int i = 0; i < 2; ++i)
+    coverage.add(traitsOfHold({.at = {0.4, 0.6}, .span = 0.62, .pitch = -0.4}));
   EXPECT_THAT(*coverage.nextWish(), HasSubstr("further away"));
   for (int i = 0; i < 3; ++i) coverage.add(traitsOfHold({.at = {0.2, 0.18}, .span = 0.3}));
   EXPECT_EQ(*coverage.nextWish(), "bring the board to the upper right corner");
   EXPECT_THAT(coverage.uncoveredRegions(), Not(Contains("the upper left corner")));
-  EXPECT_THAT(coverage.uncoveredRegions(), Contains("the lower left corner"));
+  EXPECT_THAT(coverage.uncoveredRegions(), Contains("the upper side"));
   EXPECT_FALSE(coverage.isComplete());
 }
 

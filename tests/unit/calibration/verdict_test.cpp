@@ -1,5 +1,8 @@
 #include "pipeline/calibration/verdict.h"
 
+#include <algorithm>
+#include <chrono>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -84,15 +87,13 @@ TEST(Verdict, RefusesViewsOfTheMiddleOnly) {
 
 TEST(Verdict, NamesTheRegionThatIsMissing) {
   std::vector<BoardHold> tour = support::goodTour(kBoard, kCamera);
-  std::erase_if(tour, [](const BoardHold& hold) { return hold.at.x > 0.55 && hold.at.y < 0.45; });
-  for (BoardHold& hold : tour) {
-    if (hold.at == glm::dvec2(0.5))
-      hold = {.at = {0.42, 0.58},
-              .span = 0.45,
-              .yaw = hold.yaw,
-              .pitch = hold.pitch,
-              .roll = hold.roll};
-  }
+  std::erase_if(tour, [](const BoardHold& hold) {
+    const auto pose = support::cameraFromBoard(kBoard, kCamera, hold);
+    const BoardSighting sighting = support::idealSighting(kBoard, kCamera, pose);
+    return std::ranges::any_of(sighting.corners, [](const SightedCorner& corner) {
+      return corner.px.x > 0.62 * 640 && corner.px.y < 0.34 * 480;
+    });
+  });
   const CalibrationReport report = judged(tour);
   ASSERT_THAT(reasonsOf(report), Contains(RefusalReason::kCoverage));
   EXPECT_THAT(report.refusals.front().text, HasSubstr("the upper right corner"));
