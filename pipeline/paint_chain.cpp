@@ -243,10 +243,13 @@ scene::ArFrame PaintChain::compose(const hal::CapturedFrame& frame,
   }
   sightings_.clear();
   for (const tracking::TrackedTag& tag : tracked.tags) {
-    if (tag.cameraFromTag) sightings_.push_back({tag.id, *tag.cameraFromTag});
+    if (tag.cameraFromTag) sightings_.push_back({tag.id, *tag.cameraFromTag, tag.covariance});
   }
   scene::ArFrame composed = renderer_.compose(
-      *camera_, *level.camera, {.cameraFromWorld = tracked.cameraFromWorld, .tags = sightings_},
+      *camera_, *level.camera,
+      {.cameraFromWorld = tracked.cameraFromWorld,
+       .worldCovariance = tracked.worldCovariance,
+       .tags = sightings_},
       frame.sequence, frame.captureTime, timer_);
   composed.fullSize = pictureSize_;
   if (style_->usesCanvas()) composed.canvasFromPicture = followCanvas(frame.image);
@@ -336,6 +339,7 @@ hal::Result<hal::Image> PaintChain::read(const gpu::Texture* texture) {
 
 void PaintChain::reset() {
   style_->reset();
+  renderer_.reset();
   motion_.reset();
   if (tracker_) tracker_->reset();
 }
