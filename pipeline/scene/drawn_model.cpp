@@ -8,9 +8,9 @@
 #include <utility>
 
 #include <glm/common.hpp>
-#include <glm/packing.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <glm/packing.hpp>
 
 namespace pleinair::scene {
 namespace {
