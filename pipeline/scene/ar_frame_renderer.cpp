@@ -101,11 +101,11 @@ void ArFrameRenderer::warmUp(hal::FrameSize size) {
   takeSurfaces(size);
   if (!surfacePass_) return;
   const tracking::CameraModel camera = assumedCamera(size);
-  now_->known.emplace(SurfacePass::makeBuffers(size));
+  if (!now_->known) now_->known.emplace(size);
+  visible_.clear();
   if (!scene_.models.empty()) {
     const gpu::Texture picture(gpu::TextureFormat::kRgba8, size, gpu::TextureFilter::kLinear);
     geometry_.beginFrame();
-    visible_.clear();
     for (std::size_t i = 0; i < scene_.models.size(); ++i) {
       geometry_.pose(i, {}, {});
       visible_.push_back(i);
@@ -117,7 +117,7 @@ void ArFrameRenderer::warmUp(hal::FrameSize size) {
     drawModels(picture);
     now_->showsCameraOnly = false;
   }
-  surfacePass_->run(now_->ids, camera, bodies_, *now_->known);
+  surfacePass_->run(now_->ids, camera, bodies_, visible_, *now_->known);
   reset();
 }
 
@@ -288,8 +288,8 @@ void ArFrameRenderer::setMaterial(gpu::Program& program, std::size_t index,
 }
 
 void ArFrameRenderer::findSurfaces(const tracking::CameraModel& camera) {
-  if (!now_->known) now_->known.emplace(SurfacePass::makeBuffers(now_->ids.size()));
-  surfacePass_->run(now_->ids, camera, bodies_, *now_->known);
+  if (!now_->known) now_->known.emplace(now_->ids.size());
+  surfacePass_->run(now_->ids, camera, bodies_, visible_, *now_->known);
   frame_.barycentrics = &now_->known->barycentrics;
   frame_.parts = &now_->known->parts;
   if (!before_) return;
