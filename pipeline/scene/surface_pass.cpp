@@ -62,7 +62,8 @@ SurfacePass::Buffers::Buffers(hal::FrameSize size)
     : motion(gpu::TextureFormat::kRgba16f, size),
       barycentrics(gpu::TextureFormat::kR32ui, size),
       parts(gpu::TextureFormat::kR32ui, size),
-      target({&motion, &barycentrics, &parts}) {}
+      target({&motion, &barycentrics, &parts}),
+      written{{0, 0}, {size.width, size.height}} {}
 
 SurfacePass::GpuBody SurfacePass::gpuBody(const Body& body) {
   GpuBody made;
@@ -138,16 +139,28 @@ gpu::Program& SurfacePass::begin(gpu::Program& program, const gpu::Texture& ids,
   return program;
 }
 
-void SurfacePass::run(const gpu::Texture& ids, const tracking::CameraModel& camera,
-                      const SceneBodies& bodies, std::span<const std::size_t> models,
-                      const Buffers& buffers) {
-  assert(ids.size() == camera.imageSize() && buffers.motion.size() == ids.size());
-  buffers.target.beginDiscarding();
+/// Only where something was written: a whole picture of zeros costs as much as a model.
+void SurfacePass::clear(Buffers& buffers) {
+  if (buffers.written.isEmpty()) return;
+  buffers.target.beginKeeping();
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(buffers.written.origin.x, buffers.written.origin.y, buffers.written.size.x,
+            buffers.written.size.y);
   buffers.target.clearColour(0, glm::vec4(0.0F));
   buffers.target.clearUnsigned(1, glm::uvec4(0U));
   buffers.target.clearUnsigned(2, glm::uvec4(0U));
+  glDisable(GL_SCISSOR_TEST);
+  buffers.written = {};
+}
+
+void SurfacePass::run(const gpu::Texture& ids, const tracking::CameraModel& camera,
+                      const SceneBodies& bodies, std::span<const std::size_t> models,
+                      Buffers& buffers) {
+  assert(ids.size() == camera.imageSize() && buffers.motion.size() == ids.size());
+  clear(buffers);
   writeBodies(bodies);
   if (const ScreenArea area = areaOfPlanes(bodies, camera); !area.isEmpty()) {
+    buffers.written = unionOf(buffers.written, area);
     begin(planes_, ids, camera, area)
         .uniformBlock(0, bodies_, 0, kMaxPlanes * sizeof(GpuBody))
         .set("planeCount", static_cast<int>(scene_.planes.size()))
@@ -157,6 +170,7 @@ void SurfacePass::run(const gpu::Texture& ids, const tracking::CameraModel& came
   for (const std::size_t i : models) {
     const ScreenArea area = areaOfModel(i, bodies.model(i), camera);
     if (area.isEmpty() || geometry_.batches(i).empty()) continue;
+    buffers.written = unionOf(buffers.written, area);
     begin(scene_.models[i].isOccluder ? realSurface_ : surface_, ids, camera, area)
         .uniformBlock(0, bodies_, (kMaxPlanes + i) * sizeof(GpuBody), sizeof(GpuBody))
         .storage(0, geometry_.posed())

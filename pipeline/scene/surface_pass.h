@@ -36,12 +36,13 @@ class SurfacePass {
     gpu::Texture barycentrics;
     gpu::Texture parts;
     gpu::RenderTarget target;  // all of them, to be cleared
+    ScreenArea written;        // what may be other than 0; at first all
   };
 
   /// `ids` (ArFrame::ids) were drawn through `camera` from `geometry` as it is posed now, of these
   /// models. Precondition: all have one size.
   void run(const gpu::Texture& ids, const tracking::CameraModel& camera, const SceneBodies& bodies,
-           std::span<const std::size_t> models, const Buffers& buffers);
+           std::span<const std::size_t> models, Buffers& buffers);
 
  private:
   /// shaders/bodies.glsl.
@@ -60,6 +61,7 @@ class SurfacePass {
   ScreenArea areaOfModel(std::size_t index, const Body& body,
                          const tracking::CameraModel& camera) const;
   ScreenArea areaOfPlanes(const SceneBodies& bodies, const tracking::CameraModel& camera) const;
+  static void clear(Buffers& buffers);
   gpu::Program& begin(gpu::Program& program, const gpu::Texture& ids,
                       const tracking::CameraModel& camera, const ScreenArea& area);
 
