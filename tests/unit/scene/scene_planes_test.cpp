@@ -42,7 +42,8 @@ TEST(ScenePlanes, AreRead) {
 TEST(ScenePlanes, MistakesAreNamed) {
   const std::string plane = kTag + "[[plane]]\nattach = \"tag:0\"\n";
   EXPECT_EQ(errorOf(plane),
-            "scene.toml:5: plane[0].size_m: missing, allowed: an array of 2 numbers");
+            "scene.toml:5: plane[0].size_m: missing, allowed: an array of 2 numbers "
+            "of metres in (0, 1000]");
   EXPECT_EQ(errorOf(plane + "size_m = [1, 0]\n"),
             "scene.toml:7: plane[0].size_m[1]: found 0, allowed: a number of metres in (0, 1000]");
   EXPECT_EQ(errorOf(kTag + "[[plane]]\nattach = \"tag:1\"\nsize_m = [1, 1]\n"),
