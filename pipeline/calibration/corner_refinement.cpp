@@ -14,6 +14,8 @@
 namespace pleinair::calibration {
 namespace {
 
+constexpr double kSofteningPx = 1.0;
+
 /// Whether two black and two white fields meet at a place, as they do at the corners of all boards:
 /// then opposite points of a circle about it are alike. cornerSubPix leaves a corner that it lost
 /// where it began.
@@ -45,8 +47,11 @@ void refineCorners(const hal::PlaneView& luma, hal::FrameSize size, int windowHa
            corner.px.y > size.height - margin;
   });
   if (corners.empty()) return;
-  const cv::Mat picture(size.height, size.width, CV_8UC1,
-                        const_cast<std::uint8_t*>(luma.bytes.data()), luma.strideBytes);
+  const cv::Mat whole(size.height, size.width, CV_8UC1,
+                      const_cast<std::uint8_t*>(luma.bytes.data()), luma.strideBytes);
+  // On edges as sharp as pixels, cornerSubPix is off by a twentieth of a pixel, always to one side.
+  cv::Mat picture;
+  cv::GaussianBlur(whole, picture, {}, kSofteningPx);
   std::vector<cv::Point2f> points;  // OpenCV counts pixel centres from 0
   points.reserve(corners.size());
   for (const SightedCorner& corner : corners) {
