@@ -18,6 +18,7 @@ namespace {
 using tracking::TagDetection;
 
 constexpr double kWindowShare = 0.45;  // of the gap, which the black corner squares fill
+constexpr double kSofteningPx = 0.0;   // a corner's neighbour is too near
 constexpr double kSmallestWindowPx = 2.0;
 constexpr double kLargestWindowPx = 8.0;
 
@@ -53,7 +54,7 @@ class AprilGridDetector final : public BoardDetector {
     for (const GridTag& tag : tags) edge = std::min(edge, edgePx(tag.seen));
     const double window =
         std::clamp(kWindowShare * grid_.spacing * edge, kSmallestWindowPx, kLargestWindowPx);
-    refineCorners(luma, size, static_cast<int>(window), corners);
+    refineCorners(luma, size, static_cast<int>(window), kSofteningPx, corners);
     std::ranges::sort(corners, {}, &SightedCorner::id);
     if (static_cast<int>(corners.size()) < board_.fewestCorners()) return std::nullopt;
     const std::optional<double> width = edgeWidth(luma, size, board_, corners);

@@ -20,6 +20,7 @@ namespace {
 constexpr int kSearchedSidePx = 720;
 constexpr double kWindowShare =
     0.35;  // of the way to the next corner, that the window not reach it
+constexpr double kSofteningPx = 1.0;
 constexpr double kSmallestWindowPx = 2.0;
 constexpr double kLargestWindowPx = 10.0;
 
@@ -33,7 +34,7 @@ class CheckerboardDetector final : public BoardDetector {
     if (corners.empty()) return std::nullopt;
     const double window =
         std::clamp(kWindowShare * shortestStep(corners), kSmallestWindowPx, kLargestWindowPx);
-    refineCorners(luma, size, static_cast<int>(window), corners);
+    refineCorners(luma, size, static_cast<int>(window), kSofteningPx, corners);
     if (corners.size() != board_.corners().size()) return std::nullopt;
     const std::optional<double> width = edgeWidth(luma, size, board_, corners);
     if (!width) return std::nullopt;

@@ -14,8 +14,6 @@
 namespace pleinair::calibration {
 namespace {
 
-constexpr double kSofteningPx = 1.0;
-
 /// Whether two black and two white fields meet at a place, as they do at the corners of all boards:
 /// then opposite points of a circle about it are alike. cornerSubPix leaves a corner that it lost
 /// where it began.
@@ -40,7 +38,7 @@ bool isCrossing(const hal::PlaneView& luma, const glm::dvec2& px, double radius)
 }  // namespace
 
 void refineCorners(const hal::PlaneView& luma, hal::FrameSize size, int windowHalf,
-                   std::vector<SightedCorner>& corners) {
+                   double softeningPx, std::vector<SightedCorner>& corners) {
   const double margin = windowHalf + 6.0;  // of what is looked at about a corner
   std::erase_if(corners, [&](const SightedCorner& corner) {
     return corner.px.x < margin || corner.px.y < margin || corner.px.x > size.width - margin ||
@@ -49,9 +47,9 @@ void refineCorners(const hal::PlaneView& luma, hal::FrameSize size, int windowHa
   if (corners.empty()) return;
   const cv::Mat whole(size.height, size.width, CV_8UC1,
                       const_cast<std::uint8_t*>(luma.bytes.data()), luma.strideBytes);
-  // On edges as sharp as pixels, cornerSubPix is off by a twentieth of a pixel, always to one side.
-  cv::Mat picture;
-  cv::GaussianBlur(whole, picture, {}, kSofteningPx);
+  cv::Mat softened;  // not the picture's own pixels, which are lent
+  if (softeningPx > 0.0) cv::GaussianBlur(whole, softened, {}, softeningPx);
+  const cv::Mat& picture = softeningPx > 0.0 ? softened : whole;
   std::vector<cv::Point2f> points;  // OpenCV counts pixel centres from 0
   points.reserve(corners.size());
   for (const SightedCorner& corner : corners) {
