@@ -134,6 +134,7 @@ class ModelBuilder {
       refuse(fmt::format("meshes[{}]", meshIndex), "makes too many primitives with its like",
              fmt::format("at most {} in all", gltf::kMaxPrimitives));
     }
+    gltf::checkMorphTargets(mesh, fmt::format("meshes[{}]", meshIndex));
     SurfaceRange range{.first = model_.surfaces.size()};
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
       const std::string where = fmt::format("meshes[{}].primitives[{}]", meshIndex, i);
