@@ -224,5 +224,21 @@ TEST(Morph, IsNotReadWithoutBounds) {
             "16000000 in all");
 }
 
+TEST(Morph, IsNotShownWithoutBounds) {
+  GltfBuilder builder = morphing();
+  json& targets = builder.root["meshes"][0]["primitives"][0]["targets"];
+  while (targets.size() < 64) targets.push_back(json(targets[0]));
+  std::vector<std::uint8_t> indices;
+  for (int i = 0; i < 100; ++i) indices.insert(indices.end(), {0, 1, 2});
+  builder.root["meshes"][0]["primitives"][0]["indices"] =
+      builder.addAccessor(indices, "SCALAR", 5121, 1);
+  for (int i = 0; i < 2000; ++i) builder.root["nodes"].push_back({{"mesh", 0}});
+  const hal::Result<Model> model = parseGltf(builder.bytes(), "m.glb");
+  ASSERT_FALSE(model);  // 64 targets of 3 vertices and 100 triangles: 6592 each
+  EXPECT_EQ(model.error().message(),
+            "m.glb: nodes[1213]: makes too many vertices to morph with its like; at most 8000000 "
+            "in all, counted for each target");
+}
+
 }  // namespace
 }  // namespace pleinair::scene
