@@ -140,16 +140,9 @@ const ArFrame& ArFrameRenderer::compose(const gpu::Texture& picture,
     const auto scope = timer.measure("pose models");
     poseModels(captureTime);
   }
-  const auto scope = timer.measure("compose");
-  findVisible();
-  frame_ = kCameraOnly;
-  if (visible_.empty()) {
-    clearToCamera();
-  } else {
-    drawBackground(picture);
-    setCamera(camera);
-    drawModels(picture);
-    now_->showsCameraOnly = false;
+  {
+    const auto scope = timer.measure("compose");
+    drawFrame(picture, camera);
   }
   frame_.colour = visible_.empty() ? &picture : &now_->colour;
   frame_.ids = &now_->ids;
@@ -160,7 +153,10 @@ const ArFrame& ArFrameRenderer::compose(const gpu::Texture& picture,
       visible_, [&](std::size_t each) { return scene_.models[each].focus > 0.0F; });
   frame_.sequence = sequence;
   frame_.captureTime = captureTime;
-  if (needs.surfaces && surfacePass_) findSurfaces(camera);
+  if (needs.surfaces && surfacePass_) {
+    const auto scope = timer.measure("surfaces");
+    findSurfaces(camera);
+  }
   before_ = Stamp{sequence, captureTime};
   return frame_;
 }
@@ -175,6 +171,19 @@ void ArFrameRenderer::poseModels(hal::TimePoint captureTime) {
     geometry_.pose(i, captureTime - start, captureTime - *firstTime_);
   }
   geometry_.endPosing();
+}
+
+void ArFrameRenderer::drawFrame(const gpu::Texture& picture, const tracking::CameraModel& camera) {
+  findVisible();
+  frame_ = kCameraOnly;
+  if (visible_.empty()) {
+    clearToCamera();
+    return;
+  }
+  drawBackground(picture);
+  setCamera(camera);
+  drawModels(picture);
+  now_->showsCameraOnly = false;
 }
 
 void ArFrameRenderer::findVisible() {

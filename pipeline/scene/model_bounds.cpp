@@ -98,6 +98,13 @@ BoundingSphere boundingSphere(const Model& model) {
   return sphereAroundAll(model, rest, true);
 }
 
+void boundingSpheres(const Model& model, const ModelPose& pose,
+                     std::vector<BoundingSphere>& spheres) {
+  spheres.clear();
+  forEachSphere(model, pose, false,
+                [&](const BoundingSphere& sphere) { spheres.push_back(sphere); });
+}
+
 BoundingSphere boundingSphere(const Model& model, const ModelPose& pose) {
   return sphereAroundAll(model, pose, false);
 }

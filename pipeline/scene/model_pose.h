@@ -40,6 +40,12 @@ void poseModel(const Model& model, const std::optional<ClipMoment>& moment, hal:
 MeshVertex posedVertex(const Model& model, const ModelPart& part, std::size_t surface,
                        std::size_t vertex, const ModelPose& pose);
 
+/// Spheres that hold all vertices together as `pose` has them, in the model's frame: one for each
+/// surface of a part, or for what each joint holds of it. Cheap enough for each frame; replaces
+/// what is in `spheres`.
+void boundingSpheres(const Model& model, const ModelPose& pose,
+                     std::vector<BoundingSphere>& spheres);
+
 /// Around all parts as `pose` has them; never too small, and at most a little too large. Cheap
 /// enough for each frame.
 BoundingSphere boundingSphere(const Model& model, const ModelPose& pose);

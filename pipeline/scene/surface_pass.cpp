@@ -100,12 +100,16 @@ void SurfacePass::writeBodies(const SceneBodies& bodies) {
 
 ScreenArea SurfacePass::areaOfModel(std::size_t index, const Body& body,
                                     const tracking::CameraModel& camera) const {
-  const BoundingSphere& sphere = geometry_.sphere(index);
   const glm::dmat4 cameraFromModel = body.now ? body.now->cameraFromBody : glm::dmat4(1.0);
-  return areaAround(
-      {.centre = glm::dvec3(cameraFromModel * glm::dvec4(sphere.centre, 1.0)),
-       .radiusMetres = glm::length(glm::dvec3(cameraFromModel[0])) * sphere.radiusMetres},
-      camera);
+  const double scale = glm::length(glm::dvec3(cameraFromModel[0]));
+  ScreenArea area;
+  for (const BoundingSphere& sphere : geometry_.spheres(index)) {
+    const glm::dvec3 centre(cameraFromModel * glm::dvec4(sphere.centre, 1.0));
+    const double radius = scale * sphere.radiusMetres;
+    if (centre.z + radius <= 0.0) continue;  // behind the camera
+    area = unionOf(area, areaAround({.centre = centre, .radiusMetres = radius}, camera));
+  }
+  return area;
 }
 
 ScreenArea SurfacePass::areaOfPlanes(const SceneBodies& bodies,
