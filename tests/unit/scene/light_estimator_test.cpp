@@ -205,17 +205,19 @@ TEST(LightEstimator, ADirectionThatIsKnownStays) {
 }
 
 TEST(LightEstimator, ResetAndAPauseForget) {
-  RoomOfTags room = manyTags();
+  const RoomOfTags room = manyTags();
+  const hal::Image picture = pictureOf(room, from(20));
+  const Tracked tracked = trackedIn(room, from(20));
   Watching watching(room), fresh(room);
-  const Lighting first = fresh.see(from(20));
+  const Lighting first = fresh.see(picture, tracked);
   Shot dark = from(0);
   dark.gain = glm::dvec3(0.4);
   watching.see(dark);
   watching.wait(std::chrono::seconds(1));
-  EXPECT_EQ(watching.see(from(20)).white, first.white) << "of half a second ago at the most";
+  EXPECT_EQ(watching.see(picture, tracked).white, first.white) << "of half a second ago at most";
   watching.see(dark);
   watching.estimator().reset();
-  const Lighting& again = watching.see(from(20));
+  const Lighting& again = watching.see(picture, tracked);
   EXPECT_EQ(std::memcmp(&again, &first, sizeof(Lighting)), 0);
 }
 
