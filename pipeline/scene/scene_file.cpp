@@ -14,6 +14,8 @@
 #include "pipeline/scene/ar_frame.h"
 #include "pipeline/scene/attach_frame.h"
 #include "pipeline/scene/lens.h"
+#include "pipeline/scene/scene_attachment.h"
+#include "pipeline/scene/scene_planes.h"
 #include "pipeline/scene/scene_values.h"
 #include "pipeline/tracking/calibration_file.h"
 
@@ -76,28 +78,6 @@ void readTags(const TomlTable& root, Scene& scene) {
   }
 }
 
-/// The tag's id; nothing for the world.
-std::optional<int> readAttachment(const TomlTable& table, const Scene& scene) {
-  const std::string text = table.string("attach");
-  const bool hasWorld = std::ranges::any_of(
-      scene.tags, [](const tracking::TagMarker& tag) { return tag.worldFromTag.has_value(); });
-  if (text == "world") {
-    if (hasWorld) return std::nullopt;
-    throw table.error("attach", "no tag says where the world is",
-                      "\"world\" once a [[tag]] has a position_m");
-  }
-  for (const tracking::TagMarker& tag : scene.tags) {
-    if (text == fmt::format("tag:{}", tag.id)) return tag.id;
-  }
-  std::vector<std::string> places;
-  if (hasWorld) places.emplace_back("\"world\"");
-  for (const tracking::TagMarker& tag : scene.tags)
-    places.push_back(fmt::format("\"tag:{}\"", tag.id));
-  throw table.error("attach", "found " + config::quoted(text),
-                    places.empty() ? "the scene's tags, but it has no [[tag]]"
-                                   : fmt::format("{}", fmt::join(places, ", ")));
-}
-
 /// Reads or makes it unless a model above has it already.
 std::shared_ptr<const Model> sharedModel(const ModelSource& source, const TomlTable& table,
                                          const Scene& scene) {
@@ -136,6 +116,7 @@ SceneModel readModel(const TomlTable& table, const std::filesystem::path& direct
   model.attachFromModel = glm::scale(readPose(table).value_or(glm::dmat4(1.0)), glm::dvec3(scale));
   const glm::vec3 untinted = hasOwnColours(model.source) ? glm::vec3(1.0F) : model.srgb;
   model.srgb = readColour(table).value_or(untinted);
+  model.isOccluder = table.optionalBoolean("occluder").value_or(false);
   model.focus =
       static_cast<float>(table.optionalNumber("focus", {.min = 0.0, .max = 1.0}).value_or(0.0));
   model.model = sharedModel(model.source, table, scene);
@@ -207,6 +188,7 @@ Scene readScene(const TomlDocument& document, const std::filesystem::path& direc
   }
   if (const auto light = root.optionalTable("light")) scene.light = readLight(*light);
   readTags(root, scene);
+  readPlanes(root, scene);
   readModels(root, directory, scene);
   root.finish();
   return scene;

@@ -6,6 +6,7 @@
 //          (scene/ar_frame.h).
 // Precision: highp; bands are thresholds.
 #include "pipeline/gpu/shaders/colour.glsl"
+#include "pipeline/scene/shaders/object_id.glsl"
 
 uniform uint object;
 uniform vec4 baseColour;
@@ -21,8 +22,6 @@ flat in uint triangle;
 layout(location = 0) out vec4 colour;
 layout(location = 1) out uint ids;
 layout(location = 2) out vec4 normalFocus;
-
-const uint kTriangleBits = 22u;
 
 float band(float intensity) {
   if (intensity > 0.7) return 1.0;
@@ -40,6 +39,6 @@ void shade(vec3 linearRgb) {
   if (!gl_FrontFacing) n = -n;
   vec3 srgb = srgbFromLinear(clamp(linearRgb, 0.0, 1.0));
   colour = vec4(band(clamp(dot(towardLight, n), 0.0, 1.0)) * srgb, 1.0);
-  ids = object << kTriangleBits | triangle;
+  ids = idOf(object, triangle);
   normalFocus = vec4(0.5 * n + 0.5, focus);
 }
