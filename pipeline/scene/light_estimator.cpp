@@ -1,7 +1,6 @@
 #include "pipeline/scene/light_estimator.h"
 
 #include <algorithm>
-#include <cassert>
 #include <chrono>
 #include <cmath>
 
@@ -20,7 +19,7 @@ constexpr double kKeySeconds = 3.0;
 constexpr double kForgottenSeconds = 0.5;
 constexpr double kLevelBand = 0.012;  // of the level; noise moves a tag's mean by 0.003
 constexpr double kKeyBand = 0.04;     // of the light on the plane; 2 to 3 degrees
-constexpr double kKeyShare = 0.6;     // of the light on the plane, where nothing is known
+constexpr double kKeyShare = 0.68;    // of the light on the plane, where nothing is known
 constexpr double kGreyWorld = 0.25;   // what is seen reflects that much of the light
 constexpr double kThrownBack = 0.7;   // of what the plane reflects, that comes from below
 /// In the camera's frame.
@@ -87,6 +86,7 @@ LightEstimator::LightEstimator(std::span<const tracking::TagMarker> markers,
         markers_, [&](const tracking::TagMarker& each) { return tagId == each.id; });
     if (marker != markers_.end()) place.worldFromTag = marker->worldFromTag;
   }
+  for (const Place& place : places_) lights_.push_back({.tagId = place.tagId});
   readings_.reserve(markers_.size());
   samples_.reserve(markers_.size());
 }
@@ -99,12 +99,7 @@ void LightEstimator::reset() {
     fresh.worldFromTag = place.worldFromTag;
     place = fresh;
   }
-}
-
-const Lighting& LightEstimator::at(const std::optional<int>& tagId) const {
-  const auto place = std::ranges::find(places_, tagId, &Place::tagId);
-  assert(place != places_.end());
-  return place->light;
+  for (PlaceLighting& each : lights_) each.light = {};
 }
 
 LightEstimator::Step LightEstimator::stepTo(hal::TimePoint captureTime) {
@@ -124,7 +119,8 @@ void LightEstimator::follow(const hal::ImageView& image, const tracking::Trackin
   const LinearPicture picture(image);
   glance_ = glanceAt(picture);
   readPapers(picture, tracked);
-  for (Place& place : places_) {
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    Place& place = places_[i];
     std::optional<glm::dmat3> attachFromCamera;
     const auto seen = std::ranges::find_if(tracked.tags, [&](const tracking::TrackedTag& tag) {
       return place.tagId == tag.id && tag.cameraFromTag;
@@ -141,7 +137,7 @@ void LightEstimator::follow(const hal::ImageView& image, const tracking::Trackin
       followPrior(place, *attachFromCamera, step);
       followKey(place, *white, *attachFromCamera, step);
     }
-    compose(place);
+    lights_[i].light = composed(place);
   }
 }
 
@@ -261,18 +257,17 @@ void LightEstimator::followKey(Place& place, const glm::dvec3& white,
   place.ground.follow(kThrownBack * reflected, share, kKeyBand);
 }
 
-void LightEstimator::compose(Place& place) const {
-  Lighting& light = place.light;
+Lighting LightEstimator::composed(const Place& place) const {
+  Lighting light;
   const glm::dvec3 white = place.level.value();
   light.white = glm::vec3(white);
-  light.up = {0.0F, 0.0F, 1.0F};
   if (!place.keyVector.hasValue()) {
     const glm::dvec3 toward = towardKey_.value_or(glm::dvec3(0.0, 0.0, 1.0));
     light.towardKey = glm::vec3(toward);
     light.key = glm::vec3(kKeyShare / toward.z * white);
     light.sky = glm::vec3((1.0 - kKeyShare) * white);
     light.ground = glm::vec3(kThrownBack * kGreyWorld * white);
-    return;
+    return light;
   }
   const glm::dvec3 toward = raised(place.keyVector.value());
   const glm::dvec3 onPlane = place.sky.value() + toward.z * place.key.value();
@@ -280,6 +275,7 @@ void LightEstimator::compose(Place& place) const {
   light.key = glm::vec3(white * place.key.value() / onPlane);
   light.sky = glm::vec3(white * place.sky.value() / onPlane);
   light.ground = glm::vec3(white * place.ground.value());
+  return light;
 }
 
 }  // namespace pleinair::scene

@@ -51,9 +51,8 @@ class LightEstimator {
   void follow(const hal::ImageView& image, const tracking::TrackingResult& tracked,
               hal::TimePoint captureTime);
 
-  /// In the place's attach frame; before the first frame, an even white light.
-  /// Precondition: it is one of the places.
-  const Lighting& at(const std::optional<int>& tagId) const;
+  /// Of each place, in its attach frame; before the first frame, a white one. The estimator's.
+  std::span<const PlaceLighting> lights() const { return lights_; }
 
   void reset();
 
@@ -67,7 +66,6 @@ class LightEstimator {
   struct Place {
     std::optional<int> tagId;
     std::optional<glm::dmat4> worldFromTag;
-    Lighting light;
     SteadyVector level;      ///< white paper
     glm::dvec3 ofMean{0.0};  ///< the level beside the picture's mean, when paper was last read
     bool hasOwnPaper = false;
@@ -92,12 +90,13 @@ class LightEstimator {
   void followPrior(Place& place, const glm::dmat3& attachFromCamera, const Step& step) const;
   void followKey(Place& place, const glm::dvec3& white, const glm::dmat3& attachFromCamera,
                  const Step& step);
-  void compose(Place& place) const;
+  Lighting composed(const Place& place) const;
 
   std::vector<tracking::TagMarker> markers_;
   std::optional<int> cells_;
   std::optional<glm::dvec3> towardKey_;
   std::vector<Place> places_;
+  std::vector<PlaceLighting> lights_;
   std::optional<hal::TimePoint> lastTime_;
   // Of the last frame.
   std::vector<Reading> readings_;

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <optional>
+
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+
+#include "pipeline/scene/scene.h"
 
 namespace pleinair::scene {
 
@@ -17,11 +21,20 @@ struct Lighting {
   glm::vec3 white{1.0F};           ///< white paper on the plane, out of every shadow
 };
 
+/// The light on a place that models are attached to, in its attach frame.
+struct PlaceLighting {
+  std::optional<int> tagId;  ///< nothing: the world
+  Lighting light;
+};
+
+/// What a scene says of its light, and what is usual where it says nothing, in an attach frame.
+Lighting fixedLighting(const Light& light, const glm::dmat3& cameraFromAttach);
+
+/// An estimate with what the scene says of its light put in its place.
+Lighting withSceneDirection(Lighting estimate, const Light& light,
+                            const glm::dmat3& cameraFromAttach);
+
 /// The same light with its directions turned to another frame.
-inline Lighting turned(const glm::mat3& toFromHere, Lighting lighting) {
-  lighting.towardKey = toFromHere * lighting.towardKey;
-  lighting.up = toFromHere * lighting.up;
-  return lighting;
-}
+Lighting turned(const glm::dmat3& toFromHere, Lighting lighting);
 
 }  // namespace pleinair::scene

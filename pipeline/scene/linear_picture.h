@@ -13,6 +13,9 @@ inline float luminanceOf(const glm::vec3& linearRgb) {
   return 0.2126F * linearRgb.r + 0.7152F * linearRgb.g + 0.0722F * linearRgb.b;
 }
 
+/// IEC 61966-2-1, channel by channel.
+glm::vec3 linearFromSrgb(const glm::vec3& srgb);
+
 /// Reads single pixels of a picture of any format as linear light in [0, 1], without converting the
 /// rest. The coding is taken for sRGB's. A mosaic's pixel is its cell of four; chroma is that of
 /// its sample's pixels. Refers to the picture's memory.

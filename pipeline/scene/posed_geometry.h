@@ -48,6 +48,8 @@ class PosedGeometry {
 
   /// Around what an object was posed as, in its model's frame.
   const BoundingSphere& sphere(std::size_t object) const { return objects_[object].sphere; }
+  /// Whether it looks the same at all times.
+  bool isStill(std::size_t object) const;
   const Model& model(std::size_t object) const { return *models_[objects_[object].model].model; }
   const std::vector<gpu::Texture>& textures(std::size_t object) const {
     return models_[objects_[object].model].textures;

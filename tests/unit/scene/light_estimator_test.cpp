@@ -52,7 +52,7 @@ class Watching {
   const Lighting& see(const hal::Image& image, const Tracked& tracked) {
     time_ += kFrame;
     estimator_.follow(image.view(), tracked.result(), time_);
-    return estimator_.at(0);
+    return estimator_.lights()[0].light;
   }
   LightEstimator& estimator() { return estimator_; }
   void wait(hal::Duration time) { time_ += time; }
@@ -83,7 +83,7 @@ TEST(LightEstimator, WhiteIsTheTagsPaper) {
     const Lighting& light = watching.see(from(0));
     expectNear(light.white, whiteOnTable(room), 0.02);
     expectNear(light.sky + light.key * std::max(0.0F, light.towardKey.z), whiteOnTable(room), 0.03);
-    expectNear(watching.estimator().at(std::nullopt).white, whiteOnTable(room), 0.03);
+    expectNear(watching.estimator().lights()[1].light.white, whiteOnTable(room), 0.03);
   }
 }
 

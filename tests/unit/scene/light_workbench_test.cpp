@@ -43,7 +43,7 @@ class Watching {
     const auto& frame = std::get<hal::CapturedFrame>(next);
     const auto tracked = tracker_->track(frame.image, frame.captureTime);
     estimator_->follow(frame.image, tracked, frame.captureTime);
-    return estimator_->at(kTag);
+    return estimator_->lights()[0].light;
   }
 
  private:
