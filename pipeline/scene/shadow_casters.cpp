@@ -16,7 +16,7 @@
 namespace pleinair::scene {
 namespace {
 
-constexpr double kCellOfRadius = 1.0 / 40.0;  // half a texel of a shadow's map
+constexpr double kCellOfRadius = 1.0 / 28.0;  // about a texel of a shadow's map
 constexpr std::size_t kPosedBytes = 16;
 
 /// Where a vertex goes at rest, by the joint that holds most of it.

@@ -91,10 +91,10 @@ TEST(LightEstimator, TagsThatFaceDifferentWaysShowTheKeyLight) {
   const RoomOfTags room = manyTags();
   Watching watching(room);
   const Lighting& light = watching.see(from(0));
-  EXPECT_LT(degreesApart(light.towardKey, room.towardKey), 15.0);
+  EXPECT_LT(degreesApart(light.towardKey, room.towardKey), 18.0);
   // Warm against cool.
   EXPECT_GT(light.key.r / light.key.b, 1.15F * light.sky.r / light.sky.b);
-  EXPECT_NEAR(luminanceOf(light.key) / luminanceOf(light.sky), 0.46 / 0.22, 0.7);
+  EXPECT_NEAR(luminanceOf(light.key) / luminanceOf(light.sky), 0.46 / 0.22, 1.0);
 }
 
 /// The control: what one plane shows could come from anywhere, so it is taken for the prior's.
