@@ -100,11 +100,11 @@ void ArFrameRenderer::warmUp(hal::FrameSize size) {
   takeSurfaces(size);
   if (!surfacePass_) return;
   const tracking::CameraModel camera = assumedCamera(size);
-  now_->known.emplace(SurfacePass::makeBuffers(size));
+  if (!now_->known) now_->known.emplace(size);
+  visible_.clear();
   if (!scene_.models.empty()) {
     const gpu::Texture picture(gpu::TextureFormat::kRgba8, size, gpu::TextureFilter::kLinear);
     geometry_.beginFrame();
-    visible_.clear();
     for (std::size_t i = 0; i < scene_.models.size(); ++i) {
       geometry_.pose(i, {}, {});
       visible_.push_back(i);
@@ -118,7 +118,7 @@ void ArFrameRenderer::warmUp(hal::FrameSize size) {
     drawModels(picture);
     now_->showsCameraOnly = false;
   }
-  surfacePass_->run(now_->ids, camera, bodies_, *now_->known);
+  surfacePass_->run(now_->ids, camera, bodies_, visible_, *now_->known);
   reset();
 }
 
@@ -149,16 +149,9 @@ const ArFrame& ArFrameRenderer::compose(const gpu::Texture& picture,
     const auto scope = timer.measure("cast shadows");
     shadow_->cast(visible_, bodies_, lights_);
   }
-  const auto scope = timer.measure("compose");
-  frame_ = kCameraOnly;
-  if (visible_.empty()) {
-    clearToCamera();
-  } else {
-    drawBackground(picture);
-    setCamera(camera);
-    if (shadow_) shadow_->draw();
-    drawModels(picture);
-    now_->showsCameraOnly = false;
+  {
+    const auto scope = timer.measure("compose");
+    drawFrame(picture, camera);
   }
   frame_.colour = visible_.empty() ? &picture : &now_->colour;
   frame_.ids = &now_->ids;
@@ -169,7 +162,10 @@ const ArFrame& ArFrameRenderer::compose(const gpu::Texture& picture,
       visible_, [&](std::size_t each) { return scene_.models[each].focus > 0.0F; });
   frame_.sequence = sequence;
   frame_.captureTime = captureTime;
-  if (needs.surfaces && surfacePass_) findSurfaces(camera);
+  if (needs.surfaces && surfacePass_) {
+    const auto scope = timer.measure("surfaces");
+    findSurfaces(camera);
+  }
   before_ = Stamp{sequence, captureTime};
   return frame_;
 }
@@ -184,6 +180,19 @@ void ArFrameRenderer::poseModels(hal::TimePoint captureTime) {
     geometry_.pose(i, captureTime - start, captureTime - *firstTime_);
   }
   geometry_.endPosing();
+}
+
+void ArFrameRenderer::drawFrame(const gpu::Texture& picture, const tracking::CameraModel& camera) {
+  frame_ = kCameraOnly;
+  if (visible_.empty()) {
+    clearToCamera();
+    return;
+  }
+  drawBackground(picture);
+  setCamera(camera);
+  if (shadow_) shadow_->draw();
+  drawModels(picture);
+  now_->showsCameraOnly = false;
 }
 
 void ArFrameRenderer::findVisible() {
@@ -304,8 +313,8 @@ void ArFrameRenderer::setMaterial(gpu::Program& program, std::size_t index,
 }
 
 void ArFrameRenderer::findSurfaces(const tracking::CameraModel& camera) {
-  if (!now_->known) now_->known.emplace(SurfacePass::makeBuffers(now_->ids.size()));
-  surfacePass_->run(now_->ids, camera, bodies_, *now_->known);
+  if (!now_->known) now_->known.emplace(now_->ids.size());
+  surfacePass_->run(now_->ids, camera, bodies_, visible_, *now_->known);
   frame_.barycentrics = &now_->known->barycentrics;
   frame_.parts = &now_->known->parts;
   if (!before_) return;

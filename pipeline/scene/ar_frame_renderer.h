@@ -79,6 +79,7 @@ class ArFrameRenderer {
   void makePrograms(const gpu::ShaderLibrary& library);
   void takeSurfaces(hal::FrameSize size);
   void poseModels(hal::TimePoint captureTime);
+  void drawFrame(const gpu::Texture& picture, const tracking::CameraModel& camera);
   void findVisible();
   void findLights(std::span<const PlaceLighting> lights);
   void clearToCamera();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -44,12 +45,35 @@ bool isMirrored(const ModelPart& part) {
   return !part.skin && glm::determinant(glm::dmat3(part.modelFromPart)) < 0.0;
 }
 
+/// For each vertex the first one that is the same in all. Meshes that are made by code often have a
+/// vertex for each corner; what moves a vertex apart from its like keeps it.
+std::vector<std::uint32_t> firstAlike(const Mesh& mesh) {
+  static_assert(sizeof(MeshVertex) == 12 * sizeof(float));  // all bytes count
+  std::vector<std::uint32_t> first(mesh.vertices.size());
+  std::iota(first.begin(), first.end(), 0U);
+  if (!mesh.joints.empty() || !mesh.morphTargets.empty()) return first;
+  const auto order = [&](std::uint32_t a, std::uint32_t b) {
+    return std::memcmp(&mesh.vertices[a], &mesh.vertices[b], sizeof(MeshVertex));
+  };
+  std::vector<std::uint32_t> sorted = first;
+  std::ranges::sort(sorted, [&](std::uint32_t a, std::uint32_t b) {
+    const int found = order(a, b);
+    return found != 0 ? found < 0 : a < b;
+  });
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    if (order(sorted[i - 1], sorted[i]) == 0) first[sorted[i]] = first[sorted[i - 1]];
+  }
+  return first;
+}
+
 /// Turns each triangle so that its last vertex is the last of no other, where it can.
 std::vector<std::array<std::uint32_t, 3>> withOwnLastVertices(const Mesh& mesh, bool mirrored) {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   triangles.reserve(mesh.triangles.size());
   std::vector<bool> isTaken(mesh.vertices.size(), false);
+  const std::vector<std::uint32_t> alike = firstAlike(mesh);
   for (std::array<std::uint32_t, 3> corners : mesh.triangles) {
+    for (std::uint32_t& corner : corners) corner = alike[corner];
     if (mirrored) std::swap(corners[0], corners[1]);
     const auto free =
         std::ranges::find(corners, false, [&](std::uint32_t v) { return isTaken[v]; });

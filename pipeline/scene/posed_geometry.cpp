@@ -144,6 +144,7 @@ void PosedGeometry::pose(std::size_t index, hal::Duration elapsed, hal::Duration
   if (isStill && object.isAtRest[half_]) return;
   poseModel(model, momentOf(model.rig, sceneModel.playback, elapsed), turning, object.pose);
   object.sphere = boundingSphere(model, object.pose);
+  boundingSpheres(model, object.pose, object.spheres);
 }
 
 /// Static models are written into each half once.

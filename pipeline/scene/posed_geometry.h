@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "hal/clock.h"
@@ -50,6 +51,10 @@ class PosedGeometry {
   const BoundingSphere& sphere(std::size_t object) const { return objects_[object].sphere; }
   /// Whether it looks the same at all times.
   bool isStill(std::size_t object) const;
+  /// Closer around it, in parts.
+  std::span<const BoundingSphere> spheres(std::size_t object) const {
+    return objects_[object].spheres;
+  }
   const Model& model(std::size_t object) const { return *models_[objects_[object].model].model; }
   const std::vector<gpu::Texture>& textures(std::size_t object) const {
     return models_[objects_[object].model].textures;
@@ -92,6 +97,7 @@ class PosedGeometry {
     std::uint32_t firstWeight = 0;
     ModelPose pose;
     BoundingSphere sphere;
+    std::vector<BoundingSphere> spheres;
     bool isPosed = false;             // in this frame
     std::array<bool, 2> isWritten{};  // what each half holds of it is of its frame
     std::array<bool, 2> isAtRest{};   // what each half holds of a model that never moves

@@ -17,6 +17,7 @@
 #include "pipeline/scene/scene_attachment.h"
 #include "pipeline/scene/scene_light.h"
 #include "pipeline/scene/scene_planes.h"
+#include "pipeline/scene/scene_playback.h"
 #include "pipeline/scene/scene_values.h"
 #include "pipeline/tracking/calibration_file.h"
 
@@ -121,6 +122,7 @@ SceneModel readModel(const TomlTable& table, const std::filesystem::path& direct
   model.focus =
       static_cast<float>(table.optionalNumber("focus", {.min = 0.0, .max = 1.0}).value_or(0.0));
   model.model = sharedModel(model.source, table, scene);
+  model.playback = readPlayback(table, model.model->rig);
   return model;
 }
 
@@ -152,6 +154,9 @@ void readModels(const TomlTable& root, const std::filesystem::path& directory, S
   for (const TomlTable& table : tables) {
     scene.models.push_back(readModel(table, directory, scene));
     const SceneModel& added = scene.models.back();
+    if (auto notice = standingStillNotice(added.model->rig, added.playback)) {
+      scene.notices.push_back(fmt::format("{}: {}", added.name, *notice));
+    }
     if (added.model.use_count() > 1) continue;
     triangles += added.model->surfaceTriangles();
     if (triangles > kMaxSceneTriangles) {

@@ -24,8 +24,8 @@ ScenePlane readPlane(const TomlTable& table, const Scene& scene) {
   }
   plane.tagId = readAttachment(table, scene);
   plane.attachFromPlane = readPose(table).value_or(glm::dmat4(1.0));
-  const auto size = table.vector<2>(
-      "size_m", {.min = 0.0, .max = 1000.0, .minOpen = true, .unit = "metres"});
+  const auto size =
+      table.vector<2>("size_m", {.min = 0.0, .max = 1000.0, .minOpen = true, .unit = "metres"});
   plane.sizeMetres = {size[0], size[1]};
   return plane;
 }

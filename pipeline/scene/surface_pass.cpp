@@ -1,5 +1,6 @@
 #include "pipeline/scene/surface_pass.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
@@ -45,22 +46,24 @@ std::array<glm::vec4, 3> rowsOf(const glm::dmat4& m) {
 
 SurfacePass::SurfacePass(const gpu::ShaderLibrary& library, const Scene& scene,
                          const PosedGeometry& geometry)
-    : scene_(scene),
-      geometry_(geometry),
-      program_(library.compute("pipeline/scene/shaders/surface.comp")),
-      nothing_(sizeof(glm::vec4), gpu::BufferUsage::kStatic) {
-  static_assert(sizeof(GpuBody) == 21 * sizeof(glm::vec4));
-  const std::size_t bodies = scene.planes.size() + scene.models.size();
-  assert(bodies > 0);
-  staged_.resize(bodies);
+    : scene_(scene), geometry_(geometry) {
+  static_assert(sizeof(GpuBody) % gpu::kUniformAlignment == 0);
+  if (!scene.models.empty()) surface_ = library.compute("pipeline/scene/shaders/surface.comp");
+  if (std::ranges::any_of(scene.models, &SceneModel::isOccluder)) {
+    realSurface_ = library.compute("pipeline/scene/shaders/surface_real.comp");
+  }
+  if (!scene.planes.empty()) planes_ = library.compute("pipeline/scene/shaders/plane_motion.comp");
+  assert(!scene.planes.empty() || !scene.models.empty());
+  staged_.resize(kMaxPlanes + scene.models.size());  // a block has room for all planes
   bodies_ = gpu::Buffer(std::span(staged_).size_bytes(), gpu::BufferUsage::kDynamic);
 }
 
-SurfacePass::Buffers SurfacePass::makeBuffers(hal::FrameSize size) {
-  return {.motion = gpu::Texture(gpu::TextureFormat::kRgba16f, size),
-          .barycentrics = gpu::Texture(gpu::TextureFormat::kR32ui, size),
-          .parts = gpu::Texture(gpu::TextureFormat::kR32ui, size)};
-}
+SurfacePass::Buffers::Buffers(hal::FrameSize size)
+    : motion(gpu::TextureFormat::kRgba16f, size),
+      barycentrics(gpu::TextureFormat::kR32ui, size),
+      parts(gpu::TextureFormat::kR32ui, size),
+      target({&motion, &barycentrics, &parts}),
+      written{{0, 0}, {size.width, size.height}} {}
 
 SurfacePass::GpuBody SurfacePass::gpuBody(const Body& body) {
   GpuBody made;
@@ -80,42 +83,109 @@ SurfacePass::GpuBody SurfacePass::gpuBody(const Body& body) {
 }
 
 void SurfacePass::writeBodies(const SceneBodies& bodies) {
-  const std::size_t planes = scene_.planes.size();
-  for (std::size_t i = 0; i < planes; ++i) {
+  for (std::size_t i = 0; i < scene_.planes.size(); ++i) {
     GpuBody& plane = staged_[i];
     plane = gpuBody(bodies.plane(i));
-    if (bodies.plane(i).now) plane.extent = glm::vec4(0.5 * scene_.planes[i].sizeMetres, 1.0, 0.0);
+    if (bodies.plane(i).now) plane.extent = glm::vec4(0.5 * scene_.planes[i].sizeMetres, 0.0, 0.0);
   }
   for (std::size_t i = 0; i < scene_.models.size(); ++i) {
-    GpuBody& model = staged_[planes + i];
+    GpuBody& model = staged_[kMaxPlanes + i];
     model = gpuBody(bodies.model(i));
     const ObjectPlace place = geometry_.place(i);
     if (!place.firstThen) model.turnsAbout.w = 0.0F;
-    model.extent.z = scene_.models[i].isOccluder ? 1.0F : 0.0F;
     model.places = {place.firstTriangle, place.firstNow, place.firstThen.value_or(0), 0};
   }
   bodies_.write(std::as_bytes(std::span(staged_)));
 }
 
-void SurfacePass::run(const gpu::Texture& ids, const tracking::CameraModel& camera,
-                      const SceneBodies& bodies, const Buffers& buffers) {
-  assert(ids.size() == camera.imageSize() && buffers.motion.size() == ids.size());
-  writeBodies(bodies);
+ScreenArea SurfacePass::areaOfModel(std::size_t index, const Body& body,
+                                    const tracking::CameraModel& camera) const {
+  const glm::dmat4 cameraFromModel = body.now ? body.now->cameraFromBody : glm::dmat4(1.0);
+  const double scale = glm::length(glm::dvec3(cameraFromModel[0]));
+  ScreenArea area;
+  for (const BoundingSphere& sphere : geometry_.spheres(index)) {
+    const glm::dvec3 centre(cameraFromModel * glm::dvec4(sphere.centre, 1.0));
+    const double radius = scale * sphere.radiusMetres;
+    if (centre.z + radius <= 0.0) continue;  // behind the camera
+    area = unionOf(area, areaAround({.centre = centre, .radiusMetres = radius}, camera));
+  }
+  return area;
+}
+
+ScreenArea SurfacePass::areaOfPlanes(const SceneBodies& bodies,
+                                     const tracking::CameraModel& camera) const {
+  ScreenArea area;
+  for (std::size_t i = 0; i < scene_.planes.size(); ++i) {
+    const auto& now = bodies.plane(i).now;
+    if (!now) continue;
+    const glm::dvec2 half = 0.5 * scene_.planes[i].sizeMetres;
+    std::array<glm::dvec3, 4> corners{};
+    for (unsigned c = 0; c < 4; ++c) {
+      const glm::dvec4 corner((c & 1U) != 0 ? half.x : -half.x, (c & 2U) != 0 ? half.y : -half.y,
+                              0.0, 1.0);
+      corners[c] = glm::dvec3(now->cameraFromBody * corner);
+    }
+    area = unionOf(area, areaAround(corners, camera));
+  }
+  return area;
+}
+
+gpu::Program& SurfacePass::begin(gpu::Program& program, const gpu::Texture& ids,
+                                 const tracking::CameraModel& camera, const ScreenArea& area) {
   const tracking::Intrinsics& pinhole = camera.intrinsics();
-  program_.use()
+  program.use()
       .texture("ids", ids)
-      .storage(0, geometry_.isEmpty() ? nothing_ : geometry_.posed())
-      .storage(1, geometry_.isEmpty() ? nothing_ : geometry_.triangles())
-      .storage(2, bodies_)
-      .image(0, buffers.motion, gpu::ImageAccess::kWrite)
-      .image(1, buffers.barycentrics, gpu::ImageAccess::kWrite)
-      .image(2, buffers.parts, gpu::ImageAccess::kWrite)
-      .set("planeCount", static_cast<int>(scene_.planes.size()))
       .set("focal", glm::vec2(pinhole.fx, pinhole.fy))
-      .set("centre", glm::vec2(pinhole.cx, pinhole.cy));
-  setLens(program_, camera);
-  program_.dispatch({ids.size().width, ids.size().height}, {8, 8},
-                    GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+      .set("centre", glm::vec2(pinhole.cx, pinhole.cy))
+      .set("origin", area.origin)
+      .set("size", area.size);
+  setLens(program, camera);
+  return program;
+}
+
+/// Only where something was written: a whole picture of zeros costs as much as a model.
+void SurfacePass::clear(Buffers& buffers) {
+  if (buffers.written.isEmpty()) return;
+  buffers.target.beginKeeping();
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(buffers.written.origin.x, buffers.written.origin.y, buffers.written.size.x,
+            buffers.written.size.y);
+  buffers.target.clearColour(0, glm::vec4(0.0F));
+  buffers.target.clearUnsigned(1, glm::uvec4(0U));
+  buffers.target.clearUnsigned(2, glm::uvec4(0U));
+  glDisable(GL_SCISSOR_TEST);
+  buffers.written = {};
+}
+
+void SurfacePass::run(const gpu::Texture& ids, const tracking::CameraModel& camera,
+                      const SceneBodies& bodies, std::span<const std::size_t> models,
+                      Buffers& buffers) {
+  assert(ids.size() == camera.imageSize() && buffers.motion.size() == ids.size());
+  clear(buffers);
+  writeBodies(bodies);
+  if (const ScreenArea area = areaOfPlanes(bodies, camera); !area.isEmpty()) {
+    buffers.written = unionOf(buffers.written, area);
+    begin(planes_, ids, camera, area)
+        .uniformBlock(0, bodies_, 0, kMaxPlanes * sizeof(GpuBody))
+        .set("planeCount", static_cast<int>(scene_.planes.size()))
+        .image(0, buffers.motion, gpu::ImageAccess::kWrite)
+        .dispatch(area.size, {8, 8}, 0);
+  }
+  for (const std::size_t i : models) {
+    const ScreenArea area = areaOfModel(i, bodies.model(i), camera);
+    if (area.isEmpty() || geometry_.batches(i).empty()) continue;
+    buffers.written = unionOf(buffers.written, area);
+    begin(scene_.models[i].isOccluder ? realSurface_ : surface_, ids, camera, area)
+        .uniformBlock(0, bodies_, (kMaxPlanes + i) * sizeof(GpuBody), sizeof(GpuBody))
+        .storage(0, geometry_.posed())
+        .storage(1, geometry_.triangles())
+        .image(0, buffers.motion, gpu::ImageAccess::kWrite)
+        .image(1, buffers.barycentrics, gpu::ImageAccess::kWrite)
+        .image(2, buffers.parts, gpu::ImageAccess::kWrite)
+        .set("object", static_cast<unsigned>(i + 1))
+        .dispatch(area.size, {8, 8}, 0);
+  }
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
 }  // namespace pleinair::scene

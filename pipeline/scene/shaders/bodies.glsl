@@ -1,19 +1,19 @@
-// Purpose: what moves as one in front of the camera, planes first, then the scene's models; and how
-//          the camera sees its points (scene::SurfacePass writes it).
-// Inputs:  storage 2: bodies; focal, centre: of the pinhole in px.
+// Purpose: what moves as one in front of the camera, and how the camera sees its points.
+// Inputs:  focal, centre: of the pinhole in px. Bodies come in uniform blocks (scene::SurfacePass
+//          writes them), which are read once for all invocations.
 // Precision: highp; metres, camera frame, px.
 #include "pipeline/scene/shaders/lens.glsl"
 
 struct Body {
   vec4 now[3];   // rows: camera from body in this frame
   vec4 then[3];  // in the frame before
-  vec4 turnsAbout;        // what errors turn about; w: 1 if known in both frames
-  vec4 errorTurns[6];     // square root of the poses' covariance, column by column: rad
-  vec4 errorShifts[6];    // metres
-  vec4 extent;            // of a plane: half its size; z: 1 if it is real, and its pose a guess
-  uvec4 places;           // of a model: first triangle, first vertex now, first vertex then
+  vec4 turnsAbout;      // what errors turn about; w: 1 if known in both frames
+  vec4 errorTurns[6];   // square root of the poses' covariance, column by column: rad
+  vec4 errorShifts[6];  // metres
+  vec4 extent;          // of a plane: half its size
+  uvec4 places;         // of a model: first triangle, first vertex now, first vertex then
+  vec4 padding[11];     // to a block's alignment
 };
-layout(std430, binding = 2) readonly buffer Bodies { Body bodies[]; };
 
 uniform vec2 focal;
 uniform vec2 centre;

@@ -1,6 +1,7 @@
 // Purpose: the point of a model's surface behind a pixel, exactly: its triangle's corners and the
 //          barycentrics there, perspective-correct, as the rasteriser has them.
-// Inputs:  storage 0: posed vertices; 1: triangles (scene::PosedGeometry); bodies.glsl's.
+// Inputs:  storage 0: posed vertices; 1: triangles (scene::PosedGeometry); the model's body;
+//          bodies.glsl's.
 // Precision: highp. Barycentrics come of areas relative to the pixel, which keeps their digits.
 #include "pipeline/scene/shaders/bodies.glsl"
 
@@ -10,6 +11,7 @@ struct PosedVertex {
 };
 layout(std430, binding = 0) readonly buffer Posed { PosedVertex posed[]; };
 layout(std430, binding = 1) readonly buffer Triangles { uvec4 triangles[]; };  // corners, part
+layout(std140, binding = 0) uniform OneBody { Body body; };
 
 struct SurfacePoint {
   uvec3 corners;  // of the object's vertices
@@ -17,7 +19,7 @@ struct SurfacePoint {
   vec3 barycentrics;
 };
 
-vec3 cameraPosition(Body body, uint corner) {
+vec3 cameraPosition(uint corner) {
   return transformed(body.now, posed[body.places.y + corner].position);
 }
 
@@ -28,11 +30,11 @@ vec2 fromPixel(vec3 cameraPoint, vec2 px) {
   return focal * p.xy + (centre - px) * p.z;
 }
 
-SurfacePoint surfacePointAt(Body body, uint triangle, vec2 px) {
+SurfacePoint surfacePointAt(uint triangle, vec2 px) {
   uvec4 entry = triangles[body.places.x + triangle];
-  vec2 a = fromPixel(cameraPosition(body, entry.x), px);
-  vec2 b = fromPixel(cameraPosition(body, entry.y), px);
-  vec2 c = fromPixel(cameraPosition(body, entry.z), px);
+  vec2 a = fromPixel(cameraPosition(entry.x), px);
+  vec2 b = fromPixel(cameraPosition(entry.y), px);
+  vec2 c = fromPixel(cameraPosition(entry.z), px);
   vec3 areas = vec3(b.x * c.y - b.y * c.x, c.x * a.y - c.y * a.x, a.x * b.y - a.y * b.x);
   float sum = areas.x + areas.y + areas.z;
   vec3 at = abs(sum) > 0.0 ? areas / sum : vec3(1.0 / 3.0);
@@ -40,7 +42,7 @@ SurfacePoint surfacePointAt(Body body, uint triangle, vec2 px) {
   return SurfacePoint(entry.xyz, entry.w, at / (at.x + at.y + at.z));
 }
 
-vec3 positionNow(Body body, SurfacePoint point) {
+vec3 positionNow(SurfacePoint point) {
   vec3 at = vec3(0.0);
   for (int i = 0; i < 3; ++i) {
     at += point.barycentrics[i] * posed[body.places.y + point.corners[i]].position;
@@ -48,8 +50,8 @@ vec3 positionNow(Body body, SurfacePoint point) {
   return transformed(body.now, at);
 }
 
-// Precondition: the body is known in the frame before.
-vec3 positionThen(Body body, SurfacePoint point) {
+// Precondition: the model is known in the frame before.
+vec3 positionThen(SurfacePoint point) {
   vec3 at = vec3(0.0);
   for (int i = 0; i < 3; ++i) {
     at += point.barycentrics[i] * posed[body.places.z + point.corners[i]].position;

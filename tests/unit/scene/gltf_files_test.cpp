@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/scene/gltf/gltf_file.h"
+#include "pipeline/scene/model_pose.h"
 
 namespace pleinair::scene {
 namespace {
@@ -61,12 +62,16 @@ struct Box {
   glm::dvec3 high{-1e9};
 };
 
+/// At rest.
 Box boxOf(const Model& model) {
+  ModelPose pose;
+  poseModel(model, std::nullopt, hal::Duration::zero(), pose);
   Box box;
   for (const ModelPart& part : model.parts) {
     for (std::size_t i = 0; i < part.surfaceCount; ++i) {
-      for (const MeshVertex& vertex : model.surfaces[part.firstSurface + i].mesh.vertices) {
-        const glm::dvec3 p(part.modelFromPart * glm::dvec4(glm::dvec3(vertex.position), 1.0));
+      const std::size_t count = model.surfaces[part.firstSurface + i].mesh.vertices.size();
+      for (std::size_t vertex = 0; vertex < count; ++vertex) {
+        const glm::dvec3 p(posedVertex(model, part, i, vertex, pose).position);
         box.low = glm::min(box.low, p);
         box.high = glm::max(box.high, p);
       }

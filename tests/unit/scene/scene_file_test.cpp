@@ -269,7 +269,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kTag + kGear + "size_m = [1, 1, 1]\n",
                 "scene.toml:9: model[0].size_m: unknown key, allowed: name, source, teeth, "
                 "module_m, pressure_angle_deg, thickness_m, bore_diameter_m, hub_diameter_m, "
-                "holes, attach, scale, position_m, rotation_deg, colour, focus"},
+                "holes, attach, scale, position_m, rotation_deg, colour, focus, clip, speed, loop, start"},
         Mistake{kTag + kGear + "teeth = 5\n",
                 "scene.toml:9: model[0].teeth: found 5, allowed: a whole number in [6, 200]"},
         Mistake{kTag + "[[model]]\nsource = \"builtin:gearbox\"\nattach = \"tag:0\"\n"
