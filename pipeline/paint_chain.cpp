@@ -41,6 +41,18 @@ gpu::GpuSeam seamOf(const PainterOptions& options, const gpu::ContextInfo& conte
   return seam;
 }
 
+/// Nothing where no model is shaded by what the camera sees.
+std::optional<scene::LightEstimator> makeLightEstimator(const PainterOptions& options) {
+  const scene::Scene& scene = options.scene;
+  if (!options.tracksTags || !scene.light.isEstimated || scene.models.empty()) return std::nullopt;
+  std::vector<std::optional<int>> places;
+  for (const scene::SceneModel& model : scene.models) places.push_back(model.tagId);
+  std::optional<glm::dvec3> towardKey;
+  const bool isAttached = scene.light.frame == scene::Light::Frame::kAttached;
+  if (scene.light.hasDirection && isAttached) towardKey = scene.light.towardLight;
+  return scene::LightEstimator(scene.tags, scene.tagFamily, places, towardKey);
+}
+
 bool isOurs(std::string_view view) {
   return view == kCameraView || view == kArView || scene::findBufferView(view) != nullptr;
 }
@@ -59,7 +71,8 @@ PaintChain::PaintChain(const PainterOptions& options, const gpu::ContextInfo& co
       uploader_(library_),
       renderer_(library_, options.scene),
       bufferViewer_(library_),
-      style_(styles::makeStyle(options.style, library_)) {
+      style_(styles::makeStyle(options.style, library_)),
+      light_(makeLightEstimator(options)) {
   hal::orThrow(tracking::checkTagFamily(scene_.tagFamily));
   for (const QualityPlan& plan : qualityPlans()) {
     if (levels_.empty() || options.qualityLevels) levels_.push_back({sizeAt(pictureSize_, plan)});
@@ -242,7 +255,9 @@ hal::Result<Picture> PaintChain::paintChecked(const hal::CapturedFrame& frame,
 
 scene::ArFrameNeeds PaintChain::needsOf(const std::string& view) const {
   const scene::BufferView* buffer = scene::findBufferView(view);
-  return {.surfaces = style_->needs().surfaces || (buffer != nullptr && buffer->needs.surfaces)};
+  scene::ArFrameNeeds needs = style_->needs();
+  needs.surfaces = needs.surfaces || (buffer != nullptr && buffer->needs.surfaces);
+  return needs;
 }
 
 scene::ArFrame PaintChain::compose(const hal::CapturedFrame& frame,
@@ -256,11 +271,17 @@ scene::ArFrame PaintChain::compose(const hal::CapturedFrame& frame,
   for (const tracking::TrackedTag& tag : tracked.tags) {
     if (tag.cameraFromTag) sightings_.push_back({tag.id, *tag.cameraFromTag, tag.covariance});
   }
-  scene::ArFrame composed = renderer_.compose(*camera_, *level.camera,
-                                              {.cameraFromWorld = tracked.cameraFromWorld,
-                                               .worldCovariance = tracked.worldCovariance,
-                                               .tags = sightings_},
-                                              frame.sequence, frame.captureTime, timer_, needs);
+  std::span<const scene::PlaceLighting> lights;
+  if (light_) {
+    light_->follow(frame.image, tracked, frame.captureTime);
+    lights = light_->lights();
+  }
+  scene::ArFrame composed =
+      renderer_.compose(*camera_, *level.camera,
+                        {.cameraFromWorld = tracked.cameraFromWorld,
+                         .worldCovariance = tracked.worldCovariance,
+                         .tags = sightings_},
+                        frame.sequence, frame.captureTime, timer_, needs, lights);
   composed.fullSize = pictureSize_;
   if (style_->usesCanvas()) composed.canvasFromPicture = followCanvas(frame.image);
   return composed;
@@ -354,6 +375,7 @@ void PaintChain::reset() {
   style_->reset();
   renderer_.reset();
   motion_.reset();
+  if (light_) light_->reset();
   if (tracker_) tracker_->reset();
 }
 

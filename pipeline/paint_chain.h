@@ -16,6 +16,7 @@
 #include "pipeline/present/picture_reader.h"
 #include "pipeline/scene/ar_frame_renderer.h"
 #include "pipeline/scene/buffer_views.h"
+#include "pipeline/scene/light_estimator.h"
 #include "pipeline/styles/style.h"
 #include "pipeline/tracking/luma.h"
 #include "pipeline/tracking/picture_motion.h"
@@ -104,6 +105,7 @@ class PaintChain {
   std::optional<tracking::Tracker> tracker_;
   tracking::LumaConverter luma_;
   tracking::PictureMotion motion_;
+  std::optional<scene::LightEstimator> light_;  // where the scene leaves it to the camera
   std::vector<scene::TagSighting> sightings_;
   std::vector<std::unique_ptr<Reader>> readers_;
   std::optional<present::PictureReader> stills_;  // made for the first still

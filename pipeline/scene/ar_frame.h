@@ -8,6 +8,7 @@
 #include "hal/clock.h"
 #include "hal/pixel_format.h"
 #include "pipeline/gpu/texture.h"
+#include "pipeline/scene/shading.h"
 #include "pipeline/tracking/plane_similarity.h"
 
 namespace pleinair::scene {
@@ -39,7 +40,8 @@ struct MotionField {
 
 /// What a style may ask for beyond what every AR frame has.
 struct ArFrameNeeds {
-  bool surfaces = false;  ///< ArFrame::motion, barycentrics and parts
+  bool surfaces = false;             ///< ArFrame::motion, barycentrics and parts
+  Shading shading = Shading::kToon;  ///< of models
 };
 
 /// What a style is given: the camera's picture with the virtual objects composed over it, and what

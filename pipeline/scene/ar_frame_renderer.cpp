@@ -11,8 +11,9 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "pipeline/scene/attach_frame.h"
 #include "pipeline/scene/lens_uniforms.h"
+#include "pipeline/scene/lighting_uniforms.h"
+#include "pipeline/scene/linear_picture.h"
 
 namespace pleinair::scene {
 namespace {
@@ -25,10 +26,6 @@ constexpr glm::vec4 kNoNormal(128.0F / 255.0F, 128.0F / 255.0F, 128.0F / 255.0F,
 
 bool isHoled(const Material& material) {
   return material.coverageCutoff > 0.0F;
-}
-
-float linearFromSrgb(float srgb) {
-  return srgb <= 0.04045F ? srgb / 12.92F : std::pow((srgb + 0.055F) / 1.055F, 2.4F);
 }
 
 /// The distances along the camera's axis between which a model lies.
@@ -50,6 +47,7 @@ ArFrameRenderer::ArFrameRenderer(const gpu::ShaderLibrary& library, Scene scene)
     : scene_(std::move(scene)),
       geometry_(library, scene_),
       bodies_(scene_),
+      lights_(scene_.models.size()),
       firstSight_(scene_.models.size()) {
   assert(scene_.models.size() <= kMaxObjects && scene_.planes.size() <= kMaxPlanes);
   visible_.reserve(scene_.models.size());
@@ -63,16 +61,17 @@ void ArFrameRenderer::makePrograms(const gpu::ShaderLibrary& library) {
   if (scene_.models.empty()) return;
   constexpr std::string_view kVertices = "pipeline/scene/shaders/model.vert";
   background_ = library.fragmentPass("pipeline/scene/shaders/camera_background.frag");
-  toon_ = library.draw(kVertices, "pipeline/scene/shaders/model_toon.frag");
+  model_ = library.draw(kVertices, "pipeline/scene/shaders/model.frag");
   const bool hasHoles = std::ranges::any_of(scene_.models, [](const SceneModel& each) {
     return std::ranges::any_of(each.model->materials, isHoled);
   });
   if (hasHoles) {
-    toonWithHoles_ = library.draw(kVertices, "pipeline/scene/shaders/model_toon_holes.frag");
+    modelWithHoles_ = library.draw(kVertices, "pipeline/scene/shaders/model_holes.frag");
   }
   if (std::ranges::any_of(scene_.models, &SceneModel::isOccluder)) {
     occluder_ = library.draw(kVertices, "pipeline/scene/shaders/occluder.frag");
   }
+  if (scene_.light.shadow > 0.0F) shadow_.emplace(library, scene_, geometry_);
   white_ = gpu::Texture(gpu::TextureFormat::kRgba8, {1, 1});
   white_.upload(std::array<std::uint8_t, 4>{255, 255, 255, 255}, 4);
 }
@@ -112,8 +111,10 @@ void ArFrameRenderer::warmUp(hal::FrameSize size) {
     }
     geometry_.endPosing();
     bodies_.reset();
+    if (shadow_) shadow_->warmUp();
     drawBackground(picture);
     setCamera(camera);
+    if (shadow_) shadow_->draw();
     drawModels(picture);
     now_->showsCameraOnly = false;
   }
@@ -131,7 +132,8 @@ void ArFrameRenderer::reset() {
 const ArFrame& ArFrameRenderer::compose(const gpu::Texture& picture,
                                         const tracking::CameraModel& camera, const PoseSet& poses,
                                         std::uint64_t sequence, hal::TimePoint captureTime,
-                                        gpu::PassTimer& timer, ArFrameNeeds needs) {
+                                        gpu::PassTimer& timer, ArFrameNeeds needs,
+                                        std::span<const PlaceLighting> lights) {
   assert(picture.size() == camera.imageSize());
   takeSurfaces(picture.size());
   if (!firstTime_) firstTime_ = captureTime;
@@ -139,6 +141,13 @@ const ArFrame& ArFrameRenderer::compose(const gpu::Texture& picture,
   {
     const auto scope = timer.measure("pose models");
     poseModels(captureTime);
+  }
+  findVisible();
+  findLights(lights);
+  shading_ = needs.shading;
+  if (shadow_) {
+    const auto scope = timer.measure("cast shadows");
+    shadow_->cast(visible_, bodies_, lights_);
   }
   {
     const auto scope = timer.measure("compose");
@@ -174,7 +183,6 @@ void ArFrameRenderer::poseModels(hal::TimePoint captureTime) {
 }
 
 void ArFrameRenderer::drawFrame(const gpu::Texture& picture, const tracking::CameraModel& camera) {
-  findVisible();
   frame_ = kCameraOnly;
   if (visible_.empty()) {
     clearToCamera();
@@ -182,6 +190,7 @@ void ArFrameRenderer::drawFrame(const gpu::Texture& picture, const tracking::Cam
   }
   drawBackground(picture);
   setCamera(camera);
+  if (shadow_) shadow_->draw();
   drawModels(picture);
   now_->showsCameraOnly = false;
 }
@@ -193,6 +202,17 @@ void ArFrameRenderer::findVisible() {
     if (!now || geometry_.batches(i).empty()) continue;
     const DepthSpan span = depthSpan(geometry_.sphere(i), now->cameraFromBody);
     if (span.farthest > kNearestMetres) visible_.push_back(i);
+  }
+}
+
+void ArFrameRenderer::findLights(std::span<const PlaceLighting> lights) {
+  for (const std::size_t i : visible_) {
+    const glm::dmat3 cameraFromAttach(bodies_.model(i).now->attachment.cameraFromAttach);
+    const auto known = std::ranges::find(lights, scene_.models[i].tagId, &PlaceLighting::tagId);
+    const Lighting light = known != lights.end()
+                               ? withSceneDirection(known->light, scene_.light, cameraFromAttach)
+                               : fixedLighting(scene_.light, cameraFromAttach);
+    lights_[i] = turned(glm::mat3(cameraFromAttach), light);
   }
 }
 
@@ -229,8 +249,9 @@ void ArFrameRenderer::setCamera(const tracking::CameraModel& camera) {
   const glm::dvec2 size(camera.imageSize().width, camera.imageSize().height);
   const tracking::Intrinsics& pinhole = camera.intrinsics();
   const double range = farthest - nearest;
-  for (gpu::Program* program : {&toon_, &toonWithHoles_, &occluder_}) {
-    if (!*program) continue;
+  gpu::Program* receiver = shadow_ ? &shadow_->receiver() : nullptr;
+  for (gpu::Program* program : {&model_, &modelWithHoles_, &occluder_, receiver}) {
+    if (program == nullptr || !*program) continue;
     program->use()
         .set("clipFocal", glm::vec2(2.0 * glm::dvec2(pinhole.fx, pinhole.fy) / size))
         .set("clipCentre", glm::vec2(2.0 * glm::dvec2(pinhole.cx, pinhole.cy) / size - 1.0))
@@ -262,7 +283,7 @@ void ArFrameRenderer::drawModel(std::size_t index, const gpu::Texture& picture) 
     if (isOccluder) {
       beginModel(occluder_, index).texture("picture", picture);
     } else {
-      setMaterial(beginModel(isHoled(material) ? toonWithHoles_ : toon_, index), index, material);
+      setMaterial(beginModel(isHoled(material) ? modelWithHoles_ : model_, index), index, material);
     }
     (material.isDoubleSided ? glDisable : glEnable)(GL_CULL_FACE);
     geometry_.draw(index, batch);
@@ -273,23 +294,18 @@ void ArFrameRenderer::drawModel(std::size_t index, const gpu::Texture& picture) 
 gpu::Program& ArFrameRenderer::beginModel(gpu::Program& program, std::size_t index) {
   const SceneModel& model = scene_.models[index];
   const Body::Moment now = bodies_.model(index).now.value_or(Body::Moment{});
-  const glm::dmat3 cameraFromLight(scene_.light.frame == Light::Frame::kCamera
-                                       ? kTagFromAttach
-                                       : now.attachment.cameraFromAttach);
+  program.use();
+  setLighting(program, lights_[index], shading_);
   // Rotation and one scale: normals, of any length, go the same way as positions.
-  return program.use()
-      .set("cameraFromModel", glm::mat4(now.cameraFromBody))
+  return program.set("cameraFromModel", glm::mat4(now.cameraFromBody))
       .set("cameraFromModelNormals", glm::mat3(glm::dmat3(now.cameraFromBody)))
-      .set("towardLight", glm::vec3(cameraFromLight * scene_.light.towardLight))
       .set("object", static_cast<unsigned>(index + 1))
       .set("focus", model.focus);
 }
 
 void ArFrameRenderer::setMaterial(gpu::Program& program, std::size_t index,
                                   const Material& material) {
-  const glm::vec3 srgb = scene_.models[index].srgb;
-  const glm::vec4 tint(linearFromSrgb(srgb.r), linearFromSrgb(srgb.g), linearFromSrgb(srgb.b),
-                       1.0F);
+  const glm::vec4 tint(linearFromSrgb(scene_.models[index].srgb), 1.0F);
   program.set("baseColour", tint * material.baseColour)
       .texture("baseTexture",
                material.texture ? geometry_.textures(index)[*material.texture] : white_);

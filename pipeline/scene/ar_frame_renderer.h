@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "pipeline/gpu/pass_timer.h"
@@ -11,6 +12,8 @@
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/scene/ar_frame.h"
+#include "pipeline/scene/contact_shadow.h"
+#include "pipeline/scene/lighting.h"
 #include "pipeline/scene/pose_set.h"
 #include "pipeline/scene/posed_geometry.h"
 #include "pipeline/scene/scene.h"
@@ -20,7 +23,8 @@
 
 namespace pleinair::scene {
 
-/// Composes AR frames: a scene's models, toon-shaded (thesis §3.2.2), over the camera's picture.
+/// Composes AR frames: a scene's models, shaded as a style asks for, and their shadows over the
+/// camera's picture.
 /// What moves by itself does so by the frames' capture times, counted from the first frame or from
 /// the first sight of what it is attached to. Silhouettes are not anti-aliased: each pixel has one
 /// object. All calls on the thread of the GL context it was made in.
@@ -42,10 +46,13 @@ class ArFrameRenderer {
   /// The next AR frame, valid until the next call and as long as `picture`, which it refers to
   /// where no model is seen. A model is drawn where the pose is known of what it is attached to; a
   /// tag that is hidden is where the world has it. Each size is allocated for once.
-  /// Precondition: picture (RGBA8, LINEAR) has camera.imageSize() (see fittedCamera()).
+  /// `lights`: what is known of the light on the places that models are attached to; elsewhere it
+  /// is as the scene says. Precondition: picture (RGBA8, LINEAR) has camera.imageSize() (see
+  /// fittedCamera()).
   const ArFrame& compose(const gpu::Texture& picture, const tracking::CameraModel& camera,
                          const PoseSet& poses, std::uint64_t sequence, hal::TimePoint captureTime,
-                         gpu::PassTimer& timer, ArFrameNeeds needs = {});
+                         gpu::PassTimer& timer, ArFrameNeeds needs = {},
+                         std::span<const PlaceLighting> lights = {});
 
   /// Forgets the frames before: the next one has no motion, and clips that start on sight have not
   /// started.
@@ -74,6 +81,7 @@ class ArFrameRenderer {
   void poseModels(hal::TimePoint captureTime);
   void drawFrame(const gpu::Texture& picture, const tracking::CameraModel& camera);
   void findVisible();
+  void findLights(std::span<const PlaceLighting> lights);
   void clearToCamera();
   void drawBackground(const gpu::Texture& picture);
   void setCamera(const tracking::CameraModel& camera);
@@ -88,11 +96,14 @@ class ArFrameRenderer {
   SceneBodies bodies_;
   std::optional<SurfacePass> surfacePass_;  // where there is anything to know
   gpu::Program background_;
-  gpu::Program toon_;
-  gpu::Program toonWithHoles_;                             // only where a material has holes
-  gpu::Program occluder_;                                  // only where a model is one
-  gpu::Texture white_;                                     // of materials without a texture
-  std::vector<std::size_t> visible_;                       // models of this frame
+  std::optional<ContactShadow> shadow_;  // where a model may cast one
+  gpu::Program model_;
+  gpu::Program modelWithHoles_;       // only where a material has holes
+  gpu::Program occluder_;             // only where a model is one
+  gpu::Texture white_;                // of materials without a texture
+  std::vector<std::size_t> visible_;  // models of this frame
+  std::vector<Lighting> lights_;      // of each model, in the camera's frame
+  Shading shading_ = Shading::kToon;
   std::vector<std::optional<hal::TimePoint>> firstSight_;  // of each model
   std::vector<std::unique_ptr<Surfaces>> surfaces_;        // of each size that was composed
   Surfaces* now_ = nullptr;                                // of this frame's size

@@ -209,6 +209,10 @@ void PosedGeometry::reset() {
   for (ObjectSlot& object : objects_) object.isWritten = {};
 }
 
+bool PosedGeometry::isStill(std::size_t object) const {
+  return standsStill(model(object), scene_.models[object].playback);
+}
+
 ObjectPlace PosedGeometry::place(std::size_t index) const {
   const ObjectSlot& object = objects_[index];
   const auto halfOf = [&](std::size_t half) {

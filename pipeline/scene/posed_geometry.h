@@ -49,6 +49,8 @@ class PosedGeometry {
 
   /// Around what an object was posed as, in its model's frame.
   const BoundingSphere& sphere(std::size_t object) const { return objects_[object].sphere; }
+  /// Whether it looks the same at all times.
+  bool isStill(std::size_t object) const;
   /// Closer around it, in parts.
   std::span<const BoundingSphere> spheres(std::size_t object) const {
     return objects_[object].spheres;

@@ -15,6 +15,7 @@
 #include "pipeline/scene/attach_frame.h"
 #include "pipeline/scene/lens.h"
 #include "pipeline/scene/scene_attachment.h"
+#include "pipeline/scene/scene_light.h"
 #include "pipeline/scene/scene_planes.h"
 #include "pipeline/scene/scene_playback.h"
 #include "pipeline/scene/scene_values.h"
@@ -168,21 +169,6 @@ void readModels(const TomlTable& root, const std::filesystem::path& directory, S
     }
     for (std::string& notice : noticesOf(added)) scene.notices.push_back(std::move(notice));
   }
-}
-
-Light readLight(const TomlTable& table) {
-  static constexpr std::array<config::Choice<Light::Frame>, 2> kFrames{
-      {{"camera", Light::Frame::kCamera}, {"attached", Light::Frame::kAttached}}};
-  Light light;
-  light.frame = table.optionalChoice("frame", kFrames).value_or(light.frame);
-  if (const auto direction = table.optionalVector<3>("direction", {.min = -1e6, .max = 1e6})) {
-    const glm::dvec3 toward((*direction)[0], (*direction)[1], (*direction)[2]);
-    if (!(glm::length(toward) > 1e-6)) {
-      throw table.error("direction", "has no length", "a vector towards the light");
-    }
-    light.towardLight = glm::normalize(toward);
-  }
-  return light;
 }
 
 Scene readScene(const TomlDocument& document, const std::filesystem::path& directory) {

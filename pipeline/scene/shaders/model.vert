@@ -3,7 +3,7 @@
 // Inputs:  position in the model's frame, octahedral normal (posing.glsl's output); place on the
 //          texture, linear colour; cameraFromModel and what takes normals (of any length) along;
 //          pinhole terms in clip space.
-// Outputs: normal in the camera's frame, place, colour, the triangle's number.
+// Outputs: normal and the way to the viewer in the camera's frame, place, colour, the triangle's number.
 // Precision: highp, for lens.glsl's reasons.
 #include "pipeline/scene/shaders/lens.glsl"
 #include "pipeline/scene/shaders/octahedral.glsl"
@@ -20,15 +20,18 @@ layout(location = 2) in vec2 place;
 layout(location = 3) in vec4 colour;
 
 out vec3 cameraNormal;
+out vec3 towardViewer;  // of any length
 out vec2 texturePlace;
 out vec4 vertexColour;
 flat out uint triangle;
 
 void main() {
-  vec3 p = throughLens((cameraFromModel * vec4(position, 1.0)).xyz);
+  vec3 at = (cameraFromModel * vec4(position, 1.0)).xyz;
+  vec3 p = throughLens(at);
   gl_Position = vec4(clipFocal * p.xy + clipCentre * p.z, clipDepth.x * p.z + clipDepth.y, p.z);
   vec3 turned = cameraFromModelNormals * fromOctahedral(normal);
   cameraNormal = turned / max(length(turned), 1e-12);
+  towardViewer = -at;
   texturePlace = place;
   vertexColour = colour;
   triangle = uint(gl_VertexID);  // of the last corner: scene::DrawnModel
