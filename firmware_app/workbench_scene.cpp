@@ -13,12 +13,8 @@
 namespace pleinair::app {
 namespace {
 
-/// Light as the window's, a machine on the tag that lies free on the bench, and a gear on what else
-/// lies flat.
+/// A machine on the tag that lies free on the bench, and a gear on what else lies flat.
 constexpr const char* kModels = R"(
-[light]
-direction = [-0.1, -1.0, 0.6]
-
 [[model]]
 name = "gearbox"
 source = "builtin:gearbox"

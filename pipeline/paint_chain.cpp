@@ -41,8 +41,20 @@ gpu::GpuSeam seamOf(const PainterOptions& options, const gpu::ContextInfo& conte
   return seam;
 }
 
+/// Nothing where no model is shaded by what the camera sees.
+std::optional<scene::LightEstimator> makeLightEstimator(const PainterOptions& options) {
+  const scene::Scene& scene = options.scene;
+  if (!options.tracksTags || !scene.light.isEstimated || scene.models.empty()) return std::nullopt;
+  std::vector<std::optional<int>> places;
+  for (const scene::SceneModel& model : scene.models) places.push_back(model.tagId);
+  std::optional<glm::dvec3> towardKey;
+  const bool isAttached = scene.light.frame == scene::Light::Frame::kAttached;
+  if (scene.light.hasDirection && isAttached) towardKey = scene.light.towardLight;
+  return scene::LightEstimator(scene.tags, scene.tagFamily, places, towardKey);
+}
+
 bool isOurs(std::string_view view) {
-  return view == kCameraView || view == kArView;
+  return view == kCameraView || view == kArView || scene::findBufferView(view) != nullptr;
 }
 
 }  // namespace
@@ -58,7 +70,9 @@ PaintChain::PaintChain(const PainterOptions& options, const gpu::ContextInfo& co
       timer_(options.passTiming, &context),
       uploader_(library_),
       renderer_(library_, options.scene),
-      style_(styles::makeStyle(options.style, library_)) {
+      bufferViewer_(library_),
+      style_(styles::makeStyle(options.style, library_)),
+      light_(makeLightEstimator(options)) {
   hal::orThrow(tracking::checkTagFamily(scene_.tagFamily));
   for (const QualityPlan& plan : qualityPlans()) {
     if (levels_.empty() || options.qualityLevels) levels_.push_back({sizeAt(pictureSize_, plan)});
@@ -105,6 +119,9 @@ std::vector<PainterView> viewsOf(std::string_view style) {
   std::vector<PainterView> views{
       {std::string(kCameraView), "what the camera shows, at the picture's size"},
       {std::string(kArView), "the camera's picture with the models in it, before the style"}};
+  for (const scene::BufferView& view : scene::bufferViews()) {
+    views.push_back({std::string(view.name), std::string(view.help)});
+  }
   for (const styles::ViewInfo& view : styles::styleInfo(style).views) {
     views.push_back({std::string(view.name), std::string(view.help)});
   }
@@ -224,7 +241,8 @@ hal::Result<Picture> PaintChain::paintChecked(const hal::CapturedFrame& frame,
   }
   tracking::TrackingResult tracked;
   if (tracker_) tracked = tracker_->track(frame.image, frame.captureTime);
-  picture_ = &paintView(compose(frame, tracked, levels_[parameters.quality]), parameters);
+  picture_ = &paintView(
+      compose(frame, tracked, levels_[parameters.quality], needsOf(parameters.view)), parameters);
   submitToReaders(frame);
   glFlush();  // the GPU works on while the next frame is tracked
   return Picture{.texture = picture_->name(),
@@ -235,19 +253,35 @@ hal::Result<Picture> PaintChain::paintChecked(const hal::CapturedFrame& frame,
                  .quality = parameters.quality};
 }
 
+scene::ArFrameNeeds PaintChain::needsOf(const std::string& view) const {
+  const scene::BufferView* buffer = scene::findBufferView(view);
+  scene::ArFrameNeeds needs = style_->needs();
+  needs.surfaces = needs.surfaces || (buffer != nullptr && buffer->needs.surfaces);
+  return needs;
+}
+
 scene::ArFrame PaintChain::compose(const hal::CapturedFrame& frame,
-                                   const tracking::TrackingResult& tracked, const Level& level) {
+                                   const tracking::TrackingResult& tracked, const Level& level,
+                                   scene::ArFrameNeeds needs) {
   {
     const auto scope = timer_.measure("camera picture");
     camera_ = &uploader_.upload(frame.image, level.size, fitTo(level, frame.image.format.size));
   }
   sightings_.clear();
   for (const tracking::TrackedTag& tag : tracked.tags) {
-    if (tag.cameraFromTag) sightings_.push_back({tag.id, *tag.cameraFromTag});
+    if (tag.cameraFromTag) sightings_.push_back({tag.id, *tag.cameraFromTag, tag.covariance});
   }
-  scene::ArFrame composed = renderer_.compose(
-      *camera_, *level.camera, {.cameraFromWorld = tracked.cameraFromWorld, .tags = sightings_},
-      frame.sequence, frame.captureTime, timer_);
+  std::span<const scene::PlaceLighting> lights;
+  if (light_) {
+    light_->follow(frame.image, tracked, frame.captureTime);
+    lights = light_->lights();
+  }
+  scene::ArFrame composed =
+      renderer_.compose(*camera_, *level.camera,
+                        {.cameraFromWorld = tracked.cameraFromWorld,
+                         .worldCovariance = tracked.worldCovariance,
+                         .tags = sightings_},
+                        frame.sequence, frame.captureTime, timer_, needs, lights);
   composed.fullSize = pictureSize_;
   if (style_->usesCanvas()) composed.canvasFromPicture = followCanvas(frame.image);
   return composed;
@@ -269,6 +303,9 @@ const gpu::Texture& PaintChain::paintView(const scene::ArFrame& frame,
   const gpu::Texture& painted =
       style_->paint(frame, isOurs(view) ? std::string_view{} : view, timer_);
   if (view == kCameraView) return *camera_;
+  if (const scene::BufferView* buffer = scene::findBufferView(view)) {
+    return bufferViewer_.show(*buffer, frame);
+  }
   return view == kArView ? *frame.colour : painted;
 }
 
@@ -336,7 +373,9 @@ hal::Result<hal::Image> PaintChain::read(const gpu::Texture* texture) {
 
 void PaintChain::reset() {
   style_->reset();
+  renderer_.reset();
   motion_.reset();
+  if (light_) light_->reset();
   if (tracker_) tracker_->reset();
 }
 

@@ -15,6 +15,8 @@
 #include "pipeline/painter.h"
 #include "pipeline/present/picture_reader.h"
 #include "pipeline/scene/ar_frame_renderer.h"
+#include "pipeline/scene/buffer_views.h"
+#include "pipeline/scene/light_estimator.h"
 #include "pipeline/styles/style.h"
 #include "pipeline/tracking/luma.h"
 #include "pipeline/tracking/picture_motion.h"
@@ -74,7 +76,8 @@ class PaintChain {
   glm::dvec2 pixelsOfFull(const Level& level) const;
   gpu::CoverFit fitTo(const Level& level, hal::FrameSize frameSize) const;
   scene::ArFrame compose(const hal::CapturedFrame& frame, const tracking::TrackingResult& tracked,
-                         const Level& level);
+                         const Level& level, scene::ArFrameNeeds needs);
+  scene::ArFrameNeeds needsOf(const std::string& view) const;
   tracking::PlaneSimilarity followCanvas(const hal::ImageView& image);
   const gpu::Texture& paintView(const scene::ArFrame& frame, const PaintParameters& parameters);
   void submitToReaders(const hal::CapturedFrame& frame);
@@ -96,11 +99,13 @@ class PaintChain {
   gpu::PassTimer timer_;
   gpu::FrameUploader uploader_;
   scene::ArFrameRenderer renderer_;
+  scene::BufferViewer bufferViewer_;
   std::unique_ptr<styles::Style> style_;
   hal::FrameSize frameSize_;  // of the last frame; what follows is made for it
   std::optional<tracking::Tracker> tracker_;
   tracking::LumaConverter luma_;
   tracking::PictureMotion motion_;
+  std::optional<scene::LightEstimator> light_;  // where the scene leaves it to the camera
   std::vector<scene::TagSighting> sightings_;
   std::vector<std::unique_ptr<Reader>> readers_;
   std::optional<present::PictureReader> stills_;  // made for the first still

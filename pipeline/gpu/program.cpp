@@ -115,6 +115,15 @@ Program& Program::storage(unsigned binding, const Buffer& buffer) {
   return *this;
 }
 
+Program& Program::uniformBlock(unsigned binding, const Buffer& buffer, std::size_t offsetBytes,
+                               std::size_t sizeBytes) {
+  assert(binding < kMaxUniformBlocks && offsetBytes % kUniformAlignment == 0);
+  assert(offsetBytes + sizeBytes <= buffer.sizeBytes());
+  glBindBufferRange(GL_UNIFORM_BUFFER, binding, buffer.name(), static_cast<GLintptr>(offsetBytes),
+                    static_cast<GLsizeiptr>(sizeBytes));
+  return *this;
+}
+
 Program& Program::image(unsigned binding, const Texture& texture, ImageAccess access) {
   assert(binding < kMaxImages && isImageFormat(texture.format()));
   assert(access != ImageAccess::kReadWrite || texture.format() == TextureFormat::kR32f ||

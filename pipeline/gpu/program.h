@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,9 @@ namespace pleinair::gpu {
 inline constexpr unsigned kMaxTextureUnits = 16;
 inline constexpr unsigned kMaxStorageBuffers = 4;
 inline constexpr unsigned kMaxImages = 4;
+inline constexpr unsigned kMaxUniformBlocks = 12;
+/// Of a uniform block's place in its buffer: no GPU asks for more (GL ES 3.1, table 20.46).
+inline constexpr std::size_t kUniformAlignment = 256;
 
 enum class ImageAccess { kRead, kWrite, kReadWrite };
 
@@ -53,6 +57,10 @@ class Program {
   Program& texture(std::string_view sampler, const Texture& texture);
   /// Binds a storage buffer to `layout(binding = …)`.
   Program& storage(unsigned binding, const Buffer& buffer);
+  /// Binds part of a buffer to the uniform block `layout(std140, binding = …)`. Precondition: the
+  /// offset is a multiple of kUniformAlignment.
+  Program& uniformBlock(unsigned binding, const Buffer& buffer, std::size_t offsetBytes,
+                        std::size_t sizeBytes);
   /// Binds a texture as an image to `layout(binding = …)`. RGBA8, RGBA16F, RGBA32F, R32F, R32UI
   /// only, and read-write only the latter two (GPU rules, rule 6).
   Program& image(unsigned binding, const Texture& texture, ImageAccess access);

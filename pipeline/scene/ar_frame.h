@@ -8,6 +8,7 @@
 #include "hal/clock.h"
 #include "hal/pixel_format.h"
 #include "pipeline/gpu/texture.h"
+#include "pipeline/scene/shading.h"
 #include "pipeline/tracking/plane_similarity.h"
 
 namespace pleinair::scene {
@@ -19,6 +20,30 @@ inline constexpr std::uint32_t kTriangleBits = 22;
 inline constexpr std::uint32_t kMaxObjects = (1U << (32U - kTriangleBits)) - 1U;
 inline constexpr std::uint32_t kMaxTriangles = 1U << kTriangleBits;
 
+/// Where a pixel's motion is known from.
+enum class MotionSource {
+  kUnknown = 0,  ///< nothing is known; the displacement says nothing
+  kSurface = 1,  ///< a model's surface: exact for a virtual one, its pose's error for an occluder
+  kPlane = 2,    ///< a plane of the scene, as far as the poses are right
+};
+
+/// How far what each pixel shows has come since a frame before. Displacements lead from where it
+/// was, in px of this picture, to the pixel's centre; where it was may be outside the picture, or
+/// hidden then.
+struct MotionField {
+  /// RGBA16F: displacement (px; x right, y down), its predicted error (px, one standard deviation
+  /// over both axes; 0: exact), MotionSource. Displacements are rounded to 11 bits.
+  const gpu::Texture* texture = nullptr;
+  std::uint64_t sinceSequence = 0;  ///< the frame that it refers to
+  hal::TimePoint sinceTime;
+};
+
+/// What a style may ask for beyond what every AR frame has.
+struct ArFrameNeeds {
+  bool surfaces = false;             ///< ArFrame::motion, barycentrics and parts
+  Shading shading = Shading::kToon;  ///< of models
+};
+
 /// What a style is given: the camera's picture with the virtual objects composed over it, and what
 /// is known about each pixel. All textures have the size of `colour`, row 0 at the top; they are
 /// valid until the next frame is composed.
@@ -28,6 +53,14 @@ struct ArFrame {
   const gpu::Texture* normalFocus =
       nullptr;                          ///< RGBA8: camera-frame normal · 0.5 + 0.5; focus in A
   const gpu::Texture* depth = nullptr;  ///< kDepth24, window depth; 1 where no object is
+  /// Where asked for, else null. R32UI: the barycentric coordinates of the first two corners of the
+  /// triangle (PosedGeometry::triangles()), 16-bit unorms, the first in the lower half: with ids
+  /// the exact point of the surface. 0 where no object is.
+  const gpu::Texture* barycentrics = nullptr;
+  /// Where asked for, else null. R32UI: like ids, with the number of the part (Model::parts).
+  const gpu::Texture* parts = nullptr;
+  /// Where asked for, and there is a frame before since the last reset.
+  std::optional<MotionField> motion;
   bool hasObjects = false;  ///< whether any virtual object may be seen; without, ids are all 0
   bool hasFocus = false;    ///< whether any pixel's focus may be above 0
   float nearMetres = 0.0F;  ///< the depth range's planes, for linear depth

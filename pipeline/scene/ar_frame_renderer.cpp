@@ -5,17 +5,15 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
-#include <span>
 #include <utility>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/type_precision.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "pipeline/scene/attach_frame.h"
-#include "pipeline/scene/lens.h"
+#include "pipeline/scene/lens_uniforms.h"
+#include "pipeline/scene/lighting_uniforms.h"
+#include "pipeline/scene/linear_picture.h"
 
 namespace pleinair::scene {
 namespace {
@@ -26,64 +24,8 @@ constexpr double kFarthestByNearest = 1000.0;
 constexpr ArFrame kCameraOnly{.nearMetres = 0.1F, .farMetres = 10.0F};
 constexpr glm::vec4 kNoNormal(128.0F / 255.0F, 128.0F / 255.0F, 128.0F / 255.0F, 0.0F);
 
-/// Where the frame is that a model is attached to; nothing where that is not known.
-std::optional<glm::dmat4> cameraFromAttach(const Scene& scene, const SceneModel& model,
-                                           const PoseSet& poses) {
-  if (!model.tagId) return poses.cameraFromWorld;
-  const auto seen = std::ranges::find(poses.tags, *model.tagId, &TagSighting::id);
-  if (seen != poses.tags.end()) return seen->cameraFromTag * kTagFromAttach;
-  const tracking::TagMarker* tag = scene.findTag(*model.tagId);
-  assert(tag != nullptr);
-  if (!tag->worldFromTag || !poses.cameraFromWorld) return std::nullopt;
-  return *poses.cameraFromWorld * *tag->worldFromTag * kTagFromAttach;
-}
-
-/// A vertex as the GPU reads it.
-struct GpuVertex {
-  glm::vec3 position;
-  glm::vec3 normal;
-  glm::vec2 place;
-  glm::u16vec4 colour;  // linear light; 8 bits would band in the dark
-};
-
-GpuVertex gpuVertex(const MeshVertex& vertex) {
-  return {.position = vertex.position,
-          .normal = vertex.normal,
-          .place = vertex.texture,
-          .colour = glm::u16vec4(65535.0F * glm::clamp(vertex.colour, 0.0F, 1.0F) + 0.5F)};
-}
-
 bool isHoled(const Material& material) {
   return material.coverageCutoff > 0.0F;
-}
-
-gpu::TextureWrap wrapOf(TextureEdge edge) {
-  if (edge == TextureEdge::kRepeat) return gpu::TextureWrap::kRepeat;
-  return edge == TextureEdge::kMirror ? gpu::TextureWrap::kMirror : gpu::TextureWrap::kClamp;
-}
-
-gpu::Texture uploaded(const ModelTexture& texture) {
-  const hal::ImageView picture = texture.picture->view();
-  gpu::Texture made(gpu::TextureFormat::kSrgba8, picture.format.size,
-                    gpu::TextureFilter::kTrilinear);
-  made.setWrap(wrapOf(texture.across), wrapOf(texture.down));
-  made.upload(picture.planes[0].bytes, picture.planes[0].strideBytes);
-  return made;
-}
-
-float linearFromSrgb(float srgb) {
-  return srgb <= 0.04045F ? srgb / 12.92F : std::pow((srgb + 0.055F) / 1.055F, 2.4F);
-}
-
-/// What takes normals along, to within their length: the matrix of cofactors, which also mirrors
-/// and flattened parts have.
-glm::dmat3 normalMatrix(const glm::dmat3& m) {
-  const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]),
-                             glm::cross(m[0], m[1]));
-  const double turn = glm::determinant(m) < 0.0 ? -1.0 : 1.0;
-  double largest = 0.0;
-  for (int i = 0; i < 3; ++i) largest = std::max(largest, glm::length(cofactors[i]));
-  return largest > 0.0 ? turn / largest * cofactors : glm::dmat3(1.0);
 }
 
 /// The distances along the camera's axis between which a model lies.
@@ -102,77 +44,36 @@ DepthSpan depthSpan(const BoundingSphere& sphere, const glm::dmat4& cameraFromMo
 }  // namespace
 
 ArFrameRenderer::ArFrameRenderer(const gpu::ShaderLibrary& library, Scene scene)
-    : scene_(std::move(scene)) {
-  assert(scene_.models.size() <= kMaxObjects);
+    : scene_(std::move(scene)),
+      geometry_(library, scene_),
+      bodies_(scene_),
+      lights_(scene_.models.size()),
+      firstSight_(scene_.models.size()) {
+  assert(scene_.models.size() <= kMaxObjects && scene_.planes.size() <= kMaxPlanes);
+  visible_.reserve(scene_.models.size());
+  makePrograms(library);
+}
+
+void ArFrameRenderer::makePrograms(const gpu::ShaderLibrary& library) {
+  if (!scene_.models.empty() || !scene_.planes.empty()) {
+    surfacePass_.emplace(library, scene_, geometry_);
+  }
   if (scene_.models.empty()) return;
+  constexpr std::string_view kVertices = "pipeline/scene/shaders/model.vert";
   background_ = library.fragmentPass("pipeline/scene/shaders/camera_background.frag");
-  toon_ =
-      library.draw("pipeline/scene/shaders/model.vert", "pipeline/scene/shaders/model_toon.frag");
+  model_ = library.draw(kVertices, "pipeline/scene/shaders/model.frag");
   const bool hasHoles = std::ranges::any_of(scene_.models, [](const SceneModel& each) {
     return std::ranges::any_of(each.model->materials, isHoled);
   });
   if (hasHoles) {
-    toonWithHoles_ = library.draw("pipeline/scene/shaders/model.vert",
-                                  "pipeline/scene/shaders/model_toon_holes.frag");
+    modelWithHoles_ = library.draw(kVertices, "pipeline/scene/shaders/model_holes.frag");
   }
+  if (std::ranges::any_of(scene_.models, &SceneModel::isOccluder)) {
+    occluder_ = library.draw(kVertices, "pipeline/scene/shaders/occluder.frag");
+  }
+  if (scene_.light.shadow > 0.0F) shadow_.emplace(library, scene_, geometry_);
   white_ = gpu::Texture(gpu::TextureFormat::kRgba8, {1, 1});
   white_.upload(std::array<std::uint8_t, 4>{255, 255, 255, 255}, 4);
-  uploadModels();
-  visible_.reserve(scene_.models.size());
-}
-
-void ArFrameRenderer::uploadModels() {
-  GLint vertices = 0;
-  for (const SceneModel& sceneModel : scene_.models) {
-    const Model& model = *sceneModel.model;
-    const auto known = std::ranges::find(slots_, &model, &ModelSlot::model);
-    slotOfModel_.push_back(static_cast<std::size_t>(known - slots_.begin()));
-    if (known != slots_.end()) continue;
-    assert(model.triangleCount() <= kMaxTriangles);
-    ModelSlot& slot = slots_.emplace_back();
-    slot.model = &model;
-    slot.sphere = boundingSphere(model);
-    for (const Surface& surface : model.surfaces) {
-      const auto count = static_cast<GLsizei>(3 * surface.mesh.triangles.size());
-      slot.surfaces.push_back({.firstVertex = vertices, .vertexCount = count});
-      vertices += count;
-    }
-    for (const ModelTexture& texture : model.textures) slot.textures.push_back(uploaded(texture));
-  }
-  if (vertices == 0) return;
-  vertices_ = gpu::Buffer(static_cast<std::size_t>(vertices) * sizeof(GpuVertex),
-                          gpu::BufferUsage::kStatic);
-  uploadVertices();
-  vertexArray_ = gpu::VertexArrayHandle::make();
-  glBindVertexArray(vertexArray_.get());
-  glVertexAttribFormat(0, 3, GL_FLOAT, GL_FALSE, offsetof(GpuVertex, position));
-  glVertexAttribFormat(1, 3, GL_FLOAT, GL_FALSE, offsetof(GpuVertex, normal));
-  glVertexAttribFormat(2, 2, GL_FLOAT, GL_FALSE, offsetof(GpuVertex, place));
-  glVertexAttribFormat(3, 4, GL_UNSIGNED_SHORT, GL_TRUE, offsetof(GpuVertex, colour));
-  for (const GLuint attribute : {0U, 1U, 2U, 3U}) {
-    glVertexAttribBinding(attribute, 0);
-    glEnableVertexAttribArray(attribute);
-  }
-  glBindVertexBuffer(0, vertices_.name(), 0, sizeof(GpuVertex));
-  glBindVertexArray(0);
-}
-
-/// Surface by surface, so that memory holds the largest twice and not all.
-void ArFrameRenderer::uploadVertices() {
-  std::vector<GpuVertex> vertices;
-  for (const ModelSlot& slot : slots_) {
-    for (std::size_t i = 0; i < slot.surfaces.size(); ++i) {
-      const Mesh& mesh = slot.model->surfaces[i].mesh;
-      vertices.clear();
-      for (const auto& triangle : mesh.triangles) {
-        for (const std::uint32_t corner : triangle) {
-          vertices.push_back(gpuVertex(mesh.vertices[corner]));
-        }
-      }
-      const auto first = static_cast<std::size_t>(slot.surfaces[i].firstVertex);
-      vertices_.write(std::as_bytes(std::span(vertices)), first * sizeof(GpuVertex));
-    }
-  }
 }
 
 ArFrameRenderer::Surfaces::Surfaces(hal::FrameSize size, bool hasModels)
@@ -194,35 +95,63 @@ void ArFrameRenderer::takeSurfaces(hal::FrameSize size) {
           : surfaces_.emplace_back(std::make_unique<Surfaces>(size, !scene_.models.empty())).get();
 }
 
+/// All that a frame may need, once: posed in front of the camera, drawn, and asked about.
 void ArFrameRenderer::warmUp(hal::FrameSize size) {
   takeSurfaces(size);
-  if (scene_.models.empty()) return;
-  const gpu::Texture picture(gpu::TextureFormat::kRgba8, size, gpu::TextureFilter::kLinear);
-  drawBackground(picture);
+  if (!surfacePass_) return;
+  const tracking::CameraModel camera = assumedCamera(size);
+  if (!now_->known) now_->known.emplace(size);
   visible_.clear();
-  for (std::size_t i = 0; i < scene_.models.size(); ++i) visible_.push_back({.model = i});
-  setCamera(assumedCamera(size));
-  drawModels(hal::Duration::zero());
-  now_->showsCameraOnly = false;
+  if (!scene_.models.empty()) {
+    const gpu::Texture picture(gpu::TextureFormat::kRgba8, size, gpu::TextureFilter::kLinear);
+    geometry_.beginFrame();
+    for (std::size_t i = 0; i < scene_.models.size(); ++i) {
+      geometry_.pose(i, {}, {});
+      visible_.push_back(i);
+    }
+    geometry_.endPosing();
+    bodies_.reset();
+    if (shadow_) shadow_->warmUp();
+    drawBackground(picture);
+    setCamera(camera);
+    if (shadow_) shadow_->draw();
+    drawModels(picture);
+    now_->showsCameraOnly = false;
+  }
+  surfacePass_->run(now_->ids, camera, bodies_, visible_, *now_->known);
+  reset();
+}
+
+void ArFrameRenderer::reset() {
+  geometry_.reset();
+  bodies_.reset();
+  before_.reset();
+  std::ranges::fill(firstSight_, std::nullopt);
 }
 
 const ArFrame& ArFrameRenderer::compose(const gpu::Texture& picture,
                                         const tracking::CameraModel& camera, const PoseSet& poses,
                                         std::uint64_t sequence, hal::TimePoint captureTime,
-                                        gpu::PassTimer& timer) {
+                                        gpu::PassTimer& timer, ArFrameNeeds needs,
+                                        std::span<const PlaceLighting> lights) {
   assert(picture.size() == camera.imageSize());
-  const auto scope = timer.measure("compose");
   takeSurfaces(picture.size());
   if (!firstTime_) firstTime_ = captureTime;
-  findVisible(poses);
-  frame_ = kCameraOnly;
-  if (visible_.empty()) {
-    clearToCamera();
-  } else {
-    drawBackground(picture);
-    setCamera(camera);
-    drawModels(captureTime - *firstTime_);
-    now_->showsCameraOnly = false;
+  bodies_.advance(poses);
+  {
+    const auto scope = timer.measure("pose models");
+    poseModels(captureTime);
+  }
+  findVisible();
+  findLights(lights);
+  shading_ = needs.shading;
+  if (shadow_) {
+    const auto scope = timer.measure("cast shadows");
+    shadow_->cast(visible_, bodies_, lights_);
+  }
+  {
+    const auto scope = timer.measure("compose");
+    drawFrame(picture, camera);
   }
   frame_.colour = visible_.empty() ? &picture : &now_->colour;
   frame_.ids = &now_->ids;
@@ -230,23 +159,60 @@ const ArFrame& ArFrameRenderer::compose(const gpu::Texture& picture,
   frame_.depth = &now_->depth;
   frame_.hasObjects = !visible_.empty();
   frame_.hasFocus = std::ranges::any_of(
-      visible_, [&](const Visible& each) { return scene_.models[each.model].focus > 0.0F; });
+      visible_, [&](std::size_t each) { return scene_.models[each].focus > 0.0F; });
   frame_.sequence = sequence;
   frame_.captureTime = captureTime;
+  if (needs.surfaces && surfacePass_) {
+    const auto scope = timer.measure("surfaces");
+    findSurfaces(camera);
+  }
+  before_ = Stamp{sequence, captureTime};
   return frame_;
 }
 
-void ArFrameRenderer::findVisible(const PoseSet& poses) {
+void ArFrameRenderer::poseModels(hal::TimePoint captureTime) {
+  geometry_.beginFrame();
+  for (std::size_t i = 0; i < scene_.models.size(); ++i) {
+    if (!bodies_.model(i).now) continue;
+    if (!firstSight_[i]) firstSight_[i] = captureTime;
+    const hal::TimePoint start =
+        scene_.models[i].playback.startsOnSight ? *firstSight_[i] : *firstTime_;
+    geometry_.pose(i, captureTime - start, captureTime - *firstTime_);
+  }
+  geometry_.endPosing();
+}
+
+void ArFrameRenderer::drawFrame(const gpu::Texture& picture, const tracking::CameraModel& camera) {
+  frame_ = kCameraOnly;
+  if (visible_.empty()) {
+    clearToCamera();
+    return;
+  }
+  drawBackground(picture);
+  setCamera(camera);
+  if (shadow_) shadow_->draw();
+  drawModels(picture);
+  now_->showsCameraOnly = false;
+}
+
+void ArFrameRenderer::findVisible() {
   visible_.clear();
   for (std::size_t i = 0; i < scene_.models.size(); ++i) {
-    const SceneModel& model = scene_.models[i];
-    const auto attach = cameraFromAttach(scene_, model, poses);
-    if (!attach) continue;
-    const glm::dmat4 cameraFromModel = *attach * model.attachFromModel;
-    const ModelSlot& slot = slots_[slotOfModel_[i]];
-    const DepthSpan span = depthSpan(slot.sphere, cameraFromModel);
-    if (span.farthest <= kNearestMetres || slot.model->triangleCount() == 0) continue;
-    visible_.push_back({i, *attach, cameraFromModel});
+    const auto& now = bodies_.model(i).now;
+    if (!now || geometry_.batches(i).empty()) continue;
+    const DepthSpan span = depthSpan(geometry_.sphere(i), now->cameraFromBody);
+    if (span.farthest > kNearestMetres) visible_.push_back(i);
+  }
+}
+
+void ArFrameRenderer::findLights(std::span<const PlaceLighting> lights) {
+  for (const std::size_t i : visible_) {
+    const glm::dmat3 cameraFromAttach(bodies_.model(i).now->attachment.cameraFromAttach);
+    const auto known = std::ranges::find(lights, scene_.models[i].tagId, &PlaceLighting::tagId);
+    const Lighting light = known != lights.end()
+                               ? withSceneDirection(known->light, scene_.light, cameraFromAttach)
+                               : fixedLighting(scene_.light, cameraFromAttach);
+    lights_[i] = turned(glm::mat3(cameraFromAttach), light);
   }
 }
 
@@ -269,9 +235,9 @@ void ArFrameRenderer::drawBackground(const gpu::Texture& picture) {
 void ArFrameRenderer::setCamera(const tracking::CameraModel& camera) {
   double nearest = HUGE_VAL;
   double farthest = kNearestMetres * kFarthestByNearest;
-  for (const Visible& visible : visible_) {
-    const auto span =
-        depthSpan(slots_[slotOfModel_[visible.model]].sphere, visible.cameraFromModel);
+  for (const std::size_t i : visible_) {
+    const auto& now = bodies_.model(i).now;
+    const auto span = depthSpan(geometry_.sphere(i), now ? now->cameraFromBody : glm::dmat4(1.0));
     nearest = std::min(nearest, span.nearest);
     farthest = std::max(farthest, span.farthest);
   }
@@ -282,87 +248,79 @@ void ArFrameRenderer::setCamera(const tracking::CameraModel& camera) {
 
   const glm::dvec2 size(camera.imageSize().width, camera.imageSize().height);
   const tracking::Intrinsics& pinhole = camera.intrinsics();
-  const tracking::Distortion& lens = camera.distortion();
   const double range = farthest - nearest;
-  for (gpu::Program* program : {&toon_, &toonWithHoles_}) {
-    if (!*program) continue;
+  gpu::Program* receiver = shadow_ ? &shadow_->receiver() : nullptr;
+  for (gpu::Program* program : {&model_, &modelWithHoles_, &occluder_, receiver}) {
+    if (program == nullptr || !*program) continue;
     program->use()
         .set("clipFocal", glm::vec2(2.0 * glm::dvec2(pinhole.fx, pinhole.fy) / size))
         .set("clipCentre", glm::vec2(2.0 * glm::dvec2(pinhole.cx, pinhole.cy) / size - 1.0))
         .set("clipDepth",
-             glm::vec2((farthest + nearest) / range, -2.0 * farthest * nearest / range))
-        .set("radial", glm::vec3(lens.k1, lens.k2, lens.k3))
-        .set("tangential", glm::vec2(lens.p1, lens.p2))
-        .set("radialBelow", glm::vec3(lens.k4, lens.k5, lens.k6))
-        .set("trustedRadius", static_cast<float>(trustedLensRadius(lens)));
+             glm::vec2((farthest + nearest) / range, -2.0 * farthest * nearest / range));
+    setLens(*program, camera);
   }
 }
 
-void ArFrameRenderer::drawModels(hal::Duration time) {
-  if (!vertexArray_) return;
+void ArFrameRenderer::drawModels(const gpu::Texture& picture) {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
-  glBindVertexArray(vertexArray_.get());
-  for (const Visible& visible : visible_) drawModel(visible, time);
-  glBindVertexArray(0);
+  glFrontFace(GL_CW);  // image rows go down, GL's go up
+  for (const std::size_t i : visible_) drawModel(i, picture);
+  PosedGeometry::unbind();
   glFrontFace(GL_CCW);
   glDisable(GL_CULL_FACE);
   glDisable(GL_DEPTH_TEST);
 }
 
-void ArFrameRenderer::drawModel(const Visible& visible, hal::Duration time) {
-  const SceneModel& model = scene_.models[visible.model];
-  const ModelSlot& slot = slots_[slotOfModel_[visible.model]];
-  const glm::dmat3 cameraFromLight(
-      scene_.light.frame == Light::Frame::kCamera ? kTagFromAttach : visible.cameraFromAttach);
-  for (gpu::Program* program : {&toon_, &toonWithHoles_}) {
-    if (!*program) continue;
-    program->use()
-        .set("towardLight", glm::vec3(cameraFromLight * scene_.light.towardLight))
-        .set("object", static_cast<unsigned>(visible.model + 1))
-        .set("focus", model.focus);
-  }
-  for (const ModelPart& part : slot.model->parts) {
-    drawPart(slot, model, part, visible.cameraFromModel * modelFromPart(part, time));
-  }
-}
-
-void ArFrameRenderer::drawPart(const ModelSlot& slot, const SceneModel& model,
-                               const ModelPart& part, const glm::dmat4& cameraFromPart) {
-  const glm::dmat3 linear(cameraFromPart);
-  // Image rows go down, GL's go up; a mirrored part turns its triangles round again.
-  glFrontFace(glm::determinant(linear) < 0.0 ? GL_CCW : GL_CW);
-  auto firstTriangle = static_cast<unsigned>(part.firstTriangle);
-  for (std::size_t i = 0; i < part.surfaceCount; ++i) {
-    const std::size_t index = part.firstSurface + i;
-    const SurfaceSlot& surface = slot.surfaces[index];
-    const Material& material = slot.model->materials[slot.model->surfaces[index].material];
-    setMaterial(slot, model, material);
-    programOf(material)
-        .set("cameraFromPart", glm::mat4(cameraFromPart))
-        .set("cameraFromPartNormals", glm::mat3(normalMatrix(linear)))
-        .set("firstVertex", surface.firstVertex)
-        .set("firstTriangle", firstTriangle);
-    glDrawArrays(GL_TRIANGLES, surface.firstVertex, surface.vertexCount);
-    firstTriangle += static_cast<unsigned>(surface.vertexCount) / 3;
+void ArFrameRenderer::drawModel(std::size_t index, const gpu::Texture& picture) {
+  if (geometry_.batches(index).empty()) return;
+  geometry_.bind(index);
+  const Model& model = geometry_.model(index);
+  const bool isOccluder = scene_.models[index].isOccluder;
+  for (const DrawBatch& batch : geometry_.batches(index)) {
+    const Material& material = model.materials[batch.material];
+    if (isOccluder) {
+      beginModel(occluder_, index).texture("picture", picture);
+    } else {
+      setMaterial(beginModel(isHoled(material) ? modelWithHoles_ : model_, index), index, material);
+    }
+    (material.isDoubleSided ? glDisable : glEnable)(GL_CULL_FACE);
+    geometry_.draw(index, batch);
   }
 }
 
-gpu::Program& ArFrameRenderer::programOf(const Material& material) {
-  return isHoled(material) ? toonWithHoles_ : toon_;
+/// What all materials of a model share.
+gpu::Program& ArFrameRenderer::beginModel(gpu::Program& program, std::size_t index) {
+  const SceneModel& model = scene_.models[index];
+  const Body::Moment now = bodies_.model(index).now.value_or(Body::Moment{});
+  program.use();
+  setLighting(program, lights_[index], shading_);
+  // Rotation and one scale: normals, of any length, go the same way as positions.
+  return program.set("cameraFromModel", glm::mat4(now.cameraFromBody))
+      .set("cameraFromModelNormals", glm::mat3(glm::dmat3(now.cameraFromBody)))
+      .set("object", static_cast<unsigned>(index + 1))
+      .set("focus", model.focus);
 }
 
-void ArFrameRenderer::setMaterial(const ModelSlot& slot, const SceneModel& model,
+void ArFrameRenderer::setMaterial(gpu::Program& program, std::size_t index,
                                   const Material& material) {
-  const glm::vec4 tint(linearFromSrgb(model.srgb.r), linearFromSrgb(model.srgb.g),
-                       linearFromSrgb(model.srgb.b), 1.0F);
-  gpu::Program& program = programOf(material);
-  program.use()
-      .set("baseColour", tint * material.baseColour)
-      .texture("baseTexture", material.texture ? slot.textures[*material.texture] : white_);
+  const glm::vec4 tint(linearFromSrgb(scene_.models[index].srgb), 1.0F);
+  program.set("baseColour", tint * material.baseColour)
+      .texture("baseTexture",
+               material.texture ? geometry_.textures(index)[*material.texture] : white_);
   if (isHoled(material)) program.set("coverageCutoff", material.coverageCutoff);
-  (material.isDoubleSided ? glDisable : glEnable)(GL_CULL_FACE);
+}
+
+void ArFrameRenderer::findSurfaces(const tracking::CameraModel& camera) {
+  if (!now_->known) now_->known.emplace(now_->ids.size());
+  surfacePass_->run(now_->ids, camera, bodies_, visible_, *now_->known);
+  frame_.barycentrics = &now_->known->barycentrics;
+  frame_.parts = &now_->known->parts;
+  if (!before_) return;
+  frame_.motion = MotionField{.texture = &now_->known->motion,
+                              .sinceSequence = before_->sequence,
+                              .sinceTime = before_->time};
 }
 
 }  // namespace pleinair::scene

@@ -3,31 +3,41 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
-#include "pipeline/gpu/buffer.h"
-#include "pipeline/gpu/handle.h"
 #include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/scene/ar_frame.h"
+#include "pipeline/scene/contact_shadow.h"
+#include "pipeline/scene/lighting.h"
 #include "pipeline/scene/pose_set.h"
+#include "pipeline/scene/posed_geometry.h"
 #include "pipeline/scene/scene.h"
+#include "pipeline/scene/scene_bodies.h"
 #include "pipeline/scene/scene_shaders.h"
+#include "pipeline/scene/surface_pass.h"
 
 namespace pleinair::scene {
 
-/// Composes AR frames: a scene's models, toon-shaded (thesis §3.2.2), over the camera's picture.
-/// Parts that turn do so by the frames' capture times, counted from the first frame. Silhouettes
-/// are not anti-aliased: each pixel has one object. All calls on the thread of the GL context it
-/// was made in.
+/// Composes AR frames: a scene's models, shaded as a style asks for, and their shadows over the
+/// camera's picture.
+/// What moves by itself does so by the frames' capture times, counted from the first frame or from
+/// the first sight of what it is attached to. Silhouettes are not anti-aliased: each pixel has one
+/// object. All calls on the thread of the GL context it was made in.
 class ArFrameRenderer {
  public:
   /// Uploads the scene's models. `library` has gpu::gpuShaders() and gpu::sceneShaders().
   /// ArFrame::ids counts models in the scene's order and triangles as their parts do.
   ArFrameRenderer(const gpu::ShaderLibrary& library, Scene scene);
+  ArFrameRenderer(const ArFrameRenderer&) = delete;
+  ArFrameRenderer& operator=(const ArFrameRenderer&) = delete;
+  ArFrameRenderer(ArFrameRenderer&&) = delete;
+  ArFrameRenderer& operator=(ArFrameRenderer&&) = delete;
+  ~ArFrameRenderer() = default;
 
   /// Allocates for pictures of `size` and runs each program once, so that the first frame does not
   /// wait for drivers (GPU.md, rule 14).
@@ -36,24 +46,19 @@ class ArFrameRenderer {
   /// The next AR frame, valid until the next call and as long as `picture`, which it refers to
   /// where no model is seen. A model is drawn where the pose is known of what it is attached to; a
   /// tag that is hidden is where the world has it. Each size is allocated for once.
-  /// Precondition: picture (RGBA8, LINEAR) has camera.imageSize() (see fittedCamera()).
+  /// `lights`: what is known of the light on the places that models are attached to; elsewhere it
+  /// is as the scene says. Precondition: picture (RGBA8, LINEAR) has camera.imageSize() (see
+  /// fittedCamera()).
   const ArFrame& compose(const gpu::Texture& picture, const tracking::CameraModel& camera,
                          const PoseSet& poses, std::uint64_t sequence, hal::TimePoint captureTime,
-                         gpu::PassTimer& timer);
+                         gpu::PassTimer& timer, ArFrameNeeds needs = {},
+                         std::span<const PlaceLighting> lights = {});
+
+  /// Forgets the frames before: the next one has no motion, and clips that start on sight have not
+  /// started.
+  void reset();
 
  private:
-  /// A surface's place in the vertex buffer.
-  struct SurfaceSlot {
-    GLint firstVertex = 0;
-    GLsizei vertexCount = 0;
-  };
-  /// What the GPU has of a model.
-  struct ModelSlot {
-    const Model* model = nullptr;
-    std::vector<SurfaceSlot> surfaces;
-    std::vector<gpu::Texture> textures;
-    BoundingSphere sphere;
-  };
   /// What frames of one size are drawn into.
   struct Surfaces {
     Surfaces(hal::FrameSize size, bool hasModels);
@@ -61,45 +66,49 @@ class ArFrameRenderer {
     gpu::Texture ids;
     gpu::Texture normalFocus;
     gpu::Texture depth;
-    gpu::Texture colour;              // where there are models
-    gpu::RenderTarget target;         // all of them
-    gpu::RenderTarget withoutColour;  // for frames that show the camera's picture only
-    bool showsCameraOnly = false;     // what ids, normals and depth hold
+    gpu::Texture colour;                        // where there are models
+    gpu::RenderTarget target;                   // all of them
+    gpu::RenderTarget withoutColour;            // for frames that show the camera's picture only
+    bool showsCameraOnly = false;               // what ids, normals and depth hold
+    std::optional<SurfacePass::Buffers> known;  // where they were asked for
   };
-  /// A model in this frame.
-  struct Visible {
-    std::size_t model = 0;
-    glm::dmat4 cameraFromAttach{1.0};
-    glm::dmat4 cameraFromModel{1.0};
+  struct Stamp {
+    std::uint64_t sequence = 0;
+    hal::TimePoint time;
   };
-  void uploadModels();
-  void uploadVertices();
+  void makePrograms(const gpu::ShaderLibrary& library);
   void takeSurfaces(hal::FrameSize size);
-  void findVisible(const PoseSet& poses);
+  void poseModels(hal::TimePoint captureTime);
+  void drawFrame(const gpu::Texture& picture, const tracking::CameraModel& camera);
+  void findVisible();
+  void findLights(std::span<const PlaceLighting> lights);
   void clearToCamera();
   void drawBackground(const gpu::Texture& picture);
   void setCamera(const tracking::CameraModel& camera);
-  void drawModels(hal::Duration time);
-  void drawModel(const Visible& visible, hal::Duration time);
-  void drawPart(const ModelSlot& slot, const SceneModel& model, const ModelPart& part,
-                const glm::dmat4& cameraFromPart);
-  void setMaterial(const ModelSlot& slot, const SceneModel& model, const Material& material);
-  gpu::Program& programOf(const Material& material);
+  void drawModels(const gpu::Texture& picture);
+  void drawModel(std::size_t index, const gpu::Texture& picture);
+  gpu::Program& beginModel(gpu::Program& program, std::size_t index);
+  void setMaterial(gpu::Program& program, std::size_t index, const Material& material);
+  void findSurfaces(const tracking::CameraModel& camera);
 
   Scene scene_;
+  PosedGeometry geometry_;
+  SceneBodies bodies_;
+  std::optional<SurfacePass> surfacePass_;  // where there is anything to know
   gpu::Program background_;
-  gpu::Program toon_;
-  gpu::Program toonWithHoles_;  // only where a material has holes
-  gpu::Texture white_;          // of materials without a texture
-  gpu::Buffer vertices_;
-  gpu::VertexArrayHandle vertexArray_;
-  std::vector<ModelSlot> slots_;
-  std::vector<std::size_t> slotOfModel_;
-  std::vector<Visible> visible_;
-
-  std::vector<std::unique_ptr<Surfaces>> surfaces_;  // of each size that was composed
-  Surfaces* now_ = nullptr;                          // of this frame's size
+  std::optional<ContactShadow> shadow_;  // where a model may cast one
+  gpu::Program model_;
+  gpu::Program modelWithHoles_;       // only where a material has holes
+  gpu::Program occluder_;             // only where a model is one
+  gpu::Texture white_;                // of materials without a texture
+  std::vector<std::size_t> visible_;  // models of this frame
+  std::vector<Lighting> lights_;      // of each model, in the camera's frame
+  Shading shading_ = Shading::kToon;
+  std::vector<std::optional<hal::TimePoint>> firstSight_;  // of each model
+  std::vector<std::unique_ptr<Surfaces>> surfaces_;        // of each size that was composed
+  Surfaces* now_ = nullptr;                                // of this frame's size
   std::optional<hal::TimePoint> firstTime_;
+  std::optional<Stamp> before_;  // the frame that bodies and poses were advanced for last
   ArFrame frame_;
 };
 

@@ -49,8 +49,9 @@ struct BoundingSphere {
 BoundingSphere boundingSphere(const Mesh& mesh);
 
 /// The same surface with no edge longer than `maxEdgeMetres` (> 0). Triangles that shared an edge
-/// still do: longest edges are halved, and an edge's length is the same from both sides. Beyond
-/// about `mostTriangles` the rest is left as it is.
+/// or a vertex still do: longest edges are halved, and an edge's length is the same from both
+/// sides. The vertices that there were keep their places; what holds or morphs them does so half
+/// way, too. Beyond about `mostTriangles` the rest is left as it is.
 Mesh withShortEdges(const Mesh& mesh, float maxEdgeMetres,
                     std::size_t mostTriangles = std::numeric_limits<std::size_t>::max());
 

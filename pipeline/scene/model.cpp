@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <span>
 #include <utility>
 
-#include <glm/common.hpp>
 #include <glm/ext/matrix_transform.hpp>
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
+
+#include "pipeline/scene/affine.h"
+#include "pipeline/scene/model_pose.h"
 
 namespace pleinair::scene {
 namespace {
@@ -19,39 +20,28 @@ std::span<const Surface> surfacesOf(const Model& model, const ModelPart& part) {
   return std::span(model.surfaces).subspan(part.firstSurface, part.surfaceCount);
 }
 
-/// At most so much longer an affine transform makes anything.
-double largestScale(const glm::dmat4& transform) {
-  double squares = 0.0;
-  for (int column = 0; column < 3; ++column) {
-    const glm::dvec3 axis(transform[column]);
-    squares += glm::dot(axis, axis);
+/// Bounds the memory that morph targets take of surfaces that are cut small: triangles times
+/// targets times parts.
+constexpr std::size_t kMostCutMorphs = 4'000'000;
+
+/// How much larger each surface is drawn than it is, where it is drawn largest.
+std::vector<double> scalesAtRest(const Model& model) {
+  ModelPose rest;
+  poseModel(model, std::nullopt, hal::Duration::zero(), rest);
+  std::vector<double> scales(model.surfaces.size(), 0.0);
+  for (const ModelPart& part : model.parts) {
+    for (std::size_t i = part.firstSurface; i < part.firstSurface + part.surfaceCount; ++i) {
+      if (!part.skin) {
+        scales[i] = std::max(scales[i], largestScale(rest.matrices[part.firstMatrix]));
+        continue;
+      }
+      for (const JointBounds& joint : model.bounds[i].joints) {
+        scales[i] =
+            std::max(scales[i], largestScale(rest.matrices[part.firstMatrix + joint.joint]));
+      }
+    }
   }
-  return std::sqrt(squares);  // the Frobenius norm; √3 too much for a plain rotation
-}
-
-bool isRotationAndScale(const glm::dmat4& transform) {
-  const glm::dvec3 x(transform[0]);
-  const glm::dvec3 y(transform[1]);
-  const glm::dvec3 z(transform[2]);
-  const double size = glm::dot(x, x);
-  const auto isSmall = [&](double value) { return std::abs(value) <= 1e-6 * size; };
-  return isSmall(glm::dot(y, y) - size) && isSmall(glm::dot(z, z) - size) &&
-         isSmall(glm::dot(x, y)) && isSmall(glm::dot(y, z)) && isSmall(glm::dot(z, x));
-}
-
-double scaleOf(const glm::dmat4& transform) {
-  return isRotationAndScale(transform) ? glm::length(glm::dvec3(transform[0]))
-                                       : largestScale(transform);
-}
-
-/// In the model's frame.
-BoundingSphere sweptSphere(const ModelPart& part, BoundingSphere sphere) {
-  if (part.radiansPerSecond != 0.0) {  // its own z axis is what it turns about
-    sphere.radiusMetres += glm::length(glm::dvec2(sphere.centre));
-    sphere.centre.x = sphere.centre.y = 0.0;
-  }
-  return {.centre = glm::dvec3(part.modelFromPart * glm::dvec4(sphere.centre, 1.0)),
-          .radiusMetres = scaleOf(part.modelFromPart) * sphere.radiusMetres};
+  return scales;
 }
 
 }  // namespace
@@ -92,6 +82,8 @@ void numberParts(Model& model) {
     nextMatrix += part.matrixCount;
     nextWeight += part.weightCount;
   }
+  model.bounds.clear();
+  for (const Surface& surface : model.surfaces) model.bounds.push_back(boundsOf(surface.mesh));
 }
 
 Model singlePartModel(std::string name, Mesh mesh) {
@@ -103,37 +95,15 @@ Model singlePartModel(std::string name, Mesh mesh) {
   return model;
 }
 
-glm::dmat4 modelFromPart(const ModelPart& part, hal::Duration time) {
-  if (part.radiansPerSecond == 0.0) return part.modelFromPart;
+glm::dmat4 turnedAfter(const ModelPart& part, hal::Duration time) {
   const double seconds = std::chrono::duration<double>(time).count();
   const double angle = std::remainder(part.radiansPerSecond * seconds, 2.0 * std::numbers::pi);
-  return glm::rotate(part.modelFromPart, angle, {0.0, 0.0, 1.0});
+  return glm::rotate(glm::dmat4(1.0), angle, {0.0, 0.0, 1.0});
 }
 
-BoundingSphere boundingSphere(const Model& model) {
-  std::vector<BoundingSphere> ofSurfaces;
-  for (const Surface& surface : model.surfaces) ofSurfaces.push_back(boundingSphere(surface.mesh));
-  std::vector<BoundingSphere> spheres;
-  for (const ModelPart& part : model.parts) {
-    for (std::size_t i = 0; i < part.surfaceCount; ++i) {
-      const std::size_t surface = part.firstSurface + i;
-      if (model.surfaces[surface].mesh.vertices.empty()) continue;
-      spheres.push_back(sweptSphere(part, ofSurfaces[surface]));
-    }
-  }
-  if (spheres.empty()) return {};
-  glm::dvec3 low = spheres.front().centre;
-  glm::dvec3 high = low;
-  for (const BoundingSphere& sphere : spheres) {
-    low = glm::min(low, sphere.centre - sphere.radiusMetres);
-    high = glm::max(high, sphere.centre + sphere.radiusMetres);
-  }
-  BoundingSphere all{.centre = 0.5 * (low + high)};
-  for (const BoundingSphere& sphere : spheres) {
-    all.radiusMetres =
-        std::max(all.radiusMetres, glm::distance(all.centre, sphere.centre) + sphere.radiusMetres);
-  }
-  return all;
+glm::dmat4 modelFromPart(const ModelPart& part, hal::Duration time) {
+  if (part.radiansPerSecond == 0.0) return part.modelFromPart;
+  return part.modelFromPart * turnedAfter(part, time);
 }
 
 const ModelPart* partOfTriangle(const Model& model, std::uint32_t triangle) {
@@ -150,18 +120,22 @@ const ModelPart* findPart(const Model& model, std::string_view name) {
 
 Model withShortEdges(const Model& model, double maxEdgeMetres, std::size_t mostTriangles) {
   Model result = model;
-  std::vector<double> scales(model.surfaces.size(), 0.0);
+  const std::vector<double> scales = scalesAtRest(model);
+  std::vector<std::size_t> uses(model.surfaces.size(), 0);
   for (const ModelPart& part : model.parts) {
-    for (std::size_t i = 0; i < part.surfaceCount; ++i) {
-      double& scale = scales[part.firstSurface + i];
-      scale = std::max(scale, scaleOf(part.modelFromPart));
-    }
+    for (std::size_t i = 0; i < part.surfaceCount; ++i) ++uses[part.firstSurface + i];
   }
+  std::size_t mostMorphs = kMostCutMorphs;
   for (std::size_t i = 0; i < scales.size(); ++i) {
     const auto edge = static_cast<float>(maxEdgeMetres / scales[i]);
     if (!(scales[i] > 0.0) || !(edge > 0.0F)) continue;
-    result.surfaces[i].mesh = withShortEdges(model.surfaces[i].mesh, edge, mostTriangles);
-    mostTriangles -= std::min(mostTriangles, result.surfaces[i].mesh.triangles.size());
+    Mesh& mesh = result.surfaces[i].mesh;
+    const std::size_t morphs = mesh.morphTargets.size() * uses[i];
+    const std::size_t most =
+        morphs > 0 ? std::min(mostTriangles, mostMorphs / morphs) : mostTriangles;
+    mesh = withShortEdges(mesh, edge, most);
+    mostTriangles -= std::min(mostTriangles, mesh.triangles.size());
+    mostMorphs -= std::min(mostMorphs, morphs * mesh.triangles.size());
   }
   numberParts(result);
   return result;

@@ -15,6 +15,7 @@
 #include "hal/image.h"
 #include "pipeline/scene/mesh.h"
 #include "pipeline/scene/rig.h"
+#include "pipeline/scene/surface_bounds.h"
 
 namespace pleinair::scene {
 
@@ -71,8 +72,9 @@ struct Model {
   std::vector<Material> materials;
   std::vector<ModelTexture> textures;
   std::vector<ModelPart> parts;
-  Rig rig;                           ///< empty where nothing but what turns by itself moves
-  std::vector<std::string> notices;  ///< what of its file is not shown, a line each
+  std::vector<SurfaceBounds> bounds;  ///< of each surface; by numberParts()
+  Rig rig;                            ///< empty where nothing but what turns by itself moves
+  std::vector<std::string> notices;   ///< what of its file is not shown, a line each
 
   /// As drawn: a surface counts in each part that shows it.
   std::uint32_t triangleCount() const;
@@ -83,14 +85,16 @@ struct Model {
 /// As Model::triangleCount(), of more than fit its numbers, too.
 std::uint64_t drawnTriangles(const Model& model);
 
-/// Counts each part's triangles, matrices and weights; sound where drawnTriangles() fits in 32
-/// bits.
+/// Counts each part's triangles, matrices and weights, and bounds each surface; sound where
+/// drawnTriangles() fits in 32 bits. To be called once all is in its place.
 void numberParts(Model& model);
 
 /// A model of a single part and material, white.
 Model singlePartModel(std::string name, Mesh mesh);
 
-/// Where a part is after `time` of turning.
+/// What turns a part in its own frame to where it is after `time`.
+glm::dmat4 turnedAfter(const ModelPart& part, hal::Duration time);
+/// Where a part that no rig moves is after `time` of turning.
 glm::dmat4 modelFromPart(const ModelPart& part, hal::Duration time);
 
 /// Around all parts at rest, wherever they turn to.

@@ -13,7 +13,9 @@ std::optional<ClipMoment> momentOf(const Rig& rig, const Playback& playback,
   const double run = playback.speed * std::chrono::duration<double>(elapsed).count();
   ClipMoment moment{.clip = *playback.clip};
   if (playback.loops) {
-    if (length > 0.0) moment.seconds = run - length * std::floor(run / length);
+    if (length > 0.0) {
+      moment.seconds = std::clamp(run - length * std::floor(run / length), 0.0, length);
+    }
   } else {
     moment.seconds = std::clamp(playback.speed < 0.0 ? length + run : run, 0.0, length);
   }

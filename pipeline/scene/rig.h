@@ -19,6 +19,13 @@ struct NodePlace {
   glm::dvec3 scale{1.0};
 };
 
+glm::dmat4 parentFromNode(const NodePlace& place);
+
+inline constexpr double kMostOfMatrix = 1e9;
+/// Whether no number of it is beyond kMostOfMatrix, or none at all: what is made of such matrices
+/// stays finite.
+bool isBounded(const glm::dmat4& matrix);
+
 /// A frame that others hang on: a node of a glTF.
 struct RigNode {
   std::optional<std::size_t> parent;  ///< of Rig::nodes, and before this one

@@ -38,7 +38,7 @@ struct ScenePlane {
   glm::dvec2 sizeMetres{0.0};       ///< along its x and y, its middle in the origin
 };
 
-/// The one light that models are shaded by; it is far away.
+/// The light that models are shaded by: a key light, which is far away, and an even one around it.
 struct Light {
   enum class Frame {
     kCamera,   ///< x right, y up, z towards the viewer
@@ -46,8 +46,19 @@ struct Light {
   };
   /// By default fixed to what is lit: bands that wander as the camera moves would flicker.
   Frame frame = Frame::kAttached;
-  /// Unit vector from the scene to the light. The default is the upper left behind a viewer.
+  /// Unit vector from the scene to the key light. The default is the upper left behind a viewer.
   glm::dvec3 towardLight{-0.37139068, 0.55708601, 0.74278135};
+  /// Whether the scene says so: else it is estimated where the rest is.
+  bool hasDirection = false;
+  /// Whether colours and strengths come from the camera's pictures (light_estimator.h).
+  bool isEstimated = true;
+  /// Where they do not: linear, of what white paper shows, which faces the key light and sees no
+  /// other, or sees the even light alone. Nothing: so that paper on the plane is white.
+  std::optional<glm::vec3> key;
+  std::optional<glm::vec3> ambient;
+  /// Of models on the plane of what they are attached to: how much of the light it takes that it
+  /// could, 0 (none) … 1.
+  float shadow = 0.9F;
 };
 
 inline constexpr std::size_t kMaxPlanes = 8;

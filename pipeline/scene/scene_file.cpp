@@ -14,6 +14,10 @@
 #include "pipeline/scene/ar_frame.h"
 #include "pipeline/scene/attach_frame.h"
 #include "pipeline/scene/lens.h"
+#include "pipeline/scene/scene_attachment.h"
+#include "pipeline/scene/scene_light.h"
+#include "pipeline/scene/scene_planes.h"
+#include "pipeline/scene/scene_playback.h"
 #include "pipeline/scene/scene_values.h"
 #include "pipeline/tracking/calibration_file.h"
 
@@ -76,28 +80,6 @@ void readTags(const TomlTable& root, Scene& scene) {
   }
 }
 
-/// The tag's id; nothing for the world.
-std::optional<int> readAttachment(const TomlTable& table, const Scene& scene) {
-  const std::string text = table.string("attach");
-  const bool hasWorld = std::ranges::any_of(
-      scene.tags, [](const tracking::TagMarker& tag) { return tag.worldFromTag.has_value(); });
-  if (text == "world") {
-    if (hasWorld) return std::nullopt;
-    throw table.error("attach", "no tag says where the world is",
-                      "\"world\" once a [[tag]] has a position_m");
-  }
-  for (const tracking::TagMarker& tag : scene.tags) {
-    if (text == fmt::format("tag:{}", tag.id)) return tag.id;
-  }
-  std::vector<std::string> places;
-  if (hasWorld) places.emplace_back("\"world\"");
-  for (const tracking::TagMarker& tag : scene.tags)
-    places.push_back(fmt::format("\"tag:{}\"", tag.id));
-  throw table.error("attach", "found " + config::quoted(text),
-                    places.empty() ? "the scene's tags, but it has no [[tag]]"
-                                   : fmt::format("{}", fmt::join(places, ", ")));
-}
-
 /// Reads or makes it unless a model above has it already.
 std::shared_ptr<const Model> sharedModel(const ModelSource& source, const TomlTable& table,
                                          const Scene& scene) {
@@ -136,9 +118,11 @@ SceneModel readModel(const TomlTable& table, const std::filesystem::path& direct
   model.attachFromModel = glm::scale(readPose(table).value_or(glm::dmat4(1.0)), glm::dvec3(scale));
   const glm::vec3 untinted = hasOwnColours(model.source) ? glm::vec3(1.0F) : model.srgb;
   model.srgb = readColour(table).value_or(untinted);
+  model.isOccluder = table.optionalBoolean("occluder").value_or(false);
   model.focus =
       static_cast<float>(table.optionalNumber("focus", {.min = 0.0, .max = 1.0}).value_or(0.0));
   model.model = sharedModel(model.source, table, scene);
+  model.playback = readPlayback(table, model.model->rig);
   return model;
 }
 
@@ -170,6 +154,9 @@ void readModels(const TomlTable& root, const std::filesystem::path& directory, S
   for (const TomlTable& table : tables) {
     scene.models.push_back(readModel(table, directory, scene));
     const SceneModel& added = scene.models.back();
+    if (auto notice = standingStillNotice(added.model->rig, added.playback)) {
+      scene.notices.push_back(fmt::format("{}: {}", added.name, *notice));
+    }
     if (added.model.use_count() > 1) continue;
     triangles += added.model->surfaceTriangles();
     if (triangles > kMaxSceneTriangles) {
@@ -184,21 +171,6 @@ void readModels(const TomlTable& root, const std::filesystem::path& directory, S
   }
 }
 
-Light readLight(const TomlTable& table) {
-  static constexpr std::array<config::Choice<Light::Frame>, 2> kFrames{
-      {{"camera", Light::Frame::kCamera}, {"attached", Light::Frame::kAttached}}};
-  Light light;
-  light.frame = table.optionalChoice("frame", kFrames).value_or(light.frame);
-  if (const auto direction = table.optionalVector<3>("direction", {.min = -1e6, .max = 1e6})) {
-    const glm::dvec3 toward((*direction)[0], (*direction)[1], (*direction)[2]);
-    if (!(glm::length(toward) > 1e-6)) {
-      throw table.error("direction", "has no length", "a vector towards the light");
-    }
-    light.towardLight = glm::normalize(toward);
-  }
-  return light;
-}
-
 Scene readScene(const TomlDocument& document, const std::filesystem::path& directory) {
   const TomlTable& root = document.root();
   Scene scene;
@@ -207,6 +179,7 @@ Scene readScene(const TomlDocument& document, const std::filesystem::path& direc
   }
   if (const auto light = root.optionalTable("light")) scene.light = readLight(*light);
   readTags(root, scene);
+  readPlanes(root, scene);
   readModels(root, directory, scene);
   root.finish();
   return scene;

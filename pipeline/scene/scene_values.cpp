@@ -80,8 +80,8 @@ BoxSource readBox(const config::TomlTable& table) {
   return box;
 }
 
-glm::vec3 readHexColour(const config::TomlTable& table) {
-  const std::string text = table.string("colour");
+glm::vec3 readHexColour(const config::TomlTable& table, std::string_view key) {
+  const std::string text = table.string(key);
   std::array<int, 3> bytes{};
   bool isHex = text.size() == 7 && text[0] == '#';
   for (std::size_t i = 0; isHex && i < 3; ++i) {
@@ -90,7 +90,7 @@ glm::vec3 readHexColour(const config::TomlTable& table) {
     isHex = code == std::errc{} && end == first + 2 && *first != '-';
   }
   if (!isHex) {
-    throw table.error("colour", "found " + config::quoted(text),
+    throw table.error(key, "found " + config::quoted(text),
                       "\"#rrggbb\" or an array of 3 numbers in [0, 1]");
   }
   return glm::vec3(bytes[0], bytes[1], bytes[2]) / 255.0F;
@@ -120,9 +120,9 @@ std::optional<glm::dmat4> readPose(const config::TomlTable& table) {
   return pose;
 }
 
-std::optional<glm::vec3> readColour(const config::TomlTable& table) {
-  if (table.isString("colour")) return readHexColour(table);
-  const auto values = table.optionalVector<3>("colour", {.min = 0.0, .max = 1.0});
+std::optional<glm::vec3> readColour(const config::TomlTable& table, std::string_view key) {
+  if (table.isString(key)) return readHexColour(table, key);
+  const auto values = table.optionalVector<3>(key, {.min = 0.0, .max = 1.0});
   if (!values) return std::nullopt;
   return glm::vec3(vectorOf(*values));
 }

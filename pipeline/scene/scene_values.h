@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string_view>
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -15,8 +16,9 @@ namespace pleinair::scene {
 /// the table has neither.
 std::optional<glm::dmat4> readPose(const config::TomlTable& table);
 
-/// colour: three sRGB numbers or "#rrggbb".
-std::optional<glm::vec3> readColour(const config::TomlTable& table);
+/// A colour: three sRGB numbers or "#rrggbb"; sRGB-coded.
+std::optional<glm::vec3> readColour(const config::TomlTable& table,
+                                    std::string_view key = "colour");
 
 /// source, and the keys that belong to it. Files are relative to `directory`.
 ModelSource readSource(const config::TomlTable& table, const std::filesystem::path& directory);

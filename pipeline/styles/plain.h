@@ -12,6 +12,7 @@ class Plain final : public Style {
  public:
   std::string_view name() const override { return "none"; }
   std::span<const ViewInfo> views() const override { return {}; }
+  scene::ArFrameNeeds needs() const override { return {.shading = scene::Shading::kSmooth}; }
   const config::ParameterValues& parameters() const override { return values_; }
   void setParameters(const config::ParameterValues& values) override { values_ = values; }
   /// The frame's own texture; it is valid as long as the frame.

@@ -31,6 +31,9 @@ class Style {
   /// Its inner pictures, apart from the finished one.
   virtual std::span<const ViewInfo> views() const = 0;
 
+  /// What it looks at of an AR frame beyond what each has.
+  virtual scene::ArFrameNeeds needs() const { return {}; }
+
   /// Whether it looks at ArFrame::canvasFromPicture, which costs a little to find.
   virtual bool usesCanvas() const { return false; }
 

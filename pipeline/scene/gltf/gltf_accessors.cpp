@@ -193,20 +193,24 @@ void Accessors::applySparse(const tinygltf::Accessor& accessor, Elements& elemen
   }
 }
 
+float Accessors::bounded(const Elements& elements, std::size_t element, std::size_t component,
+                         int accessor, const std::string& where) {
+  const double value = numberOf(elements.component(element, component), elements.componentType,
+                                elements.isNormalized);
+  if (!(std::abs(value) <= kMaxCoordinate)) {  // NaN neither
+    refuse(fmt::format("{}: accessors[{}], element {}", where, accessor, element),
+           fmt::format("found {}", value), fmt::format("a number of at most {}", kMaxCoordinate));
+  }
+  return static_cast<float>(value);
+}
+
 std::vector<glm::vec4> Accessors::vectors(int accessor, const std::string& where) {
   const Elements elements = read(accessor, where);
   if (elements.components > 4) refuse(where, "is an accessor of matrices");
   std::vector<glm::vec4> result(elements.count, glm::vec4(0.0F, 0.0F, 0.0F, 1.0F));
   for (std::size_t i = 0; i < elements.count; ++i) {
     for (std::size_t c = 0; c < elements.components; ++c) {
-      const double value =
-          numberOf(elements.component(i, c), elements.componentType, elements.isNormalized);
-      if (!(std::abs(value) <= kMaxCoordinate)) {  // NaN neither
-        refuse(fmt::format("{}: accessors[{}], element {}", where, accessor, i),
-               fmt::format("found {}", value),
-               fmt::format("a number of at most {}", kMaxCoordinate));
-      }
-      result[i][static_cast<int>(c)] = static_cast<float>(value);
+      result[i][static_cast<int>(c)] = bounded(elements, i, c, accessor, where);
     }
   }
   return result;
@@ -222,6 +226,28 @@ std::vector<glm::uvec4> Accessors::integers(int accessor, const std::string& whe
     for (std::size_t c = 0; c < elements.components; ++c) {
       result[i][static_cast<int>(c)] = static_cast<std::uint32_t>(
           numberOf(elements.component(i, c), elements.componentType, false));
+    }
+  }
+  return result;
+}
+
+std::vector<float> Accessors::numbers(int accessor, std::size_t components, bool mayBeFractions,
+                                      const std::string& where) {
+  const Elements elements = read(accessor, where);
+  if (elements.components != components) {
+    refuse(where, fmt::format("accessors[{}] has elements of {} numbers, not {}", accessor,
+                              elements.components, components));
+  }
+  if (elements.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT &&
+      !(mayBeFractions && elements.isNormalized)) {
+    refuse(where, fmt::format("accessors[{}] is not of floats{}", accessor,
+                              mayBeFractions ? " nor normalised integers" : ""));
+  }
+  std::vector<float> result;
+  result.reserve(elements.count * components);
+  for (std::size_t i = 0; i < elements.count; ++i) {
+    for (std::size_t c = 0; c < components; ++c) {
+      result.push_back(bounded(elements, i, c, accessor, where));
     }
   }
   return result;

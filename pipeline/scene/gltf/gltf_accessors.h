@@ -28,6 +28,10 @@ class Accessors {
   std::vector<glm::vec4> vectors(int accessor, const std::string& where);
   /// Unsigned integers: indices, or a component each of joints.
   std::vector<glm::uvec4> integers(int accessor, const std::string& where);
+  /// `components` numbers an element, one after another: floats or, with `mayBeFractions`,
+  /// normalised integers as fractions.
+  std::vector<float> numbers(int accessor, std::size_t components, bool mayBeFractions,
+                             const std::string& where);
   /// 4 × 4 floats.
   std::vector<glm::dmat4> matrices(int accessor, const std::string& where);
 
@@ -45,6 +49,8 @@ class Accessors {
     }
   };
   Elements read(int accessor, const std::string& where);
+  static float bounded(const Elements& elements, std::size_t element, std::size_t component,
+                       int accessor, const std::string& where);
   void applySparse(const tinygltf::Accessor& accessor, Elements& elements, const std::string& name);
 
   const Structure& structure_;

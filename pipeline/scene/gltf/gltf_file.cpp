@@ -1,26 +1,27 @@
 #include "pipeline/scene/gltf/gltf_file.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <set>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
 
 #include "pipeline/scene/ar_frame.h"
 #include "pipeline/scene/gltf/gltf_accessors.h"
+#include "pipeline/scene/gltf/gltf_animations.h"
 #include "pipeline/scene/gltf/gltf_container.h"
 #include "pipeline/scene/gltf/gltf_fault.h"
 #include "pipeline/scene/gltf/gltf_limits.h"
 #include "pipeline/scene/gltf/gltf_materials.h"
+#include "pipeline/scene/gltf/gltf_morphs.h"
 #include "pipeline/scene/gltf/gltf_nodes.h"
 #include "pipeline/scene/gltf/gltf_resources.h"
+#include "pipeline/scene/gltf/gltf_skins.h"
 #include "pipeline/scene/gltf/gltf_structure.h"
 #include "pipeline/scene/gltf/gltf_surfaces.h"
 #include "pipeline/scene/gltf/gltf_text.h"
@@ -35,13 +36,6 @@ constexpr glm::dmat4 kModelFromGltf{1.0, 0.0,  0.0, 0.0, 0.0, 0.0, 1.0, 0.0,
                                     0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0};
 constexpr double kWidestMetres = 1e6;
 
-/// A comma-separated list that stays readable.
-std::string shortList(const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 8;
-  const std::span<const std::string> first = std::span(names).first(std::min(kMost, names.size()));
-  return fmt::format("{}{}", fmt::join(first, ", "), names.size() > kMost ? ", ..." : "");
-}
-
 class ModelBuilder {
  public:
   ModelBuilder(std::span<const std::uint8_t> file, std::optional<std::filesystem::path> folder)
@@ -50,11 +44,14 @@ class ModelBuilder {
         resources_(structure_, container_.binary, std::move(folder)),
         accessors_(structure_, resources_),
         surfaces_(accessors_),
-        materials_(structure_, resources_) {}
+        materials_(structure_, resources_),
+        tree_(gltf::nodeTreeOf(structure_.gltf)),
+        skins_(structure_, accessors_, tree_),
+        clips_(structure_, resources_, tree_) {}
 
   Model build() {
-    tree_ = gltf::nodeTreeOf(structure_.gltf);
     for (const std::size_t node : tree_.shown) addNode(node);
+    addRig();
     numberParts(model_);
     const BoundingSphere sphere = boundingSphere(model_);
     if (!(sphere.radiusMetres + glm::length(sphere.centre) <= kWidestMetres)) {
@@ -70,6 +67,8 @@ class ModelBuilder {
     std::size_t first = 0;
     std::size_t count = 0;
     std::size_t triangles = 0;
+    std::size_t morphs = 0;        ///< targets times vertices and triangles
+    std::size_t highestJoint = 0;  ///< that holds any of its vertices
   };
 
   void addNode(std::size_t index) {
@@ -80,15 +79,21 @@ class ModelBuilder {
     if (node.mesh < 0 || static_cast<std::size_t>(node.mesh) >= meshes.size()) {
       refuse(where + ".mesh", fmt::format("there is no meshes[{}]", node.mesh));
     }
+    tree_.rig[tree_.rigIndex[index]].weights = gltf::restWeightsOf(structure_.gltf, index);
     const bool isSkinned = node.skin != -1;
-    const SurfaceRange range = isSkinned
-                                   ? addSurfaces(node.mesh, jointsOf(node.skin, where + ".skin"))
-                                   : sharedSurfaces(node.mesh);
+    const SurfaceRange range = surfacesOf(node.mesh, isSkinned);
+    std::optional<std::size_t> skin;
+    if (isSkinned) skin = skinOf(node, range, where);
     if (range.triangles == 0) return;
     drawnTriangles_ += range.triangles;
     if (drawnTriangles_ > kMaxTriangles) {
       refuse(where, "makes too many triangles with its like",
              fmt::format("at most {} drawn", kMaxTriangles));
+    }
+    drawnMorphs_ += range.morphs;
+    if (drawnMorphs_ > gltf::kMaxDrawnMorphs) {
+      refuse(where, "makes too many vertices to morph with its like",
+             fmt::format("at most {} in all, counted for each target", gltf::kMaxDrawnMorphs));
     }
     const std::string& meshName = meshes[static_cast<std::size_t>(node.mesh)].name;
     model_.parts.push_back(
@@ -98,91 +103,88 @@ class ModelBuilder {
          .firstSurface = range.first,
          .surfaceCount = range.count,
          // joints say where a skinned mesh is, not its node (section 3.7.3.3)
-         .modelFromPart = isSkinned ? kModelFromGltf : kModelFromGltf * tree_.rootFromNode[index]});
+         .modelFromPart = isSkinned ? kModelFromGltf : kModelFromGltf * tree_.rootFromNode[index],
+         .node = tree_.rigIndex[index],
+         .skin = skin});
   }
 
-  SurfaceRange sharedSurfaces(int mesh) {
-    const auto known = rangeOfMesh_.find(mesh);
-    if (known != rangeOfMesh_.end()) return known->second;
-    return rangeOfMesh_.emplace(mesh, addSurfaces(mesh, {})).first->second;
+  /// The skin's place in the rig, once it is known to do for the surfaces.
+  std::size_t skinOf(const tinygltf::Node& node, const SurfaceRange& range,
+                     const std::string& where) {
+    const std::size_t place = skins_.place(node.skin, model_.rig.skins, where + ".skin");
+    const std::size_t joints = model_.rig.skins[place].joints.size();
+    if (range.highestJoint >= joints) {
+      refuse(where + ".skin", fmt::format("meshes[{}] is held by joint {}, of {} of skins[{}]",
+                                          node.mesh, range.highestJoint, joints, node.skin));
+    }
+    posedJoints_ += joints;
+    if (posedJoints_ > gltf::kMaxPosedJoints) {
+      refuse(where + ".skin", "makes too many joints to pose with its like",
+             fmt::format("at most {}", gltf::kMaxPosedJoints));
+    }
+    return place;
   }
 
-  SurfaceRange addSurfaces(int meshIndex, const std::vector<glm::dmat4>& joints) {
+  /// Meshes are shared by the nodes that show them.
+  const SurfaceRange& surfacesOf(int mesh, bool isSkinned) {
+    const std::pair key(mesh, isSkinned);
+    const auto known = ranges_.find(key);
+    if (known != ranges_.end()) return known->second;
+    return ranges_.emplace(key, addSurfaces(mesh, isSkinned)).first->second;
+  }
+
+  SurfaceRange addSurfaces(int meshIndex, bool isSkinned) {
     const auto& mesh = structure_.gltf.meshes[static_cast<std::size_t>(meshIndex)];
     primitives_ += mesh.primitives.size();
     if (primitives_ > gltf::kMaxPrimitives) {
       refuse(fmt::format("meshes[{}]", meshIndex), "makes too many primitives with its like",
              fmt::format("at most {} in all", gltf::kMaxPrimitives));
     }
+    gltf::checkMorphTargets(mesh, fmt::format("meshes[{}]", meshIndex));
     SurfaceRange range{.first = model_.surfaces.size()};
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
       const std::string where = fmt::format("meshes[{}].primitives[{}]", meshIndex, i);
       const tinygltf::Primitive& primitive = mesh.primitives[i];
-      hasMorphs_ = hasMorphs_ || !primitive.targets.empty();
       const std::size_t material =
           materials_.place(primitive.material, model_, where + ".material");
-      auto read = surfaces_.read(primitive, materials_.mapping(material), joints, where);
+      auto read = surfaces_.read(primitive, materials_.mapping(material), isSkinned, where);
       if (!read) hasLines_ = true;
       if (!read || read->triangles.empty()) continue;
       range.triangles += read->triangles.size();
+      range.highestJoint = std::max(range.highestJoint, gltf::highestJoint(*read));
+      range.morphs += read->morphTargets.size() * (read->vertices.size() + read->triangles.size());
       model_.surfaces.push_back({.mesh = std::move(*read), .material = material});
     }
     range.count = model_.surfaces.size() - range.first;
     return range;
   }
 
-  /// What takes a skin's mesh to where its joints are at rest.
-  const std::vector<glm::dmat4>& jointsOf(int index, const std::string& where) {
-    const auto known = jointsOfSkin_.find(index);
-    if (known != jointsOfSkin_.end()) return known->second;
-    return jointsOfSkin_.emplace(index, readJoints(index, where)).first->second;
-  }
-
-  std::vector<glm::dmat4> readJoints(int index, const std::string& where) {
-    const auto& skins = structure_.gltf.skins;
-    if (index < 0 || static_cast<std::size_t>(index) >= skins.size()) {
-      refuse(where, fmt::format("there is no skins[{}]", index));
+  /// A rig only for what needs one: all else is where it is.
+  void addRig() {
+    model_.rig.clips = clips_.read();
+    if (model_.rig.clips.empty() && model_.rig.skins.empty() && drawnMorphs_ == 0) {
+      for (ModelPart& part : model_.parts) part.node.reset();
+      return;
     }
-    const tinygltf::Skin& skin = skins[static_cast<std::size_t>(index)];
-    const std::string name = fmt::format("skins[{}]", index);
-    if (skin.joints.empty()) refuse(name + ".joints", "is empty");
-    if (skin.joints.size() > tree_.rootFromNode.size()) {  // each node once (section 5.28)
-      refuse(name + ".joints",
-             fmt::format("has {}, of {} nodes", skin.joints.size(), tree_.rootFromNode.size()));
-    }
-    std::vector<glm::dmat4> inverseBind(skin.joints.size(), glm::dmat4(1.0));
-    if (skin.inverseBindMatrices != -1) {
-      inverseBind = accessors_.matrices(skin.inverseBindMatrices, name + ".inverseBindMatrices");
-      if (inverseBind.size() < skin.joints.size()) {
-        refuse(name + ".inverseBindMatrices",
-               fmt::format("has {} of {}", inverseBind.size(), skin.joints.size()));
-      }
-    }
-    std::vector<glm::dmat4> joints;
-    for (std::size_t i = 0; i < skin.joints.size(); ++i) {
-      const int node = skin.joints[i];
-      if (node < 0 || static_cast<std::size_t>(node) >= tree_.rootFromNode.size()) {
-        refuse(fmt::format("{}.joints[{}]", name, i), fmt::format("there is no nodes[{}]", node));
-      }
-      joints.push_back(tree_.rootFromNode[static_cast<std::size_t>(node)] * inverseBind[i]);
-    }
-    return joints;
+    model_.rig.nodes = std::move(tree_.rig);
+    model_.rig.modelFromRoot = kModelFromGltf;
   }
 
   void addNotices() {
     auto& notices = model_.notices;
-    if (!structure_.animations.empty()) {
-      const std::size_t count = structure_.animations.size();
+    notices = clips_.notices();
+    if (surfaces_.heldByMore() > 0) {
       notices.push_back(
-          fmt::format("{} not played: {}",
-                      count == 1 ? "its animation is" : fmt::format("its {} animations are", count),
-                      shortList(structure_.animations)));
+          fmt::format("{} of its vertices are held by more than 4 joints; the strongest 4 do",
+                      surfaces_.heldByMore()));
     }
-    if (hasMorphs_) notices.emplace_back("its morph targets are not shown");
+    if (surfaces_.hasOtherMorphs()) {
+      notices.emplace_back("its morph targets move vertices, but no colours and no textures");
+    }
     if (hasLines_) notices.emplace_back("its points and lines are not shown");
     if (!materials_.blended().empty()) {
       notices.push_back("drawn solid or not at all instead of see-through: " +
-                        shortList(materials_.blended()));
+                        gltf::shortList(materials_.blended()));
     }
     if (model_.parts.empty()) notices.emplace_back("there is nothing in it to be seen");
     for (std::string& notice : notices) notice = gltf::oneLine(std::move(notice));
@@ -195,12 +197,14 @@ class ModelBuilder {
   gltf::SurfaceReader surfaces_;
   gltf::MaterialReader materials_;
   gltf::NodeTree tree_;
+  gltf::SkinReader skins_;
+  gltf::ClipReader clips_;
   Model model_;
-  std::map<int, SurfaceRange> rangeOfMesh_;
-  std::map<int, std::vector<glm::dmat4>> jointsOfSkin_;
+  std::map<std::pair<int, bool>, SurfaceRange> ranges_;  ///< of meshes, and whether with a skin
   std::size_t primitives_ = 0;
+  std::size_t posedJoints_ = 0;
   std::size_t drawnTriangles_ = 0;
-  bool hasMorphs_ = false;
+  std::size_t drawnMorphs_ = 0;
   bool hasLines_ = false;
 };
 

@@ -20,10 +20,18 @@ inline constexpr std::int64_t kMaxTexturePixels =
     48'000'000;  ///< of all pictures, and of all textures
 inline constexpr std::size_t kMaxSurfaceTriangles = 1'000'000;
 inline constexpr std::size_t kMaxVertices = 3'000'000;
-/// What reading takes, each time that something is read: skins have their meshes read anew for each
-/// node.
+/// What reading takes, each time that something is read: the vertices of a mesh that some nodes
+/// show with a skin and others without are read twice.
 inline constexpr std::size_t kMaxPrimitives = 100'000;
 inline constexpr std::size_t kMaxNumbers = 100'000'000;  ///< of accessors
+/// Of the keys of all animations: their times and values.
+inline constexpr std::size_t kMaxKeyNumbers = 16'000'000;
+/// Joints of all parts that skins bend: a matrix each in every pose.
+inline constexpr std::size_t kMaxPosedJoints = 65'536;
+/// Moves of vertices by morph targets, of positions and normals, in all.
+inline constexpr std::size_t kMaxMorphMoves = 16'000'000;
+/// Targets times vertices and triangles, each time that a mesh is shown.
+inline constexpr std::size_t kMaxDrawnMorphs = 8'000'000;
 inline constexpr double kMaxCoordinate = 1e9;
 
 }  // namespace pleinair::scene::gltf

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
-#include <glm/ext/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include "pipeline/scene/gltf/gltf_fault.h"
@@ -32,25 +32,36 @@ std::array<double, N> numbersOf(const std::vector<double>& values, std::array<do
   return numbers;
 }
 
-glm::dmat4 parentFromNode(const tinygltf::Node& node, const std::string& where) {
-  if (!node.matrix.empty()) {
-    const auto values = numbersOf<16>(node.matrix, {}, where + ".matrix");
-    glm::dmat4 matrix(1.0);
-    for (int column = 0; column < 4; ++column) {
-      for (int row = 0; row < 3; ++row) {  // the last row is 0 0 0 1
-        matrix[column][row] = values[static_cast<std::size_t>(4 * column + row)];
-      }
+glm::dmat4 matrixOf(const tinygltf::Node& node, const std::string& where) {
+  const auto values = numbersOf<16>(node.matrix, {}, where + ".matrix");
+  glm::dmat4 matrix(1.0);
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 3; ++row) {  // the last row is 0 0 0 1
+      matrix[column][row] = values[static_cast<std::size_t>(4 * column + row)];
     }
-    return matrix;
   }
+  return matrix;
+}
+
+NodePlace placeOf(const tinygltf::Node& node, const std::string& where) {
   const auto at = numbersOf<3>(node.translation, {}, where + ".translation");
   const auto turn = numbersOf<4>(node.rotation, {0.0, 0.0, 0.0, 1.0}, where + ".rotation");
   const auto scale = numbersOf<3>(node.scale, {1.0, 1.0, 1.0}, where + ".scale");
   const glm::dquat quaternion(turn[3], turn[0], turn[1], turn[2]);
   if (!(glm::length(quaternion) > 1e-9)) refuse(where + ".rotation", "is no rotation");
-  const glm::dmat4 moved = glm::translate(glm::dmat4(1.0), {at[0], at[1], at[2]});
-  return glm::scale(moved * glm::mat4_cast(glm::normalize(quaternion)),
-                    {scale[0], scale[1], scale[2]});
+  return {.translation = {at[0], at[1], at[2]},
+          .rotation = glm::normalize(quaternion),
+          .scale = {scale[0], scale[1], scale[2]}};
+}
+
+RigNode rigNodeOf(const tinygltf::Node& node, const std::string& where) {
+  RigNode result;
+  if (node.matrix.empty()) {
+    result.rest = placeOf(node, where);
+  } else {
+    result.parentFromNode = matrixOf(node, where);
+  }
+  return result;
 }
 
 std::vector<int> parentsOf(const tinygltf::Model& gltf) {
@@ -117,31 +128,28 @@ std::vector<bool> shownNodes(const tinygltf::Model& gltf, const std::vector<std:
 
 }  // namespace
 
-bool isBounded(const glm::dmat4& matrix) {
-  for (int column = 0; column < 4; ++column) {
-    for (int row = 0; row < 4; ++row) {
-      if (!(std::abs(matrix[column][row]) <= kMaxCoordinate)) return false;  // NaN neither
-    }
-  }
-  return true;
-}
-
 NodeTree nodeTreeOf(const tinygltf::Model& gltf) {
   const std::vector<int> parents = parentsOf(gltf);
   const std::vector<std::size_t> order = parentsFirst(gltf, parents);
   const std::vector<bool> isShown = shownNodes(gltf, order, parents);
   NodeTree tree;
   tree.rootFromNode.resize(gltf.nodes.size(), glm::dmat4(1.0));
+  tree.rigIndex.resize(gltf.nodes.size(), 0);
   for (const std::size_t node : order) {
-    const glm::dmat4 own = parentFromNode(gltf.nodes[node], fmt::format("nodes[{}]", node));
-    tree.rootFromNode[node] =
-        parents[node] == kNoParent
-            ? own
-            : tree.rootFromNode[static_cast<std::size_t>(parents[node])] * own;
-    if (!isBounded(tree.rootFromNode[node])) {
+    RigNode own = rigNodeOf(gltf.nodes[node], fmt::format("nodes[{}]", node));
+    glm::dmat4 rootFromNode = own.parentFromNode ? *own.parentFromNode : parentFromNode(own.rest);
+    if (parents[node] != kNoParent) {
+      const auto parent = static_cast<std::size_t>(parents[node]);
+      own.parent = tree.rigIndex[parent];
+      rootFromNode = tree.rootFromNode[parent] * rootFromNode;
+    }
+    if (!isBounded(rootFromNode)) {
       refuse(fmt::format("nodes[{}]", node),
              "is moved or scaled beyond all measure by its parents");
     }
+    tree.rootFromNode[node] = rootFromNode;
+    tree.rigIndex[node] = tree.rig.size();
+    tree.rig.push_back(std::move(own));
     if (isShown[node]) tree.shown.push_back(node);
   }
   return tree;

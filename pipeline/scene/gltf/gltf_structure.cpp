@@ -10,6 +10,7 @@
 
 #include "config/config_error.h"
 #include "pipeline/scene/gltf/gltf_fault.h"
+#include "pipeline/scene/gltf/gltf_json.h"
 #include "pipeline/scene/gltf/gltf_limits.h"
 
 namespace pleinair::scene::gltf {
@@ -48,40 +49,6 @@ json parseBounded(std::string_view text) {
   } catch (const json::exception& error) {
     refuse("", fmt::format("its JSON is broken: {}", firstLine(error.what())));
   }
-}
-
-const json* find(const json& object, const char* key) {
-  if (!object.is_object()) return nullptr;
-  const auto found = object.find(key);
-  return found == object.end() ? nullptr : &*found;
-}
-
-std::optional<std::string> stringAt(const json& object, const char* key, const std::string& where) {
-  const json* value = find(object, key);
-  if (value == nullptr) return std::nullopt;
-  if (!value->is_string()) refuse(where + "." + key, "is not a string");
-  return value->get<std::string>();
-}
-
-std::optional<std::uint64_t> countAt(const json& object, const char* key,
-                                     const std::string& where) {
-  const json* value = find(object, key);
-  if (value == nullptr) return std::nullopt;
-  if (!value->is_number_unsigned()) refuse(where + "." + key, "is not a whole number from 0 up");
-  return value->get<std::uint64_t>();
-}
-
-/// The objects of a top-level array; none where it is absent.
-std::vector<const json*> listAt(const json& root, const char* key) {
-  const json* list = find(root, key);
-  std::vector<const json*> objects;
-  if (list == nullptr) return objects;
-  if (!list->is_array()) refuse(key, "is not an array");
-  for (const json& each : *list) {
-    if (!each.is_object()) refuse(fmt::format("{}[{}]", key, objects.size()), "is not an object");
-    objects.push_back(&each);
-  }
-  return objects;
 }
 
 void checkVersion(const json& root) {
@@ -144,16 +111,6 @@ std::vector<ImageEntry> readImages(const json& root) {
   return images;
 }
 
-std::vector<std::string> readAnimations(const json& root) {
-  std::vector<std::string> names;
-  for (const json* each : listAt(root, "animations")) {
-    const json* name = find(*each, "name");
-    names.push_back(name != nullptr && name->is_string() ? name->get<std::string>()
-                                                         : fmt::format("{}", names.size()));
-  }
-  return names;
-}
-
 /// tinygltf refuses a file for an accessor of a type that it does not know, though nobody may use
 /// it: puts a sound one in its place and remembers what it was.
 std::map<std::size_t, std::string> replaceUnknownTypes(json& root) {
@@ -190,7 +147,7 @@ Structure readStructure(std::string_view text) {
   Structure structure;
   structure.buffers = readBuffers(root);
   structure.images = readImages(root);
-  structure.animations = readAnimations(root);
+  structure.animations = readAnimationEntries(root);
   structure.unknownTypes = replaceUnknownTypes(root);
   removeExtras(root);
 

@@ -14,6 +14,8 @@
 #define TINYGLTF_NO_EXTERNAL_IMAGE
 #include <tiny_gltf.h>
 
+#include "pipeline/scene/gltf/gltf_animation_entries.h"
+
 namespace pleinair::scene::gltf {
 
 /// A buffer as the JSON has it; its bytes come when they are asked for.
@@ -31,10 +33,10 @@ struct ImageEntry {
 /// What the JSON of a glTF says. Nothing in it has been looked up: every index and number may be
 /// anything.
 struct Structure {
-  tinygltf::Model gltf;  ///< without buffers, images, cameras and what animations do
+  tinygltf::Model gltf;  ///< without buffers, images, cameras and animations
   std::vector<BufferEntry> buffers;
   std::vector<ImageEntry> images;
-  std::vector<std::string> animations;              ///< their names
+  std::vector<AnimationEntry> animations;
   std::map<std::size_t, std::string> unknownTypes;  ///< of accessors, by their index
 };
 

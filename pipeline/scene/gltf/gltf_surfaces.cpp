@@ -6,11 +6,10 @@
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
 
 #include "pipeline/scene/gltf/gltf_fault.h"
 #include "pipeline/scene/gltf/gltf_limits.h"
-#include "pipeline/scene/gltf/gltf_nodes.h"
+#include "pipeline/scene/gltf/gltf_skins.h"
 
 namespace pleinair::scene::gltf {
 namespace {
@@ -28,20 +27,40 @@ glm::dvec3 areaOf(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle
   return glm::cross(b - a, c - a);
 }
 
+/// Twice its area, along its normal; where it has none, the first that a morph target gives it.
+glm::dvec3 areaOnceMorphed(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
+  glm::dvec3 area = areaOf(mesh, triangle);
+  for (const MorphTarget& target : mesh.morphTargets) {
+    if (glm::length(area) > 0.0) break;
+    const auto corner = [&](std::size_t i) {
+      return glm::dvec3(mesh.vertices[triangle[i]].position) +
+             glm::dvec3(target.positions[triangle[i]]);
+    };
+    area = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+  }
+  return area;
+}
+
 /// Each triangle with vertices of its own and its own normal, as section 3.7.2.1 asks for where a
 /// file has no normals.
 Mesh flatShaded(const Mesh& mesh) {
   Mesh flat;
   flat.vertices.reserve(3 * mesh.triangles.size());
+  flat.morphTargets.resize(mesh.morphTargets.size());
   for (const auto& triangle : mesh.triangles) {
-    const glm::vec3 normal(glm::normalize(areaOf(mesh, triangle)));
+    const glm::vec3 normal(glm::normalize(areaOnceMorphed(mesh, triangle)));
     const auto first = static_cast<std::uint32_t>(flat.vertices.size());
     for (const std::uint32_t corner : triangle) {
       flat.vertices.push_back(mesh.vertices[corner]);
       flat.vertices.back().normal = normal;
+      if (!mesh.joints.empty()) flat.joints.push_back(mesh.joints[corner]);
+      for (std::size_t i = 0; i < mesh.morphTargets.size(); ++i) {
+        flat.morphTargets[i].positions.push_back(mesh.morphTargets[i].positions[corner]);
+      }
     }
     flat.triangles.push_back({first, first + 1, first + 2});
   }
+  addFlatNormals(flat);
   return flat;
 }
 
@@ -93,8 +112,7 @@ void checkCount(std::size_t found, std::size_t wanted, const std::string& where)
 }  // namespace
 
 std::optional<Mesh> SurfaceReader::read(const tinygltf::Primitive& primitive,
-                                        const TextureMapping& mapping,
-                                        std::span<const glm::dmat4> joints,
+                                        const TextureMapping& mapping, bool isSkinned,
                                         const std::string& where) {
   if (primitive.mode >= TINYGLTF_MODE_POINTS && primitive.mode < TINYGLTF_MODE_TRIANGLES) {
     return std::nullopt;
@@ -102,13 +120,21 @@ std::optional<Mesh> SurfaceReader::read(const tinygltf::Primitive& primitive,
   if (primitive.mode < 0 && primitive.mode != -1) refuse(where + ".mode", "is none of glTF's");
   if (primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) refuse(where + ".mode", "is none of glTF's");
   if (attributeOf(primitive, "POSITION") < 0) return std::nullopt;  // section 3.7.2.1: skipped
+  const bool isFlat = attributeOf(primitive, "NORMAL") < 0;
   Mesh mesh;
   readVertices(primitive, mapping, where, mesh);
   readTriangles(primitive, where, mesh);
-  if (!joints.empty()) pose(primitive, joints, where, mesh);
-  std::erase_if(mesh.triangles,
-                [&](const auto& triangle) { return !(glm::length(areaOf(mesh, triangle)) > 0.0); });
-  if (attributeOf(primitive, "NORMAL") < 0) return flatShaded(mesh);
+  if (isSkinned) {
+    HeldVertices held = readJointWeights(accessors_, primitive, mesh.vertices.size(), where);
+    mesh.joints = std::move(held.joints);
+    heldByMore_ += held.heldByMore;
+  }
+  mesh.morphTargets =
+      morphs_.read(primitive, mesh.vertices.size(), isFlat ? 3 * mesh.triangles.size() : 0, where);
+  std::erase_if(mesh.triangles, [&](const auto& triangle) {
+    return !(glm::length(areaOnceMorphed(mesh, triangle)) > 0.0);
+  });
+  if (isFlat) return flatShaded(mesh);
   repairNormals(mesh);
   return mesh;
 }
@@ -172,42 +198,6 @@ void SurfaceReader::readTriangles(const tinygltf::Primitive& primitive, const st
   if (triangles_ > kMaxSurfaceTriangles) {
     refuse(where, "makes too many triangles",
            fmt::format("at most {} in all", kMaxSurfaceTriangles));
-  }
-}
-
-void SurfaceReader::pose(const tinygltf::Primitive& primitive, std::span<const glm::dmat4> joints,
-                         const std::string& where, Mesh& mesh) {
-  std::vector<glm::dmat4> sums(mesh.vertices.size(), glm::dmat4(0.0));
-  std::vector<double> totals(mesh.vertices.size(), 0.0);
-  for (int set = 0;; ++set) {
-    const std::string jointName = fmt::format("JOINTS_{}", set);
-    const std::string weightName = fmt::format("WEIGHTS_{}", set);
-    if (attributeOf(primitive, jointName) < 0 || attributeOf(primitive, weightName) < 0) break;
-    const std::string jointsWhere = where + ".attributes." + jointName;
-    const auto indices = accessors_.integers(attributeOf(primitive, jointName), jointsWhere);
-    const auto weights =
-        accessors_.vectors(attributeOf(primitive, weightName), where + ".attributes." + weightName);
-    checkCount(indices.size(), sums.size(), jointsWhere);
-    checkCount(weights.size(), sums.size(), where + ".attributes." + weightName);
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-      for (int c = 0; c < 4; ++c) {
-        const double weight = static_cast<double>(weights[i][c]);
-        if (!(weight > 0.0)) continue;
-        if (indices[i][c] >= joints.size()) {
-          refuse(jointsWhere, fmt::format("found joint {}, of {}", indices[i][c], joints.size()));
-        }
-        sums[i] += weight * joints[indices[i][c]];
-        totals[i] += weight;
-      }
-    }
-  }
-  for (std::size_t i = 0; i < sums.size(); ++i) {
-    if (!(totals[i] > 0.0)) continue;  // held by no joint
-    const glm::dmat4 posed = sums[i] / totals[i];
-    if (!isBounded(posed)) refuse(where, "is taken beyond all measure by its joints");
-    MeshVertex& vertex = mesh.vertices[i];
-    vertex.position = glm::vec3(posed * glm::dvec4(glm::dvec3(vertex.position), 1.0));
-    vertex.normal = glm::vec3(glm::dmat3(posed) * glm::dvec3(vertex.normal));
   }
 }
 

@@ -2,12 +2,12 @@
 
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <string>
 
-#include <glm/mat4x4.hpp>
+#include <glm/mat3x3.hpp>
 
 #include "pipeline/scene/gltf/gltf_accessors.h"
+#include "pipeline/scene/gltf/gltf_morphs.h"
 #include "pipeline/scene/gltf/gltf_structure.h"
 #include "pipeline/scene/mesh.h"
 
@@ -22,21 +22,26 @@ struct TextureMapping {
 /// Reads primitives as meshes, within limits on how much all of them are together.
 class SurfaceReader {
  public:
-  explicit SurfaceReader(Accessors& accessors) : accessors_(accessors) {}
+  explicit SurfaceReader(Accessors& accessors) : accessors_(accessors), morphs_(accessors) {}
 
-  /// The triangles of a primitive; nothing for points and lines. With `joints`, posed by them: they
-  /// take it to where the joints are. Throws Fault.
+  /// The triangles of a primitive with its morph targets; nothing for points and lines. With
+  /// `isSkinned`, also what joints hold its vertices. Throws Fault.
   std::optional<Mesh> read(const tinygltf::Primitive& primitive, const TextureMapping& mapping,
-                           std::span<const glm::dmat4> joints, const std::string& where);
+                           bool isSkinned, const std::string& where);
+
+  /// Of what was read: vertices that more joints hold than are kept, and whether morph targets have
+  /// more than is moved.
+  std::size_t heldByMore() const { return heldByMore_; }
+  bool hasOtherMorphs() const { return morphs_.hasOthers(); }
 
  private:
   void readVertices(const tinygltf::Primitive& primitive, const TextureMapping& mapping,
                     const std::string& where, Mesh& mesh);
   void readTriangles(const tinygltf::Primitive& primitive, const std::string& where, Mesh& mesh);
-  void pose(const tinygltf::Primitive& primitive, std::span<const glm::dmat4> joints,
-            const std::string& where, Mesh& mesh);
 
   Accessors& accessors_;
+  MorphReader morphs_;
+  std::size_t heldByMore_ = 0;
   std::size_t vertices_ = 0;
   std::size_t triangles_ = 0;
 };

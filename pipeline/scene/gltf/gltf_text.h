@@ -1,7 +1,13 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <span>
 #include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace pleinair::scene::gltf {
 
@@ -10,6 +16,13 @@ inline std::string oneLine(std::string text) {
   std::ranges::replace_if(
       text, [](char c) { return (c >= '\0' && c < ' ') || c == '\x7f'; }, ' ');
   return text;
+}
+
+/// A comma-separated list that stays readable.
+inline std::string shortList(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 8;
+  const std::span<const std::string> first = std::span(names).first(std::min(kMost, names.size()));
+  return fmt::format("{}{}", fmt::join(first, ", "), names.size() > kMost ? ", ..." : "");
 }
 
 }  // namespace pleinair::scene::gltf

@@ -46,6 +46,7 @@ Scene mixedScene() {
   add(BoxSource{{0.03, 0.02, 0.05}}, {0.02, -0.03, 0.01}, 35.0, 1.0);
   add(BoxSource{{0.3, 0.2, 0.1}}, {-0.05, 0.03, 0.0}, -70.0, 0.15);
   scene.light.frame = Light::Frame::kCamera;
+  scene.light.shadow = 0.0F;  // the ground is looked at, too
   return scene;
 }
 

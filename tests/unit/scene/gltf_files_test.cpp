@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/scene/gltf/gltf_file.h"
+#include "pipeline/scene/model_pose.h"
 
 namespace pleinair::scene {
 namespace {
@@ -35,7 +36,12 @@ TEST(MalformedGltf, LoadsWhatIsSoundAndRefusesTheRestInALine) {
     if (mustLoad(file)) {
       ++sound;
       EXPECT_TRUE(model) << model.error().message();
-    } else if (!model) {
+    }
+    if (model) {
+      ModelPose pose;
+      poseModel(*model, std::nullopt, hal::Duration::zero(), pose);
+      EXPECT_TRUE(std::isfinite(boundingSphere(*model, pose).radiusMetres));
+    } else if (!mustLoad(file)) {
       ++broken;
       const std::string message = model.error().message();
       EXPECT_THAT(message, testing::StartsWith(file.string() + ": "));
@@ -61,12 +67,16 @@ struct Box {
   glm::dvec3 high{-1e9};
 };
 
+/// At rest.
 Box boxOf(const Model& model) {
+  ModelPose pose;
+  poseModel(model, std::nullopt, hal::Duration::zero(), pose);
   Box box;
   for (const ModelPart& part : model.parts) {
     for (std::size_t i = 0; i < part.surfaceCount; ++i) {
-      for (const MeshVertex& vertex : model.surfaces[part.firstSurface + i].mesh.vertices) {
-        const glm::dvec3 p(part.modelFromPart * glm::dvec4(glm::dvec3(vertex.position), 1.0));
+      const std::size_t count = model.surfaces[part.firstSurface + i].mesh.vertices.size();
+      for (std::size_t vertex = 0; vertex < count; ++vertex) {
+        const glm::dvec3 p(posedVertex(model, part, i, vertex, pose).position);
         box.low = glm::min(box.low, p);
         box.high = glm::max(box.high, p);
       }

@@ -8,6 +8,7 @@
 #include "hal/image.h"
 #include "hal/libav/picture_file.h"
 #include "pipeline/scene/gltf/gltf_file.h"
+#include "pipeline/scene/model_pose.h"
 #include "tests/unit/scene/gltf_builder.h"
 
 namespace pleinair::scene {
@@ -21,12 +22,14 @@ Model parsed(const GltfBuilder& builder) {
   return *std::move(model);
 }
 
-/// Where a corner of a part's triangle is in the model's frame.
+/// Where a corner of a part's triangle is in the model's frame, at rest.
 glm::dvec3 cornerOf(const Model& model, std::size_t part, std::size_t triangle,
                     std::size_t corner) {
+  ModelPose pose;
+  poseModel(model, std::nullopt, hal::Duration::zero(), pose);
   const Mesh& mesh = model.surfaces[model.parts[part].firstSurface].mesh;
-  const MeshVertex& vertex = mesh.vertices[mesh.triangles[triangle][corner]];
-  return glm::dvec3(model.parts[part].modelFromPart * glm::dvec4(glm::dvec3(vertex.position), 1.0));
+  const std::uint32_t vertex = mesh.triangles[triangle][corner];
+  return glm::dvec3(posedVertex(model, model.parts[part], 0, vertex, pose).position);
 }
 
 void expectNear(const glm::dvec3& a, const glm::dvec3& b) {
@@ -270,33 +273,9 @@ TEST(Gltf, MakesEqualTexturesOnce) {
   EXPECT_EQ(model.materials[2].texture, 1u);
 }
 
-TEST(Gltf, PosesSkinsByTheirJointsAtRest) {
-  GltfBuilder builder;
-  auto& primitive = builder.addMesh(kTriangle, "figure");
-  primitive["attributes"]["JOINTS_0"] =
-      builder.addAccessor<std::uint8_t>({0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0}, "VEC4", 5121, 4);
-  primitive["attributes"]["WEIGHTS_0"] =
-      builder.addFloats({1, 0, 0, 0, 0.5, 0.5, 0, 0, 2, 0, 0, 0}, "VEC4", 4);
-  builder.root["nodes"][0]["skin"] = 0;
-  builder.root["nodes"][0]["translation"] = {100, 100, 100};  // does not count
-  builder.root["nodes"].push_back({{"translation", {0, 0, 3}}, {"children", {2}}});
-  builder.root["nodes"].push_back({{"translation", {0, 4, 0}}});
-  std::vector<float> inverse(32, 0.0F);
-  for (std::size_t i = 0; i < 8; ++i) inverse[16 * (i / 4) + 5 * (i % 4)] = 1.0F;
-  inverse[16 + 13] = -1.0F;  // the second joint was bound at y = 1
-  builder.root["skins"] = {
-      {{"joints", {1, 2}}, {"inverseBindMatrices", builder.addFloats(inverse, "MAT4", 16)}}};
-  const Model model = parsed(builder);
-  // joint 0 moves by (0, 0, 3), joint 1 by (0, 3, 3); weights are taken by their sum
-  expectNear(cornerOf(model, 0, 0, 0), {0, -3, 0});
-  expectNear(cornerOf(model, 0, 0, 1), {1, -3, 1.5});
-  expectNear(cornerOf(model, 0, 0, 2), {0, -3, 4});
-}
-
 TEST(Gltf, SaysWhatItDoesNotShow) {
   GltfBuilder builder;
-  auto& primitive = builder.addMesh(kTriangle);
-  primitive["targets"] = {{{"POSITION", 0}}};
+  builder.addMesh(kTriangle)["targets"] = {{{"POSITION", 0}, {"COLOR_0", 0}}};
   builder.addMesh(kTriangle)["mode"] = 1;
   builder.root["animations"] = {{{"name", "wave\nbye"},
                                  {"channels", nlohmann::json::array()},
@@ -305,8 +284,9 @@ TEST(Gltf, SaysWhatItDoesNotShow) {
   builder.root["meshes"][0]["primitives"][0]["material"] = 0;
   EXPECT_THAT(
       parsed(builder).notices,
-      testing::ElementsAre("its animation is not played: wave bye",
-                           "its morph targets are not shown", "its points and lines are not shown",
+      testing::ElementsAre("its animations that move nothing are left out: wave bye",
+                           "its morph targets move vertices, but no colours and no textures",
+                           "its points and lines are not shown",
                            "drawn solid or not at all instead of see-through: glass"));
 }
 

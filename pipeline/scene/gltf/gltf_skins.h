@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "pipeline/scene/gltf/gltf_accessors.h"
+#include "pipeline/scene/gltf/gltf_nodes.h"
+#include "pipeline/scene/gltf/gltf_structure.h"
+#include "pipeline/scene/mesh.h"
+#include "pipeline/scene/rig.h"
+
+namespace pleinair::scene::gltf {
+
+/// Reads the skins that are used (section 3.7.3).
+class SkinReader {
+ public:
+  SkinReader(const Structure& structure, Accessors& accessors, const NodeTree& tree)
+      : structure_(structure), accessors_(accessors), tree_(tree) {}
+
+  /// The place in `skins` of the file's skin; reads it when first asked for. Throws Fault.
+  std::size_t place(int skin, std::vector<Skin>& skins, const std::string& where);
+
+ private:
+  Skin read(const tinygltf::Skin& skin, const std::string& name);
+
+  const Structure& structure_;
+  Accessors& accessors_;
+  const NodeTree& tree_;
+  std::map<int, std::size_t> places_;
+};
+
+/// What holds each vertex of a primitive: its strongest four joints.
+struct HeldVertices {
+  std::vector<JointWeights> joints;
+  std::size_t heldByMore = 0;  ///< vertices of which other joints hold more than a hundredth
+};
+
+/// Without JOINTS_0, the first joint holds everything. Throws Fault.
+HeldVertices readJointWeights(Accessors& accessors, const tinygltf::Primitive& primitive,
+                              std::size_t vertices, const std::string& where);
+
+/// The highest joint that holds any vertex; 0 where there is none.
+std::size_t highestJoint(const Mesh& mesh);
+
+}  // namespace pleinair::scene::gltf

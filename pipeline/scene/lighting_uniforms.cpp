@@ -1,0 +1,30 @@
+#include "pipeline/scene/lighting_uniforms.h"
+
+#include <algorithm>
+
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+
+#include "pipeline/scene/linear_picture.h"
+
+namespace pleinair::scene {
+
+glm::vec3 shadeTint(const Lighting& light) {
+  constexpr float kCoding = 1.0F / 2.2F;  // of sRGB, on the whole
+  const auto hueOf = [](const glm::vec3& rgb) { return rgb / std::max(luminanceOf(rgb), 1e-4F); };
+  const glm::vec3 beside = hueOf(light.sky) / glm::max(hueOf(light.white), 1e-4F);
+  return glm::clamp(glm::pow(beside, glm::vec3(kCoding)), 0.75F, 1.33F);
+}
+
+void setLighting(gpu::Program& program, const Lighting& cameraLight, Shading shading) {
+  program.set("towardKey", cameraLight.towardKey)
+      .set("up", cameraLight.up)
+      .set("keyLight", cameraLight.key)
+      .set("skyLight", cameraLight.sky)
+      .set("groundLight", cameraLight.ground)
+      .set("whiteLight", cameraLight.white)
+      .set("shadeTint", shadeTint(cameraLight))
+      .set("shading", static_cast<int>(shading));
+}
+
+}  // namespace pleinair::scene

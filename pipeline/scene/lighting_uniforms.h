@@ -1,0 +1,17 @@
+#pragma once
+
+#include "pipeline/gpu/program.h"
+#include "pipeline/scene/lighting.h"
+#include "pipeline/scene/shading.h"
+
+namespace pleinair::scene {
+
+/// Fills the uniforms of shaders/shading.glsl with light in the camera's frame. Precondition: the
+/// program is in use.
+void setLighting(gpu::Program& program, const Lighting& cameraLight, Shading shading);
+
+/// What toon shading multiplies sRGB-coded colours by where the key light does not reach: the
+/// ambient light's hue beside that of all light, as bright.
+glm::vec3 shadeTint(const Lighting& light);
+
+}  // namespace pleinair::scene
