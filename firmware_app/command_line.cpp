@@ -16,6 +16,7 @@
 
 #include "config/profiles.h"
 #include "config/suggestion.h"
+#include "firmware_app/commands/calibrate.h"
 #include "firmware_app/commands/config.h"
 #include "firmware_app/commands/devices.h"
 #include "firmware_app/commands/doctor.h"
@@ -194,6 +195,50 @@ void addRecord(CLI::App& app, RecordOptions& options, std::function<int()>& chos
   command.callback([&] { chosen = [&options] { return record(options); }; });
 }
 
+void addBoard(CLI::App& command, BoardOption& board) {
+  command
+      .add_option("--board", board.kind,
+                  "checkerboard:COLUMNSxROWS (inner corners) or aprilgrid:COLUMNSxROWS (tags)")
+      ->required()
+      ->type_name("KIND:CxR");
+  command.add_option("--square", board.square, "side of a checkerboard's square")
+      ->type_name("METRES");
+  command.add_option("--tag-edge", board.tagEdge, "edge of an aprilgrid's tag, the black square")
+      ->type_name("METRES");
+  command
+      .add_option("--spacing", board.spacing, "gap between tags, of a tag's edge (default: 0.3)")
+      ->type_name("SHARE");
+  command.add_option("--first-id", board.firstId, "id of the lower left tag (default: 0)")
+      ->type_name("ID");
+}
+
+void addCalibrate(CLI::App& app, CalibrateOptions& options, std::function<int()>& chosen) {
+  CLI::App& command =
+      *app.add_subcommand("calibrate", "find a camera's lens from views of a board");
+  CLI::Option* camera = addKey(command, options.configuration, "--camera", "camera.source",
+                               "as of run: until the views suffice, or SIGINT", "NAME|PATH");
+  command.add_option("--input", options.input, "a recording, as of render")
+      ->excludes(camera)
+      ->type_name("PATH");
+  addBoard(command, options.board);
+  command.add_option("--output", options.output, "the calibration (TOML)")
+      ->required()
+      ->check(refuseStandardOutput)
+      ->type_name("FILE");
+  addFrames(
+      command, [&options](std::uint64_t count) { options.frames = count; },
+      "look at the first N only");
+  command
+      .add_option("--views-folder", options.viewsFolder,
+                  "write the views that were chosen, with their corners, and the coverage")
+      ->type_name("DIR");
+  addKey(command, options.configuration, "--size", "camera.size",
+         "asked of a camera (default: 640x480)", "WxH");
+  addConfiguration(command, options.configuration);
+  refuseEmptyValues(command);
+  command.callback([&] { chosen = [&options] { return calibrate(options); }; });
+}
+
 void addConfig(CLI::App& app, ConfigOptions& options, std::function<int()>& chosen) {
   CLI::App& command =
       *app.add_subcommand("config", "print what is in force, and where each value came from");
@@ -286,19 +331,21 @@ int parseAndRun(int argc, const char* const* argv) {
   app.require_subcommand(0, 1);  // none is named below: CLI11 would keep quiet about a wrong one
   RenderOptions renderOptions;
   RecordOptions recordOptions;
+  CalibrateOptions calibrateOptions;
   ConfigOptions configOptions;
   RunOptions runOptions;
   DevicesOptions devicesOptions;
   DoctorOptions doctorOptions;
-  for (ConfigurationRequest* each :
-       {&renderOptions.configuration, &recordOptions.configuration, &runOptions.configuration,
-        &configOptions.configuration, &doctorOptions.configuration}) {
+  for (ConfigurationRequest* each : {&renderOptions.configuration, &recordOptions.configuration,
+                                     &runOptions.configuration, &calibrateOptions.configuration,
+                                     &configOptions.configuration, &doctorOptions.configuration}) {
     each->environment = environmentOfProcess();
   }
   std::function<int()> chosen;
   addRun(app, runOptions, chosen);
   addRender(app, renderOptions, chosen);
   addRecord(app, recordOptions, chosen);
+  addCalibrate(app, calibrateOptions, chosen);
   addConfig(app, configOptions, chosen);
   addDevices(app, devicesOptions, chosen);
   addDoctor(app, doctorOptions, chosen);
@@ -308,7 +355,8 @@ int parseAndRun(int argc, const char* const* argv) {
   try {
     app.parse(argumentsReversed(argc, argv));
     if (!chosen)
-      throw CLI::RequiredError("one of run, render, record, config, devices, doctor and styles");
+      throw CLI::RequiredError(
+          "one of run, render, record, calibrate, config, devices, doctor and styles");
     return chosen();
   } catch (const CLI::ParseError& error) {
     return reportParseError(app, error);

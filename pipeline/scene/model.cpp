@@ -20,7 +20,8 @@ std::span<const Surface> surfacesOf(const Model& model, const ModelPart& part) {
   return std::span(model.surfaces).subspan(part.firstSurface, part.surfaceCount);
 }
 
-/// Bounds the memory that morph targets take of surfaces that are cut small.
+/// Bounds the memory that morph targets take of surfaces that are cut small: triangles times
+/// targets times parts.
 constexpr std::size_t kMostCutMorphs = 4'000'000;
 
 /// How much larger each surface is drawn than it is, where it is drawn largest.
@@ -120,13 +121,21 @@ const ModelPart* findPart(const Model& model, std::string_view name) {
 Model withShortEdges(const Model& model, double maxEdgeMetres, std::size_t mostTriangles) {
   Model result = model;
   const std::vector<double> scales = scalesAtRest(model);
+  std::vector<std::size_t> uses(model.surfaces.size(), 0);
+  for (const ModelPart& part : model.parts) {
+    for (std::size_t i = 0; i < part.surfaceCount; ++i) ++uses[part.firstSurface + i];
+  }
+  std::size_t mostMorphs = kMostCutMorphs;
   for (std::size_t i = 0; i < scales.size(); ++i) {
     const auto edge = static_cast<float>(maxEdgeMetres / scales[i]);
     if (!(scales[i] > 0.0) || !(edge > 0.0F)) continue;
     Mesh& mesh = result.surfaces[i].mesh;
-    const std::size_t morphs = std::max<std::size_t>(mesh.morphTargets.size(), 1);
-    mesh = withShortEdges(mesh, edge, std::min(mostTriangles, kMostCutMorphs / morphs));
+    const std::size_t morphs = mesh.morphTargets.size() * uses[i];
+    const std::size_t most =
+        morphs > 0 ? std::min(mostTriangles, mostMorphs / morphs) : mostTriangles;
+    mesh = withShortEdges(mesh, edge, most);
     mostTriangles -= std::min(mostTriangles, mesh.triangles.size());
+    mostMorphs -= std::min(mostMorphs, morphs * mesh.triangles.size());
   }
   numberParts(result);
   return result;

@@ -1,10 +1,12 @@
-// Bytes as a glTF model: container, JSON, nodes, accessors, textures. Nothing touches the disk.
-// Input is a .glb or a .gltf; where it is text, also as a .glb of its own making, so that a
-// mutation need not keep chunk lengths right: JSON up to the first NUL, and BIN after it.
+// Bytes as a glTF model: container, JSON, nodes, accessors, textures, skins, morph targets; and
+// what it makes of them, posed at moments of its clips. Nothing touches the disk. Input is a .glb
+// or a .gltf; where it is text, also as a .glb of its own making, so that a mutation need not keep
+// chunk lengths right: JSON up to the first NUL, and BIN after it.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,6 +14,7 @@
 
 #include "pipeline/scene/gltf/gltf_file.h"
 #include "pipeline/scene/model.h"
+#include "pipeline/scene/model_pose.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace {
@@ -22,6 +25,15 @@ void require(bool holds, const char* what) {
   if (!holds) fuzz::fail(what);
 }
 
+void requireSound(const scene::MeshVertex& vertex) {
+  for (int i = 0; i < 3; ++i) {
+    require(std::isfinite(vertex.position[i]), "a position that is none");
+  }
+  require(std::abs(glm::length(vertex.normal) - 1.0F) < 1e-3F, "a normal that is none");
+  require(std::isfinite(vertex.texture.x) && std::isfinite(vertex.texture.y),
+          "a place that is none");
+}
+
 void requireSound(const scene::Surface& surface, const scene::Model& model) {
   require(surface.material < model.materials.size(), "no such material");
   for (const auto& triangle : surface.mesh.triangles) {
@@ -29,13 +41,16 @@ void requireSound(const scene::Surface& surface, const scene::Model& model) {
       require(corner < surface.mesh.vertices.size(), "no such vertex");
     }
   }
-  for (const scene::MeshVertex& vertex : surface.mesh.vertices) {
-    for (int i = 0; i < 3; ++i) {
-      require(std::isfinite(vertex.position[i]), "a position that is none");
-    }
-    require(std::abs(glm::length(vertex.normal) - 1.0F) < 1e-3F, "a normal that is none");
-    require(std::isfinite(vertex.texture.x) && std::isfinite(vertex.texture.y),
-            "a place that is none");
+  for (const scene::MeshVertex& vertex : surface.mesh.vertices) requireSound(vertex);
+  const std::size_t count = surface.mesh.vertices.size();
+  require(surface.mesh.joints.empty() || surface.mesh.joints.size() == count, "joints of others");
+  for (const scene::JointWeights& held : surface.mesh.joints) {
+    const float sum = held.weights[0] + held.weights[1] + held.weights[2] + held.weights[3];
+    require(std::abs(sum - 1.0F) < 1e-3F, "weights that do not sum to 1");
+  }
+  for (const scene::MorphTarget& target : surface.mesh.morphTargets) {
+    require(target.positions.size() == count, "a target of others");
+    require(target.normals.empty() || target.normals.size() == count, "normals of others");
   }
 }
 
@@ -57,10 +72,46 @@ void requireSound(const scene::Model& model) {
   require(std::isfinite(boundingSphere(model).radiusMetres), "no bounds");
 }
 
+/// A few vertices of each surface, where the pose has them, and within its sphere.
+void requireSound(const scene::Model& model, const scene::ModelPose& pose) {
+  const scene::BoundingSphere sphere = scene::boundingSphere(model, pose);
+  require(std::isfinite(sphere.radiusMetres), "no bounds of a pose");
+  // positions are rounded to floats
+  const double reach =
+      sphere.radiusMetres + 1e-5 * (sphere.radiusMetres + glm::length(sphere.centre));
+  std::size_t left = 10'000;
+  for (const scene::ModelPart& part : model.parts) {
+    for (std::size_t i = 0; i < part.surfaceCount; ++i) {
+      const std::size_t count = model.surfaces[part.firstSurface + i].mesh.vertices.size();
+      for (std::size_t v = 0; v < count && left > 0; v += 1 + count / 64, --left) {
+        const scene::MeshVertex vertex = scene::posedVertex(model, part, i, v, pose);
+        requireSound(vertex);
+        require(glm::distance(glm::dvec3(vertex.position), sphere.centre) <= reach,
+                "a vertex out of bounds");
+      }
+    }
+  }
+}
+
+void requireSoundPoses(const scene::Model& model) {
+  scene::ModelPose pose;
+  scene::poseModel(model, std::nullopt, hal::Duration::zero(), pose);
+  requireSound(model, pose);
+  for (std::size_t clip = 0; clip < std::min<std::size_t>(model.rig.clips.size(), 4); ++clip) {
+    require(!model.rig.clips[clip].name.empty(), "a clip without a name");
+    for (const double share : {0.0, 0.37, 0.5, 1.0}) {
+      const scene::ClipMoment moment{clip, share * model.rig.clips[clip].seconds};
+      scene::poseModel(model, moment, hal::Duration::zero(), pose);
+      requireSound(model, pose);
+    }
+  }
+}
+
 void load(std::span<const std::uint8_t> bytes) {
   const hal::Result<scene::Model> model = scene::parseGltf(bytes, "fuzz.glb");
   if (model) {
     requireSound(*model);
+    requireSoundPoses(*model);
   } else {
     fuzz::expectOneLine(model.error().message());
   }

@@ -67,6 +67,7 @@ class ModelBuilder {
     std::size_t first = 0;
     std::size_t count = 0;
     std::size_t triangles = 0;
+    std::size_t morphs = 0;        ///< targets times vertices and triangles
     std::size_t highestJoint = 0;  ///< that holds any of its vertices
   };
 
@@ -88,6 +89,11 @@ class ModelBuilder {
     if (drawnTriangles_ > kMaxTriangles) {
       refuse(where, "makes too many triangles with its like",
              fmt::format("at most {} drawn", kMaxTriangles));
+    }
+    drawnMorphs_ += range.morphs;
+    if (drawnMorphs_ > gltf::kMaxDrawnMorphs) {
+      refuse(where, "makes too many vertices to morph with its like",
+             fmt::format("at most {} in all, counted for each target", gltf::kMaxDrawnMorphs));
     }
     const std::string& meshName = meshes[static_cast<std::size_t>(node.mesh)].name;
     model_.parts.push_back(
@@ -134,6 +140,7 @@ class ModelBuilder {
       refuse(fmt::format("meshes[{}]", meshIndex), "makes too many primitives with its like",
              fmt::format("at most {} in all", gltf::kMaxPrimitives));
     }
+    gltf::checkMorphTargets(mesh, fmt::format("meshes[{}]", meshIndex));
     SurfaceRange range{.first = model_.surfaces.size()};
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
       const std::string where = fmt::format("meshes[{}].primitives[{}]", meshIndex, i);
@@ -145,7 +152,7 @@ class ModelBuilder {
       if (!read || read->triangles.empty()) continue;
       range.triangles += read->triangles.size();
       range.highestJoint = std::max(range.highestJoint, gltf::highestJoint(*read));
-      hasMorphs_ = hasMorphs_ || !read->morphTargets.empty();
+      range.morphs += read->morphTargets.size() * (read->vertices.size() + read->triangles.size());
       model_.surfaces.push_back({.mesh = std::move(*read), .material = material});
     }
     range.count = model_.surfaces.size() - range.first;
@@ -155,7 +162,7 @@ class ModelBuilder {
   /// A rig only for what needs one: all else is where it is.
   void addRig() {
     model_.rig.clips = clips_.read();
-    if (model_.rig.clips.empty() && model_.rig.skins.empty() && !hasMorphs_) {
+    if (model_.rig.clips.empty() && model_.rig.skins.empty() && drawnMorphs_ == 0) {
       for (ModelPart& part : model_.parts) part.node.reset();
       return;
     }
@@ -197,7 +204,7 @@ class ModelBuilder {
   std::size_t primitives_ = 0;
   std::size_t posedJoints_ = 0;
   std::size_t drawnTriangles_ = 0;
-  bool hasMorphs_ = false;
+  std::size_t drawnMorphs_ = 0;
   bool hasLines_ = false;
 };
 

@@ -30,6 +30,8 @@ inline constexpr std::size_t kMaxKeyNumbers = 16'000'000;
 inline constexpr std::size_t kMaxPosedJoints = 65'536;
 /// Moves of vertices by morph targets, of positions and normals, in all.
 inline constexpr std::size_t kMaxMorphMoves = 16'000'000;
+/// Targets times vertices and triangles, each time that a mesh is shown.
+inline constexpr std::size_t kMaxDrawnMorphs = 8'000'000;
 inline constexpr double kMaxCoordinate = 1e9;
 
 }  // namespace pleinair::scene::gltf

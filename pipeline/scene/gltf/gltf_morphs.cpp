@@ -32,17 +32,22 @@ std::size_t morphTargetsOf(const tinygltf::Model& gltf, std::size_t node) {
   const tinygltf::Mesh* mesh = meshOf(gltf, node);
   if (mesh == nullptr || mesh->primitives.empty()) return 0;
   const std::size_t count = mesh->primitives.front().targets.size();
-  for (std::size_t i = 0; i < mesh->primitives.size(); ++i) {
-    const std::size_t own = mesh->primitives[i].targets.size();
-    const std::string where =
-        fmt::format("meshes[{}].primitives[{}].targets", gltf.nodes[node].mesh, i);
-    if (own != count) refuse(where, fmt::format("has {}, primitives[0] {}", own, count));
-    if (own > kMaxMorphTargets) {
-      refuseUnsupported(where, fmt::format("has {} morph targets", own),
-                        fmt::format("at most {}", kMaxMorphTargets));
-    }
+  if (count > kMaxMorphTargets) {
+    refuseUnsupported(fmt::format("meshes[{}].primitives[0].targets", gltf.nodes[node].mesh),
+                      fmt::format("has {} morph targets", count),
+                      fmt::format("at most {}", kMaxMorphTargets));
   }
   return count;
+}
+
+void checkMorphTargets(const tinygltf::Mesh& mesh, const std::string& name) {
+  for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+    const std::size_t count = mesh.primitives.front().targets.size();
+    const std::size_t own = mesh.primitives[i].targets.size();
+    if (own == count) continue;
+    refuse(fmt::format("{}.primitives[{}].targets", name, i),
+           fmt::format("has {}, primitives[0] {}", own, count));
+  }
 }
 
 std::vector<float> restWeightsOf(const tinygltf::Model& gltf, std::size_t node) {

@@ -11,8 +11,11 @@
 namespace pleinair::scene::gltf {
 
 /// How many morph targets the mesh of a node has (section 3.7.2.2); 0 without a mesh. Throws Fault
-/// above kMaxMorphTargets, and where the mesh's primitives have different counts.
+/// above kMaxMorphTargets.
 std::size_t morphTargetsOf(const tinygltf::Model& gltf, std::size_t node);
+
+/// Throws Fault where the primitives of a mesh, which is called `name`, have different counts.
+void checkMorphTargets(const tinygltf::Mesh& mesh, const std::string& name);
 
 /// How much each is shown at rest: as the node, or else its mesh says, or else not at all. Throws
 /// Fault.

@@ -36,7 +36,12 @@ TEST(MalformedGltf, LoadsWhatIsSoundAndRefusesTheRestInALine) {
     if (mustLoad(file)) {
       ++sound;
       EXPECT_TRUE(model) << model.error().message();
-    } else if (!model) {
+    }
+    if (model) {
+      ModelPose pose;
+      poseModel(*model, std::nullopt, hal::Duration::zero(), pose);
+      EXPECT_TRUE(std::isfinite(boundingSphere(*model, pose).radiusMetres));
+    } else if (!mustLoad(file)) {
       ++broken;
       const std::string message = model.error().message();
       EXPECT_THAT(message, testing::StartsWith(file.string() + ": "));

@@ -154,6 +154,7 @@ bool isShifted(const Clip& clip, std::size_t node) {
 TEST_P(MovingGltf, KeepsTheLengthsOfBonesThatAreOnlyTurned) {
   std::map<std::pair<std::size_t, std::size_t>, double> lengths;  // by clip and joint
   std::size_t compared = 0;
+  const double tolerance = 1e-5 * boundingSphere(model_).radiusMetres;
   atMoments(20, [&](const ClipMoment& moment) {
     for (const Skin& skin : model_.rig.skins) {
       for (const std::size_t joint : skin.joints) {
@@ -162,7 +163,7 @@ TEST_P(MovingGltf, KeepsTheLengthsOfBonesThatAreOnlyTurned) {
         const double length = glm::distance(glm::dvec3(pose_.rootFromNode[joint][3]),
                                             glm::dvec3(pose_.rootFromNode[*parent][3]));
         const auto known = lengths.try_emplace({moment.clip, joint}, length).first;
-        ASSERT_NEAR(length, known->second, 1e-5 * boundingSphere(model_).radiusMetres);
+        ASSERT_NEAR(length, known->second, tolerance);
         ++compared;
       }
     }

@@ -269,7 +269,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kTag + kGear + "size_m = [1, 1, 1]\n",
                 "scene.toml:9: model[0].size_m: unknown key, allowed: name, source, teeth, "
                 "module_m, pressure_angle_deg, thickness_m, bore_diameter_m, hub_diameter_m, "
-                "holes, attach, scale, position_m, rotation_deg, colour, focus, clip, speed, loop, start"},
+                "holes, attach, scale, position_m, rotation_deg, colour, occluder, focus, clip, "
+                "speed, loop, start"},
         Mistake{kTag + kGear + "teeth = 5\n",
                 "scene.toml:9: model[0].teeth: found 5, allowed: a whole number in [6, 200]"},
         Mistake{kTag + "[[model]]\nsource = \"builtin:gearbox\"\nattach = \"tag:0\"\n"
@@ -289,7 +290,7 @@ INSTANTIATE_TEST_SUITE_P(
             "[light]\ndirection = [0, 0, 0]\n",
             "scene.toml:2: light.direction: has no length, allowed: a vector towards the light"},
         Mistake{"[lamp]\n",
-                "scene.toml:1: lamp: unknown key, allowed: camera, light, tag, model"}));
+                "scene.toml:1: lamp: unknown key, allowed: camera, light, tag, plane, model"}));
 
 TEST(SceneFileMistakes, NameEveryTagFamilyThereIs) {
   const std::string message = errorOf("[[tag]]\nfamily = \"36h11\"\nid = 0\nedge_m = 1\n");

@@ -1,0 +1,259 @@
+#include "firmware_app/commands/calibrate.h"
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include "config/config_error.h"
+#include "firmware_app/calibration_progress.h"
+#include "firmware_app/configured_parts.h"
+#include "firmware_app/exit_status.h"
+#include "firmware_app/interrupt.h"
+#include "firmware_app/live/camera_selection.h"
+#include "firmware_app/overloaded.h"
+#include "hal/cameras/recording/picture_paths.h"
+#include "hal/cameras/recording/recording.h"
+#include "hal/libav/picture_file.h"
+#include "hal/numbered_path.h"
+#include "hal/pending_file.h"
+#include "pipeline/calibration/calibration_text.h"
+#include "pipeline/calibration/session.h"
+#include "pipeline/calibration/view_picture.h"
+#include "pipeline/tracking/calibration_file.h"
+
+namespace pleinair::app {
+namespace {
+
+namespace fs = std::filesystem;
+using calibration::CalibrationReport;
+using calibration::CalibrationSession;
+
+constexpr int kSignalExitBase = 128;
+constexpr hal::Duration kLongestLook = std::chrono::milliseconds(100);  // then a signal is seen
+
+[[noreturn]] void refuse(hal::ErrorKind kind, std::string subject, std::string problem,
+                         std::string remedy) {
+  throw hal::StartupError(hal::Error{.kind = kind,
+                                     .subject = std::move(subject),
+                                     .problem = std::move(problem),
+                                     .remedy = std::move(remedy)});
+}
+
+/// Photographs are not taken in one movement, whatever their times.
+bool arePhotographs(const fs::path& input) {
+  std::error_code ignored;
+  return fs::is_directory(input, ignored) || hal::looksNumbered(input) ||
+         hal::recording::isPictureName(input);
+}
+
+/// Whether there is a calibration that will be replaced. Any other file is not ours to write over.
+bool replacesCalibration(const fs::path& output) {
+  std::error_code ignored;
+  if (!fs::exists(output, ignored)) return false;
+  try {
+    tracking::loadCalibration(output);
+  } catch (const config::ConfigError&) {
+    refuse(hal::ErrorKind::kInvalidArgument, output.string(),
+           "is there and is no calibration, and is not written over", "give --output another name");
+  }
+  return true;
+}
+
+/// Where pictures of views go, which are numbered: others of an earlier run would mix with them.
+void requireEmptyFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder)) {
+    refuse(hal::ErrorKind::kInvalidArgument, folder.string(),
+           "cannot make the folder: " + error.message(), "give another --views-folder");
+  }
+  if (!fs::is_empty(folder, error)) {
+    refuse(hal::ErrorKind::kInvalidArgument, folder.string(), "is not empty",
+           "give --views-folder a new or an empty folder");
+  }
+}
+
+/// One calibration: where pictures come from, and where it goes.
+class Calibrating {
+ public:
+  Calibrating(const CalibrateOptions& options, std::string subject, hal::Camera& camera,
+              const hal::StreamRequest& request)
+      : options_(options),
+        subject_(std::move(subject)),
+        camera_(camera),
+        isLive_(!options.input),
+        replaces_(replacesCalibration(options.output)),
+        format_(hal::orThrow(camera.start(request))),
+        file_(hal::orThrow(hal::PendingFile::create(options.output))),
+        session_(boardOf(options.board), format_.frame.size,
+                 {.selection = {.isMovement = isLive_ || !arePhotographs(*options.input)},
+                  .keepsPictures = options.viewsFolder.has_value()}),
+        progress_(clock_) {}
+
+  int run() {
+    const int signal = watch();
+    progress_.interrupt();
+    camera_.stop();
+    if (signal != 0 && !isLive_) {
+      printError(fmt::format("broken off by {}; nothing was written", signalName(signal)));
+      return kSignalExitBase + signal;
+    }
+    const CalibrationReport report = session_.solve();
+    if (options_.viewsFolder) writeViews(report);  // of a refused one too: they show why
+    if (!report.isGood()) refuseReport(report);
+    const std::string text = calibration::calibrationText(session_.board(), report);
+    hal::orThrow(file_.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
+    hal::orThrow(file_.publish());
+    std::fputs(summary(report).c_str(), stdout);
+    return 0;
+  }
+
+ private:
+  /// Until it is over. The signal that ended it, or 0.
+  int watch() {
+    while (!options_.frames || session_.selector().counts().pictures < *options_.frames) {
+      if (const int signal = Interrupt::received(); signal != 0) return signal;
+      if (isLive_ && session_.selector().isComplete()) break;
+      hal::NextFrame next = camera_.next(isLive_ ? clock_.now() + kLongestLook : hal::kNoDeadline);
+      if (!receive(next)) break;
+    }
+    return 0;
+  }
+
+  /// False at the end.
+  bool receive(hal::NextFrame& next) {
+    const Overloaded take{
+        [&](hal::CapturedFrame& frame) {
+          look(frame);
+          return true;
+        },
+        [](hal::CameraTimeout&) { return true; },
+        [](hal::FormatChanged&) { return true; },  // every frame says its own
+        [&](hal::EndOfStream& end) {
+          if (end.truncated) warn(end.truncated->message());
+          return false;
+        },
+        [&](hal::CameraLost& lost) {
+          if (session_.selector().views().empty()) throw hal::StartupError(std::move(lost.cause));
+          warn(lost.cause.message() + "; what was seen until then is used");
+          return false;
+        },
+        [](hal::Error& error) -> bool { throw hal::StartupError(std::move(error)); },
+    };
+    return std::visit(take, next);
+  }
+
+  void look(const hal::CapturedFrame& frame) {
+    if (frame.health != hal::FrameHealth::kSound) return;
+    const hal::FrameSize size = frame.image.format.size;
+    if (size != format_.frame.size) {
+      refuse(hal::ErrorKind::kInvalidInput, subject_,
+             fmt::format("its pictures change from {}x{} to {}x{}", format_.frame.size.width,
+                         format_.frame.size.height, size.width, size.height),
+             "a calibration is of one size: give pictures of one");
+    }
+    const calibration::ViewFate fate = session_.offer(frame.image, frame.captureTime);
+    progress_.advance(session_.selector(), fate);
+  }
+
+  void warn(const std::string& text) {
+    progress_.interrupt();
+    spdlog::warn("{}", text);
+  }
+
+  void writeViews(const CalibrationReport& report) const {
+    const calibration::ViewSelector& selector = session_.selector();
+    for (std::size_t i = 0; i < selector.views().size(); ++i) {
+      const calibration::SelectedView& view = selector.views()[i];
+      const hal::Image picture = calibration::viewPicture(session_.pictureOf(view).view(), view, i,
+                                                          session_.board(), report);
+      hal::orThrow(hal::writePng(*options_.viewsFolder / fmt::format("view-{:02}.png", i + 1),
+                                 picture.view()));
+    }
+    const hal::Image coverage = coveragePicture(selector, report, format_.frame.size);
+    hal::orThrow(hal::writePng(*options_.viewsFolder / "coverage.png", coverage.view()));
+  }
+
+  [[noreturn]] void refuseReport(const CalibrationReport& report) const {
+    std::vector<std::string> reasons;
+    for (const calibration::Refusal& refusal : report.refusals) reasons.push_back(refusal.text);
+    std::string remedy = report.refusals.front().remedy;
+    if (report.refusals.front().reason == calibration::RefusalReason::kNoBoard) {
+      if (const auto other = session_.otherBoard()) {
+        reasons.push_back("there is " + *other + " instead");
+      }
+    }
+    refuse(hal::ErrorKind::kInvalidInput, subject_,
+           fmt::format("no calibration is written: {}", fmt::join(reasons, "; ")),
+           std::move(remedy));
+  }
+
+  std::string summary(const CalibrationReport& report) const {
+    const calibration::LensFit& fit = report.choice->fit;
+    const tracking::Intrinsics& lens = fit.camera.intrinsics();
+    return fmt::format(
+        "calibrated from {} views of {} pictures: fx {:.1f} ± {:.1f}, fy {:.1f} ± {:.1f}, cx "
+        "{:.1f} "
+        "± {:.1f}, cy {:.1f} ± {:.1f}, {}\n"
+        "error {:.2f} px RMS, {:.2f} px in views held out; the picture is known to {:.2f} px, and "
+        "to {:.2f} px in {}: {}{}\n",
+        report.choice->used.size(), session_.selector().counts().pictures, lens.fx, fit.sigma(0),
+        lens.fy, fit.sigma(1), lens.cx, fit.sigma(2), lens.cy, fit.sigma(3), toString(fit.model),
+        fit.rmsPx, report.choice->heldOutRmsPx, report.typicalSigmaPx, report.worstSigmaPx,
+        report.worstPlace, replaces_ ? "replaced " : "", options_.output.string());
+  }
+
+  const CalibrateOptions& options_;
+  std::string subject_;
+  hal::Camera& camera_;
+  bool isLive_;
+  bool replaces_;
+  hal::SteadyClock clock_;
+  hal::StreamFormat format_;
+  hal::PendingFile file_;
+  CalibrationSession session_;
+  CalibrationProgress progress_;
+};
+
+void refuseCollisionsOf(const CalibrateOptions& options, const Configuration& configuration) {
+  std::vector<NamedPath> read = configuredFiles(configuration, {});
+  const CameraSettings camera = configuration.camera();
+  if (options.input) {
+    read.push_back({"--input", *options.input});
+  } else if (isRecording(camera)) {
+    read.push_back({"--camera", camera.source});
+  }
+  refuseCollisions(read, {{"--output", options.output}});
+}
+
+}  // namespace
+
+int calibrate(const CalibrateOptions& options) {
+  const Interrupt interrupt;
+  const Configuration configuration(options.configuration);
+  return configuration.blaming([&] {
+    boardOf(options.board);  // what is wrong with it shows before a camera is opened
+    if (!options.input) refuseSlipOfCamera(configuration);
+    refuseCollisionsOf(options, configuration);
+    if (options.viewsFolder) requireEmptyFolder(*options.viewsFolder);
+    if (options.input) {
+      hal::SteppedClock clock;
+      const auto recording = hal::openRecording(*options.input, clock);
+      return Calibrating(options, options.input->string(), *recording, {}).run();
+    }
+    const CameraSettings settings = configuration.camera();
+    hal::SteadyClock clock;
+    const auto camera = chosenCamera(settings, clock);
+    return Calibrating(options, settings.source.string(), *camera, streamRequestOf(settings)).run();
+  });
+}
+
+}  // namespace pleinair::app

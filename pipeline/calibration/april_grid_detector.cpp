@@ -1,0 +1,168 @@
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <variant>
+
+#include <glm/geometric.hpp>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "pipeline/calibration/corner_refinement.h"
+#include "pipeline/calibration/detectors.h"
+#include "pipeline/calibration/edge_width.h"
+#include "pipeline/tracking/tag_detector.h"
+
+namespace pleinair::calibration {
+namespace {
+
+using tracking::TagDetection;
+
+constexpr double kWindowShare = 0.45;  // of the gap, which the black corner squares fill
+constexpr double kSofteningPx = 0.0;   // a corner's neighbour is too near
+constexpr double kSmallestWindowPx = 2.0;
+constexpr double kLargestWindowPx = 8.0;
+
+struct GridTag {
+  int index = 0;  ///< from the grid's first
+  TagDetection seen;
+};
+
+double edgePx(const TagDetection& tag) {
+  double length = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    length += glm::distance(tag.corners[i], tag.corners[(i + 1) % 4]) / 4.0;
+  }
+  return length;
+}
+
+glm::dvec2 centreOf(const TagDetection& tag) {
+  return (tag.corners[0] + tag.corners[1] + tag.corners[2] + tag.corners[3]) / 4.0;
+}
+
+/// The tags say where the grid is; how each is turned on its paper differs between the programs
+/// that draw AprilGrids, so a corner gets its id from its place.
+class AprilGridDetector final : public BoardDetector {
+ public:
+  explicit AprilGridDetector(const Board& board)
+      : board_(board), grid_(std::get<AprilGrid>(board.kind())) {}
+
+  std::optional<BoardSighting> detect(const hal::PlaneView& luma, hal::FrameSize size) override {
+    const std::vector<GridTag> tags = findTags(luma, size);
+    std::vector<SightedCorner> corners = placedCorners(tags);
+    if (corners.empty()) return std::nullopt;
+    double edge = edgePx(tags.front().seen);
+    for (const GridTag& tag : tags) edge = std::min(edge, edgePx(tag.seen));
+    const double window =
+        std::clamp(kWindowShare * grid_.spacing * edge, kSmallestWindowPx, kLargestWindowPx);
+    refineCorners(luma, size, static_cast<int>(window), kSofteningPx, corners);
+    std::ranges::sort(corners, {}, &SightedCorner::id);
+    if (static_cast<int>(corners.size()) < board_.fewestCorners()) return std::nullopt;
+    const std::optional<double> width = edgeWidth(luma, size, board_, corners);
+    if (!width) return std::nullopt;
+    return BoardSighting{.corners = std::move(corners), .edgeWidthPx = *width};
+  }
+
+ private:
+  /// A tag touches the black squares at its corners, and where a lens or the picture's pixels blur
+  /// that, they make one shape which is no tag. So what is missing is looked for in pictures in
+  /// which white has grown by one and by two pixels.
+  std::vector<GridTag> findTags(const hal::PlaneView& luma, hal::FrameSize size) {
+    std::vector<GridTag> tags;
+    addTags(luma, size, tags);
+    const cv::Mat picture(size.height, size.width, CV_8UC1,
+                          const_cast<std::uint8_t*>(luma.bytes.data()), luma.strideBytes);
+    for (const int grown : {1, 2}) {
+      if (tags.size() == static_cast<std::size_t>(grid_.columns * grid_.rows)) break;
+      const int side = 2 * grown + 1;
+      cv::dilate(picture, grown_, cv::Mat::ones(side, side, CV_8UC1));
+      addTags({.bytes = {grown_.data, grown_.total()}, .strideBytes = grown_.step}, size, tags);
+    }
+    return tags;
+  }
+
+  /// Those of the grid that are not there yet.
+  void addTags(const hal::PlaneView& luma, hal::FrameSize size, std::vector<GridTag>& tags) {
+    tracking::DetectionCounters counters;
+    for (const TagDetection& tag : detector_.detect(luma, size, counters)) {
+      const int index = tag.id - grid_.firstId;
+      const bool isOfGrid = index >= 0 && index < grid_.columns * grid_.rows;
+      if (isOfGrid && std::ranges::find(tags, index, &GridTag::index) == tags.end()) {
+        tags.push_back({index, tag});
+      }
+    }
+  }
+
+  /// The corners of a tag on the board, the first of four.
+  static std::size_t firstCorner(const GridTag& tag) {
+    return static_cast<std::size_t>(tag.index) * 4;
+  }
+
+  std::vector<SightedCorner> placedCorners(const std::vector<GridTag>& tags) const {
+    if (tags.size() * 4 < static_cast<std::size_t>(board_.fewestCorners())) return {};
+    std::vector<cv::Point2d> onBoard;
+    std::vector<cv::Point2d> inPicture;
+    for (const GridTag& tag : tags) {
+      const std::size_t first = firstCorner(tag);
+      const glm::dvec3 centre = (board_.corners()[first] + board_.corners()[first + 2]) / 2.0;
+      const glm::dvec2 px = centreOf(tag.seen);
+      onBoard.emplace_back(centre.x, centre.y);
+      inPicture.emplace_back(px.x, px.y);
+    }
+    const cv::Mat found = cv::findHomography(onBoard, inPicture);
+    if (found.empty()) return {};  // in a row
+    const cv::Matx33d pictureFromBoard(found);
+    std::vector<SightedCorner> corners;
+    std::size_t inPlace = 0;
+    for (const GridTag& tag : tags) inPlace += addCorners(tag, pictureFromBoard, corners) ? 1 : 0;
+    // Another grid's ids are elsewhere.
+    constexpr double kLeastInPlace = 0.75;
+    if (static_cast<double>(inPlace) < kLeastInPlace * static_cast<double>(tags.size())) return {};
+    return corners;
+  }
+
+  /// Each of the four at the detected corner that is nearest to where it should be, relative to the
+  /// centre, which a lens moves more than it bends a tag.
+  /// False where the tag is not where the grid has it.
+  bool addCorners(const GridTag& tag, const cv::Matx33d& pictureFromBoard,
+                  std::vector<SightedCorner>& corners) const {
+    const std::size_t first = firstCorner(tag);
+    const auto project = [&](const glm::dvec3& point) {
+      const cv::Vec3d h = pictureFromBoard * cv::Vec3d(point.x, point.y, 1.0);
+      return glm::dvec2(h[0] / h[2], h[1] / h[2]);
+    };
+    const glm::dvec2 shift =
+        centreOf(tag.seen) - project((board_.corners()[first] + board_.corners()[first + 2]) / 2.0);
+    if (glm::length(shift) > edgePx(tag.seen)) return false;
+    std::array<bool, 4> isTaken{};
+    std::array<SightedCorner, 4> four{};
+    for (std::size_t i = 0; i < 4; ++i) {
+      const glm::dvec2 expected = project(board_.corners()[first + i]) + shift;
+      std::size_t nearest = 0;
+      for (std::size_t j = 1; j < 4; ++j) {
+        if (glm::distance(tag.seen.corners[j], expected) <
+            glm::distance(tag.seen.corners[nearest], expected)) {
+          nearest = j;
+        }
+      }
+      isTaken[nearest] = true;
+      four[i] = {static_cast<int>(first + i), tag.seen.corners[nearest]};
+    }
+    if (std::ranges::count(isTaken, true) < 4) return false;
+    corners.insert(corners.end(), four.begin(), four.end());
+    return true;
+  }
+
+  const Board& board_;
+  AprilGrid grid_;
+  cv::Mat grown_;
+  // Unreduced: the squares between the tags would merge with them.
+  tracking::TagDetector detector_{{.decimation = 1.0}};
+};
+
+}  // namespace
+
+std::unique_ptr<BoardDetector> makeAprilGridDetector(const Board& board) {
+  return std::make_unique<AprilGridDetector>(board);
+}
+
+}  // namespace pleinair::calibration

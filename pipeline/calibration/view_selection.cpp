@@ -1,0 +1,181 @@
+#include "pipeline/calibration/view_selection.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+namespace pleinair::calibration {
+namespace {
+
+constexpr double kBlurShare = 1.5;     // of the sharpest board's edge width
+constexpr double kWidestEdgePx = 6.0;  // wider ones are not refined to a fraction of a pixel
+/// A rolling shutter skews a moving board by its speed times the read-out, some 20 ms.
+constexpr double kFastest = 0.05;       // diagonals a second: 40 px at 640×480, a skew of 0.8 px
+constexpr double kLeastGain = 4.0;      // cells' worth
+constexpr double kSameView = 0.025;     // of the diagonal, the corners' mean distance
+constexpr double kDistinctView = 0.08;  // taken although it fills nothing that is wanted
+constexpr double kSlopeWorth = 0.25;    // diagonals: a turn by 18° is as good as another place
+constexpr double kSharperShare = 0.85;
+constexpr std::size_t kEnoughViews = 15;
+constexpr std::size_t kSharpestCount = 5;
+constexpr hal::Duration kLongestPause = std::chrono::milliseconds(500);
+
+}  // namespace
+
+std::optional<double> cornerDistancePx(const BoardSighting& a, const BoardSighting& b) {
+  constexpr int kFewest = 4;
+  double sum = 0.0;
+  int count = 0;
+  auto other = b.corners.begin();
+  for (const SightedCorner& corner : a.corners) {
+    while (other != b.corners.end() && other->id < corner.id) ++other;
+    if (other == b.corners.end()) break;
+    if (other->id != corner.id) continue;
+    sum += glm::distance(corner.px, other->px);
+    ++count;
+  }
+  if (count < kFewest) return std::nullopt;
+  return sum / count;
+}
+
+ViewSelector::ViewSelector(const Board& board, hal::FrameSize size, ViewSelectionOptions options)
+    : board_(board),
+      size_(size),
+      options_(options),
+      diagonalPx_(std::hypot(size.width, size.height)) {}
+
+double ViewSelector::sharpestEdgePx() const {
+  if (sharpest_.empty()) return 0.0;
+  return sharpest_.size() < kSharpestCount ? sharpest_.front() : sharpest_.back();
+}
+
+double ViewSelector::widestEdgePx() const {
+  return sharpest_.empty() ? kWidestEdgePx : std::min(kWidestEdgePx, kBlurShare * sharpestEdgePx());
+}
+
+bool ViewSelector::isComplete() const {
+  return views_.size() >= kEnoughViews && coverage_.isComplete();
+}
+
+ViewFate ViewSelector::offer(std::uint64_t frame, hal::TimePoint time,
+                             std::optional<BoardSighting> sighting) {
+  ++counts_.pictures;
+  if (!sighting) {
+    last_.reset();
+    return ViewFate::kNoBoard;
+  }
+  ++counts_.withBoard;
+  const std::optional<double> speed = speedOf(time, *sighting);
+  noteSharpness(sighting->edgeWidthPx);
+  const ViewFate fate = judge(frame, *sighting, speed);
+  if (fate == ViewFate::kBlurred) ++counts_.blurred;
+  if (fate == ViewFate::kMoving) ++counts_.moving;
+  if (fate == ViewFate::kNothingNew) ++counts_.nothingNew;
+  last_ = std::move(sighting);
+  lastTime_ = time;
+  return fate;
+}
+
+std::optional<double> ViewSelector::speedOf(hal::TimePoint time,
+                                            const BoardSighting& sighting) const {
+  if (!last_ || time - lastTime_ > kLongestPause) return std::nullopt;
+  const double seconds = std::chrono::duration<double>(time - lastTime_).count();
+  const std::optional<double> distance = cornerDistancePx(*last_, sighting);
+  if (!distance || !(seconds > 0.0)) return std::nullopt;
+  return *distance / seconds;
+}
+
+void ViewSelector::noteSharpness(double edgeWidthPx) {
+  sharpest_.insert(std::ranges::upper_bound(sharpest_, edgeWidthPx), edgeWidthPx);
+  if (sharpest_.size() > kSharpestCount) sharpest_.pop_back();
+  for (std::size_t i = views_.size(); i-- > 0;) {
+    if (views_[i].sighting.edgeWidthPx > widestEdgePx()) drop(i);
+  }
+}
+
+ViewFate ViewSelector::judge(std::uint64_t frame, const BoardSighting& sighting,
+                             std::optional<double> speed) {
+  if (sighting.edgeWidthPx > widestEdgePx()) return ViewFate::kBlurred;
+  if (options_.isMovement &&
+      !(speed.value_or(kFastest * diagonalPx_ + 1.0) <= kFastest * diagonalPx_)) {
+    return ViewFate::kMoving;
+  }
+  SelectedView view{.frame = frame,
+                    .sighting = sighting,
+                    .traits = traitsOf(board_, sighting, size_),
+                    .speed = options_.isMovement ? speed.value_or(0.0) : 0.0};
+
+  double nearest = std::numeric_limits<double>::infinity();
+  std::size_t nearestView = 0;
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    const double difference = differenceOf(views_[i], view);
+    if (difference >= nearest) continue;
+    nearest = difference;
+    nearestView = i;
+  }
+  if (nearest < kSameView) {
+    const SelectedView& same = views_[nearestView];
+    if (sighting.edgeWidthPx > kSharperShare * same.sighting.edgeWidthPx) {
+      return ViewFate::kNothingNew;
+    }
+    drop(nearestView);
+    take(std::move(view));
+    return ViewFate::kTaken;
+  }
+  const bool isWanted = coverage_.gain(view.traits) >= kLeastGain;
+  const bool isFull = views_.size() >= options_.mostViews;
+  if (isFull && isWanted) {
+    if (const auto spare = spareView()) drop(*spare);
+  } else if (!isWanted && nearest < kDistinctView) {
+    return ViewFate::kNothingNew;
+  }
+  if (views_.size() >= options_.mostViews) return ViewFate::kNothingNew;
+  take(std::move(view));
+  return ViewFate::kTaken;
+}
+
+double ViewSelector::differenceOf(const SelectedView& a, const SelectedView& b) const {
+  const std::optional<double> distance = cornerDistancePx(a.sighting, b.sighting);
+  if (!distance) return std::numeric_limits<double>::infinity();
+  return std::hypot(*distance / diagonalPx_,
+                    kSlopeWorth * glm::distance(a.traits.slope, b.traits.slope));
+}
+
+void ViewSelector::take(SelectedView view) {
+  coverage_.add(view.traits);
+  views_.push_back(std::move(view));
+}
+
+void ViewSelector::drop(std::size_t index) {
+  coverage_.remove(views_[index].traits);
+  views_.erase(views_.begin() + static_cast<std::ptrdiff_t>(index));
+}
+
+std::optional<std::size_t> ViewSelector::spareView() const {
+  std::optional<std::size_t> widest;
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    if (!coverage_.canSpare(views_[i].traits)) continue;
+    if (!widest || views_[i].sighting.edgeWidthPx > views_[*widest].sighting.edgeWidthPx) {
+      widest = i;
+    }
+  }
+  return widest;
+}
+
+std::vector<FitView> ViewSelector::fitViews() const {
+  std::vector<FitView> views;
+  for (const SelectedView& view : views_) {
+    FitView points;
+    for (const SightedCorner& corner : view.sighting.corners) {
+      points.push_back({board_.corners()[static_cast<std::size_t>(corner.id)], corner.px});
+    }
+    views.push_back(std::move(points));
+  }
+  return views;
+}
+
+}  // namespace pleinair::calibration

@@ -1,0 +1,130 @@
+#include "pipeline/calibration/view_selection.h"
+
+#include <chrono>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/board_scene.h"
+
+namespace pleinair::calibration {
+namespace {
+
+using support::BoardHold;
+
+const Board kBoard(Checkerboard{9, 6, 0.025});
+const tracking::CameraModel kCamera({600, 600, 320, 240}, {}, {640, 480});
+constexpr hal::Duration kPeriod = std::chrono::milliseconds(33);
+
+/// Shows boards to a selector, a frame period after each other.
+class ViewSelection : public testing::Test {
+ protected:
+  ViewFate show(const BoardHold& hold, double edgeWidthPx = 1.5) {
+    BoardSighting sighting = support::idealSighting(
+        kBoard, kCamera, support::cameraFromBoard(kBoard, kCamera, hold), 0.05, frame_ + 1);
+    sighting.edgeWidthPx = edgeWidthPx;
+    return offer(std::move(sighting));
+  }
+  /// Twice, so that it is seen to be still.
+  ViewFate hold(const BoardHold& held, double edgeWidthPx = 1.5) {
+    show(held, edgeWidthPx);
+    return show(held, edgeWidthPx);
+  }
+  ViewFate offer(std::optional<BoardSighting> sighting) {
+    const auto frame = frame_++;
+    return selector_.offer(frame, hal::TimePoint(frame * kPeriod), std::move(sighting));
+  }
+
+  ViewSelector selector_{kBoard, kCamera.imageSize()};
+  std::uint32_t frame_ = 0;
+};
+
+TEST_F(ViewSelection, TakesAStillViewOnce) {
+  EXPECT_EQ(show({}), ViewFate::kMoving);  // nothing tells yet
+  EXPECT_EQ(show({}), ViewFate::kTaken);
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(show({}), ViewFate::kNothingNew);
+  EXPECT_EQ(selector_.views().size(), 1u);
+  EXPECT_EQ(offer(std::nullopt), ViewFate::kNoBoard);
+  EXPECT_EQ(selector_.counts().pictures, 23u);
+  EXPECT_EQ(selector_.counts().withBoard, 22u);
+}
+
+TEST_F(ViewSelection, LeavesOutMovingBoards) {
+  // 3 px a picture are 90 px a second: its rows would be a pixel or two apart.
+  for (int i = 0; i < 40; ++i) {
+    EXPECT_EQ(show({.at = {0.3 + i * 3.0 / 640.0, 0.5}}), ViewFate::kMoving);
+  }
+  EXPECT_TRUE(selector_.views().empty());
+}
+
+TEST_F(ViewSelection, TakesASlowHand) {
+  // 0.4 px a picture: a hand that holds still.
+  show({});
+  EXPECT_EQ(show({.at = {0.5 + 0.4 / 640.0, 0.5}}), ViewFate::kTaken);
+}
+
+TEST_F(ViewSelection, LeavesOutBlurredBoards) {
+  hold({}, 1.5);
+  EXPECT_EQ(hold({.at = {0.3, 0.5}, .yaw = 0.5}, 2.6), ViewFate::kBlurred);
+  EXPECT_EQ(show({.at = {0.3, 0.5}, .yaw = 0.5}, 1.8), ViewFate::kTaken);
+}
+
+TEST_F(ViewSelection, ABlurredOneIsDroppedOnceSharperOnesCome) {
+  hold({.at = {0.3, 0.5}, .yaw = 0.5}, 4.0);
+  ASSERT_EQ(selector_.views().size(), 1u);
+  for (int i = 0; i < 3; ++i) hold({.at = {0.6, 0.5}}, 1.5);
+  ASSERT_EQ(selector_.views().size(), 1u);
+  EXPECT_EQ(selector_.views()[0].sighting.edgeWidthPx, 1.5);
+  // Its tilt is wanted again.
+  EXPECT_EQ(selector_.coverage().viewsWith(Tilt::kLeftNearer), 0);
+}
+
+TEST_F(ViewSelection, ASharperOneTakesThePlaceOfTheSameView) {
+  hold({}, 2.0);
+  EXPECT_EQ(show({}, 1.9), ViewFate::kNothingNew);
+  EXPECT_EQ(show({}, 1.5), ViewFate::kTaken);
+  ASSERT_EQ(selector_.views().size(), 1u);
+  EXPECT_EQ(selector_.views()[0].sighting.edgeWidthPx, 1.5);
+}
+
+TEST_F(ViewSelection, OnePictureMistakenForSharpDoesNotSpoilTheRest) {
+  for (int i = 0; i < 6; ++i) show({.at = {0.3 + 0.08 * i, 0.5}}, 2.0);
+  show({}, 0.9);
+  EXPECT_EQ(hold({.at = {0.3, 0.6}, .yaw = 0.5}, 2.0), ViewFate::kTaken);
+}
+
+TEST_F(ViewSelection, IsCompleteAfterAGoodTourWithFewViews) {
+  for (const BoardHold& held : support::goodTour(kBoard, kCamera)) hold(held);
+  EXPECT_TRUE(selector_.isComplete()) << *selector_.coverage().nextWish();
+  EXPECT_LE(selector_.views().size(), 26u);
+  EXPECT_EQ(selector_.fitViews().size(), selector_.views().size());
+}
+
+TEST_F(ViewSelection, NeverTakesMoreThanItMay) {
+  const auto tour = support::goodTour(kBoard, kCamera);
+  for (int round = 0; round < 6; ++round) {
+    for (BoardHold held : tour) {
+      held.roll += 0.25 * round;
+      held.span *= 1.0 - 0.05 * round;
+      hold(held);
+    }
+  }
+  EXPECT_EQ(selector_.views().size(), 40u);
+  EXPECT_TRUE(selector_.isComplete());
+}
+
+TEST_F(ViewSelection, PhotographsNeedNotFollowEachOther) {
+  ViewSelector photographs(kBoard, kCamera.imageSize(), {.isMovement = false});
+  std::uint32_t frame = 0;
+  for (const BoardHold& held : support::goodTour(kBoard, kCamera)) {
+    photographs.offer(
+        frame, hal::TimePoint(frame * kPeriod),
+        support::idealSighting(kBoard, kCamera, support::cameraFromBoard(kBoard, kCamera, held)));
+    ++frame;
+  }
+  EXPECT_TRUE(photographs.isComplete());
+  EXPECT_EQ(photographs.counts().moving, 0u);
+}
+
+}  // namespace
+}  // namespace pleinair::calibration

@@ -1,0 +1,130 @@
+// The keys of a [[model]] that say how its clips are played.
+#include <fstream>
+
+#include <gmock/gmock.h>
+
+#include "config/config_error.h"
+#include "pipeline/scene/scene_file.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/scene/gltf_builder.h"
+
+namespace pleinair::scene {
+namespace {
+
+class ScenePlayback : public testing::Test {
+ protected:
+  ScenePlayback() {
+    write("still.glb", {});
+    write("turner.glb", {"Turn"});
+    write("walker.glb", {"Survey", "Walk", "Run"});
+  }
+
+  void write(const std::string& file, const std::vector<std::string>& clips) {
+    GltfBuilder builder;
+    builder.addMesh({0, 0, 0, 1, 0, 0, 0, 1, 0});
+    const int times = builder.addFloats({0, 1}, "SCALAR", 1);
+    const int moves = builder.addFloats({0, 0, 0, 1, 0, 0}, "VEC3", 3);
+    for (const std::string& clip : clips) {
+      builder.root["animations"].push_back(
+          {{"name", clip},
+           {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}}}},
+           {"samplers", {{{"input", times}, {"output", moves}}}}});
+    }
+    const auto bytes = builder.bytes();
+    std::ofstream(folder_.path() / file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+  }
+
+  Scene sceneWith(const std::string& source, const std::string& keys) {
+    return parseScene(
+        "[[tag]]\nid = 0\nedge_m = 0.1\n[[model]]\nname = \"it\"\nattach = \"tag:0\"\n"
+        "source = \"" +
+            source + "\"\n" + keys,
+        "scene.toml", folder_.path());
+  }
+
+  Playback playbackOf(const std::string& source, const std::string& keys) {
+    return sceneWith(source, keys).models[0].playback;
+  }
+
+  std::string errorOf(const std::string& source, const std::string& keys) {
+    try {
+      sceneWith(source, keys);
+    } catch (const config::ConfigError& error) {
+      return error.what();
+    }
+    return "(nothing thrown)";
+  }
+
+  support::TemporaryFolder folder_;
+};
+
+TEST_F(ScenePlayback, PlaysAnOnlyClip) {
+  const Playback playback = playbackOf("turner.glb", "");
+  EXPECT_EQ(playback.clip, 0u);
+  EXPECT_EQ(playback.speed, 1.0);
+  EXPECT_TRUE(playback.loops);
+  EXPECT_FALSE(playback.startsOnSight);
+  EXPECT_THAT(sceneWith("turner.glb", "").notices, testing::IsEmpty());
+}
+
+TEST_F(ScenePlayback, TakesAllKeys) {
+  const Playback playback = playbackOf(
+      "walker.glb", "clip = \"Walk\"\nspeed = -0.5\nloop = false\nstart = \"on_sight\"\n");
+  EXPECT_EQ(playback.clip, 1u);
+  EXPECT_EQ(playback.speed, -0.5);
+  EXPECT_FALSE(playback.loops);
+  EXPECT_TRUE(playback.startsOnSight);
+  EXPECT_FALSE(playbackOf("turner.glb", "start = \"at_once\"\n").startsOnSight);
+}
+
+TEST_F(ScenePlayback, SaysThatAModelOfManyClipsStandsStill) {
+  const Scene scene = sceneWith("walker.glb", "");
+  EXPECT_FALSE(scene.models[0].playback.clip);
+  EXPECT_THAT(scene.notices,
+              testing::ElementsAre("it: stands at rest; clip = \"NAME\" plays one of its "
+                                   "animations: Survey, Walk, Run"));
+  EXPECT_THAT(sceneWith("walker.glb", "clip = \"Run\"\n").notices, testing::IsEmpty());
+  EXPECT_THAT(sceneWith("still.glb", "").notices, testing::IsEmpty());
+}
+
+TEST_F(ScenePlayback, SharesAModelThatIsPlayedInTwoWays) {
+  const Scene scene = sceneWith("walker.glb",
+                                "clip = \"Run\"\n[[model]]\nname = \"other\"\nattach = \"tag:0\"\n"
+                                "source = \"walker.glb\"\n");
+  ASSERT_EQ(scene.models.size(), 2u);
+  EXPECT_EQ(scene.models[0].model, scene.models[1].model);
+  EXPECT_EQ(scene.models[0].playback.clip, 2u);
+  EXPECT_THAT(scene.notices, testing::ElementsAre(testing::StartsWith("other: stands at rest")));
+}
+
+TEST_F(ScenePlayback, ListsTheClipsThatThereAre) {
+  EXPECT_EQ(errorOf("walker.glb", "clip = \"Wlak\"\n"),
+            "scene.toml:8: model[0].clip: found \"Wlak\" (did you mean \"Walk\"?), allowed: "
+            "Survey, Walk, Run");
+  EXPECT_EQ(errorOf("walker.glb", "clip = \"Moonwalk\"\n"),
+            "scene.toml:8: model[0].clip: found \"Moonwalk\", allowed: Survey, Walk, Run");
+  EXPECT_EQ(errorOf("still.glb", "clip = \"Walk\"\n"),
+            "scene.toml:8: model[0].clip: found \"Walk\", allowed: a model with animations; this "
+            "one has none");
+  EXPECT_EQ(errorOf("builtin:gear", "clip = \"Walk\"\n"),
+            "scene.toml:8: model[0].clip: found \"Walk\", allowed: a model with animations; this "
+            "one has none");
+}
+
+TEST_F(ScenePlayback, RefusesKeysThatDoNothing) {
+  EXPECT_EQ(errorOf("walker.glb", "speed = 2\n"),
+            "scene.toml:8: model[0].speed: is for a clip, and none is played, allowed: clip as one "
+            "of Survey, Walk, Run");
+  EXPECT_EQ(errorOf("builtin:box", "start = \"on_sight\"\n"),
+            "scene.toml:8: model[0].start: is for a clip, and none is played, allowed: a model "
+            "with animations; this one has none");
+  EXPECT_EQ(errorOf("turner.glb", "start = \"soon\"\n"),
+            "scene.toml:8: model[0].start: found \"soon\", allowed: at_once, on_sight");
+  EXPECT_THAT(errorOf("turner.glb", "speed = 1000\n"),
+              testing::StartsWith("scene.toml:8: model[0].speed: found 1000"));
+}
+
+}  // namespace
+}  // namespace pleinair::scene
