@@ -20,6 +20,10 @@ constexpr double kContactHeight = 0.50;
 constexpr double kContactReach = 0.30;
 constexpr int kReceiverCells = 16;  // a side; lines bend under a lens
 
+constexpr std::array<GLenum, 3> kFirstAlone{GL_COLOR_ATTACHMENT0, GL_NONE, GL_NONE};
+constexpr std::array<GLenum, 3> kAll{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
+                                     GL_COLOR_ATTACHMENT2};
+
 glm::dmat4 attachFromCamera(const glm::dmat4& cameraFromAttach) {
   const glm::dmat3 rotation = glm::transpose(glm::dmat3(cameraFromAttach));
   glm::dmat4 inverse(rotation);
@@ -163,7 +167,8 @@ void ContactShadow::blur(const Map& map) {
 void ContactShadow::draw() {
   if (std::ranges::none_of(maps_, &Map::isShown)) return;
   glEnable(GL_BLEND);
-  glBlendFunc(GL_ZERO, GL_SRC_COLOR);  // integer attachments are not blended
+  glBlendFunc(GL_ZERO, GL_SRC_COLOR);
+  glDrawBuffers(3, kFirstAlone.data());
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   glBindVertexArray(noAttributes_.get());
@@ -183,6 +188,7 @@ void ContactShadow::draw() {
     glDrawArrays(GL_TRIANGLES, 0, 6 * kReceiverCells * kReceiverCells);
   }
   glBindVertexArray(0);
+  glDrawBuffers(3, kAll.data());
   glDisable(GL_BLEND);
 }
 

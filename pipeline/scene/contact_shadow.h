@@ -51,8 +51,8 @@ class ContactShadow {
 
   /// What draw() needs of the camera, for its program: the uniforms of a camera's vertices.
   gpu::Program& receiver() { return receive_; }
-  /// Multiplies the shadows into colour attachment 0 of the bound target, whose picture shows the
-  /// camera's alone, and leaves attachments 1 (unsigned) at 0 and 2 as it is.
+  /// Multiplies the shadows into the first of the bound target's three colour attachments, which
+  /// shows the camera's picture alone.
   void draw();
 
  private:

@@ -261,6 +261,7 @@ Lighting LightEstimator::composed(const Place& place) const {
   Lighting light;
   const glm::dvec3 white = place.level.value();
   light.white = glm::vec3(white);
+  light.bandsAllLight = true;
   if (!place.keyVector.hasValue()) {
     const glm::dvec3 toward = towardKey_.value_or(glm::dvec3(0.0, 0.0, 1.0));
     light.towardKey = glm::vec3(toward);

@@ -17,7 +17,10 @@ glm::vec3 shadeTint(const Lighting& light) {
 }
 
 void setLighting(gpu::Program& program, const Lighting& cameraLight, Shading shading) {
-  program.set("towardKey", cameraLight.towardKey)
+  const float key = luminanceOf(cameraLight.key);
+  const float sky = cameraLight.bandsAllLight ? luminanceOf(cameraLight.sky) : 0.0F;
+  program.set("ambientInBands", sky / std::max(sky + key, 1e-4F))
+      .set("towardKey", cameraLight.towardKey)
       .set("up", cameraLight.up)
       .set("keyLight", cameraLight.key)
       .set("skyLight", cameraLight.sky)

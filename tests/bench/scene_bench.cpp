@@ -1,9 +1,11 @@
 // What composing an AR frame costs, wall time with the GPU waited for.
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -13,8 +15,10 @@
 #include "hal/error.h"
 #include "pipeline/gpu/egl_context.h"
 #include "pipeline/scene/ar_frame_renderer.h"
+#include "pipeline/scene/light_estimator.h"
 #include "pipeline/scene/scene_file.h"
 #include "pipeline/scene/scene_shaders.h"
+#include "tests/support/tag_scene.h"
 
 namespace pleinair::scene {
 namespace {
@@ -29,6 +33,18 @@ attach = "tag:0"
 )";
 
 constexpr const char* kGearbox = R"(
+[[tag]]
+id = 0
+edge_m = 0.12
+[[model]]
+source = "builtin:gearbox"
+attach = "tag:0"
+scale = 0.5
+)";
+
+constexpr const char* kGearboxNoShadow = R"(
+[light]
+shadow = 0
 [[tag]]
 id = 0
 edge_m = 0.12
@@ -141,6 +157,12 @@ BENCHMARK_CAPTURE(compose, gearbox, kGearbox)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime()
     ->MeasureProcessCPUTime();
+BENCHMARK_CAPTURE(compose, gearboxNoShadow, kGearboxNoShadow)
+    ->Args({640, 480})
+    ->Args({1280, 720})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->MeasureProcessCPUTime();
 BENCHMARK_CAPTURE(compose, engine, kEngine)
     ->Args({640, 480})
     ->Args({1280, 720})
@@ -171,6 +193,34 @@ BENCHMARK_CAPTURE(compose, cameraOnly, "")
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime()
     ->MeasureProcessCPUTime();
+
+/// The light on three places, from five tags in an RGB picture.
+void estimateLight(benchmark::State& state) {
+  const hal::FrameSize size{static_cast<int>(state.range(0)), static_cast<int>(state.range(1))};
+  const tracking::CameraModel camera = assumedCamera(size);
+  const glm::dmat4 view = support::poseOf({0.4, 0.1, 0.0}, {0.0, 0.0, 0.7});
+  std::vector<support::SceneTag> tags;
+  std::vector<tracking::TagMarker> markers;
+  for (int i = 0; i < 5; ++i) {
+    tags.push_back({.id = i,
+                    .edgeMetres = 0.08,
+                    .worldFromTag = support::poseOf({0.2 * i - 0.4, 0.0, 0.0},
+                                                    {0.14 * i - 0.28, 0.05 * (i % 2), 0.0})});
+    markers.push_back({.id = i, .edgeMetres = 0.08, .worldFromTag = tags.back().worldFromTag});
+  }
+  const hal::Image image =
+      support::neutralPicture(support::renderTags(camera, view, tags), hal::PixelFormat::kRgb8);
+  tracking::Tracker tracker(camera, markers);
+  const tracking::TrackingResult tracked = tracker.track(image.view(), {});
+  const std::array<std::optional<int>, 3> places{0, 3, std::nullopt};
+  LightEstimator estimator(markers, tracking::kDefaultTagFamily, places);
+  hal::TimePoint time;
+  for (auto _ : state) {
+    estimator.follow(image.view(), tracked, time += std::chrono::milliseconds(33));
+  }
+  state.counters["tags"] = static_cast<double>(tracked.tags.size());
+}
+BENCHMARK(estimateLight)->Args({640, 480})->Args({1280, 720})->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace pleinair::scene

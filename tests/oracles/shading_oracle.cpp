@@ -21,10 +21,18 @@ double luminance(const glm::dvec3& rgb) {
 
 }  // namespace
 
+double bandIntensity(const glm::dvec3& normal, const scene::Lighting& light) {
+  const double facing = std::max(0.0, glm::dot(glm::dvec3(light.towardKey), normal));
+  if (!light.bandsAllLight) return facing;
+  const double key = luminance(glm::dvec3(light.key)), sky = luminance(glm::dvec3(light.sky));
+  const double fromAbove = 0.5 + 0.5 * glm::dot(glm::dvec3(light.up), normal);
+  return (key * facing + sky * fromAbove) / (key + sky);
+}
+
 glm::dvec3 toonShaded(const glm::dvec3& linearRgb, const glm::dvec3& normal,
                       const scene::Lighting& light) {
   const glm::dvec3 white(light.white), sky(light.sky);
-  const double band = toonBand(std::max(0.0, glm::dot(glm::dvec3(light.towardKey), normal)));
+  const double band = toonBand(bandIntensity(normal, light));
   glm::dvec3 result;
   for (int c = 0; c < 3; ++c) {
     const double hue = (sky[c] / luminance(sky)) / (white[c] / luminance(white));

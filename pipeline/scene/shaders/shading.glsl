@@ -10,6 +10,7 @@ uniform vec3 keyLight;
 uniform vec3 skyLight;
 uniform vec3 groundLight;
 uniform vec3 whiteLight;
+uniform float ambientInBands;  // its share of the light that bands are of
 uniform vec3 shadeTint;  // of sRGB-coded colours that the key light does not reach
 uniform int shading;     // scene::Shading
 
@@ -24,7 +25,7 @@ float band(float intensity) {
 // White in full light is as white paper is in the picture; the bands' factors multiply coded values
 // (METHOD.md, conventions). Shade takes the ambient light's hue.
 vec3 toonShaded(vec3 linearRgb, vec3 n) {
-  float b = band(clamp(dot(towardKey, n), 0.0, 1.0));
+  float b = band(mix(clamp(dot(towardKey, n), 0.0, 1.0), 0.5 + 0.5 * dot(up, n), ambientInBands));
   vec3 srgb = srgbFromLinear(clamp(linearRgb * whiteLight, 0.0, 1.0));
   return b * (b < 1.0 ? min(srgb * shadeTint, 1.0) : srgb);
 }

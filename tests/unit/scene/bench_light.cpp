@@ -1,6 +1,6 @@
 #include "tests/unit/scene/bench_light.h"
 
-#include <array>
+#include <cmath>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -39,8 +39,12 @@ double luminance(const glm::dvec3& rgb) {
 
 }  // namespace
 
-BenchLight benchLightAt(const glm::dvec3& point, const glm::dvec3& up) {
+glm::dvec3 benchIrradiance(const glm::dvec3& point, const glm::dvec3& normal) {
   static const Room room;
+  return on(room.light, point, normal);
+}
+
+BenchLight benchLightAt(const glm::dvec3& point, const glm::dvec3& up) {
   std::vector<LightSample> samples;
   std::vector<glm::dvec3> colours;
   constexpr int kNormals = 400;
@@ -50,7 +54,7 @@ BenchLight benchLightAt(const glm::dvec3& point, const glm::dvec3& up) {
     const double r = std::sqrt(1.0 - z * z);
     const glm::dvec3 normal(r * std::cos(angle), r * std::sin(angle), z);
     if (glm::dot(normal, up) < 0.0) continue;
-    colours.push_back(on(room.light, point, normal));
+    colours.push_back(benchIrradiance(point, normal));
     samples.push_back({.normal = normal, .irradiance = luminance(colours.back())});
   }
   // So wide a prior is none.
@@ -70,7 +74,7 @@ BenchLight benchLightAt(const glm::dvec3& point, const glm::dvec3& up) {
   const auto n = static_cast<double>(samples.size());
   bench.key = (n * crossed - lits * sum) / (n * squares - lits * lits);
   bench.ambient = (sum - lits * bench.key) / n;
-  bench.onPlane = on(room.light, point, up);
+  bench.onPlane = benchIrradiance(point, up);
   return bench;
 }
 

@@ -16,4 +16,7 @@ struct BenchLight {
 /// face all ways of the half space of `up`, fitted by least squares.
 BenchLight benchLightAt(const glm::dvec3& point, const glm::dvec3& up);
 
+/// What falls on a surface there, linear RGB.
+glm::dvec3 benchIrradiance(const glm::dvec3& point, const glm::dvec3& normal);
+
 }  // namespace pleinair::scene

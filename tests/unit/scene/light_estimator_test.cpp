@@ -1,5 +1,6 @@
 #include "pipeline/scene/light_estimator.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstring>
@@ -65,7 +66,8 @@ class Watching {
 };
 
 double degreesApart(const glm::vec3& a, const glm::dvec3& b) {
-  return glm::degrees(std::acos(glm::dot(glm::normalize(glm::dvec3(a)), glm::normalize(b))));
+  const double cosine = glm::dot(glm::normalize(glm::dvec3(a)), glm::normalize(b));
+  return glm::degrees(std::acos(std::min(cosine, 1.0)));
 }
 
 /// On the table, and everywhere else that faces up.
