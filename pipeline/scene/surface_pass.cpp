@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "pipeline/scene/lens_uniforms.h"
+#include "pipeline/scene/object_id.h"
 
 namespace pleinair::scene {
 namespace {
@@ -182,7 +183,7 @@ void SurfacePass::run(const gpu::Texture& ids, const tracking::CameraModel& came
         .image(0, buffers.motion, gpu::ImageAccess::kWrite)
         .image(1, buffers.barycentrics, gpu::ImageAccess::kWrite)
         .image(2, buffers.parts, gpu::ImageAccess::kWrite)
-        .set("object", static_cast<unsigned>(i + 1))
+        .set("object", objectId(scene_, i))
         .dispatch(area.size, {8, 8}, 0);
   }
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
