@@ -146,7 +146,9 @@ void LightEstimator::readPapers(const LinearPicture& picture,
   readings_.clear();
   if (!cells_) return;
   for (const tracking::TrackedTag& tag : tracked.tags) {
-    if (!tag.cameraFromTag || readings_.size() == readings_.capacity()) continue;
+    // Of a tag that is carried, nobody knows what is before it.
+    const bool isSeen = tag.cameraFromTag && tag.source == tracking::PoseSource::kSeen;
+    if (!isSeen || readings_.size() == readings_.capacity()) continue;
     const auto paper = readTagPaper(picture, tag.corners, *cells_);
     if (!paper) continue;
     const glm::dmat4 cameraFromAttach = *tag.cameraFromTag * kTagFromAttach;
