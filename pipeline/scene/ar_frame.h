@@ -13,11 +13,13 @@
 
 namespace pleinair::scene {
 
-/// Object ids of ArFrame::ids: the camera's picture is 0, models count from 1 in the scene's order.
+/// Object ids of ArFrame::ids: the camera's picture is 0, models count from 1 in the scene's order;
+/// occluders have kRealObject added, for what is seen there is the camera's picture.
 inline constexpr std::uint32_t kCameraObject = 0;
 /// ArFrame::ids packs an object (upper bits) and a triangle of it (lower bits).
 inline constexpr std::uint32_t kTriangleBits = 22;
-inline constexpr std::uint32_t kMaxObjects = (1U << (32U - kTriangleBits)) - 1U;
+inline constexpr std::uint32_t kRealObject = 1U << (31U - kTriangleBits);
+inline constexpr std::uint32_t kMaxObjects = kRealObject - 1U;
 inline constexpr std::uint32_t kMaxTriangles = 1U << kTriangleBits;
 
 /// Where a pixel's motion is known from.

@@ -14,6 +14,7 @@
 #include "pipeline/scene/lens_uniforms.h"
 #include "pipeline/scene/lighting_uniforms.h"
 #include "pipeline/scene/linear_picture.h"
+#include "pipeline/scene/object_id.h"
 
 namespace pleinair::scene {
 namespace {
@@ -301,7 +302,7 @@ gpu::Program& ArFrameRenderer::beginModel(gpu::Program& program, std::size_t ind
   // Rotation and one scale: normals, of any length, go the same way as positions.
   return program.set("cameraFromModel", glm::mat4(now.cameraFromBody))
       .set("cameraFromModelNormals", glm::mat3(glm::dmat3(now.cameraFromBody)))
-      .set("object", static_cast<unsigned>(index + 1))
+      .set("object", objectId(scene_, index))
       .set("focus", model.focus);
 }
 

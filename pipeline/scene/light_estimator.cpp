@@ -146,9 +146,9 @@ void LightEstimator::readPapers(const LinearPicture& picture,
   readings_.clear();
   if (!cells_) return;
   for (const tracking::TrackedTag& tag : tracked.tags) {
-    // Of a tag that is carried, nobody knows what is before it.
-    const bool isSeen = tag.cameraFromTag && tag.source == tracking::PoseSource::kSeen;
-    if (!isSeen || readings_.size() == readings_.capacity()) continue;
+    // where a tag is only carried, something else may be seen
+    if (!tag.cameraFromTag || tag.source == tracking::PoseSource::kCarried) continue;
+    if (readings_.size() == readings_.capacity()) break;
     const auto paper = readTagPaper(picture, tag.corners, *cells_);
     if (!paper) continue;
     const glm::dmat4 cameraFromAttach = *tag.cameraFromTag * kTagFromAttach;

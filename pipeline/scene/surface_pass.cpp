@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "pipeline/scene/lens_uniforms.h"
+#include "pipeline/scene/object_id.h"
 
 namespace pleinair::scene {
 namespace {
@@ -162,7 +163,7 @@ void SurfacePass::runModel(gpu::Program& program, std::size_t index, const gpu::
       .image(0, buffers.motion, gpu::ImageAccess::kWrite)
       .image(1, buffers.barycentrics, gpu::ImageAccess::kWrite)
       .image(2, buffers.parts, gpu::ImageAccess::kWrite)
-      .set("object", static_cast<unsigned>(index + 1))
+      .set("object", objectId(scene_, index))
       .dispatch(area.size, {8, 8}, 0);
 }
 

@@ -179,9 +179,11 @@ struct FeatureTracks::State {
     if (pyramid.size() <= kSecondLevel) return;  // too small a picture to have one
     cv::cornerMinEigenVal(pyramid[kSecondLevel], corners, 5);
     for (const TagCornersPx& tag : tags) {
-      std::vector<cv::Point2f> outline;
-      for (const glm::dvec2& px : tag) outline.push_back(0.5F * followedPx(px));
-      const cv::Rect part = cv::boundingRect(outline);
+      cv::Rect2f box(0.5F * followedPx(tag[0]), cv::Size2f(1.0F, 1.0F));
+      for (const glm::dvec2& px : tag) {
+        box |= cv::Rect2f(0.5F * followedPx(px), cv::Size2f(1.0F, 1.0F));
+      }
+      const cv::Rect part = box;
       const std::size_t there = countIn(part);
       if (there < kPerTag) addBestOf(part, kPerTag - there);
     }

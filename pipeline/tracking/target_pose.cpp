@@ -14,7 +14,7 @@ constexpr double kFeatureNoisePx = 0.12;
 constexpr double kFollowedSidePx = 640.0;
 /// The part of a sighting's variance that others from the same place share, so that no filter
 /// averages it away: what a corner's edges, lens and pixels do to it (docs/measured.md).
-constexpr double kShared = 0.25;
+constexpr double kShared = 0.15;
 /// A sighting further than this from what was predicted, in sigmas and px, puts that in doubt.
 constexpr double kDoubtSigmas = 3.0;
 constexpr double kDoubtPx = 0.5;
@@ -202,8 +202,8 @@ std::optional<PoseEstimate> TargetPose::drawn(hal::TimePoint now) const {
   if (!out) return out;
   const SmallMotion offset = partOfBlend(now) * offset_;
   out->cameraFromTarget = movedBy(out->cameraFromTarget, offset);
-  out->covariance =
-      out->covariance + isotropic(glm::length(offset.rotation), glm::length(offset.shift));
+  out->covariance = out->covariance + shared_ +
+                    isotropic(glm::length(offset.rotation), glm::length(offset.shift));
   return out;
 }
 

@@ -1,6 +1,7 @@
 // Purpose: what moves as one in front of the camera, and how the camera sees its points.
 // Inputs:  focal, centre: of the pinhole in px. Bodies come in uniform blocks (scene::SurfacePass
 //          writes them), which are read once for all invocations.
+// Outputs: where a point of a body is, in metres and in px, and how well that is known.
 // Precision: highp; metres, camera frame, px.
 #include "pipeline/scene/shaders/lens.glsl"
 

@@ -1,6 +1,7 @@
 // Purpose: lens distortion: Brown-Conrady with OpenCV's rational terms, as tracking/camera_model.h
 //          has it.
 // Inputs:  its coefficients, and how far from the axis they hold (scene::setLens()).
+// Outputs: what the lens adds to a point.
 // Precision: highp; a hundredth of a pixel at 1280 px needs 17 bits.
 uniform vec3 radial;      // k1 k2 k3
 uniform vec2 tangential;  // p1 p2

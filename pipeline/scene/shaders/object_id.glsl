@@ -1,5 +1,8 @@
-// Purpose: ArFrame::ids (scene/ar_frame.h): an object in the upper bits, 0 for the camera's picture,
-//          and a number of its own, a triangle's or a part's, in the lower ones.
+// Purpose: what ArFrame::ids pack (scene/ar_frame.h).
+// Inputs:  an object, 0 for the camera's picture, and a number of its own, a triangle's or a part's;
+//          or an id.
+// Outputs: the id, or what is in it: the object in the upper 10 bits.
+// Precision: integers.
 const uint kNumberBits = 22u;
 
 uint idOf(uint object, uint number) { return object << kNumberBits | number; }

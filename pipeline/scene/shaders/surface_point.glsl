@@ -2,6 +2,7 @@
 //          barycentrics there, perspective-correct, as the rasteriser has them.
 // Inputs:  storage 0: posed vertices; 1: triangles (scene::PosedGeometry); the model's body;
 //          bodies.glsl's.
+// Outputs: the point, and where it is in this frame and the one before (camera frame, metres).
 // Precision: highp. Barycentrics come of areas relative to the pixel, which keeps their digits.
 #include "pipeline/scene/shaders/bodies.glsl"
 

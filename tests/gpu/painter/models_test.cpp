@@ -32,6 +32,7 @@ scene::Scene boxOnTheTag() {
   scene::Scene scene;
   scene.camera = camera();
   scene.tags.push_back({.id = 3, .edgeMetres = kTagMetres});
+  scene.light.shadow = 0.0F;  // which would fall beside it
   const scene::BoxSource box{glm::dvec3(kBoxMetres)};
   scene.models.push_back(
       {.name = "box",

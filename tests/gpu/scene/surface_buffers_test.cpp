@@ -347,7 +347,7 @@ TEST_F(Occluders, HideWhatIsBehindThemAndShowTheCamera) {
   const auto depth = readDepth(*frame.depth);
   const std::size_t hidden = 90 * 240 + 120;
   const std::size_t seen = 90 * 240 + 70;
-  EXPECT_EQ(ids[hidden] >> kTriangleBits, 2u);
+  EXPECT_EQ(ids[hidden] >> kTriangleBits, 2u | kRealObject);
   EXPECT_EQ(ids[seen] >> kTriangleBits, 1u);
   EXPECT_LT(depth[hidden], depth[seen]);
   EXPECT_TRUE(std::ranges::equal(colour.plane(0).subspan(4 * hidden, 3), kGround));

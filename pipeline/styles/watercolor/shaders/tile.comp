@@ -25,6 +25,7 @@ uniform bool wantsMeans;
 const int kSide = 4;
 const int kPixels = 16;
 const uint kTriangleBits = 22u;  // scene::kTriangleBits
+const uint kRealObject = 512u;   // scene::kRealObject
 const float kHalfDiagonal = 2.1213204;  // between the block's middle and its corner pixels' centres
 
 ivec2 size;
@@ -143,7 +144,8 @@ void main() {
   if (hasObjects) {
     for (int i = 0; i < 36; ++i) {
       uint id = texelFetch(ids, inPicture(first + ivec2(i % 6, i / 6)), 0).r;
-      block[i].a = float(id >> kTriangleBits);
+      uint object = id >> kTriangleBits;
+      block[i].a = object < kRealObject ? float(object) : 0.0;  // real things have their own edges
     }
   }
 
