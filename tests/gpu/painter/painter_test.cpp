@@ -162,7 +162,7 @@ TEST_F(PainterTest, NamesTheViewsWhereOneIsUnknownAndGoesOn) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, hal::ErrorKind::kInvalidArgument);
   EXPECT_THAT(refused.error().message(),
-              AllOf(HasSubstr("\"cels\""), HasSubstr("camera, ar, seeds, cells")));
+              AllOf(HasSubstr("\"cels\""), HasSubstr("motion_error, seeds, cells")));
   EXPECT_EQ(painted(painter, testFrame(1), smallCells(painter)), pictures[1]);
 }
 
