@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -182,6 +183,26 @@ TEST(LightEstimator, AHiddenTagKeepsItsLightAndTheExposuresChange) {
   EXPECT_EQ(light->towardKey, before.towardKey);
 }
 
+/// Its corners are where it should be, which something else may cover.
+TEST(LightEstimator, DoesNotReadTagsThatAreCarried) {
+  RoomOfTags room = manyTags();
+  Watching watching(room);
+  const Shot shot = from(0);
+  Tracked tracked = trackedIn(room, shot);
+  const Lighting before = watching.see(shot, tracked);
+  room.key *= 0.4;
+  room.ambient *= 0.4;
+  const hal::Image darkPaper = pictureOf(room, shot);
+  for (tracking::TrackedTag& tag : tracked.tags) tag.source = tracking::PoseSource::kCarried;
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_GT(watching.see(darkPaper, tracked).white.g, 0.8F * before.white.g);
+  }
+  for (tracking::TrackedTag& tag : tracked.tags) tag.source = tracking::PoseSource::kSeen;
+  const Lighting* seen = nullptr;
+  for (int i = 0; i < 10; ++i) seen = &watching.see(darkPaper, tracked);
+  expectNear(seen->white, whiteOnTable(room), 0.05);
+}
+
 TEST(LightEstimator, WithoutPaperTheWorldIsGrey) {
   RoomOfTags room = manyTags();
   room.background = {0.16, 0.15, 0.12};
@@ -202,6 +223,23 @@ TEST(LightEstimator, ADirectionThatIsKnownStays) {
   const Lighting& light = watching.see(from(0));
   EXPECT_LT(degreesApart(light.towardKey, known), 0.01);
   expectNear(light.white, whiteOnTable(room), 0.02);
+}
+
+/// Two of the paper's channels are 0 then.
+TEST(LightEstimator, LightOfOneColourIsLight) {
+  RoomOfTags room = manyTags();
+  room.key = {0.0, 0.0, 0.6};
+  room.ambient = {0.0, 0.0, 0.3};
+  room.background = {0.0, 0.0, 0.1};
+  Watching watching(room);
+  const hal::Image picture = pictureOf(room, from(0));
+  for (int i = 0; i < 3; ++i) {
+    const Lighting& light = watching.see(picture, trackedIn(room, from(0)));
+    expectNear(light.white, whiteOnTable(room), 0.02);
+    for (const glm::vec3& each : {light.key, light.sky, light.ground, light.towardKey}) {
+      EXPECT_TRUE(std::isfinite(each.r) && std::isfinite(each.g) && std::isfinite(each.b));
+    }
+  }
 }
 
 TEST(LightEstimator, ResetAndAPauseForget) {
