@@ -158,6 +158,10 @@ void TargetPose::correct(const CameraModel& camera, const PoseEstimate& seen,
 
   const bool isDoubtful = apart > std::max(kDoubtPx, kDoubtSigmas * expected);
   const double byBias = bias / (kBiasSigmas * expected);
+  if (!std::isfinite(byBias)) {  // beyond the camera: nothing of the past holds
+    bias_ = {};
+    return filter_.start(seen);
+  }
   filter_.correct(seen, std::max({1.0, byBias, isDoubtful ? 2.0 * apart / expected : 0.0}));
   const double left =
       rmsDistancePx(camera, filter_.cameraFromTarget(), seen.cameraFromTarget, modelPoints);

@@ -190,7 +190,7 @@ void Tracker::searchMirrored(const hal::PlaneView& luma, hal::FrameSize size, ha
 
 /// Whether to search the whole picture: nothing is known, something is missed, or it is time.
 bool Tracker::needsSearch(hal::TimePoint now) const {
-  if (expected_.empty() || !searched_ || now < *searched_) return true;
+  if (expected_.empty() || !searched_ || now <= *searched_) return true;
   return now - *searched_ >= (isMissing_ ? options_.searchPeriod / 2 : options_.searchPeriod);
 }
 
