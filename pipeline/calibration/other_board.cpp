@@ -30,8 +30,11 @@ std::optional<std::string> tagsIn(const hal::PlaneView& luma, hal::FrameSize siz
   tracking::DetectionCounters counters;
   const auto tags = detector.detect(luma, size, counters);
   if (tags.empty()) return std::nullopt;
-  return fmt::format("a board with tags of {} from id {} to {}", tracking::kDefaultTagFamily,
-                     tags.front().id, tags.back().id);
+  if (tags.size() == 1) {
+    return fmt::format("tag {} of {}", tags.front().id, tracking::kDefaultTagFamily);
+  }
+  return fmt::format("tags {} to {} of {}", tags.front().id, tags.back().id,
+                     tracking::kDefaultTagFamily);
 }
 
 }  // namespace

@@ -55,7 +55,8 @@ Refusal tooFewViews(const ViewSelector& selector, std::size_t usable) {
   const ViewCounts& counts = selector.counts();
   if (counts.withBoard == 0) {
     return {RefusalReason::kNoBoard,
-            fmt::format("the board is in none of {} pictures", counts.pictures),
+            fmt::format("the board is in none of {} {}", counts.pictures,
+                        counts.pictures == 1 ? "picture" : "pictures"),
             "check --board (a checkerboard counts its inner corners), and light it evenly"};
   }
   if (counts.blurred * 2 > counts.withBoard) {
