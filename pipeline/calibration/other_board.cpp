@@ -30,11 +30,10 @@ std::optional<std::string> tagsIn(const hal::PlaneView& luma, hal::FrameSize siz
   tracking::DetectionCounters counters;
   const auto tags = detector.detect(luma, size, counters);
   if (tags.empty()) return std::nullopt;
-  if (tags.size() == 1) {
-    return fmt::format("tag {} of {}", tags.front().id, tracking::kDefaultTagFamily);
-  }
-  return fmt::format("tags {} to {} of {}", tags.front().id, tags.back().id,
-                     tracking::kDefaultTagFamily);
+  const std::string ids = tags.size() == 1
+                              ? fmt::format("tag {}", tags.front().id)
+                              : fmt::format("tags {} to {}", tags.front().id, tags.back().id);
+  return fmt::format("something with {} of {}", ids, tracking::kDefaultTagFamily);
 }
 
 }  // namespace
