@@ -12,9 +12,8 @@ namespace pleinair::app {
 namespace {
 
 constexpr const char* kKinds =
-    "checkerboard:COLUMNSxROWS (inner corners, 3 to 50 a side) or aprilgrid:COLUMNSxROWS (tags, 2 "
-    "to "
-    "20 a side)";
+    "checkerboard:COLUMNSxROWS (inner corners, 3 to 50 a side) or "
+    "aprilgrid:COLUMNSxROWS (tags, 2 to 20 a side)";
 constexpr double kLongestMetres = 10.0;
 constexpr int kTagIds = 587;  // of tag36h11
 

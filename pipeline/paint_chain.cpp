@@ -90,6 +90,7 @@ void PaintChain::warmUp(const hal::FrameFormat& expected) {
   const hal::Image blank(expected);
   for (const Level& level : levels_) warmUp(level, blank);
   style_->reset();
+  renderer_.reset();  // time does not start with the blank frames
 }
 
 void PaintChain::warmUp(const Level& level, const hal::Image& blank) {

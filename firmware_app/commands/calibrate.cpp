@@ -71,11 +71,12 @@ bool replacesCalibration(const fs::path& output) {
 void requireEmptyFolder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (!fs::is_directory(folder)) {
+  const bool isEmpty = !error && fs::is_empty(folder, error);
+  if (error) {
     refuse(hal::ErrorKind::kInvalidArgument, folder.string(),
-           "cannot make the folder: " + error.message(), "give another --views-folder");
+           "cannot make or read the folder: " + error.message(), "give another --views-folder");
   }
-  if (!fs::is_empty(folder, error)) {
+  if (!isEmpty) {
     refuse(hal::ErrorKind::kInvalidArgument, folder.string(), "is not empty",
            "give --views-folder a new or an empty folder");
   }
@@ -200,9 +201,8 @@ class Calibrating {
     const calibration::LensFit& fit = report.choice->fit;
     const tracking::Intrinsics& lens = fit.camera.intrinsics();
     return fmt::format(
-        "calibrated from {} views of {} pictures: fx {:.1f} ± {:.1f}, fy {:.1f} ± {:.1f}, cx "
-        "{:.1f} "
-        "± {:.1f}, cy {:.1f} ± {:.1f}, {}\n"
+        "calibrated from {} views of {} pictures: fx {:.1f} ± {:.1f}, fy {:.1f} ± {:.1f}, "
+        "cx {:.1f} ± {:.1f}, cy {:.1f} ± {:.1f}, {}\n"
         "error {:.2f} px RMS, {:.2f} px in views held out; the picture is known to {:.2f} px, and "
         "to {:.2f} px in {}: {}{}\n",
         report.choice->used.size(), session_.selector().counts().pictures, lens.fx, fit.sigma(0),

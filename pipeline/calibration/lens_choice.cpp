@@ -72,7 +72,7 @@ void reject(std::span<const FitView> views, const LensFit& fit, LensChoice& choi
   }
 }
 
-/// Sum of squared distances and count over views that had no part in a fit.
+/// Of the distances in views that had no part in a fit: each view is left out of one of five.
 double heldOutRms(const std::vector<FitView>& views, hal::FrameSize size, const LensFit& whole) {
   double squares = 0.0;
   std::size_t points = 0;

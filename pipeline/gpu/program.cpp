@@ -162,6 +162,7 @@ void Program::drawTriangle() {
 void Program::dispatch(glm::ivec2 items, glm::ivec2 groupSize, GLbitfield barriers) {
   assert(items.x > 0 && items.y > 0);
   assert(isCurrent(handle_) && hasGroupSize(handle_, groupSize));
+  assert(groups(items.x, groupSize.x) <= kMaxGroups && groups(items.y, groupSize.y) <= kMaxGroups);
   glDispatchCompute(groups(items.x, groupSize.x), groups(items.y, groupSize.y), 1);
   glMemoryBarrier(barriers);
 }

@@ -23,6 +23,8 @@ inline constexpr unsigned kMaxTextureUnits = 16;
 inline constexpr unsigned kMaxStorageBuffers = 4;
 inline constexpr unsigned kMaxImages = 4;
 inline constexpr unsigned kMaxUniformBlocks = 12;
+/// Of a dispatch, along each axis: all GPUs take as many (GL ES 3.1, table 20.45).
+inline constexpr unsigned kMaxGroups = 65535;
 /// Of a uniform block's place in its buffer: no GPU asks for more (GL ES 3.1, table 20.46).
 inline constexpr std::size_t kUniformAlignment = 256;
 
@@ -71,8 +73,8 @@ class Program {
   /// Runs the pass over a part of `target` only and keeps the rest.
   void drawArea(const RenderTarget& target, glm::ivec2 origin, hal::FrameSize size);
   /// Runs a compute program over `items` invocations, rounded up to whole groups of `groupSize`,
-  /// which is the shader's local_size, then makes its writes visible to what `barriers`
-  /// (GL_*_BARRIER_BIT) names.
+  /// which is the shader's local_size (at most kMaxGroups of them), then makes its writes visible
+  /// to what `barriers` (GL_*_BARRIER_BIT) names.
   void dispatch(glm::ivec2 items, glm::ivec2 groupSize, GLbitfield barriers);
 
  private:

@@ -42,7 +42,7 @@ struct MotionField {
 
 /// What a style may ask for beyond what every AR frame has.
 struct ArFrameNeeds {
-  bool surfaces = false;             ///< ArFrame::motion, barycentrics and parts
+  bool surfaces = false;  ///< ArFrame::motion, barycentrics and parts; of a scene that has any
   Shading shading = Shading::kToon;  ///< of models
 };
 

@@ -119,14 +119,16 @@ void ArFrameRenderer::warmUp(hal::FrameSize size) {
     drawModels(picture);
     now_->showsCameraOnly = false;
   }
-  surfacePass_->run(now_->ids, camera, bodies_, visible_, *now_->known);
+  surfacePass_->warmUp(now_->ids, camera, bodies_, *now_->known);
   reset();
 }
 
 void ArFrameRenderer::reset() {
   geometry_.reset();
   bodies_.reset();
+  if (shadow_) shadow_->reset();
   before_.reset();
+  firstTime_.reset();
   std::ranges::fill(firstSight_, std::nullopt);
 }
 

@@ -54,8 +54,8 @@ class ArFrameRenderer {
                          gpu::PassTimer& timer, ArFrameNeeds needs = {},
                          std::span<const PlaceLighting> lights = {});
 
-  /// Forgets the frames before: the next one has no motion, and clips that start on sight have not
-  /// started.
+  /// Forgets the frames before: the next one is the first, of which no motion is known and with
+  /// which time starts.
   void reset();
 
  private:

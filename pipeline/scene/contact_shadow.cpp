@@ -70,6 +70,7 @@ void ContactShadow::warmUp() {
   if (maps_.empty()) return;
   Map& map = maps_.front();
   map.plan = ShadowPlan{.half = 1.0, .height = 1.0};
+  map.contactHeight = 1.0;
   objects_.clear();
   poses_.assign(1, glm::dmat4(1.0));
   for (std::size_t i = 0; i < scene_.models.size() && objects_.empty(); ++i) {
@@ -78,6 +79,13 @@ void ContactShadow::warmUp() {
   drawCasters(map);
   blur(map);
   map.isShown = true;
+}
+
+void ContactShadow::reset() {
+  for (Map& map : maps_) {
+    map.plan.reset();
+    map.isShown = false;
+  }
 }
 
 void ContactShadow::cast(std::span<const std::size_t> visible, const SceneBodies& bodies,

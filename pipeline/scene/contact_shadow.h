@@ -49,6 +49,9 @@ class ContactShadow {
   /// has its camera, and all models are posed.
   void warmUp();
 
+  /// Forgets the maps of the frames before.
+  void reset();
+
   /// What draw() needs of the camera, for its program: the uniforms of a camera's vertices.
   gpu::Program& receiver() { return receive_; }
   /// Multiplies the shadows into the first of the bound target's three colour attachments, which

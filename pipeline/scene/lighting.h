@@ -22,6 +22,8 @@ struct Lighting {
   /// Whether toon's bands are of all light, as where it was measured; else of the key light's angle
   /// alone (thesis §3.2.2).
   bool bandsAllLight = false;
+
+  friend bool operator==(const Lighting&, const Lighting&) = default;
 };
 
 /// The light on a place that models are attached to, in its attach frame.

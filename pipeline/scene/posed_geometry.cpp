@@ -10,7 +10,8 @@
 namespace pleinair::scene {
 namespace {
 
-constexpr int kGroupSize = 64;  // shaders/posing.glsl
+constexpr int kGroupSize = 64;                                         // shaders/posing.glsl
+constexpr std::uint32_t kMostVertices = kGroupSize * gpu::kMaxGroups;  // of a dispatch
 constexpr std::size_t kPosedBytes = 16;
 
 gpu::TextureWrap wrapOf(TextureEdge edge) {
@@ -201,7 +202,10 @@ void PosedGeometry::runPose(const ObjectSlot& object) {
           .set("firstWeightRow", firstWeightRow_)
           .set("firstWeight", object.firstWeight + range.firstWeight);
     }
-    program.dispatch({static_cast<int>(range.vertexCount), 1}, {kGroupSize, 1}, 0);
+    for (std::uint32_t first = 0; first < range.vertexCount; first += kMostVertices) {
+      const std::uint32_t count = std::min(range.vertexCount - first, kMostVertices);
+      program.set("firstVertex", first).dispatch({static_cast<int>(count), 1}, {kGroupSize, 1}, 0);
+    }
   }
 }
 

@@ -17,6 +17,7 @@ namespace pleinair::scene {
 namespace {
 
 constexpr double kCellOfRadius = 1.0 / 28.0;  // about a texel of a shadow's map
+constexpr float kFarthestCell = 1e9F;         // where it still is an integer
 constexpr std::size_t kPosedBytes = 16;
 
 /// Where a vertex goes at rest, by the joint that holds most of it.
@@ -46,7 +47,8 @@ std::vector<std::uint32_t> coarseTriangles(const DrawnModel& drawn,
   std::map<Cell, std::uint32_t> representatives;
   std::vector<std::uint32_t> representative(rest.size());
   for (std::uint32_t i = 0; i < rest.size(); ++i) {
-    const glm::ivec3 at(glm::floor(rest[i] / static_cast<float>(cellMetres)));
+    const glm::vec3 cells = glm::floor(rest[i] / static_cast<float>(cellMetres));
+    const glm::ivec3 at(glm::clamp(cells, -kFarthestCell, kFarthestCell));
     const RestVertex& vertex = drawn.rest[i];
     const Cell cell{vertex.firstMatrix, vertex.joints & 0xFFU, at.x, at.y, at.z};
     representative[i] = representatives.try_emplace(cell, i).first->second;

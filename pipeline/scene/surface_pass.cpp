@@ -144,6 +144,29 @@ gpu::Program& SurfacePass::begin(gpu::Program& program, const gpu::Texture& ids,
   return program;
 }
 
+void SurfacePass::runPlanes(const gpu::Texture& ids, const tracking::CameraModel& camera,
+                            const ScreenArea& area, const Buffers& buffers) {
+  begin(planes_, ids, camera, area)
+      .uniformBlock(0, bodies_, 0, kMaxPlanes * sizeof(GpuBody))
+      .set("planeCount", static_cast<int>(scene_.planes.size()))
+      .image(0, buffers.motion, gpu::ImageAccess::kWrite)
+      .dispatch(area.size, {8, 8}, 0);
+}
+
+void SurfacePass::runModel(gpu::Program& program, std::size_t index, const gpu::Texture& ids,
+                           const tracking::CameraModel& camera, const ScreenArea& area,
+                           const Buffers& buffers) {
+  begin(program, ids, camera, area)
+      .uniformBlock(0, bodies_, (kMaxPlanes + index) * sizeof(GpuBody), sizeof(GpuBody))
+      .storage(0, geometry_.posed())
+      .storage(1, geometry_.triangles())
+      .image(0, buffers.motion, gpu::ImageAccess::kWrite)
+      .image(1, buffers.barycentrics, gpu::ImageAccess::kWrite)
+      .image(2, buffers.parts, gpu::ImageAccess::kWrite)
+      .set("object", objectId(scene_, index))
+      .dispatch(area.size, {8, 8}, 0);
+}
+
 /// Only where something was written: a whole picture of zeros costs as much as a model.
 void SurfacePass::clear(Buffers& buffers) {
   if (buffers.written.isEmpty()) return;
@@ -155,6 +178,7 @@ void SurfacePass::clear(Buffers& buffers) {
   buffers.target.clearUnsigned(1, glm::uvec4(0U));
   buffers.target.clearUnsigned(2, glm::uvec4(0U));
   glDisable(GL_SCISSOR_TEST);
+  glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);  // what compute writes comes after
   buffers.written = {};
 }
 
@@ -166,27 +190,30 @@ void SurfacePass::run(const gpu::Texture& ids, const tracking::CameraModel& came
   writeBodies(bodies);
   if (const ScreenArea area = areaOfPlanes(bodies, camera); !area.isEmpty()) {
     buffers.written = unionOf(buffers.written, area);
-    begin(planes_, ids, camera, area)
-        .uniformBlock(0, bodies_, 0, kMaxPlanes * sizeof(GpuBody))
-        .set("planeCount", static_cast<int>(scene_.planes.size()))
-        .image(0, buffers.motion, gpu::ImageAccess::kWrite)
-        .dispatch(area.size, {8, 8}, 0);
+    runPlanes(ids, camera, area, buffers);
   }
   for (const std::size_t i : models) {
     const ScreenArea area = areaOfModel(i, bodies.model(i), camera);
     if (area.isEmpty() || geometry_.batches(i).empty()) continue;
     buffers.written = unionOf(buffers.written, area);
-    begin(scene_.models[i].isOccluder ? realSurface_ : surface_, ids, camera, area)
-        .uniformBlock(0, bodies_, (kMaxPlanes + i) * sizeof(GpuBody), sizeof(GpuBody))
-        .storage(0, geometry_.posed())
-        .storage(1, geometry_.triangles())
-        .image(0, buffers.motion, gpu::ImageAccess::kWrite)
-        .image(1, buffers.barycentrics, gpu::ImageAccess::kWrite)
-        .image(2, buffers.parts, gpu::ImageAccess::kWrite)
-        .set("object", objectId(scene_, i))
-        .dispatch(area.size, {8, 8}, 0);
+    runModel(scene_.models[i].isOccluder ? realSurface_ : surface_, i, ids, camera, area, buffers);
   }
-  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  // for who reads them, and for the next frame's clear()
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                  GL_FRAMEBUFFER_BARRIER_BIT);
+}
+
+void SurfacePass::warmUp(const gpu::Texture& ids, const tracking::CameraModel& camera,
+                         const SceneBodies& bodies, Buffers& buffers) {
+  clear(buffers);
+  writeBodies(bodies);
+  constexpr ScreenArea kCorner{{0, 0}, {1, 1}};
+  buffers.written = kCorner;
+  if (planes_) runPlanes(ids, camera, kCorner, buffers);
+  if (geometry_.isEmpty()) return;
+  for (gpu::Program* program : {&surface_, &realSurface_}) {
+    if (*program) runModel(*program, 0, ids, camera, kCorner, buffers);
+  }
 }
 
 }  // namespace pleinair::scene

@@ -39,6 +39,11 @@ class SurfacePass {
     ScreenArea written;        // what may be other than 0; at first all
   };
 
+  /// Runs each program once (GPU.md, rule 14), wherever models and planes are. Precondition: as of
+  /// run().
+  void warmUp(const gpu::Texture& ids, const tracking::CameraModel& camera,
+              const SceneBodies& bodies, Buffers& buffers);
+
   /// `ids` (ArFrame::ids) were drawn through `camera` from `geometry` as it is posed now, of these
   /// models. Precondition: all have one size.
   void run(const gpu::Texture& ids, const tracking::CameraModel& camera, const SceneBodies& bodies,
@@ -62,6 +67,11 @@ class SurfacePass {
                          const tracking::CameraModel& camera) const;
   ScreenArea areaOfPlanes(const SceneBodies& bodies, const tracking::CameraModel& camera) const;
   static void clear(Buffers& buffers);
+  void runPlanes(const gpu::Texture& ids, const tracking::CameraModel& camera,
+                 const ScreenArea& area, const Buffers& buffers);
+  void runModel(gpu::Program& program, std::size_t index, const gpu::Texture& ids,
+                const tracking::CameraModel& camera, const ScreenArea& area,
+                const Buffers& buffers);
   gpu::Program& begin(gpu::Program& program, const gpu::Texture& ids,
                       const tracking::CameraModel& camera, const ScreenArea& area);
 

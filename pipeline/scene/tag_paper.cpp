@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <span>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
@@ -141,7 +142,8 @@ std::optional<TagPaper> readTagPaper(const LinearPicture& picture,
   }
   const double clean = std::clamp(borders.cellPx / kCleanCellPx, 0.0, 1.0);
   const float even = 1.0F - paper.spread / kMostSpread;
-  return TagPaper{.white = paper.mean,
+  constexpr float kDarkest = 1e-3F;  // of a channel: coloured light may leave one without any
+  return TagPaper{.white = glm::max(paper.mean, kDarkest),
                   .black = ink.mean,
                   .confidence = std::max(static_cast<float>(clean) * even, 0.05F)};
 }

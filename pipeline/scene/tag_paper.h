@@ -12,7 +12,7 @@ namespace pleinair::scene {
 
 /// How bright a tag's paper and ink are in a picture: the light on a plane of known reflectance.
 struct TagPaper {
-  glm::vec3 white{0.0F};    ///< of the border around the black square, linear light
+  glm::vec3 white{0.0F};    ///< of the border around the black square, linear light; above 0
   glm::vec3 black{0.0F};    ///< of the square's own border
   float confidence = 0.0F;  ///< above 0, to 1: how large and how even it is
 };

@@ -17,7 +17,6 @@ constexpr int kLongSidePx = 640;  // of the picture that is followed
 constexpr int kColumns = 10;
 constexpr int kRows = 8;
 constexpr std::size_t kPerTag = 16;
-constexpr std::size_t kMostTracks = 130;
 /// Least eigenvalue of the gradients in a window, OpenCV's measure: about 1.3 levels a pixel.
 constexpr float kLeastCorner = 1e-4F;
 constexpr double kSpacingPx = 9.0;  // between features, of the followed picture

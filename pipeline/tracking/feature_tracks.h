@@ -11,6 +11,9 @@
 
 namespace pleinair::tracking {
 
+/// Tracks that are followed at once.
+inline constexpr std::size_t kMostTracks = 130;
+
 /// A point of the picture that is followed.
 struct FeatureTrack {
   std::uint32_t id = 0;

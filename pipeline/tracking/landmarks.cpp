@@ -97,9 +97,19 @@ std::optional<Landmarks::Landmark> Landmarks::placed(const CameraModel& camera,
   return best;
 }
 
+/// All that frames to come may need, once.
+void Landmarks::reserve() {
+  landmarks_.reserve(kMostTracks);
+  next_.reserve(kMostTracks);
+  places_.reserve(kMostTracks);
+  points_.reserve(kMostTracks);
+  errors_.reserve(kMostTracks);
+}
+
 void Landmarks::anchor(const CameraModel& camera, std::span<const FeatureTrack> tracks,
                        const glm::dmat4& keyFromTarget, const glm::dmat4& oldKeyFromTarget,
                        std::span<const TagPlane> planes, bool onTagsOnly) {
+  reserve();
   places_.clear();
   const glm::dmat4 targetFromOldKey = rigidInverse(oldKeyFromTarget);
   for (const Landmark& landmark : landmarks_) {

@@ -69,6 +69,7 @@ class Landmarks {
     int contradictions = 0;
   };
 
+  void reserve();
   std::optional<Landmark> placed(const CameraModel& camera, const FeatureTrack& track,
                                  const glm::dmat4& keyFromTarget, bool onTagsOnly) const;
   void goOn(Landmark& landmark, const Landmark& old, double depth,

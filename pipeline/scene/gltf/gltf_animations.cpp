@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -63,10 +66,12 @@ void checkRotations(const Channel& channel, const std::string& where) {
 /// Gives those without a name one, and all different ones.
 void nameApart(std::vector<std::pair<std::size_t, Clip>>& clips) {
   std::set<std::string> taken;
+  std::map<std::string, std::size_t> copies;  // so far, of each name that a file gives
   for (auto& [index, clip] : clips) {
     if (clip.name.empty()) clip.name = fmt::format("animation {}", index + 1);
+    std::size_t& count = copies[clip.name];
     const std::string base = clip.name;
-    for (int n = 2; !taken.insert(clip.name).second; ++n) clip.name = fmt::format("{} {}", base, n);
+    while (!taken.insert(clip.name).second) clip.name = fmt::format("{} {}", base, ++count + 1);
   }
 }
 

@@ -67,6 +67,7 @@ class ModelBuilder {
     std::size_t first = 0;
     std::size_t count = 0;
     std::size_t triangles = 0;
+    std::size_t vertices = 0;
     std::size_t morphs = 0;        ///< targets times vertices and triangles
     std::size_t highestJoint = 0;  ///< that holds any of its vertices
   };
@@ -89,6 +90,11 @@ class ModelBuilder {
     if (drawnTriangles_ > kMaxTriangles) {
       refuse(where, "makes too many triangles with its like",
              fmt::format("at most {} drawn", kMaxTriangles));
+    }
+    drawnVertices_ += range.vertices;
+    if (drawnVertices_ > gltf::kMaxDrawnVertices) {
+      refuse(where, "shows too many vertices with its like",
+             fmt::format("at most {} in all", gltf::kMaxDrawnVertices));
     }
     drawnMorphs_ += range.morphs;
     if (drawnMorphs_ > gltf::kMaxDrawnMorphs) {
@@ -151,6 +157,7 @@ class ModelBuilder {
       if (!read) hasLines_ = true;
       if (!read || read->triangles.empty()) continue;
       range.triangles += read->triangles.size();
+      range.vertices += read->vertices.size();
       range.highestJoint = std::max(range.highestJoint, gltf::highestJoint(*read));
       range.morphs += read->morphTargets.size() * (read->vertices.size() + read->triangles.size());
       model_.surfaces.push_back({.mesh = std::move(*read), .material = material});
@@ -204,6 +211,7 @@ class ModelBuilder {
   std::size_t primitives_ = 0;
   std::size_t posedJoints_ = 0;
   std::size_t drawnTriangles_ = 0;
+  std::size_t drawnVertices_ = 0;
   std::size_t drawnMorphs_ = 0;
   bool hasLines_ = false;
 };

@@ -28,6 +28,8 @@ inline constexpr std::size_t kMaxNumbers = 100'000'000;  ///< of accessors
 inline constexpr std::size_t kMaxKeyNumbers = 16'000'000;
 /// Joints of all parts that skins bend: a matrix each in every pose.
 inline constexpr std::size_t kMaxPosedJoints = 65'536;
+/// Vertices of meshes, each time that one is shown: as many as corners of triangles can use.
+inline constexpr std::size_t kMaxDrawnVertices = 12'582'912;
 /// Moves of vertices by morph targets, of positions and normals, in all.
 inline constexpr std::size_t kMaxMorphMoves = 16'000'000;
 /// Targets times vertices and triangles, each time that a mesh is shown.

@@ -3,7 +3,7 @@
 #include "pipeline/scene/shaders/posing.glsl"
 
 void main() {
-  uint i = gl_GlobalInvocationID.x;
+  uint i = firstVertex + gl_GlobalInvocationID.x;
   if (i >= vertexCount) return;
   RestVertex v = rest[firstRest + i];
   pose(i, v.position, fromOctahedral(v.normal));

@@ -21,7 +21,7 @@ float weightAt(uint target) {
 }
 
 void main() {
-  uint i = gl_GlobalInvocationID.x;
+  uint i = firstVertex + gl_GlobalInvocationID.x;
   if (i >= vertexCount) return;
   RestVertex v = rest[firstRest + i];
   vec3 position = v.position;

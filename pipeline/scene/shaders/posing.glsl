@@ -26,6 +26,7 @@ layout(std430, binding = 2) writeonly buffer Posed { PosedVertex posed[]; };
 uniform uint firstRest;   // of this range, in rest
 uniform uint firstPosed;  // likewise, in posed
 uniform uint vertexCount;
+uniform uint firstVertex;  // of this dispatch, from the range's start
 uniform uint firstMatrix;
 
 struct Transform {

@@ -162,7 +162,8 @@ TEST_F(PainterTest, NamesTheViewsWhereOneIsUnknownAndGoesOn) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, hal::ErrorKind::kInvalidArgument);
   EXPECT_THAT(refused.error().message(),
-              AllOf(HasSubstr("\"cels\""), HasSubstr("camera, ar, seeds, cells")));
+              AllOf(HasSubstr("\"cels\""), HasSubstr("camera, ar, depth, objects"),
+                    HasSubstr("seeds, cells")));
   EXPECT_EQ(painted(painter, testFrame(1), smallCells(painter)), pictures[1]);
 }
 

@@ -33,6 +33,9 @@ std::vector<hal::CapturedFrame> workbench(int first, int count) {
   return frames;
 }
 
+/// Of the workbench, at 19 px the largest; smaller than 15 px it would be refused.
+constexpr int kTag = 3;
+
 /// A box on one of the workbench's tags, which has a place in no world.
 scene::Scene boxOnTag(int tag) {
   scene::Scene scene;
@@ -147,9 +150,12 @@ TEST_F(PainterTest, LevelsShowTheSamePlaces) {
   const auto frames = workbench(0, 1);
   for (const hal::FrameSize size : {kSize, hal::FrameSize{306, 171}}) {
     Painter painter(
-        {.pictureSize = size, .scene = boxOnTag(0), .style = "none", .qualityLevels = true});
+        {.pictureSize = size, .scene = boxOnTag(kTag), .style = "none", .qualityLevels = true});
     const hal::Image full = paintedAt(painter, frames[0], 0, "ar");
+    const hal::Image without = paintedAt(painter, frames[0], 0, "camera");
+    EXPECT_GT(differenceOf(full, without).largest, 10.0) << "the box is not there";
     for (std::size_t i = 1; i <= lowest(); ++i) {
+      painter.reset();  // the same frame again
       const Difference found = differenceOf(paintedAt(painter, frames[0], i, "ar"), full);
       EXPECT_LT(std::abs(found.shift), 0.5) << i << ": " << found;
       EXPECT_LT(found.typical, 1.0) << i << ": " << found;
@@ -159,16 +165,16 @@ TEST_F(PainterTest, LevelsShowTheSamePlaces) {
 
 TEST_F(PainterTest, LevelsAreTheSamePainting) {
   const auto frames = workbench(0, 4);
-  Painter full({.pictureSize = kSize, .scene = boxOnTag(0)});
+  Painter full({.pictureSize = kSize, .scene = boxOnTag(kTag)});
   hal::Image wanted;
   for (const hal::CapturedFrame& frame : frames) wanted = paintedAt(full, frame, 0);
   for (std::size_t i = 1; i <= lowest(); ++i) {
-    Painter painter({.pictureSize = kSize, .scene = boxOnTag(0), .qualityLevels = true});
+    Painter painter({.pictureSize = kSize, .scene = boxOnTag(kTag), .qualityLevels = true});
     hal::Image found;
     for (const hal::CapturedFrame& frame : frames) found = paintedAt(painter, frame, i);
     const Difference difference = differenceOf(found, wanted);
     EXPECT_LT(std::abs(difference.shift), 2.0) << i << ": " << difference;
-    EXPECT_LT(difference.typical, 4.0) << i << ": " << difference;
+    EXPECT_LT(difference.typical, 4.5) << i << ": " << difference;
   }
 }
 
@@ -176,14 +182,14 @@ TEST_F(PainterTest, LevelsAreTheSamePainting) {
 /// do.
 TEST_F(PainterTest, AChangeOfLevelIsNoCut) {
   const auto frames = workbench(0, 8);
-  Painter steady({.pictureSize = kSize, .scene = boxOnTag(0)});
-  Painter changing({.pictureSize = kSize, .scene = boxOnTag(0), .qualityLevels = true});
+  Painter steady({.pictureSize = kSize, .scene = boxOnTag(kTag)});
+  Painter changing({.pictureSize = kSize, .scene = boxOnTag(kTag), .qualityLevels = true});
   const std::array<std::size_t, 8> levels{0, 0, 1, 4, 2, 3, 0, 4};
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const hal::Image wanted = paintedAt(steady, frames[i], 0);
     const Difference found = differenceOf(paintedAt(changing, frames[i], levels[i]), wanted);
     EXPECT_LT(std::abs(found.shift), 2.0) << i << ": " << found;
-    EXPECT_LT(found.typical, levels[i] == 0 ? 1.0 : 4.0) << i << ": " << found;
+    EXPECT_LT(found.typical, levels[i] == 0 ? 1.0 : 4.5) << i << ": " << found;
   }
 }
 

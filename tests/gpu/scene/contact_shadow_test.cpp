@@ -196,6 +196,24 @@ TEST_F(ContactShadowTest, KeepsStillAndGoesWithThePlane) {
   }
 }
 
+/// A map's place is kept while it does; after a reset it is as if nothing had been before.
+TEST_F(ContactShadowTest, ResetForgetsWhereItsMapWas) {
+  const Lighting before = keyAlone({-0.8F, 0.1F, 1});
+  const Lighting light = keyAlone({-0.6F, 0, 1});
+  ArFrameRenderer fresh(library_, boxOnTag());
+  Shown first(drawn(fresh, light));
+  ArFrameRenderer renderer(library_, boxOnTag());
+  drawn(renderer, before);
+  Shown kept(drawn(renderer, light));
+  EXPECT_FALSE(std::ranges::equal(kept.colour.plane(0), first.colour.plane(0)));
+  renderer.reset();
+  Shown again(drawn(renderer, light));
+  EXPECT_TRUE(std::ranges::equal(again.colour.plane(0), first.colour.plane(0)));
+  renderer.warmUp(kSize);
+  Shown warm(drawn(renderer, light));
+  EXPECT_TRUE(std::ranges::equal(warm.colour.plane(0), first.colour.plane(0)));
+}
+
 TEST_F(ContactShadowTest, GoesWithTheLight) {
   ArFrameRenderer renderer(library_, boxOnTag());
   Shown right(drawn(renderer, keyAlone({-1, 0, 1})));

@@ -201,6 +201,23 @@ TEST_F(ModelDrawing, TurnsPartsByCaptureTime) {
   EXPECT_EQ(moving.ids, draw(sceneOf(turning), aslant(), after).ids);  // again the same
 }
 
+TEST_F(ModelDrawing, TimeStartsAgainAfterAReset) {
+  Model turning = singlePartModel("box", boxMesh({0.2, 0.05, 0.03}));
+  turning.parts[0].radiansPerSecond = 2.0 * std::numbers::pi;
+  ArFrameRenderer renderer(library_, sceneOf(turning));
+  const gpu::Texture picture = plainPicture(kSize);
+  const auto idsAt = [&](hal::Duration time) {
+    return support::readR32ui(*renderer
+                                   .compose(picture, camera(), {.cameraFromWorld = aslant()}, 1,
+                                            hal::TimePoint(time), timer_)
+                                   .ids);
+  };
+  const auto first = idsAt(std::chrono::seconds(5));
+  EXPECT_NE(idsAt(std::chrono::milliseconds(5100)), first);
+  renderer.reset();
+  EXPECT_EQ(idsAt(std::chrono::milliseconds(5100)), first);
+}
+
 TEST_F(ModelDrawing, NumbersTrianglesByPart) {
   // two parts share a surface, one beside the other
   Model model = singlePartModel("left", boxMesh({0.05, 0.05, 0.05}));

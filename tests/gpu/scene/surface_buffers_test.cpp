@@ -356,5 +356,39 @@ TEST_F(Occluders, HideWhatIsBehindThemAndShowTheCamera) {
       std::ranges::equal(normals.plane(0).subspan(4 * hidden, 4), std::array{128, 128, 128, 0}));
 }
 
+/// They are where their pose says, which may be wrong; what is virtual is where it is drawn.
+TEST_F(Occluders, MoveAsWellAsTheirPoseIsKnown) {
+  Scene scene;
+  for (const double x : {-0.1, 0.1}) {
+    SceneModel box = placed(BoxSource{{0.1, 0.1, 0.01}});
+    box.attachFromModel = glm::translate(glm::dmat4(1.0), {x, 0.0, 0.0});
+    scene.models.push_back(std::move(box));
+  }
+  scene.models[1].isOccluder = true;
+  ArFrameRenderer renderer(library_, scene);
+  const gpu::Texture picture = plainPicture(kSize);
+  const tracking::CameraModel camera({.fx = 200.0, .fy = 200.0, .cx = 120.0, .cy = 90.0}, {},
+                                     kSize);
+  constexpr double kSigmaMetres = 1e-3;
+  tracking::PoseCovariance covariance{};
+  covariance[7 * 3] = kSigmaMetres * kSigmaMetres;  // across
+  const PoseSet poses{.cameraFromWorld = glm::translate(glm::dmat4(1.0), {0.0, 0.0, 0.4}),
+                      .worldCovariance = covariance};
+  std::vector<float> motion;
+  for (const std::uint64_t sequence : {1U, 2U}) {
+    const ArFrame& frame =
+        renderer.compose(picture, camera, poses, sequence, kThen, timer_, {.surfaces = true});
+    if (frame.motion) motion = support::readRgba32f(*frame.motion->texture);
+  }
+  ASSERT_FALSE(motion.empty());
+  const float* const isVirtual = &motion[4 * std::size_t{90 * 240 + 70}];
+  const float* const isReal = &motion[4 * std::size_t{90 * 240 + 170}];
+  EXPECT_EQ(isVirtual[3], 1.0F);  // MotionSource::kSurface
+  EXPECT_EQ(isReal[3], 1.0F);
+  EXPECT_EQ(isVirtual[2], 0.0F);
+  // Both frames' poses err; the box's front is 0.4 m away, or 5 mm nearer.
+  EXPECT_NEAR(isReal[2], std::sqrt(2.0) * kSigmaMetres * 200.0 / 0.4, 0.02);
+}
+
 }  // namespace
 }  // namespace pleinair::scene

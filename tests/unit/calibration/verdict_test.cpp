@@ -28,8 +28,6 @@ struct Showing {
 /// As photographs, one a hold.
 ViewSelector shown(const std::vector<BoardHold>& tour, const Showing& how = {}) {
   ViewSelector selector(kBoard, kCamera.imageSize(), {.isMovement = false});
-  Board print = kBoard;
-  if (how.stretchX != 1.0) print = Board(Checkerboard{9, 6, 0.025});
   std::uint32_t frame = 0;
   for (const BoardHold& hold : tour) {
     glm::dmat4 pose = support::cameraFromBoard(kBoard, kCamera, hold);

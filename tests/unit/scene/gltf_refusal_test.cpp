@@ -179,6 +179,19 @@ TEST(GltfRefusals, BoundWhatInstancesDraw) {
             "m.glb: nodes[4194]: makes too many triangles with its like; at most 4194304 drawn");
 }
 
+/// Hardly any of them are drawn, but each node that shows them looks at all.
+TEST(GltfRefusals, BoundTheVerticesThatInstancesShow) {
+  GltfBuilder builder;
+  std::vector<float> positions(std::size_t{3} * 630'000, 0.0F);
+  positions[3] = positions[7] = 1.0F;
+  json& primitive = builder.addMesh(positions);
+  primitive["attributes"]["NORMAL"] = primitive["attributes"]["POSITION"];
+  primitive["indices"] = builder.addAccessor<std::uint8_t>({0, 1, 2}, "SCALAR", 5121, 1);
+  for (int i = 0; i < 20; ++i) builder.root["nodes"].push_back({{"mesh", 0}});
+  EXPECT_EQ(refusalOf(builder.bytes()),
+            "m.glb: nodes[19]: shows too many vertices with its like; at most 12582912 in all");
+}
+
 TEST(GltfRefusals, BoundPrimitives) {
   GltfBuilder builder;
   const json empty = {{"attributes", json::object()}};
