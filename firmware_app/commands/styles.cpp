@@ -13,12 +13,13 @@ namespace {
 
 std::string describe(const styles::StyleInfo& info) {
   std::string text = fmt::format("{}: {}\n", info.name, info.help);
-  text += "  looks (--look NAME)\n";
+  if (!info.looks.empty()) text += "  looks (--look NAME)\n";
   for (const styles::Look& look : info.looks) {
     text += fmt::format("    {:<22} {}\n", look.name, look.help);
   }
-  text += "  parameters (--set NAME=VALUE)\n";
-  for (const config::ParameterDescriptor& parameter : info.defaults.list().descriptors()) {
+  const auto parameters = info.defaults.list().descriptors();
+  if (!parameters.empty()) text += "  parameters (--set NAME=VALUE)\n";
+  for (const config::ParameterDescriptor& parameter : parameters) {
     text += fmt::format("    {:<22} {:<8} {} {}\n", parameter.name,
                         info.defaults.text(parameter.name), parameter.allowed(), parameter.help);
   }

@@ -30,8 +30,10 @@ std::optional<std::string> tagsIn(const hal::PlaneView& luma, hal::FrameSize siz
   tracking::DetectionCounters counters;
   const auto tags = detector.detect(luma, size, counters);
   if (tags.empty()) return std::nullopt;
-  return fmt::format("a board with tags of {} from id {} to {}", tracking::kDefaultTagFamily,
-                     tags.front().id, tags.back().id);
+  const std::string ids = tags.size() == 1
+                              ? fmt::format("tag {}", tags.front().id)
+                              : fmt::format("tags {} to {}", tags.front().id, tags.back().id);
+  return fmt::format("something with {} of {}", ids, tracking::kDefaultTagFamily);
 }
 
 }  // namespace

@@ -55,7 +55,9 @@ Refusal tooFewViews(const ViewSelector& selector, std::size_t usable) {
   const ViewCounts& counts = selector.counts();
   if (counts.withBoard == 0) {
     return {RefusalReason::kNoBoard,
-            fmt::format("the board is in none of {} pictures", counts.pictures),
+            counts.pictures == 1
+                ? std::string("the board is not in the picture")
+                : fmt::format("the board is in none of {} pictures", counts.pictures),
             "check --board (a checkerboard counts its inner corners), and light it evenly"};
   }
   if (counts.blurred * 2 > counts.withBoard) {

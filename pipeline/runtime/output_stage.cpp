@@ -198,6 +198,8 @@ hal::Result<void> OutputStage::finish() {
     const std::scoped_lock lock(mutex_);
     endAll(Fate::kStopped);
     if (status_.isFailed) return tl::unexpected(*status_.failure);
+    // A movie of nothing is not to take the place of one that is there.
+    if (status_.presented == 0) return {};
   }
   return output_->finish();
 }

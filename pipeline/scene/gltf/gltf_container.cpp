@@ -51,8 +51,11 @@ Container openBinary(std::span<const std::uint8_t> file) {
     refuseUnsupported("", fmt::format("is binary glTF of version {}", version), "give version 2");
   }
   const std::size_t length = wordAt(file, 8);
-  if (length < kHeaderBytes + kChunkHeaderBytes || length > file.size()) {
+  if (length > file.size()) {
     refuse("", fmt::format("says {} bytes, and {} are there", length, file.size()), kWhole);
+  }
+  if (length < kHeaderBytes + kChunkHeaderBytes) {
+    refuse("", fmt::format("says {} bytes, which hold no chunk", length), kWhole);
   }
   std::span<const std::uint8_t> rest = file.subspan(kHeaderBytes, length - kHeaderBytes);
   const Chunk first = takeChunk(rest);

@@ -80,7 +80,13 @@ bool hasScheme(std::string_view uri) {
 std::vector<std::uint8_t> readWholeFile(const std::filesystem::path& path, std::int64_t mostBytes,
                                         const std::string& where) {
   const hal::Result<hal::libav::FileInput> file = hal::libav::FileInput::open(path);
-  if (!file) throw Fault(file.error().kind, where, file.error().problem, file.error().remedy);
+  if (!file) {
+    const hal::Error& error = file.error();
+    // What it advises for a file that is empty or none is meant for movies.
+    const bool isNone = error.kind == hal::ErrorKind::kInvalidInput;
+    throw Fault(error.kind, where, error.problem,
+                isNone ? "export or copy it again" : error.remedy);
+  }
   if (file->sizeBytes() > mostBytes) {
     refuse(where, fmt::format("takes {} MiB", file->sizeBytes() >> 20),
            fmt::format("at most {} MiB for a model and all its files", kMaxResourceBytes >> 20));
