@@ -31,6 +31,7 @@ Lighting fixedLighting(const Light& light, const glm::dmat3& cameraFromAttach) {
   const bool isUsual = !light.key && !light.ambient;
   fixed.white = isUsual ? glm::vec3(1.0F) : glm::min(fixed.sky + height * fixed.key, 1.0F);
   fixed.ground = kThrownBack * fixed.white;
+  fixed.bandsAllLight = light.ambient.has_value();
   return fixed;
 }
 

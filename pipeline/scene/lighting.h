@@ -19,8 +19,8 @@ struct Lighting {
   glm::vec3 sky{0.4F};             ///< of the ambient light, on one that faces up
   glm::vec3 ground{0.2F};          ///< of what the plane throws back, on one that faces down
   glm::vec3 white{1.0F};           ///< white paper on the plane, out of every shadow
-  /// Whether toon's bands are of all light, as where it was measured; else of the key light's angle
-  /// alone (thesis §3.2.2).
+  /// Whether toon's bands are of all light, as where it was measured or set; else of the key
+  /// light's angle alone (thesis §3.2.2).
   bool bandsAllLight = false;
 
   friend bool operator==(const Lighting&, const Lighting&) = default;

@@ -1,6 +1,7 @@
 #include "pipeline/scene/lighting_uniforms.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
@@ -8,12 +9,25 @@
 #include "pipeline/scene/linear_picture.h"
 
 namespace pleinair::scene {
+namespace {
+
+constexpr float kCoding = 1.0F / 2.2F;  // of sRGB, on the whole
+
+}  // namespace
 
 glm::vec3 shadeTint(const Lighting& light) {
-  constexpr float kCoding = 1.0F / 2.2F;  // of sRGB, on the whole
   const auto hueOf = [](const glm::vec3& rgb) { return rgb / std::max(luminanceOf(rgb), 1e-4F); };
   const glm::vec3 beside = hueOf(light.sky) / glm::max(hueOf(light.white), 1e-4F);
   return glm::clamp(glm::pow(beside, glm::vec3(kCoding)), 0.75F, 1.33F);
+}
+
+float deepestShade(const Lighting& light) {
+  constexpr float kThesis = 0.1F;
+  constexpr float kDarkerThanSeen = 0.6F;  // a painter keeps the contrast
+  if (!light.bandsAllLight) return kThesis;
+  const float ambient = 0.5F * luminanceOf(light.sky + light.ground);
+  const float share = ambient / std::max(luminanceOf(light.white), 1e-4F);
+  return std::clamp(kDarkerThanSeen * std::pow(share, kCoding), kThesis, 1.0F);
 }
 
 void setLighting(gpu::Program& program, const Lighting& cameraLight, Shading shading) {
@@ -27,6 +41,7 @@ void setLighting(gpu::Program& program, const Lighting& cameraLight, Shading sha
       .set("groundLight", cameraLight.ground)
       .set("whiteLight", cameraLight.white)
       .set("shadeTint", shadeTint(cameraLight))
+      .set("deepestShade", deepestShade(cameraLight))
       .set("shading", static_cast<int>(shading));
 }
 

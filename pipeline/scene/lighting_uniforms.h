@@ -14,4 +14,8 @@ void setLighting(gpu::Program& program, const Lighting& cameraLight, Shading sha
 /// ambient light's hue beside that of all light, as bright.
 glm::vec3 shadeTint(const Lighting& light);
 
+/// The factor of toon's darkest band: the thesis's 0.1, or where the ambient light is known, a
+/// little darker than what lies in its shade, so that models do not look burnt beside real things.
+float deepestShade(const Lighting& light);
+
 }  // namespace pleinair::scene

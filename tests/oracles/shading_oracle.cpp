@@ -32,7 +32,10 @@ double bandIntensity(const glm::dvec3& normal, const scene::Lighting& light) {
 glm::dvec3 toonShaded(const glm::dvec3& linearRgb, const glm::dvec3& normal,
                       const scene::Lighting& light) {
   const glm::dvec3 white(light.white), sky(light.sky);
-  const double band = toonBand(bandIntensity(normal, light));
+  const double ambientShare = 0.5 * luminance(sky + glm::dvec3(light.ground)) / luminance(white);
+  const double deepest =
+      light.bandsAllLight ? std::clamp(0.6 * std::pow(ambientShare, 1.0 / 2.2), 0.1, 1.0) : 0.1;
+  const double band = 1.0 - (1.0 - toonBand(bandIntensity(normal, light))) * (1.0 - deepest) / 0.9;
   glm::dvec3 result;
   for (int c = 0; c < 3; ++c) {
     const double hue = (sky[c] / luminance(sky)) / (white[c] / luminance(white));

@@ -11,6 +11,7 @@ uniform vec3 skyLight;
 uniform vec3 groundLight;
 uniform vec3 whiteLight;
 uniform float ambientInBands;  // its share of the light that bands are of
+uniform float deepestShade;    // the darkest band's factor; the thesis's is 0.1
 uniform vec3 shadeTint;  // of sRGB-coded colours that the key light does not reach
 uniform int shading;     // scene::Shading
 
@@ -26,6 +27,7 @@ float band(float intensity) {
 // (METHOD.md, conventions). Shade takes the ambient light's hue.
 vec3 toonShaded(vec3 linearRgb, vec3 n) {
   float b = band(mix(clamp(dot(towardKey, n), 0.0, 1.0), 0.5 + 0.5 * dot(up, n), ambientInBands));
+  b = 1.0 - (1.0 - b) * (1.0 - deepestShade) / 0.9;
   vec3 srgb = srgbFromLinear(clamp(linearRgb * whiteLight, 0.0, 1.0));
   return b * (b < 1.0 ? min(srgb * shadeTint, 1.0) : srgb);
 }
