@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -62,12 +64,15 @@ void ArFrameRenderer::makePrograms(const gpu::ShaderLibrary& library) {
   if (scene_.models.empty()) return;
   constexpr std::string_view kVertices = "pipeline/scene/shaders/model.vert";
   background_ = library.fragmentPass("pipeline/scene/shaders/camera_background.frag");
-  model_ = library.draw(kVertices, "pipeline/scene/shaders/model.frag");
   const bool hasHoles = std::ranges::any_of(scene_.models, [](const SceneModel& each) {
     return std::ranges::any_of(each.model->materials, isHoled);
   });
-  if (hasHoles) {
-    modelWithHoles_ = library.draw(kVertices, "pipeline/scene/shaders/model_holes.frag");
+  for (const Shading shading : {Shading::kToon, Shading::kSmooth}) {
+    const std::string name = std::string("pipeline/scene/shaders/model_") +
+                             (shading == Shading::kToon ? "toon" : "smooth");
+    SurfacePrograms& programs = programsOf(shading);
+    programs.solid = library.draw(kVertices, name + ".frag");
+    if (hasHoles) programs.holed = library.draw(kVertices, name + "_holes.frag");
   }
   if (std::ranges::any_of(scene_.models, &SceneModel::isOccluder)) {
     occluder_ = library.draw(kVertices, "pipeline/scene/shaders/occluder.frag");
@@ -114,9 +119,12 @@ void ArFrameRenderer::warmUp(hal::FrameSize size) {
     bodies_.reset();
     if (shadow_) shadow_->warmUp();
     drawBackground(picture);
-    setCamera(camera);
-    if (shadow_) shadow_->draw();
-    drawModels(picture);
+    for (const Shading shading : {Shading::kToon, Shading::kSmooth}) {
+      shading_ = shading;
+      setCamera(camera);
+      if (shadow_) shadow_->draw();
+      drawModels(picture);
+    }
     now_->showsCameraOnly = false;
   }
   surfacePass_->warmUp(now_->ids, camera, bodies_, *now_->known);
@@ -253,7 +261,8 @@ void ArFrameRenderer::setCamera(const tracking::CameraModel& camera) {
   const tracking::Intrinsics& pinhole = camera.intrinsics();
   const double range = farthest - nearest;
   gpu::Program* receiver = shadow_ ? &shadow_->receiver() : nullptr;
-  for (gpu::Program* program : {&model_, &modelWithHoles_, &occluder_, receiver}) {
+  SurfacePrograms& surfaces = programsOf(shading_);
+  for (gpu::Program* program : {&surfaces.solid, &surfaces.holed, &occluder_, receiver}) {
     if (program == nullptr || !*program) continue;
     program->use()
         .set("clipFocal", glm::vec2(2.0 * glm::dvec2(pinhole.fx, pinhole.fy) / size))
@@ -286,7 +295,9 @@ void ArFrameRenderer::drawModel(std::size_t index, const gpu::Texture& picture) 
     if (isOccluder) {
       beginModel(occluder_, index).texture("picture", picture);
     } else {
-      setMaterial(beginModel(isHoled(material) ? modelWithHoles_ : model_, index), index, material);
+      SurfacePrograms& programs = programsOf(shading_);
+      setMaterial(beginModel(isHoled(material) ? programs.holed : programs.solid, index), index,
+                  material);
     }
     (material.isDoubleSided ? glDisable : glEnable)(GL_CULL_FACE);
     geometry_.draw(index, batch);
@@ -298,7 +309,7 @@ gpu::Program& ArFrameRenderer::beginModel(gpu::Program& program, std::size_t ind
   const SceneModel& model = scene_.models[index];
   const Body::Moment now = bodies_.model(index).now.value_or(Body::Moment{});
   program.use();
-  setLighting(program, lights_[index], shading_);
+  setLighting(program, lights_[index]);
   // Rotation and one scale: normals, of any length, go the same way as positions.
   return program.set("cameraFromModel", glm::mat4(now.cameraFromBody))
       .set("cameraFromModelNormals", glm::mat3(glm::dmat3(now.cameraFromBody)))

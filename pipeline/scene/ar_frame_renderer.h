@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -76,6 +77,14 @@ class ArFrameRenderer {
     std::uint64_t sequence = 0;
     hal::TimePoint time;
   };
+  /// A program each, for branches that are not taken cost as much as those that are.
+  struct SurfacePrograms {
+    gpu::Program solid;
+    gpu::Program holed;  // only where a material has holes
+  };
+  SurfacePrograms& programsOf(Shading shading) {
+    return surfacePrograms_[static_cast<std::size_t>(shading)];
+  }
   void makePrograms(const gpu::ShaderLibrary& library);
   void takeSurfaces(hal::FrameSize size);
   void poseModels(hal::TimePoint captureTime);
@@ -96,13 +105,12 @@ class ArFrameRenderer {
   SceneBodies bodies_;
   std::optional<SurfacePass> surfacePass_;  // where there is anything to know
   gpu::Program background_;
-  std::optional<ContactShadow> shadow_;  // where a model may cast one
-  gpu::Program model_;
-  gpu::Program modelWithHoles_;       // only where a material has holes
-  gpu::Program occluder_;             // only where a model is one
-  gpu::Texture white_;                // of materials without a texture
-  std::vector<std::size_t> visible_;  // models of this frame
-  std::vector<Lighting> lights_;      // of each model, in the camera's frame
+  std::optional<ContactShadow> shadow_;             // where a model may cast one
+  std::array<SurfacePrograms, 2> surfacePrograms_;  // of each Shading
+  gpu::Program occluder_;                           // only where a model is one
+  gpu::Texture white_;                              // of materials without a texture
+  std::vector<std::size_t> visible_;                // models of this frame
+  std::vector<Lighting> lights_;                    // of each model, in the camera's frame
   Shading shading_ = Shading::kToon;
   std::vector<std::optional<hal::TimePoint>> firstSight_;  // of each model
   std::vector<std::unique_ptr<Surfaces>> surfaces_;        // of each size that was composed

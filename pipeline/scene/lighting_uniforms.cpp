@@ -30,7 +30,7 @@ float deepestShade(const Lighting& light) {
   return std::clamp(kDarkerThanSeen * std::pow(share, kCoding), kThesis, 1.0F);
 }
 
-void setLighting(gpu::Program& program, const Lighting& cameraLight, Shading shading) {
+void setLighting(gpu::Program& program, const Lighting& cameraLight) {
   const float key = luminanceOf(cameraLight.key);
   const float sky = cameraLight.bandsAllLight ? luminanceOf(cameraLight.sky) : 0.0F;
   program.set("ambientInBands", sky / std::max(sky + key, 1e-4F))
@@ -41,8 +41,7 @@ void setLighting(gpu::Program& program, const Lighting& cameraLight, Shading sha
       .set("groundLight", cameraLight.ground)
       .set("whiteLight", cameraLight.white)
       .set("shadeTint", shadeTint(cameraLight))
-      .set("deepestShade", deepestShade(cameraLight))
-      .set("shading", static_cast<int>(shading));
+      .set("deepestShade", deepestShade(cameraLight));
 }
 
 }  // namespace pleinair::scene

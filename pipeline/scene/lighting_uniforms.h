@@ -2,13 +2,12 @@
 
 #include "pipeline/gpu/program.h"
 #include "pipeline/scene/lighting.h"
-#include "pipeline/scene/shading.h"
 
 namespace pleinair::scene {
 
-/// Fills the uniforms of shaders/shading.glsl with light in the camera's frame. Precondition: the
-/// program is in use.
-void setLighting(gpu::Program& program, const Lighting& cameraLight, Shading shading);
+/// Fills the uniforms of shaders/shading_toon.glsl and shading_smooth.glsl with light in the
+/// camera's frame. Precondition: the program is in use.
+void setLighting(gpu::Program& program, const Lighting& cameraLight);
 
 /// What toon shading multiplies sRGB-coded colours by where the key light does not reach: the
 /// ambient light's hue beside that of all light, as bright.

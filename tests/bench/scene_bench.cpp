@@ -104,12 +104,15 @@ Model bendingBall() {
 }
 
 constexpr const char* kBendingBall = "bending ball";
+constexpr const char* kBendingBallNoShadow = "bending ball without a shadow";
 
 Scene sceneOf(const std::string& text, const std::filesystem::path& models) {
-  if (text != kBendingBall) return parseScene(text, "bench", models);
+  if (text != kBendingBall && text != kBendingBallNoShadow)
+    return parseScene(text, "bench", models);
   Scene scene = parseScene(kGear, "bench", models);
   scene.models[0].model = std::make_shared<const Model>(bendingBall());
   scene.models[0].playback.clip = 0;
+  if (text == kBendingBallNoShadow) scene.light.shadow = 0.0F;
   return scene;
 }
 
@@ -182,6 +185,12 @@ BENCHMARK_CAPTURE(compose, bendingBall, kBendingBall)
     ->UseRealTime()
     ->MeasureProcessCPUTime();
 BENCHMARK_CAPTURE(compose, bendingBallAllBuffers, kBendingBall, {.surfaces = true})
+    ->Args({640, 480})
+    ->Args({1280, 720})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->MeasureProcessCPUTime();
+BENCHMARK_CAPTURE(compose, bendingBallAllBuffersNoShadow, kBendingBallNoShadow, {.surfaces = true})
     ->Args({640, 480})
     ->Args({1280, 720})
     ->Unit(benchmark::kMillisecond)

@@ -1,11 +1,10 @@
 // Purpose: a model's surface in its light, and what styles need of it; shared by surfaces with and
 //          without holes.
 // Inputs:  cameraNormal, towardViewer, texturePlace, vertexColour, triangle; object, baseColour and
-//          baseTexture (sampled as linear light), focus; shading.glsl's.
+//          baseTexture (sampled as linear light), focus; those of shaded().
 // Outputs: colour RGBA8, sRGB-coded; ids R32UI; normalFocus RGBA8 (scene/ar_frame.h).
 // Precision: highp; bands are thresholds.
 #include "pipeline/scene/shaders/object_id.glsl"
-#include "pipeline/scene/shaders/shading.glsl"
 
 uniform uint object;
 uniform vec4 baseColour;
@@ -21,6 +20,9 @@ flat in uint triangle;
 layout(location = 0) out vec4 colour;
 layout(location = 1) out uint ids;
 layout(location = 2) out vec4 normalFocus;
+
+// sRGB-coded; of shading_toon.glsl or shading_smooth.glsl, which who includes this also includes.
+vec3 shaded(vec3 linearRgb, vec3 n, vec3 towardViewer);
 
 // Linear light, and coverage.
 vec4 surfaceColour() {

@@ -1,7 +1,8 @@
-// Purpose: a surface that is not there where its coverage is low.
-// Inputs:  model_surface.glsl's; coverageCutoff, below which nothing is.
+// Purpose: a surface that is not there where its coverage is low, shaded in toon bands.
+// Inputs:  model_surface.glsl's, shading_toon.glsl's; coverageCutoff, below which nothing is.
 // Outputs: model_surface.glsl's. Precision: as there.
 #include "pipeline/scene/shaders/model_surface.glsl"
+#include "pipeline/scene/shaders/shading_toon.glsl"
 
 uniform float coverageCutoff;
 
