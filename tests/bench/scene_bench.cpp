@@ -148,60 +148,22 @@ void compose(benchmark::State& state, const std::string& text, ArFrameNeeds need
   }
 }
 
-BENCHMARK_CAPTURE(compose, gear, kGear)
-    ->Args({640, 480})
-    ->Args({1280, 720})
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
-BENCHMARK_CAPTURE(compose, gearbox, kGearbox)
-    ->Args({640, 480})
-    ->Args({1280, 720})
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
-BENCHMARK_CAPTURE(compose, gearboxNoShadow, kGearboxNoShadow)
-    ->Args({640, 480})
-    ->Args({1280, 720})
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
-BENCHMARK_CAPTURE(compose, engine, kEngine)
-    ->Args({640, 480})
-    ->Args({1280, 720})
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
-BENCHMARK_CAPTURE(compose, gearboxAllBuffers, kGearbox, {.surfaces = true})
-    ->Args({640, 480})
-    ->Args({1280, 720})
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
-BENCHMARK_CAPTURE(compose, bendingBall, kBendingBall)
-    ->Args({640, 480})
-    ->Args({1280, 720})
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
+void atBothSizes(benchmark::internal::Benchmark* row) {
+  row->Args({640, 480})->Args({1280, 720});
+  row->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
+}
+
+BENCHMARK_CAPTURE(compose, gear, kGear)->Apply(atBothSizes);
+BENCHMARK_CAPTURE(compose, gearbox, kGearbox)->Apply(atBothSizes);
+BENCHMARK_CAPTURE(compose, gearboxNoShadow, kGearboxNoShadow)->Apply(atBothSizes);
+BENCHMARK_CAPTURE(compose, engine, kEngine)->Apply(atBothSizes);
+BENCHMARK_CAPTURE(compose, gearboxAllBuffers, kGearbox, {.surfaces = true})->Apply(atBothSizes);
+BENCHMARK_CAPTURE(compose, bendingBall, kBendingBall)->Apply(atBothSizes);
 BENCHMARK_CAPTURE(compose, bendingBallAllBuffers, kBendingBall, {.surfaces = true})
-    ->Args({640, 480})
-    ->Args({1280, 720})
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
+    ->Apply(atBothSizes);
 BENCHMARK_CAPTURE(compose, bendingBallAllBuffersNoShadow, kBendingBallNoShadow, {.surfaces = true})
-    ->Args({640, 480})
-    ->Args({1280, 720})
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
-BENCHMARK_CAPTURE(compose, cameraOnly, "")
-    ->Args({640, 480})
-    ->Args({1280, 720})
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
+    ->Apply(atBothSizes);
+BENCHMARK_CAPTURE(compose, cameraOnly, "")->Apply(atBothSizes);
 
 /// The light on three places, from five tags in an RGB picture.
 void estimateLight(benchmark::State& state) {
