@@ -16,6 +16,7 @@
 #include "tests/gpu/scene/moving_models.h"
 #include "tests/gpu/scene/scene_gl_test.h"
 #include "tests/oracles/surface_oracle.h"
+#include "tests/support/allocation_count.h"
 
 namespace pleinair::scene {
 namespace {
@@ -323,6 +324,42 @@ TEST_F(PlaneMotion, IsUnknownWithoutAPoseBefore) {
   EXPECT_EQ(middleSource(next(nowAslant(), 5)), 2.0F);
   renderer.reset();
   EXPECT_FALSE(next(nowAslant(), 6).motion.has_value());
+}
+
+class SteadyState : public SceneGlTest {};
+
+/// Models that turn, swing, bend and breathe, a plane and an occluder, with all that is asked for.
+TEST_F(SteadyState, AllocatesNothing) {
+  Scene scene;
+  const glm::dmat4 step = glm::translate(glm::dmat4(1.0), {0.03, 0.02, 0.0});
+  for (Model (*make)() : {turningGears, swingingBoxes, bendingArm, breathingBall, staticBox}) {
+    SceneModel placed;
+    placed.model = std::make_shared<const Model>(make());
+    if (!placed.model->rig.clips.empty()) placed.playback.clip = 0;
+    if (!scene.models.empty()) {
+      placed.attachFromModel = scene.models.back().attachFromModel * step;
+    }
+    scene.models.push_back(std::move(placed));
+  }
+  scene.models.back().isOccluder = true;
+  scene.planes.push_back({.name = "desk", .sizeMetres = {0.5, 0.5}});
+  ArFrameRenderer renderer(library_, scene);
+  renderer.warmUp(kSize);
+  const gpu::Texture picture = plainPicture(kSize);
+  const tracking::CameraModel camera({.fx = 260.0, .fy = 262.0, .cx = 122.3, .cy = 88.4}, kBarrel,
+                                     kSize);
+  std::uint64_t sequence = 0;
+  const auto play = [&](int frames) {
+    for (int i = 0; i < frames; ++i) {
+      ++sequence;
+      const double turn = 0.01 * static_cast<double>(sequence);
+      renderer.compose(
+          picture, camera, {.cameraFromWorld = glm::rotate(thenAslant(), turn, {0.0, 0.0, 1.0})},
+          sequence, hal::TimePoint(sequence * milliseconds(33)), timer_, {.surfaces = true});
+    }
+  };
+  play(5);
+  EXPECT_EQ(support::allocationsIn([&] { play(40); }), 0) << support::allocationSites();
 }
 
 class Occluders : public SceneGlTest {};
