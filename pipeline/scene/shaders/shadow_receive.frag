@@ -4,7 +4,7 @@
 //          by channel.
 // Outputs: colour: what the picture is multiplied by.
 // Precision: highp for places; colours have 8 bits.
-uniform sampler2D map;
+uniform highp sampler2D map;
 uniform vec3 keyShare;
 uniform vec3 ambientShare;
 
