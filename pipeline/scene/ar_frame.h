@@ -1,14 +1,19 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include <glm/vec2.hpp>
 
 #include "hal/clock.h"
 #include "hal/pixel_format.h"
+#include "pipeline/gpu/buffer.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/scene/shading.h"
+#include "pipeline/tracking/camera_model.h"
+#include "pipeline/tracking/image_motion.h"
 #include "pipeline/tracking/plane_similarity.h"
 
 namespace pleinair::scene {
@@ -40,9 +45,34 @@ struct MotionField {
   hal::TimePoint sinceTime;
 };
 
+/// A scene's bodies on the GPU, for who follows points of them: models' triangles as they are posed
+/// in this frame and the one before, and where models and planes are. shaders/surface_point.glsl
+/// and shaders/bodies.glsl read them.
+struct SurfaceAccess {
+  const gpu::Buffer* posed = nullptr;      ///< PosedGeometry::posed(); null without models
+  const gpu::Buffer* triangles = nullptr;  ///< PosedGeometry::triangles(); likewise
+  /// A uniform block of kBodyBytes a body: kMaxPlanes planes, then the models in the scene's order.
+  const gpu::Buffer* bodies = nullptr;
+  static constexpr std::size_t kBodyBytes = 512;
+  std::size_t planeCount = 0;
+  std::span<const std::size_t> models;            ///< those seen, as the scene counts them
+  const tracking::CameraModel* camera = nullptr;  ///< of pictures of ArFrame::size()
+  std::span<const std::uint32_t> objects;         ///< of each model of the scene: its object id
+};
+
+/// How the camera's picture moved, where that was asked for.
+struct PictureMovement {
+  const tracking::ImageMotion* motion = nullptr;  ///< in px of the captured frame
+  /// px of the frame = px of the full picture · scale + origin.
+  glm::dvec2 frameScale{1.0};
+  glm::dvec2 frameOrigin{0.0};
+};
+
 /// What a style may ask for beyond what every AR frame has.
 struct ArFrameNeeds {
-  bool surfaces = false;  ///< ArFrame::motion, barycentrics and parts; of a scene that has any
+  /// ArFrame::motion, barycentrics, parts and surfaces; of a scene that has any
+  bool surfaces = false;
+  bool pictureMovement = false;      ///< ArFrame::pictureMovement
   Shading shading = Shading::kToon;  ///< of models
 };
 
@@ -63,6 +93,9 @@ struct ArFrame {
   const gpu::Texture* parts = nullptr;
   /// Where asked for, and there is a frame before since the last reset.
   std::optional<MotionField> motion;
+  std::optional<SurfaceAccess> surfaces;  ///< where asked for, of a scene that has any
+  /// Where asked for.
+  std::optional<PictureMovement> pictureMovement;
   bool hasObjects = false;  ///< whether any virtual object may be seen; without, ids are all 0
   bool hasFocus = false;    ///< whether any pixel's focus may be above 0
   float nearMetres = 0.0F;  ///< the depth range's planes, for linear depth

@@ -8,6 +8,10 @@
 #include "pipeline/gpu/texture.h"
 #include "pipeline/scene/ar_frame.h"
 
+namespace pleinair::marks {
+class AnchorSet;
+}
+
 namespace pleinair::styles {
 
 /// One of a style's inner pictures, for people who want to see how it works.
@@ -49,6 +53,9 @@ class Style {
   /// was. Each size is allocated for once.
   virtual const gpu::Texture& paint(const scene::ArFrame& frame, std::string_view view,
                                     gpu::PassTimer& timer) = 0;
+
+  /// Its marks' anchors as they were painted last; null where it has none.
+  virtual const marks::AnchorSet* anchors() const { return nullptr; }
 
   /// Forgets the past: the next frame is painted as a first one.
   virtual void reset() = 0;

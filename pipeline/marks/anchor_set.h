@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "hal/clock.h"
+#include "hal/pixel_format.h"
+#include "pipeline/gpu/buffer.h"
+#include "pipeline/gpu/pass_timer.h"
+#include "pipeline/gpu/shader_library.h"
+#include "pipeline/marks/anchor.h"
+#include "pipeline/marks/motion_field.h"
+#include "pipeline/scene/ar_frame.h"
+
+namespace pleinair::marks {
+
+/// How many anchors there are (METHOD.md V.1): a cell of the grid with fewer than `birthBelow` is
+/// filled up to `target`; one with more than `deathAbove` loses one a frame. What lies between
+/// changes nothing, which is what keeps the turnover low. Of a cell that shows both models and the
+/// camera's picture, each has its share.
+struct DensityRule {
+  int cellPixels = 8;  ///< the cell's side, in px of the full picture
+  int target = 2;
+  int birthBelow = 1;
+  int deathAbove = 4;
+};
+
+struct AnchorOptions {
+  DensityRule density;
+  hal::Duration fadeIn = std::chrono::milliseconds(300);   ///< from nothing to all
+  hal::Duration fadeOut = std::chrono::milliseconds(200);  ///< from all to nothing
+  unsigned seed = 1;                                       ///< of all that is random
+};
+
+/// The anchors of a style's marks: born where the picture has too few, carried with what they lie
+/// on (a surface of a model, exactly; else the image, by the best that is known of its motion),
+/// faded out where what they lie on is hidden and where they crowd. Each has a slot of its own as
+/// long as it lives, so that styles keep what they know of a mark in buffers beside it. All on the
+/// GPU, nothing is read back; the same frames with the same times give the same anchors. All calls
+/// on the thread of the GL context it was made in.
+class AnchorSet {
+ public:
+  /// `library` has gpu::marksShaders(), gpu::sceneShaders() and gpu::gpuShaders(). Pictures'
+  /// full size is `full`. Throws hal::StartupError where the GPU has no memory for them.
+  AnchorSet(const gpu::ShaderLibrary& library, hal::FrameSize full, AnchorOptions options);
+  ~AnchorSet();
+  AnchorSet(const AnchorSet&) = delete;
+  AnchorSet& operator=(const AnchorSet&) = delete;
+  AnchorSet(AnchorSet&&) = delete;
+  AnchorSet& operator=(AnchorSet&&) = delete;
+
+  /// Goes on to the next frame, whose `motion` has been updated. The first frame, one after
+  /// reset(), and one after a cut begins anew, with all anchors there at once. Preconditions:
+  /// frame.full() is the constructor's size; the style's needs() ask for surfaces and
+  /// pictureMovement.
+  void advance(const scene::ArFrame& frame, const MotionField& motion, gpu::PassTimer& timer);
+  /// Whether the last advance() began anew: what styles keep of slots is of other anchors.
+  bool hasBegunAnew() const;
+
+  /// slotCount() Anchors; those that are not alive are free slots.
+  const gpu::Buffer& anchors() const;
+  std::uint32_t slotCount() const;
+  const AnchorOptions& options() const;
+
+  /// Waits for the GPU and reads all slots: for measures and tests.
+  std::vector<Anchor> read() const;
+
+  /// Forgets all anchors.
+  void reset();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace pleinair::marks

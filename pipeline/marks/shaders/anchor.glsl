@@ -1,0 +1,32 @@
+// Purpose: an anchor in its slot (marks/anchor.h).
+// Inputs, outputs: px of the full picture.
+// Precision: highp.
+struct Anchor {
+  vec2 px;
+  vec2 displacement;
+  vec4 jacobian;  // column by column
+  vec2 barycentrics;
+  float error;
+  float fade;
+  float age;
+  uint seed;
+  uint surface;
+  uint state;
+};
+
+const uint kSourceBits = 0xFFu;
+const uint kAlive = 0x100u;
+const uint kDying = 0x200u;
+const uint kHidden = 0x400u;
+const uint kBorn = 0x800u;
+
+const uint kSourceUnknown = 0u;
+const uint kSourceSurface = 1u;
+const uint kSourcePlane = 2u;
+const uint kSourcePicture = 3u;
+const uint kSourceFeatures = 4u;
+const uint kSourceFlow = 5u;
+const uint kSourceStill = 6u;
+
+bool isAlive(uint state) { return (state & kAlive) != 0u; }
+bool isStaying(uint state) { return (state & (kAlive | kDying | kHidden)) == kAlive; }
