@@ -8,6 +8,8 @@
 #include "config/suggestion.h"
 #include "hal/error.h"
 #include "pipeline/gpu/cover_fit.h"
+#include "pipeline/marks/anchor_set.h"
+#include "pipeline/marks/marks_shaders.h"
 #include "pipeline/present/present_shaders.h"
 #include "pipeline/quality_levels.h"
 #include "pipeline/styles/style_registry.h"
@@ -23,6 +25,7 @@ gpu::ShaderLibrary makeLibrary(const PainterOptions& options) {
   gpu::ShaderLibrary library(options.shaderDirectory);
   library.add(gpu::presentShaders());
   library.add(gpu::sceneShaders());
+  library.add(gpu::marksShaders());
   styles::addStyleShaders(library);
   return library;
 }
@@ -355,6 +358,12 @@ hal::Result<hal::Image> PaintChain::still() {
 
 hal::Result<hal::Image> PaintChain::cameraStill() {
   return read(camera_);
+}
+
+hal::Result<std::vector<marks::Anchor>> PaintChain::anchors() {
+  if (auto sound = watch_.check(); !sound) return tl::unexpected(std::move(sound.error()));
+  const marks::AnchorSet* set = style_->anchors();
+  return set == nullptr ? std::vector<marks::Anchor>{} : set->read();
 }
 
 hal::Result<hal::Image> PaintChain::read(const gpu::Texture* texture) {

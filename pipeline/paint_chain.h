@@ -42,6 +42,7 @@ class PaintChain {
   std::uint64_t skipped(int reader) const { return at(reader).skipped; }
   hal::Result<hal::Image> still();
   hal::Result<hal::Image> cameraStill();
+  hal::Result<std::vector<marks::Anchor>> anchors();
 
   void reset();
   /// Why nothing comes any more, once the GPU is lost.
