@@ -234,6 +234,10 @@ std::vector<Anchor> AnchorSet::read() const {
   return read;
 }
 
+void AnchorSet::beginAnew() {
+  state_->hasPast = false;
+}
+
 void AnchorSet::reset() {
   state_->hasPast = false;
   state_->salt = 0;

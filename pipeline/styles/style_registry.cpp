@@ -9,6 +9,9 @@
 #include "config/suggestion.h"
 #include "config/toml_reader.h"
 #include "hal/error.h"
+#include "pipeline/styles/painterly/painterly.h"
+#include "pipeline/styles/painterly/painterly_looks.h"
+#include "pipeline/styles/painterly/painterly_shaders.h"
 #include "pipeline/styles/plain.h"
 #include "pipeline/styles/watercolor/watercolor.h"
 #include "pipeline/styles/watercolor/watercolor_looks.h"
@@ -22,8 +25,8 @@ struct Entry {
   std::unique_ptr<Style> (*make)(const gpu::ShaderLibrary& library) = nullptr;
 };
 
-const std::array<Entry, 2>& entries() {
-  static const std::array<Entry, 2> kEntries{{
+const std::array<Entry, 3>& entries() {
+  static const std::array<Entry, 3> kEntries{{
       {{.name = "watercolor",
         .help = "washes of pigment on paper (thesis chapter III, and on)",
         .views = watercolorViews(),
@@ -31,6 +34,14 @@ const std::array<Entry, 2>& entries() {
         .defaults = watercolorParameters().defaults()},
        [](const gpu::ShaderLibrary& library) -> std::unique_ptr<Style> {
          return std::make_unique<Watercolor>(library);
+       }},
+      {{.name = "painterly",
+        .help = "layers of brush strokes that live (thesis chapter IV, and on)",
+        .views = painterlyViews(),
+        .looks = painterlyLooks(),
+        .defaults = painterlyParameters().defaults()},
+       [](const gpu::ShaderLibrary& library) -> std::unique_ptr<Style> {
+         return std::make_unique<Painterly>(library);
        }},
       {{.name = "none",
         .help = "the camera's picture with its virtual objects, unpainted",
@@ -74,7 +85,8 @@ config::ParameterValues StyleInfo::parametersOf(std::string_view look) const {
 }
 
 std::span<const StyleInfo> styleInfos() {
-  static const std::array<StyleInfo, 2> kInfos{entries()[0].info, entries()[1].info};
+  static const std::array<StyleInfo, 3> kInfos{entries()[0].info, entries()[1].info,
+                                               entries()[2].info};
   return kInfos;
 }
 
@@ -84,6 +96,7 @@ const StyleInfo& styleInfo(std::string_view name) {
 
 void addStyleShaders(gpu::ShaderLibrary& library) {
   library.add(gpu::watercolorShaders());
+  library.add(gpu::painterlyShaders());
 }
 
 std::unique_ptr<Style> makeStyle(std::string_view name, const gpu::ShaderLibrary& library) {

@@ -1,0 +1,27 @@
+// Purpose: how strong the frame's edges are: a histogram of every fourth pixel's P.
+// Inputs:  tensors (gradient.frag).
+// Outputs: bins, which were 0 (edge_threshold.comp). A pixel an invocation.
+// Precision: counts of integers, so that order does not matter.
+#include "pipeline/marks/shaders/edge_bins.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(std430, binding = 0) buffer Edges {
+  float threshold;
+  uint bins[kBins];
+};
+uniform highp sampler2D tensors;
+
+shared uint counted[kBins];
+
+void main() {
+  uint me = gl_LocalInvocationIndex;
+  for (uint i = me; i < uint(kBins); i += 64u) counted[i] = 0u;
+  barrier();
+  ivec2 at = ivec2(gl_GlobalInvocationID.xy) * 2;
+  if (all(lessThan(at, textureSize(tensors, 0)))) {
+    atomicAdd(counted[binOf(length(texelFetch(tensors, at, 0).xy))], 1u);
+  }
+  barrier();
+  for (uint i = me; i < uint(kBins); i += 64u) {
+    if (counted[i] > 0u) atomicAdd(bins[i], counted[i]);
+  }
+}

@@ -1,0 +1,32 @@
+// Purpose: what counts as a strong edge in this frame: a third of the 99.5th percentile of P, smoothed
+//          in time (the thesis takes a third of the largest, which one bright object or hot pixel
+//          moves; METHOD.md IV.3).
+// Inputs:  bins (edge_histogram.comp; emptied here); share: of the way to this frame's in [0, 1];
+//          least: below, all is noise.
+// Outputs: threshold. One invocation.
+// Precision: highp.
+#include "pipeline/marks/shaders/edge_bins.glsl"
+layout(local_size_x = 1) in;
+layout(std430, binding = 0) buffer Edges {
+  float threshold;
+  uint bins[kBins];
+};
+uniform float share;
+uniform float least;
+
+void main() {
+  uint all = 0u;
+  for (int i = 0; i < kBins; ++i) all += bins[i];
+  uint above = 0u;
+  float percentile = 0.0;
+  for (int i = kBins - 1; i >= 0; --i) {
+    uint here = bins[i];
+    bins[i] = 0u;
+    if (percentile == 0.0 && here > 0u && (above + here) * 200u >= all) {
+      float part = clamp((float(all) / 200.0 - float(above)) / float(here), 0.0, 1.0);
+      percentile = strengthOf(float(i) + 1.0 - part);
+    }
+    above += here;
+  }
+  threshold = max(mix(threshold, percentile / 3.0, share), least);
+}

@@ -1,0 +1,81 @@
+// Purpose: what is drawn of each stroke: the control points of its spline, in the order of painting.
+// Inputs:  anchors, strokes, ranks (stroke_order.comp); segment: px; width: px, widthSpread: by which
+//          part strokes differ; opacity; jitter: of hue, saturation, value; palette.glsl's.
+// Outputs: instances: 8 points (px of the full picture), colour (sRGB-coded) and opacity; half the
+//          width (px), the brush's variant, whether it is mirrored, quads. An anchor an invocation.
+// Precision: highp.
+#include "pipeline/gpu/shaders/hash.glsl"
+#include "pipeline/marks/shaders/anchor.glsl"
+#include "pipeline/marks/shaders/stroke.glsl"
+layout(local_size_x = 64) in;
+struct Instance {
+  vec4 points[4];
+  vec4 paint;
+  vec4 shape;
+};
+layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
+layout(std430, binding = 1) readonly buffer Strokes { Stroke strokes[]; };
+layout(std430, binding = 2) readonly buffer Ranks { uint ranks[]; };
+layout(std430, binding = 3) writeonly buffer Instances { Instance instances[]; };
+uniform uint slots;
+uniform float segment;
+uniform float width;
+uniform float widthSpread;
+uniform float opacity;
+uniform vec3 jitter;
+uniform float quads;
+
+const int kPoints = 8;
+
+// The place `s` segments along an arm.
+vec2 along(vec4 first, vec4 second, float s) {
+  vec4 part = clamp(vec4(s, s - 1.0, s - 2.0, s - 3.0), 0.0, 1.0);
+  return first.xy * part.x + first.zw * part.y + second.xy * part.z + second.zw * part.w;
+}
+
+float randomOf(uint seed, uint salt) { return unitOf(hashOf(seed ^ salt)) - 0.5; }
+
+void main() {
+  uint slot = gl_GlobalInvocationID.x;
+  if (slot >= slots) return;
+  uint rank = ranks[slot];
+  if (rank == 0xFFFFFFFFu) return;
+  Stroke stroke = strokes[slot];
+  uint seed = anchors[slot].seed;
+  vec2 px = anchors[slot].px;
+  // A stroke that comes or goes grows or shrinks, too.
+  float grown = mix(0.35, 1.0, stroke.seen);
+  vec2 lengths = stroke.lengths * grown * (1.0 + 0.5 * randomOf(seed, 0x3u));
+  float wide = width * (1.0 + widthSpread * 2.0 * randomOf(seed, 0x11u)) * mix(0.6, 1.0, stroke.seen);
+  lengths = max(lengths, vec2(0.3 * wide / segment));  // a dab, not a speck
+  vec2 points[kPoints];
+  vec2 turn = vec2(0.0);
+  for (int i = 0; i < kPoints; ++i) {
+    float s = mix(-lengths.y, lengths.x, float(i) / float(kPoints - 1));
+    vec2 arm = s >= 0.0 ? along(stroke.ahead[0], stroke.ahead[1], s)
+                        : along(stroke.behind[0], stroke.behind[1], -s);
+    points[i] = px + segment * arm;
+  }
+  // As few quads as the bend needs.
+  vec2 chord = points[7] - points[0];
+  float bend = 0.0;
+  for (int i = 1; i < 7; ++i) {
+    vec2 a = points[i] - points[0];
+    bend = max(bend, abs(a.x * chord.y - a.y * chord.x));
+  }
+  bend /= max(dot(chord, chord), 1.0);
+  float needed = clamp(2.0 + 24.0 * bend, 2.0, quads);
+  vec3 colour = stroke.colour;
+  float luma = dot(colour, vec3(0.299, 0.587, 0.114));
+  vec3 hue = vec3(randomOf(seed, 0x21u), randomOf(seed, 0x22u), randomOf(seed, 0x23u));
+  hue -= dot(hue, vec3(0.299, 0.587, 0.114));
+  colour = luma + (colour - luma) * (1.0 + 2.0 * jitter.y * randomOf(seed, 0x24u));
+  colour += 2.0 * jitter.x * hue * (0.25 + luma);
+  colour *= 1.0 + 2.0 * jitter.z * randomOf(seed, 0x25u);
+  Instance made;
+  for (int i = 0; i < 4; ++i) made.points[i] = vec4(points[2 * i], points[2 * i + 1]);
+  made.paint = vec4(clamp(colour, 0.0, 1.0), opacity * stroke.seen);
+  uint variant = hashOf(seed ^ 0x31u);
+  made.shape = vec4(0.5 * wide, float(variant & 3u), (variant & 4u) != 0u ? 1.0 : 0.0, floor(needed));
+  instances[rank] = made;
+}

@@ -1,0 +1,183 @@
+// Purpose: grows each anchor's stroke along the tensor field (thesis §4.4), both ways, and blends it with
+//          what it was: directions one by one, lengths, colour and existence in time constants
+//          (§5.4), so that a stroke lives as long as its anchor.
+// Inputs:  anchors; field: tensors to follow, detailField: where there is how much detail; paint: the
+//          picture, reduced (LINEAR); ids if hasObjects; the rest as marks::StrokeRule has it.
+// Outputs: strokes. An anchor an invocation.
+// Precision: highp.
+#include "pipeline/gpu/shaders/hash.glsl"
+#include "pipeline/marks/shaders/anchor.glsl"
+#include "pipeline/marks/shaders/stroke.glsl"
+#include "pipeline/scene/shaders/object_id.glsl"
+layout(local_size_x = 64) in;
+layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
+layout(std430, binding = 1) buffer Strokes { Stroke strokes[]; };
+uniform highp sampler2D field;
+uniform highp sampler2D detailField;
+uniform highp sampler2D paint;
+uniform highp usampler2D ids;
+uniform bool hasObjects;
+uniform bool anew;
+uniform vec2 fullSize;
+uniform vec2 pixelsOfFull;
+uniform vec2 fieldScale;     // texture coordinates of the fields for a px
+uniform vec2 detailScale;
+uniform uint slots;
+uniform float segment;       // px
+uniform float steps;         // at most kArm
+uniform float leastSteps;
+uniform float colourThreshold;
+uniform float cutOff;        // cosine
+uniform vec2 detailBand;     // where the layer is painted
+uniform float detailSpread;  // by how much anchors differ about it
+uniform float wander;        // rad: how far a stroke's hand strays from the field
+uniform vec4 past;           // shares that stay: shape, colour, existence up, existence down
+uniform float mostColour;    // by which a colour may change in this frame
+
+vec2 directionAt(vec2 px) {
+  vec2 tensor = textureLod(field, px * fieldScale, 0.0).xy;
+  tensor *= inversesqrt(max(dot(tensor, tensor), 1e-12));
+  // Half the angle by square roots; the stroke runs across the gradient.
+  vec2 gradient = vec2(sqrt(max(0.0, 0.5 + 0.5 * tensor.x)), sqrt(max(0.0, 0.5 - 0.5 * tensor.x)));
+  if (tensor.y < 0.0) gradient.y = -gradient.y;
+  return vec2(-gradient.y, gradient.x);
+}
+
+vec3 colourAt(vec2 px) { return textureLod(paint, px / fullSize, 0.0).rgb; }
+
+uint objectAt(vec2 px) {
+  ivec2 pixel = clamp(ivec2(floor(px * pixelsOfFull)), ivec2(0), textureSize(ids, 0) - 1);
+  return objectOf(texelFetch(ids, pixel, 0).r);
+}
+
+struct Arm {
+  vec2 directions[kArm];
+  float length;
+  vec3 colour;   // summed over what is seen of it
+  float weight;
+};
+
+// Perceptual enough: luma counts most.
+float apart(vec3 a, vec3 b) {
+  vec3 d = a - b;
+  return sqrt(dot(d * d, vec3(0.9, 1.5, 0.6)));
+}
+
+Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, uint object) {
+  Arm arm;
+  arm.length = steps;
+  arm.colour = vec3(0.0);
+  arm.weight = 0.0;
+  bool goesOn = true;
+  float before = 0.0;
+  vec2 at = from;
+  for (int i = 0; i < kArm; ++i) {
+    vec2 direction = directionAt(at + 0.5 * segment * heading);
+    direction = vec2(hand.x * direction.x - hand.y * direction.y,
+                     hand.y * direction.x + hand.x * direction.y);
+    float along = dot(direction, heading);
+    if (along < 0.0) direction = -direction;
+    if (goesOn && i > 0 && abs(along) < cutOff) {
+      goesOn = false;
+      arm.length = min(arm.length, float(i));
+    }
+    arm.directions[i] = direction;
+    at += segment * direction;
+    vec3 there = colourAt(at);
+    float difference = apart(there, own);
+    bool isOther = hasObjects && objectAt(at) != object;
+    if (goesOn && isOther) {
+      // Not beyond the boundary of virtual and real, nor of one object and the next.
+      bool half_ = objectAt(at - 0.5 * segment * direction) != object;
+      arm.length = min(arm.length, float(i) + (half_ ? 0.15 : 0.6));
+      goesOn = false;
+    }
+    if (goesOn && difference > colourThreshold) {
+      float part = clamp((colourThreshold - before) / max(difference - before, 1e-4), 0.0, 1.0);
+      arm.length = min(arm.length, max(float(i) + part, leastSteps));
+      goesOn = false;
+    }
+    if (goesOn && float(i) < steps) {
+      float weight = 1.0 - 0.7 * difference / colourThreshold;
+      arm.colour += weight * there;
+      arm.weight += weight;
+    }
+    before = difference;
+    heading = direction;
+  }
+  return arm;
+}
+
+vec2 blended(vec2 now, vec2 was, vec4 jacobian, float stays) {
+  vec2 carried = jacobian.xy * was.x + jacobian.zw * was.y;
+  carried *= inversesqrt(max(dot(carried, carried), 1e-12));
+  vec2 sum = mix(now, carried, stays);
+  return dot(sum, sum) > 1e-4 ? normalize(sum) : now;
+}
+
+void main() {
+  uint slot = gl_GlobalInvocationID.x;
+  if (slot >= slots) return;
+  uint state = anchors[slot].state;
+  if (!isAlive(state)) {
+    strokes[slot].seen = 0.0;
+    return;
+  }
+  vec2 px = anchors[slot].px;
+  uint seed = anchors[slot].seed;
+  bool isNew = anew || (state & kBorn) != 0u;
+  Stroke old = strokes[slot];
+  uint object = hasObjects ? objectOf(anchors[slot].surface) : 0u;
+
+  float hash = unitOf(hashOf(seed ^ 0x51u));
+  float stray = wander * (unitOf(hashOf(seed ^ 0x77u)) + unitOf(hashOf(seed ^ 0x78u)) - 1.0);
+  vec2 hand = vec2(cos(stray), sin(stray));
+  vec3 own = colourAt(px);
+  vec2 heading = directionAt(px);
+  heading = vec2(hand.x * heading.x - hand.y * heading.y, hand.y * heading.x + hand.x * heading.y);
+  if (!isNew) {
+    // The same way round as before.
+    vec2 was = anchors[slot].jacobian.xy * old.ahead[0].x + anchors[slot].jacobian.zw * old.ahead[0].y;
+    if (dot(was, heading) < 0.0) heading = -heading;
+  }
+  Arm ahead = walk(px, heading, hand, own, object);
+  Arm behind = walk(px, -heading, hand, own, object);
+  vec3 colour = (own + ahead.colour + behind.colour) / (1.0 + ahead.weight + behind.weight);
+
+  // Wanted where there is that much detail; what is there stays a little longer.
+  float detail = textureLod(detailField, px * detailScale, 0.0).w + detailSpread * (hash - 0.5);
+  bool was = !isNew && old.wanted > 0.5;
+  float slack = was ? 0.75 : 1.0;
+  bool wanted = detail >= detailBand.x * slack && detail <= detailBand.y / slack;
+  float goal = wanted ? 1.0 : 0.0;
+
+  Stroke made;
+  made.wanted = goal;
+  if (isNew) {
+    made.ahead[0] = vec4(ahead.directions[0], ahead.directions[1]);
+    made.ahead[1] = vec4(ahead.directions[2], ahead.directions[3]);
+    made.behind[0] = vec4(behind.directions[0], behind.directions[1]);
+    made.behind[1] = vec4(behind.directions[2], behind.directions[3]);
+    made.lengths = vec2(ahead.length, behind.length);
+    made.exists = anew ? goal : 0.0;
+    made.colour = colour;
+  } else {
+    vec4 j = anchors[slot].jacobian;
+    made.ahead[0] = vec4(blended(ahead.directions[0], old.ahead[0].xy, j, past.x),
+                         blended(ahead.directions[1], old.ahead[0].zw, j, past.x));
+    made.ahead[1] = vec4(blended(ahead.directions[2], old.ahead[1].xy, j, past.x),
+                         blended(ahead.directions[3], old.ahead[1].zw, j, past.x));
+    made.behind[0] = vec4(blended(behind.directions[0], old.behind[0].xy, j, past.x),
+                          blended(behind.directions[1], old.behind[0].zw, j, past.x));
+    made.behind[1] = vec4(blended(behind.directions[2], old.behind[1].xy, j, past.x),
+                          blended(behind.directions[3], old.behind[1].zw, j, past.x));
+    made.lengths = mix(vec2(ahead.length, behind.length), old.lengths, past.x);
+    made.exists = mix(goal, old.exists, goal > old.exists ? past.z : past.w);
+    if (abs(made.exists - goal) < 0.02) made.exists = goal;
+    vec3 change = (colour - old.colour) * (1.0 - past.y);
+    float size = length(change);
+    made.colour = old.colour + change * min(1.0, mostColour / max(size, 1e-6));
+  }
+  made.seen = made.exists * anchors[slot].fade;
+  strokes[slot] = made;
+}

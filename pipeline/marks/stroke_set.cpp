@@ -1,0 +1,166 @@
+#include "pipeline/marks/stroke_set.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "pipeline/gpu/program.h"
+
+namespace pleinair::marks {
+namespace {
+
+const std::string kShaders = "pipeline/marks/shaders/";
+constexpr std::size_t kStrokeBytes = 96;  // shaders/stroke.glsl
+constexpr std::size_t kCommandBytes = 16;
+constexpr glm::ivec2 kSlotGroup{64, 1};
+constexpr std::size_t kDetailLevel = 1;  // of the field, whose detail says where a layer is painted
+
+/// The share of the past that stays after `step`.
+float stays(double step, hal::Duration timeConstant) {
+  const double seconds = std::chrono::duration<double>(timeConstant).count();
+  return seconds > 0.0 ? static_cast<float>(std::exp(-step / seconds)) : 0.0F;
+}
+
+/// About the golden section of n, and coprime to it: neighbours in slots are far apart in order.
+std::uint32_t strideFor(std::uint32_t n) {
+  auto stride = std::max(1U, static_cast<std::uint32_t>(0.618 * n));
+  while (std::gcd(stride, n) != 1U) ++stride;
+  return stride;
+}
+
+}  // namespace
+
+struct StrokeSet::State {
+  State(const gpu::ShaderLibrary& library, std::uint32_t slotCount)
+      : slots(slotCount),
+        trace(library.compute(kShaders + "stroke_trace.comp")),
+        order(library.compute(kShaders + "stroke_order.comp")),
+        lay(library.compute(kShaders + "stroke_instances.comp")),
+        strokes(slots * kStrokeBytes, gpu::BufferUsage::kDynamic),
+        ranks(slots * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
+        command(kCommandBytes, gpu::BufferUsage::kDynamic),
+        instances(slots * kInstanceBytes, gpu::BufferUsage::kDynamic),
+        noIds(gpu::TextureFormat::kR32ui, {1, 1}) {
+    strokes.write(std::vector<std::byte>(strokes.sizeBytes()));
+  }
+
+  std::uint32_t slots;
+  gpu::Program trace;
+  gpu::Program order;
+  gpu::Program lay;
+  gpu::Buffer strokes;
+  gpu::Buffer ranks;
+  gpu::Buffer command;
+  gpu::Buffer instances;
+  gpu::Texture noIds;
+  hal::TimePoint lastTime;
+
+  glm::ivec2 allSlots() const { return {static_cast<int>(slots), 1}; }
+  void grow(const scene::ArFrame& frame, const AnchorSet& anchors, const TensorField& field,
+            const gpu::Texture& paint, const StrokeRule& rule, double step);
+  void layOut(const AnchorSet& anchors, const StrokeRule& rule);
+};
+
+namespace {
+
+/// Texture coordinates of a field's level for a px of the full picture.
+glm::vec2 scaleOf(const TensorField& field, std::size_t level) {
+  const hal::FrameSize size = field.resolved(level).size();
+  return glm::vec2(1.0 / (field.regionPixels(level) * glm::dvec2(size.width, size.height)));
+}
+
+}  // namespace
+
+void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchors,
+                            const TensorField& field, const gpu::Texture& paint,
+                            const StrokeRule& rule, double step) {
+  const std::size_t level = std::min(rule.fieldLevel, field.levelCount() - 1);
+  const std::size_t detail = std::min(kDetailLevel, field.levelCount() - 1);
+  trace.use()
+      .storage(0, anchors.anchors())
+      .storage(1, strokes)
+      .texture("field", field.resolved(level))
+      .texture("detailField", field.resolved(detail))
+      .texture("paint", paint)
+      .texture("ids", frame.hasObjects ? *frame.ids : noIds)
+      .set("hasObjects", frame.hasObjects ? 1 : 0)
+      .set("anew", anchors.hasBegunAnew() ? 1 : 0)
+      .set("fullSize", glm::vec2(frame.full().width, frame.full().height))
+      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
+      .set("fieldScale", scaleOf(field, level))
+      .set("detailScale", scaleOf(field, detail))
+      .set("slots", slots)
+      .set("segment", rule.segmentPx)
+      .set("steps", rule.steps)
+      .set("leastSteps", rule.leastSteps)
+      .set("colourThreshold", rule.colourThreshold)
+      .set("cutOff", std::cos(rule.cutOffRad))
+      .set("detailBand", rule.detailBand)
+      .set("detailSpread", rule.detailSpread)
+      .set("wander", rule.wanderRad)
+      .set("past", glm::vec4(stays(step, rule.shapeMemory), stays(step, rule.colourMemory),
+                             stays(step, rule.appearing), stays(step, rule.vanishing)))
+      .set("mostColour", rule.mostColourPerSecond * static_cast<float>(step))
+      .dispatch(allSlots(), kSlotGroup, GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void StrokeSet::State::layOut(const AnchorSet& anchors, const StrokeRule& rule) {
+  order.use()
+      .storage(0, strokes)
+      .storage(1, ranks)
+      .storage(2, command)
+      .set("slots", slots)
+      .set("stride", strideFor(slots))
+      .set("vertices", static_cast<unsigned>(verticesOf(rule.quads)))
+      .dispatch({1, 1}, {128, 1}, GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+  lay.use()
+      .storage(0, anchors.anchors())
+      .storage(1, strokes)
+      .storage(2, ranks)
+      .storage(3, instances)
+      .set("slots", slots)
+      .set("segment", rule.segmentPx)
+      .set("width", rule.widthPx)
+      .set("widthSpread", rule.widthSpread)
+      .set("opacity", rule.opacity)
+      .set("jitter", rule.jitter)
+      .set("quads", static_cast<float>(rule.quads))
+      .dispatch(allSlots(), kSlotGroup,
+                GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+StrokeSet::StrokeSet(const gpu::ShaderLibrary& library, std::uint32_t slotCount)
+    : state_(std::make_unique<State>(library, slotCount)) {}
+
+StrokeSet::~StrokeSet() = default;
+
+void StrokeSet::update(const scene::ArFrame& frame, const AnchorSet& anchors,
+                       const TensorField& field, const gpu::Texture& paint, const StrokeRule& rule,
+                       gpu::PassTimer& timer) {
+  State& s = *state_;
+  assert(anchors.slotCount() == s.slots);
+  const double step =
+      std::clamp(std::chrono::duration<double>(frame.captureTime - s.lastTime).count(), 0.0, 1.0);
+  s.lastTime = frame.captureTime;
+  const auto scope = timer.measure("grow strokes");
+  s.grow(frame, anchors, field, paint, rule, step);
+  s.layOut(anchors, rule);
+}
+
+const gpu::Buffer& StrokeSet::instances() const {
+  return state_->instances;
+}
+
+const gpu::Buffer& StrokeSet::command() const {
+  return state_->command;
+}
+
+const gpu::Buffer& StrokeSet::strokes() const {
+  return state_->strokes;
+}
+
+}  // namespace pleinair::marks

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "hal/clock.h"
+#include "pipeline/gpu/buffer.h"
+#include "pipeline/gpu/pass_timer.h"
+#include "pipeline/gpu/shader_library.h"
+#include "pipeline/gpu/texture.h"
+#include "pipeline/marks/anchor_set.h"
+#include "pipeline/marks/tensor_field.h"
+#include "pipeline/scene/ar_frame.h"
+
+namespace pleinair::marks {
+
+/// How the strokes of a layer are grown and how they hold on to their past. Lengths in px of the
+/// full picture.
+struct StrokeRule {
+  float segmentPx = 8.0F;
+  float steps = 4.0F;       ///< of each arm, at most 4
+  float leastSteps = 0.5F;  ///< colour does not stop it earlier
+  float colourThreshold = 0.12F;
+  float cutOffRad = 0.8F;            ///< the turn between two segments at which it ends
+  glm::vec2 detailBand{0.0F, 1e9F};  ///< where the layer is painted (TensorField::resolved)
+  float detailSpread = 0.0F;
+  float wanderRad = 0.1F;
+  std::size_t fieldLevel = 0;
+  float widthPx = 8.0F;
+  float widthSpread = 0.2F;
+  float opacity = 1.0F;
+  glm::vec3 jitter{0.02F, 0.1F, 0.05F};                        ///< hue, saturation, value
+  int quads = 8;                                               ///< at most, of a stroke
+  hal::Duration shapeMemory = std::chrono::milliseconds(650);  ///< time constants; 0: none
+  hal::Duration colourMemory = std::chrono::milliseconds(650);
+  hal::Duration appearing = std::chrono::milliseconds(300);
+  hal::Duration vanishing = std::chrono::milliseconds(300);
+  float mostColourPerSecond = 1.5F;
+};
+
+/// The strokes of an AnchorSet's anchors: grown along a tensor field (thesis §4.4), blended with
+/// what they were (§4.5, §5.4), and laid out to be drawn in an order that never changes while they
+/// live. All on the GPU. All calls on the thread of the GL context it was made in.
+class StrokeSet {
+ public:
+  /// `library` has gpu::marksShaders(), gpu::sceneShaders() and gpu::gpuShaders().
+  StrokeSet(const gpu::ShaderLibrary& library, std::uint32_t slotCount);
+  ~StrokeSet();
+  StrokeSet(const StrokeSet&) = delete;
+  StrokeSet& operator=(const StrokeSet&) = delete;
+  StrokeSet(StrokeSet&&) = delete;
+  StrokeSet& operator=(StrokeSet&&) = delete;
+
+  /// Grows the strokes of the frame that `anchors` and `field` were brought to. `paint`: the
+  /// picture that colours are of, of any size (LINEAR).
+  void update(const scene::ArFrame& frame, const AnchorSet& anchors, const TensorField& field,
+              const gpu::Texture& paint, const StrokeRule& rule, gpu::PassTimer& timer);
+
+  /// Of each stroke that is seen, in the order of painting: four pairs of points, paint, shape
+  /// (shaders/stroke_instances.comp), 96 bytes; and glDrawArraysIndirect's command for triangle
+  /// strips of verticesOf(rule.quads) each.
+  const gpu::Buffer& instances() const;
+  const gpu::Buffer& command() const;
+  static constexpr std::size_t kInstanceBytes = 96;
+  static int verticesOf(int quads) { return 2 * (quads + 1); }
+  /// shaders/stroke.glsl's, of each slot.
+  const gpu::Buffer& strokes() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace pleinair::marks

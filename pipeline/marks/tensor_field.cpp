@@ -1,0 +1,204 @@
+#include "pipeline/marks/tensor_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pipeline/gpu/buffer.h"
+#include "pipeline/gpu/program.h"
+#include "pipeline/gpu/render_target.h"
+
+namespace pleinair::marks {
+namespace {
+
+const std::string kShaders = "pipeline/marks/shaders/";
+constexpr int kRegionPixels = 8;
+constexpr std::size_t kEdgeWords = 1 + 128;  // shaders/edge_bins.glsl
+constexpr float kLeastEdge = 0.05F;          // of luma: what sensor noise makes
+constexpr glm::ivec2 kGroup{8, 8};
+constexpr GLbitfield kWritten = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
+
+glm::ivec2 itemsOf(const gpu::Texture& texture) {
+  return {texture.size().width, texture.size().height};
+}
+
+gpu::Texture tensors(hal::FrameSize size) {
+  return {gpu::TextureFormat::kRgba16f, size, gpu::TextureFilter::kLinear};
+}
+
+}  // namespace
+
+struct TensorField::State {
+  /// What is kept of the regions of one size.
+  struct Level {
+    explicit Level(hal::FrameSize size)
+        : regions(tensors(size)), filled(tensors(size)), resolved(tensors(size)) {}
+    gpu::Texture regions;
+    gpu::Texture filled;
+    gpu::Texture resolved;
+  };
+  /// Of pictures of one size.
+  struct Gradient {
+    explicit Gradient(hal::FrameSize size)
+        : texture(gpu::TextureFormat::kRg16f, size), target({&texture}) {}
+    gpu::Texture texture;
+    gpu::RenderTarget target;
+  };
+
+  State(const gpu::ShaderLibrary& library, hal::FrameSize fullSize)
+      : full(fullSize),
+        gradient(library.fragmentPass(kShaders + "gradient.frag")),
+        histogram(library.compute(kShaders + "edge_histogram.comp")),
+        threshold(library.compute(kShaders + "edge_threshold.comp")),
+        regions(library.compute(kShaders + "tensor_regions.comp")),
+        fill(library.compute(kShaders + "tensor_fill.comp")),
+        reduce(library.compute(kShaders + "tensor_reduce.comp")),
+        resolve(library.compute(kShaders + "tensor_resolve.comp")),
+        edges(kEdgeWords * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic) {
+    edges.write(std::vector<std::byte>(edges.sizeBytes()));
+    hal::FrameSize size{(full.width + kRegionPixels - 1) / kRegionPixels,
+                        (full.height + kRegionPixels - 1) / kRegionPixels};
+    before = tensors(size);
+    for (;;) {
+      levels.emplace_back(size);
+      if (size.width == 1 && size.height == 1) break;
+      size = {(size.width + 1) / 2, (size.height + 1) / 2};
+    }
+  }
+
+  hal::FrameSize full;
+  gpu::Program gradient;
+  gpu::Program histogram;
+  gpu::Program threshold;
+  gpu::Program regions;
+  gpu::Program fill;
+  gpu::Program reduce;
+  gpu::Program resolve;
+  gpu::Buffer edges;
+  std::vector<Level> levels;
+  gpu::Texture before;
+  std::vector<std::unique_ptr<Gradient>> gradients;
+  hal::TimePoint lastTime;
+  bool hasPast = false;
+
+  const Gradient& gradientOf(hal::FrameSize size) {
+    const auto known = std::ranges::find_if(
+        gradients, [&](const auto& each) { return each->texture.size() == size; });
+    if (known != gradients.end()) return **known;
+    return *gradients.emplace_back(std::make_unique<Gradient>(size));
+  }
+
+  void findEdges(const gpu::Texture& picture, float share);
+  void sumRegions(const scene::ArFrame& frame, const MotionField& motion, float past);
+  void buildPyramid(const TensorFieldOptions& options);
+};
+
+void TensorField::State::findEdges(const gpu::Texture& picture, float share) {
+  const Gradient& made = gradientOf(picture.size());
+  gradient.use().texture("picture", picture).drawFullscreen(made.target);
+  histogram.use()
+      .texture("tensors", made.texture)
+      .storage(0, edges)
+      .dispatch((itemsOf(made.texture) + 1) / 2, kGroup, GL_SHADER_STORAGE_BARRIER_BIT);
+  threshold.use()
+      .storage(0, edges)
+      .set("share", share)
+      .set("least", kLeastEdge)
+      .dispatch({1, 1}, {1, 1}, GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void TensorField::State::sumRegions(const scene::ArFrame& frame, const MotionField& motion,
+                                    float past) {
+  Level& finest = levels.front();
+  std::swap(finest.regions, before);
+  regions.use()
+      .texture("tensors", gradientOf(frame.size()).texture)
+      .texture("before", before)
+      .texture("motion", motion.backward())
+      .storage(0, edges)
+      .image(0, finest.regions, gpu::ImageAccess::kWrite)
+      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
+      .set("fullSize", glm::vec2(full.width, full.height))
+      .set("regionPixels", static_cast<float>(kRegionPixels))
+      .set("past", past)
+      .dispatch(itemsOf(finest.regions), kGroup, kWritten);
+}
+
+void TensorField::State::buildPyramid(const TensorFieldOptions& options) {
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    if (i > 0) {
+      reduce.use()
+          .texture("filled", levels[i - 1].filled)
+          .image(0, levels[i].regions, gpu::ImageAccess::kWrite)
+          .dispatch(itemsOf(levels[i].regions), kGroup, kWritten);
+    }
+    fill.use()
+        .texture("regions", levels[i].regions)
+        .image(0, levels[i].filled, gpu::ImageAccess::kWrite)
+        .set("sigma", static_cast<float>(options.fillSigma))
+        .dispatch(itemsOf(levels[i].filled), kGroup, kWritten);
+  }
+  for (std::size_t i = levels.size(); i-- > 0;) {
+    const bool isTop = i + 1 == levels.size();
+    resolve.use()
+        .texture("filled", levels[i].filled)
+        .texture("above", isTop ? levels[i].filled : levels[i + 1].resolved)
+        .set("isTop", isTop ? 1 : 0)
+        .image(0, levels[i].resolved, gpu::ImageAccess::kWrite)
+        .dispatch(itemsOf(levels[i].resolved), kGroup, kWritten);
+  }
+}
+
+TensorField::TensorField(const gpu::ShaderLibrary& library, hal::FrameSize full)
+    : state_(std::make_unique<State>(library, full)) {}
+
+TensorField::~TensorField() = default;
+
+void TensorField::update(const scene::ArFrame& frame, const gpu::Texture& picture,
+                         const MotionField& motion, const TensorFieldOptions& options,
+                         gpu::PassTimer& timer) {
+  State& s = *state_;
+  assert(frame.full() == s.full && picture.size() == frame.size());
+  const double step =
+      std::clamp(std::chrono::duration<double>(frame.captureTime - s.lastTime).count(), 0.0, 1.0);
+  const double memory = std::chrono::duration<double>(options.memory).count();
+  const bool goesOn = s.hasPast && !motion.isCut() && memory > 0.0;
+  const double past = goesOn ? std::exp(-step / memory) : 0.0;
+  s.lastTime = frame.captureTime;
+  s.hasPast = true;
+  const auto scope = timer.measure("tensor field");
+  s.findEdges(picture, static_cast<float>(1.0 - past));
+  s.sumRegions(frame, motion, static_cast<float>(past));
+  s.buildPyramid(options);
+}
+
+std::size_t TensorField::levelCount() const {
+  return state_->levels.size();
+}
+
+const gpu::Texture& TensorField::resolved(std::size_t level) const {
+  return state_->levels[level].resolved;
+}
+
+const gpu::Texture& TensorField::filled(std::size_t level) const {
+  return state_->levels[level].filled;
+}
+
+const gpu::Texture& TensorField::regions() const {
+  return state_->levels.front().regions;
+}
+
+double TensorField::regionPixels(std::size_t level) const {
+  return std::ldexp(kRegionPixels, static_cast<int>(level));
+}
+
+void TensorField::reset() {
+  state_->hasPast = false;
+}
+
+}  // namespace pleinair::marks

@@ -1,0 +1,309 @@
+#include "pipeline/styles/painterly/painterly.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include <glm/trigonometric.hpp>
+
+#include "pipeline/gpu/program.h"
+#include "pipeline/gpu/render_target.h"
+#include "pipeline/marks/anchor_set.h"
+#include "pipeline/marks/motion_field.h"
+#include "pipeline/marks/stroke_set.h"
+#include "pipeline/marks/tensor_field.h"
+#include "pipeline/styles/painterly/stroke_drawing.h"
+
+namespace pleinair::styles {
+namespace {
+
+using gpu::Texture;
+using gpu::TextureFilter;
+using gpu::TextureFormat;
+
+const std::string kShaders = "pipeline/styles/painterly/shaders/";
+constexpr std::size_t kLayers = 3;  // from coarse to fine
+constexpr int kQuads = 8;           // of a stroke, at most
+constexpr std::size_t kHalvings = 3;
+/// The thesis's weight of 0.95 on the past, at 30 frames a second (METHOD.md V.4).
+constexpr double kMemorySeconds = 0.65;
+constexpr double kAppearingSeconds = 0.3;
+constexpr double kForever = 1e6;
+
+constexpr std::array<ViewInfo, 1> kViews{{
+    {"height", "how thick the paint lies"},
+}};
+
+Texture colours(hal::FrameSize size) {
+  return {TextureFormat::kRgba8, size, TextureFilter::kLinear};
+}
+
+/// What is painted on, of pictures of one size.
+struct Canvas {
+  explicit Canvas(hal::FrameSize pictureSize)
+      : size(pictureSize),
+        colour(colours(size)),
+        height(colours(size)),
+        picture(colours(size)),
+        strokes({&colour, &height}),
+        finished({&picture}) {
+    hal::FrameSize half = size;
+    for (std::size_t i = 0; i < kHalvings; ++i) {
+      half = {std::max(1, half.width / 2), std::max(1, half.height / 2)};
+      reduced[i] = colours(half);
+      reducedTarget[i] = gpu::RenderTarget({&reduced[i]});
+    }
+  }
+
+  hal::FrameSize size;
+  std::array<Texture, kHalvings> reduced;  // the frame's picture at 1/2, 1/4, 1/8
+  std::array<gpu::RenderTarget, kHalvings> reducedTarget;
+  Texture colour;
+  Texture height;
+  Texture picture;
+  gpu::RenderTarget strokes;
+  gpu::RenderTarget finished;
+};
+
+/// What decides which anchors there are.
+struct Plan {
+  double strokeSizePixels = 0.0;
+  double layerRatio = 0.0;
+  double density = 0.0;
+  int seed = 0;
+  bool operator==(const Plan&) const = default;
+};
+
+Plan planOf(const PainterlyParameters& p) {
+  return {p.strokeSizePixels, p.layerRatio, p.density, p.seed};
+}
+
+double widthOf(const Plan& plan, std::size_t layer) {
+  return plan.strokeSizePixels *
+         std::pow(plan.layerRatio, static_cast<double>(kLayers - 1 - layer));
+}
+
+marks::AnchorOptions anchorsOf(const Plan& plan, std::size_t layer) {
+  const int target = std::max(1, static_cast<int>(std::lround(plan.density)));
+  return {
+      .density = {.cellPixels = std::max(4, static_cast<int>(std::lround(widthOf(plan, layer)))),
+                  .target = target,
+                  .birthBelow = std::max(1, target / 2),
+                  .deathAbove = 2 * target},
+      .seed = static_cast<unsigned>(plan.seed) * 8U + static_cast<unsigned>(layer)};
+}
+
+struct Layer {
+  Layer(const gpu::ShaderLibrary& library, hal::FrameSize full, const Plan& plan,
+        std::size_t number)
+      : anchors(library, full, anchorsOf(plan, number)), strokes(library, anchors.slotCount()) {}
+  marks::AnchorSet anchors;
+  marks::StrokeSet strokes;
+};
+
+/// What belongs to one full size and plan.
+struct Painting {
+  Painting(const gpu::ShaderLibrary& library, hal::FrameSize fullSize, const Plan& given)
+      : full(fullSize), plan(given), motion(library, full), field(library, full) {
+    for (std::size_t i = 0; i < kLayers; ++i) {
+      layers[i] = std::make_unique<Layer>(library, full, plan, i);
+    }
+  }
+  hal::FrameSize full;
+  Plan plan;
+  marks::MotionField motion;
+  marks::TensorField field;
+  std::array<std::unique_ptr<Layer>, kLayers> layers;
+};
+
+hal::Duration secondsOf(double seconds) {
+  return std::chrono::duration_cast<hal::Duration>(std::chrono::duration<double>(seconds));
+}
+
+}  // namespace
+
+struct Painterly::State {
+  explicit State(const gpu::ShaderLibrary& shaders)
+      : library(shaders),
+        halve(library.fragmentPass(kShaders + "halve.frag")),
+        ground(library.fragmentPass(kShaders + "ground.frag")),
+        relief(library.fragmentPass(kShaders + "relief.frag")),
+        drawing(library) {}
+
+  const gpu::ShaderLibrary& library;
+  gpu::Program halve;
+  gpu::Program ground;
+  gpu::Program relief;
+  StrokeDrawing drawing;
+  std::optional<Brush> brush;
+  Texture brushTexture;
+  std::unique_ptr<Painting> painting;
+  std::vector<std::unique_ptr<Canvas>> canvases;  // of each size that was painted
+  Canvas* canvas = nullptr;                       // of this frame
+
+  void take(const scene::ArFrame& frame, const PainterlyParameters& p);
+  void reduce(const scene::ArFrame& frame, gpu::PassTimer& timer);
+  void grow(const scene::ArFrame& frame, const PainterlyParameters& p, gpu::PassTimer& timer);
+  void drawStrokes(const PainterlyParameters& p, gpu::PassTimer& timer);
+  void light(const scene::ArFrame& frame, const PainterlyParameters& p, gpu::PassTimer& timer);
+};
+
+void Painterly::State::take(const scene::ArFrame& frame, const PainterlyParameters& p) {
+  canvas = nullptr;
+  if (painting == nullptr || painting->full != frame.full() || painting->plan != planOf(p)) {
+    if (painting != nullptr && painting->full != frame.full()) canvases.clear();
+    painting.reset();
+    painting = std::make_unique<Painting>(library, frame.full(), planOf(p));
+  }
+  const auto isOfSize = [&](const auto& each) { return each->size == frame.size(); };
+  const auto known = std::ranges::find_if(canvases, isOfSize);
+  canvas = known != canvases.end()
+               ? known->get()
+               : canvases.emplace_back(std::make_unique<Canvas>(frame.size())).get();
+  if (brush != p.brush) {
+    brushTexture = makeBrush(p.brush);
+    brush = p.brush;
+  }
+}
+
+void Painterly::State::reduce(const scene::ArFrame& frame, gpu::PassTimer& timer) {
+  const auto scope = timer.measure("painterly: reduce");
+  const Texture* from = frame.colour;
+  for (std::size_t i = 0; i < kHalvings; ++i) {
+    const hal::FrameSize size = canvas->reduced[i].size();
+    halve.use()
+        .texture("picture", *from)
+        .set("size", glm::vec2(size.width, size.height))
+        .drawFullscreen(canvas->reducedTarget[i]);
+    from = &canvas->reduced[i];
+  }
+}
+
+namespace {
+
+/// Coarse strokes are straight and broad and stop late, fine ones bend (thesis §4.4).
+marks::StrokeRule ruleOf(const PainterlyParameters& p, const Plan& plan, std::size_t layer) {
+  const auto width = static_cast<float>(widthOf(plan, layer));
+  const auto coarseness = static_cast<float>(kLayers - 1 - layer);
+  // 0 at once, the thesis's in the middle, for ever at 1.
+  const double hold = p.coherence >= 1.0
+                          ? kForever
+                          : std::min(kForever, std::tan(p.coherence * 0.5 * std::numbers::pi));
+  marks::StrokeRule rule;
+  rule.widthPx = width;
+  rule.steps = 4.0F;
+  rule.segmentPx = static_cast<float>(p.length) * width / 8.0F;
+  rule.colourThreshold = static_cast<float>(p.colourThreshold) * (1.0F + 0.6F * coarseness);
+  rule.cutOffRad = glm::radians(static_cast<float>(p.cutOffDegrees)) / (1.0F + 0.4F * coarseness);
+  rule.detailBand.x = static_cast<float>(layer == 2   ? p.detail
+                                         : layer == 1 ? p.middleDetail
+                                                      : -1.0);
+  rule.detailSpread = 0.6F * std::max(rule.detailBand.x, 0.0F);
+  rule.wanderRad = static_cast<float>(p.wander) * (1.0F + 0.3F * coarseness);
+  rule.fieldLevel = kLayers - 1 - layer;
+  rule.widthSpread = static_cast<float>(p.widthVariation);
+  rule.opacity = static_cast<float>(p.opacity);
+  rule.jitter = {static_cast<float>(p.hueJitter), static_cast<float>(p.saturationJitter),
+                 static_cast<float>(p.valueJitter)};
+  rule.quads = kQuads;
+  rule.shapeMemory = secondsOf(hold * kMemorySeconds);
+  rule.colourMemory = secondsOf(hold * kMemorySeconds);
+  rule.appearing = secondsOf(hold * kAppearingSeconds);
+  rule.vanishing = secondsOf(hold * kAppearingSeconds);
+  return rule;
+}
+
+}  // namespace
+
+void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParameters& p,
+                            gpu::PassTimer& timer) {
+  painting->motion.update(frame, timer);
+  painting->field.update(frame, *frame.colour, painting->motion, {}, timer);
+  for (std::size_t i = 0; i < kLayers; ++i) {
+    Layer& layer = *painting->layers[i];
+    if (p.coherence <= 0.0) layer.anchors.beginAnew();
+    layer.anchors.advance(frame, painting->motion, timer);
+    layer.strokes.update(frame, layer.anchors, painting->field, canvas->reduced[kLayers - 1 - i],
+                         ruleOf(p, painting->plan, i), timer);
+  }
+}
+
+void Painterly::State::drawStrokes(const PainterlyParameters& p, gpu::PassTimer& timer) {
+  const auto scope = timer.measure("painterly: strokes");
+  ground.use()
+      .texture("paint", canvas->reduced[kHalvings - 1])
+      .set("size", glm::vec2(canvas->size.width, canvas->size.height))
+      .set("ground", glm::vec3(p.groundRed, p.groundGreen, p.groundBlue))
+      .set("wash", static_cast<float>(p.wash))
+      .drawFullscreen(canvas->strokes);
+  for (const auto& layer : painting->layers) {
+    drawing.draw(layer->strokes, kQuads, brushTexture, painting->full, canvas->strokes);
+  }
+}
+
+void Painterly::State::light(const scene::ArFrame& frame, const PainterlyParameters& p,
+                             gpu::PassTimer& timer) {
+  const auto scope = timer.measure("painterly: light");
+  const tracking::PlaneSimilarity& place = frame.canvasFromPicture;
+  const double octave = std::exp2(-std::round(std::log2(place.scale())));
+  relief.use()
+      .texture("colours", canvas->colour)
+      .texture("heights", canvas->height)
+      .texture("frame", *frame.colour)
+      .texture("normalFocus", frame.hasFocus ? *frame.normalFocus : *frame.colour)
+      .set("hasFocus", frame.hasFocus ? 1 : 0)
+      .set("relief", static_cast<float>(p.relief))
+      .set("gloss", static_cast<float>(p.gloss))
+      .set("weave", static_cast<float>(p.canvas))
+      .set("canvasLinear", glm::vec2(place.linear * octave / frame.pixelsOfFull().x))
+      .set("canvasShift", glm::vec2(place.shift * octave))
+      .set("saturation", static_cast<float>(p.saturation))
+      .set("warmth", static_cast<float>(p.warmth))
+      .drawFullscreen(canvas->finished);
+}
+
+Painterly::Painterly(const gpu::ShaderLibrary& library)
+    : values_(painterlyParameters().defaults()), state_(std::make_unique<State>(library)) {}
+
+Painterly::~Painterly() = default;
+
+std::span<const ViewInfo> painterlyViews() {
+  return kViews;
+}
+
+scene::ArFrameNeeds Painterly::needs() const {
+  return {.surfaces = true, .pictureMovement = true, .shading = scene::Shading::kSmooth};
+}
+
+void Painterly::setParameters(const config::ParameterValues& values) {
+  p_ = painterlyParameters().typed(values);
+  values_ = values;
+}
+
+const Texture& Painterly::paint(const scene::ArFrame& frame, std::string_view view,
+                                gpu::PassTimer& timer) {
+  State& s = *state_;
+  s.take(frame, p_);
+  s.reduce(frame, timer);
+  s.grow(frame, p_, timer);
+  s.drawStrokes(p_, timer);
+  s.light(frame, p_, timer);
+  return view == "height" ? s.canvas->height : s.canvas->picture;
+}
+
+const marks::AnchorSet* Painterly::anchors() const {
+  return state_->painting ? &state_->painting->layers.back()->anchors : nullptr;
+}
+
+void Painterly::reset() {
+  if (!state_->painting) return;
+  state_->painting->motion.reset();
+  state_->painting->field.reset();
+  for (const auto& layer : state_->painting->layers) layer->anchors.reset();
+}
+
+}  // namespace pleinair::styles

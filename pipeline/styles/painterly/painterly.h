@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "pipeline/gpu/shader_library.h"
+#include "pipeline/styles/painterly/painterly_parameters.h"
+#include "pipeline/styles/style.h"
+
+namespace pleinair::styles {
+
+/// The style's inner pictures, apart from the finished one.
+std::span<const ViewInfo> painterlyViews();
+
+/// Chapter IV of the thesis, and on: three layers of brush strokes, from coarse to fine, that
+/// follow the tensor field of the picture's edges. Each stroke belongs to an anchor, goes with what
+/// that lies on, and keeps its shape, colour and place in the order of painting as long as it
+/// lives. Fine layers are painted only where there is detail. Colour and height are drawn together;
+/// light falls on the paint's relief in one pass at the end. All on the GPU, nothing is read back.
+///
+/// Time: a first frame (after reset(), a cut, another full size, other strokes' size, density or
+/// seed) has all its strokes at once. Time constants are scaled by `coherence`.
+class Painterly final : public Style {
+ public:
+  /// The library holds gpu::painterlyShaders(), marksShaders(), sceneShaders(), gpuShaders().
+  explicit Painterly(const gpu::ShaderLibrary& library);
+  ~Painterly() override;
+  Painterly(const Painterly&) = delete;
+  Painterly& operator=(const Painterly&) = delete;
+  Painterly(Painterly&&) = delete;
+  Painterly& operator=(Painterly&&) = delete;
+
+  std::string_view name() const override { return "painterly"; }
+  std::span<const ViewInfo> views() const override { return painterlyViews(); }
+  scene::ArFrameNeeds needs() const override;
+  bool usesCanvas() const override { return true; }
+  const config::ParameterValues& parameters() const override { return values_; }
+  void setParameters(const config::ParameterValues& values) override;
+  const gpu::Texture& paint(const scene::ArFrame& frame, std::string_view view,
+                            gpu::PassTimer& timer) override;
+  const marks::AnchorSet* anchors() const override;
+  void reset() override;
+
+ private:
+  struct State;
+
+  config::ParameterValues values_;
+  PainterlyParameters p_;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace pleinair::styles

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+
+#include "config/parameter_table.h"
+#include "pipeline/styles/painterly/brushes.h"
+
+namespace pleinair::styles {
+
+/// What can be tuned of the painter, with the defaults. Lengths are in px of the full picture.
+struct PainterlyParameters {
+  int seed = 1;
+  double strokeSizePixels = 9.0;  // the fine layer's width
+  double layerRatio = 2.0;        // each coarser layer's strokes are wider by this
+  double density = 2.0;           // strokes of a layer in a cell as wide as its brush
+  double length = 3.0;            // of a stroke, in widths
+  double detail = 0.16;           // from which fine strokes are painted
+  double middleDetail = 0.05;
+  double colourThreshold = 0.11;
+  double cutOffDegrees = 45.0;
+  double wander = 0.12;
+  double opacity = 0.95;
+  double widthVariation = 0.25;
+  double hueJitter = 0.03;
+  double saturationJitter = 0.12;
+  double valueJitter = 0.05;
+  Brush brush = Brush::kFlat;
+  double relief = 1.6;
+  double gloss = 0.08;
+  double canvas = 0.15;
+  double wash = 0.85;
+  double groundRed = 0.55;
+  double groundGreen = 0.45;
+  double groundBlue = 0.35;
+  double saturation = 1.12;
+  double warmth = 0.15;
+  double coherence = 0.5;
+};
+
+const config::ParameterTable<PainterlyParameters>& painterlyParameters();
+
+}  // namespace pleinair::styles

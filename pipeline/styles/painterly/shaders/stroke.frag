@@ -1,0 +1,21 @@
+// Purpose: the paint that a brush leaves, and how thick it lies.
+// Inputs:  brushes: R how much of the brush's paint is there, G its height; of the stroke, stroke.vert's.
+// Outputs: 0: sRGB-coded colour, premultiplied, and its coverage; 1: height likewise. To be blended
+//          over what is there.
+// Precision: mediump would do, but for places.
+uniform sampler2D brushes;
+uniform float hardness;
+in vec2 brush;
+in vec4 paint;
+in float aspect;
+layout(location = 0) out vec4 colour;
+layout(location = 1) out vec4 height;
+
+void main() {
+  vec2 texel = texture(brushes, brush).rg;
+  float cover = paint.a * texel.r;
+  // Little pigment on the ridge's sides, more in its furrows' shade: the colour goes with the height.
+  vec3 tinted = paint.rgb * (0.94 + 0.12 * texel.g);
+  colour = vec4(tinted * cover, cover);
+  height = vec4(texel.g * cover, 0.0, 0.0, cover);
+}

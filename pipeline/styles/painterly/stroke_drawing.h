@@ -1,0 +1,28 @@
+#pragma once
+
+#include "pipeline/gpu/handle.h"
+#include "pipeline/gpu/program.h"
+#include "pipeline/gpu/render_target.h"
+#include "pipeline/gpu/shader_library.h"
+#include "pipeline/gpu/texture.h"
+#include "pipeline/marks/stroke_set.h"
+
+namespace pleinair::styles {
+
+/// Draws strokes: each a strip of quads along its spline, blended over what is there, colour and
+/// height together. All calls on the thread of the GL context it was made in.
+class StrokeDrawing {
+ public:
+  /// `library` has gpu::painterlyShaders().
+  explicit StrokeDrawing(const gpu::ShaderLibrary& library);
+
+  /// Draws a layer into `target`: colour (premultiplied) and height, both RGBA8.
+  void draw(const marks::StrokeSet& strokes, int quads, const gpu::Texture& brush,
+            hal::FrameSize full, const gpu::RenderTarget& target);
+
+ private:
+  gpu::Program program_;
+  gpu::VertexArrayHandle vertexArray_;
+};
+
+}  // namespace pleinair::styles
