@@ -26,7 +26,7 @@ constexpr hal::FrameSize kScreen{800, 600};
 constexpr hal::FrameSize kSize{320, 240};
 constexpr hal::FrameFormat kRgb{.pixelFormat = hal::PixelFormat::kRgb8, .size = kSize};
 
-/// The numbers of the summary: "showed 30 frames in …; dropped 5: 3 replaced …".
+/// The numbers of the summary: "showed 30 frames in …; dropped 5 (3 replaced …): window".
 struct Summary {
   int shown = -1;
   int dropped = -1;
@@ -36,7 +36,7 @@ Summary summaryOf(const std::string& text) {
   Summary summary;
   std::smatch match;
   static const std::regex kLine(
-      R"(showed (\d+) frames? in [\d.]+ s \([\d.]+ frames/s\)(?:, \d+ untimely)?; dropped (\d+)(: [^:]*)?: \S+\n)");
+      R"(showed (\d+) frames? in [\d.]+ s \([\d.]+ frames/s\)(?:, \d+ untimely)?; dropped (\d+)(?: \(([^)]*)\))?: \S+\n)");
   if (!std::regex_match(text, match, kLine)) return summary;
   summary.shown = std::stoi(match[1]);
   summary.dropped = std::stoi(match[2]);
