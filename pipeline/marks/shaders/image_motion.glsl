@@ -174,7 +174,7 @@ Moved byTriangle(vec2 px, Neighbours near) {
   float area = u.x * v.y - u.y * v.x;
   float longest = max(max(dot(u, u), dot(v, v)), dot(u - v, u - v));
   const float kLeastHeight = 0.25;  // of the longest side: flatter ones amplify noise
-  if (abs(area) < kLeastHeight * longest) return bySimilarity(px, near);
+  if (abs(area) <= kLeastHeight * longest) return bySimilarity(px, near);  // or all in one place
   vec2 arm = px - near.at[0];
   float b = (arm.x * v.y - arm.y * v.x) / area;
   float c = (u.x * arm.y - u.y * arm.x) / area;
@@ -236,7 +236,7 @@ Moved better(Moved a, Moved b) {
 Moved imageMotionAt(vec2 px, float layer, bool backward) {
   Moved flowed = byFlow(px);
   float restError = stillError(px);
-  Moved best = Moved(vec2(0.0), kNoTurn, restError, kSourceStill);
+  Moved best = better(nothingKnown(), Moved(vec2(0.0), kNoTurn, restError, kSourceStill));
   best = better(best, flowed);
 
   Neighbours near = nearestFeatures(px, layer, backward);
