@@ -194,12 +194,17 @@ vec4 flowNode(ivec2 node) {
   return texelFetch(flow, clamp(node, ivec2(0), textureSize(flow, 0) - 1), 0);
 }
 
+// Between the border and the outermost nodes it goes on as between these: if it stood, anchors there
+// would slip by half a node's slope a frame. An error does not.
 vec4 flowAt(vec2 node) {
-  ivec2 corner = ivec2(floor(node));
-  vec2 part = node - vec2(corner);
-  vec4 above = mix(flowNode(corner), flowNode(corner + ivec2(1, 0)), part.x);
-  vec4 below = mix(flowNode(corner + ivec2(0, 1)), flowNode(corner + ivec2(1, 1)), part.x);
-  return mix(above, below, part.y) * vec4(fullByFrame.xy, fullByFrame.x, 1.0);
+  const float kBeyond = 1.5;  // nodes: as far as anchors go beyond the border
+  ivec2 corner = clamp(ivec2(floor(node)), ivec2(0), max(textureSize(flow, 0) - 2, ivec2(0)));
+  vec2 part = clamp(node - vec2(corner), vec2(-kBeyond), vec2(1.0 + kBeyond));
+  vec2 between = clamp(part, 0.0, 1.0);
+  vec4 alongX = vec4(part.xx, between.xx);
+  vec4 above = mix(flowNode(corner), flowNode(corner + ivec2(1, 0)), alongX);
+  vec4 below = mix(flowNode(corner + ivec2(0, 1)), flowNode(corner + ivec2(1, 1)), alongX);
+  return mix(above, below, vec4(part.yy, between.yy)) * vec4(fullByFrame.xy, fullByFrame.x, 1.0);
 }
 
 Moved byFlow(vec2 px) {
