@@ -9,6 +9,7 @@
 #include "pipeline/tracking/lucas_kanade_tracker.h"
 #include "pipeline/tracking/luma_pyramid.h"
 #include "pipeline/tracking/picture_hold.h"
+#include "pipeline/tracking/stillness.h"
 
 namespace pleinair::tracking {
 namespace {
@@ -46,12 +47,14 @@ struct ImageMotionEstimator::State {
   std::unique_ptr<FeatureTracker> tracker;
   CutDetector cuts;
   PictureHold hold;
+  Stillness stillness;
   ImageMotion motion;
   std::uint64_t lastSequence = 0;
 
   void forget() {
     tracker->reset();
     hold.reset();
+    stillness.reset();
   }
 };
 
@@ -85,6 +88,10 @@ const ImageMotion& ImageMotionEstimator::follow(const hal::PlaneView& luma, hal:
     s.motion.features = s.hold.features();
     s.motion.picture = s.hold.picture();
   }
+  if (s.options.stillness) s.stillness.update(*now, s.motion.picture);
+  if (s.options.stillness && !s.motion.isCut) s.motion.still = s.stillness.fields();
+  // Averaging over a reduced picture's px takes noise away.
+  s.motion.noiseLevels = s.stillness.noise() * scale;
   s.then = now;
   s.lastSequence = sequence;
   return s.motion;

@@ -219,6 +219,34 @@ TEST(ImageMotion, TakesPicturesOfAnySizeWithNothingInThem) {
   }
 }
 
+std::size_t countStill(const ImageMotion& motion) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      motion.still.errorPx, [](float error) { return error < StillFields::kNotStill; }));
+}
+
+TEST(ImageMotion, AStillSceneIsStillForEver) {
+  for (const double noise : {0.0, 2.0}) {
+    Watch watch;
+    watch.view().noiseSigma = noise;
+    std::size_t before = 0;
+    for (int i = 0; i < 50; ++i) {
+      const ImageMotion& motion = watch.step(glm::dmat3(1.0));
+      const std::size_t still = countStill(motion);
+      if (i > 12) { EXPECT_GE(still, before) << i; printf("%d %zu %.2f\n", i, still, motion.noiseLevels); }
+      before = still;
+    }
+  }
+}
+
+TEST(ImageMotion, CreepingIsNoticed) {
+  Watch watch;
+  for (int i = 0; i < 20; ++i) watch.step(glm::dmat3(1.0));
+  for (int i = 0; i < 30; ++i) {
+    const ImageMotion& motion = watch.step(nowFromThen({.shift = {0.05, 0.0}}, kSize));
+    printf("%d %zu\n", i, countStill(motion));
+  }
+}
+
 TEST(ImageMotion, SaysSinceWhen) {
   Watch watch;
   watch.step(glm::dmat3(1.0));
