@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pipeline/tracking/cut_detector.h"
+#include "pipeline/tracking/dense_flow.h"
 #include "pipeline/tracking/lucas_kanade_tracker.h"
 #include "pipeline/tracking/luma_pyramid.h"
 #include "pipeline/tracking/picture_hold.h"
@@ -48,6 +49,7 @@ struct ImageMotionEstimator::State {
   CutDetector cuts;
   PictureHold hold;
   Stillness stillness;
+  DenseFlowEstimator flow;
   ImageMotion motion;
   std::uint64_t lastSequence = 0;
 
@@ -90,6 +92,11 @@ const ImageMotion& ImageMotionEstimator::follow(const hal::PlaneView& luma, hal:
   }
   if (s.options.stillness) s.stillness.update(*now, s.motion.picture);
   if (s.options.stillness && !s.motion.isCut) s.motion.still = s.stillness.fields();
+  if (s.options.flow && !s.motion.isCut) {
+    s.flow.update(*s.then, *now, s.motion.picture, s.options.stillness ? &s.stillness : nullptr,
+                  s.stillness.noise());
+    s.motion.flow = s.flow.flow();
+  }
   // Averaging over a reduced picture's px takes noise away.
   s.motion.noiseLevels = s.stillness.noise() * scale;
   s.then = now;
