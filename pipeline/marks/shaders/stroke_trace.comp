@@ -159,7 +159,7 @@ void main() {
     made.behind[0] = vec4(behind.directions[0], behind.directions[1]);
     made.behind[1] = vec4(behind.directions[2], behind.directions[3]);
     made.lengths = vec2(ahead.length, behind.length);
-    made.exists = anew ? goal : 0.0;
+    made.exists = goal;  // its anchor fades in
     made.colour = colour;
   } else {
     vec4 j = anchors[slot].jacobian;

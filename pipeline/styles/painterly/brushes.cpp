@@ -80,15 +80,15 @@ struct Mark {
 /// u along, v across the stroke, both in [0, 1].
 Mark markAt(const Hairs& hairs, const Noise& noise, double u, double v) {
   const double across = 2.0 * v - 1.0;
-  // Ends are round and ragged: each bristle is set down and lifted by itself.
-  const double ragged = 0.10 * (noise(v * hairs.bristles, 3.0) - 0.5);
-  const double arc =
-      0.5 * hairs.roundness * (1.0 - std::sqrt(std::max(0.0, 1.0 - across * across)));
-  const double fromStart = u - 0.16 * arc - 0.02 - 0.5 * std::abs(ragged);
-  const double fromEnd = 1.0 - u - 0.22 * arc - 0.02 - std::abs(ragged) * (0.6 + hairs.runsDry);
-  const double ends = smooth(0.0, 0.035, fromStart) * smooth(0.0, 0.06, fromEnd);
+  // Each bristle is set down and lifted by itself.
+  const double setDown = noise(v * hairs.bristles * 0.8, 3.0);
+  const double lifted = 0.6 * noise(v * hairs.bristles * 0.8, 5.0) + 0.4 * noise(v * 4.0, 6.0);
+  const double arc = hairs.roundness * (1.0 - std::sqrt(std::max(0.0, 1.0 - across * across)));
+  const double fromStart = u - 0.01 - 0.11 * arc - 0.07 * setDown;
+  const double fromEnd = 1.0 - u - 0.01 - 0.13 * arc - (0.10 + 0.14 * hairs.runsDry) * lifted;
+  const double ends = smooth(0.0, 0.05, fromStart) * smooth(0.0, 0.09, fromEnd);
 
-  const double wavy = across + 0.05 * (noise(u * 5.0, 11.0) - 0.5);
+  const double wavy = across + 0.08 * (noise(u * 5.0, 11.0) - 0.5);
   const double sides = 1.0 - smooth(1.0 - hairs.softness, 1.0, std::abs(wavy));
 
   // Bristles, which waver a little on their way.
@@ -106,9 +106,11 @@ Mark markAt(const Hairs& hairs, const Noise& noise, double u, double v) {
   const double pushed = hairs.ridge * smooth(0.62, 0.85, std::abs(across)) *
                         (1.0 - smooth(0.88, 1.0, std::abs(across)));
   const double body = 1.0 - hairs.depth * (1.0 - hair);
-  const double piled = 0.25 * hairs.ridge * smooth(0.75, 0.95, u);
+  const double piled = 0.25 * hairs.ridge * smooth(0.6, 0.85, u);
+  // Thin where the brush is set down and lifted, or each end would be a step.
+  const double thick = smooth(0.0, 0.16, fromStart) * smooth(0.0, 0.2, fromEnd);
   return {.cover = cover,
-          .height = cover * std::clamp(0.65 * body + 0.5 * pushed + piled, 0.0, 1.0)};
+          .height = thick * std::clamp(0.65 * body + 0.5 * pushed + piled, 0.0, 1.0)};
 }
 
 std::uint8_t byteOf(double part) {

@@ -13,7 +13,7 @@ struct PainterlyParameters {
   double strokeSizePixels = 9.0;  // the fine layer's width
   double layerRatio = 2.0;        // each coarser layer's strokes are wider by this
   double density = 2.0;           // strokes of a layer in a cell as wide as its brush
-  double length = 3.0;            // of a stroke, in widths
+  double length = 5.0;            // of a stroke, in widths
   double detail = 0.16;           // from which fine strokes are painted
   double middleDetail = 0.05;
   double colourThreshold = 0.11;
@@ -25,7 +25,7 @@ struct PainterlyParameters {
   double saturationJitter = 0.12;
   double valueJitter = 0.05;
   Brush brush = Brush::kFlat;
-  double relief = 1.6;
+  double relief = 1.2;
   double gloss = 0.08;
   double canvas = 0.15;
   double wash = 0.85;
