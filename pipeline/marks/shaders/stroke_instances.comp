@@ -64,7 +64,7 @@ void main() {
     bend = max(bend, abs(a.x * chord.y - a.y * chord.x));
   }
   bend /= max(dot(chord, chord), 1.0);
-  float needed = clamp(2.0 + 24.0 * bend, 2.0, quads);
+  float needed = quads;
   vec3 colour = stroke.colour;
   float luma = dot(colour, vec3(0.299, 0.587, 0.114));
   vec3 hue = vec3(randomOf(seed, 0x21u), randomOf(seed, 0x22u), randomOf(seed, 0x23u));

@@ -30,14 +30,16 @@ float canvasAt(vec2 pixel) {
 
 void main() {
   ivec2 p = ivec2(gl_FragCoord.xy);
-  ivec2 last = textureSize(heights, 0) - 1;
   vec3 rgb = texelFetch(colours, p, 0).rgb;
-  float here = texelFetch(heights, p, 0).r;
-  float right = texelFetch(heights, min(p + ivec2(1, 0), last), 0).r;
-  float left = texelFetch(heights, max(p - ivec2(1, 0), ivec2(0)), 0).r;
-  float below = texelFetch(heights, min(p + ivec2(0, 1), last), 0).r;
-  float above = texelFetch(heights, max(p - ivec2(0, 1), ivec2(0)), 0).r;
-  vec2 slope = vec2(right - left, below - above) * relief;
+  // Each tap is the mean of four: the height of a stroke's side is a step, and would sparkle.
+  vec2 texel = 1.0 / vec2(textureSize(heights, 0));
+  vec2 place = gl_FragCoord.xy * texel;
+  float nw = texture(heights, place + vec2(-0.7, -0.7) * texel).r;
+  float ne = texture(heights, place + vec2(0.7, -0.7) * texel).r;
+  float sw = texture(heights, place + vec2(-0.7, 0.7) * texel).r;
+  float se = texture(heights, place + vec2(0.7, 0.7) * texel).r;
+  float here = 0.25 * (nw + ne + sw + se);
+  vec2 slope = 0.5 * vec2(ne + se - nw - sw, sw + se - nw - ne) * relief;
   if (weave > 0.0) {
     vec2 at = gl_FragCoord.xy;
     float thread = canvasAt(at);
