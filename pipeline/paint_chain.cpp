@@ -306,6 +306,7 @@ tracking::PlaneSimilarity PaintChain::followCanvas(const hal::PlaneView& luma,
 
 scene::PictureMovement PaintChain::followPicture(const hal::PlaneView& luma,
                                                  const hal::CapturedFrame& frame) {
+  const auto scope = timer_.measure("follow picture");
   const hal::FrameSize size = frame.image.format.size;
   const gpu::CoverFit fit = gpu::coverFit(size, pictureSize_);
   return {.motion = &imageMotion_.follow(luma, size, frame.sequence),

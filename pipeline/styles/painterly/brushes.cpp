@@ -9,6 +9,8 @@
 namespace pleinair::styles {
 namespace {
 
+constexpr int kSamples = 3;  // of a texel, along each side
+
 /// How a brush marks.
 struct Hairs {
   int bristles;      // across
@@ -119,22 +121,29 @@ std::uint8_t byteOf(double part) {
 
 }  // namespace
 
-gpu::Texture makeBrush(Brush brush) {
+gpu::Texture makeBrush(Brush brush, int across) {
   const Hairs hairs = hairsOf(brush);
-  const hal::FrameSize size{kBrushSize.width, kBrushSize.height * kBrushVariants};
+  const auto along = static_cast<int>(kBrushAspect) * across;
+  const hal::FrameSize size{along, across * kBrushVariants};
   std::vector<std::uint8_t> bytes;
   bytes.reserve(static_cast<std::size_t>(size.pixels()) * 2);
   for (int y = 0; y < size.height; ++y) {
-    const auto variant = static_cast<unsigned>(y / kBrushSize.height);
+    const auto variant = static_cast<unsigned>(y / across);
     const Noise noise(17U + 31U * variant + 101U * static_cast<unsigned>(brush));
-    const double v = (y % kBrushSize.height + 0.5) / kBrushSize.height;
     for (int x = 0; x < size.width; ++x) {
-      const Mark mark = markAt(hairs, noise, (x + 0.5) / size.width, v);
-      bytes.push_back(byteOf(mark.cover));
-      bytes.push_back(byteOf(mark.height));
+      Mark sum{.cover = 0.0, .height = 0.0};
+      for (int i = 0; i < kSamples * kSamples; ++i) {
+        const double u = (x + (i % kSamples + 0.5) / kSamples) / size.width;
+        const double v = (y % across + (i / kSamples + 0.5) / kSamples) / across;
+        const Mark mark = markAt(hairs, noise, u, v);
+        sum.cover += mark.cover;
+        sum.height += mark.height;
+      }
+      bytes.push_back(byteOf(sum.cover / (kSamples * kSamples)));
+      bytes.push_back(byteOf(sum.height / (kSamples * kSamples)));
     }
   }
-  gpu::Texture texture(gpu::TextureFormat::kRg8, size, gpu::TextureFilter::kTrilinear);
+  gpu::Texture texture(gpu::TextureFormat::kRg8, size, gpu::TextureFilter::kLinear);
   texture.upload(bytes, static_cast<std::size_t>(size.width) * 2);
   return texture;
 }

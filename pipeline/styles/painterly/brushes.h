@@ -12,10 +12,11 @@ namespace pleinair::styles {
 enum class Brush { kRound, kFlat, kDry, kKnife, kMarker, kPencil };
 
 inline constexpr int kBrushVariants = 4;  ///< of each, below each other, so that no stamp repeats
-inline constexpr hal::FrameSize kBrushSize{256, 64};  ///< of a variant: along and across a stroke
 
-/// A brush's marks: RG8 of kBrushSize, kBrushVariants times: how much paint is there, and how high
-/// it lies. Made by arithmetic, always the same.
-gpu::Texture makeBrush(Brush brush);
+/// A brush's marks: RG8, LINEAR, kBrushVariants of them: how much paint is there, and how high it
+/// lies. Each has `across` texels across the stroke and four times as many along it, which is for a
+/// stroke of kBrushAspect; of others the middle is stretched. Made by arithmetic, always the same.
+gpu::Texture makeBrush(Brush brush, int across);
+inline constexpr double kBrushAspect = 4.0;
 
 }  // namespace pleinair::styles

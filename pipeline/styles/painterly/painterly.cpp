@@ -73,13 +73,14 @@ struct Canvas {
 struct Plan {
   double strokeSizePixels = 0.0;
   double layerRatio = 0.0;
-  double density = 0.0;
+  double coverage = 0.0;
+  double length = 0.0;
   int seed = 0;
   bool operator==(const Plan&) const = default;
 };
 
 Plan planOf(const PainterlyParameters& p) {
-  return {p.strokeSizePixels, p.layerRatio, p.density, p.seed};
+  return {p.strokeSizePixels, p.layerRatio, p.coverage, p.length, p.seed};
 }
 
 double widthOf(const Plan& plan, std::size_t layer) {
@@ -87,14 +88,18 @@ double widthOf(const Plan& plan, std::size_t layer) {
          std::pow(plan.layerRatio, static_cast<double>(kLayers - 1 - layer));
 }
 
+/// Cells in which two strokes of full length make the coverage.
 marks::AnchorOptions anchorsOf(const Plan& plan, std::size_t layer) {
-  const int target = std::max(1, static_cast<int>(std::lround(plan.density)));
-  return {
-      .density = {.cellPixels = std::max(4, static_cast<int>(std::lround(widthOf(plan, layer)))),
-                  .target = target,
-                  .birthBelow = std::max(1, target / 2),
-                  .deathAbove = 2 * target},
-      .seed = static_cast<unsigned>(plan.seed) * 8U + static_cast<unsigned>(layer)};
+  const double cell = widthOf(plan, layer) * std::sqrt(2.0 * plan.length / plan.coverage);
+  return {.density = {.cellPixels = std::max(4, static_cast<int>(std::lround(cell)))},
+          .seed = static_cast<unsigned>(plan.seed) * 8U + static_cast<unsigned>(layer)};
+}
+
+/// Texels across a brush for strokes of this width, a power of two.
+int texelsFor(double widthPixels) {
+  int texels = 8;
+  while (texels < widthPixels * 1.2 && texels < 64) texels *= 2;
+  return texels;
 }
 
 struct Layer {
@@ -126,6 +131,16 @@ hal::Duration secondsOf(double seconds) {
 
 }  // namespace
 
+namespace {
+
+/// A layer's brush has as many texels as its strokes have pixels.
+struct Brushes {
+  Plan plan;
+  std::array<Texture, kLayers> textures;
+};
+
+}  // namespace
+
 struct Painterly::State {
   explicit State(const gpu::ShaderLibrary& shaders)
       : library(shaders),
@@ -139,8 +154,8 @@ struct Painterly::State {
   gpu::Program ground;
   gpu::Program relief;
   StrokeDrawing drawing;
-  std::optional<Brush> brush;
-  Texture brushTexture;
+  std::optional<Brush> brush;  // that `brushes` are of
+  Brushes brushes;
   std::unique_ptr<Painting> painting;
   std::vector<std::unique_ptr<Canvas>> canvases;  // of each size that was painted
   Canvas* canvas = nullptr;                       // of this frame
@@ -164,8 +179,11 @@ void Painterly::State::take(const scene::ArFrame& frame, const PainterlyParamete
   canvas = known != canvases.end()
                ? known->get()
                : canvases.emplace_back(std::make_unique<Canvas>(frame.size())).get();
-  if (brush != p.brush) {
-    brushTexture = makeBrush(p.brush);
+  if (brush != p.brush || brushes.plan != painting->plan) {
+    for (std::size_t i = 0; i < kLayers; ++i) {
+      brushes.textures[i] = makeBrush(p.brush, texelsFor(widthOf(painting->plan, i)));
+    }
+    brushes.plan = painting->plan;
     brush = p.brush;
   }
 }
@@ -240,8 +258,9 @@ void Painterly::State::drawStrokes(const PainterlyParameters& p, gpu::PassTimer&
       .set("ground", glm::vec3(p.groundRed, p.groundGreen, p.groundBlue))
       .set("wash", static_cast<float>(p.wash))
       .drawFullscreen(canvas->strokes);
-  for (const auto& layer : painting->layers) {
-    drawing.draw(layer->strokes, kQuads, brushTexture, painting->full, canvas->strokes);
+  for (std::size_t i = 0; i < kLayers; ++i) {
+    drawing.draw(painting->layers[i]->strokes, kQuads, brushes.textures[i], painting->full,
+                 canvas->strokes);
   }
 }
 

@@ -61,7 +61,7 @@ ground_green = 0.96
 ground_blue = 0.93
 wander = 0.15
 saturation = 1.1
-density = 1.5
+coverage = 2.5
 )"},
 }};
 

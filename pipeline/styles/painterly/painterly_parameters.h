@@ -10,9 +10,9 @@ namespace pleinair::styles {
 /// What can be tuned of the painter, with the defaults. Lengths are in px of the full picture.
 struct PainterlyParameters {
   int seed = 1;
-  double strokeSizePixels = 9.0;  // the fine layer's width
+  double strokeSizePixels = 7.5;  // the fine layer's width
   double layerRatio = 2.0;        // each coarser layer's strokes are wider by this
-  double density = 2.0;           // strokes of a layer in a cell as wide as its brush
+  double coverage = 3.5;          // strokes of a layer that lie over each other
   double length = 5.0;            // of a stroke, in widths
   double detail = 0.16;           // from which fine strokes are painted
   double middleDetail = 0.05;

@@ -4,15 +4,21 @@
 //          over what is there.
 // Precision: mediump would do, but for places.
 uniform sampler2D brushes;
-uniform float hardness;
 in vec2 brush;
 in vec4 paint;
-in float aspect;
+flat in float aspect;
 layout(location = 0) out vec4 colour;
 layout(location = 1) out vec4 height;
 
 void main() {
-  vec2 texel = texture(brushes, brush).rg;
+  // The brush's ends keep their shape: a width of each end is the texture's first and last quarter.
+  float cap = min(1.0, 0.5 * aspect);
+  float fromStart = brush.x * aspect;
+  float fromEnd = aspect - fromStart;
+  float along = fromStart < cap ? 0.25 * fromStart / cap
+                : fromEnd < cap ? 1.0 - 0.25 * fromEnd / cap
+                                : 0.25 + 0.5 * (fromStart - cap) / max(aspect - 2.0 * cap, 1e-3);
+  vec2 texel = texture(brushes, vec2(along, brush.y)).rg;
   float cover = paint.a * texel.r;
   // Little pigment on the ridge's sides, more in its furrows' shade: the colour goes with the height.
   vec3 tinted = paint.rgb * (0.94 + 0.12 * texel.g);

@@ -14,7 +14,7 @@ uniform float quads;
 uniform vec2 fullSize;
 out vec2 brush;
 out vec4 paint;
-out float aspect;
+flat out float aspect;
 
 const float kVariants = 4.0;
 const int kLast = 7;
@@ -48,6 +48,6 @@ void main() {
   float acrossBrush = 0.5 + 0.5 * (shape.z > 0.5 ? -side : side);
   brush = vec2(t, (shape.y + 0.02 + 0.96 * acrossBrush) / kVariants);
   paint = strokePaint;
-  aspect = length(length_) / max(2.0 * shape.x, 1.0);
+  aspect = length(length_) / max(2.0 * shape.x, 1.0) + 0.6;
   gl_Position = vec4(2.0 * at / fullSize - 1.0, 0.0, 1.0);
 }

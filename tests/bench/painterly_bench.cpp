@@ -1,0 +1,129 @@
+// What the painter costs, in the thesis's four stages (table 1: tensor field, features and
+// matching, warping of anchors, painting), beside OpenCV's stylization of the same frames in the
+// same run. Stages are timed by fences, which makes their sum more than the whole.
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/photo.hpp>
+
+#include "hal/cameras/synthetic/synthetic_camera.h"
+#include "pipeline/painter.h"
+
+namespace {
+
+using namespace pleinair;  // NOLINT(google-build-using-namespace): a program, not a header
+
+constexpr std::uint64_t kFrames = 16;
+
+std::vector<hal::CapturedFrame> workbench(hal::FrameSize size) {
+  hal::SteppedClock clock;
+  hal::SyntheticCamera camera({.size = size, .frameCount = kFrames}, clock);
+  hal::orThrow(camera.start({}));
+  std::vector<hal::CapturedFrame> frames;
+  for (std::uint64_t i = 0; i < kFrames; ++i) {
+    hal::NextFrame next = camera.next(hal::TimePoint::max());
+    frames.push_back(std::get<hal::CapturedFrame>(std::move(next)));
+  }
+  camera.stop();
+  return frames;
+}
+
+/// Forth and back, so that no frame is far from the one before.
+std::size_t frameAt(std::uint64_t number) {
+  const std::uint64_t place = number % (2 * kFrames - 2);
+  return place < kFrames ? place : 2 * kFrames - 2 - place;
+}
+
+struct Bench {
+  Bench(hal::FrameSize size, const char* style, gpu::PassTiming timing)
+      : frames(workbench(size)),
+        painter({.pictureSize = size,
+                 .scene = {},
+                 .style = style,
+                 .tracksTags = false,
+                 .passTiming = timing}),
+        parameters(painter.defaultParameters()) {
+    for (int i = 0; i < 8; ++i) paint();
+  }
+  void paint() {
+    hal::CapturedFrame frame = frames[frameAt(number)];
+    frame.sequence = number;
+    frame.captureTime =
+        hal::TimePoint(hal::Duration(33'333'333) * static_cast<std::int64_t>(number));
+    ++number;
+    hal::orThrow(painter.paint(frame, parameters));
+  }
+  std::vector<hal::CapturedFrame> frames;
+  Painter painter;
+  PaintParameters parameters;
+  std::uint64_t number = 0;
+};
+
+hal::FrameSize sizeOf(const benchmark::State& state) {
+  return {static_cast<int>(state.range(0)), static_cast<int>(state.range(1))};
+}
+
+void whole(benchmark::State& state, const char* style) {
+  Bench bench(sizeOf(state), style, gpu::PassTiming::kOff);
+  for ([[maybe_unused]] auto _ : state) {
+    bench.paint();
+    hal::orThrow(bench.painter.still());  // waits; reading it back counts, too
+  }
+}
+
+std::string_view stageOf(std::string_view pass) {
+  if (pass == "tensor field") return "tensor";
+  if (pass == "follow picture") return "features";
+  if (pass == "motion field" || pass == "carry anchors" || pass == "keep density") return "warping";
+  return "painting";
+}
+
+void stages(benchmark::State& state) {
+  Bench bench(sizeOf(state), "painterly", gpu::PassTiming::kFences);
+  std::map<std::string, double, std::less<>> before;
+  for (const gpu::PassTime& each : bench.painter.passTimes()) {
+    before[each.pass] = std::chrono::duration<double, std::milli>(each.total).count();
+  }
+  for ([[maybe_unused]] auto _ : state) bench.paint();
+  const auto frames = static_cast<double>(state.iterations());
+  for (const gpu::PassTime& each : bench.painter.passTimes()) {
+    const double total = std::chrono::duration<double, std::milli>(each.total).count();
+    const double ms = (total - before[each.pass]) / frames;
+    state.counters[each.pass + " ms"] = ms;
+    state.counters["= " + std::string(stageOf(each.pass)) + " ms"] += ms;
+  }
+}
+
+void stylization(benchmark::State& state) {
+  std::vector<cv::Mat> frames;
+  for (const hal::CapturedFrame& each : workbench(sizeOf(state))) {
+    cv::Mat bgr;
+    const hal::FrameSize size = each.image.format.size;
+    auto* const luma = const_cast<std::uint8_t*>(each.image.row(0, 0).data());
+    cv::cvtColor(cv::Mat(size.height, size.width, CV_8UC1, luma, each.image.planes[0].strideBytes),
+                 bgr, cv::COLOR_GRAY2BGR);
+    frames.push_back(bgr);
+  }
+  cv::Mat painted;
+  std::uint64_t number = 0;
+  for ([[maybe_unused]] auto _ : state) cv::stylization(frames[frameAt(number++)], painted);
+}
+
+void atSizes(benchmark::internal::Benchmark* benchmark) {
+  benchmark->Args({640, 480})->Args({1024, 768})->Args({1440, 1050});
+  benchmark->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()->MinTime(2.0);
+}
+
+BENCHMARK_CAPTURE(whole, painterly, "painterly")->Name("painterly/whole")->Apply(atSizes);
+BENCHMARK(stages)->Name("painterly/stages")->Apply(atSizes);
+BENCHMARK(stylization)->Name("OpenCV/stylization")->Apply(atSizes);
+
+}  // namespace
