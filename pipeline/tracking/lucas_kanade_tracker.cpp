@@ -25,16 +25,20 @@ constexpr double kWornContrast = 0.25;
 constexpr double kMostPlacing = 0.12;  // px of error by a level of noise: more is no corner
 constexpr int kMostMissing = 12;       // frames that a feature is looked for in vain
 // Predicted errors: docs/measured.md says how they agree with true ones.
-constexpr double kRmsByMean = 1.25;  // of normally distributed differences
+/// Of Cramér and Rao's bound, and of the mean difference's root mean square by it.
+constexpr double kPlacing = 1.3 * 1.25;
 constexpr double kLeastErrorPx = 0.008;
 constexpr double kBackPart = 0.5;
-/// Of the fields that had a feature after the last key frame, the part that is too few …
-constexpr double kFewCells = 0.85;
+/// Of the features, or of larger fields with one, that there were after the last key frame, the
+/// part that is too few …
+constexpr double kFew = 0.75;
+constexpr double kFewFields = 0.88;
+constexpr int kFieldCells = 2;  // on each side of a larger field
 /// … or of the features, the part whose looks have changed, which is enough for a new one.
 constexpr double kManyWorn = 0.15;
 constexpr int kKeyFrames = 4;  // between two key frames, unless most are lost
 constexpr double kVeryFew = 0.5;
-constexpr int kSeekFrames = 45;        // new corners are looked for that often at least …
+constexpr int kSeekFrames = 8;        // new corners are looked for that often at least …
 constexpr std::size_t kWorthAKey = 4;  // … and so many of them are worth a key frame
 constexpr double kLostShare = 0.3;     // fewer found: the whole picture may have jumped
 constexpr std::size_t kLeastToJudge = 12;
@@ -61,7 +65,7 @@ void LucasKanadeTracker::reset() {
   seen_.clear();
   framesSinceKey_ = kSeekFrames;
   foundShare_ = 0.0;
-  keyCells_ = 0;
+  keySpread_ = {};
 }
 
 /// From the gradients in the window (Cramér and Rao's bound).
@@ -107,7 +111,7 @@ void LucasKanadeTracker::judge(Feature& feature, const LumaPyramid& now, std::si
                     difference < kNoiseDifference + kLostContrast * contrast;
   if (!feature.isFound) return;
   feature.isWorn = difference > kNoiseDifference + kWornContrast * contrast;
-  const double placing = kRmsByMean * difference * feature.texture.placing;
+  const double placing = kPlacing * difference * feature.texture.placing;
   const double scale = std::max(now.reduction().x, now.reduction().y);
   feature.errorPx = scale * std::hypot(placing, kBackPart * follower_.backPx(of), kLeastErrorPx);
   feature.step = at - feature.then;
@@ -195,7 +199,7 @@ double LucasKanadeTracker::shareFound() const {
 }
 
 /// What was not found is looked for next time where the found ones go.
-void LucasKanadeTracker::guessMissing() {
+void LucasKanadeTracker::guessMissing(const LumaPyramid& now) {
   cv::Point2f shift(0.0F, 0.0F);
   float count = 0.0F;
   for (const Feature& feature : features_) {
@@ -213,30 +217,43 @@ void LucasKanadeTracker::guessMissing() {
       feature.step = shift;
     }
   }
-  std::erase_if(features_, [](const Feature& f) { return f.missingFrames > kMostMissing; });
+  std::erase_if(features_, [&](const Feature& f) {
+    return f.missingFrames > kMostMissing ||
+           (f.missingFrames > 0 && !now.isInside(f.at, -kBorderPx));
+  });
 }
 
-std::size_t LucasKanadeTracker::countCells(const LumaPyramid& now) {
+LucasKanadeTracker::Spread LucasKanadeTracker::spread(const LumaPyramid& now) {
   cells_.assign(static_cast<std::size_t>(kColumns) * kRows, 0);
   const cv::Size size = now.picture().size();
+  Spread out;
   for (const Feature& feature : features_) {
     if (!feature.isFound) continue;
+    ++out.features;
     const int column = static_cast<int>(feature.at.x) * kColumns / size.width;
     const int row = static_cast<int>(feature.at.y) * kRows / size.height;
     cells_[static_cast<std::size_t>(row * kColumns + column)] = 1;
   }
-  return static_cast<std::size_t>(std::ranges::count(cells_, 1));
+  for (int row = 0; row < kRows; row += kFieldCells) {
+    for (int column = 0; column < kColumns; column += kFieldCells) {
+      const auto* const cell = &cells_[static_cast<std::size_t>(row * kColumns + column)];
+      out.fields += (cell[0] | cell[1] | cell[kColumns] | cell[kColumns + 1]) != 0 ? 1U : 0U;
+    }
+  }
+  return out;
 }
 
-bool LucasKanadeTracker::needsKey(std::size_t cells) const {
-  const auto had = static_cast<double>(keyCells_);
-  const auto have = static_cast<double>(cells);
-  if (have < kVeryFew * had) return true;
+bool LucasKanadeTracker::needsKey(const Spread& have) const {
+  const auto isBelow = [](std::size_t count, double part, std::size_t of) {
+    return static_cast<double>(count) < part * static_cast<double>(of);
+  };
+  if (isBelow(have.features, kVeryFew, keySpread_.features)) return true;
   if (framesSinceKey_ < kKeyFrames) return false;
-  const auto worn =
-      std::ranges::count_if(features_, [](const Feature& f) { return f.isFound && f.isWorn; });
-  return have < kFewCells * had ||
-         static_cast<double>(worn) > kManyWorn * static_cast<double>(features_.size());
+  const auto worn = static_cast<std::size_t>(
+      std::ranges::count_if(features_, [](const Feature& f) { return f.isFound && f.isWorn; }));
+  return isBelow(have.features, kFew, keySpread_.features) ||
+         isBelow(have.fields, kFewFields, keySpread_.fields) ||
+         !isBelow(worn, kManyWorn, have.features + 1);
 }
 
 void LucasKanadeTracker::takeOver(Feature& feature, std::size_t key, const LumaPyramid& now) {
@@ -285,6 +302,9 @@ void LucasKanadeTracker::makeKey(const std::shared_ptr<const LumaPyramid>& now, 
   if (!corners_.look(*now)) return;  // too small a picture
   findCorners(*now);
   if (!isNeeded && newCorners_.size() < kWorthAKey) return;
+  if (features_.size() + newCorners_.size() > kMostMovedFeatures) {
+    std::erase_if(features_, [](const Feature& f) { return !f.isFound; });
+  }
   const std::size_t key = freeKey(*now);
   keys_[key] = now;
   for (const cv::Point2f& at : newCorners_) {
@@ -298,7 +318,7 @@ void LucasKanadeTracker::makeKey(const std::shared_ptr<const LumaPyramid>& now, 
                          .texture = textureAt(*now, at),
                          .isFound = true});
   }
-  keyCells_ = countCells(*now);
+  keySpread_ = spread(*now);
 }
 
 void LucasKanadeTracker::publish(const LumaPyramid& now) {
@@ -324,10 +344,10 @@ std::span<const SeenFeature> LucasKanadeTracker::follow(std::shared_ptr<const Lu
   if (then_ && features_.size() >= kLeastToJudge && shareFound() < kLostShare) searchWidely(*now);
   rejectOutliers();
   foundShare_ = shareFound();
-  guessMissing();
+  guessMissing(*now);
   ++framesSinceKey_;
   publish(*now);
-  const bool isNeeded = needsKey(countCells(*now));
+  const bool isNeeded = needsKey(spread(*now));
   if (isNeeded || framesSinceKey_ >= kSeekFrames) makeKey(now, isNeeded);
   then_ = std::move(now);
   return seen_;

@@ -47,6 +47,11 @@ class LucasKanadeTracker : public FeatureTracker {
     bool isWorn = false;  // looks different from the key frame
     int missingFrames = 0;
   };
+  /// How many features are found, and how many fields of the picture have one.
+  struct Spread {
+    std::size_t features = 0;
+    std::size_t fields = 0;
+  };
 
   static Texture textureAt(const LumaPyramid& pyramid, const cv::Point2f& at);
   void findAll(const LumaPyramid& now, bool isRetry);
@@ -54,9 +59,9 @@ class LucasKanadeTracker : public FeatureTracker {
   bool searchWidely(const LumaPyramid& now);
   void rejectOutliers();
   double shareFound() const;
-  void guessMissing();
-  std::size_t countCells(const LumaPyramid& now);
-  bool needsKey(std::size_t cells) const;
+  void guessMissing(const LumaPyramid& now);
+  Spread spread(const LumaPyramid& now);
+  bool needsKey(const Spread& have) const;
   void findCorners(const LumaPyramid& now);
   void makeKey(const std::shared_ptr<const LumaPyramid>& now, bool isNeeded);
   std::size_t freeKey(const LumaPyramid& now);
@@ -73,7 +78,7 @@ class LucasKanadeTracker : public FeatureTracker {
   std::uint32_t nextId_ = 0;
   double foundShare_ = 0.0;
   int framesSinceKey_ = 0;
-  std::size_t keyCells_ = 0;  // with a feature, after the last key frame was made
+  Spread keySpread_;  // after the last key frame was made
   // Of the features of one key frame.
   std::vector<std::size_t> members_;
   std::vector<cv::Point2f> origins_;
