@@ -214,7 +214,7 @@ TEST_F(AnchorLife, DyingOnesDoNotComeBack) {
   std::set<std::uint32_t> dying;
   next({});
   for (int i = 0; i < 60; ++i) {
-    for (const Anchor& each : next(i < 30 ? zooming(0.985) : zooming(1.01))) {
+    for (const Anchor& each : next(i < 30 ? zooming(0.97) : zooming(1.01))) {
       if (!each.isAlive()) continue;
       if ((each.state & Anchor::kDying) != 0) dying.insert(each.seed);
       ASSERT_TRUE((each.state & Anchor::kDying) != 0 || !dying.contains(each.seed));
