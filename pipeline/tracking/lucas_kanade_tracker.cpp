@@ -16,6 +16,7 @@ namespace {
 constexpr int kColumns = 18;
 constexpr int kRows = 14;
 constexpr double kBorderPx = 6.0;
+constexpr int kFewLevels = 1;
 constexpr double kBackPx = 0.4;  // from where a feature came
 /// Mean grey levels in a feature's window by which it may differ: lost, worn.
 constexpr double kLargestDifference = 16.0;
@@ -38,7 +39,7 @@ constexpr int kFieldCells = 2;  // on each side of a larger field
 constexpr double kManyWorn = 0.15;
 constexpr int kKeyFrames = 4;  // between two key frames, unless most are lost
 constexpr double kVeryFew = 0.5;
-constexpr int kSeekFrames = 8;        // new corners are looked for that often at least …
+constexpr int kSeekFrames = 8;         // new corners are looked for that often at least …
 constexpr std::size_t kWorthAKey = 4;  // … and so many of them are worth a key frame
 constexpr double kLostShare = 0.3;     // fewer found: the whole picture may have jumped
 constexpr std::size_t kLeastToJudge = 12;
@@ -47,7 +48,7 @@ constexpr double kAlikePx = 1.5;
 constexpr double kAlikePart = 0.25;
 
 double lengthOf(const cv::Point2f& p) {
-  return std::hypot(static_cast<double>(p.x), static_cast<double>(p.y));
+  return std::sqrt(static_cast<double>(p.dot(p)));
 }
 
 }  // namespace
@@ -118,20 +119,21 @@ void LucasKanadeTracker::judge(Feature& feature, const LumaPyramid& now, std::si
   feature.at = at;
 }
 
-void LucasKanadeTracker::findAll(const LumaPyramid& now, bool isRetry) {
+/// Of the features that have not been found yet, all or those that were found in the frame before.
+void LucasKanadeTracker::find(const LumaPyramid& now, bool all, int levels) {
   for (std::size_t key = 0; key < kKeys; ++key) {
     members_.clear();
     origins_.clear();
     points_.clear();
     for (std::size_t i = 0; i < features_.size(); ++i) {
       const Feature& feature = features_[i];
-      if (feature.key != key || (isRetry && feature.isFound)) continue;
+      if (feature.key != key || feature.isFound || !(all || feature.wasFound)) continue;
       members_.push_back(i);
       origins_.push_back(feature.origin);
       points_.push_back(feature.then + feature.step);
     }
     if (members_.empty()) continue;
-    follower_.follow(*keys_[key], now, origins_, points_);
+    follower_.follow(*keys_[key], now, origins_, points_, levels);
     for (std::size_t m = 0; m < members_.size(); ++m) {
       judge(features_[members_[m]], now, m, points_[m]);
     }
@@ -153,7 +155,7 @@ bool LucasKanadeTracker::searchWidely(const LumaPyramid& now) {
   for (Feature& feature : features_) {
     if (!feature.isFound) feature.step = jump;
   }
-  findAll(now, true);
+  find(now, true, LumaPyramid::kLevels);
   return true;
 }
 
@@ -340,7 +342,9 @@ std::span<const SeenFeature> LucasKanadeTracker::follow(std::shared_ptr<const Lu
     feature.isFound = false;
     feature.then = feature.at;
   }
-  findAll(*now, false);
+  // Most are where their motion says; the others may be anywhere near.
+  find(*now, false, kFewLevels);
+  find(*now, true, LumaPyramid::kLevels);
   if (then_ && features_.size() >= kLeastToJudge && shareFound() < kLostShare) searchWidely(*now);
   rejectOutliers();
   foundShare_ = shareFound();

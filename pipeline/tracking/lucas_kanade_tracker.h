@@ -54,7 +54,7 @@ class LucasKanadeTracker : public FeatureTracker {
   };
 
   static Texture textureAt(const LumaPyramid& pyramid, const cv::Point2f& at);
-  void findAll(const LumaPyramid& now, bool isRetry);
+  void find(const LumaPyramid& now, bool all, int levels);
   void judge(Feature& feature, const LumaPyramid& now, std::size_t of, const cv::Point2f& at);
   bool searchWidely(const LumaPyramid& now);
   void rejectOutliers();
