@@ -8,6 +8,8 @@
 #include "config/suggestion.h"
 #include "hal/error.h"
 #include "pipeline/gpu/cover_fit.h"
+#include "pipeline/marks/anchor_set.h"
+#include "pipeline/marks/marks_shaders.h"
 #include "pipeline/present/present_shaders.h"
 #include "pipeline/quality_levels.h"
 #include "pipeline/styles/style_registry.h"
@@ -23,6 +25,7 @@ gpu::ShaderLibrary makeLibrary(const PainterOptions& options) {
   gpu::ShaderLibrary library(options.shaderDirectory);
   library.add(gpu::presentShaders());
   library.add(gpu::sceneShaders());
+  library.add(gpu::marksShaders());
   styles::addStyleShaders(library);
   return library;
 }
@@ -284,16 +287,30 @@ scene::ArFrame PaintChain::compose(const hal::CapturedFrame& frame,
                          .tags = sightings_},
                         frame.sequence, frame.captureTime, timer_, needs, lights);
   composed.fullSize = pictureSize_;
-  if (style_->usesCanvas()) composed.canvasFromPicture = followCanvas(frame.image);
+  if (!style_->usesCanvas() && !needs.pictureMovement) return composed;
+  const hal::PlaneView luma = luma_.convert(frame.image);
+  if (style_->usesCanvas()) {
+    composed.canvasFromPicture = followCanvas(luma, frame.image.format.size);
+  }
+  if (needs.pictureMovement) composed.pictureMovement = followPicture(luma, frame);
   return composed;
 }
 
 /// Motion is followed in the captured frame; the canvas has the full picture's pixels.
-tracking::PlaneSimilarity PaintChain::followCanvas(const hal::ImageView& image) {
-  const gpu::CoverFit fit = gpu::coverFit(image.format.size, pictureSize_);
+tracking::PlaneSimilarity PaintChain::followCanvas(const hal::PlaneView& luma,
+                                                   hal::FrameSize size) {
+  const gpu::CoverFit fit = gpu::coverFit(size, pictureSize_);
   const tracking::PlaneSimilarity frameFromPicture{{fit.scale.x, 0.0}, fit.origin};
-  return frameFromPicture.inverse() * motion_.follow(luma_.convert(image), image.format.size) *
-         frameFromPicture;
+  return frameFromPicture.inverse() * motion_.follow(luma, size) * frameFromPicture;
+}
+
+scene::PictureMovement PaintChain::followPicture(const hal::PlaneView& luma,
+                                                 const hal::CapturedFrame& frame) {
+  const hal::FrameSize size = frame.image.format.size;
+  const gpu::CoverFit fit = gpu::coverFit(size, pictureSize_);
+  return {.motion = &imageMotion_.follow(luma, size, frame.sequence),
+          .frameScale = fit.scale,
+          .frameOrigin = fit.origin};
 }
 
 const gpu::Texture& PaintChain::paintView(const scene::ArFrame& frame,
@@ -357,6 +374,12 @@ hal::Result<hal::Image> PaintChain::cameraStill() {
   return read(camera_);
 }
 
+hal::Result<std::vector<marks::Anchor>> PaintChain::anchors() {
+  if (auto sound = watch_.check(); !sound) return tl::unexpected(std::move(sound.error()));
+  const marks::AnchorSet* set = style_->anchors();
+  return set == nullptr ? std::vector<marks::Anchor>{} : set->read();
+}
+
 hal::Result<hal::Image> PaintChain::read(const gpu::Texture* texture) {
   if (auto sound = watch_.check(); !sound) return tl::unexpected(std::move(sound.error()));
   assert(texture != nullptr);
@@ -376,6 +399,7 @@ void PaintChain::reset() {
   style_->reset();
   renderer_.reset();
   motion_.reset();
+  imageMotion_.reset();
   if (light_) light_->reset();
   if (tracker_) tracker_->reset();
 }

@@ -145,6 +145,10 @@ hal::Result<hal::Image> Painter::cameraStill() const {
   return impl_->call([&] { return impl_->chain->cameraStill(); });
 }
 
+hal::Result<std::vector<marks::Anchor>> Painter::anchors() const {
+  return impl_->call([&] { return impl_->chain->anchors(); });
+}
+
 void Painter::reset() {
   impl_->run([&] { impl_->chain->reset(); });
 }

@@ -16,6 +16,7 @@
 #include "pipeline/gpu/egl_context.h"
 #include "pipeline/gpu/gpu_loss.h"
 #include "pipeline/gpu/pass_timer.h"
+#include "pipeline/marks/anchor.h"
 #include "pipeline/scene/scene.h"
 #include "pipeline/tracking/tracker.h"
 
@@ -150,6 +151,10 @@ class Painter {
   /// Precondition: something was painted.
   hal::Result<hal::Image> still() const;
   hal::Result<hal::Image> cameraStill() const;
+
+  /// Waits for the last paint and reads the style's anchors, a slot each, free ones too: for
+  /// measures. Empty for a style without. Error: kDeviceLost, for ever.
+  hal::Result<std::vector<marks::Anchor>> anchors() const;
 
   /// Forgets the past, as after a cut.
   void reset();

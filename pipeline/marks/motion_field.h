@@ -40,8 +40,8 @@ class MotionField {
   const gpu::Texture& backward() const;
   static constexpr int kFieldPixels = 8;
 
-  /// Binds what shaders/image_motion.glsl reads, forward in time: uniform blocks from `firstBlock`
-  /// on, kBlocks of them, and two textures. Precondition: the program is in use.
+  /// Binds what shaders/image_motion.glsl reads for questions forward in time: uniform blocks 1 to
+  /// 3, two textures, and the camera. Precondition: the program is in use.
   void bind(gpu::Program& program) const;
 
   /// Forgets the frame before.

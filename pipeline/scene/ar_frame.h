@@ -56,8 +56,8 @@ struct SurfaceAccess {
   static constexpr std::size_t kBodyBytes = 512;
   std::size_t planeCount = 0;
   std::span<const std::size_t> models;            ///< those seen, as the scene counts them
-  const tracking::CameraModel* camera = nullptr;  ///< of pictures of ArFrame::size()
   std::span<const std::uint32_t> objects;         ///< of each model of the scene: its object id
+  const tracking::CameraModel* camera = nullptr;  ///< of pictures of ArFrame::size()
 };
 
 /// How the camera's picture moved, where that was asked for.

@@ -58,6 +58,7 @@ ArFrameRenderer::ArFrameRenderer(const gpu::ShaderLibrary& library, Scene scene)
 }
 
 void ArFrameRenderer::makePrograms(const gpu::ShaderLibrary& library) {
+  for (std::size_t i = 0; i < scene_.models.size(); ++i) objects_.push_back(objectId(scene_, i));
   if (!scene_.models.empty() || !scene_.planes.empty()) {
     surfacePass_.emplace(library, scene_, geometry_);
   }
@@ -331,6 +332,15 @@ void ArFrameRenderer::findSurfaces(const tracking::CameraModel& camera) {
   surfacePass_->run(now_->ids, camera, bodies_, visible_, *now_->known);
   frame_.barycentrics = &now_->known->barycentrics;
   frame_.parts = &now_->known->parts;
+  camera_ = camera;
+  frame_.surfaces =
+      SurfaceAccess{.posed = geometry_.isEmpty() ? nullptr : &geometry_.posed(),
+                    .triangles = geometry_.isEmpty() ? nullptr : &geometry_.triangles(),
+                    .bodies = &surfacePass_->bodies(),
+                    .planeCount = scene_.planes.size(),
+                    .models = visible_,
+                    .objects = objects_,
+                    .camera = &*camera_};
   if (!before_) return;
   frame_.motion = MotionField{.texture = &now_->known->motion,
                               .sinceSequence = before_->sequence,

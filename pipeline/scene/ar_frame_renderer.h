@@ -111,6 +111,8 @@ class ArFrameRenderer {
   gpu::Texture white_;                              // of materials without a texture
   std::vector<std::size_t> visible_;                // models of this frame
   std::vector<Lighting> lights_;                    // of each model, in the camera's frame
+  std::vector<std::uint32_t> objects_;              // ids of all models
+  std::optional<tracking::CameraModel> camera_;     // of ArFrame::surfaces
   Shading shading_ = Shading::kToon;
   std::vector<std::optional<hal::TimePoint>> firstSight_;  // of each model
   std::vector<std::unique_ptr<Surfaces>> surfaces_;        // of each size that was composed

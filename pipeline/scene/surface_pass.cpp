@@ -9,6 +9,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "pipeline/scene/ar_frame.h"
 #include "pipeline/scene/lens_uniforms.h"
 #include "pipeline/scene/object_id.h"
 
@@ -49,6 +50,7 @@ SurfacePass::SurfacePass(const gpu::ShaderLibrary& library, const Scene& scene,
                          const PosedGeometry& geometry)
     : scene_(scene), geometry_(geometry) {
   static_assert(sizeof(GpuBody) % gpu::kUniformAlignment == 0);
+  static_assert(sizeof(GpuBody) == SurfaceAccess::kBodyBytes);
   if (!scene.models.empty()) surface_ = library.compute("pipeline/scene/shaders/surface.comp");
   if (std::ranges::any_of(scene.models, &SceneModel::isOccluder)) {
     realSurface_ = library.compute("pipeline/scene/shaders/surface_real.comp");

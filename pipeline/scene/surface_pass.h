@@ -49,6 +49,9 @@ class SurfacePass {
   void run(const gpu::Texture& ids, const tracking::CameraModel& camera, const SceneBodies& bodies,
            std::span<const std::size_t> models, Buffers& buffers);
 
+  /// SurfaceAccess::bodies, as of the last run().
+  const gpu::Buffer& bodies() const { return bodies_; }
+
  private:
   /// shaders/bodies.glsl.
   struct GpuBody {

@@ -8,3 +8,7 @@ const uint kNumberBits = 22u;
 uint idOf(uint object, uint number) { return object << kNumberBits | number; }
 uint objectOf(uint id) { return id >> kNumberBits; }
 uint numberOf(uint id) { return id & ((1u << kNumberBits) - 1u); }
+
+// Occluders: what is seen there is the camera's picture (scene::kRealObject).
+const uint kRealObject = 512u;
+bool isVirtual(uint object) { return object != 0u && object < kRealObject; }

@@ -2,7 +2,7 @@
 //          are exact integers.
 // Inputs, outputs: cells (column, row); positions in px of the picture; cellPixels: (W/n, H/m).
 // Precision: highp: 1/64 px up to 8192 px.
-#include "pipeline/styles/watercolor/shaders/hash.glsl"
+#include "pipeline/gpu/shaders/hash.glsl"
 const float kSeedUnits = 64.0;  // in a pixel
 
 vec2 snapToLattice(vec2 position) { return floor(position * kSeedUnits + 0.5) / kSeedUnits; }

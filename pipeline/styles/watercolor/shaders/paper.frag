@@ -3,7 +3,7 @@
 // Outputs: RGBA8: R height of a cold-pressed sheet, G light from the top left on that relief (0.5 is
 //          flat), B and A a slow wander in x and y (0.5 is none).
 // Precision: highp.
-#include "pipeline/styles/watercolor/shaders/hash.glsl"
+#include "pipeline/gpu/shaders/hash.glsl"
 layout(location = 0) out vec4 paper;
 const int kTile = 512;  // px, as in the code
 

@@ -1,0 +1,242 @@
+#include "pipeline/marks/anchor_set.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "pipeline/gpu/program.h"
+#include "pipeline/scene/lens_uniforms.h"
+#include "pipeline/scene/scene.h"
+
+namespace pleinair::marks {
+namespace {
+
+const std::string kShaders = "pipeline/marks/shaders/";
+constexpr std::size_t kCellBytes = 32;  // shaders/anchor_cells.glsl
+constexpr int kMostStrata = 4;          // along a cell's side, likewise
+constexpr GLbitfield kStored = GL_SHADER_STORAGE_BARRIER_BIT;
+constexpr glm::ivec2 kSlotGroup{64, 1};
+constexpr glm::ivec2 kCellGroup{8, 8};
+constexpr hal::Duration kLongestStep = std::chrono::seconds(1);
+
+glm::ivec2 gridOf(hal::FrameSize full, int cellPixels) {
+  return {(full.width + cellPixels - 1) / cellPixels, (full.height + cellPixels - 1) / cellPixels};
+}
+
+/// Room for every cell to be halfway between what it aims at and where it becomes too crowded.
+std::uint32_t slotsFor(glm::ivec2 grid, const DensityRule& rule) {
+  const int twice = grid.x * grid.y * (rule.target + rule.deathAbove);
+  return static_cast<std::uint32_t>((twice + 1) / 2);
+}
+
+/// How far a fade of this length goes in `step`.
+float fadeOf(hal::Duration step, hal::Duration length) {
+  if (length <= hal::Duration(0)) return 1.0F;
+  return static_cast<float>(static_cast<double>(step.count()) /
+                            static_cast<double>(length.count()));
+}
+
+}  // namespace
+
+struct AnchorSet::State {
+  State(const gpu::ShaderLibrary& library, hal::FrameSize fullSize, AnchorOptions given)
+      : full(fullSize),
+        options(given),
+        grid(gridOf(full, given.density.cellPixels)),
+        slots(slotsFor(grid, given.density)),
+        image(library.compute(kShaders + "anchor_image.comp")),
+        surface(library.compute(kShaders + "anchor_surface.comp")),
+        census(library.compute(kShaders + "anchor_census.comp")),
+        balance(library.compute(kShaders + "anchor_balance.comp")),
+        plan(library.compute(kShaders + "anchor_plan.comp")),
+        bear(library.compute(kShaders + "anchor_bear.comp")),
+        anchors(slots * sizeof(Anchor), gpu::BufferUsage::kDynamic),
+        cells(static_cast<std::size_t>(grid.x * grid.y) * kCellBytes, gpu::BufferUsage::kDynamic),
+        births((slots + 1) * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
+        noIds(gpu::TextureFormat::kR32ui, {1, 1}) {
+    anchors.write(std::vector<std::byte>(anchors.sizeBytes()));
+    cells.write(std::vector<std::byte>(cells.sizeBytes()));
+  }
+
+  hal::FrameSize full;
+  AnchorOptions options;
+  glm::ivec2 grid;
+  std::uint32_t slots;
+  gpu::Program image;
+  gpu::Program surface;
+  gpu::Program census;
+  gpu::Program balance;
+  gpu::Program plan;
+  gpu::Program bear;
+  gpu::Buffer anchors;
+  gpu::Buffer cells;
+  gpu::Buffer births;  // free slots, in order
+  gpu::Texture noIds;
+  hal::TimePoint lastTime;
+  std::uint32_t salt = 0;  // of this frame's births
+  bool hasPast = false;
+  bool hasBegunAnew = true;
+
+  glm::ivec2 allSlots() const { return {static_cast<int>(slots), 1}; }
+  int strataSide() const {
+    const double side = std::ceil(std::sqrt(static_cast<double>(options.density.target)));
+    return std::clamp(static_cast<int>(side), 1, kMostStrata);
+  }
+  /// How far beyond the border anchors go on: who trembles there is not born again and again.
+  float margin() const { return static_cast<float>(options.density.cellPixels); }
+
+  gpu::Program& begin(gpu::Program& program, const scene::ArFrame& frame) {
+    return program.use()
+        .texture("ids", frame.hasObjects ? *frame.ids : noIds)
+        .set("hasObjects", frame.hasObjects ? 1 : 0)
+        .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
+        .set("fullSize", glm::vec2(full.width, full.height))
+        .set("margin", margin())
+        .set("slots", slots)
+        .set("grid", grid)
+        .set("cellPixels", options.density.cellPixels)
+        .set("strataSide", strataSide());
+  }
+
+  void carryInImage(const scene::ArFrame& frame, const MotionField& motion, hal::Duration step);
+  void carryOnSurfaces(const scene::ArFrame& frame);
+  void takeCensus(const scene::ArFrame& frame, hal::Duration step);
+  void keepDensity(const scene::ArFrame& frame);
+};
+
+void AnchorSet::State::carryInImage(const scene::ArFrame& frame, const MotionField& motion,
+                                    hal::Duration step) {
+  begin(image, frame).storage(0, anchors);
+  motion.bind(image);
+  image.set("stepSeconds", std::chrono::duration<float>(step).count())
+      .set("anew", hasBegunAnew ? 1 : 0)
+      .dispatch(allSlots(), kSlotGroup, kStored);
+}
+
+void AnchorSet::State::carryOnSurfaces(const scene::ArFrame& frame) {
+  if (!frame.surfaces || frame.surfaces->posed == nullptr || hasBegunAnew) return;
+  const scene::SurfaceAccess& access = *frame.surfaces;
+  const tracking::Intrinsics& pinhole = access.camera->intrinsics();
+  const glm::vec2 pixelsOfFull(frame.pixelsOfFull());
+  for (const std::size_t model : access.models) {
+    if (access.objects[model] >= scene::kRealObject) continue;
+    begin(surface, frame)
+        .texture("depth", *frame.depth)
+        .storage(0, *access.posed)
+        .storage(1, *access.triangles)
+        .storage(2, anchors)
+        .uniformBlock(0, *access.bodies,
+                      (scene::kMaxPlanes + model) * scene::SurfaceAccess::kBodyBytes,
+                      scene::SurfaceAccess::kBodyBytes)
+        .set("object", access.objects[model])
+        .set("nearMetres", frame.nearMetres)
+        .set("farMetres", frame.farMetres)
+        .set("focal", glm::vec2(pinhole.fx, pinhole.fy) / pixelsOfFull)
+        .set("centre", glm::vec2(pinhole.cx, pinhole.cy) / pixelsOfFull);
+    scene::setLens(surface, *access.camera);
+    surface.dispatch(allSlots(), kSlotGroup, kStored);
+  }
+}
+
+void AnchorSet::State::takeCensus(const scene::ArFrame& frame, hal::Duration step) {
+  begin(census, frame)
+      .storage(0, anchors)
+      .storage(1, cells)
+      .set("fadeIn", fadeOf(step, options.fadeIn))
+      .set("fadeOut", fadeOf(step, options.fadeOut))
+      .dispatch(allSlots(), kSlotGroup, kStored);
+}
+
+void AnchorSet::State::keepDensity(const scene::ArFrame& frame) {
+  begin(balance, frame)
+      .storage(0, anchors)
+      .storage(1, cells)
+      .set("target", options.density.target)
+      .set("birthBelow", options.density.birthBelow)
+      .set("deathAbove", options.density.deathAbove)
+      .dispatch(grid, kCellGroup, kStored);
+  begin(plan, frame)
+      .storage(0, anchors)
+      .storage(1, cells)
+      .storage(2, births)
+      .set("cellCount", static_cast<unsigned>(grid.x * grid.y))
+      .dispatch({1, 1}, {128, 1}, kStored);
+  begin(bear, frame)
+      .texture("barycentrics", frame.barycentrics != nullptr ? *frame.barycentrics : noIds)
+      .storage(0, anchors)
+      .storage(1, cells)
+      .storage(2, births)
+      .set("salt", options.seed * 0x9E3779B9U + salt)
+      .set("fade", hasBegunAnew ? 1.0F : 0.0F)
+      .dispatch(grid, kCellGroup, kStored | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
+}
+
+AnchorSet::AnchorSet(const gpu::ShaderLibrary& library, hal::FrameSize full, AnchorOptions options)
+    : state_(std::make_unique<State>(library, full, options)) {
+  [[maybe_unused]] const DensityRule& rule = options.density;
+  assert(rule.cellPixels > 0 && rule.birthBelow <= rule.target && rule.target <= rule.deathAbove);
+}
+
+AnchorSet::~AnchorSet() = default;
+
+void AnchorSet::advance(const scene::ArFrame& frame, const MotionField& motion,
+                        gpu::PassTimer& timer) {
+  State& s = *state_;
+  assert(frame.full() == s.full);
+  assert(!frame.hasObjects || frame.barycentrics != nullptr);
+  s.hasBegunAnew = !s.hasPast || motion.isCut();
+  const hal::Duration step =
+      s.hasPast ? std::clamp(frame.captureTime - s.lastTime, hal::Duration(0), kLongestStep)
+                : hal::Duration(0);
+  s.lastTime = frame.captureTime;
+  s.hasPast = true;
+  ++s.salt;
+  {
+    const auto scope = timer.measure("carry anchors");
+    s.carryInImage(frame, motion, step);
+    s.carryOnSurfaces(frame);
+  }
+  const auto scope = timer.measure("keep density");
+  s.takeCensus(frame, step);
+  s.keepDensity(frame);
+}
+
+bool AnchorSet::hasBegunAnew() const {
+  return state_->hasBegunAnew;
+}
+
+const gpu::Buffer& AnchorSet::anchors() const {
+  return state_->anchors;
+}
+
+std::uint32_t AnchorSet::slotCount() const {
+  return state_->slots;
+}
+
+const AnchorOptions& AnchorSet::options() const {
+  return state_->options;
+}
+
+std::vector<Anchor> AnchorSet::read() const {
+  std::vector<Anchor> read(state_->slots);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  glBindBuffer(GL_COPY_READ_BUFFER, state_->anchors.name());
+  const void* mapped =
+      glMapBufferRange(GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(state_->anchors.sizeBytes()),
+                       GL_MAP_READ_BIT);
+  if (mapped != nullptr) std::memcpy(read.data(), mapped, state_->anchors.sizeBytes());
+  glUnmapBuffer(GL_COPY_READ_BUFFER);
+  glBindBuffer(GL_COPY_READ_BUFFER, 0);
+  return read;
+}
+
+void AnchorSet::reset() {
+  state_->hasPast = false;
+  state_->salt = 0;
+}
+
+}  // namespace pleinair::marks

@@ -1,0 +1,67 @@
+// Purpose: keeps the density of anchors in a cell: how many are to be born, and which is to go
+//          (METHOD.md V.1).
+// Inputs:  anchor_cells.glsl's; the rule (marks::DensityRule): target, birthBelow, deathAbove; ids and
+//          its pixelsOfFull if hasObjects; fullSize.
+// Outputs: births of each cell, counts empty for the next frame; anchors: the ones to go. A cell an
+//          invocation.
+// Precision: integers; highp for places.
+#include "pipeline/marks/shaders/anchor.glsl"
+#include "pipeline/marks/shaders/anchor_cells.glsl"
+#include "pipeline/scene/shaders/object_id.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(std430, binding = 0) buffer Anchors { Anchor anchors[]; };
+layout(std430, binding = 1) buffer Cells { Cell cells[]; };
+uniform highp usampler2D ids;
+uniform bool hasObjects;
+uniform vec2 pixelsOfFull;
+uniform vec2 fullSize;
+uniform int target;
+uniform int birthBelow;
+uniform int deathAbove;
+
+const uint kSlotMask = 0xFFFFFu;
+const float kLeastShare = 0.12;  // of a cell: less has no anchor of its own
+
+// The part of the cell that shows virtual objects.
+float objectShare(ivec2 cell) {
+  ivec2 low = ivec2(floor(vec2(cell * cellPixels) * pixelsOfFull));
+  ivec2 high = min(ivec2(ceil(vec2((cell + 1) * cellPixels) * pixelsOfFull)), textureSize(ids, 0));
+  int stride = max(1, (high.y - low.y) / 8);
+  int shown = 0;
+  int seen = 0;
+  for (int y = low.y; y < high.y; y += stride) {
+    for (int x = low.x; x < high.x; x += stride) {
+      uint object = objectOf(texelFetch(ids, ivec2(x, y), 0).r);
+      shown += int(isVirtual(object));
+      ++seen;
+    }
+  }
+  return seen == 0 ? 0.0 : float(shown) / float(seen);
+}
+
+uint wanted(float share, uint count) {
+  if (share < kLeastShare) return 0u;
+  uint least = uint(max(1.0, floor(share * float(birthBelow) + 0.5)));
+  uint full = uint(max(1.0, floor(share * float(target) + 0.5)));
+  return count < least && full > count ? full - count : 0u;
+}
+
+void main() {
+  ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+  if (!isInGrid(at)) return;
+  int index = indexOf(at);
+  Cell cell = cells[index];
+  if (cell.inImage + cell.onObjects > uint(deathAbove)) {
+    anchors[cell.mostSpare & kSlotMask].state |= kDying;
+  }
+  // Cells at the border may be cut off.
+  vec2 inside = clamp((fullSize - vec2(at * cellPixels)) / float(cellPixels), 0.0, 1.0);
+  float whole = inside.x * inside.y;
+  float share = hasObjects ? objectShare(at) : 0.0;
+  uint inImage = wanted(whole * (1.0 - share), cell.inImage);
+  uint onObjects = wanted(whole * share, cell.onObjects);
+  cells[index].births = inImage | onObjects << 16u;
+  cells[index].inImage = 0u;
+  cells[index].onObjects = 0u;
+  cells[index].mostSpare = 0u;
+}

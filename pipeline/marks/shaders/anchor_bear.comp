@@ -1,0 +1,98 @@
+// Purpose: puts new anchors into a cell, each into a part of it that has none (thesis §4.3.1: jittered),
+//          on what is seen there: the exact point of a virtual surface behind the pixel (METHOD.md
+//          V.1), or the camera's picture.
+// Inputs:  anchor_cells.glsl's; births and slots (anchor_plan.comp); ids, barycentrics (ArFrame) and
+//          their pixelsOfFull if hasObjects; fullSize; salt: another one each frame; fade: of the new.
+// Outputs: anchors. A cell an invocation.
+// Precision: highp.
+#include "pipeline/gpu/shaders/hash.glsl"
+#include "pipeline/marks/shaders/anchor.glsl"
+#include "pipeline/marks/shaders/anchor_cells.glsl"
+#include "pipeline/scene/shaders/object_id.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(std430, binding = 0) writeonly buffer Anchors { Anchor anchors[]; };
+layout(std430, binding = 1) buffer Cells { Cell cells[]; };
+layout(std430, binding = 2) readonly buffer Plan {
+  uint freeCount;
+  uint freeSlots[];
+};
+uniform highp usampler2D ids;
+uniform highp usampler2D barycentrics;
+uniform bool hasObjects;
+uniform vec2 pixelsOfFull;
+uniform vec2 fullSize;
+uniform uint salt;
+uniform float fade;
+
+const int kTries = 6;           // for a place in the part, and as many in the whole cell
+
+ivec2 pixelAt(vec2 px) { return clamp(ivec2(floor(px * pixelsOfFull)), ivec2(0), textureSize(ids, 0) - 1); }
+
+// The next free part of the cell, of those not in `taken`; any where all are.
+int freePart(uint taken, uint hash) {
+  int parts = strataSide * strataSide;
+  int part = int(hash % uint(parts));
+  for (int i = 0; i < parts; ++i) {
+    if ((taken & (1u << uint(part))) == 0u) return part;
+    part = (part + strataSide + 1) % parts;  // diagonally, so that two lie far apart
+  }
+  return part;
+}
+
+void bear(ivec2 cell, uint number, bool onObject, inout uint taken) {
+  if (number >= freeCount) return;
+  uint hash = hashOf(cell, salt * 64u + number);
+  int part = freePart(taken, hash);
+  taken |= 1u << uint(part);
+  vec2 corner = vec2(part % strataSide, part / strataSide);
+  uint id = 0u;
+  vec2 px = vec2(0.0);
+  bool isFound = false;
+  for (int i = 0; i < 2 * kTries && !isFound; ++i) {
+    hash = hashOf(hash);
+    vec2 jitter = vec2(unitOf(hash), unitOf(hashOf(hash)));
+    vec2 inCell = i < kTries ? (corner + 0.1 + 0.8 * jitter) / float(strataSide) : jitter;
+    px = (vec2(cell) + inCell) * float(cellPixels);
+    if (any(greaterThanEqual(px, fullSize))) continue;
+    if (!hasObjects) {
+      isFound = true;
+      break;
+    }
+    id = texelFetch(ids, pixelAt(px), 0).r;
+    uint object = objectOf(id);
+    isFound = isVirtual(object) == onObject;
+  }
+  if (!isFound) return;
+  Anchor born;
+  born.px = px;
+  born.displacement = vec2(0.0);
+  born.jacobian = vec4(1.0, 0.0, 0.0, 1.0);
+  born.barycentrics = vec2(0.0);
+  born.error = 0.0;
+  born.fade = fade;
+  born.age = 0.0;
+  born.seed = hashOf(hash);
+  born.surface = onObject ? id : idOf(objectOf(id), 0u);
+  born.state = kAlive | kBorn | kSourceUnknown;
+  if (onObject) {
+    ivec2 pixel = pixelAt(px);
+    born.px = (vec2(pixel) + 0.5) / pixelsOfFull;
+    born.barycentrics = unpackUnorm2x16(texelFetch(barycentrics, pixel, 0).r);
+  }
+  anchors[freeSlots[number]] = born;
+}
+
+void main() {
+  ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+  if (!isInGrid(at)) return;
+  int index = indexOf(at);
+  uint births = cells[index].births;
+  uint strata = cells[index].strata;
+  cells[index].strata = 0u;
+  if (births == 0u) return;
+  uint number = cells[index].firstBirth;
+  uint taken = strata & 0xFFFFu;
+  for (uint i = 0u; i < (births & 0xFFFFu); ++i) bear(at, number++, false, taken);
+  taken = strata >> 16u;
+  for (uint i = 0u; i < (births >> 16u); ++i) bear(at, number++, true, taken);
+}

@@ -1,0 +1,28 @@
+// Purpose: what is counted of anchors in each cell of the grid that their density is kept on.
+// Inputs, outputs: places in px of the full picture; cells row by row.
+// Precision: integers; highp for places.
+struct Cell {
+  uint inImage;     // anchors that stay, in the camera's picture
+  uint onObjects;   // likewise, on virtual objects
+  uint mostSpare;   // age and slot of the one to go first
+  uint strata;      // which parts of the cell they are in: 16 bits for the image, 16 for objects
+  uint births;      // wanted: 16 bits for the image, 16 for objects
+  uint firstBirth;  // of the frame's
+  uint spare0;
+  uint spare1;
+};
+
+uniform ivec2 grid;
+uniform int cellPixels;  // a cell's side
+uniform int strataSide;  // parts along a cell's side, at most 4
+
+ivec2 cellAt(vec2 px) { return ivec2(floor(px / float(cellPixels))); }
+bool isInGrid(ivec2 cell) {
+  return all(greaterThanEqual(cell, ivec2(0))) && all(lessThan(cell, grid));
+}
+int indexOf(ivec2 cell) { return cell.y * grid.x + cell.x; }
+uint stratumAt(vec2 px, ivec2 cell) {
+  vec2 part = px / float(cellPixels) - vec2(cell);
+  ivec2 at = clamp(ivec2(part * float(strataSide)), ivec2(0), ivec2(strataSide - 1));
+  return uint(at.y * strataSide + at.x);
+}

@@ -1,0 +1,55 @@
+// Purpose: carries the anchors that live in the camera's picture, and opens the frame for all others:
+//          what lives on a surface is hidden until its object's pass (anchor_surface.comp) finds it.
+// Inputs:  image_motion.glsl's, flow forward; ids and its pixelsOfFull if hasObjects; fullSize;
+//          margin: px beyond the border after which an anchor is gone; stepSeconds; anew: whether all
+//          are to go.
+// Outputs: anchors. One an invocation.
+// Precision: highp.
+#include "pipeline/marks/shaders/image_motion.glsl"
+#include "pipeline/scene/shaders/object_id.glsl"
+layout(local_size_x = 64) in;
+layout(std430, binding = 0) buffer Anchors { Anchor anchors[]; };
+uniform highp usampler2D ids;
+uniform bool hasObjects;
+uniform vec2 pixelsOfFull;
+uniform vec2 fullSize;
+uniform float margin;
+uniform float stepSeconds;
+uniform bool anew;
+uniform uint slots;
+
+
+void main() {
+  uint slot = gl_GlobalInvocationID.x;
+  if (slot >= slots) return;
+  uint state = anchors[slot].state;
+  if (!isAlive(state)) return;
+  if (anew) {
+    anchors[slot].state = 0u;
+    return;
+  }
+  anchors[slot].age += stepSeconds;
+  uint object = objectOf(anchors[slot].surface);
+  if (isVirtual(object)) {
+    anchors[slot].displacement = vec2(0.0);
+    anchors[slot].jacobian = kNoTurn;
+    anchors[slot].error = kUnknownError;
+    anchors[slot].state = (state & (kAlive | kDying)) | kHidden | kSourceUnknown;
+    return;
+  }
+  Moved moved = imageMotionAt(anchors[slot].px, float(object), false);
+  vec2 px = anchors[slot].px + moved.displacement;
+  bool isGone = any(lessThan(px, vec2(-margin))) || any(greaterThan(px, fullSize + margin));
+  bool isHidden = false;
+  if (hasObjects) {
+    ivec2 pixel = ivec2(floor(px * pixelsOfFull));
+    bool isInside = all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, textureSize(ids, 0)));
+    isHidden = isInside && objectOf(texelFetch(ids, pixel, 0).r) != object;
+  }
+  anchors[slot].px = px;
+  anchors[slot].displacement = moved.displacement;
+  anchors[slot].jacobian = moved.jacobian;
+  anchors[slot].error = moved.error;
+  uint flags = (state & (kAlive | kDying)) | (isHidden ? kHidden : 0u);
+  anchors[slot].state = isGone ? 0u : flags | moved.source;
+}

@@ -1,0 +1,33 @@
+// Purpose: what each feature of the camera's picture lies on: a real object of the scene (an occluder),
+//          or none; features beside a border belong to neither side.
+// Inputs:  ids (ArFrame::ids), size and pixelsOfFull of its picture; count.
+// Outputs: features: the layer, as image_motion.glsl has it. A feature an invocation.
+// Precision: integers; highp for places.
+#include "pipeline/scene/shaders/object_id.glsl"
+layout(local_size_x = 64) in;
+struct Feature {
+  vec4 places;
+  vec4 about;
+};
+layout(std430, binding = 0) buffer Features { Feature features[]; };
+uniform highp usampler2D ids;
+uniform vec2 pixelsOfFull;
+uniform int count;
+
+const int kReach = 3;           // px: about half of a feature's window
+
+// Virtual objects hide the camera's picture, but it goes on behind them.
+uint layerAt(ivec2 pixel) {
+  uint object = objectOf(texelFetch(ids, clamp(pixel, ivec2(0), textureSize(ids, 0) - 1), 0).r);
+  return object >= kRealObject ? object : 0u;
+}
+
+void main() {
+  int i = int(gl_GlobalInvocationID.x);
+  if (i >= count) return;
+  ivec2 pixel = ivec2(floor(features[i].places.zw * pixelsOfFull));
+  uint layer = layerAt(pixel);
+  bool isInside = layerAt(pixel + ivec2(kReach, 0)) == layer && layerAt(pixel - ivec2(kReach, 0)) == layer &&
+                  layerAt(pixel + ivec2(0, kReach)) == layer && layerAt(pixel - ivec2(0, kReach)) == layer;
+  features[i].about.y = isInside ? float(layer) : -1.0;
+}

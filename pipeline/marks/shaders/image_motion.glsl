@@ -1,0 +1,282 @@
+// Purpose: how a point of the camera's picture moves from the frame before to this one, or how a point
+//          of this frame came: of all sources that know, the one with the smallest predicted error.
+// Inputs:  what marks::MotionField binds, uniform blocks 1 to 3, flow and still; bodies.glsl's, of a
+//          camera with the full picture's pixels.
+// Outputs: displacement, Jacobian, predicted error, source (anchor.glsl). All px of the full picture.
+// Precision: highp. Displacements are sums of differences, so that nothing moves where nothing did.
+#include "pipeline/marks/shaders/anchor.glsl"
+#include "pipeline/scene/shaders/planes.glsl"
+
+const int kMostFeatures = 256;  // tracking::kMostMovedFeatures
+const float kUnknownError = 1.0e4;
+const float kLeastError = 1.0e-3;
+
+struct Feature {
+  vec4 places;  // then, now
+  vec4 about;   // predicted error; the real object it lies on, 0: none, below 0: on a border
+};
+
+layout(std140, binding = 1) uniform Planes { Body planes[kMaxPlanes]; };
+layout(std140, binding = 2) uniform Motion {
+  mat4 nowFromThen;    // the picture's homography, in the upper left 3x3
+  mat4 thenFromNow;
+  vec4 flowGrid;       // node = px * xy + zw
+  vec4 stillGrid;      // field likewise
+  vec4 known;          // planes, features, whether there is a homography, its error
+  vec4 nodes;          // x of flow, z of still fields; 0: none
+  vec4 fullByFrame;    // px of the full picture for one of the captured frame
+};
+layout(std140, binding = 3) uniform Features { Feature features[kMostFeatures]; };
+
+uniform sampler2D flow;   // RGBA32F, forward or backward as the question is
+uniform sampler2D still;  // R32F
+
+struct Moved {
+  vec2 displacement;
+  vec4 jacobian;
+  float error;
+  uint source;
+};
+
+const vec4 kNoTurn = vec4(1.0, 0.0, 0.0, 1.0);
+
+Moved nothingKnown() { return Moved(vec2(0.0), kNoTurn, kUnknownError, kSourceUnknown); }
+
+// --- planes of the scene
+
+// Where what the plane shows at px is shown in the other frame, less px; z: depth, 0 if not there.
+vec3 planeShift(Body plane, vec2 px, bool backward) {
+  vec3 ray = rayThrough(px);
+  vec3 here;
+  vec3 there;
+  vec3 hit;
+  if (backward) {
+    hit = hitOf(plane.now, plane.extent.xy, ray);
+    there = transformed(plane.then, vec3(hit.xy, 0.0));
+    here = transformed(plane.now, vec3(hit.xy, 0.0));
+  } else {
+    hit = hitOf(plane.then, plane.extent.xy, ray);
+    there = transformed(plane.now, vec3(hit.xy, 0.0));
+    here = transformed(plane.then, vec3(hit.xy, 0.0));
+  }
+  if (hit.z == 0.0 || there.z <= 0.0) return vec3(0.0);
+  return vec3(projected(there) - projected(here), hit.z);
+}
+
+Moved byPlanes(vec2 px, bool backward) {
+  Moved moved = nothingKnown();
+  int count = int(known.x);
+  float nearest = 0.0;
+  for (int i = 0; i < kMaxPlanes; ++i) {
+    if (i >= count) break;
+    if (planes[i].turnsAbout.w == 0.0) continue;
+    vec3 shift = planeShift(planes[i], px, backward);
+    if (shift.z == 0.0 || (nearest > 0.0 && shift.z >= nearest)) continue;
+    nearest = shift.z;
+    const float kReach = 1.0;
+    vec3 x = planeShift(planes[i], px + vec2(kReach, 0.0), backward);
+    vec3 y = planeShift(planes[i], px + vec2(0.0, kReach), backward);
+    vec4 jacobian = kNoTurn;
+    if (x.z != 0.0 && y.z != 0.0) {
+      jacobian += vec4(x.xy - shift.xy, y.xy - shift.xy) / kReach;
+    }
+    vec3 p = shift.z * rayThrough(px);
+    moved = Moved(shift.xy, jacobian, predictedError(planes[i], p), kSourcePlane);
+  }
+  return moved;
+}
+
+// --- the picture as a whole
+
+vec2 homographyShift(mat3 h, vec2 px) {
+  vec3 p = h * vec3(px, 1.0);
+  // p.xy / p.z - px, without the difference of large numbers
+  return vec2(dot(vec3(h[0][0] - 1.0, h[1][0], h[2][0]), vec3(px, 1.0)) - px.x * (p.z - 1.0),
+              dot(vec3(h[0][1], h[1][1] - 1.0, h[2][1]), vec3(px, 1.0)) - px.y * (p.z - 1.0)) / p.z;
+}
+
+Moved byPicture(vec2 px, bool backward) {
+  if (known.z == 0.0) return nothingKnown();
+  mat3 h = mat3(backward ? thenFromNow : nowFromThen);
+  vec2 shift = homographyShift(h, px);
+  float w = dot(vec3(h[0][2], h[1][2], h[2][2]), vec3(px, 1.0));
+  vec2 image = px + shift;
+  vec4 jacobian = vec4(h[0][0] - image.x * h[0][2], h[0][1] - image.y * h[0][2],
+                       h[1][0] - image.x * h[1][2], h[1][1] - image.y * h[1][2]) / w;
+  return Moved(shift, jacobian, known.w, kSourcePicture);
+}
+
+// --- the three nearest features of the same layer (thesis §4.3.3)
+
+struct Neighbours {
+  vec2 at[3];     // then, or now if we go backward
+  vec2 shift[3];
+  float error[3];
+  float away;     // the nearest one's distance
+  int count;
+};
+
+Neighbours nearestFeatures(vec2 px, float layer, bool backward) {
+  vec3 away = vec3(1.0e12);  // squared, the nearest first
+  ivec3 which = ivec3(-1);
+  int count = int(known.y);
+  for (int i = 0; i < kMostFeatures; ++i) {
+    if (i >= count) break;
+    vec2 apart = (backward ? features[i].places.zw : features[i].places.xy) - px;
+    float d = features[i].about.y == layer ? dot(apart, apart) : 1.0e12;
+    bool first = d < away.x;
+    bool second = d < away.y;
+    bool third = d < away.z;
+    which = ivec3(first ? i : which.x, first ? which.x : (second ? i : which.y),
+                  second ? which.y : (third ? i : which.z));
+    away = vec3(min(d, away.x), first ? away.x : min(d, away.y), second ? away.y : min(d, away.z));
+  }
+  Neighbours near;
+  near.count = int(which.x >= 0) + int(which.y >= 0) + int(which.z >= 0);
+  near.away = sqrt(away.x);
+  for (int k = 0; k < 3; ++k) {
+    int i = max(which[k], 0);
+    vec4 places = features[i].places;
+    near.at[k] = backward ? places.zw : places.xy;
+    near.shift[k] = (backward ? -1.0 : 1.0) * (places.zw - places.xy);
+    near.error[k] = features[i].about.x;
+  }
+  return near;
+}
+
+// A turn, zoom and shift that fits all three best: what is left where they are no triangle.
+Moved bySimilarity(vec2 px, Neighbours near) {
+  vec2 middle = (near.at[0] + near.at[1] + near.at[2]) / 3.0;
+  vec2 shift = (near.shift[0] + near.shift[1] + near.shift[2]) / 3.0;
+  float spread = 0.0;
+  vec2 turn = vec2(0.0);  // less one
+  float variance = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    vec2 a = near.at[k] - middle;
+    vec2 d = near.shift[k] - shift;
+    spread += dot(a, a);
+    turn += vec2(dot(a, d), a.x * d.y - a.y * d.x);
+    variance += near.error[k] * near.error[k] / 3.0;
+  }
+  const float kLeastSpread = 9.0;  // px²: closer together, they say nothing of turns
+  turn = spread > kLeastSpread ? turn / spread : vec2(0.0);
+  vec2 arm = px - middle;
+  float lever = spread > kLeastSpread ? dot(arm, arm) / spread : 0.0;
+  return Moved(shift + vec2(turn.x * arm.x - turn.y * arm.y, turn.y * arm.x + turn.x * arm.y),
+               vec4(1.0 + turn.x, turn.y, -turn.y, 1.0 + turn.x),
+               sqrt(variance * (1.0 / 3.0 + lever)), kSourceFeatures);
+}
+
+// Barycentric coordinates of the point as it was, applied to where the corners are (eq. 13-19).
+Moved byTriangle(vec2 px, Neighbours near) {
+  vec2 u = near.at[1] - near.at[0];
+  vec2 v = near.at[2] - near.at[0];
+  float area = u.x * v.y - u.y * v.x;
+  float longest = max(max(dot(u, u), dot(v, v)), dot(u - v, u - v));
+  const float kLeastHeight = 0.25;  // of the longest side: flatter ones amplify noise
+  if (abs(area) <= kLeastHeight * longest) return bySimilarity(px, near);  // or all in one place
+  vec2 arm = px - near.at[0];
+  float b = (arm.x * v.y - arm.y * v.x) / area;
+  float c = (u.x * arm.y - u.y * arm.x) / area;
+  vec3 weights = vec3(1.0 - b - c, b, c);
+  if (dot(weights, weights) > 3.0) return bySimilarity(px, near);  // far outside of it
+  vec2 du = near.shift[1] - near.shift[0];
+  vec2 dv = near.shift[2] - near.shift[0];
+  vec2 shift = near.shift[0] + b * du + c * dv;
+  vec4 jacobian = kNoTurn + vec4(v.y * du - u.y * dv, u.x * dv - v.x * du) / area;
+  vec3 errors = weights * vec3(near.error[0], near.error[1], near.error[2]);
+  return Moved(shift, jacobian, length(errors), kSourceFeatures);
+}
+
+// --- dense flow
+
+vec4 flowNode(ivec2 node) {
+  return texelFetch(flow, clamp(node, ivec2(0), textureSize(flow, 0) - 1), 0);
+}
+
+// Between the border and the outermost nodes it goes on as between these: if it stood, anchors there
+// would slip by half a node's slope a frame. An error does not.
+vec4 flowAt(vec2 node) {
+  const float kBeyond = 1.5;  // nodes: as far as anchors go beyond the border
+  ivec2 corner = clamp(ivec2(floor(node)), ivec2(0), max(textureSize(flow, 0) - 2, ivec2(0)));
+  vec2 part = clamp(node - vec2(corner), vec2(-kBeyond), vec2(1.0 + kBeyond));
+  vec2 between = clamp(part, 0.0, 1.0);
+  vec4 alongX = vec4(part.xx, between.xx);
+  vec4 above = mix(flowNode(corner), flowNode(corner + ivec2(1, 0)), alongX);
+  vec4 below = mix(flowNode(corner + ivec2(0, 1)), flowNode(corner + ivec2(1, 1)), alongX);
+  return mix(above, below, vec4(part.yy, between.yy)) * vec4(fullByFrame.xy, fullByFrame.x, 1.0);
+}
+
+Moved byFlow(vec2 px) {
+  if (nodes.x == 0.0) return nothingKnown();
+  vec2 node = px * flowGrid.xy + flowGrid.zw;
+  vec4 here = flowAt(node);
+  // Over two nodes: flow is smooth, its noise is not.
+  vec2 x = (flowAt(node + vec2(1.0, 0.0)).xy - flowAt(node - vec2(1.0, 0.0)).xy) * 0.5 * flowGrid.x;
+  vec2 y = (flowAt(node + vec2(0.0, 1.0)).xy - flowAt(node - vec2(0.0, 1.0)).xy) * 0.5 * flowGrid.y;
+  return Moved(here.xy, kNoTurn + vec4(x, y), here.z, kSourceFlow);
+}
+
+// --- stillness
+
+float stillError(vec2 px) {
+  if (nodes.z == 0.0) return kUnknownError;
+  ivec2 field = ivec2(px * stillGrid.xy + stillGrid.zw);
+  return texelFetch(still, clamp(field, ivec2(0), textureSize(still, 0) - 1), 0).r * fullByFrame.x;
+}
+
+// --- the choice
+
+// How far a motion is from what a witness saw, beyond what the witness may err.
+float contradicted(Moved moved, vec2 seen, float error) {
+  return max(0.0, distance(moved.displacement, seen) - 2.5 * error);
+}
+
+Moved better(Moved a, Moved b) {
+  if (b.error < a.error) return b;
+  return a;
+}
+
+// `layer`: the real object that px is on, or 0.
+Moved imageMotionAt(vec2 px, float layer, bool backward) {
+  Moved flowed = byFlow(px);
+  float restError = stillError(px);
+  Moved best = better(nothingKnown(), Moved(vec2(0.0), kNoTurn, restError, kSourceStill));
+  best = better(best, flowed);
+
+  Neighbours near = nearestFeatures(px, layer, backward);
+  Moved whole = byPicture(px, backward);
+  if (near.count == 3) {
+    Moved triangle = byTriangle(px, near);
+    // What the neighbours do otherwise than the whole does, or than each other, may go on between
+    // them and here.
+    float off = 0.0;
+    float odd = 0.0;
+    float share = clamp(near.away / 64.0, 0.1, 1.0);
+    vec2 mean = (near.shift[0] + near.shift[1] + near.shift[2]) / 3.0;
+    for (int k = 0; k < 3; ++k) {
+      Moved there = byPicture(near.at[k], backward);
+      vec2 expected = known.z == 0.0 ? mean : there.displacement;
+      float apart = max(0.0, distance(near.shift[k], expected) - 2.0 * near.error[k]);
+      off = max(off, apart);
+      odd = max(odd, apart);
+    }
+    triangle.error = length(vec2(triangle.error, 0.5 * share * odd));
+    triangle.error = length(vec2(triangle.error, contradicted(triangle, flowed.displacement, flowed.error)));
+    triangle.error = length(vec2(triangle.error, contradicted(triangle, vec2(0.0), restError)));
+    best = better(best, triangle);
+    whole.error = length(vec2(whole.error, off));
+  }
+  whole.error = length(vec2(whole.error, contradicted(whole, flowed.displacement, flowed.error)));
+  whole.error = length(vec2(whole.error, contradicted(whole, vec2(0.0), restError)));
+  best = better(best, whole);
+
+  if (layer == 0.0) {
+    Moved plane = byPlanes(px, backward);
+    plane.error = length(vec2(plane.error, contradicted(plane, flowed.displacement, flowed.error)));
+    plane.error = length(vec2(plane.error, contradicted(plane, vec2(0.0), restError)));
+    best = better(best, plane);
+  }
+  best.error = max(best.error, kLeastError);
+  return best;
+}
