@@ -43,9 +43,6 @@ constexpr int kSeekFrames = 8;         // new corners are looked for that often 
 constexpr std::size_t kWorthAKey = 4;  // … and so many of them are worth a key frame
 constexpr double kLostShare = 0.3;     // fewer found: the whole picture may have jumped
 constexpr std::size_t kLeastToJudge = 12;
-constexpr std::size_t kNeighbours = 6;
-constexpr double kAlikePx = 1.5;
-constexpr double kAlikePart = 0.25;
 
 double lengthOf(const cv::Point2f& p) {
   return std::sqrt(static_cast<double>(p.dot(p)));
@@ -159,33 +156,20 @@ bool LucasKanadeTracker::searchWidely(const LumaPyramid& now) {
   return true;
 }
 
-/// A feature whose neighbours all move otherwise has been mistaken for another.
 void LucasKanadeTracker::rejectOutliers() {
-  isOutlier_.assign(features_.size(), 0);
-  const auto isMeasured = [](const Feature& f) { return f.isFound && f.wasFound; };
-  if (std::cmp_less(std::ranges::count_if(features_, isMeasured), kLeastToJudge)) return;
+  members_.clear();
+  points_.clear();
+  steps_.clear();
   for (std::size_t i = 0; i < features_.size(); ++i) {
     const Feature& feature = features_[i];
-    if (!isMeasured(feature)) continue;
-    std::array<std::pair<double, std::size_t>, kNeighbours> near;
-    near.fill({1e9, 0});
-    for (std::size_t j = 0; j < features_.size(); ++j) {
-      if (j == i || !isMeasured(features_[j])) continue;
-      const double apart = lengthOf(features_[j].at - feature.at);
-      if (apart >= near.back().first) continue;
-      near.back() = {apart, j};
-      for (std::size_t k = kNeighbours - 1; k > 0 && near[k].first < near[k - 1].first; --k) {
-        std::swap(near[k], near[k - 1]);
-      }
-    }
-    const double tolerance = std::max(kAlikePx, kAlikePart * lengthOf(feature.step));
-    const auto alike = std::ranges::count_if(near, [&](const auto& other) {
-      return lengthOf(features_[other.second].step - feature.step) < tolerance;
-    });
-    isOutlier_[i] = alike == 0 ? 1 : 0;
+    if (!feature.isFound || !feature.wasFound) continue;
+    members_.push_back(i);
+    points_.push_back(feature.at);
+    steps_.push_back(feature.step);
   }
-  for (std::size_t i = 0; i < features_.size(); ++i) {
-    if (isOutlier_[i] != 0) features_[i].isFound = false;
+  outliers_.judge(points_, steps_);
+  for (std::size_t m = 0; m < members_.size(); ++m) {
+    if (outliers_.isOutlier(m)) features_[members_[m]].isFound = false;
   }
 }
 

@@ -11,6 +11,7 @@
 #include "pipeline/tracking/corner_search.h"
 #include "pipeline/tracking/feature_tracker.h"
 #include "pipeline/tracking/luma_pyramid.h"
+#include "pipeline/tracking/motion_outliers.h"
 #include "pipeline/tracking/point_follower.h"
 
 namespace pleinair::tracking {
@@ -73,6 +74,7 @@ class LucasKanadeTracker : public FeatureTracker {
   std::shared_ptr<const LumaPyramid> then_;
   PointFollower follower_;
   CornerSearch corners_;
+  MotionOutliers outliers_;
   std::vector<Feature> features_;
   std::vector<SeenFeature> seen_;
   std::uint32_t nextId_ = 0;
@@ -85,7 +87,7 @@ class LucasKanadeTracker : public FeatureTracker {
   std::vector<cv::Point2f> points_;
   std::vector<cv::Point2f> newCorners_;
   std::vector<unsigned char> cells_;  // whether each has a feature
-  std::vector<unsigned char> isOutlier_;
+  std::vector<cv::Point2f> steps_;
 };
 
 }  // namespace pleinair::tracking

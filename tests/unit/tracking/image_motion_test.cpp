@@ -117,6 +117,32 @@ TEST_P(ImageMotionOf, IsMeasuredInNoise) {
   EXPECT_LT(std::sqrt(predictedPicture / actualPicture), 2.0);
 }
 
+/// Corners that are found anew in each frame tremble by half a pixel and more on soft patches.
+TEST_P(ImageMotionOf, IsMeasuredByTheReferenceTrackerToo) {
+  Watch watch({.features = FeatureMethod::kHarrisSift, .flow = false, .stillness = false});
+  watch.view().contrast = 1.6;
+  watch.view().brightness = -72.0;
+  const glm::dmat3 truth = nowFromThen(GetParam().step, kSize);
+  watch.step(glm::dmat3(1.0));
+  double predicted = 0.0;
+  double actual = 0.0;
+  for (int i = 0; i < 7; ++i) {
+    const ImageMotion& motion = watch.step(truth);
+    ASSERT_FALSE(motion.isCut) << i;
+    ASSERT_TRUE(motion.picture) << i;
+    ASSERT_GT(motion.features.size(), 20U) << i;
+    if (i < 3) continue;
+    EXPECT_LT(rmsMotion(glm::inverse(truth) * motion.picture->nowFromThen, kSize), 0.8) << i;
+    for (const FeatureMotion& feature : motion.features) {
+      const glm::dvec2 there = movedBy(truth, glm::dvec2(feature.then));
+      predicted += feature.errorPx * feature.errorPx;
+      actual += std::pow(glm::distance(glm::dvec2(feature.now), there), 2);
+    }
+  }
+  EXPECT_GT(std::sqrt(predicted / actual), 0.5);
+  EXPECT_LT(std::sqrt(predicted / actual), 2.0);
+}
+
 TEST(ImageMotion, StandsStillToTheBitInNoise) {
   Watch watch;
   for (int i = 0; i < 40; ++i) {
