@@ -22,7 +22,7 @@ constexpr float kRatio = 0.8F;  // Lowe, "Distinctive image features", 2004
 constexpr int kTrees = 4;
 constexpr int kChecks = 32;
 /// Predicted: corners are found anew in each frame. docs/measured.md says how it agrees.
-constexpr double kErrorPx = 0.6;
+constexpr double kErrorPx = 0.35;
 
 /// Where the strength is largest about a pixel, by the parabola through it and its neighbours.
 cv::Point2f peakWithin(const cv::Mat& strength, const cv::Point2f& pixel) {

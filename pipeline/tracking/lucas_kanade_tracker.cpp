@@ -4,8 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include <glm/geometric.hpp>
+#include <opencv2/imgproc.hpp>
 
+#include "pipeline/tracking/homography.h"
 #include "pipeline/tracking/image_motion.h"
 #include "pipeline/tracking/thumbnail.h"
 
@@ -41,7 +42,11 @@ constexpr int kKeyFrames = 4;  // between two key frames, unless most are lost
 constexpr double kVeryFew = 0.5;
 constexpr int kSeekFrames = 8;         // new corners are looked for that often at least …
 constexpr std::size_t kWorthAKey = 4;  // … and so many of them are worth a key frame
-constexpr double kLostShare = 0.3;     // fewer found: the whole picture may have jumped
+/// Features farther from where the picture would take them go there if they look as good there.
+constexpr double kAstrayPx = 1.5;
+constexpr double kAsGood = 1.2;
+constexpr double kAsGoodLevels = 0.5;
+constexpr double kLostShare = 0.3;  // fewer found: the whole picture may have jumped
 constexpr std::size_t kLeastToJudge = 12;
 
 double lengthOf(const cv::Point2f& p) {
@@ -108,6 +113,7 @@ void LucasKanadeTracker::judge(Feature& feature, const LumaPyramid& now, std::si
                     follower_.backPx(of) < kBackPx && difference < kLargestDifference &&
                     difference < kNoiseDifference + kLostContrast * contrast;
   if (!feature.isFound) return;
+  feature.difference = difference;
   feature.isWorn = difference > kNoiseDifference + kWornContrast * contrast;
   const double placing = kPlacing * difference * feature.texture.placing;
   const double scale = std::max(now.reduction().x, now.reduction().y);
@@ -170,6 +176,37 @@ void LucasKanadeTracker::rejectOutliers() {
   outliers_.judge(points_, steps_);
   for (std::size_t m = 0; m < members_.size(); ++m) {
     if (outliers_.isOutlier(m)) features_[members_[m]].isFound = false;
+  }
+}
+
+/// Looks once more for features that do not go along with the picture, where it would take them:
+/// repeated patterns look the same a few px on.
+void LucasKanadeTracker::reconsider(const LumaPyramid& now) {
+  pairs_.clear();
+  for (const Feature& feature : features_) {
+    if (!feature.isFound || !feature.wasFound) continue;
+    pairs_.push_back({.then = {feature.then.x, feature.then.y},
+                      .now = {feature.at.x, feature.at.y},
+                      .errorPx = feature.errorPx});
+  }
+  const auto fit = fitter_.fit(pairs_, {now.picture().cols, now.picture().rows});
+  if (!fit) return;
+  before_ = features_;
+  for (Feature& feature : features_) {
+    if (!feature.wasFound) continue;
+    const glm::dvec2 along = movedBy(fit->nowFromThen, {feature.then.x, feature.then.y});
+    const cv::Point2f there(static_cast<float>(along.x), static_cast<float>(along.y));
+    if (feature.isFound && lengthOf(feature.at - there) < kAstrayPx) continue;
+    feature.isFound = false;
+    feature.step = there - feature.then;
+  }
+  find(now, false, 0);
+  for (std::size_t i = 0; i < features_.size(); ++i) {
+    const Feature& was = before_[i];
+    Feature& feature = features_[i];
+    const bool isWorse =
+        !feature.isFound || feature.difference > kAsGood * was.difference + kAsGoodLevels;
+    if (was.isFound && isWorse) feature = was;
   }
 }
 
@@ -281,6 +318,21 @@ void LucasKanadeTracker::findCorners(const LumaPyramid& now) {
     });
     if (!isTaken && textureAt(now, at).placing < kMostPlacing) newCorners_.push_back(at);
   }
+  centre(now);
+}
+
+/// Moves new corners to where the gradients about them balance (Förstner and Gülch, 1987): a turn
+/// or zoom of a window about that point is not taken for a shift of it.
+void LucasKanadeTracker::centre(const LumaPyramid& now) {
+  if (newCorners_.empty()) return;
+  constexpr int kReach = LumaPyramid::kWindowPx / 2;
+  constexpr float kFarPx = 4.0F;
+  points_ = newCorners_;
+  const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 5, 0.1);
+  cv::cornerSubPix(now.picture(), points_, {kReach, kReach}, {-1, -1}, until);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (lengthOf(points_[i] - newCorners_[i]) < kFarPx) newCorners_[i] = points_[i];
+  }
 }
 
 void LucasKanadeTracker::makeKey(const std::shared_ptr<const LumaPyramid>& now, bool isNeeded) {
@@ -330,6 +382,7 @@ std::span<const SeenFeature> LucasKanadeTracker::follow(std::shared_ptr<const Lu
   find(*now, false, kFewLevels);
   find(*now, true, LumaPyramid::kLevels);
   if (then_ && features_.size() >= kLeastToJudge && shareFound() < kLostShare) searchWidely(*now);
+  reconsider(*now);
   rejectOutliers();
   foundShare_ = shareFound();
   guessMissing(*now);
