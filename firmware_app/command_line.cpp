@@ -20,6 +20,7 @@
 #include "firmware_app/commands/config.h"
 #include "firmware_app/commands/devices.h"
 #include "firmware_app/commands/doctor.h"
+#include "firmware_app/commands/measure.h"
 #include "firmware_app/commands/record.h"
 #include "firmware_app/commands/render.h"
 #include "firmware_app/commands/run.h"
@@ -264,6 +265,91 @@ void addDoctor(CLI::App& app, DoctorOptions& options, std::function<int()>& chos
   command.callback([&] { chosen = [&options] { return examineMachine(options); }; });
 }
 
+/// How `measure` moves a photograph.
+void addPhotographMotion(CLI::App& command, MeasureOptions& options) {
+  const auto add = [&](const std::string& name, const std::string& help, const std::string& type,
+                       auto assign) {
+    command
+        .add_option_function<std::string>(
+            name,
+            [&options, name, assign](const std::string& text) {
+              assign(text);
+              options.isMoved = true;
+            },
+            help)
+        ->type_name(type);
+  };
+  measure::PhotographMotion& motion = options.photograph;
+  add("--pan", "move a photograph by so many px a frame, such as -1.5,-0.5", "VX,VY",
+      [&motion](const std::string& text) {
+        const auto [x, y] = vectorOf("--pan", text, 40);
+        motion.pan = {x, y};
+      });
+  add("--zoom", "move into it by so much a frame, such as 1%", "PERCENT",
+      [&motion](const std::string& text) {
+        motion.zoomPercent = numberOf("--zoom", text, "%", -10, 10);
+      });
+  add("--roll", "turn it by so many degrees a frame", "DEGREES",
+      [&motion](const std::string& text) {
+        motion.rollDegrees = numberOf("--roll", text, "", -45, 45);
+      });
+  command.add_flag("--still", options.isMoved, "show it as it is, with the sensor's noise");
+}
+
+void addMeasure(CLI::App& app, MeasureOptions& options, std::function<int()>& chosen) {
+  CLI::App& command = *app.add_subcommand(
+      "measure", "paint a sequence whose motion is known, and say how coherent the painting is");
+  CLI::Option* input =
+      command
+          .add_option("--input", options.input,
+                      "a folder with motion.json or KITTI flow, a photograph with --pan, --zoom, "
+                      "--roll or --still, or any recording")
+          ->type_name("PATH");
+  addKey(command, options.configuration, "--camera", "camera.source",
+         "the workbench, whose motion is known (default: synthetic)", "synthetic:SHOT")
+      ->excludes(input);
+  command.add_option("--motion", options.motion, "how a recording moves (as motion.json)")
+      ->needs(input)
+      ->type_name("FILE");
+  addPhotographMotion(command, options);
+  command
+      .add_option_function<std::string>(
+          "--noise",
+          [&options](const std::string& text) {
+            options.noiseLevels = numberOf("--noise", text, "", 0, 40);
+          },
+          "of the sensor, on a photograph and on the still scene, in 8-bit levels (default: 2)")
+      ->type_name("SIGMA");
+  addFrames(
+      command, [&options](std::uint64_t count) { options.frames = count; },
+      "measure N (default: all, or 60 where there is no end)");
+  command
+      .add_option_function<std::string>(
+          "--settle",
+          [&options](const std::string& text) {
+            options.settle =
+                static_cast<std::uint64_t>(numberOf("--settle", text, "", 0, 1'000'000));
+          },
+          "paint N frames before measuring (default: 0, or 30 where there is no end)")
+      ->type_name("N");
+  command.add_flag("--gates", options.gates, "exit with 1 unless the style passes its gates");
+  command.add_option("--json", options.json, "write the report for programs")
+      ->check(refuseStandardOutput)
+      ->type_name("FILE");
+  command.add_option("--html", options.html, "write the report as one page, with plots")
+      ->check(refuseStandardOutput)
+      ->type_name("FILE");
+  addPainting(command, options.configuration);
+  addKey(command, options.configuration, "--size", "painting.size",
+         "of a photograph's frames (default: 640x480), or of the painting of a recording whose "
+         "motion is not known",
+         "WxH");
+  addKey(command, options.configuration, "--quality", "runtime.quality",
+         "the level to paint at (default: the best)", "NAME");
+  refuseEmptyValues(command);
+  command.callback([&] { chosen = [&options] { return runMeasure(options); }; });
+}
+
 /// What was not recognised, the first option of it where there is one: the rest may be its value.
 std::string unknownText(const CLI::App& app, const std::vector<std::string>& unknown) {
   const auto option =
@@ -332,13 +418,15 @@ int parseAndRun(int argc, const char* const* argv) {
   RenderOptions renderOptions;
   RecordOptions recordOptions;
   CalibrateOptions calibrateOptions;
+  MeasureOptions measureOptions;
   ConfigOptions configOptions;
   RunOptions runOptions;
   DevicesOptions devicesOptions;
   DoctorOptions doctorOptions;
-  for (ConfigurationRequest* each : {&renderOptions.configuration, &recordOptions.configuration,
-                                     &runOptions.configuration, &calibrateOptions.configuration,
-                                     &configOptions.configuration, &doctorOptions.configuration}) {
+  for (ConfigurationRequest* each :
+       {&renderOptions.configuration, &recordOptions.configuration, &runOptions.configuration,
+        &calibrateOptions.configuration, &measureOptions.configuration,
+        &configOptions.configuration, &doctorOptions.configuration}) {
     each->environment = environmentOfProcess();
   }
   std::function<int()> chosen;
@@ -346,6 +434,7 @@ int parseAndRun(int argc, const char* const* argv) {
   addRender(app, renderOptions, chosen);
   addRecord(app, recordOptions, chosen);
   addCalibrate(app, calibrateOptions, chosen);
+  addMeasure(app, measureOptions, chosen);
   addConfig(app, configOptions, chosen);
   addDevices(app, devicesOptions, chosen);
   addDoctor(app, doctorOptions, chosen);
@@ -356,7 +445,7 @@ int parseAndRun(int argc, const char* const* argv) {
     app.parse(argumentsReversed(argc, argv));
     if (!chosen)
       throw CLI::RequiredError(
-          "one of run, render, record, calibrate, config, devices, doctor and styles");
+          "one of run, render, record, calibrate, measure, config, devices, doctor and styles");
     return chosen();
   } catch (const CLI::ParseError& error) {
     return reportParseError(app, error);

@@ -38,6 +38,31 @@ std::uint64_t frameCountOf(const std::string& text) {
       "--frames", foundText(text, fmt::format("a whole number from 1 to {}", kMostFrames)));
 }
 
+double numberOf(const std::string& option, const std::string& text, std::string_view unit,
+                double least, double most) {
+  std::string_view rest = text;
+  if (!unit.empty() && rest.ends_with(unit)) rest.remove_suffix(unit.size());
+  double number = 0;
+  const auto [end, status] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
+  const bool isNumber = status == std::errc() && end == rest.data() + rest.size();
+  if (isNumber && number >= least && number <= most) return number;  // false of NaN
+  throw CLI::ValidationError(
+      option, foundText(text, fmt::format("a number from {:g} to {:g}{}{}", least, most,
+                                          unit.empty() ? "" : " ", unit)));
+}
+
+std::pair<double, double> vectorOf(const std::string& option, const std::string& text,
+                                   double most) {
+  const std::size_t comma = text.find(',');
+  if (comma != std::string::npos) {
+    return {numberOf(option, text.substr(0, comma), "", -most, most),
+            numberOf(option, text.substr(comma + 1), "", -most, most)};
+  }
+  throw CLI::ValidationError(
+      option, foundText(text, fmt::format("two numbers from {:g} to {:g}, such as -1.5,-0.5", -most,
+                                          most)));
+}
+
 std::string refuseStandardOutput(const std::string& text) {
   if (text != "-") return {};
   return foundText(text, "the name of a file; nothing is written to standard output");

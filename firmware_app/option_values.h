@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include <CLI/App.hpp>
 
@@ -9,6 +11,13 @@ namespace pleinair::app {
 
 /// A whole number from 1. Throws CLI::ValidationError, which says the limits.
 std::uint64_t frameCountOf(const std::string& text);
+
+/// A number within limits, with a unit after it or without. Throws CLI::ValidationError, which says
+/// what is allowed of `option`.
+double numberOf(const std::string& option, const std::string& text, std::string_view unit,
+                double least, double most);
+/// "X,Y", neither beyond ± `most`. Likewise.
+std::pair<double, double> vectorOf(const std::string& option, const std::string& text, double most);
 
 // Checks for CLI::Option::check(): empty, or what is wrong.
 

@@ -287,16 +287,30 @@ scene::ArFrame PaintChain::compose(const hal::CapturedFrame& frame,
                          .tags = sightings_},
                         frame.sequence, frame.captureTime, timer_, needs, lights);
   composed.fullSize = pictureSize_;
-  if (style_->usesCanvas()) composed.canvasFromPicture = followCanvas(frame.image);
+  if (!style_->usesCanvas() && !needs.pictureMovement) return composed;
+  const hal::PlaneView luma = luma_.convert(frame.image);
+  if (style_->usesCanvas()) {
+    composed.canvasFromPicture = followCanvas(luma, frame.image.format.size);
+  }
+  if (needs.pictureMovement) composed.pictureMovement = followPicture(luma, frame);
   return composed;
 }
 
 /// Motion is followed in the captured frame; the canvas has the full picture's pixels.
-tracking::PlaneSimilarity PaintChain::followCanvas(const hal::ImageView& image) {
-  const gpu::CoverFit fit = gpu::coverFit(image.format.size, pictureSize_);
+tracking::PlaneSimilarity PaintChain::followCanvas(const hal::PlaneView& luma,
+                                                   hal::FrameSize size) {
+  const gpu::CoverFit fit = gpu::coverFit(size, pictureSize_);
   const tracking::PlaneSimilarity frameFromPicture{{fit.scale.x, 0.0}, fit.origin};
-  return frameFromPicture.inverse() * motion_.follow(luma_.convert(image), image.format.size) *
-         frameFromPicture;
+  return frameFromPicture.inverse() * motion_.follow(luma, size) * frameFromPicture;
+}
+
+scene::PictureMovement PaintChain::followPicture(const hal::PlaneView& luma,
+                                                 const hal::CapturedFrame& frame) {
+  const hal::FrameSize size = frame.image.format.size;
+  const gpu::CoverFit fit = gpu::coverFit(size, pictureSize_);
+  return {.motion = &imageMotion_.follow(luma, size, frame.sequence),
+          .frameScale = fit.scale,
+          .frameOrigin = fit.origin};
 }
 
 const gpu::Texture& PaintChain::paintView(const scene::ArFrame& frame,
@@ -385,6 +399,7 @@ void PaintChain::reset() {
   style_->reset();
   renderer_.reset();
   motion_.reset();
+  imageMotion_.reset();
   if (light_) light_->reset();
   if (tracker_) tracker_->reset();
 }

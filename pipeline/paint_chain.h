@@ -18,6 +18,7 @@
 #include "pipeline/scene/buffer_views.h"
 #include "pipeline/scene/light_estimator.h"
 #include "pipeline/styles/style.h"
+#include "pipeline/tracking/image_motion_estimator.h"
 #include "pipeline/tracking/luma.h"
 #include "pipeline/tracking/picture_motion.h"
 #include "pipeline/tracking/tracker.h"
@@ -79,7 +80,8 @@ class PaintChain {
   scene::ArFrame compose(const hal::CapturedFrame& frame, const tracking::TrackingResult& tracked,
                          const Level& level, scene::ArFrameNeeds needs);
   scene::ArFrameNeeds needsOf(const std::string& view) const;
-  tracking::PlaneSimilarity followCanvas(const hal::ImageView& image);
+  tracking::PlaneSimilarity followCanvas(const hal::PlaneView& luma, hal::FrameSize size);
+  scene::PictureMovement followPicture(const hal::PlaneView& luma, const hal::CapturedFrame& frame);
   const gpu::Texture& paintView(const scene::ArFrame& frame, const PaintParameters& parameters);
   void submitToReaders(const hal::CapturedFrame& frame);
   hal::Result<hal::Image> read(const gpu::Texture* texture);
@@ -106,6 +108,7 @@ class PaintChain {
   std::optional<tracking::Tracker> tracker_;
   tracking::LumaConverter luma_;
   tracking::PictureMotion motion_;
+  tracking::ImageMotionEstimator imageMotion_;
   std::optional<scene::LightEstimator> light_;  // where the scene leaves it to the camera
   std::vector<scene::TagSighting> sightings_;
   std::vector<std::unique_ptr<Reader>> readers_;

@@ -25,6 +25,16 @@ Result<Image> readPictureRgb(const std::filesystem::path& path);
 /// texture. `subject` names it in errors, which are readPicture()'s.
 Result<Image> decodeRgba(std::span<const std::uint8_t> bytes, const std::string& subject);
 
+/// RGB of 16 bits a channel, rows packed from the top.
+struct DeepPicture {
+  FrameSize size;
+  std::vector<std::uint16_t> rgb;
+};
+
+/// A PNG file of 16-bit RGB, all bits kept: what measurements such as KITTI's flow are stored in.
+/// Errors: as readPicture(), and kInvalidInput (of another depth or without colour).
+Result<DeepPicture> readDeepRgb(const std::filesystem::path& path);
+
 /// The bytes of a PNG file of RGB8, RGBA8 or grey. Errors: kUnsupported (format).
 Result<std::vector<std::uint8_t>> encodePng(const ImageView& picture);
 

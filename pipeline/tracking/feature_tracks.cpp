@@ -7,8 +7,11 @@
 #include <vector>
 
 #include <glm/geometric.hpp>
-#include <opencv2/imgproc.hpp>
-#include <opencv2/video/tracking.hpp>
+#include <opencv2/core.hpp>
+
+#include "pipeline/tracking/corner_search.h"
+#include "pipeline/tracking/luma_pyramid.h"
+#include "pipeline/tracking/point_follower.h"
 
 namespace pleinair::tracking {
 namespace {
@@ -17,12 +20,8 @@ constexpr int kLongSidePx = 640;  // of the picture that is followed
 constexpr int kColumns = 10;
 constexpr int kRows = 8;
 constexpr std::size_t kPerTag = 16;
-/// Least eigenvalue of the gradients in a window, OpenCV's measure: about 1.3 levels a pixel.
-constexpr float kLeastCorner = 1e-4F;
-constexpr double kSpacingPx = 9.0;  // between features, of the followed picture
-constexpr double kBorderPx = 6.0;
-constexpr int kLevels = 3;
-constexpr float kLargestDifference = 16.0F;  // mean grey levels in a feature's window
+constexpr double kBorderPx = 6.0;            // of the followed picture
+constexpr double kLargestDifference = 16.0;  // mean grey levels in a feature's window
 constexpr double kBackPx = 0.4;              // from where a feature came
 /// The key frame is worn when so few of its features are found …
 constexpr double kLeastFound = 0.6;
@@ -30,7 +29,6 @@ constexpr double kLeastFound = 0.6;
 constexpr double kFarShift = 0.12;
 /// … or their distances from their middle have changed so much, by turn or zoom.
 constexpr double kFarTurn = 0.2;
-const cv::Size kWindow{15, 15};
 
 bool isNear(const cv::Point2f& a, const cv::Point2f& b, double px) {
   return std::hypot(static_cast<double>(a.x - b.x), static_cast<double>(a.y - b.y)) < px;
@@ -40,70 +38,26 @@ bool isNear(const cv::Point2f& a, const cv::Point2f& b, double px) {
 
 struct FeatureTracks::State {
   hal::FrameSize size;
-  double reduction = 1.0;  // frame px in a followed px
   bool hasKey = false;
   std::uint32_t nextId = 0;
-  cv::Mat reduced;
-  std::vector<cv::Mat> pyramid;
-  std::vector<cv::Mat> keyPyramid;
+  LumaPyramid pyramid;
+  LumaPyramid keyPyramid;
+  PointFollower follower;
+  CornerSearch corners;
   std::vector<FeatureTrack> tracks;
-  // Of each track, in the followed picture's px with integer centres.
+  // Of each track, in the pyramids' px.
   std::vector<cv::Point2f> keyPoints;
   std::vector<cv::Point2f> points;
-  std::vector<cv::Point2f> back;
-  std::vector<unsigned char> found;
-  std::vector<unsigned char> foundBack;
-  std::vector<float> differences;
-  std::vector<float> unused;
-  cv::Mat corners;  // how good a corner each pixel of the pyramid's second level is
-
-  void load(const hal::PlaneView& luma, hal::FrameSize frameSize) {
-    auto* const bytes = const_cast<std::uint8_t*>(luma.bytes.data());  // OpenCV only reads them
-    const cv::Mat full(frameSize.height, frameSize.width, CV_8UC1, bytes, luma.strideBytes);
-    const int longSide = std::max(frameSize.width, frameSize.height);
-    reduction = std::max(1.0, static_cast<double>(longSide) / kLongSidePx);
-    if (reduction > 1.0) {
-      const cv::Size small(
-          std::max(1, static_cast<int>(std::lround(frameSize.width / reduction))),
-          std::max(1, static_cast<int>(std::lround(frameSize.height / reduction))));
-      cv::resize(full, reduced, small, 0.0, 0.0, cv::INTER_AREA);
-    } else {
-      reduced = full;
-    }
-    cv::buildOpticalFlowPyramid(reduced, pyramid, kWindow, kLevels, true, cv::BORDER_REFLECT_101,
-                                cv::BORDER_CONSTANT, false);
-  }
-
-  glm::dvec2 framePx(const cv::Point2f& p) const {
-    return reduction * (glm::dvec2(p.x, p.y) + 0.5);
-  }
-  cv::Point2f followedPx(const glm::dvec2& px) const {
-    const glm::dvec2 p = px / reduction - 0.5;
-    return {static_cast<float>(p.x), static_cast<float>(p.y)};
-  }
-  bool isInside(const cv::Point2f& p) const {
-    const cv::Size of = pyramid.front().size();
-    return p.x > kBorderPx && p.y > kBorderPx && p.x < of.width - kBorderPx &&
-           p.y < of.height - kBorderPx;
-  }
 
   void followAll() {
-    if (keyPoints.empty()) return;
-    const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 20, 0.005);
-    cv::calcOpticalFlowPyrLK(keyPyramid, pyramid, keyPoints, points, found, differences, kWindow,
-                             kLevels, until, cv::OPTFLOW_USE_INITIAL_FLOW, 1e-3);
-    back = keyPoints;
-    const cv::TermCriteria briefly(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 5, 0.05);
-    cv::calcOpticalFlowPyrLK(pyramid, keyPyramid, points, back, foundBack, unused, kWindow, 0,
-                             briefly, cv::OPTFLOW_USE_INITIAL_FLOW, 1e-3);
+    follower.follow(keyPyramid, pyramid, keyPoints, points);
     for (std::size_t i = 0; i < tracks.size(); ++i) {
-      tracks[i].isFound = found[i] != 0 && foundBack[i] != 0 &&
-                          differences[i] < kLargestDifference && isInside(points[i]) &&
-                          isNear(back[i], keyPoints[i], kBackPx);
+      tracks[i].isFound = follower.isFound(i) && follower.difference(i) < kLargestDifference &&
+                          pyramid.isInside(points[i], kBorderPx) && follower.backPx(i) < kBackPx;
       if (tracks[i].isFound) {
-        tracks[i].px = framePx(points[i]);
+        tracks[i].px = pyramid.framePx(points[i]);
       } else {
-        points[i] = followedPx(tracks[i].px);
+        points[i] = pyramid.ownPx(tracks[i].px);
       }
     }
     shiftLost();
@@ -121,7 +75,7 @@ struct FeatureTracks::State {
     if (count == 0) return;
     shift /= static_cast<double>(count);
     for (std::size_t i = 0; i < tracks.size(); ++i) {
-      if (!tracks[i].isFound) points[i] = followedPx(tracks[i].keyPx + shift);
+      if (!tracks[i].isFound) points[i] = pyramid.ownPx(tracks[i].keyPx + shift);
     }
   }
 
@@ -133,34 +87,18 @@ struct FeatureTracks::State {
 
   bool isFree(const cv::Point2f& p) const {
     return std::ranges::none_of(tracks, [&](const FeatureTrack& track) {
-      return isNear(followedPx(track.keyPx), p, kSpacingPx);
+      return isNear(pyramid.ownPx(track.keyPx), p, CornerSearch::kSpacingPx);
     });
   }
 
-  /// The best corner of a part of the second level's picture, taken out of it.
-  bool takeBest(const cv::Rect& part, cv::Point2f& best) {
-    double strength = 0.0;
-    cv::Point at;
-    cv::Mat view = corners(part);
-    cv::minMaxLoc(view, nullptr, &strength, nullptr, &at);
-    if (!(strength > kLeastCorner)) return false;
-    const int reach = static_cast<int>(kSpacingPx / 2.0);
-    const cv::Rect around(part.x + at.x - reach, part.y + at.y - reach, 2 * reach + 1,
-                          2 * reach + 1);
-    corners(around & cv::Rect({}, corners.size())).setTo(0.0F);
-    best = {2.0F * static_cast<float>(part.x + at.x), 2.0F * static_cast<float>(part.y + at.y)};
-    return true;
-  }
-
-  void addBestOf(cv::Rect part, std::size_t most) {
-    part &= cv::Rect({}, corners.size());
-    if (part.empty()) return;
+  void addBestOf(const cv::Rect& part, std::size_t most) {
     std::size_t added = 0;
     for (std::size_t tries = 0; tries < 2 * most + 2 && added < most; ++tries) {
       cv::Point2f at;
-      if (tracks.size() >= kMostTracks || !takeBest(part, at)) return;
-      if (!isInside(at) || !isFree(at)) continue;
-      tracks.push_back({.id = nextId++, .keyPx = framePx(at), .px = framePx(at), .isFound = true});
+      if (tracks.size() >= kMostTracks || !corners.takeBest(part, at)) return;
+      if (!pyramid.isInside(at, kBorderPx) || !isFree(at)) continue;
+      const glm::dvec2 px = pyramid.framePx(at);
+      tracks.push_back({.id = nextId++, .keyPx = px, .px = px, .isFound = true});
       ++added;
     }
   }
@@ -168,19 +106,17 @@ struct FeatureTracks::State {
   /// How many tracks a part of the second level's picture has.
   std::size_t countIn(const cv::Rect& part) const {
     return static_cast<std::size_t>(std::ranges::count_if(tracks, [&](const FeatureTrack& track) {
-      const cv::Point2f p = followedPx(track.keyPx);
+      const cv::Point2f p = pyramid.ownPx(track.keyPx);
       return part.contains(cv::Point(static_cast<int>(p.x / 2.0F), static_cast<int>(p.y / 2.0F)));
     }));
   }
 
   void addNew(std::span<const TagCornersPx> tags) {
-    constexpr std::size_t kSecondLevel = 2;      // each level's derivatives follow it
-    if (pyramid.size() <= kSecondLevel) return;  // too small a picture to have one
-    cv::cornerMinEigenVal(pyramid[kSecondLevel], corners, 5);
+    if (!corners.look(pyramid)) return;  // too small a picture
     for (const TagCornersPx& tag : tags) {
-      cv::Rect2f box(0.5F * followedPx(tag[0]), cv::Size2f(1.0F, 1.0F));
+      cv::Rect2f box(0.5F * pyramid.ownPx(tag[0]), cv::Size2f(1.0F, 1.0F));
       for (const glm::dvec2& px : tag) {
-        box |= cv::Rect2f(0.5F * followedPx(px), cv::Size2f(1.0F, 1.0F));
+        box |= cv::Rect2f(0.5F * pyramid.ownPx(px), cv::Size2f(1.0F, 1.0F));
       }
       const cv::Rect part = box;
       const std::size_t there = countIn(part);
@@ -188,9 +124,10 @@ struct FeatureTracks::State {
     }
     for (int row = 0; row < kRows; ++row) {
       for (int column = 0; column < kColumns; ++column) {
-        const cv::Point from(corners.cols * column / kColumns, corners.rows * row / kRows);
-        const cv::Point to(corners.cols * (column + 1) / kColumns,
-                           corners.rows * (row + 1) / kRows);
+        const cv::Point from(corners.size().width * column / kColumns,
+                             corners.size().height * row / kRows);
+        const cv::Point to(corners.size().width * (column + 1) / kColumns,
+                           corners.size().height * (row + 1) / kRows);
         const cv::Rect part(from, to);
         if (countIn(part) == 0) addBestOf(part, 1);
       }
@@ -216,7 +153,7 @@ void FeatureTracks::follow(const hal::PlaneView& luma, hal::FrameSize size) {
   State& s = *state_;
   if (s.size != size) reset();
   s.size = size;
-  s.load(luma, size);
+  s.pyramid.load(luma, size, kLongSidePx);
   if (s.hasKey) s.followAll();
 }
 
@@ -254,7 +191,7 @@ void FeatureTracks::makeKey(std::span<const TagCornersPx> tags) {
   std::swap(s.keyPyramid, s.pyramid);
   s.hasKey = true;
   s.keyPoints.clear();
-  for (const FeatureTrack& track : s.tracks) s.keyPoints.push_back(s.followedPx(track.keyPx));
+  for (const FeatureTrack& track : s.tracks) s.keyPoints.push_back(s.keyPyramid.ownPx(track.keyPx));
   s.points = s.keyPoints;
 }
 

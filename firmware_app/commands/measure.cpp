@@ -1,0 +1,176 @@
+#include "firmware_app/commands/measure.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "firmware_app/configured_parts.h"
+#include "firmware_app/exit_status.h"
+#include "firmware_app/interrupt.h"
+#include "firmware_app/live/runtime_rules.h"
+#include "firmware_app/measured_engine.h"
+#include "firmware_app/progress.h"
+#include "pipeline/measure/measured_input.h"
+#include "pipeline/measure/measurement.h"
+
+namespace pleinair::app {
+namespace {
+
+namespace fs = std::filesystem;
+using hal::orThrow;
+
+constexpr int kSignalExitBase = 128;
+constexpr int kGateFailed = 1;
+constexpr int kControlsWrong = 2;
+
+/// Of inputs that go on as long as is wanted: two seconds, after one.
+constexpr std::uint64_t kFramesByDefault = 60;
+constexpr std::uint64_t kSettleByDefault = 30;
+
+hal::StartupError refusal(std::string subject, std::string problem, std::string remedy) {
+  return hal::StartupError({.kind = hal::ErrorKind::kInvalidArgument,
+                            .subject = std::move(subject),
+                            .problem = std::move(problem),
+                            .remedy = std::move(remedy)});
+}
+
+/// How many frames an input that has no end is asked for.
+std::uint64_t framesWanted(const MeasureOptions& options) {
+  return options.frames.value_or(kFramesByDefault) + options.settle.value_or(kSettleByDefault);
+}
+
+std::unique_ptr<measure::MeasuredInput> openPhotographOf(const MeasureOptions& options,
+                                                         const Configuration& configuration) {
+  std::error_code ignored;
+  if (!options.input || fs::is_directory(*options.input, ignored)) {
+    throw refusal(options.input ? options.input->string() : "--input",
+                  "--pan, --zoom, --roll and --still move one photograph",
+                  "give a picture, or leave them out");
+  }
+  measure::PhotographOptions photograph{.motion = options.photograph,
+                                        .noiseLevels = options.noiseLevels,
+                                        .frames = framesWanted(options)};
+  const config::PixelSize size = configuration.painting().size;
+  if (size != config::PixelSize{}) photograph.size = {size.width, size.height};
+  return orThrow(measure::openPhotograph(*options.input, photograph));
+}
+
+std::unique_ptr<measure::MeasuredInput> openWorkbenchOf(const MeasureOptions& options,
+                                                        const Configuration& configuration) {
+  refuseSlipOfCamera(configuration);
+  const CameraSettings camera = configuration.camera();
+  if (!isSynthetic(camera)) {
+    throw refusal(camera.source.string(), "no device and no played recording can be measured",
+                  "give --input a recording, or --camera synthetic:SHOT");
+  }
+  hal::SyntheticOptions synthetic = syntheticOptions(camera);
+  synthetic.frameCount = framesWanted(options);
+  return orThrow(measure::openWorkbench(synthetic));
+}
+
+std::unique_ptr<measure::MeasuredInput> openInput(const MeasureOptions& options,
+                                                  const Configuration& configuration) {
+  if (options.isMoved) return openPhotographOf(options, configuration);
+  if (!options.input) return openWorkbenchOf(options, configuration);
+  std::error_code ignored;
+  if (fs::is_directory(*options.input, ignored) && !options.motion) {
+    return orThrow(measure::openPictureFolder(*options.input));
+  }
+  return orThrow(measure::openPlainRecording(*options.input, options.motion));
+}
+
+/// The size that is painted at. A truth is one of the input's own pixels.
+hal::FrameSize pictureSizeOf(const Configuration& configuration, measure::MeasuredInput& input) {
+  const hal::FrameSize own = input.format().size;
+  const config::PixelSize asked = configuration.painting().size;
+  if (asked == config::PixelSize{} || hal::FrameSize{asked.width, asked.height} == own) return own;
+  if (input.motion() != nullptr) {
+    throw refusal(configuration.origin("painting.size"),
+                  fmt::format("the true motion of {} is in px of its own {}x{}",
+                              input.description(), own.width, own.height),
+                  "leave the size out");
+  }
+  return {asked.width, asked.height};
+}
+
+std::string settingsText(const Configuration& configuration, hal::FrameSize size,
+                         const std::string& quality) {
+  return fmt::format("look {}, {}x{}, quality {}", configuration.painting().look, size.width,
+                     size.height, quality);
+}
+
+/// Runs it with progress; nothing where it was broken off.
+std::optional<measure::Report> measured(measure::MeasuredInput& input,
+                                        measure::MeasuredPainter& painter,
+                                        measure::MeasurementOptions options) {
+  const hal::SteadyClock realTime;
+  Progress progress("measuring", framesToPaint(input, options), realTime);
+  options.goesOn = [&progress] {
+    progress.advance();
+    return Interrupt::received() == 0;
+  };
+  return orThrow(measure::measure(input, painter, options));
+}
+
+int statusOf(const measure::Report& report, bool gates) {
+  if (!report.areControlsSound()) {
+    printError("the controls do not read as they must; see the report");
+    return kControlsWrong;
+  }
+  return gates && !report.areGatesPassed() ? kGateFailed : 0;
+}
+
+int measureConfigured(const MeasureOptions& options, const Configuration& configuration) {
+  const scene::Scene scene = configuredScene(configuration);
+  const std::unique_ptr<measure::MeasuredInput> input = openInput(options, configuration);
+  const hal::FrameSize size = pictureSizeOf(configuration, *input);
+  const std::vector<std::string> levels = qualityNames();
+  const std::string asked = configuration.runtime().quality;
+  const auto level = std::ranges::find(levels, asked);
+  const std::size_t quality =
+      level == levels.end() ? 0 : static_cast<std::size_t>(level - levels.begin());
+  const PaintingOptions painting = configuredPainting(configuration, {});
+
+  Painter painter({.pictureSize = size,
+                   .scene = scene,
+                   .style = painting.style,
+                   .tracksTags = !scene.tags.empty(),
+                   .expectedFormat = input->format(),
+                   .qualityLevels = quality != 0});
+  PaintParameters parameters = parametersOf(painter, painting);
+  parameters.quality = quality;
+  MeasuredEngine engine(painter, std::move(parameters), size);
+
+  const std::uint64_t settle = options.settle.value_or(input->isEndless() ? kSettleByDefault : 0);
+  std::optional<std::uint64_t> frames = options.frames;
+  if (!frames && input->isEndless()) frames = kFramesByDefault;
+  const Interrupt interrupt;
+  const std::optional<measure::Report> report =
+      measured(*input, engine,
+               {.style = painting.style,
+                .settings = settingsText(configuration, size, levels.at(quality)),
+                .frames = frames,
+                .settle = settle,
+                .stillNoiseLevels = options.noiseLevels});
+  if (!report) {
+    printError(fmt::format("broken off by {}", signalName(Interrupt::received())));
+    return kSignalExitBase + Interrupt::received();
+  }
+  std::fputs(measure::reportText(*report).c_str(), stdout);
+  return statusOf(*report, options.gates);
+}
+
+}  // namespace
+
+int runMeasure(const MeasureOptions& options) {
+  const Configuration configuration(options.configuration);
+  return configuration.blaming([&] { return measureConfigured(options, configuration); });
+}
+
+}  // namespace pleinair::app

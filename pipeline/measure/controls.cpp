@@ -1,0 +1,94 @@
+#include "pipeline/measure/controls.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace pleinair::measure {
+namespace {
+
+using State = Verdict::State;
+
+constexpr std::uint64_t kFixedSeed = 0;
+constexpr double kLeastScreenPattern = 0.25;
+/// Below this, in levels, tiles are hardly seen: there is nothing to tell one from the next by.
+constexpr double kSmoothDeparture = 3.0;
+
+/// Why a control may read wrong though the measures are sound.
+std::string likelyCause(const PerSubject<Measures>& measures) {
+  const std::optional<double>& departure = measures[Subject::kFixed].dep;
+  if (departure && *departure < kSmoothDeparture) {
+    return fmt::format("; the input is too smooth: tiles of it differ from it by {:.1f} levels",
+                       *departure);
+  }
+  return "";
+}
+
+Verdict inputVerdict(const Measures& input) {
+  constexpr double kTolerance = 1e-6;
+  Verdict verdict{.what = "the input itself reads xEW2 = 1"};
+  if (!input.ew2) {
+    verdict.found = "nothing to compare along a true motion";
+  } else if (!input.xEw2) {
+    verdict.found = "the input has no error at all: it has no noise";
+  } else {
+    verdict.found = fmt::format("{:.4f}", *input.xEw2);
+    verdict.state = std::abs(*input.xEw2 - 1) < kTolerance ? State::kPassed : State::kFailed;
+  }
+  return verdict;
+}
+
+Verdict freshVerdict(const PerSubject<Measures>& measures, std::string_view style,
+                     MotionKind motion) {
+  Verdict verdict{.what = "marks redrawn each frame fail the gates"};
+  bool isMeasured = false;
+  for (const Verdict& gate :
+       gateVerdicts(style, motion, measures[Subject::kFresh], measures[Subject::kFixed])) {
+    isMeasured |= gate.state != State::kNotMeasured;
+    if (gate.state != State::kFailed) continue;
+    verdict.state = State::kPassed;
+    verdict.found +=
+        fmt::format("{}{} fails with {}", verdict.found.empty() ? "" : ", ", gate.what, gate.found);
+  }
+  if (verdict.state == State::kPassed) return verdict;
+  verdict.state = isMeasured ? State::kFailed : State::kNotMeasured;
+  verdict.found = (isMeasured ? "they pass" : "no gate could be measured") + likelyCause(measures);
+  return verdict;
+}
+
+Verdict fixedVerdict(const PerSubject<Measures>& measures) {
+  Verdict verdict{
+      .what = fmt::format("marks fixed to the screen read SCR ≥ {:g}", kLeastScreenPattern)};
+  const std::optional<double>& screen = measures[Subject::kFixed].scr;
+  if (!screen) {
+    verdict.found = "SCR could not be had";
+    return verdict;
+  }
+  const bool isPassed = *screen >= kLeastScreenPattern;
+  verdict.state = isPassed ? State::kPassed : State::kFailed;
+  verdict.found = fmt::format("{:.3f}", *screen) + (isPassed ? "" : likelyCause(measures));
+  return verdict;
+}
+
+}  // namespace
+
+ControlPainter::ControlPainter(cv::Size size) : fixed_(size, kFixedSeed) {}
+
+PerSubject<cv::Mat3f> ControlPainter::paint(const cv::Mat3f& input, const cv::Mat3f& output,
+                                            std::uint64_t index) const {
+  PerSubject<cv::Mat3f> pictures;
+  pictures[Subject::kPainting] = output;
+  pictures[Subject::kInput] = input;
+  pictures[Subject::kFresh] = VoronoiTiling(input.size(), kFixedSeed + 1 + index).paint(input);
+  pictures[Subject::kFixed] = fixed_.paint(input);
+  return pictures;
+}
+
+std::vector<Verdict> controlVerdicts(const PerSubject<Measures>& measures, std::string_view style,
+                                     MotionKind motion) {
+  const std::string_view gated = hasGates(style) ? style : "painterly";
+  return {inputVerdict(measures[Subject::kInput]), freshVerdict(measures, gated, motion),
+          fixedVerdict(measures)};
+}
+
+}  // namespace pleinair::measure

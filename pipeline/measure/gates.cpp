@@ -1,0 +1,100 @@
+#include "pipeline/measure/gates.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+#include <fmt/format.h>
+
+namespace pleinair::measure {
+namespace {
+
+/// On which motions a gate is shut.
+enum class On {
+  kAny,
+  kPan,         ///< one vector: what an output is compared by then is nothing but itself
+  kOtherKnown,  ///< motion that one global translation would not pass
+  kKnown,
+};
+
+struct Gate {
+  std::string_view style;
+  std::optional<double> Measures::*measure;
+  bool isMost;   ///< else the least
+  double limit;  ///< or the factor of it that follows
+  std::optional<double> Measures::*ofTiling = nullptr;
+  On on = On::kAny;
+};
+
+constexpr std::array kGates{
+    Gate{"painterly", &Measures::ew2, true, 0.6, nullptr, On::kPan},
+    Gate{"painterly", &Measures::nHw2, true, 0.10, nullptr, On::kPan},
+    Gate{"painterly", &Measures::nHw2, true, 0.20, nullptr, On::kOtherKnown},
+    Gate{"painterly", &Measures::s10Percent, false, 90, nullptr, On::kPan},
+    Gate{"painterly", &Measures::s10Percent, false, 80, nullptr, On::kOtherKnown},
+    Gate{"painterly", &Measures::popPercent, true, 1, nullptr, On::kPan},
+    Gate{"painterly", &Measures::xFlk, true, 0.5},
+    Gate{"painterly", &Measures::dep, false, 0.75, &Measures::dep},
+    Gate{"painterly", &Measures::det, false, 0.75},
+    Gate{"watercolor", &Measures::nHw2, true, 0.30, nullptr, On::kKnown},
+    Gate{"watercolor", &Measures::xFlk, true, 0.15},
+    Gate{"watercolor", &Measures::dep, false, 0.75, &Measures::dep},
+    Gate{"watercolor", &Measures::scr, true, 0.3, &Measures::scr},
+};
+
+bool isShutOn(const Gate& gate, MotionKind motion) {
+  switch (gate.on) {
+    case On::kAny:
+      return true;
+    case On::kPan:
+      return motion == MotionKind::kPan;
+    case On::kOtherKnown:
+      return motion == MotionKind::kOther;
+    case On::kKnown:
+      return motion != MotionKind::kNone;
+  }
+  return false;
+}
+
+const MeasureColumn& columnOf(std::optional<double> Measures::*value) {
+  return *std::ranges::find(measureColumns(), value, &MeasureColumn::value);
+}
+
+Verdict judge(const Gate& gate, const Measures& measures, const Measures& tiling) {
+  const MeasureColumn& column = columnOf(gate.measure);
+  const char* relation = gate.isMost ? "≤" : "≥";
+  const std::optional<double>& found = measures.*gate.measure;
+  double limit = gate.limit;
+  bool isLimitKnown = true;
+  Verdict verdict{.what = fmt::format("{} {} {:g}", column.name, relation, gate.limit),
+                  .found = textOf(column, measures)};
+  if (gate.ofTiling != nullptr) {
+    const std::optional<double>& reference = tiling.*gate.ofTiling;
+    limit *= reference.value_or(0);
+    isLimitKnown = reference.has_value();
+    verdict.what += fmt::format(" × the tiling's {}", textOf(column, tiling));
+  }
+  if (!found || !isLimitKnown) return verdict;
+  const bool isPassed = gate.isMost ? *found <= limit : *found >= limit;
+  verdict.state = isPassed ? Verdict::State::kPassed : Verdict::State::kFailed;
+  return verdict;
+}
+
+}  // namespace
+
+bool hasGates(std::string_view style) {
+  return std::ranges::find(kGates, style, &Gate::style) != kGates.end();
+}
+
+std::vector<Verdict> gateVerdicts(std::string_view style, MotionKind motion,
+                                  const Measures& measures, const Measures& tiling) {
+  assert(hasGates(style));
+  std::vector<Verdict> verdicts;
+  for (const Gate& gate : kGates) {
+    if (gate.style != style || !isShutOn(gate, motion)) continue;
+    verdicts.push_back(judge(gate, measures, tiling));
+  }
+  return verdicts;
+}
+
+}  // namespace pleinair::measure

@@ -1,0 +1,173 @@
+#include "pipeline/measure/measurement.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "pipeline/measure/picture.h"
+#include "pipeline/measure/sensor_noise.h"
+#include "pipeline/measure/sequence_measures.h"
+#include "pipeline/measure/still_measures.h"
+
+namespace pleinair::measure {
+namespace {
+
+constexpr hal::Duration kFramePeriod{33'333'333};
+constexpr std::uint64_t kLeastFrames = kShortLag + 1;
+
+hal::Error unfit(const MeasuredInput& input, std::string problem, std::string remedy) {
+  return {.kind = hal::ErrorKind::kInvalidInput,
+          .subject = input.description(),
+          .problem = std::move(problem),
+          .remedy = std::move(remedy)};
+}
+
+/// One measurement, from the first frame to the report.
+class Measurement {
+ public:
+  Measurement(MeasuredInput& input, MeasuredPainter& painter, const MeasurementOptions& options)
+      : input_(input), painter_(painter), options_(options) {}
+
+  hal::Result<std::optional<Report>> run() {
+    report_ = {.style = options_.style,
+               .settings = options_.settings,
+               .input = input_.description(),
+               .settled = options_.settle};
+    for (auto part : {&Measurement::measureSequence, &Measurement::measureStill}) {
+      const hal::Result<bool> isDone = (this->*part)();
+      if (!isDone) return tl::unexpected(isDone.error());
+      if (!*isDone) return std::nullopt;
+    }
+    judge();
+    return std::move(report_);
+  }
+
+ private:
+  /// False where it was broken off.
+  hal::Result<bool> measureSequence() {
+    for (std::uint64_t index = 0;; ++index) {
+      if (options_.frames && index == options_.settle + *options_.frames) break;
+      const hal::Result<std::optional<hal::CapturedFrame>> frame = input_.next();
+      if (!frame) return tl::unexpected(frame.error());
+      if (!*frame) break;
+      const hal::Result<PaintedFrame> painted = painter_.paint(**frame);
+      if (!painted) return tl::unexpected(painted.error());
+      if (index >= options_.settle) {
+        if (auto added = add(index, *painted); !added) return tl::unexpected(added.error());
+      }
+      if (!options_.goesOn()) return false;
+    }
+    if (report_.frames < kLeastFrames) {
+      return tl::unexpected(unfit(
+          input_, fmt::format("has {} frames to measure after {}", report_.frames, options_.settle),
+          fmt::format("give {} at least, or 11 for all measures", kLeastFrames)));
+    }
+    return true;
+  }
+
+  hal::Result<void> add(std::uint64_t index, const PaintedFrame& painted) {
+    const cv::Mat3f input = toFloat(painted.input.view());
+    if (report_.frames == 0) {
+      report_.size = painted.input.size();
+      if (std::min(report_.size.width, report_.size.height) < kLeastSidePixels) {
+        return tl::unexpected(
+            unfit(input_, fmt::format("has frames of {}x{} px", input.cols, input.rows),
+                  fmt::format("give frames of {0}x{0} px at least", kLeastSidePixels)));
+      }
+      sequence_.emplace(input.size(), input_.motion());
+      still_ = input;
+    }
+    ++report_.frames;
+    return sequence_->add(index, input, toFloat(painted.output.view()));
+  }
+
+  /// As measureSequence().
+  hal::Result<bool> measureStill() {
+    if (options_.stillFrames == 0) return true;
+    painter_.reset();
+    StillMeasures still(still_.size());
+    for (std::uint64_t i = 0; i < options_.stillSettle + options_.stillFrames; ++i) {
+      const hal::Image noisy = withSensorNoise(still_, options_.stillNoiseLevels, i);
+      const hal::TimePoint time{kFramePeriod * static_cast<std::int64_t>(i)};
+      const hal::Result<PaintedFrame> painted =
+          painter_.paint({.image = noisy.view(),
+                          .sequence = i,
+                          .captureTime = time,
+                          .timestampSource = hal::TimestampSource::kSimulated});
+      if (!painted) return tl::unexpected(painted.error());
+      if (i >= options_.stillSettle) {
+        still.add(toFloat(painted->input.view()), toFloat(painted->output.view()));
+      }
+      if (!options_.goesOn()) return false;
+    }
+    report_.stillFrames = options_.stillFrames;
+    report_.stillNoise = options_.stillNoiseLevels;
+    for (const Subject subject : kAllSubjects) flicker_[subject] = still.flicker(subject);
+    return true;
+  }
+
+  void judge() {
+    report_.motionKind = sequence_->motionKind();
+    report_.motion =
+        input_.motion() == nullptr ? "its motion is not known" : input_.motion()->description();
+    report_.measures = sequence_->totals();
+    for (const Subject subject : kAllSubjects) report_.measures[subject].xFlk = flicker_[subject];
+    report_.notices = input_.notices();
+    report_.leftOut = leftOut();
+    report_.controls = controlVerdicts(report_.measures, report_.style, report_.motionKind);
+    if (hasGates(report_.style)) {
+      report_.gates =
+          gateVerdicts(report_.style, report_.motionKind, report_.measures[Subject::kPainting],
+                       report_.measures[Subject::kFixed]);
+    }
+  }
+
+  std::vector<std::string> leftOut() const {
+    const Measures& own = report_.measures[Subject::kPainting];
+    std::vector<std::string> lines;
+    if (report_.motionKind == MotionKind::kNone) {
+      lines.emplace_back(
+          "EW2, xEW2, nHW2, POP and S10: they need the true motion (motion.json, "
+          "flow files, or --motion)");
+    }
+    if (report_.frames <= kLongLag) {
+      lines.push_back(fmt::format("S10 and SCR: they compare frames {} apart, and there are {}",
+                                  kLongLag, report_.frames));
+    } else if (!own.scr) {
+      lines.emplace_back("SCR: too little of the picture moves by 8 px or more in ten frames");
+    }
+    if (!own.xFlk) lines.emplace_back("xFLK: no still scene was painted, or it has no noise");
+    if (own.ew2 && !own.xEw2) lines.emplace_back("xEW2: the input has no error at all");
+    return lines;
+  }
+
+  MeasuredInput& input_;
+  MeasuredPainter& painter_;
+  const MeasurementOptions& options_;
+  Report report_;
+  std::optional<SequenceMeasures> sequence_;
+  cv::Mat3f still_;
+  PerSubject<std::optional<double>> flicker_;
+};
+
+}  // namespace
+
+std::optional<std::uint64_t> framesToPaint(const MeasuredInput& input,
+                                           const MeasurementOptions& options) {
+  const std::uint64_t still =
+      options.stillFrames == 0 ? 0 : options.stillFrames + options.stillSettle;
+  std::optional<std::uint64_t> moving = input.frameCount();
+  if (options.frames) {
+    const std::uint64_t wanted = options.settle + *options.frames;
+    moving = moving ? std::min(*moving, wanted) : wanted;
+  }
+  if (!moving) return std::nullopt;
+  return *moving + still;
+}
+
+hal::Result<std::optional<Report>> measure(MeasuredInput& input, MeasuredPainter& painter,
+                                           const MeasurementOptions& options) {
+  return Measurement(input, painter, options).run();
+}
+
+}  // namespace pleinair::measure

@@ -1,0 +1,128 @@
+#include "pipeline/measure/output_measures.h"
+
+#include <cmath>
+#include <utility>
+
+#include "pipeline/measure/carried_error.h"
+#include "pipeline/measure/departure.h"
+#include "pipeline/measure/lasting_marks.h"
+#include "pipeline/measure/picture.h"
+#include "pipeline/measure/screen_pattern.h"
+
+namespace pleinair::measure {
+namespace {
+
+/// SCR looks only where the picture has moved by a mark's size: what stands still stays
+/// on the screen by right.
+constexpr float kMovedPixels = 8.0F;
+/// Of the frame, so that the correlation means something.
+constexpr double kLeastMovedShare = 0.1;
+
+cv::Mat1b movedMask(const MotionMap* motion, cv::Size size) {
+  cv::Mat1b mask(size, 0);
+  const cv::Rect inner = innerRect(size);
+  if (motion == nullptr || motion->shift) {
+    const bool isMoved =
+        motion == nullptr || cv::norm(*motion->shift) >= static_cast<double>(kMovedPixels);
+    if (isMoved) mask(inner).setTo(255);
+    return mask;
+  }
+  for (int y = inner.y; y < inner.br().y; ++y) {
+    for (int x = inner.x; x < inner.br().x; ++x) {
+      const cv::Vec2f& by = motion->displacement(y, x);
+      if (motion->valid(y, x) != 0 && std::hypot(by[0], by[1]) >= kMovedPixels) mask(y, x) = 255;
+    }
+  }
+  return mask;
+}
+
+template <class Value>
+std::optional<double> times(const Value& value, double factor) {
+  return value ? std::optional(*value * factor) : std::nullopt;
+}
+
+std::optional<double> root(const std::optional<double>& value) {
+  return value ? std::optional(std::sqrt(*value)) : std::nullopt;
+}
+
+}  // namespace
+
+void OutputMeasures::add(const cv::Mat3f& output, const cv::Mat3f& input,
+                         const MotionToHere& motion) {
+  CV_Assert(recent_.empty() || recent_.back().picture.size() == output.size());
+  Frame frame;
+  recent_.push_back({.picture = output, .highPass = highPass(output)});
+  greys_.push_back(greyOf(output));
+  frame.departure = departure(output, input);
+  frame.detail = meanSquare(recent_.back().highPass);
+  difference_.release();
+  if (motion.shortLag != nullptr && recent_.size() > kShortLag) {
+    compareShortLag(frame, *motion.shortLag);
+  }
+  if (greys_.size() > kLongLag) compareLongLag(frame, motion.longLag);
+  if (recent_.size() > kShortLag) recent_.pop_front();
+  if (greys_.size() > kLongLag) greys_.pop_front();
+  frames_.push_back(frame);
+}
+
+void OutputMeasures::compareShortLag(Frame& frame, const MotionMap& motion) {
+  const Recent& earlier = recent_.front();
+  const Recent& later = recent_.back();
+  const Carried<cv::Mat3f> carried = carriedBack(later.picture, motion);
+  frame.error = carriedError(earlier.picture, carried);
+  frame.popped = poppedShare(earlier.picture, carried);
+  difference_ = differenceAlong(earlier.picture, carried);
+  frame.highPassError =
+      carriedError(earlier.highPass, carriedBack(later.highPass, motion, {}, kHighPassReach));
+  frame.misalignedError = carriedError(
+      earlier.highPass,
+      carriedBack(later.highPass, motion, {kMisalignedX, kMisalignedY}, kHighPassReach));
+}
+
+void OutputMeasures::compareLongLag(Frame& frame, const MotionMap* motion) {
+  const cv::Mat1f& earlier = greys_.front();
+  const cv::Mat1f& later = greys_.back();
+  if (motion != nullptr) frame.lasting = lastingMarks(earlier, carriedBack(later, *motion));
+  const cv::Mat1b moved = movedMask(motion, later.size());
+  if (cv::countNonZero(moved) < kLeastMovedShare * static_cast<double>(moved.total())) return;
+  frame.screen = screenCorrelation(relativeGradient(earlier), relativeGradient(later), moved);
+}
+
+Mean OutputMeasures::error() const {
+  Mean all;
+  for (const Frame& frame : frames_) all += frame.error;
+  return all;
+}
+
+Mean OutputMeasures::detail() const {
+  Mean all;
+  for (const Frame& frame : frames_) all += frame.detail;
+  return all;
+}
+
+Measures OutputMeasures::total() const {
+  Frame all;
+  Mean screen;
+  for (const Frame& frame : frames_) {
+    all.highPassError += frame.highPassError;
+    all.misalignedError += frame.misalignedError;
+    all.popped += frame.popped;
+    all.lasting += frame.lasting;
+    all.departure += frame.departure;
+    if (frame.screen) screen += {*frame.screen, 1.0};
+  }
+  Measures measures;
+  measures.ew2 = times(error().value(), 1000.0);
+  measures.nHw2 = ratio(all.highPassError.value(), all.misalignedError.value());
+  measures.popPercent = times(all.popped.value(), 100.0);
+  measures.s10Percent = times(all.lasting.value(), 100.0);
+  measures.scr = screen.value();
+  measures.dep = times(root(all.departure.value()), 255.0);
+  return measures;
+}
+
+cv::Mat3f OutputMeasures::lastDifference() const {
+  return difference_;
+}
+
+}  // namespace pleinair::measure

@@ -1,0 +1,51 @@
+#include "pipeline/measure/picture.h"
+
+#include <cassert>
+
+#include <opencv2/imgproc.hpp>
+
+namespace pleinair::measure {
+
+cv::Mat3f toFloat(const hal::ImageView& rgb8) {
+  assert(rgb8.format.pixelFormat == hal::PixelFormat::kRgb8 && rgb8.isComplete());
+  const hal::PlaneView& plane = rgb8.planes[0];
+  // A header over somebody else's pixels, which OpenCV only reads.
+  auto* const bytes = const_cast<std::uint8_t*>(plane.bytes.data());
+  const cv::Mat levels(rgb8.format.size.height, rgb8.format.size.width, CV_8UC3, bytes,
+                       plane.strideBytes);
+  cv::Mat3f picture;
+  levels.convertTo(picture, CV_32F, 1.0 / 255.0);
+  return picture;
+}
+
+hal::Image toImage(const cv::Mat3f& picture) {
+  hal::Image image({.pixelFormat = hal::PixelFormat::kRgb8,
+                    .size = {picture.cols, picture.rows},
+                    .encoding = {}});
+  cv::Mat levels(picture.rows, picture.cols, CV_8UC3, image.plane(0).data());
+  picture.convertTo(levels, CV_8U, 255.0);
+  assert(levels.data == image.plane(0).data());
+  return image;
+}
+
+cv::Mat1f greyOf(const cv::Mat3f& picture) {
+  cv::Mat1f grey;
+  cv::cvtColor(picture, grey, cv::COLOR_RGB2GRAY);
+  return grey;
+}
+
+cv::Mat3f highPass(const cv::Mat3f& picture) {
+  constexpr double kSigmaPixels = 6.0;
+  cv::Mat3f coarse;
+  cv::GaussianBlur(picture, coarse, {}, kSigmaPixels);
+  cv::Mat3f fine;
+  cv::subtract(picture, coarse, fine);
+  return fine;
+}
+
+cv::Rect innerRect(cv::Size frame) {
+  return {kBorderPixels, kBorderPixels, frame.width - 2 * kBorderPixels,
+          frame.height - 2 * kBorderPixels};
+}
+
+}  // namespace pleinair::measure

@@ -1,0 +1,107 @@
+#include "pipeline/tracking/image_motion_estimator.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include "pipeline/tracking/cut_detector.h"
+#include "pipeline/tracking/dense_flow.h"
+#include "pipeline/tracking/lucas_kanade_tracker.h"
+#include "pipeline/tracking/luma_pyramid.h"
+#include "pipeline/tracking/picture_hold.h"
+#include "pipeline/tracking/stillness.h"
+
+namespace pleinair::tracking {
+namespace {
+
+constexpr int kLongSidePx = 640;  // of the picture in which all is measured
+
+/// Pyramids that are used again when nobody shares them any more: key frames stay for long.
+class PyramidPool {
+ public:
+  std::shared_ptr<LumaPyramid> take() {
+    for (const auto& pyramid : pyramids_) {
+      if (pyramid.use_count() == 1) return pyramid;
+    }
+    return pyramids_.emplace_back(std::make_shared<LumaPyramid>());
+  }
+
+ private:
+  std::vector<std::shared_ptr<LumaPyramid>> pyramids_;
+};
+
+}  // namespace
+
+std::unique_ptr<FeatureTracker> makeFeatureTracker(FeatureMethod method) {
+  static_cast<void>(method);
+  return std::make_unique<LucasKanadeTracker>();
+}
+
+struct ImageMotionEstimator::State {
+  explicit State(const ImageMotionOptions& wanted)
+      : options(wanted), tracker(makeFeatureTracker(wanted.features)) {}
+
+  ImageMotionOptions options;
+  PyramidPool pyramids;
+  std::shared_ptr<const LumaPyramid> then;
+  std::unique_ptr<FeatureTracker> tracker;
+  CutDetector cuts;
+  PictureHold hold;
+  Stillness stillness;
+  DenseFlowEstimator flow;
+  ImageMotion motion;
+  std::uint64_t lastSequence = 0;
+
+  void forget() {
+    tracker->reset();
+    hold.reset();
+    stillness.reset();
+  }
+};
+
+ImageMotionEstimator::ImageMotionEstimator(ImageMotionOptions options)
+    : state_(std::make_unique<State>(options)) {}
+
+ImageMotionEstimator::~ImageMotionEstimator() = default;
+
+void ImageMotionEstimator::reset() {
+  state_->forget();
+  state_->cuts.reset();
+  state_->then.reset();
+}
+
+const ImageMotion& ImageMotionEstimator::follow(const hal::PlaneView& luma, hal::FrameSize size,
+                                                std::uint64_t sequence) {
+  State& s = *state_;
+  if (s.then && s.then->frameSize() != size) reset();
+  const std::shared_ptr<LumaPyramid> now = s.pyramids.take();
+  now->load(luma, size, kLongSidePx);
+  const double scale = std::max(now->reduction().x, now->reduction().y);
+
+  const std::span<const SeenFeature> seen = s.tracker->follow(now);
+  s.motion = {.frameSize = size, .sinceSequence = s.then ? s.lastSequence : sequence};
+  s.motion.isCut = s.cuts.isCut(*now, s.tracker->foundShare());
+  if (s.motion.isCut) {
+    s.forget();
+    s.tracker->follow(now);
+  } else {
+    s.hold.update(seen, size, scale);
+    s.motion.features = s.hold.features();
+    s.motion.picture = s.hold.picture();
+  }
+  if (s.options.stillness) s.stillness.update(*now, s.motion.picture);
+  if (s.options.stillness && !s.motion.isCut) s.motion.still = s.stillness.fields();
+  if (s.options.flow && !s.motion.isCut) {
+    s.flow.update(*s.then, *now, s.motion.picture, s.options.stillness ? &s.stillness : nullptr,
+                  s.stillness.noise());
+    s.motion.flow = s.flow.flow();
+  }
+  // Averaging over a reduced picture's px takes noise away.
+  s.motion.noiseLevels = s.stillness.noise() * scale;
+  s.then = now;
+  s.lastSequence = sequence;
+  return s.motion;
+}
+
+}  // namespace pleinair::tracking

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "pipeline/tracking/corner_search.h"
+#include "pipeline/tracking/feature_tracker.h"
+#include "pipeline/tracking/luma_pyramid.h"
+#include "pipeline/tracking/point_follower.h"
+
+namespace pleinair::tracking {
+
+/// Corners, spread over the picture, each followed by Lucas-Kanade from the key frame in which its
+/// looks were taken, so that nothing drifts from frame to frame. A few key frames are kept: a new
+/// one is made where features have become few or look different, and takes over only those that
+/// do; the others stay with theirs.
+class LucasKanadeTracker : public FeatureTracker {
+ public:
+  LucasKanadeTracker();
+
+  std::span<const SeenFeature> follow(std::shared_ptr<const LumaPyramid> now) override;
+  double foundShare() const override { return foundShare_; }
+  void reset() override;
+
+ private:
+  /// How well a window's picture can be placed.
+  struct Texture {
+    double placing = 0.0;   // px of error by a level of noise
+    double contrast = 0.0;  // mean deviation from the mean, levels
+  };
+  struct Feature {
+    std::uint32_t id = 0;
+    std::size_t key = 0;  // in keys_
+    cv::Point2f origin;   // in the key frame; own px, as `at`
+    cv::Point2f at;       // where it is, or would be
+    cv::Point2f then;     // in the frame before
+    cv::Point2f step;     // since then
+    Texture texture;      // in the key frame
+    double errorPx = 0.0;
+    bool isFound = false;
+    bool wasFound = false;
+    bool isWorn = false;  // looks different from the key frame
+    int missingFrames = 0;
+  };
+  /// How many features are found, and how many fields of the picture have one.
+  struct Spread {
+    std::size_t features = 0;
+    std::size_t fields = 0;
+  };
+
+  static Texture textureAt(const LumaPyramid& pyramid, const cv::Point2f& at);
+  void findAll(const LumaPyramid& now, bool isRetry);
+  void judge(Feature& feature, const LumaPyramid& now, std::size_t of, const cv::Point2f& at);
+  bool searchWidely(const LumaPyramid& now);
+  void rejectOutliers();
+  double shareFound() const;
+  void guessMissing(const LumaPyramid& now);
+  Spread spread(const LumaPyramid& now);
+  bool needsKey(const Spread& have) const;
+  void findCorners(const LumaPyramid& now);
+  void makeKey(const std::shared_ptr<const LumaPyramid>& now, bool isNeeded);
+  std::size_t freeKey(const LumaPyramid& now);
+  void takeOver(Feature& feature, std::size_t key, const LumaPyramid& now);
+  void publish(const LumaPyramid& now);
+
+  static constexpr std::size_t kKeys = 4;
+  std::array<std::shared_ptr<const LumaPyramid>, kKeys> keys_;
+  std::shared_ptr<const LumaPyramid> then_;
+  PointFollower follower_;
+  CornerSearch corners_;
+  std::vector<Feature> features_;
+  std::vector<SeenFeature> seen_;
+  std::uint32_t nextId_ = 0;
+  double foundShare_ = 0.0;
+  int framesSinceKey_ = 0;
+  Spread keySpread_;  // after the last key frame was made
+  // Of the features of one key frame.
+  std::vector<std::size_t> members_;
+  std::vector<cv::Point2f> origins_;
+  std::vector<cv::Point2f> points_;
+  std::vector<cv::Point2f> newCorners_;
+  std::vector<unsigned char> cells_;  // whether each has a feature
+  std::vector<unsigned char> isOutlier_;
+};
+
+}  // namespace pleinair::tracking

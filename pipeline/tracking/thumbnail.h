@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include <glm/vec2.hpp>
+
+namespace pleinair::tracking {
+
+class LumaPyramid;
+
+/// A picture of a few hundred pixels: what is left of it for finding out whether two frames show
+/// the same scene, and about how far apart.
+class Thumbnail {
+ public:
+  void load(const LumaPyramid& pyramid);
+  /// Standard deviation, grey levels: next to nothing of a covered lens.
+  double contrast() const;
+
+  /// Where another one fits best, of all shifts by up to a quarter of the sides.
+  struct Match {
+    glm::dvec2 shift{0.0};     ///< of the other, in parts of the sides
+    double correlation = 0.0;  ///< of what overlaps, 1: the same but for gain and offset
+  };
+  Match match(const Thumbnail& other) const;
+
+ private:
+  static constexpr int kWidth = 32;
+  static constexpr int kHeight = 24;
+  double correlation(const Thumbnail& other, int dx, int dy) const;
+  float at(int x, int y) const {
+    return values_[static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x)];
+  }
+  std::array<float, static_cast<std::size_t>(kWidth) * kHeight> values_{};
+};
+
+}  // namespace pleinair::tracking

@@ -1,0 +1,148 @@
+// What anchors and the motion field cost on the GPU, pass by pass and together, given what the
+// picture says of its motion (tracking_bench measures that). Time is wall time up to a fence, CPU
+// that of all threads; on a shared machine compare ratios within a run.
+#include <chrono>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "hal/error.h"
+#include "pipeline/gpu/egl_context.h"
+#include "pipeline/gpu/handle.h"
+#include "pipeline/marks/anchor_set.h"
+#include "pipeline/marks/marks_shaders.h"
+#include "pipeline/scene/scene_shaders.h"
+
+namespace {
+
+using namespace pleinair;  // NOLINT(google-build-using-namespace): a program, not a header
+
+constexpr std::size_t kFeatures = 200;
+constexpr int kNodePixels = 8;
+constexpr int kFieldPixels = 16;
+
+/// A picture that moves by a slow pan, told by all sources.
+struct Motion {
+  explicit Motion(hal::FrameSize size) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> part(0.0F, 1.0F);
+    for (std::uint32_t i = 0; i < kFeatures; ++i) {
+      const glm::vec2 at(part(random) * static_cast<float>(size.width),
+                         part(random) * static_cast<float>(size.height));
+      features.push_back({.id = i, .then = at, .now = at + kPan, .errorPx = 0.1F});
+    }
+    image.features = features;
+    image.frameSize = size;
+    image.picture = {.nowFromThen = {1, 0, 0, 0, 1, 0, kPan.x, kPan.y, 1}, .errorPx = 0.02};
+    image.flow.nodes = {size.width / kNodePixels, size.height / kNodePixels};
+    image.flow.stepPx = glm::vec2(kNodePixels);
+    flow.assign(static_cast<std::size_t>(image.flow.nodes.pixels()), {kPan, 0.3F, 0.0F});
+    image.flow.forward = flow;
+    image.flow.backward = flow;
+    image.still.fields = {size.width / kFieldPixels, size.height / kFieldPixels};
+    still.assign(static_cast<std::size_t>(image.still.fields.pixels()),
+                 tracking::StillFields::kNotStill);
+    image.still.errorPx = still;
+  }
+  static constexpr glm::vec2 kPan{-0.7F, 0.3F};
+  std::vector<tracking::FeatureMotion> features;
+  std::vector<glm::vec4> flow;
+  std::vector<float> still;
+  tracking::ImageMotion image;
+};
+
+struct Bench {
+  Bench(hal::FrameSize size, gpu::PassTiming timing, marks::DensityRule rule)
+      : timer(timing, &context.info()), motion(size) {
+    library.add(gpu::gpuShaders());
+    library.add(gpu::sceneShaders());
+    library.add(gpu::marksShaders());
+    field = std::make_unique<marks::MotionField>(library, size);
+    anchors =
+        std::make_unique<marks::AnchorSet>(library, size, marks::AnchorOptions{.density = rule});
+    colour = gpu::Texture(gpu::TextureFormat::kRgba8, size);
+    ids = gpu::Texture(gpu::TextureFormat::kR32ui, size);
+    gpu::PassTimer untimed;
+    for (int i = 0; i < 8; ++i) advance(untimed);
+    hal::orThrow(gpu::Fence::insert().wait());
+  }
+
+  void advance(gpu::PassTimer& with) {
+    motion.image.sinceSequence = number;
+    ++number;
+    scene::ArFrame frame{.colour = &colour,
+                         .ids = &ids,
+                         .pictureMovement = scene::PictureMovement{.motion = &motion.image},
+                         .sequence = number,
+                         .captureTime = hal::TimePoint(hal::Duration(33'333'333) * number)};
+    field->update(frame, with);
+    anchors->advance(frame, *field, with);
+  }
+
+  gpu::EglContext context;
+  gpu::ShaderLibrary library;
+  gpu::PassTimer timer;
+  Motion motion;
+  std::unique_ptr<marks::MotionField> field;
+  std::unique_ptr<marks::AnchorSet> anchors;
+  gpu::Texture colour;
+  gpu::Texture ids;
+  std::uint64_t number = 0;
+};
+
+hal::FrameSize sizeOf(const benchmark::State& state) {
+  return {static_cast<int>(state.range(0)), static_cast<int>(state.range(1))};
+}
+
+void together(benchmark::State& state, marks::DensityRule rule) {
+  Bench bench(sizeOf(state), gpu::PassTiming::kOff, rule);
+  for ([[maybe_unused]] auto _ : state) {
+    bench.advance(bench.timer);
+    hal::orThrow(gpu::Fence::insert().wait());
+  }
+  double alive = 0.0;
+  for (const marks::Anchor& each : bench.anchors->read()) alive += each.isAlive() ? 1.0 : 0.0;
+  state.counters["anchors"] = alive;
+}
+
+void onePass(benchmark::State& state, const char* pass) {
+  Bench bench(sizeOf(state), gpu::PassTiming::kFences, {});
+  for ([[maybe_unused]] auto _ : state) {
+    bench.advance(bench.timer);
+    for (const gpu::PassTime& each : bench.timer.times()) {
+      if (each.pass == pass) {
+        state.SetIterationTime(std::chrono::duration<double>(each.last).count());
+      }
+    }
+  }
+}
+
+void atBothSizes(benchmark::internal::Benchmark* benchmark) {
+  benchmark->Args({640, 480})->Args({1280, 720})->Unit(benchmark::kMillisecond)->UseRealTime();
+  benchmark->MeasureProcessCPUTime();  // of all threads
+}
+
+void passAtBothSizes(benchmark::internal::Benchmark* benchmark) {
+  benchmark->Args({640, 480})->Args({1280, 720})->Unit(benchmark::kMillisecond);
+  benchmark->MeasureProcessCPUTime()->UseManualTime()->MinTime(0.2);
+}
+
+constexpr marks::DensityRule kOneACell{.target = 1, .birthBelow = 1, .deathAbove = 3};
+
+BENCHMARK_CAPTURE(together, onePerCell, kOneACell)
+    ->Name("marks/one anchor a cell")
+    ->Apply(atBothSizes);
+BENCHMARK_CAPTURE(together, twoPerCell, {})->Name("marks/two anchors a cell")->Apply(atBothSizes);
+BENCHMARK_CAPTURE(onePass, field, "motion field")
+    ->Name("marks/motion field")
+    ->Apply(passAtBothSizes);
+BENCHMARK_CAPTURE(onePass, carry, "carry anchors")
+    ->Name("marks/carry anchors")
+    ->Apply(passAtBothSizes);
+BENCHMARK_CAPTURE(onePass, density, "keep density")
+    ->Name("marks/keep density")
+    ->Apply(passAtBothSizes);
+
+}  // namespace

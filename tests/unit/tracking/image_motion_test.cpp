@@ -1,0 +1,273 @@
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
+#include <gtest/gtest.h>
+
+#include "pipeline/tracking/homography.h"
+#include "pipeline/tracking/image_motion_estimator.h"
+#include "tests/support/textured_plane.h"
+
+namespace pleinair::tracking {
+namespace {
+
+using support::nowFromThen;
+using support::PlaneStep;
+using support::WallView;
+
+constexpr hal::FrameSize kSize{320, 240};
+
+/// Follows what a camera sees of a wall.
+class Watch {
+ public:
+  explicit Watch(ImageMotionOptions options = {}) : estimator_(options) {}
+
+  const ImageMotion& see(const hal::Image& image) {
+    const hal::ImageView view = image.view();
+    return estimator_.follow(view.planes[0], view.format.size, sequence_++);
+  }
+  /// The wall, moved on by a step, with noise that differs from frame to frame.
+  const ImageMotion& step(const glm::dmat3& nowFromThen) {
+    view_.wallFromFrame = view_.wallFromFrame * glm::inverse(nowFromThen);
+    ++view_.noiseSeed;
+    return see(renderWall(view_));
+  }
+  /// Something else lies over it.
+  const ImageMotion& stepBehind(const glm::dmat3& nowFromThen, const WallView& front,
+                                const glm::ivec2& from, const glm::ivec2& to) {
+    view_.wallFromFrame = view_.wallFromFrame * glm::inverse(nowFromThen);
+    ++view_.noiseSeed;
+    hal::Image image = renderWall(view_);
+    layOver(image, front, from, to);
+    return see(image);
+  }
+  WallView& view() { return view_; }
+  void reset() { estimator_.reset(); }
+
+ private:
+  ImageMotionEstimator estimator_;
+  WallView view_{.size = kSize, .noiseSigma = 2.0};
+  std::uint64_t sequence_ = 7;
+};
+
+double rmsOfFeatures(const ImageMotion& motion, const glm::dmat3& truth) {
+  double sum = 0.0;
+  for (const FeatureMotion& feature : motion.features) {
+    const glm::dvec2 then(feature.then);
+    const glm::dvec2 now(feature.now);
+    const double off = glm::distance(now, movedBy(truth, then));
+    sum += off * off;
+  }
+  return std::sqrt(sum / static_cast<double>(motion.features.size()));
+}
+
+struct Case {
+  const char* name;
+  PlaneStep step;
+  friend std::ostream& operator<<(std::ostream& out, const Case& of) { return out << of.name; }
+};
+
+class ImageMotionOf : public testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(
+    Motions, ImageMotionOf,
+    testing::Values(Case{"shift", {.shift = {3.3, -1.7}}}, Case{"slow", {.shift = {0.21, 0.13}}},
+                    Case{"fast", {.shift = {24.0, 9.0}}}, Case{"turn", {.turn = 0.02}},
+                    Case{"zoom", {.zoom = 1.02}},
+                    Case{"bend", {.shift = {1.0, 0.4}, .bend = {2e-5, -1e-5}}},
+                    Case{"all", {.turn = -0.01, .zoom = 0.99, .shift = {2.0, 3.0}}}),
+    [](const auto& each) { return std::string(each.param.name); });
+
+TEST_P(ImageMotionOf, IsMeasuredInNoise) {
+  Watch watch;
+  const glm::dmat3 truth = nowFromThen(GetParam().step, kSize);
+  EXPECT_TRUE(watch.step(glm::dmat3(1.0)).isCut);
+  double worstPicture = 0.0;
+  double worstFeatures = 0.0;
+  double predicted = 0.0;
+  double actual = 0.0;
+  double predictedPicture = 0.0;
+  double actualPicture = 0.0;
+  for (int i = 0; i < 12; ++i) {
+    const ImageMotion& motion = watch.step(truth);
+    ASSERT_FALSE(motion.isCut) << i;
+    ASSERT_TRUE(motion.picture) << i;
+    ASSERT_GT(motion.features.size(), 40U) << i;
+    if (i < 2) continue;  // the first may still be held
+    const double off = rmsMotion(glm::inverse(truth) * motion.picture->nowFromThen, kSize);
+    worstPicture = std::max(worstPicture, off);
+    worstFeatures = std::max(worstFeatures, rmsOfFeatures(motion, truth));
+    predictedPicture += motion.picture->errorPx * motion.picture->errorPx;
+    actualPicture += off * off;
+    for (const FeatureMotion& feature : motion.features) {
+      const glm::dvec2 there = movedBy(truth, glm::dvec2(feature.then));
+      predicted += feature.errorPx * feature.errorPx;
+      actual += std::pow(glm::distance(glm::dvec2(feature.now), there), 2);
+    }
+  }
+  EXPECT_LT(worstPicture, 0.06);
+  EXPECT_LT(worstFeatures, 0.2);
+  EXPECT_GT(std::sqrt(predicted / actual), 0.5);
+  EXPECT_LT(std::sqrt(predicted / actual), 2.0);
+  EXPECT_GT(std::sqrt(predictedPicture / actualPicture), 0.5);
+  EXPECT_LT(std::sqrt(predictedPicture / actualPicture), 2.0);
+}
+
+TEST(ImageMotion, StandsStillToTheBitInNoise) {
+  Watch watch;
+  for (int i = 0; i < 40; ++i) {
+    const ImageMotion& motion = watch.step(glm::dmat3(1.0));
+    if (i == 0) continue;
+    ASSERT_TRUE(motion.picture);
+    EXPECT_EQ(motion.picture->nowFromThen, glm::dmat3(1.0)) << i;
+    ASSERT_GT(motion.features.size(), 40U);
+    for (const FeatureMotion& feature : motion.features) EXPECT_EQ(feature.then, feature.now) << i;
+  }
+}
+
+TEST(ImageMotion, LosesNothingOfASlowPan) {
+  Watch watch;
+  watch.step(glm::dmat3(1.0));
+  glm::dmat3 total(1.0);
+  glm::dmat3 found(1.0);
+  const glm::dmat3 step = nowFromThen({.shift = {0.03, 0.0}}, kSize);
+  for (int i = 0; i < 45; ++i) {
+    const ImageMotion& motion = watch.step(step);
+    total = step * total;
+    ASSERT_TRUE(motion.picture);
+    found = motion.picture->nowFromThen * found;
+    EXPECT_LT(rmsMotion(glm::inverse(total) * found, kSize), 0.15) << i;
+  }
+}
+
+/// A thing that moves by itself before the wall.
+TEST(ImageMotion, TwoLayersMoveApart) {
+  Watch watch;
+  watch.step(glm::dmat3(1.0));
+  const glm::dmat3 wall = nowFromThen({.shift = {-1.5, 0.5}}, kSize);
+  const glm::dvec2 thing(2.0, -1.0);
+  glm::dmat3 thingFromFrame(1.0);
+  for (int i = 0; i < 16; ++i) {
+    thingFromFrame = thingFromFrame * glm::inverse(nowFromThen({.shift = thing}, kSize));
+    const WallView front{.size = kSize,
+                         .wallFromFrame = thingFromFrame,
+                         .noiseSigma = 2.0,
+                         .noiseSeed = watch.view().noiseSeed + 100,
+                         .wallSeed = 5};
+    const glm::ivec2 corner(90 + 2 * i, 120 - i);
+    const ImageMotion& motion = watch.stepBehind(wall, front, corner, corner + 100);
+    if (i < 10) continue;  // features are sought in it now and then
+    ASSERT_TRUE(motion.picture);
+    EXPECT_LT(rmsMotion(glm::inverse(wall) * motion.picture->nowFromThen, kSize), 0.08) << i;
+    int onThing = 0;
+    for (const FeatureMotion& feature : motion.features) {
+      const glm::vec2 inThing = feature.then - glm::vec2(corner);
+      if (glm::any(glm::lessThan(inThing, glm::vec2(10.0F))) ||
+          glm::any(glm::greaterThan(inThing, glm::vec2(90.0F)))) {
+        continue;
+      }
+      ++onThing;
+      EXPECT_LT(glm::distance(glm::dvec2(feature.now - feature.then), thing), 0.6) << i;
+    }
+    EXPECT_GT(onThing, 5) << i;
+  }
+}
+
+TEST(ImageMotion, ACoveredLensIsNoCutAndWhatItShowedIsFoundAgain) {
+  Watch watch;
+  const glm::dmat3 step = nowFromThen({.shift = {0.5, 0.0}}, kSize);
+  for (int i = 0; i < 4; ++i) watch.step(step);
+  const hal::Image covered({.pixelFormat = hal::PixelFormat::kGrey8, .size = kSize});
+  for (int i = 0; i < 3; ++i) {
+    const ImageMotion& motion = watch.see(covered);
+    EXPECT_FALSE(motion.isCut);
+    EXPECT_FALSE(motion.picture);
+    EXPECT_TRUE(motion.features.empty());
+  }
+  EXPECT_FALSE(watch.step(step).isCut);
+  const ImageMotion& back = watch.step(step);
+  EXPECT_FALSE(back.isCut);
+  EXPECT_GT(back.features.size(), 40U);
+  EXPECT_TRUE(back.picture);
+}
+
+TEST(ImageMotion, AFlashIsNoCut) {
+  Watch watch;
+  for (int i = 0; i < 3; ++i) watch.step(glm::dmat3(1.0));
+  watch.view().brightness = 70.0;
+  EXPECT_FALSE(watch.step(glm::dmat3(1.0)).isCut);
+  watch.view().brightness = 0.0;
+  EXPECT_FALSE(watch.step(glm::dmat3(1.0)).isCut);
+  EXPECT_GT(watch.step(glm::dmat3(1.0)).features.size(), 40U);
+}
+
+TEST(ImageMotion, TakesPicturesOfAnySizeWithNothingInThem) {
+  Watch watch;
+  for (const hal::FrameSize size : {hal::FrameSize{1, 1}, {3, 700}, {16, 16}, {1280, 720}}) {
+    const hal::Image blank({.pixelFormat = hal::PixelFormat::kGrey8, .size = size});
+    for (int i = 0; i < 3; ++i) {
+      const ImageMotion& motion = watch.see(blank);
+      EXPECT_EQ(motion.frameSize, size);
+      EXPECT_EQ(motion.isCut, i == 0);
+      EXPECT_TRUE(motion.features.empty());
+      EXPECT_FALSE(motion.picture);
+    }
+  }
+}
+
+std::size_t countStill(const ImageMotion& motion) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      motion.still.errorPx, [](float error) { return error < StillFields::kNotStill; }));
+}
+
+TEST(ImageMotion, AStillSceneIsStillForEver) {
+  for (const double noise : {0.0, 2.0}) {
+    Watch watch;
+    watch.view().noiseSigma = noise;
+    std::size_t before = 0;
+    for (int i = 0; i < 50; ++i) {
+      const ImageMotion& motion = watch.step(glm::dmat3(1.0));
+      const std::size_t still = countStill(motion);
+      if (i > 12) { EXPECT_GE(still, before) << i; printf("%d %zu %.2f\n", i, still, motion.noiseLevels); }
+      before = still;
+    }
+  }
+}
+
+TEST(ImageMotion, CreepingIsNoticed) {
+  Watch watch;
+  for (int i = 0; i < 20; ++i) watch.step(glm::dmat3(1.0));
+  for (int i = 0; i < 30; ++i) {
+    const ImageMotion& motion = watch.step(nowFromThen({.shift = {0.05, 0.0}}, kSize));
+    printf("%d %zu\n", i, countStill(motion));
+  }
+}
+
+TEST(ImageMotion, SaysSinceWhen) {
+  Watch watch;
+  watch.step(glm::dmat3(1.0));
+  EXPECT_EQ(watch.step(glm::dmat3(1.0)).sinceSequence, 7U);
+  watch.reset();
+  EXPECT_TRUE(watch.step(glm::dmat3(1.0)).isCut);
+  EXPECT_EQ(watch.step(glm::dmat3(1.0)).sinceSequence, 9U);
+}
+
+TEST(ImageMotion, ACutIsACut) {
+  Watch watch;
+  for (int i = 0; i < 3; ++i) watch.step(nowFromThen({.shift = {2.0, 0.0}}, kSize));
+  watch.view().wallSeed = 9;
+  const ImageMotion& cut = watch.step(glm::dmat3(1.0));
+  EXPECT_TRUE(cut.isCut);
+  EXPECT_TRUE(cut.features.empty());
+  EXPECT_FALSE(cut.picture);
+  const ImageMotion& after = watch.step(nowFromThen({.shift = {2.0, 0.0}}, kSize));
+  EXPECT_FALSE(after.isCut);
+  EXPECT_GT(after.features.size(), 40U);
+}
+
+}  // namespace
+}  // namespace pleinair::tracking
