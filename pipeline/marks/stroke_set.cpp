@@ -101,6 +101,7 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .set("cutOff", std::cos(rule.cutOffRad))
       .set("detailBand", rule.detailBand)
       .set("detailSpread", rule.detailSpread)
+      .set("bothWays", rule.bothWays ? 1 : 0)
       .set("wander", rule.wanderRad)
       .set("past", glm::vec4(stays(step, rule.shapeMemory), stays(step, rule.colourMemory),
                              stays(step, rule.appearing), stays(step, rule.vanishing)))

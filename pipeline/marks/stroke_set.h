@@ -28,6 +28,7 @@ struct StrokeRule {
   glm::vec2 detailBand{0.0F, 1e9F};  ///< where the layer is painted (TensorField::resolved)
   float detailSpread = 0.0F;
   float wanderRad = 0.1F;
+  bool bothWays = true;  ///< else only ahead of the anchor, as the thesis walks
   std::size_t fieldLevel = 0;
   float widthPx = 8.0F;
   float widthSpread = 0.2F;

@@ -59,7 +59,8 @@ struct TensorField::State {
         fill(library.compute(kShaders + "tensor_fill.comp")),
         reduce(library.compute(kShaders + "tensor_reduce.comp")),
         resolve(library.compute(kShaders + "tensor_resolve.comp")),
-        edges(kEdgeWords * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic) {
+        edges(kEdgeWords * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
+        noIds(gpu::TextureFormat::kR32ui, {1, 1}) {
     edges.write(std::vector<std::byte>(edges.sizeBytes()));
     hal::FrameSize size{(full.width + kRegionPixels - 1) / kRegionPixels,
                         (full.height + kRegionPixels - 1) / kRegionPixels};
@@ -80,6 +81,7 @@ struct TensorField::State {
   gpu::Program reduce;
   gpu::Program resolve;
   gpu::Buffer edges;
+  gpu::Texture noIds;
   std::vector<Level> levels;
   gpu::Texture before;
   std::vector<std::unique_ptr<Gradient>> gradients;
@@ -93,14 +95,22 @@ struct TensorField::State {
     return *gradients.emplace_back(std::make_unique<Gradient>(size));
   }
 
-  void findEdges(const gpu::Texture& picture, float share);
+  void findEdges(const scene::ArFrame& frame, const gpu::Texture& picture, double form,
+                 float share);
   void sumRegions(const scene::ArFrame& frame, const MotionField& motion, float past);
   void buildPyramid(const TensorFieldOptions& options);
 };
 
-void TensorField::State::findEdges(const gpu::Texture& picture, float share) {
+void TensorField::State::findEdges(const scene::ArFrame& frame, const gpu::Texture& picture,
+                                   double form, float share) {
   const Gradient& made = gradientOf(picture.size());
-  gradient.use().texture("picture", picture).drawFullscreen(made.target);
+  gradient.use()
+      .texture("picture", picture)
+      .texture("ids", frame.hasObjects ? *frame.ids : noIds)
+      .texture("normals", frame.hasObjects ? *frame.normalFocus : picture)
+      .set("hasObjects", frame.hasObjects ? 1 : 0)
+      .set("form", static_cast<float>(form))
+      .drawFullscreen(made.target);
   histogram.use()
       .texture("tensors", made.texture)
       .storage(0, edges)
@@ -172,7 +182,7 @@ void TensorField::update(const scene::ArFrame& frame, const gpu::Texture& pictur
   s.lastTime = frame.captureTime;
   s.hasPast = true;
   const auto scope = timer.measure("tensor field");
-  s.findEdges(picture, static_cast<float>(1.0 - past));
+  s.findEdges(frame, picture, options.form, static_cast<float>(1.0 - past));
   s.sumRegions(frame, motion, static_cast<float>(past));
   s.buildPyramid(options);
 }

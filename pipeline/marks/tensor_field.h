@@ -14,6 +14,8 @@
 namespace pleinair::marks {
 
 struct TensorFieldOptions {
+  /// How much virtual surfaces' own form leads: P of one that is seen edge on.
+  double form = 0.5;
   double fillSigma = 1.0;  ///< of the radial-basis filling, in regions
   hal::Duration memory = std::chrono::milliseconds(400);  ///< time constant; 0: each frame alone
 };

@@ -30,6 +30,7 @@ uniform float colourThreshold;
 uniform float cutOff;        // cosine
 uniform vec2 detailBand;     // where the layer is painted
 uniform float detailSpread;  // by how much anchors differ about it
+uniform bool bothWays;       // else only ahead, as the thesis walks
 uniform float wander;        // rad: how far a stroke's hand strays from the field
 uniform vec4 past;           // shares that stay: shape, colour, existence up, existence down
 uniform float mostColour;    // by which a colour may change in this frame
@@ -58,6 +59,8 @@ struct Arm {
 };
 
 // Perceptual enough: luma counts most.
+float detailAt(vec2 px) { return textureLod(detailField, px * detailScale, 0.0).w; }
+
 float apart(vec3 a, vec3 b) {
   vec3 d = a - b;
   return sqrt(dot(d * d, vec3(0.9, 1.5, 0.6)));
@@ -90,6 +93,11 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, uint object) {
       // Not beyond the boundary of virtual and real, nor of one object and the next.
       bool half_ = objectAt(at - 0.5 * segment * direction) != object;
       arm.length = min(arm.length, float(i) + (half_ ? 0.15 : 0.6));
+      goesOn = false;
+    }
+    if (goesOn && detailAt(at) < 0.4 * detailBand.x) {
+      // A finer layer's stroke does not cross into what is for coarser ones (METHOD.md IV.6).
+      arm.length = min(arm.length, max(float(i) + 0.5, leastSteps));
       goesOn = false;
     }
     if (goesOn && difference > colourThreshold) {
@@ -142,10 +150,15 @@ void main() {
   }
   Arm ahead = walk(px, heading, hand, own, object);
   Arm behind = walk(px, -heading, hand, own, object);
+  if (!bothWays) {
+    behind.length = 0.0;
+    behind.colour = vec3(0.0);
+    behind.weight = 0.0;
+  }
   vec3 colour = (own + ahead.colour + behind.colour) / (1.0 + ahead.weight + behind.weight);
 
   // Wanted where there is that much detail; what is there stays a little longer.
-  float detail = textureLod(detailField, px * detailScale, 0.0).w + detailSpread * (hash - 0.5);
+  float detail = detailAt(px) + detailSpread * (hash - 0.5);
   bool was = !isNew && old.wanted > 0.5;
   float slack = was ? 0.75 : 1.0;
   bool wanted = detail >= detailBand.x * slack && detail <= detailBand.y / slack;

@@ -203,6 +203,18 @@ void Painterly::State::reduce(const scene::ArFrame& frame, gpu::PassTimer& timer
 
 namespace {
 
+/// Where a layer is painted: not below what it is for, nor where finer strokes hide it.
+glm::vec2 bandOf(const PainterlyParameters& p, std::size_t layer) {
+  switch (layer) {
+    case 0:
+      return {-1.0, 3.0 * p.detail};
+    case 1:
+      return {p.middleDetail, 8.0 * p.detail};
+    default:
+      return {p.detail, 1e9};
+  }
+}
+
 /// Coarse strokes are straight and broad and stop late, fine ones bend (thesis §4.4).
 marks::StrokeRule ruleOf(const PainterlyParameters& p, const Plan& plan, std::size_t layer) {
   const auto width = static_cast<float>(widthOf(plan, layer));
@@ -217,9 +229,7 @@ marks::StrokeRule ruleOf(const PainterlyParameters& p, const Plan& plan, std::si
   rule.segmentPx = static_cast<float>(p.length) * width / 8.0F;
   rule.colourThreshold = static_cast<float>(p.colourThreshold) * (1.0F + 0.6F * coarseness);
   rule.cutOffRad = glm::radians(static_cast<float>(p.cutOffDegrees)) / (1.0F + 0.4F * coarseness);
-  rule.detailBand.x = static_cast<float>(layer == 2   ? p.detail
-                                         : layer == 1 ? p.middleDetail
-                                                      : -1.0);
+  rule.detailBand = bandOf(p, layer);
   rule.detailSpread = 0.6F * std::max(rule.detailBand.x, 0.0F);
   rule.wanderRad = static_cast<float>(p.wander) * (1.0F + 0.3F * coarseness);
   rule.fieldLevel = kLayers - 1 - layer;
