@@ -129,7 +129,6 @@ void StrokeSet::State::layOut(const AnchorSet& anchors, const StrokeRule& rule) 
       .set("widthSpread", rule.widthSpread)
       .set("opacity", rule.opacity)
       .set("jitter", rule.jitter)
-      .set("quads", static_cast<float>(rule.quads))
       .dispatch(allSlots(), kSlotGroup,
                 GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
 }

@@ -1,8 +1,9 @@
 // Purpose: what is drawn of each stroke: the control points of its spline, in the order of painting.
 // Inputs:  anchors, strokes, ranks (stroke_order.comp); segment: px; width: px, widthSpread: by which
-//          part strokes differ; opacity; jitter: of hue, saturation, value; palette.glsl's.
+//          part strokes differ; opacity; jitter: of hue, saturation, value.
 // Outputs: instances: 8 points (px of the full picture), colour (sRGB-coded) and opacity; half the
-//          width (px), the brush's variant, whether it is mirrored, quads. An anchor an invocation.
+//          width (px), the brush's variant, whether it is mirrored, its anchor's age (s). An anchor an
+//          invocation.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
@@ -23,7 +24,6 @@ uniform float width;
 uniform float widthSpread;
 uniform float opacity;
 uniform vec3 jitter;
-uniform float quads;
 
 const int kPoints = 8;
 
@@ -49,22 +49,12 @@ void main() {
   float wide = width * (1.0 + widthSpread * 2.0 * randomOf(seed, 0x11u)) * mix(0.6, 1.0, stroke.seen);
   lengths = max(lengths, vec2(0.3 * wide / segment));  // a dab, not a speck
   vec2 points[kPoints];
-  vec2 turn = vec2(0.0);
   for (int i = 0; i < kPoints; ++i) {
     float s = mix(-lengths.y, lengths.x, float(i) / float(kPoints - 1));
     vec2 arm = s >= 0.0 ? along(stroke.ahead[0], stroke.ahead[1], s)
                         : along(stroke.behind[0], stroke.behind[1], -s);
     points[i] = px + segment * arm;
   }
-  // As few quads as the bend needs.
-  vec2 chord = points[7] - points[0];
-  float bend = 0.0;
-  for (int i = 1; i < 7; ++i) {
-    vec2 a = points[i] - points[0];
-    bend = max(bend, abs(a.x * chord.y - a.y * chord.x));
-  }
-  bend /= max(dot(chord, chord), 1.0);
-  float needed = quads;
   vec3 colour = stroke.colour;
   float luma = dot(colour, vec3(0.299, 0.587, 0.114));
   vec3 hue = vec3(randomOf(seed, 0x21u), randomOf(seed, 0x22u), randomOf(seed, 0x23u));
@@ -76,6 +66,7 @@ void main() {
   for (int i = 0; i < 4; ++i) made.points[i] = vec4(points[2 * i], points[2 * i + 1]);
   made.paint = vec4(clamp(colour, 0.0, 1.0), opacity * stroke.seen);
   uint variant = hashOf(seed ^ 0x31u);
-  made.shape = vec4(0.5 * wide, float(variant & 3u), (variant & 4u) != 0u ? 1.0 : 0.0, floor(needed));
+  made.shape = vec4(0.5 * wide, float(variant & 3u), (variant & 4u) != 0u ? 1.0 : 0.0,
+                    anchors[slot].age);
   instances[rank] = made;
 }

@@ -34,9 +34,24 @@ constexpr double kMemorySeconds = 0.65;
 constexpr double kAppearingSeconds = 0.3;
 constexpr double kForever = 1e6;
 
-constexpr std::array<ViewInfo, 1> kViews{{
-    {"height", "how thick the paint lies"},
+constexpr std::string_view kTensorsView = "tensors";
+constexpr std::string_view kPyramidView = "pyramid";
+constexpr std::string_view kRegionsView = "regions";
+constexpr std::string_view kLayersView = "layers";
+constexpr std::string_view kSkeletonsView = "skeletons";
+constexpr std::string_view kAnchorsView = "anchors";
+constexpr std::string_view kHeightView = "height";
+constexpr std::array<ViewInfo, 7> kViews{{
+    {kTensorsView, "the tensor field: which way strokes go; blue from edges, red filled in"},
+    {kPyramidView, "four levels of its pyramid"},
+    {kRegionsView, "what is painted finely (red), middlingly (yellow) and broadly (blue)"},
+    {kLayersView, "strokes in their layer's colour"},
+    {kSkeletonsView, "the strokes' skeletons, likewise"},
+    {kAnchorsView, "their anchors: red ones are young"},
+    {kHeightView, "how thick the paint lies"},
 }};
+constexpr std::array<glm::vec3, kLayers> kLayerColours{
+    {{0.3F, 0.45F, 0.8F}, {0.95F, 0.8F, 0.3F}, {0.9F, 0.3F, 0.2F}}};
 
 Texture colours(hal::FrameSize size) {
   return {TextureFormat::kRgba8, size, TextureFilter::kLinear};
@@ -147,12 +162,14 @@ struct Painterly::State {
         halve(library.fragmentPass(kShaders + "halve.frag")),
         ground(library.fragmentPass(kShaders + "ground.frag")),
         relief(library.fragmentPass(kShaders + "relief.frag")),
+        fieldView(library.fragmentPass(kShaders + "field_view.frag")),
         drawing(library) {}
 
   const gpu::ShaderLibrary& library;
   gpu::Program halve;
   gpu::Program ground;
   gpu::Program relief;
+  gpu::Program fieldView;
   StrokeDrawing drawing;
   std::optional<Brush> brush;  // that `brushes` are of
   Brushes brushes;
@@ -165,6 +182,10 @@ struct Painterly::State {
   void grow(const scene::ArFrame& frame, const PainterlyParameters& p, gpu::PassTimer& timer);
   void drawStrokes(const PainterlyParameters& p, gpu::PassTimer& timer);
   void light(const scene::ArFrame& frame, const PainterlyParameters& p, gpu::PassTimer& timer);
+  void showField(const scene::ArFrame& frame, const PainterlyParameters& p, int shown);
+  void showStrokes(const scene::ArFrame& frame, StrokeDrawing::Shown shown);
+  const Texture& show(const scene::ArFrame& frame, const PainterlyParameters& p,
+                      std::string_view view);
 };
 
 void Painterly::State::take(const scene::ArFrame& frame, const PainterlyParameters& p) {
@@ -295,6 +316,53 @@ void Painterly::State::light(const scene::ArFrame& frame, const PainterlyParamet
       .drawFullscreen(canvas->finished);
 }
 
+void Painterly::State::showField(const scene::ArFrame& frame, const PainterlyParameters& p,
+                                 int shown) {
+  const marks::TensorField& field = painting->field;
+  const auto level = [&](std::size_t i) -> const Texture& {
+    return field.resolved(std::min(i, field.levelCount() - 1));
+  };
+  fieldView.use()
+      .texture("picture", *frame.colour)
+      .texture("field0", level(0))
+      .texture("field1", level(1))
+      .texture("field2", level(2))
+      .texture("field3", level(3))
+      .set("size", glm::vec2(canvas->size.width, canvas->size.height))
+      .set("shown", shown)
+      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
+      .set("bands", glm::vec2(p.middleDetail, p.detail))
+      .drawFullscreen(canvas->finished);
+}
+
+/// Over a pale picture.
+void Painterly::State::showStrokes(const scene::ArFrame& frame, StrokeDrawing::Shown shown) {
+  ground.use()
+      .texture("paint", *frame.colour)
+      .set("size", glm::vec2(canvas->size.width, canvas->size.height))
+      .set("ground", glm::vec3(0.95F))
+      .set("wash", 0.35F)
+      .drawFullscreen(canvas->strokes);
+  for (std::size_t i = 0; i < kLayers; ++i) {
+    drawing.show(painting->layers[i]->strokes, kQuads, shown, kLayerColours[i], painting->full,
+                 canvas->strokes);
+  }
+}
+
+const Texture& Painterly::State::show(const scene::ArFrame& frame, const PainterlyParameters& p,
+                                      std::string_view view) {
+  if (view == kHeightView) return canvas->height;
+  if (view == kTensorsView || view == kPyramidView || view == kRegionsView) {
+    showField(frame, p, view == kTensorsView ? 0 : view == kPyramidView ? 1 : 2);
+    return canvas->picture;
+  }
+  using Shown = StrokeDrawing::Shown;
+  showStrokes(frame, view == kLayersView      ? Shown::kWhole
+                     : view == kSkeletonsView ? Shown::kSkeletons
+                                              : Shown::kAnchors);
+  return canvas->colour;
+}
+
 Painterly::Painterly(const gpu::ShaderLibrary& library)
     : values_(painterlyParameters().defaults()), state_(std::make_unique<State>(library)) {}
 
@@ -319,9 +387,10 @@ const Texture& Painterly::paint(const scene::ArFrame& frame, std::string_view vi
   s.take(frame, p_);
   s.reduce(frame, timer);
   s.grow(frame, p_, timer);
+  if (!view.empty() && view != kHeightView) return s.show(frame, p_, view);
   s.drawStrokes(p_, timer);
   s.light(frame, p_, timer);
-  return view == "height" ? s.canvas->height : s.canvas->picture;
+  return view.empty() ? s.canvas->picture : s.show(frame, p_, view);
 }
 
 const marks::AnchorSet* Painterly::anchors() const {

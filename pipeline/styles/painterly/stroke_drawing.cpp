@@ -10,6 +10,8 @@ constexpr GLuint kAttributes = 6;  // of stroke.vert, four floats each
 StrokeDrawing::StrokeDrawing(const gpu::ShaderLibrary& library)
     : program_(library.draw("pipeline/styles/painterly/shaders/stroke.vert",
                             "pipeline/styles/painterly/shaders/stroke.frag")),
+      view_(library.draw("pipeline/styles/painterly/shaders/stroke_view.vert",
+                         "pipeline/styles/painterly/shaders/stroke_view.frag")),
       vertexArray_(gpu::VertexArrayHandle::make()) {
   static_assert(kAttributes * 16 == marks::StrokeSet::kInstanceBytes);
   glBindVertexArray(vertexArray_.get());
@@ -24,11 +26,27 @@ StrokeDrawing::StrokeDrawing(const gpu::ShaderLibrary& library)
 
 void StrokeDrawing::draw(const marks::StrokeSet& strokes, int quads, const gpu::Texture& brush,
                          hal::FrameSize full, const gpu::RenderTarget& target) {
-  target.beginKeeping();
   program_.use()
       .texture("brushes", brush)
       .set("quads", static_cast<float>(quads))
       .set("fullSize", glm::vec2(full.width, full.height));
+  drawInstances(strokes, target);
+}
+
+void StrokeDrawing::show(const marks::StrokeSet& strokes, int quads, Shown shown,
+                         const glm::vec3& layer, hal::FrameSize full,
+                         const gpu::RenderTarget& target) {
+  view_.use()
+      .set("quads", static_cast<float>(quads))
+      .set("shown", static_cast<int>(shown))
+      .set("layer", layer)
+      .set("fullSize", glm::vec2(full.width, full.height));
+  drawInstances(strokes, target);
+}
+
+void StrokeDrawing::drawInstances(const marks::StrokeSet& strokes,
+                                  const gpu::RenderTarget& target) {
+  target.beginKeeping();
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   glEnable(GL_BLEND);

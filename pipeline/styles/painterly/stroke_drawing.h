@@ -20,8 +20,17 @@ class StrokeDrawing {
   void draw(const marks::StrokeSet& strokes, int quads, const gpu::Texture& brush,
             hal::FrameSize full, const gpu::RenderTarget& target);
 
+  /// What can be shown of strokes instead of their paint.
+  enum class Shown { kWhole, kSkeletons, kAnchors };
+  /// Draws that of a layer, in its colour, or anchors by their age.
+  void show(const marks::StrokeSet& strokes, int quads, Shown shown, const glm::vec3& layer,
+            hal::FrameSize full, const gpu::RenderTarget& target);
+
  private:
+  void drawInstances(const marks::StrokeSet& strokes, const gpu::RenderTarget& target);
+
   gpu::Program program_;
+  gpu::Program view_;
   gpu::VertexArrayHandle vertexArray_;
 };
 

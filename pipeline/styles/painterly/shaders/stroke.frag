@@ -5,7 +5,7 @@
 // Precision: mediump would do, but for places.
 uniform sampler2D brushes;
 in vec2 brush;
-in vec4 paint;
+flat in vec4 paint;
 flat in float aspect;
 layout(location = 0) out vec4 colour;
 layout(location = 1) out vec4 height;
