@@ -14,8 +14,8 @@ struct PainterlyParameters {
   double layerRatio = 2.0;        // each coarser layer's strokes are wider by this
   double coverage = 3.5;          // strokes of a layer that lie over each other
   double length = 5.0;            // of a stroke, in widths
-  double detail = 0.16;           // from which fine strokes are painted
-  double middleDetail = 0.05;
+  double detail = 0.30;           // from which fine strokes are painted
+  double middleDetail = 0.08;
   double colourThreshold = 0.11;
   double cutOffDegrees = 45.0;
   double wander = 0.12;
