@@ -179,6 +179,18 @@ TEST_F(AnchorLife, APanBearsOnlyWhatComesIntoThePicture) {
   fades.expectNoPop();
 }
 
+TEST_F(AnchorLife, APanDoesNotRunOutOfSlots) {
+  for (const DensityRule rule : {DensityRule{.target = 1, .birthBelow = 1, .deathAbove = 3},
+                                 DensityRule{.target = 4, .birthBelow = 2, .deathAbove = 6}}) {
+    set_.emplace(library_, kSize, AnchorOptions{.density = rule});
+    for (int i = 0; i < 90; ++i) {
+      const std::vector<Anchor> now = next(panning(-0.7, 0.3));
+      ASSERT_EQ(std::ranges::count(cellCounts(now), 0), 0)
+          << "in frame " << i << " for " << rule.target << " a cell";
+    }
+  }
+}
+
 TEST_F(AnchorLife, ZoomingInBearsWhereItGetsSparse) {
   FadeWatch fades(kIn, kOut);
   next({});
