@@ -56,7 +56,7 @@ bool hasComeIn(vec2 px) {
 
 void bear(ivec2 cell, uint number, bool onObject, inout uint taken) {
   if (number >= freeCount) return;
-  uint hash = hashOf(cell, salt * 64u + number);
+  uint hash = hashOf(cell, hashOf(salt) + number);  // no frame's numbers follow another's
   int part = freePart(cell, taken, hash);
   taken |= 1u << uint(part);
   vec2 corner = vec2(part % strataSide, part / strataSide);
@@ -86,7 +86,7 @@ void bear(ivec2 cell, uint number, bool onObject, inout uint taken) {
   born.error = 0.0;
   born.fade = anew || hasComeIn(px) ? 1.0 : 0.0;
   born.age = 0.0;
-  born.seed = hashOf(hash);
+  born.seed = hashOf(hash ^ 0x9E3779B9u);  // tells nothing of the place, which came of the same hash
   born.surface = onObject ? id : idOf(objectOf(id), 0u);
   born.state = kAlive | kBorn | kSourceUnknown;
   if (onObject) {
