@@ -1,5 +1,6 @@
-// Purpose: the next level of the tensor pyramid: low-pass (Gaussian, 5x5) and every second region
-//          (thesis §4.2, step 3).
+// Purpose: the next level of the tensor pyramid: low-pass (Gaussian) and every second region (thesis
+//          §4.2, step 3). The filter is even, about the middle of the four regions that one of this
+//          level covers: about one of them, each level would lie half a region askew.
 // Inputs:  filled (tensor_fill.comp).
 // Outputs: reduced RGBA16F of half the size, alike. A region an invocation.
 // Precision: highp.
@@ -11,14 +12,14 @@ void main() {
   ivec2 region = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(region, imageSize(reduced)))) return;
   ivec2 last = textureSize(filled, 0) - 1;
-  const float kernel[5] = float[5](1.0, 4.0, 6.0, 4.0, 1.0);
+  const float kernel[4] = float[4](1.0, 3.0, 3.0, 1.0);
   vec2 sum = vec2(0.0);
   float known = 0.0;
   float detail = 0.0;
-  for (int y = 0; y < 5; ++y) {
-    for (int x = 0; x < 5; ++x) {
-      float weight = kernel[x] * kernel[y] / 256.0;
-      vec4 there = texelFetch(filled, clamp(2 * region + ivec2(x, y) - 2, ivec2(0), last), 0);
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 4; ++x) {
+      float weight = kernel[x] * kernel[y] / 64.0;
+      vec4 there = texelFetch(filled, clamp(2 * region + ivec2(x, y) - 1, ivec2(0), last), 0);
       sum += weight * there.z * there.xy;
       known += weight * there.z;
       detail += weight * there.w;
