@@ -1,0 +1,448 @@
+// The tensor field: each step against the thesis's text on the CPU, and what it promises of time.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include <glm/geometric.hpp>
+#include <gmock/gmock.h>
+
+#include "pipeline/gpu/render_target.h"
+#include "tests/gpu/marks/tensor_fixture.h"
+#include "tests/oracles/tensor_oracle.h"
+
+namespace pleinair::marks {
+namespace {
+
+using oracles::Decision;
+using oracles::TensorGrid;
+using support::textureOf;
+
+constexpr int kRegionPixels = 8;
+constexpr double kHalf = 1.0 / 2048.0;  // what a half-precision number is rounded to, of itself
+const glm::dvec2 kNothingAnywhere(-0.94, -0.342);
+
+double degrees(double radians) {
+  return radians * 180.0 / std::numbers::pi;
+}
+
+class TensorFieldTest : public TensorTest {
+ protected:
+  static constexpr TensorFieldOptions kNoMemory{.memory = hal::Duration(0)};
+
+  void SetUp() override {
+    TensorTest::SetUp();
+    if (IsSkipped()) return;
+    motionField_.emplace(library_, kSize);
+    field_.emplace(library_, kSize);
+  }
+  void TearDown() override {
+    field_.reset();
+    motionField_.reset();
+    TensorTest::TearDown();
+  }
+
+  void update(const hal::Image& picture, const tracking::ImageMotion& motion = standing(),
+              const TensorFieldOptions& options = {}, hal::Duration step = kStep) {
+    const gpu::Texture texture = textureOf(picture.view());
+    const scene::ArFrame frame = frameOf(texture, motion, step);
+    motionField_->update(frame, timer_);
+    field_->update(frame, texture, *motionField_, options, timer_);
+  }
+
+  /// The GPU's threshold: it shows in `detail`, which is the mean P by it.
+  double thresholdOf(const oracles::TensorImage& gradients) const {
+    const TensorGrid asOne =
+        oracles::tensorRegions(gradients, kRegionPixels, 1.0, Decision::kGradual);
+    const std::vector<FieldTexel> regions = read(field_->regions());
+    double sum = 0.0;
+    double of = 0.0;
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+      sum += asOne.regions[i].detail;
+      of += regions[i].detail;
+    }
+    return sum / of;
+  }
+
+  std::optional<MotionField> motionField_;
+  std::optional<TensorField> field_;
+};
+
+TEST_F(TensorFieldTest, GradientsAreTheThesiss) {
+  const hal::Image image = greyPicture(kSize, variedLuma, 6.0);
+  const gpu::Texture picture = textureOf(image.view());
+  const gpu::Texture noIds(gpu::TextureFormat::kR32ui, {1, 1});
+  gpu::Texture made(gpu::TextureFormat::kRg16f, kSize);
+  const gpu::RenderTarget target({&made});
+  gpu::Program pass = library_.fragmentPass("pipeline/marks/shaders/gradient.frag");
+  pass.use()
+      .texture("picture", picture)
+      .texture("ids", noIds)
+      .texture("normals", picture)
+      .set("hasObjects", 0)
+      .set("form", 0.0F)
+      .drawFullscreen(target);
+  const std::vector<float> values = support::readRgba32f(made);
+  const oracles::TensorImage expected = oracles::gradientTensors(image.view());
+  double worst = 0.0;
+  for (std::size_t i = 0; i < expected.tensors.size(); ++i) {
+    const glm::dvec2 is(values[4 * i], values[4 * i + 1]);
+    const glm::dvec2 should = expected.tensors[i];
+    // Half precision, cut off or rounded; and float's sums of eight bytes.
+    const double allowed = 2.0 * kHalf * glm::length(should) + 1e-5;
+    worst = std::max(worst, glm::distance(is, should) / allowed);
+  }
+  EXPECT_LT(worst, 1.0);
+}
+
+TEST_F(TensorFieldTest, TheThresholdIsAThirdOfThePercentile) {
+  for (const double contrast : {0.3, 1.0}) {
+    const auto luma = [&](glm::dvec2 px) { return contrast * variedLuma(px); };
+    const hal::Image image = greyPicture(kSize, luma, 3.0);
+    update(image, standing(), kNoMemory);
+    const oracles::TensorImage gradients = oracles::gradientTensors(image.view());
+    const double percentile = oracles::edgePercentile(gradients, 0.995);
+    // Of 128 bins, as wide as their root, and of every fourth pixel.
+    const double binWidth = 2.0 * std::sqrt(percentile * 5.7) / 128.0;
+    EXPECT_NEAR(3.0 * thresholdOf(gradients), percentile, 2.0 * binWidth) << contrast;
+  }
+}
+
+TEST_F(TensorFieldTest, OneHotPixelDoesNotMoveTheThreshold) {
+  hal::Image image = greyPicture(kSize, [](glm::dvec2 px) { return 0.3 * variedLuma(px); });
+  update(image, standing(), kNoMemory);
+  const double before = thresholdOf(oracles::gradientTensors(image.view()));
+  std::fill_n(image.row(0, 100).data() + 400, 3, std::uint8_t{255});
+  update(image, standing(), kNoMemory);
+  const oracles::TensorImage gradients = oracles::gradientTensors(image.view());
+  EXPECT_GT(oracles::edgePercentile(gradients, 1.0) / 3.0, 2.0 * before) << "the thesis's moves";
+  EXPECT_NEAR(thresholdOf(gradients), before, 0.03 * before);
+}
+
+TEST_F(TensorFieldTest, EachStepIsTheOracles) {
+  const hal::Image image = greyPicture(kSize, variedLuma, 2.0);
+  update(image, standing(), kNoMemory);
+  const oracles::TensorImage gradients = oracles::gradientTensors(image.view());
+  const TensorGrid expected =
+      oracles::tensorRegions(gradients, kRegionPixels, thresholdOf(gradients), Decision::kGradual);
+  const auto pyramid = oracles::tensorPyramid(expected, 1.0, Decision::kGradual);
+  ASSERT_EQ(pyramid.size(), field_->levelCount());
+  const auto compare = [](const std::vector<FieldTexel>& is, const TensorGrid& should,
+                          double tolerance) {
+    ASSERT_EQ(is.size(), should.regions.size());
+    for (std::size_t i = 0; i < is.size(); ++i) {
+      const oracles::TensorRegion& each = should.regions[i];
+      EXPECT_NEAR(is[i].known, each.known, tolerance) << i;
+      EXPECT_NEAR(is[i].detail, each.detail, tolerance * (1.0 + each.detail)) << i;
+      // A tensor that is hardly there says little.
+      EXPECT_LT(glm::distance(is[i].tensor, each.tensor) * std::min(1.0, 10.0 * each.known),
+                tolerance)
+          << i;
+    }
+  };
+  compare(read(field_->regions()), expected, 0.004);
+  for (std::size_t level = 0; level < pyramid.size(); ++level) {
+    SCOPED_TRACE(level);
+    EXPECT_EQ(field_->filled(level).size(), pyramid[level].size);
+    compare(read(field_->filled(level)), pyramid[level], 0.006);
+    const std::vector<FieldTexel> resolved = read(field_->resolved(level));
+    const hal::FrameSize size = pyramid[level].size;
+    for (int i = 0; i < static_cast<int>(resolved.size()); ++i) {
+      const glm::ivec2 region(i % size.width, i / size.width);
+      const glm::dvec2 tensor = oracles::lookedUp(pyramid, level, region, Decision::kGradual);
+      EXPECT_LT(glm::distance(resolved[static_cast<std::size_t>(i)].tensor, tensor), 0.03)
+          << region.x << "," << region.y;
+    }
+  }
+}
+
+/// Gradual decisions change little of what the thesis's text gives where it is sure.
+TEST_F(TensorFieldTest, DirectionsAreThoseOfTheThesissText) {
+  const hal::Image image = greyPicture(kSize, variedLuma, 2.0);
+  update(image, standing(), kNoMemory);
+  const oracles::TensorImage gradients = oracles::gradientTensors(image.view());
+  const auto pyramid = oracles::tensorPyramid(
+      oracles::tensorRegions(gradients, kRegionPixels, thresholdOf(gradients), Decision::kThesis),
+      1.0, Decision::kThesis);
+  const std::vector<FieldTexel> resolved = read(field_->resolved(0));
+  std::vector<double> apart;
+  for (int i = 0; i < static_cast<int>(resolved.size()); ++i) {
+    const glm::ivec2 region(i % 32, i / 32);
+    const glm::dvec2 tensor = oracles::lookedUp(pyramid, 0, region, Decision::kThesis);
+    if (glm::length(tensor) < 0.3) continue;
+    apart.push_back(
+        degrees(oracles::angleBetween(tensor, resolved[static_cast<std::size_t>(i)].tensor)));
+  }
+  ASSERT_GT(apart.size(), 350U);
+  std::ranges::sort(apart);
+  RecordProperty("median_degrees", std::to_string(apart[apart.size() / 2]));
+  EXPECT_LT(apart[apart.size() / 2], 3.0);
+  EXPECT_LT(apart[apart.size() * 9 / 10], 15.0);
+}
+
+/// A pyramid whose levels do not lie over each other would lean to one side.
+TEST_F(TensorFieldTest, TheFieldOfAMirroredPictureIsMirrored) {
+  const auto sparse = [](glm::dvec2 px) {
+    return std::hypot(px.x - 40.0, px.y - 90.0) < 14.0 ? 0.9 : (px.x + px.y < 30.0 ? 0.1 : 0.5);
+  };
+  update(greyPicture(kSize, sparse), standing(), kNoMemory);
+  std::vector<std::vector<FieldTexel>> levels;
+  for (std::size_t i = 0; i < field_->levelCount(); ++i) levels.push_back(read(field_->filled(i)));
+  const std::vector<FieldTexel> regions = read(field_->regions());
+  update(greyPicture(kSize,
+                     [&](glm::dvec2 px) {
+                       return sparse({256.0 - px.x, 128.0 - px.y});
+                     }),
+         standing(), kNoMemory);
+  // Turned by half a turn, directions stay.
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    const std::vector<FieldTexel> turned = read(field_->filled(level));
+    for (std::size_t i = 0; i < turned.size(); ++i) {
+      const FieldTexel& was = levels[level][turned.size() - 1 - i];
+      EXPECT_NEAR(turned[i].known, was.known, 0.005) << level << ": " << i;
+      EXPECT_LT(glm::distance(turned[i].tensor, was.tensor) * was.known, 0.005)
+          << level << ": " << i;
+    }
+  }
+}
+
+TEST_F(TensorFieldTest, ABlankFrameHasTheDefaultDirection) {
+  update(greyPicture(kSize, [](glm::dvec2) { return 0.5; }));
+  for (std::size_t level = 0; level < field_->levelCount(); ++level) {
+    for (const FieldTexel& each : read(field_->resolved(level))) {
+      EXPECT_LT(glm::distance(each.tensor, kNothingAnywhere), 0.002);
+      EXPECT_EQ(each.known, 0.0);
+    }
+  }
+}
+
+TEST_F(TensorFieldTest, TensorsThatCancelHaveTheDefaultDirection) {
+  // As much upright as level everywhere: a region's tensors sum to nothing.
+  const auto chequered = [](glm::dvec2 px) {
+    return (static_cast<int>(px.x / 4.0) + static_cast<int>(px.y / 4.0)) % 2 == 0 ? 0.8 : 0.2;
+  };
+  update(greyPicture(kSize, chequered), standing(), kNoMemory);
+  const std::vector<FieldTexel> resolved = read(field_->resolved(0));
+  const std::vector<FieldTexel> regions = read(field_->regions());
+  double worst = 0.0;
+  for (int y = 1; y < 15; ++y) {
+    for (int x = 1; x < 31; ++x) {
+      const auto i = static_cast<std::size_t>(y * 32 + x);
+      EXPECT_EQ(regions[i].known, 1.0);
+      EXPECT_LT(glm::length(regions[i].tensor), 0.02);
+      worst = std::max(worst, degrees(oracles::angleBetween(resolved[i].tensor, kNothingAnywhere)));
+    }
+  }
+  // The border's own edges, which do not cancel, reach in a little by the coarsest levels.
+  EXPECT_LT(worst, 8.0);
+}
+
+TEST_F(TensorFieldTest, StrokesFollowRoundShapes) {
+  // Rings: the truth is known everywhere.
+  const glm::dvec2 middle(128.0, 64.0);
+  update(greyPicture(
+             kSize,
+             [&](glm::dvec2 px) { return 0.5 + 0.3 * std::sin(0.35 * glm::distance(px, middle)); }),
+         standing(), kNoMemory);
+  const std::vector<FieldTexel> resolved = read(field_->resolved(0));
+  double worst = 0.0;
+  for (int i = 0; i < static_cast<int>(resolved.size()); ++i) {
+    const glm::dvec2 out = 8.0 * (glm::dvec2(i % 32, i / 32) + 0.5) - middle;
+    if (glm::length(out) < 24.0) continue;
+    const double theta = std::atan2(out.y, out.x);
+    worst = std::max(worst, oracles::angleBetween(resolved[static_cast<std::size_t>(i)].tensor,
+                                                  {std::cos(2 * theta), std::sin(2 * theta)}));
+  }
+  EXPECT_LT(degrees(worst), 4.0);
+}
+
+/// What was known of a picture that has gone blank turns with it, and is forgotten in time.
+TEST_F(TensorFieldTest, MemoryIsCarriedAlongARoll) {
+  const auto stripes = [](glm::dvec2 px) { return 0.5 + 0.3 * std::sin(0.6 * px.x); };
+  constexpr double kRoll = 0.06;
+  constexpr int kFrames = 5;
+  const hal::Image blank = greyPicture(kSize, [](glm::dvec2) { return 0.5; });
+  for (const double along : {1.0, 0.0}) {
+    field_->reset();
+    update(greyPicture(kSize, stripes));
+    for (int i = 0; i < kFrames; ++i) update(blank, following(rolled(along * kRoll)));
+    const std::vector<FieldTexel> regions = read(field_->regions());
+    const double theta = along * kFrames * kRoll;  // of the gradient, which was level
+    for (const glm::ivec2 at : {glm::ivec2(16, 8), {12, 6}, {19, 10}, {10, 9}}) {
+      const FieldTexel& each = regions[static_cast<std::size_t>(at.y * 32 + at.x)];
+      EXPECT_LT(
+          degrees(oracles::angleBetween(each.tensor, {std::cos(2 * theta), std::sin(2 * theta)})),
+          1.0)
+          << along << " at " << at.x << "," << at.y;
+      EXPECT_NEAR(each.known, std::exp(-kFrames * 0.033 / 0.4), 0.02);
+    }
+  }
+}
+
+/// Smoothing would lag a roll by ω τ if it were not carried along.
+TEST_F(TensorFieldTest, ARollingPicturesFieldDoesNotLag) {
+  constexpr double kRoll = 0.02;
+  const auto worstOf = [&](bool isTold) {
+    field_->reset();
+    double angle = 0.0;
+    for (int i = 0; i < 12; ++i) {
+      const glm::dvec2 across(std::cos(angle), std::sin(angle));
+      update(greyPicture(kSize,
+                         [&](glm::dvec2 px) {
+                           return 0.5 +
+                                  0.3 * std::sin(0.6 * glm::dot(px - glm::dvec2(128, 64), across));
+                         }),
+             isTold && i > 0 ? following(rolled(kRoll)) : standing());
+      angle += kRoll;
+    }
+    angle -= kRoll;
+    const glm::dvec2 truth(std::cos(2 * angle), std::sin(2 * angle));
+    double worst = 0.0;
+    const std::vector<FieldTexel> resolved = read(field_->resolved(0));
+    for (int y = 4; y < 12; ++y) {
+      for (int x = 10; x < 22; ++x) {
+        const FieldTexel& each = resolved[static_cast<std::size_t>(y * 32 + x)];
+        worst = std::max(worst, degrees(oracles::angleBetween(each.tensor, truth)));
+      }
+    }
+    return worst;
+  };
+  EXPECT_LT(worstOf(true), 1.5);
+  EXPECT_GT(worstOf(false), 4.0) << "the control";
+}
+
+TEST_F(TensorFieldTest, AStillNoisyPicturesFieldDoesNotTremble) {
+  const auto trembleOf = [&](const TensorFieldOptions& options) {
+    field_->reset();
+    std::vector<FieldTexel> before;
+    double sum = 0.0;
+    int count = 0;
+    for (unsigned i = 0; i < 40; ++i) {
+      update(greyPicture(kSize, variedLuma, 2.0, i + 1), standing(), options);
+      const std::vector<FieldTexel> now = read(field_->resolved(0));
+      for (std::size_t at = 0; i > 30 && at < now.size(); ++at) {
+        sum += degrees(oracles::angleBetween(now[at].tensor, before[at].tensor));
+        ++count;
+      }
+      before = now;
+    }
+    return sum / count;
+  };
+  const double alone = trembleOf(kNoMemory);
+  const double steady = trembleOf({});
+  RecordProperty("degrees_a_frame", std::to_string(steady) + " of " + std::to_string(alone));
+  EXPECT_LT(steady, 0.25);
+  EXPECT_LT(steady, 0.25 * alone);
+}
+
+TEST_F(TensorFieldTest, TheFieldIsTheSameWhateverTheFrameRate) {
+  const hal::Image first = greyPicture(kSize, [](glm::dvec2 px) { return px.x < 128 ? 0.2 : 0.8; });
+  const hal::Image then = greyPicture(kSize, [](glm::dvec2 px) { return px.y < 64 ? 0.2 : 0.8; });
+  std::vector<std::vector<FieldTexel>> ends;
+  for (const int frames : {4, 16}) {
+    field_->reset();
+    update(first);
+    for (int i = 0; i < frames; ++i) {
+      update(then, standing(), {}, std::chrono::milliseconds(480) / frames);
+    }
+    ends.push_back(read(field_->regions()));
+  }
+  for (std::size_t i = 0; i < ends[0].size(); ++i) {
+    EXPECT_NEAR(ends[0][i].known, ends[1][i].known, 0.01) << i;
+    EXPECT_LT(glm::distance(ends[0][i].tensor, ends[1][i].tensor), 0.02) << i;
+  }
+}
+
+TEST_F(TensorFieldTest, ACutAndAResetForget) {
+  const hal::Image other = greyPicture(kSize, [](glm::dvec2 px) { return px.y < 60 ? 0.1 : 0.9; });
+  const hal::Image image = greyPicture(kSize, variedLuma);
+  const auto bytesOf = [&] { return support::readRgba32f(field_->resolved(0)); };
+  update(image);
+  const std::vector<float> fresh = bytesOf();
+  update(other);
+  update(image);
+  EXPECT_NE(bytesOf(), fresh) << "the past is to count";
+  update(other);
+  tracking::ImageMotion cut = standing();
+  cut.isCut = true;
+  update(image, cut);
+  EXPECT_EQ(bytesOf(), fresh);
+  update(other);
+  field_->reset();
+  update(image);
+  EXPECT_EQ(bytesOf(), fresh);
+}
+
+TEST_F(TensorFieldTest, ASmallerVersionHasTheSameField) {
+  const hal::Image image = greyPicture(kSize, variedLuma);
+  update(image, standing(), kNoMemory);
+  const std::vector<FieldTexel> whole = read(field_->resolved(0));
+  const hal::FrameSize half{kSize.width / 2, kSize.height / 2};
+  const hal::Image smaller = greyPicture(half, [](glm::dvec2 px) { return variedLuma(2.0 * px); });
+  const gpu::Texture texture = textureOf(smaller.view());
+  scene::ArFrame frame = frameOf(texture);
+  motion_.frameSize = kSize;
+  frame.fullSize = kSize;
+  motionField_->update(frame, timer_);
+  field_->update(frame, texture, *motionField_, kNoMemory, timer_);
+  const std::vector<FieldTexel> less = read(field_->resolved(0));
+  ASSERT_EQ(less.size(), whole.size());
+  std::vector<double> apart;
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    apart.push_back(degrees(oracles::angleBetween(whole[i].tensor, less[i].tensor)));
+  }
+  std::ranges::sort(apart);
+  EXPECT_LT(apart[apart.size() / 2], 5.0);
+}
+
+/// The pyramid gives about what the global interpolation gives, which asks every edge pixel.
+TEST_F(TensorFieldTest, GoesWithTheGlobalInterpolation) {
+  const auto shapes = [](glm::dvec2 px) {
+    return std::hypot(px.x - 128.0, px.y - 64.0) < 38.0 ? 0.8 : 0.3;
+  };
+  const hal::Image image = greyPicture(kSize, shapes);
+  update(image, standing(), kNoMemory);
+  const oracles::TensorImage gradients = oracles::gradientTensors(image.view());
+  const double threshold = thresholdOf(gradients);
+  const std::vector<FieldTexel> resolved = read(field_->resolved(0));
+  std::vector<double> apart;
+  for (int i = 0; i < static_cast<int>(resolved.size()); i += 7) {
+    const glm::dvec2 px = 8.0 * (glm::dvec2(i % 32, i / 32) + 0.5);
+    // Far from the rim, and at its middle, neither has much to say.
+    const double fromRim = std::abs(glm::distance(px, {128.0, 64.0}) - 38.0);
+    if (fromRim > 28.0) continue;
+    apart.push_back(degrees(oracles::angleBetween(
+        resolved[static_cast<std::size_t>(i)].tensor,
+        oracles::radialBasisTensor(gradients, threshold, 8.0, oracles::RadialBasis::kEq12, px))));
+  }
+  ASSERT_GT(apart.size(), 20U);
+  std::ranges::sort(apart);
+  EXPECT_LT(apart[apart.size() / 2], 8.0);
+}
+
+TEST(TensorOracle, RadialBasisFormsDifferByTheWeights) {
+  // One edge, upright, 20 px from where it is asked.
+  hal::Image image({.pixelFormat = hal::PixelFormat::kRgba8, .size = {64, 9}});
+  for (int y = 0; y < 9; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      std::fill_n(image.row(0, y).data() + static_cast<std::ptrdiff_t>(x) * 4, 4,
+                  static_cast<std::uint8_t>(x < 32 ? 0 : 255));
+    }
+  }
+  const oracles::TensorImage gradients = oracles::gradientTensors(image.view());
+  using oracles::RadialBasis;
+  const glm::dvec2 at(12.0, 4.5);
+  const auto tensorOf = [&](RadialBasis form, double sigma) {
+    return oracles::radialBasisTensor(gradients, 1.0, sigma, form, at);
+  };
+  // P is 4 at every edge pixel, the gradient level: normalised, that comes back whatever σ is.
+  EXPECT_NEAR(tensorOf(RadialBasis::kEq12, 2.0).x, 4.0, 1e-9);
+  EXPECT_NEAR(tensorOf(RadialBasis::kEq12, 50.0).x, 4.0, 1e-9);
+  // Eq. 11 leaves a hole far from edges.
+  EXPECT_LT(tensorOf(RadialBasis::kEq11, 2.0).x, 0.01);
+  EXPECT_EQ(oracles::angleBetween({1, 0}, {-1, 0}), std::numbers::pi / 2.0);
+}
+
+}  // namespace
+}  // namespace pleinair::marks
