@@ -15,7 +15,9 @@
 #include "firmware_app/interrupt.h"
 #include "firmware_app/live/runtime_rules.h"
 #include "firmware_app/measured_engine.h"
+#include "firmware_app/path_collisions.h"
 #include "firmware_app/progress.h"
+#include "hal/pending_file.h"
 #include "pipeline/measure/measured_input.h"
 #include "pipeline/measure/measurement.h"
 
@@ -118,6 +120,27 @@ std::optional<measure::Report> measured(measure::MeasuredInput& input,
   return orThrow(measure::measure(input, painter, options));
 }
 
+/// What cannot be written shows before anything is painted.
+std::optional<hal::PendingFile> created(const std::optional<fs::path>& path) {
+  if (!path) return std::nullopt;
+  return orThrow(hal::PendingFile::create(*path));
+}
+
+void publish(std::optional<hal::PendingFile>& file, const std::string& text) {
+  if (!file) return;
+  orThrow(file->write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
+  orThrow(file->publish());
+}
+
+void refuseCollisionsOf(const MeasureOptions& options, std::vector<NamedPath> read) {
+  if (options.input) read.push_back({"--input", *options.input});
+  if (options.motion) read.push_back({"--motion", *options.motion});
+  std::vector<NamedPath> written;
+  if (options.json) written.push_back({"--json", *options.json});
+  if (options.html) written.push_back({"--html", *options.html});
+  refuseCollisions(read, written);
+}
+
 int statusOf(const measure::Report& report, bool gates) {
   if (!report.areControlsSound()) {
     printError("the controls do not read as they must; see the report");
@@ -128,6 +151,7 @@ int statusOf(const measure::Report& report, bool gates) {
 
 int measureConfigured(const MeasureOptions& options, const Configuration& configuration) {
   const scene::Scene scene = configuredScene(configuration);
+  refuseCollisionsOf(options, configuredFiles(configuration, scene));
   const std::unique_ptr<measure::MeasuredInput> input = openInput(options, configuration);
   const hal::FrameSize size = pictureSizeOf(configuration, *input);
   const std::vector<std::string> levels = qualityNames();
@@ -150,6 +174,8 @@ int measureConfigured(const MeasureOptions& options, const Configuration& config
   const std::uint64_t settle = options.settle.value_or(input->isEndless() ? kSettleByDefault : 0);
   std::optional<std::uint64_t> frames = options.frames;
   if (!frames && input->isEndless()) frames = kFramesByDefault;
+  std::optional<hal::PendingFile> json = created(options.json);
+  std::optional<hal::PendingFile> html = created(options.html);
   const Interrupt interrupt;
   const std::optional<measure::Report> report =
       measured(*input, engine,
@@ -162,6 +188,8 @@ int measureConfigured(const MeasureOptions& options, const Configuration& config
     printError(fmt::format("broken off by {}", signalName(Interrupt::received())));
     return kSignalExitBase + Interrupt::received();
   }
+  publish(html, measure::reportHtml(*report));
+  publish(json, measure::reportJson(*report));
   std::fputs(measure::reportText(*report).c_str(), stdout);
   return statusOf(*report, options.gates);
 }

@@ -97,4 +97,31 @@ std::vector<Verdict> gateVerdicts(std::string_view style, MotionKind motion,
   return verdicts;
 }
 
+std::vector<Verdict> anchorVerdicts(std::string_view style, MotionKind motion,
+                                    const std::optional<AnchorSummary>& settled,
+                                    const std::optional<AnchorSummary>& still) {
+  using State = Verdict::State;
+  constexpr double kMostTurnoverPercent = 0.5;
+  std::vector<Verdict> verdicts;
+  if (style != "painterly") return verdicts;
+  if (motion == MotionKind::kPan) {
+    Verdict turnover{.what = "births and deaths away from the border ≤ 0.5 % of the marks a frame",
+                     .found = "no anchors after two seconds"};
+    if (settled) {
+      const bool isPassed = settled->innerTurnoverPercent <= kMostTurnoverPercent;
+      turnover.state = isPassed ? State::kPassed : State::kFailed;
+      turnover.found = fmt::format("{:.2f} %", settled->innerTurnoverPercent);
+    }
+    verdicts.push_back(std::move(turnover));
+  }
+  Verdict quiet{.what = "no births or deaths on a still scene", .found = "no anchors"};
+  if (still) {
+    quiet.state = still->births + still->deaths == 0 ? State::kPassed : State::kFailed;
+    quiet.found =
+        fmt::format("{:.2f} births and {:.2f} deaths a frame", still->births, still->deaths);
+  }
+  verdicts.push_back(std::move(quiet));
+  return verdicts;
+}
+
 }  // namespace pleinair::measure

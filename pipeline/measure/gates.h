@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
+#include "pipeline/measure/anchor_measures.h"
 #include "pipeline/measure/measures.h"
 #include "pipeline/measure/true_motion.h"
 #include "pipeline/measure/verdict.h"
@@ -16,5 +18,11 @@ bool hasGates(std::string_view style);
 /// what tiles fixed to the screen read on the same frames. Precondition: hasGates(style).
 std::vector<Verdict> gateVerdicts(std::string_view style, MotionKind motion,
                                   const Measures& measures, const Measures& tiling);
+
+/// What they say to the style's anchors: under a pan, once two seconds are over, and on a still
+/// scene. Empty for styles whose anchors have no gates.
+std::vector<Verdict> anchorVerdicts(std::string_view style, MotionKind motion,
+                                    const std::optional<AnchorSummary>& settled,
+                                    const std::optional<AnchorSummary>& still);
 
 }  // namespace pleinair::measure

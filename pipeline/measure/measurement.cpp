@@ -8,6 +8,7 @@
 #include "pipeline/measure/sensor_noise.h"
 #include "pipeline/measure/sequence_measures.h"
 #include "pipeline/measure/still_measures.h"
+#include "pipeline/measure/worst_frames.h"
 
 namespace pleinair::measure {
 namespace {
@@ -78,7 +79,25 @@ class Measurement {
       still_ = input;
     }
     ++report_.frames;
-    return sequence_->add(index, input, toFloat(painted.output.view()));
+    const cv::Mat3f output = toFloat(painted.output.view());
+    if (auto added = sequence_->add(index, input, output, painted.anchors); !added) return added;
+    report_.overTime.push_back(valuesOfLast(index));
+    if (const std::optional<double> ew2 = report_.overTime.back().painting.ew2) {
+      worst_.offer(index, *ew2, input, output, sequence_->of(Subject::kPainting).lastDifference());
+    }
+    return {};
+  }
+
+  FrameValues valuesOfLast(std::uint64_t index) const {
+    const OutputMeasures::Frame& painting = sequence_->of(Subject::kPainting).frames().back();
+    const OutputMeasures::Frame& input = sequence_->of(Subject::kInput).frames().back();
+    FrameValues values{.frame = index,
+                       .painting = OutputMeasures::valuesOf(painting, input),
+                       .input = OutputMeasures::valuesOf(input, input),
+                       .anchors = {}};
+    const std::vector<AnchorFrame>& anchors = sequence_->anchors().frames();
+    if (!anchors.empty()) values.anchors = anchors.back();
+    return values;
   }
 
   /// As measureSequence().
@@ -86,6 +105,7 @@ class Measurement {
     if (options_.stillFrames == 0) return true;
     painter_.reset();
     StillMeasures still(still_.size());
+    AnchorMeasures anchors(still_.size());
     for (std::uint64_t i = 0; i < options_.stillSettle + options_.stillFrames; ++i) {
       const hal::Image noisy = withSensorNoise(still_, options_.stillNoiseLevels, i);
       const hal::TimePoint time{kFramePeriod * static_cast<std::int64_t>(i)};
@@ -97,10 +117,12 @@ class Measurement {
       if (!painted) return tl::unexpected(painted.error());
       if (i >= options_.stillSettle) {
         still.add(toFloat(painted->input.view()), toFloat(painted->output.view()));
+        if (!painted->anchors.empty()) anchors.add(painted->anchors, nullptr, nullptr);
       }
       if (!options_.goesOn()) return false;
     }
     report_.stillFrames = options_.stillFrames;
+    report_.insideStill = anchors.total();
     report_.stillNoise = options_.stillNoiseLevels;
     for (const Subject subject : kAllSubjects) flicker_[subject] = still.flicker(subject);
     return true;
@@ -112,6 +134,9 @@ class Measurement {
         input_.motion() == nullptr ? "its motion is not known" : input_.motion()->description();
     report_.measures = sequence_->totals();
     for (const Subject subject : kAllSubjects) report_.measures[subject].xFlk = flicker_[subject];
+    report_.flatness = sequence_->flatness();
+    report_.inside = sequence_->anchors().total();
+    report_.worst = worst_.frames();
     report_.notices = input_.notices();
     report_.leftOut = leftOut();
     report_.controls = controlVerdicts(report_.measures, report_.style, report_.motionKind);
@@ -120,6 +145,18 @@ class Measurement {
           gateVerdicts(report_.style, report_.motionKind, report_.measures[Subject::kPainting],
                        report_.measures[Subject::kFixed]);
     }
+    for (Verdict& verdict :
+         anchorVerdicts(report_.style, report_.motionKind, settledAnchors(), report_.insideStill)) {
+      report_.gates.push_back(std::move(verdict));
+    }
+  }
+
+  /// Of the frames from two seconds after the first on.
+  std::optional<AnchorSummary> settledAnchors() const {
+    constexpr std::uint64_t kTwoSeconds = 60;
+    const std::uint64_t firstCompared = options_.settle + 1;
+    const std::uint64_t skipped = firstCompared < kTwoSeconds ? kTwoSeconds - firstCompared : 0;
+    return sequence_->anchors().total(skipped);
   }
 
   std::vector<std::string> leftOut() const {
@@ -137,6 +174,12 @@ class Measurement {
       lines.emplace_back("SCR: too little of the picture moves by 8 px or more in ten frames");
     }
     if (!own.xFlk) lines.emplace_back("xFLK: no still scene was painted, or it has no noise");
+    if (!report_.flatness) {
+      lines.emplace_back(
+          "flatness: it compares near and far views, and the picture's scale is not "
+          "known to change by 15 %");
+    }
+    if (!report_.inside) lines.emplace_back("inside: this style has no anchors");
     if (own.ew2 && !own.xEw2) lines.emplace_back("xEW2: the input has no error at all");
     return lines;
   }
@@ -146,6 +189,7 @@ class Measurement {
   const MeasurementOptions& options_;
   Report report_;
   std::optional<SequenceMeasures> sequence_;
+  WorstFrames worst_;
   cv::Mat3f still_;
   PerSubject<std::optional<double>> flicker_;
 };

@@ -4,10 +4,12 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "hal/captured_frame.h"
 #include "hal/error.h"
 #include "hal/image.h"
+#include "pipeline/marks/anchor.h"
 #include "pipeline/measure/measured_input.h"
 #include "pipeline/measure/report.h"
 
@@ -17,6 +19,7 @@ namespace pleinair::measure {
 struct PaintedFrame {
   hal::Image input;
   hal::Image output;
+  std::vector<marks::Anchor> anchors;  ///< of its marks; empty where there are none
 };
 
 /// What is measured: the engine with a style, or a filter that it is compared with.

@@ -85,40 +85,36 @@ void OutputMeasures::compareLongLag(Frame& frame, const MotionMap* motion) {
   if (motion != nullptr) frame.lasting = lastingMarks(earlier, carriedBack(later, *motion));
   const cv::Mat1b moved = movedMask(motion, later.size());
   if (cv::countNonZero(moved) < kLeastMovedShare * static_cast<double>(moved.total())) return;
-  frame.screen = screenCorrelation(relativeGradient(earlier), relativeGradient(later), moved);
+  const auto common = screenCorrelation(relativeGradient(earlier), relativeGradient(later), moved);
+  if (common) frame.screen = {*common, 1.0};
 }
 
-Mean OutputMeasures::error() const {
-  Mean all;
-  for (const Frame& frame : frames_) all += frame.error;
-  return all;
+Measures OutputMeasures::valuesOf(const Frame& frame, const Frame& input) {
+  Measures measures;
+  measures.ew2 = times(frame.error.value(), 1000.0);
+  measures.xEw2 = ratio(frame.error.value(), input.error.value());
+  measures.nHw2 = ratio(frame.highPassError.value(), frame.misalignedError.value());
+  measures.popPercent = times(frame.popped.value(), 100.0);
+  measures.s10Percent = times(frame.lasting.value(), 100.0);
+  measures.scr = frame.screen.value();
+  measures.dep = times(root(frame.departure.value()), 255.0);
+  measures.det = root(ratio(frame.detail.value(), input.detail.value()));
+  return measures;
 }
 
-Mean OutputMeasures::detail() const {
-  Mean all;
-  for (const Frame& frame : frames_) all += frame.detail;
-  return all;
-}
-
-Measures OutputMeasures::total() const {
+OutputMeasures::Frame OutputMeasures::total() const {
   Frame all;
-  Mean screen;
   for (const Frame& frame : frames_) {
+    all.error += frame.error;
     all.highPassError += frame.highPassError;
     all.misalignedError += frame.misalignedError;
     all.popped += frame.popped;
     all.lasting += frame.lasting;
+    all.screen += frame.screen;
     all.departure += frame.departure;
-    if (frame.screen) screen += {*frame.screen, 1.0};
+    all.detail += frame.detail;
   }
-  Measures measures;
-  measures.ew2 = times(error().value(), 1000.0);
-  measures.nHw2 = ratio(all.highPassError.value(), all.misalignedError.value());
-  measures.popPercent = times(all.popped.value(), 100.0);
-  measures.s10Percent = times(all.lasting.value(), 100.0);
-  measures.scr = screen.value();
-  measures.dep = times(root(all.departure.value()), 255.0);
-  return measures;
+  return all;
 }
 
 cv::Mat3f OutputMeasures::lastDifference() const {

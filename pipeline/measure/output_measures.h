@@ -35,7 +35,7 @@ class OutputMeasures {
     Mean misalignedError;  ///< likewise, laid wrong
     Mean popped;
     Mean lasting;
-    std::optional<double> screen;
+    Mean screen;
     Mean departure;
     Mean detail;  ///< mean square of the high pass
   };
@@ -44,10 +44,10 @@ class OutputMeasures {
   void add(const cv::Mat3f& output, const cv::Mat3f& input, const MotionToHere& motion);
 
   const std::vector<Frame>& frames() const { return frames_; }
-  /// What can be said without the input's own measures: xEW2, xFLK and DET are left out.
-  Measures total() const;
-  Mean error() const;
-  Mean detail() const;
+  /// What one of them reads beside the input's, or sums over frames do; all but xFLK.
+  static Measures valuesOf(const Frame& frame, const Frame& input);
+  /// The sums over all frames.
+  Frame total() const;
 
   /// Of the last frame, against two before; empty where there is none.
   cv::Mat3f lastDifference() const;

@@ -1,16 +1,35 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "hal/image.h"
 #include "hal/pixel_format.h"
+#include "pipeline/measure/anchor_measures.h"
 #include "pipeline/measure/controls.h"
+#include "pipeline/measure/flatness.h"
 #include "pipeline/measure/measures.h"
 #include "pipeline/measure/true_motion.h"
 #include "pipeline/measure/verdict.h"
 
 namespace pleinair::measure {
+
+/// What one frame of the painting reads, for plots.
+struct FrameValues {
+  std::uint64_t frame = 0;
+  Measures painting, input;
+  std::optional<AnchorFrame> anchors;
+};
+
+/// A frame in which much changed along the motion, for people to look at: what it was, what was
+/// painted, and how that differs from two frames before.
+struct WorstFrame {
+  std::uint64_t frame = 0;
+  double ew2 = 0;
+  hal::Image input, output, difference;
+};
 
 /// All that is told of one measured sequence.
 struct Report {
@@ -26,6 +45,11 @@ struct Report {
   double stillNoise = 0;  ///< levels
 
   PerSubject<Measures> measures;
+  std::optional<Flatness> flatness;
+  std::optional<AnchorSummary> inside;       ///< of the moving sequence
+  std::optional<AnchorSummary> insideStill;  ///< of the still scene
+  std::vector<FrameValues> overTime;
+  std::vector<WorstFrame> worst;  ///< the worst first
   std::vector<Verdict> controls;
   std::vector<Verdict> gates;
   std::vector<std::string> notices;
@@ -40,7 +64,16 @@ struct Report {
 /// What a subject is called in tables.
 std::string nameOf(Subject subject, const Report& report);
 
+// What reports of every kind say in words.
+std::string framesText(const Report& report);
+std::vector<std::string> insideLines(const Report& report);
+std::vector<std::string> flatnessLines(const Report& report);
+
 /// The report as lines for a terminal.
 std::string reportText(const Report& report);
+/// As JSON, all figures.
+std::string reportJson(const Report& report);
+/// As one HTML page that needs nothing else: tables, plots over time, the worst frames.
+std::string reportHtml(const Report& report);
 
 }  // namespace pleinair::measure

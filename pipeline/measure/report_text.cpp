@@ -48,6 +48,11 @@ std::string verdictLines(const std::vector<Verdict>& verdicts, const char* passe
   return text;
 }
 
+std::string slipText(const Slip& slip) {
+  return fmt::format("median {:.3f} px, 95 % below {:.3f} px, rms {:.3f} px", slip.median,
+                     slip.most, slip.rms);
+}
+
 std::string listLines(const std::string& title, const std::vector<std::string>& lines) {
   if (lines.empty()) return "";
   std::string text = "\n" + title + "\n";
@@ -81,15 +86,62 @@ std::string nameOf(Subject subject, const Report& report) {
   return "";
 }
 
-std::string reportText(const Report& report) {
-  std::string text =
-      fmt::format("{} ({}) on {}\n{}; {} frames measured after {}", report.style, report.settings,
-                  report.input, report.motion, report.frames, report.settled);
+std::string framesText(const Report& report) {
+  std::string text = fmt::format("{} frames measured after {}", report.frames, report.settled);
   if (report.stillFrames > 0) {
     text += fmt::format("; xFLK on {} frames of a still, noise of {:g} levels", report.stillFrames,
                         report.stillNoise);
   }
-  text += "\n\n" + header();
+  return text;
+}
+
+std::vector<std::string> insideLines(const Report& report) {
+  std::vector<std::string> lines;
+  if (report.inside) {
+    const AnchorSummary& anchors = *report.inside;
+    lines.push_back(fmt::format(
+        "{:.0f} anchors; a frame {:.1f} births and {:.1f} deaths, of which {:.1f} and {:.1f} away "
+        "from the border: {:.2f} % of the marks there",
+        anchors.alive, anchors.births, anchors.deaths, anchors.innerBirths, anchors.innerDeaths,
+        anchors.innerTurnoverPercent));
+    lines.push_back(anchors.halfLifeFrames
+                        ? fmt::format("half of the marks live longer than {:.0f} frames",
+                                      *anchors.halfLifeFrames)
+                        : "no mark died away from the border");
+    if (anchors.slip) lines.push_back("slip a frame: " + slipText(*anchors.slip));
+    if (anchors.longSlip) lines.push_back("slip over ten frames: " + slipText(*anchors.longSlip));
+    lines.push_back(
+        fmt::format("anchors per 8x8 cell: {:.2f}, spread {:.2f}, {:.1f} % of the cells empty",
+                    anchors.perCell, anchors.spreadPerCell, anchors.emptyCellsPercent));
+  }
+  if (report.insideStill) {
+    const AnchorSummary& anchors = *report.insideStill;
+    const auto frames = static_cast<double>(anchors.frames);
+    lines.push_back(fmt::format(
+        "on the still scene: {:.0f} births, {:.0f} deaths, {:.0f} moves in {} frames",
+        anchors.births * frames, anchors.deaths * frames, anchors.moved * frames, anchors.frames));
+  }
+  return lines;
+}
+
+std::vector<std::string> flatnessLines(const Report& report) {
+  if (!report.flatness) return {};
+  const auto line = [](const char* of, const TextureDifference& difference) {
+    return fmt::format("{}: co-occurrence error {:.3f}, spectrum {:.3f}, mean frequency × {:.2f}",
+                       of, difference.cooccurrenceError, difference.spectrumError,
+                       difference.frequencyRatio);
+  };
+  const Flatness& flatness = *report.flatness;
+  return {fmt::format("the picture grows {:.2f} times; marks of the same size on the screen keep "
+                      "their frequency, marks that grow with it read × {:.2f}",
+                      flatness.scale, 1.0 / flatness.scale),
+          line("the painting", flatness.painting), line("the input", flatness.input)};
+}
+
+std::string reportText(const Report& report) {
+  std::string text = fmt::format("{} ({}) on {}\n{}; {}\n\n", report.style, report.settings,
+                                 report.input, report.motion, framesText(report));
+  text += header();
   for (const Subject subject : kAllSubjects) {
     text += row(nameOf(subject, report), report.measures[subject]);
   }
@@ -101,6 +153,8 @@ std::string reportText(const Report& report) {
     text +=
         fmt::format("\nGates of {}\n", report.style) + verdictLines(report.gates, "pass", "FAIL");
   }
+  text += listLines("Inside", insideLines(report));
+  text += listLines("Flatness", flatnessLines(report));
   text += listLines("Left out", report.leftOut);
   text += listLines("Notes", report.notices);
   return text;

@@ -12,26 +12,41 @@ constexpr double kStillScreen = 0.5;
 }  // namespace
 
 SequenceMeasures::SequenceMeasures(cv::Size frame, TrueMotion* motion)
-    : motion_(motion), controls_(frame) {}
+    : motion_(motion), controls_(frame), anchors_(frame) {}
 
 MotionKind SequenceMeasures::motionKind() const {
   return motion_ == nullptr ? MotionKind::kNone : motion_->kind();
 }
 
+hal::Result<std::optional<MotionMap>> SequenceMeasures::motionOver(std::uint64_t index,
+                                                                   std::size_t lag) const {
+  if (motion_ == nullptr || frames_ < lag) return std::nullopt;
+  hal::Result<MotionMap> found = motion_->between(index - lag, index);
+  if (!found) return tl::unexpected(found.error());
+  return std::move(*found);
+}
+
 hal::Result<void> SequenceMeasures::add(std::uint64_t index, const cv::Mat3f& input,
-                                        const cv::Mat3f& output) {
-  std::optional<MotionMap> shortLag, longLag;
-  for (auto [lag, map] : {std::pair(kShortLag, &shortLag), std::pair(kLongLag, &longLag)}) {
-    if (motion_ == nullptr || frames_ < lag) continue;
-    hal::Result<MotionMap> found = motion_->between(index - lag, index);
-    if (!found) return tl::unexpected(found.error());
-    *map = std::move(*found);
-  }
-  const MotionToHere toHere{.shortLag = shortLag ? &*shortLag : nullptr,
-                            .longLag = longLag ? &*longLag : nullptr};
+                                        const cv::Mat3f& output,
+                                        std::span<const marks::Anchor> anchors) {
+  const auto shortLag = motionOver(index, kShortLag);
+  if (!shortLag) return tl::unexpected(shortLag.error());
+  const auto longLag = motionOver(index, kLongLag);
+  if (!longLag) return tl::unexpected(longLag.error());
+  const MotionToHere toHere{.shortLag = *shortLag ? &**shortLag : nullptr,
+                            .longLag = *longLag ? &**longLag : nullptr};
   const PerSubject<cv::Mat3f> pictures = controls_.paint(input, output, index);
   for (const Subject subject : kAllSubjects) {
     outputs_[subject].add(pictures[subject], input, toHere);
+  }
+  if (!anchors.empty()) {
+    const auto last = motionOver(index, 1);
+    if (!last) return tl::unexpected(last.error());
+    anchors_.add(anchors, *last ? &**last : nullptr, toHere.longLag);
+  }
+  if (motionKind() == MotionKind::kOther) {
+    flatness_.add(input, output);
+    if (toHere.shortLag != nullptr && frames_ % kShortLag == 0) flatness_.follow(*toHere.shortLag);
   }
   ++frames_;
   return {};
@@ -39,15 +54,9 @@ hal::Result<void> SequenceMeasures::add(std::uint64_t index, const cv::Mat3f& in
 
 PerSubject<Measures> SequenceMeasures::totals() const {
   PerSubject<Measures> totals;
-  const OutputMeasures& input = outputs_[Subject::kInput];
-  const std::optional<double> inputError = input.error().value();
-  const std::optional<double> inputDetail = input.detail().value();
+  const OutputMeasures::Frame input = outputs_[Subject::kInput].total();
   for (const Subject subject : kAllSubjects) {
-    const OutputMeasures& output = outputs_[subject];
-    totals[subject] = output.total();
-    totals[subject].xEw2 = ratio(output.error().value(), inputError);
-    const std::optional<double> detail = ratio(output.detail().value(), inputDetail);
-    if (detail) totals[subject].det = std::sqrt(*detail);
+    totals[subject] = OutputMeasures::valuesOf(outputs_[subject].total(), input);
   }
   const bool isStill = totals[Subject::kInput].scr.value_or(0) > kStillScreen;
   if (motion_ == nullptr && isStill) {

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
+#include <optional>
+#include <span>
 
 #include "hal/error.h"
+#include "pipeline/measure/anchor_measures.h"
 #include "pipeline/measure/controls.h"
+#include "pipeline/measure/flatness.h"
 #include "pipeline/measure/output_measures.h"
 #include "pipeline/measure/true_motion.h"
 
@@ -16,21 +19,27 @@ class SequenceMeasures {
   /// `motion` is null where it is not known; else it outlives this.
   SequenceMeasures(cv::Size frame, TrueMotion* motion);
 
-  /// The next frame. `index` counts the input's frames and rises by one. Errors: of the motion's
-  /// files.
-  hal::Result<void> add(std::uint64_t index, const cv::Mat3f& input, const cv::Mat3f& output);
+  /// The next frame, and the anchors that its marks hang on, where it has any. `index` counts the
+  /// input's frames and rises by one. Errors: of the motion's files.
+  hal::Result<void> add(std::uint64_t index, const cv::Mat3f& input, const cv::Mat3f& output,
+                        std::span<const marks::Anchor> anchors);
 
   const OutputMeasures& of(Subject subject) const { return outputs_[subject]; }
+  const AnchorMeasures& anchors() const { return anchors_; }
+  std::optional<Flatness> flatness() const { return flatness_.total(); }
   /// All but xFLK.
   PerSubject<Measures> totals() const;
   MotionKind motionKind() const;
 
  private:
-  hal::Result<MotionMap> motionOver(std::uint64_t index, std::size_t lag) const;
+  /// Nothing where there is no motion, or no such frame was measured.
+  hal::Result<std::optional<MotionMap>> motionOver(std::uint64_t index, std::size_t lag) const;
 
   TrueMotion* motion_;
   ControlPainter controls_;
   PerSubject<OutputMeasures> outputs_;
+  AnchorMeasures anchors_;
+  FlatnessMeasures flatness_;
   std::size_t frames_ = 0;
 };
 

@@ -1,5 +1,11 @@
 #include "pipeline/measure/workbench_motion.h"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
 #include <fmt/format.h>
 
 namespace pleinair::measure {
@@ -8,6 +14,36 @@ namespace {
 /// From a pixel to the next, for each frame between the two: perspective alone stays below.
 constexpr float kLeapPixelsPerFrame = 0.1F;
 constexpr float kLeastLeapPixels = 0.5F;
+
+/// Rays are followed from every other pixel; between them flow is straight, or leaps and does not
+/// count.
+constexpr int kEveryNth = 2;
+
+/// The nodes of a field around a pixel.
+class Nodes {
+ public:
+  Nodes(hal::FrameSize field, int x, int y) {
+    const int left = x / kEveryNth;
+    const int top = y / kEveryNth;
+    const int right = std::min(left + x % kEveryNth, field.width - 1);
+    const int bottom = std::min(top + y % kEveryNth, field.height - 1);
+    const auto index = [&field](int column, int row) {
+      return static_cast<std::size_t>(row * field.width + column);
+    };
+    nodes_ = {index(left, top), index(right, top), index(left, bottom), index(right, bottom)};
+  }
+  cv::Vec2f meanOf(const std::vector<glm::vec2>& px) const {
+    glm::vec2 sum(0.0F);
+    for (const std::size_t node : nodes_) sum += px[node];
+    return {0.25F * sum.x, 0.25F * sum.y};
+  }
+  bool areAllIn(const std::vector<std::uint8_t>& visible) const {
+    return std::ranges::all_of(nodes_, [&](std::size_t node) { return visible[node] != 0; });
+  }
+
+ private:
+  std::array<std::size_t, 4> nodes_{};
+};
 
 class WorkbenchMotion final : public TrueMotion {
  public:
@@ -20,20 +56,20 @@ class WorkbenchMotion final : public TrueMotion {
   }
 
   hal::Result<MotionMap> between(std::uint64_t from, std::uint64_t to) override {
-    const hal::FlowField field = camera_.flowField(from, to);
-    const cv::Size size(field.size.width, field.size.height);
+    const hal::FlowField field = camera_.flowField(from, to, kEveryNth);
+    const cv::Size size(options_.size.width, options_.size.height);
     cv::Mat2f displacement(size);
     cv::Mat1b seen(size);
-    std::size_t i = 0;
     for (int y = 0; y < size.height; ++y) {
-      for (int x = 0; x < size.width; ++x, ++i) {
-        displacement(y, x) = {field.px[i].x, field.px[i].y};
-        seen(y, x) = field.visible[i] != 0 ? 255 : 0;
+      for (int x = 0; x < size.width; ++x) {
+        const Nodes nodes(field.size, x, y);
+        displacement(y, x) = nodes.meanOf(field.px);
+        seen(y, x) = nodes.areAllIn(field.visible) ? 255 : 0;
       }
     }
     const float leap =
         std::max(kLeastLeapPixels, kLeapPixelsPerFrame * static_cast<float>(to - from));
-    return fieldMap(displacement, seen, leap);
+    return fieldMap(std::move(displacement), seen, leap);
   }
 
  private:

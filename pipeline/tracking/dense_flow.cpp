@@ -31,7 +31,8 @@ DenseFlowEstimator::DenseFlowEstimator() {
   for (Way& way : ways_) {
     way.search = cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_ULTRAFAST);
     way.search->setFinestScale(1);
-    way.search->setPatchStride(4);
+    way.search->setPatchStride(5);
+    way.search->setGradientDescentIterations(8);
   }
 }
 
@@ -72,10 +73,10 @@ void DenseFlowEstimator::flowOneWay(Way& way, const LumaPyramid& from, const Lum
     }
     if (best.isInside) best = patch.refined(to.picture(), best, noise);
     const glm::dvec2 moved = reduction_ * best.moved;
+    const double placing = kPlacing * best.placing;
     const double error =
-        best.isInside
-            ? std::hypot(kPlacing * best.placing * std::sqrt(best.variance), kLeastErrorPx)
-            : kMostErrorPx;
+        best.isInside ? std::sqrt(placing * placing * best.variance + kLeastErrorPx * kLeastErrorPx)
+                      : kMostErrorPx;
     way.nodes[i] = {static_cast<float>(moved.x), static_cast<float>(moved.y),
                     static_cast<float>(std::min(error * reduction_.x, kMostErrorPx)), 0.0F};
   }
@@ -112,8 +113,8 @@ void DenseFlowEstimator::disagree(const std::vector<glm::vec4>& back,
         glm::mix(glm::vec2(at[0]), glm::vec2(at[1]), part.x),
         glm::mix(glm::vec2(at[grid_.width]), glm::vec2(at[grid_.width + 1]), part.x), part.y);
     const double apart = static_cast<double>(glm::length(glm::vec2(node) + returned));
-    const double error =
-        std::hypot(static_cast<double>(node.z), kBackPart * apart, kEdgePart * edge(nodes, i));
+    const glm::dvec3 errors(node.z, kBackPart * apart, kEdgePart * edge(nodes, i));
+    const double error = glm::length(errors);
     node.z = static_cast<float>(std::min(error, kMostErrorPx));
   }
 }

@@ -7,7 +7,7 @@
 
 #include "pipeline/tracking/cut_detector.h"
 #include "pipeline/tracking/dense_flow.h"
-#include "pipeline/tracking/lucas_kanade_tracker.h"
+#include "pipeline/tracking/feature_tracker.h"
 #include "pipeline/tracking/luma_pyramid.h"
 #include "pipeline/tracking/picture_hold.h"
 #include "pipeline/tracking/stillness.h"
@@ -32,11 +32,6 @@ class PyramidPool {
 };
 
 }  // namespace
-
-std::unique_ptr<FeatureTracker> makeFeatureTracker(FeatureMethod method) {
-  static_cast<void>(method);
-  return std::make_unique<LucasKanadeTracker>();
-}
 
 struct ImageMotionEstimator::State {
   explicit State(const ImageMotionOptions& wanted)

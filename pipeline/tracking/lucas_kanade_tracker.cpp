@@ -4,8 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include <glm/geometric.hpp>
+#include <opencv2/imgproc.hpp>
 
+#include "pipeline/tracking/homography.h"
 #include "pipeline/tracking/image_motion.h"
 #include "pipeline/tracking/thumbnail.h"
 
@@ -16,6 +17,7 @@ namespace {
 constexpr int kColumns = 18;
 constexpr int kRows = 14;
 constexpr double kBorderPx = 6.0;
+constexpr int kFewLevels = 1;
 constexpr double kBackPx = 0.4;  // from where a feature came
 /// Mean grey levels in a feature's window by which it may differ: lost, worn.
 constexpr double kLargestDifference = 16.0;
@@ -38,16 +40,17 @@ constexpr int kFieldCells = 2;  // on each side of a larger field
 constexpr double kManyWorn = 0.15;
 constexpr int kKeyFrames = 4;  // between two key frames, unless most are lost
 constexpr double kVeryFew = 0.5;
-constexpr int kSeekFrames = 8;        // new corners are looked for that often at least …
+constexpr int kSeekFrames = 8;         // new corners are looked for that often at least …
 constexpr std::size_t kWorthAKey = 4;  // … and so many of them are worth a key frame
-constexpr double kLostShare = 0.3;     // fewer found: the whole picture may have jumped
+/// Features farther from where the picture would take them go there if they look as good there.
+constexpr double kAstrayPx = 1.5;
+constexpr double kAsGood = 1.2;
+constexpr double kAsGoodLevels = 0.5;
+constexpr double kLostShare = 0.3;  // fewer found: the whole picture may have jumped
 constexpr std::size_t kLeastToJudge = 12;
-constexpr std::size_t kNeighbours = 6;
-constexpr double kAlikePx = 1.5;
-constexpr double kAlikePart = 0.25;
 
 double lengthOf(const cv::Point2f& p) {
-  return std::hypot(static_cast<double>(p.x), static_cast<double>(p.y));
+  return std::sqrt(static_cast<double>(p.dot(p)));
 }
 
 }  // namespace
@@ -110,6 +113,7 @@ void LucasKanadeTracker::judge(Feature& feature, const LumaPyramid& now, std::si
                     follower_.backPx(of) < kBackPx && difference < kLargestDifference &&
                     difference < kNoiseDifference + kLostContrast * contrast;
   if (!feature.isFound) return;
+  feature.difference = difference;
   feature.isWorn = difference > kNoiseDifference + kWornContrast * contrast;
   const double placing = kPlacing * difference * feature.texture.placing;
   const double scale = std::max(now.reduction().x, now.reduction().y);
@@ -118,20 +122,21 @@ void LucasKanadeTracker::judge(Feature& feature, const LumaPyramid& now, std::si
   feature.at = at;
 }
 
-void LucasKanadeTracker::findAll(const LumaPyramid& now, bool isRetry) {
+/// Of the features that have not been found yet, all or those that were found in the frame before.
+void LucasKanadeTracker::find(const LumaPyramid& now, bool all, int levels) {
   for (std::size_t key = 0; key < kKeys; ++key) {
     members_.clear();
     origins_.clear();
     points_.clear();
     for (std::size_t i = 0; i < features_.size(); ++i) {
       const Feature& feature = features_[i];
-      if (feature.key != key || (isRetry && feature.isFound)) continue;
+      if (feature.key != key || feature.isFound || !(all || feature.wasFound)) continue;
       members_.push_back(i);
       origins_.push_back(feature.origin);
       points_.push_back(feature.then + feature.step);
     }
     if (members_.empty()) continue;
-    follower_.follow(*keys_[key], now, origins_, points_);
+    follower_.follow(*keys_[key], now, origins_, points_, levels);
     for (std::size_t m = 0; m < members_.size(); ++m) {
       judge(features_[members_[m]], now, m, points_[m]);
     }
@@ -153,37 +158,55 @@ bool LucasKanadeTracker::searchWidely(const LumaPyramid& now) {
   for (Feature& feature : features_) {
     if (!feature.isFound) feature.step = jump;
   }
-  findAll(now, true);
+  find(now, true, LumaPyramid::kLevels);
   return true;
 }
 
-/// A feature whose neighbours all move otherwise has been mistaken for another.
 void LucasKanadeTracker::rejectOutliers() {
-  isOutlier_.assign(features_.size(), 0);
-  const auto isMeasured = [](const Feature& f) { return f.isFound && f.wasFound; };
-  if (std::cmp_less(std::ranges::count_if(features_, isMeasured), kLeastToJudge)) return;
+  members_.clear();
+  points_.clear();
+  steps_.clear();
   for (std::size_t i = 0; i < features_.size(); ++i) {
     const Feature& feature = features_[i];
-    if (!isMeasured(feature)) continue;
-    std::array<std::pair<double, std::size_t>, kNeighbours> near;
-    near.fill({1e9, 0});
-    for (std::size_t j = 0; j < features_.size(); ++j) {
-      if (j == i || !isMeasured(features_[j])) continue;
-      const double apart = lengthOf(features_[j].at - feature.at);
-      if (apart >= near.back().first) continue;
-      near.back() = {apart, j};
-      for (std::size_t k = kNeighbours - 1; k > 0 && near[k].first < near[k - 1].first; --k) {
-        std::swap(near[k], near[k - 1]);
-      }
-    }
-    const double tolerance = std::max(kAlikePx, kAlikePart * lengthOf(feature.step));
-    const auto alike = std::ranges::count_if(near, [&](const auto& other) {
-      return lengthOf(features_[other.second].step - feature.step) < tolerance;
-    });
-    isOutlier_[i] = alike == 0 ? 1 : 0;
+    if (!feature.isFound || !feature.wasFound) continue;
+    members_.push_back(i);
+    points_.push_back(feature.at);
+    steps_.push_back(feature.step);
   }
+  outliers_.judge(points_, steps_);
+  for (std::size_t m = 0; m < members_.size(); ++m) {
+    if (outliers_.isOutlier(m)) features_[members_[m]].isFound = false;
+  }
+}
+
+/// Looks once more for features that do not go along with the picture, where it would take them:
+/// repeated patterns look the same a few px on.
+void LucasKanadeTracker::reconsider(const LumaPyramid& now) {
+  pairs_.clear();
+  for (const Feature& feature : features_) {
+    if (!feature.isFound || !feature.wasFound) continue;
+    pairs_.push_back({.then = {feature.then.x, feature.then.y},
+                      .now = {feature.at.x, feature.at.y},
+                      .errorPx = feature.errorPx});
+  }
+  const auto fit = fitter_.fit(pairs_, {now.picture().cols, now.picture().rows});
+  if (!fit) return;
+  before_ = features_;
+  for (Feature& feature : features_) {
+    if (!feature.wasFound) continue;
+    const glm::dvec2 along = movedBy(fit->nowFromThen, {feature.then.x, feature.then.y});
+    const cv::Point2f there(static_cast<float>(along.x), static_cast<float>(along.y));
+    if (feature.isFound && lengthOf(feature.at - there) < kAstrayPx) continue;
+    feature.isFound = false;
+    feature.step = there - feature.then;
+  }
+  find(now, false, 0);
   for (std::size_t i = 0; i < features_.size(); ++i) {
-    if (isOutlier_[i] != 0) features_[i].isFound = false;
+    const Feature& was = before_[i];
+    Feature& feature = features_[i];
+    const bool isWorse =
+        !feature.isFound || feature.difference > kAsGood * was.difference + kAsGoodLevels;
+    if (was.isFound && isWorse) feature = was;
   }
 }
 
@@ -295,6 +318,21 @@ void LucasKanadeTracker::findCorners(const LumaPyramid& now) {
     });
     if (!isTaken && textureAt(now, at).placing < kMostPlacing) newCorners_.push_back(at);
   }
+  centre(now);
+}
+
+/// Moves new corners to where the gradients about them balance (Förstner and Gülch, 1987): a turn
+/// or zoom of a window about that point is not taken for a shift of it.
+void LucasKanadeTracker::centre(const LumaPyramid& now) {
+  if (newCorners_.empty()) return;
+  constexpr int kReach = LumaPyramid::kWindowPx / 2;
+  constexpr float kFarPx = 4.0F;
+  points_ = newCorners_;
+  const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 5, 0.1);
+  cv::cornerSubPix(now.picture(), points_, {kReach, kReach}, {-1, -1}, until);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (lengthOf(points_[i] - newCorners_[i]) < kFarPx) newCorners_[i] = points_[i];
+  }
 }
 
 void LucasKanadeTracker::makeKey(const std::shared_ptr<const LumaPyramid>& now, bool isNeeded) {
@@ -340,8 +378,11 @@ std::span<const SeenFeature> LucasKanadeTracker::follow(std::shared_ptr<const Lu
     feature.isFound = false;
     feature.then = feature.at;
   }
-  findAll(*now, false);
+  // Most are where their motion says; the others may be anywhere near.
+  find(*now, false, kFewLevels);
+  find(*now, true, LumaPyramid::kLevels);
   if (then_ && features_.size() >= kLeastToJudge && shareFound() < kLostShare) searchWidely(*now);
+  reconsider(*now);
   rejectOutliers();
   foundShare_ = shareFound();
   guessMissing(*now);

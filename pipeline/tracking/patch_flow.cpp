@@ -4,85 +4,105 @@
 #include <cmath>
 #include <cstdint>
 
+#include <glm/geometric.hpp>
+#include <opencv2/core/hal/intrin.hpp>
+
 namespace pleinair::tracking {
 namespace {
 
 constexpr int kSide = FlowPatch::kSide;
+static_assert(kSide == 8, "a row is a vector");
 constexpr int kPixels = kSide * kSide;
-constexpr int kScale = 16;    // of levels
-constexpr int kWeights = 64;  // of a pixel by its neighbours, along an axis
+constexpr int kScaleBits = 4;
+constexpr int kScale = 1 << kScaleBits;  // of levels
+constexpr int kWeightBits = 6;
+constexpr int kWeights = 1 << kWeightBits;  // of a pixel and its neighbour, along an axis
 constexpr int kSteps = 3;
 constexpr double kEnoughPx = 0.02;  // a smaller step is the last
 constexpr double kFarPx = 2.0;      // from the guess: it has gone astray
 constexpr double kGuessPx = 0.3;    // how good guesses are
 
+cv::v_int16x8 eight(const std::uint8_t* levels) {
+  return cv::v_reinterpret_as_s16(cv::v_load_expand(levels));
+}
+
+/// The same two numbers again and again.
+cv::v_int16x8 pairs(int even, int odd) {
+  const auto low = static_cast<unsigned>(even) & 0xFFFFU;
+  return cv::v_reinterpret_as_s16(cv::v_setall_u32(low | static_cast<unsigned>(odd) << 16));
+}
+
 }  // namespace
 
 FlowPatch::FlowPatch(const cv::Mat& picture, const cv::Point& middle)
     : corner_(middle - cv::Point(kSide / 2, kSide / 2)) {
-  int x1 = 0;
-  int y1 = 0;
-  int xx = 0;
-  int xy = 0;
-  int yy = 0;
+  const cv::v_int16x8 ones = cv::v_setall_s16(1);
+  cv::v_int32x4 x1 = cv::v_setzero_s32();
+  cv::v_int32x4 y1 = x1;
+  cv::v_int32x4 xx = x1;
+  cv::v_int32x4 xy = x1;
+  cv::v_int32x4 yy = x1;
   for (int y = 0; y < kSide; ++y) {
-    const auto* const above = picture.ptr<std::uint8_t>(corner_.y + y - 1) + corner_.x;
     const auto* const row = picture.ptr<std::uint8_t>(corner_.y + y) + corner_.x;
-    const auto* const below = picture.ptr<std::uint8_t>(corner_.y + y + 1) + corner_.x;
-    for (int x = 0; x < kSide; ++x) {
-      const int gx = row[x + 1] - row[x - 1];
-      const int gy = below[x] - above[x];
-      levels_[y][x] = static_cast<short>(kScale * row[x]);
-      gradientX_[y][x] = static_cast<short>(gx);
-      gradientY_[y][x] = static_cast<short>(gy);
-      x1 += gx;
-      y1 += gy;
-      xx += gx * gx;
-      xy += gx * gy;
-      yy += gy * gy;
-    }
+    const cv::v_int16x8 gx = eight(row + 1) - eight(row - 1);
+    const cv::v_int16x8 gy = eight(picture.ptr<std::uint8_t>(corner_.y + y + 1) + corner_.x) -
+                             eight(picture.ptr<std::uint8_t>(corner_.y + y - 1) + corner_.x);
+    cv::v_store(gradientX_[y], gx);
+    cv::v_store(gradientY_[y], gy);
+    cv::v_store(levels_[y], eight(row) << kScaleBits);
+    x1 = cv::v_dotprod(gx, ones, x1);
+    y1 = cv::v_dotprod(gy, ones, y1);
+    xx = cv::v_dotprod(gx, gx, xx);
+    xy = cv::v_dotprod(gx, gy, xy);
+    yy = cv::v_dotprod(gy, gy, yy);
   }
-  sumX_ = x1;
-  sumY_ = y1;
-  xx_ = xx - sumX_ * sumX_ / kPixels;
-  xy_ = xy - sumX_ * sumY_ / kPixels;
-  yy_ = yy - sumY_ * sumY_ / kPixels;
+  sumX_ = cv::v_reduce_sum(x1);
+  sumY_ = cv::v_reduce_sum(y1);
+  xx_ = cv::v_reduce_sum(xx) - sumX_ * sumX_ / kPixels;
+  xy_ = cv::v_reduce_sum(xy) - sumX_ * sumY_ / kPixels;
+  yy_ = cv::v_reduce_sum(yy) - sumY_ * sumY_ / kPixels;
 }
 
 FlowPatch::Sums FlowPatch::compare(const cv::Mat& other, const glm::dvec2& moved) const {
-  const double left = std::floor(moved.x);
-  const double top = std::floor(moved.y);
-  const int x0 = corner_.x + static_cast<int>(left);
-  const int y0 = corner_.y + static_cast<int>(top);
+  const int left = cvFloor(moved.x);
+  const int top = cvFloor(moved.y);
+  const int x0 = corner_.x + left;
+  const int y0 = corner_.y + top;
   if (x0 < 0 || y0 < 0 || x0 + kSide >= other.cols || y0 + kSide >= other.rows) return {};
-  const int u = static_cast<int>(std::lround((moved.x - left) * kWeights));
-  const int v = static_cast<int>(std::lround((moved.y - top) * kWeights));
-  const int w00 = (kWeights - u) * (kWeights - v);
-  const int w10 = u * (kWeights - v);
-  const int w01 = (kWeights - u) * v;
-  const int w11 = u * v;
-  constexpr int kShift = 8;  // kWeights² over kScale
-  int d1 = 0;
-  int dx = 0;
-  int dy = 0;
-  int dd = 0;
+  const int u = cvRound((moved.x - left) * kWeights);
+  const int v = cvRound((moved.y - top) * kWeights);
+  // Of a pixel and its right neighbour, in pairs; then of those below.
+  const cv::v_int16x8 above = pairs((kWeights - u) * (kWeights - v), u * (kWeights - v));
+  const cv::v_int16x8 under = pairs((kWeights - u) * v, u * v);
+  constexpr int kShift = 2 * kWeightBits - kScaleBits;
+  const cv::v_int16x8 ones = cv::v_setall_s16(1);
+  cv::v_int32x4 d1 = cv::v_setzero_s32();
+  cv::v_int32x4 dx = d1;
+  cv::v_int32x4 dy = d1;
+  cv::v_int32x4 dd = d1;
   for (int y = 0; y < kSide; ++y) {
     const auto* const row = other.ptr<std::uint8_t>(y0 + y) + x0;
     const auto* const below = other.ptr<std::uint8_t>(y0 + y + 1) + x0;
-    alignas(16) short difference[kSide];
-    for (int x = 0; x < kSide; ++x) {
-      const int level = w00 * row[x] + w10 * row[x + 1] + w01 * below[x] + w11 * below[x + 1];
-      difference[x] = static_cast<short>(((level + (1 << (kShift - 1))) >> kShift) - levels_[y][x]);
-    }
-    for (int x = 0; x < kSide; ++x) d1 += difference[x];
-    for (int x = 0; x < kSide; ++x) dx += difference[x] * gradientX_[y][x];
-    for (int x = 0; x < kSide; ++x) dy += difference[x] * gradientY_[y][x];
-    for (int x = 0; x < kSide; ++x) dd += difference[x] * difference[x];
+    cv::v_int16x8 rowLow;
+    cv::v_int16x8 rowHigh;
+    cv::v_int16x8 belowLow;
+    cv::v_int16x8 belowHigh;
+    cv::v_zip(eight(row), eight(row + 1), rowLow, rowHigh);
+    cv::v_zip(eight(below), eight(below + 1), belowLow, belowHigh);
+    const cv::v_int32x4 low = cv::v_dotprod(belowLow, under, cv::v_dotprod(rowLow, above));
+    const cv::v_int32x4 high = cv::v_dotprod(belowHigh, under, cv::v_dotprod(rowHigh, above));
+    const cv::v_int16x8 difference = cv::v_rshr_pack<kShift>(low, high) - cv::v_load(levels_[y]);
+    d1 = cv::v_dotprod(difference, ones, d1);
+    dx = cv::v_dotprod(difference, cv::v_load(gradientX_[y]), dx);
+    dy = cv::v_dotprod(difference, cv::v_load(gradientY_[y]), dy);
+    dd = cv::v_dotprod(difference, difference, dd);
   }
-  const double mean = static_cast<double>(d1) / kPixels;
-  return {.x = dx - mean * sumX_,
-          .y = dy - mean * sumY_,
-          .variance = (dd - mean * d1) / (static_cast<double>(kPixels - 1) * kScale * kScale),
+  const double sum = cv::v_reduce_sum(d1);
+  const double mean = sum / kPixels;
+  return {.x = cv::v_reduce_sum(dx) - mean * sumX_,
+          .y = cv::v_reduce_sum(dy) - mean * sumY_,
+          .variance = (cv::v_reduce_sum(dd) - mean * sum) /
+                      (static_cast<double>(kPixels - 1) * kScale * kScale),
           .isInside = true};
 }
 
@@ -114,9 +134,9 @@ PatchMatch FlowPatch::refined(const cv::Mat& other, const PatchMatch& guess, dou
                             -(xx * right.y - xy_ * right.x) / determinant);
     moved += change;
     const glm::dvec2 away = moved - guess.moved;
-    if (!(std::hypot(away.x, away.y) < kFarPx)) return guess;
+    if (!(glm::dot(away, away) < kFarPx * kFarPx)) return guess;
     sums = compare(other, moved);
-    if (std::hypot(change.x, change.y) < kEnoughPx) break;
+    if (glm::dot(change, change) < kEnoughPx * kEnoughPx) break;
   }
   if (!sums.isInside || sums.variance > guess.variance) return guess;
   PatchMatch out = guess;

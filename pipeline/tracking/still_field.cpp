@@ -5,20 +5,22 @@
 #include <cmath>
 #include <cstdlib>
 
+#include <opencv2/core/hal/intrin.hpp>
+
 namespace pleinair::tracking {
 namespace {
 
 /// Sums over products of two rows of a field.
 int product(const std::int16_t* a, const std::int16_t* b) {
-  int sum = 0;
-  for (int i = 0; i < StillField::kSide; ++i) sum += a[i] * b[i];
-  return sum;
+  static_assert(StillField::kSide == 16, "a row is two vectors");
+  const cv::v_int32x4 first = cv::v_dotprod(cv::v_load(a), cv::v_load(b));
+  return cv::v_reduce_sum(cv::v_dotprod(cv::v_load(a + 8), cv::v_load(b + 8), first));
 }
 
 int total(const std::int16_t* a) {
-  int sum = 0;
-  for (int i = 0; i < StillField::kSide; ++i) sum += a[i];
-  return sum;
+  const cv::v_int16x8 ones = cv::v_setall_s16(1);
+  const cv::v_int32x4 first = cv::v_dotprod(cv::v_load(a), ones);
+  return cv::v_reduce_sum(cv::v_dotprod(cv::v_load(a + 8), ones, first));
 }
 
 }  // namespace

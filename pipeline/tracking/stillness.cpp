@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 #include "pipeline/tracking/homography.h"
 #include "pipeline/tracking/luma_pyramid.h"
@@ -26,15 +27,11 @@ constexpr double kLeastErrorPx = 0.01;
 constexpr double kChanged = 2.0;
 constexpr double kLeastVariance = 0.5;  // levels²; rounding alone is a twelfth, twice
 constexpr double kSurelyNoticed = 4.0;  // times what is noticed
-constexpr double kMostUsual = 3.0;      // times the picture's noise, of a noisier field's
+constexpr double kAlongPx = 0.3;        // of a frame's motion, with which a field waits …
+constexpr int kWaitFrames = 3;          // … so long before it is looked at again
+constexpr double kMostUsual = 1.5;      // times the picture's noise, of a noisier field's
 constexpr double kNoisePace = 0.1;      // the part of a frame in the noise that is told
 constexpr std::size_t kLeastFields = 24;
-
-double percentileOf(std::vector<double>& values, double part) {
-  const auto at = static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
-}
 
 }  // namespace
 
@@ -52,8 +49,7 @@ void Stillness::resize(const LumaPyramid& now) {
   const auto count = static_cast<std::size_t>(grid_.pixels());
   rests_.assign(count, {});
   errors_.assign(count, StillFields::kNotStill);
-  temporal_.reserve(count);
-  spatial_.reserve(count);
+  variances_.reserve(count);
 }
 
 /// Of the part of a field that is looked at: a field may be a little wider.
@@ -79,7 +75,7 @@ void Stillness::restart(Rest& rest, const cv::Mat& picture, const cv::Point& cor
   const cv::Rect window(corner, cv::Size(StillField::kSide, StillField::kSide));
   if ((inner & window) == window) {
     const double noise = spatialNoise(picture, corner, StillField::kSide);
-    spatial_.push_back(noise * noise);
+    rest.spatial = noise * noise;
   }
 }
 
@@ -91,6 +87,11 @@ bool Stillness::isDoubtful(const Rest& rest, double noticedPx) {
 }
 
 float Stillness::look(Rest& rest, const cv::Mat& picture, const cv::Point& corner, double scale) {
+  rest.hasChanged = false;
+  if (rest.waitFrames > 0) {
+    --rest.waitFrames;
+    return StillFields::kNotStill;
+  }
   if (!rest.hasBegun) {
     restart(rest, picture, corner);
     return StillFields::kNotStill;
@@ -109,10 +110,11 @@ float Stillness::look(Rest& rest, const cv::Mat& picture, const cv::Point& corne
   if (moved > noticed ||
       glm::length(change.movedPx) > std::max(2.0 * kMovedPx, kMovedErrors * once) ||
       variance > kChanged * usual) {
+    rest.hasChanged = true;
     restart(rest, picture, corner);
     return StillFields::kNotStill;
   }
-  temporal_.push_back(variance);
+  rest.temporal = variance;
   ++rest.frames;
   if (rest.field.frames() < StillField::kReferenceFrames) rest.field.add(picture, corner);
   // Textured and bright pixels may be noisier than most; what they vary by while it comes to rest.
@@ -120,37 +122,55 @@ float Stillness::look(Rest& rest, const cv::Mat& picture, const cv::Point& corne
   const double most = rest.isStill ? kStillMargin * kMostErrorPx : kMostErrorPx;
   rest.isStill = rest.frames >= kRestFrames && smoothed < most;
   if (!rest.isStill || isDoubtful(rest, noticed)) return StillFields::kNotStill;
-  return static_cast<float>(scale * std::hypot(smoothed, moved, kLeastErrorPx));
+  return static_cast<float>(scale * glm::length(glm::dvec3(smoothed, moved, kLeastErrorPx)));
+}
+
+std::optional<double> Stillness::percentile(double Rest::*of, double part) {
+  variances_.clear();
+  for (const Rest& rest : rests_) {
+    if (rest.*of >= 0.0) variances_.push_back(rest.*of);
+  }
+  if (variances_.size() < kLeastFields) return std::nullopt;
+  const auto at = static_cast<std::ptrdiff_t>(part * static_cast<double>(variances_.size() - 1));
+  std::nth_element(variances_.begin(), variances_.begin() + at, variances_.end());
+  return variances_[static_cast<std::size_t>(at)];
 }
 
 void Stillness::measureNoise() {
-  double variance = 0.0;
-  if (temporal_.size() >= kLeastFields) {
-    variance = percentileOf(temporal_, 0.5);
-  } else if (spatial_.size() >= kLeastFields) {
-    variance = percentileOf(spatial_, 0.15);
-  } else {
-    return;
-  }
-  const double now = std::sqrt(variance);
+  constexpr double kFlatPart = 0.15;  // of fields that have so little texture that it is noise
+  auto variance = percentile(&Rest::temporal, 0.5);
+  if (!variance) variance = percentile(&Rest::spatial, kFlatPart);
+  if (!variance) return;
+  const double now = std::sqrt(*variance);
   noise_ = knowsNoise_ ? noise_ + kNoisePace * (now - noise_) : now;
   knowsNoise_ = true;
 }
 
 void Stillness::update(const LumaPyramid& now, const std::optional<PictureHomography>& picture) {
   resize(now);
-  temporal_.clear();
-  spatial_.clear();
   const double scale = std::max(now.reduction().x, now.reduction().y);
-  for (std::size_t i = 0; i < rests_.size(); ++i) {
-    const cv::Point at = corner(i, size_);
-    if (picture) {
-      constexpr float kMiddle = StillField::kSide / 2.0F - 0.5F;
-      const glm::dvec2 px = now.framePx(cv::Point2f(at) + cv::Point2f(kMiddle, kMiddle));
-      rests_[i].alongPx += (movedBy(picture->nowFromThen, px) - px) / now.reduction();
+  const auto count = static_cast<int>(rests_.size());
+  cv::parallel_for_({0, count}, [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i) {
+      const auto index = static_cast<std::size_t>(i);
+      Rest& rest = rests_[index];
+      const cv::Point at = corner(index, size_);
+      glm::dvec2 along(0.0);
+      if (picture) {
+        constexpr float kMiddle = StillField::kSide / 2.0F - 0.5F;
+        const glm::dvec2 px = now.framePx(cv::Point2f(at) + cv::Point2f(kMiddle, kMiddle));
+        along = (movedBy(picture->nowFromThen, px) - px) / now.reduction();
+      }
+      rest.alongPx += along;
+      rest.temporal = rest.spatial = -1.0;
+      errors_[index] = look(rest, now.picture(), at, scale);
+      // What goes along with a picture that moves is not looked at each time, nor all at once.
+      if (rest.hasChanged && glm::length(along) > kAlongPx) {
+        rest.waitFrames = kWaitFrames + i % kWaitFrames;
+        rest.hasBegun = false;
+      }
     }
-    errors_[i] = look(rests_[i], now.picture(), at, scale);
-  }
+  });
   measureNoise();
 }
 

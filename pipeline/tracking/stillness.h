@@ -40,6 +40,11 @@ class Stillness {
     glm::dvec2 alongPx{0.0};  // how far the picture's motion would have taken it since then
     bool hasBegun = false;
     bool isStill = false;
+    bool hasChanged = false;  // in this frame
+    int waitFrames = 0;       // before it is looked at again
+    // What this frame's pixels say of noise, levels²; nothing where negative.
+    double temporal = -1.0;
+    double spatial = -1.0;
   };
 
   static bool isDoubtful(const Rest& rest, double noticedPx);
@@ -48,13 +53,14 @@ class Stillness {
   float look(Rest& rest, const cv::Mat& picture, const cv::Point& corner, double scale);
   void restart(Rest& rest, const cv::Mat& picture, const cv::Point& corner);
   void measureNoise();
+  /// Of what fields' pixels say, as many as say something; nothing of too few.
+  std::optional<double> percentile(double Rest::*of, double part);
 
   hal::FrameSize grid_;
   cv::Size size_;
   std::vector<Rest> rests_;
   std::vector<float> errors_;
-  std::vector<double> temporal_;  // variances of fields that rest
-  std::vector<double> spatial_;   // of those that have just begun
+  std::vector<double> variances_;
   double noise_ = 2.0;
   bool knowsNoise_ = false;
 };

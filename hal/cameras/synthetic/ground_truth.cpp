@@ -1,6 +1,7 @@
 #include "hal/cameras/synthetic/ground_truth.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <optional>
 
@@ -133,15 +134,19 @@ FlowVector flowBetween(const Exposure& first, const Exposure& second, const Geom
   return {.px = *moved - pixel, .visible = isSame};
 }
 
-FlowField flowFieldBetween(const Exposure& first, const Exposure& second,
-                           const Geometry& geometry) {
-  const FrameSize size = first.size();
+FlowField flowFieldBetween(const Exposure& first, const Exposure& second, const Geometry& geometry,
+                           int everyNth) {
+  assert(everyNth >= 1);
+  const FrameSize frame = first.size();
+  const FrameSize size{(frame.width + everyNth - 1) / everyNth,
+                       (frame.height + everyNth - 1) / everyNth};
   FlowField field{.size = size, .px = {}, .visible = {}};
   field.px.reserve(static_cast<std::size_t>(size.pixels()));
   field.visible.reserve(static_cast<std::size_t>(size.pixels()));
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
-      const FlowVector flow = flowBetween(first, second, geometry, {x + 0.5, y + 0.5});
+      const FlowVector flow =
+          flowBetween(first, second, geometry, {x * everyNth + 0.5, y * everyNth + 0.5});
       field.px.emplace_back(flow.px);
       field.visible.push_back(flow.visible ? 1 : 0);
     }

@@ -36,9 +36,10 @@ struct FlowVector {
   bool visible = false;  ///< in the second frame: inside the picture, not behind anything
 };
 
-/// The flow at every pixel centre of the first frame, row by row.
+/// The flow at every pixel centre of the first frame, or of every n-th pixel of every n-th row, row
+/// by row.
 struct FlowField {
-  FrameSize size;
+  FrameSize size;  ///< of the field
   std::vector<glm::vec2> px;
   std::vector<std::uint8_t> visible;  ///< 1 or 0
 };
@@ -50,7 +51,8 @@ GroundTruth truthOf(const Exposure& exposure, const Geometry& geometry);
 /// The flow at `pixel` of the first frame; zero and not visible where nothing is seen there.
 FlowVector flowBetween(const Exposure& first, const Exposure& second, const Geometry& geometry,
                        glm::dvec2 pixel);
-FlowField flowFieldBetween(const Exposure& first, const Exposure& second, const Geometry& geometry);
+FlowField flowFieldBetween(const Exposure& first, const Exposure& second, const Geometry& geometry,
+                           int everyNth);
 
 }  // namespace synthetic
 }  // namespace pleinair::hal

@@ -180,9 +180,9 @@ FlowVector SyntheticCamera::flow(std::uint64_t from, std::uint64_t to, glm::dvec
                                 pixel);
 }
 
-FlowField SyntheticCamera::flowField(std::uint64_t from, std::uint64_t to) const {
+FlowField SyntheticCamera::flowField(std::uint64_t from, std::uint64_t to, int everyNth) const {
   return synthetic::flowFieldBetween(exposureOf(from), exposureOf(to),
-                                     synthetic::workbenchGeometry());
+                                     synthetic::workbenchGeometry(), everyNth);
 }
 
 }  // namespace pleinair::hal

@@ -57,7 +57,8 @@ class SyntheticCamera final : public Camera {
   glm::dmat4 cameraFromWorld(std::uint64_t sequence, int row) const;
   /// How what is seen at `pixel` of frame `from` moves to frame `to`.
   FlowVector flow(std::uint64_t from, std::uint64_t to, glm::dvec2 pixel) const;
-  FlowField flowField(std::uint64_t from, std::uint64_t to) const;
+  /// At every pixel centre, or at every n-th pixel's of every n-th row.
+  FlowField flowField(std::uint64_t from, std::uint64_t to, int everyNth = 1) const;
 
  private:
   synthetic::Exposure exposureOf(std::uint64_t sequence) const;

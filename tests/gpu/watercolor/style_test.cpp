@@ -232,7 +232,7 @@ double carriedPart(const std::vector<std::uint32_t>& then, const std::vector<std
 TEST_F(WatercolorTest, APanCarriesTheCells) {
   constexpr hal::FrameSize kSize{160, 120};
   constexpr glm::ivec2 kBy{-3, 1};
-  const hal::Image wide = testPicture({320, 240}, 5);
+  hal::Image wide = testPicture({320, 240}, 5);
   Watercolor style(library_);
   std::vector<std::uint32_t> then;
   for (int i = 0; i < 12; ++i) {
@@ -266,7 +266,7 @@ TEST_F(WatercolorTest, ACutStartsAnew) {
   // Nothing of the old scene goes on.
   EXPECT_EQ(style.inner().tiler->readMoving(), 0U);
   for (const CellSeed& seed : support::readBuffer<CellSeed>(style.inner().tiler->seeds())) {
-    if (seed.isLiving()) ASSERT_EQ(seed.parent, 0U);
+    ASSERT_TRUE(!seed.isLiving() || seed.parent == 0);
   }
   const std::vector<float> steady = support::readRgba32f(*style.inner().steady);
   for (std::size_t i = 3; i < steady.size(); i += 4) ASSERT_EQ(steady[i], 1.0F);

@@ -1,0 +1,170 @@
+#include "pipeline/measure/anchor_measures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/measure/output_measures.h"
+#include "pipeline/measure/picture.h"
+
+namespace pleinair::measure {
+namespace {
+
+using marks::Anchor;
+
+constexpr int kCellPixels = 8;
+
+bool isSame(const Anchor& then, const Anchor& now) {
+  return then.isAlive() && now.isAlive() && then.seed == now.seed && !now.isBorn();
+}
+
+/// Anchors count pixel centres at + 0.5, pictures here at whole numbers.
+cv::Point2f onPicture(const Anchor& anchor) {
+  return {anchor.px.x - 0.5F, anchor.px.y - 0.5F};
+}
+
+std::optional<Slip> slipOf(std::vector<float> distances) {
+  if (distances.empty()) return std::nullopt;
+  double squares = 0;
+  for (const float distance : distances) squares += static_cast<double>(distance) * distance;
+  std::ranges::sort(distances);
+  const auto at = [&distances](double share) {
+    const double last = static_cast<double>(distances.size() - 1);
+    return static_cast<double>(distances[static_cast<std::size_t>(share * last)]);
+  };
+  return Slip{.median = at(0.5),
+              .most = at(0.95),
+              .rms = std::sqrt(squares / static_cast<double>(distances.size()))};
+}
+
+/// The mean of slips over frames.
+class MeanSlip {
+ public:
+  void add(const std::optional<Slip>& slip) {
+    if (!slip) return;
+    median_ += {slip->median, 1.0};
+    most_ += {slip->most, 1.0};
+    square_ += {slip->rms * slip->rms, 1.0};
+  }
+  std::optional<Slip> value() const {
+    if (!median_.value()) return std::nullopt;
+    return Slip{
+        .median = *median_.value(), .most = *most_.value(), .rms = std::sqrt(*square_.value())};
+  }
+
+ private:
+  Mean median_, most_, square_;
+};
+
+}  // namespace
+
+bool AnchorMeasures::isInner(const Anchor& anchor) const {
+  return innerRect(frame_).contains(cv::Point(onPicture(anchor)));
+}
+
+void AnchorMeasures::add(std::span<const Anchor> anchors, const MotionMap* sinceLast,
+                         const MotionMap* sinceLong) {
+  if (!past_.empty() && past_.back().size() == anchors.size()) {
+    AnchorFrame frame = compare(anchors);
+    frame.slip = slipSince(past_.back(), anchors, sinceLast);
+    if (past_.size() >= kLongLag) {
+      frame.longSlip = slipSince(past_[past_.size() - kLongLag], anchors, sinceLong);
+    }
+    frames_.push_back(frame);
+  }
+  countCells(anchors);
+  past_.emplace_back(anchors.begin(), anchors.end());
+  if (past_.size() > kLongLag) past_.pop_front();
+}
+
+AnchorFrame AnchorMeasures::compare(std::span<const Anchor> anchors) const {
+  AnchorFrame frame;
+  for (std::size_t slot = 0; slot < anchors.size(); ++slot) {
+    const Anchor& then = past_.back()[slot];
+    const Anchor& now = anchors[slot];
+    const bool same = isSame(then, now);
+    const bool isBirth = now.isAlive() && !same;
+    const bool isDeath = then.isStaying() && !(same && now.isStaying());
+    frame.alive += now.isAlive() ? 1 : 0;
+    frame.births += isBirth ? 1 : 0;
+    frame.deaths += isDeath ? 1 : 0;
+    frame.inner += now.isAlive() && isInner(now) ? 1 : 0;
+    frame.innerBirths += isBirth && isInner(now) ? 1 : 0;
+    frame.innerDeaths += isDeath && isInner(then) ? 1 : 0;
+    frame.moved += same && now.px != then.px ? 1 : 0;
+  }
+  return frame;
+}
+
+std::optional<Slip> AnchorMeasures::slipSince(std::span<const Anchor> then,
+                                              std::span<const Anchor> now,
+                                              const MotionMap* motion) const {
+  if (motion == nullptr || then.size() != now.size()) return std::nullopt;
+  std::vector<float> distances;
+  for (std::size_t slot = 0; slot < now.size(); ++slot) {
+    const bool isCompared = isSame(then[slot], now[slot]) && then[slot].isStaying() &&
+                            now[slot].isStaying() && isInner(now[slot]);
+    if (!isCompared) continue;
+    const auto truth = displacementAt(*motion, onPicture(then[slot]));
+    if (!truth) continue;
+    const cv::Point2f error = onPicture(now[slot]) - onPicture(then[slot]) - *truth;
+    distances.push_back(std::hypot(error.x, error.y));
+  }
+  return slipOf(std::move(distances));
+}
+
+void AnchorMeasures::countCells(std::span<const Anchor> anchors) {
+  const int columns = frame_.width / kCellPixels;
+  const int rows = frame_.height / kCellPixels;
+  cv::Mat1i counts(rows, columns, 0);
+  bool any = false;
+  for (const Anchor& anchor : anchors) {
+    if (!anchor.isStaying()) continue;
+    const int column = static_cast<int>(std::floor(anchor.px.x / kCellPixels));
+    const int row = static_cast<int>(std::floor(anchor.px.y / kCellPixels));
+    if (column < 0 || row < 0 || column >= columns || row >= rows) continue;
+    ++counts(row, column);
+    any = true;
+  }
+  if (!any) return;
+  for (const int count : counts) {
+    perCell_ += {static_cast<double>(count), 1.0};
+    squarePerCell_ += {static_cast<double>(count) * count, 1.0};
+    emptyCells_ += {count == 0 ? 1.0 : 0.0, 1.0};
+  }
+}
+
+std::optional<AnchorSummary> AnchorMeasures::total(std::size_t first) const {
+  if (!perCell_.value() || first >= frames_.size()) return std::nullopt;
+  AnchorSummary all{.frames = frames_.size() - first};
+  MeanSlip slip, longSlip;
+  double inner = 0;
+  for (const AnchorFrame& frame : std::span(frames_).subspan(first)) {
+    all.alive += static_cast<double>(frame.alive);
+    all.births += static_cast<double>(frame.births);
+    all.deaths += static_cast<double>(frame.deaths);
+    all.innerBirths += static_cast<double>(frame.innerBirths);
+    all.innerDeaths += static_cast<double>(frame.innerDeaths);
+    all.moved += static_cast<double>(frame.moved);
+    inner += static_cast<double>(frame.inner);
+    slip.add(frame.slip);
+    longSlip.add(frame.longSlip);
+  }
+  if (inner > 0) {
+    all.innerTurnoverPercent = 100.0 * (all.innerBirths + all.innerDeaths) / inner;
+    const double share = std::min(all.innerDeaths / inner, 0.999);
+    if (share > 0) all.halfLifeFrames = std::log(0.5) / std::log(1.0 - share);
+  }
+  for (double* sum :
+       {&all.alive, &all.births, &all.deaths, &all.innerBirths, &all.innerDeaths, &all.moved}) {
+    *sum /= static_cast<double>(all.frames);
+  }
+  all.slip = slip.value();
+  all.longSlip = longSlip.value();
+  all.perCell = *perCell_.value();
+  all.spreadPerCell =
+      std::sqrt(std::max(0.0, squarePerCell_.value().value_or(0) - all.perCell * all.perCell));
+  all.emptyCellsPercent = 100.0 * emptyCells_.value().value_or(0);
+  return all;
+}
+
+}  // namespace pleinair::measure
