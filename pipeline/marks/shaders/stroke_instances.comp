@@ -45,7 +45,8 @@ void main() {
   vec2 px = anchors[slot].px;
   // A stroke that comes or goes grows or shrinks, too.
   float grown = mix(0.35, 1.0, stroke.seen);
-  vec2 lengths = stroke.lengths * grown * (1.0 + 0.5 * randomOf(seed, 0x3u));
+  // Strokes differ in length, but none goes on beyond where it was found to end.
+  vec2 lengths = stroke.lengths * grown * (0.875 + 0.25 * randomOf(seed, 0x3u));
   float wide = width * (1.0 + widthSpread * 2.0 * randomOf(seed, 0x11u)) * mix(0.6, 1.0, stroke.seen);
   lengths = max(lengths, vec2(0.3 * wide / segment));  // a dab, not a speck
   vec2 points[kPoints];
