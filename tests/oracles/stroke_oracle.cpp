@@ -1,0 +1,112 @@
+#include "tests/oracles/stroke_oracle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace pleinair::oracles {
+namespace {
+
+double angleOf(glm::dvec2 unitA, glm::dvec2 unitB) {
+  return std::acos(std::clamp(glm::dot(unitA, unitB), -1.0, 1.0));
+}
+
+/// The sense that bends least.
+glm::dvec2 onward(glm::dvec2 direction, glm::dvec2 heading) {
+  return glm::dot(direction, heading) < 0.0 ? -direction : direction;
+}
+
+}  // namespace
+
+glm::dvec2 strokeDirection(glm::dvec2 tensor) {
+  const double theta = 0.5 * std::atan2(tensor.y, tensor.x) + std::numbers::pi / 2.0;
+  return {std::cos(theta), std::sin(theta)};
+}
+
+double colourDifference(glm::dvec3 a, glm::dvec3 b) {
+  const glm::dvec3 d = a - b;
+  return std::sqrt(0.9 * d.r * d.r + 1.5 * d.g * d.g + 0.6 * d.b * d.b);
+}
+
+std::vector<glm::dvec2> thesisSkeleton(const StrokeGround& ground, const StrokeWalk& walk,
+                                       glm::dvec2 anchor, glm::dvec2 heading) {
+  std::vector<glm::dvec2> points{anchor};
+  const glm::dvec3 start = ground.colourAt(anchor);
+  for (int i = 0; i < walk.steps; ++i) {
+    const glm::dvec2 direction = onward(strokeDirection(ground.tensorAt(points.back())), heading);
+    if (i > 0 && angleOf(direction, heading) > walk.cutOffRad) break;
+    const glm::dvec2 next = points.back() + walk.segmentPx * direction;
+    if (colourDifference(ground.colourAt(next), start) > walk.colourThreshold) break;
+    points.push_back(next);
+    heading = direction;
+  }
+  return points;
+}
+
+StrokeArm strokeArm(const StrokeGround& ground, const StrokeWalk& walk, glm::dvec2 anchor,
+                    glm::dvec2 heading) {
+  StrokeArm arm;
+  arm.length = walk.steps;
+  const glm::dvec3 start = ground.colourAt(anchor);
+  bool hasEnded = false;
+  double before = 0.0;
+  glm::dvec2 at = anchor;
+  for (int i = 0; i < walk.steps; ++i) {
+    const glm::dvec2 halfOn = at + 0.5 * walk.segmentPx * heading;
+    const glm::dvec2 direction = onward(strokeDirection(ground.tensorAt(halfOn)), heading);
+    const double turn = angleOf(direction, heading);
+    if (i > 0) arm.nearestToCutOff = std::min(arm.nearestToCutOff, std::abs(turn - walk.cutOffRad));
+    if (!hasEnded && i > 0 && turn > walk.cutOffRad) {
+      arm.length = i;
+      hasEnded = true;
+    }
+    at += walk.segmentPx * direction;
+    const double difference = colourDifference(ground.colourAt(at), start);
+    if (!hasEnded && difference > walk.colourThreshold) {
+      const double part = (walk.colourThreshold - before) / (difference - before);
+      arm.length = std::max(i + std::clamp(part, 0.0, 1.0), walk.leastSteps);
+      hasEnded = true;
+    }
+    before = difference;
+    arm.directions.push_back(direction);
+    heading = direction;
+  }
+  return arm;
+}
+
+glm::dvec2 placeOn(const StrokeArm& arm, double segmentPx, glm::dvec2 anchor, double segments) {
+  for (std::size_t i = 0; i < arm.directions.size(); ++i) {
+    const double part = std::clamp(segments - static_cast<double>(i), 0.0, 1.0);
+    anchor += part * segmentPx * arm.directions[i];
+  }
+  return anchor;
+}
+
+glm::dvec2 averagedDirection(glm::dvec2 now, glm::dvec2 past, double pastShare) {
+  return glm::normalize((1.0 - pastShare) * now + pastShare * past);
+}
+
+glm::dvec2 splinePlace(const std::vector<glm::dvec2>& points, double s) {
+  std::vector<glm::dvec2> control(2, points.front());
+  control.insert(control.end(), points.begin(), points.end());
+  control.insert(control.end(), 2, points.back());
+  const std::size_t segments = control.size() - 3;
+  const auto segment = std::min(static_cast<std::size_t>(s), segments - 1);
+  const double t = s - static_cast<double>(segment);
+  const glm::dvec2* c = &control[segment];
+  return (std::pow(1.0 - t, 3.0) * c[0] + (3.0 * t * t * t - 6.0 * t * t + 4.0) * c[1] +
+          (-3.0 * t * t * t + 3.0 * t * t + 3.0 * t + 1.0) * c[2] + t * t * t * c[3]) /
+         6.0;
+}
+
+std::vector<glm::dvec2> thesisSplineSamples(const std::vector<glm::dvec2>& points) {
+  const int segments = static_cast<int>(points.size()) - 1 + 2;
+  std::vector<glm::dvec2> samples;
+  for (int i = 0; i <= 4 * segments; ++i) samples.push_back(splinePlace(points, i / 4.0));
+  return samples;
+}
+
+}  // namespace pleinair::oracles
