@@ -1,0 +1,224 @@
+// Prints what docs/measured.md says of the painter, as Markdown: the tensor pyramid beside the
+// global radial-basis interpolation, and the thesis's table 1 beside ours.
+// `painter_report FOLDER [PICTURE …]`: into FOLDER go the error maps; without pictures, those of
+// the shared data. Times are of this machine as it is; leave it alone meanwhile.
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <map>
+#include <numbers>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "hal/cameras/synthetic/synthetic_camera.h"
+#include "hal/error.h"
+#include "hal/libav/picture_file.h"
+#include "pipeline/gpu/egl_context.h"
+#include "pipeline/marks/marks_shaders.h"
+#include "pipeline/painter.h"
+#include "pipeline/scene/scene_shaders.h"
+#include "tests/reports/painter/field_comparison.h"
+
+namespace pleinair {
+namespace {
+
+constexpr double kSigmaPx = 8.0;  // of eq. 12: the width of the pyramid's finest regions
+constexpr int kFrames = 16;
+constexpr int kRounds = 7;
+
+double degreesAt(std::vector<double> apartRad, double part) {
+  if (apartRad.empty()) return 0.0;
+  std::ranges::sort(apartRad);
+  const auto last = static_cast<double>(apartRad.size() - 1);
+  return apartRad[static_cast<std::size_t>(part * last)] * 180.0 / std::numbers::pi;
+}
+
+std::vector<std::filesystem::path> sharedPictures() {
+  std::vector<std::filesystem::path> found;
+  const std::filesystem::path folder =
+      std::filesystem::path(PLEINAIR_SHARED_DATA) / "photos" / "cc0_pd_skimage";
+  if (!std::filesystem::exists(folder)) return found;
+  for (const auto& each : std::filesystem::directory_iterator(folder)) {
+    const std::string extension = each.path().extension().string();
+    if (extension == ".png" || extension == ".jpg") found.push_back(each.path());
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+void compareFields(const std::filesystem::path& folder,
+                   const std::vector<std::filesystem::path>& pictures) {
+  const gpu::EglContext context;
+  gpu::ShaderLibrary library;
+  library.add(gpu::gpuShaders());
+  library.add(gpu::sceneShaders());
+  library.add(gpu::marksShaders());
+  fmt::print(
+      "Tensor pyramid (GPU) beside global radial-basis interpolation (eq. 12, sigma {} px, at the\n"
+      "middle of each 8x8 region). Angles in degrees, median / 95 %; where regions have edges of\n"
+      "their own, and where both fill in. The thesis's pyramid and eq. 12 on one core.\n\n",
+      kSigmaPx);
+  fmt::print(
+      "| picture | size | edge px | with edges | filled in | pyramid, GPU | pyramid, CPU | "
+      "eq. 12, CPU |\n|---|---|---|---|---|---|---|---|\n");
+  for (const std::filesystem::path& path : pictures) {
+    const hal::Image image = hal::orThrow(hal::readPictureRgb(path));
+    const marks::FieldComparison found = marks::compareField(library, image, kSigmaPx);
+    std::vector<double> own;
+    std::vector<double> filled;
+    for (std::size_t i = 0; i < found.apartRad.size(); ++i) {
+      (found.hasEdges[i] ? own : filled).push_back(found.apartRad[i]);
+    }
+    fmt::print(
+        "| {} | {}x{} | {} | {:.1f} / {:.1f} | {:.1f} / {:.1f} | {:.1f} ms | {:.1f} ms | "
+        "{:.0f} ms |\n",
+        path.stem().string(), image.size().width, image.size().height, found.edgePixels,
+        degreesAt(own, 0.5), degreesAt(own, 0.95), degreesAt(filled, 0.5), degreesAt(filled, 0.95),
+        found.pyramidMs, found.oracleMs, found.globalMs);
+    std::fflush(stdout);
+    const hal::Image map = marks::errorMap(found, image);
+    hal::orThrow(hal::writePng(folder / (path.stem().string() + "_field_error.png"), map.view()));
+  }
+}
+
+/// The thesis's four stages (table 1).
+enum Stage : std::size_t { kTensor, kFeatures, kWarping, kPainting, kStages };
+
+Stage stageOf(const std::string& pass) {
+  if (pass == "tensor field") return kTensor;
+  if (pass == "follow picture") return kFeatures;
+  if (pass == "motion field" || pass == "carry anchors" || pass == "keep density") return kWarping;
+  return kPainting;
+}
+
+std::vector<hal::CapturedFrame> workbench(hal::FrameSize size) {
+  hal::SteppedClock clock;
+  hal::SyntheticCamera camera({.size = size, .frameCount = kFrames}, clock);
+  hal::orThrow(camera.start({}));
+  std::vector<hal::CapturedFrame> frames;
+  for (int i = 0; i < kFrames; ++i) {
+    hal::NextFrame next = camera.next(hal::kNoDeadline);
+    frames.push_back(std::get<hal::CapturedFrame>(std::move(next)));
+  }
+  return frames;
+}
+
+/// Paints the workbench there and back, again and again.
+class Easel {
+ public:
+  Easel(hal::FrameSize size, gpu::PassTiming timing)
+      : frames_(workbench(size)),
+        painter_({.pictureSize = size,
+                  .scene = {},
+                  .style = "painterly",
+                  .tracksTags = false,
+                  .passTiming = timing}),
+        parameters_(painter_.defaultParameters()) {
+    round();
+  }
+
+  /// ms a frame.
+  double round() {
+    const auto start = std::chrono::steady_clock::now();
+    for (std::size_t i = 0; i < kFrames; ++i) {
+      const std::size_t at = isBack_ ? kFrames - 1 - i : i;
+      hal::CapturedFrame frame = frames_[at];
+      frame.sequence = number_;
+      frame.captureTime =
+          hal::TimePoint(hal::Duration(33'333'333) * static_cast<std::int64_t>(number_++));
+      hal::orThrow(painter_.paint(frame, parameters_));
+    }
+    hal::orThrow(painter_.still());  // waits for the GPU
+    isBack_ = !isBack_;
+    const auto end = std::chrono::steady_clock::now();
+    return std::chrono::duration<double, std::milli>(end - start).count() / kFrames;
+  }
+
+  /// Since the start, in all.
+  std::array<double, kStages> stages() const {
+    std::array<double, kStages> sums{};
+    for (const gpu::PassTime& each : painter_.passTimes()) {
+      sums.at(stageOf(each.pass)) += std::chrono::duration<double, std::milli>(each.total).count();
+    }
+    return sums;
+  }
+
+ private:
+  std::vector<hal::CapturedFrame> frames_;
+  Painter painter_;
+  PaintParameters parameters_;
+  std::uint64_t number_ = 0;
+  bool isBack_ = false;
+};
+
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  return values[values.size() / 2];
+}
+
+void printTable1() {
+  struct Row {
+    hal::FrameSize size;
+    std::array<int, kStages> thesis;
+    int total;
+  };
+  constexpr std::array<Row, 2> kRows{
+      {{{1440, 1050}, {75, 420, 215, 30}, 740}, {{1024, 768}, {50, 173, 125, 27}, 375}}};
+  fmt::print(
+      "\nThesis table 1 (Core2Duo 2 GHz, ATI 5730) beside ours, ms a frame, medians of {} rounds "
+      "of\n"
+      "{} frames of the workbench. Stages wait for the GPU at each pass, the whole does not.\n\n",
+      kRounds, kFrames);
+  fmt::print(
+      "| size | | tensor field | features | warping | painting | whole |\n"
+      "|---|---|---|---|---|---|---|\n");
+  for (const Row& row : kRows) {
+    std::array<std::vector<double>, kStages> stages;
+    {
+      Easel easel(row.size, gpu::PassTiming::kFences);
+      for (int i = 0; i < kRounds; ++i) {
+        const std::array<double, kStages> before = easel.stages();
+        easel.round();
+        const std::array<double, kStages> after = easel.stages();
+        for (std::size_t k = 0; k < kStages; ++k) {
+          stages.at(k).push_back((after.at(k) - before.at(k)) / kFrames);
+        }
+      }
+    }
+    Easel easel(row.size, gpu::PassTiming::kOff);
+    std::vector<double> whole;
+    for (int i = 0; i < kRounds; ++i) whole.push_back(easel.round());
+    fmt::print("| {}x{} | thesis | {} | {} | {} | {} | {} |\n", row.size.width, row.size.height,
+               row.thesis[0], row.thesis[1], row.thesis[2], row.thesis[3], row.total);
+    fmt::print("| | ours | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.1f} |\n", median(stages[0]),
+               median(stages[1]), median(stages[2]), median(stages[3]), median(whole));
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace
+}  // namespace pleinair
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    std::fputs("painter_report FOLDER [PICTURE ...]\n", stderr);
+    return 2;
+  }
+  try {
+    std::vector<std::filesystem::path> pictures(argv + 2, argv + argc);
+    if (pictures.empty()) pictures = pleinair::sharedPictures();
+    pleinair::compareFields(argv[1], pictures);
+    pleinair::printTable1();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "painter_report: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
