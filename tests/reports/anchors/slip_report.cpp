@@ -1,6 +1,7 @@
 #include "tests/reports/anchors/slip_report.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <optional>
@@ -47,6 +48,8 @@ struct Slips {
   std::vector<double> step;                  ///< error of a frame's displacement, px
   std::array<std::vector<double>, 2> after;  ///< frames of kAges
   std::array<double, 7> bySource{};
+  std::array<double, 7> squares{};           ///< of these errors, by source
+  std::array<double, 7> predictedSquares{};  ///< and as they were predicted
 };
 
 scene::Scene benchScene(Poses poses) {
@@ -128,8 +131,12 @@ class SlipRun {
                std::optional<Followed>& followed) {
     const hal::FlowVector step = truth_.flow(i - 1, i, glm::dvec2(then.px));
     if (step.visible) {
-      slips_.step.push_back(glm::distance(glm::dvec2(now.px - then.px), step.px));
-      slips_.bySource.at(static_cast<std::size_t>(now.source())) += 1.0;
+      const double error = glm::distance(glm::dvec2(now.px) - glm::dvec2(then.px), step.px);
+      const auto source = static_cast<std::size_t>(now.source());
+      slips_.step.push_back(error);
+      slips_.bySource.at(source) += 1.0;
+      slips_.squares.at(source) += error * error;
+      slips_.predictedSquares.at(source) += now.errorPx * now.errorPx;
     }
     const hal::FlowVector flow = truth_.flow(i - 1, i, followed->expected);
     if (!flow.visible) {
@@ -171,7 +178,10 @@ std::string sourcesText(const Slips& slips) {
   for (std::size_t k = 0; k < kNames.size(); ++k) {
     const double percent = 100.0 * slips.bySource.at(k) / sum;
     if (percent < 0.5) continue;
-    text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", kNames.at(k), percent);
+    text +=
+        fmt::format("{}{} {:.0f} % ({:.2f}, said {:.2f})", text.empty() ? "" : ", ", kNames.at(k),
+                    percent, std::sqrt(slips.squares.at(k) / slips.bySource.at(k)),
+                    std::sqrt(slips.predictedSquares.at(k) / slips.bySource.at(k)));
   }
   return text;
 }
@@ -181,7 +191,8 @@ std::string sourcesText(const Slips& slips) {
 void reportSlips() {
   std::printf(
       "\n### Anchor slip on the workbench, px, median / 95th percentile\n\n"
-      "| shot | told by | a frame | after 10 | after 30 | moved by |\n|---|---|---|---|---|---|\n");
+      "| shot | told by | a frame | after 10 | after 30 | moved by (RMS error a frame, as "
+      "predicted) |\n|---|---|---|---|---|---|\n");
   for (const SyntheticShot shot :
        {SyntheticShot::kStill, SyntheticShot::kPan, SyntheticShot::kWalkaround,
         SyntheticShot::kDolly, SyntheticShot::kRoll, SyntheticShot::kOccluder}) {
