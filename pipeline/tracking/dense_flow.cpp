@@ -7,7 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "pipeline/tracking/homography.h"
-#include "pipeline/tracking/patch_flow.h"
+#include "pipeline/tracking/search_patch.h"
 #include "pipeline/tracking/stillness.h"
 
 namespace pleinair::tracking {
@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kHalf = 2;  // in LumaPyramid::levels(): each level's gradients follow it
 constexpr int kLeastSide = 96;    // of a picture in which flow is sought
 // Predicted errors: docs/measured.md says how they agree with true ones.
-constexpr double kPlacing = 1.3;
+constexpr double kPlacing = 1.0;
 constexpr double kBackPart = 0.7;
 constexpr double kLeastErrorPx = 0.03;
 constexpr double kMostErrorPx = 100.0;
@@ -55,13 +55,9 @@ void DenseFlowEstimator::flowOneWay(Way& way, const LumaPyramid& from, const Lum
                                     const glm::dmat3* toFromFrom, double noise) const {
   way.search->calc(fromSmall, toSmall, way.coarse);
   const cv::Mat& picture = from.picture();
-  constexpr int kReach = FlowPatch::kSide / 2 + 1;
   for (std::size_t i = 0; i < way.nodes.size(); ++i) {
     const glm::dvec2 px = nodePx(i);
-    const cv::Point2f own = from.ownPx(px);
-    const cv::Point middle(
-        std::clamp(static_cast<int>(std::lround(own.x + 0.5F)), kReach, picture.cols - kReach),
-        std::clamp(static_cast<int>(std::lround(own.y + 0.5F)), kReach, picture.rows - kReach));
+    const cv::Point middle = FlowPatch::middleNear(picture, from.ownPx(px));
     const FlowPatch patch(picture, middle);
     const cv::Vec2f coarse = way.coarse.at<cv::Vec2f>(std::min(middle.y / 2, way.coarse.rows - 1),
                                                       std::min(middle.x / 2, way.coarse.cols - 1));
@@ -73,7 +69,7 @@ void DenseFlowEstimator::flowOneWay(Way& way, const LumaPyramid& from, const Lum
     }
     if (best.isInside) best = patch.refined(to.picture(), best, noise);
     const glm::dvec2 moved = reduction_ * best.moved;
-    const double placing = kPlacing * best.placing;
+    const double placing = kPlacing * patch.placing(noise);
     const double error =
         best.isInside ? std::sqrt(placing * placing * best.variance + kLeastErrorPx * kLeastErrorPx)
                       : kMostErrorPx;
