@@ -56,6 +56,7 @@ void DenseFlowEstimator::flowOneWay(Way& way, const LumaPyramid& from, const Lum
   way.search->calc(fromSmall, toSmall, way.coarse);
   const cv::Mat& picture = from.picture();
   for (std::size_t i = 0; i < way.nodes.size(); ++i) {
+    if (stillErrors_[i] < StillFields::kNotStill) continue;
     const glm::dvec2 px = nodePx(i);
     const cv::Point middle = FlowPatch::middleNear(picture, from.ownPx(px));
     const FlowPatch patch(picture, middle);
@@ -99,6 +100,7 @@ double DenseFlowEstimator::edge(const std::vector<glm::vec4>& nodes, std::size_t
 void DenseFlowEstimator::disagree(const std::vector<glm::vec4>& back,
                                   std::vector<glm::vec4>& nodes) const {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (stillErrors_[i] < StillFields::kNotStill) continue;
     glm::vec4& node = nodes[i];
     const glm::dvec2 there = (nodePx(i) + glm::dvec2(node)) / stepPx_ - 0.5;
     const int x = std::clamp(static_cast<int>(std::floor(there.x)), 0, grid_.width - 2);
@@ -115,12 +117,18 @@ void DenseFlowEstimator::disagree(const std::vector<glm::vec4>& back,
   }
 }
 
-void DenseFlowEstimator::standStill(const Stillness& stillness,
-                                    std::vector<glm::vec4>& nodes) const {
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const float error = stillness.errorAt(nodePx(i), frameSize_);
-    if (error < StillFields::kNotStill) nodes[i] = {0.0F, 0.0F, error, 0.0F};
+/// Whether there are nodes that do not. Those that do have their flow then.
+bool DenseFlowEstimator::standStill(const Stillness* stillness) {
+  stillErrors_.assign(ways_[0].nodes.size(), StillFields::kNotStill);
+  if (stillness == nullptr) return true;
+  bool isMoving = false;
+  for (std::size_t i = 0; i < stillErrors_.size(); ++i) {
+    const float error = stillness->errorAt(nodePx(i), frameSize_);
+    stillErrors_[i] = error;
+    isMoving = isMoving || error >= StillFields::kNotStill;
+    for (Way& way : ways_) way.nodes[i] = {0.0F, 0.0F, error, 0.0F};
   }
+  return isMoving;
 }
 
 void DenseFlowEstimator::update(const LumaPyramid& then, const LumaPyramid& now,
@@ -130,6 +138,7 @@ void DenseFlowEstimator::update(const LumaPyramid& then, const LumaPyramid& now,
   const cv::Size size = now.picture().size();
   if (std::min(size.width, size.height) < kLeastSide || now.levels().size() <= kHalf) return;
   place(now);
+  if (!standStill(stillness)) return;
   then.levels()[kHalf].copyTo(small_[0]);
   now.levels()[kHalf].copyTo(small_[1]);
   const glm::dmat3 forward = picture ? picture->nowFromThen : glm::dmat3(1.0);
@@ -148,9 +157,6 @@ void DenseFlowEstimator::update(const LumaPyramid& then, const LumaPyramid& now,
   std::vector<glm::vec4>& back = ways_[1].nodes;
   disagree(back, there);
   disagree(there, back);
-  if (stillness == nullptr) return;
-  standStill(*stillness, there);
-  standStill(*stillness, back);
 }
 
 DenseFlow DenseFlowEstimator::flow() const {
