@@ -30,6 +30,8 @@ endfunction()
 pleinair_opencv_module(core)
 pleinair_opencv_module(imgproc)
 pleinair_opencv_module(calib3d)
+pleinair_opencv_module(features2d)
+pleinair_opencv_module(flann)
 pleinair_opencv_module(video)
 
 # pleinair_optional(NAME STATE): one line of the configure summary: "in", or why not.

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -239,20 +240,33 @@ class LivePainting {
   }
 
   void attendStills() {
-    if (wantsStill_ && !saver_.isBusy()) {
-      wantsStill_ = false;
-      controls_.askForStill();
+    if (const auto saved = saver_.takeResult()) tellOfStill(*saved);
+    // Two wishes in quick succession: the second's picture waits until the first's is on disk.
+    if (saver_.isBusy() || saveStill()) return;
+    if (std::exchange(wantsStill_, false)) controls_.askForStill();
+  }
+
+  /// Begins to save a still that was painted; false where there is none.
+  bool saveStill() {
+    auto still = controls_.takeStill();
+    if (!still) return false;
+    if (*still) {
+      saver_.save(**std::move(still));
+    } else {
+      tell(still->error().message(), false);
     }
-    if (auto still = controls_.takeStill()) {
-      if (*still) {
-        saver_.save(**std::move(still));
-      } else {
-        tell(still->error().message(), false);
-      }
-    }
-    if (const auto saved = saver_.takeResult()) {
-      tell(*saved ? "saved " + (*saved)->string() : saved->error().message(), saved->has_value());
-    }
+    return true;
+  }
+
+  /// At the end: those that were painted are saved, and told of.
+  void finishStills() {
+    do {
+      if (const auto saved = saver_.awaitResult()) tellOfStill(*saved);
+    } while (saveStill());
+  }
+
+  void tellOfStill(const hal::Result<std::filesystem::path>& saved) {
+    tell(saved ? "saved " + saved->string() : saved.error().message(), saved.has_value());
   }
 
   void tell(const std::string& text, bool isGood) {
@@ -275,6 +289,7 @@ class LivePainting {
   void finish() {
     const hal::Duration elapsed = job_.clock->now() - began_;
     stopThreads();
+    finishStills();
     reporter_.interrupt();
     const runtime::LedgerCounts ledger = chain_.ledger().counts();
     fmt::print("{}: {}\n", ledger.summary(elapsed), fmt::join(job_.outputs, ", "));

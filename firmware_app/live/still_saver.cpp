@@ -23,4 +23,9 @@ std::optional<hal::Result<std::filesystem::path>> StillSaver::takeResult() {
   return saving_.get();
 }
 
+std::optional<hal::Result<std::filesystem::path>> StillSaver::awaitResult() {
+  if (!isBusy()) return std::nullopt;
+  return saving_.get();
+}
+
 }  // namespace pleinair::app

@@ -19,6 +19,8 @@ class StillSaver {
   void save(hal::Image still);
   /// Where it was saved to, or why not, once that is known.
   std::optional<hal::Result<std::filesystem::path>> takeResult();
+  /// The same, waited for; nothing where it is not busy.
+  std::optional<hal::Result<std::filesystem::path>> awaitResult();
 
  private:
   std::filesystem::path folder_;

@@ -24,12 +24,13 @@ std::string LedgerCounts::summary(hal::Duration elapsed) const {
   const std::uint64_t untimely = of(Fate::kShownUntimely);
   if (untimely > 0) text += fmt::format(", {} untimely", untimely);
   text += fmt::format("; dropped {}", dropped());
-  const char* separator = ": ";
+  const char* separator = " (";
   for (const Fate fate : allFates()) {
     if (isShown(fate) || of(fate) == 0) continue;
     text += fmt::format("{}{} {}", separator, of(fate), describe(fate));
     separator = ", ";
   }
+  if (dropped() > 0) text += ')';
   return text;
 }
 

@@ -22,7 +22,8 @@ struct LedgerCounts {
   std::uint64_t dropped() const;
   /// Whether captured = underWay + all that ended.
   bool addsUp() const;
-  /// "showed 90 frames in 3.0 s (30.0 frames/s); dropped 2: 1 replaced by a newer one, …".
+  /// "showed 90 frames in 3.0 s (30.0 frames/s); dropped 2 (1 replaced by a newer one, …)": without
+  /// colons, so that what follows one is no part of it.
   std::string summary(hal::Duration elapsed) const;
 };
 

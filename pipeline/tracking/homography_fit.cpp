@@ -19,7 +19,9 @@ constexpr double kLeastPart = 0.4;  // of the pairs, that agree
 constexpr int kColumns = 4;
 constexpr int kRows = 4;
 constexpr int kLeastFields = 6;
-constexpr double kOutlierPart = 0.002;  // of the longer side: 1.3 px of 640
+/// RANSAC's tolerance: of the longer side (1.3 px of 640), but so many mean errors at least.
+constexpr double kOutlierPart = 0.002;
+constexpr double kOutlierErrors = 3.0;
 constexpr int kSteps = 6;
 /// Deviations beyond so many predicted errors, and this part of RANSAC's tolerance, weigh less.
 constexpr double kRobustErrors = 3.0;
@@ -74,7 +76,10 @@ bool HomographyFitter::findAgreeing(std::span<const PointPair> pairs, hal::Frame
     from_.emplace_back(static_cast<float>(pair.then.x), static_cast<float>(pair.then.y));
     to_.emplace_back(static_cast<float>(pair.now.x), static_cast<float>(pair.now.y));
   }
-  const double outlierPx = kOutlierPart * std::max(size.width, size.height);
+  double errorPx = 0.0;
+  for (const PointPair& pair : pairs) errorPx += pair.errorPx / static_cast<double>(pairs.size());
+  const double outlierPx =
+      std::max(kOutlierPart * std::max(size.width, size.height), kOutlierErrors * errorPx);
   constexpr int kTries = 300;
   constexpr double kConfidence = 0.995;
   const cv::Mat found =

@@ -6,9 +6,11 @@
 #include <cmath>
 
 #include "pipeline/tracking/cut_detector.h"
-#include "pipeline/tracking/lucas_kanade_tracker.h"
+#include "pipeline/tracking/dense_flow.h"
+#include "pipeline/tracking/feature_tracker.h"
 #include "pipeline/tracking/luma_pyramid.h"
 #include "pipeline/tracking/picture_hold.h"
+#include "pipeline/tracking/stillness.h"
 
 namespace pleinair::tracking {
 namespace {
@@ -31,11 +33,6 @@ class PyramidPool {
 
 }  // namespace
 
-std::unique_ptr<FeatureTracker> makeFeatureTracker(FeatureMethod method) {
-  static_cast<void>(method);
-  return std::make_unique<LucasKanadeTracker>();
-}
-
 struct ImageMotionEstimator::State {
   explicit State(const ImageMotionOptions& wanted)
       : options(wanted), tracker(makeFeatureTracker(wanted.features)) {}
@@ -46,12 +43,15 @@ struct ImageMotionEstimator::State {
   std::unique_ptr<FeatureTracker> tracker;
   CutDetector cuts;
   PictureHold hold;
+  Stillness stillness;
+  DenseFlowEstimator flow;
   ImageMotion motion;
   std::uint64_t lastSequence = 0;
 
   void forget() {
     tracker->reset();
     hold.reset();
+    stillness.reset();
   }
 };
 
@@ -85,6 +85,15 @@ const ImageMotion& ImageMotionEstimator::follow(const hal::PlaneView& luma, hal:
     s.motion.features = s.hold.features();
     s.motion.picture = s.hold.picture();
   }
+  if (s.options.stillness) s.stillness.update(*now, s.motion.picture);
+  if (s.options.stillness && !s.motion.isCut) s.motion.still = s.stillness.fields();
+  if (s.options.flow && !s.motion.isCut) {
+    s.flow.update(*s.then, *now, s.motion.picture, s.options.stillness ? &s.stillness : nullptr,
+                  s.stillness.noise());
+    s.motion.flow = s.flow.flow();
+  }
+  // Averaging over a reduced picture's px takes noise away.
+  s.motion.noiseLevels = s.stillness.noise() * scale;
   s.then = now;
   s.lastSequence = sequence;
   return s.motion;

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include <glm/geometric.hpp>
+#include <opencv2/imgproc.hpp>
 
+#include "pipeline/tracking/homography.h"
 #include "pipeline/tracking/image_motion.h"
 #include "pipeline/tracking/thumbnail.h"
 
@@ -16,6 +17,7 @@ namespace {
 constexpr int kColumns = 18;
 constexpr int kRows = 14;
 constexpr double kBorderPx = 6.0;
+constexpr int kFewLevels = 1;
 constexpr double kBackPx = 0.4;  // from where a feature came
 /// Mean grey levels in a feature's window by which it may differ: lost, worn.
 constexpr double kLargestDifference = 16.0;
@@ -25,25 +27,30 @@ constexpr double kWornContrast = 0.25;
 constexpr double kMostPlacing = 0.12;  // px of error by a level of noise: more is no corner
 constexpr int kMostMissing = 12;       // frames that a feature is looked for in vain
 // Predicted errors: docs/measured.md says how they agree with true ones.
-constexpr double kRmsByMean = 1.25;  // of normally distributed differences
+/// Of Cramér and Rao's bound, and of the mean difference's root mean square by it.
+constexpr double kPlacing = 1.3 * 1.25;
 constexpr double kLeastErrorPx = 0.008;
 constexpr double kBackPart = 0.5;
-/// Of the fields that had a feature after the last key frame, the part that is too few …
-constexpr double kFewCells = 0.85;
+/// Of the features, or of larger fields with one, that there were after the last key frame, the
+/// part that is too few …
+constexpr double kFew = 0.75;
+constexpr double kFewFields = 0.88;
+constexpr int kFieldCells = 2;  // on each side of a larger field
 /// … or of the features, the part whose looks have changed, which is enough for a new one.
 constexpr double kManyWorn = 0.15;
 constexpr int kKeyFrames = 4;  // between two key frames, unless most are lost
 constexpr double kVeryFew = 0.5;
-constexpr int kSeekFrames = 45;        // new corners are looked for that often at least …
+constexpr int kSeekFrames = 8;         // new corners are looked for that often at least …
 constexpr std::size_t kWorthAKey = 4;  // … and so many of them are worth a key frame
-constexpr double kLostShare = 0.3;     // fewer found: the whole picture may have jumped
+/// Features farther from where the picture would take them go there if they look as good there.
+constexpr double kAstrayPx = 1.5;
+constexpr double kAsGood = 1.2;
+constexpr double kAsGoodLevels = 0.5;
+constexpr double kLostShare = 0.3;  // fewer found: the whole picture may have jumped
 constexpr std::size_t kLeastToJudge = 12;
-constexpr std::size_t kNeighbours = 6;
-constexpr double kAlikePx = 1.5;
-constexpr double kAlikePart = 0.25;
 
 double lengthOf(const cv::Point2f& p) {
-  return std::hypot(static_cast<double>(p.x), static_cast<double>(p.y));
+  return std::sqrt(static_cast<double>(p.dot(p)));
 }
 
 }  // namespace
@@ -61,7 +68,7 @@ void LucasKanadeTracker::reset() {
   seen_.clear();
   framesSinceKey_ = kSeekFrames;
   foundShare_ = 0.0;
-  keyCells_ = 0;
+  keySpread_ = {};
 }
 
 /// From the gradients in the window (Cramér and Rao's bound).
@@ -106,28 +113,30 @@ void LucasKanadeTracker::judge(Feature& feature, const LumaPyramid& now, std::si
                     follower_.backPx(of) < kBackPx && difference < kLargestDifference &&
                     difference < kNoiseDifference + kLostContrast * contrast;
   if (!feature.isFound) return;
+  feature.difference = difference;
   feature.isWorn = difference > kNoiseDifference + kWornContrast * contrast;
-  const double placing = kRmsByMean * difference * feature.texture.placing;
+  const double placing = kPlacing * difference * feature.texture.placing;
   const double scale = std::max(now.reduction().x, now.reduction().y);
   feature.errorPx = scale * std::hypot(placing, kBackPart * follower_.backPx(of), kLeastErrorPx);
   feature.step = at - feature.then;
   feature.at = at;
 }
 
-void LucasKanadeTracker::findAll(const LumaPyramid& now, bool isRetry) {
+/// Of the features that have not been found yet, all or those that were found in the frame before.
+void LucasKanadeTracker::find(const LumaPyramid& now, bool all, int levels) {
   for (std::size_t key = 0; key < kKeys; ++key) {
     members_.clear();
     origins_.clear();
     points_.clear();
     for (std::size_t i = 0; i < features_.size(); ++i) {
       const Feature& feature = features_[i];
-      if (feature.key != key || (isRetry && feature.isFound)) continue;
+      if (feature.key != key || feature.isFound || !(all || feature.wasFound)) continue;
       members_.push_back(i);
       origins_.push_back(feature.origin);
       points_.push_back(feature.then + feature.step);
     }
     if (members_.empty()) continue;
-    follower_.follow(*keys_[key], now, origins_, points_);
+    follower_.follow(*keys_[key], now, origins_, points_, levels);
     for (std::size_t m = 0; m < members_.size(); ++m) {
       judge(features_[members_[m]], now, m, points_[m]);
     }
@@ -149,37 +158,55 @@ bool LucasKanadeTracker::searchWidely(const LumaPyramid& now) {
   for (Feature& feature : features_) {
     if (!feature.isFound) feature.step = jump;
   }
-  findAll(now, true);
+  find(now, true, LumaPyramid::kLevels);
   return true;
 }
 
-/// A feature whose neighbours all move otherwise has been mistaken for another.
 void LucasKanadeTracker::rejectOutliers() {
-  isOutlier_.assign(features_.size(), 0);
-  const auto isMeasured = [](const Feature& f) { return f.isFound && f.wasFound; };
-  if (std::cmp_less(std::ranges::count_if(features_, isMeasured), kLeastToJudge)) return;
+  members_.clear();
+  points_.clear();
+  steps_.clear();
   for (std::size_t i = 0; i < features_.size(); ++i) {
     const Feature& feature = features_[i];
-    if (!isMeasured(feature)) continue;
-    std::array<std::pair<double, std::size_t>, kNeighbours> near;
-    near.fill({1e9, 0});
-    for (std::size_t j = 0; j < features_.size(); ++j) {
-      if (j == i || !isMeasured(features_[j])) continue;
-      const double apart = lengthOf(features_[j].at - feature.at);
-      if (apart >= near.back().first) continue;
-      near.back() = {apart, j};
-      for (std::size_t k = kNeighbours - 1; k > 0 && near[k].first < near[k - 1].first; --k) {
-        std::swap(near[k], near[k - 1]);
-      }
-    }
-    const double tolerance = std::max(kAlikePx, kAlikePart * lengthOf(feature.step));
-    const auto alike = std::ranges::count_if(near, [&](const auto& other) {
-      return lengthOf(features_[other.second].step - feature.step) < tolerance;
-    });
-    isOutlier_[i] = alike == 0 ? 1 : 0;
+    if (!feature.isFound || !feature.wasFound) continue;
+    members_.push_back(i);
+    points_.push_back(feature.at);
+    steps_.push_back(feature.step);
   }
+  outliers_.judge(points_, steps_);
+  for (std::size_t m = 0; m < members_.size(); ++m) {
+    if (outliers_.isOutlier(m)) features_[members_[m]].isFound = false;
+  }
+}
+
+/// Looks once more for features that do not go along with the picture, where it would take them:
+/// repeated patterns look the same a few px on.
+void LucasKanadeTracker::reconsider(const LumaPyramid& now) {
+  pairs_.clear();
+  for (const Feature& feature : features_) {
+    if (!feature.isFound || !feature.wasFound) continue;
+    pairs_.push_back({.then = {feature.then.x, feature.then.y},
+                      .now = {feature.at.x, feature.at.y},
+                      .errorPx = feature.errorPx});
+  }
+  const auto fit = fitter_.fit(pairs_, {now.picture().cols, now.picture().rows});
+  if (!fit) return;
+  before_ = features_;
+  for (Feature& feature : features_) {
+    if (!feature.wasFound) continue;
+    const glm::dvec2 along = movedBy(fit->nowFromThen, {feature.then.x, feature.then.y});
+    const cv::Point2f there(static_cast<float>(along.x), static_cast<float>(along.y));
+    if (feature.isFound && lengthOf(feature.at - there) < kAstrayPx) continue;
+    feature.isFound = false;
+    feature.step = there - feature.then;
+  }
+  find(now, false, 0);
   for (std::size_t i = 0; i < features_.size(); ++i) {
-    if (isOutlier_[i] != 0) features_[i].isFound = false;
+    const Feature& was = before_[i];
+    Feature& feature = features_[i];
+    const bool isWorse =
+        !feature.isFound || feature.difference > kAsGood * was.difference + kAsGoodLevels;
+    if (was.isFound && isWorse) feature = was;
   }
 }
 
@@ -195,7 +222,7 @@ double LucasKanadeTracker::shareFound() const {
 }
 
 /// What was not found is looked for next time where the found ones go.
-void LucasKanadeTracker::guessMissing() {
+void LucasKanadeTracker::guessMissing(const LumaPyramid& now) {
   cv::Point2f shift(0.0F, 0.0F);
   float count = 0.0F;
   for (const Feature& feature : features_) {
@@ -213,30 +240,43 @@ void LucasKanadeTracker::guessMissing() {
       feature.step = shift;
     }
   }
-  std::erase_if(features_, [](const Feature& f) { return f.missingFrames > kMostMissing; });
+  std::erase_if(features_, [&](const Feature& f) {
+    return f.missingFrames > kMostMissing ||
+           (f.missingFrames > 0 && !now.isInside(f.at, -kBorderPx));
+  });
 }
 
-std::size_t LucasKanadeTracker::countCells(const LumaPyramid& now) {
+LucasKanadeTracker::Spread LucasKanadeTracker::spread(const LumaPyramid& now) {
   cells_.assign(static_cast<std::size_t>(kColumns) * kRows, 0);
   const cv::Size size = now.picture().size();
+  Spread out;
   for (const Feature& feature : features_) {
     if (!feature.isFound) continue;
+    ++out.features;
     const int column = static_cast<int>(feature.at.x) * kColumns / size.width;
     const int row = static_cast<int>(feature.at.y) * kRows / size.height;
     cells_[static_cast<std::size_t>(row * kColumns + column)] = 1;
   }
-  return static_cast<std::size_t>(std::ranges::count(cells_, 1));
+  for (int row = 0; row < kRows; row += kFieldCells) {
+    for (int column = 0; column < kColumns; column += kFieldCells) {
+      const auto* const cell = &cells_[static_cast<std::size_t>(row * kColumns + column)];
+      out.fields += (cell[0] | cell[1] | cell[kColumns] | cell[kColumns + 1]) != 0 ? 1U : 0U;
+    }
+  }
+  return out;
 }
 
-bool LucasKanadeTracker::needsKey(std::size_t cells) const {
-  const auto had = static_cast<double>(keyCells_);
-  const auto have = static_cast<double>(cells);
-  if (have < kVeryFew * had) return true;
+bool LucasKanadeTracker::needsKey(const Spread& have) const {
+  const auto isBelow = [](std::size_t count, double part, std::size_t of) {
+    return static_cast<double>(count) < part * static_cast<double>(of);
+  };
+  if (isBelow(have.features, kVeryFew, keySpread_.features)) return true;
   if (framesSinceKey_ < kKeyFrames) return false;
-  const auto worn =
-      std::ranges::count_if(features_, [](const Feature& f) { return f.isFound && f.isWorn; });
-  return have < kFewCells * had ||
-         static_cast<double>(worn) > kManyWorn * static_cast<double>(features_.size());
+  const auto worn = static_cast<std::size_t>(
+      std::ranges::count_if(features_, [](const Feature& f) { return f.isFound && f.isWorn; }));
+  return isBelow(have.features, kFew, keySpread_.features) ||
+         isBelow(have.fields, kFewFields, keySpread_.fields) ||
+         !isBelow(worn, kManyWorn, have.features + 1);
 }
 
 void LucasKanadeTracker::takeOver(Feature& feature, std::size_t key, const LumaPyramid& now) {
@@ -278,6 +318,21 @@ void LucasKanadeTracker::findCorners(const LumaPyramid& now) {
     });
     if (!isTaken && textureAt(now, at).placing < kMostPlacing) newCorners_.push_back(at);
   }
+  centre(now);
+}
+
+/// Moves new corners to where the gradients about them balance (Förstner and Gülch, 1987): a turn
+/// or zoom of a window about that point is not taken for a shift of it.
+void LucasKanadeTracker::centre(const LumaPyramid& now) {
+  if (newCorners_.empty()) return;
+  constexpr int kReach = LumaPyramid::kWindowPx / 2;
+  constexpr float kFarPx = 4.0F;
+  points_ = newCorners_;
+  const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 5, 0.1);
+  cv::cornerSubPix(now.picture(), points_, {kReach, kReach}, {-1, -1}, until);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (lengthOf(points_[i] - newCorners_[i]) < kFarPx) newCorners_[i] = points_[i];
+  }
 }
 
 void LucasKanadeTracker::makeKey(const std::shared_ptr<const LumaPyramid>& now, bool isNeeded) {
@@ -285,6 +340,9 @@ void LucasKanadeTracker::makeKey(const std::shared_ptr<const LumaPyramid>& now, 
   if (!corners_.look(*now)) return;  // too small a picture
   findCorners(*now);
   if (!isNeeded && newCorners_.size() < kWorthAKey) return;
+  if (features_.size() + newCorners_.size() > kMostMovedFeatures) {
+    std::erase_if(features_, [](const Feature& f) { return !f.isFound; });
+  }
   const std::size_t key = freeKey(*now);
   keys_[key] = now;
   for (const cv::Point2f& at : newCorners_) {
@@ -298,7 +356,7 @@ void LucasKanadeTracker::makeKey(const std::shared_ptr<const LumaPyramid>& now, 
                          .texture = textureAt(*now, at),
                          .isFound = true});
   }
-  keyCells_ = countCells(*now);
+  keySpread_ = spread(*now);
 }
 
 void LucasKanadeTracker::publish(const LumaPyramid& now) {
@@ -320,14 +378,17 @@ std::span<const SeenFeature> LucasKanadeTracker::follow(std::shared_ptr<const Lu
     feature.isFound = false;
     feature.then = feature.at;
   }
-  findAll(*now, false);
+  // Most are where their motion says; the others may be anywhere near.
+  find(*now, false, kFewLevels);
+  find(*now, true, LumaPyramid::kLevels);
   if (then_ && features_.size() >= kLeastToJudge && shareFound() < kLostShare) searchWidely(*now);
+  reconsider(*now);
   rejectOutliers();
   foundShare_ = shareFound();
-  guessMissing();
+  guessMissing(*now);
   ++framesSinceKey_;
   publish(*now);
-  const bool isNeeded = needsKey(countCells(*now));
+  const bool isNeeded = needsKey(spread(*now));
   if (isNeeded || framesSinceKey_ >= kSeekFrames) makeKey(now, isNeeded);
   then_ = std::move(now);
   return seen_;

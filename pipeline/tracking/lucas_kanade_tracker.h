@@ -10,7 +10,9 @@
 
 #include "pipeline/tracking/corner_search.h"
 #include "pipeline/tracking/feature_tracker.h"
+#include "pipeline/tracking/homography_fit.h"
 #include "pipeline/tracking/luma_pyramid.h"
+#include "pipeline/tracking/motion_outliers.h"
 #include "pipeline/tracking/point_follower.h"
 
 namespace pleinair::tracking {
@@ -42,22 +44,30 @@ class LucasKanadeTracker : public FeatureTracker {
     cv::Point2f step;     // since then
     Texture texture;      // in the key frame
     double errorPx = 0.0;
+    double difference = 0.0;  // of the looks, mean levels
     bool isFound = false;
     bool wasFound = false;
     bool isWorn = false;  // looks different from the key frame
     int missingFrames = 0;
   };
+  /// How many features are found, and how many fields of the picture have one.
+  struct Spread {
+    std::size_t features = 0;
+    std::size_t fields = 0;
+  };
 
   static Texture textureAt(const LumaPyramid& pyramid, const cv::Point2f& at);
-  void findAll(const LumaPyramid& now, bool isRetry);
+  void find(const LumaPyramid& now, bool all, int levels);
   void judge(Feature& feature, const LumaPyramid& now, std::size_t of, const cv::Point2f& at);
   bool searchWidely(const LumaPyramid& now);
+  void reconsider(const LumaPyramid& now);
   void rejectOutliers();
   double shareFound() const;
-  void guessMissing();
-  std::size_t countCells(const LumaPyramid& now);
-  bool needsKey(std::size_t cells) const;
+  void guessMissing(const LumaPyramid& now);
+  Spread spread(const LumaPyramid& now);
+  bool needsKey(const Spread& have) const;
   void findCorners(const LumaPyramid& now);
+  void centre(const LumaPyramid& now);
   void makeKey(const std::shared_ptr<const LumaPyramid>& now, bool isNeeded);
   std::size_t freeKey(const LumaPyramid& now);
   void takeOver(Feature& feature, std::size_t key, const LumaPyramid& now);
@@ -68,19 +78,23 @@ class LucasKanadeTracker : public FeatureTracker {
   std::shared_ptr<const LumaPyramid> then_;
   PointFollower follower_;
   CornerSearch corners_;
+  HomographyFitter fitter_;
+  MotionOutliers outliers_;
   std::vector<Feature> features_;
+  std::vector<Feature> before_;  // they were reconsidered
+  std::vector<PointPair> pairs_;
   std::vector<SeenFeature> seen_;
   std::uint32_t nextId_ = 0;
   double foundShare_ = 0.0;
   int framesSinceKey_ = 0;
-  std::size_t keyCells_ = 0;  // with a feature, after the last key frame was made
+  Spread keySpread_;  // after the last key frame was made
   // Of the features of one key frame.
   std::vector<std::size_t> members_;
   std::vector<cv::Point2f> origins_;
   std::vector<cv::Point2f> points_;
   std::vector<cv::Point2f> newCorners_;
   std::vector<unsigned char> cells_;  // whether each has a feature
-  std::vector<unsigned char> isOutlier_;
+  std::vector<cv::Point2f> steps_;
 };
 
 }  // namespace pleinair::tracking

@@ -21,6 +21,9 @@ constexpr double kFarBeyond = 2.0;
 /// What has stayed within its band for so long is held again.
 constexpr int kQuietFrames = 8;
 constexpr double kLeastErrorPx = 0.005;
+constexpr double kCalibrationPace = 0.15;  // the part of a frame
+constexpr double kLeastCalibration = 0.7;
+constexpr double kMostCalibration = 3.0;
 
 }  // namespace
 
@@ -31,6 +34,7 @@ void PictureHold::reset() {
   isHeld_ = true;
   quietMotion_ = glm::dmat3(1.0);
   quietFrames_ = 0;
+  calibration_ = 1.0;
 }
 
 void PictureHold::match(std::span<const SeenFeature> seen) {
@@ -44,7 +48,7 @@ void PictureHold::match(std::span<const SeenFeature> seen) {
     told.isNew = !feature.wasSeen;
     if (told.isNew) told.px = feature.px;
     told.agrees = false;
-    told.errorPx = feature.errorPx;
+    told.errorPx = calibration_ * feature.errorPx;
     told.seenPx = feature.px;
     next_.push_back(told);
   }
@@ -84,6 +88,23 @@ void PictureHold::releasePicture(const HomographyFit& fit, hal::FrameSize size, 
   }
 }
 
+/// Predictions go by white noise; that of a compressed movie is not. What they are off by shows in
+/// the features that follow the picture best, even where it is no plane.
+void PictureHold::calibrate(const HomographyFit& fit) {
+  ratios_.clear();
+  for (const PointPair& pair : pairs_) {
+    const double off = glm::distance(movedBy(fit.nowFromThen, pair.then), pair.now);
+    ratios_.push_back(off / pair.errorPx);
+  }
+  const auto quarter = ratios_.begin() + static_cast<std::ptrdiff_t>(ratios_.size() / 4);
+  std::nth_element(ratios_.begin(), quarter, ratios_.end());
+  // A quarter of normal deviations over two axes is less than this part of their RMS.
+  constexpr double kQuarterOfNormal = 0.536;
+  const double ratio = calibration_ * *quarter / kQuarterOfNormal;
+  calibration_ += kCalibrationPace * (ratio - calibration_);
+  calibration_ = std::clamp(calibration_, kLeastCalibration, kMostCalibration);
+}
+
 void PictureHold::movePicture(hal::FrameSize size, double scale) {
   // From where features were told to be: while the picture is held, of those that are held, too.
   pairs_.clear();
@@ -99,6 +120,7 @@ void PictureHold::movePicture(hal::FrameSize size, double scale) {
   const auto fit = fitter_.fit(pairs_, size);
   if (!fit) return;
   for (std::size_t i = 0; i < pairs_.size(); ++i) told_[pairOf_[i]].agrees = fitter_.agrees(i);
+  calibrate(*fit);
   if (isHeld_) {
     holdPicture(*fit, size, scale);
   } else {

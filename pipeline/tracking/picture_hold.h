@@ -45,6 +45,7 @@ class PictureHold {
   };
 
   void match(std::span<const SeenFeature> seen);
+  void calibrate(const HomographyFit& fit);
   void movePicture(hal::FrameSize size, double scale);
   void holdPicture(const HomographyFit& fit, hal::FrameSize size, double scale);
   void releasePicture(const HomographyFit& fit, hal::FrameSize size, double scale);
@@ -61,6 +62,8 @@ class PictureHold {
   bool isSettling_ = false;      // the picture has just become held
   glm::dmat3 quietMotion_{1.0};  // of the picture, since it has trembled only
   int quietFrames_ = 0;
+  double calibration_ = 1.0;  // of the features' predicted errors
+  std::vector<double> ratios_;
 };
 
 }  // namespace pleinair::tracking

@@ -16,8 +16,10 @@ class PointFollower {
  public:
   /// `points` holds guesses of where `origins` are in `to`, as many, and what was found then: of
   /// those that are not, nothing that means something. Precondition: pyramids of one size.
+  /// Guesses are good to some 8 px of the smallest of `levels` halved pictures that are used.
   void follow(const LumaPyramid& from, const LumaPyramid& to,
-              const std::vector<cv::Point2f>& origins, std::vector<cv::Point2f>& points);
+              const std::vector<cv::Point2f>& origins, std::vector<cv::Point2f>& points,
+              int levels = LumaPyramid::kLevels);
 
   bool isFound(std::size_t i) const { return found_[i] != 0 && foundBack_[i] != 0; }
   /// Mean difference of a point's two windows, grey levels.

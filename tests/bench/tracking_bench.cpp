@@ -1,10 +1,13 @@
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <span>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 
+#include "pipeline/tracking/image_motion_estimator.h"
 #include "pipeline/tracking/luma.h"
 #include "pipeline/tracking/picture_motion.h"
 #include "pipeline/tracking/tracker.h"
@@ -177,6 +180,41 @@ BENCHMARK(followThePicture)
     ->ArgNames({"width", "height"})
     ->Args({640, 480})
     ->Args({1280, 720})
+    ->Unit(benchmark::kMillisecond);
+
+/// All that is found out about how the picture moves, on the walk around the workbench.
+void estimateMotion(benchmark::State& state, const ImageMotionOptions& options) {
+  const hal::FrameSize size{static_cast<int>(state.range(0)), static_cast<int>(state.range(1))};
+  const TruthSequence& sequence = walk(size);
+  ImageMotionEstimator estimator(options);
+  std::vector<double> times;
+  std::ptrdiff_t at = 0;
+  std::ptrdiff_t step = 1;
+  std::uint64_t number = 0;
+  const auto count = std::ssize(sequence.frames);
+  for (auto _ : state) {
+    const hal::ImageView frame = sequence.frames[static_cast<std::size_t>(at)].luma.view();
+    const auto start = std::chrono::steady_clock::now();
+    benchmark::DoNotOptimize(estimator.follow(frame.planes[0], size, number++));
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+    times.push_back(took.count());
+    if (at + step < 0 || at + step >= count) step = -step;
+    at += step;
+  }
+  state.counters["median_ms"] = percentile(times, 0.5);
+  state.counters["p95_ms"] = percentile(times, 0.95);
+}
+BENCHMARK_CAPTURE(estimateMotion, features_alone, {.flow = false, .stillness = false})
+    ->ArgNames({"width", "height"})
+    ->Args({640, 480})
+    ->Args({1280, 720})
+    ->Iterations(240)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(estimateMotion, all, {})
+    ->ArgNames({"width", "height"})
+    ->Args({640, 480})
+    ->Args({1280, 720})
+    ->Iterations(240)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace

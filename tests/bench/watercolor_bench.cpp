@@ -13,6 +13,8 @@
 #include "hal/error.h"
 #include "pipeline/gpu/egl_context.h"
 #include "pipeline/gpu/handle.h"
+#include "pipeline/marks/marks_shaders.h"
+#include "pipeline/scene/scene_shaders.h"
 #include "pipeline/styles/style_registry.h"
 
 namespace {
@@ -52,6 +54,8 @@ hal::FrameSize sizeOf(const benchmark::State& state) {
 struct Bench {
   explicit Bench(hal::FrameSize size, gpu::PassTiming timing) : timer(timing, &context.info()) {
     library.add(gpu::gpuShaders());
+    library.add(gpu::sceneShaders());
+    library.add(gpu::marksShaders());
     styles::addStyleShaders(library);
     style = styles::makeStyle("watercolor", library);
     for (int i = 0; i < kFrames; ++i) {
@@ -65,6 +69,9 @@ struct Bench {
     }
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(idPixels.data());
     ids.upload({bytes, idPixels.size() * 4}, static_cast<std::size_t>(size.width) * 4);
+    barycentrics = gpu::Texture(gpu::TextureFormat::kR32ui, size);
+    std::ranges::fill(idPixels, 0U);
+    barycentrics.upload({bytes, idPixels.size() * 4}, static_cast<std::size_t>(size.width) * 4);
     gpu::PassTimer untimed;
     for (int i = 0; i < kFrames; ++i) paint(untimed);
     hal::orThrow(gpu::Fence::insert().wait());
@@ -73,6 +80,7 @@ struct Bench {
   void paint(gpu::PassTimer& with) {
     const scene::ArFrame frame{.colour = &frames[static_cast<std::size_t>(number % kFrames)],
                                .ids = &ids,
+                               .barycentrics = &barycentrics,
                                .hasObjects = hasObjects,
                                .sequence = static_cast<std::uint64_t>(number),
                                .captureTime = hal::TimePoint(hal::Duration(33'333'333) * number)};
@@ -86,6 +94,7 @@ struct Bench {
   std::unique_ptr<styles::Style> style;
   std::vector<gpu::Texture> frames;
   gpu::Texture ids;
+  gpu::Texture barycentrics;
   bool hasObjects = false;
   int number = 0;
 };

@@ -10,26 +10,8 @@
 namespace pleinair::oracles {
 namespace {
 
-std::uint32_t pcg(std::uint32_t value) {
-  const std::uint32_t state = value * 747796405U + 2891336453U;
-  const std::uint32_t word = ((state >> ((state >> 28U) + 4U)) ^ state) * 277803737U;
-  return (word >> 22U) ^ word;
-}
-
-double unit(std::uint32_t hash) {
-  return (hash >> 8U) / 16777216.0;
-}
-
-double toLattice(double value) {
-  return std::floor(value * 64.0 + 0.5) / 64.0;
-}
-
-int cellsAlong(int pixels, int cellSize) {
-  return std::max(1, static_cast<int>(std::lround(static_cast<double>(pixels) / cellSize)));
-}
-
-std::size_t pixelIndex(const Grid& grid, int x, int y) {
-  return static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) +
+std::size_t pixelIndex(hal::FrameSize size, int x, int y) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) +
          static_cast<std::size_t>(x);
 }
 
@@ -52,49 +34,25 @@ glm::dvec3 nabla(const std::array<glm::dvec3, 4>& around) {
   return result;
 }
 
-double clampedAlong(double value, double home, double middle, double cell, double extent) {
-  const double low = std::max({home - cell, middle - cell, 0.0});
-  const double high = std::min({home + cell, middle + cell, extent});
-  return std::clamp(value, std::ceil(low * 64.0 - 0.01) / 64.0,
-                    std::floor(high * 64.0 + 0.01) / 64.0);
-}
-
 }  // namespace
 
-Grid gridOf(hal::FrameSize size, int cellSize) {
-  return {.columns = cellsAlong(size.width, cellSize),
-          .rows = cellsAlong(size.height, cellSize),
-          .width = size.width,
-          .height = size.height};
+double powerDistance(const Site& site, int x, int y) {
+  const double dx = site.px.x - (x + 0.5);
+  const double dy = site.px.y - (y + 0.5);
+  return dx * dx + dy * dy + site.penalty;  // exact: multiples of 2⁻¹² below 2²⁸
 }
 
-std::vector<glm::dvec2> seedsAtHome(const Grid& grid, std::uint32_t seed) {
-  std::vector<glm::dvec2> seeds;
-  for (int i = 0; i < grid.rows; ++i) {
-    for (int j = 0; j < grid.columns; ++j) {
-      const std::uint32_t hash =
-          pcg(static_cast<std::uint32_t>(j) + pcg(static_cast<std::uint32_t>(i) + pcg(seed)));
-      const double rx = unit(hash) - 0.5;
-      const double ry = unit(pcg(hash)) - 0.5;
-      seeds.emplace_back(toLattice(grid.cellWidth() * (j + 0.5 + rx)),
-                         toLattice(grid.cellHeight() * (i + 0.5 + ry)));
-    }
-  }
-  return seeds;
-}
-
-std::vector<std::uint32_t> voronoiLabels(const Grid& grid, const std::vector<glm::dvec2>& seeds) {
-  std::vector<std::uint32_t> labels(pixelIndex(grid, 0, grid.height));
-  for (int y = 0; y < grid.height; ++y) {
-    for (int x = 0; x < grid.width; ++x) {
+std::vector<std::uint32_t> voronoiLabels(hal::FrameSize size, const std::vector<Site>& sites) {
+  std::vector<std::uint32_t> labels(pixelIndex(size, 0, size.height));
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
       double least = std::numeric_limits<double>::infinity();
-      for (std::size_t k = 0; k < seeds.size(); ++k) {
-        const double dx = seeds[k].x - (x + 0.5);
-        const double dy = seeds[k].y - (y + 0.5);
-        const double squared = dx * dx + dy * dy;  // exact: multiples of 2⁻¹² below 2²⁸
-        if (squared < least) {
-          least = squared;
-          labels[pixelIndex(grid, x, y)] = static_cast<std::uint32_t>(k);
+      for (std::size_t k = 0; k < sites.size(); ++k) {
+        if (!sites[k].exists) continue;
+        const double away = powerDistance(sites[k], x, y);
+        if (away < least) {
+          least = away;
+          labels[pixelIndex(size, x, y)] = static_cast<std::uint32_t>(k);
         }
       }
     }
@@ -118,25 +76,22 @@ double srgbFromLinear(double linear) {
   return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }
 
-std::vector<CellMean> cellMeans(const Grid& grid, const hal::ImageView& image,
-                                const std::vector<std::uint32_t>& labels,
-                                const std::vector<glm::dvec2>& seeds) {
-  std::vector<CellMean> means(seeds.size());
-  std::vector<glm::dvec3> sums(seeds.size(), glm::dvec3(0.0));
-  for (int y = 0; y < grid.height; ++y) {
-    for (int x = 0; x < grid.width; ++x) {
-      const std::uint32_t k = labels[pixelIndex(grid, x, y)];
+std::vector<CellMean> cellMeans(const hal::ImageView& image,
+                                const std::vector<std::uint32_t>& labels, std::size_t cells) {
+  std::vector<CellMean> means(cells);
+  std::vector<glm::dvec3> sums(cells, glm::dvec3(0.0));
+  for (int y = 0; y < image.format.size.height; ++y) {
+    for (int x = 0; x < image.format.size.width; ++x) {
+      const std::uint32_t k = labels[pixelIndex(image.format.size, x, y)];
       const glm::dvec3 srgb = pixelAt(image, x, y);
       for (int c = 0; c < 3; ++c) sums[k][c] += linearFromSrgb(srgb[c]);
       ++means[k].pixels;
     }
   }
-  for (std::size_t k = 0; k < seeds.size(); ++k) {
-    if (means[k].pixels == 0) {
-      means[k].srgb = pixelAt(image, static_cast<int>(seeds[k].x), static_cast<int>(seeds[k].y));
-      continue;
+  for (std::size_t k = 0; k < cells; ++k) {
+    for (int c = 0; c < 3 && means[k].pixels > 0; ++c) {
+      means[k].srgb[c] = srgbFromLinear(sums[k][c] / means[k].pixels);
     }
-    for (int c = 0; c < 3; ++c) means[k].srgb[c] = srgbFromLinear(sums[k][c] / means[k].pixels);
   }
   return means;
 }
@@ -183,16 +138,15 @@ TwoColours twoColoursOf(const std::vector<glm::dvec3>& colours) {
   return result;
 }
 
-std::vector<glm::dvec2> retiled(const Grid& grid, const std::vector<std::uint32_t>& labels,
+std::vector<glm::dvec2> retiled(hal::FrameSize size, const std::vector<std::uint32_t>& labels,
                                 const std::vector<bool>& edges,
-                                const std::vector<glm::dvec2>& seeds,
-                                const std::vector<glm::dvec2>& homes, int least) {
+                                const std::vector<glm::dvec2>& seeds, int least) {
   std::vector<glm::dvec2> sums(seeds.size(), glm::dvec2(0.0));
   std::vector<int> counts(seeds.size(), 0);
-  for (int y = 0; y < grid.height; ++y) {
-    for (int x = 0; x < grid.width; ++x) {
-      if (!edges[pixelIndex(grid, x, y)]) continue;
-      const std::uint32_t k = labels[pixelIndex(grid, x, y)];
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      if (!edges[pixelIndex(size, x, y)]) continue;
+      const std::uint32_t k = labels[pixelIndex(size, x, y)];
       sums[k] += glm::dvec2(x + 0.5, y + 0.5);
       ++counts[k];
     }
@@ -200,12 +154,6 @@ std::vector<glm::dvec2> retiled(const Grid& grid, const std::vector<std::uint32_
   std::vector<glm::dvec2> moved = seeds;
   for (std::size_t k = 0; k < seeds.size(); ++k) {
     if (counts[k] >= least) moved[k] = sums[k] / static_cast<double>(counts[k]);
-    const auto column = static_cast<int>(k) % grid.columns;
-    const auto row = static_cast<int>(k) / grid.columns;
-    moved[k].x = clampedAlong(moved[k].x, homes[k].x, (column + 0.5) * grid.cellWidth(),
-                              grid.cellWidth(), grid.width);
-    moved[k].y = clampedAlong(moved[k].y, homes[k].y, (row + 0.5) * grid.cellHeight(),
-                              grid.cellHeight(), grid.height);
   }
   return moved;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -12,24 +13,18 @@
 /// is taken here.
 namespace pleinair::oracles {
 
-/// The grid: n columns and m rows over W×H.
-struct Grid {
-  int columns = 1;
-  int rows = 1;
-  int width = 1;
-  int height = 1;
-  double cellWidth() const { return static_cast<double>(width) / columns; }
-  double cellHeight() const { return static_cast<double>(height) / rows; }
+/// A seed and what squared distances to it are lengthened by; or none.
+struct Site {
+  glm::dvec2 px{0.0};
+  double penalty = 0.0;
+  bool exists = true;
 };
 
-/// m and n of about one cell per cellSize² px.
-Grid gridOf(hal::FrameSize size, int cellSize);
+/// The power distance |p − s|² + penalty of a pixel's centre.
+double powerDistance(const Site& site, int x, int y);
 
-/// Eq. 1 with R_x, R_y in [-½, ½) by the documented hash; to the nearest 1/64 px.
-std::vector<glm::dvec2> seedsAtHome(const Grid& grid, std::uint32_t seed);
-
-/// For each pixel the index of the nearest of *all* seeds; of equally near ones the lowest.
-std::vector<std::uint32_t> voronoiLabels(const Grid& grid, const std::vector<glm::dvec2>& seeds);
+/// For each pixel the nearest of *all* sites; of equally near ones the lowest.
+std::vector<std::uint32_t> voronoiLabels(hal::FrameSize size, const std::vector<Site>& sites);
 
 /// RGBA8 or RGB8 pixel, sRGB-coded, in [0, 1]; coordinates beyond the border give the border's.
 glm::dvec3 pixelAt(const hal::ImageView& image, int x, int y);
@@ -38,15 +33,13 @@ glm::dvec3 pixelAt(const hal::ImageView& image, int x, int y);
 double linearFromSrgb(double srgb);
 double srgbFromLinear(double linear);
 
-/// Mean of each cell's pixels in linear light, coded as sRGB; `pixels` 0 where it has none, and the
-/// colour under its seed then.
+/// Mean of each cell's pixels in linear light, coded as sRGB; `pixels` 0 where it has none.
 struct CellMean {
   glm::dvec3 srgb{0.0};
   int pixels = 0;
 };
-std::vector<CellMean> cellMeans(const Grid& grid, const hal::ImageView& image,
-                                const std::vector<std::uint32_t>& labels,
-                                const std::vector<glm::dvec2>& seeds);
+std::vector<CellMean> cellMeans(const hal::ImageView& image,
+                                const std::vector<std::uint32_t>& labels, std::size_t cells);
 
 /// The left side of eq. 4's inequality for each pixel: β Edge_YUV + (1 − β) Edge_RGB.
 std::vector<double> edgeStrengths(const hal::ImageView& image, double alpha, double beta);
@@ -64,11 +57,9 @@ struct TwoColours {
 TwoColours twoColoursOf(const std::vector<glm::dvec3>& colours);
 
 /// §3.2.3: the mean of the edge pixels' centres in the seed's cell if they are at least `least`,
-/// else where it was; never more than a cell from home nor from the cell's middle, and in the
-/// picture, these bounds rounded inwards to 1/64 px.
-std::vector<glm::dvec2> retiled(const Grid& grid, const std::vector<std::uint32_t>& labels,
+/// else where it was.
+std::vector<glm::dvec2> retiled(hal::FrameSize size, const std::vector<std::uint32_t>& labels,
                                 const std::vector<bool>& edges,
-                                const std::vector<glm::dvec2>& seeds,
-                                const std::vector<glm::dvec2>& homes, int least);
+                                const std::vector<glm::dvec2>& seeds, int least);
 
 }  // namespace pleinair::oracles

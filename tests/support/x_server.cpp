@@ -23,7 +23,7 @@
 namespace pleinair::support {
 namespace {
 
-constexpr int kPatienceMilliseconds = 20'000;
+constexpr int kPatienceMilliseconds = 60'000;
 
 bool isOnPath(const std::string& program) {
   const char* path = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe)

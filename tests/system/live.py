@@ -1,8 +1,8 @@
 """What scenarios share: the drivers, the program under way, and those who read what it paints."""
 import json
 import os
-import re
 
+import closing_line
 import frames
 
 CAMERA = "/dev/video0"
@@ -114,7 +114,7 @@ class Program:
         if is_left:
             print("too slow here for a clean end: the painter was left behind")
         assert took < self._guest.patient(seconds), f"it took {took:.1f} s to end"
-        return ledger(finished.output)
+        return closing_line.ledger(finished.output)
 
 
 def shown_of(status):
@@ -131,20 +131,6 @@ def check_sums(status):
     sums = status["frames"]
     total = sums["under_way"] + sum(sums["ended"].values())
     assert sums["captured"] == total, f"captured {sums['captured']}, accounted for {total}: {sums}"
-
-
-def ledger(output):
-    """The numbers of the program's last line: shown, dropped, and each reason; the sums are checked."""
-    match = re.search(r"^showed (\d+) frames? in [\d.]+ s .*?; dropped (\d+)(?:: ([^:\n]*))?", output,
-                      re.MULTILINE)
-    assert match, "no ledger in:\n" + output
-    reasons = {}
-    for part in (match[3] or "").split(", "):
-        if part:
-            number, reason = part.split(" ", 1)
-            reasons[reason] = int(number)
-    assert sum(reasons.values()) == int(match[2]), "the reasons do not add up:\n" + match[0]
-    return {"shown": int(match[1]), "dropped": int(match[2]), **reasons}
 
 
 def read_frames(guest, count, device=LOOPBACK, name="read", skip=0, seconds=60):

@@ -28,21 +28,27 @@ const int kTries = 6;           // for a place in the part, and as many in the w
 
 ivec2 pixelAt(vec2 px) { return clamp(ivec2(floor(px * pixelsOfFull)), ivec2(0), textureSize(ids, 0) - 1); }
 
-// The next free part of the cell, of those not in `taken`; any where all are.
-int freePart(uint taken, uint hash) {
+// The next free part of the cell, of those not in `taken`; any where all are. One colour of a
+// chequerboard over all cells goes first: then hardly any square of a cell's size is empty, wherever it
+// comes to lie, and a pan bears few.
+int freePart(ivec2 cell, uint taken, uint hash) {
   int parts = strataSide * strataSide;
-  int part = int(hash % uint(parts));
+  int first = int(hash % uint(parts));
+  int spare = -1;
   for (int i = 0; i < parts; ++i) {
-    if ((taken & (1u << uint(part))) == 0u) return part;
-    part = (part + strataSide + 1) % parts;  // diagonally, so that two lie far apart
+    int part = (first + i) % parts;
+    if ((taken & (1u << uint(part))) != 0u) continue;
+    ivec2 at = cell * strataSide + ivec2(part % strataSide, part / strataSide);
+    if (((at.x + at.y) & 1) == 0) return part;
+    spare = spare < 0 ? part : spare;
   }
-  return part;
+  return spare < 0 ? first : spare;
 }
 
 void bear(ivec2 cell, uint number, bool onObject, inout uint taken) {
   if (number >= freeCount) return;
   uint hash = hashOf(cell, salt * 64u + number);
-  int part = freePart(taken, hash);
+  int part = freePart(cell, taken, hash);
   taken |= 1u << uint(part);
   vec2 corner = vec2(part % strataSide, part / strataSide);
   uint id = 0u;

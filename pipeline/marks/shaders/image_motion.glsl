@@ -174,7 +174,7 @@ Moved byTriangle(vec2 px, Neighbours near) {
   float area = u.x * v.y - u.y * v.x;
   float longest = max(max(dot(u, u), dot(v, v)), dot(u - v, u - v));
   const float kLeastHeight = 0.25;  // of the longest side: flatter ones amplify noise
-  if (abs(area) < kLeastHeight * longest) return bySimilarity(px, near);
+  if (abs(area) <= kLeastHeight * longest) return bySimilarity(px, near);  // or all in one place
   vec2 arm = px - near.at[0];
   float b = (arm.x * v.y - arm.y * v.x) / area;
   float c = (u.x * arm.y - u.y * arm.x) / area;
@@ -194,12 +194,17 @@ vec4 flowNode(ivec2 node) {
   return texelFetch(flow, clamp(node, ivec2(0), textureSize(flow, 0) - 1), 0);
 }
 
+// Between the border and the outermost nodes it goes on as between these: if it stood, anchors there
+// would slip by half a node's slope a frame. An error does not.
 vec4 flowAt(vec2 node) {
-  ivec2 corner = ivec2(floor(node));
-  vec2 part = node - vec2(corner);
-  vec4 above = mix(flowNode(corner), flowNode(corner + ivec2(1, 0)), part.x);
-  vec4 below = mix(flowNode(corner + ivec2(0, 1)), flowNode(corner + ivec2(1, 1)), part.x);
-  return mix(above, below, part.y) * vec4(fullByFrame.xy, fullByFrame.x, 1.0);
+  const float kBeyond = 1.5;  // nodes: as far as anchors go beyond the border
+  ivec2 corner = clamp(ivec2(floor(node)), ivec2(0), max(textureSize(flow, 0) - 2, ivec2(0)));
+  vec2 part = clamp(node - vec2(corner), vec2(-kBeyond), vec2(1.0 + kBeyond));
+  vec2 between = clamp(part, 0.0, 1.0);
+  vec4 alongX = vec4(part.xx, between.xx);
+  vec4 above = mix(flowNode(corner), flowNode(corner + ivec2(1, 0)), alongX);
+  vec4 below = mix(flowNode(corner + ivec2(0, 1)), flowNode(corner + ivec2(1, 1)), alongX);
+  return mix(above, below, vec4(part.yy, between.yy)) * vec4(fullByFrame.xy, fullByFrame.x, 1.0);
 }
 
 Moved byFlow(vec2 px) {
@@ -236,7 +241,7 @@ Moved better(Moved a, Moved b) {
 Moved imageMotionAt(vec2 px, float layer, bool backward) {
   Moved flowed = byFlow(px);
   float restError = stillError(px);
-  Moved best = Moved(vec2(0.0), kNoTurn, restError, kSourceStill);
+  Moved best = better(nothingKnown(), Moved(vec2(0.0), kNoTurn, restError, kSourceStill));
   best = better(best, flowed);
 
   Neighbours near = nearestFeatures(px, layer, backward);

@@ -3,7 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <chrono>
 #include <cmath>
+#include <string>
+#include <utility>
+
+#include "pipeline/marks/motion_field.h"
+#include "pipeline/marks/steady_picture.h"
+#include "pipeline/styles/watercolor/paper_place.h"
 
 namespace pleinair::styles {
 namespace {
@@ -13,77 +20,57 @@ using gpu::Texture;
 using gpu::TextureFilter;
 using gpu::TextureFormat;
 
-constexpr int kPaperPixels = 512;  // as in paper.frag
-/// What the next pass reads, and what the next round writes over.
 constexpr GLbitfield kWritten = GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                                 GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
-constexpr int kSettlingRounds = 3;
-constexpr int kBlockPixels = 4;  // as in tile.comp
+constexpr int kBlockPixels = 4;  // as in split.comp
+constexpr glm::ivec2 kSlotGroup{64, 1};
+constexpr hal::Duration kLongestStep = std::chrono::seconds(1);
+constexpr double kUsualNoiseLevels = 2.0;
 const std::string kShaders = "pipeline/styles/watercolor/shaders/";
 
 constexpr std::string_view kMeansView = "means";
+constexpr std::string_view kSteadyView = "steady";
 /// In the order of view.frag.
-constexpr std::array<ViewInfo, 8> kViews{{
+constexpr std::array<ViewInfo, 10> kViews{{
     {"seeds", "the cells' seeds over the frame"},
+    {"anchors",
+     "the cells in the colours of what their anchors' motion was taken from (orange a model, "
+     "violet a plane, blue the whole picture, teal features, red flow, green stillness), "
+     "pale while they are young"},
     {"cells", "the Voronoi cells, each in a colour of its own, with their seeds"},
     {kMeansView, "each cell in its mean colour: the thesis's tiling"},
     {"edges", "edge pixels black, weaker colour differences grey"},
-    {"retiling", "edge pixels, and each seed's way from home to where it was drawn"},
+    {"retiling",
+     "edge pixels, and each seed's way from its anchor to where it was drawn; red: on it"},
+    {kSteadyView, "the picture averaged along its motion, which edges and colours are taken from"},
     {"dark", "the dark washes, before it is decided where they lie"},
     {"light", "the light washes"},
     {"paper", "the sheet of paper"},
 }};
 
-/// Where a pixel lies on the paper, which goes with the picture as a whole. The paper keeps its
-/// grain's size on the screen under any zoom: two octaves of it blend into each other.
-struct PaperPlace {
-  glm::vec2 linear;  // of the finer octave: complex, paper px a picture px
-  glm::vec2 shift;   // paper px
-  float coarser;     // how much of the coarser octave is seen
-};
-
-PaperPlace paperPlace(const scene::ArFrame& frame) {
-  const tracking::PlaneSimilarity& canvasFromPicture = frame.canvasFromPicture;
-  // The blend takes the middle of an octave; elsewhere one octave is enough, and half the reads.
-  constexpr double kBlendFrom = 0.3;
-  constexpr double kBlendTo = 0.7;
-  const double octave = std::log2(canvasFromPicture.scale());
-  double whole = std::floor(octave + 1e-6);
-  const double part = octave - whole;
-  double coarser = std::max(0.0, (part - kBlendFrom) / (kBlendTo - kBlendFrom));
-  if (coarser >= 1.0) {
-    whole += 1.0;
-    coarser = 0.0;
-  }
-  const double finer = std::exp2(-whole);
-  // The lowest frequency that is read is an eighth's (pigment.frag, and its coarser octave).
-  const double period = 8.0 * kPaperPixels;
-  const glm::dvec2 shift = canvasFromPicture.shift * finer;
-  return {.linear = canvasFromPicture.linear * finer / frame.pixelsOfFull().x,
-          .shift = shift - period * glm::floor(shift / period),
-          .coarser = static_cast<float>(coarser)};
-}
-
-/// An edge in a cell has the fewer pixels the smaller the picture is.
-unsigned minEdgePixels(int ofFull, float pixelsOfFull) {
-  return static_cast<unsigned>(
-      std::max(1L, std::lround(pixelsOfFull * static_cast<float>(ofFull))));
-}
-
-/// The share of its way that something with this time constant goes in `step`.
-float shareOf(hal::Duration step, double timeConstantSeconds) {
+/// What is left of the past's weight after `step`.
+float keptAfter(hal::Duration step, double timeConstantSeconds) {
+  if (timeConstantSeconds <= 0.0) return 0.0F;
   const double seconds = std::chrono::duration<double>(step).count();
-  return static_cast<float>(1.0 - std::exp(-seconds / timeConstantSeconds));
+  return static_cast<float>(std::exp(-seconds / timeConstantSeconds));
+}
+
+/// One anchor a cell in the mean. Squares of two cells a side have enough of them for births and
+/// deaths to be rare: more than half must be gone, or nearly twice as many be there.
+marks::AnchorOptions anchorOptions(const WatercolorParameters& p) {
+  return {.density = {.cellPixels = 2 * p.cellSizePixels,
+                      .target = 4,
+                      .birthBelow = 3,
+                      .deathAbove = 7},
+          .seed = static_cast<unsigned>(p.seed)};
 }
 
 }  // namespace
 
 struct Watercolor::Passes {
   explicit Passes(const gpu::ShaderLibrary& library)
-      : seedHome(library.compute(kShaders + "seed_home.comp")),
-        seedScale(library.compute(kShaders + "seed_scale.comp")),
-        tile(library.compute(kShaders + "tile.comp")),
-        cells(library.compute(kShaders + "cells.comp")),
+      : steady(library),
+        tiler(library),
         guide(library.fragmentPass(kShaders + "guide.frag")),
         split(library.compute(kShaders + "split.comp")),
         washes(library.compute(kShaders + "washes.comp")),
@@ -91,13 +78,12 @@ struct Watercolor::Passes {
         layers(library.fragmentPass(kShaders + "layers.frag")),
         compose(library.fragmentPass(kShaders + "compose.frag")),
         composeMore(library.fragmentPass(kShaders + "compose_more.frag")),
+        showSeeds(library.compute(kShaders + "show_seeds.comp")),
         view(library.fragmentPass(kShaders + "view.frag")),
         paper(library.fragmentPass(kShaders + "paper.frag")) {}
 
-  gpu::Program seedHome;
-  gpu::Program seedScale;
-  gpu::Program tile;
-  gpu::Program cells;
+  marks::SteadyPicture steady;
+  CellTiling tiler;
   gpu::Program guide;
   gpu::Program split;
   gpu::Program washes;
@@ -105,12 +91,28 @@ struct Watercolor::Passes {
   gpu::Program layers;
   gpu::Program compose;
   gpu::Program composeMore;
+  gpu::Program showSeeds;
   gpu::Program view;
   gpu::Program paper;
 };
 
+/// What belongs to pictures of one full size.
+struct Watercolor::Marks {
+  Marks(const gpu::ShaderLibrary& library, hal::FrameSize fullSize)
+      : full(fullSize), field(library, full) {}
+
+  hal::FrameSize full;
+  marks::MotionField field;
+  std::unique_ptr<marks::AnchorSet> anchors;  // of one cell size and seed
+  std::unique_ptr<WatercolorCells> cells;
+  int cellSize = 0;
+  int seed = 0;
+};
+
 Watercolor::Watercolor(const gpu::ShaderLibrary& library)
-    : values_(watercolorParameters().defaults()), passes_(std::make_unique<Passes>(library)) {
+    : library_(&library),
+      values_(watercolorParameters().defaults()),
+      passes_(std::make_unique<Passes>(library)) {
   makePaper();
   warmUp();
 }
@@ -128,31 +130,36 @@ void Watercolor::setParameters(const config::ParameterValues& values) {
 
 void Watercolor::reset() {
   hasPast_ = false;
+  passes_->steady.reset();
+  if (marks_ == nullptr) return;
+  marks_->field.reset();
+  if (marks_->anchors != nullptr) marks_->anchors->reset();
+}
+
+const marks::AnchorSet* Watercolor::anchors() const {
+  return marks_ == nullptr ? nullptr : marks_->anchors.get();
 }
 
 Watercolor::Inner Watercolor::inner() const {
   assert(canvas_ != nullptr);
-  return {.seeds = &cells_->seeds,
+  return {.tiler = &passes_->tiler,
           .tiling = &canvas_->tiling,
-          .means = &cells_->means,
+          .steady = picture_,
           .guide = &canvas_->guide,
-          .darkWash = &cells_->darkWash,
-          .lightWash = &cells_->lightWash};
+          .darkWash = &marks_->cells->darkWash,
+          .lightWash = &marks_->cells->lightWash};
 }
 
 const Texture& Watercolor::paint(const scene::ArFrame& frame, std::string_view view,
                                  gpu::PassTimer& timer) {
-  const bool isFirst = needsNewTiling(frame);
-  const hal::FrameSize before = canvas_ == nullptr ? frame.size() : canvas_->size;
+  takeMarks(frame);
   takeCanvas(frame);
-  if (isFirst) {
-    startTiling(frame);
-    for (int i = 0; i < kSettlingRounds; ++i) tileAndRetile(frame, timer, true, false);
-  } else if (before != frame.size()) {
-    scaleSeeds(before);
-  }
-  const bool wantsMeans = p_.mosaic > 0.0 || view == kMeansView;
-  tileAndRetile(frame, timer, false, wantsMeans);
+  step_ = hasPast_ ? std::clamp(frame.captureTime - lastTime_, hal::Duration(0), kLongestStep)
+                   : hal::Duration(0);
+  marks_->field.update(frame, timer);
+  marks_->anchors->advance(frame, marks_->field, timer);
+  steady(frame, timer);
+  tile(frame, p_.mosaic > 0.0 || view == kMeansView, timer);
   paintWashes(frame, timer);
   lastTime_ = frame.captureTime;
   hasPast_ = true;
@@ -161,133 +168,85 @@ const Texture& Watercolor::paint(const scene::ArFrame& frame, std::string_view v
   } else {
     showView(frame, view);
   }
+  canvasThen_ = canvas_;
   return canvas_->picture;
 }
 
-bool Watercolor::needsNewTiling(const scene::ArFrame& frame) const {
-  return !hasPast_ || canvas_ == nullptr || cells_->full != frame.full() ||
-         cells_->cellSize != p_.cellSizePixels || seed_ != static_cast<unsigned>(p_.seed);
+/// Anchors and cells for this frame's full size, and the parameters that they are made by.
+void Watercolor::takeMarks(const scene::ArFrame& frame) {
+  if (marks_ == nullptr || marks_->full != frame.full()) {
+    hasPast_ = false;  // where there is no memory for the new ones, nothing is left half made
+    canvas_ = canvasThen_ = nullptr;
+    canvases_.clear();
+    marks_.reset();
+    marks_ = std::make_unique<Marks>(*library_, frame.full());
+  }
+  Marks& m = *marks_;
+  if (m.anchors != nullptr && m.cellSize == p_.cellSizePixels && m.seed == p_.seed) return;
+  m.anchors.reset();
+  m.cells.reset();
+  m.cellSize = p_.cellSizePixels;
+  m.seed = p_.seed;
+  auto anchors = std::make_unique<marks::AnchorSet>(*library_, m.full, anchorOptions(p_));
+  m.cells = std::make_unique<WatercolorCells>(anchors->slotCount());
+  passes_->tiler.allocate(m.full, m.cellSize, anchors->slotCount());
+  m.anchors = std::move(anchors);
 }
 
-/// Cells and canvas of this frame's size; those of other sizes stay, for levels of quality.
+/// The canvas of this frame's size; those of other sizes stay, for levels of quality.
 void Watercolor::takeCanvas(const scene::ArFrame& frame) {
-  canvas_ = nullptr;  // where there is no memory for the new ones, nothing is left half made
-  if (cells_ == nullptr || cells_->full != frame.full() || cells_->cellSize != p_.cellSizePixels) {
-    if (cells_ != nullptr && cells_->full != frame.full()) canvases_.clear();
-    cells_.reset();
-    cells_ = std::make_unique<WatercolorCells>(frame.full(), p_.cellSizePixels);
-  }
+  canvas_ = nullptr;
   const auto isOfSize = [&](const auto& each) { return each->size == frame.size(); };
   const auto known = std::ranges::find_if(canvases_, isOfSize);
   canvas_ = known != canvases_.end()
                 ? known->get()
                 : canvases_.emplace_back(std::make_unique<WatercolorCanvas>(frame.size())).get();
-  cellPixels_ = cells_->grid.cellPixels(frame.size());
   pixelsOfFull_ = static_cast<float>(frame.pixelsOfFull().x);
 }
 
-void Watercolor::startTiling(const scene::ArFrame& frame) {
-  seed_ = static_cast<unsigned>(p_.seed);
-  passes_->seedHome.use()
-      .storage(0, cells_->seeds)
-      .storage(1, cells_->sums)
-      .storage(2, cells_->moments)
-      .set("grid", cells_->grid.cells())
-      .set("cellPixels", cellPixels_)
-      .set("seed", seed_)
-      .dispatch(cells_->grid.cells(), {8, 8}, GL_SHADER_STORAGE_BARRIER_BIT);
-  lastTime_ = frame.captureTime;
-}
-
-void Watercolor::scaleSeeds(hal::FrameSize from) {
-  passes_->seedScale.use()
-      .storage(0, cells_->seeds)
-      .set("grid", cells_->grid.cells())
-      .set("cellPixels", cellPixels_)
-      .set("seed", seed_)
-      .set("newPixels", glm::vec2(canvas_->size.width, canvas_->size.height) /
-                            glm::vec2(from.width, from.height))
-      .dispatch(cells_->grid.cells(), {8, 8}, GL_SHADER_STORAGE_BARRIER_BIT);
-}
-
-/// `atOnce`: seeds go all the way to their edges, whatever the time constants.
-void Watercolor::tileAndRetile(const scene::ArFrame& frame, gpu::PassTimer& timer, bool atOnce,
-                               bool wantsMeans) {
-  const WatercolorCanvas& s = *canvas_;
-  const WatercolorCells& cells = *cells_;
-  {
-    const auto scope = timer.measure("watercolor: tile");
-    passes_->tile.use()
-        .storage(0, cells.seeds)
-        .storage(1, cells.sums)
-        .image(0, s.tiling, ImageAccess::kWrite)
-        .texture("picture", *frame.colour)
-        .texture("ids", frame.hasObjects ? *frame.ids : s.tiling)
-        .set("hasObjects", frame.hasObjects ? 1 : 0)
-        .set("grid", cells.grid.cells())
-        .set("cellPixels", cellPixels_)
-        .set("alpha", static_cast<float>(p_.edgeAlpha))
-        .set("beta", static_cast<float>(p_.edgeBeta))
-        .set("threshold", static_cast<float>(p_.edgeThreshold))
-        .set("wantsMeans", wantsMeans ? 1 : 0)
-        .dispatch({(s.size.width + kBlockPixels - 1) / kBlockPixels,
-                   (s.size.height + kBlockPixels - 1) / kBlockPixels},
-                  {16, 4}, kWritten);
+/// What edges and colours are taken from.
+void Watercolor::steady(const scene::ArFrame& frame, gpu::PassTimer& timer) {
+  picture_ = frame.colour;
+  if (p_.steadyTimeSeconds <= 0.0) {
+    passes_->steady.reset();
+    return;
   }
-  const hal::Duration step =
-      std::clamp(frame.captureTime - lastTime_, hal::Duration(0), hal::Duration(1'000'000'000));
-  const bool jump = atOnce || p_.retileTimeSeconds <= 0.0;
-  const bool stay = atOnce || p_.returnTimeSeconds <= 0.0;
-  const auto scope = timer.measure("watercolor: cells");
-  passes_->cells.use()
-      .storage(0, cells.seeds)
-      .storage(1, cells.sums)
-      .image(0, cells.means, ImageAccess::kWrite)
-      .image(1, cells.shifts, ImageAccess::kWrite)
-      .texture("picture", *frame.colour)
-      .set("grid", cells.grid.cells())
-      .set("cellPixels", cellPixels_)
-      .set("seed", seed_)
-      .set("minEdgePixels", minEdgePixels(p_.retilePixels, pixelsOfFull_))
-      .set("follow", jump ? 1.0F : shareOf(step, p_.retileTimeSeconds))
-      .set("drift", stay ? 0.0F : shareOf(step, p_.returnTimeSeconds))
-      .dispatch(cells.grid.cells(), {8, 8}, kWritten);
+  const auto* const motion = frame.pictureMovement ? frame.pictureMovement->motion : nullptr;
+  const double noise = motion != nullptr ? motion->noiseLevels : 0.0;
+  passes_->steady.update(frame,
+                         {.backward = &marks_->field.backward(),
+                          .isCut = marks_->field.isCut(),
+                          .timeConstantSeconds = p_.steadyTimeSeconds,
+                          .noiseLevels = noise > 0.0 ? noise : kUsualNoiseLevels},
+                         timer);
+  picture_ = &passes_->steady.picture();
+}
+
+void Watercolor::tile(const scene::ArFrame& frame, bool wantsMeans, gpu::PassTimer& timer) {
+  passes_->tiler.tile({.frame = &frame,
+                       .picture = picture_,
+                       .tilingThen = canvasThen_ != nullptr ? &canvasThen_->tiling : nullptr,
+                       .tiling = &canvas_->tiling,
+                       .step = step_,
+                       .wantsMeans = wantsMeans},
+                      *marks_->anchors, p_, timer);
 }
 
 /// What the cells hold of the picture becomes two smooth layers of pigment.
 void Watercolor::paintWashes(const scene::ArFrame& frame, gpu::PassTimer& timer) {
   const WatercolorCanvas& s = *canvas_;
-  const WatercolorCells& cells = *cells_;
+  const WatercolorCells& cells = *marks_->cells;
   {
     const auto scope = timer.measure("watercolor: guide");
     passes_->guide.use()
-        .texture("picture", *frame.colour)
+        .texture("picture", *picture_)
         .set("texel", 1.0F / glm::vec2(s.size.width, s.size.height))
         .set("reach", static_cast<float>(p_.simplicity) * pixelsOfFull_)
         .set("vividness", static_cast<float>(p_.vividness))
         .set("luminosity", static_cast<float>(p_.luminosity))
         .drawFullscreen(s.guideTarget);
   }
-  {
-    const auto scope = timer.measure("watercolor: split");
-    const hal::FrameSize half = s.guide.size();
-    passes_->split.use()
-        .storage(0, cells.moments)
-        .texture("guide", s.guide)
-        .texture("tiling", s.tiling)
-        .set("grid", cells.grid.cells())
-        .dispatch({(half.width + kBlockPixels - 1) / kBlockPixels,
-                   (half.height + kBlockPixels - 1) / kBlockPixels},
-                  {16, 4}, kWritten);
-    passes_->washes.use()
-        .storage(0, cells.moments)
-        .image(0, cells.darkWash, ImageAccess::kWrite)
-        .image(1, cells.lightWash, ImageAccess::kWrite)
-        .texture("guide", s.guide)
-        .set("grid", cells.grid.cells())
-        .set("cellPixels", cellPixels_)
-        .dispatch(cells.grid.cells(), {8, 8}, kWritten);
-  }
+  mixWashes(timer);
   {
     const auto scope = timer.measure("watercolor: pigment");
     const PaperPlace place = paperPlace(frame);
@@ -295,7 +254,7 @@ void Watercolor::paintWashes(const scene::ArFrame& frame, gpu::PassTimer& timer)
         .texture("tiling", s.tiling)
         .texture("darkWash", cells.darkWash)
         .texture("lightWash", cells.lightWash)
-        .set("cellPixels", cellPixels_)
+        .set("cellPixels", glm::vec2(static_cast<float>(marks_->cellSize) * pixelsOfFull_))
         .texture("paper", paper_)
         .set("paperLinear", place.linear)
         .set("paperShift", place.shift)
@@ -315,9 +274,35 @@ void Watercolor::paintWashes(const scene::ArFrame& frame, gpu::PassTimer& timer)
       .drawFullscreen(s.layersTarget);
 }
 
+/// The two colours of each cell, averaged over time.
+void Watercolor::mixWashes(gpu::PassTimer& timer) {
+  const WatercolorCanvas& s = *canvas_;
+  WatercolorCells& cells = *marks_->cells;
+  const auto scope = timer.measure("watercolor: split");
+  const hal::FrameSize half = s.guide.size();
+  passes_->split.use()
+      .storage(0, cells.moments)
+      .texture("guide", s.guide)
+      .texture("tiling", s.tiling)
+      .dispatch({(half.width + kBlockPixels - 1) / kBlockPixels,
+                 (half.height + kBlockPixels - 1) / kBlockPixels},
+                {16, 4}, kWritten);
+  const bool hasPast = hasPast_ && !marks_->anchors->hasBegunAnew();
+  passes_->washes.use()
+      .storage(0, cells.moments)
+      .storage(1, passes_->tiler.seeds())
+      .storage(2, cells.averages[cells.latest])
+      .storage(3, cells.averages[1 - cells.latest])
+      .image(0, cells.darkWash, ImageAccess::kWrite)
+      .image(1, cells.lightWash, ImageAccess::kWrite)
+      .set("slots", static_cast<int>(cells.slots))
+      .set("kept", hasPast ? keptAfter(step_, p_.colourTimeSeconds) : 0.0F)
+      .dispatch({static_cast<int>(cells.slots), 1}, kSlotGroup, kWritten);
+  cells.latest = 1 - cells.latest;
+}
+
 void Watercolor::compose(const scene::ArFrame& frame, gpu::PassTimer& timer) {
   const WatercolorCanvas& s = *canvas_;
-  const WatercolorCells& cells = *cells_;
   const auto scope = timer.measure("watercolor: compose");
   const PaperPlace place = paperPlace(frame);
   const bool needsMore = frame.hasFocus || p_.mosaic > 0.0;
@@ -339,7 +324,7 @@ void Watercolor::compose(const scene::ArFrame& frame, gpu::PassTimer& timer) {
       .set("granulation", static_cast<float>(p_.granulation))
       .set("grain", static_cast<float>(p_.grain));
   if (needsMore) {
-    pass.texture("means", cells.means)
+    pass.texture("means", passes_->tiler.means())
         .texture("frame", *frame.colour)
         .texture("normalFocus", frame.hasFocus ? *frame.normalFocus : *frame.colour)
         .set("hasFocus", frame.hasFocus ? 1 : 0)
@@ -354,19 +339,27 @@ void Watercolor::showView(const scene::ArFrame& frame, std::string_view view) {
   const auto* const found = std::ranges::find(kViews, view, &ViewInfo::name);
   assert(found != kViews.end());
   const WatercolorCanvas& s = *canvas_;
-  const WatercolorCells& cells = *cells_;
+  const WatercolorCells& cells = *marks_->cells;
+  passes_->showSeeds.use()
+      .storage(0, marks_->anchors->anchors())
+      .storage(1, passes_->tiler.seeds())
+      .storage(2, passes_->tiler.points())
+      .image(0, cells.places, ImageAccess::kWrite)
+      .image(1, cells.ways, ImageAccess::kWrite)
+      .set("slots", static_cast<int>(cells.slots))
+      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
+      .dispatch({static_cast<int>(cells.slots), 1}, kSlotGroup, kWritten);
   passes_->view.use()
       .texture("tiling", s.tiling)
-      .texture("means", cells.means)
-      .texture("shifts", cells.shifts)
+      .texture("means", passes_->tiler.means())
+      .texture("places", cells.places)
+      .texture("ways", cells.ways)
       .texture("darkPigment", s.darkPigment)
       .texture("lightPigment", s.lightPigment)
       .texture("paper", paper_)
-      .texture("picture", *frame.colour)
+      .texture("picture", view == kSteadyView ? *picture_ : *frame.colour)
       .set("view", static_cast<int>(found - kViews.begin()))
-      .set("cellPixels", cellPixels_)
       .set("pictureSize", glm::vec2(s.size.width, s.size.height))
-      .set("seed", seed_)
       .drawFullscreen(s.pictureTarget);
 }
 
@@ -383,12 +376,11 @@ void Watercolor::warmUp() {
   gpu::PassTimer timer;
   const scene::ArFrame frame{.colour = &grey};
   paint(frame, "", timer);
-  paint({.colour = &grey, .normalFocus = &grey, .hasFocus = true}, "", timer);
-  paint(frame, kViews.front().name, timer);
-  scaleSeeds(grey.size());
-  canvas_ = nullptr;
+  paint({.colour = &grey, .normalFocus = &grey, .hasFocus = true, .sequence = 1}, "", timer);
+  paint({.colour = &grey, .sequence = 2}, kViews.front().name, timer);
+  canvas_ = canvasThen_ = nullptr;
   canvases_.clear();
-  cells_.reset();
+  marks_.reset();
   reset();
 }
 

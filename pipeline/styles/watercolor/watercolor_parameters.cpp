@@ -26,7 +26,10 @@ const config::ParameterTable<WatercolorParameters>& watercolorParameters() {
       numberParameter("retile_time", &P::retileTimeSeconds, {.min = 0, .max = 10, .unit = "s"},
                       "Time constant of a seed's way to its edge; 0 jumps, as in the thesis."),
       numberParameter("return_time", &P::returnTimeSeconds, {.min = 0, .max = 60, .unit = "s"},
-                      "Time constant of the way home without an edge; 0 stays, as in the thesis."),
+                      "Time constant of the way to the cell's middle without an edge; 0 stays, as "
+                      "in the thesis."),
+      numberParameter("retile_rest", &P::retileRest, {.min = 0, .max = 1, .unit = "cells"},
+                      "A seed rests until it has this far to go for a while; 0 never rests."),
       numberParameter("edge_softness", &P::edgeSoftness, kPart,
                       "Width of the drawn edge's ramp around the threshold, in thresholds."),
       numberParameter("simplicity", &P::simplicity, {.min = 0.5, .max = 6, .unit = "px"},
@@ -49,6 +52,12 @@ const config::ParameterTable<WatercolorParameters>& watercolorParameters() {
       numberParameter("luminosity", &P::luminosity, kPart,
                       "How far washes open up towards the white of the paper."),
       numberParameter("mosaic", &P::mosaic, kPart, "How much of the flat cells is seen."),
+      numberParameter(
+          "steady_time", &P::steadyTimeSeconds, {.min = 0, .max = 5, .unit = "s"},
+          "Time constant of the picture that edges and colours are taken from, averaged "
+          "along its motion; 0 takes each frame as it is."),
+      numberParameter("colour_time", &P::colourTimeSeconds, {.min = 0, .max = 5, .unit = "s"},
+                      "Time constant of a cell's colours; 0 takes each frame's."),
   };
   return table;
 }

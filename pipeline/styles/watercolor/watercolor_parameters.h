@@ -5,8 +5,8 @@
 namespace pleinair::styles {
 
 /// What can be tuned of the watercolor, with the defaults. The first group is the thesis's (chapter
-/// III); with `mosaic` 1 and the rest of the second group 0 the picture is the thesis's: flat cells
-/// under dark edges.
+/// III); with `mosaic` 1, `retile_rest` 0 and the rest of the second group 0 the picture is the
+/// thesis's: flat cells under dark edges.
 struct WatercolorParameters {
   int cellSizePixels = 8;
   int seed = 1;
@@ -17,6 +17,7 @@ struct WatercolorParameters {
   int retilePixels = 4;
   double retileTimeSeconds = 0.1;
   double returnTimeSeconds = 1.0;
+  double retileRest = 0.3;
 
   double edgeSoftness = 0.5;
   double simplicity = 1.5;
@@ -31,6 +32,8 @@ struct WatercolorParameters {
   double vividness = 0.3;
   double luminosity = 0.5;
   double mosaic = 0.0;
+  double steadyTimeSeconds = 0.3;
+  double colourTimeSeconds = 0.3;
 };
 
 const config::ParameterTable<WatercolorParameters>& watercolorParameters();

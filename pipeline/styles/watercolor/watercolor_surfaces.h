@@ -2,40 +2,39 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "pipeline/gpu/buffer.h"
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/gpu/texture.h"
-#include "pipeline/styles/watercolor/cell_grid.h"
+#include "pipeline/styles/watercolor/cell_tiling.h"
 
 namespace pleinair::styles {
 
-/// What the watercolor has of each cell. All levels of quality have the same cells.
+/// What the watercolor has of the colours of each cell, by its anchor's slot. All levels of quality
+/// have the same cells.
 struct WatercolorCells {
-  static constexpr std::size_t kSumWords = 8;  // a cell, in the shaders of sums and of moments
+  explicit WatercolorCells(std::uint32_t slotCount)
+      : slots(slotCount),
+        moments(std::size_t{slots} * 8 * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
+        averages{gpu::Buffer(averagesBytes(), gpu::BufferUsage::kDynamic),
+                 gpu::Buffer(averagesBytes(), gpu::BufferUsage::kDynamic)},
+        darkWash(gpu::TextureFormat::kRgba8, slotTextureSize(slots)),
+        lightWash(gpu::TextureFormat::kRgba8, slotTextureSize(slots)),
+        places(gpu::TextureFormat::kRgba32f, slotTextureSize(slots)),
+        ways(gpu::TextureFormat::kRgba16f, slotTextureSize(slots)) {
+    moments.write(std::vector<std::byte>(moments.sizeBytes()));
+  }
+  std::size_t averagesBytes() const { return std::size_t{slots} * 8 * sizeof(float); }
 
-  WatercolorCells(hal::FrameSize fullSize, int cellSizePixels)
-      : full(fullSize),
-        cellSize(cellSizePixels),
-        grid(fullSize, cellSizePixels),
-        seeds(grid.count() * sizeof(glm::vec2), gpu::BufferUsage::kDynamic),
-        sums(grid.count() * kSumWords * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
-        moments(grid.count() * kSumWords * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
-        means(gpu::TextureFormat::kRgba16f, grid.size()),
-        shifts(gpu::TextureFormat::kRgba16f, grid.size()),
-        darkWash(gpu::TextureFormat::kRgba8, grid.size()),
-        lightWash(gpu::TextureFormat::kRgba8, grid.size()) {}
-
-  hal::FrameSize full;  ///< of the full picture, and what the cell size is in px of
-  int cellSize;
-  CellGrid grid;
-  gpu::Buffer seeds;  ///< in px of the picture that was painted last
-  gpu::Buffer sums;
-  gpu::Buffer moments;
-  gpu::Texture means;
-  gpu::Texture shifts;
+  std::uint32_t slots;
+  gpu::Buffer moments;      ///< of a frame's pixels: shaders/split.comp
+  gpu::Buffer averages[2];  ///< of them, over time, by turns: shaders/washes.comp
+  int latest = 0;           ///< of the averages
   gpu::Texture darkWash;
   gpu::Texture lightWash;
+  gpu::Texture places;  ///< for views: shaders/show_seeds.comp
+  gpu::Texture ways;    ///< likewise
 };
 
 /// What it has of the pixels of pictures of one size; nothing of the past.

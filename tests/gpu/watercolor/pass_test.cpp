@@ -1,4 +1,5 @@
 // Each pass against the thesis's formula on the CPU.
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
 #include "tests/gpu/watercolor/watercolor_fixture.h"
@@ -7,7 +8,7 @@
 namespace pleinair::styles {
 namespace {
 
-using oracles::Grid;
+using oracles::Site;
 using support::readBuffer;
 using support::readR32ui;
 using support::readRgba32f;
@@ -23,6 +24,9 @@ WatercolorParameters thesisParameters() {
   p.retilePixels = 4;
   p.retileTimeSeconds = 0.0;
   p.returnTimeSeconds = 0.0;
+  p.retileRest = 0.0;
+  p.steadyTimeSeconds = 0.0;
+  p.colourTimeSeconds = 0.0;
   return p;
 }
 
@@ -40,7 +44,6 @@ class PassTest : public StyleTest, public testing::WithParamInterface<Size> {
     style_ = std::make_unique<Watercolor>(library_);
     image_ = testPicture(GetParam().pixels, 7);
     picture_ = support::textureOf(image_.view());
-    grid_ = oracles::gridOf(GetParam().pixels, GetParam().cell);
     use(thesisParameters());
   }
   void TearDown() override {
@@ -55,28 +58,38 @@ class PassTest : public StyleTest, public testing::WithParamInterface<Size> {
   }
   void paint(int number) { style_->paint(frameOf(picture_, number), "means", timer_); }
 
-  std::vector<glm::dvec2> seeds() const {
-    std::vector<glm::dvec2> result;
-    for (const glm::vec2 seed : readBuffer<glm::vec2>(*style_->inner().seeds)) {
-      result.emplace_back(seed);
+  const CellTiling& tiler() const { return *style_->inner().tiler; }
+  /// Those that made the last tiling, a slot each.
+  std::vector<Site> sites() const {
+    std::vector<Site> result;
+    for (const marks::BinnedPoint& point : readBuffer<marks::BinnedPoint>(tiler().points())) {
+      result.push_back({.px = glm::dvec2(point.at) / 64.0,
+                        .penalty = point.penalty / 4096.0,
+                        .exists = point.slot != marks::BinnedPoint::kNone});
     }
     return result;
-  }
-  void putSeeds(const std::vector<glm::dvec2>& seeds) {
-    std::vector<glm::vec2> floats(seeds.begin(), seeds.end());
-    glBindBuffer(GL_COPY_WRITE_BUFFER, style_->inner().seeds->name());
-    glBufferSubData(GL_COPY_WRITE_BUFFER, 0,
-                    static_cast<GLsizeiptr>(floats.size() * sizeof(glm::vec2)), floats.data());
   }
   std::vector<std::uint32_t> words() const { return readR32ui(*style_->inner().tiling); }
   std::vector<std::uint32_t> labels() const {
     std::vector<std::uint32_t> result;
-    for (const std::uint32_t word : words()) {
-      const std::uint32_t column = word & 0x7FFU;
-      const std::uint32_t row = (word >> 11U) & 0x7FFU;
-      result.push_back(row * static_cast<std::uint32_t>(grid_.columns) + column);
-    }
+    for (const std::uint32_t word : words()) result.push_back(word & 0x3FFFFFU);
     return result;
+  }
+  /// That each pixel has the nearest site, or one as near.
+  void expectNearest(const std::vector<Site>& sites) const {
+    const hal::FrameSize size = GetParam().pixels;
+    const auto found = labels();
+    if (std::ranges::none_of(sites, &Site::exists)) return;  // so small that it has no anchor
+    const auto wanted = oracles::voronoiLabels(size, sites);
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      const int x = static_cast<int>(i) % size.width;
+      const int y = static_cast<int>(i) / size.width;
+      ASSERT_LT(found[i], sites.size());
+      ASSERT_TRUE(sites[found[i]].exists) << x << "," << y;
+      ASSERT_EQ(oracles::powerDistance(sites[found[i]], x, y),
+                oracles::powerDistance(sites[wanted[i]], x, y))
+          << x << "," << y << ": " << found[i] << " for " << wanted[i];
+    }
   }
   std::vector<bool> edges() const {
     std::vector<bool> result;
@@ -86,7 +99,6 @@ class PassTest : public StyleTest, public testing::WithParamInterface<Size> {
 
   hal::Image image_;
   gpu::Texture picture_;
-  Grid grid_;
   std::unique_ptr<Watercolor> style_;
 };
 
@@ -101,61 +113,67 @@ INSTANTIATE_TEST_SUITE_P(Sizes, PassTest,
                                   std::to_string(each.param.cell);
                          });
 
-// Eq. 1.
-TEST_P(PassTest, SeedsStartAtTheJitteredGrid) {
+// Eq. 1: about one a cell, jittered.
+TEST_P(PassTest, SeedsStartAtTheirAnchors) {
   WatercolorParameters p = thesisParameters();
   p.edgeThreshold = 1.0;  // without edges all stay
   use(p);
   paint(0);
-  const auto found = seeds();
-  const auto wanted = oracles::seedsAtHome(grid_, static_cast<std::uint32_t>(p.seed));
-  ASSERT_EQ(found.size(), wanted.size());
-  for (std::size_t k = 0; k < wanted.size(); ++k) {
-    // The cells' size is a float there: the rounding to the lattice may fall otherwise.
-    EXPECT_NEAR(found[k].x, wanted[k].x, 1.0 / 64.0) << k;
-    EXPECT_NEAR(found[k].y, wanted[k].y, 1.0 / 64.0) << k;
-    EXPECT_EQ(found[k].x * 64.0, std::floor(found[k].x * 64.0)) << k;
+  const std::vector<Site> found = sites();
+  const auto anchors = style_->anchors()->read();
+  ASSERT_EQ(found.size(), anchors.size());
+  int there = 0;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    ASSERT_EQ(found[k].exists, anchors[k].isAlive()) << k;
+    if (!found[k].exists) continue;
+    ++there;
+    EXPECT_NEAR(found[k].px.x, static_cast<double>(anchors[k].px.x), 1.0 / 64.0) << k;
+    EXPECT_NEAR(found[k].px.y, static_cast<double>(anchors[k].px.y), 1.0 / 64.0) << k;
+    EXPECT_EQ(found[k].penalty, 0.0) << k;
+  }
+  const double cells =
+      static_cast<double>(GetParam().pixels.pixels()) / (p.cellSizePixels * p.cellSizePixels);
+  if (GetParam().pixels.pixels() > 10000 && GetParam().cell == 8) {
+    EXPECT_NEAR(there, cells, 0.25 * cells);
   }
 }
 
 TEST_P(PassTest, LabelsAreTheNearestSeeds) {
   paint(0);
-  const auto seedsOfFrame = seeds();
   paint(1);
-  EXPECT_EQ(labels(), oracles::voronoiLabels(grid_, seedsOfFrame));
+  expectNearest(sites());
 }
 
-// Anywhere that re-tiling may bring them: far apart, in heaps, on top of each other.
-TEST_P(PassTest, LabelsAreExactForAnyAllowedSeeds) {
+// Anywhere that anchors may be: far apart, in heaps, on top of each other, half faded.
+TEST_P(PassTest, LabelsAreExactForAnyAnchors) {
   paint(0);
-  const auto homes = oracles::seedsAtHome(grid_, 1);
+  const hal::FrameSize size = GetParam().pixels;
   std::mt19937 random(3);
+  const auto unit = [&] { return static_cast<float>(random() % 1024U) / 1023.0F; };
   for (int round = 0; round < 6; ++round) {
-    auto scattered = homes;
-    for (auto& seed : scattered) {
-      const auto corner = [&] { return static_cast<double>(random() % 3U) - 1.0; };
-      const auto anywhere = [&] { return static_cast<double>(random() % 129U) / 64.0 - 1.0; };
-      const bool extreme = round % 2 == 0;
-      seed.x += grid_.cellWidth() * (extreme ? corner() : anywhere());
-      seed.y += grid_.cellHeight() * (extreme ? corner() : anywhere());
-      seed = glm::floor(seed * 64.0) / 64.0;
+    auto anchors = style_->anchors()->read();
+    for (marks::Anchor& anchor : anchors) {
+      const bool heap = round % 2 == 0;
+      const glm::vec2 place = heap ? glm::vec2(0.1F, 0.85F) + 0.02F * glm::vec2(unit(), unit())
+                                   : glm::vec2(unit(), unit());
+      anchor.px = place * glm::vec2(size.width, size.height);
+      anchor.fade = round < 2 ? 1.0F : unit();
+      if (round == 5 && unit() < 0.9F) anchor.state = 0;
     }
-    // The clamp is part of what is allowed.
-    const std::vector<bool> noEdges(labels().size());
-    scattered = oracles::retiled(grid_, labels(), noEdges, scattered, homes, 1);
-    putSeeds(scattered);
+    glBindBuffer(GL_COPY_WRITE_BUFFER, style_->anchors()->anchors().name());
+    glBufferSubData(GL_COPY_WRITE_BUFFER, 0,
+                    static_cast<GLsizeiptr>(anchors.size() * sizeof(marks::Anchor)),
+                    anchors.data());
     paint(round + 1);
-    ASSERT_EQ(labels(), oracles::voronoiLabels(grid_, scattered)) << "round " << round;
+    expectNearest(sites());
   }
 }
 
 TEST_P(PassTest, MeansAreThoseOfTheCellsPixels) {
   paint(0);
-  const auto seedsOfFrame = seeds();
   paint(1);
-  const auto found = readRgba32f(*style_->inner().means);
-  const auto wanted = oracles::cellMeans(grid_, image_.view(), labels(), seedsOfFrame);
-  ASSERT_EQ(found.size(), wanted.size() * 4);
+  const auto found = readRgba32f(tiler().means());
+  const auto wanted = oracles::cellMeans(image_.view(), labels(), tiler().slots());
   for (std::size_t k = 0; k < wanted.size(); ++k) {
     EXPECT_EQ(found[k * 4 + 3] > 0.0F, wanted[k].pixels > 0) << k;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -188,19 +206,23 @@ TEST_P(PassTest, EdgesAreTheFormulas) {
   }
 }
 
-// §3.2.3.
+// §3.2.3; at most a cell from the anchor.
 TEST_P(PassTest, SeedsMoveToTheMeanOfTheirEdgePixels) {
   paint(0);
-  auto before = seeds();
   picture_ = support::textureOf(testPicture(GetParam().pixels, 7, 11.0).view());
   paint(1);
-  const auto homes = oracles::seedsAtHome(grid_, 1);
-  const auto wanted = oracles::retiled(grid_, labels(), edges(), before, homes, 4);
-  const auto found = seeds();
+  std::vector<glm::dvec2> before;
+  for (const Site& site : sites()) before.push_back(site.px);
+  const auto wanted = oracles::retiled(GetParam().pixels, labels(), edges(), before, 4);
+  const auto seeds = readBuffer<CellSeed>(tiler().seeds());
+  const auto anchors = style_->anchors()->read();
   bool anyMoved = false;
   for (std::size_t k = 0; k < wanted.size(); ++k) {
-    EXPECT_NEAR(found[k].x, wanted[k].x, kTolerance) << k;
-    EXPECT_NEAR(found[k].y, wanted[k].y, kTolerance) << k;
+    if (!anchors[k].isAlive() || wanted[k] == before[k]) continue;
+    glm::dvec2 away = wanted[k] - glm::dvec2(anchors[k].px);
+    if (glm::length(away) > GetParam().cell) away *= GetParam().cell / glm::length(away);
+    EXPECT_NEAR(static_cast<double>(seeds[k].offset.x), away.x, 2.0 * kTolerance) << k;
+    EXPECT_NEAR(static_cast<double>(seeds[k].offset.y), away.y, 2.0 * kTolerance) << k;
     anyMoved = anyMoved || glm::distance(before[k], wanted[k]) > 0.5;
   }
   if (GetParam().pixels.pixels() > 1000) {

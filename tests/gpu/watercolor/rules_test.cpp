@@ -23,6 +23,7 @@ int localSize(const std::string& text, const char* axis) {
 TEST(WatercolorShaders, KeepWithinWhatTheTargetsAllow) {
   gpu::ShaderLibrary library;
   library.add(gpu::gpuShaders());
+  library.add(gpu::marksShaders());
   library.add(gpu::watercolorShaders());
   int compute = 0;
   for (const gpu::EmbeddedShader& shader : gpu::watercolorShaders()) {

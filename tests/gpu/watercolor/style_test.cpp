@@ -20,6 +20,17 @@ std::vector<std::uint8_t> bytesOf(const gpu::Texture& texture) {
 
 class WatercolorTest : public StyleTest {
  protected:
+  static std::vector<marks::BinnedPoint> pointsOf(const Watercolor& style) {
+    return support::readBuffer<marks::BinnedPoint>(style.inner().tiler->points());
+  }
+  static std::vector<glm::vec2> offsetsOf(const Watercolor& style) {
+    std::vector<glm::vec2> offsets;
+    for (const CellSeed& seed : support::readBuffer<CellSeed>(style.inner().tiler->seeds())) {
+      offsets.push_back(seed.offset);
+    }
+    return offsets;
+  }
+
   /// The pictures of a camera that moves over the test picture.
   std::vector<std::uint8_t> paintFrame(Style& style, int number, hal::FrameSize size = {120, 90},
                                        std::string_view view = {}) {
@@ -55,20 +66,26 @@ TEST_F(WatercolorTest, AnotherSizeStartsAnew) {
 TEST_F(WatercolorTest, ASmallerVersionKeepsTheSeeds) {
   Watercolor style(library_);
   for (int i = 0; i < 4; ++i) paintFrame(style, i);
-  const auto before = support::readBuffer<float>(*style.inner().seeds);
+  const auto before = pointsOf(style);
+  const auto seedsBefore = offsetsOf(style);
   const gpu::Texture smaller = textureOf(testPicture({66, 50}, 5, 9.0).view());
   scene::ArFrame frame = frameOf(smaller, 3);  // no time passes
   frame.fullSize = hal::FrameSize{120, 90};
   style.paint(frame, "", timer_);
-  const auto after = support::readBuffer<float>(*style.inner().seeds);
+  const auto after = pointsOf(style);
   ASSERT_EQ(after.size(), before.size());
+  const auto seeds = offsetsOf(style);
   for (std::size_t i = 0; i < before.size(); ++i) {
-    const float side = i % 2 == 0 ? 66.0F / 120.0F : 50.0F / 90.0F;
-    EXPECT_NEAR(after[i], side * before[i], 0.02) << i;
+    ASSERT_EQ(after[i].slot, before[i].slot) << i;
+    ASSERT_EQ(seeds[i], seedsBefore[i]) << i;
   }
   paintFrame(style, 3);
-  const auto back = support::readBuffer<float>(*style.inner().seeds);
-  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_NEAR(back[i], before[i], 0.03) << i;
+  const auto back = pointsOf(style);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (before[i].slot == marks::BinnedPoint::kNone) continue;
+    EXPECT_NEAR(after[i].at.x, back[i].at.x * 66.0 / 120.0, 1.0) << i;
+    EXPECT_NEAR(after[i].at.y, back[i].at.y * 50.0 / 90.0, 1.0) << i;
+  }
 }
 
 TEST_F(WatercolorTest, KeepsWhatIsInFocusCrisp) {
@@ -135,15 +152,16 @@ TEST_F(WatercolorTest, StillSceneComesToRest) {
 
 TEST_F(WatercolorTest, TimeThatStandsOrRunsBackMovesNoSeed) {
   Watercolor style(library_);
+  style.setParameters(style.parameters().with("retile_rest", "0"));
   paintFrame(style, 5);
-  const auto seedsAt5 = support::readBuffer<float>(*style.inner().seeds);
+  const auto at5 = offsetsOf(style);
   const gpu::Texture other = textureOf(testPicture({120, 90}, 5, 9.0).view());
   style.paint(frameOf(other, 5), "", timer_);
-  EXPECT_EQ(support::readBuffer<float>(*style.inner().seeds), seedsAt5);
+  EXPECT_EQ(offsetsOf(style), at5);
   style.paint(frameOf(other, 2), "", timer_);
-  EXPECT_EQ(support::readBuffer<float>(*style.inner().seeds), seedsAt5);
+  EXPECT_EQ(offsetsOf(style), at5);
   style.paint(frameOf(other, 4), "", timer_);
-  EXPECT_NE(support::readBuffer<float>(*style.inner().seeds), seedsAt5);
+  EXPECT_NE(offsetsOf(style), at5);
 }
 
 TEST_F(WatercolorTest, AllocatesNothingAfterTheFirstFrameOfASize) {
@@ -169,8 +187,12 @@ TEST_F(WatercolorTest, SilhouettesOfObjectsAreEdges) {
   }
   gpu::Texture idTexture(gpu::TextureFormat::kR32ui, {64, 48});
   idTexture.upload({reinterpret_cast<const std::uint8_t*>(ids.data()), ids.size() * 4}, 256);
+  gpu::Texture barycentrics(gpu::TextureFormat::kR32ui, {64, 48});
+  const std::vector<std::uint8_t> zeros(ids.size() * 4);
+  barycentrics.upload(zeros, 256);
   scene::ArFrame frame = frameOf(picture);
   frame.ids = &idTexture;
+  frame.barycentrics = &barycentrics;
   frame.hasObjects = true;
   Watercolor style(library_);
   style.paint(frame, "", timer_);

@@ -106,10 +106,7 @@ TEST_F(WashTest, ACellsTwoWashesHaveTheMomentsOfItsPixels) {
         const int column = std::min(2 * x + 1, size.width - 1);
         const int row = std::min(2 * y + 1, size.height - 1);
         const std::uint32_t word = words[static_cast<std::size_t>(row * size.width + column)];
-        const std::size_t owner =
-            ((word >> 11U) & 0x7FFU) * static_cast<std::size_t>(dark.size().width) +
-            (word & 0x7FFU);
-        colours[owner].push_back(colourAt(guide, x, y));
+        colours[word & 0x3FFFFFU].push_back(colourAt(guide, x, y));
       }
     }
     int split = 0;

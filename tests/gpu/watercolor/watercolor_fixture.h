@@ -4,6 +4,8 @@
 #include <memory>
 #include <random>
 
+#include "pipeline/marks/marks_shaders.h"
+#include "pipeline/scene/scene_shaders.h"
 #include "pipeline/styles/style_registry.h"
 #include "pipeline/styles/watercolor/watercolor.h"
 #include "tests/support/gl_test.h"
@@ -42,6 +44,8 @@ class StyleTest : public support::GlTest {
     GlTest::SetUp();
     if (IsSkipped()) return;
     library_.add(gpu::gpuShaders());
+    library_.add(gpu::sceneShaders());
+    library_.add(gpu::marksShaders());
     addStyleShaders(library_);
   }
 

@@ -79,12 +79,16 @@ class Background:
 
 
 class Guest:
-    def __init__(self, image, folder, accelerator, boot_seconds=BOOT_SECONDS):
+    """One whose boot hangs, which has been seen under emulation, is started anew, with a line that
+    says so; `boots` is how often it is tried."""
+
+    def __init__(self, image, folder, accelerator, boot_seconds=BOOT_SECONDS, boots=2):
         self.folder = os.path.abspath(folder)
         self.accelerator = accelerator
         self._patience = 1.0
         self._image = image
         self._boot_deadline = boot_seconds
+        self._boots = boots
         self._count = 0
         self._qemu = None
         self._agent = None
@@ -92,12 +96,18 @@ class Guest:
 
     def __enter__(self):
         os.makedirs(os.path.join(self.folder, ".guest"), exist_ok=True)
-        try:
-            self._boot()
-        except BaseException:
-            self.close()
-            raise
-        return self
+        for left in reversed(range(self._boots)):
+            try:
+                self._boot()
+                return self
+            except GuestError as error:
+                self.close()
+                if left == 0:
+                    raise
+                print(f"the guest does not boot and is started anew: {error}")
+            except BaseException:
+                self.close()
+                raise
 
     def __exit__(self, *_):
         self.close()
@@ -106,6 +116,8 @@ class Guest:
         """Switches it off."""
         if self._agent:
             self._agent.close()
+            self._agent = None
+            self._received = b""
         if self._qemu:
             self._qemu.kill()
             self._qemu.wait()
@@ -166,7 +178,10 @@ class Guest:
             with open(os.path.join(self.folder, ".guest", "qemu.log"), "w") as log:
                 self._qemu = start_with_parent(self._command(agent), log)
             self._agent = self._connect(agent)
-        self._answer("READY", "the boot", self._boot_deadline)
+        try:
+            self._answer("READY", "the boot", self._boot_deadline)
+        except GuestError as error:
+            raise GuestError(f"{error}\nits console:\n{self._log('serial.log')}") from None
         self._patience = min(
             max(1, (time.monotonic() - begin) / USUAL_BOOT_SECONDS), MOST_PATIENCE)
 
@@ -248,7 +263,7 @@ def usable_accelerator(image, folder):
     if not os.access("/dev/kvm", os.R_OK | os.W_OK):
         return "tcg"
     try:
-        with Guest(image, folder, "kvm", boot_seconds=15):
+        with Guest(image, folder, "kvm", boot_seconds=15, boots=1):
             return "kvm"
     except GuestError:
         return "tcg"

@@ -67,8 +67,14 @@ TEST(FrameLedger, SumsUpInALine) {
   ledger.count(Fate::kLate);
   EXPECT_EQ(
       ledger.counts().summary(3s),
-      "showed 91 frames in 3.0 s (30.3 frames/s), 1 untimely; dropped 3: 1 late, 2 replaced by a "
-      "newer one");
+      "showed 91 frames in 3.0 s (30.3 frames/s), 1 untimely; dropped 3 (1 late, 2 replaced by a "
+      "newer one)");
+}
+
+TEST(FrameLedger, SumsUpInALineThatHasNoReasonsWhereNoneWasDropped) {
+  FrameLedger ledger;
+  ledger.count(Fate::kShown);
+  EXPECT_EQ(ledger.counts().summary(1s), "showed 1 frame in 1.0 s (1.0 frames/s); dropped 0");
 }
 
 TEST(Fates, HaveNamesOfTheirOwn) {
@@ -79,6 +85,13 @@ TEST(Fates, HaveNamesOfTheirOwn) {
   }
   EXPECT_EQ(names.size(), kFates);
   EXPECT_EQ(texts.size(), kFates);
+}
+
+TEST(Fates, AreDescribedWithoutWhatSeparatesThemInTheSummary) {
+  for (const Fate fate : allFates()) {
+    EXPECT_EQ(describe(fate).find_first_of(",:()0123456789"), std::string_view::npos)
+        << describe(fate);
+  }
 }
 
 }  // namespace

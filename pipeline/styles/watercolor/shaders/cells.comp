@@ -1,54 +1,82 @@
-// Purpose: for each cell its exact mean colour (thesis §3.2.1) and its seed's next place: the mean of
-//          its edge pixels if there are enough (§3.2.3), else it stays, or drifts home.
-// Inputs:  sums (tile.comp; emptied here for the next frame), picture, grid (n, m), cellPixels, seed,
-//          minEdgePixels, follow and drift: the parts in [0, 1] of the way to the edge and home.
-// Outputs: seeds; means (RGBA16F): linear mean, and 1 where the cell has pixels: an empty cell has
-//          the colour under its seed; shifts (RGBA16F): how far the seed that made this tiling was
-//          from home, px.
-// Precision: sums are exact; seeds end on the lattice of home.glsl.
-#include "pipeline/gpu/shaders/colour.glsl"
-#include "pipeline/styles/watercolor/shaders/home.glsl"
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(std430, binding = 0) buffer Seeds { vec2 seeds[]; };
+// Purpose: each seed's next place: the mean of its cell's edge pixels if there are enough (thesis
+//          §3.2.3), else the middle of its cell, which spreads seeds evenly (Lloyd, "Least squares
+//          quantization in PCM", 1982). A seed rests, to the bit, until that place has been far for a
+//          while, so that noise moves none. For each cell also its exact mean colour (§3.2.1).
+// Inputs:  sums (tile.comp; emptied here for the next frame), points (seeds.comp), slots, pixelsOfFull,
+//          minEdgePixels; follow and drift: the parts in [0, 1] of the way to the edge and the middle;
+//          reach: as in seeds.comp; rest: px of the full picture that are not far; patience and passed: s;
+//          atOnce: without rest.
+// Outputs: seeds; meansNow (RGBA16F, if wantsMeans): linear mean; 1 where the cell has pixels.
+// Precision: sums are exact.
+#include "pipeline/styles/watercolor/shaders/seed.glsl"
+#include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
+layout(local_size_x = 64) in;
+layout(std430, binding = 0) buffer Seeds { Seed seeds[]; };
 layout(std430, binding = 1) buffer Sums { uint sums[]; };
+layout(std430, binding = 2) readonly buffer Points { ivec4 points[]; };
 layout(binding = 0, rgba16f) writeonly uniform highp image2D means;
-layout(binding = 1, rgba16f) writeonly uniform highp image2D shifts;
-uniform sampler2D picture;
-uniform ivec2 grid;
-uniform vec2 cellPixels;
-uniform uint seed;
+uniform int slots;
+uniform vec2 pixelsOfFull;
 uniform uint minEdgePixels;
 uniform float follow;
 uniform float drift;
+uniform float reach;
+uniform float rest;
+uniform float patience;
+uniform float passed;
+uniform bool atOnce;
+uniform bool wantsMeans;
+
+const int kWords = 9;
+const float kArrived = 0.25;  // of `rest`
+
+// Whole pixels first: a sum can have more bits than a float.
+vec2 meanOf(uvec2 sum, uint count) {
+  uvec2 whole = sum / count;
+  return vec2(whole) + vec2(sum - whole * count) / float(count) + 0.5;
+}
+
+// How far it goes of its way (px of the full picture) in this frame.
+vec2 stepOf(inout Seed seed, vec2 way, float part) {
+  if (atOnce) {
+    seed.state &= ~kMoving;
+    seed.restless = 0.0;
+    return way * part;
+  }
+  float far = length(way);
+  bool isMoving = (seed.state & kMoving) != 0u;
+  seed.restless = isMoving ? 0.0 : max(0.0, seed.restless + (far > rest ? passed : -passed));
+  if (!isMoving && seed.restless > patience) isMoving = true;
+  if (far <= kArrived * rest || part <= 0.0) isMoving = false;
+  if (rest <= 0.0) isMoving = far > 0.0;
+  seed.state = (seed.state & ~kMoving) | (isMoving ? kMoving : 0u);
+  return isMoving ? way * part : vec2(0.0);
+}
 
 void main() {
-  ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(cell, grid))) return;
-  int index = cell.y * grid.x + cell.x;
-  vec2 home = homeOf(cell, cellPixels, seed);
-  vec2 at = seeds[index];
-
-  float count = float(sums[index * 8 + 3]);
-  vec3 mean;
-  if (count > 0.0) {
-    vec3 sum = vec3(uvec3(sums[index * 8], sums[index * 8 + 1], sums[index * 8 + 2]));
-    mean = sum / (count * 16384.0);
-  } else {
-    ivec2 under = min(ivec2(at), textureSize(picture, 0) - 1);
-    mean = linearFromSrgb(texelFetch(picture, under, 0).rgb);
+  int slot = int(gl_GlobalInvocationID.x);
+  if (slot >= slots) return;
+  int base = slot * kWords;
+  uint count = sums[base + 3];
+  if (wantsMeans) {
+    vec3 sum = vec3(uvec3(sums[base], sums[base + 1], sums[base + 2]));
+    vec4 mean = count > 0u ? vec4(sum / (float(count) * 16384.0), 1.0) : vec4(0.0);
+    imageStore(means, texelOf(uint(slot)), mean);
   }
-  imageStore(means, cell, vec4(mean, count > 0.0 ? 1.0 : 0.0));
-  imageStore(shifts, cell, vec4(at - home, 0.0, 0.0));
-
-  uint edges = sums[index * 8 + 6];
-  vec2 next = mix(at, home, drift);
-  if (edges >= minEdgePixels) {
-    uvec2 edgeSum = uvec2(sums[index * 8 + 4], sums[index * 8 + 5]);
-    // Whole pixels first: a sum can have more bits than a float.
-    uvec2 whole = edgeSum / edges;
-    vec2 target = vec2(whole) + vec2(edgeSum - whole * edges) / float(edges) + 0.5;
-    next = mix(at, target, follow);
+  ivec4 point = points[slot];
+  if (point.w >= 0 && count > 0u) {
+    Seed seed = seeds[slot];
+    uint edges = sums[base + 6];
+    uint least = (seed.state & kAtEdge) != 0u ? (minEdgePixels + 1u) / 2u : minEdgePixels;
+    bool atEdge = edges >= least;
+    vec2 target = atEdge ? meanOf(uvec2(sums[base + 4], sums[base + 5]), edges)
+                         : meanOf(uvec2(sums[base + 7], sums[base + 8]), count);
+    vec2 way = (target - vec2(point.xy) / 64.0) / pixelsOfFull;
+    float away = length(seed.offset + way);
+    if (away > reach) way = (seed.offset + way) * (reach / away) - seed.offset;
+    seed.state = (seed.state & ~kAtEdge) | (atEdge ? kAtEdge : 0u);
+    seed.offset += stepOf(seed, way, atEdge ? follow : drift);
+    seeds[slot] = seed;
   }
-  seeds[index] = clampedSeed(next, cell, home, grid, cellPixels);
-  for (int i = 0; i < 8; ++i) sums[index * 8 + i] = 0u;
+  for (int i = 0; i < kWords; ++i) sums[base + i] = 0u;
 }

@@ -37,7 +37,7 @@ void main() {
   float weights = 0.0;
   for (int i = 0; i < kTaps; ++i) {
     ivec2 p = clamp(ivec2(middle + kTap[i] * cellPixels * reach), ivec2(0), last);
-    ivec2 cell = cellOf(texelFetch(tiling, p, 0).r);
+    ivec2 cell = texelOf(slotOf(texelFetch(tiling, p, 0).r));
     float w = i == 0 ? 1.2 : i < 7 ? 1.0 : 0.55;
     light[i] = texelFetch(lightWash, cell, 0);
     dark[i] = vec4(texelFetch(darkWash, cell, 0).rgb, w * (1.0 - light[i].a));

@@ -1,7 +1,7 @@
 // Purpose: for each cell the sums that its two washes, a dark and a light one, are made from: moments
 //          of luma, and colour against luma. One invocation does a block of 4x4 pixels of the guide
 //          and adds once per cell that the block holds.
-// Inputs:  guide (guide.frag), tiling (tiling_word.glsl, twice the guide's size), grid (n, m).
+// Inputs:  guide (guide.frag), tiling (tiling_word.glsl, twice the guide's size).
 // Outputs: moments: per cell 8 words: R, G, B, count, L R, L G, L B, L³ / 8192; of 8-bit values, with
 //          the luma L = 2 R + 5 G + B, whose mean is exactly that of the mean colour.
 // Precision: integers, so that order does not matter; up to 4096 pixels a cell.
@@ -10,7 +10,6 @@ layout(local_size_x = 16, local_size_y = 4) in;
 layout(std430, binding = 0) buffer Moments { uint moments[]; };
 uniform sampler2D guide;
 uniform highp usampler2D tiling;
-uniform ivec2 grid;
 
 const int kPixels = 16;
 
@@ -27,7 +26,7 @@ void main() {
     ivec2 p = corner + ivec2(i & 3, i >> 2);
     bool inside = all(lessThan(p, size));
     uint word = texelFetch(tiling, min(2 * p + 1, last), 0).r;
-    cell[i] = inside ? (word & kCellBits) + 1u : 0u;
+    cell[i] = inside ? slotOf(word) + 1u : 0u;
     uvec3 c = uvec3(texelFetch(guide, min(p, size - 1), 0).rgb * 255.0 + 0.5);
     uint luma = 2u * c.r + 5u * c.g + c.b;
     first[i] = uvec4(c, 1u);
@@ -45,8 +44,7 @@ void main() {
       a += first[i] & taken;
       b += second[i] & taken;
     }
-    ivec2 at = cellOf(name - 1u);
-    uint base = uint(at.y * grid.x + at.x) * 8u;
+    uint base = (name - 1u) * 8u;
     for (uint k = 0u; k < 4u; ++k) {
       atomicAdd(moments[base + k], a[k]);
       atomicAdd(moments[base + 4u + k], b[k]);

@@ -1,22 +1,23 @@
-// Purpose: for each pixel the nearest seed (thesis §3.2.1) and the edge strength (eq. 2-4), and for
-//          each cell the sums that its mean colour and its re-tiling need. One invocation does a
-//          block of 4x4 pixels and adds once per cell that the block holds.
-// Inputs:  picture (RGBA8, sRGB-coded), ids (R32UI) if hasObjects, seeds, grid (n, m), cellPixels,
-//          alpha, beta, threshold; wantsMeans: whether colours are summed, too.
-// Outputs: tiling (R32UI, tiling_word.glsl), sums: per cell 8 words, linear R, G, B in 1/16384,
-//          pixels, and over edge pixels x, y, count; one spare.
-// Precision: integers for distances and sums, so that order does not matter and ties go to the
-//          lower index.
+// Purpose: for each pixel the nearest seed (thesis §3.2.1; of seeds that are not yet seen in full the
+//          cell is smaller: a power diagram) and the edge strength (eq. 2-4), and for each cell the sums
+//          that its mean colour and its re-tiling need. One invocation does a block of 4x4 pixels and
+//          adds once per cell that the block holds.
+// Inputs:  picture (sRGB-coded), ids (R32UI) if hasObjects; sorted, starts, bins, binPixels: the seeds
+//          (marks/point_bins.h); alpha, beta, threshold; wantsMeans: whether colours are summed, too.
+// Outputs: tiling (R32UI, tiling_word.glsl), sums: per cell 9 words, linear R, G, B in 1/16384,
+//          pixels, over edge pixels x, y, count, and over all pixels x, y.
+// Precision: integers for distances and sums, so that order does not matter; of equally near seeds the
+//          first of `sorted`. Further than 350 px distances are to 1/4 px.
+#include "pipeline/marks/shaders/point_bins.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
 layout(local_size_x = 16, local_size_y = 4) in;
-layout(std430, binding = 0) readonly buffer Seeds { vec2 seeds[]; };
+layout(std430, binding = 0) readonly buffer Starts { uint starts[]; };
 layout(std430, binding = 1) buffer Sums { uint sums[]; };
+layout(std430, binding = 2) readonly buffer Sorted { ivec4 sorted[]; };
 layout(binding = 0, r32ui) writeonly uniform highp uimage2D tiling;
 uniform sampler2D picture;
 uniform highp usampler2D ids;
 uniform bool hasObjects;
-uniform ivec2 grid;
-uniform vec2 cellPixels;
 uniform float alpha;
 uniform float beta;
 uniform float threshold;
@@ -24,67 +25,66 @@ uniform bool wantsMeans;
 
 const int kSide = 4;
 const int kPixels = 16;
+const uint kWords = 9u;  // of a cell in sums
 const uint kTriangleBits = 22u;  // scene::kTriangleBits
 const uint kRealObject = 512u;   // scene::kRealObject
 const float kHalfDiagonal = 2.1213204;  // between the block's middle and its corner pixels' centres
 
 ivec2 size;
 ivec2 corner;  // the block's first pixel
-uint nearest[kPixels];  // the cell, as in a tiling word, plus one
+uint nearest[kPixels];  // the slot, plus one
 
-// Squared distance from the block's middle.
-float fromMiddle(ivec2 cell) {
-  vec2 apart = seeds[cell.y * grid.x + cell.x] - (vec2(corner) + 2.0);
-  return dot(apart, apart);
+vec2 middle() { return vec2(corner) + 2.0; }
+
+// The points of bins `low` to `high` of a row lie side by side.
+uvec2 rangeOf(ivec2 low, ivec2 high, int row) {
+  int first = row * bins.x;
+  return uvec2(starts[first + low.x], starts[first + high.x + 1]);
 }
 
-// What no seed outside the searched rows and columns is nearer than, given that seeds stay within
-// one cell of their own cell's middle.
-float nearestUnsearched(ivec2 low, ivec2 high) {
-  vec2 middle = vec2(corner) + 2.0;
-  vec2 before = middle - (vec2(low) + 0.5) * cellPixels;
-  vec2 after = (vec2(high) + 0.5) * cellPixels - middle;
-  float far = 1.0e6;
-  if (low.x > 0) far = min(far, before.x);
-  if (low.y > 0) far = min(far, before.y);
-  if (high.x < grid.x - 1) far = min(far, after.x);
-  if (high.y < grid.y - 1) far = min(far, after.y);
-  return far;
+// What no seed that has a pixel of the block is further from its middle than: one near seed bounds it.
+float reachOf() {
+  ivec2 here = binOf(middle());
+  for (int ring = 1;; ring *= 2) {  // once nearly always; wider where there are none
+    ivec2 low = max(here - ring, ivec2(0));
+    ivec2 high = min(here + ring, bins - 1);
+    float near = 1.0e12;
+    for (int row = low.y; row <= high.y; ++row) {
+      uvec2 range = rangeOf(low, high, row);
+      for (uint i = range.x; i < range.y; ++i) {
+        vec2 apart = vec2(sorted[i].xy) * (1.0 / kPointUnits) - middle();
+        float far = length(apart) + kHalfDiagonal;
+        near = min(near, far * far + float(sorted[i].z) * (1.0 / (kPointUnits * kPointUnits)));
+      }
+    }
+    bool isAll = low == ivec2(0) && high == bins - 1;
+    if (near < 1.0e12 || isAll) return sqrt(near) + kHalfDiagonal + 0.03;
+  }
 }
 
 // Squared distances differ from |s|² − 2 p·s by |p|² alone, and that is linear in p.
 void findNearest() {
-  ivec2 here = clamp(ivec2((vec2(corner) + 2.0) / cellPixels), ivec2(0), grid - 1);
-  // One near seed bounds how far the nearest can be from any pixel of the block.
-  ivec2 low = max(here - 1, ivec2(0));
-  ivec2 high = min(here + 1, grid - 1);
-  float near = 1.0e12;
-  for (int row = low.y; row <= high.y; ++row) {
-    for (int column = low.x; column <= high.x; ++column) {
-      near = min(near, fromMiddle(ivec2(column, row)));
-    }
-  }
-  float reach = sqrt(near) + 2.0 * kHalfDiagonal + 0.03;
-  for (int ring = 2;; ++ring) {  // 5x5 nearly always; wider where seeds have moved apart
-    low = max(here - ring, ivec2(0));
-    high = min(here + ring, grid - 1);
-    if (reach < nearestUnsearched(low, high)) break;
-  }
-  float reachSquared = reach * reach;
+  float reach = reachOf();
+  int coarser = reach < 350.0 ? 0 : 4;  // keeps squares within integers
+  int unit = 64 >> coarser;
+  ivec2 low = binOf(middle() - reach);
+  ivec2 high = binOf(middle() + reach);
   int best[kPixels];
   for (int i = 0; i < kPixels; ++i) {
     best[i] = 0x7FFFFFFF;
-    nearest[i] = 0u;
+    nearest[i] = 1u;
   }
   for (int row = low.y; row <= high.y; ++row) {
-    for (int column = low.x; column <= high.x; ++column) {
-      ivec2 cell = ivec2(column, row);
-      if (fromMiddle(cell) > reachSquared) continue;
-      uint name = packCell(cell) + 1u;
-      ivec2 s = ivec2((seeds[row * grid.x + column] - vec2(corner)) * 64.0);
-      int start = s.x * s.x + s.y * s.y - 64 * (s.x + s.y);
+    uvec2 range = rangeOf(low, high, row);
+    for (uint k = range.x; k < range.y; ++k) {
+      ivec4 point = sorted[k];
+      ivec2 s = (point.xy - corner * 64) >> coarser;
+      if (any(greaterThan(abs(s), ivec2(23000)))) continue;
+      uint name = uint(point.w) + 1u;
+      int start = s.x * s.x + s.y * s.y - unit * (s.x + s.y) + (point.z >> (2 * coarser));
+      s *= 2 * unit;
       for (int i = 0; i < kPixels; ++i) {
-        int value = start - 128 * ((i & 3) * s.x + (i >> 2) * s.y);
+        int value = start - ((i & 3) * s.x + (i >> 2) * s.y);
         nearest[i] = value < best[i] ? name : nearest[i];
         best[i] = min(best[i], value);
       }
@@ -114,19 +114,18 @@ vec3 linearFromSrgbFast(vec3 srgb) {
   return mix(y * y * root, srgb * (1.0 / 12.92), lessThanEqual(srgb, vec3(0.04045)));
 }
 
-void addColour(uint index, uvec4 colour) {
-  atomicAdd(sums[index * 8u], colour.r);
-  atomicAdd(sums[index * 8u + 1u], colour.g);
-  atomicAdd(sums[index * 8u + 2u], colour.b);
-  atomicAdd(sums[index * 8u + 3u], colour.a);
+void addColour(uint index, uvec3 colour) {
+  atomicAdd(sums[index], colour.r);
+  atomicAdd(sums[index + 1u], colour.g);
+  atomicAdd(sums[index + 2u], colour.b);
 }
 
-void addEdges(uint index, uint edges) {
-  if (edges == 0u) return;
-  uint count = edges >> 16u;
-  atomicAdd(sums[index * 8u + 4u], (edges & 0xFFu) + count * uint(corner.x));
-  atomicAdd(sums[index * 8u + 5u], ((edges >> 8u) & 0xFFu) + count * uint(corner.y));
-  atomicAdd(sums[index * 8u + 6u], count);
+// `places`: x, y in the block and how many, as of `place`.
+void addPlaces(uint places, uint x, uint y, uint count) {
+  uint number = places >> 16u;
+  atomicAdd(sums[x], (places & 0xFFu) + number * uint(corner.x));
+  atomicAdd(sums[y], ((places >> 8u) & 0xFFu) + number * uint(corner.y));
+  atomicAdd(sums[count], number);
 }
 
 void main() {
@@ -149,7 +148,8 @@ void main() {
     }
   }
 
-  uint edge[kPixels];  // of an edge pixel x, y in the block and 1, 8 bits each
+  uint place[kPixels];  // x, y in the block and 1, 8 bits each
+  uint edge[kPixels];   // the same of an edge pixel
   for (int i = 0; i < kPixels; ++i) {
     int at = (i >> 2) * 6 + (i & 3) + 7;
     ivec2 inBlock = ivec2(i & 3, i >> 2);
@@ -157,7 +157,8 @@ void main() {
                      differenceOf(block[at + 6], block[at - 6]);
     bool silhouette = block[at + 1].a != block[at - 1].a || block[at + 6].a != block[at - 6].a;
     bool isEdge = strength > threshold || silhouette;
-    edge[i] = isEdge ? uint(inBlock.x | (inBlock.y << 8) | (1 << 16)) : 0u;
+    place[i] = uint(inBlock.x | (inBlock.y << 8) | (1 << 16));
+    edge[i] = isEdge ? place[i] : 0u;
     uint word = packTiling(nearest[i] - 1u, isEdge, silhouette ? 1.0 : strength);
     imageStore(tiling, corner + inBlock, uvec4(word, 0u, 0u, 0u));  // beyond the border: no effect
     if (any(greaterThanEqual(corner + inBlock, size))) nearest[i] = 0u;
@@ -168,17 +169,21 @@ void main() {
     uint name = 0u;
     for (int i = 0; i < kPixels; ++i) name = max(name, nearest[i] < above ? nearest[i] : 0u);
     if (name == 0u) break;
+    uint places = 0u;
     uint edges = 0u;
-    for (int i = 0; i < kPixels; ++i) edges += nearest[i] == name ? edge[i] : 0u;
-    ivec2 cell = cellOf(name - 1u);
-    uint index = uint(cell.y * grid.x + cell.x);
-    addEdges(index, edges);
+    for (int i = 0; i < kPixels; ++i) {
+      places += nearest[i] == name ? place[i] : 0u;
+      edges += nearest[i] == name ? edge[i] : 0u;
+    }
+    uint index = (name - 1u) * kWords;
+    addPlaces(places, index + 7u, index + 8u, index + 3u);
+    if (edges != 0u) addPlaces(edges, index + 4u, index + 5u, index + 6u);
     if (wantsMeans) {
-      uvec4 colour = uvec4(0u);
+      uvec3 colour = uvec3(0u);
       for (int i = 0; i < kPixels; ++i) {
         uint taken = nearest[i] == name ? 0xFFFFFFFFu : 0u;
         vec3 srgb = block[(i >> 2) * 6 + (i & 3) + 7].rgb;
-        colour += uvec4(uvec3(linearFromSrgbFast(srgb) * 16384.0 + 0.5), 1u) & taken;
+        colour += uvec3(linearFromSrgbFast(srgb) * 16384.0 + 0.5) & taken;
       }
       addColour(index, colour);
     }

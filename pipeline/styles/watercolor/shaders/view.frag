@@ -1,31 +1,37 @@
 // Purpose: the style's inner pictures, for people.
-// Inputs:  tiling, means, shifts, darkPigment, lightPigment, paper, picture; `view` as in watercolor.cpp; cellPixels,
-//          seed.
+// Inputs:  tiling, means, places and ways (show_seeds.comp), darkPigment, lightPigment, paper, picture;
+//          `view` as in watercolor.cpp; pictureSize.
 // Outputs: RGBA8, sRGB-coded, opaque. Precision: highp.
 #include "pipeline/gpu/shaders/colour.glsl"
-#include "pipeline/styles/watercolor/shaders/home.glsl"
+#include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
 uniform highp usampler2D tiling;
 uniform sampler2D means;
-uniform sampler2D shifts;
+uniform sampler2D places;
+uniform sampler2D ways;
 uniform sampler2D darkPigment;
 uniform sampler2D lightPigment;
 uniform sampler2D paper;
 uniform sampler2D picture;
 uniform int view;
-uniform vec2 cellPixels;
 uniform vec2 pictureSize;
-uniform uint seed;
 layout(location = 0) out vec4 colour;
 
 const int kSeeds = 0;
-const int kCells = 1;
-const int kMeans = 2;
-const int kEdges = 3;
-const int kRetiling = 4;
-const int kDark = 5;
-const int kLight = 6;
-const int kPaper = 7;
+const int kAnchors = 1;
+const int kCells = 2;
+const int kMeans = 3;
+const int kEdges = 4;
+const int kRetiling = 5;
+const int kSteady = 6;
+const int kDark = 7;
+const int kLight = 8;
+const int kPaper = 9;
+
+// As marks::MotionSource counts: unknown, surface, plane, picture, features, flow, still.
+const vec3 kSourceColours[7] =
+    vec3[7](vec3(0.5), vec3(0.9, 0.5, 0.1), vec3(0.75, 0.25, 0.8), vec3(0.2, 0.45, 0.9),
+            vec3(0.1, 0.7, 0.65), vec3(0.85, 0.15, 0.2), vec3(0.3, 0.65, 0.2));
 
 float distanceToLine(vec2 at, vec2 a, vec2 b) {
   vec2 along = b - a;
@@ -33,32 +39,43 @@ float distanceToLine(vec2 at, vec2 a, vec2 b) {
   return distance(at, a + t * along);
 }
 
-vec3 cellColour(ivec2 cell) {
-  uint hash = hashOf(cell, 17u);
+vec3 cellColour(uint slot) {
+  uint hash = hashOf(ivec2(int(slot), 0), 17u);
   return 0.25 + 0.75 * vec3(uvec3(hash, hash >> 8u, hash >> 16u) & 255u) / 255.0;
+}
+
+// Fresh anchors pale, the source of their motion as the hue.
+vec3 anchorColour(vec4 way) {
+  vec3 hue = kSourceColours[clamp(int(way.x + 0.5), 0, 6)];
+  return mix(vec3(1.0), hue, (0.35 + 0.65 * (1.0 - exp(-way.y))) * way.z);
 }
 
 void main() {
   ivec2 p = ivec2(gl_FragCoord.xy);
   uint word = texelFetch(tiling, p, 0).r;
-  ivec2 cell = cellOf(word);
-  vec2 home = homeOf(cell, cellPixels, seed);
-  vec2 at = home + texelFetch(shifts, cell, 0).xy;
+  ivec2 cell = texelOf(slotOf(word));
+  vec4 place = texelFetch(places, cell, 0);
+  vec4 way = texelFetch(ways, cell, 0);
+  vec2 at = place.xy;
   float inDot = step(distance(gl_FragCoord.xy, at), 1.2);
   vec3 rgb = vec3(0.0);
   if (view == kSeeds) {
     rgb = mix(0.4 + 0.6 * texelFetch(picture, p, 0).rgb, vec3(0.0), inDot);
+  } else if (view == kAnchors) {
+    rgb = mix(anchorColour(way), vec3(0.0), step(distance(gl_FragCoord.xy, place.zw), 1.2));
   } else if (view == kCells) {
-    rgb = mix(cellColour(cell), vec3(0.0), inDot);
+    rgb = mix(cellColour(slotOf(word)), vec3(0.0), inDot);
   } else if (view == kMeans) {
     rgb = srgbFromLinear(texelFetch(means, cell, 0).rgb);
   } else if (view == kEdges) {
     rgb = isEdge(word) ? vec3(0.0) : vec3(1.0 - 0.7 * sqrt(strengthOf(word)));
   } else if (view == kRetiling) {
     rgb = isEdge(word) ? vec3(0.55) : vec3(1.0);
-    float line = step(distanceToLine(gl_FragCoord.xy, home, at), 0.6);
+    float line = step(distanceToLine(gl_FragCoord.xy, place.zw, at), 0.6);
     rgb = mix(rgb, vec3(0.2, 0.4, 0.9), line);
-    rgb = mix(rgb, vec3(0.9, 0.1, 0.1), inDot);
+    rgb = mix(rgb, way.w > 0.5 ? vec3(0.9, 0.1, 0.1) : vec3(0.0), inDot);
+  } else if (view == kSteady) {
+    rgb = texelFetch(picture, p, 0).rgb;
   } else if (view == kDark) {
     rgb = texture(darkPigment, gl_FragCoord.xy / pictureSize).rgb;
   } else if (view == kLight) {

@@ -1,49 +1,84 @@
 // Purpose: a cell's two washes, the light one that is laid first and the dark one that is glazed over
 //          it: the two colours and their shares that have the moments of the cell's pixels (moment
-//          preserving thresholding: Tsai, 1985; Delp and Mitchell, 1979).
-// Inputs:  moments (split.comp; emptied here for the next frame), guide, grid, cellPixels.
-// Outputs: darkWash, lightWash (RGBA8): sRGB-coded; A of the light one: its share.
-// Precision: highp; sums below 2^24 are exact.
-layout(local_size_x = 8, local_size_y = 8) in;
+//          preserving thresholding: Tsai, 1985; Delp and Mitchell, 1979), which are averaged over time,
+//          so that a cell that gains or loses pixels changes its colours slowly.
+// Inputs:  moments (split.comp; emptied here for the next frame), seeds (seed.glsl), past: this pass's
+//          mean moments of the frame before; slots; kept: the part of the past's weight that this frame
+//          leaves, 0 where there is none. A cell begins with the past of the one that it was born in.
+// Outputs: darkWash, lightWash (RGBA8): sRGB-coded; A of the light one: its share. now: per cell 8
+//          floats: mean R, G, B in levels, frames' worth of pixels; L R, L G, L B, L³ / 16.
+// Precision: highp; a frame's sums below 2^24 are exact.
+#include "pipeline/styles/watercolor/shaders/seed.glsl"
+#include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
+layout(local_size_x = 64) in;
 layout(std430, binding = 0) buffer Moments { uint moments[]; };
+layout(std430, binding = 1) readonly buffer Seeds { Seed seeds[]; };
+layout(std430, binding = 2) readonly buffer Past { vec4 past[]; };
+layout(std430, binding = 3) writeonly buffer Now { vec4 now[]; };
 layout(binding = 0, rgba8) writeonly uniform highp image2D darkWash;
 layout(binding = 1, rgba8) writeonly uniform highp image2D lightWash;
-uniform sampler2D guide;
-uniform ivec2 grid;
-uniform vec2 cellPixels;
+uniform int slots;
+uniform float kept;
 
 const vec3 kLuma = vec3(0.25, 0.625, 0.125);  // split.comp's, in levels
-const float kLeastSpread = 3.0;  // levels: below, a cell is of one colour
+const float kLeastSpread = 3.0;   // levels: below, a cell is of one colour
+const float kWholeCell = 6.0;     // pixels of the guide that count as a frame's worth
+const float kMostFrames = 64.0;
+
+// The mean of a frame's moments and what the past has; first.w is the weight.
+void average(inout vec4 first, inout vec4 second, int slot) {
+  uint parent = seeds[slot].parent;
+  bool isBorn = (seeds[slot].state & kBornSeed) != 0u;
+  int from = isBorn ? int(parent) - 1 : slot;
+  if (kept <= 0.0 || from < 0) return;
+  vec4 firstThen = past[2 * from];
+  vec4 secondThen = past[2 * from + 1];
+  // What has changed for good is taken at once.
+  float apart = length(first.rgb - firstThen.rgb);
+  float alike = first.w > 0.0 ? 1.0 - smoothstep(30.0, 80.0, apart) : 1.0;
+  float before = kept * alike * min(firstThen.w, kMostFrames);
+  float all = before + first.w;
+  if (all <= 0.0) return;
+  first.rgb = (before * firstThen.rgb + first.w * first.rgb) / all;
+  second = (before * secondThen + first.w * second) / all;
+  first.w = all;
+}
 
 void main() {
-  ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(cell, grid))) return;
-  int base = (cell.y * grid.x + cell.x) * 8;
-  float count = float(moments[base + 3]);
-  // A cell without a pixel of the guide has the colour at its place.
-  vec2 middle = (vec2(cell) + 0.5) * cellPixels;
-  vec3 dark = texelFetch(guide, min(ivec2(0.5 * middle), textureSize(guide, 0) - 1), 0).rgb;
+  int slot = int(gl_GlobalInvocationID.x);
+  if (slot >= slots) return;
+  int base = slot * 8;
+  uint pixels = moments[base + 3];
+  vec4 first = vec4(0.0);
+  vec4 second = vec4(0.0);
+  if (pixels > 0u) {
+    float count = float(pixels);
+    first = vec4(vec3(uvec3(moments[base], moments[base + 1], moments[base + 2])) / count,
+                 min(count / kWholeCell, 1.0));
+    second = vec4(vec3(uvec3(moments[base + 4], moments[base + 5], moments[base + 6])) / (8.0 * count),
+                  float(moments[base + 7]) * 16.0 / count);
+    for (int i = 0; i < 8; ++i) moments[base + i] = 0u;
+  }
+  if ((seeds[slot].state & kLiving) != 0u) average(first, second, slot);
+  now[2 * slot] = first;
+  now[2 * slot + 1] = second;
+
+  vec3 mean = first.rgb;
+  float m = dot(mean, kLuma);
+  float variance = dot(second.rgb, kLuma) - m * m;
+  vec3 dark = mean / 255.0;
   vec3 light = dark;
   float share = 0.5;
-  if (count > 0.0) {
-    vec3 mean = vec3(uvec3(moments[base], moments[base + 1], moments[base + 2])) / count;
-    vec3 byLuma = vec3(uvec3(moments[base + 4], moments[base + 5], moments[base + 6])) / (8.0 * count);
-    float cube = float(moments[base + 7]) * 16.0 / count;
-    float m = dot(mean, kLuma);
-    float variance = dot(byLuma, kLuma) - m * m;
-    dark = light = mean / 255.0;
-    if (variance > kLeastSpread * kLeastSpread) {
-      float spread = sqrt(variance);
-      float third = cube - 3.0 * m * variance - m * m * m;
-      float skew = clamp(third / (variance * spread), -4.0, 4.0);
-      float up = 0.5 * (skew + sqrt(skew * skew + 4.0));  // the light colour, in spreads
-      vec3 slope = (byLuma - m * mean) / variance;        // of colour over luma
-      light = clamp((mean + slope * spread * up) / 255.0, 0.0, 1.0);
-      dark = clamp((mean - slope * spread / up) / 255.0, 0.0, 1.0);
-      share = 1.0 / (1.0 + up * up);
-    }
+  if (variance > kLeastSpread * kLeastSpread) {
+    float spread = sqrt(variance);
+    float third = second.a - 3.0 * m * variance - m * m * m;
+    float skew = clamp(third / (variance * spread), -4.0, 4.0);
+    float up = 0.5 * (skew + sqrt(skew * skew + 4.0));  // the light colour, in spreads
+    vec3 slope = (second.rgb - m * mean) / variance;    // of colour over luma
+    light = clamp((mean + slope * spread * up) / 255.0, 0.0, 1.0);
+    dark = clamp((mean - slope * spread / up) / 255.0, 0.0, 1.0);
+    share = 1.0 / (1.0 + up * up);
   }
-  imageStore(darkWash, cell, vec4(dark, 1.0));
-  imageStore(lightWash, cell, vec4(light, share));
-  for (int i = 0; i < 8; ++i) moments[base + i] = 0u;
+  imageStore(darkWash, texelOf(uint(slot)), vec4(dark, 1.0));
+  imageStore(lightWash, texelOf(uint(slot)), vec4(light, share));
 }

@@ -1,0 +1,60 @@
+#include "pipeline/marks/point_bins.h"
+
+#include <cassert>
+#include <cstddef>
+#include <vector>
+
+namespace pleinair::marks {
+namespace {
+
+const std::string kShaders = "pipeline/marks/shaders/";
+constexpr int kGroup = 64;       // as in point_bins_link.comp and _gather.comp
+constexpr int kScanGroup = 128;  // as in point_bins_scan.comp
+
+}  // namespace
+
+PointBins::PointBins(const gpu::ShaderLibrary& library)
+    : link_(library.compute(kShaders + "point_bins_link.comp")),
+      scan_(library.compute(kShaders + "point_bins_scan.comp")),
+      gather_(library.compute(kShaders + "point_bins_gather.comp")) {}
+
+void PointBins::allocate(hal::FrameSize bins, std::uint32_t slots) {
+  bins_ = {bins.width, bins.height};
+  slots_ = slots;
+  const auto binCount = static_cast<std::size_t>(bins.pixels());
+  // Each sort leaves the counts and lists empty for the next.
+  const std::vector<std::uint32_t> empty(2 * binCount + slots, 0);
+  links_ = gpu::Buffer::of(std::span<const std::uint32_t>(empty), gpu::BufferUsage::kDynamic);
+  starts_ = gpu::Buffer((binCount + 1) * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic);
+  sorted_ = gpu::Buffer(std::size_t{slots} * sizeof(BinnedPoint), gpu::BufferUsage::kDynamic);
+}
+
+glm::vec2 PointBins::binPixels(hal::FrameSize picture) const {
+  return glm::vec2(picture.width, picture.height) / glm::vec2(bins_);
+}
+
+void PointBins::sort(const gpu::Buffer& points, hal::FrameSize picture) {
+  assert(points.sizeBytes() == std::size_t{slots_} * sizeof(BinnedPoint));
+  const int count = bins_.x * bins_.y;
+  link_.use()
+      .storage(0, points)
+      .storage(1, links_)
+      .set("bins", bins_)
+      .set("binPixels", binPixels(picture))
+      .set("slots", static_cast<int>(slots_))
+      .dispatch({static_cast<int>(slots_), 1}, {kGroup, 1}, GL_SHADER_STORAGE_BARRIER_BIT);
+  scan_.use()
+      .storage(0, links_)
+      .storage(1, starts_)
+      .set("count", count)
+      .dispatch({kScanGroup, 1}, {kScanGroup, 1}, GL_SHADER_STORAGE_BARRIER_BIT);
+  gather_.use()
+      .storage(0, points)
+      .storage(1, links_)
+      .storage(2, starts_)
+      .storage(3, sorted_)
+      .set("count", count)
+      .dispatch({count, 1}, {kGroup, 1}, GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+}  // namespace pleinair::marks

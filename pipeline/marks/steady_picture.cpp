@@ -1,0 +1,95 @@
+#include "pipeline/marks/steady_picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <chrono>
+#include <cmath>
+
+namespace pleinair::marks {
+namespace {
+
+using gpu::ImageAccess;
+using gpu::TextureFilter;
+using gpu::TextureFormat;
+
+constexpr int kBlockPixels = 4;  // as in steady_picture.comp
+const std::string kShaders = "pipeline/marks/shaders/";
+
+/// What is left of the past's weight after `step`.
+float keptAfter(hal::Duration step, double timeConstantSeconds) {
+  if (timeConstantSeconds <= 0.0) return 0.0F;
+  const double seconds = std::max(0.0, std::chrono::duration<double>(step).count());
+  return static_cast<float>(std::exp(-seconds / timeConstantSeconds));
+}
+
+}  // namespace
+
+SteadyPicture::Canvas::Canvas(hal::FrameSize pictureSize)
+    : size(pictureSize),
+      pictures{gpu::Texture(TextureFormat::kRgba16f, size, TextureFilter::kLinear),
+               gpu::Texture(TextureFormat::kRgba16f, size, TextureFilter::kLinear)},
+      targets{gpu::RenderTarget({&pictures[0]}), gpu::RenderTarget({&pictures[1]})} {}
+
+SteadyPicture::SteadyPicture(const gpu::ShaderLibrary& library)
+    : average_(library.compute(kShaders + "steady_picture.comp")),
+      averageObjects_(library.compute(kShaders + "steady_picture_objects.comp")),
+      resize_(library.fragmentPass(kShaders + "steady_picture_resize.frag")),
+      noMotion_(TextureFormat::kRgba16f, {1, 1}),
+      noIds_(TextureFormat::kR32ui, {1, 1}) {}
+
+SteadyPicture::Canvas& SteadyPicture::canvasOf(hal::FrameSize size) {
+  const auto known =
+      std::ranges::find_if(canvases_, [&](const auto& c) { return c->size == size; });
+  if (known != canvases_.end()) return **known;
+  return *canvases_.emplace_back(std::make_unique<Canvas>(size));
+}
+
+/// The past in the size of `canvas`; what is written next is its picture `writes`.
+const gpu::Texture* SteadyPicture::pastFor(Canvas& canvas, int writes) {
+  if (now_->size() == canvas.size) return now_;
+  resize_.use().texture("past", *now_).drawFullscreen(canvas.targets[1 - writes]);
+  return &canvas.pictures[1 - writes];
+}
+
+void SteadyPicture::update(const scene::ArFrame& frame, const SteadyInput& input,
+                           gpu::PassTimer& timer) {
+  assert(input.backward != nullptr);
+  if (full_ != frame.full()) reset();
+  full_ = frame.full();
+  const auto scope = timer.measure("steady picture");
+  Canvas& canvas = canvasOf(frame.size());
+  const int writes = now_ == &canvas.pictures[0] ? 1 : 0;
+  const bool hasPast = hasPast_ && !input.isCut && input.timeConstantSeconds > 0.0;
+  const gpu::Texture* past = hasPast ? pastFor(canvas, writes) : &canvas.pictures[1 - writes];
+  const bool hasMotion = frame.hasObjects && frame.motion.has_value();
+  gpu::Program& average = frame.hasObjects ? averageObjects_ : average_;
+  average.use()
+      .image(0, canvas.pictures[writes], ImageAccess::kWrite)
+      .texture("picture", *frame.colour)
+      .texture("past", *past)
+      .texture("backward", *input.backward)
+      .texture("motion", hasMotion ? *frame.motion->texture : noMotion_)
+      .texture("ids", frame.hasObjects ? *frame.ids : noIds_)
+      .set("hasMotion", hasMotion ? 1 : 0)
+      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
+      .set("kept",
+           hasPast ? keptAfter(frame.captureTime - lastTime_, input.timeConstantSeconds) : 0.0F)
+      .set("noise", static_cast<float>(input.noiseLevels / 255.0))
+      .dispatch({(canvas.size.width + kBlockPixels - 1) / kBlockPixels,
+                 (canvas.size.height + kBlockPixels - 1) / kBlockPixels},
+                {16, 4}, GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  now_ = &canvas.pictures[writes];
+  lastTime_ = frame.captureTime;
+  hasPast_ = true;
+}
+
+void SteadyPicture::reset() {
+  hasPast_ = false;
+  if (full_ == hal::FrameSize{}) return;
+  full_ = {};
+  now_ = nullptr;
+  canvases_.clear();
+}
+
+}  // namespace pleinair::marks

@@ -1,0 +1,174 @@
+#include "pipeline/styles/watercolor/cell_tiling.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+namespace pleinair::styles {
+namespace {
+
+using gpu::ImageAccess;
+using gpu::TextureFormat;
+
+/// What the next pass reads, and what the next round writes over.
+constexpr GLbitfield kWritten = GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                                GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
+constexpr int kSettlingRounds = 5;
+constexpr int kBlockPixels = 4;         // as in tile.comp
+constexpr std::size_t kSumWords = 9;    // a cell, as in tile.comp
+constexpr int kSlotTextureWidth = 256;  // as in tiling_word.glsl
+constexpr float kReachCells = 1.0F;     // of a seed from its anchor
+constexpr float kGrowthCells = 1.25F;   // a cell of an anchor without fade has no pixel
+constexpr double kPatienceSeconds = 0.15;
+const std::string kShaders = "pipeline/styles/watercolor/shaders/";
+constexpr glm::ivec2 kSlotGroup{64, 1};
+
+/// An edge in a cell has the fewer pixels the smaller the picture is.
+unsigned minEdgePixels(int ofFull, float pixelsOfFull) {
+  return static_cast<unsigned>(
+      std::max(1L, std::lround(pixelsOfFull * static_cast<float>(ofFull))));
+}
+
+/// The share of its way that something with this time constant goes in `step`.
+float shareOf(hal::Duration step, double timeConstantSeconds) {
+  const double seconds = std::chrono::duration<double>(step).count();
+  return static_cast<float>(1.0 - std::exp(-seconds / timeConstantSeconds));
+}
+
+gpu::Buffer zeros(std::size_t bytes) {
+  const std::vector<std::byte> empty(bytes);
+  return gpu::Buffer::of(std::span<const std::byte>(empty), gpu::BufferUsage::kDynamic);
+}
+
+}  // namespace
+
+hal::FrameSize slotTextureSize(std::uint32_t slots) {
+  const int rows = (static_cast<int>(slots) + kSlotTextureWidth - 1) / kSlotTextureWidth;
+  return {kSlotTextureWidth, std::max(1, rows)};
+}
+
+CellTiling::CellTiling(const gpu::ShaderLibrary& library)
+    : place_(library.compute(kShaders + "seeds.comp")),
+      nearest_(library.compute(kShaders + "tile.comp")),
+      move_(library.compute(kShaders + "cells.comp")),
+      bins_(library) {}
+
+void CellTiling::allocate(hal::FrameSize full, int cellSizePixels, std::uint32_t slots) {
+  assert(slots <= 1U << 22U);  // tiling_word.glsl
+  full_ = full;
+  cellSize_ = cellSizePixels;
+  slots_ = slots;
+  const auto binsAlong = [&](int px) {
+    return std::max(1, (px + cellSizePixels / 2) / cellSizePixels);
+  };
+  bins_.allocate({binsAlong(full.width), binsAlong(full.height)}, slots);
+  seeds_ = zeros(std::size_t{slots} * sizeof(CellSeed));
+  points_ = zeros(std::size_t{slots} * sizeof(marks::BinnedPoint));
+  sums_ = zeros(std::size_t{slots} * kSumWords * sizeof(std::uint32_t));
+  means_ = gpu::Texture(TextureFormat::kRgba16f, slotTextureSize(slots));
+}
+
+void CellTiling::tile(const TilingFrame& input, const marks::AnchorSet& anchors,
+                      const WatercolorParameters& p, gpu::PassTimer& timer) {
+  assert(anchors.slotCount() == slots_ && input.frame->full() == full_);
+  placeSeeds(input, anchors, true, timer);
+  for (int i = 0; anchors.hasBegunAnew() && i < kSettlingRounds; ++i) {
+    findCells(input, p, timer);
+    moveSeeds(input, p, true, timer);
+    placeSeeds(input, anchors, false, timer);
+  }
+  findCells(input, p, timer);
+  moveSeeds(input, p, false, timer);
+}
+
+/// Where the seeds are, and in which bins; they are carried with their anchors if these have moved.
+void CellTiling::placeSeeds(const TilingFrame& input, const marks::AnchorSet& anchors, bool carries,
+                            gpu::PassTimer& timer) {
+  const auto scope = timer.measure("watercolor: seeds");
+  const scene::ArFrame& frame = *input.frame;
+  const glm::vec2 pixelsOfFull(frame.pixelsOfFull());
+  const float growth = kGrowthCells * static_cast<float>(cellSize_) * pixelsOfFull.x;
+  place_.use()
+      .storage(0, anchors.anchors())
+      .storage(1, seeds_)
+      .storage(2, points_)
+      .texture("tilingThen", input.tilingThen != nullptr ? *input.tilingThen : *input.tiling)
+      .set("hasThen", input.tilingThen != nullptr ? 1 : 0)
+      .set("slots", static_cast<int>(slots_))
+      .set("carries", carries ? 1 : 0)
+      .set("beginsAnew", anchors.hasBegunAnew() ? 1 : 0)
+      .set("full", glm::vec2(full_.width, full_.height))
+      .set("pixelsOfFull", pixelsOfFull)
+      .set("reach", kReachCells * static_cast<float>(cellSize_))
+      .set("growth", growth * growth)
+      .dispatch({static_cast<int>(slots_), 1}, kSlotGroup, GL_SHADER_STORAGE_BARRIER_BIT);
+  bins_.sort(points_, frame.size());
+}
+
+void CellTiling::findCells(const TilingFrame& input, const WatercolorParameters& p,
+                           gpu::PassTimer& timer) {
+  const scene::ArFrame& frame = *input.frame;
+  const hal::FrameSize size = frame.size();
+  const auto scope = timer.measure("watercolor: tile");
+  nearest_.use()
+      .storage(0, bins_.starts())
+      .storage(1, sums_)
+      .storage(2, bins_.sorted())
+      .image(0, *input.tiling, ImageAccess::kWrite)
+      .texture("picture", *input.picture)
+      .texture("ids", frame.hasObjects ? *frame.ids : *input.tiling)
+      .set("hasObjects", frame.hasObjects ? 1 : 0)
+      .set("bins", bins_.bins())
+      .set("binPixels", bins_.binPixels(size))
+      .set("alpha", static_cast<float>(p.edgeAlpha))
+      .set("beta", static_cast<float>(p.edgeBeta))
+      .set("threshold", static_cast<float>(p.edgeThreshold))
+      .set("wantsMeans", input.wantsMeans ? 1 : 0)
+      .dispatch({(size.width + kBlockPixels - 1) / kBlockPixels,
+                 (size.height + kBlockPixels - 1) / kBlockPixels},
+                {16, 4}, kWritten);
+}
+
+/// `atOnce`: all the way, whatever the time constants.
+void CellTiling::moveSeeds(const TilingFrame& input, const WatercolorParameters& p, bool atOnce,
+                           gpu::PassTimer& timer) {
+  const glm::vec2 pixelsOfFull(input.frame->pixelsOfFull());
+  const bool jumps = atOnce || p.retileTimeSeconds <= 0.0;
+  const bool stays = p.returnTimeSeconds <= 0.0;
+  const float drift = stays ? 0.0F : atOnce ? 1.0F : shareOf(input.step, p.returnTimeSeconds);
+  const auto scope = timer.measure("watercolor: cells");
+  move_.use()
+      .storage(0, seeds_)
+      .storage(1, sums_)
+      .storage(2, points_)
+      .image(0, means_, ImageAccess::kWrite)
+      .set("slots", static_cast<int>(slots_))
+      .set("pixelsOfFull", pixelsOfFull)
+      .set("minEdgePixels", minEdgePixels(p.retilePixels, pixelsOfFull.x))
+      .set("follow", jumps ? 1.0F : shareOf(input.step, p.retileTimeSeconds))
+      .set("drift", drift)
+      .set("reach", kReachCells * static_cast<float>(cellSize_))
+      .set("rest", static_cast<float>(p.retileRest) * static_cast<float>(cellSize_))
+      .set("patience", static_cast<float>(kPatienceSeconds))
+      .set("passed", std::chrono::duration<float>(input.step).count())
+      .set("atOnce", atOnce ? 1 : 0)
+      .set("wantsMeans", input.wantsMeans ? 1 : 0)
+      .dispatch({static_cast<int>(slots_), 1}, kSlotGroup, kWritten);
+}
+
+std::size_t CellTiling::readMoving() const {
+  std::vector<CellSeed> read(slots_);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  glBindBuffer(GL_COPY_READ_BUFFER, seeds_.name());
+  const void* mapped = glMapBufferRange(
+      GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(seeds_.sizeBytes()), GL_MAP_READ_BIT);
+  if (mapped != nullptr) std::memcpy(read.data(), mapped, seeds_.sizeBytes());
+  glUnmapBuffer(GL_COPY_READ_BUFFER);
+  glBindBuffer(GL_COPY_READ_BUFFER, 0);
+  return static_cast<std::size_t>(std::ranges::count_if(read, &CellSeed::isMoving));
+}
+
+}  // namespace pleinair::styles

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "hal/clock.h"
+#include "pipeline/gpu/buffer.h"
+#include "pipeline/gpu/pass_timer.h"
+#include "pipeline/gpu/program.h"
+#include "pipeline/gpu/shader_library.h"
+#include "pipeline/gpu/texture.h"
+#include "pipeline/marks/anchor_set.h"
+#include "pipeline/marks/point_bins.h"
+#include "pipeline/styles/watercolor/watercolor_parameters.h"
+
+namespace pleinair::styles {
+
+/// A cell's seed beside its anchor's slot (shaders/seed.glsl).
+struct CellSeed {
+  glm::vec2 offset{0.0F};    ///< from its anchor, px of the full picture
+  float restless = 0.0F;     ///< how long it has had reason to move, s
+  std::uint32_t state = 0;   ///< the flags below
+  std::uint32_t parent = 0;  ///< the slot whose cell it was born in, plus one
+  std::uint32_t spare[3] = {};
+
+  static constexpr std::uint32_t kMoving = 1;
+  static constexpr std::uint32_t kAtEdge = 2;
+  static constexpr std::uint32_t kBorn = 4;
+  static constexpr std::uint32_t kLiving = 8;
+
+  bool isMoving() const { return (state & kMoving) != 0; }
+  bool isLiving() const { return (state & kLiving) != 0; }
+};
+static_assert(sizeof(CellSeed) == 32);
+
+/// What a frame's tiling is made of.
+struct TilingFrame {
+  const scene::ArFrame* frame = nullptr;
+  const gpu::Texture* picture = nullptr;     ///< what edges and colours are taken from
+  const gpu::Texture* tilingThen = nullptr;  ///< of the frame before; null where there is none
+  const gpu::Texture* tiling = nullptr;      ///< to be written: R32UI, shaders/tiling_word.glsl
+  hal::Duration step{0};                     ///< since the frame before
+  bool wantsMeans = false;
+};
+
+/// The Voronoi cells of seeds that belong to anchors (thesis §3.2, and on): a seed is carried with
+/// its anchor, drawn to the edges in its cell or to the cell's middle, and rests until it has
+/// reason to move for a while. Cells whose anchors fade in or out grow and shrink (a power
+/// diagram). All on the GPU thread's context.
+class CellTiling {
+ public:
+  /// `library` has gpu::watercolorShaders() and gpu::marksShaders().
+  explicit CellTiling(const gpu::ShaderLibrary& library);
+
+  /// Makes room for so many slots and forgets all seeds. Throws hal::StartupError where the GPU has
+  /// no memory for them.
+  void allocate(hal::FrameSize full, int cellSizePixels, std::uint32_t slots);
+  std::uint32_t slots() const { return slots_; }
+
+  /// Tiles a frame; where the anchors have begun anew their seeds settle in a few rounds at once.
+  void tile(const TilingFrame& input, const marks::AnchorSet& anchors,
+            const WatercolorParameters& parameters, gpu::PassTimer& timer);
+
+  /// CellSeeds, one a slot: for the next frame.
+  const gpu::Buffer& seeds() const { return seeds_; }
+  /// marks::BinnedPoints, one a slot: where the seeds are of the last tiling.
+  const gpu::Buffer& points() const { return points_; }
+  /// RGBA16F, a texel a slot (slotTextureSize): linear RGB; 0 in A where it has no pixel. Only
+  /// after a frame that wanted means.
+  const gpu::Texture& means() const { return means_; }
+
+  /// How many seeds were on their way in the last frame. Waits for the GPU: for measures and tests.
+  std::size_t readMoving() const;
+
+ private:
+  void placeSeeds(const TilingFrame& input, const marks::AnchorSet& anchors, bool carries,
+                  gpu::PassTimer& timer);
+  void findCells(const TilingFrame& input, const WatercolorParameters& p, gpu::PassTimer& timer);
+  void moveSeeds(const TilingFrame& input, const WatercolorParameters& p, bool atOnce,
+                 gpu::PassTimer& timer);
+
+  gpu::Program place_;
+  gpu::Program nearest_;
+  gpu::Program move_;
+  marks::PointBins bins_;
+  hal::FrameSize full_;
+  int cellSize_ = 1;
+  std::uint32_t slots_ = 0;
+  gpu::Buffer seeds_;
+  gpu::Buffer points_;
+  gpu::Buffer sums_;
+  gpu::Texture means_;
+};
+
+/// The size of textures with a texel for each slot (shaders/tiling_word.glsl).
+hal::FrameSize slotTextureSize(std::uint32_t slots);
+
+}  // namespace pleinair::styles

@@ -1,0 +1,65 @@
+// Purpose: carries every seed with its anchor and says where it is in this picture.
+// Inputs:  anchors (marks/anchor.glsl), seeds (seed.glsl), tilingThen (tiling_word.glsl) if hasThen:
+//          the tiling of the frame before; slots; carries: whether the anchors have moved since the
+//          last time; beginsAnew: all are new; full: the full
+//          picture's size in px; pixelsOfFull; reach: the most a seed is away from its anchor, px of the
+//          full picture; growth: the penalty of an anchor that is not seen yet, px² of this picture.
+// Outputs: seeds; points (marks/point_bins.glsl).
+// Precision: points end on the lattice of 1/64 px.
+#include "pipeline/marks/shaders/anchor.glsl"
+#include "pipeline/styles/watercolor/shaders/seed.glsl"
+#include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
+layout(local_size_x = 64) in;
+layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
+layout(std430, binding = 1) buffer Seeds { Seed seeds[]; };
+layout(std430, binding = 2) writeonly buffer Points { ivec4 points[]; };
+uniform highp usampler2D tilingThen;
+uniform bool hasThen;
+uniform int slots;
+uniform bool carries;
+uniform bool beginsAnew;
+uniform vec2 full;
+uniform vec2 pixelsOfFull;
+uniform float reach;
+uniform float growth;
+
+const float kFarAway = 16384.0;  // px; keeps the lattice within integers
+
+uint cellThen(vec2 px) {
+  ivec2 size = textureSize(tilingThen, 0);
+  ivec2 at = clamp(ivec2(px / full * vec2(size)), ivec2(0), size - 1);
+  return slotOf(texelFetch(tilingThen, at, 0).r) + 1u;
+}
+
+Seed born(Anchor anchor) {
+  uint parent = hasThen && !beginsAnew ? cellThen(anchor.px - anchor.displacement) : 0u;
+  return Seed(vec2(0.0), 0.0, kBornSeed | kLiving, parent, 0u, 0u, 0u);
+}
+
+Seed carried(Seed seed, Anchor anchor) {
+  vec2 offset = mat2(anchor.jacobian.xy, anchor.jacobian.zw) * seed.offset;
+  float far = length(offset);
+  seed.offset = far > reach ? offset * (reach / far) : offset;
+  seed.state &= ~kBornSeed;
+  return seed;
+}
+
+void main() {
+  int slot = int(gl_GlobalInvocationID.x);
+  if (slot >= slots) return;
+  Anchor anchor = anchors[slot];
+  Seed seed = seeds[slot];
+  if (!isAlive(anchor.state)) {
+    seeds[slot].state = 0u;
+    points[slot] = ivec4(0, 0, 0, -1);
+    return;
+  }
+  if (carries) {
+    bool isNew = beginsAnew || (anchor.state & kBorn) != 0u || (seed.state & kLiving) == 0u;
+    seed = isNew ? born(anchor) : carried(seed, anchor);
+    seeds[slot] = seed;
+  }
+  vec2 at = clamp((anchor.px + seed.offset) * pixelsOfFull, vec2(-kFarAway), vec2(kFarAway));
+  float penalty = (1.0 - clamp(anchor.fade, 0.0, 1.0)) * growth;
+  points[slot] = ivec4(ivec2(floor(at * 64.0 + 0.5)), int(penalty * 4096.0), slot);
+}

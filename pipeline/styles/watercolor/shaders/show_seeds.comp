@@ -1,0 +1,29 @@
+// Purpose: what the views show of seeds and their anchors, where fragment shaders can read it.
+// Inputs:  anchors (marks/anchor.glsl), seeds (seed.glsl), points (marks/point_bins.glsl): of this frame's
+//          tiling; slots, pixelsOfFull.
+// Outputs: places (RGBA32F): px of the seed and of its anchor; ways (RGBA16F): how the anchor was
+//          carried (its source), its age in s, its fade, 1 where its seed is moving.
+// Precision: highp.
+#include "pipeline/marks/shaders/anchor.glsl"
+#include "pipeline/styles/watercolor/shaders/seed.glsl"
+#include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
+layout(local_size_x = 64) in;
+layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
+layout(std430, binding = 1) readonly buffer Seeds { Seed seeds[]; };
+layout(std430, binding = 2) readonly buffer Points { ivec4 points[]; };
+layout(binding = 0, rgba32f) writeonly uniform highp image2D places;
+layout(binding = 1, rgba16f) writeonly uniform highp image2D ways;
+uniform int slots;
+uniform vec2 pixelsOfFull;
+
+void main() {
+  int slot = int(gl_GlobalInvocationID.x);
+  if (slot >= slots) return;
+  Anchor anchor = anchors[slot];
+  vec2 at = vec2(points[slot].xy) / 64.0;
+  float moving = (seeds[slot].state & kMoving) != 0u ? 1.0 : 0.0;
+  ivec2 texel = texelOf(uint(slot));
+  imageStore(places, texel, vec4(at, anchor.px * pixelsOfFull));
+  imageStore(ways, texel,
+             vec4(float(anchor.state & kSourceBits), min(anchor.age, 1000.0), anchor.fade, moving));
+}

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/video/tracking.hpp>
+
+#include "pipeline/tracking/image_motion.h"
+#include "pipeline/tracking/luma_pyramid.h"
+
+namespace pleinair::tracking {
+
+class Stillness;
+
+/// Dense optical flow between two frames, there and back: by dense inverse search at half the
+/// pyramid's size (Kroeger et al., "Fast optical flow using dense inverse search", 2016), or by the
+/// picture's homography where that fits as well, refined patch by patch in the whole picture. Its
+/// error is predicted from noise and texture, and from how far the two directions disagree. One
+/// thread at a time; OpenCV's help.
+class DenseFlowEstimator {
+ public:
+  DenseFlowEstimator();
+
+  /// Flow from one frame to the next, of one size. Zero to the bit where fields are still.
+  void update(const LumaPyramid& then, const LumaPyramid& now,
+              const std::optional<PictureHomography>& picture, const Stillness* stillness,
+              double noise);
+  /// Valid until the next update().
+  DenseFlow flow() const;
+
+  static constexpr int kStepPx = 8;  ///< between nodes, about, of the pyramid's picture
+
+ private:
+  /// One of the two directions.
+  struct Way {
+    cv::Ptr<cv::DISOpticalFlow> search;
+    cv::Mat coarse;
+    std::vector<glm::vec4> nodes;
+  };
+  void place(const LumaPyramid& now);
+  void flowOneWay(Way& way, const LumaPyramid& from, const LumaPyramid& to,
+                  const cv::Mat& fromSmall, const cv::Mat& toSmall, const glm::dmat3* toFromFrom,
+                  double noise) const;
+  double edge(const std::vector<glm::vec4>& nodes, std::size_t index) const;
+  void disagree(const std::vector<glm::vec4>& back, std::vector<glm::vec4>& nodes) const;
+  void standStill(const Stillness& stillness, std::vector<glm::vec4>& nodes) const;
+  glm::dvec2 nodePx(std::size_t index) const;
+
+  hal::FrameSize frameSize_;
+  hal::FrameSize grid_;
+  glm::dvec2 stepPx_{1.0};
+  glm::dvec2 reduction_{1.0};
+  std::array<cv::Mat, 2> small_;  // of the two frames
+  std::array<Way, 2> ways_;
+};
+
+}  // namespace pleinair::tracking

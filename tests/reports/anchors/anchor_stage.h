@@ -1,0 +1,63 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+
+#include "hal/image.h"
+#include "pipeline/marks/anchor_set.h"
+#include "pipeline/scene/ar_frame_renderer.h"
+#include "tests/reports/anchors/area_sampling.h"
+#include "tests/reports/anchors/cell_counts.h"
+
+namespace pleinair::marks {
+
+/// A scene of at most one model, frame by frame, with the anchors that live in it. All calls on the
+/// thread of the GL context it was made in.
+class AnchorStage {
+ public:
+  static constexpr hal::FrameSize kSize{640, 480};
+  static constexpr hal::Duration kStep = std::chrono::milliseconds(33);
+  static constexpr int kCellPixels = 8;
+
+  /// `model` may be null: the camera's picture alone.
+  explicit AnchorStage(std::shared_ptr<const scene::Model> model, DensityRule rule = {});
+
+  /// The next frame: the model is placed so, the picture moved so.
+  void advance(const glm::dmat4& cameraFromModel, const glm::dmat3& nowFromThen = glm::dmat3(1.0));
+
+  std::vector<Anchor> anchors() const { return anchors_->read(); }
+  /// Where those are that stay, on the model; without one, all.
+  std::vector<glm::dvec2> places() const;
+  /// Cells that show the model; without one, all.
+  CellGrid grid() const;
+  /// Where those of the samples appear that are seen.
+  std::vector<glm::dvec2> seen(std::span<const SurfaceSample> samples) const;
+  /// The model's triangles as they are now, in the camera's frame.
+  std::vector<Triangle> triangles() const;
+  hal::Image picture() const;
+
+  const tracking::CameraModel& camera() const { return camera_; }
+
+ private:
+  std::vector<std::uint32_t> ids() const;
+
+  gpu::ShaderLibrary library_;
+  gpu::PassTimer timer_;
+  std::shared_ptr<const scene::Model> model_;
+  tracking::CameraModel camera_;
+  gpu::Texture ground_;
+  std::optional<scene::ArFrameRenderer> renderer_;
+  std::optional<MotionField> field_;
+  std::optional<AnchorSet> anchors_;
+  scene::ArFrame frame_;
+  glm::dmat4 cameraFromModel_{1.0};
+  std::uint64_t sequence_ = 0;
+};
+
+}  // namespace pleinair::marks
