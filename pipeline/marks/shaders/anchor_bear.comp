@@ -47,7 +47,7 @@ int freePart(ivec2 cell, uint taken, uint hash) {
 
 void bear(ivec2 cell, uint number, bool onObject, inout uint taken) {
   if (number >= freeCount) return;
-  uint hash = hashOf(cell, salt * 64u + number);
+  uint hash = hashOf(cell, hashOf(salt) + number);  // no frame's numbers follow another's
   int part = freePart(cell, taken, hash);
   taken |= 1u << uint(part);
   vec2 corner = vec2(part % strataSide, part / strataSide);
@@ -77,7 +77,7 @@ void bear(ivec2 cell, uint number, bool onObject, inout uint taken) {
   born.error = 0.0;
   born.fade = fade;
   born.age = 0.0;
-  born.seed = hashOf(hash);
+  born.seed = hashOf(hash ^ 0x9E3779B9u);  // tells nothing of the place, which came of the same hash
   born.surface = onObject ? id : idOf(objectOf(id), 0u);
   born.state = kAlive | kBorn | kSourceUnknown;
   if (onObject) {

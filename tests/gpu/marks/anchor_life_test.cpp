@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
@@ -177,6 +178,18 @@ TEST_F(AnchorLife, APanBearsOnlyWhatComesIntoThePicture) {
   EXPECT_LE(std::ranges::max(counts), 5) << "one above where one goes each frame";
   EXPECT_EQ(std::ranges::count(counts, 0), 0);
   fades.expectNoPop();
+}
+
+TEST_F(AnchorLife, APanDoesNotRunOutOfSlots) {
+  for (const DensityRule rule : {DensityRule{.target = 1, .birthBelow = 1, .deathAbove = 3},
+                                 DensityRule{.target = 4, .birthBelow = 2, .deathAbove = 6}}) {
+    set_.emplace(library_, kSize, AnchorOptions{.density = rule});
+    for (int i = 0; i < 90; ++i) {
+      const std::vector<Anchor> now = next(panning(-0.7, 0.3));
+      ASSERT_EQ(std::ranges::count(cellCounts(now), 0), 0)
+          << "in frame " << i << " for " << rule.target << " a cell";
+    }
+  }
 }
 
 TEST_F(AnchorLife, ZoomingInBearsWhereItGetsSparse) {
@@ -353,6 +366,29 @@ TEST_F(AnchorLife, AfterAResetItIsAsAtFirst) {
     if (each.isAlive()) is.emplace(each.px.x, each.px.y);
   }
   EXPECT_EQ(was, is);
+}
+
+TEST_F(AnchorLife, SeedsAreTheirOwnAndSayNothingOfPlaces) {
+  next({});
+  std::set<std::uint32_t> seeds;
+  std::size_t born = 0;
+  glm::dvec2 products(0.0);
+  for (int i = 0; i < 40; ++i) {
+    for (const Anchor& each : next(zooming(1.02))) {
+      if (!each.isAlive() || !each.isBorn()) continue;
+      ++born;
+      seeds.insert(each.seed);
+      const glm::dvec2 inCell = glm::fract(glm::dvec2(each.px) / double{kCellPixels});
+      products += (inCell - 0.5) * (each.seed / 4294967296.0 - 0.5);
+    }
+  }
+  EXPECT_GT(born, 1000U);
+  EXPECT_GE(seeds.size(), born - 1) << "two in thousands may meet";
+  // Correlations of independent ones: 1/√n is a standard deviation.
+  const glm::dvec2 correlations = 12.0 * products / static_cast<double>(born);
+  const double most = 5.0 / std::sqrt(static_cast<double>(born));
+  EXPECT_LT(std::abs(correlations.x), most);
+  EXPECT_LT(std::abs(correlations.y), most);
 }
 
 TEST_F(AnchorLife, LevelsOfQualityChangeNothingOfPlaces) {
