@@ -66,6 +66,12 @@ glm::dmat3 matrixOf(const cv::Vec<double, 8>& h) {
   return {h[0], h[3], h[6], h[1], h[4], h[7], h[2], h[5], 1.0};
 }
 
+/// Whether no corner of the picture comes near the horizon: no camera moves so in a frame.
+bool isGentle(const cv::Vec<double, 8>& h) {
+  constexpr double kMost = 0.5;
+  return std::abs(h[6]) + std::abs(h[7]) < kMost;
+}
+
 }  // namespace
 
 bool HomographyFitter::findAgreeing(std::span<const PointPair> pairs, hal::FrameSize size,
@@ -103,60 +109,62 @@ bool HomographyFitter::coversEnough(std::span<const PointPair> pairs, hal::Frame
   return std::ranges::count(fields, true) >= kLeastFields;
 }
 
-std::optional<HomographyFit> HomographyFitter::fit(std::span<const PointPair> pairs,
-                                                   hal::FrameSize size) {
-  agrees_.assign(pairs.size(), 0);
-  if (pairs.size() < kLeastPairs) return std::nullopt;
-  glm::dmat3 start(1.0);
-  if (!findAgreeing(pairs, size, start)) return std::nullopt;
-  const auto agreeing = static_cast<std::size_t>(std::ranges::count(agrees_, 1));
-  if (agreeing < kLeastPairs ||
-      static_cast<double>(agreeing) < kLeastPart * static_cast<double>(pairs.size()) ||
-      !coversEnough(pairs, size)) {
-    return std::nullopt;
+/// Sums of a step of weighted least squares.
+struct HomographyFitter::Sums {
+  Matrix8 normal = Matrix8::zeros();
+  Vector8 right = Vector8::all(0.0);
+  double squares = 0.0;   // of deviations, px²
+  double expected = 0.0;  // by the pairs' errors
+  double weights = 0.0;
+};
+
+/// `excess`: by how much, px², points deviate beyond their own errors.
+HomographyFitter::Sums HomographyFitter::sumUp(std::span<const PointPair> pairs,
+                                               hal::FrameSize size, const Vector8& h,
+                                               double excess) const {
+  const Scaling scaling(size);
+  const double softPx = kRobustPart * kOutlierPart * std::max(size.width, size.height);
+  Sums out;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (agrees_[i] == 0) continue;
+    const glm::dvec2 p = scaling.of(pairs[i].then);
+    const glm::dvec2 residual = scaling.of(pairs[i].now) - apply(h, p);
+    const double px = glm::length(residual) * scaling.unit;
+    const double own = pairs[i].errorPx * pairs[i].errorPx;
+    const double soft = kRobustErrors * std::sqrt(own + excess) + softPx;
+    const double robust = 1.0 / (1.0 + px * px / (soft * soft));
+    const double part = robust / (own + excess);
+    const double weight = 2.0 * scaling.unit * scaling.unit * part;  // two axes share the error
+    const auto by = derivatives(h, p);
+    for (int axis = 0; axis < 2; ++axis) {
+      const Vector8& row = by[static_cast<std::size_t>(axis)];
+      out.right += weight * residual[axis] * row;
+      out.normal += weight * (row * row.t());
+    }
+    out.squares += part * px * px;
+    out.expected += part * own;
+    out.weights += part;
   }
+  return out;
+}
+
+std::optional<HomographyFit> HomographyFitter::refine(std::span<const PointPair> pairs,
+                                                      hal::FrameSize size,
+                                                      const glm::dmat3& start) const {
   const Scaling scaling(size);
   const glm::dmat3 toUnits = scaling.matrix();
-  Vector8 h = numbersOf(toUnits * start * glm::inverse(toUnits));
-  const double softPx = kRobustPart * kOutlierPart * std::max(size.width, size.height);
-  Matrix8 normal;
+  const glm::dmat3 toPx = glm::inverse(toUnits);
+  Vector8 h = numbersOf(toUnits * start * toPx);
+  Sums sums;
   double excess = 0.0;
   for (int step = 0; step < kSteps; ++step) {
-    normal = Matrix8::zeros();
-    Vector8 right = Vector8::all(0.0);
-    double squares = 0.0;
-    double expected = 0.0;
-    double weights = 0.0;
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-      if (agrees_[i] == 0) continue;
-      const glm::dvec2 p = scaling.of(pairs[i].then);
-      const glm::dvec2 residual = scaling.of(pairs[i].now) - apply(h, p);
-      const double px = glm::length(residual) * scaling.unit;
-      // Two axes share a pair's error; what points deviate by as a whole is everybody's.
-      const double variance = pairs[i].errorPx * pairs[i].errorPx + excess;
-      const double soft = kRobustErrors * std::sqrt(variance) + softPx;
-      const double robust = 1.0 / (1.0 + px * px / (soft * soft));
-      const double weight = robust * 2.0 * scaling.unit * scaling.unit / variance;
-      const auto by = derivatives(h, p);
-      for (int axis = 0; axis < 2; ++axis) {
-        const auto& row = by[static_cast<std::size_t>(axis)];
-        const double r = residual[axis];
-        for (int a = 0; a < 8; ++a) {
-          right[a] += weight * row[a] * r;
-          for (int b = 0; b < 8; ++b) normal(a, b) += weight * row[a] * row[b];
-        }
-      }
-      const double part = robust / variance;
-      squares += part * px * px;
-      expected += part * pairs[i].errorPx * pairs[i].errorPx;
-      weights += part;
-    }
+    sums = sumUp(pairs, size, h, excess);
     Vector8 change;
-    if (!cv::solve(normal, right, change, cv::DECOMP_CHOLESKY)) return std::nullopt;
+    if (!cv::solve(sums.normal, sums.right, change, cv::DECOMP_CHOLESKY)) return std::nullopt;
     h += change;
-    excess = std::max(0.0, (squares - expected) / weights);
+    excess = std::max(0.0, (sums.squares - sums.expected) / sums.weights);
   }
-  const Matrix8 covariance = normal.inv(cv::DECOMP_CHOLESKY);
+  const Matrix8 covariance = sums.normal.inv(cv::DECOMP_CHOLESKY);
   double variance = 0.0;
   double places = 0.0;
   forPlaces(size, [&](const glm::dvec2& px) {
@@ -165,12 +173,28 @@ std::optional<HomographyFit> HomographyFitter::fit(std::span<const PointPair> pa
     }
     places += 1.0;
   });
-  HomographyFit out{.nowFromThen = glm::inverse(toUnits) * matrixOf(h) * toUnits,
+  HomographyFit out{.nowFromThen = toPx * matrixOf(h) * toUnits,
                     .fitErrorPx = std::sqrt(variance / places),
-                    .modelErrorPx = std::sqrt(excess),
-                    .agreeing = agreeing};
+                    .modelErrorPx = std::sqrt(excess)};
   out.nowFromThen /= out.nowFromThen[2][2];
+  if (!isGentle(h) || !std::isfinite(out.fitErrorPx)) return std::nullopt;
   return out;
+}
+
+std::optional<HomographyFit> HomographyFitter::fit(std::span<const PointPair> pairs,
+                                                   hal::FrameSize size) {
+  agrees_.assign(pairs.size(), 0);
+  glm::dmat3 start(1.0);
+  if (pairs.size() < kLeastPairs || !findAgreeing(pairs, size, start)) return std::nullopt;
+  const auto agreeing = static_cast<std::size_t>(std::ranges::count(agrees_, 1));
+  if (agreeing < kLeastPairs ||
+      static_cast<double>(agreeing) < kLeastPart * static_cast<double>(pairs.size()) ||
+      !coversEnough(pairs, size)) {
+    return std::nullopt;
+  }
+  auto fit = refine(pairs, size, start);
+  if (fit) fit->agreeing = agreeing;
+  return fit;
 }
 
 }  // namespace pleinair::tracking

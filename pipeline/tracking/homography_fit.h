@@ -40,6 +40,11 @@ class HomographyFitter {
   using Vector8 = cv::Vec<double, 8>;
   using Matrix8 = cv::Matx<double, 8, 8>;
   bool findAgreeing(std::span<const PointPair> pairs, hal::FrameSize size, glm::dmat3& start);
+  struct Sums;
+  Sums sumUp(std::span<const PointPair> pairs, hal::FrameSize size, const Vector8& h,
+             double excess) const;
+  std::optional<HomographyFit> refine(std::span<const PointPair> pairs, hal::FrameSize size,
+                                      const glm::dmat3& start) const;
   bool coversEnough(std::span<const PointPair> pairs, hal::FrameSize size) const;
 
   std::vector<cv::Point2f> from_;

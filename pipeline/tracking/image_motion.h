@@ -36,8 +36,9 @@ struct PictureHomography {
 struct DenseFlow {
   hal::FrameSize nodes;
   glm::vec2 stepPx{1.0F};  ///< of the frame
-  /// Row by row: displacement (px of the frame), its predicted error (px), and 0. `forward`: where
-  /// what was at the node has gone; `backward`: how what is at the node came there.
+  /// Row by row: displacement (px of the frame), its predicted error (px), and 0. `forward`: from
+  /// the node to where what was there has gone; `backward`: from the node to where what is there
+  /// was.
   std::span<const glm::vec4> forward;
   std::span<const glm::vec4> backward;
 };
