@@ -378,6 +378,11 @@ void Watercolor::warmUp() {
   paint(frame, "", timer);
   paint({.colour = &grey, .normalFocus = &grey, .hasFocus = true, .sequence = 1}, "", timer);
   paint({.colour = &grey, .sequence = 2}, kViews.front().name, timer);
+  const std::vector<std::uint8_t> noObjects(std::size_t{16} * 16 * 4);
+  Texture ids(TextureFormat::kR32ui, grey.size());
+  ids.upload(noObjects, std::size_t{16} * 4);
+  paint({.colour = &grey, .ids = &ids, .barycentrics = &ids, .hasObjects = true, .sequence = 3}, "",
+        timer);
   canvas_ = canvasThen_ = nullptr;
   canvases_.clear();
   marks_.reset();
