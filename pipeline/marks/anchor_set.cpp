@@ -107,7 +107,7 @@ struct AnchorSet::State {
   void carryInImage(const scene::ArFrame& frame, const MotionField& motion, hal::Duration step);
   void carryOnSurfaces(const scene::ArFrame& frame);
   void takeCensus(const scene::ArFrame& frame, hal::Duration step);
-  void keepDensity(const scene::ArFrame& frame);
+  void keepDensity(const scene::ArFrame& frame, const MotionField& motion);
 };
 
 void AnchorSet::State::carryInImage(const scene::ArFrame& frame, const MotionField& motion,
@@ -153,7 +153,7 @@ void AnchorSet::State::takeCensus(const scene::ArFrame& frame, hal::Duration ste
       .dispatch(allSlots(), kSlotGroup, kStored);
 }
 
-void AnchorSet::State::keepDensity(const scene::ArFrame& frame) {
+void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionField& motion) {
   begin(balance, frame)
       .storage(0, anchors)
       .storage(1, cells)
@@ -169,11 +169,12 @@ void AnchorSet::State::keepDensity(const scene::ArFrame& frame) {
       .dispatch({1, 1}, {128, 1}, kStored);
   begin(bear, frame)
       .texture("barycentrics", frame.barycentrics != nullptr ? *frame.barycentrics : noIds)
+      .texture("motion", motion.backward())
       .storage(0, anchors)
       .storage(1, cells)
       .storage(2, births)
       .set("salt", options.seed * 0x9E3779B9U + salt)
-      .set("fade", hasBegunAnew ? 1.0F : 0.0F)
+      .set("anew", hasBegunAnew ? 1 : 0)
       .dispatch(grid, kCellGroup, kStored | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
 }
 
@@ -204,7 +205,7 @@ void AnchorSet::advance(const scene::ArFrame& frame, const MotionField& motion,
   }
   const auto scope = timer.measure("keep density");
   s.takeCensus(frame, step);
-  s.keepDensity(frame);
+  s.keepDensity(frame, motion);
 }
 
 bool AnchorSet::hasBegunAnew() const {
@@ -234,6 +235,10 @@ std::vector<Anchor> AnchorSet::read() const {
   glUnmapBuffer(GL_COPY_READ_BUFFER);
   glBindBuffer(GL_COPY_READ_BUFFER, 0);
   return read;
+}
+
+void AnchorSet::beginAnew() {
+  state_->hasPast = false;
 }
 
 void AnchorSet::reset() {

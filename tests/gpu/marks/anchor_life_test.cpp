@@ -114,8 +114,8 @@ class FadeWatch {
         fallen_ = std::max(fallen_, was.fade - is.fade);
         continue;
       }
-      if (is.isAlive()) risen_ = std::max(risen_, is.fade);
-      // Those at the border may go out of the picture.
+      // What comes in over the border does so with its marks, and takes them out again.
+      if (is.isAlive() && isWithin(is.px, 4.0F)) risen_ = std::max(risen_, is.fade);
       if (was.isAlive() && isWithin(was.px, 4.0F)) fallen_ = std::max(fallen_, was.fade);
       if (was.isAlive()) ++ended_;
     }
@@ -165,15 +165,18 @@ TEST_F(AnchorLife, APanBearsOnlyWhatComesIntoThePicture) {
   next(panning(-1.3, 0.4));
   int inside = 0;
   int all = 0;
+  int whole = 0;
   for (int i = 0; i < 90; ++i) {
     const std::vector<Anchor> now = next(panning(-1.3, 0.4));
     fades.add(now);
     inside += births(now, 32.0F);
     all += births(now);
+    for (const Anchor& each : now) whole += each.isAlive() && each.isBorn() && each.fade == 1.0F;
   }
   EXPECT_GT(all, 500) << "the border that comes in is filled";
   const double there = 2.0 * 32 * 22;  // 32 px and more from the border
   EXPECT_LT(inside / 90.0, 0.005 * there) << "a frame; 5 % would be seen to pop (METHOD.md V.1)";
+  EXPECT_GT(whole, 20) << "those that come in with the picture are there at once";
   const std::vector<int> counts = cellCounts(set_->read());
   EXPECT_LE(std::ranges::max(counts), 5) << "one above where one goes each frame";
   EXPECT_EQ(std::ranges::count(counts, 0), 0);
