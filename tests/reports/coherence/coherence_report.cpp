@@ -64,6 +64,7 @@ void report(const std::string& photograph, const PhotographMotion& motion,
   const auto measured = hal::orThrow(measure(
       *input, painter, {.style = filter.name, .settings = "its own defaults", .stillSettle = 0}));
   std::puts(reportText(*measured).c_str());
+  std::fflush(stdout);  // minutes pass until the next
 }
 
 }  // namespace
