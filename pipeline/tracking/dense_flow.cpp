@@ -7,7 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "pipeline/tracking/homography.h"
-#include "pipeline/tracking/patch_flow.h"
+#include "pipeline/tracking/search_patch.h"
 #include "pipeline/tracking/stillness.h"
 
 namespace pleinair::tracking {
@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kHalf = 2;  // in LumaPyramid::levels(): each level's gradients follow it
 constexpr int kLeastSide = 96;    // of a picture in which flow is sought
 // Predicted errors: docs/measured.md says how they agree with true ones.
-constexpr double kPlacing = 1.3;
+constexpr double kPlacing = 1.0;
 constexpr double kBackPart = 0.7;
 constexpr double kLeastErrorPx = 0.03;
 constexpr double kMostErrorPx = 100.0;
@@ -55,13 +55,10 @@ void DenseFlowEstimator::flowOneWay(Way& way, const LumaPyramid& from, const Lum
                                     const glm::dmat3* toFromFrom, double noise) const {
   way.search->calc(fromSmall, toSmall, way.coarse);
   const cv::Mat& picture = from.picture();
-  constexpr int kReach = FlowPatch::kSide / 2 + 1;
   for (std::size_t i = 0; i < way.nodes.size(); ++i) {
+    if (stillErrors_[i] < StillFields::kNotStill) continue;
     const glm::dvec2 px = nodePx(i);
-    const cv::Point2f own = from.ownPx(px);
-    const cv::Point middle(
-        std::clamp(static_cast<int>(std::lround(own.x + 0.5F)), kReach, picture.cols - kReach),
-        std::clamp(static_cast<int>(std::lround(own.y + 0.5F)), kReach, picture.rows - kReach));
+    const cv::Point middle = FlowPatch::middleNear(picture, from.ownPx(px));
     const FlowPatch patch(picture, middle);
     const cv::Vec2f coarse = way.coarse.at<cv::Vec2f>(std::min(middle.y / 2, way.coarse.rows - 1),
                                                       std::min(middle.x / 2, way.coarse.cols - 1));
@@ -73,7 +70,7 @@ void DenseFlowEstimator::flowOneWay(Way& way, const LumaPyramid& from, const Lum
     }
     if (best.isInside) best = patch.refined(to.picture(), best, noise);
     const glm::dvec2 moved = reduction_ * best.moved;
-    const double placing = kPlacing * best.placing;
+    const double placing = kPlacing * patch.placing(noise);
     const double error =
         best.isInside ? std::sqrt(placing * placing * best.variance + kLeastErrorPx * kLeastErrorPx)
                       : kMostErrorPx;
@@ -103,6 +100,7 @@ double DenseFlowEstimator::edge(const std::vector<glm::vec4>& nodes, std::size_t
 void DenseFlowEstimator::disagree(const std::vector<glm::vec4>& back,
                                   std::vector<glm::vec4>& nodes) const {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (stillErrors_[i] < StillFields::kNotStill) continue;
     glm::vec4& node = nodes[i];
     const glm::dvec2 there = (nodePx(i) + glm::dvec2(node)) / stepPx_ - 0.5;
     const int x = std::clamp(static_cast<int>(std::floor(there.x)), 0, grid_.width - 2);
@@ -119,12 +117,18 @@ void DenseFlowEstimator::disagree(const std::vector<glm::vec4>& back,
   }
 }
 
-void DenseFlowEstimator::standStill(const Stillness& stillness,
-                                    std::vector<glm::vec4>& nodes) const {
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const float error = stillness.errorAt(nodePx(i), frameSize_);
-    if (error < StillFields::kNotStill) nodes[i] = {0.0F, 0.0F, error, 0.0F};
+/// Whether there are nodes that do not. Those that do have their flow then.
+bool DenseFlowEstimator::standStill(const Stillness* stillness) {
+  stillErrors_.assign(ways_[0].nodes.size(), StillFields::kNotStill);
+  if (stillness == nullptr) return true;
+  bool isMoving = false;
+  for (std::size_t i = 0; i < stillErrors_.size(); ++i) {
+    const float error = stillness->errorAt(nodePx(i), frameSize_);
+    stillErrors_[i] = error;
+    isMoving = isMoving || error >= StillFields::kNotStill;
+    for (Way& way : ways_) way.nodes[i] = {0.0F, 0.0F, error, 0.0F};
   }
+  return isMoving;
 }
 
 void DenseFlowEstimator::update(const LumaPyramid& then, const LumaPyramid& now,
@@ -134,6 +138,7 @@ void DenseFlowEstimator::update(const LumaPyramid& then, const LumaPyramid& now,
   const cv::Size size = now.picture().size();
   if (std::min(size.width, size.height) < kLeastSide || now.levels().size() <= kHalf) return;
   place(now);
+  if (!standStill(stillness)) return;
   then.levels()[kHalf].copyTo(small_[0]);
   now.levels()[kHalf].copyTo(small_[1]);
   const glm::dmat3 forward = picture ? picture->nowFromThen : glm::dmat3(1.0);
@@ -152,9 +157,6 @@ void DenseFlowEstimator::update(const LumaPyramid& then, const LumaPyramid& now,
   std::vector<glm::vec4>& back = ways_[1].nodes;
   disagree(back, there);
   disagree(there, back);
-  if (stillness == nullptr) return;
-  standStill(*stillness, there);
-  standStill(*stillness, back);
 }
 
 DenseFlow DenseFlowEstimator::flow() const {

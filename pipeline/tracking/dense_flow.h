@@ -47,7 +47,7 @@ class DenseFlowEstimator {
                   double noise) const;
   double edge(const std::vector<glm::vec4>& nodes, std::size_t index) const;
   void disagree(const std::vector<glm::vec4>& back, std::vector<glm::vec4>& nodes) const;
-  void standStill(const Stillness& stillness, std::vector<glm::vec4>& nodes) const;
+  bool standStill(const Stillness* stillness);
   glm::dvec2 nodePx(std::size_t index) const;
 
   hal::FrameSize frameSize_;
@@ -56,6 +56,7 @@ class DenseFlowEstimator {
   glm::dvec2 reduction_{1.0};
   std::array<cv::Mat, 2> small_;  // of the two frames
   std::array<Way, 2> ways_;
+  std::vector<float> stillErrors_;  // of each node; kNotStill where flow is asked for
 };
 
 }  // namespace pleinair::tracking
