@@ -33,11 +33,11 @@ constexpr std::string_view kSteadyView = "steady";
 /// In the order of view.frag.
 constexpr std::array<ViewInfo, 10> kViews{{
     {"seeds", "the cells' seeds over the frame"},
+    {"cells", "the Voronoi cells, each in a colour of its own, with their seeds"},
     {"anchors",
      "the cells in the colours of what their anchors' motion was taken from (orange a model, "
      "violet a plane, blue the whole picture, teal features, red flow, green stillness), "
      "pale while they are young"},
-    {"cells", "the Voronoi cells, each in a colour of its own, with their seeds"},
     {kMeansView, "each cell in its mean colour: the thesis's tiling"},
     {"edges", "edge pixels black, weaker colour differences grey"},
     {"retiling",
