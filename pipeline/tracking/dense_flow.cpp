@@ -29,7 +29,7 @@ constexpr double kSearchedPx = 0.3;
 constexpr double kAlongErrors = 2.0;
 /// A patch tells whether it goes along when it can be placed so well; by how much more it may be
 /// off.
-constexpr double kTellingPx = 0.3;
+constexpr double kTellingPx = 0.4;
 constexpr double kSurely = 1.5;
 
 }  // namespace
