@@ -327,8 +327,7 @@ void addMeasure(CLI::App& app, MeasureOptions& options, std::function<int()>& ch
       .add_option_function<std::string>(
           "--settle",
           [&options](const std::string& text) {
-            options.settle =
-                static_cast<std::uint64_t>(numberOf("--settle", text, "", 0, 1'000'000));
+            options.settle = text == "0" ? 0 : frameCountOf(text, "--settle");
           },
           "paint N frames before measuring (default: 0, or 30 where there is no end)")
       ->type_name("N");

@@ -30,12 +30,12 @@ bool takeNumber(std::string_view& text, Number& number) {
 
 }  // namespace
 
-std::uint64_t frameCountOf(const std::string& text) {
+std::uint64_t frameCountOf(const std::string& text, const std::string& option) {
   std::uint64_t count = 0;
   std::string_view rest = text;
   if (takeNumber(rest, count) && rest.empty() && count >= 1 && count <= kMostFrames) return count;
   throw CLI::ValidationError(
-      "--frames", foundText(text, fmt::format("a whole number from 1 to {}", kMostFrames)));
+      option, foundText(text, fmt::format("a whole number from 1 to {}", kMostFrames)));
 }
 
 double numberOf(const std::string& option, const std::string& text, std::string_view unit,

@@ -9,8 +9,8 @@
 
 namespace pleinair::app {
 
-/// A whole number from 1. Throws CLI::ValidationError, which says the limits.
-std::uint64_t frameCountOf(const std::string& text);
+/// A whole number from 1. Throws CLI::ValidationError of `option`, which says the limits.
+std::uint64_t frameCountOf(const std::string& text, const std::string& option = "--frames");
 
 /// A number within limits, with a unit after it or without. Throws CLI::ValidationError, which says
 /// what is allowed of `option`.

@@ -133,7 +133,10 @@ void publish(std::optional<hal::PendingFile>& file, const std::string& text) {
 }
 
 void refuseCollisionsOf(const MeasureOptions& options, std::vector<NamedPath> read) {
-  if (options.input) read.push_back({"--input", *options.input});
+  if (options.input) {
+    read.push_back({"--input", *options.input});
+    read.push_back({"the motion of --input", *options.input / "motion.json"});
+  }
   if (options.motion) read.push_back({"--motion", *options.motion});
   std::vector<NamedPath> written;
   if (options.json) written.push_back({"--json", *options.json});

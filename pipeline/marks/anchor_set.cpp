@@ -27,10 +27,12 @@ glm::ivec2 gridOf(hal::FrameSize full, int cellPixels) {
   return {(full.width + cellPixels - 1) / cellPixels, (full.height + cellPixels - 1) / cellPixels};
 }
 
-/// Room for every cell to be halfway between what it aims at and where it becomes too crowded.
+/// Room for every cell to be halfway between what it aims at and where it becomes too crowded, those
+/// beyond the border too, and for those that fade out beside them.
 std::uint32_t slotsFor(glm::ivec2 grid, const DensityRule& rule) {
-  const int twice = grid.x * grid.y * (rule.target + rule.deathAbove);
-  return static_cast<std::uint32_t>((twice + 1) / 2);
+  const int twice = (grid.x + 2) * (grid.y + 2) * (rule.target + rule.deathAbove);
+  const int fading = twice / 10;
+  return static_cast<std::uint32_t>((twice + fading + 1) / 2);
 }
 
 /// How far a fade of this length goes in `step`.
@@ -105,7 +107,7 @@ struct AnchorSet::State {
   void carryInImage(const scene::ArFrame& frame, const MotionField& motion, hal::Duration step);
   void carryOnSurfaces(const scene::ArFrame& frame);
   void takeCensus(const scene::ArFrame& frame, hal::Duration step);
-  void keepDensity(const scene::ArFrame& frame);
+  void keepDensity(const scene::ArFrame& frame, const MotionField& motion);
 };
 
 void AnchorSet::State::carryInImage(const scene::ArFrame& frame, const MotionField& motion,
@@ -151,7 +153,7 @@ void AnchorSet::State::takeCensus(const scene::ArFrame& frame, hal::Duration ste
       .dispatch(allSlots(), kSlotGroup, kStored);
 }
 
-void AnchorSet::State::keepDensity(const scene::ArFrame& frame) {
+void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionField& motion) {
   begin(balance, frame)
       .storage(0, anchors)
       .storage(1, cells)
@@ -167,11 +169,12 @@ void AnchorSet::State::keepDensity(const scene::ArFrame& frame) {
       .dispatch({1, 1}, {128, 1}, kStored);
   begin(bear, frame)
       .texture("barycentrics", frame.barycentrics != nullptr ? *frame.barycentrics : noIds)
+      .texture("motion", motion.backward())
       .storage(0, anchors)
       .storage(1, cells)
       .storage(2, births)
       .set("salt", options.seed * 0x9E3779B9U + salt)
-      .set("fade", hasBegunAnew ? 1.0F : 0.0F)
+      .set("anew", hasBegunAnew ? 1 : 0)
       .dispatch(grid, kCellGroup, kStored | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
 }
 
@@ -202,7 +205,7 @@ void AnchorSet::advance(const scene::ArFrame& frame, const MotionField& motion,
   }
   const auto scope = timer.measure("keep density");
   s.takeCensus(frame, step);
-  s.keepDensity(frame);
+  s.keepDensity(frame, motion);
 }
 
 bool AnchorSet::hasBegunAnew() const {
@@ -232,6 +235,10 @@ std::vector<Anchor> AnchorSet::read() const {
   glUnmapBuffer(GL_COPY_READ_BUFFER);
   glBindBuffer(GL_COPY_READ_BUFFER, 0);
   return read;
+}
+
+void AnchorSet::beginAnew() {
+  state_->hasPast = false;
 }
 
 void AnchorSet::reset() {

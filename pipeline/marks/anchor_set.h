@@ -67,6 +67,8 @@ class AnchorSet {
   /// Waits for the GPU and reads all slots: for measures and tests.
   std::vector<Anchor> read() const;
 
+  /// The next advance() begins anew, with other anchors.
+  void beginAnew();
   /// Forgets all anchors.
   void reset();
 

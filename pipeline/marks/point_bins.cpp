@@ -53,7 +53,9 @@ void PointBins::sort(const gpu::Buffer& points, hal::FrameSize picture) {
       .storage(1, links_)
       .storage(2, starts_)
       .storage(3, sorted_)
-      .set("count", count)
+      .set("bins", bins_)
+      .set("binPixels", binPixels(picture))
+      .set("slots", static_cast<int>(slots_))
       .dispatch({count, 1}, {kGroup, 1}, GL_SHADER_STORAGE_BARRIER_BIT);
 }
 

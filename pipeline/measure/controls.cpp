@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/measure/picture.h"
+
 namespace pleinair::measure {
 namespace {
 
@@ -70,6 +72,11 @@ Verdict fixedVerdict(const PerSubject<Measures>& measures) {
   return verdict;
 }
 
+/// Of whole levels, as every painting is.
+cv::Mat3f inLevels(const cv::Mat3f& picture) {
+  return toFloat(toImage(picture).view());
+}
+
 }  // namespace
 
 ControlPainter::ControlPainter(cv::Size size) : fixed_(size, kFixedSeed) {}
@@ -79,8 +86,9 @@ PerSubject<cv::Mat3f> ControlPainter::paint(const cv::Mat3f& input, const cv::Ma
   PerSubject<cv::Mat3f> pictures;
   pictures[Subject::kPainting] = output;
   pictures[Subject::kInput] = input;
-  pictures[Subject::kFresh] = VoronoiTiling(input.size(), kFixedSeed + 1 + index).paint(input);
-  pictures[Subject::kFixed] = fixed_.paint(input);
+  pictures[Subject::kFresh] =
+      inLevels(VoronoiTiling(input.size(), kFixedSeed + 1 + index).paint(input));
+  pictures[Subject::kFixed] = inLevels(fixed_.paint(input));
   return pictures;
 }
 

@@ -57,10 +57,33 @@ std::string lineSvg(const Axes& axes, const std::vector<std::uint64_t>& frames,
     isOpen = value.has_value();
   }
   return fmt::format(R"(<path class="line {}" d="{}"><title>{}</title></path>)", line.style, path,
-                     line.name);
+                     escaped(line.name));
 }
 
 }  // namespace
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
 
 std::string plotSvg(const std::string& title, const std::vector<std::uint64_t>& frames,
                     const std::vector<PlotLine>& lines) {

@@ -7,6 +7,9 @@
 
 namespace pleinair::measure {
 
+/// Text of a page, without what HTML would take for its own.
+std::string escaped(const std::string& text);
+
 /// One line of a plot; where it has no value, the line has a gap.
 struct PlotLine {
   std::string name;

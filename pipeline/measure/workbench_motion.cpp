@@ -12,8 +12,8 @@ namespace pleinair::measure {
 namespace {
 
 /// From a pixel to the next, for each frame between the two: perspective alone stays below.
-constexpr float kLeapPixelsPerFrame = 0.1F;
-constexpr float kLeastLeapPixels = 0.5F;
+constexpr float kLeapPixelsPerFrame = 0.05F;
+constexpr float kLeastLeapPixels = 0.15F;
 
 /// Rays are followed from every other pixel; between them flow is straight, or leaps and does not
 /// count.
@@ -27,6 +27,7 @@ class Nodes {
     const int top = y / kEveryNth;
     const int right = std::min(left + x % kEveryNth, field.width - 1);
     const int bottom = std::min(top + y % kEveryNth, field.height - 1);
+    isWithin_ = left + x % kEveryNth == right && top + y % kEveryNth == bottom;
     const auto index = [&field](int column, int row) {
       return static_cast<std::size_t>(row * field.width + column);
     };
@@ -38,11 +39,13 @@ class Nodes {
     return {0.25F * sum.x, 0.25F * sum.y};
   }
   bool areAllIn(const std::vector<std::uint8_t>& visible) const {
-    return std::ranges::all_of(nodes_, [&](std::size_t node) { return visible[node] != 0; });
+    return isWithin_ &&
+           std::ranges::all_of(nodes_, [&](std::size_t node) { return visible[node] != 0; });
   }
 
  private:
   std::array<std::size_t, 4> nodes_{};
+  bool isWithin_ = false;  ///< the last column and row lie beyond the nodes
 };
 
 class WorkbenchMotion final : public TrueMotion {

@@ -1,6 +1,7 @@
 // What anchors and the motion field cost on the GPU, pass by pass and together, given what the
-// picture says of its motion (tracking_bench measures that). Time is wall time up to a fence, CPU
-// that of all threads; on a shared machine compare ratios within a run.
+// picture says of its motion (tracking_bench measures that); and all of it, with finding that out,
+// on the workbench. Time is wall time up to a fence, CPU that of all threads; on a shared machine
+// compare ratios within a run.
 #include <chrono>
 #include <cstdint>
 #include <random>
@@ -14,6 +15,9 @@
 #include "pipeline/marks/anchor_set.h"
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/scene/scene_shaders.h"
+#include "pipeline/tracking/image_motion_estimator.h"
+#include "tests/reports/tracking/pose_measures.h"
+#include "tests/reports/tracking/truth_sequence.h"
 
 namespace {
 
@@ -22,6 +26,8 @@ using namespace pleinair;  // NOLINT(google-build-using-namespace): a program, n
 constexpr std::size_t kFeatures = 200;
 constexpr int kNodePixels = 8;
 constexpr int kFieldPixels = 16;
+
+constexpr marks::DensityRule kOneACell{.target = 1, .birthBelow = 1, .deathAbove = 3};
 
 /// A picture that moves by a slow pan, told by all sources.
 struct Motion {
@@ -71,10 +77,13 @@ struct Bench {
 
   void advance(gpu::PassTimer& with) {
     motion.image.sinceSequence = number;
+    advance(with, motion.image);
+  }
+  void advance(gpu::PassTimer& with, const tracking::ImageMotion& image) {
     ++number;
     scene::ArFrame frame{.colour = &colour,
                          .ids = &ids,
-                         .pictureMovement = scene::PictureMovement{.motion = &motion.image},
+                         .pictureMovement = scene::PictureMovement{.motion = &image},
                          .sequence = number,
                          .captureTime = hal::TimePoint(hal::Duration(33'333'333) * number)};
     field->update(frame, with);
@@ -119,6 +128,36 @@ void onePass(benchmark::State& state, const char* pass) {
   }
 }
 
+/// The walk around the workbench, forth and back: the motion found in the picture, then anchors.
+void withThePicturesMotion(benchmark::State& state) {
+  using Clock = std::chrono::steady_clock;
+  const hal::FrameSize size = sizeOf(state);
+  const tracking::TruthSequence walk = tracking::filmWorkbench({.frameCount = 30, .size = size});
+  Bench bench(size, gpu::PassTiming::kOff, kOneACell);
+  tracking::ImageMotionEstimator estimator;
+  std::vector<double> all;
+  std::vector<double> finding;
+  const auto last = static_cast<std::uint64_t>(walk.frames.size() - 1);
+  for ([[maybe_unused]] auto _ : state) {
+    const std::uint64_t at = bench.number % (2 * last);
+    const hal::ImageView frame = walk.frames[at <= last ? at : 2 * last - at].luma.view();
+    const Clock::time_point start = Clock::now();
+    const tracking::ImageMotion& motion =
+        estimator.follow(frame.planes[0], size, bench.number + 1);  // as advance() counts
+    const Clock::time_point found = Clock::now();
+    bench.advance(bench.timer, motion);
+    hal::orThrow(gpu::Fence::insert().wait());
+    finding.push_back(std::chrono::duration<double, std::milli>(found - start).count());
+    all.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+  }
+  state.counters["median_ms"] = tracking::percentile(all, 0.5);
+  state.counters["p95_ms"] = tracking::percentile(all, 0.95);
+  state.counters["finding_ms"] = tracking::percentile(finding, 0.5);
+  double alive = 0.0;
+  for (const marks::Anchor& each : bench.anchors->read()) alive += each.isAlive() ? 1.0 : 0.0;
+  state.counters["anchors"] = alive;
+}
+
 void atBothSizes(benchmark::internal::Benchmark* benchmark) {
   benchmark->Args({640, 480})->Args({1280, 720})->Unit(benchmark::kMillisecond)->UseRealTime();
   benchmark->MeasureProcessCPUTime();  // of all threads
@@ -129,12 +168,14 @@ void passAtBothSizes(benchmark::internal::Benchmark* benchmark) {
   benchmark->MeasureProcessCPUTime()->UseManualTime()->MinTime(0.2);
 }
 
-constexpr marks::DensityRule kOneACell{.target = 1, .birthBelow = 1, .deathAbove = 3};
-
 BENCHMARK_CAPTURE(together, onePerCell, kOneACell)
     ->Name("marks/one anchor a cell")
     ->Apply(atBothSizes);
 BENCHMARK_CAPTURE(together, twoPerCell, {})->Name("marks/two anchors a cell")->Apply(atBothSizes);
+BENCHMARK(withThePicturesMotion)
+    ->Name("marks/one anchor a cell, with finding the picture's motion")
+    ->Iterations(240)
+    ->Apply(atBothSizes);
 BENCHMARK_CAPTURE(onePass, field, "motion field")
     ->Name("marks/motion field")
     ->Apply(passAtBothSizes);

@@ -2,7 +2,8 @@
 //          on what is seen there: the exact point of a virtual surface behind the pixel (METHOD.md
 //          V.1), or the camera's picture.
 // Inputs:  anchor_cells.glsl's; births and slots (anchor_plan.comp); ids, barycentrics (ArFrame) and
-//          their pixelsOfFull if hasObjects; fullSize; salt: another one each frame; fade: of the new.
+//          their pixelsOfFull if hasObjects; fullSize; salt: another one each frame; anew: whether all are
+//          there at once; motion: MotionField's field.
 // Outputs: anchors. A cell an invocation.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
@@ -22,7 +23,8 @@ uniform bool hasObjects;
 uniform vec2 pixelsOfFull;
 uniform vec2 fullSize;
 uniform uint salt;
-uniform float fade;
+uniform bool anew;
+uniform highp sampler2D motion;
 
 const int kTries = 6;           // for a place in the part, and as many in the whole cell
 
@@ -45,9 +47,16 @@ int freePart(ivec2 cell, uint taken, uint hash) {
   return spare < 0 ? first : spare;
 }
 
+// What comes into the picture does so with its marks.
+bool hasComeIn(vec2 px) {
+  vec4 moved = textureLod(motion, px / fullSize, 0.0);
+  vec2 from = px - moved.xy;
+  return any(lessThan(from, vec2(0.0))) || any(greaterThanEqual(from, fullSize));
+}
+
 void bear(ivec2 cell, uint number, bool onObject, inout uint taken) {
   if (number >= freeCount) return;
-  uint hash = hashOf(cell, salt * 64u + number);
+  uint hash = hashOf(cell, hashOf(salt) + number);  // no frame's numbers follow another's
   int part = freePart(cell, taken, hash);
   taken |= 1u << uint(part);
   vec2 corner = vec2(part % strataSide, part / strataSide);
@@ -75,9 +84,9 @@ void bear(ivec2 cell, uint number, bool onObject, inout uint taken) {
   born.jacobian = vec4(1.0, 0.0, 0.0, 1.0);
   born.barycentrics = vec2(0.0);
   born.error = 0.0;
-  born.fade = fade;
+  born.fade = anew || hasComeIn(px) ? 1.0 : 0.0;
   born.age = 0.0;
-  born.seed = hashOf(hash);
+  born.seed = hashOf(hash ^ 0x9E3779B9u);  // tells nothing of the place, which came of the same hash
   born.surface = onObject ? id : idOf(objectOf(id), 0u);
   born.state = kAlive | kBorn | kSourceUnknown;
   if (onObject) {

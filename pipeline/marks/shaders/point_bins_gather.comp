@@ -1,30 +1,50 @@
 // Purpose: lays each bin's points in their place, slots upwards, so that nothing is left of the order in
 //          which they came.
 // Inputs:  points; links (point_bins_link.comp; lists are emptied here for the next frame), starts
-//          (point_bins_scan.comp), count: of bins.
+//          (point_bins_scan.comp), slots: how many.
 // Outputs: sorted.
 // Precision: integers are exact.
+#include "pipeline/marks/shaders/point_bins.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Points { ivec4 points[]; };
 layout(std430, binding = 1) buffer Links { uint links[]; };
 layout(std430, binding = 2) readonly buffer Starts { uint starts[]; };
 layout(std430, binding = 3) buffer Sorted { ivec4 sorted[]; };
-uniform int count;
+uniform int slots;
 
-void main() {
-  int bin = int(gl_GlobalInvocationID.x);
-  if (bin >= count) return;
-  uint first = starts[bin];
-  uint next = links[2 * bin + 1];
-  links[2 * bin + 1] = 0u;
+const uint kHeap = 48u;  // more points than this in a bin
+
+void insertAll(uint first, uint next) {
   for (uint end = first; next != 0u; ++end) {
     ivec4 point = points[next - 1u];
-    next = links[2u * uint(count) + next - 1u];
+    next = links[uint(2 * bins.x * bins.y) + next - 1u];
     uint place = end;
     while (place > first && sorted[place - 1u].w > point.w) {
       sorted[place] = sorted[place - 1u];
       --place;
     }
     sorted[place] = point;
+  }
+}
+
+// Of a heap the square would take too long (llvmpipe ends a shader's loops after 65535 rounds).
+void gatherAll(uint first, uint end, ivec2 bin) {
+  for (int slot = 0; slot < slots && first < end; ++slot) {
+    ivec4 point = points[slot];
+    if (point.w >= 0 && binOf(vec2(point.xy) / kPointUnits) == bin) sorted[first++] = point;
+  }
+}
+
+void main() {
+  int index = int(gl_GlobalInvocationID.x);
+  if (index >= bins.x * bins.y) return;
+  uint first = starts[index];
+  uint end = starts[index + 1];
+  uint next = links[2 * index + 1];
+  links[2 * index + 1] = 0u;
+  if (end - first > kHeap) {
+    gatherAll(first, end, ivec2(index % bins.x, index / bins.x));
+  } else {
+    insertAll(first, next);
   }
 }

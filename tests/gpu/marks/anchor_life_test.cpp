@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
@@ -113,8 +114,8 @@ class FadeWatch {
         fallen_ = std::max(fallen_, was.fade - is.fade);
         continue;
       }
-      if (is.isAlive()) risen_ = std::max(risen_, is.fade);
-      // Those at the border may go out of the picture.
+      // What comes in over the border does so with its marks, and takes them out again.
+      if (is.isAlive() && isWithin(is.px, 4.0F)) risen_ = std::max(risen_, is.fade);
       if (was.isAlive() && isWithin(was.px, 4.0F)) fallen_ = std::max(fallen_, was.fade);
       if (was.isAlive()) ++ended_;
     }
@@ -164,19 +165,34 @@ TEST_F(AnchorLife, APanBearsOnlyWhatComesIntoThePicture) {
   next(panning(-1.3, 0.4));
   int inside = 0;
   int all = 0;
+  int whole = 0;
   for (int i = 0; i < 90; ++i) {
     const std::vector<Anchor> now = next(panning(-1.3, 0.4));
     fades.add(now);
     inside += births(now, 32.0F);
     all += births(now);
+    for (const Anchor& each : now) whole += each.isAlive() && each.isBorn() && each.fade == 1.0F;
   }
   EXPECT_GT(all, 500) << "the border that comes in is filled";
   const double there = 2.0 * 32 * 22;  // 32 px and more from the border
   EXPECT_LT(inside / 90.0, 0.005 * there) << "a frame; 5 % would be seen to pop (METHOD.md V.1)";
+  EXPECT_GT(whole, 20) << "those that come in with the picture are there at once";
   const std::vector<int> counts = cellCounts(set_->read());
   EXPECT_LE(std::ranges::max(counts), 5) << "one above where one goes each frame";
   EXPECT_EQ(std::ranges::count(counts, 0), 0);
   fades.expectNoPop();
+}
+
+TEST_F(AnchorLife, APanDoesNotRunOutOfSlots) {
+  for (const DensityRule rule : {DensityRule{.target = 1, .birthBelow = 1, .deathAbove = 3},
+                                 DensityRule{.target = 4, .birthBelow = 2, .deathAbove = 6}}) {
+    set_.emplace(library_, kSize, AnchorOptions{.density = rule});
+    for (int i = 0; i < 90; ++i) {
+      const std::vector<Anchor> now = next(panning(-0.7, 0.3));
+      ASSERT_EQ(std::ranges::count(cellCounts(now), 0), 0)
+          << "in frame " << i << " for " << rule.target << " a cell";
+    }
+  }
 }
 
 TEST_F(AnchorLife, ZoomingInBearsWhereItGetsSparse) {
@@ -353,6 +369,29 @@ TEST_F(AnchorLife, AfterAResetItIsAsAtFirst) {
     if (each.isAlive()) is.emplace(each.px.x, each.px.y);
   }
   EXPECT_EQ(was, is);
+}
+
+TEST_F(AnchorLife, SeedsAreTheirOwnAndSayNothingOfPlaces) {
+  next({});
+  std::set<std::uint32_t> seeds;
+  std::size_t born = 0;
+  glm::dvec2 products(0.0);
+  for (int i = 0; i < 40; ++i) {
+    for (const Anchor& each : next(zooming(1.02))) {
+      if (!each.isAlive() || !each.isBorn()) continue;
+      ++born;
+      seeds.insert(each.seed);
+      const glm::dvec2 inCell = glm::fract(glm::dvec2(each.px) / double{kCellPixels});
+      products += (inCell - 0.5) * (each.seed / 4294967296.0 - 0.5);
+    }
+  }
+  EXPECT_GT(born, 1000U);
+  EXPECT_GE(seeds.size(), born - 1) << "two in thousands may meet";
+  // Correlations of independent ones: 1/√n is a standard deviation.
+  const glm::dvec2 correlations = 12.0 * products / static_cast<double>(born);
+  const double most = 5.0 / std::sqrt(static_cast<double>(born));
+  EXPECT_LT(std::abs(correlations.x), most);
+  EXPECT_LT(std::abs(correlations.y), most);
 }
 
 TEST_F(AnchorLife, LevelsOfQualityChangeNothingOfPlaces) {

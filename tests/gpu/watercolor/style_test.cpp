@@ -1,4 +1,7 @@
 // The style as a whole: what it promises about time, sizes and independence.
+#include <algorithm>
+#include <random>
+
 #include <gmock/gmock.h>
 
 #include "config/config_error.h"
@@ -162,6 +165,139 @@ TEST_F(WatercolorTest, TimeThatStandsOrRunsBackMovesNoSeed) {
   EXPECT_EQ(offsetsOf(style), at5);
   style.paint(frameOf(other, 4), "", timer_);
   EXPECT_NE(offsetsOf(style), at5);
+}
+
+/// A camera that stands still before a scene, with sensor noise (σ = 2/255).
+class StillCameraTest : public WatercolorTest {
+ protected:
+  hal::Image paintNext(Watercolor& style) {
+    hal::Image image = testPicture(kSize, 5);
+    std::mt19937 random(number_);
+    std::normal_distribution<double> noise(0.0, 2.0);
+    for (std::uint8_t& value : image.plane(0)) {
+      value = static_cast<std::uint8_t>(std::clamp(value + noise(random), 0.0, 255.0));
+    }
+    const gpu::Texture picture = textureOf(image.view());
+    tracking::ImageMotion motion;
+    const scene::ArFrame frame = followed(picture, static_cast<int>(number_++), {0.0, 0.0}, motion);
+    return readRgba8(style.paint(frame, {}, timer_));
+  }
+
+  static constexpr hal::FrameSize kSize{160, 120};
+  unsigned number_ = 0;
+};
+
+TEST_F(StillCameraTest, NoiseMovesNoSeedAfterASecond) {
+  Watercolor style(library_);
+  for (int i = 0; i < 25; ++i) paintNext(style);
+  const auto settled = offsetsOf(style);
+  for (int i = 0; i < 40; ++i) {
+    paintNext(style);
+    ASSERT_EQ(style.inner().tiler->readMoving(), 0U) << "frame " << i;
+  }
+  EXPECT_EQ(offsetsOf(style), settled) << "to the bit";
+}
+
+TEST_F(StillCameraTest, ThePaintingIsStillerThanThePicture) {
+  Watercolor style(library_);
+  for (int i = 0; i < 25; ++i) paintNext(style);
+  hal::Image before = paintNext(style);
+  hal::Image after = paintNext(style);
+  int most = 0;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < before.plane(0).size(); ++i) {
+    const int change = std::abs(int{before.plane(0)[i]} - int{after.plane(0)[i]});
+    most = std::max(most, change);
+    sum += change;
+  }
+  EXPECT_LT(sum / static_cast<double>(kSize.pixels() * 3), 0.2);  // the picture's is 2.3
+  EXPECT_LT(most, 24);
+}
+
+/// The parts of the pixels whose cell is that of the pixel `by` before.
+double carriedPart(const std::vector<std::uint32_t>& then, const std::vector<std::uint32_t>& now,
+                   hal::FrameSize size, glm::ivec2 by) {
+  int same = 0;
+  int all = 0;
+  for (int y = 16; y < size.height - 16; ++y) {
+    for (int x = 16; x < size.width - 16; ++x) {
+      const auto at = [&](int u, int v) { return static_cast<std::size_t>(v * size.width + u); };
+      same += ((then[at(x - by.x, y - by.y)] ^ now[at(x, y)]) & 0x3FFFFFU) == 0 ? 1 : 0;
+      ++all;
+    }
+  }
+  return static_cast<double>(same) / all;
+}
+
+TEST_F(WatercolorTest, APanCarriesTheCells) {
+  constexpr hal::FrameSize kSize{160, 120};
+  constexpr glm::ivec2 kBy{-3, 1};
+  hal::Image wide = testPicture({320, 240}, 5);
+  Watercolor style(library_);
+  std::vector<std::uint32_t> then;
+  for (int i = 0; i < 12; ++i) {
+    hal::Image image({.pixelFormat = hal::PixelFormat::kRgba8, .size = kSize});
+    for (int y = 0; y < kSize.height; ++y) {
+      const auto row =
+          wide.row(0, 40 + y - kBy.y * i).subspan(static_cast<std::size_t>(40 - kBy.x * i) * 4);
+      std::copy_n(row.begin(), image.row(0, y).size(), image.row(0, y).begin());
+    }
+    const gpu::Texture picture = textureOf(image.view());
+    tracking::ImageMotion motion;
+    style.paint(followed(picture, i, kBy, motion), {}, timer_);
+    const auto now = support::readR32ui(*style.inner().tiling);
+    if (i > 6) {
+      EXPECT_GT(carriedPart(then, now, kSize, kBy), 0.95) << i;
+      EXPECT_LT(carriedPart(then, now, kSize, {0, 0}), 0.8) << "cells that stay with the screen";
+    }
+    then = now;
+  }
+}
+
+TEST_F(WatercolorTest, ACutStartsAnew) {
+  Watercolor style(library_);
+  const gpu::Texture one = textureOf(testPicture({120, 90}, 5).view());
+  const gpu::Texture other = textureOf(testPicture({120, 90}, 6, 50.0).view());
+  tracking::ImageMotion motion;
+  for (int i = 0; i < 5; ++i) style.paint(followed(one, i, {0.0, 0.0}, motion), {}, timer_);
+  scene::ArFrame cut = followed(other, 5, {0.0, 0.0}, motion);
+  motion.isCut = true;
+  style.paint(cut, {}, timer_);
+  // Nothing of the old scene goes on.
+  EXPECT_EQ(style.inner().tiler->readMoving(), 0U);
+  for (const CellSeed& seed : support::readBuffer<CellSeed>(style.inner().tiler->seeds())) {
+    ASSERT_TRUE(!seed.isLiving() || seed.parent == 0);
+  }
+  const std::vector<float> steady = support::readRgba32f(*style.inner().steady);
+  for (std::size_t i = 3; i < steady.size(); i += 4) ASSERT_EQ(steady[i], 1.0F);
+}
+
+/// A born cell begins with the colours of the one that it is born in.
+TEST_F(WatercolorTest, NewbornCellsAreOfTheirParentsColours) {
+  constexpr hal::FrameSize kSize{160, 120};
+  Watercolor style(library_);
+  int born = 0;
+  hal::Image then;
+  for (int i = 0; i < 12; ++i) {
+    const gpu::Texture picture = textureOf(testPicture(kSize, 5, 4.0 * i).view());
+    tracking::ImageMotion motion;
+    style.paint(followed(picture, i, {-4.0, 0.0}, motion), {}, timer_);
+    hal::Image washes = readRgba8(*style.inner().darkWash);
+    const auto seeds = support::readBuffer<CellSeed>(style.inner().tiler->seeds());
+    const auto words = support::readR32ui(*style.inner().tiling);
+    for (std::size_t slot = 0; i > 0 && slot < seeds.size(); ++slot) {
+      if ((seeds[slot].state & CellSeed::kBorn) == 0 || seeds[slot].parent == 0) continue;
+      const auto isOurs = [&](std::uint32_t word) { return (word & 0x3FFFFFU) == slot; };
+      if (std::ranges::any_of(words, isOurs)) continue;  // it has pixels of its own by now
+      ++born;
+      const std::size_t parent = seeds[slot].parent - 1;
+      for (std::size_t c = 0; c < 3; ++c) {
+        ASSERT_EQ(washes.plane(0)[slot * 4 + c], then.plane(0)[parent * 4 + c]) << i << " " << slot;
+      }
+    }
+    then = std::move(washes);
+  }
+  EXPECT_GT(born, 10);
 }
 
 TEST_F(WatercolorTest, AllocatesNothingAfterTheFirstFrameOfASize) {

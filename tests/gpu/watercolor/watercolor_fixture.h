@@ -56,6 +56,22 @@ class StyleTest : public support::GlTest {
             .captureTime = hal::TimePoint(hal::Duration(40'000'000) * number)};
   }
 
+  /// The same of a camera that is followed: the picture has moved by `by` since frame number − 1.
+  /// `motion` is to live as long.
+  static scene::ArFrame followed(const gpu::Texture& picture, int number, glm::dvec2 by,
+                                 tracking::ImageMotion& motion) {
+    motion = {};
+    motion.frameSize = picture.size();
+    motion.sinceSequence = static_cast<std::uint64_t>(number - 1);
+    glm::dmat3 nowFromThen(1.0);
+    nowFromThen[2] = glm::dvec3(by, 1.0);
+    motion.picture = tracking::PictureHomography{.nowFromThen = nowFromThen, .errorPx = 0.01};
+    motion.noiseLevels = 2.0;
+    scene::ArFrame frame = frameOf(picture, number);
+    frame.pictureMovement = scene::PictureMovement{.motion = &motion};
+    return frame;
+  }
+
   gpu::ShaderLibrary library_;
   gpu::PassTimer timer_;
 };

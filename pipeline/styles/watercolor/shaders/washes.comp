@@ -35,7 +35,7 @@ void average(inout vec4 first, inout vec4 second, int slot) {
   vec4 secondThen = past[2 * from + 1];
   // What has changed for good is taken at once.
   float apart = length(first.rgb - firstThen.rgb);
-  float alike = first.w > 0.0 ? 1.0 - smoothstep(30.0, 80.0, apart) : 1.0;
+  float alike = first.w > 0.0 ? 1.0 - smoothstep(12.0, 40.0, apart) : 1.0;
   float before = kept * alike * min(firstThen.w, kMostFrames);
   float all = before + first.w;
   if (all <= 0.0) return;

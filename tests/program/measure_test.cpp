@@ -1,0 +1,183 @@
+// `pleinair measure`: its report, its exit status, and one line for whatever is wrong with its
+// input.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "hal/libav/picture_file.h"
+#include "tests/program/program.h"
+#include "tests/support/deep_png.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pleinair::support {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr hal::FrameSize kSize{200, 180};
+
+class Measure : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(path(name), std::ios::binary) << text;
+  }
+  std::string read(const std::string& name) const {
+    std::ifstream file(path(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  /// Squares of many colours, from a place on.
+  void writePicture(const std::string& name, int fromX, int fromY, hal::FrameSize size = kSize) {
+    hal::Image image({.pixelFormat = hal::PixelFormat::kRgb8, .size = size, .encoding = {}});
+    for (int y = 0; y < size.height; ++y) {
+      const auto row = image.row(0, y);
+      for (int x = 0; x < size.width; ++x) {
+        const auto cell = static_cast<unsigned>((x + fromX) / 9 * 7919 + (y + fromY) / 7 * 104729);
+        for (unsigned c = 0; c < 3; ++c) {
+          row[3 * static_cast<std::size_t>(x) + c] =
+              static_cast<std::uint8_t>((cell * (c + 3) * 2654435761U) >> 24U);
+        }
+      }
+    }
+    hal::orThrow(hal::writePng(path(name), image.view()));
+  }
+
+  /// A pan of (-2, -1) px a frame over them.
+  void writePan(int frames) {
+    std::filesystem::create_directory(path("in"));
+    for (int i = 0; i < frames; ++i) {
+      writePicture("in/" + std::to_string(i) + ".png", 2 * i, i);
+    }
+    write("in/motion.json", R"({"v": [-2, -1]})");
+  }
+
+  static ProgramRun measured(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "measure");
+    return runProgram(arguments);
+  }
+
+  static void expectRefused(const std::vector<std::string>& arguments,
+                            const testing::Matcher<std::string>& error) {
+    const ProgramRun run = measured(arguments);
+    EXPECT_EQ(run.status, 2) << run.error;
+    EXPECT_THAT(run.error, AllOf(error, testing::StartsWith("pleinair: ")));
+    EXPECT_EQ(std::ranges::count(run.error, '\n'), 1) << run.error;
+    EXPECT_EQ(run.out, "");
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Measure, ReadsTheInputItselfThroughStyleNone) {
+  writePan(13);
+  const ProgramRun run = measured({"--input", path("in"), "--style", "none", "--json",
+                                   path("r.json"), "--html", path("r.html")});
+  ASSERT_EQ(run.status, 0) << run.error;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("pan by (-2, -1) px a frame"), HasSubstr("nHW2"),
+                             HasSubstr("sound")));
+  const auto json = nlohmann::json::parse(read("r.json"));
+  const auto& own = json["measures"]["painting"];
+  EXPECT_EQ(json["frames"], 13);
+  EXPECT_EQ(own["ew2"], 0.0);
+  EXPECT_EQ(own["s10_percent"], 100.0);
+  EXPECT_EQ(own["xflk"], 1.0);
+  EXPECT_GT(json["measures"]["redrawn"]["nhw2"], 0.4);
+  EXPECT_GT(json["measures"]["fixed"]["scr"], 0.25);
+  EXPECT_THAT(read("r.html"), AllOf(HasSubstr("<svg"), HasSubstr("data:image/png")));
+}
+
+TEST_F(Measure, MakesAFailedGateAnExitStatus) {
+  writePicture("photo.png", 0, 0, {320, 260});
+  const std::vector<std::string> arguments{
+      "--input", path("photo.png"),    "--pan", "-1.5,-0.5", "--size",
+      "200x180", "--frames",           "12",    "--settle",  "2",
+      "--set",   "painting.style=none"};
+  std::vector<std::string> gated = arguments;
+  gated.emplace_back("--gates");
+  EXPECT_EQ(measured(gated).status, 0) << "style none has no gates";
+  gated[gated.size() - 2] = "painting.style=watercolor";
+  gated.insert(gated.end(), {"--json", path("r.json")});
+  const ProgramRun run = measured(gated);
+  const auto json = nlohmann::json::parse(read("r.json"));
+  EXPECT_EQ(run.status, json["gates_passed"] == true ? 0 : 1) << run.error;
+  EXPECT_FALSE(json["gates"].empty());
+}
+
+TEST_F(Measure, FailsWhereTheControlsAreWrong) {
+  std::filesystem::create_directory(path("in"));
+  hal::Image flat({.pixelFormat = hal::PixelFormat::kRgb8, .size = kSize, .encoding = {}});
+  for (int i = 0; i < 4; ++i) {
+    hal::orThrow(hal::writePng(path("in/" + std::to_string(i) + ".png"), flat.view()));
+  }
+  write("in/motion.json", R"({"v": [0, 0]})");
+  const ProgramRun run = measured({"--input", path("in"), "--style", "none", "--noise", "0"});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.error, HasSubstr("controls"));
+  EXPECT_THAT(run.out, AllOf(HasSubstr("WRONG"), HasSubstr("too smooth")));
+}
+
+TEST_F(Measure, SaysWhatCannotBeHadWithoutTruth) {
+  writePan(4);
+  std::filesystem::remove(path("in/motion.json"));
+  const ProgramRun run = measured({"--input", path("in"), "--style", "none"});
+  EXPECT_EQ(run.status, 0) << run.error;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("Left out"), HasSubstr("motion.json")));
+}
+
+TEST_F(Measure, RefusesBrokenTruthInALine) {
+  writePan(4);
+  write("in/motion.json", R"({"velocity": [1, 2]})");
+  expectRefused({"--input", path("in"), "--style", "none"},
+                AllOf(HasSubstr("motion.json"), HasSubstr("[vx, vy]")));
+  std::filesystem::remove(path("in/motion.json"));
+  for (int i = 0; i < 3; ++i) write("in/flow_" + std::to_string(i) + ".png", "no flow");
+  expectRefused({"--input", path("in"), "--style", "none"}, HasSubstr("flow_"));
+  std::filesystem::remove(path("in/flow_2.png"));
+  expectRefused({"--input", path("in"), "--style", "none"}, HasSubstr("2 flow files"));
+  for (int i = 0; i < 3; ++i)
+    constantFlow(20, 10, 1, 1).write(path("in/flow_" + std::to_string(i) + ".png"));
+  expectRefused({"--input", path("in"), "--style", "none"}, HasSubstr("20x10"));
+  expectRefused({"--input", path("absent"), "--style", "none"}, HasSubstr("absent"));
+}
+
+TEST_F(Measure, RefusesFramesThatDoNotFit) {
+  writePan(4);
+  writePicture("in/9.png", 0, 0, {210, 180});
+  expectRefused({"--input", path("in"), "--style", "none"},
+                AllOf(HasSubstr("9.png"), HasSubstr("210x180")));
+  std::filesystem::remove(path("in/9.png"));
+  expectRefused({"--input", path("in"), "--style", "none", "--size", "100x90"},
+                HasSubstr("200x180"));
+  expectRefused({"--input", path("in"), "--style", "none", "--frames", "2"},
+                HasSubstr("3 at least"));
+  expectRefused({"--input", path("in"), "--style", "none", "--settle", "50"},
+                HasSubstr("0 frames"));
+}
+
+TEST_F(Measure, RefusesOptionsThatMakeNoSense) {
+  writePan(4);
+  expectRefused({"--input", path("in"), "--pan", "1,1"}, HasSubstr("photograph"));
+  expectRefused({"--pan", "1,1"}, HasSubstr("--pan"));
+  for (const char* pan : {"1", "a,b", "1,2,3", "100,0", "nan,0", ","}) {
+    expectRefused({"--input", path("in/0.png"), "--pan", pan}, HasSubstr("--pan"));
+  }
+  expectRefused({"--input", path("in/0.png"), "--zoom", "50%"}, HasSubstr("--zoom"));
+  expectRefused({"--input", path("in/0.png"), "--roll", "x"}, HasSubstr("--roll"));
+  expectRefused({"--input", path("in/0.png"), "--still", "--noise", "-1"}, HasSubstr("--noise"));
+  expectRefused({"--input", path("in/0.png"), "--still", "--settle", "1.5"}, HasSubstr("--settle"));
+  expectRefused({"--input", path("in"), "--style", "oil"}, HasSubstr("oil"));
+  expectRefused({"--input", path("in"), "--json", path("in/motion.json")}, HasSubstr("--input"));
+  expectRefused({"--input", path("in"), "--html", path("absent/r.html")}, HasSubstr("absent"));
+  expectRefused({"--camera", "v4l2"}, HasSubstr("--input"));
+}
+
+}  // namespace
+}  // namespace pleinair::support

@@ -1,0 +1,213 @@
+#include "pipeline/measure/measurement.h"
+
+#include <functional>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "hal/libav/picture_file.h"
+#include "pipeline/measure/picture.h"
+#include "pipeline/measure/voronoi_tiling.h"
+#include "tests/support/deep_png.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/measure/measure_pictures.h"
+
+namespace pleinair::measure {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr hal::FrameSize kFrame{200, 180};
+
+/// Paints by a function of the picture and how often it was asked.
+class FunctionPainter final : public MeasuredPainter {
+ public:
+  using Function = std::function<cv::Mat3f(const cv::Mat3f&, int)>;
+  explicit FunctionPainter(Function function) : function_(std::move(function)) {}
+  hal::Result<PaintedFrame> paint(const hal::CapturedFrame& frame) override {
+    const cv::Mat3f input = toFloat(frame.image);
+    return PaintedFrame{.input = hal::Image(frame.image),
+                        .output = toImage(function_(input, calls++)),
+                        .anchors = {}};
+  }
+  void reset() override { ++resets; }
+  int calls = 0;
+  int resets = 0;
+
+ private:
+  Function function_;
+};
+
+class MeasurementTest : public testing::Test {
+ protected:
+  MeasurementTest() {
+    hal::orThrow(hal::writePng(path("photo.png"), toImage(strongBlobs({400, 300}, 1)).view()));
+  }
+  std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
+
+  std::unique_ptr<MeasuredInput> photograph(PhotographMotion motion, std::uint64_t frames = 14) {
+    return hal::orThrow(
+        openPhotograph(path("photo.png"), {.size = kFrame, .motion = motion, .frames = frames}));
+  }
+  /// Frames of a pan into a folder.
+  void writeFrames(int count, hal::FrameSize size = kFrame) {
+    std::filesystem::create_directory(path("in"));
+    const cv::Mat3f canvas = blobPicture({400, 300}, 2);
+    for (int i = 0; i < count; ++i) {
+      const cv::Mat3f frame = windowOf(canvas, {4 + 2 * i, 4 + i}, {size.width, size.height});
+      hal::orThrow(
+          hal::writePng(path("in/frame_" + std::to_string(i) + ".png"), toImage(frame).view()));
+    }
+  }
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream(path(name)) << text;
+  }
+  static Report run(MeasuredInput& input, const FunctionPainter::Function& function,
+                    MeasurementOptions options = {
+                        .style = "watercolor", .stillFrames = 4, .stillSettle = 1}) {
+    FunctionPainter painter(function);
+    return *hal::orThrow(measure(input, painter, options));
+  }
+
+  support::TemporaryFolder folder_;
+};
+
+cv::Mat3f itself(const cv::Mat3f& input, int) {
+  return input;
+}
+
+TEST_F(MeasurementTest, OfTheInputItselfIsPerfectButForItsNoise) {
+  const auto input = photograph({.pan = {-1.5, -0.5}});
+  const Report report = run(*input, itself);
+  const Measures& own = report.measures[Subject::kPainting];
+  EXPECT_EQ(own.xEw2, 1.0);
+  EXPECT_EQ(own.xFlk, 1.0);
+  EXPECT_EQ(own.det, 1.0);
+  EXPECT_LT(*own.nHw2, 0.02);
+  EXPECT_EQ(own.popPercent, 0.0);
+  EXPECT_EQ(own.s10Percent, 100.0);
+  EXPECT_LT(std::abs(*own.scr), 0.1);
+  EXPECT_TRUE(report.areControlsSound());
+  EXPECT_FALSE(report.areGatesPassed());  // noise passes through, and nothing departs
+  EXPECT_EQ(report.frames, 14u);
+  EXPECT_EQ(report.overTime.size(), 14u);
+  EXPECT_FALSE(report.worst.empty());
+}
+
+TEST_F(MeasurementTest, SeesMarksThatStayOnTheScreen) {
+  const auto input = photograph({.pan = {-1.5, -0.5}});
+  const VoronoiTiling tiles({kFrame.width, kFrame.height}, 77);
+  const Report report =
+      run(*input, [&tiles](const cv::Mat3f& frame, int) { return tiles.paint(frame); });
+  const Measures& own = report.measures[Subject::kPainting];
+  EXPECT_GT(*own.scr, 0.25);
+  EXPECT_LT(*own.xFlk, 0.2);
+  EXPECT_FALSE(report.areGatesPassed());
+}
+
+TEST_F(MeasurementTest, SeesMarksThatAreRedrawnAlsoUnderZoomAndRoll) {
+  for (const PhotographMotion& motion :
+       {PhotographMotion{.zoomPercent = 1}, PhotographMotion{.rollDegrees = 1}}) {
+    const auto input = photograph(motion);
+    const Report report = run(*input, [](const cv::Mat3f& frame, int call) {
+      return VoronoiTiling(frame.size(), 100 + static_cast<std::uint64_t>(call)).paint(frame);
+    });
+    EXPECT_GT(*report.measures[Subject::kPainting].nHw2, 0.5);
+    EXPECT_GT(*report.measures[Subject::kPainting].xFlk, 1);
+    EXPECT_LT(*report.measures[Subject::kInput].nHw2, 0.05);
+    EXPECT_TRUE(report.areControlsSound());
+  }
+}
+
+TEST_F(MeasurementTest, CannotBePassedByBlurring) {
+  const auto input = photograph({.pan = {-1.5, -0.5}});
+  const Report report = run(*input, [](const cv::Mat3f& frame, int) {
+    cv::Mat3f blurred;
+    cv::GaussianBlur(frame, blurred, {}, 6.0);
+    return blurred;
+  });
+  EXPECT_LT(*report.measures[Subject::kPainting].xEw2, 0.1);
+  EXPECT_LT(*report.measures[Subject::kPainting].det, 0.5);
+}
+
+TEST_F(MeasurementTest, PaintsBeforeItMeasuresAndAStillAfterwards) {
+  const auto input = photograph({.pan = {-1.5, -0.5}}, 9);
+  FunctionPainter painter(itself);
+  int calls = 0;
+  const MeasurementOptions options{.style = "none",
+                                   .frames = 4,
+                                   .settle = 5,
+                                   .stillFrames = 3,
+                                   .stillSettle = 2,
+                                   .goesOn = [&calls] { return ++calls > 0; }};
+  EXPECT_EQ(framesToPaint(*input, options), 14u);
+  const auto report = hal::orThrow(measure(*input, painter, options));
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->frames, 4u);
+  EXPECT_EQ(report->overTime.front().frame, 5u);
+  EXPECT_EQ(painter.calls, 14);
+  EXPECT_EQ(painter.resets, 1);
+  EXPECT_EQ(calls, 14);
+  EXPECT_TRUE(report->gates.empty());
+}
+
+TEST_F(MeasurementTest, CanBeBrokenOff) {
+  const auto input = photograph({.pan = {-1.5, -0.5}});
+  FunctionPainter painter(itself);
+  const auto report =
+      hal::orThrow(measure(*input, painter, {.goesOn = [&painter] { return painter.calls < 3; }}));
+  EXPECT_FALSE(report);
+  EXPECT_EQ(painter.calls, 3);
+}
+
+TEST_F(MeasurementTest, TakesAFolderWithItsMotion) {
+  writeFrames(13);
+  write("in/motion.json", R"({"v": [-2, -1]})");
+  const auto input = hal::orThrow(openPictureFolder(path("in")));
+  EXPECT_EQ(input->frameCount(), 13u);
+  const Report report = run(*input, itself);
+  EXPECT_EQ(report.motionKind, MotionKind::kPan);
+  EXPECT_EQ(*report.measures[Subject::kPainting].ew2, 0.0);  // no noise, whole steps
+  EXPECT_EQ(report.measures[Subject::kPainting].s10Percent, 100.0);
+}
+
+TEST_F(MeasurementTest, TakesAFolderWithFlowFiles) {
+  writeFrames(4);
+  for (int i = 0; i < 3; ++i) {
+    support::constantFlow(kFrame.width, kFrame.height, -2, -1)
+        .write(path("in/flow_" + std::to_string(i) + ".png"));
+  }
+  const auto input = hal::orThrow(openPictureFolder(path("in")));
+  EXPECT_EQ(input->frameCount(), 4u);
+  const Report report = run(*input, itself);
+  EXPECT_EQ(report.motionKind, MotionKind::kOther);
+  EXPECT_LT(*report.measures[Subject::kPainting].ew2, 1e-9);
+  EXPECT_THAT(report.leftOut, testing::Contains(HasSubstr("S10 and SCR")));
+  std::filesystem::remove(path("in/flow_1.png"));
+  EXPECT_THAT(openPictureFolder(path("in")).error().message(),
+              testing::AllOf(HasSubstr("4 frames"), HasSubstr("2 flow files")));
+}
+
+TEST_F(MeasurementTest, SaysWhatCannotBeHadWithoutTruth) {
+  writeFrames(13);
+  const auto input = hal::orThrow(openPictureFolder(path("in")));
+  const Report report = run(*input, itself);
+  const Measures& own = report.measures[Subject::kPainting];
+  EXPECT_FALSE(own.ew2 || own.nHw2 || own.s10Percent || own.popPercent);
+  EXPECT_TRUE(own.scr && own.dep && own.det && own.xFlk);
+  EXPECT_THAT(report.leftOut, testing::Contains(HasSubstr("motion.json")));
+}
+
+TEST_F(MeasurementTest, RefusesWhatIsTooShortOrTooSmall) {
+  writeFrames(2);
+  FunctionPainter painter(itself);
+  const auto input = hal::orThrow(openPictureFolder(path("in")));
+  EXPECT_THAT(measure(*input, painter, {}).error().message(),
+              testing::AllOf(HasSubstr("2 frames"), HasSubstr("3 at least")));
+  writeFrames(4, {150, 200});
+  const auto small = hal::orThrow(openPictureFolder(path("in")));
+  EXPECT_THAT(measure(*small, painter, {}).error().message(), HasSubstr("160x160"));
+}
+
+}  // namespace
+}  // namespace pleinair::measure

@@ -1,0 +1,113 @@
+#include "pipeline/measure/motion_map.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "pipeline/measure/known_motion.h"
+#include "pipeline/measure/picture.h"
+
+namespace pleinair::measure {
+namespace {
+
+const cv::Size kSize(200, 180);
+
+cv::Mat1f quadratic() {
+  cv::Mat1f picture(kSize);
+  for (int y = 0; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      picture(y, x) = 0.01F * static_cast<float>(x * x) - 0.02F * static_cast<float>(x * y) +
+                      0.005F * static_cast<float>(y * y);
+    }
+  }
+  return picture;
+}
+
+float quadraticAt(float x, float y) {
+  return 0.01F * x * x - 0.02F * x * y + 0.005F * y * y;
+}
+
+TEST(MotionMap, IsAShiftWhereTheMotionIsWhole) {
+  EXPECT_EQ(constantMap(kSize, {-3, -1}).shift, cv::Point(-3, -1));
+  EXPECT_FALSE(constantMap(kSize, {-1.5, -0.5}).shift);
+}
+
+TEST(MotionMap, InterpolatesQuadraticsExactly) {
+  const MotionMap map = constantMap(kSize, {2.3, -1.6});
+  const Carried<cv::Mat1f> carried = carriedBack(quadratic(), map, {4, 2});
+  int seen = 0;
+  for (int y = 0; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      if (carried.mask(y, x) == 0) continue;
+      ++seen;
+      ASSERT_NEAR(carried.picture(y, x),
+                  quadraticAt(static_cast<float>(x) + 6.3F, static_cast<float>(y) + 0.4F), 2e-3);
+    }
+  }
+  EXPECT_EQ(seen, (200 - 80) * (180 - 80));
+}
+
+TEST(MotionMap, LeavesOutWhatComesFromOutsideTheFrame) {
+  const MotionMap map = constantMap(kSize, {100.0, 0});
+  const Carried<cv::Mat1f> carried = carriedBack(quadratic(), map);
+  EXPECT_NE(carried.mask(90, 99), 0);
+  EXPECT_EQ(carried.mask(90, 100), 0);
+}
+
+TEST(MotionMap, LeavesOutMotionBoundariesAndWhatIsHidden) {
+  cv::Mat2f field(kSize, cv::Vec2f(1, 0));
+  field.colRange(100, kSize.width).setTo(cv::Vec2f(4, 0));
+  cv::Mat1b seen(kSize, 255);
+  seen(90, 60) = 0;
+  const MotionMap map = fieldMap(field, seen, 0.5F);
+  EXPECT_EQ(map.valid(50, 99), 0);
+  EXPECT_EQ(map.valid(50, 96), 0);
+  EXPECT_EQ(map.valid(50, 102), 0);
+  EXPECT_NE(map.valid(50, 95), 0);
+  EXPECT_NE(map.valid(50, 103), 0);
+  EXPECT_EQ(map.valid(93, 63), 0);
+  EXPECT_NE(map.valid(94, 64), 0);
+  // What has looked 12 px around itself is left out 12 px further.
+  const Carried<cv::Mat1f> wide = carriedBack(quadratic(), map, {}, 12);
+  EXPECT_EQ(wide.mask(50, 84), 0);
+  EXPECT_NE(wide.mask(50, 83), 0);
+}
+
+TEST(MotionMap, TellsTheDisplacementBetweenPixels) {
+  cv::Mat2f field(kSize);
+  for (int y = 0; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      field(y, x) = {0.1F * static_cast<float>(x), 0.05F * static_cast<float>(y)};
+    }
+  }
+  const MotionMap map = fieldMap(field, cv::Mat1b(kSize, 255), 0.5F);
+  const auto at = displacementAt(map, {70.25F, 90.5F});
+  ASSERT_TRUE(at);
+  EXPECT_NEAR(at->x, 7.025, 1e-4);
+  EXPECT_NEAR(at->y, 4.525, 1e-4);
+  EXPECT_FALSE(displacementAt(map, {-1, 5}));
+}
+
+TEST(KnownMotion, FollowsAHomographyOverAnyFrames) {
+  const auto motion = homographyMotion(kSize, "zoom", [](std::uint64_t t) {
+    const double s = std::pow(1.01, static_cast<double>(t));
+    return cv::Matx33d(s, 0, 100 * (1 - s), 0, s, 90 * (1 - s), 0, 0, 1);
+  });
+  const hal::Result<MotionMap> map = motion->between(5, 15);
+  ASSERT_TRUE(map);
+  const float grown = static_cast<float>(std::pow(1.01, 10) - 1);
+  EXPECT_NEAR(map->displacement(90, 160)[0], 60 * grown, 1e-4);
+  EXPECT_NEAR(map->displacement(120, 100)[1], 30 * grown, 1e-4);
+}
+
+TEST(KnownMotion, AddsUpAConstantVector) {
+  const auto motion = constantMotion(kSize, {-1.5, -0.5});
+  EXPECT_EQ(motion->kind(), MotionKind::kPan);
+  EXPECT_EQ(constantMotion(kSize, {0, 0})->kind(), MotionKind::kStill);
+  EXPECT_EQ(motion->between(4, 6)->shift, cv::Point(-3, -1));
+  EXPECT_FALSE(motion->between(4, 5)->shift);
+  EXPECT_NEAR(motion->between(4, 5)->displacement(7, 7)[0], -1.5, 1e-6);
+}
+
+}  // namespace
+}  // namespace pleinair::measure

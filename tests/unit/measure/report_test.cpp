@@ -1,0 +1,86 @@
+#include "pipeline/measure/report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace pleinair::measure {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+Report report() {
+  Report report{.style = "water<color>",
+                .settings = "look default",
+                .input = "in & out",
+                .motion = "pan",
+                .motionKind = MotionKind::kPan,
+                .size = {320, 240},
+                .frames = 2};
+  report.measures[Subject::kPainting] = {.ew2 = 0.25, .nHw2 = 0.0625};
+  report.controls = {{"input", Verdict::State::kPassed, "1"}};
+  report.gates = {{"nHW2 ≤ 0.3", Verdict::State::kPassed, "0.062"},
+                  {"SCR", Verdict::State::kNotMeasured, "–"}};
+  report.inside = AnchorSummary{.frames = 3, .alive = 100, .slip = Slip{.median = 0.5}};
+  for (std::uint64_t i = 0; i < 3; ++i) {
+    FrameValues values{.frame = i};
+    values.painting.ew2 = 0.1 * static_cast<double>(i);
+    report.overTime.push_back(values);
+  }
+  const hal::FrameFormat format{
+      .pixelFormat = hal::PixelFormat::kRgb8, .size = {8, 8}, .encoding = {}};
+  report.worst.push_back({.frame = 2,
+                          .ew2 = 0.2,
+                          .input = hal::Image(format),
+                          .output = hal::Image(format),
+                          .difference = hal::Image(format)});
+  return report;
+}
+
+TEST(Report, IsJsonWithNullForWhatCouldNotBeHad) {
+  const auto json = nlohmann::json::parse(reportJson(report()));
+  EXPECT_EQ(json["measures"]["painting"]["ew2"], 0.25);
+  EXPECT_TRUE(json["measures"]["painting"]["scr"].is_null());
+  EXPECT_EQ(json["gates"][1]["verdict"], "not measured");
+  EXPECT_EQ(json["gates_passed"], false);
+  EXPECT_EQ(json["controls_sound"], true);
+  EXPECT_EQ(json["inside"]["slip"]["median_px"], 0.5);
+  EXPECT_EQ(json["over_time"].size(), 3u);
+}
+
+TEST(Report, IsAPageThatNeedsNothingElse) {
+  const std::string html = reportHtml(report());
+  EXPECT_THAT(html,
+              AllOf(HasSubstr("<!DOCTYPE html>"), HasSubstr("water&lt;color&gt; on in &amp; out"),
+                    HasSubstr("<svg"), HasSubstr("data:image/png;base64,iVBORw0KGgo")));
+  EXPECT_THAT(html,
+              AllOf(Not(HasSubstr("http:")), Not(HasSubstr("https:")), Not(HasSubstr("<script")),
+                    Not(HasSubstr("<link")), Not(HasSubstr("water<color>"))));
+}
+
+TEST(Report, SaysLoudlyThatControlsAreWrong) {
+  Report wrong = report();
+  EXPECT_TRUE(wrong.areControlsSound());
+  EXPECT_THAT(reportText(wrong), Not(HasSubstr("MUST")));
+  wrong.controls.push_back({"redrawn", Verdict::State::kFailed, "they pass"});
+  EXPECT_FALSE(wrong.areControlsSound());
+  EXPECT_THAT(reportText(wrong), AllOf(HasSubstr("WRONG"), HasSubstr("DO NOT READ AS THEY MUST")));
+  EXPECT_THAT(reportHtml(wrong), HasSubstr("can be relied on"));
+}
+
+TEST(Report, PassesOnlyWhenEveryGateWasMeasured) {
+  Report passed = report();
+  EXPECT_FALSE(passed.areGatesPassed());
+  passed.gates.pop_back();
+  EXPECT_TRUE(passed.areGatesPassed());
+}
+
+TEST(Report, ShowsADashForWhatCouldNotBeHad) {
+  const Measures none;
+  for (const MeasureColumn& column : measureColumns()) EXPECT_EQ(textOf(column, none), "–");
+}
+
+}  // namespace
+}  // namespace pleinair::measure
