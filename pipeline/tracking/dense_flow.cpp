@@ -24,6 +24,13 @@ constexpr double kMostErrorPx = 100.0;
 constexpr double kEdgePart = 0.1;
 /// The homography is taken where it fits as well, but for so much of the noise's variance.
 constexpr double kAsWell = 0.5;
+/// How good guesses are: what the search finds, and the homography by its predicted errors.
+constexpr double kSearchedPx = 0.3;
+constexpr double kAlongErrors = 2.0;
+/// A patch tells whether it goes along when it can be placed so well; by how much more it may be
+/// off.
+constexpr double kTellingPx = 0.4;
+constexpr double kSurely = 1.5;
 
 }  // namespace
 
@@ -52,7 +59,7 @@ glm::dvec2 DenseFlowEstimator::nodePx(std::size_t index) const {
 
 void DenseFlowEstimator::flowOneWay(Way& way, const LumaPyramid& from, const LumaPyramid& to,
                                     const cv::Mat& fromSmall, const cv::Mat& toSmall,
-                                    const glm::dmat3* toFromFrom, double noise) const {
+                                    const Along& along, double noise) const {
   way.search->calc(fromSmall, toSmall, way.coarse);
   const cv::Mat& picture = from.picture();
   for (std::size_t i = 0; i < way.nodes.size(); ++i) {
@@ -63,17 +70,28 @@ void DenseFlowEstimator::flowOneWay(Way& way, const LumaPyramid& from, const Lum
     const cv::Vec2f coarse = way.coarse.at<cv::Vec2f>(std::min(middle.y / 2, way.coarse.rows - 1),
                                                       std::min(middle.x / 2, way.coarse.cols - 1));
     PatchMatch best = patch.at(to.picture(), 2.0 * glm::dvec2(coarse[0], coarse[1]));
-    if (toFromFrom != nullptr) {
-      const PatchMatch along = patch.at(to.picture(), (movedBy(*toFromFrom, px) - px) / reduction_);
+    bool goesAlong = false;
+    if (along.isKnown) {
+      const PatchMatch there =
+          patch.at(to.picture(), (movedBy(along.toFromFrom, px) - px) / reduction_);
       const double allowed = best.variance + kAsWell * noise * noise;
-      if (along.isInside && (!best.isInside || along.variance < allowed)) best = along;
+      goesAlong = there.isInside && (!best.isInside || there.variance < allowed);
+      if (goesAlong) best = there;
     }
-    if (best.isInside) best = patch.refined(to.picture(), best, noise);
+    if (best.isInside && !(goesAlong && along.isHeld)) {
+      best = patch.refined(to.picture(), best, noise, goesAlong ? along.guessPx : kSearchedPx);
+    }
     const glm::dvec2 moved = reduction_ * best.moved;
-    const double placing = kPlacing * patch.placing(noise);
-    const double error =
-        best.isInside ? std::sqrt(placing * placing * best.variance + kLeastErrorPx * kLeastErrorPx)
-                      : kMostErrorPx;
+    double error = kMostErrorPx;
+    if (best.isInside) {
+      error = kPlacing * patch.placing(noise) * std::sqrt(best.variance);
+      // Texture that goes along with the picture, as far as it tells, is where that takes it.
+      const double guess = kSurely * along.guessPx;
+      if (goesAlong && error < kTellingPx) {
+        error = 1.0 / std::sqrt(1.0 / (error * error) + 1.0 / (guess * guess));
+      }
+      error = std::sqrt(error * error + kLeastErrorPx * kLeastErrorPx);
+    }
     way.nodes[i] = {static_cast<float>(moved.x), static_cast<float>(moved.y),
                     static_cast<float>(std::min(error * reduction_.x, kMostErrorPx)), 0.0F};
   }
@@ -141,14 +159,21 @@ void DenseFlowEstimator::update(const LumaPyramid& then, const LumaPyramid& now,
   if (!standStill(stillness)) return;
   then.levels()[kHalf].copyTo(small_[0]);
   now.levels()[kHalf].copyTo(small_[1]);
-  const glm::dmat3 forward = picture ? picture->nowFromThen : glm::dmat3(1.0);
-  const glm::dmat3 backward = glm::inverse(forward);
+  Along forward;
+  if (picture) {
+    forward = {.toFromFrom = picture->nowFromThen,
+               .guessPx = kAlongErrors * picture->errorPx / reduction_.x,
+               .isKnown = true,
+               .isHeld = picture->nowFromThen == glm::dmat3(1.0)};
+  }
+  Along backward = forward;
+  backward.toFromFrom = glm::inverse(forward.toFromFrom);
   cv::parallel_for_({0, 2}, [&](const cv::Range& range) {
     for (int way = range.start; way < range.end; ++way) {
       if (way == 0) {
-        flowOneWay(ways_[0], then, now, small_[0], small_[1], picture ? &forward : nullptr, noise);
+        flowOneWay(ways_[0], then, now, small_[0], small_[1], forward, noise);
       } else {
-        flowOneWay(ways_[1], now, then, small_[1], small_[0], picture ? &backward : nullptr, noise);
+        flowOneWay(ways_[1], now, then, small_[1], small_[0], backward, noise);
       }
     }
   });

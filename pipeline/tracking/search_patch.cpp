@@ -18,7 +18,6 @@ constexpr int kWeights = 1 << kWeightBits;  // of a pixel and its neighbour, alo
 constexpr int kSteps = 3;
 constexpr double kEnoughPx = 0.02;  // a smaller step is the last
 constexpr double kFarPx = 2.0;      // from the guess: it has gone astray
-constexpr double kGuessPx = 0.3;    // how good guesses are
 
 cv::v_int16x8 eight(const std::uint8_t* levels) {
   return cv::v_reinterpret_as_s16(cv::v_load_expand(levels));
@@ -155,11 +154,11 @@ PatchMatch SearchPatch<kSide>::at(const cv::Mat& other, const glm::dvec2& moved)
 }
 
 template <int kSide>
-PatchMatch SearchPatch<kSide>::refined(const cv::Mat& other, const PatchMatch& guess,
-                                       double noise) const {
+PatchMatch SearchPatch<kSide>::refined(const cv::Mat& other, const PatchMatch& guess, double noise,
+                                       double guessPx) const {
   // A guess is as good as what differences of the noise's size say of so large a shift. Gradients
   // are twice too large.
-  const double hold = 4.0 * 2.0 * noise * noise / (kGuessPx * kGuessPx);
+  const double hold = 4.0 * 2.0 * noise * noise / (guessPx * guessPx);
   const double xx = xx_ + hold;
   const double yy = yy_ + hold;
   const double determinant = xx * yy - xy_ * xy_;

@@ -38,8 +38,10 @@ class SearchPatch {
 
   /// How well the other picture fits at a guess.
   PatchMatch at(const cv::Mat& other, const glm::dvec2& moved) const;
-  /// Improves a match. `noise` says how far the guess is held to where there is little texture.
-  PatchMatch refined(const cv::Mat& other, const PatchMatch& guess, double noise) const;
+  /// Improves a match that is good to `guessPx`: held to it where noise (levels) would say more
+  /// than texture.
+  PatchMatch refined(const cv::Mat& other, const PatchMatch& guess, double noise,
+                     double guessPx = 0.3) const;
 
  private:
   struct Sums {

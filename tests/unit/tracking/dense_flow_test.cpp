@@ -48,10 +48,10 @@ FlowErrors errorsOf(std::span<const glm::vec4> nodes, const DenseFlow& flow,
 
 void expectExact(const FlowErrors& errors) {
   ASSERT_GT(errors.px.size(), 500U);
-  EXPECT_LT(errors.px[errors.px.size() / 2], 0.15);
+  EXPECT_LT(errors.px[errors.px.size() / 2], 0.1);
   EXPECT_LT(errors.px[errors.px.size() * 95 / 100], 0.6);
   const double median = errors.ratios[errors.ratios.size() / 2] / 0.83;
-  EXPECT_GT(median, 0.33);
+  EXPECT_GT(median, 0.1) << "cautious: the picture it goes along with is known better";
   EXPECT_LT(median, 2.0);
 }
 
