@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "pipeline/tracking/homography.h"
+#include "pipeline/tracking/parallel_loop.h"
 #include "pipeline/tracking/search_patch.h"
 #include "pipeline/tracking/stillness.h"
 
@@ -168,13 +169,11 @@ void DenseFlowEstimator::update(const LumaPyramid& then, const LumaPyramid& now,
   }
   Along backward = forward;
   backward.toFromFrom = glm::inverse(forward.toFromFrom);
-  cv::parallel_for_({0, 2}, [&](const cv::Range& range) {
-    for (int way = range.start; way < range.end; ++way) {
-      if (way == 0) {
-        flowOneWay(ways_[0], then, now, small_[0], small_[1], forward, noise);
-      } else {
-        flowOneWay(ways_[1], now, then, small_[1], small_[0], backward, noise);
-      }
+  parallelFor(2, [&](int way) {
+    if (way == 0) {
+      flowOneWay(ways_[0], then, now, small_[0], small_[1], forward, noise);
+    } else {
+      flowOneWay(ways_[1], now, then, small_[1], small_[0], backward, noise);
     }
   });
   // Each by the other as it was found.
