@@ -64,12 +64,13 @@ class AnchorSet {
   std::uint32_t slotCount() const;
   const AnchorOptions& options() const;
 
-  /// Waits for the GPU and reads all slots: for measures and tests.
+  /// Waits for the GPU and reads all slots: for measures and tests. All are free where a lost GPU
+  /// has nothing to read.
   std::vector<Anchor> read() const;
 
-  /// The next advance() begins anew, with other anchors.
+  /// The next advance() begins anew, with other anchors than ever before.
   void beginAnew();
-  /// Forgets all anchors.
+  /// Forgets all: the next advance() begins anew, with the anchors of a first frame.
   void reset();
 
  private:

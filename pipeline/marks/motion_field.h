@@ -18,7 +18,8 @@ namespace pleinair::marks {
 /// thread of the GL context it was made in.
 class MotionField {
  public:
-  /// `library` has gpu::marksShaders() and gpu::sceneShaders().
+  /// `library` has gpu::marksShaders() and gpu::sceneShaders(). Pictures' full size is `full`.
+  /// Throws hal::StartupError where the GPU has no memory for it.
   MotionField(const gpu::ShaderLibrary& library, hal::FrameSize full);
   ~MotionField();
   MotionField(const MotionField&) = delete;
@@ -27,7 +28,8 @@ class MotionField {
   MotionField& operator=(MotionField&&) = delete;
 
   /// Takes what `frame` knows (ArFrame::pictureMovement, surfaces). A motion that refers to another
-  /// frame than the last update's is refused.
+  /// frame than the last update's is refused: that is a cut. Precondition: frame.full() is the
+  /// constructor's size.
   void update(const scene::ArFrame& frame, gpu::PassTimer& timer);
 
   /// Whether nothing of the past goes on: the first frame, a cut, a motion that was refused.
@@ -41,7 +43,7 @@ class MotionField {
   static constexpr int kFieldPixels = 8;
 
   /// Binds what shaders/image_motion.glsl reads for questions forward in time: uniform blocks 1 to
-  /// 3, two textures, and the camera. Precondition: the program is in use.
+  /// 3, two textures, and the camera. Preconditions: the program is in use; there was an update().
   void bind(gpu::Program& program) const;
 
   /// Forgets the frame before.

@@ -1,10 +1,10 @@
 #include "pipeline/marks/steady_picture.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
-#include <chrono>
-#include <cmath>
+#include <string>
+
+#include "pipeline/marks/fading_past.h"
 
 namespace pleinair::marks {
 namespace {
@@ -15,13 +15,6 @@ using gpu::TextureFormat;
 
 constexpr int kBlockPixels = 4;  // as in steady_picture.comp
 const std::string kShaders = "pipeline/marks/shaders/";
-
-/// What is left of the past's weight after `step`.
-float keptAfter(hal::Duration step, double timeConstantSeconds) {
-  if (timeConstantSeconds <= 0.0) return 0.0F;
-  const double seconds = std::max(0.0, std::chrono::duration<double>(step).count());
-  return static_cast<float>(std::exp(-seconds / timeConstantSeconds));
-}
 
 }  // namespace
 

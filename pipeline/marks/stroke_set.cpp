@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pipeline/gpu/program.h"
+#include "pipeline/marks/fading_past.h"
 
 namespace pleinair::marks {
 namespace {
@@ -19,10 +20,10 @@ constexpr std::size_t kCommandBytes = 16;
 constexpr glm::ivec2 kSlotGroup{64, 1};
 constexpr std::size_t kDetailLevel = 1;  // of the field, whose detail says where a layer is painted
 
-/// The share of the past that stays after `step`.
-float stays(double step, hal::Duration timeConstant) {
-  const double seconds = std::chrono::duration<double>(timeConstant).count();
-  return seconds > 0.0 ? static_cast<float>(std::exp(-step / seconds)) : 0.0F;
+constexpr hal::Duration kLongestStep = std::chrono::seconds(1);
+
+double secondsOf(hal::Duration duration) {
+  return std::chrono::duration<double>(duration).count();
 }
 
 /// About the golden section of n, and coprime to it: neighbours in slots are far apart in order.
@@ -61,7 +62,7 @@ struct StrokeSet::State {
 
   glm::ivec2 allSlots() const { return {static_cast<int>(slots), 1}; }
   void grow(const scene::ArFrame& frame, const AnchorSet& anchors, const TensorField& field,
-            const gpu::Texture& paint, const StrokeRule& rule, double step);
+            const gpu::Texture& paint, const StrokeRule& rule, hal::Duration step);
   void layOut(const AnchorSet& anchors, const StrokeRule& rule);
 };
 
@@ -77,7 +78,10 @@ glm::vec2 scaleOf(const TensorField& field, std::size_t level) {
 
 void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchors,
                             const TensorField& field, const gpu::Texture& paint,
-                            const StrokeRule& rule, double step) {
+                            const StrokeRule& rule, hal::Duration step) {
+  const auto stays = [step](hal::Duration timeConstant) {
+    return keptAfter(step, secondsOf(timeConstant));
+  };
   const std::size_t level = std::min(rule.fieldLevel, field.levelCount() - 1);
   const std::size_t detail = std::min(kDetailLevel, field.levelCount() - 1);
   trace.use()
@@ -103,9 +107,9 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .set("detailSpread", rule.detailSpread)
       .set("bothWays", rule.bothWays ? 1 : 0)
       .set("wander", rule.wanderRad)
-      .set("past", glm::vec4(stays(step, rule.shapeMemory), stays(step, rule.colourMemory),
-                             stays(step, rule.appearing), stays(step, rule.vanishing)))
-      .set("mostColour", rule.mostColourPerSecond * static_cast<float>(step))
+      .set("past", glm::vec4(stays(rule.shapeMemory), stays(rule.colourMemory),
+                             stays(rule.appearing), stays(rule.vanishing)))
+      .set("mostColour", rule.mostColourPerSecond * static_cast<float>(secondsOf(step)))
       .dispatch(allSlots(), kSlotGroup, GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
@@ -143,8 +147,8 @@ void StrokeSet::update(const scene::ArFrame& frame, const AnchorSet& anchors,
                        gpu::PassTimer& timer) {
   State& s = *state_;
   assert(anchors.slotCount() == s.slots);
-  const double step =
-      std::clamp(std::chrono::duration<double>(frame.captureTime - s.lastTime).count(), 0.0, 1.0);
+  const hal::Duration step =
+      std::clamp(frame.captureTime - s.lastTime, hal::Duration(0), kLongestStep);
   s.lastTime = frame.captureTime;
   const auto scope = timer.measure("grow strokes");
   s.grow(frame, anchors, field, paint, rule, step);

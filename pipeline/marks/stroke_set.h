@@ -17,29 +17,29 @@
 
 namespace pleinair::marks {
 
-/// How the strokes of a layer are grown and how they hold on to their past. Lengths in px of the
-/// full picture.
+/// How the strokes of a layer are grown and how they hold on to their past. Px are of the full
+/// picture; colours sRGB-coded in [0, 1], their differences weighted lengths (stroke_trace.comp).
 struct StrokeRule {
   float segmentPx = 8.0F;
-  float steps = 4.0F;       ///< of each arm, at most 4
-  float leastSteps = 0.5F;  ///< colour does not stop it earlier
-  float colourThreshold = 0.12F;
+  float steps = 4.0F;                ///< of each arm, at most 4
+  float leastSteps = 0.5F;           ///< neither colour nor detail stops it earlier
+  float colourThreshold = 0.12F;     ///< the difference from the anchor's colour at which it ends
   float cutOffRad = 0.8F;            ///< the turn between two segments at which it ends
   glm::vec2 detailBand{0.0F, 1e9F};  ///< where the layer is painted (TensorField::resolved)
-  float detailSpread = 0.0F;
-  float wanderRad = 0.1F;
-  bool bothWays = true;  ///< else only ahead of the anchor, as the thesis walks
-  std::size_t fieldLevel = 0;
+  float detailSpread = 0.0F;         ///< by how much anchors differ about the band
+  float wanderRad = 0.1F;            ///< how far a stroke strays from the field, at most
+  bool bothWays = true;              ///< else only ahead of the anchor, as the thesis walks
+  std::size_t fieldLevel = 0;        ///< of the tensor field; beyond its last: the last
   float widthPx = 8.0F;
-  float widthSpread = 0.2F;
-  float opacity = 1.0F;
-  glm::vec3 jitter{0.02F, 0.1F, 0.05F};                        ///< hue, saturation, value
+  float widthSpread = 0.2F;                                    ///< ± this part of the width
+  float opacity = 1.0F;                                        ///< in [0, 1]
+  glm::vec3 jitter{0.02F, 0.1F, 0.05F};                        ///< of hue, saturation, value; parts
   int quads = 8;                                               ///< at most, of a stroke
   hal::Duration shapeMemory = std::chrono::milliseconds(650);  ///< time constants; 0: none
   hal::Duration colourMemory = std::chrono::milliseconds(650);
   hal::Duration appearing = std::chrono::milliseconds(300);
   hal::Duration vanishing = std::chrono::milliseconds(300);
-  float mostColourPerSecond = 1.5F;
+  float mostColourPerSecond = 1.5F;  ///< by which a stroke's colour changes, at most
 };
 
 /// The strokes of an AnchorSet's anchors: grown along a tensor field (thesis §4.4), blended with
@@ -47,7 +47,8 @@ struct StrokeRule {
 /// live. All on the GPU. All calls on the thread of the GL context it was made in.
 class StrokeSet {
  public:
-  /// `library` has gpu::marksShaders(), gpu::sceneShaders() and gpu::gpuShaders().
+  /// `library` has gpu::marksShaders(), gpu::sceneShaders() and gpu::gpuShaders(); `slotCount` is
+  /// the AnchorSet's. Throws hal::StartupError where the GPU has no memory for them.
   StrokeSet(const gpu::ShaderLibrary& library, std::uint32_t slotCount);
   ~StrokeSet();
   StrokeSet(const StrokeSet&) = delete;
@@ -56,7 +57,9 @@ class StrokeSet {
   StrokeSet& operator=(StrokeSet&&) = delete;
 
   /// Grows the strokes of the frame that `anchors` and `field` were brought to. `paint`: the
-  /// picture that colours are of, of any size (LINEAR).
+  /// picture that colours are of, of any size (LINEAR). Where the anchors have begun anew, strokes
+  /// are what the frame says, without a past. Preconditions: both are of frame.full(), and the
+  /// anchors have the constructor's number of slots.
   void update(const scene::ArFrame& frame, const AnchorSet& anchors, const TensorField& field,
               const gpu::Texture& paint, const StrokeRule& rule, gpu::PassTimer& timer);
 
@@ -67,7 +70,7 @@ class StrokeSet {
   const gpu::Buffer& command() const;
   static constexpr std::size_t kInstanceBytes = 96;
   static int verticesOf(int quads) { return 2 * (quads + 1); }
-  /// shaders/stroke.glsl's, of each slot.
+  /// What is kept of each slot's stroke, as shaders/stroke.glsl has it.
   const gpu::Buffer& strokes() const;
 
  private:

@@ -14,7 +14,8 @@
 namespace pleinair::marks {
 
 struct TensorFieldOptions {
-  /// How much virtual surfaces' own form leads: P of one that is seen edge on.
+  /// How much virtual surfaces' own form leads: the edge strength (gradient.frag's P) of one that
+  /// is seen edge on.
   double form = 0.5;
   double fillSigma = 1.0;  ///< of the radial-basis filling, in regions
   hal::Duration memory = std::chrono::milliseconds(400);  ///< time constant; 0: each frame alone
@@ -22,11 +23,13 @@ struct TensorFieldOptions {
 
 /// In which direction things in the picture lie: edges' directions as tensors, spread over where
 /// there are none by a pyramid (thesis §4.2). A tensor is (cos 2θ, sin 2θ) times how much its
-/// pixels agree, θ the gradient's direction: strokes run across it. All calls on the thread of the
-/// GL context it was made in.
+/// pixels agree, θ the gradient's direction: strokes run across it. The first frame, one after
+/// reset() and one after a cut of the motion have no past. All calls on the thread of the GL
+/// context it was made in.
 class TensorField {
  public:
-  /// `library` has gpu::marksShaders() and gpu::gpuShaders().
+  /// `library` has gpu::marksShaders() and gpu::gpuShaders(). Pictures' full size is `full`. Throws
+  /// hal::StartupError where the GPU has no memory for it.
   TensorField(const gpu::ShaderLibrary& library, hal::FrameSize full);
   ~TensorField();
   TensorField(const TensorField&) = delete;
@@ -35,7 +38,7 @@ class TensorField {
   TensorField& operator=(TensorField&&) = delete;
 
   /// Takes a frame's picture (RGBA8, of frame.size()), carrying what it knew along `motion`, which
-  /// has been updated for the frame.
+  /// has been updated for the frame. Precondition: frame.full() is the constructor's size.
   void update(const scene::ArFrame& frame, const gpu::Texture& picture, const MotionField& motion,
               const TensorFieldOptions& options, gpu::PassTimer& timer);
 
@@ -51,6 +54,7 @@ class TensorField {
   /// A region's side on a level, px of the full picture.
   double regionPixels(std::size_t level) const;
 
+  /// Forgets the past.
   void reset();
 
  private:

@@ -23,9 +23,10 @@ class CameraInput final : public MeasuredInput {
 
   /// Said before the first frame.
   void setMotion(std::unique_ptr<TrueMotion> motion) { motion_ = std::move(motion); }
+  /// Likewise: beyond them the motion is not known.
+  void setMostFrames(std::uint64_t count) { mostFrames_ = count; }
   void setEndless() { isEndless_ = true; }
   void addNotice(std::string notice) { notices_.push_back(std::move(notice)); }
-  const hal::StreamFormat& stream() const { return stream_; }
 
   std::string description() const override { return description_; }
   hal::FrameFormat format() const override { return stream_.frame; }
@@ -48,7 +49,7 @@ class CameraInput final : public MeasuredInput {
   }
 
  private:
-  hal::Result<std::optional<hal::CapturedFrame>> accepted(hal::CapturedFrame frame) const {
+  hal::Result<std::optional<hal::CapturedFrame>> accepted(hal::CapturedFrame frame) {
     if (frame.image.format.size != stream_.frame.size) {
       return tl::unexpected(failure("its frames change their size", "cut it where they do"));
     }
@@ -58,6 +59,12 @@ class CameraInput final : public MeasuredInput {
                   "does not fit",
                   "mend it, or leave out --motion"));
     }
+    if (mostFrames_ && accepted_ == *mostFrames_) {
+      return tl::unexpected(failure(
+          fmt::format("goes on beyond the {} frames that its motion file is for", accepted_),
+          "give a homography for each step, or fewer --frames"));
+    }
+    ++accepted_;
     return frame;
   }
   hal::Error failure(std::string problem, std::string remedy) const {
@@ -74,6 +81,8 @@ class CameraInput final : public MeasuredInput {
   std::unique_ptr<TrueMotion> motion_;
   std::vector<std::string> notices_;
   bool isEndless_ = false;
+  std::optional<std::uint64_t> mostFrames_;
+  std::uint64_t accepted_ = 0;
 };
 
 }  // namespace
@@ -94,6 +103,8 @@ hal::Result<std::unique_ptr<MeasuredInput>> openPlainRecording(
                            motionFile->string());
     if (!motion) return tl::unexpected(motion.error());
     input->setMotion(std::move(*motion));
+    // What a movie says of its length need not be true, where it says anything.
+    if (!file->perFrame) input->setMostFrames(file->nextFromFrame.size() + 1);
     for (const std::string& key : file->unknownKeys) {
       input->addNotice(fmt::format("{}: \"{}\" says nothing here", motionFile->string(), key));
     }

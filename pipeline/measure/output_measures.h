@@ -25,7 +25,7 @@ struct MotionToHere {
 };
 
 /// What a sequence of one output reads, frame by frame, and in all. Keeps the frames that the lags
-/// need and no more: about 28 px-sized floats a frame of a dozen.
+/// need and no more: some 30 floats a pixel.
 class OutputMeasures {
  public:
   /// What one frame brought. `popped` and the like compare it with the frame two before.

@@ -58,9 +58,9 @@ struct Arm {
   float weight;
 };
 
-// Perceptual enough: luma counts most.
 float detailAt(vec2 px) { return textureLod(detailField, px * detailScale, 0.0).w; }
 
+// Perceptual enough: luma counts most.
 float apart(vec3 a, vec3 b) {
   vec3 d = a - b;
   return sqrt(dot(d * d, vec3(0.9, 1.5, 0.6)));

@@ -16,6 +16,7 @@ inline constexpr int kBrushVariants = 4;  ///< of each, below each other, so tha
 /// A brush's marks: RG8, LINEAR, kBrushVariants of them: how much paint is there, and how high it
 /// lies. Each has `across` texels across the stroke and four times as many along it, which is for a
 /// stroke of kBrushAspect; of others the middle is stretched. Made by arithmetic, always the same.
+/// On the thread of a GL context. Precondition: `across` is above 0.
 gpu::Texture makeBrush(Brush brush, int across);
 inline constexpr double kBrushAspect = 4.0;
 

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
+#include <chrono>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <glm/trigonometric.hpp>
 
@@ -144,10 +147,6 @@ hal::Duration secondsOf(double seconds) {
   return std::chrono::duration_cast<hal::Duration>(std::chrono::duration<double>(seconds));
 }
 
-}  // namespace
-
-namespace {
-
 /// A layer's brush has as many texels as its strokes have pixels.
 struct Brushes {
   Plan plan;
@@ -247,7 +246,7 @@ marks::StrokeRule ruleOf(const PainterlyParameters& p, const Plan& plan, std::si
   marks::StrokeRule rule;
   rule.widthPx = width;
   rule.steps = 4.0F;
-  rule.segmentPx = static_cast<float>(p.length) * width / 8.0F;
+  rule.segmentPx = static_cast<float>(p.length) * width / (2.0F * rule.steps);
   rule.colourThreshold = static_cast<float>(p.colourThreshold) * (1.0F + 0.6F * coarseness);
   rule.cutOffRad = glm::radians(static_cast<float>(p.cutOffDegrees)) / (1.0F + 0.4F * coarseness);
   rule.detailBand = bandOf(p, layer);

@@ -23,7 +23,8 @@ std::span<const ViewInfo> painterlyViews();
 /// seed) has all its strokes at once. Time constants are scaled by `coherence`.
 class Painterly final : public Style {
  public:
-  /// The library holds gpu::painterlyShaders(), marksShaders(), sceneShaders(), gpuShaders().
+  /// The library, which outlives it, holds gpu::painterlyShaders(), marksShaders(), sceneShaders(),
+  /// gpuShaders().
   explicit Painterly(const gpu::ShaderLibrary& library);
   ~Painterly() override;
   Painterly(const Painterly&) = delete;

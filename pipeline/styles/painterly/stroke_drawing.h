@@ -16,7 +16,9 @@ class StrokeDrawing {
   /// `library` has gpu::painterlyShaders().
   explicit StrokeDrawing(const gpu::ShaderLibrary& library);
 
-  /// Draws a layer into `target`: colour (premultiplied) and height, both RGBA8.
+  /// Draws a layer into `target`: colour (sRGB-coded, premultiplied) and height, both RGBA8, over
+  /// what is there. `quads` is the StrokeRule's that the strokes were laid out by; `brush` is
+  /// makeBrush()'s.
   void draw(const marks::StrokeSet& strokes, int quads, const gpu::Texture& brush,
             hal::FrameSize full, const gpu::RenderTarget& target);
 

@@ -4,10 +4,10 @@
 #include <array>
 #include <cassert>
 #include <chrono>
-#include <cmath>
 #include <string>
 #include <utility>
 
+#include "pipeline/marks/fading_past.h"
 #include "pipeline/marks/motion_field.h"
 #include "pipeline/marks/steady_picture.h"
 #include "pipeline/styles/watercolor/paper_place.h"
@@ -47,13 +47,6 @@ constexpr std::array<ViewInfo, 10> kViews{{
     {"light", "the light washes"},
     {"paper", "the sheet of paper"},
 }};
-
-/// What is left of the past's weight after `step`.
-float keptAfter(hal::Duration step, double timeConstantSeconds) {
-  if (timeConstantSeconds <= 0.0) return 0.0F;
-  const double seconds = std::chrono::duration<double>(step).count();
-  return static_cast<float>(std::exp(-seconds / timeConstantSeconds));
-}
 
 /// One anchor a cell in the mean. Squares of two cells a side have enough of them for births and
 /// deaths to be rare: three of four must be gone, or half as many again be there.
@@ -296,7 +289,7 @@ void Watercolor::mixWashes(gpu::PassTimer& timer) {
       .image(0, cells.darkWash, ImageAccess::kWrite)
       .image(1, cells.lightWash, ImageAccess::kWrite)
       .set("slots", static_cast<int>(cells.slots))
-      .set("kept", hasPast ? keptAfter(step_, p_.colourTimeSeconds) : 0.0F)
+      .set("kept", hasPast ? marks::keptAfter(step_, p_.colourTimeSeconds) : 0.0F)
       .dispatch({static_cast<int>(cells.slots), 1}, kSlotGroup, kWritten);
   cells.latest = 1 - cells.latest;
 }

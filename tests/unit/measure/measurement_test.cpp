@@ -1,5 +1,6 @@
 #include "pipeline/measure/measurement.h"
 
+#include <fstream>
 #include <functional>
 
 #include <gmock/gmock.h>
@@ -9,6 +10,7 @@
 #include "pipeline/measure/picture.h"
 #include "pipeline/measure/voronoi_tiling.h"
 #include "tests/support/deep_png.h"
+#include "tests/support/media_files.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/measure/measure_pictures.h"
 
@@ -196,6 +198,20 @@ TEST_F(MeasurementTest, SaysWhatCannotBeHadWithoutTruth) {
   EXPECT_FALSE(own.ew2 || own.nHw2 || own.s10Percent || own.popPercent);
   EXPECT_TRUE(own.scr && own.dep && own.det && own.xFlk);
   EXPECT_THAT(report.leftOut, testing::Contains(HasSubstr("motion.json")));
+}
+
+/// Such a movie does not say how many frames it has.
+TEST(MeasuredRecording, RefusesToGoOnBeyondItsMotion) {
+  const support::TemporaryFolder folder;
+  support::writeMedia(folder.path() / "in.mkv", 4);
+  std::ofstream(folder.path() / "m.json") << R"({"homographies": [[1,0,0, 0,1,0, 0,0,1]]})";
+  const auto input = openPlainRecording(folder.path() / "in.mkv", folder.path() / "m.json");
+  ASSERT_TRUE(input) << input.error().message();
+  EXPECT_FALSE((*input)->frameCount());
+  for (int i = 0; i < 2; ++i) ASSERT_TRUE((*input)->next());
+  const auto beyond = (*input)->next();
+  ASSERT_FALSE(beyond);
+  EXPECT_THAT(beyond.error().message(), HasSubstr("2 frames"));
 }
 
 TEST_F(MeasurementTest, RefusesWhatIsTooShortOrTooSmall) {
