@@ -28,13 +28,11 @@ float keptAfter(hal::Duration step, double timeConstantSeconds) {
 SteadyPicture::Canvas::Canvas(hal::FrameSize pictureSize)
     : size(pictureSize),
       pictures{gpu::Texture(TextureFormat::kRgba16f, size, TextureFilter::kLinear),
-               gpu::Texture(TextureFormat::kRgba16f, size, TextureFilter::kLinear)},
-      targets{gpu::RenderTarget({&pictures[0]}), gpu::RenderTarget({&pictures[1]})} {}
+               gpu::Texture(TextureFormat::kRgba16f, size, TextureFilter::kLinear)} {}
 
 SteadyPicture::SteadyPicture(const gpu::ShaderLibrary& library)
     : average_(library.compute(kShaders + "steady_picture.comp")),
       averageObjects_(library.compute(kShaders + "steady_picture_objects.comp")),
-      resize_(library.fragmentPass(kShaders + "steady_picture_resize.frag")),
       noMotion_(TextureFormat::kRgba16f, {1, 1}),
       noIds_(TextureFormat::kR32ui, {1, 1}) {}
 
@@ -45,29 +43,26 @@ SteadyPicture::Canvas& SteadyPicture::canvasOf(hal::FrameSize size) {
   return *canvases_.emplace_back(std::make_unique<Canvas>(size));
 }
 
-/// The past in the size of `canvas`; what is written next is its picture `writes`.
-const gpu::Texture* SteadyPicture::pastFor(Canvas& canvas, int writes) {
-  if (now_->size() == canvas.size) return now_;
-  resize_.use().texture("past", *now_).drawFullscreen(canvas.targets[1 - writes]);
-  return &canvas.pictures[1 - writes];
-}
-
 void SteadyPicture::update(const scene::ArFrame& frame, const SteadyInput& input,
                            gpu::PassTimer& timer) {
   assert(input.backward != nullptr);
-  if (full_ != frame.full()) reset();
-  full_ = frame.full();
+  if (full_ != frame.full()) {
+    reset();
+    now_ = nullptr;
+    canvases_.clear();
+    full_ = frame.full();
+  }
   const auto scope = timer.measure("steady picture");
   Canvas& canvas = canvasOf(frame.size());
   const int writes = now_ == &canvas.pictures[0] ? 1 : 0;
-  const bool hasPast = hasPast_ && !input.isCut && input.timeConstantSeconds > 0.0;
-  const gpu::Texture* past = hasPast ? pastFor(canvas, writes) : &canvas.pictures[1 - writes];
+  const gpu::Texture& past = canvas.pictures[1 - writes];
+  const bool hasPast = hasPast_ && now_ == &past && !input.isCut && input.timeConstantSeconds > 0.0;
   const bool hasMotion = frame.hasObjects && frame.motion.has_value();
   gpu::Program& average = frame.hasObjects ? averageObjects_ : average_;
   average.use()
       .image(0, canvas.pictures[writes], ImageAccess::kWrite)
       .texture("picture", *frame.colour)
-      .texture("past", *past)
+      .texture("past", past)
       .texture("backward", *input.backward)
       .texture("motion", hasMotion ? *frame.motion->texture : noMotion_)
       .texture("ids", frame.hasObjects ? *frame.ids : noIds_)
@@ -86,10 +81,6 @@ void SteadyPicture::update(const scene::ArFrame& frame, const SteadyInput& input
 
 void SteadyPicture::reset() {
   hasPast_ = false;
-  if (full_ == hal::FrameSize{}) return;
-  full_ = {};
-  now_ = nullptr;
-  canvases_.clear();
 }
 
 }  // namespace pleinair::marks

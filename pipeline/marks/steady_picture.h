@@ -6,7 +6,6 @@
 #include "hal/clock.h"
 #include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/program.h"
-#include "pipeline/gpu/render_target.h"
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/scene/ar_frame.h"
@@ -32,8 +31,8 @@ struct SteadyInput {
 /// is bounded to the range of the colours around the pixel now, widened by the noise (variance
 /// clipping: Salvi, "An excursion in temporal supersampling", 2016; Karis, "High quality temporal
 /// supersampling", 2014), and does not count at all where its place is unknown or outside, where
-/// models come or go, at a cut, in the first frame, and after reset(). With a time constant of 0
-/// the picture is the frame's. At another level of quality the past is resampled.
+/// models come or go, at a cut, in the first frame, after reset(), and at another level of quality,
+/// whose detail it has not. With a time constant of 0 the picture is the frame's.
 ///
 /// All calls on the thread of the GL context it was made in.
 class SteadyPicture {
@@ -50,7 +49,7 @@ class SteadyPicture {
   /// next update(). Precondition: there was one.
   const gpu::Texture& picture() const { return *now_; }
 
-  /// Forgets the past, and pictures of other full sizes.
+  /// Forgets the past.
   void reset();
 
  private:
@@ -58,15 +57,12 @@ class SteadyPicture {
     explicit Canvas(hal::FrameSize size);
     hal::FrameSize size;
     gpu::Texture pictures[2];
-    gpu::RenderTarget targets[2];
   };
 
   Canvas& canvasOf(hal::FrameSize size);
-  const gpu::Texture* pastFor(Canvas& canvas, int writes);
 
   gpu::Program average_;
   gpu::Program averageObjects_;
-  gpu::Program resize_;
   gpu::Texture noMotion_;  // stands where a frame has no texture for a sampler
   gpu::Texture noIds_;
   std::vector<std::unique_ptr<Canvas>> canvases_;  // of each size that was seen

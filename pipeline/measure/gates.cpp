@@ -12,9 +12,10 @@ namespace {
 /// On which motions a gate is shut.
 enum class On {
   kAny,
-  kPan,         ///< one vector: what an output is compared by then is nothing but itself
+  kPan,         ///< one vector, which may be zero
   kOtherKnown,  ///< motion that one global translation would not pass
   kKnown,
+  kMoving,  ///< known or not
 };
 
 struct Gate {
@@ -39,7 +40,7 @@ constexpr std::array kGates{
     Gate{"watercolor", &Measures::nHw2, true, 0.30, nullptr, On::kKnown},
     Gate{"watercolor", &Measures::xFlk, true, 0.15},
     Gate{"watercolor", &Measures::dep, false, 0.75, &Measures::dep},
-    Gate{"watercolor", &Measures::scr, true, 0.3, &Measures::scr},
+    Gate{"watercolor", &Measures::scr, true, 0.3, &Measures::scr, On::kMoving},
 };
 
 bool isShutOn(const Gate& gate, MotionKind motion) {
@@ -47,11 +48,13 @@ bool isShutOn(const Gate& gate, MotionKind motion) {
     case On::kAny:
       return true;
     case On::kPan:
-      return motion == MotionKind::kPan;
+      return motion == MotionKind::kPan || motion == MotionKind::kStill;
     case On::kOtherKnown:
       return motion == MotionKind::kOther;
     case On::kKnown:
       return motion != MotionKind::kNone;
+    case On::kMoving:
+      return motion != MotionKind::kStill;
   }
   return false;
 }

@@ -11,8 +11,11 @@ class ConstantMotion final : public TrueMotion {
  public:
   ConstantMotion(cv::Size frame, cv::Point2d perFrame) : frame_(frame), perFrame_(perFrame) {}
 
-  MotionKind kind() const override { return MotionKind::kPan; }
+  MotionKind kind() const override {
+    return perFrame_ == cv::Point2d() ? MotionKind::kStill : MotionKind::kPan;
+  }
   std::string description() const override {
+    if (kind() == MotionKind::kStill) return "nothing moves";
     return fmt::format("pan by ({:g}, {:g}) px a frame", perFrame_.x, perFrame_.y);
   }
   hal::Result<MotionMap> between(std::uint64_t from, std::uint64_t to) override {

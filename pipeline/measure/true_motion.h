@@ -10,6 +10,7 @@ namespace pleinair::measure {
 
 /// What kind of motion it is, which decides the gates (docs/measuring.md).
 enum class MotionKind {
+  kStill,  ///< nothing moves
   kPan,    ///< a constant vector
   kOther,  ///< known, but not one vector: zoom, roll, parallax, what moves before what
   kNone,   ///< not known

@@ -7,7 +7,8 @@
 #include <glm/matrix.hpp>
 
 #include "pipeline/tracking/homography.h"
-#include "pipeline/tracking/patch_flow.h"
+#include "pipeline/tracking/parallel_loop.h"
+#include "pipeline/tracking/search_patch.h"
 #include "pipeline/tracking/stillness.h"
 
 namespace pleinair::tracking {
@@ -16,7 +17,7 @@ namespace {
 constexpr std::size_t kHalf = 2;  // in LumaPyramid::levels(): each level's gradients follow it
 constexpr int kLeastSide = 96;    // of a picture in which flow is sought
 // Predicted errors: docs/measured.md says how they agree with true ones.
-constexpr double kPlacing = 1.3;
+constexpr double kPlacing = 1.0;
 constexpr double kBackPart = 0.7;
 constexpr double kLeastErrorPx = 0.03;
 constexpr double kMostErrorPx = 100.0;
@@ -24,6 +25,13 @@ constexpr double kMostErrorPx = 100.0;
 constexpr double kEdgePart = 0.1;
 /// The homography is taken where it fits as well, but for so much of the noise's variance.
 constexpr double kAsWell = 0.5;
+/// How good guesses are: what the search finds, and the homography by its predicted errors.
+constexpr double kSearchedPx = 0.3;
+constexpr double kAlongErrors = 2.0;
+/// A patch tells whether it goes along when it can be placed so well; by how much more it may be
+/// off.
+constexpr double kTellingPx = 0.4;
+constexpr double kSurely = 1.5;
 
 }  // namespace
 
@@ -52,31 +60,39 @@ glm::dvec2 DenseFlowEstimator::nodePx(std::size_t index) const {
 
 void DenseFlowEstimator::flowOneWay(Way& way, const LumaPyramid& from, const LumaPyramid& to,
                                     const cv::Mat& fromSmall, const cv::Mat& toSmall,
-                                    const glm::dmat3* toFromFrom, double noise) const {
+                                    const Along& along, double noise) const {
   way.search->calc(fromSmall, toSmall, way.coarse);
   const cv::Mat& picture = from.picture();
-  constexpr int kReach = FlowPatch::kSide / 2 + 1;
   for (std::size_t i = 0; i < way.nodes.size(); ++i) {
+    if (stillErrors_[i] < StillFields::kNotStill) continue;
     const glm::dvec2 px = nodePx(i);
-    const cv::Point2f own = from.ownPx(px);
-    const cv::Point middle(
-        std::clamp(static_cast<int>(std::lround(own.x + 0.5F)), kReach, picture.cols - kReach),
-        std::clamp(static_cast<int>(std::lround(own.y + 0.5F)), kReach, picture.rows - kReach));
+    const cv::Point middle = FlowPatch::middleNear(picture, from.ownPx(px));
     const FlowPatch patch(picture, middle);
     const cv::Vec2f coarse = way.coarse.at<cv::Vec2f>(std::min(middle.y / 2, way.coarse.rows - 1),
                                                       std::min(middle.x / 2, way.coarse.cols - 1));
     PatchMatch best = patch.at(to.picture(), 2.0 * glm::dvec2(coarse[0], coarse[1]));
-    if (toFromFrom != nullptr) {
-      const PatchMatch along = patch.at(to.picture(), (movedBy(*toFromFrom, px) - px) / reduction_);
+    bool goesAlong = false;
+    if (along.isKnown) {
+      const PatchMatch there =
+          patch.at(to.picture(), (movedBy(along.toFromFrom, px) - px) / reduction_);
       const double allowed = best.variance + kAsWell * noise * noise;
-      if (along.isInside && (!best.isInside || along.variance < allowed)) best = along;
+      goesAlong = there.isInside && (!best.isInside || there.variance < allowed);
+      if (goesAlong) best = there;
     }
-    if (best.isInside) best = patch.refined(to.picture(), best, noise);
+    if (best.isInside && !(goesAlong && along.isHeld)) {
+      best = patch.refined(to.picture(), best, noise, goesAlong ? along.guessPx : kSearchedPx);
+    }
     const glm::dvec2 moved = reduction_ * best.moved;
-    const double placing = kPlacing * best.placing;
-    const double error =
-        best.isInside ? std::sqrt(placing * placing * best.variance + kLeastErrorPx * kLeastErrorPx)
-                      : kMostErrorPx;
+    double error = kMostErrorPx;
+    if (best.isInside) {
+      error = kPlacing * patch.placing(noise) * std::sqrt(best.variance);
+      // Texture that goes along with the picture, as far as it tells, is where that takes it.
+      const double guess = kSurely * along.guessPx;
+      if (goesAlong && error < kTellingPx) {
+        error = 1.0 / std::sqrt(1.0 / (error * error) + 1.0 / (guess * guess));
+      }
+      error = std::sqrt(error * error + kLeastErrorPx * kLeastErrorPx);
+    }
     way.nodes[i] = {static_cast<float>(moved.x), static_cast<float>(moved.y),
                     static_cast<float>(std::min(error * reduction_.x, kMostErrorPx)), 0.0F};
   }
@@ -103,6 +119,7 @@ double DenseFlowEstimator::edge(const std::vector<glm::vec4>& nodes, std::size_t
 void DenseFlowEstimator::disagree(const std::vector<glm::vec4>& back,
                                   std::vector<glm::vec4>& nodes) const {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (stillErrors_[i] < StillFields::kNotStill) continue;
     glm::vec4& node = nodes[i];
     const glm::dvec2 there = (nodePx(i) + glm::dvec2(node)) / stepPx_ - 0.5;
     const int x = std::clamp(static_cast<int>(std::floor(there.x)), 0, grid_.width - 2);
@@ -119,12 +136,18 @@ void DenseFlowEstimator::disagree(const std::vector<glm::vec4>& back,
   }
 }
 
-void DenseFlowEstimator::standStill(const Stillness& stillness,
-                                    std::vector<glm::vec4>& nodes) const {
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const float error = stillness.errorAt(nodePx(i), frameSize_);
-    if (error < StillFields::kNotStill) nodes[i] = {0.0F, 0.0F, error, 0.0F};
+/// Whether there are nodes that do not. Those that do have their flow then.
+bool DenseFlowEstimator::standStill(const Stillness* stillness) {
+  stillErrors_.assign(ways_[0].nodes.size(), StillFields::kNotStill);
+  if (stillness == nullptr) return true;
+  bool isMoving = false;
+  for (std::size_t i = 0; i < stillErrors_.size(); ++i) {
+    const float error = stillness->errorAt(nodePx(i), frameSize_);
+    stillErrors_[i] = error;
+    isMoving = isMoving || error >= StillFields::kNotStill;
+    for (Way& way : ways_) way.nodes[i] = {0.0F, 0.0F, error, 0.0F};
   }
+  return isMoving;
 }
 
 void DenseFlowEstimator::update(const LumaPyramid& then, const LumaPyramid& now,
@@ -134,17 +157,23 @@ void DenseFlowEstimator::update(const LumaPyramid& then, const LumaPyramid& now,
   const cv::Size size = now.picture().size();
   if (std::min(size.width, size.height) < kLeastSide || now.levels().size() <= kHalf) return;
   place(now);
+  if (!standStill(stillness)) return;
   then.levels()[kHalf].copyTo(small_[0]);
   now.levels()[kHalf].copyTo(small_[1]);
-  const glm::dmat3 forward = picture ? picture->nowFromThen : glm::dmat3(1.0);
-  const glm::dmat3 backward = glm::inverse(forward);
-  cv::parallel_for_({0, 2}, [&](const cv::Range& range) {
-    for (int way = range.start; way < range.end; ++way) {
-      if (way == 0) {
-        flowOneWay(ways_[0], then, now, small_[0], small_[1], picture ? &forward : nullptr, noise);
-      } else {
-        flowOneWay(ways_[1], now, then, small_[1], small_[0], picture ? &backward : nullptr, noise);
-      }
+  Along forward;
+  if (picture) {
+    forward = {.toFromFrom = picture->nowFromThen,
+               .guessPx = kAlongErrors * picture->errorPx / reduction_.x,
+               .isKnown = true,
+               .isHeld = picture->nowFromThen == glm::dmat3(1.0)};
+  }
+  Along backward = forward;
+  backward.toFromFrom = glm::inverse(forward.toFromFrom);
+  parallelFor(2, [&](int way) {
+    if (way == 0) {
+      flowOneWay(ways_[0], then, now, small_[0], small_[1], forward, noise);
+    } else {
+      flowOneWay(ways_[1], now, then, small_[1], small_[0], backward, noise);
     }
   });
   // Each by the other as it was found.
@@ -152,9 +181,6 @@ void DenseFlowEstimator::update(const LumaPyramid& then, const LumaPyramid& now,
   std::vector<glm::vec4>& back = ways_[1].nodes;
   disagree(back, there);
   disagree(there, back);
-  if (stillness == nullptr) return;
-  standStill(*stillness, there);
-  standStill(*stillness, back);
 }
 
 DenseFlow DenseFlowEstimator::flow() const {

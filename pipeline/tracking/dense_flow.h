@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 #include <opencv2/core.hpp>
@@ -42,12 +43,19 @@ class DenseFlowEstimator {
     std::vector<glm::vec4> nodes;
   };
   void place(const LumaPyramid& now);
+  /// Where most of the picture goes.
+  struct Along {
+    glm::dmat3 toFromFrom{1.0};
+    double guessPx = 0.0;  // how good a guess that is
+    bool isKnown = false;
+    bool isHeld = false;  // it does not move, to the bit
+  };
   void flowOneWay(Way& way, const LumaPyramid& from, const LumaPyramid& to,
-                  const cv::Mat& fromSmall, const cv::Mat& toSmall, const glm::dmat3* toFromFrom,
+                  const cv::Mat& fromSmall, const cv::Mat& toSmall, const Along& along,
                   double noise) const;
   double edge(const std::vector<glm::vec4>& nodes, std::size_t index) const;
   void disagree(const std::vector<glm::vec4>& back, std::vector<glm::vec4>& nodes) const;
-  void standStill(const Stillness& stillness, std::vector<glm::vec4>& nodes) const;
+  bool standStill(const Stillness* stillness);
   glm::dvec2 nodePx(std::size_t index) const;
 
   hal::FrameSize frameSize_;
@@ -56,6 +64,7 @@ class DenseFlowEstimator {
   glm::dvec2 reduction_{1.0};
   std::array<cv::Mat, 2> small_;  // of the two frames
   std::array<Way, 2> ways_;
+  std::vector<float> stillErrors_;  // of each node; kNotStill where flow is asked for
 };
 
 }  // namespace pleinair::tracking

@@ -30,9 +30,10 @@ class FeatureTracker {
  public:
   virtual ~FeatureTracker() = default;
 
-  /// Takes the next frame, which is not changed as long as it is shared. By rising id, at most
-  /// kMostMovedFeatures of them, all kept; valid until the next call.
-  virtual std::span<const SeenFeature> follow(std::shared_ptr<const LumaPyramid> now) = 0;
+  /// Takes the next frame, which is not changed as long as it is shared, and its pixels' noise
+  /// (levels). By rising id, at most kMostMovedFeatures of them; valid until the next call.
+  virtual std::span<const SeenFeature> follow(std::shared_ptr<const LumaPyramid> now,
+                                              double noise) = 0;
   /// Of the features seen in the frame before, the part that was found; 0 of none.
   virtual double foundShare() const = 0;
   /// Forgets all.

@@ -140,7 +140,8 @@ void HarrisSiftTracker::publish(const LumaPyramid& now) {
   std::ranges::sort(seen_, {}, &SeenFeature::id);
 }
 
-std::span<const SeenFeature> HarrisSiftTracker::follow(std::shared_ptr<const LumaPyramid> now) {
+std::span<const SeenFeature> HarrisSiftTracker::follow(std::shared_ptr<const LumaPyramid> now,
+                                                       double /*noise*/) {
   if (frameSize_ != now->frameSize()) reset();
   frameSize_ = now->frameSize();
   findCorners(*now);

@@ -21,7 +21,8 @@ class HarrisSiftTracker : public FeatureTracker {
  public:
   HarrisSiftTracker();
 
-  std::span<const SeenFeature> follow(std::shared_ptr<const LumaPyramid> now) override;
+  std::span<const SeenFeature> follow(std::shared_ptr<const LumaPyramid> now,
+                                      double noise) override;
   double foundShare() const override { return foundShare_; }
   void reset() override;
 

@@ -74,12 +74,12 @@ const ImageMotion& ImageMotionEstimator::follow(const hal::PlaneView& luma, hal:
   now->load(luma, size, kLongSidePx);
   const double scale = std::max(now->reduction().x, now->reduction().y);
 
-  const std::span<const SeenFeature> seen = s.tracker->follow(now);
+  const std::span<const SeenFeature> seen = s.tracker->follow(now, s.stillness.noise());
   s.motion = {.frameSize = size, .sinceSequence = s.then ? s.lastSequence : sequence};
   s.motion.isCut = s.cuts.isCut(*now, s.tracker->foundShare());
   if (s.motion.isCut) {
     s.forget();
-    s.tracker->follow(now);
+    s.tracker->follow(now, s.stillness.noise());
   } else {
     s.hold.update(seen, size, scale);
     s.motion.features = s.hold.features();

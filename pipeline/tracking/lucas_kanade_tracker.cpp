@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "pipeline/tracking/homography.h"
@@ -19,16 +21,17 @@ constexpr int kRows = 14;
 constexpr double kBorderPx = 6.0;
 constexpr int kFewLevels = 1;
 constexpr double kBackPx = 0.4;  // from where a feature came
-/// Mean grey levels in a feature's window by which it may differ: lost, worn.
-constexpr double kLargestDifference = 16.0;
-constexpr double kNoiseDifference = 3.0;
+/// Grey levels (RMS) by which a feature may look different: lost, worn.
+constexpr double kLargestDifference = 20.0;
+constexpr double kNoiseDifference = 3.75;
+constexpr double kRmsByMean = 1.25;    // of normally distributed differences
+constexpr double kLightLevels = 1.5;   // by which a feature is brighter or darker
 constexpr double kLostContrast = 0.8;  // and of the window's contrast
 constexpr double kWornContrast = 0.25;
 constexpr double kMostPlacing = 0.12;  // px of error by a level of noise: more is no corner
 constexpr int kMostMissing = 12;       // frames that a feature is looked for in vain
 // Predicted errors: docs/measured.md says how they agree with true ones.
-/// Of Cramér and Rao's bound, and of the mean difference's root mean square by it.
-constexpr double kPlacing = 1.3 * 1.25;
+constexpr double kPlacing = 1.3;  // of Cramér and Rao's bound
 constexpr double kLeastErrorPx = 0.008;
 constexpr double kBackPart = 0.5;
 /// Of the features, or of larger fields with one, that there were after the last key frame, the
@@ -71,53 +74,37 @@ void LucasKanadeTracker::reset() {
   keySpread_ = {};
 }
 
-/// From the gradients in the window (Cramér and Rao's bound).
-LucasKanadeTracker::Texture LucasKanadeTracker::textureAt(const LumaPyramid& pyramid,
-                                                          const cv::Point2f& at) {
-  constexpr int kReach = LumaPyramid::kWindowPx / 2;
-  const cv::Mat& picture = pyramid.picture();
-  const cv::Mat& gradients = pyramid.levels()[1];
-  const cv::Rect window(static_cast<int>(std::lround(at.x)) - kReach,
-                        static_cast<int>(std::lround(at.y)) - kReach, 2 * kReach + 1,
-                        2 * kReach + 1);
-  const cv::Rect inside = window & cv::Rect({}, picture.size());
-  if (inside.empty()) return {.placing = kMostPlacing * 2.0};
-  double xx = 0.0;
-  double xy = 0.0;
-  double yy = 0.0;
-  const double mean = cv::mean(picture(inside))[0];
-  double deviation = 0.0;
-  for (int y = inside.y; y < inside.br().y; ++y) {
-    for (int x = inside.x; x < inside.br().x; ++x) {
-      const auto g = gradients.at<cv::Vec2s>(y, x);
-      xx += static_cast<double>(g[0]) * g[0];
-      xy += static_cast<double>(g[0]) * g[1];
-      yy += static_cast<double>(g[1]) * g[1];
-      deviation += std::abs(picture.at<std::uint8_t>(y, x) - mean);
-    }
-  }
-  constexpr double kGradientScale = 32.0;
-  const double determinant = xx * yy - xy * xy;
-  const double trace = xx + yy;
-  // The trace of the inverse, and its least value where the matrix has none.
-  const double inverse = determinant > 1e-9 * trace * trace ? trace / determinant : 1e6;
-  return {.placing = kGradientScale * std::sqrt(inverse),
-          .contrast = deviation / static_cast<double>(inside.area())};
+FeaturePatch LucasKanadeTracker::patchAt(const LumaPyramid& pyramid, const cv::Point2f& at) {
+  return {pyramid.picture(), FeaturePatch::middleNear(pyramid.picture(), at)};
 }
 
+/// Whether what Lucas and Kanade found is the feature, and where exactly: apart from light.
 void LucasKanadeTracker::judge(Feature& feature, const LumaPyramid& now, std::size_t of,
-                               const cv::Point2f& at) {
-  const double difference = follower_.difference(of);
-  const double contrast = feature.texture.contrast;
-  feature.isFound = follower_.isFound(of) && now.isInside(at, kBorderPx) &&
-                    follower_.backPx(of) < kBackPx && difference < kLargestDifference &&
-                    difference < kNoiseDifference + kLostContrast * contrast;
+                               const cv::Point2f& found) {
+  feature.isFound =
+      follower_.isFound(of) && now.isInside(found, kBorderPx) && follower_.backPx(of) < kBackPx;
+  if (!feature.isFound) return;
+  const cv::Point2f moved = found - feature.origin;
+  PatchMatch match = feature.patch.at(now.picture(), {moved.x, moved.y});
+  // Lucas and Kanade take a change of brightness for motion; without one they place best.
+  const bool hasLightChanged = match.isInside && std::abs(match.brightness) > kLightLevels;
+  if (hasLightChanged) match = feature.patch.refined(now.picture(), match, noise_);
+  const cv::Point2f at = hasLightChanged
+                             ? feature.origin + cv::Point2f(static_cast<float>(match.moved.x),
+                                                            static_cast<float>(match.moved.y))
+                             : found;
+  const double difference =
+      match.isInside ? std::sqrt(match.variance) : kRmsByMean * follower_.difference(of);
+  const double contrast = feature.patch.contrast();
+  feature.isFound =
+      difference < kLargestDifference && difference < kNoiseDifference + kLostContrast * contrast;
   if (!feature.isFound) return;
   feature.difference = difference;
   feature.isWorn = difference > kNoiseDifference + kWornContrast * contrast;
-  const double placing = kPlacing * difference * feature.texture.placing;
+  const double placing = kPlacing * difference * feature.patch.placing(noise_, !hasLightChanged);
   const double scale = std::max(now.reduction().x, now.reduction().y);
-  feature.errorPx = scale * std::hypot(placing, kBackPart * follower_.backPx(of), kLeastErrorPx);
+  feature.errorPx =
+      scale * glm::length(glm::dvec3(placing, kBackPart * follower_.backPx(of), kLeastErrorPx));
   feature.step = at - feature.then;
   feature.at = at;
 }
@@ -282,7 +269,7 @@ bool LucasKanadeTracker::needsKey(const Spread& have) const {
 void LucasKanadeTracker::takeOver(Feature& feature, std::size_t key, const LumaPyramid& now) {
   feature.key = key;
   feature.origin = feature.at;
-  feature.texture = textureAt(now, feature.at);
+  feature.patch = patchAt(now, feature.at);
   feature.isWorn = false;
 }
 
@@ -316,7 +303,8 @@ void LucasKanadeTracker::findCorners(const LumaPyramid& now) {
     const bool isTaken = std::ranges::any_of(features_, [&](const Feature& f) {
       return f.isFound && lengthOf(f.at - at) < CornerSearch::kSpacingPx;
     });
-    if (!isTaken && textureAt(now, at).placing < kMostPlacing) newCorners_.push_back(at);
+    if (!isTaken && patchAt(now, at).placing(noise_, true) < kMostPlacing)
+      newCorners_.push_back(at);
   }
   centre(now);
 }
@@ -337,7 +325,8 @@ void LucasKanadeTracker::centre(const LumaPyramid& now) {
 
 void LucasKanadeTracker::makeKey(const std::shared_ptr<const LumaPyramid>& now, bool isNeeded) {
   framesSinceKey_ = 0;
-  if (!corners_.look(*now)) return;  // too small a picture
+  const cv::Size size = now->picture().size();
+  if (std::min(size.width, size.height) < 2 * FeaturePatch::kReach || !corners_.look(*now)) return;
   findCorners(*now);
   if (!isNeeded && newCorners_.size() < kWorthAKey) return;
   if (features_.size() + newCorners_.size() > kMostMovedFeatures) {
@@ -353,7 +342,7 @@ void LucasKanadeTracker::makeKey(const std::shared_ptr<const LumaPyramid>& now, 
                          .at = at,
                          .then = at,
                          .step = {},
-                         .texture = textureAt(*now, at),
+                         .patch = patchAt(*now, at),
                          .isFound = true});
   }
   keySpread_ = spread(*now);
@@ -371,7 +360,9 @@ void LucasKanadeTracker::publish(const LumaPyramid& now) {
   }
 }
 
-std::span<const SeenFeature> LucasKanadeTracker::follow(std::shared_ptr<const LumaPyramid> now) {
+std::span<const SeenFeature> LucasKanadeTracker::follow(std::shared_ptr<const LumaPyramid> now,
+                                                        double noise) {
+  noise_ = noise;
   if (then_ && then_->frameSize() != now->frameSize()) reset();
   for (Feature& feature : features_) {
     feature.wasFound = feature.isFound;

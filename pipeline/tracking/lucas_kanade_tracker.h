@@ -14,6 +14,7 @@
 #include "pipeline/tracking/luma_pyramid.h"
 #include "pipeline/tracking/motion_outliers.h"
 #include "pipeline/tracking/point_follower.h"
+#include "pipeline/tracking/search_patch.h"
 
 namespace pleinair::tracking {
 
@@ -25,16 +26,12 @@ class LucasKanadeTracker : public FeatureTracker {
  public:
   LucasKanadeTracker();
 
-  std::span<const SeenFeature> follow(std::shared_ptr<const LumaPyramid> now) override;
+  std::span<const SeenFeature> follow(std::shared_ptr<const LumaPyramid> now,
+                                      double noise) override;
   double foundShare() const override { return foundShare_; }
   void reset() override;
 
  private:
-  /// How well a window's picture can be placed.
-  struct Texture {
-    double placing = 0.0;   // px of error by a level of noise
-    double contrast = 0.0;  // mean deviation from the mean, levels
-  };
   struct Feature {
     std::uint32_t id = 0;
     std::size_t key = 0;  // in keys_
@@ -42,9 +39,9 @@ class LucasKanadeTracker : public FeatureTracker {
     cv::Point2f at;       // where it is, or would be
     cv::Point2f then;     // in the frame before
     cv::Point2f step;     // since then
-    Texture texture;      // in the key frame
+    FeaturePatch patch;   // of the key frame
     double errorPx = 0.0;
-    double difference = 0.0;  // of the looks, mean levels
+    double difference = 0.0;  // of the looks, RMS levels
     bool isFound = false;
     bool wasFound = false;
     bool isWorn = false;  // looks different from the key frame
@@ -56,9 +53,9 @@ class LucasKanadeTracker : public FeatureTracker {
     std::size_t fields = 0;
   };
 
-  static Texture textureAt(const LumaPyramid& pyramid, const cv::Point2f& at);
+  static FeaturePatch patchAt(const LumaPyramid& pyramid, const cv::Point2f& at);
   void find(const LumaPyramid& now, bool all, int levels);
-  void judge(Feature& feature, const LumaPyramid& now, std::size_t of, const cv::Point2f& at);
+  void judge(Feature& feature, const LumaPyramid& now, std::size_t of, const cv::Point2f& found);
   bool searchWidely(const LumaPyramid& now);
   void reconsider(const LumaPyramid& now);
   void rejectOutliers();
@@ -86,6 +83,7 @@ class LucasKanadeTracker : public FeatureTracker {
   std::vector<SeenFeature> seen_;
   std::uint32_t nextId_ = 0;
   double foundShare_ = 0.0;
+  double noise_ = 2.0;  // levels
   int framesSinceKey_ = 0;
   Spread keySpread_;  // after the last key frame was made
   // Of the features of one key frame.

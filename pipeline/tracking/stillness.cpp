@@ -8,6 +8,7 @@
 
 #include "pipeline/tracking/homography.h"
 #include "pipeline/tracking/luma_pyramid.h"
+#include "pipeline/tracking/parallel_loop.h"
 
 namespace pleinair::tracking {
 namespace {
@@ -150,25 +151,23 @@ void Stillness::update(const LumaPyramid& now, const std::optional<PictureHomogr
   resize(now);
   const double scale = std::max(now.reduction().x, now.reduction().y);
   const auto count = static_cast<int>(rests_.size());
-  cv::parallel_for_({0, count}, [&](const cv::Range& range) {
-    for (int i = range.start; i < range.end; ++i) {
-      const auto index = static_cast<std::size_t>(i);
-      Rest& rest = rests_[index];
-      const cv::Point at = corner(index, size_);
-      glm::dvec2 along(0.0);
-      if (picture) {
-        constexpr float kMiddle = StillField::kSide / 2.0F - 0.5F;
-        const glm::dvec2 px = now.framePx(cv::Point2f(at) + cv::Point2f(kMiddle, kMiddle));
-        along = (movedBy(picture->nowFromThen, px) - px) / now.reduction();
-      }
-      rest.alongPx += along;
-      rest.temporal = rest.spatial = -1.0;
-      errors_[index] = look(rest, now.picture(), at, scale);
-      // What goes along with a picture that moves is not looked at each time, nor all at once.
-      if (rest.hasChanged && glm::length(along) > kAlongPx) {
-        rest.waitFrames = kWaitFrames + i % kWaitFrames;
-        rest.hasBegun = false;
-      }
+  parallelFor(count, [&](int i) {
+    const auto index = static_cast<std::size_t>(i);
+    Rest& rest = rests_[index];
+    const cv::Point at = corner(index, size_);
+    glm::dvec2 along(0.0);
+    if (picture) {
+      constexpr float kMiddle = StillField::kSide / 2.0F - 0.5F;
+      const glm::dvec2 px = now.framePx(cv::Point2f(at) + cv::Point2f(kMiddle, kMiddle));
+      along = (movedBy(picture->nowFromThen, px) - px) / now.reduction();
+    }
+    rest.alongPx += along;
+    rest.temporal = rest.spatial = -1.0;
+    errors_[index] = look(rest, now.picture(), at, scale);
+    // What goes along with a picture that moves is not looked at each time, nor all at once.
+    if (rest.hasChanged && glm::length(along) > kAlongPx) {
+      rest.waitFrames = kWaitFrames + i % kWaitFrames;
+      rest.hasBegun = false;
     }
   });
   measureNoise();

@@ -190,7 +190,7 @@ void estimateMotion(benchmark::State& state, const ImageMotionOptions& options) 
   std::vector<double> times;
   std::ptrdiff_t at = 0;
   std::ptrdiff_t step = 1;
-  std::uint64_t number = 0;
+  std::uint64_t number = 0;  // of frames
   const auto count = std::ssize(sequence.frames);
   for (auto _ : state) {
     const hal::ImageView frame = sequence.frames[static_cast<std::size_t>(at)].luma.view();
@@ -204,18 +204,26 @@ void estimateMotion(benchmark::State& state, const ImageMotionOptions& options) 
   state.counters["median_ms"] = percentile(times, 0.5);
   state.counters["p95_ms"] = percentile(times, 0.95);
 }
-BENCHMARK_CAPTURE(estimateMotion, features_alone, {.flow = false, .stillness = false})
-    ->ArgNames({"width", "height"})
-    ->Args({640, 480})
-    ->Args({1280, 720})
-    ->Iterations(240)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(estimateMotion, all, {})
-    ->ArgNames({"width", "height"})
-    ->Args({640, 480})
-    ->Args({1280, 720})
-    ->Iterations(240)
-    ->Unit(benchmark::kMillisecond);
+/// CPU is that of all threads.
+void motionSizes(benchmark::internal::Benchmark* row) {
+  row->ArgNames({"width", "height"})
+      ->Args({640, 480})
+      ->Args({1280, 720})
+      ->Iterations(240)
+      ->MeasureProcessCPUTime()
+      ->UseRealTime()
+      ->Unit(benchmark::kMillisecond);
+}
+BENCHMARK_CAPTURE(estimateMotion, reference_features,
+                  ImageMotionOptions{
+                      .features = FeatureMethod::kHarrisSift, .flow = false, .stillness = false})
+    ->Apply(motionSizes);
+BENCHMARK_CAPTURE(estimateMotion, fast_features,
+                  ImageMotionOptions{.flow = false, .stillness = false})
+    ->Apply(motionSizes);
+BENCHMARK_CAPTURE(estimateMotion, and_stillness, ImageMotionOptions{.flow = false})
+    ->Apply(motionSizes);
+BENCHMARK_CAPTURE(estimateMotion, and_flow, ImageMotionOptions{})->Apply(motionSizes);
 
 }  // namespace
 }  // namespace pleinair::tracking

@@ -22,7 +22,7 @@ constexpr std::size_t kSumWords = 9;    // a cell, as in tile.comp
 constexpr int kSlotTextureWidth = 256;  // as in tiling_word.glsl
 constexpr float kReachCells = 1.0F;     // of a seed from its anchor
 constexpr float kGrowthCells = 1.25F;   // a cell of an anchor without fade has no pixel
-constexpr double kPatienceSeconds = 0.15;
+constexpr double kPatienceSeconds = 0.25;
 const std::string kShaders = "pipeline/styles/watercolor/shaders/";
 constexpr glm::ivec2 kSlotGroup{64, 1};
 

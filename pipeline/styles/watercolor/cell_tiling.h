@@ -27,9 +27,8 @@ struct CellSeed {
   std::uint32_t spare[3] = {};
 
   static constexpr std::uint32_t kMoving = 1;
-  static constexpr std::uint32_t kAtEdge = 2;
-  static constexpr std::uint32_t kBorn = 4;
-  static constexpr std::uint32_t kLiving = 8;
+  static constexpr std::uint32_t kBorn = 2;
+  static constexpr std::uint32_t kLiving = 4;
 
   bool isMoving() const { return (state & kMoving) != 0; }
   bool isLiving() const { return (state & kLiving) != 0; }

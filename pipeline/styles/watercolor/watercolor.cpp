@@ -33,11 +33,11 @@ constexpr std::string_view kSteadyView = "steady";
 /// In the order of view.frag.
 constexpr std::array<ViewInfo, 10> kViews{{
     {"seeds", "the cells' seeds over the frame"},
+    {"cells", "the Voronoi cells, each in a colour of its own, with their seeds"},
     {"anchors",
      "the cells in the colours of what their anchors' motion was taken from (orange a model, "
      "violet a plane, blue the whole picture, teal features, red flow, green stillness), "
      "pale while they are young"},
-    {"cells", "the Voronoi cells, each in a colour of its own, with their seeds"},
     {kMeansView, "each cell in its mean colour: the thesis's tiling"},
     {"edges", "edge pixels black, weaker colour differences grey"},
     {"retiling",
@@ -56,12 +56,12 @@ float keptAfter(hal::Duration step, double timeConstantSeconds) {
 }
 
 /// One anchor a cell in the mean. Squares of two cells a side have enough of them for births and
-/// deaths to be rare: more than half must be gone, or nearly twice as many be there.
+/// deaths to be rare: three of four must be gone, or half as many again be there.
 marks::AnchorOptions anchorOptions(const WatercolorParameters& p) {
   return {.density = {.cellPixels = 2 * p.cellSizePixels,
                       .target = 4,
-                      .birthBelow = 3,
-                      .deathAbove = 7},
+                      .birthBelow = 2,
+                      .deathAbove = 6},
           .seed = static_cast<unsigned>(p.seed)};
 }
 
@@ -378,6 +378,11 @@ void Watercolor::warmUp() {
   paint(frame, "", timer);
   paint({.colour = &grey, .normalFocus = &grey, .hasFocus = true, .sequence = 1}, "", timer);
   paint({.colour = &grey, .sequence = 2}, kViews.front().name, timer);
+  const std::vector<std::uint8_t> noObjects(std::size_t{16} * 16 * 4);
+  Texture ids(TextureFormat::kR32ui, grey.size());
+  ids.upload(noObjects, std::size_t{16} * 4);
+  paint({.colour = &grey, .ids = &ids, .barycentrics = &ids, .hasObjects = true, .sequence = 3}, "",
+        timer);
   canvas_ = canvasThen_ = nullptr;
   canvases_.clear();
   marks_.reset();

@@ -1,7 +1,8 @@
 // Prints what docs/measured.md says of anchors, as Markdown, and draws the thesis's figure 28:
-// `anchors_report [FOLDER]`, where a PNG for each model goes. On the left of a PNG, in red, the
-// points that area-weighted sampling of the surface gives (thesis §5.3.1), as many as ours in the
-// near view; on the right, in blue, ours; above the near view, below the far one.
+// `anchors_report [PART ...]`, where a part is cells, turnover or slips; all without one. A PNG for
+// each model goes into the current folder. On the left of a PNG, in red, the points that
+// area-weighted sampling of the surface gives (thesis §5.3.1), as many as ours in the near view; on
+// the right, in blue, ours; above the near view, below the far one.
 
 #include <algorithm>
 #include <array>
@@ -11,6 +12,7 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,6 +26,7 @@
 #include "pipeline/gpu/egl_context.h"
 #include "pipeline/scene/model_source.h"
 #include "tests/reports/anchors/anchor_stage.h"
+#include "tests/reports/anchors/slip_report.h"
 
 namespace pleinair::marks {
 namespace {
@@ -155,7 +158,7 @@ void printRow(const std::string& name, const AnchorStage& stage,
               asManyHere.text().c_str(), fixed.text().c_str());
 }
 
-void report(const Subject& subject, const std::filesystem::path& folder) {
+void report(const Subject& subject) {
   const auto model =
       std::make_shared<const scene::Model>(hal::orThrow(scene::modelOf(subject.source)));
   AnchorStage stage(model);
@@ -199,8 +202,7 @@ void report(const Subject& subject, const std::filesystem::path& folder) {
   printRow("– near again", stage, samples, kept);
   std::printf("| – born a frame while it goes and comes, of those that stay | | %.2f %% | | |\n",
               turnover.percent());
-  const std::filesystem::path path = folder / ("anchors-" + subject.name + ".png");
-  hal::orThrow(hal::writePng(path, sheet.view()));
+  hal::orThrow(hal::writePng(("anchors-" + subject.name + ".png"), sheet.view()));
 }
 
 void reportTurnover() {
@@ -226,15 +228,20 @@ void reportTurnover() {
   }
 }
 
-int report(const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder);
-  const gpu::EglContext context;
+void reportCells() {
   std::printf(
       "### Anchors a cell of 8 × 8 px, mean ± spread, and empty cells\n\n"
       "| view | cells | ours | area-weighted, as many here | area-weighted, the near view's |\n"
       "|---|---|---|---|---|\n");
-  for (const Subject& subject : subjects()) report(subject, folder);
-  reportTurnover();
+  for (const Subject& subject : subjects()) report(subject);
+}
+
+int report(const std::set<std::string>& parts) {
+  const gpu::EglContext context;
+  const auto wants = [&](const char* part) { return parts.empty() || parts.contains(part); };
+  if (wants("cells")) reportCells();
+  if (wants("turnover")) reportTurnover();
+  if (wants("slips")) reportSlips();
   return 0;
 }
 
@@ -242,5 +249,5 @@ int report(const std::filesystem::path& folder) {
 }  // namespace pleinair::marks
 
 int main(int argc, char** argv) {
-  return pleinair::marks::report(argc > 1 ? argv[1] : ".");
+  return pleinair::marks::report({argv + 1, argv + argc});
 }

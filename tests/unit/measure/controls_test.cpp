@@ -117,6 +117,8 @@ TEST(Gates, PassWhatIsWithinAndStopTheRest) {
 TEST(Gates, AreNotPassedByWhatWasNotMeasured) {
   Measures measures = good();
   measures.scr.reset();
+  EXPECT_THAT(failed("watercolor", MotionKind::kStill, measures), testing::IsEmpty())
+      << "nothing can stay on the screen while nothing moves";
   EXPECT_THAT(failed("watercolor", MotionKind::kPan, measures), testing::ElementsAre("SCR "));
 }
 

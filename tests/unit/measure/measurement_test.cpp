@@ -108,7 +108,7 @@ TEST_F(MeasurementTest, SeesMarksThatStayOnTheScreen) {
 TEST_F(MeasurementTest, SeesMarksThatAreRedrawnAlsoUnderZoomAndRoll) {
   for (const PhotographMotion& motion :
        {PhotographMotion{.zoomPercent = 1}, PhotographMotion{.rollDegrees = 1}}) {
-    const auto input = photograph(motion);
+    const auto input = photograph(motion, 5);
     const Report report = run(*input, [](const cv::Mat3f& frame, int call) {
       return VoronoiTiling(frame.size(), 100 + static_cast<std::uint64_t>(call)).paint(frame);
     });

@@ -102,6 +102,8 @@ TEST(KnownMotion, FollowsAHomographyOverAnyFrames) {
 
 TEST(KnownMotion, AddsUpAConstantVector) {
   const auto motion = constantMotion(kSize, {-1.5, -0.5});
+  EXPECT_EQ(motion->kind(), MotionKind::kPan);
+  EXPECT_EQ(constantMotion(kSize, {0, 0})->kind(), MotionKind::kStill);
   EXPECT_EQ(motion->between(4, 6)->shift, cv::Point(-3, -1));
   EXPECT_FALSE(motion->between(4, 5)->shift);
   EXPECT_NEAR(motion->between(4, 5)->displacement(7, 7)[0], -1.5, 1e-6);

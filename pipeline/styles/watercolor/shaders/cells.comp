@@ -36,6 +36,14 @@ vec2 meanOf(uvec2 sum, uint count) {
   return vec2(whole) + vec2(sum - whole * count) / float(count) + 0.5;
 }
 
+// From the cell's middle to its edge pixels: all the way in the thesis's manner (without a drift to the
+// middle), else by how many there are, so that a pixel that comes and goes does little.
+float pullOf(uint edges) {
+  float number = float(edges);
+  float least = float(minEdgePixels);
+  return drift > 0.0 ? clamp((number - 0.5 * least) / (1.5 * least), 0.0, 1.0) : step(least, number);
+}
+
 // How far it goes of its way (px of the full picture) in this frame.
 vec2 stepOf(inout Seed seed, vec2 way, float part) {
   if (atOnce) {
@@ -45,7 +53,9 @@ vec2 stepOf(inout Seed seed, vec2 way, float part) {
   }
   float far = length(way);
   bool isMoving = (seed.state & kMoving) != 0u;
-  seed.restless = isMoving ? 0.0 : max(0.0, seed.restless + (far > rest ? passed : -passed));
+  // What hovers about the border because of noise gets nowhere.
+  float reason = clamp(4.0 * (far / max(rest, 1.0e-4) - 1.0), -2.0, 1.0);
+  seed.restless = isMoving ? 0.0 : max(0.0, seed.restless + passed * reason);
   if (!isMoving && seed.restless > patience) isMoving = true;
   if (far <= kArrived * rest || part <= 0.0) isMoving = false;
   if (rest <= 0.0) isMoving = far > 0.0;
@@ -67,15 +77,13 @@ void main() {
   if (point.w >= 0 && count > 0u) {
     Seed seed = seeds[slot];
     uint edges = sums[base + 6];
-    uint least = (seed.state & kAtEdge) != 0u ? (minEdgePixels + 1u) / 2u : minEdgePixels;
-    bool atEdge = edges >= least;
-    vec2 target = atEdge ? meanOf(uvec2(sums[base + 4], sums[base + 5]), edges)
-                         : meanOf(uvec2(sums[base + 7], sums[base + 8]), count);
+    float pull = pullOf(edges);
+    vec2 target = mix(meanOf(uvec2(sums[base + 7], sums[base + 8]), count),
+                      meanOf(uvec2(sums[base + 4], sums[base + 5]), max(edges, 1u)), pull);
     vec2 way = (target - vec2(point.xy) / 64.0) / pixelsOfFull;
     float away = length(seed.offset + way);
     if (away > reach) way = (seed.offset + way) * (reach / away) - seed.offset;
-    seed.state = (seed.state & ~kAtEdge) | (atEdge ? kAtEdge : 0u);
-    seed.offset += stepOf(seed, way, atEdge ? follow : drift);
+    seed.offset += stepOf(seed, way, mix(drift, follow, pull));
     seeds[slot] = seed;
   }
   for (int i = 0; i < kWords; ++i) sums[base + i] = 0u;

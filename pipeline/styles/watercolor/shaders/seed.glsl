@@ -12,6 +12,5 @@ struct Seed {
 };
 
 const uint kMoving = 1u;
-const uint kAtEdge = 2u;  // follows edge pixels, not the middle of its cell
-const uint kBornSeed = 4u;
-const uint kLiving = 8u;
+const uint kBornSeed = 2u;  // in this frame
+const uint kLiving = 4u;

@@ -18,8 +18,8 @@ uniform vec2 pictureSize;
 layout(location = 0) out vec4 colour;
 
 const int kSeeds = 0;
-const int kAnchors = 1;
-const int kCells = 2;
+const int kCells = 1;
+const int kAnchors = 2;
 const int kMeans = 3;
 const int kEdges = 4;
 const int kRetiling = 5;

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <opencv2/core/utility.hpp>
+
+namespace pleinair::tracking {
+
+/// Runs `body(i)` for each i below `count` on OpenCV's threads. cv::parallel_for_() of a lambda
+/// makes a std::function of it, which allocates at each call.
+template <class Body>
+void parallelFor(int count, const Body& body) {
+  class Loop final : public cv::ParallelLoopBody {
+   public:
+    explicit Loop(const Body& each) : each_(each) {}
+    void operator()(const cv::Range& range) const override {
+      for (int i = range.start; i < range.end; ++i) each_(i);
+    }
+
+   private:
+    const Body& each_;
+  };
+  cv::parallel_for_({0, count}, Loop(body));
+}
+
+}  // namespace pleinair::tracking

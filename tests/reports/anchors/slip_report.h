@@ -1,0 +1,10 @@
+#pragma once
+
+namespace pleinair::marks {
+
+/// Prints how far anchors in the workbench's picture slip from what they lie on, by what tells of
+/// the motion: the picture alone, and with the bench as a plane of the scene by estimated and by
+/// true poses. Takes minutes. Precondition: a GL context is current.
+void reportSlips();
+
+}  // namespace pleinair::marks
