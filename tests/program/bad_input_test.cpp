@@ -78,7 +78,7 @@ TEST_F(BadInput, UnknownStyleListsTheStyles) {
   expectFailure(
       {"--style", "watercolour"},
       HasSubstr("--style: found \"watercolour\" (did you mean \"watercolor\"?), allowed: one of "
-                "watercolor, none\n"));
+                "watercolor, painterly, none\n"));
 }
 
 TEST_F(BadInput, UnknownViewListsTheViews) {

@@ -36,6 +36,7 @@ constexpr std::size_t kHalvings = 3;
 constexpr double kMemorySeconds = 0.65;
 constexpr double kAppearingSeconds = 0.3;
 constexpr double kForever = 1e6;
+constexpr double kMostFieldHold = 4.0;
 
 constexpr std::string_view kTensorsView = "tensors";
 constexpr std::string_view kPyramidView = "pyramid";
@@ -235,14 +236,25 @@ glm::vec2 bandOf(const PainterlyParameters& p, std::size_t layer) {
   }
 }
 
+/// What time constants are scaled by: 0 at once, 1, the thesis's, in the middle, for ever at 1.
+double holdOf(const PainterlyParameters& p) {
+  if (p.coherence >= 1.0) return kForever;
+  return std::min(kForever, std::tan(p.coherence * 0.5 * std::numbers::pi));
+}
+
+/// New strokes, too, are to go as things lie now: the field does not hold on for ever.
+marks::TensorFieldOptions fieldOf(const PainterlyParameters& p) {
+  marks::TensorFieldOptions options;
+  const double seconds = std::chrono::duration<double>(options.memory).count();
+  options.memory = secondsOf(std::min(holdOf(p), kMostFieldHold) * seconds);
+  return options;
+}
+
 /// Coarse strokes are straight and broad and stop late, fine ones bend (thesis §4.4).
 marks::StrokeRule ruleOf(const PainterlyParameters& p, const Plan& plan, std::size_t layer) {
   const auto width = static_cast<float>(widthOf(plan, layer));
   const auto coarseness = static_cast<float>(kLayers - 1 - layer);
-  // 0 at once, the thesis's in the middle, for ever at 1.
-  const double hold = p.coherence >= 1.0
-                          ? kForever
-                          : std::min(kForever, std::tan(p.coherence * 0.5 * std::numbers::pi));
+  const double hold = holdOf(p);
   marks::StrokeRule rule;
   rule.widthPx = width;
   rule.steps = 4.0F;
@@ -270,7 +282,7 @@ marks::StrokeRule ruleOf(const PainterlyParameters& p, const Plan& plan, std::si
 void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParameters& p,
                             gpu::PassTimer& timer) {
   painting->motion.update(frame, timer);
-  painting->field.update(frame, *frame.colour, painting->motion, {}, timer);
+  painting->field.update(frame, *frame.colour, painting->motion, fieldOf(p), timer);
   for (std::size_t i = 0; i < kLayers; ++i) {
     Layer& layer = *painting->layers[i];
     if (p.coherence <= 0.0) layer.anchors.beginAnew();

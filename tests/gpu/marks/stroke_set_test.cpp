@@ -12,8 +12,6 @@
 namespace pleinair::marks {
 namespace {
 
-using support::textureOf;
-
 /// What a level of the field, or a picture, gives where it is read between texels.
 template <class T>
 T bilinear(const std::vector<T>& texels, hal::FrameSize size, glm::dvec2 at) {
@@ -22,7 +20,8 @@ T bilinear(const std::vector<T>& texels, hal::FrameSize size, glm::dvec2 at) {
   const auto texel = [&](int dx, int dy) {
     const int x = std::clamp(static_cast<int>(low.x) + dx, 0, size.width - 1);
     const int y = std::clamp(static_cast<int>(low.y) + dy, 0, size.height - 1);
-    return texels[static_cast<std::size_t>(y * size.width + x)];
+    return texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) +
+                  static_cast<std::size_t>(x)];
   };
   return (1.0 - part.y) * ((1.0 - part.x) * texel(0, 0) + part.x * texel(1, 0)) +
          part.y * ((1.0 - part.x) * texel(0, 1) + part.x * texel(1, 1));
@@ -312,6 +311,7 @@ TEST_F(StrokeSetTest, InstancesLieOnTheirSkeletons) {
 
 TEST(StrokeOracle, SplinesBeginAndEndAtTheirEnds) {
   std::vector<glm::dvec2> points;
+  points.reserve(11);
   for (int i = 0; i < 11; ++i) points.emplace_back(10.0 * i, 5.0 * std::sin(i));
   const std::vector<glm::dvec2> samples = oracles::thesisSplineSamples(points);
   EXPECT_EQ(samples.size(), 49U) << "figure 19: eleven points give 48 quads";

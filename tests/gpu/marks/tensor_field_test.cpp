@@ -27,6 +27,11 @@ double degrees(double radians) {
   return radians * 180.0 / std::numbers::pi;
 }
 
+/// Of a region among 32 a row.
+std::size_t placeOf(int x, int y) {
+  return static_cast<std::size_t>(y) * 32U + static_cast<std::size_t>(x);
+}
+
 class TensorFieldTest : public TensorTest {
  protected:
   static constexpr TensorFieldOptions kNoMemory{.memory = hal::Duration(0)};
@@ -228,7 +233,7 @@ TEST_F(TensorFieldTest, TensorsThatCancelHaveTheDefaultDirection) {
   double worst = 0.0;
   for (int y = 1; y < 15; ++y) {
     for (int x = 1; x < 31; ++x) {
-      const auto i = static_cast<std::size_t>(y * 32 + x);
+      const auto i = placeOf(x, y);
       EXPECT_EQ(regions[i].known, 1.0);
       EXPECT_LT(glm::length(regions[i].tensor), 0.02);
       worst = std::max(worst, degrees(oracles::angleBetween(resolved[i].tensor, kNothingAnywhere)));
@@ -270,7 +275,7 @@ TEST_F(TensorFieldTest, MemoryIsCarriedAlongARoll) {
     const std::vector<FieldTexel> regions = read(field_->regions());
     const double theta = along * kFrames * kRoll;  // of the gradient, which was level
     for (const glm::ivec2 at : {glm::ivec2(16, 8), {12, 6}, {19, 10}, {10, 9}}) {
-      const FieldTexel& each = regions[static_cast<std::size_t>(at.y * 32 + at.x)];
+      const FieldTexel& each = regions[placeOf(at.x, at.y)];
       EXPECT_LT(
           degrees(oracles::angleBetween(each.tensor, {std::cos(2 * theta), std::sin(2 * theta)})),
           1.0)
@@ -302,7 +307,7 @@ TEST_F(TensorFieldTest, ARollingPicturesFieldDoesNotLag) {
     const std::vector<FieldTexel> resolved = read(field_->resolved(0));
     for (int y = 4; y < 12; ++y) {
       for (int x = 10; x < 22; ++x) {
-        const FieldTexel& each = resolved[static_cast<std::size_t>(y * 32 + x)];
+        const FieldTexel& each = resolved[placeOf(x, y)];
         worst = std::max(worst, degrees(oracles::angleBetween(each.tensor, truth)));
       }
     }

@@ -196,6 +196,25 @@ TEST_F(PainterlyTest, AtNoCoherenceAFrameIsPaintedAnew) {
   }
 }
 
+/// The dial holds for the field, too, or a redrawn frame's strokes would lie as the past did.
+TEST_F(PainterlyTest, AtNoCoherenceTheFieldIsTheFramesOwn) {
+  hal::Image upsideDown = testPicture(kSize, 5);
+  std::ranges::reverse(upsideDown.plane(0));
+  const hal::Image other = testPicture(kSize, 5);
+  for (int y = 0; y < kSize.height; ++y) {
+    for (std::size_t x = 3; x < std::size_t{kSize.width} * 4; x += 4) upsideDown.row(0, y)[x] = 255;
+  }
+  const auto fieldAfter = [&](const char* coherence, bool hasPast) {
+    restart();
+    Painterly style(library_);
+    style.setParameters(style.parameters().with("coherence", coherence));
+    if (hasPast) paint(style, next(upsideDown));
+    return paint(style, next(other), "tensors");
+  };
+  EXPECT_EQ(fieldAfter("0", true), fieldAfter("0", false));
+  EXPECT_NE(fieldAfter("0.5", true), fieldAfter("0.5", false)) << "the past is to count";
+}
+
 /// What never lets go keeps its colours, whatever the picture does.
 TEST_F(PainterlyTest, AtFullCoherenceThePaintingStays) {
   Painterly style(library_);

@@ -126,6 +126,7 @@ TEST_F(SplineTest, PointsAreTheOracles) {
 /// The thesis's 4 (n + 2) quads are one of the numbers that a strip may have: n = 7 gives 36.
 TEST(StrokeSpline, TheThesissSamplesAreAmongTheStripss) {
   std::vector<glm::dvec2> points;
+  points.reserve(8);
   for (int i = 0; i < 8; ++i) points.emplace_back(i * i, 3.0 * i);
   const std::vector<glm::dvec2> samples = oracles::thesisSplineSamples(points);
   ASSERT_EQ(samples.size(), 37U);

@@ -355,7 +355,7 @@ TEST_F(WatercolorTest, MakesStylesByNameAndRefusesOthersWithTheList) {
   } catch (const hal::StartupError& error) {
     EXPECT_EQ(error.error().kind, hal::ErrorKind::kInvalidArgument);
     EXPECT_THAT(error.what(), testing::HasSubstr("watercolour"));
-    EXPECT_THAT(error.what(), testing::HasSubstr("watercolor, none"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("watercolor, painterly, none"));
   }
   EXPECT_EQ(makeStyle("watercolor", library_)->name(), "watercolor");
 }

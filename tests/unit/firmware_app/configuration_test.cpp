@@ -381,7 +381,7 @@ TEST_F(ConfigurationTest, NothingUnknownIsSkipped) {
   EXPECT_EQ(refused("[style.watercolour]\ncell_size = 8\n"),
             name +
                 ":1: style.watercolour: unknown key (did you mean \"watercolor\"?), allowed: "
-                "none, watercolor");
+                "none, painterly, watercolor");
   EXPECT_EQ(refused("[painting]\ncell_size = 8\n"),
             name +
                 ":2: painting.cell_size: unknown key (it belongs to [style.watercolor]), "
