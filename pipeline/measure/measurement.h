@@ -22,7 +22,7 @@ struct PaintedFrame {
   std::vector<marks::Anchor> anchors;  ///< of its marks; empty where there are none
 };
 
-/// What is measured: the engine with a style, or a filter that it is compared with.
+/// What is measured: the engine with a style, or a filter that it is compared with. One thread.
 class MeasuredPainter {
  public:
   virtual ~MeasuredPainter() = default;
@@ -30,6 +30,7 @@ class MeasuredPainter {
   MeasuredPainter(const MeasuredPainter&) = delete;
   MeasuredPainter& operator=(const MeasuredPainter&) = delete;
 
+  /// The next frame. Errors: why it was not painted, with which the measurement ends.
   virtual hal::Result<PaintedFrame> paint(const hal::CapturedFrame& frame) = 0;
   /// Forgets the past, as after a cut.
   virtual void reset() = 0;

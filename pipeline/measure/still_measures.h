@@ -13,7 +13,10 @@ class StillMeasures {
  public:
   explicit StillMeasures(cv::Size frame) : controls_(frame) {}
 
+  /// The next frame, of the constructor's size, RGB in [0, 1].
   void add(const cv::Mat3f& input, const cv::Mat3f& output);
+  /// How much a subject flickers beside the input. Nothing of fewer than two frames, or without
+  /// noise.
   std::optional<double> flicker(Subject subject) const;
 
  private:

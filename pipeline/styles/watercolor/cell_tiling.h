@@ -48,7 +48,7 @@ struct TilingFrame {
 /// The Voronoi cells of seeds that belong to anchors (thesis §3.2, and on): a seed is carried with
 /// its anchor, drawn to the edges in its cell or to the cell's middle, and rests until it has
 /// reason to move for a while. Cells whose anchors fade in or out grow and shrink (a power
-/// diagram). All on the GPU thread's context.
+/// diagram). All on the GPU. All calls on the thread of the GL context it was made in.
 class CellTiling {
  public:
   /// `library` has gpu::watercolorShaders() and gpu::marksShaders().
