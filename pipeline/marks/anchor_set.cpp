@@ -27,8 +27,8 @@ glm::ivec2 gridOf(hal::FrameSize full, int cellPixels) {
   return {(full.width + cellPixels - 1) / cellPixels, (full.height + cellPixels - 1) / cellPixels};
 }
 
-/// Room for every cell to be halfway between what it aims at and where it becomes too crowded, those
-/// beyond the border too, and for those that fade out beside them.
+/// Room for every cell to be halfway between what it aims at and where it becomes too crowded,
+/// those beyond the border too, and for those that fade out beside them.
 std::uint32_t slotsFor(glm::ivec2 grid, const DensityRule& rule) {
   const int twice = (grid.x + 2) * (grid.y + 2) * (rule.target + rule.deathAbove);
   const int fading = twice / 10;
