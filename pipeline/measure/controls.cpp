@@ -13,6 +13,8 @@ using State = Verdict::State;
 
 constexpr std::uint64_t kFixedSeed = 0;
 constexpr double kLeastScreenPattern = 0.25;
+/// Carried pictures read up to 0.1, those under a wrong motion 0.8 and more.
+constexpr double kMostInputError = 0.5;
 /// Below this, in levels, tiles are hardly seen: there is nothing to tell one from the next by.
 constexpr double kSmoothDeparture = 3.0;
 
@@ -37,6 +39,26 @@ Verdict inputVerdict(const Measures& input) {
     verdict.found = fmt::format("{:.4f}", *input.xEw2);
     verdict.state = std::abs(*input.xEw2 - 1) < kTolerance ? State::kPassed : State::kFailed;
   }
+  return verdict;
+}
+
+/// xEW2 = 1 says that the measures agree with themselves, not that the motion is the pictures': of
+/// another motion even the input is not carried along.
+Verdict motionVerdict(const PerSubject<Measures>& measures) {
+  Verdict verdict{.what =
+                      fmt::format("the input goes along with the motion that is told: nHW2 ≤ {:g}",
+                                  kMostInputError)};
+  const std::optional<double>& carried = measures[Subject::kInput].nHw2;
+  if (!carried) {
+    verdict.found = "nothing to compare along a true motion";
+    return verdict;
+  }
+  const bool isPassed = *carried <= kMostInputError;
+  verdict.state = isPassed ? State::kPassed : State::kFailed;
+  verdict.found = fmt::format("{:.3f}", *carried);
+  if (isPassed) return verdict;
+  const std::string smooth = likelyCause(measures);
+  verdict.found += smooth.empty() ? "; the motion is another, or noise hides it" : smooth;
   return verdict;
 }
 
@@ -95,8 +117,8 @@ PerSubject<cv::Mat3f> ControlPainter::paint(const cv::Mat3f& input, const cv::Ma
 std::vector<Verdict> controlVerdicts(const PerSubject<Measures>& measures, std::string_view style,
                                      MotionKind motion) {
   const std::string_view gated = hasGates(style) ? style : "painterly";
-  return {inputVerdict(measures[Subject::kInput]), freshVerdict(measures, gated, motion),
-          fixedVerdict(measures)};
+  return {inputVerdict(measures[Subject::kInput]), motionVerdict(measures),
+          freshVerdict(measures, gated, motion), fixedVerdict(measures)};
 }
 
 }  // namespace pleinair::measure

@@ -12,10 +12,9 @@ namespace {
 /// On which motions a gate is shut.
 enum class On {
   kAny,
-  kPan,         ///< one vector, which may be zero
+  kPan,         ///< one vector, which may be zero; not measured where no motion is known
   kOtherKnown,  ///< motion that one global translation would not pass
-  kKnown,
-  kMoving,  ///< known or not
+  kMoving,      ///< known or not
 };
 
 struct Gate {
@@ -37,7 +36,7 @@ constexpr std::array kGates{
     Gate{"painterly", &Measures::xFlk, true, 0.5},
     Gate{"painterly", &Measures::dep, false, 0.75, &Measures::dep},
     Gate{"painterly", &Measures::det, false, 0.75},
-    Gate{"watercolor", &Measures::nHw2, true, 0.30, nullptr, On::kKnown},
+    Gate{"watercolor", &Measures::nHw2, true, 0.30},
     Gate{"watercolor", &Measures::xFlk, true, 0.15},
     Gate{"watercolor", &Measures::dep, false, 0.75, &Measures::dep},
     Gate{"watercolor", &Measures::scr, true, 0.3, &Measures::scr, On::kMoving},
@@ -47,12 +46,10 @@ bool isShutOn(const Gate& gate, MotionKind motion) {
   switch (gate.on) {
     case On::kAny:
       return true;
-    case On::kPan:
-      return motion == MotionKind::kPan || motion == MotionKind::kStill;
+    case On::kPan:  // where none is known, it is not measured, and not passed
+      return motion != MotionKind::kOther;
     case On::kOtherKnown:
       return motion == MotionKind::kOther;
-    case On::kKnown:
-      return motion != MotionKind::kNone;
     case On::kMoving:
       return motion != MotionKind::kStill;
   }

@@ -60,8 +60,13 @@ class Measurement {
     }
     if (report_.frames < kLeastFrames) {
       return tl::unexpected(unfit(
-          input_, fmt::format("has {} frames to measure after {}", report_.frames, options_.settle),
-          fmt::format("give {} at least, or 11 for all measures", kLeastFrames)));
+          input_,
+          options_.settle == 0 ? fmt::format("has only {} frames", report_.frames)
+                               : fmt::format("has only {} frames after {} to settle",
+                                             report_.frames, options_.settle),
+          fmt::format("give {} at least, or 11 for all measures; one picture is measured with "
+                      "--pan, --zoom, --roll or --still",
+                      kLeastFrames)));
     }
     return true;
   }

@@ -48,6 +48,14 @@ TEST(Controls, ReadAsTheyMustOnAPictureWithDetail) {
   }
 }
 
+TEST(Controls, SayThatTheMotionIsAnother) {
+  PerSubject<Measures> measures = measuresOf(strongBlobs({400, 300}, 1));
+  measures[Subject::kInput].nHw2 = 0.87;
+  const auto verdicts = controlVerdicts(measures, "watercolor", MotionKind::kPan);
+  EXPECT_EQ(verdicts[1].state, State::kFailed);
+  EXPECT_THAT(verdicts[1].found, HasSubstr("the motion is another"));
+}
+
 TEST(Controls, SayThatAPictureIsTooSmooth) {
   const cv::Mat3f flat(300, 400, cv::Vec3f(0.5F, 0.4F, 0.3F));
   const PerSubject<Measures> measures = measuresOf(flat, 0);
