@@ -265,8 +265,11 @@ void addDoctor(CLI::App& app, DoctorOptions& options, std::function<int()>& chos
   command.callback([&] { chosen = [&options] { return examineMachine(options); }; });
 }
 
-/// How `measure` moves a photograph.
-void addPhotographMotion(CLI::App& command, MeasureOptions& options) {
+/// How `measure` moves a photograph; `other` says how a recording moves by itself.
+void addPhotographMotion(CLI::App& command, CLI::Option* other, MeasureOptions& options) {
+  CLI::Option* still =
+      command.add_flag("--still", options.isMoved, "show it as it is, with the sensor's noise")
+          ->excludes(other);
   const auto add = [&](const std::string& name, const std::string& help, const std::string& type,
                        auto assign) {
     command
@@ -277,7 +280,9 @@ void addPhotographMotion(CLI::App& command, MeasureOptions& options) {
               options.isMoved = true;
             },
             help)
-        ->type_name(type);
+        ->type_name(type)
+        ->excludes(other)
+        ->excludes(still);
   };
   measure::PhotographMotion& motion = options.photograph;
   add("--pan", "move a photograph by so many px a frame, such as -1.5,-0.5", "VX,VY",
@@ -293,7 +298,6 @@ void addPhotographMotion(CLI::App& command, MeasureOptions& options) {
       [&motion](const std::string& text) {
         motion.rollDegrees = numberOf("--roll", text, "", -45, 45);
       });
-  command.add_flag("--still", options.isMoved, "show it as it is, with the sensor's noise");
 }
 
 void addMeasure(CLI::App& app, MeasureOptions& options, std::function<int()>& chosen) {
@@ -308,10 +312,11 @@ void addMeasure(CLI::App& app, MeasureOptions& options, std::function<int()>& ch
   addKey(command, options.configuration, "--camera", "camera.source",
          "the workbench, whose motion is known (default: synthetic)", "synthetic:SHOT")
       ->excludes(input);
-  command.add_option("--motion", options.motion, "how a recording moves (as motion.json)")
-      ->needs(input)
-      ->type_name("FILE");
-  addPhotographMotion(command, options);
+  CLI::Option* motion =
+      command.add_option("--motion", options.motion, "how a recording moves (as motion.json)")
+          ->needs(input)
+          ->type_name("FILE");
+  addPhotographMotion(command, motion, options);
   command
       .add_option_function<std::string>(
           "--noise",

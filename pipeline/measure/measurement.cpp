@@ -61,9 +61,10 @@ class Measurement {
     if (report_.frames < kLeastFrames) {
       return tl::unexpected(unfit(
           input_,
-          options_.settle == 0 ? fmt::format("has only {} frames", report_.frames)
-                               : fmt::format("has only {} frames after {} to settle",
-                                             report_.frames, options_.settle),
+          options_.settle == 0
+              ? fmt::format("has only {} frame{}", report_.frames, report_.frames == 1 ? "" : "s")
+              : fmt::format("has only {} frames after {} to settle", report_.frames,
+                            options_.settle),
           fmt::format("give {} at least, or 11 for all measures; one picture is measured with "
                       "--pan, --zoom, --roll or --still",
                       kLeastFrames)));
