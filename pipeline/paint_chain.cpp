@@ -378,7 +378,10 @@ hal::Result<hal::Image> PaintChain::cameraStill() {
 hal::Result<std::vector<marks::Anchor>> PaintChain::anchors() {
   if (auto sound = watch_.check(); !sound) return tl::unexpected(std::move(sound.error()));
   const marks::AnchorSet* set = style_->anchors();
-  return set == nullptr ? std::vector<marks::Anchor>{} : set->read();
+  if (set == nullptr) return std::vector<marks::Anchor>{};
+  std::vector<marks::Anchor> anchors = set->read();
+  if (auto sound = watch_.check(); !sound) return tl::unexpected(std::move(sound.error()));
+  return anchors;
 }
 
 hal::Result<hal::Image> PaintChain::read(const gpu::Texture* texture) {

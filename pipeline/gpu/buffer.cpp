@@ -1,6 +1,7 @@
 #include "pipeline/gpu/buffer.h"
 
 #include <cassert>
+#include <cstring>
 
 #include <fmt/format.h>
 
@@ -38,6 +39,20 @@ void Buffer::write(std::span<const std::byte> bytes, std::size_t offsetBytes) {
   glBufferSubData(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(offsetBytes),
                   static_cast<GLsizeiptr>(bytes.size()), bytes.data());
   glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
+}
+
+bool Buffer::read(std::span<std::byte> bytes) const {
+  assert(bytes.size() <= sizeBytes_);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  glBindBuffer(GL_COPY_READ_BUFFER, handle_.get());
+  const void* mapped = glMapBufferRange(GL_COPY_READ_BUFFER, 0,
+                                        static_cast<GLsizeiptr>(bytes.size()), GL_MAP_READ_BIT);
+  if (mapped != nullptr) {
+    std::memcpy(bytes.data(), mapped, bytes.size());
+    glUnmapBuffer(GL_COPY_READ_BUFFER);
+  }
+  glBindBuffer(GL_COPY_READ_BUFFER, 0);
+  return mapped != nullptr;
 }
 
 }  // namespace pleinair::gpu

@@ -30,6 +30,9 @@ class Buffer {
   }
 
   void write(std::span<const std::byte> bytes, std::size_t offsetBytes = 0);
+  /// Waits for the GPU and reads the buffer's beginning. False, with nothing read, where it cannot
+  /// be mapped: the GPU is lost. Never in the frame's way: for measures and tests.
+  bool read(std::span<std::byte> bytes) const;
   std::size_t sizeBytes() const { return sizeBytes_; }
   GLuint name() const { return handle_.get(); }
   explicit operator bool() const { return static_cast<bool>(handle_); }

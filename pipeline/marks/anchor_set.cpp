@@ -4,7 +4,7 @@
 #include <cassert>
 #include <chrono>
 #include <cmath>
-#include <cstring>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -226,14 +226,7 @@ const AnchorOptions& AnchorSet::options() const {
 
 std::vector<Anchor> AnchorSet::read() const {
   std::vector<Anchor> read(state_->slots);
-  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  glBindBuffer(GL_COPY_READ_BUFFER, state_->anchors.name());
-  const void* mapped =
-      glMapBufferRange(GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(state_->anchors.sizeBytes()),
-                       GL_MAP_READ_BIT);
-  if (mapped != nullptr) std::memcpy(read.data(), mapped, state_->anchors.sizeBytes());
-  glUnmapBuffer(GL_COPY_READ_BUFFER);
-  glBindBuffer(GL_COPY_READ_BUFFER, 0);
+  state_->anchors.read(std::as_writable_bytes(std::span(read)));  // a lost GPU leaves them free
   return read;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -36,12 +36,7 @@ std::vector<float> readRgba32f(const gpu::Texture& texture);
 template <class T>
 std::vector<T> readBuffer(const gpu::Buffer& buffer) {
   std::vector<T> items(buffer.sizeBytes() / sizeof(T));
-  glBindBuffer(GL_COPY_READ_BUFFER, buffer.name());
-  const void* mapped = glMapBufferRange(
-      GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(buffer.sizeBytes()), GL_MAP_READ_BIT);
-  std::memcpy(items.data(), mapped, items.size() * sizeof(T));
-  glUnmapBuffer(GL_COPY_READ_BUFFER);
-  glBindBuffer(GL_COPY_READ_BUFFER, 0);
+  EXPECT_TRUE(buffer.read(std::as_writable_bytes(std::span(items))));
   return items;
 }
 

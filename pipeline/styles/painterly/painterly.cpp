@@ -2,16 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <cmath>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <glm/trigonometric.hpp>
 
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/render_target.h"
@@ -19,6 +14,7 @@
 #include "pipeline/marks/motion_field.h"
 #include "pipeline/marks/stroke_set.h"
 #include "pipeline/marks/tensor_field.h"
+#include "pipeline/styles/painterly/layers.h"
 #include "pipeline/styles/painterly/stroke_drawing.h"
 
 namespace pleinair::styles {
@@ -29,14 +25,7 @@ using gpu::TextureFilter;
 using gpu::TextureFormat;
 
 const std::string kShaders = "pipeline/styles/painterly/shaders/";
-constexpr std::size_t kLayers = 3;  // from coarse to fine
-constexpr int kQuads = 8;           // of a stroke, at most
 constexpr std::size_t kHalvings = 3;
-/// The thesis's weight of 0.95 on the past, at 30 frames a second (METHOD.md V.4).
-constexpr double kMemorySeconds = 0.65;
-constexpr double kAppearingSeconds = 0.3;
-constexpr double kForever = 1e6;
-constexpr double kMostFieldHold = 4.0;
 
 constexpr std::string_view kTensorsView = "tensors";
 constexpr std::string_view kPyramidView = "pyramid";
@@ -88,41 +77,8 @@ struct Canvas {
   gpu::RenderTarget finished;
 };
 
-/// What decides which anchors there are.
-struct Plan {
-  double strokeSizePixels = 0.0;
-  double layerRatio = 0.0;
-  double coverage = 0.0;
-  double length = 0.0;
-  int seed = 0;
-  bool operator==(const Plan&) const = default;
-};
-
-Plan planOf(const PainterlyParameters& p) {
-  return {p.strokeSizePixels, p.layerRatio, p.coverage, p.length, p.seed};
-}
-
-double widthOf(const Plan& plan, std::size_t layer) {
-  return plan.strokeSizePixels *
-         std::pow(plan.layerRatio, static_cast<double>(kLayers - 1 - layer));
-}
-
-/// Cells in which two strokes of full length make the coverage.
-marks::AnchorOptions anchorsOf(const Plan& plan, std::size_t layer) {
-  const double cell = widthOf(plan, layer) * std::sqrt(2.0 * plan.length / plan.coverage);
-  return {.density = {.cellPixels = std::max(4, static_cast<int>(std::lround(cell)))},
-          .seed = static_cast<unsigned>(plan.seed) * 8U + static_cast<unsigned>(layer)};
-}
-
-/// Texels across a brush for strokes of this width, a power of two.
-int texelsFor(double widthPixels) {
-  int texels = 8;
-  while (texels < widthPixels * 1.2 && texels < 64) texels *= 2;
-  return texels;
-}
-
 struct Layer {
-  Layer(const gpu::ShaderLibrary& library, hal::FrameSize full, const Plan& plan,
+  Layer(const gpu::ShaderLibrary& library, hal::FrameSize full, const LayerPlan& plan,
         std::size_t number)
       : anchors(library, full, anchorsOf(plan, number)), strokes(library, anchors.slotCount()) {}
   marks::AnchorSet anchors;
@@ -131,26 +87,22 @@ struct Layer {
 
 /// What belongs to one full size and plan.
 struct Painting {
-  Painting(const gpu::ShaderLibrary& library, hal::FrameSize fullSize, const Plan& given)
+  Painting(const gpu::ShaderLibrary& library, hal::FrameSize fullSize, const LayerPlan& given)
       : full(fullSize), plan(given), motion(library, full), field(library, full) {
     for (std::size_t i = 0; i < kLayers; ++i) {
       layers[i] = std::make_unique<Layer>(library, full, plan, i);
     }
   }
   hal::FrameSize full;
-  Plan plan;
+  LayerPlan plan;
   marks::MotionField motion;
   marks::TensorField field;
   std::array<std::unique_ptr<Layer>, kLayers> layers;
 };
 
-hal::Duration secondsOf(double seconds) {
-  return std::chrono::duration_cast<hal::Duration>(std::chrono::duration<double>(seconds));
-}
-
 /// A layer's brush has as many texels as its strokes have pixels.
 struct Brushes {
-  Plan plan;
+  LayerPlan plan;
   std::array<Texture, kLayers> textures;
 };
 
@@ -202,7 +154,7 @@ void Painterly::State::take(const scene::ArFrame& frame, const PainterlyParamete
                : canvases.emplace_back(std::make_unique<Canvas>(frame.size())).get();
   if (brush != p.brush || brushes.plan != painting->plan) {
     for (std::size_t i = 0; i < kLayers; ++i) {
-      brushes.textures[i] = makeBrush(p.brush, texelsFor(widthOf(painting->plan, i)));
+      brushes.textures[i] = makeBrush(p.brush, texelsOf(painting->plan, i));
     }
     brushes.plan = painting->plan;
     brush = p.brush;
@@ -221,63 +173,6 @@ void Painterly::State::reduce(const scene::ArFrame& frame, gpu::PassTimer& timer
     from = &canvas->reduced[i];
   }
 }
-
-namespace {
-
-/// Where a layer is painted: not below what it is for, nor where finer strokes hide it.
-glm::vec2 bandOf(const PainterlyParameters& p, std::size_t layer) {
-  switch (layer) {
-    case 0:
-      return {-1.0, 3.0 * p.detail};
-    case 1:
-      return {p.middleDetail, 8.0 * p.detail};
-    default:
-      return {p.detail, 1e9};
-  }
-}
-
-/// What time constants are scaled by: 0 at once, 1, the thesis's, in the middle, for ever at 1.
-double holdOf(const PainterlyParameters& p) {
-  if (p.coherence >= 1.0) return kForever;
-  return std::min(kForever, std::tan(p.coherence * 0.5 * std::numbers::pi));
-}
-
-/// New strokes, too, are to go as things lie now: the field does not hold on for ever.
-marks::TensorFieldOptions fieldOf(const PainterlyParameters& p) {
-  marks::TensorFieldOptions options;
-  const double seconds = std::chrono::duration<double>(options.memory).count();
-  options.memory = secondsOf(std::min(holdOf(p), kMostFieldHold) * seconds);
-  return options;
-}
-
-/// Coarse strokes are straight and broad and stop late, fine ones bend (thesis §4.4).
-marks::StrokeRule ruleOf(const PainterlyParameters& p, const Plan& plan, std::size_t layer) {
-  const auto width = static_cast<float>(widthOf(plan, layer));
-  const auto coarseness = static_cast<float>(kLayers - 1 - layer);
-  const double hold = holdOf(p);
-  marks::StrokeRule rule;
-  rule.widthPx = width;
-  rule.steps = 4.0F;
-  rule.segmentPx = static_cast<float>(p.length) * width / (2.0F * rule.steps);
-  rule.colourThreshold = static_cast<float>(p.colourThreshold) * (1.0F + 0.6F * coarseness);
-  rule.cutOffRad = glm::radians(static_cast<float>(p.cutOffDegrees)) / (1.0F + 0.4F * coarseness);
-  rule.detailBand = bandOf(p, layer);
-  rule.detailSpread = 0.6F * std::max(rule.detailBand.x, 0.0F);
-  rule.wanderRad = static_cast<float>(p.wander) * (1.0F + 0.3F * coarseness);
-  rule.fieldLevel = kLayers - 1 - layer;
-  rule.widthSpread = static_cast<float>(p.widthVariation);
-  rule.opacity = static_cast<float>(p.opacity);
-  rule.jitter = {static_cast<float>(p.hueJitter), static_cast<float>(p.saturationJitter),
-                 static_cast<float>(p.valueJitter)};
-  rule.quads = kQuads;
-  rule.shapeMemory = secondsOf(hold * kMemorySeconds);
-  rule.colourMemory = secondsOf(hold * kMemorySeconds);
-  rule.appearing = secondsOf(hold * kAppearingSeconds);
-  rule.vanishing = secondsOf(hold * kAppearingSeconds);
-  return rule;
-}
-
-}  // namespace
 
 void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParameters& p,
                             gpu::PassTimer& timer) {

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <chrono>
 #include <cmath>
-#include <cstring>
+#include <span>
 #include <string>
 
 namespace pleinair::styles {
@@ -161,13 +161,7 @@ void CellTiling::moveSeeds(const TilingFrame& input, const WatercolorParameters&
 
 std::size_t CellTiling::readMoving() const {
   std::vector<CellSeed> read(slots_);
-  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  glBindBuffer(GL_COPY_READ_BUFFER, seeds_.name());
-  const void* mapped = glMapBufferRange(
-      GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(seeds_.sizeBytes()), GL_MAP_READ_BIT);
-  if (mapped != nullptr) std::memcpy(read.data(), mapped, seeds_.sizeBytes());
-  glUnmapBuffer(GL_COPY_READ_BUFFER);
-  glBindBuffer(GL_COPY_READ_BUFFER, 0);
+  if (!seeds_.read(std::as_writable_bytes(std::span(read)))) return 0;
   return static_cast<std::size_t>(std::ranges::count_if(read, &CellSeed::isMoving));
 }
 

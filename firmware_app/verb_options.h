@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+
+#include <CLI/App.hpp>
+
+#include "firmware_app/commands/calibrate.h"
+#include "firmware_app/commands/config.h"
+#include "firmware_app/commands/devices.h"
+#include "firmware_app/commands/doctor.h"
+#include "firmware_app/commands/measure.h"
+#include "firmware_app/commands/record.h"
+#include "firmware_app/commands/render.h"
+#include "firmware_app/commands/run.h"
+
+namespace pleinair::app {
+
+/// What is asked of each verb.
+struct VerbOptions {
+  RenderOptions render;
+  RecordOptions record;
+  CalibrateOptions calibrate;
+  MeasureOptions measure;
+  ConfigOptions config;
+  RunOptions run;
+  DevicesOptions devices;
+  DoctorOptions doctor;
+};
+
+/// Adds all verbs with their options. Parsing fills `options` and sets `chosen` to what carries the
+/// verb out; both outlive the parsing and what was chosen. The environment is read here.
+void addVerbs(CLI::App& app, VerbOptions& options, std::function<int()>& chosen);
+
+}  // namespace pleinair::app
