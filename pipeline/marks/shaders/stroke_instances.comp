@@ -2,12 +2,13 @@
 // Inputs:  anchors, strokes, ranks (stroke_order.comp); segment: px; width: px, widthSpread: by which
 //          part strokes differ; opacity; jitter: of hue, saturation, value.
 // Outputs: instances: 8 points (px of the full picture), colour (sRGB-coded) and opacity; half the
-//          width (px), the brush's variant, whether it is mirrored, its anchor's age (s). An anchor an
-//          invocation.
+//          width (px), the brush's variant, 4 more where it is mirrored, the virtual object that it is
+//          of, 0 for what is real, its anchor's age (s). An anchor an invocation.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/stroke.glsl"
+#include "pipeline/scene/shaders/object_id.glsl"
 layout(local_size_x = 64) in;
 struct Instance {
   vec4 points[4];
@@ -66,8 +67,8 @@ void main() {
   Instance made;
   for (int i = 0; i < 4; ++i) made.points[i] = vec4(points[2 * i], points[2 * i + 1]);
   made.paint = vec4(clamp(colour, 0.0, 1.0), opacity * stroke.seen);
-  uint variant = hashOf(seed ^ 0x31u);
-  made.shape = vec4(0.5 * wide, float(variant & 3u), (variant & 4u) != 0u ? 1.0 : 0.0,
+  uint object = objectOf(anchors[slot].surface);
+  made.shape = vec4(0.5 * wide, float(hashOf(seed ^ 0x31u) & 7u), isVirtual(object) ? float(object) : 0.0,
                     anchors[slot].age);
   instances[rank] = made;
 }

@@ -69,7 +69,9 @@ marks::StrokeRule ruleOf(const PainterlyParameters& p, const LayerPlan& plan, st
   marks::StrokeRule rule;
   rule.widthPx = width;
   rule.steps = 4.0F;
-  rule.segmentPx = static_cast<float>(p.length) * width / (2.0F * rule.steps);
+  rule.bothWays = p.walk == StrokeWalk::kBoth;
+  const float arms = rule.bothWays ? 2.0F : 1.0F;
+  rule.segmentPx = static_cast<float>(p.length) * width / (arms * rule.steps);
   rule.colourThreshold = static_cast<float>(p.colourThreshold) * (1.0F + 0.6F * coarseness);
   rule.cutOffRad = glm::radians(static_cast<float>(p.cutOffDegrees)) / (1.0F + 0.4F * coarseness);
   rule.detailBand = bandOf(p, layer);

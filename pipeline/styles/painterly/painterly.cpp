@@ -83,6 +83,7 @@ struct Layer {
       : anchors(library, full, anchorsOf(plan, number)), strokes(library, anchors.slotCount()) {}
   marks::AnchorSet anchors;
   marks::StrokeSet strokes;
+  StrokeStrips strips;
 };
 
 /// What belongs to one full size and plan.
@@ -115,6 +116,7 @@ struct Painterly::State {
         ground(library.fragmentPass(kShaders + "ground.frag")),
         relief(library.fragmentPass(kShaders + "relief.frag")),
         fieldView(library.fragmentPass(kShaders + "field_view.frag")),
+        strips(library),
         drawing(library) {}
 
   const gpu::ShaderLibrary& library;
@@ -122,6 +124,7 @@ struct Painterly::State {
   gpu::Program ground;
   gpu::Program relief;
   gpu::Program fieldView;
+  StrokeStripMaker strips;
   StrokeDrawing drawing;
   std::optional<Brush> brush;  // that `brushes` are of
   Brushes brushes;
@@ -189,6 +192,10 @@ void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParamete
 
 void Painterly::State::drawStrokes(const PainterlyParameters& p, gpu::PassTimer& timer) {
   const auto scope = timer.measure("painterly: strokes");
+  // All of them before any is drawn: what is drawn on stays in a tile's memory (GPU.md).
+  for (const auto& layer : painting->layers) {
+    strips.lay(layer->strokes.instances(), layer->strokes.command(), p.quads, layer->strips);
+  }
   ground.use()
       .texture("paint", canvas->reduced[kHalvings - 1])
       .set("size", glm::vec2(canvas->size.width, canvas->size.height))
@@ -196,8 +203,7 @@ void Painterly::State::drawStrokes(const PainterlyParameters& p, gpu::PassTimer&
       .set("wash", static_cast<float>(p.wash))
       .drawFullscreen(canvas->strokes);
   for (std::size_t i = 0; i < kLayers; ++i) {
-    drawing.draw(painting->layers[i]->strokes, kQuads, brushes.textures[i], painting->full,
-                 canvas->strokes);
+    drawing.draw(painting->layers[i]->strips, brushes.textures[i], painting->full, canvas->strokes);
   }
 }
 

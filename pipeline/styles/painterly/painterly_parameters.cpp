@@ -17,6 +17,10 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
       {"marker", Brush::kMarker},
       {"pencil", Brush::kPencil},
   }};
+  static constexpr std::array<config::Choice<StrokeWalk>, 2> kWalks{
+      {{"both", StrokeWalk::kBoth}, {"ahead", StrokeWalk::kAhead}}};
+  static constexpr std::array<config::Choice<StrokeQuads>, 2> kQuadCounts{
+      {{"curvature", StrokeQuads::kCurvature}, {"thesis", StrokeQuads::kThesis}}};
   static const config::ParameterTable<P> table{
       integerParameter("seed", &P::seed, {.min = 0, .max = 1'000'000},
                        "Which of the random paintings; a change starts a new one."),
@@ -58,6 +62,10 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
       numberParameter("warmth", &P::warmth, {.min = -1, .max = 1}, "Likewise; below 0: cold."),
       numberParameter("coherence", &P::coherence, kPart,
                       "How strokes hold on to their past: 0 redraws each frame, 1 never lets go."),
+      choiceParameter("walk", &P::walk, kWalks,
+                      "Which way strokes grow from their anchors; ahead only is the thesis's."),
+      choiceParameter("quads", &P::quads, kQuadCounts,
+                      "What strokes are drawn of: as few as they bend, or the thesis's 4 (n + 2)."),
   };
   return table;
 }

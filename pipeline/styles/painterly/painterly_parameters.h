@@ -4,8 +4,12 @@
 
 #include "config/parameter_table.h"
 #include "pipeline/styles/painterly/brushes.h"
+#include "pipeline/styles/painterly/stroke_strips.h"
 
 namespace pleinair::styles {
+
+/// Which way a stroke is grown from its anchor.
+enum class StrokeWalk { kBoth, kAhead };
 
 /// What can be tuned of the painter, with the defaults. Lengths are in px of the full picture.
 struct PainterlyParameters {
@@ -35,6 +39,8 @@ struct PainterlyParameters {
   double saturation = 1.12;
   double warmth = 0.15;
   double coherence = 0.5;
+  StrokeWalk walk = StrokeWalk::kBoth;
+  StrokeQuads quads = StrokeQuads::kCurvature;
 };
 
 const config::ParameterTable<PainterlyParameters>& painterlyParameters();

@@ -36,7 +36,7 @@ struct StrokeInstance {
   glm::vec4 paint;
   float halfWidth;
   float variant;
-  float mirrored;
+  float object;
   float age;
 };
 static_assert(sizeof(StrokeInstance) == StrokeSet::kInstanceBytes);
