@@ -9,8 +9,9 @@ constexpr std::array<Look, 5> kLooks{{
     {"oil", "layers of bristle strokes, from large to small", ""},
     {"impasto", "thick paint put on with a knife, short and bold", R"(
 brush = "knife"
-stroke_size = 12
-length = 2.2
+stroke_size = 7
+length = 5
+layers = 3
 relief = 4
 gloss = 0.2
 hue_jitter = 0.05
@@ -20,8 +21,8 @@ canvas = 0.05
 )"},
     {"gouache", "flat, matt and opaque", R"(
 brush = "round"
-stroke_size = 11
-length = 3
+stroke_size = 5
+length = 6
 opacity = 1
 relief = 0.3
 gloss = 0
@@ -33,12 +34,12 @@ wash = 1
 )"},
     {"pastel", "dry chalk on toned paper, which shines through", R"(
 brush = "dry"
-stroke_size = 8
-length = 3.5
-opacity = 0.8
+support = "paper"
+tooth = 0.7
+opacity = 0.85
 relief = 0
 gloss = 0
-canvas = 0.35
+canvas = 0.2
 wash = 0.35
 ground_red = 0.62
 ground_green = 0.57
@@ -49,8 +50,8 @@ hue_jitter = 0.05
 )"},
     {"sketch", "coloured pencils on white paper", R"(
 brush = "pencil"
-stroke_size = 5
-length = 5
+support = "paper"
+tooth = 0.8
 opacity = 0.75
 relief = 0
 gloss = 0

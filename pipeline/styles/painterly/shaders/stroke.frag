@@ -1,6 +1,7 @@
 // Purpose: the paint that a brush leaves, and how thick it lies.
 // Inputs:  brushes: R how much of the brush's paint is there, G its height; of the stroke, stroke.vert's.
-// Outputs: 0: sRGB-coded colour, premultiplied, and its coverage; 1: height likewise. To be blended
+// Outputs: 0: sRGB-coded colour, premultiplied, and its coverage; 1: height likewise, and in G how much
+//          paint there is. To be blended
 //          over what is there.
 // Precision: mediump would do, but for places.
 uniform sampler2D brushes;
@@ -23,5 +24,5 @@ void main() {
   // Little pigment on the ridge's sides, more in its furrows' shade: the colour goes with the height.
   vec3 tinted = paint.rgb * (0.94 + 0.12 * texel.g);
   colour = vec4(tinted * cover, cover);
-  height = vec4(texel.g * cover, 0.0, 0.0, cover);
+  height = vec4(texel.g * cover, cover, 0.0, cover);
 }
