@@ -11,6 +11,8 @@ flat in float aspect;
 layout(location = 0) out vec4 colour;
 layout(location = 1) out vec4 height;
 
+const float kThinEnd = 1.2;  // widths
+
 void main() {
   // The brush's ends keep their shape: a width of each end is the texture's first and last quarter.
   float cap = min(1.0, 0.5 * aspect);
@@ -24,5 +26,7 @@ void main() {
   // Little pigment on the ridge's sides, more in its furrows' shade: the colour goes with the height.
   vec3 tinted = paint.rgb * (0.94 + 0.12 * texel.g);
   colour = vec4(tinted * cover, cover);
-  height = vec4(texel.g * cover, cover, 0.0, cover);
+  // At its ends paint goes over into what lies there: a step would be a seam across the stroke.
+  float body = cover * smoothstep(0.0, kThinEnd, min(fromStart, fromEnd));
+  height = vec4(texel.g * body, cover, 0.0, body);
 }
