@@ -88,6 +88,7 @@ marks::StrokeRule ruleOf(const PainterlyParameters& p, const LayerPlan& plan, st
   rule.fieldLevel = plan.layers - 1 - layer;
   rule.widthSpread = static_cast<float>(p.widthVariation);
   rule.opacity = static_cast<float>(p.opacity);
+  rule.leaveLight = static_cast<float>(p.leaveLight);
   rule.jitter = {static_cast<float>(p.hueJitter), static_cast<float>(p.saturationJitter),
                  static_cast<float>(p.valueJitter)};
   rule.quads = kQuads;

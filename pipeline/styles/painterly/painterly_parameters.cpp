@@ -46,6 +46,8 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
       numberParameter("wander", &P::wander, {.min = 0, .max = 1, .unit = "rad"},
                       "How far a stroke strays from the direction of things."),
       numberParameter("opacity", &P::opacity, kPart, "Of a stroke's paint."),
+      numberParameter("leave_light", &P::leaveLight, kPart,
+                      "How much light places are left to the ground, as pencils do."),
       numberParameter("width_variation", &P::widthVariation, kPart,
                       "How much strokes of a layer differ in width."),
       numberParameter("hue_jitter", &P::hueJitter, kPart, "How much strokes differ in hue."),

@@ -17,12 +17,13 @@ struct PainterlyParameters {
   double layerRatio = 2.0;        // each coarser layer's strokes are wider by this
   double coverage = 3.5;          // strokes of a layer that lie over each other
   double length = 8.0;            // of a stroke, in widths
-  double detail = 0.30;           // from which fine strokes are painted
-  double middleDetail = 0.08;
+  double detail = 0.45;           // from which fine strokes are painted
+  double middleDetail = 0.1;
   double colourThreshold = 0.11;
   double cutOffDegrees = 45.0;
   double wander = 0.12;
   double opacity = 0.95;
+  double leaveLight = 0.0;
   double widthVariation = 0.25;
   double hueJitter = 0.03;
   double saturationJitter = 0.12;
