@@ -132,6 +132,7 @@ void StrokeSet::State::layOut(const AnchorSet& anchors, const StrokeRule& rule) 
       .set("width", rule.widthPx)
       .set("widthSpread", rule.widthSpread)
       .set("opacity", rule.opacity)
+      .set("leaveLight", rule.leaveLight)
       .set("jitter", rule.jitter)
       .dispatch(allSlots(), kSlotGroup,
                 GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);

@@ -1,6 +1,6 @@
 // Purpose: what is drawn of each stroke: the control points of its spline, in the order of painting.
 // Inputs:  anchors, strokes, ranks (stroke_order.comp); segment: px; width: px, widthSpread: by which
-//          part strokes differ; opacity; jitter: of hue, saturation, value.
+//          part strokes differ; opacity; leaveLight; jitter: of hue, saturation, value.
 // Outputs: instances: 8 points (px of the full picture), colour (sRGB-coded) and opacity; half the
 //          width (px), the brush's variant, 4 more where it is mirrored, the virtual object that it is
 //          of, 0 for what is real, its anchor's age (s). An anchor an invocation.
@@ -24,6 +24,7 @@ uniform float segment;
 uniform float width;
 uniform float widthSpread;
 uniform float opacity;
+uniform float leaveLight;
 uniform vec3 jitter;
 
 const int kPoints = 8;
@@ -66,7 +67,8 @@ void main() {
   colour *= 1.0 + 2.0 * jitter.z * randomOf(seed, 0x25u);
   Instance made;
   for (int i = 0; i < 4; ++i) made.points[i] = vec4(points[2 * i], points[2 * i + 1]);
-  made.paint = vec4(clamp(colour, 0.0, 1.0), opacity * stroke.seen);
+  float light = smoothstep(0.2, 0.95, luma);
+  made.paint = vec4(clamp(colour, 0.0, 1.0), opacity * (1.0 - leaveLight * light) * stroke.seen);
   uint object = objectOf(anchors[slot].surface);
   made.shape = vec4(0.5 * wide, float(hashOf(seed ^ 0x31u) & 7u), isVirtual(object) ? float(object) : 0.0,
                     anchors[slot].age);
