@@ -69,8 +69,10 @@ struct Canvas {
         colour(colours(size)),
         height(colours(size)),
         picture(colours(size)),
+        borders(TextureFormat::kR32ui, size),
         strokes({&colour, &height}),
-        finished({&picture}) {
+        finished({&picture}),
+        bordered({&borders}) {
     hal::FrameSize half = size;
     for (std::size_t i = 0; i < kHalvings; ++i) {
       half = {std::max(1, half.width / 2), std::max(1, half.height / 2)};
@@ -85,8 +87,10 @@ struct Canvas {
   Texture colour;
   Texture height;
   Texture picture;
+  Texture borders;  // where strokes are clipped
   gpu::RenderTarget strokes;
   gpu::RenderTarget finished;
+  gpu::RenderTarget bordered;
 };
 
 struct Layer {
@@ -128,6 +132,8 @@ struct Painterly::State {
         ground(library.fragmentPass(kShaders + "ground.frag")),
         relief(library.fragmentPass(kShaders + "relief.frag")),
         fieldView(library.fragmentPass(kShaders + "field_view.frag")),
+        heightView(library.fragmentPass(kShaders + "height_view.frag")),
+        borders(library.fragmentPass(kShaders + "borders.frag")),
         linen(library, Sheet::Kind::kLinen),
         paper(library, Sheet::Kind::kPaper),
         strips(library),
@@ -138,6 +144,8 @@ struct Painterly::State {
   gpu::Program ground;
   gpu::Program relief;
   gpu::Program fieldView;
+  gpu::Program heightView;
+  gpu::Program borders;
   Sheet linen;
   Sheet paper;
   StrokeStripMaker strips;
@@ -153,7 +161,10 @@ struct Painterly::State {
   /// The picture that a layer's colours are of.
   const Texture& paintOf(std::size_t layer, const scene::ArFrame& frame) const;
   void grow(const scene::ArFrame& frame, const PainterlyParameters& p, gpu::PassTimer& timer);
-  void drawStrokes(const PainterlyParameters& p, gpu::PassTimer& timer);
+  /// Where strokes are clipped; null where nothing virtual is seen.
+  const Texture* findBorders(const scene::ArFrame& frame);
+  void drawStrokes(const scene::ArFrame& frame, const PainterlyParameters& p,
+                   gpu::PassTimer& timer);
   void light(const scene::ArFrame& frame, const PainterlyParameters& p, gpu::PassTimer& timer);
   void showField(const scene::ArFrame& frame, const PainterlyParameters& p, int shown);
   void showStrokes(const scene::ArFrame& frame, StrokeDrawing::Shown shown);
@@ -218,8 +229,16 @@ void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParamete
   }
 }
 
-void Painterly::State::drawStrokes(const PainterlyParameters& p, gpu::PassTimer& timer) {
+const Texture* Painterly::State::findBorders(const scene::ArFrame& frame) {
+  if (!frame.hasObjects) return nullptr;
+  borders.use().texture("ids", *frame.ids).drawFullscreen(canvas->bordered);
+  return &canvas->borders;
+}
+
+void Painterly::State::drawStrokes(const scene::ArFrame& frame, const PainterlyParameters& p,
+                                   gpu::PassTimer& timer) {
   const auto scope = timer.measure("painterly: strokes");
+  const Texture* const clip = findBorders(frame);
   // All of them before any is drawn: what is drawn on stays in a tile's memory (GPU.md).
   for (const auto& layer : painting->layers) {
     strips.lay(layer->strokes.instances(), layer->strokes.command(), p.quads, layer->strips);
@@ -230,8 +249,12 @@ void Painterly::State::drawStrokes(const PainterlyParameters& p, gpu::PassTimer&
       .set("ground", groundOf(p))
       .set("wash", static_cast<float>(p.wash))
       .drawFullscreen(canvas->strokes);
+  const StrokeLight light{.each = p.bump == StrokeBump::kEach,
+                          .relief = static_cast<float>(p.relief),
+                          .gloss = static_cast<float>(p.gloss)};
   for (std::size_t i = 0; i < painting->layers.size(); ++i) {
-    drawing.draw(painting->layers[i]->strips, brushes.textures[i], painting->full, canvas->strokes);
+    drawing.draw(painting->layers[i]->strips, brushes.textures[i], light, clip, painting->full,
+                 canvas->strokes);
   }
 }
 
@@ -245,8 +268,8 @@ void Painterly::State::light(const scene::ArFrame& frame, const PainterlyParamet
       .texture("frame", *frame.colour)
       .texture("normalFocus", frame.hasFocus ? *frame.normalFocus : *frame.colour)
       .set("hasFocus", frame.hasFocus ? 1 : 0)
-      .set("relief", static_cast<float>(p.relief))
-      .set("gloss", static_cast<float>(p.gloss))
+      .set("relief", p.bump == StrokeBump::kOnce ? static_cast<float>(p.relief) : 0.0F)
+      .set("gloss", p.bump == StrokeBump::kOnce ? static_cast<float>(p.gloss) : 0.0F)
       .set("weave", static_cast<float>(p.canvas))
       .set("tooth", static_cast<float>(p.tooth))
       .set("ground", groundOf(p))
@@ -292,7 +315,10 @@ void Painterly::State::showStrokes(const scene::ArFrame& frame, StrokeDrawing::S
 
 const Texture& Painterly::State::show(const scene::ArFrame& frame, const PainterlyParameters& p,
                                       std::string_view view) {
-  if (view == kHeightView) return canvas->height;
+  if (view == kHeightView) {
+    heightView.use().texture("heights", canvas->height).drawFullscreen(canvas->finished);
+    return canvas->picture;
+  }
   if (view == kTensorsView || view == kPyramidView || view == kRegionsView) {
     showField(frame, p, view == kTensorsView ? 0 : view == kPyramidView ? 1 : 2);
     return canvas->picture;
@@ -329,9 +355,10 @@ const Texture& Painterly::paint(const scene::ArFrame& frame, std::string_view vi
   s.reduce(frame, timer);
   s.grow(frame, p_, timer);
   if (!view.empty() && view != kHeightView) return s.show(frame, p_, view);
-  s.drawStrokes(p_, timer);
+  s.drawStrokes(frame, p_, timer);
+  if (view == kHeightView) return s.show(frame, p_, view);
   s.light(frame, p_, timer);
-  return view.empty() ? s.canvas->picture : s.show(frame, p_, view);
+  return s.canvas->picture;
 }
 
 const marks::AnchorSet* Painterly::anchors() const {

@@ -19,6 +19,8 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
   }};
   static constexpr std::array<config::Choice<StrokeWalk>, 2> kWalks{
       {{"both", StrokeWalk::kBoth}, {"ahead", StrokeWalk::kAhead}}};
+  static constexpr std::array<config::Choice<StrokeBump>, 2> kBumps{
+      {{"once", StrokeBump::kOnce}, {"each", StrokeBump::kEach}}};
   static constexpr std::array<config::Choice<StrokeQuads>, 2> kQuadCounts{
       {{"curvature", StrokeQuads::kCurvature}, {"thesis", StrokeQuads::kThesis}}};
   static constexpr std::array<config::Choice<Sheet::Kind>, 2> kSupports{{
@@ -76,6 +78,8 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
                       "How strokes hold on to their past: 0 redraws each frame, 1 never lets go."),
       choiceParameter("walk", &P::walk, kWalks,
                       "Which way strokes grow from their anchors; ahead only is the thesis's."),
+      choiceParameter("bump", &P::bump, kBumps,
+                      "The paint's relief is lit once, or, as the thesis does, on each stroke."),
       choiceParameter("quads", &P::quads, kQuadCounts,
                       "What strokes are drawn of: as few as they bend, or the thesis's 4 (n + 2)."),
   };

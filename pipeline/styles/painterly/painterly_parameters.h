@@ -12,6 +12,9 @@ namespace pleinair::styles {
 /// Which way a stroke is grown from its anchor.
 enum class StrokeWalk { kBoth, kAhead };
 
+/// Where paint's relief is lit: once, when all is painted, or on each stroke by itself.
+enum class StrokeBump { kOnce, kEach };
+
 /// What can be tuned of the painter, with the defaults. Lengths are in px of a full
 /// picture of 640x480.
 struct PainterlyParameters {
@@ -46,6 +49,7 @@ struct PainterlyParameters {
   double warmth = 0.15;
   double coherence = 0.5;
   StrokeWalk walk = StrokeWalk::kBoth;
+  StrokeBump bump = StrokeBump::kOnce;
   StrokeQuads quads = StrokeQuads::kCurvature;
 };
 

@@ -1,9 +1,16 @@
 #include "pipeline/styles/painterly/stroke_drawing.h"
 
+#include <string>
+
 namespace pleinair::styles {
 namespace {
 
+const std::string kShaders = "pipeline/styles/painterly/shaders/";
 constexpr GLuint kInstanceAttributes = 6;  // of stroke_spline.glsl, four floats each
+
+gpu::Program paintProgram(const gpu::ShaderLibrary& library, const std::string& fragments) {
+  return library.draw(kShaders + "stroke.vert", kShaders + fragments);
+}
 
 gpu::VertexArrayHandle instanceLayout() {
   static_assert(kInstanceAttributes * 16 == marks::StrokeSet::kInstanceBytes);
@@ -59,16 +66,20 @@ void drawOver(const gpu::RenderTarget& target, const gpu::VertexArrayHandle& lay
 }  // namespace
 
 StrokeDrawing::StrokeDrawing(const gpu::ShaderLibrary& library)
-    : program_(library.draw("pipeline/styles/painterly/shaders/stroke.vert",
-                            "pipeline/styles/painterly/shaders/stroke.frag")),
-      view_(library.draw("pipeline/styles/painterly/shaders/stroke_view.vert",
-                         "pipeline/styles/painterly/shaders/stroke_view.frag")),
+    : paint_{{{paintProgram(library, "stroke.frag"), paintProgram(library, "stroke_clipped.frag")},
+              {paintProgram(library, "stroke_bumped.frag"),
+               paintProgram(library, "stroke_bumped_clipped.frag")}}},
+      view_(library.draw(kShaders + "stroke_view.vert", kShaders + "stroke_view.frag")),
       strips_(stripLayout()),
       instances_(instanceLayout()) {}
 
-void StrokeDrawing::draw(const StrokeStrips& strips, const gpu::Texture& brush, hal::FrameSize full,
+void StrokeDrawing::draw(const StrokeStrips& strips, const gpu::Texture& brush,
+                         const StrokeLight& light, const gpu::Texture* borders, hal::FrameSize full,
                          const gpu::RenderTarget& target) {
-  program_.use().texture("brushes", brush).set("fullSize", glm::vec2(full.width, full.height));
+  gpu::Program& program = paint_[light.each ? 1 : 0][borders != nullptr ? 1 : 0];
+  program.use().texture("brushes", brush).set("fullSize", glm::vec2(full.width, full.height));
+  if (light.each) program.set("relief", light.relief).set("gloss", light.gloss);
+  if (borders != nullptr) program.texture("borders", *borders);
   drawOver(target, strips_, strips.vertices, StrokeStrips::kVertexBytes, strips.command);
 }
 
