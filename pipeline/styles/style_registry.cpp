@@ -40,7 +40,8 @@ const std::array<Entry, 3>& entries() {
         .help = "layers of brush strokes that live (thesis chapter IV, and on)",
         .views = painterlyViews(),
         .looks = painterlyLooks(),
-        .defaults = painterlyParameters().defaults()},
+        .defaults = painterlyParameters().defaults(),
+        .check = checkPainterly},
        [](const gpu::ShaderLibrary& library) -> std::unique_ptr<Style> {
          return std::make_unique<Painterly>(library);
        }},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +16,7 @@
 #include "pipeline/marks/motion_field.h"
 #include "pipeline/marks/stroke_set.h"
 #include "pipeline/marks/tensor_field.h"
+#include "pipeline/styles/painterly/brush_shelf.h"
 #include "pipeline/styles/painterly/layers.h"
 #include "pipeline/styles/painterly/stroke_drawing.h"
 
@@ -117,12 +119,6 @@ struct Painting {
   std::vector<std::unique_ptr<Layer>> layers;
 };
 
-/// A layer's brush has as many texels as its strokes have pixels.
-struct Brushes {
-  LayerPlan plan;
-  std::vector<Texture> textures;
-};
-
 }  // namespace
 
 struct Painterly::State {
@@ -150,8 +146,7 @@ struct Painterly::State {
   Sheet paper;
   StrokeStripMaker strips;
   StrokeDrawing drawing;
-  std::optional<Brush> brush;  // that `brushes` are of
-  Brushes brushes;
+  BrushShelf brushes;
   std::unique_ptr<Painting> painting;
   std::vector<std::unique_ptr<Canvas>> canvases;  // of each size that was painted
   Canvas* canvas = nullptr;                       // of this frame
@@ -185,14 +180,6 @@ void Painterly::State::take(const scene::ArFrame& frame, const PainterlyParamete
   canvas = known != canvases.end()
                ? known->get()
                : canvases.emplace_back(std::make_unique<Canvas>(frame.size())).get();
-  if (brush != p.brush || brushes.plan != painting->plan) {
-    brushes.textures.clear();
-    for (std::size_t i = 0; i < painting->plan.layers; ++i) {
-      brushes.textures.push_back(makeBrush(p.brush, texelsOf(painting->plan, i)));
-    }
-    brushes.plan = painting->plan;
-    brush = p.brush;
-  }
 }
 
 void Painterly::State::reduce(const scene::ArFrame& frame, gpu::PassTimer& timer) {
@@ -253,8 +240,8 @@ void Painterly::State::drawStrokes(const scene::ArFrame& frame, const PainterlyP
                           .relief = static_cast<float>(p.relief),
                           .gloss = static_cast<float>(p.gloss)};
   for (std::size_t i = 0; i < painting->layers.size(); ++i) {
-    drawing.draw(painting->layers[i]->strips, brushes.textures[i], light, clip, painting->full,
-                 canvas->strokes);
+    const Texture& brush = brushes.brush(p.brush, texelsOf(painting->plan, i));
+    drawing.draw(painting->layers[i]->strips, brush, light, clip, painting->full, canvas->strokes);
   }
 }
 
@@ -343,7 +330,20 @@ scene::ArFrameNeeds Painterly::needs() const {
   return {.surfaces = true, .pictureMovement = true, .shading = scene::Shading::kSmooth};
 }
 
+hal::Result<void> Painterly::prepare(const config::ParameterValues& values) {
+  if (values == values_) return {};
+  return state_->brushes.take(painterlyParameters().typed(values).brushFile);
+}
+
+hal::Result<void> checkPainterly(const config::ParameterValues& values) {
+  const std::filesystem::path file = painterlyParameters().typed(values).brushFile;
+  if (file == kNoBrushFile) return {};
+  const hal::Result<BrushMarks> marks = readBrushFile(file);
+  return marks ? hal::Result<void>() : tl::unexpected(marks.error());
+}
+
 void Painterly::setParameters(const config::ParameterValues& values) {
+  if (values == values_) return;
   p_ = painterlyParameters().typed(values);
   values_ = values;
 }

@@ -5,6 +5,7 @@ namespace pleinair::styles {
 using config::choiceParameter;
 using config::integerParameter;
 using config::numberParameter;
+using config::pathParameter;
 using P = PainterlyParameters;
 
 const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
@@ -60,6 +61,9 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
       numberParameter("saturation_jitter", &P::saturationJitter, kPart, "In saturation."),
       numberParameter("value_jitter", &P::valueJitter, kPart, "And in value."),
       choiceParameter("brush", &P::brush, kBrushes, "What strokes are painted with."),
+      pathParameter("brush_file", &P::brushFile, {kNoBrushFile},
+                    "A brush of your own instead: a PNG (docs/painting.md).",
+                    config::TakesEffect::kLive, ".png"),
       numberParameter("relief", &P::relief, {.min = 0, .max = 8},
                       "How high the paint lies in the light; 0 does without."),
       numberParameter("gloss", &P::gloss, kPart, "How much the paint shines."),

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 
 #include "config/parameter_table.h"
+#include "pipeline/styles/painterly/brush_shelf.h"
 #include "pipeline/styles/painterly/brushes.h"
 #include "pipeline/styles/painterly/stroke_strips.h"
 #include "pipeline/styles/sheet/sheet.h"
@@ -35,6 +37,7 @@ struct PainterlyParameters {
   double hueJitter = 0.03;
   double saturationJitter = 0.12;
   double valueJitter = 0.05;
+  std::filesystem::path brushFile = kNoBrushFile;
   Brush brush = Brush::kFlat;
   double relief = 1.2;
   double gloss = 0.08;
