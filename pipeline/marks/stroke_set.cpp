@@ -45,7 +45,8 @@ struct StrokeSet::State {
         ranks(slots * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
         command(kCommandBytes, gpu::BufferUsage::kDynamic),
         instances(slots * kInstanceBytes, gpu::BufferUsage::kDynamic),
-        noIds(gpu::TextureFormat::kR32ui, {1, 1}) {
+        noIds(gpu::TextureFormat::kR32ui, {1, 1}),
+        anyColour(gpu::TextureFormat::kRgba8, {1, 1}) {
     strokes.write(std::vector<std::byte>(strokes.sizeBytes()));
   }
 
@@ -58,6 +59,7 @@ struct StrokeSet::State {
   gpu::Buffer command;
   gpu::Buffer instances;
   gpu::Texture noIds;
+  gpu::Texture anyColour;
   hal::TimePoint lastTime;
 
   glm::ivec2 allSlots() const { return {static_cast<int>(slots), 1}; }
@@ -133,6 +135,8 @@ void StrokeSet::State::layOut(const AnchorSet& anchors, const StrokeRule& rule) 
       .set("widthSpread", rule.widthSpread)
       .set("opacity", rule.opacity)
       .set("leaveLight", rule.leaveLight)
+      .texture("mixtures", rule.mixtures != nullptr ? *rule.mixtures : anyColour)
+      .set("isLimited", rule.mixtures != nullptr ? 1 : 0)
       .set("jitter", rule.jitter)
       .dispatch(allSlots(), kSlotGroup,
                 GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);

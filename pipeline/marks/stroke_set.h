@@ -31,9 +31,10 @@ struct StrokeRule {
   bool bothWays = true;              ///< else only ahead of the anchor, as the thesis walks
   std::size_t fieldLevel = 0;        ///< of the tensor field; beyond its last: the last
   float widthPx = 8.0F;
-  float widthSpread = 0.2F;  ///< ± this part of the width
-  float opacity = 1.0F;      ///< in [0, 1]
-  float leaveLight = 0.0F;   ///< in [0, 1]: by how much the lightest strokes are thinner paint
+  float widthSpread = 0.2F;                ///< ± this part of the width
+  float opacity = 1.0F;                    ///< in [0, 1]
+  const gpu::Texture* mixtures = nullptr;  ///< a limited palette (shaders/mixture.glsl); none: all
+  float leaveLight = 0.0F;  ///< in [0, 1]: by how much the lightest strokes are thinner paint
   glm::vec3 jitter{0.02F, 0.1F, 0.05F};                        ///< of hue, saturation, value; parts
   int quads = 8;                                               ///< at most, of a stroke
   hal::Duration shapeMemory = std::chrono::milliseconds(650);  ///< time constants; 0: none

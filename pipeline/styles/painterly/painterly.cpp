@@ -16,6 +16,7 @@
 #include "pipeline/marks/stroke_set.h"
 #include "pipeline/marks/tensor_field.h"
 #include "pipeline/styles/painterly/layers.h"
+#include "pipeline/styles/painterly/palette.h"
 #include "pipeline/styles/painterly/stroke_drawing.h"
 
 namespace pleinair::styles {
@@ -141,6 +142,8 @@ struct Painterly::State {
   StrokeDrawing drawing;
   std::optional<Brush> brush;  // that `brushes` are of
   Brushes brushes;
+  std::string palette = "all";  // that `mixtures` are of
+  std::optional<Texture> mixtures;
   std::unique_ptr<Painting> painting;
   std::vector<std::unique_ptr<Canvas>> canvases;  // of each size that was painted
   Canvas* canvas = nullptr;                       // of this frame
@@ -150,7 +153,8 @@ struct Painterly::State {
   /// The picture that a layer's colours are of.
   const Texture& paintOf(std::size_t layer, const scene::ArFrame& frame) const;
   void grow(const scene::ArFrame& frame, const PainterlyParameters& p, gpu::PassTimer& timer);
-  void drawStrokes(const PainterlyParameters& p, gpu::PassTimer& timer);
+  void drawStrokes(const scene::ArFrame& frame, const PainterlyParameters& p,
+                   gpu::PassTimer& timer);
   void light(const scene::ArFrame& frame, const PainterlyParameters& p, gpu::PassTimer& timer);
   void showField(const scene::ArFrame& frame, const PainterlyParameters& p, int shown);
   void showStrokes(const scene::ArFrame& frame, StrokeDrawing::Shown shown);
@@ -178,6 +182,12 @@ void Painterly::State::take(const scene::ArFrame& frame, const PainterlyParamete
     }
     brushes.plan = painting->plan;
     brush = p.brush;
+  }
+  if (palette != p.palette) {
+    const Pigments pigments = pigmentsOf(p.palette);
+    mixtures.reset();
+    if (!pigments.empty()) mixtures = makeMixtures(pigments);
+    palette = p.palette;
   }
 }
 
@@ -210,18 +220,22 @@ void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParamete
     Layer& layer = *painting->layers[i];
     if (p.coherence <= 0.0) layer.anchors.beginAnew();
     layer.anchors.advance(frame, painting->motion, timer);
-    layer.strokes.update(frame, layer.anchors, painting->field, paintOf(i, frame),
-                         ruleOf(p, painting->plan, i), timer);
+    marks::StrokeRule rule = ruleOf(p, painting->plan, i);
+    rule.mixtures = mixtures ? &*mixtures : nullptr;
+    layer.strokes.update(frame, layer.anchors, painting->field, paintOf(i, frame), rule, timer);
   }
 }
 
-void Painterly::State::drawStrokes(const PainterlyParameters& p, gpu::PassTimer& timer) {
+void Painterly::State::drawStrokes(const scene::ArFrame& frame, const PainterlyParameters& p,
+                                   gpu::PassTimer& timer) {
   const auto scope = timer.measure("painterly: strokes");
   ground.use()
       .texture("paint", canvas->reduced[kGroundHalvings - 1])
       .set("size", glm::vec2(canvas->size.width, canvas->size.height))
       .set("ground", groundOf(p))
       .set("wash", static_cast<float>(p.wash))
+      .texture("mixtures", mixtures ? *mixtures : *frame.colour)
+      .set("isLimited", mixtures ? 1 : 0)
       .drawFullscreen(canvas->strokes);
   for (std::size_t i = 0; i < painting->layers.size(); ++i) {
     drawing.draw(painting->layers[i]->strokes, kQuads, brushes.textures[i], painting->full,
@@ -275,6 +289,8 @@ void Painterly::State::showStrokes(const scene::ArFrame& frame, StrokeDrawing::S
       .set("size", glm::vec2(canvas->size.width, canvas->size.height))
       .set("ground", glm::vec3(0.95F))
       .set("wash", 0.35F)
+      .texture("mixtures", *frame.colour)
+      .set("isLimited", 0)
       .drawFullscreen(canvas->strokes);
   for (std::size_t i = 0; i < painting->layers.size(); ++i) {
     const float part =
@@ -323,7 +339,7 @@ const Texture& Painterly::paint(const scene::ArFrame& frame, std::string_view vi
   s.reduce(frame, timer);
   s.grow(frame, p_, timer);
   if (!view.empty() && view != kHeightView) return s.show(frame, p_, view);
-  s.drawStrokes(p_, timer);
+  s.drawStrokes(frame, p_, timer);
   s.light(frame, p_, timer);
   return view.empty() ? s.canvas->picture : s.show(frame, p_, view);
 }

@@ -1,10 +1,14 @@
 #include "pipeline/styles/painterly/painterly_parameters.h"
 
+#include "pipeline/styles/painterly/palette.h"
+
 namespace pleinair::styles {
 
 using config::choiceParameter;
 using config::integerParameter;
 using config::numberParameter;
+using config::TakesEffect;
+using config::textParameter;
 using P = PainterlyParameters;
 
 const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
@@ -66,6 +70,8 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
       numberParameter("ground_red", &P::groundRed, kPart, "The ground's colour: red."),
       numberParameter("ground_green", &P::groundGreen, kPart, "Green."),
       numberParameter("ground_blue", &P::groundBlue, kPart, "Blue."),
+      textParameter("palette", &P::palette, kPaletteAllowed,
+                    "The pigments that strokes are mixed of.", TakesEffect::kLive, isPalette),
       numberParameter("saturation", &P::saturation, {.min = 0, .max = 2}, "Of all paint."),
       numberParameter("warmth", &P::warmth, {.min = -1, .max = 1}, "Likewise; below 0: cold."),
       numberParameter("coherence", &P::coherence, kPart,

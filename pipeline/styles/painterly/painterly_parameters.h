@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "config/parameter_table.h"
 #include "pipeline/styles/painterly/brushes.h"
@@ -38,6 +39,7 @@ struct PainterlyParameters {
   double groundRed = 0.55;
   double groundGreen = 0.45;
   double groundBlue = 0.35;
+  std::string palette = "all";
   double saturation = 1.12;
   double warmth = 0.15;
   double coherence = 0.5;
