@@ -106,6 +106,7 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .set("colourThreshold", rule.colourThreshold)
       .set("cutOff", std::cos(rule.cutOffRad))
       .set("detailBand", rule.detailBand)
+      .set("modelDetail", rule.modelDetail)
       .set("detailSpread", rule.detailSpread)
       .set("bothWays", rule.bothWays ? 1 : 0)
       .set("wander", rule.wanderRad)

@@ -26,6 +26,7 @@ struct StrokeRule {
   float colourThreshold = 0.12F;     ///< the difference from the anchor's colour at which it ends
   float cutOffRad = 0.8F;            ///< the turn between two segments at which it ends
   glm::vec2 detailBand{0.0F, 1e9F};  ///< where the layer is painted (TensorField::resolved)
+  float modelDetail = 1.0F;          ///< how many times as much detail counts on virtual surfaces
   float detailSpread = 0.0F;         ///< by how much anchors differ about the band
   float wanderRad = 0.1F;            ///< how far a stroke strays from the field, at most
   bool bothWays = true;              ///< else only ahead of the anchor, as the thesis walks

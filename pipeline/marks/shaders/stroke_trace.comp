@@ -29,6 +29,7 @@ uniform float leastSteps;
 uniform float colourThreshold;
 uniform float cutOff;        // cosine
 uniform vec2 detailBand;     // where the layer is painted
+uniform float modelDetail;   // by how much it counts more on virtual surfaces
 uniform float detailSpread;  // by how much anchors differ about it
 uniform bool bothWays;       // else only ahead, as the thesis walks
 uniform float wander;        // rad: how far a stroke's hand strays from the field
@@ -58,7 +59,10 @@ struct Arm {
   float weight;
 };
 
-float detailAt(vec2 px) { return textureLod(detailField, px * detailScale, 0.0).w; }
+float detailAt(vec2 px, uint object) {
+  float detail = textureLod(detailField, px * detailScale, 0.0).w;
+  return isVirtual(object) ? modelDetail * detail : detail;
+}
 
 // Perceptual enough: luma counts most.
 float apart(vec3 a, vec3 b) {
@@ -95,7 +99,7 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, uint object) {
       arm.length = min(arm.length, float(i) + (half_ ? 0.15 : 0.6));
       goesOn = false;
     }
-    if (goesOn && detailAt(at) < 0.4 * detailBand.x) {
+    if (goesOn && detailAt(at, object) < 0.4 * detailBand.x) {
       // A finer layer's stroke does not cross into what is for coarser ones (METHOD.md IV.6).
       arm.length = min(arm.length, max(float(i) + 0.5, leastSteps));
       goesOn = false;
@@ -158,7 +162,7 @@ void main() {
   vec3 colour = (own + ahead.colour + behind.colour) / (1.0 + ahead.weight + behind.weight);
 
   // Wanted where there is that much detail; what is there stays a little longer.
-  float detail = detailAt(px) + detailSpread * (hash - 0.5);
+  float detail = detailAt(px, object) + detailSpread * (hash - 0.5);
   bool was = !isNew && old.wanted > 0.5;
   float slack = was ? 0.75 : 1.0;
   bool wanted = detail >= detailBand.x * slack && detail <= detailBand.y / slack;

@@ -43,6 +43,8 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
                       "How much detail a place has that is painted with fine strokes."),
       numberParameter("middle_detail", &P::middleDetail, {.min = 0.01, .max = 2},
                       "How much it has for middling ones."),
+      numberParameter("model_detail", &P::modelDetail, {.min = 0.1, .max = 10},
+                      "How much more detail counts on models than on what the camera sees."),
       numberParameter("colour_threshold", &P::colourThreshold, {.min = 0.01, .max = 1},
                       "The colour difference at which a fine stroke ends (thesis §4.4)."),
       numberParameter("cut_off", &P::cutOffDegrees, {.min = 1, .max = 90, .unit = "degrees"},
