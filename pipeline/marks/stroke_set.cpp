@@ -64,7 +64,7 @@ struct StrokeSet::State {
 
   glm::ivec2 allSlots() const { return {static_cast<int>(slots), 1}; }
   void grow(const scene::ArFrame& frame, const AnchorSet& anchors, const TensorField& field,
-            const gpu::Texture& paint, const StrokeRule& rule, hal::Duration step);
+            const StrokePaint& paint, const StrokeRule& rule, hal::Duration step);
   void layOut(const AnchorSet& anchors, const StrokeRule& rule);
 };
 
@@ -79,7 +79,7 @@ glm::vec2 scaleOf(const TensorField& field, std::size_t level) {
 }  // namespace
 
 void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchors,
-                            const TensorField& field, const gpu::Texture& paint,
+                            const TensorField& field, const StrokePaint& paint,
                             const StrokeRule& rule, hal::Duration step) {
   const auto stays = [step](hal::Duration timeConstant) {
     return keptAfter(step, secondsOf(timeConstant));
@@ -91,7 +91,8 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .storage(1, strokes)
       .texture("field", field.resolved(level))
       .texture("detailField", field.resolved(detail))
-      .texture("paint", paint)
+      .texture("paint", *paint.real)
+      .texture("modelPaint", *paint.models)
       .texture("ids", frame.hasObjects ? *frame.ids : noIds)
       .set("hasObjects", frame.hasObjects ? 1 : 0)
       .set("anew", anchors.hasBegunAnew() ? 1 : 0)
@@ -149,7 +150,7 @@ StrokeSet::StrokeSet(const gpu::ShaderLibrary& library, std::uint32_t slotCount)
 StrokeSet::~StrokeSet() = default;
 
 void StrokeSet::update(const scene::ArFrame& frame, const AnchorSet& anchors,
-                       const TensorField& field, const gpu::Texture& paint, const StrokeRule& rule,
+                       const TensorField& field, const StrokePaint& paint, const StrokeRule& rule,
                        gpu::PassTimer& timer) {
   State& s = *state_;
   assert(anchors.slotCount() == s.slots);

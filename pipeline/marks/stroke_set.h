@@ -45,6 +45,13 @@ struct StrokeRule {
   float mostColourPerSecond = 1.5F;  ///< by which a stroke's colour changes, at most
 };
 
+/// The pictures that colours are of, of any size (LINEAR, sRGB-coded, premultiplied): what is real,
+/// and what models show; where there are none, the same.
+struct StrokePaint {
+  const gpu::Texture* real = nullptr;
+  const gpu::Texture* models = nullptr;
+};
+
 /// The strokes of an AnchorSet's anchors: grown along a tensor field (thesis §4.4), blended with
 /// what they were (§4.5, §5.4), and laid out to be drawn in an order that never changes while they
 /// live. All on the GPU. All calls on the thread of the GL context it was made in.
@@ -59,12 +66,11 @@ class StrokeSet {
   StrokeSet(StrokeSet&&) = delete;
   StrokeSet& operator=(StrokeSet&&) = delete;
 
-  /// Grows the strokes of the frame that `anchors` and `field` were brought to. `paint`: the
-  /// picture that colours are of, of any size (LINEAR). Where the anchors have begun anew, strokes
-  /// are what the frame says, without a past. Preconditions: both are of frame.full(), and the
-  /// anchors have the constructor's number of slots.
+  /// Grows the strokes of the frame that `anchors` and `field` were brought to. Where the anchors
+  /// have begun anew, strokes are what the frame says, without a past. Preconditions: both are of
+  /// frame.full(), and the anchors have the constructor's number of slots.
   void update(const scene::ArFrame& frame, const AnchorSet& anchors, const TensorField& field,
-              const gpu::Texture& paint, const StrokeRule& rule, gpu::PassTimer& timer);
+              const StrokePaint& paint, const StrokeRule& rule, gpu::PassTimer& timer);
 
   /// Of each stroke that is seen, in the order of painting: four pairs of points, paint, shape
   /// (shaders/stroke_instances.comp), 96 bytes; and glDrawArraysIndirect's command for triangle

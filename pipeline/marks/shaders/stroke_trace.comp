@@ -1,8 +1,8 @@
 // Purpose: grows each anchor's stroke along the tensor field (thesis §4.4), both ways, and blends it with
 //          what it was: directions one by one, lengths, colour and existence in time constants
 //          (§5.4), so that a stroke lives as long as its anchor.
-// Inputs:  anchors; field: tensors to follow, detailField: where there is how much detail; paint: the
-//          picture, reduced (LINEAR); ids if hasObjects; the rest as marks::StrokeRule has it.
+// Inputs:  anchors; field: tensors to follow, detailField: where there is how much detail; paint,
+//          modelPaint: the picture, reduced, of what is real and of models; ids if hasObjects; the rest as marks::StrokeRule has it.
 // Outputs: strokes. An anchor an invocation.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
@@ -15,6 +15,7 @@ layout(std430, binding = 1) buffer Strokes { Stroke strokes[]; };
 uniform highp sampler2D field;
 uniform highp sampler2D detailField;
 uniform highp sampler2D paint;
+uniform highp sampler2D modelPaint;
 uniform highp usampler2D ids;
 uniform bool hasObjects;
 uniform bool anew;
@@ -45,7 +46,12 @@ vec2 directionAt(vec2 px) {
   return vec2(-gradient.y, gradient.x);
 }
 
-vec3 colourAt(vec2 px) { return textureLod(paint, px / fullSize, 0.0).rgb; }
+// Of what the stroke is of, where there is any near.
+vec3 colourAt(vec2 px, uint object) {
+  vec4 seen = isVirtual(object) ? textureLod(modelPaint, px / fullSize, 0.0)
+                                : textureLod(paint, px / fullSize, 0.0);
+  return seen.rgb / max(seen.a, 1e-3);
+}
 
 uint objectAt(vec2 px) {
   ivec2 pixel = clamp(ivec2(floor(px * pixelsOfFull)), ivec2(0), textureSize(ids, 0) - 1);
@@ -90,7 +96,7 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, uint object) {
     }
     arm.directions[i] = direction;
     at += segment * direction;
-    vec3 there = colourAt(at);
+    vec3 there = colourAt(at, object);
     float difference = apart(there, own);
     bool isOther = hasObjects && objectAt(at) != object;
     if (goesOn && isOther) {
@@ -144,7 +150,7 @@ void main() {
   float hash = unitOf(hashOf(seed ^ 0x51u));
   float stray = wander * (unitOf(hashOf(seed ^ 0x77u)) + unitOf(hashOf(seed ^ 0x78u)) - 1.0);
   vec2 hand = vec2(cos(stray), sin(stray));
-  vec3 own = colourAt(px);
+  vec3 own = colourAt(px, object);
   vec2 heading = directionAt(px);
   heading = vec2(hand.x * heading.x - hand.y * heading.y, hand.y * heading.x + hand.x * heading.y);
   if (!isNew) {
