@@ -1,12 +1,14 @@
 // Purpose: what is drawn of each stroke: the control points of its spline, in the order of painting.
 // Inputs:  anchors, strokes, ranks (stroke_order.comp); segment: px; width: px, widthSpread: by which
-//          part strokes differ; opacity; leaveLight; jitter: of hue, saturation, value.
+//          part strokes differ; opacity; leaveLight; mixture.glsl's if
+//          isLimited; jitter: of hue, saturation, value.
 // Outputs: instances: 8 points (px of the full picture), colour (sRGB-coded) and opacity; half the
 //          width (px), the brush's variant, 4 more where it is mirrored, the virtual object that it is
 //          of, 0 for what is real, its anchor's age (s). An anchor an invocation.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
+#include "pipeline/marks/shaders/mixture.glsl"
 #include "pipeline/marks/shaders/stroke.glsl"
 #include "pipeline/scene/shaders/object_id.glsl"
 layout(local_size_x = 64) in;
@@ -25,6 +27,7 @@ uniform float width;
 uniform float widthSpread;
 uniform float opacity;
 uniform float leaveLight;
+uniform bool isLimited;
 uniform vec3 jitter;
 
 const int kPoints = 8;
@@ -68,7 +71,9 @@ void main() {
   Instance made;
   for (int i = 0; i < 4; ++i) made.points[i] = vec4(points[2 * i], points[2 * i + 1]);
   float light = smoothstep(0.2, 0.95, luma);
-  made.paint = vec4(clamp(colour, 0.0, 1.0), opacity * (1.0 - leaveLight * light) * stroke.seen);
+  colour = clamp(colour, 0.0, 1.0);
+  if (isLimited) colour = mixtureOf(colour);
+  made.paint = vec4(colour, opacity * (1.0 - leaveLight * light) * stroke.seen);
   uint object = objectOf(anchors[slot].surface);
   made.shape = vec4(0.5 * wide, float(hashOf(seed ^ 0x31u) & 7u), isVirtual(object) ? float(object) : 0.0,
                     anchors[slot].age);

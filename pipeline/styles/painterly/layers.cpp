@@ -85,6 +85,7 @@ marks::StrokeRule ruleOf(const PainterlyParameters& p, const LayerPlan& plan, st
   rule.colourThreshold = static_cast<float>(p.colourThreshold) * (1.0F + 0.6F * coarseness);
   rule.cutOffRad = glm::radians(static_cast<float>(p.cutOffDegrees)) / (1.0F + 0.4F * coarseness);
   rule.detailBand = bandOf(p, layer);
+  rule.modelDetail = static_cast<float>(p.modelDetail);
   rule.detailSpread = 0.6F * std::max(rule.detailBand.x, 0.0F);
   rule.wanderRad = static_cast<float>(p.wander) * (1.0F + 0.3F * coarseness);
   rule.fieldLevel = plan.layers - 1 - layer;

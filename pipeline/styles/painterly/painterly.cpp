@@ -18,6 +18,8 @@
 #include "pipeline/marks/tensor_field.h"
 #include "pipeline/styles/painterly/brush_shelf.h"
 #include "pipeline/styles/painterly/layers.h"
+#include "pipeline/styles/painterly/palette.h"
+#include "pipeline/styles/painterly/reduced_pictures.h"
 #include "pipeline/styles/painterly/stroke_drawing.h"
 
 namespace pleinair::styles {
@@ -28,7 +30,7 @@ using gpu::TextureFilter;
 using gpu::TextureFormat;
 
 const std::string kShaders = "pipeline/styles/painterly/shaders/";
-constexpr std::size_t kHalvings = 5;
+constexpr double kTexelOfWidth = 0.6;       // that a stroke's colours are of, at most
 constexpr std::size_t kGroundHalvings = 3;  // of the first wash
 
 constexpr std::string_view kTensorsView = "tensors";
@@ -74,18 +76,9 @@ struct Canvas {
         borders(TextureFormat::kR32ui, size),
         strokes({&colour, &height}),
         finished({&picture}),
-        bordered({&borders}) {
-    hal::FrameSize half = size;
-    for (std::size_t i = 0; i < kHalvings; ++i) {
-      half = {std::max(1, half.width / 2), std::max(1, half.height / 2)};
-      reduced[i] = colours(half);
-      reducedTarget[i] = gpu::RenderTarget({&reduced[i]});
-    }
-  }
+        bordered({&borders}) {}
 
   hal::FrameSize size;
-  std::array<Texture, kHalvings> reduced;  // the frame's picture at 1/2, 1/4 and on
-  std::array<gpu::RenderTarget, kHalvings> reducedTarget;
   Texture colour;
   Texture height;
   Texture picture;
@@ -124,7 +117,7 @@ struct Painting {
 struct Painterly::State {
   explicit State(const gpu::ShaderLibrary& shaders)
       : library(shaders),
-        halve(library.fragmentPass(kShaders + "halve.frag")),
+        reduced(library),
         ground(library.fragmentPass(kShaders + "ground.frag")),
         relief(library.fragmentPass(kShaders + "relief.frag")),
         fieldView(library.fragmentPass(kShaders + "field_view.frag")),
@@ -136,7 +129,7 @@ struct Painterly::State {
         drawing(library) {}
 
   const gpu::ShaderLibrary& library;
-  gpu::Program halve;
+  ReducedPictures reduced;
   gpu::Program ground;
   gpu::Program relief;
   gpu::Program fieldView;
@@ -147,14 +140,13 @@ struct Painterly::State {
   StrokeStripMaker strips;
   StrokeDrawing drawing;
   BrushShelf brushes;
+  std::string palette = "all";  // that `mixtures` are of
+  std::optional<Texture> mixtures;
   std::unique_ptr<Painting> painting;
   std::vector<std::unique_ptr<Canvas>> canvases;  // of each size that was painted
   Canvas* canvas = nullptr;                       // of this frame
 
   void take(const scene::ArFrame& frame, const PainterlyParameters& p);
-  void reduce(const scene::ArFrame& frame, gpu::PassTimer& timer);
-  /// The picture that a layer's colours are of.
-  const Texture& paintOf(std::size_t layer, const scene::ArFrame& frame) const;
   void grow(const scene::ArFrame& frame, const PainterlyParameters& p, gpu::PassTimer& timer);
   /// Where strokes are clipped; null where nothing virtual is seen.
   const Texture* findBorders(const scene::ArFrame& frame);
@@ -171,7 +163,10 @@ void Painterly::State::take(const scene::ArFrame& frame, const PainterlyParamete
   canvas = nullptr;
   const LayerPlan plan = planOf(p, frame.full());
   if (painting == nullptr || painting->full != frame.full() || painting->plan != plan) {
-    if (painting != nullptr && painting->full != frame.full()) canvases.clear();
+    if (painting != nullptr && painting->full != frame.full()) {
+      canvases.clear();
+      reduced.clear();
+    }
     painting.reset();
     painting = std::make_unique<Painting>(library, frame.full(), plan);
   }
@@ -180,27 +175,12 @@ void Painterly::State::take(const scene::ArFrame& frame, const PainterlyParamete
   canvas = known != canvases.end()
                ? known->get()
                : canvases.emplace_back(std::make_unique<Canvas>(frame.size())).get();
-}
-
-void Painterly::State::reduce(const scene::ArFrame& frame, gpu::PassTimer& timer) {
-  const auto scope = timer.measure("painterly: reduce");
-  const Texture* from = frame.colour;
-  for (std::size_t i = 0; i < kHalvings; ++i) {
-    const hal::FrameSize size = canvas->reduced[i].size();
-    halve.use()
-        .texture("picture", *from)
-        .set("size", glm::vec2(size.width, size.height))
-        .drawFullscreen(canvas->reducedTarget[i]);
-    from = &canvas->reduced[i];
+  if (palette != p.palette) {
+    const Pigments pigments = pigmentsOf(p.palette);
+    mixtures.reset();
+    if (!pigments.empty()) mixtures = makeMixtures(pigments);
+    palette = p.palette;
   }
-}
-
-const Texture& Painterly::State::paintOf(std::size_t layer, const scene::ArFrame& frame) const {
-  // Two texels or so across a stroke.
-  const double halvings = std::log2(0.5 * widthOf(painting->plan, layer) * frame.pixelsOfFull().x);
-  const auto level = static_cast<int>(std::lround(halvings));
-  if (level < 1) return *frame.colour;
-  return canvas->reduced[std::min(static_cast<std::size_t>(level), kHalvings) - 1];
 }
 
 void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParameters& p,
@@ -211,8 +191,11 @@ void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParamete
     Layer& layer = *painting->layers[i];
     if (p.coherence <= 0.0) layer.anchors.beginAnew();
     layer.anchors.advance(frame, painting->motion, timer);
-    layer.strokes.update(frame, layer.anchors, painting->field, paintOf(i, frame),
-                         ruleOf(p, painting->plan, i), timer);
+    marks::StrokeRule rule = ruleOf(p, painting->plan, i);
+    rule.mixtures = mixtures ? &*mixtures : nullptr;
+    const double width = widthOf(painting->plan, i) * frame.pixelsOfFull().x;
+    layer.strokes.update(frame, layer.anchors, painting->field,
+                         reduced.paintOf(kTexelOfWidth * width), rule, timer);
   }
 }
 
@@ -231,10 +214,12 @@ void Painterly::State::drawStrokes(const scene::ArFrame& frame, const PainterlyP
     strips.lay(layer->strokes.instances(), layer->strokes.command(), p.quads, layer->strips);
   }
   ground.use()
-      .texture("paint", canvas->reduced[kGroundHalvings - 1])
+      .texture("paint", reduced.whole(kGroundHalvings))
       .set("size", glm::vec2(canvas->size.width, canvas->size.height))
       .set("ground", groundOf(p))
       .set("wash", static_cast<float>(p.wash))
+      .texture("mixtures", mixtures ? *mixtures : *frame.colour)
+      .set("isLimited", mixtures ? 1 : 0)
       .drawFullscreen(canvas->strokes);
   const StrokeLight light{.each = p.bump == StrokeBump::kEach,
                           .relief = static_cast<float>(p.relief),
@@ -291,6 +276,8 @@ void Painterly::State::showStrokes(const scene::ArFrame& frame, StrokeDrawing::S
       .set("size", glm::vec2(canvas->size.width, canvas->size.height))
       .set("ground", glm::vec3(0.95F))
       .set("wash", 0.35F)
+      .texture("mixtures", *frame.colour)
+      .set("isLimited", 0)
       .drawFullscreen(canvas->strokes);
   for (std::size_t i = 0; i < painting->layers.size(); ++i) {
     const float part =
@@ -352,7 +339,7 @@ const Texture& Painterly::paint(const scene::ArFrame& frame, std::string_view vi
                                 gpu::PassTimer& timer) {
   State& s = *state_;
   s.take(frame, p_);
-  s.reduce(frame, timer);
+  s.reduced.update(frame, timer);
   s.grow(frame, p_, timer);
   if (!view.empty() && view != kHeightView) return s.show(frame, p_, view);
   s.drawStrokes(frame, p_, timer);

@@ -5,7 +5,7 @@
 namespace pleinair::styles {
 namespace {
 
-constexpr std::array<Look, 5> kLooks{{
+constexpr std::array<Look, 6> kLooks{{
     {"oil", "layers of bristle strokes, from large to small", ""},
     {"impasto", "thick paint, put on in short bold strokes that catch the light", R"(
 layers = 3
@@ -80,6 +80,30 @@ ground_green = 0.955
 ground_blue = 0.92
 wander = 0.1
 saturation = 1.2
+warmth = 0
+)"},
+    {"ink", "brown ink on white paper, washed with a brush and drawn with it", R"(
+layers = 3
+stroke_size = 3
+layer_ratio = 1.7
+length = 12
+middle_detail = 0.05
+detail = 0.12
+coverage = 3
+brush = "round"
+palette = "sepia"
+support = "paper"
+tooth = 0.15
+leave_light = 1
+opacity = 0.75
+relief = 0
+gloss = 0
+canvas = 0.1
+wash = 0.12
+ground_red = 0.97
+ground_green = 0.955
+ground_blue = 0.92
+wander = 0.1
 warmth = 0
 )"},
 }};

@@ -1,11 +1,15 @@
 #include "pipeline/styles/painterly/painterly_parameters.h"
 
+#include "pipeline/styles/painterly/palette.h"
+
 namespace pleinair::styles {
 
 using config::choiceParameter;
 using config::integerParameter;
 using config::numberParameter;
 using config::pathParameter;
+using config::TakesEffect;
+using config::textParameter;
 using P = PainterlyParameters;
 
 const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
@@ -46,6 +50,8 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
                       "How much detail a place has that is painted with fine strokes."),
       numberParameter("middle_detail", &P::middleDetail, {.min = 0.01, .max = 2},
                       "How much it has for middling ones."),
+      numberParameter("model_detail", &P::modelDetail, {.min = 0.1, .max = 10},
+                      "How much more detail counts on models than on what the camera sees."),
       numberParameter("colour_threshold", &P::colourThreshold, {.min = 0.01, .max = 1},
                       "The colour difference at which a fine stroke ends (thesis §4.4)."),
       numberParameter("cut_off", &P::cutOffDegrees, {.min = 1, .max = 90, .unit = "degrees"},
@@ -76,6 +82,8 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
       numberParameter("ground_red", &P::groundRed, kPart, "The ground's colour: red."),
       numberParameter("ground_green", &P::groundGreen, kPart, "Green."),
       numberParameter("ground_blue", &P::groundBlue, kPart, "Blue."),
+      textParameter("palette", &P::palette, kPaletteAllowed,
+                    "The pigments that strokes are mixed of.", TakesEffect::kLive, isPalette),
       numberParameter("saturation", &P::saturation, {.min = 0, .max = 2}, "Of all paint."),
       numberParameter("warmth", &P::warmth, {.min = -1, .max = 1}, "Likewise; below 0: cold."),
       numberParameter("coherence", &P::coherence, kPart,

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <string>
 
 #include "config/parameter_table.h"
 #include "pipeline/styles/painterly/brush_shelf.h"
@@ -26,8 +27,9 @@ struct PainterlyParameters {
   double layerRatio = 2.0;        // each coarser layer's strokes are wider by this
   double coverage = 3.5;          // strokes of a layer that lie over each other
   double length = 8.0;            // of a stroke, in widths
-  double detail = 0.45;           // from which fine strokes are painted
-  double middleDetail = 0.1;
+  double detail = 0.28;           // from which fine strokes are painted
+  double middleDetail = 0.08;
+  double modelDetail = 2.5;
   double colourThreshold = 0.11;
   double cutOffDegrees = 45.0;
   double wander = 0.12;
@@ -48,6 +50,7 @@ struct PainterlyParameters {
   double groundRed = 0.55;
   double groundGreen = 0.45;
   double groundBlue = 0.35;
+  std::string palette = "all";
   double saturation = 1.12;
   double warmth = 0.15;
   double coherence = 0.5;
