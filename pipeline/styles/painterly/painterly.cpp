@@ -305,7 +305,9 @@ const Texture& Painterly::State::show(const scene::ArFrame& frame, const Painter
 }
 
 Painterly::Painterly(const gpu::ShaderLibrary& library)
-    : values_(painterlyParameters().defaults()), state_(std::make_unique<State>(library)) {}
+    : values_(painterlyParameters().defaults()), state_(std::make_unique<State>(library)) {
+  warmUp();
+}
 
 Painterly::~Painterly() = default;
 
@@ -315,6 +317,32 @@ std::span<const ViewInfo> painterlyViews() {
 
 scene::ArFrameNeeds Painterly::needs() const {
   return {.surfaces = true, .pictureMovement = true, .shading = scene::Shading::kSmooth};
+}
+
+/// A program's real cost on software renderers is at its first use: here, not in the first frame
+/// that shows a model, has a focus or is looked at in another way.
+void Painterly::warmUp() {
+  constexpr hal::FrameSize kSize{16, 16};
+  const std::vector<std::uint8_t> zeros(std::size_t{16} * 16 * 4);
+  Texture grey(TextureFormat::kRgba8, kSize, TextureFilter::kLinear);
+  grey.upload(zeros, std::size_t{16} * 4);
+  Texture ids(TextureFormat::kR32ui, kSize);
+  ids.upload(zeros, std::size_t{16} * 4);
+  gpu::PassTimer untimed;
+  scene::ArFrame frame{.colour = &grey, .ids = &ids, .normalFocus = &grey, .barycentrics = &ids};
+  for (const ViewInfo& view : kViews) paint(frame, view.name, untimed);
+  for (const StrokeBump bump : {StrokeBump::kEach, StrokeBump::kOnce}) {
+    p_.bump = bump;
+    for (const bool isShown : {true, false}) {
+      frame.hasObjects = frame.hasFocus = isShown;
+      ++frame.sequence;
+      paint(frame, {}, untimed);
+    }
+  }
+  state_->painting.reset();
+  state_->canvas = nullptr;
+  state_->canvases.clear();
+  state_->reduced.clear();
 }
 
 hal::Result<void> Painterly::prepare(const config::ParameterValues& values) {

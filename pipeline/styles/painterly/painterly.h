@@ -52,6 +52,8 @@ class Painterly final : public Style {
  private:
   struct State;
 
+  void warmUp();
+
   config::ParameterValues values_;
   PainterlyParameters p_;
   std::unique_ptr<State> state_;
