@@ -31,6 +31,7 @@ uniform bool isLimited;
 uniform vec3 jitter;
 
 const int kPoints = 8;
+const float kSpeck = 0.3;
 
 // The place `s` segments along an arm.
 vec2 along(vec4 first, vec4 second, float s) {
@@ -71,9 +72,11 @@ void main() {
   Instance made;
   for (int i = 0; i < 4; ++i) made.points[i] = vec4(points[2 * i], points[2 * i + 1]);
   float light = smoothstep(0.2, 0.95, luma);
+  // What is cut short on both sides is a speck that little stands behind: paint it thinly.
+  float stands = mix(kSpeck, 1.0, smoothstep(0.8, 2.2, stroke.lengths.x + stroke.lengths.y));
   colour = clamp(colour, 0.0, 1.0);
   if (isLimited) colour = mixtureOf(colour);
-  made.paint = vec4(colour, opacity * (1.0 - leaveLight * light) * stroke.seen);
+  made.paint = vec4(colour, opacity * stands * (1.0 - leaveLight * light) * stroke.seen);
   uint object = objectOf(anchors[slot].surface);
   made.shape = vec4(0.5 * wide, float(hashOf(seed ^ 0x31u) & 7u), isVirtual(object) ? float(object) : 0.0,
                     anchors[slot].age);
