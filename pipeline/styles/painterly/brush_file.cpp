@@ -61,11 +61,12 @@ std::optional<int> variantsOf(hal::FrameSize size) {
 
 /// The mean of a channel over the texels [fromX, toX) x [fromY, toY).
 std::uint8_t meanOf(const BrushMarks& marks, int fromX, int toX, int fromY, int toY, int channel) {
-  const int stride = kAspect * marks.across * 2;
+  const auto stride = static_cast<std::size_t>(kAspect * marks.across) * 2;
   int sum = 0;
   for (int y = fromY; y < toY; ++y) {
     for (int x = fromX; x < toX; ++x) {
-      sum += marks.texels[static_cast<std::size_t>(y * stride + 2 * x + channel)];
+      const auto column = static_cast<std::size_t>(2 * x + channel);
+      sum += marks.texels[static_cast<std::size_t>(y) * stride + column];
     }
   }
   const int count = (toX - fromX) * (toY - fromY);

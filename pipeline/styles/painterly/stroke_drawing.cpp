@@ -1,5 +1,6 @@
 #include "pipeline/styles/painterly/stroke_drawing.h"
 
+#include <cstddef>
 #include <string>
 
 namespace pleinair::styles {
@@ -13,7 +14,7 @@ gpu::Program paintProgram(const gpu::ShaderLibrary& library, const std::string& 
 }
 
 gpu::VertexArrayHandle instanceLayout() {
-  static_assert(kInstanceAttributes * 16 == marks::StrokeSet::kInstanceBytes);
+  static_assert(std::size_t{kInstanceAttributes} * 16 == marks::StrokeSet::kInstanceBytes);
   gpu::VertexArrayHandle array = gpu::VertexArrayHandle::make();
   glBindVertexArray(array.get());
   for (GLuint i = 0; i < kInstanceAttributes; ++i) {
