@@ -23,7 +23,8 @@ canvas = 0.05
 )"},
     {"gouache", "flat, matt and opaque", R"(
 layers = 3
-stroke_size = 5
+stroke_size = 4
+detail = 0.2
 layer_ratio = 2.2
 length = 6
 opacity = 1
