@@ -315,7 +315,7 @@ void addMeasure(CLI::App& app, MeasureOptions& options, std::function<int()>& ch
       .add_option_function<std::string>(
           "--settle",
           [&options](const std::string& text) {
-            options.settle = text == "0" ? 0 : frameCountOf(text, "--settle");
+            options.settle = frameCountOf(text, "--settle", 0);
           },
           "paint N frames before measuring (default: 0, or 30 where there is no end)")
       ->type_name("N");
