@@ -51,6 +51,14 @@ scene::Scene configuredScene(const Configuration& configuration) {
   return file == kNoFile ? scene::Scene{} : scene::loadScene(file);
 }
 
+CameraSettings configuredCamera(const Configuration& configuration) {
+  CameraSettings camera = configuration.camera();
+  const config::PixelSize size = configuration.painting().size;
+  const bool isOpen = configuration.origin("camera.size") == config::kDefaultOrigin;
+  if (isOpen && size != config::PixelSize{}) camera.size = size;
+  return camera;
+}
+
 void refuseSlipOfCamera(const Configuration& configuration) {
   const std::vector<std::string> names = cameraNames();
   const std::filesystem::path source = configuration.camera().source;

@@ -21,6 +21,8 @@ PaintingOptions configuredPainting(const Configuration& configuration, PaintingO
 /// [painting]'s scene; without one, an empty scene. Throws config::ConfigError.
 scene::Scene configuredScene(const Configuration& configuration);
 
+/// [camera], which delivers the painting's size where nobody chose another.
+CameraSettings configuredCamera(const Configuration& configuration);
 /// Throws config::ConfigError where [camera]'s source is most likely a slip of a name.
 void refuseSlipOfCamera(const Configuration& configuration);
 bool isSynthetic(const CameraSettings& camera);

@@ -45,7 +45,8 @@ std::uint64_t frameCountOf(const std::string& text, const std::string& option,
                            std::uint64_t least) {
   std::uint64_t count = 0;
   std::string_view rest = text;
-  if (takeNumber(rest, count) && rest.empty() && count >= least && count <= kMostFrames) return count;
+  if (takeNumber(rest, count) && rest.empty() && count >= least && count <= kMostFrames)
+    return count;
   throw CLI::ValidationError(
       option, foundText(text, fmt::format("a whole number from {} to {}", least, kMostFrames)));
 }

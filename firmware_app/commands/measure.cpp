@@ -49,24 +49,35 @@ std::uint64_t framesWanted(const MeasureOptions& options) {
 
 std::unique_ptr<measure::MeasuredInput> openPhotographOf(const MeasureOptions& options,
                                                          const Configuration& configuration) {
-  std::error_code ignored;
-  if (!options.input || fs::is_directory(*options.input, ignored)) {
-    throw refusal(options.input ? options.input->string() : "--input",
-                  "--pan, --zoom, --roll and --still move one photograph",
-                  "give a picture, or leave them out");
+  const std::string& by = options.movedBy;
+  if (!options.input) {
+    throw refusal(by, "moves a photograph, and there is none",
+                  fmt::format("give --input PICTURE, or leave {} out", by));
   }
-  measure::PhotographOptions photograph{.motion = options.photograph,
+  measure::PhotographOptions photograph{.size = {},
+                                        .motion = options.photograph,
                                         .noiseLevels = options.noiseLevels,
                                         .frames = framesWanted(options)};
   const config::PixelSize size = configuration.painting().size;
   if (size != config::PixelSize{}) photograph.size = {size.width, size.height};
-  return orThrow(measure::openPhotograph(*options.input, photograph));
+  const std::string remedy = fmt::format("give a PNG or JPEG picture, or leave {} out", by);
+  std::error_code ignored;
+  if (fs::is_directory(*options.input, ignored)) {
+    throw refusal(options.input->string(),
+                  fmt::format("is a folder, and {} moves one photograph", by), remedy);
+  }
+  auto input = measure::openPhotograph(*options.input, photograph);
+  if (!input && input.error().kind == hal::ErrorKind::kInvalidInput) {
+    input.error().problem += fmt::format(", and {} moves one photograph", by);
+    input.error().remedy = remedy;
+  }
+  return orThrow(std::move(input));
 }
 
 std::unique_ptr<measure::MeasuredInput> openWorkbenchOf(const MeasureOptions& options,
                                                         const Configuration& configuration) {
   refuseSlipOfCamera(configuration);
-  const CameraSettings camera = configuration.camera();
+  const CameraSettings camera = configuredCamera(configuration);
   if (!isSynthetic(camera)) {
     throw refusal(camera.source.string(), "no device and no played recording can be measured",
                   "give --input a recording, or --camera synthetic:SHOT");
@@ -78,7 +89,7 @@ std::unique_ptr<measure::MeasuredInput> openWorkbenchOf(const MeasureOptions& op
 
 std::unique_ptr<measure::MeasuredInput> openInput(const MeasureOptions& options,
                                                   const Configuration& configuration) {
-  if (options.isMoved) return openPhotographOf(options, configuration);
+  if (!options.movedBy.empty()) return openPhotographOf(options, configuration);
   if (!options.input) return openWorkbenchOf(options, configuration);
   std::error_code ignored;
   if (fs::is_directory(*options.input, ignored) && !options.motion) {
@@ -96,7 +107,7 @@ hal::FrameSize pictureSizeOf(const Configuration& configuration, measure::Measur
     throw refusal(configuration.origin("painting.size"),
                   fmt::format("the true motion of {} is in px of its own {}x{}",
                               input.description(), own.width, own.height),
-                  "leave the size out");
+                  input.isEndless() ? "leave one of the two sizes out" : "leave the size out");
   }
   return {asked.width, asked.height};
 }

@@ -144,6 +144,12 @@ class Measurement {
     report_.inside = sequence_->anchors().total();
     report_.worst = worst_.frames();
     report_.notices = input_.notices();
+    if (options_.frames && report_.frames < *options_.frames) {
+      report_.notices.push_back(
+          fmt::format("the input ended: of {} frames that were asked for {} "
+                      "are measured",
+                      *options_.frames, report_.frames));
+    }
     report_.leftOut = leftOut();
     report_.controls = controlVerdicts(report_.measures, report_.style, report_.motionKind);
     if (hasGates(report_.style)) {

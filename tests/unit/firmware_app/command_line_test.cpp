@@ -59,10 +59,11 @@ TEST(CommandLine, RefusesWhatItDoesNotKnow) {
 TEST(CommandLine, NamesOnlyTheShotsWhereAShotIsUnknown) {
   const Outcome refused = run({"measure", "--camera", "synthetic:nope"});
   EXPECT_EQ(refused.status, 2);
-  EXPECT_EQ(refused.error,
-            "pleinair: --camera: found \"synthetic:nope\", allowed: synthetic, synthetic:walkaround, "
-            "synthetic:pan, synthetic:dolly, synthetic:roll, synthetic:still, synthetic:occluder, "
-            "synthetic:cut\n");
+  EXPECT_EQ(
+      refused.error,
+      "pleinair: --camera: found \"synthetic:nope\", allowed: synthetic, synthetic:walkaround, "
+      "synthetic:pan, synthetic:dolly, synthetic:roll, synthetic:still, synthetic:occluder, "
+      "synthetic:cut\n");
 }
 
 TEST(CommandLine, PointsToTheHelpOfTheVerb) {
