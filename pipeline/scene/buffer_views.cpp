@@ -19,11 +19,12 @@ constexpr std::array<BufferView, 9> kViews{
      {"normals", "where surfaces face: x, y, z of the camera's frame as red, green, blue", {}},
      {"focus", "white: kept crisp; black: painted like the rest", {}},
      {"motion",
-      "where each pixel has come to since the frame before: hue the direction (red: to the right), "
-      "full colour 16 px; grey: it stands still, black: unknown",
+      "where each pixel of a model has come to since the frame before: hue the direction (red: to "
+      "the right), full colour 16 px; grey: it stands still; black: the camera's picture",
       {.surfaces = true}},
      {"motion_error",
-      "how well that is known: white: exactly, yellow: to 0.25 px, red: to 1 px; black: unknown",
+      "how well the view motion is known: white: exactly, yellow: to 0.25 px, red: to 1 px; black: "
+      "not at all, or the camera's picture",
       {.surfaces = true}}}};
 
 gpu::Texture blank(gpu::TextureFormat format) {
