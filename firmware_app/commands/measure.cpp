@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "config/suggestion.h"
+#include "firmware_app/configuration_sections.h"
 #include "firmware_app/configured_parts.h"
 #include "firmware_app/exit_status.h"
 #include "firmware_app/interrupt.h"
@@ -18,8 +20,10 @@
 #include "firmware_app/path_collisions.h"
 #include "firmware_app/progress.h"
 #include "hal/pending_file.h"
+#include "pipeline/measure/gates.h"
 #include "pipeline/measure/measured_input.h"
 #include "pipeline/measure/measurement.h"
+#include "pipeline/styles/style_registry.h"
 
 namespace pleinair::app {
 namespace {
@@ -114,8 +118,12 @@ hal::FrameSize pictureSizeOf(const Configuration& configuration, measure::Measur
 
 std::string settingsText(const Configuration& configuration, hal::FrameSize size,
                          const std::string& quality) {
-  return fmt::format("look {}, {}x{}, quality {}", configuration.painting().look, size.width,
-                     size.height, quality);
+  const PaintingSettings painting = configuration.painting();
+  const auto looks = styles::styleInfo(painting.style).looks;
+  std::string look = painting.look;
+  if (look == kDefaultLook) look = looks.empty() ? "" : std::string(looks.front().name);
+  return fmt::format("{}{}x{}, quality {}", look.empty() ? "" : fmt::format("look {}, ", look),
+                     size.width, size.height, quality);
 }
 
 /// Runs it with progress; nothing where it was broken off.
@@ -163,7 +171,16 @@ int statusOf(const measure::Report& report, bool gates) {
   return gates && !report.areGatesPassed() ? kGateFailed : 0;
 }
 
+/// --gates would pass whatever has none.
+void refuseGatesOf(const std::string& style) {
+  if (measure::hasGates(style)) return;
+  throw refusal(
+      "--gates", fmt::format("there are none of style {}", style),
+      fmt::format("leave it out, or measure one of {}", config::listText(measure::gatedStyles())));
+}
+
 int measureConfigured(const MeasureOptions& options, const Configuration& configuration) {
+  if (options.gates) refuseGatesOf(configuration.painting().style);
   const scene::Scene scene = configuredScene(configuration);
   refuseCollisionsOf(options, configuredFiles(configuration, scene));
   const std::unique_ptr<measure::MeasuredInput> input = openInput(options, configuration);

@@ -213,7 +213,8 @@ TEST_F(MeasurementTest, TakesAFolderWithFlowFiles) {
   const Report report = run(*input, itself);
   EXPECT_EQ(report.motionKind, MotionKind::kOther);
   EXPECT_LT(*report.measures[Subject::kPainting].ew2, 1e-9);
-  EXPECT_THAT(report.leftOut, testing::Contains(HasSubstr("S10 and SCR")));
+  EXPECT_THAT(report.leftOut,
+              testing::Contains(HasSubstr("S10 %, SCR: it compares frames 10 apart")));
   std::filesystem::remove(path("in/flow_1.png"));
   EXPECT_THAT(openPictureFolder(path("in")).error().message(),
               testing::AllOf(HasSubstr("4 frames"), HasSubstr("2 flow files")));
