@@ -167,7 +167,8 @@ const ParameterTable<RuntimeSettings>& runtimeTable() {
 const ParameterTable<StatusSettings>& statusTable() {
   static const ParameterTable<StatusSettings> kTable{textParameter(
       "listen", &StatusSettings::listen, std::string(kAllowedListen),
-      "Where /status, /metrics and /healthz are served over HTTP.", TakesEffect::kRestart)};
+      "Where /status, /metrics and /healthz are served over HTTP.", TakesEffect::kRestart,
+      [](std::string_view text) { return parseListen(std::string(text)).has_value(); })};
   return kTable;
 }
 

@@ -11,7 +11,6 @@
 #include "config/suggestion.h"
 #include "firmware_app/configuration_sections.h"
 #include "firmware_app/control_text.h"
-#include "firmware_app/status_server/listen_address.h"
 #include "hal/cameras/synthetic/open_synthetic.h"
 #include "pipeline/scene/scene_file.h"
 
@@ -118,12 +117,7 @@ hal::StreamRequest streamRequestOf(const CameraSettings& camera) {
 
 std::unique_ptr<StatusServer> configuredStatusServer(const Configuration& configuration,
                                                      StatusPages pages) {
-  const std::string listen = configuration.status().listen;
-  if (!parseListen(listen)) {
-    throw configuration.errorAt("status.listen", "found " + config::quoted(listen),
-                                std::string(kAllowedListen));
-  }
-  return startStatusServer(listen, std::move(pages));
+  return startStatusServer(configuration.status().listen, std::move(pages));
 }
 
 std::vector<NamedPath> configuredFiles(const Configuration& configuration,

@@ -32,8 +32,8 @@ hal::SyntheticOptions syntheticOptions(const CameraSettings& camera);
 /// What a device is asked for: size, rate and controls.
 hal::StreamRequest streamRequestOf(const CameraSettings& camera);
 
-/// [status]'s server, started; null where it is off. Throws config::ConfigError (no such address)
-/// and hal::StartupError as startStatusServer().
+/// [status]'s server, started; null where it is off. Throws hal::StartupError as
+/// startStatusServer().
 std::unique_ptr<StatusServer> configuredStatusServer(const Configuration& configuration,
                                                      StatusPages pages);
 
