@@ -238,7 +238,8 @@ void ArFrameRenderer::clearToCamera() {
 }
 
 void ArFrameRenderer::drawBackground(const gpu::Texture& picture) {
-  // Depth is cleared where the pass begins: later, a tile-based GPU would split it (GPU rules, 10).
+  // Depth is cleared where the pass begins: later, a tile-based GPU would split it (docs/gpu.md,
+  // rule 10).
   now_->target.beginDiscarding();
   now_->target.clearDepth();
   background_.use().texture("picture", picture).drawArea(now_->target, {0, 0}, now_->target.size());

@@ -41,7 +41,7 @@ class ArFrameRenderer {
   ~ArFrameRenderer() = default;
 
   /// Allocates for pictures of `size` and runs each program once, so that the first frame does not
-  /// wait for drivers (GPU.md, rule 14).
+  /// wait for drivers (docs/gpu.md, rule 14).
   void warmUp(hal::FrameSize size);
 
   /// The next AR frame, valid until the next call and as long as `picture`, which it refers to

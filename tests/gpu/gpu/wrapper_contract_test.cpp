@@ -1,4 +1,4 @@
-// Contracts of the texture, target and handle wrappers, which keep the GPU rules where the software
+// Contracts of the texture, target and handle wrappers, which keep the rules of docs/gpu.md where the software
 // rasteriser would let them pass.
 #include <array>
 #include <functional>
