@@ -94,12 +94,7 @@ ArFrameRenderer::Surfaces::Surfaces(hal::FrameSize size, bool hasModels)
 }
 
 void ArFrameRenderer::takeSurfaces(hal::FrameSize size) {
-  const auto isOfSize = [&](const auto& each) { return each->ids.size() == size; };
-  const auto known = std::ranges::find_if(surfaces_, isOfSize);
-  now_ =
-      known != surfaces_.end()
-          ? known->get()
-          : surfaces_.emplace_back(std::make_unique<Surfaces>(size, !scene_.models.empty())).get();
+  now_ = &surfaces_.of(size, size, !scene_.models.empty());
 }
 
 /// All that a frame may need, once: posed in front of the camera, drawn, and asked about.

@@ -58,15 +58,8 @@ BufferViewer::BufferViewer(const gpu::ShaderLibrary& library)
 BufferViewer::Canvas::Canvas(hal::FrameSize size)
     : picture(gpu::TextureFormat::kRgba8, size, gpu::TextureFilter::kLinear), target({&picture}) {}
 
-const BufferViewer::Canvas& BufferViewer::canvasOf(hal::FrameSize size) {
-  const auto isOfSize = [&](const auto& each) { return each->picture.size() == size; };
-  const auto known = std::ranges::find_if(canvases_, isOfSize);
-  return known != canvases_.end() ? **known
-                                  : *canvases_.emplace_back(std::make_unique<Canvas>(size));
-}
-
 const gpu::Texture& BufferViewer::show(const BufferView& view, const ArFrame& frame) {
-  const Canvas& canvas = canvasOf(frame.size());
+  const Canvas& canvas = canvases_.of(frame.size(), frame.size());
   const auto orNothing = [&](const gpu::Texture* texture) -> const gpu::Texture& {
     return texture != nullptr ? *texture : noIds_;
   };

@@ -9,7 +9,20 @@
 namespace pleinair::hal::synthetic {
 namespace {
 
-/// Where a ray goes into an occluder, or infinity.
+/// Whether all of the tile lies outside one of the occluder's planes.
+bool isOutside(const Tile& tile, const glm::vec4& plane) {
+  const glm::vec3 normal(plane);
+  if (!tile.isFlat) return glm::dot(normal, tile.centre) - plane.w > tile.radius;
+  return std::ranges::all_of(
+      tile.corners, [&](const glm::vec3& corner) { return glm::dot(normal, corner) > plane.w; });
+}
+
+float distanceTo(const Tile& tile, const glm::vec4& plane) {
+  return glm::dot(glm::vec3(plane), tile.centre) - plane.w - tile.radius;
+}
+
+}  // namespace
+
 float entry(const Occluder& occluder, glm::vec3 origin, glm::vec3 direction) {
   const glm::vec3 toCentre = occluder.centre - origin;
   const glm::vec3 apart = glm::cross(toCentre, direction);
@@ -36,20 +49,6 @@ float entry(const Occluder& occluder, glm::vec3 origin, glm::vec3 direction) {
   }
   return in;
 }
-
-/// Whether all of the tile lies outside one of the occluder's planes.
-bool isOutside(const Tile& tile, const glm::vec4& plane) {
-  const glm::vec3 normal(plane);
-  if (!tile.isFlat) return glm::dot(normal, tile.centre) - plane.w > tile.radius;
-  return std::ranges::all_of(
-      tile.corners, [&](const glm::vec3& corner) { return glm::dot(normal, corner) > plane.w; });
-}
-
-float distanceTo(const Tile& tile, const glm::vec4& plane) {
-  return glm::dot(glm::vec3(plane), tile.centre) - plane.w - tile.radius;
-}
-
-}  // namespace
 
 bool isBlocked(const Occluders& near, glm::vec3 origin, glm::vec3 direction, float distance) {
   return std::ranges::any_of(

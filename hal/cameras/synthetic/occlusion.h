@@ -11,6 +11,8 @@ namespace pleinair::hal::synthetic {
 
 using Occluders = std::vector<const Occluder*>;
 
+/// Where a ray goes into an occluder, in its directions, or infinity.
+float entry(const Occluder& occluder, glm::vec3 origin, glm::vec3 direction);
 /// Whether the ray meets one of them before it has gone `distance` times its direction.
 bool isBlocked(const Occluders& near, glm::vec3 origin, glm::vec3 direction, float distance);
 
