@@ -338,9 +338,9 @@ void ArFrameRenderer::findSurfaces(const tracking::CameraModel& camera) {
                     .objects = objects_,
                     .camera = &*camera_};
   if (!before_) return;
-  frame_.motion = MotionField{.texture = &now_->known->motion,
-                              .sinceSequence = before_->sequence,
-                              .sinceTime = before_->time};
+  frame_.motion = SurfaceMotion{.texture = &now_->known->motion,
+                                .sinceSequence = before_->sequence,
+                                .sinceTime = before_->time};
 }
 
 }  // namespace pleinair::scene

@@ -65,7 +65,7 @@ TEST_F(PlaneMotion, IsThatOfThePose) {
     const glm::dvec2 then = camera().project(glm::dvec3(thenAslant() * glm::dvec4(*at, 1.0)));
     EXPECT_LT(glm::distance(glm::dvec2(motion[4 * i], motion[4 * i + 1]), px - then),
               std::max(0.01, 0.001 * glm::distance(px, then)));
-    EXPECT_EQ(motion[4 * i + 3], 2.0F);  // MotionSource::kPlane
+    EXPECT_EQ(motion[4 * i + 3], 2.0F);  // SurfaceMotionSource::kPlane
   }
   EXPECT_GT(inside, 2000);
   int known = 0;
@@ -195,7 +195,7 @@ TEST_F(Occluders, MoveAsWellAsTheirPoseIsKnown) {
   ASSERT_FALSE(motion.empty());
   const float* const isVirtual = &motion[4 * std::size_t{90 * 240 + 70}];
   const float* const isReal = &motion[4 * std::size_t{90 * 240 + 170}];
-  EXPECT_EQ(isVirtual[3], 1.0F);  // MotionSource::kSurface
+  EXPECT_EQ(isVirtual[3], 1.0F);  // SurfaceMotionSource::kSurface
   EXPECT_EQ(isReal[3], 1.0F);
   EXPECT_EQ(isVirtual[2], 0.0F);
   // Both frames' poses err; the box's front is 0.4 m away, or 5 mm nearer.

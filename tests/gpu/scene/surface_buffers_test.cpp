@@ -124,7 +124,7 @@ TEST_P(SurfaceBuffers, MotionIsTheDifferenceOfProjectedPoints) {
   EXPECT_LE(wrong, judged / 1000) << "largest " << largest;  // pixels on a triangle's very edge
   const auto first = std::ranges::find_if(frames.ids, [](std::uint32_t id) { return id != 0; });
   const auto at = static_cast<std::size_t>(4 * (first - frames.ids.begin()));
-  EXPECT_EQ(frames.motion[at + 3], 1.0F);  // MotionSource::kSurface
+  EXPECT_EQ(frames.motion[at + 3], 1.0F);  // SurfaceMotionSource::kSurface
   EXPECT_EQ(frames.motion[at + 2], 0.0F);  // exact
 }
 
