@@ -6,7 +6,7 @@ namespace pleinair::gpu {
 namespace {
 
 struct Made {
-  explicit Made(int from) : from(from) {}
+  explicit Made(int number) : from(number) {}
   int from = 0;
 };
 
