@@ -175,7 +175,7 @@ int statusOf(const measure::Report& report, bool gates) {
 void refuseGatesOf(const std::string& style) {
   if (measure::hasGates(style)) return;
   throw refusal(
-      "--gates", fmt::format("there are none of style {}", style),
+      "--gates", fmt::format("the style {} has none", style),
       fmt::format("leave it out, or measure one of {}", config::listText(measure::gatedStyles())));
 }
 

@@ -13,11 +13,12 @@ namespace {
 constexpr std::size_t kMost = 3;
 constexpr std::uint64_t kApartFrames = 8;
 
-/// What few pixels exceed, of all channels.
+/// What few channels exceed, of those that differ at all.
 double brightOf(const cv::Mat3f& difference) {
-  constexpr double kShare = 0.995;
+  constexpr double kShare = 0.97;
   const cv::Mat1f channels = difference.clone().reshape(1, 1);
   std::vector<float> values(channels.begin(), channels.end());
+  std::erase(values, 0.0F);
   if (values.empty()) return 0;
   const auto at =
       values.begin() + static_cast<std::ptrdiff_t>(kShare * static_cast<double>(values.size() - 1));

@@ -103,7 +103,7 @@ TEST_F(Measure, MakesAFailedGateAnExitStatus) {
       "--set",   "painting.style=none"};
   std::vector<std::string> gated = arguments;
   gated.emplace_back("--gates");
-  expectRefused(gated, AllOf(HasSubstr("--gates"), HasSubstr("none of style none"),
+  expectRefused(gated, AllOf(HasSubstr("--gates"), HasSubstr("the style none has none"),
                              HasSubstr("painterly, watercolor")));
   gated[gated.size() - 2] = "painting.style=watercolor";
   gated.insert(gated.end(), {"--json", path("r.json")});
