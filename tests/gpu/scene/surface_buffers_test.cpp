@@ -2,7 +2,6 @@
 // plain arithmetic on the CPU.
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <string>
 #include <utility>
 
