@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pipeline/gpu/program.h"
+#include "pipeline/marks/fading_past.h"
 #include "pipeline/scene/lens_uniforms.h"
 #include "pipeline/scene/scene.h"
 
@@ -21,7 +22,6 @@ constexpr int kMostStrata = 4;          // along a cell's side, likewise
 constexpr GLbitfield kStored = GL_SHADER_STORAGE_BARRIER_BIT;
 constexpr glm::ivec2 kSlotGroup{64, 1};
 constexpr glm::ivec2 kCellGroup{8, 8};
-constexpr hal::Duration kLongestStep = std::chrono::seconds(1);
 
 glm::ivec2 gridOf(hal::FrameSize full, int cellPixels) {
   return {(full.width + cellPixels - 1) / cellPixels, (full.height + cellPixels - 1) / cellPixels};
@@ -193,8 +193,7 @@ void AnchorSet::advance(const scene::ArFrame& frame, const MotionField& motion,
   assert(!frame.hasObjects || frame.barycentrics != nullptr);
   s.hasBegunAnew = !s.hasPast || motion.isCut();
   const hal::Duration step =
-      s.hasPast ? std::clamp(frame.captureTime - s.lastTime, hal::Duration(0), kLongestStep)
-                : hal::Duration(0);
+      s.hasPast ? timeStep(s.lastTime, frame.captureTime) : hal::Duration(0);
   s.lastTime = frame.captureTime;
   s.hasPast = true;
   ++s.salt;

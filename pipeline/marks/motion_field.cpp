@@ -24,7 +24,7 @@ using tracking::FeatureMotion;
 using tracking::ImageMotion;
 
 static_assert(static_cast<int>(MotionSource::kPlane) ==
-              static_cast<int>(scene::MotionSource::kPlane));
+              static_cast<int>(scene::SurfaceMotionSource::kPlane));
 
 const std::string kShaders = "pipeline/marks/shaders/";
 constexpr unsigned kPlanesBlock = 1;

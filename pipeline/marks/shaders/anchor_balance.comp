@@ -1,5 +1,5 @@
 // Purpose: keeps the density of anchors in a cell: how many are to be born, and which is to go
-//          (METHOD.md V.1).
+//          (thesis §5.3, with hysteresis).
 // Inputs:  anchor_cells.glsl's; the rule (marks::DensityRule): target, birthBelow, deathAbove; ids and
 //          its pixelsOfFull if hasObjects; fullSize.
 // Outputs: births of each cell, counts empty for the next frame; anchors: the ones to go. A cell an

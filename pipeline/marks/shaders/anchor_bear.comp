@@ -1,6 +1,6 @@
 // Purpose: puts new anchors into a cell, each into a part of it that has none (thesis §4.3.1: jittered),
-//          on what is seen there: the exact point of a virtual surface behind the pixel (METHOD.md
-//          V.1), or the camera's picture.
+//          on what is seen there: the exact point of a virtual surface behind the pixel (thesis
+//          §5.3), or the camera's picture.
 // Inputs:  anchor_cells.glsl's; births and slots (anchor_plan.comp); ids, barycentrics (ArFrame) and
 //          their pixelsOfFull if hasObjects; fullSize; salt: another one each frame; anew: whether all are
 //          there at once; motion: MotionField's field.

@@ -109,7 +109,7 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, uint object) {
       goesOn = false;
     }
     if (goesOn && detailAt(at, object) < 0.4 * detailBand.x) {
-      // A finer layer's stroke does not cross into what is for coarser ones (METHOD.md IV.6).
+      // A finer layer's stroke does not cross into what is for coarser ones.
       arm.length = min(arm.length, max(float(i) + 0.5, leastSteps));
       goesOn = false;
     }

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/gpu/per_size.h"
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/marks/anchor_set.h"
@@ -143,8 +144,8 @@ struct Painterly::State {
   std::string palette = "all";  // that `mixtures` are of
   std::optional<Texture> mixtures;
   std::unique_ptr<Painting> painting;
-  std::vector<std::unique_ptr<Canvas>> canvases;  // of each size that was painted
-  Canvas* canvas = nullptr;                       // of this frame
+  gpu::PerSize<Canvas> canvases;
+  Canvas* canvas = nullptr;  // of this frame
 
   void take(const scene::ArFrame& frame, const PainterlyParameters& p);
   void grow(const scene::ArFrame& frame, const PainterlyParameters& p, gpu::PassTimer& timer);
@@ -170,11 +171,7 @@ void Painterly::State::take(const scene::ArFrame& frame, const PainterlyParamete
     painting.reset();
     painting = std::make_unique<Painting>(library, frame.full(), plan);
   }
-  const auto isOfSize = [&](const auto& each) { return each->size == frame.size(); };
-  const auto known = std::ranges::find_if(canvases, isOfSize);
-  canvas = known != canvases.end()
-               ? known->get()
-               : canvases.emplace_back(std::make_unique<Canvas>(frame.size())).get();
+  canvas = &canvases.of(frame.size(), frame.size());
   if (palette != p.palette) {
     const Pigments pigments = pigmentsOf(p.palette);
     mixtures.reset();
