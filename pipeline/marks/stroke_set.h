@@ -27,6 +27,7 @@ struct StrokeRule {
   float cutOffRad = 0.8F;            ///< the turn between two segments at which it ends
   glm::vec2 detailBand{0.0F, 1e9F};  ///< where the layer is painted (TensorField::resolved)
   float detailSpread = 0.0F;         ///< by how much anchors differ about the band
+  float slack = 0.25F;               ///< the part by which it is wider for strokes that are there
   float wanderRad = 0.1F;            ///< how far a stroke strays from the field, at most
   bool bothWays = true;              ///< else only ahead of the anchor, as the thesis walks
   std::size_t fieldLevel = 0;        ///< of the tensor field; beyond its last: the last

@@ -30,6 +30,7 @@ uniform float colourThreshold;
 uniform float cutOff;        // cosine
 uniform vec2 detailBand;     // where the layer is painted
 uniform float detailSpread;  // by how much anchors differ about it
+uniform float slack;         // the part by which it is wider for what is there
 uniform bool bothWays;       // else only ahead, as the thesis walks
 uniform float wander;        // rad: how far a stroke's hand strays from the field
 uniform vec4 past;           // shares that stay: shape, colour, existence up, existence down
@@ -160,8 +161,8 @@ void main() {
   // Wanted where there is that much detail; what is there stays a little longer.
   float detail = detailAt(px) + detailSpread * (hash - 0.5);
   bool was = !isNew && old.wanted > 0.5;
-  float slack = was ? 0.75 : 1.0;
-  bool wanted = detail >= detailBand.x * slack && detail <= detailBand.y / slack;
+  float wider = was ? 1.0 - slack : 1.0;
+  bool wanted = detail >= detailBand.x * wider && detail <= detailBand.y / wider;
   float goal = wanted ? 1.0 : 0.0;
 
   Stroke made;

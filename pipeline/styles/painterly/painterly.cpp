@@ -14,6 +14,7 @@
 #include "pipeline/marks/motion_field.h"
 #include "pipeline/marks/stroke_set.h"
 #include "pipeline/marks/tensor_field.h"
+#include "pipeline/styles/painterly/coherence.h"
 #include "pipeline/styles/painterly/layers.h"
 #include "pipeline/styles/painterly/stroke_drawing.h"
 
@@ -176,12 +177,12 @@ void Painterly::State::reduce(const scene::ArFrame& frame, gpu::PassTimer& timer
 
 void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParameters& p,
                             gpu::PassTimer& timer) {
-  painting->motion.update(frame, timer);
+  painting->motion.update(frame, timer, motionOf(p));
   painting->field.update(frame, *frame.colour, painting->motion, fieldOf(p), timer);
   for (std::size_t i = 0; i < kLayers; ++i) {
     Layer& layer = *painting->layers[i];
     if (p.coherence <= 0.0) layer.anchors.beginAnew();
-    layer.anchors.advance(frame, painting->motion, timer);
+    layer.anchors.advance(frame, painting->motion, timer, anchorHoldOf(p));
     layer.strokes.update(frame, layer.anchors, painting->field, canvas->reduced[kLayers - 1 - i],
                          ruleOf(p, painting->plan, i), timer);
   }

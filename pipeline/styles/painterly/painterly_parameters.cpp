@@ -5,6 +5,7 @@ namespace pleinair::styles {
 using config::choiceParameter;
 using config::integerParameter;
 using config::numberParameter;
+using config::switchParameter;
 using P = PainterlyParameters;
 
 const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
@@ -58,6 +59,13 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
       numberParameter("warmth", &P::warmth, {.min = -1, .max = 1}, "Likewise; below 0: cold."),
       numberParameter("coherence", &P::coherence, kPart,
                       "How strokes hold on to their past: 0 redraws each frame, 1 never lets go."),
+      switchParameter("warp", &P::warp,
+                      "Whether strokes go with what they depict; off, they stay on the screen."),
+      switchParameter("history", &P::history,
+                      "Whether shapes, colours and directions are blended with what they were."),
+      switchParameter("hysteresis", &P::hysteresis,
+                      "Whether what is there stays a little longer than it would newly come."),
+      switchParameter("fades", &P::fades, "Whether strokes come and go gradually."),
   };
   return table;
 }

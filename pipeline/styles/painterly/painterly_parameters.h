@@ -35,6 +35,10 @@ struct PainterlyParameters {
   double saturation = 1.12;
   double warmth = 0.15;
   double coherence = 0.5;
+  bool warp = true;
+  bool history = true;
+  bool hysteresis = true;
+  bool fades = true;
 };
 
 const config::ParameterTable<PainterlyParameters>& painterlyParameters();
