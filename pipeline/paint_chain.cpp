@@ -8,7 +8,6 @@
 #include "config/suggestion.h"
 #include "hal/error.h"
 #include "pipeline/gpu/cover_fit.h"
-#include "pipeline/marks/anchor_set.h"
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/present/present_shaders.h"
 #include "pipeline/quality_levels.h"
@@ -377,9 +376,7 @@ hal::Result<hal::Image> PaintChain::cameraStill() {
 
 hal::Result<std::vector<marks::Anchor>> PaintChain::anchors() {
   if (auto sound = watch_.check(); !sound) return tl::unexpected(std::move(sound.error()));
-  const marks::AnchorSet* set = style_->anchors();
-  if (set == nullptr) return std::vector<marks::Anchor>{};
-  std::vector<marks::Anchor> anchors = set->read();
+  std::vector<marks::Anchor> anchors = style_->readAnchors();
   if (auto sound = watch_.check(); !sound) return tl::unexpected(std::move(sound.error()));
   return anchors;
 }

@@ -39,6 +39,7 @@ marks::TensorFieldOptions fieldOf(const PainterlyParameters& p) {
   marks::TensorFieldOptions options;
   const double hold = p.history ? std::min(holdOf(p), kMostOfTheNew) : 0.0;
   options.memory = scaled(options.memory, hold);
+  if (!p.hysteresis || p.coherence <= 0.0) options.slack = 0.0;
   return options;
 }
 

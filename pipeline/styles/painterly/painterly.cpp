@@ -304,6 +304,24 @@ const marks::AnchorSet* Painterly::anchors() const {
   return state_->painting ? &state_->painting->layers.back()->anchors : nullptr;
 }
 
+std::vector<marks::Anchor> Painterly::readAnchors() const {
+  std::vector<marks::Anchor> all;
+  for (std::size_t i = 0; i < layerCount(); ++i) {
+    const std::vector<marks::Anchor> some = layer(i).anchors.read();
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return all;
+}
+
+std::size_t Painterly::layerCount() const {
+  return state_->painting ? state_->painting->layers.size() : 0;
+}
+
+Painterly::PaintedLayer Painterly::layer(std::size_t number) const {
+  const Layer& layer = *state_->painting->layers.at(number);
+  return {layer.anchors, layer.strokes};
+}
+
 void Painterly::reset() {
   if (!state_->painting) return;
   state_->painting->motion.reset();

@@ -20,7 +20,7 @@ inline std::size_t placeOf(int x, int y) {
 /// A tensor field of pictures that are made up.
 class TensorFieldFixture : public TensorTest {
  protected:
-  static constexpr TensorFieldOptions kNoMemory{.memory = hal::Duration(0)};
+  static constexpr TensorFieldOptions kNoMemory{.memory = hal::Duration(0), .slack = 0.0};
 
   void SetUp() override {
     TensorTest::SetUp();

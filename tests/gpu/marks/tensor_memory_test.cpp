@@ -93,6 +93,57 @@ TEST_F(TensorMemory, AStillNoisyPicturesFieldDoesNotTremble) {
   EXPECT_LT(steady, 0.25 * alone);
 }
 
+/// Told by its detail, a region is of one class or another; noise is not to move it.
+TEST_F(TensorMemory, ARegionsClassDoesNotFlicker) {
+  // Textures of all strengths, so that many regions are near the border of a class.
+  const auto graded = [](glm::dvec2 px) { return 0.5 + 0.0006 * px.x * std::sin(0.9 * px.y); };
+  const auto changesOf = [&](double slack) {
+    field_->reset();
+    std::vector<FieldTexel> before;
+    int changes = 0;
+    for (unsigned i = 0; i < 60; ++i) {
+      update(greyPicture(kSize, graded, 3.0, i + 1), standing(), {.slack = slack});
+      const std::vector<FieldTexel> now = read(field_->resolved(0));
+      for (std::size_t at = 0; i > 30 && at < now.size(); ++at) {
+        for (const double border : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}) {
+          changes += (now[at].detail > border) != (before[at].detail > border) ? 1 : 0;
+        }
+      }
+      before = now;
+    }
+    return changes;
+  };
+  const int without = changesOf(0.0);
+  const int with = changesOf(TensorFieldOptions{}.slack);
+  RecordProperty("changes", std::to_string(with) + " of " + std::to_string(without));
+  EXPECT_GT(without, 40) << "the control";
+  EXPECT_LE(with, without / 20);
+}
+
+/// What is held is off by the slack at the most, and goes along.
+TEST_F(TensorMemory, DetailThatIsHeldIsOffByItsSlackAtMost) {
+  const TensorFieldOptions options{.memory = hal::Duration(0), .slack = 0.2};
+  const auto texture = [](double strength) {
+    return [strength](glm::dvec2 px) { return 0.5 + strength * std::sin(0.7 * px.x); };
+  };
+  const auto detail = [&] { return read(field_->resolved(0))[placeOf(16, 8)].detail; };
+  // The strongest edges are the same in all, and so is the threshold.
+  const auto withFrame = [&](double strength) {
+    return greyPicture(kSize, [=](glm::dvec2 px) {
+      return px.y < 16.0 ? (static_cast<int>(px.x) / 4 % 2 == 0 ? 0.9 : 0.1)
+                         : texture(strength)(px);
+    });
+  };
+  update(withFrame(0.020), standing(), options);
+  const double first = detail();
+  update(withFrame(0.022), standing(), options);
+  EXPECT_NEAR(detail(), first, 1e-3 * first) << "within the slack it stays";
+  update(withFrame(0.040), standing(), options);
+  EXPECT_NEAR(detail(), 2.0 * first * 0.8, 0.05 * first) << "beyond, it follows";
+  update(withFrame(0.010), standing(), options);
+  EXPECT_NEAR(detail(), 0.5 * first / 0.8, 0.05 * first);
+}
+
 TEST_F(TensorMemory, TheFieldIsTheSameWhateverTheFrameRate) {
   const hal::Image first = greyPicture(kSize, [](glm::dvec2 px) { return px.x < 128 ? 0.2 : 0.8; });
   const hal::Image then = greyPicture(kSize, [](glm::dvec2 px) { return px.y < 64 ? 0.2 : 0.8; });
