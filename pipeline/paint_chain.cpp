@@ -74,6 +74,7 @@ PaintChain::PaintChain(const PainterOptions& options, const gpu::ContextInfo& co
       renderer_(library_, options.scene),
       bufferViewer_(library_),
       style_(styles::makeStyle(options.style, library_)),
+      defaults_(style_->parameters()),
       light_(makeLightEstimator(options)) {
   hal::orThrow(tracking::checkTagFamily(scene_.tagFamily));
   for (const QualityPlan& plan : qualityPlans()) {
@@ -107,7 +108,7 @@ void PaintChain::warmUp(const Level& level, const hal::Image& blank) {
 }
 
 PaintParameters PaintChain::defaultParameters() const {
-  return {.style = style_->parameters(), .view = {}};
+  return {.style = defaults_, .view = {}};
 }
 
 std::vector<QualityLevel> qualityLevels() {

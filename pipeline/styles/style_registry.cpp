@@ -13,6 +13,7 @@
 #include "pipeline/styles/painterly/painterly_looks.h"
 #include "pipeline/styles/painterly/painterly_shaders.h"
 #include "pipeline/styles/plain.h"
+#include "pipeline/styles/sheet/sheet_shaders.h"
 #include "pipeline/styles/watercolor/watercolor.h"
 #include "pipeline/styles/watercolor/watercolor_looks.h"
 #include "pipeline/styles/watercolor/watercolor_shaders.h"
@@ -95,6 +96,7 @@ const StyleInfo& styleInfo(std::string_view name) {
 }
 
 void addStyleShaders(gpu::ShaderLibrary& library) {
+  library.add(gpu::sheetShaders());
   library.add(gpu::watercolorShaders());
   library.add(gpu::painterlyShaders());
 }

@@ -109,10 +109,7 @@ Mark markAt(const Hairs& hairs, const Noise& noise, double u, double v) {
                         (1.0 - smooth(0.88, 1.0, std::abs(across)));
   const double body = 1.0 - hairs.depth * (1.0 - hair);
   const double piled = 0.25 * hairs.ridge * smooth(0.6, 0.85, u);
-  // Thin where the brush is set down and lifted, or each end would be a step.
-  const double thick = smooth(0.0, 0.16, fromStart) * smooth(0.0, 0.2, fromEnd);
-  return {.cover = cover,
-          .height = thick * std::clamp(0.65 * body + 0.5 * pushed + piled, 0.0, 1.0)};
+  return {.cover = cover, .height = std::clamp(0.65 * body + 0.5 * pushed + piled, 0.0, 1.0)};
 }
 
 std::uint8_t byteOf(double part) {

@@ -114,7 +114,8 @@ class StrokeTest : public TensorTest {
     motionField_->update(frame, timer_);
     field_->update(frame, texture, *motionField_, kNoMemory, timer_);
     anchors_->advance(frame, *motionField_, timer_);
-    strokes_->update(frame, *anchors_, *field_, colours, rule, timer_);
+    const StrokePaint paints{.real = &colours, .models = &colours};
+    strokes_->update(frame, *anchors_, *field_, paints, rule, timer_);
   }
 
   std::vector<StrokeSlot> readStrokes() const {
