@@ -4,7 +4,7 @@
 // Inputs:  anchor_cells.glsl's; births and slots (anchor_plan.comp); ids, barycentrics (ArFrame) and
 //          their pixelsOfFull if hasObjects; fullSize; salt: another one each frame; atOnce: whether
 //          they are there without a fade; motion: MotionField's field.
-// Outputs: anchors. A cell an invocation.
+// Outputs: anchors; counts empty for the next frame. A cell an invocation.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
@@ -104,6 +104,9 @@ void main() {
   uint births = cells[index].births;
   uint strata = cells[index].strata;
   cells[index].strata = 0u;
+  cells[index].inImage = 0u;
+  cells[index].onObjects = 0u;
+  cells[index].mostSpare = 0u;
   if (births == 0u) return;
   uint number = cells[index].firstBirth;
   uint taken = strata & 0xFFFFu;
