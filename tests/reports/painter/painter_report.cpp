@@ -4,6 +4,8 @@
 // `painter_report table1`: the thesis's table 1 beside ours. Leave the machine alone meanwhile.
 // `painter_report parts PHOTOGRAPH [WIDTHxHEIGHT [FRAMES]]`: what each part of its coherence is
 // worth, on moving pictures; half an hour at 640x480 and 30 frames.
+// `painter_report lives FOLDER PHOTOGRAPH`: the thesis's figure 26 with ours, as a PNG in FOLDER.
+// `painter_report hidden PHOTOGRAPH ...`: how many strokes of a painting at rest are for nothing.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -27,8 +29,11 @@
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/painter.h"
 #include "pipeline/scene/scene_shaders.h"
+#include "pipeline/styles/style_registry.h"
 #include "tests/reports/painter/coherence_parts.h"
 #include "tests/reports/painter/field_comparison.h"
+#include "tests/reports/painter/hidden_strokes.h"
+#include "tests/reports/painter/living_strokes.h"
 
 namespace pleinair {
 namespace {
@@ -226,6 +231,47 @@ void reportParts(const Arguments& arguments) {
   printCoherenceParts(arguments[0], size, length);
 }
 
+gpu::ShaderLibrary allShaders() {
+  gpu::ShaderLibrary library;
+  library.add(gpu::gpuShaders());
+  library.add(gpu::sceneShaders());
+  library.add(gpu::marksShaders());
+  styles::addStyleShaders(library);
+  return library;
+}
+
+void reportLives(const Arguments& arguments) {
+  const gpu::EglContext context;
+  const gpu::ShaderLibrary library = allShaders();
+  const std::filesystem::path file = std::filesystem::path(arguments[0]) / "living_strokes.png";
+  hal::orThrow(hal::writePng(file, livingStrokes(library, arguments[1]).view()));
+}
+
+void reportHidden(const Arguments& photographs) {
+  const gpu::EglContext context;
+  const gpu::ShaderLibrary library = allShaders();
+  fmt::print(
+      "Strokes at rest, 640x480, of each layer from coarse to fine; and the part of them that "
+      "later ones hide.\n\n| picture | layers | in all |\n|---|---|---|\n");
+  for (const std::string& path : photographs) {
+    const auto input = hal::orThrow(measure::openPhotograph(path, {.noiseLevels = 0, .frames = 1}));
+    const hal::CapturedFrame frame = *hal::orThrow(input->next());
+    LayerUse all;
+    std::string layers;
+    for (const LayerUse& each : strokesInUse(library, hal::Image(frame.image))) {
+      layers += fmt::format("{}{}: {:.0f} %", layers.empty() ? "" : ", ", each.strokes,
+                            100.0 * static_cast<double>(each.hidden) /
+                                static_cast<double>(std::max<std::size_t>(1, each.strokes)));
+      all.strokes += each.strokes;
+      all.hidden += each.hidden;
+    }
+    fmt::print("| {} | {} | {}: {:.1f} % |\n", std::filesystem::path(path).stem().string(), layers,
+               all.strokes,
+               100.0 * static_cast<double>(all.hidden) / static_cast<double>(all.strokes));
+    std::fflush(stdout);
+  }
+}
+
 struct Section {
   const char* name;
   std::size_t leastArguments;
@@ -234,11 +280,13 @@ struct Section {
   const char* usage;
 };
 
-const std::array<Section, 3>& sections() {
-  static const std::array<Section, 3> kSections{{
+const std::array<Section, 5>& sections() {
+  static const std::array<Section, 5> kSections{{
       {"fields", 1, 1000, reportFields, "fields FOLDER [PICTURE ...]"},
       {"table1", 0, 0, [](const Arguments&) { printTable1(); }, "table1"},
       {"parts", 1, 3, reportParts, "parts PHOTOGRAPH [WIDTHxHEIGHT [FRAMES]]"},
+      {"lives", 2, 2, reportLives, "lives FOLDER PHOTOGRAPH"},
+      {"hidden", 1, 1000, reportHidden, "hidden PHOTOGRAPH ..."},
   }};
   return kSections;
 }
