@@ -30,6 +30,7 @@ uniform bool isLimited;
 uniform vec3 jitter;
 
 const int kPoints = 8;
+const float kSpeck = 0.3;
 
 // The place `s` segments along an arm.
 vec2 along(vec4 first, vec4 second, float s) {
@@ -70,9 +71,11 @@ void main() {
   Instance made;
   for (int i = 0; i < 4; ++i) made.points[i] = vec4(points[2 * i], points[2 * i + 1]);
   float light = smoothstep(0.2, 0.95, luma);
+  // What is cut short on both sides is a speck that little stands behind: paint it thinly.
+  float stands = mix(kSpeck, 1.0, smoothstep(0.8, 2.2, stroke.lengths.x + stroke.lengths.y));
   colour = clamp(colour, 0.0, 1.0);
   if (isLimited) colour = mixtureOf(colour);
-  made.paint = vec4(colour, opacity * (1.0 - leaveLight * light) * stroke.seen);
+  made.paint = vec4(colour, opacity * stands * (1.0 - leaveLight * light) * stroke.seen);
   uint variant = hashOf(seed ^ 0x31u);
   made.shape = vec4(0.5 * wide, float(variant & 3u), (variant & 4u) != 0u ? 1.0 : 0.0,
                     anchors[slot].age);

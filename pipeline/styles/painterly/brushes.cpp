@@ -37,7 +37,7 @@ Hairs hairsOf(Brush brush) {
     case Brush::kMarker:
       return {3, 0.05, 0.00, 0.05, 0.9, 0.12, 0.90, 0.00, 0.0};
     case Brush::kPencil:
-      return {9, 0.35, 0.30, 0.10, 0.5, 0.55, 0.15, 0.00, 0.75};
+      return {7, 0.35, 0.22, 0.10, 0.5, 0.60, 0.30, 0.00, 0.35};
   }
   return {};
 }

@@ -231,6 +231,7 @@ void Painterly::State::light(const scene::ArFrame& frame, const PainterlyParamet
       .set("gloss", static_cast<float>(p.gloss))
       .set("weave", static_cast<float>(p.canvas))
       .set("tooth", static_cast<float>(p.tooth))
+      .set("wash", static_cast<float>(p.wash))
       .set("ground", groundOf(p))
       .set("saturation", static_cast<float>(p.saturation))
       .set("warmth", static_cast<float>(p.warmth))

@@ -2,7 +2,7 @@
 //          crisp.
 // Inputs:  colours, heights (stroke.frag); sheet.glsl's: what it is painted on; frame, normalFocus if
 //          hasFocus; relief, gloss, weave: how much of each; tooth: how much the sheet's grain keeps
-//          paint from its hollows, where ground is seen; palette: saturation, warmth.
+//          paint from its hollows, where the washed ground is seen; palette: saturation, warmth.
 // Outputs: RGBA8, sRGB-coded, opaque.
 // Precision: highp for places.
 #include "pipeline/styles/sheet/shaders/sheet.glsl"
@@ -16,6 +16,7 @@ uniform float gloss;
 uniform float weave;
 uniform float tooth;
 uniform vec3 ground;
+uniform float wash;
 uniform float saturation;
 uniform float warmth;
 layout(location = 0) out vec4 picture;
@@ -45,7 +46,7 @@ void main() {
   lit += weave * (1.0 - 0.7 * here) * (2.0 * sheet.g - 1.0);
   vec3 halfway = normalize(kLight + vec3(0.0, 0.0, 1.0));
   float shine = pow(max(dot(normal, halfway), 0.0), 40.0) - pow(halfway.z, 40.0);
-  rgb = mix(ground, rgb, caught(sheet.r, texelFetch(heights, p, 0).g));
+  rgb = mix(mix(ground, rgb, wash), rgb, caught(sheet.r, texelFetch(heights, p, 0).g));
   float luma = dot(rgb, vec3(0.299, 0.587, 0.114));
   rgb = luma + (rgb - luma) * saturation;
   rgb *= vec3(1.0 + 0.12 * warmth, 1.0, 1.0 - 0.15 * warmth);
