@@ -4,7 +4,9 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <map>
+#include <string>
 #include <tuple>
 
 #include <glm/geometric.hpp>
@@ -171,6 +173,32 @@ TEST_F(Coherence, WithoutWarpStrokesStayOnTheScreen) {
     }
     EXPECT_GT(same, 500U);
   }
+}
+
+/// The view shows each region in its class's colour, mixed with the picture.
+TEST_F(Coherence, RegionsKeepTheirClassesUnderNoise) {
+  const auto changesWith = [&](const char* hysteresis) {
+    restart();
+    Painterly style(library_);
+    // Without history it is hysteresis alone that holds.
+    style.setParameters(style.parameters().with("hysteresis", hysteresis).with("history", "false"));
+    std::vector<std::uint8_t> before;
+    int changes = 0;
+    for (int i = 0; i < 40; ++i) {
+      const std::vector<std::uint8_t> now = paint(style, next(0.0, 0.0), "regions");
+      // Classes' colours are farther apart than noise can be.
+      for (std::size_t at = 0; i > 25 && at < now.size(); ++at) {
+        changes += std::abs(int{now[at]} - int{before[at]}) > 30 ? 1 : 0;
+      }
+      before = now;
+    }
+    return changes;
+  };
+  const int without = changesWith("false");
+  const int with = changesWith("true");
+  RecordProperty("changes", std::to_string(with) + " of " + std::to_string(without));
+  EXPECT_GT(without, 50) << "the control";
+  EXPECT_LE(with, without / 10);
 }
 
 TEST_F(Coherence, WithoutFadesStrokesAreThereOrNot) {
