@@ -30,7 +30,7 @@ uniform bool isLimited;
 uniform vec3 jitter;
 
 const int kPoints = 8;
-const float kSpeck = 0.3;
+const float kSpeck = 0.5;
 
 // The place `s` segments along an arm.
 vec2 along(vec4 first, vec4 second, float s) {

@@ -60,6 +60,9 @@ uint objectAt(vec2 px) {
   return objectOf(texelFetch(ids, pixel, 0).r);
 }
 
+// What the stroke stands on counts for more than what it goes over, or little lights would go out.
+const float kOwnWeight = 3.0;
+
 struct Arm {
   vec2 directions[kArm];
   float length;
@@ -173,7 +176,7 @@ void main() {
     behind.colour = vec3(0.0);
     behind.weight = 0.0;
   }
-  vec3 colour = (own + ahead.colour + behind.colour) / (1.0 + ahead.weight + behind.weight);
+  vec3 colour = (kOwnWeight * own + ahead.colour + behind.colour) / (kOwnWeight + ahead.weight + behind.weight);
 
   // Wanted where there is that much detail; what is there stays a little longer.
   float detail = detailAt(px, object) + detailSpread * (hash - 0.5);

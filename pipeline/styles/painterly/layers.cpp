@@ -12,6 +12,7 @@ namespace {
 
 /// Lengths are given for pictures of so many (640x480).
 constexpr double kReferencePixels = 307200.0;
+constexpr double kLeastPixels = 3.0;
 
 std::size_t countOf(const PainterlyParameters& p) {
   return static_cast<std::size_t>(p.layers);
@@ -36,7 +37,10 @@ glm::vec2 bandOf(const PainterlyParameters& p, std::size_t layer) {
 
 LayerPlan planOf(const PainterlyParameters& p, hal::FrameSize full) {
   const double scale = std::sqrt(static_cast<double>(full.pixels()) / kReferencePixels);
-  return {countOf(p), scale * p.strokeSizePixels, p.layerRatio, p.coverage, p.length, p.seed};
+  // Below that a brush has no bristles to show.
+  const double finest =
+      std::max(scale * p.strokeSizePixels, std::min(kLeastPixels, p.strokeSizePixels));
+  return {countOf(p), finest, p.layerRatio, p.coverage, p.length, p.seed};
 }
 
 double widthOf(const LayerPlan& plan, std::size_t layer) {

@@ -23,7 +23,8 @@ canvas = 0.05
 )"},
     {"gouache", "flat, matt and opaque", R"(
 layers = 3
-stroke_size = 5
+stroke_size = 4
+detail = 0.2
 layer_ratio = 2.2
 length = 6
 opacity = 1
@@ -44,12 +45,12 @@ length = 7
 layers = 3
 brush = "dry"
 support = "paper"
-tooth = 0.45
+tooth = 0.5
 opacity = 0.85
 relief = 0
 gloss = 0
-canvas = 0.1
-wash = 0.6
+canvas = 0.2
+wash = 0.5
 ground_red = 0.62
 ground_green = 0.55
 ground_blue = 0.47

@@ -31,7 +31,7 @@ struct PainterlyParameters {
   double saturationJitter = 0.12;
   double valueJitter = 0.05;
   Brush brush = Brush::kFlat;
-  double relief = 1.2;
+  double relief = 1.4;
   double gloss = 0.08;
   Sheet::Kind support = Sheet::Kind::kLinen;
   double canvas = 0.15;
