@@ -8,7 +8,6 @@
 #include "config/suggestion.h"
 #include "hal/error.h"
 #include "pipeline/gpu/cover_fit.h"
-#include "pipeline/marks/anchor_set.h"
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/present/present_shaders.h"
 #include "pipeline/quality_levels.h"
@@ -74,6 +73,7 @@ PaintChain::PaintChain(const PainterOptions& options, const gpu::ContextInfo& co
       renderer_(library_, options.scene),
       bufferViewer_(library_),
       style_(styles::makeStyle(options.style, library_)),
+      defaults_(style_->parameters()),
       light_(makeLightEstimator(options)) {
   hal::orThrow(tracking::checkTagFamily(scene_.tagFamily));
   for (const QualityPlan& plan : qualityPlans()) {
@@ -107,7 +107,7 @@ void PaintChain::warmUp(const Level& level, const hal::Image& blank) {
 }
 
 PaintParameters PaintChain::defaultParameters() const {
-  return {.style = style_->parameters(), .view = {}};
+  return {.style = defaults_, .view = {}};
 }
 
 std::vector<QualityLevel> qualityLevels() {
@@ -361,9 +361,7 @@ hal::Result<hal::Image> PaintChain::cameraStill() {
 
 hal::Result<std::vector<marks::Anchor>> PaintChain::anchors() {
   if (auto sound = watch_.check(); !sound) return tl::unexpected(std::move(sound.error()));
-  const marks::AnchorSet* set = style_->anchors();
-  if (set == nullptr) return std::vector<marks::Anchor>{};
-  std::vector<marks::Anchor> anchors = set->read();
+  std::vector<marks::Anchor> anchors = style_->readAnchors();
   if (auto sound = watch_.check(); !sound) return tl::unexpected(std::move(sound.error()));
   return anchors;
 }

@@ -1,8 +1,8 @@
 // Purpose: carries the anchors that live in the camera's picture, and opens the frame for all others:
 //          what lives on a surface is hidden until its object's pass (anchor_surface.comp) finds it.
 // Inputs:  image_motion.glsl's, flow forward; ids and its pixelsOfFull if hasObjects; fullSize;
-//          margin: px beyond the border after which an anchor is gone; stepSeconds; anew: whether all
-//          are to go.
+//          margin: px beyond the border after which an anchor is gone; stepSeconds; follows: whether
+//          anything is carried, else surfaces' anchors rest like all others; anew: whether all are to go.
 // Outputs: anchors. One an invocation.
 // Precision: highp.
 #include "pipeline/marks/shaders/image_motion.glsl"
@@ -15,6 +15,7 @@ uniform vec2 pixelsOfFull;
 uniform vec2 fullSize;
 uniform float margin;
 uniform float stepSeconds;
+uniform bool follows;
 uniform bool anew;
 uniform uint slots;
 
@@ -30,7 +31,7 @@ void main() {
   }
   anchors[slot].age += stepSeconds;
   uint object = objectOf(anchors[slot].surface);
-  if (isVirtual(object)) {
+  if (follows && isVirtual(object)) {
     anchors[slot].displacement = vec2(0.0);
     anchors[slot].jacobian = kNoTurn;
     anchors[slot].error = kUnknownError;

@@ -8,6 +8,7 @@ using config::choiceParameter;
 using config::integerParameter;
 using config::numberParameter;
 using config::pathParameter;
+using config::switchParameter;
 using config::TakesEffect;
 using config::textParameter;
 using P = PainterlyParameters;
@@ -99,6 +100,13 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
                       "The paint's relief is lit once, or, as the thesis does, on each stroke."),
       choiceParameter("quads", &P::quads, kQuadCounts,
                       "What strokes are drawn of: as few as they bend, or the thesis's 4 (n + 2)."),
+      switchParameter("warp", &P::warp,
+                      "Whether strokes go with what they depict; off, they stay on the screen."),
+      switchParameter("history", &P::history,
+                      "Whether shapes, colours and directions are blended with what they were."),
+      switchParameter("hysteresis", &P::hysteresis,
+                      "Whether what is there stays a little longer than it would newly come."),
+      switchParameter("fades", &P::fades, "Whether strokes come and go gradually."),
   };
   return table;
 }

@@ -130,6 +130,11 @@ const marks::AnchorSet* Watercolor::anchors() const {
   return marks_ == nullptr ? nullptr : marks_->anchors.get();
 }
 
+std::vector<marks::Anchor> Watercolor::readAnchors() const {
+  const marks::AnchorSet* set = anchors();
+  return set == nullptr ? std::vector<marks::Anchor>{} : set->read();
+}
+
 Watercolor::Inner Watercolor::inner() const {
   assert(canvas_ != nullptr);
   return {.tiler = &passes_->tiler,

@@ -53,6 +53,7 @@ class Watercolor final : public Style {
   const gpu::Texture& paint(const scene::ArFrame& frame, std::string_view view,
                             gpu::PassTimer& timer) override;
   const marks::AnchorSet* anchors() const override;
+  std::vector<marks::Anchor> readAnchors() const override;
   void reset() override;
 
   /// What the last frame's passes left on the GPU, for measures and tests.
