@@ -13,7 +13,9 @@
 #include "firmware_app/control_text.h"
 #include "firmware_app/status_server/listen_address.h"
 #include "hal/cameras/synthetic/open_synthetic.h"
+#include "hal/error.h"
 #include "pipeline/scene/scene_file.h"
+#include "pipeline/styles/style_registry.h"
 
 namespace pleinair::app {
 namespace {
@@ -43,6 +45,8 @@ PaintingOptions configuredPainting(const Configuration& configuration, PaintingO
   options.view = painting.view == kFinishedView ? "" : painting.view;
   if (painting.size != config::PixelSize{}) options.size = frameSizeOf(painting.size);
   options.parameters = configuration.styleParameters();
+  const auto check = styles::styleInfo(options.style).check;
+  if (check != nullptr) hal::orThrow(check(*options.parameters));
   return options;
 }
 

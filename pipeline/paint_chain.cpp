@@ -235,6 +235,7 @@ hal::Result<void> PaintChain::checkFrame(const hal::CapturedFrame& frame,
   if (auto fits = gpu::checkDeviceLimit(context_, frame.image.format.size, "frame"); !fits) {
     return fits;
   }
+  if (auto ready = style_->prepare(parameters.style); !ready) return ready;
   return adaptTo(frame.image.format.size);
 }
 

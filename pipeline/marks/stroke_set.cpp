@@ -45,7 +45,8 @@ struct StrokeSet::State {
         ranks(slots * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
         command(kCommandBytes, gpu::BufferUsage::kDynamic),
         instances(slots * kInstanceBytes, gpu::BufferUsage::kDynamic),
-        noIds(gpu::TextureFormat::kR32ui, {1, 1}) {
+        noIds(gpu::TextureFormat::kR32ui, {1, 1}),
+        anyColour(gpu::TextureFormat::kRgba8, {1, 1}) {
     strokes.write(std::vector<std::byte>(strokes.sizeBytes()));
   }
 
@@ -58,11 +59,12 @@ struct StrokeSet::State {
   gpu::Buffer command;
   gpu::Buffer instances;
   gpu::Texture noIds;
+  gpu::Texture anyColour;
   hal::TimePoint lastTime;
 
   glm::ivec2 allSlots() const { return {static_cast<int>(slots), 1}; }
   void grow(const scene::ArFrame& frame, const AnchorSet& anchors, const TensorField& field,
-            const gpu::Texture& paint, const StrokeRule& rule, hal::Duration step);
+            const StrokePaint& paint, const StrokeRule& rule, hal::Duration step);
   void layOut(const AnchorSet& anchors, const StrokeRule& rule);
 };
 
@@ -77,7 +79,7 @@ glm::vec2 scaleOf(const TensorField& field, std::size_t level) {
 }  // namespace
 
 void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchors,
-                            const TensorField& field, const gpu::Texture& paint,
+                            const TensorField& field, const StrokePaint& paint,
                             const StrokeRule& rule, hal::Duration step) {
   const auto stays = [step](hal::Duration timeConstant) {
     return keptAfter(step, secondsOf(timeConstant));
@@ -89,7 +91,8 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .storage(1, strokes)
       .texture("field", field.resolved(level))
       .texture("detailField", field.resolved(detail))
-      .texture("paint", paint)
+      .texture("paint", *paint.real)
+      .texture("modelPaint", *paint.models)
       .texture("ids", frame.hasObjects ? *frame.ids : noIds)
       .set("hasObjects", frame.hasObjects ? 1 : 0)
       .set("anew", anchors.hasBegunAnew() ? 1 : 0)
@@ -104,6 +107,7 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .set("colourThreshold", rule.colourThreshold)
       .set("cutOff", std::cos(rule.cutOffRad))
       .set("detailBand", rule.detailBand)
+      .set("modelDetail", rule.modelDetail)
       .set("detailSpread", rule.detailSpread)
       .set("bothWays", rule.bothWays ? 1 : 0)
       .set("wander", rule.wanderRad)
@@ -132,6 +136,9 @@ void StrokeSet::State::layOut(const AnchorSet& anchors, const StrokeRule& rule) 
       .set("width", rule.widthPx)
       .set("widthSpread", rule.widthSpread)
       .set("opacity", rule.opacity)
+      .set("leaveLight", rule.leaveLight)
+      .texture("mixtures", rule.mixtures != nullptr ? *rule.mixtures : anyColour)
+      .set("isLimited", rule.mixtures != nullptr ? 1 : 0)
       .set("jitter", rule.jitter)
       .dispatch(allSlots(), kSlotGroup,
                 GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
@@ -143,7 +150,7 @@ StrokeSet::StrokeSet(const gpu::ShaderLibrary& library, std::uint32_t slotCount)
 StrokeSet::~StrokeSet() = default;
 
 void StrokeSet::update(const scene::ArFrame& frame, const AnchorSet& anchors,
-                       const TensorField& field, const gpu::Texture& paint, const StrokeRule& rule,
+                       const TensorField& field, const StrokePaint& paint, const StrokeRule& rule,
                        gpu::PassTimer& timer) {
   State& s = *state_;
   assert(anchors.slotCount() == s.slots);

@@ -26,13 +26,16 @@ struct StrokeRule {
   float colourThreshold = 0.12F;     ///< the difference from the anchor's colour at which it ends
   float cutOffRad = 0.8F;            ///< the turn between two segments at which it ends
   glm::vec2 detailBand{0.0F, 1e9F};  ///< where the layer is painted (TensorField::resolved)
+  float modelDetail = 1.0F;          ///< how many times as much detail counts on virtual surfaces
   float detailSpread = 0.0F;         ///< by how much anchors differ about the band
   float wanderRad = 0.1F;            ///< how far a stroke strays from the field, at most
   bool bothWays = true;              ///< else only ahead of the anchor, as the thesis walks
   std::size_t fieldLevel = 0;        ///< of the tensor field; beyond its last: the last
   float widthPx = 8.0F;
-  float widthSpread = 0.2F;                                    ///< ± this part of the width
-  float opacity = 1.0F;                                        ///< in [0, 1]
+  float widthSpread = 0.2F;                ///< ± this part of the width
+  float opacity = 1.0F;                    ///< in [0, 1]
+  const gpu::Texture* mixtures = nullptr;  ///< a limited palette (shaders/mixture.glsl); none: all
+  float leaveLight = 0.0F;  ///< in [0, 1]: by how much the lightest strokes are thinner paint
   glm::vec3 jitter{0.02F, 0.1F, 0.05F};                        ///< of hue, saturation, value; parts
   int quads = 8;                                               ///< at most, of a stroke
   hal::Duration shapeMemory = std::chrono::milliseconds(650);  ///< time constants; 0: none
@@ -40,6 +43,13 @@ struct StrokeRule {
   hal::Duration appearing = std::chrono::milliseconds(300);
   hal::Duration vanishing = std::chrono::milliseconds(300);
   float mostColourPerSecond = 1.5F;  ///< by which a stroke's colour changes, at most
+};
+
+/// The pictures that colours are of, of any size (LINEAR, sRGB-coded, premultiplied): what is real,
+/// and what models show; where there are none, the same.
+struct StrokePaint {
+  const gpu::Texture* real = nullptr;
+  const gpu::Texture* models = nullptr;
 };
 
 /// The strokes of an AnchorSet's anchors: grown along a tensor field (thesis §4.4), blended with
@@ -56,12 +66,11 @@ class StrokeSet {
   StrokeSet(StrokeSet&&) = delete;
   StrokeSet& operator=(StrokeSet&&) = delete;
 
-  /// Grows the strokes of the frame that `anchors` and `field` were brought to. `paint`: the
-  /// picture that colours are of, of any size (LINEAR). Where the anchors have begun anew, strokes
-  /// are what the frame says, without a past. Preconditions: both are of frame.full(), and the
-  /// anchors have the constructor's number of slots.
+  /// Grows the strokes of the frame that `anchors` and `field` were brought to. Where the anchors
+  /// have begun anew, strokes are what the frame says, without a past. Preconditions: both are of
+  /// frame.full(), and the anchors have the constructor's number of slots.
   void update(const scene::ArFrame& frame, const AnchorSet& anchors, const TensorField& field,
-              const gpu::Texture& paint, const StrokeRule& rule, gpu::PassTimer& timer);
+              const StrokePaint& paint, const StrokeRule& rule, gpu::PassTimer& timer);
 
   /// Of each stroke that is seen, in the order of painting: four pairs of points, paint, shape
   /// (shaders/stroke_instances.comp), 96 bytes; and glDrawArraysIndirect's command for triangle

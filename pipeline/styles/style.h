@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "config/parameter_values.h"
+#include "hal/error.h"
 #include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/scene/ar_frame.h"
@@ -43,7 +44,13 @@ class Style {
 
   /// The snapshot in force; its list() describes what can be tuned. At first the defaults.
   virtual const config::ParameterValues& parameters() const = 0;
-  /// Puts another snapshot of the same list in force, from the next paint() on.
+  /// Makes ready what a snapshot names outside the program, such as a file. Errors: of that; the
+  /// snapshot is not put in force then.
+  virtual hal::Result<void> prepare([[maybe_unused]] const config::ParameterValues& values) {
+    return {};
+  }
+  /// Puts another snapshot of the same list in force, from the next paint() on. Precondition: it
+  /// was prepared.
   virtual void setParameters(const config::ParameterValues& values) = 0;
 
   /// Paints `frame`; the RGBA8 result (sRGB-coded, opaque) has the frame's size, row 0 at the top,

@@ -13,6 +13,7 @@
 #include "pipeline/styles/painterly/painterly_looks.h"
 #include "pipeline/styles/painterly/painterly_shaders.h"
 #include "pipeline/styles/plain.h"
+#include "pipeline/styles/sheet/sheet_shaders.h"
 #include "pipeline/styles/watercolor/watercolor.h"
 #include "pipeline/styles/watercolor/watercolor_looks.h"
 #include "pipeline/styles/watercolor/watercolor_shaders.h"
@@ -39,7 +40,8 @@ const std::array<Entry, 3>& entries() {
         .help = "layers of brush strokes that live (thesis chapter IV, and on)",
         .views = painterlyViews(),
         .looks = painterlyLooks(),
-        .defaults = painterlyParameters().defaults()},
+        .defaults = painterlyParameters().defaults(),
+        .check = checkPainterly},
        [](const gpu::ShaderLibrary& library) -> std::unique_ptr<Style> {
          return std::make_unique<Painterly>(library);
        }},
@@ -95,6 +97,7 @@ const StyleInfo& styleInfo(std::string_view name) {
 }
 
 void addStyleShaders(gpu::ShaderLibrary& library) {
+  library.add(gpu::sheetShaders());
   library.add(gpu::watercolorShaders());
   library.add(gpu::painterlyShaders());
 }

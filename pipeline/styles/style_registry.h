@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "config/parameter_values.h"
+#include "hal/error.h"
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/styles/look.h"
 #include "pipeline/styles/style.h"
@@ -19,6 +20,8 @@ struct StyleInfo {
   std::span<const ViewInfo> views;
   std::span<const Look> looks;  ///< the first is what the defaults are; may be empty
   config::ParameterValues defaults;
+  /// Whether what parameters name outside the program is there and sound; null: they name nothing.
+  hal::Result<void> (*check)(const config::ParameterValues& values) = nullptr;
 
   /// The defaults under the look's values, whose origin names the look. Throws config::ConfigError
   /// for an unknown name, with all names.

@@ -1,6 +1,7 @@
 // What the painter costs, in the thesis's four stages (table 1: tensor field, features and
 // matching, warping of anchors, painting), beside OpenCV's stylization of the same frames in the
 // same run. Stages are timed by fences, which makes their sum more than the whole.
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <map>
@@ -86,6 +87,52 @@ std::string_view stageOf(std::string_view pass) {
   return "painting";
 }
 
+/// As whole(), with a parameter of the style other than it is by itself.
+void with(benchmark::State& state, const char* name, const char* value) {
+  Bench bench(sizeOf(state), "painterly", gpu::PassTiming::kOff);
+  bench.parameters.style = bench.parameters.style.with(name, value);
+  bench.paint();
+  for ([[maybe_unused]] auto _ : state) {
+    bench.paint();
+    hal::orThrow(bench.painter.still());
+  }
+}
+
+/// The first frame after a parameter was changed: forth and back between two values.
+void change(benchmark::State& state, const char* name, const char* one, const char* other) {
+  Bench bench(sizeOf(state), "painterly", gpu::PassTiming::kOff);
+  const config::ParameterValues& style = bench.parameters.style;
+  const std::array<config::ParameterValues, 2> values{style.with(name, one),
+                                                      style.with(name, other)};
+  for ([[maybe_unused]] auto _ : state) {
+    bench.parameters.style = values.at(bench.number % 2);
+    bench.paint();
+    hal::orThrow(bench.painter.still());
+  }
+}
+
+/// Frames that are the first with their brush, which is made then. Five of them: `flat` is there.
+void newBrush(benchmark::State& state) {
+  Bench bench(sizeOf(state), "painterly", gpu::PassTiming::kOff);
+  const config::ParameterValues style = bench.parameters.style;
+  const std::array<const char*, 5> brushes{"round", "dry", "knife", "marker", "pencil"};
+  std::size_t next = 0;
+  for ([[maybe_unused]] auto _ : state) {
+    bench.parameters.style = style.with("brush", brushes.at(next++));
+    bench.paint();
+    hal::orThrow(bench.painter.still());
+  }
+}
+
+/// From nothing to a painter whose first frame will find all made: the driver's shader cache on
+/// disk decides about most of it.
+void start(benchmark::State& state) {
+  for ([[maybe_unused]] auto _ : state) {
+    const Painter painter(
+        {.pictureSize = sizeOf(state), .scene = {}, .style = "painterly", .tracksTags = false});
+  }
+}
+
 void stages(benchmark::State& state) {
   Bench bench(sizeOf(state), "painterly", gpu::PassTiming::kFences);
   std::map<std::string, double, std::less<>> before;
@@ -123,6 +170,28 @@ void atSizes(benchmark::internal::Benchmark* benchmark) {
 }
 
 BENCHMARK_CAPTURE(whole, painterly, "painterly")->Name("painterly/whole")->Apply(atSizes);
+void atOneSize(benchmark::internal::Benchmark* benchmark) {
+  benchmark->Args({640, 480});
+  benchmark->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()->MinTime(2.0);
+}
+
+BENCHMARK_CAPTURE(with, quads, "quads", "thesis")->Name("painterly/4 (n + 2)")->Apply(atSizes);
+BENCHMARK_CAPTURE(with, walk, "walk", "ahead")->Name("painterly/one way")->Apply(atOneSize);
+BENCHMARK_CAPTURE(with, bump, "bump", "each")->Name("painterly/bump each")->Apply(atSizes);
+BENCHMARK(newBrush)
+    ->Name("painterly/a new brush")
+    ->Args({640, 480})
+    ->Iterations(5)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->MeasureProcessCPUTime();
+BENCHMARK_CAPTURE(change, brush, "brush", "dry", "round")
+    ->Name("painterly/another brush again")
+    ->Apply(atOneSize);
+BENCHMARK_CAPTURE(change, plan, "stroke_size", "4", "5")
+    ->Name("painterly/another plan")
+    ->Apply(atOneSize);
+BENCHMARK(start)->Name("painterly/start")->Apply(atOneSize);
 BENCHMARK(stages)->Name("painterly/stages")->Apply(atSizes);
 BENCHMARK(stylization)->Name("OpenCV/stylization")->Apply(atSizes);
 

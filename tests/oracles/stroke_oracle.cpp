@@ -109,4 +109,27 @@ std::vector<glm::dvec2> thesisSplineSamples(const std::vector<glm::dvec2>& point
   return samples;
 }
 
+glm::dvec3 bumpNormal(double left, double right, double bottom, double top) {
+  return glm::normalize(glm::dvec3(left - right, bottom - top, 1.0));
+}
+
+glm::dvec3 litPaint(glm::dvec3 paint, glm::dvec3 normal, double gloss) {
+  const glm::dvec3 light = glm::normalize(glm::dvec3(-3.0, -4.0, 3.0));
+  const double lit = std::clamp(glm::dot(normal, light) / light.z, 0.3, 1.8);
+  const glm::dvec3 halfway = glm::normalize(light + glm::dvec3(0.0, 0.0, 1.0));
+  const double shine = std::pow(std::max(glm::dot(normal, halfway), 0.0), 40.0);
+  const double flat = std::pow(halfway.z, 40.0);
+  return glm::clamp(paint * (1.0 + 0.6 * (lit - 1.0)) + gloss * std::max(shine - flat, 0.0), 0.0,
+                    1.0);
+}
+
+double paintableShare(const std::vector<bool>& its) {
+  constexpr double kTent[3] = {0.25, 0.5, 0.25};
+  double share = 0.0;
+  for (std::size_t i = 0; i < 9; ++i) {
+    if (its[i]) share += kTent[i / 3] * kTent[i % 3];
+  }
+  return share;
+}
+
 }  // namespace pleinair::oracles

@@ -58,4 +58,13 @@ glm::dvec2 splinePlace(const std::vector<glm::dvec2>& points, double s);
 /// The thesis's sample points: 4 a segment, 4 (n + 2) + 1 in all.
 std::vector<glm::dvec2> thesisSplineSamples(const std::vector<glm::dvec2>& points);
 
+/// The thesis's bump normal (§4.4), in the stroke's tangent frame, of the four texels' heights.
+glm::dvec3 bumpNormal(double left, double right, double bottom, double top);
+/// Paint in the painter's light, which comes from the upper left; px, y down.
+glm::dvec3 litPaint(glm::dvec3 paint, glm::dvec3 normal, double gloss);
+
+/// How much of a pixel is an object's to paint, of which of the 3 x 3 pixels about it, row by row,
+/// are `its`: the tent of two pixels' width over them.
+double paintableShare(const std::vector<bool>& its);
+
 }  // namespace pleinair::oracles

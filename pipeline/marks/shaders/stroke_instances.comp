@@ -1,13 +1,16 @@
 // Purpose: what is drawn of each stroke: the control points of its spline, in the order of painting.
 // Inputs:  anchors, strokes, ranks (stroke_order.comp); segment: px; width: px, widthSpread: by which
-//          part strokes differ; opacity; jitter: of hue, saturation, value.
+//          part strokes differ; opacity; leaveLight; mixture.glsl's if
+//          isLimited; jitter: of hue, saturation, value.
 // Outputs: instances: 8 points (px of the full picture), colour (sRGB-coded) and opacity; half the
-//          width (px), the brush's variant, whether it is mirrored, its anchor's age (s). An anchor an
-//          invocation.
+//          width (px), the brush's variant, 4 more where it is mirrored, the virtual object that it is
+//          of, 0 for what is real, its anchor's age (s). An anchor an invocation.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
+#include "pipeline/marks/shaders/mixture.glsl"
 #include "pipeline/marks/shaders/stroke.glsl"
+#include "pipeline/scene/shaders/object_id.glsl"
 layout(local_size_x = 64) in;
 struct Instance {
   vec4 points[4];
@@ -23,9 +26,12 @@ uniform float segment;
 uniform float width;
 uniform float widthSpread;
 uniform float opacity;
+uniform float leaveLight;
+uniform bool isLimited;
 uniform vec3 jitter;
 
 const int kPoints = 8;
+const float kSpeck = 0.5;
 
 // The place `s` segments along an arm.
 vec2 along(vec4 first, vec4 second, float s) {
@@ -65,9 +71,14 @@ void main() {
   colour *= 1.0 + 2.0 * jitter.z * randomOf(seed, 0x25u);
   Instance made;
   for (int i = 0; i < 4; ++i) made.points[i] = vec4(points[2 * i], points[2 * i + 1]);
-  made.paint = vec4(clamp(colour, 0.0, 1.0), opacity * stroke.seen);
-  uint variant = hashOf(seed ^ 0x31u);
-  made.shape = vec4(0.5 * wide, float(variant & 3u), (variant & 4u) != 0u ? 1.0 : 0.0,
+  float light = smoothstep(0.2, 0.95, luma);
+  // What is cut short on both sides is a speck that little stands behind: paint it thinly.
+  float stands = mix(kSpeck, 1.0, smoothstep(0.8, 2.2, stroke.lengths.x + stroke.lengths.y));
+  colour = clamp(colour, 0.0, 1.0);
+  if (isLimited) colour = mixtureOf(colour);
+  made.paint = vec4(colour, opacity * stands * (1.0 - leaveLight * light) * stroke.seen);
+  uint object = objectOf(anchors[slot].surface);
+  made.shape = vec4(0.5 * wide, float(hashOf(seed ^ 0x31u) & 7u), isVirtual(object) ? float(object) : 0.0,
                     anchors[slot].age);
   instances[rank] = made;
 }

@@ -1,8 +1,8 @@
 // Purpose: grows each anchor's stroke along the tensor field (thesis §4.4), both ways, and blends it with
 //          what it was: directions one by one, lengths, colour and existence in time constants
 //          (§5.4), so that a stroke lives as long as its anchor.
-// Inputs:  anchors; field: tensors to follow, detailField: where there is how much detail; paint: the
-//          picture, reduced (LINEAR); ids if hasObjects; the rest as marks::StrokeRule has it.
+// Inputs:  anchors; field: tensors to follow, detailField: where there is how much detail; paint,
+//          modelPaint: the picture, reduced, of what is real and of models; ids if hasObjects; the rest as marks::StrokeRule has it.
 // Outputs: strokes. An anchor an invocation.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
@@ -15,6 +15,7 @@ layout(std430, binding = 1) buffer Strokes { Stroke strokes[]; };
 uniform highp sampler2D field;
 uniform highp sampler2D detailField;
 uniform highp sampler2D paint;
+uniform highp sampler2D modelPaint;
 uniform highp usampler2D ids;
 uniform bool hasObjects;
 uniform bool anew;
@@ -29,6 +30,7 @@ uniform float leastSteps;
 uniform float colourThreshold;
 uniform float cutOff;        // cosine
 uniform vec2 detailBand;     // where the layer is painted
+uniform float modelDetail;   // by how much it counts more on virtual surfaces
 uniform float detailSpread;  // by how much anchors differ about it
 uniform bool bothWays;       // else only ahead, as the thesis walks
 uniform float wander;        // rad: how far a stroke's hand strays from the field
@@ -44,12 +46,20 @@ vec2 directionAt(vec2 px) {
   return vec2(-gradient.y, gradient.x);
 }
 
-vec3 colourAt(vec2 px) { return textureLod(paint, px / fullSize, 0.0).rgb; }
+// Of what the stroke is of, where there is any near.
+vec3 colourAt(vec2 px, uint object) {
+  vec4 seen = isVirtual(object) ? textureLod(modelPaint, px / fullSize, 0.0)
+                                : textureLod(paint, px / fullSize, 0.0);
+  return seen.rgb / max(seen.a, 1e-3);
+}
 
 uint objectAt(vec2 px) {
   ivec2 pixel = clamp(ivec2(floor(px * pixelsOfFull)), ivec2(0), textureSize(ids, 0) - 1);
   return objectOf(texelFetch(ids, pixel, 0).r);
 }
+
+// What the stroke stands on counts for more than what it goes over, or little lights would go out.
+const float kOwnWeight = 3.0;
 
 struct Arm {
   vec2 directions[kArm];
@@ -58,7 +68,10 @@ struct Arm {
   float weight;
 };
 
-float detailAt(vec2 px) { return textureLod(detailField, px * detailScale, 0.0).w; }
+float detailAt(vec2 px, uint object) {
+  float detail = textureLod(detailField, px * detailScale, 0.0).w;
+  return isVirtual(object) ? modelDetail * detail : detail;
+}
 
 // Perceptual enough: luma counts most.
 float apart(vec3 a, vec3 b) {
@@ -86,7 +99,7 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, uint object) {
     }
     arm.directions[i] = direction;
     at += segment * direction;
-    vec3 there = colourAt(at);
+    vec3 there = colourAt(at, object);
     float difference = apart(there, own);
     bool isOther = hasObjects && objectAt(at) != object;
     if (goesOn && isOther) {
@@ -95,7 +108,7 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, uint object) {
       arm.length = min(arm.length, float(i) + (half_ ? 0.15 : 0.6));
       goesOn = false;
     }
-    if (goesOn && detailAt(at) < 0.4 * detailBand.x) {
+    if (goesOn && detailAt(at, object) < 0.4 * detailBand.x) {
       // A finer layer's stroke does not cross into what is for coarser ones (METHOD.md IV.6).
       arm.length = min(arm.length, max(float(i) + 0.5, leastSteps));
       goesOn = false;
@@ -140,7 +153,7 @@ void main() {
   float hash = unitOf(hashOf(seed ^ 0x51u));
   float stray = wander * (unitOf(hashOf(seed ^ 0x77u)) + unitOf(hashOf(seed ^ 0x78u)) - 1.0);
   vec2 hand = vec2(cos(stray), sin(stray));
-  vec3 own = colourAt(px);
+  vec3 own = colourAt(px, object);
   vec2 heading = directionAt(px);
   heading = vec2(hand.x * heading.x - hand.y * heading.y, hand.y * heading.x + hand.x * heading.y);
   if (!isNew) {
@@ -155,10 +168,10 @@ void main() {
     behind.colour = vec3(0.0);
     behind.weight = 0.0;
   }
-  vec3 colour = (own + ahead.colour + behind.colour) / (1.0 + ahead.weight + behind.weight);
+  vec3 colour = (kOwnWeight * own + ahead.colour + behind.colour) / (kOwnWeight + ahead.weight + behind.weight);
 
   // Wanted where there is that much detail; what is there stays a little longer.
-  float detail = detailAt(px) + detailSpread * (hash - 0.5);
+  float detail = detailAt(px, object) + detailSpread * (hash - 0.5);
   bool was = !isNew && old.wanted > 0.5;
   float slack = was ? 0.75 : 1.0;
   bool wanted = detail >= detailBand.x * slack && detail <= detailBand.y / slack;

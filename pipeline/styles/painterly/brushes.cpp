@@ -37,7 +37,7 @@ Hairs hairsOf(Brush brush) {
     case Brush::kMarker:
       return {3, 0.05, 0.00, 0.05, 0.9, 0.12, 0.90, 0.00, 0.0};
     case Brush::kPencil:
-      return {9, 0.35, 0.30, 0.10, 0.5, 0.55, 0.15, 0.00, 0.75};
+      return {7, 0.35, 0.22, 0.10, 0.5, 0.60, 0.30, 0.00, 0.35};
   }
   return {};
 }
@@ -45,6 +45,13 @@ Hairs hairsOf(Brush brush) {
 double smooth(double from, double to, double x) {
   const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);
+}
+
+/// std::floor() is a call where the processor's newer instructions may not be used; a brush takes
+/// millions of them.
+int floorOf(double x) {
+  const auto whole = static_cast<int>(x);
+  return x < whole ? whole - 1 : whole;
 }
 
 /// Smooth noise on a line or plane, in [0, 1], from random numbers at whole places.
@@ -55,12 +62,10 @@ class Noise {
     for (double& each : values_) each = static_cast<double>(random()) / 4294967295.0;
   }
   double operator()(double x, double y) const {
-    const double fx = std::floor(x);
-    const double fy = std::floor(y);
-    const double u = smooth(0.0, 1.0, x - fx);
-    const double v = smooth(0.0, 1.0, y - fy);
-    const auto ix = static_cast<int>(fx);
-    const auto iy = static_cast<int>(fy);
+    const int ix = floorOf(x);
+    const int iy = floorOf(y);
+    const double u = smooth(0.0, 1.0, x - ix);
+    const double v = smooth(0.0, 1.0, y - iy);
     const double above = at(ix, iy) * (1.0 - u) + at(ix + 1, iy) * u;
     const double below = at(ix, iy + 1) * (1.0 - u) + at(ix + 1, iy + 1) * u;
     return above * (1.0 - v) + below * v;
@@ -109,10 +114,7 @@ Mark markAt(const Hairs& hairs, const Noise& noise, double u, double v) {
                         (1.0 - smooth(0.88, 1.0, std::abs(across)));
   const double body = 1.0 - hairs.depth * (1.0 - hair);
   const double piled = 0.25 * hairs.ridge * smooth(0.6, 0.85, u);
-  // Thin where the brush is set down and lifted, or each end would be a step.
-  const double thick = smooth(0.0, 0.16, fromStart) * smooth(0.0, 0.2, fromEnd);
-  return {.cover = cover,
-          .height = thick * std::clamp(0.65 * body + 0.5 * pushed + piled, 0.0, 1.0)};
+  return {.cover = cover, .height = std::clamp(0.65 * body + 0.5 * pushed + piled, 0.0, 1.0)};
 }
 
 std::uint8_t byteOf(double part) {
@@ -127,9 +129,12 @@ gpu::Texture makeBrush(Brush brush, int across) {
   const hal::FrameSize size{along, across * kBrushVariants};
   std::vector<std::uint8_t> bytes;
   bytes.reserve(static_cast<std::size_t>(size.pixels()) * 2);
+  std::vector<Noise> noises;
+  for (unsigned variant = 0; variant < kBrushVariants; ++variant) {
+    noises.emplace_back(17U + 31U * variant + 101U * static_cast<unsigned>(brush));
+  }
   for (int y = 0; y < size.height; ++y) {
-    const auto variant = static_cast<unsigned>(y / across);
-    const Noise noise(17U + 31U * variant + 101U * static_cast<unsigned>(brush));
+    const Noise& noise = noises[static_cast<std::size_t>(y / across)];
     for (int x = 0; x < size.width; ++x) {
       Mark sum{.cover = 0.0, .height = 0.0};
       for (int i = 0; i < kSamples * kSamples; ++i) {

@@ -15,21 +15,31 @@ constexpr double kMemorySeconds = 0.65;
 constexpr double kAppearingSeconds = 0.3;
 constexpr double kForever = 1e6;
 constexpr double kMostFieldHold = 4.0;
+/// Lengths are given for pictures of so many (640x480).
+constexpr double kReferencePixels = 307200.0;
+constexpr double kLeastPixels = 3.0;
+
+std::size_t countOf(const PainterlyParameters& p) {
+  return static_cast<std::size_t>(p.layers);
+}
 
 hal::Duration secondsOf(double seconds) {
   return std::chrono::duration_cast<hal::Duration>(std::chrono::duration<double>(seconds));
 }
 
+/// From how much detail on a layer is painted; the coarsest is everywhere.
+double leastDetail(const PainterlyParameters& p, std::size_t layer) {
+  if (layer == 0) return -1.0;
+  if (layer + 1 == countOf(p)) return p.detail;
+  const double part = static_cast<double>(layer - 1) / static_cast<double>(countOf(p) - 2);
+  return p.middleDetail * std::pow(p.detail / p.middleDetail, part);
+}
+
 /// Where a layer is painted: not below what it is for, nor where finer strokes hide it.
 glm::vec2 bandOf(const PainterlyParameters& p, std::size_t layer) {
-  switch (layer) {
-    case 0:
-      return {-1.0, 3.0 * p.detail};
-    case 1:
-      return {p.middleDetail, 8.0 * p.detail};
-    default:
-      return {p.detail, 1e9};
-  }
+  constexpr double kHidden = 6.0;
+  return {leastDetail(p, layer),
+          layer + 1 < countOf(p) ? kHidden * leastDetail(p, layer + 1) : 1e9};
 }
 
 /// What time constants are scaled by: 0 at once, 1, the thesis's, in the middle, for ever at 1.
@@ -40,13 +50,17 @@ double holdOf(const PainterlyParameters& p) {
 
 }  // namespace
 
-LayerPlan planOf(const PainterlyParameters& p) {
-  return {p.strokeSizePixels, p.layerRatio, p.coverage, p.length, p.seed};
+LayerPlan planOf(const PainterlyParameters& p, hal::FrameSize full) {
+  const double scale = std::sqrt(static_cast<double>(full.pixels()) / kReferencePixels);
+  // Below that a brush has no bristles to show.
+  const double finest =
+      std::max(scale * p.strokeSizePixels, std::min(kLeastPixels, p.strokeSizePixels));
+  return {countOf(p), finest, p.layerRatio, p.coverage, p.length, p.seed};
 }
 
 double widthOf(const LayerPlan& plan, std::size_t layer) {
-  return plan.strokeSizePixels *
-         std::pow(plan.layerRatio, static_cast<double>(kLayers - 1 - layer));
+  return plan.finestPixels *
+         std::pow(plan.layerRatio, static_cast<double>(plan.layers - 1 - layer));
 }
 
 marks::AnchorOptions anchorsOf(const LayerPlan& plan, std::size_t layer) {
@@ -64,20 +78,24 @@ int texelsOf(const LayerPlan& plan, std::size_t layer) {
 
 marks::StrokeRule ruleOf(const PainterlyParameters& p, const LayerPlan& plan, std::size_t layer) {
   const auto width = static_cast<float>(widthOf(plan, layer));
-  const auto coarseness = static_cast<float>(kLayers - 1 - layer);
+  const auto coarseness = static_cast<float>(plan.layers - 1 - layer);
   const double hold = holdOf(p);
   marks::StrokeRule rule;
   rule.widthPx = width;
   rule.steps = 4.0F;
-  rule.segmentPx = static_cast<float>(p.length) * width / (2.0F * rule.steps);
+  rule.bothWays = p.walk == StrokeWalk::kBoth;
+  const float arms = rule.bothWays ? 2.0F : 1.0F;
+  rule.segmentPx = static_cast<float>(p.length) * width / (arms * rule.steps);
   rule.colourThreshold = static_cast<float>(p.colourThreshold) * (1.0F + 0.6F * coarseness);
   rule.cutOffRad = glm::radians(static_cast<float>(p.cutOffDegrees)) / (1.0F + 0.4F * coarseness);
   rule.detailBand = bandOf(p, layer);
+  rule.modelDetail = static_cast<float>(p.modelDetail);
   rule.detailSpread = 0.6F * std::max(rule.detailBand.x, 0.0F);
   rule.wanderRad = static_cast<float>(p.wander) * (1.0F + 0.3F * coarseness);
-  rule.fieldLevel = kLayers - 1 - layer;
+  rule.fieldLevel = plan.layers - 1 - layer;
   rule.widthSpread = static_cast<float>(p.widthVariation);
   rule.opacity = static_cast<float>(p.opacity);
+  rule.leaveLight = static_cast<float>(p.leaveLight);
   rule.jitter = {static_cast<float>(p.hueJitter), static_cast<float>(p.saturationJitter),
                  static_cast<float>(p.valueJitter)};
   rule.quads = kQuads;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "hal/pixel_format.h"
 #include "pipeline/marks/anchor_set.h"
 #include "pipeline/marks/stroke_set.h"
 #include "pipeline/marks/tensor_field.h"
@@ -9,12 +10,12 @@
 
 namespace pleinair::styles {
 
-inline constexpr std::size_t kLayers = 3;  ///< from coarse to fine
-inline constexpr int kQuads = 8;           ///< of a stroke, at most
+inline constexpr int kQuads = 8;  ///< of a stroke, at most
 
-/// What decides which anchors there are.
+/// What decides which anchors there are. Layers are counted from the coarsest.
 struct LayerPlan {
-  double strokeSizePixels = 0.0;
+  std::size_t layers = 0;
+  double finestPixels = 0.0;  // a stroke's width, of the full picture
   double layerRatio = 0.0;
   double coverage = 0.0;
   double length = 0.0;
@@ -22,7 +23,8 @@ struct LayerPlan {
   bool operator==(const LayerPlan&) const = default;
 };
 
-LayerPlan planOf(const PainterlyParameters& p);
+/// Strokes grow with the picture, so that any size takes about as many.
+LayerPlan planOf(const PainterlyParameters& p, hal::FrameSize full);
 
 /// Of a layer's strokes, in px of the full picture.
 double widthOf(const LayerPlan& plan, std::size_t layer);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,7 +16,10 @@
 #include "pipeline/marks/motion_field.h"
 #include "pipeline/marks/stroke_set.h"
 #include "pipeline/marks/tensor_field.h"
+#include "pipeline/styles/painterly/brush_shelf.h"
 #include "pipeline/styles/painterly/layers.h"
+#include "pipeline/styles/painterly/palette.h"
+#include "pipeline/styles/painterly/reduced_pictures.h"
 #include "pipeline/styles/painterly/stroke_drawing.h"
 
 namespace pleinair::styles {
@@ -25,7 +30,8 @@ using gpu::TextureFilter;
 using gpu::TextureFormat;
 
 const std::string kShaders = "pipeline/styles/painterly/shaders/";
-constexpr std::size_t kHalvings = 3;
+constexpr double kTexelOfWidth = 0.6;       // that a stroke's colours are of, at most
+constexpr std::size_t kGroundHalvings = 3;  // of the first wash
 
 constexpr std::string_view kTensorsView = "tensors";
 constexpr std::string_view kPyramidView = "pyramid";
@@ -43,11 +49,21 @@ constexpr std::array<ViewInfo, 7> kViews{{
     {kAnchorsView, "their anchors: red ones are young"},
     {kHeightView, "how thick the paint lies"},
 }};
-constexpr std::array<glm::vec3, kLayers> kLayerColours{
-    {{0.3F, 0.45F, 0.8F}, {0.95F, 0.8F, 0.3F}, {0.9F, 0.3F, 0.2F}}};
+/// Of the strokes that are `part` of the way from the coarsest to the finest.
+glm::vec3 layerColour(float part) {
+  constexpr glm::vec3 kCoarse{0.3F, 0.45F, 0.8F};
+  constexpr glm::vec3 kMiddle{0.95F, 0.8F, 0.3F};
+  constexpr glm::vec3 kFine{0.9F, 0.3F, 0.2F};
+  return part < 0.5F ? glm::mix(kCoarse, kMiddle, 2.0F * part)
+                     : glm::mix(kMiddle, kFine, 2.0F * part - 1.0F);
+}
 
 Texture colours(hal::FrameSize size) {
   return {TextureFormat::kRgba8, size, TextureFilter::kLinear};
+}
+
+glm::vec3 groundOf(const PainterlyParameters& p) {
+  return {p.groundRed, p.groundGreen, p.groundBlue};
 }
 
 /// What is painted on, of pictures of one size.
@@ -57,24 +73,19 @@ struct Canvas {
         colour(colours(size)),
         height(colours(size)),
         picture(colours(size)),
+        borders(TextureFormat::kR32ui, size),
         strokes({&colour, &height}),
-        finished({&picture}) {
-    hal::FrameSize half = size;
-    for (std::size_t i = 0; i < kHalvings; ++i) {
-      half = {std::max(1, half.width / 2), std::max(1, half.height / 2)};
-      reduced[i] = colours(half);
-      reducedTarget[i] = gpu::RenderTarget({&reduced[i]});
-    }
-  }
+        finished({&picture}),
+        bordered({&borders}) {}
 
   hal::FrameSize size;
-  std::array<Texture, kHalvings> reduced;  // the frame's picture at 1/2, 1/4, 1/8
-  std::array<gpu::RenderTarget, kHalvings> reducedTarget;
   Texture colour;
   Texture height;
   Texture picture;
+  Texture borders;  // where strokes are clipped
   gpu::RenderTarget strokes;
   gpu::RenderTarget finished;
+  gpu::RenderTarget bordered;
 };
 
 struct Layer {
@@ -83,27 +94,22 @@ struct Layer {
       : anchors(library, full, anchorsOf(plan, number)), strokes(library, anchors.slotCount()) {}
   marks::AnchorSet anchors;
   marks::StrokeSet strokes;
+  StrokeStrips strips;
 };
 
 /// What belongs to one full size and plan.
 struct Painting {
   Painting(const gpu::ShaderLibrary& library, hal::FrameSize fullSize, const LayerPlan& given)
       : full(fullSize), plan(given), motion(library, full), field(library, full) {
-    for (std::size_t i = 0; i < kLayers; ++i) {
-      layers[i] = std::make_unique<Layer>(library, full, plan, i);
+    for (std::size_t i = 0; i < plan.layers; ++i) {
+      layers.push_back(std::make_unique<Layer>(library, full, plan, i));
     }
   }
   hal::FrameSize full;
   LayerPlan plan;
   marks::MotionField motion;
   marks::TensorField field;
-  std::array<std::unique_ptr<Layer>, kLayers> layers;
-};
-
-/// A layer's brush has as many texels as its strokes have pixels.
-struct Brushes {
-  LayerPlan plan;
-  std::array<Texture, kLayers> textures;
+  std::vector<std::unique_ptr<Layer>> layers;
 };
 
 }  // namespace
@@ -111,28 +117,41 @@ struct Brushes {
 struct Painterly::State {
   explicit State(const gpu::ShaderLibrary& shaders)
       : library(shaders),
-        halve(library.fragmentPass(kShaders + "halve.frag")),
+        reduced(library),
         ground(library.fragmentPass(kShaders + "ground.frag")),
         relief(library.fragmentPass(kShaders + "relief.frag")),
         fieldView(library.fragmentPass(kShaders + "field_view.frag")),
+        heightView(library.fragmentPass(kShaders + "height_view.frag")),
+        borders(library.fragmentPass(kShaders + "borders.frag")),
+        linen(library, Sheet::Kind::kLinen),
+        paper(library, Sheet::Kind::kPaper),
+        strips(library),
         drawing(library) {}
 
   const gpu::ShaderLibrary& library;
-  gpu::Program halve;
+  ReducedPictures reduced;
   gpu::Program ground;
   gpu::Program relief;
   gpu::Program fieldView;
+  gpu::Program heightView;
+  gpu::Program borders;
+  Sheet linen;
+  Sheet paper;
+  StrokeStripMaker strips;
   StrokeDrawing drawing;
-  std::optional<Brush> brush;  // that `brushes` are of
-  Brushes brushes;
+  BrushShelf brushes;
+  std::string palette = "all";  // that `mixtures` are of
+  std::optional<Texture> mixtures;
   std::unique_ptr<Painting> painting;
   std::vector<std::unique_ptr<Canvas>> canvases;  // of each size that was painted
   Canvas* canvas = nullptr;                       // of this frame
 
   void take(const scene::ArFrame& frame, const PainterlyParameters& p);
-  void reduce(const scene::ArFrame& frame, gpu::PassTimer& timer);
   void grow(const scene::ArFrame& frame, const PainterlyParameters& p, gpu::PassTimer& timer);
-  void drawStrokes(const PainterlyParameters& p, gpu::PassTimer& timer);
+  /// Where strokes are clipped; null where nothing virtual is seen.
+  const Texture* findBorders(const scene::ArFrame& frame);
+  void drawStrokes(const scene::ArFrame& frame, const PainterlyParameters& p,
+                   gpu::PassTimer& timer);
   void light(const scene::ArFrame& frame, const PainterlyParameters& p, gpu::PassTimer& timer);
   void showField(const scene::ArFrame& frame, const PainterlyParameters& p, int shown);
   void showStrokes(const scene::ArFrame& frame, StrokeDrawing::Shown shown);
@@ -142,35 +161,25 @@ struct Painterly::State {
 
 void Painterly::State::take(const scene::ArFrame& frame, const PainterlyParameters& p) {
   canvas = nullptr;
-  if (painting == nullptr || painting->full != frame.full() || painting->plan != planOf(p)) {
-    if (painting != nullptr && painting->full != frame.full()) canvases.clear();
+  const LayerPlan plan = planOf(p, frame.full());
+  if (painting == nullptr || painting->full != frame.full() || painting->plan != plan) {
+    if (painting != nullptr && painting->full != frame.full()) {
+      canvases.clear();
+      reduced.clear();
+    }
     painting.reset();
-    painting = std::make_unique<Painting>(library, frame.full(), planOf(p));
+    painting = std::make_unique<Painting>(library, frame.full(), plan);
   }
   const auto isOfSize = [&](const auto& each) { return each->size == frame.size(); };
   const auto known = std::ranges::find_if(canvases, isOfSize);
   canvas = known != canvases.end()
                ? known->get()
                : canvases.emplace_back(std::make_unique<Canvas>(frame.size())).get();
-  if (brush != p.brush || brushes.plan != painting->plan) {
-    for (std::size_t i = 0; i < kLayers; ++i) {
-      brushes.textures[i] = makeBrush(p.brush, texelsOf(painting->plan, i));
-    }
-    brushes.plan = painting->plan;
-    brush = p.brush;
-  }
-}
-
-void Painterly::State::reduce(const scene::ArFrame& frame, gpu::PassTimer& timer) {
-  const auto scope = timer.measure("painterly: reduce");
-  const Texture* from = frame.colour;
-  for (std::size_t i = 0; i < kHalvings; ++i) {
-    const hal::FrameSize size = canvas->reduced[i].size();
-    halve.use()
-        .texture("picture", *from)
-        .set("size", glm::vec2(size.width, size.height))
-        .drawFullscreen(canvas->reducedTarget[i]);
-    from = &canvas->reduced[i];
+  if (palette != p.palette) {
+    const Pigments pigments = pigmentsOf(p.palette);
+    mixtures.reset();
+    if (!pigments.empty()) mixtures = makeMixtures(pigments);
+    palette = p.palette;
   }
 }
 
@@ -178,45 +187,65 @@ void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParamete
                             gpu::PassTimer& timer) {
   painting->motion.update(frame, timer);
   painting->field.update(frame, *frame.colour, painting->motion, fieldOf(p), timer);
-  for (std::size_t i = 0; i < kLayers; ++i) {
+  for (std::size_t i = 0; i < painting->layers.size(); ++i) {
     Layer& layer = *painting->layers[i];
     if (p.coherence <= 0.0) layer.anchors.beginAnew();
     layer.anchors.advance(frame, painting->motion, timer);
-    layer.strokes.update(frame, layer.anchors, painting->field, canvas->reduced[kLayers - 1 - i],
-                         ruleOf(p, painting->plan, i), timer);
+    marks::StrokeRule rule = ruleOf(p, painting->plan, i);
+    rule.mixtures = mixtures ? &*mixtures : nullptr;
+    const double width = widthOf(painting->plan, i) * frame.pixelsOfFull().x;
+    layer.strokes.update(frame, layer.anchors, painting->field,
+                         reduced.paintOf(kTexelOfWidth * width), rule, timer);
   }
 }
 
-void Painterly::State::drawStrokes(const PainterlyParameters& p, gpu::PassTimer& timer) {
+const Texture* Painterly::State::findBorders(const scene::ArFrame& frame) {
+  if (!frame.hasObjects) return nullptr;
+  borders.use().texture("ids", *frame.ids).drawFullscreen(canvas->bordered);
+  return &canvas->borders;
+}
+
+void Painterly::State::drawStrokes(const scene::ArFrame& frame, const PainterlyParameters& p,
+                                   gpu::PassTimer& timer) {
   const auto scope = timer.measure("painterly: strokes");
+  const Texture* const clip = findBorders(frame);
+  // All of them before any is drawn: what is drawn on stays in a tile's memory (GPU.md).
+  for (const auto& layer : painting->layers) {
+    strips.lay(layer->strokes.instances(), layer->strokes.command(), p.quads, layer->strips);
+  }
   ground.use()
-      .texture("paint", canvas->reduced[kHalvings - 1])
+      .texture("paint", reduced.whole(kGroundHalvings))
       .set("size", glm::vec2(canvas->size.width, canvas->size.height))
-      .set("ground", glm::vec3(p.groundRed, p.groundGreen, p.groundBlue))
+      .set("ground", groundOf(p))
       .set("wash", static_cast<float>(p.wash))
+      .texture("mixtures", mixtures ? *mixtures : *frame.colour)
+      .set("isLimited", mixtures ? 1 : 0)
       .drawFullscreen(canvas->strokes);
-  for (std::size_t i = 0; i < kLayers; ++i) {
-    drawing.draw(painting->layers[i]->strokes, kQuads, brushes.textures[i], painting->full,
-                 canvas->strokes);
+  const StrokeLight light{.each = p.bump == StrokeBump::kEach,
+                          .relief = static_cast<float>(p.relief),
+                          .gloss = static_cast<float>(p.gloss)};
+  for (std::size_t i = 0; i < painting->layers.size(); ++i) {
+    const Texture& brush = brushes.brush(p.brush, texelsOf(painting->plan, i));
+    drawing.draw(painting->layers[i]->strips, brush, light, clip, painting->full, canvas->strokes);
   }
 }
 
 void Painterly::State::light(const scene::ArFrame& frame, const PainterlyParameters& p,
                              gpu::PassTimer& timer) {
   const auto scope = timer.measure("painterly: light");
-  const tracking::PlaneSimilarity& place = frame.canvasFromPicture;
-  const double octave = std::exp2(-std::round(std::log2(place.scale())));
-  relief.use()
-      .texture("colours", canvas->colour)
+  const Sheet& sheet = p.support == Sheet::Kind::kLinen ? linen : paper;
+  sheet.bind(relief.use(), frame);
+  relief.texture("colours", canvas->colour)
       .texture("heights", canvas->height)
       .texture("frame", *frame.colour)
       .texture("normalFocus", frame.hasFocus ? *frame.normalFocus : *frame.colour)
       .set("hasFocus", frame.hasFocus ? 1 : 0)
-      .set("relief", static_cast<float>(p.relief))
-      .set("gloss", static_cast<float>(p.gloss))
+      .set("relief", p.bump == StrokeBump::kOnce ? static_cast<float>(p.relief) : 0.0F)
+      .set("gloss", p.bump == StrokeBump::kOnce ? static_cast<float>(p.gloss) : 0.0F)
       .set("weave", static_cast<float>(p.canvas))
-      .set("canvasLinear", glm::vec2(place.linear * octave / frame.pixelsOfFull().x))
-      .set("canvasShift", glm::vec2(place.shift * octave))
+      .set("tooth", static_cast<float>(p.tooth))
+      .set("wash", static_cast<float>(p.wash))
+      .set("ground", groundOf(p))
       .set("saturation", static_cast<float>(p.saturation))
       .set("warmth", static_cast<float>(p.warmth))
       .drawFullscreen(canvas->finished);
@@ -248,16 +277,23 @@ void Painterly::State::showStrokes(const scene::ArFrame& frame, StrokeDrawing::S
       .set("size", glm::vec2(canvas->size.width, canvas->size.height))
       .set("ground", glm::vec3(0.95F))
       .set("wash", 0.35F)
+      .texture("mixtures", *frame.colour)
+      .set("isLimited", 0)
       .drawFullscreen(canvas->strokes);
-  for (std::size_t i = 0; i < kLayers; ++i) {
-    drawing.show(painting->layers[i]->strokes, kQuads, shown, kLayerColours[i], painting->full,
+  for (std::size_t i = 0; i < painting->layers.size(); ++i) {
+    const float part =
+        static_cast<float>(i) / std::max(1.0F, static_cast<float>(painting->layers.size() - 1));
+    drawing.show(painting->layers[i]->strokes, kQuads, shown, layerColour(part), painting->full,
                  canvas->strokes);
   }
 }
 
 const Texture& Painterly::State::show(const scene::ArFrame& frame, const PainterlyParameters& p,
                                       std::string_view view) {
-  if (view == kHeightView) return canvas->height;
+  if (view == kHeightView) {
+    heightView.use().texture("heights", canvas->height).drawFullscreen(canvas->finished);
+    return canvas->picture;
+  }
   if (view == kTensorsView || view == kPyramidView || view == kRegionsView) {
     showField(frame, p, view == kTensorsView ? 0 : view == kPyramidView ? 1 : 2);
     return canvas->picture;
@@ -270,7 +306,9 @@ const Texture& Painterly::State::show(const scene::ArFrame& frame, const Painter
 }
 
 Painterly::Painterly(const gpu::ShaderLibrary& library)
-    : values_(painterlyParameters().defaults()), state_(std::make_unique<State>(library)) {}
+    : values_(painterlyParameters().defaults()), state_(std::make_unique<State>(library)) {
+  warmUp();
+}
 
 Painterly::~Painterly() = default;
 
@@ -282,7 +320,46 @@ scene::ArFrameNeeds Painterly::needs() const {
   return {.surfaces = true, .pictureMovement = true, .shading = scene::Shading::kSmooth};
 }
 
+/// A program's real cost on software renderers is at its first use: here, not in the first frame
+/// that shows a model, has a focus or is looked at in another way.
+void Painterly::warmUp() {
+  constexpr hal::FrameSize kSize{16, 16};
+  const std::vector<std::uint8_t> zeros(std::size_t{16} * 16 * 4);
+  Texture grey(TextureFormat::kRgba8, kSize, TextureFilter::kLinear);
+  grey.upload(zeros, std::size_t{16} * 4);
+  Texture ids(TextureFormat::kR32ui, kSize);
+  ids.upload(zeros, std::size_t{16} * 4);
+  gpu::PassTimer untimed;
+  scene::ArFrame frame{.colour = &grey, .ids = &ids, .normalFocus = &grey, .barycentrics = &ids};
+  for (const ViewInfo& view : kViews) paint(frame, view.name, untimed);
+  for (const StrokeBump bump : {StrokeBump::kEach, StrokeBump::kOnce}) {
+    p_.bump = bump;
+    for (const bool isShown : {true, false}) {
+      frame.hasObjects = frame.hasFocus = isShown;
+      ++frame.sequence;
+      paint(frame, {}, untimed);
+    }
+  }
+  state_->painting.reset();
+  state_->canvas = nullptr;
+  state_->canvases.clear();
+  state_->reduced.clear();
+}
+
+hal::Result<void> Painterly::prepare(const config::ParameterValues& values) {
+  if (values == values_) return {};
+  return state_->brushes.take(painterlyParameters().typed(values).brushFile);
+}
+
+hal::Result<void> checkPainterly(const config::ParameterValues& values) {
+  const std::filesystem::path file = painterlyParameters().typed(values).brushFile;
+  if (file == kNoBrushFile) return {};
+  const hal::Result<BrushMarks> marks = readBrushFile(file);
+  return marks ? hal::Result<void>() : tl::unexpected(marks.error());
+}
+
 void Painterly::setParameters(const config::ParameterValues& values) {
+  if (values == values_) return;
   p_ = painterlyParameters().typed(values);
   values_ = values;
 }
@@ -291,12 +368,13 @@ const Texture& Painterly::paint(const scene::ArFrame& frame, std::string_view vi
                                 gpu::PassTimer& timer) {
   State& s = *state_;
   s.take(frame, p_);
-  s.reduce(frame, timer);
+  s.reduced.update(frame, timer);
   s.grow(frame, p_, timer);
   if (!view.empty() && view != kHeightView) return s.show(frame, p_, view);
-  s.drawStrokes(p_, timer);
+  s.drawStrokes(frame, p_, timer);
+  if (view == kHeightView) return s.show(frame, p_, view);
   s.light(frame, p_, timer);
-  return view.empty() ? s.canvas->picture : s.show(frame, p_, view);
+  return s.canvas->picture;
 }
 
 const marks::AnchorSet* Painterly::anchors() const {

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "hal/error.h"
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/styles/painterly/painterly_parameters.h"
 #include "pipeline/styles/style.h"
@@ -12,6 +13,10 @@ namespace pleinair::styles {
 
 /// The style's inner pictures, apart from the finished one.
 std::span<const ViewInfo> painterlyViews();
+
+/// Whether what the parameters name outside the program, a brush's file, is there and sound. Reads
+/// it; any thread. Errors: readBrushFile()'s.
+hal::Result<void> checkPainterly(const config::ParameterValues& values);
 
 /// Chapter IV of the thesis, and on: three layers of brush strokes, from coarse to fine, that
 /// follow the tensor field of the picture's edges. Each stroke belongs to an anchor, goes with what
@@ -37,6 +42,7 @@ class Painterly final : public Style {
   scene::ArFrameNeeds needs() const override;
   bool usesCanvas() const override { return true; }
   const config::ParameterValues& parameters() const override { return values_; }
+  hal::Result<void> prepare(const config::ParameterValues& values) override;
   void setParameters(const config::ParameterValues& values) override;
   const gpu::Texture& paint(const scene::ArFrame& frame, std::string_view view,
                             gpu::PassTimer& timer) override;
@@ -45,6 +51,8 @@ class Painterly final : public Style {
 
  private:
   struct State;
+
+  void warmUp();
 
   config::ParameterValues values_;
   PainterlyParameters p_;

@@ -1,10 +1,15 @@
 #include "pipeline/styles/painterly/painterly_parameters.h"
 
+#include "pipeline/styles/painterly/palette.h"
+
 namespace pleinair::styles {
 
 using config::choiceParameter;
 using config::integerParameter;
 using config::numberParameter;
+using config::pathParameter;
+using config::TakesEffect;
+using config::textParameter;
 using P = PainterlyParameters;
 
 const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
@@ -17,21 +22,36 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
       {"marker", Brush::kMarker},
       {"pencil", Brush::kPencil},
   }};
+  static constexpr std::array<config::Choice<StrokeWalk>, 2> kWalks{
+      {{"both", StrokeWalk::kBoth}, {"ahead", StrokeWalk::kAhead}}};
+  static constexpr std::array<config::Choice<StrokeBump>, 2> kBumps{
+      {{"once", StrokeBump::kOnce}, {"each", StrokeBump::kEach}}};
+  static constexpr std::array<config::Choice<StrokeQuads>, 2> kQuadCounts{
+      {{"curvature", StrokeQuads::kCurvature}, {"thesis", StrokeQuads::kThesis}}};
+  static constexpr std::array<config::Choice<Sheet::Kind>, 2> kSupports{{
+      {"linen", Sheet::Kind::kLinen},
+      {"paper", Sheet::Kind::kPaper},
+  }};
   static const config::ParameterTable<P> table{
       integerParameter("seed", &P::seed, {.min = 0, .max = 1'000'000},
                        "Which of the random paintings; a change starts a new one."),
-      numberParameter("stroke_size", &P::strokeSizePixels, {.min = 4, .max = 64, .unit = "px"},
-                      "Width of the finest strokes; a change starts a new painting."),
+      integerParameter("layers", &P::layers, {.min = 1, .max = 5},
+                       "How many layers, from broad to fine; a change starts a new painting."),
+      numberParameter("stroke_size", &P::strokeSizePixels, {.min = 2, .max = 64, .unit = "px"},
+                      "Width of the finest strokes in a picture of 640x480; they grow with the "
+                      "picture. A change starts a new painting."),
       numberParameter("layer_ratio", &P::layerRatio, {.min = 1.2, .max = 4},
                       "How much wider each coarser layer's strokes are; likewise."),
       numberParameter("coverage", &P::coverage, {.min = 0.5, .max = 12},
                       "How many of a layer's strokes lie over each other; likewise."),
-      numberParameter("length", &P::length, {.min = 1, .max = 12, .unit = "widths"},
+      numberParameter("length", &P::length, {.min = 1, .max = 16, .unit = "widths"},
                       "The most that a stroke is long; likewise."),
-      numberParameter("detail", &P::detail, {.min = 0, .max = 2},
+      numberParameter("detail", &P::detail, {.min = 0.01, .max = 2},
                       "How much detail a place has that is painted with fine strokes."),
-      numberParameter("middle_detail", &P::middleDetail, {.min = 0, .max = 2},
+      numberParameter("middle_detail", &P::middleDetail, {.min = 0.01, .max = 2},
                       "How much it has for middling ones."),
+      numberParameter("model_detail", &P::modelDetail, {.min = 0.1, .max = 10},
+                      "How much more detail counts on models than on what the camera sees."),
       numberParameter("colour_threshold", &P::colourThreshold, {.min = 0.01, .max = 1},
                       "The colour difference at which a fine stroke ends (thesis §4.4)."),
       numberParameter("cut_off", &P::cutOffDegrees, {.min = 1, .max = 90, .unit = "degrees"},
@@ -39,25 +59,41 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
       numberParameter("wander", &P::wander, {.min = 0, .max = 1, .unit = "rad"},
                       "How far a stroke strays from the direction of things."),
       numberParameter("opacity", &P::opacity, kPart, "Of a stroke's paint."),
+      numberParameter("leave_light", &P::leaveLight, kPart,
+                      "How much light places are left to the ground, as pencils do."),
       numberParameter("width_variation", &P::widthVariation, kPart,
                       "How much strokes of a layer differ in width."),
       numberParameter("hue_jitter", &P::hueJitter, kPart, "How much strokes differ in hue."),
       numberParameter("saturation_jitter", &P::saturationJitter, kPart, "In saturation."),
       numberParameter("value_jitter", &P::valueJitter, kPart, "And in value."),
       choiceParameter("brush", &P::brush, kBrushes, "What strokes are painted with."),
+      pathParameter("brush_file", &P::brushFile, {kNoBrushFile},
+                    "A brush of your own instead: a PNG (docs/painting.md).",
+                    config::TakesEffect::kLive, ".png"),
       numberParameter("relief", &P::relief, {.min = 0, .max = 8},
                       "How high the paint lies in the light; 0 does without."),
       numberParameter("gloss", &P::gloss, kPart, "How much the paint shines."),
-      numberParameter("canvas", &P::canvas, kPart, "How much of the canvas's weave is seen."),
+      choiceParameter("support", &P::support, kSupports, "What the picture is painted on."),
+      numberParameter("canvas", &P::canvas, kPart, "How much of the support's grain light shows."),
+      numberParameter("tooth", &P::tooth, kPart,
+                      "How much the support's grain breaks the paint: dry chalk, pencils."),
       numberParameter("wash", &P::wash, kPart,
                       "How much of the picture is laid under the strokes as a thin wash."),
       numberParameter("ground_red", &P::groundRed, kPart, "The ground's colour: red."),
       numberParameter("ground_green", &P::groundGreen, kPart, "Green."),
       numberParameter("ground_blue", &P::groundBlue, kPart, "Blue."),
+      textParameter("palette", &P::palette, kPaletteAllowed,
+                    "The pigments that strokes are mixed of.", TakesEffect::kLive, isPalette),
       numberParameter("saturation", &P::saturation, {.min = 0, .max = 2}, "Of all paint."),
       numberParameter("warmth", &P::warmth, {.min = -1, .max = 1}, "Likewise; below 0: cold."),
       numberParameter("coherence", &P::coherence, kPart,
                       "How strokes hold on to their past: 0 redraws each frame, 1 never lets go."),
+      choiceParameter("walk", &P::walk, kWalks,
+                      "Which way strokes grow from their anchors; ahead only is the thesis's."),
+      choiceParameter("bump", &P::bump, kBumps,
+                      "The paint's relief is lit once, or, as the thesis does, on each stroke."),
+      choiceParameter("quads", &P::quads, kQuadCounts,
+                      "What strokes are drawn of: as few as they bend, or the thesis's 4 (n + 2)."),
   };
   return table;
 }

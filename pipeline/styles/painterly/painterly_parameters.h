@@ -1,40 +1,62 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
+#include <string>
 
 #include "config/parameter_table.h"
+#include "pipeline/styles/painterly/brush_shelf.h"
 #include "pipeline/styles/painterly/brushes.h"
+#include "pipeline/styles/painterly/stroke_strips.h"
+#include "pipeline/styles/sheet/sheet.h"
 
 namespace pleinair::styles {
 
-/// What can be tuned of the painter, with the defaults. Lengths are in px of the full picture.
+/// Which way a stroke is grown from its anchor.
+enum class StrokeWalk { kBoth, kAhead };
+
+/// Where paint's relief is lit: once, when all is painted, or on each stroke by itself.
+enum class StrokeBump { kOnce, kEach };
+
+/// What can be tuned of the painter, with the defaults. Lengths are in px of a full
+/// picture of 640x480.
 struct PainterlyParameters {
   int seed = 1;
-  double strokeSizePixels = 7.5;  // the fine layer's width
+  int layers = 4;
+  double strokeSizePixels = 4.0;  // the finest layer's width, of a picture of 640x480
   double layerRatio = 2.0;        // each coarser layer's strokes are wider by this
   double coverage = 3.5;          // strokes of a layer that lie over each other
-  double length = 5.0;            // of a stroke, in widths
-  double detail = 0.30;           // from which fine strokes are painted
+  double length = 8.0;            // of a stroke, in widths
+  double detail = 0.28;           // from which fine strokes are painted
   double middleDetail = 0.08;
+  double modelDetail = 2.5;
   double colourThreshold = 0.11;
   double cutOffDegrees = 45.0;
   double wander = 0.12;
   double opacity = 0.95;
+  double leaveLight = 0.0;
   double widthVariation = 0.25;
   double hueJitter = 0.03;
   double saturationJitter = 0.12;
   double valueJitter = 0.05;
+  std::filesystem::path brushFile = kNoBrushFile;
   Brush brush = Brush::kFlat;
-  double relief = 1.2;
+  double relief = 1.4;
   double gloss = 0.08;
+  Sheet::Kind support = Sheet::Kind::kLinen;
   double canvas = 0.15;
+  double tooth = 0.0;
   double wash = 0.85;
   double groundRed = 0.55;
   double groundGreen = 0.45;
   double groundBlue = 0.35;
+  std::string palette = "all";
   double saturation = 1.12;
   double warmth = 0.15;
   double coherence = 0.5;
+  StrokeWalk walk = StrokeWalk::kBoth;
+  StrokeBump bump = StrokeBump::kOnce;
+  StrokeQuads quads = StrokeQuads::kCurvature;
 };
 
 const config::ParameterTable<PainterlyParameters>& painterlyParameters();

@@ -1,36 +1,87 @@
 #include "pipeline/styles/painterly/stroke_drawing.h"
 
+#include <cstddef>
+#include <string>
+
 namespace pleinair::styles {
 namespace {
 
-constexpr GLuint kAttributes = 6;  // of stroke.vert, four floats each
+const std::string kShaders = "pipeline/styles/painterly/shaders/";
+constexpr GLuint kInstanceAttributes = 6;  // of stroke_spline.glsl, four floats each
 
-}  // namespace
+gpu::Program paintProgram(const gpu::ShaderLibrary& library, const std::string& fragments) {
+  return library.draw(kShaders + "stroke.vert", kShaders + fragments);
+}
 
-StrokeDrawing::StrokeDrawing(const gpu::ShaderLibrary& library)
-    : program_(library.draw("pipeline/styles/painterly/shaders/stroke.vert",
-                            "pipeline/styles/painterly/shaders/stroke.frag")),
-      view_(library.draw("pipeline/styles/painterly/shaders/stroke_view.vert",
-                         "pipeline/styles/painterly/shaders/stroke_view.frag")),
-      vertexArray_(gpu::VertexArrayHandle::make()) {
-  static_assert(kAttributes * 16 == marks::StrokeSet::kInstanceBytes);
-  glBindVertexArray(vertexArray_.get());
-  for (GLuint i = 0; i < kAttributes; ++i) {
+gpu::VertexArrayHandle instanceLayout() {
+  static_assert(std::size_t{kInstanceAttributes} * 16 == marks::StrokeSet::kInstanceBytes);
+  gpu::VertexArrayHandle array = gpu::VertexArrayHandle::make();
+  glBindVertexArray(array.get());
+  for (GLuint i = 0; i < kInstanceAttributes; ++i) {
     glVertexAttribFormat(i, 4, GL_FLOAT, GL_FALSE, 16 * i);
     glVertexAttribBinding(i, 0);
     glEnableVertexAttribArray(i);
   }
   glVertexBindingDivisor(0, 1);
   glBindVertexArray(0);
+  return array;
 }
 
-void StrokeDrawing::draw(const marks::StrokeSet& strokes, int quads, const gpu::Texture& brush,
-                         hal::FrameSize full, const gpu::RenderTarget& target) {
-  program_.use()
-      .texture("brushes", brush)
-      .set("quads", static_cast<float>(quads))
-      .set("fullSize", glm::vec2(full.width, full.height));
-  drawInstances(strokes, target);
+/// As shaders/stroke_strips.comp packs them for stroke.vert.
+gpu::VertexArrayHandle stripLayout() {
+  gpu::VertexArrayHandle array = gpu::VertexArrayHandle::make();
+  glBindVertexArray(array.get());
+  glVertexAttribFormat(0, 2, GL_FLOAT, GL_FALSE, 0);
+  glVertexAttribFormat(1, 2, GL_UNSIGNED_SHORT, GL_TRUE, 8);
+  glVertexAttribFormat(2, 2, GL_SHORT, GL_TRUE, 12);
+  glVertexAttribFormat(3, 4, GL_HALF_FLOAT, GL_FALSE, 16);
+  glVertexAttribFormat(4, 2, GL_HALF_FLOAT, GL_FALSE, 24);
+  glVertexAttribIFormat(5, 1, GL_UNSIGNED_INT, 28);
+  for (GLuint i = 0; i < 6; ++i) {
+    glVertexAttribBinding(i, 0);
+    glEnableVertexAttribArray(i);
+  }
+  glBindVertexArray(0);
+  return array;
+}
+
+/// Blends what the command draws of the vertices over what is there.
+void drawOver(const gpu::RenderTarget& target, const gpu::VertexArrayHandle& layout,
+              const gpu::Buffer& vertices, std::size_t strideBytes, const gpu::Buffer& command) {
+  const auto stride = static_cast<GLsizei>(strideBytes);
+  target.beginKeeping();
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  glBindVertexArray(layout.get());
+  glBindVertexBuffer(0, vertices.name(), 0, stride);
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, command.name());
+  glDrawArraysIndirect(GL_TRIANGLE_STRIP, nullptr);
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
+  glBindVertexBuffer(0, 0, 0, stride);
+  glBindVertexArray(0);
+  glDisable(GL_BLEND);
+}
+
+}  // namespace
+
+StrokeDrawing::StrokeDrawing(const gpu::ShaderLibrary& library)
+    : paint_{{{paintProgram(library, "stroke.frag"), paintProgram(library, "stroke_clipped.frag")},
+              {paintProgram(library, "stroke_bumped.frag"),
+               paintProgram(library, "stroke_bumped_clipped.frag")}}},
+      view_(library.draw(kShaders + "stroke_view.vert", kShaders + "stroke_view.frag")),
+      strips_(stripLayout()),
+      instances_(instanceLayout()) {}
+
+void StrokeDrawing::draw(const StrokeStrips& strips, const gpu::Texture& brush,
+                         const StrokeLight& light, const gpu::Texture* borders, hal::FrameSize full,
+                         const gpu::RenderTarget& target) {
+  gpu::Program& program = paint_[light.each ? 1 : 0][borders != nullptr ? 1 : 0];
+  program.use().texture("brushes", brush).set("fullSize", glm::vec2(full.width, full.height));
+  if (light.each) program.set("relief", light.relief).set("gloss", light.gloss);
+  if (borders != nullptr) program.texture("borders", *borders);
+  drawOver(target, strips_, strips.vertices, StrokeStrips::kVertexBytes, strips.command);
 }
 
 void StrokeDrawing::show(const marks::StrokeSet& strokes, int quads, Shown shown,
@@ -41,24 +92,8 @@ void StrokeDrawing::show(const marks::StrokeSet& strokes, int quads, Shown shown
       .set("shown", static_cast<int>(shown))
       .set("layer", layer)
       .set("fullSize", glm::vec2(full.width, full.height));
-  drawInstances(strokes, target);
-}
-
-void StrokeDrawing::drawInstances(const marks::StrokeSet& strokes,
-                                  const gpu::RenderTarget& target) {
-  target.beginKeeping();
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_CULL_FACE);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  glBindVertexArray(vertexArray_.get());
-  glBindVertexBuffer(0, strokes.instances().name(), 0, marks::StrokeSet::kInstanceBytes);
-  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, strokes.command().name());
-  glDrawArraysIndirect(GL_TRIANGLE_STRIP, nullptr);
-  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
-  glBindVertexBuffer(0, 0, 0, marks::StrokeSet::kInstanceBytes);
-  glBindVertexArray(0);
-  glDisable(GL_BLEND);
+  drawOver(target, instances_, strokes.instances(), marks::StrokeSet::kInstanceBytes,
+           strokes.command());
 }
 
 }  // namespace pleinair::styles

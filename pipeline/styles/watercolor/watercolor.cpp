@@ -10,7 +10,7 @@
 #include "pipeline/marks/fading_past.h"
 #include "pipeline/marks/motion_field.h"
 #include "pipeline/marks/steady_picture.h"
-#include "pipeline/styles/watercolor/paper_place.h"
+#include "pipeline/styles/sheet/sheet.h"
 
 namespace pleinair::styles {
 namespace {
@@ -73,7 +73,7 @@ struct Watercolor::Passes {
         composeMore(library.fragmentPass(kShaders + "compose_more.frag")),
         showSeeds(library.compute(kShaders + "show_seeds.comp")),
         view(library.fragmentPass(kShaders + "view.frag")),
-        paper(library.fragmentPass(kShaders + "paper.frag")) {}
+        sheet(library, Sheet::Kind::kPaper) {}
 
   marks::SteadyPicture steady;
   CellTiling tiler;
@@ -86,7 +86,7 @@ struct Watercolor::Passes {
   gpu::Program composeMore;
   gpu::Program showSeeds;
   gpu::Program view;
-  gpu::Program paper;
+  Sheet sheet;
 };
 
 /// What belongs to pictures of one full size.
@@ -106,7 +106,6 @@ Watercolor::Watercolor(const gpu::ShaderLibrary& library)
     : library_(&library),
       values_(watercolorParameters().defaults()),
       passes_(std::make_unique<Passes>(library)) {
-  makePaper();
   warmUp();
 }
 
@@ -242,16 +241,11 @@ void Watercolor::paintWashes(const scene::ArFrame& frame, gpu::PassTimer& timer)
   mixWashes(timer);
   {
     const auto scope = timer.measure("watercolor: pigment");
-    const PaperPlace place = paperPlace(frame);
-    passes_->pigment.use()
-        .texture("tiling", s.tiling)
+    passes_->sheet.bind(passes_->pigment.use(), frame);
+    passes_->pigment.texture("tiling", s.tiling)
         .texture("darkWash", cells.darkWash)
         .texture("lightWash", cells.lightWash)
         .set("cellPixels", glm::vec2(static_cast<float>(marks_->cellSize) * pixelsOfFull_))
-        .texture("paper", paper_)
-        .set("paperLinear", place.linear)
-        .set("paperShift", place.shift)
-        .set("coarser", place.coarser)
         .set("reach", static_cast<float>(p_.bleeding))
         .drawFullscreen(s.pigmentTarget);
   }
@@ -297,17 +291,12 @@ void Watercolor::mixWashes(gpu::PassTimer& timer) {
 void Watercolor::compose(const scene::ArFrame& frame, gpu::PassTimer& timer) {
   const WatercolorCanvas& s = *canvas_;
   const auto scope = timer.measure("watercolor: compose");
-  const PaperPlace place = paperPlace(frame);
   const bool needsMore = frame.hasFocus || p_.mosaic > 0.0;
   gpu::Program& pass = needsMore ? passes_->composeMore : passes_->compose;
-  pass.use()
-      .texture("tiling", s.tiling)
+  passes_->sheet.bind(pass.use(), frame);
+  pass.texture("tiling", s.tiling)
       .texture("darkLayer", s.darkLayer)
       .texture("lightLayer", s.lightLayer)
-      .texture("paper", paper_)
-      .set("paperLinear", place.linear)
-      .set("paperShift", place.shift)
-      .set("coarser", place.coarser)
       .set("pictureSize", glm::vec2(s.size.width, s.size.height))
       .set("threshold", static_cast<float>(p_.edgeThreshold))
       .set("edgeSoftness", static_cast<float>(p_.edgeSoftness))
@@ -349,17 +338,11 @@ void Watercolor::showView(const scene::ArFrame& frame, std::string_view view) {
       .texture("ways", cells.ways)
       .texture("darkPigment", s.darkPigment)
       .texture("lightPigment", s.lightPigment)
-      .texture("paper", paper_)
+      .texture("paper", passes_->sheet.tile())
       .texture("picture", view == kSteadyView ? *picture_ : *frame.colour)
       .set("view", static_cast<int>(found - kViews.begin()))
       .set("pictureSize", glm::vec2(s.size.width, s.size.height))
       .drawFullscreen(s.pictureTarget);
-}
-
-void Watercolor::makePaper() {
-  paper_ = Texture(TextureFormat::kRgba8, {kPaperPixels, kPaperPixels}, TextureFilter::kLinear,
-                   gpu::TextureWrap::kRepeat);
-  passes_->paper.use().drawFullscreen(gpu::RenderTarget({&paper_}));
 }
 
 /// A program's real cost on software renderers is at its first use: here, not in the first frame.

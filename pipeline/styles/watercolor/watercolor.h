@@ -35,8 +35,8 @@ std::span<const ViewInfo> watercolorViews();
 /// backwards counts as none, and never more than one second.
 class Watercolor final : public Style {
  public:
-  /// The library, which outlives it, holds gpu::watercolorShaders(), gpu::marksShaders() and
-  /// gpu::sceneShaders().
+  /// The library, which outlives it, holds gpu::watercolorShaders(), sheetShaders(), marksShaders()
+  /// and gpu::sceneShaders().
   explicit Watercolor(const gpu::ShaderLibrary& library);
   ~Watercolor() override;
   Watercolor(const Watercolor&) = delete;
@@ -78,7 +78,6 @@ class Watercolor final : public Style {
   void mixWashes(gpu::PassTimer& timer);
   void compose(const scene::ArFrame& frame, gpu::PassTimer& timer);
   void showView(const scene::ArFrame& frame, std::string_view view);
-  void makePaper();
   void warmUp();
 
   const gpu::ShaderLibrary* library_;
@@ -92,7 +91,6 @@ class Watercolor final : public Style {
   const gpu::Texture* picture_ = nullptr;  // that edges and colours are taken from
   float pixelsOfFull_ = 1.0F;              // of this frame
   hal::Duration step_{0};                  // since the one before
-  gpu::Texture paper_;
   hal::TimePoint lastTime_;
   bool hasPast_ = false;
 };

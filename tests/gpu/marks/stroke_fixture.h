@@ -36,7 +36,7 @@ struct StrokeInstance {
   glm::vec4 paint;
   float halfWidth;
   float variant;
-  float mirrored;
+  float object;
   float age;
 };
 static_assert(sizeof(StrokeInstance) == StrokeSet::kInstanceBytes);
@@ -113,7 +113,8 @@ class StrokeTest : public TensorTest {
     motionField_->update(frame, timer_);
     field_->update(frame, texture, *motionField_, kNoMemory, timer_);
     anchors_->advance(frame, *motionField_, timer_);
-    strokes_->update(frame, *anchors_, *field_, colours, rule, timer_);
+    const StrokePaint paints{.real = &colours, .models = &colours};
+    strokes_->update(frame, *anchors_, *field_, paints, rule, timer_);
   }
 
   std::vector<StrokeSlot> readStrokes() const {

@@ -306,7 +306,7 @@ TEST_F(StrokeSetTest, InstancesLieOnTheirSkeletons) {
     for (const StrokeTips& skeleton : skeletons) best = std::min(best, nearest(skeleton));
     EXPECT_LT(best, 0.02F);
   }
-  EXPECT_EQ(variants, (std::set<float>{0.0F, 1.0F, 2.0F, 3.0F}));
+  EXPECT_EQ(variants, (std::set<float>{0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F, 7.0F}));
 }
 
 TEST(StrokeOracle, SplinesBeginAndEndAtTheirEnds) {

@@ -14,6 +14,7 @@
 #include "pipeline/gpu/handle.h"
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/render_target.h"
+#include "pipeline/marks/marks_shaders.h"
 #include "pipeline/styles/painterly/brushes.h"
 #include "pipeline/styles/painterly/painterly_shaders.h"
 #include "tests/oracles/stroke_oracle.h"
@@ -59,6 +60,7 @@ class SplineTest : public support::GlTest {};
 TEST_F(SplineTest, PointsAreTheOracles) {
   gpu::ShaderLibrary library;
   library.add(gpu::gpuShaders());
+  library.add(gpu::marksShaders());
   library.add(gpu::painterlyShaders());
   library.add(kShaders);
   std::mt19937 random(3);

@@ -2,6 +2,7 @@
 #include <regex>
 #include <string>
 
+#include "pipeline/styles/sheet/sheet_shaders.h"
 #include "pipeline/styles/watercolor/watercolor_shaders.h"
 #include "tests/gpu/watercolor/watercolor_fixture.h"
 
@@ -24,6 +25,7 @@ TEST(WatercolorShaders, KeepWithinWhatTheTargetsAllow) {
   gpu::ShaderLibrary library;
   library.add(gpu::gpuShaders());
   library.add(gpu::marksShaders());
+  library.add(gpu::sheetShaders());
   library.add(gpu::watercolorShaders());
   int compute = 0;
   for (const gpu::EmbeddedShader& shader : gpu::watercolorShaders()) {

@@ -1,9 +1,11 @@
 // Purpose: light on the paint's relief, once a pixel (GPU.md), on its canvas; and what is in focus kept
 //          crisp.
-// Inputs:  colours, heights (stroke.frag); sheet.glsl-like canvas: weave; frame, normalFocus if hasFocus;
-//          relief, gloss, weave: how much of each; palette: saturation, warmth.
+// Inputs:  colours, heights (stroke.frag); sheet.glsl's: what it is painted on; frame, normalFocus if
+//          hasFocus; relief, gloss, weave: how much of each; tooth: how much the sheet's grain keeps
+//          paint from its hollows, where the washed ground is seen; palette: saturation, warmth.
 // Outputs: RGBA8, sRGB-coded, opaque.
 // Precision: highp for places.
+#include "pipeline/styles/sheet/shaders/sheet.glsl"
 uniform sampler2D colours;
 uniform sampler2D heights;
 uniform sampler2D frame;
@@ -12,20 +14,17 @@ uniform bool hasFocus;
 uniform float relief;
 uniform float gloss;
 uniform float weave;
-uniform vec2 canvasLinear;  // canvas px under the picture's, complex
-uniform vec2 canvasShift;
+uniform float tooth;
+uniform vec3 ground;
+uniform float wash;
 uniform float saturation;
 uniform float warmth;
 layout(location = 0) out vec4 picture;
 
-// Threads over and under each other, 4 px wide.
-float canvasAt(vec2 pixel) {
-  vec2 at = vec2(canvasLinear.x * pixel.x - canvasLinear.y * pixel.y,
-                 canvasLinear.x * pixel.y + canvasLinear.y * pixel.x) + canvasShift;
-  vec2 thread = at * (3.14159265 / 4.0);
-  float over = sin(thread.x) * sin(thread.y);
-  vec2 ridge = abs(cos(0.5 * thread));
-  return over > 0.0 ? ridge.x : ridge.y;
+// Dry paint stays on the sheet's heights; where more is put on, it goes deeper.
+float caught(float height, float amount) {
+  float level = mix(0.9, 0.4, amount);
+  return mix(1.0, smoothstep(level - 0.16, level + 0.16, height), tooth);
 }
 
 void main() {
@@ -40,17 +39,14 @@ void main() {
   float se = texture(heights, place + vec2(0.7, 0.7) * texel).r;
   float here = 0.25 * (nw + ne + sw + se);
   vec2 slope = 0.5 * vec2(ne + se - nw - sw, sw + se - nw - ne) * relief;
-  if (weave > 0.0) {
-    vec2 at = gl_FragCoord.xy;
-    float thread = canvasAt(at);
-    slope += weave * (1.0 - 0.7 * here) * vec2(canvasAt(at + vec2(1.0, 0.0)) - thread,
-                                              canvasAt(at + vec2(0.0, 1.0)) - thread);
-  }
   vec3 normal = normalize(vec3(-slope, 1.0));
   const vec3 kLight = vec3(-0.5145, -0.6860, 0.5145);  // from the upper left
   float lit = dot(normal, kLight) / kLight.z;
+  vec4 sheet = sheetAt(onPaper(gl_FragCoord.xy), 1.0);
+  lit += weave * (1.0 - 0.7 * here) * (2.0 * sheet.g - 1.0);
   vec3 halfway = normalize(kLight + vec3(0.0, 0.0, 1.0));
   float shine = pow(max(dot(normal, halfway), 0.0), 40.0) - pow(halfway.z, 40.0);
+  rgb = mix(mix(ground, rgb, wash), rgb, caught(sheet.r, texelFetch(heights, p, 0).g));
   float luma = dot(rgb, vec3(0.299, 0.587, 0.114));
   rgb = luma + (rgb - luma) * saturation;
   rgb *= vec3(1.0 + 0.12 * warmth, 1.0, 1.0 - 0.15 * warmth);

@@ -1,26 +1,29 @@
-// Purpose: a stroke as it is painted. An instance a stroke.
-// Inputs:  stroke_spline.glsl's; fullSize: px.
-// Outputs: brush: along and across the stroke, in [0, 1] and in the brush's variant; paint; how long the
-//          stroke is by its width.
+// Purpose: a stroke as it is painted.
+// Inputs:  stroke_strips.comp's vertices; fullSize: px.
+// Outputs: brush: along and across the stroke, in [0, 1] and in the brush's variant; along: the stroke's
+//          direction, px; paint; aspect: how long the stroke is by its width; sense: of the brush across
+//          the stroke; object: what it is of.
 // Precision: highp.
-#include "pipeline/styles/painterly/shaders/stroke_spline.glsl"
+layout(location = 0) in vec2 at;
+layout(location = 1) in vec2 brushAt;
+layout(location = 2) in vec2 direction;
+layout(location = 3) in vec4 strokePaint;
+layout(location = 4) in vec2 shape;
+layout(location = 5) in uint strokeObject;
 uniform vec2 fullSize;
 out vec2 brush;
+out vec2 along;
 flat out vec4 paint;
 flat out float aspect;
-
-const float kVariants = 4.0;
+flat out float sense;
+flat out uint object;
 
 void main() {
-  SplinePlace place = splinePlace();
-  float side = (gl_VertexID & 1) == 0 ? -1.0 : 1.0;
-  vec2 across = vec2(-place.along.y, place.along.x);
-  // The brush's own round ends go beyond the skeleton's.
-  float beyond = place.part == 0.0 ? -1.0 : (place.part >= 1.0 ? 1.0 : 0.0);
-  vec2 at = place.at + shape.x * (side * across + 0.6 * beyond * place.along);
-  float acrossBrush = 0.5 + 0.5 * (shape.z > 0.5 ? -side : side);
-  brush = vec2(place.part, (shape.y + 0.02 + 0.96 * acrossBrush) / kVariants);
+  brush = brushAt;
+  along = direction;
   paint = strokePaint;
-  aspect = place.length_ / max(2.0 * shape.x, 1.0) + 0.6;
+  aspect = shape.x;
+  sense = shape.y;
+  object = strokeObject;
   gl_Position = vec4(2.0 * at / fullSize - 1.0, 0.0, 1.0);
 }

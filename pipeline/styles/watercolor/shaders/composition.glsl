@@ -5,7 +5,7 @@
 // Outputs: sRGB-coded colours.
 // Precision: highp for places; colours would do with less.
 #include "pipeline/styles/watercolor/shaders/density.glsl"
-#include "pipeline/styles/watercolor/shaders/sheet.glsl"
+#include "pipeline/styles/sheet/shaders/sheet.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
 uniform highp usampler2D tiling;
 uniform sampler2D darkLayer;

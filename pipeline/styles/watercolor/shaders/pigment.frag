@@ -5,7 +5,7 @@
 // Outputs: darkPigment, lightPigment (RGBA8): sRGB-coded; A of the dark one: the light one's share, of
 //          the light one: the load, 0.5 is the usual.
 // Precision: highp.
-#include "pipeline/styles/watercolor/shaders/sheet.glsl"
+#include "pipeline/styles/sheet/shaders/sheet.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
 uniform highp usampler2D tiling;
 uniform sampler2D darkWash;

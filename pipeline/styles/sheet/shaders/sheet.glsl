@@ -1,7 +1,7 @@
 // Purpose: the paper under a place of the picture. The sheet goes with the picture as a whole, so that
 //          it is neither a dirty window before the scene nor slides under it, and its grain keeps its
 //          size (Cunzi et al., "Dynamic canvas for immersive non-photorealistic walkthroughs", 2003).
-// Inputs:  paper (paper.frag, LINEAR, repeating); paperLinear, paperShift: its px under the picture's,
+// Inputs:  paper (paper.frag or linen.frag, LINEAR, repeating); paperLinear, paperShift: its px under the picture's,
 //          as complex numbers; coarser: how much of the coarser octave is seen.
 // Outputs: as paper.frag's.
 // Precision: highp for places.

@@ -1,0 +1,39 @@
+// Purpose: a cubic B-spline whose end points are tripled, so that it begins and ends there (thesis
+//          §4.4): 8 control points, 9 spans.
+// Inputs:  its points; s in [0, kSplineSpans].
+// Outputs: the place there, the direction, and how far along the stroke it is.
+// Precision: highp.
+const int kSplineLast = 7;
+const int kSplineSpans = 9;
+
+struct SplinePlace {
+  vec2 at;
+  vec2 along;  // unit
+  float part;  // of its length, in [0, 1], where its points lie evenly
+};
+
+SplinePlace splineAt(vec2 points[8], float s) {
+  int span = min(int(s), kSplineSpans - 1);
+  float u = s - float(span);
+  float v = 1.0 - u;
+  ivec4 which = clamp(ivec4(span - 2, span - 1, span, span + 1), 0, kSplineLast);
+  vec2 c0 = points[which.x];
+  vec2 c1 = points[which.y];
+  vec2 c2 = points[which.z];
+  vec2 c3 = points[which.w];
+  vec4 weights = vec4(v * v * v, 3.0 * u * u * u - 6.0 * u * u + 4.0,
+                      3.0 * v * v * v - 6.0 * v * v + 4.0, u * u * u) / 6.0;
+  vec2 at = weights.x * c0 + weights.y * c1 + weights.z * c2 + weights.w * c3;
+  vec2 along = -v * v * c0 + (3.0 * u * u - 4.0 * u) * c1 + (-3.0 * v * v + 4.0 * v) * c2 + u * u * c3;
+  // At the very ends the spline stands still; its direction there is the first or last chord's.
+  if (dot(along, along) < 1e-6) along = c3 - c0;
+  if (dot(along, along) < 1e-6) along = vec2(1.0, 0.0);
+  return SplinePlace(at, normalize(along), dot(weights, vec4(which)) / float(kSplineLast));
+}
+
+// The points' way from the first to the last, px.
+float splineLength(vec2 points[8]) {
+  float sum = 0.0;
+  for (int i = 0; i < kSplineLast; ++i) sum += distance(points[i], points[i + 1]);
+  return sum;
+}

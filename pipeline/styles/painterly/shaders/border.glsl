@@ -1,0 +1,9 @@
+// Purpose: what borders.frag packs of a pixel: its virtual object, 0 for what is real, another one that
+//          is within a pixel, and how much of the pixel is its own.
+// Inputs, outputs: packed, or in parts. Precision: integers.
+uint borderOf(uint own, uint other, float share) {
+  return own | other << 9u | uint(share * 255.0 + 0.5) << 18u;
+}
+uint ownOf(uint border) { return border & 511u; }
+uint otherOf(uint border) { return border >> 9u & 511u; }
+float shareOf(uint border) { return float(border >> 18u) / 255.0; }

@@ -1,0 +1,30 @@
+// Purpose: where strokes of one thing give way to another's: the boundaries of virtual objects among
+//          each other and with what is real, two pixels wide, so that a clipped edge is smooth.
+//          Occluders are real: they hide models, but the picture goes on over their edges.
+// Inputs:  ids (scene::ArFrame). Outputs: R32UI: border.glsl's. Precision: integers.
+#include "pipeline/scene/shaders/object_id.glsl"
+#include "pipeline/styles/painterly/shaders/border.glsl"
+uniform usampler2D ids;
+layout(location = 0) out uint border;
+
+void main() {
+  ivec2 p = ivec2(gl_FragCoord.xy);
+  ivec2 last = textureSize(ids, 0) - 1;
+  uint own = 0u;
+  uint other = 0u;
+  float share = 0.0;
+  for (int i = 0; i < 9; ++i) {
+    // The middle first: who it is says who the others are.
+    ivec2 step = i == 0 ? ivec2(0) : i < 5 ? ivec2((i - 1) % 3, (i - 1) / 3) - 1 : ivec2(i % 3, i / 3) - 1;
+    uint object = objectOf(texelFetch(ids, clamp(p + step, ivec2(0), last), 0).r);
+    object = isVirtual(object) ? object : 0u;
+    if (i == 0) own = other = object;
+    float weight = float((2 - abs(step.x)) * (2 - abs(step.y))) / 16.0;
+    if (object == own) {
+      share += weight;
+    } else if (other == own || object > other) {
+      other = object;
+    }
+  }
+  border = borderOf(own, other, share);
+}

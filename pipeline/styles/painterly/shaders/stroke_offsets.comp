@@ -1,0 +1,41 @@
+// Purpose: where each stroke's strip begins among the vertices, in the order of painting. One group
+//          does all of it.
+// Inputs:  instanceCount strokes in drawn; plans: breaks; even: quads of all of them, if above 0.
+// Outputs: plans: first; command: glDrawArraysIndirect's.
+// Precision: integers.
+#include "pipeline/styles/painterly/shaders/stroke_instance.glsl"
+layout(local_size_x = 128) in;
+layout(std430, binding = 0) readonly buffer Drawn { DrawCommand drawn; };
+layout(std430, binding = 1) buffer Plans { StripPlan plans[]; };
+layout(std430, binding = 2) writeonly buffer Command { DrawCommand command; };
+uniform uint even;
+
+shared uint before[128];
+
+uint verticesOf(uint rank) {
+  return stripVertices(even > 0u ? even : 1u + uint(bitCount(plans[rank].breaks)));
+}
+
+void main() {
+  uint me = gl_LocalInvocationID.x;
+  uint strokes = drawn.instanceCount;
+  uint each = (strokes + 127u) / 128u;
+  uint start = min(me * each, strokes);
+  uint end = min(start + each, strokes);
+  uint mine = 0u;
+  for (uint i = start; i < end; ++i) mine += verticesOf(i);
+  before[me] = mine;
+  barrier();
+  for (uint reach = 1u; reach < 128u; reach *= 2u) {
+    uint there = me >= reach ? before[me - reach] : 0u;
+    barrier();
+    before[me] += there;
+    barrier();
+  }
+  if (me == 127u) command = DrawCommand(before[127], 1u, 0u, 0u);
+  uint place = before[me] - mine;
+  for (uint i = start; i < end; ++i) {
+    plans[i].first = place;
+    place += verticesOf(i);
+  }
+}

@@ -1,0 +1,74 @@
+// Purpose: the vertices of strokes, each a strip of quads along its spline, all of them one strip.
+// Inputs:  instances, instanceCount of them in drawn; plans (stroke_offsets.comp); even: quads of all
+//          of them (the thesis's 4 (n + 2), §4.4), if above 0.
+// Outputs: vertices, as stroke.vert takes them. A stroke an invocation.
+// Precision: highp.
+#include "pipeline/marks/shaders/spline.glsl"
+#include "pipeline/styles/painterly/shaders/stroke_instance.glsl"
+layout(local_size_x = 64) in;
+struct Vertex {
+  vec2 at;
+  uint brush;   // unorms: along and across the stroke, in the brush's variant
+  uint along;   // snorms: the stroke's direction
+  uvec2 paint;  // halves
+  uint shape;   // halves: how long the stroke is by its width; the sense of the brush across it
+  uint object;
+};
+layout(std430, binding = 0) readonly buffer Instances { Instance instances[]; };
+layout(std430, binding = 1) readonly buffer Drawn { DrawCommand drawn; };
+layout(std430, binding = 2) readonly buffer Plans { StripPlan plans[]; };
+layout(std430, binding = 3) writeonly buffer Vertices { Vertex vertices[]; };
+uniform uint even;
+
+const float kVariants = 4.0;
+const float kBeyond = 0.6;  // half widths: the brush's own round ends go beyond the skeleton's
+
+void main() {
+  uint rank = gl_GlobalInvocationID.x;
+  if (rank >= drawn.instanceCount) return;
+  vec2 points[8];
+  pointsOf(instances[rank].points, points);
+  vec4 paint = instances[rank].paint;
+  vec4 shape = instances[rank].shape;
+  StripPlan plan = plans[rank];
+  float reach = kBeyond * shape.x;
+  float way = splineLength(points);
+  float whole = way + 2.0 * reach;
+  uint variant = uint(shape.y) & 3u;
+  float sense = shape.y >= kVariants ? -1.0 : 1.0;
+  Vertex made;
+  made.paint = uvec2(packHalf2x16(paint.rg), packHalf2x16(paint.ba));
+  made.shape = packHalf2x16(vec2(min(0.5 * whole / max(shape.x, 0.5), 1000.0), sense));
+  made.object = uint(shape.z);
+  uint next = plan.first;
+  uint breaks = plan.breaks;
+  uint quads = even > 0u ? even : 1u + uint(bitCount(breaks));
+  for (uint i = 0u; i <= quads; ++i) {
+    float s = float(kSplineSpans);
+    if (i == 0u) {
+      s = 0.0;
+    } else if (even > 0u) {
+      s = float(kSplineSpans) * float(i) / float(even);
+    } else if (i < quads) {
+      s = float(findLSB(breaks));
+      breaks &= breaks - 1u;
+    }
+    SplinePlace place = splineAt(points, s);
+    float beyond = i == 0u ? -1.0 : (i == quads ? 1.0 : 0.0);
+    float part = (place.part * way + (1.0 + beyond) * reach) / whole;
+    made.along = packSnorm2x16(place.along);
+    for (int side = -1; side <= 1; side += 2) {
+      float across = float(side);
+      made.at = place.at + beyond * reach * place.along +
+                across * shape.x * vec2(-place.along.y, place.along.x);
+      float row = float(variant) + 0.02 + 0.96 * (0.5 + 0.5 * sense * across);
+      made.brush = packUnorm2x16(vec2(part, row / kVariants));
+      vertices[next] = made;
+      ++next;
+      if ((i == 0u && side < 0) || (i == quads && side > 0)) {
+        vertices[next] = made;
+        ++next;
+      }
+    }
+  }
+}

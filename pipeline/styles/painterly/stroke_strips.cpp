@@ -1,0 +1,75 @@
+#include "pipeline/styles/painterly/stroke_strips.h"
+
+#include <algorithm>
+#include <string>
+
+namespace pleinair::styles {
+namespace {
+
+const std::string kShaders = "pipeline/styles/painterly/shaders/";
+constexpr glm::ivec2 kGroup{64, 1};
+constexpr std::size_t kPlanBytes = 8;
+constexpr std::size_t kCommandBytes = 16;
+constexpr std::size_t kCurvatureQuads = 7;  // at most: the spline's 9 spans, but for the outer ones
+constexpr std::size_t kThesisQuads = 36;
+/// Of a storage buffer, that every GPU has (GL ES 3.1, table 20.45).
+constexpr std::size_t kMostBytes = std::size_t{1} << 27U;
+/// Px of the full picture that a quad may lie off its stroke: less than is seen.
+constexpr float kBendPx = 0.3F;
+
+std::size_t verticesOf(std::size_t quads) {
+  return 2 * quads + 4;
+}
+
+/// As many as all slots' strokes have room for.
+std::size_t evenQuads(std::size_t slots) {
+  const std::size_t vertices = kMostBytes / StrokeStrips::kVertexBytes / slots;
+  return std::clamp(vertices / 2 - 2, kCurvatureQuads, kThesisQuads);
+}
+
+}  // namespace
+
+StrokeStripMaker::StrokeStripMaker(const gpu::ShaderLibrary& library)
+    : bend_(library.compute(kShaders + "stroke_bend.comp")),
+      offsets_(library.compute(kShaders + "stroke_offsets.comp")),
+      lay_(library.compute(kShaders + "stroke_strips.comp")) {}
+
+void StrokeStripMaker::lay(const gpu::Buffer& instances, const gpu::Buffer& drawn,
+                           StrokeQuads quads, StrokeStrips& strips) {
+  const std::size_t slots = instances.sizeBytes() / marks::StrokeSet::kInstanceBytes;
+  const glm::ivec2 all(static_cast<int>(slots), 1);
+  const bool isEven = quads == StrokeQuads::kThesis;
+  const std::size_t even = isEven ? evenQuads(slots) : 0;
+  if (!strips.vertices || strips.quads != quads) {
+    const std::size_t each = verticesOf(isEven ? even : kCurvatureQuads);
+    strips.plans = gpu::Buffer(slots * kPlanBytes, gpu::BufferUsage::kDynamic);
+    strips.command = gpu::Buffer(kCommandBytes, gpu::BufferUsage::kDynamic);
+    strips.vertices = {};
+    strips.vertices =
+        gpu::Buffer(slots * each * StrokeStrips::kVertexBytes, gpu::BufferUsage::kDynamic);
+    strips.quads = quads;
+  }
+  if (!isEven) {
+    bend_.use()
+        .storage(0, instances)
+        .storage(1, drawn)
+        .storage(2, strips.plans)
+        .set("bend", kBendPx)
+        .dispatch(all, kGroup, GL_SHADER_STORAGE_BARRIER_BIT);
+  }
+  offsets_.use()
+      .storage(0, drawn)
+      .storage(1, strips.plans)
+      .storage(2, strips.command)
+      .set("even", static_cast<unsigned>(even))
+      .dispatch({1, 1}, {128, 1}, GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+  lay_.use()
+      .storage(0, instances)
+      .storage(1, drawn)
+      .storage(2, strips.plans)
+      .storage(3, strips.vertices)
+      .set("even", static_cast<unsigned>(even))
+      .dispatch(all, kGroup, GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
+}
+
+}  // namespace pleinair::styles

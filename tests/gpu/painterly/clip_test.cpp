@@ -1,0 +1,174 @@
+// Paint that does not run over the boundary of what its stroke is of: where that is, against the
+// CPU, and what comes of it.
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include <gmock/gmock.h>
+
+#include "pipeline/gpu/render_target.h"
+#include "tests/gpu/painterly/painterly_fixture.h"
+#include "tests/oracles/stroke_oracle.h"
+
+namespace pleinair::styles {
+namespace {
+
+class ClipTest : public PainterlyTest {
+ protected:
+  void TearDown() override {
+    ids_ = {};
+    zeros_ = {};
+    PainterlyTest::TearDown();
+  }
+
+  void setIds(hal::FrameSize size, const std::function<std::uint32_t(int, int)>& objectAt) {
+    std::vector<std::uint32_t> ids;
+    for (int y = 0; y < size.height; ++y) {
+      for (int x = 0; x < size.width; ++x) {
+        const std::uint32_t object = objectAt(x, y);
+        ids.push_back(object << scene::kTriangleBits | (object == 0 ? 0U : 7U));
+      }
+    }
+    const std::size_t stride = static_cast<std::size_t>(size.width) * 4;
+    ids_ = gpu::Texture(gpu::TextureFormat::kR32ui, size);
+    ids_.upload({reinterpret_cast<const std::uint8_t*>(ids.data()), ids.size() * 4}, stride);
+    zeros_ = gpu::Texture(gpu::TextureFormat::kR32ui, size);
+    zeros_.upload(std::vector<std::uint8_t>(ids.size() * 4), stride);
+  }
+
+  gpu::Texture ids_;
+  gpu::Texture zeros_;
+};
+
+TEST_F(ClipTest, BordersAreTheOracles) {
+  constexpr hal::FrameSize kSmall{23, 17};
+  std::mt19937 random(5);
+  const std::uint32_t real = scene::kRealObject + 3U;
+  const std::array<std::uint32_t, 5> objects{0, 1, 300, 511, real};
+  std::vector<std::uint32_t> is;
+  for (int i = 0; i < kSmall.width * kSmall.height; ++i) {
+    is.push_back(random() % 3U == 0U ? objects.at(random() % 5U) : objects.at(1));
+  }
+  const auto at = [&](int x, int y) {
+    x = std::clamp(x, 0, kSmall.width - 1);
+    y = std::clamp(y, 0, kSmall.height - 1);
+    return is[static_cast<std::size_t>(y * kSmall.width + x)];
+  };
+  setIds(kSmall, at);
+  const auto seen = [&](int x, int y) { return at(x, y) == real ? 0U : at(x, y); };
+  const gpu::Texture borders(gpu::TextureFormat::kR32ui, kSmall);
+  library_.fragmentPass("pipeline/styles/painterly/shaders/borders.frag")
+      .use()
+      .texture("ids", ids_)
+      .drawFullscreen(gpu::RenderTarget({&borders}));
+  const std::vector<std::uint32_t> found = support::readR32ui(borders);
+  int others = 0;
+  for (int y = 0; y < kSmall.height; ++y) {
+    for (int x = 0; x < kSmall.width; ++x) {
+      const std::uint32_t border = found[static_cast<std::size_t>(y * kSmall.width + x)];
+      const std::uint32_t own = border & 511U;
+      const std::uint32_t other = border >> 9U & 511U;
+      EXPECT_EQ(own, seen(x, y));
+      std::vector<bool> its;
+      bool isNear = false;
+      for (int i = 0; i < 9; ++i) {
+        const std::uint32_t there = seen(x + i % 3 - 1, y + i / 3 - 1);
+        its.push_back(there == own);
+        isNear = isNear || there == other;
+      }
+      EXPECT_NEAR((border >> 18U) / 255.0, oracles::paintableShare(its), 0.5 / 255.0 + 1e-6);
+      EXPECT_TRUE(isNear);
+      others += other != own ? 1 : 0;
+      EXPECT_EQ(other == own, std::ranges::all_of(its, [](bool each) { return each; }));
+    }
+  }
+  EXPECT_GT(others, 100);
+}
+
+/// A red disc on blue, painted with broad strokes that go astray and nothing that could be taken
+/// for a spill.
+class SpillTest : public ClipTest {
+ protected:
+  static bool isInDisc(double x, double y, double more) {
+    return std::hypot(x - 96.0, y - 72.0) < 40.0 + more;
+  }
+  static hal::Image disc() {
+    hal::Image image({.pixelFormat = hal::PixelFormat::kRgba8, .size = kSize});
+    for (int y = 0; y < kSize.height; ++y) {
+      for (int x = 0; x < kSize.width; ++x) {
+        auto* p = image.row(0, y).data() + std::ptrdiff_t{x} * 4;
+        const bool isIn = isInDisc(x, y, 0.0);
+        p[0] = isIn ? 220 : 20;
+        p[1] = 20;
+        p[2] = isIn ? 20 : 220;
+        p[3] = 255;
+      }
+    }
+    return image;
+  }
+
+  /// How many pixels, two away from the disc's rim at least, have the other side's colour.
+  int spilled(std::uint32_t object, bool isKnown, const char* bump = "once") {
+    restart();
+    setIds(kSize, [&](int x, int y) { return isInDisc(x, y, 0.0) ? object : 0U; });
+    Painterly style(library_);
+    config::ParameterValues values = style.parameters();
+    for (const auto& [name, value] :
+         std::initializer_list<std::pair<const char*, const char*>>{{"stroke_size", "10"},
+                                                                    {"wash", "0"},
+                                                                    {"ground_red", "0"},
+                                                                    {"ground_green", "0"},
+                                                                    {"ground_blue", "0"},
+                                                                    {"canvas", "0"},
+                                                                    {"relief", "0"},
+                                                                    {"gloss", "0"},
+                                                                    {"saturation", "1"},
+                                                                    {"warmth", "0"},
+                                                                    {"hue_jitter", "0"},
+                                                                    {"saturation_jitter", "0"},
+                                                                    {"value_jitter", "0"},
+                                                                    {"bump", bump},
+                                                                    {"wander", "1"},
+                                                                    {"colour_threshold", "1"},
+                                                                    {"detail", "0.01"}}) {
+      values = values.with(name, value);
+    }
+    style.setParameters(values);
+    std::vector<std::uint8_t> painted;
+    for (int i = 0; i < 3; ++i) {
+      scene::ArFrame frame = next(disc());
+      frame.hasObjects = isKnown;
+      frame.ids = &ids_;
+      frame.barycentrics = &zeros_;
+      frame.normalFocus = &picture_;
+      painted = paint(style, frame);
+    }
+    int count = 0;
+    for (int y = 0; y < kSize.height; ++y) {
+      for (int x = 0; x < kSize.width; ++x) {
+        const auto* p = &painted[static_cast<std::size_t>(y * kSize.width + x) * 4];
+        if (isInDisc(x, y, -2.0) && p[2] > p[0] + 20) ++count;
+        if (!isInDisc(x, y, 2.0) && p[0] > p[2] + 20) ++count;
+      }
+    }
+    return count;
+  }
+};
+
+TEST_F(SpillTest, NoPaintRunsOverAModelsBoundary) {
+  const int clipped = spilled(1, true);
+  const int unclipped = spilled(1, false);
+  RecordProperty("pixels", std::to_string(clipped) + " of " + std::to_string(unclipped));
+  EXPECT_GT(unclipped, 100) << "strokes are to reach over where nothing is known";
+  EXPECT_EQ(clipped, 0);
+  EXPECT_EQ(spilled(1, true, "each"), 0);
+}
+
+/// An occluder's outline is where its model was put, not where the picture has an edge.
+TEST_F(SpillTest, OverAnOccludersOutlineThePictureGoesOn) {
+  const int clipped = spilled(1, true);
+  EXPECT_GT(spilled(scene::kRealObject + 1U, true), clipped);
+}
+
+}  // namespace
+}  // namespace pleinair::styles

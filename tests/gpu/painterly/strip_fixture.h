@@ -1,0 +1,95 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include "pipeline/marks/marks_shaders.h"
+#include "pipeline/styles/painterly/painterly_shaders.h"
+#include "pipeline/styles/painterly/stroke_strips.h"
+#include "tests/support/gl_test.h"
+
+namespace pleinair::styles {
+
+/// A stroke as marks::StrokeSet lays it out.
+struct LaidStroke {
+  std::array<glm::vec2, 8> points;
+  glm::vec4 paint{1.0F};
+  float halfWidth = 4.0F;
+  float variant = 0.0F;  // 4 more where it is mirrored
+  float object = 0.0F;
+  float age = 0.0F;
+};
+static_assert(sizeof(LaidStroke) == marks::StrokeSet::kInstanceBytes);
+
+/// Its points evenly from one place to another.
+inline LaidStroke straightStroke(glm::vec2 from, glm::vec2 to) {
+  LaidStroke stroke;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const float part = static_cast<float>(i) / 7.0F;
+    stroke.points.at(i) = from + part * (to - from);
+  }
+  return stroke;
+}
+
+/// A vertex of shaders/stroke_strips.comp.
+struct StripVertex {
+  glm::vec2 at;
+  std::array<std::uint16_t, 2> brush;
+  std::array<std::int16_t, 2> along;
+  std::array<std::uint16_t, 4> paint;
+  std::array<std::uint16_t, 2> shape;
+  std::uint32_t object;
+};
+static_assert(sizeof(StripVertex) == StrokeStrips::kVertexBytes);
+
+/// Strokes that a test lays out by hand.
+class StripTest : public support::GlTest {
+ protected:
+  void SetUp() override {
+    GlTest::SetUp();
+    if (IsSkipped()) return;
+    library_.add(gpu::marksShaders());
+    library_.add(gpu::painterlyShaders());
+    maker_.emplace(library_);
+  }
+  void TearDown() override {
+    strips_ = {};
+    maker_.reset();
+    GlTest::TearDown();
+  }
+
+  /// Fills strips_; slots are more than there are strokes.
+  void lay(const std::vector<LaidStroke>& strokes, StrokeQuads quads = StrokeQuads::kCurvature) {
+    std::vector<LaidStroke> slots = strokes;
+    slots.resize(strokes.size() + 5);
+    const auto instances =
+        gpu::Buffer::of(std::span<const LaidStroke>(slots), gpu::BufferUsage::kDynamic);
+    const std::array<std::uint32_t, 4> command{0, static_cast<std::uint32_t>(strokes.size()), 0, 0};
+    const auto drawn =
+        gpu::Buffer::of(std::span<const std::uint32_t>(command), gpu::BufferUsage::kDynamic);
+    maker_->lay(instances, drawn, quads, strips_);
+    EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
+  }
+  std::vector<StripVertex> vertices() const {
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    auto all = support::readBuffer<StripVertex>(strips_.vertices);
+    const auto command = support::readBuffer<std::uint32_t>(strips_.command);
+    EXPECT_EQ(command[1], 1U);
+    EXPECT_EQ(command[2], 0U);
+    EXPECT_LE(command[0], all.size());
+    all.resize(command[0]);
+    return all;
+  }
+
+  gpu::ShaderLibrary library_;
+  std::optional<StrokeStripMaker> maker_;
+  StrokeStrips strips_;
+};
+
+}  // namespace pleinair::styles

@@ -1,0 +1,203 @@
+// What strokes are drawn of: as few quads as they bend, against the splines of the CPU.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <glm/geometric.hpp>
+#include <gmock/gmock.h>
+
+#include "tests/gpu/painterly/strip_fixture.h"
+#include "tests/oracles/stroke_oracle.h"
+
+namespace pleinair::styles {
+namespace {
+
+std::vector<glm::dvec2> pointsOf(const LaidStroke& stroke) {
+  return {stroke.points.begin(), stroke.points.end()};
+}
+
+/// A part of a circle, of `turn` rad in all.
+LaidStroke arc(glm::vec2 from, float lengthPx, float turn) {
+  LaidStroke stroke;
+  glm::vec2 at = from;
+  for (std::size_t i = 0; i < 8; ++i) {
+    stroke.points.at(i) = at;
+    const float heading = turn * static_cast<float>(i) / 7.0F;
+    at += lengthPx / 7.0F * glm::vec2(std::cos(heading), std::sin(heading));
+  }
+  return stroke;
+}
+
+/// A strip's middle line, without the vertices that stand twice.
+std::vector<glm::dvec2> middlesOf(std::span<const StripVertex> strip) {
+  std::vector<glm::dvec2> middles;
+  for (std::size_t i = 1; i + 2 < strip.size(); i += 2) {
+    middles.emplace_back(0.5F * (strip[i].at + strip[i + 1].at));
+  }
+  return middles;
+}
+
+double distanceTo(glm::dvec2 point, const std::vector<glm::dvec2>& line) {
+  double least = 1e9;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const glm::dvec2 along = line[i + 1] - line[i];
+    const double t = std::clamp(
+        glm::dot(point - line[i], along) / std::max(glm::dot(along, along), 1e-9), 0.0, 1.0);
+    least = std::min(least, glm::distance(point, line[i] + t * along));
+  }
+  return least;
+}
+
+/// How far the spline, and both sides of the stroke, lie off the quads at most.
+double furthestOff(const LaidStroke& stroke, std::span<const StripVertex> strip) {
+  const std::vector<glm::dvec2> points = pointsOf(stroke);
+  std::array<std::vector<glm::dvec2>, 2> sides;
+  for (std::size_t i = 1; i + 1 < strip.size(); ++i) sides.at(i % 2).emplace_back(strip[i].at);
+  double worst = 0.0;
+  for (double s = 0.5; s <= 8.5; s += 0.05) {
+    const glm::dvec2 at = oracles::splinePlace(points, s);
+    worst = std::max(worst, distanceTo(at, middlesOf(strip)));
+    const glm::dvec2 along = glm::normalize(oracles::splinePlace(points, s + 1e-3) -
+                                            oracles::splinePlace(points, s - 1e-3));
+    const glm::dvec2 across = double{stroke.halfWidth} * glm::dvec2(-along.y, along.x);
+    worst = std::max(
+        {worst, std::min(distanceTo(at + across, sides[0]), distanceTo(at + across, sides[1]))});
+  }
+  return worst;
+}
+
+class StripsTest : public StripTest {
+ protected:
+  std::vector<StripVertex> only(const LaidStroke& stroke) {
+    lay({stroke});
+    return vertices();
+  }
+};
+
+TEST_F(StripsTest, AStraightStrokeIsOneQuad) {
+  const LaidStroke stroke = straightStroke({20.0F, 30.0F}, {60.0F, 60.0F});  // 50 px long
+  const std::vector<StripVertex> strip = only(stroke);
+  ASSERT_EQ(strip.size(), 6U) << "four corners, the first and the last twice";
+  const glm::vec2 along(0.8F, 0.6F);
+  const glm::vec2 across(-0.6F, 0.8F);
+  const glm::vec2 start = glm::vec2(20.0F, 30.0F) - 0.6F * 4.0F * along;
+  const glm::vec2 end = glm::vec2(60.0F, 60.0F) + 0.6F * 4.0F * along;
+  const std::array<glm::vec2, 6> corners{start - 4.0F * across, start - 4.0F * across,
+                                         start + 4.0F * across, end - 4.0F * across,
+                                         end + 4.0F * across,   end + 4.0F * across};
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_LT(glm::distance(strip[i].at, corners.at(i)), 0.01F) << i;
+    EXPECT_NEAR(strip[i].brush[0] / 65535.0, i < 3 ? 0.0 : 1.0, 1e-4);
+    EXPECT_NEAR(strip[i].along[0] / 32767.0, 0.8, 1e-3);
+    EXPECT_NEAR(strip[i].along[1] / 32767.0, 0.6, 1e-3);
+  }
+}
+
+TEST_F(StripsTest, QuadsAreAsManyAsAStrokeBends) {
+  std::vector<std::size_t> counts;
+  for (const float turn : {0.0F, 0.1F, 0.4F, 1.0F, 2.0F, 3.0F}) {
+    const LaidStroke stroke = arc({30.0F, 30.0F}, 40.0F, turn);
+    const std::vector<StripVertex> strip = only(stroke);
+    counts.push_back(strip.size() / 2 - 2);
+    EXPECT_LT(furthestOff(stroke, strip), 0.45) << turn;
+  }
+  EXPECT_EQ(counts.front(), 1U);
+  EXPECT_TRUE(std::ranges::is_sorted(counts)) << testing::PrintToString(counts);
+  EXPECT_GT(counts[3], 2U);
+  EXPECT_LE(counts.back(), 7U);
+  EXPECT_GT(furthestOff(arc({30.0F, 30.0F}, 40.0F, 1.0F),
+                        only(straightStroke({30.0F, 30.0F}, {66.0F, 45.0F}))),
+            1.0)
+      << "the measure can fail";
+}
+
+/// Quads bend only where the spline has its knots, so that what is left of very bent strokes is
+/// more.
+TEST_F(StripsTest, StaysOnTheSplineWhateverItDoes) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> part(-1.0F, 1.0F);
+  std::vector<LaidStroke> strokes;
+  for (int i = 0; i < 300; ++i) {
+    LaidStroke stroke;
+    glm::vec2 at(100.0F, 100.0F);
+    float heading = 3.0F * part(random);
+    float bend = 0.12F * part(random);
+    for (glm::vec2& point : stroke.points) {
+      point = at;
+      at += 6.0F * glm::vec2(std::cos(heading), std::sin(heading));
+      heading += bend;
+      bend += 0.05F * part(random);
+    }
+    stroke.halfWidth = 4.0F + 2.0F * part(random);
+    strokes.push_back(stroke);
+  }
+  lay(strokes);
+  const std::vector<StripVertex> all = vertices();
+  const auto plans = support::readBuffer<std::array<std::uint32_t, 2>>(strips_.plans);
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < strokes.size(); ++i) {
+    ASSERT_EQ(plans[i][1], first) << "in the order of painting, without a gap";
+    const std::size_t end = i + 1 < strokes.size() ? plans[i + 1][1] : all.size();
+    EXPECT_LT(furthestOff(strokes[i], std::span(all).subspan(first, end - first)), 0.6) << i;
+    first = end;
+  }
+  const double quads = (static_cast<double>(all.size()) / 300.0 - 4.0) / 2.0;
+  RecordProperty("quads_a_stroke", std::to_string(quads));
+  EXPECT_LT(quads, 4.0);
+  EXPECT_GT(quads, 1.2);
+}
+
+/// Where along the brush a place is does not depend on how many quads there are.
+TEST_F(StripsTest, ABrushLiesEvenlyAlong) {
+  const LaidStroke stroke = arc({30.0F, 30.0F}, 40.0F, 2.0F);
+  for (const StrokeQuads quads : {StrokeQuads::kCurvature, StrokeQuads::kThesis}) {
+    lay({stroke}, quads);
+    const std::vector<StripVertex> strip = vertices();
+    const std::vector<glm::dvec2> middles = middlesOf(strip);
+    double way = 0.0;
+    double whole = 0.0;
+    for (std::size_t i = 1; i < middles.size(); ++i)
+      whole += glm::distance(middles[i], middles[i - 1]);
+    for (std::size_t i = 1; i < middles.size(); ++i) {
+      way += glm::distance(middles[i], middles[i - 1]);
+      EXPECT_NEAR(strip[2 * i + 1].brush[0] / 65535.0, way / whole, 0.025) << i;
+    }
+  }
+}
+
+TEST_F(StripsTest, TheThesissQuadsAreItsSamples) {
+  const LaidStroke stroke = arc({30.0F, 30.0F}, 40.0F, 2.0F);
+  lay({stroke, straightStroke({0.0F, 0.0F}, {30.0F, 0.0F})}, StrokeQuads::kThesis);
+  const std::vector<StripVertex> all = vertices();
+  ASSERT_EQ(all.size(), 2U * (2 * 36 + 4)) << "straight ones, too";
+  const std::vector<glm::dvec2> middles = middlesOf(std::span(all).first(2 * 36 + 4));
+  const std::vector<glm::dvec2> samples = oracles::thesisSplineSamples(pointsOf(stroke));
+  ASSERT_EQ(middles.size(), samples.size());
+  for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
+    EXPECT_LT(glm::distance(middles[i], samples[i]), 0.01) << i;
+  }
+}
+
+TEST_F(StripsTest, BrushesVariantsAndObjectsAreTold) {
+  LaidStroke plain = straightStroke({0.0F, 0.0F}, {30.0F, 0.0F});
+  plain.variant = 2.0F;
+  plain.object = 511.0F;
+  LaidStroke mirrored = plain;
+  mirrored.variant = 6.0F;
+  lay({plain, mirrored});
+  const std::vector<StripVertex> all = vertices();
+  ASSERT_EQ(all.size(), 12U);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(all[i].object, 511U);
+    const double row = 4.0 * all[i].brush[1] / 65535.0;
+    EXPECT_GT(row, 2.0);
+    EXPECT_LT(row, 3.0);
+    EXPECT_NEAR(4.0 * all[i + 6].brush[1] / 65535.0, 5.0 - row, 1e-3) << "the other way round";
+  }
+  EXPECT_EQ(all[0].shape[1], 0x3C00U);  // 1 and -1, as halves
+  EXPECT_EQ(all[6].shape[1], 0xBC00U);
+}
+
+}  // namespace
+}  // namespace pleinair::styles
