@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <charconv>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -198,6 +199,21 @@ std::string ParameterDescriptor::tomlOf(const ParameterValue& value) const {
         {.key = name, .found = config::quoted(text), .allowed = "UTF-8, to be put into TOML"});
   }
   return *toml;
+}
+
+std::string ParameterDescriptor::allowedInsteadOf(std::string_view text) const {
+  const std::size_t colon = text.find(':');
+  if (kind() != ParameterKind::kPath || colon == std::string_view::npos) return allowed();
+  std::vector<std::string> words;
+  for (const std::vector<std::string>* each : {&choices, &openChoices}) {
+    std::copy_if(each->begin(), each->end(), std::back_inserter(words), [&](const auto& word) {
+      return word == text.substr(0, colon) || word.starts_with(text.substr(0, colon + 1));
+    });
+  }
+  const bool goesOn = std::any_of(words.begin(), words.end(), [](const std::string& word) {
+    return word.find(':') != std::string::npos;
+  });
+  return goesOn ? listText(words) : allowed();
 }
 
 std::string ParameterDescriptor::foundIn(std::string_view text) const {

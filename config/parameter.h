@@ -56,6 +56,9 @@ struct ParameterDescriptor {
   std::string_view unit() const;
   /// "a number of px in [2, 64]", "true or false", "one of cells, seeds", "none, or a path".
   std::string allowed() const;
+  /// The same, but only what begins like a text that goes on from a word: of "synthetic:nope" the
+  /// "synthetic:…".
+  std::string allowedInsteadOf(std::string_view text) const;
   /// Of this parameter's kind and within its range.
   bool allows(const ParameterValue& value) const;
 

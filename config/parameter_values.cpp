@@ -28,7 +28,8 @@ std::optional<ParameterValue> readText(const TomlTable& table,
   if (!text) return std::nullopt;
   std::optional<ParameterValue> value = descriptor.parse(*text);
   if (!value) {
-    throw table.error(descriptor.name, "found " + descriptor.foundIn(*text), descriptor.allowed());
+    throw table.error(descriptor.name, "found " + descriptor.foundIn(*text),
+                      descriptor.allowedInsteadOf(*text));
   }
   return inItsFolder(std::move(*value), descriptor, table.directory());
 }
@@ -95,7 +96,7 @@ ParameterValues ParameterValues::with(std::string_view name, std::string_view te
     throw ConfigError({.file = std::move(origin),
                        .key = std::string(name),
                        .found = descriptor.foundIn(text),
-                       .allowed = descriptor.allowed()});
+                       .allowed = descriptor.allowedInsteadOf(text)});
   }
   return with(index, std::move(*value), std::move(origin));
 }

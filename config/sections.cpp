@@ -182,8 +182,9 @@ void Sections::set(const Key& key, std::string_view text, const std::string& ori
   std::optional<ParameterValue> value = descriptor.parse(text);
   if (!value) {
     // The origin says which key.
-    throw ConfigError(
-        {.file = origin, .found = descriptor.foundIn(text), .allowed = descriptor.allowed()});
+    throw ConfigError({.file = origin,
+                       .found = descriptor.foundIn(text),
+                       .allowed = descriptor.allowedInsteadOf(text)});
   }
   section.values = section.values.with(key.parameter, std::move(*value), origin);
 }

@@ -43,6 +43,13 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
+/// How much of both is the same word and a colon: "synthetic:nope" is judged by what follows.
+std::size_t commonFamily(std::string_view a, std::string_view b) {
+  const std::size_t colon = a.find(':');
+  if (colon == std::string_view::npos || !b.starts_with(a.substr(0, colon + 1))) return 0;
+  return colon + 1;
+}
+
 }  // namespace
 
 std::optional<std::string> nearest(std::string_view word, std::span<const std::string> candidates) {
@@ -53,7 +60,8 @@ std::optional<std::string> nearest(std::string_view word, std::span<const std::s
   for (const std::string& candidate : candidates) {
     if (candidate.size() > kLongestWord) continue;
     const std::size_t distance = editDistance(wanted, folded(candidate));
-    const std::size_t shorter = std::min(word.size(), candidate.size());
+    const std::size_t shorter =
+        std::min(word.size(), candidate.size()) - commonFamily(word, candidate);
     const std::size_t tolerated = std::clamp<std::size_t>(shorter / 3, 1, 3);
     // Of a word of one or two letters, one edit leaves too little to be a slip.
     if (distance > tolerated || (distance > 0 && shorter < 3)) continue;

@@ -51,7 +51,9 @@ int reportParseError(const CLI::App& app, const CLI::ParseError& error) {
                               dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
   const std::string text =
       isAboutUnknown && !unknown.empty() ? unknownText(app, unknown) : error.what();
-  printError(fmt::format("{}; see pleinair --help", text));
+  const std::vector<CLI::App*> verbs = app.get_subcommands();
+  printError(fmt::format("{}; see pleinair {}--help", text,
+                         verbs.empty() ? "" : verbs.front()->get_name() + " "));
   return static_cast<int>(ExitStatus::kUsage);
 }
 

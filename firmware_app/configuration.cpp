@@ -176,6 +176,22 @@ void applyLook(Sections& sections) {
   sections.setValues(section, std::move(values));
 }
 
+/// The latency rises to max_latency, so that it cannot begin above it. Blames whichever was given.
+void checkLatency(const Sections& sections) {
+  constexpr std::string_view kKey = "runtime.latency";
+  constexpr std::string_view kMostKey = "runtime.max_latency";
+  const RuntimeSettings runtime = runtimeOf(sections);
+  if (runtime.latencyMs <= runtime.maxLatencyMs) return;
+  if (sections.origin(kKey) != config::kDefaultOrigin) {
+    throw sections.errorAt(kKey, fmt::format("found {}", runtime.latencyMs),
+                           fmt::format("at most {}, which is {} ({})", runtime.maxLatencyMs,
+                                       kMostKey, sections.origin(kMostKey)));
+  }
+  throw sections.errorAt(
+      kMostKey, fmt::format("found {}", runtime.maxLatencyMs),
+      fmt::format("at least {}, which is {} ({})", runtime.latencyMs, kKey, sections.origin(kKey)));
+}
+
 }  // namespace
 
 std::vector<EnvironmentVariable> environmentOfProcess() {
@@ -205,6 +221,7 @@ Configuration::Configuration(const ConfigurationRequest& request)
   if (site) lay(sections_, [&](Sections& sections) { sections.apply(site->document); });
   lay(sections_, [&](Sections& sections) { applyEnvironment(sections, request.environment); });
   lay(sections_, [&](Sections& sections) { applyCommandLine(sections, request); });
+  checkLatency(sections_);
   given_ = sections_;
   applyLook(sections_);
 }

@@ -127,10 +127,11 @@ const ParameterTable<OutputSettings>& outputTable() {
           "read as a camera; \"loopback:/dev/video50\"), or a movie's or pictures' path.",
           TakesEffect::kRestart, {}, kLoopbackNames),
       pathParameter("second_target", &OutputSettings::secondTarget,
-                    {kNoTarget, "window", "loopback"}, "Where it goes as well.",
+                    {kNoTarget, "window", "loopback"}, "A second place where a live painting goes.",
                     TakesEffect::kRestart, {}, kLoopbackNames),
       pathParameter("third_target", &OutputSettings::thirdTarget, {kNoTarget, "window", "loopback"},
-                    "And where else.", TakesEffect::kRestart, {}, kLoopbackNames),
+                    "A third place where a live painting goes.", TakesEffect::kRestart, {},
+                    kLoopbackNames),
       choiceParameter("loopback_format", &OutputSettings::loopbackFormat,
                       {"auto", "yuyv", "nv12", "i420"},
                       "The layout of a loopback's pictures; \"auto\": what the device takes.",
@@ -166,7 +167,8 @@ const ParameterTable<RuntimeSettings>& runtimeTable() {
 const ParameterTable<StatusSettings>& statusTable() {
   static const ParameterTable<StatusSettings> kTable{textParameter(
       "listen", &StatusSettings::listen, std::string(kAllowedListen),
-      "Where /status, /metrics and /healthz are served over HTTP.", TakesEffect::kRestart)};
+      "Where /status, /metrics and /healthz are served over HTTP.", TakesEffect::kRestart,
+      [](std::string_view text) { return parseListen(std::string(text)).has_value(); })};
   return kTable;
 }
 

@@ -11,7 +11,6 @@
 #include "config/suggestion.h"
 #include "firmware_app/configuration_sections.h"
 #include "firmware_app/control_text.h"
-#include "firmware_app/status_server/listen_address.h"
 #include "hal/cameras/synthetic/open_synthetic.h"
 #include "hal/error.h"
 #include "pipeline/scene/scene_file.h"
@@ -53,6 +52,14 @@ PaintingOptions configuredPainting(const Configuration& configuration, PaintingO
 scene::Scene configuredScene(const Configuration& configuration) {
   const std::filesystem::path file = configuration.painting().scene;
   return file == kNoFile ? scene::Scene{} : scene::loadScene(file);
+}
+
+CameraSettings configuredCamera(const Configuration& configuration) {
+  CameraSettings camera = configuration.camera();
+  const config::PixelSize size = configuration.painting().size;
+  const bool isOpen = configuration.origin("camera.size") == config::kDefaultOrigin;
+  if (isOpen && size != config::PixelSize{}) camera.size = size;
+  return camera;
 }
 
 void refuseSlipOfCamera(const Configuration& configuration) {
@@ -114,12 +121,7 @@ hal::StreamRequest streamRequestOf(const CameraSettings& camera) {
 
 std::unique_ptr<StatusServer> configuredStatusServer(const Configuration& configuration,
                                                      StatusPages pages) {
-  const std::string listen = configuration.status().listen;
-  if (!parseListen(listen)) {
-    throw configuration.errorAt("status.listen", "found " + config::quoted(listen),
-                                std::string(kAllowedListen));
-  }
-  return startStatusServer(listen, std::move(pages));
+  return startStatusServer(configuration.status().listen, std::move(pages));
 }
 
 std::vector<NamedPath> configuredFiles(const Configuration& configuration,

@@ -21,6 +21,8 @@ PaintingOptions configuredPainting(const Configuration& configuration, PaintingO
 /// [painting]'s scene; without one, an empty scene. Throws config::ConfigError.
 scene::Scene configuredScene(const Configuration& configuration);
 
+/// [camera], which delivers the painting's size where nobody chose another.
+CameraSettings configuredCamera(const Configuration& configuration);
 /// Throws config::ConfigError where [camera]'s source is most likely a slip of a name.
 void refuseSlipOfCamera(const Configuration& configuration);
 bool isSynthetic(const CameraSettings& camera);
@@ -30,8 +32,8 @@ hal::SyntheticOptions syntheticOptions(const CameraSettings& camera);
 /// What a device is asked for: size, rate and controls.
 hal::StreamRequest streamRequestOf(const CameraSettings& camera);
 
-/// [status]'s server, started; null where it is off. Throws config::ConfigError (no such address)
-/// and hal::StartupError as startStatusServer().
+/// [status]'s server, started; null where it is off. Throws hal::StartupError as
+/// startStatusServer().
 std::unique_ptr<StatusServer> configuredStatusServer(const Configuration& configuration,
                                                      StatusPages pages);
 

@@ -1,7 +1,10 @@
 #include "firmware_app/option_values.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <system_error>
 
@@ -18,6 +21,14 @@ std::string foundText(std::string_view text, std::string_view allowed) {
   return fmt::format("found \"{}\", allowed: {}", text, allowed);
 }
 
+/// With its sign, and nothing after it.
+std::optional<double> signedNumber(std::string_view text) {
+  double number = 0;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool isNumber = status == std::errc() && end == text.data() + text.size();
+  return isNumber ? std::optional(number) : std::nullopt;
+}
+
 /// Takes a number in digits, and nothing else, off the front.
 template <class Number>
 bool takeNumber(std::string_view& text, Number& number) {
@@ -30,22 +41,22 @@ bool takeNumber(std::string_view& text, Number& number) {
 
 }  // namespace
 
-std::uint64_t frameCountOf(const std::string& text, const std::string& option) {
+std::uint64_t frameCountOf(const std::string& text, const std::string& option,
+                           std::uint64_t least) {
   std::uint64_t count = 0;
   std::string_view rest = text;
-  if (takeNumber(rest, count) && rest.empty() && count >= 1 && count <= kMostFrames) return count;
+  if (takeNumber(rest, count) && rest.empty() && count >= least && count <= kMostFrames)
+    return count;
   throw CLI::ValidationError(
-      option, foundText(text, fmt::format("a whole number from 1 to {}", kMostFrames)));
+      option, foundText(text, fmt::format("a whole number from {} to {}", least, kMostFrames)));
 }
 
 double numberOf(const std::string& option, const std::string& text, std::string_view unit,
                 double least, double most) {
   std::string_view rest = text;
   if (!unit.empty() && rest.ends_with(unit)) rest.remove_suffix(unit.size());
-  double number = 0;
-  const auto [end, status] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
-  const bool isNumber = status == std::errc() && end == rest.data() + rest.size();
-  if (isNumber && number >= least && number <= most) return number;  // false of NaN
+  const std::optional<double> number = signedNumber(rest);
+  if (number && *number >= least && *number <= most) return *number;  // false of NaN
   throw CLI::ValidationError(
       option, foundText(text, fmt::format("a number from {:g} to {:g}{}{}", least, most,
                                           unit.empty() ? "" : " ", unit)));
@@ -53,11 +64,11 @@ double numberOf(const std::string& option, const std::string& text, std::string_
 
 std::pair<double, double> vectorOf(const std::string& option, const std::string& text,
                                    double most) {
-  const std::size_t comma = text.find(',');
-  if (comma != std::string::npos) {
-    return {numberOf(option, text.substr(0, comma), "", -most, most),
-            numberOf(option, text.substr(comma + 1), "", -most, most)};
-  }
+  const std::string_view whole = text;
+  const std::size_t comma = std::min(whole.find(','), whole.size());
+  const std::optional<double> x = signedNumber(whole.substr(0, comma));
+  const std::optional<double> y = signedNumber(whole.substr(std::min(comma + 1, whole.size())));
+  if (x && y && std::abs(*x) <= most && std::abs(*y) <= most) return {*x, *y};
   throw CLI::ValidationError(
       option, foundText(text, fmt::format("two numbers from {:g} to {:g}, such as -1.5,-0.5", -most,
                                           most)));

@@ -9,8 +9,9 @@
 
 namespace pleinair::app {
 
-/// A whole number from 1. Throws CLI::ValidationError of `option`, which says the limits.
-std::uint64_t frameCountOf(const std::string& text, const std::string& option = "--frames");
+/// A whole number from `least` on. Throws CLI::ValidationError of `option`, which says the limits.
+std::uint64_t frameCountOf(const std::string& text, const std::string& option = "--frames",
+                           std::uint64_t least = 1);
 
 /// A number within limits, with a unit after it or without. Throws CLI::ValidationError, which says
 /// what is allowed of `option`.

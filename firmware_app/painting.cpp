@@ -69,6 +69,7 @@ class Painting {
         reader_(painter_.openReader(outputFormat_.frame)) {
     for (const std::string& notice : job.scene.notices) spdlog::warn("{}", notice);
     warn(assumedCameraWarning(job.scene, stream_.frame.size));
+    warn(blackViewWarning(job.scene, job.options.view));
   }
 
   /// 0, or the signal that broke it off.

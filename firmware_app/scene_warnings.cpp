@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <glm/trigonometric.hpp>
 
+#include "pipeline/scene/buffer_views.h"
+
 namespace pleinair::app {
 
 std::optional<std::string> assumedCameraWarning(const scene::Scene& scene, hal::FrameSize frame) {
@@ -32,6 +34,15 @@ std::optional<std::string> unseenTagsWarning(const scene::Scene& scene, const st
   return fmt::format("{} {} of the scene {} never seen; seen: {}", isOne ? "tag" : "tags",
                      fmt::join(unseen, ", "), isOne ? "was" : "were",
                      seen.empty() ? "none" : fmt::format("{}", fmt::join(seen, ", ")));
+}
+
+std::optional<std::string> blackViewWarning(const scene::Scene& scene, std::string_view view) {
+  if (scene::findBufferView(view) == nullptr) return std::nullopt;
+  if (!scene.models.empty() || !scene.planes.empty()) return std::nullopt;
+  return fmt::format(
+      "the view {} shows the scene's models and planes, and there are none: it is black; give "
+      "--scene FILE",
+      view);
 }
 
 }  // namespace pleinair::app

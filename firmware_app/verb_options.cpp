@@ -250,9 +250,11 @@ void addDoctor(CLI::App& app, DoctorOptions& options, std::function<int()>& chos
 
 /// How `measure` moves a photograph; `other` says how a recording moves by itself.
 void addPhotographMotion(CLI::App& command, CLI::Option* other, MeasureOptions& options) {
-  CLI::Option* still =
-      command.add_flag("--still", options.isMoved, "show it as it is, with the sensor's noise")
-          ->excludes(other);
+  CLI::Option* still = command
+                           .add_flag_callback(
+                               "--still", [&options] { options.movedBy = "--still"; },
+                               "show a photograph as it is, with the sensor's noise")
+                           ->excludes(other);
   const auto add = [&](const std::string& name, const std::string& help, const std::string& type,
                        auto assign) {
     command
@@ -260,7 +262,7 @@ void addPhotographMotion(CLI::App& command, CLI::Option* other, MeasureOptions& 
             name,
             [&options, name, assign](const std::string& text) {
               assign(text);
-              options.isMoved = true;
+              options.movedBy = name;
             },
             help)
         ->type_name(type)
@@ -273,11 +275,11 @@ void addPhotographMotion(CLI::App& command, CLI::Option* other, MeasureOptions& 
         const auto [x, y] = vectorOf("--pan", text, 40);
         motion.pan = {x, y};
       });
-  add("--zoom", "move into it by so much a frame, such as 1%", "PERCENT",
+  add("--zoom", "move into a photograph by so much a frame, such as 1%", "PERCENT",
       [&motion](const std::string& text) {
         motion.zoomPercent = numberOf("--zoom", text, "%", -10, 10);
       });
-  add("--roll", "turn it by so many degrees a frame", "DEGREES",
+  add("--roll", "turn a photograph by so many degrees a frame", "DEGREES",
       [&motion](const std::string& text) {
         motion.rollDegrees = numberOf("--roll", text, "", -45, 45);
       });
@@ -315,7 +317,7 @@ void addMeasure(CLI::App& app, MeasureOptions& options, std::function<int()>& ch
       .add_option_function<std::string>(
           "--settle",
           [&options](const std::string& text) {
-            options.settle = text == "0" ? 0 : frameCountOf(text, "--settle");
+            options.settle = frameCountOf(text, "--settle", 0);
           },
           "paint N frames before measuring (default: 0, or 30 where there is no end)")
       ->type_name("N");
@@ -327,10 +329,11 @@ void addMeasure(CLI::App& app, MeasureOptions& options, std::function<int()>& ch
       ->check(refuseStandardOutput)
       ->type_name("FILE");
   addPainting(command, options.configuration);
-  addKey(command, options.configuration, "--size", "painting.size",
-         "of a photograph's frames (default: 640x480), or of the painting of a recording whose "
-         "motion is not known",
-         "WxH");
+  addKey(
+      command, options.configuration, "--size", "painting.size",
+      "of a photograph's frames (default: its own, scaled down to 640x480 or as many px), of the "
+      "workbench's, or of the painting of a recording whose motion is not known",
+      "WxH");
   addKey(command, options.configuration, "--quality", "runtime.quality",
          "the level to paint at (default: the best)", "NAME");
   refuseEmptyValues(command);

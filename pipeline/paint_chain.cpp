@@ -8,7 +8,6 @@
 #include "config/suggestion.h"
 #include "hal/error.h"
 #include "pipeline/gpu/cover_fit.h"
-#include "pipeline/marks/anchor_set.h"
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/present/present_shaders.h"
 #include "pipeline/quality_levels.h"
@@ -19,7 +18,6 @@ namespace {
 
 constexpr std::string_view kCameraView = "camera";
 constexpr std::string_view kArView = "ar";
-constexpr int kPicturesUnderWay = 3;  // of a reader
 
 gpu::ShaderLibrary makeLibrary(const PainterOptions& options) {
   gpu::ShaderLibrary library(options.shaderDirectory);
@@ -75,6 +73,7 @@ PaintChain::PaintChain(const PainterOptions& options, const gpu::ContextInfo& co
       renderer_(library_, options.scene),
       bufferViewer_(library_),
       style_(styles::makeStyle(options.style, library_)),
+      defaults_(style_->parameters()),
       light_(makeLightEstimator(options)) {
   hal::orThrow(tracking::checkTagFamily(scene_.tagFamily));
   for (const QualityPlan& plan : qualityPlans()) {
@@ -85,7 +84,7 @@ PaintChain::PaintChain(const PainterOptions& options, const gpu::ContextInfo& co
 }
 
 /// A blank frame through the whole chain at each level, untimed: all that frames of the expected
-/// format need is compiled, allocated and drawn once (GPU rules, rule 14). Conversions of other
+/// format need is compiled, allocated and drawn once (docs/gpu.md, rule 14). Conversions of other
 /// layouts are linked by now, but a driver may finish them at their first frame. Readers warm up
 /// when they are opened.
 void PaintChain::warmUp(const hal::FrameFormat& expected) {
@@ -108,7 +107,7 @@ void PaintChain::warmUp(const Level& level, const hal::Image& blank) {
 }
 
 PaintParameters PaintChain::defaultParameters() const {
-  return {.style = style_->parameters(), .view = {}};
+  return {.style = defaults_, .view = {}};
 }
 
 std::vector<QualityLevel> qualityLevels() {
@@ -249,7 +248,10 @@ hal::Result<Picture> PaintChain::paintChecked(const hal::CapturedFrame& frame,
   if (tracker_) tracked = tracker_->track(luma_, frame.captureTime);
   picture_ = &paintView(
       compose(frame, tracked, levels_[parameters.quality], needsOf(parameters.view)), parameters);
-  submitToReaders(frame);
+  {
+    const auto scope = timer_.measure("read back");
+    readers_.submit(*picture_, pictureSize_, frame);
+  }
   glFlush();  // the GPU works on while the next frame is tracked
   return Picture{.texture = picture_->name(),
                  .size = picture_->size(),
@@ -332,39 +334,20 @@ int PaintChain::openReader(const hal::FrameFormat& format) {
   hal::orThrow(gpu::checkDeviceLimit(context_, present::PictureReader::packedSize(format),
                                      "picture to be read"));
   hal::orThrow(watch_.check());
+  std::vector<hal::FrameSize> sizes;
+  for (const Level& level : levels_) sizes.push_back(level.size);
   try {
-    auto reader = std::make_unique<Reader>(
-        present::PictureReader(library_, format, kPicturesUnderWay, seam_));
-    for (const Level& level : levels_) reader->ring.warmUp(level.size);
-    readers_.push_back(std::move(reader));
+    return readers_.open(library_, format, sizes, seam_);
   } catch (const hal::StartupError& error) {
     throw hal::StartupError(metLoss(error.error()));
-  }
-  return static_cast<int>(readers_.size()) - 1;
-}
-
-void PaintChain::submitToReaders(const hal::CapturedFrame& frame) {
-  const auto scope = timer_.measure("read back");
-  for (const auto& reader : readers_) {
-    if (!reader->ring.hasRoom()) {
-      ++reader->skipped;
-      continue;
-    }
-    reader->ring.submit(*picture_, pictureSize_);
-    reader->underWay.push_back({frame.sequence, frame.captureTime});
   }
 }
 
 hal::Result<bool> PaintChain::take(int number, ReadPicture& picture, bool wait) {
   if (loss()) return tl::unexpected(*loss());
-  Reader& reader = at(number);
-  const hal::Result<bool> taken = reader.ring.take(picture.image, wait);
+  const hal::Result<bool> taken = readers_.take(number, picture, wait);
   if (!taken) return tl::unexpected(metLoss(taken.error()));
-  if (!*taken) return false;
-  picture.sequence = reader.underWay.front().sequence;
-  picture.captureTime = reader.underWay.front().captureTime;
-  reader.underWay.erase(reader.underWay.begin());
-  return true;
+  return *taken;
 }
 
 hal::Result<hal::Image> PaintChain::still() {
@@ -377,9 +360,7 @@ hal::Result<hal::Image> PaintChain::cameraStill() {
 
 hal::Result<std::vector<marks::Anchor>> PaintChain::anchors() {
   if (auto sound = watch_.check(); !sound) return tl::unexpected(std::move(sound.error()));
-  const marks::AnchorSet* set = style_->anchors();
-  if (set == nullptr) return std::vector<marks::Anchor>{};
-  std::vector<marks::Anchor> anchors = set->read();
+  std::vector<marks::Anchor> anchors = style_->readAnchors();
   if (auto sound = watch_.check(); !sound) return tl::unexpected(std::move(sound.error()));
   return anchors;
 }

@@ -13,6 +13,7 @@
 #include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/painter.h"
+#include "pipeline/picture_readers.h"
 #include "pipeline/present/picture_reader.h"
 #include "pipeline/scene/ar_frame_renderer.h"
 #include "pipeline/scene/buffer_views.h"
@@ -39,8 +40,8 @@ class PaintChain {
 
   int openReader(const hal::FrameFormat& format);
   hal::Result<bool> take(int reader, ReadPicture& picture, bool wait);
-  bool hasRoom(int reader) const { return at(reader).ring.hasRoom(); }
-  std::uint64_t skipped(int reader) const { return at(reader).skipped; }
+  bool hasRoom(int reader) const { return readers_.hasRoom(reader); }
+  std::uint64_t skipped(int reader) const { return readers_.skipped(reader); }
   hal::Result<hal::Image> still();
   hal::Result<hal::Image> cameraStill();
   hal::Result<std::vector<marks::Anchor>> anchors();
@@ -51,18 +52,6 @@ class PaintChain {
   std::vector<gpu::PassTime> passTimes() const;
 
  private:
-  struct Stamp {
-    std::uint64_t sequence = 0;
-    hal::TimePoint captureTime;
-  };
-  /// A ring of pictures under way, and which frames they are of, oldest first.
-  struct Reader {
-    explicit Reader(present::PictureReader reader) : ring(std::move(reader)) {}
-    present::PictureReader ring;
-    std::vector<Stamp> underWay;
-    std::uint64_t skipped = 0;
-  };
-
   /// A level of quality that can be painted at.
   struct Level {
     hal::FrameSize size;
@@ -83,13 +72,10 @@ class PaintChain {
   void followPicture(const hal::CapturedFrame& frame, scene::ArFrameNeeds needs,
                      scene::ArFrame& composed);
   const gpu::Texture& paintView(const scene::ArFrame& frame, const PaintParameters& parameters);
-  void submitToReaders(const hal::CapturedFrame& frame);
   hal::Result<hal::Image> read(const gpu::Texture* texture);
   hal::Error metLoss(const hal::Error& error);
   hal::Result<Picture> paintChecked(const hal::CapturedFrame& frame,
                                     const PaintParameters& parameters);
-  Reader& at(int reader) { return *readers_.at(static_cast<std::size_t>(reader)); }
-  const Reader& at(int reader) const { return *readers_.at(static_cast<std::size_t>(reader)); }
 
   gpu::ContextInfo context_;
   gpu::GpuSeam seam_;
@@ -104,6 +90,7 @@ class PaintChain {
   scene::ArFrameRenderer renderer_;
   scene::BufferViewer bufferViewer_;
   std::unique_ptr<styles::Style> style_;
+  config::ParameterValues defaults_;  // of the style
   hal::FrameSize frameSize_;  // of the last frame; what follows is made for it
   std::optional<tracking::Tracker> tracker_;
   tracking::LumaFrame luma_;  // of the frame
@@ -111,7 +98,7 @@ class PaintChain {
   tracking::ImageMotionEstimator imageMotion_;
   std::optional<scene::LightEstimator> light_;  // where the scene leaves it to the camera
   std::vector<scene::TagSighting> sightings_;
-  std::vector<std::unique_ptr<Reader>> readers_;
+  PictureReaders readers_;
   std::optional<present::PictureReader> stills_;  // made for the first still
   const gpu::Texture* picture_ = nullptr;         // of the last paint
   const gpu::Texture* camera_ = nullptr;

@@ -152,8 +152,8 @@ class Painter {
   hal::Result<hal::Image> still() const;
   hal::Result<hal::Image> cameraStill() const;
 
-  /// Waits for the last paint and reads the style's anchors, a slot each, free ones too: for
-  /// measures. Empty for a style without. Error: kDeviceLost, for ever.
+  /// Waits for the last paint and reads the style's anchors, of all its layers, a slot each, free
+  /// ones too: for measures. Empty for a style without. Error: kDeviceLost, for ever.
   hal::Result<std::vector<marks::Anchor>> anchors() const;
 
   /// Forgets the past, as after a cut.

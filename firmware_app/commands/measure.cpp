@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "config/suggestion.h"
+#include "firmware_app/configuration_sections.h"
 #include "firmware_app/configured_parts.h"
 #include "firmware_app/exit_status.h"
 #include "firmware_app/interrupt.h"
@@ -18,8 +20,10 @@
 #include "firmware_app/path_collisions.h"
 #include "firmware_app/progress.h"
 #include "hal/pending_file.h"
+#include "pipeline/measure/gates.h"
 #include "pipeline/measure/measured_input.h"
 #include "pipeline/measure/measurement.h"
+#include "pipeline/styles/style_registry.h"
 
 namespace pleinair::app {
 namespace {
@@ -49,24 +53,35 @@ std::uint64_t framesWanted(const MeasureOptions& options) {
 
 std::unique_ptr<measure::MeasuredInput> openPhotographOf(const MeasureOptions& options,
                                                          const Configuration& configuration) {
-  std::error_code ignored;
-  if (!options.input || fs::is_directory(*options.input, ignored)) {
-    throw refusal(options.input ? options.input->string() : "--input",
-                  "--pan, --zoom, --roll and --still move one photograph",
-                  "give a picture, or leave them out");
+  const std::string& by = options.movedBy;
+  if (!options.input) {
+    throw refusal(by, "moves a photograph, and there is none",
+                  fmt::format("give --input PICTURE, or leave {} out", by));
   }
-  measure::PhotographOptions photograph{.motion = options.photograph,
+  measure::PhotographOptions photograph{.size = {},
+                                        .motion = options.photograph,
                                         .noiseLevels = options.noiseLevels,
                                         .frames = framesWanted(options)};
   const config::PixelSize size = configuration.painting().size;
   if (size != config::PixelSize{}) photograph.size = {size.width, size.height};
-  return orThrow(measure::openPhotograph(*options.input, photograph));
+  const std::string remedy = fmt::format("give a PNG or JPEG picture, or leave {} out", by);
+  std::error_code ignored;
+  if (fs::is_directory(*options.input, ignored)) {
+    throw refusal(options.input->string(),
+                  fmt::format("is a folder, and {} moves one photograph", by), remedy);
+  }
+  auto input = measure::openPhotograph(*options.input, photograph);
+  if (!input && input.error().kind == hal::ErrorKind::kInvalidInput) {
+    input.error().problem += fmt::format(", and {} moves one photograph", by);
+    input.error().remedy = remedy;
+  }
+  return orThrow(std::move(input));
 }
 
 std::unique_ptr<measure::MeasuredInput> openWorkbenchOf(const MeasureOptions& options,
                                                         const Configuration& configuration) {
   refuseSlipOfCamera(configuration);
-  const CameraSettings camera = configuration.camera();
+  const CameraSettings camera = configuredCamera(configuration);
   if (!isSynthetic(camera)) {
     throw refusal(camera.source.string(), "no device and no played recording can be measured",
                   "give --input a recording, or --camera synthetic:SHOT");
@@ -78,7 +93,7 @@ std::unique_ptr<measure::MeasuredInput> openWorkbenchOf(const MeasureOptions& op
 
 std::unique_ptr<measure::MeasuredInput> openInput(const MeasureOptions& options,
                                                   const Configuration& configuration) {
-  if (options.isMoved) return openPhotographOf(options, configuration);
+  if (!options.movedBy.empty()) return openPhotographOf(options, configuration);
   if (!options.input) return openWorkbenchOf(options, configuration);
   std::error_code ignored;
   if (fs::is_directory(*options.input, ignored) && !options.motion) {
@@ -96,15 +111,19 @@ hal::FrameSize pictureSizeOf(const Configuration& configuration, measure::Measur
     throw refusal(configuration.origin("painting.size"),
                   fmt::format("the true motion of {} is in px of its own {}x{}",
                               input.description(), own.width, own.height),
-                  "leave the size out");
+                  input.isEndless() ? "leave one of the two sizes out" : "leave the size out");
   }
   return {asked.width, asked.height};
 }
 
 std::string settingsText(const Configuration& configuration, hal::FrameSize size,
                          const std::string& quality) {
-  return fmt::format("look {}, {}x{}, quality {}", configuration.painting().look, size.width,
-                     size.height, quality);
+  const PaintingSettings painting = configuration.painting();
+  const auto looks = styles::styleInfo(painting.style).looks;
+  std::string look = painting.look;
+  if (look == kDefaultLook) look = looks.empty() ? "" : std::string(looks.front().name);
+  return fmt::format("{}{}x{}, quality {}", look.empty() ? "" : fmt::format("look {}, ", look),
+                     size.width, size.height, quality);
 }
 
 /// Runs it with progress; nothing where it was broken off.
@@ -152,7 +171,16 @@ int statusOf(const measure::Report& report, bool gates) {
   return gates && !report.areGatesPassed() ? kGateFailed : 0;
 }
 
+/// --gates would pass whatever has none.
+void refuseGatesOf(const std::string& style) {
+  if (measure::hasGates(style)) return;
+  throw refusal(
+      "--gates", fmt::format("the style {} has none", style),
+      fmt::format("leave it out, or measure one of {}", config::listText(measure::gatedStyles())));
+}
+
 int measureConfigured(const MeasureOptions& options, const Configuration& configuration) {
+  if (options.gates) refuseGatesOf(configuration.painting().style);
   const scene::Scene scene = configuredScene(configuration);
   refuseCollisionsOf(options, configuredFiles(configuration, scene));
   const std::unique_ptr<measure::MeasuredInput> input = openInput(options, configuration);

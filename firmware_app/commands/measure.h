@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "firmware_app/configuration.h"
 #include "pipeline/measure/moved_photograph.h"
@@ -14,7 +15,7 @@ struct MeasureOptions {
   std::optional<std::filesystem::path> input;   ///< default: the synthetic camera
   std::optional<std::filesystem::path> motion;  ///< how a recording moves
   measure::PhotographMotion photograph;         ///< how a photograph is moved
-  bool isMoved = false;                         ///< whether it is: --pan, --zoom, --roll or --still
+  std::string movedBy;                          ///< "--pan", "--still" …; empty: by none
   double noiseLevels = 2.0;
   std::optional<std::uint64_t> frames;
   std::optional<std::uint64_t> settle;

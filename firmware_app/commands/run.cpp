@@ -61,15 +61,6 @@ void requireFolder(const std::filesystem::path& folder) {
                                      .remedy = "make it, or give another --stills DIR"});
 }
 
-/// [camera], which delivers the painting's size where nobody chose another.
-CameraSettings liveCamera(const Configuration& configuration) {
-  CameraSettings camera = configuration.camera();
-  const config::PixelSize size = configuration.painting().size;
-  const bool isOpen = configuration.origin("camera.size") == config::kDefaultOrigin;
-  if (isOpen && size != config::PixelSize{}) camera.size = size;
-  return camera;
-}
-
 hal::OutputOptions outputOptions(const OutputSettings& output) {
   static const std::map<std::string, hal::PixelFormat> kLayouts{{"yuyv", hal::PixelFormat::kYuyv},
                                                                 {"nv12", hal::PixelFormat::kNv12},
@@ -91,7 +82,7 @@ int run(const RunOptions& options) {
     refuseCollisionsOf(configuration, scene);
     requireFolder(output.stills);
     hal::SteadyClock clock;
-    const CameraSettings camera = liveCamera(configuration);
+    const CameraSettings camera = configuredCamera(configuration);
     const auto selector = makeCameraSelector(camera, clock);
     return runLive(
         {.selector = selector.get(),

@@ -1,42 +1,51 @@
 #include "firmware_app/commands/styles.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "firmware_app/text_table.h"
 #include "pipeline/painter.h"
 #include "pipeline/styles/style_registry.h"
 
 namespace pleinair::app {
 namespace {
 
+/// A heading, and its rows in columns; nothing where there are none.
+std::string section(const std::string& heading, const std::vector<TextRow>& rows) {
+  return rows.empty() ? "" : "  " + heading + "\n" + textTable(rows);
+}
+
 std::string describe(const styles::StyleInfo& info) {
-  std::string text = fmt::format("{}: {}\n", info.name, info.help);
-  if (!info.looks.empty()) text += "  looks (--look NAME)\n";
+  std::vector<TextRow> looks;
   for (const styles::Look& look : info.looks) {
-    text += fmt::format("    {:<22} {}\n", look.name, look.help);
+    looks.push_back({std::string(look.name), std::string(look.help)});
   }
-  const auto parameters = info.defaults.list().descriptors();
-  if (!parameters.empty()) text += "  parameters (--set NAME=VALUE)\n";
-  for (const config::ParameterDescriptor& parameter : parameters) {
-    text += fmt::format("    {:<22} {:<8} {} {}\n", parameter.name,
-                        info.defaults.text(parameter.name), parameter.allowed(), parameter.help);
+  std::vector<TextRow> parameters;
+  for (const config::ParameterDescriptor& each : info.defaults.list().descriptors()) {
+    parameters.push_back({each.name, fmt::format("{} ({}; {})", each.help,
+                                                 info.defaults.text(each.name), each.allowed())});
   }
-  text += "  views (--view NAME)\n";
-  for (const PainterView& view : viewsOf(info.name)) {
-    text += fmt::format("    {:<22} {}\n", view.name, view.help);
-  }
-  return text;
+  std::vector<TextRow> views;
+  for (const PainterView& view : viewsOf(info.name)) views.push_back({view.name, view.help});
+  return fmt::format("{}: {}\n", info.name, info.help) + section("looks (--look NAME)", looks) +
+         section("parameters (--set NAME=VALUE), with their default and what is allowed",
+                 parameters) +
+         section("views (--view NAME)", views);
 }
 
 }  // namespace
 
 int listStyles() {
   // Whether it arrived is looked at once, at the program's end.
+  std::string text;
   for (const styles::StyleInfo& info : styles::styleInfos()) {
-    std::fputs(describe(info).c_str(), stdout);
+    text += (text.empty() ? "" : "\n") + describe(info);
   }
+  std::fputs(text.c_str(), stdout);
   return 0;
 }
 

@@ -138,8 +138,9 @@ class LivePainting {
 
   void startOutputs() {
     for (const std::string& notice : job_.scene.notices) spdlog::warn("{}", notice);
-    if (const auto warning = assumedCameraWarning(job_.scene, stream_.frame.size)) {
-      spdlog::warn("{}", *warning);
+    for (const auto& warning : {assumedCameraWarning(job_.scene, stream_.frame.size),
+                                blackViewWarning(job_.scene, job_.options.view)}) {
+      if (warning) spdlog::warn("{}", *warning);
     }
     for (std::size_t i = 0; i < opened_.size(); ++i) startOutput(i);
     chain_.makePaintStage([this](const auto& formats) { return makePainter(formats); },

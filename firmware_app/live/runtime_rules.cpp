@@ -41,8 +41,7 @@ runtime::PaintStageOptions paintRules(const RuntimeSettings& settings,
     options.governor.pinned = static_cast<std::size_t>(pinned - names.begin());
   }
   options.latency.configured = ofMilliseconds(settings.latencyMs);
-  options.latency.maximum =
-      std::max(options.latency.configured, ofMilliseconds(settings.maxLatencyMs));
+  options.latency.maximum = ofMilliseconds(settings.maxLatencyMs);
   if (settings.rate > 0.0) {
     const hal::Duration wanted = ofMilliseconds(1000.0 / settings.rate);
     options.framePeriod = std::max(wanted, stream.framePeriod.value_or(wanted));
@@ -55,7 +54,7 @@ runtime::OutputStageOptions outputRules(const std::string& name,
                                         const RuntimeSettings& settings,
                                         const hal::StreamFormat& stream) {
   const hal::Duration period = stream.framePeriod.value_or(kUsualPeriod);
-  const hal::Duration longest = ofMilliseconds(std::max(settings.latencyMs, settings.maxLatencyMs));
+  const hal::Duration longest = ofMilliseconds(settings.maxLatencyMs);
   constexpr hal::Duration kMostTolerance = std::chrono::milliseconds(8);
   runtime::OutputStageOptions options{.name = name,
                                       .rules = {.isPaced = !hal::isFileOutputName(name),

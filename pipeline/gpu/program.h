@@ -18,7 +18,7 @@
 
 namespace pleinair::gpu {
 
-/// What a program may bind at once (GPU rules, rule 4).
+/// What a program may bind at once (docs/gpu.md, rule 4).
 inline constexpr unsigned kMaxTextureUnits = 16;
 inline constexpr unsigned kMaxStorageBuffers = 4;
 inline constexpr unsigned kMaxImages = 4;
@@ -64,7 +64,7 @@ class Program {
   Program& uniformBlock(unsigned binding, const Buffer& buffer, std::size_t offsetBytes,
                         std::size_t sizeBytes);
   /// Binds a texture as an image to `layout(binding = …)`. RGBA8, RGBA16F, RGBA32F, R32F, R32UI
-  /// only, and read-write only the latter two (GPU rules, rule 6).
+  /// only, and read-write only the latter two (docs/gpu.md, rule 6).
   Program& image(unsigned binding, const Texture& texture, ImageAccess access);
 
   /// Runs a full-screen pass over `target`; every pixel is written, no blending, no depth. What was

@@ -11,7 +11,7 @@
 namespace pleinair::gpu {
 namespace {
 
-constexpr int kMaxColourTargets = 4;  // GPU rules, rule 3
+constexpr int kMaxColourTargets = 4;  // docs/gpu.md, rule 3
 
 GLenum attachment(int i) {
   return GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i);

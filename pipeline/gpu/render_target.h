@@ -31,7 +31,7 @@ class RenderTarget {
   /// Clears one bound colour attachment of an unsigned integer format.
   void clearUnsigned(int attachment, glm::uvec4 value) const;
   void clearDepth() const;
-  /// Says that depth will not be read again (GPU rules, rule 10).
+  /// Says that depth will not be read again (docs/gpu.md, rule 10).
   void discardDepth() const;
 
  private:

@@ -1,6 +1,5 @@
 #include "pipeline/gpu/resampler.h"
 
-#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -14,7 +13,7 @@ const Texture& Resampler::resample(const Texture& picture, hal::FrameSize size,
                                    const CoverFit& fit) {
   assert(picture.format() == TextureFormat::kRgba8);
   if (picture.size() == size && fit.isIdentity()) return picture;
-  const Scaled& scaled = scaledOf(size);
+  const Scaled& scaled = scaled_.of(size, size);
   const bool oneTapIsEnough = fit.scale.x <= 2.0 && fit.scale.y <= 2.0;
   (oneTapIsEnough ? once_ : mean_)
       .use()
@@ -25,14 +24,7 @@ const Texture& Resampler::resample(const Texture& picture, hal::FrameSize size,
   return scaled.texture;
 }
 
-const Resampler::Scaled& Resampler::scaledOf(hal::FrameSize size) {
-  const auto known =
-      std::ranges::find_if(scaled_, [&](const auto& each) { return each->texture.size() == size; });
-  if (known != scaled_.end()) return **known;
-  auto made = std::make_unique<Scaled>();
-  made->texture = Texture(TextureFormat::kRgba8, size, TextureFilter::kLinear);
-  made->target = RenderTarget({&made->texture});
-  return *scaled_.emplace_back(std::move(made));
-}
+Resampler::Scaled::Scaled(hal::FrameSize size)
+    : texture(TextureFormat::kRgba8, size, TextureFilter::kLinear), target({&texture}) {}
 
 }  // namespace pleinair::gpu

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <memory>
-#include <vector>
-
 #include "hal/pixel_format.h"
 #include "pipeline/gpu/cover_fit.h"
+#include "pipeline/gpu/per_size.h"
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/gpu/shader_library.h"
@@ -28,14 +26,14 @@ class Resampler {
 
  private:
   struct Scaled {
+    explicit Scaled(hal::FrameSize size);
     Texture texture;
     RenderTarget target;
   };
-  const Scaled& scaledOf(hal::FrameSize size);
 
   Program mean_;
   Program once_;
-  std::vector<std::unique_ptr<Scaled>> scaled_;
+  PerSize<Scaled> scaled_;
 };
 
 }  // namespace pleinair::gpu

@@ -25,8 +25,8 @@ enum class TextureFormat {
   kDepth24,
 };
 
-/// How samplers read between texels. 32-bit floats and integers are always read kNearest (GPU
-/// rules, rule 5). kTrilinear: with all smaller levels, which upload() makes.
+/// How samplers read between texels. 32-bit floats and integers are always read kNearest
+/// (docs/gpu.md, rule 5). kTrilinear: with all smaller levels, which upload() makes.
 enum class TextureFilter { kNearest, kLinear, kTrilinear };
 
 /// What lies beyond the border: its own texel, the texture once more, or its mirror image.

@@ -11,7 +11,7 @@ namespace pleinair::marks {
 /// predicted error.
 enum class MotionSource : std::uint32_t {
   kUnknown = 0,   ///< nothing knew: it has stayed where it was
-  kSurface = 1,   ///< the surface it lives on (scene::MotionSource has the same first ones)
+  kSurface = 1,   ///< the surface it lives on (scene::SurfaceMotionSource has the same first ones)
   kPlane = 2,     ///< a plane of the scene
   kPicture = 3,   ///< the homography that most of the picture follows
   kFeatures = 4,  ///< the triangle of the nearest features (thesis §4.3.3)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pipeline/gpu/program.h"
+#include "pipeline/marks/fading_past.h"
 #include "pipeline/scene/lens_uniforms.h"
 #include "pipeline/scene/scene.h"
 
@@ -21,7 +22,6 @@ constexpr int kMostStrata = 4;          // along a cell's side, likewise
 constexpr GLbitfield kStored = GL_SHADER_STORAGE_BARRIER_BIT;
 constexpr glm::ivec2 kSlotGroup{64, 1};
 constexpr glm::ivec2 kCellGroup{8, 8};
-constexpr hal::Duration kLongestStep = std::chrono::seconds(1);
 
 glm::ivec2 gridOf(hal::FrameSize full, int cellPixels) {
   return {(full.width + cellPixels - 1) / cellPixels, (full.height + cellPixels - 1) / cellPixels};
@@ -106,8 +106,8 @@ struct AnchorSet::State {
 
   void carryInImage(const scene::ArFrame& frame, const MotionField& motion, hal::Duration step);
   void carryOnSurfaces(const scene::ArFrame& frame);
-  void takeCensus(const scene::ArFrame& frame, hal::Duration step);
-  void keepDensity(const scene::ArFrame& frame, const MotionField& motion);
+  void takeCensus(const scene::ArFrame& frame, const AnchorHold& hold, hal::Duration step);
+  void keepDensity(const scene::ArFrame& frame, const MotionField& motion, const AnchorHold& hold);
 };
 
 void AnchorSet::State::carryInImage(const scene::ArFrame& frame, const MotionField& motion,
@@ -120,6 +120,7 @@ void AnchorSet::State::carryInImage(const scene::ArFrame& frame, const MotionFie
   image.texture("picture", *frame.colour)
       .set("noise", static_cast<float>(noise / 255.0))
       .set("stepSeconds", std::chrono::duration<float>(step).count())
+      .set("follows", motion.follows() ? 1 : 0)
       .set("anew", hasBegunAnew ? 1 : 0)
       .dispatch(allSlots(), kSlotGroup, kStored);
 }
@@ -149,22 +150,25 @@ void AnchorSet::State::carryOnSurfaces(const scene::ArFrame& frame) {
   }
 }
 
-void AnchorSet::State::takeCensus(const scene::ArFrame& frame, hal::Duration step) {
+void AnchorSet::State::takeCensus(const scene::ArFrame& frame, const AnchorHold& hold,
+                                  hal::Duration step) {
   begin(census, frame)
       .storage(0, anchors)
       .storage(1, cells)
-      .set("fadeIn", fadeOf(step, options.fadeIn))
-      .set("fadeOut", fadeOf(step, options.fadeOut))
+      .set("fadeIn", fadeOf(step, hold.fadeIn))
+      .set("fadeOut", fadeOf(step, hold.fadeOut))
       .dispatch(allSlots(), kSlotGroup, kStored);
 }
 
-void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionField& motion) {
+void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionField& motion,
+                                   const AnchorHold& hold) {
+  const DensityRule& rule = options.density;
   begin(balance, frame)
       .storage(0, anchors)
       .storage(1, cells)
-      .set("target", options.density.target)
-      .set("birthBelow", options.density.birthBelow)
-      .set("deathAbove", options.density.deathAbove)
+      .set("target", rule.target)
+      .set("birthBelow", hold.hasSlack ? rule.birthBelow : rule.target)
+      .set("deathAbove", hold.hasSlack ? rule.deathAbove : rule.target)
       .dispatch(grid, kCellGroup, kStored);
   begin(plan, frame)
       .storage(0, anchors)
@@ -179,7 +183,7 @@ void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionFiel
       .storage(1, cells)
       .storage(2, births)
       .set("salt", options.seed * 0x9E3779B9U + salt)
-      .set("anew", hasBegunAnew ? 1 : 0)
+      .set("atOnce", hasBegunAnew || hold.fadeIn <= hal::Duration(0) ? 1 : 0)
       .dispatch(grid, kCellGroup, kStored | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
 }
 
@@ -192,25 +196,24 @@ AnchorSet::AnchorSet(const gpu::ShaderLibrary& library, hal::FrameSize full, Anc
 AnchorSet::~AnchorSet() = default;
 
 void AnchorSet::advance(const scene::ArFrame& frame, const MotionField& motion,
-                        gpu::PassTimer& timer) {
+                        gpu::PassTimer& timer, const AnchorHold& hold) {
   State& s = *state_;
   assert(frame.full() == s.full);
   assert(!frame.hasObjects || frame.barycentrics != nullptr);
   s.hasBegunAnew = !s.hasPast || motion.isCut();
   const hal::Duration step =
-      s.hasPast ? std::clamp(frame.captureTime - s.lastTime, hal::Duration(0), kLongestStep)
-                : hal::Duration(0);
+      s.hasPast ? timeStep(s.lastTime, frame.captureTime) : hal::Duration(0);
   s.lastTime = frame.captureTime;
   s.hasPast = true;
   ++s.salt;
   {
     const auto scope = timer.measure("carry anchors");
     s.carryInImage(frame, motion, step);
-    s.carryOnSurfaces(frame);
+    if (motion.follows()) s.carryOnSurfaces(frame);
   }
   const auto scope = timer.measure("keep density");
-  s.takeCensus(frame, step);
-  s.keepDensity(frame, motion);
+  s.takeCensus(frame, hold, step);
+  s.keepDensity(frame, motion, hold);
 }
 
 bool AnchorSet::hasBegunAnew() const {

@@ -16,7 +16,7 @@
 
 namespace pleinair::marks {
 
-/// How many anchors there are (METHOD.md V.1): a cell of the grid with fewer than `birthBelow` is
+/// How many anchors there are (thesis §5.3, with hysteresis): a cell of the grid with fewer than `birthBelow` is
 /// filled up to `target`; one with more than `deathAbove` loses one a frame. What lies between
 /// changes nothing, which is what keeps the turnover low. Of a cell that shows both models and the
 /// camera's picture, each has its share.
@@ -29,9 +29,14 @@ struct DensityRule {
 
 struct AnchorOptions {
   DensityRule density;
-  hal::Duration fadeIn = std::chrono::milliseconds(300);   ///< from nothing to all
-  hal::Duration fadeOut = std::chrono::milliseconds(200);  ///< from all to nothing
-  unsigned seed = 1;                                       ///< of all that is random
+  unsigned seed = 1;  ///< of all that is random
+};
+
+/// How anchors hold on from frame to frame; may change with each.
+struct AnchorHold {
+  hal::Duration fadeIn = std::chrono::milliseconds(300);   ///< from nothing to all; 0: at once
+  hal::Duration fadeOut = std::chrono::milliseconds(200);  ///< from all to nothing; likewise
+  bool hasSlack = true;  ///< DensityRule's about its target; else births and deaths keep to that
 };
 
 /// The anchors of a style's marks: born where the picture has too few, carried with what they lie
@@ -55,7 +60,8 @@ class AnchorSet {
   /// reset(), and one after a cut begins anew, with all anchors there at once. Preconditions:
   /// frame.full() is the constructor's size; the style's needs() ask for surfaces and
   /// pictureMovement.
-  void advance(const scene::ArFrame& frame, const MotionField& motion, gpu::PassTimer& timer);
+  void advance(const scene::ArFrame& frame, const MotionField& motion, gpu::PassTimer& timer,
+               const AnchorHold& hold = {});
   /// Whether the last advance() began anew: what styles keep of slots is of other anchors.
   bool hasBegunAnew() const;
 

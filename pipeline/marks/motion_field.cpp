@@ -25,7 +25,7 @@ using tracking::FeatureMotion;
 using tracking::ImageMotion;
 
 static_assert(static_cast<int>(MotionSource::kPlane) ==
-              static_cast<int>(scene::MotionSource::kPlane));
+              static_cast<int>(scene::SurfaceMotionSource::kPlane));
 
 const std::string kShaders = "pipeline/marks/shaders/";
 constexpr unsigned kPlanesBlock = 1;
@@ -126,6 +126,7 @@ struct MotionField::State {
   std::array<GpuFeature, tracking::kMostMovedFeatures> staged{};
   std::optional<std::uint64_t> last;  // the frame that was updated
   bool isCut = true;
+  bool follows = true;
 
   void takePicture(const scene::PictureMovement& movement, GpuMotion& made);
   void takeFeatures(const scene::PictureMovement& movement, GpuMotion& made);
@@ -234,17 +235,21 @@ MotionField::MotionField(const gpu::ShaderLibrary& library, hal::FrameSize full)
 
 MotionField::~MotionField() = default;
 
-void MotionField::update(const scene::ArFrame& frame, gpu::PassTimer& timer) {
+void MotionField::update(const scene::ArFrame& frame, gpu::PassTimer& timer,
+                         const MotionFieldOptions& options) {
   State& s = *state_;
   assert(frame.full() == s.full);
   GpuMotion made;
   s.takeScene(frame, made);
   static constexpr ImageMotion kNothing;
+  static constexpr ImageMotion kRest{.picture = tracking::PictureHomography{}};
   scene::PictureMovement movement = frame.pictureMovement.value_or(scene::PictureMovement{});
   const bool follows = s.last && (!movement.motion || movement.motion->sinceSequence == *s.last);
   s.isCut = !follows || (movement.motion != nullptr && movement.motion->isCut);
   if (s.isCut || movement.motion == nullptr) movement.motion = &kNothing;
-  if (s.isCut) made.known.x = 0.0F;
+  if (!options.follows && !s.isCut) movement.motion = &kRest;
+  if (s.isCut || !options.follows) made.known.x = 0.0F;
+  s.follows = options.follows;
   s.takePicture(movement, made);
   s.takeFeatures(movement, made);
   s.takeGrids(movement, made);
@@ -263,6 +268,10 @@ void MotionField::update(const scene::ArFrame& frame, gpu::PassTimer& timer) {
 
 bool MotionField::isCut() const {
   return state_->isCut;
+}
+
+bool MotionField::follows() const {
+  return state_->follows;
 }
 
 const gpu::Texture& MotionField::backward() const {

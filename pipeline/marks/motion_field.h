@@ -11,6 +11,10 @@
 
 namespace pleinair::marks {
 
+struct MotionFieldOptions {
+  bool follows = true;  ///< else all is taken to rest on the screen, models too; a cut stays one
+};
+
 /// What is known of the motion of the camera's picture, on the GPU: homography, features, dense
 /// flow, stillness (tracking::ImageMotion) and the scene's planes, for shaders that ask about
 /// single points (shaders/image_motion.glsl), and as a field for those that carry whole pictures
@@ -30,10 +34,13 @@ class MotionField {
   /// Takes what `frame` knows (ArFrame::pictureMovement, surfaces). A motion that refers to another
   /// frame than the last update's is refused: that is a cut. Precondition: frame.full() is the
   /// constructor's size.
-  void update(const scene::ArFrame& frame, gpu::PassTimer& timer);
+  void update(const scene::ArFrame& frame, gpu::PassTimer& timer,
+              const MotionFieldOptions& options = {});
 
   /// Whether nothing of the past goes on: the first frame, a cut, a motion that was refused.
   bool isCut() const;
+  /// The last update's MotionFieldOptions::follows.
+  bool follows() const;
 
   /// The image's motion as a field, models not counted (where they are seen, ArFrame::motion says
   /// more): RGBA16F, LINEAR, texel (i, j) in the middle of kFieldPixels² px of the full picture:

@@ -20,8 +20,6 @@ constexpr std::size_t kCommandBytes = 16;
 constexpr glm::ivec2 kSlotGroup{64, 1};
 constexpr std::size_t kDetailLevel = 1;  // of the field, whose detail says where a layer is painted
 
-constexpr hal::Duration kLongestStep = std::chrono::seconds(1);
-
 double secondsOf(hal::Duration duration) {
   return std::chrono::duration<double>(duration).count();
 }
@@ -109,6 +107,7 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .set("detailBand", rule.detailBand)
       .set("modelDetail", rule.modelDetail)
       .set("detailSpread", rule.detailSpread)
+      .set("slack", rule.slack)
       .set("bothWays", rule.bothWays ? 1 : 0)
       .set("wander", rule.wanderRad)
       .set("past", glm::vec4(stays(rule.shapeMemory), stays(rule.colourMemory),
@@ -154,8 +153,7 @@ void StrokeSet::update(const scene::ArFrame& frame, const AnchorSet& anchors,
                        gpu::PassTimer& timer) {
   State& s = *state_;
   assert(anchors.slotCount() == s.slots);
-  const hal::Duration step =
-      std::clamp(frame.captureTime - s.lastTime, hal::Duration(0), kLongestStep);
+  const hal::Duration step = timeStep(s.lastTime, frame.captureTime);
   s.lastTime = frame.captureTime;
   const auto scope = timer.measure("grow strokes");
   s.grow(frame, anchors, field, paint, rule, step);

@@ -28,6 +28,7 @@ struct StrokeRule {
   glm::vec2 detailBand{0.0F, 1e9F};  ///< where the layer is painted (TensorField::resolved)
   float modelDetail = 1.0F;          ///< how many times as much detail counts on virtual surfaces
   float detailSpread = 0.0F;         ///< by how much anchors differ about the band
+  float slack = 0.25F;               ///< the part by which it is wider for strokes that are there
   float wanderRad = 0.1F;            ///< how far a stroke strays from the field, at most
   bool bothWays = true;              ///< else only ahead of the anchor, as the thesis walks
   std::size_t fieldLevel = 0;        ///< of the tensor field; beyond its last: the last

@@ -97,7 +97,8 @@ struct TensorField::State {
 
   void findEdges(const scene::ArFrame& frame, const gpu::Texture& picture, double form,
                  float share);
-  void sumRegions(const scene::ArFrame& frame, const MotionField& motion, float past);
+  void sumRegions(const scene::ArFrame& frame, const MotionField& motion, bool goesOn, float past,
+                  float slack);
   void buildPyramid(const TensorFieldOptions& options);
 };
 
@@ -123,7 +124,7 @@ void TensorField::State::findEdges(const scene::ArFrame& frame, const gpu::Textu
 }
 
 void TensorField::State::sumRegions(const scene::ArFrame& frame, const MotionField& motion,
-                                    float past) {
+                                    bool goesOn, float past, float slack) {
   Level& finest = levels.front();
   std::swap(finest.regions, before);
   regions.use()
@@ -135,7 +136,9 @@ void TensorField::State::sumRegions(const scene::ArFrame& frame, const MotionFie
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .set("fullSize", glm::vec2(full.width, full.height))
       .set("regionPixels", static_cast<float>(kRegionPixels))
+      .set("hasPast", goesOn ? 1 : 0)
       .set("past", past)
+      .set("slack", slack)
       .dispatch(itemsOf(finest.regions), kGroup, kWritten);
 }
 
@@ -174,16 +177,17 @@ void TensorField::update(const scene::ArFrame& frame, const gpu::Texture& pictur
                          gpu::PassTimer& timer) {
   State& s = *state_;
   assert(frame.full() == s.full && picture.size() == frame.size());
+  assert(options.slack >= 0.0 && options.slack < 1.0);
   const double step =
       std::clamp(std::chrono::duration<double>(frame.captureTime - s.lastTime).count(), 0.0, 1.0);
   const double memory = std::chrono::duration<double>(options.memory).count();
-  const bool goesOn = s.hasPast && !motion.isCut() && memory > 0.0;
-  const double past = goesOn ? std::exp(-step / memory) : 0.0;
+  const bool goesOn = s.hasPast && !motion.isCut();
+  const double past = goesOn && memory > 0.0 ? std::exp(-step / memory) : 0.0;
   s.lastTime = frame.captureTime;
   s.hasPast = true;
   const auto scope = timer.measure("tensor field");
   s.findEdges(frame, picture, options.form, static_cast<float>(1.0 - past));
-  s.sumRegions(frame, motion, static_cast<float>(past));
+  s.sumRegions(frame, motion, goesOn, static_cast<float>(past), static_cast<float>(options.slack));
   s.buildPyramid(options);
 }
 

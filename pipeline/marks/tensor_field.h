@@ -19,6 +19,7 @@ struct TensorFieldOptions {
   double form = 0.5;
   double fillSigma = 1.0;  ///< of the radial-basis filling, in regions
   hal::Duration memory = std::chrono::milliseconds(400);  ///< time constant; 0: each frame alone
+  double slack = 0.15;  ///< a region's detail is held until it differs by more than this part
 };
 
 /// In which direction things in the picture lie: edges' directions as tensors, spread over where

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "pipeline/measure/output_measures.h"
 #include "pipeline/measure/picture.h"
@@ -152,7 +153,9 @@ std::optional<AnchorSummary> AnchorMeasures::total(std::size_t first) const {
   if (inner > 0) {
     all.innerTurnoverPercent = 100.0 * (all.innerBirths + all.innerDeaths) / inner;
     const double share = std::min(all.innerDeaths / inner, 0.999);
-    if (share > 0) all.halfLifeFrames = std::log(0.5) / std::log(1.0 - share);
+    const double halfLife =
+        share > 0 ? std::log(0.5) / std::log(1.0 - share) : std::numeric_limits<double>::infinity();
+    if (halfLife <= static_cast<double>(all.frames)) all.halfLifeFrames = halfLife;
   }
   for (double* sum :
        {&all.alive, &all.births, &all.deaths, &all.innerBirths, &all.innerDeaths, &all.moved}) {

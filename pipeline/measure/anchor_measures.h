@@ -37,7 +37,9 @@ struct AnchorSummary {
   double innerBirths = 0, innerDeaths = 0;
   double innerTurnoverPercent = 0;  ///< births and deaths away from the border, of the marks there
   double moved = 0;
-  std::optional<double> halfLifeFrames;  ///< of marks away from the border; nothing if none died
+  /// Of marks away from the border, from the share that dies a frame. Nothing where it would be
+  /// longer than the frames that were seen: half of the marks outlive those.
+  std::optional<double> halfLifeFrames;
   std::optional<Slip> slip, longSlip;
   double perCell = 0, spreadPerCell = 0, emptyCellsPercent = 0;  ///< of the grid of 8×8 px
 };

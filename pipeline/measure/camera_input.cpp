@@ -105,9 +105,6 @@ hal::Result<std::unique_ptr<MeasuredInput>> openPlainRecording(
     input->setMotion(std::move(*motion));
     // What a movie says of its length need not be true, where it says anything.
     if (!file->perFrame) input->setMostFrames(file->nextFromFrame.size() + 1);
-    for (const std::string& key : file->unknownKeys) {
-      input->addNotice(fmt::format("{}: \"{}\" says nothing here", motionFile->string(), key));
-    }
   }
   return input;
 }

@@ -1,6 +1,7 @@
 #include "pipeline/measure/carried_error.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace pleinair::measure {
@@ -9,7 +10,7 @@ namespace {
 /// Calls visit(difference) at each pixel that says something.
 template <class Visit>
 void forEachDifference(const cv::Mat3f& earlier, const Carried<cv::Mat3f>& later, Visit visit) {
-  CV_Assert(earlier.size() == later.picture.size());
+  assert(earlier.size() == later.picture.size());
   for (int y = 0; y < earlier.rows; ++y) {
     const cv::Vec3f* a = earlier[y];
     const cv::Vec3f* b = later.picture[y];

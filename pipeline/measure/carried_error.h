@@ -8,7 +8,7 @@
 namespace pleinair::measure {
 
 /// Mean (O_t(x) − O_{t+n}(x + n·v))² over all channels, of two pictures or two high passes. As EW2
-/// it is told times 1000.
+/// it is told times 1000. Precondition of this and the next two: the pictures have one size.
 Mean carriedError(const cv::Mat3f& earlier, const Carried<cv::Mat3f>& later);
 
 /// The share of pixels whose largest channel differs by more than 24/255.

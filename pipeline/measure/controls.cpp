@@ -49,6 +49,7 @@ Verdict motionVerdict(const PerSubject<Measures>& measures) {
                       fmt::format("the input goes along with the motion that is told: nHW2 ≤ {:g}",
                                   kMostInputError)};
   const std::optional<double>& carried = measures[Subject::kInput].nHw2;
+  verdict.comparison = {.value = carried, .limit = kMostInputError, .isMost = true};
   if (!carried) {
     verdict.found = "nothing to compare along a true motion";
     return verdict;
@@ -63,11 +64,11 @@ Verdict motionVerdict(const PerSubject<Measures>& measures) {
 }
 
 Verdict freshVerdict(const PerSubject<Measures>& measures, std::string_view style,
-                     MotionKind motion) {
+                     const Circumstances& circumstances) {
   Verdict verdict{.what = "marks redrawn each frame fail the gates"};
   bool isMeasured = false;
   for (const Verdict& gate :
-       gateVerdicts(style, motion, measures[Subject::kFresh], measures[Subject::kFixed])) {
+       gateVerdicts(style, circumstances, measures[Subject::kFresh], measures[Subject::kFixed])) {
     isMeasured |= gate.state != State::kNotMeasured;
     if (gate.state != State::kFailed) continue;
     verdict.state = State::kPassed;
@@ -80,12 +81,13 @@ Verdict freshVerdict(const PerSubject<Measures>& measures, std::string_view styl
   return verdict;
 }
 
-Verdict fixedVerdict(const PerSubject<Measures>& measures) {
+Verdict fixedVerdict(const PerSubject<Measures>& measures, const Circumstances& circumstances) {
   Verdict verdict{
       .what = fmt::format("marks fixed to the screen read SCR ≥ {:g}", kLeastScreenPattern)};
   const std::optional<double>& screen = measures[Subject::kFixed].scr;
+  verdict.comparison = {.value = screen, .limit = kLeastScreenPattern, .isMost = false};
   if (!screen) {
-    verdict.found = "SCR could not be had";
+    verdict.found = "SCR: " + whyMissing(&Measures::scr, circumstances);
     return verdict;
   }
   const bool isPassed = *screen >= kLeastScreenPattern;
@@ -115,10 +117,10 @@ PerSubject<cv::Mat3f> ControlPainter::paint(const cv::Mat3f& input, const cv::Ma
 }
 
 std::vector<Verdict> controlVerdicts(const PerSubject<Measures>& measures, std::string_view style,
-                                     MotionKind motion) {
+                                     const Circumstances& circumstances) {
   const std::string_view gated = hasGates(style) ? style : "painterly";
   return {inputVerdict(measures[Subject::kInput]), motionVerdict(measures),
-          freshVerdict(measures, gated, motion), fixedVerdict(measures)};
+          freshVerdict(measures, gated, circumstances), fixedVerdict(measures, circumstances)};
 }
 
 }  // namespace pleinair::measure

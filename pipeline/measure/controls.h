@@ -50,6 +50,6 @@ class ControlPainter {
 
 /// Whether the controls read as they must; those that cannot be told say why.
 std::vector<Verdict> controlVerdicts(const PerSubject<Measures>& measures, std::string_view style,
-                                     MotionKind motion);
+                                     const Circumstances& circumstances);
 
 }  // namespace pleinair::measure

@@ -126,9 +126,6 @@ hal::Result<std::unique_ptr<MeasuredInput>> openPictureFolder(const fs::path& fo
     auto motion = motionOf(*file, size, count, motionPath.string());
     if (!motion) return tl::unexpected(motion.error());
     input->setMotion(std::move(*motion));
-    for (const std::string& key : file->unknownKeys) {
-      input->addNotice(fmt::format("{}: \"{}\" says nothing here", motionPath.string(), key));
-    }
   } else if (!contents->flows.empty()) {
     if (auto counts = checkCounts(folder, *contents); !counts) {
       return tl::unexpected(counts.error());

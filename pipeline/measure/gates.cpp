@@ -60,7 +60,8 @@ const MeasureColumn& columnOf(std::optional<double> Measures::*value) {
   return *std::ranges::find(measureColumns(), value, &MeasureColumn::value);
 }
 
-Verdict judge(const Gate& gate, const Measures& measures, const Measures& tiling) {
+Verdict judge(const Gate& gate, const Circumstances& circumstances, const Measures& measures,
+              const Measures& tiling) {
   const MeasureColumn& column = columnOf(gate.measure);
   const char* relation = gate.isMost ? "≤" : "≥";
   const std::optional<double>& found = measures.*gate.measure;
@@ -74,6 +75,10 @@ Verdict judge(const Gate& gate, const Measures& measures, const Measures& tiling
     isLimitKnown = reference.has_value();
     verdict.what += fmt::format(" × the tiling's {}", textOf(column, tiling));
   }
+  verdict.comparison = {.value = found, .limit = {}, .isMost = gate.isMost};
+  if (isLimitKnown) verdict.comparison->limit = limit;
+  if (!found) verdict.found = whyMissing(gate.measure, circumstances);
+  if (found && !isLimitKnown) verdict.found += ", but the tiling's is not known";
   if (!found || !isLimitKnown) return verdict;
   const bool isPassed = gate.isMost ? *found <= limit : *found >= limit;
   verdict.state = isPassed ? Verdict::State::kPassed : Verdict::State::kFailed;
@@ -86,13 +91,21 @@ bool hasGates(std::string_view style) {
   return std::ranges::find(kGates, style, &Gate::style) != kGates.end();
 }
 
-std::vector<Verdict> gateVerdicts(std::string_view style, MotionKind motion,
+std::vector<std::string> gatedStyles() {
+  std::vector<std::string> styles;
+  for (const Gate& gate : kGates) {
+    if (styles.empty() || styles.back() != gate.style) styles.emplace_back(gate.style);
+  }
+  return styles;
+}
+
+std::vector<Verdict> gateVerdicts(std::string_view style, const Circumstances& circumstances,
                                   const Measures& measures, const Measures& tiling) {
   assert(hasGates(style));
   std::vector<Verdict> verdicts;
   for (const Gate& gate : kGates) {
-    if (gate.style != style || !isShutOn(gate, motion)) continue;
-    verdicts.push_back(judge(gate, measures, tiling));
+    if (gate.style != style || !isShutOn(gate, circumstances.motion)) continue;
+    verdicts.push_back(judge(gate, circumstances, measures, tiling));
   }
   return verdicts;
 }
@@ -106,17 +119,22 @@ std::vector<Verdict> anchorVerdicts(std::string_view style, MotionKind motion,
   if (style != "painterly") return verdicts;
   if (motion == MotionKind::kPan) {
     Verdict turnover{.what = "births and deaths away from the border ≤ 0.5 % of the marks a frame",
-                     .found = "no anchors after two seconds"};
+                     .found = "no anchors after two seconds",
+                     .comparison = Verdict::Comparison{.value = {}, .limit = kMostTurnoverPercent}};
     if (settled) {
       const bool isPassed = settled->innerTurnoverPercent <= kMostTurnoverPercent;
       turnover.state = isPassed ? State::kPassed : State::kFailed;
+      turnover.comparison->value = settled->innerTurnoverPercent;
       turnover.found = fmt::format("{:.2f} %", settled->innerTurnoverPercent);
     }
     verdicts.push_back(std::move(turnover));
   }
-  Verdict quiet{.what = "no births or deaths on a still scene", .found = "no anchors"};
+  Verdict quiet{.what = "no births or deaths on a still scene",
+                .found = "no anchors",
+                .comparison = Verdict::Comparison{.value = {}, .limit = 0.0}};
   if (still) {
     quiet.state = still->births + still->deaths == 0 ? State::kPassed : State::kFailed;
+    quiet.comparison->value = still->births + still->deaths;
     quiet.found =
         fmt::format("{:.2f} births and {:.2f} deaths a frame", still->births, still->deaths);
   }

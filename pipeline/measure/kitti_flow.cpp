@@ -71,7 +71,7 @@ class FlowSequence final : public TrueMotion {
  private:
   hal::Result<const MotionMap*> stepFrom(std::uint64_t frame) {
     if (const auto kept = steps_.find(frame); kept != steps_.end()) return &kept->second;
-    hal::Result<FlowField> field = readKittiFlow(flows_.at(frame), frame_);
+    hal::Result<KittiFlowField> field = readKittiFlow(flows_.at(frame), frame_);
     if (!field) return tl::unexpected(field.error());
     if (!occlusions_.empty()) {
       if (auto masked = maskOut(*field, occlusions_.at(frame)); !masked) {
@@ -89,7 +89,7 @@ class FlowSequence final : public TrueMotion {
 
 }  // namespace
 
-hal::Result<FlowField> readKittiFlow(const std::filesystem::path& path, cv::Size size) {
+hal::Result<KittiFlowField> readKittiFlow(const std::filesystem::path& path, cv::Size size) {
   const hal::Result<hal::DeepPicture> picture = hal::readDeepRgb(path);
   if (!picture) return tl::unexpected(picture.error());
   if (picture->size != hal::FrameSize{size.width, size.height}) {
@@ -97,7 +97,7 @@ hal::Result<FlowField> readKittiFlow(const std::filesystem::path& path, cv::Size
   }
   constexpr float kZero = 32768.0F;
   constexpr float kStepsPerPixel = 64.0F;
-  FlowField field{.px = cv::Mat2f(size, cv::Vec2f()), .seen = cv::Mat1b(size, 0)};
+  KittiFlowField field{.px = cv::Mat2f(size, cv::Vec2f()), .seen = cv::Mat1b(size, 0)};
   std::span<const std::uint16_t> samples = picture->rgb;
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x, samples = samples.subspan(3)) {
@@ -116,7 +116,7 @@ hal::Result<FlowField> readKittiFlow(const std::filesystem::path& path, cv::Size
   return field;
 }
 
-hal::Result<void> maskOut(FlowField& field, const std::filesystem::path& occlusions) {
+hal::Result<void> maskOut(KittiFlowField& field, const std::filesystem::path& occlusions) {
   const hal::Result<hal::Image> mask = hal::readPictureRgb(occlusions);
   if (!mask) return tl::unexpected(mask.error());
   const cv::Size size = field.seen.size();

@@ -14,7 +14,7 @@
 namespace pleinair::measure {
 
 /// The flow between two frames as a file has it.
-struct FlowField {
+struct KittiFlowField {
   cv::Mat2f px;
   cv::Mat1b seen;  ///< 255 where it is known
 };
@@ -22,11 +22,11 @@ struct FlowField {
 /// Reads flow as KITTI stores it: a PNG of 16-bit RGB with u = (R − 32768)/64 px, v likewise of G,
 /// and B other than 0 where it is valid (Menze and Geiger, 2015). `size` is that of the frames.
 /// Errors: as hal::readDeepRgb(), and kInvalidInput (another size, nothing valid in it).
-hal::Result<FlowField> readKittiFlow(const std::filesystem::path& path, cv::Size size);
+hal::Result<KittiFlowField> readKittiFlow(const std::filesystem::path& path, cv::Size size);
 
 /// Takes what a mask shows (other than black) out of what is seen. Errors: as
 /// hal::readPictureRgb(), and kInvalidInput (another size).
-hal::Result<void> maskOut(FlowField& field, const std::filesystem::path& occlusions);
+hal::Result<void> maskOut(KittiFlowField& field, const std::filesystem::path& occlusions);
 
 /// The motion of a sequence of which there is a flow file from each frame to the next, and, where
 /// `occlusions` is not empty, a mask of what is hidden in the next for each. Flows over several

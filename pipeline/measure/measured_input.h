@@ -42,7 +42,7 @@ class MeasuredInput {
 
 /// A photograph moved by the program (MovedPhotograph), with sensor noise.
 struct PhotographOptions {
-  hal::FrameSize size{640, 480};
+  std::optional<hal::FrameSize> size;  ///< default: its own, of 640x480 px or as many at the most
   PhotographMotion motion;
   double noiseLevels = 2.0;
   std::uint64_t frames = 60;

@@ -144,17 +144,30 @@ class Measurement {
     report_.inside = sequence_->anchors().total();
     report_.worst = worst_.frames();
     report_.notices = input_.notices();
+    if (options_.frames && report_.frames < *options_.frames) {
+      report_.notices.push_back(
+          fmt::format("the input ended: of {} frames that were asked for {} "
+                      "are measured",
+                      *options_.frames, report_.frames));
+    }
     report_.leftOut = leftOut();
-    report_.controls = controlVerdicts(report_.measures, report_.style, report_.motionKind);
+    report_.controls = controlVerdicts(report_.measures, report_.style, circumstances());
     if (hasGates(report_.style)) {
       report_.gates =
-          gateVerdicts(report_.style, report_.motionKind, report_.measures[Subject::kPainting],
+          gateVerdicts(report_.style, circumstances(), report_.measures[Subject::kPainting],
                        report_.measures[Subject::kFixed]);
     }
     for (Verdict& verdict :
          anchorVerdicts(report_.style, report_.motionKind, settledAnchors(), report_.insideStill)) {
       report_.gates.push_back(std::move(verdict));
     }
+  }
+
+  Circumstances circumstances() const {
+    return {.motion = report_.motionKind,
+            .frames = report_.frames,
+            .stillFrames = report_.stillFrames,
+            .stillNoiseLevels = report_.stillNoise};
   }
 
   /// Of the frames from two seconds after the first on.
@@ -166,27 +179,14 @@ class Measurement {
   }
 
   std::vector<std::string> leftOut() const {
-    const Measures& own = report_.measures[Subject::kPainting];
-    std::vector<std::string> lines;
-    if (report_.motionKind == MotionKind::kNone) {
-      lines.emplace_back(
-          "EW2, xEW2, nHW2, POP and S10: they need the true motion (motion.json, "
-          "flow files, or --motion)");
-    }
-    if (report_.frames <= kLongLag) {
-      lines.push_back(fmt::format("S10 and SCR: they compare frames {} apart, and there are {}",
-                                  kLongLag, report_.frames));
-    } else if (!own.scr) {
-      lines.emplace_back("SCR: too little of the picture moves by 8 px or more in ten frames");
-    }
-    if (!own.xFlk) lines.emplace_back("xFLK: no still scene was painted, or it has no noise");
+    std::vector<std::string> lines =
+        missingLines(report_.measures[Subject::kPainting], circumstances());
     if (!report_.flatness) {
       lines.emplace_back(
           "flatness: it compares near and far views, and the picture's scale is not "
           "known to change by 15 %");
     }
     if (!report_.inside) lines.emplace_back("inside: this style has no anchors");
-    if (own.ew2 && !own.xEw2) lines.emplace_back("xEW2: the input has no error at all");
     return lines;
   }
 

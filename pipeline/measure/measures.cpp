@@ -9,23 +9,24 @@ namespace pleinair::measure {
 std::span<const MeasureColumn> measureColumns() {
   static constexpr std::array kColumns{
       MeasureColumn{
-          &Measures::ew2, "EW2", "ew2", "{:.3f}",
+          &Measures::ew2, "EW2", "ew2", "{:.3f}", "mean square × 1000",
           "difference along the motion, lag 2, ×1000; 0 is perfect, blurring is rewarded"},
-      MeasureColumn{&Measures::xEw2, "xEW2", "xew2", "{:.2f}",
+      MeasureColumn{&Measures::xEw2, "xEW2", "xew2", "{:.2f}", "of the input's",
                     "EW2 over the input's: 1 is as noisy as the camera"},
-      MeasureColumn{&Measures::nHw2, "nHW2", "nhw2", "{:.3f}",
+      MeasureColumn{&Measures::nHw2, "nHW2", "nhw2", "{:.3f}", "of the misaligned",
                     "0: marks are carried; 1: marks have nothing to do with each other"},
-      MeasureColumn{&Measures::popPercent, "POP %", "pop_percent", "{:.2f}",
+      MeasureColumn{&Measures::popPercent, "POP %", "pop_percent", "{:.2f}", "% of the pixels",
                     "pixels that change by more than 24 levels along the motion"},
-      MeasureColumn{&Measures::s10Percent, "S10 %", "s10_percent", "{:.1f}",
+      MeasureColumn{&Measures::s10Percent, "S10 %", "s10_percent", "{:.1f}", "% of the marks",
                     "marks that are found again ten frames later"},
-      MeasureColumn{&Measures::scr, "SCR", "scr", "{:.3f}",
+      MeasureColumn{&Measures::scr, "SCR", "scr", "{:.3f}", "correlation",
                     "what stays on the screen while the picture moves: the shower door"},
-      MeasureColumn{&Measures::xFlk, "xFLK", "xflk", "{:.3f}",
+      MeasureColumn{&Measures::xFlk, "xFLK", "xflk", "{:.3f}", "of the input's",
                     "flicker of a still scene over the camera's noise: 1 passes it through"},
-      MeasureColumn{&Measures::dep, "DEP", "dep", "{:.1f}",
+      MeasureColumn{&Measures::dep, "DEP", "dep", "{:.1f}", "levels",
                     "how far from the photograph, in levels, a tone curve not counted"},
-      MeasureColumn{&Measures::det, "DET", "det", "{:.2f}", "detail kept of the photograph's"},
+      MeasureColumn{&Measures::det, "DET", "det", "{:.2f}", "of the input's",
+                    "detail kept of the photograph's"},
   };
   return kColumns;
 }

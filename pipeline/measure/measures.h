@@ -18,6 +18,7 @@ struct MeasureColumn {
   const char* name;    ///< "nHW2"
   const char* key;     ///< of JSON: "nhw2"
   const char* format;  ///< of fmt: "{:.3f}"
+  const char* unit;    ///< along an axis: "levels"
   const char* reads;   ///< what its values mean
 };
 

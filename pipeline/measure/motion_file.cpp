@@ -1,5 +1,6 @@
 #include "pipeline/measure/motion_file.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
@@ -11,6 +12,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "config/config_error.h"
+#include "config/suggestion.h"
 #include "pipeline/measure/known_motion.h"
 
 namespace pleinair::measure {
@@ -70,10 +73,13 @@ hal::Result<MotionFile> parseMotion(std::string_view text, const std::string& su
   if (json.is_discarded() || !json.is_object()) {
     return tl::unexpected(wrong(subject, "is not a JSON object"));
   }
-  MotionFile file;
+  static const std::vector<std::string> kKeys{"v", "homographies"};
   for (const auto& [key, value] : json.items()) {
-    if (key != "v" && key != "homographies") file.unknownKeys.push_back(key);
+    if (std::ranges::find(kKeys, key) != kKeys.end()) continue;
+    return tl::unexpected(
+        wrong(subject, config::quoted(key) + ": " + config::unknownText("key", key, kKeys)));
   }
+  MotionFile file;
   if (json.contains("v") == json.contains("homographies")) {
     return tl::unexpected(wrong(subject, R"(has to have one of "v" and "homographies")"));
   }

@@ -18,11 +18,11 @@ namespace pleinair::measure {
 /// row by row, each of which takes pixels of a frame (centres at whole numbers) to the next one's.
 struct MotionFile {
   std::optional<cv::Point2d> perFrame;
-  std::vector<cv::Matx33d> nextFromFrame;     ///< where perFrame is not set
-  std::vector<std::string> unknownKeys = {};  ///< which say nothing to us
+  std::vector<cv::Matx33d> nextFromFrame;  ///< where perFrame is not set
 };
 
-/// Errors: kInvalidInput (no JSON, no such key, numbers that make no sense), which names `subject`.
+/// Errors: kInvalidInput (no JSON, no such key or another one, numbers that make no sense), which
+/// names `subject`.
 hal::Result<MotionFile> parseMotion(std::string_view text, const std::string& subject);
 /// The same of a file. Errors: kNotFound, kPermissionDenied, kIo too.
 hal::Result<MotionFile> readMotion(const std::filesystem::path& path);

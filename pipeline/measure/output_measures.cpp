@@ -1,5 +1,6 @@
 #include "pipeline/measure/output_measures.h"
 
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -49,7 +50,7 @@ std::optional<double> root(const std::optional<double>& value) {
 
 void OutputMeasures::add(const cv::Mat3f& output, const cv::Mat3f& input,
                          const MotionToHere& motion) {
-  CV_Assert(recent_.empty() || recent_.back().picture.size() == output.size());
+  assert(recent_.empty() || recent_.back().picture.size() == output.size());
   Frame frame;
   recent_.push_back({.picture = output, .highPass = highPass(output)});
   greys_.push_back(greyOf(output));

@@ -40,7 +40,7 @@ class OutputMeasures {
     Mean detail;  ///< mean square of the high pass
   };
 
-  /// The next frame, of the size of those before.
+  /// The next frame. Precondition: of the size of those before.
   void add(const cv::Mat3f& output, const cv::Mat3f& input, const MotionToHere& motion);
 
   const std::vector<Frame>& frames() const { return frames_; }

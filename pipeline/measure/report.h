@@ -29,12 +29,13 @@ struct WorstFrame {
   std::uint64_t frame = 0;
   double ew2 = 0;
   hal::Image input, output, difference;
+  double differenceGain = 1;  ///< how much stronger the difference is shown than it is
 };
 
 /// All that is told of one measured sequence.
 struct Report {
   std::string style;
-  std::string settings;  ///< "look default, 640x480"
+  std::string settings;  ///< "look oil, 640x480"
   std::string input;
   std::string motion;  ///< "pan by …", or that it is not known
   MotionKind motionKind = MotionKind::kNone;

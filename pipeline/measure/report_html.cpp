@@ -31,7 +31,7 @@ tr.own td { font-weight: 650; color: var(--painting); }
 .plots { display: grid; grid-template-columns: repeat(auto-fill, minmax(22rem, 1fr)); gap: 1rem; }
 .plots svg { background: var(--card); border: 1px solid var(--line); border-radius: .4rem;
   width: 100%; }
-.grid { stroke: var(--line); } .tick { fill: var(--soft); font-size: 10px; }
+.grid { stroke: var(--line); } .tick, .label { fill: var(--soft); font-size: 10px; }
 .title { fill: var(--ink); font-size: 12px; font-weight: 600; }
 .line { fill: none; stroke-width: 1.6; } .line.painting { stroke: var(--painting); }
 .line.input { stroke: var(--input); } .line.second { stroke: var(--second); }
@@ -121,7 +121,7 @@ std::string plotsHtml(const Report& report) {
       painting.values.push_back(values.painting.*column.value);
       input.values.push_back(values.input.*column.value);
     }
-    plots += plotSvg(column.name, frames, {input, painting});
+    plots += plotSvg({column.name, column.unit}, frames, {input, painting});
   }
   PlotLine births{"births", "second", {}};
   PlotLine deaths{"deaths", "painting", {}};
@@ -138,8 +138,9 @@ std::string plotsHtml(const Report& report) {
     slip.values.push_back(anchors && anchors->slip ? std::optional(anchors->slip->median)
                                                    : std::nullopt);
   }
-  plots += plotSvg("births and deaths away from the border", frames, {births, deaths});
-  plots += plotSvg("anchor slip a frame, median, px", frames, {slip});
+  plots += plotSvg({"births and deaths away from the border", "marks a frame"}, frames,
+                   {births, deaths});
+  plots += plotSvg({"anchor slip a frame, median", "px"}, frames, {slip});
   if (plots.empty()) return "";
   return "<h2>Over time</h2><p class=\"key soft\"><span><b style=\"color:var(--painting)\">—</b> " +
          escaped(report.style) +
@@ -151,13 +152,14 @@ std::string plotsHtml(const Report& report) {
 std::string worstHtml(const Report& report) {
   if (report.worst.empty()) return "";
   std::string html =
-      "<h2>The worst frames</h2><p class=\"soft\">The input, the painting, and four "
-      "times its difference along the motion to two frames before.</p>";
+      "<h2>The worst frames</h2><p class=\"soft\">The input, the painting, and its difference "
+      "along the motion to two frames before, so many times as strong as it is.</p>";
   for (const WorstFrame& worst : report.worst) {
     html += fmt::format(
-        "<figure><figcaption>Frame {}, EW2 {:.3f}</figcaption><div class=\"frames\">{}{}{}</div>"
+        "<figure><figcaption>Frame {}, EW2 {:.3f}; the difference × {:g}</figcaption><div "
+        "class=\"frames\">{}{}{}</div>"
         "</figure>\n",
-        worst.frame, worst.ew2, pictureHtml(worst.input, "the input"),
+        worst.frame, worst.ew2, worst.differenceGain, pictureHtml(worst.input, "the input"),
         pictureHtml(worst.output, "the painting"),
         pictureHtml(worst.difference, "the difference along the motion"));
   }

@@ -34,8 +34,18 @@ const char* wordOf(Verdict::State state) {
 Json jsonOf(const std::vector<Verdict>& verdicts) {
   Json list = Json::array();
   for (const Verdict& verdict : verdicts) {
+    const bool isMeasured = verdict.state != Verdict::State::kNotMeasured;
+    const Verdict::Comparison comparison = verdict.comparison.value_or(Verdict::Comparison());
     list.push_back(
-        {{"what", verdict.what}, {"verdict", wordOf(verdict.state)}, {"found", verdict.found}});
+        {{"what", verdict.what},
+         {"verdict", wordOf(verdict.state)},
+         {"found", verdict.found},
+         {"value", orNull(comparison.value)},
+         {"limit", orNull(comparison.limit)},
+         {"sense", !verdict.comparison ? Json(nullptr)
+                   : comparison.isMost ? Json("at most")
+                                       : Json("at least")},
+         {"passed", isMeasured ? Json(verdict.state == Verdict::State::kPassed) : Json(nullptr)}});
   }
   return list;
 }
@@ -47,21 +57,23 @@ Json jsonOf(const std::optional<Slip>& slip) {
 
 Json jsonOf(const std::optional<AnchorSummary>& anchors) {
   if (!anchors) return nullptr;
-  return {{"frames", anchors->frames},
-          {"alive", anchors->alive},
-          {"births_a_frame", anchors->births},
-          {"deaths_a_frame", anchors->deaths},
-          {"inner_births_a_frame", anchors->innerBirths},
-          {"inner_deaths_a_frame", anchors->innerDeaths},
-          {"inner_turnover_percent", anchors->innerTurnoverPercent},
-          {"moved_a_frame", anchors->moved},
-          {"half_life_frames", orNull(anchors->halfLifeFrames)},
-          {"slip", jsonOf(anchors->slip)},
-          {"slip_over_10_frames", jsonOf(anchors->longSlip)},
-          {"anchors_per_cell",
-           {{"mean", anchors->perCell},
-            {"spread", anchors->spreadPerCell},
-            {"empty_percent", anchors->emptyCellsPercent}}}};
+  return {
+      {"frames", anchors->frames},
+      {"alive", anchors->alive},
+      {"births_a_frame", anchors->births},
+      {"deaths_a_frame", anchors->deaths},
+      {"inner_births_a_frame", anchors->innerBirths},
+      {"inner_deaths_a_frame", anchors->innerDeaths},
+      {"inner_turnover_percent", anchors->innerTurnoverPercent},
+      {"moved_a_frame", anchors->moved},
+      {"half_life_frames", orNull(anchors->halfLifeFrames)},
+      {"half_life_over_frames", anchors->halfLifeFrames ? Json(nullptr) : Json(anchors->frames)},
+      {"slip", jsonOf(anchors->slip)},
+      {"slip_over_10_frames", jsonOf(anchors->longSlip)},
+      {"anchors_per_cell",
+       {{"mean", anchors->perCell},
+        {"spread", anchors->spreadPerCell},
+        {"empty_percent", anchors->emptyCellsPercent}}}};
 }
 
 Json jsonOf(const TextureDifference& difference) {

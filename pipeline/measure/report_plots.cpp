@@ -9,11 +9,11 @@ namespace pleinair::measure {
 namespace {
 
 constexpr double kWidth = 420;
-constexpr double kHeight = 150;
-constexpr double kLeft = 48;
-constexpr double kRight = 8;
+constexpr double kHeight = 170;
+constexpr double kLeft = 64;
+constexpr double kRight = 12;
 constexpr double kTop = 22;
-constexpr double kBottom = 20;
+constexpr double kBottom = 36;
 
 /// The smallest of 1, 2, 2.5, 5 × 10ⁿ that is not below.
 double roundedUp(double value) {
@@ -42,6 +42,14 @@ std::string gridLine(const Axes& axes, double value) {
                      R"(<text class="tick" x="{:.1f}" y="{:.1f}" text-anchor="end">{:.4g}</text>)",
                      kLeft, axes.y(value), kWidth - kRight, axes.y(value), kLeft - 5,
                      axes.y(value) + 3.5, value);
+}
+
+std::string axisLabels(const std::string& unit) {
+  const double middleY = (kTop + kHeight - kBottom) / 2;
+  return fmt::format(R"-(<text class="label" x="{:g}" y="{:g}" text-anchor="middle">frame</text>)-"
+                     R"-(<text class="label" transform="translate(12 {:g}) rotate(-90)" )-"
+                     R"-(text-anchor="middle">{}</text>)-",
+                     (kLeft + kWidth - kRight) / 2, kHeight - 7, middleY, escaped(unit));
 }
 
 std::string lineSvg(const Axes& axes, const std::vector<std::uint64_t>& frames,
@@ -85,7 +93,7 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-std::string plotSvg(const std::string& title, const std::vector<std::uint64_t>& frames,
+std::string plotSvg(const PlotText& text, const std::vector<std::uint64_t>& frames,
                     const std::vector<PlotLine>& lines) {
   Axes axes;
   double least = 0;
@@ -106,14 +114,16 @@ std::string plotSvg(const std::string& title, const std::vector<std::uint64_t>& 
   axes.least = least < 0 ? -roundedUp(-least) : 0;
   axes.first = static_cast<double>(frames.front());
   axes.last = static_cast<double>(frames.back());
+  const std::string title = escaped(text.title);
   std::string svg = fmt::format(
       R"(<svg viewBox="0 0 {:g} {:g}" role="img" aria-label="{}"><text class="title" x="{:g}" y="14">{}</text>)",
       kWidth, kHeight, title, kLeft, title);
+  svg += axisLabels(text.unit);
   svg += gridLine(axes, axes.least) + gridLine(axes, (axes.least + axes.most) / 2) +
          gridLine(axes, axes.most);
   for (const std::uint64_t frame : {frames.front(), frames.back()}) {
     svg += fmt::format(R"(<text class="tick" x="{:.1f}" y="{:.1f}" text-anchor="middle">{}</text>)",
-                       axes.x(static_cast<double>(frame)), kHeight - 6, frame);
+                       axes.x(static_cast<double>(frame)), kHeight - kBottom + 14, frame);
   }
   for (const PlotLine& line : lines) svg += lineSvg(axes, frames, line);
   return svg + "</svg>\n";

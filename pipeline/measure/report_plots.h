@@ -17,9 +17,14 @@ struct PlotLine {
   std::vector<std::optional<double>> values;
 };
 
+struct PlotText {
+  std::string title;
+  std::string unit;  ///< along the axis of values: "levels"
+};
+
 /// A plot over frames as inline SVG, that takes its colours from the page. Empty where no line has
 /// two values. Precondition: as many values a line as frames.
-std::string plotSvg(const std::string& title, const std::vector<std::uint64_t>& frames,
+std::string plotSvg(const PlotText& text, const std::vector<std::uint64_t>& frames,
                     const std::vector<PlotLine>& lines);
 
 }  // namespace pleinair::measure

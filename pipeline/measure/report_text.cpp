@@ -48,6 +48,15 @@ std::string verdictLines(const std::vector<Verdict>& verdicts, const char* passe
   return text;
 }
 
+std::string halfLifeText(const AnchorSummary& anchors) {
+  if (anchors.halfLifeFrames) {
+    return fmt::format("half of the marks live longer than {:.0f} frames", *anchors.halfLifeFrames);
+  }
+  return fmt::format("half-life of the marks: over {} frames, {}", anchors.frames,
+                     anchors.innerDeaths > 0 ? "for fewer than half died in these"
+                                             : "in which none died away from the border");
+}
+
 std::string slipText(const Slip& slip) {
   return fmt::format("median {:.3f} px, 95 % below {:.3f} px, rms {:.3f} px", slip.median,
                      slip.most, slip.rms);
@@ -104,10 +113,7 @@ std::vector<std::string> insideLines(const Report& report) {
         "from the border: {:.2f} % of the marks there",
         anchors.alive, anchors.births, anchors.deaths, anchors.innerBirths, anchors.innerDeaths,
         anchors.innerTurnoverPercent));
-    lines.push_back(anchors.halfLifeFrames
-                        ? fmt::format("half of the marks live longer than {:.0f} frames",
-                                      *anchors.halfLifeFrames)
-                        : "no mark died away from the border");
+    lines.push_back(halfLifeText(anchors));
     if (anchors.slip) lines.push_back("slip a frame: " + slipText(*anchors.slip));
     if (anchors.longSlip) lines.push_back("slip over ten frames: " + slipText(*anchors.longSlip));
     lines.push_back(

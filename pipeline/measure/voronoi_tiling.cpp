@@ -1,6 +1,7 @@
 #include "pipeline/measure/voronoi_tiling.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 #include <opencv2/core.hpp>
@@ -49,7 +50,7 @@ VoronoiTiling::VoronoiTiling(cv::Size size, std::uint64_t seed) : tiles_(size) {
 }
 
 cv::Mat3f VoronoiTiling::paint(const cv::Mat3f& picture) const {
-  CV_Assert(picture.size() == tiles_.size());
+  assert(picture.size() == tiles_.size());
   std::vector<cv::Vec4f> sums(static_cast<std::size_t>(count_), cv::Vec4f());
   for (int y = 0; y < picture.rows; ++y) {
     for (int x = 0; x < picture.cols; ++x) {

@@ -14,6 +14,7 @@ class VoronoiTiling {
  public:
   VoronoiTiling(cv::Size size, std::uint64_t seed);
 
+  /// Precondition: a picture of the constructor's size.
   cv::Mat3f paint(const cv::Mat3f& picture) const;
 
  private:

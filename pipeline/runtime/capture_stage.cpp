@@ -86,11 +86,12 @@ CaptureStage::Status CaptureStage::status() const {
   const hal::SupervisorCounts counts = camera_.status().counts;
   const std::scoped_lock lock(mutex_);
   Status status = status_;
-  status.perSecond = rate_.perSecond(clock_.now());
+  const hal::TimePoint now = clock_.now();
+  status.perSecond = rate_.perSecond(now);
   status.stalls = counts.stalls;
   status.losses = counts.losses;
   status.opens = counts.opens;
-  status.delay = delay_.recent().percentile(0.5);
+  status.delay = delay_.recent(now).percentile(0.5);
   return status;
 }
 

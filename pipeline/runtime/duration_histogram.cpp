@@ -69,10 +69,13 @@ void RecentDurations::add(hal::Duration duration, hal::TimePoint now) {
   sum_ += duration;
 }
 
-DurationHistogram RecentDurations::recent() const {
-  DurationHistogram both = halves_.front();
-  both.add(halves_.back());
-  return both;
+DurationHistogram RecentDurations::recent(hal::TimePoint now) const {
+  // What add() would turn away is old, though nothing has come that turned it.
+  const hal::Duration age = now - turned_;
+  if (age >= 2 * kHalf) return {};
+  DurationHistogram recent = halves_.at(current_);
+  if (age < kHalf) recent.add(halves_.at(1 - current_));
+  return recent;
 }
 
 }  // namespace pleinair::runtime

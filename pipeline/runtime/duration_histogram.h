@@ -33,15 +33,15 @@ class DurationHistogram {
   hal::Duration max_{0};
 };
 
-/// A histogram of what was added lately: within the last half a minute to a minute in which
-/// anything was. Two of them, turned about each half a minute; allocates nothing.
+/// A histogram of what was added lately: within the last half a minute to a minute, whether
+/// anything came or not. Two of them, turned about each half a minute; allocates nothing.
 class RecentDurations {
  public:
   static constexpr hal::Duration kHalf = std::chrono::seconds(30);
 
   void add(hal::Duration duration, hal::TimePoint now);
-  /// What was added lately.
-  DurationHistogram recent() const;
+  /// What was added lately. Precondition: `now` is not before the last add().
+  DurationHistogram recent(hal::TimePoint now) const;
   std::uint64_t count() const { return count_; }  ///< of all
   hal::Duration sum() const { return sum_; }      ///< likewise
 

@@ -222,10 +222,11 @@ OutputStage::Status OutputStage::status() const {
   const std::scoped_lock lock(mutex_);
   Status status = status_;
   status.waiting = queue_.size() + (isWriting_ ? 1 : 0);
-  status.perSecond = rate_.perSecond(clock_.now());
-  status.latency = latency_.recent();
+  const hal::TimePoint now = clock_.now();
+  status.perSecond = rate_.perSecond(now);
+  status.latency = latency_.recent(now);
   status.latencySum = latency_.sum();
-  status.writing = writing_.recent();
+  status.writing = writing_.recent(now);
   return status;
 }
 

@@ -264,9 +264,10 @@ PaintStage::Status PaintStage::status() const {
                 .failure = failure_,
                 .perSecond = rate_.perSecond(clock_.now()),
                 .load = load_};
+  const hal::TimePoint now = clock_.now();
   for (std::size_t i = 0; i < stages_.size(); ++i) {
     const RecentDurations& each = stages_.at(i);
-    status.stages.push_back({kStageNames.at(i), each.recent(), each.count(), each.sum()});
+    status.stages.push_back({kStageNames.at(i), each.recent(now), each.count(), each.sum()});
   }
   return status;
 }

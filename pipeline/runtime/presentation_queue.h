@@ -43,8 +43,9 @@ struct PresentationRules {
   hal::Duration longestGap = std::chrono::milliseconds(200);
 };
 
-/// Decides which picture is shown when, and how each of the others ends (DESIGN.md, fixed latency).
-/// Time goes in as an argument. One thread; allocates nothing beyond its capacity.
+/// Decides which picture is shown when, and how each of the others ends
+/// (docs/decisions/0009-fixed-latency.md). Time goes in as an argument. One thread; allocates
+/// nothing beyond its capacity.
 class PresentationQueue {
  public:
   PresentationQueue(PresentationRules rules, std::size_t capacity);

@@ -28,7 +28,7 @@ inline constexpr std::uint32_t kMaxObjects = kRealObject - 1U;
 inline constexpr std::uint32_t kMaxTriangles = 1U << kTriangleBits;
 
 /// Where a pixel's motion is known from.
-enum class MotionSource {
+enum class SurfaceMotionSource {
   kUnknown = 0,  ///< nothing is known; the displacement says nothing
   kSurface = 1,  ///< a model's surface: exact for a virtual one, its pose's error for an occluder
   kPlane = 2,    ///< a plane of the scene, as far as the poses are right
@@ -37,9 +37,9 @@ enum class MotionSource {
 /// How far what each pixel shows has come since a frame before. Displacements lead from where it
 /// was, in px of this picture, to the pixel's centre; where it was may be outside the picture, or
 /// hidden then.
-struct MotionField {
+struct SurfaceMotion {
   /// RGBA16F: displacement (px; x right, y down), its predicted error (px, one standard deviation
-  /// over both axes; 0: exact), MotionSource. Displacements are rounded to 11 bits.
+  /// over both axes; 0: exact), SurfaceMotionSource. Displacements are rounded to 11 bits.
   const gpu::Texture* texture = nullptr;
   std::uint64_t sinceSequence = 0;  ///< the frame that it refers to
   hal::TimePoint sinceTime;
@@ -92,7 +92,7 @@ struct ArFrame {
   /// Where asked for, else null. R32UI: like ids, with the number of the part (Model::parts).
   const gpu::Texture* parts = nullptr;
   /// Where asked for, and there is a frame before since the last reset.
-  std::optional<MotionField> motion;
+  std::optional<SurfaceMotion> motion;
   std::optional<SurfaceAccess> surfaces;  ///< where asked for, of a scene that has any
   /// Where asked for.
   std::optional<PictureMovement> pictureMovement;

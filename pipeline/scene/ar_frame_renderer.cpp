@@ -94,12 +94,7 @@ ArFrameRenderer::Surfaces::Surfaces(hal::FrameSize size, bool hasModels)
 }
 
 void ArFrameRenderer::takeSurfaces(hal::FrameSize size) {
-  const auto isOfSize = [&](const auto& each) { return each->ids.size() == size; };
-  const auto known = std::ranges::find_if(surfaces_, isOfSize);
-  now_ =
-      known != surfaces_.end()
-          ? known->get()
-          : surfaces_.emplace_back(std::make_unique<Surfaces>(size, !scene_.models.empty())).get();
+  now_ = &surfaces_.of(size, size, !scene_.models.empty());
 }
 
 /// All that a frame may need, once: posed in front of the camera, drawn, and asked about.
@@ -238,7 +233,8 @@ void ArFrameRenderer::clearToCamera() {
 }
 
 void ArFrameRenderer::drawBackground(const gpu::Texture& picture) {
-  // Depth is cleared where the pass begins: later, a tile-based GPU would split it (GPU rules, 10).
+  // Depth is cleared where the pass begins: later, a tile-based GPU would split it (docs/gpu.md,
+  // rule 10).
   now_->target.beginDiscarding();
   now_->target.clearDepth();
   background_.use().texture("picture", picture).drawArea(now_->target, {0, 0}, now_->target.size());
@@ -342,9 +338,9 @@ void ArFrameRenderer::findSurfaces(const tracking::CameraModel& camera) {
                     .objects = objects_,
                     .camera = &*camera_};
   if (!before_) return;
-  frame_.motion = MotionField{.texture = &now_->known->motion,
-                              .sinceSequence = before_->sequence,
-                              .sinceTime = before_->time};
+  frame_.motion = SurfaceMotion{.texture = &now_->known->motion,
+                                .sinceSequence = before_->sequence,
+                                .sinceTime = before_->time};
 }
 
 }  // namespace pleinair::scene

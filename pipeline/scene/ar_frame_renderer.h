@@ -2,12 +2,12 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "pipeline/gpu/pass_timer.h"
+#include "pipeline/gpu/per_size.h"
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/gpu/shader_library.h"
@@ -41,7 +41,7 @@ class ArFrameRenderer {
   ~ArFrameRenderer() = default;
 
   /// Allocates for pictures of `size` and runs each program once, so that the first frame does not
-  /// wait for drivers (GPU.md, rule 14).
+  /// wait for drivers (docs/gpu.md, rule 14).
   void warmUp(hal::FrameSize size);
 
   /// The next AR frame, valid until the next call and as long as `picture`, which it refers to
@@ -115,7 +115,7 @@ class ArFrameRenderer {
   std::optional<tracking::CameraModel> camera_;     // of ArFrame::surfaces
   Shading shading_ = Shading::kToon;
   std::vector<std::optional<hal::TimePoint>> firstSight_;  // of each model
-  std::vector<std::unique_ptr<Surfaces>> surfaces_;        // of each size that was composed
+  gpu::PerSize<Surfaces> surfaces_;                        // of each size that was composed
   Surfaces* now_ = nullptr;                                // of this frame's size
   std::optional<hal::TimePoint> firstTime_;
   std::optional<Stamp> before_;  // the frame that bodies and poses were advanced for last

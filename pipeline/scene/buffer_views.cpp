@@ -19,11 +19,12 @@ constexpr std::array<BufferView, 9> kViews{
      {"normals", "where surfaces face: x, y, z of the camera's frame as red, green, blue", {}},
      {"focus", "white: kept crisp; black: painted like the rest", {}},
      {"motion",
-      "where each pixel has come to since the frame before: hue the direction (red: to the right), "
-      "full colour 16 px; grey: it stands still, black: unknown",
+      "where each pixel of a model has come to since the frame before: hue the direction (red: to "
+      "the right), full colour 16 px; grey: it stands still; black: the camera's picture",
       {.surfaces = true}},
      {"motion_error",
-      "how well that is known: white: exactly, yellow: to 0.25 px, red: to 1 px; black: unknown",
+      "how well the view motion is known: white: exactly, yellow: to 0.25 px, red: to 1 px; black: "
+      "not at all, or the camera's picture",
       {.surfaces = true}}}};
 
 gpu::Texture blank(gpu::TextureFormat format) {
@@ -57,15 +58,8 @@ BufferViewer::BufferViewer(const gpu::ShaderLibrary& library)
 BufferViewer::Canvas::Canvas(hal::FrameSize size)
     : picture(gpu::TextureFormat::kRgba8, size, gpu::TextureFilter::kLinear), target({&picture}) {}
 
-const BufferViewer::Canvas& BufferViewer::canvasOf(hal::FrameSize size) {
-  const auto isOfSize = [&](const auto& each) { return each->picture.size() == size; };
-  const auto known = std::ranges::find_if(canvases_, isOfSize);
-  return known != canvases_.end() ? **known
-                                  : *canvases_.emplace_back(std::make_unique<Canvas>(size));
-}
-
 const gpu::Texture& BufferViewer::show(const BufferView& view, const ArFrame& frame) {
-  const Canvas& canvas = canvasOf(frame.size());
+  const Canvas& canvas = canvases_.of(frame.size(), frame.size());
   const auto orNothing = [&](const gpu::Texture* texture) -> const gpu::Texture& {
     return texture != nullptr ? *texture : noIds_;
   };

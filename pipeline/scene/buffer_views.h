@@ -1,10 +1,9 @@
 #pragma once
 
-#include <memory>
 #include <span>
 #include <string_view>
-#include <vector>
 
+#include "pipeline/gpu/per_size.h"
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/gpu/shader_library.h"
@@ -41,12 +40,11 @@ class BufferViewer {
     gpu::Texture picture;
     gpu::RenderTarget target;
   };
-  const Canvas& canvasOf(hal::FrameSize size);
 
   gpu::Program program_;
-  gpu::Texture noIds_;                             // in place of what a frame does not have
-  gpu::Texture noMotion_;                          // likewise
-  std::vector<std::unique_ptr<Canvas>> canvases_;  // of each size
+  gpu::Texture noIds_;     // in place of what a frame does not have
+  gpu::Texture noMotion_;  // likewise
+  gpu::PerSize<Canvas> canvases_;
 };
 
 }  // namespace pleinair::scene

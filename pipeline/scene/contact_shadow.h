@@ -45,8 +45,8 @@ class ContactShadow {
   void cast(std::span<const std::size_t> visible, const SceneBodies& bodies,
             std::span<const Lighting> cameraLights);
 
-  /// Runs each program once (GPU.md, rule 14); the target that draws go to is bound, the receiver
-  /// has its camera, and all models are posed.
+  /// Runs each program once (docs/gpu.md, rule 14); the target that draws go to is bound, the
+  /// receiver has its camera, and all models are posed.
   void warmUp();
 
   /// Forgets the maps of the frames before.

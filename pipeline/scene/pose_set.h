@@ -9,7 +9,7 @@
 
 namespace pleinair::scene {
 
-/// A tag that is seen, and where: METHOD.md's camera frame from tracking's tag frame
+/// A tag that is seen, and where: OpenCV's camera frame from tracking's tag frame
 /// (tracking::TrackedTag::cameraFromTag, which agrees with the world's pose where the tag does).
 struct TagSighting {
   int id = 0;

@@ -39,8 +39,8 @@ class SurfacePass {
     ScreenArea written;        // what may be other than 0; at first all
   };
 
-  /// Runs each program once (GPU.md, rule 14), wherever models and planes are. Precondition: as of
-  /// run().
+  /// Runs each program once (docs/gpu.md, rule 14), wherever models and planes are. Precondition:
+  /// as of run().
   void warmUp(const gpu::Texture& ids, const tracking::CameraModel& camera,
               const SceneBodies& bodies, Buffers& buffers);
 

@@ -2,11 +2,13 @@
 
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "config/parameter_values.h"
 #include "hal/error.h"
 #include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/texture.h"
+#include "pipeline/marks/anchor.h"
 #include "pipeline/scene/ar_frame.h"
 
 namespace pleinair::marks {
@@ -61,8 +63,11 @@ class Style {
   virtual const gpu::Texture& paint(const scene::ArFrame& frame, std::string_view view,
                                     gpu::PassTimer& timer) = 0;
 
-  /// Its marks' anchors as they were painted last; null where it has none.
+  /// Its marks' anchors as they were painted last, of several layers the finest's; null where it
+  /// has none.
   virtual const marks::AnchorSet* anchors() const { return nullptr; }
+  /// Waits for the GPU and reads those of all layers, a slot each, free ones too: for measures.
+  virtual std::vector<marks::Anchor> readAnchors() const { return {}; }
 
   /// Forgets the past: the next frame is painted as a first one.
   virtual void reset() = 0;

@@ -12,8 +12,7 @@
 
 namespace pleinair::tracking {
 
-/// A pinhole camera's focal lengths and principal point in pixels, pixel centres at +0.5
-/// (METHOD.md, conventions).
+/// A pinhole camera's focal lengths and principal point in pixels, pixel centres at +0.5.
 struct Intrinsics {
   double fx = 1.0;
   double fy = 1.0;

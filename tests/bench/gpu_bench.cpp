@@ -11,10 +11,12 @@
 #include "pipeline/gpu/frame_upload.h"
 #include "pipeline/present/picture_reader.h"
 #include "pipeline/present/present_shaders.h"
+#include "tests/bench/benchmarks.h"
 
 namespace pleinair {
 namespace {
 
+using bench::sizeOf;
 using hal::FrameSize;
 using hal::PixelFormat;
 
@@ -27,10 +29,6 @@ gpu::ShaderLibrary& library() {
     return result;
   }();
   return shaders;
-}
-
-FrameSize sizeOf(const benchmark::State& state) {
-  return {static_cast<int>(state.range(0)), static_cast<int>(state.range(1))};
 }
 
 hal::Image gradient(PixelFormat format, FrameSize size) {

@@ -16,12 +16,14 @@
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/scene/scene_shaders.h"
 #include "pipeline/tracking/image_motion_estimator.h"
+#include "tests/bench/benchmarks.h"
 #include "tests/reports/tracking/pose_measures.h"
 #include "tests/reports/tracking/truth_sequence.h"
 
 namespace {
 
-using namespace pleinair;  // NOLINT(google-build-using-namespace): a program, not a header
+using namespace pleinair;         // NOLINT(google-build-using-namespace): a program, not a header
+using namespace pleinair::bench;  // NOLINT(google-build-using-namespace)
 
 constexpr std::size_t kFeatures = 200;
 constexpr int kNodePixels = 8;
@@ -85,7 +87,7 @@ struct Bench {
                          .ids = &ids,
                          .pictureMovement = scene::PictureMovement{.motion = &image},
                          .sequence = number,
-                         .captureTime = hal::TimePoint(hal::Duration(33'333'333) * number)};
+                         .captureTime = timeOfFrame(number)};
     field->update(frame, with);
     anchors->advance(frame, *field, with);
   }
@@ -101,10 +103,6 @@ struct Bench {
   std::uint64_t number = 0;
 };
 
-hal::FrameSize sizeOf(const benchmark::State& state) {
-  return {static_cast<int>(state.range(0)), static_cast<int>(state.range(1))};
-}
-
 void together(benchmark::State& state, marks::DensityRule rule) {
   Bench bench(sizeOf(state), gpu::PassTiming::kOff, rule);
   for ([[maybe_unused]] auto _ : state) {
@@ -118,14 +116,7 @@ void together(benchmark::State& state, marks::DensityRule rule) {
 
 void onePass(benchmark::State& state, const char* pass) {
   Bench bench(sizeOf(state), gpu::PassTiming::kFences, {});
-  for ([[maybe_unused]] auto _ : state) {
-    bench.advance(bench.timer);
-    for (const gpu::PassTime& each : bench.timer.times()) {
-      if (each.pass == pass) {
-        state.SetIterationTime(std::chrono::duration<double>(each.last).count());
-      }
-    }
-  }
+  timeOnePass(state, bench.timer, pass, [&bench] { bench.advance(bench.timer); });
 }
 
 /// The walk around the workbench, forth and back: the motion found in the picture, then anchors.
@@ -156,16 +147,6 @@ void withThePicturesMotion(benchmark::State& state) {
   double alive = 0.0;
   for (const marks::Anchor& each : bench.anchors->read()) alive += each.isAlive() ? 1.0 : 0.0;
   state.counters["anchors"] = alive;
-}
-
-void atBothSizes(benchmark::internal::Benchmark* benchmark) {
-  benchmark->Args({640, 480})->Args({1280, 720})->Unit(benchmark::kMillisecond)->UseRealTime();
-  benchmark->MeasureProcessCPUTime();  // of all threads
-}
-
-void passAtBothSizes(benchmark::internal::Benchmark* benchmark) {
-  benchmark->Args({640, 480})->Args({1280, 720})->Unit(benchmark::kMillisecond);
-  benchmark->MeasureProcessCPUTime()->UseManualTime()->MinTime(0.2);
 }
 
 BENCHMARK_CAPTURE(together, onePerCell, kOneACell)

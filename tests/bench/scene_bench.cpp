@@ -18,10 +18,13 @@
 #include "pipeline/scene/light_estimator.h"
 #include "pipeline/scene/scene_file.h"
 #include "pipeline/scene/scene_shaders.h"
+#include "tests/bench/benchmarks.h"
 #include "tests/support/tag_scene.h"
 
 namespace pleinair::scene {
 namespace {
+
+using bench::atBothSizes;
 
 constexpr const char* kGear = R"(
 [[tag]]
@@ -146,11 +149,6 @@ void compose(benchmark::State& state, const std::string& text, ArFrameNeeds need
     renderer.compose(picture, camera, {.tags = {&sighting, 1}}, sequence, time, timer, needs);
     hal::orThrow(gpu::Fence::insert().wait());
   }
-}
-
-void atBothSizes(benchmark::internal::Benchmark* row) {
-  row->Args({640, 480})->Args({1280, 720});
-  row->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
 }
 
 BENCHMARK_CAPTURE(compose, gear, kGear)->Apply(atBothSizes);

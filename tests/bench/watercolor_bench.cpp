@@ -16,10 +16,12 @@
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/scene/scene_shaders.h"
 #include "pipeline/styles/style_registry.h"
+#include "tests/bench/benchmarks.h"
 
 namespace {
 
-using namespace pleinair;  // NOLINT(google-build-using-namespace): a program, not a header
+using namespace pleinair;         // NOLINT(google-build-using-namespace): a program, not a header
+using namespace pleinair::bench;  // NOLINT(google-build-using-namespace)
 
 constexpr int kFrames = 8;
 
@@ -44,10 +46,6 @@ std::vector<std::uint8_t> framePixels(hal::FrameSize size, int number) {
     }
   }
   return pixels;
-}
-
-hal::FrameSize sizeOf(const benchmark::State& state) {
-  return {static_cast<int>(state.range(0)), static_cast<int>(state.range(1))};
 }
 
 /// A context, the style, and a few frames already on the GPU.
@@ -83,7 +81,7 @@ struct Bench {
                                .barycentrics = &barycentrics,
                                .hasObjects = hasObjects,
                                .sequence = static_cast<std::uint64_t>(number),
-                               .captureTime = hal::TimePoint(hal::Duration(33'333'333) * number)};
+                               .captureTime = timeOfFrame(static_cast<std::uint64_t>(number))};
     ++number;
     style->paint(frame, "", with);
   }
@@ -99,17 +97,6 @@ struct Bench {
   int number = 0;
 };
 
-double medianOf(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return values.empty() ? 0.0 : *middle;
-}
-
-double millisecondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-      .count();
-}
-
 void wholeStyle(benchmark::State& state, bool hasObjects) {
   Bench bench(sizeOf(state), gpu::PassTiming::kOff);
   bench.hasObjects = hasObjects;
@@ -123,20 +110,9 @@ void wholeStyle(benchmark::State& state, bool hasObjects) {
   state.counters["median_ms"] = medianOf(times);
 }
 
-/// One pass out of whole frames: what the timer says of it.
 void onePass(benchmark::State& state, const char* pass) {
   Bench bench(sizeOf(state), gpu::PassTiming::kFences);
-  std::vector<double> times;
-  for ([[maybe_unused]] auto _ : state) {
-    bench.paint(bench.timer);
-    for (const gpu::PassTime& each : bench.timer.times()) {
-      if (each.pass != pass) continue;
-      const double seconds = std::chrono::duration<double>(each.last).count();
-      state.SetIterationTime(seconds);
-      times.push_back(seconds * 1e3);
-    }
-  }
-  state.counters["median_ms"] = medianOf(times);
+  timeOnePass(state, bench.timer, pass, [&bench] { bench.paint(bench.timer); });
 }
 
 void openCvStylization(benchmark::State& state) {
@@ -160,16 +136,6 @@ void openCvStylization(benchmark::State& state) {
     times.push_back(millisecondsSince(start));
   }
   state.counters["median_ms"] = medianOf(times);
-}
-
-void atBothSizes(benchmark::internal::Benchmark* benchmark) {
-  benchmark->Args({640, 480})->Args({1280, 720})->Unit(benchmark::kMillisecond)->UseRealTime();
-  benchmark->MeasureProcessCPUTime();  // of all threads
-}
-
-void passAtBothSizes(benchmark::internal::Benchmark* benchmark) {
-  benchmark->Args({640, 480})->Args({1280, 720})->Unit(benchmark::kMillisecond);
-  benchmark->MeasureProcessCPUTime()->UseManualTime()->MinTime(0.2);
 }
 
 BENCHMARK_CAPTURE(wholeStyle, camera, false)->Name("watercolor/whole")->Apply(atBothSizes);

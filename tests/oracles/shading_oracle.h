@@ -10,7 +10,7 @@ namespace pleinair::oracles {
 /// vectors of the light's frame.
 ///
 /// Toon: thesis §3.2.2's factor, by the key light's angle or, where bands are of all light, by what
-/// falls on the surface beside what could, of what is as bright as the white paper (METHOD.md);
+/// falls on the surface beside what could, of what is as bright as the white paper;
 /// where the factor is below 1, in the ambient light's hue, (sky / its luminance) over (white / its
 /// luminance), coded by a power of 1 / 2.2 and kept in 0.75 … 1.33.
 glm::dvec3 toonShaded(const glm::dvec3& linearRgb, const glm::dvec3& normal,

@@ -86,7 +86,17 @@ glm::dvec2 placeOn(const StrokeArm& arm, double segmentPx, glm::dvec2 anchor, do
 }
 
 glm::dvec2 averagedDirection(glm::dvec2 now, glm::dvec2 past, double pastShare) {
-  return glm::normalize((1.0 - pastShare) * now + pastShare * past);
+  constexpr int kSteps = 20'000;
+  const auto doubled = [](glm::dvec2 d) {
+    return glm::dvec2(d.x * d.x - d.y * d.y, 2.0 * d.x * d.y);
+  };
+  const double stays = std::pow(pastShare, 1.0 / kSteps);
+  glm::dvec2 mean = doubled(past);
+  for (int i = 0; i < kSteps; ++i) {
+    mean = glm::normalize((1.0 - stays) * doubled(now) + stays * mean);
+  }
+  const double angle = 0.5 * std::atan2(mean.y, mean.x);
+  return {std::cos(angle), std::sin(angle)};
 }
 
 glm::dvec2 splinePlace(const std::vector<glm::dvec2>& points, double s) {

@@ -50,7 +50,9 @@ StrokeArm strokeArm(const StrokeGround& ground, const StrokeWalk& walk, glm::dve
 /// A place `segments` along an arm's polyline from its anchor.
 glm::dvec2 placeOn(const StrokeArm& arm, double segmentPx, glm::dvec2 anchor, double segments);
 
-/// The thesis's average of a new direction and a past one, unit vectors of one sense (§5.4).
+/// What a past direction has become after many short steps of the thesis's average (§5.4) with a
+/// new one, in the doubled angle (METHOD.md V.4); `pastShare` is what weighs the past after all of
+/// them. Unit vectors, whose signs say nothing.
 glm::dvec2 averagedDirection(glm::dvec2 now, glm::dvec2 past, double pastShare);
 
 /// A place on the cubic B-spline whose end points are tripled, s in [0, n + 2] for points C0 … Cn.

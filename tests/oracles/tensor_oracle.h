@@ -24,7 +24,7 @@ TensorImage gradientTensors(const hal::ImageView& image);
 double edgePercentile(const TensorImage& image, double part);
 
 /// How "has a tensor" is decided: yes or no, as the thesis has it, or gradually, so that noise does
-/// not switch it (METHOD.md IV.3).
+/// not switch it.
 enum class Decision { kThesis, kGradual };
 
 struct TensorRegion {

@@ -237,6 +237,8 @@ TEST(Program, ListsStylesWithTheirParameters) {
   EXPECT_EQ(run.status, 0);
   EXPECT_THAT(run.out, HasSubstr("watercolor"));
   EXPECT_THAT(run.out, HasSubstr("cell_size"));
+  std::istringstream lines(run.out);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 110u) << line;
 }
 
 TEST(Program, FailsWhereWhatItPrintsDoesNotArrive) {

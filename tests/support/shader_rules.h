@@ -17,7 +17,7 @@ struct ShaderText {
 using Complaints = std::vector<std::string>;
 
 /// Each function holds a shader to one of the rules that keep one set of shaders working on every
-/// target (the design's GPU rules). They read text, not syntax: what they cannot read they refuse.
+/// target (docs/gpu.md). They read text, not syntax: what they cannot read they refuse.
 
 /// A head comment says purpose, inputs, outputs and precision.
 Complaints headCommentRule(const ShaderText& shader);

@@ -6,7 +6,7 @@
 
 namespace {
 
-// Blending into 32-bit floats becomes a GL error, as on the targets (GPU rules, rule 5).
+// Blending into 32-bit floats becomes a GL error, as on the targets (docs/gpu.md, rule 5).
 [[maybe_unused]] const int kFloatBlendForbidden =
     setenv("MESA_EXTENSION_OVERRIDE", "-GL_EXT_float_blend", 0);
 

@@ -1,9 +1,8 @@
 // Purpose: keeps the density of anchors in a cell: how many are to be born, and which is to go
-//          (METHOD.md V.1).
+//          (thesis §5.3, with hysteresis).
 // Inputs:  anchor_cells.glsl's; the rule (marks::DensityRule): target, birthBelow, deathAbove; ids and
 //          its pixelsOfFull if hasObjects; fullSize.
-// Outputs: births of each cell, counts empty for the next frame; anchors: the ones to go. A cell an
-//          invocation.
+// Outputs: births of each cell; anchors: the ones to go. A cell an invocation.
 // Precision: integers; highp for places.
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/anchor_cells.glsl"
@@ -39,11 +38,25 @@ float objectShare(ivec2 cell) {
   return seen == 0 ? 0.0 : float(shown) / float(seen);
 }
 
-uint wanted(float share, uint count) {
+// Whether the cells around hold what they are to: then an empty one among them is a gap by chance, and
+// filling it up would crowd them later on.
+bool isAmongFull(ivec2 cell) {
+  uint around = 0u;
+  for (int y = -1; y <= 1; ++y) {
+    for (int x = -1; x <= 1; ++x) {
+      ivec2 at = cell + ivec2(x, y);
+      if (isInGrid(at)) around += cells[indexOf(at)].inImage + cells[indexOf(at)].onObjects;
+    }
+  }
+  return around >= 8u * uint(target);
+}
+
+uint wanted(float share, uint count, bool isGap) {
   if (share < kLeastShare) return 0u;
   uint least = uint(max(1.0, floor(share * float(birthBelow) + 0.5)));
   uint full = uint(max(1.0, floor(share * float(target) + 0.5)));
-  return count < least && full > count ? full - count : 0u;
+  if (count >= least || full <= count) return 0u;
+  return isGap ? least - count : full - count;
 }
 
 void main() {
@@ -58,10 +71,8 @@ void main() {
   vec2 inside = clamp((fullSize - vec2(at * cellPixels)) / float(cellPixels), 0.0, 1.0);
   float whole = inside.x * inside.y;
   float share = hasObjects ? objectShare(at) : 0.0;
-  uint inImage = wanted(whole * (1.0 - share), cell.inImage);
-  uint onObjects = wanted(whole * share, cell.onObjects);
+  bool isGap = isAmongFull(at);
+  uint inImage = wanted(whole * (1.0 - share), cell.inImage, isGap);
+  uint onObjects = wanted(whole * share, cell.onObjects, isGap);
   cells[index].births = inImage | onObjects << 16u;
-  cells[index].inImage = 0u;
-  cells[index].onObjects = 0u;
-  cells[index].mostSpare = 0u;
 }

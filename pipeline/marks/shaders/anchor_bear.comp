@@ -1,10 +1,10 @@
 // Purpose: puts new anchors into a cell, each into a part of it that has none (thesis §4.3.1: jittered),
-//          on what is seen there: the exact point of a virtual surface behind the pixel (METHOD.md
-//          V.1), or the camera's picture.
+//          on what is seen there: the exact point of a virtual surface behind the pixel (thesis
+//          §5.3), or the camera's picture.
 // Inputs:  anchor_cells.glsl's; births and slots (anchor_plan.comp); ids, barycentrics (ArFrame) and
-//          their pixelsOfFull if hasObjects; fullSize; salt: another one each frame; anew: whether all are
-//          there at once; motion: MotionField's field.
-// Outputs: anchors. A cell an invocation.
+//          their pixelsOfFull if hasObjects; fullSize; salt: another one each frame; atOnce: whether
+//          they are there without a fade; motion: MotionField's field.
+// Outputs: anchors; counts empty for the next frame. A cell an invocation.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
@@ -23,7 +23,7 @@ uniform bool hasObjects;
 uniform vec2 pixelsOfFull;
 uniform vec2 fullSize;
 uniform uint salt;
-uniform bool anew;
+uniform bool atOnce;
 uniform highp sampler2D motion;
 
 const int kTries = 6;           // for a place in the part, and as many in the whole cell
@@ -84,7 +84,7 @@ void bear(ivec2 cell, uint number, bool onObject, inout uint taken) {
   born.jacobian = vec4(1.0, 0.0, 0.0, 1.0);
   born.barycentrics = vec2(0.0);
   born.error = 0.0;
-  born.fade = anew || hasComeIn(px) ? 1.0 : 0.0;
+  born.fade = atOnce || hasComeIn(px) ? 1.0 : 0.0;
   born.age = 0.0;
   born.seed = hashOf(hash ^ 0x9E3779B9u);  // tells nothing of the place, which came of the same hash
   born.surface = onObject ? id : idOf(objectOf(id), 0u);
@@ -104,6 +104,9 @@ void main() {
   uint births = cells[index].births;
   uint strata = cells[index].strata;
   cells[index].strata = 0u;
+  cells[index].inImage = 0u;
+  cells[index].onObjects = 0u;
+  cells[index].mostSpare = 0u;
   if (births == 0u) return;
   uint number = cells[index].firstBirth;
   uint taken = strata & 0xFFFFu;

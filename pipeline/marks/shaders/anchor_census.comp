@@ -1,6 +1,6 @@
 // Purpose: fades anchors in and out, and counts those that stay in each cell.
 // Inputs:  anchor_cells.glsl's; fadeIn, fadeOut: how far a fade goes in this frame.
-// Outputs: anchors; cells, whose counts were 0 (anchor_balance.comp). An anchor an invocation.
+// Outputs: anchors; cells, whose counts were 0 (anchor_bear.comp). An anchor an invocation.
 // Precision: highp; counts are of integers, so that order does not matter.
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/anchor_cells.glsl"

@@ -2,7 +2,8 @@
 //          what lives on a surface is hidden until its object's pass (anchor_surface.comp) finds it.
 // Inputs:  image_motion.glsl's, flow forward; ids and its pixelsOfFull if hasObjects; fullSize;
 //          anchor_looks.glsl's; margin: px beyond the border after which an anchor is gone; stepSeconds;
-//          anew: whether all are to go.
+//          follows: whether anything is carried, else surfaces' anchors rest like all others, and none is
+//          looked at; anew: whether all are to go.
 // Outputs: anchors. One an invocation.
 // Precision: highp.
 #include "pipeline/marks/shaders/image_motion.glsl"
@@ -15,6 +16,7 @@ uniform vec2 pixelsOfFull;
 uniform vec2 fullSize;
 uniform float margin;
 uniform float stepSeconds;
+uniform bool follows;
 uniform bool anew;
 uniform uint slots;
 #include "pipeline/marks/shaders/anchor_looks.glsl"
@@ -30,7 +32,7 @@ void main() {
   }
   anchors[slot].age += stepSeconds;
   uint object = objectOf(anchors[slot].surface);
-  if (isVirtual(object)) {
+  if (follows && isVirtual(object)) {
     anchors[slot].displacement = vec2(0.0);
     anchors[slot].jacobian = kNoTurn;
     anchors[slot].error = kUnknownError;
@@ -48,7 +50,7 @@ void main() {
   }
   // What a model hides is not looked at, nor what is known to lie on another real object.
   vec2 looks = anchors[slot].barycentrics;
-  if (!isHidden && all(greaterThan(px, vec2(0.0))) && all(lessThan(px, fullSize))) {
+  if (follows && !isHidden && all(greaterThan(px, vec2(0.0))) && all(lessThan(px, fullSize))) {
     looks = remembered(looks, px);
     isHidden = isStrange(looks, (state & kHidden) != 0u);
   }

@@ -1,5 +1,5 @@
 // Purpose: carries the anchors on one virtual model: each is evaluated on its triangle as it is posed
-//          now (METHOD.md V.3), and hidden where another surface is seen instead.
+//          now (thesis §5.3), and hidden where another surface is seen instead.
 // Inputs:  surface_point.glsl's, of a camera with the full picture's pixels; object, of ids; ids,
 //          depth, nearMetres, farMetres (ArFrame), pixelsOfFull, fullSize, margin.
 // Outputs: anchors. One an invocation.

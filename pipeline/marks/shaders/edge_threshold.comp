@@ -1,6 +1,6 @@
 // Purpose: what counts as a strong edge in this frame: a third of the 99.5th percentile of P, smoothed
 //          in time (the thesis takes a third of the largest, which one bright object or hot pixel
-//          moves; METHOD.md IV.3).
+//          moves).
 // Inputs:  bins (edge_histogram.comp; emptied here); share: of the way to this frame's in [0, 1];
 //          least: below, all is noise.
 // Outputs: threshold. One invocation.

@@ -1,4 +1,4 @@
-// Purpose: what is kept of a stroke in its anchor's slot, from frame to frame (METHOD.md V.4).
+// Purpose: what is kept of a stroke in its anchor's slot, from frame to frame (thesis §5.4).
 // Inputs, outputs: directions are unit vectors in px of the full picture, away from the anchor.
 // Precision: highp.
 const int kArm = 4;  // segments on each side of the anchor

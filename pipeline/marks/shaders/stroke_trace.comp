@@ -8,6 +8,7 @@
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/stroke.glsl"
+#include "pipeline/marks/shaders/stroke_history.glsl"
 #include "pipeline/scene/shaders/object_id.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
@@ -32,6 +33,7 @@ uniform float cutOff;        // cosine
 uniform vec2 detailBand;     // where the layer is painted
 uniform float modelDetail;   // by how much it counts more on virtual surfaces
 uniform float detailSpread;  // by how much anchors differ about it
+uniform float slack;         // the part by which it is wider for what is there
 uniform bool bothWays;       // else only ahead, as the thesis walks
 uniform float wander;        // rad: how far a stroke's hand strays from the field
 uniform vec4 past;           // shares that stay: shape, colour, existence up, existence down
@@ -109,7 +111,7 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, uint object) {
       goesOn = false;
     }
     if (goesOn && detailAt(at, object) < 0.4 * detailBand.x) {
-      // A finer layer's stroke does not cross into what is for coarser ones (METHOD.md IV.6).
+      // A finer layer's stroke does not cross into what is for coarser ones.
       arm.length = min(arm.length, max(float(i) + 0.5, leastSteps));
       goesOn = false;
     }
@@ -129,11 +131,17 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, uint object) {
   return arm;
 }
 
-vec2 blended(vec2 now, vec2 was, vec4 jacobian, float stays) {
-  vec2 carried = jacobian.xy * was.x + jacobian.zw * was.y;
-  carried *= inversesqrt(max(dot(carried, carried), 1e-12));
-  vec2 sum = mix(now, carried, stays);
-  return dot(sum, sum) > 1e-4 ? normalize(sum) : now;
+// An arm that has held on to its past. Directions are lines until the heading gives them a sign: each goes
+// on from the one before it.
+vec2[kArm] heldArm(vec2 now[kArm], vec4 was[2], vec2 heading, vec4 jacobian) {
+  vec2 before[kArm] = vec2[kArm](was[0].xy, was[0].zw, was[1].xy, was[1].zw);
+  vec2 held[kArm];
+  for (int i = 0; i < kArm; ++i) {
+    held[i] = heldDirection(now[i], before[i], jacobian, past.x);
+    if (dot(held[i], heading) < 0.0) held[i] = -held[i];
+    heading = held[i];
+  }
+  return held;
 }
 
 void main() {
@@ -173,30 +181,26 @@ void main() {
   // Wanted where there is that much detail; what is there stays a little longer.
   float detail = detailAt(px, object) + detailSpread * (hash - 0.5);
   bool was = !isNew && old.wanted > 0.5;
-  float slack = was ? 0.75 : 1.0;
-  bool wanted = detail >= detailBand.x * slack && detail <= detailBand.y / slack;
+  float wider = was ? 1.0 - slack : 1.0;
+  bool wanted = detail >= detailBand.x * wider && detail <= detailBand.y / wider;
   float goal = wanted ? 1.0 : 0.0;
 
   Stroke made;
   made.wanted = goal;
+  if (!isNew) {
+    vec4 jacobian = anchors[slot].jacobian;
+    ahead.directions = heldArm(ahead.directions, old.ahead, heading, jacobian);
+    behind.directions = heldArm(behind.directions, old.behind, -ahead.directions[0], jacobian);
+  }
+  made.ahead[0] = vec4(ahead.directions[0], ahead.directions[1]);
+  made.ahead[1] = vec4(ahead.directions[2], ahead.directions[3]);
+  made.behind[0] = vec4(behind.directions[0], behind.directions[1]);
+  made.behind[1] = vec4(behind.directions[2], behind.directions[3]);
   if (isNew) {
-    made.ahead[0] = vec4(ahead.directions[0], ahead.directions[1]);
-    made.ahead[1] = vec4(ahead.directions[2], ahead.directions[3]);
-    made.behind[0] = vec4(behind.directions[0], behind.directions[1]);
-    made.behind[1] = vec4(behind.directions[2], behind.directions[3]);
     made.lengths = vec2(ahead.length, behind.length);
     made.exists = goal;  // its anchor fades in
     made.colour = colour;
   } else {
-    vec4 j = anchors[slot].jacobian;
-    made.ahead[0] = vec4(blended(ahead.directions[0], old.ahead[0].xy, j, past.x),
-                         blended(ahead.directions[1], old.ahead[0].zw, j, past.x));
-    made.ahead[1] = vec4(blended(ahead.directions[2], old.ahead[1].xy, j, past.x),
-                         blended(ahead.directions[3], old.ahead[1].zw, j, past.x));
-    made.behind[0] = vec4(blended(behind.directions[0], old.behind[0].xy, j, past.x),
-                          blended(behind.directions[1], old.behind[0].zw, j, past.x));
-    made.behind[1] = vec4(blended(behind.directions[2], old.behind[1].xy, j, past.x),
-                          blended(behind.directions[3], old.behind[1].zw, j, past.x));
     made.lengths = mix(vec2(ahead.length, behind.length), old.lengths, past.x);
     made.exists = mix(goal, old.exists, goal > old.exists ? past.z : past.w);
     if (abs(made.exists - goal) < 0.02) made.exists = goal;

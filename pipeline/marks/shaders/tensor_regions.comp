@@ -2,7 +2,8 @@
 //          step 1), and carried along with the motion from frame to frame.
 // Inputs:  tensors (gradient.frag), threshold (edge_threshold.comp), pixelsOfFull; regionPixels: a
 //          region's side in px of the full picture; before: the last frame's, motion (MotionField's),
-//          past: the share of it that stays, 0: there is none.
+//          if hasPast; past: the share of it that stays; slack: by which part detail may differ from what
+//          is held of it.
 // Outputs: regions RGBA16F: tensor (its length is how much its pixels agree, in [0, 1]), how sure it
 //          is that there is one, in [0, 1]; detail: the mean P in thresholds. A region an invocation.
 // Precision: highp.
@@ -15,7 +16,9 @@ uniform highp sampler2D motion;
 uniform vec2 pixelsOfFull;
 uniform vec2 fullSize;
 uniform float regionPixels;
+uniform bool hasPast;
 uniform float past;
+uniform float slack;
 
 // This many px of strong edge are a direction for sure.
 const float kSurePixels = 4.0;
@@ -54,7 +57,7 @@ void main() {
   float pixels = max(extent.x * extent.y, 1.0);
   vec4 now = vec4(strengths > 0.0 ? sum / strengths : vec2(0.0),
                   min(sure / (kSurePixels * pixelsOfFull.x), 1.0), edges / (pixels * threshold));
-  if (past > 0.0) {
+  if (hasPast) {
     vec2 at = (vec2(region) + 0.5) * regionPixels;
     vec4 moved = textureLod(motion, at / fullSize, 0.0);
     vec2 from = at - moved.xy;
@@ -74,7 +77,9 @@ void main() {
       vec2 tensor = oldWeight + newWeight > 0.0
                         ? (oldWeight * old.xy + newWeight * now.xy) / (oldWeight + newWeight)
                         : vec2(0.0);
-      now = vec4(tensor, oldWeight + newWeight, mix(now.w, old.w, past));
+      // Detail is held until it differs by more than its slack: noise moves no region to another class.
+      float detail = clamp(old.w, now.w * (1.0 - slack), now.w / (1.0 - slack));
+      now = vec4(tensor, oldWeight + newWeight, mix(detail, old.w, past));
     }
   }
   imageStore(regions, region, now);

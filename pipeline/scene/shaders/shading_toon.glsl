@@ -17,8 +17,8 @@ float band(float intensity) {
   return 0.1;
 }
 
-// White in full light is as white paper is in the picture; the bands' factors multiply coded values
-// (METHOD.md, conventions). Shade takes the ambient light's hue.
+// White in full light is as white paper is in the picture; the bands' factors multiply coded values:
+// 0.4 of the light would look like 0.67. Shade takes the ambient light's hue.
 vec3 shaded(vec3 linearRgb, vec3 n, vec3 towardViewer) {
   float b = band(mix(clamp(dot(towardKey, n), 0.0, 1.0), 0.5 + 0.5 * dot(up, n), ambientInBands));
   b = 1.0 - (1.0 - b) * (1.0 - deepestShade) / 0.9;

@@ -4,7 +4,7 @@
 // Inputs:  ids (ArFrame::ids); object, of ids; origin, size: of the rectangle in px that the model
 //          is in; surface_point.glsl's.
 // Outputs: motion RGBA16F: displacement in px since the frame before (x right, y down), predicted
-//          error in px, MotionSource (scene/ar_frame.h); barycentrics R32UI: those of the triangle's
+//          error in px, SurfaceMotionSource (scene/ar_frame.h); barycentrics R32UI: those of the triangle's
 //          first two corners, 16 bits each; parts R32UI, like ids. A pixel an invocation.
 // Precision: highp; the displacement is rounded to 11 bits.
 #include "pipeline/scene/shaders/object_id.glsl"

@@ -1,30 +1,21 @@
 #include "pipeline/styles/painterly/layers.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <numbers>
 
 #include <glm/trigonometric.hpp>
+
+#include "pipeline/styles/painterly/coherence.h"
 
 namespace pleinair::styles {
 namespace {
 
-/// The thesis's weight of 0.95 on the past, at 30 frames a second (METHOD.md V.4).
-constexpr double kMemorySeconds = 0.65;
-constexpr double kAppearingSeconds = 0.3;
-constexpr double kForever = 1e6;
-constexpr double kMostFieldHold = 4.0;
 /// Lengths are given for pictures of so many (640x480).
 constexpr double kReferencePixels = 307200.0;
 constexpr double kLeastPixels = 3.0;
 
 std::size_t countOf(const PainterlyParameters& p) {
   return static_cast<std::size_t>(p.layers);
-}
-
-hal::Duration secondsOf(double seconds) {
-  return std::chrono::duration_cast<hal::Duration>(std::chrono::duration<double>(seconds));
 }
 
 /// From how much detail on a layer is painted; the coarsest is everywhere.
@@ -40,12 +31,6 @@ glm::vec2 bandOf(const PainterlyParameters& p, std::size_t layer) {
   constexpr double kHidden = 6.0;
   return {leastDetail(p, layer),
           layer + 1 < countOf(p) ? kHidden * leastDetail(p, layer + 1) : 1e9};
-}
-
-/// What time constants are scaled by: 0 at once, 1, the thesis's, in the middle, for ever at 1.
-double holdOf(const PainterlyParameters& p) {
-  if (p.coherence >= 1.0) return kForever;
-  return std::min(kForever, std::tan(p.coherence * 0.5 * std::numbers::pi));
 }
 
 }  // namespace
@@ -79,7 +64,6 @@ int texelsOf(const LayerPlan& plan, std::size_t layer) {
 marks::StrokeRule ruleOf(const PainterlyParameters& p, const LayerPlan& plan, std::size_t layer) {
   const auto width = static_cast<float>(widthOf(plan, layer));
   const auto coarseness = static_cast<float>(plan.layers - 1 - layer);
-  const double hold = holdOf(p);
   marks::StrokeRule rule;
   rule.widthPx = width;
   rule.steps = 4.0F;
@@ -99,19 +83,8 @@ marks::StrokeRule ruleOf(const PainterlyParameters& p, const LayerPlan& plan, st
   rule.jitter = {static_cast<float>(p.hueJitter), static_cast<float>(p.saturationJitter),
                  static_cast<float>(p.valueJitter)};
   rule.quads = kQuads;
-  rule.shapeMemory = secondsOf(hold * kMemorySeconds);
-  rule.colourMemory = secondsOf(hold * kMemorySeconds);
-  rule.appearing = secondsOf(hold * kAppearingSeconds);
-  rule.vanishing = secondsOf(hold * kAppearingSeconds);
+  holdOn(rule, p);
   return rule;
-}
-
-marks::TensorFieldOptions fieldOf(const PainterlyParameters& p) {
-  marks::TensorFieldOptions options;
-  const double seconds = std::chrono::duration<double>(options.memory).count();
-  // New strokes, too, are to go as things lie now: the field does not hold on for ever.
-  options.memory = secondsOf(std::min(holdOf(p), kMostFieldHold) * seconds);
-  return options;
 }
 
 }  // namespace pleinair::styles

@@ -5,7 +5,6 @@
 #include "hal/pixel_format.h"
 #include "pipeline/marks/anchor_set.h"
 #include "pipeline/marks/stroke_set.h"
-#include "pipeline/marks/tensor_field.h"
 #include "pipeline/styles/painterly/painterly_parameters.h"
 
 namespace pleinair::styles {
@@ -35,7 +34,5 @@ int texelsOf(const LayerPlan& plan, std::size_t layer);
 
 /// Coarse strokes are straight and broad and stop late, fine ones bend (thesis §4.4).
 marks::StrokeRule ruleOf(const PainterlyParameters& p, const LayerPlan& plan, std::size_t layer);
-/// How long the field that they follow remembers.
-marks::TensorFieldOptions fieldOf(const PainterlyParameters& p);
 
 }  // namespace pleinair::styles

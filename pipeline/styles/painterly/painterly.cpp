@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/gpu/per_size.h"
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/marks/anchor_set.h"
@@ -17,6 +18,7 @@
 #include "pipeline/marks/stroke_set.h"
 #include "pipeline/marks/tensor_field.h"
 #include "pipeline/styles/painterly/brush_shelf.h"
+#include "pipeline/styles/painterly/coherence.h"
 #include "pipeline/styles/painterly/layers.h"
 #include "pipeline/styles/painterly/palette.h"
 #include "pipeline/styles/painterly/reduced_pictures.h"
@@ -143,8 +145,8 @@ struct Painterly::State {
   std::string palette = "all";  // that `mixtures` are of
   std::optional<Texture> mixtures;
   std::unique_ptr<Painting> painting;
-  std::vector<std::unique_ptr<Canvas>> canvases;  // of each size that was painted
-  Canvas* canvas = nullptr;                       // of this frame
+  gpu::PerSize<Canvas> canvases;
+  Canvas* canvas = nullptr;  // of this frame
 
   void take(const scene::ArFrame& frame, const PainterlyParameters& p);
   void grow(const scene::ArFrame& frame, const PainterlyParameters& p, gpu::PassTimer& timer);
@@ -170,11 +172,7 @@ void Painterly::State::take(const scene::ArFrame& frame, const PainterlyParamete
     painting.reset();
     painting = std::make_unique<Painting>(library, frame.full(), plan);
   }
-  const auto isOfSize = [&](const auto& each) { return each->size == frame.size(); };
-  const auto known = std::ranges::find_if(canvases, isOfSize);
-  canvas = known != canvases.end()
-               ? known->get()
-               : canvases.emplace_back(std::make_unique<Canvas>(frame.size())).get();
+  canvas = &canvases.of(frame.size(), frame.size());
   if (palette != p.palette) {
     const Pigments pigments = pigmentsOf(p.palette);
     mixtures.reset();
@@ -185,12 +183,12 @@ void Painterly::State::take(const scene::ArFrame& frame, const PainterlyParamete
 
 void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParameters& p,
                             gpu::PassTimer& timer) {
-  painting->motion.update(frame, timer);
+  painting->motion.update(frame, timer, motionOf(p));
   painting->field.update(frame, *frame.colour, painting->motion, fieldOf(p), timer);
   for (std::size_t i = 0; i < painting->layers.size(); ++i) {
     Layer& layer = *painting->layers[i];
     if (p.coherence <= 0.0) layer.anchors.beginAnew();
-    layer.anchors.advance(frame, painting->motion, timer);
+    layer.anchors.advance(frame, painting->motion, timer, anchorHoldOf(p));
     marks::StrokeRule rule = ruleOf(p, painting->plan, i);
     rule.mixtures = mixtures ? &*mixtures : nullptr;
     const double width = widthOf(painting->plan, i) * frame.pixelsOfFull().x;
@@ -379,6 +377,24 @@ const Texture& Painterly::paint(const scene::ArFrame& frame, std::string_view vi
 
 const marks::AnchorSet* Painterly::anchors() const {
   return state_->painting ? &state_->painting->layers.back()->anchors : nullptr;
+}
+
+std::vector<marks::Anchor> Painterly::readAnchors() const {
+  std::vector<marks::Anchor> all;
+  for (std::size_t i = 0; i < layerCount(); ++i) {
+    const std::vector<marks::Anchor> some = layer(i).anchors.read();
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return all;
+}
+
+std::size_t Painterly::layerCount() const {
+  return state_->painting ? state_->painting->layers.size() : 0;
+}
+
+Painterly::PaintedLayer Painterly::layer(std::size_t number) const {
+  const Layer& layer = *state_->painting->layers.at(number);
+  return {layer.anchors, layer.strokes};
 }
 
 void Painterly::reset() {

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "hal/error.h"
 #include "pipeline/gpu/shader_library.h"
+#include "pipeline/marks/anchor_set.h"
+#include "pipeline/marks/stroke_set.h"
 #include "pipeline/styles/painterly/painterly_parameters.h"
 #include "pipeline/styles/style.h"
 
@@ -47,7 +50,17 @@ class Painterly final : public Style {
   const gpu::Texture& paint(const scene::ArFrame& frame, std::string_view view,
                             gpu::PassTimer& timer) override;
   const marks::AnchorSet* anchors() const override;
+  std::vector<marks::Anchor> readAnchors() const override;
   void reset() override;
+
+  /// What a layer is painted of, for measures: 0 is the coarsest. None before the first frame;
+  /// valid until the next call.
+  struct PaintedLayer {
+    const marks::AnchorSet& anchors;
+    const marks::StrokeSet& strokes;
+  };
+  std::size_t layerCount() const;
+  PaintedLayer layer(std::size_t number) const;
 
  private:
   struct State;

@@ -8,6 +8,7 @@ using config::choiceParameter;
 using config::integerParameter;
 using config::numberParameter;
 using config::pathParameter;
+using config::switchParameter;
 using config::TakesEffect;
 using config::textParameter;
 using P = PainterlyParameters;
@@ -40,16 +41,18 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
       numberParameter("stroke_size", &P::strokeSizePixels, {.min = 2, .max = 64, .unit = "px"},
                       "Width of the finest strokes in a picture of 640x480; they grow with the "
                       "picture. A change starts a new painting."),
-      numberParameter("layer_ratio", &P::layerRatio, {.min = 1.2, .max = 4},
-                      "How much wider each coarser layer's strokes are; likewise."),
+      numberParameter(
+          "layer_ratio", &P::layerRatio, {.min = 1.2, .max = 4},
+          "How much wider each coarser layer's strokes are; a change starts a new painting."),
       numberParameter("coverage", &P::coverage, {.min = 0.5, .max = 12},
-                      "How many of a layer's strokes lie over each other; likewise."),
+                      "How many of a layer's strokes lie over each other; a change starts a new "
+                      "painting."),
       numberParameter("length", &P::length, {.min = 1, .max = 16, .unit = "widths"},
-                      "The most that a stroke is long; likewise."),
+                      "The most that a stroke is long; a change starts a new painting."),
       numberParameter("detail", &P::detail, {.min = 0.01, .max = 2},
                       "How much detail a place has that is painted with fine strokes."),
       numberParameter("middle_detail", &P::middleDetail, {.min = 0.01, .max = 2},
-                      "How much it has for middling ones."),
+                      "How much detail a place has that is painted with middling strokes."),
       numberParameter("model_detail", &P::modelDetail, {.min = 0.1, .max = 10},
                       "How much more detail counts on models than on what the camera sees."),
       numberParameter("colour_threshold", &P::colourThreshold, {.min = 0.01, .max = 1},
@@ -58,14 +61,15 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
                       "The turn between two segments at which a fine stroke ends."),
       numberParameter("wander", &P::wander, {.min = 0, .max = 1, .unit = "rad"},
                       "How far a stroke strays from the direction of things."),
-      numberParameter("opacity", &P::opacity, kPart, "Of a stroke's paint."),
+      numberParameter("opacity", &P::opacity, kPart, "How opaque a stroke's paint is."),
       numberParameter("leave_light", &P::leaveLight, kPart,
                       "How much light places are left to the ground, as pencils do."),
       numberParameter("width_variation", &P::widthVariation, kPart,
                       "How much strokes of a layer differ in width."),
       numberParameter("hue_jitter", &P::hueJitter, kPart, "How much strokes differ in hue."),
-      numberParameter("saturation_jitter", &P::saturationJitter, kPart, "In saturation."),
-      numberParameter("value_jitter", &P::valueJitter, kPart, "And in value."),
+      numberParameter("saturation_jitter", &P::saturationJitter, kPart,
+                      "How much strokes differ in saturation."),
+      numberParameter("value_jitter", &P::valueJitter, kPart, "How much strokes differ in value."),
       choiceParameter("brush", &P::brush, kBrushes, "What strokes are painted with."),
       pathParameter("brush_file", &P::brushFile, {kNoBrushFile},
                     "A brush of your own instead: a PNG (docs/painting.md).",
@@ -80,12 +84,14 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
       numberParameter("wash", &P::wash, kPart,
                       "How much of the picture is laid under the strokes as a thin wash."),
       numberParameter("ground_red", &P::groundRed, kPart, "The ground's colour: red."),
-      numberParameter("ground_green", &P::groundGreen, kPart, "Green."),
-      numberParameter("ground_blue", &P::groundBlue, kPart, "Blue."),
+      numberParameter("ground_green", &P::groundGreen, kPart, "The ground's colour: green."),
+      numberParameter("ground_blue", &P::groundBlue, kPart, "The ground's colour: blue."),
       textParameter("palette", &P::palette, kPaletteAllowed,
                     "The pigments that strokes are mixed of.", TakesEffect::kLive, isPalette),
-      numberParameter("saturation", &P::saturation, {.min = 0, .max = 2}, "Of all paint."),
-      numberParameter("warmth", &P::warmth, {.min = -1, .max = 1}, "Likewise; below 0: cold."),
+      numberParameter("saturation", &P::saturation, {.min = 0, .max = 2},
+                      "How saturated all paint is: 1 as the camera sees it."),
+      numberParameter("warmth", &P::warmth, {.min = -1, .max = 1},
+                      "How warm all paint is; below 0: cold."),
       numberParameter("coherence", &P::coherence, kPart,
                       "How strokes hold on to their past: 0 redraws each frame, 1 never lets go."),
       choiceParameter("walk", &P::walk, kWalks,
@@ -94,6 +100,13 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
                       "The paint's relief is lit once, or, as the thesis does, on each stroke."),
       choiceParameter("quads", &P::quads, kQuadCounts,
                       "What strokes are drawn of: as few as they bend, or the thesis's 4 (n + 2)."),
+      switchParameter("warp", &P::warp,
+                      "Whether strokes go with what they depict; off, they stay on the screen."),
+      switchParameter("history", &P::history,
+                      "Whether shapes, colours and directions are blended with what they were."),
+      switchParameter("hysteresis", &P::hysteresis,
+                      "Whether what is there stays a little longer than it would newly come."),
+      switchParameter("fades", &P::fades, "Whether strokes come and go gradually."),
   };
   return table;
 }

@@ -57,6 +57,10 @@ struct PainterlyParameters {
   StrokeWalk walk = StrokeWalk::kBoth;
   StrokeBump bump = StrokeBump::kOnce;
   StrokeQuads quads = StrokeQuads::kCurvature;
+  bool warp = true;
+  bool history = true;
+  bool hysteresis = true;
+  bool fades = true;
 };
 
 const config::ParameterTable<PainterlyParameters>& painterlyParameters();

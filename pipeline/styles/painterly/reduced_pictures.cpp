@@ -33,11 +33,7 @@ ReducedPictures::ReducedPictures(const gpu::ShaderLibrary& library)
 
 void ReducedPictures::update(const scene::ArFrame& frame, gpu::PassTimer& timer) {
   const auto scope = timer.measure("painterly: reduce");
-  const auto isOfSize = [&](const auto& each) { return each->size == frame.size(); };
-  const auto known = std::ranges::find_if(surfaces_, isOfSize);
-  Surfaces& surfaces = known != surfaces_.end()
-                           ? **known
-                           : *surfaces_.emplace_back(std::make_unique<Surfaces>(frame.size()));
+  Surfaces& surfaces = surfaces_.of(frame.size(), frame.size());
   now_ = &surfaces;
   picture_ = frame.colour;
   hasObjects_ = frame.hasObjects;

@@ -2,11 +2,10 @@
 
 #include <array>
 #include <cstddef>
-#include <memory>
 #include <optional>
-#include <vector>
 
 #include "pipeline/gpu/pass_timer.h"
+#include "pipeline/gpu/per_size.h"
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/gpu/shader_library.h"
@@ -59,7 +58,7 @@ class ReducedPictures {
 
   gpu::Program halve_;
   gpu::Program part_;
-  std::vector<std::unique_ptr<Surfaces>> surfaces_;
+  gpu::PerSize<Surfaces> surfaces_;
   const Surfaces* now_ = nullptr;
   const gpu::Texture* picture_ = nullptr;
   bool hasObjects_ = false;

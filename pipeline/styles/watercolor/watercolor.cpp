@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <chrono>
 #include <string>
 #include <utility>
 
@@ -24,7 +23,6 @@ constexpr GLbitfield kWritten = GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH
                                 GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
 constexpr int kBlockPixels = 4;  // as in split.comp
 constexpr glm::ivec2 kSlotGroup{64, 1};
-constexpr hal::Duration kLongestStep = std::chrono::seconds(1);
 constexpr double kUsualNoiseLevels = 2.0;
 const std::string kShaders = "pipeline/styles/watercolor/shaders/";
 
@@ -132,6 +130,11 @@ const marks::AnchorSet* Watercolor::anchors() const {
   return marks_ == nullptr ? nullptr : marks_->anchors.get();
 }
 
+std::vector<marks::Anchor> Watercolor::readAnchors() const {
+  const marks::AnchorSet* set = anchors();
+  return set == nullptr ? std::vector<marks::Anchor>{} : set->read();
+}
+
 Watercolor::Inner Watercolor::inner() const {
   assert(canvas_ != nullptr);
   return {.tiler = &passes_->tiler,
@@ -146,8 +149,7 @@ const Texture& Watercolor::paint(const scene::ArFrame& frame, std::string_view v
                                  gpu::PassTimer& timer) {
   takeMarks(frame);
   takeCanvas(frame);
-  step_ = hasPast_ ? std::clamp(frame.captureTime - lastTime_, hal::Duration(0), kLongestStep)
-                   : hal::Duration(0);
+  step_ = hasPast_ ? marks::timeStep(lastTime_, frame.captureTime) : hal::Duration(0);
   marks_->field.update(frame, timer);
   marks_->anchors->advance(frame, marks_->field, timer);
   steady(frame, timer);
@@ -188,11 +190,7 @@ void Watercolor::takeMarks(const scene::ArFrame& frame) {
 /// The canvas of this frame's size; those of other sizes stay, for levels of quality.
 void Watercolor::takeCanvas(const scene::ArFrame& frame) {
   canvas_ = nullptr;
-  const auto isOfSize = [&](const auto& each) { return each->size == frame.size(); };
-  const auto known = std::ranges::find_if(canvases_, isOfSize);
-  canvas_ = known != canvases_.end()
-                ? known->get()
-                : canvases_.emplace_back(std::make_unique<WatercolorCanvas>(frame.size())).get();
+  canvas_ = &canvases_.of(frame.size(), frame.size());
   pixelsOfFull_ = static_cast<float>(frame.pixelsOfFull().x);
 }
 

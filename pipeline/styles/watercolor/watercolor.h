@@ -1,8 +1,8 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
+#include "pipeline/gpu/per_size.h"
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/marks/anchor_set.h"
 #include "pipeline/styles/style.h"
@@ -53,6 +53,7 @@ class Watercolor final : public Style {
   const gpu::Texture& paint(const scene::ArFrame& frame, std::string_view view,
                             gpu::PassTimer& timer) override;
   const marks::AnchorSet* anchors() const override;
+  std::vector<marks::Anchor> readAnchors() const override;
   void reset() override;
 
   /// What the last frame's passes left on the GPU, for measures and tests.
@@ -85,12 +86,12 @@ class Watercolor final : public Style {
   WatercolorParameters p_;
   std::unique_ptr<Passes> passes_;
   std::unique_ptr<Marks> marks_;
-  std::vector<std::unique_ptr<WatercolorCanvas>> canvases_;  // of each size that was painted
-  const WatercolorCanvas* canvas_ = nullptr;                 // of this frame
-  const WatercolorCanvas* canvasThen_ = nullptr;             // of the one before
-  const gpu::Texture* picture_ = nullptr;  // that edges and colours are taken from
-  float pixelsOfFull_ = 1.0F;              // of this frame
-  hal::Duration step_{0};                  // since the one before
+  gpu::PerSize<WatercolorCanvas> canvases_;
+  const WatercolorCanvas* canvas_ = nullptr;      // of this frame
+  const WatercolorCanvas* canvasThen_ = nullptr;  // of the one before
+  const gpu::Texture* picture_ = nullptr;         // that edges and colours are taken from
+  float pixelsOfFull_ = 1.0F;                     // of this frame
+  hal::Duration step_{0};                         // since the one before
   hal::TimePoint lastTime_;
   bool hasPast_ = false;
 };

@@ -1,5 +1,5 @@
 // The finished picture against kept ones. Strokes are interpolated, which other CPUs and drivers
-// round otherwise (GPU.md's measurement on llvmpipe), hence thresholds and no hashes.
+// round otherwise (docs/gpu.md), hence thresholds and no hashes.
 #include <cmath>
 
 #include "tests/golden/golden_picture.h"

@@ -1,5 +1,5 @@
-// The finished picture against kept ones. Other CPUs and drivers differ by a few 1/255 (GPU.md's
-// measurement on llvmpipe), hence thresholds and no hashes.
+// The finished picture against kept ones. Other CPUs and drivers differ by a few 1/255
+// (docs/gpu.md), hence thresholds and no hashes.
 #include <cmath>
 
 #include "tests/golden/golden_picture.h"

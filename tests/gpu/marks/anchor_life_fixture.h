@@ -34,8 +34,6 @@ inline tracking::ImageMotion zooming(double factor) {
 
 class AnchorLife : public MarksTest {
  protected:
-  static constexpr AnchorOptions kOptions{.fadeIn = std::chrono::milliseconds(300),
-                                          .fadeOut = std::chrono::milliseconds(200)};
   static constexpr float kIn = 33.0F / 300.0F;
   static constexpr float kOut = 33.0F / 200.0F;
   static constexpr float kRounding = 1e-5F;
@@ -55,7 +53,7 @@ class AnchorLife : public MarksTest {
   void useScene(const scene::Scene& scene) {
     renderer_.emplace(library_, scene);
     field_.emplace(library_, kSize);
-    set_.emplace(library_, kSize, kOptions);
+    set_.emplace(library_, kSize, AnchorOptions{});
   }
 
   void advance(const tracking::ImageMotion& motion, const scene::PoseSet& poses = {}) {

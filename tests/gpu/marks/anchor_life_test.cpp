@@ -52,7 +52,7 @@ TEST_F(AnchorLife, APanBearsOnlyWhatComesIntoThePicture) {
   }
   EXPECT_GT(all, 500) << "the border that comes in is filled";
   const double there = 2.0 * 32 * 22;  // 32 px and more from the border
-  EXPECT_LT(inside / 90.0, 0.005 * there) << "a frame; 5 % would be seen to pop (METHOD.md V.1)";
+  EXPECT_LT(inside / 90.0, 0.005 * there) << "a frame; 5 % would be seen to pop (decision 0014)";
   EXPECT_GT(whole, 20) << "those that come in with the picture are there at once";
   const std::vector<int> counts = cellCounts(set_->read());
   EXPECT_LE(std::ranges::max(counts), 5) << "one above where one goes each frame";

@@ -232,7 +232,7 @@ TEST_F(SteadyPictureTest, ObjectsGoTheirOwnWay) {
     scene::ArFrame frame = frameOf(image, i);
     frame.hasObjects = true;
     frame.ids = &ids;
-    frame.motion = scene::MotionField{.texture = &motion};
+    frame.motion = scene::SurfaceMotion{.texture = &motion};
     take(frame);
   }
   const std::vector<float> found = picture();

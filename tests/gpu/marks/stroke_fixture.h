@@ -55,7 +55,8 @@ struct StrokeTips {
 /// Anchors, a field and their strokes on pictures that are made up.
 class StrokeTest : public TensorTest {
  protected:
-  static constexpr TensorFieldOptions kNoMemory{.form = 0.0, .memory = hal::Duration(0)};
+  static constexpr TensorFieldOptions kNoMemory{
+      .form = 0.0, .memory = hal::Duration(0), .slack = 0.0};
 
   void SetUp() override {
     TensorTest::SetUp();

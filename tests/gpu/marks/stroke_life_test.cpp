@@ -135,6 +135,77 @@ TEST_F(StrokeLife, ThePastTurnsWithWhatItIsOn) {
   }
 }
 
+/// Stripes whose strokes lie at `angle`, in rad from level.
+hal::Image stripes(hal::FrameSize size, double angle) {
+  const glm::dvec2 across(std::sin(angle), -std::cos(angle));
+  const glm::dvec2 middle(size.width / 2.0, size.height / 2.0);
+  hal::Image image({.pixelFormat = hal::PixelFormat::kRgba8, .size = size});
+  for (int y = 0; y < size.height; ++y) {
+    auto* p = image.row(0, y).data();
+    for (int x = 0; x < size.width; ++x, p += 4) {
+      const double phase = 0.6 * glm::dot(glm::dvec2(x + 0.5, y + 0.5) - middle, across);
+      p[0] = p[1] = p[2] = static_cast<std::uint8_t>(std::lround(127.5 + 76.5 * std::sin(phase)));
+      p[3] = 255;
+    }
+  }
+  return image;
+}
+
+TEST_F(StrokeLife, ATurnBy80DegreesIsTakenStepByStep) {
+  constexpr double kTurn = 80.0 * std::numbers::pi / 180.0;
+  StrokeRule rule = kPlain;
+  rule.shapeMemory = milliseconds(650);
+  const hal::Image grey = greyPicture(kSize, kGrey);
+  advance(stripes(kSize, 0.3), rule, standing(), &grey);
+  const hal::Image turned = stripes(kSize, 0.3 + kTurn);
+  double left = kTurn;
+  for (int i = 0; i < 12; ++i) {
+    advance(turned, rule, standing(), &grey, milliseconds(100));
+    left = std::atan(std::tan(left) * std::exp(-100.0 / 650.0));
+    const double angle = 0.3 + kTurn - left;
+    const glm::vec2 expected(std::cos(angle), std::sin(angle));
+    for (const StrokeSlot& each : inner()) {
+      EXPECT_LT(angleBetween(each.ahead[0], expected), 0.06) << i;
+      EXPECT_LT(angleBetween(each.behind[3], expected), 0.06) << i;
+      // One line, whatever its directions' signs were.
+      for (std::size_t k = 1; k < 4; ++k) {
+        EXPECT_GT(glm::dot(each.ahead[k], each.ahead[k - 1]), 0.9F);
+        EXPECT_GT(glm::dot(each.behind[k], each.behind[k - 1]), 0.9F);
+      }
+      EXPECT_LT(glm::dot(each.ahead[0], each.behind[0]), -0.9F);
+    }
+  }
+}
+
+/// A camera that rolls by 30° a second: memory of 0.65 s would lag by 21° if it were not carried.
+TEST_F(StrokeLife, ARollingPicturesStrokesDoNotLag) {
+  constexpr double kRoll = std::numbers::pi / 6.0 * 0.033;
+  StrokeRule rule = kPlain;
+  rule.shapeMemory = milliseconds(650);
+  const hal::Image grey = greyPicture(kSize, kGrey);
+  const auto lagOf = [&](bool isTold) {
+    beginAnew();
+    sequence_ += 10;
+    double angle = 0.0;
+    for (int i = 0; i < 50; ++i) {
+      advance(stripes(kSize, angle), rule, isTold && i > 0 ? following(rolled(kRoll)) : standing(),
+              &grey);
+      angle += kRoll;
+    }
+    angle -= kRoll;
+    const glm::vec2 truth(std::cos(angle), std::sin(angle));
+    double worst = 0.0;
+    const std::vector<StrokeSlot> strokes = readStrokes();
+    for (const auto& [slot, anchor] : alive()) {
+      if (glm::distance(anchor.px, {128.0F, 64.0F}) > 40.0F || anchor.ageSeconds < 1.0F) continue;
+      worst = std::max(worst, angleBetween(strokes[slot].ahead[1], truth));
+    }
+    return worst * 180.0 / std::numbers::pi;
+  };
+  EXPECT_LT(lagOf(true), 2.5);
+  EXPECT_GT(lagOf(false), 15.0) << "the control";
+}
+
 TEST_F(StrokeLife, ComesAndGoesInTime) {
   StrokeRule rule = kPlain;
   rule.appearing = milliseconds(300);

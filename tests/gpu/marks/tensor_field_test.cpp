@@ -1,15 +1,14 @@
-// The tensor field: each step against the thesis's text on the CPU, and what it promises of time.
+// The tensor field: each step against the thesis's text on the CPU.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <string>
 
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
 #include "pipeline/gpu/render_target.h"
-#include "tests/gpu/marks/tensor_fixture.h"
+#include "tests/gpu/marks/tensor_field_fixture.h"
 #include "tests/oracles/tensor_oracle.h"
 
 namespace pleinair::marks {
@@ -23,39 +22,8 @@ constexpr int kRegionPixels = 8;
 constexpr double kHalf = 1.0 / 2048.0;  // what a half-precision number is rounded to, of itself
 const glm::dvec2 kNothingAnywhere(-0.94, -0.342);
 
-double degrees(double radians) {
-  return radians * 180.0 / std::numbers::pi;
-}
-
-/// Of a region among 32 a row.
-std::size_t placeOf(int x, int y) {
-  return static_cast<std::size_t>(y) * 32U + static_cast<std::size_t>(x);
-}
-
-class TensorFieldTest : public TensorTest {
+class TensorFieldTest : public TensorFieldFixture {
  protected:
-  static constexpr TensorFieldOptions kNoMemory{.memory = hal::Duration(0)};
-
-  void SetUp() override {
-    TensorTest::SetUp();
-    if (IsSkipped()) return;
-    motionField_.emplace(library_, kSize);
-    field_.emplace(library_, kSize);
-  }
-  void TearDown() override {
-    field_.reset();
-    motionField_.reset();
-    TensorTest::TearDown();
-  }
-
-  void update(const hal::Image& picture, const tracking::ImageMotion& motion = standing(),
-              const TensorFieldOptions& options = {}, hal::Duration step = kStep) {
-    const gpu::Texture texture = textureOf(picture.view());
-    const scene::ArFrame frame = frameOf(texture, motion, step);
-    motionField_->update(frame, timer_);
-    field_->update(frame, texture, *motionField_, options, timer_);
-  }
-
   /// The GPU's threshold: it shows in `detail`, which is the mean P by it.
   double thresholdOf(const oracles::TensorImage& gradients) const {
     const TensorGrid asOne =
@@ -69,9 +37,6 @@ class TensorFieldTest : public TensorTest {
     }
     return sum / of;
   }
-
-  std::optional<MotionField> motionField_;
-  std::optional<TensorField> field_;
 };
 
 TEST_F(TensorFieldTest, GradientsAreTheThesiss) {
@@ -260,123 +225,6 @@ TEST_F(TensorFieldTest, StrokesFollowRoundShapes) {
                                                   {std::cos(2 * theta), std::sin(2 * theta)}));
   }
   EXPECT_LT(degrees(worst), 4.0);
-}
-
-/// What was known of a picture that has gone blank turns with it, and is forgotten in time.
-TEST_F(TensorFieldTest, MemoryIsCarriedAlongARoll) {
-  const auto stripes = [](glm::dvec2 px) { return 0.5 + 0.3 * std::sin(0.6 * px.x); };
-  constexpr double kRoll = 0.06;
-  constexpr int kFrames = 5;
-  const hal::Image blank = greyPicture(kSize, [](glm::dvec2) { return 0.5; });
-  for (const double along : {1.0, 0.0}) {
-    field_->reset();
-    update(greyPicture(kSize, stripes));
-    for (int i = 0; i < kFrames; ++i) update(blank, following(rolled(along * kRoll)));
-    const std::vector<FieldTexel> regions = read(field_->regions());
-    const double theta = along * kFrames * kRoll;  // of the gradient, which was level
-    for (const glm::ivec2 at : {glm::ivec2(16, 8), {12, 6}, {19, 10}, {10, 9}}) {
-      const FieldTexel& each = regions[placeOf(at.x, at.y)];
-      EXPECT_LT(
-          degrees(oracles::angleBetween(each.tensor, {std::cos(2 * theta), std::sin(2 * theta)})),
-          1.0)
-          << along << " at " << at.x << "," << at.y;
-      EXPECT_NEAR(each.known, std::exp(-kFrames * 0.033 / 0.4), 0.02);
-    }
-  }
-}
-
-/// Smoothing would lag a roll by ω τ if it were not carried along.
-TEST_F(TensorFieldTest, ARollingPicturesFieldDoesNotLag) {
-  constexpr double kRoll = 0.02;
-  const auto worstOf = [&](bool isTold) {
-    field_->reset();
-    double angle = 0.0;
-    for (int i = 0; i < 12; ++i) {
-      const glm::dvec2 across(std::cos(angle), std::sin(angle));
-      update(greyPicture(kSize,
-                         [&](glm::dvec2 px) {
-                           return 0.5 +
-                                  0.3 * std::sin(0.6 * glm::dot(px - glm::dvec2(128, 64), across));
-                         }),
-             isTold && i > 0 ? following(rolled(kRoll)) : standing());
-      angle += kRoll;
-    }
-    angle -= kRoll;
-    const glm::dvec2 truth(std::cos(2 * angle), std::sin(2 * angle));
-    double worst = 0.0;
-    const std::vector<FieldTexel> resolved = read(field_->resolved(0));
-    for (int y = 4; y < 12; ++y) {
-      for (int x = 10; x < 22; ++x) {
-        const FieldTexel& each = resolved[placeOf(x, y)];
-        worst = std::max(worst, degrees(oracles::angleBetween(each.tensor, truth)));
-      }
-    }
-    return worst;
-  };
-  EXPECT_LT(worstOf(true), 1.5);
-  EXPECT_GT(worstOf(false), 4.0) << "the control";
-}
-
-TEST_F(TensorFieldTest, AStillNoisyPicturesFieldDoesNotTremble) {
-  const auto trembleOf = [&](const TensorFieldOptions& options) {
-    field_->reset();
-    std::vector<FieldTexel> before;
-    double sum = 0.0;
-    int count = 0;
-    for (unsigned i = 0; i < 40; ++i) {
-      update(greyPicture(kSize, variedLuma, 2.0, i + 1), standing(), options);
-      const std::vector<FieldTexel> now = read(field_->resolved(0));
-      for (std::size_t at = 0; i > 30 && at < now.size(); ++at) {
-        sum += degrees(oracles::angleBetween(now[at].tensor, before[at].tensor));
-        ++count;
-      }
-      before = now;
-    }
-    return sum / count;
-  };
-  const double alone = trembleOf(kNoMemory);
-  const double steady = trembleOf({});
-  RecordProperty("degrees_a_frame", std::to_string(steady) + " of " + std::to_string(alone));
-  EXPECT_LT(steady, 0.25);
-  EXPECT_LT(steady, 0.25 * alone);
-}
-
-TEST_F(TensorFieldTest, TheFieldIsTheSameWhateverTheFrameRate) {
-  const hal::Image first = greyPicture(kSize, [](glm::dvec2 px) { return px.x < 128 ? 0.2 : 0.8; });
-  const hal::Image then = greyPicture(kSize, [](glm::dvec2 px) { return px.y < 64 ? 0.2 : 0.8; });
-  std::vector<std::vector<FieldTexel>> ends;
-  for (const int frames : {4, 16}) {
-    field_->reset();
-    update(first);
-    for (int i = 0; i < frames; ++i) {
-      update(then, standing(), {}, std::chrono::milliseconds(480) / frames);
-    }
-    ends.push_back(read(field_->regions()));
-  }
-  for (std::size_t i = 0; i < ends[0].size(); ++i) {
-    EXPECT_NEAR(ends[0][i].known, ends[1][i].known, 0.01) << i;
-    EXPECT_LT(glm::distance(ends[0][i].tensor, ends[1][i].tensor), 0.02) << i;
-  }
-}
-
-TEST_F(TensorFieldTest, ACutAndAResetForget) {
-  const hal::Image other = greyPicture(kSize, [](glm::dvec2 px) { return px.y < 60 ? 0.1 : 0.9; });
-  const hal::Image image = greyPicture(kSize, variedLuma);
-  const auto bytesOf = [&] { return support::readRgba32f(field_->resolved(0)); };
-  update(image);
-  const std::vector<float> fresh = bytesOf();
-  update(other);
-  update(image);
-  EXPECT_NE(bytesOf(), fresh) << "the past is to count";
-  update(other);
-  tracking::ImageMotion cut = standing();
-  cut.isCut = true;
-  update(image, cut);
-  EXPECT_EQ(bytesOf(), fresh);
-  update(other);
-  field_->reset();
-  update(image);
-  EXPECT_EQ(bytesOf(), fresh);
 }
 
 TEST_F(TensorFieldTest, ASmallerVersionHasTheSameField) {

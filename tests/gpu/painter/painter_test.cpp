@@ -46,6 +46,13 @@ TEST_F(PainterTest, PaintsTheSameFramesTheSame) {
   EXPECT_NE(pictures.front(), pictures.back());
 }
 
+TEST_F(PainterTest, ItsDefaultsAreNotWhatIsInForce) {
+  Painter painter(kWide);
+  const PaintParameters defaults = painter.defaultParameters();
+  ASSERT_TRUE(painter.paint(testFrame(0), smallCells(painter)));
+  EXPECT_TRUE(painter.defaultParameters().style == defaults.style);
+}
+
 TEST_F(PainterTest, IsIndependentOfOthersInTheProcess) {
   const auto wideAlone = paintedAlone(kWide);
   const auto tallAlone = paintedAlone(kTall);

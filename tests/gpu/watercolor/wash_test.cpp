@@ -184,7 +184,7 @@ TEST_F(WashTest, GradientsHaveNoSteps) {
 }
 
 /// How much of a still camera's noise comes through: mean change of the painted picture from frame
-/// to frame over that of the camera's (MEASURES.md, xFLK).
+/// to frame over that of the camera's (docs/measuring.md, xFLK).
 double WashTest::noiseGain(Watercolor& style, gpu::PassTimer& timer) {
   constexpr hal::FrameSize kSize{240, 180};
   std::mt19937 random(5);

@@ -32,7 +32,8 @@ struct SurfaceSample {
 
 /// The basic sampling of surfaces that the thesis compares with (§5.3.1, eq. 20-21): a triangle
 /// with a probability proportional to its area, and a uniform point on it: barycentrics 1 - √u, √u
-/// (1 - v), √u v (METHOD.md V.1 mends eq. 25). Random, but the same for the same seed.
+/// (1 - v), √u v (eq. 25 as it is printed does not add up to one). Random, but the same for the
+/// same seed.
 std::vector<SurfaceSample> sampleByArea(std::span<const Triangle> triangles, std::size_t count,
                                         unsigned seed);
 

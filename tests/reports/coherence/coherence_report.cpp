@@ -58,8 +58,8 @@ std::vector<NamedFilter> filters() {
 void report(const std::string& photograph, const PhotographMotion& motion,
             const NamedFilter& filter) {
   constexpr std::uint64_t kFrames = 30;
-  const auto input =
-      hal::orThrow(openPhotograph(photograph, {.motion = motion, .frames = kFrames}));
+  const auto input = hal::orThrow(openPhotograph(
+      photograph, {.size = hal::FrameSize{640, 480}, .motion = motion, .frames = kFrames}));
   FilterPainter painter(filter.filter);
   const auto measured = hal::orThrow(measure(
       *input, painter, {.style = filter.name, .settings = "its own defaults", .stillSettle = 0}));

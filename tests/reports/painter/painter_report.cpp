@@ -1,7 +1,11 @@
-// Prints what docs/measured.md says of the painter, as Markdown: the tensor pyramid beside the
-// global radial-basis interpolation, and the thesis's table 1 beside ours.
-// `painter_report FOLDER [PICTURE …]`: into FOLDER go the error maps; without pictures, those of
-// the shared data. Times are of this machine as it is; leave it alone meanwhile.
+// Prints what docs/measured.md says of the painter, as Markdown.
+// `painter_report fields FOLDER [PICTURE ...]`: the tensor pyramid beside the global radial-basis
+// interpolation; into FOLDER go the error maps; without pictures, those of the shared data.
+// `painter_report table1`: the thesis's table 1 beside ours. Leave the machine alone meanwhile.
+// `painter_report parts PHOTOGRAPH [WIDTHxHEIGHT [FRAMES]]`: what each part of its coherence is
+// worth, on moving pictures; half an hour at 640x480 and 30 frames.
+// `painter_report lives FOLDER PHOTOGRAPH`: the thesis's figure 26 with ours, as a PNG in FOLDER.
+// `painter_report hidden PHOTOGRAPH ...`: how many strokes of a painting at rest are for nothing.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -9,8 +13,9 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <map>
+#include <functional>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
@@ -24,7 +29,11 @@
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/painter.h"
 #include "pipeline/scene/scene_shaders.h"
+#include "pipeline/styles/style_registry.h"
+#include "tests/reports/painter/coherence_parts.h"
 #include "tests/reports/painter/field_comparison.h"
+#include "tests/reports/painter/hidden_strokes.h"
+#include "tests/reports/painter/living_strokes.h"
 
 namespace pleinair {
 namespace {
@@ -203,22 +212,107 @@ void printTable1() {
   }
 }
 
+using Arguments = std::vector<std::string>;
+
+void reportFields(const Arguments& arguments) {
+  std::vector<std::filesystem::path> pictures(arguments.begin() + 1, arguments.end());
+  compareFields(arguments[0], pictures.empty() ? sharedPictures() : pictures);
+}
+
+void reportParts(const Arguments& arguments) {
+  hal::FrameSize size{640, 480};
+  MeasuredLength length;
+  if (arguments.size() > 1) {
+    const std::size_t by = arguments[1].find('x');
+    if (by == std::string::npos) throw std::invalid_argument("a size is WIDTHxHEIGHT");
+    size = {std::stoi(arguments[1]), std::stoi(arguments[1].substr(by + 1))};
+  }
+  if (arguments.size() > 2) length.frames = std::stoull(arguments[2]);
+  printCoherenceParts(arguments[0], size, length);
+}
+
+gpu::ShaderLibrary allShaders() {
+  gpu::ShaderLibrary library;
+  library.add(gpu::gpuShaders());
+  library.add(gpu::sceneShaders());
+  library.add(gpu::marksShaders());
+  styles::addStyleShaders(library);
+  return library;
+}
+
+void reportLives(const Arguments& arguments) {
+  const gpu::EglContext context;
+  const gpu::ShaderLibrary library = allShaders();
+  const std::filesystem::path file = std::filesystem::path(arguments[0]) / "living_strokes.png";
+  hal::orThrow(hal::writePng(file, livingStrokes(library, arguments[1]).view()));
+}
+
+void reportHidden(const Arguments& photographs) {
+  const gpu::EglContext context;
+  const gpu::ShaderLibrary library = allShaders();
+  fmt::print(
+      "Strokes at rest, 640x480, of each layer from coarse to fine; and the part of them that "
+      "later ones hide.\n\n| picture | layers | in all |\n|---|---|---|\n");
+  for (const std::string& path : photographs) {
+    const auto input = hal::orThrow(measure::openPhotograph(path, {.noiseLevels = 0, .frames = 1}));
+    const hal::CapturedFrame frame = *hal::orThrow(input->next());
+    LayerUse all;
+    std::string layers;
+    for (const LayerUse& each : strokesInUse(library, hal::Image(frame.image))) {
+      layers += fmt::format("{}{}: {:.0f} %", layers.empty() ? "" : ", ", each.strokes,
+                            100.0 * static_cast<double>(each.hidden) /
+                                static_cast<double>(std::max<std::size_t>(1, each.strokes)));
+      all.strokes += each.strokes;
+      all.hidden += each.hidden;
+    }
+    fmt::print("| {} | {} | {}: {:.1f} % |\n", std::filesystem::path(path).stem().string(), layers,
+               all.strokes,
+               100.0 * static_cast<double>(all.hidden) / static_cast<double>(all.strokes));
+    std::fflush(stdout);
+  }
+}
+
+struct Section {
+  const char* name;
+  std::size_t leastArguments;
+  std::size_t mostArguments;
+  std::function<void(const Arguments&)> report;
+  const char* usage;
+};
+
+const std::array<Section, 5>& sections() {
+  static const std::array<Section, 5> kSections{{
+      {"fields", 1, 1000, reportFields, "fields FOLDER [PICTURE ...]"},
+      {"table1", 0, 0, [](const Arguments&) { printTable1(); }, "table1"},
+      {"parts", 1, 3, reportParts, "parts PHOTOGRAPH [WIDTHxHEIGHT [FRAMES]]"},
+      {"lives", 2, 2, reportLives, "lives FOLDER PHOTOGRAPH"},
+      {"hidden", 1, 1000, reportHidden, "hidden PHOTOGRAPH ..."},
+  }};
+  return kSections;
+}
+
+int run(const Arguments& given) {
+  const Arguments arguments(given.begin() + (given.empty() ? 0 : 1), given.end());
+  for (const Section& each : sections()) {
+    if (given.empty() || given[0] != each.name || arguments.size() < each.leastArguments ||
+        arguments.size() > each.mostArguments) {
+      continue;
+    }
+    each.report(arguments);
+    return 0;
+  }
+  for (const Section& each : sections()) std::fprintf(stderr, "painter_report %s\n", each.usage);
+  return 2;
+}
+
 }  // namespace
 }  // namespace pleinair
 
 int main(int argc, char** argv) {
-  if (argc < 2) {
-    std::fputs("painter_report FOLDER [PICTURE ...]\n", stderr);
-    return 2;
-  }
   try {
-    std::vector<std::filesystem::path> pictures(argv + 2, argv + argc);
-    if (pictures.empty()) pictures = pleinair::sharedPictures();
-    pleinair::compareFields(argv[1], pictures);
-    pleinair::printTable1();
+    return pleinair::run({argv + 1, argv + argc});
   } catch (const std::exception& error) {
     std::fprintf(stderr, "painter_report: %s\n", error.what());
     return 1;
   }
-  return 0;
 }

@@ -80,7 +80,7 @@ bool hasLayers() {
 
 MotionSequence layersMotion() {
   MotionSequence out{.name = "synth_layers", .luma = {}, .homographies = {}, .moved = {}};
-  auto flows = std::make_shared<std::vector<measure::FlowField>>();
+  auto flows = std::make_shared<std::vector<measure::KittiFlowField>>();
   for (int i = 0; std::filesystem::exists(kLayers / fmt::format("frame_{:04}.png", i)); ++i) {
     const hal::Image rgb = hal::readPictureRgb(kLayers / fmt::format("frame_{:04}.png", i)).value();
     hal::Image luma({.pixelFormat = hal::PixelFormat::kGrey8, .size = rgb.size()});
@@ -96,7 +96,7 @@ MotionSequence layersMotion() {
     if (!isMasked) flows->back().seen = 0;
   }
   out.moved = [flows](std::size_t then, const glm::dvec2& px) -> std::optional<glm::dvec2> {
-    const measure::FlowField& field = (*flows)[then];
+    const measure::KittiFlowField& field = (*flows)[then];
     const cv::Point at(static_cast<int>(std::floor(px.x)), static_cast<int>(std::floor(px.y)));
     if (!cv::Rect({}, field.px.size()).contains(at) || field.seen(at) == 0) return std::nullopt;
     return px + glm::dvec2(field.px(at)[0], field.px(at)[1]);

@@ -25,6 +25,13 @@ TEST(Suggestion, KeepsSilentWhereNothingIsNear) {
   EXPECT_EQ(nearest("edge", {}), std::nullopt);
 }
 
+TEST(Suggestion, JudgesAFamilyByWhatFollowsItsName) {
+  const std::vector<std::string> names = {"synthetic", "synthetic:roll", "synthetic:pan"};
+  EXPECT_EQ(nearest("synthetic:nope", names), std::nullopt);
+  EXPECT_EQ(nearest("synthetic:pann", names), "synthetic:pan");
+  EXPECT_EQ(nearest("sinthetic:pan", names), "synthetic:pan");
+}
+
 TEST(Suggestion, TakesTheNearest) {
   const std::vector<std::string> names = {"seed_count", "seed_counts"};
   EXPECT_EQ(nearest("seed_counts", names), "seed_counts");

@@ -56,6 +56,23 @@ TEST(CommandLine, RefusesWhatItDoesNotKnow) {
   }
 }
 
+TEST(CommandLine, NamesOnlyTheShotsWhereAShotIsUnknown) {
+  const Outcome refused = run({"measure", "--camera", "synthetic:nope"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_EQ(
+      refused.error,
+      "pleinair: --camera: found \"synthetic:nope\", allowed: synthetic, synthetic:walkaround, "
+      "synthetic:pan, synthetic:dolly, synthetic:roll, synthetic:still, synthetic:occluder, "
+      "synthetic:cut\n");
+}
+
+TEST(CommandLine, PointsToTheHelpOfTheVerb) {
+  expectRefused({"measure", "--frob"}, "; see pleinair measure --help");
+  expectRefused({"measure", "--frames", "0"}, "; see pleinair measure --help");
+  expectRefused({"render", "--colour"}, "; see pleinair render --help");
+  expectRefused({"paint"}, "; see pleinair --help");
+}
+
 TEST(CommandLine, NamesWhatIsMissing) {
   expectRefused({"render"}, "--input");
   expectRefused({"render", "--input", "a.mp4"}, "--output");
@@ -78,6 +95,12 @@ TEST(CommandLine, RefusesValuesOutOfRange) {
                   what);
   }
   expectRefused({"record", "--output", "b.mp4", "--seed", "-1"}, "--seed");
+  expectRefused({"measure", "--settle", "-1"},
+                "--settle: found \"-1\", allowed: a whole number from 0 to 1000000000;");
+  for (const std::string pan : {"1", "1,2,3", "1,", ",", "a,1", "1,41", "nan,0"}) {
+    expectRefused({"measure", "--input", "a.png", "--pan", pan.c_str()},
+                  "--pan: found \"" + pan + "\", allowed: two numbers from -40 to 40");
+  }
 }
 
 TEST(CommandLine, NamesWhatItDoesNotKnowBeforeWhatIsMissing) {

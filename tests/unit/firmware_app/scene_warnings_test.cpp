@@ -44,6 +44,15 @@ TEST(UnseenTagsWarning, IsSilentWhereNothingIsAmiss) {
   EXPECT_FALSE(unseenTagsWarning(sceneWithTags({3, 4}), {4}));
 }
 
+TEST(BlackViewWarning, NamesAViewOfModelsThatAreNotThere) {
+  EXPECT_THAT(blackViewWarning(scene::Scene{}, "motion"), Optional(HasSubstr("the view motion")));
+  EXPECT_FALSE(blackViewWarning(scene::Scene{}, "anchors"));
+  EXPECT_FALSE(blackViewWarning(scene::Scene{}, ""));
+  scene::Scene scene = sceneWithTags({0});
+  attachModel(scene, 0);
+  EXPECT_FALSE(blackViewWarning(scene, "motion"));
+}
+
 TEST(AssumedCameraWarning, SaysTheFieldOfView) {
   scene::Scene scene = sceneWithTags({0});
   EXPECT_THAT(assumedCameraWarning(scene, {640, 480}), Optional(HasSubstr(" 60° ")));

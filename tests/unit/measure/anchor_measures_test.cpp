@@ -89,6 +89,18 @@ TEST(AnchorMeasures, TellsTheHalfLifeFromTheDeaths) {
   EXPECT_NEAR(all->innerTurnoverPercent, 20, 0.01);  // births and deaths
 }
 
+TEST(AnchorMeasures, TellsNoHalfLifeThatIsLongerThanWhatWasSeen) {
+  AnchorMeasures measures(kSize);
+  std::vector<Anchor> anchors = oneACell();
+  measures.add(anchors, nullptr, nullptr);
+  anchors[15 * 40 + 20].seed = 10'000;  // one of many
+  for (int frame = 0; frame < 5; ++frame) measures.add(anchors, nullptr, nullptr);
+  const auto all = measures.total();
+  ASSERT_TRUE(all);
+  EXPECT_GT(all->innerDeaths, 0);
+  EXPECT_FALSE(all->halfLifeFrames);
+}
+
 TEST(AnchorMeasures, ReadsTheSlipAgainstTheTrueMotion) {
   AnchorMeasures measures(kSize);
   std::vector<Anchor> anchors = oneACell();

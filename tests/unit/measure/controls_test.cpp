@@ -1,5 +1,7 @@
 #include "pipeline/measure/controls.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,6 +20,8 @@ using testing::HasSubstr;
 
 const cv::Size kSize(320, 240);
 const cv::Point2d kPan(-1.5, -0.5);
+const Circumstances kPanned{
+    .motion = MotionKind::kPan, .frames = 14, .stillFrames = 4, .stillNoiseLevels = 2};
 
 /// What a pan over a canvas reads, painted by nobody.
 PerSubject<Measures> measuresOf(const cv::Mat3f& canvas, double noiseLevels = 2) {
@@ -42,7 +46,7 @@ TEST(Controls, ReadAsTheyMustOnAPictureWithDetail) {
   EXPECT_GT(*measures[Subject::kFresh].nHw2, 0.5);
   EXPECT_GT(*measures[Subject::kFixed].scr, 0.25);
   for (const std::string_view style : {"watercolor", "painterly", "none"}) {
-    for (const Verdict& verdict : controlVerdicts(measures, style, MotionKind::kPan)) {
+    for (const Verdict& verdict : controlVerdicts(measures, style, kPanned)) {
       EXPECT_EQ(verdict.state, State::kPassed) << style << ": " << verdict.what << verdict.found;
     }
   }
@@ -51,7 +55,7 @@ TEST(Controls, ReadAsTheyMustOnAPictureWithDetail) {
 TEST(Controls, SayThatTheMotionIsAnother) {
   PerSubject<Measures> measures = measuresOf(strongBlobs({400, 300}, 1));
   measures[Subject::kInput].nHw2 = 0.87;
-  const auto verdicts = controlVerdicts(measures, "watercolor", MotionKind::kPan);
+  const auto verdicts = controlVerdicts(measures, "watercolor", kPanned);
   EXPECT_EQ(verdicts[1].state, State::kFailed);
   EXPECT_THAT(verdicts[1].found, HasSubstr("the motion is another"));
 }
@@ -59,7 +63,7 @@ TEST(Controls, SayThatTheMotionIsAnother) {
 TEST(Controls, SayThatAPictureIsTooSmooth) {
   const cv::Mat3f flat(300, 400, cv::Vec3f(0.5F, 0.4F, 0.3F));
   const PerSubject<Measures> measures = measuresOf(flat, 0);
-  const auto verdicts = controlVerdicts(measures, "painterly", MotionKind::kPan);
+  const auto verdicts = controlVerdicts(measures, "painterly", kPanned);
   bool isAnyWrong = false;
   for (const Verdict& verdict : verdicts) {
     if (verdict.state != State::kFailed) continue;
@@ -72,7 +76,7 @@ TEST(Controls, SayThatAPictureIsTooSmooth) {
 TEST(Controls, SayWhatCouldNotBeTold) {
   PerSubject<Measures> measures;
   measures[Subject::kInput].ew2 = 0.0;
-  for (const Verdict& verdict : controlVerdicts(measures, "watercolor", MotionKind::kPan)) {
+  for (const Verdict& verdict : controlVerdicts(measures, "watercolor", kPanned)) {
     EXPECT_EQ(verdict.state, State::kNotMeasured) << verdict.what;
     EXPECT_NE(verdict.found, "");
   }
@@ -92,7 +96,8 @@ Measures good() {
 
 std::vector<std::string> failed(std::string_view style, MotionKind kind, const Measures& measures) {
   std::vector<std::string> names;
-  for (const Verdict& verdict : gateVerdicts(style, kind, measures, {.scr = 0.5, .dep = 20})) {
+  for (const Verdict& verdict :
+       gateVerdicts(style, {.motion = kind}, measures, {.scr = 0.5, .dep = 20})) {
     if (verdict.state != State::kPassed) names.push_back(verdict.what.substr(0, 4));
   }
   return names;
@@ -128,6 +133,37 @@ TEST(Gates, AreNotPassedByWhatWasNotMeasured) {
   EXPECT_THAT(failed("watercolor", MotionKind::kStill, measures), testing::IsEmpty())
       << "nothing can stay on the screen while nothing moves";
   EXPECT_THAT(failed("watercolor", MotionKind::kPan, measures), testing::ElementsAre("SCR "));
+}
+
+TEST(Gates, SayWhyOneWasNotMeasuredAndCompareNumbers) {
+  Measures measures = good();
+  measures.s10Percent.reset();
+  const Circumstances few{.motion = MotionKind::kPan, .frames = 4};
+  const auto verdicts = gateVerdicts("painterly", few, measures, {.dep = 20});
+  const auto lasting = std::ranges::find_if(
+      verdicts, [](const Verdict& each) { return each.what.starts_with("S10"); });
+  ASSERT_NE(lasting, verdicts.end());
+  EXPECT_EQ(lasting->found, "it compares frames 10 apart, and there are 4");
+  ASSERT_TRUE(lasting->comparison);
+  EXPECT_FALSE(lasting->comparison->value);
+  EXPECT_EQ(lasting->comparison->limit, 90);
+  EXPECT_FALSE(lasting->comparison->isMost);
+  const auto departure = std::ranges::find_if(
+      verdicts, [](const Verdict& each) { return each.what.starts_with("DEP"); });
+  ASSERT_TRUE(departure != verdicts.end() && departure->comparison);
+  EXPECT_EQ(departure->comparison->limit, 15);
+  EXPECT_EQ(departure->comparison->value, 20);
+  EXPECT_THAT(gatedStyles(), testing::ElementsAre("painterly", "watercolor"));
+}
+
+TEST(Circumstances, SayWhyAMeasureIsMissing) {
+  Measures none;
+  EXPECT_THAT(missingLines(none, {.motion = MotionKind::kNone, .frames = 20}),
+              testing::ElementsAre(HasSubstr("EW2, xEW2, nHW2, POP %, S10 %: it needs the true"),
+                                   HasSubstr("SCR: too little"), HasSubstr("xFLK: no still"),
+                                   HasSubstr("DEP, DET: the input has no detail")));
+  EXPECT_THAT(whyMissing(&Measures::xFlk, {.stillFrames = 4}), HasSubstr("--noise 0"));
+  EXPECT_THAT(missingLines(good(), {}), testing::IsEmpty());
 }
 
 TEST(Gates, OfAnchorsAreThePainterlyOnes) {

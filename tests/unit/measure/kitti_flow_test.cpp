@@ -41,7 +41,7 @@ TEST_F(KittiFlow, IsReadToThe64thOfAPixel) {
   png.set(7, 9, {32768 - 160, 32768 + 1, 1});
   png.set(8, 9, {40000, 40000, 0});
   png.write(path("flow.png"));
-  const hal::Result<FlowField> field = readKittiFlow(path("flow.png"), kSize);
+  const hal::Result<KittiFlowField> field = readKittiFlow(path("flow.png"), kSize);
   ASSERT_TRUE(field) << field.error().message();
   EXPECT_EQ(field->px(9, 7), cv::Vec2f(-2.5F, 1.0F / 64));
   EXPECT_EQ(field->px(20, 20), cv::Vec2f(0, 0));

@@ -153,6 +153,35 @@ TEST_F(MeasurementTest, PaintsBeforeItMeasuresAndAStillAfterwards) {
   EXPECT_TRUE(report->gates.empty());
 }
 
+TEST_F(MeasurementTest, SaysThatTheInputEndsBeforeTheFramesThatWereAskedFor) {
+  writeFrames(4);
+  const auto input = hal::orThrow(openPictureFolder(path("in")));
+  const MeasurementOptions options{.style = "none", .frames = 9, .stillFrames = 0};
+  EXPECT_THAT(run(*input, itself, options).notices,
+              testing::ElementsAre(HasSubstr("of 9 frames that were asked for 4")));
+  const auto again = hal::orThrow(openPictureFolder(path("in")));
+  EXPECT_THAT(run(*again, itself, {.style = "none", .frames = 4, .stillFrames = 0}).notices,
+              testing::IsEmpty());
+}
+
+TEST_F(MeasurementTest, TakesAPhotographAtItsOwnSizeOrFewerPixels) {
+  const auto own = hal::orThrow(openPhotograph(path("photo.png"), {}));
+  EXPECT_EQ(own->format().size, (hal::FrameSize{400, 300}));
+  EXPECT_THAT(own->notices(), testing::IsEmpty());
+  hal::orThrow(hal::writePng(path("large.png"), toImage(strongBlobs({1600, 900}, 1)).view()));
+  const auto large = hal::orThrow(openPhotograph(path("large.png"), {.motion = {.pan = {1, 0}}}));
+  EXPECT_EQ(large->format().size, (hal::FrameSize{739, 416}));
+  EXPECT_THAT(large->notices(), testing::IsEmpty());
+}
+
+TEST_F(MeasurementTest, SaysWhereAPhotographGoesOnMirrored) {
+  const auto panned = hal::orThrow(openPhotograph(path("photo.png"), {.motion = {.pan = {1, 0}}}));
+  EXPECT_THAT(panned->notices(), testing::ElementsAre(HasSubstr("the frames' way")));
+  const auto wide =
+      hal::orThrow(openPhotograph(path("photo.png"), {.size = hal::FrameSize{500, 300}}));
+  EXPECT_THAT(wide->notices(), testing::ElementsAre(HasSubstr("500x300 reach beyond")));
+}
+
 TEST_F(MeasurementTest, CanBeBrokenOff) {
   const auto input = photograph({.pan = {-1.5, -0.5}});
   FunctionPainter painter(itself);
@@ -184,7 +213,8 @@ TEST_F(MeasurementTest, TakesAFolderWithFlowFiles) {
   const Report report = run(*input, itself);
   EXPECT_EQ(report.motionKind, MotionKind::kOther);
   EXPECT_LT(*report.measures[Subject::kPainting].ew2, 1e-9);
-  EXPECT_THAT(report.leftOut, testing::Contains(HasSubstr("S10 and SCR")));
+  EXPECT_THAT(report.leftOut,
+              testing::Contains(HasSubstr("S10 %, SCR: it compares frames 10 apart")));
   std::filesystem::remove(path("in/flow_1.png"));
   EXPECT_THAT(openPictureFolder(path("in")).error().message(),
               testing::AllOf(HasSubstr("4 frames"), HasSubstr("2 flow files")));

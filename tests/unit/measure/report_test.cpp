@@ -21,8 +21,11 @@ Report report() {
                 .frames = 2};
   report.measures[Subject::kPainting] = {.ew2 = 0.25, .nHw2 = 0.0625};
   report.controls = {{"input", Verdict::State::kPassed, "1"}};
-  report.gates = {{"nHW2 ≤ 0.3", Verdict::State::kPassed, "0.062"},
-                  {"SCR", Verdict::State::kNotMeasured, "–"}};
+  report.gates = {
+      {"nHW2 ≤ 0.3", Verdict::State::kPassed, "0.062",
+       Verdict::Comparison{.value = 0.0625, .limit = 0.3}},
+      {"S10 % ≥ 90", Verdict::State::kNotMeasured, "it compares frames 10 apart, and there are 3",
+       Verdict::Comparison{.value = {}, .limit = 90, .isMost = false}}};
   report.inside = AnchorSummary{.frames = 3, .alive = 100, .slip = Slip{.median = 0.5}};
   for (std::uint64_t i = 0; i < 3; ++i) {
     FrameValues values{.frame = i};
@@ -43,10 +46,22 @@ TEST(Report, IsJsonWithNullForWhatCouldNotBeHad) {
   const auto json = nlohmann::json::parse(reportJson(report()));
   EXPECT_EQ(json["measures"]["painting"]["ew2"], 0.25);
   EXPECT_TRUE(json["measures"]["painting"]["scr"].is_null());
-  EXPECT_EQ(json["gates"][1]["verdict"], "not measured");
+  const auto& passed = json["gates"][0];
+  EXPECT_EQ(passed["value"], 0.0625);
+  EXPECT_EQ(passed["limit"], 0.3);
+  EXPECT_EQ(passed["sense"], "at most");
+  EXPECT_EQ(passed["passed"], true);
+  const auto& missing = json["gates"][1];
+  EXPECT_EQ(missing["verdict"], "not measured");
+  EXPECT_TRUE(missing["value"].is_null());
+  EXPECT_EQ(missing["limit"], 90);
+  EXPECT_EQ(missing["sense"], "at least");
+  EXPECT_TRUE(missing["passed"].is_null());
   EXPECT_EQ(json["gates_passed"], false);
   EXPECT_EQ(json["controls_sound"], true);
   EXPECT_EQ(json["inside"]["slip"]["median_px"], 0.5);
+  EXPECT_TRUE(json["inside"]["half_life_frames"].is_null());
+  EXPECT_EQ(json["inside"]["half_life_over_frames"], 3);
   EXPECT_EQ(json["over_time"].size(), 3u);
 }
 
@@ -58,6 +73,23 @@ TEST(Report, IsAPageThatNeedsNothingElse) {
   EXPECT_THAT(html,
               AllOf(Not(HasSubstr("http:")), Not(HasSubstr("https:")), Not(HasSubstr("<script")),
                     Not(HasSubstr("<link")), Not(HasSubstr("water<color>"))));
+}
+
+TEST(Report, LabelsAxesAndSaysHowMuchStrongerDifferencesAreShown) {
+  Report marked = report();
+  marked.worst.front().differenceGain = 20;
+  EXPECT_THAT(reportHtml(marked), AllOf(HasSubstr(">mean square × 1000</text>"),
+                                        HasSubstr(">frame</text>"), HasSubstr("difference × 20")));
+}
+
+TEST(Report, DoesNotTellAHalfLifeThatNobodySaw) {
+  Report report;
+  report.inside = AnchorSummary{.frames = 14, .innerDeaths = 0.2};
+  EXPECT_THAT(insideLines(report), testing::Contains(HasSubstr("over 14 frames, for fewer")));
+  report.inside->innerDeaths = 0;
+  EXPECT_THAT(insideLines(report), testing::Contains(HasSubstr("in which none died")));
+  report.inside->halfLifeFrames = 9.4;
+  EXPECT_THAT(insideLines(report), testing::Contains(HasSubstr("longer than 9 frames")));
 }
 
 TEST(Report, SaysLoudlyThatControlsAreWrong) {

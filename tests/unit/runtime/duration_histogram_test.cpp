@@ -53,17 +53,30 @@ TEST(RecentDurations, ForgetsWhatIsOlderThanAMinute) {
     now += 1s;
     durations.add(10ms, now);
     if (i < 29) {
-      EXPECT_EQ(durations.recent().max(), 500ms) << i;
+      EXPECT_EQ(durations.recent(now).max(), 500ms) << i;
     }
   }
-  EXPECT_LE(durations.recent().max(), 11ms);
-  EXPECT_GE(durations.recent().count(), 30u);
-  EXPECT_LE(durations.recent().count(), 61u);
+  EXPECT_LE(durations.recent(now).max(), 11ms);
+  EXPECT_GE(durations.recent(now).count(), 30u);
+  EXPECT_LE(durations.recent(now).count(), 61u);
   EXPECT_EQ(durations.count(), 71u);
   EXPECT_EQ(durations.sum(), 500ms + 70 * 10ms);
   now += 10h;
   durations.add(7ms, now);
-  EXPECT_EQ(durations.recent().count(), 1u) << "after a long silence all is old";
+  EXPECT_EQ(durations.recent(now).count(), 1u) << "after a long silence all is old";
+}
+
+TEST(RecentDurations, AgeWhereNothingComesAnyMore) {
+  RecentDurations durations;
+  const hal::TimePoint begin{1h};
+  durations.add(500ms, begin);
+  durations.add(10ms, begin + 35s);
+  EXPECT_EQ(durations.recent(begin + 36s).max(), 500ms);
+  EXPECT_LE(durations.recent(begin + 66s).percentile(0.95), 11ms);
+  EXPECT_EQ(durations.recent(begin + 66s).count(), 1u);
+  EXPECT_EQ(durations.recent(begin + 96s).count(), 0u);
+  EXPECT_EQ(durations.recent(begin + 96s).percentile(0.95), 0s);
+  EXPECT_EQ(durations.count(), 2u);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The live chain under a stepped clock: every case of the fixed latency (DESIGN.md), and what may
-// befall a camera and a GPU meanwhile.
+// The live chain under a stepped clock: every case of the fixed latency
+// (docs/decisions/0009-fixed-latency.md), and what may befall a camera and a GPU meanwhile.
 #include "pipeline/runtime/live_chain.h"
 
 #include <array>

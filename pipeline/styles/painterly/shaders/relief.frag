@@ -1,4 +1,4 @@
-// Purpose: light on the paint's relief, once a pixel (GPU.md), on its canvas; and what is in focus kept
+// Purpose: light on the paint's relief, once a pixel, on its canvas; and what is in focus kept
 //          crisp.
 // Inputs:  colours, heights (stroke.frag); sheet.glsl's: what it is painted on; frame, normalFocus if
 //          hasFocus; relief, gloss, weave: how much of each; tooth: how much the sheet's grain keeps

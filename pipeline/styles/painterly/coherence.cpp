@@ -1,0 +1,65 @@
+#include "pipeline/styles/painterly/coherence.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+namespace pleinair::styles {
+namespace {
+
+/// The thesis's weight of 0.95 on the past, at 30 frames a second (METHOD.md V.4).
+constexpr double kMemorySeconds = 0.65;
+constexpr double kAppearingSeconds = 0.3;
+constexpr double kForever = 1e6;
+/// New strokes are to go as things lie now, and to be seen: field and anchors do not hold on for
+/// ever.
+constexpr double kMostOfTheNew = 4.0;
+constexpr float kAnyColour = 1e6F;  // a second
+
+hal::Duration scaled(hal::Duration time, double hold) {
+  return std::chrono::duration_cast<hal::Duration>(std::chrono::duration<double>(time) * hold);
+}
+hal::Duration secondsOf(double seconds) {
+  return std::chrono::duration_cast<hal::Duration>(std::chrono::duration<double>(seconds));
+}
+
+}  // namespace
+
+double holdOf(const PainterlyParameters& p) {
+  if (p.coherence >= 1.0) return kForever;
+  return std::min(kForever, std::tan(p.coherence * 0.5 * std::numbers::pi));
+}
+
+marks::MotionFieldOptions motionOf(const PainterlyParameters& p) {
+  return {.follows = p.warp};
+}
+
+marks::TensorFieldOptions fieldOf(const PainterlyParameters& p) {
+  marks::TensorFieldOptions options;
+  const double hold = p.history ? std::min(holdOf(p), kMostOfTheNew) : 0.0;
+  options.memory = scaled(options.memory, hold);
+  if (!p.hysteresis || p.coherence <= 0.0) options.slack = 0.0;
+  return options;
+}
+
+marks::AnchorHold anchorHoldOf(const PainterlyParameters& p) {
+  marks::AnchorHold anchors;
+  const double hold = p.fades ? std::min(holdOf(p), kMostOfTheNew) : 0.0;
+  anchors.fadeIn = scaled(anchors.fadeIn, hold);
+  anchors.fadeOut = scaled(anchors.fadeOut, hold);
+  anchors.hasSlack = p.hysteresis;
+  return anchors;
+}
+
+void holdOn(marks::StrokeRule& rule, const PainterlyParameters& p) {
+  const double history = p.history ? holdOf(p) : 0.0;
+  rule.shapeMemory = rule.colourMemory = secondsOf(history * kMemorySeconds);
+  const double quickest = rule.mostColourPerSecond / std::max(history, 1e-6);
+  rule.mostColourPerSecond = std::min(kAnyColour, static_cast<float>(quickest));
+  const double fades = p.fades ? holdOf(p) : 0.0;
+  rule.appearing = rule.vanishing = secondsOf(fades * kAppearingSeconds);
+  if (!p.hysteresis) rule.slack = 0.0F;
+}
+
+}  // namespace pleinair::styles

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "hal/clock.h"
+#include "hal/pixel_format.h"
+#include "pipeline/gpu/pass_timer.h"
+
+namespace pleinair::bench {
+
+// What benchmarks of GPU work share. Time is wall time, CPU that of all threads.
+
+/// The benchmark's arguments are width and height.
+inline hal::FrameSize sizeOf(const benchmark::State& state) {
+  return {static_cast<int>(state.range(0)), static_cast<int>(state.range(1))};
+}
+
+/// When the n-th of thirty frames a second was captured.
+inline hal::TimePoint timeOfFrame(std::uint64_t number) {
+  return hal::TimePoint(hal::Duration(33'333'333) * static_cast<std::int64_t>(number));
+}
+
+inline void atBothSizes(benchmark::internal::Benchmark* benchmark) {
+  benchmark->Args({640, 480})->Args({1280, 720})->Unit(benchmark::kMillisecond)->UseRealTime();
+  benchmark->MeasureProcessCPUTime();
+}
+
+/// For timeOnePass().
+inline void passAtBothSizes(benchmark::internal::Benchmark* benchmark) {
+  benchmark->Args({640, 480})->Args({1280, 720})->Unit(benchmark::kMillisecond);
+  benchmark->MeasureProcessCPUTime()->UseManualTime()->MinTime(0.2);
+}
+
+inline double medianOf(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return values.empty() ? 0.0 : *middle;
+}
+
+inline double millisecondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
+}
+
+/// One pass out of whole frames, each of which `advance()` makes: what the timer, which times by
+/// fences, says of it.
+template <class Advance>
+void timeOnePass(benchmark::State& state, gpu::PassTimer& timer, const char* pass,
+                 Advance advance) {
+  std::vector<double> times;
+  for ([[maybe_unused]] auto _ : state) {
+    advance();
+    for (const gpu::PassTime& each : timer.times()) {
+      if (each.pass != pass) continue;
+      const double seconds = std::chrono::duration<double>(each.last).count();
+      state.SetIterationTime(seconds);
+      times.push_back(seconds * 1e3);
+    }
+  }
+  state.counters["median_ms"] = medianOf(times);
+}
+
+}  // namespace pleinair::bench

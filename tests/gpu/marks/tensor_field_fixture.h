@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <numbers>
+#include <optional>
+
+#include "tests/gpu/marks/tensor_fixture.h"
+
+namespace pleinair::marks {
+
+inline double degrees(double radians) {
+  return radians * 180.0 / std::numbers::pi;
+}
+
+/// Of a region among 32 a row.
+inline std::size_t placeOf(int x, int y) {
+  return static_cast<std::size_t>(y) * 32U + static_cast<std::size_t>(x);
+}
+
+/// A tensor field of pictures that are made up.
+class TensorFieldFixture : public TensorTest {
+ protected:
+  static constexpr TensorFieldOptions kNoMemory{.memory = hal::Duration(0), .slack = 0.0};
+
+  void SetUp() override {
+    TensorTest::SetUp();
+    if (IsSkipped()) return;
+    motionField_.emplace(library_, kSize);
+    field_.emplace(library_, kSize);
+  }
+  void TearDown() override {
+    field_.reset();
+    motionField_.reset();
+    TensorTest::TearDown();
+  }
+
+  void update(const hal::Image& picture, const tracking::ImageMotion& motion = standing(),
+              const TensorFieldOptions& options = {}, hal::Duration step = kStep) {
+    const gpu::Texture texture = support::textureOf(picture.view());
+    const scene::ArFrame frame = frameOf(texture, motion, step);
+    motionField_->update(frame, timer_);
+    field_->update(frame, texture, *motionField_, options, timer_);
+  }
+
+  std::optional<MotionField> motionField_;
+  std::optional<TensorField> field_;
+};
+
+}  // namespace pleinair::marks

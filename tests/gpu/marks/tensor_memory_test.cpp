@@ -1,0 +1,186 @@
+// What the tensor field promises of time: memory, carried along, that does not lag.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <glm/geometric.hpp>
+#include <gmock/gmock.h>
+
+#include "tests/gpu/marks/tensor_field_fixture.h"
+#include "tests/oracles/tensor_oracle.h"
+
+namespace pleinair::marks {
+namespace {
+
+class TensorMemory : public TensorFieldFixture {};
+
+/// What was known of a picture that has gone blank turns with it, and is forgotten in time.
+TEST_F(TensorMemory, MemoryIsCarriedAlongARoll) {
+  const auto stripes = [](glm::dvec2 px) { return 0.5 + 0.3 * std::sin(0.6 * px.x); };
+  constexpr double kRoll = 0.06;
+  constexpr int kFrames = 5;
+  const hal::Image blank = greyPicture(kSize, [](glm::dvec2) { return 0.5; });
+  for (const double along : {1.0, 0.0}) {
+    field_->reset();
+    update(greyPicture(kSize, stripes));
+    for (int i = 0; i < kFrames; ++i) update(blank, following(rolled(along * kRoll)));
+    const std::vector<FieldTexel> regions = read(field_->regions());
+    const double theta = along * kFrames * kRoll;  // of the gradient, which was level
+    for (const glm::ivec2 at : {glm::ivec2(16, 8), {12, 6}, {19, 10}, {10, 9}}) {
+      const FieldTexel& each = regions[placeOf(at.x, at.y)];
+      EXPECT_LT(
+          degrees(oracles::angleBetween(each.tensor, {std::cos(2 * theta), std::sin(2 * theta)})),
+          1.0)
+          << along << " at " << at.x << "," << at.y;
+      EXPECT_NEAR(each.known, std::exp(-kFrames * 0.033 / 0.4), 0.02);
+    }
+  }
+}
+
+/// Smoothing would lag a roll by ω τ if it were not carried along.
+TEST_F(TensorMemory, ARollingPicturesFieldDoesNotLag) {
+  constexpr double kRoll = 0.02;
+  const auto worstOf = [&](bool isTold) {
+    field_->reset();
+    double angle = 0.0;
+    for (int i = 0; i < 12; ++i) {
+      const glm::dvec2 across(std::cos(angle), std::sin(angle));
+      update(greyPicture(kSize,
+                         [&](glm::dvec2 px) {
+                           return 0.5 +
+                                  0.3 * std::sin(0.6 * glm::dot(px - glm::dvec2(128, 64), across));
+                         }),
+             isTold && i > 0 ? following(rolled(kRoll)) : standing());
+      angle += kRoll;
+    }
+    angle -= kRoll;
+    const glm::dvec2 truth(std::cos(2 * angle), std::sin(2 * angle));
+    double worst = 0.0;
+    const std::vector<FieldTexel> resolved = read(field_->resolved(0));
+    for (int y = 4; y < 12; ++y) {
+      for (int x = 10; x < 22; ++x) {
+        const FieldTexel& each = resolved[placeOf(x, y)];
+        worst = std::max(worst, degrees(oracles::angleBetween(each.tensor, truth)));
+      }
+    }
+    return worst;
+  };
+  EXPECT_LT(worstOf(true), 1.5);
+  EXPECT_GT(worstOf(false), 4.0) << "the control";
+}
+
+TEST_F(TensorMemory, AStillNoisyPicturesFieldDoesNotTremble) {
+  const auto trembleOf = [&](const TensorFieldOptions& options) {
+    field_->reset();
+    std::vector<FieldTexel> before;
+    double sum = 0.0;
+    int count = 0;
+    for (unsigned i = 0; i < 40; ++i) {
+      update(greyPicture(kSize, variedLuma, 2.0, i + 1), standing(), options);
+      const std::vector<FieldTexel> now = read(field_->resolved(0));
+      for (std::size_t at = 0; i > 30 && at < now.size(); ++at) {
+        sum += degrees(oracles::angleBetween(now[at].tensor, before[at].tensor));
+        ++count;
+      }
+      before = now;
+    }
+    return sum / count;
+  };
+  const double alone = trembleOf(kNoMemory);
+  const double steady = trembleOf({});
+  RecordProperty("degrees_a_frame", std::to_string(steady) + " of " + std::to_string(alone));
+  EXPECT_LT(steady, 0.25);
+  EXPECT_LT(steady, 0.25 * alone);
+}
+
+/// Told by its detail, a region is of one class or another; noise is not to move it.
+TEST_F(TensorMemory, ARegionsClassDoesNotFlicker) {
+  // Textures of all strengths, so that many regions are near the border of a class.
+  const auto graded = [](glm::dvec2 px) { return 0.5 + 0.0006 * px.x * std::sin(0.9 * px.y); };
+  const auto changesOf = [&](double slack) {
+    field_->reset();
+    std::vector<FieldTexel> before;
+    int changes = 0;
+    for (unsigned i = 0; i < 60; ++i) {
+      update(greyPicture(kSize, graded, 3.0, i + 1), standing(), {.slack = slack});
+      const std::vector<FieldTexel> now = read(field_->resolved(0));
+      for (std::size_t at = 0; i > 30 && at < now.size(); ++at) {
+        for (const double border : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}) {
+          changes += (now[at].detail > border) != (before[at].detail > border) ? 1 : 0;
+        }
+      }
+      before = now;
+    }
+    return changes;
+  };
+  const int without = changesOf(0.0);
+  const int with = changesOf(TensorFieldOptions{}.slack);
+  RecordProperty("changes", std::to_string(with) + " of " + std::to_string(without));
+  EXPECT_GT(without, 40) << "the control";
+  EXPECT_LE(with, without / 20);
+}
+
+/// What is held is off by the slack at the most, and goes along.
+TEST_F(TensorMemory, DetailThatIsHeldIsOffByItsSlackAtMost) {
+  const TensorFieldOptions options{.memory = hal::Duration(0), .slack = 0.2};
+  const auto texture = [](double strength) {
+    return [strength](glm::dvec2 px) { return 0.5 + strength * std::sin(0.7 * px.x); };
+  };
+  const auto detail = [&] { return read(field_->resolved(0))[placeOf(16, 8)].detail; };
+  // The strongest edges are the same in all, and so is the threshold.
+  const auto withFrame = [&](double strength) {
+    return greyPicture(kSize, [=](glm::dvec2 px) {
+      return px.y < 16.0 ? (static_cast<int>(px.x) / 4 % 2 == 0 ? 0.9 : 0.1)
+                         : texture(strength)(px);
+    });
+  };
+  update(withFrame(0.020), standing(), options);
+  const double first = detail();
+  update(withFrame(0.022), standing(), options);
+  EXPECT_NEAR(detail(), first, 1e-3 * first) << "within the slack it stays";
+  update(withFrame(0.040), standing(), options);
+  EXPECT_NEAR(detail(), 2.0 * first * 0.8, 0.05 * first) << "beyond, it follows";
+  update(withFrame(0.010), standing(), options);
+  EXPECT_NEAR(detail(), 0.5 * first / 0.8, 0.05 * first);
+}
+
+TEST_F(TensorMemory, TheFieldIsTheSameWhateverTheFrameRate) {
+  const hal::Image first = greyPicture(kSize, [](glm::dvec2 px) { return px.x < 128 ? 0.2 : 0.8; });
+  const hal::Image then = greyPicture(kSize, [](glm::dvec2 px) { return px.y < 64 ? 0.2 : 0.8; });
+  std::vector<std::vector<FieldTexel>> ends;
+  for (const int frames : {4, 16}) {
+    field_->reset();
+    update(first);
+    for (int i = 0; i < frames; ++i) {
+      update(then, standing(), {}, std::chrono::milliseconds(480) / frames);
+    }
+    ends.push_back(read(field_->regions()));
+  }
+  for (std::size_t i = 0; i < ends[0].size(); ++i) {
+    EXPECT_NEAR(ends[0][i].known, ends[1][i].known, 0.01) << i;
+    EXPECT_LT(glm::distance(ends[0][i].tensor, ends[1][i].tensor), 0.02) << i;
+  }
+}
+
+TEST_F(TensorMemory, ACutAndAResetForget) {
+  const hal::Image other = greyPicture(kSize, [](glm::dvec2 px) { return px.y < 60 ? 0.1 : 0.9; });
+  const hal::Image image = greyPicture(kSize, variedLuma);
+  const auto bytesOf = [&] { return support::readRgba32f(field_->resolved(0)); };
+  update(image);
+  const std::vector<float> fresh = bytesOf();
+  update(other);
+  update(image);
+  EXPECT_NE(bytesOf(), fresh) << "the past is to count";
+  update(other);
+  tracking::ImageMotion cut = standing();
+  cut.isCut = true;
+  update(image, cut);
+  EXPECT_EQ(bytesOf(), fresh);
+  update(other);
+  field_->reset();
+  update(image);
+  EXPECT_EQ(bytesOf(), fresh);
+}
+
+}  // namespace
+}  // namespace pleinair::marks

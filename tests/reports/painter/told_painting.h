@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "hal/image.h"
+#include "pipeline/gpu/pass_timer.h"
+#include "pipeline/gpu/shader_library.h"
+#include "pipeline/styles/painterly/painterly.h"
+#include "tests/gpu/marks/stroke_fixture.h"
+
+namespace pleinair {
+
+/// A painting of pictures whose motion is told, of which the strokes can be read. `library` has the
+/// shaders of all styles; a GL context is current.
+class ToldPainting {
+ public:
+  explicit ToldPainting(const gpu::ShaderLibrary& library) : style_(library) {}
+
+  void set(std::string_view parameter, std::string_view value);
+  /// The next frame, RGB8, 1/30 s after the last, moved by `movedPx` since.
+  void paint(const hal::Image& rgb, glm::dvec2 movedPx);
+  /// What was painted last, RGB8.
+  hal::Image picture() const;
+
+  /// Of each layer from coarse to fine: slot by slot, and in the order of painting.
+  std::size_t layerCount() const { return style_.layerCount(); }
+  std::vector<marks::Anchor> anchors(std::size_t layer) const;
+  std::vector<marks::StrokeSlot> strokes(std::size_t layer) const;
+  std::vector<marks::StrokeInstance> instances(std::size_t layer) const;
+
+ private:
+  styles::Painterly style_;
+  gpu::PassTimer timer_;
+  const gpu::Texture* painted_ = nullptr;
+  std::uint64_t number_ = 0;
+};
+
+}  // namespace pleinair
