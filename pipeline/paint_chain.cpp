@@ -244,7 +244,8 @@ hal::Result<Picture> PaintChain::paintChecked(const hal::CapturedFrame& frame,
     return tl::unexpected(std::move(sound.error()));
   }
   tracking::TrackingResult tracked;
-  if (tracker_) tracked = tracker_->track(frame.image, frame.captureTime);
+  luma_.take(frame.image);
+  if (tracker_) tracked = tracker_->track(luma_, frame.captureTime);
   picture_ = &paintView(
       compose(frame, tracked, levels_[parameters.quality], needsOf(parameters.view)), parameters);
   {
@@ -290,31 +291,29 @@ scene::ArFrame PaintChain::compose(const hal::CapturedFrame& frame,
                          .tags = sightings_},
                         frame.sequence, frame.captureTime, timer_, needs, lights);
   composed.fullSize = pictureSize_;
-  if (!style_->usesCanvas() && !needs.pictureMovement) return composed;
-  const hal::PlaneView luma = luma_.convert(frame.image);
-  if (style_->usesCanvas()) {
-    composed.canvasFromPicture = followCanvas(luma, frame.image.format.size);
-  }
-  if (needs.pictureMovement) composed.pictureMovement = followPicture(luma, frame);
+  if (style_->usesCanvas() || needs.pictureMovement) followPicture(frame, needs, composed);
   return composed;
 }
 
-/// Motion is followed in the captured frame; the canvas has the full picture's pixels.
-tracking::PlaneSimilarity PaintChain::followCanvas(const hal::PlaneView& luma,
-                                                   hal::FrameSize size) {
-  const gpu::CoverFit fit = gpu::coverFit(size, pictureSize_);
-  const tracking::PlaneSimilarity frameFromPicture{{fit.scale.x, 0.0}, fit.origin};
-  return frameFromPicture.inverse() * motion_.follow(luma, size) * frameFromPicture;
-}
-
-scene::PictureMovement PaintChain::followPicture(const hal::PlaneView& luma,
-                                                 const hal::CapturedFrame& frame) {
+/// Motion is followed in the captured frame; the canvas has the full picture's pixels. Where the
+/// picture's motion is estimated, the canvas goes by that.
+void PaintChain::followPicture(const hal::CapturedFrame& frame, scene::ArFrameNeeds needs,
+                               scene::ArFrame& composed) {
   const auto scope = timer_.measure("follow picture");
   const hal::FrameSize size = frame.image.format.size;
   const gpu::CoverFit fit = gpu::coverFit(size, pictureSize_);
-  return {.motion = &imageMotion_.follow(luma, size, frame.sequence),
-          .frameScale = fit.scale,
-          .frameOrigin = fit.origin};
+  if (needs.pictureMovement) {
+    composed.pictureMovement =
+        scene::PictureMovement{.motion = &imageMotion_.follow(luma_, frame.sequence),
+                               .frameScale = fit.scale,
+                               .frameOrigin = fit.origin};
+  }
+  if (!style_->usesCanvas()) return;
+  const tracking::PlaneSimilarity frameFromPicture{{fit.scale.x, 0.0}, fit.origin};
+  const tracking::PlaneSimilarity& moved = composed.pictureMovement
+                                               ? motion_.follow(*composed.pictureMovement->motion)
+                                               : motion_.follow(luma_.luma(), size);
+  composed.canvasFromPicture = frameFromPicture.inverse() * moved * frameFromPicture;
 }
 
 const gpu::Texture& PaintChain::paintView(const scene::ArFrame& frame,

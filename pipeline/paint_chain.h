@@ -20,7 +20,7 @@
 #include "pipeline/scene/light_estimator.h"
 #include "pipeline/styles/style.h"
 #include "pipeline/tracking/image_motion_estimator.h"
-#include "pipeline/tracking/luma.h"
+#include "pipeline/tracking/luma_frame.h"
 #include "pipeline/tracking/picture_motion.h"
 #include "pipeline/tracking/tracker.h"
 
@@ -69,8 +69,8 @@ class PaintChain {
   scene::ArFrame compose(const hal::CapturedFrame& frame, const tracking::TrackingResult& tracked,
                          const Level& level, scene::ArFrameNeeds needs);
   scene::ArFrameNeeds needsOf(const std::string& view) const;
-  tracking::PlaneSimilarity followCanvas(const hal::PlaneView& luma, hal::FrameSize size);
-  scene::PictureMovement followPicture(const hal::PlaneView& luma, const hal::CapturedFrame& frame);
+  void followPicture(const hal::CapturedFrame& frame, scene::ArFrameNeeds needs,
+                     scene::ArFrame& composed);
   const gpu::Texture& paintView(const scene::ArFrame& frame, const PaintParameters& parameters);
   hal::Result<hal::Image> read(const gpu::Texture* texture);
   hal::Error metLoss(const hal::Error& error);
@@ -93,7 +93,7 @@ class PaintChain {
   config::ParameterValues defaults_;  // of the style
   hal::FrameSize frameSize_;  // of the last frame; what follows is made for it
   std::optional<tracking::Tracker> tracker_;
-  tracking::LumaConverter luma_;
+  tracking::LumaFrame luma_;  // of the frame
   tracking::PictureMotion motion_;
   tracking::ImageMotionEstimator imageMotion_;
   std::optional<scene::LightEstimator> light_;  // where the scene leaves it to the camera

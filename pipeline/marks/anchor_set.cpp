@@ -114,7 +114,12 @@ void AnchorSet::State::carryInImage(const scene::ArFrame& frame, const MotionFie
                                     hal::Duration step) {
   begin(image, frame).storage(0, anchors);
   motion.bind(image);
-  image.set("stepSeconds", std::chrono::duration<float>(step).count())
+  constexpr double kUsualNoise = 2.0;
+  const bool isNoiseKnown = frame.pictureMovement && frame.pictureMovement->motion != nullptr;
+  const double noise = isNoiseKnown ? frame.pictureMovement->motion->noiseLevels : kUsualNoise;
+  image.texture("picture", *frame.colour)
+      .set("noise", static_cast<float>(noise / 255.0))
+      .set("stepSeconds", std::chrono::duration<float>(step).count())
       .set("follows", motion.follows() ? 1 : 0)
       .set("anew", hasBegunAnew ? 1 : 0)
       .dispatch(allSlots(), kSlotGroup, kStored);

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
@@ -64,6 +65,30 @@ glm::dmat3 ofFull(const glm::dmat3& ofFrame, const scene::PictureMovement& movem
                                  0.0, movement.frameScale.y, 0.0,  //
                                  movement.frameOrigin.x, movement.frameOrigin.y, 1.0);
   return glm::inverse(frameFromFull) * ofFrame * frameFromFull;
+}
+
+/// What features do otherwise than the picture's homography, beyond their own errors: parallax. The
+/// variance over both axes, px² of the frame, of the half of them that fits better.
+float parallaxVariance(const ImageMotion& motion) {
+  constexpr std::size_t kLeastFeatures = 16;
+  const std::size_t count = std::min(motion.features.size(), tracking::kMostMovedFeatures);
+  if (!motion.picture || count < kLeastFeatures) return 0.0F;
+  std::array<float, tracking::kMostMovedFeatures> apart{};
+  std::array<float, tracking::kMostMovedFeatures> expected{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const FeatureMotion& each = motion.features[i];
+    const glm::dvec3 there = motion.picture->nowFromThen * glm::dvec3(each.then, 1.0);
+    const glm::vec2 off(glm::dvec2(each.now) - glm::dvec2(there) / there.z);
+    apart.at(i) = glm::dot(off, off);
+    expected.at(i) = each.errorPx * each.errorPx;
+  }
+  const auto medianOf = [count](std::array<float, tracking::kMostMovedFeatures>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(count / 2);
+    std::nth_element(values.begin(), middle, values.begin() + static_cast<std::ptrdiff_t>(count));
+    return *middle;
+  };
+  constexpr float kMedianOfMean = 0.693F;  // of the square of a normal deviation in a plane
+  return std::max(0.0F, medianOf(apart) / kMedianOfMean - medianOf(expected));
 }
 
 }  // namespace
@@ -145,6 +170,7 @@ void MotionField::State::takeFeatures(const scene::PictureMovement& movement, Gp
                  .about = glm::vec4(moved[i].errorPx * scale.x, 0.0F, 0.0F, 0.0F)};
   }
   made.known.y = static_cast<float>(count);
+  made.nodes.y = parallaxVariance(*movement.motion) * scale.x * scale.x;
   if (count > 0) features.write(std::as_bytes(std::span(staged).first(count)));
 }
 

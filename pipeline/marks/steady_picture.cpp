@@ -13,7 +13,8 @@ using gpu::ImageAccess;
 using gpu::TextureFilter;
 using gpu::TextureFormat;
 
-constexpr int kBlockPixels = 4;  // as in steady_picture.comp
+constexpr int kBlockPixels = 4;  // as both shaders have it
+constexpr glm::ivec2 kGroup{16, 4};
 const std::string kShaders = "pipeline/marks/shaders/";
 
 }  // namespace
@@ -26,8 +27,7 @@ SteadyPicture::Canvas::Canvas(hal::FrameSize pictureSize)
 SteadyPicture::SteadyPicture(const gpu::ShaderLibrary& library)
     : average_(library.compute(kShaders + "steady_picture.comp")),
       averageObjects_(library.compute(kShaders + "steady_picture_objects.comp")),
-      noMotion_(TextureFormat::kRgba16f, {1, 1}),
-      noIds_(TextureFormat::kR32ui, {1, 1}) {}
+      noMotion_(TextureFormat::kRgba16f, {1, 1}) {}
 
 SteadyPicture::Canvas& SteadyPicture::canvasOf(hal::FrameSize size) {
   const auto known =
@@ -50,23 +50,31 @@ void SteadyPicture::update(const scene::ArFrame& frame, const SteadyInput& input
   const int writes = now_ == &canvas.pictures[0] ? 1 : 0;
   const gpu::Texture& past = canvas.pictures[1 - writes];
   const bool hasPast = hasPast_ && now_ == &past && !input.isCut && input.timeConstantSeconds > 0.0;
-  const bool hasMotion = frame.hasObjects && frame.motion.has_value();
-  gpu::Program& average = frame.hasObjects ? averageObjects_ : average_;
-  average.use()
-      .image(0, canvas.pictures[writes], ImageAccess::kWrite)
-      .texture("picture", *frame.colour)
-      .texture("past", past)
+  const bool hasMotion = frame.motion.has_value();
+  const float kept =
+      hasPast ? keptAfter(frame.captureTime - lastTime_, input.timeConstantSeconds) : 0.0F;
+  const auto begin = [&](gpu::Program& program) -> gpu::Program& {
+    return program.use()
+        .image(0, canvas.pictures[writes], ImageAccess::kWrite)
+        .texture("picture", *frame.colour)
+        .texture("past", past)
+        .set("kept", kept)
+        .set("noise", static_cast<float>(input.noiseLevels / 255.0));
+  };
+  constexpr GLbitfield kStored = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
+  const glm::ivec2 blocks{(canvas.size.width + kBlockPixels - 1) / kBlockPixels,
+                          (canvas.size.height + kBlockPixels - 1) / kBlockPixels};
+  begin(average_)
       .texture("backward", *input.backward)
-      .texture("motion", hasMotion ? *frame.motion->texture : noMotion_)
-      .texture("ids", frame.hasObjects ? *frame.ids : noIds_)
-      .set("hasMotion", hasMotion ? 1 : 0)
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
-      .set("kept",
-           hasPast ? keptAfter(frame.captureTime - lastTime_, input.timeConstantSeconds) : 0.0F)
-      .set("noise", static_cast<float>(input.noiseLevels / 255.0))
-      .dispatch({(canvas.size.width + kBlockPixels - 1) / kBlockPixels,
-                 (canvas.size.height + kBlockPixels - 1) / kBlockPixels},
-                {16, 4}, GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+      .dispatch(blocks, kGroup, kStored);
+  if (frame.hasObjects) {
+    begin(averageObjects_)
+        .texture("motion", hasMotion ? *frame.motion->texture : noMotion_)
+        .texture("ids", *frame.ids)
+        .set("hasMotion", hasMotion ? 1 : 0)
+        .dispatch(blocks, kGroup, kStored);
+  }
   now_ = &canvas.pictures[writes];
   lastTime_ = frame.captureTime;
   hasPast_ = true;

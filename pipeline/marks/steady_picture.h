@@ -37,7 +37,7 @@ struct SteadyInput {
 /// All calls on the thread of the GL context it was made in.
 class SteadyPicture {
  public:
-  /// `library` has gpu::marksShaders() and gpu::gpuShaders().
+  /// `library` has gpu::marksShaders() and gpu::sceneShaders().
   explicit SteadyPicture(const gpu::ShaderLibrary& library);
 
   /// Takes the next frame in. A frame whose time is not after the last one's adds to the mean as if
@@ -64,7 +64,6 @@ class SteadyPicture {
   gpu::Program average_;
   gpu::Program averageObjects_;
   gpu::Texture noMotion_;  // stands where a frame has no texture for a sampler
-  gpu::Texture noIds_;
   std::vector<std::unique_ptr<Canvas>> canvases_;  // of each size that was seen
   const gpu::Texture* now_ = nullptr;
   hal::FrameSize full_;

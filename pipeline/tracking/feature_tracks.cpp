@@ -16,7 +16,6 @@
 namespace pleinair::tracking {
 namespace {
 
-constexpr int kLongSidePx = 640;  // of the picture that is followed
 constexpr int kColumns = 10;
 constexpr int kRows = 8;
 constexpr std::size_t kPerTag = 16;
@@ -40,8 +39,8 @@ struct FeatureTracks::State {
   hal::FrameSize size;
   bool hasKey = false;
   std::uint32_t nextId = 0;
-  LumaPyramid pyramid;
-  LumaPyramid keyPyramid;
+  std::shared_ptr<const LumaPyramid> pyramid;
+  std::shared_ptr<const LumaPyramid> keyPyramid;
   PointFollower follower;
   CornerSearch corners;
   std::vector<FeatureTrack> tracks;
@@ -50,14 +49,14 @@ struct FeatureTracks::State {
   std::vector<cv::Point2f> points;
 
   void followAll() {
-    follower.follow(keyPyramid, pyramid, keyPoints, points);
+    follower.follow(*keyPyramid, *pyramid, keyPoints, points);
     for (std::size_t i = 0; i < tracks.size(); ++i) {
       tracks[i].isFound = follower.isFound(i) && follower.difference(i) < kLargestDifference &&
-                          pyramid.isInside(points[i], kBorderPx) && follower.backPx(i) < kBackPx;
+                          pyramid->isInside(points[i], kBorderPx) && follower.backPx(i) < kBackPx;
       if (tracks[i].isFound) {
-        tracks[i].px = pyramid.framePx(points[i]);
+        tracks[i].px = pyramid->framePx(points[i]);
       } else {
-        points[i] = pyramid.ownPx(tracks[i].px);
+        points[i] = pyramid->ownPx(tracks[i].px);
       }
     }
     shiftLost();
@@ -75,7 +74,7 @@ struct FeatureTracks::State {
     if (count == 0) return;
     shift /= static_cast<double>(count);
     for (std::size_t i = 0; i < tracks.size(); ++i) {
-      if (!tracks[i].isFound) points[i] = pyramid.ownPx(tracks[i].keyPx + shift);
+      if (!tracks[i].isFound) points[i] = pyramid->ownPx(tracks[i].keyPx + shift);
     }
   }
 
@@ -87,7 +86,7 @@ struct FeatureTracks::State {
 
   bool isFree(const cv::Point2f& p) const {
     return std::ranges::none_of(tracks, [&](const FeatureTrack& track) {
-      return isNear(pyramid.ownPx(track.keyPx), p, CornerSearch::kSpacingPx);
+      return isNear(pyramid->ownPx(track.keyPx), p, CornerSearch::kSpacingPx);
     });
   }
 
@@ -96,8 +95,8 @@ struct FeatureTracks::State {
     for (std::size_t tries = 0; tries < 2 * most + 2 && added < most; ++tries) {
       cv::Point2f at;
       if (tracks.size() >= kMostTracks || !corners.takeBest(part, at)) return;
-      if (!pyramid.isInside(at, kBorderPx) || !isFree(at)) continue;
-      const glm::dvec2 px = pyramid.framePx(at);
+      if (!pyramid->isInside(at, kBorderPx) || !isFree(at)) continue;
+      const glm::dvec2 px = pyramid->framePx(at);
       tracks.push_back({.id = nextId++, .keyPx = px, .px = px, .isFound = true});
       ++added;
     }
@@ -106,17 +105,17 @@ struct FeatureTracks::State {
   /// How many tracks a part of the second level's picture has.
   std::size_t countIn(const cv::Rect& part) const {
     return static_cast<std::size_t>(std::ranges::count_if(tracks, [&](const FeatureTrack& track) {
-      const cv::Point2f p = pyramid.ownPx(track.keyPx);
+      const cv::Point2f p = pyramid->ownPx(track.keyPx);
       return part.contains(cv::Point(static_cast<int>(p.x / 2.0F), static_cast<int>(p.y / 2.0F)));
     }));
   }
 
   void addNew(std::span<const TagCornersPx> tags) {
-    if (!corners.look(pyramid)) return;  // too small a picture
+    if (!corners.look(*pyramid)) return;  // too small a picture
     for (const TagCornersPx& tag : tags) {
-      cv::Rect2f box(0.5F * pyramid.ownPx(tag[0]), cv::Size2f(1.0F, 1.0F));
+      cv::Rect2f box(0.5F * pyramid->ownPx(tag[0]), cv::Size2f(1.0F, 1.0F));
       for (const glm::dvec2& px : tag) {
-        box |= cv::Rect2f(0.5F * pyramid.ownPx(px), cv::Size2f(1.0F, 1.0F));
+        box |= cv::Rect2f(0.5F * pyramid->ownPx(px), cv::Size2f(1.0F, 1.0F));
       }
       const cv::Rect part = box;
       const std::size_t there = countIn(part);
@@ -149,11 +148,11 @@ std::span<const FeatureTrack> FeatureTracks::tracks() const {
   return state_->tracks;
 }
 
-void FeatureTracks::follow(const hal::PlaneView& luma, hal::FrameSize size) {
+void FeatureTracks::follow(std::shared_ptr<const LumaPyramid> now) {
   State& s = *state_;
-  if (s.size != size) reset();
-  s.size = size;
-  s.pyramid.load(luma, size, kLongSidePx);
+  if (s.size != now->frameSize()) reset();
+  s.size = now->frameSize();
+  s.pyramid = std::move(now);
   if (s.hasKey) s.followAll();
 }
 
@@ -188,10 +187,11 @@ void FeatureTracks::makeKey(std::span<const TagCornersPx> tags) {
   State& s = *state_;
   s.keepFound();
   s.addNew(tags);
-  std::swap(s.keyPyramid, s.pyramid);
+  s.keyPyramid = s.pyramid;
   s.hasKey = true;
   s.keyPoints.clear();
-  for (const FeatureTrack& track : s.tracks) s.keyPoints.push_back(s.keyPyramid.ownPx(track.keyPx));
+  for (const FeatureTrack& track : s.tracks)
+    s.keyPoints.push_back(s.keyPyramid->ownPx(track.keyPx));
   s.points = s.keyPoints;
 }
 

@@ -6,10 +6,11 @@
 
 #include <glm/vec2.hpp>
 
-#include "hal/image.h"
 #include "pipeline/tracking/tag_frame.h"
 
 namespace pleinair::tracking {
+
+class LumaPyramid;
 
 /// Tracks that are followed at once.
 inline constexpr std::size_t kMostTracks = 130;
@@ -27,8 +28,7 @@ struct FeatureTrack {
 /// frame, so that nothing drifts, and a feature that something has covered is known by its looks
 /// when it comes back. A feature counts as found where its surroundings look as in the key frame
 /// and lead back to where they came from.
-///
-/// Pictures wider than 640 px are followed at half their size or less. One thread at a time.
+/// One thread at a time.
 class FeatureTracks {
  public:
   FeatureTracks();
@@ -38,9 +38,9 @@ class FeatureTracks {
   FeatureTracks(FeatureTracks&&) = delete;
   FeatureTracks& operator=(FeatureTracks&&) = delete;
 
-  /// Follows the key frame's features into the next frame; none without a key frame, or when the
-  /// size changed.
-  void follow(const hal::PlaneView& luma, hal::FrameSize size);
+  /// Follows the key frame's features into the next frame (LumaFrame::pyramid()); none without a
+  /// key frame, or when the size changed.
+  void follow(std::shared_ptr<const LumaPyramid> now);
   /// By rising id; valid until the next call of anything.
   std::span<const FeatureTrack> tracks() const;
 

@@ -1,9 +1,6 @@
 #include "pipeline/tracking/image_motion_estimator.h"
 
 #include <algorithm>
-#include <array>
-#include <cassert>
-#include <cmath>
 
 #include "pipeline/tracking/cut_detector.h"
 #include "pipeline/tracking/dense_flow.h"
@@ -13,32 +10,12 @@
 #include "pipeline/tracking/stillness.h"
 
 namespace pleinair::tracking {
-namespace {
-
-constexpr int kLongSidePx = 640;  // of the picture in which all is measured
-
-/// Pyramids that are used again when nobody shares them any more: key frames stay for long.
-class PyramidPool {
- public:
-  std::shared_ptr<LumaPyramid> take() {
-    for (const auto& pyramid : pyramids_) {
-      if (pyramid.use_count() == 1) return pyramid;
-    }
-    return pyramids_.emplace_back(std::make_shared<LumaPyramid>());
-  }
-
- private:
-  std::vector<std::shared_ptr<LumaPyramid>> pyramids_;
-};
-
-}  // namespace
-
 struct ImageMotionEstimator::State {
   explicit State(const ImageMotionOptions& wanted)
       : options(wanted), tracker(makeFeatureTracker(wanted.features)) {}
 
   ImageMotionOptions options;
-  PyramidPool pyramids;
+  LumaFrame own;  // of frames that come as luma alone
   std::shared_ptr<const LumaPyramid> then;
   std::unique_ptr<FeatureTracker> tracker;
   CutDetector cuts;
@@ -68,10 +45,15 @@ void ImageMotionEstimator::reset() {
 
 const ImageMotion& ImageMotionEstimator::follow(const hal::PlaneView& luma, hal::FrameSize size,
                                                 std::uint64_t sequence) {
+  state_->own.take(luma, size);
+  return follow(state_->own, sequence);
+}
+
+const ImageMotion& ImageMotionEstimator::follow(LumaFrame& frame, std::uint64_t sequence) {
   State& s = *state_;
+  const hal::FrameSize size = frame.size();
   if (s.then && s.then->frameSize() != size) reset();
-  const std::shared_ptr<LumaPyramid> now = s.pyramids.take();
-  now->load(luma, size, kLongSidePx);
+  const std::shared_ptr<const LumaPyramid> now = frame.pyramid();
   const double scale = std::max(now->reduction().x, now->reduction().y);
 
   const std::span<const SeenFeature> seen = s.tracker->follow(now, s.stillness.noise());

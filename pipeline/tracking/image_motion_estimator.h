@@ -6,6 +6,7 @@
 #include "hal/image.h"
 #include "pipeline/tracking/feature_tracker.h"
 #include "pipeline/tracking/image_motion.h"
+#include "pipeline/tracking/luma_frame.h"
 
 namespace pleinair::tracking {
 
@@ -29,10 +30,12 @@ class ImageMotionEstimator {
   ImageMotionEstimator(ImageMotionEstimator&&) = delete;
   ImageMotionEstimator& operator=(ImageMotionEstimator&&) = delete;
 
-  /// Takes the next frame's luma (LumaConverter) and says how it moved since the frame before; the
+  /// Takes the next frame's luma and says how it moved since the frame before; the
   /// first one, and one of another size, is a cut. What is returned is valid until the next call.
   /// Frames that show nothing at all (a covered lens, a flash) are no cut at first: what was seen
   /// before may come back.
+  const ImageMotion& follow(LumaFrame& frame, std::uint64_t sequence);
+  /// Likewise, of one byte a pixel.
   const ImageMotion& follow(const hal::PlaneView& luma, hal::FrameSize size,
                             std::uint64_t sequence);
 

@@ -9,6 +9,8 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
+#include "pipeline/tracking/homography.h"
+
 namespace pleinair::tracking {
 namespace {
 
@@ -47,6 +49,30 @@ double apartPx(const PlaneSimilarity& a, const PlaneSimilarity& b, hal::FrameSiz
   return most;
 }
 
+/// The turn, zoom and shift that is nearest to a homography all over a picture (Umeyama, 1991).
+PlaneSimilarity nearestTo(const glm::dmat3& homography, hal::FrameSize size) {
+  glm::dvec2 from(0.0);
+  glm::dvec2 to(0.0);
+  double count = 0.0;
+  forPlaces(size, [&](const glm::dvec2& px) {
+    from += px;
+    to += movedBy(homography, px);
+    count += 1.0;
+  });
+  from /= count;
+  to /= count;
+  glm::dvec2 products(0.0);
+  double squares = 0.0;
+  forPlaces(size, [&](const glm::dvec2& px) {
+    const glm::dvec2 a = px - from;
+    products += PlaneSimilarity::product({a.x, -a.y}, movedBy(homography, px) - to);
+    squares += glm::dot(a, a);
+  });
+  PlaneSimilarity nearest{.linear = products / squares};
+  nearest.shift = to - PlaneSimilarity::product(nearest.linear, from);
+  return nearest;
+}
+
 }  // namespace
 
 struct PictureMotion::State {
@@ -64,6 +90,15 @@ struct PictureMotion::State {
   std::vector<cv::Point2f> to;
   PlaneSimilarity firstFromKey;
   PlaneSimilarity firstFromFrame;
+  PlaneSimilarity firstFromSeen;  // what is too little to be followed yet counts, too
+
+  /// Goes along with what was seen, unless it is too little.
+  void goTo(const PlaneSimilarity& seen) {
+    firstFromSeen = seen;
+    if (apartPx(seen, firstFromFrame, size) > kStillPx * firstFromFrame.scale()) {
+      firstFromFrame = seen;
+    }
+  }
 
   void reduce(const hal::PlaneView& luma, hal::FrameSize frameSize) {
     auto* const bytes = const_cast<std::uint8_t*>(luma.bytes.data());  // OpenCV only reads them
@@ -79,6 +114,7 @@ struct PictureMotion::State {
   /// This frame becomes the one that others are measured from.
   void makeKey() {
     firstFromKey = firstFromFrame;
+    firstFromSeen = firstFromFrame;
     std::swap(keyPyramid, pyramid);
     candidates.clear();
     cv::goodFeaturesToTrack(reduced, candidates, kCandidates, kQuality, kSpacingPx);
@@ -150,6 +186,7 @@ PictureMotion::~PictureMotion() = default;
 void PictureMotion::reset() {
   state_->size = {};
   state_->firstFromFrame = {};
+  state_->firstFromSeen = {};
 }
 
 const PlaneSimilarity& PictureMotion::follow(const hal::PlaneView& luma, hal::FrameSize size) {
@@ -165,11 +202,19 @@ const PlaneSimilarity& PictureMotion::follow(const hal::PlaneView& luma, hal::Fr
     s.makeKey();
     return s.firstFromFrame;
   }
-  const PlaneSimilarity moved = s.firstFromKey * frameFromKey.inverse();
-  if (apartPx(moved, s.firstFromFrame, size) > kStillPx * s.firstFromFrame.scale()) {
-    s.firstFromFrame = moved;
-  }
+  s.goTo(s.firstFromKey * frameFromKey.inverse());
   if (s.isFarFromKey(frameFromKey)) s.makeKey();
+  return s.firstFromFrame;
+}
+
+const PlaneSimilarity& PictureMotion::follow(const ImageMotion& motion) {
+  State& s = *state_;
+  s.keyPoints.clear();  // of frames before: a frame that comes as luma is a key frame
+  s.size = motion.frameSize;
+  if (motion.isCut || !motion.picture) return s.firstFromFrame;
+  const glm::dmat3& nowFromThen = motion.picture->nowFromThen;
+  if (nowFromThen == glm::dmat3(1.0)) return s.firstFromFrame;
+  s.goTo(s.firstFromSeen * nearestTo(nowFromThen, s.size).inverse());
   return s.firstFromFrame;
 }
 

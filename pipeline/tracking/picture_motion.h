@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "hal/image.h"
+#include "pipeline/tracking/image_motion.h"
 #include "pipeline/tracking/plane_similarity.h"
 
 namespace pleinair::tracking {
@@ -28,6 +29,11 @@ class PictureMotion {
   /// since the last reset, pixel centres at +0.5. Where nothing can be followed (a cut, a blank
   /// wall, another size) it stays as it was.
   const PlaneSimilarity& follow(const hal::PlaneView& luma, hal::FrameSize size);
+
+  /// The same by what an ImageMotionEstimator has found of the next frame, which costs nothing
+  /// more: the similarity that its homography is nearest to. Nothing drifts where that does not,
+  /// and the picture holds still where it says so.
+  const PlaneSimilarity& follow(const ImageMotion& motion);
 
   /// The next frame is a first one.
   void reset();

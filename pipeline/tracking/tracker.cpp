@@ -110,11 +110,15 @@ void Tracker::reset() {
 }
 
 TrackingResult Tracker::track(const hal::ImageView& image, hal::TimePoint captureTime) {
-  assert(!camera_ || camera_->imageSize() == image.format.size);
+  own_.take(image);
+  return track(own_, captureTime);
+}
+
+TrackingResult Tracker::track(LumaFrame& frame, hal::TimePoint captureTime) {
+  assert(!camera_ || camera_->imageSize() == frame.size());
   const TrackingCounters before = counters_;
-  const hal::PlaneView luma = luma_.convert(image);
-  if (camera_) predict(luma, image.format.size, captureTime);
-  findTags(luma, image.format.size, captureTime);
+  if (camera_) predict(frame, captureTime);
+  findTags(frame.luma(), frame.size(), captureTime);
   TrackingResult result;
   if (camera_) {
     findSightings();
@@ -131,9 +135,9 @@ TrackingResult Tracker::track(const hal::ImageView& image, hal::TimePoint captur
 }
 
 /// Follows features, and with them what is known, into this frame.
-void Tracker::predict(const hal::PlaneView& luma, hal::FrameSize size, hal::TimePoint now) {
+void Tracker::predict(LumaFrame& frame, hal::TimePoint now) {
   if (markers_.empty()) return;
-  if (options_.poses.filters || options_.poses.carries) features_.follow(luma, size);
+  if (options_.poses.filters || options_.poses.carries) features_.follow(frame.pyramid());
   world_.pose.predict(*camera_, features_.tracks(), now);
   for (Target& target : targets_) target.pose.predict(*camera_, features_.tracks(), now);
   expectTags(now);
@@ -278,7 +282,7 @@ void Tracker::missTags(hal::TimePoint now) {
 /// Makes this frame the features' key frame where the old one shows too little of it, or where
 /// something was seen for the first time.
 void Tracker::keepKeyFrame(hal::TimePoint now) {
-  if (!options_.poses.filters && !options_.poses.carries) return;
+  if (markers_.empty() || !(options_.poses.filters || options_.poses.carries)) return;
   bool isNew = world_.pose.needsLandmarks();
   for (const Target& target : targets_) isNew = isNew || target.pose.needsLandmarks();
   if (!isNew && !(now - keyMade_ >= kKeyPeriod && features_.isKeyWorn())) return;

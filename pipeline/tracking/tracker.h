@@ -12,7 +12,7 @@
 #include "hal/image.h"
 #include "pipeline/tracking/camera_model.h"
 #include "pipeline/tracking/feature_tracks.h"
-#include "pipeline/tracking/luma.h"
+#include "pipeline/tracking/luma_frame.h"
 #include "pipeline/tracking/tag_detector.h"
 #include "pipeline/tracking/tag_marker.h"
 #include "pipeline/tracking/tag_pose.h"
@@ -64,7 +64,9 @@ class Tracker {
   Tracker(std::optional<CameraModel> camera, std::vector<TagMarker> markers,
           TrackerOptions options = {});
 
-  /// Tracks a frame of any format. Precondition: the camera's size, if there is one.
+  /// Tracks a frame. Precondition: the camera's size, if there is one.
+  TrackingResult track(LumaFrame& frame, hal::TimePoint captureTime);
+  /// Likewise, one of any format.
   TrackingResult track(const hal::ImageView& image, hal::TimePoint captureTime);
 
   /// Forgets earlier poses, as after a cut.
@@ -85,7 +87,7 @@ class Tracker {
     bool agrees = false;  // with the world
   };
 
-  void predict(const hal::PlaneView& luma, hal::FrameSize size, hal::TimePoint now);
+  void predict(LumaFrame& frame, hal::TimePoint now);
   void expectTags(hal::TimePoint now);
   void findTags(const hal::PlaneView& luma, hal::FrameSize size, hal::TimePoint now);
   bool needsSearch(hal::TimePoint now) const;
@@ -108,7 +110,7 @@ class Tracker {
   std::vector<TagMarker> markers_;
   TrackerOptions options_;
   TagDetector detector_;
-  LumaConverter luma_;
+  LumaFrame own_;  // of frames that come as images
   FeatureTracks features_;
   TrackingCounters counters_;
   WorldPoseSolver worldSolver_;

@@ -1,6 +1,12 @@
 // The whole chain from decoded frames to planes in memory: tags, poses, the gearbox, watercolor,
-// paper and read-back, on the workbench's walkaround; beside the same with the style "none".
+// paper and read-back, on the workbench's walkaround; beside the same with the style "none", and
+// pass by pass.
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <map>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -45,32 +51,81 @@ std::size_t frameAt(std::uint64_t number) {
   return place < kFrames ? place : 2 * kFrames - 2 - place;
 }
 
-void wholeChain(benchmark::State& state, const char* style, std::size_t quality = 0) {
-  const hal::FrameSize size{static_cast<int>(state.range(0)), static_cast<int>(state.range(1))};
-  const Recording recording(size);
-  Painter painter({.pictureSize = size,
-                   .scene = recording.scene,
-                   .style = style,
-                   .qualityLevels = quality > 0});
-  PaintParameters parameters = painter.defaultParameters();
-  parameters.quality = quality;
-  const int reader = painter.openReader({hal::PixelFormat::kI420, size});
-  ReadPicture picture;
-  std::uint64_t number = 0;
-  const auto paint = [&] {
-    hal::CapturedFrame frame = recording.frames[frameAt(number)];
-    frame.sequence = number;
+double medianOf(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+hal::FrameSize sizeOf(const benchmark::State& state) {
+  return {static_cast<int>(state.range(0)), static_cast<int>(state.range(1))};
+}
+
+class Chain {
+ public:
+  Chain(hal::FrameSize size, const char* style, std::size_t quality, gpu::PassTiming timing)
+      : recording_(size),
+        painter_({.pictureSize = size,
+                  .scene = recording_.scene,
+                  .style = style,
+                  .passTiming = timing,
+                  .qualityLevels = quality > 0}),
+        parameters_(painter_.defaultParameters()),
+        reader_(painter_.openReader({hal::PixelFormat::kI420, size})) {
+    parameters_.quality = quality;
+    for (int i = 0; i < 4; ++i) paint();
+  }
+  /// Whether tags were found.
+  bool paint() {
+    hal::CapturedFrame frame = recording_.frames[frameAt(number_)];
+    frame.sequence = number_;
     frame.captureTime =
-        hal::TimePoint(hal::Duration(33'333'333) * static_cast<std::int64_t>(number));
-    ++number;
-    const hal::Result<Picture> painted = painter.paint(frame, parameters);
-    if (!painted || painted->tracking.tags.empty()) state.SkipWithError("no tag was found");
-    hal::orThrow(painter.take(reader, picture, !painter.hasRoom(reader)));
-  };
-  for (int i = 0; i < 4; ++i) paint();
-  for ([[maybe_unused]] auto _ : state) paint();
+        hal::TimePoint(hal::Duration(33'333'333) * static_cast<std::int64_t>(number_));
+    ++number_;
+    const hal::Result<Picture> painted = painter_.paint(frame, parameters_);
+    hal::orThrow(painter_.take(reader_, picture_, !painter_.hasRoom(reader_)));
+    return painted && !painted->tracking.tags.empty();
+  }
+  Painter& painter() { return painter_; }
+
+ private:
+  Recording recording_;
+  Painter painter_;
+  PaintParameters parameters_;
+  int reader_;
+  ReadPicture picture_;
+  std::uint64_t number_ = 0;
+};
+
+void wholeChain(benchmark::State& state, const char* style, std::size_t quality = 0) {
+  using Clock = std::chrono::steady_clock;
+  Chain chain(sizeOf(state), style, quality, gpu::PassTiming::kOff);
+  std::vector<double> ms;
+  for ([[maybe_unused]] auto _ : state) {
+    const Clock::time_point start = Clock::now();
+    if (!chain.paint()) state.SkipWithError("no tag was found");
+    ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+  }
   state.counters["frames/s"] =
       benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["median_ms"] = medianOf(std::move(ms));
+}
+
+/// Each pass by itself, GPU waited for before and after: medians, ms.
+void stages(benchmark::State& state) {
+  Chain chain(sizeOf(state), "watercolor", 0, gpu::PassTiming::kFences);
+  std::map<std::string, std::vector<double>> ms;
+  std::map<std::string, std::chrono::nanoseconds> before;
+  for (const gpu::PassTime& each : chain.painter().passTimes()) before[each.pass] = each.total;
+  for ([[maybe_unused]] auto _ : state) {
+    chain.paint();
+    for (const gpu::PassTime& each : chain.painter().passTimes()) {
+      ms[each.pass].push_back(
+          std::chrono::duration<double, std::milli>(each.total - before[each.pass]).count());
+      before[each.pass] = each.total;
+    }
+  }
+  for (const auto& [pass, times] : ms) state.counters[pass] = medianOf(times);
 }
 
 void atBothSizes(benchmark::internal::Benchmark* benchmark) {
@@ -82,6 +137,8 @@ BENCHMARK_CAPTURE(wholeChain, watercolor, "watercolor")
     ->Name("chain/watercolor")
     ->Apply(atBothSizes);
 BENCHMARK_CAPTURE(wholeChain, none, "none")->Name("chain/none")->Apply(atBothSizes);
+
+BENCHMARK(stages)->Name("chain/watercolor, pass by pass")->Apply(atBothSizes);
 
 /// Each level below the full one, under its name.
 void levels(benchmark::State& state, std::size_t quality) {

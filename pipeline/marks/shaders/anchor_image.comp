@@ -1,8 +1,9 @@
 // Purpose: carries the anchors that live in the camera's picture, and opens the frame for all others:
 //          what lives on a surface is hidden until its object's pass (anchor_surface.comp) finds it.
 // Inputs:  image_motion.glsl's, flow forward; ids and its pixelsOfFull if hasObjects; fullSize;
-//          margin: px beyond the border after which an anchor is gone; stepSeconds; follows: whether
-//          anything is carried, else surfaces' anchors rest like all others; anew: whether all are to go.
+//          anchor_looks.glsl's; margin: px beyond the border after which an anchor is gone; stepSeconds;
+//          follows: whether anything is carried, else surfaces' anchors rest like all others, and none is
+//          looked at; anew: whether all are to go.
 // Outputs: anchors. One an invocation.
 // Precision: highp.
 #include "pipeline/marks/shaders/image_motion.glsl"
@@ -18,7 +19,7 @@ uniform float stepSeconds;
 uniform bool follows;
 uniform bool anew;
 uniform uint slots;
-
+#include "pipeline/marks/shaders/anchor_looks.glsl"
 
 void main() {
   uint slot = gl_GlobalInvocationID.x;
@@ -47,6 +48,13 @@ void main() {
     bool isInside = all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, textureSize(ids, 0)));
     isHidden = isInside && objectOf(texelFetch(ids, pixel, 0).r) != object;
   }
+  // What a model hides is not looked at, nor what is known to lie on another real object.
+  vec2 looks = anchors[slot].barycentrics;
+  if (follows && !isHidden && all(greaterThan(px, vec2(0.0))) && all(lessThan(px, fullSize))) {
+    looks = remembered(looks, px);
+    isHidden = isStrange(looks, (state & kHidden) != 0u);
+  }
+  anchors[slot].barycentrics = looks;
   anchors[slot].px = px;
   anchors[slot].displacement = moved.displacement;
   anchors[slot].jacobian = moved.jacobian;

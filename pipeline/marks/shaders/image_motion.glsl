@@ -225,6 +225,24 @@ float stillError(vec2 px) {
   return texelFetch(still, clamp(field, ivec2(0), textureSize(still, 0) - 1), 0).r * fullByFrame.x;
 }
 
+// The picture's homography, and what the neighbours do otherwise, as far as features all over the
+// picture do otherwise by more than their errors: the best estimate of both (a Kalman gain).
+Moved withParallax(Moved whole, Neighbours near, float share, bool backward) {
+  float variance = nodes.y;
+  if (known.z == 0.0 || variance == 0.0) return whole;
+  vec2 apart = vec2(0.0);
+  float noise = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    apart += (near.shift[k] - byPicture(near.at[k], backward).displacement) / 3.0;
+    noise += near.error[k] * near.error[k] / 9.0;
+  }
+  float gain = variance / (variance + noise) * (1.0 - 0.5 * share);
+  whole.displacement += gain * apart;
+  float left = 1.0 - gain;
+  whole.error = sqrt(whole.error * whole.error + gain * gain * noise + left * left * variance);
+  return whole;
+}
+
 // --- the choice
 
 // How far a motion is from what a witness saw, beyond what the witness may err.
@@ -254,9 +272,11 @@ Moved imageMotionAt(vec2 px, float layer, bool backward) {
     float odd = 0.0;
     float share = clamp(near.away / 64.0, 0.1, 1.0);
     vec2 mean = (near.shift[0] + near.shift[1] + near.shift[2]) / 3.0;
+    whole = withParallax(whole, near, share, backward);
+    vec2 parallax = whole.displacement - byPicture(px, backward).displacement;
     for (int k = 0; k < 3; ++k) {
       Moved there = byPicture(near.at[k], backward);
-      vec2 expected = known.z == 0.0 ? mean : there.displacement;
+      vec2 expected = known.z == 0.0 ? mean : there.displacement + parallax;
       float apart = max(0.0, distance(near.shift[k], expected) - 2.0 * near.error[k]);
       off = max(off, apart);
       odd = max(odd, apart);

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "pipeline/marks/marks_shaders.h"
+#include "pipeline/scene/scene_shaders.h"
 #include "tests/oracles/steady_oracle.h"
 #include "tests/support/gl_test.h"
 
@@ -52,6 +53,7 @@ class SteadyPictureTest : public support::GlTest {
     GlTest::SetUp();
     if (IsSkipped()) return;
     library_.add(gpu::marksShaders());
+    library_.add(gpu::sceneShaders());
     steady_ = std::make_unique<SteadyPicture>(library_);
     move({0.0, 0.0}, 0.01F);
   }

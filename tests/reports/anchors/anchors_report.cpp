@@ -241,7 +241,8 @@ int report(const std::set<std::string>& parts) {
   const auto wants = [&](const char* part) { return parts.empty() || parts.contains(part); };
   if (wants("cells")) reportCells();
   if (wants("turnover")) reportTurnover();
-  if (wants("slips")) reportSlips();
+  const auto isPart = [](const std::string& part) { return part == "cells" || part == "turnover"; };
+  if (!std::ranges::all_of(parts, isPart) || parts.empty()) reportSlips(parts);
   return 0;
 }
 

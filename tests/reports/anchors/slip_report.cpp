@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,18 @@ struct Followed {
   glm::dvec2 expected{0.0};
   int age = 0;
 };
+
+/// As a camera's picture, RGBA.
+std::vector<std::uint8_t> greyOf(const hal::ImageView& luma) {
+  std::vector<std::uint8_t> rgba;
+  for (int y = 0; y < luma.format.size.height; ++y) {
+    for (const std::uint8_t level :
+         luma.row(0, y).first(static_cast<std::size_t>(luma.format.size.width))) {
+      rgba.insert(rgba.end(), {level, level, level, 255});
+    }
+  }
+  return rgba;
+}
 
 /// What was found on a shot.
 struct Slips {
@@ -98,6 +111,7 @@ class SlipRun {
     const tracking::TruthFrame& frame = sequence_.frames[i];
     const tracking::ImageMotion& motion =
         estimator_.follow(frame.luma.view().planes[0], kSize, i + 1);
+    picture_.upload(greyOf(frame.luma.view()), std::size_t{4} * kSize.width);
     scene::ArFrame composed =
         renderer_->compose(picture_, sequence_.camera, posesOf(frame), i + 1, frame.time, timer_,
                            {.surfaces = true, .pictureMovement = true});
@@ -188,7 +202,10 @@ std::string sourcesText(const Slips& slips) {
 
 }  // namespace
 
-void reportSlips() {
+void reportSlips(const std::set<std::string>& parts) {
+  const auto wants = [&](SyntheticShot shot) {
+    return parts.contains("slips") || parts.empty() || parts.contains(std::string(toString(shot)));
+  };
   std::printf(
       "\n### Anchor slip on the workbench, px, median / 95th percentile\n\n"
       "| shot | told by | a frame | after 10 | after 30 | moved by (RMS error a frame, as "
@@ -196,6 +213,7 @@ void reportSlips() {
   for (const SyntheticShot shot :
        {SyntheticShot::kStill, SyntheticShot::kPan, SyntheticShot::kWalkaround,
         SyntheticShot::kDolly, SyntheticShot::kRoll, SyntheticShot::kOccluder}) {
+    if (!wants(shot)) continue;
     const tracking::TruthSequence sequence = tracking::filmWorkbench(
         {.shot = shot, .frameCount = kFrames, .size = kSize, .noiseSigma = kNoise});
     for (const auto& [poses, name] :

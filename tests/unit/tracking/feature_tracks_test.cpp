@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/image.h"
+#include "pipeline/tracking/luma_frame.h"
 
 namespace pleinair::tracking {
 namespace {
@@ -30,8 +31,9 @@ hal::Image blobs(hal::FrameSize size, glm::dvec2 shift, int coveredTo = 0) {
 }
 
 void follow(FeatureTracks& features, const hal::Image& image) {
-  const hal::ImageView view = image.view();
-  features.follow(view.planes[0], view.format.size);
+  LumaFrame frame;
+  frame.take(image.view());
+  features.follow(frame.pyramid());
 }
 
 std::ptrdiff_t countFound(const FeatureTracks& features) {

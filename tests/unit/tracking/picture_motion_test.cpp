@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "pipeline/tracking/image_motion_estimator.h"
+
 namespace pleinair::tracking {
 namespace {
 
@@ -43,10 +45,31 @@ std::vector<std::uint8_t> seen(const PlaneSimilarity& wallFromFrame, double nois
   return luma;
 }
 
-const PlaneSimilarity& follow(PictureMotion& motion, const std::vector<std::uint8_t>& luma) {
-  return motion.follow({.bytes = luma, .strideBytes = static_cast<std::size_t>(kSize.width)},
-                       kSize);
+/// Who finds the motion.
+enum class By { kItself, kEstimator };
+std::string nameOf(const testing::TestParamInfo<By>& by) {
+  return by.param == By::kItself ? "ByItself" : "ByTheEstimator";
 }
+
+class Follower {
+ public:
+  explicit Follower(By by) : by_(by) {}
+  const PlaneSimilarity& see(const std::vector<std::uint8_t>& luma, hal::FrameSize size = kSize) {
+    const hal::PlaneView plane{.bytes = luma, .strideBytes = static_cast<std::size_t>(size.width)};
+    if (by_ == By::kItself) return motion_.follow(plane, size);
+    return motion_.follow(estimator_.follow(plane, size, number_++));
+  }
+  void reset() {
+    motion_.reset();
+    estimator_.reset();
+  }
+
+ private:
+  By by_;
+  PictureMotion motion_;
+  ImageMotionEstimator estimator_{{.flow = false, .stillness = false}};
+  std::uint64_t number_ = 0;
+};
 
 /// The farthest that two similarities take a corner of the frame apart.
 double apart(const PlaneSimilarity& a, const PlaneSimilarity& b) {
@@ -81,7 +104,10 @@ struct Path {
   friend std::ostream& operator<<(std::ostream& out, const Path& path) { return out << path.name; }
 };
 
-class FollowTest : public testing::TestWithParam<Path> {};
+class FollowTest : public testing::TestWithParam<Path> {
+ protected:
+  static double worstBy(By by);
+};
 
 // Each over several key frames.
 INSTANTIATE_TEST_SUITE_P(Paths, FollowTest,
@@ -91,37 +117,44 @@ INSTANTIATE_TEST_SUITE_P(Paths, FollowTest,
                                          Path{"all", 1.2, 1.015, {3.5, -2.0}}),
                          [](const auto& each) { return std::string(each.param.name); });
 
-TEST_P(FollowTest, FindsTheMotion) {
+double FollowTest::worstBy(By by) {
   const Path& path = GetParam();
-  PictureMotion motion;
+  Follower follower(by);
   double worst = 0.0;
   for (int i = 0; i < 16; ++i) {
     const PlaneSimilarity truth =
         turned(path.degrees * i, std::pow(path.zoom, i), path.shift * static_cast<double>(i));
-    worst =
-        std::max(worst, apart(follow(motion, seen(truth, 2.0, static_cast<unsigned>(i))), truth));
+    worst = std::max(worst, apart(follower.see(seen(truth, 2.0, static_cast<unsigned>(i))), truth));
   }
-  EXPECT_LT(worst, 3.0) << "px at the frame's corners, after 16 frames";
+  return worst;
 }
 
-TEST(PictureMotion, StandsStillInSpiteOfNoise) {
-  PictureMotion motion;
+TEST_P(FollowTest, FindsTheMotion) {
+  EXPECT_LT(worstBy(By::kItself), 3.0) << "px at the frame's corners, after 16 frames";
+  EXPECT_LT(worstBy(By::kEstimator), 3.0);
+}
+
+class CanvasMotion : public testing::TestWithParam<By> {};
+INSTANTIATE_TEST_SUITE_P(Both, CanvasMotion, testing::Values(By::kItself, By::kEstimator), nameOf);
+
+TEST_P(CanvasMotion, StandsStillInSpiteOfNoise) {
+  Follower follower(GetParam());
   for (unsigned i = 0; i < 12; ++i) {
-    const PlaneSimilarity found = follow(motion, seen({}, 3.0, i));
+    const PlaneSimilarity found = follower.see(seen({}, 3.0, i));
     EXPECT_EQ(found.linear, glm::dvec2(1.0, 0.0)) << i;
     EXPECT_EQ(found.shift, glm::dvec2(0.0)) << i;
   }
 }
 
-TEST(PictureMotion, FollowsASlowPanThatNoFrameShows) {
-  PictureMotion motion;
+TEST_P(CanvasMotion, FollowsASlowPanThatNoFrameShows) {
+  Follower follower(GetParam());
   PlaneSimilarity found;
-  for (int i = 0; i <= 20; ++i) found = follow(motion, seen({.shift = {0.2 * i, 0.0}}));
+  for (int i = 0; i <= 20; ++i) found = follower.see(seen({.shift = {0.2 * i, 0.0}}));
   EXPECT_NEAR(found.shift.x, 4.0, 0.5);
 }
 
-TEST(PictureMotion, IsNotTakenAlongByAThing) {
-  PictureMotion motion;
+TEST_P(CanvasMotion, IsNotTakenAlongByAThing) {
+  Follower follower(GetParam());
   for (int i = 0; i < 15; ++i) {
     std::vector<std::uint8_t> luma = seen({});
     for (int y = 60; y < 180; ++y) {  // a quarter of the picture, 8 px a frame
@@ -131,32 +164,31 @@ TEST(PictureMotion, IsNotTakenAlongByAThing) {
             static_cast<std::uint8_t>(((x / 13) ^ (y / 11)) % 2 == 0 ? 40 : 210);
       }
     }
-    EXPECT_LT(apart(follow(motion, luma), {}), 3.0) << i;
+    EXPECT_LT(apart(follower.see(luma), {}), 3.0) << i;
   }
 }
 
-TEST(PictureMotion, StaysWhereNothingCanBeFollowed) {
-  PictureMotion motion;
-  follow(motion, seen({}));
-  const PlaneSimilarity before = follow(motion, seen({.shift = {12.0, 0.0}}));
+TEST_P(CanvasMotion, StaysWhereNothingCanBeFollowed) {
+  Follower follower(GetParam());
+  follower.see(seen({}));
+  const PlaneSimilarity before = follower.see(seen({.shift = {12.0, 0.0}}));
   EXPECT_NEAR(before.shift.x, 12.0, 0.7);
   const std::vector<std::uint8_t> blank(static_cast<std::size_t>(kSize.pixels()), 90);
-  EXPECT_EQ(follow(motion, blank).shift, before.shift);
+  EXPECT_EQ(follower.see(blank).shift, before.shift);
   // A cut: another place altogether.
-  EXPECT_EQ(follow(motion, seen({.shift = {5000.0, 900.0}})).shift, before.shift);
+  EXPECT_EQ(follower.see(seen({.shift = {5000.0, 900.0}})).shift, before.shift);
   // And on from there.
-  EXPECT_NEAR(follow(motion, seen({.shift = {5006.0, 900.0}})).shift.x, before.shift.x + 6.0, 0.7);
-  motion.reset();
-  EXPECT_EQ(follow(motion, seen({})).shift, glm::dvec2(0.0));
+  EXPECT_NEAR(follower.see(seen({.shift = {5006.0, 900.0}})).shift.x, before.shift.x + 6.0, 0.7);
+  follower.reset();
+  EXPECT_EQ(follower.see(seen({})).shift, glm::dvec2(0.0));
 }
 
-TEST(PictureMotion, TakesPicturesOfAnySize) {
-  PictureMotion motion;
+TEST_P(CanvasMotion, TakesPicturesOfAnySize) {
+  Follower follower(GetParam());
   for (const hal::FrameSize size : {hal::FrameSize{1, 1}, {3, 700}, {16, 16}, {1280, 720}}) {
     const std::vector<std::uint8_t> luma(static_cast<std::size_t>(size.pixels()), 77);
     for (int i = 0; i < 2; ++i) {
-      const auto found =
-          motion.follow({.bytes = luma, .strideBytes = static_cast<std::size_t>(size.width)}, size);
+      const PlaneSimilarity found = follower.see(luma, size);
       EXPECT_EQ(found.shift, glm::dvec2(0.0));
     }
   }
