@@ -31,6 +31,7 @@ uniform bool isLimited;
 uniform vec3 jitter;
 
 const int kPoints = 8;
+const float kGreyHue = 0.4;
 const float kSpeck = 0.5;
 
 // The place `s` segments along an arm.
@@ -67,7 +68,9 @@ void main() {
   vec3 hue = vec3(randomOf(seed, 0x21u), randomOf(seed, 0x22u), randomOf(seed, 0x23u));
   hue -= dot(hue, vec3(0.299, 0.587, 0.114));
   colour = luma + (colour - luma) * (1.0 + 2.0 * jitter.y * randomOf(seed, 0x24u));
-  colour += 2.0 * jitter.x * hue * (0.25 + luma);
+  // Greys stay nearly grey.
+  float chroma = max(colour.r, max(colour.g, colour.b)) - min(colour.r, min(colour.g, colour.b));
+  colour += 2.0 * jitter.x * hue * (0.25 + luma) * mix(kGreyHue, 1.0, smoothstep(0.0, 0.25, chroma));
   colour *= 1.0 + 2.0 * jitter.z * randomOf(seed, 0x25u);
   Instance made;
   for (int i = 0; i < 4; ++i) made.points[i] = vec4(points[2 * i], points[2 * i + 1]);

@@ -147,6 +147,12 @@ vec2[kArm] heldArm(vec2 now[kArm], vec4 was[2], vec2 heading, vec4 jacobian) {
   return held;
 }
 
+// What now lies over something else draws back sooner than it would grow.
+float heldLength(float now, float was) {
+  float stays = now < 0.6 * was ? past.x * past.x * past.x * past.x : past.x;
+  return mix(now, was, stays);
+}
+
 void main() {
   uint slot = gl_GlobalInvocationID.x;
   if (slot >= slots) return;
@@ -210,7 +216,7 @@ void main() {
     made.exists = goal;  // its anchor fades in
     made.colour = colour;
   } else {
-    made.lengths = mix(vec2(ahead.length, behind.length), old.lengths, past.x);
+    made.lengths = vec2(heldLength(ahead.length, old.lengths.x), heldLength(behind.length, old.lengths.y));
     made.exists = mix(goal, old.exists, goal > old.exists ? past.z : past.w);
     if (abs(made.exists - goal) < 0.02) made.exists = goal;
     vec3 change = (colour - old.colour) * (1.0 - past.y);

@@ -38,7 +38,7 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
                        "Which of the random paintings; a change starts a new one."),
       integerParameter("layers", &P::layers, {.min = 1, .max = 5},
                        "How many layers, from broad to fine; a change starts a new painting."),
-      numberParameter("stroke_size", &P::strokeSizePixels, {.min = 2, .max = 64, .unit = "px"},
+      numberParameter("stroke_size", &P::strokeSizePixels, {.min = 2, .max = 32, .unit = "px"},
                       "Width of the finest strokes in a picture of 640x480; they grow with the "
                       "picture. A change starts a new painting."),
       numberParameter(

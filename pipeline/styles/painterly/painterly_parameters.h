@@ -46,7 +46,7 @@ struct PainterlyParameters {
   Sheet::Kind support = Sheet::Kind::kLinen;
   double canvas = 0.15;
   double tooth = 0.0;
-  double wash = 0.85;
+  double wash = 0.95;
   double groundRed = 0.55;
   double groundGreen = 0.45;
   double groundBlue = 0.35;
