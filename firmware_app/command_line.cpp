@@ -63,6 +63,11 @@ int withOutputFlushed(int status) {
   std::cout.flush();  // CLI11's help
   const bool arrived = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
   if (arrived || status != 0) return status;
+  if (errno == 0) {  // it failed on the way, and what for is forgotten: ask again
+    std::clearerr(stdout);
+    std::fputc('\n', stdout);
+    std::fflush(stdout);
+  }
   const std::string cause = errno == 0 ? "" : ": " + std::generic_category().message(errno);
   printError("standard output: cannot write" + cause);
   return static_cast<int>(ExitStatus::kUsage);

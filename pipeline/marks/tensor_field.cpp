@@ -12,6 +12,7 @@
 #include "pipeline/gpu/buffer.h"
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/render_target.h"
+#include "pipeline/marks/fading_past.h"
 
 namespace pleinair::marks {
 namespace {
@@ -178,11 +179,10 @@ void TensorField::update(const scene::ArFrame& frame, const gpu::Texture& pictur
   State& s = *state_;
   assert(frame.full() == s.full && picture.size() == frame.size());
   assert(options.slack >= 0.0 && options.slack < 1.0);
-  const double step =
-      std::clamp(std::chrono::duration<double>(frame.captureTime - s.lastTime).count(), 0.0, 1.0);
+  const hal::Duration step = timeStep(s.lastTime, frame.captureTime);
   const double memory = std::chrono::duration<double>(options.memory).count();
   const bool goesOn = s.hasPast && !motion.isCut();
-  const double past = goesOn && memory > 0.0 ? std::exp(-step / memory) : 0.0;
+  const double past = goesOn ? keptAfter(step, memory) : 0.0;
   s.lastTime = frame.captureTime;
   s.hasPast = true;
   const auto scope = timer.measure("tensor field");

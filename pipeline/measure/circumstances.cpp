@@ -39,7 +39,7 @@ std::string whyMissing(Measure measure, const Circumstances& circumstances) {
     if (circumstances.stillNoiseLevels == 0) return "the still scene has no noise (--noise 0)";
     return "the noise does not show on the still scene";
   }
-  if (measure == &Measures::xEw2) return "the input has no error at all";
+  if (measure == &Measures::xEw2) return "nothing could be compared, or the input has no error";
   if (measure == &Measures::dep || measure == &Measures::det) return "the input has no detail";
   return "nothing could be compared along the motion";
 }

@@ -51,7 +51,7 @@ StrokeArm strokeArm(const StrokeGround& ground, const StrokeWalk& walk, glm::dve
 glm::dvec2 placeOn(const StrokeArm& arm, double segmentPx, glm::dvec2 anchor, double segments);
 
 /// What a past direction has become after many short steps of the thesis's average (§5.4) with a
-/// new one, in the doubled angle (METHOD.md V.4); `pastShare` is what weighs the past after all of
+/// new one, in the doubled angle (thesis §5.4); `pastShare` is what weighs the past after all of
 /// them. Unit vectors, whose signs say nothing.
 glm::dvec2 averagedDirection(glm::dvec2 now, glm::dvec2 past, double pastShare);
 

@@ -1,4 +1,4 @@
-// Purpose: the mean of a stroke's direction now and what it was (METHOD.md V.4), in the doubled angle,
+// Purpose: the mean of a stroke's direction now and what it was (thesis §5.4), in the doubled angle,
 //          where directions have no sign.
 // Inputs:  now, was: unit vectors; stays: the past's share, e^(-Δt / τ).
 // Outputs: a unit vector, on the side that the past was on.

@@ -52,12 +52,15 @@ vec2 directionAt(vec2 px) {
 vec3 colourAt(vec2 px, uint object) {
   vec4 seen = isVirtual(object) ? textureLod(modelPaint, px / fullSize, 0.0)
                                 : textureLod(paint, px / fullSize, 0.0);
-  return seen.rgb / max(seen.a, 1e-3);
+  return seen.rgb / max(seen.a, 1e-4);
 }
+
+// 0 for all that is real: the camera's picture goes on over occluders.
+uint paintedObject(uint object) { return isVirtual(object) ? object : 0u; }
 
 uint objectAt(vec2 px) {
   ivec2 pixel = clamp(ivec2(floor(px * pixelsOfFull)), ivec2(0), textureSize(ids, 0) - 1);
-  return objectOf(texelFetch(ids, pixel, 0).r);
+  return paintedObject(objectOf(texelFetch(ids, pixel, 0).r));
 }
 
 // What the stroke stands on counts for more than what it goes over, or little lights would go out.
@@ -156,7 +159,13 @@ void main() {
   uint seed = anchors[slot].seed;
   bool isNew = anew || (state & kBorn) != 0u;
   Stroke old = strokes[slot];
-  uint object = hasObjects ? objectOf(anchors[slot].surface) : 0u;
+  if (!isNew && (state & kHidden) != 0u) {
+    // What hides it has other colours and directions: it goes as it was.
+    old.seen = old.exists * anchors[slot].fade;
+    strokes[slot] = old;
+    return;
+  }
+  uint object = hasObjects ? paintedObject(objectOf(anchors[slot].surface)) : 0u;
 
   float hash = unitOf(hashOf(seed ^ 0x51u));
   float stray = wander * (unitOf(hashOf(seed ^ 0x77u)) + unitOf(hashOf(seed ^ 0x78u)) - 1.0);

@@ -8,7 +8,7 @@
 namespace pleinair::styles {
 namespace {
 
-/// The thesis's weight of 0.95 on the past, at 30 frames a second (METHOD.md V.4).
+/// The thesis's weight of 0.95 on the past, at 30 frames a second (thesis §5.4).
 constexpr double kMemorySeconds = 0.65;
 constexpr double kAppearingSeconds = 0.3;
 constexpr double kForever = 1e6;

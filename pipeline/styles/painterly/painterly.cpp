@@ -207,7 +207,7 @@ void Painterly::State::drawStrokes(const scene::ArFrame& frame, const PainterlyP
                                    gpu::PassTimer& timer) {
   const auto scope = timer.measure("painterly: strokes");
   const Texture* const clip = findBorders(frame);
-  // All of them before any is drawn: what is drawn on stays in a tile's memory (GPU.md).
+  // All of them before any is drawn: what is drawn on stays in a tile's memory (docs/gpu.md).
   for (const auto& layer : painting->layers) {
     strips.lay(layer->strokes.instances(), layer->strokes.command(), p.quads, layer->strips);
   }
@@ -338,6 +338,7 @@ void Painterly::warmUp() {
       paint(frame, {}, untimed);
     }
   }
+  p_ = painterlyParameters().typed(values_);
   state_->painting.reset();
   state_->canvas = nullptr;
   state_->canvases.clear();
@@ -345,7 +346,6 @@ void Painterly::warmUp() {
 }
 
 hal::Result<void> Painterly::prepare(const config::ParameterValues& values) {
-  if (values == values_) return {};
   return state_->brushes.take(painterlyParameters().typed(values).brushFile);
 }
 

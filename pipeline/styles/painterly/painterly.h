@@ -21,18 +21,18 @@ std::span<const ViewInfo> painterlyViews();
 /// it; any thread. Errors: readBrushFile()'s.
 hal::Result<void> checkPainterly(const config::ParameterValues& values);
 
-/// Chapter IV of the thesis, and on: three layers of brush strokes, from coarse to fine, that
+/// Chapter IV of the thesis, and on: layers of brush strokes, from broad to fine, that
 /// follow the tensor field of the picture's edges. Each stroke belongs to an anchor, goes with what
 /// that lies on, and keeps its shape, colour and place in the order of painting as long as it
 /// lives. Fine layers are painted only where there is detail. Colour and height are drawn together;
 /// light falls on the paint's relief in one pass at the end. All on the GPU, nothing is read back.
 ///
-/// Time: a first frame (after reset(), a cut, another full size, other strokes' size, density or
-/// seed) has all its strokes at once. Time constants are scaled by `coherence`.
+/// Time: a first frame (after reset(), a cut, another full size, another number, size, length,
+/// density or seed of strokes) has all its strokes at once. Time constants are scaled by `coherence`.
 class Painterly final : public Style {
  public:
-  /// The library, which outlives it, holds gpu::painterlyShaders(), marksShaders(), sceneShaders(),
-  /// gpuShaders().
+  /// The library, which outlives it, holds gpu::painterlyShaders(), sheetShaders(), marksShaders(),
+  /// sceneShaders(), gpuShaders().
   explicit Painterly(const gpu::ShaderLibrary& library);
   ~Painterly() override;
   Painterly(const Painterly&) = delete;

@@ -24,7 +24,7 @@ std::size_t verticesOf(std::size_t quads) {
 /// As many as all slots' strokes have room for.
 std::size_t evenQuads(std::size_t slots) {
   const std::size_t vertices = kMostBytes / StrokeStrips::kVertexBytes / slots;
-  return std::clamp(vertices / 2 - 2, kCurvatureQuads, kThesisQuads);
+  return std::clamp(std::max<std::size_t>(vertices / 2, 2) - 2, kCurvatureQuads, kThesisQuads);
 }
 
 }  // namespace

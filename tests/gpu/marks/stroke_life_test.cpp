@@ -75,12 +75,11 @@ TEST_F(StrokeLife, HistoryIsForgottenInTimeAndNotInFrames) {
     for (int i = 0; i < frames; ++i) {
       advance(now, rule, standing(), &light, milliseconds(480) / frames);
     }
-    const double turned = 0.5 * (1.0 - std::exp(-0.480 / 0.650));
+    const double turned = 0.5 - std::atan(std::tan(0.5) * std::exp(-0.480 / 0.650));
     const double colour = 0.8 - 0.6 * std::exp(-0.480 / 0.300);
     for (const StrokeSlot& each : inner()) {
-      // Averaging unit vectors bends as averaging angles does, up to a small part of 0.5 rad.
-      EXPECT_NEAR(angleBetween(each.ahead[0], {0.0F, 1.0F}), turned, 0.03);
-      EXPECT_NEAR(angleBetween(each.behind[1], {0.0F, 1.0F}), turned, 0.03);
+      EXPECT_NEAR(angleBetween(each.ahead[0], {0.0F, 1.0F}), turned, 0.015);
+      EXPECT_NEAR(angleBetween(each.behind[1], {0.0F, 1.0F}), turned, 0.015);
       EXPECT_NEAR(each.colour.g, colour, 0.01);
     }
   }

@@ -70,8 +70,8 @@ TEST_F(BumpTest, IsTheThesissNormalInTheOraclesLight) {
       const glm::dvec2 way(std::cos(angle), std::sin(angle));
       const bool isMirrored = i % 2 == 1;
       for (const double gloss : {0.0, 0.5}) {
-        const glm::dvec3 tangent = oracles::bumpNormal(isAlong ? 0.0 : 0.0, isAlong ? step : 0.0,
-                                                       0.0, isAlong ? 0.0 : step);
+        const glm::dvec3 tangent =
+            oracles::bumpNormal(0.0, isAlong ? step : 0.0, 0.0, isAlong ? 0.0 : step);
         const glm::dvec2 across = (isMirrored ? -1.0 : 1.0) * glm::dvec2(-way.y, way.x);
         const glm::dvec3 normal(tangent.x * way + tangent.y * across, tangent.z);
         const glm::dvec3 expected =

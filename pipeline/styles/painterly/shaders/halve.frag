@@ -1,6 +1,6 @@
 // Purpose: a picture at half its size: the mean of 2x2.
 // Inputs:  picture (LINEAR); size: of the output.
-// Outputs: RGBA8, alike. Precision: highp for places.
+// Outputs: alike. Precision: highp for places.
 uniform sampler2D picture;
 uniform vec2 size;
 layout(location = 0) out vec4 half_;

@@ -1,4 +1,4 @@
-// Purpose: a picture at half its size, of what is real and of models each by itself: the mean of those
+// Purpose: a picture at half its size, of what is real and of all models, each of the two by itself: the mean of those
 //          of 2x2 that are.
 // Inputs:  picture (RGBA8), ids (ArFrame).
 // Outputs: 0 real, 1 models: RGBA16F, premultiplied: alpha is the share of the 2x2.

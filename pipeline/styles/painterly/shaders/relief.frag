@@ -1,10 +1,11 @@
 // Purpose: light on the paint's relief, once a pixel, on its canvas; and what is in focus kept
 //          crisp.
-// Inputs:  colours, heights (stroke.frag); sheet.glsl's: what it is painted on; frame, normalFocus if
+// Inputs:  colours, heights (stroke_mark.glsl); sheet.glsl's: what it is painted on; frame, normalFocus if
 //          hasFocus; relief, gloss, weave: how much of each; tooth: how much the sheet's grain keeps
 //          paint from its hollows, where the washed ground is seen; palette: saturation, warmth.
 // Outputs: RGBA8, sRGB-coded, opaque.
 // Precision: highp for places.
+#include "pipeline/styles/painterly/shaders/paint_light.glsl"
 #include "pipeline/styles/sheet/shaders/sheet.glsl"
 uniform sampler2D colours;
 uniform sampler2D heights;
@@ -40,17 +41,14 @@ void main() {
   float here = 0.25 * (nw + ne + sw + se);
   vec2 slope = 0.5 * vec2(ne + se - nw - sw, sw + se - nw - ne) * relief;
   vec3 normal = normalize(vec3(-slope, 1.0));
-  const vec3 kLight = vec3(-0.5145, -0.6860, 0.5145);  // from the upper left
-  float lit = dot(normal, kLight) / kLight.z;
+  float lit = litBy(normal);
   vec4 sheet = sheetAt(onPaper(gl_FragCoord.xy), 1.0);
   lit += weave * (1.0 - 0.7 * here) * (2.0 * sheet.g - 1.0);
-  vec3 halfway = normalize(kLight + vec3(0.0, 0.0, 1.0));
-  float shine = pow(max(dot(normal, halfway), 0.0), 40.0) - pow(halfway.z, 40.0);
   rgb = mix(mix(ground, rgb, wash), rgb, caught(sheet.r, texelFetch(heights, p, 0).g));
   float luma = dot(rgb, vec3(0.299, 0.587, 0.114));
   rgb = luma + (rgb - luma) * saturation;
   rgb *= vec3(1.0 + 0.12 * warmth, 1.0, 1.0 - 0.15 * warmth);
-  rgb = rgb * (1.0 + 0.6 * (clamp(lit, 0.3, 1.8) - 1.0)) + gloss * max(shine, 0.0);
+  rgb = inLight(rgb, lit) + gloss * shineOf(normal);
   if (hasFocus) {
     rgb = mix(rgb, texelFetch(frame, p, 0).rgb, texelFetch(normalFocus, p, 0).a);
   }

@@ -31,5 +31,5 @@ void leave(vec3 rgb, float thick, float cover) {
   // At its ends paint goes over into what lies there: a step would be a seam across the stroke.
   float fromEnds = aspect * min(brush.x, 1.0 - brush.x);
   float body = cover * smoothstep(0.0, kThinEnd, fromEnds);
-  height = vec4(thick * body, cover, 0.0, body);
+  height = vec4(thick * body, body, 0.0, body);
 }
