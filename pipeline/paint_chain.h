@@ -91,7 +91,7 @@ class PaintChain {
   scene::BufferViewer bufferViewer_;
   std::unique_ptr<styles::Style> style_;
   config::ParameterValues defaults_;  // of the style
-  hal::FrameSize frameSize_;  // of the last frame; what follows is made for it
+  hal::FrameSize frameSize_;          // of the last frame; what follows is made for it
   std::optional<tracking::Tracker> tracker_;
   tracking::LumaFrame luma_;  // of the frame
   tracking::PictureMotion motion_;

@@ -28,8 +28,8 @@ struct Anchor {
   /// Of the first two corners of the triangle it lives on; in the image: what it looks like there
   /// (shaders/anchor_looks.glsl).
   glm::vec2 barycentrics{0.0F};
-  float errorPx = 0.0F;            ///< predicted, of the displacement
-  float fade = 0.0F;               ///< how much of its mark is seen, in [0, 1]
+  float errorPx = 0.0F;  ///< predicted, of the displacement
+  float fade = 0.0F;     ///< how much of its mark is seen, in [0, 1]
   float ageSeconds = 0.0F;
   std::uint32_t seed = 0;     ///< of all that is random about it, as long as it lives
   std::uint32_t surface = 0;  ///< the object and triangle it lives on (ArFrame::ids); 0: the image

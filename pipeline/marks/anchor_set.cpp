@@ -201,8 +201,7 @@ void AnchorSet::advance(const scene::ArFrame& frame, const MotionField& motion,
   assert(frame.full() == s.full);
   assert(!frame.hasObjects || frame.barycentrics != nullptr);
   s.hasBegunAnew = !s.hasPast || motion.isCut();
-  const hal::Duration step =
-      s.hasPast ? timeStep(s.lastTime, frame.captureTime) : hal::Duration(0);
+  const hal::Duration step = s.hasPast ? timeStep(s.lastTime, frame.captureTime) : hal::Duration(0);
   s.lastTime = frame.captureTime;
   s.hasPast = true;
   ++s.salt;

@@ -16,10 +16,10 @@
 
 namespace pleinair::marks {
 
-/// How many anchors there are (thesis §5.3, with hysteresis): a cell of the grid with fewer than `birthBelow` is
-/// filled up to `target`; one with more than `deathAbove` loses one a frame. What lies between
-/// changes nothing, which is what keeps the turnover low. Of a cell that shows both models and the
-/// camera's picture, each has its share.
+/// How many anchors there are (thesis §5.3, with hysteresis): a cell of the grid with fewer than
+/// `birthBelow` is filled up to `target`; one with more than `deathAbove` loses one a frame. What
+/// lies between changes nothing, which is what keeps the turnover low. Of a cell that shows both
+/// models and the camera's picture, each has its share.
 struct DensityRule {
   int cellPixels = 8;  ///< the cell's side, in px of the full picture
   int target = 2;

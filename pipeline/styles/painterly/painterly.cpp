@@ -20,6 +20,7 @@
 #include "pipeline/styles/painterly/brush_shelf.h"
 #include "pipeline/styles/painterly/coherence.h"
 #include "pipeline/styles/painterly/layers.h"
+#include "pipeline/styles/painterly/painterly_views.h"
 #include "pipeline/styles/painterly/palette.h"
 #include "pipeline/styles/painterly/reduced_pictures.h"
 #include "pipeline/styles/painterly/stroke_drawing.h"
@@ -34,31 +35,6 @@ using gpu::TextureFormat;
 const std::string kShaders = "pipeline/styles/painterly/shaders/";
 constexpr double kTexelOfWidth = 0.6;       // that a stroke's colours are of, at most
 constexpr std::size_t kGroundHalvings = 3;  // of the first wash
-
-constexpr std::string_view kTensorsView = "tensors";
-constexpr std::string_view kPyramidView = "pyramid";
-constexpr std::string_view kRegionsView = "regions";
-constexpr std::string_view kLayersView = "layers";
-constexpr std::string_view kSkeletonsView = "skeletons";
-constexpr std::string_view kAnchorsView = "anchors";
-constexpr std::string_view kHeightView = "height";
-constexpr std::array<ViewInfo, 7> kViews{{
-    {kTensorsView, "the tensor field: which way strokes go; blue from edges, red filled in"},
-    {kPyramidView, "four levels of its pyramid"},
-    {kRegionsView, "what is painted finely (red), middlingly (yellow) and broadly (blue)"},
-    {kLayersView, "strokes in their layer's colour"},
-    {kSkeletonsView, "the strokes' skeletons, likewise"},
-    {kAnchorsView, "their anchors: red ones are young"},
-    {kHeightView, "how thick the paint lies"},
-}};
-/// Of the strokes that are `part` of the way from the coarsest to the finest.
-glm::vec3 layerColour(float part) {
-  constexpr glm::vec3 kCoarse{0.3F, 0.45F, 0.8F};
-  constexpr glm::vec3 kMiddle{0.95F, 0.8F, 0.3F};
-  constexpr glm::vec3 kFine{0.9F, 0.3F, 0.2F};
-  return part < 0.5F ? glm::mix(kCoarse, kMiddle, 2.0F * part)
-                     : glm::mix(kMiddle, kFine, 2.0F * part - 1.0F);
-}
 
 Texture colours(hal::FrameSize size) {
   return {TextureFormat::kRgba8, size, TextureFilter::kLinear};
@@ -310,10 +286,6 @@ Painterly::Painterly(const gpu::ShaderLibrary& library)
 
 Painterly::~Painterly() = default;
 
-std::span<const ViewInfo> painterlyViews() {
-  return kViews;
-}
-
 scene::ArFrameNeeds Painterly::needs() const {
   return {.surfaces = true, .pictureMovement = true, .shading = scene::Shading::kSmooth};
 }
@@ -329,7 +301,7 @@ void Painterly::warmUp() {
   ids.upload(zeros, std::size_t{16} * 4);
   gpu::PassTimer untimed;
   scene::ArFrame frame{.colour = &grey, .ids = &ids, .normalFocus = &grey, .barycentrics = &ids};
-  for (const ViewInfo& view : kViews) paint(frame, view.name, untimed);
+  for (const ViewInfo& view : painterlyViews()) paint(frame, view.name, untimed);
   for (const StrokeBump bump : {StrokeBump::kEach, StrokeBump::kOnce}) {
     p_.bump = bump;
     for (const bool isShown : {true, false}) {

@@ -10,12 +10,10 @@
 #include "pipeline/marks/anchor_set.h"
 #include "pipeline/marks/stroke_set.h"
 #include "pipeline/styles/painterly/painterly_parameters.h"
+#include "pipeline/styles/painterly/painterly_views.h"
 #include "pipeline/styles/style.h"
 
 namespace pleinair::styles {
-
-/// The style's inner pictures, apart from the finished one.
-std::span<const ViewInfo> painterlyViews();
 
 /// Whether what the parameters name outside the program, a brush's file, is there and sound. Reads
 /// it; any thread. Errors: readBrushFile()'s.
@@ -28,7 +26,8 @@ hal::Result<void> checkPainterly(const config::ParameterValues& values);
 /// light falls on the paint's relief in one pass at the end. All on the GPU, nothing is read back.
 ///
 /// Time: a first frame (after reset(), a cut, another full size, another number, size, length,
-/// density or seed of strokes) has all its strokes at once. Time constants are scaled by `coherence`.
+/// density or seed of strokes) has all its strokes at once. Time constants are scaled by
+/// `coherence`.
 class Painterly final : public Style {
  public:
   /// The library, which outlives it, holds gpu::painterlyShaders(), sheetShaders(), marksShaders(),

@@ -17,8 +17,8 @@ namespace pleinair::styles {
 
 /// A frame's picture at half its size, a quarter and on, for strokes to take their colours from:
 /// where there are models, of what the camera sees and of all models, each of the two by
-/// itself, so that what is real is not tinted by what is not (thesis §5.5). Keeps textures for each size
-/// of picture it has seen. All calls on the thread of the GL context it was made in.
+/// itself, so that what is real is not tinted by what is not (thesis §5.5). Keeps textures for each
+/// size of picture it has seen. All calls on the thread of the GL context it was made in.
 class ReducedPictures {
  public:
   static constexpr std::size_t kHalvings = 5;

@@ -1,5 +1,5 @@
-// Contracts of the texture, target and handle wrappers, which keep the rules of docs/gpu.md where the
-// software rasteriser would let them pass.
+// Contracts of the texture, target and handle wrappers, which keep the rules of docs/gpu.md where
+// the software rasteriser would let them pass.
 #include <array>
 #include <functional>
 #include <initializer_list>
