@@ -1,6 +1,7 @@
 #include "hal/clock.h"
 
 #include <algorithm>
+#include <chrono>
 #include <condition_variable>
 
 namespace pleinair::hal {
@@ -34,6 +35,13 @@ bool SteppedClock::sleepUntil(TimePoint time, std::stop_token stop) {
 void SteppedClock::advance(Duration by) {
   const std::scoped_lock lock(mutex_);
   now_ += by;
+}
+
+std::string durationText(Duration duration) {
+  const auto milliseconds = std::chrono::round<std::chrono::milliseconds>(duration).count();
+  if (milliseconds < 1000) return std::to_string(milliseconds) + " ms";
+  const auto tenths = (milliseconds + 50) / 100;
+  return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " s";
 }
 
 }  // namespace pleinair::hal

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <mutex>
 #include <stop_token>
+#include <string>
 
 namespace pleinair::hal {
 
@@ -50,5 +51,14 @@ class SteppedClock final : public Clock {
   mutable std::mutex mutex_;
   TimePoint now_;
 };
+
+/// When a recorded or simulated camera hands out its frames.
+enum class Pacing {
+  kStepped,   ///< every frame at once: offline rendering
+  kRealTime,  ///< each frame at its capture time by the clock
+};
+
+/// For a person: "310 ms" below a second, else "3.3 s".
+std::string durationText(Duration duration);
 
 }  // namespace pleinair::hal

@@ -1,5 +1,3 @@
-#include "firmware_app/commands/calibrate.h"
-
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -13,21 +11,22 @@
 #include <spdlog/spdlog.h>
 
 #include "config/config_error.h"
-#include "firmware_app/calibration_progress.h"
-#include "firmware_app/configured_parts.h"
-#include "firmware_app/exit_status.h"
-#include "firmware_app/interrupt.h"
+#include "firmware_app/cli/exit_status.h"
+#include "firmware_app/cli/interrupt.h"
+#include "firmware_app/cli/overloaded.h"
+#include "firmware_app/commands/commands.h"
+#include "firmware_app/config/configured_parts.h"
 #include "firmware_app/live/camera_selection.h"
-#include "firmware_app/overloaded.h"
-#include "hal/cameras/recording/picture_paths.h"
+#include "firmware_app/offline/calibration_progress.h"
+#include "hal/cameras/recording/picture_source.h"
 #include "hal/cameras/recording/recording.h"
-#include "hal/libav/picture_file.h"
+#include "hal/media/picture_file.h"
 #include "hal/numbered_path.h"
 #include "hal/pending_file.h"
 #include "pipeline/calibration/calibration_text.h"
 #include "pipeline/calibration/session.h"
 #include "pipeline/calibration/view_picture.h"
-#include "pipeline/tracking/calibration_file.h"
+#include "pipeline/tracking/camera/calibration_file.h"
 
 namespace pleinair::app {
 namespace {

@@ -1,6 +1,6 @@
-#include "firmware_app/commands/config.h"
-
 #include <cstdio>
+
+#include "firmware_app/commands/commands.h"
 
 namespace pleinair::app {
 

@@ -1,7 +1,6 @@
-#include "firmware_app/commands/devices.h"
-
 #include <cstdio>
 
+#include "firmware_app/commands/commands.h"
 #include "firmware_app/devices/inventory.h"
 #include "firmware_app/live/camera_selection.h"
 #include "hal/outputs/window/window.h"

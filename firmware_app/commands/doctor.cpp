@@ -1,5 +1,3 @@
-#include "firmware_app/commands/doctor.h"
-
 #include <algorithm>
 #include <cstdio>
 #include <optional>
@@ -7,7 +5,8 @@
 #include <vector>
 
 #include "config/config_error.h"
-#include "firmware_app/devices/device_cameras.h"
+#include "firmware_app/commands/commands.h"
+#include "firmware_app/devices/inventory.h"
 #include "firmware_app/doctor/checks.h"
 #include "firmware_app/live/camera_selection.h"
 

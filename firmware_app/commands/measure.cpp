@@ -1,5 +1,3 @@
-#include "firmware_app/commands/measure.h"
-
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -11,17 +9,18 @@
 #include <spdlog/spdlog.h>
 
 #include "config/suggestion.h"
-#include "firmware_app/configuration_sections.h"
-#include "firmware_app/configured_parts.h"
-#include "firmware_app/exit_status.h"
-#include "firmware_app/interrupt.h"
+#include "firmware_app/cli/exit_status.h"
+#include "firmware_app/cli/interrupt.h"
+#include "firmware_app/cli/path_collisions.h"
+#include "firmware_app/cli/progress.h"
+#include "firmware_app/commands/commands.h"
+#include "firmware_app/config/configuration_sections.h"
+#include "firmware_app/config/configured_parts.h"
 #include "firmware_app/live/runtime_rules.h"
-#include "firmware_app/measured_engine.h"
-#include "firmware_app/path_collisions.h"
-#include "firmware_app/progress.h"
+#include "firmware_app/offline/measured_engine.h"
 #include "hal/pending_file.h"
 #include "pipeline/measure/gates.h"
-#include "pipeline/measure/measured_input.h"
+#include "pipeline/measure/input/measured_input.h"
 #include "pipeline/measure/measurement.h"
 #include "pipeline/styles/style_registry.h"
 

@@ -1,11 +1,10 @@
-#include "firmware_app/commands/record.h"
-
 #include <memory>
 #include <string>
 
-#include "firmware_app/configured_parts.h"
+#include "firmware_app/commands/commands.h"
+#include "firmware_app/config/configured_parts.h"
 #include "firmware_app/live/camera_selection.h"
-#include "firmware_app/workbench_scene.h"
+#include "firmware_app/scene/workbench_scene.h"
 #include "hal/cameras/recording/recording.h"
 
 namespace pleinair::app {

@@ -1,8 +1,7 @@
-#include "firmware_app/commands/render.h"
-
 #include <memory>
 
-#include "firmware_app/configured_parts.h"
+#include "firmware_app/commands/commands.h"
+#include "firmware_app/config/configured_parts.h"
 #include "hal/cameras/recording/recording.h"
 
 namespace pleinair::app {

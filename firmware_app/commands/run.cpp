@@ -1,5 +1,3 @@
-#include "firmware_app/commands/run.h"
-
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -9,8 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "firmware_app/configured_parts.h"
-#include "firmware_app/interrupt.h"
+#include "firmware_app/cli/interrupt.h"
+#include "firmware_app/commands/commands.h"
+#include "firmware_app/config/configured_parts.h"
 #include "firmware_app/live/camera_selection.h"
 #include "firmware_app/live/live_painting.h"
 #include "hal/clock.h"

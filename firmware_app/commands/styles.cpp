@@ -1,5 +1,3 @@
-#include "firmware_app/commands/styles.h"
-
 #include <algorithm>
 #include <cstdio>
 #include <string>
@@ -7,8 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "firmware_app/text_table.h"
-#include "pipeline/painter.h"
+#include "firmware_app/cli/text_table.h"
+#include "firmware_app/commands/commands.h"
+#include "pipeline/engine/painter.h"
 #include "pipeline/styles/style_registry.h"
 
 namespace pleinair::app {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware_app/devices/device_cameras.h"
+#include "firmware_app/devices/inventory.h"
 #include "hal/error.h"
 #include "hal/outputs/v4l2_loopback/loopback_devices.h"
 #include "pipeline/gpu/egl_context.h"

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "config/suggestion.h"
-#include "firmware_app/configuration_sections.h"
-#include "firmware_app/configured_parts.h"
+#include "firmware_app/config/configuration_sections.h"
+#include "firmware_app/config/configured_parts.h"
 #include "hal/cameras/recording/recording_backend.h"
 #include "hal/cameras/synthetic/synthetic_backend.h"
 #include "hal/cameras/v4l2/v4l2_backend.h"

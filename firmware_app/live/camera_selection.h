@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware_app/configuration.h"
+#include "firmware_app/config/configuration.h"
 #include "hal/clock.h"
 #include "hal/supervisor/camera_selector.h"
 #include "hal/supervisor/camera_supervisor.h"

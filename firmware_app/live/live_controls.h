@@ -7,7 +7,7 @@
 
 #include "hal/error.h"
 #include "hal/image.h"
-#include "pipeline/painter.h"
+#include "pipeline/engine/painter.h"
 
 namespace pleinair::app {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "firmware_app/live/live_controls.h"
-#include "pipeline/painter.h"
+#include "pipeline/engine/painter.h"
 #include "pipeline/runtime/frame_painter.h"
 
 namespace pleinair::app {

@@ -15,7 +15,7 @@
 #include <spdlog/spdlog.h>
 
 #include "config/suggestion.h"
-#include "firmware_app/interrupt.h"
+#include "firmware_app/cli/interrupt.h"
 #include "firmware_app/live/camera_selection.h"
 #include "firmware_app/live/live_controls.h"
 #include "firmware_app/live/live_painter.h"
@@ -24,11 +24,11 @@
 #include "firmware_app/live/live_window.h"
 #include "firmware_app/live/runtime_rules.h"
 #include "firmware_app/live/still_saver.h"
-#include "firmware_app/scene_warnings.h"
+#include "firmware_app/scene/scene_warnings.h"
 #include "hal/outputs/window/window.h"
 #include "hal/supervisor/camera_supervisor.h"
 #include "hal/supervisor/hotplug_monitor.h"
-#include "pipeline/painter.h"
+#include "pipeline/engine/painter.h"
 #include "pipeline/runtime/live_chain.h"
 #include "pipeline/runtime/live_threads.h"
 #include "pipeline/runtime/status_text.h"

@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "firmware_app/configuration.h"
-#include "firmware_app/painting.h"
+#include "firmware_app/config/configuration.h"
+#include "firmware_app/offline/painting.h"
 #include "firmware_app/status_server/status_server.h"
 #include "hal/camera.h"
 #include "hal/clock.h"
 #include "hal/outputs/open_output.h"
 #include "hal/supervisor/camera_selector.h"
-#include "pipeline/scene/scene.h"
+#include "pipeline/scene/description/scene.h"
 
 namespace pleinair::app {
 

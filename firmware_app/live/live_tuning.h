@@ -7,7 +7,7 @@
 
 #include "config/parameter_values.h"
 #include "hal/outputs/window/window.h"
-#include "pipeline/painter.h"
+#include "pipeline/engine/painter.h"
 
 namespace pleinair::app {
 

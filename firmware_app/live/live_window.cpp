@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "firmware_app/overloaded.h"
+#include "firmware_app/cli/overloaded.h"
 
 namespace pleinair::app {
 namespace {

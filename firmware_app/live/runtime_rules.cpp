@@ -4,7 +4,7 @@
 #include <chrono>
 
 #include "hal/outputs/v4l2_loopback/loopback_output.h"
-#include "pipeline/painter.h"
+#include "pipeline/engine/painter.h"
 
 namespace pleinair::app {
 namespace {

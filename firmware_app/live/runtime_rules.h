@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware_app/configuration.h"
+#include "firmware_app/config/configuration.h"
 #include "hal/camera.h"
 #include "hal/outputs/open_output.h"
 #include "pipeline/runtime/output_stage.h"

@@ -1,13 +1,63 @@
 #include "firmware_app/live/still_saver.h"
 
+#include <array>
 #include <cassert>
+#include <cerrno>
 #include <chrono>
+#include <cstdio>
 #include <ctime>
+#include <string>
 #include <utility>
 
-#include "firmware_app/live/still_file.h"
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "hal/media/picture_file.h"
 
 namespace pleinair::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string stem(std::time_t time) {
+  std::tm local{};
+  localtime_r(&time, &local);
+  std::array<char, 32> text{};
+  const std::size_t length =
+      std::strftime(text.data(), text.size(), "pleinair-%Y%m%d-%H%M%S", &local);
+  return {text.data(), length};
+}
+
+/// 0, or errno.
+int renameToNew(const fs::path& from, const fs::path& to) {
+  const int status = renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE);
+  return status == 0 ? 0 : errno;
+}
+
+}  // namespace
+
+hal::Result<fs::path> saveStill(const fs::path& folder, const hal::ImageView& picture,
+                                std::time_t time) {
+  const std::string name = stem(time);
+  // Written whole under a hidden name of this process's, then renamed, which replaces nothing.
+  const fs::path hidden = folder / fmt::format(".{}.{}.png", name, getpid());
+  if (auto written = hal::writePng(hidden, picture); !written) {
+    return tl::unexpected(std::move(written.error()));
+  }
+  fs::path path = folder / (name + ".png");
+  int status = renameToNew(hidden, path);
+  for (int number = 2; status == EEXIST; ++number) {
+    path = folder / fmt::format("{}-{}.png", name, number);
+    status = renameToNew(hidden, path);
+  }
+  if (status != 0) {
+    unlink(hidden.c_str());
+    return tl::unexpected(hal::errnoError(path.string(), "cannot write", status,
+                                          "choose another folder with --stills DIR"));
+  }
+  return path;
+}
 
 void StillSaver::save(hal::Image still) {
   assert(!isBusy());

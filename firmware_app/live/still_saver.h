@@ -1,5 +1,6 @@
 #pragma once
 
+#include <ctime>
 #include <filesystem>
 #include <future>
 #include <optional>
@@ -8,6 +9,13 @@
 #include "hal/image.h"
 
 namespace pleinair::app {
+
+/// Writes RGB8 as a new PNG "pleinair-YYYYmmdd-HHMMSS.png" (of `time`, in local time; "-2" and so
+/// on where that exists) in `folder`, and gives its path. What is there is never replaced, and
+/// nothing partial stands under the name. Errors: kNotFound (no such folder), kPermissionDenied,
+/// kNoSpace, kIo.
+hal::Result<std::filesystem::path> saveStill(const std::filesystem::path& folder,
+                                             const hal::ImageView& picture, std::time_t time);
 
 /// Saves stills beside the live painting, one at a time. One thread.
 class StillSaver {

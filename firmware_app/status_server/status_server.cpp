@@ -1,5 +1,6 @@
 #include "firmware_app/status_server/status_server.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdarg>  // microhttpd.h needs it
 #include <exception>
@@ -10,12 +11,27 @@
 #include <microhttpd.h>
 #include <netinet/in.h>
 #include <spdlog/spdlog.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include "firmware_app/status_server/listen_address.h"
-#include "firmware_app/status_server/open_connections.h"
 
 namespace pleinair::app {
+
+void OpenConnections::opened(int socket) {
+  connections_.push_back({.socket = socket});
+  const auto live =
+      static_cast<std::size_t>(std::ranges::count(connections_, false, &Connection::isEnding));
+  if (live <= most_) return;
+  const auto oldest = std::ranges::find(connections_, false, &Connection::isEnding);
+  oldest->isEnding = true;
+  shutdown(oldest->socket, SHUT_RDWR);
+}
+
+void OpenConnections::closed(int socket) {
+  std::erase_if(connections_, [&](const Connection& each) { return each.socket == socket; });
+}
+
 namespace {
 
 // Bounds of what clients may take.

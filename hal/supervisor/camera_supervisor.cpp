@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "hal/supervisor/duration_text.h"
+#include "hal/clock.h"
 
 namespace pleinair::hal {
 namespace {

@@ -10,7 +10,7 @@
 
 #include <pthread.h>
 
-#include "hal/supervisor/duration_text.h"
+#include "hal/clock.h"
 
 namespace pleinair::hal {
 namespace {

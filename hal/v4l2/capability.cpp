@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <iterator>
+#include <system_error>
 
 #include <linux/videodev2.h>
 
@@ -45,6 +47,17 @@ Result<Capability> queryCapability(SystemCalls& calls, int fd, const std::string
                     .card = textOf(answer.card),
                     .bus = textOf(answer.bus_info),
                     .flags = perNode ? answer.device_caps : answer.capabilities};
+}
+
+std::optional<int> videoNumber(std::string_view name) {
+  constexpr std::string_view kPrefix = "video";
+  if (!name.starts_with(kPrefix)) return std::nullopt;
+  name.remove_prefix(kPrefix.size());
+  int number = 0;
+  const char* const last = name.data() + name.size();
+  const auto [end, failure] = std::from_chars(name.data(), last, number);
+  if (failure != std::errc() || end != last || number < 0) return std::nullopt;
+  return number;
 }
 
 }  // namespace pleinair::hal::v4l2

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "hal/error.h"
 #include "hal/v4l2/system_calls.h"
@@ -23,5 +25,8 @@ struct Capability {
 /// Errors: kUnsupported (no V4L2 device), kNotFound (gone meanwhile), kIo. `subject` names the
 /// node.
 Result<Capability> queryCapability(SystemCalls& calls, int fd, const std::string& subject);
+
+/// 3 of "video3", the name of a V4L2 node in /dev; nothing of other names.
+std::optional<int> videoNumber(std::string_view name);
 
 }  // namespace pleinair::hal::v4l2

@@ -7,10 +7,10 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "pipeline/calibration/board_detector.h"
 #include "pipeline/calibration/corner_refinement.h"
-#include "pipeline/calibration/detectors.h"
 #include "pipeline/calibration/edge_width.h"
-#include "pipeline/tracking/tag_detector.h"
+#include "pipeline/tracking/pose/tag_detector.h"
 
 namespace pleinair::calibration {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/tracking/tag_frame.h"
+#include "pipeline/tracking/pose/tag.h"
 
 namespace pleinair::calibration {
 namespace {

@@ -2,8 +2,6 @@
 
 #include <variant>
 
-#include "pipeline/calibration/detectors.h"
-
 namespace pleinair::calibration {
 
 std::unique_ptr<BoardDetector> makeBoardDetector(const Board& board) {

@@ -9,8 +9,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "pipeline/calibration/board_detector.h"
 #include "pipeline/calibration/corner_refinement.h"
-#include "pipeline/calibration/detectors.h"
 #include "pipeline/calibration/edge_width.h"
 
 namespace pleinair::calibration {

@@ -11,8 +11,8 @@
 #include <glm/mat4x4.hpp>
 
 #include "hal/pixel_format.h"
-#include "pipeline/tracking/camera_model.h"
-#include "pipeline/tracking/pose_refinement.h"
+#include "pipeline/tracking/camera/camera_model.h"
+#include "pipeline/tracking/pose/pose_refinement.h"
 
 namespace pleinair::calibration {
 

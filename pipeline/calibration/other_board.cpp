@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "pipeline/calibration/board_detector.h"
-#include "pipeline/tracking/tag_detector.h"
+#include "pipeline/tracking/pose/tag_detector.h"
 
 namespace pleinair::calibration {
 namespace {

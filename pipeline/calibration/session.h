@@ -11,7 +11,7 @@
 #include "pipeline/calibration/board_detector.h"
 #include "pipeline/calibration/verdict.h"
 #include "pipeline/calibration/view_selection.h"
-#include "pipeline/tracking/luma.h"
+#include "pipeline/tracking/image/luma.h"
 
 namespace pleinair::calibration {
 

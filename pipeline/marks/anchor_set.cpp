@@ -10,8 +10,8 @@
 
 #include "pipeline/gpu/program.h"
 #include "pipeline/marks/fading_past.h"
-#include "pipeline/scene/lens_uniforms.h"
-#include "pipeline/scene/scene.h"
+#include "pipeline/scene/description/scene.h"
+#include "pipeline/scene/render/scene_uniforms.h"
 
 namespace pleinair::marks {
 namespace {

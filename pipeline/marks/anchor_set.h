@@ -12,7 +12,7 @@
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/marks/anchor.h"
 #include "pipeline/marks/motion_field.h"
-#include "pipeline/scene/ar_frame.h"
+#include "pipeline/scene/render/ar_frame.h"
 
 namespace pleinair::marks {
 

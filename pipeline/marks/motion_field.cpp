@@ -15,8 +15,8 @@
 
 #include "pipeline/gpu/buffer.h"
 #include "pipeline/marks/anchor.h"
-#include "pipeline/scene/lens_uniforms.h"
-#include "pipeline/scene/scene.h"
+#include "pipeline/scene/description/scene.h"
+#include "pipeline/scene/render/scene_uniforms.h"
 
 namespace pleinair::marks {
 namespace {

@@ -13,7 +13,7 @@
 #include "pipeline/gpu/texture.h"
 #include "pipeline/marks/anchor_set.h"
 #include "pipeline/marks/tensor_field.h"
-#include "pipeline/scene/ar_frame.h"
+#include "pipeline/scene/render/ar_frame.h"
 
 namespace pleinair::marks {
 

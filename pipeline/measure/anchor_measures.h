@@ -9,8 +9,8 @@
 #include <opencv2/core.hpp>
 
 #include "pipeline/marks/anchor.h"
+#include "pipeline/measure/input/motion_map.h"
 #include "pipeline/measure/mean.h"
-#include "pipeline/measure/motion_map.h"
 
 namespace pleinair::measure {
 

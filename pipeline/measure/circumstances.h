@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/measure/input/measured_input.h"
 #include "pipeline/measure/measures.h"
-#include "pipeline/measure/true_motion.h"
 
 namespace pleinair::measure {
 

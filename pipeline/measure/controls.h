@@ -9,7 +9,6 @@
 
 #include "pipeline/measure/gates.h"
 #include "pipeline/measure/measures.h"
-#include "pipeline/measure/verdict.h"
 #include "pipeline/measure/voronoi_tiling.h"
 
 namespace pleinair::measure {

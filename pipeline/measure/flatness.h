@@ -7,7 +7,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "pipeline/measure/motion_map.h"
+#include "pipeline/measure/input/motion_map.h"
 
 namespace pleinair::measure {
 

@@ -7,11 +7,27 @@
 
 #include "pipeline/measure/anchor_measures.h"
 #include "pipeline/measure/circumstances.h"
+#include "pipeline/measure/input/measured_input.h"
 #include "pipeline/measure/measures.h"
-#include "pipeline/measure/true_motion.h"
-#include "pipeline/measure/verdict.h"
 
 namespace pleinair::measure {
+
+/// How something that must read in a certain way does read.
+struct Verdict {
+  enum class State { kPassed, kFailed, kNotMeasured };
+
+  std::string what;  ///< "nHW2 ≤ 0.3"
+  State state = State::kNotMeasured;
+  std::string found;  ///< "0.212", or why it was not measured
+
+  /// What was compared, where that is one number with one limit.
+  struct Comparison {
+    std::optional<double> value;  ///< nothing where it was not measured
+    std::optional<double> limit;  ///< nothing where what it hangs on was not measured
+    bool isMost = true;           ///< the limit: else it is the least
+  };
+  std::optional<Comparison> comparison = {};
+};
 
 /// Whether a style has gates of its own.
 bool hasGates(std::string_view style);

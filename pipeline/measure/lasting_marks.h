@@ -2,8 +2,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "pipeline/measure/input/motion_map.h"
 #include "pipeline/measure/mean.h"
-#include "pipeline/measure/motion_map.h"
 
 namespace pleinair::measure {
 

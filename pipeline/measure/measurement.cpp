@@ -4,10 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/measure/input/sensor_noise.h"
 #include "pipeline/measure/picture.h"
-#include "pipeline/measure/sensor_noise.h"
 #include "pipeline/measure/sequence_measures.h"
-#include "pipeline/measure/still_measures.h"
 #include "pipeline/measure/worst_frames.h"
 
 namespace pleinair::measure {

@@ -10,8 +10,8 @@
 #include "hal/error.h"
 #include "hal/image.h"
 #include "pipeline/marks/anchor.h"
-#include "pipeline/measure/measured_input.h"
-#include "pipeline/measure/report.h"
+#include "pipeline/measure/input/measured_input.h"
+#include "pipeline/measure/report/report.h"
 
 namespace pleinair::measure {
 

@@ -8,7 +8,7 @@
 #include "hal/captured_frame.h"
 #include "hal/error.h"
 #include "hal/pixel_format.h"
-#include "pipeline/painter.h"
+#include "pipeline/engine/painter.h"
 
 namespace pleinair::runtime {
 

@@ -11,7 +11,7 @@
 
 #include "hal/clock.h"
 #include "hal/output.h"
-#include "pipeline/painter.h"
+#include "pipeline/engine/painter.h"
 #include "pipeline/runtime/duration_histogram.h"
 #include "pipeline/runtime/frame_ledger.h"
 #include "pipeline/runtime/frame_rate.h"

@@ -9,13 +9,20 @@
 #include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/marks/anchor.h"
-#include "pipeline/scene/ar_frame.h"
+#include "pipeline/scene/render/ar_frame.h"
 
 namespace pleinair::marks {
 class AnchorSet;
 }
 
 namespace pleinair::styles {
+
+/// A named preset of a style. Its values replace the defaults; what a person sets replaces both.
+struct Look {
+  std::string_view name;  ///< "wet_in_wet"
+  std::string_view help;
+  std::string_view toml;  ///< a table of the style's parameters, as in a configuration file
+};
 
 /// One of a style's inner pictures, for people who want to see how it works.
 struct ViewInfo {

@@ -10,12 +10,12 @@
 #include "config/toml_reader.h"
 #include "hal/error.h"
 #include "pipeline/styles/painterly/painterly.h"
-#include "pipeline/styles/painterly/painterly_looks.h"
+#include "pipeline/styles/painterly/painterly_parameters.h"
 #include "pipeline/styles/painterly/painterly_shaders.h"
 #include "pipeline/styles/plain.h"
 #include "pipeline/styles/sheet/sheet_shaders.h"
 #include "pipeline/styles/watercolor/watercolor.h"
-#include "pipeline/styles/watercolor/watercolor_looks.h"
+#include "pipeline/styles/watercolor/watercolor_parameters.h"
 #include "pipeline/styles/watercolor/watercolor_shaders.h"
 
 namespace pleinair::styles {

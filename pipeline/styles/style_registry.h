@@ -8,7 +8,6 @@
 #include "config/parameter_values.h"
 #include "hal/error.h"
 #include "pipeline/gpu/shader_library.h"
-#include "pipeline/styles/look.h"
 #include "pipeline/styles/style.h"
 
 namespace pleinair::styles {

@@ -15,7 +15,7 @@
 #include "pipeline/marks/anchor_set.h"
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/scene/scene_shaders.h"
-#include "pipeline/tracking/image_motion_estimator.h"
+#include "pipeline/tracking/motion/image_motion_estimator.h"
 #include "tests/bench/benchmarks.h"
 #include "tests/reports/tracking/pose_measures.h"
 #include "tests/reports/tracking/truth_sequence.h"

@@ -13,10 +13,10 @@
 
 #include <benchmark/benchmark.h>
 
-#include "firmware_app/workbench_scene.h"
+#include "firmware_app/scene/workbench_scene.h"
 #include "hal/cameras/synthetic/synthetic_camera.h"
-#include "pipeline/painter.h"
-#include "pipeline/scene/scene_file.h"
+#include "pipeline/engine/painter.h"
+#include "pipeline/scene/description/scene_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace {

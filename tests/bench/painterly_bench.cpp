@@ -16,7 +16,7 @@
 #include <opencv2/photo.hpp>
 
 #include "hal/cameras/synthetic/synthetic_camera.h"
-#include "pipeline/painter.h"
+#include "pipeline/engine/painter.h"
 
 namespace {
 

@@ -14,9 +14,9 @@
 
 #include "hal/error.h"
 #include "pipeline/gpu/egl_context.h"
-#include "pipeline/scene/ar_frame_renderer.h"
-#include "pipeline/scene/light_estimator.h"
-#include "pipeline/scene/scene_file.h"
+#include "pipeline/scene/description/scene_file.h"
+#include "pipeline/scene/light/light_estimator.h"
+#include "pipeline/scene/render/ar_frame_renderer.h"
 #include "pipeline/scene/scene_shaders.h"
 #include "tests/bench/benchmarks.h"
 #include "tests/support/tag_scene.h"

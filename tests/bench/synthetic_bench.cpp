@@ -4,7 +4,7 @@
 #include <benchmark/benchmark.h>
 
 #include "hal/cameras/synthetic/synthetic_camera.h"
-#include "hal/cameras/synthetic/world.h"
+#include "hal/cameras/synthetic/world/world.h"
 
 namespace pleinair::hal {
 namespace {

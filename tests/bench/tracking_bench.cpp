@@ -7,10 +7,10 @@
 
 #include <benchmark/benchmark.h>
 
-#include "pipeline/tracking/image_motion_estimator.h"
-#include "pipeline/tracking/luma.h"
-#include "pipeline/tracking/picture_motion.h"
-#include "pipeline/tracking/tracker.h"
+#include "pipeline/tracking/image/luma.h"
+#include "pipeline/tracking/motion/image_motion_estimator.h"
+#include "pipeline/tracking/motion/picture_motion.h"
+#include "pipeline/tracking/pose/tracker.h"
 #include "tests/reports/tracking/pose_measures.h"
 #include "tests/reports/tracking/truth_sequence.h"
 #include "tests/support/tag_scene.h"

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "config/config_error.h"
-#include "firmware_app/configuration.h"
+#include "firmware_app/config/configuration.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace {

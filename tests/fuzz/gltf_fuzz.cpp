@@ -13,8 +13,8 @@
 #include <glm/geometric.hpp>
 
 #include "pipeline/scene/gltf/gltf_file.h"
-#include "pipeline/scene/model.h"
-#include "pipeline/scene/model_pose.h"
+#include "pipeline/scene/models/model.h"
+#include "pipeline/scene/models/model_pose.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace {

@@ -2,8 +2,8 @@
 #include <optional>
 #include <span>
 
-#include "hal/libav/motion_jpeg.h"
-#include "hal/libav/picture_header.h"
+#include "hal/media/motion_jpeg.h"
+#include "hal/media/picture_header.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace {

@@ -1,5 +1,5 @@
 // Text as a motion.json, and what it says asked for over frames.
-#include "pipeline/measure/motion_file.h"
+#include "pipeline/measure/input/motion_file.h"
 #include "tests/fuzz/fuzz_target.h"
 
 using namespace pleinair;

@@ -2,8 +2,8 @@
 #include <optional>
 #include <span>
 
-#include "hal/libav/picture_file.h"
-#include "hal/libav/picture_header.h"
+#include "hal/media/picture_file.h"
+#include "hal/media/picture_header.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace {

@@ -1,7 +1,7 @@
 // Text as a scene file and as a calibration, and what is computed from them before the first frame.
 #include "config/toml_reader.h"
-#include "pipeline/scene/scene_file.h"
-#include "pipeline/tracking/calibration_file.h"
+#include "pipeline/scene/description/scene_file.h"
+#include "pipeline/tracking/camera/calibration_file.h"
 #include "tests/fuzz/config_errors.h"
 
 namespace {

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "hal/libav/picture_file.h"
+#include "hal/media/picture_file.h"
 
 namespace pleinair::golden {
 namespace {

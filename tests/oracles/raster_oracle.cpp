@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "pipeline/scene/ar_frame.h"
+#include "pipeline/scene/render/ar_frame.h"
 
 namespace pleinair::oracles {
 namespace {

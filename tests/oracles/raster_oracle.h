@@ -9,8 +9,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "pipeline/scene/mesh.h"
-#include "pipeline/tracking/camera_model.h"
+#include "pipeline/scene/models/mesh.h"
+#include "pipeline/tracking/camera/camera_model.h"
 
 namespace pleinair::oracles {
 

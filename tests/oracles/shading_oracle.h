@@ -2,7 +2,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "pipeline/scene/lighting.h"
+#include "pipeline/scene/light/lighting.h"
 
 namespace pleinair::oracles {
 

@@ -7,9 +7,9 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "pipeline/scene/model.h"
-#include "pipeline/scene/model_pose.h"
-#include "pipeline/tracking/camera_model.h"
+#include "pipeline/scene/models/model.h"
+#include "pipeline/scene/models/model_pose.h"
+#include "pipeline/tracking/camera/camera_model.h"
 
 namespace pleinair::oracles {
 

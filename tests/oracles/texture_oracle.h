@@ -3,7 +3,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "pipeline/scene/model.h"
+#include "pipeline/scene/models/model.h"
 
 namespace pleinair::oracles {
 

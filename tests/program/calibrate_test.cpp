@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pipeline/tracking/calibration_file.h"
+#include "pipeline/tracking/camera/calibration_file.h"
 #include "tests/program/program.h"
 #include "tests/support/board_movie.h"
 #include "tests/support/media_files.h"

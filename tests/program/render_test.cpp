@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "hal/libav/picture_file.h"
+#include "hal/media/picture_file.h"
 #include "tests/program/program.h"
 #include "tests/support/media_files.h"
 #include "tests/support/temporary_folder.h"

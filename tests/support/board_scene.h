@@ -9,7 +9,7 @@
 #include "hal/image.h"
 #include "pipeline/calibration/board.h"
 #include "pipeline/calibration/board_detector.h"
-#include "pipeline/tracking/camera_model.h"
+#include "pipeline/tracking/camera/camera_model.h"
 
 namespace pleinair::support {
 

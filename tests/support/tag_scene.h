@@ -6,8 +6,8 @@
 #include <glm/mat4x4.hpp>
 
 #include "hal/image.h"
-#include "pipeline/tracking/camera_model.h"
-#include "pipeline/tracking/tag_frame.h"
+#include "pipeline/tracking/camera/camera_model.h"
+#include "pipeline/tracking/pose/tag.h"
 
 namespace pleinair::support {
 

@@ -9,7 +9,7 @@
 
 #include "hal/clock.h"
 #include "hal/error.h"
-#include "hal/libav/handles.h"
+#include "hal/media/handles.h"
 
 namespace pleinair::hal::recording {
 

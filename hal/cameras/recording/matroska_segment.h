@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hal/libav/file_input.h"
+#include "hal/media/file_input.h"
 
 namespace pleinair::hal::recording {
 

@@ -8,9 +8,9 @@
 #include "hal/cameras/recording/frame_source.h"
 #include "hal/cameras/recording/matroska_segment.h"
 #include "hal/cameras/recording/mp4_boxes.h"
-#include "hal/libav/errors.h"
-#include "hal/libav/file_input.h"
-#include "hal/libav/picture_decoder.h"
+#include "hal/media/errors.h"
+#include "hal/media/file_input.h"
+#include "hal/media/picture_decoder.h"
 
 namespace pleinair::hal::recording {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "hal/libav/file_input.h"
+#include "hal/media/file_input.h"
 
 namespace pleinair::hal::recording {
 

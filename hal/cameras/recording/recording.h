@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "hal/camera.h"
-#include "hal/pacing.h"
+#include "hal/clock.h"
 
 namespace pleinair::hal {
 

@@ -6,7 +6,7 @@
 #include "hal/cameras/recording/frame_source.h"
 #include "hal/cameras/recording/recording.h"
 #include "hal/cameras/recording/timeline.h"
-#include "hal/libav/frame_pixels.h"
+#include "hal/media/frame_pixels.h"
 
 namespace pleinair::hal {
 namespace {

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "hal/cameras/synthetic/tag_bitmap.h"
+#include "hal/cameras/synthetic/world/tag_bitmap.h"
 
 namespace pleinair::hal::synthetic {
 namespace {

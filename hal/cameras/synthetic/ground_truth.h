@@ -7,10 +7,9 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 
-#include "hal/cameras/synthetic/bench_tags.h"
-#include "hal/cameras/synthetic/camera_view.h"
-#include "hal/cameras/synthetic/exposure.h"
-#include "hal/cameras/synthetic/geometry.h"
+#include "hal/cameras/synthetic/render/exposure.h"
+#include "hal/cameras/synthetic/world/bench_tags.h"
+#include "hal/cameras/synthetic/world/geometry.h"
 #include "hal/pixel_format.h"
 
 namespace pleinair::hal {

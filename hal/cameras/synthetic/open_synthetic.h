@@ -3,7 +3,7 @@
 #include <optional>
 #include <string_view>
 
-#include "hal/cameras/synthetic/shot.h"
+#include "hal/cameras/synthetic/render/shot.h"
 #include "hal/error.h"
 
 namespace pleinair::hal {

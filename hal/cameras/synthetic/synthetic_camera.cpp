@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "hal/cameras/synthetic/noise.h"
-#include "hal/cameras/synthetic/world.h"
+#include "hal/cameras/synthetic/world/noise.h"
+#include "hal/cameras/synthetic/world/world.h"
 
 namespace pleinair::hal {
 namespace {

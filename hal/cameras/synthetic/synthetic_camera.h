@@ -4,14 +4,14 @@
 #include <optional>
 
 #include "hal/camera.h"
-#include "hal/cameras/synthetic/exposure.h"
 #include "hal/cameras/synthetic/frame_pool.h"
 #include "hal/cameras/synthetic/ground_truth.h"
-#include "hal/cameras/synthetic/motion.h"
-#include "hal/cameras/synthetic/renderer.h"
-#include "hal/cameras/synthetic/sensor.h"
-#include "hal/cameras/synthetic/shot.h"
-#include "hal/pacing.h"
+#include "hal/cameras/synthetic/render/exposure.h"
+#include "hal/cameras/synthetic/render/motion.h"
+#include "hal/cameras/synthetic/render/renderer.h"
+#include "hal/cameras/synthetic/render/sensor.h"
+#include "hal/cameras/synthetic/render/shot.h"
+#include "hal/clock.h"
 
 namespace pleinair::hal {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hal/camera_controls.h"
+#include "hal/camera.h"
 #include "hal/cameras/v4l2/device.h"
 
 namespace pleinair::hal::v4l2 {

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "hal/v4l2/system_calls.h"
+
 namespace pleinair::hal::v4l2 {
 
 /// The parts of the file system where the kernel and udev say what devices there are; a test says
@@ -25,5 +27,15 @@ class DeviceNodes {
 
 /// This system's.
 DeviceNodes& kernelNodes();
+
+/// What cameras and their listing reach devices through. Both outlive what uses them, frames too.
+struct System {
+  SystemCalls& calls;
+  DeviceNodes& nodes;
+};
+
+inline System kernelSystem() {
+  return {.calls = kernelCalls(), .nodes = kernelNodes()};
+}
 
 }  // namespace pleinair::hal::v4l2

@@ -7,7 +7,7 @@
 
 #include "hal/cameras/v4l2/device.h"
 #include "hal/cameras/v4l2/modes.h"
-#include "hal/v4l2/node_name.h"
+#include "hal/v4l2/capability.h"
 
 namespace pleinair::hal::v4l2 {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "hal/camera_backend.h"
-#include "hal/cameras/v4l2/system.h"
+#include "hal/cameras/v4l2/device_nodes.h"
 
 namespace pleinair::hal::v4l2 {
 

@@ -10,8 +10,7 @@
 #include <linux/videodev2.h>
 
 #include "hal/cameras/v4l2/modes.h"
-#include "hal/v4l2/color_encoding.h"
-#include "hal/v4l2/fourcc.h"
+#include "hal/v4l2/formats.h"
 
 namespace pleinair::hal::v4l2 {
 namespace {

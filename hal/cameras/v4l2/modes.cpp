@@ -9,7 +9,7 @@
 #include <linux/videodev2.h>
 
 #include "hal/cameras/v4l2/format.h"
-#include "hal/v4l2/fourcc.h"
+#include "hal/v4l2/formats.h"
 
 namespace pleinair::hal::v4l2 {
 namespace {

@@ -9,7 +9,7 @@
 #include <linux/videodev2.h>
 
 #include "hal/cameras/v4l2/controls.h"
-#include "hal/libav/motion_jpeg.h"
+#include "hal/media/motion_jpeg.h"
 
 namespace pleinair::hal::v4l2 {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "hal/camera.h"
-#include "hal/cameras/v4l2/system.h"
+#include "hal/cameras/v4l2/device_nodes.h"
 
 namespace pleinair::hal::v4l2 {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "hal/libav/png_encoder.h"
+#include "hal/media/png_encoder.h"
 #include "hal/numbered_path.h"
 
 namespace pleinair::hal {

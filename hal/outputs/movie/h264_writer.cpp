@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
-#include "hal/libav/errors.h"
-#include "hal/libav/handles.h"
+#include "hal/media/errors.h"
+#include "hal/media/handles.h"
 #include "hal/outputs/movie/movie_writer.h"
 #include "hal/outputs/movie/muxer_io.h"
 

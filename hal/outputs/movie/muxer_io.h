@@ -6,7 +6,7 @@
 #include <span>
 
 #include "hal/error.h"
-#include "hal/libav/handles.h"
+#include "hal/media/handles.h"
 #include "hal/pending_file.h"
 
 namespace pleinair::hal::movie {

@@ -11,8 +11,7 @@
 
 #include "hal/v4l2/capability.h"
 #include "hal/v4l2/descriptor.h"
-#include "hal/v4l2/fourcc.h"
-#include "hal/v4l2/node_name.h"
+#include "hal/v4l2/formats.h"
 
 namespace pleinair::hal {
 namespace {

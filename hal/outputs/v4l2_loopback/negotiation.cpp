@@ -9,8 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "hal/v4l2/color_encoding.h"
-#include "hal/v4l2/fourcc.h"
+#include "hal/v4l2/formats.h"
 
 namespace pleinair::hal::loopback {
 namespace {

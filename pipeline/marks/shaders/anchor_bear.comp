@@ -9,7 +9,7 @@
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/anchor_cells.glsl"
-#include "pipeline/scene/shaders/object_id.glsl"
+#include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 0) writeonly buffer Anchors { Anchor anchors[]; };
 layout(std430, binding = 1) buffer Cells { Cell cells[]; };

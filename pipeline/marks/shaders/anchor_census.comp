@@ -4,7 +4,7 @@
 // Precision: highp; counts are of integers, so that order does not matter.
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/anchor_cells.glsl"
-#include "pipeline/scene/shaders/object_id.glsl"
+#include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) buffer Anchors { Anchor anchors[]; };
 layout(std430, binding = 1) buffer Cells { Cell cells[]; };

@@ -7,7 +7,7 @@
 // Outputs: anchors. One an invocation.
 // Precision: highp.
 #include "pipeline/marks/shaders/image_motion.glsl"
-#include "pipeline/scene/shaders/object_id.glsl"
+#include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) buffer Anchors { Anchor anchors[]; };
 uniform highp usampler2D ids;

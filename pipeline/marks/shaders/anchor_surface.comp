@@ -5,8 +5,8 @@
 // Outputs: anchors. One an invocation.
 // Precision: highp.
 #include "pipeline/marks/shaders/anchor.glsl"
-#include "pipeline/scene/shaders/object_id.glsl"
-#include "pipeline/scene/shaders/surface_point.glsl"
+#include "pipeline/scene/render/shaders/object_id.glsl"
+#include "pipeline/scene/render/shaders/surface_point.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 2) buffer Anchors { Anchor anchors[]; };
 uniform highp usampler2D ids;

@@ -3,7 +3,7 @@
 // Inputs:  ids (ArFrame::ids), size and pixelsOfFull of its picture; count.
 // Outputs: features: the layer, as image_motion.glsl has it. A feature an invocation.
 // Precision: integers; highp for places.
-#include "pipeline/scene/shaders/object_id.glsl"
+#include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 64) in;
 struct Feature {
   vec4 places;

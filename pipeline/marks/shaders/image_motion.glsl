@@ -5,7 +5,7 @@
 // Outputs: displacement, Jacobian, predicted error, source (anchor.glsl). All px of the full picture.
 // Precision: highp. Displacements are sums of differences, so that nothing moves where nothing did.
 #include "pipeline/marks/shaders/anchor.glsl"
-#include "pipeline/scene/shaders/planes.glsl"
+#include "pipeline/scene/render/shaders/planes.glsl"
 
 const int kMostFeatures = 256;  // tracking::kMostMovedFeatures
 const float kUnknownError = 1.0e4;

@@ -4,7 +4,7 @@
 // Outputs: steady, where an object is seen. A block of 4x4 pixels an invocation: software renderers pay for
 //          each.
 // Precision: highp.
-#include "pipeline/scene/shaders/object_id.glsl"
+#include "pipeline/scene/render/shaders/object_id.glsl"
 #include "pipeline/marks/shaders/steady_picture.glsl"
 layout(local_size_x = 16, local_size_y = 4) in;
 uniform sampler2D motion;

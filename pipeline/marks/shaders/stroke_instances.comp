@@ -10,7 +10,7 @@
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/mixture.glsl"
 #include "pipeline/marks/shaders/stroke.glsl"
-#include "pipeline/scene/shaders/object_id.glsl"
+#include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 64) in;
 struct Instance {
   vec4 points[4];

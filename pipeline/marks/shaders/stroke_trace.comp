@@ -9,7 +9,7 @@
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/stroke.glsl"
 #include "pipeline/marks/shaders/stroke_history.glsl"
-#include "pipeline/scene/shaders/object_id.glsl"
+#include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
 layout(std430, binding = 1) buffer Strokes { Stroke strokes[]; };

@@ -16,7 +16,6 @@
 #include "pipeline/scene/gltf/gltf_fault.h"
 #include "pipeline/scene/gltf/gltf_limits.h"
 #include "pipeline/scene/gltf/gltf_morphs.h"
-#include "pipeline/scene/gltf/gltf_text.h"
 
 namespace pleinair::scene::gltf {
 namespace {

@@ -11,7 +11,7 @@
 #include "pipeline/scene/gltf/gltf_nodes.h"
 #include "pipeline/scene/gltf/gltf_resources.h"
 #include "pipeline/scene/gltf/gltf_structure.h"
-#include "pipeline/scene/rig.h"
+#include "pipeline/scene/models/rig.h"
 
 namespace pleinair::scene::gltf {
 

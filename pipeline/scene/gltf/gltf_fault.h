@@ -1,8 +1,15 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "hal/error.h"
 
@@ -36,6 +43,20 @@ class Fault : public std::runtime_error {
 [[noreturn]] inline void refuseUnsupported(const std::string& where, const std::string& problem,
                                            std::string remedy = {}) {
   throw Fault(hal::ErrorKind::kUnsupported, where, problem, std::move(remedy));
+}
+
+/// A file's own words, fit for a line of a message: control characters become spaces.
+inline std::string oneLine(std::string text) {
+  std::ranges::replace_if(
+      text, [](char c) { return (c >= '\0' && c < ' ') || c == '\x7f'; }, ' ');
+  return text;
+}
+
+/// A comma-separated list that stays readable.
+inline std::string shortList(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 8;
+  const std::span<const std::string> first = std::span(names).first(std::min(kMost, names.size()));
+  return fmt::format("{}{}", fmt::join(first, ", "), names.size() > kMost ? ", ..." : "");
 }
 
 }  // namespace pleinair::scene::gltf

@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "pipeline/scene/ar_frame.h"
 #include "pipeline/scene/gltf/gltf_accessors.h"
 #include "pipeline/scene/gltf/gltf_animations.h"
 #include "pipeline/scene/gltf/gltf_container.h"
@@ -24,7 +23,7 @@
 #include "pipeline/scene/gltf/gltf_skins.h"
 #include "pipeline/scene/gltf/gltf_structure.h"
 #include "pipeline/scene/gltf/gltf_surfaces.h"
-#include "pipeline/scene/gltf/gltf_text.h"
+#include "pipeline/scene/render/ar_frame.h"
 
 namespace pleinair::scene {
 namespace {

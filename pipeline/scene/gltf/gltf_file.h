@@ -6,7 +6,7 @@
 #include <span>
 
 #include "hal/error.h"
-#include "pipeline/scene/model.h"
+#include "pipeline/scene/models/model.h"
 
 namespace pleinair::scene {
 

@@ -9,7 +9,7 @@
 #include "pipeline/scene/gltf/gltf_resources.h"
 #include "pipeline/scene/gltf/gltf_structure.h"
 #include "pipeline/scene/gltf/gltf_surfaces.h"
-#include "pipeline/scene/model.h"
+#include "pipeline/scene/models/model.h"
 
 namespace pleinair::scene::gltf {
 

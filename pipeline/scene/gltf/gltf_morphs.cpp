@@ -8,7 +8,7 @@
 
 #include "pipeline/scene/gltf/gltf_fault.h"
 #include "pipeline/scene/gltf/gltf_limits.h"
-#include "pipeline/scene/rig.h"
+#include "pipeline/scene/models/rig.h"
 
 namespace pleinair::scene::gltf {
 namespace {

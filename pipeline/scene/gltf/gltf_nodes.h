@@ -6,7 +6,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "pipeline/scene/gltf/gltf_structure.h"
-#include "pipeline/scene/rig.h"
+#include "pipeline/scene/models/rig.h"
 
 namespace pleinair::scene::gltf {
 

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "config/config_error.h"
-#include "hal/libav/file_input.h"
-#include "hal/libav/picture_file.h"
-#include "hal/libav/picture_header.h"
+#include "hal/media/file_input.h"
+#include "hal/media/picture_file.h"
+#include "hal/media/picture_header.h"
 #include "pipeline/scene/gltf/gltf_fault.h"
 #include "pipeline/scene/gltf/gltf_limits.h"
 

@@ -8,7 +8,6 @@
 #include "config/config_error.h"
 #include "pipeline/scene/gltf/gltf_fault.h"
 #include "pipeline/scene/gltf/gltf_limits.h"
-#include "pipeline/scene/gltf/gltf_text.h"
 
 namespace pleinair::scene::gltf {
 namespace {

@@ -8,8 +8,8 @@
 #include "pipeline/scene/gltf/gltf_accessors.h"
 #include "pipeline/scene/gltf/gltf_nodes.h"
 #include "pipeline/scene/gltf/gltf_structure.h"
-#include "pipeline/scene/mesh.h"
-#include "pipeline/scene/rig.h"
+#include "pipeline/scene/models/mesh.h"
+#include "pipeline/scene/models/rig.h"
 
 namespace pleinair::scene::gltf {
 

@@ -10,10 +10,82 @@
 
 #include "config/config_error.h"
 #include "pipeline/scene/gltf/gltf_fault.h"
-#include "pipeline/scene/gltf/gltf_json.h"
 #include "pipeline/scene/gltf/gltf_limits.h"
 
 namespace pleinair::scene::gltf {
+
+using nlohmann::json;
+
+const json* find(const json& object, const char* key) {
+  if (!object.is_object()) return nullptr;
+  const auto found = object.find(key);
+  return found == object.end() ? nullptr : &*found;
+}
+
+std::optional<std::string> stringAt(const json& object, const char* key, const std::string& where) {
+  const json* value = find(object, key);
+  if (value == nullptr) return std::nullopt;
+  if (!value->is_string()) refuse(where + "." + key, "is not a string");
+  return value->get<std::string>();
+}
+
+std::optional<std::uint64_t> countAt(const json& object, const char* key,
+                                     const std::string& where) {
+  const json* value = find(object, key);
+  if (value == nullptr) return std::nullopt;
+  if (!value->is_number_unsigned()) refuse(where + "." + key, "is not a whole number from 0 up");
+  return value->get<std::uint64_t>();
+}
+
+std::vector<const json*> listAt(const json& object, const char* key, const std::string& where) {
+  const json* list = find(object, key);
+  std::vector<const json*> objects;
+  if (list == nullptr) return objects;
+  const std::string name = where.empty() ? key : where + "." + key;
+  if (!list->is_array()) refuse(name, "is not an array");
+  for (const json& each : *list) {
+    if (!each.is_object()) refuse(fmt::format("{}[{}]", name, objects.size()), "is not an object");
+    objects.push_back(&each);
+  }
+  return objects;
+}
+
+namespace {
+
+using nlohmann::json;
+
+AnimationChannelEntry channelOf(const json& channel, const std::string& where) {
+  AnimationChannelEntry entry{.sampler = countAt(channel, "sampler", where)};
+  const json* target = find(channel, "target");
+  if (target == nullptr) return entry;
+  if (!target->is_object()) refuse(where + ".target", "is not an object");
+  entry.node = countAt(*target, "node", where + ".target");
+  entry.path = stringAt(*target, "path", where + ".target");
+  return entry;
+}
+
+}  // namespace
+
+std::vector<AnimationEntry> readAnimationEntries(const json& root) {
+  std::vector<AnimationEntry> animations;
+  for (const json* each : listAt(root, "animations")) {
+    const std::string where = fmt::format("animations[{}]", animations.size());
+    AnimationEntry& animation = animations.emplace_back();
+    animation.name = stringAt(*each, "name", where);
+    for (const json* channel : listAt(*each, "channels", where)) {
+      animation.channels.push_back(
+          channelOf(*channel, fmt::format("{}.channels[{}]", where, animation.channels.size())));
+    }
+    for (const json* sampler : listAt(*each, "samplers", where)) {
+      const std::string name = fmt::format("{}.samplers[{}]", where, animation.samplers.size());
+      animation.samplers.push_back({.input = countAt(*sampler, "input", name),
+                                    .output = countAt(*sampler, "output", name),
+                                    .interpolation = stringAt(*sampler, "interpolation", name)});
+    }
+  }
+  return animations;
+}
+
 namespace {
 
 using nlohmann::json;

@@ -9,7 +9,7 @@
 #include "pipeline/scene/gltf/gltf_accessors.h"
 #include "pipeline/scene/gltf/gltf_morphs.h"
 #include "pipeline/scene/gltf/gltf_structure.h"
-#include "pipeline/scene/mesh.h"
+#include "pipeline/scene/models/mesh.h"
 
 namespace pleinair::scene::gltf {
 

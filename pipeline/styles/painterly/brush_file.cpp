@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 
 #include "hal/image.h"
-#include "hal/libav/file_input.h"
-#include "hal/libav/picture_file.h"
-#include "hal/libav/picture_header.h"
+#include "hal/media/file_input.h"
+#include "hal/media/picture_file.h"
+#include "hal/media/picture_header.h"
 
 namespace pleinair::styles {
 namespace {

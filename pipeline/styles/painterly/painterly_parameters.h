@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "config/parameter_table.h"
@@ -9,6 +10,7 @@
 #include "pipeline/styles/painterly/brushes.h"
 #include "pipeline/styles/painterly/stroke_strips.h"
 #include "pipeline/styles/sheet/sheet.h"
+#include "pipeline/styles/style.h"
 
 namespace pleinair::styles {
 
@@ -64,5 +66,8 @@ struct PainterlyParameters {
 };
 
 const config::ParameterTable<PainterlyParameters>& painterlyParameters();
+
+/// The painter's looks; the first is what the defaults are.
+std::span<const Look> painterlyLooks();
 
 }  // namespace pleinair::styles

@@ -3,7 +3,7 @@
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
-#include "pipeline/scene/ar_frame.h"
+#include "pipeline/scene/render/ar_frame.h"
 
 namespace pleinair::styles {
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <span>
+
 #include "config/parameter_table.h"
+#include "pipeline/styles/style.h"
 
 namespace pleinair::styles {
 
@@ -37,5 +40,8 @@ struct WatercolorParameters {
 };
 
 const config::ParameterTable<WatercolorParameters>& watercolorParameters();
+
+/// The watercolor's looks; the first is what the defaults are.
+std::span<const Look> watercolorLooks();
 
 }  // namespace pleinair::styles

@@ -6,8 +6,8 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <gmock/gmock.h>
 
-#include "pipeline/scene/builtin_box.h"
-#include "pipeline/scene/model_source.h"
+#include "pipeline/scene/builtin/builtin_box.h"
+#include "pipeline/scene/description/model_source.h"
 #include "tests/reports/anchors/anchor_stage.h"
 #include "tests/support/gl_test.h"
 

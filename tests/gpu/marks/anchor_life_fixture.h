@@ -13,7 +13,7 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
-#include "pipeline/scene/builtin_box.h"
+#include "pipeline/scene/builtin/builtin_box.h"
 #include "tests/gpu/marks/marks_fixture.h"
 #include "tests/gpu/scene/moving_models.h"
 

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
-#include "pipeline/scene/model_pose.h"
+#include "pipeline/scene/models/model_pose.h"
 #include "tests/gpu/marks/marks_fixture.h"
 #include "tests/gpu/scene/moving_models.h"
 #include "tests/oracles/surface_oracle.h"

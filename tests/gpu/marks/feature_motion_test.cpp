@@ -10,7 +10,7 @@
 #include <glm/matrix.hpp>
 #include <gmock/gmock.h>
 
-#include "pipeline/scene/builtin_box.h"
+#include "pipeline/scene/builtin/builtin_box.h"
 #include "tests/gpu/marks/image_motion_fixture.h"
 
 namespace pleinair::marks {

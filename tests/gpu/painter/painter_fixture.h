@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "hal/error.h"
+#include "pipeline/engine/painter.h"
 #include "pipeline/gpu/egl_context.h"
-#include "pipeline/painter.h"
 #include "tests/support/test_pictures.h"
 
 namespace pleinair {

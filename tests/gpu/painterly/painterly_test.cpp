@@ -6,7 +6,6 @@
 #include <gmock/gmock.h>
 
 #include "pipeline/marks/anchor_set.h"
-#include "pipeline/styles/painterly/painterly_looks.h"
 #include "pipeline/styles/painterly/painterly_parameters.h"
 #include "tests/gpu/painterly/painterly_fixture.h"
 #include "tests/support/allocation_count.h"

@@ -3,7 +3,7 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <gmock/gmock.h>
 
-#include "pipeline/scene/attach_frame.h"
+#include "pipeline/scene/description/scene.h"
 #include "tests/gpu/scene/scene_gl_test.h"
 
 namespace pleinair::scene {

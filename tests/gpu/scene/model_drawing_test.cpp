@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
-#include "pipeline/scene/builtin_box.h"
+#include "pipeline/scene/builtin/builtin_box.h"
 #include "tests/gpu/scene/scene_gl_test.h"
 #include "tests/oracles/raster_oracle.h"
 #include "tests/oracles/texture_oracle.h"

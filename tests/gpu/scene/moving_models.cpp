@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "pipeline/scene/builtin_box.h"
+#include "pipeline/scene/builtin/builtin_box.h"
 
 namespace pleinair::scene {
 namespace {

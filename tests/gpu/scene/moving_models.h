@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/scene/model.h"
+#include "pipeline/scene/models/model.h"
 
 namespace pleinair::scene {
 

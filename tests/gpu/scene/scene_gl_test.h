@@ -10,7 +10,7 @@
 
 #include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/render_target.h"
-#include "pipeline/scene/ar_frame_renderer.h"
+#include "pipeline/scene/render/ar_frame_renderer.h"
 #include "pipeline/scene/scene_shaders.h"
 #include "tests/support/gl_test.h"
 

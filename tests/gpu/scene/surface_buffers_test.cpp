@@ -10,7 +10,7 @@
 #include <glm/packing.hpp>
 #include <gmock/gmock.h>
 
-#include "pipeline/scene/drawn_model.h"
+#include "pipeline/scene/render/drawn_model.h"
 #include "tests/gpu/scene/moving_models.h"
 #include "tests/gpu/scene/scene_gl_test.h"
 #include "tests/gpu/scene/two_poses.h"

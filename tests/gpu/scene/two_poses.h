@@ -7,8 +7,8 @@
 
 #include "hal/clock.h"
 #include "hal/pixel_format.h"
-#include "pipeline/scene/builtin_box.h"
-#include "pipeline/tracking/camera_model.h"
+#include "pipeline/scene/builtin/builtin_box.h"
+#include "pipeline/tracking/camera/camera_model.h"
 #include "tests/gpu/scene/moving_models.h"
 
 namespace pleinair::scene {

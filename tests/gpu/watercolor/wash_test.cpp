@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <array>
 
-#include "pipeline/styles/watercolor/watercolor_looks.h"
+#include "pipeline/styles/watercolor/watercolor_parameters.h"
 #include "tests/gpu/watercolor/watercolor_fixture.h"
 #include "tests/oracles/watercolor_oracle.h"
 

@@ -11,7 +11,7 @@
 
 #include "hal/image.h"
 #include "pipeline/marks/anchor_set.h"
-#include "pipeline/scene/ar_frame_renderer.h"
+#include "pipeline/scene/render/ar_frame_renderer.h"
 #include "tests/reports/anchors/area_sampling.h"
 #include "tests/reports/anchors/cell_counts.h"
 

@@ -22,9 +22,9 @@
 #include <glm/geometric.hpp>
 
 #include "hal/error.h"
-#include "hal/libav/picture_file.h"
+#include "hal/media/picture_file.h"
 #include "pipeline/gpu/egl_context.h"
-#include "pipeline/scene/model_source.h"
+#include "pipeline/scene/description/model_source.h"
 #include "tests/reports/anchors/anchor_stage.h"
 #include "tests/reports/anchors/slip_report.h"
 

@@ -9,8 +9,8 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
-#include "pipeline/scene/model.h"
-#include "pipeline/scene/model_pose.h"
+#include "pipeline/scene/models/model.h"
+#include "pipeline/scene/models/model_pose.h"
 
 namespace pleinair::marks {
 

@@ -17,10 +17,10 @@
 #include "hal/clock.h"
 #include "pipeline/marks/anchor_set.h"
 #include "pipeline/marks/marks_shaders.h"
-#include "pipeline/scene/ar_frame_renderer.h"
+#include "pipeline/scene/render/ar_frame_renderer.h"
 #include "pipeline/scene/scene_shaders.h"
-#include "pipeline/tracking/image_motion_estimator.h"
-#include "pipeline/tracking/tracker.h"
+#include "pipeline/tracking/motion/image_motion_estimator.h"
+#include "pipeline/tracking/pose/tracker.h"
 #include "tests/reports/tracking/pose_measures.h"
 #include "tests/reports/tracking/truth_sequence.h"
 

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "firmware_app/measured_engine.h"
+#include "firmware_app/offline/measured_engine.h"
 #include "pipeline/measure/measurement.h"
 
 namespace pleinair {

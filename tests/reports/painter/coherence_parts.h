@@ -7,9 +7,9 @@
 #include <span>
 #include <string_view>
 
-#include "pipeline/measure/measured_input.h"
-#include "pipeline/measure/report.h"
-#include "pipeline/painter.h"
+#include "pipeline/engine/painter.h"
+#include "pipeline/measure/input/measured_input.h"
+#include "pipeline/measure/report/report.h"
 
 namespace pleinair {
 

@@ -6,8 +6,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "pipeline/measure/input/sensor_noise.h"
 #include "pipeline/measure/picture.h"
-#include "pipeline/measure/sensor_noise.h"
 #include "tests/oracles/stroke_oracle.h"
 #include "tests/reports/painter/told_painting.h"
 

@@ -11,7 +11,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "pipeline/measure/measured_input.h"
+#include "pipeline/measure/input/measured_input.h"
 #include "tests/reports/painter/told_painting.h"
 
 namespace pleinair {

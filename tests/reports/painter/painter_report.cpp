@@ -24,10 +24,10 @@
 
 #include "hal/cameras/synthetic/synthetic_camera.h"
 #include "hal/error.h"
-#include "hal/libav/picture_file.h"
+#include "hal/media/picture_file.h"
+#include "pipeline/engine/painter.h"
 #include "pipeline/gpu/egl_context.h"
 #include "pipeline/marks/marks_shaders.h"
-#include "pipeline/painter.h"
 #include "pipeline/scene/scene_shaders.h"
 #include "pipeline/styles/style_registry.h"
 #include "tests/reports/painter/coherence_parts.h"

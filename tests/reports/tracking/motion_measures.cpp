@@ -14,9 +14,9 @@
 #include <glm/vector_relational.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "hal/libav/picture_file.h"
-#include "pipeline/measure/kitti_flow.h"
-#include "pipeline/tracking/homography.h"
+#include "hal/media/picture_file.h"
+#include "pipeline/measure/input/kitti_flow.h"
+#include "pipeline/tracking/image/homography.h"
 #include "tests/reports/tracking/pose_measures.h"
 #include "tests/reports/tracking/truth_sequence.h"
 #include "tests/unit/tracking/desk_sequence.h"

@@ -10,7 +10,7 @@
 #include <glm/vec2.hpp>
 
 #include "hal/image.h"
-#include "pipeline/tracking/image_motion_estimator.h"
+#include "pipeline/tracking/motion/image_motion_estimator.h"
 
 namespace pleinair::tracking {
 

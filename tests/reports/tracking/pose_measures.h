@@ -11,7 +11,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 
-#include "pipeline/tracking/tracker.h"
+#include "pipeline/tracking/pose/tracker.h"
 #include "tests/reports/tracking/truth_sequence.h"
 
 namespace pleinair::tracking {

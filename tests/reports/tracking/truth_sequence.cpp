@@ -15,9 +15,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "hal/cameras/recording/recording.h"
-#include "hal/cameras/synthetic/bench_tags.h"
 #include "hal/cameras/synthetic/synthetic_camera.h"
-#include "pipeline/tracking/luma.h"
+#include "hal/cameras/synthetic/world/bench_tags.h"
+#include "pipeline/tracking/image/luma.h"
 #include "tests/unit/tracking/desk_sequence.h"
 
 namespace pleinair::tracking {

@@ -7,12 +7,11 @@
 
 #include <glm/mat4x4.hpp>
 
-#include "hal/cameras/synthetic/shot.h"
+#include "hal/cameras/synthetic/render/shot.h"
 #include "hal/clock.h"
 #include "hal/image.h"
-#include "pipeline/tracking/camera_model.h"
-#include "pipeline/tracking/tag_frame.h"
-#include "pipeline/tracking/tag_marker.h"
+#include "pipeline/tracking/camera/camera_model.h"
+#include "pipeline/tracking/pose/tag.h"
 
 namespace pleinair::tracking {
 

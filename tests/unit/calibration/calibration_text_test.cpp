@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pipeline/tracking/calibration_file.h"
+#include "pipeline/tracking/camera/calibration_file.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/calibration/calibration_views.h"
 

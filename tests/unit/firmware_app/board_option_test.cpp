@@ -1,4 +1,4 @@
-#include "firmware_app/board_option.h"
+#include "firmware_app/cli/board_option.h"
 
 #include <variant>
 

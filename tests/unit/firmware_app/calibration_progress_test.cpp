@@ -1,4 +1,4 @@
-#include "firmware_app/calibration_progress.h"
+#include "firmware_app/offline/calibration_progress.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

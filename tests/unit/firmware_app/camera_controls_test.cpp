@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "config/config_error.h"
-#include "firmware_app/configuration.h"
-#include "firmware_app/configured_parts.h"
+#include "firmware_app/config/configuration.h"
+#include "firmware_app/config/configured_parts.h"
 
 namespace pleinair::app {
 namespace {

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "firmware_app/configured_parts.h"
+#include "firmware_app/config/configured_parts.h"
 #include "tests/unit/firmware_app/configuration_test.h"
 
 namespace pleinair::app {

@@ -10,9 +10,9 @@
 #include <gtest/gtest.h>
 
 #include "config/config_error.h"
-#include "firmware_app/configuration.h"
-#include "pipeline/scene/scene_file.h"
-#include "pipeline/tracking/calibration_file.h"
+#include "firmware_app/config/configuration.h"
+#include "pipeline/scene/description/scene_file.h"
+#include "pipeline/tracking/camera/calibration_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace pleinair::app {

@@ -1,4 +1,4 @@
-#include "firmware_app/exit_status.h"
+#include "firmware_app/cli/exit_status.h"
 
 #include <new>
 #include <stdexcept>

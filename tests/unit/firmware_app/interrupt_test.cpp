@@ -1,4 +1,4 @@
-#include "firmware_app/interrupt.h"
+#include "firmware_app/cli/interrupt.h"
 
 #include <csignal>
 

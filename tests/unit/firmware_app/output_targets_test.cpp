@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "config/config_error.h"
-#include "firmware_app/configuration.h"
+#include "firmware_app/config/configuration.h"
 #include "tests/support/temporary_folder.h"
 
 namespace pleinair::app {

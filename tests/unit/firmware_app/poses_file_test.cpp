@@ -1,4 +1,4 @@
-#include "firmware_app/poses_file.h"
+#include "firmware_app/offline/poses_file.h"
 
 #include <fstream>
 #include <iterator>

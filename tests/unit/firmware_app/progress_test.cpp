@@ -1,4 +1,4 @@
-#include "firmware_app/progress.h"
+#include "firmware_app/cli/progress.h"
 
 #include <gtest/gtest.h>
 

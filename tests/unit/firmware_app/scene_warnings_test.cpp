@@ -1,4 +1,4 @@
-#include "firmware_app/scene_warnings.h"
+#include "firmware_app/scene/scene_warnings.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

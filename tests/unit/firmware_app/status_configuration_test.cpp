@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "config/config_error.h"
-#include "firmware_app/configured_parts.h"
+#include "firmware_app/config/configured_parts.h"
 #include "tests/support/temporary_folder.h"
 
 namespace pleinair::app {

@@ -1,4 +1,4 @@
-#include "firmware_app/text_table.h"
+#include "firmware_app/cli/text_table.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "firmware_app/workbench_scene.h"
+#include "firmware_app/scene/workbench_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "hal/cameras/synthetic/synthetic_camera.h"
-#include "pipeline/scene/attach_frame.h"
-#include "pipeline/scene/scene_file.h"
+#include "pipeline/scene/description/scene.h"
+#include "pipeline/scene/description/scene_file.h"
 
 namespace pleinair::app {
 namespace {

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/measure/gates.h"
-#include "pipeline/measure/known_motion.h"
+#include "pipeline/measure/input/known_motion.h"
+#include "pipeline/measure/input/sensor_noise.h"
 #include "pipeline/measure/picture.h"
-#include "pipeline/measure/sensor_noise.h"
 #include "pipeline/measure/sequence_measures.h"
 #include "tests/unit/measure/measure_pictures.h"
 

@@ -1,9 +1,9 @@
-#include "pipeline/measure/kitti_flow.h"
+#include "pipeline/measure/input/kitti_flow.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "hal/libav/picture_file.h"
+#include "hal/media/picture_file.h"
 #include "tests/support/deep_png.h"
 #include "tests/support/temporary_folder.h"
 

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "hal/libav/picture_file.h"
+#include "hal/media/picture_file.h"
 #include "pipeline/measure/picture.h"
 #include "pipeline/measure/voronoi_tiling.h"
 #include "tests/support/deep_png.h"

@@ -1,4 +1,4 @@
-#include "pipeline/measure/motion_file.h"
+#include "pipeline/measure/input/motion_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
-#include "pipeline/measure/motion_map.h"
+#include "pipeline/measure/input/motion_map.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "pipeline/measure/known_motion.h"
+#include "pipeline/measure/input/known_motion.h"
 #include "pipeline/measure/picture.h"
 
 namespace pleinair::measure {

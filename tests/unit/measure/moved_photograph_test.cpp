@@ -1,4 +1,4 @@
-#include "pipeline/measure/moved_photograph.h"
+#include "pipeline/measure/input/moved_photograph.h"
 
 #include <gtest/gtest.h>
 

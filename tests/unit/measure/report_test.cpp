@@ -1,4 +1,4 @@
-#include "pipeline/measure/report.h"
+#include "pipeline/measure/report/report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "pipeline/measure/workbench_motion.h"
+#include "pipeline/measure/input/workbench_motion.h"
 
 #include <gtest/gtest.h>
 

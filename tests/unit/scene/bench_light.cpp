@@ -5,9 +5,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "hal/cameras/synthetic/light.h"
-#include "hal/cameras/synthetic/workbench.h"
-#include "pipeline/scene/light_fit.h"
+#include "hal/cameras/synthetic/world/light.h"
+#include "hal/cameras/synthetic/world/workbench.h"
+#include "pipeline/scene/light/light_fit.h"
 
 namespace pleinair::scene {
 namespace {

@@ -1,12 +1,12 @@
 // What channels say between their keys: by hand, and by the formulas of glTF 2.0, appendix C.
-#include "pipeline/scene/channel_value.h"
-
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
 
 #include <gmock/gmock.h>
+
+#include "pipeline/scene/models/rig.h"
 
 namespace pleinair::scene {
 namespace {

@@ -1,4 +1,4 @@
-#include "pipeline/scene/drawn_model.h"
+#include "pipeline/scene/render/drawn_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@
 #include <glm/packing.hpp>
 #include <gtest/gtest.h>
 
-#include "pipeline/scene/builtin_box.h"
-#include "pipeline/scene/builtin_gearbox.h"
-#include "pipeline/scene/model_source.h"
+#include "pipeline/scene/builtin/builtin_box.h"
+#include "pipeline/scene/builtin/builtin_gearbox.h"
+#include "pipeline/scene/description/model_source.h"
 
 namespace pleinair::scene {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/scene/builtin_gear.h"
+#include "pipeline/scene/builtin/builtin_gear.h"
 #include "tests/unit/scene/solid_checks.h"
 
 namespace pleinair::scene {

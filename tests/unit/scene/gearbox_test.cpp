@@ -5,8 +5,8 @@
 
 #include <gmock/gmock.h>
 
-#include "pipeline/scene/builtin_gearbox.h"
-#include "pipeline/scene/gear_profile.h"
+#include "pipeline/scene/builtin/builtin_gearbox.h"
+#include "pipeline/scene/builtin/gear_profile.h"
 #include "tests/unit/scene/solid_checks.h"
 
 namespace pleinair::scene {

@@ -7,7 +7,7 @@
 
 #include "pipeline/scene/gltf/gltf_accessors.h"
 #include "pipeline/scene/gltf/gltf_file.h"
-#include "pipeline/scene/model_pose.h"
+#include "pipeline/scene/models/model_pose.h"
 #include "tests/oracles/gltf_oracle.h"
 #include "tests/unit/scene/gltf_builder.h"
 

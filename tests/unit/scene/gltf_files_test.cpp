@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/scene/gltf/gltf_file.h"
-#include "pipeline/scene/model_pose.h"
+#include "pipeline/scene/models/model_pose.h"
 
 namespace pleinair::scene {
 namespace {

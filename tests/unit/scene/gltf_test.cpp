@@ -6,9 +6,9 @@
 #include <gmock/gmock.h>
 
 #include "hal/image.h"
-#include "hal/libav/picture_file.h"
+#include "hal/media/picture_file.h"
 #include "pipeline/scene/gltf/gltf_file.h"
-#include "pipeline/scene/model_pose.h"
+#include "pipeline/scene/models/model_pose.h"
 #include "tests/unit/scene/gltf_builder.h"
 
 namespace pleinair::scene {

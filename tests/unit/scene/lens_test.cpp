@@ -1,4 +1,4 @@
-#include "pipeline/scene/lens.h"
+#include "pipeline/scene/description/lens.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "pipeline/scene/light_estimator.h"
+#include "pipeline/scene/light/light_estimator.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
-#include "pipeline/scene/attach_frame.h"
+#include "pipeline/scene/description/scene.h"
 #include "tests/support/allocation_count.h"
 #include "tests/unit/scene/lit_tags.h"
 

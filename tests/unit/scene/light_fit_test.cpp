@@ -1,4 +1,4 @@
-#include "pipeline/scene/light_fit.h"
+#include "pipeline/scene/light/light_fit.h"
 
 #include <array>
 #include <vector>

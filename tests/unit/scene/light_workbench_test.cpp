@@ -13,8 +13,8 @@
 #include <gtest/gtest.h>
 
 #include "hal/cameras/synthetic/synthetic_camera.h"
-#include "pipeline/scene/attach_frame.h"
-#include "pipeline/scene/light_estimator.h"
+#include "pipeline/scene/description/scene.h"
+#include "pipeline/scene/light/light_estimator.h"
 #include "tests/unit/scene/bench_light.h"
 
 namespace pleinair::scene {

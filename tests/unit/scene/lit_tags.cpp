@@ -9,7 +9,7 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "pipeline/scene/attach_frame.h"
+#include "pipeline/scene/description/scene.h"
 
 namespace pleinair::scene {
 namespace {

@@ -8,8 +8,8 @@
 #include <glm/vec3.hpp>
 
 #include "hal/image.h"
-#include "pipeline/tracking/camera_model.h"
-#include "pipeline/tracking/tracker.h"
+#include "pipeline/tracking/camera/camera_model.h"
+#include "pipeline/tracking/pose/tracker.h"
 
 namespace pleinair::scene {
 

@@ -1,4 +1,4 @@
-#include "pipeline/scene/mesh.h"
+#include "pipeline/scene/models/mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/scene/builtin_box.h"
+#include "pipeline/scene/builtin/builtin_box.h"
 #include "tests/unit/scene/solid_checks.h"
 
 namespace pleinair::scene {

@@ -1,5 +1,5 @@
 // Poses of models that are put together by hand.
-#include "pipeline/scene/model_pose.h"
+#include "pipeline/scene/models/model_pose.h"
 
 #include <cmath>
 #include <numbers>
@@ -8,9 +8,9 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "pipeline/scene/affine.h"
-#include "pipeline/scene/builtin_box.h"
-#include "pipeline/scene/builtin_gearbox.h"
+#include "pipeline/scene/builtin/builtin_box.h"
+#include "pipeline/scene/builtin/builtin_gearbox.h"
+#include "pipeline/scene/models/mesh.h"
 #include "tests/support/allocation_count.h"
 
 namespace pleinair::scene {

@@ -1,4 +1,4 @@
-#include "pipeline/scene/model.h"
+#include "pipeline/scene/models/model.h"
 
 #include <numbers>
 
@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "pipeline/scene/builtin_box.h"
+#include "pipeline/scene/builtin/builtin_box.h"
 
 namespace pleinair::scene {
 namespace {

@@ -1,6 +1,6 @@
-#include "pipeline/scene/playback.h"
-
 #include <gtest/gtest.h>
+
+#include "pipeline/scene/models/rig.h"
 
 namespace pleinair::scene {
 namespace {

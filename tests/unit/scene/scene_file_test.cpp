@@ -1,4 +1,4 @@
-#include "pipeline/scene/scene_file.h"
+#include "pipeline/scene/description/scene_file.h"
 
 #include <cmath>
 #include <filesystem>
@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "config/config_error.h"
-#include "pipeline/scene/attach_frame.h"
+#include "pipeline/scene/description/scene.h"
 #include "tests/support/temporary_folder.h"
 
 namespace pleinair::scene {

@@ -1,12 +1,11 @@
-#include "pipeline/scene/scene_light.h"
-
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
 #include "config/config_error.h"
-#include "pipeline/scene/lighting.h"
-#include "pipeline/scene/lighting_uniforms.h"
-#include "pipeline/scene/scene_file.h"
+#include "pipeline/scene/description/scene_file.h"
+#include "pipeline/scene/description/scene_tables.h"
+#include "pipeline/scene/light/lighting.h"
+#include "pipeline/scene/render/scene_uniforms.h"
 
 namespace pleinair::scene {
 namespace {

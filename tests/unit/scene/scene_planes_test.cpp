@@ -1,11 +1,10 @@
-#include "pipeline/scene/scene_planes.h"
-
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "config/config_error.h"
-#include "pipeline/scene/scene_file.h"
+#include "pipeline/scene/description/scene_file.h"
+#include "pipeline/scene/description/scene_tables.h"
 
 namespace pleinair::scene {
 namespace {

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "config/config_error.h"
-#include "pipeline/scene/scene_file.h"
+#include "pipeline/scene/description/scene_file.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/scene/gltf_builder.h"
 

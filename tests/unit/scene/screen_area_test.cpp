@@ -1,4 +1,4 @@
-#include "pipeline/scene/screen_area.h"
+#include "pipeline/scene/render/screen_area.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,11 +1,9 @@
-#include "pipeline/scene/shadow_plan.h"
-
 #include <array>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "pipeline/scene/shadow_casters.h"
+#include "pipeline/scene/render/shadow_casters.h"
 
 namespace pleinair::scene {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "pipeline/scene/mesh.h"
+#include "pipeline/scene/models/mesh.h"
 
 namespace pleinair::scene {
 

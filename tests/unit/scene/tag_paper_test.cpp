@@ -1,4 +1,4 @@
-#include "pipeline/scene/tag_paper.h"
+#include "pipeline/scene/light/tag_paper.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "pipeline/tracking/calibration_file.h"
+#include "pipeline/tracking/camera/calibration_file.h"
 
 #include <fstream>
 #include <string>
@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pipeline/tracking/tracker.h"
+#include "pipeline/tracking/pose/tracker.h"
 #include "tests/support/temporary_folder.h"
 
 namespace pleinair::tracking {

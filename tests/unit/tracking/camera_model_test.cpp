@@ -1,4 +1,4 @@
-#include "pipeline/tracking/camera_model.h"
+#include "pipeline/tracking/camera/camera_model.h"
 
 #include <array>
 

@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "hal/cameras/recording/recording.h"
-#include "pipeline/tracking/luma.h"
-#include "pipeline/tracking/tag_detector.h"
+#include "pipeline/tracking/image/luma.h"
+#include "pipeline/tracking/pose/tag_detector.h"
 
 namespace pleinair::tracking {
 namespace {

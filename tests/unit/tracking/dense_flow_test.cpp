@@ -8,7 +8,7 @@
 #include <glm/matrix.hpp>
 #include <gtest/gtest.h>
 
-#include "pipeline/tracking/homography.h"
+#include "pipeline/tracking/image/homography.h"
 #include "tests/support/textured_plane.h"
 #include "tests/unit/tracking/motion_watch.h"
 

@@ -12,8 +12,8 @@
 #include <gtest/gtest.h>
 
 #include "hal/cameras/recording/recording.h"
-#include "pipeline/tracking/pose_refinement.h"
-#include "pipeline/tracking/tracker.h"
+#include "pipeline/tracking/pose/pose_refinement.h"
+#include "pipeline/tracking/pose/tracker.h"
 #include "tests/unit/tracking/desk_sequence.h"
 
 namespace pleinair::tracking {

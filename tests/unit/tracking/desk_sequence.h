@@ -6,9 +6,9 @@
 
 #include <glm/mat4x4.hpp>
 
-#include "pipeline/tracking/camera_model.h"
-#include "pipeline/tracking/tag_frame.h"
-#include "pipeline/tracking/tracker.h"
+#include "pipeline/tracking/camera/camera_model.h"
+#include "pipeline/tracking/pose/tag.h"
+#include "pipeline/tracking/pose/tracker.h"
 
 namespace pleinair::tracking {
 

@@ -1,4 +1,4 @@
-#include "pipeline/tracking/feature_tracks.h"
+#include "pipeline/tracking/pose/feature_tracks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/image.h"
-#include "pipeline/tracking/luma_frame.h"
+#include "pipeline/tracking/image/luma.h"
 
 namespace pleinair::tracking {
 namespace {

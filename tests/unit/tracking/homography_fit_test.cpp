@@ -1,5 +1,3 @@
-#include "pipeline/tracking/homography_fit.h"
-
 #include <random>
 #include <vector>
 
@@ -7,7 +5,7 @@
 #include <glm/matrix.hpp>
 #include <gtest/gtest.h>
 
-#include "pipeline/tracking/homography.h"
+#include "pipeline/tracking/image/homography.h"
 #include "tests/support/textured_plane.h"
 
 namespace pleinair::tracking {

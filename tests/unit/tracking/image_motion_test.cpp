@@ -9,8 +9,8 @@
 #include <glm/vector_relational.hpp>
 #include <gtest/gtest.h>
 
-#include "pipeline/tracking/homography.h"
-#include "pipeline/tracking/image_motion_estimator.h"
+#include "pipeline/tracking/image/homography.h"
+#include "pipeline/tracking/motion/image_motion_estimator.h"
 #include "tests/support/textured_plane.h"
 #include "tests/unit/tracking/motion_watch.h"
 

@@ -1,4 +1,4 @@
-#include "pipeline/tracking/luma.h"
+#include "pipeline/tracking/image/luma.h"
 
 #include <array>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "pipeline/tracking/tag_detector.h"
+#include "pipeline/tracking/pose/tag_detector.h"
 #include "tests/support/tag_scene.h"
 
 namespace pleinair::tracking {

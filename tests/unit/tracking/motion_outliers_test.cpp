@@ -1,4 +1,4 @@
-#include "pipeline/tracking/motion_outliers.h"
+#include "pipeline/tracking/motion/motion_outliers.h"
 
 #include <vector>
 

@@ -5,7 +5,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "pipeline/tracking/image_motion_estimator.h"
+#include "pipeline/tracking/motion/image_motion_estimator.h"
 #include "tests/support/textured_plane.h"
 
 namespace pleinair::tracking {

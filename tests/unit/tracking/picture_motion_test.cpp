@@ -1,4 +1,4 @@
-#include "pipeline/tracking/picture_motion.h"
+#include "pipeline/tracking/motion/picture_motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/tracking/image_motion_estimator.h"
+#include "pipeline/tracking/motion/image_motion_estimator.h"
 
 namespace pleinair::tracking {
 namespace {

@@ -1,4 +1,4 @@
-#include "pipeline/tracking/pose_filter.h"
+#include "pipeline/tracking/pose/pose_filter.h"
 
 #include <cmath>
 #include <deque>

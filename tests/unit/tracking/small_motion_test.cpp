@@ -1,4 +1,4 @@
-#include "pipeline/tracking/small_motion.h"
+#include "pipeline/tracking/pose/small_motion.h"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "pipeline/tracking/tag_detector.h"
+#include "pipeline/tracking/pose/tag_detector.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pipeline/tracking/luma.h"
+#include "pipeline/tracking/image/luma.h"
 #include "tests/support/tag_scene.h"
 
 namespace pleinair::tracking {

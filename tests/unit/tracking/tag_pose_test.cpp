@@ -1,4 +1,4 @@
-#include "pipeline/tracking/tag_pose.h"
+#include "pipeline/tracking/pose/tag_pose.h"
 
 #include <array>
 #include <limits>

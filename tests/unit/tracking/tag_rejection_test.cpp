@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "pipeline/tracking/tracker.h"
+#include "pipeline/tracking/pose/tracker.h"
 #include "tests/support/tag_scene.h"
 
 namespace pleinair::tracking {

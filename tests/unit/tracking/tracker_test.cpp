@@ -1,4 +1,4 @@
-#include "pipeline/tracking/tracker.h"
+#include "pipeline/tracking/pose/tracker.h"
 
 #include <chrono>
 #include <vector>

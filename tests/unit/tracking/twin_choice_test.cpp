@@ -1,4 +1,4 @@
-#include "pipeline/tracking/twin_choice.h"
+#include "pipeline/tracking/pose/twin_choice.h"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "pipeline/tracking/world_pose.h"
+#include "pipeline/tracking/pose/world_pose.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
-#include "pipeline/tracking/tag_pose.h"
+#include "pipeline/tracking/pose/tag_pose.h"
 #include "tests/support/tag_scene.h"
 
 namespace pleinair::tracking {

@@ -2,7 +2,7 @@
 //          each other and with what is real, two pixels wide, so that a clipped edge is smooth.
 //          Occluders are real: they hide models, but the picture goes on over their edges.
 // Inputs:  ids (scene::ArFrame). Outputs: R32UI: border.glsl's. Precision: integers.
-#include "pipeline/scene/shaders/object_id.glsl"
+#include "pipeline/scene/render/shaders/object_id.glsl"
 #include "pipeline/styles/painterly/shaders/border.glsl"
 uniform usampler2D ids;
 layout(location = 0) out uint border;

@@ -3,7 +3,7 @@
 // Inputs:  picture (RGBA8), ids (ArFrame).
 // Outputs: 0 real, 1 models: RGBA16F, premultiplied: alpha is the share of the 2x2.
 // Precision: highp for places.
-#include "pipeline/scene/shaders/object_id.glsl"
+#include "pipeline/scene/render/shaders/object_id.glsl"
 uniform sampler2D picture;
 uniform highp usampler2D ids;
 layout(location = 0) out vec4 real;

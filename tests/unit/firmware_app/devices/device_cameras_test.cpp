@@ -1,9 +1,9 @@
-#include "firmware_app/devices/device_cameras.h"
-
 #include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "firmware_app/devices/inventory.h"
 
 namespace pleinair::app {
 namespace {

@@ -1,10 +1,9 @@
-#include "firmware_app/devices/displays.h"
-
 #include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "firmware_app/devices/inventory.h"
 #include "tests/support/temporary_folder.h"
 
 namespace pleinair::app {

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "firmware_app/configuration_sections.h"
-#include "firmware_app/configured_parts.h"
+#include "firmware_app/config/configuration_sections.h"
+#include "firmware_app/config/configured_parts.h"
 #include "hal/error.h"
 #include "tests/support/media_files.h"
 #include "tests/support/temporary_folder.h"

@@ -1,6 +1,6 @@
-#include "firmware_app/live/fading.h"
-
 #include <gtest/gtest.h>
+
+#include "firmware_app/live/live_window.h"
 
 namespace pleinair::app {
 namespace {

@@ -1,12 +1,11 @@
-#include "firmware_app/live/still_file.h"
-
 #include <algorithm>
 #include <ctime>
 #include <fstream>
 
 #include <gtest/gtest.h>
 
-#include "hal/libav/picture_file.h"
+#include "firmware_app/live/still_saver.h"
+#include "hal/media/picture_file.h"
 #include "tests/support/environment.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_pictures.h"

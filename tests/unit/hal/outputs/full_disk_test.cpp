@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "hal/libav/picture_file.h"
+#include "hal/media/picture_file.h"
 #include "hal/outputs/frames/frames_output.h"
 #include "hal/outputs/movie/movie_output.h"
 #include "tests/support/failing_files.h"

@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "hal/libav/picture_file.h"
+#include "hal/media/picture_file.h"
 #include "tests/support/media_files.h"
 #include "tests/support/temporary_folder.h"
 

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include "hal/libav/picture_file.h"
+#include "hal/media/picture_file.h"
 #include "tests/support/media_files.h"
 
 namespace pleinair::hal {

@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/libav/handles.h"
-#include "hal/libav/picture_file.h"
+#include "hal/media/handles.h"
+#include "hal/media/picture_file.h"
 #include "tests/support/media_files.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/turned_pictures.h"

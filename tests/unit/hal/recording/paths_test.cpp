@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "hal/cameras/recording/picture_paths.h"
-#include "hal/libav/picture_file.h"
+#include "hal/cameras/recording/picture_source.h"
+#include "hal/media/picture_file.h"
 #include "tests/support/media_files.h"
 #include "tests/support/temporary_folder.h"
 

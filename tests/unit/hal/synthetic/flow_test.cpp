@@ -3,7 +3,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "hal/cameras/synthetic/world.h"
+#include "hal/cameras/synthetic/world/world.h"
 #include "tests/unit/hal/synthetic/captured.h"
 #include "tests/unit/hal/synthetic/ray_oracle.h"
 

@@ -1,4 +1,4 @@
-#include "hal/cameras/synthetic/motion.h"
+#include "hal/cameras/synthetic/render/motion.h"
 
 #include <cmath>
 

@@ -7,8 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "hal/cameras/synthetic/camera_view.h"
-#include "hal/cameras/synthetic/geometry.h"
+#include "hal/cameras/synthetic/world/geometry.h"
 
 namespace pleinair::hal::synthetic {
 

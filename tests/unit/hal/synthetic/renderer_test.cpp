@@ -1,10 +1,10 @@
-#include "hal/cameras/synthetic/renderer.h"
+#include "hal/cameras/synthetic/render/renderer.h"
 
 #include <cmath>
 
-#include "hal/cameras/synthetic/layout.h"
-#include "hal/cameras/synthetic/sampler.h"
-#include "hal/cameras/synthetic/srgb.h"
+#include "hal/cameras/synthetic/render/sampler.h"
+#include "hal/cameras/synthetic/world/srgb.h"
+#include "hal/cameras/synthetic/world/workbench.h"
 #include "tests/unit/hal/synthetic/captured.h"
 #include "tests/unit/hal/synthetic/ray_oracle.h"
 

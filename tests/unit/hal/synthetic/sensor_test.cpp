@@ -1,4 +1,4 @@
-#include "hal/cameras/synthetic/sensor.h"
+#include "hal/cameras/synthetic/render/sensor.h"
 
 #include <array>
 #include <cmath>
@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/cameras/synthetic/sampler.h"
-#include "hal/cameras/synthetic/srgb.h"
+#include "hal/cameras/synthetic/render/sampler.h"
+#include "hal/cameras/synthetic/world/srgb.h"
 
 namespace pleinair::hal::synthetic {
 namespace {

@@ -2,7 +2,7 @@
 #include "hal/cameras/v4l2/format.h"
 
 #include "hal/cameras/v4l2/layout.h"
-#include "hal/v4l2/color_encoding.h"
+#include "hal/v4l2/formats.h"
 #include "tests/unit/hal/v4l2/fake_camera.h"
 
 namespace pleinair::hal::v4l2 {

@@ -1,4 +1,4 @@
-#include "hal/libav/motion_jpeg.h"
+#include "hal/media/motion_jpeg.h"
 #include "tests/support/test_jpegs.h"
 #include "tests/unit/hal/v4l2/fake_camera.h"
 

@@ -1,6 +1,6 @@
 #include "hal/cameras/v4l2/modes.h"
 
-#include "hal/v4l2/fourcc.h"
+#include "hal/v4l2/formats.h"
 #include "tests/unit/hal/v4l2/fake_camera.h"
 
 namespace pleinair::hal::v4l2 {

@@ -1,8 +1,8 @@
-#include "hal/outputs/window/caption_picture.h"
-
 #include <algorithm>
 
 #include <gtest/gtest.h>
+
+#include "hal/outputs/window/caption.h"
 
 namespace pleinair::hal::window {
 namespace {

@@ -1,0 +1,130 @@
+#include "firmware_app/cli/command_line.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <functional>
+#include <iostream>
+#include <span>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "config/suggestion.h"
+#include "firmware_app/cli/exit_status.h"
+#include "firmware_app/cli/verb_options.h"
+#include "firmware_app/version.h"
+
+namespace pleinair::app {
+
+void logToStandardError() {
+  auto logger = std::make_shared<spdlog::logger>("pleinair",
+                                                 std::make_shared<spdlog::sinks::stderr_sink_mt>());
+  logger->set_pattern("pleinair: %l: %v");
+  spdlog::set_default_logger(std::move(logger));
+}
+
+namespace {
+
+/// What was not recognised, the first option of it where there is one: the rest may be its value.
+std::string unknownText(const CLI::App& app, const std::vector<std::string>& unknown) {
+  const auto option =
+      std::ranges::find_if(unknown, [](const std::string& text) { return text.starts_with('-'); });
+  const std::string word = option == unknown.end() ? unknown.front() : *option;
+  const std::string name = word.substr(0, word.find('='));
+  const std::vector<CLI::App*> commands = app.get_subcommands();
+  std::vector<std::string> known;
+  if (option != unknown.end()) {
+    for (const CLI::Option* each : (commands.empty() ? app : *commands.front()).get_options()) {
+      known.push_back(each->get_name());
+    }
+    return fmt::format("{}: {}", name, config::unknownText("option", name, known));
+  }
+  if (!commands.empty()) return fmt::format("{}: unexpected argument", word);
+  for (const CLI::App* each : app.get_subcommands({})) known.push_back(each->get_name());
+  return fmt::format("{}: {}", word, config::unknownText("command", word, known));
+}
+
+/// CLI11's own message on one line, under our exit status.
+int reportParseError(const CLI::App& app, const CLI::ParseError& error) {
+  if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+  // CLI11 would say that --input is missing where "--inpt" was meant for it.
+  const std::vector<std::string> unknown = app.remaining(true);
+  const bool isAboutUnknown = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr ||
+                              dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+  const std::string text =
+      isAboutUnknown && !unknown.empty() ? unknownText(app, unknown) : error.what();
+  const std::vector<CLI::App*> verbs = app.get_subcommands();
+  printError(fmt::format("{}; see pleinair {}--help", text,
+                         verbs.empty() ? "" : verbs.front()->get_name() + " "));
+  return static_cast<int>(ExitStatus::kUsage);
+}
+
+/// The status, unless what was printed did not arrive.
+int withOutputFlushed(int status) {
+  errno = 0;
+  std::cout.flush();  // CLI11's help
+  const bool arrived = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
+  if (arrived || status != 0) return status;
+  if (errno == 0) {  // it failed on the way, and what for is forgotten: ask again
+    std::clearerr(stdout);
+    std::fputc('\n', stdout);
+    std::fflush(stdout);
+  }
+  const std::string cause = errno == 0 ? "" : ": " + std::generic_category().message(errno);
+  printError("standard output: cannot write" + cause);
+  return static_cast<int>(ExitStatus::kUsage);
+}
+
+/// The arguments in the order in which CLI11 wants them, the last first. It would take the argument
+/// after "--name=" for the value.
+std::vector<std::string> argumentsReversed(int argc, const char* const* argv) {
+  std::vector<std::string> arguments;
+  for (const char* each :
+       std::span(argv, static_cast<std::size_t>(argc)).subspan(argc > 0 ? 1 : 0)) {
+    std::string argument = each;
+    const bool hasEmptyValue =
+        argument.starts_with("--") && argument.find('=') == argument.size() - 1;
+    if (hasEmptyValue) argument.pop_back();
+    arguments.push_back(std::move(argument));
+    if (hasEmptyValue) arguments.emplace_back();
+  }
+  std::ranges::reverse(arguments);
+  return arguments;
+}
+
+int parseAndRun(int argc, const char* const* argv) {
+  CLI::App app("pleinair paints live augmented-reality video with marks that stay put.",
+               "pleinair");
+  app.set_version_flag("--version", kVersion);
+  app.require_subcommand(0, 1);  // none is named below: CLI11 would keep quiet about a wrong one
+  VerbOptions options;
+  std::function<int()> chosen;
+  addVerbs(app, options, chosen);
+  try {
+    app.parse(argumentsReversed(argc, argv));
+    if (!chosen)
+      throw CLI::RequiredError(
+          "one of run, render, record, calibrate, measure, config, devices, doctor and styles");
+    return chosen();
+  } catch (const CLI::ParseError& error) {
+    return reportParseError(app, error);
+  } catch (...) {
+    return static_cast<int>(reportCurrentException());
+  }
+}
+
+}  // namespace
+
+int runCommandLine(int argc, const char* const* argv) {
+  logToStandardError();
+  return withOutputFlushed(parseAndRun(argc, argv));
+}
+
+}  // namespace pleinair::app

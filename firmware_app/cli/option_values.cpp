@@ -1,0 +1,100 @@
+#include "firmware_app/cli/option_values.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace pleinair::app {
+namespace {
+
+/// A year at 30 frames a second.
+constexpr std::uint64_t kMostFrames = 1'000'000'000;
+
+std::string foundText(std::string_view text, std::string_view allowed) {
+  return fmt::format("found \"{}\", allowed: {}", text, allowed);
+}
+
+/// With its sign, and nothing after it.
+std::optional<double> signedNumber(std::string_view text) {
+  double number = 0;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool isNumber = status == std::errc() && end == text.data() + text.size();
+  return isNumber ? std::optional(number) : std::nullopt;
+}
+
+/// Takes a number in digits, and nothing else, off the front.
+template <class Number>
+bool takeNumber(std::string_view& text, Number& number) {
+  // from_chars would take a sign.
+  if (text.empty() || text.front() < '0' || text.front() > '9') return false;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return status == std::errc();
+}
+
+}  // namespace
+
+std::uint64_t frameCountOf(const std::string& text, const std::string& option,
+                           std::uint64_t least) {
+  std::uint64_t count = 0;
+  std::string_view rest = text;
+  if (takeNumber(rest, count) && rest.empty() && count >= least && count <= kMostFrames)
+    return count;
+  throw CLI::ValidationError(
+      option, foundText(text, fmt::format("a whole number from {} to {}", least, kMostFrames)));
+}
+
+double numberOf(const std::string& option, const std::string& text, std::string_view unit,
+                double least, double most) {
+  std::string_view rest = text;
+  if (!unit.empty() && rest.ends_with(unit)) rest.remove_suffix(unit.size());
+  const std::optional<double> number = signedNumber(rest);
+  if (number && *number >= least && *number <= most) return *number;  // false of NaN
+  throw CLI::ValidationError(
+      option, foundText(text, fmt::format("a number from {:g} to {:g}{}{}", least, most,
+                                          unit.empty() ? "" : " ", unit)));
+}
+
+std::pair<double, double> vectorOf(const std::string& option, const std::string& text,
+                                   double most) {
+  const std::string_view whole = text;
+  const std::size_t comma = std::min(whole.find(','), whole.size());
+  const std::optional<double> x = signedNumber(whole.substr(0, comma));
+  const std::optional<double> y = signedNumber(whole.substr(std::min(comma + 1, whole.size())));
+  if (x && y && std::abs(*x) <= most && std::abs(*y) <= most) return {*x, *y};
+  throw CLI::ValidationError(
+      option, foundText(text, fmt::format("two numbers from {:g} to {:g}, such as -1.5,-0.5", -most,
+                                          most)));
+}
+
+std::string refuseStandardOutput(const std::string& text) {
+  if (text != "-") return {};
+  return foundText(text, "the name of a file; nothing is written to standard output");
+}
+
+std::string requirePngName(const std::string& text) {
+  if (text.empty()) return {};  // refuseEmptyValues() says it better
+  const std::filesystem::path ending = std::filesystem::path(text).extension();
+  if (ending == ".png" || ending == ".PNG") return {};
+  return foundText(text, "a name that ends in .png");
+}
+
+void refuseEmptyValues(CLI::App& command) {
+  for (CLI::Option* option : command.get_options()) {
+    if (option->get_items_expected_max() == 0) continue;  // a flag
+    const char* remedy =
+        option->get_required() ? "give it a value" : "give it a value or leave it out";
+    option->check([remedy](const std::string& text) {
+      return text.empty() ? fmt::format("is empty, {}", remedy) : std::string();
+    });
+  }
+}
+
+}  // namespace pleinair::app

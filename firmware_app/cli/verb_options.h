@@ -1,0 +1,27 @@
+#pragma once
+
+#include <functional>
+
+#include <CLI/App.hpp>
+
+#include "firmware_app/commands/commands.h"
+
+namespace pleinair::app {
+
+/// What is asked of each verb.
+struct VerbOptions {
+  RenderOptions render;
+  RecordOptions record;
+  CalibrateOptions calibrate;
+  MeasureOptions measure;
+  ConfigOptions config;
+  RunOptions run;
+  DevicesOptions devices;
+  DoctorOptions doctor;
+};
+
+/// Adds all verbs with their options. Parsing fills `options` and sets `chosen` to what carries the
+/// verb out; both outlive the parsing and what was chosen. The environment is read here.
+void addVerbs(CLI::App& app, VerbOptions& options, std::function<int()>& chosen);
+
+}  // namespace pleinair::app

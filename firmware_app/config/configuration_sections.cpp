@@ -1,0 +1,241 @@
+#include "firmware_app/config/configuration_sections.h"
+
+#include <fmt/format.h>
+
+#include "config/parameter_table.h"
+#include "config/profiles.h"
+#include "firmware_app/config/control_text.h"
+#include "firmware_app/live/camera_selection.h"
+#include "firmware_app/status_server/listen_address.h"
+#include "hal/cameras/synthetic/render/shot.h"
+#include "hal/pixel_format.h"
+#include "pipeline/engine/painter.h"
+#include "pipeline/styles/style_registry.h"
+
+namespace pleinair::app {
+namespace {
+
+using config::choiceParameter;
+using config::integerParameter;
+using config::numberParameter;
+using config::ParameterTable;
+using config::pathParameter;
+using config::sizeParameter;
+using config::switchParameter;
+using config::TakesEffect;
+using config::textParameter;
+
+constexpr config::SizeRange kSizes{.maxSide = hal::kMaxSidePixels, .maxPixels = hal::kMaxPixels};
+
+struct ProfileSettings {
+  std::filesystem::path profile{kNoFile};
+};
+
+const ParameterTable<ProfileSettings>& profileTable() {
+  static const ParameterTable<ProfileSettings> kTable{pathParameter(
+      "profile", &ProfileSettings::profile,
+      [] {
+        std::vector<std::string> words = config::profileNames();
+        words.emplace_back(kNoFile);
+        return words;
+      }(),
+      "What all this builds on: a profile of the program's, or a file.", TakesEffect::kRestart,
+      ".toml")};
+  return kTable;
+}
+
+config::ParameterBinding<CameraSettings> controlParameter(const std::string& name,
+                                                          std::string CameraSettings::*member,
+                                                          const ControlText& control,
+                                                          const std::string& help) {
+  return textParameter(name, member, control.allowed(), help, TakesEffect::kRestart,
+                       [control](std::string_view text) { return control.takes(text); });
+}
+
+const ParameterTable<CameraSettings>& cameraTable() {
+  static const ParameterTable<CameraSettings> kTable{
+      pathParameter(
+          "source", &CameraSettings::source, cameraNames(),
+          "The camera: a device, by id or serial number or the first that works; \"synthetic\", a "
+          "workbench made by code, or another of its shots; or a recording's path.",
+          TakesEffect::kRestart, {}, openCameraNames()),
+      switchParameter("wait", &CameraSettings::wait,
+                      "Whether to wait for a camera where there is none at the start; one that is "
+                      "lost later is always waited for.",
+                      TakesEffect::kRestart),
+      sizeParameter("size", &CameraSettings::size, kSizes, {},
+                    "Of the synthetic camera's frames, or what a device is asked for; it gives the "
+                    "nearest that it has. Movies have even sides."),
+      numberParameter("rate", &CameraSettings::framesPerSecond,
+                      {.min = 1, .max = 240, .unit = "frames a second"},
+                      "How many frames the synthetic camera makes, or a device is asked for.",
+                      TakesEffect::kRestart),
+      controlParameter("exposure", &CameraSettings::exposure, kExposureText,
+                       "Of a device, in milliseconds; \"device\": as it is set."),
+      controlParameter("gain", &CameraSettings::gain, kShareText,
+                       "Of a device, as a share of its range; \"device\": as it is set."),
+      controlParameter("focus", &CameraSettings::focus, kShareText,
+                       "Of a device, as a share of its range; \"device\": as it is set."),
+      controlParameter("white_balance", &CameraSettings::whiteBalance, kWhiteBalanceText,
+                       "Of a device, the light's colour temperature; \"device\": as it is set."),
+      integerParameter("seed", &CameraSettings::seed, {.min = 0},
+                       "Of the synthetic camera's world and path.", TakesEffect::kRestart),
+      numberParameter(
+          "noise", &CameraSettings::noise, {.min = 0, .max = 40, .unit = "8-bit levels"},
+          "Standard deviation of the synthetic camera's sensor.", TakesEffect::kRestart),
+      numberParameter("exposure_drift", &CameraSettings::exposureDriftStops,
+                      {.min = 0, .max = 2, .unit = "stops"},
+                      "How far the synthetic camera's brightness wanders.", TakesEffect::kRestart),
+      numberParameter(
+          "white_balance_drift", &CameraSettings::whiteBalanceDrift, {.min = 0, .max = 0.5},
+          "How far its red and blue wander against each other, as a share.", TakesEffect::kRestart),
+      numberParameter("readout", &CameraSettings::readout, {.min = 0, .max = 1},
+                      "The share of a frame's time that its rolling shutter takes; 0: all rows at "
+                      "once.",
+                      TakesEffect::kRestart)};
+  return kTable;
+}
+
+std::vector<std::string> styleNames() {
+  std::vector<std::string> names;
+  for (const styles::StyleInfo& info : styles::styleInfos()) names.emplace_back(info.name);
+  return names;
+}
+
+const ParameterTable<PaintingSettings>& paintingTable() {
+  using P = PaintingSettings;
+  static const ParameterTable<P> kTable{
+      choiceParameter("style", &P::style, styleNames(),
+                      "How to paint; `pleinair styles` lists styles, looks and views.",
+                      TakesEffect::kRestart),
+      textParameter("look", &P::look, "default, or a look of the style",
+                    "A preset of the style's parameters; \"default\" is its first one."),
+      textParameter("view", &P::view, "finished, or a view of the style",
+                    "What is shown of the painting."),
+      sizeParameter("size", &P::size, kSizes, {"camera"},
+                    "Of the painting; \"camera\": as its frames. Movies have even sides."),
+      pathParameter("scene", &P::scene, {std::string(kNoFile)}, "Tags and models (TOML).")};
+  return kTable;
+}
+
+const ParameterTable<OutputSettings>& outputTable() {
+  static const std::vector<std::string> kLoopbackNames{"loopback:DEVICE"};
+  static const ParameterTable<OutputSettings> kTable{
+      pathParameter(
+          "target", &OutputSettings::target, {"window", "loopback"},
+          "Where a live painting goes: \"window\", \"loopback\" (a V4L2 device that others "
+          "read as a camera; \"loopback:/dev/video50\"), or a movie's or pictures' path.",
+          TakesEffect::kRestart, {}, kLoopbackNames),
+      pathParameter("second_target", &OutputSettings::secondTarget,
+                    {kNoTarget, "window", "loopback"}, "A second place where a live painting goes.",
+                    TakesEffect::kRestart, {}, kLoopbackNames),
+      pathParameter("third_target", &OutputSettings::thirdTarget, {kNoTarget, "window", "loopback"},
+                    "A third place where a live painting goes.", TakesEffect::kRestart, {},
+                    kLoopbackNames),
+      choiceParameter("loopback_format", &OutputSettings::loopbackFormat,
+                      {"auto", "yuyv", "nv12", "i420"},
+                      "The layout of a loopback's pictures; \"auto\": what the device takes.",
+                      TakesEffect::kRestart),
+      pathParameter("stills", &OutputSettings::stills, {"."},
+                    "The folder that the window's key s saves to; \".\": where the program runs.")};
+  return kTable;
+}
+
+std::vector<std::string> qualityChoices() {
+  std::vector<std::string> names{"auto"};
+  for (const QualityLevel& level : qualityLevels()) names.push_back(level.name);
+  return names;
+}
+
+const ParameterTable<RuntimeSettings>& runtimeTable() {
+  using R = RuntimeSettings;
+  static const ParameterTable<R> kTable{
+      numberParameter("latency", &R::latencyMs, {.min = 10, .max = 2000, .unit = "ms"},
+                      "From a frame's capture until it is shown.", TakesEffect::kRestart),
+      numberParameter("max_latency", &R::maxLatencyMs, {.min = 10, .max = 4000, .unit = "ms"},
+                      "How far that may rise where even the lowest quality misses it.",
+                      TakesEffect::kRestart),
+      choiceParameter("quality", &R::quality, qualityChoices(),
+                      "\"auto\": the best that keeps up; or a level that is kept.",
+                      TakesEffect::kRestart),
+      numberParameter("rate", &R::rate, {.min = 0, .max = 240, .unit = "frames a second"},
+                      "What quality is lowered for to keep up with; 0: the camera's rate.",
+                      TakesEffect::kRestart)};
+  return kTable;
+}
+
+const ParameterTable<StatusSettings>& statusTable() {
+  static const ParameterTable<StatusSettings> kTable{textParameter(
+      "listen", &StatusSettings::listen, std::string(kAllowedListen),
+      "Where /status, /metrics and /healthz are served over HTTP.", TakesEffect::kRestart,
+      [](std::string_view text) { return parseListen(std::string(text)).has_value(); })};
+  return kTable;
+}
+
+}  // namespace
+
+std::vector<std::string> cameraNames() {
+  std::vector<std::string> names{"auto"};
+  for (const hal::SelectableBackend& each : deviceBackends()) {
+    names.emplace_back(each.backend->name());
+  }
+  names.emplace_back("synthetic");
+  for (const std::string_view shot : hal::syntheticShots()) {
+    names.push_back(fmt::format("synthetic:{}", shot));
+  }
+  return names;
+}
+
+std::vector<std::string> openCameraNames() {
+  std::vector<std::string> names;
+  for (const hal::SelectableBackend& each : deviceBackends()) {
+    names.push_back(fmt::format("{}:ID", each.backend->name()));
+  }
+  names.emplace_back("serial:NUMBER");
+  return names;
+}
+
+bool isCameraName(std::string_view source) {
+  return !cameraTable().defaults().list().descriptors()[0].isPath(source);
+}
+
+config::Sections defaultSections() {
+  std::vector<config::Section> sections{
+      {"", "", profileTable().defaults()},
+      {"camera", "What is painted live and recorded.", cameraTable().defaults()},
+      {"painting", "What is made of it.", paintingTable().defaults()},
+      {"output", "Where it goes.", outputTable().defaults()},
+      {"runtime", "How it keeps up.", runtimeTable().defaults()},
+      {"status", "What is told of the running program.", statusTable().defaults()}};
+  for (const styles::StyleInfo& info : styles::styleInfos()) {
+    sections.push_back({fmt::format("style.{}", info.name),
+                        fmt::format("The style {}: {}.", info.name, info.help), info.defaults});
+  }
+  return config::Sections(std::move(sections), std::string(kVariablePrefix));
+}
+
+std::filesystem::path profileOf(const config::Sections& sections) {
+  return profileTable().typed(sections.values("")).profile;
+}
+
+CameraSettings cameraOf(const config::Sections& sections) {
+  return cameraTable().typed(sections.values("camera"));
+}
+
+PaintingSettings paintingOf(const config::Sections& sections) {
+  return paintingTable().typed(sections.values("painting"));
+}
+
+OutputSettings outputOf(const config::Sections& sections) {
+  return outputTable().typed(sections.values("output"));
+}
+
+RuntimeSettings runtimeOf(const config::Sections& sections) {
+  return runtimeTable().typed(sections.values("runtime"));
+}
+
+StatusSettings statusOf(const config::Sections& sections) {
+  return statusTable().typed(sections.values("status"));
+}
+
+}  // namespace pleinair::app

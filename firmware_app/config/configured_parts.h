@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "firmware_app/cli/path_collisions.h"
+#include "firmware_app/config/configuration.h"
+#include "firmware_app/offline/painting.h"
+#include "firmware_app/status_server/status_server.h"
+#include "hal/camera.h"
+#include "hal/cameras/synthetic/synthetic_camera.h"
+#include "pipeline/scene/description/scene.h"
+
+namespace pleinair::app {
+
+// What a configuration means to the parts of the program.
+
+/// `options` with what [painting] and the style's table say.
+PaintingOptions configuredPainting(const Configuration& configuration, PaintingOptions options);
+
+/// [painting]'s scene; without one, an empty scene. Throws config::ConfigError.
+scene::Scene configuredScene(const Configuration& configuration);
+
+/// [camera], which delivers the painting's size where nobody chose another.
+CameraSettings configuredCamera(const Configuration& configuration);
+/// Throws config::ConfigError where [camera]'s source is most likely a slip of a name.
+void refuseSlipOfCamera(const Configuration& configuration);
+bool isSynthetic(const CameraSettings& camera);
+/// Whether the source is a path, and no camera's name.
+bool isRecording(const CameraSettings& camera);
+hal::SyntheticOptions syntheticOptions(const CameraSettings& camera);
+/// What a device is asked for: size, rate and controls.
+hal::StreamRequest streamRequestOf(const CameraSettings& camera);
+
+/// [status]'s server, started; null where it is off. Throws hal::StartupError as
+/// startStatusServer().
+std::unique_ptr<StatusServer> configuredStatusServer(const Configuration& configuration,
+                                                     StatusPages pages);
+
+/// The files that the configuration and the scene were read from: nothing may be written over them.
+std::vector<NamedPath> configuredFiles(const Configuration& configuration,
+                                       const scene::Scene& scene);
+
+}  // namespace pleinair::app

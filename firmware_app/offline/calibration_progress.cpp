@@ -1,0 +1,127 @@
+#include "firmware_app/offline/calibration_progress.h"
+
+#include <array>
+#include <cstdio>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+namespace pleinair::app {
+namespace {
+
+using calibration::Coverage;
+using calibration::Tilt;
+using calibration::ViewFate;
+using calibration::ViewSelector;
+
+constexpr hal::Duration kRedrawPeriod = std::chrono::milliseconds(250);
+constexpr hal::Duration kTellPeriod = std::chrono::seconds(5);
+
+std::string_view fateText(ViewFate fate) {
+  switch (fate) {
+    case ViewFate::kTaken:
+      return "taken";
+    case ViewFate::kNoBoard:
+      return "the board is not seen, or not all of it";
+    case ViewFate::kBlurred:
+      return "blurred: hold it still, give it light";
+    case ViewFate::kMoving:
+      return "moving: hold it still";
+    case ViewFate::kNothingNew:
+      break;
+  }
+  return "nothing new";
+}
+
+std::string wishText(const ViewSelector& selector) {
+  if (selector.counts().withBoard == 0) return "show the board, all of it";
+  if (const auto wish = selector.coverage().nextWish()) return *wish;
+  return selector.isComplete() ? "enough" : "show it in a few more ways";
+}
+
+std::string viewsText(const ViewSelector& selector) {
+  const std::size_t views = selector.views().size();
+  return fmt::format("{} {}", views, views == 1 ? "view" : "views");
+}
+
+std::string cellsText(const Coverage& coverage, int row) {
+  std::string text;
+  for (int column = 0; column < calibration::kCellColumns; ++column) {
+    const int views = coverage.viewsInCell(column, row);
+    text += views == 0 ? ". " : views < Coverage::kWantedPerCell ? "o " : "O ";
+  }
+  return text;
+}
+
+std::string tiltsText(const Coverage& coverage) {
+  constexpr std::array<std::string_view, calibration::kTilts> kNames{"left", "right", "upper",
+                                                                     "lower"};
+  std::string text = "side nearer:";
+  for (std::size_t tilt = 0; tilt < kNames.size(); ++tilt) {
+    text += fmt::format(" {} {}", kNames.at(tilt), coverage.viewsWith(static_cast<Tilt>(tilt)));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> coveragePanel(const ViewSelector& selector, ViewFate last) {
+  const Coverage& coverage = selector.coverage();
+  const calibration::ViewCounts& counts = selector.counts();
+  const std::array<std::string, calibration::kCellRows> beside{
+      fmt::format("{}; the board in {} of {} pictures", viewsText(selector), counts.withBoard,
+                  counts.pictures),
+      tiltsText(coverage),
+      fmt::format("{:.0f} % of the picture reached", coverage.coveredShare() * 100.0),
+      selector.sharpestEdgePx() > 0.0
+          ? fmt::format("sharpest edges {:.1f} px", selector.sharpestEdgePx())
+          : std::string(),
+      fmt::format("now:  {}", fateText(last)),
+      fmt::format("next: {}", wishText(selector))};
+  std::vector<std::string> lines;
+  for (int row = 0; row < calibration::kCellRows; ++row) {
+    lines.push_back(cellsText(coverage, row) + "  " + beside.at(static_cast<std::size_t>(row)));
+  }
+  return lines;
+}
+
+CalibrationProgress::CalibrationProgress(const hal::Clock& clock)
+    : clock_(clock), told_(clock.now()), isTerminal_(isatty(STDERR_FILENO) != 0) {}
+
+void CalibrationProgress::advance(const ViewSelector& selector, ViewFate fate) {
+  const hal::TimePoint now = clock_.now();
+  if (isTerminal_) {
+    if (drawnLines_ > 0 && fate != ViewFate::kTaken && now - told_ < kRedrawPeriod) return;
+    draw(coveragePanel(selector, fate));
+  } else {
+    if (now - told_ < kTellPeriod) return;
+    tell(selector);
+  }
+  told_ = now;
+}
+
+void CalibrationProgress::interrupt() {
+  if (drawnLines_ == 0) return;
+  fmt::print(stderr, "\x1b[{}A\x1b[J", drawnLines_);  // up, and clear from there on
+  std::fflush(stderr);
+  drawnLines_ = 0;
+}
+
+void CalibrationProgress::draw(const std::vector<std::string>& lines) {
+  std::string text = drawnLines_ > 0 ? fmt::format("\x1b[{}A", drawnLines_) : std::string();
+  for (const std::string& line : lines) text += line + "\x1b[K\n";
+  fmt::print(stderr, "{}", text);
+  std::fflush(stderr);
+  drawnLines_ = lines.size();
+}
+
+void CalibrationProgress::tell(const ViewSelector& selector) {
+  std::string line = fmt::format("{} views; next: {}", selector.views().size(), wishText(selector));
+  if (line == lastLine_) return;
+  spdlog::info("{}", line);
+  lastLine_ = std::move(line);
+}
+
+}  // namespace pleinair::app

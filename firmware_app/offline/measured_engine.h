@@ -1,0 +1,24 @@
+#pragma once
+
+#include "pipeline/engine/painter.h"
+#include "pipeline/measure/measurement.h"
+
+namespace pleinair::app {
+
+/// The engine, as what is measured.
+class MeasuredEngine final : public measure::MeasuredPainter {
+ public:
+  /// `painter` outlives it and paints pictures of `size`.
+  MeasuredEngine(Painter& painter, PaintParameters parameters, hal::FrameSize size)
+      : painter_(painter), parameters_(std::move(parameters)), size_(size) {}
+
+  hal::Result<measure::PaintedFrame> paint(const hal::CapturedFrame& frame) override;
+  void reset() override { painter_.reset(); }
+
+ private:
+  Painter& painter_;
+  PaintParameters parameters_;
+  hal::FrameSize size_;
+};
+
+}  // namespace pleinair::app

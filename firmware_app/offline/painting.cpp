@@ -1,0 +1,212 @@
+#include "firmware_app/offline/painting.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "firmware_app/cli/exit_status.h"
+#include "firmware_app/cli/interrupt.h"
+#include "firmware_app/cli/overloaded.h"
+#include "firmware_app/cli/path_collisions.h"
+#include "firmware_app/cli/progress.h"
+#include "firmware_app/offline/poses_file.h"
+#include "firmware_app/scene/scene_warnings.h"
+#include "hal/media/picture_file.h"
+#include "hal/outputs/open_output.h"
+#include "hal/pending_file.h"
+#include "pipeline/engine/painter.h"
+#include "pipeline/present/contact_sheet.h"
+
+namespace pleinair::app {
+namespace {
+
+using hal::Error;
+using hal::orThrow;
+
+constexpr int kSignalExitBase = 128;
+
+std::optional<std::uint64_t> framesToPaint(const hal::StreamFormat& stream,
+                                           const PaintingJob& job) {
+  if (!stream.frameCount) return job.options.frames;
+  return job.options.frames ? std::min(*job.options.frames, *stream.frameCount) : stream.frameCount;
+}
+
+void warn(const std::optional<std::string>& warning) {
+  if (warning) spdlog::warn("{}", *warning);
+}
+
+template <class File>
+std::optional<File> created(const std::optional<std::filesystem::path>& path) {
+  if (!path) return std::nullopt;
+  return orThrow(File::create(*path));
+}
+
+/// One run of a job: the camera, the painter and everything that is written.
+class Painting {
+ public:
+  /// What can be wrong with the job shows before the output starts, which may make a folder.
+  explicit Painting(const PaintingJob& job)
+      : job_(job),
+        stream_(orThrow(job.camera->start(job.request))),
+        output_(orThrow(hal::openFileOutput(job.options.output))),
+        painter_({.pictureSize = pictureSize(),
+                  .scene = job.scene,
+                  .style = job.options.style,
+                  .tracksTags = !job.scene.tags.empty() || job.options.poses,
+                  .shaderDirectory = job.options.shaderDirectory,
+                  .expectedFormat = stream_.frame}),
+        parameters_(parametersOf(painter_, job.options)),
+        poses_(created<PosesFile>(job.options.poses)),
+        sheetFile_(created<hal::PendingFile>(job.options.contactSheet)),
+        outputFormat_(
+            orThrow(output_->start({.size = pictureSize(), .framePeriod = stream_.framePeriod}))),
+        reader_(painter_.openReader(outputFormat_.frame)) {
+    for (const std::string& notice : job.scene.notices) spdlog::warn("{}", notice);
+    warn(assumedCameraWarning(job.scene, stream_.frame.size));
+    warn(blackViewWarning(job.scene, job.options.view));
+  }
+
+  /// 0, or the signal that broke it off.
+  int run() {
+    std::string summary;
+    {
+      Progress progress(job_.doing, framesToPaint(stream_, job_), realTime_);
+      if (const int signal = paintAll(progress); signal != 0) return signal;
+      finish();
+      summary = fmt::format("{} {} {} in {:.1f} s ({:.1f} frames/s): {}\n", job_.done,
+                            progress.frames(), progress.frames() == 1 ? "frame" : "frames",
+                            std::chrono::duration<double>(progress.elapsed()).count(),
+                            progress.framesPerSecond(), job_.options.output.string());
+    }
+    warn(unseenTagsWarning(job_.scene, seenTags_));
+    // Whether it arrived is looked at once, at the program's end.
+    std::fputs(summary.c_str(), stdout);
+    return 0;
+  }
+
+ private:
+  hal::FrameSize pictureSize() const { return job_.options.size.value_or(stream_.frame.size); }
+
+  /// As run().
+  int paintAll(Progress& progress) {
+    while (!job_.options.frames || progress.frames() < *job_.options.frames) {
+      if (const int signal = Interrupt::received(); signal != 0) return signal;
+      const std::optional<hal::CapturedFrame> frame = nextFrame(progress);
+      if (!frame) break;
+      paint(*frame, progress.frames());
+      progress.advance();
+    }
+    return 0;
+  }
+
+  /// Nothing at the end. A recording that broke off gives what it had, with a warning.
+  std::optional<hal::CapturedFrame> nextFrame(Progress& progress) {
+    std::optional<hal::CapturedFrame> frame;
+    constexpr bool kGoesOn = true;
+    constexpr bool kDone = false;
+    const Overloaded receive{
+        [&](hal::CapturedFrame& next) {
+          frame = std::move(next);
+          return kDone;
+        },
+        // Never without a deadline.
+        [](hal::CameraTimeout&) { return kGoesOn; },
+        // Every frame says its format, and the painter fits it into the picture, whose size stays.
+        [](hal::FormatChanged&) { return kGoesOn; },
+        [&](hal::EndOfStream& end) {
+          if (end.truncated) {
+            progress.interrupt();
+            spdlog::warn("{}", end.truncated->message());
+          }
+          return kDone;
+        },
+        [](hal::CameraLost& lost) -> bool { throw hal::StartupError(std::move(lost.cause)); },
+        [](Error& error) -> bool { throw hal::StartupError(std::move(error)); },
+    };
+    for (bool goesOn = true; goesOn;) {
+      hal::NextFrame next = job_.camera->next(hal::kNoDeadline);
+      goesOn = std::visit(receive, next);
+    }
+    return frame;
+  }
+
+  void paint(const hal::CapturedFrame& frame, std::uint64_t index) {
+    if (!firstTime_) firstTime_ = frame.captureTime;
+    const hal::Duration time = frame.captureTime - *firstTime_;
+    while (!painter_.hasRoom(reader_)) write(true);
+    const Picture picture = orThrow(painter_.paint(frame, parameters_));
+    for (const tracking::TrackedTag& tag : picture.tracking.tags) seenTags_.insert(tag.id);
+    if (poses_) orThrow(poses_->write(index, time, picture.tracking));
+    if (sheetFile_ && sheet_.wants(index)) {
+      const hal::Image camera = orThrow(painter_.cameraStill());
+      const hal::Image painted = orThrow(painter_.still());
+      sheet_.add(camera.view(), painted.view(), time);
+    }
+    while (write(false)) {
+    }
+  }
+
+  /// Takes one picture that has been read to the output; false if there is none.
+  bool write(bool wait) {
+    if (!orThrow(painter_.take(reader_, read_, wait))) return false;
+    orThrow(output_->write(read_.image.view(), read_.captureTime - *firstTime_));
+    return true;
+  }
+
+  /// Everything is written before the first thing takes its name.
+  void finish() {
+    while (write(true)) {
+    }
+    const bool hasSheet = sheetFile_ && !sheet_.isEmpty();
+    if (hasSheet) orThrow(sheetFile_->write(orThrow(hal::encodePng(sheet_.sheet().view()))));
+    orThrow(output_->finish());
+    if (poses_) orThrow(poses_->publish());
+    if (hasSheet) orThrow(sheetFile_->publish());
+  }
+
+  const PaintingJob& job_;
+  hal::SteadyClock realTime_;  // for the progress
+  hal::StreamFormat stream_;
+  std::unique_ptr<hal::MemoryOutput> output_;
+  Painter painter_;
+  PaintParameters parameters_;
+  std::optional<PosesFile> poses_;
+  std::optional<hal::PendingFile> sheetFile_;
+  hal::OutputFormat outputFormat_;
+  int reader_;
+  ReadPicture read_;
+  std::optional<hal::TimePoint> firstTime_;
+  std::set<int> seenTags_;
+  present::ContactSheet sheet_;
+};
+
+void reportInterruption(int signal, const PaintingJob& job) {
+  printError(fmt::format(
+      "broken off by {}; {}", signalName(signal),
+      isPictureRow(job.options.output) ? "frames written so far stay" : "nothing was written"));
+}
+
+}  // namespace
+
+PaintParameters parametersOf(const Painter& painter, const PaintingOptions& options) {
+  PaintParameters parameters = painter.defaultParameters();
+  parameters.view = options.view;
+  if (options.parameters) parameters.style = *options.parameters;
+  return parameters;
+}
+
+int runPainting(const PaintingJob& job) {
+  const Interrupt interrupt;
+  const int signal = Painting(job).run();
+  if (signal == 0) return 0;
+  reportInterruption(signal, job);
+  return kSignalExitBase + signal;
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,82 @@
+#include "firmware_app/scene/workbench_scene.h"
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/mat4x4.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "hal/pending_file.h"
+#include "pipeline/scene/description/scene.h"
+
+namespace pleinair::app {
+namespace {
+
+/// A machine on the tag that lies free on the bench, and a gear on what else lies flat.
+constexpr const char* kModels = R"(
+[[model]]
+name = "gearbox"
+source = "builtin:gearbox"
+attach = "tag:0"
+length_m = 0.26
+rotation_deg = [0, 0, 12]
+
+[[model]]
+name = "pinion"
+source = "builtin:gear"
+attach = "tag:4"
+teeth = 12
+module_m = 0.006
+thickness_m = 0.03
+colour = "#3f8fb5"
+)";
+
+/// Turns about the fixed axes x, then y, then z, as scene files have them.
+glm::dvec3 rotationDegrees(const glm::dmat4& pose) {
+  const double cosY = std::hypot(pose[0][0], pose[0][1]);
+  glm::dvec3 radians(0.0, std::atan2(-pose[0][2], cosY), 0.0);
+  if (cosY > 1e-9) {
+    radians.x = std::atan2(pose[1][2], pose[2][2]);
+    radians.z = std::atan2(pose[0][1], pose[0][0]);
+  } else {
+    // The axes of x and z have come to lie in one line: all of their turn is given to x.
+    radians.x = std::atan2(-pose[2][1], pose[1][1]);
+  }
+  return glm::degrees(radians);
+}
+
+std::string tagTable(const hal::BenchTag& tag) {
+  const glm::dmat4 worldFromAttach = tag.worldFromTag * scene::kTagFromAttach;
+  const glm::dvec3 rotation = rotationDegrees(worldFromAttach);
+  const glm::dvec3 position(worldFromAttach[3]);
+  return fmt::format(
+      "\n[[tag]]\nfamily = \"{}\"\nid = {}\nedge_m = {}\n"
+      "position_m = [{:.6f}, {:.6f}, {:.6f}]\nrotation_deg = [{:.6f}, {:.6f}, {:.6f}]\n",
+      tag.family, tag.id, tag.edgeMetres, position.x, position.y, position.z, rotation.x,
+      rotation.y, rotation.z);
+}
+
+}  // namespace
+
+std::string workbenchScene(const hal::GroundTruth& truth, hal::FrameSize size) {
+  std::string text = fmt::format(
+      "# The synthetic camera and its workbench.\n[camera]\nimage_size = [{}, {}]\n"
+      "fx = {:.6f}\nfy = {:.6f}\ncx = {:.6f}\ncy = {:.6f}\npixel_centres = \"half\"\n",
+      size.width, size.height, truth.intrinsics.fx, truth.intrinsics.fy, truth.intrinsics.cx,
+      truth.intrinsics.cy);
+  for (const hal::TagTruth& tag : truth.tags) text += tagTable(tag.tag);
+  return text + kModels;
+}
+
+hal::Result<void> writeWorkbenchScene(const std::filesystem::path& path,
+                                      const hal::GroundTruth& truth, hal::FrameSize size) {
+  auto file = hal::PendingFile::create(path);
+  if (!file) return tl::unexpected(std::move(file.error()));
+  const std::string text = workbenchScene(truth, size);
+  const auto written =
+      file->write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  return written ? file->publish() : written;
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,63 @@
+#include "hal/cameras/recording/frame_source.h"
+
+#include <array>
+#include <cerrno>
+#include <optional>
+#include <span>
+#include <string>
+#include <system_error>
+
+#include "hal/cameras/recording/picture_source.h"
+#include "hal/media/file_input.h"
+#include "hal/media/picture_header.h"
+
+namespace pleinair::hal::recording {
+namespace {
+
+using SourceResult = Result<std::unique_ptr<FrameSource>>;
+
+SourceResult pictures(const Result<std::vector<std::filesystem::path>>& paths, Duration period) {
+  if (!paths) return tl::unexpected(paths.error());
+  return openPictures(*paths, period);
+}
+
+/// Decided by the signature; a broken one by the name, so that the error speaks of a picture.
+Result<bool> isPicture(const std::filesystem::path& path) {
+  if (isPictureName(path)) return true;
+  const Result<libav::FileInput> file = libav::FileInput::open(path);
+  if (!file) return tl::unexpected(file.error());
+  std::array<std::uint8_t, 16> head{};
+  const std::int64_t got = file->readAt(0, head.data(), head.size());
+  if (got < 0) {
+    return tl::unexpected(errnoError(path.string(), "cannot read", static_cast<int>(-got)));
+  }
+  const auto kind = libav::pictureKindOf(std::span(head).first(static_cast<std::size_t>(got)));
+  // A stream of JPEGs is a movie and begins as a JPEG does.
+  const std::string ending = path.extension().string();
+  const bool isJpegStream = ending == ".mjpeg" || ending == ".mjpg";
+  return kind.has_value() && !isJpegStream;
+}
+
+}  // namespace
+
+SourceResult openSource(const std::filesystem::path& path, Duration picturePeriod) {
+  std::error_code status;
+  const std::filesystem::file_status file = std::filesystem::status(path, status);
+  if (std::filesystem::is_directory(file)) return pictures(picturesIn(path), picturePeriod);
+  if (!std::filesystem::exists(file)) {
+    if (file.type() == std::filesystem::file_type::not_found && looksNumbered(path)) {
+      const Result<NumberedPath> pattern = NumberedPath::parse(path.string());
+      if (!pattern) return tl::unexpected(pattern.error());
+      return pictures(picturesOf(*pattern, path.string()), picturePeriod);
+    }
+    const int value = status.value() != 0 ? status.value() : ENOENT;
+    return tl::unexpected(
+        errnoError(path.string(), "cannot open", value, "check the path of the recording"));
+  }
+  const Result<bool> picture = isPicture(path);
+  if (!picture) return tl::unexpected(picture.error());
+  if (*picture) return openPictures({path}, std::nullopt);
+  return openMovie(path);
+}
+
+}  // namespace pleinair::hal::recording

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include "hal/cameras/synthetic/render/shot.h"
+
+namespace pleinair::hal::synthetic {
+
+/// A smooth, seeded signal around 0: a few sinusoids with unrelated periods and phases.
+class Wander {
+ public:
+  Wander() = default;
+  /// Swings within ±`amplitude`, its slowest part with about `periodSeconds`.
+  Wander(std::uint64_t seed, double amplitude, double periodSeconds);
+  double at(double seconds) const;
+
+ private:
+  struct Wave {
+    double amplitude = 0;
+    double radiansPerSecond = 0;
+    double phaseRadians = 0;
+  };
+  std::array<Wave, 3> waves_;
+};
+
+/// How the camera and what passes before it move in a shot: pure functions of the time since the
+/// first frame, smooth but for the cuts of kCut. The world's z is up from the bench's top, y away
+/// from who works there, metres.
+class Motion {
+ public:
+  Motion(SyntheticShot shot, std::uint64_t seed);
+
+  /// To OpenCV's camera frame (x right, y down, z forward); rigid.
+  glm::dmat4 cameraFromWorld(double seconds) const;
+  /// Of the arm that reaches in; below the floor where the shot has none. Rigid.
+  glm::dmat4 worldFromMover(double seconds) const;
+
+ private:
+  glm::dmat4 walkaround(double seconds) const;
+  glm::dmat4 heldAt(glm::dvec3 eye, glm::dvec3 target, double seconds) const;
+  glm::dmat4 cut(double seconds) const;
+
+  SyntheticShot shot_;
+  Wander targetX_, targetY_, distance_;  // metres
+  Wander slant_, azimuth_, roll_;        // radians
+  std::array<Wander, 3> trembleBy_;      // metres
+  std::array<Wander, 3> trembleTurn_;    // radians
+};
+
+}  // namespace pleinair::hal::synthetic

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "hal/cameras/synthetic/render/exposure.h"
+#include "hal/cameras/synthetic/render/projection.h"
+#include "hal/cameras/synthetic/render/scan_line.h"
+#include "hal/cameras/synthetic/world/world.h"
+
+namespace pleinair::hal::synthetic {
+
+/// Looks at the workbench, row by row. Keeps its memory from frame to frame; one thread at a time,
+/// while any number share a world.
+class Renderer {
+ public:
+  explicit Renderer(std::shared_ptr<const World> world) : world_(std::move(world)) {}
+
+  /// Begins a picture. Keeps a reference to `exposure` until the next.
+  void begin(const Exposure& exposure);
+
+  /// The next row, from row 0 on: three sRGB-coded levels a pixel, in sixty-fourths.
+  std::span<const std::int16_t> nextRow();
+
+ private:
+  /// A facet that may be seen, and the rows it may reach.
+  struct Candidate {
+    std::uint32_t facet = 0;
+    bool moves = false;
+    int firstRow = 0, endRow = 0;
+  };
+  void addStanding(const Solid& solid);
+  void addRolling(const Solid& solid);
+  void addCandidate(std::uint32_t facet, bool moves, float top, float bottom);
+  bool isWithin(const ProjectedFacet& facet, float margin) const;
+  ProjectedFacet& slotFor(std::size_t index);
+  void projectActive();
+  void shade();
+  void shadeMixed(int x);
+  void sampleOrDark(std::uint16_t index, int x, int count, std::int16_t* levels) const;
+
+  std::shared_ptr<const World> world_;
+  const Exposure* exposure_ = nullptr;
+  int row_ = 0;
+  std::vector<Candidate> candidates_;
+  std::vector<ProjectedFacet> projected_;  ///< each candidate, as the row sees it
+  std::vector<std::uint16_t> order_;       ///< of the candidates, by first row
+  std::size_t next_ = 0;                   ///< of the order, not yet reached
+  std::vector<std::uint16_t> active_;      ///< candidates that may reach the row
+  ProjectedFacet scratch_;
+  ScanLine line_;
+  std::vector<std::int16_t> levels_;
+};
+
+}  // namespace pleinair::hal::synthetic

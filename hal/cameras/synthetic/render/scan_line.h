@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "hal/cameras/synthetic/render/projection.h"
+
+namespace pleinair::hal::synthetic {
+
+/// What is seen along one row of pixels: which facet each pixel shows, or, where edges run through
+/// it, how much of it each facet covers. Four lines across the row's height are followed, each with
+/// the exact places where one facet hides the next, so that edges are smooth. Reuses its memory.
+class ScanLine {
+ public:
+  static constexpr std::uint16_t kMixed = 0xFFFF;
+  static constexpr std::uint16_t kNothing = 0xFFFE;  ///< of the facets' indices
+
+  /// A facet's share of a mixed pixel.
+  struct Share {
+    std::uint16_t index = kNothing;  ///< among the facets given to follow()
+    float coverage = 0;
+  };
+
+  void resize(int width);
+
+  /// Follows row `y`. `facets` are those that may reach the row, in any order; their order is
+  /// changed to one that is quick for the next row. Indices are those of `all`.
+  void follow(int y, std::span<const ProjectedFacet> all, std::vector<std::uint16_t>& facets);
+
+  /// What pixel x shows, or kMixed.
+  std::uint16_t indexAt(int x) const { return indices_[static_cast<std::size_t>(x)]; }
+  /// The shares of a mixed pixel, which sum to 1; valid until the next call.
+  std::span<const Share> sharesAt(int x);
+
+ private:
+  static constexpr int kLines = 4;
+  struct Segment {
+    float left = 0, right = 0;
+    double slope = 0, one = 0;  ///< of 1/depth along the line
+    std::uint16_t index = 0;
+  };
+  struct Part {
+    Share share;
+    std::int32_t next = -1;
+  };
+
+  void crossed(float y, std::span<const ProjectedFacet> all,
+               const std::vector<std::uint16_t>& facets);
+  void resolve(int line);
+  void put(int line, float from, float to, std::uint16_t index);
+  void putPart(int line, int x, std::uint16_t index, float coverage);
+  void merge();
+
+  int width_ = 0;
+  std::vector<Segment> segments_;
+  std::vector<const Segment*> open_;
+  std::array<std::vector<std::uint16_t>, kLines> lines_;
+  std::vector<std::uint16_t> indices_;
+  std::vector<Part> parts_;
+  std::vector<std::int32_t> firstPart_;
+  std::vector<Share> shares_;
+};
+
+}  // namespace pleinair::hal::synthetic

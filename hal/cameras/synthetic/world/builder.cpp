@@ -1,0 +1,257 @@
+#include "hal/cameras/synthetic/world/builder.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace pleinair::hal::synthetic {
+namespace {
+
+/// What moves keeps the light of one place: above the bench, where it spends most of its time.
+constexpr glm::dvec3 kMoverLitAt{0.10, -0.20, 0.22};
+
+/// What faces the wall or the floor this much is hardly ever seen, and need not be fine.
+constexpr double kTurnedAway = 0.7;
+
+glm::dvec3 moved(const glm::dmat4& pose, glm::dvec3 point) {
+  return glm::dvec3(pose * glm::dvec4(point, 1));
+}
+
+std::vector<glm::dvec2> ringOutline(double radius, int sides) {
+  std::vector<glm::dvec2> ring;
+  for (int i = 0; i < sides; ++i) {
+    // From the back, so that the front, at −y, is in the middle of the side's canvas.
+    const double angle = std::numbers::pi * (0.5 + 2.0 * i / sides);
+    ring.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+  }
+  return ring;
+}
+
+std::vector<glm::dvec3> lifted(const glm::dmat4& pose, const std::vector<glm::dvec2>& outline,
+                               double z) {
+  std::vector<glm::dvec3> corners;
+  for (const glm::dvec2& p : outline) corners.push_back(moved(pose, {p, z}));
+  return corners;
+}
+
+}  // namespace
+
+glm::dmat4 standing(glm::dvec3 position, double degrees) {
+  return glm::rotate(glm::translate(glm::dmat4(1), position), glm::radians(degrees),
+                     glm::dvec3(0, 0, 1));
+}
+
+std::uint16_t Builder::addPatch(glm::dvec2 half, std::function<PointAndNormal(glm::vec2)> at,
+                                const Painter& painter) {
+  assert(plan_.patches.size() < std::numeric_limits<std::uint16_t>::max());
+  if (finish_.moves) {
+    at = [inPlace = std::move(at)](glm::vec2 p) {
+      PointAndNormal lit = inPlace(p);
+      lit.point += kMoverLitAt;
+      return lit;
+    };
+  }
+  plan_.patches.push_back({glm::vec2(half), std::move(at), painter, finish_.coarseness,
+                           finish_.lightStep, finish_.glows, finish_.moves});
+  return static_cast<std::uint16_t>(plan_.patches.size() - 1);
+}
+
+std::uint16_t Builder::addFlatPatch(const Frame& frame, glm::dvec2 half, const Painter& painter) {
+  const auto at = [frame](glm::vec2 p) {
+    return PointAndNormal{
+        frame.centre + frame.right * static_cast<double>(p.x) + frame.up * static_cast<double>(p.y),
+        glm::cross(frame.right, frame.up)};
+  };
+  return addPatch(half, at, painter);
+}
+
+void Builder::addFacet(const std::vector<glm::dvec3>& corners, std::uint16_t patch,
+                       const Frame& frame) {
+  Facet facet;
+  facet.normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+  facet.offset = glm::dot(facet.normal, corners[0]);
+  facet.firstCorner = static_cast<std::uint32_t>(plan_.geometry.corners.size());
+  facet.corners = static_cast<std::uint16_t>(corners.size());
+  facet.patch = patch;
+  facet.u = glm::dvec4(frame.right, -glm::dot(frame.right, frame.centre));
+  facet.v = glm::dvec4(frame.up, -glm::dot(frame.up, frame.centre));
+  plan_.geometry.facets.push_back(facet);
+  plan_.geometry.corners.insert(plan_.geometry.corners.end(), corners.begin(), corners.end());
+}
+
+void Builder::addFace(const std::vector<glm::dvec3>& corners, glm::dvec3 right,
+                      const Painter& painter) {
+  const glm::dvec3 normal =
+      glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+  Frame frame{{}, glm::normalize(right), {}};
+  frame.up = glm::cross(normal, frame.right);
+  glm::dvec2 low(std::numeric_limits<double>::infinity());
+  glm::dvec2 high = -low;
+  for (const glm::dvec3& corner : corners) {
+    const glm::dvec2 p(glm::dot(corner, frame.right), glm::dot(corner, frame.up));
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  const glm::dvec2 middle = (low + high) / 2.0;
+  frame.centre =
+      frame.right * middle.x + frame.up * middle.y + normal * glm::dot(normal, corners[0]);
+  const Finish kept = finish_;
+  if (!finish_.moves && (normal.y > kTurnedAway || normal.z < -kTurnedAway)) {
+    finish_.coarseness *= 4;
+    finish_.lightStep *= 4;
+  }
+  addFacet(corners, addFlatPatch(frame, (high - low) / 2.0, painter), frame);
+  finish_ = kept;
+}
+
+void Builder::beginSolid() {
+  plan_.geometry.solids.push_back(
+      {.firstFacet = static_cast<std::uint32_t>(plan_.geometry.facets.size()),
+       .moves = finish_.moves});
+}
+
+void Builder::endSolid(const std::optional<Ends>& ends) {
+  Geometry& geometry = plan_.geometry;
+  Solid& solid = geometry.solids.back();
+  solid.facets = static_cast<std::uint32_t>(geometry.facets.size()) - solid.firstFacet;
+  const auto facets = std::span(geometry.facets).subspan(solid.firstFacet);
+  glm::dvec3 low(std::numeric_limits<double>::infinity());
+  glm::dvec3 high = -low;
+  const auto corners = std::span(geometry.corners).subspan(facets.front().firstCorner);
+  for (const glm::dvec3& corner : corners) {
+    low = glm::min(low, corner);
+    high = glm::max(high, corner);
+  }
+  solid.centre = (low + high) / 2.0;
+  for (const glm::dvec3& corner : corners) {
+    solid.radius = std::max(solid.radius, glm::distance(corner, solid.centre) * (1 + 1e-9));
+  }
+  if (!ends || solid.moves) return;
+  Occluder occluder{glm::vec3(solid.centre), static_cast<float>(solid.radius), {}, {}};
+  for (const Facet& facet : facets) {
+    occluder.planes.emplace_back(glm::vec3(facet.normal), static_cast<float>(facet.offset));
+    occluder.patches.push_back(facet.patch);
+  }
+  // The ends close it where it has none of its own.
+  occluder.planes.emplace_back(glm::vec3(ends->axis),
+                               static_cast<float>(glm::dot(ends->axis, ends->top)));
+  occluder.planes.emplace_back(glm::vec3(-ends->axis),
+                               static_cast<float>(-glm::dot(ends->axis, ends->foot)));
+  plan_.occluders.push_back(std::move(occluder));
+}
+
+Builder::Ends Builder::endsOf(const glm::dmat4& pose, double height) {
+  return {glm::dvec3(pose[2]), glm::dvec3(pose[3]), moved(pose, {0, 0, height})};
+}
+
+void Builder::prism(const glm::dmat4& pose, const std::vector<glm::dvec2>& outline, double height,
+                    const std::vector<Painter>& sides, const Painter& top, const Painter& bottom) {
+  assert(outline.size() >= 3 && sides.size() == outline.size());
+  beginSolid();
+  const std::vector<glm::dvec3> below = lifted(pose, outline, 0);
+  const std::vector<glm::dvec3> above = lifted(pose, outline, height);
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const std::size_t next = (i + 1) % outline.size();
+    addFace({below[i], below[next], above[next], above[i]}, below[next] - below[i], sides[i]);
+  }
+  const glm::dvec3 right(pose[0]);
+  addFace(above, right, top);
+  std::vector<glm::dvec3> fromBelow(below.rbegin(), below.rend());
+  if (bottom) addFace(fromBelow, right, bottom);
+  endSolid(endsOf(pose, height));
+}
+
+void Builder::box(const glm::dmat4& pose, glm::dvec3 size, const BoxFaces& faces) {
+  const glm::dvec2 h = glm::dvec2(size) / 2.0;
+  const auto face = [&faces](const Painter& painter) { return painter ? painter : faces.other; };
+  prism(pose, {{-h.x, -h.y}, {h.x, -h.y}, {h.x, h.y}, {-h.x, h.y}}, size.z,
+        {face(faces.front), face(faces.right), face(faces.back), face(faces.left)}, face(faces.top),
+        faces.bottom);
+}
+
+void Builder::addRoundSide(const glm::dmat4& pose, const Round& round, const Painter& side,
+                           bool inwards) {
+  constexpr double kPi = std::numbers::pi;
+  const double meanRadius = (round.bottomRadius + round.topRadius) / 2;
+  const double sign = inwards ? -1 : 1;
+  const auto at = [=](glm::vec2 p) {
+    const double angle = -kPi / 2 + sign * static_cast<double>(p.x) / meanRadius;
+    const double t = 0.5 + static_cast<double>(p.y) / round.height;
+    const double radius = round.bottomRadius + t * (round.topRadius - round.bottomRadius);
+    const glm::dvec3 out(std::cos(angle), std::sin(angle), 0);
+    const glm::dvec3 slanted = glm::normalize(
+        glm::dvec3(out.x, out.y, (round.bottomRadius - round.topRadius) / round.height));
+    return PointAndNormal{moved(pose, out * radius + glm::dvec3(0, 0, t * round.height)),
+                          sign * glm::dvec3(pose * glm::dvec4(slanted, 0))};
+  };
+  const std::uint16_t patch = addPatch({kPi * meanRadius, round.height / 2}, at, side);
+  const auto below = lifted(pose, ringOutline(round.bottomRadius, round.sides), 0);
+  const auto above = lifted(pose, ringOutline(round.topRadius, round.sides), round.height);
+  const auto count = static_cast<std::size_t>(round.sides);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t next = (i + 1) % count;
+    const glm::dvec3 chord = (below[next] + above[next] - below[i] - above[i]) / 2.0;
+    const double arc = 2 * kPi * meanRadius / round.sides;
+    const double u = sign * (kPi * meanRadius * -1 + arc * (static_cast<double>(i) + 0.5));
+    const glm::dvec3 middle = (below[i] + below[next] + above[i] + above[next]) / 4.0;
+    Frame frame{middle, sign * chord / glm::length(chord) * (arc / glm::length(chord)), {}};
+    const glm::dvec3 rise = (above[i] + above[next] - below[i] - below[next]) / 2.0;
+    frame.up = rise * (round.height / glm::dot(rise, rise));
+    std::vector<glm::dvec3> corners{below[i], below[next], above[next], above[i]};
+    if (inwards) std::ranges::reverse(corners);
+    addFacet(corners, patch, frame);
+    plan_.geometry.facets.back().u.w += u;
+  }
+}
+
+void Builder::cylinder(const glm::dmat4& pose, const Round& round, const Painter& side,
+                       const Painter& top, const Painter& bottom) {
+  beginSolid();
+  addRoundSide(pose, round, side, false);
+  const glm::dvec3 right(pose[0]);
+  if (top) {
+    addFace(lifted(pose, ringOutline(round.topRadius, round.sides), round.height), right, top);
+  }
+  if (bottom) {
+    auto corners = lifted(pose, ringOutline(round.bottomRadius, round.sides), 0);
+    std::ranges::reverse(corners);
+    addFace(corners, right, bottom);
+  }
+  endSolid(endsOf(pose, round.height));
+}
+
+void Builder::hollow(const glm::dmat4& pose, const Round& round, const Painter& side) {
+  beginSolid();
+  addRoundSide(pose, round, side, true);
+  endSolid({});
+}
+
+void Builder::rod(glm::dvec3 from, glm::dvec3 to, double fromRadius, double toRadius, int sides,
+                  const Painter& side, const Painter& end) {
+  const double length = glm::distance(from, to);
+  const glm::dvec3 z = (to - from) / length;
+  const glm::dvec3 helper = std::abs(z.z) > 0.9 ? glm::dvec3(0, -1, 0) : glm::dvec3(0, 0, -1);
+  const glm::dvec3 x = glm::normalize(glm::cross(z, helper));
+  const glm::dmat4 pose(glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0),
+                        glm::dvec4(from, 1));
+  const Painter& ends = end ? end : side;
+  cylinder(pose, {fromRadius, toRadius, length, sides}, side, ends, ends);
+}
+
+void Builder::panel(glm::dvec3 centre, glm::dvec3 right, glm::dvec3 up, glm::dvec2 half,
+                    const Painter& painter) {
+  beginSolid();
+  const glm::dvec3 x = right * half.x;
+  const glm::dvec3 y = up * half.y;
+  addFace({centre - x - y, centre + x - y, centre + x + y, centre - x + y}, right, painter);
+  endSolid({});
+}
+
+}  // namespace pleinair::hal::synthetic

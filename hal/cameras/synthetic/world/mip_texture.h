@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "hal/cameras/synthetic/world/srgb.h"
+
+namespace pleinair::hal::synthetic {
+
+/// sRGB-coded.
+struct Texel {
+  std::uint8_t red = 0, green = 0, blue = 0, unused = 0;
+};
+
+inline Texel codedTexel(glm::vec3 linearRgb) {
+  return {roundedLevelFromLinear(linearRgb.r), roundedLevelFromLinear(linearRgb.g),
+          roundedLevelFromLinear(linearRgb.b)};
+}
+inline glm::vec3 linearRgbOf(Texel texel) {
+  return {linearFromLevel(texel.red), linearFromLevel(texel.green), linearFromLevel(texel.blue)};
+}
+
+/// A picture at full, half, quarter … resolution.
+class MipTexture {
+ public:
+  struct Level {
+    int width = 0;
+    int height = 0;
+    std::vector<Texel> texels;  ///< row-major, packed
+  };
+
+  /// A black texture of this size, at least 2 × 2.
+  MipTexture(int width, int height);
+
+  Level& base() { return levels_.front(); }
+  const std::vector<Level>& levels() const { return levels_; }
+  /// Makes the coarser levels, each texel the mean, in linear light, of the four below it. The last
+  /// row or column of an odd level counts twice. No level is smaller than 2 × 2.
+  void buildLevels();
+
+ private:
+  std::vector<Level> levels_;
+};
+
+}  // namespace pleinair::hal::synthetic

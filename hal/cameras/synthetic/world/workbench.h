@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include "hal/cameras/synthetic/world/builder.h"
+
+namespace pleinair::hal::synthetic {
+
+// Where the larger things stand, metres; the world's origin is on the bench's top, x to the right
+// of who works there, y to the wall, z up. Tags stick to some of them.
+
+inline constexpr double kBenchHalfWidth = 1.15;
+inline constexpr double kBenchFront = -0.46;
+inline constexpr double kBenchBack = 0.44;
+inline constexpr double kWallY = 0.45;
+inline constexpr double kFloorZ = -0.88;
+
+inline const glm::dmat4 kToolboxPose = standing({-0.49, 0.20, 0}, 13);
+inline constexpr glm::dvec3 kToolboxSize{0.40, 0.19, 0.165};
+inline const glm::dmat4 kMachinePose = standing({0.00, 0.29, 0.014}, -5);
+inline constexpr glm::dvec3 kMachineSize{0.23, 0.17, 0.15};
+inline const glm::dmat4 kBooksPose = standing({-0.59, -0.10, 0}, 22);
+inline constexpr double kBooksHeight = 0.056;
+inline constexpr glm::dvec3 kWallSheetCentre{-0.205, kWallY - 0.002, 0.40};
+
+/// The workbench in its room. The shape is the same for every seed; the wood is not.
+Plan planWorkbench(std::uint32_t seed);
+
+// Its parts, in one file each.
+void buildRoom(Builder& builder);                       ///< room.cpp: walls, window, floor, shelf
+void buildBench(Builder& builder, std::uint32_t seed);  ///< bench.cpp, with what lies flat on it
+void buildMachines(Builder& builder);  ///< machines.cpp: toolbox, gear motor, vise, lamp
+void buildClutter(Builder& builder);   ///< clutter.cpp: mug, books, bins, oil can, crate …
+void buildArm(Builder& builder);       ///< arm.cpp: what reaches in, in its own coordinates
+
+}  // namespace pleinair::hal::synthetic

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+#include "hal/error.h"
+#include "hal/media/handles.h"
+
+namespace pleinair::hal::libav {
+
+/// A regular file opened for reading, never interpreted as a URL. Pipes and devices, which could
+/// block, are refused.
+class FileInput {
+ public:
+  /// Errors: kNotFound, kPermissionDenied, kInvalidInput (not a file, or empty), kIo.
+  static Result<FileInput> open(const std::filesystem::path& path);
+
+  FileInput(FileInput&& other) noexcept;
+  FileInput& operator=(FileInput&& other) noexcept;
+  FileInput(const FileInput&) = delete;
+  FileInput& operator=(const FileInput&) = delete;
+  ~FileInput();
+
+  std::int64_t sizeBytes() const { return sizeBytes_; }
+  /// Reads up to `count` bytes at `offset`; fewer at the end, −errno on an error.
+  std::int64_t readAt(std::int64_t offset, std::uint8_t* bytes, std::size_t count) const;
+
+ private:
+  FileInput(int fd, std::int64_t sizeBytes) : fd_(fd), sizeBytes_(sizeBytes) {}
+  int fd_ = -1;
+  std::int64_t sizeBytes_ = 0;
+};
+
+/// libav's view of a FileInput: a demuxer reads through it and can open nothing else.
+class DemuxerIo {
+ public:
+  explicit DemuxerIo(FileInput file);
+  AVIOContext* context() { return io_.get(); }
+  const FileInput& file() const { return state_->file; }
+
+ private:
+  struct State {
+    FileInput file;
+    std::int64_t position = 0;
+  };
+  static int read(void* opaque, std::uint8_t* buffer, int size);
+  static std::int64_t seek(void* opaque, std::int64_t offset, int whence);
+
+  std::unique_ptr<State> state_;
+  IoContext io_;
+};
+
+}  // namespace pleinair::hal::libav

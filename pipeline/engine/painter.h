@@ -1,0 +1,169 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "config/parameter_values.h"
+#include "hal/captured_frame.h"
+#include "hal/error.h"
+#include "hal/image.h"
+#include "pipeline/gpu/egl_context.h"
+#include "pipeline/gpu/gpu_loss.h"
+#include "pipeline/gpu/pass_timer.h"
+#include "pipeline/marks/anchor.h"
+#include "pipeline/scene/description/scene.h"
+#include "pipeline/tracking/pose/tracker.h"
+
+namespace pleinair {
+
+/// Whose GL context a Painter works in.
+enum class PainterContext {
+  kOwn,  ///< its own, on a thread of its own; call the Painter from any one thread
+  /// The one that is current on the caller's thread, always the same. Each call works whatever the
+  /// host has bound and switched on, and leaves nothing bound and all switches as in a new context;
+  /// the viewport stays.
+  kHost,
+};
+
+/// A level of quality, from which the time and memory of painting follow.
+struct QualityLevel {
+  std::string name;
+  std::string help;
+};
+
+/// All levels, best first. A style takes about two thirds of the time of the level before; what
+/// does not depend on the picture's size (tracking, models, read-back) stays.
+std::vector<QualityLevel> qualityLevels();
+
+struct PainterOptions {
+  hal::FrameSize pictureSize;  ///< of what is painted; frames are scaled to fill it
+  scene::Scene scene;          ///< empty: the camera's picture alone
+  std::string style = "watercolor";
+  bool tracksTags = true;  ///< without, no tag is looked for and no model appears
+  PainterContext context = PainterContext::kOwn;
+  std::filesystem::path shaderDirectory;  ///< overrides embedded shaders; empty: none
+  gpu::PassTiming passTiming = gpu::PassTiming::kOff;
+  /// Of the frames that will come, so that the first one finds all compiled and allocated; without,
+  /// it may take longer. Others may come all the same.
+  std::optional<hal::FrameFormat> expectedFormat = std::nullopt;
+  /// Whether PaintParameters::quality may be other than 0: all levels are allocated and warmed up
+  /// then, for about twice the memory (docs/decisions/0008-quality-levels.md).
+  bool qualityLevels = false;
+  /// In place of what the driver is asked; for tests.
+  gpu::GpuSeam seam = {};
+};
+
+/// What may change from frame to frame: one immutable snapshot.
+struct PaintParameters {
+  config::ParameterValues style;  ///< of the style's list: Painter::defaultParameters()
+  std::string view;               ///< empty for the finished picture, or one of views()
+  /// In qualityLevels(). A change keeps the past: the picture goes on, softer or sharper.
+  std::size_t quality = 0;
+};
+
+/// A view that can be painted instead of the finished picture.
+struct PainterView {
+  std::string name;
+  std::string help;
+};
+
+/// The views of a style, the engine's own first, without a GPU. Throws hal::StartupError
+/// (kInvalidArgument) for an unknown style, with all names.
+std::vector<PainterView> viewsOf(std::string_view style);
+
+/// A named preset of the style's parameters.
+struct PainterLook {
+  std::string name;
+  std::string help;
+};
+
+/// A painted picture. Its texture, which lives in the Painter's context, and the list of its tags
+/// belong to the Painter and are valid until the next paint().
+struct Picture {
+  unsigned texture = 0;  ///< GL name, RGBA8, sRGB-coded, row 0 at the top
+  hal::FrameSize size;   ///< smaller than PainterOptions::pictureSize at lower levels of quality
+  std::uint64_t sequence = 0;
+  hal::TimePoint captureTime;
+  tracking::TrackingResult tracking;  ///< in pixels of the captured frame
+  std::size_t quality = 0;            ///< in qualityLevels()
+};
+
+/// A picture in memory, read through a reader of the Painter.
+struct ReadPicture {
+  hal::Image image;
+  std::uint64_t sequence = 0;
+  hal::TimePoint captureTime;
+};
+
+/// The engine: captured frames in, painted pictures out. No globals; several in one process are
+/// independent, and the same frames with the same times give the same pictures, live or not.
+///
+/// The GPU may be lost (a reset after a fault or a hang, a device taken away, a fence that does not
+/// come within two seconds). From then on this Painter answers each call with kDeviceLost, does
+/// nothing and can only be destroyed; another one can be made in the same process. In a host's
+/// context, the host makes a new context first, and the old one keeps what the Painter had in it
+/// until the host destroys it.
+class Painter {
+ public:
+  /// Builds the whole chain and warms it up. Throws hal::StartupError (no GPU, unknown style or tag
+  /// family: lists the valid ones, size beyond the limits).
+  explicit Painter(const PainterOptions& options);
+  ~Painter();
+  Painter(const Painter&) = delete;
+  Painter& operator=(const Painter&) = delete;
+
+  const gpu::ContextInfo& contextInfo() const;
+  PaintParameters defaultParameters() const;
+  std::vector<PainterView> views() const;
+  std::vector<PainterLook> looks() const;
+  /// The style's defaults under a look's values. Throws config::ConfigError for an unknown one,
+  /// with all names.
+  config::ParameterValues lookParameters(std::string_view look) const;
+
+  /// Tracks, composes and paints one frame, which may have any size and layout. Returns when the
+  /// work is issued, not when the GPU is done. Errors, after which all is as if the frame had not
+  /// come: kInvalidArgument (unknown view or level: lists the valid ones), kInvalidInput (the frame
+  /// has another size than the scene's calibration is for), kUnsupported (beyond the GPU's limits
+  /// or memory). Then, for ever: kDeviceLost. Precondition: frame.image.isComplete().
+  hal::Result<Picture> paint(const hal::CapturedFrame& frame, const PaintParameters& parameters);
+
+  /// Opens a reader: from now on each painted picture is also brought to memory in `format` (RGBA8,
+  /// RGB8, grey, I420, NV12, YUYV; of any accepted size, filled as frames are). Up to 3 are under
+  /// way; a picture that finds the reader full is not read and counts as skipped. Returns the
+  /// reader's number. Throws hal::StartupError (kUnsupported where the GPU has no room for it,
+  /// kDeviceLost).
+  int openReader(const hal::FrameFormat& format);
+  /// Copies the reader's oldest picture into `picture`, reusing its memory; false if none is ready.
+  /// With `wait`, false only if none is under way. Error: kDeviceLost, for ever.
+  hal::Result<bool> take(int reader, ReadPicture& picture, bool wait);
+  /// Whether another paint() would still be read.
+  bool hasRoom(int reader) const;
+  std::uint64_t skipped(int reader) const;
+
+  /// Waits for the last paint and reads it, or what the camera showed of it, as RGB8 of the
+  /// picture's full size: for stills. Errors: kDeviceLost, for ever; kUnsupported (no memory).
+  /// Precondition: something was painted.
+  hal::Result<hal::Image> still() const;
+  hal::Result<hal::Image> cameraStill() const;
+
+  /// Waits for the last paint and reads the style's anchors, of all its layers, a slot each, free
+  /// ones too: for measures. Empty for a style without. Error: kDeviceLost, for ever.
+  hal::Result<std::vector<marks::Anchor>> anchors() const;
+
+  /// Forgets the past, as after a cut.
+  void reset();
+  /// Of each pass so far, where PainterOptions asked for it.
+  std::vector<gpu::PassTime> passTimes() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace pleinair

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "hal/error.h"
+#include "pipeline/measure/input/measured_input.h"
+
+namespace pleinair::measure {
+
+/// What a motion.json says: {"v": [vx, vy]}, px a frame, or {"homographies": [[9 numbers], …]},
+/// row by row, each of which takes pixels of a frame (centres at whole numbers) to the next one's.
+struct MotionFile {
+  std::optional<cv::Point2d> perFrame;
+  std::vector<cv::Matx33d> nextFromFrame;  ///< where perFrame is not set
+};
+
+/// Errors: kInvalidInput (no JSON, no such key or another one, numbers that make no sense), which
+/// names `subject`.
+hal::Result<MotionFile> parseMotion(std::string_view text, const std::string& subject);
+/// The same of a file. Errors: kNotFound, kPermissionDenied, kIo too.
+hal::Result<MotionFile> readMotion(const std::filesystem::path& path);
+
+/// Its motion, of frames of this size. Errors: kInvalidInput (fewer homographies than `frames`
+/// need).
+hal::Result<std::unique_ptr<TrueMotion>> motionOf(const MotionFile& file, cv::Size frame,
+                                                  std::uint64_t frames, const std::string& subject);
+
+}  // namespace pleinair::measure

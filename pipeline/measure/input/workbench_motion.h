@@ -1,0 +1,13 @@
+#pragma once
+
+#include <memory>
+
+#include "hal/cameras/synthetic/synthetic_camera.h"
+#include "pipeline/measure/input/measured_input.h"
+
+namespace pleinair::measure {
+
+/// The true motion of a synthetic camera's frames, from its poses and the geometry of its world.
+std::unique_ptr<TrueMotion> workbenchMotion(const hal::SyntheticOptions& options);
+
+}  // namespace pleinair::measure

@@ -1,0 +1,140 @@
+#include <nlohmann/json.hpp>
+
+#include "pipeline/measure/report/report.h"
+
+namespace pleinair::measure {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json orNull(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json jsonOf(const Measures& measures) {
+  Json json = Json::object();
+  for (const MeasureColumn& column : measureColumns()) {
+    json[column.key] = orNull(measures.*column.value);
+  }
+  return json;
+}
+
+const char* wordOf(Verdict::State state) {
+  switch (state) {
+    case Verdict::State::kPassed:
+      return "pass";
+    case Verdict::State::kFailed:
+      return "fail";
+    case Verdict::State::kNotMeasured:
+      break;
+  }
+  return "not measured";
+}
+
+Json jsonOf(const std::vector<Verdict>& verdicts) {
+  Json list = Json::array();
+  for (const Verdict& verdict : verdicts) {
+    const bool isMeasured = verdict.state != Verdict::State::kNotMeasured;
+    const Verdict::Comparison comparison = verdict.comparison.value_or(Verdict::Comparison());
+    list.push_back(
+        {{"what", verdict.what},
+         {"verdict", wordOf(verdict.state)},
+         {"found", verdict.found},
+         {"value", orNull(comparison.value)},
+         {"limit", orNull(comparison.limit)},
+         {"sense", !verdict.comparison ? Json(nullptr)
+                   : comparison.isMost ? Json("at most")
+                                       : Json("at least")},
+         {"passed", isMeasured ? Json(verdict.state == Verdict::State::kPassed) : Json(nullptr)}});
+  }
+  return list;
+}
+
+Json jsonOf(const std::optional<Slip>& slip) {
+  if (!slip) return nullptr;
+  return {{"median_px", slip->median}, {"p95_px", slip->most}, {"rms_px", slip->rms}};
+}
+
+Json jsonOf(const std::optional<AnchorSummary>& anchors) {
+  if (!anchors) return nullptr;
+  return {
+      {"frames", anchors->frames},
+      {"alive", anchors->alive},
+      {"births_a_frame", anchors->births},
+      {"deaths_a_frame", anchors->deaths},
+      {"inner_births_a_frame", anchors->innerBirths},
+      {"inner_deaths_a_frame", anchors->innerDeaths},
+      {"inner_turnover_percent", anchors->innerTurnoverPercent},
+      {"moved_a_frame", anchors->moved},
+      {"half_life_frames", orNull(anchors->halfLifeFrames)},
+      {"half_life_over_frames", anchors->halfLifeFrames ? Json(nullptr) : Json(anchors->frames)},
+      {"slip", jsonOf(anchors->slip)},
+      {"slip_over_10_frames", jsonOf(anchors->longSlip)},
+      {"anchors_per_cell",
+       {{"mean", anchors->perCell},
+        {"spread", anchors->spreadPerCell},
+        {"empty_percent", anchors->emptyCellsPercent}}}};
+}
+
+Json jsonOf(const TextureDifference& difference) {
+  return {{"cooccurrence_error", difference.cooccurrenceError},
+          {"spectrum_error", difference.spectrumError},
+          {"frequency_ratio", difference.frequencyRatio}};
+}
+
+Json jsonOf(const std::optional<Flatness>& flatness) {
+  if (!flatness) return nullptr;
+  return {{"scale", flatness->scale},
+          {"painting", jsonOf(flatness->painting)},
+          {"input", jsonOf(flatness->input)}};
+}
+
+Json jsonOf(const FrameValues& values) {
+  Json json{{"frame", values.frame},
+            {"painting", jsonOf(values.painting)},
+            {"input", jsonOf(values.input)}};
+  if (values.anchors) {
+    json["anchors"] = {{"alive", values.anchors->alive},
+                       {"births", values.anchors->births},
+                       {"deaths", values.anchors->deaths},
+                       {"inner_births", values.anchors->innerBirths},
+                       {"inner_deaths", values.anchors->innerDeaths},
+                       {"slip", jsonOf(values.anchors->slip)}};
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string reportJson(const Report& report) {
+  const PerSubject<Measures>& measures = report.measures;
+  Json json{{"style", report.style},
+            {"settings", report.settings},
+            {"input", report.input},
+            {"motion", report.motion},
+            {"size", {report.size.width, report.size.height}},
+            {"settled_frames", report.settled},
+            {"frames", report.frames},
+            {"still_frames", report.stillFrames},
+            {"still_noise_levels", report.stillNoise},
+            {"measures",
+             {{"painting", jsonOf(measures[Subject::kPainting])},
+              {"input", jsonOf(measures[Subject::kInput])},
+              {"redrawn", jsonOf(measures[Subject::kFresh])},
+              {"fixed", jsonOf(measures[Subject::kFixed])}}},
+            {"controls_sound", report.areControlsSound()},
+            {"controls", jsonOf(report.controls)},
+            {"gates_passed", report.gates.empty() ? Json(nullptr) : Json(report.areGatesPassed())},
+            {"gates", jsonOf(report.gates)},
+            {"inside", jsonOf(report.inside)},
+            {"inside_still", jsonOf(report.insideStill)},
+            {"flatness", jsonOf(report.flatness)},
+            {"left_out", report.leftOut},
+            {"notes", report.notices},
+            {"over_time", Json::array()}};
+  for (const FrameValues& values : report.overTime) json["over_time"].push_back(jsonOf(values));
+  // File names may hold anything.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace pleinair::measure

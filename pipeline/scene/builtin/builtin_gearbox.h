@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "pipeline/scene/builtin/builtin_gear.h"
+#include "pipeline/scene/builtin/gear_profile.h"
+#include "pipeline/scene/models/model.h"
+
+namespace pleinair::scene {
+
+/// A two-stage gearbox with its cover off: three shafts side by side in a cast housing, the input
+/// towards the reader of the tag, the output away. It stands on its feet on z = 0, its middle over
+/// the origin, x along its length.
+struct GearboxParameters {
+  double lengthMetres = 0.25;         ///< over its feet, along x; all else follows
+  double inputRevolutions = 12.0;     ///< a minute, against the clock as the reader sees it
+  std::array<int, 2> stage1{19, 43};  ///< teeth of pinion and wheel
+  std::array<int, 2> stage2{18, 40};
+  bool isClosed = false;  ///< with its cover on
+  friend bool operator==(const GearboxParameters&, const GearboxParameters&) = default;
+};
+
+inline constexpr int kLeastPinionTeeth = 16;
+inline constexpr int kMostPinionTeeth = 30;
+inline constexpr int kLeastWheelTeeth = 36;
+inline constexpr int kMostWheelTeeth = 60;
+
+/// A gear of the gearbox as it stands in the plane across the shafts: x along the gearbox, y up.
+struct GearboxGear {
+  ToothForm form;
+  glm::dvec2 centre{0.0};  ///< metres
+  double phaseRad = 0.0;   ///< of tooth 0, against the clock from x, at rest
+  double radiansPerSecond = 0.0;
+};
+
+/// gear_1 to gear_4: pinion and wheel of the first stage, of the second. Teeth are in the ranges
+/// above.
+std::array<GearboxGear, 4> gearboxGears(const GearboxParameters& parameters);
+
+/// Parts: housing, sight_glass, oil_plug, name_plate; input_shaft, intermediate_shaft,
+/// output_shaft; gear_1 … gear_4; input_coupling, output_key; bearing_1 … bearing_6 (front and back
+/// of each shaft: NAME_outer_race, NAME_inner_race, NAME_balls); end_cover_1 … end_cover_3; bolt_1
+/// …; stud_1 … or, closed, cover and its bolts.
+Model gearboxModel(const GearboxParameters& parameters);
+
+}  // namespace pleinair::scene

@@ -1,0 +1,280 @@
+#include "pipeline/scene/builtin/solid_builder.h"
+
+#include <cassert>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+// withShortEdges() of mesh.h.
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "pipeline/scene/models/mesh.h"
+
+namespace pleinair::scene {
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+double angleAbout(const glm::dvec2& centre, const glm::dvec3& p) {
+  return std::atan2(p.y - centre.y, p.x - centre.x);
+}
+
+double wrapped(double angleRad) {
+  return std::remainder(angleRad, kTurn);
+}
+
+MeshVertex vertexOf(const glm::dvec3& position, const glm::dvec3& normal) {
+  return {.position = glm::vec3(position), .normal = glm::vec3(normal)};
+}
+
+/// A ring walked once around from `start`: the angles are relative to `origin`, rising.
+class RingWalk {
+ public:
+  RingWalk(const Ring& ring, const glm::dvec2& centre, std::size_t start, double origin)
+      : ring_(ring), centre_(centre), index_(start), angle_(wrapped(angleAt(start) - origin)) {}
+
+  bool isDone() const { return steps_ == ring_.size(); }
+  const glm::dvec3& here() const { return ring_[index_]; }
+  const glm::dvec3& next() const { return ring_[following()]; }
+  double nextAngle() const { return angle_ + wrapped(angleAt(following()) - angleAt(index_)); }
+  void advance() {
+    angle_ = nextAngle();
+    index_ = following();
+    ++steps_;
+  }
+
+ private:
+  double angleAt(std::size_t i) const { return angleAbout(centre_, ring_[i]); }
+  std::size_t following() const { return (index_ + 1) % ring_.size(); }
+
+  const Ring& ring_;
+  glm::dvec2 centre_;
+  std::size_t index_;
+  double angle_;
+  std::size_t steps_ = 0;
+};
+
+std::size_t nearestInAngle(const Ring& ring, const glm::dvec2& centre, double angleRad) {
+  std::size_t best = 0;
+  double bestDistance = kTurn;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const double distance = std::abs(wrapped(angleAbout(centre, ring[i]) - angleRad));
+    if (distance < bestDistance) {
+      best = i;
+      bestDistance = distance;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+Ring circleRing(const glm::dvec2& centre, double radius, double z, std::size_t segments) {
+  Ring ring;
+  for (std::size_t i = 0; i < segments; ++i) {
+    const double angle = kTurn * static_cast<double>(i) / static_cast<double>(segments);
+    ring.emplace_back(centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle), z);
+  }
+  return ring;
+}
+
+void SolidBuilder::addTriangle(Side side, const MeshVertex& a, const MeshVertex& b,
+                               const MeshVertex& c) {
+  const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
+  mesh_.vertices.insert(mesh_.vertices.end(), {a, b, c});
+  if (side == Side::kUpper) {
+    mesh_.triangles.push_back({first, first + 1, first + 2});
+  } else {
+    mesh_.triangles.push_back({first, first + 2, first + 1});
+  }
+}
+
+void SolidBuilder::addFlat(Side side, std::span<const glm::dvec3> corners) {
+  const glm::dvec3 normal(0.0, 0.0, side == Side::kUpper ? 1.0 : -1.0);
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    addTriangle(side, vertexOf(corners[0], normal), vertexOf(corners[i - 1], normal),
+                vertexOf(corners[i], normal));
+  }
+}
+
+void SolidBuilder::addFlatBetween(Side side, const Ring& outer, const Ring& inner,
+                                  const glm::dvec2& centre) {
+  const double origin = angleAbout(centre, outer.front());
+  RingWalk out(outer, centre, 0, origin);
+  RingWalk in(inner, centre, nearestInAngle(inner, centre, origin), origin);
+  while (!out.isDone() || !in.isDone()) {
+    if (in.isDone() || (!out.isDone() && out.nextAngle() <= in.nextAngle())) {
+      addFlat(side, std::array{out.here(), out.next(), in.here()});
+      out.advance();
+    } else {
+      addFlat(side, std::array{out.here(), in.next(), in.here()});
+      in.advance();
+    }
+  }
+}
+
+void SolidBuilder::addBand(Side side, const Ring& from, const Ring& to,
+                           std::span<const glm::dvec3> normals) {
+  assert(from.size() == to.size() && normals.size() == 2 * from.size());
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const std::size_t j = (i + 1) % from.size();
+    const glm::dvec3& start = normals[2 * i];
+    const glm::dvec3& end = normals[2 * i + 1];
+    addTriangle(side, vertexOf(from[i], start), vertexOf(from[j], end), vertexOf(to[j], end));
+    addTriangle(side, vertexOf(from[i], start), vertexOf(to[j], end), vertexOf(to[i], start));
+  }
+}
+
+void SolidBuilder::addTurnedBand(Side side, const Ring& from, const Ring& to,
+                                 const glm::dvec2& centre) {
+  std::vector<glm::dvec3> normals;
+  const auto radius = [&](const glm::dvec3& p) { return glm::distance(glm::dvec2(p), centre); };
+  // The section runs from `from` to `to` with the solid on its left, on its right when mirrored.
+  const double turn = side == Side::kUpper ? 1.0 : -1.0;
+  const glm::dvec2 along(radius(to[0]) - radius(from[0]), to[0].z - from[0].z);
+  const glm::dvec2 across = turn * glm::normalize(glm::dvec2(along.y, -along.x));
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    for (const std::size_t corner : {i, (i + 1) % from.size()}) {
+      const glm::dvec2 outward = glm::normalize(glm::dvec2(from[corner]) - centre);
+      normals.emplace_back(across.x * outward, across.y);
+    }
+  }
+  addBand(side, from, to, normals);
+}
+
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+MeshVertex midpoint(const MeshVertex& a, const MeshVertex& b) {
+  const glm::vec3 sum = a.normal + b.normal;
+  const float length = glm::length(sum);
+  return {.position = 0.5F * (a.position + b.position),
+          .normal = length > 1e-6F ? sum / length : a.normal,
+          .texture = 0.5F * (a.texture + b.texture),
+          .colour = 0.5F * (a.colour + b.colour)};
+}
+
+/// The mean of both, of its strongest four joints. The same from both sides, to the bit.
+JointWeights midpoint(const JointWeights& a, const JointWeights& b) {
+  std::array<std::pair<float, std::uint16_t>, 8> holds{};  // weight and joint
+  std::size_t count = 0;
+  for (const JointWeights* from : {&a, &b}) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (!(from->weights[i] > 0.0F)) continue;
+      const auto end = holds.begin() + static_cast<std::ptrdiff_t>(count);
+      const auto known = std::find_if(
+          holds.begin(), end, [&](const auto& hold) { return hold.second == from->joints[i]; });
+      if (known == end) holds[count++] = {0.0F, from->joints[i]};
+      known->first += 0.5F * from->weights[i];
+    }
+  }
+  const auto isWeaker = [](const auto& one, const auto& other) {
+    return one.first != other.first ? one.first < other.first : one.second > other.second;
+  };
+  JointWeights middle{.weights = {}};
+  float sum = 0.0F;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto strongest = std::ranges::max_element(holds, isWeaker);
+    middle.joints[i] = strongest->second;
+    middle.weights[i] = strongest->first;
+    sum += strongest->first;
+    *strongest = {};
+  }
+  if (!(sum > 0.0F)) return {};
+  for (float& weight : middle.weights) weight /= sum;
+  return middle;
+}
+
+/// A mesh that grows as its edges are halved.
+class EdgeCutter {
+ public:
+  EdgeCutter(const Mesh& mesh, float maxEdgeMetres, std::size_t mostTriangles)
+      : result_(mesh), mostSquared_(maxEdgeMetres * maxEdgeMetres), mostTriangles_(mostTriangles) {
+    result_.triangles.clear();
+  }
+
+  Mesh cut(const std::vector<Triangle>& triangles) {
+    for (const Triangle& triangle : triangles) cut(triangle);
+    return std::move(result_);
+  }
+
+ private:
+  void cut(const Triangle& whole) {
+    pending_.push_back(whole);
+    while (!pending_.empty()) {
+      const Triangle corners = pending_.back();
+      pending_.pop_back();
+      std::size_t longest = 0;  // the edge from this corner to the next
+      float longestSquared = 0.0F;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const float squared = squaredLength(corners[i], corners[(i + 1) % 3]);
+        if (squared > longestSquared) {
+          longest = i;
+          longestSquared = squared;
+        }
+      }
+      if (longestSquared <= mostSquared_ ||
+          result_.triangles.size() + pending_.size() >= mostTriangles_) {
+        result_.triangles.push_back(corners);
+        continue;
+      }
+      const std::uint32_t a = corners[longest];
+      const std::uint32_t b = corners[(longest + 1) % 3];
+      const std::uint32_t c = corners[(longest + 2) % 3];
+      const std::uint32_t middle = middleOf(a, b);
+      pending_.push_back({middle, b, c});
+      pending_.push_back({a, middle, c});
+    }
+  }
+
+  float squaredLength(std::uint32_t a, std::uint32_t b) const {
+    const glm::vec3 edge = result_.vertices[a].position - result_.vertices[b].position;
+    return glm::dot(edge, edge);
+  }
+
+  /// The vertex half way, made when it is first asked for.
+  std::uint32_t middleOf(std::uint32_t a, std::uint32_t b) {
+    if (a > b) std::swap(a, b);
+    const auto [entry, isNew] = middles_.try_emplace(
+        std::uint64_t{a} << 32U | b, static_cast<std::uint32_t>(result_.vertices.size()));
+    if (!isNew) return entry->second;
+    const auto addMiddle = [&](auto& each, const auto& half) {
+      if (!each.empty()) each.push_back(half(each[a], each[b]));
+    };
+    addMiddle(result_.vertices, [](const auto& x, const auto& y) { return midpoint(x, y); });
+    addMiddle(result_.joints, [](const auto& x, const auto& y) { return midpoint(x, y); });
+    const auto mean = [](const glm::vec3& x, const glm::vec3& y) { return 0.5F * (x + y); };
+    for (MorphTarget& target : result_.morphTargets) {
+      addMiddle(target.positions, mean);
+      addMiddle(target.normals, mean);
+    }
+    return entry->second;
+  }
+
+  Mesh result_;
+  float mostSquared_;
+  std::size_t mostTriangles_;
+  std::vector<Triangle> pending_;
+  std::unordered_map<std::uint64_t, std::uint32_t> middles_;  ///< of edges, lower end first
+};
+
+}  // namespace
+
+Mesh withShortEdges(const Mesh& mesh, float maxEdgeMetres, std::size_t mostTriangles) {
+  assert(maxEdgeMetres > 0.0F);
+  return EdgeCutter(mesh, maxEdgeMetres, mostTriangles).cut(mesh.triangles);
+}
+
+}  // namespace pleinair::scene

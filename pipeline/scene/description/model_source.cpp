@@ -1,0 +1,33 @@
+#include "pipeline/scene/description/model_source.h"
+
+#include "pipeline/scene/builtin/builtin_box.h"
+#include "pipeline/scene/gltf/gltf_file.h"
+
+namespace pleinair::scene {
+namespace {
+
+struct ModelMaker {
+  hal::Result<Model> operator()(const BoxSource& box) const {
+    return singlePartModel("box", boxMesh(box.sizeMetres));
+  }
+  hal::Result<Model> operator()(const GearSource& gear) const {
+    return singlePartModel("gear", gearMesh(gear));
+  }
+  hal::Result<Model> operator()(const GearboxSource& gearbox) const {
+    return gearboxModel(gearbox);
+  }
+  hal::Result<Model> operator()(const FileSource& file) const { return readGltf(file.path); }
+};
+
+}  // namespace
+
+hal::Result<Model> modelOf(const ModelSource& source) {
+  return std::visit(ModelMaker{}, source);
+}
+
+bool hasOwnColours(const ModelSource& source) {
+  return std::holds_alternative<FileSource>(source) ||
+         std::holds_alternative<GearboxSource>(source);
+}
+
+}  // namespace pleinair::scene

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "config/toml_reader.h"
+#include "pipeline/scene/description/scene.h"
+#include "pipeline/scene/models/rig.h"
+
+namespace pleinair::scene {
+
+/// attach: the id of one of the scene's tags, read before; nothing for the world. Throws
+/// config::ConfigError.
+std::optional<int> readAttachment(const config::TomlTable& table, const Scene& scene);
+
+/// Reads the [[plane]] tables into `scene`, whose tags are read. Throws config::ConfigError.
+void readPlanes(const config::TomlTable& root, Scene& scene);
+
+/// clip, speed, loop and start of a [[model]] with this rig; where there is only one clip, clip
+/// need not be given. Throws a ConfigError for a clip that is not there, and for keys that do
+/// nothing.
+Playback readPlayback(const config::TomlTable& table, const Rig& rig);
+
+/// Where a model has clips of which none is played: says so, and what to do.
+std::optional<std::string> standingStillNotice(const Rig& rig, const Playback& playback);
+
+/// A scene file's [light]:
+///
+///     mode = "estimated"          # from the camera's pictures; or "fixed"
+///     direction = [-0.4, 0.6, 0.8]  # towards the key light; left out, it is estimated too
+///     frame = "attached"          # as the models'; "camera": x right, y up, z to the viewer
+///     key = "#fff1dd"             # fixed: white paper that faces the key light and sees no other
+///     ambient = [0.6, 0.65, 0.7]  # fixed: white paper that the key light does not reach
+///     shadow = 0.9                # of models on what they stand on; 0: none
+///
+/// Throws config::ConfigError.
+Light readLight(const config::TomlTable& table);
+
+}  // namespace pleinair::scene

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include "config/toml_reader.h"
+#include "pipeline/scene/description/model_source.h"
+
+namespace pleinair::scene {
+
+/// position_m and rotation_deg as a transform to the frame that they are given in; nothing where
+/// the table has neither.
+std::optional<glm::dmat4> readPose(const config::TomlTable& table);
+
+/// A colour: three sRGB numbers or "#rrggbb"; sRGB-coded.
+std::optional<glm::vec3> readColour(const config::TomlTable& table,
+                                    std::string_view key = "colour");
+
+/// source, and the keys that belong to it. Files are relative to `directory`.
+ModelSource readSource(const config::TomlTable& table, const std::filesystem::path& directory);
+
+}  // namespace pleinair::scene

@@ -1,0 +1,88 @@
+#include "pipeline/scene/light/light_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec4.hpp>
+
+namespace pleinair::scene {
+namespace {
+
+constexpr double kSampleSigma = 0.10;  // a real room's light differs that much from place to place
+constexpr double kHuber = 2.5;         // sigmas
+constexpr double kLeastAmbient = 0.08;
+constexpr int kSteps = 8;
+
+double square(double value) {
+  return value * value;
+}
+
+struct Problem {
+  std::span<const LightSample> samples;
+  const LightFit& prior;
+  const LightPriorSigma& sigma;
+
+  double cost(const LightFit& fit) const {
+    double sum = square((fit.ambient - prior.ambient) / sigma.ambient) +
+                 square(glm::distance(fit.keyVector, prior.keyVector) / sigma.key);
+    for (const LightSample& sample : samples) {
+      const double off = std::abs(sample.irradiance - fit.irradiance(sample.normal)) / kSampleSigma;
+      sum += sample.weight * (off < kHuber ? off * off : kHuber * (2.0 * off - kHuber));
+    }
+    return sum;
+  }
+
+  LightFit solvedFrom(LightFit fit) const {
+    const glm::dvec4 precision(1.0 / square(sigma.ambient), glm::dvec3(1.0 / square(sigma.key)));
+    const glm::dvec4 expected(prior.ambient, prior.keyVector);
+    for (int step = 0; step < kSteps; ++step) {
+      glm::dmat4 normalEquations(0.0);
+      for (int i = 0; i < 4; ++i) normalEquations[i][i] = precision[i];
+      glm::dvec4 right = precision * expected;
+      for (const LightSample& sample : samples) {
+        const bool isLit = glm::dot(sample.normal, fit.keyVector) > 0.0;
+        const glm::dvec4 row(1.0, isLit ? sample.normal : glm::dvec3(0.0));
+        const double off =
+            std::abs(sample.irradiance - fit.irradiance(sample.normal)) / kSampleSigma;
+        const double huber = off > kHuber ? kHuber / off : 1.0;
+        const double weight = sample.weight * huber / square(kSampleSigma);
+        normalEquations += weight * glm::outerProduct(row, row);
+        right += weight * sample.irradiance * row;
+      }
+      const glm::dvec4 solved = glm::inverse(normalEquations) * right;
+      fit = {.ambient = std::max(solved.x, kLeastAmbient),
+             .keyVector = glm::dvec3(solved.y, solved.z, solved.w)};
+    }
+    return fit;
+  }
+};
+
+}  // namespace
+
+double LightFit::irradiance(const glm::dvec3& normal) const {
+  return ambient + std::max(0.0, glm::dot(normal, keyVector));
+}
+
+LightFit fitLight(std::span<const LightSample> samples, const LightFit& prior,
+                  const LightPriorSigma& sigma) {
+  const Problem problem{samples, prior, sigma};
+  // Planes that face away from a start's key light say nothing of it: others have to be tried.
+  LightFit best = problem.solvedFrom(prior);
+  double least = problem.cost(best);
+  for (const LightSample& sample : samples) {
+    const double strength = glm::length(prior.keyVector);
+    const LightFit fit = problem.solvedFrom(
+        {.ambient = prior.ambient,
+         .keyVector = strength * glm::normalize(glm::normalize(prior.keyVector) + sample.normal)});
+    const double cost = problem.cost(fit);
+    if (!(cost < least)) continue;
+    best = fit;
+    least = cost;
+  }
+  return best;
+}
+
+}  // namespace pleinair::scene

@@ -1,0 +1,345 @@
+#include "pipeline/scene/render/ar_frame_renderer.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "pipeline/scene/light/linear_picture.h"
+#include "pipeline/scene/render/scene_bodies.h"
+#include "pipeline/scene/render/scene_uniforms.h"
+
+namespace pleinair::scene {
+namespace {
+
+/// What is nearer is not drawn; a model's own depth leaves the rest of the depth buffer its bits.
+constexpr double kNearestMetres = 1e-3;
+constexpr double kFarthestByNearest = 1000.0;
+constexpr ArFrame kCameraOnly{.nearMetres = 0.1F, .farMetres = 10.0F};
+constexpr glm::vec4 kNoNormal(128.0F / 255.0F, 128.0F / 255.0F, 128.0F / 255.0F, 0.0F);
+
+bool isHoled(const Material& material) {
+  return material.coverageCutoff > 0.0F;
+}
+
+/// The distances along the camera's axis between which a model lies.
+struct DepthSpan {
+  double nearest;
+  double farthest;
+};
+
+DepthSpan depthSpan(const BoundingSphere& sphere, const glm::dmat4& cameraFromModel) {
+  const double scale = glm::length(glm::dvec3(cameraFromModel[0]));
+  const double middle = (cameraFromModel * glm::dvec4(sphere.centre, 1.0)).z;
+  const double radius = scale * sphere.radiusMetres;
+  return {middle - radius, middle + radius};
+}
+
+}  // namespace
+
+ArFrameRenderer::ArFrameRenderer(const gpu::ShaderLibrary& library, Scene scene)
+    : scene_(std::move(scene)),
+      geometry_(library, scene_),
+      bodies_(scene_),
+      lights_(scene_.models.size()),
+      firstSight_(scene_.models.size()) {
+  assert(scene_.models.size() <= kMaxObjects && scene_.planes.size() <= kMaxPlanes);
+  visible_.reserve(scene_.models.size());
+  makePrograms(library);
+}
+
+void ArFrameRenderer::makePrograms(const gpu::ShaderLibrary& library) {
+  for (std::size_t i = 0; i < scene_.models.size(); ++i) objects_.push_back(objectId(scene_, i));
+  if (!scene_.models.empty() || !scene_.planes.empty()) {
+    surfacePass_.emplace(library, scene_, geometry_);
+  }
+  if (scene_.models.empty()) return;
+  constexpr std::string_view kVertices = "pipeline/scene/render/shaders/model.vert";
+  background_ = library.fragmentPass("pipeline/scene/render/shaders/camera_background.frag");
+  const bool hasHoles = std::ranges::any_of(scene_.models, [](const SceneModel& each) {
+    return std::ranges::any_of(each.model->materials, isHoled);
+  });
+  for (const Shading shading : {Shading::kToon, Shading::kSmooth}) {
+    const std::string name = std::string("pipeline/scene/render/shaders/model_") +
+                             (shading == Shading::kToon ? "toon" : "smooth");
+    SurfacePrograms& programs = programsOf(shading);
+    programs.solid = library.draw(kVertices, name + ".frag");
+    if (hasHoles) programs.holed = library.draw(kVertices, name + "_holes.frag");
+  }
+  if (std::ranges::any_of(scene_.models, &SceneModel::isOccluder)) {
+    occluder_ = library.draw(kVertices, "pipeline/scene/render/shaders/occluder.frag");
+  }
+  if (scene_.light.shadow > 0.0F) shadow_.emplace(library, scene_, geometry_);
+  white_ = gpu::Texture(gpu::TextureFormat::kRgba8, {1, 1});
+  white_.upload(std::array<std::uint8_t, 4>{255, 255, 255, 255}, 4);
+}
+
+ArFrameRenderer::Surfaces::Surfaces(hal::FrameSize size, bool hasModels)
+    : ids(gpu::TextureFormat::kR32ui, size),
+      normalFocus(gpu::TextureFormat::kRgba8, size),
+      depth(gpu::TextureFormat::kDepth24, size),
+      withoutColour({&ids, &normalFocus}, &depth) {
+  if (!hasModels) return;
+  colour = gpu::Texture(gpu::TextureFormat::kRgba8, size, gpu::TextureFilter::kLinear);
+  target = gpu::RenderTarget({&colour, &ids, &normalFocus}, &depth);
+}
+
+void ArFrameRenderer::takeSurfaces(hal::FrameSize size) {
+  now_ = &surfaces_.of(size, size, !scene_.models.empty());
+}
+
+/// All that a frame may need, once: posed in front of the camera, drawn, and asked about.
+void ArFrameRenderer::warmUp(hal::FrameSize size) {
+  takeSurfaces(size);
+  if (!surfacePass_) return;
+  const tracking::CameraModel camera = assumedCamera(size);
+  if (!now_->known) now_->known.emplace(size);
+  visible_.clear();
+  if (!scene_.models.empty()) {
+    const gpu::Texture picture(gpu::TextureFormat::kRgba8, size, gpu::TextureFilter::kLinear);
+    geometry_.beginFrame();
+    for (std::size_t i = 0; i < scene_.models.size(); ++i) {
+      geometry_.pose(i, {}, {});
+      visible_.push_back(i);
+    }
+    geometry_.endPosing();
+    bodies_.reset();
+    if (shadow_) shadow_->warmUp();
+    drawBackground(picture);
+    for (const Shading shading : {Shading::kToon, Shading::kSmooth}) {
+      shading_ = shading;
+      setCamera(camera);
+      if (shadow_) shadow_->draw();
+      drawModels(picture);
+    }
+    now_->showsCameraOnly = false;
+  }
+  surfacePass_->warmUp(now_->ids, camera, bodies_, *now_->known);
+  reset();
+}
+
+void ArFrameRenderer::reset() {
+  geometry_.reset();
+  bodies_.reset();
+  if (shadow_) shadow_->reset();
+  before_.reset();
+  firstTime_.reset();
+  std::ranges::fill(firstSight_, std::nullopt);
+}
+
+const ArFrame& ArFrameRenderer::compose(const gpu::Texture& picture,
+                                        const tracking::CameraModel& camera, const PoseSet& poses,
+                                        std::uint64_t sequence, hal::TimePoint captureTime,
+                                        gpu::PassTimer& timer, ArFrameNeeds needs,
+                                        std::span<const PlaceLighting> lights) {
+  assert(picture.size() == camera.imageSize());
+  takeSurfaces(picture.size());
+  if (!firstTime_) firstTime_ = captureTime;
+  bodies_.advance(poses);
+  {
+    const auto scope = timer.measure("pose models");
+    poseModels(captureTime);
+  }
+  findVisible();
+  findLights(lights);
+  shading_ = needs.shading;
+  if (shadow_) {
+    const auto scope = timer.measure("cast shadows");
+    shadow_->cast(visible_, bodies_, lights_);
+  }
+  {
+    const auto scope = timer.measure("compose");
+    drawFrame(picture, camera);
+  }
+  frame_.colour = visible_.empty() ? &picture : &now_->colour;
+  frame_.ids = &now_->ids;
+  frame_.normalFocus = &now_->normalFocus;
+  frame_.depth = &now_->depth;
+  frame_.hasObjects = !visible_.empty();
+  frame_.hasFocus = std::ranges::any_of(
+      visible_, [&](std::size_t each) { return scene_.models[each].focus > 0.0F; });
+  frame_.sequence = sequence;
+  frame_.captureTime = captureTime;
+  if (needs.surfaces && surfacePass_) {
+    const auto scope = timer.measure("surfaces");
+    findSurfaces(camera);
+  }
+  before_ = Stamp{sequence, captureTime};
+  return frame_;
+}
+
+void ArFrameRenderer::poseModels(hal::TimePoint captureTime) {
+  geometry_.beginFrame();
+  for (std::size_t i = 0; i < scene_.models.size(); ++i) {
+    if (!bodies_.model(i).now) continue;
+    if (!firstSight_[i]) firstSight_[i] = captureTime;
+    const hal::TimePoint start =
+        scene_.models[i].playback.startsOnSight ? *firstSight_[i] : *firstTime_;
+    geometry_.pose(i, captureTime - start, captureTime - *firstTime_);
+  }
+  geometry_.endPosing();
+}
+
+void ArFrameRenderer::drawFrame(const gpu::Texture& picture, const tracking::CameraModel& camera) {
+  frame_ = kCameraOnly;
+  if (visible_.empty()) {
+    clearToCamera();
+    return;
+  }
+  drawBackground(picture);
+  setCamera(camera);
+  if (shadow_) shadow_->draw();
+  drawModels(picture);
+  now_->showsCameraOnly = false;
+}
+
+void ArFrameRenderer::findVisible() {
+  visible_.clear();
+  for (std::size_t i = 0; i < scene_.models.size(); ++i) {
+    const auto& now = bodies_.model(i).now;
+    if (!now || geometry_.batches(i).empty()) continue;
+    const DepthSpan span = depthSpan(geometry_.sphere(i), now->cameraFromBody);
+    if (span.farthest > kNearestMetres) visible_.push_back(i);
+  }
+}
+
+void ArFrameRenderer::findLights(std::span<const PlaceLighting> lights) {
+  for (const std::size_t i : visible_) {
+    const glm::dmat3 cameraFromAttach(bodies_.model(i).now->attachment.cameraFromAttach);
+    const auto known = std::ranges::find(lights, scene_.models[i].tagId, &PlaceLighting::tagId);
+    const Lighting light = known != lights.end()
+                               ? withSceneDirection(known->light, scene_.light, cameraFromAttach)
+                               : fixedLighting(scene_.light, cameraFromAttach);
+    lights_[i] = turned(glm::mat3(cameraFromAttach), light);
+  }
+}
+
+void ArFrameRenderer::clearToCamera() {
+  if (now_->showsCameraOnly) return;
+  now_->withoutColour.beginDiscarding();
+  now_->withoutColour.clearUnsigned(0, glm::uvec4(0U));
+  now_->withoutColour.clearColour(1, kNoNormal);
+  now_->withoutColour.clearDepth();
+  now_->showsCameraOnly = true;
+}
+
+void ArFrameRenderer::drawBackground(const gpu::Texture& picture) {
+  // Depth is cleared where the pass begins: later, a tile-based GPU would split it (docs/gpu.md,
+  // rule 10).
+  now_->target.beginDiscarding();
+  now_->target.clearDepth();
+  background_.use().texture("picture", picture).drawArea(now_->target, {0, 0}, now_->target.size());
+}
+
+void ArFrameRenderer::setCamera(const tracking::CameraModel& camera) {
+  double nearest = HUGE_VAL;
+  double farthest = kNearestMetres * kFarthestByNearest;
+  for (const std::size_t i : visible_) {
+    const auto& now = bodies_.model(i).now;
+    const auto span = depthSpan(geometry_.sphere(i), now ? now->cameraFromBody : glm::dmat4(1.0));
+    nearest = std::min(nearest, span.nearest);
+    farthest = std::max(farthest, span.farthest);
+  }
+  farthest *= 1.001;  // beyond rounding
+  nearest = std::max(0.999 * nearest, farthest / kFarthestByNearest);
+  frame_.nearMetres = static_cast<float>(nearest);
+  frame_.farMetres = static_cast<float>(farthest);
+
+  const glm::dvec2 size(camera.imageSize().width, camera.imageSize().height);
+  const tracking::Intrinsics& pinhole = camera.intrinsics();
+  const double range = farthest - nearest;
+  gpu::Program* receiver = shadow_ ? &shadow_->receiver() : nullptr;
+  SurfacePrograms& surfaces = programsOf(shading_);
+  for (gpu::Program* program : {&surfaces.solid, &surfaces.holed, &occluder_, receiver}) {
+    if (program == nullptr || !*program) continue;
+    program->use()
+        .set("clipFocal", glm::vec2(2.0 * glm::dvec2(pinhole.fx, pinhole.fy) / size))
+        .set("clipCentre", glm::vec2(2.0 * glm::dvec2(pinhole.cx, pinhole.cy) / size - 1.0))
+        .set("clipDepth",
+             glm::vec2((farthest + nearest) / range, -2.0 * farthest * nearest / range));
+    setLens(*program, camera);
+  }
+}
+
+void ArFrameRenderer::drawModels(const gpu::Texture& picture) {
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glDepthMask(GL_TRUE);
+  glFrontFace(GL_CW);  // image rows go down, GL's go up
+  for (const std::size_t i : visible_) drawModel(i, picture);
+  PosedGeometry::unbind();
+  glFrontFace(GL_CCW);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_DEPTH_TEST);
+}
+
+void ArFrameRenderer::drawModel(std::size_t index, const gpu::Texture& picture) {
+  if (geometry_.batches(index).empty()) return;
+  geometry_.bind(index);
+  const Model& model = geometry_.model(index);
+  const bool isOccluder = scene_.models[index].isOccluder;
+  for (const DrawBatch& batch : geometry_.batches(index)) {
+    const Material& material = model.materials[batch.material];
+    if (isOccluder) {
+      beginModel(occluder_, index).texture("picture", picture);
+    } else {
+      SurfacePrograms& programs = programsOf(shading_);
+      setMaterial(beginModel(isHoled(material) ? programs.holed : programs.solid, index), index,
+                  material);
+    }
+    (material.isDoubleSided ? glDisable : glEnable)(GL_CULL_FACE);
+    geometry_.draw(index, batch);
+  }
+}
+
+/// What all materials of a model share.
+gpu::Program& ArFrameRenderer::beginModel(gpu::Program& program, std::size_t index) {
+  const SceneModel& model = scene_.models[index];
+  const Body::Moment now = bodies_.model(index).now.value_or(Body::Moment{});
+  program.use();
+  setLighting(program, lights_[index]);
+  // Rotation and one scale: normals, of any length, go the same way as positions.
+  return program.set("cameraFromModel", glm::mat4(now.cameraFromBody))
+      .set("cameraFromModelNormals", glm::mat3(glm::dmat3(now.cameraFromBody)))
+      .set("object", objectId(scene_, index))
+      .set("focus", model.focus);
+}
+
+void ArFrameRenderer::setMaterial(gpu::Program& program, std::size_t index,
+                                  const Material& material) {
+  const glm::vec4 tint(linearFromSrgb(scene_.models[index].srgb), 1.0F);
+  program.set("baseColour", tint * material.baseColour)
+      .texture("baseTexture",
+               material.texture ? geometry_.textures(index)[*material.texture] : white_);
+  if (isHoled(material)) program.set("coverageCutoff", material.coverageCutoff);
+}
+
+void ArFrameRenderer::findSurfaces(const tracking::CameraModel& camera) {
+  if (!now_->known) now_->known.emplace(now_->ids.size());
+  surfacePass_->run(now_->ids, camera, bodies_, visible_, *now_->known);
+  frame_.barycentrics = &now_->known->barycentrics;
+  frame_.parts = &now_->known->parts;
+  camera_ = camera;
+  frame_.surfaces =
+      SurfaceAccess{.posed = geometry_.isEmpty() ? nullptr : &geometry_.posed(),
+                    .triangles = geometry_.isEmpty() ? nullptr : &geometry_.triangles(),
+                    .bodies = &surfacePass_->bodies(),
+                    .planeCount = scene_.planes.size(),
+                    .models = visible_,
+                    .objects = objects_,
+                    .camera = &*camera_};
+  if (!before_) return;
+  frame_.motion = SurfaceMotion{.texture = &now_->known->motion,
+                                .sinceSequence = before_->sequence,
+                                .sinceTime = before_->time};
+}
+
+}  // namespace pleinair::scene

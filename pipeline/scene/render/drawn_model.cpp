@@ -1,0 +1,235 @@
+#include "pipeline/scene/render/drawn_model.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/packing.hpp>
+
+namespace pleinair::scene {
+namespace {
+
+constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
+
+RestVertex restVertex(const Mesh& mesh, std::size_t index, const ModelPart& part) {
+  const MeshVertex& vertex = mesh.vertices[index];
+  RestVertex rest{.position = vertex.position,
+                  .firstMatrix = static_cast<std::uint32_t>(part.firstMatrix),
+                  .normal = octahedral(vertex.normal)};
+  // Beyond its joints' memory a shader must not read, whatever a mesh of another skin says.
+  const bool isSkinned = part.skin.has_value() && !mesh.joints.empty();
+  const JointWeights held = isSkinned ? mesh.joints[index] : JointWeights{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    assert(held.joints[i] < part.matrixCount);
+    rest.joints |= std::uint32_t{held.joints[i]} << (8 * i);
+  }
+  rest.weights = {glm::packUnorm2x16({held.weights[0], held.weights[1]}),
+                  glm::packUnorm2x16({held.weights[2], held.weights[3]})};
+  return rest;
+}
+
+LookVertex lookVertex(const MeshVertex& vertex) {
+  return {.texture = vertex.texture,
+          .colour = glm::u16vec4(65535.0F * glm::clamp(vertex.colour, 0.0F, 1.0F) + 0.5F)};
+}
+
+/// A mirrored part's triangles go the other way round.
+bool isMirrored(const ModelPart& part) {
+  return !part.skin && glm::determinant(glm::dmat3(part.modelFromPart)) < 0.0;
+}
+
+/// For each vertex the first one that is the same in all. Meshes that are made by code often have a
+/// vertex for each corner; what moves a vertex apart from its like keeps it.
+std::vector<std::uint32_t> firstAlike(const Mesh& mesh) {
+  static_assert(sizeof(MeshVertex) == 12 * sizeof(float));  // all bytes count
+  std::vector<std::uint32_t> first(mesh.vertices.size());
+  std::iota(first.begin(), first.end(), 0U);
+  if (!mesh.joints.empty() || !mesh.morphTargets.empty()) return first;
+  const auto order = [&](std::uint32_t a, std::uint32_t b) {
+    return std::memcmp(&mesh.vertices[a], &mesh.vertices[b], sizeof(MeshVertex));
+  };
+  std::vector<std::uint32_t> sorted = first;
+  std::ranges::sort(sorted, [&](std::uint32_t a, std::uint32_t b) {
+    const int found = order(a, b);
+    return found != 0 ? found < 0 : a < b;
+  });
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    if (order(sorted[i - 1], sorted[i]) == 0) first[sorted[i]] = first[sorted[i - 1]];
+  }
+  return first;
+}
+
+/// Turns each triangle so that its last vertex is the last of no other, where it can.
+std::vector<std::array<std::uint32_t, 3>> withOwnLastVertices(const Mesh& mesh, bool mirrored) {
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  triangles.reserve(mesh.triangles.size());
+  std::vector<bool> isTaken(mesh.vertices.size(), false);
+  const std::vector<std::uint32_t> alike = firstAlike(mesh);
+  for (std::array<std::uint32_t, 3> corners : mesh.triangles) {
+    for (std::uint32_t& corner : corners) corner = alike[corner];
+    if (mirrored) std::swap(corners[0], corners[1]);
+    const auto free =
+        std::ranges::find(corners, false, [&](std::uint32_t v) { return isTaken[v]; });
+    if (free != corners.end()) std::rotate(corners.begin(), std::next(free), corners.end());
+    isTaken[corners[2]] = true;
+    triangles.push_back(corners);
+  }
+  return triangles;
+}
+
+/// Writes a model out, a surface of a part after the other.
+class Layout {
+ public:
+  Layout(const Model& model, DrawnModel& drawn)
+      : model_(model), drawn_(drawn), nextExtra_(model.triangleCount()) {
+    const std::uint32_t triangles = model.triangleCount();
+    drawn_.rest.resize(triangles);
+    drawn_.looks.resize(triangles);
+    drawn_.triangles.reserve(triangles);
+    materials_.reserve(triangles);
+  }
+
+  void add(std::size_t partIndex, std::size_t surfaceIndex) {
+    const ModelPart& part = model_.parts[partIndex];
+    const Surface& surface = model_.surfaces[surfaceIndex];
+    const auto triangles = withOwnLastVertices(surface.mesh, isMirrored(part));
+    const auto firstTriangle = static_cast<std::uint32_t>(drawn_.triangles.size());
+    const std::uint32_t firstExtra = nextExtra_;
+    source_.clear();
+    place_.assign(surface.mesh.vertices.size(), kNoVertex);
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      place_[triangles[i][2]] = firstTriangle + static_cast<std::uint32_t>(i);
+    }
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      const std::uint32_t number = firstTriangle + static_cast<std::uint32_t>(i);
+      put(number, surface.mesh, triangles[i][2], part);
+      drawn_.triangles.push_back({{placeOf(triangles[i][0], surface.mesh, part),
+                                   placeOf(triangles[i][1], surface.mesh, part), number},
+                                  static_cast<std::uint32_t>(partIndex)});
+      materials_.push_back(surface.material);
+    }
+    addRange(firstTriangle, static_cast<std::uint32_t>(triangles.size()), surface.mesh, part);
+    addRange(firstExtra, nextExtra_ - firstExtra, surface.mesh, part);
+  }
+
+  void finish() {
+    std::ranges::sort(drawn_.ranges, {}, &PoseRange::firstVertex);
+    mergeRanges();
+    makeBatches();
+  }
+
+ private:
+  void put(std::uint32_t place, const Mesh& mesh, std::uint32_t vertex, const ModelPart& part) {
+    drawn_.rest[place] = restVertex(mesh, vertex, part);
+    drawn_.looks[place] = lookVertex(mesh.vertices[vertex]);
+    source_.emplace_back(place, vertex);
+  }
+
+  std::uint32_t placeOf(std::uint32_t vertex, const Mesh& mesh, const ModelPart& part) {
+    std::uint32_t& place = place_[vertex];
+    if (place == kNoVertex) {
+      place = nextExtra_++;
+      drawn_.rest.emplace_back();
+      drawn_.looks.emplace_back();
+      put(place, mesh, vertex, part);
+    }
+    return place;
+  }
+
+  void addRange(std::uint32_t first, std::uint32_t count, const Mesh& mesh, const ModelPart& part) {
+    if (count == 0) return;
+    PoseRange range{.firstVertex = first, .vertexCount = count};
+    if (!mesh.morphTargets.empty()) {
+      range.targetCount = static_cast<std::uint32_t>(mesh.morphTargets.size());
+      range.firstDelta = static_cast<std::uint32_t>(drawn_.deltas.size());
+      range.firstWeight = static_cast<std::uint32_t>(part.firstWeight);
+      addDeltas(range, mesh);
+    }
+    drawn_.ranges.push_back(range);
+  }
+
+  void addDeltas(const PoseRange& range, const Mesh& mesh) {
+    drawn_.deltas.resize(drawn_.deltas.size() + std::size_t{range.targetCount} * range.vertexCount);
+    for (std::size_t target = 0; target < mesh.morphTargets.size(); ++target) {
+      const MorphTarget& morph = mesh.morphTargets[target];
+      MorphDelta* row = &drawn_.deltas[range.firstDelta + target * range.vertexCount];
+      for (const auto& [place, vertex] : source_) {
+        if (place < range.firstVertex || place >= range.firstVertex + range.vertexCount) continue;
+        MorphDelta& delta = row[place - range.firstVertex];
+        delta.position = glm::vec4(morph.positions[vertex], 0.0F);
+        if (!morph.normals.empty()) delta.normal = glm::vec4(morph.normals[vertex], 0.0F);
+      }
+    }
+  }
+
+  /// Neighbours without morph targets are one range.
+  void mergeRanges() {
+    std::vector<PoseRange> merged;
+    for (const PoseRange& range : drawn_.ranges) {
+      const bool joins =
+          !merged.empty() && merged.back().targetCount == 0 && range.targetCount == 0;
+      if (joins) {
+        merged.back().vertexCount += range.vertexCount;
+      } else {
+        merged.push_back(range);
+      }
+    }
+    drawn_.ranges = std::move(merged);
+  }
+
+  /// Triangles in the order of their materials; of one material as they were.
+  void makeBatches() {
+    std::vector<std::uint32_t> order(drawn_.triangles.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return materials_[i]; });
+    drawn_.indices.reserve(3 * order.size());
+    for (const std::uint32_t number : order) {
+      if (drawn_.batches.empty() || drawn_.batches.back().material != materials_[number]) {
+        drawn_.batches.push_back({.material = materials_[number],
+                                  .firstIndex = static_cast<std::uint32_t>(drawn_.indices.size())});
+      }
+      const auto& corners = drawn_.triangles[number].corners;
+      drawn_.indices.insert(drawn_.indices.end(), corners.begin(), corners.end());
+      drawn_.batches.back().indexCount += 3;
+    }
+  }
+
+  const Model& model_;
+  DrawnModel& drawn_;
+  std::uint32_t nextExtra_;
+  std::vector<std::size_t> materials_;                           // of each triangle
+  std::vector<std::uint32_t> place_;                             // of a surface's vertices
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> source_;  // place, vertex of the surface
+};
+
+}  // namespace
+
+DrawnModel::DrawnModel(const Model& model) {
+  Layout layout(model, *this);
+  for (std::size_t part = 0; part < model.parts.size(); ++part) {
+    for (std::size_t i = 0; i < model.parts[part].surfaceCount; ++i) {
+      layout.add(part, model.parts[part].firstSurface + i);
+    }
+  }
+  layout.finish();
+}
+
+std::uint32_t octahedral(const glm::vec3& unit) {
+  const float sum = std::abs(unit.x) + std::abs(unit.y) + std::abs(unit.z);
+  if (!(sum > 0.0F)) return glm::packSnorm2x16({0.0F, 0.0F});
+  glm::vec2 flat = glm::vec2(unit) / sum;
+  if (unit.z < 0.0F) {
+    flat = glm::vec2((1.0F - std::abs(flat.y)) * (flat.x < 0.0F ? -1.0F : 1.0F),
+                     (1.0F - std::abs(flat.x)) * (flat.y < 0.0F ? -1.0F : 1.0F));
+  }
+  return glm::packSnorm2x16(flat);
+}
+
+}  // namespace pleinair::scene

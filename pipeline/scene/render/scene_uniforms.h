@@ -1,0 +1,24 @@
+#pragma once
+
+#include "pipeline/gpu/program.h"
+#include "pipeline/scene/light/lighting.h"
+#include "pipeline/tracking/camera/camera_model.h"
+
+namespace pleinair::scene {
+
+/// Fills the uniforms of shaders/lens.glsl. Precondition: the program is in use.
+void setLens(gpu::Program& program, const tracking::CameraModel& camera);
+
+/// Fills the uniforms of shaders/shading_toon.glsl and shading_smooth.glsl with light in the
+/// camera's frame. Precondition: the program is in use.
+void setLighting(gpu::Program& program, const Lighting& cameraLight);
+
+/// What toon shading multiplies sRGB-coded colours by where the key light does not reach: the
+/// ambient light's hue beside that of all light, as bright.
+glm::vec3 shadeTint(const Lighting& light);
+
+/// The factor of toon's darkest band: the thesis's 0.1, or where the ambient light is known, a
+/// little darker than what lies in its shade, so that models do not look burnt beside real things.
+float deepestShade(const Lighting& light);
+
+}  // namespace pleinair::scene

@@ -1,0 +1,44 @@
+// Purpose: what moves as one in front of the camera, and how the camera sees its points.
+// Inputs:  focal, centre: of the pinhole in px. Bodies come in uniform blocks (scene::SurfacePass
+//          writes them), which are read once for all invocations.
+// Outputs: where a point of a body is, in metres and in px, and how well that is known.
+// Precision: highp; metres, camera frame, px.
+#include "pipeline/scene/render/shaders/lens.glsl"
+
+struct Body {
+  vec4 now[3];   // rows: camera from body in this frame
+  vec4 then[3];  // in the frame before
+  vec4 turnsAbout;      // what errors turn about; w: 1 if known in both frames
+  vec4 errorTurns[6];   // square root of the poses' covariance, column by column: rad
+  vec4 errorShifts[6];  // metres
+  vec4 extent;          // of a plane: half its size
+  uvec4 places;         // of a model: first triangle, first vertex now, first vertex then
+  vec4 padding[11];     // to a block's alignment
+};
+
+uniform vec2 focal;
+uniform vec2 centre;
+
+vec3 transformed(vec4 rows[3], vec3 p) {
+  vec4 q = vec4(p, 1.0);
+  return vec3(dot(rows[0], q), dot(rows[1], q), dot(rows[2], q));
+}
+
+// Precondition: z > 0.
+vec2 projected(vec3 p) {
+  vec3 bent = throughLens(p);
+  return focal * bent.xy / bent.z + centre;
+}
+
+// One standard deviation of where a real body's point appears, over both axes, in px. The lens bends
+// too little to matter here.
+float predictedError(Body body, vec3 p) {
+  vec3 arm = p - body.turnsAbout.xyz;
+  float variance = 0.0;
+  for (int i = 0; i < 6; ++i) {
+    vec3 d = cross(body.errorTurns[i].xyz, arm) + body.errorShifts[i].xyz;
+    vec2 px = focal * (d.xy - p.xy / p.z * d.z) / p.z;
+    variance += dot(px, px);
+  }
+  return sqrt(variance);
+}

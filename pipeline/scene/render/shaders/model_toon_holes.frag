@@ -1,0 +1,13 @@
+// Purpose: a surface that is not there where its coverage is low, shaded in toon bands.
+// Inputs:  model_surface.glsl's, shading_toon.glsl's; coverageCutoff, below which nothing is.
+// Outputs: model_surface.glsl's. Precision: as there.
+#include "pipeline/scene/render/shaders/model_surface.glsl"
+#include "pipeline/scene/render/shaders/shading_toon.glsl"
+
+uniform float coverageCutoff;
+
+void main() {
+  vec4 surface = surfaceColour();
+  if (surface.a < coverageCutoff) discard;
+  writeSurface(surface.rgb);
+}

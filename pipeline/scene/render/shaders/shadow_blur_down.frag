@@ -1,0 +1,27 @@
+// Purpose: the second half of a shadow's blur: along columns. Fades at the map's rim.
+// Inputs:  map RGBA8 (shadow_blur_across.frag's); shadow_blur.glsl's.
+// Outputs: kept RG8: the share of the key light and of the ambient light that is kept off.
+// Precision: highp; sums of 25.
+#include "pipeline/scene/render/shaders/shadow_blur.glsl"
+
+uniform sampler2D map;
+
+layout(location = 0) out vec2 kept;
+
+void main() {
+  ivec2 texel = ivec2(gl_FragCoord.xy);
+  ivec2 size = textureSize(map, 0);
+  float key = 0.0;
+  float contact = 0.0;
+  for (int i = -kReach; i <= kReach; ++i) {
+    int y = texel.y + i;
+    if (y < 0 || y >= size.y) continue;
+    vec3 row = texelFetch(map, ivec2(texel.x, y), 0).rgb;
+    float distance = abs(float(i));
+    key += keyWeight(distance, row.g) * row.r;
+    contact += contactWeight(distance) * row.b;
+  }
+  vec2 fromRim = 0.5 - abs(gl_FragCoord.xy / vec2(size) - 0.5);
+  float fade = smoothstep(0.0, 0.06, min(fromRim.x, fromRim.y));
+  kept = fade * min(vec2(key, contact), 1.0);
+}

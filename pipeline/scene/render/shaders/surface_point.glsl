@@ -1,0 +1,61 @@
+// Purpose: the point of a model's surface behind a pixel, exactly: its triangle's corners and the
+//          barycentrics there, perspective-correct, as the rasteriser has them.
+// Inputs:  storage 0: posed vertices; 1: triangles (scene::PosedGeometry); the model's body;
+//          bodies.glsl's.
+// Outputs: the point, and where it is in this frame and the one before (camera frame, metres).
+// Precision: highp. Barycentrics come of areas relative to the pixel, which keeps their digits.
+#include "pipeline/scene/render/shaders/bodies.glsl"
+
+struct PosedVertex {
+  vec3 position;
+  uint normal;
+};
+layout(std430, binding = 0) readonly buffer Posed { PosedVertex posed[]; };
+layout(std430, binding = 1) readonly buffer Triangles { uvec4 triangles[]; };  // corners, part
+layout(std140, binding = 0) uniform OneBody { Body body; };
+
+struct SurfacePoint {
+  uvec3 corners;  // of the object's vertices
+  uint part;
+  vec3 barycentrics;
+};
+
+vec3 cameraPosition(uint corner) {
+  return transformed(body.now, posed[body.places.y + corner].position);
+}
+
+// In px, times depth, from the pixel's centre: linear on the triangle, also where a corner is behind
+// the camera.
+vec2 fromPixel(vec3 cameraPoint, vec2 px) {
+  vec3 p = throughLens(cameraPoint);
+  return focal * p.xy + (centre - px) * p.z;
+}
+
+SurfacePoint surfacePointAt(uint triangle, vec2 px) {
+  uvec4 entry = triangles[body.places.x + triangle];
+  vec2 a = fromPixel(cameraPosition(entry.x), px);
+  vec2 b = fromPixel(cameraPosition(entry.y), px);
+  vec2 c = fromPixel(cameraPosition(entry.z), px);
+  vec3 areas = vec3(b.x * c.y - b.y * c.x, c.x * a.y - c.y * a.x, a.x * b.y - a.y * b.x);
+  float sum = areas.x + areas.y + areas.z;
+  vec3 at = abs(sum) > 0.0 ? areas / sum : vec3(1.0 / 3.0);
+  at = clamp(at, 0.0, 1.0);  // a pixel's centre on an edge rounds to beyond it
+  return SurfacePoint(entry.xyz, entry.w, at / (at.x + at.y + at.z));
+}
+
+vec3 positionNow(SurfacePoint point) {
+  vec3 at = vec3(0.0);
+  for (int i = 0; i < 3; ++i) {
+    at += point.barycentrics[i] * posed[body.places.y + point.corners[i]].position;
+  }
+  return transformed(body.now, at);
+}
+
+// Precondition: the model is known in the frame before.
+vec3 positionThen(SurfacePoint point) {
+  vec3 at = vec3(0.0);
+  for (int i = 0; i < 3; ++i) {
+    at += point.barycentrics[i] * posed[body.places.z + point.corners[i]].position;
+  }
+  return transformed(body.then, at);
+}

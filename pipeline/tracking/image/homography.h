@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <opencv2/core.hpp>
+
+#include "hal/pixel_format.h"
+
+namespace pleinair::tracking {
+
+/// Where a homography takes a point.
+glm::dvec2 movedBy(const glm::dmat3& homography, const glm::dvec2& px);
+
+/// The middles of a grid of fields over a picture: where averages over all of it are taken.
+template <class F>
+void forPlaces(hal::FrameSize size, F&& visit) {
+  constexpr int kAcross = 5;
+  constexpr int kDown = 4;
+  for (int j = 0; j < kDown; ++j) {
+    for (int i = 0; i < kAcross; ++i) {
+      visit(glm::dvec2((i + 0.5) / kAcross * size.width, (j + 0.5) / kDown * size.height));
+    }
+  }
+}
+
+/// Root mean square, over a picture, of how far a homography takes its points.
+double rmsMotion(const glm::dmat3& homography, hal::FrameSize size);
+
+/// A point of which two places are known, px of the frame.
+struct PointPair {
+  glm::dvec2 then{0.0};
+  glm::dvec2 now{0.0};
+  double errorPx = 0.0;  ///< predicted, of now - then
+};
+
+struct HomographyFit {
+  glm::dmat3 nowFromThen{1.0};
+  double fitErrorPx = 0.0;    ///< predicted, of where it takes a point of the picture, on average
+  double modelErrorPx = 0.0;  ///< by how much more than was predicted points deviate from it
+  std::size_t agreeing = 0;
+};
+
+/// Fits homographies to pairs of which some are wrong: RANSAC for which of them agree, and least
+/// squares on all that do, weighted by their errors. One thread at a time.
+class HomographyFitter {
+ public:
+  /// Nothing where too few agree, or over too little of the picture.
+  std::optional<HomographyFit> fit(std::span<const PointPair> pairs, hal::FrameSize size);
+  /// Whether a pair of the last fit agrees with it.
+  bool agrees(std::size_t i) const { return agrees_[i] != 0; }
+
+ private:
+  using Vector8 = cv::Vec<double, 8>;
+  using Matrix8 = cv::Matx<double, 8, 8>;
+  bool findAgreeing(std::span<const PointPair> pairs, hal::FrameSize size, glm::dmat3& start);
+  struct Sums;
+  Sums sumUp(std::span<const PointPair> pairs, hal::FrameSize size, const Vector8& h,
+             double excess) const;
+  std::optional<HomographyFit> refine(std::span<const PointPair> pairs, hal::FrameSize size,
+                                      const glm::dmat3& start) const;
+  bool coversEnough(std::span<const PointPair> pairs, hal::FrameSize size) const;
+
+  std::vector<cv::Point2f> from_;
+  std::vector<cv::Point2f> to_;
+  std::vector<unsigned char> agrees_;
+};
+
+}  // namespace pleinair::tracking

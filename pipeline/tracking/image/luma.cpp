@@ -1,0 +1,121 @@
+#include "pipeline/tracking/image/luma.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include <opencv2/imgproc.hpp>
+#include <opencv2/video/tracking.hpp>
+
+namespace pleinair::tracking {
+namespace {
+
+using hal::PixelFormat;
+
+/// A header over somebody else's pixels, which OpenCV only reads.
+cv::Mat matOver(const hal::ImageView& image, int type) {
+  const hal::PlaneView& plane = image.planes[0];
+  auto* const bytes = const_cast<std::uint8_t*>(plane.bytes.data());
+  return {image.format.size.height, image.format.size.width, type, bytes, plane.strideBytes};
+}
+
+/// OpenCV names a mosaic by the second row's second and third pixel: its BG is our RGGB.
+int bayerConversion(PixelFormat format) {
+  switch (format) {
+    case PixelFormat::kBayerRggb8:
+      return cv::COLOR_BayerBG2GRAY;
+    case PixelFormat::kBayerGrbg8:
+      return cv::COLOR_BayerGB2GRAY;
+    case PixelFormat::kBayerGbrg8:
+      return cv::COLOR_BayerGR2GRAY;
+    default:
+      return cv::COLOR_BayerRG2GRAY;
+  }
+}
+
+}  // namespace
+
+hal::PlaneView LumaConverter::convert(const hal::ImageView& image) {
+  assert(image.isComplete());
+  if (const std::optional<hal::PlaneView> own = hal::lumaPlane(image)) return *own;
+
+  const hal::FrameSize size = image.format.size;
+  buffer_.resize(static_cast<std::size_t>(size.pixels()));
+  cv::Mat luma(size.height, size.width, CV_8UC1, buffer_.data());
+  switch (image.format.pixelFormat) {
+    case PixelFormat::kRgb8:
+      cv::cvtColor(matOver(image, CV_8UC3), luma, cv::COLOR_RGB2GRAY);
+      break;
+    case PixelFormat::kRgba8:
+      cv::cvtColor(matOver(image, CV_8UC4), luma, cv::COLOR_RGBA2GRAY);
+      break;
+    case PixelFormat::kYuyv:
+      cv::extractChannel(matOver(image, CV_8UC2), luma, 0);
+      break;
+    default:
+      cv::cvtColor(matOver(image, CV_8UC1), luma, bayerConversion(image.format.pixelFormat));
+      break;
+  }
+  assert(luma.data == buffer_.data());
+  return {.bytes = buffer_, .strideBytes = static_cast<std::size_t>(size.width)};
+}
+
+void LumaPyramid::load(const hal::PlaneView& luma, hal::FrameSize frameSize, int longSidePx) {
+  auto* const bytes = const_cast<std::uint8_t*>(luma.bytes.data());  // OpenCV only reads them
+  const cv::Mat full(frameSize.height, frameSize.width, CV_8UC1, bytes, luma.strideBytes);
+  const double scale = static_cast<double>(std::max(frameSize.width, frameSize.height)) /
+                       static_cast<double>(longSidePx);
+  frameSize_ = frameSize;
+  if (scale > 1.0) {
+    const cv::Size small(std::max(1, static_cast<int>(std::lround(frameSize.width / scale))),
+                         std::max(1, static_cast<int>(std::lround(frameSize.height / scale))));
+    cv::resize(full, reduced_, small, 0.0, 0.0, cv::INTER_AREA);
+    reduction_ = {static_cast<double>(frameSize.width) / small.width,
+                  static_cast<double>(frameSize.height) / small.height};
+  } else {
+    reduced_ = full;
+    reduction_ = glm::dvec2(1.0);
+  }
+  cv::buildOpticalFlowPyramid(reduced_, levels_, {kWindowPx, kWindowPx}, kLevels, true,
+                              cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, false);
+  if (scale <= 1.0) reduced_.release();  // it is not ours
+}
+
+bool LumaPyramid::isInside(const cv::Point2f& own, double border) const {
+  const cv::Size size = picture().size();
+  return own.x > border && own.y > border && own.x < size.width - border &&
+         own.y < size.height - border;
+}
+
+void LumaFrame::take(const hal::ImageView& image) {
+  image_ = image;
+  size_ = image.format.size;
+  luma_.reset();
+  pyramid_.reset();
+}
+
+void LumaFrame::take(const hal::PlaneView& luma, hal::FrameSize size) {
+  luma_ = luma;
+  size_ = size;
+  pyramid_.reset();
+}
+
+const hal::PlaneView& LumaFrame::luma() {
+  if (!luma_) luma_ = converter_.convert(image_);
+  return *luma_;
+}
+
+std::shared_ptr<const LumaPyramid> LumaFrame::pyramid() {
+  if (pyramid_) return pyramid_;
+  const auto free =
+      std::ranges::find_if(pyramids_, [](const auto& each) { return each.use_count() == 1; });
+  const auto made =
+      free != pyramids_.end() ? *free : pyramids_.emplace_back(std::make_shared<LumaPyramid>());
+  made->load(luma(), size_, kLongSidePx);
+  pyramid_ = made;
+  return pyramid_;
+}
+
+}  // namespace pleinair::tracking

@@ -1,0 +1,187 @@
+#include "pipeline/tracking/image/search_patch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include <glm/geometric.hpp>
+#include <opencv2/core/hal/intrin.hpp>
+
+namespace pleinair::tracking {
+namespace {
+
+constexpr int kLanes = 8;  // of a vector
+constexpr int kScaleBits = 4;
+constexpr int kScale = 1 << kScaleBits;  // of differences, to levels
+constexpr int kWeightBits = 6;
+constexpr int kWeights = 1 << kWeightBits;  // of a pixel and its neighbour, along an axis
+constexpr int kSteps = 3;
+constexpr double kEnoughPx = 0.02;  // a smaller step is the last
+constexpr double kFarPx = 2.0;      // from the guess: it has gone astray
+
+cv::v_int16x8 eight(const std::uint8_t* levels) {
+  return cv::v_reinterpret_as_s16(cv::v_load_expand(levels));
+}
+
+/// The same two numbers again and again.
+cv::v_int16x8 pairs(int even, int odd) {
+  const auto low = static_cast<unsigned>(even) & 0xFFFFU;
+  return cv::v_reinterpret_as_s16(cv::v_setall_u32(low | static_cast<unsigned>(odd) << 16));
+}
+
+/// Sums up products of vectors.
+class Sum {
+ public:
+  void add(const cv::v_int16x8& a, const cv::v_int16x8& b) { sum_ = cv::v_dotprod(a, b, sum_); }
+  double get() const { return cv::v_reduce_sum(sum_); }
+
+ private:
+  cv::v_int32x4 sum_ = cv::v_setzero_s32();
+};
+
+}  // namespace
+
+template <int kSide>
+SearchPatch<kSide>::SearchPatch(const cv::Mat& picture, const cv::Point& middle)
+    : corner_(middle - cv::Point(kSide / 2, kSide / 2)) {
+  static_assert(kSide % kLanes == 0);
+  const cv::v_int16x8 ones = cv::v_setall_s16(1);
+  Sum x1, y1, m1, xx, xy, yy, mm;
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; x += kLanes) {
+      const int at = corner_.x + x;
+      const auto* const row = picture.ptr<std::uint8_t>(corner_.y + y) + at;
+      const cv::v_int16x8 level = eight(row);
+      const cv::v_int16x8 gx = eight(row + 1) - eight(row - 1);
+      const cv::v_int16x8 gy = eight(picture.ptr<std::uint8_t>(corner_.y + y + 1) + at) -
+                               eight(picture.ptr<std::uint8_t>(corner_.y + y - 1) + at);
+      cv::v_store(&levels_[y][x], level);
+      cv::v_store(&gradientX_[y][x], gx);
+      cv::v_store(&gradientY_[y][x], gy);
+      x1.add(gx, ones);
+      y1.add(gy, ones);
+      m1.add(level, ones);
+      xx.add(gx, gx);
+      xy.add(gx, gy);
+      yy.add(gy, gy);
+      mm.add(level, level);
+    }
+  }
+  constexpr double kPixels = kSide * kSide;
+  meanX_ = x1.get() / kPixels;
+  meanY_ = y1.get() / kPixels;
+  xx_ = xx.get() - meanX_ * x1.get();
+  xy_ = xy.get() - meanX_ * y1.get();
+  yy_ = yy.get() - meanY_ * y1.get();
+  contrast_ = std::sqrt(std::max(0.0, mm.get() / kPixels - std::pow(m1.get() / kPixels, 2)));
+}
+
+template <int kSide>
+cv::Point SearchPatch<kSide>::middleNear(const cv::Mat& picture, const cv::Point2f& point) {
+  return {std::clamp(cvRound(point.x + 0.5F), kReach, picture.cols - kReach),
+          std::clamp(cvRound(point.y + 0.5F), kReach, picture.rows - kReach)};
+}
+
+template <int kSide>
+double SearchPatch<kSide>::placing(double noise, bool isBrightnessKnown) const {
+  // Noise alone has gradients, too: twice its variance in each difference. What is left of them is
+  // not sure where there is little more than that.
+  constexpr double kLeft = 0.25;
+  const double flat = 2.0 * noise * noise * kSide * kSide;
+  const double known = isBrightnessKnown ? kSide * kSide : 0.0;
+  const double allX = xx_ + known * meanX_ * meanX_;
+  const double allY = yy_ + known * meanY_ * meanY_;
+  const double xy = xy_ + known * meanX_ * meanY_;
+  const double xx = std::max(kLeft * allX, allX - flat);
+  const double yy = std::max(kLeft * allY, allY - flat);
+  const double determinant = xx * yy - xy * xy;
+  if (!(determinant > 0.0)) return kMostPlacing;
+  return std::min(2.0 * std::sqrt((xx + yy) / determinant), kMostPlacing);
+}
+
+template <int kSide>
+typename SearchPatch<kSide>::Sums SearchPatch<kSide>::compare(const cv::Mat& other,
+                                                              const glm::dvec2& moved) const {
+  const int left = cvFloor(moved.x);
+  const int top = cvFloor(moved.y);
+  const int x0 = corner_.x + left;
+  const int y0 = corner_.y + top;
+  if (x0 < 0 || y0 < 0 || x0 + kSide >= other.cols || y0 + kSide >= other.rows) return {};
+  const int u = cvRound((moved.x - left) * kWeights);
+  const int v = cvRound((moved.y - top) * kWeights);
+  // Of a pixel and its right neighbour, in pairs; then of those below.
+  const cv::v_int16x8 above = pairs((kWeights - u) * (kWeights - v), u * (kWeights - v));
+  const cv::v_int16x8 under = pairs((kWeights - u) * v, u * v);
+  constexpr int kShift = 2 * kWeightBits - kScaleBits;
+  const cv::v_int16x8 ones = cv::v_setall_s16(1);
+  Sum d1, dx, dy;
+  double dd = 0.0;
+  for (int y = 0; y < kSide; ++y) {
+    Sum squares;  // of a row, which 32 bits hold
+    for (int x = 0; x < kSide; x += kLanes) {
+      const auto* const row = other.ptr<std::uint8_t>(y0 + y) + x0 + x;
+      const auto* const below = other.ptr<std::uint8_t>(y0 + y + 1) + x0 + x;
+      cv::v_int16x8 rowLow, rowHigh, belowLow, belowHigh;
+      cv::v_zip(eight(row), eight(row + 1), rowLow, rowHigh);
+      cv::v_zip(eight(below), eight(below + 1), belowLow, belowHigh);
+      const cv::v_int32x4 low = cv::v_dotprod(belowLow, under, cv::v_dotprod(rowLow, above));
+      const cv::v_int32x4 high = cv::v_dotprod(belowHigh, under, cv::v_dotprod(rowHigh, above));
+      const cv::v_int16x8 level = cv::v_load(&levels_[y][x]);
+      const cv::v_int16x8 difference = cv::v_rshr_pack<kShift>(low, high) - (level << kScaleBits);
+      d1.add(difference, ones);
+      dx.add(difference, cv::v_load(&gradientX_[y][x]));
+      dy.add(difference, cv::v_load(&gradientY_[y][x]));
+      squares.add(difference, difference);
+    }
+    dd += squares.get();
+  }
+  constexpr double kPixels = kSide * kSide;
+  const double sum = d1.get();
+  return {.x = dx.get() - meanX_ * sum,
+          .y = dy.get() - meanY_ * sum,
+          .variance = std::max(0.0, dd - sum * sum / kPixels) / ((kPixels - 1.0) * kScale * kScale),
+          .brightness = sum / (kPixels * kScale),
+          .isInside = true};
+}
+
+template <int kSide>
+PatchMatch SearchPatch<kSide>::at(const cv::Mat& other, const glm::dvec2& moved) const {
+  const Sums sums = compare(other, moved);
+  return {.moved = moved,
+          .variance = sums.variance,
+          .brightness = sums.brightness,
+          .isInside = sums.isInside};
+}
+
+template <int kSide>
+PatchMatch SearchPatch<kSide>::refined(const cv::Mat& other, const PatchMatch& guess, double noise,
+                                       double guessPx) const {
+  // A guess is as good as what differences of the noise's size say of so large a shift. Gradients
+  // are twice too large.
+  const double hold = 4.0 * 2.0 * noise * noise / (guessPx * guessPx);
+  const double xx = xx_ + hold;
+  const double yy = yy_ + hold;
+  const double determinant = xx * yy - xy_ * xy_;
+  if (!(determinant > 0.0)) return guess;
+  glm::dvec2 moved = guess.moved;
+  Sums sums = compare(other, moved);
+  for (int step = 0; step < kSteps && sums.isInside; ++step) {
+    constexpr double kUnits = 2.0 / kScale;  // of gradients, squared, over the sums'
+    const glm::dvec2 right = kUnits * glm::dvec2(sums.x, sums.y) + hold * (moved - guess.moved);
+    const glm::dvec2 change(-(yy * right.x - xy_ * right.y) / determinant,
+                            -(xx * right.y - xy_ * right.x) / determinant);
+    moved += change;
+    const glm::dvec2 away = moved - guess.moved;
+    if (!(glm::dot(away, away) < kFarPx * kFarPx)) return guess;
+    sums = compare(other, moved);
+    if (glm::dot(change, change) < kEnoughPx * kEnoughPx) break;
+  }
+  if (!sums.isInside || sums.variance > guess.variance) return guess;
+  return {
+      .moved = moved, .variance = sums.variance, .brightness = sums.brightness, .isInside = true};
+}
+
+template class SearchPatch<8>;
+template class SearchPatch<16>;
+
+}  // namespace pleinair::tracking

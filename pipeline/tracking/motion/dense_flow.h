@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/video/tracking.hpp>
+
+#include "pipeline/tracking/image/luma.h"
+#include "pipeline/tracking/motion/image_motion.h"
+
+namespace pleinair::tracking {
+
+class Stillness;
+
+/// Dense optical flow between two frames, there and back: by dense inverse search at half the
+/// pyramid's size (Kroeger et al., "Fast optical flow using dense inverse search", 2016), or by the
+/// picture's homography where that fits as well, refined patch by patch in the whole picture. Its
+/// error is predicted from noise and texture, and from how far the two directions disagree. One
+/// thread at a time; OpenCV's help.
+class DenseFlowEstimator {
+ public:
+  DenseFlowEstimator();
+
+  /// Flow from one frame to the next, of one size. Zero to the bit where fields are still.
+  void update(const LumaPyramid& then, const LumaPyramid& now,
+              const std::optional<PictureHomography>& picture, const Stillness* stillness,
+              double noise);
+  /// Valid until the next update().
+  DenseFlow flow() const;
+
+  static constexpr int kStepPx = 8;  ///< between nodes, about, of the pyramid's picture
+
+ private:
+  /// One of the two directions.
+  struct Way {
+    cv::Ptr<cv::DISOpticalFlow> search;
+    cv::Mat coarse;
+    std::vector<glm::vec4> nodes;
+  };
+  void place(const LumaPyramid& now);
+  /// Where most of the picture goes.
+  struct Along {
+    glm::dmat3 toFromFrom{1.0};
+    double guessPx = 0.0;  // how good a guess that is
+    bool isKnown = false;
+    bool isHeld = false;  // it does not move, to the bit
+  };
+  void flowOneWay(Way& way, const LumaPyramid& from, const LumaPyramid& to,
+                  const cv::Mat& fromSmall, const cv::Mat& toSmall, const Along& along,
+                  double noise) const;
+  double edge(const std::vector<glm::vec4>& nodes, std::size_t index) const;
+  void disagree(const std::vector<glm::vec4>& back, std::vector<glm::vec4>& nodes) const;
+  bool standStill(const Stillness* stillness);
+  glm::dvec2 nodePx(std::size_t index) const;
+
+  hal::FrameSize frameSize_;
+  hal::FrameSize grid_;
+  glm::dvec2 stepPx_{1.0};
+  glm::dvec2 reduction_{1.0};
+  std::array<cv::Mat, 2> small_;  // of the two frames
+  std::array<Way, 2> ways_;
+  std::vector<float> stillErrors_;  // of each node; kNotStill where flow is asked for
+};
+
+}  // namespace pleinair::tracking

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <opencv2/core.hpp>
+#include <opencv2/features2d.hpp>
+
+#include "hal/pixel_format.h"
+#include "pipeline/tracking/motion/feature_tracker.h"
+#include "pipeline/tracking/motion/motion_outliers.h"
+
+namespace pleinair::tracking {
+
+/// The thesis's tracker (§4.3.2): Harris corners, those stronger than a fifth of the strongest,
+/// with SIFT descriptors, matched with the frame before by the ratio test; the search is by FLANN's
+/// k-d trees, as the thesis suggests. Here placed between pixels, and without those whose
+/// neighbours all move otherwise: its only test against cross-matches is the ratio.
+class HarrisSiftTracker : public FeatureTracker {
+ public:
+  HarrisSiftTracker();
+
+  std::span<const SeenFeature> follow(std::shared_ptr<const LumaPyramid> now,
+                                      double noise) override;
+  double foundShare() const override { return foundShare_; }
+  void reset() override;
+
+ private:
+  /// The features of a frame.
+  struct Features {
+    std::vector<cv::Point2f> places;  // own px of the pyramid
+    std::vector<std::uint32_t> ids;
+    cv::Mat descriptors;
+  };
+  struct Match {
+    int now = 0;
+    int then = 0;
+  };
+
+  void findCorners(const LumaPyramid& now);
+  void describe(const LumaPyramid& now);
+  void match();
+  void publish(const LumaPyramid& now);
+
+  cv::Ptr<cv::SIFT> sift_;
+  cv::FlannBasedMatcher matcher_;
+  MotionOutliers outliers_;
+  Features then_;
+  Features now_;
+  std::vector<cv::KeyPoint> keypoints_;
+  cv::Mat strength_;
+  cv::Mat strongestNear_;
+  std::vector<std::vector<cv::DMatch>> nearest_;
+  std::vector<Match> matches_;
+  std::vector<float> bestOfThen_;
+  std::vector<cv::Point2f> places_;  // of matches
+  std::vector<cv::Point2f> steps_;
+  std::vector<SeenFeature> seen_;
+  hal::FrameSize frameSize_;
+  std::uint32_t nextId_ = 0;
+  double foundShare_ = 0.0;
+};
+
+}  // namespace pleinair::tracking

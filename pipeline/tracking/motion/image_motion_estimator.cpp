@@ -1,0 +1,84 @@
+#include "pipeline/tracking/motion/image_motion_estimator.h"
+
+#include <algorithm>
+
+#include "pipeline/tracking/image/luma.h"
+#include "pipeline/tracking/motion/cut_detector.h"
+#include "pipeline/tracking/motion/dense_flow.h"
+#include "pipeline/tracking/motion/feature_tracker.h"
+#include "pipeline/tracking/motion/picture_hold.h"
+#include "pipeline/tracking/motion/stillness.h"
+
+namespace pleinair::tracking {
+struct ImageMotionEstimator::State {
+  explicit State(const ImageMotionOptions& wanted)
+      : options(wanted), tracker(makeFeatureTracker(wanted.features)) {}
+
+  ImageMotionOptions options;
+  LumaFrame own;  // of frames that come as luma alone
+  std::shared_ptr<const LumaPyramid> then;
+  std::unique_ptr<FeatureTracker> tracker;
+  CutDetector cuts;
+  PictureHold hold;
+  Stillness stillness;
+  DenseFlowEstimator flow;
+  ImageMotion motion;
+  std::uint64_t lastSequence = 0;
+
+  void forget() {
+    tracker->reset();
+    hold.reset();
+    stillness.reset();
+  }
+};
+
+ImageMotionEstimator::ImageMotionEstimator(ImageMotionOptions options)
+    : state_(std::make_unique<State>(options)) {}
+
+ImageMotionEstimator::~ImageMotionEstimator() = default;
+
+void ImageMotionEstimator::reset() {
+  state_->forget();
+  state_->cuts.reset();
+  state_->then.reset();
+}
+
+const ImageMotion& ImageMotionEstimator::follow(const hal::PlaneView& luma, hal::FrameSize size,
+                                                std::uint64_t sequence) {
+  state_->own.take(luma, size);
+  return follow(state_->own, sequence);
+}
+
+const ImageMotion& ImageMotionEstimator::follow(LumaFrame& frame, std::uint64_t sequence) {
+  State& s = *state_;
+  const hal::FrameSize size = frame.size();
+  if (s.then && s.then->frameSize() != size) reset();
+  const std::shared_ptr<const LumaPyramid> now = frame.pyramid();
+  const double scale = std::max(now->reduction().x, now->reduction().y);
+
+  const std::span<const SeenFeature> seen = s.tracker->follow(now, s.stillness.noise());
+  s.motion = {.frameSize = size, .sinceSequence = s.then ? s.lastSequence : sequence};
+  s.motion.isCut = s.cuts.isCut(*now, s.tracker->foundShare());
+  if (s.motion.isCut) {
+    s.forget();
+    s.tracker->follow(now, s.stillness.noise());
+  } else {
+    s.hold.update(seen, size, scale);
+    s.motion.features = s.hold.features();
+    s.motion.picture = s.hold.picture();
+  }
+  if (s.options.stillness) s.stillness.update(*now, s.motion.picture);
+  if (s.options.stillness && !s.motion.isCut) s.motion.still = s.stillness.fields();
+  if (s.options.flow && !s.motion.isCut) {
+    s.flow.update(*s.then, *now, s.motion.picture, s.options.stillness ? &s.stillness : nullptr,
+                  s.stillness.noise());
+    s.motion.flow = s.flow.flow();
+  }
+  // Averaging over a reduced picture's px takes noise away.
+  s.motion.noiseLevels = s.stillness.noise() * scale;
+  s.then = now;
+  s.lastSequence = sequence;
+  return s.motion;
+}
+
+}  // namespace pleinair::tracking

@@ -1,0 +1,388 @@
+#include "pipeline/tracking/motion/lucas_kanade_tracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "pipeline/tracking/image/homography.h"
+#include "pipeline/tracking/motion/cut_detector.h"
+#include "pipeline/tracking/motion/image_motion.h"
+
+namespace pleinair::tracking {
+namespace {
+
+// Features are sought where a field of this grid has none.
+constexpr int kColumns = 18;
+constexpr int kRows = 14;
+constexpr double kBorderPx = 6.0;
+constexpr int kFewLevels = 1;
+constexpr double kBackPx = 0.4;  // from where a feature came
+/// Grey levels (RMS) by which a feature may look different: lost, worn.
+constexpr double kLargestDifference = 20.0;
+constexpr double kNoiseDifference = 3.75;
+constexpr double kRmsByMean = 1.25;    // of normally distributed differences
+constexpr double kLightLevels = 1.5;   // by which a feature is brighter or darker
+constexpr double kLostContrast = 0.8;  // and of the window's contrast
+constexpr double kWornContrast = 0.25;
+constexpr double kMostPlacing = 0.12;  // px of error by a level of noise: more is no corner
+constexpr int kMostMissing = 12;       // frames that a feature is looked for in vain
+// Predicted errors: docs/measured.md says how they agree with true ones.
+constexpr double kPlacing = 1.3;  // of Cramér and Rao's bound
+constexpr double kLeastErrorPx = 0.008;
+constexpr double kBackPart = 0.5;
+/// Of the features, or of larger fields with one, that there were after the last key frame, the
+/// part that is too few …
+constexpr double kFew = 0.75;
+constexpr double kFewFields = 0.88;
+constexpr int kFieldCells = 2;  // on each side of a larger field
+/// … or of the features, the part whose looks have changed, which is enough for a new one.
+constexpr double kManyWorn = 0.15;
+constexpr int kKeyFrames = 4;  // between two key frames, unless most are lost
+constexpr double kVeryFew = 0.5;
+constexpr int kSeekFrames = 8;         // new corners are looked for that often at least …
+constexpr std::size_t kWorthAKey = 4;  // … and so many of them are worth a key frame
+/// Features farther from where the picture would take them go there if they look as good there.
+constexpr double kAstrayPx = 1.5;
+constexpr double kAsGood = 1.2;
+constexpr double kAsGoodLevels = 0.5;
+constexpr double kLostShare = 0.3;  // fewer found: the whole picture may have jumped
+constexpr std::size_t kLeastToJudge = 12;
+
+double lengthOf(const cv::Point2f& p) {
+  return std::sqrt(static_cast<double>(p.dot(p)));
+}
+
+}  // namespace
+
+LucasKanadeTracker::LucasKanadeTracker() {
+  features_.reserve(kMostMovedFeatures);
+  seen_.reserve(kMostMovedFeatures);
+  reset();
+}
+
+void LucasKanadeTracker::reset() {
+  for (auto& key : keys_) key.reset();
+  then_.reset();
+  features_.clear();
+  seen_.clear();
+  framesSinceKey_ = kSeekFrames;
+  foundShare_ = 0.0;
+  keySpread_ = {};
+}
+
+FeaturePatch LucasKanadeTracker::patchAt(const LumaPyramid& pyramid, const cv::Point2f& at) {
+  return {pyramid.picture(), FeaturePatch::middleNear(pyramid.picture(), at)};
+}
+
+/// Whether what Lucas and Kanade found is the feature, and where exactly: apart from light.
+void LucasKanadeTracker::judge(Feature& feature, const LumaPyramid& now, std::size_t of,
+                               const cv::Point2f& found) {
+  feature.isFound =
+      follower_.isFound(of) && now.isInside(found, kBorderPx) && follower_.backPx(of) < kBackPx;
+  if (!feature.isFound) return;
+  const cv::Point2f moved = found - feature.origin;
+  PatchMatch match = feature.patch.at(now.picture(), {moved.x, moved.y});
+  // Lucas and Kanade take a change of brightness for motion; without one they place best.
+  const bool hasLightChanged = match.isInside && std::abs(match.brightness) > kLightLevels;
+  if (hasLightChanged) match = feature.patch.refined(now.picture(), match, noise_);
+  const cv::Point2f at = hasLightChanged
+                             ? feature.origin + cv::Point2f(static_cast<float>(match.moved.x),
+                                                            static_cast<float>(match.moved.y))
+                             : found;
+  const double difference =
+      match.isInside ? std::sqrt(match.variance) : kRmsByMean * follower_.difference(of);
+  const double contrast = feature.patch.contrast();
+  feature.isFound =
+      difference < kLargestDifference && difference < kNoiseDifference + kLostContrast * contrast;
+  if (!feature.isFound) return;
+  feature.difference = difference;
+  feature.isWorn = difference > kNoiseDifference + kWornContrast * contrast;
+  const double placing = kPlacing * difference * feature.patch.placing(noise_, !hasLightChanged);
+  const double scale = std::max(now.reduction().x, now.reduction().y);
+  feature.errorPx =
+      scale * glm::length(glm::dvec3(placing, kBackPart * follower_.backPx(of), kLeastErrorPx));
+  feature.step = at - feature.then;
+  feature.at = at;
+}
+
+/// Of the features that have not been found yet, all or those that were found in the frame before.
+void LucasKanadeTracker::find(const LumaPyramid& now, bool all, int levels) {
+  for (std::size_t key = 0; key < kKeys; ++key) {
+    members_.clear();
+    origins_.clear();
+    points_.clear();
+    for (std::size_t i = 0; i < features_.size(); ++i) {
+      const Feature& feature = features_[i];
+      if (feature.key != key || feature.isFound || !(all || feature.wasFound)) continue;
+      members_.push_back(i);
+      origins_.push_back(feature.origin);
+      points_.push_back(feature.then + feature.step);
+    }
+    if (members_.empty()) continue;
+    follower_.follow(*keys_[key], now, origins_, points_, levels);
+    for (std::size_t m = 0; m < members_.size(); ++m) {
+      judge(features_[members_[m]], now, m, points_[m]);
+    }
+  }
+}
+
+/// Looks for the features again where the picture as a whole may have jumped to.
+bool LucasKanadeTracker::searchWidely(const LumaPyramid& now) {
+  Thumbnail before;
+  Thumbnail after;
+  before.load(*then_);
+  after.load(now);
+  const Thumbnail::Match match = before.match(after);
+  const cv::Size size = now.picture().size();
+  const cv::Point2f jump(static_cast<float>(match.shift.x * size.width),
+                         static_cast<float>(match.shift.y * size.height));
+  constexpr double kLeastCorrelation = 0.5;
+  if (match.correlation < kLeastCorrelation || jump == cv::Point2f()) return false;
+  for (Feature& feature : features_) {
+    if (!feature.isFound) feature.step = jump;
+  }
+  find(now, true, LumaPyramid::kLevels);
+  return true;
+}
+
+void LucasKanadeTracker::rejectOutliers() {
+  members_.clear();
+  points_.clear();
+  steps_.clear();
+  for (std::size_t i = 0; i < features_.size(); ++i) {
+    const Feature& feature = features_[i];
+    if (!feature.isFound || !feature.wasFound) continue;
+    members_.push_back(i);
+    points_.push_back(feature.at);
+    steps_.push_back(feature.step);
+  }
+  outliers_.judge(points_, steps_);
+  for (std::size_t m = 0; m < members_.size(); ++m) {
+    if (outliers_.isOutlier(m)) features_[members_[m]].isFound = false;
+  }
+}
+
+/// Looks once more for features that do not go along with the picture, where it would take them:
+/// repeated patterns look the same a few px on.
+void LucasKanadeTracker::reconsider(const LumaPyramid& now) {
+  pairs_.clear();
+  for (const Feature& feature : features_) {
+    if (!feature.isFound || !feature.wasFound) continue;
+    pairs_.push_back({.then = {feature.then.x, feature.then.y},
+                      .now = {feature.at.x, feature.at.y},
+                      .errorPx = feature.errorPx});
+  }
+  const auto fit = fitter_.fit(pairs_, {now.picture().cols, now.picture().rows});
+  if (!fit) return;
+  before_ = features_;
+  for (Feature& feature : features_) {
+    if (!feature.wasFound) continue;
+    const glm::dvec2 along = movedBy(fit->nowFromThen, {feature.then.x, feature.then.y});
+    const cv::Point2f there(static_cast<float>(along.x), static_cast<float>(along.y));
+    if (feature.isFound && lengthOf(feature.at - there) < kAstrayPx) continue;
+    feature.isFound = false;
+    feature.step = there - feature.then;
+  }
+  find(now, false, 0);
+  for (std::size_t i = 0; i < features_.size(); ++i) {
+    const Feature& was = before_[i];
+    Feature& feature = features_[i];
+    const bool isWorse =
+        !feature.isFound || feature.difference > kAsGood * was.difference + kAsGoodLevels;
+    if (was.isFound && isWorse) feature = was;
+  }
+}
+
+double LucasKanadeTracker::shareFound() const {
+  double before = 0.0;
+  double found = 0.0;
+  for (const Feature& feature : features_) {
+    if (!feature.wasFound) continue;
+    before += 1.0;
+    found += feature.isFound ? 1.0 : 0.0;
+  }
+  return before > 0.0 ? found / before : 0.0;
+}
+
+/// What was not found is looked for next time where the found ones go.
+void LucasKanadeTracker::guessMissing(const LumaPyramid& now) {
+  cv::Point2f shift(0.0F, 0.0F);
+  float count = 0.0F;
+  for (const Feature& feature : features_) {
+    if (!feature.isFound || !feature.wasFound) continue;
+    shift += feature.step;
+    count += 1.0F;
+  }
+  if (count > 0.0F) shift *= 1.0F / count;
+  for (Feature& feature : features_) {
+    feature.missingFrames = feature.isFound ? 0 : feature.missingFrames + 1;
+    if (feature.isFound) {
+      if (!feature.wasFound) feature.step = shift;
+    } else {
+      feature.at += shift;
+      feature.step = shift;
+    }
+  }
+  std::erase_if(features_, [&](const Feature& f) {
+    return f.missingFrames > kMostMissing ||
+           (f.missingFrames > 0 && !now.isInside(f.at, -kBorderPx));
+  });
+}
+
+LucasKanadeTracker::Spread LucasKanadeTracker::spread(const LumaPyramid& now) {
+  cells_.assign(static_cast<std::size_t>(kColumns) * kRows, 0);
+  const cv::Size size = now.picture().size();
+  Spread out;
+  for (const Feature& feature : features_) {
+    if (!feature.isFound) continue;
+    ++out.features;
+    const int column = static_cast<int>(feature.at.x) * kColumns / size.width;
+    const int row = static_cast<int>(feature.at.y) * kRows / size.height;
+    cells_[static_cast<std::size_t>(row * kColumns + column)] = 1;
+  }
+  for (int row = 0; row < kRows; row += kFieldCells) {
+    for (int column = 0; column < kColumns; column += kFieldCells) {
+      const auto* const cell = &cells_[static_cast<std::size_t>(row * kColumns + column)];
+      out.fields += (cell[0] | cell[1] | cell[kColumns] | cell[kColumns + 1]) != 0 ? 1U : 0U;
+    }
+  }
+  return out;
+}
+
+bool LucasKanadeTracker::needsKey(const Spread& have) const {
+  const auto isBelow = [](std::size_t count, double part, std::size_t of) {
+    return static_cast<double>(count) < part * static_cast<double>(of);
+  };
+  if (isBelow(have.features, kVeryFew, keySpread_.features)) return true;
+  if (framesSinceKey_ < kKeyFrames) return false;
+  const auto worn = static_cast<std::size_t>(
+      std::ranges::count_if(features_, [](const Feature& f) { return f.isFound && f.isWorn; }));
+  return isBelow(have.features, kFew, keySpread_.features) ||
+         isBelow(have.fields, kFewFields, keySpread_.fields) ||
+         !isBelow(worn, kManyWorn, have.features + 1);
+}
+
+void LucasKanadeTracker::takeOver(Feature& feature, std::size_t key, const LumaPyramid& now) {
+  feature.key = key;
+  feature.origin = feature.at;
+  feature.patch = patchAt(now, feature.at);
+  feature.isWorn = false;
+}
+
+/// A place for a new key frame: a free one, or that of the key frame with the fewest features,
+/// which the new one takes over; of those that are not seen now the looks are lost.
+std::size_t LucasKanadeTracker::freeKey(const LumaPyramid& now) {
+  std::array<std::size_t, kKeys> counts{};
+  for (const Feature& feature : features_) {
+    if (!(feature.isFound && feature.isWorn)) ++counts[feature.key];
+  }
+  const auto key = static_cast<std::size_t>(std::ranges::min_element(counts) - counts.begin());
+  std::erase_if(features_, [&](const Feature& f) { return f.key == key && !f.isFound; });
+  for (Feature& feature : features_) {
+    if (feature.key == key || (feature.isFound && feature.isWorn)) takeOver(feature, key, now);
+  }
+  return key;
+}
+
+/// Corners where there is no feature.
+void LucasKanadeTracker::findCorners(const LumaPyramid& now) {
+  newCorners_.clear();
+  const cv::Size size = corners_.size();
+  for (int cell = 0; cell < kColumns * kRows; ++cell) {
+    if (cells_[static_cast<std::size_t>(cell)] != 0) continue;
+    const int column = cell % kColumns;
+    const int row = cell / kColumns;
+    const cv::Point from(size.width * column / kColumns, size.height * row / kRows);
+    const cv::Point to(size.width * (column + 1) / kColumns, size.height * (row + 1) / kRows);
+    cv::Point2f at;
+    if (!corners_.takeBest({from, to}, at) || !now.isInside(at, kBorderPx)) continue;
+    const bool isTaken = std::ranges::any_of(features_, [&](const Feature& f) {
+      return f.isFound && lengthOf(f.at - at) < CornerSearch::kSpacingPx;
+    });
+    if (!isTaken && patchAt(now, at).placing(noise_, true) < kMostPlacing)
+      newCorners_.push_back(at);
+  }
+  centre(now);
+}
+
+/// Moves new corners to where the gradients about them balance (Förstner and Gülch, 1987): a turn
+/// or zoom of a window about that point is not taken for a shift of it.
+void LucasKanadeTracker::centre(const LumaPyramid& now) {
+  if (newCorners_.empty()) return;
+  constexpr int kReach = LumaPyramid::kWindowPx / 2;
+  constexpr float kFarPx = 4.0F;
+  points_ = newCorners_;
+  const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 5, 0.1);
+  cv::cornerSubPix(now.picture(), points_, {kReach, kReach}, {-1, -1}, until);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (lengthOf(points_[i] - newCorners_[i]) < kFarPx) newCorners_[i] = points_[i];
+  }
+}
+
+void LucasKanadeTracker::makeKey(const std::shared_ptr<const LumaPyramid>& now, bool isNeeded) {
+  framesSinceKey_ = 0;
+  const cv::Size size = now->picture().size();
+  if (std::min(size.width, size.height) < 2 * FeaturePatch::kReach || !corners_.look(*now)) return;
+  findCorners(*now);
+  if (!isNeeded && newCorners_.size() < kWorthAKey) return;
+  if (features_.size() + newCorners_.size() > kMostMovedFeatures) {
+    std::erase_if(features_, [](const Feature& f) { return !f.isFound; });
+  }
+  const std::size_t key = freeKey(*now);
+  keys_[key] = now;
+  for (const cv::Point2f& at : newCorners_) {
+    if (features_.size() == kMostMovedFeatures) break;
+    features_.push_back({.id = nextId_++,
+                         .key = key,
+                         .origin = at,
+                         .at = at,
+                         .then = at,
+                         .step = {},
+                         .patch = patchAt(*now, at),
+                         .isFound = true});
+  }
+  keySpread_ = spread(*now);
+}
+
+void LucasKanadeTracker::publish(const LumaPyramid& now) {
+  seen_.clear();
+  for (const Feature& feature : features_) {
+    if (!feature.isFound) continue;
+    seen_.push_back({.id = feature.id,
+                     .px = now.framePx(feature.at),
+                     .errorPx = feature.errorPx,
+                     .wasSeen = feature.wasFound,
+                     .thenPx = now.framePx(feature.then)});
+  }
+}
+
+std::span<const SeenFeature> LucasKanadeTracker::follow(std::shared_ptr<const LumaPyramid> now,
+                                                        double noise) {
+  noise_ = noise;
+  if (then_ && then_->frameSize() != now->frameSize()) reset();
+  for (Feature& feature : features_) {
+    feature.wasFound = feature.isFound;
+    feature.isFound = false;
+    feature.then = feature.at;
+  }
+  // Most are where their motion says; the others may be anywhere near.
+  find(*now, false, kFewLevels);
+  find(*now, true, LumaPyramid::kLevels);
+  if (then_ && features_.size() >= kLeastToJudge && shareFound() < kLostShare) searchWidely(*now);
+  reconsider(*now);
+  rejectOutliers();
+  foundShare_ = shareFound();
+  guessMissing(*now);
+  ++framesSinceKey_;
+  publish(*now);
+  const bool isNeeded = needsKey(spread(*now));
+  if (isNeeded || framesSinceKey_ >= kSeekFrames) makeKey(now, isNeeded);
+  then_ = std::move(now);
+  return seen_;
+}
+
+}  // namespace pleinair::tracking

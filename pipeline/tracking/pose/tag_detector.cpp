@@ -1,0 +1,276 @@
+#include "pipeline/tracking/pose/tag_detector.h"
+
+#include <algorithm>
+#include <cassert>
+#include <iterator>
+#include <utility>
+
+#include <apriltag/apriltag.h>
+#include <apriltag/tag16h5.h>
+#include <apriltag/tag25h9.h>
+#include <apriltag/tag36h10.h>
+#include <apriltag/tag36h11.h>
+#include <apriltag/tagCircle21h7.h>
+#include <apriltag/tagCircle49h12.h>
+#include <apriltag/tagCustom48h12.h>
+#include <apriltag/tagStandard41h12.h>
+#include <apriltag/tagStandard52h13.h>
+#include <fmt/ranges.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace pleinair::tracking {
+namespace {
+
+struct FamilyEntry {
+  std::string_view name;
+  apriltag_family_t* (*create)();
+  void (*destroy)(apriltag_family_t*);
+  /// The library tabulates every code with up to so many flipped bits: two take 36 MB for
+  /// tag36h11's 587 codes, but gigabytes for tagStandard52h13's 48,714.
+  int correctedBits;
+};
+
+constexpr std::array<FamilyEntry, 9> kFamilies{{
+    {"tag36h11", tag36h11_create, tag36h11_destroy, 2},
+    {"tag36h10", tag36h10_create, tag36h10_destroy, 1},
+    {"tag25h9", tag25h9_create, tag25h9_destroy, 2},
+    {"tag16h5", tag16h5_create, tag16h5_destroy, 2},
+    {"tagCircle21h7", tagCircle21h7_create, tagCircle21h7_destroy, 2},
+    {"tagCircle49h12", tagCircle49h12_create, tagCircle49h12_destroy, 1},
+    {"tagStandard41h12", tagStandard41h12_create, tagStandard41h12_destroy, 1},
+    {"tagStandard52h13", tagStandard52h13_create, tagStandard52h13_destroy, 1},
+    {"tagCustom48h12", tagCustom48h12_create, tagCustom48h12_destroy, 1},
+}};
+
+const FamilyEntry* findFamily(std::string_view name) {
+  const auto* found = std::ranges::find(kFamilies, name, &FamilyEntry::name);
+  return found == kFamilies.end() ? nullptr : found;
+}
+
+const FamilyEntry& familyOrThrow(std::string_view name) {
+  hal::orThrow(checkTagFamily(name));
+  return *findFamily(name);
+}
+
+using FamilyHandle = std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)>;
+using DetectorHandle = std::unique_ptr<apriltag_detector_t, decltype(&apriltag_detector_destroy)>;
+using DetectionsHandle = std::unique_ptr<zarray_t, decltype(&apriltag_detections_destroy)>;
+
+TagDetection toDetection(const apriltag_detection_t& found) {
+  TagDetection tag{.id = found.id,
+                   .hamming = found.hamming,
+                   .decisionMargin = static_cast<double>(found.decision_margin)};
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    tag.corners[corner] = {found.p[corner][0], found.p[corner][1]};
+  }
+  return tag;
+}
+
+double squaredDistance(const TagCornersPx& a, const TagCornersPx& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += glm::dot(a[i] - b[i], a[i] - b[i]);
+  return sum;
+}
+
+/// Around a tag, its white border and what it may have moved by: a third of its size, or more for
+/// small ones. Aligned, so that reduced pictures of a part have the pixels of the whole one's.
+std::optional<PixelRect> partAround(const TagCornersPx& corners, hal::FrameSize size) {
+  constexpr double kMargin = 0.35;
+  constexpr double kLeastMarginPx = 16.0;
+  constexpr int kAlignment = 12;  // of all decimations
+  glm::dvec2 least = corners[0];
+  glm::dvec2 most = corners[0];
+  for (const glm::dvec2& corner : corners) {
+    least = glm::min(least, corner);
+    most = glm::max(most, corner);
+  }
+  const glm::dvec2 extent = most - least;
+  const glm::dvec2 margin(std::max({kMargin * extent.x, kMargin * extent.y, kLeastMarginPx}));
+  least -= margin;
+  most += margin;
+  if (!(most.x > 0.0 && most.y > 0.0 && least.x < size.width && least.y < size.height)) {
+    return std::nullopt;
+  }
+  const auto within = [](double px, int end) {
+    return static_cast<int>(std::clamp(px, 0.0, static_cast<double>(end)));
+  };
+  const auto aligned = [&](double px, int end) {
+    return within(px, end - std::min(end, kSmallestSearchedSidePx)) / kAlignment * kAlignment;
+  };
+  PixelRect part{.left = aligned(least.x, size.width),
+                 .top = aligned(least.y, size.height),
+                 .right = within(most.x, size.width),
+                 .bottom = within(most.y, size.height)};
+  part.right = std::min(size.width, std::max(part.right, part.left + kSmallestSearchedSidePx));
+  part.bottom = std::min(size.height, std::max(part.bottom, part.top + kSmallestSearchedSidePx));
+  if (part.right - part.left < kSmallestSearchedSidePx ||
+      part.bottom - part.top < kSmallestSearchedSidePx) {
+    return std::nullopt;
+  }
+  return part;
+}
+
+bool overlap(const PixelRect& a, const PixelRect& b) {
+  return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+}
+
+PixelRect hull(const PixelRect& a, const PixelRect& b) {
+  return {.left = std::min(a.left, b.left),
+          .top = std::min(a.top, b.top),
+          .right = std::max(a.right, b.right),
+          .bottom = std::max(a.bottom, b.bottom)};
+}
+
+}  // namespace
+
+hal::Result<void> checkTagFamily(std::string_view family, std::string subject) {
+  if (findFamily(family) != nullptr) return {};
+  std::vector<std::string_view> names;
+  names.reserve(kFamilies.size());
+  for (const FamilyEntry& entry : kFamilies) names.push_back(entry.name);
+  return tl::unexpected(hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
+                                   .subject = std::move(subject),
+                                   .problem = fmt::format("unknown tag family '{}'", family),
+                                   .remedy = fmt::format("use one of {}", fmt::join(names, ", "))});
+}
+
+double decimationFor(hal::FrameSize size) {
+  const int shorterSide = std::min(size.width, size.height);
+  if (shorterSide < 400) return 1.0;
+  if (shorterSide < 700) return 1.5;
+  return shorterSide < 1000 ? 2.0 : 3.0;
+}
+
+DetectionCounters& DetectionCounters::operator+=(const DetectionCounters& other) {
+  accepted += other.accepted;
+  rejectedMargin += other.rejectedMargin;
+  rejectedDuplicate += other.rejectedDuplicate;
+  skippedSmallPicture += other.skippedSmallPicture;
+  return *this;
+}
+
+void selectDetections(std::vector<TagDetection>& candidates, const TagDetectorOptions& options,
+                      DetectionCounters& counters, std::span<const ExpectedTag> expected) {
+  std::ranges::sort(candidates, [&](const TagDetection& a, const TagDetection& b) {
+    if (a.id != b.id) return a.id < b.id;
+    const auto known = std::ranges::find(expected, a.id, &ExpectedTag::id);
+    if (known == expected.end()) return a.decisionMargin > b.decisionMargin;
+    return squaredDistance(a.corners, known->corners) < squaredDistance(b.corners, known->corners);
+  });
+  auto selectedEnd = candidates.begin();
+  for (const TagDetection& tag : candidates) {
+    if (tag.decisionMargin < options.minDecisionMargin) {
+      ++counters.rejectedMargin;
+    } else if (selectedEnd != candidates.begin() && std::prev(selectedEnd)->id == tag.id) {
+      ++counters.rejectedDuplicate;
+    } else {
+      ++counters.accepted;
+      *selectedEnd++ = tag;
+    }
+  }
+  candidates.erase(selectedEnd, candidates.end());
+}
+
+/// The family outlives the detector that uses it: members are destroyed last to first.
+struct TagDetector::Handles {
+  Handles(const FamilyEntry& entry, int maxHamming)
+      : family(entry.create(), entry.destroy),
+        detector(apriltag_detector_create(), apriltag_detector_destroy) {
+    apriltag_detector_add_family_bits(detector.get(), family.get(),
+                                      std::min(entry.correctedBits, maxHamming));
+  }
+  FamilyHandle family;
+  DetectorHandle detector;
+};
+
+TagDetector::TagDetector(TagDetectorOptions options)
+    : options_(std::move(options)),
+      handles_(std::make_unique<Handles>(familyOrThrow(options_.family), options_.maxHamming)) {
+  assert(options_.decimation.value_or(1.0) >= 1.0 && options_.threads >= 1);
+  assert(options_.maxHamming >= 0);
+  apriltag_detector_t& detector = *handles_->detector;
+  detector.nthreads = options_.threads;
+  detector.refine_edges = true;
+  detector.qtp.min_white_black_diff =
+      static_cast<int>(std::clamp(2.0 * options_.minDecisionMargin, 1.0, 255.0));
+}
+
+TagDetector::~TagDetector() = default;
+TagDetector::TagDetector(TagDetector&&) noexcept = default;
+TagDetector& TagDetector::operator=(TagDetector&&) noexcept = default;
+
+void findSearchParts(std::span<const ExpectedTag> expected, hal::FrameSize size,
+                     std::vector<PixelRect>& parts) {
+  parts.clear();
+  for (const ExpectedTag& tag : expected) {
+    const std::optional<PixelRect> part = partAround(tag.corners, size);
+    if (part) parts.push_back(*part);
+  }
+  for (std::size_t i = 0; i < parts.size();) {
+    const auto other = std::find_if(parts.begin() + std::ptrdiff_t(i) + 1, parts.end(),
+                                    [&](const PixelRect& each) { return overlap(parts[i], each); });
+    if (other == parts.end()) {
+      ++i;
+      continue;
+    }
+    parts[i] = hull(parts[i], *other);
+    parts.erase(other);
+    i = 0;  // what was disjoint may now overlap
+  }
+}
+
+void TagDetector::search(const hal::PlaneView& luma, hal::FrameSize size, const PixelRect& part) {
+  const int width = part.right - part.left;
+  const int height = part.bottom - part.top;
+  double decimation = options_.decimation.value_or(decimationFor(size));
+  if (std::min(width, height) < kSmallestSearchedSidePx * decimation) decimation = 1.0;
+  handles_->detector->quad_decimate = static_cast<float>(decimation);
+
+  const std::size_t first =
+      static_cast<std::size_t>(part.top) * luma.strideBytes + static_cast<std::size_t>(part.left);
+  // Only read: quad_sigma is 0.
+  image_u8_t picture{.width = width,
+                     .height = height,
+                     .stride = static_cast<std::int32_t>(luma.strideBytes),
+                     .buf = const_cast<std::uint8_t*>(luma.bytes.data() + first)};
+  const DetectionsHandle found(apriltag_detector_detect(handles_->detector.get(), &picture),
+                               apriltag_detections_destroy);
+  for (int i = 0; i < zarray_size(found.get()); ++i) {
+    apriltag_detection_t* one = nullptr;
+    zarray_get(found.get(), i, &one);
+    TagDetection& tag = found_.emplace_back(toDetection(*one));
+    for (glm::dvec2& corner : tag.corners) corner += glm::dvec2(part.left, part.top);
+  }
+}
+
+std::span<const TagDetection> TagDetector::detect(const hal::PlaneView& luma, hal::FrameSize size,
+                                                  DetectionCounters& counters,
+                                                  std::span<const ExpectedTag> expected) {
+  found_.clear();
+  if (std::min(size.width, size.height) < kSmallestSearchedSidePx) {
+    ++counters.skippedSmallPicture;  // the library crashes on a few pixels a side
+    return {};
+  }
+  search(luma, size, {.left = 0, .top = 0, .right = size.width, .bottom = size.height});
+  selectDetections(found_, options_, counters, expected);
+  return found_;
+}
+
+std::span<const TagDetection> TagDetector::detectExpected(const hal::PlaneView& luma,
+                                                          hal::FrameSize size,
+                                                          DetectionCounters& counters,
+                                                          std::span<const ExpectedTag> expected) {
+  findSearchParts(expected, size, parts_);
+  std::int64_t area = 0;
+  for (const PixelRect& part : parts_) {
+    area += std::int64_t{part.right - part.left} * (part.bottom - part.top);
+  }
+  if (area > size.pixels() / 2) return detect(luma, size, counters, expected);
+  found_.clear();
+  for (const PixelRect& part : parts_) search(luma, size, part);
+  selectDetections(found_, options_, counters, expected);
+  return found_;
+}
+
+}  // namespace pleinair::tracking

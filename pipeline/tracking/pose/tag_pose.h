@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "pipeline/tracking/camera/camera_model.h"
+#include "pipeline/tracking/pose/pose_refinement.h"
+#include "pipeline/tracking/pose/tag.h"
+#include "pipeline/tracking/pose/twin_choice.h"
+
+namespace pleinair::tracking {
+
+/// Up to N values in place: what a frame's work makes without allocating.
+template <class T, std::size_t N>
+class FixedVector {
+ public:
+  /// Precondition: size() < N.
+  void add(const T& value) {
+    assert(size_ < N);
+    values_[size_++] = value;
+  }
+
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  T* begin() { return values_.data(); }
+  T* end() { return values_.data() + size_; }
+  const T* begin() const { return values_.data(); }
+  const T* end() const { return values_.data() + size_; }
+  const T& operator[](std::size_t index) const {
+    assert(index < size_);
+    return values_[index];
+  }
+
+ private:
+  std::array<T, N> values_{};
+  std::size_t size_ = 0;
+};
+
+/// The pose of one tag: cameraFromTarget is cameraFromTag, in the frame of tagCorners().
+struct TagPose {
+  PoseEstimate estimate;
+  std::optional<PoseEstimate> twin;  ///< the one that was rejected
+  TwinChoice choice = TwinChoice::kOnly;
+  double twinEvidence = kLoneEvidence;  ///< for this one against its twin
+};
+
+/// A tag's corners in its own frame and in the picture.
+std::array<Correspondence, 4> tagCorrespondences(const TagCornersPx& corners, double edgeMetres);
+
+/// A square's pose and its twin.
+using PoseCandidates = FixedVector<PoseEstimate, 2>;
+
+/// The one or two poses that explain a tag's corners, the better fit first; none where the corners
+/// are degenerate. IPPE (Collins and Bartoli, "Infinitesimal Plane-Based Pose Estimation", IJCV
+/// 2014; OpenCV's SOLVEPNP_IPPE_SQUARE) on undistorted corners, both then refined in pixels.
+PoseCandidates tagPoseCandidates(const CameraModel& camera, const TagCornersPx& corners,
+                                 double edgeMetres);
+
+/// One of tagPoseCandidates(), the wrong twin rejected; nothing of none. `prior`: the cameraFromTag
+/// that other tags of the world or the previous frame suggest.
+std::optional<TagPose> chooseTagPose(const PoseCandidates& candidates,
+                                     const std::optional<PosePrior>& prior);
+
+}  // namespace pleinair::tracking

@@ -1,0 +1,214 @@
+#include "pipeline/tracking/pose/target_pose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+namespace pleinair::tracking {
+namespace {
+
+/// A feature's noise in pictures up to 640 px wide; those of wider ones are followed reduced.
+constexpr double kFeatureNoisePx = 0.12;
+constexpr double kFollowedSidePx = 640.0;
+/// The part of a sighting's variance that others from the same place share, so that no filter
+/// averages it away: what a corner's edges, lens and pixels do to it (docs/measured.md).
+constexpr double kShared = 0.15;
+/// A sighting further than this from what was predicted, in sigmas and px, puts that in doubt.
+constexpr double kDoubtSigmas = 3.0;
+constexpr double kDoubtPx = 0.5;
+/// So many doubts in a row say that the target does not move with the features around it.
+constexpr int kManyDoubts = 4;
+constexpr auto kAloneFor = std::chrono::seconds(2);
+/// How fast the mean of differences follows them, and how far it may lie from zero, in sigmas of
+/// one (by chance: a third of one).
+constexpr double kBiasRate = 0.2;
+constexpr double kBiasSigmas = 0.4;
+/// Jumps larger than this part of the picture are cuts: not blended.
+constexpr double kLargestBlend = 0.1;
+/// Without features: what is left of a velocity after a second, and what it is good for.
+constexpr double kVelocityKept = 1e-4;
+constexpr double kGuessPx = 3.0;
+
+double seconds(hal::Duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
+double rmsDistancePx(const CameraModel& camera, const glm::dmat4& a, const glm::dmat4& b,
+                     std::span<const glm::dvec3> points) {
+  double sum = 0.0;
+  for (const glm::dvec3& point : points) {
+    const glm::dvec3 first(a * glm::dvec4(point, 1.0));
+    const glm::dvec3 second(b * glm::dvec4(point, 1.0));
+    if (!(first.z > 1e-3) || !(second.z > 1e-3)) return std::numeric_limits<double>::infinity();
+    const glm::dvec2 apart = camera.project(first) - camera.project(second);
+    sum += glm::dot(apart, apart);
+  }
+  return std::sqrt(sum / static_cast<double>(points.size()));
+}
+
+double longSidePx(const CameraModel& camera) {
+  return std::max(camera.imageSize().width, camera.imageSize().height);
+}
+
+}  // namespace
+
+void TargetPose::reset() {
+  isKnown_ = false;
+  isAnchored_ = false;
+  movesAlone_ = false;
+  doubts_ = 0;
+  velocity_ = {};
+  offset_ = {};
+  bias_ = {};
+  landmarks_.clear();
+}
+
+double TargetPose::noisePx(const CameraModel& camera) const {
+  return kFeatureNoisePx * std::max(1.0, longSidePx(camera) / kFollowedSidePx);
+}
+
+std::optional<PoseEstimate> TargetPose::predicted() const {
+  if (!isKnown_) return std::nullopt;
+  return PoseEstimate{.cameraFromTarget = filter_.cameraFromTarget(),
+                      .rmsPx = rmsPx_,
+                      .covariance = filter_.covariance()};
+}
+
+void TargetPose::predict(const CameraModel& camera, std::span<const FeatureTrack> tracks,
+                         hal::TimePoint now) {
+  if (!isKnown_) return;
+  if (now - seen_ > options_.carryFor || now <= last_) return reset();
+  if (!options_.filters && !options_.carries) return;
+  before_ = filter_.cameraFromTarget();
+  const double step = seconds(now - last_);
+  const auto moved = landmarks_.solve(camera, tracks, before_, keyFromTarget_, noisePx(camera));
+  if (moved) {
+    moveByFeatures(*moved);
+  } else {
+    moveOn(camera, step);
+  }
+  velocity_ = (1.0 / step) * motionBetween(before_, filter_.cameraFromTarget());
+  last_ = now;
+}
+
+void TargetPose::moveByFeatures(const LandmarkPose& moved) {
+  filter_.predict(moved.estimate.cameraFromTarget, moved.estimate.covariance);
+  cameraFromKey_ = moved.estimate.cameraFromTarget * rigidInverse(keyFromTarget_);
+  rmsPx_ = moved.estimate.rmsPx;
+}
+
+/// On as before, ever slower.
+void TargetPose::moveOn(const CameraModel& camera, double step) {
+  const double kept = std::pow(kVelocityKept, step);
+  const glm::dmat4 guess = movedBy(filter_.cameraFromTarget(), (kept * step) * velocity_);
+  const double distance = std::max(0.01, guess[3].z);
+  const double shift =
+      kGuessPx * distance / camera.intrinsics().fx + 0.5 * step * glm::length(velocity_.shift);
+  const double turn =
+      kGuessPx / camera.intrinsics().fx + 0.5 * step * glm::length(velocity_.rotation);
+  filter_.predict(guess, isotropic(turn, shift));
+  cameraFromKey_ = guess * rigidInverse(keyFromTarget_);
+}
+
+void TargetPose::see(const CameraModel& camera, std::span<const FeatureTrack> tracks,
+                     const PoseEstimate& seen, std::span<const glm::dvec3> modelPoints,
+                     hal::TimePoint now) {
+  const bool wasKnown = isKnown_;
+  const bool wasCarried = wasKnown && source_ == PoseSource::kCarried;
+  const std::optional<PoseEstimate> drawnBefore = wasCarried ? drawn(now) : std::nullopt;
+  seen_ = now;
+  last_ = now;
+  source_ = PoseSource::kSeen;
+  rmsPx_ = seen.rmsPx;
+  shared_ = kShared * seen.covariance;
+  isKnown_ = true;
+  if (!wasKnown || !options_.filters) {
+    filter_.start(seen);
+    if (!wasKnown) offset_ = {};
+  } else {
+    correct(camera, seen, modelPoints, now);
+  }
+  keyFromTarget_ = rigidInverse(cameraFromKey_) * filter_.cameraFromTarget();
+  if (options_.filters) {
+    landmarks_.learn(camera, tracks, filter_.cameraFromTarget(), keyFromTarget_, noisePx(camera));
+  }
+  if (drawnBefore) {
+    const double jump = rmsDistancePx(camera, filter_.cameraFromTarget(),
+                                      drawnBefore->cameraFromTarget, modelPoints);
+    const bool isCut = !(jump < kLargestBlend * longSidePx(camera));
+    offset_ = isCut ? SmallMotion{}
+                    : motionBetween(filter_.cameraFromTarget(), drawnBefore->cameraFromTarget);
+    blendFrom_ = now;
+  }
+}
+
+/// The more sightings lie, now or all lately, on one side of what was predicted, the more they
+/// count.
+void TargetPose::correct(const CameraModel& camera, const PoseEstimate& seen,
+                         std::span<const glm::dvec3> modelPoints, hal::TimePoint now) {
+  const glm::dmat4 predicted = filter_.cameraFromTarget();
+  const double apart = rmsDistancePx(camera, predicted, seen.cameraFromTarget, modelPoints);
+  if (!std::isfinite(apart)) return filter_.start(seen);
+  const double expected = std::sqrt(
+      projectedVariancePx(camera, predicted, filter_.covariance() + seen.covariance, modelPoints));
+  bias_ = (1.0 - kBiasRate) * bias_ + kBiasRate * motionBetween(predicted, seen.cameraFromTarget);
+  const double bias = rmsDistancePx(camera, predicted, movedBy(predicted, bias_), modelPoints);
+
+  const bool isDoubtful = apart > std::max(kDoubtPx, kDoubtSigmas * expected);
+  const double byBias = bias / (kBiasSigmas * expected);
+  if (!std::isfinite(byBias)) {  // beyond the camera: nothing of the past holds
+    bias_ = {};
+    return filter_.start(seen);
+  }
+  filter_.correct(seen, std::max({1.0, byBias, isDoubtful ? 2.0 * apart / expected : 0.0}));
+  const double left =
+      rmsDistancePx(camera, filter_.cameraFromTarget(), seen.cameraFromTarget, modelPoints);
+  if (apart > 0.0) bias_ = std::min(1.0, left / apart) * bias_;
+
+  doubts_ = isDoubtful ? doubts_ + 1 : 0;
+  if (doubts_ >= kManyDoubts) {
+    if (!movesAlone_) isAnchored_ = false;  // again, with what lies on its tags only
+    movesAlone_ = true;
+    movedAlone_ = now;
+  } else if (movesAlone_ && now - movedAlone_ > kAloneFor) {
+    movesAlone_ = false;
+  }
+}
+
+void TargetPose::miss(hal::TimePoint now) {
+  if (!isKnown_) return;
+  if (!options_.carries || now - seen_ > options_.carryFor) return reset();
+  source_ = PoseSource::kCarried;
+  doubts_ = 0;
+}
+
+void TargetPose::anchor(const CameraModel& camera, std::span<const FeatureTrack> tracks,
+                        std::span<const TagPlane> planes) {
+  if (!isKnown_) return landmarks_.clear();
+  isAnchored_ = true;
+  const glm::dmat4 keyFromTarget = filter_.cameraFromTarget();
+  landmarks_.anchor(camera, tracks, keyFromTarget, keyFromTarget_, planes, movesAlone_);
+  keyFromTarget_ = keyFromTarget;
+  cameraFromKey_ = glm::dmat4(1.0);
+}
+
+/// Falls smoothly from one to zero.
+double TargetPose::partOfBlend(hal::TimePoint now) const {
+  const double over = seconds(options_.blendOver);
+  const double t = over > 0.0 ? std::clamp(seconds(now - blendFrom_) / over, 0.0, 1.0) : 1.0;
+  return 1.0 - t * t * (3.0 - 2.0 * t);
+}
+
+std::optional<PoseEstimate> TargetPose::drawn(hal::TimePoint now) const {
+  std::optional<PoseEstimate> out = predicted();
+  if (!out) return out;
+  const SmallMotion offset = partOfBlend(now) * offset_;
+  out->cameraFromTarget = movedBy(out->cameraFromTarget, offset);
+  out->covariance = out->covariance + shared_ +
+                    isotropic(glm::length(offset.rotation), glm::length(offset.shift));
+  return out;
+}
+
+}  // namespace pleinair::tracking
