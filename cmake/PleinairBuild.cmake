@@ -1,5 +1,5 @@
-# How every room is compiled: the standard, warnings, sanitizers, and the two functions that
-# declare a room's library and its tests.
+# How every module is compiled: the standard, warnings, sanitizers, and the two functions that
+# declare a module's library and its tests.
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
@@ -48,22 +48,38 @@ if(PLEINAIR_FUZZ)
   add_custom_target(fuzz)
 endif()
 
-# pleinair_library(NAME SOURCES ... [PUBLIC libs ...] [PRIVATE libs ...])
-# A room's static library. PUBLIC names what its headers show, PRIVATE what only its .cpp use.
+# Compiles a target's sources several at a time (PLEINAIR_UNITY): most of a compiler's time goes to
+# headers. Files in one batch see each other's unnamed namespaces, so names there are told apart;
+# the preset "clang" and clang-tidy compile each file by itself.
+option(PLEINAIR_UNITY "Compile several sources of a module at once" ON)
+function(pleinair_speed_up target)
+  if(PLEINAIR_UNITY)
+    set_target_properties(${target} PROPERTIES
+      UNITY_BUILD ON UNITY_BUILD_MODE BATCH UNITY_BUILD_BATCH_SIZE 8)
+  endif()
+endfunction()
+
+# pleinair_library(NAME SOURCES ... [ALONE sources ...] [PUBLIC libs ...] [PRIVATE libs ...])
+# A module's static library. PUBLIC names what its headers show, PRIVATE what only its .cpp use.
+# ALONE names those of SOURCES that share names in unnamed namespaces with others: see PLEINAIR_UNITY.
 function(pleinair_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;PUBLIC;PRIVATE" ${ARGN})
+  set_source_files_properties(${ARG_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   add_library(${name} STATIC ${ARG_SOURCES})
+  pleinair_speed_up(${name})
   target_link_libraries(${name} PUBLIC pleinair_build ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
 endfunction()
 
-# pleinair_tests(NAME KIND kind SOURCES ... [LIBS ...] [TIMEOUT seconds] [QUICK] [BY_SUITE])
+# pleinair_tests(NAME KIND kind SOURCES ... [ALONE sources ...] [LIBS ...] [TIMEOUT seconds] [QUICK] [BY_SUITE])
 # A GoogleTest executable of one kind (unit, conformance, gpu, golden ...), which becomes its tests'
 # prefix and CTest label; QUICK makes the label "kind-quick", which `./dev test quick` selects.
 # CTest runs each case in a process of its own; with BY_SUITE, which gpu and golden imply, each
 # suite, so that the GL driver is loaded and its code compiled once a suite.
 function(pleinair_tests name)
-  cmake_parse_arguments(ARG "QUICK;BY_SUITE" "KIND;TIMEOUT" "SOURCES;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "QUICK;BY_SUITE" "KIND;TIMEOUT" "SOURCES;ALONE;LIBS" ${ARGN})
+  set_source_files_properties(${ARG_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   add_executable(${name} ${ARG_SOURCES} "${CMAKE_SOURCE_DIR}/tests/support/test_environment.cpp")
+  pleinair_speed_up(${name})
   target_link_libraries(${name} PRIVATE pleinair_build ${ARG_LIBS} GTest::gmock_main)
   target_compile_definitions(${name} PRIVATE
     PLEINAIR_SHARED_DATA="${PLEINAIR_SHARED_DATA}"

@@ -51,7 +51,7 @@ std::vector<std::string> pathsTo(std::string_view section) {
 }
 
 /// "site.toml:7" as its file and line; other origins have no line.
-void blame(const std::string& origin, ConfigFault& fault) {
+void attribute(const std::string& origin, ConfigFault& fault) {
   const std::size_t colon = origin.rfind(':');
   int line = 0;
   if (colon != std::string::npos) {
@@ -267,7 +267,7 @@ const std::string& Sections::origin(std::string_view key) const {
 ConfigError Sections::errorAt(std::string_view key, std::string problem,
                               std::string allowed) const {
   ConfigFault fault{.problem = std::move(problem), .allowed = std::move(allowed)};
-  blame(origin(key), fault);
+  attribute(origin(key), fault);
   if (fault.line > 0) fault.key = key;
   return ConfigError(std::move(fault));
 }

@@ -56,8 +56,8 @@ class Sections {
 
   /// The origin of a key, which must be known, or it asserts.
   const std::string& origin(std::string_view key) const;
-  /// An error that blames the place where the value of a key came from, with the line if there is
-  /// one. As ConfigFault otherwise.
+  /// An error that attributes the place where the value of a key came from, with the line if there
+  /// is one. As ConfigFault otherwise.
   ConfigError errorAt(std::string_view key, std::string problem, std::string allowed) const;
 
   /// TOML that apply() reads back to the same values, under help and before origins as comments.

@@ -19,7 +19,7 @@ enum class TimestampSource {
   kSimulated,
 };
 
-enum class FrameHealth { kSound, kCorrupt, kIncomplete };
+enum class FrameHealth { kValid, kCorrupt, kIncomplete };
 
 /// A plane's dma-buf, borrowed for as long as the frame's lease is held.
 struct DmaBufPlane {
@@ -36,11 +36,11 @@ struct CapturedFrame {
   std::uint64_t sequence = 0;          ///< counts frames the device made, from 0
   std::uint64_t droppedBefore = 0;     ///< frames lost between the last one and this
   /// Of those, how many for want of a buffer, all being leased: the consumer was too slow.
-  std::uint64_t starvedBefore = 0;
+  std::uint64_t underrunsBefore = 0;
   TimePoint captureTime;  ///< on the steady clock
   TimestampSource timestampSource = TimestampSource::kArrival;
   std::optional<Duration> deviceTime;  ///< the device's own clock, where it has one
-  FrameHealth health = FrameHealth::kSound;
+  FrameHealth health = FrameHealth::kValid;
   std::shared_ptr<const void> lease;  ///< may be dropped on any thread
 };
 

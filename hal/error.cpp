@@ -53,7 +53,6 @@ Error errnoError(std::string subject, std::string problem, int errnoValue, std::
                .code = errnoValue};
 }
 
-StartupError::StartupError(Error error)
-    : std::runtime_error(error.message()), error_(std::move(error)) {}
+Failure::Failure(Error error) : std::runtime_error(error.message()), error_(std::move(error)) {}
 
 }  // namespace pleinair::hal

@@ -46,19 +46,19 @@ Error errnoError(std::string subject, std::string problem, int errnoValue, std::
 
 /// The world failing at start-up, printed as one line and never as a stack trace.
 /// While running, failures are values (`Result`), not exceptions.
-class StartupError : public std::runtime_error {
+class Failure : public std::runtime_error {
  public:
-  explicit StartupError(Error error);
+  explicit Failure(Error error);
   const Error& error() const { return error_; }
 
  private:
   Error error_;
 };
 
-/// The value, or a StartupError thrown from its error. For start-up code only.
+/// The value, or a Failure thrown from its error. For start-up code only.
 template <class T>
 T orThrow(Result<T> result) {
-  if (!result) throw StartupError(std::move(result.error()));
+  if (!result) throw Failure(std::move(result.error()));
   if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
 

@@ -18,10 +18,10 @@ constexpr double kLongestMetres = 10.0;
 constexpr int kTagIds = 587;  // of tag36h11
 
 [[noreturn]] void refuse(std::string subject, std::string problem, std::string remedy) {
-  throw hal::StartupError(hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
-                                     .subject = std::move(subject),
-                                     .problem = std::move(problem),
-                                     .remedy = std::move(remedy)});
+  throw hal::Failure(hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
+                                .subject = std::move(subject),
+                                .problem = std::move(problem),
+                                .remedy = std::move(remedy)});
 }
 
 [[noreturn]] void refuseKind(const std::string& found) {

@@ -16,7 +16,7 @@ struct BoardOption {
   std::optional<int> firstId;     ///< --first-id
 };
 
-/// Throws hal::StartupError (kInvalidArgument): what is unknown, out of range, missing, or not of
+/// Throws hal::Failure (kInvalidArgument): what is unknown, out of range, missing, or not of
 /// that kind of board.
 calibration::Board boardOf(const BoardOption& option);
 

@@ -18,7 +18,7 @@
 
 #include "config/suggestion.h"
 #include "firmware_app/cli/exit_status.h"
-#include "firmware_app/cli/verb_options.h"
+#include "firmware_app/cli/subcommand_options.h"
 #include "firmware_app/version.h"
 
 namespace pleinair::app {
@@ -60,9 +60,9 @@ int reportParseError(const CLI::App& app, const CLI::ParseError& error) {
                               dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
   const std::string text =
       isAboutUnknown && !unknown.empty() ? unknownText(app, unknown) : error.what();
-  const std::vector<CLI::App*> verbs = app.get_subcommands();
+  const std::vector<CLI::App*> subcommands = app.get_subcommands();
   printError(fmt::format("{}; see pleinair {}--help", text,
-                         verbs.empty() ? "" : verbs.front()->get_name() + " "));
+                         subcommands.empty() ? "" : subcommands.front()->get_name() + " "));
   return static_cast<int>(ExitStatus::kUsage);
 }
 
@@ -104,9 +104,9 @@ int parseAndRun(int argc, const char* const* argv) {
                "pleinair");
   app.set_version_flag("--version", kVersion);
   app.require_subcommand(0, 1);  // none is named below: CLI11 would keep quiet about a wrong one
-  VerbOptions options;
+  SubcommandOptions options;
   std::function<int()> chosen;
-  addVerbs(app, options, chosen);
+  addSubcommands(app, options, chosen);
   try {
     app.parse(argumentsReversed(argc, argv));
     if (!chosen)

@@ -48,7 +48,7 @@ ExitStatus exitStatusOf(const hal::Error& error) {
 ExitStatus reportCurrentException() {
   try {
     throw;
-  } catch (const hal::StartupError& error) {
+  } catch (const hal::Failure& error) {
     printError(error.what());
     return exitStatusOf(error.error());
   } catch (const config::ConfigError& error) {

@@ -10,7 +10,7 @@ namespace pleinair::app {
 enum class ExitStatus {
   kSuccess = 0,
   kInternal = 1,  ///< internal error, or a device's
-  kUsage = 2,     ///< arguments, configuration, input or a full disk: what the caller can mend
+  kUsage = 2,     ///< arguments, configuration, input or a full disk: what the caller can fix
 };
 
 ExitStatus exitStatusOf(const hal::Error& error);

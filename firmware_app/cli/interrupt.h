@@ -6,6 +6,9 @@
 
 namespace pleinair::app {
 
+/// What the exit status of a program that a signal ended adds to the signal's number, as in shells.
+inline constexpr int kSignalExitBase = 128;
+
 /// Turns SIGINT, SIGTERM and SIGHUP into a question that loops ask, so that files are left in
 /// order. A second time, each ends the process at once. What
 /// was ignored (as nohup has it) stays ignored. The former actions come back at the end. One a

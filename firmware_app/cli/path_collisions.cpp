@@ -90,11 +90,11 @@ bool collide(const Place& a, const Place& b) {
   const std::string problem = written.isRow && other.isRow
                                   ? fmt::format("is in the folder of {} as well", other.option)
                                   : fmt::format("is {} as well", other.option);
-  throw hal::StartupError(hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
-                                     .subject = written.path.string(),
-                                     .problem = problem,
-                                     .remedy = fmt::format("give {} another {}", written.option,
-                                                           written.isRow ? "folder" : "name")});
+  throw hal::Failure(hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
+                                .subject = written.path.string(),
+                                .problem = problem,
+                                .remedy = fmt::format("give {} another {}", written.option,
+                                                      written.isRow ? "folder" : "name")});
 }
 
 }  // namespace

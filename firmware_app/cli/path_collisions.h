@@ -16,7 +16,7 @@ struct NamedPath {
 bool isPictureRow(const std::filesystem::path& output);
 
 /// Nothing may be written over what is read, nor two things into one place; pictures may not go
-/// into the folder that pictures are read from. Links are followed. Throws hal::StartupError
+/// into the folder that pictures are read from. Links are followed. Throws hal::Failure
 /// (kInvalidArgument).
 void refuseCollisions(const std::vector<NamedPath>& read, const std::vector<NamedPath>& written);
 

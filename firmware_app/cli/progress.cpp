@@ -20,11 +20,11 @@ double rate(std::uint64_t done, hal::Duration elapsed) {
 
 }  // namespace
 
-std::string progressLine(const std::string& verb, std::uint64_t done,
+std::string progressLine(const std::string& subcommand, std::uint64_t done,
                          std::optional<std::uint64_t> total, hal::Duration elapsed) {
   const double perSecond = rate(done, elapsed);
-  std::string line =
-      total ? fmt::format("{} {}/{}", verb, done, *total) : fmt::format("{} frame {}", verb, done);
+  std::string line = total ? fmt::format("{} {}/{}", subcommand, done, *total)
+                           : fmt::format("{} frame {}", subcommand, done);
   line += fmt::format("  {:.1f} frames/s", perSecond);
   if (total && perSecond > 0.0) {
     const auto left = static_cast<double>(*total - std::min(done, *total)) / perSecond;
@@ -33,8 +33,9 @@ std::string progressLine(const std::string& verb, std::uint64_t done,
   return line;
 }
 
-Progress::Progress(std::string verb, std::optional<std::uint64_t> total, const hal::Clock& clock)
-    : verb_(std::move(verb)),
+Progress::Progress(std::string subcommand, std::optional<std::uint64_t> total,
+                   const hal::Clock& clock)
+    : subcommand_(std::move(subcommand)),
       total_(total),
       clock_(clock),
       began_(clock.now()),
@@ -71,7 +72,7 @@ hal::Duration Progress::elapsed() const {
 
 void Progress::draw() const {
   // Carriage return, text, and clear to the end of the line.
-  fmt::print(stderr, "\r{}\x1b[K", progressLine(verb_, done_, total_, elapsed()));
+  fmt::print(stderr, "\r{}\x1b[K", progressLine(subcommand_, done_, total_, elapsed()));
   std::fflush(stderr);
 }
 

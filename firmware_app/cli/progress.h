@@ -13,7 +13,7 @@ namespace pleinair::app {
 class Progress {
  public:
   /// `total`: frames, where known. The clock outlives it.
-  Progress(std::string verb, std::optional<std::uint64_t> total, const hal::Clock& clock);
+  Progress(std::string subcommand, std::optional<std::uint64_t> total, const hal::Clock& clock);
   /// Ends the line.
   ~Progress();
   Progress(const Progress&) = delete;
@@ -31,7 +31,7 @@ class Progress {
  private:
   void draw() const;
 
-  std::string verb_;
+  std::string subcommand_;
   std::optional<std::uint64_t> total_;
   const hal::Clock& clock_;
   hal::TimePoint began_;
@@ -41,7 +41,7 @@ class Progress {
 };
 
 /// The line itself: "painting 37/150  24.1 frames/s  5 s left".
-std::string progressLine(const std::string& verb, std::uint64_t done,
+std::string progressLine(const std::string& subcommand, std::uint64_t done,
                          std::optional<std::uint64_t> total, hal::Duration elapsed);
 
 }  // namespace pleinair::app

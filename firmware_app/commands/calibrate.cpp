@@ -35,15 +35,14 @@ namespace fs = std::filesystem;
 using calibration::CalibrationReport;
 using calibration::CalibrationSession;
 
-constexpr int kSignalExitBase = 128;
 constexpr hal::Duration kLongestLook = std::chrono::milliseconds(100);  // then a signal is seen
 
 [[noreturn]] void refuse(hal::ErrorKind kind, std::string subject, std::string problem,
                          std::string remedy) {
-  throw hal::StartupError(hal::Error{.kind = kind,
-                                     .subject = std::move(subject),
-                                     .problem = std::move(problem),
-                                     .remedy = std::move(remedy)});
+  throw hal::Failure(hal::Error{.kind = kind,
+                                .subject = std::move(subject),
+                                .problem = std::move(problem),
+                                .remedy = std::move(remedy)});
 }
 
 /// Photographs are not taken in one movement, whatever their times.
@@ -142,17 +141,17 @@ class Calibrating {
           return false;
         },
         [&](hal::CameraLost& lost) {
-          if (session_.selector().views().empty()) throw hal::StartupError(std::move(lost.cause));
+          if (session_.selector().views().empty()) throw hal::Failure(std::move(lost.cause));
           warn(lost.cause.message() + "; what was seen until then is used");
           return false;
         },
-        [](hal::Error& error) -> bool { throw hal::StartupError(std::move(error)); },
+        [](hal::Error& error) -> bool { throw hal::Failure(std::move(error)); },
     };
     return std::visit(take, next);
   }
 
   void look(const hal::CapturedFrame& frame) {
-    if (frame.health != hal::FrameHealth::kSound) return;
+    if (frame.health != hal::FrameHealth::kValid) return;
     const hal::FrameSize size = frame.image.format.size;
     if (size != format_.frame.size) {
       refuse(hal::ErrorKind::kInvalidInput, subject_,
@@ -160,8 +159,8 @@ class Calibrating {
                          format_.frame.size.height, size.width, size.height),
              "a calibration is of one size: give pictures of one");
     }
-    const calibration::ViewFate fate = session_.offer(frame.image, frame.captureTime);
-    progress_.advance(session_.selector(), fate);
+    const calibration::ViewOutcome outcome = session_.offer(frame.image, frame.captureTime);
+    progress_.advance(session_.selector(), outcome);
   }
 
   void warn(const std::string& text) {
@@ -238,7 +237,7 @@ void refuseCollisionsOf(const CalibrateOptions& options, const Configuration& co
 int calibrate(const CalibrateOptions& options) {
   const Interrupt interrupt;
   const Configuration configuration(options.configuration);
-  return configuration.blaming([&] {
+  return configuration.attributing([&] {
     boardOf(options.board);  // what is wrong with it shows before a camera is opened
     if (!options.input) refuseSlipOfCamera(configuration);
     refuseCollisionsOf(options, configuration);

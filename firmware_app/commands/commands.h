@@ -23,7 +23,7 @@ struct CalibrateOptions {
 
 /// Finds a camera's lens from views of a board: `pleinair calibrate`. A recording is looked at
 /// frame by frame; a camera until the views suffice, --frames are over or a signal comes, which
-/// then uses what there is. Throws hal::StartupError, for a calibration that is not to be trusted
+/// then uses what there is. Throws hal::Failure, for a calibration that is not to be trusted
 /// too, and config::ConfigError. Returns the exit status: 0, or 128 + the signal that broke off a
 /// recording. The output is written whole or not at all; a calibration that stood there is
 /// replaced, and said so; any other file is refused.
@@ -50,7 +50,7 @@ struct DoctorOptions {
   bool json = false;
 };
 
-/// Prints what works on this machine, what does not, and what mends it: `pleinair doctor`. Gives 0
+/// Prints what works on this machine, what does not, and what fixes it: `pleinair doctor`. Gives 0
 /// where nothing is wrong, warnings or not, else 1.
 int examineMachine(const DoctorOptions& options);
 
@@ -69,7 +69,7 @@ struct MeasureOptions {
 };
 
 /// Paints a sequence of which the motion is known and prints how coherent the painting is:
-/// `pleinair measure`. Throws hal::StartupError and config::ConfigError. Returns the exit status:
+/// `pleinair measure`. Throws hal::Failure and config::ConfigError. Returns the exit status:
 /// 0; 1 where a gate was asked for and not passed; 2 where the controls do not read as they must;
 /// or 128 + the signal that broke it off.
 int runMeasure(const MeasureOptions& options);
@@ -82,7 +82,7 @@ struct RecordOptions {
 };
 
 /// Records [camera]'s camera to a movie or pictures, unpainted: `pleinair record`. Throws
-/// hal::StartupError and config::ConfigError. Returns the exit status, as render() does.
+/// hal::Failure and config::ConfigError. Returns the exit status, as render() does.
 int record(const RecordOptions& options);
 
 struct RenderOptions {
@@ -91,7 +91,7 @@ struct RenderOptions {
   PaintingOptions painting;  ///< of one run alone; the rest is configuration
 };
 
-/// Paints a recording, frame by frame, none dropped: `pleinair render`. Throws hal::StartupError
+/// Paints a recording, frame by frame, none dropped: `pleinair render`. Throws hal::Failure
 /// and config::ConfigError. Returns the exit status: 0, or 128 + the signal that broke it off.
 /// Then, or after a failure, nothing stands under the output's name, but a folder or a pattern
 /// keeps the whole frames that were written so far.
@@ -103,7 +103,7 @@ struct RunOptions {
   std::filesystem::path shaderDirectory;
 };
 
-/// Paints a camera live: `pleinair run`. Throws hal::StartupError and config::ConfigError. Returns
+/// Paints a camera live: `pleinair run`. Throws hal::Failure and config::ConfigError. Returns
 /// the exit status: 0, also where a signal ended it.
 int run(const RunOptions& options);
 

@@ -14,10 +14,10 @@ namespace pleinair::app {
 int examineMachine(const DoctorOptions& options) {
   doctor::Probes probes = doctor::systemProbes();
   probes.cameras = [] { return listDeviceCameras(deviceBackends()); };
-  probes.stills = ".";
+  probes.snapshots = ".";
   std::optional<std::string> configurationError;
   try {
-    probes.stills = Configuration(options.configuration).output().stills;
+    probes.snapshots = Configuration(options.configuration).output().snapshots;
   } catch (const config::ConfigError& error) {
     configurationError = error.what();
   }

@@ -30,7 +30,6 @@ namespace {
 namespace fs = std::filesystem;
 using hal::orThrow;
 
-constexpr int kSignalExitBase = 128;
 constexpr int kGateFailed = 1;
 constexpr int kControlsWrong = 2;
 
@@ -38,11 +37,11 @@ constexpr int kControlsWrong = 2;
 constexpr std::uint64_t kFramesByDefault = 60;
 constexpr std::uint64_t kSettleByDefault = 30;
 
-hal::StartupError refusal(std::string subject, std::string problem, std::string remedy) {
-  return hal::StartupError({.kind = hal::ErrorKind::kInvalidArgument,
-                            .subject = std::move(subject),
-                            .problem = std::move(problem),
-                            .remedy = std::move(remedy)});
+hal::Failure refusal(std::string subject, std::string problem, std::string remedy) {
+  return hal::Failure({.kind = hal::ErrorKind::kInvalidArgument,
+                       .subject = std::move(subject),
+                       .problem = std::move(problem),
+                       .remedy = std::move(remedy)});
 }
 
 /// How many frames an input that has no end is asked for.
@@ -228,7 +227,7 @@ int measureConfigured(const MeasureOptions& options, const Configuration& config
 
 int runMeasure(const MeasureOptions& options) {
   const Configuration configuration(options.configuration);
-  return configuration.blaming([&] { return measureConfigured(options, configuration); });
+  return configuration.attributing([&] { return measureConfigured(options, configuration); });
 }
 
 }  // namespace pleinair::app

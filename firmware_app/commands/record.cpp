@@ -29,10 +29,10 @@ std::unique_ptr<hal::Camera> openCamera(const RecordOptions& options,
   if (!isSynthetic(settings)) {
     if (options.writeScene) {
       const std::string what = isDevice(settings) ? "a device" : "a recording";
-      throw hal::StartupError({.kind = hal::ErrorKind::kInvalidArgument,
-                               .subject = "--write-scene",
-                               .problem = "nothing knows the scene of " + what,
-                               .remedy = "leave it out, or record the synthetic camera"});
+      throw hal::Failure({.kind = hal::ErrorKind::kInvalidArgument,
+                          .subject = "--write-scene",
+                          .problem = "nothing knows the scene of " + what,
+                          .remedy = "leave it out, or record the synthetic camera"});
     }
     if (isDevice(settings)) return chosenCamera(settings, clock);
     return hal::openRecording(settings.source, clock);
@@ -50,7 +50,7 @@ std::unique_ptr<hal::Camera> openCamera(const RecordOptions& options,
 
 int record(const RecordOptions& options) {
   const Configuration configuration(options.configuration);
-  return configuration.blaming([&] {
+  return configuration.attributing([&] {
     refuseSlipOfCamera(configuration);
     refuseCollisionsOf(options, configuration);
     const CameraSettings settings = configuration.camera();

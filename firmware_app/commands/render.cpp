@@ -21,7 +21,7 @@ void refuseCollisionsOf(const RenderOptions& options, std::vector<NamedPath> rea
 
 int render(const RenderOptions& options) {
   const Configuration configuration(options.configuration);
-  return configuration.blaming([&] {
+  return configuration.attributing([&] {
     scene::Scene scene = configuredScene(configuration);
     refuseCollisionsOf(options, configuredFiles(configuration, scene));
     hal::SteppedClock clock;

@@ -32,10 +32,10 @@ void refuseTwice(std::vector<std::string> targets) {
   std::ranges::sort(targets);
   const auto twice = std::ranges::adjacent_find(targets);
   if (twice == targets.end()) return;
-  throw hal::StartupError(hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
-                                     .subject = "--output",
-                                     .problem = "is given twice: " + *twice,
-                                     .remedy = "give each output once"});
+  throw hal::Failure(hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
+                                .subject = "--output",
+                                .problem = "is given twice: " + *twice,
+                                .remedy = "give each output once"});
 }
 
 /// The painting would overwrite what it is painted from, or itself.
@@ -54,10 +54,10 @@ void refuseCollisionsOf(const Configuration& configuration, const scene::Scene& 
 void requireFolder(const std::filesystem::path& folder) {
   std::error_code ignored;
   if (std::filesystem::is_directory(folder, ignored)) return;
-  throw hal::StartupError(hal::Error{.kind = hal::ErrorKind::kNotFound,
-                                     .subject = folder.string(),
-                                     .problem = "is not a folder",
-                                     .remedy = "make it, or give another --stills DIR"});
+  throw hal::Failure(hal::Error{.kind = hal::ErrorKind::kNotFound,
+                                .subject = folder.string(),
+                                .problem = "is not a folder",
+                                .remedy = "make it, or give another --snapshots DIR"});
 }
 
 hal::OutputOptions outputOptions(const OutputSettings& output) {
@@ -74,12 +74,12 @@ hal::OutputOptions outputOptions(const OutputSettings& output) {
 int run(const RunOptions& options) {
   const Interrupt interrupt;  // from the first moment on, a signal ends it in order
   const Configuration configuration(options.configuration);
-  return configuration.blaming([&] {
+  return configuration.attributing([&] {
     scene::Scene scene = configuredScene(configuration);
     const OutputSettings output = configuration.output();
     refuseSlipOfCamera(configuration);
     refuseCollisionsOf(configuration, scene);
-    requireFolder(output.stills);
+    requireFolder(output.snapshots);
     hal::SteadyClock clock;
     const CameraSettings camera = configuredCamera(configuration);
     const auto selector = makeCameraSelector(camera, clock);
@@ -99,7 +99,7 @@ int run(const RunOptions& options) {
              },
          .waitsForCamera = camera.wait,
          .scene = std::move(scene),
-         .stills = output.stills});
+         .snapshots = output.snapshots});
   });
 }
 

@@ -29,7 +29,7 @@ std::string describe(const styles::StyleInfo& info) {
                                                  info.defaults.text(each.name), each.allowed())});
   }
   std::vector<TextRow> views;
-  for (const PainterView& view : viewsOf(info.name)) views.push_back({view.name, view.help});
+  for (const DebugView& view : debugViewsOf(info.name)) views.push_back({view.name, view.help});
   return fmt::format("{}: {}\n", info.name, info.help) + section("looks (--look NAME)", looks) +
          section("parameters (--set NAME=VALUE), with their default and what is allowed",
                  parameters) +

@@ -135,7 +135,7 @@ void checkName(const Sections& sections, std::string_view key, const std::string
 
 /// The look and the view are the style's: those of another style are forgotten where a stronger
 /// layer changes the style, and a layer's own must be the style's.
-void settleStyle(Sections& sections, const Sections& before) {
+void validateStyle(Sections& sections, const Sections& before) {
   const PaintingSettings painting = paintingOf(sections);
   if (painting.style != paintingOf(before).style) {
     for (const std::string_view key : {kLookKey, kViewKey}) {
@@ -149,14 +149,14 @@ void settleStyle(Sections& sections, const Sections& before) {
   }
   checkName(sections, kLookKey, settled.look, "the looks", looks);
   std::vector<std::string> views{std::string(kFinishedView)};
-  for (const PainterView& view : viewsOf(settled.style)) views.push_back(view.name);
+  for (const DebugView& view : debugViewsOf(settled.style)) views.push_back(view.name);
   checkName(sections, kViewKey, settled.view, "the views", views);
 }
 
 void lay(Sections& sections, const std::function<void(Sections&)>& layer) {
   const Sections before = sections;
   layer(sections);
-  settleStyle(sections, before);
+  validateStyle(sections, before);
 }
 
 /// Puts the look's values where nobody gave any.
@@ -277,14 +277,14 @@ std::optional<std::string> Configuration::keyThatNamed(const std::string& path) 
   return std::nullopt;
 }
 
-hal::Error Configuration::blamed(hal::Error error) const {
+hal::Error Configuration::attributed(hal::Error error) const {
   if (const auto key = keyThatNamed(error.subject)) {
     error.subject = fmt::format("{}: {}: {}", origin(*key), *key, error.subject);
   }
   return error;
 }
 
-ConfigError Configuration::blamed(const ConfigError& error) const {
+ConfigError Configuration::attributed(const ConfigError& error) const {
   // A line tells the place within the file that the value names.
   const auto key = error.line() > 0 ? std::nullopt : keyThatNamed(error.file());
   return key ? errorAt(*key, error.what(), {}) : error;

@@ -47,7 +47,7 @@ struct OutputSettings {
   std::filesystem::path secondTarget{kNoTarget};
   std::filesystem::path thirdTarget{kNoTarget};
   std::string loopbackFormat = "auto";
-  std::filesystem::path stills = ".";  ///< the folder that stills are saved to
+  std::filesystem::path snapshots = ".";  ///< the folder that snapshots are saved to
 };
 
 /// [runtime]
@@ -117,21 +117,21 @@ class Configuration {
   /// Runs `action`, which uses what is in force. An error that it throws of a file which a profile,
   /// a site file or the environment named is told with the place that named it.
   template <class Action>
-  auto blaming(Action&& action) const {
+  auto attributing(Action&& action) const {
     try {
       return std::forward<Action>(action)();
-    } catch (const hal::StartupError& error) {
-      throw hal::StartupError(blamed(error.error()));
+    } catch (const hal::Failure& error) {
+      throw hal::Failure(attributed(error.error()));
     } catch (const config::ConfigError& error) {
-      throw blamed(error);
+      throw attributed(error);
     }
   }
 
  private:
   /// The key that gave the path, unless nobody or the command line did, whose errors need no more.
   std::optional<std::string> keyThatNamed(const std::string& path) const;
-  hal::Error blamed(hal::Error error) const;
-  config::ConfigError blamed(const config::ConfigError& error) const;
+  hal::Error attributed(hal::Error error) const;
+  config::ConfigError attributed(const config::ConfigError& error) const;
 
   config::Sections sections_;
   config::Sections given_;  ///< without the look's values

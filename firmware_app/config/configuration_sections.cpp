@@ -136,7 +136,7 @@ const ParameterTable<OutputSettings>& outputTable() {
                       {"auto", "yuyv", "nv12", "i420"},
                       "The layout of a loopback's pictures; \"auto\": what the device takes.",
                       TakesEffect::kRestart),
-      pathParameter("stills", &OutputSettings::stills, {"."},
+      pathParameter("snapshots", &OutputSettings::snapshots, {"."},
                     "The folder that the window's key s saves to; \".\": where the program runs.")};
   return kTable;
 }

@@ -32,7 +32,7 @@ hal::SyntheticOptions syntheticOptions(const CameraSettings& camera);
 /// What a device is asked for: size, rate and controls.
 hal::StreamRequest streamRequestOf(const CameraSettings& camera);
 
-/// [status]'s server, started; null where it is off. Throws hal::StartupError as
+/// [status]'s server, started; null where it is off. Throws hal::Failure as
 /// startStatusServer().
 std::unique_ptr<StatusServer> configuredStatusServer(const Configuration& configuration,
                                                      StatusPages pages);

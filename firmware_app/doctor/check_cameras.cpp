@@ -20,7 +20,7 @@ bool isUsable(const hal::CameraDescription& camera) {
   return !camera.problem && std::ranges::any_of(camera.modes, &hal::CameraMode::isSupported);
 }
 
-/// How bad a camera's problem is, and what mends it.
+/// How bad a camera's problem is, and what fixes it.
 Finding troubled(Finding finding, const hal::CameraDescription& camera) {
   const hal::Error& problem = *camera.problem;
   finding.text = fmt::format("{}: {}", nameOf(camera), problem.problem);
@@ -50,7 +50,7 @@ Finding checkCameras(const Probes& probes) {
   for (const hal::CameraDescription& camera : cameras) {
     if (isUsable(camera)) usable.push_back(nameOf(camera));
   }
-  // A camera that may not be opened is to be mended even where another one works.
+  // A camera that may not be opened is to be fixed even where another one works.
   const auto forbidden = std::ranges::find_if(cameras, [](const auto& camera) {
     return camera.problem && camera.problem->kind == hal::ErrorKind::kPermissionDenied;
   });

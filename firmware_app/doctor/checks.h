@@ -21,7 +21,7 @@ Finding checkLockedMemory(const Probes& probes);
 Finding checkClock(const Probes& probes);          ///< a clock source that is exact and cheap
 Finding checkUdev(const Probes& probes);           ///< tells of cameras that come and go
 Finding checkConfiguration(const Probes& probes);  ///< profile, site file, variables
-Finding checkDisk(const Probes& probes);           ///< the folder of stills
+Finding checkDisk(const Probes& probes);           ///< the folder of snapshots
 Finding checkMemory(const Probes& probes);
 
 /// All of them.

@@ -21,7 +21,7 @@ std::string summary(const std::vector<Finding>& findings) {
   const auto warnings = countOf(findings, Verdict::kWarning);
   if (wrong + warnings == 0) return "All is well.";
   if (wrong == 0) return fmt::format("Nothing is wrong; {}.", plural(warnings, "warning"));
-  return fmt::format("{} to mend; {}.", plural(wrong, "thing"), plural(warnings, "warning"));
+  return fmt::format("{} to fix; {}.", plural(wrong, "thing"), plural(warnings, "warning"));
 }
 
 }  // namespace

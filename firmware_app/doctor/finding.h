@@ -18,10 +18,10 @@ struct Finding {
   std::string check;  ///< "OpenGL ES"
   Verdict verdict = Verdict::kOk;
   std::string text;    ///< one line
-  std::string remedy;  ///< the command that mends it, or what to do; empty where all is well
+  std::string remedy;  ///< the command that fixes it, or what to do; empty where all is well
 };
 
-/// A line a finding, and under each that is not well what mends it; then how many.
+/// A line a finding, and under each that is not well what fixes it; then how many.
 std::string asText(const std::vector<Finding>& findings);
 /// {"checks": [{"check", "verdict", "text", "remedy"} …], "wrong": n, "warnings": n}
 std::string asJson(const std::vector<Finding>& findings);

@@ -57,7 +57,7 @@ std::uint64_t softLimit(int resource) {
 hal::Result<gpu::ContextInfo> makeContext() {
   try {
     return gpu::EglContext().info();
-  } catch (const hal::StartupError& error) {
+  } catch (const hal::Failure& error) {
     return tl::unexpected(error.error());
   }
 }
@@ -74,7 +74,7 @@ Probes systemProbes() {
           .cameras = {},
           .loopbacks = [] { return hal::listLoopbacks(); },
           .configurationError = {},
-          .stills = {}};
+          .snapshots = {}};
 }
 
 }  // namespace pleinair::app::doctor

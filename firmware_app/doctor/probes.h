@@ -31,10 +31,10 @@ struct Probes {
   std::function<std::vector<hal::LoopbackDevice>()> loopbacks;
   /// What is wrong with the configuration, in a line; nothing where it is sound.
   std::function<std::optional<std::string>()> configurationError;
-  std::filesystem::path stills;  ///< the folder that stills go to
+  std::filesystem::path snapshots;  ///< the folder that snapshots go to
 };
 
-/// This machine's, but for `cameras`, `configurationError` and `stills`.
+/// This machine's, but for `cameras`, `configurationError` and `snapshots`.
 Probes systemProbes();
 
 }  // namespace pleinair::app::doctor

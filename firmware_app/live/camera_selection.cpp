@@ -64,7 +64,7 @@ std::unique_ptr<hal::CameraSelector> makeCameraSelector(const CameraSettings& se
   backends.push_back(recordings());
   auto selector = std::make_unique<hal::CameraSelector>(std::move(backends), choiceOf(settings),
                                                         clock, hal::onThreadsOfTheirOwn());
-  if (!selector->check()) throw hal::StartupError(noCamera(settings.source.string()));
+  if (!selector->check()) throw hal::Failure(noCamera(settings.source.string()));
   return selector;
 }
 

@@ -17,12 +17,12 @@ std::vector<hal::SelectableBackend> deviceBackends();
 
 /// What camera.source chooses among, all of which deliver in real time: devices, each on a thread
 /// of its own, so that none holds up the program for long; the synthetic camera; and a recording,
-/// which is played over and over at its own pace. Throws hal::StartupError (kNotFound) where the
+/// which is played over and over at its own pace. Throws hal::Failure (kNotFound) where the
 /// source is neither a camera's name nor a file. Nothing is opened. The clock outlives the cameras.
 std::unique_ptr<hal::CameraSelector> makeCameraSelector(const CameraSettings& settings,
                                                         hal::Clock& clock);
 
-/// The camera that the settings choose now, stopped. Throws hal::StartupError: as above, or why it
+/// The camera that the settings choose now, stopped. Throws hal::Failure: as above, or why it
 /// cannot be opened, with each candidate's reason where there are several.
 std::unique_ptr<hal::Camera> chosenCamera(const CameraSettings& settings, hal::Clock& clock);
 

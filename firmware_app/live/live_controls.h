@@ -29,19 +29,19 @@ class LiveControls {
   }
 
   /// The next frame is to be kept as a still.
-  void askForStill() {
+  void requestSnapshot() {
     const std::scoped_lock lock(mutex_);
-    wantsStill_ = true;
+    wantsSnapshot_ = true;
   }
-  bool takeWishForStill() {
+  bool takeSnapshotRequest() {
     const std::scoped_lock lock(mutex_);
-    return std::exchange(wantsStill_, false);
+    return std::exchange(wantsSnapshot_, false);
   }
-  void putStill(hal::Result<hal::Image> still) {
+  void putSnapshot(hal::Result<hal::Image> still) {
     const std::scoped_lock lock(mutex_);
     still_ = std::move(still);
   }
-  std::optional<hal::Result<hal::Image>> takeStill() {
+  std::optional<hal::Result<hal::Image>> takeSnapshot() {
     const std::scoped_lock lock(mutex_);
     return std::exchange(still_, std::nullopt);
   }
@@ -49,7 +49,7 @@ class LiveControls {
  private:
   mutable std::mutex mutex_;
   std::shared_ptr<const PaintParameters> parameters_;
-  bool wantsStill_ = false;
+  bool wantsSnapshot_ = false;
   std::optional<hal::Result<hal::Image>> still_;
 };
 

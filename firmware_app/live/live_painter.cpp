@@ -7,7 +7,7 @@ namespace pleinair::app {
 LivePainter::LivePainter(const PainterOptions& options,
                          const std::vector<hal::FrameFormat>& outputs, LiveControls& controls)
     : painter_(options), controls_(controls), seen_(controls.parameters()), parameters_(*seen_) {
-  for (const hal::FrameFormat& format : outputs) readers_.push_back(painter_.openReader(format));
+  for (const hal::FrameFormat& format : outputs) readers_.push_back(painter_.openReadback(format));
 }
 
 hal::Result<void> LivePainter::paint(const hal::CapturedFrame& frame, std::size_t quality) {
@@ -16,7 +16,7 @@ hal::Result<void> LivePainter::paint(const hal::CapturedFrame& frame, std::size_
     seen_ = std::move(newest);
   }
   parameters_.quality = quality;
-  const bool isStill = controls_.takeWishForStill();
+  const bool isStill = controls_.takeSnapshotRequest();
   if (!isStill) {
     const auto painted = painter_.paint(frame, parameters_);
     return painted ? hal::Result<void>() : tl::unexpected(painted.error());
@@ -28,11 +28,11 @@ hal::Result<void> LivePainter::paint(const hal::CapturedFrame& frame, std::size_
   if (const auto painted = painter_.paint(frame, parameters); !painted) {
     return tl::unexpected(painted.error());
   }
-  controls_.putStill(painter_.still());
+  controls_.putSnapshot(painter_.snapshot());
   return {};
 }
 
-hal::Result<bool> LivePainter::take(std::size_t output, ReadPicture& picture) {
+hal::Result<bool> LivePainter::take(std::size_t output, OutputFrame& picture) {
   return painter_.take(readers_.at(output), picture, false);
 }
 

@@ -10,16 +10,16 @@
 
 namespace pleinair::app {
 
-/// The engine's Painter for a live chain, with the parameters and stills that are asked for
+/// The engine's Painter for a live chain, with the parameters and snapshots that are asked for
 /// meanwhile. `controls` outlives it.
 class LivePainter final : public runtime::FramePainter {
  public:
-  /// Throws hal::StartupError.
+  /// Throws hal::Failure.
   LivePainter(const PainterOptions& options, const std::vector<hal::FrameFormat>& outputs,
               LiveControls& controls);
 
   hal::Result<void> paint(const hal::CapturedFrame& frame, std::size_t quality) override;
-  hal::Result<bool> take(std::size_t output, ReadPicture& picture) override;
+  hal::Result<bool> take(std::size_t output, OutputFrame& picture) override;
 
  private:
   Painter painter_;

@@ -23,13 +23,13 @@
 #include "firmware_app/live/live_tuning.h"
 #include "firmware_app/live/live_window.h"
 #include "firmware_app/live/runtime_rules.h"
-#include "firmware_app/live/still_saver.h"
+#include "firmware_app/live/snapshot_saver.h"
 #include "firmware_app/scene/scene_warnings.h"
 #include "hal/outputs/window/window.h"
 #include "hal/supervisor/camera_supervisor.h"
 #include "hal/supervisor/hotplug_monitor.h"
 #include "pipeline/engine/painter.h"
-#include "pipeline/runtime/live_chain.h"
+#include "pipeline/runtime/live_pipeline.h"
 #include "pipeline/runtime/live_threads.h"
 #include "pipeline/runtime/status_text.h"
 #include "pipeline/styles/style_registry.h"
@@ -41,7 +41,7 @@ using hal::orThrow;
 using namespace std::chrono_literals;
 
 /// How often the program's own thread looks at keys, signals and the state of things.
-constexpr hal::Duration kLook = 10ms;
+constexpr hal::Duration kPollInterval = 10ms;
 constexpr hal::Duration kBetweenReports = 100ms;
 constexpr hal::Duration kBetweenCaptions = 33ms;
 /// From this rate on, the next picture draws the caption soon enough.
@@ -60,17 +60,17 @@ LiveTuning tuningOf(const PaintingOptions& options) {
   for (const styles::Look& look : info.looks) {
     looks.push_back({std::string(look.name), info.parametersOf(look.name)});
   }
-  return {options.style, startOf(options), viewsOf(options.style), std::move(looks)};
+  return {options.style, startOf(options), debugViewsOf(options.style), std::move(looks)};
 }
 
 void checkView(const PaintingOptions& options) {
   std::vector<std::string> names;
-  for (const PainterView& view : viewsOf(options.style)) names.push_back(view.name);
+  for (const DebugView& view : debugViewsOf(options.style)) names.push_back(view.name);
   if (options.view.empty() || std::ranges::find(names, options.view) != names.end()) return;
-  throw hal::StartupError({.kind = hal::ErrorKind::kInvalidArgument,
-                           .subject = "view \"" + options.view + "\"",
-                           .problem = config::unknownText("view", options.view, names),
-                           .remedy = "choose one of: " + config::listText(names)});
+  throw hal::Failure({.kind = hal::ErrorKind::kInvalidArgument,
+                      .subject = "view \"" + options.view + "\"",
+                      .problem = config::unknownText("view", options.view, names),
+                      .remedy = "choose one of: " + config::listText(names)});
 }
 
 /// The live chain with all that is around it, on the program's own thread.
@@ -82,7 +82,7 @@ class LivePainting {
         chain_(supervisor_, *job.clock),
         tuning_(tuningOf(job.options)),
         controls_(startOf(job.options)),
-        saver_(job.stills),
+        saver_(job.snapshots),
         reporter_(qualityNames()) {
     checkView(job.options);
     for (const std::string& name : job.outputs) {
@@ -117,9 +117,9 @@ class LivePainting {
         return true;
       }
       const bool gaveUp = camera.hasEnded || (camera.cause && !job_.waitsForCamera);
-      if (gaveUp) throw hal::StartupError(camera.cause.value_or(noFrames()));
+      if (gaveUp) throw hal::Failure(camera.cause.value_or(noFrames()));
       if (camera.cause) tellOfWaiting(camera.cause->message());
-      job_.clock->sleepUntil(job_.clock->now() + kLook);
+      job_.clock->sleepUntil(job_.clock->now() + kPollInterval);
     }
   }
 
@@ -184,7 +184,7 @@ class LivePainting {
   bool awaitPainter() {
     while (!threads_->isPainterReady()) {
       if (Interrupt::received() != 0) return false;
-      job_.clock->sleepUntil(job_.clock->now() + kLook);
+      job_.clock->sleepUntil(job_.clock->now() + kPollInterval);
     }
     return true;
   }
@@ -212,12 +212,12 @@ class LivePainting {
 
   /// One round of the program's own thread.
   void look() {
-    hal::TimePoint wake = job_.clock->now() + kLook;
+    hal::TimePoint wake = job_.clock->now() + kPollInterval;
     for (const std::size_t index : stepped_) {
       if (const auto next = chain_.output(index).step()) wake = std::min(wake, *next);
     }
-    attendWindow();
-    attendStills();
+    handleWindow();
+    handleSnapshots();
     report();
     if (stepped_.empty()) {
       job_.clock->sleepUntil(wake);
@@ -226,12 +226,12 @@ class LivePainting {
     }
   }
 
-  void attendWindow() {
+  void handleWindow() {
     if (!window_) return;
-    const LiveWindow::Wishes wishes = window_->takeWishes();
-    wantsToQuit_ = wantsToQuit_ || wishes.quit;
-    wantsStill_ = wantsStill_ || wishes.still;
-    if (wishes.tuned) controls_.setParameters(tuning_.parameters());
+    const LiveWindow::Requests requests = window_->takeRequests();
+    wantsToQuit_ = wantsToQuit_ || requests.quit;
+    wantsSnapshot_ = wantsSnapshot_ || requests.snapshot;
+    if (requests.tuned) controls_.setParameters(tuning_.parameters());
     chain_.paint().setPaused(tuning_.isPaused());
     const hal::TimePoint now = job_.clock->now();
     if (now - captioned_ < kBetweenCaptions) return;
@@ -240,16 +240,16 @@ class LivePainting {
     window_->update(rate, rate > kRateOfPictures);
   }
 
-  void attendStills() {
-    if (const auto saved = saver_.takeResult()) tellOfStill(*saved);
-    // Two wishes in quick succession: the second's picture waits until the first's is on disk.
-    if (saver_.isBusy() || saveStill()) return;
-    if (std::exchange(wantsStill_, false)) controls_.askForStill();
+  void handleSnapshots() {
+    if (const auto saved = saver_.takeResult()) reportSnapshot(*saved);
+    // Two requests in quick succession: the second's picture waits until the first's is on disk.
+    if (saver_.isBusy() || saveSnapshot()) return;
+    if (std::exchange(wantsSnapshot_, false)) controls_.requestSnapshot();
   }
 
   /// Begins to save a still that was painted; false where there is none.
-  bool saveStill() {
-    auto still = controls_.takeStill();
+  bool saveSnapshot() {
+    auto still = controls_.takeSnapshot();
     if (!still) return false;
     if (*still) {
       saver_.save(**std::move(still));
@@ -260,13 +260,13 @@ class LivePainting {
   }
 
   /// At the end: those that were painted are saved, and told of.
-  void finishStills() {
+  void finishSnapshots() {
     do {
-      if (const auto saved = saver_.awaitResult()) tellOfStill(*saved);
-    } while (saveStill());
+      if (const auto saved = saver_.awaitResult()) reportSnapshot(*saved);
+    } while (saveSnapshot());
   }
 
-  void tellOfStill(const hal::Result<std::filesystem::path>& saved) {
+  void reportSnapshot(const hal::Result<std::filesystem::path>& saved) {
     tell(saved ? "saved " + saved->string() : saved.error().message(), saved.has_value());
   }
 
@@ -290,12 +290,12 @@ class LivePainting {
   void finish() {
     const hal::Duration elapsed = job_.clock->now() - began_;
     stopThreads();
-    finishStills();
+    finishSnapshots();
     reporter_.interrupt();
     const runtime::LedgerCounts ledger = chain_.ledger().counts();
     fmt::print("{}: {}\n", ledger.summary(elapsed), fmt::join(job_.outputs, ", "));
     if (!failure_ && !failures_.empty()) failure_ = failures_.front();
-    if (failure_) throw hal::StartupError(*failure_);
+    if (failure_) throw hal::Failure(*failure_);
   }
 
   /// Idempotent. Does not come back where something hangs.
@@ -332,11 +332,11 @@ class LivePainting {
 
   const LiveJob& job_;
   hal::CameraSupervisor supervisor_;
-  runtime::LiveChain chain_;
+  runtime::LivePipeline chain_;
   hal::StreamFormat stream_;
   LiveTuning tuning_;
   LiveControls controls_;
-  StillSaver saver_;
+  SnapshotSaver saver_;
   LiveReporter reporter_;
   std::vector<std::unique_ptr<hal::MemoryOutput>> opened_;  ///< until they are the chain's
   std::vector<std::size_t> stepped_;                        ///< outputs of this thread: the window
@@ -353,7 +353,7 @@ class LivePainting {
   std::optional<hal::Error> failure_;  ///< why it ended, where that is not its proper end
   bool hasBegun_ = false;              ///< to hand pictures to outputs
   bool wantsToQuit_ = false;
-  bool wantsStill_ = false;
+  bool wantsSnapshot_ = false;
 };
 
 }  // namespace

@@ -30,13 +30,13 @@ struct LiveJob {
   std::function<std::unique_ptr<StatusServer>(StatusPages)> serveStatus;
   bool waitsForCamera = false;  ///< at the start, where there is none; later it always does
   scene::Scene scene;
-  std::filesystem::path stills;  ///< the folder that stills go to
+  std::filesystem::path snapshots;  ///< the folder that snapshots go to
 };
 
 /// Runs the job until its frames are shown, the recording ends, a window is closed, a key or a
 /// signal says so; then prints the ledger on standard output and gives 0: ending it is no failure,
 /// and a file has all that was written to it. A camera or a GPU that is lost, and an output that
-/// can be opened again, are waited for. Throws hal::StartupError and config::ConfigError; where an
+/// can be opened again, are waited for. Throws hal::Failure and config::ConfigError; where an
 /// output failed for good, after the ledger.
 ///
 /// All ends within two seconds of a signal, which the caller's Interrupt takes: what does not (a

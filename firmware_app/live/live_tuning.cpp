@@ -39,14 +39,14 @@ std::string rangeText(const ParameterDescriptor& parameter) {
 }  // namespace
 
 LiveTuning::LiveTuning(std::string style, PaintParameters start,
-                       const std::vector<PainterView>& views, std::vector<LiveLook> looks)
+                       const std::vector<DebugView>& views, std::vector<LiveLook> looks)
     : style_(std::move(style)),
       parameters_(std::move(start)),
       views_{std::string()},
       looks_(std::move(looks)) {
-  for (const PainterView& view : views) views_.push_back(view.name);
-  const auto isWorn = [this](const LiveLook& look) { return look.values == parameters_.style; };
-  const auto worn = std::ranges::find_if(looks_, isWorn);
+  for (const DebugView& view : views) views_.push_back(view.name);
+  const auto isStale = [this](const LiveLook& look) { return look.values == parameters_.style; };
+  const auto worn = std::ranges::find_if(looks_, isStale);
   if (worn != looks_.end()) look_ = static_cast<std::size_t>(worn - looks_.begin());
   const auto descriptors = parameters_.style.list().descriptors();
   for (std::size_t i = 0; i < descriptors.size(); ++i) {
@@ -54,10 +54,10 @@ LiveTuning::LiveTuning(std::string style, PaintParameters start,
   }
 }
 
-LiveTuning::Wish LiveTuning::press(const hal::KeyPressed& key) {
-  if (pressHeld(key)) return Wish::kNone;
+LiveTuning::Request LiveTuning::press(const hal::KeyPressed& key) {
+  if (pressHeld(key)) return Request::kNone;
   // A held key would turn these on and off.
-  return key.isRepeat ? Wish::kUnknownKey : pressOnce(key);
+  return key.isRepeat ? Request::kUnknownKey : pressOnce(key);
 }
 
 /// Keys that go on while they are held. Whether this is one.
@@ -74,10 +74,10 @@ bool LiveTuning::pressHeld(const hal::KeyPressed& key) {
   return true;
 }
 
-LiveTuning::Wish LiveTuning::pressOnce(const hal::KeyPressed& key) {
-  if (key.name == "q" || key.name == "escape") return Wish::kQuit;
-  if (key.name == "s") return Wish::kStill;
-  if (key.name == "f") return Wish::kFullScreen;
+LiveTuning::Request LiveTuning::pressOnce(const hal::KeyPressed& key) {
+  if (key.name == "q" || key.name == "escape") return Request::kQuit;
+  if (key.name == "s") return Request::kSnapshot;
+  if (key.name == "f") return Request::kFullScreen;
   if (key.name == "backspace") {
     resetParameter();
   } else if (key.name == "v") {
@@ -89,9 +89,9 @@ LiveTuning::Wish LiveTuning::pressOnce(const hal::KeyPressed& key) {
   } else if (key.name == "h" || key.name == "?" || key.name == "f1") {
     showsHelp_ = !showsHelp_;
   } else {
-    return Wish::kUnknownKey;
+    return Request::kUnknownKey;
   }
-  return Wish::kNone;
+  return Request::kNone;
 }
 
 void LiveTuning::choose(int direction) {

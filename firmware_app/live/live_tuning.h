@@ -21,19 +21,19 @@ struct LiveLook {
 class LiveTuning {
  public:
   /// What a key asks of others.
-  enum class Wish {
+  enum class Request {
     kUnknownKey,  ///< nothing; it means nothing here
     kNone,        ///< nothing; it was about the parameters
-    kStill,
+    kSnapshot,
     kFullScreen,
     kQuit,
   };
 
   /// Starts from `start`; `style` is for the captions.
-  LiveTuning(std::string style, PaintParameters start, const std::vector<PainterView>& views,
+  LiveTuning(std::string style, PaintParameters start, const std::vector<DebugView>& views,
              std::vector<LiveLook> looks);
 
-  Wish press(const hal::KeyPressed& key);
+  Request press(const hal::KeyPressed& key);
 
   /// To paint the next frame with.
   const PaintParameters& parameters() const { return parameters_; }
@@ -48,7 +48,7 @@ class LiveTuning {
   static std::string help();
 
  private:
-  Wish pressOnce(const hal::KeyPressed& key);
+  Request pressOnce(const hal::KeyPressed& key);
   bool pressHeld(const hal::KeyPressed& key);
   void choose(int direction);
   void change(int direction, bool large);

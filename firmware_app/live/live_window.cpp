@@ -20,26 +20,26 @@ LiveWindow::LiveWindow(hal::Window& window, LiveTuning& tuning, const hal::Clock
   fading_.callUp(clock.now());
 }
 
-LiveWindow::Wishes LiveWindow::takeWishes() {
-  Wishes wishes;
+LiveWindow::Requests LiveWindow::takeRequests() {
+  Requests requests;
   for (const hal::WindowEvent& event : window_.takeEvents()) {
-    std::visit(Overloaded{[&](const hal::KeyPressed& key) { press(key, wishes); },
-                          [&](const hal::WindowClosed&) { wishes.quit = true; },
+    std::visit(Overloaded{[&](const hal::KeyPressed& key) { press(key, requests); },
+                          [&](const hal::WindowClosed&) { requests.quit = true; },
                           [](const hal::WindowResized&) {}},  // it scales by itself
                event);
   }
-  return wishes;
+  return requests;
 }
 
-void LiveWindow::press(const hal::KeyPressed& key, Wishes& wishes) {
-  const LiveTuning::Wish wish = tuning_.press(key);
-  if (wish == LiveTuning::Wish::kUnknownKey) return;
-  wishes.tuned = true;
+void LiveWindow::press(const hal::KeyPressed& key, Requests& requests) {
+  const LiveTuning::Request request = tuning_.press(key);
+  if (request == LiveTuning::Request::kUnknownKey) return;
+  requests.tuned = true;
   notice_.clear();
   fading_.callUp(clock_.now());
-  if (wish == LiveTuning::Wish::kQuit) wishes.quit = true;
-  if (wish == LiveTuning::Wish::kStill) wishes.still = true;
-  if (wish == LiveTuning::Wish::kFullScreen) {
+  if (request == LiveTuning::Request::kQuit) requests.quit = true;
+  if (request == LiveTuning::Request::kSnapshot) requests.snapshot = true;
+  if (request == LiveTuning::Request::kFullScreen) {
     isFullScreen_ = !isFullScreen_;
     window_.setFullScreen(isFullScreen_);
   }

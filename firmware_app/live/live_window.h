@@ -40,21 +40,21 @@ class LiveWindow {
   LiveWindow(hal::Window& window, LiveTuning& tuning, const hal::Clock& clock);
 
   /// What the user has asked for since the last call.
-  struct Wishes {
+  struct Requests {
     bool quit = false;
-    bool still = false;
+    bool snapshot = false;
     bool tuned = false;  ///< parameters, view or look may have changed
   };
-  Wishes takeWishes();
+  Requests takeRequests();
 
   /// Says something in the caption until the next key.
   void notify(const std::string& notice);
   /// Brings title and caption up to date; to be called before each picture, and while none comes.
-  /// Throws hal::StartupError where the window can no longer be drawn.
+  /// Throws hal::Failure where the window can no longer be drawn.
   void update(double framesPerSecond, bool pictureFollows);
 
  private:
-  void press(const hal::KeyPressed& key, Wishes& wishes);
+  void press(const hal::KeyPressed& key, Requests& requests);
   std::string caption(double framesPerSecond) const;
 
   hal::Window& window_;

@@ -13,23 +13,23 @@ namespace {
 
 using calibration::Coverage;
 using calibration::Tilt;
-using calibration::ViewFate;
+using calibration::ViewOutcome;
 using calibration::ViewSelector;
 
 constexpr hal::Duration kRedrawPeriod = std::chrono::milliseconds(250);
 constexpr hal::Duration kTellPeriod = std::chrono::seconds(5);
 
-std::string_view fateText(ViewFate fate) {
-  switch (fate) {
-    case ViewFate::kTaken:
+std::string_view outcomeText(ViewOutcome outcome) {
+  switch (outcome) {
+    case ViewOutcome::kTaken:
       return "taken";
-    case ViewFate::kNoBoard:
+    case ViewOutcome::kNoBoard:
       return "the board is not seen, or not all of it";
-    case ViewFate::kBlurred:
+    case ViewOutcome::kBlurred:
       return "blurred: hold it still, give it light";
-    case ViewFate::kMoving:
+    case ViewOutcome::kMoving:
       return "moving: hold it still";
-    case ViewFate::kNothingNew:
+    case ViewOutcome::kNothingNew:
       break;
   }
   return "nothing new";
@@ -37,7 +37,7 @@ std::string_view fateText(ViewFate fate) {
 
 std::string wishText(const ViewSelector& selector) {
   if (selector.counts().withBoard == 0) return "show the board, all of it";
-  if (const auto wish = selector.coverage().nextWish()) return *wish;
+  if (const auto request = selector.coverage().missingViews()) return *request;
   return selector.isComplete() ? "enough" : "show it in a few more ways";
 }
 
@@ -67,7 +67,7 @@ std::string tiltsText(const Coverage& coverage) {
 
 }  // namespace
 
-std::vector<std::string> coveragePanel(const ViewSelector& selector, ViewFate last) {
+std::vector<std::string> coveragePanel(const ViewSelector& selector, ViewOutcome last) {
   const Coverage& coverage = selector.coverage();
   const calibration::ViewCounts& counts = selector.counts();
   const std::array<std::string, calibration::kCellRows> beside{
@@ -78,7 +78,7 @@ std::vector<std::string> coveragePanel(const ViewSelector& selector, ViewFate la
       selector.sharpestEdgePx() > 0.0
           ? fmt::format("sharpest edges {:.1f} px", selector.sharpestEdgePx())
           : std::string(),
-      fmt::format("now:  {}", fateText(last)),
+      fmt::format("now:  {}", outcomeText(last)),
       fmt::format("next: {}", wishText(selector))};
   std::vector<std::string> lines;
   for (int row = 0; row < calibration::kCellRows; ++row) {
@@ -90,11 +90,11 @@ std::vector<std::string> coveragePanel(const ViewSelector& selector, ViewFate la
 CalibrationProgress::CalibrationProgress(const hal::Clock& clock)
     : clock_(clock), told_(clock.now()), isTerminal_(isatty(STDERR_FILENO) != 0) {}
 
-void CalibrationProgress::advance(const ViewSelector& selector, ViewFate fate) {
+void CalibrationProgress::advance(const ViewSelector& selector, ViewOutcome outcome) {
   const hal::TimePoint now = clock_.now();
   if (isTerminal_) {
-    if (drawnLines_ > 0 && fate != ViewFate::kTaken && now - told_ < kRedrawPeriod) return;
-    draw(coveragePanel(selector, fate));
+    if (drawnLines_ > 0 && outcome != ViewOutcome::kTaken && now - told_ < kRedrawPeriod) return;
+    draw(coveragePanel(selector, outcome));
   } else {
     if (now - told_ < kTellPeriod) return;
     tell(selector);

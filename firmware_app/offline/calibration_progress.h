@@ -12,7 +12,7 @@ namespace pleinair::app {
 /// The cells of the picture with how many views reach each (. none, o one, O more), beside it what
 /// there is and what became of the last picture, below it what to do next. A line each.
 std::vector<std::string> coveragePanel(const calibration::ViewSelector& selector,
-                                       calibration::ViewFate last);
+                                       calibration::ViewOutcome last);
 
 /// Says on standard error how far a calibration is: the panel where that is a terminal, else a line
 /// every few seconds where something has changed. One thread.
@@ -20,7 +20,7 @@ class CalibrationProgress {
  public:
   explicit CalibrationProgress(const hal::Clock& clock);
   /// After each picture.
-  void advance(const calibration::ViewSelector& selector, calibration::ViewFate fate);
+  void advance(const calibration::ViewSelector& selector, calibration::ViewOutcome outcome);
   /// Clears the panel, so that something else can be said.
   void interrupt();
 

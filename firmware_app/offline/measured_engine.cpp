@@ -5,7 +5,7 @@ namespace pleinair::app {
 hal::Result<measure::PaintedFrame> MeasuredEngine::paint(const hal::CapturedFrame& frame) {
   const hal::Result<Picture> picture = painter_.paint(frame, parameters_);
   if (!picture) return tl::unexpected(picture.error());
-  hal::Result<hal::Image> output = painter_.still();
+  hal::Result<hal::Image> output = painter_.snapshot();
   if (!output) return tl::unexpected(output.error());
   hal::Result<std::vector<marks::Anchor>> anchors = painter_.anchors();
   if (!anchors) return tl::unexpected(anchors.error());
@@ -16,7 +16,7 @@ hal::Result<measure::PaintedFrame> MeasuredEngine::paint(const hal::CapturedFram
     painted.input = hal::Image(frame.image);
     return painted;
   }
-  hal::Result<hal::Image> input = painter_.cameraStill();
+  hal::Result<hal::Image> input = painter_.cameraSnapshot();
   if (!input) return tl::unexpected(input.error());
   painted.input = std::move(*input);
   return painted;

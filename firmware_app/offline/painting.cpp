@@ -29,8 +29,6 @@ namespace {
 using hal::Error;
 using hal::orThrow;
 
-constexpr int kSignalExitBase = 128;
-
 std::optional<std::uint64_t> framesToPaint(const hal::StreamFormat& stream,
                                            const PaintingJob& job) {
   if (!stream.frameCount) return job.options.frames;
@@ -66,7 +64,7 @@ class Painting {
         sheetFile_(created<hal::PendingFile>(job.options.contactSheet)),
         outputFormat_(
             orThrow(output_->start({.size = pictureSize(), .framePeriod = stream_.framePeriod}))),
-        reader_(painter_.openReader(outputFormat_.frame)) {
+        reader_(painter_.openReadback(outputFormat_.frame)) {
     for (const std::string& notice : job.scene.notices) spdlog::warn("{}", notice);
     warn(assumedCameraWarning(job.scene, stream_.frame.size));
     warn(blackViewWarning(job.scene, job.options.view));
@@ -126,8 +124,8 @@ class Painting {
           }
           return kDone;
         },
-        [](hal::CameraLost& lost) -> bool { throw hal::StartupError(std::move(lost.cause)); },
-        [](Error& error) -> bool { throw hal::StartupError(std::move(error)); },
+        [](hal::CameraLost& lost) -> bool { throw hal::Failure(std::move(lost.cause)); },
+        [](Error& error) -> bool { throw hal::Failure(std::move(error)); },
     };
     for (bool goesOn = true; goesOn;) {
       hal::NextFrame next = job_.camera->next(hal::kNoDeadline);
@@ -144,8 +142,8 @@ class Painting {
     for (const tracking::TrackedTag& tag : picture.tracking.tags) seenTags_.insert(tag.id);
     if (poses_) orThrow(poses_->write(index, time, picture.tracking));
     if (sheetFile_ && sheet_.wants(index)) {
-      const hal::Image camera = orThrow(painter_.cameraStill());
-      const hal::Image painted = orThrow(painter_.still());
+      const hal::Image camera = orThrow(painter_.cameraSnapshot());
+      const hal::Image painted = orThrow(painter_.snapshot());
       sheet_.add(camera.view(), painted.view(), time);
     }
     while (write(false)) {
@@ -180,7 +178,7 @@ class Painting {
   std::optional<hal::PendingFile> sheetFile_;
   hal::OutputFormat outputFormat_;
   int reader_;
-  ReadPicture read_;
+  OutputFrame read_;
   std::optional<hal::TimePoint> firstTime_;
   std::set<int> seenTags_;
   present::ContactSheet sheet_;

@@ -41,7 +41,7 @@ struct PaintingJob {
   std::string done;   ///< for the summary: "painted"
 };
 
-/// Runs the job with progress, and a summary on standard output. Throws hal::StartupError and
+/// Runs the job with progress, and a summary on standard output. Throws hal::Failure and
 /// config::ConfigError. Returns the exit status: 0, or 128 + the signal that broke it off, with a
 /// line on standard error.
 ///

@@ -6,10 +6,10 @@ namespace pleinair::app {
 
 std::unique_ptr<StatusServer> startStatusServer(const std::string& listen, StatusPages) {
   if (!orThrow(parseListen(listen))) return nullptr;
-  throw hal::StartupError({.kind = hal::ErrorKind::kUnsupported,
-                           .subject = "status.listen",
-                           .problem = "this build has no status server",
-                           .remedy = "install libmicrohttpd-dev and build again, or say \"off\""});
+  throw hal::Failure({.kind = hal::ErrorKind::kUnsupported,
+                      .subject = "status.listen",
+                      .problem = "this build has no status server",
+                      .remedy = "install libmicrohttpd-dev and build again, or say \"off\""});
 }
 
 }  // namespace pleinair::app

@@ -106,7 +106,7 @@ MHD_Result send(MHD_Connection* connection, const Answer& answer) {
   return MHD_queue_response(connection, answer.status, response.get());
 }
 
-hal::StartupError cannotListen(const std::string& listen, int errnoValue) {
+hal::Failure cannotListen(const std::string& listen, int errnoValue) {
   hal::Error error =
       hal::errnoError("status.listen", fmt::format("cannot listen at {}", listen), errnoValue);
   if (errnoValue == EADDRINUSE) {
@@ -118,7 +118,7 @@ hal::StartupError cannotListen(const std::string& listen, int errnoValue) {
   } else if (errnoValue == EACCES) {
     error.remedy = "give a port from 1024";
   }
-  return hal::StartupError(std::move(error));
+  return hal::Failure(std::move(error));
 }
 
 void listenAt(int socket, const ListenAddress& address, const std::string& listen) {

@@ -53,7 +53,7 @@ class StatusServer {
 };
 
 /// `listen` is [status]'s: "off", which gives null, or an address and a port (listen_address.h).
-/// Says in the log where it listens. Throws hal::StartupError: kInvalidArgument (no such address),
+/// Says in the log where it listens. Throws hal::Failure: kInvalidArgument (no such address),
 /// kBusy (the port is taken), kPermissionDenied, kUnsupported (this build has none), kIo.
 std::unique_ptr<StatusServer> startStatusServer(const std::string& listen, StatusPages pages);
 

@@ -8,7 +8,7 @@ namespace pleinair::hal {
 FrameCounts FrameCounts::operator+(const FrameCounts& other) const {
   return {.delivered = delivered + other.delivered,
           .dropped = dropped + other.dropped,
-          .starved = starved + other.starved,
+          .underruns = underruns + other.underruns,
           .lostInStall = lostInStall + other.lostInStall,
           .corrupt = corrupt + other.corrupt,
           .misTimed = misTimed + other.misTimed};
@@ -16,10 +16,10 @@ FrameCounts FrameCounts::operator+(const FrameCounts& other) const {
 
 std::variant<SupervisedFrame, FrameRefusal> SessionFrames::take(CapturedFrame frame, TimePoint now,
                                                                 bool isStalled) {
-  const std::uint64_t starved = std::min(frame.starvedBefore, frame.droppedBefore);
-  const std::uint64_t lost = frame.droppedBefore - starved;
-  waiting_.starved += starved;
-  waiting_.dropped += starved + (isStalled ? 0 : lost);
+  const std::uint64_t underruns = std::min(frame.underrunsBefore, frame.droppedBefore);
+  const std::uint64_t lost = frame.droppedBefore - underruns;
+  waiting_.underruns += underruns;
+  waiting_.dropped += underruns + (isStalled ? 0 : lost);
   waiting_.lostInStall += isStalled ? lost : 0;
   if (const auto refusal = refusalOf(frame, now)) {
     ++(*refusal == FrameRefusal::kCorrupt ? waiting_.corrupt : waiting_.misTimed);
@@ -28,7 +28,7 @@ std::variant<SupervisedFrame, FrameRefusal> SessionFrames::take(CapturedFrame fr
 
   frame.sequence = (counts_ + waiting_).made();
   frame.droppedBefore = waiting_.dropped + waiting_.lostInStall;
-  frame.starvedBefore = waiting_.starved;
+  frame.underrunsBefore = waiting_.underruns;
   lastTime_ = frame.captureTime;
   SupervisedFrame taken{.frame = std::move(frame),
                         .lostInStall = waiting_.lostInStall,

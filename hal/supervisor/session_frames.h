@@ -29,7 +29,7 @@ struct SupervisedFrame {
 struct FrameCounts {
   std::uint64_t delivered = 0;
   std::uint64_t dropped = 0;      ///< by the device or its back end, stalls apart; of those …
-  std::uint64_t starved = 0;      ///< … for want of a free buffer
+  std::uint64_t underruns = 0;    ///< … for want of a free buffer
   std::uint64_t lostInStall = 0;  ///< while the camera was stalled
   std::uint64_t corrupt = 0;
   std::uint64_t misTimed = 0;

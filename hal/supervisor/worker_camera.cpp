@@ -16,7 +16,7 @@ namespace pleinair::hal {
 namespace {
 
 /// How late the thread notices that it is to stop.
-constexpr Duration kLook = std::chrono::milliseconds(50);
+constexpr Duration kPollInterval = std::chrono::milliseconds(50);
 
 /// `condition` of `lock`'s mutex, within `limit` of real time.
 template <class Condition>
@@ -79,7 +79,7 @@ class WorkerCamera::Worker {
   std::optional<CapturedFrame> frame_;
   std::optional<NextFrame> ending_;
   std::uint64_t dropped_ = 0;  // of frames that were replaced, and before them
-  std::uint64_t starved_ = 0;
+  std::uint64_t underruns_ = 0;
 
   std::unique_ptr<Camera> camera_;  // the thread's
 };
@@ -132,7 +132,7 @@ NextFrame WorkerCamera::Worker::next(TimePoint deadline) {
   if (!frame_) return *ending_;
   CapturedFrame frame = *std::exchange(frame_, std::nullopt);
   frame.droppedBefore += std::exchange(dropped_, 0);
-  frame.starvedBefore += std::exchange(starved_, 0);
+  frame.underrunsBefore += std::exchange(underruns_, 0);
   return frame;
 }
 
@@ -188,7 +188,7 @@ void WorkerCamera::Worker::run() {
 
 void WorkerCamera::Worker::stream() {
   while (shallStream()) {
-    NextFrame next = camera_->next(clock_.now() + kLook);
+    NextFrame next = camera_->next(clock_.now() + kPollInterval);
     if (std::holds_alternative<CameraTimeout>(next)) continue;
     const bool goesOn =
         std::holds_alternative<CapturedFrame>(next) || std::holds_alternative<FormatChanged>(next);
@@ -219,7 +219,7 @@ void WorkerCamera::Worker::post(NextFrame next) {
 void WorkerCamera::Worker::replace(std::optional<CapturedFrame>& replaced) {
   if (!frame_) return;
   dropped_ += frame_->droppedBefore + 1;
-  starved_ += frame_->starvedBefore + 1;
+  underruns_ += frame_->underrunsBefore + 1;
   replaced = std::exchange(frame_, std::nullopt);
 }
 
@@ -228,7 +228,7 @@ void WorkerCamera::Worker::clearMail() {
   frame_.reset();
   ending_.reset();
   dropped_ = 0;
-  starved_ = 0;
+  underruns_ = 0;
 }
 
 WorkerCamera::WorkerCamera(CameraFactory make, WorkerLimits limits,

@@ -20,9 +20,9 @@ struct WorkerLimits {
 };
 
 /// A camera on a thread of its own, for devices whose drivers may block. Its newest frame waits to
-/// be taken; one that is replaced counts in the next one's droppedBefore and starvedBefore. A call
-/// that outlasts its limit is abandoned: ours returns, and the thread ends by itself, camera and
-/// all, if ever the driver lets go; until then start() answers kBusy.
+/// be taken; one that is replaced counts in the next one's droppedBefore and underrunsBefore. A
+/// call that outlasts its limit is abandoned: ours returns, and the thread ends by itself, camera
+/// and all, if ever the driver lets go; until then start() answers kBusy.
 ///
 /// Real time only: deadlines are the SteadyClock's. Contract as of Camera; start() also answers
 /// kTimeout and kBusy. stop() and the destructor together

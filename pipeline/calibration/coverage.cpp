@@ -41,7 +41,7 @@ constexpr std::array<Region, 9> kRegions{{{0, 0, "the upper left corner"},
                                           {1, 2, "the lower side"},
                                           {1, 1, "the middle"}}};
 
-constexpr std::array<std::string_view, kTilts> kTiltWishes{
+constexpr std::array<std::string_view, kTilts> kTiltRequests{
     "tilt the board so that its left side is nearer to the camera",
     "tilt the board so that its right side is nearer to the camera",
     "tilt the board so that its upper side is nearer to the camera",
@@ -169,9 +169,9 @@ std::vector<std::string> Coverage::uncoveredRegions() const {
   return regions;
 }
 
-std::optional<std::string> Coverage::nextWish() const {
+std::optional<std::string> Coverage::missingViews() const {
   for (std::size_t tilt = 0; tilt < kTilts; ++tilt) {
-    if (tilts_.at(tilt) < kWantedPerTilt) return std::string(kTiltWishes.at(tilt));
+    if (tilts_.at(tilt) < kWantedPerTilt) return std::string(kTiltRequests.at(tilt));
   }
   if (near_ < kWantedNear) return "hold the board nearer: let it fill the picture";
   if (far_ < kWantedFar) return "hold the board further away";

@@ -60,8 +60,8 @@ class Coverage {
   /// The parts of the picture, of nine, that views hardly reach: "the upper left corner".
   std::vector<std::string> uncoveredRegions() const;
   /// What to do next: "bring the board to the upper left corner"; nothing where all is there.
-  std::optional<std::string> nextWish() const;
-  bool isComplete() const { return !nextWish(); }
+  std::optional<std::string> missingViews() const;
+  bool isComplete() const { return !missingViews(); }
 
  private:
   void count(const ViewTraits& traits, int by);

@@ -91,7 +91,7 @@ LensMatx inverseOf(const LensMatx& matrix) {
   return inverse;
 }
 
-/// One fit under way.
+/// One fit in flight.
 class Fitting {
  public:
   Fitting(std::span<const FitView> views, hal::FrameSize size, LensModel model, double huberPx,

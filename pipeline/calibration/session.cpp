@@ -25,18 +25,18 @@ CalibrationSession::CalibrationSession(Board board, hal::FrameSize size, Session
 
 CalibrationSession::~CalibrationSession() = default;
 
-ViewFate CalibrationSession::offer(const hal::ImageView& picture, hal::TimePoint time) {
+ViewOutcome CalibrationSession::offer(const hal::ImageView& picture, hal::TimePoint time) {
   assert(picture.format.size == size_);
   const hal::PlaneView luma = luma_.convert(picture);
   const std::uint64_t frame = frames_++;
-  const ViewFate fate = selector_.offer(frame, time, detector_->detect(luma, size_));
-  if (fate == ViewFate::kTaken && options_.keepsPictures) keep(frame, luma);
+  const ViewOutcome outcome = selector_.offer(frame, time, detector_->detect(luma, size_));
+  if (outcome == ViewOutcome::kTaken && options_.keepsPictures) keep(frame, luma);
   if (selector_.counts().withBoard > 0) {
     samples_.clear();
   } else {
     keepSample(frame, luma);
   }
-  return fate;
+  return outcome;
 }
 
 void CalibrationSession::keep(std::uint64_t frame, const hal::PlaneView& luma) {

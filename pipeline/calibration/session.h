@@ -23,14 +23,14 @@ struct SessionOptions {
 /// One calibration: pictures in, a report out. One thread at a time.
 class CalibrationSession {
  public:
-  /// Pictures are of `size`. Throws hal::StartupError as tracking::TagDetector.
+  /// Pictures are of `size`. Throws hal::Failure as tracking::TagDetector.
   CalibrationSession(Board board, hal::FrameSize size, SessionOptions options = {});
   ~CalibrationSession();
   CalibrationSession(const CalibrationSession&) = delete;
   CalibrationSession& operator=(const CalibrationSession&) = delete;
 
   /// Precondition: complete, and of the session's size.
-  ViewFate offer(const hal::ImageView& picture, hal::TimePoint time);
+  ViewOutcome offer(const hal::ImageView& picture, hal::TimePoint time);
 
   const Board& board() const { return board_; }
   const ViewSelector& selector() const { return selector_; }

@@ -61,23 +61,23 @@ bool ViewSelector::isComplete() const {
   return views_.size() >= kEnoughViews && coverage_.isComplete();
 }
 
-ViewFate ViewSelector::offer(std::uint64_t frame, hal::TimePoint time,
-                             std::optional<BoardSighting> sighting) {
+ViewOutcome ViewSelector::offer(std::uint64_t frame, hal::TimePoint time,
+                                std::optional<BoardSighting> sighting) {
   ++counts_.pictures;
   if (!sighting) {
     last_.reset();
-    return ViewFate::kNoBoard;
+    return ViewOutcome::kNoBoard;
   }
   ++counts_.withBoard;
   const std::optional<double> speed = speedOf(time, *sighting);
   noteSharpness(sighting->edgeWidthPx);
-  const ViewFate fate = judge(frame, *sighting, speed);
-  if (fate == ViewFate::kBlurred) ++counts_.blurred;
-  if (fate == ViewFate::kMoving) ++counts_.moving;
-  if (fate == ViewFate::kNothingNew) ++counts_.nothingNew;
+  const ViewOutcome outcome = judge(frame, *sighting, speed);
+  if (outcome == ViewOutcome::kBlurred) ++counts_.blurred;
+  if (outcome == ViewOutcome::kMoving) ++counts_.moving;
+  if (outcome == ViewOutcome::kNothingNew) ++counts_.nothingNew;
   last_ = std::move(sighting);
   lastTime_ = time;
-  return fate;
+  return outcome;
 }
 
 std::optional<double> ViewSelector::speedOf(hal::TimePoint time,
@@ -97,12 +97,12 @@ void ViewSelector::noteSharpness(double edgeWidthPx) {
   }
 }
 
-ViewFate ViewSelector::judge(std::uint64_t frame, const BoardSighting& sighting,
-                             std::optional<double> speed) {
-  if (sighting.edgeWidthPx > widestEdgePx()) return ViewFate::kBlurred;
+ViewOutcome ViewSelector::judge(std::uint64_t frame, const BoardSighting& sighting,
+                                std::optional<double> speed) {
+  if (sighting.edgeWidthPx > widestEdgePx()) return ViewOutcome::kBlurred;
   if (options_.isMovement &&
       !(speed.value_or(kFastest * diagonalPx_ + 1.0) <= kFastest * diagonalPx_)) {
-    return ViewFate::kMoving;
+    return ViewOutcome::kMoving;
   }
   SelectedView view{.frame = frame,
                     .sighting = sighting,
@@ -120,22 +120,22 @@ ViewFate ViewSelector::judge(std::uint64_t frame, const BoardSighting& sighting,
   if (nearest < kSameView) {
     const SelectedView& same = views_[nearestView];
     if (sighting.edgeWidthPx > kSharperShare * same.sighting.edgeWidthPx) {
-      return ViewFate::kNothingNew;
+      return ViewOutcome::kNothingNew;
     }
     drop(nearestView);
     take(std::move(view));
-    return ViewFate::kTaken;
+    return ViewOutcome::kTaken;
   }
   const bool isWanted = coverage_.gain(view.traits) >= kLeastGain;
   const bool isFull = views_.size() >= options_.mostViews;
   if (isFull && isWanted) {
     if (const auto spare = spareView()) drop(*spare);
   } else if (!isWanted && nearest < kDistinctView) {
-    return ViewFate::kNothingNew;
+    return ViewOutcome::kNothingNew;
   }
-  if (views_.size() >= options_.mostViews) return ViewFate::kNothingNew;
+  if (views_.size() >= options_.mostViews) return ViewOutcome::kNothingNew;
   take(std::move(view));
-  return ViewFate::kTaken;
+  return ViewOutcome::kTaken;
 }
 
 double ViewSelector::differenceOf(const SelectedView& a, const SelectedView& b) const {

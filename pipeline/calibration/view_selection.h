@@ -26,7 +26,7 @@ struct SelectedView {
 };
 
 /// What became of a picture.
-enum class ViewFate { kTaken, kNoBoard, kBlurred, kMoving, kNothingNew };
+enum class ViewOutcome { kTaken, kNoBoard, kBlurred, kMoving, kNothingNew };
 
 struct ViewCounts {
   std::uint64_t pictures = 0;
@@ -43,7 +43,8 @@ class ViewSelector {
   ViewSelector(const Board& board, hal::FrameSize size, ViewSelectionOptions options = {});
 
   /// The next picture's sighting. Where it is taken, views() has it.
-  ViewFate offer(std::uint64_t frame, hal::TimePoint time, std::optional<BoardSighting> sighting);
+  ViewOutcome offer(std::uint64_t frame, hal::TimePoint time,
+                    std::optional<BoardSighting> sighting);
 
   const std::vector<SelectedView>& views() const { return views_; }
   const Coverage& coverage() const { return coverage_; }
@@ -60,7 +61,8 @@ class ViewSelector {
   std::vector<FitView> fitViews() const;
 
  private:
-  ViewFate judge(std::uint64_t frame, const BoardSighting& sighting, std::optional<double> speed);
+  ViewOutcome judge(std::uint64_t frame, const BoardSighting& sighting,
+                    std::optional<double> speed);
   /// px a second against the last picture; nothing where that cannot be told.
   std::optional<double> speedOf(hal::TimePoint time, const BoardSighting& sighting) const;
   /// In diagonals of the picture; a board that is turned otherwise counts as one elsewhere.

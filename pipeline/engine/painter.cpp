@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "hal/error.h"
-#include "pipeline/engine/paint_chain.h"
+#include "pipeline/engine/frame_pipeline.h"
 #include "pipeline/gpu/handle.h"
 #include "pipeline/gpu/host_state.h"
 #include "pipeline/gpu/render_thread.h"
@@ -15,7 +15,7 @@ namespace {
 
 void checkSize(hal::FrameSize size) {
   if (hal::isAcceptedSize(size)) return;
-  throw hal::StartupError(
+  throw hal::Failure(
       hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
                  .subject = "picture size",
                  .problem = std::to_string(size.width) + "x" + std::to_string(size.height),
@@ -30,7 +30,7 @@ struct Painter::Impl {
   std::optional<gpu::RenderThread> thread;    // with kOwn only
   std::optional<gpu::EglContext> ownContext;  // lives and dies on the thread
   gpu::ContextInfo contextInfo;
-  std::optional<PaintChain> chain;
+  std::optional<FramePipeline> chain;
 
   explicit Impl(const PainterOptions& options) {
     checkSize(options.pictureSize);
@@ -65,7 +65,7 @@ struct Painter::Impl {
   /// A lost context's objects go with it; nothing more is asked of its driver than that.
   void tearDown() {
     {
-      std::optional<gpu::AbandonObjects> abandon;
+      std::optional<gpu::ContextLossGuard> abandon;
       if (isLost()) abandon.emplace();
       chain.reset();
     }
@@ -104,7 +104,7 @@ PaintParameters Painter::defaultParameters() const {
   return impl_->chain->defaultParameters();
 }
 
-std::vector<PainterView> Painter::views() const {
+std::vector<DebugView> Painter::views() const {
   return impl_->chain->views();
 }
 
@@ -121,11 +121,11 @@ hal::Result<Picture> Painter::paint(const hal::CapturedFrame& frame,
   return impl_->call([&] { return impl_->chain->paint(frame, parameters); });
 }
 
-int Painter::openReader(const hal::FrameFormat& format) {
-  return impl_->call([&] { return impl_->chain->openReader(format); });
+int Painter::openReadback(const hal::FrameFormat& format) {
+  return impl_->call([&] { return impl_->chain->openReadback(format); });
 }
 
-hal::Result<bool> Painter::take(int reader, ReadPicture& picture, bool wait) {
+hal::Result<bool> Painter::take(int reader, OutputFrame& picture, bool wait) {
   return impl_->call([&] { return impl_->chain->take(reader, picture, wait); });
 }
 
@@ -137,12 +137,12 @@ std::uint64_t Painter::skipped(int reader) const {
   return impl_->chain->skipped(reader);
 }
 
-hal::Result<hal::Image> Painter::still() const {
-  return impl_->call([&] { return impl_->chain->still(); });
+hal::Result<hal::Image> Painter::snapshot() const {
+  return impl_->call([&] { return impl_->chain->snapshot(); });
 }
 
-hal::Result<hal::Image> Painter::cameraStill() const {
-  return impl_->call([&] { return impl_->chain->cameraStill(); });
+hal::Result<hal::Image> Painter::cameraSnapshot() const {
+  return impl_->call([&] { return impl_->chain->cameraSnapshot(); });
 }
 
 hal::Result<std::vector<marks::Anchor>> Painter::anchors() const {

@@ -56,7 +56,7 @@ struct PainterOptions {
   /// then, for about twice the memory (docs/decisions/0008-quality-levels.md).
   bool qualityLevels = false;
   /// In place of what the driver is asked; for tests.
-  gpu::GpuSeam seam = {};
+  gpu::GpuTestHook testHook = {};
 };
 
 /// What may change from frame to frame: one immutable snapshot.
@@ -68,14 +68,14 @@ struct PaintParameters {
 };
 
 /// A view that can be painted instead of the finished picture.
-struct PainterView {
+struct DebugView {
   std::string name;
   std::string help;
 };
 
-/// The views of a style, the engine's own first, without a GPU. Throws hal::StartupError
+/// The views of a style, the engine's own first, without a GPU. Throws hal::Failure
 /// (kInvalidArgument) for an unknown style, with all names.
-std::vector<PainterView> viewsOf(std::string_view style);
+std::vector<DebugView> debugViewsOf(std::string_view style);
 
 /// A named preset of the style's parameters.
 struct PainterLook {
@@ -95,7 +95,7 @@ struct Picture {
 };
 
 /// A picture in memory, read through a reader of the Painter.
-struct ReadPicture {
+struct OutputFrame {
   hal::Image image;
   std::uint64_t sequence = 0;
   hal::TimePoint captureTime;
@@ -111,7 +111,7 @@ struct ReadPicture {
 /// until the host destroys it.
 class Painter {
  public:
-  /// Builds the whole chain and warms it up. Throws hal::StartupError (no GPU, unknown style or tag
+  /// Builds the whole chain and warms it up. Throws hal::Failure (no GPU, unknown style or tag
   /// family: lists the valid ones, size beyond the limits).
   explicit Painter(const PainterOptions& options);
   ~Painter();
@@ -120,7 +120,7 @@ class Painter {
 
   const gpu::ContextInfo& contextInfo() const;
   PaintParameters defaultParameters() const;
-  std::vector<PainterView> views() const;
+  std::vector<DebugView> views() const;
   std::vector<PainterLook> looks() const;
   /// The style's defaults under a look's values. Throws config::ConfigError for an unknown one,
   /// with all names.
@@ -136,21 +136,21 @@ class Painter {
   /// Opens a reader: from now on each painted picture is also brought to memory in `format` (RGBA8,
   /// RGB8, grey, I420, NV12, YUYV; of any accepted size, filled as frames are). Up to 3 are under
   /// way; a picture that finds the reader full is not read and counts as skipped. Returns the
-  /// reader's number. Throws hal::StartupError (kUnsupported where the GPU has no room for it,
+  /// reader's number. Throws hal::Failure (kUnsupported where the GPU has no room for it,
   /// kDeviceLost).
-  int openReader(const hal::FrameFormat& format);
+  int openReadback(const hal::FrameFormat& format);
   /// Copies the reader's oldest picture into `picture`, reusing its memory; false if none is ready.
-  /// With `wait`, false only if none is under way. Error: kDeviceLost, for ever.
-  hal::Result<bool> take(int reader, ReadPicture& picture, bool wait);
+  /// With `wait`, false only if none is in flight. Error: kDeviceLost, for ever.
+  hal::Result<bool> take(int reader, OutputFrame& picture, bool wait);
   /// Whether another paint() would still be read.
   bool hasRoom(int reader) const;
   std::uint64_t skipped(int reader) const;
 
   /// Waits for the last paint and reads it, or what the camera showed of it, as RGB8 of the
-  /// picture's full size: for stills. Errors: kDeviceLost, for ever; kUnsupported (no memory).
+  /// picture's full size: for snapshots. Errors: kDeviceLost, for ever; kUnsupported (no memory).
   /// Precondition: something was painted.
-  hal::Result<hal::Image> still() const;
-  hal::Result<hal::Image> cameraStill() const;
+  hal::Result<hal::Image> snapshot() const;
+  hal::Result<hal::Image> cameraSnapshot() const;
 
   /// Waits for the last paint and reads the style's anchors, of all its layers, a slot each, free
   /// ones too: for measures. Empty for a style without. Error: kDeviceLost, for ever.

@@ -17,7 +17,7 @@ enum class BufferUsage { kStatic, kDynamic, kReadBack };
 class Buffer {
  public:
   Buffer() = default;
-  /// Undefined content. Precondition: sizeBytes > 0. Throws hal::StartupError (kUnsupported) where
+  /// Undefined content. Precondition: sizeBytes > 0. Throws hal::Failure (kUnsupported) where
   /// the GPU has no memory for it.
   Buffer(std::size_t sizeBytes, BufferUsage usage);
   /// Holds a copy of `items`, which must be trivially copyable.

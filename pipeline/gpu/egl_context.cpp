@@ -80,7 +80,7 @@ void GL_APIENTRY onDebugMessage(GLenum source, GLenum type, GLuint id, GLenum /*
   // A shader that does not compile is the world's failure (live editing): ShaderLibrary throws. So
   // is a lack of memory: checkMemory() throws.
   if (type != GL_DEBUG_TYPE_ERROR_KHR || source == GL_DEBUG_SOURCE_SHADER_COMPILER_KHR) return;
-  // A lost context: LossWatch.
+  // A lost context: ResetMonitor.
   if (id == GL_CONTEXT_LOST_KHR || std::strstr(message, "GL_CONTEXT_LOST") != nullptr) return;
   if (id == GL_OUT_OF_MEMORY || std::strstr(message, "GL_OUT_OF_MEMORY") != nullptr) return;
   std::fputs("pleinair: GL error, a broken contract of our own: ", stderr);
@@ -120,12 +120,12 @@ ContextInfo inspectCurrentContext(std::string platform) {
   glGetIntegerv(GL_MAJOR_VERSION, &major);
   glGetIntegerv(GL_MINOR_VERSION, &minor);
   if (info.version.find("OpenGL ES") == std::string::npos || major * 10 + minor < 31) {
-    throw hal::StartupError(
-        Error{.kind = ErrorKind::kUnsupported,
-              .subject = "GPU",
-              .problem = info.version.empty() ? "no context is current on this thread"
-                                              : fmt::format("the context is \"{}\"", info.version),
-              .remedy = "make a context of OpenGL ES 3.1 or later current"});
+    throw hal::Failure(Error{.kind = ErrorKind::kUnsupported,
+                             .subject = "GPU",
+                             .problem = info.version.empty()
+                                            ? "no context is current on this thread"
+                                            : fmt::format("the context is \"{}\"", info.version),
+                             .remedy = "make a context of OpenGL ES 3.1 or later current"});
   }
   info.isSoftware = info.renderer.find("llvmpipe") != std::string::npos ||
                     info.renderer.find("softpipe") != std::string::npos;
@@ -338,12 +338,12 @@ EglContext::EglContext() : impl_(std::make_unique<Impl>()) {
   const bool isCurrent = impl_->chosen != nullptr && (isHardware || impl_->chosen->makeCurrent());
   if (!isCurrent) {
     impl_->chosen.reset();
-    throw hal::StartupError(Error{.kind = ErrorKind::kUnsupported,
-                                  .subject = "GPU",
-                                  .problem = "no OpenGL ES 3.1 context: " + impl_->attempts,
-                                  .remedy = "install Mesa's EGL (libegl1, libgl1-mesa-dri) or the "
-                                            "vendor's driver",
-                                  .domain = ErrorDomain::kEgl});
+    throw hal::Failure(Error{.kind = ErrorKind::kUnsupported,
+                             .subject = "GPU",
+                             .problem = "no OpenGL ES 3.1 context: " + impl_->attempts,
+                             .remedy = "install Mesa's EGL (libegl1, libgl1-mesa-dri) or the "
+                                       "vendor's driver",
+                             .domain = ErrorDomain::kEgl});
   }
   abortOnGlErrors();
 }

@@ -29,7 +29,7 @@ class EglContext {
  public:
   /// Tries EGL's surfaceless platform, then its devices, then GBM on the render nodes, and takes
   /// the first that is hardware, or software where none is or LIBGL_ALWAYS_SOFTWARE asks for it.
-  /// Throws hal::StartupError (kUnsupported) that names what each of them answered.
+  /// Throws hal::Failure (kUnsupported) that names what each of them answered.
   EglContext();
   ~EglContext();
   EglContext(const EglContext&) = delete;
@@ -46,7 +46,7 @@ class EglContext {
 hal::Result<void> checkDeviceLimit(const ContextInfo& context, hal::FrameSize size,
                                    std::string_view what);
 
-/// Describes the context that is current on this thread; throws hal::StartupError if there is none
+/// Describes the context that is current on this thread; throws hal::Failure if there is none
 /// or if it is older than OpenGL ES 3.1.
 ContextInfo inspectCurrentContext(std::string platform);
 

@@ -88,7 +88,7 @@ FrameUploader::FrameUploader(const ShaderLibrary& library)
       resampler_(library) {}
 
 const Texture& FrameUploader::upload(const hal::ImageView& image, FrameSize size,
-                                     const CoverFit& fit) {
+                                     const AspectFill& fit) {
   assert(image.isComplete());
   uploadPlanes(image);
   convert(image.format);

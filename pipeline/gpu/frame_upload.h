@@ -3,7 +3,7 @@
 #include <array>
 
 #include "hal/image.h"
-#include "pipeline/gpu/cover_fit.h"
+#include "pipeline/gpu/aspect_fill.h"
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/gpu/resampler.h"
@@ -20,13 +20,13 @@ class FrameUploader {
  public:
   explicit FrameUploader(const ShaderLibrary& library);
 
-  /// The frame, filling `size` (CoverFit). Valid until the next upload. Allocates only for a new
+  /// The frame, filling `size` (AspectFill). Valid until the next upload. Allocates only for a new
   /// size or layout of frames, and for each `size` once. Precondition: image.isComplete().
   const Texture& upload(const hal::ImageView& image, hal::FrameSize size) {
     return upload(image, size, coverFit(image.format.size, size));
   }
   /// The same with another fit.
-  const Texture& upload(const hal::ImageView& image, hal::FrameSize size, const CoverFit& fit);
+  const Texture& upload(const hal::ImageView& image, hal::FrameSize size, const AspectFill& fit);
 
  private:
   void uploadPlanes(const hal::ImageView& image);

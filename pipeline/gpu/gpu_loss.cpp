@@ -52,22 +52,22 @@ hal::Error gpuLost(std::string problem, int glCode) {
           .code = glCode};
 }
 
-LossWatch::LossWatch(GpuSeam seam) : seam_(std::move(seam)) {
-  if (!seam_.resetStatus) {
-    if (const auto ask = resetStatusFunction(); ask != nullptr) seam_.resetStatus = ask;
+ResetMonitor::ResetMonitor(GpuTestHook testHook) : testHook_(std::move(testHook)) {
+  if (!testHook_.resetStatus) {
+    if (const auto ask = resetStatusFunction(); ask != nullptr) testHook_.resetStatus = ask;
   }
 }
 
-hal::Result<void> LossWatch::check() {
-  if (!loss_ && seam_.resetStatus) {
-    const unsigned status = seam_.resetStatus();
+hal::Result<void> ResetMonitor::check() {
+  if (!loss_ && testHook_.resetStatus) {
+    const unsigned status = testHook_.resetStatus();
     if (status != GL_NO_ERROR) note(gpuLost(problemOf(status), static_cast<int>(status)));
   }
   if (loss_) return tl::unexpected(*loss_);
   return {};
 }
 
-void LossWatch::note(const hal::Error& loss) {
+void ResetMonitor::note(const hal::Error& loss) {
   if (!loss_) loss_ = loss;
 }
 

@@ -13,7 +13,7 @@ namespace pleinair::gpu {
 
 /// How a lost GPU is noticed. Empty functions are the driver's own; tests put theirs in their
 /// place.
-struct GpuSeam {
+struct GpuTestHook {
   std::function<unsigned()> resetStatus;  ///< glGetGraphicsResetStatus()
   /// glClientWaitSync() with this timeout, ns
   std::function<unsigned(std::uint64_t timeoutNs)> waitForFence;
@@ -26,11 +26,11 @@ struct GpuSeam {
 hal::Error gpuLost(std::string problem, int glCode);
 
 /// Notices that the current context's GPU was reset, and remembers it. On the context's thread.
-class LossWatch {
+class ResetMonitor {
  public:
   /// Of the current context. A driver that cannot be asked is taken for sound until something
   /// fails.
-  explicit LossWatch(GpuSeam seam = {});
+  explicit ResetMonitor(GpuTestHook testHook = {});
 
   /// Asks the driver unless the GPU is known to be lost.
   hal::Result<void> check();
@@ -40,7 +40,7 @@ class LossWatch {
   const std::optional<hal::Error>& loss() const { return loss_; }
 
  private:
-  GpuSeam seam_;
+  GpuTestHook testHook_;
   std::optional<hal::Error> loss_;
 };
 

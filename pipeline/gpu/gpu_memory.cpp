@@ -19,13 +19,12 @@ void checkMemory(std::string_view what) {
 }
 
 void throwOutOfMemory(std::string_view what) {
-  throw hal::StartupError(
-      hal::Error{.kind = hal::ErrorKind::kUnsupported,
-                 .subject = "GPU",
-                 .problem = fmt::format("the GPU has no memory for {}", what),
-                 .remedy = "paint smaller, or end other programs that use the GPU",
-                 .domain = hal::ErrorDomain::kGl,
-                 .code = GL_OUT_OF_MEMORY});
+  throw hal::Failure(hal::Error{.kind = hal::ErrorKind::kUnsupported,
+                                .subject = "GPU",
+                                .problem = fmt::format("the GPU has no memory for {}", what),
+                                .remedy = "paint smaller, or end other programs that use the GPU",
+                                .domain = hal::ErrorDomain::kGl,
+                                .code = GL_OUT_OF_MEMORY});
 }
 
 }  // namespace pleinair::gpu

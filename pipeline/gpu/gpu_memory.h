@@ -4,7 +4,7 @@
 
 namespace pleinair::gpu {
 
-/// Throws hal::StartupError (kUnsupported) "the GPU has no memory for `what`" if GL ran out of
+/// Throws hal::Failure (kUnsupported) "the GPU has no memory for `what`" if GL ran out of
 /// memory since it was last asked. Called after what allocates: it waits for a driver's thread.
 void checkMemory(std::string_view what);
 

@@ -15,23 +15,23 @@ hal::Error waitFailed() {
 
 }  // namespace
 
-AbandonObjects::AbandonObjects() {
+ContextLossGuard::ContextLossGuard() {
   ++abandonsObjects;
 }
 
-AbandonObjects::~AbandonObjects() {
+ContextLossGuard::~ContextLossGuard() {
   --abandonsObjects;
 }
 
-bool AbandonObjects::isInForce() {
+bool ContextLossGuard::isInForce() {
   return abandonsObjects > 0;
 }
 
-FenceState Fence::state(GLuint64 timeoutNs, const GpuSeam& seam) const {
+FenceState Fence::state(GLuint64 timeoutNs, const GpuTestHook& testHook) const {
   if (sync_ == nullptr) return FenceState::kFailed;
   assert(eglGetCurrentContext() == context_);
-  switch (seam.waitForFence ? seam.waitForFence(timeoutNs)
-                            : glClientWaitSync(sync_, GL_SYNC_FLUSH_COMMANDS_BIT, timeoutNs)) {
+  switch (testHook.waitForFence ? testHook.waitForFence(timeoutNs)
+                                : glClientWaitSync(sync_, GL_SYNC_FLUSH_COMMANDS_BIT, timeoutNs)) {
     case GL_ALREADY_SIGNALED:
     case GL_CONDITION_SATISFIED:
       return FenceState::kSignalled;
@@ -42,23 +42,24 @@ FenceState Fence::state(GLuint64 timeoutNs, const GpuSeam& seam) const {
   }
 }
 
-hal::Result<bool> Fence::passed(const GpuSeam& seam) const {
-  const FenceState now = state(0, seam);
+hal::Result<bool> Fence::passed(const GpuTestHook& testHook) const {
+  const FenceState now = state(0, testHook);
   if (now != FenceState::kFailed) return now == FenceState::kSignalled;
   return tl::unexpected(waitFailed());
 }
 
-hal::Result<void> Fence::wait(const GpuSeam& seam) const {
+hal::Result<void> Fence::wait(const GpuTestHook& testHook) const {
   const hal::SteadyClock steady;
-  const hal::Clock& clock = seam.clock != nullptr ? *seam.clock : steady;
-  const hal::TimePoint deadline = clock.now() + seam.patience;
-  for (hal::Duration left = seam.patience; left > hal::Duration::zero();  // drivers may cap waits
+  const hal::Clock& clock = testHook.clock != nullptr ? *testHook.clock : steady;
+  const hal::TimePoint deadline = clock.now() + testHook.patience;
+  for (hal::Duration left = testHook.patience;
+       left > hal::Duration::zero();  // drivers may cap waits
        left = deadline - clock.now()) {
-    const FenceState now = state(static_cast<GLuint64>(left.count()), seam);
+    const FenceState now = state(static_cast<GLuint64>(left.count()), testHook);
     if (now == FenceState::kSignalled) return {};
     if (now == FenceState::kFailed) return tl::unexpected(waitFailed());
   }
-  const double seconds = std::chrono::duration<double>(seam.patience).count();
+  const double seconds = std::chrono::duration<double>(testHook.patience).count();
   return tl::unexpected(
       gpuLost(fmt::format("hangs: no answer for {:.0f} s", seconds), GL_TIMEOUT_EXPIRED));
 }

@@ -13,12 +13,12 @@ namespace pleinair::gpu {
 
 /// While one lives, the objects that go on this thread are left in their context as they are: for
 /// one that is lost, whose driver is not to be called. It may be current or not.
-class AbandonObjects {
+class ContextLossGuard {
  public:
-  AbandonObjects();
-  ~AbandonObjects();
-  AbandonObjects(const AbandonObjects&) = delete;
-  AbandonObjects& operator=(const AbandonObjects&) = delete;
+  ContextLossGuard();
+  ~ContextLossGuard();
+  ContextLossGuard(const ContextLossGuard&) = delete;
+  ContextLossGuard& operator=(const ContextLossGuard&) = delete;
 
   static bool isInForce();
 };
@@ -42,7 +42,7 @@ class Handle {
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
   ~Handle() {
-    if (name_ == 0 || AbandonObjects::isInForce()) return;
+    if (name_ == 0 || ContextLossGuard::isInForce()) return;
     assert(eglGetCurrentContext() == context_);
     Traits::destroy(name_);
   }
@@ -113,7 +113,7 @@ class Fence {
   Fence(const Fence&) = delete;
   Fence& operator=(const Fence&) = delete;
   ~Fence() {
-    if (sync_ == nullptr || AbandonObjects::isInForce()) return;
+    if (sync_ == nullptr || ContextLossGuard::isInForce()) return;
     assert(eglGetCurrentContext() == context_);
     glDeleteSync(sync_);
   }
@@ -123,13 +123,13 @@ class Fence {
   /// one, as a driver gives that has lost its GPU, has failed.
   FenceState state(GLuint64 timeoutNs = 0) const { return state(timeoutNs, {}); }
   /// Whether the GPU has passed it. Error: kDeviceLost, where it never will.
-  hal::Result<bool> passed(const GpuSeam& seam = {}) const;
+  hal::Result<bool> passed(const GpuTestHook& testHook = {}) const;
   /// Returns when the GPU has passed it. Error: kDeviceLost, where it never will or does not within
-  /// the seam's patience.
-  hal::Result<void> wait(const GpuSeam& seam = {}) const;
+  /// the testHook's patience.
+  hal::Result<void> wait(const GpuTestHook& testHook = {}) const;
 
  private:
-  FenceState state(GLuint64 timeoutNs, const GpuSeam& seam) const;
+  FenceState state(GLuint64 timeoutNs, const GpuTestHook& testHook) const;
 
   GLsync sync_ = nullptr;
   EGLContext context_ = EGL_NO_CONTEXT;

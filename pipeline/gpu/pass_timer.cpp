@@ -61,7 +61,7 @@ void PassTimer::end(std::size_t slot) {
   ++queries_[slot].issued;
 }
 
-/// Reading the flag clears it, so every query that is under way is marked at once.
+/// Reading the flag clears it, so every query that is in flight is marked at once.
 void PassTimer::distrustAfterDisjoint() {
   GLint disjoint = GL_FALSE;
   glGetIntegerv(GL_GPU_DISJOINT_EXT, &disjoint);

@@ -53,7 +53,7 @@ RenderTarget::RenderTarget(std::initializer_list<const Texture*> colours, const 
   const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   checkMemory(fmt::format("drawing a {}x{} picture", size_.width, size_.height));
-  if (status != GL_FRAMEBUFFER_COMPLETE) throw hal::StartupError(incomplete(size_, status));
+  if (status != GL_FRAMEBUFFER_COMPLETE) throw hal::Failure(incomplete(size_, status));
 }
 
 void RenderTarget::beginDiscarding() const {

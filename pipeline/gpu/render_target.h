@@ -14,7 +14,7 @@ namespace pleinair::gpu {
 class RenderTarget {
  public:
   RenderTarget() = default;
-  /// Throws hal::StartupError (kUnsupported) where the GPU cannot draw into them.
+  /// Throws hal::Failure (kUnsupported) where the GPU cannot draw into them.
   explicit RenderTarget(std::initializer_list<const Texture*> colours,
                         const Texture* depth = nullptr);
 

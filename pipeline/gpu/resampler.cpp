@@ -10,7 +10,7 @@ Resampler::Resampler(const ShaderLibrary& library)
       once_(library.fragmentPass("pipeline/gpu/shaders/resample_once.frag")) {}
 
 const Texture& Resampler::resample(const Texture& picture, hal::FrameSize size,
-                                   const CoverFit& fit) {
+                                   const AspectFill& fit) {
   assert(picture.format() == TextureFormat::kRgba8);
   if (picture.size() == size && fit.isIdentity()) return picture;
   const Scaled& scaled = scaled_.of(size, size);

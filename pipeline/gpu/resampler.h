@@ -1,7 +1,7 @@
 #pragma once
 
 #include "hal/pixel_format.h"
-#include "pipeline/gpu/cover_fit.h"
+#include "pipeline/gpu/aspect_fill.h"
 #include "pipeline/gpu/per_size.h"
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/render_target.h"
@@ -22,7 +22,7 @@ class Resampler {
     return resample(picture, size, coverFit(picture.size(), size));
   }
   /// The same with another fit.
-  const Texture& resample(const Texture& picture, hal::FrameSize size, const CoverFit& fit);
+  const Texture& resample(const Texture& picture, hal::FrameSize size, const AspectFill& fit);
 
  private:
   struct Scaled {

@@ -61,9 +61,8 @@ std::optional<std::string> overridingText(const std::filesystem::path& path) {
     const int cause = type == std::filesystem::file_type::directory ? EISDIR
                       : error                                       ? error.value()
                                                                     : errno;
-    throw hal::StartupError(
-        hal::errnoError(path.string(), "cannot read this shader", cause,
-                        "mend the file, or remove it: there is a built-in one"));
+    throw hal::Failure(hal::errnoError(path.string(), "cannot read this shader", cause,
+                                       "fix the file, or remove it: there is a built-in one"));
   }
   return text.str();
 }
@@ -92,10 +91,10 @@ ShaderLibrary::ShaderLibrary(std::filesystem::path overrideDirectory)
     : overrideDirectory_(std::move(overrideDirectory)) {
   std::error_code ignored;
   if (!overrideDirectory_.empty() && !std::filesystem::is_directory(overrideDirectory_, ignored)) {
-    throw hal::StartupError(Error{.kind = ErrorKind::kNotFound,
-                                  .subject = overrideDirectory_.string(),
-                                  .problem = "no such directory of shaders",
-                                  .remedy = "name a copy of the source tree"});
+    throw hal::Failure(Error{.kind = ErrorKind::kNotFound,
+                             .subject = overrideDirectory_.string(),
+                             .problem = "no such directory of shaders",
+                             .remedy = "name a copy of the source tree"});
   }
   add(gpuShaders());
 }
@@ -117,7 +116,7 @@ std::string ShaderLibrary::text(std::string_view name, std::string_view includer
                                         : fmt::format("no such shader, included by {}", includer));
     error.kind = ErrorKind::kNotFound;
     error.remedy = fmt::format("there are {}", fmt::join(known, ", "));
-    throw hal::StartupError(std::move(error));
+    throw hal::Failure(std::move(error));
   }
   return std::string(found->text);
 }
@@ -163,7 +162,7 @@ ShaderHandle ShaderLibrary::compile(GLenum stage, std::string_view name) const {
   if (compiled == GL_FALSE) {
     std::array<GLchar, 4096> log{};
     glGetShaderInfoLog(shader.get(), static_cast<GLsizei>(log.size()), nullptr, log.data());
-    throw hal::StartupError(
+    throw hal::Failure(
         shaderError(name, "does not compile: " + nameLinesOfLog(log.data(), source.lines)));
   }
   return shader;
@@ -179,7 +178,7 @@ Program ShaderLibrary::link(std::span<const ShaderHandle> shaders, std::string_v
   if (linked == GL_FALSE) {
     std::array<GLchar, 4096> log{};
     glGetProgramInfoLog(program.get(), static_cast<GLsizei>(log.size()), nullptr, log.data());
-    throw hal::StartupError(shaderError(label, fmt::format("does not link: {}", log.data())));
+    throw hal::Failure(shaderError(label, fmt::format("does not link: {}", log.data())));
   }
   return Program(std::move(program), std::string(label));
 }

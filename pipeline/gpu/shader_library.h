@@ -30,7 +30,7 @@ std::string nameLinesOfLog(const std::string& log, std::span<const SourceLine> l
 /// `#include "name"` takes in another text of the library (once each).
 class ShaderLibrary {
  public:
-  /// Throws hal::StartupError (kNotFound) where the override directory is not there.
+  /// Throws hal::Failure (kNotFound) where the override directory is not there.
   explicit ShaderLibrary(std::filesystem::path overrideDirectory = {});
 
   /// Adds a room's shaders: `library.add(gpuShaders())`. The texts outlive the library.
@@ -42,7 +42,7 @@ class ShaderLibrary {
   Program draw(std::string_view vertexName, std::string_view fragmentName) const;
 
   /// The text as the compiler gets it: version, precisions, includes.
-  /// Throws hal::StartupError for an unknown name or include, as the programs above do, and they
+  /// Throws hal::Failure for an unknown name or include, as the programs above do, and they
   /// also for a text that does not compile or link, with the compiler's log, and all for a file of
   /// the override directory that cannot be read.
   std::string expanded(std::string_view name) const;

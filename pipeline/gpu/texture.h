@@ -42,7 +42,7 @@ class Texture {
   /// Holds nothing; only assignment and size() are allowed.
   Texture() = default;
   /// Undefined content. Preconditions: 1 px or more a side; the filter suits the format. Throws
-  /// hal::StartupError (kUnsupported) where the GPU has no memory for it.
+  /// hal::Failure (kUnsupported) where the GPU has no memory for it.
   Texture(TextureFormat format, hal::FrameSize size, TextureFilter filter = TextureFilter::kNearest,
           TextureWrap wrap = TextureWrap::kClamp);
 

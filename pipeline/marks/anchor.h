@@ -26,7 +26,7 @@ struct Anchor {
   glm::vec2 displacementPx{0.0F};  ///< since the frame before
   glm::mat2 jacobian{1.0F};        ///< of px by the px before: turns and scales what hangs on it
   /// Of the first two corners of the triangle it lives on; in the image: what it looks like there
-  /// (shaders/anchor_looks.glsl).
+  /// (shaders/anchor_appearance.glsl).
   glm::vec2 barycentrics{0.0F};
   float errorPx = 0.0F;  ///< predicted, of the displacement
   float fade = 0.0F;     ///< how much of its mark is seen, in [0, 1]

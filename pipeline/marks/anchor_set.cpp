@@ -52,10 +52,10 @@ struct AnchorSet::State {
         slots(slotsFor(grid, given.density)),
         image(library.compute(kShaders + "anchor_image.comp")),
         surface(library.compute(kShaders + "anchor_surface.comp")),
-        census(library.compute(kShaders + "anchor_census.comp")),
-        balance(library.compute(kShaders + "anchor_balance.comp")),
+        count(library.compute(kShaders + "anchor_count.comp")),
+        density(library.compute(kShaders + "anchor_density.comp")),
         plan(library.compute(kShaders + "anchor_plan.comp")),
-        bear(library.compute(kShaders + "anchor_bear.comp")),
+        spawn(library.compute(kShaders + "anchor_spawn.comp")),
         anchors(slots * sizeof(Anchor), gpu::BufferUsage::kDynamic),
         cells(static_cast<std::size_t>(grid.x * grid.y) * kCellBytes, gpu::BufferUsage::kDynamic),
         births((slots + 1) * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
@@ -70,10 +70,10 @@ struct AnchorSet::State {
   std::uint32_t slots;
   gpu::Program image;
   gpu::Program surface;
-  gpu::Program census;
-  gpu::Program balance;
+  gpu::Program count;
+  gpu::Program density;
   gpu::Program plan;
-  gpu::Program bear;
+  gpu::Program spawn;
   gpu::Buffer anchors;
   gpu::Buffer cells;
   gpu::Buffer births;  // free slots, in order
@@ -106,7 +106,7 @@ struct AnchorSet::State {
 
   void carryInImage(const scene::ArFrame& frame, const MotionField& motion, hal::Duration step);
   void carryOnSurfaces(const scene::ArFrame& frame);
-  void takeCensus(const scene::ArFrame& frame, const AnchorHold& hold, hal::Duration step);
+  void countAnchors(const scene::ArFrame& frame, const AnchorHold& hold, hal::Duration step);
   void keepDensity(const scene::ArFrame& frame, const MotionField& motion, const AnchorHold& hold);
 };
 
@@ -115,8 +115,8 @@ void AnchorSet::State::carryInImage(const scene::ArFrame& frame, const MotionFie
   begin(image, frame).storage(0, anchors);
   motion.bind(image);
   constexpr double kUsualNoise = 2.0;
-  const bool isNoiseKnown = frame.pictureMovement && frame.pictureMovement->motion != nullptr;
-  const double noise = isNoiseKnown ? frame.pictureMovement->motion->noiseLevels : kUsualNoise;
+  const bool isNoiseKnown = frame.measuredMotion && frame.measuredMotion->motion != nullptr;
+  const double noise = isNoiseKnown ? frame.measuredMotion->motion->noiseLevels : kUsualNoise;
   image.texture("picture", *frame.colour)
       .set("noise", static_cast<float>(noise / 255.0))
       .set("stepSeconds", std::chrono::duration<float>(step).count())
@@ -150,9 +150,9 @@ void AnchorSet::State::carryOnSurfaces(const scene::ArFrame& frame) {
   }
 }
 
-void AnchorSet::State::takeCensus(const scene::ArFrame& frame, const AnchorHold& hold,
-                                  hal::Duration step) {
-  begin(census, frame)
+void AnchorSet::State::countAnchors(const scene::ArFrame& frame, const AnchorHold& hold,
+                                    hal::Duration step) {
+  begin(count, frame)
       .storage(0, anchors)
       .storage(1, cells)
       .set("fadeIn", fadeOf(step, hold.fadeIn))
@@ -163,7 +163,7 @@ void AnchorSet::State::takeCensus(const scene::ArFrame& frame, const AnchorHold&
 void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionField& motion,
                                    const AnchorHold& hold) {
   const DensityRule& rule = options.density;
-  begin(balance, frame)
+  begin(density, frame)
       .storage(0, anchors)
       .storage(1, cells)
       .set("target", rule.target)
@@ -176,7 +176,7 @@ void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionFiel
       .storage(2, births)
       .set("cellCount", static_cast<unsigned>(grid.x * grid.y))
       .dispatch({1, 1}, {128, 1}, kStored);
-  begin(bear, frame)
+  begin(spawn, frame)
       .texture("barycentrics", frame.barycentrics != nullptr ? *frame.barycentrics : noIds)
       .texture("motion", motion.backward())
       .storage(0, anchors)
@@ -211,7 +211,7 @@ void AnchorSet::advance(const scene::ArFrame& frame, const MotionField& motion,
     if (motion.follows()) s.carryOnSurfaces(frame);
   }
   const auto scope = timer.measure("keep density");
-  s.takeCensus(frame, hold, step);
+  s.countAnchors(frame, hold, step);
   s.keepDensity(frame, motion, hold);
 }
 

@@ -48,7 +48,7 @@ struct AnchorHold {
 class AnchorSet {
  public:
   /// `library` has gpu::marksShaders(), gpu::sceneShaders() and gpu::gpuShaders(). Pictures'
-  /// full size is `full`. Throws hal::StartupError where the GPU has no memory for them.
+  /// full size is `full`. Throws hal::Failure where the GPU has no memory for them.
   AnchorSet(const gpu::ShaderLibrary& library, hal::FrameSize full, AnchorOptions options);
   ~AnchorSet();
   AnchorSet(const AnchorSet&) = delete;
@@ -59,7 +59,7 @@ class AnchorSet {
   /// Goes on to the next frame, whose `motion` has been updated. The first frame, one after
   /// reset(), and one after a cut begins anew, with all anchors there at once. Preconditions:
   /// frame.full() is the constructor's size; the style's needs() ask for surfaces and
-  /// pictureMovement.
+  /// measuredMotion.
   void advance(const scene::ArFrame& frame, const MotionField& motion, gpu::PassTimer& timer,
                const AnchorHold& hold = {});
   /// Whether the last advance() began anew: what styles keep of slots is of other anchors.

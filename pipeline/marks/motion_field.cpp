@@ -40,7 +40,7 @@ struct GpuFeature {
 };
 struct GpuMotion {
   glm::mat4 nowFromThen{1.0F};
-  glm::mat4 thenFromNow{1.0F};
+  glm::mat4 previousFromCurrent{1.0F};
   glm::vec4 flowGrid{0.0F};
   glm::vec4 stillGrid{0.0F};
   glm::vec4 known{0.0F};
@@ -53,13 +53,13 @@ glm::vec2 vec(hal::FrameSize size) {
 }
 
 /// Takes px of the full picture to those of a grid whose cells are `step` frame px wide: × xy + zw.
-glm::vec4 gridOf(const scene::PictureMovement& movement, glm::dvec2 step, double shift) {
+glm::vec4 gridOf(const scene::MeasuredMotion& movement, glm::dvec2 step, double shift) {
   const glm::dvec2 scale = movement.frameScale / step;
   return {glm::vec2(scale), glm::vec2(movement.frameOrigin / step + shift)};
 }
 
 /// The homography in px of the full picture; the identity stays so to the bit.
-glm::dmat3 ofFull(const glm::dmat3& ofFrame, const scene::PictureMovement& movement) {
+glm::dmat3 ofFull(const glm::dmat3& ofFrame, const scene::MeasuredMotion& movement) {
   if (ofFrame == glm::dmat3(1.0)) return ofFrame;
   const glm::dmat3 frameFromFull(movement.frameScale.x, 0.0, 0.0,  //
                                  0.0, movement.frameScale.y, 0.0,  //
@@ -128,9 +128,9 @@ struct MotionField::State {
   bool isCut = true;
   bool follows = true;
 
-  void takePicture(const scene::PictureMovement& movement, GpuMotion& made);
-  void takeFeatures(const scene::PictureMovement& movement, GpuMotion& made);
-  void takeGrids(const scene::PictureMovement& movement, GpuMotion& made);
+  void takePicture(const scene::MeasuredMotion& movement, GpuMotion& made);
+  void takeFeatures(const scene::MeasuredMotion& movement, GpuMotion& made);
+  void takeGrids(const scene::MeasuredMotion& movement, GpuMotion& made);
   void takeScene(const scene::ArFrame& frame, GpuMotion& made);
   void layFeatures(const scene::ArFrame& frame, int count);
   void bind(gpu::Program& program, const gpu::Texture& flow) const;
@@ -149,17 +149,17 @@ void upload(gpu::Texture& texture, gpu::TextureFormat format, hal::FrameSize siz
 
 }  // namespace
 
-void MotionField::State::takePicture(const scene::PictureMovement& movement, GpuMotion& made) {
+void MotionField::State::takePicture(const scene::MeasuredMotion& movement, GpuMotion& made) {
   if (!movement.motion->picture) return;
   const glm::dmat3 nowFromThen = ofFull(movement.motion->picture->nowFromThen, movement);
   const glm::dmat3 back = nowFromThen == glm::dmat3(1.0) ? nowFromThen : glm::inverse(nowFromThen);
   made.nowFromThen = glm::mat4(glm::mat3(nowFromThen / nowFromThen[2][2]));
-  made.thenFromNow = glm::mat4(glm::mat3(back / back[2][2]));
+  made.previousFromCurrent = glm::mat4(glm::mat3(back / back[2][2]));
   made.known.z = 1.0F;
   made.known.w = static_cast<float>(movement.motion->picture->errorPx / movement.frameScale.x);
 }
 
-void MotionField::State::takeFeatures(const scene::PictureMovement& movement, GpuMotion& made) {
+void MotionField::State::takeFeatures(const scene::MeasuredMotion& movement, GpuMotion& made) {
   const std::span<const FeatureMotion> moved = movement.motion->features;
   const std::size_t count = std::min(moved.size(), staged.size());
   const glm::vec2 scale(1.0 / movement.frameScale);
@@ -174,7 +174,7 @@ void MotionField::State::takeFeatures(const scene::PictureMovement& movement, Gp
   if (count > 0) features.write(std::as_bytes(std::span(staged).first(count)));
 }
 
-void MotionField::State::takeGrids(const scene::PictureMovement& movement, GpuMotion& made) {
+void MotionField::State::takeGrids(const scene::MeasuredMotion& movement, GpuMotion& made) {
   const tracking::DenseFlow& dense = movement.motion->flow;
   const std::size_t nodes = dense.forward.size();
   assert(nodes == dense.backward.size());
@@ -184,7 +184,7 @@ void MotionField::State::takeGrids(const scene::PictureMovement& movement, GpuMo
     made.flowGrid = gridOf(movement, glm::dvec2(dense.stepPx), -0.5);
     made.nodes.x = static_cast<float>(nodes);
   }
-  const tracking::StillFields& fields = movement.motion->still;
+  const tracking::StaticRegions& fields = movement.motion->still;
   upload(still, gpu::TextureFormat::kR32f, fields.fields, std::as_bytes(fields.errorPx));
   if (!fields.errorPx.empty()) {
     const hal::FrameSize frame = movement.motion->frameSize;
@@ -243,7 +243,7 @@ void MotionField::update(const scene::ArFrame& frame, gpu::PassTimer& timer,
   s.takeScene(frame, made);
   static constexpr ImageMotion kNothing;
   static constexpr ImageMotion kRest{.picture = tracking::PictureHomography{}};
-  scene::PictureMovement movement = frame.pictureMovement.value_or(scene::PictureMovement{});
+  scene::MeasuredMotion movement = frame.measuredMotion.value_or(scene::MeasuredMotion{});
   const bool follows = s.last && (!movement.motion || movement.motion->sinceSequence == *s.last);
   s.isCut = !follows || (movement.motion != nullptr && movement.motion->isCut);
   if (s.isCut || movement.motion == nullptr) movement.motion = &kNothing;

@@ -23,7 +23,7 @@ struct MotionFieldOptions {
 class MotionField {
  public:
   /// `library` has gpu::marksShaders() and gpu::sceneShaders(). Pictures' full size is `full`.
-  /// Throws hal::StartupError where the GPU has no memory for it.
+  /// Throws hal::Failure where the GPU has no memory for it.
   MotionField(const gpu::ShaderLibrary& library, hal::FrameSize full);
   ~MotionField();
   MotionField(const MotionField&) = delete;
@@ -31,7 +31,7 @@ class MotionField {
   MotionField(MotionField&&) = delete;
   MotionField& operator=(MotionField&&) = delete;
 
-  /// Takes what `frame` knows (ArFrame::pictureMovement, surfaces). A motion that refers to another
+  /// Takes what `frame` knows (ArFrame::measuredMotion, surfaces). A motion that refers to another
   /// frame than the last update's is refused: that is a cut. Precondition: frame.full() is the
   /// constructor's size.
   void update(const scene::ArFrame& frame, gpu::PassTimer& timer,

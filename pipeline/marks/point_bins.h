@@ -32,7 +32,7 @@ class PointBins {
   explicit PointBins(const gpu::ShaderLibrary& library);
 
   /// Makes room for `slots` points in `bins` bins; what was sorted is forgotten. Throws
-  /// hal::StartupError where the GPU has no memory for them.
+  /// hal::Failure where the GPU has no memory for them.
   void allocate(hal::FrameSize bins, std::uint32_t slots);
 
   /// Sorts a buffer of BinnedPoints, one a slot, in px of a picture of this size.

@@ -59,7 +59,7 @@ struct StrokePaint {
 class StrokeSet {
  public:
   /// `library` has gpu::marksShaders(), gpu::sceneShaders() and gpu::gpuShaders(); `slotCount` is
-  /// the AnchorSet's. Throws hal::StartupError where the GPU has no memory for them.
+  /// the AnchorSet's. Throws hal::Failure where the GPU has no memory for them.
   StrokeSet(const gpu::ShaderLibrary& library, std::uint32_t slotCount);
   ~StrokeSet();
   StrokeSet(const StrokeSet&) = delete;

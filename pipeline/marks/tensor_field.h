@@ -30,7 +30,7 @@ struct TensorFieldOptions {
 class TensorField {
  public:
   /// `library` has gpu::marksShaders() and gpu::gpuShaders(). Pictures' full size is `full`. Throws
-  /// hal::StartupError where the GPU has no memory for it.
+  /// hal::Failure where the GPU has no memory for it.
   TensorField(const gpu::ShaderLibrary& library, hal::FrameSize full);
   ~TensorField();
   TensorField(const TensorField&) = delete;

@@ -23,7 +23,7 @@ cv::Point2f onPicture(const Anchor& anchor) {
   return {anchor.px.x - 0.5F, anchor.px.y - 0.5F};
 }
 
-std::optional<Slip> slipOf(std::vector<float> distances) {
+std::optional<Drift> driftOf(std::vector<float> distances) {
   if (distances.empty()) return std::nullopt;
   double squares = 0;
   for (const float distance : distances) squares += static_cast<double>(distance) * distance;
@@ -32,23 +32,23 @@ std::optional<Slip> slipOf(std::vector<float> distances) {
     const double last = static_cast<double>(distances.size() - 1);
     return static_cast<double>(distances[static_cast<std::size_t>(share * last)]);
   };
-  return Slip{.median = at(0.5),
-              .most = at(0.95),
-              .rms = std::sqrt(squares / static_cast<double>(distances.size()))};
+  return Drift{.median = at(0.5),
+               .most = at(0.95),
+               .rms = std::sqrt(squares / static_cast<double>(distances.size()))};
 }
 
-/// The mean of slips over frames.
-class MeanSlip {
+/// The mean of drifts over frames.
+class MeanDrift {
  public:
-  void add(const std::optional<Slip>& slip) {
-    if (!slip) return;
-    median_ += {slip->median, 1.0};
-    most_ += {slip->most, 1.0};
-    square_ += {slip->rms * slip->rms, 1.0};
+  void add(const std::optional<Drift>& drift) {
+    if (!drift) return;
+    median_ += {drift->median, 1.0};
+    most_ += {drift->most, 1.0};
+    square_ += {drift->rms * drift->rms, 1.0};
   }
-  std::optional<Slip> value() const {
+  std::optional<Drift> value() const {
     if (!median_.value()) return std::nullopt;
-    return Slip{
+    return Drift{
         .median = *median_.value(), .most = *most_.value(), .rms = std::sqrt(*square_.value())};
   }
 
@@ -66,9 +66,9 @@ void AnchorMeasures::add(std::span<const Anchor> anchors, const MotionMap* since
                          const MotionMap* sinceLong) {
   if (!past_.empty() && past_.back().size() == anchors.size()) {
     AnchorFrame frame = compare(anchors);
-    frame.slip = slipSince(past_.back(), anchors, sinceLast);
+    frame.drift = driftSince(past_.back(), anchors, sinceLast);
     if (past_.size() >= kLongLag) {
-      frame.longSlip = slipSince(past_[past_.size() - kLongLag], anchors, sinceLong);
+      frame.longDrift = driftSince(past_[past_.size() - kLongLag], anchors, sinceLong);
     }
     frames_.push_back(frame);
   }
@@ -96,9 +96,9 @@ AnchorFrame AnchorMeasures::compare(std::span<const Anchor> anchors) const {
   return frame;
 }
 
-std::optional<Slip> AnchorMeasures::slipSince(std::span<const Anchor> then,
-                                              std::span<const Anchor> now,
-                                              const MotionMap* motion) const {
+std::optional<Drift> AnchorMeasures::driftSince(std::span<const Anchor> then,
+                                                std::span<const Anchor> now,
+                                                const MotionMap* motion) const {
   if (motion == nullptr || then.size() != now.size()) return std::nullopt;
   std::vector<float> distances;
   for (std::size_t slot = 0; slot < now.size(); ++slot) {
@@ -110,7 +110,7 @@ std::optional<Slip> AnchorMeasures::slipSince(std::span<const Anchor> then,
     const cv::Point2f error = onPicture(now[slot]) - onPicture(then[slot]) - *truth;
     distances.push_back(std::hypot(error.x, error.y));
   }
-  return slipOf(std::move(distances));
+  return driftOf(std::move(distances));
 }
 
 void AnchorMeasures::countCells(std::span<const Anchor> anchors) {
@@ -137,7 +137,7 @@ void AnchorMeasures::countCells(std::span<const Anchor> anchors) {
 std::optional<AnchorSummary> AnchorMeasures::total(std::size_t first) const {
   if (!perCell_.value() || first >= frames_.size()) return std::nullopt;
   AnchorSummary all{.frames = frames_.size() - first};
-  MeanSlip slip, longSlip;
+  MeanDrift drift, longDrift;
   double inner = 0;
   for (const AnchorFrame& frame : std::span(frames_).subspan(first)) {
     all.alive += static_cast<double>(frame.alive);
@@ -147,8 +147,8 @@ std::optional<AnchorSummary> AnchorMeasures::total(std::size_t first) const {
     all.innerDeaths += static_cast<double>(frame.innerDeaths);
     all.moved += static_cast<double>(frame.moved);
     inner += static_cast<double>(frame.inner);
-    slip.add(frame.slip);
-    longSlip.add(frame.longSlip);
+    drift.add(frame.drift);
+    longDrift.add(frame.longDrift);
   }
   if (inner > 0) {
     all.innerTurnoverPercent = 100.0 * (all.innerBirths + all.innerDeaths) / inner;
@@ -161,8 +161,8 @@ std::optional<AnchorSummary> AnchorMeasures::total(std::size_t first) const {
        {&all.alive, &all.births, &all.deaths, &all.innerBirths, &all.innerDeaths, &all.moved}) {
     *sum /= static_cast<double>(all.frames);
   }
-  all.slip = slip.value();
-  all.longSlip = longSlip.value();
+  all.drift = drift.value();
+  all.longDrift = longDrift.value();
   all.perCell = *perCell_.value();
   all.spreadPerCell =
       std::sqrt(std::max(0.0, squarePerCell_.value().value_or(0) - all.perCell * all.perCell));

@@ -15,7 +15,7 @@
 namespace pleinair::measure {
 
 /// How far anchors are from where the true motion has taken what they were on, px.
-struct Slip {
+struct Drift {
   double median = 0;
   double most = 0;  ///< of 95 % of them
   double rms = 0;
@@ -26,8 +26,8 @@ struct AnchorFrame {
   std::size_t alive = 0, births = 0, deaths = 0;
   std::size_t inner = 0, innerBirths = 0, innerDeaths = 0;  ///< away from the border
   std::size_t moved = 0;                                    ///< by any amount
-  std::optional<Slip> slip;                                 ///< since the frame before
-  std::optional<Slip> longSlip;                             ///< since ten frames before
+  std::optional<Drift> drift;                               ///< since the frame before
+  std::optional<Drift> longDrift;                           ///< since ten frames before
 };
 
 /// The same over a sequence: means a frame.
@@ -40,7 +40,7 @@ struct AnchorSummary {
   /// Of marks away from the border, from the share that dies a frame. Nothing where it would be
   /// longer than the frames that were seen: half of the marks outlive those.
   std::optional<double> halfLifeFrames;
-  std::optional<Slip> slip, longSlip;
+  std::optional<Drift> drift, longDrift;
   double perCell = 0, spreadPerCell = 0, emptyCellsPercent = 0;  ///< of the grid of 8×8 px
 };
 
@@ -61,8 +61,9 @@ class AnchorMeasures {
 
  private:
   AnchorFrame compare(std::span<const marks::Anchor> anchors) const;
-  std::optional<Slip> slipSince(std::span<const marks::Anchor> then,
-                                std::span<const marks::Anchor> now, const MotionMap* motion) const;
+  std::optional<Drift> driftSince(std::span<const marks::Anchor> then,
+                                  std::span<const marks::Anchor> now,
+                                  const MotionMap* motion) const;
   void countCells(std::span<const marks::Anchor> anchors);
   bool isInner(const marks::Anchor& anchor) const;
 

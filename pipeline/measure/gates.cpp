@@ -60,7 +60,7 @@ const MeasureColumn& columnOf(std::optional<double> Measures::*value) {
   return *std::ranges::find(measureColumns(), value, &MeasureColumn::value);
 }
 
-Verdict judge(const Gate& gate, const Circumstances& circumstances, const Measures& measures,
+Verdict judge(const Gate& gate, const RunConditions& runConditions, const Measures& measures,
               const Measures& tiling) {
   const MeasureColumn& column = columnOf(gate.measure);
   const char* relation = gate.isMost ? "≤" : "≥";
@@ -77,7 +77,7 @@ Verdict judge(const Gate& gate, const Circumstances& circumstances, const Measur
   }
   verdict.comparison = {.value = found, .limit = {}, .isMost = gate.isMost};
   if (isLimitKnown) verdict.comparison->limit = limit;
-  if (!found) verdict.found = whyMissing(gate.measure, circumstances);
+  if (!found) verdict.found = whyMissing(gate.measure, runConditions);
   if (found && !isLimitKnown) verdict.found += ", but the tiling's is not known";
   if (!found || !isLimitKnown) return verdict;
   const bool isPassed = gate.isMost ? *found <= limit : *found >= limit;
@@ -99,13 +99,13 @@ std::vector<std::string> gatedStyles() {
   return styles;
 }
 
-std::vector<Verdict> gateVerdicts(std::string_view style, const Circumstances& circumstances,
+std::vector<Verdict> gateVerdicts(std::string_view style, const RunConditions& runConditions,
                                   const Measures& measures, const Measures& tiling) {
   assert(hasGates(style));
   std::vector<Verdict> verdicts;
   for (const Gate& gate : kGates) {
-    if (gate.style != style || !isShutOn(gate, circumstances.motion)) continue;
-    verdicts.push_back(judge(gate, circumstances, measures, tiling));
+    if (gate.style != style || !isShutOn(gate, runConditions.motion)) continue;
+    verdicts.push_back(judge(gate, runConditions, measures, tiling));
   }
   return verdicts;
 }

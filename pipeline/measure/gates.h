@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "pipeline/measure/anchor_measures.h"
-#include "pipeline/measure/circumstances.h"
-#include "pipeline/measure/input/measured_input.h"
+#include "pipeline/measure/input/true_motion.h"
 #include "pipeline/measure/measures.h"
+#include "pipeline/measure/run_conditions.h"
 
 namespace pleinair::measure {
 
@@ -35,10 +35,10 @@ bool hasGates(std::string_view style);
 /// Those that have.
 std::vector<std::string> gatedStyles();
 
-/// What the gates of `style` say to an output's measures under these circumstances, whose motion
+/// What the gates of `style` say to an output's measures under these runConditions, whose motion
 /// decides which of them are shut; `tiling` is what tiles fixed to the screen read on the same
 /// frames. Precondition: hasGates(style).
-std::vector<Verdict> gateVerdicts(std::string_view style, const Circumstances& circumstances,
+std::vector<Verdict> gateVerdicts(std::string_view style, const RunConditions& runConditions,
                                   const Measures& measures, const Measures& tiling);
 
 /// What they say to the style's anchors: under a pan, once two seconds are over, and on a still

@@ -150,10 +150,10 @@ class Measurement {
                       *options_.frames, report_.frames));
     }
     report_.leftOut = leftOut();
-    report_.controls = controlVerdicts(report_.measures, report_.style, circumstances());
+    report_.controls = controlVerdicts(report_.measures, report_.style, runConditions());
     if (hasGates(report_.style)) {
       report_.gates =
-          gateVerdicts(report_.style, circumstances(), report_.measures[Subject::kPainting],
+          gateVerdicts(report_.style, runConditions(), report_.measures[Subject::kPainting],
                        report_.measures[Subject::kFixed]);
     }
     for (Verdict& verdict :
@@ -162,7 +162,7 @@ class Measurement {
     }
   }
 
-  Circumstances circumstances() const {
+  RunConditions runConditions() const {
     return {.motion = report_.motionKind,
             .frames = report_.frames,
             .stillFrames = report_.stillFrames,
@@ -179,7 +179,7 @@ class Measurement {
 
   std::vector<std::string> leftOut() const {
     std::vector<std::string> lines =
-        missingLines(report_.measures[Subject::kPainting], circumstances());
+        missingLines(report_.measures[Subject::kPainting], runConditions());
     if (!report_.flatness) {
       lines.emplace_back(
           "flatness: it compares near and far views, and the picture's scale is not "

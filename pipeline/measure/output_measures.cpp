@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "pipeline/measure/carried_error.h"
-#include "pipeline/measure/departure.h"
+#include "pipeline/measure/deviation.h"
 #include "pipeline/measure/lasting_marks.h"
 #include "pipeline/measure/picture.h"
 #include "pipeline/measure/screen_pattern.h"
@@ -54,7 +54,7 @@ void OutputMeasures::add(const cv::Mat3f& output, const cv::Mat3f& input,
   Frame frame;
   recent_.push_back({.picture = output, .highPass = highPass(output)});
   greys_.push_back(greyOf(output));
-  frame.departure = departure(output, input);
+  frame.deviation = deviation(output, input);
   frame.detail = meanSquare(recent_.back().highPass);
   difference_.release();
   if (motion.shortLag != nullptr && recent_.size() > kShortLag) {
@@ -98,7 +98,7 @@ Measures OutputMeasures::valuesOf(const Frame& frame, const Frame& input) {
   measures.popPercent = times(frame.popped.value(), 100.0);
   measures.s10Percent = times(frame.lasting.value(), 100.0);
   measures.scr = frame.screen.value();
-  measures.dep = times(root(frame.departure.value()), 255.0);
+  measures.dep = times(root(frame.deviation.value()), 255.0);
   measures.det = root(ratio(frame.detail.value(), input.detail.value()));
   return measures;
 }
@@ -112,7 +112,7 @@ OutputMeasures::Frame OutputMeasures::total() const {
     all.popped += frame.popped;
     all.lasting += frame.lasting;
     all.screen += frame.screen;
-    all.departure += frame.departure;
+    all.deviation += frame.deviation;
     all.detail += frame.detail;
   }
   return all;

@@ -36,7 +36,7 @@ class OutputMeasures {
     Mean popped;
     Mean lasting;
     Mean screen;
-    Mean departure;
+    Mean deviation;
     Mean detail;  ///< mean square of the high pass
   };
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "pipeline/measure/departure.h"
+#include "pipeline/measure/deviation.h"
 
 namespace pleinair::measure {
 

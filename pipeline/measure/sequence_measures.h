@@ -6,10 +6,10 @@
 
 #include "hal/error.h"
 #include "pipeline/measure/anchor_measures.h"
-#include "pipeline/measure/controls.h"
 #include "pipeline/measure/flatness.h"
-#include "pipeline/measure/input/measured_input.h"
+#include "pipeline/measure/input/true_motion.h"
 #include "pipeline/measure/mean.h"
+#include "pipeline/measure/negative_controls.h"
 #include "pipeline/measure/output_measures.h"
 
 namespace pleinair::measure {

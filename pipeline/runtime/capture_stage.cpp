@@ -6,7 +6,7 @@
 namespace pleinair::runtime {
 
 CaptureStage::CaptureStage(hal::CameraSupervisor& camera, hal::Clock& clock, FrameLedger& ledger,
-                           HandOff<ArrivedFrame>& frames)
+                           Mailbox<ArrivedFrame>& frames)
     : camera_(camera), clock_(clock), ledger_(ledger), frames_(frames) {}
 
 void CaptureStage::open() {
@@ -46,9 +46,9 @@ void CaptureStage::step(hal::TimePoint deadline) {
 
 void CaptureStage::receive(hal::SupervisedFrame& next) {
   if (next.frame.health == hal::FrameHealth::kCorrupt) {
-    ledger_.count(Fate::kCorrupt);
+    ledger_.count(Outcome::kCorrupt);
   } else if (next.frame.health == hal::FrameHealth::kIncomplete) {
-    ledger_.count(Fate::kIncomplete);
+    ledger_.count(Outcome::kIncomplete);
   } else {
     handOn(std::move(next.frame));
   }
@@ -57,12 +57,12 @@ void CaptureStage::receive(hal::SupervisedFrame& next) {
 /// Enters what never came out of the supervisor, also where no sound frame follows any more.
 void CaptureStage::countLost() {
   const hal::FrameCounts counts = camera_.frameCounts();
-  const std::uint64_t starved = counts.starved - counted_.starved;
-  ledger_.count(Fate::kStalled, counts.lostInStall - counted_.lostInStall);
-  ledger_.count(Fate::kStarved, starved);
-  ledger_.count(Fate::kLeftOut, counts.dropped - counted_.dropped - starved);
-  ledger_.count(Fate::kCorrupt, counts.corrupt - counted_.corrupt);
-  ledger_.count(Fate::kMisTimed, counts.misTimed - counted_.misTimed);
+  const std::uint64_t underruns = counts.underruns - counted_.underruns;
+  ledger_.count(Outcome::kStalled, counts.lostInStall - counted_.lostInStall);
+  ledger_.count(Outcome::kBufferUnderrun, underruns);
+  ledger_.count(Outcome::kDroppedByDriver, counts.dropped - counted_.dropped - underruns);
+  ledger_.count(Outcome::kCorrupt, counts.corrupt - counted_.corrupt);
+  ledger_.count(Outcome::kMisTimed, counts.misTimed - counted_.misTimed);
   counted_ = counts;
 }
 
@@ -73,13 +73,13 @@ void CaptureStage::handOn(hal::CapturedFrame frame) {
     rate_.count(now);
     delay_.add(now - frame.captureTime, now);
     if (!isOpen_) {
-      ledger_.count(Fate::kStarting);
+      ledger_.count(Outcome::kStarting);
       return;
     }
   }
   const FrameLedger::Ticket ticket = ledger_.open();
   const auto replaced = frames_.put({std::move(frame), ticket, now});
-  if (replaced) ledger_.settle(replaced->ticket, Fate::kReplaced);
+  if (replaced) ledger_.end(replaced->ticket, Outcome::kReplaced);
 }
 
 CaptureStage::Status CaptureStage::status() const {

@@ -10,7 +10,7 @@
 #include "pipeline/runtime/duration_histogram.h"
 #include "pipeline/runtime/frame_ledger.h"
 #include "pipeline/runtime/frame_rate.h"
-#include "pipeline/runtime/hand_off.h"
+#include "pipeline/runtime/mailbox.h"
 
 namespace pleinair::runtime {
 
@@ -27,7 +27,7 @@ class CaptureStage {
  public:
   /// All outlive this.
   CaptureStage(hal::CameraSupervisor& camera, hal::Clock& clock, FrameLedger& ledger,
-               HandOff<ArrivedFrame>& frames);
+               Mailbox<ArrivedFrame>& frames);
 
   /// Waits for what the camera does next, until `deadline`.
   void step(hal::TimePoint deadline);
@@ -57,7 +57,7 @@ class CaptureStage {
   hal::CameraSupervisor& camera_;
   hal::Clock& clock_;
   FrameLedger& ledger_;
-  HandOff<ArrivedFrame>& frames_;
+  Mailbox<ArrivedFrame>& frames_;
   bool hasEnded_ = false;
   hal::FrameCounts counted_;  ///< what the ledger has of the supervisor's
 

@@ -13,7 +13,7 @@ std::uint64_t LedgerCounts::dropped() const {
 }
 
 bool LedgerCounts::addsUp() const {
-  return captured == underWay + shown() + dropped();
+  return captured == inFlight + shown() + dropped();
 }
 
 std::string LedgerCounts::summary(hal::Duration elapsed) const {
@@ -21,13 +21,13 @@ std::string LedgerCounts::summary(hal::Duration elapsed) const {
   const double rate = seconds > 0.0 ? static_cast<double>(shown()) / seconds : 0.0;
   std::string text = fmt::format("showed {} {} in {:.1f} s ({:.1f} frames/s)", shown(),
                                  shown() == 1 ? "frame" : "frames", seconds, rate);
-  const std::uint64_t untimely = of(Fate::kShownUntimely);
-  if (untimely > 0) text += fmt::format(", {} untimely", untimely);
+  const std::uint64_t offSchedule = of(Outcome::kShownOffSchedule);
+  if (offSchedule > 0) text += fmt::format(", {} off schedule", offSchedule);
   text += fmt::format("; dropped {}", dropped());
   const char* separator = " (";
-  for (const Fate fate : allFates()) {
-    if (isShown(fate) || of(fate) == 0) continue;
-    text += fmt::format("{}{} {}", separator, of(fate), describe(fate));
+  for (const Outcome outcome : allOutcomes()) {
+    if (isShown(outcome) || of(outcome) == 0) continue;
+    text += fmt::format("{}{} {}", separator, of(outcome), describe(outcome));
     separator = ", ";
   }
   if (dropped() > 0) text += ')';
@@ -36,18 +36,18 @@ std::string LedgerCounts::summary(hal::Duration elapsed) const {
 
 FrameLedger::Ticket FrameLedger::open() {
   const std::scoped_lock lock(mutex_);
-  assert(counts_.underWay < kMostUnderWay);
-  while (slots_.at(next_).parts != 0) next_ = (next_ + 1) % kMostUnderWay;
+  assert(counts_.inFlight < kMaxInFlight);
+  while (slots_.at(next_).parts != 0) next_ = (next_ + 1) % kMaxInFlight;
   slots_.at(next_) = {.parts = 1};
   ++counts_.captured;
-  ++counts_.underWay;
+  ++counts_.inFlight;
   return {static_cast<std::uint16_t>(next_)};
 }
 
-void FrameLedger::count(Fate fate, std::uint64_t frames) {
+void FrameLedger::count(Outcome outcome, std::uint64_t frames) {
   const std::scoped_lock lock(mutex_);
   counts_.captured += frames;
-  counts_.ended.at(static_cast<std::size_t>(fate)) += frames;
+  counts_.ended.at(static_cast<std::size_t>(outcome)) += frames;
 }
 
 FrameLedger::Slot& FrameLedger::at(Ticket ticket) {
@@ -62,13 +62,13 @@ void FrameLedger::split(Ticket ticket, int parts) {
   at(ticket).parts = parts;
 }
 
-void FrameLedger::settle(Ticket ticket, Fate fate) {
+void FrameLedger::end(Ticket ticket, Outcome outcome) {
   const std::scoped_lock lock(mutex_);
   Slot& slot = at(ticket);
-  if (!slot.hasFate || fate < slot.best) slot.best = fate;
-  slot.hasFate = true;
+  if (!slot.hasOutcome || outcome < slot.best) slot.best = outcome;
+  slot.hasOutcome = true;
   if (--slot.parts > 0) return;
-  --counts_.underWay;
+  --counts_.inFlight;
   ++counts_.ended.at(static_cast<std::size_t>(slot.best));
 }
 

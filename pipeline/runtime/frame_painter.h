@@ -27,11 +27,11 @@ class FramePainter {
   virtual hal::Result<void> paint(const hal::CapturedFrame& frame, std::size_t quality) = 0;
   /// Copies an output's oldest finished picture into `picture`, whose memory is reused; false if
   /// none is ready. Never waits. Errors: kDeviceLost.
-  virtual hal::Result<bool> take(std::size_t output, ReadPicture& picture) = 0;
+  virtual hal::Result<bool> take(std::size_t output, OutputFrame& picture) = 0;
 };
 
 /// Makes a painter that brings its pictures to memory in these formats, one an output. Throws
-/// hal::StartupError.
+/// hal::Failure.
 using PainterFactory =
     std::function<std::unique_ptr<FramePainter>(const std::vector<hal::FrameFormat>& outputs)>;
 

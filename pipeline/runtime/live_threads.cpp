@@ -13,7 +13,7 @@ constexpr hal::Duration kCameraLook = std::chrono::milliseconds(100);
 
 }  // namespace
 
-LiveThreads::LiveThreads(LiveChain& chain) : chain_(chain) {
+LiveThreads::LiveThreads(LivePipeline& chain) : chain_(chain) {
   launch(kCamera, ThreadRole::kPrompt, [this] { runCamera(); });
 }
 
@@ -43,7 +43,7 @@ void LiveThreads::startPainter() {
 void LiveThreads::runPainter() {
   try {
     chain_.paint().start();
-  } catch (const hal::StartupError& error) {
+  } catch (const hal::Failure& error) {
     const std::scoped_lock lock(mutex_);
     painterFailure_ = error.error();
     return;
@@ -60,7 +60,7 @@ void LiveThreads::runPainter() {
 
 bool LiveThreads::isPainterReady() {
   const std::scoped_lock lock(mutex_);
-  if (painterFailure_) throw hal::StartupError(*painterFailure_);
+  if (painterFailure_) throw hal::Failure(*painterFailure_);
   return isPainterReady_;
 }
 

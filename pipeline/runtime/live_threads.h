@@ -12,7 +12,7 @@
 
 #include "hal/clock.h"
 #include "hal/error.h"
-#include "pipeline/runtime/live_chain.h"
+#include "pipeline/runtime/live_pipeline.h"
 #include "pipeline/runtime/thread_role.h"
 
 namespace pleinair::runtime {
@@ -25,7 +25,7 @@ class LiveThreads {
   static constexpr const char* kPainter = "live painter";
 
   /// Starts the camera's thread. The chain outlives this.
-  explicit LiveThreads(LiveChain& chain);
+  explicit LiveThreads(LivePipeline& chain);
   /// Precondition: stop() has been called, and left nobody behind.
   ~LiveThreads();
   LiveThreads(const LiveThreads&) = delete;
@@ -33,7 +33,7 @@ class LiveThreads {
 
   /// Starts the painter's thread, which makes the painter.
   void startPainter();
-  /// Whether the painter is there; throws what it failed with (hal::StartupError).
+  /// Whether the painter is there; throws what it failed with (hal::Failure).
   bool isPainterReady();
   /// Lets frames flow to the outputs, each on its thread; `stepped`: which the caller steps itself.
   void startOutputs(const std::vector<std::size_t>& stepped = {});
@@ -56,7 +56,7 @@ class LiveThreads {
   void join(const std::string& name, std::chrono::steady_clock::time_point deadline,
             Stopped& stopped);
 
-  LiveChain& chain_;
+  LivePipeline& chain_;
   std::atomic<bool> stopsCamera_ = false;
   std::atomic<bool> stopsPainter_ = false;
   std::atomic<bool> stopsOutputs_ = false;

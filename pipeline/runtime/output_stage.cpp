@@ -25,14 +25,14 @@ OutputStage::OutputStage(std::unique_ptr<hal::MemoryOutput> output, hal::OutputF
   // One is being taken and one is being filled while the others wait. The last freed is filled
   // first, so that those which are never needed take no memory.
   for (std::size_t i = 0; i < options_.waiting + 2; ++i) {
-    buffers_.push_back(std::make_unique<ReadPicture>());
+    buffers_.push_back(std::make_unique<OutputFrame>());
     free_.push_back(options_.waiting + 1 - i);
   }
   status_.name = options_.name;
   status_.format = format.frame;
 }
 
-ReadPicture& OutputStage::buffer() {
+OutputFrame& OutputStage::buffer() {
   const std::scoped_lock lock(mutex_);
   if (!filling_) {
     assert(!free_.empty());
@@ -55,44 +55,44 @@ void OutputStage::submit(std::optional<FrameLedger::Ticket> ticket, hal::TimePoi
                                .ready = ready,
                                .due = due};
   if (status_.isFinal) {
-    end(picture, Fate::kOutputFailed);
+    end(picture, Outcome::kOutputFailed);
     return;
   }
   if (queue_.isFull()) {
     // Where the oldest is still waiting for its time, dropping it again and again would show none.
     if (*queue_.nextTime() > clock_.now()) {
-      end(picture, Fate::kOutputBusy);
+      end(picture, Outcome::kOutputBusy);
       return;
     }
-    end(queue_.removeOldest(), Fate::kOutputBusy);
+    end(queue_.removeOldest(), Outcome::kOutputBusy);
   }
   queue_.push(picture);
   isWoken_ = true;
   changed_.notify_all();
 }
 
-void OutputStage::end(const WaitingPicture& picture, Fate fate) {
+void OutputStage::end(const WaitingPicture& picture, Outcome outcome) {
   free_.push_back(picture.buffer);
-  ++status_.ended.at(static_cast<std::size_t>(fate));
-  if (picture.ticket) ledger_.settle(*picture.ticket, fate);
+  ++status_.ended.at(static_cast<std::size_t>(outcome));
+  if (picture.ticket) ledger_.end(*picture.ticket, outcome);
 }
 
-void OutputStage::endAll(Fate fate) {
-  while (queue_.size() > 0) end(queue_.removeOldest(), fate);
+void OutputStage::endAll(Outcome outcome) {
+  while (queue_.size() > 0) end(queue_.removeOldest(), outcome);
 }
 
 std::optional<OutputStage::Due> OutputStage::takeDue() {
   const std::scoped_lock lock(mutex_);
   while (auto ruling = queue_.next(clock_.now())) {
     if (options_.limit && status_.presented >= *options_.limit) {
-      end(ruling->picture, Fate::kStopped);
+      end(ruling->picture, Outcome::kStopped);
       continue;
     }
-    if (isShown(ruling->fate) && !status_.isFailed) {
+    if (isShown(ruling->outcome) && !status_.isFailed) {
       isWriting_ = true;
-      return Due{ruling->picture, ruling->fate};
+      return Due{ruling->picture, ruling->outcome};
     }
-    end(ruling->picture, status_.isFailed ? Fate::kOutputFailed : ruling->fate);
+    end(ruling->picture, status_.isFailed ? Outcome::kOutputFailed : ruling->outcome);
   }
   return std::nullopt;
 }
@@ -128,19 +128,19 @@ void OutputStage::present(const Due& due) {
   queue_.presented(ended);
   writing_.add(ended - began, ended);
   if (!written) {
-    end(due.picture, Fate::kOutputFailed);
+    end(due.picture, Outcome::kOutputFailed);
     fail(std::move(written.error()));
     return;
   }
   reopenAfter_ = kFirstReopening;
   if (isSkipped) {
-    end(due.picture, Fate::kOutputBusy);
+    end(due.picture, Outcome::kOutputBusy);
     return;
   }
   ++status_.presented;
   rate_.count(began);
   latency_.add(began - due.picture.captured, began);
-  end(due.picture, due.fate);
+  end(due.picture, due.outcome);
 }
 
 void OutputStage::fail(hal::Error error) {
@@ -150,7 +150,7 @@ void OutputStage::fail(hal::Error error) {
   status_.failure = std::move(error);
   reopenAt_ = clock_.now() + reopenAfter_;
   reopenAfter_ = std::min(2 * reopenAfter_, kLongestReopening);
-  endAll(Fate::kOutputFailed);
+  endAll(Outcome::kOutputFailed);
 }
 
 void OutputStage::tryToReopen() {
@@ -196,7 +196,7 @@ hal::Result<void> OutputStage::finish() {
   handOver();
   {
     const std::scoped_lock lock(mutex_);
-    endAll(Fate::kStopped);
+    endAll(Outcome::kStopped);
     if (status_.isFailed) return tl::unexpected(*status_.failure);
     // A movie of nothing is not to take the place of one that is there.
     if (status_.presented == 0) return {};

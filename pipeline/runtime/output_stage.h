@@ -49,7 +49,7 @@ class OutputStage {
   // The painter's thread.
 
   /// A picture to be filled, which belongs to the caller until submit() or a second call.
-  ReadPicture& buffer();
+  OutputFrame& buffer();
   /// Takes that picture. `ticket`: none for repeats.
   void submit(std::optional<FrameLedger::Ticket> ticket, hal::TimePoint ready, hal::TimePoint due);
 
@@ -79,7 +79,7 @@ class OutputStage {
     std::uint64_t submitted = 0;
     std::uint64_t waiting = 0;
     std::uint64_t repeats = 0;  ///< of those submitted: without a frame of their own
-    std::array<std::uint64_t, kFates> ended{};
+    std::array<std::uint64_t, kOutcomes> ended{};
     double perSecond = 0.0;
     std::uint64_t presented = 0;
     hal::Duration latencySum{0};  ///< of all that were presented
@@ -96,13 +96,13 @@ class OutputStage {
  private:
   struct Due {
     WaitingPicture picture;
-    Fate fate{};
+    Outcome outcome{};
   };
   void handOver();
   std::optional<Due> takeDue();
   void present(const Due& due);
-  void end(const WaitingPicture& picture, Fate fate);
-  void endAll(Fate fate);
+  void end(const WaitingPicture& picture, Outcome outcome);
+  void endAll(Outcome outcome);
   void fail(hal::Error error);
   void tryToReopen();
   hal::Duration timeOf(const WaitingPicture& picture);
@@ -114,7 +114,7 @@ class OutputStage {
   FrameLedger& ledger_;
   std::optional<hal::TimePoint> firstTime_;  ///< of what the output has got
   hal::Duration reopenAfter_;                ///< grows until a picture is taken
-  std::vector<std::unique_ptr<ReadPicture>> buffers_;
+  std::vector<std::unique_ptr<OutputFrame>> buffers_;
 
   mutable std::mutex mutex_;  // of what follows
   std::condition_variable changed_;

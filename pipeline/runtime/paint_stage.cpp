@@ -24,7 +24,7 @@ hal::Error neverReady() {
 
 constexpr std::array<std::string_view, 5> kStageNames{
     "delivery",    // from capture to arrival
-    "hand_off",    // from arrival to the painter
+    "mailbox",     // from arrival to the painter
     "issuing",     // tracking and issuing of the GPU's work
     "finishing",   // from there until the picture is in memory
     "until_ready"  // from capture until the picture is in memory
@@ -38,7 +38,7 @@ double ratio(hal::Duration part, hal::Duration whole) {
 
 PaintStage::PaintStage(PainterFactory factory, std::vector<OutputStage*> outputs,
                        PaintStageOptions options, hal::Clock& clock, FrameLedger& ledger,
-                       HandOff<ArrivedFrame>& frames)
+                       Mailbox<ArrivedFrame>& frames)
     : factory_(std::move(factory)),
       outputs_(std::move(outputs)),
       options_(options),
@@ -50,7 +50,7 @@ PaintStage::PaintStage(PainterFactory factory, std::vector<OutputStage*> outputs
       governor_(options.governor),
       latency_(options.latency) {
   assert(!outputs_.empty());
-  underWay_.reserve(kMostUnderWay);
+  inFlight_.reserve(kMaxInFlight);
   for (const OutputStage* output : outputs_) formats_.push_back(output->format().frame);
 }
 
@@ -66,12 +66,12 @@ bool PaintStage::step() {
   noteSuspension();
   if (!painter_ && !revive()) return false;
   bool didAnything = collect();
-  if (painter_ && underWay_.size() < kMostUnderWay) didAnything = paintNewest() || didAnything;
-  busy_ = underWay_.size();
+  if (painter_ && inFlight_.size() < kMaxInFlight) didAnything = paintNewest() || didAnything;
+  busy_ = inFlight_.size();
   return didAnything;
 }
 
-/// Where the clock jumps, the GPU stood still as well, and is not to blame.
+/// Where the clock jumps, the GPU stood still as well, and is not to attribute.
 void PaintStage::noteSuspension() {
   constexpr hal::Duration kJump = std::chrono::seconds(1);
   const hal::TimePoint now = clock_.now();
@@ -82,15 +82,15 @@ void PaintStage::noteSuspension() {
 bool PaintStage::collect() {
   bool tookAny = false;
   for (std::size_t i = 0; painter_ && i < outputs_.size(); ++i) {
-    while (painter_ && taken_.at(i) < underWay_.size() && collectFor(i)) tookAny = true;
+    while (painter_ && taken_.at(i) < inFlight_.size() && collectFor(i)) tookAny = true;
   }
-  while (!underWay_.empty() && underWay_.front().takenBy == outputs_.size()) {
-    finished(underWay_.front(), clock_.now());
-    underWay_.erase(underWay_.begin());
+  while (!inFlight_.empty() && inFlight_.front().takenBy == outputs_.size()) {
+    finished(inFlight_.front(), clock_.now());
+    inFlight_.erase(inFlight_.begin());
     for (std::size_t& taken : taken_) --taken;
   }
-  if (!underWay_.empty()) {
-    const hal::TimePoint since = std::max(underWay_.front().issued, resumedAt_);
+  if (!inFlight_.empty()) {
+    const hal::TimePoint since = std::max(inFlight_.front().issued, resumedAt_);
     if (clock_.now() - since > kNeverReady) lose(neverReady());
   }
   return tookAny;
@@ -103,7 +103,7 @@ bool PaintStage::collectFor(std::size_t output) {
     return false;
   }
   if (!*taken) return false;
-  UnderWay& frame = underWay_.at(taken_.at(output)++);
+  InFlight& frame = inFlight_.at(taken_.at(output)++);
   ++frame.takenBy;
   hal::Duration latency{};
   {
@@ -117,14 +117,14 @@ bool PaintStage::collectFor(std::size_t output) {
 
 /// Of the frame period what the painter was busy with it; of what the camera left of the latency,
 /// which no quality brings back, what has passed.
-double PaintStage::loadOf(const UnderWay& frame, hal::TimePoint now) const {
+double PaintStage::loadOf(const InFlight& frame, hal::TimePoint now) const {
   const hal::Duration cost = now - std::max(frame.began, lastFinished_);
   const hal::Duration left = frame.captured + latency_.latency() - frame.arrived;
   const double ofLatency = left > hal::Duration::zero() ? ratio(now - frame.arrived, left) : 2.0;
   return options_.framePeriod ? std::max(ratio(cost, *options_.framePeriod), ofLatency) : ofLatency;
 }
 
-void PaintStage::finished(const UnderWay& frame, hal::TimePoint now) {
+void PaintStage::finished(const InFlight& frame, hal::TimePoint now) {
   const std::scoped_lock lock(mutex_);
   stages_.at(kFinishing).add(now - frame.issued, now);
   rate_.count(now);
@@ -150,7 +150,7 @@ hal::Result<void> PaintStage::paint(const ArrivedFrame& arrived) {
   const hal::CapturedFrame& frame = arrived.frame;
   const bool isRepeat = isPaused_ && held_;
   if (!isRepeat) hold(frame);
-  UnderWay painting{.ticket = arrived.ticket,
+  InFlight painting{.ticket = arrived.ticket,
                     .captured = frame.captureTime,
                     .arrived = arrived.arrived,
                     .began = clock_.now()};
@@ -163,12 +163,12 @@ hal::Result<void> PaintStage::paint(const ArrivedFrame& arrived) {
   if (auto painted = painter_->paint(repeated, painting.quality); !painted) return painted;
   painting.issued = clock_.now();
   if (isRepeat) {
-    ledger_.settle(arrived.ticket, Fate::kPaused);
+    ledger_.end(arrived.ticket, Outcome::kPaused);
     painting.ticket.reset();
   } else {
     ledger_.split(arrived.ticket, static_cast<int>(outputs_.size()));
   }
-  underWay_.push_back(painting);
+  inFlight_.push_back(painting);
   const std::scoped_lock lock(mutex_);
   stages_.at(kDelay).add(arrived.arrived - frame.captureTime, painting.began);
   stages_.at(kWaiting).add(painting.began - arrived.arrived, painting.began);
@@ -183,7 +183,7 @@ void PaintStage::hold(const hal::CapturedFrame& frame) {
 
 void PaintStage::refuse(const ArrivedFrame& arrived, const hal::Error& error) {
   const bool isLost = error.kind == hal::ErrorKind::kDeviceLost;
-  ledger_.settle(arrived.ticket, isLost ? Fate::kContextLost : Fate::kNotPainted);
+  ledger_.end(arrived.ticket, isLost ? Outcome::kContextLost : Outcome::kNotPainted);
   if (isLost) {
     lose(error);
     return;
@@ -194,20 +194,20 @@ void PaintStage::refuse(const ArrivedFrame& arrived, const hal::Error& error) {
 }
 
 /// Ends what is being painted, for the outputs that have not got it.
-void PaintStage::endUnderWay(Fate fate) {
-  for (const UnderWay& frame : underWay_) {
+void PaintStage::endInFlight(Outcome outcome) {
+  for (const InFlight& frame : inFlight_) {
     for (std::size_t i = frame.takenBy; frame.ticket && i < outputs_.size(); ++i) {
-      ledger_.settle(*frame.ticket, fate);
+      ledger_.end(*frame.ticket, outcome);
     }
   }
-  underWay_.clear();
+  inFlight_.clear();
   std::ranges::fill(taken_, 0);
 }
 
 /// The GPU is gone, with all that was on it.
 void PaintStage::lose(const hal::Error& error) {
   painter_.reset();
-  endUnderWay(Fate::kContextLost);
+  endInFlight(Outcome::kContextLost);
   reviveAt_ = clock_.now() + reviveAfter_;
   reviveAfter_ = std::min(2 * reviveAfter_, kLongestRevival);
   const std::scoped_lock lock(mutex_);
@@ -221,7 +221,7 @@ bool PaintStage::revive() {
   try {
     start();
     return true;
-  } catch (const hal::StartupError& error) {
+  } catch (const hal::Failure& error) {
     reviveAt_ = clock_.now() + reviveAfter_;
     reviveAfter_ = std::min(2 * reviveAfter_, kLongestRevival);
     const std::scoped_lock lock(mutex_);
@@ -232,18 +232,18 @@ bool PaintStage::revive() {
 
 void PaintStage::wait() {
   // A picture's end is seen by asking only.
-  constexpr hal::Duration kLook = std::chrono::microseconds(500);
+  constexpr hal::Duration kPollInterval = std::chrono::microseconds(500);
   constexpr hal::Duration kIdle = std::chrono::milliseconds(50);
-  if (underWay_.size() >= kMostUnderWay || !painter_) {
-    std::this_thread::sleep_for(kLook);
+  if (inFlight_.size() >= kMaxInFlight || !painter_) {
+    std::this_thread::sleep_for(kPollInterval);
   } else {
-    frames_.wait(underWay_.empty() ? kIdle : kLook);
+    frames_.wait(inFlight_.empty() ? kIdle : kPollInterval);
   }
 }
 
 void PaintStage::stop() {
-  endUnderWay(Fate::kStopped);
-  if (const auto waiting = frames_.take()) ledger_.settle(waiting->ticket, Fate::kStopped);
+  endInFlight(Outcome::kStopped);
+  if (const auto waiting = frames_.take()) ledger_.end(waiting->ticket, Outcome::kStopped);
   painter_.reset();
   busy_ = 0;
 }

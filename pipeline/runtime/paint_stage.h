@@ -16,8 +16,8 @@
 #include "pipeline/runtime/frame_ledger.h"
 #include "pipeline/runtime/frame_painter.h"
 #include "pipeline/runtime/frame_rate.h"
-#include "pipeline/runtime/hand_off.h"
 #include "pipeline/runtime/latency_control.h"
+#include "pipeline/runtime/mailbox.h"
 #include "pipeline/runtime/output_stage.h"
 #include "pipeline/runtime/quality_governor.h"
 
@@ -37,16 +37,16 @@ struct PaintStageOptions {
 class PaintStage {
  public:
   PaintStage(PainterFactory factory, std::vector<OutputStage*> outputs, PaintStageOptions options,
-             hal::Clock& clock, FrameLedger& ledger, HandOff<ArrivedFrame>& frames);
+             hal::Clock& clock, FrameLedger& ledger, Mailbox<ArrivedFrame>& frames);
   ~PaintStage();
 
-  /// Makes the painter. Throws hal::StartupError.
+  /// Makes the painter. Throws hal::Failure.
   void start();
   /// Collects what is finished and begins to paint what has come. Whether it did anything.
   bool step();
   /// Until there may be something for step() to do; by real time.
   void wait();
-  /// Ends what is under way as kStopped; frees the painter.
+  /// Ends what is in flight as kStopped; frees the painter.
   void stop();
 
   /// During a pause the frame that came last is painted again and again, so that tuning shows.
@@ -76,7 +76,7 @@ class PaintStage {
 
  private:
   /// A frame that is being painted.
-  struct UnderWay {
+  struct InFlight {
     std::optional<FrameLedger::Ticket> ticket;  ///< none for repeats
     hal::TimePoint captured;
     hal::TimePoint arrived;
@@ -86,18 +86,18 @@ class PaintStage {
     std::size_t takenBy = 0;  ///< how many outputs have it
   };
   /// One on the GPU while the next is tracked; more would only wait there and grow old.
-  static constexpr std::size_t kMostUnderWay = 2;
+  static constexpr std::size_t kMaxInFlight = 2;
 
   void noteSuspension();
   bool collect();
   bool collectFor(std::size_t output);
-  void finished(const UnderWay& frame, hal::TimePoint now);
-  double loadOf(const UnderWay& frame, hal::TimePoint now) const;
+  void finished(const InFlight& frame, hal::TimePoint now);
+  double loadOf(const InFlight& frame, hal::TimePoint now) const;
   bool paintNewest();
   hal::Result<void> paint(const ArrivedFrame& arrived);
   void hold(const hal::CapturedFrame& frame);
   void refuse(const ArrivedFrame& arrived, const hal::Error& error);
-  void endUnderWay(Fate fate);
+  void endInFlight(Outcome outcome);
   void lose(const hal::Error& error);
   bool revive();
 
@@ -107,13 +107,13 @@ class PaintStage {
   PaintStageOptions options_;
   hal::Clock& clock_;
   FrameLedger& ledger_;
-  HandOff<ArrivedFrame>& frames_;
+  Mailbox<ArrivedFrame>& frames_;
 
   std::unique_ptr<FramePainter> painter_;
   hal::TimePoint reviveAt_;
   hal::Duration reviveAfter_;
-  std::vector<UnderWay> underWay_;  ///< oldest first, kMostUnderWay at the most
-  std::vector<std::size_t> taken_;  ///< of each output: how many of underWay_ it has
+  std::vector<InFlight> inFlight_;  ///< oldest first, kMaxInFlight at the most
+  std::vector<std::size_t> taken_;  ///< of each output: how many of inFlight_ it has
   std::optional<hal::Image> held_;  ///< of a pause
   hal::TimePoint lastFinished_;
   hal::TimePoint lastStep_;

@@ -59,12 +59,12 @@ std::optional<PresentationQueue::Ruling> PresentationQueue::next(hal::TimePoint 
   if (!time || *time > now) return std::nullopt;
   const bool hasNewer = waiting_.size() > 1 && waiting_[1].due <= now;
   const WaitingPicture picture = removeOldest();
-  Fate fate = Fate::kShown;
+  Outcome outcome = Outcome::kShown;
   if (rules_.isPaced) {
-    fate = hasNewer ? fateOfDropped(picture, hasNewer) : fateOfNewest(picture, now);
+    outcome = hasNewer ? outcomeOfDropped(picture, hasNewer) : outcomeOfNewest(picture, now);
   }
-  if (isShown(fate)) shown_ = now;
-  return Ruling{picture, fate};
+  if (isShown(outcome)) shown_ = now;
+  return Ruling{picture, outcome};
 }
 
 bool PresentationQueue::isReadyInTime(const WaitingPicture& picture) const {
@@ -77,17 +77,18 @@ bool PresentationQueue::wouldFreeze(hal::TimePoint now) const {
   return now - *shown_ + untilNext > rules_.longestGap;
 }
 
-Fate PresentationQueue::fateOfDropped(const WaitingPicture& picture, bool hasNewer) const {
-  if (!isReadyInTime(picture)) return Fate::kLate;
+Outcome PresentationQueue::outcomeOfDropped(const WaitingPicture& picture, bool hasNewer) const {
+  if (!isReadyInTime(picture)) return Outcome::kLate;
   const bool wasBusy = picture.due < busyUntil_;
-  return hasNewer && !wasBusy ? Fate::kOvertaken : Fate::kOutputBusy;
+  return hasNewer && !wasBusy ? Outcome::kSuperseded : Outcome::kOutputBusy;
 }
 
-Fate PresentationQueue::fateOfNewest(const WaitingPicture& picture, hal::TimePoint now) const {
-  if (now < picture.due) return Fate::kShownUntimely;
-  if (std::max(picture.ready, now) <= picture.due + rules_.tolerance) return Fate::kShown;
-  if (wouldFreeze(now)) return Fate::kShownUntimely;
-  return fateOfDropped(picture, false);
+Outcome PresentationQueue::outcomeOfNewest(const WaitingPicture& picture,
+                                           hal::TimePoint now) const {
+  if (now < picture.due) return Outcome::kShownOffSchedule;
+  if (std::max(picture.ready, now) <= picture.due + rules_.tolerance) return Outcome::kShown;
+  if (wouldFreeze(now)) return Outcome::kShownOffSchedule;
+  return outcomeOfDropped(picture, false);
 }
 
 }  // namespace pleinair::runtime

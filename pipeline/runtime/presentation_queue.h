@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "hal/clock.h"
-#include "pipeline/runtime/fate.h"
 #include "pipeline/runtime/frame_ledger.h"
+#include "pipeline/runtime/outcome.h"
 
 namespace pleinair::runtime {
 
@@ -61,7 +61,7 @@ class PresentationQueue {
 
   struct Ruling {
     WaitingPicture picture;
-    Fate fate{};  ///< isShown(): to be presented now; otherwise dropped for this reason
+    Outcome outcome{};  ///< isShown(): to be presented now; otherwise dropped for this reason
   };
   /// Rules on the oldest picture, if it is due; to be called until it gives nothing.
   std::optional<Ruling> next(hal::TimePoint now);
@@ -75,8 +75,8 @@ class PresentationQueue {
   hal::TimePoint timeOf(const WaitingPicture& picture) const;
   bool isReadyInTime(const WaitingPicture& picture) const;
   bool wouldFreeze(hal::TimePoint now) const;
-  Fate fateOfDropped(const WaitingPicture& picture, bool hasNewer) const;
-  Fate fateOfNewest(const WaitingPicture& picture, hal::TimePoint now) const;
+  Outcome outcomeOfDropped(const WaitingPicture& picture, bool hasNewer) const;
+  Outcome outcomeOfNewest(const WaitingPicture& picture, hal::TimePoint now) const;
 
   PresentationRules rules_;
   std::size_t capacity_;

@@ -13,9 +13,9 @@ constexpr double kUsualRatio = 1.5;
 /// A rise that lasts so long was right.
 constexpr hal::Duration kProof = std::chrono::seconds(10);
 /// From this load on a few frames are enough to act on …
-constexpr double kClearlyTooDear = 1.25;
+constexpr double kClearlyOverBudget = 1.25;
 /// … and from this on, one level less will not do.
-constexpr double kFarTooDear = 1.9;
+constexpr double kFarOverBudget = 1.9;
 /// What was learnt of a ratio counts half after so long: the load may have been another's.
 constexpr double kRatioHalfLifeSeconds = 60.0;
 
@@ -30,7 +30,7 @@ QualityGovernor::QualityGovernor(GovernorRules rules)
 }
 
 bool QualityGovernor::painted(double load, std::size_t level, hal::TimePoint now) {
-  // What was under way at the change says nothing of the level that is in force.
+  // What was in flight at the change says nothing of the level that is in force.
   if (rules_.pinned || level != level_) return false;
   if (seen_ == 0) cheapSince_ = now;
   recent_.at(seen_ % kWindow) = load;
@@ -44,7 +44,7 @@ bool QualityGovernor::painted(double load, std::size_t level, hal::TimePoint now
     raisedAt_.reset();
     raiseAfter_ = std::max(raiseAfter_ / 2, rules_.raiseAfter);
   }
-  if (level_ + 1 < rules_.levels && isTooDear()) {
+  if (level_ + 1 < rules_.levels && isOverBudget()) {
     lower(now);
     return true;
   }
@@ -55,12 +55,12 @@ bool QualityGovernor::painted(double load, std::size_t level, hal::TimePoint now
   return false;
 }
 
-bool QualityGovernor::isTooDear() const {
+bool QualityGovernor::isOverBudget() const {
   const auto filled = recent_.begin() + static_cast<std::ptrdiff_t>(std::min(seen_, kWindow));
   const auto dear =
-      std::count_if(recent_.begin(), filled, [](double load) { return load > kClearlyTooDear; });
+      std::count_if(recent_.begin(), filled, [](double load) { return load > kClearlyOverBudget; });
   if (static_cast<std::size_t>(dear) >= kEnough) return true;
-  return seen_ >= 2 * kWindow && smooth_ > rules_.tooDear;
+  return seen_ >= 2 * kWindow && smooth_ > rules_.overBudget;
 }
 
 double QualityGovernor::median() const {
@@ -98,7 +98,7 @@ void QualityGovernor::lower(hal::TimePoint now) {
     raiseAfter_ = std::min(raiseAfter_ * 2, rules_.longestRaiseAfter);
     raisedAt_.reset();
   }
-  const std::size_t steps = load > kFarTooDear && level_ + 2 < rules_.levels ? 2 : 1;
+  const std::size_t steps = load > kFarOverBudget && level_ + 2 < rules_.levels ? 2 : 1;
   ++lowered_;
   change(level_ + steps, now);
   if (steps == 1) loadBefore_ = load;

@@ -14,7 +14,7 @@ namespace pleinair::runtime {
 struct GovernorRules {
   std::size_t levels = 1;             ///< of quality, the best one 0
   std::optional<std::size_t> pinned;  ///< always this one
-  double tooDear = 0.95;              ///< share of the budget from which quality is lowered
+  double overBudget = 0.95;           ///< share of the budget from which quality is lowered
   double cheapEnough = 0.8;  ///< share below which the level above has to stay, as expected
   hal::Duration raiseAfter = std::chrono::seconds(2);
   hal::Duration longestRaiseAfter = std::chrono::minutes(1);
@@ -40,7 +40,7 @@ class QualityGovernor {
   static constexpr std::size_t kWindow = 5;
   static constexpr std::size_t kEnough = 3;
 
-  bool isTooDear() const;
+  bool isOverBudget() const;
   double median() const;
   void lower(hal::TimePoint now);
   void raise(hal::TimePoint now);

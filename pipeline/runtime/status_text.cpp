@@ -36,10 +36,10 @@ Json toJson(const DurationHistogram& durations) {
           {"max_ms", milliseconds(durations.max())}};
 }
 
-Json toJson(const std::array<std::uint64_t, kFates>& ended) {
+Json toJson(const std::array<std::uint64_t, kOutcomes>& ended) {
   Json json = Json::object();
-  for (const Fate fate : allFates()) {
-    json[std::string(nameOf(fate))] = ended.at(static_cast<std::size_t>(fate));
+  for (const Outcome outcome : allOutcomes()) {
+    json[std::string(nameOf(outcome))] = ended.at(static_cast<std::size_t>(outcome));
   }
   return json;
 }
@@ -160,11 +160,11 @@ double number(std::uint64_t value) {
 void addFrames(Metrics& metrics, const RuntimeStatus& status) {
   metrics.single("frames_captured_total", "counter", "Frames that the camera made.",
                  number(status.ledger.captured));
-  metrics.single("frames_under_way", "gauge", "Frames that have not ended yet.",
-                 number(status.ledger.underWay));
+  metrics.single("frames_in_flight", "gauge", "Frames that have not ended yet.",
+                 number(status.ledger.inFlight));
   metrics.family("frames_total", "counter", "Frames by how they ended; each ends once.");
-  for (const Fate fate : allFates()) {
-    metrics.sample(number(status.ledger.of(fate)), label("fate", nameOf(fate)));
+  for (const Outcome outcome : allOutcomes()) {
+    metrics.sample(number(status.ledger.of(outcome)), label("outcome", nameOf(outcome)));
   }
 }
 
@@ -212,11 +212,11 @@ void addPainting(Metrics& metrics, const RuntimeStatus& status,
 void addOutputs(Metrics& metrics, const std::vector<OutputStage::Status>& outputs) {
   metrics.family("output_pictures_total", "counter", "Pictures by output and how they ended.");
   for (const auto& output : outputs) {
-    for (const Fate fate : allFates()) {
-      const std::uint64_t ended = output.ended.at(static_cast<std::size_t>(fate));
-      if (ended == 0 && !isShown(fate)) continue;
+    for (const Outcome outcome : allOutcomes()) {
+      const std::uint64_t ended = output.ended.at(static_cast<std::size_t>(outcome));
+      if (ended == 0 && !isShown(outcome)) continue;
       metrics.sample(number(ended),
-                     label("output", output.name) + "," + label("fate", nameOf(fate)));
+                     label("output", output.name) + "," + label("outcome", nameOf(outcome)));
     }
   }
   metrics.family("output_per_second", "gauge", "Pictures that an output took in the last second.");
@@ -259,7 +259,7 @@ std::string statusJson(const RuntimeStatus& status, const std::vector<std::strin
             {"outputs", Json::array()},
             {"frames",
              {{"captured", status.ledger.captured},
-              {"under_way", status.ledger.underWay},
+              {"in_flight", status.ledger.inFlight},
               {"ended", toJson(status.ledger.ended)}}}};
   for (const OutputStage::Status& output : status.outputs) {
     json["outputs"].push_back(outputJson(output));

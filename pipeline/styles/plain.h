@@ -11,7 +11,7 @@ config::ParameterValues plainParameters();
 class Plain final : public Style {
  public:
   std::string_view name() const override { return "none"; }
-  std::span<const ViewInfo> views() const override { return {}; }
+  std::span<const DebugViewInfo> views() const override { return {}; }
   scene::ArFrameNeeds needs() const override { return {.shading = scene::Shading::kSmooth}; }
   const config::ParameterValues& parameters() const override { return values_; }
   void setParameters(const config::ParameterValues& values) override { values_ = values; }

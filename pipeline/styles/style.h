@@ -25,7 +25,7 @@ struct Look {
 };
 
 /// One of a style's inner pictures, for people who want to see how it works.
-struct ViewInfo {
+struct DebugViewInfo {
   std::string_view name;  ///< "cells"
   std::string_view help;
 };
@@ -43,7 +43,7 @@ class Style {
 
   virtual std::string_view name() const = 0;
   /// Its inner pictures, apart from the finished one.
-  virtual std::span<const ViewInfo> views() const = 0;
+  virtual std::span<const DebugViewInfo> views() const = 0;
 
   /// What it looks at of an AR frame beyond what each has.
   virtual scene::ArFrameNeeds needs() const { return {}; }

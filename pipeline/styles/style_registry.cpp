@@ -13,7 +13,7 @@
 #include "pipeline/styles/painterly/painterly_parameters.h"
 #include "pipeline/styles/painterly/painterly_shaders.h"
 #include "pipeline/styles/plain.h"
-#include "pipeline/styles/sheet/sheet_shaders.h"
+#include "pipeline/styles/substrate/substrate_shaders.h"
 #include "pipeline/styles/watercolor/watercolor.h"
 #include "pipeline/styles/watercolor/watercolor_parameters.h"
 #include "pipeline/styles/watercolor/watercolor_shaders.h"
@@ -63,10 +63,10 @@ const Entry& entryOf(std::string_view name) {
     if (entry.info.name == name) return entry;
     names.emplace_back(entry.info.name);
   }
-  throw hal::StartupError({.kind = hal::ErrorKind::kInvalidArgument,
-                           .subject = fmt::format("style \"{}\"", name),
-                           .problem = config::unknownText("style", name, names),
-                           .remedy = "choose one of: " + config::listText(names)});
+  throw hal::Failure({.kind = hal::ErrorKind::kInvalidArgument,
+                      .subject = fmt::format("style \"{}\"", name),
+                      .problem = config::unknownText("style", name, names),
+                      .remedy = "choose one of: " + config::listText(names)});
 }
 
 }  // namespace
@@ -97,7 +97,7 @@ const StyleInfo& styleInfo(std::string_view name) {
 }
 
 void addStyleShaders(gpu::ShaderLibrary& library) {
-  library.add(gpu::sheetShaders());
+  library.add(gpu::substrateShaders());
   library.add(gpu::watercolorShaders());
   library.add(gpu::painterlyShaders());
 }

@@ -16,7 +16,7 @@ namespace pleinair::styles {
 struct StyleInfo {
   std::string_view name;
   std::string_view help;
-  std::span<const ViewInfo> views;
+  std::span<const DebugViewInfo> views;
   std::span<const Look> looks;  ///< the first is what the defaults are; may be empty
   config::ParameterValues defaults;
   /// Whether what parameters name outside the program is there and sound; null: they name nothing.
@@ -30,7 +30,7 @@ struct StyleInfo {
 /// All styles, in the order in which they are listed. Any thread.
 std::span<const StyleInfo> styleInfos();
 
-/// One of them. Throws hal::StartupError (kInvalidArgument) for an unknown name, with all names.
+/// One of them. Throws hal::Failure (kInvalidArgument) for an unknown name, with all names.
 const StyleInfo& styleInfo(std::string_view name);
 
 /// Adds the shaders of all styles, which makeStyle() needs.

@@ -9,8 +9,8 @@
 #include "hal/image.h"
 #include "pipeline/gpu/egl_context.h"
 #include "pipeline/gpu/frame_upload.h"
-#include "pipeline/present/picture_reader.h"
 #include "pipeline/present/present_shaders.h"
+#include "pipeline/present/readback.h"
 #include "tests/bench/benchmarks.h"
 
 namespace pleinair {
@@ -79,7 +79,7 @@ void enlargeByHalf(benchmark::State& state) {
 
 void packAndReadBack(benchmark::State& state, PixelFormat format) {
   const FrameSize size = sizeOf(state);
-  present::PictureReader reader(library(), {.pixelFormat = format, .size = size});
+  present::Readback reader(library(), {.pixelFormat = format, .size = size});
   const gpu::Texture picture(gpu::TextureFormat::kRgba8, size, gpu::TextureFilter::kLinear);
   hal::Image image;
   timePass(state, [&] {

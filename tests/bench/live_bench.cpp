@@ -8,7 +8,7 @@
 #include <benchmark/benchmark.h>
 
 #include "firmware_app/live/live_painter.h"
-#include "pipeline/runtime/live_chain.h"
+#include "pipeline/runtime/live_pipeline.h"
 #include "pipeline/runtime/live_threads.h"
 #include "pipeline/styles/style_registry.h"
 #include "tests/support/live_simulation.h"
@@ -51,7 +51,7 @@ Late runLive(hal::FrameSize size, const std::string& style, hal::Duration latenc
       },
       clock);
   hal::CameraSupervisor supervisor(selector, clock);
-  runtime::LiveChain chain(supervisor, clock);
+  runtime::LivePipeline chain(supervisor, clock);
   runtime::LiveThreads threads(chain);
   while (!chain.capture().status().format) std::this_thread::sleep_for(1ms);
   std::vector<support::NotingOutput::Note> notes;

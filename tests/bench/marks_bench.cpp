@@ -51,7 +51,7 @@ struct Motion {
     image.flow.backward = flow;
     image.still.fields = {size.width / kFieldPixels, size.height / kFieldPixels};
     still.assign(static_cast<std::size_t>(image.still.fields.pixels()),
-                 tracking::StillFields::kNotStill);
+                 tracking::StaticRegions::kNotStatic);
     image.still.errorPx = still;
   }
   static constexpr glm::vec2 kPan{-0.7F, 0.3F};
@@ -85,7 +85,7 @@ struct Bench {
     ++number;
     scene::ArFrame frame{.colour = &colour,
                          .ids = &ids,
-                         .pictureMovement = scene::PictureMovement{.motion = &image},
+                         .measuredMotion = scene::MeasuredMotion{.motion = &image},
                          .sequence = number,
                          .captureTime = timeOfFrame(number)};
     field->update(frame, with);

@@ -71,7 +71,7 @@ class Chain {
                   .passTiming = timing,
                   .qualityLevels = quality > 0}),
         parameters_(painter_.defaultParameters()),
-        reader_(painter_.openReader({hal::PixelFormat::kI420, size})) {
+        reader_(painter_.openReadback({hal::PixelFormat::kI420, size})) {
     parameters_.quality = quality;
     for (int i = 0; i < 4; ++i) paint();
   }
@@ -93,7 +93,7 @@ class Chain {
   Painter painter_;
   PaintParameters parameters_;
   int reader_;
-  ReadPicture picture_;
+  OutputFrame picture_;
   std::uint64_t number_ = 0;
 };
 

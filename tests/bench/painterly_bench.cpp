@@ -76,7 +76,7 @@ void whole(benchmark::State& state, const char* style) {
   Bench bench(sizeOf(state), style, gpu::PassTiming::kOff);
   for ([[maybe_unused]] auto _ : state) {
     bench.paint();
-    hal::orThrow(bench.painter.still());  // waits; reading it back counts, too
+    hal::orThrow(bench.painter.snapshot());  // waits; reading it back counts, too
   }
 }
 
@@ -94,7 +94,7 @@ void with(benchmark::State& state, const char* name, const char* value) {
   bench.paint();
   for ([[maybe_unused]] auto _ : state) {
     bench.paint();
-    hal::orThrow(bench.painter.still());
+    hal::orThrow(bench.painter.snapshot());
   }
 }
 
@@ -107,7 +107,7 @@ void change(benchmark::State& state, const char* name, const char* one, const ch
   for ([[maybe_unused]] auto _ : state) {
     bench.parameters.style = values.at(bench.number % 2);
     bench.paint();
-    hal::orThrow(bench.painter.still());
+    hal::orThrow(bench.painter.snapshot());
   }
 }
 
@@ -120,7 +120,7 @@ void newBrush(benchmark::State& state) {
   for ([[maybe_unused]] auto _ : state) {
     bench.parameters.style = style.with("brush", brushes.at(next++));
     bench.paint();
-    hal::orThrow(bench.painter.still());
+    hal::orThrow(bench.painter.snapshot());
   }
 }
 

@@ -8,8 +8,8 @@
 #include <benchmark/benchmark.h>
 
 #include "pipeline/tracking/image/luma.h"
+#include "pipeline/tracking/motion/canvas_motion.h"
 #include "pipeline/tracking/motion/image_motion_estimator.h"
-#include "pipeline/tracking/motion/picture_motion.h"
 #include "pipeline/tracking/pose/tracker.h"
 #include "tests/reports/tracking/pose_measures.h"
 #include "tests/reports/tracking/truth_sequence.h"
@@ -169,7 +169,7 @@ void followThePicture(benchmark::State& state) {
     images.push_back(support::renderTags(camera, poseOf({0.35, 0.1, 0.2}, {aside, 0.0, 0.7}),
                                          table(), {.noiseSigma = 2.0}));
   }
-  PictureMotion motion;
+  CanvasMotion motion;
   std::size_t number = 0;
   for (auto _ : state) {
     const hal::Image& image = images[number++ % 2];
@@ -215,11 +215,12 @@ void motionSizes(benchmark::internal::Benchmark* row) {
       ->Unit(benchmark::kMillisecond);
 }
 BENCHMARK_CAPTURE(estimateMotion, reference_features,
-                  ImageMotionOptions{
-                      .features = FeatureMethod::kHarrisSift, .flow = false, .stillness = false})
+                  ImageMotionOptions{.features = FeatureMethod::kHarrisSift,
+                                     .flow = false,
+                                     .staticRegions = false})
     ->Apply(motionSizes);
 BENCHMARK_CAPTURE(estimateMotion, fast_features,
-                  ImageMotionOptions{.flow = false, .stillness = false})
+                  ImageMotionOptions{.flow = false, .staticRegions = false})
     ->Apply(motionSizes);
 BENCHMARK_CAPTURE(estimateMotion, and_stillness, ImageMotionOptions{.flow = false})
     ->Apply(motionSizes);

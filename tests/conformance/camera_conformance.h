@@ -114,7 +114,7 @@ TEST_P(CameraConformance, DeliversWhatWasNegotiated) {
     if (!frame) break;
     EXPECT_EQ(frame->image.format, format.frame);
     EXPECT_TRUE(frame->image.isComplete());
-    EXPECT_EQ(frame->health, FrameHealth::kSound);
+    EXPECT_EQ(frame->health, FrameHealth::kValid);
     EXPECT_NE(frame->lease, nullptr);
   }
   EXPECT_EQ(taken, framesToAskFor());

@@ -1,5 +1,5 @@
 // Feeds the kept inputs of a fuzz target to it once, in an ordinary build: what was found and
-// mended stays mended. `run FOLDER`
+// fixed stays fixed. `run FOLDER`
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>

@@ -43,21 +43,21 @@ PointMotion triangleMotion(const FeatureTriangle& triangle, glm::dvec2 px) {
 }
 
 PointMotion similarityMotion(const FeatureTriangle& triangle, glm::dvec2 px) {
-  Complex thenMiddle;
+  Complex previousMiddle;
   Complex nowMiddle;
   for (const FeatureStep& each : triangle) {
-    thenMiddle += complexOf(each.then) / 3.0;
+    previousMiddle += complexOf(each.then) / 3.0;
     nowMiddle += complexOf(each.now) / 3.0;
   }
   Complex product;
   double spread = 0.0;
   for (const FeatureStep& each : triangle) {
-    const Complex then = complexOf(each.then) - thenMiddle;
+    const Complex then = complexOf(each.then) - previousMiddle;
     product += std::conj(then) * (complexOf(each.now) - nowMiddle);
     spread += std::norm(then);
   }
   const Complex turn = product / spread;
-  const Complex now = nowMiddle + turn * (complexOf(px) - thenMiddle);
+  const Complex now = nowMiddle + turn * (complexOf(px) - previousMiddle);
   return {.displacement = glm::dvec2(now.real(), now.imag()) - px,
           .jacobian = {turn.real(), turn.imag(), -turn.imag(), turn.real()}};
 }

@@ -32,7 +32,7 @@ Picture resampledByTaps(const Picture& picture, hal::FrameSize size);
 /// The mean of the area that an output pixel covers, fractions of pixels included.
 Picture resampledByArea(const Picture& picture, hal::FrameSize size);
 
-/// A picture in an output's format, as present::PictureReader documents it.
+/// A picture in an output's format, as present::Readback documents it.
 hal::Image packed(const Picture& picture, hal::FrameFormat format);
 
 }  // namespace pleinair::oracles

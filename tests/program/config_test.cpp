@@ -1,4 +1,4 @@
-// The program's verbs under profiles, site files and variables, and in a hostile environment.
+// The program's subcommands under profiles, site files and variables, and in a hostile environment.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -21,7 +21,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-class ConfigVerb : public testing::Test {
+class ConfigSubcommand : public testing::Test {
  protected:
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
 
@@ -53,7 +53,7 @@ bool isSame(const hal::Image& a, const hal::Image& b) {
          std::ranges::equal(a.view().planes[0].bytes, b.view().planes[0].bytes);
 }
 
-TEST_F(ConfigVerb, PrintsWhatItTakesAgain) {
+TEST_F(ConfigSubcommand, PrintsWhatItTakesAgain) {
   const ProgramRun first =
       runProgram({"config", "--profile", "kiosk", "--look", "wet_in_wet", "--set", "wobble=0.5"});
   ASSERT_EQ(first.status, 0) << first.error;
@@ -79,7 +79,7 @@ TEST_F(ConfigVerb, PrintsWhatItTakesAgain) {
   EXPECT_GT(keys, 20);
 }
 
-TEST_F(ConfigVerb, PrintsOneLineOfWhatIsWrong) {
+TEST_F(ConfigSubcommand, PrintsOneLineOfWhatIsWrong) {
   expectRefused(runProgram({"config", "--config", write("s.toml", "[painting]\nstlye = 'x'\n")}),
                 HasSubstr("s.toml:2: painting.stlye: unknown key (did you mean \"style\"?)"));
   expectRefused(runProgram({"config"}, {.environment = {"PLEINAIR_PAINTING_STLYE=none"}}),
@@ -88,20 +88,20 @@ TEST_F(ConfigVerb, PrintsOneLineOfWhatIsWrong) {
   expectRefused(runProgram({"config", "surplus"}), HasSubstr("surplus"));
 }
 
-TEST_F(ConfigVerb, DoesWithoutAnEnvironment) {
+TEST_F(ConfigSubcommand, DoesWithoutAnEnvironment) {
   const ProgramRun run = runProgram({"config"}, {.environment = {"HOME", "PATH", "LANG", "TERM"}});
   EXPECT_EQ(run.status, 0) << run.error;
   EXPECT_THAT(run.out, HasSubstr("style = \"watercolor\"  # default"));
 }
 
-TEST_F(ConfigVerb, DoesWithoutAWorkingDirectory) {
+TEST_F(ConfigSubcommand, DoesWithoutAWorkingDirectory) {
   const ProgramRun run =
       runProgram({"config", "--set", "painting.scene=desk.toml"}, {.inRemovedFolder = true});
   EXPECT_EQ(run.status, 0) << run.error;
   EXPECT_THAT(run.out, HasSubstr("scene = \"desk.toml\"  # --set painting.scene"));
 }
 
-TEST_F(ConfigVerb, RefusesFilesThatAreNone) {
+TEST_F(ConfigSubcommand, RefusesFilesThatAreNone) {
   expectRefused(runProgram({"config", "--config", folder_.path().string()}),
                 HasSubstr("is a directory"));
   expectRefused(runProgram({"config", "--config", path("absent.toml")}),
@@ -116,7 +116,7 @@ TEST_F(ConfigVerb, RefusesFilesThatAreNone) {
                 HasSubstr("Not a directory"));
 }
 
-TEST_F(ConfigVerb, RefusesAnUnreadableFile) {
+TEST_F(ConfigSubcommand, RefusesAnUnreadableFile) {
   const std::string site = write("s.toml", "");
   fs::permissions(site, fs::perms::none);
   if (std::ifstream(site)) GTEST_SKIP() << "this user (root?) may read every file";
@@ -124,13 +124,13 @@ TEST_F(ConfigVerb, RefusesAnUnreadableFile) {
                 HasSubstr("s.toml: cannot open: Permission denied"));
 }
 
-TEST_F(ConfigVerb, RefusesAHugeFileUnread) {
+TEST_F(ConfigSubcommand, RefusesAHugeFileUnread) {
   fs::resize_file(write("s.toml", "#"), 100'000'000);
   expectRefused(runProgram({"config", "--config", path("s.toml")}),
                 HasSubstr("s.toml: too large, allowed: a TOML file of at most 1 MiB"));
 }
 
-TEST_F(ConfigVerb, RefusesDeepNesting) {
+TEST_F(ConfigSubcommand, RefusesDeepNesting) {
   for (const char opening : {'[', '{'}) {
     expectRefused(
         runProgram({"config", "--config", write("s.toml", "a = " + std::string(100'000, opening))}),
@@ -142,12 +142,12 @@ TEST_F(ConfigVerb, RefusesDeepNesting) {
                 HasSubstr("s.toml:1: nested too deeply"));
 }
 
-TEST_F(ConfigVerb, SaysWhatTomlCannotHold) {
+TEST_F(ConfigSubcommand, SaysWhatTomlCannotHold) {
   // Files may be named in Latin-1, and are found by that name, but TOML is UTF-8.
   expectRefused(runProgram({"config", "--scene", "/caf\xe9.toml"}), HasSubstr("UTF-8"));
 }
 
-TEST_F(ConfigVerb, StylesAreListedWithoutAGpu) {
+TEST_F(ConfigSubcommand, StylesAreListedWithoutAGpu) {
   // Were a context asked for, there would be none.
   const ProgramRun run = runProgram(
       {"styles"}, {.environment = {"__EGL_VENDOR_LIBRARY_FILENAMES=" + path("absent.json")}});
@@ -156,7 +156,7 @@ TEST_F(ConfigVerb, StylesAreListedWithoutAGpu) {
                              HasSubstr("cell_size"), HasSubstr("camera "), HasSubstr("none: ")));
 }
 
-TEST_F(ConfigVerb, RenderTakesItsOptionsFromEveryLayer) {
+TEST_F(ConfigSubcommand, RenderTakesItsOptionsFromEveryLayer) {
   writeMedia(path("in.png"), 1);
   const std::string site = write("site.toml", "[painting]\nsize = \"40x30\"\nstyle = \"none\"\n");
   EXPECT_EQ(rendered({"--config", site}).size(), (hal::FrameSize{40, 30}));
@@ -169,7 +169,7 @@ TEST_F(ConfigVerb, RenderTakesItsOptionsFromEveryLayer) {
   EXPECT_TRUE(isSame(rendered({"--profile", profile}), plain));
 }
 
-TEST_F(ConfigVerb, ALookIsItsValues) {
+TEST_F(ConfigSubcommand, ALookIsItsValues) {
   writeMedia(path("in.png"), 1);
   const hal::Image look = rendered({"--look", "wet_in_wet"});
   const std::string pinned = write("s.toml", runProgram({"config", "--look", "wet_in_wet"}).out);
@@ -177,7 +177,7 @@ TEST_F(ConfigVerb, ALookIsItsValues) {
   EXPECT_FALSE(isSame(rendered({}), look));
 }
 
-TEST_F(ConfigVerb, RecordTakesItsOptionsFromTheSiteFile) {
+TEST_F(ConfigSubcommand, RecordTakesItsOptionsFromTheSiteFile) {
   const std::string site = write("site.toml", "[camera]\nsize = \"64x48\"\nnoise = 0\n");
   const ProgramRun run =
       runProgram({"record", "--config", site, "--frames", "1", "--output", path("out.png")});
@@ -185,7 +185,7 @@ TEST_F(ConfigVerb, RecordTakesItsOptionsFromTheSiteFile) {
   EXPECT_EQ(hal::orThrow(hal::readPicture(path("out.png"))).size(), (hal::FrameSize{64, 48}));
 }
 
-TEST_F(ConfigVerb, RecordTakesARecording) {
+TEST_F(ConfigSubcommand, RecordTakesARecording) {
   writeMedia(path("in.png"), 1);
   const std::string site = write("site.toml", "[camera]\nsource = \"in.png\"\n");
   const ProgramRun run = runProgram({"record", "--config", site, "--output", path("out.png")});
@@ -198,7 +198,7 @@ TEST_F(ConfigVerb, RecordTakesARecording) {
                 HasSubstr("--write-scene: nothing knows the scene of a recording"));
 }
 
-TEST_F(ConfigVerb, LateErrorsNameThePlaceOfTheValue) {
+TEST_F(ConfigSubcommand, LateErrorsNameThePlaceOfTheValue) {
   writeMedia(path("in.png"), 1);
   const std::string site =
       write("site.toml", "[camera]\nsource = \"gone.mp4\"\n[painting]\nscene = \"gone.toml\"\n");
@@ -212,7 +212,7 @@ TEST_F(ConfigVerb, LateErrorsNameThePlaceOfTheValue) {
                           "auto, v4l2, synthetic, synthetic:walkaround, "));
 }
 
-TEST_F(ConfigVerb, NothingIsWrittenOverWhatWasRead) {
+TEST_F(ConfigSubcommand, NothingIsWrittenOverWhatWasRead) {
   writeMedia(path("in.png"), 1);
   write("camera.toml",
         "image_size = [64, 48]\nfx = 100\nfy = 100\ncx = 32\ncy = 24\npixel_centres = \"half\"\n");

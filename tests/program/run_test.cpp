@@ -40,7 +40,7 @@ Summary summaryOf(const std::string& text) {
   Summary summary;
   std::smatch match;
   static const std::regex kLine(
-      R"(showed (\d+) frames? in [\d.]+ s \([\d.]+ frames/s\)(?:, \d+ untimely)?; dropped (\d+)(?: \(([^)]*)\))?: \S+\n)");
+      R"(showed (\d+) frames? in [\d.]+ s \([\d.]+ frames/s\)(?:, \d+ off schedule)?; dropped (\d+)(?: \(([^)]*)\))?: \S+\n)");
   if (!std::regex_match(text, match, kLine)) return summary;
   summary.shown = std::stoi(match[1]);
   summary.dropped = std::stoi(match[2]);
@@ -171,7 +171,7 @@ class RunInWindow : public Run {
 
   /// Goes on once the folder holds so many stills, each of which a frame of its own was painted
   /// for.
-  static void waitForStills(const std::filesystem::path& folder, std::ptrdiff_t count) {
+  static void waitForSnapshots(const std::filesystem::path& folder, std::ptrdiff_t count) {
     const auto stills = [&] {
       const std::filesystem::directory_iterator first(folder);
       return std::count_if(first, std::filesystem::directory_iterator(), [](const auto& entry) {
@@ -213,7 +213,7 @@ TEST_F(RunInWindow, ObeysKeys) {
   writeMedia(path("in.y4m"), 10, kSize);
   std::filesystem::create_directory(path("stills"));
   const ProgramRun live =
-      runShown({"--camera", path("in.y4m"), "--stills", path("stills")}, [&](pid_t) {
+      runShown({"--camera", path("in.y4m"), "--snapshots", path("stills")}, [&](pid_t) {
         waitForTitle("watercolor.*");
         server_->press({"Right"});
         waitForTitle("watercolor.*, changed");
@@ -223,14 +223,14 @@ TEST_F(RunInWindow, ObeysKeys) {
         waitForTitle("watercolor.*view [b-z][a-z]+ .*paused");
         // The first frame of a pause is shown, the second repeats it: two stills, and both were.
         server_->press({"s"});
-        waitForStills(path("stills"), 1);
+        waitForSnapshots(path("stills"), 1);
         server_->press({"s"});
-        waitForStills(path("stills"), 2);
+        waitForSnapshots(path("stills"), 2);
         server_->press({"v", "space", "shift+l"});
         waitForTitle("watercolor[^a-z]+mosaic");
         // What the new look needs has been compiled before it is to end.
         server_->press({"s"});
-        waitForStills(path("stills"), 3);
+        waitForSnapshots(path("stills"), 3);
         server_->press({"Escape"});
       });
   EXPECT_EQ(live.status, 0) << live.error;
@@ -246,11 +246,11 @@ TEST_F(RunInWindow, SavesTheFinishedPictureUnderAnyView) {
   hal::orThrow(hal::writePng(path("in.png"), picture.view()));
   std::filesystem::create_directory(path("stills"));
   const ProgramRun live = runShown({"--camera", path("in.png"), "--style", "none", "--view",
-                                    "camera", "--stills", path("stills"), "--size", "160x120"},
+                                    "camera", "--snapshots", path("stills"), "--size", "160x120"},
                                    [&](pid_t) {
                                      waitForTitle("none .*view camera");
                                      server_->press({"s", "s"});
-                                     waitForStills(path("stills"), 1);
+                                     waitForSnapshots(path("stills"), 1);
                                      server_->press({"q"});
                                    });
   EXPECT_EQ(live.status, 0) << live.error;

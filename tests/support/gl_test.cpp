@@ -26,7 +26,7 @@ std::size_t pixels(const gpu::Texture& texture) {
 void GlTest::SetUp() {
   try {
     context_ = std::make_unique<gpu::EglContext>();
-  } catch (const hal::StartupError& error) {
+  } catch (const hal::Failure& error) {
     GTEST_SKIP() << "needs OpenGL ES 3.1: " << error.what();
   }
 }

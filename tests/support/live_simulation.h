@@ -14,7 +14,7 @@
 #include "hal/camera_backend.h"
 #include "hal/supervisor/camera_selector.h"
 #include "hal/supervisor/camera_supervisor.h"
-#include "pipeline/runtime/live_chain.h"
+#include "pipeline/runtime/live_pipeline.h"
 
 namespace pleinair::support {
 
@@ -28,7 +28,7 @@ struct PacedCameraOptions {
     return std::chrono::milliseconds(3);
   };
   std::function<hal::FrameHealth(std::uint64_t)> health = [](std::uint64_t) {
-    return hal::FrameHealth::kSound;
+    return hal::FrameHealth::kValid;
   };
   std::optional<std::uint64_t> frames;  ///< unset: it goes on for ever
   hal::FrameSize size{8, 6};
@@ -140,7 +140,7 @@ class SimulatedPainter final : public runtime::FramePainter {
     return {};
   }
 
-  hal::Result<bool> take(std::size_t output, ReadPicture& picture) override {
+  hal::Result<bool> take(std::size_t output, OutputFrame& picture) override {
     if (gpu_.isLost) return tl::unexpected(lost());
     const std::size_t index = taken_.at(output) - done_;
     if (index >= work_.size() || work_.at(index).ready > clock_.now()) return false;
@@ -217,7 +217,7 @@ class LiveSimulation {
   /// Begins with this camera; `makeOutput` adds another output.
   void begin(hal::CameraSelector& selector, std::size_t waiting = 16) {
     supervisor_ = std::make_unique<hal::CameraSupervisor>(selector, clock);
-    chain = std::make_unique<runtime::LiveChain>(*supervisor_, clock);
+    chain = std::make_unique<runtime::LivePipeline>(*supervisor_, clock);
     while (!chain->capture().status().format) chain->capture().step(clock.now());
     addOutput({.name = "noting", .waiting = waiting});
   }
@@ -232,9 +232,9 @@ class LiveSimulation {
             -> std::unique_ptr<runtime::FramePainter> {
           if (gpu.failingStarts > 0) {
             --gpu.failingStarts;
-            throw hal::StartupError({.kind = hal::ErrorKind::kUnsupported,
-                                     .subject = "GPU",
-                                     .problem = "is still gone"});
+            throw hal::Failure({.kind = hal::ErrorKind::kUnsupported,
+                                .subject = "GPU",
+                                .problem = "is still gone"});
           }
           return std::make_unique<SimulatedPainter>(gpu, outputs, clock);
         },
@@ -256,7 +256,7 @@ class LiveSimulation {
     while (!chain->isDrained()) runFor(std::chrono::milliseconds(10));
   }
 
-  std::unique_ptr<runtime::LiveChain> chain;
+  std::unique_ptr<runtime::LivePipeline> chain;
 
  private:
   void stepAll() {

@@ -19,7 +19,7 @@ class PassThroughPainter final : public runtime::FramePainter {
     for (auto& pictures : waiting_) pictures.push_back(frame);
     return {};
   }
-  hal::Result<bool> take(std::size_t output, ReadPicture& picture) override {
+  hal::Result<bool> take(std::size_t output, OutputFrame& picture) override {
     auto& pictures = waiting_.at(output);
     if (pictures.empty()) return false;
     const hal::CapturedFrame frame = std::move(pictures.front());

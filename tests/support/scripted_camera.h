@@ -25,7 +25,7 @@ namespace pleinair::support {
 struct ScriptedFrame {
   hal::Duration after = std::chrono::milliseconds(33);  ///< the step before
   std::uint64_t dropped = 0;
-  std::uint64_t starved = 0;
+  std::uint64_t underruns = 0;
   hal::Duration timeError{};  ///< of its capture time
   bool isTooShort = false;    ///< its plane does not hold its format
   std::optional<hal::FrameFormat> format;
@@ -160,7 +160,7 @@ class ScriptedCamera final : public hal::Camera {
                              .dmaBufs = {},
                              .sequence = 0,  // wrong on purpose: the supervisor counts by itself
                              .droppedBefore = scripted.dropped,
-                             .starvedBefore = scripted.starved,
+                             .underrunsBefore = scripted.underruns,
                              .captureTime = time_ + scripted.timeError,
                              .lease = image};
     if (scripted.isTooShort) {

@@ -1,4 +1,4 @@
-"""What scenarios share: the drivers, the program under way, and those who read what it paints."""
+"""What scenarios share: the drivers, the program in flight, and those who read what it paints."""
 import json
 import os
 
@@ -74,7 +74,7 @@ class Program:
     def shown(self):
         status = self.status()
         ended = status["frames"]["ended"] if status else {}
-        return ended.get("shown", 0) + ended.get("shown_untimely", 0)
+        return ended.get("shown", 0) + ended.get("shown_off_schedule", 0)
 
     def wait_until(self, condition, what, seconds=30):
         """Waits until a condition on its status holds; returns that status."""
@@ -119,7 +119,7 @@ class Program:
 
 def shown_of(status):
     ended = status["frames"]["ended"]
-    return ended["shown"] + ended["shown_untimely"]
+    return ended["shown"] + ended["shown_off_schedule"]
 
 
 def is_without_camera(status):
@@ -127,9 +127,9 @@ def is_without_camera(status):
 
 
 def check_sums(status):
-    """Every captured frame is under way or has ended, under one name."""
+    """Every captured frame is in flight or has ended, under one name."""
     sums = status["frames"]
-    total = sums["under_way"] + sum(sums["ended"].values())
+    total = sums["in_flight"] + sum(sums["ended"].values())
     assert sums["captured"] == total, f"captured {sums['captured']}, accounted for {total}: {sums}"
 
 

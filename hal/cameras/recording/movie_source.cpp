@@ -29,7 +29,7 @@ Error broken(const std::string& subject, std::string problem) {
                .remedy = std::string(kRemedy)};
 }
 
-Error brokenOff(const std::string& subject, std::string problem) {
+Error aborted(const std::string& subject, std::string problem) {
   return Error{.kind = ErrorKind::kInvalidInput,
                .subject = subject,
                .problem = std::move(problem),
@@ -258,7 +258,7 @@ SourceItem MovieSource::next() {
     }
   }
   if (!truncated_ && dropped_ > 0) {
-    truncated_ = brokenOff(subject_, "its last " + std::to_string(dropped_) + " frames are broken");
+    truncated_ = aborted(subject_, "its last " + std::to_string(dropped_) + " frames are broken");
   }
   return SourceEnd{.truncated = truncated_};
 }
@@ -296,17 +296,17 @@ std::optional<Error> MovieSource::whyTruncated(const libav::LogCapture& log) con
     // Edit lists leave samples out on purpose; where libav complained of the index they are lost.
     const bool indexIsShort = packetsRead_ < avformat_index_get_entries_count(file_.stream);
     const bool samplesAreLost = !file_.complaint.empty() && packetsRead_ < file_.stream->nb_frames;
-    cut = indexIsShort || samplesAreLost || (boxes_.fragmentSamples > 0 && boxes_.brokenOff);
+    cut = indexIsShort || samplesAreLost || (boxes_.fragmentSamples > 0 && boxes_.aborted);
   } else if (isY4m()) {
     // libav ends without a word where the last picture is too short.
     cut = lastPacketEnd_ != file_.io.file().sizeBytes();
   } else if (isMatroska() && segmentBreaksOff(file_.io.file())) {
     cut = true;
   } else if (!log.firstError().empty()) {
-    return brokenOff(subject_, "breaks off before its end: " + log.firstError());
+    return aborted(subject_, "breaks off before its end: " + log.firstError());
   }
   if (!cut) return std::nullopt;
-  return brokenOff(subject_, "breaks off before its end");
+  return aborted(subject_, "breaks off before its end");
 }
 
 }  // namespace

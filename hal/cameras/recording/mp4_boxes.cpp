@@ -29,7 +29,7 @@ class Scanner {
       const std::optional<Box> box = boxAt(at);
       if (!budgetLeft()) return {};
       if (!box || box->end > file_.sizeBytes()) {
-        result.brokenOff = true;
+        result.aborted = true;
         return result;
       }
       if (box->type == fourcc("moof")) result.fragmentSamples += samplesOfMoof(*box);

@@ -9,7 +9,7 @@ namespace pleinair::hal::recording {
 /// What the boxes of an MP4 say that libav does not: whether the file was cut off, and how many
 /// frames its fragments announce (ISO/IEC 14496-12 §4.2, §8.8).
 struct Mp4Boxes {
-  bool brokenOff = false;  ///< its last box ends after the file does
+  bool aborted = false;  ///< its last box ends after the file does
   std::uint64_t fragmentSamples = 0;
 };
 

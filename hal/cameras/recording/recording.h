@@ -28,7 +28,7 @@ struct RecordingOptions {
 /// orientation are applied: frames that they turn or mirror by quarters come as upright copies
 /// (YUYV as RGB8), their size turned too; other angles are ignored. captureTime is the clock's time
 /// at start() plus the frame's own since the first: exact to 1 ns of what the file says; missing
-/// and falling timestamps are mended. Broken frames, and those predicted from them, are left out
+/// and falling timestamps are fixed. Broken frames, and those predicted from them, are left out
 /// and counted in droppedBefore. A recording that breaks off answers EndOfStream with `truncated`;
 /// one without any sound frame is an error of start().
 ///

@@ -8,7 +8,7 @@
 namespace pleinair::hal::recording {
 
 /// Turns a recording's timestamps into times since its first frame that rise strictly. Sound ones
-/// come through exactly; the others are mended:
+/// come through exactly; the others are fixed:
 /// - missing: one period (and one for each frame left out) after the last;
 /// - not after the last by up to a second: half a period after the last, so that the next sound one
 ///   is in time again;

@@ -27,7 +27,7 @@ void Chronology::stamp(const Filled& filled, bool wasStarving, TimePoint now,
                        CapturedFrame& frame) {
   frame.droppedBefore =
       lastDeviceSequence_ ? framesBetween(*lastDeviceSequence_, filled.sequence) : 0;
-  frame.starvedBefore = wasStarving ? frame.droppedBefore : 0;
+  frame.underrunsBefore = wasStarving ? frame.droppedBefore : 0;
   frame.sequence = nextSequence_ + frame.droppedBefore;
   lastDeviceSequence_ = filled.sequence;
   nextSequence_ = frame.sequence + 1;

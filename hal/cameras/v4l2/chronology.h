@@ -16,7 +16,7 @@ class Chronology {
   /// knows.
   void deviceRestarted() { lastDeviceSequence_.reset(); }
 
-  /// Sets sequence, droppedBefore, starvedBefore, captureTime, timestampSource and deviceTime.
+  /// Sets sequence, droppedBefore, underrunsBefore, captureTime, timestampSource and deviceTime.
   ///
   /// A gap in the driver's numbers is frames lost: for want of a buffer where `wasStarving`. Its
   /// first number counts as ours 0, since some drivers count on from their last stream; a number

@@ -26,7 +26,7 @@ FrameHealth healthOf(const Filled& filled, const Negotiated& negotiated) {
       return FrameHealth::kIncomplete;
     }
   }
-  return FrameHealth::kSound;
+  return FrameHealth::kValid;
 }
 
 /// Before there is a sound picture.

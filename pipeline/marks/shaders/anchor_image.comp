@@ -1,7 +1,7 @@
 // Purpose: carries the anchors that live in the camera's picture, and opens the frame for all others:
 //          what lives on a surface is hidden until its object's pass (anchor_surface.comp) finds it.
 // Inputs:  image_motion.glsl's, flow forward; ids and its pixelsOfFull if hasObjects; fullSize;
-//          anchor_looks.glsl's; margin: px beyond the border after which an anchor is gone; stepSeconds;
+//          anchor_appearance.glsl's; margin: px beyond the border after which an anchor is gone; stepSeconds;
 //          follows: whether anything is carried, else surfaces' anchors rest like all others, and none is
 //          looked at; anew: whether all are to go.
 // Outputs: anchors. One an invocation.
@@ -19,7 +19,7 @@ uniform float stepSeconds;
 uniform bool follows;
 uniform bool anew;
 uniform uint slots;
-#include "pipeline/marks/shaders/anchor_looks.glsl"
+#include "pipeline/marks/shaders/anchor_appearance.glsl"
 
 void main() {
   uint slot = gl_GlobalInvocationID.x;
@@ -52,7 +52,7 @@ void main() {
   vec2 looks = anchors[slot].barycentrics;
   if (follows && !isHidden && all(greaterThan(px, vec2(0.0))) && all(lessThan(px, fullSize))) {
     looks = remembered(looks, px);
-    isHidden = isStrange(looks, (state & kHidden) != 0u);
+    isHidden = isMismatch(looks, (state & kHidden) != 0u);
   }
   anchors[slot].barycentrics = looks;
   anchors[slot].px = px;

@@ -57,7 +57,7 @@ class CameraInput final : public MeasuredInput {
       return tl::unexpected(
           failure("frames of it are missing or broken, so that its motion file "
                   "does not fit",
-                  "mend it, or leave out --motion"));
+                  "fix it, or leave out --motion"));
     }
     if (mostFrames_ && accepted_ == *mostFrames_) {
       return tl::unexpected(failure(

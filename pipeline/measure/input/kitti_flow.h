@@ -9,7 +9,7 @@
 #include <opencv2/core.hpp>
 
 #include "hal/error.h"
-#include "pipeline/measure/input/measured_input.h"
+#include "pipeline/measure/input/true_motion.h"
 
 namespace pleinair::measure {
 

@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "hal/image.h"
-#include "pipeline/measure/input/measured_input.h"
+#include "pipeline/measure/input/true_motion.h"
 
 namespace pleinair::measure {
 

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "hal/cameras/synthetic/synthetic_camera.h"
-#include "pipeline/measure/input/measured_input.h"
+#include "pipeline/measure/input/true_motion.h"
 
 namespace pleinair::measure {
 

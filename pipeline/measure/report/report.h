@@ -8,11 +8,11 @@
 #include "hal/image.h"
 #include "hal/pixel_format.h"
 #include "pipeline/measure/anchor_measures.h"
-#include "pipeline/measure/controls.h"
 #include "pipeline/measure/flatness.h"
 #include "pipeline/measure/gates.h"
-#include "pipeline/measure/input/measured_input.h"
+#include "pipeline/measure/input/true_motion.h"
 #include "pipeline/measure/measures.h"
+#include "pipeline/measure/negative_controls.h"
 
 namespace pleinair::measure {
 

@@ -125,7 +125,7 @@ std::string plotsHtml(const Report& report) {
   }
   PlotLine births{"births", "second", {}};
   PlotLine deaths{"deaths", "painting", {}};
-  PlotLine slip{"slip", "painting", {}};
+  PlotLine drift{"drift", "painting", {}};
   for (const FrameValues& values : report.overTime) {
     const std::optional<AnchorFrame>& anchors = values.anchors;
     const auto valueOf = [&anchors](auto read) {
@@ -135,12 +135,12 @@ std::string plotsHtml(const Report& report) {
         valueOf([](const AnchorFrame& each) { return static_cast<double>(each.innerBirths); }));
     deaths.values.push_back(
         valueOf([](const AnchorFrame& each) { return static_cast<double>(each.innerDeaths); }));
-    slip.values.push_back(anchors && anchors->slip ? std::optional(anchors->slip->median)
-                                                   : std::nullopt);
+    drift.values.push_back(anchors && anchors->drift ? std::optional(anchors->drift->median)
+                                                     : std::nullopt);
   }
   plots += plotSvg({"births and deaths away from the border", "marks a frame"}, frames,
                    {births, deaths});
-  plots += plotSvg({"anchor slip a frame, median", "px"}, frames, {slip});
+  plots += plotSvg({"anchor drift a frame, median", "px"}, frames, {drift});
   if (plots.empty()) return "";
   return "<h2>Over time</h2><p class=\"key soft\"><span><b style=\"color:var(--painting)\">—</b> " +
          escaped(report.style) +

@@ -50,9 +50,9 @@ Json jsonOf(const std::vector<Verdict>& verdicts) {
   return list;
 }
 
-Json jsonOf(const std::optional<Slip>& slip) {
-  if (!slip) return nullptr;
-  return {{"median_px", slip->median}, {"p95_px", slip->most}, {"rms_px", slip->rms}};
+Json jsonOf(const std::optional<Drift>& drift) {
+  if (!drift) return nullptr;
+  return {{"median_px", drift->median}, {"p95_px", drift->most}, {"rms_px", drift->rms}};
 }
 
 Json jsonOf(const std::optional<AnchorSummary>& anchors) {
@@ -68,8 +68,8 @@ Json jsonOf(const std::optional<AnchorSummary>& anchors) {
       {"moved_a_frame", anchors->moved},
       {"half_life_frames", orNull(anchors->halfLifeFrames)},
       {"half_life_over_frames", anchors->halfLifeFrames ? Json(nullptr) : Json(anchors->frames)},
-      {"slip", jsonOf(anchors->slip)},
-      {"slip_over_10_frames", jsonOf(anchors->longSlip)},
+      {"drift", jsonOf(anchors->drift)},
+      {"drift_over_10_frames", jsonOf(anchors->longDrift)},
       {"anchors_per_cell",
        {{"mean", anchors->perCell},
         {"spread", anchors->spreadPerCell},
@@ -99,7 +99,7 @@ Json jsonOf(const FrameValues& values) {
                        {"deaths", values.anchors->deaths},
                        {"inner_births", values.anchors->innerBirths},
                        {"inner_deaths", values.anchors->innerDeaths},
-                       {"slip", jsonOf(values.anchors->slip)}};
+                       {"drift", jsonOf(values.anchors->drift)}};
   }
   return json;
 }

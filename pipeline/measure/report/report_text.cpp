@@ -57,9 +57,9 @@ std::string halfLifeText(const AnchorSummary& anchors) {
                                              : "in which none died away from the border");
 }
 
-std::string slipText(const Slip& slip) {
-  return fmt::format("median {:.3f} px, 95 % below {:.3f} px, rms {:.3f} px", slip.median,
-                     slip.most, slip.rms);
+std::string driftText(const Drift& drift) {
+  return fmt::format("median {:.3f} px, 95 % below {:.3f} px, rms {:.3f} px", drift.median,
+                     drift.most, drift.rms);
 }
 
 std::string listLines(const std::string& title, const std::vector<std::string>& lines) {
@@ -114,8 +114,9 @@ std::vector<std::string> insideLines(const Report& report) {
         anchors.alive, anchors.births, anchors.deaths, anchors.innerBirths, anchors.innerDeaths,
         anchors.innerTurnoverPercent));
     lines.push_back(halfLifeText(anchors));
-    if (anchors.slip) lines.push_back("slip a frame: " + slipText(*anchors.slip));
-    if (anchors.longSlip) lines.push_back("slip over ten frames: " + slipText(*anchors.longSlip));
+    if (anchors.drift) lines.push_back("drift a frame: " + driftText(*anchors.drift));
+    if (anchors.longDrift)
+      lines.push_back("drift over ten frames: " + driftText(*anchors.longDrift));
     lines.push_back(
         fmt::format("anchors per 8x8 cell: {:.2f}, spread {:.2f}, {:.1f} % of the cells empty",
                     anchors.perCell, anchors.spreadPerCell, anchors.emptyCellsPercent));

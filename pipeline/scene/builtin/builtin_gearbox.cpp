@@ -15,8 +15,6 @@
 namespace pleinair::scene {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
-
 enum class Finish { kCastIron, kSteel, kPinion, kWheel, kBrass, kDarkSteel, kRed, kGlass };
 
 struct FinishColour {

@@ -160,7 +160,6 @@ namespace {
 
 constexpr std::size_t kSegments = 28;
 constexpr std::size_t kBearingSegments = 20;
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kChamfer = 0.0006;
 constexpr double kKeyWidth = 0.005;
 constexpr double kKeySink = 0.003;

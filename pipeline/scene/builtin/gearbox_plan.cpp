@@ -4,10 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/scene/builtin/shapes.h"
+
 namespace pleinair::scene {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr std::array<double, 2> kCentreDistances{0.0465, 0.0580};
 /// Shafts stand a little further apart than pitch circles touch: the teeth's play.
 constexpr double kPlayModules = 0.03;

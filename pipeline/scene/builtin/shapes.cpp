@@ -15,10 +15,9 @@
 namespace pleinair::scene {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 /// The signs of a square's corners, against the clock.
 constexpr std::array<std::pair<int, int>, 4> kSquare{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
-constexpr double kSmoothCosine = 0.8;  // edges that turn less are round
+constexpr double kRoundCosine = 0.8;  // edges that turn less are round
 
 void addTriangle(Mesh& mesh, const std::array<glm::dvec3, 3>& corners,
                  const std::array<glm::dvec3, 3>& normals) {
@@ -62,7 +61,7 @@ std::vector<std::array<glm::dvec2, 2>> edgeNormals(std::span<const glm::dvec2> p
     own.push_back(glm::normalize(glm::dvec2(along.y, -along.x)));
   }
   const auto leaning = [&](std::size_t edge, std::size_t neighbour) {
-    return glm::dot(own[edge], own[neighbour]) > kSmoothCosine
+    return glm::dot(own[edge], own[neighbour]) > kRoundCosine
                ? glm::normalize(own[edge] + own[neighbour])
                : own[edge];
   };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,8 @@
 #include "pipeline/scene/models/mesh.h"
 
 namespace pleinair::scene {
+
+inline constexpr double kTurn = 2.0 * std::numbers::pi;  ///< a full turn, in radians
 
 // Solids that machines are made of. All face outward; edges that turn little are round.
 

@@ -19,12 +19,11 @@
 
 #include <glm/geometric.hpp>
 
+#include "pipeline/scene/builtin/shapes.h"
 #include "pipeline/scene/models/mesh.h"
 
 namespace pleinair::scene {
 namespace {
-
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 double angleAbout(const glm::dvec2& centre, const glm::dvec3& p) {
   return std::atan2(p.y - centre.y, p.x - centre.x);

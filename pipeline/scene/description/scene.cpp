@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/gpu/cover_fit.h"
+#include "pipeline/gpu/aspect_fill.h"
 
 namespace pleinair::scene {
 
@@ -21,7 +21,7 @@ tracking::CameraModel assumedCamera(hal::FrameSize size) {
 
 tracking::CameraModel fittedCamera(const tracking::CameraModel& camera,
                                    hal::FrameSize pictureSize) {
-  const gpu::CoverFit fit = gpu::coverFit(camera.imageSize(), pictureSize);
+  const gpu::AspectFill fit = gpu::coverFit(camera.imageSize(), pictureSize);
   return camera.resampled(1.0 / fit.scale, -fit.origin / fit.scale, pictureSize);
 }
 

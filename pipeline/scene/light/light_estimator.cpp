@@ -116,8 +116,8 @@ LightEstimator::Step LightEstimator::stepTo(hal::TimePoint captureTime) {
 void LightEstimator::follow(const hal::ImageView& image, const tracking::TrackingResult& tracked,
                             hal::TimePoint captureTime) {
   const Step step = stepTo(captureTime);
-  const LinearPicture picture(image);
-  glance_ = glanceAt(picture);
+  const LinearImage picture(image);
+  statistics_ = imageStatistics(picture);
   readPapers(picture, tracked);
   for (std::size_t i = 0; i < places_.size(); ++i) {
     Place& place = places_[i];
@@ -141,7 +141,7 @@ void LightEstimator::follow(const hal::ImageView& image, const tracking::Trackin
   }
 }
 
-void LightEstimator::readPapers(const LinearPicture& picture,
+void LightEstimator::readPapers(const LinearImage& picture,
                                 const tracking::TrackingResult& tracked) {
   readings_.clear();
   if (!cells_) return;
@@ -189,10 +189,10 @@ std::optional<glm::dvec3> LightEstimator::followLevel(
   } else if (!place.hasOwnPaper && attachFromCamera) {
     white = whiteFacing(*attachFromCamera);
   }
-  if (white) place.ofMean = *white / glance_.mean;
+  if (white) place.ofMean = *white / statistics_.mean;
   const bool isKnown = place.ofMean != glm::dvec3(0.0);
-  const glm::dvec3 grey(luminance(glance_.mean) / kGreyWorld);
-  const glm::dvec3 target = isKnown ? place.ofMean * glance_.mean : glm::min(grey, 1.0);
+  const glm::dvec3 grey(luminance(statistics_.mean) / kGreyWorld);
+  const glm::dvec3 target = isKnown ? place.ofMean * statistics_.mean : glm::min(grey, 1.0);
   place.level.follow(target, shareAfter(step.seconds, kLevelSeconds),
                      kLevelBand * glm::length(target));
   return white;
@@ -209,8 +209,9 @@ void LightEstimator::followPrior(Place& place, const glm::dmat3& attachFromCamer
   if (place.seconds > kPriorSeconds) return;
   glm::dvec3 toward = kLeftAboveBehindViewer;
   constexpr double kConvincing = 0.25;  // of the variance
-  if (glance_.explained > kConvincing) {
-    toward += 0.5 * glance_.explained * glm::clamp(glm::dvec3(glance_.slope, 0.0), -1.5, 1.5);
+  if (statistics_.explained > kConvincing) {
+    toward +=
+        0.5 * statistics_.explained * glm::clamp(glm::dvec3(statistics_.slope, 0.0), -1.5, 1.5);
   }
   const glm::dvec3 now = raised(attachFromCamera * toward);
   const bool isFirst = place.towardPrior == glm::dvec3(0.0);
@@ -247,7 +248,7 @@ void LightEstimator::followKey(Place& place, const glm::dvec3& white,
     sky[c] = channel.x;
     key[c] = channel.y;
   }
-  const glm::dvec3 reflected = glm::clamp(glance_.mean / white, 0.05, 0.8);
+  const glm::dvec3 reflected = glm::clamp(statistics_.mean / white, 0.05, 0.8);
 
   place.seconds = std::min(place.seconds + step.seconds, kKeySeconds);
   const double share = place.seconds > 0.0 ? std::max(shareAfter(step.seconds, kKeySeconds),

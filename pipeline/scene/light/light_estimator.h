@@ -14,7 +14,7 @@
 #include "hal/image.h"
 #include "pipeline/scene/light/light_fit.h"
 #include "pipeline/scene/light/lighting.h"
-#include "pipeline/scene/light/linear_picture.h"
+#include "pipeline/scene/light/linear_image.h"
 #include "pipeline/scene/light/tag_paper.h"
 #include "pipeline/tracking/pose/tracker.h"
 
@@ -22,7 +22,7 @@ namespace pleinair::scene {
 
 /// A vector that follows another, noisy one smoothly, and rests on a still scene: what is shown
 /// stays put until the smoothed vector has left a band around it, then goes along until they meet.
-class SteadyVector {
+class FilteredVector {
  public:
   /// `share`: of the way to `target` that is gone at once, 0 … 1; the first target is taken whole.
   void follow(const glm::dvec3& target, double share, double band) {
@@ -93,12 +93,12 @@ class LightEstimator {
   struct Place {
     std::optional<int> tagId;
     std::optional<glm::dmat4> worldFromTag;
-    SteadyVector level;      ///< white paper
+    FilteredVector level;    ///< white paper
     glm::dvec3 ofMean{0.0};  ///< the level beside the picture's mean, when paper was last read
     bool hasOwnPaper = false;
     glm::dvec3 towardPrior{0.0};
-    SteadyVector keyVector;  ///< as LightFit's, relative to the level
-    SteadyVector key, sky, ground;
+    FilteredVector keyVector;  ///< as LightFit's, relative to the level
+    FilteredVector key, sky, ground;
     double seconds = 0.0;  ///< for which the key light was followed
   };
   /// How far a frame is from the last one.
@@ -108,7 +108,7 @@ class LightEstimator {
   };
 
   Step stepTo(hal::TimePoint captureTime);
-  void readPapers(const LinearPicture& picture, const tracking::TrackingResult& tracked);
+  void readPapers(const LinearImage& picture, const tracking::TrackingResult& tracked);
   const Reading* paperOf(const Place& place) const;
   std::optional<glm::dvec3> whiteFacing(const glm::dmat3& attachFromCamera) const;
   std::optional<glm::dvec3> followLevel(Place& place,
@@ -128,7 +128,7 @@ class LightEstimator {
   // Of the last frame.
   std::vector<Reading> readings_;
   std::vector<LightSample> samples_;
-  PictureGlance glance_;
+  ImageStatistics statistics_;
 };
 
 }  // namespace pleinair::scene

@@ -70,7 +70,7 @@ Borders widthOfBorders(const tracking::TagCornersPx& corners, int cells) {
 
 /// Along a square ring at `reach` from the tag's middle; what is outside of the picture is left
 /// out.
-Readings readRing(const LinearPicture& picture, const glm::dmat3& pictureFromTag, double reach,
+Readings readRing(const LinearImage& picture, const glm::dmat3& pictureFromTag, double reach,
                   const Borders& borders) {
   Readings readings;
   for (int side = 0; side < 4; ++side) {
@@ -119,7 +119,7 @@ std::optional<int> cellsAlongEdge(std::string_view family) {
   return std::nullopt;
 }
 
-std::optional<TagPaper> readTagPaper(const LinearPicture& picture,
+std::optional<TagPaper> readTagPaper(const LinearImage& picture,
                                      const tracking::TagCornersPx& corners, int cells) {
   const Borders borders = widthOfBorders(corners, cells);
   const auto least =

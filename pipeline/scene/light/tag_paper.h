@@ -5,7 +5,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "pipeline/scene/light/linear_picture.h"
+#include "pipeline/scene/light/linear_image.h"
 #include "pipeline/tracking/pose/tag.h"
 
 namespace pleinair::scene {
@@ -25,7 +25,7 @@ std::optional<int> cellsAlongEdge(std::string_view family);
 /// of each left out, so that a finger or a glint does not count. Nothing where cells are too small
 /// to be read clean (1.8 px across the border), too much lies outside the picture or in front of
 /// it, or paper and ink do not differ as they do.
-std::optional<TagPaper> readTagPaper(const LinearPicture& picture,
+std::optional<TagPaper> readTagPaper(const LinearImage& picture,
                                      const tracking::TagCornersPx& corners, int cells);
 
 }  // namespace pleinair::scene

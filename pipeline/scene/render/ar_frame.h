@@ -65,7 +65,7 @@ struct SurfaceAccess {
 };
 
 /// How the camera's picture moved, where that was asked for.
-struct PictureMovement {
+struct MeasuredMotion {
   const tracking::ImageMotion* motion = nullptr;  ///< in px of the captured frame
   /// px of the frame = px of the full picture · scale + origin.
   glm::dvec2 frameScale{1.0};
@@ -76,7 +76,7 @@ struct PictureMovement {
 struct ArFrameNeeds {
   /// ArFrame::motion, barycentrics, parts and surfaces; of a scene that has any
   bool surfaces = false;
-  bool pictureMovement = false;      ///< ArFrame::pictureMovement
+  bool measuredMotion = false;       ///< ArFrame::measuredMotion
   Shading shading = Shading::kToon;  ///< of models
 };
 
@@ -99,13 +99,13 @@ struct ArFrame {
   std::optional<SurfaceMotion> motion;
   std::optional<SurfaceAccess> surfaces;  ///< where asked for, of a scene that has any
   /// Where asked for.
-  std::optional<PictureMovement> pictureMovement;
+  std::optional<MeasuredMotion> measuredMotion;
   bool hasObjects = false;  ///< whether any virtual object may be seen; without, ids are all 0
   bool hasFocus = false;    ///< whether any pixel's focus may be above 0
   float nearMetres = 0.0F;  ///< the depth range's planes, for linear depth
   float farMetres = 0.0F;
   /// Takes px of the full picture to px of a flat canvas that goes along with the picture as a
-  /// whole (tracking::PictureMotion); the identity where nothing is followed.
+  /// whole (tracking::CanvasMotion); the identity where nothing is followed.
   tracking::PlaneSimilarity canvasFromPicture;
   std::uint64_t sequence = 0;  ///< of the captured frame
   hal::TimePoint captureTime;

@@ -13,7 +13,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "pipeline/scene/light/linear_picture.h"
+#include "pipeline/scene/light/linear_image.h"
 #include "pipeline/scene/render/scene_bodies.h"
 #include "pipeline/scene/render/scene_uniforms.h"
 
@@ -26,7 +26,7 @@ constexpr double kFarthestByNearest = 1000.0;
 constexpr ArFrame kCameraOnly{.nearMetres = 0.1F, .farMetres = 10.0F};
 constexpr glm::vec4 kNoNormal(128.0F / 255.0F, 128.0F / 255.0F, 128.0F / 255.0F, 0.0F);
 
-bool isHoled(const Material& material) {
+bool isAlphaMasked(const Material& material) {
   return material.coverageCutoff > 0.0F;
 }
 
@@ -64,15 +64,15 @@ void ArFrameRenderer::makePrograms(const gpu::ShaderLibrary& library) {
   if (scene_.models.empty()) return;
   constexpr std::string_view kVertices = "pipeline/scene/render/shaders/model.vert";
   background_ = library.fragmentPass("pipeline/scene/render/shaders/camera_background.frag");
-  const bool hasHoles = std::ranges::any_of(scene_.models, [](const SceneModel& each) {
-    return std::ranges::any_of(each.model->materials, isHoled);
+  const bool hasAlphaMask = std::ranges::any_of(scene_.models, [](const SceneModel& each) {
+    return std::ranges::any_of(each.model->materials, isAlphaMasked);
   });
   for (const Shading shading : {Shading::kToon, Shading::kSmooth}) {
     const std::string name = std::string("pipeline/scene/render/shaders/model_") +
                              (shading == Shading::kToon ? "toon" : "smooth");
     SurfacePrograms& programs = programsOf(shading);
     programs.solid = library.draw(kVertices, name + ".frag");
-    if (hasHoles) programs.holed = library.draw(kVertices, name + "_holes.frag");
+    if (hasAlphaMask) programs.alphaMasked = library.draw(kVertices, name + "_masked.frag");
   }
   if (std::ranges::any_of(scene_.models, &SceneModel::isOccluder)) {
     occluder_ = library.draw(kVertices, "pipeline/scene/render/shaders/occluder.frag");
@@ -258,7 +258,7 @@ void ArFrameRenderer::setCamera(const tracking::CameraModel& camera) {
   const double range = farthest - nearest;
   gpu::Program* receiver = shadow_ ? &shadow_->receiver() : nullptr;
   SurfacePrograms& surfaces = programsOf(shading_);
-  for (gpu::Program* program : {&surfaces.solid, &surfaces.holed, &occluder_, receiver}) {
+  for (gpu::Program* program : {&surfaces.solid, &surfaces.alphaMasked, &occluder_, receiver}) {
     if (program == nullptr || !*program) continue;
     program->use()
         .set("clipFocal", glm::vec2(2.0 * glm::dvec2(pinhole.fx, pinhole.fy) / size))
@@ -292,8 +292,9 @@ void ArFrameRenderer::drawModel(std::size_t index, const gpu::Texture& picture) 
       beginModel(occluder_, index).texture("picture", picture);
     } else {
       SurfacePrograms& programs = programsOf(shading_);
-      setMaterial(beginModel(isHoled(material) ? programs.holed : programs.solid, index), index,
-                  material);
+      setMaterial(
+          beginModel(isAlphaMasked(material) ? programs.alphaMasked : programs.solid, index), index,
+          material);
     }
     (material.isDoubleSided ? glDisable : glEnable)(GL_CULL_FACE);
     geometry_.draw(index, batch);
@@ -319,7 +320,7 @@ void ArFrameRenderer::setMaterial(gpu::Program& program, std::size_t index,
   program.set("baseColour", tint * material.baseColour)
       .texture("baseTexture",
                material.texture ? geometry_.textures(index)[*material.texture] : white_);
-  if (isHoled(material)) program.set("coverageCutoff", material.coverageCutoff);
+  if (isAlphaMasked(material)) program.set("coverageCutoff", material.coverageCutoff);
 }
 
 void ArFrameRenderer::findSurfaces(const tracking::CameraModel& camera) {

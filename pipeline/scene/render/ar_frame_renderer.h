@@ -79,7 +79,7 @@ class ArFrameRenderer {
   /// A program each, for branches that are not taken cost as much as those that are.
   struct SurfacePrograms {
     gpu::Program solid;
-    gpu::Program holed;  // only where a material has holes
+    gpu::Program alphaMasked;  // only where a material has holes
   };
   SurfacePrograms& programsOf(Shading shading) {
     return surfacePrograms_[static_cast<std::size_t>(shading)];

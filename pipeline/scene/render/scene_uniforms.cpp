@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "pipeline/scene/description/lens.h"
-#include "pipeline/scene/light/linear_picture.h"
+#include "pipeline/scene/light/linear_image.h"
 
 namespace pleinair::scene {
 

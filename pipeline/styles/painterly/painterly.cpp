@@ -17,12 +17,12 @@
 #include "pipeline/marks/motion_field.h"
 #include "pipeline/marks/stroke_set.h"
 #include "pipeline/marks/tensor_field.h"
-#include "pipeline/styles/painterly/brush_shelf.h"
+#include "pipeline/styles/painterly/brush_cache.h"
 #include "pipeline/styles/painterly/coherence.h"
 #include "pipeline/styles/painterly/layers.h"
 #include "pipeline/styles/painterly/painterly_views.h"
 #include "pipeline/styles/painterly/palette.h"
-#include "pipeline/styles/painterly/reduced_pictures.h"
+#include "pipeline/styles/painterly/reduced_images.h"
 #include "pipeline/styles/painterly/stroke_drawing.h"
 
 namespace pleinair::styles {
@@ -101,23 +101,23 @@ struct Painterly::State {
         fieldView(library.fragmentPass(kShaders + "field_view.frag")),
         heightView(library.fragmentPass(kShaders + "height_view.frag")),
         borders(library.fragmentPass(kShaders + "borders.frag")),
-        linen(library, Sheet::Kind::kLinen),
-        paper(library, Sheet::Kind::kPaper),
+        linen(library, Substrate::Kind::kLinen),
+        paper(library, Substrate::Kind::kPaper),
         strips(library),
         drawing(library) {}
 
   const gpu::ShaderLibrary& library;
-  ReducedPictures reduced;
+  ReducedImages reduced;
   gpu::Program ground;
   gpu::Program relief;
   gpu::Program fieldView;
   gpu::Program heightView;
   gpu::Program borders;
-  Sheet linen;
-  Sheet paper;
+  Substrate linen;
+  Substrate paper;
   StrokeStripMaker strips;
   StrokeDrawing drawing;
-  BrushShelf brushes;
+  BrushCache brushes;
   std::string palette = "all";  // that `mixtures` are of
   std::optional<Texture> mixtures;
   std::unique_ptr<Painting> painting;
@@ -207,8 +207,8 @@ void Painterly::State::drawStrokes(const scene::ArFrame& frame, const PainterlyP
 void Painterly::State::light(const scene::ArFrame& frame, const PainterlyParameters& p,
                              gpu::PassTimer& timer) {
   const auto scope = timer.measure("painterly: light");
-  const Sheet& sheet = p.support == Sheet::Kind::kLinen ? linen : paper;
-  sheet.bind(relief.use(), frame);
+  const Substrate& substrate = p.support == Substrate::Kind::kLinen ? linen : paper;
+  substrate.bind(relief.use(), frame);
   relief.texture("colours", canvas->colour)
       .texture("heights", canvas->height)
       .texture("frame", *frame.colour)
@@ -287,7 +287,7 @@ Painterly::Painterly(const gpu::ShaderLibrary& library)
 Painterly::~Painterly() = default;
 
 scene::ArFrameNeeds Painterly::needs() const {
-  return {.surfaces = true, .pictureMovement = true, .shading = scene::Shading::kSmooth};
+  return {.surfaces = true, .measuredMotion = true, .shading = scene::Shading::kSmooth};
 }
 
 /// A program's real cost on software renderers is at its first use: here, not in the first frame
@@ -301,7 +301,7 @@ void Painterly::warmUp() {
   ids.upload(zeros, std::size_t{16} * 4);
   gpu::PassTimer untimed;
   scene::ArFrame frame{.colour = &grey, .ids = &ids, .normalFocus = &grey, .barycentrics = &ids};
-  for (const ViewInfo& view : painterlyViews()) paint(frame, view.name, untimed);
+  for (const DebugViewInfo& view : painterlyViews()) paint(frame, view.name, untimed);
   for (const StrokeBump bump : {StrokeBump::kEach, StrokeBump::kOnce}) {
     p_.bump = bump;
     for (const bool isShown : {true, false}) {

@@ -30,8 +30,8 @@ hal::Result<void> checkPainterly(const config::ParameterValues& values);
 /// `coherence`.
 class Painterly final : public Style {
  public:
-  /// The library, which outlives it, holds gpu::painterlyShaders(), sheetShaders(), marksShaders(),
-  /// sceneShaders(), gpuShaders().
+  /// The library, which outlives it, holds gpu::painterlyShaders(), substrateShaders(),
+  /// marksShaders(), sceneShaders(), gpuShaders().
   explicit Painterly(const gpu::ShaderLibrary& library);
   ~Painterly() override;
   Painterly(const Painterly&) = delete;
@@ -40,7 +40,7 @@ class Painterly final : public Style {
   Painterly& operator=(Painterly&&) = delete;
 
   std::string_view name() const override { return "painterly"; }
-  std::span<const ViewInfo> views() const override { return painterlyViews(); }
+  std::span<const DebugViewInfo> views() const override { return painterlyViews(); }
   scene::ArFrameNeeds needs() const override;
   bool usesCanvas() const override { return true; }
   const config::ParameterValues& parameters() const override { return values_; }

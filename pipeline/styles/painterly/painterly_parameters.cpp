@@ -31,9 +31,9 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
       {{"once", StrokeBump::kOnce}, {"each", StrokeBump::kEach}}};
   static constexpr std::array<config::Choice<StrokeQuads>, 2> kQuadCounts{
       {{"curvature", StrokeQuads::kCurvature}, {"thesis", StrokeQuads::kThesis}}};
-  static constexpr std::array<config::Choice<Sheet::Kind>, 2> kSupports{{
-      {"linen", Sheet::Kind::kLinen},
-      {"paper", Sheet::Kind::kPaper},
+  static constexpr std::array<config::Choice<Substrate::Kind>, 2> kSupports{{
+      {"linen", Substrate::Kind::kLinen},
+      {"paper", Substrate::Kind::kPaper},
   }};
   static const config::ParameterTable<P> table{
       integerParameter("seed", &P::seed, {.min = 0, .max = 1'000'000},

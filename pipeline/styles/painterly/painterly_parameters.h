@@ -6,11 +6,11 @@
 #include <string>
 
 #include "config/parameter_table.h"
-#include "pipeline/styles/painterly/brush_shelf.h"
+#include "pipeline/styles/painterly/brush_cache.h"
 #include "pipeline/styles/painterly/brushes.h"
 #include "pipeline/styles/painterly/stroke_strips.h"
-#include "pipeline/styles/sheet/sheet.h"
 #include "pipeline/styles/style.h"
+#include "pipeline/styles/substrate/substrate.h"
 
 namespace pleinair::styles {
 
@@ -45,7 +45,7 @@ struct PainterlyParameters {
   Brush brush = Brush::kFlat;
   double relief = 1.4;
   double gloss = 0.08;
-  Sheet::Kind support = Sheet::Kind::kLinen;
+  Substrate::Kind support = Substrate::Kind::kLinen;
   double canvas = 0.15;
   double tooth = 0.0;
   double wash = 0.95;

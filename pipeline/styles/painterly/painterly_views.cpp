@@ -7,7 +7,7 @@
 namespace pleinair::styles {
 namespace {
 
-constexpr std::array<ViewInfo, 7> kViews{{
+constexpr std::array<DebugViewInfo, 7> kViews{{
     {kTensorsView, "the tensor field: which way strokes go; blue from edges, red filled in"},
     {kPyramidView, "four levels of its pyramid"},
     {kRegionsView, "what is painted finely (red), middlingly (yellow) and broadly (blue)"},
@@ -19,7 +19,7 @@ constexpr std::array<ViewInfo, 7> kViews{{
 
 }  // namespace
 
-std::span<const ViewInfo> painterlyViews() {
+std::span<const DebugViewInfo> painterlyViews() {
   return kViews;
 }
 

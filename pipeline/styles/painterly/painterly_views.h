@@ -18,7 +18,7 @@ inline constexpr std::string_view kAnchorsView = "anchors";
 inline constexpr std::string_view kHeightView = "height";
 
 /// The style's inner pictures, apart from the finished one.
-std::span<const ViewInfo> painterlyViews();
+std::span<const DebugViewInfo> painterlyViews();
 
 /// In which strokes are shown that are `part` of the way from the coarsest layer, 0, to the finest.
 glm::vec3 layerColour(float part);

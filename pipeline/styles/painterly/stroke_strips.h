@@ -34,7 +34,7 @@ class StrokeStripMaker {
   explicit StrokeStripMaker(const gpu::ShaderLibrary& library);
 
   /// Fills `strips` with what marks::StrokeSet laid out: its instances() and command(). They are
-  /// allocated at the first call and where `quads` is other than before: hal::StartupError where
+  /// allocated at the first call and where `quads` is other than before: hal::Failure where
   /// the GPU has no memory for it.
   void lay(const gpu::Buffer& instances, const gpu::Buffer& drawn, StrokeQuads quads,
            StrokeStrips& strips);

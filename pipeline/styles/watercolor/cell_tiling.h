@@ -54,7 +54,7 @@ class CellTiling {
   /// `library` has gpu::watercolorShaders() and gpu::marksShaders().
   explicit CellTiling(const gpu::ShaderLibrary& library);
 
-  /// Makes room for so many slots and forgets all seeds. Throws hal::StartupError where the GPU has
+  /// Makes room for so many slots and forgets all seeds. Throws hal::Failure where the GPU has
   /// no memory for them.
   void allocate(hal::FrameSize full, int cellSizePixels, std::uint32_t slots);
   std::uint32_t slots() const { return slots_; }

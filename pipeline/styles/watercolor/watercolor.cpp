@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "pipeline/marks/fading_past.h"
+#include "pipeline/marks/filtered_frame.h"
 #include "pipeline/marks/motion_field.h"
-#include "pipeline/marks/steady_picture.h"
-#include "pipeline/styles/sheet/sheet.h"
+#include "pipeline/styles/substrate/substrate.h"
 
 namespace pleinair::styles {
 namespace {
@@ -27,9 +27,9 @@ constexpr double kUsualNoiseLevels = 2.0;
 const std::string kShaders = "pipeline/styles/watercolor/shaders/";
 
 constexpr std::string_view kMeansView = "means";
-constexpr std::string_view kSteadyView = "steady";
+constexpr std::string_view kFilteredView = "filtered";
 /// In the order of view.frag.
-constexpr std::array<ViewInfo, 10> kViews{{
+constexpr std::array<DebugViewInfo, 10> kViews{{
     {"seeds", "the cells' seeds over the frame"},
     {"cells", "the Voronoi cells, each in a colour of its own, with their seeds"},
     {"anchors",
@@ -40,10 +40,11 @@ constexpr std::array<ViewInfo, 10> kViews{{
     {"edges", "edge pixels black, weaker colour differences grey"},
     {"retiling",
      "edge pixels, and each seed's way from its anchor to where it was drawn; red: on it"},
-    {kSteadyView, "the picture averaged along its motion, which edges and colours are taken from"},
+    {kFilteredView,
+     "the picture averaged along its motion, which edges and colours are taken from"},
     {"dark", "the dark washes, before it is decided where they lie"},
     {"light", "the light washes"},
-    {"paper", "the sheet of paper"},
+    {"paper", "the substrate of paper"},
 }};
 
 /// One anchor a cell in the mean. Squares of two cells a side have enough of them for births and
@@ -60,7 +61,7 @@ marks::AnchorOptions anchorOptions(const WatercolorParameters& p) {
 
 struct Watercolor::Passes {
   explicit Passes(const gpu::ShaderLibrary& library)
-      : steady(library),
+      : filtered(library),
         tiler(library),
         guide(library.fragmentPass(kShaders + "guide.frag")),
         split(library.compute(kShaders + "split.comp")),
@@ -71,9 +72,9 @@ struct Watercolor::Passes {
         composeMore(library.fragmentPass(kShaders + "compose_more.frag")),
         showSeeds(library.compute(kShaders + "show_seeds.comp")),
         view(library.fragmentPass(kShaders + "view.frag")),
-        sheet(library, Sheet::Kind::kPaper) {}
+        substrate(library, Substrate::Kind::kPaper) {}
 
-  marks::SteadyPicture steady;
+  marks::FilteredFrame filtered;
   CellTiling tiler;
   gpu::Program guide;
   gpu::Program split;
@@ -84,7 +85,7 @@ struct Watercolor::Passes {
   gpu::Program composeMore;
   gpu::Program showSeeds;
   gpu::Program view;
-  Sheet sheet;
+  Substrate substrate;
 };
 
 /// What belongs to pictures of one full size.
@@ -109,7 +110,7 @@ Watercolor::Watercolor(const gpu::ShaderLibrary& library)
 
 Watercolor::~Watercolor() = default;
 
-std::span<const ViewInfo> watercolorViews() {
+std::span<const DebugViewInfo> watercolorViews() {
   return kViews;
 }
 
@@ -120,7 +121,7 @@ void Watercolor::setParameters(const config::ParameterValues& values) {
 
 void Watercolor::reset() {
   hasPast_ = false;
-  passes_->steady.reset();
+  passes_->filtered.reset();
   if (marks_ == nullptr) return;
   marks_->field.reset();
   if (marks_->anchors != nullptr) marks_->anchors->reset();
@@ -139,7 +140,7 @@ Watercolor::Inner Watercolor::inner() const {
   assert(canvas_ != nullptr);
   return {.tiler = &passes_->tiler,
           .tiling = &canvas_->tiling,
-          .steady = picture_,
+          .filtered = picture_,
           .guide = &canvas_->guide,
           .darkWash = &marks_->cells->darkWash,
           .lightWash = &marks_->cells->lightWash};
@@ -152,7 +153,7 @@ const Texture& Watercolor::paint(const scene::ArFrame& frame, std::string_view v
   step_ = hasPast_ ? marks::timeStep(lastTime_, frame.captureTime) : hal::Duration(0);
   marks_->field.update(frame, timer);
   marks_->anchors->advance(frame, marks_->field, timer);
-  steady(frame, timer);
+  filtered(frame, timer);
   tile(frame, p_.mosaic > 0.0 || view == kMeansView, timer);
   paintWashes(frame, timer);
   lastTime_ = frame.captureTime;
@@ -162,7 +163,7 @@ const Texture& Watercolor::paint(const scene::ArFrame& frame, std::string_view v
   } else {
     showView(frame, view);
   }
-  canvasThen_ = canvas_;
+  previousCanvas_ = canvas_;
   return canvas_->picture;
 }
 
@@ -170,7 +171,7 @@ const Texture& Watercolor::paint(const scene::ArFrame& frame, std::string_view v
 void Watercolor::takeMarks(const scene::ArFrame& frame) {
   if (marks_ == nullptr || marks_->full != frame.full()) {
     hasPast_ = false;  // where there is no memory for the new ones, nothing is left half made
-    canvas_ = canvasThen_ = nullptr;
+    canvas_ = previousCanvas_ = nullptr;
     canvases_.clear();
     marks_.reset();
     marks_ = std::make_unique<Marks>(*library_, frame.full());
@@ -195,31 +196,32 @@ void Watercolor::takeCanvas(const scene::ArFrame& frame) {
 }
 
 /// What edges and colours are taken from.
-void Watercolor::steady(const scene::ArFrame& frame, gpu::PassTimer& timer) {
+void Watercolor::filtered(const scene::ArFrame& frame, gpu::PassTimer& timer) {
   picture_ = frame.colour;
-  if (p_.steadyTimeSeconds <= 0.0) {
-    passes_->steady.reset();
+  if (p_.filterTimeSeconds <= 0.0) {
+    passes_->filtered.reset();
     return;
   }
-  const auto* const motion = frame.pictureMovement ? frame.pictureMovement->motion : nullptr;
+  const auto* const motion = frame.measuredMotion ? frame.measuredMotion->motion : nullptr;
   const double noise = motion != nullptr ? motion->noiseLevels : 0.0;
-  passes_->steady.update(frame,
-                         {.backward = &marks_->field.backward(),
-                          .isCut = marks_->field.isCut(),
-                          .timeConstantSeconds = p_.steadyTimeSeconds,
-                          .noiseLevels = noise > 0.0 ? noise : kUsualNoiseLevels},
-                         timer);
-  picture_ = &passes_->steady.picture();
+  passes_->filtered.update(frame,
+                           {.backward = &marks_->field.backward(),
+                            .isCut = marks_->field.isCut(),
+                            .timeConstantSeconds = p_.filterTimeSeconds,
+                            .noiseLevels = noise > 0.0 ? noise : kUsualNoiseLevels},
+                           timer);
+  picture_ = &passes_->filtered.picture();
 }
 
 void Watercolor::tile(const scene::ArFrame& frame, bool wantsMeans, gpu::PassTimer& timer) {
-  passes_->tiler.tile({.frame = &frame,
-                       .picture = picture_,
-                       .tilingThen = canvasThen_ != nullptr ? &canvasThen_->tiling : nullptr,
-                       .tiling = &canvas_->tiling,
-                       .step = step_,
-                       .wantsMeans = wantsMeans},
-                      *marks_->anchors, p_, timer);
+  passes_->tiler.tile(
+      {.frame = &frame,
+       .picture = picture_,
+       .tilingThen = previousCanvas_ != nullptr ? &previousCanvas_->tiling : nullptr,
+       .tiling = &canvas_->tiling,
+       .step = step_,
+       .wantsMeans = wantsMeans},
+      *marks_->anchors, p_, timer);
 }
 
 /// What the cells hold of the picture becomes two smooth layers of pigment.
@@ -239,7 +241,7 @@ void Watercolor::paintWashes(const scene::ArFrame& frame, gpu::PassTimer& timer)
   mixWashes(timer);
   {
     const auto scope = timer.measure("watercolor: pigment");
-    passes_->sheet.bind(passes_->pigment.use(), frame);
+    passes_->substrate.bind(passes_->pigment.use(), frame);
     passes_->pigment.texture("tiling", s.tiling)
         .texture("darkWash", cells.darkWash)
         .texture("lightWash", cells.lightWash)
@@ -291,7 +293,7 @@ void Watercolor::compose(const scene::ArFrame& frame, gpu::PassTimer& timer) {
   const auto scope = timer.measure("watercolor: compose");
   const bool needsMore = frame.hasFocus || p_.mosaic > 0.0;
   gpu::Program& pass = needsMore ? passes_->composeMore : passes_->compose;
-  passes_->sheet.bind(pass.use(), frame);
+  passes_->substrate.bind(pass.use(), frame);
   pass.texture("tiling", s.tiling)
       .texture("darkLayer", s.darkLayer)
       .texture("lightLayer", s.lightLayer)
@@ -316,7 +318,7 @@ void Watercolor::compose(const scene::ArFrame& frame, gpu::PassTimer& timer) {
 }
 
 void Watercolor::showView(const scene::ArFrame& frame, std::string_view view) {
-  const auto* const found = std::ranges::find(kViews, view, &ViewInfo::name);
+  const auto* const found = std::ranges::find(kViews, view, &DebugViewInfo::name);
   assert(found != kViews.end());
   const WatercolorCanvas& s = *canvas_;
   const WatercolorCells& cells = *marks_->cells;
@@ -336,8 +338,8 @@ void Watercolor::showView(const scene::ArFrame& frame, std::string_view view) {
       .texture("ways", cells.ways)
       .texture("darkPigment", s.darkPigment)
       .texture("lightPigment", s.lightPigment)
-      .texture("paper", passes_->sheet.tile())
-      .texture("picture", view == kSteadyView ? *picture_ : *frame.colour)
+      .texture("paper", passes_->substrate.tile())
+      .texture("picture", view == kFilteredView ? *picture_ : *frame.colour)
       .set("view", static_cast<int>(found - kViews.begin()))
       .set("pictureSize", glm::vec2(s.size.width, s.size.height))
       .drawFullscreen(s.pictureTarget);
@@ -357,7 +359,7 @@ void Watercolor::warmUp() {
   ids.upload(noObjects, std::size_t{16} * 4);
   paint({.colour = &grey, .ids = &ids, .barycentrics = &ids, .hasObjects = true, .sequence = 3}, "",
         timer);
-  canvas_ = canvasThen_ = nullptr;
+  canvas_ = previousCanvas_ = nullptr;
   canvases_.clear();
   marks_.reset();
   reset();

@@ -13,7 +13,7 @@
 namespace pleinair::styles {
 
 /// The style's inner pictures, apart from the finished one.
-std::span<const ViewInfo> watercolorViews();
+std::span<const DebugViewInfo> watercolorViews();
 
 /// Chapter III of the thesis, and on: the frame tiled by the Voronoi cells of seeds that are drawn
 /// to the edges. A seed belongs to an anchor (marks::AnchorSet) and goes with the thing it lies on.
@@ -22,11 +22,11 @@ std::span<const ViewInfo> watercolorViews();
 /// for the thesis's flat ones. Over that dark edges, granulation, paper. All on the GPU, nothing is
 /// read back.
 ///
-/// The sheet, with all that is uneven about the paint, goes with ArFrame::canvasFromPicture. An
+/// The substrate, with all that is uneven about the paint, goes with ArFrame::canvasFromPicture. An
 /// object's silhouette (ids) counts as an edge.
 ///
 /// Time: edges and colours are taken from a picture that is averaged along its motion
-/// (marks::SteadyPicture), and colours of cells once more, so that a still scene is a still
+/// (marks::FilteredFrame), and colours of cells once more, so that a still scene is a still
 /// painting: sensor noise moves no seed, and newborn cells begin with the colours of those they
 /// grow in. A first frame (after reset(), a cut, another full size, another `cell_size` or `seed`)
 /// starts anew and re-tiles a few times at once, so that it looks as settled as later ones. At
@@ -35,8 +35,8 @@ std::span<const ViewInfo> watercolorViews();
 /// backwards counts as none, and never more than one second.
 class Watercolor final : public Style {
  public:
-  /// The library, which outlives it, holds gpu::watercolorShaders(), sheetShaders(), marksShaders()
-  /// and gpu::sceneShaders().
+  /// The library, which outlives it, holds gpu::watercolorShaders(), substrateShaders(),
+  /// marksShaders() and gpu::sceneShaders().
   explicit Watercolor(const gpu::ShaderLibrary& library);
   ~Watercolor() override;
   Watercolor(const Watercolor&) = delete;
@@ -45,8 +45,8 @@ class Watercolor final : public Style {
   Watercolor& operator=(Watercolor&&) = delete;
 
   std::string_view name() const override { return "watercolor"; }
-  std::span<const ViewInfo> views() const override { return watercolorViews(); }
-  scene::ArFrameNeeds needs() const override { return {.surfaces = true, .pictureMovement = true}; }
+  std::span<const DebugViewInfo> views() const override { return watercolorViews(); }
+  scene::ArFrameNeeds needs() const override { return {.surfaces = true, .measuredMotion = true}; }
   bool usesCanvas() const override { return true; }
   const config::ParameterValues& parameters() const override { return values_; }
   void setParameters(const config::ParameterValues& values) override;
@@ -60,7 +60,7 @@ class Watercolor final : public Style {
   struct Inner {
     const CellTiling* tiler;        ///< seeds, means
     const gpu::Texture* tiling;     ///< R32UI a pixel: shaders/tiling_word.glsl
-    const gpu::Texture* steady;     ///< what edges and colours are taken from
+    const gpu::Texture* filtered;   ///< what edges and colours are taken from
     const gpu::Texture* guide;      ///< RGBA8 for 2×2 px: shaders/guide.frag
     const gpu::Texture* darkWash;   ///< RGBA8, a texel a slot: shaders/washes.comp
     const gpu::Texture* lightWash;  ///< likewise, its share in A
@@ -73,7 +73,7 @@ class Watercolor final : public Style {
 
   void takeMarks(const scene::ArFrame& frame);
   void takeCanvas(const scene::ArFrame& frame);
-  void steady(const scene::ArFrame& frame, gpu::PassTimer& timer);
+  void filtered(const scene::ArFrame& frame, gpu::PassTimer& timer);
   void tile(const scene::ArFrame& frame, bool wantsMeans, gpu::PassTimer& timer);
   void paintWashes(const scene::ArFrame& frame, gpu::PassTimer& timer);
   void mixWashes(gpu::PassTimer& timer);
@@ -87,11 +87,11 @@ class Watercolor final : public Style {
   std::unique_ptr<Passes> passes_;
   std::unique_ptr<Marks> marks_;
   gpu::PerSize<WatercolorCanvas> canvases_;
-  const WatercolorCanvas* canvas_ = nullptr;      // of this frame
-  const WatercolorCanvas* canvasThen_ = nullptr;  // of the one before
-  const gpu::Texture* picture_ = nullptr;         // that edges and colours are taken from
-  float pixelsOfFull_ = 1.0F;                     // of this frame
-  hal::Duration step_{0};                         // since the one before
+  const WatercolorCanvas* canvas_ = nullptr;          // of this frame
+  const WatercolorCanvas* previousCanvas_ = nullptr;  // of the one before
+  const gpu::Texture* picture_ = nullptr;             // that edges and colours are taken from
+  float pixelsOfFull_ = 1.0F;                         // of this frame
+  hal::Duration step_{0};                             // since the one before
   hal::TimePoint lastTime_;
   bool hasPast_ = false;
 };

@@ -55,7 +55,7 @@ const config::ParameterTable<WatercolorParameters>& watercolorParameters() {
                       "How far washes open up towards the white of the paper."),
       numberParameter("mosaic", &P::mosaic, kPart, "How much of the flat cells is seen."),
       numberParameter(
-          "steady_time", &P::steadyTimeSeconds, {.min = 0, .max = 5, .unit = "s"},
+          "filter_time", &P::filterTimeSeconds, {.min = 0, .max = 5, .unit = "s"},
           "Time constant of the picture that edges and colours are taken from, averaged "
           "along its motion; 0 takes each frame as it is."),
       numberParameter("colour_time", &P::colourTimeSeconds, {.min = 0, .max = 5, .unit = "s"},

@@ -35,7 +35,7 @@ struct WatercolorParameters {
   double vividness = 0.3;
   double luminosity = 0.5;
   double mosaic = 0.0;
-  double steadyTimeSeconds = 0.3;
+  double filterTimeSeconds = 0.3;
   double colourTimeSeconds = 0.3;
 };
 

@@ -5,7 +5,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "pipeline/tracking/image/luma.h"
+#include "pipeline/tracking/image/luma_pyramid.h"
 
 namespace pleinair::tracking {
 

@@ -6,7 +6,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "pipeline/tracking/image/luma.h"
+#include "pipeline/tracking/image/luma_pyramid.h"
 
 namespace pleinair::tracking {
 

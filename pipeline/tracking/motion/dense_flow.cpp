@@ -9,7 +9,7 @@
 #include "pipeline/tracking/image/homography.h"
 #include "pipeline/tracking/image/parallel_loop.h"
 #include "pipeline/tracking/image/search_patch.h"
-#include "pipeline/tracking/motion/stillness.h"
+#include "pipeline/tracking/motion/static_regions.h"
 
 namespace pleinair::tracking {
 namespace {
@@ -64,7 +64,7 @@ void DenseFlowEstimator::flowOneWay(Way& way, const LumaPyramid& from, const Lum
   way.search->calc(fromSmall, toSmall, way.coarse);
   const cv::Mat& picture = from.picture();
   for (std::size_t i = 0; i < way.nodes.size(); ++i) {
-    if (stillErrors_[i] < StillFields::kNotStill) continue;
+    if (stillErrors_[i] < StaticRegions::kNotStatic) continue;
     const glm::dvec2 px = nodePx(i);
     const cv::Point middle = FlowPatch::middleNear(picture, from.ownPx(px));
     const FlowPatch patch(picture, middle);
@@ -119,7 +119,7 @@ double DenseFlowEstimator::edge(const std::vector<glm::vec4>& nodes, std::size_t
 void DenseFlowEstimator::disagree(const std::vector<glm::vec4>& back,
                                   std::vector<glm::vec4>& nodes) const {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (stillErrors_[i] < StillFields::kNotStill) continue;
+    if (stillErrors_[i] < StaticRegions::kNotStatic) continue;
     glm::vec4& node = nodes[i];
     const glm::dvec2 there = (nodePx(i) + glm::dvec2(node)) / stepPx_ - 0.5;
     const int x = std::clamp(static_cast<int>(std::floor(there.x)), 0, grid_.width - 2);
@@ -137,14 +137,14 @@ void DenseFlowEstimator::disagree(const std::vector<glm::vec4>& back,
 }
 
 /// Whether there are nodes that do not. Those that do have their flow then.
-bool DenseFlowEstimator::standStill(const Stillness* stillness) {
-  stillErrors_.assign(ways_[0].nodes.size(), StillFields::kNotStill);
-  if (stillness == nullptr) return true;
+bool DenseFlowEstimator::standStill(const StaticRegionDetector* staticRegions) {
+  stillErrors_.assign(ways_[0].nodes.size(), StaticRegions::kNotStatic);
+  if (staticRegions == nullptr) return true;
   bool isMoving = false;
   for (std::size_t i = 0; i < stillErrors_.size(); ++i) {
-    const float error = stillness->errorAt(nodePx(i), frameSize_);
+    const float error = staticRegions->errorAt(nodePx(i), frameSize_);
     stillErrors_[i] = error;
-    isMoving = isMoving || error >= StillFields::kNotStill;
+    isMoving = isMoving || error >= StaticRegions::kNotStatic;
     for (Way& way : ways_) way.nodes[i] = {0.0F, 0.0F, error, 0.0F};
   }
   return isMoving;
@@ -152,12 +152,12 @@ bool DenseFlowEstimator::standStill(const Stillness* stillness) {
 
 void DenseFlowEstimator::update(const LumaPyramid& then, const LumaPyramid& now,
                                 const std::optional<PictureHomography>& picture,
-                                const Stillness* stillness, double noise) {
+                                const StaticRegionDetector* staticRegions, double noise) {
   grid_ = {};
   const cv::Size size = now.picture().size();
   if (std::min(size.width, size.height) < kLeastSide || now.levels().size() <= kHalf) return;
   place(now);
-  if (!standStill(stillness)) return;
+  if (!standStill(staticRegions)) return;
   then.levels()[kHalf].copyTo(small_[0]);
   now.levels()[kHalf].copyTo(small_[1]);
   Along forward;

@@ -10,12 +10,12 @@
 #include <opencv2/core.hpp>
 #include <opencv2/video/tracking.hpp>
 
-#include "pipeline/tracking/image/luma.h"
+#include "pipeline/tracking/image/luma_pyramid.h"
 #include "pipeline/tracking/motion/image_motion.h"
 
 namespace pleinair::tracking {
 
-class Stillness;
+class StaticRegionDetector;
 
 /// Dense optical flow between two frames, there and back: by dense inverse search at half the
 /// pyramid's size (Kroeger et al., "Fast optical flow using dense inverse search", 2016), or by the
@@ -28,8 +28,8 @@ class DenseFlowEstimator {
 
   /// Flow from one frame to the next, of one size. Zero to the bit where fields are still.
   void update(const LumaPyramid& then, const LumaPyramid& now,
-              const std::optional<PictureHomography>& picture, const Stillness* stillness,
-              double noise);
+              const std::optional<PictureHomography>& picture,
+              const StaticRegionDetector* staticRegions, double noise);
   /// Valid until the next update().
   DenseFlow flow() const;
 
@@ -55,7 +55,7 @@ class DenseFlowEstimator {
                   double noise) const;
   double edge(const std::vector<glm::vec4>& nodes, std::size_t index) const;
   void disagree(const std::vector<glm::vec4>& back, std::vector<glm::vec4>& nodes) const;
-  bool standStill(const Stillness* stillness);
+  bool standStill(const StaticRegionDetector* staticRegions);
   glm::dvec2 nodePx(std::size_t index) const;
 
   hal::FrameSize frameSize_;
@@ -64,7 +64,7 @@ class DenseFlowEstimator {
   glm::dvec2 reduction_{1.0};
   std::array<cv::Mat, 2> small_;  // of the two frames
   std::array<Way, 2> ways_;
-  std::vector<float> stillErrors_;  // of each node; kNotStill where flow is asked for
+  std::vector<float> stillErrors_;  // of each node; kNotStatic where flow is asked for
 };
 
 }  // namespace pleinair::tracking

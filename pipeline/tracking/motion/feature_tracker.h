@@ -20,9 +20,9 @@ enum class FeatureMethod {
 struct SeenFeature {
   std::uint32_t id = 0;  ///< the same as long as it is followed
   glm::dvec2 px{0.0};
-  double errorPx = 0.0;    ///< predicted, of what it has moved since the frame before
-  bool wasSeen = false;    ///< in the frame before, too
-  glm::dvec2 thenPx{0.0};  ///< where it was there
+  double errorPx = 0.0;        ///< predicted, of what it has moved since the frame before
+  bool wasSeen = false;        ///< in the frame before, too
+  glm::dvec2 previousPx{0.0};  ///< where it was there
 };
 
 /// Finds features of a camera's picture and finds them again. One thread at a time.

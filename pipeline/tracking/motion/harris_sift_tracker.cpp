@@ -6,7 +6,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "pipeline/tracking/image/luma.h"
+#include "pipeline/tracking/image/luma_pyramid.h"
 #include "pipeline/tracking/motion/image_motion.h"
 
 namespace pleinair::tracking {
@@ -93,13 +93,13 @@ void HarrisSiftTracker::match() {
   nearest_.clear();
   matcher_.knnMatch(now_.descriptors, then_.descriptors, nearest_, 2);
   // Of several that match one, the nearest.
-  bestOfThen_.assign(then_.places.size(), 1e18F);
+  previousBest_.assign(then_.places.size(), 1e18F);
   const auto passes = [](const std::vector<cv::DMatch>& two) {
     return two.size() == 2 && two[0].distance < kRatio * two[1].distance;
   };
   for (const auto& two : nearest_) {
     if (!passes(two)) continue;
-    float& best = bestOfThen_[static_cast<std::size_t>(two[0].trainIdx)];
+    float& best = previousBest_[static_cast<std::size_t>(two[0].trainIdx)];
     best = std::min(best, two[0].distance);
   }
   places_.clear();
@@ -108,8 +108,8 @@ void HarrisSiftTracker::match() {
     if (!passes(two)) continue;
     const auto now = static_cast<std::size_t>(two[0].queryIdx);
     const auto then = static_cast<std::size_t>(two[0].trainIdx);
-    if (two[0].distance > bestOfThen_[then]) continue;
-    bestOfThen_[then] = -1.0F;  // once
+    if (two[0].distance > previousBest_[then]) continue;
+    previousBest_[then] = -1.0F;  // once
     matches_.push_back({.now = two[0].queryIdx, .then = two[0].trainIdx});
     places_.push_back(now_.places[now]);
     steps_.push_back(now_.places[now] - then_.places[then]);
@@ -132,7 +132,7 @@ void HarrisSiftTracker::publish(const LumaPyramid& now) {
                      .px = now.framePx(now_.places[at]),
                      .errorPx = kErrorPx * scale,
                      .wasSeen = true,
-                     .thenPx = now.framePx(then_.places[then])});
+                     .previousPx = now.framePx(then_.places[then])});
   }
   for (std::size_t i = 0; i < isKnown.size(); ++i) {
     if (!isKnown[i]) now_.ids[i] = nextId_++;

@@ -53,7 +53,7 @@ class HarrisSiftTracker : public FeatureTracker {
   cv::Mat strongestNear_;
   std::vector<std::vector<cv::DMatch>> nearest_;
   std::vector<Match> matches_;
-  std::vector<float> bestOfThen_;
+  std::vector<float> previousBest_;
   std::vector<cv::Point2f> places_;  // of matches
   std::vector<cv::Point2f> steps_;
   std::vector<SeenFeature> seen_;

@@ -70,12 +70,12 @@ struct DenseFlow {
 };
 
 /// Where the picture has not moved: fields of a grid of `fields` over the whole frame, row by row.
-struct StillFields {
+struct StaticRegions {
   hal::FrameSize fields;
-  /// Predicted error (px) of taking the field for still; kNotStill where it changes, or has too
+  /// Predicted error (px) of taking the field for still; kNotStatic where it changes, or has too
   /// little texture to tell.
   std::span<const float> errorPx;
-  static constexpr float kNotStill = 1.0e4F;
+  static constexpr float kNotStatic = 1.0e4F;
 };
 
 /// How a camera's picture moved from the frame before to this one, measured in the picture alone.
@@ -88,7 +88,7 @@ struct ImageMotion {
   std::span<const FeatureMotion> features;
   std::optional<PictureHomography> picture;  ///< where enough features agree
   DenseFlow flow;                            ///< without nodes where it was not estimated
-  StillFields still;                         ///< likewise
+  StaticRegions still;                       ///< likewise
   double noiseLevels = 0.0;  ///< of a pixel's luma, one standard deviation, in 1/255
 };
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "pipeline/tracking/image/luma.h"
+#include "pipeline/tracking/image/luma_pyramid.h"
 #include "pipeline/tracking/motion/cut_detector.h"
 #include "pipeline/tracking/motion/dense_flow.h"
 #include "pipeline/tracking/motion/feature_tracker.h"
-#include "pipeline/tracking/motion/picture_hold.h"
-#include "pipeline/tracking/motion/stillness.h"
+#include "pipeline/tracking/motion/jitter_suppressor.h"
+#include "pipeline/tracking/motion/static_regions.h"
 
 namespace pleinair::tracking {
 struct ImageMotionEstimator::State {
@@ -19,8 +19,8 @@ struct ImageMotionEstimator::State {
   std::shared_ptr<const LumaPyramid> then;
   std::unique_ptr<FeatureTracker> tracker;
   CutDetector cuts;
-  PictureHold hold;
-  Stillness stillness;
+  JitterSuppressor hold;
+  StaticRegionDetector staticRegions;
   DenseFlowEstimator flow;
   ImageMotion motion;
   std::uint64_t lastSequence = 0;
@@ -28,7 +28,7 @@ struct ImageMotionEstimator::State {
   void forget() {
     tracker->reset();
     hold.reset();
-    stillness.reset();
+    staticRegions.reset();
   }
 };
 
@@ -56,26 +56,26 @@ const ImageMotion& ImageMotionEstimator::follow(LumaFrame& frame, std::uint64_t 
   const std::shared_ptr<const LumaPyramid> now = frame.pyramid();
   const double scale = std::max(now->reduction().x, now->reduction().y);
 
-  const std::span<const SeenFeature> seen = s.tracker->follow(now, s.stillness.noise());
+  const std::span<const SeenFeature> seen = s.tracker->follow(now, s.staticRegions.noise());
   s.motion = {.frameSize = size, .sinceSequence = s.then ? s.lastSequence : sequence};
   s.motion.isCut = s.cuts.isCut(*now, s.tracker->foundShare());
   if (s.motion.isCut) {
     s.forget();
-    s.tracker->follow(now, s.stillness.noise());
+    s.tracker->follow(now, s.staticRegions.noise());
   } else {
     s.hold.update(seen, size, scale);
     s.motion.features = s.hold.features();
     s.motion.picture = s.hold.picture();
   }
-  if (s.options.stillness) s.stillness.update(*now, s.motion.picture);
-  if (s.options.stillness && !s.motion.isCut) s.motion.still = s.stillness.fields();
+  if (s.options.staticRegions) s.staticRegions.update(*now, s.motion.picture);
+  if (s.options.staticRegions && !s.motion.isCut) s.motion.still = s.staticRegions.fields();
   if (s.options.flow && !s.motion.isCut) {
-    s.flow.update(*s.then, *now, s.motion.picture, s.options.stillness ? &s.stillness : nullptr,
-                  s.stillness.noise());
+    s.flow.update(*s.then, *now, s.motion.picture,
+                  s.options.staticRegions ? &s.staticRegions : nullptr, s.staticRegions.noise());
     s.motion.flow = s.flow.flow();
   }
   // Averaging over a reduced picture's px takes noise away.
-  s.motion.noiseLevels = s.stillness.noise() * scale;
+  s.motion.noiseLevels = s.staticRegions.noise() * scale;
   s.then = now;
   s.lastSequence = sequence;
   return s.motion;

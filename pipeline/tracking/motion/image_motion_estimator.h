@@ -12,8 +12,8 @@ namespace pleinair::tracking {
 
 struct ImageMotionOptions {
   FeatureMethod features = FeatureMethod::kLucasKanade;
-  bool flow = true;       ///< dense flow, too
-  bool stillness = true;  ///< and where nothing moves
+  bool flow = true;           ///< dense flow, too
+  bool staticRegions = true;  ///< and where nothing moves
 };
 
 /// Finds out how a camera's picture moves, in the picture alone: features, the motion that most of

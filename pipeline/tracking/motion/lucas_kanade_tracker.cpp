@@ -21,13 +21,13 @@ constexpr int kRows = 14;
 constexpr double kBorderPx = 6.0;
 constexpr int kFewLevels = 1;
 constexpr double kBackPx = 0.4;  // from where a feature came
-/// Grey levels (RMS) by which a feature may look different: lost, worn.
+/// Grey levels (RMS) by which a feature may look different: lost, stale.
 constexpr double kLargestDifference = 20.0;
 constexpr double kNoiseDifference = 3.75;
 constexpr double kRmsByMean = 1.25;    // of normally distributed differences
 constexpr double kLightLevels = 1.5;   // by which a feature is brighter or darker
 constexpr double kLostContrast = 0.8;  // and of the window's contrast
-constexpr double kWornContrast = 0.25;
+constexpr double kStaleContrast = 0.25;
 constexpr double kMostPlacing = 0.12;  // px of error by a level of noise: more is no corner
 constexpr int kMostMissing = 12;       // frames that a feature is looked for in vain
 // Predicted errors: docs/measured.md says how they agree with true ones.
@@ -40,7 +40,7 @@ constexpr double kFew = 0.75;
 constexpr double kFewFields = 0.88;
 constexpr int kFieldCells = 2;  // on each side of a larger field
 /// … or of the features, the part whose looks have changed, which is enough for a new one.
-constexpr double kManyWorn = 0.15;
+constexpr double kManyStale = 0.15;
 constexpr int kKeyFrames = 4;  // between two key frames, unless most are lost
 constexpr double kVeryFew = 0.5;
 constexpr int kSeekFrames = 8;         // new corners are looked for that often at least …
@@ -100,7 +100,7 @@ void LucasKanadeTracker::judge(Feature& feature, const LumaPyramid& now, std::si
       difference < kLargestDifference && difference < kNoiseDifference + kLostContrast * contrast;
   if (!feature.isFound) return;
   feature.difference = difference;
-  feature.isWorn = difference > kNoiseDifference + kWornContrast * contrast;
+  feature.isStale = difference > kNoiseDifference + kStaleContrast * contrast;
   const double placing = kPlacing * difference * feature.patch.placing(noise_, !hasLightChanged);
   const double scale = std::max(now.reduction().x, now.reduction().y);
   feature.errorPx =
@@ -259,18 +259,18 @@ bool LucasKanadeTracker::needsKey(const Spread& have) const {
   };
   if (isBelow(have.features, kVeryFew, keySpread_.features)) return true;
   if (framesSinceKey_ < kKeyFrames) return false;
-  const auto worn = static_cast<std::size_t>(
-      std::ranges::count_if(features_, [](const Feature& f) { return f.isFound && f.isWorn; }));
+  const auto stale = static_cast<std::size_t>(
+      std::ranges::count_if(features_, [](const Feature& f) { return f.isFound && f.isStale; }));
   return isBelow(have.features, kFew, keySpread_.features) ||
          isBelow(have.fields, kFewFields, keySpread_.fields) ||
-         !isBelow(worn, kManyWorn, have.features + 1);
+         !isBelow(stale, kManyStale, have.features + 1);
 }
 
 void LucasKanadeTracker::takeOver(Feature& feature, std::size_t key, const LumaPyramid& now) {
   feature.key = key;
   feature.origin = feature.at;
   feature.patch = patchAt(now, feature.at);
-  feature.isWorn = false;
+  feature.isStale = false;
 }
 
 /// A place for a new key frame: a free one, or that of the key frame with the fewest features,
@@ -278,12 +278,12 @@ void LucasKanadeTracker::takeOver(Feature& feature, std::size_t key, const LumaP
 std::size_t LucasKanadeTracker::freeKey(const LumaPyramid& now) {
   std::array<std::size_t, kKeys> counts{};
   for (const Feature& feature : features_) {
-    if (!(feature.isFound && feature.isWorn)) ++counts[feature.key];
+    if (!(feature.isFound && feature.isStale)) ++counts[feature.key];
   }
   const auto key = static_cast<std::size_t>(std::ranges::min_element(counts) - counts.begin());
   std::erase_if(features_, [&](const Feature& f) { return f.key == key && !f.isFound; });
   for (Feature& feature : features_) {
-    if (feature.key == key || (feature.isFound && feature.isWorn)) takeOver(feature, key, now);
+    if (feature.key == key || (feature.isFound && feature.isStale)) takeOver(feature, key, now);
   }
   return key;
 }
@@ -356,7 +356,7 @@ void LucasKanadeTracker::publish(const LumaPyramid& now) {
                      .px = now.framePx(feature.at),
                      .errorPx = feature.errorPx,
                      .wasSeen = feature.wasFound,
-                     .thenPx = now.framePx(feature.then)});
+                     .previousPx = now.framePx(feature.then)});
   }
 }
 

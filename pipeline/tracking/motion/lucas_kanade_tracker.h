@@ -10,7 +10,7 @@
 
 #include "pipeline/tracking/image/corners.h"
 #include "pipeline/tracking/image/homography.h"
-#include "pipeline/tracking/image/luma.h"
+#include "pipeline/tracking/image/luma_pyramid.h"
 #include "pipeline/tracking/image/search_patch.h"
 #include "pipeline/tracking/motion/feature_tracker.h"
 #include "pipeline/tracking/motion/motion_outliers.h"
@@ -43,7 +43,7 @@ class LucasKanadeTracker : public FeatureTracker {
     double difference = 0.0;  // of the looks, RMS levels
     bool isFound = false;
     bool wasFound = false;
-    bool isWorn = false;  // looks different from the key frame
+    bool isStale = false;  // looks different from the key frame
     int missingFrames = 0;
   };
   /// How many features are found, and how many fields of the picture have one.

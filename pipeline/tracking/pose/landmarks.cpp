@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
 
-#include "pipeline/tracking/pose/small_motion.h"
+#include "pipeline/tracking/pose/twist.h"
 
 namespace pleinair::tracking {
 namespace {
@@ -30,10 +30,6 @@ constexpr double kLeastAgreePx = 1.0;
 constexpr int kMostContradictions = 5;
 /// Errors of one feature in neighbouring frames are alike: each counts as less than one.
 constexpr double kLearnNoise = 4.0;
-
-glm::dvec3 transform(const glm::dmat4& pose, const glm::dvec3& point) {
-  return glm::dvec3(pose * glm::dvec4(point, 1.0));
-}
 
 /// Shrinks errors along `byDepth` (px for one sigma of depth) to their share in all the noise.
 glm::dmat2 whiteningOf(const glm::dvec2& byDepth, double noisePx) {

@@ -10,8 +10,8 @@
 #include <glm/vec3.hpp>
 
 #include "pipeline/tracking/camera/camera_model.h"
-#include "pipeline/tracking/pose/feature_tracks.h"
 #include "pipeline/tracking/pose/pose_refinement.h"
+#include "pipeline/tracking/pose/surface_corners.h"
 
 namespace pleinair::tracking {
 

@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <opencv2/core.hpp>
 
+#include "pipeline/tracking/pose/covariance_matrix.h"
+
 namespace pleinair::tracking {
 namespace {
 
@@ -18,16 +20,6 @@ constexpr double kTurnShare = 0.005;
 /// What of a measurement's covariance adds up from frame to frame.
 constexpr double kKept = 0.01;
 
-Matrix6 matrixOf(const PoseCovariance& covariance) {
-  return Matrix6(covariance.data());
-}
-
-PoseCovariance arrayOf(const Matrix6& matrix) {
-  PoseCovariance out{};
-  std::copy(std::begin(matrix.val), std::end(matrix.val), out.begin());
-  return out;
-}
-
 }  // namespace
 
 void PoseFilter::start(const PoseEstimate& seen) {
@@ -37,7 +29,7 @@ void PoseFilter::start(const PoseEstimate& seen) {
 }
 
 void PoseFilter::predict(const glm::dmat4& moved, const PoseCovariance& ofMeasurement) {
-  const SmallMotion motion = motionBetween(pose_, moved);
+  const Twist motion = motionBetween(pose_, moved);
   const glm::dmat3 turn = glm::dmat3(moved) * glm::transpose(glm::dmat3(pose_));
   kept_ = turned(kept_, turn) +
           isotropic(kTurnShare * glm::length(motion.rotation),
@@ -54,7 +46,7 @@ void PoseFilter::correct(const PoseEstimate& seen, double doubt) {
       (predicted + matrixOf(seen.covariance)).inv(cv::DECOMP_CHOLESKY, &isRegular);
   if (!isRegular) return start(seen);
   const Matrix6 gain = predicted * inverse;
-  const SmallMotion error = motionBetween(pose_, seen.cameraFromTarget);
+  const Twist error = motionBetween(pose_, seen.cameraFromTarget);
   const Vector6 innovation(error.rotation.x, error.rotation.y, error.rotation.z, error.shift.x,
                            error.shift.y, error.shift.z);
   const Vector6 step = gain * innovation;

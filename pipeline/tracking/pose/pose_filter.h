@@ -3,7 +3,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "pipeline/tracking/pose/pose_refinement.h"
-#include "pipeline/tracking/pose/small_motion.h"
+#include "pipeline/tracking/pose/twist.h"
 
 namespace pleinair::tracking {
 

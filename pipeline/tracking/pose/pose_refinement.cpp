@@ -7,10 +7,11 @@
 #include <glm/mat3x3.hpp>
 #include <opencv2/core.hpp>
 
+#include "pipeline/tracking/pose/covariance_matrix.h"
+
 namespace pleinair::tracking {
 namespace {
 
-using Matrix6 = cv::Matx<double, 6, 6>;
 using Vector6 = cv::Vec<double, 6>;
 
 constexpr double kNearestMetres = 1e-4;
@@ -27,10 +28,6 @@ struct NormalEquations {
 
 double huberCost(double distance, double huberPx) {
   return distance <= huberPx ? distance * distance : huberPx * (2.0 * distance - huberPx);
-}
-
-glm::dvec3 transform(const glm::dmat4& pose, const glm::dvec3& point) {
-  return glm::dvec3(pose * glm::dvec4(point, 1.0));
 }
 
 double robustCost(const CameraModel& camera, std::span<const Correspondence> points,

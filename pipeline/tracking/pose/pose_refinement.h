@@ -50,6 +50,11 @@ std::optional<PoseEstimate> refinePose(const CameraModel& camera,
 double squaredErrorPx(const CameraModel& camera, std::span<const Correspondence> points,
                       const glm::dmat4& cameraFromTarget);
 
+/// A point of the target in the camera's axes.
+inline glm::dvec3 transform(const glm::dmat4& cameraFromTarget, const glm::dvec3& target) {
+  return glm::dvec3(cameraFromTarget * glm::dvec4(target, 1.0));
+}
+
 /// The angle between two poses' rotations.
 double rotationBetweenRad(const glm::dmat4& a, const glm::dmat4& b);
 

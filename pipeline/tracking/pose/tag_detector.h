@@ -89,7 +89,7 @@ void selectDetections(std::vector<TagDetection>& candidates, const TagDetectorOp
 /// detector and its family, which threads must not share; one thread at a time.
 class TagDetector {
  public:
-  /// Throws StartupError for an unknown family. Precondition: options in their ranges.
+  /// Throws Failure for an unknown family. Precondition: options in their ranges.
   explicit TagDetector(TagDetectorOptions options = {});
   ~TagDetector();
   TagDetector(TagDetector&&) noexcept;

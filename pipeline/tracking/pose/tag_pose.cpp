@@ -93,16 +93,16 @@ PoseCandidates tagPoseCandidates(const CameraModel& camera, const TagCornersPx& 
 std::optional<TagPose> chooseTagPose(const PoseCandidates& candidates,
                                      const std::optional<PosePrior>& prior) {
   if (candidates.empty()) return std::nullopt;
-  FixedVector<TwinCandidate, 2> twins;
+  FixedVector<PoseCandidate, 2> alternatives;
   for (const PoseEstimate& pose : candidates) {
-    twins.add({.cameraFromTarget = pose.cameraFromTarget,
-               .squaredErrorPx = 4.0 * pose.rmsPx * pose.rmsPx});
+    alternatives.add({.cameraFromTarget = pose.cameraFromTarget,
+                      .squaredErrorPx = 4.0 * pose.rmsPx * pose.rmsPx});
   }
-  const TwinDecision decision = chooseTwin(twins, 2.0, prior);
+  const AmbiguityDecision decision = resolveAmbiguity(alternatives, 2.0, prior);
   TagPose pose{.estimate = candidates[decision.index],
                .choice = decision.choice,
-               .twinEvidence = decision.evidence};
-  if (candidates.size() > 1) pose.twin = candidates[1 - decision.index];
+               .ambiguityEvidence = decision.evidence};
+  if (candidates.size() > 1) pose.alternative = candidates[1 - decision.index];
   return pose;
 }
 

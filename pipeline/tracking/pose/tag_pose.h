@@ -7,9 +7,9 @@
 #include <span>
 
 #include "pipeline/tracking/camera/camera_model.h"
+#include "pipeline/tracking/pose/pose_ambiguity.h"
 #include "pipeline/tracking/pose/pose_refinement.h"
 #include "pipeline/tracking/pose/tag.h"
-#include "pipeline/tracking/pose/twin_choice.h"
 
 namespace pleinair::tracking {
 
@@ -42,15 +42,15 @@ class FixedVector {
 /// The pose of one tag: cameraFromTarget is cameraFromTag, in the frame of tagCorners().
 struct TagPose {
   PoseEstimate estimate;
-  std::optional<PoseEstimate> twin;  ///< the one that was rejected
-  TwinChoice choice = TwinChoice::kOnly;
-  double twinEvidence = kLoneEvidence;  ///< for this one against its twin
+  std::optional<PoseEstimate> alternative;  ///< the one that was rejected
+  AmbiguityResolution choice = AmbiguityResolution::kOnly;
+  double ambiguityEvidence = kLoneEvidence;  ///< for this one against its alternative
 };
 
 /// A tag's corners in its own frame and in the picture.
 std::array<Correspondence, 4> tagCorrespondences(const TagCornersPx& corners, double edgeMetres);
 
-/// A square's pose and its twin.
+/// A square's pose and its alternative.
 using PoseCandidates = FixedVector<PoseEstimate, 2>;
 
 /// The one or two poses that explain a tag's corners, the better fit first; none where the corners
@@ -59,8 +59,8 @@ using PoseCandidates = FixedVector<PoseEstimate, 2>;
 PoseCandidates tagPoseCandidates(const CameraModel& camera, const TagCornersPx& corners,
                                  double edgeMetres);
 
-/// One of tagPoseCandidates(), the wrong twin rejected; nothing of none. `prior`: the cameraFromTag
-/// that other tags of the world or the previous frame suggest.
+/// One of tagPoseCandidates(), the wrong alternative rejected; nothing of none. `prior`: the
+/// cameraFromTag that other tags of the world or the previous frame suggest.
 std::optional<TagPose> chooseTagPose(const PoseCandidates& candidates,
                                      const std::optional<PosePrior>& prior);
 

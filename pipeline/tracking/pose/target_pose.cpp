@@ -138,8 +138,8 @@ void TargetPose::see(const CameraModel& camera, std::span<const FeatureTrack> tr
     const double jump = rmsDistancePx(camera, filter_.cameraFromTarget(),
                                       drawnBefore->cameraFromTarget, modelPoints);
     const bool isCut = !(jump < kLargestBlend * longSidePx(camera));
-    offset_ = isCut ? SmallMotion{}
-                    : motionBetween(filter_.cameraFromTarget(), drawnBefore->cameraFromTarget);
+    offset_ =
+        isCut ? Twist{} : motionBetween(filter_.cameraFromTarget(), drawnBefore->cameraFromTarget);
     blendFrom_ = now;
   }
 }
@@ -204,7 +204,7 @@ double TargetPose::partOfBlend(hal::TimePoint now) const {
 std::optional<PoseEstimate> TargetPose::drawn(hal::TimePoint now) const {
   std::optional<PoseEstimate> out = predicted();
   if (!out) return out;
-  const SmallMotion offset = partOfBlend(now) * offset_;
+  const Twist offset = partOfBlend(now) * offset_;
   out->cameraFromTarget = movedBy(out->cameraFromTarget, offset);
   out->covariance = out->covariance + shared_ +
                     isotropic(glm::length(offset.rotation), glm::length(offset.shift));

@@ -8,10 +8,10 @@
 
 #include "hal/clock.h"
 #include "pipeline/tracking/camera/camera_model.h"
-#include "pipeline/tracking/pose/feature_tracks.h"
 #include "pipeline/tracking/pose/landmarks.h"
 #include "pipeline/tracking/pose/pose_filter.h"
 #include "pipeline/tracking/pose/pose_refinement.h"
+#include "pipeline/tracking/pose/surface_corners.h"
 
 namespace pleinair::tracking {
 
@@ -84,9 +84,9 @@ class TargetPose {
   hal::TimePoint last_;
   glm::dmat4 lastDrawn_{1.0};
   glm::dmat4 before_{1.0};  ///< the pose of the last frame
-  SmallMotion velocity_;    ///< a second
-  SmallMotion bias_;        ///< mean of what sightings lately differed from the predicted by
-  SmallMotion offset_;      ///< from the filtered pose to the drawn one, when blending began
+  Twist velocity_;          ///< a second
+  Twist bias_;              ///< mean of what sightings lately differed from the predicted by
+  Twist offset_;            ///< from the filtered pose to the drawn one, when blending began
   hal::TimePoint blendFrom_;
   PoseSource source_ = PoseSource::kSeen;
   PoseCovariance shared_{};  ///< of what all sightings from here are wrong by alike

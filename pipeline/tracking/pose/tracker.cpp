@@ -9,7 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "pipeline/tracking/pose/small_motion.h"
+#include "pipeline/tracking/pose/twist.h"
 
 namespace pleinair::tracking {
 
@@ -277,7 +277,7 @@ void Tracker::solveWorld(hal::TimePoint now) {
   const std::optional<WorldPose> pose = worldSolver_.solve(*camera_, worldTags_, prior(world_));
   if (!pose) return world_.pose.miss(now);
   world_.pose.see(*camera_, features_.tracks(), pose->estimate, worldModel_, now);
-  world_.twinEvidence = pose->twinEvidence;
+  world_.ambiguityEvidence = pose->ambiguityEvidence;
   for (std::size_t i = 0; i < worldTagSighting_.size(); ++i) {
     Sighting& sighting = sightings_[worldTagSighting_[i]];
     sighting.agrees = pose->agrees[i] != 0;
@@ -295,10 +295,10 @@ void Tracker::solveTag(const Sighting& sighting, hal::TimePoint now) {
   } else {
     const std::optional<TagPose> pose = chooseTagPose(sighting.candidates, prior(target));
     target.pose.see(*camera_, features_.tracks(), pose->estimate, models_[sighting.marker], now);
-    target.twinEvidence = pose->twinEvidence;
+    target.ambiguityEvidence = pose->ambiguityEvidence;
     tag.choice = pose->choice;
   }
-  if (tag.choice == TwinChoice::kAmbiguous) ++counters_.ambiguousTags;
+  if (tag.choice == AmbiguityResolution::kAmbiguous) ++counters_.ambiguousTags;
 }
 
 void Tracker::missTags(hal::TimePoint now) {
@@ -313,7 +313,7 @@ void Tracker::keepKeyFrame(hal::TimePoint now) {
   if (markers_.empty() || !(options_.poses.filters || options_.poses.carries)) return;
   bool isNew = world_.pose.needsLandmarks();
   for (const Target& target : targets_) isNew = isNew || target.pose.needsLandmarks();
-  if (!isNew && !(now - keyMade_ >= kKeyPeriod && features_.isKeyWorn())) return;
+  if (!isNew && !(now - keyMade_ >= kKeyPeriod && features_.isKeyStale())) return;
   keyMade_ = now;
   keyTags_.clear();
   for (const TrackedTag& tag : tags_) keyTags_.push_back(tag.corners);
@@ -379,7 +379,7 @@ void Tracker::publishCarried(std::size_t marker, hal::TimePoint now) {
                    .corners = *corners,
                    .cameraFromTag = pose->cameraFromTarget,
                    .covariance = pose->covariance,
-                   .choice = TwinChoice::kByPrior,
+                   .choice = AmbiguityResolution::kByPrior,
                    .source = PoseSource::kCarried});
 }
 
@@ -398,7 +398,7 @@ std::optional<PosePrior> Tracker::prior(const Target& target) {
   const std::optional<PoseEstimate> predicted = target.pose.predicted();
   if (!predicted) return std::nullopt;
   return PosePrior{.cameraFromTarget = predicted->cameraFromTarget,
-                   .evidence = target.twinEvidence};
+                   .evidence = target.ambiguityEvidence};
 }
 
 }  // namespace pleinair::tracking

@@ -14,12 +14,12 @@
 #include "hal/image.h"
 #include "pipeline/tracking/camera/camera_model.h"
 #include "pipeline/tracking/image/luma.h"
-#include "pipeline/tracking/pose/feature_tracks.h"
+#include "pipeline/tracking/pose/pose_ambiguity.h"
+#include "pipeline/tracking/pose/surface_corners.h"
 #include "pipeline/tracking/pose/tag.h"
 #include "pipeline/tracking/pose/tag_detector.h"
 #include "pipeline/tracking/pose/tag_pose.h"
 #include "pipeline/tracking/pose/target_pose.h"
-#include "pipeline/tracking/pose/twin_choice.h"
 #include "pipeline/tracking/pose/world_pose.h"
 
 namespace pleinair::tracking {
@@ -27,11 +27,12 @@ namespace pleinair::tracking {
 /// What was not used, by reason: of a frame, or sums over a Tracker's life.
 struct TrackingCounters {
   DetectionCounters detection;
-  std::uint32_t unknownTags = 0;        ///< ids that are not in the scene
-  std::uint32_t mirroredTags = 0;       ///< tags of the scene that only the mirrored picture shows
-  std::uint32_t smallTags = 0;          ///< too few pixels for a pose
-  std::uint32_t degenerateTags = 0;     ///< corners that allow no pose
-  std::uint32_t ambiguousTags = 0;      ///< nothing told the pose from its twin: used all the same
+  std::uint32_t unknownTags = 0;     ///< ids that are not in the scene
+  std::uint32_t mirroredTags = 0;    ///< tags of the scene that only the mirrored picture shows
+  std::uint32_t smallTags = 0;       ///< too few pixels for a pose
+  std::uint32_t degenerateTags = 0;  ///< corners that allow no pose
+  std::uint32_t ambiguousTags =
+      0;  ///< nothing told the pose from its alternative: used all the same
   std::uint32_t contradictingTags = 0;  ///< not where the other tags put them: used by themselves
 };
 
@@ -51,8 +52,9 @@ struct TrackedTag {
   TagCornersPx corners{};
   /// Where the tag's size and the camera are known. That of the world where the tag agrees with it.
   std::optional<glm::dmat4> cameraFromTag;
-  PoseCovariance covariance{};            ///< of cameraFromTag
-  TwinChoice choice = TwinChoice::kOnly;  ///< how the pose's twin was rejected
+  PoseCovariance covariance{};  ///< of cameraFromTag
+  AmbiguityResolution choice =
+      AmbiguityResolution::kOnly;  ///< how the pose's alternative was rejected
   PoseSource source = PoseSource::kSeen;
 };
 
@@ -75,14 +77,14 @@ struct TrackerOptions {
   /// be. Zero: always.
   hal::Duration searchPeriod = std::chrono::milliseconds(150);
   /// The least edge of a tag in the picture whose pose is used: of smaller ones, every eighth pose
-  /// is its twin (docs/measured.md).
+  /// is its alternative (docs/measured.md).
   double leastEdgePx = 15.0;
 };
 
 /// Finds tags and poses, frame by frame, in buffers that it keeps. One thread at a time.
 class Tracker {
  public:
-  /// Without a camera it finds tags and no poses. Throws StartupError for an unknown family.
+  /// Without a camera it finds tags and no poses. Throws Failure for an unknown family.
   Tracker(std::optional<CameraModel> camera, std::vector<TagMarker> markers,
           TrackerOptions options = {});
 
@@ -99,7 +101,7 @@ class Tracker {
   /// What is known of a marker, or of the world, from frame to frame.
   struct Target {
     TargetPose pose;
-    double twinEvidence = kLoneEvidence;
+    double ambiguityEvidence = kLoneEvidence;
   };
   /// A tag whose size is known, with its possible poses.
   struct Sighting {
@@ -133,7 +135,7 @@ class Tracker {
   TrackerOptions options_;
   TagDetector detector_;
   LumaFrame own_;  // of frames that come as images
-  FeatureTracks features_;
+  SurfaceCorners features_;
   TrackingCounters counters_;
   WorldPoseSolver worldSolver_;
   Target world_;

@@ -111,8 +111,8 @@ WorldPoseSolver::Solution* WorldPoseSolver::refine(const CameraModel& camera,
   return hasNarrow ? &narrow_ : nullptr;
 }
 
-/// Takes a solution that explains more tags than the one there is, or is its twin: it explains as
-/// many by a pose turned otherwise.
+/// Takes a solution that explains more tags than the one there is, or is its alternative: it
+/// explains as many by a pose turned otherwise.
 void WorldPoseSolver::accept(Solution& solution) {
   if (solutionCount_ == 0 || solution.agreeing() > solutions_[0].agreeing()) {
     std::swap(solutions_[0], solution);
@@ -152,18 +152,18 @@ std::optional<WorldPose> WorldPoseSolver::solve(const CameraModel& camera,
 
   // Errors over different tags do not say which solution is right: such two stay ambiguous.
   const Solution& first = solutions_.front();
-  FixedVector<TwinCandidate, 2> twins;
+  FixedVector<PoseCandidate, 2> alternatives;
   for (const Solution& each : solutions()) {
     const bool isComparable = each.agrees == first.agrees;
-    twins.add({.cameraFromTarget = each.estimate.cameraFromTarget,
-               .squaredErrorPx = isComparable ? each.squaredErrorPx : first.squaredErrorPx});
+    alternatives.add({.cameraFromTarget = each.estimate.cameraFromTarget,
+                      .squaredErrorPx = isComparable ? each.squaredErrorPx : first.squaredErrorPx});
   }
-  const TwinDecision decision =
-      chooseTwin(twins, 8.0 * static_cast<double>(first.agreeing()) - 6.0, prior);
+  const AmbiguityDecision decision =
+      resolveAmbiguity(alternatives, 8.0 * static_cast<double>(first.agreeing()) - 6.0, prior);
   const Solution& chosen = solutions_[decision.index];
   return WorldPose{.estimate = chosen.estimate,
                    .choice = decision.choice,
-                   .twinEvidence = decision.evidence,
+                   .ambiguityEvidence = decision.evidence,
                    .agrees = chosen.agrees};
 }
 

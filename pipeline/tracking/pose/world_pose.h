@@ -9,10 +9,10 @@
 #include <glm/mat4x4.hpp>
 
 #include "pipeline/tracking/camera/camera_model.h"
+#include "pipeline/tracking/pose/pose_ambiguity.h"
 #include "pipeline/tracking/pose/pose_refinement.h"
 #include "pipeline/tracking/pose/tag.h"
 #include "pipeline/tracking/pose/tag_pose.h"
-#include "pipeline/tracking/pose/twin_choice.h"
 
 namespace pleinair::tracking {
 
@@ -26,16 +26,16 @@ struct WorldTag {
 
 struct WorldPose {
   PoseEstimate estimate;  ///< cameraFromTarget is cameraFromWorld
-  TwinChoice choice = TwinChoice::kOnly;
-  double twinEvidence = kLoneEvidence;  ///< for this one against its twin
+  AmbiguityResolution choice = AmbiguityResolution::kOnly;
+  double ambiguityEvidence = kLoneEvidence;  ///< for this one against its alternative
   /// For each tag 1 where it was used, 0 where it contradicts those; valid until the next solve().
   std::span<const std::uint8_t> agrees;
 };
 
-/// The camera's pose from all tags together. Each tag's poses, twins included, are hypotheses; the
-/// two that explain all tags best are refined over all their corners, tags that contradict are left
-/// out, and the wrong one of the two is rejected as for a single tag. Keeps its buffers from frame
-/// to frame, and nothing else; one thread at a time.
+/// The camera's pose from all tags together. Each tag's poses, alternatives included, are
+/// hypotheses; the two that explain all tags best are refined over all their corners, tags that
+/// contradict are left out, and the wrong one of the two is rejected as for a single tag. Keeps its
+/// buffers from frame to frame, and nothing else; one thread at a time.
 class WorldPoseSolver {
  public:
   /// Nothing where no tag has a pose.
@@ -74,7 +74,7 @@ class WorldPoseSolver {
   Agreement nextAgrees_;
   Solution wide_;
   Solution narrow_;
-  std::array<Solution, 2> solutions_;  // the one that explains most tags, and its twin
+  std::array<Solution, 2> solutions_;  // the one that explains most tags, and its alternative
   std::size_t solutionCount_ = 0;
 };
 

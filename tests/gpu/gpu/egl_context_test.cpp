@@ -34,7 +34,7 @@ TEST(InspectCurrentContext, RefusesAThreadWithoutAContext) {
   try {
     inspectCurrentContext("host");
     FAIL();
-  } catch (const hal::StartupError& error) {
+  } catch (const hal::Failure& error) {
     EXPECT_EQ(error.error().kind, hal::ErrorKind::kUnsupported);
     EXPECT_STREQ(error.what(),
                  "GPU: no context is current on this thread; make a context of OpenGL ES 3.1 or "

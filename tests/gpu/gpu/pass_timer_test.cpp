@@ -52,7 +52,7 @@ TEST_F(PassTimerTest, ReadsQueriesLaterWithoutWaiting) {
   }
   ASSERT_EQ(timer.times().size(), 1U);
   EXPECT_GE(timer.times()[0].count, 1);
-  EXPECT_LT(timer.times()[0].count, 10);  // the last is still under way
+  EXPECT_LT(timer.times()[0].count, 10);  // the last is still in flight
 }
 
 using PassTimerDeathTest = PassTimerTest;

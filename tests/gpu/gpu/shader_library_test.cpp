@@ -52,7 +52,7 @@ ShaderLibrary library(const std::filesystem::path& overrideDirectory = {}) {
 std::string errorOf(const std::function<void()>& action) {
   try {
     action();
-  } catch (const hal::StartupError& error) {
+  } catch (const hal::Failure& error) {
     return error.what();
   }
   return "no error";
@@ -133,7 +133,7 @@ TEST(ShaderOverride, IsRefusedWhereItsDirectoryIsNotThere) {
     try {
       const ShaderLibrary refused(folder.path() / name);
       ADD_FAILURE() << name;
-    } catch (const hal::StartupError& error) {
+    } catch (const hal::Failure& error) {
       EXPECT_EQ(error.error().kind, hal::ErrorKind::kNotFound);
       EXPECT_EQ(error.error().subject, (folder.path() / name).string());
     }

@@ -126,7 +126,7 @@ TEST_F(WrapperTest, MemoryThatTheGpuLacksIsTheWorldsFailure) {
   try {
     const Texture huge(TextureFormat::kRgba32f, {kSide, kSide});
     FAIL() << "got it";
-  } catch (const hal::StartupError& error) {
+  } catch (const hal::Failure& error) {
     EXPECT_EQ(error.error().kind, hal::ErrorKind::kUnsupported);
     EXPECT_EQ(error.error().domain, hal::ErrorDomain::kGl);
     EXPECT_THAT(error.what(),

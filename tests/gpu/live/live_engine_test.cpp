@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "firmware_app/live/live_painter.h"
-#include "pipeline/runtime/live_chain.h"
+#include "pipeline/runtime/live_pipeline.h"
 #include "pipeline/styles/style_registry.h"
 #include "tests/support/live_simulation.h"
 #include "tests/support/process_resources.h"
@@ -14,7 +14,7 @@ namespace pleinair::app {
 namespace {
 
 using namespace std::chrono_literals;
-using runtime::Fate;
+using runtime::Outcome;
 using support::ProcessResources;
 
 constexpr hal::FrameSize kSize{160, 120};
@@ -54,10 +54,10 @@ class LiveEngine {
     chain_.capture().open();
   }
 
-  runtime::LiveChain& chain() { return chain_; }
+  runtime::LivePipeline& chain() { return chain_; }
   LiveControls& controls() { return controls_; }
 
-  /// One frame's time: what is under way is finished before the clock goes on.
+  /// One frame's time: what is in flight is finished before the clock goes on.
   void step() {
     while (chain_.paint().step() || chain_.paint().isBusy()) {
     }
@@ -76,7 +76,7 @@ class LiveEngine {
   hal::CameraSelector selector_;
   hal::CameraSupervisor supervisor_;
   LiveControls controls_;
-  runtime::LiveChain chain_{supervisor_, clock_};
+  runtime::LivePipeline chain_{supervisor_, clock_};
 };
 
 TEST(LiveEngineTest, PaintsFiveThousandFramesInTheSameMemory) {
@@ -89,7 +89,7 @@ TEST(LiveEngineTest, PaintsFiveThousandFramesInTheSameMemory) {
   live.drain();
   const runtime::LedgerCounts counts = live.chain().ledger().counts();
   EXPECT_EQ(counts.captured, kFrames);
-  EXPECT_EQ(counts.of(Fate::kShown), kFrames);
+  EXPECT_EQ(counts.of(Outcome::kShown), kFrames);
   EXPECT_LE(ProcessResources::now().residentKiB, resident + 4 * 1024) << "KiB";
   // The driver holds more or less at any moment; what grew by 500 bytes a frame would be seen.
   EXPECT_LE(ProcessResources::allocatedBytes(), allocated + 2'000'000);
@@ -97,14 +97,14 @@ TEST(LiveEngineTest, PaintsFiveThousandFramesInTheSameMemory) {
 
 TEST(LiveEngineTest, GoesOnWithANewContextWhenTheGpuIsLost) {
   int asked = 0;
-  LiveEngine live(200, {.pictureSize = kSize, .seam = {.resetStatus = [&asked] {
+  LiveEngine live(200, {.pictureSize = kSize, .testHook = {.resetStatus = [&asked] {
                                                 return ++asked == 60 ? kGuiltyContextReset : 0u;
                                               }}});
   live.drain();
   const runtime::RuntimeStatus status = live.chain().status();
   EXPECT_EQ(status.painting.contextLosses, 1u);
-  EXPECT_GE(status.ledger.of(Fate::kContextLost), 1u);
-  EXPECT_GT(status.ledger.of(Fate::kShown), 190u);
+  EXPECT_GE(status.ledger.of(Outcome::kContextLost), 1u);
+  EXPECT_GT(status.ledger.of(Outcome::kShown), 190u);
   EXPECT_TRUE(status.ledger.addsUp());
   EXPECT_GT(asked, 150) << "the new context is asked as well";
 }
@@ -115,9 +115,9 @@ TEST(LiveEngineTest, GivesTheFinishedPictureAsAStillUnderAnyView) {
   parameters.view = "cells";
   live.controls().setParameters(parameters);
   live.step();
-  live.controls().askForStill();
+  live.controls().requestSnapshot();
   live.drain();
-  const auto still = live.controls().takeStill();
+  const auto still = live.controls().takeSnapshot();
   ASSERT_TRUE(still);
   ASSERT_TRUE(*still);
   EXPECT_EQ((*still)->size(), kSize);

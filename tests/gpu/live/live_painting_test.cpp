@@ -76,8 +76,8 @@ class LivePaintingTest : public testing::Test {
                .outputOptions = {},
                .runtime = {},
                .scene = {},
-               .stills = folder_.path()});
-    } catch (const hal::StartupError& error) {
+               .snapshots = folder_.path()});
+    } catch (const hal::Failure& error) {
       return error.error().message();
     }
     return "";

@@ -120,9 +120,9 @@ TEST_F(AnchorLife, LevelsOfQualityChangeNothingOfPlaces) {
   motion_.sinceSequence = sequence_;
   scene::ArFrame frame =
       renderer_->compose(half, halfCamera, boxAt(160.0), ++sequence_, time_ += kStep, timer_,
-                         {.surfaces = true, .pictureMovement = true});
+                         {.surfaces = true, .measuredMotion = true});
   frame.fullSize = kSize;
-  frame.pictureMovement = scene::PictureMovement{.motion = &motion_};
+  frame.measuredMotion = scene::MeasuredMotion{.motion = &motion_};
   field_->update(frame, timer_);
   set_->advance(frame, *field_, timer_);
   const std::vector<Anchor> after = set_->read();

@@ -36,7 +36,7 @@ TEST_F(AnchorLife, AStillSceneHasNoBirthsAndNoDeathsAndNothingMoves) {
   }
 }
 
-TEST_F(AnchorLife, APanBearsOnlyWhatComesIntoThePicture) {
+TEST_F(AnchorLife, APanSpawnsOnlyWhatComesIntoThePicture) {
   FadeWatch fades(kIn, kOut);
   next({});
   next(panning(-1.3, 0.4));
@@ -72,7 +72,7 @@ TEST_F(AnchorLife, APanDoesNotRunOutOfSlots) {
   }
 }
 
-TEST_F(AnchorLife, ZoomingInBearsWhereItGetsSparse) {
+TEST_F(AnchorLife, ZoomingInSpawnsWhereItGetsSparse) {
   FadeWatch fades(kIn, kOut);
   next({});
   int born = 0;

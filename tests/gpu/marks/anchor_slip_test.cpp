@@ -21,7 +21,7 @@ using tracking::FeatureMotion;
 using tracking::ImageMotion;
 
 constexpr int kFrames = 60;
-constexpr double kMostSlipPx = 0.05;
+constexpr double kMostDriftPx = 0.05;
 
 glm::dmat3 translation(double x, double y) {
   return {1, 0, 0, 0, 1, 0, x, y, 1};
@@ -91,7 +91,7 @@ constexpr int kNodePixels = 8;
 
 Telling tell(MotionSource source, const glm::dmat3& nowFromThen, hal::FrameSize size) {
   Telling told;
-  const glm::dmat3 thenFromNow = glm::inverse(nowFromThen);
+  const glm::dmat3 previousFromCurrent = glm::inverse(nowFromThen);
   if (source == MotionSource::kPicture) {
     told.motion.picture = {.nowFromThen = nowFromThen, .errorPx = 0.01};
   } else if (source == MotionSource::kFeatures) {
@@ -112,7 +112,7 @@ Telling tell(MotionSource source, const glm::dmat3& nowFromThen, hal::FrameSize 
       for (int x = 0; x < nodes.width; ++x) {
         const glm::dvec2 here = glm::dvec2(x + 0.5, y + 0.5) * double{kNodePixels};
         told.forward.emplace_back(glm::vec2(moved(nowFromThen, here) - here), 0.01F, 0.0F);
-        told.backward.emplace_back(glm::vec2(here - moved(thenFromNow, here)), 0.01F, 0.0F);
+        told.backward.emplace_back(glm::vec2(here - moved(previousFromCurrent, here)), 0.01F, 0.0F);
       }
     }
     told.motion.flow = {.nodes = nodes,
@@ -135,9 +135,9 @@ std::ptrdiff_t movedByOthers(const std::vector<Anchor>& anchors, MotionSource so
   });
 }
 
-class AnchorSlip : public MarksTest, public testing::WithParamInterface<Case> {};
+class AnchorDrift : public MarksTest, public testing::WithParamInterface<Case> {};
 
-TEST_P(AnchorSlip, StaysBelowATwentiethOfAPixel) {
+TEST_P(AnchorDrift, StaysBelowATwentiethOfAPixel) {
   scene::ArFrameRenderer renderer(library_, {});
   MotionField field(library_, kSize);
   AnchorSet set(library_, kSize, {});
@@ -154,7 +154,7 @@ TEST_P(AnchorSlip, StaysBelowATwentiethOfAPixel) {
   RecordProperty("worst_px", std::to_string(slips.worst()));
   RecordProperty("rms_px", std::to_string(slips.rms()));
   EXPECT_EQ(slips.longest(), kFrames);
-  EXPECT_LT(slips.worst(), kMostSlipPx);
+  EXPECT_LT(slips.worst(), kMostDriftPx);
 }
 
 std::vector<Case> cases() {
@@ -174,7 +174,7 @@ std::vector<Case> cases() {
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(Motions, AnchorSlip, testing::ValuesIn(cases()),
+INSTANTIATE_TEST_SUITE_P(Motions, AnchorDrift, testing::ValuesIn(cases()),
                          [](const auto& each) { return each.param.name; });
 
 /// A camera that goes around over a desk whose pose is known.
@@ -209,7 +209,7 @@ TEST_F(MarksTest, AnchorsOnAPlaneStayWithItsTruePose) {
   RecordProperty("worst_px", std::to_string(slips.worst()));
   RecordProperty("rms_px", std::to_string(slips.rms()));
   EXPECT_GT(slips.longest(), kFrames / 2);
-  EXPECT_LT(slips.worst(), kMostSlipPx);
+  EXPECT_LT(slips.worst(), kMostDriftPx);
 }
 
 }  // namespace

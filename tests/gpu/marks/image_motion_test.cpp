@@ -82,7 +82,7 @@ TEST_F(ImageMotionTest, NothingMovesWhereThePictureIsStill) {
   constexpr hal::FrameSize kFields{20, 15};
   std::vector<float> still(300, 0.02F);
   for (std::size_t i = 0; i < still.size(); ++i) {
-    if (i % 20 >= 10) still[i] = tracking::StillFields::kNotStill;
+    if (i % 20 >= 10) still[i] = tracking::StaticRegions::kNotStatic;
   }
   const std::vector<glm::vec4> flow(1200, glm::vec4(0.05F, -0.03F, 0.3F, 0.0F));
   update({.flow = {.nodes = {40, 30}, .stepPx = glm::vec2(8.0F), .forward = flow, .backward = flow},
@@ -158,8 +158,8 @@ TEST_F(ImageMotionTest, MotionOfASmallerFrameIsInPxOfTheFullPicture) {
   const auto updateScaled = [&](const ImageMotion& motion) {
     scene::ArFrame frame = compose(*renderer_, {}, motion);
     motion_.frameSize = {160, 140};
-    frame.pictureMovement =
-        scene::PictureMovement{.motion = &motion_, .frameScale = scale, .frameOrigin = origin};
+    frame.measuredMotion =
+        scene::MeasuredMotion{.motion = &motion_, .frameScale = scale, .frameOrigin = origin};
     field_->update(frame, timer_);
   };
   updateScaled({.features = features});

@@ -51,8 +51,8 @@ class MarksTest : public scene::SceneGlTest {
     ++sequence_;
     time_ += kStep;
     scene::ArFrame frame = renderer.compose(picture_, camera(), poses, sequence_, time_, timer_,
-                                            {.surfaces = true, .pictureMovement = true});
-    frame.pictureMovement = scene::PictureMovement{.motion = &motion_};
+                                            {.surfaces = true, .measuredMotion = true});
+    frame.measuredMotion = scene::MeasuredMotion{.motion = &motion_};
     return frame;
   }
 

@@ -50,7 +50,7 @@ class ParallaxTest : public ImageMotionTest {
 
   /// Median of how far points, 30 px and more from where the planes meet, are from where they
   /// should be after kFrames frames.
-  double medianSlip(std::size_t features) {
+  double medianDrift(std::size_t features) {
     std::vector<glm::dvec2> at;
     while (at.size() < 200) {
       const glm::dvec2 px = anywhere(40.0);
@@ -73,8 +73,8 @@ class ParallaxTest : public ImageMotionTest {
 };
 
 TEST_F(ParallaxTest, WhatTheNeighboursDoOtherwiseMakesUpForTheHomography) {
-  EXPECT_NEAR(medianSlip(0), 1.5, 0.01) << "the homography alone, always to the same side";
-  EXPECT_LT(medianSlip(kMany), 0.4) << "0.65 by the homography and the triangles of features";
+  EXPECT_NEAR(medianDrift(0), 1.5, 0.01) << "the homography alone, always to the same side";
+  EXPECT_LT(medianDrift(kMany), 0.4) << "0.65 by the homography and the triangles of features";
 }
 
 TEST_F(ParallaxTest, PredictedErrorsKnowOfIt) {

@@ -65,7 +65,7 @@ class TensorTest : public support::GlTest {
     motion_ = motion;
     time_ += step;
     scene::ArFrame frame{.colour = &picture, .sequence = ++sequence_, .captureTime = time_};
-    frame.pictureMovement = scene::PictureMovement{.motion = &motion_};
+    frame.measuredMotion = scene::MeasuredMotion{.motion = &motion_};
     return frame;
   }
 

@@ -66,8 +66,8 @@ struct Show {
   Painter& painter;
   bool changesLevels = false;
   PaintParameters parameters = painter.defaultParameters();
-  const int reader = painter.openReader({hal::PixelFormat::kI420, kFrame});
-  ReadPicture picture;
+  const int reader = painter.openReadback({hal::PixelFormat::kI420, kFrame});
+  OutputFrame picture;
   std::size_t painted = 0;
   std::size_t mostTags = 0;
   bool everWorld = false;

@@ -120,7 +120,7 @@ TEST_F(HostContextTest, HandsTheHostItsTexture) {
   std::vector<std::uint8_t> rgba(static_cast<std::size_t>(kSize.pixels()) * 4);
   glReadPixels(0, 0, kSize.width, kSize.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  const auto rgb = bytesOf(hal::orThrow(painter.still()));
+  const auto rgb = bytesOf(hal::orThrow(painter.snapshot()));
   for (std::size_t i = 0; i < rgb.size(); ++i) ASSERT_EQ(rgba[i / 3 * 4 + i % 3], rgb[i]) << i;
 }
 
@@ -129,15 +129,15 @@ TEST_F(HostContextTest, LeavesTheHostsContextAsNew) {
   {
     Painter painter(kHosted);
     expectNothingBound();
-    const int reader = painter.openReader({hal::PixelFormat::kI420, kSize});
-    ReadPicture picture;
+    const int reader = painter.openReadback({hal::PixelFormat::kI420, kSize});
+    OutputFrame picture;
     for (int i = 0; i < 2; ++i) {
       ASSERT_TRUE(painter.paint(testFrame(i), painter.defaultParameters()));
       expectNothingBound();
       expectSwitchesOfANewContext();
     }
     ASSERT_TRUE(hal::orThrow(painter.take(reader, picture, true)));
-    hal::orThrow(painter.still());
+    hal::orThrow(painter.snapshot());
     expectNothingBound();
     expectSwitchesOfANewContext();
   }
@@ -156,7 +156,7 @@ TEST_F(HostContextTest, PaintsWhateverTheHostHasSet) {
     expectNothingBound();
     expectSwitchesOfANewContext();
     host.draw();
-    EXPECT_EQ(bytesOf(hal::orThrow(painter.still())), painted(own, testFrame(i))) << i;
+    EXPECT_EQ(bytesOf(hal::orThrow(painter.snapshot())), painted(own, testFrame(i))) << i;
   }
   const gpu::HostState tidy;
 }
@@ -165,7 +165,7 @@ TEST(PainterInAHostsContext, SaysWhereThereIsNone) {
   try {
     const Painter painter(kHosted);
     FAIL() << "made";
-  } catch (const hal::StartupError& error) {
+  } catch (const hal::Failure& error) {
     EXPECT_EQ(error.error().kind, hal::ErrorKind::kUnsupported);
     EXPECT_THAT(error.what(), testing::HasSubstr("no context is current"));
   }

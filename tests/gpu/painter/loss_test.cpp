@@ -19,7 +19,7 @@ struct BadDriver {
   int fencesAsked = 0;
   mutable hal::SteppedClock clock;
 
-  gpu::GpuSeam seam() {
+  gpu::GpuTestHook testHook() {
     return {.resetStatus = [this] { return status; },
             .waitForFence = [this](std::uint64_t timeoutNs) -> unsigned {
               ++fencesAsked;
@@ -44,21 +44,21 @@ void expectLost(const hal::Result<T>& result) {
 
 /// All calls of a Painter whose GPU is gone.
 void expectNothingComes(Painter& painter, int reader) {
-  ReadPicture picture;
+  OutputFrame picture;
   const PaintParameters parameters = painter.defaultParameters();
   for (int round = 0; round < 2; ++round) {
     expectLost(painter.paint(testFrame(7), parameters));
     expectLost(painter.take(reader, picture, false));
     expectLost(painter.take(reader, picture, true));
-    expectLost(painter.still());
-    expectLost(painter.cameraStill());
+    expectLost(painter.snapshot());
+    expectLost(painter.cameraSnapshot());
     painter.reset();
     EXPECT_EQ(painter.skipped(reader), 0U);
     EXPECT_FALSE(painter.views().empty());
     try {
-      painter.openReader({hal::PixelFormat::kRgb8, kSize});
+      painter.openReadback({hal::PixelFormat::kRgb8, kSize});
       ADD_FAILURE() << "opened";
-    } catch (const hal::StartupError& error) {
+    } catch (const hal::Failure& error) {
       EXPECT_EQ(error.error().kind, hal::ErrorKind::kDeviceLost);
     }
   }
@@ -71,8 +71,8 @@ TEST_F(PainterTest, AnswersALostGpuWithValuesForEver) {
        {GL_GUILTY_CONTEXT_RESET_KHR, GL_INNOCENT_CONTEXT_RESET_KHR, GL_UNKNOWN_CONTEXT_RESET_KHR}) {
     BadDriver driver;
     {
-      Painter painter({.pictureSize = kSize, .qualityLevels = true, .seam = driver.seam()});
-      const int reader = painter.openReader({hal::PixelFormat::kRgb8, kSize});
+      Painter painter({.pictureSize = kSize, .qualityLevels = true, .testHook = driver.testHook()});
+      const int reader = painter.openReadback({hal::PixelFormat::kRgb8, kSize});
       EXPECT_EQ(painted(painter, testFrame(0)), wanted);
       driver.status = why;
       const auto refused = painter.paint(testFrame(1), painter.defaultParameters());
@@ -89,11 +89,11 @@ TEST_F(PainterTest, AnswersALostGpuWithValuesForEver) {
 
 TEST_F(PainterTest, TakesAGpuThatDoesNotAnswerForLost) {
   BadDriver driver;
-  Painter painter({.pictureSize = kSize, .seam = driver.seam()});
-  const int reader = painter.openReader({hal::PixelFormat::kRgb8, kSize});
+  Painter painter({.pictureSize = kSize, .testHook = driver.testHook()});
+  const int reader = painter.openReadback({hal::PixelFormat::kRgb8, kSize});
   ASSERT_TRUE(painter.paint(testFrame(0), painter.defaultParameters()));
   driver.hangs = true;
-  ReadPicture picture;
+  OutputFrame picture;
   EXPECT_FALSE(hal::orThrow(painter.take(reader, picture, false))) << "it may only be late";
   const hal::TimePoint before = driver.clock.now();
   driver.fencesAsked = 0;
@@ -108,11 +108,11 @@ TEST_F(PainterTest, TakesAGpuThatDoesNotAnswerForLost) {
 
 TEST_F(PainterTest, NoticesALossWhileAStillIsWaitedFor) {
   BadDriver driver;
-  Painter painter({.pictureSize = kSize, .seam = driver.seam()});
-  const int reader = painter.openReader({hal::PixelFormat::kRgb8, kSize});
+  Painter painter({.pictureSize = kSize, .testHook = driver.testHook()});
+  const int reader = painter.openReadback({hal::PixelFormat::kRgb8, kSize});
   ASSERT_TRUE(painter.paint(testFrame(0), painter.defaultParameters()));
   driver.hangs = true;
-  expectLost(painter.still());
+  expectLost(painter.snapshot());
   driver.hangs = false;
   expectNothingComes(painter, reader);
 }
@@ -120,8 +120,8 @@ TEST_F(PainterTest, NoticesALossWhileAStillIsWaitedFor) {
 TEST_F(PainterTest, SaysAtStartWhereTheGpuIsLostByThen) {
   BadDriver driver;
   driver.hangs = true;
-  Painter painter({.pictureSize = kSize, .seam = driver.seam()});
-  EXPECT_THROW(painter.openReader({hal::PixelFormat::kRgb8, kSize}), hal::StartupError);
+  Painter painter({.pictureSize = kSize, .testHook = driver.testHook()});
+  EXPECT_THROW(painter.openReadback({hal::PixelFormat::kRgb8, kSize}), hal::Failure);
 }
 
 TEST_F(PainterTest, ItsContextTellsOfResetsWhereTheDriverCan) {
@@ -130,7 +130,7 @@ TEST_F(PainterTest, ItsContextTellsOfResetsWhereTheDriverCan) {
     GTEST_SKIP() << painter.contextInfo().renderer << " has no reset notification";
   }
   gpu::EglContext context;
-  EXPECT_TRUE(gpu::LossWatch().check()) << "a sound one";
+  EXPECT_TRUE(gpu::ResetMonitor().check()) << "a sound one";
 }
 
 class LostHostContextTest : public support::GlTest {};
@@ -139,8 +139,8 @@ class LostHostContextTest : public support::GlTest {};
 TEST_F(LostHostContextTest, IsLeftAsItIs) {
   BadDriver driver;
   auto lost = std::make_unique<Painter>(PainterOptions{
-      .pictureSize = kSize, .context = PainterContext::kHost, .seam = driver.seam()});
-  const int reader = lost->openReader({hal::PixelFormat::kRgb8, kSize});
+      .pictureSize = kSize, .context = PainterContext::kHost, .testHook = driver.testHook()});
+  const int reader = lost->openReadback({hal::PixelFormat::kRgb8, kSize});
   const auto picture = lost->paint(testFrame(0), lost->defaultParameters());
   ASSERT_TRUE(picture);
   const unsigned texture = picture->texture;

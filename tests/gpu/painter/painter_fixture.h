@@ -42,7 +42,7 @@ inline std::vector<std::uint8_t> painted(Painter& painter, const hal::CapturedFr
                                          const PaintParameters& parameters) {
   const auto picture = painter.paint(frame, parameters);
   EXPECT_TRUE(picture) << picture.error().message();
-  return bytesOf(hal::orThrow(painter.still()));
+  return bytesOf(hal::orThrow(painter.snapshot()));
 }
 
 inline std::vector<std::uint8_t> painted(Painter& painter, const hal::CapturedFrame& frame,
@@ -58,7 +58,7 @@ class PainterTest : public testing::Test {
   void SetUp() override {
     try {
       const gpu::EglContext context;
-    } catch (const hal::StartupError& error) {
+    } catch (const hal::Failure& error) {
       GTEST_SKIP() << "needs OpenGL ES 3.1: " << error.what();
     }
   }

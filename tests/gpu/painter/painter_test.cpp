@@ -33,7 +33,7 @@ std::vector<Bytes> paintedAlone(const PainterOptions& options) {
 std::string startupErrorOf(const PainterOptions& options) {
   try {
     const Painter painter(options);
-  } catch (const hal::StartupError& error) {
+  } catch (const hal::Failure& error) {
     EXPECT_EQ(error.error().kind, hal::ErrorKind::kInvalidArgument);
     return error.what();
   }
@@ -104,17 +104,17 @@ TEST_F(PainterTest, ReadsStillsOfThePaintingAndOfTheCamera) {
   Painter painter(kWide);
   const hal::CapturedFrame frame = testFrame(0);
   ASSERT_TRUE(painter.paint(frame, painter.defaultParameters()));
-  const hal::Image camera = hal::orThrow(painter.cameraStill());
+  const hal::Image camera = hal::orThrow(painter.cameraSnapshot());
   EXPECT_EQ(camera.format().pixelFormat, hal::PixelFormat::kRgb8);
   EXPECT_EQ(bytesOf(camera), bytesOf(hal::Image(frame.image)));
-  EXPECT_EQ(hal::orThrow(painter.still()).format(), camera.format());
-  EXPECT_NE(bytesOf(hal::orThrow(painter.still())), bytesOf(camera));
+  EXPECT_EQ(hal::orThrow(painter.snapshot()).format(), camera.format());
+  EXPECT_NE(bytesOf(hal::orThrow(painter.snapshot())), bytesOf(camera));
 }
 
 TEST_F(PainterTest, ShowsEveryViewAndGoesOnTheSame) {
   const auto pictures = paintedAlone(kWide);
   Painter plain(kWide);
-  for (const PainterView& view : plain.views()) {
+  for (const DebugView& view : plain.views()) {
     Painter painter(kWide);
     PaintParameters parameters = smallCells(painter);
     painted(painter, testFrame(0), parameters);
@@ -153,7 +153,7 @@ TEST_F(PainterTest, PaintsASinglePixel) {
         Painter painter({.pictureSize = picture, .style = style});
         painted(painter, testFrame(0, frame));
         painted(painter, testFrame(1, frame));
-        EXPECT_EQ(hal::orThrow(painter.still()).size(), picture) << style;
+        EXPECT_EQ(hal::orThrow(painter.snapshot()).size(), picture) << style;
       }
     }
   }
@@ -216,9 +216,9 @@ TEST_F(PainterTest, RefusesFramesAndReadersBeyondTheGpusLimitAndGoesOn) {
   EXPECT_EQ(refused.error().kind, hal::ErrorKind::kUnsupported);
   EXPECT_THAT(refused.error().message(), HasSubstr(std::to_string(side) + " px"));
   try {
-    painter.openReader({hal::PixelFormat::kGrey8, {4, side + 1}});
+    painter.openReadback({hal::PixelFormat::kGrey8, {4, side + 1}});
     ADD_FAILURE() << "opened";
-  } catch (const hal::StartupError& error) {
+  } catch (const hal::Failure& error) {
     EXPECT_EQ(error.error().kind, hal::ErrorKind::kUnsupported);
     EXPECT_THAT(error.what(), HasSubstr(std::to_string(side) + " px"));
   }

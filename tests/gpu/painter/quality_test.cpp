@@ -56,7 +56,7 @@ hal::Image paintedAt(Painter& painter, const hal::CapturedFrame& frame, std::siz
   parameters.view = std::move(view);
   const auto picture = painter.paint(frame, parameters);
   EXPECT_TRUE(picture) << picture.error().message();
-  return hal::orThrow(painter.still());
+  return hal::orThrow(painter.snapshot());
 }
 
 /// The mean of each channel in each block, of an RGB8 picture.
@@ -113,8 +113,8 @@ TEST_F(PainterTest, LevelsHaveNamesAndFallingSizes) {
     const auto picture = hal::orThrow(painter.paint(testFrame(0, kSize), parameters));
     EXPECT_EQ(picture.quality, i);
     EXPECT_LT(picture.size.width, last);
-    EXPECT_EQ(hal::orThrow(painter.still()).size(), kSize);
-    EXPECT_EQ(hal::orThrow(painter.cameraStill()).size(), kSize);
+    EXPECT_EQ(hal::orThrow(painter.snapshot()).size(), kSize);
+    EXPECT_EQ(hal::orThrow(painter.cameraSnapshot()).size(), kSize);
     last = picture.size.width;
   }
 }

@@ -14,8 +14,8 @@ void paintFrames(Painter& painter, int first, int end) {
 
 TEST_F(PainterTest, ReadsPicturesInOrder) {
   Painter painter(kPlain);
-  const int reader = painter.openReader({PixelFormat::kRgb8, {96, 64}});
-  ReadPicture picture;
+  const int reader = painter.openReadback({PixelFormat::kRgb8, {96, 64}});
+  OutputFrame picture;
   EXPECT_FALSE(hal::orThrow(painter.take(reader, picture, false)));
   EXPECT_FALSE(hal::orThrow(painter.take(reader, picture, true)));
   paintFrames(painter, 0, 3);
@@ -32,10 +32,10 @@ TEST_F(PainterTest, ReadsPicturesInOrder) {
 
 TEST_F(PainterTest, TakesWithoutWaitingOnceTheGpuIsDone) {
   Painter painter(kPlain);
-  const int reader = painter.openReader({PixelFormat::kRgb8, {96, 64}});
+  const int reader = painter.openReadback({PixelFormat::kRgb8, {96, 64}});
   paintFrames(painter, 0, 1);
-  const hal::Image still = hal::orThrow(painter.still());  // waits for the GPU
-  ReadPicture picture;
+  const hal::Image still = hal::orThrow(painter.snapshot());  // waits for the GPU
+  OutputFrame picture;
   ASSERT_TRUE(hal::orThrow(painter.take(reader, picture, false)));
   EXPECT_EQ(bytesOf(picture.image), bytesOf(still));
   EXPECT_FALSE(hal::orThrow(painter.take(reader, picture, false)));
@@ -43,15 +43,15 @@ TEST_F(PainterTest, TakesWithoutWaitingOnceTheGpuIsDone) {
 
 TEST_F(PainterTest, SkipsPicturesWhileAReaderIsFull) {
   Painter painter(kPlain);
-  const int slow = painter.openReader({PixelFormat::kGrey8, {48, 32}});
+  const int slow = painter.openReadback({PixelFormat::kGrey8, {48, 32}});
   EXPECT_TRUE(painter.hasRoom(slow));
   paintFrames(painter, 0, 3);
   EXPECT_FALSE(painter.hasRoom(slow));
-  const int late = painter.openReader({PixelFormat::kGrey8, {48, 32}});
+  const int late = painter.openReadback({PixelFormat::kGrey8, {48, 32}});
   paintFrames(painter, 3, 5);
   EXPECT_EQ(painter.skipped(slow), 2u);
   EXPECT_EQ(painter.skipped(late), 0u);
-  ReadPicture picture;
+  OutputFrame picture;
   for (const std::uint64_t sequence : {0u, 1u, 2u}) {
     ASSERT_TRUE(hal::orThrow(painter.take(slow, picture, true)));
     EXPECT_EQ(picture.sequence, sequence);
@@ -81,11 +81,11 @@ TEST_F(PainterTest, ReadsIntoSeveralLayoutsAndSizesAtOnce) {
   Painter painter(kPlain);
   std::vector<int> readers;
   readers.reserve(all.size());
-  for (const Wanted& wanted : all) readers.push_back(painter.openReader(wanted.format));
+  for (const Wanted& wanted : all) readers.push_back(painter.openReadback(wanted.format));
   hal::Image grey({.pixelFormat = PixelFormat::kRgb8, .size = {96, 64}});
   std::ranges::fill(grey.plane(0), std::uint8_t{200});
   painted(painter, frameOf(std::move(grey), 0));
-  ReadPicture picture;
+  OutputFrame picture;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto& [format, planes] = all[i];
     ASSERT_TRUE(hal::orThrow(painter.take(readers[i], picture, true)));

@@ -31,7 +31,7 @@ class PainterlyTest : public StyleTest {
         .nowFromThen = glm::dmat3(1, 0, 0, 0, 1, 0, -motionPixels, 0, 1), .errorPx = 0.01};
     ++number_;
     scene::ArFrame frame = frameOf(picture_, number_);
-    frame.pictureMovement = scene::PictureMovement{.motion = &motion_};
+    frame.measuredMotion = scene::MeasuredMotion{.motion = &motion_};
     return frame;
   }
 

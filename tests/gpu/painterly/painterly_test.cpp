@@ -57,7 +57,7 @@ TEST_F(PainterlyTest, APaintingIsLikeItsPictureButNotIt) {
 TEST_F(PainterlyTest, EveryViewIsPaintedAtEverySize) {
   Painterly style(library_);
   std::vector<Bytes> pictures{paint(style, next(0.0, 0.0))};
-  for (const ViewInfo& view : style.views()) {
+  for (const DebugViewInfo& view : style.views()) {
     for (const hal::FrameSize size : {hal::FrameSize{1, 1}, {1, 9}, {9, 1}, kSize}) {
       const Bytes picture = paint(style, next(0.0, 0.0, size), view.name);
       ASSERT_EQ(picture.size(), static_cast<std::size_t>(size.pixels()) * 4);
@@ -250,7 +250,7 @@ TEST_F(PainterlyTest, ASmallerVersionKeepsTheStrokes) {
   const std::vector<marks::Anchor> before = style.anchors()->read();
   scene::ArFrame frame = next(testPicture({96, 72}, 5));
   motion_.frameSize = kSize;
-  frame.pictureMovement->frameScale = glm::dvec2(1.0);
+  frame.measuredMotion->frameScale = glm::dvec2(1.0);
   frame.fullSize = kSize;
   EXPECT_EQ(style.paint(frame, "", timer_).size(), (hal::FrameSize{96, 72}));
   const std::vector<marks::Anchor> after = style.anchors()->read();

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "pipeline/scene/light/linear_picture.h"
+#include "pipeline/scene/light/linear_image.h"
 #include "tests/gpu/scene/scene_gl_test.h"
 #include "tests/oracles/raster_oracle.h"
 #include "tests/oracles/shading_oracle.h"

@@ -25,7 +25,7 @@ WatercolorParameters thesisParameters() {
   p.retileTimeSeconds = 0.0;
   p.returnTimeSeconds = 0.0;
   p.retileRest = 0.0;
-  p.steadyTimeSeconds = 0.0;
+  p.filterTimeSeconds = 0.0;
   p.colourTimeSeconds = 0.0;
   return p;
 }

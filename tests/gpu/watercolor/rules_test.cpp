@@ -2,7 +2,7 @@
 #include <regex>
 #include <string>
 
-#include "pipeline/styles/sheet/sheet_shaders.h"
+#include "pipeline/styles/substrate/substrate_shaders.h"
 #include "pipeline/styles/watercolor/watercolor_shaders.h"
 #include "tests/gpu/watercolor/watercolor_fixture.h"
 
@@ -25,7 +25,7 @@ TEST(WatercolorShaders, KeepWithinWhatTheTargetsAllow) {
   gpu::ShaderLibrary library;
   library.add(gpu::gpuShaders());
   library.add(gpu::marksShaders());
-  library.add(gpu::sheetShaders());
+  library.add(gpu::substrateShaders());
   library.add(gpu::watercolorShaders());
   int compute = 0;
   for (const gpu::EmbeddedShader& shader : gpu::watercolorShaders()) {

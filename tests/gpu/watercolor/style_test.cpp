@@ -133,7 +133,7 @@ TEST_F(WatercolorTest, StateAdvancesTheSameWhateverIsLookedAt) {
 TEST_F(WatercolorTest, EveryViewIsPaintedAtEverySize) {
   Watercolor style(library_);
   std::vector<std::vector<std::uint8_t>> pictures{paintFrame(style, 0)};
-  for (const ViewInfo& view : style.views()) {
+  for (const DebugViewInfo& view : style.views()) {
     for (const hal::FrameSize size : {hal::FrameSize{1, 1}, {1, 9}, {9, 1}, {120, 90}}) {
       const auto picture = paintFrame(style, 0, size, view.name);
       for (std::size_t i = 3; i < picture.size(); i += 4) ASSERT_EQ(picture[i], 255) << view.name;
@@ -268,8 +268,8 @@ TEST_F(WatercolorTest, ACutStartsAnew) {
   for (const CellSeed& seed : support::readBuffer<CellSeed>(style.inner().tiler->seeds())) {
     ASSERT_TRUE(!seed.isLiving() || seed.parent == 0);
   }
-  const std::vector<float> steady = support::readRgba32f(*style.inner().steady);
-  for (std::size_t i = 3; i < steady.size(); i += 4) ASSERT_EQ(steady[i], 1.0F);
+  const std::vector<float> filtered = support::readRgba32f(*style.inner().filtered);
+  for (std::size_t i = 3; i < filtered.size(); i += 4) ASSERT_EQ(filtered[i], 1.0F);
 }
 
 /// A born cell begins with the colours of the one that it is born in.
@@ -352,7 +352,7 @@ TEST_F(WatercolorTest, MakesStylesByNameAndRefusesOthersWithTheList) {
   try {
     makeStyle("watercolour", library_);
     FAIL() << "made it";
-  } catch (const hal::StartupError& error) {
+  } catch (const hal::Failure& error) {
     EXPECT_EQ(error.error().kind, hal::ErrorKind::kInvalidArgument);
     EXPECT_THAT(error.what(), testing::HasSubstr("watercolour"));
     EXPECT_THAT(error.what(), testing::HasSubstr("watercolor, painterly, none"));

@@ -68,7 +68,7 @@ class StyleTest : public support::GlTest {
     motion.picture = tracking::PictureHomography{.nowFromThen = nowFromThen, .errorPx = 0.01};
     motion.noiseLevels = 2.0;
     scene::ArFrame frame = frameOf(picture, number);
-    frame.pictureMovement = scene::PictureMovement{.motion = &motion};
+    frame.measuredMotion = scene::MeasuredMotion{.motion = &motion};
     return frame;
   }
 

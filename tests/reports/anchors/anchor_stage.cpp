@@ -48,11 +48,11 @@ void AnchorStage::advance(const glm::dmat4& cameraFromModel, const glm::dmat3& n
   cameraFromModel_ = cameraFromModel;
   frame_ = renderer_->compose(ground_, camera_, {.cameraFromWorld = cameraFromModel}, sequence_,
                               hal::TimePoint(kStep * static_cast<int>(sequence_)), timer_,
-                              {.surfaces = true, .pictureMovement = true});
-  frame_.pictureMovement = scene::PictureMovement{.motion = &motion};
+                              {.surfaces = true, .measuredMotion = true});
+  frame_.measuredMotion = scene::MeasuredMotion{.motion = &motion};
   field_->update(frame_, timer_);
   anchors_->advance(frame_, *field_, timer_);
-  frame_.pictureMovement.reset();  // it does not outlive this call
+  frame_.measuredMotion.reset();  // it does not outlive this call
 }
 
 std::vector<glm::dvec2> AnchorStage::places() const {

@@ -1,6 +1,6 @@
 // Prints what docs/measured.md says of anchors, as Markdown, and draws the thesis's figure 28:
-// `anchors_report [PART ...]`, where a part is cells, turnover or slips; all without one. A PNG for
-// each model goes into the current folder. On the left of a PNG, in red, the points that
+// `anchors_report [PART ...]`, where a part is cells, turnover or drifts; all without one. A PNG
+// for each model goes into the current folder. On the left of a PNG, in red, the points that
 // area-weighted sampling of the surface gives (thesis §5.3.1), as many as ours in the near view; on
 // the right, in blue, ours; above the near view, below the far one.
 
@@ -26,7 +26,7 @@
 #include "pipeline/gpu/egl_context.h"
 #include "pipeline/scene/description/model_source.h"
 #include "tests/reports/anchors/anchor_stage.h"
-#include "tests/reports/anchors/slip_report.h"
+#include "tests/reports/anchors/drift_report.h"
 
 namespace pleinair::marks {
 namespace {
@@ -242,7 +242,7 @@ int report(const std::set<std::string>& parts) {
   if (wants("cells")) reportCells();
   if (wants("turnover")) reportTurnover();
   const auto isPart = [](const std::string& part) { return part == "cells" || part == "turnover"; };
-  if (!std::ranges::all_of(parts, isPart) || parts.empty()) reportSlips(parts);
+  if (!std::ranges::all_of(parts, isPart) || parts.empty()) reportDrifts(parts);
   return 0;
 }
 

@@ -81,7 +81,7 @@ int main(int argc, char** argv) {
         report(photograph, {.rollDegrees = 1}, filter);
       }
     }
-  } catch (const pleinair::hal::StartupError& error) {
+  } catch (const pleinair::hal::Failure& error) {
     std::fprintf(stderr, "coherence_report: %s\n", error.what());
     return 2;
   }

@@ -34,10 +34,10 @@ using OpenInput = std::function<std::unique_ptr<measure::MeasuredInput>()>;
 /// Measures variants of the painter on one input, which is opened anew for each.
 class CoherenceParts {
  public:
-  /// Throws hal::StartupError as Painter does.
+  /// Throws hal::Failure as Painter does.
   CoherenceParts(OpenInput open, const MeasuredLength& length);
 
-  /// Throws hal::StartupError: of the input.
+  /// Throws hal::Failure: of the input.
   measure::Report measured(const CoherenceVariant& variant);
 
  private:
@@ -47,7 +47,7 @@ class CoherenceParts {
 };
 
 /// Prints all variants on one photograph that pans, rolls and zooms, and on the workbench, as
-/// Markdown. Throws hal::StartupError: of the photograph.
+/// Markdown. Throws hal::Failure: of the photograph.
 void printCoherenceParts(const std::filesystem::path& photograph, hal::FrameSize size,
                          const MeasuredLength& length);
 

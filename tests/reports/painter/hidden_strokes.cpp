@@ -21,7 +21,7 @@ constexpr float kInner = 0.6F;  // of a stroke's width: no brush has gaps there 
 constexpr float kOpaque = 0.75F;
 
 /// As a still, under fresh noise.
-void paintAtRest(ToldPainting& painting, const hal::Image& picture) {
+void paintAtRest(ReportedPainting& painting, const hal::Image& picture) {
   const cv::Mat3f exact = measure::toFloat(picture.view());
   for (std::uint64_t i = 0; i < kFrames; ++i) {
     painting.paint(measure::withSensorNoise(exact, kNoiseLevels, i), {0.0, 0.0});
@@ -35,7 +35,7 @@ struct Drawn {
   std::size_t layer;
 };
 
-std::vector<Drawn> inOrder(const ToldPainting& painting) {
+std::vector<Drawn> inOrder(const ReportedPainting& painting) {
   std::vector<Drawn> drawn;
   for (std::size_t layer = 0; layer < painting.layerCount(); ++layer) {
     for (const marks::StrokeInstance& each : painting.instances(layer)) {
@@ -83,7 +83,7 @@ bool overPixels(const Drawn& stroke, float reach, hal::FrameSize size, const Eac
 }  // namespace
 
 std::vector<LayerUse> strokesInUse(const gpu::ShaderLibrary& library, const hal::Image& picture) {
-  ToldPainting painting(library);
+  ReportedPainting painting(library);
   paintAtRest(painting, picture);
   const std::vector<Drawn> drawn = inOrder(painting);
   std::vector<std::size_t> lastOver(static_cast<std::size_t>(picture.size().pixels()), 0);

@@ -32,7 +32,7 @@ struct Painted {
 };
 
 /// Of strokes that are seen, of all layers.
-std::map<std::uint32_t, glm::vec2> seenOf(const ToldPainting& painting) {
+std::map<std::uint32_t, glm::vec2> seenOf(const ReportedPainting& painting) {
   std::map<std::uint32_t, glm::vec2> seen;
   for (std::size_t layer = 0; layer < painting.layerCount(); ++layer) {
     const std::vector<marks::Anchor> anchors = painting.anchors(layer);
@@ -48,7 +48,7 @@ std::map<std::uint32_t, glm::vec2> seenOf(const ToldPainting& painting) {
 
 std::vector<Painted> paint(const gpu::ShaderLibrary& library,
                            const std::filesystem::path& photograph, const char* coherence) {
-  ToldPainting painting(library);
+  ReportedPainting painting(library);
   painting.set("coherence", coherence);
   constexpr int kFrames = kFirst + kApart * static_cast<int>(kShown - 1) + 1;
   const auto input = hal::orThrow(measure::openPhotograph(

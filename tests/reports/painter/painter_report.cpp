@@ -144,7 +144,7 @@ class Easel {
           hal::TimePoint(hal::Duration(33'333'333) * static_cast<std::int64_t>(number_++));
       hal::orThrow(painter_.paint(frame, parameters_));
     }
-    hal::orThrow(painter_.still());  // waits for the GPU
+    hal::orThrow(painter_.snapshot());  // waits for the GPU
     isBack_ = !isBack_;
     const auto end = std::chrono::steady_clock::now();
     return std::chrono::duration<double, std::milli>(end - start).count() / kFrames;

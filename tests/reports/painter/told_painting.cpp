@@ -19,11 +19,11 @@ void copyColours(hal::ImageView from, std::size_t fromBytes, hal::Image& to, std
 
 }  // namespace
 
-void ToldPainting::set(std::string_view parameter, std::string_view value) {
+void ReportedPainting::set(std::string_view parameter, std::string_view value) {
   style_.setParameters(style_.parameters().with(std::string(parameter), std::string(value)));
 }
 
-void ToldPainting::paint(const hal::Image& rgb, glm::dvec2 movedPx) {
+void ReportedPainting::paint(const hal::Image& rgb, glm::dvec2 movedPx) {
   hal::Image rgba({.pixelFormat = hal::PixelFormat::kRgba8, .size = rgb.size()});
   std::ranges::fill(rgba.plane(0), std::uint8_t{255});
   copyColours(rgb.view(), 3, rgba, 4);
@@ -36,27 +36,27 @@ void ToldPainting::paint(const hal::Image& rgb, glm::dvec2 movedPx) {
       .colour = &texture,
       .sequence = number_,
       .captureTime = hal::TimePoint(hal::Duration(33'333'333) * static_cast<int>(number_))};
-  frame.pictureMovement = scene::PictureMovement{.motion = &motion};
+  frame.measuredMotion = scene::MeasuredMotion{.motion = &motion};
   painted_ = &style_.paint(frame, "", timer_);
 }
 
-hal::Image ToldPainting::picture() const {
+hal::Image ReportedPainting::picture() const {
   const hal::Image rgba = support::readRgba8(*painted_);
   hal::Image rgb({.pixelFormat = hal::PixelFormat::kRgb8, .size = rgba.size()});
   copyColours(rgba.view(), 4, rgb, 3);
   return rgb;
 }
 
-std::vector<marks::Anchor> ToldPainting::anchors(std::size_t layer) const {
+std::vector<marks::Anchor> ReportedPainting::anchors(std::size_t layer) const {
   return style_.layer(layer).anchors.read();
 }
 
-std::vector<marks::StrokeSlot> ToldPainting::strokes(std::size_t layer) const {
+std::vector<marks::StrokeSlot> ReportedPainting::strokes(std::size_t layer) const {
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   return support::readBuffer<marks::StrokeSlot>(style_.layer(layer).strokes.strokes());
 }
 
-std::vector<marks::StrokeInstance> ToldPainting::instances(std::size_t layer) const {
+std::vector<marks::StrokeInstance> ReportedPainting::instances(std::size_t layer) const {
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   const marks::StrokeSet& strokes = style_.layer(layer).strokes;
   auto instances = support::readBuffer<marks::StrokeInstance>(strokes.instances());

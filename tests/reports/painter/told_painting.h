@@ -16,9 +16,9 @@ namespace pleinair {
 
 /// A painting of pictures whose motion is told, of which the strokes can be read. `library` has the
 /// shaders of all styles; a GL context is current.
-class ToldPainting {
+class ReportedPainting {
  public:
-  explicit ToldPainting(const gpu::ShaderLibrary& library) : style_(library) {}
+  explicit ReportedPainting(const gpu::ShaderLibrary& library) : style_(library) {}
 
   void set(std::string_view parameter, std::string_view value);
   /// The next frame, RGB8, 1/30 s after the last, moved by `movedPx` since.

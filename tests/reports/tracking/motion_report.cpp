@@ -29,7 +29,7 @@ void reportTrackers(const std::vector<MotionSequence>& all) {
   for (const MotionSequence& sequence : all) {
     for (const FeatureMethod method : {FeatureMethod::kLucasKanade, FeatureMethod::kHarrisSift}) {
       const MotionResult found =
-          measureMotion(sequence, {.features = method, .flow = false, .stillness = false});
+          measureMotion(sequence, {.features = method, .flow = false, .staticRegions = false});
       std::printf("| %s, %s | %.0f | %.3f / %.3f | %.2f | %zu of %zu | ", sequence.name.c_str(),
                   method == FeatureMethod::kLucasKanade ? "Lucas-Kanade" : "Harris and SIFT",
                   found.featuresPerFrame, percentile(found.features.actual, 0.5),

@@ -8,7 +8,7 @@
 #include <glm/trigonometric.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "pipeline/tracking/pose/small_motion.h"
+#include "pipeline/tracking/pose/twist.h"
 
 namespace pleinair::tracking {
 namespace {

@@ -1,10 +1,10 @@
 """The line that the program ends with:
 
-showed 90 frames in 3.0 s (30.0 frames/s), 1 untimely; dropped 3 (1 late, 2 while starting): OUTPUTS
+showed 90 frames in 3.0 s (30.0 frames/s), 1 off schedule; dropped 3 (1 late, 2 while starting): OUTPUTS
 """
 import re
 
-LINE = re.compile(r"^showed (\d+) frames? in [\d.]+ s \([\d.]+ frames/s\)(?:, \d+ untimely)?"
+LINE = re.compile(r"^showed (\d+) frames? in [\d.]+ s \([\d.]+ frames/s\)(?:, \d+ off schedule)?"
                   r"; dropped (\d+)(?: \(([^)\n]*)\))?: \S.*$", re.MULTILINE)
 REASON = re.compile(r"(\d+) (\D+)")
 

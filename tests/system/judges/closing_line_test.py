@@ -15,7 +15,7 @@ SHOWED = "showed 90 frames in 3.0 s (30.0 frames/s)"
 class Ledger(unittest.TestCase):
     def test_reads_reasons(self):
         read = ledger("[info] streaming\n"
-                      f"{SHOWED}, 2 untimely; dropped 5 (3 replaced by a newer one, 2 late): window\n")
+                      f"{SHOWED}, 2 off schedule; dropped 5 (3 replaced by a newer one, 2 late): window\n")
         self.assertEqual(
             read, {"shown": 90, "dropped": 5, "replaced by a newer one": 3, "late": 2})
 

@@ -16,11 +16,11 @@ def run(guest):
         lambda status: status["frames"]["ended"]["corrupt"] >= DAMAGED, "corrupt frames")
     assert status["frames"]["ended"]["corrupt"] == DAMAGED, status["frames"]
 
-    before = status["frames"]["ended"]["left_out"]
+    before = status["frames"]["ended"]["dropped_by_driver"]
     live.control(guest, percentage_of_dropped_buffers=50)
     live.check_sums(program.wait_for_more(5))
     live.control(guest, percentage_of_dropped_buffers=0)
-    dropped = program.status()["frames"]["ended"]["left_out"] - before
+    dropped = program.status()["frames"]["ended"]["dropped_by_driver"] - before
     assert dropped > 0, "the gaps in the driver's numbers are not counted"
 
     opens = program.status()["camera"]["opens"]

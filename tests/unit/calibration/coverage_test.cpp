@@ -48,18 +48,18 @@ TEST(Coverage, TheTestsTiltsAreWhatTheySay) {
 
 TEST(Coverage, WishesForWhatIsMissing) {
   Coverage coverage;
-  EXPECT_THAT(*coverage.nextWish(), HasSubstr("left side is nearer"));
+  EXPECT_THAT(*coverage.missingViews(), HasSubstr("left side is nearer"));
   for (int i = 0; i < 2; ++i) {
     coverage.add(traitsOfHold({.at = {0.4, 0.6}, .span = 0.62, .yaw = 0.4}));
     coverage.add(traitsOfHold({.at = {0.4, 0.6}, .span = 0.62, .yaw = -0.4}));
     coverage.add(traitsOfHold({.at = {0.4, 0.6}, .span = 0.62, .pitch = 0.4}));
   }
-  EXPECT_THAT(*coverage.nextWish(), HasSubstr("lower side is nearer"));
+  EXPECT_THAT(*coverage.missingViews(), HasSubstr("lower side is nearer"));
   for (int i = 0; i < 2; ++i)
     coverage.add(traitsOfHold({.at = {0.4, 0.6}, .span = 0.62, .pitch = -0.4}));
-  EXPECT_THAT(*coverage.nextWish(), HasSubstr("further away"));
+  EXPECT_THAT(*coverage.missingViews(), HasSubstr("further away"));
   for (int i = 0; i < 3; ++i) coverage.add(traitsOfHold({.at = {0.2, 0.18}, .span = 0.3}));
-  EXPECT_EQ(*coverage.nextWish(), "bring the board to the upper right corner");
+  EXPECT_EQ(*coverage.missingViews(), "bring the board to the upper right corner");
   EXPECT_THAT(coverage.uncoveredRegions(), Not(Contains("the upper left corner")));
   EXPECT_THAT(coverage.uncoveredRegions(), Contains("the upper side"));
   EXPECT_FALSE(coverage.isComplete());
@@ -68,7 +68,7 @@ TEST(Coverage, WishesForWhatIsMissing) {
 TEST(Coverage, IsCompleteAfterAGoodTour) {
   Coverage coverage;
   for (const auto& hold : support::goodTour(kBoard, kCamera)) coverage.add(traitsOfHold(hold));
-  EXPECT_TRUE(coverage.isComplete()) << *coverage.nextWish();
+  EXPECT_TRUE(coverage.isComplete()) << *coverage.missingViews();
   EXPECT_GT(coverage.coveredShare(), 0.9);
 }
 

@@ -19,18 +19,18 @@ constexpr hal::Duration kPeriod = std::chrono::milliseconds(33);
 /// Shows boards to a selector, a frame period after each other.
 class ViewSelection : public testing::Test {
  protected:
-  ViewFate show(const BoardHold& hold, double edgeWidthPx = 1.5) {
+  ViewOutcome show(const BoardHold& hold, double edgeWidthPx = 1.5) {
     BoardSighting sighting = support::idealSighting(
         kBoard, kCamera, support::cameraFromBoard(kBoard, kCamera, hold), 0.05, frame_ + 1);
     sighting.edgeWidthPx = edgeWidthPx;
     return offer(std::move(sighting));
   }
   /// Twice, so that it is seen to be still.
-  ViewFate hold(const BoardHold& held, double edgeWidthPx = 1.5) {
+  ViewOutcome hold(const BoardHold& held, double edgeWidthPx = 1.5) {
     show(held, edgeWidthPx);
     return show(held, edgeWidthPx);
   }
-  ViewFate offer(std::optional<BoardSighting> sighting) {
+  ViewOutcome offer(std::optional<BoardSighting> sighting) {
     const auto frame = frame_++;
     return selector_.offer(frame, hal::TimePoint(frame * kPeriod), std::move(sighting));
   }
@@ -40,11 +40,11 @@ class ViewSelection : public testing::Test {
 };
 
 TEST_F(ViewSelection, TakesAStillViewOnce) {
-  EXPECT_EQ(show({}), ViewFate::kMoving);  // nothing tells yet
-  EXPECT_EQ(show({}), ViewFate::kTaken);
-  for (int i = 0; i < 20; ++i) EXPECT_EQ(show({}), ViewFate::kNothingNew);
+  EXPECT_EQ(show({}), ViewOutcome::kMoving);  // nothing tells yet
+  EXPECT_EQ(show({}), ViewOutcome::kTaken);
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(show({}), ViewOutcome::kNothingNew);
   EXPECT_EQ(selector_.views().size(), 1u);
-  EXPECT_EQ(offer(std::nullopt), ViewFate::kNoBoard);
+  EXPECT_EQ(offer(std::nullopt), ViewOutcome::kNoBoard);
   EXPECT_EQ(selector_.counts().pictures, 23u);
   EXPECT_EQ(selector_.counts().withBoard, 22u);
 }
@@ -52,7 +52,7 @@ TEST_F(ViewSelection, TakesAStillViewOnce) {
 TEST_F(ViewSelection, LeavesOutMovingBoards) {
   // 3 px a picture are 90 px a second: its rows would be a pixel or two apart.
   for (int i = 0; i < 40; ++i) {
-    EXPECT_EQ(show({.at = {0.3 + i * 3.0 / 640.0, 0.5}}), ViewFate::kMoving);
+    EXPECT_EQ(show({.at = {0.3 + i * 3.0 / 640.0, 0.5}}), ViewOutcome::kMoving);
   }
   EXPECT_TRUE(selector_.views().empty());
 }
@@ -60,13 +60,13 @@ TEST_F(ViewSelection, LeavesOutMovingBoards) {
 TEST_F(ViewSelection, TakesASlowHand) {
   // 0.4 px a picture: a hand that holds still.
   show({});
-  EXPECT_EQ(show({.at = {0.5 + 0.4 / 640.0, 0.5}}), ViewFate::kTaken);
+  EXPECT_EQ(show({.at = {0.5 + 0.4 / 640.0, 0.5}}), ViewOutcome::kTaken);
 }
 
 TEST_F(ViewSelection, LeavesOutBlurredBoards) {
   hold({}, 1.5);
-  EXPECT_EQ(hold({.at = {0.3, 0.5}, .yaw = 0.5}, 2.6), ViewFate::kBlurred);
-  EXPECT_EQ(show({.at = {0.3, 0.5}, .yaw = 0.5}, 1.8), ViewFate::kTaken);
+  EXPECT_EQ(hold({.at = {0.3, 0.5}, .yaw = 0.5}, 2.6), ViewOutcome::kBlurred);
+  EXPECT_EQ(show({.at = {0.3, 0.5}, .yaw = 0.5}, 1.8), ViewOutcome::kTaken);
 }
 
 TEST_F(ViewSelection, ABlurredOneIsDroppedOnceSharperOnesCome) {
@@ -81,8 +81,8 @@ TEST_F(ViewSelection, ABlurredOneIsDroppedOnceSharperOnesCome) {
 
 TEST_F(ViewSelection, ASharperOneTakesThePlaceOfTheSameView) {
   hold({}, 2.0);
-  EXPECT_EQ(show({}, 1.9), ViewFate::kNothingNew);
-  EXPECT_EQ(show({}, 1.5), ViewFate::kTaken);
+  EXPECT_EQ(show({}, 1.9), ViewOutcome::kNothingNew);
+  EXPECT_EQ(show({}, 1.5), ViewOutcome::kTaken);
   ASSERT_EQ(selector_.views().size(), 1u);
   EXPECT_EQ(selector_.views()[0].sighting.edgeWidthPx, 1.5);
 }
@@ -90,12 +90,12 @@ TEST_F(ViewSelection, ASharperOneTakesThePlaceOfTheSameView) {
 TEST_F(ViewSelection, OnePictureMistakenForSharpDoesNotSpoilTheRest) {
   for (int i = 0; i < 6; ++i) show({.at = {0.3 + 0.08 * i, 0.5}}, 2.0);
   show({}, 0.9);
-  EXPECT_EQ(hold({.at = {0.3, 0.6}, .yaw = 0.5}, 2.0), ViewFate::kTaken);
+  EXPECT_EQ(hold({.at = {0.3, 0.6}, .yaw = 0.5}, 2.0), ViewOutcome::kTaken);
 }
 
 TEST_F(ViewSelection, IsCompleteAfterAGoodTourWithFewViews) {
   for (const BoardHold& held : support::goodTour(kBoard, kCamera)) hold(held);
-  EXPECT_TRUE(selector_.isComplete()) << *selector_.coverage().nextWish();
+  EXPECT_TRUE(selector_.isComplete()) << *selector_.coverage().missingViews();
   EXPECT_LE(selector_.views().size(), 26u);
   EXPECT_EQ(selector_.fitViews().size(), selector_.views().size());
 }

@@ -170,7 +170,7 @@ TEST(Sections, NameSingleKeysThatAreWrong) {
   EXPECT_EQ(refused("zoom.in", "0", ""), "--set: unknown key, allowed: camera.…, style.oil.…");
 }
 
-TEST(Sections, BlameThePlaceOfAValue) {
+TEST(Sections, AttributesThePlaceOfAValue) {
   Sections all = sections();
   all.apply(TomlDocument::parseText("title = 't'\n", "a:b.toml"));
   all.apply("camera.seed", "3", "--seed");

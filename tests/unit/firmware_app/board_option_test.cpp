@@ -15,7 +15,7 @@ using testing::HasSubstr;
 std::string refusalOf(const BoardOption& option) {
   try {
     boardOf(option);
-  } catch (const hal::StartupError& error) {
+  } catch (const hal::Failure& error) {
     EXPECT_EQ(error.error().kind, hal::ErrorKind::kInvalidArgument);
     return error.what();
   }

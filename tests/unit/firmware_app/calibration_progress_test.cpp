@@ -8,7 +8,7 @@
 namespace pleinair::app {
 namespace {
 
-using calibration::ViewFate;
+using calibration::ViewOutcome;
 using testing::HasSubstr;
 
 TEST(CalibrationProgress, ShowsCoverageAndWhatToDoNext) {
@@ -16,7 +16,7 @@ TEST(CalibrationProgress, ShowsCoverageAndWhatToDoNext) {
   const tracking::CameraModel camera({600, 600, 320, 240}, {}, {640, 480});
   calibration::ViewSelector selector(board, camera.imageSize());
   selector.offer(0, hal::TimePoint(), std::nullopt);
-  EXPECT_THAT(coveragePanel(selector, ViewFate::kNoBoard)[5], HasSubstr("next: show the board"));
+  EXPECT_THAT(coveragePanel(selector, ViewOutcome::kNoBoard)[5], HasSubstr("next: show the board"));
 
   // In the lower left quarter, still.
   const auto pose = support::cameraFromBoard(board, camera, {.at = {0.25, 0.75}, .span = 0.4});
@@ -24,7 +24,7 @@ TEST(CalibrationProgress, ShowsCoverageAndWhatToDoNext) {
     selector.offer(static_cast<std::uint64_t>(i), hal::TimePoint(std::chrono::milliseconds(33 * i)),
                    support::idealSighting(board, camera, pose, 0.02));
   }
-  const std::vector<std::string> panel = coveragePanel(selector, ViewFate::kTaken);
+  const std::vector<std::string> panel = coveragePanel(selector, ViewOutcome::kTaken);
   ASSERT_EQ(panel.size(), 6u);
   EXPECT_THAT(panel[0], testing::StartsWith(". . . . . . . . "));
   EXPECT_THAT(panel[0], HasSubstr("1 view; the board in 2 of 3 pictures"));

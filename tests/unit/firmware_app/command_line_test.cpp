@@ -66,7 +66,7 @@ TEST(CommandLine, NamesOnlyTheShotsWhereAShotIsUnknown) {
       "synthetic:cut\n");
 }
 
-TEST(CommandLine, PointsToTheHelpOfTheVerb) {
+TEST(CommandLine, PointsToTheHelpOfTheSubcommand) {
   expectRefused({"measure", "--frob"}, "; see pleinair measure --help");
   expectRefused({"measure", "--frames", "0"}, "; see pleinair measure --help");
   expectRefused({"render", "--colour"}, "; see pleinair render --help");
@@ -145,11 +145,11 @@ TEST(CommandLine, ChecksWhatRunIsGivenBeforeItOpensAnything) {
                 "webcam: is neither a camera nor a file; choose auto, ");
   expectRefused({"run", "--output", "out.avi"}, "out.avi: does not say what to write");
   expectRefused({"run", "--output", "-"}, "--output: found \"-\"");
-  expectRefused({"run", "--stills", "/no-such-folder"}, "/no-such-folder: is not a folder");
+  expectRefused({"run", "--snapshots", "/no-such-folder"}, "/no-such-folder: is not a folder");
   expectRefused({"run", "--frames", "0"}, "--frames");
   expectRefused({"run", "--size", "0x0"}, "--size");
   for (const char* option : {"--camera", "--output", "--scene", "--style", "--view", "--set",
-                             "--size", "--frames", "--stills", "--shaders"}) {
+                             "--size", "--frames", "--snapshots", "--shaders"}) {
     expectRefused({"run", option, ""}, std::string(option) + ": is empty");
   }
 }
@@ -172,7 +172,7 @@ TEST(CommandLine, HelpsAndTellsItsVersion) {
   const Outcome runHelp = run({"run", "--help"});
   EXPECT_EQ(runHelp.status, 0);
   for (const std::string option : {"--camera", "--output", "--style", "--set", "--view", "--scene",
-                                   "--size", "--frames", "--stills", "--shaders"}) {
+                                   "--size", "--frames", "--snapshots", "--shaders"}) {
     EXPECT_THAT(runHelp.output, HasSubstr(option));
   }
   const Outcome version = run({"--version"});

@@ -17,12 +17,12 @@ using testing::StartsWith;
 
 // ---- what comes later
 
-TEST_F(ConfigurationTest, BlamesThePlaceThatNamedAFile) {
+TEST_F(ConfigurationTest, AttributesThePlaceThatNamedAFile) {
   request_.siteFile = write("s.toml", "[painting]\nscene = \"absent.toml\"\n");
   const Configuration configuration = resolved();
   const auto message = [](const Configuration& of) -> std::string {
     try {
-      of.blaming([&] { return configuredScene(of); });
+      of.attributing([&] { return configuredScene(of); });
     } catch (const config::ConfigError& error) {
       return error.what();
     }
@@ -41,20 +41,20 @@ TEST_F(ConfigurationTest, LeavesAMistakeWithinAFileToItsLine) {
   write("scene.toml", "[[tag]]\nid = -1\n");
   const Configuration configuration = resolved();
   try {
-    configuration.blaming([&] { return configuredScene(configuration); });
+    configuration.attributing([&] { return configuredScene(configuration); });
     ADD_FAILURE() << "nothing thrown";
   } catch (const config::ConfigError& error) {
     EXPECT_THAT(error.what(), StartsWith(path("scene.toml").string() + ":2: tag[0].id: "));
   }
 }
 
-TEST_F(ConfigurationTest, BlamesThePlaceOfWhatADeviceRefuses) {
+TEST_F(ConfigurationTest, AttributesThePlaceOfWhatADeviceRefuses) {
   request_.environment = {{"PLEINAIR_CAMERA_SOURCE", "/gone.mp4"}};
   const Configuration configuration = resolved();
   const auto subject = [&](const std::string& of) {
     try {
-      configuration.blaming([&] { throw hal::StartupError({.subject = of, .problem = "no"}); });
-    } catch (const hal::StartupError& error) {
+      configuration.attributing([&] { throw hal::Failure({.subject = of, .problem = "no"}); });
+    } catch (const hal::Failure& error) {
       return error.error().subject;
     }
     return std::string("(nothing thrown)");

@@ -61,7 +61,7 @@ TEST(ReportCurrentException, PrintsOneLine) {
                          .subject = "in\n\x1b[2J.mp4",
                          .problem = "cannot open",
                          .remedy = "look for it"};
-  EXPECT_EQ(reported(hal::StartupError(error)),
+  EXPECT_EQ(reported(hal::Failure(error)),
             std::pair(std::string("pleinair: in??[2J.mp4: cannot open; look for it\n"),
                       ExitStatus::kUsage));
   const config::ConfigError config(

@@ -28,7 +28,7 @@ TEST_F(StatusConfiguration, IsOffUnlessTold) {
   EXPECT_EQ(configuredStatusServer(of(""), {}), nullptr);
 }
 
-TEST_F(StatusConfiguration, BlamesThePlaceOfAnAddressThatIsNone) {
+TEST_F(StatusConfiguration, AttributesThePlaceOfAnAddressThatIsNone) {
   try {
     configuredStatusServer(of("[status]\nlisten = \"9117\""), {});
     ADD_FAILURE();

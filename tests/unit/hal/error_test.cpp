@@ -33,7 +33,7 @@ TEST(Error, BecomesAnExceptionAtStartUp) {
   try {
     orThrow(Result<int>(tl::unexpected(errnoError("x", "cannot open", ENOENT))));
     FAIL();
-  } catch (const StartupError& error) {
+  } catch (const Failure& error) {
     EXPECT_EQ(error.error().kind, ErrorKind::kNotFound);
     EXPECT_THAT(error.what(), testing::StartsWith("x: cannot open"));
   }

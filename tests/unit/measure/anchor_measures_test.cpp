@@ -43,7 +43,7 @@ TEST(AnchorMeasures, ReadsNoTurnoverWhereNothingHappens) {
   EXPECT_EQ(all->alive, 1200);
   EXPECT_EQ(all->births + all->deaths + all->moved, 0);
   EXPECT_FALSE(all->halfLifeFrames);
-  EXPECT_FALSE(all->slip);
+  EXPECT_FALSE(all->drift);
   EXPECT_EQ(all->perCell, 1.0);
   EXPECT_EQ(all->spreadPerCell, 0.0);
   EXPECT_EQ(all->emptyCellsPercent, 0.0);
@@ -112,11 +112,11 @@ TEST(AnchorMeasures, ReadsTheSlipAgainstTheTrueMotion) {
     measures.add(anchors, &step, i == 10 ? &steps : nullptr);
   }
   const auto all = measures.total();
-  ASSERT_TRUE(all && all->slip && all->longSlip);
-  EXPECT_NEAR(all->slip->median, 0.05, 1e-4);
-  EXPECT_NEAR(all->slip->most, 0.05, 1e-4);
-  EXPECT_NEAR(all->slip->rms, 0.05, 1e-4);
-  EXPECT_NEAR(all->longSlip->median, 0.5, 1e-3);
+  ASSERT_TRUE(all && all->drift && all->longDrift);
+  EXPECT_NEAR(all->drift->median, 0.05, 1e-4);
+  EXPECT_NEAR(all->drift->most, 0.05, 1e-4);
+  EXPECT_NEAR(all->drift->rms, 0.05, 1e-4);
+  EXPECT_NEAR(all->longDrift->median, 0.5, 1e-3);
   EXPECT_EQ(all->moved, 1200);
 }
 

@@ -182,7 +182,7 @@ TEST_F(MeasurementTest, SaysWhereAPhotographGoesOnMirrored) {
   EXPECT_THAT(wide->notices(), testing::ElementsAre(HasSubstr("500x300 reach beyond")));
 }
 
-TEST_F(MeasurementTest, CanBeBrokenOff) {
+TEST_F(MeasurementTest, CanBeAborted) {
   const auto input = photograph({.pan = {-1.5, -0.5}});
   FunctionPainter painter(itself);
   const auto report =

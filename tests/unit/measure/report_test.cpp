@@ -26,7 +26,7 @@ Report report() {
        Verdict::Comparison{.value = 0.0625, .limit = 0.3}},
       {"S10 % ≥ 90", Verdict::State::kNotMeasured, "it compares frames 10 apart, and there are 3",
        Verdict::Comparison{.value = {}, .limit = 90, .isMost = false}}};
-  report.inside = AnchorSummary{.frames = 3, .alive = 100, .slip = Slip{.median = 0.5}};
+  report.inside = AnchorSummary{.frames = 3, .alive = 100, .drift = Drift{.median = 0.5}};
   for (std::uint64_t i = 0; i < 3; ++i) {
     FrameValues values{.frame = i};
     values.painting.ew2 = 0.1 * static_cast<double>(i);
@@ -59,7 +59,7 @@ TEST(Report, IsJsonWithNullForWhatCouldNotBeHad) {
   EXPECT_TRUE(missing["passed"].is_null());
   EXPECT_EQ(json["gates_passed"], false);
   EXPECT_EQ(json["controls_sound"], true);
-  EXPECT_EQ(json["inside"]["slip"]["median_px"], 0.5);
+  EXPECT_EQ(json["inside"]["drift"]["median_px"], 0.5);
   EXPECT_TRUE(json["inside"]["half_life_frames"].is_null());
   EXPECT_EQ(json["inside"]["half_life_over_frames"], 3);
   EXPECT_EQ(json["over_time"].size(), 3u);

@@ -78,7 +78,7 @@ class Live {
     threads_.startOutputs();
   }
 
-  LiveChain& chain() { return chain_; }
+  LivePipeline& chain() { return chain_; }
   BlockingOutput::Control& output(std::size_t index) { return controls_.at(index); }
   LiveThreads::Stopped stop(hal::Duration patience = 20s) { return threads_.stop(patience); }
   void waitForPictures(std::size_t index, int count) {
@@ -101,7 +101,7 @@ class Live {
   hal::SteadyClock clock_;
   hal::CameraSelector selector_;
   hal::CameraSupervisor supervisor_;
-  LiveChain chain_;
+  LivePipeline chain_;
   LiveThreads threads_;
   std::deque<BlockingOutput::Control> controls_;
 };
@@ -115,13 +115,13 @@ TEST(LiveThreadsTest, OneOutputThatStallsDoesNotSlowTheOther) {
   EXPECT_LE(live.output(0).written, before + 1);
   const RuntimeStatus status = live.chain().status();
   EXPECT_TRUE(status.outputs[0].addsUp());
-  EXPECT_GT(status.outputs[0].ended.at(static_cast<std::size_t>(Fate::kOutputBusy)), 100u);
+  EXPECT_GT(status.outputs[0].ended.at(static_cast<std::size_t>(Outcome::kOutputBusy)), 100u);
   live.output(0).blocks = false;
   live.output(0).release.release();
   live.waitForPictures(0, 5);
   EXPECT_TRUE(live.stop().stuck.empty());
   EXPECT_TRUE(live.chain().ledger().counts().addsUp());
-  EXPECT_EQ(live.chain().ledger().counts().underWay, 0u);
+  EXPECT_EQ(live.chain().ledger().counts().inFlight, 0u);
 }
 
 TEST(LiveThreadsTest, LeavesBehindAnOutputThatNeverComesBack) {
@@ -149,7 +149,7 @@ TEST(LiveThreadsTest, StartsAndStopsAHundredTimesWithoutLeavingAnything) {
     Live live(2, 1ms);
     if (i % 2 == 0) live.waitForPictures(0, 3);  // and at once
     ASSERT_TRUE(live.stop().stuck.empty());
-    ASSERT_EQ(live.chain().ledger().counts().underWay, 0u);
+    ASSERT_EQ(live.chain().ledger().counts().inFlight, 0u);
     ASSERT_TRUE(live.chain().ledger().counts().addsUp());
   }
   const ProcessResources after = ProcessResources::now();
@@ -166,16 +166,16 @@ TEST(LiveThreadsTest, TellsWhatThePainterFailedWithAtTheStart) {
       },
       clock);
   hal::CameraSupervisor supervisor(selector, clock);
-  LiveChain chain(supervisor, clock);
+  LivePipeline chain(supervisor, clock);
   LiveThreads threads(chain);
   BlockingOutput::Control control;
   chain.addOutput(std::make_unique<BlockingOutput>(control), {}, {.name = "output"});
   chain.makePaintStage(
       [](const auto&) -> std::unique_ptr<FramePainter> {
-        throw hal::StartupError({.kind = hal::ErrorKind::kUnsupported,
-                                 .subject = "GPU",
-                                 .problem = "is not there",
-                                 .remedy = {}});
+        throw hal::Failure({.kind = hal::ErrorKind::kUnsupported,
+                            .subject = "GPU",
+                            .problem = "is not there",
+                            .remedy = {}});
       },
       {});
   threads.startPainter();
@@ -185,7 +185,7 @@ TEST(LiveThreadsTest, TellsWhatThePainterFailedWithAtTheStart) {
       std::this_thread::sleep_for(1ms);
     }
   };
-  EXPECT_THROW(waitForPainter(), hal::StartupError);
+  EXPECT_THROW(waitForPainter(), hal::Failure);
   EXPECT_TRUE(threads.stop(20s).stuck.empty());
 }
 

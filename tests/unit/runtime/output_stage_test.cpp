@@ -76,7 +76,7 @@ class OutputStageTest : public testing::Test {
   void run(int frames) {
     for (int i = 0; i < frames; ++i) {
       const hal::TimePoint now = clock_.now();
-      ReadPicture& picture = stage_->buffer();
+      OutputFrame& picture = stage_->buffer();
       picture.image = hal::Image(kFormat);
       picture.captureTime = now;
       stage_->submit(ledger_.open(), now, now + 10ms);
@@ -86,7 +86,7 @@ class OutputStageTest : public testing::Test {
       }
     }
   }
-  std::uint64_t of(Fate fate) const { return ledger_.counts().of(fate); }
+  std::uint64_t of(Outcome outcome) const { return ledger_.counts().of(outcome); }
   void expectSumsToAgree() const {
     EXPECT_TRUE(ledger_.counts().addsUp());
     EXPECT_TRUE(stage_->status().addsUp());
@@ -105,13 +105,13 @@ TEST_F(OutputStageTest, OpensADeviceAnewOnceItIsBack) {
   run(30);
   EXPECT_TRUE(stage_->status().isFailed);
   EXPECT_FALSE(stage_->status().isFinal);
-  EXPECT_EQ(of(Fate::kOutputFailed), 30u);
+  EXPECT_EQ(of(Outcome::kOutputFailed), 30u);
   device_.isBroken = device_.isGone = false;
   run(90);
   EXPECT_FALSE(stage_->status().isFailed);
   EXPECT_EQ(device_.opened, 2);
-  EXPECT_EQ(static_cast<std::uint64_t>(device_.written), of(Fate::kShown));
-  EXPECT_GT(of(Fate::kShown), 80u);
+  EXPECT_EQ(static_cast<std::uint64_t>(device_.written), of(Outcome::kShown));
+  EXPECT_GT(of(Outcome::kShown), 80u);
   expectSumsToAgree();
 }
 
@@ -139,7 +139,7 @@ TEST_F(OutputStageTest, EndsForGoodWhatCannotBeOpenedAnew) {
   device_.isBroken = true;
   run(3);
   EXPECT_TRUE(stage_->status().isFinal);
-  EXPECT_EQ(of(Fate::kOutputFailed), 3u);
+  EXPECT_EQ(of(Outcome::kOutputFailed), 3u);
   const auto finished = stage_->finish();
   ASSERT_FALSE(finished);
   EXPECT_EQ(finished.error().problem, "cannot write");
@@ -151,8 +151,8 @@ TEST_F(OutputStageTest, CallsNoPictureShownThatTheDeviceSkipped) {
   run(5);
   device_.isFull = true;
   run(5);
-  EXPECT_EQ(of(Fate::kShown), 5u);
-  EXPECT_EQ(of(Fate::kOutputBusy), 5u);
+  EXPECT_EQ(of(Outcome::kShown), 5u);
+  EXPECT_EQ(of(Outcome::kOutputBusy), 5u);
   EXPECT_EQ(stage_->status().presented, 5u);
   EXPECT_FALSE(stage_->status().isFailed);
   expectSumsToAgree();

@@ -21,15 +21,15 @@ WaitingPicture picture(hal::Duration ready, hal::Duration due) {
 
 class PresentationQueueTest : public testing::Test {
  protected:
-  /// The fate of the next picture that is ruled on now, or nothing.
-  std::optional<Fate> fateAt(hal::Duration now) {
+  /// The outcome of the next picture that is ruled on now, or nothing.
+  std::optional<Outcome> outcomeAt(hal::Duration now) {
     const auto ruling = queue_.next(at(now));
-    return ruling ? std::optional(ruling->fate) : std::nullopt;
+    return ruling ? std::optional(ruling->outcome) : std::nullopt;
   }
   /// Something has been shown just now, so that nothing threatens to freeze.
   void showOneAt(hal::Duration now) {
     queue_.push(picture(now, now));
-    ASSERT_EQ(fateAt(now), Fate::kShown);
+    ASSERT_EQ(outcomeAt(now), Outcome::kShown);
   }
 
   PresentationQueue queue_{{}, 4};
@@ -46,34 +46,34 @@ TEST(DueTime, IsTheFirstRefreshAtOrAfterTheLatency) {
 TEST_F(PresentationQueueTest, LetsEarlyPicturesWait) {
   queue_.push(picture(20ms, 100ms));
   EXPECT_EQ(queue_.nextTime(), at(100ms));
-  EXPECT_EQ(fateAt(99ms), std::nullopt);
-  EXPECT_EQ(fateAt(100ms), Fate::kShown);
+  EXPECT_EQ(outcomeAt(99ms), std::nullopt);
+  EXPECT_EQ(outcomeAt(100ms), Outcome::kShown);
   EXPECT_EQ(queue_.nextTime(), std::nullopt);
 }
 
 TEST_F(PresentationQueueTest, DropsWhatWasReadyTooLate) {
   showOneAt(60ms);
   queue_.push(picture(110ms, 100ms));
-  EXPECT_EQ(fateAt(110ms), Fate::kLate);
+  EXPECT_EQ(outcomeAt(110ms), Outcome::kLate);
 }
 
 TEST_F(PresentationQueueTest, ToleratesAWakingThatIsALittleLate) {
   showOneAt(0ms);
   queue_.push(picture(50ms, 100ms));
-  EXPECT_EQ(fateAt(107ms), Fate::kShown);
+  EXPECT_EQ(outcomeAt(107ms), Outcome::kShown);
 }
 
 TEST_F(PresentationQueueTest, ShowsALatePictureRatherThanFreeze) {
   showOneAt(0ms);
   queue_.push(picture(180ms, 130ms));  // 180 ms after the one before: the next comes after 360
-  EXPECT_EQ(fateAt(180ms), Fate::kShownUntimely);
+  EXPECT_EQ(outcomeAt(180ms), Outcome::kShownOffSchedule);
   queue_.push(picture(230ms, 190ms));  // 50 ms after it: the next one comes before 200 ms are over
-  EXPECT_EQ(fateAt(230ms), Fate::kLate);
+  EXPECT_EQ(outcomeAt(230ms), Outcome::kLate);
 }
 
 TEST_F(PresentationQueueTest, ShowsTheVeryFirstPictureHoweverLate) {
   queue_.push(picture(900ms, 100ms));
-  EXPECT_EQ(fateAt(900ms), Fate::kShownUntimely);
+  EXPECT_EQ(outcomeAt(900ms), Outcome::kShownOffSchedule);
 }
 
 TEST_F(PresentationQueueTest, ShowsTheNewestOfThoseDue) {
@@ -81,28 +81,28 @@ TEST_F(PresentationQueueTest, ShowsTheNewestOfThoseDue) {
   queue_.push(picture(20ms, 100ms));
   queue_.push(picture(30ms, 102ms));
   queue_.push(picture(40ms, 140ms));
-  EXPECT_EQ(fateAt(103ms), Fate::kOvertaken);
-  EXPECT_EQ(fateAt(103ms), Fate::kShown);
-  EXPECT_EQ(fateAt(103ms), std::nullopt);
+  EXPECT_EQ(outcomeAt(103ms), Outcome::kSuperseded);
+  EXPECT_EQ(outcomeAt(103ms), Outcome::kShown);
+  EXPECT_EQ(outcomeAt(103ms), std::nullopt);
 }
 
-TEST_F(PresentationQueueTest, BlamesTheOutputForWhatFellDueWhileItWasBusy) {
+TEST_F(PresentationQueueTest, AttributesTheOutputForWhatFellDueWhileItWasBusy) {
   showOneAt(0ms);
   queue_.push(picture(20ms, 30ms));
   queue_.push(picture(40ms, 60ms));
   queue_.push(picture(60ms, 90ms));
   queue_.presented(at(80ms));
-  EXPECT_EQ(fateAt(80ms), Fate::kOutputBusy);
-  EXPECT_EQ(fateAt(80ms), Fate::kOutputBusy) << "20 ms late";
-  EXPECT_EQ(fateAt(90ms), Fate::kShown);
+  EXPECT_EQ(outcomeAt(80ms), Outcome::kOutputBusy);
+  EXPECT_EQ(outcomeAt(80ms), Outcome::kOutputBusy) << "20 ms late";
+  EXPECT_EQ(outcomeAt(90ms), Outcome::kShown);
 }
 
 TEST_F(PresentationQueueTest, KeepsTheOrderWhenTheLatencyFalls) {
   queue_.push({.captured = at(0ms), .ready = at(20ms), .due = at(200ms)});
   queue_.push({.captured = at(30ms), .ready = at(50ms), .due = at(130ms)});
-  EXPECT_EQ(fateAt(130ms), std::nullopt);
-  EXPECT_EQ(fateAt(200ms), Fate::kOvertaken);
-  EXPECT_EQ(fateAt(200ms), Fate::kShown);
+  EXPECT_EQ(outcomeAt(130ms), std::nullopt);
+  EXPECT_EQ(outcomeAt(200ms), Outcome::kSuperseded);
+  EXPECT_EQ(outcomeAt(200ms), Outcome::kShown);
 }
 
 TEST(UnpacedQueue, HandsOnEachPictureAtOnce) {
@@ -110,8 +110,8 @@ TEST(UnpacedQueue, HandsOnEachPictureAtOnce) {
   queue.push(picture(20ms, 10ms));
   queue.push(picture(30ms, 500ms));
   EXPECT_EQ(queue.nextTime(), at(20ms));
-  EXPECT_EQ(queue.next(at(600ms))->fate, Fate::kShown);
-  EXPECT_EQ(queue.next(at(600ms))->fate, Fate::kShown);
+  EXPECT_EQ(queue.next(at(600ms))->outcome, Outcome::kShown);
+  EXPECT_EQ(queue.next(at(600ms))->outcome, Outcome::kShown);
 }
 
 }  // namespace

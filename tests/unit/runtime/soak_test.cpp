@@ -37,7 +37,7 @@ TEST(Soak, TwoHoursOfFramesLeaveMemoryFlat) {
       },
       clock);
   hal::CameraSupervisor supervisor(selector, clock);
-  LiveChain chain(supervisor, clock);
+  LivePipeline chain(supervisor, clock);
   while (!chain.capture().status().format) chain.capture().step(clock.now());
   for (const char* name : {"one", "other"}) {
     auto output = std::make_unique<ForgettingOutput>();
@@ -70,7 +70,7 @@ TEST(Soak, TwoHoursOfFramesLeaveMemoryFlat) {
   }
   const LedgerCounts counts = chain.ledger().counts();
   EXPECT_EQ(counts.captured, kFrames);
-  EXPECT_EQ(counts.of(Fate::kShown), kFrames);
+  EXPECT_EQ(counts.of(Outcome::kShown), kFrames);
   EXPECT_TRUE(counts.addsUp());
   EXPECT_LE(ProcessResources::now().residentKiB, resident + 512) << "KiB";
   EXPECT_LE(ProcessResources::allocatedBytes(), allocated + 16 * 1024);

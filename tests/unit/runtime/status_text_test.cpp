@@ -39,8 +39,8 @@ RuntimeStatus someStatus() {
   output.ended.at(0) = 100;
   status.outputs = {output};
   status.ledger.captured = 103;
-  status.ledger.ended.at(static_cast<std::size_t>(Fate::kShown)) = 100;
-  status.ledger.ended.at(static_cast<std::size_t>(Fate::kReplaced)) = 3;
+  status.ledger.ended.at(static_cast<std::size_t>(Outcome::kShown)) = 100;
+  status.ledger.ended.at(static_cast<std::size_t>(Outcome::kReplaced)) = 3;
   return status;
 }
 
@@ -57,7 +57,7 @@ TEST(StatusJson, HoldsEverything) {
   EXPECT_EQ(json["painting"]["latency_ms"], 120.0);
   EXPECT_EQ(json["frames"]["captured"], 103);
   EXPECT_EQ(json["frames"]["ended"]["replaced"], 3);
-  EXPECT_EQ(json["frames"]["ended"].size(), kFates);
+  EXPECT_EQ(json["frames"]["ended"].size(), kOutcomes);
   EXPECT_EQ(json["outputs"][0]["name"], "loopback");
   EXPECT_NEAR(json["outputs"][0]["latency"]["p95_ms"], 121.0, 0.1);
   EXPECT_EQ(json["healthy"], true);
@@ -87,7 +87,7 @@ TEST(StatusMetrics, AreInPrometheusFormat) {
     }
   }
   EXPECT_EQ(text.back(), '\n');
-  EXPECT_THAT(text, HasSubstr("pleinair_frames_total{fate=\"replaced\"} 3\n"));
+  EXPECT_THAT(text, HasSubstr("pleinair_frames_total{outcome=\"replaced\"} 3\n"));
   EXPECT_THAT(text, HasSubstr("pleinair_quality_level{level=\"high\"} 1\n"));
   EXPECT_THAT(text,
               HasSubstr("pleinair_capture_to_present_seconds_sum{output=\"loopback\"} 12.1\n"));

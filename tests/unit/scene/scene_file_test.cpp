@@ -369,7 +369,7 @@ TEST(AssumedCamera, SeesSixtyDegrees) {
   EXPECT_NEAR(camera.project({0.0, 0.0, 1.0}).y, 240.0, 1e-9);
 }
 
-TEST(FittedCamera, FollowsCoverFit) {
+TEST(FittedCamera, FollowsAspectFill) {
   const tracking::CameraModel camera({.fx = 1000, .fy = 1000, .cx = 640, .cy = 360}, {.k1 = -0.1},
                                      {1280, 720});
   // 640×480 is covered by 960×720 of the frame's middle, at 2/3

@@ -16,7 +16,7 @@ RoomOfTags warmRoom() {
 }
 
 std::optional<TagPaper> read(const hal::Image& image, const Tracked& tracked) {
-  return readTagPaper(LinearPicture(image.view()), tracked.tags[0].corners, 8);
+  return readTagPaper(LinearImage(image.view()), tracked.tags[0].corners, 8);
 }
 
 TEST(TagPaper, ReadsPaperAndInkAtAnyAngle) {

@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "pipeline/tracking/pose/small_motion.h"
 #include "pipeline/tracking/pose/tracker.h"
+#include "pipeline/tracking/pose/twist.h"
 #include "tests/support/tag_scene.h"
 
 namespace pleinair::tracking {

@@ -87,7 +87,7 @@ TEST_P(ImageMotionOf, IsMeasuredInNoise) {
 
 /// Corners that are found anew in each frame tremble by half a pixel and more on soft patches.
 TEST_P(ImageMotionOf, IsMeasuredByTheReferenceTrackerToo) {
-  Watch watch({.features = FeatureMethod::kHarrisSift, .flow = false, .stillness = false});
+  Watch watch({.features = FeatureMethod::kHarrisSift, .flow = false, .staticRegions = false});
   watch.view().contrast = 1.6;
   watch.view().brightness = -72.0;
   const glm::dmat3 truth = nowFromThen(GetParam().step, kSize);

@@ -206,7 +206,7 @@ TEST(TagDetector, SaysWhichFamiliesItKnows) {
             "marker.family: unknown tag family 'tag36h12'; use one of tag36h11, tag36h10, tag25h9, "
             "tag16h5, tagCircle21h7, tagCircle49h12, tagStandard41h12, tagStandard52h13, "
             "tagCustom48h12");
-  EXPECT_THROW(TagDetector({.family = ""}), hal::StartupError);
+  EXPECT_THROW(TagDetector({.family = ""}), hal::Failure);
   EXPECT_NO_THROW(TagDetector({.family = "tag25h9"}));
 }
 

@@ -63,7 +63,7 @@ TEST(TagPose, OfExactCornersIsExact) {
 /// The tag's own frame: upright before the camera it has no rotation.
 TEST(TagPose, OfAnUprightTagHasNoRotation) {
   const CameraModel camera = webcam();
-  // Straight ahead, where the principal point shows it, no twin differs.
+  // Straight ahead, where the principal point shows it, no alternative differs.
   const glm::dmat4 truth = poseOf({}, {0.0, 0.0, 0.4});
   const auto candidates = tagPoseCandidates(camera, trueCorners(camera, truth, kEdge), kEdge);
   ASSERT_FALSE(candidates.empty());
@@ -96,12 +96,12 @@ TEST(TagPose, PredictsItsOwnError) {
   EXPECT_LT(positionRatio / count, 3.0);
 }
 
-/// Seen from near the front and from afar, noise makes the wrong twin fit better now and then; a
-/// pose known from elsewhere tells them apart.
+/// Seen from near the front and from afar, noise makes the wrong alternative fit better now and
+/// then; a pose known from elsewhere tells them apart.
 TEST(TagPose, PriorRejectsTheWrongTwinNearTheFront) {
   const CameraModel camera = webcam();
   std::mt19937 random(3);
-  constexpr double kMuchRad = 0.1;  // the prior is off by some, and so are both twins
+  constexpr double kMuchRad = 0.1;  // the prior is off by some, and so are both alternatives
   int wrongWithout = 0;
   int wrongWith = 0;
   for (int i = 0; i < 100; ++i) {
@@ -115,12 +115,13 @@ TEST(TagPose, PriorRejectsTheWrongTwinNearTheFront) {
     const auto with = chooseTagPose(candidates, prior);
     ASSERT_TRUE(without && with);
     const auto isWrong = [&](const TagPose& pose) {
-      return pose.twin && rotationBetweenRad(pose.estimate.cameraFromTarget, truth) >
-                              rotationBetweenRad(pose.twin->cameraFromTarget, truth) + kMuchRad;
+      return pose.alternative &&
+             rotationBetweenRad(pose.estimate.cameraFromTarget, truth) >
+                 rotationBetweenRad(pose.alternative->cameraFromTarget, truth) + kMuchRad;
     };
     if (isWrong(*without)) {
       ++wrongWithout;
-      EXPECT_EQ(without->choice, TwinChoice::kAmbiguous);
+      EXPECT_EQ(without->choice, AmbiguityResolution::kAmbiguous);
     }
     if (isWrong(*with)) {
       ++wrongWith;
@@ -135,11 +136,11 @@ TEST(TagPose, ErrorDecidesWhereItIsClear) {
   const glm::dmat4 truth = poseOf({0.7, 0.0, 0.0}, {0.0, 0.0, 0.3});
   const auto candidates = tagPoseCandidates(camera, trueCorners(camera, truth, kEdge), kEdge);
   ASSERT_EQ(candidates.size(), 2U);
-  // Even a prior that says otherwise does not help the wrong twin.
+  // Even a prior that says otherwise does not help the wrong alternative.
   const auto pose =
       chooseTagPose(candidates, PosePrior{.cameraFromTarget = candidates[1].cameraFromTarget});
   ASSERT_TRUE(pose);
-  EXPECT_EQ(pose->choice, TwinChoice::kByError);
+  EXPECT_EQ(pose->choice, AmbiguityResolution::kByError);
   EXPECT_LT(rotationBetweenRad(pose->estimate.cameraFromTarget, truth), 1e-6);
 }
 

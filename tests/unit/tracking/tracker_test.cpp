@@ -108,8 +108,8 @@ TEST(Tracker, FindsAMovedTagWhereItIsAndCountsIt) {
             0.005);
 }
 
-/// A tag that comes nearer the front, where its twins look alike: with what was seen before, the
-/// pose is chosen by it; after too long, or a reset, it is a guess again.
+/// A tag that comes nearer the front, where its alternatives look alike: with what was seen before,
+/// the pose is chosen by it; after too long, or a reset, it is a guess again.
 TEST(Tracker, RemembersForAWhile) {
   SceneTag tag{.id = 4, .edgeMetres = kEdge};
   const std::vector<TagMarker> markers{{.id = 4, .edgeMetres = kEdge}};
@@ -123,18 +123,18 @@ TEST(Tracker, RemembersForAWhile) {
   const auto choiceOf = [](const TrackingResult& result) { return result.tags[0].choice; };
 
   Tracker tracker(webcam(), markers);
-  EXPECT_EQ(choiceOf(tracker.track(front.view(), start)), TwinChoice::kAmbiguous);
-  EXPECT_EQ(choiceOf(tracker.track(tilted.view(), start + 100ms)), TwinChoice::kByError);
-  EXPECT_EQ(choiceOf(tracker.track(front.view(), start + 200ms)), TwinChoice::kByPrior);
-  EXPECT_EQ(choiceOf(tracker.track(front.view(), start + 600ms)), TwinChoice::kByPrior);
-  EXPECT_EQ(choiceOf(tracker.track(front.view(), start + 1200ms)), TwinChoice::kAmbiguous);
+  EXPECT_EQ(choiceOf(tracker.track(front.view(), start)), AmbiguityResolution::kAmbiguous);
+  EXPECT_EQ(choiceOf(tracker.track(tilted.view(), start + 100ms)), AmbiguityResolution::kByError);
+  EXPECT_EQ(choiceOf(tracker.track(front.view(), start + 200ms)), AmbiguityResolution::kByPrior);
+  EXPECT_EQ(choiceOf(tracker.track(front.view(), start + 600ms)), AmbiguityResolution::kByPrior);
+  EXPECT_EQ(choiceOf(tracker.track(front.view(), start + 1200ms)), AmbiguityResolution::kAmbiguous);
   tracker.track(tilted.view(), start + 1300ms);
   tracker.reset();
-  EXPECT_EQ(choiceOf(tracker.track(front.view(), start + 1400ms)), TwinChoice::kAmbiguous);
+  EXPECT_EQ(choiceOf(tracker.track(front.view(), start + 1400ms)), AmbiguityResolution::kAmbiguous);
   EXPECT_EQ(tracker.counters().ambiguousTags, 3U);
 }
 
-/// A still, ambiguous tag under noise does not flip between its twins.
+/// A still, ambiguous tag under noise does not flip between its alternatives.
 TEST(Tracker, DoesNotFlickerBetweenTwins) {
   const SceneTag tag{
       .id = 4, .edgeMetres = kEdge, .worldFromTag = poseOf({0.1, 0.06, 0.0}, {0.05, 0.02, 1.1})};

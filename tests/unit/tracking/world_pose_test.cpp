@@ -88,8 +88,8 @@ TEST(WorldPose, OfExactCornersIsExact) {
   }
 }
 
-/// Small noisy tags whose own poses are many degrees off, near the front where twins look alike:
-/// together they leave no doubt.
+/// Small noisy tags whose own poses are many degrees off, near the front where alternatives look
+/// alike: together they leave no doubt.
 TEST(WorldPose, OfSmallNoisyTagsIsRight) {
   WorldPoseSolver solver;
   const CameraModel camera = webcam();
@@ -104,7 +104,7 @@ TEST(WorldPose, OfSmallNoisyTagsIsRight) {
     worst =
         std::max(worst, glm::degrees(rotationBetweenRad(pose->estimate.cameraFromTarget, truth)));
     left += static_cast<int>(std::ranges::count(pose->agrees, 0));
-    EXPECT_NE(pose->choice, TwinChoice::kAmbiguous);
+    EXPECT_NE(pose->choice, AmbiguityResolution::kAmbiguous);
   }
   RecordProperty("worst_rotation_deg", std::to_string(worst));
   EXPECT_LT(worst, 1.0);
@@ -160,17 +160,17 @@ TEST(WorldPose, OfTwoTagsThatDisagreeThePriorsIsBelieved) {
       const auto tags = seen(camera, placed, truth, 0.05, random);
       const auto unknown = solver.solve(camera, tags, std::nullopt);
       ASSERT_TRUE(unknown);
-      EXPECT_EQ(unknown->choice, TwinChoice::kAmbiguous);
+      EXPECT_EQ(unknown->choice, AmbiguityResolution::kAmbiguous);
       const auto known = solver.solve(camera, tags, prior);
       ASSERT_TRUE(known);
-      EXPECT_EQ(known->choice, TwinChoice::kByPrior);
+      EXPECT_EQ(known->choice, AmbiguityResolution::kByPrior);
       EXPECT_EQ(known->agrees[moved], 0);
       EXPECT_EQ(known->agrees[1 - moved], 1);
     }
   }
 }
 
-/// A single tag near the front: only the pose of before tells the twins apart.
+/// A single tag near the front: only the pose of before tells the alternatives apart.
 TEST(WorldPose, OfOneTagKeepsToThePrior) {
   WorldPoseSolver solver;
   const CameraModel camera = webcam();
@@ -191,7 +191,7 @@ TEST(WorldPose, OfOneTagKeepsToThePrior) {
                             other.cameraFromTarget * glm::inverse(tags[0].worldFromTag), truth) +
                             0.05);
     }
-    if (pose->choice == TwinChoice::kByPrior) ++byPrior;
+    if (pose->choice == AmbiguityResolution::kByPrior) ++byPrior;
   }
   EXPECT_GT(byPrior, 25);
 }

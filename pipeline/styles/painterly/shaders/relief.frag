@@ -1,12 +1,12 @@
 // Purpose: light on the paint's relief, once a pixel, on its canvas; and what is in focus kept
 //          crisp.
-// Inputs:  colours, heights (stroke_mark.glsl); sheet.glsl's: what it is painted on; frame, normalFocus if
-//          hasFocus; relief, gloss, weave: how much of each; tooth: how much the sheet's grain keeps
+// Inputs:  colours, heights (stroke_mark.glsl); substrate.glsl's: what it is painted on; frame, normalFocus if
+//          hasFocus; relief, gloss, weave: how much of each; tooth: how much the substrate's grain keeps
 //          paint from its hollows, where the washed ground is seen; palette: saturation, warmth.
 // Outputs: RGBA8, sRGB-coded, opaque.
 // Precision: highp for places.
 #include "pipeline/styles/painterly/shaders/paint_light.glsl"
-#include "pipeline/styles/sheet/shaders/sheet.glsl"
+#include "pipeline/styles/substrate/shaders/substrate.glsl"
 uniform sampler2D colours;
 uniform sampler2D heights;
 uniform sampler2D frame;
@@ -22,7 +22,7 @@ uniform float saturation;
 uniform float warmth;
 layout(location = 0) out vec4 picture;
 
-// Dry paint stays on the sheet's heights; where more is put on, it goes deeper.
+// Dry paint stays on the substrate's heights; where more is put on, it goes deeper.
 float caught(float height, float amount) {
   float level = mix(0.9, 0.4, amount);
   return mix(1.0, smoothstep(level - 0.16, level + 0.16, height), tooth);
@@ -42,9 +42,9 @@ void main() {
   vec2 slope = 0.5 * vec2(ne + se - nw - sw, sw + se - nw - ne) * relief;
   vec3 normal = normalize(vec3(-slope, 1.0));
   float lit = litBy(normal);
-  vec4 sheet = sheetAt(onPaper(gl_FragCoord.xy), 1.0);
-  lit += weave * (1.0 - 0.7 * here) * (2.0 * sheet.g - 1.0);
-  rgb = mix(mix(ground, rgb, wash), rgb, caught(sheet.r, texelFetch(heights, p, 0).g));
+  vec4 substrate = sheetAt(onPaper(gl_FragCoord.xy), 1.0);
+  lit += weave * (1.0 - 0.7 * here) * (2.0 * substrate.g - 1.0);
+  rgb = mix(mix(ground, rgb, wash), rgb, caught(substrate.r, texelFetch(heights, p, 0).g));
   float luma = dot(rgb, vec3(0.299, 0.587, 0.114));
   rgb = luma + (rgb - luma) * saturation;
   rgb *= vec3(1.0 + 0.12 * warmth, 1.0, 1.0 - 0.15 * warmth);

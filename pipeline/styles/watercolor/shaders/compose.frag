@@ -7,6 +7,6 @@ layout(location = 0) out vec4 picture;
 
 void main() {
   ivec2 p = ivec2(gl_FragCoord.xy);
-  vec4 sheet = sheetAt(onPaper(gl_FragCoord.xy), 1.0);
-  picture = vec4(finished(washAt(p, sheet), p, sheet), 1.0);
+  vec4 substrate = sheetAt(onPaper(gl_FragCoord.xy), 1.0);
+  picture = vec4(finished(washAt(p, substrate), p, substrate), 1.0);
 }

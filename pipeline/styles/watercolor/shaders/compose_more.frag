@@ -19,11 +19,11 @@ layout(location = 0) out vec4 picture;
 
 void main() {
   ivec2 p = ivec2(gl_FragCoord.xy);
-  vec4 sheet = sheetAt(onPaper(gl_FragCoord.xy), 1.0);
+  vec4 substrate = sheetAt(onPaper(gl_FragCoord.xy), 1.0);
   ivec2 cell = texelOf(slotOf(texelFetch(tiling, p, 0).r));
   vec3 mean = srgbFromLinear(texelFetch(means, cell, 0).rgb);
-  vec3 wash = mix(washAt(p, sheet), painted(mean, vividness, luminosity), mosaic);
-  vec3 crisp = onSheet(texelFetch(frame, p, 0).rgb, sheet);
+  vec3 wash = mix(washAt(p, substrate), painted(mean, vividness, luminosity), mosaic);
+  vec3 crisp = onSubstrate(texelFetch(frame, p, 0).rgb, substrate);
   float focus = hasFocus ? texelFetch(normalFocus, p, 0).a : 0.0;
-  picture = vec4(mix(finished(wash, p, sheet), crisp, focus), 1.0);
+  picture = vec4(mix(finished(wash, p, substrate), crisp, focus), 1.0);
 }

@@ -1,11 +1,11 @@
 // Purpose: washes on paper, a pixel at a time: a light wash, a dark one glazed over it where the picture
-//          is dark, lines (thesis §3.2.2) and the sheet (§3.5).
-// Inputs:  tiling, darkLayer and lightLayer (layers.frag, LINEAR); sheet.glsl's;
+//          is dark, lines (thesis §3.2.2) and the substrate (§3.5).
+// Inputs:  tiling, darkLayer and lightLayer (layers.frag, LINEAR); substrate.glsl's;
 //          pictureSize, threshold, and the parameters of the same names (watercolor_parameters.h).
 // Outputs: sRGB-coded colours.
 // Precision: highp for places; colours would do with less.
 #include "pipeline/styles/watercolor/shaders/density.glsl"
-#include "pipeline/styles/sheet/shaders/sheet.glsl"
+#include "pipeline/styles/substrate/shaders/substrate.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
 uniform highp usampler2D tiling;
 uniform sampler2D darkLayer;
@@ -19,9 +19,9 @@ uniform float rim;
 uniform float granulation;
 uniform float grain;
 
-// The sheet's relief, and its warm white.
-vec3 onSheet(vec3 colour, vec4 sheet) {
-  return colour * (1.0 + grain * (sheet.g - 0.5)) * mix(vec3(1.0), vec3(1.0, 0.992, 0.97), grain);
+// The substrate's relief, and its warm white.
+vec3 onSubstrate(vec3 colour, vec4 substrate) {
+  return colour * (1.0 + grain * (substrate.g - 0.5)) * mix(vec3(1.0), vec3(1.0, 0.992, 0.97), grain);
 }
 
 // How dark the line is, from 0 to 1.
@@ -36,9 +36,9 @@ float lineAt(ivec2 p, float valley) {
 }
 
 // The paint on pixel p.
-vec3 washAt(ivec2 p, vec4 sheet) {
-  float valley = 0.5 - sheet.r;
-  vec2 at = (vec2(p) + 0.5 + wobble * (sheet.ba - 0.5)) / pictureSize;
+vec3 washAt(ivec2 p, vec4 substrate) {
+  float valley = 0.5 - substrate.r;
+  vec2 at = (vec2(p) + 0.5 + wobble * (substrate.ba - 0.5)) / pictureSize;
   vec4 dark = texture(darkLayer, at);
   vec4 light = texture(lightLayer, at);
   float place = 2.0 * dark.a - 0.5;
@@ -55,12 +55,12 @@ vec3 washAt(ivec2 p, vec4 sheet) {
   // Pigment settles in the valleys, less visibly in thick paint; a brush skips the highest grains.
   float thick = dot(density, kLuma);
   float grains = 2.0 * valley / (1.0 + 0.7 * thick) -
-                 0.5 * smoothstep(0.55, 0.9, sheet.r) * smoothstep(1.0, 2.5, thick);
+                 0.5 * smoothstep(0.55, 0.9, substrate.r) * smoothstep(1.0, 2.5, thick);
   return colourOf(density * max(1.0 + granulation * grains, 0.2));
 }
 
-// The line over it, and the sheet under it.
-vec3 finished(vec3 wash, ivec2 p, vec4 sheet) {
-  vec3 ink = mix(vec3(1.0), vec3(0.22, 0.2, 0.22), lineAt(p, 0.5 - sheet.r));
-  return onSheet(wash * ink, sheet);
+// The line over it, and the substrate under it.
+vec3 finished(vec3 wash, ivec2 p, vec4 substrate) {
+  vec3 ink = mix(vec3(1.0), vec3(0.22, 0.2, 0.22), lineAt(p, 0.5 - substrate.r));
+  return onSubstrate(wash * ink, substrate);
 }

@@ -1,11 +1,11 @@
 // Purpose: what lies ready on the palette around a place: the two colours, a dark and a light one, that
 //          tell its surroundings best, and how loaded the brush is. Cells have no sides here: near
 //          ones count by how much of them is near. One pixel for 4x4 of the picture.
-// Inputs:  tiling, darkWash and lightWash (washes.comp), sheet.glsl's, cellPixels, reach (cells).
+// Inputs:  tiling, darkWash and lightWash (washes.comp), substrate.glsl's, cellPixels, reach (cells).
 // Outputs: darkPigment, lightPigment (RGBA8): sRGB-coded; A of the dark one: the light one's share, of
 //          the light one: the load, 0.5 is the usual.
 // Precision: highp.
-#include "pipeline/styles/sheet/shaders/sheet.glsl"
+#include "pipeline/styles/substrate/shaders/substrate.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
 uniform highp usampler2D tiling;
 uniform sampler2D darkWash;

@@ -24,7 +24,7 @@ TEST(Findings, AreALineEachWithTheRemedyBelow) {
             "warning  udev       off\n"
             "                    -> start it\n"
             "\n"
-            "1 thing to mend; 1 warning.\n");
+            "1 thing to fix; 1 warning.\n");
 }
 
 TEST(Findings, SayWhetherAllIsWell) {

@@ -57,7 +57,7 @@ struct HealthyMachine {
             .cameras = [this] { return cameras; },
             .loopbacks = [this] { return loopbacks; },
             .configurationError = [this] { return configurationError; },
-            .stills = "/srv/stills"};
+            .snapshots = "/srv/snapshots"};
   }
 };
 

@@ -83,7 +83,7 @@ TEST(CheckConfiguration, RepeatsTheError) {
 
 TEST(CheckDisk, WarnsBeforeItIsFull) {
   HealthyMachine machine;
-  EXPECT_EQ(checkDisk(machine.probes()).text, "/srv/stills: 20000 MB free");
+  EXPECT_EQ(checkDisk(machine.probes()).text, "/srv/snapshots: 20000 MB free");
   machine.freeBytes = 999 * kMB;
   EXPECT_EQ(checkDisk(machine.probes()).verdict, Verdict::kWarning);
   machine.freeBytes = 99 * kMB;
@@ -94,11 +94,11 @@ TEST(CheckDisk, WarnsBeforeItIsFull) {
 
 TEST(CheckDisk, IsWrongWhereNothingCanBeSaved) {
   HealthyMachine machine;
-  machine.refused["/srv/stills"] = ENOENT;
+  machine.refused["/srv/snapshots"] = ENOENT;
   const Finding finding = checkDisk(machine.probes());
   EXPECT_EQ(finding.verdict, Verdict::kWrong);
   EXPECT_THAT(finding.text, HasSubstr("No such file or directory"));
-  EXPECT_THAT(finding.remedy, HasSubstr("'/srv/stills'"));
+  EXPECT_THAT(finding.remedy, HasSubstr("'/srv/snapshots'"));
 }
 
 TEST(CheckMemory, ReadsWhatIsAvailable) {

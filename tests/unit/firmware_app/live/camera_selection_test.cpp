@@ -46,7 +46,7 @@ hal::Error failureOf(const std::string& source) {
   hal::SteppedClock clock;
   try {
     chosenCamera({.source = source}, clock);
-  } catch (const hal::StartupError& error) {
+  } catch (const hal::Failure& error) {
     return error.error();
   }
   ADD_FAILURE() << source;

@@ -9,7 +9,7 @@ namespace pleinair::app {
 namespace {
 
 using testing::HasSubstr;
-using Wish = LiveTuning::Wish;
+using Request = LiveTuning::Request;
 
 struct Brush {
   int size = 8;
@@ -30,7 +30,7 @@ const config::ParameterTable<Brush>& brush() {
   return table;
 }
 
-const std::vector<PainterView> kViews{{"camera", ""}, {"cells", ""}};
+const std::vector<DebugView> kViews{{"camera", ""}, {"cells", ""}};
 
 std::vector<LiveLook> looks() {
   return {{"dry", brush().defaults()},
@@ -42,10 +42,10 @@ class Tuning : public testing::Test {
   explicit Tuning(std::vector<LiveLook> looks = app::looks())
       : tuning_("brush", {.style = brush().defaults(), .view = {}}, kViews, std::move(looks)) {}
 
-  Wish press(const std::string& name, bool shift = false, bool isRepeat = false) {
+  Request press(const std::string& name, bool shift = false, bool isRepeat = false) {
     return tuning_.press({.name = name, .shift = shift, .isRepeat = isRepeat});
   }
-  Wish shiftPress(const std::string& name) { return press(name, true); }
+  Request shiftPress(const std::string& name) { return press(name, true); }
   Brush values() const { return brush().typed(tuning_.parameters().style); }
   std::string chosen() const {
     return tuning_.parameterLine().substr(0, tuning_.parameterLine().find(' '));
@@ -65,11 +65,11 @@ TEST_F(Tuning, StartsWithWhatItIsGiven) {
 
 TEST_F(Tuning, ChoosesParametersRoundAndRoundButThoseThatAreNotLive) {
   for (const std::string next : {"water", "paper", "size", "water"}) {
-    EXPECT_EQ(press("tab"), Wish::kNone);
+    EXPECT_EQ(press("tab"), Request::kNone);
     EXPECT_EQ(chosen(), next);
   }
   for (const std::string before : {"size", "paper", "water"}) {
-    EXPECT_EQ(shiftPress("tab"), Wish::kNone);
+    EXPECT_EQ(shiftPress("tab"), Request::kNone);
     EXPECT_EQ(chosen(), before);
   }
   press("down");
@@ -79,15 +79,15 @@ TEST_F(Tuning, ChoosesParametersRoundAndRoundButThoseThatAreNotLive) {
 }
 
 TEST_F(Tuning, ChangesTheChosenOneWithinItsRange) {
-  EXPECT_EQ(press("right"), Wish::kNone);
+  EXPECT_EQ(press("right"), Request::kNone);
   EXPECT_EQ(values().size, 9);
-  EXPECT_EQ(shiftPress("right"), Wish::kNone);
+  EXPECT_EQ(shiftPress("right"), Request::kNone);
   EXPECT_EQ(values().size, 19);
   press("left");
   EXPECT_EQ(values().size, 18);
   for (int i = 0; i < 9; ++i) shiftPress("left");
   EXPECT_EQ(values().size, 4);
-  EXPECT_EQ(press("left"), Wish::kNone);
+  EXPECT_EQ(press("left"), Request::kNone);
   EXPECT_EQ(values().size, 4);
   EXPECT_EQ(values().water, 0.5) << "the others stay";
   press("tab");
@@ -110,7 +110,7 @@ TEST_F(Tuning, ResetsTheChosenOneOnly) {
   press("right");
   press("tab");
   press("right");
-  EXPECT_EQ(press("backspace"), Wish::kNone);
+  EXPECT_EQ(press("backspace"), Request::kNone);
   EXPECT_EQ(values().water, 0.5);
   EXPECT_EQ(values().size, 9);
   press("l");
@@ -122,18 +122,18 @@ TEST_F(Tuning, ResetsTheChosenOneOnly) {
 
 TEST_F(Tuning, CyclesViewsFromTheFinishedPictureAndBackToIt) {
   for (const std::string view : {"camera", "cells", "", "camera"}) {
-    EXPECT_EQ(press("v"), Wish::kNone);
+    EXPECT_EQ(press("v"), Request::kNone);
     EXPECT_EQ(tuning_.parameters().view, view);
   }
   for (const std::string view : {"", "cells", "camera"}) {
-    EXPECT_EQ(shiftPress("v"), Wish::kNone);
+    EXPECT_EQ(shiftPress("v"), Request::kNone);
     EXPECT_EQ(tuning_.parameters().view, view);
   }
   EXPECT_EQ(tuning_.state(), "brush · dry · view camera");
 }
 
 TEST_F(Tuning, PutsLooksOn) {
-  EXPECT_EQ(press("l"), Wish::kNone);
+  EXPECT_EQ(press("l"), Request::kNone);
   EXPECT_EQ(values().water, 0.9);
   EXPECT_EQ(values().size, 20);
   EXPECT_EQ(tuning_.state(), "brush · wet");
@@ -155,30 +155,30 @@ TEST_F(Tuning, KeepsTheViewUnderAnotherLook) {
 }
 
 TEST_F(Tuning, PausesAndHelpsAndGoesOn) {
-  EXPECT_EQ(press("space"), Wish::kNone);
+  EXPECT_EQ(press("space"), Request::kNone);
   EXPECT_TRUE(tuning_.isPaused());
   EXPECT_THAT(tuning_.state(), HasSubstr(" · paused"));
-  EXPECT_EQ(press("space"), Wish::kNone);
+  EXPECT_EQ(press("space"), Request::kNone);
   EXPECT_FALSE(tuning_.isPaused());
   for (const std::string key : {"h", "?", "f1"}) {
-    EXPECT_EQ(press(key), Wish::kNone);
+    EXPECT_EQ(press(key), Request::kNone);
     EXPECT_TRUE(tuning_.showsHelp());
-    EXPECT_EQ(press(key), Wish::kNone);
+    EXPECT_EQ(press(key), Request::kNone);
     EXPECT_FALSE(tuning_.showsHelp());
   }
 }
 
 TEST_F(Tuning, WishesWhatOthersDo) {
-  EXPECT_EQ(press("s"), Wish::kStill);
-  EXPECT_EQ(press("f"), Wish::kFullScreen);
-  EXPECT_EQ(press("q"), Wish::kQuit);
-  EXPECT_EQ(press("escape"), Wish::kQuit);
+  EXPECT_EQ(press("s"), Request::kSnapshot);
+  EXPECT_EQ(press("f"), Request::kFullScreen);
+  EXPECT_EQ(press("q"), Request::kQuit);
+  EXPECT_EQ(press("escape"), Request::kQuit);
   EXPECT_EQ(tuning_.parameters().style, brush().defaults());
 }
 
 TEST_F(Tuning, KnowsNoOtherKey) {
   for (const std::string key : {"a", "1", "return", "f2", "pagedown", "", "S"}) {
-    EXPECT_EQ(press(key), Wish::kUnknownKey) << key;
+    EXPECT_EQ(press(key), Request::kUnknownKey) << key;
   }
   EXPECT_EQ(tuning_.parameters().style, brush().defaults());
   EXPECT_EQ(tuning_.state(), "brush · dry");
@@ -190,7 +190,7 @@ TEST_F(Tuning, RepeatsOnlyWhatCanBeHeld) {
   press("tab", false, true);
   EXPECT_EQ(chosen(), "water");
   for (const std::string key : {"space", "f", "s", "h", "v", "l", "q", "escape", "backspace"}) {
-    EXPECT_EQ(press(key, false, true), Wish::kUnknownKey) << key;
+    EXPECT_EQ(press(key, false, true), Request::kUnknownKey) << key;
   }
   EXPECT_FALSE(tuning_.isPaused());
   EXPECT_EQ(tuning_.state(), "brush · dry, changed");
@@ -234,8 +234,8 @@ TEST(TuningStart, DoesWithoutLooksAndParameters) {
   LiveTuning tuning("none", {.style = nothing, .view = {}}, {}, {});
   EXPECT_EQ(tuning.parameterLine(), "none has nothing to tune");
   for (const std::string key : {"tab", "up", "left", "right", "backspace", "l", "v"}) {
-    EXPECT_EQ(tuning.press({.name = key}), Wish::kNone) << key;
-    EXPECT_EQ(tuning.press({.name = key, .shift = true}), Wish::kNone) << key;
+    EXPECT_EQ(tuning.press({.name = key}), Request::kNone) << key;
+    EXPECT_EQ(tuning.press({.name = key, .shift = true}), Request::kNone) << key;
   }
   EXPECT_EQ(tuning.state(), "none");
   EXPECT_EQ(tuning.parameters().view, "");

@@ -42,11 +42,11 @@ class FakeWindow final : public hal::Window {
 
 class LiveWindowTest : public testing::Test {
  protected:
-  LiveWindow::Wishes press(const std::string& key) {
+  LiveWindow::Requests press(const std::string& key) {
     window_.events.emplace_back(hal::KeyPressed{.name = key});
-    const LiveWindow::Wishes wishes = live_.takeWishes();
+    const LiveWindow::Requests requests = live_.takeRequests();
     live_.update(24.4, true);
-    return wishes;
+    return requests;
   }
   void updateAfter(hal::Duration time, bool pictureFollows = true) {
     clock_.advance(time);
@@ -105,16 +105,16 @@ TEST_F(LiveWindowTest, GivesANotice) {
   EXPECT_THAT(window_.caption, Not(HasSubstr("saved")));
 }
 
-TEST_F(LiveWindowTest, PassesWishesOn) {
+TEST_F(LiveWindowTest, PassesRequestsOn) {
   EXPECT_FALSE(press("v").quit);
   EXPECT_TRUE(press("q").quit);
   EXPECT_TRUE(press("escape").quit);
-  EXPECT_TRUE(press("s").still);
+  EXPECT_TRUE(press("s").snapshot);
   EXPECT_FALSE(press("s").quit);
   window_.events = {hal::WindowClosed{}};
-  EXPECT_TRUE(live_.takeWishes().quit);
+  EXPECT_TRUE(live_.takeRequests().quit);
   window_.events = {hal::WindowResized{{9, 9}}};
-  EXPECT_FALSE(live_.takeWishes().quit);
+  EXPECT_FALSE(live_.takeRequests().quit);
 }
 
 TEST_F(LiveWindowTest, FillsTheScreenAndComesBack) {
@@ -140,7 +140,7 @@ TEST_F(LiveWindowTest, RedrawsACaptionWhereNoPictureComesButNotTooOften) {
 TEST_F(LiveWindowTest, ThrowsWhereItCannotBeDrawn) {
   window_.isLost = true;
   clock_.advance(1s);
-  EXPECT_THROW(live_.update(0.0, false), hal::StartupError);
+  EXPECT_THROW(live_.update(0.0, false), hal::Failure);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace {
 
 TEST(NoStatusServer, SaysSoUnlessItIsOff) {
   EXPECT_EQ(startStatusServer("off", {}), nullptr);
-  EXPECT_THROW(startStatusServer("127.0.0.1:0", {}), hal::StartupError);
+  EXPECT_THROW(startStatusServer("127.0.0.1:0", {}), hal::Failure);
 }
 
 }  // namespace

@@ -174,7 +174,7 @@ TEST_F(StatusServerTest, SaysWhyItCannotListen) {
     try {
       start(each.listen);
       ADD_FAILURE() << each.listen;
-    } catch (const hal::StartupError& error) {
+    } catch (const hal::Failure& error) {
       EXPECT_EQ(error.error().kind, each.kind) << each.listen;
       EXPECT_THAT(error.what(), AllOf(HasSubstr("status.listen"), HasSubstr(each.text)));
     }

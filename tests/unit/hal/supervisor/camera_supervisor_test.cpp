@@ -85,7 +85,7 @@ TEST(CameraSupervisor, GivesUpACameraThatStopsDeliveringWithoutAnError) {
 TEST(CameraSupervisor, AStallThatEndsByItselfIsToldApartFromDrops) {
   Supervised supervised;
   ScriptedFrame dropping{.dropped = 2};
-  ScriptedFrame back{.after = seconds(1), .dropped = 29, .starved = 4};
+  ScriptedFrame back{.after = seconds(1), .dropped = 29, .underruns = 4};
   supervised.add({{.steps = scriptOf(scriptedFrames(3), dropping, back, scriptedFrames(2))}});
   const auto all = supervised.run(milliseconds(1300));
   EXPECT_THAT(story(all), ElementsAre("opening", "format", "streaming", "frames×4", "stalled",
@@ -95,7 +95,7 @@ TEST(CameraSupervisor, AStallThatEndsByItselfIsToldApartFromDrops) {
   EXPECT_EQ(frames[3].frame.droppedBefore, 2U);
   EXPECT_EQ(frames[3].lostInStall, 0U);
   EXPECT_EQ(frames[4].frame.droppedBefore, 29U);
-  EXPECT_EQ(frames[4].frame.starvedBefore, 4U);
+  EXPECT_EQ(frames[4].frame.underrunsBefore, 4U);
   EXPECT_EQ(frames[4].lostInStall, 25U) << "the consumer lost the others";
   EXPECT_EQ(frames[5].lostInStall, 0U);
   const SupervisorCounts counts = supervised.supervisor().status().counts;
@@ -103,7 +103,7 @@ TEST(CameraSupervisor, AStallThatEndsByItselfIsToldApartFromDrops) {
   EXPECT_EQ(counts.resumptions, 1U);
   EXPECT_EQ(counts.losses, 0U);
   EXPECT_EQ(counts.frames,
-            (FrameCounts{.delivered = 7, .dropped = 6, .starved = 4, .lostInStall = 25}));
+            (FrameCounts{.delivered = 7, .dropped = 6, .underruns = 4, .lostInStall = 25}));
   EXPECT_THAT(supervised.supervisor().status().reason,
               HasSubstr("after 1.0 s of silence; 25 were lost"));
 }

@@ -11,14 +11,14 @@ namespace {
 
 using std::chrono::milliseconds;
 
-CapturedFrame frameAt(TimePoint time, std::uint64_t dropped = 0, std::uint64_t starved = 0) {
+CapturedFrame frameAt(TimePoint time, std::uint64_t dropped = 0, std::uint64_t underruns = 0) {
   const auto image =
       std::make_shared<Image>(FrameFormat{.pixelFormat = PixelFormat::kGrey8, .size = {4, 4}});
   return {.image = image->view(),
           .dmaBufs = {},
           .sequence = 77,
           .droppedBefore = dropped,
-          .starvedBefore = starved,
+          .underrunsBefore = underruns,
           .captureTime = time,
           .lease = image};
 }
@@ -47,7 +47,7 @@ TEST(SessionFrames, CarriesWhatWasLostBeforeARefusedFrameOverALoss) {
       frames.take(frameAt(kStart + milliseconds(1), 1), kStart + milliseconds(1), false);
   const auto& frame = std::get<SupervisedFrame>(taken);
   EXPECT_EQ(frame.frame.droppedBefore, 6U);
-  EXPECT_EQ(frame.frame.starvedBefore, 1U);
+  EXPECT_EQ(frame.frame.underrunsBefore, 1U);
   EXPECT_EQ(frame.lostInStall, 4U);
   EXPECT_EQ(frame.misTimedBefore, 1U);
   EXPECT_EQ(frame.frame.sequence, 8U);
@@ -63,10 +63,10 @@ TEST(SessionFrames, OfRecordingsTimesMayRunAheadOfTheClock) {
   EXPECT_TRUE(std::holds_alternative<SupervisedFrame>(frames.take(frameAt(later), kStart, false)));
 }
 
-TEST(SessionFrames, MoreStarvedThanDroppedIsMended) {
+TEST(SessionFrames, MoreStarvedThanDroppedIsFixed) {
   SessionFrames frames;
   const auto taken = frames.take(frameAt(kStart, 2, 9), kStart, false);
-  EXPECT_EQ(std::get<SupervisedFrame>(taken).frame.starvedBefore, 2U);
+  EXPECT_EQ(std::get<SupervisedFrame>(taken).frame.underrunsBefore, 2U);
 }
 
 }  // namespace

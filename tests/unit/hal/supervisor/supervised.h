@@ -130,7 +130,7 @@ inline void expectLedgerOf(const std::vector<SupervisedFrame>& frames) {
   for (const SupervisedFrame& each : frames) {
     expected += each.frame.droppedBefore + each.corruptBefore + each.misTimedBefore;
     EXPECT_EQ(each.frame.sequence, expected);
-    EXPECT_LE(each.lostInStall + each.frame.starvedBefore, each.frame.droppedBefore);
+    EXPECT_LE(each.lostInStall + each.frame.underrunsBefore, each.frame.droppedBefore);
     EXPECT_TRUE(each.frame.image.isComplete());
     if (last) {
       EXPECT_GT(each.frame.captureTime, *last);

@@ -49,7 +49,7 @@ class RandomScript {
   ScriptedFrame frame() {
     ScriptedFrame frame{.after = milliseconds(upTo(60))};  // 0: a time that repeats
     if (upTo(5) == 0) frame.dropped = static_cast<std::uint64_t>(upTo(30));
-    if (upTo(2) == 0) frame.starved = static_cast<std::uint64_t>(upTo(3));
+    if (upTo(2) == 0) frame.underruns = static_cast<std::uint64_t>(upTo(3));
     if (upTo(12) == 0) frame.isTooShort = true;
     if (upTo(12) == 0) frame.timeError = milliseconds(upTo(2000) - 1000);
     return frame;
@@ -103,7 +103,7 @@ class Promises {
       expected += each.frame.droppedBefore + each.corruptBefore + each.misTimedBefore;
       ASSERT_EQ(each.frame.sequence, expected++);
       ASSERT_GT(each.frame.captureTime, last);
-      ASSERT_LE(each.lostInStall + each.frame.starvedBefore, each.frame.droppedBefore);
+      ASSERT_LE(each.lostInStall + each.frame.underrunsBefore, each.frame.droppedBefore);
       last = each.frame.captureTime;
     }
     EXPECT_EQ(counts.delivered, frames_.size());

@@ -173,7 +173,7 @@ TEST_F(WorkerCameraTest, KeepsTheNewestFrameAndCountsThoseThatItReplaced) {
   const auto frame = std::get<CapturedFrame>(worker->next(kNoDeadline));
   EXPECT_EQ(frame.sequence, 6U);
   EXPECT_EQ(frame.droppedBefore, 5U);
-  EXPECT_EQ(frame.starvedBefore, 2U) << "those that were replaced here";
+  EXPECT_EQ(frame.underrunsBefore, 2U) << "those that were replaced here";
 }
 
 TEST_F(WorkerCameraTest, TimesOut) {

@@ -38,8 +38,8 @@ TEST_F(V4l2Chronology, CountsGapsAsDropped) {
   const CapturedFrame frame = numbered(8);
   EXPECT_EQ(frame.sequence, 4u);
   EXPECT_EQ(frame.droppedBefore, 3u);
-  EXPECT_EQ(frame.starvedBefore, 0u);
-  EXPECT_EQ(numbered(11, true).starvedBefore, 2u);
+  EXPECT_EQ(frame.underrunsBefore, 0u);
+  EXPECT_EQ(numbered(11, true).underrunsBefore, 2u);
 }
 
 TEST_F(V4l2Chronology, CountsOverTheWrap) {

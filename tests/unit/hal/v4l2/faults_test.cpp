@@ -12,9 +12,9 @@ class V4l2Faults : public FakeCamera {};
 TEST_F(V4l2Faults, AFlaggedFrameIsCorruptAndTheNextOneSound) {
   plug({.frames = {{1, {.addedFlags = V4L2_BUF_FLAG_ERROR}}}});
   startOrFail();
-  EXPECT_EQ(frameOrFail().health, FrameHealth::kSound);
+  EXPECT_EQ(frameOrFail().health, FrameHealth::kValid);
   EXPECT_EQ(frameOrFail().health, FrameHealth::kCorrupt);
-  EXPECT_EQ(frameOrFail().health, FrameHealth::kSound);
+  EXPECT_EQ(frameOrFail().health, FrameHealth::kValid);
 }
 
 TEST_F(V4l2Faults, AShortFrameIsIncomplete) {
@@ -24,7 +24,7 @@ TEST_F(V4l2Faults, AShortFrameIsIncomplete) {
         .frames = {
             {0, {.bytesUsed = kNeeded}}, {1, {.bytesUsed = kNeeded - 1}}, {2, {.bytesUsed = 0}}}});
   startOrFail();
-  EXPECT_EQ(frameOrFail().health, FrameHealth::kSound);
+  EXPECT_EQ(frameOrFail().health, FrameHealth::kValid);
   const CapturedFrame shortFrame = frameOrFail();
   EXPECT_EQ(shortFrame.health, FrameHealth::kIncomplete);
   EXPECT_TRUE(shortFrame.image.isComplete()) << "whatever came, its memory can be read";
@@ -254,7 +254,7 @@ TEST_F(V4l2Faults, APlaneThatStartsOutsideItsBufferIsCorrupt) {
         .frames = {{0, {.dataOffset = 60}}, {1, {.dataOffset = 1'000'000}}}});
   startOrFail();
   const CapturedFrame shifted = frameOrFail();
-  EXPECT_EQ(shifted.health, FrameHealth::kSound);
+  EXPECT_EQ(shifted.health, FrameHealth::kValid);
   expectPicture(shifted, 0);
   const CapturedFrame outside = frameOrFail();
   EXPECT_EQ(outside.health, FrameHealth::kCorrupt);

@@ -34,7 +34,7 @@ TEST_P(V4l2Layouts, AreReadWithTheDriversStride) {
     EXPECT_EQ(format.frame.size, (FrameSize{64, 48}));
     for (int i = 0; i < 2; ++i) {
       const CapturedFrame frame = frameOrFail();
-      EXPECT_EQ(frame.health, FrameHealth::kSound);
+      EXPECT_EQ(frame.health, FrameHealth::kValid);
       EXPECT_EQ(frame.image.planes[0].strideBytes,
                 rowBytes(GetParam().pixelFormat, 0, 64) + padding);
       expectPicture(frame, i);

@@ -68,7 +68,7 @@ TEST_F(V4l2Jpeg, IsDecoded) {
   EXPECT_EQ(format.frame.encoding.range, ColorRange::kFull);
   const CapturedFrame frame = frameOrFail();
   EXPECT_EQ(frame.image.format, format.frame);
-  EXPECT_EQ(frame.health, FrameHealth::kSound);
+  EXPECT_EQ(frame.health, FrameHealth::kValid);
   EXPECT_EQ(frame.dmaBufs[0].fd, -1);
   const auto expected = libav::decodeMotionJpeg(testJpeg("j420.jpg"), "test");
   for (int y = 0; y < format.frame.size.height; ++y) {
@@ -92,7 +92,7 @@ TEST_F(V4l2Jpeg, ThatIsBrokenIsACorruptFrameWithTheLastSoundPicture) {
     EXPECT_EQ(broken.sequence, static_cast<unsigned>(i));
     EXPECT_EQ(broken.image.planes[0].bytes.data(), sound.image.planes[0].bytes.data());
   }
-  EXPECT_EQ(frameOrFail().health, FrameHealth::kSound) << "as stored, not turned";
+  EXPECT_EQ(frameOrFail().health, FrameHealth::kValid) << "as stored, not turned";
 }
 
 TEST_F(V4l2Jpeg, OfAnotherSizeThanAgreedIsCorrupt) {

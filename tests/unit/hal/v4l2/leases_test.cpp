@@ -69,7 +69,7 @@ TEST_F(V4l2Leases, ThatStarveTheDriverAreCountedApart) {
   held.push_back(last);
   const CapturedFrame afterGap = frameOrFail();
   EXPECT_EQ(afterGap.droppedBefore, 4u);
-  EXPECT_EQ(afterGap.starvedBefore, 4u);
+  EXPECT_EQ(afterGap.underrunsBefore, 4u);
 }
 
 TEST_F(V4l2Leases, AreNotBlamedForWhatTheDeviceLoses) {
@@ -80,7 +80,7 @@ TEST_F(V4l2Leases, AreNotBlamedForWhatTheDeviceLoses) {
   const CapturedFrame frame = frameOrFail();
   EXPECT_EQ(frame.sequence, 5u);
   EXPECT_EQ(frame.droppedBefore, 3u);
-  EXPECT_EQ(frame.starvedBefore, 0u);
+  EXPECT_EQ(frame.underrunsBefore, 0u);
 }
 
 TEST_F(V4l2Leases, OutliveStopAndCamera) {

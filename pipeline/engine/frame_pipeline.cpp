@@ -1,0 +1,396 @@
+#include "pipeline/engine/frame_pipeline.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <utility>
+
+#include "config/suggestion.h"
+#include "hal/error.h"
+#include "pipeline/engine/quality_levels.h"
+#include "pipeline/gpu/aspect_fill.h"
+#include "pipeline/marks/marks_shaders.h"
+#include "pipeline/present/present_shaders.h"
+#include "pipeline/styles/style_registry.h"
+
+namespace pleinair {
+namespace {
+
+constexpr std::string_view kCameraView = "camera";
+constexpr std::string_view kArView = "ar";
+
+gpu::ShaderLibrary makeLibrary(const PainterOptions& options) {
+  gpu::ShaderLibrary library(options.shaderDirectory);
+  library.add(gpu::presentShaders());
+  library.add(gpu::sceneShaders());
+  library.add(gpu::marksShaders());
+  styles::addStyleShaders(library);
+  return library;
+}
+
+/// The context, if it takes pictures of this size: asked before anything is allocated.
+const gpu::ContextInfo& checked(const gpu::ContextInfo& context, hal::FrameSize pictureSize) {
+  hal::orThrow(gpu::checkDeviceLimit(context, pictureSize, "picture size"));
+  return context;
+}
+
+/// A processor does not hang; it may only have much to do.
+gpu::GpuTestHook seamOf(const PainterOptions& options, const gpu::ContextInfo& context) {
+  gpu::GpuTestHook testHook = options.testHook;
+  if (context.isSoftware && testHook.patience == gpu::GpuTestHook{}.patience)
+    testHook.patience = std::chrono::minutes(1);
+  return testHook;
+}
+
+/// Nothing where no model is shaded by what the camera sees.
+std::optional<scene::LightEstimator> makeLightEstimator(const PainterOptions& options) {
+  const scene::Scene& scene = options.scene;
+  if (!options.tracksTags || !scene.light.isEstimated || scene.models.empty()) return std::nullopt;
+  std::vector<std::optional<int>> places;
+  for (const scene::SceneModel& model : scene.models) places.push_back(model.tagId);
+  std::optional<glm::dvec3> towardKey;
+  const bool isAttached = scene.light.frame == scene::Light::Frame::kAttached;
+  if (scene.light.hasDirection && isAttached) towardKey = scene.light.towardLight;
+  return scene::LightEstimator(scene.tags, scene.tagFamily, places, towardKey);
+}
+
+bool isOurs(std::string_view view) {
+  return view == kCameraView || view == kArView || scene::findBufferView(view) != nullptr;
+}
+
+}  // namespace
+
+FramePipeline::FramePipeline(const PainterOptions& options, const gpu::ContextInfo& context)
+    : context_(checked(context, options.pictureSize)),
+      testHook_(seamOf(options, context)),
+      watch_(testHook_),
+      pictureSize_(options.pictureSize),
+      scene_(options.scene),
+      tracksTags_(options.tracksTags),
+      library_(makeLibrary(options)),
+      timer_(options.passTiming, &context),
+      uploader_(library_),
+      renderer_(library_, options.scene),
+      bufferViewer_(library_),
+      style_(styles::makeStyle(options.style, library_)),
+      defaults_(style_->parameters()),
+      light_(makeLightEstimator(options)) {
+  hal::orThrow(tracking::checkTagFamily(scene_.tagFamily));
+  for (const QualityPlan& plan : qualityPlans()) {
+    if (levels_.empty() || options.qualityLevels) levels_.push_back({sizeAt(pictureSize_, plan)});
+  }
+  warmUp(options.expectedFormat.value_or(
+      hal::FrameFormat{.pixelFormat = hal::PixelFormat::kGrey8, .size = pictureSize_}));
+}
+
+/// A blank frame through the whole chain at each level, untimed: all that frames of the expected
+/// format need is compiled, allocated and drawn once (docs/gpu.md, rule 14). Conversions of other
+/// layouts are linked by now, but a driver may finish them at their first frame. Readers warm up
+/// when they are opened.
+void FramePipeline::warmUp(const hal::FrameFormat& expected) {
+  hal::orThrow(gpu::checkDeviceLimit(context_, expected.size, "frame size"));
+  const hal::Image blank(expected);
+  for (const Level& level : levels_) warmUp(level, blank);
+  style_->reset();
+  renderer_.reset();  // time does not start with the blank frames
+}
+
+void FramePipeline::warmUp(const Level& level, const hal::Image& blank) {
+  gpu::PassTimer untimed;
+  const gpu::Texture& camera =
+      uploader_.upload(blank.view(), level.size, fitTo(level, blank.size()));
+  renderer_.warmUp(level.size);
+  scene::ArFrame frame = renderer_.compose(camera, scene::assumedCamera(level.size),
+                                           scene::PoseSet{}, 0, hal::TimePoint{}, untimed);
+  frame.fullSize = pictureSize_;
+  style_->paint(frame, {}, untimed);
+}
+
+PaintParameters FramePipeline::defaultParameters() const {
+  return {.style = defaults_, .view = {}};
+}
+
+std::vector<QualityLevel> qualityLevels() {
+  std::vector<QualityLevel> levels;
+  for (const QualityPlan& plan : qualityPlans()) {
+    levels.push_back({std::string(plan.name), std::string(plan.help)});
+  }
+  return levels;
+}
+
+std::vector<DebugView> debugViewsOf(std::string_view style) {
+  std::vector<DebugView> views{
+      {std::string(kCameraView), "what the camera shows, at the picture's size"},
+      {std::string(kArView), "the camera's picture with the models in it, before the style"}};
+  for (const scene::BufferView& view : scene::bufferViews()) {
+    views.push_back({std::string(view.name), std::string(view.help)});
+  }
+  for (const styles::DebugViewInfo& view : styles::styleInfo(style).views) {
+    views.push_back({std::string(view.name), std::string(view.help)});
+  }
+  return views;
+}
+
+std::vector<DebugView> FramePipeline::views() const {
+  return debugViewsOf(style_->name());
+}
+
+std::vector<PainterLook> FramePipeline::looks() const {
+  std::vector<PainterLook> looks;
+  for (const styles::Look& look : styles::styleInfo(style_->name()).looks) {
+    looks.push_back({std::string(look.name), std::string(look.help)});
+  }
+  return looks;
+}
+
+config::ParameterValues FramePipeline::lookParameters(std::string_view look) const {
+  return styles::styleInfo(style_->name()).parametersOf(look);
+}
+
+hal::Result<void> FramePipeline::checkView(const std::string& view) const {
+  if (view.empty() || isOurs(view)) return {};
+  const auto ofStyle = style_->views();
+  if (std::ranges::find(ofStyle, view, &styles::DebugViewInfo::name) != ofStyle.end()) return {};
+  std::vector<std::string> names;
+  for (const DebugView& each : views()) names.push_back(each.name);
+  return tl::unexpected(hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
+                                   .subject = "view \"" + view + "\"",
+                                   .problem = config::unknownText("view", view, names),
+                                   .remedy = "choose one of: " + config::listText(names)});
+}
+
+hal::Result<void> FramePipeline::checkQuality(std::size_t quality) const {
+  if (quality < levels_.size()) return {};
+  std::vector<std::string> numbers;
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    numbers.push_back(std::to_string(i) + " (" + std::string(qualityPlans()[i].name) + ")");
+  }
+  const bool wasLeftOut = quality < qualityPlans().size();
+  return tl::unexpected(hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
+                                   .subject = "quality " + std::to_string(quality),
+                                   .problem = wasLeftOut
+                                                  ? "this painter was made without quality levels"
+                                                  : "there is no such level",
+                                   .remedy = "choose one of: " + config::listText(numbers)});
+}
+
+/// Makes ready for frames of this size; nothing changes where the scene's calibration is not.
+hal::Result<void> FramePipeline::adaptTo(hal::FrameSize frameSize) {
+  if (frameSize_ == frameSize) return {};
+  if (scene_.camera) {
+    if (auto fits = tracking::checkSize(*scene_.camera, frameSize, "calibration of the scene");
+        !fits) {
+      return fits;
+    }
+  }
+  const tracking::CameraModel camera =
+      scene_.camera ? *scene_.camera : scene::assumedCamera(frameSize);
+  if (tracksTags_) {
+    tracking::TrackerOptions options;
+    options.detector.family = scene_.tagFamily;
+    tracker_.emplace(camera, scene_.tags, options);
+  }
+  const tracking::CameraModel fitted = scene::fittedCamera(camera, pictureSize_);
+  for (Level& level : levels_) {
+    level.camera = fitted.resampled(pixelsOfFull(level), glm::dvec2(0.0), level.size);
+  }
+  frameSize_ = frameSize;
+  return {};
+}
+
+/// Px of a level's picture for one of the full one.
+glm::dvec2 FramePipeline::pixelsOfFull(const Level& level) const {
+  return glm::dvec2(level.size.width, level.size.height) /
+         glm::dvec2(pictureSize_.width, pictureSize_.height);
+}
+
+/// All levels show the same part of a frame, to the fraction of a pixel.
+gpu::AspectFill FramePipeline::fitTo(const Level& level, hal::FrameSize frameSize) const {
+  return gpu::coverFit(frameSize, pictureSize_).withPixels(glm::dvec2(1.0), pixelsOfFull(level));
+}
+
+hal::Result<Picture> FramePipeline::paint(const hal::CapturedFrame& frame,
+                                          const PaintParameters& parameters) {
+  if (auto sound = watch_.check(); !sound) return tl::unexpected(std::move(sound.error()));
+  try {
+    return paintChecked(frame, parameters);
+  } catch (const hal::Failure& error) {  // no memory for frames of a new size or layout
+    return tl::unexpected(metLoss(error.error()));
+  }
+}
+
+/// `error`, or the loss of the GPU where that is behind it.
+hal::Error FramePipeline::metLoss(const hal::Error& error) {
+  if (error.kind == hal::ErrorKind::kDeviceLost) watch_.note(error);
+  const auto sound = watch_.check();
+  return sound ? error : sound.error();
+}
+
+/// Whether it can be painted; what follows a frame's size is ready then.
+hal::Result<void> FramePipeline::checkFrame(const hal::CapturedFrame& frame,
+                                            const PaintParameters& parameters) {
+  if (auto known = checkView(parameters.view); !known) return known;
+  if (auto known = checkQuality(parameters.quality); !known) return known;
+  if (auto fits = gpu::checkDeviceLimit(context_, frame.image.format.size, "frame"); !fits) {
+    return fits;
+  }
+  if (auto ready = style_->prepare(parameters.style); !ready) return ready;
+  return adaptTo(frame.image.format.size);
+}
+
+hal::Result<Picture> FramePipeline::paintChecked(const hal::CapturedFrame& frame,
+                                                 const PaintParameters& parameters) {
+  if (auto sound = checkFrame(frame, parameters); !sound) {
+    return tl::unexpected(std::move(sound.error()));
+  }
+  tracking::TrackingResult tracked;
+  luma_.take(frame.image);
+  if (tracker_) tracked = tracker_->track(luma_, frame.captureTime);
+  picture_ = &paintView(
+      compose(frame, tracked, levels_[parameters.quality], needsOf(parameters.view)), parameters);
+  {
+    const auto scope = timer_.measure("read back");
+    readers_.submit(*picture_, pictureSize_, frame);
+  }
+  glFlush();  // the GPU works on while the next frame is tracked
+  return Picture{.texture = picture_->name(),
+                 .size = picture_->size(),
+                 .sequence = frame.sequence,
+                 .captureTime = frame.captureTime,
+                 .tracking = tracked,
+                 .quality = parameters.quality};
+}
+
+scene::ArFrameNeeds FramePipeline::needsOf(const std::string& view) const {
+  const scene::BufferView* buffer = scene::findBufferView(view);
+  scene::ArFrameNeeds needs = style_->needs();
+  needs.surfaces = needs.surfaces || (buffer != nullptr && buffer->needs.surfaces);
+  return needs;
+}
+
+scene::ArFrame FramePipeline::compose(const hal::CapturedFrame& frame,
+                                      const tracking::TrackingResult& tracked, const Level& level,
+                                      scene::ArFrameNeeds needs) {
+  {
+    const auto scope = timer_.measure("camera picture");
+    camera_ = &uploader_.upload(frame.image, level.size, fitTo(level, frame.image.format.size));
+  }
+  sightings_.clear();
+  for (const tracking::TrackedTag& tag : tracked.tags) {
+    if (tag.cameraFromTag) sightings_.push_back({tag.id, *tag.cameraFromTag, tag.covariance});
+  }
+  std::span<const scene::PlaceLighting> lights;
+  if (light_) {
+    light_->follow(frame.image, tracked, frame.captureTime);
+    lights = light_->lights();
+  }
+  scene::ArFrame composed =
+      renderer_.compose(*camera_, *level.camera,
+                        {.cameraFromWorld = tracked.cameraFromWorld,
+                         .worldCovariance = tracked.worldCovariance,
+                         .tags = sightings_},
+                        frame.sequence, frame.captureTime, timer_, needs, lights);
+  composed.fullSize = pictureSize_;
+  if (style_->usesCanvas() || needs.measuredMotion) followPicture(frame, needs, composed);
+  return composed;
+}
+
+/// Motion is followed in the captured frame; the canvas has the full picture's pixels. Where the
+/// picture's motion is estimated, the canvas goes by that.
+void FramePipeline::followPicture(const hal::CapturedFrame& frame, scene::ArFrameNeeds needs,
+                                  scene::ArFrame& composed) {
+  const auto scope = timer_.measure("follow picture");
+  const hal::FrameSize size = frame.image.format.size;
+  const gpu::AspectFill fit = gpu::coverFit(size, pictureSize_);
+  if (needs.measuredMotion) {
+    composed.measuredMotion =
+        scene::MeasuredMotion{.motion = &imageMotion_.follow(luma_, frame.sequence),
+                              .frameScale = fit.scale,
+                              .frameOrigin = fit.origin};
+  }
+  if (!style_->usesCanvas()) return;
+  const tracking::PlaneSimilarity frameFromPicture{{fit.scale.x, 0.0}, fit.origin};
+  const tracking::PlaneSimilarity& moved = composed.measuredMotion
+                                               ? motion_.follow(*composed.measuredMotion->motion)
+                                               : motion_.follow(luma_.luma(), size);
+  composed.canvasFromPicture = frameFromPicture.inverse() * moved * frameFromPicture;
+}
+
+const gpu::Texture& FramePipeline::paintView(const scene::ArFrame& frame,
+                                             const PaintParameters& parameters) {
+  const std::string_view view = parameters.view;
+  style_->setParameters(parameters.style);
+  // The style's state advances the same whatever is looked at.
+  const gpu::Texture& painted =
+      style_->paint(frame, isOurs(view) ? std::string_view{} : view, timer_);
+  if (view == kCameraView) return *camera_;
+  if (const scene::BufferView* buffer = scene::findBufferView(view)) {
+    return bufferViewer_.show(*buffer, frame);
+  }
+  return view == kArView ? *frame.colour : painted;
+}
+
+int FramePipeline::openReadback(const hal::FrameFormat& format) {
+  hal::orThrow(
+      gpu::checkDeviceLimit(context_, present::Readback::packedSize(format), "picture to be read"));
+  hal::orThrow(watch_.check());
+  std::vector<hal::FrameSize> sizes;
+  for (const Level& level : levels_) sizes.push_back(level.size);
+  try {
+    return readers_.open(library_, format, sizes, testHook_);
+  } catch (const hal::Failure& error) {
+    throw hal::Failure(metLoss(error.error()));
+  }
+}
+
+hal::Result<bool> FramePipeline::take(int number, OutputFrame& picture, bool wait) {
+  if (loss()) return tl::unexpected(*loss());
+  const hal::Result<bool> taken = readers_.take(number, picture, wait);
+  if (!taken) return tl::unexpected(metLoss(taken.error()));
+  return *taken;
+}
+
+hal::Result<hal::Image> FramePipeline::snapshot() {
+  return read(picture_);
+}
+
+hal::Result<hal::Image> FramePipeline::cameraSnapshot() {
+  return read(camera_);
+}
+
+hal::Result<std::vector<marks::Anchor>> FramePipeline::anchors() {
+  if (auto sound = watch_.check(); !sound) return tl::unexpected(std::move(sound.error()));
+  std::vector<marks::Anchor> anchors = style_->readAnchors();
+  if (auto sound = watch_.check(); !sound) return tl::unexpected(std::move(sound.error()));
+  return anchors;
+}
+
+hal::Result<hal::Image> FramePipeline::read(const gpu::Texture* texture) {
+  if (auto sound = watch_.check(); !sound) return tl::unexpected(std::move(sound.error()));
+  assert(texture != nullptr);
+  try {
+    const hal::FrameFormat format{.pixelFormat = hal::PixelFormat::kRgb8, .size = pictureSize_};
+    if (!snapshots_) snapshots_.emplace(library_, format, 1, testHook_);
+    snapshots_->submit(*texture, pictureSize_);
+    hal::Image image;
+    hal::orThrow(snapshots_->take(image, true));
+    return image;
+  } catch (const hal::Failure& error) {
+    return tl::unexpected(metLoss(error.error()));
+  }
+}
+
+void FramePipeline::reset() {
+  style_->reset();
+  renderer_.reset();
+  motion_.reset();
+  imageMotion_.reset();
+  if (light_) light_->reset();
+  if (tracker_) tracker_->reset();
+}
+
+std::vector<gpu::PassTime> FramePipeline::passTimes() const {
+  return {timer_.times().begin(), timer_.times().end()};
+}
+
+}  // namespace pleinair

@@ -1,0 +1,44 @@
+// Purpose: fades anchors in and out, and counts those that stay in each cell.
+// Inputs:  anchor_cells.glsl's; fadeIn, fadeOut: how far a fade goes in this frame.
+// Outputs: anchors; cells, whose counts were 0 (anchor_spawn.comp). An anchor an invocation.
+// Precision: highp; counts are of integers, so that order does not matter.
+#include "pipeline/marks/shaders/anchor.glsl"
+#include "pipeline/marks/shaders/anchor_cells.glsl"
+#include "pipeline/scene/render/shaders/object_id.glsl"
+layout(local_size_x = 64) in;
+layout(std430, binding = 0) buffer Anchors { Anchor anchors[]; };
+layout(std430, binding = 1) buffer Cells { Cell cells[]; };
+uniform float fadeIn;
+uniform float fadeOut;
+uniform uint slots;
+
+const uint kSlotBits = 20u;
+const float kAgeUnits = 64.0;   // a second
+
+void main() {
+  uint slot = gl_GlobalInvocationID.x;
+  if (slot >= slots) return;
+  uint state = anchors[slot].state;
+  if (!isAlive(state)) return;
+  bool stays = isStaying(state);
+  float fade = clamp(anchors[slot].fade + (stays ? fadeIn : -fadeOut), 0.0, 1.0);
+  anchors[slot].fade = fade;
+  if (!stays) {
+    if (fade == 0.0) anchors[slot].state = 0u;
+    return;
+  }
+  ivec2 at = cellAt(anchors[slot].px);
+  if (!isInGrid(at)) return;
+  int index = indexOf(at);
+  uint object = objectOf(anchors[slot].surface);
+  bool isOnObject = isVirtual(object);
+  if (isOnObject) {
+    atomicAdd(cells[index].onObjects, 1u);
+  } else {
+    atomicAdd(cells[index].inImage, 1u);
+  }
+  atomicOr(cells[index].strata, 1u << (stratumAt(anchors[slot].px, at) + (isOnObject ? 16u : 0u)));
+  // The youngest goes first: what has been there for long is what people look at.
+  uint youth = 4095u - min(uint(anchors[slot].age * kAgeUnits), 4095u);
+  atomicMax(cells[index].mostSpare, youth << kSlotBits | slot);
+}

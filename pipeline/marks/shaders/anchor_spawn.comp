@@ -1,0 +1,116 @@
+// Purpose: puts new anchors into a cell, each into a part of it that has none (thesis §4.3.1: jittered),
+//          on what is seen there: the exact point of a virtual surface behind the pixel (thesis
+//          §5.3), or the camera's picture.
+// Inputs:  anchor_cells.glsl's; births and slots (anchor_plan.comp); ids, barycentrics (ArFrame) and
+//          their pixelsOfFull if hasObjects; fullSize; salt: another one each frame; atOnce: whether
+//          they are there without a fade; motion: MotionField's field.
+// Outputs: anchors; counts empty for the next frame. A cell an invocation.
+// Precision: highp.
+#include "pipeline/gpu/shaders/hash.glsl"
+#include "pipeline/marks/shaders/anchor.glsl"
+#include "pipeline/marks/shaders/anchor_cells.glsl"
+#include "pipeline/scene/render/shaders/object_id.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(std430, binding = 0) writeonly buffer Anchors { Anchor anchors[]; };
+layout(std430, binding = 1) buffer Cells { Cell cells[]; };
+layout(std430, binding = 2) readonly buffer Plan {
+  uint freeCount;
+  uint freeSlots[];
+};
+uniform highp usampler2D ids;
+uniform highp usampler2D barycentrics;
+uniform bool hasObjects;
+uniform vec2 pixelsOfFull;
+uniform vec2 fullSize;
+uniform uint salt;
+uniform bool atOnce;
+uniform highp sampler2D motion;
+
+const int kTries = 6;           // for a place in the part, and as many in the whole cell
+
+ivec2 pixelAt(vec2 px) { return clamp(ivec2(floor(px * pixelsOfFull)), ivec2(0), textureSize(ids, 0) - 1); }
+
+// The next free part of the cell, of those not in `taken`; any where all are. One colour of a
+// chequerboard over all cells goes first: then hardly any square of a cell's size is empty, wherever it
+// comes to lie, and a pan spawns few.
+int freePart(ivec2 cell, uint taken, uint hash) {
+  int parts = strataSide * strataSide;
+  int first = int(hash % uint(parts));
+  int spare = -1;
+  for (int i = 0; i < parts; ++i) {
+    int part = (first + i) % parts;
+    if ((taken & (1u << uint(part))) != 0u) continue;
+    ivec2 at = cell * strataSide + ivec2(part % strataSide, part / strataSide);
+    if (((at.x + at.y) & 1) == 0) return part;
+    spare = spare < 0 ? part : spare;
+  }
+  return spare < 0 ? first : spare;
+}
+
+// What comes into the picture does so with its marks.
+bool hasComeIn(vec2 px) {
+  vec4 moved = textureLod(motion, px / fullSize, 0.0);
+  vec2 from = px - moved.xy;
+  return any(lessThan(from, vec2(0.0))) || any(greaterThanEqual(from, fullSize));
+}
+
+void spawn(ivec2 cell, uint number, bool onObject, inout uint taken) {
+  if (number >= freeCount) return;
+  uint hash = hashOf(cell, hashOf(salt) + number);  // no frame's numbers follow another's
+  int part = freePart(cell, taken, hash);
+  taken |= 1u << uint(part);
+  vec2 corner = vec2(part % strataSide, part / strataSide);
+  uint id = 0u;
+  vec2 px = vec2(0.0);
+  bool isFound = false;
+  for (int i = 0; i < 2 * kTries && !isFound; ++i) {
+    hash = hashOf(hash);
+    vec2 jitter = vec2(unitOf(hash), unitOf(hashOf(hash)));
+    vec2 inCell = i < kTries ? (corner + 0.1 + 0.8 * jitter) / float(strataSide) : jitter;
+    px = (vec2(cell) + inCell) * float(cellPixels);
+    if (any(greaterThanEqual(px, fullSize))) continue;
+    if (!hasObjects) {
+      isFound = true;
+      break;
+    }
+    id = texelFetch(ids, pixelAt(px), 0).r;
+    uint object = objectOf(id);
+    isFound = isVirtual(object) == onObject;
+  }
+  if (!isFound) return;
+  Anchor born;
+  born.px = px;
+  born.displacement = vec2(0.0);
+  born.jacobian = vec4(1.0, 0.0, 0.0, 1.0);
+  born.barycentrics = vec2(0.0);
+  born.error = 0.0;
+  born.fade = atOnce || hasComeIn(px) ? 1.0 : 0.0;
+  born.age = 0.0;
+  born.seed = hashOf(hash ^ 0x9E3779B9u);  // tells nothing of the place, which came of the same hash
+  born.surface = onObject ? id : idOf(objectOf(id), 0u);
+  born.state = kAlive | kBorn | kSourceUnknown;
+  if (onObject) {
+    ivec2 pixel = pixelAt(px);
+    born.px = (vec2(pixel) + 0.5) / pixelsOfFull;
+    born.barycentrics = unpackUnorm2x16(texelFetch(barycentrics, pixel, 0).r);
+  }
+  anchors[freeSlots[number]] = born;
+}
+
+void main() {
+  ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+  if (!isInGrid(at)) return;
+  int index = indexOf(at);
+  uint births = cells[index].births;
+  uint strata = cells[index].strata;
+  cells[index].strata = 0u;
+  cells[index].inImage = 0u;
+  cells[index].onObjects = 0u;
+  cells[index].mostSpare = 0u;
+  if (births == 0u) return;
+  uint number = cells[index].firstBirth;
+  uint taken = strata & 0xFFFFu;
+  for (uint i = 0u; i < (births & 0xFFFFu); ++i) spawn(at, number++, false, taken);
+  taken = strata >> 16u;
+  for (uint i = 0u; i < (births >> 16u); ++i) spawn(at, number++, true, taken);
+}

@@ -1,0 +1,52 @@
+// Purpose: writes the filtered picture anew where an object is seen, whose own motion leads back. A pass of its
+//          own over what filtered_frame.comp wrote: there are few such pixels.
+// Inputs:  filtered_frame.glsl's; ids, and motion (ArFrame) if hasMotion.
+// Outputs: filtered, where an object is seen. A block of 4x4 pixels an invocation: software renderers pay for
+//          each.
+// Precision: highp.
+#include "pipeline/scene/render/shaders/object_id.glsl"
+#include "pipeline/marks/shaders/filtered_frame.glsl"
+layout(local_size_x = 16, local_size_y = 4) in;
+uniform sampler2D motion;
+uniform highp usampler2D ids;
+uniform bool hasMotion;
+
+const int kPixels = 16;
+
+void average(ivec2 p, uint object) {
+  ivec2 size = textureSize(picture, 0);
+  vec4 moved = hasMotion ? texelFetch(motion, p, 0) : vec4(0.0);
+  bool isKnown = moved.w > 0.5;
+  vec2 at = vec2(p) + 0.5 - (isKnown ? moved.xy : vec2(0.0));
+  vec4 there = textureLod(past, at / vec2(size), 0.0);
+  float frames = isVirtual(object) ? -there.a : there.a;
+  float trust = isKnown && isInside(at, size) ? trustOf(moved.z) * max(frames, 0.0) : 0.0;
+  vec3 sum = vec3(0.0);
+  vec3 squares = vec3(0.0);
+  for (int i = 0; i < 9; ++i) {
+    vec3 colour = texelFetch(picture, clamp(p + ivec2(i % 3, i / 3) - 1, ivec2(0), size - 1), 0).rgb;
+    sum += colour;
+    squares += colour * colour;
+  }
+  vec4 averages = averaged(texelFetch(picture, p, 0).rgb, there.rgb, trust, sum, squares);
+  imageStore(filtered, p, isVirtual(object) ? vec4(averages.rgb, -averages.a) : averages);
+}
+
+bool showsObjects(ivec2 corner, ivec2 last) {
+  uint all = 0u;
+  for (int i = 0; i < kPixels; ++i) all |= texelFetch(ids, min(corner + ivec2(i & 3, i >> 2), last), 0).r;
+  return objectOf(all) != 0u;
+}
+
+void main() {
+  ivec2 corner = ivec2(gl_GlobalInvocationID.xy) * 4;
+  ivec2 last = textureSize(picture, 0) - 1;
+  if (any(greaterThan(corner, last))) return;
+  // A loop and no `if`: software renderers pay for both sides of a branch, but leave a loop that no
+  // invocation is in.
+  for (int i = showsObjects(corner, last) ? 0 : kPixels; i < kPixels; ++i) {
+    ivec2 p = corner + ivec2(i & 3, i >> 2);
+    uint object = objectOf(texelFetch(ids, min(p, last), 0).r);
+    if (object != 0u) average(p, object);  // beyond the border: no effect
+  }
+}

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "pipeline/measure/gates.h"
+#include "pipeline/measure/measures.h"
+#include "pipeline/measure/voronoi_tiling.h"
+
+namespace pleinair::measure {
+
+/// Whose measures are taken: the painting, and beside it, on the same frames, what must read as it
+/// does if the measures are to be believed.
+enum class Subject : std::size_t {
+  kPainting,
+  kInput,  ///< itself
+  kFresh,  ///< tiles redrawn at random each frame
+  kFixed,  ///< tiles fixed to the screen, which is also the tiling that DEP is judged against
+};
+inline constexpr std::size_t kSubjects = 4;
+
+/// One of something for each subject.
+template <class Value>
+struct PerSubject {
+  std::array<Value, kSubjects> values;
+  Value& operator[](Subject subject) { return values.at(static_cast<std::size_t>(subject)); }
+  const Value& operator[](Subject subject) const {
+    return values.at(static_cast<std::size_t>(subject));
+  }
+};
+inline constexpr std::array kAllSubjects{Subject::kPainting, Subject::kInput, Subject::kFresh,
+                                         Subject::kFixed};
+
+/// Paints the controls.
+class ControlPainter {
+ public:
+  explicit ControlPainter(cv::Size size);
+  /// What each subject shows of a frame, of which `output` is the painting; `index` counts frames.
+  PerSubject<cv::Mat3f> paint(const cv::Mat3f& input, const cv::Mat3f& output,
+                              std::uint64_t index) const;
+
+ private:
+  VoronoiTiling fixed_;
+};
+
+/// Whether the controls read as they must; those that cannot be told say why.
+std::vector<Verdict> controlVerdicts(const PerSubject<Measures>& measures, std::string_view style,
+                                     const RunConditions& runConditions);
+
+}  // namespace pleinair::measure

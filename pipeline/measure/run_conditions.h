@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/measure/input/measured_input.h"
+#include "pipeline/measure/measures.h"
+
+namespace pleinair::measure {
+
+/// What a sequence was measured under, which says what can be had of it.
+struct RunConditions {
+  MotionKind motion = MotionKind::kNone;
+  std::uint64_t frames = 0;       ///< measured
+  std::uint64_t stillFrames = 0;  ///< of the still scene
+  double stillNoiseLevels = 0;
+};
+
+/// Why a measure that could not be had could not: "it compares frames 10 apart, and there are 4".
+std::string whyMissing(std::optional<double> Measures::*measure,
+                       const RunConditions& runConditions);
+
+/// A line for each such reason: "S10 %, SCR: it compares …".
+std::vector<std::string> missingLines(const Measures& measures, const RunConditions& runConditions);
+
+}  // namespace pleinair::measure

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "hal/clock.h"
+#include "hal/output.h"
+#include "hal/supervisor/camera_supervisor.h"
+#include "pipeline/runtime/capture_stage.h"
+#include "pipeline/runtime/frame_ledger.h"
+#include "pipeline/runtime/mailbox.h"
+#include "pipeline/runtime/output_stage.h"
+#include "pipeline/runtime/paint_stage.h"
+#include "pipeline/runtime/runtime_status.h"
+
+namespace pleinair::runtime {
+
+/// From a camera to the outputs, live: stages with one-frame mailboxes between them, and the ledger
+/// that every frame is entered into. Runs nothing by itself: LiveThreads gives each stage a thread;
+/// under a SteppedClock whoever steps the stages in turn has the same pipeline, repeatable.
+///
+/// Order: step capture() until its status has a format; addOutput(), at least one;
+/// makePaintStage(); paint().start(); then capture().open() and all stages at will.
+class LivePipeline {
+ public:
+  /// Both outlive this.
+  LivePipeline(hal::CameraSupervisor& camera, hal::Clock& clock);
+
+  OutputStage& addOutput(std::unique_ptr<hal::MemoryOutput> output, hal::OutputFormat format,
+                         OutputStageOptions options);
+  void makePaintStage(PainterFactory factory, PaintStageOptions options);
+
+  hal::CameraSupervisor& camera() { return camera_; }
+  hal::Clock& clock() { return clock_; }
+  CaptureStage& capture() { return capture_; }
+  PaintStage& paint() { return *paint_; }
+  std::size_t outputCount() const { return outputs_.size(); }
+  OutputStage& output(std::size_t index) { return *outputs_.at(index); }
+  const OutputStage& output(std::size_t index) const { return *outputs_.at(index); }
+  const FrameLedger& ledger() const { return ledger_; }
+
+  /// Whether the camera has ended and every frame of it too. Any thread.
+  bool isDrained() const;
+  /// All that is known at this moment. Any thread, once there is a paint stage.
+  RuntimeStatus status() const;
+
+ private:
+  hal::CameraSupervisor& camera_;
+  hal::Clock& clock_;
+  hal::TimePoint began_;
+  FrameLedger ledger_;
+  Mailbox<ArrivedFrame> frames_;
+  CaptureStage capture_;
+  std::vector<std::unique_ptr<OutputStage>> outputs_;
+  std::optional<PaintStage> paint_;
+};
+
+}  // namespace pleinair::runtime

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "hal/clock.h"
+
+namespace pleinair::runtime {
+
+/// Hands things from one thread to another: one waits at the most, and a newer one takes its place.
+template <class T>
+class Mailbox {
+ public:
+  /// Puts `value` there; gives what it took the place of.
+  std::optional<T> put(T value) {
+    const std::scoped_lock lock(mutex_);
+    std::optional<T> replaced = std::exchange(value_, std::optional<T>(std::move(value)));
+    changed_.notify_all();
+    return replaced;
+  }
+
+  std::optional<T> take() {
+    const std::scoped_lock lock(mutex_);
+    return std::exchange(value_, std::nullopt);
+  }
+
+  /// Returns once something waits, wake() is called, or `patience` (of real time) is over.
+  void wait(hal::Duration patience) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, patience, [this] { return value_.has_value() || isWoken_; });
+    isWoken_ = false;
+  }
+
+  void wake() {
+    const std::scoped_lock lock(mutex_);
+    isWoken_ = true;
+    changed_.notify_all();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<T> value_;
+  bool isWoken_ = false;
+};
+
+}  // namespace pleinair::runtime

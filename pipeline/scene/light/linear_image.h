@@ -1,0 +1,52 @@
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "hal/image.h"
+
+namespace pleinair::scene {
+
+/// Relative luminance of linear light (BT.709 primaries, as sRGB has).
+inline float luminanceOf(const glm::vec3& linearRgb) {
+  return 0.2126F * linearRgb.r + 0.7152F * linearRgb.g + 0.0722F * linearRgb.b;
+}
+
+/// IEC 61966-2-1, channel by channel.
+glm::vec3 linearFromSrgb(const glm::vec3& srgb);
+
+/// Reads single pixels of a picture of any format as linear light in [0, 1], without converting the
+/// rest. The coding is taken for sRGB's. A mosaic's pixel is its cell of four; chroma is that of
+/// its sample's pixels. Refers to the picture's memory.
+class LinearImage {
+ public:
+  /// Precondition: image.isComplete().
+  explicit LinearImage(const hal::ImageView& image);
+
+  hal::FrameSize size() const { return image_.format.size; }
+  /// Precondition: within the picture.
+  glm::vec3 at(int x, int y) const;
+
+ private:
+  const std::uint8_t& byte(int plane, int x, int y) const;
+  glm::vec3 fromYcbcr(int luma, int cb, int cr) const;
+  glm::vec3 mosaicAt(int x, int y) const;
+
+  hal::ImageView image_;
+  glm::mat3 rgbFromYcbcr_{1.0F};
+  glm::vec3 ycbcrOffset_{0.0F};
+};
+
+/// A picture's light in a few numbers, from 1200 pixels spread over it.
+struct ImageStatistics {
+  glm::dvec3 mean{0.0};  ///< linear RGB, above 0
+  /// Towards where it is brighter: doublings of luminance from its middle to its edge, x right, y
+  /// down.
+  glm::dvec2 slope{0.0};
+  double explained = 0.0;  ///< of the brightness's variance, by the slope: 0 … 1
+};
+
+ImageStatistics imageStatistics(const LinearImage& picture);
+
+}  // namespace pleinair::scene

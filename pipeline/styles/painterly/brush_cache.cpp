@@ -1,0 +1,49 @@
+#include "pipeline/styles/painterly/brush_cache.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pleinair::styles {
+namespace {
+
+gpu::Texture textureOf(const BrushMarks& marks) {
+  const hal::FrameSize size{4 * marks.across, marks.across * kBrushVariants};
+  std::vector<std::uint8_t> texels = marks.texels;
+  while (texels.size() < static_cast<std::size_t>(size.pixels()) * 2) {
+    texels.insert(texels.end(), marks.texels.begin(), marks.texels.end());
+  }
+  gpu::Texture texture(gpu::TextureFormat::kRg8, size, gpu::TextureFilter::kLinear);
+  texture.upload(texels, static_cast<std::size_t>(size.width) * 2);
+  return texture;
+}
+
+}  // namespace
+
+hal::Result<void> BrushCache::take(const std::filesystem::path& file) {
+  if (file == file_) return {};
+  std::optional<BrushMarks> marks;
+  if (file != kNoBrushFile) {
+    hal::Result<BrushMarks> read = readBrushFile(file);
+    if (!read) return tl::unexpected(std::move(read.error()));
+    marks = *std::move(read);
+  }
+  marks_ = std::move(marks);
+  ofFile_.clear();
+  file_ = file;
+  return {};
+}
+
+const gpu::Texture& BrushCache::brush(Brush brush, int across) {
+  if (marks_) {
+    const auto known = ofFile_.find(across);
+    if (known != ofFile_.end()) return known->second;
+    return ofFile_.emplace(across, textureOf(reducedTo(*marks_, across))).first->second;
+  }
+  const std::pair key(brush, across);
+  const auto known = builtIn_.find(key);
+  if (known != builtIn_.end()) return known->second;
+  return builtIn_.emplace(key, makeBrush(brush, across)).first->second;
+}
+
+}  // namespace pleinair::styles

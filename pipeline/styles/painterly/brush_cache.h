@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "hal/error.h"
+#include "pipeline/gpu/texture.h"
+#include "pipeline/styles/painterly/brush_file.h"
+#include "pipeline/styles/painterly/brushes.h"
+
+namespace pleinair::styles {
+
+inline constexpr const char* kNoBrushFile = "none";
+
+/// The brushes that were made so far, each once: a brush that is taken up again costs nothing. On
+/// the thread of a GL context.
+class BrushCache {
+ public:
+  /// From now on brush() gives the file's, or of kNoBrushFile the built-in ones. Reads a file where
+  /// it is another one than before. Errors: readBrushFile()'s; what was in hand stays then.
+  hal::Result<void> take(const std::filesystem::path& file);
+
+  /// makeBrush()'s, or the file's, which has no more texels than it has pixels. Valid until
+  /// another file is taken.
+  const gpu::Texture& brush(Brush brush, int across);
+
+ private:
+  std::filesystem::path file_ = kNoBrushFile;
+  std::optional<BrushMarks> marks_;
+  std::map<int, gpu::Texture> ofFile_;
+  std::map<std::pair<Brush, int>, gpu::Texture> builtIn_;
+};
+
+}  // namespace pleinair::styles

@@ -1,0 +1,89 @@
+#include "pipeline/styles/painterly/reduced_images.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace pleinair::styles {
+namespace {
+
+const std::string kShaders = "pipeline/styles/painterly/shaders/";
+
+}  // namespace
+
+ReducedImages::Pyramid::Pyramid(hal::FrameSize size, gpu::TextureFormat format) {
+  for (std::size_t i = 0; i < kHalvings; ++i) {
+    size = {std::max(1, size.width / 2), std::max(1, size.height / 2)};
+    levels[i] = gpu::Texture(format, size, gpu::TextureFilter::kLinear);
+    targets[i] = gpu::RenderTarget({&levels[i]});
+  }
+}
+
+ReducedImages::Apart::Apart(hal::FrameSize size)
+    : real(size, gpu::TextureFormat::kRgba16f),
+      models(size, gpu::TextureFormat::kRgba16f),
+      first({&real.levels[0], &models.levels[0]}) {}
+
+ReducedImages::Surfaces::Surfaces(hal::FrameSize pictureSize)
+    : size(pictureSize), whole(size, gpu::TextureFormat::kRgba8) {}
+
+ReducedImages::ReducedImages(const gpu::ShaderLibrary& library)
+    : halve_(library.fragmentPass(kShaders + "halve.frag")),
+      part_(library.fragmentPass(kShaders + "part.frag")) {}
+
+void ReducedImages::update(const scene::ArFrame& frame, gpu::PassTimer& timer) {
+  const auto scope = timer.measure("painterly: reduce");
+  Surfaces& surfaces = surfaces_.of(frame.size(), frame.size());
+  now_ = &surfaces;
+  picture_ = frame.colour;
+  hasObjects_ = frame.hasObjects;
+  const hal::FrameSize half = surfaces.whole.levels[0].size();
+  halve_.use()
+      .texture("picture", *frame.colour)
+      .set("size", glm::vec2(half.width, half.height))
+      .drawFullscreen(surfaces.whole.targets[0]);
+  halve(surfaces.whole, 0);
+  if (!frame.hasObjects) return;
+  if (!surfaces.apart) surfaces.apart.emplace(frame.size());
+  part_.use()
+      .texture("picture", *frame.colour)
+      .texture("ids", *frame.ids)
+      .drawFullscreen(surfaces.apart->first);
+  halve(surfaces.apart->real, 0);
+  halve(surfaces.apart->models, 0);
+}
+
+void ReducedImages::halve(const Pyramid& pyramid, std::size_t from) {
+  for (std::size_t i = from + 1; i < kHalvings; ++i) {
+    const hal::FrameSize size = pyramid.levels[i].size();
+    halve_.use()
+        .texture("picture", pyramid.levels[i - 1])
+        .set("size", glm::vec2(size.width, size.height))
+        .drawFullscreen(pyramid.targets[i]);
+  }
+}
+
+marks::StrokePaint ReducedImages::paintOf(double px) const {
+  assert(now_ != nullptr);
+  const auto halvings = static_cast<int>(std::floor(std::log2(px)));
+  // The picture itself knows nothing of parts; its pixels are fine enough.
+  if (halvings < 1) return {.real = picture_, .models = picture_};
+  const std::size_t level = std::min(static_cast<std::size_t>(halvings), kHalvings) - 1;
+  if (!hasObjects_) {
+    const gpu::Texture* whole = &now_->whole.levels[level];
+    return {.real = whole, .models = whole};
+  }
+  return {.real = &now_->apart->real.levels[level], .models = &now_->apart->models.levels[level]};
+}
+
+const gpu::Texture& ReducedImages::whole(std::size_t halvings) const {
+  assert(now_ != nullptr && halvings >= 1 && halvings <= kHalvings);
+  return now_->whole.levels[halvings - 1];
+}
+
+void ReducedImages::clear() {
+  now_ = nullptr;
+  surfaces_.clear();
+}
+
+}  // namespace pleinair::styles

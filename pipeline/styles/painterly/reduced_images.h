@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "pipeline/gpu/pass_timer.h"
+#include "pipeline/gpu/per_size.h"
+#include "pipeline/gpu/program.h"
+#include "pipeline/gpu/render_target.h"
+#include "pipeline/gpu/shader_library.h"
+#include "pipeline/gpu/texture.h"
+#include "pipeline/marks/stroke_set.h"
+#include "pipeline/scene/render/ar_frame.h"
+
+namespace pleinair::styles {
+
+/// A frame's picture at half its size, a quarter and on, for strokes to take their colours from:
+/// where there are models, of what the camera sees and of all models, each of the two by
+/// itself, so that what is real is not tinted by what is not (thesis §5.5). Keeps textures for each
+/// size of picture it has seen. All calls on the thread of the GL context it was made in.
+class ReducedImages {
+ public:
+  static constexpr std::size_t kHalvings = 5;
+
+  /// `library` has gpu::painterlyShaders() and gpu::sceneShaders().
+  explicit ReducedImages(const gpu::ShaderLibrary& library);
+
+  void update(const scene::ArFrame& frame, gpu::PassTimer& timer);
+  /// Those whose texels are at most `px` of the picture wide. Until the next update().
+  marks::StrokePaint paintOf(double px) const;
+  /// All of the picture, `halvings` times reduced. Precondition: 1 to kHalvings.
+  const gpu::Texture& whole(std::size_t halvings) const;
+  /// Frees what it keeps.
+  void clear();
+
+ private:
+  /// RGBA, of premultiplied colour where it is of a part of the picture.
+  struct Pyramid {
+    Pyramid(hal::FrameSize size, gpu::TextureFormat format);
+    std::array<gpu::Texture, kHalvings> levels;
+    std::array<gpu::RenderTarget, kHalvings> targets;
+  };
+  struct Apart {
+    explicit Apart(hal::FrameSize size);
+    Pyramid real;
+    Pyramid models;
+    gpu::RenderTarget first;  // the first levels of both
+  };
+  struct Surfaces {
+    explicit Surfaces(hal::FrameSize pictureSize);
+    hal::FrameSize size;
+    Pyramid whole;
+    std::optional<Apart> apart;
+  };
+
+  void halve(const Pyramid& pyramid, std::size_t from);
+
+  gpu::Program halve_;
+  gpu::Program part_;
+  gpu::PerSize<Surfaces> surfaces_;
+  const Surfaces* now_ = nullptr;
+  const gpu::Texture* picture_ = nullptr;
+  bool hasObjects_ = false;
+};
+
+}  // namespace pleinair::styles

@@ -1,0 +1,21 @@
+// Purpose: noise that repeats with the substrate's tile.
+// Inputs:  places, px of the tile.
+// Outputs: noise in about [-1, 1]. Precision: highp.
+#include "pipeline/gpu/shaders/hash.glsl"
+const int kTile = 512;  // px, as in the code
+
+// Perlin's gradient noise with a lattice of `spacing` px (a divisor of the tile).
+float noise(vec2 at, int spacing, uint salt) {
+  vec2 scaled = at / float(spacing);
+  ivec2 base = ivec2(floor(scaled));
+  vec2 f = scaled - vec2(base);
+  vec2 w = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+  float corners[4];
+  for (int i = 0; i < 4; ++i) {
+    ivec2 step = ivec2(i & 1, i >> 1);
+    ivec2 knot = (base + step) & ivec2(kTile / spacing - 1);
+    float angle = unitOf(hashOf(knot, salt)) * 6.2831853;
+    corners[i] = dot(vec2(cos(angle), sin(angle)), f - vec2(step));
+  }
+  return 1.5 * mix(mix(corners[0], corners[1], w.x), mix(corners[2], corners[3], w.x), w.y);
+}

@@ -1,0 +1,168 @@
+#include "pipeline/tracking/motion/jitter_suppressor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "pipeline/tracking/image/homography.h"
+
+namespace pleinair::tracking {
+namespace {
+
+/// What moves less than this (px of the picture that is measured), or than so many predicted
+/// errors, is held.
+constexpr double kBandPx = 0.1;
+constexpr double kFeatureErrors = 4.5;
+constexpr double kPictureErrors = 4.0;
+/// A feature is let go when it is beyond its band in so many frames, or twice as far in one.
+constexpr int kFramesBeyond = 2;
+constexpr double kFarBeyond = 2.0;
+/// What has stayed within its band for so long is held again.
+constexpr int kQuietFrames = 8;
+constexpr double kLeastErrorPx = 0.005;
+constexpr double kCalibrationPace = 0.15;  // the part of a frame
+constexpr double kLeastCalibration = 0.7;
+constexpr double kMostCalibration = 3.0;
+
+}  // namespace
+
+void JitterSuppressor::reset() {
+  reported_.clear();
+  motions_.clear();
+  picture_.reset();
+  isHeld_ = true;
+  quietMotion_ = glm::dmat3(1.0);
+  quietFrames_ = 0;
+  calibration_ = 1.0;
+}
+
+void JitterSuppressor::match(std::span<const SeenFeature> seen) {
+  next_.clear();
+  auto known = reported_.begin();
+  for (const SeenFeature& feature : seen) {
+    while (known != reported_.end() && known->id < feature.id) ++known;
+    const bool isKnown = known != reported_.end() && known->id == feature.id;
+    ReportedFeature reported{.id = feature.id, .px = feature.previousPx, .isHeld = isHeld_};
+    if (isKnown && feature.wasSeen) reported = *known;
+    reported.isNew = !feature.wasSeen;
+    if (reported.isNew) reported.px = feature.px;
+    reported.agrees = false;
+    reported.errorPx = calibration_ * feature.errorPx;
+    reported.seenPx = feature.px;
+    next_.push_back(reported);
+  }
+  std::swap(reported_, next_);
+}
+
+void JitterSuppressor::suppressJitter(const HomographyFit& fit, hal::FrameSize size, double scale) {
+  const double moved = rmsMotion(fit.nowFromThen, size);
+  const double bandPx = std::max(kBandPx * scale, kPictureErrors * fit.fitErrorPx);
+  if (moved > bandPx) {
+    isHeld_ = false;
+    quietMotion_ = glm::dmat3(1.0);
+    quietFrames_ = 0;
+    picture_ = PictureHomography{
+        .nowFromThen = fit.nowFromThen,
+        .errorPx = std::hypot(fit.fitErrorPx, fit.modelErrorPx, kLeastErrorPx * scale)};
+    return;
+  }
+  picture_ =
+      PictureHomography{.nowFromThen = glm::dmat3(1.0),
+                        .errorPx = std::hypot(moved, fit.modelErrorPx, kLeastErrorPx * scale)};
+}
+
+void JitterSuppressor::releasePicture(const HomographyFit& fit, hal::FrameSize size, double scale) {
+  picture_ = PictureHomography{
+      .nowFromThen = fit.nowFromThen,
+      .errorPx = std::hypot(fit.fitErrorPx, fit.modelErrorPx, kLeastErrorPx * scale)};
+  quietMotion_ = fit.nowFromThen * quietMotion_;
+  ++quietFrames_;
+  const double bandPx = std::max(kBandPx * scale, kPictureErrors * fit.fitErrorPx);
+  if (rmsMotion(quietMotion_, size) > bandPx) {
+    quietMotion_ = glm::dmat3(1.0);
+    quietFrames_ = 0;
+  } else if (quietFrames_ >= kQuietFrames) {
+    isHeld_ = true;
+    isSettling_ = true;
+  }
+}
+
+/// Predictions go by white noise; that of a compressed movie is not. What they are off by shows in
+/// the features that follow the picture best, even where it is no plane.
+void JitterSuppressor::calibrate(const HomographyFit& fit) {
+  ratios_.clear();
+  for (const PointPair& pair : pairs_) {
+    const double off = glm::distance(movedBy(fit.nowFromThen, pair.then), pair.now);
+    ratios_.push_back(off / pair.errorPx);
+  }
+  const auto quarter = ratios_.begin() + static_cast<std::ptrdiff_t>(ratios_.size() / 4);
+  std::nth_element(ratios_.begin(), quarter, ratios_.end());
+  // A quarter of normal deviations over two axes is less than this part of their RMS.
+  constexpr double kQuarterOfNormal = 0.536;
+  const double ratio = calibration_ * *quarter / kQuarterOfNormal;
+  calibration_ += kCalibrationPace * (ratio - calibration_);
+  calibration_ = std::clamp(calibration_, kLeastCalibration, kMostCalibration);
+}
+
+void JitterSuppressor::movePicture(hal::FrameSize size, double scale) {
+  // From where features were reported to be: while the picture is held, of those that are held,
+  // too.
+  pairs_.clear();
+  pairOf_.clear();
+  for (std::size_t i = 0; i < reported_.size(); ++i) {
+    const ReportedFeature& reported = reported_[i];
+    if (reported.isNew || (isHeld_ && !reported.isHeld)) continue;
+    pairs_.push_back({.then = reported.px, .now = reported.seenPx, .errorPx = reported.errorPx});
+    pairOf_.push_back(i);
+  }
+  picture_.reset();
+  isSettling_ = false;
+  const auto fit = fitter_.fit(pairs_, size);
+  if (!fit) return;
+  for (std::size_t i = 0; i < pairs_.size(); ++i) reported_[pairOf_[i]].agrees = fitter_.agrees(i);
+  calibrate(*fit);
+  if (isHeld_) {
+    suppressJitter(*fit, size, scale);
+  } else {
+    releasePicture(*fit, size, scale);
+  }
+}
+
+void JitterSuppressor::moveFeature(ReportedFeature& reported, double scale) {
+  const double bandPx = std::max(kBandPx * scale, kFeatureErrors * reported.errorPx);
+  if (reported.isHeld) {
+    const double away = glm::distance(reported.seenPx, reported.px);
+    reported.beyondFrames = away > bandPx ? reported.beyondFrames + 1 : 0;
+    const bool goesAlong = reported.agrees && !isHeld_;
+    if (!goesAlong && reported.beyondFrames < kFramesBeyond && away < kFarBeyond * bandPx) return;
+    reported.isHeld = false;
+    reported.quietFrames = 0;
+    reported.quietFrom = reported.seenPx;
+    reported.beyondFrames = 0;
+  } else if (glm::distance(reported.seenPx, reported.quietFrom) > bandPx) {
+    reported.quietFrom = reported.seenPx;
+    reported.quietFrames = 0;
+  } else if (++reported.quietFrames >= kQuietFrames || (isSettling_ && reported.agrees)) {
+    reported.isHeld = isHeld_ || !reported.agrees;
+  }
+  reported.px = reported.seenPx;
+}
+
+void JitterSuppressor::update(std::span<const SeenFeature> seen, hal::FrameSize size,
+                              double scale) {
+  match(seen);
+  movePicture(size, scale);
+  motions_.clear();
+  for (ReportedFeature& reported : reported_) {
+    const glm::dvec2 then = reported.px;
+    if (reported.isNew) continue;
+    moveFeature(reported, scale);
+    motions_.push_back({.id = reported.id,
+                        .then = glm::vec2(then),
+                        .now = glm::vec2(reported.px),
+                        .errorPx = static_cast<float>(reported.errorPx)});
+  }
+}
+
+}  // namespace pleinair::tracking

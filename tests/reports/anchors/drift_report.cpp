@@ -1,0 +1,232 @@
+#include "tests/reports/anchors/drift_report.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+
+#include "hal/cameras/synthetic/synthetic_camera.h"
+#include "hal/clock.h"
+#include "pipeline/marks/anchor_set.h"
+#include "pipeline/marks/marks_shaders.h"
+#include "pipeline/scene/render/ar_frame_renderer.h"
+#include "pipeline/scene/scene_shaders.h"
+#include "pipeline/tracking/motion/image_motion_estimator.h"
+#include "pipeline/tracking/pose/tracker.h"
+#include "tests/reports/tracking/pose_measures.h"
+#include "tests/reports/tracking/truth_sequence.h"
+
+namespace pleinair::marks {
+namespace {
+
+using hal::SyntheticShot;
+using tracking::percentile;
+
+constexpr hal::FrameSize kSize{640, 480};
+constexpr std::size_t kFrames = 90;
+constexpr double kNoise = 2.0;
+constexpr std::array<int, 2> kAges{10, 30};  // frames after which drifts are looked at
+
+enum class Poses { kNone, kEstimated, kTrue };
+
+/// Where an anchor should be, as long as the truth knows.
+struct Followed {
+  std::uint32_t seed = 0;
+  glm::dvec2 expected{0.0};
+  int age = 0;
+};
+
+/// As a camera's picture, RGBA.
+std::vector<std::uint8_t> greyOf(const hal::ImageView& luma) {
+  std::vector<std::uint8_t> rgba;
+  for (int y = 0; y < luma.format.size.height; ++y) {
+    for (const std::uint8_t level :
+         luma.row(0, y).first(static_cast<std::size_t>(luma.format.size.width))) {
+      rgba.insert(rgba.end(), {level, level, level, 255});
+    }
+  }
+  return rgba;
+}
+
+/// What was found on a shot.
+struct Drifts {
+  std::vector<double> step;                  ///< error of a frame's displacement, px
+  std::array<std::vector<double>, 2> after;  ///< frames of kAges
+  std::array<double, 7> bySource{};
+  std::array<double, 7> squares{};           ///< of these errors, by source
+  std::array<double, 7> predictedSquares{};  ///< and as they were predicted
+};
+
+scene::Scene benchScene(Poses poses) {
+  scene::Scene scene;
+  if (poses == Poses::kNone) return scene;
+  // The top of the workbench; what stands on it is no part of the plane.
+  scene.planes.push_back({.name = "bench",
+                          .attachFromPlane = glm::translate(glm::dmat4(1.0), {0.0, -0.01, 0.0}),
+                          .sizeMetres = {2.3, 0.9}});
+  return scene;
+}
+
+class DriftRun {
+ public:
+  DriftRun(const tracking::TruthSequence& sequence, SyntheticShot shot, Poses poses)
+      : sequence_(sequence),
+        poses_(poses),
+        truth_({.size = kSize, .shot = shot, .noiseSigma = kNoise}, clock_),
+        tracker_(sequence.camera, sequence.markers) {
+    library_.add(gpu::gpuShaders());
+    library_.add(gpu::sceneShaders());
+    library_.add(gpu::marksShaders());
+    picture_ = gpu::Texture(gpu::TextureFormat::kRgba8, kSize, gpu::TextureFilter::kLinear);
+    renderer_.emplace(library_, benchScene(poses));
+    field_.emplace(library_, kSize);
+    anchors_.emplace(library_, kSize, AnchorOptions{});
+  }
+
+  Drifts run() {
+    for (std::size_t i = 0; i < sequence_.frames.size(); ++i) {
+      advance(i);
+      follow(i);
+    }
+    return drifts_;
+  }
+
+ private:
+  scene::PoseSet posesOf(const tracking::TruthFrame& frame) {
+    if (poses_ == Poses::kNone) return {};
+    if (poses_ == Poses::kTrue) return {.cameraFromWorld = frame.cameraFromWorld};
+    const tracking::TrackingResult tracked = tracker_.track(frame.luma.view(), frame.time);
+    return {.cameraFromWorld = tracked.cameraFromWorld, .worldCovariance = tracked.worldCovariance};
+  }
+
+  void advance(std::size_t i) {
+    const tracking::TruthFrame& frame = sequence_.frames[i];
+    const tracking::ImageMotion& motion =
+        estimator_.follow(frame.luma.view().planes[0], kSize, i + 1);
+    picture_.upload(greyOf(frame.luma.view()), std::size_t{4} * kSize.width);
+    scene::ArFrame composed =
+        renderer_->compose(picture_, sequence_.camera, posesOf(frame), i + 1, frame.time, timer_,
+                           {.surfaces = true, .measuredMotion = true});
+    composed.measuredMotion = scene::MeasuredMotion{.motion = &motion};
+    field_->update(composed, timer_);
+    anchors_->advance(composed, *field_, timer_);
+  }
+
+  /// Of those in frame i, whose px count from 0 … size.
+  void follow(std::size_t i) {
+    const std::vector<Anchor> now = anchors_->read();
+    followed_.resize(now.size());
+    before_.resize(now.size());
+    for (std::size_t slot = 0; slot < now.size(); ++slot) {
+      const Anchor& each = now[slot];
+      std::optional<Followed>& followed = followed_[slot];
+      const bool isNew = !followed || followed->seed != each.seed;
+      if (!each.isStaying()) {
+        followed.reset();
+      } else if (isNew) {
+        followed.reset();
+        if (each.isBorn()) followed = Followed{.seed = each.seed, .expected = glm::dvec2(each.px)};
+      } else {
+        compare(i, each, before_[slot], followed);
+      }
+    }
+    before_ = now;
+  }
+
+  void compare(std::size_t i, const Anchor& now, const Anchor& then,
+               std::optional<Followed>& followed) {
+    const hal::FlowVector step = truth_.flow(i - 1, i, glm::dvec2(then.px));
+    if (step.visible) {
+      const double error = glm::distance(glm::dvec2(now.px) - glm::dvec2(then.px), step.px);
+      const auto source = static_cast<std::size_t>(now.source());
+      drifts_.step.push_back(error);
+      drifts_.bySource.at(source) += 1.0;
+      drifts_.squares.at(source) += error * error;
+      drifts_.predictedSquares.at(source) += now.errorPx * now.errorPx;
+    }
+    const hal::FlowVector flow = truth_.flow(i - 1, i, followed->expected);
+    if (!flow.visible) {
+      followed.reset();
+      return;
+    }
+    followed->expected += flow.px;
+    ++followed->age;
+    for (std::size_t k = 0; k < kAges.size(); ++k) {
+      if (followed->age == kAges.at(k)) {
+        drifts_.after.at(k).push_back(glm::distance(glm::dvec2(now.px), followed->expected));
+      }
+    }
+  }
+
+  const tracking::TruthSequence& sequence_;
+  Poses poses_;
+  hal::SteppedClock clock_;
+  hal::SyntheticCamera truth_;
+  tracking::Tracker tracker_;
+  tracking::ImageMotionEstimator estimator_;
+  gpu::ShaderLibrary library_;
+  gpu::PassTimer timer_;
+  gpu::Texture picture_;
+  std::optional<scene::ArFrameRenderer> renderer_;
+  std::optional<MotionField> field_;
+  std::optional<AnchorSet> anchors_;
+  std::vector<std::optional<Followed>> followed_;
+  std::vector<Anchor> before_;
+  Drifts drifts_;
+};
+
+std::string sourcesText(const Drifts& drifts) {
+  static constexpr std::array<const char*, 7> kNames{"unknown",  "surface", "plane", "picture",
+                                                     "features", "flow",    "still"};
+  double sum = 0.0;
+  for (const double each : drifts.bySource) sum += each;
+  std::string text;
+  for (std::size_t k = 0; k < kNames.size(); ++k) {
+    const double percent = 100.0 * drifts.bySource.at(k) / sum;
+    if (percent < 0.5) continue;
+    text +=
+        fmt::format("{}{} {:.0f} % ({:.2f}, said {:.2f})", text.empty() ? "" : ", ", kNames.at(k),
+                    percent, std::sqrt(drifts.squares.at(k) / drifts.bySource.at(k)),
+                    std::sqrt(drifts.predictedSquares.at(k) / drifts.bySource.at(k)));
+  }
+  return text;
+}
+
+}  // namespace
+
+void reportDrifts(const std::set<std::string>& parts) {
+  const auto wants = [&](SyntheticShot shot) {
+    return parts.contains("drifts") || parts.empty() || parts.contains(std::string(toString(shot)));
+  };
+  std::printf(
+      "\n### Anchor drift on the workbench, px, median / 95th percentile\n\n"
+      "| shot | told by | a frame | after 10 | after 30 | moved by (RMS error a frame, as "
+      "predicted) |\n|---|---|---|---|---|---|\n");
+  for (const SyntheticShot shot :
+       {SyntheticShot::kStill, SyntheticShot::kPan, SyntheticShot::kWalkaround,
+        SyntheticShot::kDolly, SyntheticShot::kRoll, SyntheticShot::kOccluder}) {
+    if (!wants(shot)) continue;
+    const tracking::TruthSequence sequence = tracking::filmWorkbench(
+        {.shot = shot, .frameCount = kFrames, .size = kSize, .noiseSigma = kNoise});
+    for (const auto& [poses, name] :
+         {std::pair{Poses::kNone, "picture"}, std::pair{Poses::kEstimated, "and estimated poses"},
+          std::pair{Poses::kTrue, "and true poses"}}) {
+      const Drifts drifts = DriftRun(sequence, shot, poses).run();
+      std::printf("| %s | %s | %.3f / %.3f | %.3f / %.3f | %.3f / %.3f | %s |\n",
+                  std::string(toString(shot)).c_str(), name, percentile(drifts.step, 0.5),
+                  percentile(drifts.step, 0.95), percentile(drifts.after[0], 0.5),
+                  percentile(drifts.after[0], 0.95), percentile(drifts.after[1], 0.5),
+                  percentile(drifts.after[1], 0.95), sourcesText(drifts).c_str());
+    }
+  }
+}
+
+}  // namespace pleinair::marks

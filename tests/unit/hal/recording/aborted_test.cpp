@@ -1,0 +1,126 @@
+// Recordings that break off, or are broken within: their sound frames come, and nothing else.
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "hal/outputs/headless/headless_output.h"
+#include "tests/support/media_files.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pleinair::hal {
+namespace {
+
+constexpr int kFrames = 130;  // three fragments of 60
+constexpr FrameSize kSize{64, 48};
+
+std::string readAll(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void writeAll(const std::filesystem::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+class Aborted : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    whole_ = folder_.path() / ("whole." + GetParam());
+    support::writeMedia(whole_, kFrames, kSize);
+    bytes_ = readAll(whole_);
+    const Result<support::Played> played = support::play(whole_);
+    ASSERT_TRUE(played) << played.error().message();
+    ASSERT_EQ(played->frames.size(), static_cast<std::size_t>(kFrames));
+    for (std::size_t i = 0; i < played->frames.size(); ++i) {
+      sound_[played->times[i]] = hashOf(played->frames[i].image);
+    }
+  }
+
+  /// Each frame must be the whole recording's at that time.
+  void expectSound(const support::Played& played) const {
+    for (std::size_t i = 0; i < played.frames.size(); ++i) {
+      const auto sound = sound_.find(played.times[i]);
+      ASSERT_NE(sound, sound_.end()) << "frame " << i << " at " << played.times[i].count();
+      EXPECT_EQ(hashOf(played.frames[i].image), sound->second) << "frame " << i;
+    }
+  }
+
+  support::TemporaryFolder folder_;
+  std::filesystem::path whole_;
+  std::string bytes_;
+  std::map<Duration, std::uint64_t> sound_;
+};
+
+TEST_P(Aborted, GivesItsSoundFramesAndSaysSo) {
+  const auto cut = folder_.path() / ("cut." + GetParam());
+  std::size_t longest = 0;
+  for (int tenth = 0; tenth < 10; ++tenth) {
+    SCOPED_TRACE(tenth);
+    // 11 bytes off the round number: inside a frame, a box or a block.
+    writeAll(cut, bytes_.substr(0, bytes_.size() * static_cast<unsigned>(tenth) / 10 + 11));
+    const Result<support::Played> played = support::play(cut);
+    if (!played) {
+      EXPECT_EQ(played.error().kind, ErrorKind::kInvalidInput) << played.error().message();
+      continue;
+    }
+    EXPECT_LT(played->frames.size(), static_cast<std::size_t>(kFrames));
+    longest = std::max(longest, played->frames.size());
+    expectSound(*played);
+    const auto* end = std::get_if<EndOfStream>(&played->ending);
+    ASSERT_NE(end, nullptr);
+    ASSERT_TRUE(end->truncated);
+    EXPECT_EQ(end->truncated->kind, ErrorKind::kInvalidInput);
+    EXPECT_THAT(end->truncated->message(), testing::StartsWith(cut.string() + ": "));
+  }
+  EXPECT_GT(longest, 50u);
+}
+
+TEST_P(Aborted, SurvivesDamageAnywhere) {
+  const auto damaged = folder_.path() / ("damaged." + GetParam());
+  for (unsigned seed = 1; seed <= 25; ++seed) {
+    SCOPED_TRACE(seed);
+    std::string bytes = bytes_;
+    std::uint32_t state = seed;
+    for (int i = 0; i < 6; ++i) {
+      state = state * 1664525u + 1013904223u;
+      bytes[state % bytes.size()] ^= static_cast<char>(1 + (state >> 24));
+    }
+    writeAll(damaged, bytes);
+    const Result<support::Played> played = support::play(damaged, {}, 2 * kFrames);
+    if (!played) {
+      EXPECT_THAT(played.error().message(), testing::StartsWith(damaged.string() + ": "));
+      continue;
+    }
+    for (const CapturedFrame& frame : played->frames) EXPECT_TRUE(frame.image.isComplete());
+    EXPECT_TRUE(std::is_sorted(played->times.begin(), played->times.end()));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Aborted, testing::Values("mp4", "mkv", "y4m"),
+                         [](const auto& kind) { return kind.param; });
+
+TEST(BrokenFolder, LeavesBrokenPicturesOutAndCountsThem) {
+  const support::TemporaryFolder folder;
+  support::writeMedia(folder.path() / "%d.png", 5, kSize);
+  const std::string png = readAll(folder.path() / "0.png");
+  for (const char* name : {"1.png", "2.png", "4.png"}) {
+    writeAll(folder.path() / name, png.substr(0, png.size() - 20));
+  }
+  const Result<support::Played> played = support::play(folder.path());
+  ASSERT_TRUE(played) << played.error().message();
+  ASSERT_EQ(played->frames.size(), 2u);
+  EXPECT_EQ(played->frames[1].sequence, 3u);
+  EXPECT_EQ(played->frames[1].droppedBefore, 2u);
+  EXPECT_EQ(played->times[1], 3 * RecordingOptions{}.picturePeriod);
+  ASSERT_TRUE(std::get<EndOfStream>(played->ending).truncated);
+  EXPECT_THAT(std::get<EndOfStream>(played->ending).truncated->message(),
+              testing::HasSubstr("4.png: is a broken picture"));
+}
+
+}  // namespace
+}  // namespace pleinair::hal

@@ -1,0 +1,186 @@
+#include "pipeline/measure/negative_controls.h"
+
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "pipeline/measure/gates.h"
+#include "pipeline/measure/input/known_motion.h"
+#include "pipeline/measure/input/sensor_noise.h"
+#include "pipeline/measure/picture.h"
+#include "pipeline/measure/sequence_measures.h"
+#include "tests/unit/measure/measure_pictures.h"
+
+namespace pleinair::measure {
+namespace {
+
+using State = Verdict::State;
+using testing::HasSubstr;
+
+const cv::Size kSize(320, 240);
+const cv::Point2d kPan(-1.5, -0.5);
+const RunConditions kPanned{
+    .motion = MotionKind::kPan, .frames = 14, .stillFrames = 4, .stillNoiseLevels = 2};
+
+/// What a pan over a canvas reads, painted by nobody.
+PerSubject<Measures> measuresOf(const cv::Mat3f& canvas, double noiseLevels = 2) {
+  const auto motion = constantMotion(kSize, 2 * kPan);
+  SequenceMeasures measures(kSize, motion.get());
+  for (std::uint64_t i = 0; i < 14; ++i) {
+    const cv::Point at(8 + static_cast<int>(3 * i), 8 + static_cast<int>(i));
+    const cv::Mat3f frame =
+        toFloat(withSensorNoise(windowOf(canvas, at, kSize), noiseLevels, i).view());
+    EXPECT_TRUE(measures.add(i, frame, frame, {}));
+  }
+  return measures.totals();
+}
+
+TEST(Controls, ReadAsTheyMustOnAPictureWithDetail) {
+  const PerSubject<Measures> measures = measuresOf(strongBlobs({400, 300}, 1));
+  EXPECT_EQ(measures[Subject::kInput].xEw2, 1.0);
+  EXPECT_NEAR(*measures[Subject::kInput].dep, 0.0, 1e-4);
+  EXPECT_EQ(measures[Subject::kInput].det, 1.0);
+  EXPECT_EQ(measures[Subject::kInput].s10Percent, 100.0);
+  EXPECT_NEAR(*measures[Subject::kInput].ew2, 2 * (4 + 1.0 / 12) / 255 / 255 * 1000, 0.004);
+  EXPECT_GT(*measures[Subject::kFresh].nHw2, 0.5);
+  EXPECT_GT(*measures[Subject::kFixed].scr, 0.25);
+  for (const std::string_view style : {"watercolor", "painterly", "none"}) {
+    for (const Verdict& verdict : controlVerdicts(measures, style, kPanned)) {
+      EXPECT_EQ(verdict.state, State::kPassed) << style << ": " << verdict.what << verdict.found;
+    }
+  }
+}
+
+TEST(Controls, SayThatTheMotionIsAnother) {
+  PerSubject<Measures> measures = measuresOf(strongBlobs({400, 300}, 1));
+  measures[Subject::kInput].nHw2 = 0.87;
+  const auto verdicts = controlVerdicts(measures, "watercolor", kPanned);
+  EXPECT_EQ(verdicts[1].state, State::kFailed);
+  EXPECT_THAT(verdicts[1].found, HasSubstr("the motion is another"));
+}
+
+TEST(Controls, SayThatAPictureIsTooSmooth) {
+  const cv::Mat3f flat(300, 400, cv::Vec3f(0.5F, 0.4F, 0.3F));
+  const PerSubject<Measures> measures = measuresOf(flat, 0);
+  const auto verdicts = controlVerdicts(measures, "painterly", kPanned);
+  bool isAnyWrong = false;
+  for (const Verdict& verdict : verdicts) {
+    if (verdict.state != State::kFailed) continue;
+    isAnyWrong = true;
+    EXPECT_THAT(verdict.found, HasSubstr("too smooth"));
+  }
+  EXPECT_TRUE(isAnyWrong);
+}
+
+TEST(Controls, SayWhatCouldNotBeTold) {
+  PerSubject<Measures> measures;
+  measures[Subject::kInput].ew2 = 0.0;
+  for (const Verdict& verdict : controlVerdicts(measures, "watercolor", kPanned)) {
+    EXPECT_EQ(verdict.state, State::kNotMeasured) << verdict.what;
+    EXPECT_NE(verdict.found, "");
+  }
+}
+
+Measures good() {
+  return {.ew2 = 0.5,
+          .xEw2 = 1,
+          .nHw2 = 0.05,
+          .popPercent = 0.5,
+          .s10Percent = 95,
+          .scr = 0.01,
+          .xFlk = 0.1,
+          .dep = 20,
+          .det = 0.9};
+}
+
+std::vector<std::string> failed(std::string_view style, MotionKind kind, const Measures& measures) {
+  std::vector<std::string> names;
+  for (const Verdict& verdict :
+       gateVerdicts(style, {.motion = kind}, measures, {.scr = 0.5, .dep = 20})) {
+    if (verdict.state != State::kPassed) names.push_back(verdict.what.substr(0, 4));
+  }
+  return names;
+}
+
+TEST(Gates, PassWhatIsWithinAndStopTheRest) {
+  using testing::ElementsAre;
+  using testing::IsEmpty;
+  EXPECT_THAT(failed("painterly", MotionKind::kPan, good()), IsEmpty());
+  EXPECT_THAT(failed("watercolor", MotionKind::kPan, good()), IsEmpty());
+  Measures bad = good();
+  bad.ew2 = 0.61;
+  bad.popPercent = 1.1;
+  EXPECT_THAT(failed("painterly", MotionKind::kPan, bad), ElementsAre("EW2 ", "POP "));
+  EXPECT_THAT(failed("painterly", MotionKind::kOther, bad), IsEmpty());
+  EXPECT_THAT(failed("watercolor", MotionKind::kPan, bad), IsEmpty());
+  bad = good();
+  bad.nHw2 = 0.15;
+  bad.s10Percent = 85;
+  EXPECT_THAT(failed("painterly", MotionKind::kPan, bad), ElementsAre("nHW2", "S10 "));
+  EXPECT_THAT(failed("painterly", MotionKind::kOther, bad), IsEmpty());
+  bad = good();
+  bad.scr = 0.16;
+  bad.xFlk = 0.16;
+  bad.dep = 14.9;
+  EXPECT_THAT(failed("watercolor", MotionKind::kPan, bad), ElementsAre("xFLK", "DEP ", "SCR "));
+  EXPECT_THAT(failed("painterly", MotionKind::kPan, bad), ElementsAre("DEP "));
+}
+
+TEST(Gates, AreNotPassedByWhatWasNotMeasured) {
+  Measures measures = good();
+  measures.scr.reset();
+  EXPECT_THAT(failed("watercolor", MotionKind::kStill, measures), testing::IsEmpty())
+      << "nothing can stay on the screen while nothing moves";
+  EXPECT_THAT(failed("watercolor", MotionKind::kPan, measures), testing::ElementsAre("SCR "));
+}
+
+TEST(Gates, SayWhyOneWasNotMeasuredAndCompareNumbers) {
+  Measures measures = good();
+  measures.s10Percent.reset();
+  const RunConditions few{.motion = MotionKind::kPan, .frames = 4};
+  const auto verdicts = gateVerdicts("painterly", few, measures, {.dep = 20});
+  const auto lasting = std::ranges::find_if(
+      verdicts, [](const Verdict& each) { return each.what.starts_with("S10"); });
+  ASSERT_NE(lasting, verdicts.end());
+  EXPECT_EQ(lasting->found, "it compares frames 10 apart, and there are 4");
+  ASSERT_TRUE(lasting->comparison);
+  EXPECT_FALSE(lasting->comparison->value);
+  EXPECT_EQ(lasting->comparison->limit, 90);
+  EXPECT_FALSE(lasting->comparison->isMost);
+  const auto deviation = std::ranges::find_if(
+      verdicts, [](const Verdict& each) { return each.what.starts_with("DEP"); });
+  ASSERT_TRUE(deviation != verdicts.end() && deviation->comparison);
+  EXPECT_EQ(deviation->comparison->limit, 15);
+  EXPECT_EQ(deviation->comparison->value, 20);
+  EXPECT_THAT(gatedStyles(), testing::ElementsAre("painterly", "watercolor"));
+}
+
+TEST(RunConditions, SayWhyAMeasureIsMissing) {
+  Measures none;
+  EXPECT_THAT(missingLines(none, {.motion = MotionKind::kNone, .frames = 20}),
+              testing::ElementsAre(HasSubstr("EW2, xEW2, nHW2, POP %, S10 %: it needs the true"),
+                                   HasSubstr("SCR: too little"), HasSubstr("xFLK: no still"),
+                                   HasSubstr("DEP, DET: the input has no detail")));
+  EXPECT_THAT(whyMissing(&Measures::xFlk, {.stillFrames = 4}), HasSubstr("--noise 0"));
+  EXPECT_THAT(missingLines(good(), {}), testing::IsEmpty());
+}
+
+TEST(Gates, OfAnchorsAreThePainterlyOnes) {
+  AnchorSummary quiet{.frames = 10};
+  AnchorSummary busy{.frames = 10, .births = 1, .innerTurnoverPercent = 0.6};
+  EXPECT_TRUE(anchorVerdicts("watercolor", MotionKind::kPan, quiet, quiet).empty());
+  for (const Verdict& verdict : anchorVerdicts("painterly", MotionKind::kPan, quiet, quiet)) {
+    EXPECT_EQ(verdict.state, State::kPassed);
+  }
+  for (const Verdict& verdict : anchorVerdicts("painterly", MotionKind::kPan, busy, busy)) {
+    EXPECT_EQ(verdict.state, State::kFailed);
+  }
+  for (const Verdict& verdict : anchorVerdicts("painterly", MotionKind::kPan, {}, {})) {
+    EXPECT_EQ(verdict.state, State::kNotMeasured);
+  }
+  EXPECT_EQ(anchorVerdicts("painterly", MotionKind::kOther, busy, quiet).size(), 1u);
+}
+
+}  // namespace
+}  // namespace pleinair::measure
