@@ -1,5 +1,5 @@
-# How every module is compiled: the standard, warnings, sanitizers, and the two functions that
-# declare a module's library and its tests.
+# Compilation of every module: the language standard, warnings, sanitizers, and the functions that
+# declare a module's library, tests, fuzz targets and benchmarks.
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
@@ -15,7 +15,7 @@ endif()
 
 find_package(Threads REQUIRED)
 
-# Flags of our own code; dependencies come in as SYSTEM headers and are not judged by them.
+# Flags of this tree's code. Dependencies are SYSTEM headers, which these flags do not apply to.
 add_library(pleinair_build INTERFACE)
 target_include_directories(pleinair_build INTERFACE "${CMAKE_SOURCE_DIR}")
 target_link_libraries(pleinair_build INTERFACE Threads::Threads)
@@ -25,7 +25,7 @@ target_compile_options(pleinair_build INTERFACE
   -Wno-missing-field-initializers  # designated initialisers leave the rest at its default
   -Werror)
 if(PLEINAIR_ASSERTIONS)
-  # NDEBUG is what RelWithDebInfo and Release define; assertions stay on where asked for.
+  # RelWithDebInfo and Release define NDEBUG; -UNDEBUG keeps assertions.
   target_compile_options(pleinair_build INTERFACE -UNDEBUG)
   target_compile_definitions(pleinair_build INTERFACE _GLIBCXX_ASSERTIONS)
 endif()
@@ -33,7 +33,7 @@ endif()
 if(PLEINAIR_SANITIZE)
   add_compile_options(-fsanitize=${PLEINAIR_SANITIZE} -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${PLEINAIR_SANITIZE})
-  # Instrumented, gcc 12 takes parts of <regex> for uninitialised.
+  # With sanitizers, gcc 12 reports parts of <regex> as uninitialised.
   target_compile_options(pleinair_build INTERFACE
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   if(PLEINAIR_SANITIZE MATCHES "undefined")
@@ -42,16 +42,16 @@ if(PLEINAIR_SANITIZE)
 endif()
 
 if(PLEINAIR_FUZZ)
-  # Counts what our own code does, for libFuzzer to go by; each fuzz target links libFuzzer itself.
+  # Instruments this tree's code for libFuzzer; each fuzz target links libFuzzer itself.
   add_compile_options(-fsanitize=fuzzer-no-link)
   add_link_options(-fsanitize=fuzzer-no-link)
   add_custom_target(fuzz)
 endif()
 
-# Compiles a target's sources several at a time (PLEINAIR_UNITY): most of a compiler's time goes to
-# headers. Files in one batch see each other's unnamed namespaces, so names there are told apart;
-# the preset "clang" and clang-tidy compile each file by itself.
-option(PLEINAIR_UNITY "Compile several sources of a module at once" ON)
+# Compiles a target's sources in batches (docs/decisions/0018-unity-builds.md), because most of the
+# compiler's time goes to headers. Sources of one batch share their unnamed namespaces, so names in
+# them must differ. The preset "clang", which clang-tidy uses, compiles each source by itself.
+option(PLEINAIR_UNITY "Compile the sources of a module in batches" ON)
 function(pleinair_speed_up target)
   if(PLEINAIR_UNITY)
     set_target_properties(${target} PROPERTIES
@@ -60,8 +60,9 @@ function(pleinair_speed_up target)
 endfunction()
 
 # pleinair_library(NAME SOURCES ... [ALONE sources ...] [PUBLIC libs ...] [PRIVATE libs ...])
-# A module's static library. PUBLIC names what its headers show, PRIVATE what only its .cpp use.
-# ALONE names those of SOURCES that share names in unnamed namespaces with others: see PLEINAIR_UNITY.
+# A module's static library. PUBLIC: libraries that its headers use; PRIVATE: libraries that only its
+# .cpp files use. ALONE: those of SOURCES that are compiled outside the batches of PLEINAIR_UNITY,
+# because names in their unnamed namespaces collide with others.
 function(pleinair_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;PUBLIC;PRIVATE" ${ARGN})
   set_source_files_properties(${ARG_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
@@ -71,10 +72,10 @@ function(pleinair_library name)
 endfunction()
 
 # pleinair_tests(NAME KIND kind SOURCES ... [ALONE sources ...] [LIBS ...] [TIMEOUT seconds] [QUICK] [BY_SUITE])
-# A GoogleTest executable of one kind (unit, conformance, gpu, golden ...), which becomes its tests'
-# prefix and CTest label; QUICK makes the label "kind-quick", which `./dev test quick` selects.
-# CTest runs each case in a process of its own; with BY_SUITE, which gpu and golden imply, each
-# suite, so that the GL driver is loaded and its code compiled once a suite.
+# A GoogleTest executable of one kind (unit, conformance, gpu, golden ...). The kind is the prefix of
+# its tests' names and their CTest label; QUICK makes the label "kind-quick", which `./dev test quick`
+# selects. CTest runs each case in a process of its own. BY_SUITE, which gpu and golden imply, runs
+# each suite in one process, which loads the GL driver and compiles its code once a suite.
 function(pleinair_tests name)
   cmake_parse_arguments(ARG "QUICK;BY_SUITE" "KIND;TIMEOUT" "SOURCES;ALONE;LIBS" ${ARGN})
   set_source_files_properties(${ARG_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
@@ -107,8 +108,8 @@ endfunction()
 
 # pleinair_fuzz(NAME SOURCES ... [LIBS ...])
 # A fuzz target: SOURCES define LLVMFuzzerTestOneInput (tests/fuzz/fuzz_target.h). In the preset
-# "fuzz" it becomes libFuzzer's program fuzz_NAME, which the target "fuzz" builds with the others;
-# elsewhere a quick test "fuzz.NAME", which runs the inputs kept in tests/fuzz/corpus/NAME once.
+# "fuzz" it is the libFuzzer program fuzz_NAME, which the target "fuzz" builds with the others. In
+# other presets it is the quick test "fuzz.NAME", which runs the inputs of tests/fuzz/corpus/NAME once.
 function(pleinair_fuzz name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
   add_executable(fuzz_${name} ${ARG_SOURCES})

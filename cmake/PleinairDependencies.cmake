@@ -14,11 +14,12 @@ pkg_check_modules(GLES REQUIRED IMPORTED_TARGET glesv2)
 pkg_check_modules(TOMLPLUSPLUS REQUIRED IMPORTED_TARGET tomlplusplus)
 pkg_check_modules(APRILTAG REQUIRED IMPORTED_TARGET apriltag)
 
-# Only its header: Debian's library decodes pictures and opens files by itself, ours do both.
+# Only the header of tinygltf is used (docs/decisions/0007-tinygltf.md): Debian's library decodes
+# images and opens files by itself, without limits.
 find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)
 
-# Debian's OpenCVConfig.cmake comes only with libopencv-dev, which pulls in every module and VTK; the
-# few modules that are used come without it.
+# Debian ships OpenCVConfig.cmake only in libopencv-dev, which depends on every module and VTK. The
+# modules in use are found by themselves (docs/decisions/0002-opencv-modules.md).
 find_path(OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)
 function(pleinair_opencv_module module)
   find_library(OPENCV_${module}_LIBRARY opencv_${module} REQUIRED)
@@ -34,12 +35,12 @@ pleinair_opencv_module(features2d)
 pleinair_opencv_module(flann)
 pleinair_opencv_module(video)
 
-# pleinair_optional(NAME STATE): one line of the configure summary: "in", or why not.
+# pleinair_optional(NAME STATE): adds a line to the configure summary: "in", or "not in" and why.
 function(pleinair_optional name state)
   set_property(GLOBAL APPEND PROPERTY PLEINAIR_OPTIONAL "${name}|${state}")
 endfunction()
 
-# The window: SDL, and Pango for the text over its picture.
+# The window needs SDL, and Pango for the text over its image.
 pkg_check_modules(SDL2 QUIET IMPORTED_TARGET sdl2)
 pkg_check_modules(PANGOCAIRO QUIET IMPORTED_TARGET pangocairo)
 set(PLEINAIR_WINDOW OFF)
@@ -52,7 +53,7 @@ else()
   pleinair_optional("window" "in (SDL ${SDL2_VERSION})")
 endif()
 
-# News of cameras that are plugged in.
+# udev reports cameras that are plugged in.
 pkg_check_modules(LIBUDEV QUIET IMPORTED_TARGET libudev)
 if(LIBUDEV_FOUND)
   pleinair_optional("hot-plug by udev" "in (libudev ${LIBUDEV_VERSION})")
@@ -97,7 +98,7 @@ endif()
 if(EXISTS "${PLEINAIR_SHARED_DATA}/README.md")
   pleinair_optional("real test data" "in (${PLEINAIR_SHARED_DATA})")
 else()
-  pleinair_optional("real test data" "not in: none at PLEINAIR_SHARED_DATA, its tests will skip")
+  pleinair_optional("real test data" "not in: nothing at PLEINAIR_SHARED_DATA, tests that need it skip")
 endif()
 if(PLEINAIR_SANITIZE)
   pleinair_optional("sanitizers" "in (${PLEINAIR_SANITIZE})")

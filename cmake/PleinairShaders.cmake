@@ -1,6 +1,6 @@
-# Shaders are files beside the code that runs them. They are embedded at build under their path
-# from the top of the tree ("pipeline/gpu/shaders/fullscreen.vert"), and a directory given at run
-# time overrides them (gpu::ShaderLibrary).
+# Shaders are files beside the code that runs them. The build embeds each under its path from the top
+# of the tree ("pipeline/gpu/shaders/fullscreen.vert"); files in a directory given at run time replace
+# them (gpu::ShaderLibrary).
 
 # pleinair_embed_shaders(TARGET LISTER file ...): embeds the files, named relative to the current
 # source directory, into TARGET, which gains `std::span<const EmbeddedShader> gpu::LISTER()`. For a
