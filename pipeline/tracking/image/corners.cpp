@@ -8,13 +8,14 @@
 namespace pleinair::tracking {
 namespace {
 
-/// Least eigenvalue of the gradients in a window, OpenCV's measure: about 1.3 levels a pixel.
+/// Smallest accepted eigenvalue of a window's gradient matrix, in OpenCV's scale: about 1.3 grey
+/// levels per pixel.
 constexpr float kLeastCorner = 1e-4F;
 
 }  // namespace
 
 bool CornerSearch::look(const LumaPyramid& pyramid) {
-  constexpr std::size_t kSecondLevel = 2;  // each level's gradients follow it
+  constexpr std::size_t kSecondLevel = 2;  // each level is followed by its gradients
   if (pyramid.levels().size() <= kSecondLevel) {
     strength_.release();
     return false;

@@ -30,20 +30,22 @@ double rmsMotion(const glm::dmat3& homography, hal::FrameSize size) {
 namespace {
 
 constexpr std::size_t kLeastPairs = 12;
-constexpr double kLeastPart = 0.4;  // of the pairs, that agree
-/// They lie in so many fields of a grid over the picture at least.
+constexpr double kLeastPart = 0.4;  // part of the pairs that must agree
+/// The agreeing pairs must lie in at least this many cells of a grid over the image.
 constexpr int kColumns = 4;
 constexpr int kRows = 4;
 constexpr int kLeastFields = 6;
-/// RANSAC's tolerance: of the longer side (1.3 px of 640), but so many mean errors at least.
+/// RANSAC's tolerance: a part of the image's longer side (1.3 px of 640), and at least this many
+/// mean errors.
 constexpr double kOutlierPart = 0.002;
 constexpr double kOutlierErrors = 3.0;
 constexpr int kSteps = 6;
-/// Deviations beyond so many predicted errors, and this part of RANSAC's tolerance, weigh less.
+/// Deviations larger than this many predicted errors, plus this part of RANSAC's tolerance, get
+/// less weight.
 constexpr double kRobustErrors = 3.0;
 constexpr double kRobustPart = 0.15;
 
-/// px to coordinates of about ±1 about the picture's middle.
+/// Maps px to coordinates of about ±1 around the image's centre.
 struct Scaling {
   glm::dvec2 middle;
   double unit;
@@ -56,13 +58,13 @@ struct Scaling {
   }
 };
 
-/// A homography by its first eight numbers, row by row; the ninth is 1.
+/// Applies a homography given by its first eight entries, row by row; the ninth is 1.
 glm::dvec2 apply(const cv::Vec<double, 8>& h, const glm::dvec2& p) {
   const double w = h[6] * p.x + h[7] * p.y + 1.0;
   return {(h[0] * p.x + h[1] * p.y + h[2]) / w, (h[3] * p.x + h[4] * p.y + h[5]) / w};
 }
 
-/// Its derivatives by those numbers: a row for x and one for y.
+/// Derivatives of apply() by these entries: one row for x and one for y.
 std::array<cv::Vec<double, 8>, 2> derivatives(const cv::Vec<double, 8>& h, const glm::dvec2& p) {
   const double w = h[6] * p.x + h[7] * p.y + 1.0;
   const glm::dvec2 to = apply(h, p);
@@ -73,7 +75,7 @@ std::array<cv::Vec<double, 8>, 2> derivatives(const cv::Vec<double, 8>& h, const
 }
 
 cv::Vec<double, 8> numbersOf(const glm::dmat3& m) {
-  const double s = 1.0 / m[2][2];  // glm's m[column][row]
+  const double s = 1.0 / m[2][2];  // glm indexes as m[column][row]
   return {m[0][0] * s, m[1][0] * s, m[2][0] * s, m[0][1] * s,
           m[1][1] * s, m[2][1] * s, m[0][2] * s, m[1][2] * s};
 }
@@ -82,7 +84,7 @@ glm::dmat3 matrixOf(const cv::Vec<double, 8>& h) {
   return {h[0], h[3], h[6], h[1], h[4], h[7], h[2], h[5], 1.0};
 }
 
-/// Whether no corner of the picture comes near the horizon: no camera moves so in a frame.
+/// Whether all image corners stay far from the horizon. No camera moves further in one frame.
 bool isGentle(const cv::Vec<double, 8>& h) {
   constexpr double kMost = 0.5;
   return std::abs(h[6]) + std::abs(h[7]) < kMost;
@@ -125,16 +127,16 @@ bool HomographyFitter::coversEnough(std::span<const PointPair> pairs, hal::Frame
   return std::ranges::count(fields, true) >= kLeastFields;
 }
 
-/// Sums of a step of weighted least squares.
+/// Sums of one step of weighted least squares.
 struct HomographyFitter::Sums {
   Matrix8 normal = Matrix8::zeros();
   Vector8 right = Vector8::all(0.0);
-  double squares = 0.0;   // of deviations, px²
-  double expected = 0.0;  // by the pairs' errors
+  double squares = 0.0;   // sum of squared deviations, px²
+  double expected = 0.0;  // the sum that the pairs' errors predict
   double weights = 0.0;
 };
 
-/// `excess`: by how much, px², points deviate beyond their own errors.
+/// `excess`: the variance (px²) by which points deviate beyond their own errors.
 HomographyFitter::Sums HomographyFitter::sumUp(std::span<const PointPair> pairs,
                                                hal::FrameSize size, const Vector8& h,
                                                double excess) const {

@@ -11,7 +11,8 @@
 namespace pleinair::tracking {
 
 void Thumbnail::load(const LumaPyramid& pyramid) {
-  // The smallest of the pictures that are not smaller than it: each level's gradients follow it.
+  // Uses the smallest level that is not smaller than a thumbnail. Each level is followed by its
+  // gradients.
   const auto& levels = pyramid.levels();
   std::size_t level = 0;
   while (level + 2 < levels.size() && levels[level + 2].cols >= kWidth &&
@@ -73,10 +74,10 @@ Thumbnail::Match Thumbnail::match(const Thumbnail& other) const {
 
 namespace {
 
-constexpr double kLostShare = 0.15;     // of features found: fewer are lost
+constexpr double kLostShare = 0.15;     // part of the features found; less means that they are lost
 constexpr double kSameScene = 0.8;      // correlation of thumbnails
-constexpr double kLeastContrast = 4.0;  // grey levels of one
-constexpr int kMostBlankFrames = 12;    // after which what was seen does not come back
+constexpr double kLeastContrast = 4.0;  // standard deviation of a thumbnail, grey levels
+constexpr int kMostBlankFrames = 12;    // blank frames after which the earlier scene is given up
 
 }  // namespace
 

@@ -14,22 +14,25 @@
 namespace pleinair::tracking {
 namespace {
 
-constexpr std::size_t kHalf = 2;  // in LumaPyramid::levels(): each level's gradients follow it
-constexpr int kLeastSide = 96;    // of a picture in which flow is sought
-// Predicted errors: docs/measured.md says how they agree with true ones.
+// Index in LumaPyramid::levels(), where each level is followed by its gradients.
+constexpr std::size_t kHalf = 2;
+constexpr int kLeastSide = 96;  // of an image in which flow is estimated
+// Predicted errors; docs/measured.md compares them with true ones.
 constexpr double kPlacing = 1.0;
 constexpr double kBackPart = 0.7;
 constexpr double kLeastErrorPx = 0.03;
 constexpr double kMostErrorPx = 100.0;
-/// Of the largest difference to a neighbour: where motions meet, a patch may have followed either.
+/// Error per largest difference to a neighbour: at a motion boundary a patch may have followed
+/// either motion.
 constexpr double kEdgePart = 0.1;
-/// The homography is taken where it fits as well, but for so much of the noise's variance.
+/// The homography is preferred where its variance exceeds the search's by less than this part of
+/// the noise's variance.
 constexpr double kAsWell = 0.5;
-/// How good guesses are: what the search finds, and the homography by its predicted errors.
+/// Error of the guesses: the search's, and the homography's in predicted errors.
 constexpr double kSearchedPx = 0.3;
 constexpr double kAlongErrors = 2.0;
-/// A patch tells whether it goes along when it can be placed so well; by how much more it may be
-/// off.
+/// A patch can confirm the homography when it can be placed this well; otherwise its guess may be
+/// off by this much more.
 constexpr double kTellingPx = 0.4;
 constexpr double kSurely = 1.5;
 
@@ -86,7 +89,8 @@ void DenseFlowEstimator::flowOneWay(Way& way, const LumaPyramid& from, const Lum
     double error = kMostErrorPx;
     if (best.isInside) {
       error = kPlacing * patch.placing(noise) * std::sqrt(best.variance);
-      // Texture that goes along with the picture, as far as it tells, is where that takes it.
+      // A patch with enough texture that agrees with the homography starts from the homography's
+      // motion.
       const double guess = kSurely * along.guessPx;
       if (goesAlong && error < kTellingPx) {
         error = 1.0 / std::sqrt(1.0 / (error * error) + 1.0 / (guess * guess));
@@ -98,7 +102,7 @@ void DenseFlowEstimator::flowOneWay(Way& way, const LumaPyramid& from, const Lum
   }
 }
 
-/// How much a node's motion differs from that of a neighbour at most.
+/// Largest difference of a node's motion to a neighbour's.
 double DenseFlowEstimator::edge(const std::vector<glm::vec4>& nodes, std::size_t index) const {
   const int i = static_cast<int>(index);
   const int column = i % grid_.width;
@@ -115,7 +119,7 @@ double DenseFlowEstimator::edge(const std::vector<glm::vec4>& nodes, std::size_t
   return static_cast<double>(std::sqrt(most));
 }
 
-/// Adds how far what comes back is from where it started.
+/// Adds the forward-backward disagreement to the nodes' errors.
 void DenseFlowEstimator::disagree(const std::vector<glm::vec4>& back,
                                   std::vector<glm::vec4>& nodes) const {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -136,7 +140,7 @@ void DenseFlowEstimator::disagree(const std::vector<glm::vec4>& back,
   }
 }
 
-/// Whether there are nodes that do not. Those that do have their flow then.
+/// Writes the flow of the static nodes. Returns whether other nodes remain.
 bool DenseFlowEstimator::standStill(const StaticRegionDetector* staticRegions) {
   stillErrors_.assign(ways_[0].nodes.size(), StaticRegions::kNotStatic);
   if (staticRegions == nullptr) return true;
@@ -176,7 +180,7 @@ void DenseFlowEstimator::update(const LumaPyramid& then, const LumaPyramid& now,
       flowOneWay(ways_[1], now, then, small_[1], small_[0], backward, noise);
     }
   });
-  // Each by the other as it was found.
+  // Each direction is compared with the other as it was measured, before either is changed.
   std::vector<glm::vec4>& there = ways_[0].nodes;
   std::vector<glm::vec4>& back = ways_[1].nodes;
   disagree(back, there);

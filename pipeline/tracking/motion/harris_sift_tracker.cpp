@@ -15,16 +15,17 @@ namespace {
 constexpr double kOfStrongest = 0.2;
 constexpr double kHarris = 0.04;
 constexpr int kWindowPx = 5;
-constexpr double kLeastStrength = 1e-7;  // a blank picture's strongest corner is noise
-constexpr float kSizePx = 4.0F;          // of a feature: descriptors see some 20 px around it
+constexpr double kLeastStrength = 1e-7;  // a blank image's strongest corner is noise
+constexpr float kSizePx = 4.0F;  // size of a feature; descriptors cover about 20 px around it
 constexpr double kBorderPx = 8.0;
 constexpr float kRatio = 0.8F;  // Lowe, "Distinctive image features", 2004
 constexpr int kTrees = 4;
 constexpr int kChecks = 32;
-/// Predicted: corners are found anew in each frame. docs/measured.md says how it agrees.
+/// Predicted error: corners are detected anew in each frame. docs/measured.md compares it with the
+/// true one.
 constexpr double kErrorPx = 0.35;
 
-/// Where the strength is largest about a pixel, by the parabola through it and its neighbours.
+/// Sub-pixel maximum of the strength around a pixel, by the parabola through its neighbours.
 cv::Point2f peakWithin(const cv::Mat& strength, const cv::Point2f& pixel) {
   const cv::Point at = pixel;
   const auto offset = [](float before, float here, float after) {
@@ -92,7 +93,7 @@ void HarrisSiftTracker::match() {
   if (now_.descriptors.rows == 0 || then_.descriptors.rows < 2) return;
   nearest_.clear();
   matcher_.knnMatch(now_.descriptors, then_.descriptors, nearest_, 2);
-  // Of several that match one, the nearest.
+  // If several features match the same one, the nearest descriptor wins.
   previousBest_.assign(then_.places.size(), 1e18F);
   const auto passes = [](const std::vector<cv::DMatch>& two) {
     return two.size() == 2 && two[0].distance < kRatio * two[1].distance;
@@ -109,7 +110,7 @@ void HarrisSiftTracker::match() {
     const auto now = static_cast<std::size_t>(two[0].queryIdx);
     const auto then = static_cast<std::size_t>(two[0].trainIdx);
     if (two[0].distance > previousBest_[then]) continue;
-    previousBest_[then] = -1.0F;  // once
+    previousBest_[then] = -1.0F;  // each is matched once
     matches_.push_back({.now = two[0].queryIdx, .then = two[0].trainIdx});
     places_.push_back(now_.places[now]);
     steps_.push_back(now_.places[now] - then_.places[then]);

@@ -15,7 +15,7 @@ struct ImageMotionEstimator::State {
       : options(wanted), tracker(makeFeatureTracker(wanted.features)) {}
 
   ImageMotionOptions options;
-  LumaFrame own;  // of frames that come as luma alone
+  LumaFrame own;  // for frames that come as luma alone
   std::shared_ptr<const LumaPyramid> then;
   std::unique_ptr<FeatureTracker> tracker;
   CutDetector cuts;
@@ -74,7 +74,7 @@ const ImageMotion& ImageMotionEstimator::follow(LumaFrame& frame, std::uint64_t 
                   s.options.staticRegions ? &s.staticRegions : nullptr, s.staticRegions.noise());
     s.motion.flow = s.flow.flow();
   }
-  // Averaging over a reduced picture's px takes noise away.
+  // The pyramid averages several frame px, which lowers the noise.
   s.motion.noiseLevels = s.staticRegions.noise() * scale;
   s.then = now;
   s.lastSequence = sequence;

@@ -10,18 +10,19 @@
 namespace pleinair::tracking {
 namespace {
 
-/// What moves less than this (px of the picture that is measured), or than so many predicted
-/// errors, is held.
+/// Motion below this (px of the measured image), or below this many predicted errors, is
+/// suppressed.
 constexpr double kBandPx = 0.1;
 constexpr double kFeatureErrors = 4.5;
 constexpr double kPictureErrors = 4.0;
-/// A feature is let go when it is beyond its band in so many frames, or twice as far in one.
+/// A feature is released after this many frames beyond its band, or after one frame at twice the
+/// band.
 constexpr int kFramesBeyond = 2;
 constexpr double kFarBeyond = 2.0;
-/// What has stayed within its band for so long is held again.
+/// Frames within the band after which a feature is held again.
 constexpr int kQuietFrames = 8;
 constexpr double kLeastErrorPx = 0.005;
-constexpr double kCalibrationPace = 0.15;  // the part of a frame
+constexpr double kCalibrationPace = 0.15;  // weight of one frame
 constexpr double kLeastCalibration = 0.7;
 constexpr double kMostCalibration = 3.0;
 
@@ -88,8 +89,8 @@ void JitterSuppressor::releasePicture(const HomographyFit& fit, hal::FrameSize s
   }
 }
 
-/// Predictions go by white noise; that of a compressed movie is not. What they are off by shows in
-/// the features that follow the picture best, even where it is no plane.
+/// Predictions assume white noise; a compressed movie's noise is not white. The features that
+/// follow the image best show by how much predictions are wrong, even where the scene is no plane.
 void JitterSuppressor::calibrate(const HomographyFit& fit) {
   ratios_.clear();
   for (const PointPair& pair : pairs_) {
@@ -98,7 +99,7 @@ void JitterSuppressor::calibrate(const HomographyFit& fit) {
   }
   const auto quarter = ratios_.begin() + static_cast<std::ptrdiff_t>(ratios_.size() / 4);
   std::nth_element(ratios_.begin(), quarter, ratios_.end());
-  // A quarter of normal deviations over two axes is less than this part of their RMS.
+  // The lowest quarter of normal deviations over two axes is below this part of their RMS.
   constexpr double kQuarterOfNormal = 0.536;
   const double ratio = calibration_ * *quarter / kQuarterOfNormal;
   calibration_ += kCalibrationPace * (ratio - calibration_);
@@ -106,8 +107,8 @@ void JitterSuppressor::calibrate(const HomographyFit& fit) {
 }
 
 void JitterSuppressor::movePicture(hal::FrameSize size, double scale) {
-  // From where features were reported to be: while the picture is held, of those that are held,
-  // too.
+  // Motion is measured from the reported positions; while the image is held, from those of held
+  // features too.
   pairs_.clear();
   pairOf_.clear();
   for (std::size_t i = 0; i < reported_.size(); ++i) {

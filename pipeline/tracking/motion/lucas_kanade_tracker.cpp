@@ -15,41 +15,44 @@
 namespace pleinair::tracking {
 namespace {
 
-// Features are sought where a field of this grid has none.
+// A new feature is sought in each empty cell of this grid.
 constexpr int kColumns = 18;
 constexpr int kRows = 14;
 constexpr double kBorderPx = 6.0;
 constexpr int kFewLevels = 1;
-constexpr double kBackPx = 0.4;  // from where a feature came
-/// Grey levels (RMS) by which a feature may look different: lost, stale.
+constexpr double kBackPx = 0.4;  // largest forward-backward error
+/// Grey levels (RMS) by which a feature's appearance may differ before it is lost, and before it is
+/// stale.
 constexpr double kLargestDifference = 20.0;
 constexpr double kNoiseDifference = 3.75;
-constexpr double kRmsByMean = 1.25;    // of normally distributed differences
-constexpr double kLightLevels = 1.5;   // by which a feature is brighter or darker
-constexpr double kLostContrast = 0.8;  // and of the window's contrast
+constexpr double kRmsByMean = 1.25;    // ratio for normally distributed differences
+constexpr double kLightLevels = 1.5;   // change of brightness beyond which the light has changed
+constexpr double kLostContrast = 0.8;  // change of contrast beyond which the light has changed
 constexpr double kStaleContrast = 0.25;
-constexpr double kMostPlacing = 0.12;  // px of error by a level of noise: more is no corner
-constexpr int kMostMissing = 12;       // frames that a feature is looked for in vain
-// Predicted errors: docs/measured.md says how they agree with true ones.
-constexpr double kPlacing = 1.3;  // of Cramér and Rao's bound
+// Px of error per level of noise; a feature above this is no corner.
+constexpr double kMostPlacing = 0.12;
+constexpr int kMostMissing = 12;  // frames after which a missing feature is dropped
+// Predicted errors; docs/measured.md compares them with true ones.
+constexpr double kPlacing = 1.3;  // times the Cramér-Rao bound
 constexpr double kLeastErrorPx = 0.008;
 constexpr double kBackPart = 0.5;
-/// Of the features, or of larger fields with one, that there were after the last key frame, the
-/// part that is too few …
+/// A new key frame is needed when fewer than this part remains of the features, or of the larger
+/// cells with a feature, that the last key frame had …
 constexpr double kFew = 0.75;
 constexpr double kFewFields = 0.88;
-constexpr int kFieldCells = 2;  // on each side of a larger field
-/// … or of the features, the part whose looks have changed, which is enough for a new one.
+constexpr int kFieldCells = 2;  // cells along each side of a larger cell
+/// … or when the appearance of this part of the features has changed.
 constexpr double kManyStale = 0.15;
-constexpr int kKeyFrames = 4;  // between two key frames, unless most are lost
+// Least number of frames between two key frames, unless most features are lost.
+constexpr int kKeyFrames = 4;
 constexpr double kVeryFew = 0.5;
-constexpr int kSeekFrames = 8;         // new corners are looked for that often at least …
-constexpr std::size_t kWorthAKey = 4;  // … and so many of them are worth a key frame
-/// Features farther from where the picture would take them go there if they look as good there.
+constexpr int kSeekFrames = 8;         // most frames between two searches for new corners …
+constexpr std::size_t kWorthAKey = 4;  // … of which at least this many justify a key frame
+/// A feature farther than this from the image's motion moves there if it matches as well there.
 constexpr double kAstrayPx = 1.5;
 constexpr double kAsGood = 1.2;
 constexpr double kAsGoodLevels = 0.5;
-constexpr double kLostShare = 0.3;  // fewer found: the whole picture may have jumped
+constexpr double kLostShare = 0.3;  // fewer found: the whole image may have jumped
 constexpr std::size_t kLeastToJudge = 12;
 
 double lengthOf(const cv::Point2f& p) {
@@ -78,7 +81,8 @@ FeaturePatch LucasKanadeTracker::patchAt(const LumaPyramid& pyramid, const cv::P
   return {pyramid.picture(), FeaturePatch::middleNear(pyramid.picture(), at)};
 }
 
-/// Whether what Lucas and Kanade found is the feature, and where exactly: apart from light.
+/// Decides whether the position found by Lucas-Kanade is the feature, and refines it, ignoring
+/// brightness.
 void LucasKanadeTracker::judge(Feature& feature, const LumaPyramid& now, std::size_t of,
                                const cv::Point2f& found) {
   feature.isFound =
@@ -86,7 +90,7 @@ void LucasKanadeTracker::judge(Feature& feature, const LumaPyramid& now, std::si
   if (!feature.isFound) return;
   const cv::Point2f moved = found - feature.origin;
   PatchMatch match = feature.patch.at(now.picture(), {moved.x, moved.y});
-  // Lucas and Kanade take a change of brightness for motion; without one they place best.
+  // Lucas-Kanade takes a change of brightness for motion. Without such a change it locates best.
   const bool hasLightChanged = match.isInside && std::abs(match.brightness) > kLightLevels;
   if (hasLightChanged) match = feature.patch.refined(now.picture(), match, noise_);
   const cv::Point2f at = hasLightChanged
@@ -109,7 +113,7 @@ void LucasKanadeTracker::judge(Feature& feature, const LumaPyramid& now, std::si
   feature.at = at;
 }
 
-/// Of the features that have not been found yet, all or those that were found in the frame before.
+/// Searches for features not found yet: all of them, or only those found in the previous frame.
 void LucasKanadeTracker::find(const LumaPyramid& now, bool all, int levels) {
   for (std::size_t key = 0; key < kKeys; ++key) {
     members_.clear();
@@ -130,7 +134,7 @@ void LucasKanadeTracker::find(const LumaPyramid& now, bool all, int levels) {
   }
 }
 
-/// Looks for the features again where the picture as a whole may have jumped to.
+/// Searches again where the whole image may have jumped to.
 bool LucasKanadeTracker::searchWidely(const LumaPyramid& now) {
   Thumbnail before;
   Thumbnail after;
@@ -166,8 +170,8 @@ void LucasKanadeTracker::rejectOutliers() {
   }
 }
 
-/// Looks once more for features that do not go along with the picture, where it would take them:
-/// repeated patterns look the same a few px on.
+/// Searches again for features that do not follow the image's motion, at the position that it
+/// predicts: repeated patterns look alike a few px apart.
 void LucasKanadeTracker::reconsider(const LumaPyramid& now) {
   pairs_.clear();
   for (const Feature& feature : features_) {
@@ -208,7 +212,7 @@ double LucasKanadeTracker::shareFound() const {
   return before > 0.0 ? found / before : 0.0;
 }
 
-/// What was not found is looked for next time where the found ones go.
+/// Predicts the positions of missing features for the next frame by the motion of the found ones.
 void LucasKanadeTracker::guessMissing(const LumaPyramid& now) {
   cv::Point2f shift(0.0F, 0.0F);
   float count = 0.0F;
@@ -273,8 +277,9 @@ void LucasKanadeTracker::takeOver(Feature& feature, std::size_t key, const LumaP
   feature.isStale = false;
 }
 
-/// A place for a new key frame: a free one, or that of the key frame with the fewest features,
-/// which the new one takes over; of those that are not seen now the looks are lost.
+/// Returns a free slot for a new key frame, or else the slot of the key frame with the fewest
+/// features. The new key frame takes those features over; the ones not visible now lose their
+/// appearance.
 std::size_t LucasKanadeTracker::freeKey(const LumaPyramid& now) {
   std::array<std::size_t, kKeys> counts{};
   for (const Feature& feature : features_) {
@@ -288,7 +293,7 @@ std::size_t LucasKanadeTracker::freeKey(const LumaPyramid& now) {
   return key;
 }
 
-/// Corners where there is no feature.
+/// Finds corners in cells without a feature.
 void LucasKanadeTracker::findCorners(const LumaPyramid& now) {
   newCorners_.clear();
   const cv::Size size = corners_.size();
@@ -309,8 +314,8 @@ void LucasKanadeTracker::findCorners(const LumaPyramid& now) {
   centre(now);
 }
 
-/// Moves new corners to where the gradients about them balance (Förstner and Gülch, 1987): a turn
-/// or zoom of a window about that point is not taken for a shift of it.
+/// Moves new corners to the point where the surrounding gradients balance (Förstner and Gülch,
+/// 1987): there a turn or zoom of the window does not look like a shift.
 void LucasKanadeTracker::centre(const LumaPyramid& now) {
   if (newCorners_.empty()) return;
   constexpr int kReach = LumaPyramid::kWindowPx / 2;
@@ -369,7 +374,7 @@ std::span<const SeenFeature> LucasKanadeTracker::follow(std::shared_ptr<const Lu
     feature.isFound = false;
     feature.then = feature.at;
   }
-  // Most are where their motion says; the others may be anywhere near.
+  // Most features are where their motion predicts; the others may be anywhere near.
   find(*now, false, kFewLevels);
   find(*now, true, LumaPyramid::kLevels);
   if (then_ && features_.size() >= kLeastToJudge && shareFound() < kLostShare) searchWidely(*now);

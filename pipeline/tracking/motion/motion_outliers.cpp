@@ -10,13 +10,13 @@ namespace {
 
 constexpr std::size_t kLeastToJudge = 12;
 constexpr std::size_t kNeighbours = 6;
-/// Motions are alike that differ by no more than this, or than this part of them.
+/// Two motions are alike if they differ by no more than this, or than this part of them.
 constexpr float kAlikePx = 1.5F;
 constexpr float kAlikePart = 0.25F;
 
 using Neighbours = std::array<std::pair<float, std::size_t>, kNeighbours>;
 
-/// The nearest of the others, with their squared distances, the nearest first.
+/// The nearest other features with their squared distances, nearest first.
 Neighbours neighboursOf(std::size_t i, std::span<const cv::Point2f> places) {
   Neighbours near;
   near.fill({1e18F, i});

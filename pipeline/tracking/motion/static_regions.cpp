@@ -13,25 +13,25 @@
 namespace pleinair::tracking {
 namespace {
 
-constexpr int kRestFrames = 5;  // after which a field counts as still
-/// A field has moved when the smoothed shift is more than this, and than so many of its errors;
-/// or that of a single frame is more than twice as much.
+constexpr int kRestFrames = 5;  // frames at rest after which a cell counts as static
+/// A cell has moved when its smoothed shift exceeds this and also this many of its errors, or when
+/// the shift in one frame is more than twice as large.
 constexpr double kMovedPx = 0.1;
 constexpr double kMovedErrors = 6.5;
-constexpr double kSmoothing = 0.3;  // the part of a frame in the smoothed shift
-/// Larger errors of the smoothed shift: too little texture to tell. By so much more for those that
-/// are still already.
+constexpr double kSmoothing = 0.3;  // weight of one frame in the smoothed shift
+/// A cell whose smoothed shift has a larger error has too little texture to decide. A cell that is
+/// static already may have an error larger by the factor below.
 constexpr double kMostErrorPx = 0.08;
 constexpr double kStillMargin = 1.3;
 constexpr double kLeastErrorPx = 0.01;
-/// It has changed otherwise when its pixels vary by so many times more than their noise.
+/// A cell has changed otherwise when its pixels vary this many times more than their noise.
 constexpr double kChanged = 2.0;
-constexpr double kLeastVariance = 0.5;  // levels²; rounding alone is a twelfth, twice
-constexpr double kSurelyNoticed = 4.0;  // times what is noticed
-constexpr double kAlongPx = 0.3;        // of a frame's motion, with which a field waits …
-constexpr int kWaitFrames = 3;          // … so long before it is looked at again
-constexpr double kMostUsual = 1.5;      // times the picture's noise, of a noisier field's
-constexpr double kNoisePace = 0.1;      // the part of a frame in the noise that is told
+constexpr double kLeastVariance = 0.5;  // levels²; rounding alone gives a twelfth, twice
+constexpr double kSurelyNoticed = 4.0;  // times the smallest noticeable shift
+constexpr double kAlongPx = 0.3;    // image motion in one frame at which a changed cell waits …
+constexpr int kWaitFrames = 3;      // … for this many frames before it is compared again
+constexpr double kMostUsual = 1.5;  // limit of a noisier cell's own noise, relative to the image's
+constexpr double kNoisePace = 0.1;  // weight of one frame in the reported noise
 constexpr std::size_t kLeastFields = 24;
 
 }  // namespace
@@ -53,7 +53,7 @@ void StaticRegionDetector::resize(const LumaPyramid& now) {
   variances_.reserve(count);
 }
 
-/// Of the part of a field that is looked at: a field may be a little wider.
+/// Corner of the compared block of a cell; a cell may be a little wider than its block.
 cv::Point StaticRegionDetector::corner(std::size_t index, const cv::Size& size) const {
   const auto middle = [](int i, int count, int side) {
     const int at = (2 * i + 1) * side / (2 * count) - StaticBlock::kSide / 2;
@@ -80,8 +80,8 @@ void StaticRegionDetector::restart(Rest& rest, const cv::Mat& picture, const cv:
   }
 }
 
-/// Whether a field that has not been seen to move can be taken for still although the picture
-/// moves: not when it may go along with it and that would not have been seen yet.
+/// Whether a cell must not count as static yet although no motion was seen in it: the image moves,
+/// and the cell may move with it by too little to be noticed.
 bool StaticRegionDetector::isDoubtful(const Rest& rest, double noticedPx) {
   const double along = glm::length(rest.alongPx);
   return along > kMovedPx && along < kSurelyNoticed * noticedPx;
@@ -119,7 +119,8 @@ float StaticRegionDetector::look(Rest& rest, const cv::Mat& picture, const cv::P
   rest.temporal = variance;
   ++rest.frames;
   if (rest.field.frames() < StaticBlock::kReferenceFrames) rest.field.add(picture, corner);
-  // Textured and bright pixels may be noisier than most; what they vary by while it comes to rest.
+  // Textured and bright pixels may be noisier than most: learn their variance while the cell comes
+  // to rest.
   if (rest.frames < kRestFrames) rest.variance = std::max(rest.variance, variance);
   const double most = rest.isStill ? kStillMargin * kMostErrorPx : kMostErrorPx;
   rest.isStill = rest.frames >= kRestFrames && smoothed < most;
@@ -139,7 +140,7 @@ std::optional<double> StaticRegionDetector::percentile(double Rest::*of, double 
 }
 
 void StaticRegionDetector::measureNoise() {
-  constexpr double kFlatPart = 0.15;  // of fields that have so little texture that it is noise
+  constexpr double kFlatPart = 0.15;  // part of the cells with so little texture that it is noise
   auto variance = percentile(&Rest::temporal, 0.5);
   if (!variance) variance = percentile(&Rest::spatial, kFlatPart);
   if (!variance) return;
@@ -166,7 +167,7 @@ void StaticRegionDetector::update(const LumaPyramid& now,
     rest.alongPx += along;
     rest.temporal = rest.spatial = -1.0;
     errors_[index] = look(rest, now.picture(), at, scale);
-    // What goes along with a picture that moves is not looked at each time, nor all at once.
+    // Cells that move with the image are compared in turns, not in every frame.
     if (rest.hasChanged && glm::length(along) > kAlongPx) {
       rest.waitFrames = kWaitFrames + i % kWaitFrames;
       rest.hasBegun = false;

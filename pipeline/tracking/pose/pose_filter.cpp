@@ -14,10 +14,10 @@ namespace {
 using Matrix6 = cv::Matx<double, 6, 6>;
 using Vector6 = cv::Vec<double, 6>;
 
-/// What a motion is wrong by, as a part of it: depths of features are not known exactly.
+/// Relative error of a motion: depths of features are not known exactly.
 constexpr double kShiftShare = 0.01;
 constexpr double kTurnShare = 0.005;
-/// What of a measurement's covariance adds up from frame to frame.
+/// Part of a measurement's covariance that accumulates from frame to frame.
 constexpr double kKept = 0.01;
 
 }  // namespace

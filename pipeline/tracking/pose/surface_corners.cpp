@@ -18,14 +18,14 @@ namespace {
 constexpr int kColumns = 10;
 constexpr int kRows = 8;
 constexpr std::size_t kPerTag = 16;
-constexpr double kBorderPx = 6.0;            // of the followed picture
-constexpr double kLargestDifference = 16.0;  // mean grey levels in a feature's window
-constexpr double kBackPx = 0.4;              // from where a feature came
-/// The key frame is stale when so few of its features are found …
+constexpr double kBorderPx = 6.0;            // of the followed image
+constexpr double kLargestDifference = 16.0;  // mean difference in a feature's window, grey levels
+constexpr double kBackPx = 0.4;              // largest forward-backward error
+/// The key frame is stale when fewer than this part of its features are found …
 constexpr double kLeastFound = 0.6;
-/// … or these have moved by such a part of the longer side on average …
+/// … or they have moved by this part of the longer side on average …
 constexpr double kFarShift = 0.12;
-/// … or their distances from their middle have changed so much, by turn or zoom.
+/// … or a turn or zoom changed their distances from their centre by this part.
 constexpr double kFarTurn = 0.2;
 
 bool isNear(const cv::Point2f& a, const cv::Point2f& b, double px) {
@@ -43,7 +43,7 @@ struct SurfaceCorners::State {
   PointFollower follower;
   CornerSearch corners;
   std::vector<FeatureTrack> tracks;
-  // Of each track, in the pyramids' px.
+  // Per track, in px of the pyramids.
   std::vector<cv::Point2f> keyPoints;
   std::vector<cv::Point2f> points;
 
@@ -61,7 +61,7 @@ struct SurfaceCorners::State {
     shiftLost();
   }
 
-  /// What was not found is looked for next time where the found ones have gone.
+  /// Predicts the positions of lost features for the next frame by the motion of the found ones.
   void shiftLost() {
     glm::dvec2 shift(0.0);
     std::size_t count = 0;
@@ -101,7 +101,7 @@ struct SurfaceCorners::State {
     }
   }
 
-  /// How many tracks a part of the second level's picture has.
+  /// Number of tracks in a region of the second level's image.
   std::size_t countIn(const cv::Rect& part) const {
     return static_cast<std::size_t>(std::ranges::count_if(tracks, [&](const FeatureTrack& track) {
       const cv::Point2f p = pyramid->ownPx(track.keyPx);
@@ -110,7 +110,7 @@ struct SurfaceCorners::State {
   }
 
   void addNew(std::span<const TagCornersPx> tags) {
-    if (!corners.look(*pyramid)) return;  // too small a picture
+    if (!corners.look(*pyramid)) return;  // the image is too small
     for (const TagCornersPx& tag : tags) {
       cv::Rect2f box(0.5F * pyramid->ownPx(tag[0]), cv::Size2f(1.0F, 1.0F));
       for (const glm::dvec2& px : tag) {
