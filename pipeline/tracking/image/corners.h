@@ -14,13 +14,13 @@ namespace pleinair::tracking {
 class CornerSearch {
  public:
   /// Computes the corner strength of an image. Returns false when the image is too small to search.
-  bool look(const LumaPyramid& pyramid);
+  bool load(const LumaPyramid& pyramid);
   /// Size of the searched image: half of the pyramid's first level.
   cv::Size size() const { return strength_.size(); }
   /// Finds the strongest corner in a region of the searched image. `best` is in px of the pyramid's
   /// first level. The corner and its surroundings are not found again. Returns false if the region
   /// has none.
-  bool takeBest(const cv::Rect& part, cv::Point2f& best);
+  bool takeStrongest(const cv::Rect& part, cv::Point2f& best);
 
   /// Between corners, in px of the pyramid's first level.
   static constexpr double kSpacingPx = 9.0;
@@ -46,7 +46,7 @@ class PointFollower {
   /// Mean absolute difference of a point's two windows, in grey levels.
   double difference(std::size_t i) const { return static_cast<double>(differences_[i]); }
   /// Forward-backward error: the distance from a point's origin to where it was followed back.
-  double backPx(std::size_t i) const { return backPx_[i]; }
+  double forwardBackwardPx(std::size_t i) const { return forwardBackwardPx_[i]; }
 
  private:
   std::vector<unsigned char> found_;
@@ -54,7 +54,7 @@ class PointFollower {
   std::vector<float> differences_;
   std::vector<float> unused_;
   std::vector<cv::Point2f> back_;
-  std::vector<double> backPx_;
+  std::vector<double> forwardBackwardPx_;
 };
 
 }  // namespace pleinair::tracking

@@ -19,7 +19,7 @@ glm::dvec2 movedBy(const glm::dmat3& homography, const glm::dvec2& px) {
 double rmsMotion(const glm::dmat3& homography, hal::FrameSize size) {
   double sum = 0.0;
   double count = 0.0;
-  forPlaces(size, [&](const glm::dvec2& px) {
+  forGridCentres(size, [&](const glm::dvec2& px) {
     const glm::dvec2 step = movedBy(homography, px) - px;
     sum += glm::dot(step, step);
     count += 1.0;
@@ -29,12 +29,12 @@ double rmsMotion(const glm::dmat3& homography, hal::FrameSize size) {
 
 namespace {
 
-constexpr std::size_t kLeastPairs = 12;
-constexpr double kLeastPart = 0.4;  // part of the pairs that must agree
+constexpr std::size_t kMinPairs = 12;
+constexpr double kMinAgreeingShare = 0.4;  // part of the pairs that must agree
 /// The agreeing pairs must lie in at least this many cells of a grid over the image.
 constexpr int kColumns = 4;
 constexpr int kRows = 4;
-constexpr int kLeastFields = 6;
+constexpr int kMinCells = 6;
 /// RANSAC's tolerance: a part of the image's longer side (1.3 px of 640), and at least this many
 /// mean errors.
 constexpr double kOutlierPart = 0.002;
@@ -86,8 +86,8 @@ glm::dmat3 matrixOf(const cv::Vec<double, 8>& h) {
 
 /// Whether all image corners stay far from the horizon. No camera moves further in one frame.
 bool isGentle(const cv::Vec<double, 8>& h) {
-  constexpr double kMost = 0.5;
-  return std::abs(h[6]) + std::abs(h[7]) < kMost;
+  constexpr double kMaxPerspective = 0.5;
+  return std::abs(h[6]) + std::abs(h[7]) < kMaxPerspective;
 }
 
 }  // namespace
@@ -97,8 +97,8 @@ bool HomographyFitter::findAgreeing(std::span<const PointPair> pairs, hal::Frame
   from_.clear();
   to_.clear();
   for (const PointPair& pair : pairs) {
-    from_.emplace_back(static_cast<float>(pair.then.x), static_cast<float>(pair.then.y));
-    to_.emplace_back(static_cast<float>(pair.now.x), static_cast<float>(pair.now.y));
+    from_.emplace_back(static_cast<float>(pair.previous.x), static_cast<float>(pair.previous.y));
+    to_.emplace_back(static_cast<float>(pair.current.x), static_cast<float>(pair.current.y));
   }
   double errorPx = 0.0;
   for (const PointPair& pair : pairs) errorPx += pair.errorPx / static_cast<double>(pairs.size());
@@ -119,12 +119,12 @@ bool HomographyFitter::coversEnough(std::span<const PointPair> pairs, hal::Frame
   std::array<bool, kColumns * kRows> fields{};
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (agrees_[i] == 0) continue;
-    const glm::dvec2 part = pairs[i].now / glm::dvec2(size.width, size.height);
+    const glm::dvec2 part = pairs[i].current / glm::dvec2(size.width, size.height);
     const int column = std::clamp(static_cast<int>(part.x * kColumns), 0, kColumns - 1);
     const int row = std::clamp(static_cast<int>(part.y * kRows), 0, kRows - 1);
     fields[static_cast<std::size_t>(row * kColumns + column)] = true;
   }
-  return std::ranges::count(fields, true) >= kLeastFields;
+  return std::ranges::count(fields, true) >= kMinCells;
 }
 
 /// Sums of one step of weighted least squares.
@@ -137,16 +137,16 @@ struct HomographyFitter::Sums {
 };
 
 /// `excess`: the variance (px²) by which points deviate beyond their own errors.
-HomographyFitter::Sums HomographyFitter::sumUp(std::span<const PointPair> pairs,
-                                               hal::FrameSize size, const Vector8& h,
-                                               double excess) const {
+HomographyFitter::Sums HomographyFitter::accumulate(std::span<const PointPair> pairs,
+                                                    hal::FrameSize size, const Vector8& h,
+                                                    double excess) const {
   const Scaling scaling(size);
   const double softPx = kRobustPart * kOutlierPart * std::max(size.width, size.height);
   Sums out;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (agrees_[i] == 0) continue;
-    const glm::dvec2 p = scaling.of(pairs[i].then);
-    const glm::dvec2 residual = scaling.of(pairs[i].now) - apply(h, p);
+    const glm::dvec2 p = scaling.of(pairs[i].previous);
+    const glm::dvec2 residual = scaling.of(pairs[i].current) - apply(h, p);
     const double px = glm::length(residual) * scaling.unit;
     const double own = pairs[i].errorPx * pairs[i].errorPx;
     const double soft = kRobustErrors * std::sqrt(own + excess) + softPx;
@@ -176,7 +176,7 @@ std::optional<HomographyFit> HomographyFitter::refine(std::span<const PointPair>
   Sums sums;
   double excess = 0.0;
   for (int step = 0; step < kSteps; ++step) {
-    sums = sumUp(pairs, size, h, excess);
+    sums = accumulate(pairs, size, h, excess);
     Vector8 change;
     if (!cv::solve(sums.normal, sums.right, change, cv::DECOMP_CHOLESKY)) return std::nullopt;
     h += change;
@@ -185,16 +185,16 @@ std::optional<HomographyFit> HomographyFitter::refine(std::span<const PointPair>
   const Matrix8 covariance = sums.normal.inv(cv::DECOMP_CHOLESKY);
   double variance = 0.0;
   double places = 0.0;
-  forPlaces(size, [&](const glm::dvec2& px) {
+  forGridCentres(size, [&](const glm::dvec2& px) {
     for (const Vector8& row : derivatives(h, scaling.of(px))) {
       variance += row.dot(covariance * row) * scaling.unit * scaling.unit;
     }
     places += 1.0;
   });
-  HomographyFit out{.nowFromThen = toPx * matrixOf(h) * toUnits,
+  HomographyFit out{.currentFromPrevious = toPx * matrixOf(h) * toUnits,
                     .fitErrorPx = std::sqrt(variance / places),
                     .modelErrorPx = std::sqrt(excess)};
-  out.nowFromThen /= out.nowFromThen[2][2];
+  out.currentFromPrevious /= out.currentFromPrevious[2][2];
   if (!isGentle(h) || !std::isfinite(out.fitErrorPx)) return std::nullopt;
   return out;
 }
@@ -203,10 +203,10 @@ std::optional<HomographyFit> HomographyFitter::fit(std::span<const PointPair> pa
                                                    hal::FrameSize size) {
   agrees_.assign(pairs.size(), 0);
   glm::dmat3 start(1.0);
-  if (pairs.size() < kLeastPairs || !findAgreeing(pairs, size, start)) return std::nullopt;
+  if (pairs.size() < kMinPairs || !findAgreeing(pairs, size, start)) return std::nullopt;
   const auto agreeing = static_cast<std::size_t>(std::ranges::count(agrees_, 1));
-  if (agreeing < kLeastPairs ||
-      static_cast<double>(agreeing) < kLeastPart * static_cast<double>(pairs.size()) ||
+  if (agreeing < kMinPairs ||
+      static_cast<double>(agreeing) < kMinAgreeingShare * static_cast<double>(pairs.size()) ||
       !coversEnough(pairs, size)) {
     return std::nullopt;
   }

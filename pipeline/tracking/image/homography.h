@@ -18,7 +18,7 @@ glm::dvec2 movedBy(const glm::dmat3& homography, const glm::dvec2& px);
 
 /// Visits the centres of a grid of cells over an image. Averages over the image are taken there.
 template <class F>
-void forPlaces(hal::FrameSize size, F&& visit) {
+void forGridCentres(hal::FrameSize size, F&& visit) {
   constexpr int kAcross = 5;
   constexpr int kDown = 4;
   for (int j = 0; j < kDown; ++j) {
@@ -33,13 +33,13 @@ double rmsMotion(const glm::dmat3& homography, hal::FrameSize size);
 
 /// The positions of one point in two frames, px of the frame.
 struct PointPair {
-  glm::dvec2 then{0.0};
-  glm::dvec2 now{0.0};
+  glm::dvec2 previous{0.0};
+  glm::dvec2 current{0.0};
   double errorPx = 0.0;  ///< predicted error of (now - then)
 };
 
 struct HomographyFit {
-  glm::dmat3 nowFromThen{1.0};
+  glm::dmat3 currentFromPrevious{1.0};
   double fitErrorPx = 0.0;  ///< predicted error of where it moves a point, averaged over the image
   double modelErrorPx = 0.0;  ///< deviation of the points beyond their predicted errors
   std::size_t agreeing = 0;
@@ -59,8 +59,8 @@ class HomographyFitter {
   using Matrix8 = cv::Matx<double, 8, 8>;
   bool findAgreeing(std::span<const PointPair> pairs, hal::FrameSize size, glm::dmat3& start);
   struct Sums;
-  Sums sumUp(std::span<const PointPair> pairs, hal::FrameSize size, const Vector8& h,
-             double excess) const;
+  Sums accumulate(std::span<const PointPair> pairs, hal::FrameSize size, const Vector8& h,
+                  double excess) const;
   std::optional<HomographyFit> refine(std::span<const PointPair> pairs, hal::FrameSize size,
                                       const glm::dmat3& start) const;
   bool coversEnough(std::span<const PointPair> pairs, hal::FrameSize size) const;

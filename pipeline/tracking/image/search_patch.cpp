@@ -17,8 +17,8 @@ constexpr int kWeightBits = 6;
 // Fixed-point scale of an interpolation weight along one axis.
 constexpr int kWeights = 1 << kWeightBits;
 constexpr int kSteps = 3;
-constexpr double kEnoughPx = 0.02;  // stop at a smaller step
-constexpr double kFarPx = 2.0;      // from the guess: the search has diverged
+constexpr double kConvergedPx = 0.02;  // stop at a smaller step
+constexpr double kDivergedPx = 2.0;    // from the guess: the search has diverged
 
 cv::v_int16x8 eight(const std::uint8_t* levels) {
   return cv::v_reinterpret_as_s16(cv::v_load_expand(levels));
@@ -87,17 +87,17 @@ template <int kSide>
 double SearchPatch<kSide>::placing(double noise, bool isBrightnessKnown) const {
   // Noise alone has gradients too: each difference holds twice its variance. The gradients that
   // remain are uncertain where there is little more than that.
-  constexpr double kLeft = 0.25;
+  constexpr double kMinRemaining = 0.25;
   const double flat = 2.0 * noise * noise * kSide * kSide;
   const double known = isBrightnessKnown ? kSide * kSide : 0.0;
   const double allX = xx_ + known * meanX_ * meanX_;
   const double allY = yy_ + known * meanY_ * meanY_;
   const double xy = xy_ + known * meanX_ * meanY_;
-  const double xx = std::max(kLeft * allX, allX - flat);
-  const double yy = std::max(kLeft * allY, allY - flat);
+  const double xx = std::max(kMinRemaining * allX, allX - flat);
+  const double yy = std::max(kMinRemaining * allY, allY - flat);
   const double determinant = xx * yy - xy * xy;
-  if (!(determinant > 0.0)) return kMostPlacing;
-  return std::min(2.0 * std::sqrt((xx + yy) / determinant), kMostPlacing);
+  if (!(determinant > 0.0)) return kMaxPlacing;
+  return std::min(2.0 * std::sqrt((xx + yy) / determinant), kMaxPlacing);
 }
 
 template <int kSide>
@@ -173,9 +173,9 @@ PatchMatch SearchPatch<kSide>::refined(const cv::Mat& other, const PatchMatch& g
                             -(xx * right.y - xy_ * right.x) / determinant);
     moved += change;
     const glm::dvec2 away = moved - guess.moved;
-    if (!(glm::dot(away, away) < kFarPx * kFarPx)) return guess;
+    if (!(glm::dot(away, away) < kDivergedPx * kDivergedPx)) return guess;
     sums = compare(other, moved);
-    if (glm::dot(change, change) < kEnoughPx * kEnoughPx) break;
+    if (glm::dot(change, change) < kConvergedPx * kConvergedPx) break;
   }
   if (!sums.isInside || sums.variance > guess.variance) return guess;
   return {

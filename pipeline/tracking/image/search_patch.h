@@ -33,7 +33,7 @@ class SearchPatch {
   /// (levels) alone explains the texture. Position is known better when the brightness is known not
   /// to have changed.
   double placing(double noise, bool isBrightnessKnown = false) const;
-  static constexpr double kMostPlacing = 100.0;
+  static constexpr double kMaxPlacing = 100.0;
   /// Standard deviation of the patch's grey levels.
   double contrast() const { return contrast_; }
 

@@ -21,18 +21,18 @@ constexpr int kCandidates = 400;
 constexpr int kColumns = 8;
 constexpr int kRows = 6;
 constexpr int kPerField = 2;
-constexpr int kLeastPoints = 10;
+constexpr int kMinPoints = 10;
 constexpr double kQuality = 0.002;  // relative to the best corner's strength
 constexpr double kSpacingPx = 6.0;
 constexpr int kLevels = 3;
 constexpr double kOutlierPx = 1.0;
-constexpr double kLargestError = 24.0;  // mean difference in a point's window, grey levels
-constexpr double kStillPx = 0.33;       // smaller motion counts as rest; px of the frame
+constexpr double kMaxError = 24.0;  // mean difference in a point's window, grey levels
+constexpr double kStillPx = 0.33;   // smaller motion counts as rest; px of the frame
 /// A new key frame is taken when an image corner has moved by this part of the image's side, or
 /// when half of the points are lost.
 constexpr double kKeyShift = 0.15;
 // Zoom from the key frame; more, or less than the inverse, is rejected as a wrong fit.
-constexpr double kMostZoom = 2.0;
+constexpr double kMaxZoom = 2.0;
 const cv::Size kWindow{15, 15};
 
 double distance(cv::Point2f a, cv::Point2f b) {
@@ -55,7 +55,7 @@ PlaneSimilarity nearestTo(const glm::dmat3& homography, hal::FrameSize size) {
   glm::dvec2 from(0.0);
   glm::dvec2 to(0.0);
   double count = 0.0;
-  forPlaces(size, [&](const glm::dvec2& px) {
+  forGridCentres(size, [&](const glm::dvec2& px) {
     from += px;
     to += movedBy(homography, px);
     count += 1.0;
@@ -64,7 +64,7 @@ PlaneSimilarity nearestTo(const glm::dmat3& homography, hal::FrameSize size) {
   to /= count;
   glm::dvec2 products(0.0);
   double squares = 0.0;
-  forPlaces(size, [&](const glm::dvec2& px) {
+  forGridCentres(size, [&](const glm::dvec2& px) {
     const glm::dvec2 a = px - from;
     products += PlaneSimilarity::product({a.x, -a.y}, movedBy(homography, px) - to);
     squares += glm::dot(a, a);
@@ -95,7 +95,7 @@ struct CanvasMotion::State {
   PlaneSimilarity firstFromSeen;  // motion as measured, including steps too small to be followed
 
   /// Follows the measured motion unless it is too small.
-  void goTo(const PlaneSimilarity& seen) {
+  void moveTo(const PlaneSimilarity& seen) {
     firstFromSeen = seen;
     if (apartPx(seen, firstFromFrame, size) > kStillPx * firstFromFrame.scale()) {
       firstFromFrame = seen;
@@ -134,7 +134,7 @@ struct CanvasMotion::State {
 
   /// Measures frameFromKey in px of the frame. Returns false where too few points agree.
   bool measure(PlaneSimilarity& frameFromKey) {
-    if (keyPoints.size() < kLeastPoints) return false;
+    if (keyPoints.size() < kMinPoints) return false;
     cv::calcOpticalFlowPyrLK(
         keyPyramid, pyramid, keyPoints, points, found, errors, kWindow, kLevels,
         cv::TermCriteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 20, 0.01),
@@ -142,21 +142,21 @@ struct CanvasMotion::State {
     from.clear();
     to.clear();
     for (std::size_t i = 0; i < keyPoints.size(); ++i) {
-      if (found[i] == 0 || static_cast<double>(errors[i]) > kLargestError) {
+      if (found[i] == 0 || static_cast<double>(errors[i]) > kMaxError) {
         points[i] = keyPoints[i];
         continue;
       }
       from.push_back(keyPoints[i]);
       to.push_back(points[i]);
     }
-    if (from.size() < kLeastPoints) return false;
+    if (from.size() < kMinPoints) return false;
     const cv::Mat fit =
         cv::estimateAffinePartial2D(from, to, cv::noArray(), cv::RANSAC, kOutlierPx, 500, 0.995, 5);
     if (fit.empty()) return false;
     frameFromKey.linear = {fit.at<double>(0, 0), fit.at<double>(1, 0)};
     // Points that have collapsed into one fit a similarity of zoom zero, which has no inverse.
     const double zoom = frameFromKey.scale();
-    if (!(zoom < kMostZoom && zoom > 1.0 / kMostZoom)) return false;
+    if (!(zoom < kMaxZoom && zoom > 1.0 / kMaxZoom)) return false;
     // Integer pixel centres there, +0.5 here.
     const glm::dvec2 half(0.5);
     const glm::dvec2 shift(fit.at<double>(0, 2), fit.at<double>(1, 2));
@@ -204,7 +204,7 @@ const PlaneSimilarity& CanvasMotion::follow(const hal::PlaneView& luma, hal::Fra
     s.makeKey();
     return s.firstFromFrame;
   }
-  s.goTo(s.firstFromKey * frameFromKey.inverse());
+  s.moveTo(s.firstFromKey * frameFromKey.inverse());
   if (s.isFarFromKey(frameFromKey)) s.makeKey();
   return s.firstFromFrame;
 }
@@ -215,9 +215,9 @@ const PlaneSimilarity& CanvasMotion::follow(const ImageMotion& motion) {
   s.keyPoints.clear();
   s.size = motion.frameSize;
   if (motion.isCut || !motion.picture) return s.firstFromFrame;
-  const glm::dmat3& nowFromThen = motion.picture->nowFromThen;
-  if (nowFromThen == glm::dmat3(1.0)) return s.firstFromFrame;
-  s.goTo(s.firstFromSeen * nearestTo(nowFromThen, s.size).inverse());
+  const glm::dmat3& currentFromPrevious = motion.picture->currentFromPrevious;
+  if (currentFromPrevious == glm::dmat3(1.0)) return s.firstFromFrame;
+  s.moveTo(s.firstFromSeen * nearestTo(currentFromPrevious, s.size).inverse());
   return s.firstFromFrame;
 }
 

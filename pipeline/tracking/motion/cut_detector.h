@@ -43,13 +43,13 @@ class CutDetector {
  public:
   /// Takes the next frame and the part of the previous frame's features that were found in it. The
   /// first frame is a cut. Frames without contrast count as a cut only after several in a row.
-  bool isCut(const LumaPyramid& now, double foundShare);
+  bool isCut(const LumaPyramid& current, double foundShare);
   /// Treats the next frame as the first one.
   void reset() { seen_.reset(); }
 
  private:
   std::optional<Thumbnail> seen_;  // of the last frame with contrast
-  Thumbnail now_;
+  Thumbnail current_;
   int blankFrames_ = 0;
 };
 

@@ -28,8 +28,8 @@ class DenseFlowEstimator {
 
   /// Computes the flow from one frame to the next, both of one size. It is exactly zero in static
   /// cells.
-  void update(const LumaPyramid& then, const LumaPyramid& now,
-              const std::optional<PictureHomography>& picture,
+  void update(const LumaPyramid& previous, const LumaPyramid& current,
+              const std::optional<ImageHomography>& picture,
               const StaticRegionDetector* staticRegions, double noise);
   /// Valid until the next update().
   DenseFlow flow() const;
@@ -38,25 +38,25 @@ class DenseFlowEstimator {
 
  private:
   /// One of the two directions.
-  struct Way {
+  struct Direction {
     cv::Ptr<cv::DISOpticalFlow> search;
     cv::Mat coarse;
     std::vector<glm::vec4> nodes;
   };
-  void place(const LumaPyramid& now);
+  void place(const LumaPyramid& current);
   /// Motion of the homography at a node.
-  struct Along {
+  struct HomographyGuess {
     glm::dmat3 toFromFrom{1.0};
     double guessPx = 0.0;  // error of that guess
     bool isKnown = false;
     bool isHeld = false;  // exactly at rest
   };
-  void flowOneWay(Way& way, const LumaPyramid& from, const LumaPyramid& to,
-                  const cv::Mat& fromSmall, const cv::Mat& toSmall, const Along& along,
-                  double noise) const;
+  void estimateDirection(Direction& direction, const LumaPyramid& from, const LumaPyramid& to,
+                         const cv::Mat& fromSmall, const cv::Mat& toSmall,
+                         const HomographyGuess& homography, double noise) const;
   double edge(const std::vector<glm::vec4>& nodes, std::size_t index) const;
-  void disagree(const std::vector<glm::vec4>& back, std::vector<glm::vec4>& nodes) const;
-  bool standStill(const StaticRegionDetector* staticRegions);
+  void addDisagreement(const std::vector<glm::vec4>& back, std::vector<glm::vec4>& nodes) const;
+  bool writeStaticNodes(const StaticRegionDetector* staticRegions);
   glm::dvec2 nodePx(std::size_t index) const;
 
   hal::FrameSize frameSize_;
@@ -64,8 +64,8 @@ class DenseFlowEstimator {
   glm::dvec2 stepPx_{1.0};
   glm::dvec2 reduction_{1.0};
   std::array<cv::Mat, 2> small_;  // of the two frames
-  std::array<Way, 2> ways_;
-  std::vector<float> stillErrors_;  // per node; kNotStatic where flow is estimated
+  std::array<Direction, 2> directions_;
+  std::vector<float> staticErrors_;  // per node; kNotStatic where flow is estimated
 };
 
 }  // namespace pleinair::tracking

@@ -33,7 +33,7 @@ class FeatureTracker {
   /// Takes the next frame and its pixel noise (levels). The frame is not changed while it is
   /// shared. Returns the features by rising id, at most kMaxMovedFeatures; valid until the next
   /// call.
-  virtual std::span<const SeenFeature> follow(std::shared_ptr<const LumaPyramid> now,
+  virtual std::span<const SeenFeature> follow(std::shared_ptr<const LumaPyramid> current,
                                               double noise) = 0;
   /// Part of the previous frame's features that were found in this one; 0 if there were none.
   virtual double foundShare() const = 0;

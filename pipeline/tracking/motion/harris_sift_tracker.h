@@ -22,7 +22,7 @@ class HarrisSiftTracker : public FeatureTracker {
  public:
   HarrisSiftTracker();
 
-  std::span<const SeenFeature> follow(std::shared_ptr<const LumaPyramid> now,
+  std::span<const SeenFeature> follow(std::shared_ptr<const LumaPyramid> current,
                                       double noise) override;
   double foundShare() const override { return foundShare_; }
   void reset() override;
@@ -35,20 +35,20 @@ class HarrisSiftTracker : public FeatureTracker {
     cv::Mat descriptors;
   };
   struct Match {
-    int now = 0;
-    int then = 0;
+    int current = 0;
+    int previous = 0;
   };
 
-  void findCorners(const LumaPyramid& now);
-  void describe(const LumaPyramid& now);
+  void findCorners(const LumaPyramid& current);
+  void describe(const LumaPyramid& current);
   void match();
-  void publish(const LumaPyramid& now);
+  void publish(const LumaPyramid& current);
 
   cv::Ptr<cv::SIFT> sift_;
   cv::FlannBasedMatcher matcher_;
   MotionOutliers outliers_;
-  Features then_;
-  Features now_;
+  Features previous_;
+  Features current_;
   std::vector<cv::KeyPoint> keypoints_;
   cv::Mat strength_;
   cv::Mat strongestNear_;

@@ -40,7 +40,7 @@ struct PlaneSimilarity {
 };
 
 /// Most features whose motion is reported in one frame.
-inline constexpr std::size_t kMostMovedFeatures = 256;
+inline constexpr std::size_t kMaxMovedFeatures = 256;
 
 /// Position of a feature of the camera image in the previous frame and in this one: px of the
 /// frame, pixel centres at +0.5. A feature that moves less than its position jitters has exactly
@@ -48,15 +48,15 @@ inline constexpr std::size_t kMostMovedFeatures = 256;
 /// lost.
 struct FeatureMotion {
   std::uint32_t id = 0;  ///< constant while the feature is followed
-  glm::vec2 then{0.0F};
-  glm::vec2 now{0.0F};
+  glm::vec2 previous{0.0F};
+  glm::vec2 current{0.0F};
   /// Predicted error of the displacement: one standard deviation over both axes.
   float errorPx = 0.0F;
 };
 
 /// The dominant motion of the image, as a homography of px of the frame.
-struct PictureHomography {
-  glm::dmat3 nowFromThen{1.0};  ///< exactly the identity while the camera stands still
+struct ImageHomography {
+  glm::dmat3 currentFromPrevious{1.0};  ///< exactly the identity while the camera stands still
   double errorPx = 0.0;  ///< predicted error of a point that follows it; see FeatureMotion::errorPx
 };
 
@@ -89,10 +89,10 @@ struct ImageMotion {
   /// applies.
   bool isCut = false;
   std::span<const FeatureMotion> features;
-  std::optional<PictureHomography> picture;  ///< empty where too few features agree
-  DenseFlow flow;                            ///< without nodes where it was not estimated
-  StaticRegions still;                       ///< without cells where they were not detected
-  double noiseLevels = 0.0;                  ///< standard deviation of a pixel's luma, in 1/255
+  std::optional<ImageHomography> picture;  ///< empty where too few features agree
+  DenseFlow flow;                          ///< without nodes where it was not estimated
+  StaticRegions still;                     ///< without cells where they were not detected
+  double noiseLevels = 0.0;                ///< standard deviation of a pixel's luma, in 1/255
 };
 
 }  // namespace pleinair::tracking

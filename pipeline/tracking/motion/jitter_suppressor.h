@@ -24,7 +24,7 @@ class JitterSuppressor {
 
   /// Features that the previous frame had too; valid until the next update().
   std::span<const FeatureMotion> features() const { return motions_; }
-  const std::optional<PictureHomography>& picture() const { return picture_; }
+  const std::optional<ImageHomography>& picture() const { return picture_; }
 
   /// Treats the next frame as the first one.
   void reset();
@@ -57,7 +57,7 @@ class JitterSuppressor {
   std::vector<PointPair> pairs_;
   std::vector<std::size_t> pairOf_;  // index in reported_, per pair
   std::vector<FeatureMotion> motions_;
-  std::optional<PictureHomography> picture_;
+  std::optional<ImageHomography> picture_;
   bool isHeld_ = true;
   bool isSettling_ = false;      // the image has just become held
   glm::dmat3 quietMotion_{1.0};  // motion of the image since it only jitters

@@ -24,7 +24,7 @@ class LucasKanadeTracker : public FeatureTracker {
  public:
   LucasKanadeTracker();
 
-  std::span<const SeenFeature> follow(std::shared_ptr<const LumaPyramid> now,
+  std::span<const SeenFeature> follow(std::shared_ptr<const LumaPyramid> current,
                                       double noise) override;
   double foundShare() const override { return foundShare_; }
   void reset() override;
@@ -32,12 +32,12 @@ class LucasKanadeTracker : public FeatureTracker {
  private:
   struct Feature {
     std::uint32_t id = 0;
-    std::size_t key = 0;  // index in keys_
-    cv::Point2f origin;   // position in the key frame; pyramid px, as `at`
-    cv::Point2f at;       // position in this frame, predicted if it was not found
-    cv::Point2f then;     // position in the previous frame
-    cv::Point2f step;     // motion since the previous frame
-    FeaturePatch patch;   // patch of the key frame
+    std::size_t key = 0;   // index in keys_
+    cv::Point2f origin;    // position in the key frame; pyramid px, as `at`
+    cv::Point2f at;        // position in this frame, predicted if it was not found
+    cv::Point2f previous;  // position in the previous frame
+    cv::Point2f step;      // motion since the previous frame
+    FeaturePatch patch;    // patch of the key frame
     double errorPx = 0.0;
     double difference = 0.0;  // difference of appearance, RMS levels
     bool isFound = false;
@@ -52,25 +52,26 @@ class LucasKanadeTracker : public FeatureTracker {
   };
 
   static FeaturePatch patchAt(const LumaPyramid& pyramid, const cv::Point2f& at);
-  void find(const LumaPyramid& now, bool all, int levels);
-  void judge(Feature& feature, const LumaPyramid& now, std::size_t of, const cv::Point2f& found);
-  bool searchWidely(const LumaPyramid& now);
-  void reconsider(const LumaPyramid& now);
+  void find(const LumaPyramid& current, bool all, int levels);
+  void judge(Feature& feature, const LumaPyramid& current, std::size_t of,
+             const cv::Point2f& found);
+  bool searchWidely(const LumaPyramid& current);
+  void reconsider(const LumaPyramid& current);
   void rejectOutliers();
   double shareFound() const;
-  void guessMissing(const LumaPyramid& now);
-  Spread spread(const LumaPyramid& now);
+  void guessMissing(const LumaPyramid& current);
+  Spread spread(const LumaPyramid& current);
   bool needsKey(const Spread& have) const;
-  void findCorners(const LumaPyramid& now);
-  void centre(const LumaPyramid& now);
-  void makeKey(const std::shared_ptr<const LumaPyramid>& now, bool isNeeded);
-  std::size_t freeKey(const LumaPyramid& now);
-  void takeOver(Feature& feature, std::size_t key, const LumaPyramid& now);
-  void publish(const LumaPyramid& now);
+  void findCorners(const LumaPyramid& current);
+  void centre(const LumaPyramid& current);
+  void makeKey(const std::shared_ptr<const LumaPyramid>& current, bool isNeeded);
+  std::size_t freeKey(const LumaPyramid& current);
+  void takeOver(Feature& feature, std::size_t key, const LumaPyramid& current);
+  void publish(const LumaPyramid& current);
 
   static constexpr std::size_t kKeys = 4;
   std::array<std::shared_ptr<const LumaPyramid>, kKeys> keys_;
-  std::shared_ptr<const LumaPyramid> then_;
+  std::shared_ptr<const LumaPyramid> previous_;
   PointFollower follower_;
   CornerSearch corners_;
   HomographyFitter fitter_;

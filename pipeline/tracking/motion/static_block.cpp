@@ -79,8 +79,8 @@ void StaticBlock::finish() {
   }
   const cv::Matx44d normal(xx, xy, x1, xm, xy, yy, y1, ym, x1, y1, kPixels, m1, xm, ym, m1, mm);
   // A flat block has no measurable shift or contrast.
-  constexpr double kLeast = 1.0;
-  inverse_ = (normal + kLeast * cv::Matx44d::eye()).inv(cv::DECOMP_CHOLESKY);
+  constexpr double kRegularisation = 1.0;
+  inverse_ = (normal + kRegularisation * cv::Matx44d::eye()).inv(cv::DECOMP_CHOLESKY);
 }
 
 StaticBlock::Change StaticBlock::compare(const cv::Mat& picture, const cv::Point& corner) const {

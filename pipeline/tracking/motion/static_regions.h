@@ -20,7 +20,7 @@ class LumaPyramid;
 class StaticRegionDetector {
  public:
   /// Takes the next frame and its dominant motion.
-  void update(const LumaPyramid& now, const std::optional<PictureHomography>& picture);
+  void update(const LumaPyramid& current, const std::optional<ImageHomography>& picture);
   /// Valid until the next update().
   StaticRegions fields() const { return {.fields = grid_, .errorPx = errors_}; }
   /// Standard deviation of a pixel of the followed image in levels; averaged over about a second.
@@ -31,14 +31,14 @@ class StaticRegionDetector {
   void reset();
 
  private:
-  struct Rest {
+  struct Cell {
     StaticBlock field;
-    glm::dvec2 movedPx{0.0};  // smoothed
-    int frames = 0;           // since it came to rest
-    double variance = 0.0;    // variance of its pixels beyond motion
-    glm::dvec2 alongPx{0.0};  // accumulated motion of the image since it came to rest
+    glm::dvec2 movedPx{0.0};        // smoothed
+    int frames = 0;                 // since it came to rest
+    double variance = 0.0;          // variance of its pixels beyond motion
+    glm::dvec2 imageMotionPx{0.0};  // accumulated motion of the image since it came to rest
     bool hasBegun = false;
-    bool isStill = false;
+    bool isStatic = false;
     bool hasChanged = false;  // in this frame
     int waitFrames = 0;       // before it is compared again
     // Noise variance estimated from this frame's pixels, levels²; negative: none.
@@ -46,18 +46,18 @@ class StaticRegionDetector {
     double spatial = -1.0;
   };
 
-  static bool isDoubtful(const Rest& rest, double noticedPx);
-  void resize(const LumaPyramid& now);
+  static bool isDoubtful(const Cell& cell, double noticedPx);
+  void resize(const LumaPyramid& current);
   cv::Point corner(std::size_t index, const cv::Size& size) const;
-  float look(Rest& rest, const cv::Mat& picture, const cv::Point& corner, double scale);
-  void restart(Rest& rest, const cv::Mat& picture, const cv::Point& corner);
+  float assess(Cell& cell, const cv::Mat& picture, const cv::Point& corner, double scale);
+  void restart(Cell& cell, const cv::Mat& picture, const cv::Point& corner);
   void measureNoise();
   /// A percentile of the cells' estimates, over those that have one; nothing for too few.
-  std::optional<double> percentile(double Rest::*of, double part);
+  std::optional<double> percentile(double Cell::*of, double part);
 
   hal::FrameSize grid_;
   cv::Size size_;
-  std::vector<Rest> rests_;
+  std::vector<Cell> cells_;
   std::vector<float> errors_;
   std::vector<double> variances_;
   double noise_ = 2.0;

@@ -21,15 +21,15 @@ constexpr double kReach = 24.0;
 /// distance.
 constexpr double kSigmaOnTag = 0.002;
 constexpr double kSigmaByDistance = 0.1;
-constexpr double kMostSigma = 0.5;
+constexpr double kMaxSigma = 0.5;
 /// A ray that meets a plane below this sine is not intersected.
 constexpr double kGrazing = 0.08;
-constexpr std::size_t kLeastUsed = 6;
-constexpr double kLeastShare = 0.5;
+constexpr std::size_t kMinUsed = 6;
+constexpr double kMinShare = 0.5;
 constexpr double kFirstHuberPx = 3.0;
 constexpr double kAgreeSigmas = 5.0;
-constexpr double kLeastAgreePx = 1.0;
-constexpr int kMostContradictions = 5;
+constexpr double kMinAgreementPx = 1.0;
+constexpr int kMaxContradictions = 5;
 /// Errors of one feature in neighbouring frames are correlated: each counts as less than one.
 constexpr double kLearnNoise = 4.0;
 
@@ -92,17 +92,17 @@ std::optional<Landmarks::Landmark> Landmarks::placed(const CameraModel& camera,
     isPlaced = true;
   }
   if (!isPlaced) return std::nullopt;
-  best.sigma = std::clamp(kSigmaByDistance * (nearest - kPaper), kSigmaOnTag, kMostSigma);
+  best.sigma = std::clamp(kSigmaByDistance * (nearest - kPaper), kSigmaOnTag, kMaxSigma);
   return best;
 }
 
 /// Reserves all memory that later frames may need.
 void Landmarks::reserve() {
-  landmarks_.reserve(kMostTracks);
-  next_.reserve(kMostTracks);
-  places_.reserve(kMostTracks);
-  points_.reserve(kMostTracks);
-  errors_.reserve(kMostTracks);
+  landmarks_.reserve(kMaxTracks);
+  next_.reserve(kMaxTracks);
+  places_.reserve(kMaxTracks);
+  points_.reserve(kMaxTracks);
+  errors_.reserve(kMaxTracks);
 }
 
 void Landmarks::anchor(const CameraModel& camera, std::span<const FeatureTrack> tracks,
@@ -123,7 +123,7 @@ void Landmarks::anchor(const CameraModel& camera, std::span<const FeatureTrack> 
     const auto old = std::ranges::lower_bound(landmarks_, track.id, {}, &Landmark::id);
     if (old != landmarks_.end() && old->id == track.id) {
       const auto& was = places_[static_cast<std::size_t>(old - landmarks_.begin())];
-      if (was) goOn(*landmark, *old, transform(keyFromTarget, *was).z, keyFromTarget);
+      if (was) carryOver(*landmark, *old, transform(keyFromTarget, *was).z, keyFromTarget);
     }
     next_.push_back(*landmark);
   }
@@ -131,8 +131,8 @@ void Landmarks::anchor(const CameraModel& camera, std::span<const FeatureTrack> 
 }
 
 /// Carries a landmark's depth, and the correction learnt for it, from one key frame to the next.
-void Landmarks::goOn(Landmark& landmark, const Landmark& old, double depth,
-                     const glm::dmat4& keyFromTarget) const {
+void Landmarks::carryOver(Landmark& landmark, const Landmark& old, double depth,
+                          const glm::dmat4& keyFromTarget) const {
   const auto plane = planeInverseDepth(landmark, keyFromTarget);
   if (!plane || !(depth > 0.0)) return;
   landmark.correction = 1.0 / (depth * *plane) - 1.0;
@@ -177,7 +177,7 @@ std::size_t Landmarks::keepAgreeing(const CameraModel& camera, const glm::dmat4&
   for (const Correspondence& point : points_) errors_.push_back(errorOf(point));
   std::ranges::nth_element(errors_, errors_.begin() + std::ssize(errors_) / 2);
   const double median = errors_[errors_.size() / 2];
-  const double most = std::max({kLeastAgreePx, kAgreeSigmas * noisePx, 3.0 * median});
+  const double most = std::max({kMinAgreementPx, kAgreeSigmas * noisePx, 3.0 * median});
   std::erase_if(points_, [&](const Correspondence& point) { return errorOf(point) > most; });
   return points_.size();
 }
@@ -188,14 +188,14 @@ std::optional<LandmarkPose> Landmarks::solve(const CameraModel& camera,
                                              const glm::dmat4& keyFromTarget, double noisePx) {
   collect(camera, tracks, start, keyFromTarget, noisePx);
   const std::size_t found = points_.size();
-  if (found < kLeastUsed) return std::nullopt;
+  if (found < kMinUsed) return std::nullopt;
   const auto first = refinePose(camera, points_, start, kFirstHuberPx);
   if (!first) return std::nullopt;
   // Whitening was computed for the target's earlier position: repeat for this one.
   collect(camera, tracks, first->cameraFromTarget, keyFromTarget, noisePx);
   const std::size_t used = keepAgreeing(camera, first->cameraFromTarget, noisePx);
   const double share = static_cast<double>(used) / static_cast<double>(found);
-  if (used < kLeastUsed || share < kLeastShare) return std::nullopt;
+  if (used < kMinUsed || share < kMinShare) return std::nullopt;
   const auto second = refinePose(camera, points_, first->cameraFromTarget, 4.0 * noisePx);
   if (!second) return std::nullopt;
   return LandmarkPose{.estimate = *second, .used = used, .usedShare = share};
@@ -221,7 +221,7 @@ void Landmarks::learn(const CameraModel& camera, std::span<const FeatureTrack> t
     const glm::dvec2 by = shown.pxByCameraPoint * (glm::dmat3(cameraFromKey) * (*inKey * -share));
     const double predicted = glm::dot(by, by) * landmark->sigma * landmark->sigma;
     if (glm::length(whiteningOf(by * landmark->sigma, noisePx) * error) >
-        std::max(kLeastAgreePx, kAgreeSigmas * noisePx)) {
+        std::max(kMinAgreementPx, kAgreeSigmas * noisePx)) {
       ++landmark->contradictions;
       continue;
     }
@@ -233,7 +233,7 @@ void Landmarks::learn(const CameraModel& camera, std::span<const FeatureTrack> t
     landmark->sigma = std::max(landmark->sigma, kSigmaOnTag);
   }
   std::erase_if(landmarks_, [](const Landmark& landmark) {
-    return landmark.contradictions >= kMostContradictions;
+    return landmark.contradictions >= kMaxContradictions;
   });
 }
 

@@ -72,8 +72,8 @@ class Landmarks {
   void reserve();
   std::optional<Landmark> placed(const CameraModel& camera, const FeatureTrack& track,
                                  const glm::dmat4& keyFromTarget, bool onTagsOnly) const;
-  void goOn(Landmark& landmark, const Landmark& old, double depth,
-            const glm::dmat4& keyFromTarget) const;
+  void carryOver(Landmark& landmark, const Landmark& old, double depth,
+                 const glm::dmat4& keyFromTarget) const;
   std::optional<double> planeInverseDepth(const Landmark& landmark,
                                           const glm::dmat4& keyFromTarget) const;
   /// Position in the key camera; nothing where the plane is not in front of it.

@@ -20,7 +20,7 @@ class PoseFilter {
   void predict(const glm::dmat4& moved, const PoseCovariance& ofMeasurement);
 
   /// Corrects the pose by a tag that was seen. `doubt` ≥ 1 widens the predicted covariance where
-  /// the two disagree.
+  /// the two addDisagreement.
   void correct(const PoseEstimate& seen, double doubt);
 
   const glm::dmat4& cameraFromTarget() const { return pose_; }

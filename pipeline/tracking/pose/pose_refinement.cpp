@@ -15,7 +15,7 @@ namespace {
 using Vector6 = cv::Vec<double, 6>;
 
 constexpr double kNearestMetres = 1e-4;
-constexpr double kLeastCornerNoisePx = 0.1;
+constexpr double kMinCornerNoisePx = 0.1;
 constexpr int kMaxSteps = 30;
 constexpr double kStepTolerance = 1e-10;  // rad and metres
 
@@ -113,8 +113,7 @@ std::optional<std::array<double, 36>> covarianceOf(const Matrix6& normal, double
   const Matrix6 inverse = normal.inv(cv::DECOMP_CHOLESKY, &isRegular);
   if (!isRegular) return std::nullopt;
   const double freedom = std::max(1.0, 2.0 * static_cast<double>(pointCount) - 6.0);
-  const double variance =
-      std::max(squaredError / freedom, kLeastCornerNoisePx * kLeastCornerNoisePx);
+  const double variance = std::max(squaredError / freedom, kMinCornerNoisePx * kMinCornerNoisePx);
   std::array<double, 36> covariance{};
   for (std::size_t i = 0; i < covariance.size(); ++i) covariance[i] = variance * inverse.val[i];
   return covariance;

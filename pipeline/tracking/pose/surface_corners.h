@@ -13,7 +13,7 @@ namespace pleinair::tracking {
 class LumaPyramid;
 
 /// Most tracks that are followed at once.
-inline constexpr std::size_t kMostTracks = 130;
+inline constexpr std::size_t kMaxTracks = 130;
 
 /// A followed point of the image.
 struct FeatureTrack {

@@ -77,7 +77,7 @@ double squaredDistance(const TagCornersPx& a, const TagCornersPx& b) {
 /// more for small ones. Aligned, so that a reduced region has the pixels of the reduced image.
 std::optional<PixelRect> partAround(const TagCornersPx& corners, hal::FrameSize size) {
   constexpr double kMargin = 0.35;
-  constexpr double kLeastMarginPx = 16.0;
+  constexpr double kMinMarginPx = 16.0;
   constexpr int kAlignment = 12;  // a common multiple of all decimations
   glm::dvec2 least = corners[0];
   glm::dvec2 most = corners[0];
@@ -86,7 +86,7 @@ std::optional<PixelRect> partAround(const TagCornersPx& corners, hal::FrameSize 
     most = glm::max(most, corner);
   }
   const glm::dvec2 extent = most - least;
-  const glm::dvec2 margin(std::max({kMargin * extent.x, kMargin * extent.y, kLeastMarginPx}));
+  const glm::dvec2 margin(std::max({kMargin * extent.x, kMargin * extent.y, kMinMarginPx}));
   least -= margin;
   most += margin;
   if (!(most.x > 0.0 && most.y > 0.0 && least.x < size.width && least.y < size.height)) {

@@ -26,11 +26,11 @@ glm::dmat4 toPose(const cv::Mat& rotationVector, const cv::Mat& translation) {
 /// Whether corners in tagCorners()' order show the front of a square: counter-clockwise (the area
 /// that any three enclose is negative, y down), and none collinear with its neighbours.
 bool showFront(const TagCornersPx& corners) {
-  constexpr double kLeastAreaPx = 0.5;
+  constexpr double kMinAreaPx = 0.5;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const glm::dvec2 in = corners[(i + 1) % 4] - corners[i];
     const glm::dvec2 out = corners[(i + 2) % 4] - corners[(i + 1) % 4];
-    if (!(in.x * out.y - in.y * out.x < -kLeastAreaPx)) return false;
+    if (!(in.x * out.y - in.y * out.x < -kMinAreaPx)) return false;
   }
   return true;
 }

@@ -19,14 +19,14 @@ constexpr double kShared = 0.15;
 constexpr double kDoubtSigmas = 3.0;
 constexpr double kDoubtPx = 0.5;
 /// After this many doubts in a row the target does not move with the features around it.
-constexpr int kManyDoubts = 4;
+constexpr int kMaxDoubts = 4;
 constexpr auto kAloneFor = std::chrono::seconds(2);
 /// Rate at which the mean difference follows new ones, and its largest expected distance from zero,
 /// in sigmas of one (by chance: a third of one).
 constexpr double kBiasRate = 0.2;
 constexpr double kBiasSigmas = 0.4;
 /// Jumps larger than this part of the image are cuts and not blended.
-constexpr double kLargestBlend = 0.1;
+constexpr double kMaxBlendedJump = 0.1;
 /// Without features: the part of a velocity left after a second, and its standard deviation.
 constexpr double kVelocityKept = 1e-4;
 constexpr double kGuessPx = 3.0;
@@ -87,7 +87,7 @@ void TargetPose::predict(const CameraModel& camera, std::span<const FeatureTrack
   if (moved) {
     moveByFeatures(*moved);
   } else {
-    moveOn(camera, step);
+    extrapolate(camera, step);
   }
   velocity_ = (1.0 / step) * motionBetween(before_, filter_.cameraFromTarget());
   last_ = now;
@@ -100,7 +100,7 @@ void TargetPose::moveByFeatures(const LandmarkPose& moved) {
 }
 
 /// Continues the last motion, ever slower.
-void TargetPose::moveOn(const CameraModel& camera, double step) {
+void TargetPose::extrapolate(const CameraModel& camera, double step) {
   const double kept = std::pow(kVelocityKept, step);
   const glm::dmat4 guess = movedBy(filter_.cameraFromTarget(), (kept * step) * velocity_);
   const double distance = std::max(0.01, guess[3].z);
@@ -137,7 +137,7 @@ void TargetPose::see(const CameraModel& camera, std::span<const FeatureTrack> tr
   if (drawnBefore) {
     const double jump = rmsDistancePx(camera, filter_.cameraFromTarget(),
                                       drawnBefore->cameraFromTarget, modelPoints);
-    const bool isCut = !(jump < kLargestBlend * longSidePx(camera));
+    const bool isCut = !(jump < kMaxBlendedJump * longSidePx(camera));
     offset_ =
         isCut ? Twist{} : motionBetween(filter_.cameraFromTarget(), drawnBefore->cameraFromTarget);
     blendFrom_ = now;
@@ -167,7 +167,7 @@ void TargetPose::correct(const CameraModel& camera, const PoseEstimate& seen,
   if (apart > 0.0) bias_ = std::min(1.0, left / apart) * bias_;
 
   doubts_ = isDoubtful ? doubts_ + 1 : 0;
-  if (doubts_ >= kManyDoubts) {
+  if (doubts_ >= kMaxDoubts) {
     // Anchor again, with landmarks on the target's tags only.
     if (!movesAlone_) isAnchored_ = false;
     movesAlone_ = true;
@@ -195,7 +195,7 @@ void TargetPose::anchor(const CameraModel& camera, std::span<const FeatureTrack>
 }
 
 /// Falls smoothly from one to zero.
-double TargetPose::partOfBlend(hal::TimePoint now) const {
+double TargetPose::blendWeight(hal::TimePoint now) const {
   const double over = seconds(options_.blendOver);
   const double t = over > 0.0 ? std::clamp(seconds(now - blendFrom_) / over, 0.0, 1.0) : 1.0;
   return 1.0 - t * t * (3.0 - 2.0 * t);
@@ -204,7 +204,7 @@ double TargetPose::partOfBlend(hal::TimePoint now) const {
 std::optional<PoseEstimate> TargetPose::drawn(hal::TimePoint now) const {
   std::optional<PoseEstimate> out = predicted();
   if (!out) return out;
-  const Twist offset = partOfBlend(now) * offset_;
+  const Twist offset = blendWeight(now) * offset_;
   out->cameraFromTarget = movedBy(out->cameraFromTarget, offset);
   out->covariance = out->covariance + shared_ +
                     isotropic(glm::length(offset.rotation), glm::length(offset.shift));

@@ -64,10 +64,10 @@ class TargetPose {
 
  private:
   void moveByFeatures(const LandmarkPose& moved);
-  void moveOn(const CameraModel& camera, double seconds);
+  void extrapolate(const CameraModel& camera, double seconds);
   void correct(const CameraModel& camera, const PoseEstimate& seen,
                std::span<const glm::dvec3> modelPoints, hal::TimePoint now);
-  double partOfBlend(hal::TimePoint now) const;
+  double blendWeight(hal::TimePoint now) const;
   double noisePx(const CameraModel& camera) const;
 
   TargetPoseOptions options_;

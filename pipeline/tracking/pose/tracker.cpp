@@ -49,7 +49,7 @@ constexpr hal::Duration kKeyPeriod = std::chrono::milliseconds(60);
 constexpr hal::Duration kMirrorPeriod = std::chrono::seconds(1);
 
 /// The corners of a cube on a tag.
-std::vector<glm::dvec3> standingOn(double edgeMetres) {
+std::vector<glm::dvec3> cubeOn(double edgeMetres) {
   std::vector<glm::dvec3> points;
   for (const double height : {0.0, edgeMetres}) {
     for (const glm::dvec3& foot : tagCorners(edgeMetres)) {
@@ -83,7 +83,7 @@ bool isInside(const TagCornersPx& corners, const CameraModel& camera) {
   });
 }
 
-double leastEdge(const TagCornersPx& corners) {
+double shortestEdgePx(const TagCornersPx& corners) {
   double least = glm::distance(corners[3], corners[0]);
   for (std::size_t i = 0; i < 3; ++i) {
     least = std::min(least, glm::distance(corners[i], corners[i + 1]));
@@ -116,7 +116,7 @@ Tracker::Tracker(std::optional<CameraModel> camera, std::vector<TagMarker> marke
       isWithWorld_(markers_.size()),
       isSeen_(markers_.size()) {
   for (const TagMarker& marker : markers_) {
-    models_.push_back(standingOn(marker.edgeMetres));
+    models_.push_back(cubeOn(marker.edgeMetres));
     if (!marker.worldFromTag) continue;
     worldPlanes_.push_back(
         {.targetFromTag = *marker.worldFromTag, .edgeMetres = marker.edgeMetres});
@@ -133,7 +133,7 @@ void Tracker::reset() {
   features_.reset();
   tags_.clear();
   expected_.clear();
-  searched_.reset();
+  lastFullSearch_.reset();
   searchedMirrored_.reset();
 }
 
@@ -192,7 +192,7 @@ void Tracker::findTags(const hal::PlaneView& luma, hal::FrameSize size, hal::Tim
     takeTags(detector_.detectExpected(luma, size, counters_.detection, expected_));
     if (!tags_.empty()) return;
   }
-  searched_ = now;
+  lastFullSearch_ = now;
   takeTags(detector_.detect(luma, size, counters_.detection, expected_));
   if (tags_.empty()) searchMirrored(luma, size, now);
 }
@@ -222,8 +222,8 @@ void Tracker::searchMirrored(const hal::PlaneView& luma, hal::FrameSize size, ha
 
 /// Whether to search the whole image: nothing is known, a tag is missing, or the period is over.
 bool Tracker::needsSearch(hal::TimePoint now) const {
-  if (expected_.empty() || !searched_ || now <= *searched_) return true;
-  return now - *searched_ >= (isMissing_ ? options_.searchPeriod / 2 : options_.searchPeriod);
+  if (expected_.empty() || !lastFullSearch_ || now <= *lastFullSearch_) return true;
+  return now - *lastFullSearch_ >= (isMissing_ ? options_.searchPeriod / 2 : options_.searchPeriod);
 }
 
 void Tracker::takeTags(std::span<const TagDetection> detections) {
@@ -246,7 +246,7 @@ void Tracker::findSightings() {
       ++counters_.unknownTags;
       continue;
     }
-    if (leastEdge(tags_[i].corners) < options_.leastEdgePx) {
+    if (shortestEdgePx(tags_[i].corners) < options_.minEdgePx) {
       ++counters_.smallTags;
       continue;
     }

@@ -78,7 +78,7 @@ struct TrackerOptions {
   hal::Duration searchPeriod = std::chrono::milliseconds(150);
   /// Shortest edge (px) of a tag whose pose is used. Below this, every eighth pose is the wrong
   /// alternative (docs/measured.md).
-  double leastEdgePx = 15.0;
+  double minEdgePx = 15.0;
 };
 
 /// Finds tags and poses frame by frame, in buffers that it keeps. One thread at a time.
@@ -148,8 +148,8 @@ class Tracker {
   std::vector<glm::dvec3> worldModel_;           // points where accuracy matters
   std::vector<std::vector<glm::dvec3>> models_;  // per marker
   hal::TimePoint keyMade_;
-  std::optional<hal::TimePoint> searched_;  // time of the last search of the whole image
-  bool isMissing_ = false;                  // an expected tag was missing in the last frame
+  std::optional<hal::TimePoint> lastFullSearch_;  // time of the last search of the whole image
+  bool isMissing_ = false;                        // an expected tag was missing in the last frame
   std::optional<hal::TimePoint> searchedMirrored_;
   std::vector<std::uint8_t> mirrored_;  // the mirrored image
   std::vector<TrackedTag> tags_;        // of the last frame, as all below
