@@ -7,7 +7,7 @@
 namespace pleinair::config {
 namespace {
 
-/// Control characters escaped, so that whatever a file holds stays one line on a terminal.
+/// Escapes control characters, so that a file's contents stay on one line of a terminal.
 std::string onOneLine(const std::string& text) {
   std::string line;
   for (const char c : text) {

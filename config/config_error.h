@@ -7,15 +7,15 @@ namespace pleinair::config {
 
 /// The parts of a ConfigError. Empty parts are left out of the message.
 struct ConfigFault {
-  std::string file;     ///< the file, or where else the value came from: "--set"
-  int line = 0;         ///< from 1; 0 where there is none
+  std::string file;     ///< the file, or another source of the value: "--set"
+  int line = 0;         ///< from 1; 0 if there is none
   std::string key;      ///< with its path: "tag[0].edge"
   std::string problem;  ///< "missing"; empty stands for "found <found>"
-  std::string found;    ///< the value that was met: "\"big\" (string)"
+  std::string found;    ///< the value found: "\"big\" (string)"
   std::string allowed;  ///< "a number of metres in (0, 10]"
 };
 
-/// A wrong configuration, scene or calibration file, or a wrong value given to one of its keys.
+/// An error in a configuration, scene or calibration file, or in a value given for one of its keys.
 /// what() is one line: `scene.toml:12: tag.edge: found "big" (string), allowed: a number of ...`.
 class ConfigError : public std::runtime_error {
  public:
@@ -31,7 +31,7 @@ class ConfigError : public std::runtime_error {
   ConfigFault fault_;
 };
 
-/// The text in quotes, shortened where it is long: what messages show of a string that was found.
+/// The text in quotes, shortened if it is long, for messages about a string that was found.
 std::string quoted(const std::string& text);
 
 }  // namespace pleinair::config

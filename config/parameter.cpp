@@ -46,7 +46,7 @@ bool hasControlCharacter(std::string_view text) {
                      [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
 }
 
-/// Whether text follows "serial:", where "serial:NUMBER" is among the choices.
+/// Whether the text begins with "serial:", if "serial:NUMBER" is among the choices.
 bool isAmongOpen(const std::vector<std::string>& openChoices, std::string_view text) {
   return std::any_of(openChoices.begin(), openChoices.end(), [&](const std::string& choice) {
     const std::string_view word = std::string_view(choice).substr(0, choice.find(':') + 1);
@@ -99,7 +99,7 @@ std::optional<ParameterValue> parsedAs(const ParameterDescriptor& descriptor,
     case ParameterKind::kPath:
       return std::filesystem::path(text);
     case ParameterKind::kSize:
-      // "0x0" has its word.
+      // "0x0" is written as its word.
       if (isAmong(descriptor.choices, text)) return PixelSize{};
       if (const auto size = parsedSize(text); size && *size != PixelSize{}) return *size;
       return std::nullopt;

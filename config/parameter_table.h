@@ -50,7 +50,7 @@ ParameterBinding<P> switchParameter(const std::string& name, bool P::*member,
           [member](P& p, const ParameterValue& value) { p.*member = std::get<bool>(value); }};
 }
 
-/// A member of an enumeration, by name. Every value that P may hold is among `choices`.
+/// A member of an enumeration type, by name. `choices` must contain every value that P may hold.
 template <class P, class E, std::size_t N>
 ParameterBinding<P> choiceParameter(const std::string& name, E P::*member,
                                     const std::array<Choice<E>, N>& choices,
@@ -68,7 +68,7 @@ ParameterBinding<P> choiceParameter(const std::string& name, E P::*member,
           }};
 }
 
-/// A member that is one of `names`, which are not known before run time.
+/// A member that is one of `names`, which are known at run time only.
 template <class P>
 ParameterBinding<P> choiceParameter(const std::string& name, std::string P::*member,
                                     const std::vector<std::string>& names, const std::string& help,
@@ -83,7 +83,7 @@ ParameterBinding<P> choiceParameter(const std::string& name, std::string P::*mem
           }};
 }
 
-/// `allowed` and `takes` as ParameterDescriptor::textAllowed and takesText.
+/// `allowed` and `takes` are ParameterDescriptor::textAllowed and takesText.
 template <class P>
 ParameterBinding<P> textParameter(const std::string& name, std::string P::*member,
                                   const std::string& allowed, const std::string& help,
@@ -99,7 +99,7 @@ ParameterBinding<P> textParameter(const std::string& name, std::string P::*membe
       [member](P& p, const ParameterValue& value) { p.*member = std::get<std::string>(value); }};
 }
 
-/// A file or folder, or one of `words`; `ending` and `openWords` (openChoices) as of
+/// A file or folder, or one of `words`. `ending` and `openWords` (openChoices) are those of
 /// ParameterDescriptor.
 template <class P>
 ParameterBinding<P> pathParameter(const std::string& name, std::filesystem::path P::*member,
@@ -119,7 +119,7 @@ ParameterBinding<P> pathParameter(const std::string& name, std::filesystem::path
           }};
 }
 
-/// A size; with a `word`, that stands for 0x0.
+/// A size; `word`, if given, stands for 0x0.
 template <class P>
 ParameterBinding<P> sizeParameter(const std::string& name, PixelSize P::*member,
                                   const SizeRange& range, const std::vector<std::string>& word,
@@ -161,7 +161,7 @@ class ParameterTable {
 
   ParameterValues defaults() const { return ParameterValues(list_); }
 
-  /// The values, which are of this table's list, as the struct. Allocates nothing of its own.
+  /// Converts values of this table's list to the struct. Allocates nothing itself.
   P typed(const ParameterValues& values) const {
     assert(&values.list() == list_.get());
     P p;
@@ -169,8 +169,8 @@ class ParameterTable {
     return p;
   }
 
-  /// The struct as values, for host programs. Throws a ConfigError, with `origin` for the file,
-  /// where a member is out of its range.
+  /// Converts the struct to values, for host programs. Throws a ConfigError, with `origin` as the
+  /// file, if a member is out of range.
   ParameterValues valuesOf(const P& p, const std::string& origin) const {
     ParameterValues values = defaults();
     for (std::size_t i = 0; i < bindings_.size(); ++i) {

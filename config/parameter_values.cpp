@@ -12,16 +12,16 @@
 namespace pleinair::config {
 namespace {
 
-/// Of a path, what its file means by a relative one.
+/// Resolves a relative path against the directory of its file.
 ParameterValue inItsFolder(ParameterValue value, const ParameterDescriptor& descriptor,
                            const std::filesystem::path& directory) {
   auto* path = std::get_if<std::filesystem::path>(&value);
   if (path == nullptr) return value;
-  if (descriptor.isPath(path->string())) *path = directory / *path;  // an absolute one stays
+  if (descriptor.isPath(path->string())) *path = directory / *path;  // an absolute path stays
   return value;
 }
 
-/// A value that stands in TOML as a string.
+/// Reads a value that is a string in TOML.
 std::optional<ParameterValue> readText(const TomlTable& table,
                                        const ParameterDescriptor& descriptor) {
   const auto text = table.optionalString(descriptor.name, descriptor.allowed());

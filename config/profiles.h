@@ -7,13 +7,13 @@
 
 namespace pleinair::config {
 
-/// A configuration that ships with the program: a file of config/profiles, embedded at build.
+/// A configuration that is part of the program: a file of config/profiles, embedded at build.
 struct Profile {
-  std::string_view name;  ///< the file's, without ".toml": "demo"
+  std::string_view name;  ///< the file's name without ".toml": "demo"
   std::string_view toml;
 };
 
-/// All of them, by name.
+/// All profiles, by name.
 std::span<const Profile> profiles();
 
 std::vector<std::string> profileNames();

@@ -13,7 +13,7 @@
 namespace pleinair::config {
 namespace {
 
-/// "STYLE_WATERCOLOR" of "style.watercolor".
+/// "STYLE_WATERCOLOR" for "style.watercolor".
 std::string asVariable(std::string_view name) {
   std::string variable(name);
   for (char& c : variable) {
@@ -27,7 +27,7 @@ std::string joined(std::string_view section, std::string_view key) {
   return section.empty() ? std::string(key) : fmt::format("{}.{}", section, key);
 }
 
-/// The table at a dotted path; nothing where it, or one above it, is not there.
+/// The table at a dotted path; nothing if it, or a table above it, is missing.
 std::optional<TomlTable> tableAt(const TomlTable& root, std::string_view path) {
   std::optional<TomlTable> table = root;
   while (table && !path.empty()) {
@@ -38,7 +38,7 @@ std::optional<TomlTable> tableAt(const TomlTable& root, std::string_view path) {
   return table;
 }
 
-/// The tables above and at a section: "", "style" and "style.watercolor".
+/// The paths of a section and of all tables above it: "", "style" and "style.watercolor".
 std::vector<std::string> pathsTo(std::string_view section) {
   std::vector<std::string> paths{""};
   if (section.empty()) return paths;
@@ -50,7 +50,7 @@ std::vector<std::string> pathsTo(std::string_view section) {
   return paths;
 }
 
-/// "site.toml:7" as its file and line; other origins have no line.
+/// Splits "site.toml:7" into file and line; other origins have no line.
 void attribute(const std::string& origin, ConfigFault& fault) {
   const std::size_t colon = origin.rfind(':');
   int line = 0;
@@ -118,7 +118,7 @@ std::string Sections::variableOf(const Section& section, std::string_view parame
   return prefix_ + asVariable(joined(section.name, parameter));
 }
 
-/// What may stand in a table: its parameters and the tables within it.
+/// Keys allowed in a table: its parameters and the tables within it.
 std::vector<std::string> Sections::keysIn(std::string_view table) const {
   std::vector<std::string> keys;
   for (const Section& section : sections_) {
@@ -181,7 +181,7 @@ void Sections::set(const Key& key, std::string_view text, const std::string& ori
   const ParameterDescriptor& descriptor = section.values.list().descriptors()[key.parameter];
   std::optional<ParameterValue> value = descriptor.parse(text);
   if (!value) {
-    // The origin says which key.
+    // The origin already names the key.
     throw ConfigError({.file = origin,
                        .found = descriptor.foundIn(text),
                        .allowed = descriptor.allowedInsteadOf(text)});
@@ -191,8 +191,8 @@ void Sections::set(const Key& key, std::string_view text, const std::string& ori
 
 ConfigError Sections::unknownKey(std::string_view key, const std::string& origin,
                                  std::string_view section) const {
-  std::vector<std::string> near = keysIn(section);  // to be listed
-  std::vector<std::string> all = near;              // to be suggested
+  std::vector<std::string> near = keysIn(section);  // listed in the message
+  std::vector<std::string> all = near;              // candidates for suggestions
   if (section.empty()) near.clear();
   const std::string_view table = key.substr(0, std::min(key.rfind('.'), key.size()));
   const std::string_view name = key.substr(std::min(key.rfind('.') + 1, key.size()));

@@ -18,50 +18,51 @@ struct Section {
   ParameterValues values;
 };
 
-/// A variable of the environment, by its whole name.
+/// An environment variable, with its full name.
 struct EnvironmentVariable {
   std::string name;
   std::string value;
 };
 
-/// A value for each parameter of each section, and where it came from. Layers are laid over it, the
-/// weakest first; one that fails leaves it as it was. A key is named with its section:
-/// "painting.style". A value; one thread at a time.
+/// A value for each parameter of each section, and its origin. Layers are applied from the weakest
+/// to the strongest; a layer that fails changes nothing. A key is named with its section:
+/// "painting.style". A value type; one thread at a time.
 class Sections {
  public:
-  /// Names are unique, also as variables of the environment, or it asserts. `prefix` is what those
-  /// begin with: "PLEINAIR_".
+  /// Asserts that names are unique, also as environment variables. `prefix` begins those:
+  /// "PLEINAIR_".
   Sections(std::vector<Section> sections, std::string prefix);
 
   std::span<const Section> all() const { return sections_; }
-  /// Asserts that there is such a section.
+  /// Asserts that the section exists.
   const ParameterValues& values(std::string_view section) const;
-  /// Puts other values of the same list into a section, as a look does.
+  /// Replaces a section's values by others of the same list, as a look does.
   void setValues(std::string_view section, ParameterValues values);
 
-  /// All that a file sets. Throws a ConfigError, with file and line, for a wrong value and for a
-  /// key or table that is not known here; it says where a misplaced key belongs.
+  /// Applies all values of a file. Throws a ConfigError, with file and line, for a wrong value and
+  /// for an unknown key or table; for a misplaced key it names the right section.
   void apply(const TomlDocument& document);
-  /// PREFIX_SECTION_KEY, in capitals, with '_' for '.' and '-'. The origin is the variable's name.
-  /// Throws a ConfigError for a wrong value and for a name that begins with the prefix and is of no
-  /// key; `others` are further names to list then. A relative path is meant from where we are.
+  /// Applies PREFIX_SECTION_KEY, in capitals, with '_' for '.' and '-'. The origin is the
+  /// variable's name. Throws a ConfigError for a wrong value, and for a name with the prefix that
+  /// matches no key; the message then lists `others` too. A relative path is resolved against the
+  /// current directory.
   void apply(const EnvironmentVariable& variable, std::span<const std::string> others = {});
-  /// One key, with `origin` to tell where the text came from: "--style". Throws likewise. With
-  /// `section`, the key is one of that section's, by its name alone.
+  /// Applies one key; `origin` is the source of the text: "--style". Throws as above. With
+  /// `section`, `key` is a name within that section.
   void apply(std::string_view key, std::string_view text, const std::string& origin,
              std::string_view section = {});
 
-  /// Puts a key, which must be known, or it asserts, back to its default.
+  /// Resets a key to its default. Asserts that the key is known.
   void forget(std::string_view key);
 
-  /// The origin of a key, which must be known, or it asserts.
+  /// The origin of a key. Asserts that the key is known.
   const std::string& origin(std::string_view key) const;
-  /// An error that attributes the place where the value of a key came from, with the line if there
-  /// is one. As ConfigFault otherwise.
+  /// An error that names the origin of a key's value, with the line if there is one; otherwise as
+  /// ConfigFault.
   ConfigError errorAt(std::string_view key, std::string problem, std::string allowed) const;
 
-  /// TOML that apply() reads back to the same values, under help and before origins as comments.
-  /// Throws a ConfigError for a text that is not UTF-8.
+  /// TOML that apply() reads back to the same values, with help and origins as comments. Throws a
+  /// ConfigError for a text that is not UTF-8.
   std::string toToml(Printed which = Printed::kAll) const;
 
  private:

@@ -10,7 +10,7 @@
 namespace pleinair::config {
 namespace {
 
-constexpr std::size_t kLongestWord = 64;  // bounds the quadratic work for a hostile key
+constexpr std::size_t kLongestWord = 64;  // limits the quadratic work for a hostile key
 
 std::string folded(std::string_view word) {
   std::string text(word);
@@ -21,8 +21,8 @@ std::string folded(std::string_view word) {
   return text;
 }
 
-/// Edits (insert, delete, replace, swap neighbours) from one word to the other: the "optimal string
-/// alignment" distance.
+/// Number of edits (insert, delete, replace, swap neighbours) between two words: the "optimal
+/// string alignment" distance.
 std::size_t editDistance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> beforeLast(b.size() + 1);
   std::vector<std::size_t> last(b.size() + 1);
@@ -43,7 +43,7 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
-/// How much of both is the same word and a colon: "synthetic:nope" is judged by what follows.
+/// Length of a common word with a colon: "synthetic:nope" is compared by the part after it.
 std::size_t commonFamily(std::string_view a, std::string_view b) {
   const std::size_t colon = a.find(':');
   if (colon == std::string_view::npos || !b.starts_with(a.substr(0, colon + 1))) return 0;
@@ -63,7 +63,7 @@ std::optional<std::string> nearest(std::string_view word, std::span<const std::s
     const std::size_t shorter =
         std::min(word.size(), candidate.size()) - commonFamily(word, candidate);
     const std::size_t tolerated = std::clamp<std::size_t>(shorter / 3, 1, 3);
-    // Of a word of one or two letters, one edit leaves too little to be a slip.
+    // In a word of one or two letters, one edit leaves too little for a suggestion.
     if (distance > tolerated || (distance > 0 && shorter < 3)) continue;
     if (!best || distance < bestDistance) {
       best = candidate;

@@ -5,8 +5,8 @@
 namespace pleinair::config {
 namespace {
 
-/// Where the string that opens at `begin` ends: just past its closing quotes, or at the end of the
-/// line or text that leaves it open.
+/// End of the string that opens at `begin`: just past its closing quotes, or the end of the line or
+/// text if it is not closed.
 std::size_t endOfString(std::string_view text, std::size_t begin) {
   const char quote = text[begin];
   const bool escapes = quote == '"';

@@ -25,7 +25,7 @@ int lineOfRegion(const toml::source_region& region) {
   return static_cast<int>(region.begin.line);
 }
 
-/// The value as a message shows it; `withType` where the type is what is wrong.
+/// The value for a message; `withType` if its type is the error.
 std::string describe(const toml::node& node, bool withType) {
   const auto typed = [&](std::string value, std::string_view type) {
     return withType ? fmt::format("{} ({})", value, type) : value;
@@ -72,7 +72,7 @@ struct TomlTable::State {
     return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
   }
 
-  /// The node, or null where absent; the key is known from here on.
+  /// Returns the node, or null if it is absent. Marks the key as known.
   const toml::node* ask(std::string_view key) {
     if (std::find(known.begin(), known.end(), key) == known.end()) known.emplace_back(key);
     return table->get(key);
@@ -324,7 +324,7 @@ TomlDocument TomlDocument::parseFile(const std::filesystem::path& path) {
                         .problem = std::move(problem),
                         .allowed = std::string(kAllowedFile)});
   };
-  // Asked before opening, for opening a pipe without a writer would wait.
+  // Checked before opening: opening a pipe without a writer would block.
   std::error_code failure;
   const std::filesystem::file_status status = std::filesystem::status(path, failure);
   if (failure) throw refuse("cannot open: " + failure.message());

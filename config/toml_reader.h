@@ -15,7 +15,7 @@
 
 namespace pleinair::config {
 
-/// A name in a file and the value that it stands for.
+/// A name in a file, and the value that it stands for.
 template <class E>
 struct Choice {
   std::string_view name;
@@ -31,20 +31,20 @@ std::vector<std::string> namesOf(const std::array<Choice<E>, N>& choices) {
   return names;
 }
 
-/// A view of one table of a TOML file, read key by key. Copies are the same view; the document
-/// lives as long as any of them. One thread at a time.
+/// A view of one table of a TOML file, read key by key. Copies refer to the same table; the
+/// document lives as long as any of them. One thread at a time.
 ///
-/// Each getter makes its key known, and throws a ConfigError with file, line and key where the
-/// value is of another type or out of its range. `xyz(key)` throws also where the key is absent;
-/// `optionalXyz(key)` gives nothing then. Call finish() after the last getter.
+/// Each getter marks its key as known, and throws a ConfigError with file, line and key if the
+/// value has another type or is out of range. `xyz(key)` also throws if the key is absent;
+/// `optionalXyz(key)` returns nothing then. Call finish() after the last getter.
 class TomlTable {
  public:
-  /// `allowed` is for the message.
+  /// `allowed` appears in the message.
   std::string string(std::string_view key, std::string_view allowed = "a string") const;
   std::optional<std::string> optionalString(std::string_view key,
                                             std::string_view allowed = "a string") const;
 
-  /// Takes TOML integers too; never NaN or an infinity.
+  /// Accepts TOML integers too; rejects NaN and infinities.
   double number(std::string_view key, const NumberRange& range = {}) const;
   std::optional<double> optionalNumber(std::string_view key, const NumberRange& range = {}) const;
 
@@ -73,12 +73,12 @@ class TomlTable {
     return toArray<N>(*values);
   }
 
-  /// A string out of `choices`; gives the index of the one found.
+  /// A string out of `choices`; returns its index.
   std::size_t choice(std::string_view key, std::span<const std::string> choices) const;
   std::optional<std::size_t> optionalChoice(std::string_view key,
                                             std::span<const std::string> choices) const;
 
-  /// The value that the string found stands for.
+  /// A string out of `choices`; returns the value that it stands for.
   template <class E, std::size_t N>
   E choice(std::string_view key, const std::array<Choice<E>, N>& choices) const {
     return choices[choice(key, namesOf(choices))].value;
@@ -91,27 +91,28 @@ class TomlTable {
     return choices[*index].value;
   }
 
-  /// A table within this one; asked again, it gives the same view.
+  /// A table within this one; repeated calls give the same view.
   TomlTable table(std::string_view key) const;
   std::optional<TomlTable> optionalTable(std::string_view key) const;
 
-  /// An array of tables, `[[key]]`. Absent, it is empty.
+  /// An array of tables, `[[key]]`; empty if absent.
   std::vector<TomlTable> tables(std::string_view key) const;
 
-  bool has(std::string_view key) const;       ///< does not make the key known
-  bool isString(std::string_view key) const;  ///< likewise; for keys of two types
-  std::vector<std::string> keys() const;      ///< every key in the table, sorted
-  int lineOf(std::string_view key) const;     ///< where absent, its table's line; 0 for the root
+  bool has(std::string_view key) const;  ///< does not mark the key as known
+  /// Does not mark the key as known; for keys of two types.
+  bool isString(std::string_view key) const;
+  std::vector<std::string> keys() const;   ///< every key in the table, sorted
+  int lineOf(std::string_view key) const;  ///< if absent, the line of its table; 0 for the root
   std::string pathOf(std::string_view key) const;  ///< "tag[0].edge"
   const std::string& file() const;                 ///< the name for messages
-  /// Where the file lies, which its relative paths start from; empty for text.
+  /// Directory of the file, to which its relative paths refer; empty for text.
   const std::filesystem::path& directory() const;
 
-  /// Throws a ConfigError for the first key, here or in a table that was got from here, that no
-  /// getter asked for; it lists the keys that were.
+  /// Throws a ConfigError for the first key, here or in a table got from here, that no getter asked
+  /// for; it lists the known keys.
   void finish() const;
 
-  /// For what a reader finds wrong beyond a single value: `problem` as in "id 3 is used twice".
+  /// An error beyond a single value: `problem` as in "id 3 is used twice".
   ConfigError error(std::string_view key, std::string problem, std::string allowed = {}) const;
 
  private:
@@ -132,10 +133,11 @@ class TomlTable {
 /// A parsed TOML file (TOML 1.0), of at most 1 MiB and 16 levels.
 class TomlDocument {
  public:
-  /// Throws a ConfigError where the file is missing, unreadable, not a regular file, too large,
-  /// nested too deeply, or not TOML.
+  /// Throws a ConfigError if the file is missing, unreadable, not a regular file, too large, nested
+  /// too deeply, or not TOML.
   static TomlDocument parseFile(const std::filesystem::path& path);
-  /// As parseFile(); `name` stands for the file in messages, and `directory` is where it lies.
+  /// The same as parseFile(), from text. Messages name the file `name`; `directory` is its
+  /// directory.
   static TomlDocument parseText(std::string_view text, std::string name,
                                 const std::filesystem::path& directory = {});
 

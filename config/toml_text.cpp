@@ -11,8 +11,8 @@ bool isControl(char c) {
   return static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
 }
 
-/// How many bytes the UTF-8 character at the front of `text` has; 0 where there is none (RFC 3629:
-/// overlong forms, surrogates and what lies beyond U+10FFFF are none).
+/// Number of bytes of the UTF-8 character at the front of `text`; 0 if it is none (RFC 3629:
+/// overlong forms, surrogates and code points above U+10FFFF are none).
 std::size_t characterLength(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned>(text[i]) & 0xFFu; };
   const unsigned first = byte(0);

@@ -7,8 +7,8 @@
 
 namespace pleinair::config {
 
-/// Which finite numbers are allowed, in which unit. `unit` refers to text that outlives the range
-/// (a literal); it is for messages: "metres".
+/// A range of finite numbers with a unit. `unit` refers to text that must outlive the range (a
+/// literal); it is for messages: "metres".
 struct NumberRange {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
@@ -16,13 +16,13 @@ struct NumberRange {
   bool maxOpen = false;
   std::string_view unit = {};
 
-  /// False for NaN and infinities too.
+  /// Returns false for NaN and infinities too.
   bool contains(double value) const;
   /// "a number of metres in (0, 10]", or with `plural` "numbers of metres in (0, 10]".
   std::string describe(bool plural = false) const;
 };
 
-/// Which whole numbers are allowed, both ends included.
+/// A range of whole numbers, both ends included.
 struct IntegerRange {
   int min = std::numeric_limits<int>::min();
   int max = std::numeric_limits<int>::max();
@@ -33,25 +33,25 @@ struct IntegerRange {
   std::string describe() const;
 };
 
-/// A size in pixels; 0x0 where there is none.
+/// A size in pixels; 0x0 if there is none.
 struct PixelSize {
   int width = 0;
   int height = 0;
   bool operator==(const PixelSize&) const = default;
 };
 
-/// Which sizes are allowed.
+/// A range of sizes.
 struct SizeRange {
   int maxSide = 65535;
   long long maxPixels = std::numeric_limits<long long>::max();
 
-  /// Of at least 1x1.
+  /// Whether the size is at least 1x1 and within the limits.
   bool contains(PixelSize size) const;
   /// "WIDTHxHEIGHT, at most 8192 px a side and 64 Mpx, such as 1280x720".
   std::string describe() const;
 };
 
-/// How many elements an array may have, both ends included.
+/// A range for the number of elements of an array, both ends included.
 struct LengthRange {
   std::size_t min = 0;
   std::size_t max = std::numeric_limits<std::size_t>::max();

@@ -18,12 +18,12 @@ namespace {
 using tracking::TagDetection;
 
 constexpr double kWindowShare = 0.45;  // of the gap, which the black corner squares fill
-constexpr double kSofteningPx = 0.0;   // a corner's neighbour is too near
+constexpr double kSofteningPx = 0.0;   // none: a corner's neighbour is too close
 constexpr double kSmallestWindowPx = 2.0;
 constexpr double kLargestWindowPx = 8.0;
 
 struct GridTag {
-  int index = 0;  ///< from the grid's first
+  int index = 0;  ///< relative to the grid's first tag
   TagDetection seen;
 };
 
@@ -39,8 +39,8 @@ glm::dvec2 centreOf(const TagDetection& tag) {
   return (tag.corners[0] + tag.corners[1] + tag.corners[2] + tag.corners[3]) / 4.0;
 }
 
-/// The tags say where the grid is; how each is turned on its paper differs between the programs
-/// that draw AprilGrids, so a corner gets its id from its place.
+/// Tags give the position of the grid only. Their rotation on the paper depends on the program that
+/// drew the grid, so a corner gets its id from its position.
 class AprilGridDetector final : public BoardDetector {
  public:
   explicit AprilGridDetector(const Board& board)
@@ -63,9 +63,9 @@ class AprilGridDetector final : public BoardDetector {
   }
 
  private:
-  /// A tag touches the black squares at its corners, and where a lens or the picture's pixels blur
-  /// that, they make one shape which is no tag. So what is missing is looked for in pictures in
-  /// which white has grown by one and by two pixels.
+  /// A tag touches the black squares at its corners. Where the lens or the pixels blur the contact,
+  /// they merge into one shape that is no tag. So missing tags are searched for in images in which
+  /// white was dilated by one and by two pixels.
   std::vector<GridTag> findTags(const hal::PlaneView& luma, hal::FrameSize size) {
     std::vector<GridTag> tags;
     addTags(luma, size, tags);
@@ -80,7 +80,7 @@ class AprilGridDetector final : public BoardDetector {
     return tags;
   }
 
-  /// Those of the grid that are not there yet.
+  /// Adds the tags of the grid that are still missing.
   void addTags(const hal::PlaneView& luma, hal::FrameSize size, std::vector<GridTag>& tags) {
     tracking::DetectionCounters counters;
     for (const TagDetection& tag : detector_.detect(luma, size, counters)) {
@@ -92,7 +92,7 @@ class AprilGridDetector final : public BoardDetector {
     }
   }
 
-  /// The corners of a tag on the board, the first of four.
+  /// Index on the board of the first of a tag's four corners.
   static std::size_t firstCorner(const GridTag& tag) {
     return static_cast<std::size_t>(tag.index) * 4;
   }
@@ -109,20 +109,20 @@ class AprilGridDetector final : public BoardDetector {
       inPicture.emplace_back(px.x, px.y);
     }
     const cv::Mat found = cv::findHomography(onBoard, inPicture);
-    if (found.empty()) return {};  // in a row
+    if (found.empty()) return {};  // collinear
     const cv::Matx33d pictureFromBoard(found);
     std::vector<SightedCorner> corners;
     std::size_t inPlace = 0;
     for (const GridTag& tag : tags) inPlace += addCorners(tag, pictureFromBoard, corners) ? 1 : 0;
-    // Another grid's ids are elsewhere.
+    // Tags of another grid have these ids at other positions.
     constexpr double kLeastInPlace = 0.75;
     if (static_cast<double>(inPlace) < kLeastInPlace * static_cast<double>(tags.size())) return {};
     return corners;
   }
 
-  /// Each of the four at the detected corner that is nearest to where it should be, relative to the
-  /// centre, which a lens moves more than it bends a tag.
-  /// False where the tag is not where the grid has it.
+  /// Assigns each of the tag's four corners to the nearest detected one. Positions are compared
+  /// relative to the tag's centre, since a lens shifts a tag more than it deforms it. Returns false
+  /// where the tag is not at its position in the grid.
   bool addCorners(const GridTag& tag, const cv::Matx33d& pictureFromBoard,
                   std::vector<SightedCorner>& corners) const {
     const std::size_t first = firstCorner(tag);
@@ -155,7 +155,7 @@ class AprilGridDetector final : public BoardDetector {
   const Board& board_;
   AprilGrid grid_;
   cv::Mat grown_;
-  // Unreduced: the squares between the tags would merge with them.
+  // Not reduced: the squares between the tags would merge with them.
   tracking::TagDetector detector_{{.decimation = 1.0}};
 };
 

@@ -12,15 +12,15 @@
 namespace pleinair::calibration {
 
 struct SightedCorner {
-  int id = 0;  ///< of Board::corners()
+  int id = 0;  ///< index in Board::corners()
   glm::dvec2 px{0.0};
 };
 
-/// A board in a picture. Pixels: centres at +0.5.
+/// A board seen in an image. Pixels: centres at +0.5.
 struct BoardSighting {
   std::vector<SightedCorner> corners;  ///< by rising id
-  /// How far black takes to become white, across the worse of the board's two directions; about 1
-  /// px where it is as sharp as pixels can be. See edgeWidth().
+  /// Width of the transition from black to white, in the worse of the board's two directions; about
+  /// 1 px where the image is as sharp as pixels allow. See edgeWidth().
   double edgeWidthPx = 0.0;
 };
 
@@ -32,19 +32,19 @@ class BoardDetector {
   BoardDetector(const BoardDetector&) = delete;
   BoardDetector& operator=(const BoardDetector&) = delete;
 
-  /// Nothing where the board, or enough of it (Board::fewestCorners()), is not seen. A checkerboard
-  /// has to be seen whole.
+  /// Returns nothing where the board, or enough of it (Board::fewestCorners()), is not visible. A
+  /// checkerboard must be visible as a whole.
   virtual std::optional<BoardSighting> detect(const hal::PlaneView& luma, hal::FrameSize size) = 0;
 };
 
 /// The board outlives the detector.
 std::unique_ptr<BoardDetector> makeBoardDetector(const Board& board);
 
-// The kinds of BoardDetector. Preconditions: the board is of that kind.
+// The kinds of BoardDetector. Precondition: the board is of that kind.
 
-/// OpenCV's, searched in a small picture and refined in the whole one.
+/// OpenCV's detector on a reduced image; corners are refined at full size.
 std::unique_ptr<BoardDetector> makeCheckerboardDetector(const Board& board);
-/// By tracking::TagDetector; corners are then refined as those of a checkerboard.
+/// Uses tracking::TagDetector; corners are then refined like those of a checkerboard.
 std::unique_ptr<BoardDetector> makeAprilGridDetector(const Board& board);
 
 }  // namespace pleinair::calibration

@@ -6,8 +6,8 @@
 
 namespace pleinair::calibration {
 
-/// A calibration as tracking::loadCalibration() reads it (TOML), with comments that say what it was
-/// made from and how good it is. The same calibration gives the same text. Precondition: a choice.
+/// A calibration in the format of tracking::loadCalibration() (TOML), with comments on its data and
+/// its quality. The same calibration gives the same text. Precondition: the report has a choice.
 std::string calibrationText(const Board& board, const CalibrationReport& report);
 
 }  // namespace pleinair::calibration

@@ -16,10 +16,10 @@
 namespace pleinair::calibration {
 namespace {
 
-/// Pictures are searched reduced to at most this; what is found is refined at full size.
+/// Images are reduced to at most this side for the search; corners are refined at full size.
 constexpr int kSearchedSidePx = 720;
 constexpr double kWindowShare =
-    0.35;  // of the way to the next corner, that the window not reach it
+    0.35;  // part of the distance to the next corner, so that the window does not reach it
 constexpr double kSofteningPx = 1.0;
 constexpr double kSmallestWindowPx = 2.0;
 constexpr double kLargestWindowPx = 10.0;
@@ -61,9 +61,10 @@ class CheckerboardDetector final : public BoardDetector {
     return corners;
   }
 
-  /// The quick search finds most boards in milliseconds, the thorough one those that a lens bends
-  /// or that lie askew, in a tenth of a second. The quick one's equalising of the picture is left
-  /// out: where it finds nothing it makes squares of noise, and takes many seconds.
+  /// The quick search finds most boards in milliseconds; the thorough one finds those that a lens
+  /// deforms or that are tilted, in a tenth of a second. The quick search runs without
+  /// equalisation: on images without a board, equalisation turns noise into squares and takes many
+  /// seconds.
   std::vector<cv::Point2f> find(const cv::Mat& searched) const {
     const cv::Size corners(pattern_.columns, pattern_.rows);
     std::vector<cv::Point2f> found;

@@ -14,13 +14,13 @@
 namespace pleinair::calibration {
 namespace {
 
-/// Whether two black and two white fields meet at a place, as they do at the corners of all boards:
-/// then opposite points of a circle about it are alike. cornerSubPix leaves a corner that it lost
-/// where it began.
+/// Whether two black and two white areas meet at a position, as at the corners of all boards:
+/// opposite points of a circle around it are alike then. cornerSubPix leaves a corner that it lost
+/// where it started.
 bool isCrossing(const hal::PlaneView& luma, const glm::dvec2& px, double radius) {
   constexpr int kDirections = 16;
   constexpr double kLeastContrast = 12.0;  // grey levels
-  constexpr double kMostUnlike = 0.3;      // of the contrast
+  constexpr double kMostUnlike = 0.3;  // difference of opposite points, relative to the contrast
   std::array<double, kDirections> grey{};
   for (int i = 0; i < kDirections; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / kDirections;
@@ -39,7 +39,7 @@ bool isCrossing(const hal::PlaneView& luma, const glm::dvec2& px, double radius)
 
 void refineCorners(const hal::PlaneView& luma, hal::FrameSize size, int windowHalf,
                    double softeningPx, std::vector<SightedCorner>& corners) {
-  const double margin = windowHalf + 6.0;  // of what is looked at about a corner
+  const double margin = windowHalf + 6.0;  // of the neighbourhood that is read
   std::erase_if(corners, [&](const SightedCorner& corner) {
     return corner.px.x < margin || corner.px.y < margin || corner.px.x > size.width - margin ||
            corner.px.y > size.height - margin;
@@ -47,7 +47,7 @@ void refineCorners(const hal::PlaneView& luma, hal::FrameSize size, int windowHa
   if (corners.empty()) return;
   const cv::Mat whole(size.height, size.width, CV_8UC1,
                       const_cast<std::uint8_t*>(luma.bytes.data()), luma.strideBytes);
-  cv::Mat softened;  // not the picture's own pixels, which are lent
+  cv::Mat softened;  // a copy: the image's own pixels are borrowed
   if (softeningPx > 0.0) cv::GaussianBlur(whole, softened, {}, softeningPx);
   const cv::Mat& picture = softeningPx > 0.0 ? softened : whole;
   std::vector<cv::Point2f> points;  // OpenCV counts pixel centres from 0

@@ -7,10 +7,10 @@
 
 namespace pleinair::calibration {
 
-/// Moves corners to where black and white meet, to a fraction of a pixel (cv::cornerSubPix, in a
-/// window of 2 · windowHalf + 1 px). Those too near to the picture's border, those that leave their
-/// window, and those where no two black and two white fields meet, are taken out. The picture is
-/// blurred by `softeningPx` (σ; 0: not) before: cornerSubPix is biased on edges as sharp as pixels.
+/// Refines corners to a fraction of a pixel (cv::cornerSubPix, in a window of 2 · windowHalf + 1
+/// px). Removes corners that are too close to the image's border, leave their window, or are not a
+/// crossing of two black and two white areas. The image is first blurred by `softeningPx` (σ; 0:
+/// not at all), because cornerSubPix is biased on very sharp edges.
 void refineCorners(const hal::PlaneView& luma, hal::FrameSize size, int windowHalf,
                    double softeningPx, std::vector<SightedCorner>& corners);
 

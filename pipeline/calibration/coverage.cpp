@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kLeastSlope = 0.27;  // tan 15°
 constexpr double kNearSize = 0.5;
-constexpr double kGuessedFocal = 0.9;  // of the longer side: 58°
-constexpr double kTiltWorth = 3.0;     // in cells
+constexpr double kGuessedFocal = 0.9;  // of the longer side; a field of view of 58°
+constexpr double kTiltWorth = 3.0;     // as many cells
 constexpr double kSizeWorth = 2.0;
 
 constexpr std::size_t cellIndex(int column, int row) {
@@ -30,7 +30,7 @@ struct Region {
   int down = 0;
   std::string_view name;
 };
-/// The corners first: they are what is forgotten, and where lenses bend most.
+/// Corners come first: users forget them, and lenses distort most there.
 constexpr std::array<Region, 9> kRegions{{{0, 0, "the upper left corner"},
                                           {2, 0, "the upper right corner"},
                                           {2, 2, "the lower right corner"},
@@ -47,8 +47,8 @@ constexpr std::array<std::string_view, kTilts> kTiltRequests{
     "tilt the board so that its upper side is nearer to the camera",
     "tilt the board so that its lower side is nearer to the camera"};
 
-/// A plane n·p = d is at the distance Z = d / n·(x, y, 1) along the ray (x, y, 1): the last row of
-/// the homography that takes rays to the board is n, but for its length.
+/// A plane n·p = d has the distance Z = d / n·(x, y, 1) along the ray (x, y, 1). The last row of
+/// the homography from rays to the board is n up to scale.
 glm::dvec2 slopeOf(const Board& board, const BoardSighting& sighting, hal::FrameSize size) {
   std::vector<cv::Point2d> onBoard;
   std::vector<cv::Point2d> onPlane;

@@ -15,10 +15,10 @@ namespace {
 
 constexpr double kLeastContrast = 12.0;  // grey levels
 constexpr double kLongestReachPx = 10.0;
-constexpr double kShortestReachPx = 3.0;  // what is blurred beyond its reach would look sharp
+constexpr double kShortestReachPx = 3.0;  // a blur wider than the reach would look sharp
 constexpr int kStepsPerPx = 4;
 
-/// The width of one edge: the mean profile of its middle fifth, straight across.
+/// The width of one edge, from the mean profile across its middle fifth.
 std::optional<double> widthOf(const hal::PlaneView& luma, hal::FrameSize size, const glm::dvec2& a,
                               const glm::dvec2& b, double clearance) {
   constexpr int kLines = 7;
@@ -45,7 +45,7 @@ std::optional<double> widthOf(const hal::PlaneView& luma, hal::FrameSize size, c
   }
   const double contrast = std::abs(profile.back() - profile.front());
   if (contrast < kLeastContrast) return std::nullopt;
-  double steepest = 0.0;  // grey levels a pixel, over one pixel
+  double steepest = 0.0;  // grey levels per pixel, over one pixel
   for (std::size_t i = kStepsPerPx; i < profile.size(); ++i) {
     steepest = std::max(steepest, std::abs(profile[i] - profile[i - kStepsPerPx]));
   }

@@ -9,8 +9,8 @@
 
 namespace pleinair::calibration {
 
-/// The grey level at a place, between pixels bilinearly; pixel centres at +0.5. Precondition: at
-/// least 1 px inside of the picture.
+/// Bilinearly interpolated grey level; pixel centres at +0.5. Precondition: `px` is at least 1 px
+/// inside of the image.
 inline double greyAt(const hal::PlaneView& luma, const glm::dvec2& px) {
   const glm::dvec2 place = px - 0.5;
   const glm::dvec2 whole = glm::floor(place);

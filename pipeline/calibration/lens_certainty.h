@@ -8,20 +8,20 @@
 
 namespace pleinair::calibration {
 
-/// How well a place of the picture is known.
+/// Uncertainty of the lens at one place of the image.
 struct PlaceCertainty {
   glm::dvec2 px{0.0};
   double sigmaPx = 0.0;
 };
 
-/// By how much a ray may appear elsewhere than the fit says, over the whole picture from border to
-/// border, from the fit's covariance. A turn of the camera that all places share does not count: it
-/// goes into poses. mrcal calls this the projection uncertainty.
-/// Infinite where the lens has no inverse.
+/// The standard deviation by which rays may appear elsewhere than the fit says, at places over the
+/// whole image, from the fit's covariance. A rotation of the camera common to all places does not
+/// count, since poses absorb it. mrcal calls this the projection uncertainty. Infinite where the
+/// lens has no inverse.
 std::vector<PlaceCertainty> placeCertainties(const LensFit& fit);
 
-/// Whether the lens, as far as the picture's corners and a little beyond, has one ray for each
-/// place, and rays further out go further out: a fitted polynomial may fold back.
+/// Whether the distortion folds over within the image's corners or a little beyond. A fitted
+/// polynomial may do so: two rays then share one place, or a ray further out appears further in.
 bool foldsInPicture(const tracking::CameraModel& camera);
 
 }  // namespace pleinair::calibration

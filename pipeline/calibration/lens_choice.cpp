@@ -13,7 +13,7 @@ constexpr std::size_t kFolds = 5;
 constexpr double kFirstHuberPx = 2.0;
 constexpr double kHuberSigmas = 2.0;
 constexpr double kPointSigmas = 6.0;
-constexpr double kViewShare = 3.0;  // of the median view's error
+constexpr double kViewShare = 3.0;  // relative to the median view's error
 constexpr double kLeastSigmaPx = 0.03;
 constexpr double kIndifference = 1.02;
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
@@ -29,7 +29,8 @@ double distancePx(const LensFit& fit, std::size_t view, const tracking::Correspo
   return glm::distance(fit.camera.project(seen), point.px);
 }
 
-/// The residuals' standard deviation in one axis, from the median distance (Rayleigh's).
+/// Standard deviation of the residuals along one axis, from the median distance (Rayleigh
+/// distribution).
 double robustSigma(const LensFit& fit, std::span<const FitView> views) {
   std::vector<double> distances;
   for (std::size_t v = 0; v < views.size(); ++v) {
@@ -44,7 +45,7 @@ double viewError(const LensFit& fit, std::size_t view, const FitView& points) {
   return median(std::move(distances));
 }
 
-/// A fit to all views in which those that disagree count little.
+/// A fit to all views that gives little weight to contradicting ones.
 std::optional<LensFit> robustFit(std::span<const FitView> views, hal::FrameSize size) {
   std::optional<LensFit> fit = fitLens(views, size, LensModel::kK1, nullptr, kFirstHuberPx);
   if (!fit) return std::nullopt;
@@ -53,7 +54,7 @@ std::optional<LensFit> robustFit(std::span<const FitView> views, hal::FrameSize 
   return fitLens(views, size, LensModel::kK1K2P, &*fit, kHuberSigmas * robustSigma(*fit, views));
 }
 
-/// The views and points that agree, into `choice`.
+/// Puts the views and points that agree into `choice`.
 void reject(std::span<const FitView> views, const LensFit& fit, LensChoice& choice) {
   std::vector<double> errors;
   for (std::size_t v = 0; v < views.size(); ++v) errors.push_back(viewError(fit, v, views[v]));
@@ -72,7 +73,7 @@ void reject(std::span<const FitView> views, const LensFit& fit, LensChoice& choi
   }
 }
 
-/// Of the distances in views that had no part in a fit: each view is left out of one of five.
+/// RMS distance in views that were not fitted: a cross-validation in five parts.
 double heldOutRms(const std::vector<FitView>& views, hal::FrameSize size, const LensFit& whole) {
   double squares = 0.0;
   std::size_t points = 0;

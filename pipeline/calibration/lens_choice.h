@@ -9,23 +9,23 @@
 
 namespace pleinair::calibration {
 
-/// A lens model that the views speak for, fitted to those that agree.
+/// The chosen lens model, fitted to the views that agree.
 struct LensChoice {
   LensFit fit;
-  /// Of views that had no part in the fit: it is fitted to four fifths of the views, the rest are
-  /// posed under it, five times.
+  /// Cross-validation error: the lens is fitted to four fifths of the views and the poses of the
+  /// rest are fitted under it, five times.
   double heldOutRmsPx = 0.0;
-  std::vector<FitView> used;           ///< without what was rejected
-  std::vector<std::size_t> usedViews;  ///< which of all views those are, rising
-  std::size_t rejectedPoints = 0;      ///< of used views
+  std::vector<FitView> used;           ///< without rejected views and points
+  std::vector<std::size_t> usedViews;  ///< indices of these among all views, rising
+  std::size_t rejectedPoints = 0;      ///< in used views
 };
 
 inline constexpr std::size_t kFewestFittedViews = 6;
 
-/// Fits robustly, rejects views and points that disagree with the others, and takes the simplest
-/// lens model whose held-out error is within 2 % (of its square) of the best: terms that the views
-/// do not need would bend the picture where no view was. Nothing where fewer than
-/// kFewestFittedViews hold together.
+/// Fits robustly, rejects views and points that disagree with the others, and chooses the simplest
+/// lens model whose held-out error is within 2 % (of its square) of the best. Terms that the views
+/// do not need would distort the image where no view was. Returns nothing where fewer than
+/// kFewestFittedViews agree.
 std::optional<LensChoice> chooseLens(std::span<const FitView> views, hal::FrameSize size);
 
 }  // namespace pleinair::calibration

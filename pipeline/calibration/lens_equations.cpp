@@ -80,7 +80,7 @@ ViewEquations viewEquations(const tracking::CameraModel& camera, LensModel model
     const double weight = distance > huberPx ? huberPx / distance : 1.0;
     const auto byLens = lensJacobian(lens, glm::dvec2(seen) / seen.z, model);
     const glm::dmat3x2& byPoint = projection.pxByCameraPoint;
-    cv::Matx<double, 2, 6> byPose;  // a turn about the board's origin, then a shift
+    cv::Matx<double, 2, 6> byPose;  // rotation about the board's origin, then translation
     for (int axis = 0; axis < 3; ++axis) {
       glm::dvec3 unit(0.0);
       unit[axis] = 1.0;

@@ -16,7 +16,7 @@ using LensMatx = cv::Matx<double, kLensParameters, kLensParameters>;
 using LensVec = cv::Vec<double, kLensParameters>;
 using LensPoseMatx = cv::Matx<double, kLensParameters, 6>;
 
-/// A lens and a board's pose in each view: what is fitted.
+/// The fitted parameters: a lens, and a pose of the board per view.
 struct LensState {
   LensVec lens;
   std::vector<glm::dmat4> cameraFromBoard;
@@ -24,12 +24,13 @@ struct LensState {
 
 tracking::CameraModel cameraOf(const LensVec& lens, hal::FrameSize size);
 
-/// How much the lens's parameters move a projection; those that the model has not, not at all.
-/// Pixels by unit of each parameter, rows u and v. `plane`: the ray's x/z and y/z.
+/// Derivative of a projection by the lens's parameters: pixels per unit of each parameter, rows u
+/// and v; zero for parameters that the model lacks. `plane`: the ray's x/z and y/z.
 cv::Matx<double, 2, kLensParameters> lensJacobian(const LensVec& lens, const glm::dvec2& plane,
                                                   LensModel model);
 
-/// One view's part of the normal equations; J of lens and pose, r the residuals, weights in.
+/// The part of one view in the normal equations; J by lens and pose, r the residuals, weights
+/// included.
 struct ViewEquations {
   LensMatx lens;        ///< JlᵀJl
   LensPoseMatx mixed;   ///< JlᵀJp
@@ -41,8 +42,7 @@ struct ViewEquations {
 ViewEquations viewEquations(const tracking::CameraModel& camera, LensModel model,
                             const FitView& view, const glm::dmat4& cameraFromBoard, double huberPx);
 
-/// Sum of squared distances (px²), Huber's beyond `huberPx`; infinite where the state makes no
-/// sense.
+/// Sum of squared distances (px²), Huber's beyond `huberPx`; infinite where the state is invalid.
 double lensCost(const LensState& state, std::span<const FitView> views, hal::FrameSize size,
                 double huberPx);
 

@@ -17,7 +17,7 @@ constexpr double kStill = 1e-9;  // of the cost, a step
 constexpr double kLeastNoisePx = 0.02;
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
-/// Focal lengths to begin with, in lengths of the picture's longer side: 90°, 64°, 45°, 28°, 14°.
+/// Initial focal lengths, relative to the image's longer side: 90°, 64°, 45°, 28°, 14°.
 constexpr std::array kStartFocals{0.5, 0.8, 1.2, 2.0, 4.0};
 
 bool isFree(std::size_t parameter, LensModel model) {
@@ -40,14 +40,14 @@ glm::dmat4 moved(const glm::dmat4& pose, const cv::Vec6d& by) {
   return result;
 }
 
-/// A copy whose diagonal is longer by a share (Marquardt).
+/// A copy whose diagonal is increased by a share (Marquardt).
 template <class Matrix>
 Matrix damped(Matrix matrix, double by) {
   for (int i = 0; i < Matrix::rows; ++i) matrix(i, i) *= 1.0 + by;
   return matrix;
 }
 
-/// What is left of the equations for the lens once each pose follows it.
+/// The equations of the lens after the poses were eliminated.
 struct ReducedEquations {
   LensMatx lens;
   LensVec score;
@@ -71,7 +71,8 @@ ReducedEquations reduced(const std::vector<ViewEquations>& views, LensModel mode
   return sum;
 }
 
-/// Of a positive definite matrix whose units differ by many powers of ten; zeros where it is none.
+/// Inverse of a positive definite matrix whose units differ by many powers of ten; zeros if the
+/// matrix is not positive definite.
 LensMatx inverseOf(const LensMatx& matrix) {
   LensMatx scaled;
   LensVec scale;
@@ -98,7 +99,7 @@ class Fitting {
           LensState start)
       : views_(views), size_(size), model_(model), huberPx_(huberPx), state_(std::move(start)) {}
 
-  /// False where the start is impossible.
+  /// Returns false where the start is invalid.
   bool run() {
     cost_ = lensCost(state_, views_, size_, huberPx_);
     if (!std::isfinite(cost_)) return false;
@@ -109,7 +110,7 @@ class Fitting {
       constexpr double kMostDamping = 1e8;
       while (!take(equations, damping)) {
         damping *= 10.0;
-        if (damping > kMostDamping) return true;  // nowhere is better
+        if (damping > kMostDamping) return true;  // no step lowers the cost
       }
       damping = std::max(damping / 10.0, 1e-12);
       if (before - cost_ <= kStill * before) return true;
@@ -141,7 +142,7 @@ class Fitting {
     return equations;
   }
 
-  /// A step, if it makes things better.
+  /// Takes a step if it lowers the cost.
   bool take(const std::vector<ViewEquations>& equations, double damping) {
     const ReducedEquations system = reduced(equations, model_, damping);
     const LensVec step = inverseOf(system.lens) * system.score;
@@ -166,7 +167,7 @@ class Fitting {
     const double spare = std::max(1.0, 2.0 * static_cast<double>(points) - unknowns);
     const LensMatx independent = inverse * std::max(squares / spare, kLeastNoisePx * kLeastNoisePx);
     LensMatrix result{};
-    if (inverse(0, 0) == 0.0) {  // the views leave something open
+    if (inverse(0, 0) == 0.0) {  // the views do not determine all parameters
       for (std::size_t i = 0; i < kLensParameters; ++i) {
         if (isFree(i, model_)) result[i * (kLensParameters + 1)] = kUnknown;
       }
@@ -213,7 +214,7 @@ std::optional<LensState> startWith(const LensVec& lens, std::span<const FitView>
   return state;
 }
 
-/// The best of several focal lengths, each fitted a little.
+/// The best of several focal lengths, each fitted for a few steps.
 std::optional<LensState> startState(std::span<const FitView> views, hal::FrameSize size,
                                     double huberPx) {
   std::optional<LensState> best;

@@ -47,7 +47,7 @@ void CalibrationSession::keep(std::uint64_t frame, const hal::PlaneView& luma) {
   });
 }
 
-/// The pictures 0, 1, 3, 7, 15 …: a few, from all of a recording.
+/// Keeps images 0, 1, 3, 7, 15 …: a few from the whole recording.
 void CalibrationSession::keepSample(std::uint64_t frame, const hal::PlaneView& luma) {
   const std::uint64_t next = frame + 1;
   constexpr std::size_t kMost = 6;

@@ -17,28 +17,28 @@ namespace pleinair::calibration {
 
 struct SessionOptions {
   ViewSelectionOptions selection;
-  bool keepsPictures = false;  ///< of the views that are taken
+  bool keepsPictures = false;  ///< of the taken views
 };
 
-/// One calibration: pictures in, a report out. One thread at a time.
+/// One calibration: takes images, gives a report. One thread at a time.
 class CalibrationSession {
  public:
-  /// Pictures are of `size`. Throws hal::Failure as tracking::TagDetector.
+  /// All images have `size`. Throws hal::Failure as tracking::TagDetector does.
   CalibrationSession(Board board, hal::FrameSize size, SessionOptions options = {});
   ~CalibrationSession();
   CalibrationSession(const CalibrationSession&) = delete;
   CalibrationSession& operator=(const CalibrationSession&) = delete;
 
-  /// Precondition: complete, and of the session's size.
+  /// Takes the next image. Precondition: it is complete and of the session's size.
   ViewOutcome offer(const hal::ImageView& picture, hal::TimePoint time);
 
   const Board& board() const { return board_; }
   const ViewSelector& selector() const { return selector_; }
   CalibrationReport solve() const { return solveCalibration(selector_, size_); }
-  /// The grey picture of a view of selector(), where pictures are kept.
+  /// The grey image of a view of selector(), if pictures are kept.
   const hal::Image& pictureOf(const SelectedView& view) const;
-  /// Where the board was in no picture, what was there instead: "a checkerboard of 8x5 inner
-  /// corners"; nothing where nothing was. Looks at a few pictures; takes seconds.
+  /// If no image showed the board: another board that was seen instead, such as "a checkerboard of
+  /// 8x5 inner corners"; nothing if there was none. Searches a few images, which takes seconds.
   std::optional<std::string> otherBoard() const;
 
  private:
@@ -57,7 +57,7 @@ class CalibrationSession {
   tracking::LumaConverter luma_;
   std::uint64_t frames_ = 0;
   std::vector<Picture> pictures_;
-  std::vector<hal::Image> samples_;  ///< in which no board was found
+  std::vector<hal::Image> samples_;  ///< images without the board
 };
 
 }  // namespace pleinair::calibration

@@ -14,15 +14,15 @@ namespace {
 
 constexpr std::size_t kFewestViews = 8;
 constexpr double kMostRejectedViews = 1.0 / 3.0;
-constexpr double kLargestRmsPx = 0.5;    // at 640×480, and more in larger pictures
-constexpr double kLargestSigmaPx = 1.0;  // as well
+constexpr double kLargestRmsPx = 0.5;    // at 640×480; larger in larger images
+constexpr double kLargestSigmaPx = 1.0;  // at 640×480; larger in larger images
 constexpr double kLargestFocalSigma = 0.01;
 constexpr double kHeldOutShare = 1.5;
 constexpr double kHeldOutPx = 0.1;
-constexpr double kOffCentre = 0.15;      // of the side
-constexpr double kMostAnamorphic = 1.2;  // fx to fy, or the reverse
-constexpr double kShortestFocal = 0.2;   // of the longer side: 136°
-constexpr double kLongestFocal = 30.0;   // 2°
+constexpr double kOffCentre = 0.15;      // part of the side
+constexpr double kMostAnamorphic = 1.2;  // ratio of fx and fy
+constexpr double kShortestFocal = 0.2;   // relative to the longer side; 136°
+constexpr double kLongestFocal = 30.0;   // relative to the longer side; 2°
 
 double pictureScale(hal::FrameSize size) {
   return std::max(1.0, std::hypot(size.width, size.height) / 800.0);
@@ -38,7 +38,7 @@ std::string placeName(const glm::dvec2& px, hal::FrameSize size) {
   return fmt::format("the {} side", *across != 0 ? across : down);
 }
 
-/// What became of the pictures that are no views.
+/// The reasons why images did not become views.
 std::string countsText(const ViewCounts& counts) {
   std::vector<std::string> parts;
   const auto add = [&](std::uint64_t count, const char* what) {

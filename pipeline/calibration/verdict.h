@@ -9,41 +9,41 @@
 
 namespace pleinair::calibration {
 
-/// Why a calibration is not to be trusted.
+/// Reason why a calibration is refused.
 enum class RefusalReason {
-  kNoBoard,         ///< not in any picture
-  kBlurred,         ///< never sharp
-  kMoving,          ///< never still
-  kTooFewViews,     ///< that differ
-  kCoverage,        ///< part of the picture was never reached
+  kNoBoard,         ///< no image shows the board
+  kBlurred,         ///< the board was never sharp
+  kMoving,          ///< the board was never at rest
+  kTooFewViews,     ///< too few distinct views
+  kCoverage,        ///< part of the image was never covered
   kSameAngle,       ///< the focal length is not determined
   kDisagreement,    ///< many views contradict the others
-  kLargeError,      ///< of the fit
-  kHeldOutError,    ///< of views that had no part in the fit
-  kImplausible,     ///< principal point, focal lengths
-  kFoldedLens,      ///< the distortion has no inverse in the picture
-  kUncertainPlaces  ///< the lens is not determined somewhere in the picture
+  kLargeError,      ///< error of the fit
+  kHeldOutError,    ///< error of views that were not fitted
+  kImplausible,     ///< principal point or focal lengths
+  kFoldedLens,      ///< the distortion has no inverse in the image
+  kUncertainPlaces  ///< the lens is not determined somewhere in the image
 };
 
 struct Refusal {
   RefusalReason reason = RefusalReason::kNoBoard;
-  std::string text;    ///< what, with numbers
-  std::string remedy;  ///< what to do
+  std::string text;    ///< the problem, with numbers
+  std::string remedy;  ///< the remedy
 };
 
-/// What came out of the views.
+/// The result of a calibration.
 struct CalibrationReport {
-  std::optional<LensChoice> choice;  ///< what was fitted, if anything could be
-  Coverage coverage;                 ///< of the views that were used
-  double typicalSigmaPx = 0.0;       ///< over the places of the picture, their median
+  std::optional<LensChoice> choice;  ///< the fit, if one was possible
+  Coverage coverage;                 ///< of the used views
+  double typicalSigmaPx = 0.0;       ///< median over the places of the image
   double worstSigmaPx = 0.0;
   std::string worstPlace;         ///< "the lower left corner"
-  std::vector<Refusal> refusals;  ///< none: it is good
+  std::vector<Refusal> refusals;  ///< none: the calibration is good
 
   bool isGood() const { return choice && refusals.empty(); }
 };
 
-/// Fits a lens to the views and judges what comes out.
+/// Fits a lens to the views and judges the result.
 CalibrationReport solveCalibration(const ViewSelector& selector, hal::FrameSize size);
 
 }  // namespace pleinair::calibration

@@ -17,7 +17,7 @@ const cv::Scalar kBad(255, 60, 60);
 const cv::Scalar kResidual(255, 190, 0);
 const cv::Scalar kGrid(70, 110, 160);
 
-/// Sub-pixel drawing: OpenCV's fixed-point coordinates, which count pixel centres from 0.
+/// OpenCV's fixed-point coordinates for sub-pixel drawing; they count pixel centres from 0.
 constexpr int kShift = 4;
 cv::Point fixedPoint(const glm::dvec2& px) {
   constexpr double kOne = 1 << kShift;
@@ -53,7 +53,7 @@ void drawGrid(cv::Mat& picture) {
   }
 }
 
-/// Which of the used views it is.
+/// Index of the view among the used ones.
 std::optional<std::size_t> usedIndex(const CalibrationReport& report, std::size_t index) {
   if (!report.choice) return std::nullopt;
   const std::vector<std::size_t>& used = report.choice->usedViews;

@@ -11,14 +11,17 @@
 namespace pleinair::calibration {
 namespace {
 
-constexpr double kBlurShare = 1.5;     // of the sharpest board's edge width
-constexpr double kWidestEdgePx = 6.0;  // wider ones are not refined to a fraction of a pixel
-/// A rolling shutter skews a moving board by its speed times the read-out, some 20 ms.
-constexpr double kFastest = 0.05;       // diagonals a second: 40 px at 640×480, a skew of 0.8 px
-constexpr double kLeastGain = 4.0;      // cells' worth
-constexpr double kSameView = 0.025;     // of the diagonal, the corners' mean distance
-constexpr double kDistinctView = 0.08;  // taken although it fills nothing that is wanted
-constexpr double kSlopeWorth = 0.25;    // diagonals: a turn by 18° is as good as another place
+constexpr double kBlurShare = 1.5;  // relative to the sharpest board's edge width
+// Corners of wider edges cannot be refined to a fraction of a pixel.
+constexpr double kWidestEdgePx = 6.0;
+/// A rolling shutter skews a moving board by its speed times the read-out time of about 20 ms.
+constexpr double kFastest = 0.05;    // diagonals per second: 40 px at 640×480, a skew of 0.8 px
+constexpr double kLeastGain = 4.0;   // cells
+constexpr double kSameView = 0.025;  // mean distance of the corners, in diagonals
+// Views this different are taken even if they add no coverage.
+constexpr double kDistinctView = 0.08;
+// Diagonals: a rotation by 18° counts as much as another place.
+constexpr double kSlopeWorth = 0.25;
 constexpr double kSharperShare = 0.85;
 constexpr std::size_t kEnoughViews = 15;
 constexpr std::size_t kSharpestCount = 5;

@@ -11,21 +11,21 @@
 namespace pleinair::calibration {
 
 struct ViewSelectionOptions {
-  /// Whether pictures follow each other in time, so that the board's speed can be told: a movie or
-  /// a camera; not photographs.
+  /// Whether images follow each other in time, as in a movie or from a camera but not in
+  /// photographs. If so, the board's speed is measured.
   bool isMovement = true;
   std::size_t mostViews = 40;
 };
 
-/// A view that was taken.
+/// A taken view.
 struct SelectedView {
   std::uint64_t frame = 0;  ///< number in the recording
   BoardSighting sighting;
   ViewTraits traits;
-  double speed = 0.0;  ///< of the board, px a second; 0 where it cannot be told
+  double speed = 0.0;  ///< of the board, px per second; 0 where it is unknown
 };
 
-/// What became of a picture.
+/// Outcome of an image.
 enum class ViewOutcome { kTaken, kNoBoard, kBlurred, kMoving, kNothingNew };
 
 struct ViewCounts {
@@ -36,41 +36,41 @@ struct ViewCounts {
   std::uint64_t nothingNew = 0;
 };
 
-/// Picks views out of what a camera sees, as they come: sharp, still, and such as add something. A
-/// sharper one takes the place of one that shows the same.
+/// Selects views from a stream of images: sharp, at rest, and adding coverage. A sharper view
+/// replaces one that shows the same.
 class ViewSelector {
  public:
   ViewSelector(const Board& board, hal::FrameSize size, ViewSelectionOptions options = {});
 
-  /// The next picture's sighting. Where it is taken, views() has it.
+  /// Takes the next image's sighting. If the outcome is kTaken, views() contains it.
   ViewOutcome offer(std::uint64_t frame, hal::TimePoint time,
                     std::optional<BoardSighting> sighting);
 
   const std::vector<SelectedView>& views() const { return views_; }
   const Coverage& coverage() const { return coverage_; }
   const ViewCounts& counts() const { return counts_; }
-  /// How sharp the board has been seen; 0 before. Of the fifth sharpest picture, once there are
-  /// five: a single one may be a mistake.
+  /// Edge width of the sharpest board seen; 0 before the first. From five images on it is the fifth
+  /// smallest width, since a single one may be an error.
   double sharpestEdgePx() const;
-  /// Boards whose edges are wider than this are not taken.
+  /// Boards with wider edges are not taken.
   double widestEdgePx() const;
-  /// Whether all that is wanted is there, and enough views.
+  /// Whether the coverage is complete and there are enough views.
   bool isComplete() const;
 
-  /// For fitLens().
+  /// The views as fitLens() takes them.
   std::vector<FitView> fitViews() const;
 
  private:
   ViewOutcome judge(std::uint64_t frame, const BoardSighting& sighting,
                     std::optional<double> speed);
-  /// px a second against the last picture; nothing where that cannot be told.
+  /// Speed since the last image, px per second; nothing where it is unknown.
   std::optional<double> speedOf(hal::TimePoint time, const BoardSighting& sighting) const;
-  /// In diagonals of the picture; a board that is turned otherwise counts as one elsewhere.
+  /// In diagonals of the image; a rotation of the board counts like a distance.
   double differenceOf(const SelectedView& a, const SelectedView& b) const;
   void noteSharpness(double edgeWidthPx);
   void take(SelectedView view);
   void drop(std::size_t index);
-  /// A view that the others make superfluous.
+  /// A view that the others make redundant.
   std::optional<std::size_t> spareView() const;
 
   const Board& board_;
@@ -80,12 +80,12 @@ class ViewSelector {
   std::vector<SelectedView> views_;
   Coverage coverage_;
   ViewCounts counts_;
-  std::vector<double> sharpest_;  ///< edge widths, rising; the first few
+  std::vector<double> sharpest_;  ///< the smallest edge widths, rising
   std::optional<BoardSighting> last_;
   hal::TimePoint lastTime_;
 };
 
-/// Mean distance (px) of the corners that both show; nothing where those are fewer than four.
+/// Mean distance (px) of the corners that both show; nothing if they share fewer than four.
 std::optional<double> cornerDistancePx(const BoardSighting& a, const BoardSighting& b);
 
 }  // namespace pleinair::calibration

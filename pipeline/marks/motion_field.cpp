@@ -39,7 +39,7 @@ struct GpuFeature {
   glm::vec4 about{0.0F};
 };
 struct GpuMotion {
-  glm::mat4 nowFromThen{1.0F};
+  glm::mat4 currentFromPrevious{1.0F};
   glm::mat4 previousFromCurrent{1.0F};
   glm::vec4 flowGrid{0.0F};
   glm::vec4 stillGrid{0.0F};
@@ -71,18 +71,18 @@ glm::dmat3 ofFull(const glm::dmat3& ofFrame, const scene::MeasuredMotion& moveme
 /// variance over both axes, px² of the frame, of the half of them that fits better.
 float parallaxVariance(const ImageMotion& motion) {
   constexpr std::size_t kLeastFeatures = 16;
-  const std::size_t count = std::min(motion.features.size(), tracking::kMostMovedFeatures);
+  const std::size_t count = std::min(motion.features.size(), tracking::kMaxMovedFeatures);
   if (!motion.picture || count < kLeastFeatures) return 0.0F;
-  std::array<float, tracking::kMostMovedFeatures> apart{};
-  std::array<float, tracking::kMostMovedFeatures> expected{};
+  std::array<float, tracking::kMaxMovedFeatures> apart{};
+  std::array<float, tracking::kMaxMovedFeatures> expected{};
   for (std::size_t i = 0; i < count; ++i) {
     const FeatureMotion& each = motion.features[i];
-    const glm::dvec3 there = motion.picture->nowFromThen * glm::dvec3(each.then, 1.0);
-    const glm::vec2 off(glm::dvec2(each.now) - glm::dvec2(there) / there.z);
+    const glm::dvec3 there = motion.picture->currentFromPrevious * glm::dvec3(each.previous, 1.0);
+    const glm::vec2 off(glm::dvec2(each.current) - glm::dvec2(there) / there.z);
     apart.at(i) = glm::dot(off, off);
     expected.at(i) = each.errorPx * each.errorPx;
   }
-  const auto medianOf = [count](std::array<float, tracking::kMostMovedFeatures>& values) {
+  const auto medianOf = [count](std::array<float, tracking::kMaxMovedFeatures>& values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(count / 2);
     std::nth_element(values.begin(), middle, values.begin() + static_cast<std::ptrdiff_t>(count));
     return *middle;
@@ -103,7 +103,7 @@ struct MotionField::State {
                (full.height + kFieldPixels - 1) / kFieldPixels},
               gpu::TextureFilter::kLinear),
         motion(sizeof(GpuMotion), gpu::BufferUsage::kDynamic),
-        features(tracking::kMostMovedFeatures * sizeof(GpuFeature), gpu::BufferUsage::kDynamic),
+        features(tracking::kMaxMovedFeatures * sizeof(GpuFeature), gpu::BufferUsage::kDynamic),
         noPlanes(scene::kMaxPlanes * scene::SurfaceAccess::kBodyBytes, gpu::BufferUsage::kStatic),
         camera(scene::assumedCamera(full)) {
     const std::vector<std::byte> zeros(noPlanes.sizeBytes());
@@ -123,7 +123,7 @@ struct MotionField::State {
   const gpu::Buffer* planes = nullptr;
   tracking::CameraModel camera;  // of the picture's size that was updated last
   glm::vec2 pixelsOfFull{1.0F};
-  std::array<GpuFeature, tracking::kMostMovedFeatures> staged{};
+  std::array<GpuFeature, tracking::kMaxMovedFeatures> staged{};
   std::optional<std::uint64_t> last;  // the frame that was updated
   bool isCut = true;
   bool follows = true;
@@ -151,9 +151,12 @@ void upload(gpu::Texture& texture, gpu::TextureFormat format, hal::FrameSize siz
 
 void MotionField::State::takePicture(const scene::MeasuredMotion& movement, GpuMotion& made) {
   if (!movement.motion->picture) return;
-  const glm::dmat3 nowFromThen = ofFull(movement.motion->picture->nowFromThen, movement);
-  const glm::dmat3 back = nowFromThen == glm::dmat3(1.0) ? nowFromThen : glm::inverse(nowFromThen);
-  made.nowFromThen = glm::mat4(glm::mat3(nowFromThen / nowFromThen[2][2]));
+  const glm::dmat3 currentFromPrevious =
+      ofFull(movement.motion->picture->currentFromPrevious, movement);
+  const glm::dmat3 back = currentFromPrevious == glm::dmat3(1.0)
+                              ? currentFromPrevious
+                              : glm::inverse(currentFromPrevious);
+  made.currentFromPrevious = glm::mat4(glm::mat3(currentFromPrevious / currentFromPrevious[2][2]));
   made.previousFromCurrent = glm::mat4(glm::mat3(back / back[2][2]));
   made.known.z = 1.0F;
   made.known.w = static_cast<float>(movement.motion->picture->errorPx / movement.frameScale.x);
@@ -165,8 +168,8 @@ void MotionField::State::takeFeatures(const scene::MeasuredMotion& movement, Gpu
   const glm::vec2 scale(1.0 / movement.frameScale);
   const glm::vec2 origin(movement.frameOrigin);
   for (std::size_t i = 0; i < count; ++i) {
-    staged[i] = {.then = (moved[i].then - origin) * scale,
-                 .now = (moved[i].now - origin) * scale,
+    staged[i] = {.then = (moved[i].previous - origin) * scale,
+                 .now = (moved[i].current - origin) * scale,
                  .about = glm::vec4(moved[i].errorPx * scale.x, 0.0F, 0.0F, 0.0F)};
   }
   made.known.y = static_cast<float>(count);
@@ -242,7 +245,7 @@ void MotionField::update(const scene::ArFrame& frame, gpu::PassTimer& timer,
   GpuMotion made;
   s.takeScene(frame, made);
   static constexpr ImageMotion kNothing;
-  static constexpr ImageMotion kRest{.picture = tracking::PictureHomography{}};
+  static constexpr ImageMotion kRest{.picture = tracking::ImageHomography{}};
   scene::MeasuredMotion movement = frame.measuredMotion.value_or(scene::MeasuredMotion{});
   const bool follows = s.last && (!movement.motion || movement.motion->sinceSequence == *s.last);
   s.isCut = !follows || (movement.motion != nullptr && movement.motion->isCut);

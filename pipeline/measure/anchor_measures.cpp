@@ -18,7 +18,7 @@ bool isSame(const Anchor& then, const Anchor& now) {
   return then.isAlive() && now.isAlive() && then.seed == now.seed && !now.isBorn();
 }
 
-/// Anchors count pixel centres at + 0.5, pictures here at whole numbers.
+/// Anchors have pixel centres at +0.5; images here have them at whole numbers.
 cv::Point2f onPicture(const Anchor& anchor) {
   return {anchor.px.x - 0.5F, anchor.px.y - 0.5F};
 }
@@ -37,7 +37,7 @@ std::optional<Drift> driftOf(std::vector<float> distances) {
                .rms = std::sqrt(squares / static_cast<double>(distances.size()))};
 }
 
-/// The mean of drifts over frames.
+/// Mean drift over frames.
 class MeanDrift {
  public:
   void add(const std::optional<Drift>& drift) {

@@ -14,34 +14,35 @@
 
 namespace pleinair::measure {
 
-/// How far anchors are from where the true motion has taken what they were on, px.
+/// Distances (px) of anchors from where the true motion moved the points that they were on.
 struct Drift {
   double median = 0;
-  double most = 0;  ///< of 95 % of them
+  double most = 0;  ///< 95th percentile
   double rms = 0;
 };
 
-/// What the engine knows of itself: its anchors in one frame, against the one before.
+/// Internal state of the engine: its anchors in one frame, compared with the previous one.
 struct AnchorFrame {
   std::size_t alive = 0, births = 0, deaths = 0;
   std::size_t inner = 0, innerBirths = 0, innerDeaths = 0;  ///< away from the border
   std::size_t moved = 0;                                    ///< by any amount
-  std::optional<Drift> drift;                               ///< since the frame before
-  std::optional<Drift> longDrift;                           ///< since ten frames before
+  std::optional<Drift> drift;                               ///< since the previous frame
+  std::optional<Drift> longDrift;                           ///< over ten frames
 };
 
-/// The same over a sequence: means a frame.
+/// The same over a sequence: means per frame.
 struct AnchorSummary {
   std::size_t frames = 0;
   double alive = 0, births = 0, deaths = 0;
   double innerBirths = 0, innerDeaths = 0;
-  double innerTurnoverPercent = 0;  ///< births and deaths away from the border, of the marks there
+  /// Births and deaths away from the border, relative to the marks there.
+  double innerTurnoverPercent = 0;
   double moved = 0;
-  /// Of marks away from the border, from the share that dies a frame. Nothing where it would be
-  /// longer than the frames that were seen: half of the marks outlive those.
+  /// Half-life of marks away from the border, from the share that dies per frame. Nothing if it is
+  /// longer than the measured sequence.
   std::optional<double> halfLifeFrames;
   std::optional<Drift> drift, longDrift;
-  double perCell = 0, spreadPerCell = 0, emptyCellsPercent = 0;  ///< of the grid of 8×8 px
+  double perCell = 0, spreadPerCell = 0, emptyCellsPercent = 0;  ///< on the grid of 8×8 px
 };
 
 /// Follows the anchors of a style, slot by slot.
@@ -49,14 +50,14 @@ class AnchorMeasures {
  public:
   explicit AnchorMeasures(cv::Size frame) : frame_(frame) {}
 
-  /// The anchors after the next frame, free slots too; how the picture moved to it from the frame
-  /// before, and from ten before, where that is known.
+  /// Takes the anchors after the next frame, free slots included, and the motion to this frame from
+  /// the previous one and from ten frames before, where it is known.
   void add(std::span<const marks::Anchor> anchors, const MotionMap* sinceLast,
            const MotionMap* sinceLong);
 
-  /// All but the first, which has none to be compared with.
+  /// All frames but the first, which has no previous one.
   const std::vector<AnchorFrame>& frames() const { return frames_; }
-  /// Of the frames from `first` of frames() on. Nothing where no anchors were seen.
+  /// Summary of frames() from index `first` on; nothing if there were no anchors.
   std::optional<AnchorSummary> total(std::size_t first = 0) const;
 
  private:

@@ -7,7 +7,7 @@
 namespace pleinair::measure {
 namespace {
 
-/// Calls visit(difference) at each pixel that says something.
+/// Calls visit(difference) for each valid pixel.
 template <class Visit>
 void forEachDifference(const cv::Mat3f& earlier, const Carried<cv::Mat3f>& later, Visit visit) {
   assert(earlier.size() == later.picture.size());
@@ -33,7 +33,7 @@ Mean carriedError(const cv::Mat3f& earlier, const Carried<cv::Mat3f>& later) {
 }
 
 Mean poppedShare(const cv::Mat3f& earlier, const Carried<cv::Mat3f>& later) {
-  // A little more, so that rounding does not decide about a difference of 24 whole levels.
+  // Slightly more, so that rounding does not decide about a difference of 24 whole levels.
   constexpr float kPop = 24.001F / 255.0F;
   Mean mean;
   forEachDifference(earlier, later, [&mean](int, int, const cv::Vec3f& difference) {

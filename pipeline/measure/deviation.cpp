@@ -9,7 +9,7 @@
 namespace pleinair::measure {
 namespace {
 
-/// Of one channel: all that a straight line through (I, O) follows from.
+/// Moments of one channel for fitting a straight line through (I, O).
 struct Moments {
   double count = 0, i = 0, o = 0, ii = 0, io = 0, oo = 0;
 
@@ -21,7 +21,7 @@ struct Moments {
     io += input * output;
     oo += output * output;
   }
-  /// The sum of squares that the best line leaves.
+  /// Sum of squared residuals of the best line.
   double residual() const {
     const double varianceI = ii - i * i / count;
     const double varianceO = oo - o * o / count;

@@ -6,16 +6,16 @@
 
 namespace pleinair::measure {
 
-/// The mean square of O − J within the border, with J the best gain and offset of each channel of
-/// I (least squares): how far a painting is from the photograph, a tone curve not counted. DEP is
-/// its root, times 255.
+/// Mean square of O − J within the border, where J is I with the best gain and offset per channel
+/// (least squares): the distance of a painting from the photograph, apart from a tone curve. DEP is
+/// 255 times its root.
 Mean deviation(const cv::Mat3f& output, const cv::Mat3f& input);
 
-/// The mean square within the border: of a high pass, the detail there is.
+/// Mean square within the border; of a high pass it is the amount of detail.
 Mean meanSquare(const cv::Mat3f& picture);
 
-/// The sum of absolute differences of two frames within the border, over all channels: flicker,
-/// where nothing moves.
+/// Sum of absolute differences of two frames within the border, over all channels: flicker if
+/// nothing moves.
 Mean absoluteDifference(const cv::Mat3f& a, const cv::Mat3f& b);
 
 }  // namespace pleinair::measure

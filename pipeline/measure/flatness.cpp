@@ -10,7 +10,7 @@
 namespace pleinair::measure {
 namespace {
 
-/// Frames at either end over which textures are averaged.
+/// Frames at each end over which textures are averaged.
 constexpr std::size_t kEnds = 5;
 constexpr std::size_t kSpectrumSteps = 64;
 
@@ -48,7 +48,7 @@ Cooccurrence cooccurrenceOf(const cv::Mat1i& levels, int distance) {
   return pairs > 0 ? counts * (1.0 / pairs) : counts;
 }
 
-/// Of what is as fine as marks: what is coarser is the picture's own.
+/// Spectrum at the scale of marks; coarser structure belongs to the image.
 std::vector<double> spectrumOf(const cv::Mat1f& whole) {
   constexpr double kSigmaPixels = 6.0;
   cv::Mat1f grey;
@@ -83,7 +83,7 @@ std::vector<double> spectrumOf(const cv::Mat1f& whole) {
   return power;
 }
 
-/// The centroid of a spectrum, in its steps.
+/// The centroid of a spectrum, in its bins.
 double meanFrequency(const std::vector<double>& spectrum) {
   double sum = 0;
   double weight = 0;
@@ -95,7 +95,7 @@ double meanFrequency(const std::vector<double>& spectrum) {
   return weight > 0 ? sum / weight : 0;
 }
 
-/// The sum over one member of all.
+/// Sum over one member of all pairs.
 template <class Range, class Member>
 TextureStatistics sumOf(const Range& pairs, Member member) {
   TextureStatistics sum;
@@ -103,7 +103,7 @@ TextureStatistics sumOf(const Range& pairs, Member member) {
   return sum;
 }
 
-/// By how much areas grow at a pixel, as a length.
+/// Logarithm of the local scale of the motion at a pixel, as a length.
 std::optional<double> logScaleAt(const MotionMap& motion, int x, int y) {
   constexpr int kSpan = 4;
   const auto at = [&motion](int column, int row) {

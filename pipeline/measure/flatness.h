@@ -11,15 +11,15 @@
 
 namespace pleinair::measure {
 
-/// The texture of a grey picture within the border, whatever it shows.
+/// Texture of a grey image within the border, independent of its subject.
 struct TextureStatistics {
   static constexpr int kLevels = 16;
   static constexpr std::array kDistances{1, 2, 4, 8};
-  /// For each distance: how often two levels lie so far from each other, over the directions 0°,
-  /// 45°, 90° and 135°, either way round; sums to 1 (Haralick, 1973).
+  /// Per distance: frequencies of pairs of levels at that distance, over the directions 0°, 45°,
+  /// 90° and 135°, symmetric; sums to 1 (Haralick, 1973).
   std::array<cv::Matx<double, kLevels, kLevels>, kDistances.size()> cooccurrences;
-  /// Power of the high pass by frequency, of equal steps up to half a cycle a px; sums to 1. Of the
-  /// largest square in the middle, under a Hann window.
+  /// Power of the high pass by frequency, in equal bins up to half a cycle per px; sums to 1. Over
+  /// the largest centred square, with a Hann window.
   std::vector<double> spectrum;
 
   TextureStatistics& operator+=(const TextureStatistics& other);
@@ -27,33 +27,33 @@ struct TextureStatistics {
 
 TextureStatistics textureOf(const cv::Mat1f& grey);
 
-/// How two textures differ.
+/// Difference of two textures.
 struct TextureDifference {
-  /// The average co-occurrence error (Copeland et al., 2001): the share of pairs that would have to
-  /// change their levels, mean over the distances; in [0, 1].
+  /// Average co-occurrence error (Copeland et al., 2001): the share of pairs that would have to
+  /// change their levels, averaged over the distances; in [0, 1].
   double cooccurrenceError = 0;
-  /// Of the mean frequency of the second by the first: 1 where marks keep their size, 1/scale where
-  /// they grow with the picture.
+  /// Mean frequency of the second over that of the first: 1 where marks keep their size, 1/scale
+  /// where they scale with the image.
   double frequencyRatio = 1;
-  double spectrumError = 0;  ///< the share of power at another frequency
+  double spectrumError = 0;  ///< share of power at another frequency
 };
 
 TextureDifference differenceOf(const TextureStatistics& a, const TextureStatistics& b);
 
-/// Whether marks keep their size on the screen while the camera moves in or out: the first frames
-/// of a sequence against its last.
+/// Whether marks keep their size on the screen while the camera moves in or out: compares the first
+/// frames of a sequence with its last.
 struct Flatness {
-  double scale = 1;  ///< how much larger the picture is at the end
+  double scale = 1;  ///< scale of the image at the end, relative to the start
   TextureDifference painting, input;
 };
 
-/// Gathers what flatness needs, while the frames go by.
+/// Collects the statistics for Flatness frame by frame.
 class FlatnessMeasures {
  public:
   void add(const cv::Mat3f& input, const cv::Mat3f& output);
-  /// By how much the picture grows along a motion; called for motions that follow one another.
+  /// Accumulates the scale of a motion; call it for consecutive motions.
   void follow(const MotionMap& motion);
-  /// Nothing where the scale changes too little to tell, or there were too few frames.
+  /// Nothing where the scale changes too little or there were too few frames.
   std::optional<Flatness> total() const;
   double scale() const;
 

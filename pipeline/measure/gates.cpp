@@ -9,19 +9,19 @@
 namespace pleinair::measure {
 namespace {
 
-/// On which motions a gate is shut.
+/// Motions for which a gate is evaluated.
 enum class On {
   kAny,
-  kPan,         ///< one vector, which may be zero; not measured where no motion is known
-  kOtherKnown,  ///< motion that one global translation would not pass
+  kPan,         ///< one vector, which may be zero; not measured where the motion is unknown
+  kOtherKnown,  ///< motion other than one global translation
   kMoving,      ///< known or not
 };
 
 struct Gate {
   std::string_view style;
   std::optional<double> Measures::*measure;
-  bool isMost;   ///< else the least
-  double limit;  ///< or the factor of it that follows
+  bool isMost;   ///< true: upper limit; false: lower limit
+  double limit;  ///< or the factor of the reference that follows
   std::optional<double> Measures::*ofTiling = nullptr;
   On on = On::kAny;
 };
@@ -46,7 +46,7 @@ bool isShutOn(const Gate& gate, MotionKind motion) {
   switch (gate.on) {
     case On::kAny:
       return true;
-    case On::kPan:  // where none is known, it is not measured, and not passed
+    case On::kPan:  // if the motion is unknown, the gate counts as not measured and not passed
       return motion != MotionKind::kOther;
     case On::kOtherKnown:
       return motion == MotionKind::kOther;

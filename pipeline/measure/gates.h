@@ -12,37 +12,37 @@
 
 namespace pleinair::measure {
 
-/// How something that must read in a certain way does read.
+/// The result of comparing a measure with its limit.
 struct Verdict {
   enum class State { kPassed, kFailed, kNotMeasured };
 
   std::string what;  ///< "nHW2 ≤ 0.3"
   State state = State::kNotMeasured;
-  std::string found;  ///< "0.212", or why it was not measured
+  std::string found;  ///< "0.212", or the reason why it was not measured
 
-  /// What was compared, where that is one number with one limit.
+  /// The numbers that were compared, if it is one number with one limit.
   struct Comparison {
-    std::optional<double> value;  ///< nothing where it was not measured
-    std::optional<double> limit;  ///< nothing where what it hangs on was not measured
-    bool isMost = true;           ///< the limit: else it is the least
+    std::optional<double> value;  ///< nothing if it was not measured
+    std::optional<double> limit;  ///< nothing if the limit's reference was not measured
+    bool isMost = true;           ///< true: `limit` is an upper limit; false: a lower one
   };
   std::optional<Comparison> comparison = {};
 };
 
-/// Whether a style has gates of its own.
+/// Whether a style has its own gates.
 bool hasGates(std::string_view style);
 
-/// Those that have.
+/// Names of the styles that have gates.
 std::vector<std::string> gatedStyles();
 
-/// What the gates of `style` say to an output's measures under these runConditions, whose motion
-/// decides which of them are shut; `tiling` is what tiles fixed to the screen read on the same
-/// frames. Precondition: hasGates(style).
+/// Evaluates the gates of `style` for an output's measures under these conditions, whose motion
+/// decides which gates apply. `tiling`: measures of tiles fixed to the screen on the same frames.
+/// Precondition: hasGates(style).
 std::vector<Verdict> gateVerdicts(std::string_view style, const RunConditions& runConditions,
                                   const Measures& measures, const Measures& tiling);
 
-/// What they say to the style's anchors: under a pan, once two seconds are over, and on a still
-/// scene. Empty for styles whose anchors have no gates.
+/// Evaluates the gates on the style's anchors: under a pan, after the first two seconds, and on a
+/// still scene. Empty for styles without such gates.
 std::vector<Verdict> anchorVerdicts(std::string_view style, MotionKind motion,
                                     const std::optional<AnchorSummary>& settled,
                                     const std::optional<AnchorSummary>& still);

@@ -30,7 +30,7 @@ bool isFoundAgain(const cv::Mat1f& earlier, const cv::Mat1f& later, cv::Point at
 }  // namespace
 
 Mean lastingMarks(const cv::Mat1f& earlier, const Carried<cv::Mat1f>& later) {
-  cv::Mat1b whole;  // the whole patch with its search says something
+  cv::Mat1b whole;  // where the whole patch and its search area are valid
   cv::erode(
       later.mask, whole,
       cv::getStructuringElement(cv::MORPH_RECT, {2 * kSearchRadius + 1, 2 * kSearchRadius + 1}),

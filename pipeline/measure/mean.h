@@ -4,7 +4,7 @@
 
 namespace pleinair::measure {
 
-/// A mean that goes on: over pixels, marks or frames.
+/// A running mean over pixels, marks or frames.
 struct Mean {
   double sum = 0;
   double weight = 0;
@@ -14,13 +14,13 @@ struct Mean {
     weight += other.weight;
     return *this;
   }
-  /// Nothing where nothing was counted.
+  /// Nothing if nothing was counted.
   std::optional<double> value() const {
     return weight > 0 ? std::optional(sum / weight) : std::nullopt;
   }
 };
 
-/// a / b; nothing where one is not known, or b is zero.
+/// a / b; nothing if one is unknown or b is zero.
 std::optional<double> ratio(std::optional<double> a, std::optional<double> b);
 
 }  // namespace pleinair::measure

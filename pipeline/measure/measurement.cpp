@@ -43,7 +43,7 @@ class Measurement {
   }
 
  private:
-  /// False where it was broken off.
+  /// Returns false if it was aborted.
   hal::Result<bool> measureSequence() {
     for (std::uint64_t index = 0;; ++index) {
       if (options_.frames && index == options_.settle + *options_.frames) break;
@@ -105,7 +105,7 @@ class Measurement {
     return values;
   }
 
-  /// As measureSequence().
+  /// Returns false if it was aborted.
   hal::Result<bool> measureStill() {
     if (options_.stillFrames == 0) return true;
     painter_.reset();
@@ -169,7 +169,7 @@ class Measurement {
             .stillNoiseLevels = report_.stillNoise};
   }
 
-  /// Of the frames from two seconds after the first on.
+  /// Summary of the frames from two seconds after the first on.
   std::optional<AnchorSummary> settledAnchors() const {
     constexpr std::uint64_t kTwoSeconds = 60;
     const std::uint64_t firstCompared = options_.settle + 1;

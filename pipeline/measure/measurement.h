@@ -15,14 +15,14 @@
 
 namespace pleinair::measure {
 
-/// A frame as it was painted, and what was painted from, both RGB8 of the same size.
+/// A painted frame and its source, both RGB8 of one size.
 struct PaintedFrame {
   hal::Image input;
   hal::Image output;
-  std::vector<marks::Anchor> anchors;  ///< of its marks; empty where there are none
+  std::vector<marks::Anchor> anchors;  ///< anchors of its marks; empty if there are none
 };
 
-/// What is measured: the engine with a style, or a filter that it is compared with. One thread.
+/// The subject of a measurement: the engine with a style, or a filter to compare with. One thread.
 class MeasuredPainter {
  public:
   virtual ~MeasuredPainter() = default;
@@ -30,31 +30,32 @@ class MeasuredPainter {
   MeasuredPainter(const MeasuredPainter&) = delete;
   MeasuredPainter& operator=(const MeasuredPainter&) = delete;
 
-  /// The next frame. Errors: why it was not painted, with which the measurement ends.
+  /// Paints the next frame. An error ends the measurement.
   virtual hal::Result<PaintedFrame> paint(const hal::CapturedFrame& frame) = 0;
-  /// Forgets the past, as after a cut.
+  /// Forgets all previous frames, as after a cut.
   virtual void reset() = 0;
 };
 
 struct MeasurementOptions {
   std::string style;
   std::string settings;
-  std::optional<std::uint64_t> frames;  ///< measured at the most; default: all that the input has
-  std::uint64_t settle = 0;             ///< painted before that
-  std::uint64_t stillFrames = 30;       ///< of the still scene; 0: leaves it out
-  std::uint64_t stillSettle = 30;       ///< painted before those
+  /// Largest number of measured frames; default: the whole input.
+  std::optional<std::uint64_t> frames;
+  std::uint64_t settle = 0;        ///< frames painted before measuring begins
+  std::uint64_t stillFrames = 30;  ///< frames of the still scene; 0: no still scene
+  std::uint64_t stillSettle = 30;  ///< frames painted before these
   double stillNoiseLevels = 2.0;
-  /// Called after each frame; false breaks off.
+  /// Called after each frame; returning false aborts.
   std::function<bool()> goesOn = [] { return true; };
 };
 
-/// Frames that will be painted in all, where the input says how many it has.
+/// Number of frames that will be painted, if the input knows its length.
 std::optional<std::uint64_t> framesToPaint(const MeasuredInput& input,
                                            const MeasurementOptions& options);
 
-/// Paints the input and then a still of its first measured frame under fresh noise, measures both
-/// and the controls, and judges. Nothing where it was broken off. Errors: the input's, the
-/// painter's, and kInvalidInput (frames too small or too few).
+/// Paints the input, then a still of its first measured frame under fresh noise. Measures both and
+/// the negative controls, and evaluates the gates. Returns nothing if it was aborted. Errors: the
+/// input's, the painter's, and kInvalidInput (frames too small or too few).
 hal::Result<std::optional<Report>> measure(MeasuredInput& input, MeasuredPainter& painter,
                                            const MeasurementOptions& options);
 

@@ -13,12 +13,12 @@ using State = Verdict::State;
 
 constexpr std::uint64_t kFixedSeed = 0;
 constexpr double kLeastScreenPattern = 0.25;
-/// Carried pictures read up to 0.1, those under a wrong motion 0.8 and more.
+/// Images carried along the true motion read up to 0.1, those under a wrong motion 0.8 and more.
 constexpr double kMostInputError = 0.5;
-/// Below this, in levels, tiles are hardly seen: there is nothing to tell one from the next by.
+/// Below this, in levels, tiles are hardly visible and cannot be told apart.
 constexpr double kSmoothDeviation = 3.0;
 
-/// Why a control may read wrong though the measures are sound.
+/// Why a control may read wrong although the measures are valid.
 std::string likelyCause(const PerSubject<Measures>& measures) {
   const std::optional<double>& deviation = measures[Subject::kFixed].dep;
   if (deviation && *deviation < kSmoothDeviation) {
@@ -42,8 +42,8 @@ Verdict inputVerdict(const Measures& input) {
   return verdict;
 }
 
-/// xEW2 = 1 says that the measures agree with themselves, not that the motion is the pictures': of
-/// another motion even the input is not carried along.
+/// xEW2 = 1 proves that the measures agree with themselves, not that the motion is that of the
+/// images: under a wrong motion, even the input does not match.
 Verdict motionVerdict(const PerSubject<Measures>& measures) {
   Verdict verdict{.what =
                       fmt::format("the input goes along with the motion that is told: nHW2 ≤ {:g}",
@@ -96,7 +96,7 @@ Verdict fixedVerdict(const PerSubject<Measures>& measures, const RunConditions& 
   return verdict;
 }
 
-/// Of whole levels, as every painting is.
+/// Rounds to whole levels, as in every painting.
 cv::Mat3f inLevels(const cv::Mat3f& picture) {
   return toFloat(toImage(picture).view());
 }

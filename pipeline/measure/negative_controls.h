@@ -13,17 +13,17 @@
 
 namespace pleinair::measure {
 
-/// Whose measures are taken: the painting, and beside it, on the same frames, what must read as it
-/// does if the measures are to be believed.
+/// Subject of a measure: the painting, and on the same frames the controls, whose readings are
+/// known in advance and so test the measures.
 enum class Subject : std::size_t {
   kPainting,
-  kInput,  ///< itself
+  kInput,  ///< the input itself
   kFresh,  ///< tiles redrawn at random each frame
-  kFixed,  ///< tiles fixed to the screen, which is also the tiling that DEP is judged against
+  kFixed,  ///< tiles fixed to the screen; DEP is compared with this tiling too
 };
 inline constexpr std::size_t kSubjects = 4;
 
-/// One of something for each subject.
+/// One value per subject.
 template <class Value>
 struct PerSubject {
   std::array<Value, kSubjects> values;
@@ -39,7 +39,7 @@ inline constexpr std::array kAllSubjects{Subject::kPainting, Subject::kInput, Su
 class ControlPainter {
  public:
   explicit ControlPainter(cv::Size size);
-  /// What each subject shows of a frame, of which `output` is the painting; `index` counts frames.
+  /// The image of each subject for a frame; `output` is the painting. `index` counts frames.
   PerSubject<cv::Mat3f> paint(const cv::Mat3f& input, const cv::Mat3f& output,
                               std::uint64_t index) const;
 
@@ -47,7 +47,7 @@ class ControlPainter {
   VoronoiTiling fixed_;
 };
 
-/// Whether the controls read as they must; those that cannot be told say why.
+/// Whether the controls read as they must; a control that cannot be evaluated says why.
 std::vector<Verdict> controlVerdicts(const PerSubject<Measures>& measures, std::string_view style,
                                      const RunConditions& runConditions);
 

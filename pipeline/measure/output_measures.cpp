@@ -13,10 +13,10 @@
 namespace pleinair::measure {
 namespace {
 
-/// SCR looks only where the picture has moved by a mark's size: what stands still stays
-/// on the screen by right.
+/// SCR looks only where the image has moved by the size of a mark: static content may stay on the
+/// screen.
 constexpr float kMovedPixels = 8.0F;
-/// Of the frame, so that the correlation means something.
+/// Part of the frame; with less, the correlation is meaningless.
 constexpr double kLeastMovedShare = 0.1;
 
 cv::Mat1b movedMask(const MotionMap* motion, cv::Size size) {

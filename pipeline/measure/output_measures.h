@@ -13,26 +13,26 @@
 
 namespace pleinair::measure {
 
-/// The two lags that frames are compared at.
+/// The two lags at which frames are compared.
 inline constexpr std::size_t kShortLag = 2;
 inline constexpr std::size_t kLongLag = 10;
 
-/// How the picture moved to this frame from those before; null where there was no such frame, or
-/// where it is not known: then SCR takes it that everything moves.
+/// Motion to this frame from earlier ones. Null if there is no such frame or its motion is unknown;
+/// SCR then assumes that everything moves.
 struct MotionToHere {
   const MotionMap* shortLag = nullptr;
   const MotionMap* longLag = nullptr;
 };
 
-/// What a sequence of one output reads, frame by frame, and in all. Keeps the frames that the lags
-/// need and no more: some 30 floats a pixel.
+/// Measures of one output over a sequence, per frame and in total. Keeps only the frames that the
+/// lags need: about 30 floats per pixel.
 class OutputMeasures {
  public:
-  /// What one frame brought. `popped` and the like compare it with the frame two before.
+  /// Measures of one frame. `popped` and the following compare it with the frame two before.
   struct Frame {
-    Mean error;            ///< of EW2, not yet times 1000
+    Mean error;            ///< of EW2, before the factor 1000
     Mean highPassError;    ///< of nHW2
-    Mean misalignedError;  ///< likewise, laid wrong
+    Mean misalignedError;  ///< the same, misaligned on purpose
     Mean popped;
     Mean lasting;
     Mean screen;
@@ -40,16 +40,16 @@ class OutputMeasures {
     Mean detail;  ///< mean square of the high pass
   };
 
-  /// The next frame. Precondition: of the size of those before.
+  /// Takes the next frame. Precondition: it has the size of the previous ones.
   void add(const cv::Mat3f& output, const cv::Mat3f& input, const MotionToHere& motion);
 
   const std::vector<Frame>& frames() const { return frames_; }
-  /// What one of them reads beside the input's, or sums over frames do; all but xFLK.
+  /// Measures of one frame, or of sums over frames, relative to the input's; all but xFLK.
   static Measures valuesOf(const Frame& frame, const Frame& input);
   /// The sums over all frames.
   Frame total() const;
 
-  /// Of the last frame, against two before; empty where there is none.
+  /// Difference of the last frame to the one two before; empty if there is none.
   cv::Mat3f lastDifference() const;
 
  private:

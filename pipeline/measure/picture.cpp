@@ -9,7 +9,7 @@ namespace pleinair::measure {
 cv::Mat3f toFloat(const hal::ImageView& rgb8) {
   assert(rgb8.format.pixelFormat == hal::PixelFormat::kRgb8 && rgb8.isComplete());
   const hal::PlaneView& plane = rgb8.planes[0];
-  // A header over somebody else's pixels, which OpenCV only reads.
+  // A cv::Mat header over borrowed pixels, which OpenCV only reads.
   auto* const bytes = const_cast<std::uint8_t*>(plane.bytes.data());
   const cv::Mat levels(rgb8.format.size.height, rgb8.format.size.width, CV_8UC3, bytes,
                        plane.strideBytes);

@@ -10,7 +10,7 @@
 
 namespace pleinair::measure {
 
-/// What a sequence was measured under, which says what can be had of it.
+/// The conditions of a measurement; they decide which measures are available.
 struct RunConditions {
   MotionKind motion = MotionKind::kNone;
   std::uint64_t frames = 0;       ///< measured
@@ -18,11 +18,11 @@ struct RunConditions {
   double stillNoiseLevels = 0;
 };
 
-/// Why a measure that could not be had could not: "it compares frames 10 apart, and there are 4".
+/// Reason why a measure is unavailable: "it compares frames 10 apart, and there are 4".
 std::string whyMissing(std::optional<double> Measures::*measure,
                        const RunConditions& runConditions);
 
-/// A line for each such reason: "S10 %, SCR: it compares …".
+/// One line for each such reason: "S10 %, SCR: it compares …".
 std::vector<std::string> missingLines(const Measures& measures, const RunConditions& runConditions);
 
 }  // namespace pleinair::measure

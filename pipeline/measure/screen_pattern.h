@@ -6,13 +6,13 @@
 
 namespace pleinair::measure {
 
-/// How strong the gradient is beside those around it: |∇a| (Sobel) over its own mean (Gaussian,
-/// σ = 8 px, plus 1/255), so that a pattern counts the same on strong and on weak pictures.
+/// Strength of the gradient relative to its surroundings: |∇a| (Sobel) over its own mean (Gaussian,
+/// σ = 8 px, plus 1/255), so that a pattern counts equally in strong and weak images.
 cv::Mat1f relativeGradient(const cv::Mat1f& grey);
 
-/// The shower door: how much two relative gradients, of frames between which the picture has moved,
-/// have in common at the same places of the screen: normalised cross-correlation in [−1, 1] where
-/// the mask says so. Nothing where one of them is flat or the mask is empty.
+/// Measures the shower-door effect: the normalised cross-correlation in [−1, 1] of two relative
+/// gradients at the same screen positions within the mask, for frames between which the image
+/// moved. Nothing where one of them is constant or the mask is empty.
 std::optional<double> screenCorrelation(const cv::Mat1f& earlier, const cv::Mat1f& later,
                                         const cv::Mat1b& mask);
 

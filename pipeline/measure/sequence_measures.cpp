@@ -23,7 +23,7 @@ std::optional<double> StillMeasures::flicker(Subject subject) const {
 
 namespace {
 
-/// Without a true motion, SCR counts only where the input itself does not stay on the screen.
+/// Without a true motion, SCR counts only where the input itself moves on the screen.
 constexpr double kStillScreen = 0.5;
 
 }  // namespace

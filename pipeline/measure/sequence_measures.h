@@ -14,15 +14,14 @@
 
 namespace pleinair::measure {
 
-/// xFLK: how a painting and its controls flicker on a scene that stands still before a noisy
-/// sensor.
+/// xFLK: flicker of a painting and its controls on a still scene under sensor noise.
 class StillMeasures {
  public:
   explicit StillMeasures(cv::Size frame) : controls_(frame) {}
 
-  /// The next frame, of the constructor's size, RGB in [0, 1].
+  /// Takes the next frame, of the constructor's size, RGB in [0, 1].
   void add(const cv::Mat3f& input, const cv::Mat3f& output);
-  /// How much a subject flickers beside the input. Nothing of fewer than two frames, or without
+  /// Flicker of a subject relative to the input's. Nothing for fewer than two frames or without
   /// noise.
   std::optional<double> flicker(Subject subject) const;
 
@@ -33,26 +32,26 @@ class StillMeasures {
   std::uint64_t frames_ = 0;
 };
 
-/// What a painted sequence and its controls read, while the frames go by.
+/// Measures of a painted sequence and its controls, frame by frame.
 class SequenceMeasures {
  public:
-  /// `motion` is null where it is not known; else it outlives this.
+  /// `motion` is null if it is unknown; otherwise it must outlive this object.
   SequenceMeasures(cv::Size frame, TrueMotion* motion);
 
-  /// The next frame, and the anchors that its marks hang on, where it has any. `index` counts the
-  /// input's frames and rises by one. Errors: of the motion's files.
+  /// Takes the next frame, and the anchors of its marks if it has any. `index` counts the input's
+  /// frames and rises by one. Errors: those of the motion's files.
   hal::Result<void> add(std::uint64_t index, const cv::Mat3f& input, const cv::Mat3f& output,
                         std::span<const marks::Anchor> anchors);
 
   const OutputMeasures& of(Subject subject) const { return outputs_[subject]; }
   const AnchorMeasures& anchors() const { return anchors_; }
   std::optional<Flatness> flatness() const { return flatness_.total(); }
-  /// All but xFLK.
+  /// All measures but xFLK.
   PerSubject<Measures> totals() const;
   MotionKind motionKind() const;
 
  private:
-  /// Nothing where there is no motion, or no such frame was measured.
+  /// Nothing if there is no motion, or no such frame was measured.
   hal::Result<std::optional<MotionMap>> motionOver(std::uint64_t index, std::size_t lag) const;
 
   TrueMotion* motion_;

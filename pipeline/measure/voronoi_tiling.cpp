@@ -17,7 +17,8 @@ VoronoiTiling::VoronoiTiling(cv::Size size, std::uint64_t seed) : tiles_(size) {
   const int columns = (size.width + kCellPixels - 1) / kCellPixels;
   const int rows = (size.height + kCellPixels - 1) / kCellPixels;
   count_ = columns * rows;
-  constexpr std::uint64_t kSpread = 0x9E3779B97F4A7C15U;  // neighbouring seeds would begin alike
+  // Sequences of neighbouring seeds would begin alike.
+  constexpr std::uint64_t kSpread = 0x9E3779B97F4A7C15U;
   cv::RNG random((seed + 1) * kSpread);
   std::vector<cv::Point2f> seeds;
   for (int row = 0; row < rows; ++row) {
@@ -31,7 +32,8 @@ VoronoiTiling::VoronoiTiling(cv::Size size, std::uint64_t seed) : tiles_(size) {
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
       const cv::Point2f centre(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
-      // The own square's seed is within its diagonal: no seed further than two squares is nearer.
+      // The seed of a pixel's own square is within the square's diagonal: no seed further than two
+      // squares away is nearer.
       const int column = x / kCellPixels;
       const int row = y / kCellPixels;
       float nearest = std::numeric_limits<float>::infinity();

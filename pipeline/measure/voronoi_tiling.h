@@ -7,18 +7,18 @@
 
 namespace pleinair::measure {
 
-/// The plainest painting there is: a Voronoi tiling of the screen with one seed at random in each
-/// square of 8×8 px, each tile in the mean colour of what it covers. It knows of no motion, so that
-/// it is what a measure of coherence has to see through.
+/// The simplest painting: a Voronoi tiling of the screen with one random seed in each square of 8×8
+/// px, each tile in the mean colour of its area. It ignores motion, so a measure of coherence must
+/// detect it.
 class VoronoiTiling {
  public:
   VoronoiTiling(cv::Size size, std::uint64_t seed);
 
-  /// Precondition: a picture of the constructor's size.
+  /// Precondition: the image has the constructor's size.
   cv::Mat3f paint(const cv::Mat3f& picture) const;
 
  private:
-  cv::Mat1i tiles_;  ///< which tile each pixel is in
+  cv::Mat1i tiles_;  ///< index of the tile of each pixel
   int count_ = 0;
 };
 

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kMost = 3;
 constexpr std::uint64_t kApartFrames = 8;
 
-/// What few channels exceed, of those that differ at all.
+/// A high percentile of the channels that differ at all.
 double brightOf(const cv::Mat3f& difference) {
   constexpr double kShare = 0.97;
   const cv::Mat1f channels = difference.clone().reshape(1, 1);
@@ -26,7 +26,7 @@ double brightOf(const cv::Mat3f& difference) {
   return *at;
 }
 
-/// The largest of 1, 2, 5, 10 … that still lets what is bright be told from what is brighter.
+/// The largest of 1, 2, 5, 10 … that does not saturate the bright differences.
 double gainOf(const cv::Mat3f& difference) {
   const double most = 1.0 / std::max(brightOf(difference), 1e-9);
   double gain = 1;

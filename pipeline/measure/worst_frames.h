@@ -9,12 +9,12 @@
 
 namespace pleinair::measure {
 
-/// Keeps the few frames of a sequence that read the worst, some way apart from each other.
+/// Keeps the few worst frames of a sequence, some distance apart from each other.
 class WorstFrames {
  public:
   void offer(std::uint64_t frame, double ew2, const cv::Mat3f& input, const cv::Mat3f& output,
              const cv::Mat3f& difference);
-  /// The worst first.
+  /// Worst first.
   std::vector<WorstFrame> frames() const { return frames_; }
 
  private:

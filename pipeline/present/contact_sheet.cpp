@@ -16,7 +16,7 @@ constexpr int kGapPx = 6;
 constexpr int kPairsPerRow = 2;
 constexpr int kTallestTilePx = 960;
 
-/// A view; OpenCV has no read-only Mat, and nobody writes through it.
+/// A borrowed view; OpenCV has no read-only Mat, but nothing writes through it.
 cv::Mat matOf(const hal::ImageView& image) {
   assert(image.format.pixelFormat == hal::PixelFormat::kRgb8);
   return {image.format.size.height, image.format.size.width, CV_8UC3,
@@ -66,7 +66,8 @@ void ContactSheet::add(const hal::ImageView& original, const hal::ImageView& pai
                        hal::Duration time) {
   moments_.push_back({tile(original), tile(painted), time});
   if (moments_.size() < 2 * wanted_) return;
-  // Twice as many as wanted: keep every second one, and ask for half as many from now on.
+  // The sheet holds twice as many moments as wanted: keep every second one, and take half as many
+  // from now on.
   for (std::size_t i = 1; i < wanted_; ++i) moments_[i] = std::move(moments_[2 * i]);
   moments_.resize(wanted_);
   stride_ *= 2;

@@ -8,20 +8,20 @@
 
 namespace pleinair::present {
 
-/// A picture of a whole movie: original beside painted, at moments spread evenly over its length,
+/// An overview of a whole movie: original beside painted, at moments spread evenly over its length,
 /// which need not be known in advance. Memory is bounded by the number of moments.
 class ContactSheet {
  public:
   explicit ContactSheet(int moments = 6);
 
-  /// Whether the frame of this index (counted from 0, each asked once) is to be added.
+  /// Whether to add the frame of this index (counted from 0; ask once for each).
   bool wants(std::size_t frameIndex) const { return frameIndex % stride_ == 0; }
 
-  /// Precondition: wants(frameIndex); both RGB8 of one size.
+  /// Precondition: wants(frameIndex); both images are RGB8 and of one size.
   void add(const hal::ImageView& original, const hal::ImageView& painted, hal::Duration time);
 
   bool isEmpty() const { return moments_.empty(); }
-  /// RGB8: pairs in reading order, two pairs a row, each with its time. Precondition: not empty.
+  /// RGB8: pairs in reading order, two per row, each with its time. Precondition: not empty.
   hal::Image sheet() const;
 
  private:

@@ -19,8 +19,8 @@ using hal::FrameFormat;
 using hal::FrameSize;
 using hal::PixelFormat;
 
-/// The shader that packs a plane. One each: the software rasteriser runs every branch of a shared
-/// one.
+/// Name of the shader that packs a plane. Each plane has its own, because the software rasteriser
+/// runs every branch of a shared one.
 std::string_view shaderOf(PixelFormat format, int plane) {
   switch (format) {
     case PixelFormat::kRgba8:
@@ -42,14 +42,15 @@ std::string_view shaderOf(PixelFormat format, int plane) {
   return "pipeline/present/shaders/pack_luma.frag";
 }
 
-/// The packed texels of a plane, four bytes each.
+/// Size of a packed plane in texels of four bytes.
 FrameSize planeTexels(const FrameFormat& format, int plane) {
   const std::size_t bytes = rowBytes(format.pixelFormat, plane, format.size.width);
   return {static_cast<int>((bytes + 3) / 4),
           planeRows(format.pixelFormat, plane, format.size.height)};
 }
 
-/// Luma and chroma as grey, RGB and RGBA outputs need it: full range, so that white stays white.
+/// The colour encoding of luma and chroma for grey, RGB and RGBA outputs: full range, so that white
+/// stays white.
 hal::ColorEncoding encodingOf(const FrameFormat& format) {
   if (isYCbCr(format.pixelFormat)) return format.encoding;
   return {.matrix = hal::ColorMatrix::kBt601, .range = hal::ColorRange::kFull};
@@ -64,8 +65,8 @@ hal::Error unreadable(FrameSize size) {
           .domain = hal::ErrorDomain::kGl};
 }
 
-/// Where a plane begins in the packed texture: below luma, Cr of I420 beside its Cb, so that the
-/// texture stays within 1.5 times the picture's height.
+/// Origin of a plane in the packed texture: chroma lies below luma, and Cr of I420 beside its Cb,
+/// so that the texture is no higher than 1.5 times the image.
 glm::ivec2 planeOrigin(const FrameFormat& format, int plane) {
   if (plane == 0) return {0, 0};
   return {plane == 1 ? 0 : planeTexels(format, 1).width, planeTexels(format, 0).height};

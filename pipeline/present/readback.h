@@ -18,36 +18,36 @@
 
 namespace pleinair::present {
 
-/// Brings painted pictures to memory in an output's format without stalling the GPU: scaled and
-/// converted by a pass, copied into a ring of buffers, and handed out when a fence says so. On the
+/// Reads output frames back to memory in an output's format without stalling the GPU: a pass scales
+/// and converts, a ring of buffers takes the copies, and a fence tells when one is ready. On the
 /// thread of the GL context.
 class Readback {
  public:
-  /// `library` has presentShaders(); `format`: RGBA8, RGB8, grey, I420, NV12 or YUYV; `depth`: how
-  /// many pictures may be in flight.
+  /// `library` has presentShaders(). `format`: RGBA8, RGB8, grey, I420, NV12 or YUYV. `depth`:
+  /// largest number of images in flight.
   Readback(const gpu::ShaderLibrary& library, hal::FrameFormat format, int depth = 3,
            gpu::GpuTestHook testHook = {});
 
-  /// Of the texture that a picture of this format goes through: beyond the device's limit, none can
-  /// be made.
+  /// Size of the texture that an image of this format passes through. Above the device's limit, no
+  /// reader can be made.
   static hal::FrameSize packedSize(const hal::FrameFormat& format);
 
-  /// Reads one picture of this size, undefined, and drops it: what pictures need is compiled and
-  /// allocated then. Throws hal::Failure (kDeviceLost). Precondition: isEmpty().
+  /// Reads and drops one image of this size with undefined contents, so that everything is compiled
+  /// and allocated. Throws hal::Failure (kDeviceLost). Precondition: isEmpty().
   void warmUp(hal::FrameSize pictureSize);
 
   const hal::FrameFormat& format() const { return format_; }
   bool hasRoom() const { return submitted_ - taken_ < ring_.size(); }
   bool isEmpty() const { return submitted_ == taken_; }
 
-  /// Begins to read `picture` (RGBA8, LINEAR), laid onto the format's size as one of `fullSize` is,
-  /// which it may be a smaller version of. Precondition: hasRoom().
+  /// Begins to read `picture` (RGBA8, LINEAR), which may be a reduced version of an image of
+  /// `fullSize`; it is scaled to the format's size as that image would be. Precondition: hasRoom().
   void submit(const gpu::Texture& picture, hal::FrameSize fullSize);
   void submit(const gpu::Texture& picture) { submit(picture, picture.size()); }
 
-  /// Copies the oldest picture into `image`, which gets this reader's format; pictures come in the
-  /// order they were submitted. False if none is ready; with `wait` only if there is none at all.
-  /// Error: kDeviceLost; no picture comes any more.
+  /// Copies the oldest image into `image`, which gets this reader's format; images come in the
+  /// order in which they were submitted. Returns false if none is ready, or with `wait` only if
+  /// none is in flight. Error: kDeviceLost; no further image comes.
   hal::Result<bool> take(hal::Image& image, bool wait);
 
  private:

@@ -39,11 +39,11 @@ struct Motion {
     for (std::uint32_t i = 0; i < kFeatures; ++i) {
       const glm::vec2 at(part(random) * static_cast<float>(size.width),
                          part(random) * static_cast<float>(size.height));
-      features.push_back({.id = i, .then = at, .now = at + kPan, .errorPx = 0.1F});
+      features.push_back({.id = i, .previous = at, .current = at + kPan, .errorPx = 0.1F});
     }
     image.features = features;
     image.frameSize = size;
-    image.picture = {.nowFromThen = {1, 0, 0, 0, 1, 0, kPan.x, kPan.y, 1}, .errorPx = 0.02};
+    image.picture = {.currentFromPrevious = {1, 0, 0, 0, 1, 0, kPan.x, kPan.y, 1}, .errorPx = 0.02};
     image.flow.nodes = {size.width / kNodePixels, size.height / kNodePixels};
     image.flow.stepPx = glm::vec2(kNodePixels);
     flow.assign(static_cast<std::size_t>(image.flow.nodes.pixels()), {kPan, 0.3F, 0.0F});

@@ -36,10 +36,10 @@ FeatureTriangle nearestThree(std::span<const FeatureStep> features, glm::dvec2 p
 }
 
 PointMotion triangleMotion(const FeatureTriangle& triangle, glm::dvec2 px) {
-  const glm::dmat3 nowFromThen = cornersOf(triangle, &FeatureStep::now) *
-                                 glm::inverse(cornersOf(triangle, &FeatureStep::then));
-  return {.displacement = glm::dvec2(nowFromThen * glm::dvec3(px, 1.0)) - px,
-          .jacobian = glm::dmat2(nowFromThen)};
+  const glm::dmat3 currentFromPrevious = cornersOf(triangle, &FeatureStep::now) *
+                                         glm::inverse(cornersOf(triangle, &FeatureStep::then));
+  return {.displacement = glm::dvec2(currentFromPrevious * glm::dvec3(px, 1.0)) - px,
+          .jacobian = glm::dmat2(currentFromPrevious)};
 }
 
 PointMotion similarityMotion(const FeatureTriangle& triangle, glm::dvec2 px) {

@@ -86,7 +86,7 @@ void layOver(hal::Image& image, const WallView& view, const glm::ivec2& from,
   render(image, view, glm::max(from, glm::ivec2(0)), glm::min(to, end));
 }
 
-glm::dmat3 nowFromThen(const PlaneStep& step, hal::FrameSize size) {
+glm::dmat3 currentFromPrevious(const PlaneStep& step, hal::FrameSize size) {
   const glm::dvec2 middle(size.width / 2.0, size.height / 2.0);
   const double c = step.zoom * std::cos(step.turn);
   const double s = step.zoom * std::sin(step.turn);

@@ -38,6 +38,6 @@ struct PlaneStep {
   glm::dvec2 shift{0.0};
   glm::dvec2 bend{0.0};  ///< by a px from the middle, per px
 };
-glm::dmat3 nowFromThen(const PlaneStep& step, hal::FrameSize size);
+glm::dmat3 currentFromPrevious(const PlaneStep& step, hal::FrameSize size);
 
 }  // namespace pleinair::support

@@ -7,7 +7,7 @@
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/scene/render/shaders/planes.glsl"
 
-const int kMostFeatures = 256;  // tracking::kMostMovedFeatures
+const int kMostFeatures = 256;  // tracking::kMaxMovedFeatures
 const float kUnknownError = 1.0e4;
 const float kLeastError = 1.0e-3;
 
@@ -18,7 +18,7 @@ struct Feature {
 
 layout(std140, binding = 1) uniform Planes { Body planes[kMaxPlanes]; };
 layout(std140, binding = 2) uniform Motion {
-  mat4 nowFromThen;    // the picture's homography, in the upper left 3x3
+  mat4 currentFromPrevious;    // the picture's homography, in the upper left 3x3
   mat4 previousFromCurrent;
   vec4 flowGrid;       // node = px * xy + zw
   vec4 stillGrid;      // field likewise
@@ -97,7 +97,7 @@ vec2 homographyShift(mat3 h, vec2 px) {
 
 Moved byPicture(vec2 px, bool backward) {
   if (known.z == 0.0) return nothingKnown();
-  mat3 h = mat3(backward ? previousFromCurrent : nowFromThen);
+  mat3 h = mat3(backward ? previousFromCurrent : currentFromPrevious);
   vec2 shift = homographyShift(h, px);
   float w = dot(vec3(h[0][2], h[1][2], h[2][2]), vec3(px, 1.0));
   vec2 image = px + shift;

@@ -11,7 +11,7 @@
 namespace pleinair::measure {
 namespace {
 
-/// A stepped camera, started.
+/// A started camera that is stepped.
 class CameraInput final : public MeasuredInput {
  public:
   CameraInput(std::string description, std::unique_ptr<hal::SteppedClock> clock,
@@ -21,9 +21,9 @@ class CameraInput final : public MeasuredInput {
         camera_(std::move(camera)),
         stream_(stream) {}
 
-  /// Said before the first frame.
+  /// Call before the first frame.
   void setMotion(std::unique_ptr<TrueMotion> motion) { motion_ = std::move(motion); }
-  /// Likewise: beyond them the motion is not known.
+  /// Call before the first frame; the motion is unknown beyond `count` frames.
   void setMostFrames(std::uint64_t count) { mostFrames_ = count; }
   void setEndless() { isEndless_ = true; }
   void addNotice(std::string notice) { notices_.push_back(std::move(notice)); }
@@ -103,7 +103,7 @@ hal::Result<std::unique_ptr<MeasuredInput>> openPlainRecording(
                            motionFile->string());
     if (!motion) return tl::unexpected(motion.error());
     input->setMotion(std::move(*motion));
-    // What a movie says of its length need not be true, where it says anything.
+    // The length that a movie reports, if any, may be wrong.
     if (!file->perFrame) input->setMostFrames(file->nextFromFrame.size() + 1);
   }
   return input;

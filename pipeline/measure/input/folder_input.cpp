@@ -48,7 +48,7 @@ hal::Result<FolderContents> contentsOf(const fs::path& folder) {
   return contents;
 }
 
-/// One flow file from each frame to the next, and as many masks or none.
+/// Checks for one flow file from each frame to the next, and as many masks or none.
 hal::Result<void> checkCounts(const fs::path& folder, const FolderContents& contents) {
   const std::size_t steps = contents.frames.size() - 1;
   const bool fits = contents.flows.size() == steps &&

@@ -13,7 +13,7 @@
 namespace pleinair::measure {
 namespace {
 
-/// From a pixel to the next: where flows differ by more, one thing moves before another.
+/// Difference of flow between neighbouring pixels above which one object occludes another.
 constexpr float kLeapPixels = 0.5F;
 constexpr std::size_t kKeptFields = 12;
 
@@ -25,7 +25,7 @@ hal::Error wrongSize(const std::filesystem::path& path, hal::FrameSize found, cv
           .remedy = "give flow and masks of the frames' own size"};
 }
 
-/// `first`, and from where it leads on with `second`.
+/// `first` followed by `second`.
 MotionMap composed(const MotionMap& first, const MotionMap& second) {
   const cv::Size size = first.valid.size();
   MotionMap map{

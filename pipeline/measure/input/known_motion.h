@@ -14,7 +14,7 @@ namespace pleinair::measure {
 /// Every point moves by `perFrame` px from each frame to the next.
 std::unique_ptr<TrueMotion> constantMotion(cv::Size frame, cv::Point2d perFrame);
 
-/// `frameFromFirst(t)` takes pixels of frame 0 to frame t (pixel centres at whole numbers), as
+/// `frameFromFirst(t)` maps pixels of frame 0 to frame t (pixel centres at whole numbers), in
 /// homogeneous coordinates.
 std::unique_ptr<TrueMotion> homographyMotion(
     cv::Size frame, std::string description,

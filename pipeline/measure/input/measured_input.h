@@ -17,7 +17,7 @@
 
 namespace pleinair::measure {
 
-/// A sequence that is painted and measured, with its true motion where that is known. One thread.
+/// A sequence to paint and measure, with its true motion if that is known. One thread.
 class MeasuredInput {
  public:
   virtual ~MeasuredInput() = default;
@@ -28,21 +28,22 @@ class MeasuredInput {
   /// For people: the file, the folder or the shot.
   virtual std::string description() const = 0;
   virtual hal::FrameFormat format() const = 0;
-  /// Nothing where it goes on as long as is wanted, or does not say.
+  /// Nothing if the input is endless or its length is unknown.
   virtual std::optional<std::uint64_t> frameCount() const = 0;
-  /// Whether it makes as many frames as are asked for.
+  /// Whether it delivers as many frames as are requested.
   virtual bool isEndless() const { return false; }
-  /// The next frame; nothing at the end. Errors: of files.
+  /// Returns the next frame, or nothing at the end. Errors: those of files.
   virtual hal::Result<std::optional<hal::CapturedFrame>> next() = 0;
-  /// Null where it is not known. Lives as long as the input.
+  /// Null if the motion is unknown. Lives as long as the input.
   virtual TrueMotion* motion() = 0;
-  /// What should be known of it: warnings.
+  /// Warnings about the input.
   virtual std::vector<std::string> notices() const { return {}; }
 };
 
 /// A photograph moved by the program (MovedPhotograph), with sensor noise.
 struct PhotographOptions {
-  std::optional<hal::FrameSize> size;  ///< default: its own, of 640x480 px or as many at the most
+  /// Default: its own, reduced to at most the pixels of 640x480.
+  std::optional<hal::FrameSize> size;
   PhotographMotion motion;
   double noiseLevels = 2.0;
   std::uint64_t frames = 60;
@@ -52,18 +53,18 @@ struct PhotographOptions {
 hal::Result<std::unique_ptr<MeasuredInput>> openPhotograph(const std::filesystem::path& path,
                                                            const PhotographOptions& options);
 
-/// A folder of pictures, with the truth that lies beside them: motion.json (motion_file.h), or
+/// Opens a folder of pictures with the ground truth beside them: motion.json (motion_file.h), or
 /// KITTI flow (kitti_flow.h) in files whose names begin with "flow", from each picture to the next,
-/// with masks whose names begin with "occ". Those are not taken for pictures of the sequence.
-/// Errors: of files; kInvalidInput (sizes that differ, numbers of files that do not fit together).
+/// with masks whose names begin with "occ". Such files do not count as pictures of the sequence.
+/// Errors: those of files; kInvalidInput (different sizes, numbers of files that do not match).
 hal::Result<std::unique_ptr<MeasuredInput>> openPictureFolder(const std::filesystem::path& folder);
 
-/// Any recording; `motionFile` says how it moves, where it is known. Errors: as hal::Camera.
+/// Opens any recording; `motionFile` gives its motion, if known. Errors: as hal::Camera.
 hal::Result<std::unique_ptr<MeasuredInput>> openPlainRecording(
     const std::filesystem::path& path, const std::optional<std::filesystem::path>& motionFile);
 
-/// The synthetic camera, whose true flow follows from the geometry of its world. Errors: as
-/// hal::Camera.
+/// Opens the synthetic camera, whose true flow is computed from the geometry of its world. Errors:
+/// as hal::Camera.
 hal::Result<std::unique_ptr<MeasuredInput>> openWorkbench(const hal::SyntheticOptions& options);
 
 }  // namespace pleinair::measure

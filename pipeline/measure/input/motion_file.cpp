@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t kMostBytes = 64'000'000;
-/// Whoever moves faster shows no mark twice.
+/// With faster motion, no mark is visible twice.
 constexpr double kMostPixels = 1000;
 
 constexpr const char* kAllowed =

@@ -14,20 +14,21 @@
 
 namespace pleinair::measure {
 
-/// What a motion.json says: {"v": [vx, vy]}, px a frame, or {"homographies": [[9 numbers], …]},
-/// row by row, each of which takes pixels of a frame (centres at whole numbers) to the next one's.
+/// The contents of a motion.json: {"v": [vx, vy]}, px per frame, or {"homographies": [[9 numbers],
+/// …]}, row by row, each of which maps pixels of a frame (centres at whole numbers) to the next
+/// one's.
 struct MotionFile {
   std::optional<cv::Point2d> perFrame;
-  std::vector<cv::Matx33d> nextFromFrame;  ///< where perFrame is not set
+  std::vector<cv::Matx33d> nextFromFrame;  ///< if perFrame is not set
 };
 
-/// Errors: kInvalidInput (no JSON, no such key or another one, numbers that make no sense), which
-/// names `subject`.
+/// Errors: kInvalidInput (not JSON, a missing or unknown key, invalid numbers), which names
+/// `subject`.
 hal::Result<MotionFile> parseMotion(std::string_view text, const std::string& subject);
-/// The same of a file. Errors: kNotFound, kPermissionDenied, kIo too.
+/// Reads the same from a file. Errors: kNotFound, kPermissionDenied, kIo too.
 hal::Result<MotionFile> readMotion(const std::filesystem::path& path);
 
-/// Its motion, of frames of this size. Errors: kInvalidInput (fewer homographies than `frames`
+/// The motion of frames of this size. Errors: kInvalidInput (fewer homographies than `frames`
 /// need).
 hal::Result<std::unique_ptr<TrueMotion>> motionOf(const MotionFile& file, cv::Size frame,
                                                   std::uint64_t frames, const std::string& subject);

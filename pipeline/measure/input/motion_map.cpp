@@ -13,12 +13,12 @@
 namespace pleinair::measure {
 namespace {
 
-/// How near to a motion boundary, or to what is hidden, a pixel may not be: anti-aliased edges and
-/// interpolation mix what moves differently.
+/// Distance from a motion boundary or a hidden area within which pixels are invalid: anti-aliased
+/// edges and interpolation mix different motions there.
 constexpr int kBoundaryPixels = 3;
 constexpr double kWholeTolerance = 1e-6;
 
-/// What of a mask is further than so many px from all that it leaves out.
+/// Erodes a mask by `pixels` px.
 cv::Mat1b shrunk(const cv::Mat1b& mask, int pixels) {
   cv::Mat1b result;
   cv::erode(mask, result,
@@ -26,7 +26,7 @@ cv::Mat1b shrunk(const cv::Mat1b& mask, int pixels) {
   return result;
 }
 
-/// What is seen, but for where the motion leaps.
+/// The seen pixels without those at motion boundaries.
 cv::Mat1b withoutLeaps(const cv::Mat2f& displacement, const cv::Mat1b& seen, float leapPixels) {
   cv::Mat1b kept = seen.clone();
   const auto isLeap = [leapPixels](const cv::Vec2f& a, const cv::Vec2f& b) {

@@ -15,8 +15,7 @@
 namespace pleinair::measure {
 namespace {
 
-/// A photograph is kept with no more of its pixels a frame's than this: what is finer could not be
-/// seen but as aliasing.
+/// Largest number of the photograph's pixels per pixel of a frame, along a side; more would alias.
 constexpr double kMostSamples = 2.0;
 
 bool turnsOrZooms(const PhotographMotion& motion) {
@@ -34,7 +33,7 @@ std::string describe(const PhotographMotion& motion) {
   return text + " a frame";
 }
 
-/// How large a picture is that all frames lie within, in px of frame 0, about its middle.
+/// Size of an image that contains all frames, in px of frame 0, about its centre.
 cv::Size2d extentOf(const PhotographMotion& motion, hal::FrameSize size, std::uint64_t frames) {
   cv::Size2d half;
   const cv::Point2d middle((size.width - 1) / 2.0, (size.height - 1) / 2.0);
@@ -52,7 +51,7 @@ cv::Size2d extentOf(const PhotographMotion& motion, hal::FrameSize size, std::ui
   return {2 * half.width, 2 * half.height};
 }
 
-/// Of a picture that goes on mirrored for ever, without its edge twice.
+/// Index into an image that continues mirrored without end and without repeating its edge.
 int mirrored(int at, int count) {
   if (count == 1) return 0;
   const int period = 2 * (count - 1);
@@ -103,7 +102,7 @@ MovedPhotograph::MovedPhotograph(const hal::Image& rgb8, hal::FrameSize size,
     : size_(size), motion_(motion) {
   const cv::Mat3f whole = toFloat(rgb8.view());
   const cv::Size2d extent = extentOf(motion, size, frames);
-  // Photograph's px a frame's px.
+  // Photograph px per frame px.
   const double fits = std::min(whole.cols / extent.width, whole.rows / extent.height);
   const double finest = std::max(1.0, fits);
   isMirrored_ = fits < 1.0;
@@ -121,7 +120,7 @@ MovedPhotograph::MovedPhotograph(const hal::Image& rgb8, hal::FrameSize size,
 }
 
 cv::Mat3f MovedPhotograph::frame(std::uint64_t index) const {
-  // Two samples a side integrate over a pixel of up to two of the photograph's.
+  // Two samples per side integrate over a pixel that covers up to two of the photograph's.
   constexpr std::array kOffsets{-0.25, 0.25};
   const cv::Matx33d from = photographFromFirst_ * frameFromFirst(motion_, size_, index).inv();
   cv::Mat3f picture(size_.height, size_.width);

@@ -11,20 +11,20 @@
 
 namespace pleinair::measure {
 
-/// How a photograph is moved before the camera, from each frame to the next.
+/// The motion of a photograph in front of the camera, from each frame to the next.
 struct PhotographMotion {
   cv::Point2d pan;         ///< px
-  double zoomPercent = 0;  ///< about the frame's middle; above 0: the camera moves in
-  double rollDegrees = 0;  ///< about the frame's middle, clockwise on the screen
+  double zoomPercent = 0;  ///< about the frame's centre; above 0: the camera moves in
+  double rollDegrees = 0;  ///< about the frame's centre, clockwise on the screen
 };
 
-/// A photograph as a camera sees it that pans, zooms and rolls: each frame is a sensor's, every
-/// pixel the mean over its square of the photograph interpolated by cubic convolution, so that
-/// frames differ by their motion, which is known exactly, and by nothing else. The photograph is
-/// scaled down to fill the frames, never up; where a frame reaches beyond it, it goes on mirrored.
+/// A photograph seen by a camera that pans, zooms and rolls. Each pixel of a frame is the mean over
+/// its area of the photograph, interpolated by cubic convolution, so that frames differ by their
+/// motion only, which is known exactly. The photograph is scaled down to fill the frames, never up;
+/// beyond its edges it continues mirrored.
 class MovedPhotograph {
  public:
-  /// `frames`: how many there will be, which the photograph is scaled for.
+  /// `frames`: number of frames to come, which determines the photograph's scale.
   MovedPhotograph(const hal::Image& rgb8, hal::FrameSize size, PhotographMotion motion,
                   std::uint64_t frames);
 
@@ -34,7 +34,7 @@ class MovedPhotograph {
   bool isMirrored() const { return isMirrored_; }
 
  private:
-  cv::Mat3f photograph_;  ///< at its scale, two of its pixels a frame's at the most
+  cv::Mat3f photograph_;  ///< scaled, at most two of its pixels per frame pixel
   hal::FrameSize size_;
   PhotographMotion motion_;
   cv::Matx33d photographFromFirst_;  ///< pixel centres at whole numbers
@@ -42,7 +42,7 @@ class MovedPhotograph {
   bool isMirrored_ = false;
 };
 
-/// Pixels of frame 0 to frame `index`.
+/// Maps pixels of frame 0 to frame `index`.
 cv::Matx33d frameFromFirst(const PhotographMotion& motion, hal::FrameSize size,
                            std::uint64_t index);
 

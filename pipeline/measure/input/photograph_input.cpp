@@ -13,7 +13,7 @@ namespace {
 
 constexpr hal::Duration kFramePeriod{33'333'333};
 
-/// Larger photographs tell no more, and take longer.
+/// Larger photographs take longer and give no better measures.
 constexpr double kMostPixels = 640.0 * 480.0;
 
 hal::FrameSize defaultSize(hal::FrameSize photograph) {

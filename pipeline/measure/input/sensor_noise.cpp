@@ -8,7 +8,7 @@ namespace pleinair::measure {
 
 hal::Image withSensorNoise(const cv::Mat3f& picture, double sigmaLevels, std::uint64_t seed) {
   if (sigmaLevels <= 0) return toImage(picture);
-  // Neighbouring seeds would begin alike.
+  // Spreads seeds: sequences of neighbouring seeds would begin alike.
   constexpr std::uint64_t kSpread = 0x9E3779B97F4A7C15U;
   cv::RNG random((seed + 1) * kSpread);
   cv::Mat3f noisy(picture.size());

@@ -8,8 +8,8 @@
 
 namespace pleinair::measure {
 
-/// The picture as a sensor gives it: white Gaussian noise of `sigmaLevels` (8-bit levels) on each
-/// channel, rounded to RGB8. The same for the same `seed`; another one for each other.
+/// Adds sensor noise to an image: white Gaussian noise of `sigmaLevels` (8-bit levels) on each
+/// channel, rounded to RGB8. The noise depends on `seed` only.
 hal::Image withSensorNoise(const cv::Mat3f& picture, double sigmaLevels, std::uint64_t seed);
 
 }  // namespace pleinair::measure

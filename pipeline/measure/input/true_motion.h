@@ -8,15 +8,15 @@
 
 namespace pleinair::measure {
 
-/// What kind of motion it is, which decides the gates (docs/measuring.md).
+/// Kind of motion; it decides which gates apply (docs/measuring.md).
 enum class MotionKind {
   kStill,  ///< nothing moves
   kPan,    ///< a constant vector
-  kOther,  ///< known, but not one vector: zoom, roll, parallax, what moves before what
-  kNone,   ///< not known
+  kOther,  ///< known, but not one vector: zoom, roll, parallax, occlusion
+  kNone,   ///< unknown
 };
 
-/// How a sequence truly moves.
+/// The true motion of a sequence.
 class TrueMotion {
  public:
   virtual ~TrueMotion() = default;
@@ -27,8 +27,8 @@ class TrueMotion {
   virtual MotionKind kind() const = 0;
   /// For people: "pan by (-1.5, -0.5) px a frame".
   virtual std::string description() const = 0;
-  /// How what is seen in frame `from` has moved to frame `to`; both counted from the input's first.
-  /// Errors: of files that it is read from. Precondition: from < to.
+  /// The motion from frame `from` to frame `to`; both are counted from the input's first. Errors:
+  /// those of its files. Precondition: from < to.
   virtual hal::Result<MotionMap> between(std::uint64_t from, std::uint64_t to) = 0;
 };
 

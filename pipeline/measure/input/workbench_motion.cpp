@@ -11,12 +11,12 @@
 namespace pleinair::measure {
 namespace {
 
-/// From a pixel to the next, for each frame between the two: perspective alone stays below.
+/// Between neighbouring pixels, for each frame between the two; perspective alone stays below it.
 constexpr float kLeapPixelsPerFrame = 0.05F;
 constexpr float kLeastLeapPixels = 0.15F;
 
-/// Rays are followed from every other pixel; between them flow is straight, or leaps and does not
-/// count.
+/// Rays are followed from every other pixel. Between them flow is linear, or discontinuous and then
+/// invalid.
 constexpr int kEveryNth = 2;
 
 /// The nodes of a field around a pixel.

@@ -16,32 +16,32 @@
 
 namespace pleinair::measure {
 
-/// What one frame of the painting reads, for plots.
+/// Readings of one frame of the painting, for plots.
 struct FrameValues {
   std::uint64_t frame = 0;
   Measures painting, input;
   std::optional<AnchorFrame> anchors;
 };
 
-/// A frame in which much changed along the motion, for people to look at: what it was, what was
-/// painted, and how that differs from two frames before.
+/// A frame in which much changed along the motion, for people to look at: its input, its painting,
+/// and the difference to the one two frames before.
 struct WorstFrame {
   std::uint64_t frame = 0;
   double ew2 = 0;
   hal::Image input, output, difference;
-  double differenceGain = 1;  ///< how much stronger the difference is shown than it is
+  double differenceGain = 1;  ///< amplification with which the difference is shown
 };
 
-/// All that is told of one measured sequence.
+/// All results of one measured sequence.
 struct Report {
   std::string style;
   std::string settings;  ///< "look oil, 640x480"
   std::string input;
-  std::string motion;  ///< "pan by …", or that it is not known
+  std::string motion;  ///< "pan by …", or that it is unknown
   MotionKind motionKind = MotionKind::kNone;
   hal::FrameSize size;
-  std::uint64_t settled = 0;  ///< frames that were painted before measuring began
-  std::uint64_t frames = 0;   ///< that were measured
+  std::uint64_t settled = 0;  ///< frames painted before measuring began
+  std::uint64_t frames = 0;   ///< measured frames
   std::uint64_t stillFrames = 0;
   double stillNoise = 0;  ///< levels
 
@@ -50,31 +50,31 @@ struct Report {
   std::optional<AnchorSummary> inside;       ///< of the moving sequence
   std::optional<AnchorSummary> insideStill;  ///< of the still scene
   std::vector<FrameValues> overTime;
-  std::vector<WorstFrame> worst;  ///< the worst first
+  std::vector<WorstFrame> worst;  ///< worst first
   std::vector<Verdict> controls;
   std::vector<Verdict> gates;
   std::vector<std::string> notices;
-  std::vector<std::string> leftOut;  ///< what was not measured, and why
+  std::vector<std::string> leftOut;  ///< measures that are missing, and the reasons
 
-  /// Whether every control that could be told reads as it must.
+  /// Whether every evaluated control reads as it must.
   bool areControlsSound() const;
   /// Whether every gate was measured and passed.
   bool areGatesPassed() const;
 };
 
-/// What a subject is called in tables.
+/// Name of a subject in tables.
 std::string nameOf(Subject subject, const Report& report);
 
-// What reports of every kind say in words.
+// Sentences that reports of every kind share.
 std::string framesText(const Report& report);
 std::vector<std::string> insideLines(const Report& report);
 std::vector<std::string> flatnessLines(const Report& report);
 
-/// The report as lines for a terminal.
+/// The report as text for a terminal.
 std::string reportText(const Report& report);
-/// As JSON, all figures.
+/// The report as JSON, with all figures.
 std::string reportJson(const Report& report);
-/// As one HTML page that needs nothing else: tables, plots over time, the worst frames.
+/// The report as one self-contained HTML page: tables, plots over time, the worst frames.
 std::string reportHtml(const Report& report);
 
 }  // namespace pleinair::measure

@@ -133,7 +133,7 @@ std::string reportJson(const Report& report) {
             {"notes", report.notices},
             {"over_time", Json::array()}};
   for (const FrameValues& values : report.overTime) json["over_time"].push_back(jsonOf(values));
-  // File names may hold anything.
+  // File names may contain any bytes.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

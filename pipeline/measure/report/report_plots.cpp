@@ -15,7 +15,7 @@ constexpr double kRight = 12;
 constexpr double kTop = 22;
 constexpr double kBottom = 36;
 
-/// The smallest of 1, 2, 2.5, 5 × 10ⁿ that is not below.
+/// The smallest of 1, 2, 2.5, 5 × 10ⁿ that is not below `value`.
 double roundedUp(double value) {
   if (!(value > 0)) return 1;
   const double decade = std::pow(10.0, std::floor(std::log10(value)));
@@ -26,8 +26,8 @@ double roundedUp(double value) {
 }
 
 struct Axes {
-  double least = 0, most = 1;  ///< of values
-  double first = 0, last = 1;  ///< of frames
+  double least = 0, most = 1;  ///< of the values
+  double first = 0, last = 1;  ///< of the frames
 
   double x(double frame) const {
     return kLeft + (frame - first) / (last - first) * (kWidth - kLeft - kRight);

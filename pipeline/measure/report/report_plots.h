@@ -7,23 +7,23 @@
 
 namespace pleinair::measure {
 
-/// Text of a page, without what HTML would take for its own.
+/// Escapes text for HTML.
 std::string escaped(const std::string& text);
 
-/// One line of a plot; where it has no value, the line has a gap.
+/// One line of a plot. Where a value is missing, the line has a gap.
 struct PlotLine {
   std::string name;
-  std::string style;  ///< class of the page's style sheet: "painting", "input"
+  std::string style;  ///< class in the page's style sheet: "painting", "input"
   std::vector<std::optional<double>> values;
 };
 
 struct PlotText {
   std::string title;
-  std::string unit;  ///< along the axis of values: "levels"
+  std::string unit;  ///< on the value axis: "levels"
 };
 
-/// A plot over frames as inline SVG, that takes its colours from the page. Empty where no line has
-/// two values. Precondition: as many values a line as frames.
+/// A plot over frames as inline SVG, with colours from the page. Empty if no line has two values.
+/// Precondition: each line has one value per frame.
 std::string plotSvg(const PlotText& text, const std::vector<std::uint64_t>& frames,
                     const std::vector<PlotLine>& lines);
 

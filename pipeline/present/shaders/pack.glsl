@@ -11,8 +11,9 @@ vec3 rgbAt(ivec2 p) { return texelFetch(picture, min(p, textureSize(picture, 0) 
 
 float lumaAt(ivec2 p) { return dot(transpose(ycbcrFromRgb)[0], rgbAt(p)) + ycbcrOffset.x; }
 
-// Chroma of the pair of columns 2 * pair and 2 * pair + 1 at height y: bilinear taps between columns
-// are 1 : 1 means of both and, left-sited, two of them the 1 : 2 : 1 mean around the even one.
+// Chroma of the pair of columns 2 * pair and 2 * pair + 1 at height y. A bilinear tap between two
+// columns is their mean; for left-sited chroma, two taps give the 1 : 2 : 1 mean around the even
+// one.
 vec2 chromaAt(int pair, float y) {
   vec2 size = vec2(textureSize(picture, 0));
   float right = float(2 * pair + 1);
@@ -21,5 +22,5 @@ vec2 chromaAt(int pair, float y) {
   return (ycbcrFromRgb * rgb + ycbcrOffset).yz;
 }
 
-// Of row `row` of 4:2:0 chroma: the mean of two rows of the picture.
+// Chroma of row `row` in 4:2:0: the mean of two rows of the image.
 vec2 chroma420(int pair, int row) { return chromaAt(pair, float(2 * row + 1)); }

@@ -6,8 +6,8 @@
 
 namespace pleinair::scene {
 
-/// A box that stands on z = 0 with its middle over the origin: 12 triangles. `sizeMetres` along x,
-/// y and z, each > 0.
+/// Makes a box that stands on z = 0, centred over the origin: 12 triangles. `sizeMetres` along x, y
+/// and z, each > 0.
 Mesh boxMesh(const glm::dvec3& sizeMetres);
 
 }  // namespace pleinair::scene

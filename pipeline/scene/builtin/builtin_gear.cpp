@@ -20,21 +20,21 @@ constexpr int kDefaultHoles = 5;
 constexpr std::size_t kHoleSegments = 36;
 constexpr int kWebRows = 4;
 constexpr std::size_t kLeastCircleSegments = 72;
-constexpr double kSmoothCosine = 0.9;  // edges of the outline that turn less are round
+constexpr double kSmoothCosine = 0.9;  // edges of the outline that turn less are smoothed
 const glm::dvec2 kAxis(0.0);
 
-/// The gear's radii from the teeth inward, in metres.
+/// The gear's radii in metres, from the teeth inward.
 struct GearPlan {
   double chamfer = 0.0;
-  double rim = 0.0;       // the face's inner edge
-  double webOuter = 0.0;  // the recess' floor
+  double rim = 0.0;       // inner edge of the face
+  double webOuter = 0.0;  // outer edge of the recess' floor
   double webInner = 0.0;
   double hub = 0.0;
   double bore = 0.0;
   double holeCentre = 0.0;
   double hole = 0.0;
   int holes = 0;
-  std::size_t segments = 0;  // of circles about the axis, a multiple of holes
+  std::size_t segments = 0;  // of circles around the axis; a multiple of the number of holes
   bool hasRecess() const { return webOuter > webInner; }
 };
 
@@ -42,8 +42,8 @@ double widestBore(const GearParameters& gear) {
   return 2.0 * (gearRadii(gear.form).rootMetres - 0.75 * gear.form.moduleMetres);
 }
 
-/// Half the angle of the part of the web around a hole: a hole sees all of that part from its
-/// middle, past the hub, so that triangles can fan out from it.
+/// Half the angle of the web's sector around a hole. The whole sector is visible from the hole's
+/// centre, past the hub, so that triangles can fan out from there.
 double halfHoleSector(const GearPlan& plan, int holes) {
   const double pastHub = 0.9 * std::acos(std::min(1.0, plan.webInner / plan.holeCentre));
   return std::min(std::numbers::pi / holes, pastHub);
@@ -64,7 +64,8 @@ GearPlan planOf(const GearParameters& gear) {
       std::max(0.36 * pitchDiameter, 2.0 * plan.bore + 4.0 * plan.chamfer));
   plan.hub = 0.5 * hubDiameter;
   plan.rim = gearRadii(gear.form).rootMetres - 1.25 * m;
-  const double draft = std::min(0.12 * gear.thicknessMetres, 0.4 * m);  // as castings have
+  // Draft angle, as on castings.
+  const double draft = std::min(0.12 * gear.thicknessMetres, 0.4 * m);
   plan.webOuter = plan.rim - plan.chamfer - draft;
   plan.webInner = plan.hub + plan.chamfer + draft;
   if (plan.webOuter - plan.webInner < m) plan.webOuter = plan.webInner = 0.0;
@@ -76,7 +77,7 @@ GearPlan planOf(const GearParameters& gear) {
   return plan;
 }
 
-/// Heights of one side's rings.
+/// Heights of the rings of one side.
 struct Heights {
   double face;
   double chamfer;
@@ -94,7 +95,7 @@ Heights heightsOf(const GearParameters& gear, const GearPlan& plan, Side side) {
   return {0.0, plan.chamfer, web, web + holeChamfer};
 }
 
-/// The outline's edges' outward normals, and points moved inward by the chamfer.
+/// Outward normals of the outline's edges, and points moved inward by the chamfer.
 class Outline {
  public:
   explicit Outline(GearProfile profile) : profile_(std::move(profile)) {
@@ -118,7 +119,7 @@ class Outline {
     return ring;
   }
 
-  /// Two normals an edge, leaning up by `lift` (0: upright wall, ±1: 45°).
+  /// Two normals per edge, tilted up by `lift` (0: upright wall, ±1: 45°).
   std::vector<glm::dvec3> normals(double lift) const {
     std::vector<glm::dvec3> normals;
     const std::size_t count = edgeNormals_.size();
@@ -143,7 +144,8 @@ class Outline {
   std::vector<glm::dvec2> edgeNormals_;
 };
 
-/// The teeth's ends, and the ring at their feet that the rest of the face joins.
+/// Adds the end faces of the teeth. Returns the ring at their feet, which the rest of the face
+/// joins.
 Ring addTeeth(SolidBuilder& solid, Side side, const GearProfile& profile, const Ring& face) {
   Ring feet;
   for (std::size_t first = 0; first < face.size(); first += profile.pointsPerTooth) {
@@ -158,7 +160,7 @@ Ring addTeeth(SolidBuilder& solid, Side side, const GearProfile& profile, const 
   return feet;
 }
 
-/// The recess' floor as a grid of rings from the hub out, whose points all its faces share.
+/// The recess' floor as a grid of rings from the hub outward. All its faces share these points.
 std::vector<Ring> webRings(const GearPlan& plan, double z) {
   std::vector<Ring> rings;
   for (int i = 0; i <= kWebRows; ++i) {
@@ -170,7 +172,7 @@ std::vector<Ring> webRings(const GearPlan& plan, double z) {
   return rings;
 }
 
-/// Fills the columns [from, to) of the grid.
+/// Fills the grid's columns [from, to).
 void addWebColumns(SolidBuilder& solid, Side side, const std::vector<Ring>& web, std::size_t from,
                    std::size_t to) {
   const std::size_t segments = web[0].size();
@@ -183,7 +185,7 @@ void addWebColumns(SolidBuilder& solid, Side side, const std::vector<Ring>& web,
   }
 }
 
-/// The outline of the columns [from, to).
+/// The outline of the grid's columns [from, to).
 Ring outlineOfColumns(const std::vector<Ring>& web, std::size_t from, std::size_t to) {
   const std::size_t segments = web[0].size();
   Ring outline;
@@ -196,14 +198,14 @@ Ring outlineOfColumns(const std::vector<Ring>& web, std::size_t from, std::size_
   return outline;
 }
 
-/// One hole's share of the recess' floor, and its chamfer.
+/// Adds one hole's sector of the recess' floor, and the hole's chamfer.
 void addHole(SolidBuilder& solid, Side side, const GearPlan& plan, const Heights& heights,
              int index) {
   const std::vector<Ring> web = webRings(plan, heights.web);
   const std::size_t columns = plan.segments / static_cast<std::size_t>(plan.holes);
   const std::size_t first = columns * static_cast<std::size_t>(index);
   const double columnRad = 2.0 * std::numbers::pi / static_cast<double>(plan.segments);
-  std::size_t beside = 0;  // columns on either side that the hole leaves whole
+  std::size_t beside = 0;  // columns on either side of the hole that stay whole
   while (0.5 * static_cast<double>(columns - 2 * beside) * columnRad >
          halfHoleSector(plan, plan.holes) + 1e-9) {
     ++beside;

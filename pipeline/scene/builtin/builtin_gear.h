@@ -9,7 +9,7 @@
 namespace pleinair::scene {
 
 /// A spur gear with a bore, a hub, and a web that is recessed and pierced where there is room. It
-/// lies on z = 0, its axis along z.
+/// lies on z = 0; its axis is along z.
 struct GearParameters {
   ToothForm form;
   double thicknessMetres = 0.015;
@@ -19,14 +19,15 @@ struct GearParameters {
   friend bool operator==(const GearParameters&, const GearParameters&) = default;
 };
 
-/// Why a gear cannot be made.
+/// The reason why a gear cannot be made.
 struct GearFault {
-  std::string key;      ///< as in a scene file: "bore_diameter_m"
+  std::string key;      ///< the key in a scene file: "bore_diameter_m"
   std::string problem;  ///< "too wide for the teeth"
   std::string allowed;  ///< "at most 0.0675"
 };
 
-/// The teeth's own numbers are in range: at least 6 teeth, all lengths > 0.
+/// Checks a gear whose basic values are in range: at least 6 teeth, all lengths > 0. Returns
+/// nothing if it can be made.
 std::optional<GearFault> faultOf(const GearParameters& gear);
 
 /// Precondition: faultOf(gear) is nothing.

@@ -44,7 +44,7 @@ FinishColour colourOf(Finish finish) {
   return {"", {}};
 }
 
-/// Puts the parts together. Equal bearings and bolts share their surfaces.
+/// Assembles the parts. Equal bearings and bolts share their surfaces.
 class Assembly {
  public:
   explicit Assembly(const glm::dmat4& modelFromPlan) : modelFromPlan_(modelFromPlan) {}
@@ -90,13 +90,13 @@ class Assembly {
 
 const glm::dmat4 kAsIs(1.0);
 
-/// On a shaft's axis, `y` from the middle of the housing: z towards the reader, x along the
-/// gearbox, y up.
+/// The frame of a part on a shaft's axis, `y` from the housing's centre: z towards the reader, x
+/// along the gearbox, y up.
 glm::dmat4 onAxis(const GearboxPlan& plan, double x, double y) {
   return {1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, -1.0, 0.0, 0.0, x, y, plan.axisHeight, 1.0};
 }
 
-/// The same looking away from the reader.
+/// The frame of a part on the same axis that faces away from the reader.
 glm::dmat4 onAxisBack(const GearboxPlan& plan, double x, double y) {
   return glm::rotate(onAxis(plan, x, y), 0.5 * kTurn, {0.0, 1.0, 0.0});
 }
@@ -138,7 +138,7 @@ void addBearings(Assembly& assembly, const GearboxPlan& plan) {
     const std::size_t outer = assembly.addSurface(outerRaceMesh(shaft), Finish::kSteel);
     const std::size_t inner = assembly.addSurface(innerRaceMesh(shaft), Finish::kPinion);
     const std::size_t balls = assembly.addSurface(ballsMesh(shaft), Finish::kSteel);
-    assembly.addSurface(cageMesh(shaft), Finish::kBrass);  // shown with the balls
+    assembly.addSurface(cageMesh(shaft), Finish::kBrass);  // part of the visible balls
     for (const double y : {-middle, middle}) {
       const std::string name = fmt::format("bearing_{}", number++);
       const glm::dmat4 place = onAxis(plan, shaft.x, y);
@@ -149,7 +149,8 @@ void addBearings(Assembly& assembly, const GearboxPlan& plan) {
   }
 }
 
-/// Over the ends of shafts that do not leave the housing at the back, and the output's in front.
+/// Adds covers over the ends of shafts that do not leave the housing: at the back, and at the front
+/// of the output shaft.
 void addEndCovers(Assembly& assembly, const GearboxPlan& plan, std::vector<glm::dmat4>& bolts) {
   constexpr int kBolts = 4;
   const std::array<std::pair<std::size_t, bool>, 3> ends{{{0, false}, {1, false}, {2, true}}};
@@ -180,7 +181,7 @@ void addBolts(Assembly& assembly, const GearboxPlan& plan, const std::vector<glm
   for (const glm::dmat4& place : small) add(smallHead, place);
 }
 
-/// All of a coupling's bolts turn with it, so they are one part.
+/// Adds all bolts of a coupling as one part, since they turn with it.
 void addCouplingBolts(Assembly& assembly, const GearboxPlan& plan) {
   constexpr int kBolts = 6;
   const Mesh head = hexHead(0.0052, 0.0032);
@@ -195,7 +196,7 @@ void addCouplingBolts(Assembly& assembly, const GearboxPlan& plan) {
                    onAxis(plan, plan.shafts[0].x, 0.0), plan.shafts[0].radiansPerSecond);
 }
 
-/// What is on the housing's front: plug, sight glass, plate.
+/// Adds the fittings on the housing's front: plug, sight glass, plate.
 void addFittings(Assembly& assembly, const GearboxPlan& plan) {
   const auto onFront = [&](double x, double z) {
     return glm::translate(onAxis(plan, x, -kHalfOutside), {0.0, z - plan.axisHeight, 0.0});

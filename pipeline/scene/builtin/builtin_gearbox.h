@@ -9,13 +9,13 @@
 
 namespace pleinair::scene {
 
-/// A two-stage gearbox with its cover off: three shafts side by side in a cast housing, the input
-/// towards the reader of the tag, the output away. It stands on its feet on z = 0, its middle over
-/// the origin, x along its length.
+/// A two-stage gearbox without its cover: three parallel shafts in a cast housing, the input
+/// towards the reader of the tag, the output away. It stands on its feet on z = 0, centred over the
+/// origin, x along its length.
 struct GearboxParameters {
-  double lengthMetres = 0.25;         ///< over its feet, along x; all else follows
-  double inputRevolutions = 12.0;     ///< a minute, against the clock as the reader sees it
-  std::array<int, 2> stage1{19, 43};  ///< teeth of pinion and wheel
+  double lengthMetres = 0.25;         ///< over its feet, along x; all other lengths follow
+  double inputRevolutions = 12.0;     ///< per minute, counter-clockwise as the reader sees it
+  std::array<int, 2> stage1{19, 43};  ///< teeth of the pinion and of the wheel
   std::array<int, 2> stage2{18, 40};
   bool isClosed = false;  ///< with its cover on
   friend bool operator==(const GearboxParameters&, const GearboxParameters&) = default;
@@ -26,16 +26,16 @@ inline constexpr int kMostPinionTeeth = 30;
 inline constexpr int kLeastWheelTeeth = 36;
 inline constexpr int kMostWheelTeeth = 60;
 
-/// A gear of the gearbox as it stands in the plane across the shafts: x along the gearbox, y up.
+/// A gear of the gearbox in the plane across the shafts: x along the gearbox, y up.
 struct GearboxGear {
   ToothForm form;
   glm::dvec2 centre{0.0};  ///< metres
-  double phaseRad = 0.0;   ///< of tooth 0, against the clock from x, at rest
+  double phaseRad = 0.0;   ///< of tooth 0 at rest, counter-clockwise from x
   double radiansPerSecond = 0.0;
 };
 
-/// gear_1 to gear_4: pinion and wheel of the first stage, of the second. Teeth are in the ranges
-/// above.
+/// Returns gear_1 to gear_4: pinion and wheel of the first stage, then of the second. Numbers of
+/// teeth must be in the ranges above.
 std::array<GearboxGear, 4> gearboxGears(const GearboxParameters& parameters);
 
 /// Parts: housing, sight_glass, oil_plug, name_plate; input_shaft, intermediate_shaft,

@@ -8,7 +8,7 @@
 namespace pleinair::scene {
 namespace {
 
-constexpr double kAddendum = 1.0;  // all in modules
+constexpr double kAddendum = 1.0;  // in modules, as all below
 constexpr double kDedendum = 1.25;
 constexpr double kThinnestTip = 0.3;
 constexpr int kFilletSegments = 4;
@@ -30,10 +30,10 @@ glm::dvec2 toPlane(const Polar& p) {
   return {p.radius * std::cos(p.angleRad), p.radius * std::sin(p.angleRad)};
 }
 
-/// The outline from the middle of the root circle's fillet to the tip, on the side of positive
-/// angles, for a tooth about angle 0.
+/// The outline from the centre of the root circle's fillet to the tip, on the side of positive
+/// angles, for a tooth at angle 0.
 std::vector<Polar> halfTooth(const ToothForm& form, const GearRadii& radii) {
-  // The fillet stays in the clearance, below what another gear's teeth touch.
+  // The fillet stays in the clearance, which the teeth of another gear do not reach.
   const double filletHeight = (kDedendum - kAddendum) * form.moduleMetres;
   const double filletTop = radii.rootMetres + filletHeight;
   const double footAngle = halfToothAngleRad(form, radii.rootMetres);

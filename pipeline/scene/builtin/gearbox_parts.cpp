@@ -18,7 +18,7 @@ constexpr double kFlangeDepth = 0.010;
 constexpr double kRibWidth = 0.005;
 constexpr double kPi = std::numbers::pi;
 
-/// The stretches of the flange along a long side, between the bearings' bosses.
+/// The parts of the flange along a long side, between the bearings' bosses.
 std::vector<std::array<double, 2>> flangeStretches(const GearboxPlan& plan) {
   constexpr double kShortest = 0.006;
   std::vector<std::array<double, 2>> stretches;
@@ -33,7 +33,7 @@ std::vector<std::array<double, 2>> flangeStretches(const GearboxPlan& plan) {
   return stretches;
 }
 
-/// The half of a bearing's seat that stands out of a wall, from y = `from` to `to`.
+/// The half of a bearing's seat that protrudes from a wall, from y = `from` to `to`.
 Mesh halfBoss(const GearboxPlan::Shaft& shaft, double height, double from, double to) {
   const bool isFront = to < from;
   const double chamfer = isFront ? -kBevel : kBevel;
@@ -52,7 +52,7 @@ Mesh halfBoss(const GearboxPlan::Shaft& shaft, double height, double from, doubl
   return boss;
 }
 
-/// What the lower and the upper half have in common; its open side is up.
+/// The part that the lower and the upper half have in common, open at the top.
 Mesh tubMesh(const GearboxPlan& plan) {
   const double top = plan.axisHeight;
   const double left = plan.left - kWall;
@@ -121,7 +121,7 @@ Mesh housingMesh(const GearboxPlan& plan) {
 }
 
 Mesh coverMesh(const GearboxPlan& plan) {
-  constexpr double kGasket = 0.0004;  // apart, so that faces do not lie in each other
+  constexpr double kGasket = 0.0004;  // gap that keeps faces from coinciding
   Mesh cover;
   append(cover, tubMesh(plan),
          glm::scale(glm::translate(glm::dmat4(1.0), {0.0, 0.0, 2.0 * plan.axisHeight + kGasket}),
@@ -167,13 +167,13 @@ constexpr double kOutputEnd = 0.0095;  // radius
 constexpr double kOutputKeyFrom = 0.046;
 constexpr double kOutputKeyTo = 0.074;
 
-/// A length of a shaft: its radius from the z before up to this one.
+/// A section of a shaft: its radius from the previous z up to this one.
 struct Step {
   double radius;
   double to;
 };
 
-/// Steps from z = `from` up, chamfered at both ends.
+/// A stepped shaft from z = `from` up, chamfered at both ends.
 Mesh stepped(double from, std::initializer_list<Step> steps) {
   std::vector<glm::dvec2> section{{0.0, from}};
   double z = from;
@@ -190,7 +190,7 @@ Mesh stepped(double from, std::initializer_list<Step> steps) {
   return turned(section, false, kSegments);
 }
 
-/// A circle with a keyway at the top (y).
+/// A circle with a keyway at the top (+y).
 std::vector<glm::dvec2> keyedCircle(double radius) {
   const double half = std::asin(0.5 * kKeyWidth / radius);
   std::vector<glm::dvec2> outline;
@@ -212,13 +212,13 @@ double bearingMiddleRadius(const GearboxPlan::Shaft& shaft) {
 
 constexpr double kHalfBearing = 0.5 * (kBearingFar - kBearingNear);
 
-/// A groove that a ball runs in, as points of a section from z = −width to width (radius first).
-/// `side` 1: in an inner race, seen from outside; −1: in an outer one.
+/// The groove that a ball runs in, as points of a section from z = −width to width (radius first).
+/// `side` 1: in an inner race, as seen from outside; −1: in an outer one.
 std::vector<glm::dvec2> groove(const GearboxPlan::Shaft& shaft, double side) {
   constexpr int kPoints = 4;
   const double middle = bearingMiddleRadius(shaft);
   const double deep = 1.04 * shaft.ballRadius;
-  const double reach = 0.75;  // of the ball's angle on either side
+  const double reach = 0.75;  // part of the ball's angle on either side
   std::vector<glm::dvec2> points;
   for (int i = 0; i <= kPoints; ++i) {
     const double angle = reach * (2.0 * i / kPoints - 1.0);
@@ -326,7 +326,7 @@ Mesh ballsMesh(const GearboxPlan::Shaft& shaft) {
 
 Mesh cageMesh(const GearboxPlan::Shaft& shaft) {
   const double middle = bearingMiddleRadius(shaft);
-  const double half = 0.2 * shaft.ballRadius;  // balls are seen on either side of it
+  const double half = 0.2 * shaft.ballRadius;  // balls protrude on either side of it
   Mesh cage;
   // two rings beside the balls, and a bar between each two balls
   for (const double z : {-1.15 * shaft.ballRadius, 1.15 * shaft.ballRadius}) {

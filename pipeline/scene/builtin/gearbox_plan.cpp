@@ -10,16 +10,16 @@ namespace pleinair::scene {
 namespace {
 
 constexpr std::array<double, 2> kCentreDistances{0.0465, 0.0580};
-/// Shafts stand a little further apart than pitch circles touch: the teeth's play.
+/// Shafts are a little further apart than pitch circles would touch: the backlash.
 constexpr double kPlayModules = 0.03;
 
-/// Where on a gear's pitch, from the middle of a tooth at 0 to the next at 1, a direction lies.
+/// Position of a direction on a gear's pitch, from the centre of one tooth at 0 to the next at 1.
 double placeOnPitch(const GearboxGear& gear, double directionRad) {
   return (directionRad - gear.phaseRad) * gear.form.teeth / kTurn;
 }
 
-/// A gear to the right of `driver` that meshes with it: a gap meets each tooth. Both move alike
-/// where they touch, so that it stays so.
+/// A gear to the right of `driver` that meshes with it: a gap faces each tooth. Both move equally
+/// at the point of contact, so they stay in mesh.
 GearboxGear meshed(const GearboxGear& driver, int teeth) {
   GearboxGear gear{.form = driver.form};
   gear.form.teeth = teeth;
@@ -37,7 +37,7 @@ double moduleOf(const std::array<int, 2>& stage, double distance) {
   return 2.0 * distance / (stage[0] + stage[1]);
 }
 
-/// At rest, before the whole is moved to the middle.
+/// The gears at rest, before the whole is centred.
 std::array<GearboxGear, 4> gearsFromTheInput(const GearboxParameters& parameters) {
   std::array<GearboxGear, 4> gears;
   gears[0].form = {.teeth = parameters.stage1[0],
@@ -56,7 +56,7 @@ double tipOf(const GearboxGear& gear) {
   return gearRadii(gear.form).tipMetres;
 }
 
-/// As wide as the shaft wants, as far as the teeth leave a rim.
+/// Seat radius: the wanted one, as far as the teeth leave a rim.
 double seatOf(const GearboxGear& gear, double wanted) {
   return std::min(wanted, gearRadii(gear.form).rootMetres - 1.2 * gear.form.moduleMetres);
 }

@@ -15,9 +15,9 @@
 namespace pleinair::scene {
 namespace {
 
-/// The signs of a square's corners, against the clock.
+/// Signs of a square's corners, counter-clockwise.
 constexpr std::array<std::pair<int, int>, 4> kSquare{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
-constexpr double kRoundCosine = 0.8;  // edges that turn less are round
+constexpr double kRoundCosine = 0.8;  // edges that turn less are smoothed
 
 void addTriangle(Mesh& mesh, const std::array<glm::dvec3, 3>& corners,
                  const std::array<glm::dvec3, 3>& normals) {
@@ -31,14 +31,14 @@ void addTriangle(Mesh& mesh, const std::array<glm::dvec3, 3>& corners,
   mesh.triangles.push_back({first, first + 1, first + 2});
 }
 
-/// Corners against the clock as seen from outside.
+/// Adds a quad; corners counter-clockwise as seen from outside.
 void addQuad(Mesh& mesh, const std::array<glm::dvec3, 4>& corners,
              const std::array<glm::dvec3, 4>& normals) {
   addTriangle(mesh, {corners[0], corners[1], corners[2]}, {normals[0], normals[1], normals[2]});
   addTriangle(mesh, {corners[0], corners[2], corners[3]}, {normals[0], normals[2], normals[3]});
 }
 
-/// A flat convex polygon whose outside is away from `inside`.
+/// Adds a flat convex polygon that faces away from `inside`.
 void addFace(Mesh& mesh, std::span<const glm::dvec3> corners, const glm::dvec3& inside) {
   glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
   const bool isTurned = glm::dot(normal, corners[0] - inside) < 0.0;
@@ -50,8 +50,8 @@ void addFace(Mesh& mesh, std::span<const glm::dvec3> corners, const glm::dvec3& 
   }
 }
 
-/// Outward normals at the start and the end of each edge of a polyline whose solid is on the left;
-/// both ends of an edge that turns little from its neighbour lean towards it.
+/// Outward normals at the start and the end of each edge of a polyline whose solid is on the left.
+/// Where two edges meet at a small angle, both normals are averaged.
 std::vector<std::array<glm::dvec2, 2>> edgeNormals(std::span<const glm::dvec2> points,
                                                    bool isClosed) {
   const std::size_t edges = isClosed ? points.size() : points.size() - 1;

@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-// withShortEdges() of mesh.h.
+// Also defines withShortEdges() of mesh.h.
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -37,7 +37,7 @@ MeshVertex vertexOf(const glm::dvec3& position, const glm::dvec3& normal) {
   return {.position = glm::vec3(position), .normal = glm::vec3(normal)};
 }
 
-/// A ring walked once around from `start`: the angles are relative to `origin`, rising.
+/// Walks a ring once around from `start`; angles are relative to `origin`, rising.
 class RingWalk {
  public:
   RingWalk(const Ring& ring, const glm::dvec2& centre, std::size_t start, double origin)
@@ -139,7 +139,7 @@ void SolidBuilder::addTurnedBand(Side side, const Ring& from, const Ring& to,
                                  const glm::dvec2& centre) {
   std::vector<glm::dvec3> normals;
   const auto radius = [&](const glm::dvec3& p) { return glm::distance(glm::dvec2(p), centre); };
-  // The section runs from `from` to `to` with the solid on its left, on its right when mirrored.
+  // The section runs from `from` to `to` with the solid on its left, or on its right when mirrored.
   const double turn = side == Side::kUpper ? 1.0 : -1.0;
   const glm::dvec2 along(radius(to[0]) - radius(from[0]), to[0].z - from[0].z);
   const glm::dvec2 across = turn * glm::normalize(glm::dvec2(along.y, -along.x));
@@ -165,7 +165,7 @@ MeshVertex midpoint(const MeshVertex& a, const MeshVertex& b) {
           .colour = 0.5F * (a.colour + b.colour)};
 }
 
-/// The mean of both, of its strongest four joints. The same from both sides, to the bit.
+/// The mean of both, reduced to its four strongest joints. Exactly the same from both sides.
 JointWeights midpoint(const JointWeights& a, const JointWeights& b) {
   std::array<std::pair<float, std::uint16_t>, 8> holds{};  // weight and joint
   std::size_t count = 0;
@@ -196,7 +196,7 @@ JointWeights midpoint(const JointWeights& a, const JointWeights& b) {
   return middle;
 }
 
-/// A mesh that grows as its edges are halved.
+/// A mesh that grows while its edges are halved.
 class EdgeCutter {
  public:
   EdgeCutter(const Mesh& mesh, float maxEdgeMetres, std::size_t mostTriangles)
@@ -215,7 +215,7 @@ class EdgeCutter {
     while (!pending_.empty()) {
       const Triangle corners = pending_.back();
       pending_.pop_back();
-      std::size_t longest = 0;  // the edge from this corner to the next
+      std::size_t longest = 0;  // the longest edge starts at this corner
       float longestSquared = 0.0F;
       for (std::size_t i = 0; i < 3; ++i) {
         const float squared = squaredLength(corners[i], corners[(i + 1) % 3]);
@@ -243,7 +243,7 @@ class EdgeCutter {
     return glm::dot(edge, edge);
   }
 
-  /// The vertex half way, made when it is first asked for.
+  /// The vertex in the middle of an edge, created on first use.
   std::uint32_t middleOf(std::uint32_t a, std::uint32_t b) {
     if (a > b) std::swap(a, b);
     const auto [entry, isNew] = middles_.try_emplace(
@@ -266,7 +266,7 @@ class EdgeCutter {
   float mostSquared_;
   std::size_t mostTriangles_;
   std::vector<Triangle> pending_;
-  std::unordered_map<std::uint64_t, std::uint32_t> middles_;  ///< of edges, lower end first
+  std::unordered_map<std::uint64_t, std::uint32_t> middles_;  ///< per edge, lower end first
 };
 
 }  // namespace

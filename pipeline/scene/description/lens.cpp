@@ -13,7 +13,7 @@ bool bendsLines(const tracking::Distortion& d) {
 double trustedLensRadius(const tracking::Distortion& d) {
   constexpr int kSteps = 1024;
   constexpr double kStep = kWidestLens / kSteps;
-  constexpr double kLeastGrowth = 0.05;  // of the distorted radius against the true one
+  constexpr double kLeastGrowth = 0.05;  // growth of the distorted radius relative to the true one
   double before = 0.0;
   for (int step = 1; step <= kSteps; ++step) {
     const double radius = step * kStep;

@@ -4,12 +4,12 @@
 
 namespace pleinair::scene {
 
-/// Whether straight lines may come out curved.
+/// Whether the distortion may bend straight lines.
 bool bendsLines(const tracking::Distortion& distortion);
 
-/// How far from the axis, on the plane z = 1, a lens model can be trusted: up to there its radial
-/// part grows with the distance. Beyond, a fitted polynomial may fold back and throw points that
-/// are far outside the picture into it. At most kWidestLens.
+/// The distance from the axis, on the plane z = 1, up to which a lens model can be trusted: its
+/// radial part grows up to there. Beyond, a fitted polynomial may fold back and project points far
+/// outside of the image into it. At most kWidestLens.
 double trustedLensRadius(const tracking::Distortion& distortion);
 
 inline constexpr double kWidestLens = 4.0;  ///< 76° off the axis

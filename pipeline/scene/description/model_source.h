@@ -27,14 +27,14 @@ struct FileSource {
   friend bool operator==(const FileSource&, const FileSource&) = default;
 };
 
-/// Where a model comes from. Equal sources give equal models.
+/// Source of a model. Equal sources give equal models.
 using ModelSource = std::variant<BoxSource, GearSource, GearboxSource, FileSource>;
 
-/// Errors: readGltf()'s, for files only. Preconditions: for a gear, faultOf() is
-/// nothing; a gearbox has teeth within its ranges.
+/// Loads or makes the model. Errors: those of readGltf(), for files only. Preconditions: faultOf()
+/// a gear is nothing; a gearbox has numbers of teeth in range.
 hal::Result<Model> modelOf(const ModelSource& source);
 
-/// Whether its materials are coloured; others are white, to be given a colour.
+/// Whether the source's materials have colours. Other models are white and take the scene's colour.
 bool hasOwnColours(const ModelSource& source);
 
 }  // namespace pleinair::scene

@@ -26,7 +26,7 @@ using config::TomlTable;
 
 constexpr int kHighestId36h11 = 586;
 constexpr int kHighestId = 0xFFFF;
-/// Bounds the memory of a scene; a gear of 200 teeth has 23,000.
+/// Limits the memory of a scene; a gear of 200 teeth has 23,000 triangles.
 constexpr std::size_t kMaxSceneTriangles = 1'000'000;
 
 tracking::CameraModel readCamera(const TomlTable& table, const std::filesystem::path& directory,
@@ -37,7 +37,8 @@ tracking::CameraModel readCamera(const TomlTable& table, const std::filesystem::
   try {
     return tracking::loadCalibration(files.back());
   } catch (const config::ConfigError& error) {
-    // A line is of the calibration; without one, it is this scene that names a wrong file.
+    // An error with a line is about the calibration's contents; without one, the scene names a
+    // wrong file.
     if (error.line() > 0) throw;
     throw table.error("calibration", error.what());
   }
@@ -77,7 +78,7 @@ void readTags(const TomlTable& root, Scene& scene) {
   }
 }
 
-/// Reads or makes it unless a model above has it already.
+/// Loads or makes a model, unless an earlier one has the same source.
 std::shared_ptr<const Model> sharedModel(const ModelSource& source, const TomlTable& table,
                                          const Scene& scene) {
   for (const SceneModel& model : scene.models) {
@@ -123,7 +124,7 @@ SceneModel readModel(const TomlTable& table, const std::filesystem::path& direct
   return model;
 }
 
-/// What of a model's file is not shown, and whether it is far larger than anything with tags.
+/// Notices about a model: parts of its file that are not shown, and a size far larger than any tag.
 std::vector<std::string> noticesOf(const SceneModel& model) {
   constexpr double kHugeMetres = 2.0;
   std::vector<std::string> notices;

@@ -42,8 +42,8 @@ namespace pleinair::scene {
 /// Throws config::ConfigError for whatever is wrong with it, or with a calibration that it names.
 Scene loadScene(const std::filesystem::path& path);
 
-/// As loadScene(), from text. `name` stands for the file in messages, `directory` is where the
-/// files that it names are.
+/// The same as loadScene(), from text. Messages name the file `name`; its file names are relative
+/// to `directory`.
 Scene parseScene(std::string_view text, std::string name, const std::filesystem::path& directory);
 
 }  // namespace pleinair::scene

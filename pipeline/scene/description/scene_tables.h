@@ -9,19 +9,19 @@
 
 namespace pleinair::scene {
 
-/// attach: the id of one of the scene's tags, read before; nothing for the world. Throws
-/// config::ConfigError.
+/// Reads `attach`: the id of one of the scene's tags, which must be read already; nothing for the
+/// world. Throws config::ConfigError.
 std::optional<int> readAttachment(const config::TomlTable& table, const Scene& scene);
 
-/// Reads the [[plane]] tables into `scene`, whose tags are read. Throws config::ConfigError.
+/// Reads the [[plane]] tables into `scene`, whose tags must be read already. Throws
+/// config::ConfigError.
 void readPlanes(const config::TomlTable& root, Scene& scene);
 
-/// clip, speed, loop and start of a [[model]] with this rig; where there is only one clip, clip
-/// need not be given. Throws a ConfigError for a clip that is not there, and for keys that do
-/// nothing.
+/// Reads clip, speed, loop and start of a [[model]] with this rig. The clip may be left out if
+/// there is only one. Throws config::ConfigError for an unknown clip, and for keys without effect.
 Playback readPlayback(const config::TomlTable& table, const Rig& rig);
 
-/// Where a model has clips of which none is played: says so, and what to do.
+/// A notice for a model that has clips, none of which is played; it names the key to set.
 std::optional<std::string> standingStillNotice(const Rig& rig, const Playback& playback);
 
 /// A scene file's [light]:

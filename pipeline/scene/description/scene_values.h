@@ -12,15 +12,15 @@
 
 namespace pleinair::scene {
 
-/// position_m and rotation_deg as a transform to the frame that they are given in; nothing where
+/// Reads position_m and rotation_deg as a transform to the frame that they are given in; nothing if
 /// the table has neither.
 std::optional<glm::dmat4> readPose(const config::TomlTable& table);
 
-/// A colour: three sRGB numbers or "#rrggbb"; sRGB-coded.
+/// Reads a colour: three sRGB numbers or "#rrggbb"; sRGB-coded.
 std::optional<glm::vec3> readColour(const config::TomlTable& table,
                                     std::string_view key = "colour");
 
-/// source, and the keys that belong to it. Files are relative to `directory`.
+/// Reads `source` and the keys that belong to it. File names are relative to `directory`.
 ModelSource readSource(const config::TomlTable& table, const std::filesystem::path& directory);
 
 }  // namespace pleinair::scene

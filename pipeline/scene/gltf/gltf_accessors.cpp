@@ -46,7 +46,7 @@ std::size_t componentsOf(int type) {
     case TINYGLTF_TYPE_MAT4:
       return 16;
     default:
-      return 0;  // MAT2 and MAT3: nothing that we read has them
+      return 0;  // MAT2 and MAT3, which nothing here uses
   }
 }
 
@@ -57,7 +57,7 @@ T valueOf(std::span<const std::uint8_t> bytes) {
   return value;
 }
 
-/// An integer or float of glTF; integers that are normalised as fractions (section 3.11).
+/// A number of glTF; normalised integers become fractions (section 3.11).
 double numberOf(std::span<const std::uint8_t> bytes, int componentType, bool isNormalized) {
   const auto scaled = [&](double value, double most) {
     return isNormalized ? std::max(value / most, -1.0) : value;
@@ -84,7 +84,7 @@ bool isUnsigned(int componentType) {
          componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
 }
 
-/// Copies `count` elements, packed. `bytes` starts at the first one.
+/// Copies `count` elements, packed. `bytes` starts at the first element.
 void copyElements(std::span<const std::uint8_t> bytes, std::size_t stride, std::size_t elementBytes,
                   std::size_t count, std::vector<std::uint8_t>& to) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -92,7 +92,7 @@ void copyElements(std::span<const std::uint8_t> bytes, std::size_t stride, std::
   }
 }
 
-/// From `offset` on, with room for `count` elements.
+/// The bytes from `offset` on; checks that they hold `count` elements.
 std::span<const std::uint8_t> elementBytesAt(std::span<const std::uint8_t> view,
                                              std::uint64_t offset, std::size_t stride,
                                              std::size_t elementBytes, std::size_t count,
@@ -197,7 +197,7 @@ float Accessors::bounded(const Elements& elements, std::size_t element, std::siz
                          int accessor, const std::string& where) {
   const double value = numberOf(elements.component(element, component), elements.componentType,
                                 elements.isNormalized);
-  if (!(std::abs(value) <= kMaxCoordinate)) {  // NaN neither
+  if (!(std::abs(value) <= kMaxCoordinate)) {  // rejects NaN too
     refuse(fmt::format("{}: accessors[{}], element {}", where, accessor, element),
            fmt::format("found {}", value), fmt::format("a number of at most {}", kMaxCoordinate));
   }

@@ -15,20 +15,21 @@
 
 namespace pleinair::scene::gltf {
 
-/// Reads accessors of any layout, sparse ones too. `where` is who refers to the accessor; all throw
-/// Fault for whatever is out of range, beyond the limits, or no finite number.
+/// Reads accessors of any layout, sparse ones included. `where` names the JSON element that refers
+/// to the accessor. All functions throw Fault for values out of range, beyond the limits, or not
+/// finite.
 class Accessors {
  public:
-  /// Reads at most `mostNumbers`, each time that they are read.
+  /// Reads at most `mostNumbers` numbers in total, repeated reads included.
   Accessors(const Structure& structure, Resources& resources, std::size_t mostNumbers = kMaxNumbers)
       : structure_(structure), resources_(resources), mostNumbers_(mostNumbers) {}
 
-  /// Vectors of 1 to 4 numbers; what an element lacks is 0, and 1 as the fourth. Normalised
-  /// integers come as fractions.
+  /// Vectors of 1 to 4 numbers. A missing component is 0, or 1 if it is the fourth. Normalised
+  /// integers become fractions.
   std::vector<glm::vec4> vectors(int accessor, const std::string& where);
-  /// Unsigned integers: indices, or a component each of joints.
+  /// Unsigned integers: indices, or one component each of joints.
   std::vector<glm::uvec4> integers(int accessor, const std::string& where);
-  /// `components` numbers an element, one after another: floats or, with `mayBeFractions`,
+  /// `components` numbers per element, one after another: floats or, with `mayBeFractions`,
   /// normalised integers as fractions.
   std::vector<float> numbers(int accessor, std::size_t components, bool mayBeFractions,
                              const std::string& where);
@@ -56,7 +57,7 @@ class Accessors {
   const Structure& structure_;
   Resources& resources_;
   std::size_t mostNumbers_;
-  std::size_t numbers_ = 0;  ///< read so far
+  std::size_t numbers_ = 0;  ///< number of numbers read so far
 };
 
 }  // namespace pleinair::scene::gltf

@@ -51,7 +51,7 @@ void checkTimes(const std::vector<float>& seconds, const std::string& where) {
   }
 }
 
-/// Tangents may be anything; a value must be a rotation.
+/// Checks that all values are rotations. Tangents may be anything.
 void checkRotations(const Channel& channel, const std::string& where) {
   const bool isSpline = channel.interpolation == Interpolation::kCubicSpline;
   for (std::size_t key = 0; key < channel.seconds.size(); ++key) {
@@ -62,10 +62,10 @@ void checkRotations(const Channel& channel, const std::string& where) {
   }
 }
 
-/// Gives those without a name one, and all different ones.
+/// Gives unnamed clips a name, and makes all names unique.
 void nameApart(std::vector<std::pair<std::size_t, Clip>>& clips) {
   std::set<std::string> taken;
-  std::map<std::string, std::size_t> copies;  // so far, of each name that a file gives
+  std::map<std::string, std::size_t> copies;  // number of clips so far with a name from the file
   for (auto& [index, clip] : clips) {
     if (clip.name.empty()) clip.name = fmt::format("animation {}", index + 1);
     std::size_t& count = copies[clip.name];
@@ -114,11 +114,11 @@ std::optional<Channel> ClipReader::readChannel(const AnimationEntry& animation,
                                                const std::string& name, const std::string& where) {
   if (!entry.path) refuse(where + ".target.path", "missing");
   const auto path = std::ranges::find(kPaths, *entry.path, &decltype(kPaths)::value_type::first);
-  if (path == kPaths.end()) {  // an extension's, such as KHR_animation_pointer
+  if (path == kPaths.end()) {  // path of an extension, such as KHR_animation_pointer
     unknownPaths_.insert(config::quoted(*entry.path));
     return std::nullopt;
   }
-  if (!entry.node) {  // section 3.11: ignored
+  if (!entry.node) {  // ignored as section 3.11 says
     ++channelsWithoutNode_;
     return std::nullopt;
   }

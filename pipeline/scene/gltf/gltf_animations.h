@@ -15,16 +15,16 @@
 
 namespace pleinair::scene::gltf {
 
-/// Reads animations (glTF 2.0, section 3.11) as clips of the tree's rig. What the specification
-/// says to ignore gets a notice; all else that is wrong throws Fault.
+/// Reads animations (glTF 2.0, section 3.11) as clips of the tree's rig. Channels that the
+/// specification tells readers to ignore get a notice; all other errors throw Fault.
 class ClipReader {
  public:
   ClipReader(const Structure& structure, Resources& resources, const NodeTree& tree)
       : structure_(structure), tree_(tree), accessors_(structure, resources, kMaxKeyNumbers) {}
 
-  /// Each has a name of its own, and something that it moves.
+  /// Reads all clips that move something; each has a unique name.
   std::vector<Clip> read();
-  /// What of them is not played, once they are read; a line each.
+  /// One line for each kind of animation that was not read; valid after read().
   std::vector<std::string> notices() const;
 
  private:

@@ -29,7 +29,7 @@ struct Chunk {
   std::span<const std::uint8_t> bytes;
 };
 
-/// Takes the next chunk off the front of `rest`.
+/// Removes the next chunk from the front of `rest`.
 Chunk takeChunk(std::span<const std::uint8_t>& rest) {
   if (rest.size() < kChunkHeaderBytes) refuse("", "breaks off in a chunk's header", kWhole);
   const std::size_t length = wordAt(rest, 0);
@@ -65,7 +65,7 @@ Container openBinary(std::span<const std::uint8_t> file) {
   for (bool isSecond = true; !rest.empty(); isSecond = false) {
     const Chunk chunk = takeChunk(rest);
     if (chunk.type == kJsonChunk) refuse("", "has two JSON chunks");
-    if (chunk.type != kBinaryChunk) continue;  // others are to be passed over
+    if (chunk.type != kBinaryChunk) continue;  // other chunks are skipped
     if (!isSecond) refuse("", "has a BIN chunk that is not its second");
     container.binary = chunk.bytes;
   }

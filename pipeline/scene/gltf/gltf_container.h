@@ -7,13 +7,13 @@
 
 namespace pleinair::scene::gltf {
 
-/// A glTF file's two halves. Refers to the file's bytes.
+/// The two halves of a glTF file. Refers to the file's bytes.
 struct Container {
   std::string_view json;
-  std::optional<std::span<const std::uint8_t>> binary;  ///< a .glb's BIN chunk
+  std::optional<std::span<const std::uint8_t>> binary;  ///< BIN chunk of a .glb
 };
 
-/// Tells .glb (specification, section 4) from .gltf by the first bytes, and takes it apart. Throws
+/// Tells .glb (specification, section 4) from .gltf by the first bytes, and splits it. Throws
 /// Fault.
 Container openContainer(std::span<const std::uint8_t> file);
 

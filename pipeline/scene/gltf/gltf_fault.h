@@ -15,10 +15,10 @@
 
 namespace pleinair::scene::gltf {
 
-/// What is wrong with a glTF file. Thrown within this folder; readGltf() makes it a value.
+/// An error in a glTF file. Thrown within this folder; readGltf() converts it to a value.
 class Fault : public std::runtime_error {
  public:
-  /// `where` is a place of the file's JSON: "nodes[3].mesh"; empty for the file itself.
+  /// `where` is a position in the file's JSON, such as "nodes[3].mesh"; empty for the file itself.
   Fault(hal::ErrorKind kind, const std::string& where, const std::string& problem,
         std::string remedy = {})
       : std::runtime_error(where.empty() ? problem : where + ": " + problem),
@@ -33,26 +33,26 @@ class Fault : public std::runtime_error {
   std::string remedy_;
 };
 
-/// The file breaks the specification, or our limits on what is sane.
+/// Throws Fault for a file that breaks the specification or exceeds our limits.
 [[noreturn]] inline void refuse(const std::string& where, const std::string& problem,
                                 std::string remedy = {}) {
   throw Fault(hal::ErrorKind::kInvalidInput, where, problem, std::move(remedy));
 }
 
-/// The file may be sound, but uses what is not there.
+/// Throws Fault for a file that may be valid but uses an unsupported feature.
 [[noreturn]] inline void refuseUnsupported(const std::string& where, const std::string& problem,
                                            std::string remedy = {}) {
   throw Fault(hal::ErrorKind::kUnsupported, where, problem, std::move(remedy));
 }
 
-/// A file's own words, fit for a line of a message: control characters become spaces.
+/// Text from a file, made fit for a message of one line: control characters become spaces.
 inline std::string oneLine(std::string text) {
   std::ranges::replace_if(
       text, [](char c) { return (c >= '\0' && c < ' ') || c == '\x7f'; }, ' ');
   return text;
 }
 
-/// A comma-separated list that stays readable.
+/// A comma-separated list, shortened to stay readable.
 inline std::string shortList(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 8;
   const std::span<const std::string> first = std::span(names).first(std::min(kMost, names.size()));

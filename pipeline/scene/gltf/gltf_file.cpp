@@ -30,7 +30,7 @@ namespace {
 
 using gltf::refuse;
 
-/// glTF: y up, z to the front. Ours: z up, −y to whoever reads the tag.
+/// glTF: y up, z to the front. Ours: z up, −y towards the reader of the tag.
 constexpr glm::dmat4 kModelFromGltf{1.0, 0.0,  0.0, 0.0, 0.0, 0.0, 1.0, 0.0,
                                     0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0};
 constexpr double kWidestMetres = 1e6;
@@ -67,8 +67,8 @@ class ModelBuilder {
     std::size_t count = 0;
     std::size_t triangles = 0;
     std::size_t vertices = 0;
-    std::size_t morphs = 0;        ///< targets times vertices and triangles
-    std::size_t highestJoint = 0;  ///< that holds any of its vertices
+    std::size_t morphs = 0;        ///< number of targets times number of vertices and triangles
+    std::size_t highestJoint = 0;  ///< the highest one that holds any vertex
   };
 
   void addNode(std::size_t index) {
@@ -113,7 +113,7 @@ class ModelBuilder {
          .skin = skin});
   }
 
-  /// The skin's place in the rig, once it is known to do for the surfaces.
+  /// Index of the skin in the rig, after checking that it fits the surfaces.
   std::size_t skinOf(const tinygltf::Node& node, const SurfaceRange& range,
                      const std::string& where) {
     const std::size_t place = skins_.place(node.skin, model_.rig.skins, where + ".skin");
@@ -130,7 +130,7 @@ class ModelBuilder {
     return place;
   }
 
-  /// Meshes are shared by the nodes that show them.
+  /// Surfaces of a mesh. Nodes that show the same mesh share them.
   const SurfaceRange& surfacesOf(int mesh, bool isSkinned) {
     const std::pair key(mesh, isSkinned);
     const auto known = ranges_.find(key);
@@ -165,7 +165,7 @@ class ModelBuilder {
     return range;
   }
 
-  /// A rig only for what needs one: all else is where it is.
+  /// Adds a rig if anything needs one; all other nodes have fixed positions.
   void addRig() {
     model_.rig.clips = clips_.read();
     if (model_.rig.clips.empty() && model_.rig.skins.empty() && drawnMorphs_ == 0) {
@@ -206,7 +206,7 @@ class ModelBuilder {
   gltf::SkinReader skins_;
   gltf::ClipReader clips_;
   Model model_;
-  std::map<std::pair<int, bool>, SurfaceRange> ranges_;  ///< of meshes, and whether with a skin
+  std::map<std::pair<int, bool>, SurfaceRange> ranges_;  ///< per mesh, and whether with a skin
   std::size_t primitives_ = 0;
   std::size_t posedJoints_ = 0;
   std::size_t drawnTriangles_ = 0;
@@ -215,7 +215,7 @@ class ModelBuilder {
   bool hasLines_ = false;
 };
 
-/// What `make` gives, or the Fault that it threw.
+/// The result of `make`, or the Fault that it threw as an error.
 template <class Function>
 hal::Result<Model> withFaultsAsErrors(const std::string& name, Function make) {
   try {

@@ -10,20 +10,21 @@
 
 namespace pleinair::scene {
 
-/// A glTF 2.0 model (.glb or .gltf, told apart by content): the default scene's triangles with
-/// their base colours, base-colour textures and vertex colours; a part for each node that shows a
-/// mesh, under its name; and, where anything of it moves, a rig of its nodes, with its skins and
-/// animations as clips. Meshes are in their own frame, those with a skin as they were bound to it.
-/// glTF's y (up) becomes z, its z (front) −y: it stands on a tag and looks to whoever reads the
-/// tag. Metres as they are.
+/// Reads a glTF 2.0 model (.glb or .gltf, told apart by content): the default scene's triangles
+/// with their base colours, base-colour textures and vertex colours. Each node that shows a mesh
+/// becomes a part of the same name. Where anything moves, the model has a rig of its nodes, with
+/// its skins, and its animations as clips. Meshes are in their own frame; those with a skin are as
+/// they were bound. glTF's y (up) becomes z and its z (front) becomes −y, so the model stands on a
+/// tag and faces its reader. Lengths are metres, unchanged.
 ///
-/// Nothing is opened but the file and what lies in its folder (links followed), and only what is
-/// used. What is left out (points, blending …) is in Model::notices. Errors: kInvalidInput (broken,
-/// hostile or beyond the limits), kUnsupported (a required extension, or more joints or morph
-/// targets than are posed), and FileInput's; one line with file, place and what was found.
+/// Opens no file but this one and those in its folder (links are followed), and only the files
+/// used. Features left out (points, blending …) are listed in Model::notices. Errors: kInvalidInput
+/// (broken, hostile or beyond the limits), kUnsupported (a required extension, or more joints or
+/// morph targets than are supported), and FileInput's; one line with the file, the position and the
+/// value found.
 hal::Result<Model> readGltf(const std::filesystem::path& path);
 
-/// The same from memory; opens no file. `name` stands for the file in errors.
+/// The same from memory; opens no file. Errors name the file `name`.
 hal::Result<Model> parseGltf(std::span<const std::uint8_t> bytes, const std::string& name);
 
 }  // namespace pleinair::scene

@@ -93,7 +93,7 @@ std::size_t MaterialReader::texturePlace(int texture, Model& model, const std::s
   return place;
 }
 
-/// Each is a texture of the GPU's, also those that share a picture: equal ones are made once.
+/// Each texture here is one of the GPU, even if it shares an image: equal ones are made once.
 std::size_t MaterialReader::placeAmong(std::vector<ModelTexture>& textures, ModelTexture made,
                                        const std::string& where) {
   const auto same = std::ranges::find_if(textures, [&](const ModelTexture& each) {

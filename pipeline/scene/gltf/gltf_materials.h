@@ -13,18 +13,18 @@
 
 namespace pleinair::scene::gltf {
 
-/// Makes the materials that are used, with their pictures.
+/// Reads the materials that are used, with their images.
 class MaterialReader {
  public:
   MaterialReader(const Structure& structure, Resources& resources)
       : structure_(structure), resources_(resources) {}
 
-  /// The place in model.materials of the file's material; -1 is glTF's default one. Reads it when
-  /// first asked for. Throws Fault.
+  /// Index in model.materials of the file's material; -1 is glTF's default one. Reads it on first
+  /// use. Throws Fault.
   std::size_t place(int material, Model& model, const std::string& where);
-  /// How the textures lie, by place.
+  /// The texture mapping, by index in model.materials.
   const TextureMapping& mapping(std::size_t place) const { return mappings_[place]; }
-  /// Materials whose blending is drawn as holes.
+  /// Materials with blending, which is drawn as holes.
   const std::vector<std::string>& blended() const { return blended_; }
 
  private:

@@ -10,26 +10,26 @@
 
 namespace pleinair::scene::gltf {
 
-/// How many morph targets the mesh of a node has (section 3.7.2.2); 0 without a mesh. Throws Fault
-/// above kMaxMorphTargets.
+/// Number of morph targets of a node's mesh (section 3.7.2.2); 0 without a mesh. Throws Fault above
+/// kMaxMorphTargets.
 std::size_t morphTargetsOf(const tinygltf::Model& gltf, std::size_t node);
 
-/// Throws Fault where the primitives of a mesh, which is called `name`, have different counts.
+/// Throws Fault where the primitives of a mesh (called `name`) have different numbers of targets.
 void checkMorphTargets(const tinygltf::Mesh& mesh, const std::string& name);
 
-/// How much each is shown at rest: as the node, or else its mesh says, or else not at all. Throws
-/// Fault.
+/// Weights of the targets at rest: the node's, or else the mesh's, or else zeros. Throws Fault.
 std::vector<float> restWeightsOf(const tinygltf::Model& gltf, std::size_t node);
 
-/// Reads morph targets of primitives, within a limit on how much all of them are together.
+/// Reads morph targets of primitives, within a limit on their total size.
 class MorphReader {
  public:
   explicit MorphReader(Accessors& accessors) : accessors_(accessors) {}
 
-  /// For `vertices` vertices, of which `kept` will be made (flat shading makes more). Throws Fault.
+  /// Reads the targets of `vertices` vertices, of which `kept` will be made (flat shading makes
+  /// more). Throws Fault.
   std::vector<MorphTarget> read(const tinygltf::Primitive& primitive, std::size_t vertices,
                                 std::size_t kept, const std::string& where);
-  /// Whether any target has more than positions and normals to be moved.
+  /// Whether any target moves more than positions and normals.
   bool hasOthers() const { return hasOthers_; }
 
  private:
@@ -38,8 +38,8 @@ class MorphReader {
   bool hasOthers_ = false;
 };
 
-/// The normals that a flat-shaded mesh has at weight 1 of each target, less those it has without:
-/// for those targets that have none.
+/// Adds normals to targets without any: the normals of a flat-shaded mesh at weight 1 of the
+/// target, minus its normals without it.
 void addFlatNormals(Mesh& mesh);
 
 }  // namespace pleinair::scene::gltf

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kNoParent = -1;
 
-/// `defaults` where the file says nothing.
+/// Numbers from the file, or `defaults` if it has none.
 template <std::size_t N>
 std::array<double, N> numbersOf(const std::vector<double>& values, std::array<double, N> defaults,
                                 const std::string& where) {
@@ -82,7 +82,7 @@ std::vector<int> parentsOf(const tinygltf::Model& gltf) {
   return parents;
 }
 
-/// All nodes, parents first. Those in a circle have no root above them and are never reached.
+/// All nodes, parents first. Nodes in a cycle have no root above them and are not reached.
 std::vector<std::size_t> parentsFirst(const tinygltf::Model& gltf,
                                       const std::vector<int>& parents) {
   std::vector<std::size_t> order;
@@ -103,7 +103,7 @@ std::vector<std::size_t> parentsFirst(const tinygltf::Model& gltf,
   return order;
 }
 
-/// Marks what the default scene shows; the first where none is named, all where there is none.
+/// Marks the nodes of the default scene: of the first scene if none is named, all if there is none.
 std::vector<bool> shownNodes(const tinygltf::Model& gltf, const std::vector<std::size_t>& order,
                              const std::vector<int>& parents) {
   std::vector<bool> isShown(gltf.nodes.size(), gltf.scenes.empty());

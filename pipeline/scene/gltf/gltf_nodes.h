@@ -12,14 +12,14 @@ namespace pleinair::scene::gltf {
 
 /// The tree of a glTF's nodes.
 struct NodeTree {
-  std::vector<glm::dmat4> rootFromNode;  ///< at rest; for each node of the file
-  std::vector<RigNode> rig;              ///< all of them, parents first; without weights
-  std::vector<std::size_t> rigIndex;     ///< of `rig`, for each node of the file
+  std::vector<glm::dmat4> rootFromNode;  ///< at rest; per node of the file
+  std::vector<RigNode> rig;              ///< all nodes, parents first; without weights
+  std::vector<std::size_t> rigIndex;     ///< index in `rig`, per node of the file
   std::vector<std::size_t> shown;        ///< nodes of the default scene, parents first
 };
 
-/// Throws Fault for children that are not there or have two parents, circles, and transforms that
-/// are none.
+/// Builds the tree. Throws Fault for missing children, children with two parents, cycles, and
+/// invalid transforms.
 NodeTree nodeTreeOf(const tinygltf::Model& gltf);
 
 }  // namespace pleinair::scene::gltf

@@ -25,7 +25,7 @@ int hexDigit(char c) {
   return -1;
 }
 
-/// "%20" becomes a space.
+/// Decodes percent escapes: "%20" becomes a space.
 std::string percentDecoded(std::string_view text, const std::string& where) {
   std::string decoded;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -82,7 +82,7 @@ std::vector<std::uint8_t> readWholeFile(const std::filesystem::path& path, std::
   const hal::Result<hal::libav::FileInput> file = hal::libav::FileInput::open(path);
   if (!file) {
     const hal::Error& error = file.error();
-    // What it advises for a file that is empty or none is meant for movies.
+    // FileInput's remedy for an empty or missing file is about movies; replace it.
     const bool isNone = error.kind == hal::ErrorKind::kInvalidInput;
     throw Fault(error.kind, where, error.problem,
                 isNone ? "export or copy it again" : error.remedy);

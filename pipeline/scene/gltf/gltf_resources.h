@@ -15,31 +15,31 @@
 
 namespace pleinair::scene::gltf {
 
-/// A whole file, at most `mostBytes` of it. Throws Fault with `where`.
+/// Reads a whole file of at most `mostBytes`. Throws Fault with `where`.
 std::vector<std::uint8_t> readWholeFile(const std::filesystem::path& path, std::int64_t mostBytes,
                                         const std::string& where);
 
-/// The file that a relative URI names, within `folder` also when links are followed. Throws Fault
-/// for schemes, absolute paths, "..", and whatever leads out of the folder.
+/// Resolves a relative URI to a file, which must be within `folder` after links are followed.
+/// Throws Fault for schemes, absolute paths, "..", and paths that leave the folder.
 std::filesystem::path fileOf(std::string_view uri, const std::filesystem::path& folder,
                              const std::string& where);
 
-/// The bytes in a data: URI. Throws Fault.
+/// Decodes the bytes of a data: URI. Throws Fault.
 std::vector<std::uint8_t> bytesOfDataUri(std::string_view uri, const std::string& where);
 
-/// The bytes and pictures that a glTF refers to. Each is read when it is first asked for: what
-/// nobody uses is never opened. All throw Fault.
+/// The buffers and images that a glTF refers to. Each is read on first use; unused ones are never
+/// opened. All functions throw Fault.
 class Resources {
  public:
-  /// `folder` is the only one that files are opened in; without, none is. Refers to `structure` and
+  /// Files are opened in `folder` only; without a folder, none is opened. Refers to `structure` and
   /// `binary`, a .glb's BIN chunk.
   Resources(const Structure& structure, std::optional<std::span<const std::uint8_t>> binary,
             std::optional<std::filesystem::path> folder);
 
-  /// At least byteLength bytes; valid as long as this.
+  /// At least byteLength bytes; valid as long as this object.
   std::span<const std::uint8_t> buffer(std::size_t index, const std::string& where);
   std::span<const std::uint8_t> bufferView(std::size_t index, const std::string& where);
-  /// Decoded, as RGBA8. The same again for the same index.
+  /// Decodes an image to RGBA8. The same index gives the same object.
   std::shared_ptr<const hal::Image> image(std::size_t index, const std::string& where);
 
  private:

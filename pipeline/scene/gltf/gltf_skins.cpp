@@ -12,7 +12,7 @@
 namespace pleinair::scene::gltf {
 namespace {
 
-/// The strongest four holds on a vertex, as they come.
+/// Collects the four strongest joint weights of a vertex.
 struct Strongest {
   std::array<std::uint32_t, 4> joints{};
   std::array<float, 4> weights{};
@@ -31,7 +31,7 @@ struct Strongest {
   }
 };
 
-/// Reads JOINTS_set and WEIGHTS_set; false where the primitive has none.
+/// Reads JOINTS_set and WEIGHTS_set; returns false if the primitive has none.
 bool readSet(Accessors& accessors, const tinygltf::Primitive& primitive, int set,
              const std::string& where, std::vector<Strongest>& holds) {
   const auto jointsEntry = primitive.attributes.find(fmt::format("JOINTS_{}", set));
@@ -60,7 +60,7 @@ bool readSet(Accessors& accessors, const tinygltf::Primitive& primitive, int set
 JointWeights normalised(const Strongest& holds, const std::string& where) {
   float sum = 0.0F;
   for (const float weight : holds.weights) sum += weight;
-  if (!(sum > 0.0F)) return {};  // held by no joint: the first one takes it
+  if (!(sum > 0.0F)) return {};  // no joint holds it: the first one does
   JointWeights result;
   for (std::size_t i = 0; i < 4; ++i) {
     if (holds.weights[i] > 0.0F && holds.joints[i] >= kMaxJoints) {
@@ -90,7 +90,7 @@ std::size_t SkinReader::place(int index, std::vector<Skin>& skins, const std::st
 
 Skin SkinReader::read(const tinygltf::Skin& skin, const std::string& name) {
   if (skin.joints.empty()) refuse(name + ".joints", "is empty");
-  if (skin.joints.size() > tree_.rig.size()) {  // each node once (section 5.28)
+  if (skin.joints.size() > tree_.rig.size()) {  // each node at most once (section 5.28)
     refuse(name + ".joints",
            fmt::format("has {}, of {} nodes", skin.joints.size(), tree_.rig.size()));
   }

@@ -19,7 +19,7 @@ class SkinReader {
   SkinReader(const Structure& structure, Accessors& accessors, const NodeTree& tree)
       : structure_(structure), accessors_(accessors), tree_(tree) {}
 
-  /// The place in `skins` of the file's skin; reads it when first asked for. Throws Fault.
+  /// Index in `skins` of the file's skin; reads it on first use. Throws Fault.
   std::size_t place(int skin, std::vector<Skin>& skins, const std::string& where);
 
  private:
@@ -31,17 +31,18 @@ class SkinReader {
   std::map<int, std::size_t> places_;
 };
 
-/// What holds each vertex of a primitive: its strongest four joints.
+/// Joint weights of a primitive's vertices: the four strongest joints of each.
 struct HeldVertices {
   std::vector<JointWeights> joints;
-  std::size_t heldByMore = 0;  ///< vertices of which other joints hold more than a hundredth
+  /// Vertices for which the dropped joints weigh more than a hundredth.
+  std::size_t heldByMore = 0;
 };
 
-/// Without JOINTS_0, the first joint holds everything. Throws Fault.
+/// Reads them. Without JOINTS_0, the first joint holds all vertices. Throws Fault.
 HeldVertices readJointWeights(Accessors& accessors, const tinygltf::Primitive& primitive,
                               std::size_t vertices, const std::string& where);
 
-/// The highest joint that holds any vertex; 0 where there is none.
+/// The highest joint that holds any vertex; 0 if there is none.
 std::size_t highestJoint(const Mesh& mesh);
 
 }  // namespace pleinair::scene::gltf

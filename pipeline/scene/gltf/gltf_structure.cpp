@@ -95,13 +95,13 @@ constexpr std::array<std::string_view, 2> kExtensions{"KHR_mesh_quantization",
 constexpr std::array<const char*, 7> kAccessorTypes{"SCALAR", "VEC2", "VEC3", "VEC4",
                                                     "MAT2",   "MAT3", "MAT4"};
 
-/// A library's message, which may quote all of a long string.
+/// The first line of a library's message, which may quote a whole long string.
 std::string firstLine(const std::string& text) {
   return text.substr(0, std::min<std::size_t>(text.find('\n'), 200));
 }
 
-/// Parses with bounds on nesting and on how many values there are: later readers of it recurse,
-/// and a value takes far more memory than its text.
+/// Parses JSON with limits on nesting and on the number of values: later readers recurse, and a
+/// value takes far more memory than its text.
 json parseBounded(std::string_view text) {
   std::size_t values = 0;
   const auto bounded = [&](int depth, json::parse_event_t event, const json&) {
@@ -183,8 +183,8 @@ std::vector<ImageEntry> readImages(const json& root) {
   return images;
 }
 
-/// tinygltf refuses a file for an accessor of a type that it does not know, though nobody may use
-/// it: puts a sound one in its place and remembers what it was.
+/// tinygltf refuses a file with an accessor of unknown type, even an unused one. Replaces such
+/// accessors by valid ones and returns their types.
 std::map<std::size_t, std::string> replaceUnknownTypes(json& root) {
   std::map<std::size_t, std::string> unknown;
   const auto list = root.find("accessors");
@@ -233,7 +233,7 @@ Structure readStructure(std::string_view text) {
                                     static_cast<unsigned>(rest.size()), "")) {
       refuse("", firstLine(error.empty() ? "cannot be parsed" : error));
     }
-  } catch (const json::exception& fault) {  // values of other types than it expects
+  } catch (const json::exception& fault) {  // a value has another type than it expects
     refuse("", fmt::format("its JSON is not glTF's: {}", firstLine(fault.what())));
   }
   return structure;

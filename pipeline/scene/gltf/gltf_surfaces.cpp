@@ -14,7 +14,7 @@
 namespace pleinair::scene::gltf {
 namespace {
 
-/// -1 where the primitive has none.
+/// Index of the accessor; -1 if the primitive has no such attribute.
 int attributeOf(const tinygltf::Primitive& primitive, const std::string& name) {
   const auto found = primitive.attributes.find(name);
   return found == primitive.attributes.end() ? -1 : found->second;
@@ -27,7 +27,8 @@ glm::dvec3 areaOf(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle
   return glm::cross(b - a, c - a);
 }
 
-/// Twice its area, along its normal; where it has none, the first that a morph target gives it.
+/// Twice the triangle's area, along its normal. If the area is zero, that of the first morph target
+/// that gives it one.
 glm::dvec3 areaOnceMorphed(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
   glm::dvec3 area = areaOf(mesh, triangle);
   for (const MorphTarget& target : mesh.morphTargets) {
@@ -41,8 +42,8 @@ glm::dvec3 areaOnceMorphed(const Mesh& mesh, const std::array<std::uint32_t, 3>&
   return area;
 }
 
-/// Each triangle with vertices of its own and its own normal, as section 3.7.2.1 asks for where a
-/// file has no normals.
+/// Gives each triangle its own vertices and its own normal, as section 3.7.2.1 asks for files
+/// without normals.
 Mesh flatShaded(const Mesh& mesh) {
   Mesh flat;
   flat.vertices.reserve(3 * mesh.triangles.size());
@@ -64,8 +65,8 @@ Mesh flatShaded(const Mesh& mesh) {
   return flat;
 }
 
-/// Exporters leave normals without length where triangles meet that have no area: those get their
-/// triangles' mean.
+/// Exporters write normals of zero length where triangles without area meet. Such normals become
+/// the mean of their triangles'.
 void repairNormals(Mesh& mesh) {
   std::vector<glm::dvec3> sums(mesh.vertices.size(), glm::dvec3(0.0));
   for (const auto& triangle : mesh.triangles) {
@@ -83,7 +84,7 @@ void repairNormals(Mesh& mesh) {
   }
 }
 
-/// The corners of each triangle of a list of indices (section 3.7.2.1).
+/// The corners of each triangle of an index list (section 3.7.2.1).
 std::vector<std::array<std::uint32_t, 3>> trianglesOf(const std::vector<std::uint32_t>& indices,
                                                       int mode) {
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -119,7 +120,8 @@ std::optional<Mesh> SurfaceReader::read(const tinygltf::Primitive& primitive,
   }
   if (primitive.mode < 0 && primitive.mode != -1) refuse(where + ".mode", "is none of glTF's");
   if (primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) refuse(where + ".mode", "is none of glTF's");
-  if (attributeOf(primitive, "POSITION") < 0) return std::nullopt;  // section 3.7.2.1: skipped
+  // Skipped as section 3.7.2.1 says.
+  if (attributeOf(primitive, "POSITION") < 0) return std::nullopt;
   const bool isFlat = attributeOf(primitive, "NORMAL") < 0;
   Mesh mesh;
   readVertices(primitive, mapping, where, mesh);

@@ -13,24 +13,24 @@
 
 namespace pleinair::scene::gltf {
 
-/// How a material's texture lies on a surface: which TEXCOORD_n, and KHR_texture_transform.
+/// Texture mapping of a material on a surface: TEXCOORD_n and KHR_texture_transform.
 struct TextureMapping {
   int set = 0;
   glm::mat3 transform{1.0F};
 };
 
-/// Reads primitives as meshes, within limits on how much all of them are together.
+/// Reads primitives as meshes, within limits on their total size.
 class SurfaceReader {
  public:
   explicit SurfaceReader(Accessors& accessors) : accessors_(accessors), morphs_(accessors) {}
 
-  /// The triangles of a primitive with its morph targets; nothing for points and lines. With
-  /// `isSkinned`, also what joints hold its vertices. Throws Fault.
+  /// Reads the triangles of a primitive with its morph targets; nothing for points and lines. With
+  /// `isSkinned`, also reads the joint weights of its vertices. Throws Fault.
   std::optional<Mesh> read(const tinygltf::Primitive& primitive, const TextureMapping& mapping,
                            bool isSkinned, const std::string& where);
 
-  /// Of what was read: vertices that more joints hold than are kept, and whether morph targets have
-  /// more than is moved.
+  /// Notices about everything read so far: the number of vertices with more joints than are kept,
+  /// and whether morph targets move more than is supported.
   std::size_t heldByMore() const { return heldByMore_; }
   bool hasOtherMorphs() const { return morphs_.hasOthers(); }
 

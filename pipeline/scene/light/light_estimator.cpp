@@ -17,11 +17,12 @@ namespace {
 constexpr double kLevelSeconds = 0.1;
 constexpr double kKeySeconds = 3.0;
 constexpr double kForgottenSeconds = 0.5;
-constexpr double kLevelBand = 0.012;  // of the level; noise moves a tag's mean by 0.003
-constexpr double kKeyBand = 0.04;     // of the light on the plane; 2 to 3 degrees
+constexpr double kLevelBand = 0.012;  // relative to the level; noise moves a tag's mean by 0.003
+constexpr double kKeyBand = 0.04;     // relative to the light on the plane; 2 to 3 degrees
 constexpr double kKeyShare = 0.68;    // of the light on the plane, where nothing is known
-constexpr double kGreyWorld = 0.25;   // what is seen reflects that much of the light
-constexpr double kThrownBack = 0.7;   // of what the plane reflects, that comes from below
+constexpr double kGreyWorld = 0.25;   // assumed mean reflectance of the scene
+// Part of the light reflected by the plane that reaches models from below.
+constexpr double kThrownBack = 0.7;
 /// In the camera's frame.
 constexpr glm::dvec3 kLeftAboveBehindViewer{-0.45, -0.45, -0.77};
 constexpr double kPriorSeconds = 1.0;
@@ -35,12 +36,12 @@ double shareAfter(double seconds, double constantSeconds) {
   return 1.0 - std::exp(-seconds / constantSeconds);
 }
 
-/// The rotation alone, to the frame of `attach`.
+/// The rotation of the camera's frame to that of `attach`.
 glm::dmat3 fromCamera(const glm::dmat4& cameraFromAttach) {
   return glm::transpose(glm::dmat3(cameraFromAttach));
 }
 
-/// One that is not too near to the plane to be a light on it.
+/// The direction, raised if it is too close to the plane for a light on it.
 glm::dvec3 raised(const glm::dvec3& toward) {
   const double length = glm::length(toward);
   if (!(length > 1e-9)) return {0.0, 0.0, 1.0};
@@ -52,8 +53,8 @@ glm::dvec3 raised(const glm::dvec3& toward) {
   return {flat * unit.x, flat * unit.y, kLowestKey};
 }
 
-/// What a channel's key and ambient light are along a direction that is known: fitLight()'s
-/// equations with the direction given, so that light may have a colour for each.
+/// Key and ambient light of one channel for a known direction: fitLight()'s equations with the
+/// direction given, so that each channel of coloured light gets its own values.
 glm::dvec2 fitChannel(std::span<const LightSample> samples, const glm::dvec3& towardKey,
                       const glm::dvec2& prior) {
   constexpr double kPrecision = 1.0 / (0.15 * 0.15);
@@ -146,7 +147,7 @@ void LightEstimator::readPapers(const LinearImage& picture,
   readings_.clear();
   if (!cells_) return;
   for (const tracking::TrackedTag& tag : tracked.tags) {
-    // where a tag is only carried, something else may be seen
+    // for a carried tag, the image may show something else
     if (!tag.cameraFromTag || tag.source == tracking::PoseSource::kCarried) continue;
     if (readings_.size() == readings_.capacity()) break;
     const auto paper = readTagPaper(picture, tag.corners, *cells_);
@@ -163,7 +164,7 @@ const LightEstimator::Reading* LightEstimator::paperOf(const Place& place) const
   return own == readings_.end() ? nullptr : &*own;
 }
 
-/// White paper that lies as the place does.
+/// The level of white paper that is parallel to the place.
 std::optional<glm::dvec3> LightEstimator::whiteFacing(const glm::dmat3& attachFromCamera) const {
   glm::dvec3 sum(0.0);
   double weights = 0.0;
@@ -178,7 +179,7 @@ std::optional<glm::dvec3> LightEstimator::whiteFacing(const glm::dmat3& attachFr
   return sum / weights;
 }
 
-/// The white that other light can be compared with, if any paper was read for it.
+/// Updates the level. Returns the white level for relating other light to, if any paper was read.
 std::optional<glm::dvec3> LightEstimator::followLevel(
     Place& place, const std::optional<glm::dmat3>& attachFromCamera, const Step& step) {
   if (step.isFirst) place.level.forget();
@@ -198,8 +199,8 @@ std::optional<glm::dvec3> LightEstimator::followLevel(
   return white;
 }
 
-/// Taken from the first second in which the place is seen, then kept: it is not to turn with the
-/// camera.
+/// Takes the prior in the first second in which the place is seen, then keeps it, so that it does
+/// not turn with the camera.
 void LightEstimator::followPrior(Place& place, const glm::dmat3& attachFromCamera,
                                  const Step& step) const {
   if (towardKey_) {
@@ -208,7 +209,7 @@ void LightEstimator::followPrior(Place& place, const glm::dmat3& attachFromCamer
   }
   if (place.seconds > kPriorSeconds) return;
   glm::dvec3 toward = kLeftAboveBehindViewer;
-  constexpr double kConvincing = 0.25;  // of the variance
+  constexpr double kConvincing = 0.25;  // part of the variance
   if (statistics_.explained > kConvincing) {
     toward +=
         0.5 * statistics_.explained * glm::clamp(glm::dvec3(statistics_.slope, 0.0), -1.5, 1.5);
@@ -224,7 +225,7 @@ void LightEstimator::followKey(Place& place, const glm::dvec3& white,
   const double level = luminance(white);
   samples_.clear();
   for (const Reading& reading : readings_) {
-    // Light on other things than the plane itself is told apart up to three times its own.
+    // Differences to the plane's own light are limited to a factor of three.
     const double relative = std::clamp(luminanceOf(reading.paper.white) / level, 1.0 / 3.0, 3.0);
     samples_.push_back({.normal = attachFromCamera * reading.cameraNormal,
                         .irradiance = relative,

@@ -20,11 +20,12 @@
 
 namespace pleinair::scene {
 
-/// A vector that follows another, noisy one smoothly, and rests on a still scene: what is shown
-/// stays put until the smoothed vector has left a band around it, then goes along until they meet.
+/// A smoothed vector with hysteresis. The output stays constant until the smoothed vector has left
+/// a band around it, then follows until the two meet, so that it rests on a static scene.
 class FilteredVector {
  public:
-  /// `share`: of the way to `target` that is gone at once, 0 … 1; the first target is taken whole.
+  /// `share`: part of the distance to `target` that one step covers, 0 … 1. The first target is
+  /// taken whole.
   void follow(const glm::dvec3& target, double share, double band) {
     if (!hasValue_) {
       smoothed_ = shown_ = target;
@@ -48,43 +49,44 @@ class FilteredVector {
   bool isMoving_ = false;
 };
 
-/// The light on the places that models are attached to, from the camera's pictures.
+/// Estimates the light on the places that models are attached to, from camera images.
 ///
-/// Its level and colour are those of the place's own tag's white paper, so that a white model is as
-/// white as the paper. Where that cannot be read, they stay as they were beside the picture's mean;
-/// before it ever was, they are those of tags that face the same way, else a grey world's.
+/// Level and colour are those of white paper of the place's own tag, so that a white model is as
+/// white as the paper. While the paper cannot be read, they keep their ratio to the image's mean;
+/// before it was ever read, they are those of tags that face the same way, or else follow the
+/// grey-world assumption.
 ///
-/// Where the key light is, and how strong, follows from the paper of all tags that are seen, as far
-/// as they face different ways (light_fit.h). What they leave open is taken from a prior: the upper
-/// left behind the viewer as the place was first seen, pulled to where the picture is brighter if
-/// a slope explains much of it.
+/// Direction and strength of the key light follow from the paper of all visible tags, as far as
+/// these face different ways (light_fit.h). The rest comes from a prior: a light from the upper
+/// left behind the viewer as the place was first seen, pulled towards the brighter side of the
+/// image if a slope explains much of its brightness.
 ///
-/// Level and colour follow the camera's exposure within half a second; the key light's direction
-/// and share, which are kept in the place's own frame so that a moving camera does not turn them,
-/// in seconds. Both rest on a still scene: noise moves nothing. The first frame is taken as it is.
-/// Times that go back or a pause of more than half a second make the next level a first one;
-/// reset() forgets all.
+/// Level and colour follow the camera's exposure within half a second. The key light's direction
+/// and share follow in seconds; they are kept in the place's own frame, so that a moving camera
+/// does not turn them. On a static scene noise moves nothing. The first frame is taken unfiltered.
+/// After times that go back, or a pause of more than half a second, the next level is taken
+/// unfiltered; reset() forgets everything.
 ///
-/// One thread at a time; allocates nothing after its making. About 0.1 ms a frame.
+/// One thread at a time; allocates only when constructed. About 0.1 ms per frame.
 class LightEstimator {
  public:
-  /// `places`: the tags that models are attached to; nothing for the world. `towardKey`: where the
-  /// key light is, if that is known, in each place's attach frame.
+  /// `places`: the tags that models are attached to; nothing for the world. `towardKey`: the
+  /// direction to the key light in each place's attach frame, if it is known.
   LightEstimator(std::span<const tracking::TagMarker> markers, std::string_view tagFamily,
                  std::span<const std::optional<int>> places,
                  const std::optional<glm::dvec3>& towardKey = std::nullopt);
 
-  /// Precondition: image.isComplete(), and `tracked` is of it.
+  /// Takes the next frame. Precondition: image.isComplete(), and `tracked` is of the same frame.
   void follow(const hal::ImageView& image, const tracking::TrackingResult& tracked,
               hal::TimePoint captureTime);
 
-  /// Of each place, in its attach frame; before the first frame, a white one. The estimator's.
+  /// Light per place, in its attach frame; white before the first frame. Owned by the estimator.
   std::span<const PlaceLighting> lights() const { return lights_; }
 
   void reset();
 
  private:
-  /// A tag's paper in this frame.
+  /// The paper of a tag in this frame.
   struct Reading {
     int id = 0;
     glm::dvec3 cameraNormal{0.0};  ///< out of the tag
@@ -93,15 +95,15 @@ class LightEstimator {
   struct Place {
     std::optional<int> tagId;
     std::optional<glm::dmat4> worldFromTag;
-    FilteredVector level;    ///< white paper
-    glm::dvec3 ofMean{0.0};  ///< the level beside the picture's mean, when paper was last read
+    FilteredVector level;    ///< of white paper
+    glm::dvec3 ofMean{0.0};  ///< level relative to the image's mean, when paper was last read
     bool hasOwnPaper = false;
     glm::dvec3 towardPrior{0.0};
     FilteredVector keyVector;  ///< as LightFit's, relative to the level
     FilteredVector key, sky, ground;
-    double seconds = 0.0;  ///< for which the key light was followed
+    double seconds = 0.0;  ///< time for which the key light was followed
   };
-  /// How far a frame is from the last one.
+  /// Time since the last frame.
   struct Step {
     bool isFirst = true;
     double seconds = 0.0;

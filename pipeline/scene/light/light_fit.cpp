@@ -11,7 +11,7 @@
 namespace pleinair::scene {
 namespace {
 
-constexpr double kSampleSigma = 0.10;  // a real room's light differs that much from place to place
+constexpr double kSampleSigma = 0.10;  // variation of a real room's light between places
 constexpr double kHuber = 2.5;         // sigmas
 constexpr double kLeastAmbient = 0.08;
 constexpr int kSteps = 8;
@@ -69,7 +69,8 @@ double LightFit::irradiance(const glm::dvec3& normal) const {
 LightFit fitLight(std::span<const LightSample> samples, const LightFit& prior,
                   const LightPriorSigma& sigma) {
   const Problem problem{samples, prior, sigma};
-  // Planes that face away from a start's key light say nothing of it: others have to be tried.
+  // Planes that face away from the start's key light carry no information about it: try other
+  // starts.
   LightFit best = problem.solvedFrom(prior);
   double least = problem.cost(best);
   for (const LightSample& sample : samples) {

@@ -12,7 +12,7 @@ namespace pleinair::scene {
 namespace {
 
 constexpr float kKeyShare = 0.6F;  // of the light on the plane
-constexpr float kLowest = 0.4F;    // a key light that is lower is not made stronger for it
+constexpr float kLowest = 0.4F;    // a lower key light is not strengthened further
 constexpr float kThrownBack = 0.2F;
 
 glm::vec3 towardLight(const Light& light, const glm::dmat3& cameraFromAttach) {

@@ -30,7 +30,7 @@ std::array<float, 256> linearLevels() {
 
 const std::array<float, 256> kLinear = linearLevels();
 
-/// Where a mosaic's red is in its cell of four.
+/// Position of a mosaic's red pixel in its 2 × 2 cell.
 glm::ivec2 redOf(PixelFormat format) {
   switch (format) {
     case PixelFormat::kBayerRggb8:

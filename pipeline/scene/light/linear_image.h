@@ -13,19 +13,19 @@ inline float luminanceOf(const glm::vec3& linearRgb) {
   return 0.2126F * linearRgb.r + 0.7152F * linearRgb.g + 0.0722F * linearRgb.b;
 }
 
-/// IEC 61966-2-1, channel by channel.
+/// Decodes sRGB (IEC 61966-2-1), channel by channel.
 glm::vec3 linearFromSrgb(const glm::vec3& srgb);
 
-/// Reads single pixels of a picture of any format as linear light in [0, 1], without converting the
-/// rest. The coding is taken for sRGB's. A mosaic's pixel is its cell of four; chroma is that of
-/// its sample's pixels. Refers to the picture's memory.
+/// Reads single pixels of an image of any format as linear light in [0, 1], without converting the
+/// rest. Assumes sRGB coding. A pixel of a mosaic is its 2 × 2 cell; chroma is that of the sample's
+/// pixels. Refers to the image's memory.
 class LinearImage {
  public:
   /// Precondition: image.isComplete().
   explicit LinearImage(const hal::ImageView& image);
 
   hal::FrameSize size() const { return image_.format.size; }
-  /// Precondition: within the picture.
+  /// Precondition: (x, y) lies within the image.
   glm::vec3 at(int x, int y) const;
 
  private:
@@ -38,13 +38,13 @@ class LinearImage {
   glm::vec3 ycbcrOffset_{0.0F};
 };
 
-/// A picture's light in a few numbers, from 1200 pixels spread over it.
+/// Statistics of an image's light, from 1200 pixels spread over it.
 struct ImageStatistics {
   glm::dvec3 mean{0.0};  ///< linear RGB, above 0
-  /// Towards where it is brighter: doublings of luminance from its middle to its edge, x right, y
-  /// down.
+  /// Gradient towards the brighter side: doublings of luminance from the centre to the edge, x
+  /// right, y down.
   glm::dvec2 slope{0.0};
-  double explained = 0.0;  ///< of the brightness's variance, by the slope: 0 … 1
+  double explained = 0.0;  ///< part of the brightness's variance that the slope explains: 0 … 1
 };
 
 ImageStatistics imageStatistics(const LinearImage& picture);

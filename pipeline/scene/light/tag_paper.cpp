@@ -13,14 +13,14 @@
 namespace pleinair::scene {
 namespace {
 
-constexpr double kLeastCellPx = 1.8;  // across a border; less is mixed with its neighbours
+constexpr double kLeastCellPx = 1.8;  // width of a border; narrower ones mix with their neighbours
 constexpr double kCleanCellPx = 4.0;
 constexpr int kAlongSide = 12;
 constexpr std::size_t kReadings = 4 * kAlongSide;
-constexpr double kLeastShare = 2.0 / 3.0;  // of a ring's readings
+constexpr double kLeastShare = 2.0 / 3.0;  // part of a ring's readings
 
-/// Takes the square −1 … 1 (x right, y down) to the picture: Heckbert, "Fundamentals of Texture
-/// Mapping and Image Warping" (1989), §2.2.3, for a square around the origin.
+/// The homography of the square −1 … 1 (x right, y down) to the image: Heckbert, "Fundamentals of
+/// Texture Mapping and Image Warping" (1989), §2.2.3, for a square around the origin.
 glm::dmat3 pictureFromSquare(const tracking::TagCornersPx& corners) {
   const glm::dvec2 topLeft = corners[3], topRight = corners[2];
   const glm::dvec2 bottomRight = corners[1], bottomLeft = corners[0];
@@ -44,8 +44,8 @@ struct Readings {
   void add(const glm::vec3& value) { values[count++] = value; }
 };
 
-/// Pairs of a tag's borders that are wide enough in the picture to be read: a tag that is seen from
-/// the side has two.
+/// The pairs of a tag's borders that are wide enough in the image to be read; a tag seen from the
+/// side has two.
 struct Borders {
   std::array<bool, 2> isRead{};  // below and above; right and left
   double cellPx = 0.0;           // of the narrower pair that is read
@@ -68,8 +68,7 @@ Borders widthOfBorders(const tracking::TagCornersPx& corners, int cells) {
   return borders;
 }
 
-/// Along a square ring at `reach` from the tag's middle; what is outside of the picture is left
-/// out.
+/// Reads along a square ring at `reach` from the tag's centre; skips pixels outside of the image.
 Readings readRing(const LinearImage& picture, const glm::dmat3& pictureFromTag, double reach,
                   const Borders& borders) {
   Readings readings;
@@ -91,7 +90,7 @@ Readings readRing(const LinearImage& picture, const glm::dmat3& pictureFromTag, 
   return readings;
 }
 
-/// The mean of the middle half, by luminance, and how wide that is for its size.
+/// Mean of the middle half by luminance, and its relative spread.
 struct MiddleHalf {
   glm::vec3 mean{0.0F};
   float spread = 0.0F;
@@ -126,7 +125,7 @@ std::optional<TagPaper> readTagPaper(const LinearImage& picture,
       static_cast<std::size_t>(kLeastShare * static_cast<double>(borders.readings()));
   if (least == 0) return std::nullopt;
   const glm::dmat3 pictureFromTag = pictureFromSquare(corners);
-  const double halfCell = 1.0 / cells;  // the square's half is 1
+  const double halfCell = 1.0 / cells;  // the square's half side is 1
   Readings onPaper = readRing(picture, pictureFromTag, 1.0 + halfCell, borders);
   Readings onInk = readRing(picture, pictureFromTag, 1.0 - halfCell, borders);
   if (onPaper.count < least || onInk.count < least) return std::nullopt;
@@ -135,14 +134,14 @@ std::optional<TagPaper> readTagPaper(const LinearImage& picture,
   const float white = luminanceOf(paper.mean);
   const float black = luminanceOf(ink.mean);
   constexpr float kLeastWhite = 0.01F;
-  constexpr float kMostBlack = 0.45F;  // of the white; glossy ink and haze lift it
+  constexpr float kMostBlack = 0.45F;  // relative to white; glossy ink and haze raise it
   constexpr float kMostSpread = 0.8F;
   if (white < kLeastWhite || black > kMostBlack * white || paper.spread > kMostSpread) {
     return std::nullopt;
   }
   const double clean = std::clamp(borders.cellPx / kCleanCellPx, 0.0, 1.0);
   const float even = 1.0F - paper.spread / kMostSpread;
-  constexpr float kDarkest = 1e-3F;  // of a channel: coloured light may leave one without any
+  constexpr float kDarkest = 1e-3F;  // per channel: coloured light may lack one
   return TagPaper{.white = glm::max(paper.mean, kDarkest),
                   .black = ink.mean,
                   .confidence = std::max(static_cast<float>(clean) * even, 0.05F)};

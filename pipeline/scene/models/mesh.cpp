@@ -27,7 +27,8 @@ BoundingSphere boundingSphere(const Mesh& mesh) {
 }
 
 double largestScale(const glm::dmat4& transform) {
-  // The largest eigenvalue of MᵀM is at most the largest sum of a row's magnitudes, and the trace.
+  // The largest eigenvalue of MᵀM is at most its largest row sum of magnitudes, and at most its
+  // trace.
   const glm::dmat3 linear(transform);
   const glm::dmat3 squares = glm::transpose(linear) * linear;
   double largest = 0.0;

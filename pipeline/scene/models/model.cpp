@@ -13,7 +13,7 @@
 #include "pipeline/scene/models/mesh.h"
 #include "pipeline/scene/models/model_pose.h"
 
-// Spheres around models, at rest (model.h) and posed (model_pose.h).
+// Bounding spheres of models at rest (model.h) and posed (model_pose.h).
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -29,11 +29,10 @@ std::span<const Surface> surfacesOf(const Model& model, const ModelPart& part) {
   return std::span(model.surfaces).subspan(part.firstSurface, part.surfaceCount);
 }
 
-/// Bounds the memory that morph targets take of surfaces that are cut small: triangles times
-/// targets times parts.
+/// Limits the memory of morph targets of subdivided surfaces: triangles times targets times parts.
 constexpr std::size_t kMostCutMorphs = 4'000'000;
 
-/// How much larger each surface is drawn than it is, where it is drawn largest.
+/// The largest scale at which each surface is drawn.
 std::vector<double> scalesAtRest(const Model& model) {
   ModelPose rest;
   poseModel(model, std::nullopt, hal::Duration::zero(), rest);
@@ -117,7 +116,7 @@ glm::dmat4 modelFromPart(const ModelPart& part, hal::Duration time) {
 
 const ModelPart* partOfTriangle(const Model& model, std::uint32_t triangle) {
   if (triangle >= model.triangleCount()) return nullptr;
-  // Parts without triangles start where the next one does; the last that starts here has it.
+  // A part without triangles starts where the next one does; the last part that starts here has it.
   const auto after = std::ranges::upper_bound(model.parts, triangle, {}, &ModelPart::firstTriangle);
   return &*std::prev(after);
 }
@@ -152,7 +151,7 @@ Model withShortEdges(const Model& model, double maxEdgeMetres, std::size_t mostT
 
 namespace {
 
-/// Where morph targets may have taken the vertices of a surface: each by some move of this box.
+/// The reach of a surface's vertices under morph targets: each moves by a vector in this box.
 struct MorphReach {
   glm::dvec3 middle{0.0};
   double radiusMetres = 0.0;
@@ -175,15 +174,15 @@ MorphReach morphReach(const SurfaceBounds& bounds, const ModelPart& part, const 
   return {.middle = middle, .radiusMetres = glm::length(half)};
 }
 
-/// Around all that it turns through: its own z axis is what it turns about.
+/// A sphere around everything that a sphere passes while it turns about its own z axis.
 BoundingSphere sweptAboutZ(BoundingSphere sphere) {
   sphere.radiusMetres += glm::length(glm::dvec2(sphere.centre));
   sphere.centre.x = sphere.centre.y = 0.0;
   return sphere;
 }
 
-/// Calls `visit(sphere)` with spheres that hold all vertices together, in the model's frame.
-/// `sweeps`: also wherever turning parts turn to.
+/// Calls `visit(sphere)` with spheres that together hold all vertices, in the model's frame.
+/// `sweeps`: over the whole rotation of turning parts.
 template <class Visit>
 void forEachSphere(const Model& model, const ModelPose& pose, bool sweeps, Visit visit) {
   assert(model.bounds.size() == model.surfaces.size());
@@ -198,7 +197,8 @@ void forEachSphere(const Model& model, const ModelPose& pose, bool sweeps, Visit
         visit(transformed(sphere, pose.matrices[part.firstMatrix]));
         continue;
       }
-      // A vertex is a mean of where its joints take it, so within what holds all of these.
+      // A vertex is a mean of its positions under its joints, so it lies within the bounds of all
+      // of these.
       for (const JointBounds& joint : bounds.joints) {
         const BoundingSphere held{.centre = glm::dvec3(joint.centre),
                                   .radiusMetres = static_cast<double>(joint.radiusMetres)};
@@ -208,7 +208,7 @@ void forEachSphere(const Model& model, const ModelPose& pose, bool sweeps, Visit
   }
 }
 
-/// About the middle of the box that holds all spheres.
+/// Around the centre of the box that holds all spheres.
 BoundingSphere sphereAroundAll(const Model& model, const ModelPose& pose, bool sweeps) {
   bool isEmpty = true;
   glm::dvec3 low(0.0);

@@ -19,94 +19,93 @@
 
 namespace pleinair::scene {
 
-/// What a texture shows beyond its picture's edges.
+/// Continuation of a texture beyond its image's edges.
 enum class TextureEdge { kRepeat, kMirror, kClamp };
 
-/// A picture on a surface: RGBA8, sRGB-coded.
+/// An image on a surface: RGBA8, sRGB-coded.
 struct ModelTexture {
   std::shared_ptr<const hal::Image> picture;
   TextureEdge across = TextureEdge::kRepeat;
   TextureEdge down = TextureEdge::kRepeat;
 };
 
-/// What a surface is of.
+/// The material of a surface.
 struct Material {
   std::string name;
-  glm::vec4 baseColour{1.0F};          ///< linear light; the texture and vertices multiply it
-  std::optional<std::size_t> texture;  ///< of Model::textures
-  float coverageCutoff = 0.0F;         ///< where coverage (alpha) is less, nothing is; 0: solid
-  bool isDoubleSided = false;          ///< else seen from outside only
+  glm::vec4 baseColour{1.0F};          ///< linear light; multiplied by the texture and the vertices
+  std::optional<std::size_t> texture;  ///< index in Model::textures
+  float coverageCutoff = 0.0F;  ///< pixels with less coverage (alpha) are not drawn; 0: opaque
+  bool isDoubleSided = false;   ///< false: visible from outside only
 };
 
 /// Triangles of one material.
 struct Surface {
   Mesh mesh;
-  std::size_t material = 0;  ///< of Model::materials
+  std::size_t material = 0;  ///< index in Model::materials
 };
 
-/// A piece with a name of its own: a node of a glTF, a gear of a gearbox. It is rigid, or bent by a
+/// A named part of a model: a node of a glTF, a gear of a gearbox. It is rigid, or deformed by a
 /// skin and morph targets. Parts may share surfaces.
 struct ModelPart {
   std::string name;
-  std::size_t firstSurface = 0;  ///< of Model::surfaces
+  std::size_t firstSurface = 0;  ///< index in Model::surfaces
   std::size_t surfaceCount = 0;
-  glm::dmat4 modelFromPart{1.0};  ///< where it is at rest; any affine transform
-  std::optional<std::size_t>
-      node;  ///< of Model::rig, that it goes with; its joints, if it has a skin
+  glm::dmat4 modelFromPart{1.0};    ///< position at rest; any affine transform
+  std::optional<std::size_t> node;  ///< index in Model::rig; the node that moves it
   std::optional<std::size_t> skin;  ///< of Model::rig
-  /// Of ModelPose::matrices: one, or one for each joint of the skin.
+  /// Index in ModelPose::matrices: of one matrix, or of one per joint of the skin.
   std::size_t firstMatrix = 0;
   std::size_t matrixCount = 1;
-  std::size_t firstWeight = 0;  ///< of ModelPose::weights
-  std::size_t weightCount = 0;  ///< as many as its surfaces have morph targets at most
-  /// It turns about its own z axis, against the clock as seen from where that points.
+  std::size_t firstWeight = 0;  ///< index in ModelPose::weights
+  std::size_t weightCount = 0;  ///< the largest number of morph targets of its surfaces
+  /// Speed of rotation about its own z axis, counter-clockwise as seen from +z.
   double radiansPerSecond = 0.0;
-  /// Of the triangles of ArFrame::ids: parts count theirs one after another.
+  /// Number of its first triangle in ArFrame::ids: parts number theirs one after another.
   std::uint32_t firstTriangle = 0;
   std::uint32_t triangleCount = 0;
 };
 
-/// What can be put into a scene. A value; immutable once made, so any thread may read it.
+/// A model that can be placed in a scene. A value; immutable once made, so any thread may read it.
 struct Model {
   std::vector<Surface> surfaces;
   std::vector<Material> materials;
   std::vector<ModelTexture> textures;
   std::vector<ModelPart> parts;
-  std::vector<SurfaceBounds> bounds;  ///< of each surface; by numberParts()
-  Rig rig;                            ///< empty where nothing but what turns by itself moves
-  std::vector<std::string> notices;   ///< what of its file is not shown, a line each
+  std::vector<SurfaceBounds> bounds;  ///< per surface; set by numberParts()
+  Rig rig;                            ///< empty unless something moves that does not turn by itself
+  std::vector<std::string> notices;   ///< one line for each thing in its file that is not shown
 
-  /// As drawn: a surface counts in each part that shows it.
+  /// Triangles drawn: a surface counts once for each part that shows it.
   std::uint32_t triangleCount() const;
-  /// As kept in memory: each surface once.
+  /// Triangles in memory: each surface counts once.
   std::size_t surfaceTriangles() const;
 };
 
-/// As Model::triangleCount(), of more than fit its numbers, too.
+/// The same as Model::triangleCount(), for counts beyond 32 bits too.
 std::uint64_t drawnTriangles(const Model& model);
 
-/// Counts each part's triangles, matrices and weights, and bounds each surface; sound where
-/// drawnTriangles() fits in 32 bits. To be called once all is in its place.
+/// Numbers each part's triangles, matrices and weights, and computes the bounds of each surface.
+/// Call it once everything is in place. Valid if drawnTriangles() fits in 32 bits.
 void numberParts(Model& model);
 
-/// A model of a single part and material, white.
+/// A model of a single part with a single white material.
 Model singlePartModel(std::string name, Mesh mesh);
 
-/// What turns a part in its own frame to where it is after `time`.
+/// The rotation of a part in its own frame after `time`.
 glm::dmat4 turnedAfter(const ModelPart& part, hal::Duration time);
-/// Where a part that no rig moves is after `time` of turning.
+/// Position of a part without a rig after `time` of turning.
 glm::dmat4 modelFromPart(const ModelPart& part, hal::Duration time);
 
-/// Around all parts at rest, wherever they turn to.
+/// A sphere around all parts at rest and during their whole rotation.
 BoundingSphere boundingSphere(const Model& model);
 
-/// The part that a triangle of ArFrame::ids belongs to; null where the model has no such triangle.
+/// The part to which a triangle of ArFrame::ids belongs; null if the model has no such triangle.
 const ModelPart* partOfTriangle(const Model& model, std::uint32_t triangle);
-/// Null where no part has that name; the first where several have.
+/// Returns the first part with that name, or null.
 const ModelPart* findPart(const Model& model, std::string_view name);
 
-/// The same model with no edge longer than `maxEdgeMetres` (see the mesh's), measured in the
-/// model's frame where parts are at rest.
+/// The same model with no edge longer than `maxEdgeMetres` (see the mesh's function), measured in
+/// the model's frame at rest.
 Model withShortEdges(const Model& model, double maxEdgeMetres, std::size_t mostTriangles);
 
 }  // namespace pleinair::scene

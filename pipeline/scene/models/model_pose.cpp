@@ -107,7 +107,7 @@ void addWeights(const Rig& rig, const ModelPart& part, const std::optional<ClipM
   }
 }
 
-/// The mean of what a vertex's joints do.
+/// The weighted mean of the matrices of a vertex's joints.
 glm::dmat4 blended(const JointWeights& held, std::span<const glm::dmat4> matrices) {
   glm::dmat4 sum(0.0);
   for (std::size_t i = 0; i < held.joints.size(); ++i) {
@@ -150,7 +150,8 @@ MeshVertex posedVertex(const Model& model, const ModelPart& part, std::size_t su
   posed.position = glm::vec3(modelFromMesh * glm::dvec4(position, 1.0));
   const glm::dvec3 turned = normalsAlong(glm::dmat3(modelFromMesh)) * normal;
   const double length = glm::length(turned);
-  if (length > 0.0) posed.normal = glm::vec3(turned / length);  // else squashed flat: as it was
+  // Unchanged if the transform squashes it.
+  if (length > 0.0) posed.normal = glm::vec3(turned / length);
   return posed;
 }
 

@@ -19,7 +19,7 @@ glm::dmat4 parentFromNode(const NodePlace& place) {
 bool isBounded(const glm::dmat4& matrix) {
   for (int column = 0; column < 4; ++column) {
     for (int row = 0; row < 4; ++row) {
-      if (!(std::abs(matrix[column][row]) <= kMostOfMatrix)) return false;  // NaN neither
+      if (!(std::abs(matrix[column][row]) <= kMostOfMatrix)) return false;  // rejects NaN too
     }
   }
   return true;
@@ -27,7 +27,7 @@ bool isBounded(const glm::dmat4& matrix) {
 
 namespace {
 
-/// What is kept of a key: of cubic splines also its tangents.
+/// The numbers of a key to read; cubic splines have tangents too.
 enum class Part { kInTangent, kValue, kOutTangent };
 
 std::span<const float> partOfKey(const Channel& channel, std::size_t key, Part part) {
@@ -54,12 +54,12 @@ void holdKey(const Channel& channel, std::size_t key, std::span<double> value) {
   if (channel.property == AnimatedProperty::kRotation) store(quaternionOf(held), value);
 }
 
-/// `t`: how far from `key` to the next one, 0 to 1.
+/// `t`: position between `key` and the next one, 0 to 1.
 void mixLinearly(const Channel& channel, std::size_t key, double t, std::span<double> value) {
   const std::span<const float> from = partOfKey(channel, key, Part::kValue);
   const std::span<const float> to = partOfKey(channel, key + 1, Part::kValue);
   if (channel.property == AnimatedProperty::kRotation) {
-    // goes the shorter way round
+    // takes the shorter arc
     return store(glm::normalize(glm::slerp(quaternionOf(from), quaternionOf(to), t)), value);
   }
   for (std::size_t i = 0; i < value.size(); ++i) {

@@ -11,7 +11,7 @@ namespace pleinair::scene {
 namespace {
 
 MorphBounds boundsOf(const MorphTarget& target) {
-  MorphBounds bounds;  // holds 0, as most targets leave some vertex alone
+  MorphBounds bounds;  // include 0, since most targets leave some vertex unmoved
   for (const glm::vec3& move : target.positions) {
     bounds.least = glm::min(bounds.least, move);
     bounds.most = glm::max(bounds.most, move);
@@ -19,7 +19,7 @@ MorphBounds boundsOf(const MorphTarget& target) {
   return bounds;
 }
 
-/// Calls `visit(joint, position)` for each vertex and joint that holds it.
+/// Calls `visit(joint, position)` for each vertex and each joint that holds it.
 template <class Visit>
 void forEachHold(const Mesh& mesh, Visit visit) {
   for (std::size_t i = 0; i < mesh.joints.size(); ++i) {
@@ -54,7 +54,7 @@ std::vector<JointBounds> jointBoundsOf(const Mesh& mesh) {
     JointBounds& of = bounds[placeOfJoint[joint]];
     of.radiusMetres = std::max(of.radiusMetres, glm::distance(of.centre, position));
   });
-  for (JointBounds& of : bounds) of.radiusMetres *= 1.0F + 1e-6F;  // what floats round off
+  for (JointBounds& of : bounds) of.radiusMetres *= 1.0F + 1e-6F;  // for rounding
   return bounds;
 }
 

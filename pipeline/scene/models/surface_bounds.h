@@ -10,24 +10,25 @@
 
 namespace pleinair::scene {
 
-/// How far a morph target moves vertices at weight 1, along each axis.
+/// Range of a morph target's vertex offsets at weight 1, along each axis.
 struct MorphBounds {
   glm::vec3 least{0.0F};
   glm::vec3 most{0.0F};
 };
 
-/// Around the vertices that a joint holds.
+/// A sphere around the vertices that a joint holds.
 struct JointBounds {
   std::uint16_t joint = 0;
   float radiusMetres = 0.0F;
   glm::vec3 centre{0.0F};
 };
 
-/// Where a surface's vertices are and may go to, so that a pose's bounds need not look at each.
+/// Bounds of a surface's vertices and of their possible positions, so that bounding a pose need not
+/// visit each vertex.
 struct SurfaceBounds {
-  BoundingSphere sphere;            ///< as the mesh is
-  std::vector<MorphBounds> morphs;  ///< of each of its targets
-  std::vector<JointBounds> joints;  ///< of each that holds any vertex; none without a skin
+  BoundingSphere sphere;            ///< of the mesh at rest
+  std::vector<MorphBounds> morphs;  ///< per morph target
+  std::vector<JointBounds> joints;  ///< per joint that holds any vertex; none without a skin
 };
 
 SurfaceBounds boundsOf(const Mesh& mesh);

@@ -20,7 +20,7 @@
 namespace pleinair::scene {
 namespace {
 
-/// What is nearer is not drawn; a model's own depth leaves the rest of the depth buffer its bits.
+/// Nearer points are not drawn; this keeps depth precision for the rest of a model.
 constexpr double kNearestMetres = 1e-3;
 constexpr double kFarthestByNearest = 1000.0;
 constexpr ArFrame kCameraOnly{.nearMetres = 0.1F, .farMetres = 10.0F};
@@ -30,7 +30,7 @@ bool isAlphaMasked(const Material& material) {
   return material.coverageCutoff > 0.0F;
 }
 
-/// The distances along the camera's axis between which a model lies.
+/// Range of distances along the camera's axis in which a model lies.
 struct DepthSpan {
   double nearest;
   double farthest;
@@ -96,7 +96,7 @@ void ArFrameRenderer::takeSurfaces(hal::FrameSize size) {
   now_ = &surfaces_.of(size, size, !scene_.models.empty());
 }
 
-/// All that a frame may need, once: posed in front of the camera, drawn, and asked about.
+/// Runs everything once that a frame may need: poses in front of the camera, draws, and reads.
 void ArFrameRenderer::warmUp(hal::FrameSize size) {
   takeSurfaces(size);
   if (!surfacePass_) return;
@@ -232,8 +232,8 @@ void ArFrameRenderer::clearToCamera() {
 }
 
 void ArFrameRenderer::drawBackground(const gpu::Texture& picture) {
-  // Depth is cleared where the pass begins: later, a tile-based GPU would split it (docs/gpu.md,
-  // rule 10).
+  // Depth is cleared at the start of the pass: later, a tile-based GPU would split the pass
+  // (docs/gpu.md, rule 10).
   now_->target.beginDiscarding();
   now_->target.clearDepth();
   background_.use().texture("picture", picture).drawArea(now_->target, {0, 0}, now_->target.size());
@@ -248,7 +248,7 @@ void ArFrameRenderer::setCamera(const tracking::CameraModel& camera) {
     nearest = std::min(nearest, span.nearest);
     farthest = std::max(farthest, span.farthest);
   }
-  farthest *= 1.001;  // beyond rounding
+  farthest *= 1.001;  // margin for rounding
   nearest = std::max(0.999 * nearest, farthest / kFarthestByNearest);
   frame_.nearMetres = static_cast<float>(nearest);
   frame_.farMetres = static_cast<float>(farthest);
@@ -301,13 +301,13 @@ void ArFrameRenderer::drawModel(std::size_t index, const gpu::Texture& picture) 
   }
 }
 
-/// What all materials of a model share.
+/// Sets the uniforms that all materials of a model share.
 gpu::Program& ArFrameRenderer::beginModel(gpu::Program& program, std::size_t index) {
   const SceneModel& model = scene_.models[index];
   const Body::Moment now = bodies_.model(index).now.value_or(Body::Moment{});
   program.use();
   setLighting(program, lights_[index]);
-  // Rotation and one scale: normals, of any length, go the same way as positions.
+  // Rotation and uniform scale: normals, of any length, transform like positions.
   return program.set("cameraFromModel", glm::mat4(now.cameraFromBody))
       .set("cameraFromModelNormals", glm::mat3(glm::dmat3(now.cameraFromBody)))
       .set("object", objectId(scene_, index))

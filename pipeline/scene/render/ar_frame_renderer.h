@@ -23,15 +23,14 @@
 
 namespace pleinair::scene {
 
-/// Composes AR frames: a scene's models, shaded as a style asks for, and their shadows over the
-/// camera's picture.
-/// What moves by itself does so by the frames' capture times, counted from the first frame or from
-/// the first sight of what it is attached to. Silhouettes are not anti-aliased: each pixel has one
-/// object. All calls on the thread of the GL context it was made in.
+/// Composes AR frames: draws a scene's models, shaded as a style asks, and their shadows over the
+/// camera image. Animations follow the frames' capture times, counted from the first frame or from
+/// the first sight of the tag that the model is attached to. Silhouettes are not anti-aliased: each
+/// pixel has one object. All calls on the thread of the GL context that it was made in.
 class ArFrameRenderer {
  public:
   /// Uploads the scene's models. `library` has gpu::gpuShaders() and gpu::sceneShaders().
-  /// ArFrame::ids counts models in the scene's order and triangles as their parts do.
+  /// ArFrame::ids number models in the scene's order, and triangles in their parts' order.
   ArFrameRenderer(const gpu::ShaderLibrary& library, Scene scene);
   ArFrameRenderer(const ArFrameRenderer&) = delete;
   ArFrameRenderer& operator=(const ArFrameRenderer&) = delete;
@@ -39,47 +38,45 @@ class ArFrameRenderer {
   ArFrameRenderer& operator=(ArFrameRenderer&&) = delete;
   ~ArFrameRenderer() = default;
 
-  /// Allocates for pictures of `size` and runs each program once, so that the first frame does not
-  /// wait for drivers (docs/gpu.md, rule 14).
+  /// Allocates for images of `size` and runs each program once, so that the first frame does not
+  /// wait for the driver (docs/gpu.md, rule 14).
   void warmUp(hal::FrameSize size);
 
-  /// The next AR frame, valid until the next call and as long as `picture`, which it refers to
-  /// where no model is seen. A model is drawn where the pose is known of what it is attached to; a
-  /// tag that is hidden is where the world has it. Each size is allocated for once.
-  /// `lights`: what is known of the light on the places that models are attached to; elsewhere it
-  /// is as the scene says. Precondition: picture (RGBA8, LINEAR) has camera.imageSize() (see
-  /// fittedCamera()).
+  /// Composes the next AR frame. It is valid until the next call and as long as `picture`, to which
+  /// it refers where no model is visible. A model is drawn where the pose of its tag or the world
+  /// is known; the pose of a hidden tag is computed from the world's. Each size is allocated once.
+  /// `lights`: estimated light per place; other places have the scene's light. Precondition:
+  /// picture (RGBA8, LINEAR) has the size camera.imageSize() (see fittedCamera()).
   const ArFrame& compose(const gpu::Texture& picture, const tracking::CameraModel& camera,
                          const PoseSet& poses, std::uint64_t sequence, hal::TimePoint captureTime,
                          gpu::PassTimer& timer, ArFrameNeeds needs = {},
                          std::span<const PlaceLighting> lights = {});
 
-  /// Forgets the frames before: the next one is the first, of which no motion is known and with
-  /// which time starts.
+  /// Forgets the previous frames: the next one is the first, has no motion, and restarts the time.
   void reset();
 
  private:
-  /// What frames of one size are drawn into.
+  /// Render targets for frames of one size.
   struct Surfaces {
     Surfaces(hal::FrameSize size, bool hasModels);
 
     gpu::Texture ids;
     gpu::Texture normalFocus;
     gpu::Texture depth;
-    gpu::Texture colour;                        // where there are models
-    gpu::RenderTarget target;                   // all of them
-    gpu::RenderTarget withoutColour;            // for frames that show the camera's picture only
-    bool showsCameraOnly = false;               // what ids, normals and depth hold
-    std::optional<SurfacePass::Buffers> known;  // where they were asked for
+    gpu::Texture colour;              // where there are models
+    gpu::RenderTarget target;         // all attachments
+    gpu::RenderTarget withoutColour;  // for frames that show only the camera image
+    bool showsCameraOnly = false;     // whether ids, normals and depth hold only the camera
+    std::optional<SurfacePass::Buffers> known;  // if asked for
   };
   struct Stamp {
     std::uint64_t sequence = 0;
     hal::TimePoint time;
   };
-  /// A program each, for branches that are not taken cost as much as those that are.
+  /// One program per variant: branches that are not taken cost as much as those that are.
   struct SurfacePrograms {
     gpu::Program solid;
-    gpu::Program alphaMasked;  // only where a material has holes
+    gpu::Program alphaMasked;  // only if a material has holes
   };
   SurfacePrograms& programsOf(Shading shading) {
     return surfacePrograms_[static_cast<std::size_t>(shading)];
@@ -102,22 +99,22 @@ class ArFrameRenderer {
   Scene scene_;
   PosedGeometry geometry_;
   SceneBodies bodies_;
-  std::optional<SurfacePass> surfacePass_;  // where there is anything to know
+  std::optional<SurfacePass> surfacePass_;  // only if there are bodies
   gpu::Program background_;
-  std::optional<ContactShadow> shadow_;             // where a model may cast one
-  std::array<SurfacePrograms, 2> surfacePrograms_;  // of each Shading
-  gpu::Program occluder_;                           // only where a model is one
-  gpu::Texture white_;                              // of materials without a texture
+  std::optional<ContactShadow> shadow_;             // only if a model may cast a shadow
+  std::array<SurfacePrograms, 2> surfacePrograms_;  // per Shading
+  gpu::Program occluder_;                           // only if a model is one
+  gpu::Texture white_;                              // for materials without a texture
   std::vector<std::size_t> visible_;                // models of this frame
-  std::vector<Lighting> lights_;                    // of each model, in the camera's frame
+  std::vector<Lighting> lights_;                    // per model, in the camera's frame
   std::vector<std::uint32_t> objects_;              // ids of all models
-  std::optional<tracking::CameraModel> camera_;     // of ArFrame::surfaces
+  std::optional<tracking::CameraModel> camera_;     // for ArFrame::surfaces
   Shading shading_ = Shading::kToon;
-  std::vector<std::optional<hal::TimePoint>> firstSight_;  // of each model
-  gpu::PerSize<Surfaces> surfaces_;                        // of each size that was composed
+  std::vector<std::optional<hal::TimePoint>> firstSight_;  // per model
+  gpu::PerSize<Surfaces> surfaces_;                        // per composed size
   Surfaces* now_ = nullptr;                                // of this frame's size
   std::optional<hal::TimePoint> firstTime_;
-  std::optional<Stamp> before_;  // the frame that bodies and poses were advanced for last
+  std::optional<Stamp> before_;  // the frame for which bodies and poses were last advanced
   ArFrame frame_;
 };
 

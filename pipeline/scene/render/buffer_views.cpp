@@ -7,7 +7,7 @@
 namespace pleinair::scene {
 namespace {
 
-/// shaders/buffer_view.frag counts them in this order.
+/// shaders/buffer_view.frag numbers them in this order.
 constexpr std::array<BufferView, 9> kViews{
     {{"depth", "how near models are: white is nearest", {}},
      {"objects", "a colour for each model; black is the camera's picture", {}},

@@ -12,26 +12,26 @@
 
 namespace pleinair::scene {
 
-/// A picture of one of an AR frame's buffers, for people.
+/// A picture of one of an AR frame's buffers, for people to look at.
 struct BufferView {
   std::string_view name;  ///< "motion"
   std::string_view help;
-  ArFrameNeeds needs;  ///< of the frames it shows
+  ArFrameNeeds needs;  ///< of the frames that it shows
 };
 
-/// All of them.
+/// All views.
 std::span<const BufferView> bufferViews();
-/// Null where none has that name.
+/// Returns null if no view has that name.
 const BufferView* findBufferView(std::string_view name);
 
-/// Draws them. All calls on the thread of the GL context it was made in.
+/// Draws buffer views. All calls on the thread of the GL context that it was made in.
 class BufferViewer {
  public:
   /// `library` has gpu::gpuShaders() and gpu::sceneShaders().
   explicit BufferViewer(const gpu::ShaderLibrary& library);
 
-  /// The view of a frame, RGBA8, of its size; valid until the next call with that size. What the
-  /// frame knows nothing of is black. Precondition: the frame was made with the view's needs.
+  /// Draws a view of a frame, RGBA8, of the frame's size; valid until the next call with that size.
+  /// Pixels without data are black. Precondition: the frame was made with the view's needs.
   const gpu::Texture& show(const BufferView& view, const ArFrame& frame);
 
  private:
@@ -42,8 +42,8 @@ class BufferViewer {
   };
 
   gpu::Program program_;
-  gpu::Texture noIds_;     // in place of what a frame does not have
-  gpu::Texture noMotion_;  // likewise
+  gpu::Texture noIds_;     // stands in for a texture that a frame lacks
+  gpu::Texture noMotion_;  // stands in for a texture that a frame lacks
   gpu::PerSize<Canvas> canvases_;
 };
 

@@ -12,13 +12,14 @@ namespace pleinair::scene {
 namespace {
 
 constexpr hal::FrameSize kMapSize{kShadowMapTexels, kShadowMapTexels};
-/// A key light's half width, as the penumbra's growth with height: a window's more than a sun's.
+/// Half width of the key light, as growth of the penumbra with height: a window's rather than the
+/// sun's.
 constexpr double kSoftness = 0.13;
 constexpr double kSharpestTexels = 1.25;
-/// Ambient light is kept from beneath what is lower than this, in radii of the model.
+/// Ambient light is blocked below parts lower than this, in radii of the model.
 constexpr double kContactHeight = 0.50;
 constexpr double kContactReach = 0.30;
-constexpr int kReceiverCells = 16;  // a side; lines bend under a lens
+constexpr int kReceiverCells = 16;  // per side; a lens bends lines
 
 constexpr std::array<GLenum, 3> kFirstAlone{GL_COLOR_ATTACHMENT0, GL_NONE, GL_NONE};
 constexpr std::array<GLenum, 3> kAll{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,

@@ -21,16 +21,17 @@
 
 namespace pleinair::scene {
 
-/// Soft shadows of models on the plane of what they are attached to (their attach frame's z = 0),
-/// darkening the camera's picture there. Two lights are kept off: the key light, whose shadow falls
-/// away from it and grows softer with the height of what casts it; and the ambient light, close to
-/// what touches the plane. The plane has no end but the shadow's own; whether something real lies
-/// on it or before it is not known, except for occluders, which cover it. Occluders cast none: the
-/// camera sees their real ones. Models do not cast shadows on each other.
+/// Soft shadows of models on the plane that they are attached to (z = 0 of the attach frame); they
+/// darken the camera image there. Two lights are blocked: the key light, whose shadow falls away
+/// from it and gets softer with the height of the caster; and ambient light, close to points of
+/// contact. The plane is as large as the shadow. Real objects on the plane or in front of it are
+/// unknown, except for occluders, which cover it. Occluders cast no shadow: the camera image has
+/// their real ones. Models do not cast shadows on each other.
 ///
-/// A map for each attach frame, in coordinates of that frame, so that it keeps still while the
-/// camera moves; drawn again only when its models or its light have moved. At most kMostMaps attach
-/// frames have one, the scene's first. All calls on the thread of the GL context it was made in.
+/// There is one shadow map per attach frame, in coordinates of that frame, so that it does not
+/// change while the camera moves; it is drawn again only when its models or its light have moved.
+/// At most kMostMaps attach frames, the scene's first ones, have a map. All calls on the thread of
+/// the GL context that it was made in.
 class ContactShadow {
  public:
   static constexpr std::size_t kMostMaps = 4;
@@ -39,35 +40,35 @@ class ContactShadow {
   ContactShadow(const gpu::ShaderLibrary& library, const Scene& scene,
                 const PosedGeometry& geometry);
 
-  /// Draws the maps for this frame: of `visible` models, posed, in the light of each (camera's
+  /// Draws the maps of this frame for the `visible` models, posed, each in its light (camera's
   /// frame).
   void cast(std::span<const std::size_t> visible, const SceneBodies& bodies,
             std::span<const Lighting> cameraLights);
 
-  /// Runs each program once (docs/gpu.md, rule 14); the target that draws go to is bound, the
+  /// Runs each program once (docs/gpu.md, rule 14). Precondition: the render target is bound, the
   /// receiver has its camera, and all models are posed.
   void warmUp();
 
-  /// Forgets the maps of the frames before.
+  /// Forgets the maps of previous frames.
   void reset();
 
-  /// What draw() needs of the camera, for its program: the uniforms of a camera's vertices.
+  /// The program of draw(), for setting the camera's vertex uniforms.
   gpu::Program& receiver() { return receive_; }
   /// Multiplies the shadows into the first of the bound target's three colour attachments, which
-  /// shows the camera's picture alone.
+  /// must show the camera image alone.
   void draw();
 
  private:
   struct Map {
     Map();
     std::optional<int> tagId;
-    gpu::Texture heights;  // RG8: whether something is over the plane, and how high
+    gpu::Texture heights;  // RG8: whether anything is over the plane, and its height
     gpu::Texture depth;
     gpu::Texture halfBlurred;
-    gpu::Texture blurred;  // RG8: the share of key and ambient light that is kept off
+    gpu::Texture blurred;  // RG8: the blocked share of key and ambient light
     gpu::RenderTarget castTarget, halfTarget, target;
     std::optional<ShadowPlan> plan;
-    std::vector<glm::dmat4> casters;  // what it holds: where its models were, in the attach frame
+    std::vector<glm::dmat4> casters;  // poses in the map: of its models, in the attach frame
     double contactHeight = 0.0;
     // Of this frame.
     bool isShown = false;
@@ -89,7 +90,7 @@ class ContactShadow {
   gpu::Program receive_;
   gpu::VertexArrayHandle noAttributes_;
   std::vector<Map> maps_;
-  // Of the map at hand; kept for their memory.
+  // Of the current map; kept for their memory.
   std::vector<std::size_t> objects_;
   std::vector<glm::dmat4> poses_;
   std::vector<BoundingSphere> spheres_;

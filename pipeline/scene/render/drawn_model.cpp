@@ -23,7 +23,7 @@ RestVertex restVertex(const Mesh& mesh, std::size_t index, const ModelPart& part
   RestVertex rest{.position = vertex.position,
                   .firstMatrix = static_cast<std::uint32_t>(part.firstMatrix),
                   .normal = octahedral(vertex.normal)};
-  // Beyond its joints' memory a shader must not read, whatever a mesh of another skin says.
+  // A shader must not read beyond the joints of the part, even if the mesh belongs to another skin.
   const bool isSkinned = part.skin.has_value() && !mesh.joints.empty();
   const JointWeights held = isSkinned ? mesh.joints[index] : JointWeights{};
   for (std::size_t i = 0; i < 4; ++i) {
@@ -40,15 +40,15 @@ LookVertex lookVertex(const MeshVertex& vertex) {
           .colour = glm::u16vec4(65535.0F * glm::clamp(vertex.colour, 0.0F, 1.0F) + 0.5F)};
 }
 
-/// A mirrored part's triangles go the other way round.
+/// The triangles of a mirrored part have the opposite orientation.
 bool isMirrored(const ModelPart& part) {
   return !part.skin && glm::determinant(glm::dmat3(part.modelFromPart)) < 0.0;
 }
 
-/// For each vertex the first one that is the same in all. Meshes that are made by code often have a
-/// vertex for each corner; what moves a vertex apart from its like keeps it.
+/// For each vertex the first one equal to it. Generated meshes often have one vertex per corner;
+/// equal vertices that move differently stay separate.
 std::vector<std::uint32_t> firstAlike(const Mesh& mesh) {
-  static_assert(sizeof(MeshVertex) == 12 * sizeof(float));  // all bytes count
+  static_assert(sizeof(MeshVertex) == 12 * sizeof(float));  // all bytes are compared
   std::vector<std::uint32_t> first(mesh.vertices.size());
   std::iota(first.begin(), first.end(), 0U);
   if (!mesh.joints.empty() || !mesh.morphTargets.empty()) return first;
@@ -66,7 +66,7 @@ std::vector<std::uint32_t> firstAlike(const Mesh& mesh) {
   return first;
 }
 
-/// Turns each triangle so that its last vertex is the last of no other, where it can.
+/// Rotates each triangle, if possible, so that its last vertex is the last vertex of no other.
 std::vector<std::array<std::uint32_t, 3>> withOwnLastVertices(const Mesh& mesh, bool mirrored) {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   triangles.reserve(mesh.triangles.size());
@@ -84,7 +84,7 @@ std::vector<std::array<std::uint32_t, 3>> withOwnLastVertices(const Mesh& mesh, 
   return triangles;
 }
 
-/// Writes a model out, a surface of a part after the other.
+/// Lays out a model, one surface of a part after another.
 class Layout {
  public:
   Layout(const Model& model, DrawnModel& drawn)
@@ -169,7 +169,7 @@ class Layout {
     }
   }
 
-  /// Neighbours without morph targets are one range.
+  /// Adjacent ranges without morph targets become one.
   void mergeRanges() {
     std::vector<PoseRange> merged;
     for (const PoseRange& range : drawn_.ranges) {
@@ -184,7 +184,7 @@ class Layout {
     drawn_.ranges = std::move(merged);
   }
 
-  /// Triangles in the order of their materials; of one material as they were.
+  /// Sorts triangles by material; stable within a material.
   void makeBatches() {
     std::vector<std::uint32_t> order(drawn_.triangles.size());
     std::iota(order.begin(), order.end(), 0U);
@@ -204,9 +204,9 @@ class Layout {
   const Model& model_;
   DrawnModel& drawn_;
   std::uint32_t nextExtra_;
-  std::vector<std::size_t> materials_;                           // of each triangle
-  std::vector<std::uint32_t> place_;                             // of a surface's vertices
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> source_;  // place, vertex of the surface
+  std::vector<std::size_t> materials_;                           // per triangle
+  std::vector<std::uint32_t> place_;                             // per vertex of the surface
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> source_;  // place, and vertex of the surface
 };
 
 }  // namespace

@@ -10,8 +10,8 @@
 namespace pleinair::scene {
 namespace {
 
-constexpr int kGroupSize = 64;                                         // shaders/posing.glsl
-constexpr std::uint32_t kMostVertices = kGroupSize * gpu::kMaxGroups;  // of a dispatch
+constexpr int kGroupSize = 64;                                         // as in shaders/posing.glsl
+constexpr std::uint32_t kMostVertices = kGroupSize * gpu::kMaxGroups;  // of one dispatch
 constexpr std::size_t kPosedBytes = 16;
 
 gpu::TextureWrap wrapOf(TextureEdge edge) {
@@ -28,14 +28,14 @@ gpu::Texture uploaded(const ModelTexture& texture) {
   return made;
 }
 
-/// Whether it looks the same at all times.
+/// Whether the model never changes.
 bool standsStill(const Model& model, const Playback& playback) {
   return !playback.clip && std::ranges::all_of(model.parts, [](const ModelPart& part) {
     return part.radiansPerSecond == 0.0;
   });
 }
 
-/// One buffer for all models: what each DrawnModel has of `member`, one after another.
+/// One buffer for all models, with `member` of each DrawnModel, one after another.
 template <class Member>
 gpu::Buffer joined(const std::vector<DrawnModel>& drawn, Member member) {
   std::size_t bytes = 0;
@@ -149,7 +149,7 @@ void PosedGeometry::pose(std::size_t index, hal::Duration elapsed, hal::Duration
   boundingSpheres(model, object.pose, object.spheres);
 }
 
-/// Static models are written into each half once.
+/// Static models are written once into each half.
 void PosedGeometry::endPosing() {
   if (isEmpty()) return;
   const auto isToRun = [&](const ObjectSlot& each) {

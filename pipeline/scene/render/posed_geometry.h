@@ -17,41 +17,40 @@
 
 namespace pleinair::scene {
 
-/// Where an object's data begin in the buffers of PosedGeometry, counted in their elements.
+/// Offsets of an object's data in the buffers of PosedGeometry, in elements.
 struct ObjectPlace {
-  std::uint32_t firstTriangle = 0;  ///< of triangles()
-  std::uint32_t firstNow = 0;       ///< of posed(): as the object is in this frame
-  /// As it was in the frame before; nothing where it was not posed then.
+  std::uint32_t firstTriangle = 0;  ///< in triangles()
+  std::uint32_t firstNow = 0;       ///< in posed(): the object in this frame
+  /// In posed(): the object in the previous frame; nothing if it was not posed then.
   std::optional<std::uint32_t> firstThen;
 };
 
-/// A scene's models on the GPU: what never changes of them, and their vertices as they are posed in
-/// this frame and the one before, which a compute pass writes once a frame for all who read them:
-/// the raster pass and whatever lives on surfaces. All calls on the thread of the GL context it was
-/// made in.
+/// A scene's models on the GPU: their constant data, and their posed vertices in this frame and the
+/// previous one. A compute pass writes the vertices once per frame for all readers: the raster pass
+/// and the marks on surfaces. All calls on the thread of the GL context that it was made in.
 class PosedGeometry {
  public:
   /// Uploads the models. `library` has gpu::sceneShaders().
   PosedGeometry(const gpu::ShaderLibrary& library, const Scene& scene);
 
-  /// Whether there is anything to draw.
+  /// Whether there is nothing to draw.
   bool isEmpty() const { return triangleCount_ == 0; }
 
-  /// Begins a frame: what was posed is that of the frame before.
+  /// Begins a frame: the posed vertices become those of the previous frame.
   void beginFrame();
-  /// Poses an object, as the scene counts its models from 0, `elapsed` after its clip's start and
-  /// `turning` after the first frame. At most once a frame each; all before endPosing().
+  /// Poses an object (index of the model in the scene) at `elapsed` after its clip's start and
+  /// `turning` after the first frame. At most once per frame each; all before endPosing().
   void pose(std::size_t object, hal::Duration elapsed, hal::Duration turning);
-  /// Runs the compute passes for all that was posed.
+  /// Runs the compute passes for all posed objects.
   void endPosing();
-  /// Forgets the frame before.
+  /// Forgets the previous frame.
   void reset();
 
-  /// Around what an object was posed as, in its model's frame.
+  /// A sphere around the posed object, in its model's frame.
   const BoundingSphere& sphere(std::size_t object) const { return objects_[object].sphere; }
-  /// Whether it looks the same at all times.
+  /// Whether the object never changes.
   bool isStill(std::size_t object) const;
-  /// Closer around it, in parts.
+  /// Several spheres that bound it more closely.
   std::span<const BoundingSphere> spheres(std::size_t object) const {
     return objects_[object].spheres;
   }
@@ -62,17 +61,17 @@ class PosedGeometry {
   const std::vector<DrawBatch>& batches(std::size_t object) const {
     return models_[objects_[object].model].batches;
   }
-  /// What was posed in this frame.
+  /// Offsets of an object posed in this frame.
   ObjectPlace place(std::size_t object) const;
 
-  /// 16 bytes a vertex: position (model's frame, metres, three floats), octahedral normal.
+  /// 16 bytes per vertex: position (model's frame, metres, three floats), octahedral normal.
   const gpu::Buffer& posed() const { return posed_; }
-  /// 16 bytes a triangle: DrawnTriangle; corners count from the object's first vertex.
+  /// 16 bytes per triangle: DrawnTriangle; corners count from the object's first vertex.
   const gpu::Buffer& triangles() const { return triangles_; }
 
-  /// Binds an object's posed vertices as attributes 0 (position) and 1 (octahedral normal) and what
-  /// does not move as 2 (texture) and 3 (colour), with the indices; unbind() ends it. gl_VertexID
-  /// of a triangle's last vertex is the triangle's number.
+  /// Binds an object's posed vertices as attributes 0 (position) and 1 (octahedral normal), its
+  /// constant data as 2 (texture) and 3 (colour), and its indices; unbind() ends it. gl_VertexID of
+  /// a triangle's last vertex is the triangle's number.
   void bind(std::size_t object) const;
   static void unbind();
   /// Draws triangles of the bound object.
@@ -84,7 +83,7 @@ class PosedGeometry {
     std::vector<gpu::Texture> textures;
     std::vector<DrawBatch> batches;
     std::vector<PoseRange> ranges;
-    std::uint32_t firstVertex = 0;  // of rest and looks
+    std::uint32_t firstVertex = 0;  // in rest and looks
     std::uint32_t vertexCount = 0;
     std::uint32_t firstTriangle = 0;
     std::uint32_t firstIndex = 0;
@@ -92,15 +91,15 @@ class PosedGeometry {
   };
   struct ObjectSlot {
     std::size_t model = 0;
-    std::uint32_t firstPosed = 0;  // from each half's start
+    std::uint32_t firstPosed = 0;  // from the start of each half
     std::uint32_t firstMatrix = 0;
     std::uint32_t firstWeight = 0;
     ModelPose pose;
     BoundingSphere sphere;
     std::vector<BoundingSphere> spheres;
     bool isPosed = false;             // in this frame
-    std::array<bool, 2> isWritten{};  // what each half holds of it is of its frame
-    std::array<bool, 2> isAtRest{};   // what each half holds of a model that never moves
+    std::array<bool, 2> isWritten{};  // whether each half holds the pose of its frame
+    std::array<bool, 2> isAtRest{};   // whether each half holds a static model's pose
   };
 
   void addModel(const Model& model, std::vector<DrawnModel>& drawn);
@@ -111,14 +110,14 @@ class PosedGeometry {
 
   const Scene& scene_;
   gpu::Program pose_;
-  gpu::Program poseMorphed_;  // only where a model has morph targets
+  gpu::Program poseMorphed_;  // only if a model has morph targets
   std::vector<ModelSlot> models_;
   std::vector<ObjectSlot> objects_;
   std::uint32_t triangleCount_ = 0;
-  std::uint32_t posedCount_ = 0;       // of a half
-  std::uint32_t firstWeightRow_ = 0;   // of the matrices' rows
+  std::uint32_t posedCount_ = 0;       // per half
+  std::uint32_t firstWeightRow_ = 0;   // row of the first weight, after the matrices
   std::size_t half_ = 0;               // of this frame
-  std::vector<glm::vec4> matrixRows_;  // of all objects, then their weights
+  std::vector<glm::vec4> matrixRows_;  // of all objects, followed by their weights
   gpu::Buffer rest_;
   gpu::Buffer looks_;
   gpu::Buffer indices_;

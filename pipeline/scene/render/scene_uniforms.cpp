@@ -23,7 +23,7 @@ void setLens(gpu::Program& program, const tracking::CameraModel& camera) {
 
 namespace {
 
-constexpr float kCoding = 1.0F / 2.2F;  // of sRGB, on the whole
+constexpr float kCoding = 1.0F / 2.2F;  // approximate exponent of sRGB coding
 
 }  // namespace
 
@@ -35,7 +35,7 @@ glm::vec3 shadeTint(const Lighting& light) {
 
 float deepestShade(const Lighting& light) {
   constexpr float kThesis = 0.1F;
-  constexpr float kDarkerThanSeen = 0.6F;  // a painter keeps the contrast
+  constexpr float kDarkerThanSeen = 0.6F;  // painters exaggerate contrast
   if (!light.bandsAllLight) return kThesis;
   const float ambient = 0.5F * luminanceOf(light.sky + light.ground);
   const float share = ambient / std::max(luminanceOf(light.white), 1e-4F);

@@ -13,12 +13,12 @@ void setLens(gpu::Program& program, const tracking::CameraModel& camera);
 /// camera's frame. Precondition: the program is in use.
 void setLighting(gpu::Program& program, const Lighting& cameraLight);
 
-/// What toon shading multiplies sRGB-coded colours by where the key light does not reach: the
-/// ambient light's hue beside that of all light, as bright.
+/// The factor on sRGB-coded colours where the key light does not reach: the hue of ambient light
+/// relative to all light, at equal brightness.
 glm::vec3 shadeTint(const Lighting& light);
 
-/// The factor of toon's darkest band: the thesis's 0.1, or where the ambient light is known, a
-/// little darker than what lies in its shade, so that models do not look burnt beside real things.
+/// The factor of toon's darkest band: the thesis's 0.1 or, if ambient light is known, a little less
+/// than the brightness of real shade, so that models do not look burnt beside real objects.
 float deepestShade(const Lighting& light);
 
 }  // namespace pleinair::scene

@@ -26,7 +26,7 @@ ScreenArea areaAround(std::span<const glm::dvec3> cameraCorners,
     low = glm::min(low, px);
     high = glm::max(high, px);
   }
-  // A lens bends the hull's edges outwards, by less than a tenth of what they span.
+  // A lens bends the hull's edges outward by less than a tenth of their span.
   const double bent = bendsLines(camera.distortion()) ? 0.1 : 0.0;
   const glm::dvec2 margin = bent * (high - low) + 2.0;
   const glm::dvec2 size(picture);
@@ -36,7 +36,8 @@ ScreenArea areaAround(std::span<const glm::dvec3> cameraCorners,
 }
 
 ScreenArea areaAround(const BoundingSphere& cameraBall, const tracking::CameraModel& camera) {
-  // Where the tangents to the ball meet the plane z = 1, seen along each of the other two axes.
+  // The points where the ball's tangents meet the plane z = 1, seen along each of the other two
+  // axes.
   const auto tangents = [&](double across, double& low, double& high) {
     const double distance = std::hypot(across, cameraBall.centre.z);
     const double middle = std::atan2(across, cameraBall.centre.z);

@@ -11,7 +11,7 @@
 
 namespace pleinair::scene {
 
-/// A rectangle of a picture's pixels; empty where a side is 0.
+/// A rectangle of an image's pixels; empty if a side is 0.
 struct ScreenArea {
   glm::ivec2 origin{0};
   glm::ivec2 size{0};
@@ -19,15 +19,16 @@ struct ScreenArea {
   bool isEmpty() const { return size.x <= 0 || size.y <= 0; }
 };
 
-/// What of the picture a convex body may cover, given corners of a hull around it (camera frame,
-/// metres): never too small, the whole picture where a corner is beside or behind the camera.
+/// The part of the image that a convex body may cover, given corners of a hull around it (camera
+/// frame, metres). It is never too small; it is the whole image if a corner is beside or behind the
+/// camera.
 ScreenArea areaAround(std::span<const glm::dvec3> cameraCorners,
                       const tracking::CameraModel& camera);
 
-/// The same around a ball.
+/// The part of the image that a ball may cover.
 ScreenArea areaAround(const BoundingSphere& cameraBall, const tracking::CameraModel& camera);
 
-/// Around both; an empty one adds nothing.
+/// The bounding rectangle of both; an empty one adds nothing.
 ScreenArea unionOf(const ScreenArea& a, const ScreenArea& b);
 
 }  // namespace pleinair::scene

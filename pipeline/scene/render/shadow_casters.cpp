@@ -18,10 +18,10 @@
 namespace pleinair::scene {
 namespace {
 
-constexpr double kMostShear = 1.6;     // a light lower than 32° casts as if it were there
-constexpr double kMostDistance = 2.0;  // to the plane, in radii
+constexpr double kMostShear = 1.6;     // a key light below 32° is raised to that angle
+constexpr double kMostDistance = 2.0;  // of a caster from the plane, in radii
 constexpr double kMargin = 1.2;        // for the penumbra
-constexpr double kBelow = 0.03;        // of the height, that still counts as on the plane
+constexpr double kBelow = 0.03;  // part of the height below the plane that still casts a shadow
 constexpr double kStepsADoubling = 4.0;
 
 struct Bounds {
@@ -91,10 +91,10 @@ std::optional<ShadowPlan> planShadow(std::span<const BoundingSphere> spheres,
 namespace {
 
 constexpr double kCellOfRadius = 1.0 / 28.0;  // about a texel of a shadow's map
-constexpr float kFarthestCell = 1e9F;         // where it still is an integer
+constexpr float kFarthestCell = 1e9F;         // limit up to which a cell index fits an integer
 constexpr std::size_t kPosedBytes = 16;
 
-/// Where a vertex goes at rest, by the joint that holds most of it.
+/// Position of a vertex at rest, by its strongest joint.
 glm::vec3 atRest(const RestVertex& vertex, const ModelPose& pose) {
   const std::array<std::uint32_t, 4> weights{vertex.weights[0] & 0xFFFFU, vertex.weights[0] >> 16U,
                                              vertex.weights[1] & 0xFFFFU, vertex.weights[1] >> 16U};

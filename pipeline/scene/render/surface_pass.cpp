@@ -18,7 +18,7 @@ namespace {
 
 using SquareRoot = std::array<std::array<double, 6>, 6>;
 
-/// The lower triangle L with L Lᵀ = a + b (Cholesky); a direction without variance stays without.
+/// The lower triangle L with L Lᵀ = a + b (Cholesky); a direction without variance gets zeros.
 SquareRoot squareRootOfSum(const tracking::PoseCovariance& a, const tracking::PoseCovariance& b) {
   SquareRoot root{};
   for (std::size_t i = 0; i < 6; ++i) {
@@ -77,7 +77,7 @@ SurfacePass::GpuBody SurfacePass::gpuBody(const Body& body) {
   if (!body.then) return made;
   made.then = rowsOf(body.then->cameraFromBody);
   made.turnsAbout = glm::vec4(body.now->attachment.turnsAbout, 1.0F);
-  // Both poses' errors move the pixel, the earlier one's very nearly as the later one's.
+  // The errors of both poses move the pixel; the earlier one's acts nearly as the later one's.
   const SquareRoot root =
       squareRootOfSum(body.now->attachment.covariance, body.then->attachment.covariance);
   for (std::size_t k = 0; k < 6; ++k) {
@@ -171,7 +171,7 @@ void SurfacePass::runModel(gpu::Program& program, std::size_t index, const gpu::
       .dispatch(area.size, {8, 8}, 0);
 }
 
-/// Only where something was written: a whole picture of zeros costs as much as a model.
+/// Clears only the written area: clearing a whole image costs as much as drawing a model.
 void SurfacePass::clear(Buffers& buffers) {
   if (buffers.written.isEmpty()) return;
   buffers.target.beginKeeping();
@@ -182,7 +182,7 @@ void SurfacePass::clear(Buffers& buffers) {
   buffers.target.clearUnsigned(1, glm::uvec4(0U));
   buffers.target.clearUnsigned(2, glm::uvec4(0U));
   glDisable(GL_SCISSOR_TEST);
-  glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);  // what compute writes comes after
+  glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);  // compute writes come after the clear
   buffers.written = {};
 }
 
@@ -202,7 +202,7 @@ void SurfacePass::run(const gpu::Texture& ids, const tracking::CameraModel& came
     buffers.written = unionOf(buffers.written, area);
     runModel(scene_.models[i].isOccluder ? realSurface_ : surface_, i, ids, camera, area, buffers);
   }
-  // for who reads them, and for the next frame's clear()
+  // for later readers, and for the next frame's clear()
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                   GL_FRAMEBUFFER_BARRIER_BIT);
 }

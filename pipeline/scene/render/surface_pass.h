@@ -20,32 +20,32 @@
 
 namespace pleinair::scene {
 
-/// Finds, from what was drawn and from where all bodies are and were, each pixel's motion, its
-/// point on the surface and its part (ArFrame has the layouts). Compute passes that work on what is
-/// seen, where it is, so that drawing itself carries no more than ids. All calls on the thread of
-/// the GL context it was made in.
+/// Computes per pixel the motion, the point on the surface and the part (layouts: ArFrame), from
+/// the drawn ids and the poses of all bodies in this frame and the previous one. Compute passes
+/// work on the visible areas of bodies only, so that drawing itself outputs no more than ids. All
+/// calls on the thread of the GL context that it was made in.
 class SurfacePass {
  public:
   /// `library` has gpu::sceneShaders(). Both outlive the pass.
   SurfacePass(const gpu::ShaderLibrary& library, const Scene& scene, const PosedGeometry& geometry);
 
-  /// What it writes, of one size.
+  /// Output textures of one size.
   struct Buffers {
     explicit Buffers(hal::FrameSize size);
     gpu::Texture motion;
     gpu::Texture barycentrics;
     gpu::Texture parts;
-    gpu::RenderTarget target;  // all of them, to be cleared
-    ScreenArea written;        // what may be other than 0; at first all
+    gpu::RenderTarget target;  // all textures, for clearing
+    ScreenArea written;        // area that may be non-zero; at first the whole image
   };
 
-  /// Runs each program once (docs/gpu.md, rule 14), wherever models and planes are. Precondition:
-  /// as of run().
+  /// Runs each program once (docs/gpu.md, rule 14), independent of the bodies' positions.
+  /// Precondition: as for run().
   void warmUp(const gpu::Texture& ids, const tracking::CameraModel& camera,
               const SceneBodies& bodies, Buffers& buffers);
 
-  /// `ids` (ArFrame::ids) were drawn through `camera` from `geometry` as it is posed now, of these
-  /// models. Precondition: all have one size.
+  /// `ids` (ArFrame::ids) were drawn through `camera` from the current poses of `geometry`, of
+  /// these models. Precondition: all have one size.
   void run(const gpu::Texture& ids, const tracking::CameraModel& camera, const SceneBodies& bodies,
            std::span<const std::size_t> models, Buffers& buffers);
 
@@ -53,7 +53,7 @@ class SurfacePass {
   const gpu::Buffer& bodies() const { return bodies_; }
 
  private:
-  /// shaders/bodies.glsl.
+  /// As in shaders/bodies.glsl.
   struct GpuBody {
     std::array<glm::vec4, 3> now{};
     std::array<glm::vec4, 3> then{};
@@ -80,9 +80,9 @@ class SurfacePass {
 
   const Scene& scene_;
   const PosedGeometry& geometry_;
-  gpu::Program surface_;      // only where there are models
-  gpu::Program realSurface_;  // only where there are occluders
-  gpu::Program planes_;       // only where there are planes
+  gpu::Program surface_;      // only if there are models
+  gpu::Program realSurface_;  // only if there are occluders
+  gpu::Program planes_;       // only if there are planes
   gpu::Buffer bodies_;
   std::vector<GpuBody> staged_;
 };

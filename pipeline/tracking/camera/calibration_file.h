@@ -20,7 +20,7 @@ namespace pleinair::tracking {
 /// Throws config::ConfigError.
 CameraModel loadCalibration(const std::filesystem::path& path);
 
-/// The same keys out of a table that may hold others; finish() is the caller's.
+/// Reads the same keys from a table that may hold others. The caller calls finish() on the table.
 CameraModel readCalibration(const config::TomlTable& table);
 
 }  // namespace pleinair::tracking

@@ -10,11 +10,11 @@ namespace pleinair::tracking {
 namespace {
 
 constexpr int kMaxUndistortSteps = 30;
-constexpr double kUndistortTolerance = 1e-12;  // of the normalised plane, squared below
+constexpr double kUndistortTolerance = 1e-12;  // distance on the normalised plane; squared below
 
 struct Distorted {
   glm::dvec2 point{0.0};
-  glm::dmat2 jacobian{1.0};  // columns: by x, by y
+  glm::dmat2 jacobian{1.0};  // columns: derivatives by x, by y
 };
 
 /// OpenCV's model (calib3d, "Detailed Description") on the plane z = 1.
@@ -72,7 +72,7 @@ std::optional<glm::dvec3> CameraModel::unproject(const glm::dvec2& px) const {
   for (int step = 0; step < kMaxUndistortSteps; ++step) {
     const Distorted now = distort(distortion_, plane);
     const double determinant = glm::determinant(now.jacobian);
-    if (!(determinant > 0.0)) return std::nullopt;  // folded over, or not a number
+    if (!(determinant > 0.0)) return std::nullopt;  // the distortion folds over here, or NaN
     const glm::dvec2 error = now.point - wanted;
     if (glm::dot(error, error) < kUndistortTolerance * kUndistortTolerance) {
       return glm::dvec3(plane, 1.0);

@@ -20,8 +20,8 @@ struct Intrinsics {
   double cy = 0.0;
 };
 
-/// Brown–Conrady lens distortion in OpenCV's terms and order: radial k1 k2, tangential p1 p2,
-/// radial k3, and the rational model's denominator k4 k5 k6. All zero: none.
+/// Brown–Conrady lens distortion with OpenCV's terms in OpenCV's order: radial k1 k2, tangential p1
+/// p2, radial k3, and the denominator k4 k5 k6 of the rational model. All zero: no distortion.
 struct Distortion {
   double k1 = 0.0;
   double k2 = 0.0;
@@ -33,14 +33,15 @@ struct Distortion {
   double k6 = 0.0;
 };
 
-/// A point in pixels and how it moves with the camera point it is the image of (pixels a metre).
+/// A projected point in pixels, and its derivative by the camera point (px per metre).
 struct Projection {
   glm::dvec2 px{0.0};
   glm::dmat3x2 pxByCameraPoint{0.0};
 };
 
-/// Where camera points appear in a picture, and back. Camera frame: OpenCV's (x right, y down, z
-/// forward), metres; pixels from the top left corner, centres at +0.5. A value; thread-safe.
+/// Projects camera points into an image, and back. Camera frame: OpenCV's (x right, y down, z
+/// forward), metres. Image: pixels from the top left corner, pixel centres at +0.5. A value type,
+/// thread-safe.
 class CameraModel {
  public:
   /// Precondition: fx, fy > 0 and isAcceptedSize(imageSize).
@@ -54,12 +55,12 @@ class CameraModel {
   glm::dvec2 project(const glm::dvec3& cameraPoint) const;
   Projection projectWithJacobian(const glm::dvec3& cameraPoint) const;
 
-  /// The ray through a pixel as (x, y, 1); nothing where the distortion has no inverse, which for a
-  /// calibration that fits its lens is outside of the picture.
+  /// Returns the ray through a pixel as (x, y, 1), or nothing where the distortion has no inverse.
+  /// A calibration that fits its lens has such pixels only outside of the image.
   std::optional<glm::dvec3> unproject(const glm::dvec2& px) const;
 
-  /// The model of the same camera's picture scaled, then shifted: px' = scale · px + offset.
-  /// A crop that starts at (x, y) has the offset (−x, −y).
+  /// Returns the model of the same camera whose image was scaled, then shifted: px' = scale · px +
+  /// offset. A crop that starts at (x, y) has the offset (−x, −y).
   CameraModel resampled(const glm::dvec2& scale, const glm::dvec2& offset,
                         hal::FrameSize newSize) const;
 

@@ -8,13 +8,14 @@
 namespace pleinair::tracking {
 namespace {
 
-/// Least eigenvalue of the gradients in a window, OpenCV's measure: about 1.3 levels a pixel.
-constexpr float kLeastCorner = 1e-4F;
+/// Smallest accepted eigenvalue of a window's gradient matrix, in OpenCV's scale: about 1.3 grey
+/// levels per pixel.
+constexpr float kMinCornerStrength = 1e-4F;
 
 }  // namespace
 
-bool CornerSearch::look(const LumaPyramid& pyramid) {
-  constexpr std::size_t kSecondLevel = 2;  // each level's gradients follow it
+bool CornerSearch::load(const LumaPyramid& pyramid) {
+  constexpr std::size_t kSecondLevel = 2;  // each level is followed by its gradients
   if (pyramid.levels().size() <= kSecondLevel) {
     strength_.release();
     return false;
@@ -23,13 +24,13 @@ bool CornerSearch::look(const LumaPyramid& pyramid) {
   return true;
 }
 
-bool CornerSearch::takeBest(const cv::Rect& part, cv::Point2f& best) {
+bool CornerSearch::takeStrongest(const cv::Rect& part, cv::Point2f& best) {
   const cv::Rect inside = part & cv::Rect({}, strength_.size());
   if (inside.empty()) return false;
   double strength = 0.0;
   cv::Point at;
   cv::minMaxLoc(strength_(inside), nullptr, &strength, nullptr, &at);
-  if (!(strength > static_cast<double>(kLeastCorner))) return false;
+  if (!(strength > static_cast<double>(kMinCornerStrength))) return false;
   at += inside.tl();
   const int reach = static_cast<int>(kSpacingPx / 2.0);
   const cv::Rect around(at.x - reach, at.y - reach, 2 * reach + 1, 2 * reach + 1);
@@ -41,7 +42,7 @@ bool CornerSearch::takeBest(const cv::Rect& part, cv::Point2f& best) {
 void PointFollower::follow(const LumaPyramid& from, const LumaPyramid& to,
                            const std::vector<cv::Point2f>& origins,
                            std::vector<cv::Point2f>& points, int levels) {
-  backPx_.clear();
+  forwardBackwardPx_.clear();
   if (origins.empty()) return;
   const cv::Size window(LumaPyramid::kWindowPx, LumaPyramid::kWindowPx);
   const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 20, 0.005);
@@ -53,7 +54,7 @@ void PointFollower::follow(const LumaPyramid& from, const LumaPyramid& to,
                            0, briefly, cv::OPTFLOW_USE_INITIAL_FLOW, 1e-3);
   for (std::size_t i = 0; i < origins.size(); ++i) {
     const cv::Point2f apart = back_[i] - origins[i];
-    backPx_.push_back(std::sqrt(static_cast<double>(apart.dot(apart))));
+    forwardBackwardPx_.push_back(std::sqrt(static_cast<double>(apart.dot(apart))));
   }
 }
 

@@ -19,7 +19,7 @@ glm::dvec2 movedBy(const glm::dmat3& homography, const glm::dvec2& px) {
 double rmsMotion(const glm::dmat3& homography, hal::FrameSize size) {
   double sum = 0.0;
   double count = 0.0;
-  forPlaces(size, [&](const glm::dvec2& px) {
+  forGridCentres(size, [&](const glm::dvec2& px) {
     const glm::dvec2 step = movedBy(homography, px) - px;
     sum += glm::dot(step, step);
     count += 1.0;
@@ -29,21 +29,23 @@ double rmsMotion(const glm::dmat3& homography, hal::FrameSize size) {
 
 namespace {
 
-constexpr std::size_t kLeastPairs = 12;
-constexpr double kLeastPart = 0.4;  // of the pairs, that agree
-/// They lie in so many fields of a grid over the picture at least.
+constexpr std::size_t kMinPairs = 12;
+constexpr double kMinAgreeingShare = 0.4;  // part of the pairs that must agree
+/// The agreeing pairs must lie in at least this many cells of a grid over the image.
 constexpr int kColumns = 4;
 constexpr int kRows = 4;
-constexpr int kLeastFields = 6;
-/// RANSAC's tolerance: of the longer side (1.3 px of 640), but so many mean errors at least.
+constexpr int kMinCells = 6;
+/// RANSAC's tolerance: a part of the image's longer side (1.3 px of 640), and at least this many
+/// mean errors.
 constexpr double kOutlierPart = 0.002;
 constexpr double kOutlierErrors = 3.0;
 constexpr int kSteps = 6;
-/// Deviations beyond so many predicted errors, and this part of RANSAC's tolerance, weigh less.
+/// Deviations larger than this many predicted errors, plus this part of RANSAC's tolerance, get
+/// less weight.
 constexpr double kRobustErrors = 3.0;
 constexpr double kRobustPart = 0.15;
 
-/// px to coordinates of about ±1 about the picture's middle.
+/// Maps px to coordinates of about ±1 around the image's centre.
 struct Scaling {
   glm::dvec2 middle;
   double unit;
@@ -56,13 +58,13 @@ struct Scaling {
   }
 };
 
-/// A homography by its first eight numbers, row by row; the ninth is 1.
+/// Applies a homography given by its first eight entries, row by row; the ninth is 1.
 glm::dvec2 apply(const cv::Vec<double, 8>& h, const glm::dvec2& p) {
   const double w = h[6] * p.x + h[7] * p.y + 1.0;
   return {(h[0] * p.x + h[1] * p.y + h[2]) / w, (h[3] * p.x + h[4] * p.y + h[5]) / w};
 }
 
-/// Its derivatives by those numbers: a row for x and one for y.
+/// Derivatives of apply() by these entries: one row for x and one for y.
 std::array<cv::Vec<double, 8>, 2> derivatives(const cv::Vec<double, 8>& h, const glm::dvec2& p) {
   const double w = h[6] * p.x + h[7] * p.y + 1.0;
   const glm::dvec2 to = apply(h, p);
@@ -73,7 +75,7 @@ std::array<cv::Vec<double, 8>, 2> derivatives(const cv::Vec<double, 8>& h, const
 }
 
 cv::Vec<double, 8> numbersOf(const glm::dmat3& m) {
-  const double s = 1.0 / m[2][2];  // glm's m[column][row]
+  const double s = 1.0 / m[2][2];  // glm indexes as m[column][row]
   return {m[0][0] * s, m[1][0] * s, m[2][0] * s, m[0][1] * s,
           m[1][1] * s, m[2][1] * s, m[0][2] * s, m[1][2] * s};
 }
@@ -82,10 +84,10 @@ glm::dmat3 matrixOf(const cv::Vec<double, 8>& h) {
   return {h[0], h[3], h[6], h[1], h[4], h[7], h[2], h[5], 1.0};
 }
 
-/// Whether no corner of the picture comes near the horizon: no camera moves so in a frame.
+/// Whether all image corners stay far from the horizon. No camera moves further in one frame.
 bool isGentle(const cv::Vec<double, 8>& h) {
-  constexpr double kMost = 0.5;
-  return std::abs(h[6]) + std::abs(h[7]) < kMost;
+  constexpr double kMaxPerspective = 0.5;
+  return std::abs(h[6]) + std::abs(h[7]) < kMaxPerspective;
 }
 
 }  // namespace
@@ -95,8 +97,8 @@ bool HomographyFitter::findAgreeing(std::span<const PointPair> pairs, hal::Frame
   from_.clear();
   to_.clear();
   for (const PointPair& pair : pairs) {
-    from_.emplace_back(static_cast<float>(pair.then.x), static_cast<float>(pair.then.y));
-    to_.emplace_back(static_cast<float>(pair.now.x), static_cast<float>(pair.now.y));
+    from_.emplace_back(static_cast<float>(pair.previous.x), static_cast<float>(pair.previous.y));
+    to_.emplace_back(static_cast<float>(pair.current.x), static_cast<float>(pair.current.y));
   }
   double errorPx = 0.0;
   for (const PointPair& pair : pairs) errorPx += pair.errorPx / static_cast<double>(pairs.size());
@@ -117,34 +119,34 @@ bool HomographyFitter::coversEnough(std::span<const PointPair> pairs, hal::Frame
   std::array<bool, kColumns * kRows> fields{};
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (agrees_[i] == 0) continue;
-    const glm::dvec2 part = pairs[i].now / glm::dvec2(size.width, size.height);
+    const glm::dvec2 part = pairs[i].current / glm::dvec2(size.width, size.height);
     const int column = std::clamp(static_cast<int>(part.x * kColumns), 0, kColumns - 1);
     const int row = std::clamp(static_cast<int>(part.y * kRows), 0, kRows - 1);
     fields[static_cast<std::size_t>(row * kColumns + column)] = true;
   }
-  return std::ranges::count(fields, true) >= kLeastFields;
+  return std::ranges::count(fields, true) >= kMinCells;
 }
 
-/// Sums of a step of weighted least squares.
+/// Sums of one step of weighted least squares.
 struct HomographyFitter::Sums {
   Matrix8 normal = Matrix8::zeros();
   Vector8 right = Vector8::all(0.0);
-  double squares = 0.0;   // of deviations, px²
-  double expected = 0.0;  // by the pairs' errors
+  double squares = 0.0;   // sum of squared deviations, px²
+  double expected = 0.0;  // the sum that the pairs' errors predict
   double weights = 0.0;
 };
 
-/// `excess`: by how much, px², points deviate beyond their own errors.
-HomographyFitter::Sums HomographyFitter::sumUp(std::span<const PointPair> pairs,
-                                               hal::FrameSize size, const Vector8& h,
-                                               double excess) const {
+/// `excess`: the variance (px²) by which points deviate beyond their own errors.
+HomographyFitter::Sums HomographyFitter::accumulate(std::span<const PointPair> pairs,
+                                                    hal::FrameSize size, const Vector8& h,
+                                                    double excess) const {
   const Scaling scaling(size);
   const double softPx = kRobustPart * kOutlierPart * std::max(size.width, size.height);
   Sums out;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (agrees_[i] == 0) continue;
-    const glm::dvec2 p = scaling.of(pairs[i].then);
-    const glm::dvec2 residual = scaling.of(pairs[i].now) - apply(h, p);
+    const glm::dvec2 p = scaling.of(pairs[i].previous);
+    const glm::dvec2 residual = scaling.of(pairs[i].current) - apply(h, p);
     const double px = glm::length(residual) * scaling.unit;
     const double own = pairs[i].errorPx * pairs[i].errorPx;
     const double soft = kRobustErrors * std::sqrt(own + excess) + softPx;
@@ -174,7 +176,7 @@ std::optional<HomographyFit> HomographyFitter::refine(std::span<const PointPair>
   Sums sums;
   double excess = 0.0;
   for (int step = 0; step < kSteps; ++step) {
-    sums = sumUp(pairs, size, h, excess);
+    sums = accumulate(pairs, size, h, excess);
     Vector8 change;
     if (!cv::solve(sums.normal, sums.right, change, cv::DECOMP_CHOLESKY)) return std::nullopt;
     h += change;
@@ -183,16 +185,16 @@ std::optional<HomographyFit> HomographyFitter::refine(std::span<const PointPair>
   const Matrix8 covariance = sums.normal.inv(cv::DECOMP_CHOLESKY);
   double variance = 0.0;
   double places = 0.0;
-  forPlaces(size, [&](const glm::dvec2& px) {
+  forGridCentres(size, [&](const glm::dvec2& px) {
     for (const Vector8& row : derivatives(h, scaling.of(px))) {
       variance += row.dot(covariance * row) * scaling.unit * scaling.unit;
     }
     places += 1.0;
   });
-  HomographyFit out{.nowFromThen = toPx * matrixOf(h) * toUnits,
+  HomographyFit out{.currentFromPrevious = toPx * matrixOf(h) * toUnits,
                     .fitErrorPx = std::sqrt(variance / places),
                     .modelErrorPx = std::sqrt(excess)};
-  out.nowFromThen /= out.nowFromThen[2][2];
+  out.currentFromPrevious /= out.currentFromPrevious[2][2];
   if (!isGentle(h) || !std::isfinite(out.fitErrorPx)) return std::nullopt;
   return out;
 }
@@ -201,10 +203,10 @@ std::optional<HomographyFit> HomographyFitter::fit(std::span<const PointPair> pa
                                                    hal::FrameSize size) {
   agrees_.assign(pairs.size(), 0);
   glm::dmat3 start(1.0);
-  if (pairs.size() < kLeastPairs || !findAgreeing(pairs, size, start)) return std::nullopt;
+  if (pairs.size() < kMinPairs || !findAgreeing(pairs, size, start)) return std::nullopt;
   const auto agreeing = static_cast<std::size_t>(std::ranges::count(agrees_, 1));
-  if (agreeing < kLeastPairs ||
-      static_cast<double>(agreeing) < kLeastPart * static_cast<double>(pairs.size()) ||
+  if (agreeing < kMinPairs ||
+      static_cast<double>(agreeing) < kMinAgreeingShare * static_cast<double>(pairs.size()) ||
       !coversEnough(pairs, size)) {
     return std::nullopt;
   }

@@ -13,12 +13,12 @@
 
 namespace pleinair::tracking {
 
-/// Where a homography takes a point.
+/// The point to which a homography moves `px`.
 glm::dvec2 movedBy(const glm::dmat3& homography, const glm::dvec2& px);
 
-/// The middles of a grid of fields over a picture: where averages over all of it are taken.
+/// Visits the centres of a grid of cells over an image. Averages over the image are taken there.
 template <class F>
-void forPlaces(hal::FrameSize size, F&& visit) {
+void forGridCentres(hal::FrameSize size, F&& visit) {
   constexpr int kAcross = 5;
   constexpr int kDown = 4;
   for (int j = 0; j < kDown; ++j) {
@@ -28,30 +28,30 @@ void forPlaces(hal::FrameSize size, F&& visit) {
   }
 }
 
-/// Root mean square, over a picture, of how far a homography takes its points.
+/// Root mean square displacement by a homography, over the whole image.
 double rmsMotion(const glm::dmat3& homography, hal::FrameSize size);
 
-/// A point of which two places are known, px of the frame.
+/// The positions of one point in two frames, px of the frame.
 struct PointPair {
-  glm::dvec2 then{0.0};
-  glm::dvec2 now{0.0};
-  double errorPx = 0.0;  ///< predicted, of now - then
+  glm::dvec2 previous{0.0};
+  glm::dvec2 current{0.0};
+  double errorPx = 0.0;  ///< predicted error of (now - then)
 };
 
 struct HomographyFit {
-  glm::dmat3 nowFromThen{1.0};
-  double fitErrorPx = 0.0;    ///< predicted, of where it takes a point of the picture, on average
-  double modelErrorPx = 0.0;  ///< by how much more than was predicted points deviate from it
+  glm::dmat3 currentFromPrevious{1.0};
+  double fitErrorPx = 0.0;  ///< predicted error of where it moves a point, averaged over the image
+  double modelErrorPx = 0.0;  ///< deviation of the points beyond their predicted errors
   std::size_t agreeing = 0;
 };
 
-/// Fits homographies to pairs of which some are wrong: RANSAC for which of them agree, and least
-/// squares on all that do, weighted by their errors. One thread at a time.
+/// Fits homographies to point pairs with outliers: RANSAC finds the agreeing pairs, then weighted
+/// least squares uses all of them. One thread at a time.
 class HomographyFitter {
  public:
-  /// Nothing where too few agree, or over too little of the picture.
+  /// Returns nothing where too few pairs agree, or where they cover too little of the image.
   std::optional<HomographyFit> fit(std::span<const PointPair> pairs, hal::FrameSize size);
-  /// Whether a pair of the last fit agrees with it.
+  /// Whether pair `i` of the last fit agrees with it.
   bool agrees(std::size_t i) const { return agrees_[i] != 0; }
 
  private:
@@ -59,8 +59,8 @@ class HomographyFitter {
   using Matrix8 = cv::Matx<double, 8, 8>;
   bool findAgreeing(std::span<const PointPair> pairs, hal::FrameSize size, glm::dmat3& start);
   struct Sums;
-  Sums sumUp(std::span<const PointPair> pairs, hal::FrameSize size, const Vector8& h,
-             double excess) const;
+  Sums accumulate(std::span<const PointPair> pairs, hal::FrameSize size, const Vector8& h,
+                  double excess) const;
   std::optional<HomographyFit> refine(std::span<const PointPair> pairs, hal::FrameSize size,
                                       const glm::dmat3& start) const;
   bool coversEnough(std::span<const PointPair> pairs, hal::FrameSize size) const;

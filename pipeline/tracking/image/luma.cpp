@@ -14,14 +14,14 @@ namespace {
 
 using hal::PixelFormat;
 
-/// A header over somebody else's pixels, which OpenCV only reads.
+/// A cv::Mat header over borrowed pixels, which OpenCV only reads.
 cv::Mat matOver(const hal::ImageView& image, int type) {
   const hal::PlaneView& plane = image.planes[0];
   auto* const bytes = const_cast<std::uint8_t*>(plane.bytes.data());
   return {image.format.size.height, image.format.size.width, type, bytes, plane.strideBytes};
 }
 
-/// OpenCV names a mosaic by the second row's second and third pixel: its BG is our RGGB.
+/// OpenCV names a mosaic by the second and third pixel of its second row: OpenCV's BG is our RGGB.
 int bayerConversion(PixelFormat format) {
   switch (format) {
     case PixelFormat::kBayerRggb8:

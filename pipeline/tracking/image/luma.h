@@ -9,12 +9,13 @@
 
 namespace pleinair::tracking {
 
-/// Makes the BT.601 luma of pictures of any format, for detectors. Bayer mosaics are interpolated
-/// bilinearly, so that luma is not shifted against the picture. One thread at a time.
+/// Converts images of any format to BT.601 luma, for detectors. Bayer mosaics are interpolated
+/// bilinearly, so that luma is not shifted against the image. One thread at a time.
 class LumaConverter {
  public:
-  /// One byte a pixel, the picture's size: the picture's own plane where it has one, else a buffer
-  /// of this object, valid until the next call. Precondition: image.isComplete().
+  /// Returns one byte per pixel at the image's size. The result is the image's own luma plane where
+  /// it has one; otherwise it is a buffer of this object, valid until the next call. Precondition:
+  /// image.isComplete().
   hal::PlaneView convert(const hal::ImageView& image);
 
  private:
@@ -23,20 +24,21 @@ class LumaConverter {
 
 class LumaPyramid;
 
-/// A frame's luma for all that is found out in it: it and its pyramid are made when they are first
-/// asked for, and then kept. Keeps its buffers from frame to frame. One thread at a time.
+/// A frame's luma and luma pyramid, shared by all detectors. Both are made on first use and kept
+/// for the frame; buffers are kept from frame to frame. One thread at a time.
 class LumaFrame {
  public:
-  /// The next frame, of any format, whose pixels stay as long as this is asked about it.
-  /// Precondition: image.isComplete().
+  /// Takes the next frame, of any format. Its pixels must stay valid while this object is used for
+  /// the frame. Precondition: image.isComplete().
   void take(const hal::ImageView& image);
-  /// Likewise, of which there is luma already.
+  /// Takes a frame that is luma already; its pixels must stay valid in the same way.
   void take(const hal::PlaneView& luma, hal::FrameSize size);
 
-  // Precondition of all: a frame was taken.
+  // Precondition of all functions below: a frame was taken.
   hal::FrameSize size() const { return size_; }
   const hal::PlaneView& luma();
-  /// Of a picture of at most kLongSidePx. Not changed as long as it is shared: key frames keep it.
+  /// A pyramid whose longer side is at most kLongSidePx. It is not changed while it is shared; key
+  /// frames keep it.
   std::shared_ptr<const LumaPyramid> pyramid();
   static constexpr int kLongSidePx = 640;
 
@@ -46,7 +48,7 @@ class LumaFrame {
   hal::ImageView image_;
   std::optional<hal::PlaneView> luma_;
   std::shared_ptr<const LumaPyramid> pyramid_;
-  std::vector<std::shared_ptr<LumaPyramid>> pyramids_;  // used again when nobody shares them
+  std::vector<std::shared_ptr<LumaPyramid>> pyramids_;  // reused when nobody shares them
 };
 
 }  // namespace pleinair::tracking

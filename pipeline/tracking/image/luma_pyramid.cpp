@@ -26,7 +26,7 @@ void LumaPyramid::load(const hal::PlaneView& luma, hal::FrameSize frameSize, int
   }
   cv::buildOpticalFlowPyramid(reduced_, levels_, {kWindowPx, kWindowPx}, kLevels, true,
                               cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, false);
-  if (scale <= 1.0) reduced_.release();  // it is not ours
+  if (scale <= 1.0) reduced_.release();  // reduced_ would refer to the caller's pixels
 }
 
 bool LumaPyramid::isInside(const cv::Point2f& own, double border) const {

@@ -9,20 +9,20 @@
 
 namespace pleinair::tracking {
 
-/// A frame's luma, reduced to a size at which things are followed and halved again and again, with
-/// gradients, as Lucas-Kanade reads it. Its own px have integer centres (OpenCV's), the frame's
-/// have theirs at +0.5.
+/// A frame's luma, reduced to the size at which features are followed, then halved repeatedly, with
+/// gradients as Lucas-Kanade reads them. Pixel centres of the pyramid are integers (as in OpenCV);
+/// pixel centres of the frame are at +0.5.
 class LumaPyramid {
  public:
-  /// Takes a copy; the longer side is at most `longSidePx` then.
+  /// Copies a frame's luma, reduced so that the longer side is at most `longSidePx`.
   void load(const hal::PlaneView& luma, hal::FrameSize frameSize, int longSidePx);
 
   hal::FrameSize frameSize() const { return frameSize_; }
-  /// The reduced picture, without what is around it for filters.
+  /// The reduced image, without the border that filters need.
   const cv::Mat& picture() const { return levels_.front(); }
-  /// Twice as many as levels: each picture's gradients (32 times, CV_16SC2) follow it.
+  /// Two entries per level: the image, then its gradients (CV_16SC2, times 32).
   const std::vector<cv::Mat>& levels() const { return levels_; }
-  /// Frame px in a px of its own.
+  /// Size of a pyramid px, in frame px.
   glm::dvec2 reduction() const { return reduction_; }
 
   glm::dvec2 framePx(const cv::Point2f& own) const {
@@ -32,10 +32,10 @@ class LumaPyramid {
     const glm::dvec2 p = px / reduction_ - 0.5;
     return {static_cast<float>(p.x), static_cast<float>(p.y)};
   }
-  /// Whether a point is inside, and `border` of its own px from the picture's sides.
+  /// Whether a point lies inside, at least `border` pyramid px from the image's sides.
   bool isInside(const cv::Point2f& own, double border) const;
 
-  /// The windows and the levels that points are followed by.
+  /// Window and number of levels for following points.
   static constexpr int kWindowPx = 15;
   static constexpr int kLevels = 3;  // beside the first
 

@@ -4,8 +4,8 @@
 
 namespace pleinair::tracking {
 
-/// Runs `body(i)` for each i below `count` on OpenCV's threads. cv::parallel_for_() of a lambda
-/// makes a std::function of it, which allocates at each call.
+/// Runs `body(i)` for each i below `count` on OpenCV's threads. Avoids cv::parallel_for_() with a
+/// lambda: it wraps the lambda in a std::function, which allocates at each call.
 template <class Body>
 void parallelFor(int count, const Body& body) {
   class Loop final : public cv::ParallelLoopBody {

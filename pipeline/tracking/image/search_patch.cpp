@@ -10,26 +10,27 @@
 namespace pleinair::tracking {
 namespace {
 
-constexpr int kLanes = 8;  // of a vector
+constexpr int kLanes = 8;  // int16 values in a vector
 constexpr int kScaleBits = 4;
-constexpr int kScale = 1 << kScaleBits;  // of differences, to levels
+constexpr int kScale = 1 << kScaleBits;  // fixed-point scale of differences; 1 is a grey level
 constexpr int kWeightBits = 6;
-constexpr int kWeights = 1 << kWeightBits;  // of a pixel and its neighbour, along an axis
+// Fixed-point scale of an interpolation weight along one axis.
+constexpr int kWeights = 1 << kWeightBits;
 constexpr int kSteps = 3;
-constexpr double kEnoughPx = 0.02;  // a smaller step is the last
-constexpr double kFarPx = 2.0;      // from the guess: it has gone astray
+constexpr double kConvergedPx = 0.02;  // stop at a smaller step
+constexpr double kDivergedPx = 2.0;    // from the guess: the search has diverged
 
 cv::v_int16x8 eight(const std::uint8_t* levels) {
   return cv::v_reinterpret_as_s16(cv::v_load_expand(levels));
 }
 
-/// The same two numbers again and again.
+/// A vector that repeats two numbers.
 cv::v_int16x8 pairs(int even, int odd) {
   const auto low = static_cast<unsigned>(even) & 0xFFFFU;
   return cv::v_reinterpret_as_s16(cv::v_setall_u32(low | static_cast<unsigned>(odd) << 16));
 }
 
-/// Sums up products of vectors.
+/// Accumulates products of vectors.
 class Sum {
  public:
   void add(const cv::v_int16x8& a, const cv::v_int16x8& b) { sum_ = cv::v_dotprod(a, b, sum_); }
@@ -84,19 +85,19 @@ cv::Point SearchPatch<kSide>::middleNear(const cv::Mat& picture, const cv::Point
 
 template <int kSide>
 double SearchPatch<kSide>::placing(double noise, bool isBrightnessKnown) const {
-  // Noise alone has gradients, too: twice its variance in each difference. What is left of them is
-  // not sure where there is little more than that.
-  constexpr double kLeft = 0.25;
+  // Noise alone has gradients too: each difference holds twice its variance. The gradients that
+  // remain are uncertain where there is little more than that.
+  constexpr double kMinRemaining = 0.25;
   const double flat = 2.0 * noise * noise * kSide * kSide;
   const double known = isBrightnessKnown ? kSide * kSide : 0.0;
   const double allX = xx_ + known * meanX_ * meanX_;
   const double allY = yy_ + known * meanY_ * meanY_;
   const double xy = xy_ + known * meanX_ * meanY_;
-  const double xx = std::max(kLeft * allX, allX - flat);
-  const double yy = std::max(kLeft * allY, allY - flat);
+  const double xx = std::max(kMinRemaining * allX, allX - flat);
+  const double yy = std::max(kMinRemaining * allY, allY - flat);
   const double determinant = xx * yy - xy * xy;
-  if (!(determinant > 0.0)) return kMostPlacing;
-  return std::min(2.0 * std::sqrt((xx + yy) / determinant), kMostPlacing);
+  if (!(determinant > 0.0)) return kMaxPlacing;
+  return std::min(2.0 * std::sqrt((xx + yy) / determinant), kMaxPlacing);
 }
 
 template <int kSide>
@@ -109,7 +110,7 @@ typename SearchPatch<kSide>::Sums SearchPatch<kSide>::compare(const cv::Mat& oth
   if (x0 < 0 || y0 < 0 || x0 + kSide >= other.cols || y0 + kSide >= other.rows) return {};
   const int u = cvRound((moved.x - left) * kWeights);
   const int v = cvRound((moved.y - top) * kWeights);
-  // Of a pixel and its right neighbour, in pairs; then of those below.
+  // Weights of a pixel and its right neighbour, in pairs; then of the pair below.
   const cv::v_int16x8 above = pairs((kWeights - u) * (kWeights - v), u * (kWeights - v));
   const cv::v_int16x8 under = pairs((kWeights - u) * v, u * v);
   constexpr int kShift = 2 * kWeightBits - kScaleBits;
@@ -117,7 +118,7 @@ typename SearchPatch<kSide>::Sums SearchPatch<kSide>::compare(const cv::Mat& oth
   Sum d1, dx, dy;
   double dd = 0.0;
   for (int y = 0; y < kSide; ++y) {
-    Sum squares;  // of a row, which 32 bits hold
+    Sum squares;  // one row's sum, which fits 32 bits
     for (int x = 0; x < kSide; x += kLanes) {
       const auto* const row = other.ptr<std::uint8_t>(y0 + y) + x0 + x;
       const auto* const below = other.ptr<std::uint8_t>(y0 + y + 1) + x0 + x;
@@ -156,8 +157,8 @@ PatchMatch SearchPatch<kSide>::at(const cv::Mat& other, const glm::dvec2& moved)
 template <int kSide>
 PatchMatch SearchPatch<kSide>::refined(const cv::Mat& other, const PatchMatch& guess, double noise,
                                        double guessPx) const {
-  // A guess is as good as what differences of the noise's size say of so large a shift. Gradients
-  // are twice too large.
+  // Weight of the guess: as much as differences of the noise's size say about a shift this large.
+  // The gradients are twice too large.
   const double hold = 4.0 * 2.0 * noise * noise / (guessPx * guessPx);
   const double xx = xx_ + hold;
   const double yy = yy_ + hold;
@@ -166,15 +167,15 @@ PatchMatch SearchPatch<kSide>::refined(const cv::Mat& other, const PatchMatch& g
   glm::dvec2 moved = guess.moved;
   Sums sums = compare(other, moved);
   for (int step = 0; step < kSteps && sums.isInside; ++step) {
-    constexpr double kUnits = 2.0 / kScale;  // of gradients, squared, over the sums'
+    constexpr double kUnits = 2.0 / kScale;  // units of squared gradients, over those of the sums
     const glm::dvec2 right = kUnits * glm::dvec2(sums.x, sums.y) + hold * (moved - guess.moved);
     const glm::dvec2 change(-(yy * right.x - xy_ * right.y) / determinant,
                             -(xx * right.y - xy_ * right.x) / determinant);
     moved += change;
     const glm::dvec2 away = moved - guess.moved;
-    if (!(glm::dot(away, away) < kFarPx * kFarPx)) return guess;
+    if (!(glm::dot(away, away) < kDivergedPx * kDivergedPx)) return guess;
     sums = compare(other, moved);
-    if (glm::dot(change, change) < kEnoughPx * kEnoughPx) break;
+    if (glm::dot(change, change) < kConvergedPx * kConvergedPx) break;
   }
   if (!sums.isInside || sums.variance > guess.variance) return guess;
   return {

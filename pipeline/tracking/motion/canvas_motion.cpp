@@ -14,31 +14,32 @@
 namespace pleinair::tracking {
 namespace {
 
-constexpr int kLongSidePx = 256;  // of the reduced picture that is searched
+constexpr int kLongSidePx = 256;  // longer side of the reduced image in which points are followed
 constexpr int kCandidates = 400;
-/// Points are chosen by the best of each field of a grid, so that one thing of strong contrast is
-/// not taken for the picture.
+/// The best point of each grid cell is used, so that one high-contrast object does not dominate the
+/// image.
 constexpr int kColumns = 8;
 constexpr int kRows = 6;
 constexpr int kPerField = 2;
-constexpr int kLeastPoints = 10;
-constexpr double kQuality = 0.002;  // of the best corner's
+constexpr int kMinPoints = 10;
+constexpr double kQuality = 0.002;  // relative to the best corner's strength
 constexpr double kSpacingPx = 6.0;
 constexpr int kLevels = 3;
 constexpr double kOutlierPx = 1.0;
-constexpr double kLargestError = 24.0;  // mean grey levels in a point's window
-constexpr double kStillPx = 0.33;       // of the frame
-/// A new key frame is taken when a corner has moved by this part of the picture's side, or half of
-/// the points are lost.
+constexpr double kMaxError = 24.0;  // mean difference in a point's window, grey levels
+constexpr double kStillPx = 0.33;   // smaller motion counts as rest; px of the frame
+/// A new key frame is taken when an image corner has moved by this part of the image's side, or
+/// when half of the points are lost.
 constexpr double kKeyShift = 0.15;
-constexpr double kMostZoom = 2.0;  // from a key frame: more, or less than its inverse, is no motion
+// Zoom from the key frame; more, or less than the inverse, is rejected as a wrong fit.
+constexpr double kMaxZoom = 2.0;
 const cv::Size kWindow{15, 15};
 
 double distance(cv::Point2f a, cv::Point2f b) {
   return std::hypot(static_cast<double>(a.x - b.x), static_cast<double>(a.y - b.y));
 }
 
-/// The farthest that a corner of the frame is moved between the two.
+/// Largest distance between the positions to which the two move a corner of the frame.
 double apartPx(const PlaneSimilarity& a, const PlaneSimilarity& b, hal::FrameSize size) {
   double most = 0.0;
   for (const double x : {0.0, static_cast<double>(size.width)}) {
@@ -49,12 +50,12 @@ double apartPx(const PlaneSimilarity& a, const PlaneSimilarity& b, hal::FrameSiz
   return most;
 }
 
-/// The turn, zoom and shift that is nearest to a homography all over a picture (Umeyama, 1991).
+/// The turn, zoom and shift nearest to a homography over the whole image (Umeyama, 1991).
 PlaneSimilarity nearestTo(const glm::dmat3& homography, hal::FrameSize size) {
   glm::dvec2 from(0.0);
   glm::dvec2 to(0.0);
   double count = 0.0;
-  forPlaces(size, [&](const glm::dvec2& px) {
+  forGridCentres(size, [&](const glm::dvec2& px) {
     from += px;
     to += movedBy(homography, px);
     count += 1.0;
@@ -63,7 +64,7 @@ PlaneSimilarity nearestTo(const glm::dmat3& homography, hal::FrameSize size) {
   to /= count;
   glm::dvec2 products(0.0);
   double squares = 0.0;
-  forPlaces(size, [&](const glm::dvec2& px) {
+  forGridCentres(size, [&](const glm::dvec2& px) {
     const glm::dvec2 a = px - from;
     products += PlaneSimilarity::product({a.x, -a.y}, movedBy(homography, px) - to);
     squares += glm::dot(a, a);
@@ -77,23 +78,24 @@ PlaneSimilarity nearestTo(const glm::dmat3& homography, hal::FrameSize size) {
 
 struct CanvasMotion::State {
   hal::FrameSize size;
-  double reduction = 1.0;  // frame px in a reduced px
+  double reduction = 1.0;  // size of a reduced px, in frame px
   cv::Mat reduced;
   std::vector<cv::Mat> pyramid;
   std::vector<cv::Mat> keyPyramid;
   std::vector<cv::Point2f> candidates;
   std::vector<cv::Point2f> keyPoints;
-  std::vector<cv::Point2f> points;  // where the key points are now; where they were last, before
+  // Positions of the key points: in this frame, in the last one, in the one before.
+  std::vector<cv::Point2f> points;
   std::vector<unsigned char> found;
   std::vector<float> errors;
   std::vector<cv::Point2f> from;
   std::vector<cv::Point2f> to;
   PlaneSimilarity firstFromKey;
   PlaneSimilarity firstFromFrame;
-  PlaneSimilarity firstFromSeen;  // what is too little to be followed yet counts, too
+  PlaneSimilarity firstFromSeen;  // motion as measured, including steps too small to be followed
 
-  /// Goes along with what was seen, unless it is too little.
-  void goTo(const PlaneSimilarity& seen) {
+  /// Follows the measured motion unless it is too small.
+  void moveTo(const PlaneSimilarity& seen) {
     firstFromSeen = seen;
     if (apartPx(seen, firstFromFrame, size) > kStillPx * firstFromFrame.scale()) {
       firstFromFrame = seen;
@@ -111,7 +113,7 @@ struct CanvasMotion::State {
     cv::buildOpticalFlowPyramid(reduced, pyramid, kWindow, kLevels);
   }
 
-  /// This frame becomes the one that others are measured from.
+  /// Makes this frame the key frame, from which later ones are measured.
   void makeKey() {
     firstFromKey = firstFromFrame;
     firstFromSeen = firstFromFrame;
@@ -120,7 +122,7 @@ struct CanvasMotion::State {
     cv::goodFeaturesToTrack(reduced, candidates, kCandidates, kQuality, kSpacingPx);
     keyPoints.clear();
     std::array<int, kColumns * kRows> taken{};
-    for (const cv::Point2f& p : candidates) {  // the best first
+    for (const cv::Point2f& p : candidates) {  // sorted by strength
       const int column = static_cast<int>(p.x) * kColumns / reduced.cols;
       const int row = static_cast<int>(p.y) * kRows / reduced.rows;
       if (taken[static_cast<std::size_t>(row * kColumns + column)]++ < kPerField) {
@@ -130,9 +132,9 @@ struct CanvasMotion::State {
     points = keyPoints;
   }
 
-  /// Frame from key, in px of the frame; nothing where too few points agree.
+  /// Measures frameFromKey in px of the frame. Returns false where too few points agree.
   bool measure(PlaneSimilarity& frameFromKey) {
-    if (keyPoints.size() < kLeastPoints) return false;
+    if (keyPoints.size() < kMinPoints) return false;
     cv::calcOpticalFlowPyrLK(
         keyPyramid, pyramid, keyPoints, points, found, errors, kWindow, kLevels,
         cv::TermCriteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 20, 0.01),
@@ -140,21 +142,21 @@ struct CanvasMotion::State {
     from.clear();
     to.clear();
     for (std::size_t i = 0; i < keyPoints.size(); ++i) {
-      if (found[i] == 0 || static_cast<double>(errors[i]) > kLargestError) {
+      if (found[i] == 0 || static_cast<double>(errors[i]) > kMaxError) {
         points[i] = keyPoints[i];
         continue;
       }
       from.push_back(keyPoints[i]);
       to.push_back(points[i]);
     }
-    if (from.size() < kLeastPoints) return false;
+    if (from.size() < kMinPoints) return false;
     const cv::Mat fit =
         cv::estimateAffinePartial2D(from, to, cv::noArray(), cv::RANSAC, kOutlierPx, 500, 0.995, 5);
     if (fit.empty()) return false;
     frameFromKey.linear = {fit.at<double>(0, 0), fit.at<double>(1, 0)};
-    // Points that have run together fit a plane without size, which has no inverse.
+    // Points that have collapsed into one fit a similarity of zoom zero, which has no inverse.
     const double zoom = frameFromKey.scale();
-    if (!(zoom < kMostZoom && zoom > 1.0 / kMostZoom)) return false;
+    if (!(zoom < kMaxZoom && zoom > 1.0 / kMaxZoom)) return false;
     // Integer pixel centres there, +0.5 here.
     const glm::dvec2 half(0.5);
     const glm::dvec2 shift(fit.at<double>(0, 2), fit.at<double>(1, 2));
@@ -202,19 +204,20 @@ const PlaneSimilarity& CanvasMotion::follow(const hal::PlaneView& luma, hal::Fra
     s.makeKey();
     return s.firstFromFrame;
   }
-  s.goTo(s.firstFromKey * frameFromKey.inverse());
+  s.moveTo(s.firstFromKey * frameFromKey.inverse());
   if (s.isFarFromKey(frameFromKey)) s.makeKey();
   return s.firstFromFrame;
 }
 
 const PlaneSimilarity& CanvasMotion::follow(const ImageMotion& motion) {
   State& s = *state_;
-  s.keyPoints.clear();  // of frames before: a frame that comes as luma is a key frame
+  // They are of earlier frames; the next frame that comes as luma becomes a key frame.
+  s.keyPoints.clear();
   s.size = motion.frameSize;
   if (motion.isCut || !motion.picture) return s.firstFromFrame;
-  const glm::dmat3& nowFromThen = motion.picture->nowFromThen;
-  if (nowFromThen == glm::dmat3(1.0)) return s.firstFromFrame;
-  s.goTo(s.firstFromSeen * nearestTo(nowFromThen, s.size).inverse());
+  const glm::dmat3& currentFromPrevious = motion.picture->currentFromPrevious;
+  if (currentFromPrevious == glm::dmat3(1.0)) return s.firstFromFrame;
+  s.moveTo(s.firstFromSeen * nearestTo(currentFromPrevious, s.size).inverse());
   return s.firstFromFrame;
 }
 

@@ -7,14 +7,14 @@
 
 namespace pleinair::tracking {
 
-/// How a camera's picture moves as a whole, as the turn, zoom and shift that most of it follows:
-/// for what is to go with the picture and yet stay flat, such as the grain of the paper (Cunzi et
-/// al., "Dynamic canvas for immersive non-photorealistic walkthroughs", 2003).
+/// Measures the motion of the whole camera image as a turn, zoom and shift. It moves textures that
+/// go with the image but stay flat, such as the paper's grain (Cunzi et al., "Dynamic canvas for
+/// immersive non-photorealistic walkthroughs", 2003).
 ///
-/// Points of a key frame are followed into each frame (pyramidal Lucas-Kanade) and a similarity is
-/// fitted to them without outliers. All is measured from the key frame and not from frame to frame,
-/// so that a camera that stands still stands still: movements under a third of a pixel are not
-/// followed, and nothing drifts. One thread at a time.
+/// Points of a key frame are followed into each frame (pyramidal Lucas-Kanade), and a similarity is
+/// fitted to them without outliers. Motion is measured from the key frame and not from frame to
+/// frame, so that nothing drifts; motion below a third of a pixel counts as rest. One thread at a
+/// time.
 class CanvasMotion {
  public:
   CanvasMotion();
@@ -24,17 +24,17 @@ class CanvasMotion {
   CanvasMotion(CanvasMotion&&) = delete;
   CanvasMotion& operator=(CanvasMotion&&) = delete;
 
-  /// Takes the next frame's luma. What is returned takes px of this frame to those of the first one
-  /// since the last reset, pixel centres at +0.5. Where nothing can be followed (a cut, a blank
-  /// wall, another size) it stays as it was.
+  /// Takes the next frame's luma. The result maps px of this frame to px of the first frame since
+  /// the last reset, pixel centres at +0.5. It does not change where nothing can be followed (a
+  /// cut, a blank wall, another size).
   const PlaneSimilarity& follow(const hal::PlaneView& luma, hal::FrameSize size);
 
-  /// The same by what an ImageMotionEstimator has found of the next frame, which costs nothing
-  /// more: the similarity that its homography is nearest to. Nothing drifts where that does not,
-  /// and the picture holds still where it says so.
+  /// Takes the next frame's motion from an ImageMotionEstimator instead, at no further cost: the
+  /// similarity nearest to its homography. The canvas drifts no more than that homography, and
+  /// rests when the motion reports rest.
   const PlaneSimilarity& follow(const ImageMotion& motion);
 
-  /// The next frame is a first one.
+  /// Treats the next frame as the first one.
   void reset();
 
  private:

@@ -11,7 +11,8 @@
 namespace pleinair::tracking {
 
 void Thumbnail::load(const LumaPyramid& pyramid) {
-  // The smallest of the pictures that are not smaller than it: each level's gradients follow it.
+  // Uses the smallest level that is not smaller than a thumbnail. Each level is followed by its
+  // gradients.
   const auto& levels = pyramid.levels();
   std::size_t level = 0;
   while (level + 2 < levels.size() && levels[level + 2].cols >= kWidth &&
@@ -54,8 +55,8 @@ double Thumbnail::correlation(const Thumbnail& other, int dx, int dy) const {
     }
   }
   const double spread = (aa - a * a / count) * (bb - b * b / count);
-  constexpr double kLeastSpread = 1e-6;
-  return spread > kLeastSpread ? (ab - a * b / count) / std::sqrt(spread) : 0.0;
+  constexpr double kMinSpread = 1e-6;
+  return spread > kMinSpread ? (ab - a * b / count) / std::sqrt(spread) : 0.0;
 }
 
 Thumbnail::Match Thumbnail::match(const Thumbnail& other) const {
@@ -73,28 +74,28 @@ Thumbnail::Match Thumbnail::match(const Thumbnail& other) const {
 
 namespace {
 
-constexpr double kLostShare = 0.15;     // of features found: fewer are lost
-constexpr double kSameScene = 0.8;      // correlation of thumbnails
-constexpr double kLeastContrast = 4.0;  // grey levels of one
-constexpr int kMostBlankFrames = 12;    // after which what was seen does not come back
+constexpr double kLostShare = 0.15;   // part of the features found; less means that they are lost
+constexpr double kSameScene = 0.8;    // correlation of thumbnails
+constexpr double kMinContrast = 4.0;  // standard deviation of a thumbnail, grey levels
+constexpr int kMaxBlankFrames = 12;   // blank frames after which the earlier scene is given up
 
 }  // namespace
 
-bool CutDetector::isCut(const LumaPyramid& now, double foundShare) {
-  now_.load(now);
+bool CutDetector::isCut(const LumaPyramid& current, double foundShare) {
+  current_.load(current);
   if (!seen_) {
-    seen_ = now_;
+    seen_ = current_;
     blankFrames_ = 0;
     return true;
   }
-  if (foundShare < kLostShare && now_.contrast() < kLeastContrast) {
-    const bool isCut = ++blankFrames_ == kMostBlankFrames && seen_->contrast() >= kLeastContrast;
-    if (isCut) seen_ = now_;
+  if (foundShare < kLostShare && current_.contrast() < kMinContrast) {
+    const bool isCut = ++blankFrames_ == kMaxBlankFrames && seen_->contrast() >= kMinContrast;
+    if (isCut) seen_ = current_;
     return isCut;
   }
   blankFrames_ = 0;
-  const bool isCut = foundShare < kLostShare && seen_->match(now_).correlation < kSameScene;
-  seen_ = now_;
+  const bool isCut = foundShare < kLostShare && seen_->match(current_).correlation < kSameScene;
+  seen_ = current_;
   return isCut;
 }
 

@@ -10,18 +10,18 @@ namespace pleinair::tracking {
 
 class LumaPyramid;
 
-/// A picture of a few hundred pixels: what is left of it for finding out whether two frames show
-/// the same scene, and about how far apart.
+/// An image of a few hundred pixels, for finding out whether two frames show the same scene and how
+/// far they are apart.
 class Thumbnail {
  public:
   void load(const LumaPyramid& pyramid);
-  /// Standard deviation, grey levels: next to nothing of a covered lens.
+  /// Standard deviation in grey levels; close to zero for a covered lens.
   double contrast() const;
 
-  /// Where another one fits best, of all shifts by up to a quarter of the sides.
+  /// The best match of another thumbnail over all shifts by up to a quarter of the sides.
   struct Match {
-    glm::dvec2 shift{0.0};     ///< of the other, in parts of the sides
-    double correlation = 0.0;  ///< of what overlaps, 1: the same but for gain and offset
+    glm::dvec2 shift{0.0};     ///< shift of the other thumbnail, in parts of the sides
+    double correlation = 0.0;  ///< correlation of the overlap; 1 where only gain and offset differ
   };
   Match match(const Thumbnail& other) const;
 
@@ -37,19 +37,19 @@ class Thumbnail {
 
 class LumaPyramid;
 
-/// Tells another scene from one that has only moved, been covered or lit: its features are lost,
-/// and the whole looks different as well. One thread at a time.
+/// Tells a new scene from one that has moved, been covered or lit differently: a new scene loses
+/// the features and also changes the thumbnail. One thread at a time.
 class CutDetector {
  public:
-  /// Takes the next frame and the part of the features of the one before that were found in it.
-  /// The first frame is a cut. A frame without contrast is one only when they go on.
-  bool isCut(const LumaPyramid& now, double foundShare);
-  /// The next frame is a first one.
+  /// Takes the next frame and the part of the previous frame's features that were found in it. The
+  /// first frame is a cut. Frames without contrast count as a cut only after several in a row.
+  bool isCut(const LumaPyramid& current, double foundShare);
+  /// Treats the next frame as the first one.
   void reset() { seen_.reset(); }
 
  private:
-  std::optional<Thumbnail> seen_;  // the last that showed something
-  Thumbnail now_;
+  std::optional<Thumbnail> seen_;  // of the last frame with contrast
+  Thumbnail current_;
   int blankFrames_ = 0;
 };
 

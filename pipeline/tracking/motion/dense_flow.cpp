@@ -14,43 +14,47 @@
 namespace pleinair::tracking {
 namespace {
 
-constexpr std::size_t kHalf = 2;  // in LumaPyramid::levels(): each level's gradients follow it
-constexpr int kLeastSide = 96;    // of a picture in which flow is sought
-// Predicted errors: docs/measured.md says how they agree with true ones.
+// Index in LumaPyramid::levels(), where each level is followed by its gradients.
+constexpr std::size_t kHalf = 2;
+constexpr int kMinSidePx = 96;  // of an image in which flow is estimated
+// Predicted errors; docs/measured.md compares them with true ones.
 constexpr double kPlacing = 1.0;
-constexpr double kBackPart = 0.7;
-constexpr double kLeastErrorPx = 0.03;
-constexpr double kMostErrorPx = 100.0;
-/// Of the largest difference to a neighbour: where motions meet, a patch may have followed either.
+constexpr double kForwardBackwardPart = 0.7;
+constexpr double kMinErrorPx = 0.03;
+constexpr double kMaxErrorPx = 100.0;
+/// Error per largest difference to a neighbour: at a motion boundary a patch may have followed
+/// either motion.
 constexpr double kEdgePart = 0.1;
-/// The homography is taken where it fits as well, but for so much of the noise's variance.
-constexpr double kAsWell = 0.5;
-/// How good guesses are: what the search finds, and the homography by its predicted errors.
+/// The homography is preferred where its variance exceeds the search's by less than this part of
+/// the noise's variance.
+constexpr double kToleratedVariance = 0.5;
+/// Error of the guesses: the search's, and the homography's in predicted errors.
 constexpr double kSearchedPx = 0.3;
 constexpr double kAlongErrors = 2.0;
-/// A patch tells whether it goes along when it can be placed so well; by how much more it may be
-/// off.
-constexpr double kTellingPx = 0.4;
-constexpr double kSurely = 1.5;
+/// A patch can confirm the homography when it can be placed this well. The homography's predicted
+/// error is scaled by the second number then.
+constexpr double kConfirmingPx = 0.4;
+constexpr double kGuessMargin = 1.5;
 
 }  // namespace
 
 DenseFlowEstimator::DenseFlowEstimator() {
-  for (Way& way : ways_) {
-    way.search = cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_ULTRAFAST);
-    way.search->setFinestScale(1);
-    way.search->setPatchStride(5);
-    way.search->setGradientDescentIterations(8);
+  for (Direction& direction : directions_) {
+    direction.search = cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_ULTRAFAST);
+    direction.search->setFinestScale(1);
+    direction.search->setPatchStride(5);
+    direction.search->setGradientDescentIterations(8);
   }
 }
 
-void DenseFlowEstimator::place(const LumaPyramid& now) {
-  const cv::Size size = now.picture().size();
-  frameSize_ = now.frameSize();
-  reduction_ = now.reduction();
+void DenseFlowEstimator::place(const LumaPyramid& current) {
+  const cv::Size size = current.picture().size();
+  frameSize_ = current.frameSize();
+  reduction_ = current.reduction();
   grid_ = {size.width / kStepPx, size.height / kStepPx};
   stepPx_ = glm::dvec2(frameSize_.width, frameSize_.height) / glm::dvec2(grid_.width, grid_.height);
-  for (Way& way : ways_) way.nodes.resize(static_cast<std::size_t>(grid_.pixels()));
+  for (Direction& direction : directions_)
+    direction.nodes.resize(static_cast<std::size_t>(grid_.pixels()));
 }
 
 glm::dvec2 DenseFlowEstimator::nodePx(std::size_t index) const {
@@ -58,47 +62,50 @@ glm::dvec2 DenseFlowEstimator::nodePx(std::size_t index) const {
   return stepPx_ * (glm::dvec2(i % grid_.width, i / grid_.width) + 0.5);
 }
 
-void DenseFlowEstimator::flowOneWay(Way& way, const LumaPyramid& from, const LumaPyramid& to,
-                                    const cv::Mat& fromSmall, const cv::Mat& toSmall,
-                                    const Along& along, double noise) const {
-  way.search->calc(fromSmall, toSmall, way.coarse);
+void DenseFlowEstimator::estimateDirection(Direction& direction, const LumaPyramid& from,
+                                           const LumaPyramid& to, const cv::Mat& fromSmall,
+                                           const cv::Mat& toSmall,
+                                           const HomographyGuess& homography, double noise) const {
+  direction.search->calc(fromSmall, toSmall, direction.coarse);
   const cv::Mat& picture = from.picture();
-  for (std::size_t i = 0; i < way.nodes.size(); ++i) {
-    if (stillErrors_[i] < StaticRegions::kNotStatic) continue;
+  for (std::size_t i = 0; i < direction.nodes.size(); ++i) {
+    if (staticErrors_[i] < StaticRegions::kNotStatic) continue;
     const glm::dvec2 px = nodePx(i);
     const cv::Point middle = FlowPatch::middleNear(picture, from.ownPx(px));
     const FlowPatch patch(picture, middle);
-    const cv::Vec2f coarse = way.coarse.at<cv::Vec2f>(std::min(middle.y / 2, way.coarse.rows - 1),
-                                                      std::min(middle.x / 2, way.coarse.cols - 1));
+    const cv::Vec2f coarse =
+        direction.coarse.at<cv::Vec2f>(std::min(middle.y / 2, direction.coarse.rows - 1),
+                                       std::min(middle.x / 2, direction.coarse.cols - 1));
     PatchMatch best = patch.at(to.picture(), 2.0 * glm::dvec2(coarse[0], coarse[1]));
-    bool goesAlong = false;
-    if (along.isKnown) {
+    bool followsImage = false;
+    if (homography.isKnown) {
       const PatchMatch there =
-          patch.at(to.picture(), (movedBy(along.toFromFrom, px) - px) / reduction_);
-      const double allowed = best.variance + kAsWell * noise * noise;
-      goesAlong = there.isInside && (!best.isInside || there.variance < allowed);
-      if (goesAlong) best = there;
+          patch.at(to.picture(), (movedBy(homography.toFromFrom, px) - px) / reduction_);
+      const double allowed = best.variance + kToleratedVariance * noise * noise;
+      followsImage = there.isInside && (!best.isInside || there.variance < allowed);
+      if (followsImage) best = there;
     }
-    if (best.isInside && !(goesAlong && along.isHeld)) {
-      best = patch.refined(to.picture(), best, noise, goesAlong ? along.guessPx : kSearchedPx);
+    if (best.isInside && !(followsImage && homography.isHeld)) {
+      best =
+          patch.refined(to.picture(), best, noise, followsImage ? homography.guessPx : kSearchedPx);
     }
     const glm::dvec2 moved = reduction_ * best.moved;
-    double error = kMostErrorPx;
+    double error = kMaxErrorPx;
     if (best.isInside) {
       error = kPlacing * patch.placing(noise) * std::sqrt(best.variance);
-      // Texture that goes along with the picture, as far as it tells, is where that takes it.
-      const double guess = kSurely * along.guessPx;
-      if (goesAlong && error < kTellingPx) {
+      // A patch that confirms the homography is as accurate as the two measurements combined.
+      const double guess = kGuessMargin * homography.guessPx;
+      if (followsImage && error < kConfirmingPx) {
         error = 1.0 / std::sqrt(1.0 / (error * error) + 1.0 / (guess * guess));
       }
-      error = std::sqrt(error * error + kLeastErrorPx * kLeastErrorPx);
+      error = std::sqrt(error * error + kMinErrorPx * kMinErrorPx);
     }
-    way.nodes[i] = {static_cast<float>(moved.x), static_cast<float>(moved.y),
-                    static_cast<float>(std::min(error * reduction_.x, kMostErrorPx)), 0.0F};
+    direction.nodes[i] = {static_cast<float>(moved.x), static_cast<float>(moved.y),
+                          static_cast<float>(std::min(error * reduction_.x, kMaxErrorPx)), 0.0F};
   }
 }
 
-/// How much a node's motion differs from that of a neighbour at most.
+/// Largest difference of a node's motion to a neighbour's.
 double DenseFlowEstimator::edge(const std::vector<glm::vec4>& nodes, std::size_t index) const {
   const int i = static_cast<int>(index);
   const int column = i % grid_.width;
@@ -115,11 +122,11 @@ double DenseFlowEstimator::edge(const std::vector<glm::vec4>& nodes, std::size_t
   return static_cast<double>(std::sqrt(most));
 }
 
-/// Adds how far what comes back is from where it started.
-void DenseFlowEstimator::disagree(const std::vector<glm::vec4>& back,
-                                  std::vector<glm::vec4>& nodes) const {
+/// Adds the forward-backward disagreement to the nodes' errors.
+void DenseFlowEstimator::addDisagreement(const std::vector<glm::vec4>& back,
+                                         std::vector<glm::vec4>& nodes) const {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (stillErrors_[i] < StaticRegions::kNotStatic) continue;
+    if (staticErrors_[i] < StaticRegions::kNotStatic) continue;
     glm::vec4& node = nodes[i];
     const glm::dvec2 there = (nodePx(i) + glm::dvec2(node)) / stepPx_ - 0.5;
     const int x = std::clamp(static_cast<int>(std::floor(there.x)), 0, grid_.width - 2);
@@ -130,65 +137,65 @@ void DenseFlowEstimator::disagree(const std::vector<glm::vec4>& back,
         glm::mix(glm::vec2(at[0]), glm::vec2(at[1]), part.x),
         glm::mix(glm::vec2(at[grid_.width]), glm::vec2(at[grid_.width + 1]), part.x), part.y);
     const double apart = static_cast<double>(glm::length(glm::vec2(node) + returned));
-    const glm::dvec3 errors(node.z, kBackPart * apart, kEdgePart * edge(nodes, i));
+    const glm::dvec3 errors(node.z, kForwardBackwardPart * apart, kEdgePart * edge(nodes, i));
     const double error = glm::length(errors);
-    node.z = static_cast<float>(std::min(error, kMostErrorPx));
+    node.z = static_cast<float>(std::min(error, kMaxErrorPx));
   }
 }
 
-/// Whether there are nodes that do not. Those that do have their flow then.
-bool DenseFlowEstimator::standStill(const StaticRegionDetector* staticRegions) {
-  stillErrors_.assign(ways_[0].nodes.size(), StaticRegions::kNotStatic);
+/// Writes the flow of the static nodes. Returns whether other nodes remain.
+bool DenseFlowEstimator::writeStaticNodes(const StaticRegionDetector* staticRegions) {
+  staticErrors_.assign(directions_[0].nodes.size(), StaticRegions::kNotStatic);
   if (staticRegions == nullptr) return true;
   bool isMoving = false;
-  for (std::size_t i = 0; i < stillErrors_.size(); ++i) {
+  for (std::size_t i = 0; i < staticErrors_.size(); ++i) {
     const float error = staticRegions->errorAt(nodePx(i), frameSize_);
-    stillErrors_[i] = error;
+    staticErrors_[i] = error;
     isMoving = isMoving || error >= StaticRegions::kNotStatic;
-    for (Way& way : ways_) way.nodes[i] = {0.0F, 0.0F, error, 0.0F};
+    for (Direction& direction : directions_) direction.nodes[i] = {0.0F, 0.0F, error, 0.0F};
   }
   return isMoving;
 }
 
-void DenseFlowEstimator::update(const LumaPyramid& then, const LumaPyramid& now,
-                                const std::optional<PictureHomography>& picture,
+void DenseFlowEstimator::update(const LumaPyramid& previous, const LumaPyramid& current,
+                                const std::optional<ImageHomography>& picture,
                                 const StaticRegionDetector* staticRegions, double noise) {
   grid_ = {};
-  const cv::Size size = now.picture().size();
-  if (std::min(size.width, size.height) < kLeastSide || now.levels().size() <= kHalf) return;
-  place(now);
-  if (!standStill(staticRegions)) return;
-  then.levels()[kHalf].copyTo(small_[0]);
-  now.levels()[kHalf].copyTo(small_[1]);
-  Along forward;
+  const cv::Size size = current.picture().size();
+  if (std::min(size.width, size.height) < kMinSidePx || current.levels().size() <= kHalf) return;
+  place(current);
+  if (!writeStaticNodes(staticRegions)) return;
+  previous.levels()[kHalf].copyTo(small_[0]);
+  current.levels()[kHalf].copyTo(small_[1]);
+  HomographyGuess forward;
   if (picture) {
-    forward = {.toFromFrom = picture->nowFromThen,
+    forward = {.toFromFrom = picture->currentFromPrevious,
                .guessPx = kAlongErrors * picture->errorPx / reduction_.x,
                .isKnown = true,
-               .isHeld = picture->nowFromThen == glm::dmat3(1.0)};
+               .isHeld = picture->currentFromPrevious == glm::dmat3(1.0)};
   }
-  Along backward = forward;
+  HomographyGuess backward = forward;
   backward.toFromFrom = glm::inverse(forward.toFromFrom);
-  parallelFor(2, [&](int way) {
-    if (way == 0) {
-      flowOneWay(ways_[0], then, now, small_[0], small_[1], forward, noise);
+  parallelFor(2, [&](int direction) {
+    if (direction == 0) {
+      estimateDirection(directions_[0], previous, current, small_[0], small_[1], forward, noise);
     } else {
-      flowOneWay(ways_[1], now, then, small_[1], small_[0], backward, noise);
+      estimateDirection(directions_[1], current, previous, small_[1], small_[0], backward, noise);
     }
   });
-  // Each by the other as it was found.
-  std::vector<glm::vec4>& there = ways_[0].nodes;
-  std::vector<glm::vec4>& back = ways_[1].nodes;
-  disagree(back, there);
-  disagree(there, back);
+  // Each direction is compared with the other as it was measured, before either is changed.
+  std::vector<glm::vec4>& there = directions_[0].nodes;
+  std::vector<glm::vec4>& back = directions_[1].nodes;
+  addDisagreement(back, there);
+  addDisagreement(there, back);
 }
 
 DenseFlow DenseFlowEstimator::flow() const {
   if (grid_.pixels() == 0) return {};
   return {.nodes = grid_,
           .stepPx = glm::vec2(stepPx_),
-          .forward = ways_[0].nodes,
-          .backward = ways_[1].nodes};
+          .forward = directions_[0].nodes,
+          .backward = directions_[1].nodes};
 }
 
 }  // namespace pleinair::tracking

@@ -17,45 +17,46 @@ namespace pleinair::tracking {
 
 class StaticRegionDetector;
 
-/// Dense optical flow between two frames, there and back: by dense inverse search at half the
+/// Dense optical flow between two frames in both directions, by dense inverse search at half the
 /// pyramid's size (Kroeger et al., "Fast optical flow using dense inverse search", 2016), or by the
-/// picture's homography where that fits as well, refined patch by patch in the whole picture. Its
-/// error is predicted from noise and texture, and from how far the two directions disagree. One
-/// thread at a time; OpenCV's help.
+/// image's homography where that fits as well; then refined per patch at the pyramid's size. The
+/// error is predicted from noise, texture and the disagreement of the two directions. One thread at
+/// a time; uses OpenCV's threads.
 class DenseFlowEstimator {
  public:
   DenseFlowEstimator();
 
-  /// Flow from one frame to the next, of one size. Zero to the bit where fields are still.
-  void update(const LumaPyramid& then, const LumaPyramid& now,
-              const std::optional<PictureHomography>& picture,
+  /// Computes the flow from one frame to the next, both of one size. It is exactly zero in static
+  /// cells.
+  void update(const LumaPyramid& previous, const LumaPyramid& current,
+              const std::optional<ImageHomography>& picture,
               const StaticRegionDetector* staticRegions, double noise);
   /// Valid until the next update().
   DenseFlow flow() const;
 
-  static constexpr int kStepPx = 8;  ///< between nodes, about, of the pyramid's picture
+  static constexpr int kStepPx = 8;  ///< approximate node spacing, px of the pyramid's image
 
  private:
   /// One of the two directions.
-  struct Way {
+  struct Direction {
     cv::Ptr<cv::DISOpticalFlow> search;
     cv::Mat coarse;
     std::vector<glm::vec4> nodes;
   };
-  void place(const LumaPyramid& now);
-  /// Where most of the picture goes.
-  struct Along {
+  void place(const LumaPyramid& current);
+  /// Motion of the homography at a node.
+  struct HomographyGuess {
     glm::dmat3 toFromFrom{1.0};
-    double guessPx = 0.0;  // how good a guess that is
+    double guessPx = 0.0;  // error of that guess
     bool isKnown = false;
-    bool isHeld = false;  // it does not move, to the bit
+    bool isHeld = false;  // exactly at rest
   };
-  void flowOneWay(Way& way, const LumaPyramid& from, const LumaPyramid& to,
-                  const cv::Mat& fromSmall, const cv::Mat& toSmall, const Along& along,
-                  double noise) const;
+  void estimateDirection(Direction& direction, const LumaPyramid& from, const LumaPyramid& to,
+                         const cv::Mat& fromSmall, const cv::Mat& toSmall,
+                         const HomographyGuess& homography, double noise) const;
   double edge(const std::vector<glm::vec4>& nodes, std::size_t index) const;
-  void disagree(const std::vector<glm::vec4>& back, std::vector<glm::vec4>& nodes) const;
-  bool standStill(const StaticRegionDetector* staticRegions);
+  void addDisagreement(const std::vector<glm::vec4>& back, std::vector<glm::vec4>& nodes) const;
+  bool writeStaticNodes(const StaticRegionDetector* staticRegions);
   glm::dvec2 nodePx(std::size_t index) const;
 
   hal::FrameSize frameSize_;
@@ -63,8 +64,8 @@ class DenseFlowEstimator {
   glm::dvec2 stepPx_{1.0};
   glm::dvec2 reduction_{1.0};
   std::array<cv::Mat, 2> small_;  // of the two frames
-  std::array<Way, 2> ways_;
-  std::vector<float> stillErrors_;  // of each node; kNotStatic where flow is asked for
+  std::array<Direction, 2> directions_;
+  std::vector<float> staticErrors_;  // per node; kNotStatic where flow is estimated
 };
 
 }  // namespace pleinair::tracking

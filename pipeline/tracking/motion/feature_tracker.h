@@ -10,33 +10,34 @@ namespace pleinair::tracking {
 
 class LumaPyramid;
 
-/// How features are found again. As the words of configurations name them.
+/// Method for following features. The enumerators match the words in configurations.
 enum class FeatureMethod {
   kLucasKanade,  ///< fast, sub-pixel, without drift
-  kHarrisSift    ///< the thesis's (§4.3.2), to compare with
+  kHarrisSift    ///< the thesis's (§4.3.2), for comparison
 };
 
-/// A feature that is seen in a frame, as measured: px of the frame, pixel centres at +0.5.
+/// A feature seen in a frame, as measured: px of the frame, pixel centres at +0.5.
 struct SeenFeature {
-  std::uint32_t id = 0;  ///< the same as long as it is followed
+  std::uint32_t id = 0;  ///< constant while the feature is followed
   glm::dvec2 px{0.0};
-  double errorPx = 0.0;        ///< predicted, of what it has moved since the frame before
-  bool wasSeen = false;        ///< in the frame before, too
-  glm::dvec2 previousPx{0.0};  ///< where it was there
+  double errorPx = 0.0;        ///< predicted error of its motion since the previous frame
+  bool wasSeen = false;        ///< in the previous frame
+  glm::dvec2 previousPx{0.0};  ///< position there
 };
 
-/// Finds features of a camera's picture and finds them again. One thread at a time.
+/// Finds features in a camera image and follows them from frame to frame. One thread at a time.
 class FeatureTracker {
  public:
   virtual ~FeatureTracker() = default;
 
-  /// Takes the next frame, which is not changed as long as it is shared, and its pixels' noise
-  /// (levels). By rising id, at most kMostMovedFeatures of them; valid until the next call.
-  virtual std::span<const SeenFeature> follow(std::shared_ptr<const LumaPyramid> now,
+  /// Takes the next frame and its pixel noise (levels). The frame is not changed while it is
+  /// shared. Returns the features by rising id, at most kMaxMovedFeatures; valid until the next
+  /// call.
+  virtual std::span<const SeenFeature> follow(std::shared_ptr<const LumaPyramid> current,
                                               double noise) = 0;
-  /// Of the features seen in the frame before, the part that was found; 0 of none.
+  /// Part of the previous frame's features that were found in this one; 0 if there were none.
   virtual double foundShare() const = 0;
-  /// Forgets all.
+  /// Forgets all features.
   virtual void reset() = 0;
 };
 

@@ -15,16 +15,17 @@ namespace {
 constexpr double kOfStrongest = 0.2;
 constexpr double kHarris = 0.04;
 constexpr int kWindowPx = 5;
-constexpr double kLeastStrength = 1e-7;  // a blank picture's strongest corner is noise
-constexpr float kSizePx = 4.0F;          // of a feature: descriptors see some 20 px around it
+constexpr double kMinStrength = 1e-7;  // a blank image's strongest corner is noise
+constexpr float kSizePx = 4.0F;        // size of a feature; descriptors cover about 20 px around it
 constexpr double kBorderPx = 8.0;
 constexpr float kRatio = 0.8F;  // Lowe, "Distinctive image features", 2004
 constexpr int kTrees = 4;
 constexpr int kChecks = 32;
-/// Predicted: corners are found anew in each frame. docs/measured.md says how it agrees.
+/// Predicted error: corners are detected anew in each frame. docs/measured.md compares it with the
+/// true one.
 constexpr double kErrorPx = 0.35;
 
-/// Where the strength is largest about a pixel, by the parabola through it and its neighbours.
+/// Sub-pixel maximum of the strength around a pixel, by the parabola through its neighbours.
 cv::Point2f peakWithin(const cv::Mat& strength, const cv::Point2f& pixel) {
   const cv::Point at = pixel;
   const auto offset = [](float before, float here, float after) {
@@ -44,21 +45,21 @@ HarrisSiftTracker::HarrisSiftTracker()
                cv::makePtr<cv::flann::SearchParams>(kChecks)) {}
 
 void HarrisSiftTracker::reset() {
-  then_ = {};
+  previous_ = {};
   seen_.clear();
   foundShare_ = 0.0;
 }
 
-void HarrisSiftTracker::findCorners(const LumaPyramid& now) {
-  now_.places.clear();
+void HarrisSiftTracker::findCorners(const LumaPyramid& current) {
+  current_.places.clear();
   keypoints_.clear();
-  const cv::Mat& picture = now.picture();
-  constexpr int kLeastSide = 32;
-  if (std::min(picture.cols, picture.rows) < kLeastSide) return;
+  const cv::Mat& picture = current.picture();
+  constexpr int kMinSidePx = 32;
+  if (std::min(picture.cols, picture.rows) < kMinSidePx) return;
   cv::cornerHarris(picture, strength_, kWindowPx, 3, kHarris);
   double strongest = 0.0;
   cv::minMaxLoc(strength_, nullptr, &strongest);
-  if (!(strongest > kLeastStrength)) return;
+  if (!(strongest > kMinStrength)) return;
   cv::dilate(strength_, strongestNear_, {});
   const auto least = static_cast<float>(kOfStrongest * strongest);
   for (int y = 0; y < picture.rows; ++y) {
@@ -66,34 +67,34 @@ void HarrisSiftTracker::findCorners(const LumaPyramid& now) {
       const auto strength = strength_.at<float>(y, x);
       const cv::Point2f at(static_cast<float>(x), static_cast<float>(y));
       if (strength < least || strength < strongestNear_.at<float>(y, x)) continue;
-      if (now.isInside(at, kBorderPx)) keypoints_.emplace_back(at, kSizePx, 0.0F, strength);
+      if (current.isInside(at, kBorderPx)) keypoints_.emplace_back(at, kSizePx, 0.0F, strength);
     }
   }
   std::ranges::stable_sort(keypoints_, std::ranges::greater{}, &cv::KeyPoint::response);
-  if (keypoints_.size() > kMostMovedFeatures) keypoints_.resize(kMostMovedFeatures);
+  if (keypoints_.size() > kMaxMovedFeatures) keypoints_.resize(kMaxMovedFeatures);
   for (const cv::KeyPoint& keypoint : keypoints_) {
-    now_.places.push_back(keypoint.pt + peakWithin(strength_, keypoint.pt));
+    current_.places.push_back(keypoint.pt + peakWithin(strength_, keypoint.pt));
   }
 }
 
-void HarrisSiftTracker::describe(const LumaPyramid& now) {
-  now_.descriptors.release();
+void HarrisSiftTracker::describe(const LumaPyramid& current) {
+  current_.descriptors.release();
   if (keypoints_.empty()) return;
-  for (std::size_t i = 0; i < keypoints_.size(); ++i) keypoints_[i].pt = now_.places[i];
+  for (std::size_t i = 0; i < keypoints_.size(); ++i) keypoints_[i].pt = current_.places[i];
   const std::size_t count = keypoints_.size();
-  sift_->compute(now.picture(), keypoints_, now_.descriptors);
+  sift_->compute(current.picture(), keypoints_, current_.descriptors);
   if (keypoints_.size() == count) return;
-  now_.places.clear();  // some could not be described
-  for (const cv::KeyPoint& keypoint : keypoints_) now_.places.push_back(keypoint.pt);
+  current_.places.clear();  // some could not be described
+  for (const cv::KeyPoint& keypoint : keypoints_) current_.places.push_back(keypoint.pt);
 }
 
 void HarrisSiftTracker::match() {
   matches_.clear();
-  if (now_.descriptors.rows == 0 || then_.descriptors.rows < 2) return;
+  if (current_.descriptors.rows == 0 || previous_.descriptors.rows < 2) return;
   nearest_.clear();
-  matcher_.knnMatch(now_.descriptors, then_.descriptors, nearest_, 2);
-  // Of several that match one, the nearest.
-  previousBest_.assign(then_.places.size(), 1e18F);
+  matcher_.knnMatch(current_.descriptors, previous_.descriptors, nearest_, 2);
+  // If several features match the same one, the nearest descriptor wins.
+  previousBest_.assign(previous_.places.size(), 1e18F);
   const auto passes = [](const std::vector<cv::DMatch>& two) {
     return two.size() == 2 && two[0].distance < kRatio * two[1].distance;
   };
@@ -106,52 +107,52 @@ void HarrisSiftTracker::match() {
   steps_.clear();
   for (const auto& two : nearest_) {
     if (!passes(two)) continue;
-    const auto now = static_cast<std::size_t>(two[0].queryIdx);
-    const auto then = static_cast<std::size_t>(two[0].trainIdx);
-    if (two[0].distance > previousBest_[then]) continue;
-    previousBest_[then] = -1.0F;  // once
-    matches_.push_back({.now = two[0].queryIdx, .then = two[0].trainIdx});
-    places_.push_back(now_.places[now]);
-    steps_.push_back(now_.places[now] - then_.places[then]);
+    const auto current = static_cast<std::size_t>(two[0].queryIdx);
+    const auto previous = static_cast<std::size_t>(two[0].trainIdx);
+    if (two[0].distance > previousBest_[previous]) continue;
+    previousBest_[previous] = -1.0F;  // each is matched once
+    matches_.push_back({.current = two[0].queryIdx, .previous = two[0].trainIdx});
+    places_.push_back(current_.places[current]);
+    steps_.push_back(current_.places[current] - previous_.places[previous]);
   }
   outliers_.judge(places_, steps_);
 }
 
-void HarrisSiftTracker::publish(const LumaPyramid& now) {
+void HarrisSiftTracker::publish(const LumaPyramid& current) {
   seen_.clear();
-  now_.ids.assign(now_.places.size(), 0);
-  std::vector<bool> isKnown(now_.places.size(), false);
-  const double scale = std::max(now.reduction().x, now.reduction().y);
+  current_.ids.assign(current_.places.size(), 0);
+  std::vector<bool> isKnown(current_.places.size(), false);
+  const double scale = std::max(current.reduction().x, current.reduction().y);
   for (std::size_t m = 0; m < matches_.size(); ++m) {
     if (outliers_.isOutlier(m)) continue;
-    const auto at = static_cast<std::size_t>(matches_[m].now);
-    const auto then = static_cast<std::size_t>(matches_[m].then);
-    now_.ids[at] = then_.ids[then];
+    const auto at = static_cast<std::size_t>(matches_[m].current);
+    const auto previous = static_cast<std::size_t>(matches_[m].previous);
+    current_.ids[at] = previous_.ids[previous];
     isKnown[at] = true;
-    seen_.push_back({.id = now_.ids[at],
-                     .px = now.framePx(now_.places[at]),
+    seen_.push_back({.id = current_.ids[at],
+                     .px = current.framePx(current_.places[at]),
                      .errorPx = kErrorPx * scale,
                      .wasSeen = true,
-                     .previousPx = now.framePx(then_.places[then])});
+                     .previousPx = current.framePx(previous_.places[previous])});
   }
   for (std::size_t i = 0; i < isKnown.size(); ++i) {
-    if (!isKnown[i]) now_.ids[i] = nextId_++;
+    if (!isKnown[i]) current_.ids[i] = nextId_++;
   }
   std::ranges::sort(seen_, {}, &SeenFeature::id);
 }
 
-std::span<const SeenFeature> HarrisSiftTracker::follow(std::shared_ptr<const LumaPyramid> now,
+std::span<const SeenFeature> HarrisSiftTracker::follow(std::shared_ptr<const LumaPyramid> current,
                                                        double /*noise*/) {
-  if (frameSize_ != now->frameSize()) reset();
-  frameSize_ = now->frameSize();
-  findCorners(*now);
-  describe(*now);
+  if (frameSize_ != current->frameSize()) reset();
+  frameSize_ = current->frameSize();
+  findCorners(*current);
+  describe(*current);
   match();
-  publish(*now);
-  foundShare_ = then_.places.empty()
-                    ? 0.0
-                    : static_cast<double>(seen_.size()) / static_cast<double>(then_.places.size());
-  std::swap(then_, now_);
+  publish(*current);
+  foundShare_ = previous_.places.empty() ? 0.0
+                                         : static_cast<double>(seen_.size()) /
+                                               static_cast<double>(previous_.places.size());
+  std::swap(previous_, current_);
   return seen_;
 }
 

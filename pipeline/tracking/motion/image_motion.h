@@ -15,8 +15,8 @@
 
 namespace pleinair::tracking {
 
-/// A turn, zoom and shift of a picture's plane: p ↦ linear · p + shift, where the product is that
-/// of complex numbers (x + iy): `linear` is scale · (cos, sin) of the angle.
+/// A turn, zoom and shift of the image plane: p ↦ linear · p + shift, with the product of complex
+/// numbers (x + iy). `linear` is scale · (cos, sin) of the angle.
 struct PlaneSimilarity {
   glm::dvec2 linear{1.0, 0.0};
   glm::dvec2 shift{0.0};  ///< px
@@ -33,63 +33,66 @@ struct PlaneSimilarity {
     const glm::dvec2 back = glm::dvec2(linear.x, -linear.y) / glm::dot(linear, linear);
     return {back, -product(back, shift)};
   }
-  /// `second` first, then `first`.
+  /// Applies `second`, then `first`.
   friend PlaneSimilarity operator*(const PlaneSimilarity& first, const PlaneSimilarity& second) {
     return {product(first.linear, second.linear), first(second.shift)};
   }
 };
 
-/// Features of which motion is told at once.
-inline constexpr std::size_t kMostMovedFeatures = 256;
+/// Most features whose motion is reported in one frame.
+inline constexpr std::size_t kMaxMovedFeatures = 256;
 
-/// Where a feature of the camera's picture was and is, in px of the frame, pixel centres at +0.5.
-/// A feature that does not move more than its position trembles has the same place in both frames,
-/// to the bit, and what it has moved adds up: nothing is lost of a slow motion.
+/// Position of a feature of the camera image in the previous frame and in this one: px of the
+/// frame, pixel centres at +0.5. A feature that moves less than its position jitters has exactly
+/// the same position in both frames; its motion accumulates meanwhile, so that slow motion is not
+/// lost.
 struct FeatureMotion {
-  std::uint32_t id = 0;  ///< the same as long as it is followed
-  glm::vec2 then{0.0F};
-  glm::vec2 now{0.0F};
-  float errorPx = 0.0F;  ///< predicted, of now - then: one standard deviation over both axes
+  std::uint32_t id = 0;  ///< constant while the feature is followed
+  glm::vec2 previous{0.0F};
+  glm::vec2 current{0.0F};
+  /// Predicted error of the displacement: one standard deviation over both axes.
+  float errorPx = 0.0F;
 };
 
-/// The motion that most of the picture follows, as a homography of px of the frame.
-struct PictureHomography {
-  glm::dmat3 nowFromThen{1.0};  ///< the identity, to the bit, while the camera stands still
-  double errorPx = 0.0;         ///< predicted, of a point that follows it; as a feature's
+/// The dominant motion of the image, as a homography of px of the frame.
+struct ImageHomography {
+  glm::dmat3 currentFromPrevious{1.0};  ///< exactly the identity while the camera stands still
+  double errorPx = 0.0;  ///< predicted error of a point that follows it; see FeatureMotion::errorPx
 };
 
 /// Dense motion at the nodes of a grid: node (i, j) stands for ((i, j) + 0.5) · step.
 struct DenseFlow {
   hal::FrameSize nodes;
-  glm::vec2 stepPx{1.0F};  ///< of the frame
-  /// Row by row: displacement (px of the frame), its predicted error (px), and 0. `forward`: from
-  /// the node to where what was there has gone; `backward`: from the node to where what is there
-  /// was.
+  glm::vec2 stepPx{1.0F};  ///< px of the frame
+  /// Row by row: displacement (px of the frame), its predicted error (px), and 0. `forward` goes
+  /// from the node's position in the previous frame to its position in this one; `backward` goes
+  /// from the node's position in this frame to its position in the previous one.
   std::span<const glm::vec4> forward;
   std::span<const glm::vec4> backward;
 };
 
-/// Where the picture has not moved: fields of a grid of `fields` over the whole frame, row by row.
+/// Static regions of the image: the cells of a grid of `fields` cells over the frame, row by row.
 struct StaticRegions {
   hal::FrameSize fields;
-  /// Predicted error (px) of taking the field for still; kNotStatic where it changes, or has too
-  /// little texture to tell.
+  /// Predicted error (px) of treating the cell as static; kNotStatic where it changes or has too
+  /// little texture to decide.
   std::span<const float> errorPx;
   static constexpr float kNotStatic = 1.0e4F;
 };
 
-/// How a camera's picture moved from the frame before to this one, measured in the picture alone.
-/// A view of an estimator's buffers, valid until it takes the next frame.
+/// Motion of a camera image from the previous frame to this one, measured in the image alone.
+/// Refers to an estimator's buffers and is valid until the estimator takes the next frame.
 struct ImageMotion {
   hal::FrameSize frameSize;
-  std::uint64_t sinceSequence = 0;  ///< the frame before
-  /// Nothing that was seen is seen any more (another scene, another size): nothing below holds.
+  std::uint64_t sinceSequence = 0;  ///< of the previous frame
+  /// True when nothing seen before is visible any more (another scene or size); then nothing below
+  /// applies.
   bool isCut = false;
   std::span<const FeatureMotion> features;
-  std::optional<PictureHomography> picture;  ///< where enough features agree
-  DenseFlow flow;                            ///< without nodes where it was not estimated
-  StaticRegions still;                       ///< likewise
-  double noiseLevels = 0.0;  ///< of a pixel's luma, one standard deviation, in 1/255
+  std::optional<ImageHomography> picture;  ///< empty where too few features agree
+  DenseFlow flow;                          ///< without nodes where it was not estimated
+  StaticRegions still;                     ///< without cells where they were not detected
+  double noiseLevels = 0.0;                ///< standard deviation of a pixel's luma, in 1/255
 };
 
 }  // namespace pleinair::tracking

@@ -15,8 +15,8 @@ struct ImageMotionEstimator::State {
       : options(wanted), tracker(makeFeatureTracker(wanted.features)) {}
 
   ImageMotionOptions options;
-  LumaFrame own;  // of frames that come as luma alone
-  std::shared_ptr<const LumaPyramid> then;
+  LumaFrame own;  // for frames that come as luma alone
+  std::shared_ptr<const LumaPyramid> previous;
   std::unique_ptr<FeatureTracker> tracker;
   CutDetector cuts;
   JitterSuppressor hold;
@@ -40,7 +40,7 @@ ImageMotionEstimator::~ImageMotionEstimator() = default;
 void ImageMotionEstimator::reset() {
   state_->forget();
   state_->cuts.reset();
-  state_->then.reset();
+  state_->previous.reset();
 }
 
 const ImageMotion& ImageMotionEstimator::follow(const hal::PlaneView& luma, hal::FrameSize size,
@@ -52,31 +52,31 @@ const ImageMotion& ImageMotionEstimator::follow(const hal::PlaneView& luma, hal:
 const ImageMotion& ImageMotionEstimator::follow(LumaFrame& frame, std::uint64_t sequence) {
   State& s = *state_;
   const hal::FrameSize size = frame.size();
-  if (s.then && s.then->frameSize() != size) reset();
-  const std::shared_ptr<const LumaPyramid> now = frame.pyramid();
-  const double scale = std::max(now->reduction().x, now->reduction().y);
+  if (s.previous && s.previous->frameSize() != size) reset();
+  const std::shared_ptr<const LumaPyramid> current = frame.pyramid();
+  const double scale = std::max(current->reduction().x, current->reduction().y);
 
-  const std::span<const SeenFeature> seen = s.tracker->follow(now, s.staticRegions.noise());
-  s.motion = {.frameSize = size, .sinceSequence = s.then ? s.lastSequence : sequence};
-  s.motion.isCut = s.cuts.isCut(*now, s.tracker->foundShare());
+  const std::span<const SeenFeature> seen = s.tracker->follow(current, s.staticRegions.noise());
+  s.motion = {.frameSize = size, .sinceSequence = s.previous ? s.lastSequence : sequence};
+  s.motion.isCut = s.cuts.isCut(*current, s.tracker->foundShare());
   if (s.motion.isCut) {
     s.forget();
-    s.tracker->follow(now, s.staticRegions.noise());
+    s.tracker->follow(current, s.staticRegions.noise());
   } else {
     s.hold.update(seen, size, scale);
     s.motion.features = s.hold.features();
     s.motion.picture = s.hold.picture();
   }
-  if (s.options.staticRegions) s.staticRegions.update(*now, s.motion.picture);
+  if (s.options.staticRegions) s.staticRegions.update(*current, s.motion.picture);
   if (s.options.staticRegions && !s.motion.isCut) s.motion.still = s.staticRegions.fields();
   if (s.options.flow && !s.motion.isCut) {
-    s.flow.update(*s.then, *now, s.motion.picture,
+    s.flow.update(*s.previous, *current, s.motion.picture,
                   s.options.staticRegions ? &s.staticRegions : nullptr, s.staticRegions.noise());
     s.motion.flow = s.flow.flow();
   }
-  // Averaging over a reduced picture's px takes noise away.
+  // The pyramid averages several frame px, which lowers the noise.
   s.motion.noiseLevels = s.staticRegions.noise() * scale;
-  s.then = now;
+  s.previous = current;
   s.lastSequence = sequence;
   return s.motion;
 }

@@ -12,15 +12,14 @@ namespace pleinair::tracking {
 
 struct ImageMotionOptions {
   FeatureMethod features = FeatureMethod::kLucasKanade;
-  bool flow = true;           ///< dense flow, too
-  bool staticRegions = true;  ///< and where nothing moves
+  bool flow = true;           ///< estimates dense flow
+  bool staticRegions = true;  ///< detects static regions
 };
 
-/// Finds out how a camera's picture moves, in the picture alone: features, the motion that most of
-/// it follows, dense flow, and where it stands still. Everything is measured in a picture of at
-/// most 640 px, and what only trembles within sensor noise does not move at all. Keeps its buffers
-/// from frame to frame; in steady state only OpenCV allocates. One thread at a time; OpenCV's own
-/// threads help.
+/// Measures the motion of a camera image in the image alone: features, the dominant motion, dense
+/// flow and static regions. Measures in an image of at most 640 px; motion within sensor noise is
+/// reported as exactly zero. Keeps its buffers from frame to frame; in steady state only OpenCV
+/// allocates. One thread at a time; uses OpenCV's threads.
 class ImageMotionEstimator {
  public:
   explicit ImageMotionEstimator(ImageMotionOptions options = {});
@@ -30,16 +29,15 @@ class ImageMotionEstimator {
   ImageMotionEstimator(ImageMotionEstimator&&) = delete;
   ImageMotionEstimator& operator=(ImageMotionEstimator&&) = delete;
 
-  /// Takes the next frame's luma and says how it moved since the frame before; the
-  /// first one, and one of another size, is a cut. What is returned is valid until the next call.
-  /// Frames that show nothing at all (a covered lens, a flash) are no cut at first: what was seen
-  /// before may come back.
+  /// Takes the next frame and returns its motion since the previous one, valid until the next call.
+  /// The first frame, and one of another size, is a cut. Frames without contrast (a covered lens, a
+  /// flash) are no cut at first, since the earlier scene may come back.
   const ImageMotion& follow(LumaFrame& frame, std::uint64_t sequence);
-  /// Likewise, of one byte a pixel.
+  /// Takes a frame that is luma already, one byte per pixel.
   const ImageMotion& follow(const hal::PlaneView& luma, hal::FrameSize size,
                             std::uint64_t sequence);
 
-  /// The next frame is a first one.
+  /// Treats the next frame as the first one.
   void reset();
 
  private:

@@ -10,20 +10,21 @@
 namespace pleinair::tracking {
 namespace {
 
-/// What moves less than this (px of the picture that is measured), or than so many predicted
-/// errors, is held.
+/// Motion below this (px of the measured image), or below this many predicted errors, is
+/// suppressed.
 constexpr double kBandPx = 0.1;
 constexpr double kFeatureErrors = 4.5;
 constexpr double kPictureErrors = 4.0;
-/// A feature is let go when it is beyond its band in so many frames, or twice as far in one.
+/// A feature is released after this many frames beyond its band, or after one frame at twice the
+/// band.
 constexpr int kFramesBeyond = 2;
 constexpr double kFarBeyond = 2.0;
-/// What has stayed within its band for so long is held again.
+/// Frames within the band after which a feature is held again.
 constexpr int kQuietFrames = 8;
-constexpr double kLeastErrorPx = 0.005;
-constexpr double kCalibrationPace = 0.15;  // the part of a frame
-constexpr double kLeastCalibration = 0.7;
-constexpr double kMostCalibration = 3.0;
+constexpr double kMinErrorPx = 0.005;
+constexpr double kCalibrationPace = 0.15;  // weight of one frame
+constexpr double kMinCalibration = 0.7;
+constexpr double kMaxCalibration = 3.0;
 
 }  // namespace
 
@@ -56,27 +57,26 @@ void JitterSuppressor::match(std::span<const SeenFeature> seen) {
 }
 
 void JitterSuppressor::suppressJitter(const HomographyFit& fit, hal::FrameSize size, double scale) {
-  const double moved = rmsMotion(fit.nowFromThen, size);
+  const double moved = rmsMotion(fit.currentFromPrevious, size);
   const double bandPx = std::max(kBandPx * scale, kPictureErrors * fit.fitErrorPx);
   if (moved > bandPx) {
     isHeld_ = false;
     quietMotion_ = glm::dmat3(1.0);
     quietFrames_ = 0;
-    picture_ = PictureHomography{
-        .nowFromThen = fit.nowFromThen,
-        .errorPx = std::hypot(fit.fitErrorPx, fit.modelErrorPx, kLeastErrorPx * scale)};
+    picture_ = ImageHomography{
+        .currentFromPrevious = fit.currentFromPrevious,
+        .errorPx = std::hypot(fit.fitErrorPx, fit.modelErrorPx, kMinErrorPx * scale)};
     return;
   }
-  picture_ =
-      PictureHomography{.nowFromThen = glm::dmat3(1.0),
-                        .errorPx = std::hypot(moved, fit.modelErrorPx, kLeastErrorPx * scale)};
+  picture_ = ImageHomography{.currentFromPrevious = glm::dmat3(1.0),
+                             .errorPx = std::hypot(moved, fit.modelErrorPx, kMinErrorPx * scale)};
 }
 
 void JitterSuppressor::releasePicture(const HomographyFit& fit, hal::FrameSize size, double scale) {
-  picture_ = PictureHomography{
-      .nowFromThen = fit.nowFromThen,
-      .errorPx = std::hypot(fit.fitErrorPx, fit.modelErrorPx, kLeastErrorPx * scale)};
-  quietMotion_ = fit.nowFromThen * quietMotion_;
+  picture_ =
+      ImageHomography{.currentFromPrevious = fit.currentFromPrevious,
+                      .errorPx = std::hypot(fit.fitErrorPx, fit.modelErrorPx, kMinErrorPx * scale)};
+  quietMotion_ = fit.currentFromPrevious * quietMotion_;
   ++quietFrames_;
   const double bandPx = std::max(kBandPx * scale, kPictureErrors * fit.fitErrorPx);
   if (rmsMotion(quietMotion_, size) > bandPx) {
@@ -88,32 +88,33 @@ void JitterSuppressor::releasePicture(const HomographyFit& fit, hal::FrameSize s
   }
 }
 
-/// Predictions go by white noise; that of a compressed movie is not. What they are off by shows in
-/// the features that follow the picture best, even where it is no plane.
+/// Predictions assume white noise; a compressed movie's noise is not white. The features that
+/// follow the image best show by how much predictions are wrong, even where the scene is no plane.
 void JitterSuppressor::calibrate(const HomographyFit& fit) {
   ratios_.clear();
   for (const PointPair& pair : pairs_) {
-    const double off = glm::distance(movedBy(fit.nowFromThen, pair.then), pair.now);
+    const double off = glm::distance(movedBy(fit.currentFromPrevious, pair.previous), pair.current);
     ratios_.push_back(off / pair.errorPx);
   }
   const auto quarter = ratios_.begin() + static_cast<std::ptrdiff_t>(ratios_.size() / 4);
   std::nth_element(ratios_.begin(), quarter, ratios_.end());
-  // A quarter of normal deviations over two axes is less than this part of their RMS.
+  // The lowest quarter of normal deviations over two axes is below this part of their RMS.
   constexpr double kQuarterOfNormal = 0.536;
   const double ratio = calibration_ * *quarter / kQuarterOfNormal;
   calibration_ += kCalibrationPace * (ratio - calibration_);
-  calibration_ = std::clamp(calibration_, kLeastCalibration, kMostCalibration);
+  calibration_ = std::clamp(calibration_, kMinCalibration, kMaxCalibration);
 }
 
 void JitterSuppressor::movePicture(hal::FrameSize size, double scale) {
-  // From where features were reported to be: while the picture is held, of those that are held,
-  // too.
+  // Motion is measured from the reported positions; while the image is held, from those of held
+  // features too.
   pairs_.clear();
   pairOf_.clear();
   for (std::size_t i = 0; i < reported_.size(); ++i) {
     const ReportedFeature& reported = reported_[i];
     if (reported.isNew || (isHeld_ && !reported.isHeld)) continue;
-    pairs_.push_back({.then = reported.px, .now = reported.seenPx, .errorPx = reported.errorPx});
+    pairs_.push_back(
+        {.previous = reported.px, .current = reported.seenPx, .errorPx = reported.errorPx});
     pairOf_.push_back(i);
   }
   picture_.reset();
@@ -134,8 +135,9 @@ void JitterSuppressor::moveFeature(ReportedFeature& reported, double scale) {
   if (reported.isHeld) {
     const double away = glm::distance(reported.seenPx, reported.px);
     reported.beyondFrames = away > bandPx ? reported.beyondFrames + 1 : 0;
-    const bool goesAlong = reported.agrees && !isHeld_;
-    if (!goesAlong && reported.beyondFrames < kFramesBeyond && away < kFarBeyond * bandPx) return;
+    const bool followsImage = reported.agrees && !isHeld_;
+    if (!followsImage && reported.beyondFrames < kFramesBeyond && away < kFarBeyond * bandPx)
+      return;
     reported.isHeld = false;
     reported.quietFrames = 0;
     reported.quietFrom = reported.seenPx;
@@ -155,12 +157,12 @@ void JitterSuppressor::update(std::span<const SeenFeature> seen, hal::FrameSize 
   movePicture(size, scale);
   motions_.clear();
   for (ReportedFeature& reported : reported_) {
-    const glm::dvec2 then = reported.px;
+    const glm::dvec2 previous = reported.px;
     if (reported.isNew) continue;
     moveFeature(reported, scale);
     motions_.push_back({.id = reported.id,
-                        .then = glm::vec2(then),
-                        .now = glm::vec2(reported.px),
+                        .previous = glm::vec2(previous),
+                        .current = glm::vec2(reported.px),
                         .errorPx = static_cast<float>(reported.errorPx)});
   }
 }

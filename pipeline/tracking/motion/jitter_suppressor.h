@@ -13,32 +13,32 @@
 
 namespace pleinair::tracking {
 
-/// Keeps still what only trembles: each feature, and the picture as a whole. What is held has a
-/// place from which motion is measured, not a frame before, so that slow motion adds up until it
-/// is let go and reported at once: nothing of it is lost. One thread at a time.
+/// Suppresses jitter: of each feature, and of the image as a whole. A held feature has a fixed
+/// position from which its motion is measured, so that slow motion accumulates until the feature is
+/// released and the whole motion is reported at once. One thread at a time.
 class JitterSuppressor {
  public:
-  /// Takes what was seen in the next frame, px of the frame. `scale`: frame px in a px of the
-  /// picture in which it was measured.
+  /// Takes the features seen in the next frame, px of the frame. `scale`: size of a px of the
+  /// measured image, in frame px.
   void update(std::span<const SeenFeature> seen, hal::FrameSize size, double scale);
 
-  /// Features that were there in the frame before, too; kept until the next update().
+  /// Features that the previous frame had too; valid until the next update().
   std::span<const FeatureMotion> features() const { return motions_; }
-  const std::optional<PictureHomography>& picture() const { return picture_; }
+  const std::optional<ImageHomography>& picture() const { return picture_; }
 
-  /// The next frame is a first one.
+  /// Treats the next frame as the first one.
   void reset();
 
  private:
-  /// What has been reported of a feature.
+  /// Reported state of a feature.
   struct ReportedFeature {
     std::uint32_t id = 0;
-    glm::dvec2 px{0.0};         // where it was said to be
-    glm::dvec2 quietFrom{0.0};  // from where it has trembled only …
-    int quietFrames = 0;        // … for so long
-    int beyondFrames = 0;       // in a row that it was seen away from where it is held
+    glm::dvec2 px{0.0};         // reported position
+    glm::dvec2 quietFrom{0.0};  // centre of the band in which it has stayed …
+    int quietFrames = 0;        // … for this many frames
+    int beyondFrames = 0;  // consecutive frames in which it was seen away from its held position
     bool isHeld = true;
-    bool agrees = false;  // with the picture, now
+    bool agrees = false;  // with the image's motion, in this frame
     bool isNew = true;
     double errorPx = 0.0;
     glm::dvec2 seenPx{0.0};
@@ -55,14 +55,14 @@ class JitterSuppressor {
   std::vector<ReportedFeature> reported_;  // by rising id
   std::vector<ReportedFeature> next_;
   std::vector<PointPair> pairs_;
-  std::vector<std::size_t> pairOf_;  // of each pair, in reported_
+  std::vector<std::size_t> pairOf_;  // index in reported_, per pair
   std::vector<FeatureMotion> motions_;
-  std::optional<PictureHomography> picture_;
+  std::optional<ImageHomography> picture_;
   bool isHeld_ = true;
-  bool isSettling_ = false;      // the picture has just become held
-  glm::dmat3 quietMotion_{1.0};  // of the picture, since it has trembled only
+  bool isSettling_ = false;      // the image has just become held
+  glm::dmat3 quietMotion_{1.0};  // motion of the image since it only jitters
   int quietFrames_ = 0;
-  double calibration_ = 1.0;  // of the features' predicted errors
+  double calibration_ = 1.0;  // factor on the features' predicted errors
   std::vector<double> ratios_;
 };
 

@@ -15,42 +15,45 @@
 namespace pleinair::tracking {
 namespace {
 
-// Features are sought where a field of this grid has none.
+// A new feature is sought in each empty cell of this grid.
 constexpr int kColumns = 18;
 constexpr int kRows = 14;
 constexpr double kBorderPx = 6.0;
-constexpr int kFewLevels = 1;
-constexpr double kBackPx = 0.4;  // from where a feature came
-/// Grey levels (RMS) by which a feature may look different: lost, stale.
-constexpr double kLargestDifference = 20.0;
+constexpr int kLocalSearchLevels = 1;
+constexpr double kMaxForwardBackwardPx = 0.4;  // largest forward-backward error
+/// Grey levels (RMS) by which a feature's appearance may differ before it is lost, and before it is
+/// stale.
+constexpr double kMaxDifference = 20.0;
 constexpr double kNoiseDifference = 3.75;
-constexpr double kRmsByMean = 1.25;    // of normally distributed differences
-constexpr double kLightLevels = 1.5;   // by which a feature is brighter or darker
-constexpr double kLostContrast = 0.8;  // and of the window's contrast
+constexpr double kRmsByMean = 1.25;    // ratio for normally distributed differences
+constexpr double kLightLevels = 1.5;   // change of brightness beyond which the light has changed
+constexpr double kLostContrast = 0.8;  // change of contrast beyond which the light has changed
 constexpr double kStaleContrast = 0.25;
-constexpr double kMostPlacing = 0.12;  // px of error by a level of noise: more is no corner
-constexpr int kMostMissing = 12;       // frames that a feature is looked for in vain
-// Predicted errors: docs/measured.md says how they agree with true ones.
-constexpr double kPlacing = 1.3;  // of Cramér and Rao's bound
-constexpr double kLeastErrorPx = 0.008;
-constexpr double kBackPart = 0.5;
-/// Of the features, or of larger fields with one, that there were after the last key frame, the
-/// part that is too few …
-constexpr double kFew = 0.75;
-constexpr double kFewFields = 0.88;
-constexpr int kFieldCells = 2;  // on each side of a larger field
-/// … or of the features, the part whose looks have changed, which is enough for a new one.
-constexpr double kManyStale = 0.15;
-constexpr int kKeyFrames = 4;  // between two key frames, unless most are lost
+// Px of error per level of noise; a feature above this is no corner.
+constexpr double kMaxPlacing = 0.12;
+constexpr int kMaxMissingFrames = 12;  // frames after which a missing feature is dropped
+// Predicted errors; docs/measured.md compares them with true ones.
+constexpr double kPlacing = 1.3;  // times the Cramér-Rao bound
+constexpr double kMinErrorPx = 0.008;
+constexpr double kForwardBackwardPart = 0.5;
+/// A new key frame is needed when fewer than this part remains of the features, or of the larger
+/// cells with a feature, that the last key frame had …
+constexpr double kMinFeatureShare = 0.75;
+constexpr double kMinCellShare = 0.88;
+constexpr int kFieldCells = 2;  // cells along each side of a larger cell
+/// … or when the appearance of this part of the features has changed.
+constexpr double kMaxStaleShare = 0.15;
+// Least number of frames between two key frames, unless most features are lost.
+constexpr int kKeyFrames = 4;
 constexpr double kVeryFew = 0.5;
-constexpr int kSeekFrames = 8;         // new corners are looked for that often at least …
-constexpr std::size_t kWorthAKey = 4;  // … and so many of them are worth a key frame
-/// Features farther from where the picture would take them go there if they look as good there.
+constexpr int kSeekFrames = 8;             // most frames between two searches for new corners …
+constexpr std::size_t kMinNewCorners = 4;  // … of which at least this many justify a key frame
+/// A feature farther than this from the image's motion moves there if it matches as well there.
 constexpr double kAstrayPx = 1.5;
 constexpr double kAsGood = 1.2;
 constexpr double kAsGoodLevels = 0.5;
-constexpr double kLostShare = 0.3;  // fewer found: the whole picture may have jumped
-constexpr std::size_t kLeastToJudge = 12;
+constexpr double kLostShare = 0.3;  // fewer found: the whole image may have jumped
+constexpr std::size_t kMinToJudge = 12;
 
 double lengthOf(const cv::Point2f& p) {
   return std::sqrt(static_cast<double>(p.dot(p)));
@@ -59,14 +62,14 @@ double lengthOf(const cv::Point2f& p) {
 }  // namespace
 
 LucasKanadeTracker::LucasKanadeTracker() {
-  features_.reserve(kMostMovedFeatures);
-  seen_.reserve(kMostMovedFeatures);
+  features_.reserve(kMaxMovedFeatures);
+  seen_.reserve(kMaxMovedFeatures);
   reset();
 }
 
 void LucasKanadeTracker::reset() {
   for (auto& key : keys_) key.reset();
-  then_.reset();
+  previous_.reset();
   features_.clear();
   seen_.clear();
   framesSinceKey_ = kSeekFrames;
@@ -78,17 +81,18 @@ FeaturePatch LucasKanadeTracker::patchAt(const LumaPyramid& pyramid, const cv::P
   return {pyramid.picture(), FeaturePatch::middleNear(pyramid.picture(), at)};
 }
 
-/// Whether what Lucas and Kanade found is the feature, and where exactly: apart from light.
-void LucasKanadeTracker::judge(Feature& feature, const LumaPyramid& now, std::size_t of,
+/// Decides whether the position found by Lucas-Kanade is the feature, and refines it, ignoring
+/// brightness.
+void LucasKanadeTracker::judge(Feature& feature, const LumaPyramid& current, std::size_t of,
                                const cv::Point2f& found) {
-  feature.isFound =
-      follower_.isFound(of) && now.isInside(found, kBorderPx) && follower_.backPx(of) < kBackPx;
+  feature.isFound = follower_.isFound(of) && current.isInside(found, kBorderPx) &&
+                    follower_.forwardBackwardPx(of) < kMaxForwardBackwardPx;
   if (!feature.isFound) return;
   const cv::Point2f moved = found - feature.origin;
-  PatchMatch match = feature.patch.at(now.picture(), {moved.x, moved.y});
-  // Lucas and Kanade take a change of brightness for motion; without one they place best.
+  PatchMatch match = feature.patch.at(current.picture(), {moved.x, moved.y});
+  // Lucas-Kanade takes a change of brightness for motion. Without such a change it locates best.
   const bool hasLightChanged = match.isInside && std::abs(match.brightness) > kLightLevels;
-  if (hasLightChanged) match = feature.patch.refined(now.picture(), match, noise_);
+  if (hasLightChanged) match = feature.patch.refined(current.picture(), match, noise_);
   const cv::Point2f at = hasLightChanged
                              ? feature.origin + cv::Point2f(static_cast<float>(match.moved.x),
                                                             static_cast<float>(match.moved.y))
@@ -97,20 +101,21 @@ void LucasKanadeTracker::judge(Feature& feature, const LumaPyramid& now, std::si
       match.isInside ? std::sqrt(match.variance) : kRmsByMean * follower_.difference(of);
   const double contrast = feature.patch.contrast();
   feature.isFound =
-      difference < kLargestDifference && difference < kNoiseDifference + kLostContrast * contrast;
+      difference < kMaxDifference && difference < kNoiseDifference + kLostContrast * contrast;
   if (!feature.isFound) return;
   feature.difference = difference;
   feature.isStale = difference > kNoiseDifference + kStaleContrast * contrast;
   const double placing = kPlacing * difference * feature.patch.placing(noise_, !hasLightChanged);
-  const double scale = std::max(now.reduction().x, now.reduction().y);
+  const double scale = std::max(current.reduction().x, current.reduction().y);
   feature.errorPx =
-      scale * glm::length(glm::dvec3(placing, kBackPart * follower_.backPx(of), kLeastErrorPx));
-  feature.step = at - feature.then;
+      scale * glm::length(glm::dvec3(
+                  placing, kForwardBackwardPart * follower_.forwardBackwardPx(of), kMinErrorPx));
+  feature.step = at - feature.previous;
   feature.at = at;
 }
 
-/// Of the features that have not been found yet, all or those that were found in the frame before.
-void LucasKanadeTracker::find(const LumaPyramid& now, bool all, int levels) {
+/// Searches for features not found yet: all of them, or only those found in the previous frame.
+void LucasKanadeTracker::find(const LumaPyramid& current, bool all, int levels) {
   for (std::size_t key = 0; key < kKeys; ++key) {
     members_.clear();
     origins_.clear();
@@ -120,32 +125,32 @@ void LucasKanadeTracker::find(const LumaPyramid& now, bool all, int levels) {
       if (feature.key != key || feature.isFound || !(all || feature.wasFound)) continue;
       members_.push_back(i);
       origins_.push_back(feature.origin);
-      points_.push_back(feature.then + feature.step);
+      points_.push_back(feature.previous + feature.step);
     }
     if (members_.empty()) continue;
-    follower_.follow(*keys_[key], now, origins_, points_, levels);
+    follower_.follow(*keys_[key], current, origins_, points_, levels);
     for (std::size_t m = 0; m < members_.size(); ++m) {
-      judge(features_[members_[m]], now, m, points_[m]);
+      judge(features_[members_[m]], current, m, points_[m]);
     }
   }
 }
 
-/// Looks for the features again where the picture as a whole may have jumped to.
-bool LucasKanadeTracker::searchWidely(const LumaPyramid& now) {
+/// Searches again where the whole image may have jumped to.
+bool LucasKanadeTracker::searchWidely(const LumaPyramid& current) {
   Thumbnail before;
   Thumbnail after;
-  before.load(*then_);
-  after.load(now);
+  before.load(*previous_);
+  after.load(current);
   const Thumbnail::Match match = before.match(after);
-  const cv::Size size = now.picture().size();
+  const cv::Size size = current.picture().size();
   const cv::Point2f jump(static_cast<float>(match.shift.x * size.width),
                          static_cast<float>(match.shift.y * size.height));
-  constexpr double kLeastCorrelation = 0.5;
-  if (match.correlation < kLeastCorrelation || jump == cv::Point2f()) return false;
+  constexpr double kMinCorrelation = 0.5;
+  if (match.correlation < kMinCorrelation || jump == cv::Point2f()) return false;
   for (Feature& feature : features_) {
     if (!feature.isFound) feature.step = jump;
   }
-  find(now, true, LumaPyramid::kLevels);
+  find(current, true, LumaPyramid::kLevels);
   return true;
 }
 
@@ -166,28 +171,29 @@ void LucasKanadeTracker::rejectOutliers() {
   }
 }
 
-/// Looks once more for features that do not go along with the picture, where it would take them:
-/// repeated patterns look the same a few px on.
-void LucasKanadeTracker::reconsider(const LumaPyramid& now) {
+/// Searches again for features that do not follow the image's motion, at the position that it
+/// predicts: repeated patterns load alike a few px apart.
+void LucasKanadeTracker::reconsider(const LumaPyramid& current) {
   pairs_.clear();
   for (const Feature& feature : features_) {
     if (!feature.isFound || !feature.wasFound) continue;
-    pairs_.push_back({.then = {feature.then.x, feature.then.y},
-                      .now = {feature.at.x, feature.at.y},
+    pairs_.push_back({.previous = {feature.previous.x, feature.previous.y},
+                      .current = {feature.at.x, feature.at.y},
                       .errorPx = feature.errorPx});
   }
-  const auto fit = fitter_.fit(pairs_, {now.picture().cols, now.picture().rows});
+  const auto fit = fitter_.fit(pairs_, {current.picture().cols, current.picture().rows});
   if (!fit) return;
   before_ = features_;
   for (Feature& feature : features_) {
     if (!feature.wasFound) continue;
-    const glm::dvec2 along = movedBy(fit->nowFromThen, {feature.then.x, feature.then.y});
+    const glm::dvec2 along =
+        movedBy(fit->currentFromPrevious, {feature.previous.x, feature.previous.y});
     const cv::Point2f there(static_cast<float>(along.x), static_cast<float>(along.y));
     if (feature.isFound && lengthOf(feature.at - there) < kAstrayPx) continue;
     feature.isFound = false;
-    feature.step = there - feature.then;
+    feature.step = there - feature.previous;
   }
-  find(now, false, 0);
+  find(current, false, 0);
   for (std::size_t i = 0; i < features_.size(); ++i) {
     const Feature& was = before_[i];
     Feature& feature = features_[i];
@@ -208,8 +214,8 @@ double LucasKanadeTracker::shareFound() const {
   return before > 0.0 ? found / before : 0.0;
 }
 
-/// What was not found is looked for next time where the found ones go.
-void LucasKanadeTracker::guessMissing(const LumaPyramid& now) {
+/// Predicts the positions of missing features for the next frame by the motion of the found ones.
+void LucasKanadeTracker::guessMissing(const LumaPyramid& current) {
   cv::Point2f shift(0.0F, 0.0F);
   float count = 0.0F;
   for (const Feature& feature : features_) {
@@ -228,14 +234,14 @@ void LucasKanadeTracker::guessMissing(const LumaPyramid& now) {
     }
   }
   std::erase_if(features_, [&](const Feature& f) {
-    return f.missingFrames > kMostMissing ||
-           (f.missingFrames > 0 && !now.isInside(f.at, -kBorderPx));
+    return f.missingFrames > kMaxMissingFrames ||
+           (f.missingFrames > 0 && !current.isInside(f.at, -kBorderPx));
   });
 }
 
-LucasKanadeTracker::Spread LucasKanadeTracker::spread(const LumaPyramid& now) {
+LucasKanadeTracker::Spread LucasKanadeTracker::spread(const LumaPyramid& current) {
   cells_.assign(static_cast<std::size_t>(kColumns) * kRows, 0);
-  const cv::Size size = now.picture().size();
+  const cv::Size size = current.picture().size();
   Spread out;
   for (const Feature& feature : features_) {
     if (!feature.isFound) continue;
@@ -261,21 +267,22 @@ bool LucasKanadeTracker::needsKey(const Spread& have) const {
   if (framesSinceKey_ < kKeyFrames) return false;
   const auto stale = static_cast<std::size_t>(
       std::ranges::count_if(features_, [](const Feature& f) { return f.isFound && f.isStale; }));
-  return isBelow(have.features, kFew, keySpread_.features) ||
-         isBelow(have.fields, kFewFields, keySpread_.fields) ||
-         !isBelow(stale, kManyStale, have.features + 1);
+  return isBelow(have.features, kMinFeatureShare, keySpread_.features) ||
+         isBelow(have.fields, kMinCellShare, keySpread_.fields) ||
+         !isBelow(stale, kMaxStaleShare, have.features + 1);
 }
 
-void LucasKanadeTracker::takeOver(Feature& feature, std::size_t key, const LumaPyramid& now) {
+void LucasKanadeTracker::takeOver(Feature& feature, std::size_t key, const LumaPyramid& current) {
   feature.key = key;
   feature.origin = feature.at;
-  feature.patch = patchAt(now, feature.at);
+  feature.patch = patchAt(current, feature.at);
   feature.isStale = false;
 }
 
-/// A place for a new key frame: a free one, or that of the key frame with the fewest features,
-/// which the new one takes over; of those that are not seen now the looks are lost.
-std::size_t LucasKanadeTracker::freeKey(const LumaPyramid& now) {
+/// Returns a free slot for a new key frame, or else the slot of the key frame with the fewest
+/// features. The new key frame takes those features over; the ones not visible now lose their
+/// appearance.
+std::size_t LucasKanadeTracker::freeKey(const LumaPyramid& current) {
   std::array<std::size_t, kKeys> counts{};
   for (const Feature& feature : features_) {
     if (!(feature.isFound && feature.isStale)) ++counts[feature.key];
@@ -283,13 +290,13 @@ std::size_t LucasKanadeTracker::freeKey(const LumaPyramid& now) {
   const auto key = static_cast<std::size_t>(std::ranges::min_element(counts) - counts.begin());
   std::erase_if(features_, [&](const Feature& f) { return f.key == key && !f.isFound; });
   for (Feature& feature : features_) {
-    if (feature.key == key || (feature.isFound && feature.isStale)) takeOver(feature, key, now);
+    if (feature.key == key || (feature.isFound && feature.isStale)) takeOver(feature, key, current);
   }
   return key;
 }
 
-/// Corners where there is no feature.
-void LucasKanadeTracker::findCorners(const LumaPyramid& now) {
+/// Finds corners in cells without a feature.
+void LucasKanadeTracker::findCorners(const LumaPyramid& current) {
   newCorners_.clear();
   const cv::Size size = corners_.size();
   for (int cell = 0; cell < kColumns * kRows; ++cell) {
@@ -299,89 +306,91 @@ void LucasKanadeTracker::findCorners(const LumaPyramid& now) {
     const cv::Point from(size.width * column / kColumns, size.height * row / kRows);
     const cv::Point to(size.width * (column + 1) / kColumns, size.height * (row + 1) / kRows);
     cv::Point2f at;
-    if (!corners_.takeBest({from, to}, at) || !now.isInside(at, kBorderPx)) continue;
+    if (!corners_.takeStrongest({from, to}, at) || !current.isInside(at, kBorderPx)) continue;
     const bool isTaken = std::ranges::any_of(features_, [&](const Feature& f) {
       return f.isFound && lengthOf(f.at - at) < CornerSearch::kSpacingPx;
     });
-    if (!isTaken && patchAt(now, at).placing(noise_, true) < kMostPlacing)
+    if (!isTaken && patchAt(current, at).placing(noise_, true) < kMaxPlacing)
       newCorners_.push_back(at);
   }
-  centre(now);
+  centre(current);
 }
 
-/// Moves new corners to where the gradients about them balance (Förstner and Gülch, 1987): a turn
-/// or zoom of a window about that point is not taken for a shift of it.
-void LucasKanadeTracker::centre(const LumaPyramid& now) {
+/// Moves new corners to the point where the surrounding gradients balance (Förstner and Gülch,
+/// 1987): there a turn or zoom of the window does not load like a shift.
+void LucasKanadeTracker::centre(const LumaPyramid& current) {
   if (newCorners_.empty()) return;
   constexpr int kReach = LumaPyramid::kWindowPx / 2;
-  constexpr float kFarPx = 4.0F;
+  constexpr float kDivergedPx = 4.0F;
   points_ = newCorners_;
   const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 5, 0.1);
-  cv::cornerSubPix(now.picture(), points_, {kReach, kReach}, {-1, -1}, until);
+  cv::cornerSubPix(current.picture(), points_, {kReach, kReach}, {-1, -1}, until);
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (lengthOf(points_[i] - newCorners_[i]) < kFarPx) newCorners_[i] = points_[i];
+    if (lengthOf(points_[i] - newCorners_[i]) < kDivergedPx) newCorners_[i] = points_[i];
   }
 }
 
-void LucasKanadeTracker::makeKey(const std::shared_ptr<const LumaPyramid>& now, bool isNeeded) {
+void LucasKanadeTracker::makeKey(const std::shared_ptr<const LumaPyramid>& current, bool isNeeded) {
   framesSinceKey_ = 0;
-  const cv::Size size = now->picture().size();
-  if (std::min(size.width, size.height) < 2 * FeaturePatch::kReach || !corners_.look(*now)) return;
-  findCorners(*now);
-  if (!isNeeded && newCorners_.size() < kWorthAKey) return;
-  if (features_.size() + newCorners_.size() > kMostMovedFeatures) {
+  const cv::Size size = current->picture().size();
+  if (std::min(size.width, size.height) < 2 * FeaturePatch::kReach || !corners_.load(*current))
+    return;
+  findCorners(*current);
+  if (!isNeeded && newCorners_.size() < kMinNewCorners) return;
+  if (features_.size() + newCorners_.size() > kMaxMovedFeatures) {
     std::erase_if(features_, [](const Feature& f) { return !f.isFound; });
   }
-  const std::size_t key = freeKey(*now);
-  keys_[key] = now;
+  const std::size_t key = freeKey(*current);
+  keys_[key] = current;
   for (const cv::Point2f& at : newCorners_) {
-    if (features_.size() == kMostMovedFeatures) break;
+    if (features_.size() == kMaxMovedFeatures) break;
     features_.push_back({.id = nextId_++,
                          .key = key,
                          .origin = at,
                          .at = at,
-                         .then = at,
+                         .previous = at,
                          .step = {},
-                         .patch = patchAt(*now, at),
+                         .patch = patchAt(*current, at),
                          .isFound = true});
   }
-  keySpread_ = spread(*now);
+  keySpread_ = spread(*current);
 }
 
-void LucasKanadeTracker::publish(const LumaPyramid& now) {
+void LucasKanadeTracker::publish(const LumaPyramid& current) {
   seen_.clear();
   for (const Feature& feature : features_) {
     if (!feature.isFound) continue;
     seen_.push_back({.id = feature.id,
-                     .px = now.framePx(feature.at),
+                     .px = current.framePx(feature.at),
                      .errorPx = feature.errorPx,
                      .wasSeen = feature.wasFound,
-                     .previousPx = now.framePx(feature.then)});
+                     .previousPx = current.framePx(feature.previous)});
   }
 }
 
-std::span<const SeenFeature> LucasKanadeTracker::follow(std::shared_ptr<const LumaPyramid> now,
+std::span<const SeenFeature> LucasKanadeTracker::follow(std::shared_ptr<const LumaPyramid> current,
                                                         double noise) {
   noise_ = noise;
-  if (then_ && then_->frameSize() != now->frameSize()) reset();
+  if (previous_ && previous_->frameSize() != current->frameSize()) reset();
   for (Feature& feature : features_) {
     feature.wasFound = feature.isFound;
     feature.isFound = false;
-    feature.then = feature.at;
+    feature.previous = feature.at;
   }
-  // Most are where their motion says; the others may be anywhere near.
-  find(*now, false, kFewLevels);
-  find(*now, true, LumaPyramid::kLevels);
-  if (then_ && features_.size() >= kLeastToJudge && shareFound() < kLostShare) searchWidely(*now);
-  reconsider(*now);
+  // Most features are where their motion predicts; the others may be anywhere near.
+  find(*current, false, kLocalSearchLevels);
+  find(*current, true, LumaPyramid::kLevels);
+  if (previous_ && features_.size() >= kMinToJudge && shareFound() < kLostShare)
+    searchWidely(*current);
+  reconsider(*current);
   rejectOutliers();
   foundShare_ = shareFound();
-  guessMissing(*now);
+  guessMissing(*current);
   ++framesSinceKey_;
-  publish(*now);
-  const bool isNeeded = needsKey(spread(*now));
-  if (isNeeded || framesSinceKey_ >= kSeekFrames) makeKey(now, isNeeded);
-  then_ = std::move(now);
+  publish(*current);
+  const bool isNeeded = needsKey(spread(*current));
+  if (isNeeded || framesSinceKey_ >= kSeekFrames) makeKey(current, isNeeded);
+  previous_ = std::move(current);
   return seen_;
 }
 

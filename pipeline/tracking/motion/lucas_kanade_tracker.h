@@ -17,15 +17,14 @@
 
 namespace pleinair::tracking {
 
-/// Corners, spread over the picture, each followed by Lucas-Kanade from the key frame in which its
-/// looks were taken, so that nothing drifts from frame to frame. A few key frames are kept: a new
-/// one is made where features have become few or look different, and takes over only those that
-/// do; the others stay with theirs.
+/// Corners spread over the image. Lucas-Kanade follows each from the key frame in which its
+/// appearance was taken, so that nothing drifts from frame to frame. Several key frames are kept: a
+/// new one is made where features have become few or stale, and takes over only those features.
 class LucasKanadeTracker : public FeatureTracker {
  public:
   LucasKanadeTracker();
 
-  std::span<const SeenFeature> follow(std::shared_ptr<const LumaPyramid> now,
+  std::span<const SeenFeature> follow(std::shared_ptr<const LumaPyramid> current,
                                       double noise) override;
   double foundShare() const override { return foundShare_; }
   void reset() override;
@@ -33,51 +32,52 @@ class LucasKanadeTracker : public FeatureTracker {
  private:
   struct Feature {
     std::uint32_t id = 0;
-    std::size_t key = 0;  // in keys_
-    cv::Point2f origin;   // in the key frame; own px, as `at`
-    cv::Point2f at;       // where it is, or would be
-    cv::Point2f then;     // in the frame before
-    cv::Point2f step;     // since then
-    FeaturePatch patch;   // of the key frame
+    std::size_t key = 0;   // index in keys_
+    cv::Point2f origin;    // position in the key frame; pyramid px, as `at`
+    cv::Point2f at;        // position in this frame, predicted if it was not found
+    cv::Point2f previous;  // position in the previous frame
+    cv::Point2f step;      // motion since the previous frame
+    FeaturePatch patch;    // patch of the key frame
     double errorPx = 0.0;
-    double difference = 0.0;  // of the looks, RMS levels
+    double difference = 0.0;  // difference of appearance, RMS levels
     bool isFound = false;
     bool wasFound = false;
-    bool isStale = false;  // looks different from the key frame
+    bool isStale = false;  // its appearance differs from the key frame
     int missingFrames = 0;
   };
-  /// How many features are found, and how many fields of the picture have one.
+  /// Number of features found, and number of grid cells that have one.
   struct Spread {
     std::size_t features = 0;
     std::size_t fields = 0;
   };
 
   static FeaturePatch patchAt(const LumaPyramid& pyramid, const cv::Point2f& at);
-  void find(const LumaPyramid& now, bool all, int levels);
-  void judge(Feature& feature, const LumaPyramid& now, std::size_t of, const cv::Point2f& found);
-  bool searchWidely(const LumaPyramid& now);
-  void reconsider(const LumaPyramid& now);
+  void find(const LumaPyramid& current, bool all, int levels);
+  void judge(Feature& feature, const LumaPyramid& current, std::size_t of,
+             const cv::Point2f& found);
+  bool searchWidely(const LumaPyramid& current);
+  void reconsider(const LumaPyramid& current);
   void rejectOutliers();
   double shareFound() const;
-  void guessMissing(const LumaPyramid& now);
-  Spread spread(const LumaPyramid& now);
+  void guessMissing(const LumaPyramid& current);
+  Spread spread(const LumaPyramid& current);
   bool needsKey(const Spread& have) const;
-  void findCorners(const LumaPyramid& now);
-  void centre(const LumaPyramid& now);
-  void makeKey(const std::shared_ptr<const LumaPyramid>& now, bool isNeeded);
-  std::size_t freeKey(const LumaPyramid& now);
-  void takeOver(Feature& feature, std::size_t key, const LumaPyramid& now);
-  void publish(const LumaPyramid& now);
+  void findCorners(const LumaPyramid& current);
+  void centre(const LumaPyramid& current);
+  void makeKey(const std::shared_ptr<const LumaPyramid>& current, bool isNeeded);
+  std::size_t freeKey(const LumaPyramid& current);
+  void takeOver(Feature& feature, std::size_t key, const LumaPyramid& current);
+  void publish(const LumaPyramid& current);
 
   static constexpr std::size_t kKeys = 4;
   std::array<std::shared_ptr<const LumaPyramid>, kKeys> keys_;
-  std::shared_ptr<const LumaPyramid> then_;
+  std::shared_ptr<const LumaPyramid> previous_;
   PointFollower follower_;
   CornerSearch corners_;
   HomographyFitter fitter_;
   MotionOutliers outliers_;
   std::vector<Feature> features_;
-  std::vector<Feature> before_;  // they were reconsidered
+  std::vector<Feature> before_;  // copy from before reconsider()
   std::vector<PointPair> pairs_;
   std::vector<SeenFeature> seen_;
   std::uint32_t nextId_ = 0;
@@ -85,12 +85,12 @@ class LucasKanadeTracker : public FeatureTracker {
   double noise_ = 2.0;  // levels
   int framesSinceKey_ = 0;
   Spread keySpread_;  // after the last key frame was made
-  // Of the features of one key frame.
+  // Features of one key frame.
   std::vector<std::size_t> members_;
   std::vector<cv::Point2f> origins_;
   std::vector<cv::Point2f> points_;
   std::vector<cv::Point2f> newCorners_;
-  std::vector<unsigned char> cells_;  // whether each has a feature
+  std::vector<unsigned char> cells_;  // whether each cell has a feature
   std::vector<cv::Point2f> steps_;
 };
 

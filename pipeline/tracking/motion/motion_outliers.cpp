@@ -8,15 +8,15 @@
 namespace pleinair::tracking {
 namespace {
 
-constexpr std::size_t kLeastToJudge = 12;
+constexpr std::size_t kMinToJudge = 12;
 constexpr std::size_t kNeighbours = 6;
-/// Motions are alike that differ by no more than this, or than this part of them.
+/// Two motions are alike if they differ by no more than this, or than this part of them.
 constexpr float kAlikePx = 1.5F;
 constexpr float kAlikePart = 0.25F;
 
 using Neighbours = std::array<std::pair<float, std::size_t>, kNeighbours>;
 
-/// The nearest of the others, with their squared distances, the nearest first.
+/// The nearest other features with their squared distances, nearest first.
 Neighbours neighboursOf(std::size_t i, std::span<const cv::Point2f> places) {
   Neighbours near;
   near.fill({1e18F, i});
@@ -39,7 +39,7 @@ void MotionOutliers::judge(std::span<const cv::Point2f> places,
                            std::span<const cv::Point2f> steps) {
   assert(places.size() == steps.size());
   isOutlier_.assign(places.size(), 0);
-  if (places.size() < kLeastToJudge) return;
+  if (places.size() < kMinToJudge) return;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const float tolerance =
         std::max(kAlikePx * kAlikePx, kAlikePart * kAlikePart * steps[i].dot(steps[i]));

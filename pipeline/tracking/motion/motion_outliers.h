@@ -7,12 +7,12 @@
 
 namespace pleinair::tracking {
 
-/// Tells features that were mistaken for others: all their neighbours move otherwise. Where things
-/// overlap each has neighbours on its own. One thread at a time.
+/// Finds features that were confused with others: all their neighbours move differently. Where
+/// objects overlap, each feature has neighbours on its own object. One thread at a time.
 class MotionOutliers {
  public:
-  /// Places of features and how they have moved, as many; px of the picture that is followed. None
-  /// where there are too few to judge.
+  /// Takes the positions of features and their motions, one per position; px of the followed image.
+  /// Finds no outliers where there are too few features to judge.
   void judge(std::span<const cv::Point2f> places, std::span<const cv::Point2f> steps);
   bool isOutlier(std::size_t i) const { return isOutlier_[i] != 0; }
 

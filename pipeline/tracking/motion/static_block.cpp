@@ -10,7 +10,7 @@
 namespace pleinair::tracking {
 namespace {
 
-/// Sums over products of two rows of a field.
+/// Sums the products of two rows of a block.
 int product(const std::int16_t* a, const std::int16_t* b) {
   static_assert(StaticBlock::kSide == 16, "a row is two vectors");
   const cv::v_int32x4 first = cv::v_dotprod(cv::v_load(a), cv::v_load(b));
@@ -78,9 +78,9 @@ void StaticBlock::finish() {
     m1 += total(mean);
   }
   const cv::Matx44d normal(xx, xy, x1, xm, xy, yy, y1, ym, x1, y1, kPixels, m1, xm, ym, m1, mm);
-  // A flat field has no shift and no contrast to be told from others.
-  constexpr double kLeast = 1.0;
-  inverse_ = (normal + kLeast * cv::Matx44d::eye()).inv(cv::DECOMP_CHOLESKY);
+  // A flat block has no measurable shift or contrast.
+  constexpr double kRegularisation = 1.0;
+  inverse_ = (normal + kRegularisation * cv::Matx44d::eye()).inv(cv::DECOMP_CHOLESKY);
 }
 
 StaticBlock::Change StaticBlock::compare(const cv::Mat& picture, const cv::Point& corner) const {
@@ -106,7 +106,7 @@ StaticBlock::Change StaticBlock::compare(const cv::Mat& picture, const cv::Point
   const cv::Vec4d right(dx, dy, d1, dm);
   const cv::Vec4d found = inverse_ * right;
   constexpr int kFreedoms = 4;
-  // Gradients are twice too large, as differences over two pixels; moved by s, a picture changes by
+  // Gradients are differences over two pixels, twice too large. An image moved by s changes by
   // minus s times its gradient.
   constexpr double kGradient = 2.0;
   return {
@@ -126,7 +126,8 @@ double spatialNoise(const cv::Mat& picture, const cv::Point& corner, int side) {
                       2 * row[x + 1] + below[x - 1] - 2 * below[x] + below[x + 1]);
     }
   }
-  constexpr double kMeanOfNormal = 0.79788456;  // of its magnitude, of one of deviation 1
+  // Mean magnitude of a normal variable of deviation 1.
+  constexpr double kMeanOfNormal = 0.79788456;
   constexpr double kFilterNorm = 6.0;
   return sum / (kMeanOfNormal * kFilterNorm * side * side);
 }

@@ -14,51 +14,50 @@ namespace pleinair::tracking {
 
 class LumaPyramid;
 
-/// Finds out which fields of a picture stand still, in spite of its noise. Each is compared with
-/// how it looked when it came to rest and not with the frame before, so that creeping adds up and
+/// Finds the cells of an image that are static, in spite of noise. Each cell is compared with its
+/// appearance when it came to rest and not with the previous frame, so that slow motion adds up and
 /// is noticed. One thread at a time.
 class StaticRegionDetector {
  public:
-  /// Takes the next frame, and how most of the picture is known to have moved.
-  void update(const LumaPyramid& now, const std::optional<PictureHomography>& picture);
+  /// Takes the next frame and its dominant motion.
+  void update(const LumaPyramid& current, const std::optional<ImageHomography>& picture);
   /// Valid until the next update().
   StaticRegions fields() const { return {.fields = grid_, .errorPx = errors_}; }
-  /// Standard deviation of a pixel of the followed picture, levels; the mean of the last second or
-  /// so.
+  /// Standard deviation of a pixel of the followed image in levels; averaged over about a second.
   double noise() const { return noise_; }
-  /// Whether the field that shows a place of the frame is still, and with what error.
+  /// Returns the error of the cell at a position of the frame, or kNotStatic.
   float errorAt(const glm::dvec2& px, hal::FrameSize size) const;
-  /// The next frame is a first one.
+  /// Treats the next frame as the first one.
   void reset();
 
  private:
-  struct Rest {
+  struct Cell {
     StaticBlock field;
-    glm::dvec2 movedPx{0.0};  // smoothed
-    int frames = 0;           // since it came to rest
-    double variance = 0.0;    // what its pixels vary by, apart from that
-    glm::dvec2 alongPx{0.0};  // how far the picture's motion would have taken it since then
+    glm::dvec2 movedPx{0.0};        // smoothed
+    int frames = 0;                 // since it came to rest
+    double variance = 0.0;          // variance of its pixels beyond motion
+    glm::dvec2 imageMotionPx{0.0};  // accumulated motion of the image since it came to rest
     bool hasBegun = false;
-    bool isStill = false;
+    bool isStatic = false;
     bool hasChanged = false;  // in this frame
-    int waitFrames = 0;       // before it is looked at again
-    // What this frame's pixels say of noise, levels²; nothing where negative.
+    int waitFrames = 0;       // before it is compared again
+    // Noise variance estimated from this frame's pixels, levels²; negative: none.
     double temporal = -1.0;
     double spatial = -1.0;
   };
 
-  static bool isDoubtful(const Rest& rest, double noticedPx);
-  void resize(const LumaPyramid& now);
+  static bool isDoubtful(const Cell& cell, double noticedPx);
+  void resize(const LumaPyramid& current);
   cv::Point corner(std::size_t index, const cv::Size& size) const;
-  float look(Rest& rest, const cv::Mat& picture, const cv::Point& corner, double scale);
-  void restart(Rest& rest, const cv::Mat& picture, const cv::Point& corner);
+  float assess(Cell& cell, const cv::Mat& picture, const cv::Point& corner, double scale);
+  void restart(Cell& cell, const cv::Mat& picture, const cv::Point& corner);
   void measureNoise();
-  /// Of what fields' pixels say, as many as say something; nothing of too few.
-  std::optional<double> percentile(double Rest::*of, double part);
+  /// A percentile of the cells' estimates, over those that have one; nothing for too few.
+  std::optional<double> percentile(double Cell::*of, double part);
 
   hal::FrameSize grid_;
   cv::Size size_;
-  std::vector<Rest> rests_;
+  std::vector<Cell> cells_;
   std::vector<float> errors_;
   std::vector<double> variances_;
   double noise_ = 2.0;

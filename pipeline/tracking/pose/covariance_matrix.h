@@ -9,7 +9,7 @@
 
 namespace pleinair::tracking {
 
-/// A PoseCovariance as a matrix to calculate with, and back.
+/// Conversions between PoseCovariance and a matrix for calculations.
 using Matrix6 = cv::Matx<double, 6, 6>;
 
 inline Matrix6 matrixOf(const PoseCovariance& covariance) {

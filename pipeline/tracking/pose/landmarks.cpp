@@ -12,26 +12,29 @@
 namespace pleinair::tracking {
 namespace {
 
-/// A tag's white paper, in halves of its edge: printed tags have at least a cell of ten around.
+/// Extent of a tag's white paper, in halves of its edge: printed tags have a margin of at least one
+/// cell of ten.
 constexpr double kPaper = 1.2;
-/// How far from its tag a feature may be, in halves of the edge.
+/// Largest distance of a feature from its tag, in halves of the edge.
 constexpr double kReach = 24.0;
-/// How unsure an inverse depth is on a tag, and for each half edge that it is away.
+/// Standard deviation of the relative inverse depth on a tag, and its growth per half edge of
+/// distance.
 constexpr double kSigmaOnTag = 0.002;
 constexpr double kSigmaByDistance = 0.1;
-constexpr double kMostSigma = 0.5;
-/// A plane seen at less than this sine is not cut.
+constexpr double kMaxSigma = 0.5;
+/// A ray that meets a plane below this sine is not intersected.
 constexpr double kGrazing = 0.08;
-constexpr std::size_t kLeastUsed = 6;
-constexpr double kLeastShare = 0.5;
+constexpr std::size_t kMinUsed = 6;
+constexpr double kMinShare = 0.5;
 constexpr double kFirstHuberPx = 3.0;
 constexpr double kAgreeSigmas = 5.0;
-constexpr double kLeastAgreePx = 1.0;
-constexpr int kMostContradictions = 5;
-/// Errors of one feature in neighbouring frames are alike: each counts as less than one.
+constexpr double kMinAgreementPx = 1.0;
+constexpr int kMaxContradictions = 5;
+/// Errors of one feature in neighbouring frames are correlated: each counts as less than one.
 constexpr double kLearnNoise = 4.0;
 
-/// Shrinks errors along `byDepth` (px for one sigma of depth) to their share in all the noise.
+/// Scales errors along `byDepth` (px for one sigma of depth) down to their share in the total
+/// noise.
 glm::dmat2 whiteningOf(const glm::dvec2& byDepth, double noisePx) {
   const double length = glm::length(byDepth);
   if (length < 1e-9) return glm::dmat2(1.0);
@@ -64,7 +67,7 @@ std::optional<glm::dvec3> Landmarks::place(const Landmark& landmark,
   return landmark.ray / inverse;
 }
 
-/// On the plane of the tag that it is nearest to, in that tag's sizes.
+/// Places a track on the plane of its nearest tag; distances in that tag's sizes.
 std::optional<Landmarks::Landmark> Landmarks::placed(const CameraModel& camera,
                                                      const FeatureTrack& track,
                                                      const glm::dmat4& keyFromTarget,
@@ -89,17 +92,17 @@ std::optional<Landmarks::Landmark> Landmarks::placed(const CameraModel& camera,
     isPlaced = true;
   }
   if (!isPlaced) return std::nullopt;
-  best.sigma = std::clamp(kSigmaByDistance * (nearest - kPaper), kSigmaOnTag, kMostSigma);
+  best.sigma = std::clamp(kSigmaByDistance * (nearest - kPaper), kSigmaOnTag, kMaxSigma);
   return best;
 }
 
-/// All that frames to come may need, once.
+/// Reserves all memory that later frames may need.
 void Landmarks::reserve() {
-  landmarks_.reserve(kMostTracks);
-  next_.reserve(kMostTracks);
-  places_.reserve(kMostTracks);
-  points_.reserve(kMostTracks);
-  errors_.reserve(kMostTracks);
+  landmarks_.reserve(kMaxTracks);
+  next_.reserve(kMaxTracks);
+  places_.reserve(kMaxTracks);
+  points_.reserve(kMaxTracks);
+  errors_.reserve(kMaxTracks);
 }
 
 void Landmarks::anchor(const CameraModel& camera, std::span<const FeatureTrack> tracks,
@@ -120,16 +123,16 @@ void Landmarks::anchor(const CameraModel& camera, std::span<const FeatureTrack> 
     const auto old = std::ranges::lower_bound(landmarks_, track.id, {}, &Landmark::id);
     if (old != landmarks_.end() && old->id == track.id) {
       const auto& was = places_[static_cast<std::size_t>(old - landmarks_.begin())];
-      if (was) goOn(*landmark, *old, transform(keyFromTarget, *was).z, keyFromTarget);
+      if (was) carryOver(*landmark, *old, transform(keyFromTarget, *was).z, keyFromTarget);
     }
     next_.push_back(*landmark);
   }
   landmarks_.swap(next_);
 }
 
-/// A landmark keeps its depth, and what was learnt of it, from one key frame to the next.
-void Landmarks::goOn(Landmark& landmark, const Landmark& old, double depth,
-                     const glm::dmat4& keyFromTarget) const {
+/// Carries a landmark's depth, and the correction learnt for it, from one key frame to the next.
+void Landmarks::carryOver(Landmark& landmark, const Landmark& old, double depth,
+                          const glm::dmat4& keyFromTarget) const {
   const auto plane = planeInverseDepth(landmark, keyFromTarget);
   if (!plane || !(depth > 0.0)) return;
   landmark.correction = 1.0 / (depth * *plane) - 1.0;
@@ -137,7 +140,7 @@ void Landmarks::goOn(Landmark& landmark, const Landmark& old, double depth,
   landmark.contradictions = old.contradictions;
 }
 
-/// The found landmarks as points of the target.
+/// Collects the found landmarks as points of the target.
 void Landmarks::collect(const CameraModel& camera, std::span<const FeatureTrack> tracks,
                         const glm::dmat4& cameraFromTarget, const glm::dmat4& keyFromTarget,
                         double noisePx) {
@@ -153,7 +156,7 @@ void Landmarks::collect(const CameraModel& camera, std::span<const FeatureTrack>
     if (!inKey) continue;
     const glm::dvec3 inCamera = transform(cameraFromKey, *inKey);
     if (!(inCamera.z > 1e-3)) continue;
-    // One sigma of the inverse depth moves the point so far along its ray.
+    // One sigma of the inverse depth moves the point this far along its ray.
     const glm::dvec3 bySigma = glm::dmat3(cameraFromKey) * (*inKey * -landmark->sigma);
     const glm::dvec2 byDepth = camera.projectWithJacobian(inCamera).pxByCameraPoint * bySigma;
     points_.push_back({.target = transform(targetFromKey, *inKey),
@@ -162,7 +165,7 @@ void Landmarks::collect(const CameraModel& camera, std::span<const FeatureTrack>
   }
 }
 
-/// Leaves the points that agree with a pose; how many there are.
+/// Keeps only the points that agree with a pose; returns their number.
 std::size_t Landmarks::keepAgreeing(const CameraModel& camera, const glm::dmat4& cameraFromTarget,
                                     double noisePx) {
   const auto errorOf = [&](const Correspondence& point) {
@@ -174,7 +177,7 @@ std::size_t Landmarks::keepAgreeing(const CameraModel& camera, const glm::dmat4&
   for (const Correspondence& point : points_) errors_.push_back(errorOf(point));
   std::ranges::nth_element(errors_, errors_.begin() + std::ssize(errors_) / 2);
   const double median = errors_[errors_.size() / 2];
-  const double most = std::max({kLeastAgreePx, kAgreeSigmas * noisePx, 3.0 * median});
+  const double most = std::max({kMinAgreementPx, kAgreeSigmas * noisePx, 3.0 * median});
   std::erase_if(points_, [&](const Correspondence& point) { return errorOf(point) > most; });
   return points_.size();
 }
@@ -185,14 +188,14 @@ std::optional<LandmarkPose> Landmarks::solve(const CameraModel& camera,
                                              const glm::dmat4& keyFromTarget, double noisePx) {
   collect(camera, tracks, start, keyFromTarget, noisePx);
   const std::size_t found = points_.size();
-  if (found < kLeastUsed) return std::nullopt;
+  if (found < kMinUsed) return std::nullopt;
   const auto first = refinePose(camera, points_, start, kFirstHuberPx);
   if (!first) return std::nullopt;
-  // Whitening was made for where the target was before: once more for where it is.
+  // Whitening was computed for the target's earlier position: repeat for this one.
   collect(camera, tracks, first->cameraFromTarget, keyFromTarget, noisePx);
   const std::size_t used = keepAgreeing(camera, first->cameraFromTarget, noisePx);
   const double share = static_cast<double>(used) / static_cast<double>(found);
-  if (used < kLeastUsed || share < kLeastShare) return std::nullopt;
+  if (used < kMinUsed || share < kMinShare) return std::nullopt;
   const auto second = refinePose(camera, points_, first->cameraFromTarget, 4.0 * noisePx);
   if (!second) return std::nullopt;
   return LandmarkPose{.estimate = *second, .used = used, .usedShare = share};
@@ -213,12 +216,12 @@ void Landmarks::learn(const CameraModel& camera, std::span<const FeatureTrack> t
     if (!(inCamera.z > 1e-3)) continue;
     const Projection shown = camera.projectWithJacobian(inCamera);
     const glm::dvec2 error = track.px - shown.px;
-    // By a change of `correction`: the inverse depth grows in proportion, the point comes nearer.
+    // With `correction` the inverse depth grows in proportion, and the point comes nearer.
     const double share = 1.0 / (1.0 + landmark->correction);
     const glm::dvec2 by = shown.pxByCameraPoint * (glm::dmat3(cameraFromKey) * (*inKey * -share));
     const double predicted = glm::dot(by, by) * landmark->sigma * landmark->sigma;
     if (glm::length(whiteningOf(by * landmark->sigma, noisePx) * error) >
-        std::max(kLeastAgreePx, kAgreeSigmas * noisePx)) {
+        std::max(kMinAgreementPx, kAgreeSigmas * noisePx)) {
       ++landmark->contradictions;
       continue;
     }
@@ -230,7 +233,7 @@ void Landmarks::learn(const CameraModel& camera, std::span<const FeatureTrack> t
     landmark->sigma = std::max(landmark->sigma, kSigmaOnTag);
   }
   std::erase_if(landmarks_, [](const Landmark& landmark) {
-    return landmark.contradictions >= kMostContradictions;
+    return landmark.contradictions >= kMaxContradictions;
   });
 }
 

@@ -9,18 +9,18 @@
 namespace pleinair::tracking {
 namespace {
 
-/// Noise of a refined corner that is assumed at the least.
+/// Least assumed noise of a refined corner.
 constexpr double kCornerNoisePx = 0.2;
-/// What is kept of earlier frames' evidence: errors of neighbouring frames are not independent.
+/// Part of earlier evidence that is kept: errors of neighbouring frames are not independent.
 constexpr double kRemembered = 0.9;
 
-/// For the better of two fits.
+/// Evidence for the better of two fits.
 double evidenceOf(double better, double worse, double residualFreedom) {
   const double variance = std::max(kCornerNoisePx * kCornerNoisePx, better / residualFreedom);
   return (worse - better) / variance;
 }
 
-/// The prior's evidence for the first candidate; negative where it speaks for the second.
+/// The prior's evidence for the first candidate; negative if it favours the second.
 double priorEvidence(std::span<const PoseCandidate> candidates, const PosePrior& prior) {
   const double toFirst = rotationBetweenRad(candidates[0].cameraFromTarget, prior.cameraFromTarget);
   const double toSecond =

@@ -14,11 +14,11 @@ namespace {
 using Matrix6 = cv::Matx<double, 6, 6>;
 using Vector6 = cv::Vec<double, 6>;
 
-/// What a motion is wrong by, as a part of it: depths of features are not known exactly.
+/// Relative error of a motion: depths of features are not known exactly.
 constexpr double kShiftShare = 0.01;
 constexpr double kTurnShare = 0.005;
-/// What of a measurement's covariance adds up from frame to frame.
-constexpr double kKept = 0.01;
+/// Part of a measurement's covariance that accumulates from frame to frame.
+constexpr double kAccumulatedPart = 0.01;
 
 }  // namespace
 
@@ -34,7 +34,7 @@ void PoseFilter::predict(const glm::dmat4& moved, const PoseCovariance& ofMeasur
   kept_ = turned(kept_, turn) +
           isotropic(kTurnShare * glm::length(motion.rotation),
                     kShiftShare * glm::length(motion.shift)) +
-          kKept * ofMeasurement;
+          kAccumulatedPart * ofMeasurement;
   measured_ = ofMeasurement;
   pose_ = moved;
 }

@@ -7,29 +7,31 @@
 
 namespace pleinair::tracking {
 
-/// A Kalman filter of a pose whose motion is not guessed but measured: features say, relative to
-/// their key frame, how the target moved since; tags say where it is. So tags need only correct
-/// what is nearly constant, and their noise is averaged away over many frames without any lag.
-/// The more the target moves, and the less sure the features are, the more a tag counts.
+/// A Kalman filter of a pose with measured motion: features give the target's motion relative to
+/// their key frame, tags give its position. Tags therefore correct only a nearly constant quantity,
+/// and their noise is averaged over many frames without lag. A tag weighs more the more the target
+/// moves and the less certain the features are.
 class PoseFilter {
  public:
   /// Starts at a pose that was seen.
   void start(const PoseEstimate& seen);
 
-  /// The target moved to `moved`, as was measured with this covariance.
+  /// Moves the target to `moved`, measured with this covariance.
   void predict(const glm::dmat4& moved, const PoseCovariance& ofMeasurement);
 
-  /// A tag was seen. `doubt` ≥ 1 widens what was predicted, where the two do not agree.
+  /// Corrects the pose by a tag that was seen. `doubt` ≥ 1 widens the predicted covariance where
+  /// the two addDisagreement.
   void correct(const PoseEstimate& seen, double doubt);
 
   const glm::dmat4& cameraFromTarget() const { return pose_; }
-  /// Of cameraFromTarget().
+  /// Covariance of cameraFromTarget().
   PoseCovariance covariance() const { return kept_ + measured_; }
 
  private:
   glm::dmat4 pose_{1.0};
-  PoseCovariance kept_{};      ///< of what is carried from frame to frame
-  PoseCovariance measured_{};  ///< of the last motion: not kept, as motions refer to a key frame
+  PoseCovariance kept_{};  ///< accumulated from frame to frame
+  /// Of the last motion; not accumulated, since motions refer to a key frame.
+  PoseCovariance measured_{};
 };
 
 }  // namespace pleinair::tracking

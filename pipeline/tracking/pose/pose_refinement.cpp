@@ -15,11 +15,11 @@ namespace {
 using Vector6 = cv::Vec<double, 6>;
 
 constexpr double kNearestMetres = 1e-4;
-constexpr double kLeastCornerNoisePx = 0.1;
+constexpr double kMinCornerNoisePx = 0.1;
 constexpr int kMaxSteps = 30;
 constexpr double kStepTolerance = 1e-10;  // rad and metres
 
-/// Gauss–Newton's normal equations at a pose, and its robust cost.
+/// Normal equations of Gauss–Newton at a pose, and its robust cost.
 struct NormalEquations {
   Matrix6 matrix = Matrix6::zeros();
   Vector6 gradient = Vector6::all(0.0);
@@ -91,7 +91,7 @@ glm::dmat4 moved(const glm::dmat4& pose, const Vector6& step) {
   return out;
 }
 
-/// Rounding adds up over the steps.
+/// Removes the rounding errors that accumulate over the steps.
 glm::dmat4 orthonormalised(const glm::dmat4& pose) {
   const glm::dvec3 x = glm::normalize(glm::dvec3(pose[0]));
   const glm::dvec3 z = glm::normalize(glm::cross(x, glm::dvec3(pose[1])));
@@ -106,15 +106,14 @@ std::optional<Vector6> dampedStep(const NormalEquations& equations, double dampi
   return step;
 }
 
-/// σ² (JᵀJ)⁻¹ with σ from the residuals and the degrees of freedom that are left.
+/// σ² (JᵀJ)⁻¹ with σ from the residuals and the remaining degrees of freedom.
 std::optional<std::array<double, 36>> covarianceOf(const Matrix6& normal, double squaredError,
                                                    std::size_t pointCount) {
   bool isRegular = false;
   const Matrix6 inverse = normal.inv(cv::DECOMP_CHOLESKY, &isRegular);
   if (!isRegular) return std::nullopt;
   const double freedom = std::max(1.0, 2.0 * static_cast<double>(pointCount) - 6.0);
-  const double variance =
-      std::max(squaredError / freedom, kLeastCornerNoisePx * kLeastCornerNoisePx);
+  const double variance = std::max(squaredError / freedom, kMinCornerNoisePx * kMinCornerNoisePx);
   std::array<double, 36> covariance{};
   for (std::size_t i = 0; i < covariance.size(); ++i) covariance[i] = variance * inverse.val[i];
   return covariance;

@@ -13,25 +13,25 @@
 
 namespace pleinair::tracking {
 
-/// A point of the target (a tag or the world; metres) and where the picture shows it (pixels).
+/// A point of the target (a tag or the world; metres) and its position in the image (pixels).
 struct Correspondence {
   glm::dvec3 target;
   glm::dvec2 px;
-  /// Takes an error to px of a plain point's noise: less than one in a direction in which the point
-  /// is less sure.
+  /// Scales an error to px of a plain point's noise: less than one in a direction in which the
+  /// point is less certain.
   glm::dmat2 whitening{1.0};
 };
 
-/// Row-major 6 × 6 covariance of a small motion of a pose's target in camera axes: rotation about
-/// the target's origin (rad), then translation (m).
+/// Row-major 6 × 6 covariance of a small motion of the target in camera axes: rotation about the
+/// target's origin (rad), then translation (m).
 using PoseCovariance = std::array<double, 36>;
 
-/// A pose and how good it is.
+/// A pose and its errors.
 struct PoseEstimate {
   glm::dmat4 cameraFromTarget{1.0};
-  /// Root mean square of the distances of points to their reprojections, in pixels.
+  /// Root mean square reprojection error, in pixels.
   double rmsPx = 0.0;
-  PoseCovariance covariance{};  ///< from the points' whitened residuals, at least 0.1 px
+  PoseCovariance covariance{};  ///< from the points' whitened residuals; at least 0.1 px is assumed
 
   /// Predicted standard deviations over all axes.
   double rotationSigmaRad() const;
@@ -39,8 +39,8 @@ struct PoseEstimate {
 };
 
 /// Minimises the reprojection error from a start (Levenberg–Marquardt; beyond `huberPx` an error
-/// counts linearly, Huber 1964). Nothing where the start shows a point behind the camera or the
-/// points do not determine a pose. Errors are whitened; rmsPx is the plain one.
+/// counts linearly, Huber 1964). Returns nothing where the start shows a point behind the camera or
+/// the points do not determine a pose. Errors are whitened; rmsPx is not.
 std::optional<PoseEstimate> refinePose(const CameraModel& camera,
                                        std::span<const Correspondence> points,
                                        const glm::dmat4& startCameraFromTarget,
@@ -50,7 +50,7 @@ std::optional<PoseEstimate> refinePose(const CameraModel& camera,
 double squaredErrorPx(const CameraModel& camera, std::span<const Correspondence> points,
                       const glm::dmat4& cameraFromTarget);
 
-/// A point of the target in the camera's axes.
+/// Transforms a point of the target into camera axes.
 inline glm::dvec3 transform(const glm::dmat4& cameraFromTarget, const glm::dvec3& target) {
   return glm::dvec3(cameraFromTarget * glm::dvec4(target, 1.0));
 }

@@ -18,14 +18,14 @@ namespace {
 constexpr int kColumns = 10;
 constexpr int kRows = 8;
 constexpr std::size_t kPerTag = 16;
-constexpr double kBorderPx = 6.0;            // of the followed picture
-constexpr double kLargestDifference = 16.0;  // mean grey levels in a feature's window
-constexpr double kBackPx = 0.4;              // from where a feature came
-/// The key frame is stale when so few of its features are found …
-constexpr double kLeastFound = 0.6;
-/// … or these have moved by such a part of the longer side on average …
+constexpr double kBorderPx = 6.0;              // of the followed image
+constexpr double kMaxDifference = 16.0;        // mean difference in a feature's window, grey levels
+constexpr double kMaxForwardBackwardPx = 0.4;  // largest forward-backward error
+/// The key frame is stale when fewer than this part of its features are found …
+constexpr double kMinFoundShare = 0.6;
+/// … or they have moved by this part of the longer side on average …
 constexpr double kFarShift = 0.12;
-/// … or their distances from their middle have changed so much, by turn or zoom.
+/// … or a turn or zoom changed their distances from their centre by this part.
 constexpr double kFarTurn = 0.2;
 
 bool isNear(const cv::Point2f& a, const cv::Point2f& b, double px) {
@@ -43,15 +43,16 @@ struct SurfaceCorners::State {
   PointFollower follower;
   CornerSearch corners;
   std::vector<FeatureTrack> tracks;
-  // Of each track, in the pyramids' px.
+  // Per track, in px of the pyramids.
   std::vector<cv::Point2f> keyPoints;
   std::vector<cv::Point2f> points;
 
   void followAll() {
     follower.follow(*keyPyramid, *pyramid, keyPoints, points);
     for (std::size_t i = 0; i < tracks.size(); ++i) {
-      tracks[i].isFound = follower.isFound(i) && follower.difference(i) < kLargestDifference &&
-                          pyramid->isInside(points[i], kBorderPx) && follower.backPx(i) < kBackPx;
+      tracks[i].isFound = follower.isFound(i) && follower.difference(i) < kMaxDifference &&
+                          pyramid->isInside(points[i], kBorderPx) &&
+                          follower.forwardBackwardPx(i) < kMaxForwardBackwardPx;
       if (tracks[i].isFound) {
         tracks[i].px = pyramid->framePx(points[i]);
       } else {
@@ -61,7 +62,7 @@ struct SurfaceCorners::State {
     shiftLost();
   }
 
-  /// What was not found is looked for next time where the found ones have gone.
+  /// Predicts the positions of lost features for the next frame by the motion of the found ones.
   void shiftLost() {
     glm::dvec2 shift(0.0);
     std::size_t count = 0;
@@ -79,7 +80,7 @@ struct SurfaceCorners::State {
 
   void keepFound() {
     std::erase_if(tracks, [](const FeatureTrack& track) { return !track.isFound; });
-    if (tracks.size() > kMostTracks) tracks.resize(kMostTracks);
+    if (tracks.size() > kMaxTracks) tracks.resize(kMaxTracks);
     for (FeatureTrack& track : tracks) track.keyPx = track.px;
   }
 
@@ -93,7 +94,7 @@ struct SurfaceCorners::State {
     std::size_t added = 0;
     for (std::size_t tries = 0; tries < 2 * most + 2 && added < most; ++tries) {
       cv::Point2f at;
-      if (tracks.size() >= kMostTracks || !corners.takeBest(part, at)) return;
+      if (tracks.size() >= kMaxTracks || !corners.takeStrongest(part, at)) return;
       if (!pyramid->isInside(at, kBorderPx) || !isFree(at)) continue;
       const glm::dvec2 px = pyramid->framePx(at);
       tracks.push_back({.id = nextId++, .keyPx = px, .px = px, .isFound = true});
@@ -101,7 +102,7 @@ struct SurfaceCorners::State {
     }
   }
 
-  /// How many tracks a part of the second level's picture has.
+  /// Number of tracks in a region of the second level's image.
   std::size_t countIn(const cv::Rect& part) const {
     return static_cast<std::size_t>(std::ranges::count_if(tracks, [&](const FeatureTrack& track) {
       const cv::Point2f p = pyramid->ownPx(track.keyPx);
@@ -110,7 +111,7 @@ struct SurfaceCorners::State {
   }
 
   void addNew(std::span<const TagCornersPx> tags) {
-    if (!corners.look(*pyramid)) return;  // too small a picture
+    if (!corners.load(*pyramid)) return;  // the image is too small
     for (const TagCornersPx& tag : tags) {
       cv::Rect2f box(0.5F * pyramid->ownPx(tag[0]), cv::Size2f(1.0F, 1.0F));
       for (const glm::dvec2& px : tag) {
@@ -167,7 +168,7 @@ bool SurfaceCorners::isKeyStale() const {
     to += track.px;
     found += 1.0;
   }
-  if (found < kLeastFound * static_cast<double>(s.tracks.size())) return true;
+  if (found < kMinFoundShare * static_cast<double>(s.tracks.size())) return true;
   if (found == 0.0) return false;  // there is nothing to follow
   from /= found;
   to /= found;

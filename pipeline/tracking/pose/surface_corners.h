@@ -12,23 +12,23 @@ namespace pleinair::tracking {
 
 class LumaPyramid;
 
-/// Tracks that are followed at once.
-inline constexpr std::size_t kMostTracks = 130;
+/// Most tracks that are followed at once.
+inline constexpr std::size_t kMaxTracks = 130;
 
-/// A point of the picture that is followed.
+/// A followed point of the image.
 struct FeatureTrack {
   std::uint32_t id = 0;
-  glm::dvec2 keyPx{0.0};  ///< in the key frame; px of the frame, pixel centres at +0.5, as all here
-  glm::dvec2 px{0.0};     ///< now; where it was found last, if it is not
+  /// Position in the key frame; px of the frame, pixel centres at +0.5, as all positions here.
+  glm::dvec2 keyPx{0.0};
+  glm::dvec2 px{0.0};  ///< position in this frame; the last one found if it is lost
   bool isFound = false;
 };
 
 /// Corners of a key frame (Shi and Tomasi, "Good Features to Track", 1994), followed into each
-/// later one by pyramidal Lucas-Kanade. All is measured from the key frame and not from frame to
-/// frame, so that nothing drifts, and a feature that something has covered is known by its looks
-/// when it comes back. A feature counts as found where its surroundings look as in the key frame
-/// and lead back to where they came from.
-/// One thread at a time.
+/// later frame by pyramidal Lucas-Kanade. Motion is measured from the key frame and not from frame
+/// to frame, so that nothing drifts, and a feature that was covered is recognised by its appearance
+/// when it reappears. A feature counts as found where its window looks as in the key frame and
+/// leads back to its origin. One thread at a time.
 class SurfaceCorners {
  public:
   SurfaceCorners();
@@ -38,19 +38,19 @@ class SurfaceCorners {
   SurfaceCorners(SurfaceCorners&&) = delete;
   SurfaceCorners& operator=(SurfaceCorners&&) = delete;
 
-  /// Follows the key frame's features into the next frame (LumaFrame::pyramid()); none without a
-  /// key frame, or when the size changed.
+  /// Follows the key frame's features into the next frame (LumaFrame::pyramid()); there are none
+  /// without a key frame, or when the size changed.
   void follow(std::shared_ptr<const LumaPyramid> now);
-  /// By rising id; valid until the next call of anything.
+  /// By rising id; valid until the next call of any function.
   std::span<const FeatureTrack> tracks() const;
 
-  /// Whether the key frame shows too little of what this one does: features lost, or gone far.
+  /// Whether the key frame shares too little with this frame: features are lost, or have moved far.
   bool isKeyStale() const;
-  /// The frame followed last becomes the key frame. Its found features go on, under the same id;
-  /// others are forgotten; new ones are sought where there are few, and more of them on `tags`.
+  /// Makes the last followed frame the key frame. Found features keep their id, others are
+  /// forgotten. New ones are added where there are few, more densely on `tags`.
   void makeKey(std::span<const TagCornersPx> tags);
 
-  /// Forgets all.
+  /// Forgets all features and the key frame.
   void reset();
 
  private:

@@ -26,7 +26,7 @@ struct FamilyEntry {
   std::string_view name;
   apriltag_family_t* (*create)();
   void (*destroy)(apriltag_family_t*);
-  /// The library tabulates every code with up to so many flipped bits: two take 36 MB for
+  /// The library tabulates each code with up to this many flipped bits: two take 36 MB for
   /// tag36h11's 587 codes, but gigabytes for tagStandard52h13's 48,714.
   int correctedBits;
 };
@@ -73,12 +73,12 @@ double squaredDistance(const TagCornersPx& a, const TagCornersPx& b) {
   return sum;
 }
 
-/// Around a tag, its white border and what it may have moved by: a third of its size, or more for
-/// small ones. Aligned, so that reduced pictures of a part have the pixels of the whole one's.
+/// The region around a tag: its white border and a margin for motion, a third of the tag's size, or
+/// more for small ones. Aligned, so that a reduced region has the pixels of the reduced image.
 std::optional<PixelRect> partAround(const TagCornersPx& corners, hal::FrameSize size) {
   constexpr double kMargin = 0.35;
-  constexpr double kLeastMarginPx = 16.0;
-  constexpr int kAlignment = 12;  // of all decimations
+  constexpr double kMinMarginPx = 16.0;
+  constexpr int kAlignment = 12;  // a common multiple of all decimations
   glm::dvec2 least = corners[0];
   glm::dvec2 most = corners[0];
   for (const glm::dvec2& corner : corners) {
@@ -86,7 +86,7 @@ std::optional<PixelRect> partAround(const TagCornersPx& corners, hal::FrameSize 
     most = glm::max(most, corner);
   }
   const glm::dvec2 extent = most - least;
-  const glm::dvec2 margin(std::max({kMargin * extent.x, kMargin * extent.y, kLeastMarginPx}));
+  const glm::dvec2 margin(std::max({kMargin * extent.x, kMargin * extent.y, kMinMarginPx}));
   least -= margin;
   most += margin;
   if (!(most.x > 0.0 && most.y > 0.0 && least.x < size.width && least.y < size.height)) {
@@ -172,7 +172,7 @@ void selectDetections(std::vector<TagDetection>& candidates, const TagDetectorOp
   candidates.erase(selectedEnd, candidates.end());
 }
 
-/// The family outlives the detector that uses it: members are destroyed last to first.
+/// The family must outlive the detector that uses it: members are destroyed last to first.
 struct TagDetector::Handles {
   Handles(const FamilyEntry& entry, int maxHamming)
       : family(entry.create(), entry.destroy),
@@ -216,7 +216,7 @@ void findSearchParts(std::span<const ExpectedTag> expected, hal::FrameSize size,
     }
     parts[i] = hull(parts[i], *other);
     parts.erase(other);
-    i = 0;  // what was disjoint may now overlap
+    i = 0;  // regions that were disjoint may overlap now
   }
 }
 
@@ -249,7 +249,7 @@ std::span<const TagDetection> TagDetector::detect(const hal::PlaneView& luma, ha
                                                   std::span<const ExpectedTag> expected) {
   found_.clear();
   if (std::min(size.width, size.height) < kSmallestSearchedSidePx) {
-    ++counters.skippedSmallPicture;  // the library crashes on a few pixels a side
+    ++counters.skippedSmallPicture;  // the library crashes on an image of a few pixels a side
     return {};
   }
   search(luma, size, {.left = 0, .top = 0, .right = size.width, .bottom = size.height});

@@ -14,33 +14,34 @@
 
 namespace pleinair::tracking {
 
-/// The family that is promised to work: others are weaker (16h5 gives false hits) or need far more
-/// memory and time to start (a hundred megabytes and a second for those of 40,000 codes and more).
+/// The supported family. Others are weaker (16h5 gives false hits) or need far more memory and time
+/// to start (a hundred megabytes and a second for those of 40,000 codes and more).
 inline constexpr std::string_view kDefaultTagFamily = "tag36h11";
 
-/// Whether a family of that name can be detected; else an error (kInvalidArgument) with `subject`
-/// that lists those that can.
+/// Checks whether a family of that name can be detected. The error (kInvalidArgument) has `subject`
+/// and lists the families that can.
 hal::Result<void> checkTagFamily(std::string_view family, std::string subject = "tag family");
 
 struct TagDetectorOptions {
   std::string family{kDefaultTagFamily};
-  /// Quads are searched in a picture reduced by this factor (≥ 1); codes are read and edges refined
-  /// at full size. Unset: decimationFor() the picture.
+  /// Quads are searched in an image reduced by this factor (≥ 1); codes are read and edges refined
+  /// at full size. Unset: decimationFor() the image.
   std::optional<double> decimation;
   int threads = 1;
-  /// Corrected bits that are believed, of those that the family's table has (each more takes
+  /// Most corrected bits of an accepted code, up to those in the family's table (each more takes
   /// memory: two 36 MB for tag36h11, one 1 MB). A code with more is no tag.
   int maxHamming = 1;
-  /// Least mean difference of a bit to its decision threshold, in grey levels (0..255). Places
-  /// whose contrast is less than twice this are not searched: no tag there could be believed.
+  /// Least mean distance of a bit from its decision threshold, in grey levels (0..255). Regions
+  /// whose contrast is below twice this are not searched: no tag there would be accepted.
   double minDecisionMargin = 10.0;
 };
 
-/// Pictures with a side below this are not searched.
+/// Images with a side below this are not searched.
 inline constexpr int kSmallestSearchedSidePx = 32;
 
-/// 1 for pictures up to 399 px high (or wide, if that is less), 1.5 up to 699, 2 up to 999, 3
-/// beyond: small tags are found in small pictures, and large ones are searched in few milliseconds.
+/// Returns 1 for images up to 399 px high (or wide, if that is less), 1.5 up to 699, 2 up to 999,
+/// and 3 beyond: small tags are found in small images, and large images are searched in few
+/// milliseconds.
 double decimationFor(hal::FrameSize size);
 
 struct TagDetection {
@@ -50,24 +51,25 @@ struct TagDetection {
   TagCornersPx corners{};       ///< pixel centres at +0.5; order: tagCorners()
 };
 
-/// What became of the quads that read as tags, per picture.
+/// Outcomes of the quads that read as tags, per image.
 struct DetectionCounters {
   std::uint32_t accepted = 0;
-  std::uint32_t rejectedMargin = 0;     ///< bits too close to their threshold
-  std::uint32_t rejectedDuplicate = 0;  ///< another of its id was expected there, or clearer
+  std::uint32_t rejectedMargin = 0;  ///< bits too close to their threshold
+  /// Another of its id was nearer to the expected position, or clearer.
+  std::uint32_t rejectedDuplicate = 0;
   std::uint32_t skippedSmallPicture = 0;
 
   DetectionCounters& operator+=(const DetectionCounters& other);
   friend bool operator==(const DetectionCounters&, const DetectionCounters&) = default;
 };
 
-/// Where a tag should be, by what is known from before.
+/// The expected position of a tag, from earlier frames.
 struct ExpectedTag {
   int id = 0;
   TagCornersPx corners{};
 };
 
-/// A part of a picture, from (left, top) to before (right, bottom).
+/// A region of an image, from (left, top) to before (right, bottom).
 struct PixelRect {
   int left = 0;
   int top = 0;
@@ -75,13 +77,14 @@ struct PixelRect {
   int bottom = 0;
 };
 
-/// Where to look for expected tags: rectangles that hold one or more of them with what they may
-/// have moved by, within the picture and disjoint; none for tags that are not in it.
+/// Finds the regions in which to search for expected tags: disjoint rectangles within the image,
+/// each with one or more tags and a margin for their motion. Tags outside of the image get none.
 void findSearchParts(std::span<const ExpectedTag> expected, hal::FrameSize size,
                      std::vector<PixelRect>& parts);
 
-/// Leaves the accepted of `candidates`, by rising id, each id once: of several the one that is
-/// where the tag is expected, or else whose margin is largest. Counts the others by reason.
+/// Keeps the accepted `candidates`, by rising id, each id once: of several with one id, the one at
+/// the tag's expected position, or else the one with the largest margin. Counts the others by
+/// reason.
 void selectDetections(std::vector<TagDetection>& candidates, const TagDetectorOptions& options,
                       DetectionCounters& counters, std::span<const ExpectedTag> expected = {});
 
@@ -99,20 +102,20 @@ class TagDetector {
 
   const TagDetectorOptions& options() const { return options_; }
 
-  /// The tags in a luma plane of `size`, by rising id, each id once; valid until the next call.
-  /// Adds to `counters`.
+  /// Detects the tags in a luma plane of `size`. Returns them by rising id, each id once; valid
+  /// until the next call. Adds to `counters`.
   std::span<const TagDetection> detect(const hal::PlaneView& luma, hal::FrameSize size,
                                        DetectionCounters& counters,
                                        std::span<const ExpectedTag> expected = {});
 
-  /// The same, but looks only where tags are expected, and a little around: a fraction of the time.
+  /// The same, but searches only around expected tags, which takes a fraction of the time.
   std::span<const TagDetection> detectExpected(const hal::PlaneView& luma, hal::FrameSize size,
                                                DetectionCounters& counters,
                                                std::span<const ExpectedTag> expected);
 
  private:
   struct Handles;
-  /// Searches a part of the picture and adds what it finds to found_.
+  /// Searches a region of the image and adds the tags to found_.
   void search(const hal::PlaneView& luma, hal::FrameSize size, const PixelRect& part);
 
   TagDetectorOptions options_;

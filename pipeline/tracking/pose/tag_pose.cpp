@@ -9,7 +9,7 @@
 namespace pleinair::tracking {
 namespace {
 
-/// Twins nearer to each other than this are one pose that was refined from two starts.
+/// Alternatives nearer than this are one pose that was refined from two starts.
 constexpr double kSamePoseRad = 1e-4;
 
 glm::dmat4 toPose(const cv::Mat& rotationVector, const cv::Mat& translation) {
@@ -23,20 +23,20 @@ glm::dmat4 toPose(const cv::Mat& rotationVector, const cv::Mat& translation) {
   return pose;
 }
 
-/// Whether corners in tagCorners()' order show the front of a square: against the clock (the area
-/// that any three enclose is negative, y down), and none in line with its neighbours.
+/// Whether corners in tagCorners()' order show the front of a square: counter-clockwise (the area
+/// that any three enclose is negative, y down), and none collinear with its neighbours.
 bool showFront(const TagCornersPx& corners) {
-  constexpr double kLeastAreaPx = 0.5;
+  constexpr double kMinAreaPx = 0.5;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const glm::dvec2 in = corners[(i + 1) % 4] - corners[i];
     const glm::dvec2 out = corners[(i + 2) % 4] - corners[(i + 1) % 4];
-    if (!(in.x * out.y - in.y * out.x < -kLeastAreaPx)) return false;
+    if (!(in.x * out.y - in.y * out.x < -kMinAreaPx)) return false;
   }
   return true;
 }
 
-/// IPPE's up to two poses from rays (x, y, 1). OpenCV asks for a square's corners as (−, +),
-/// (+, +), (+, −), (−, −) and takes their axes as it finds them, so tagCorners() serves as it is.
+/// Up to two poses by IPPE from rays (x, y, 1). OpenCV asks for a square's corners as (−, +), (+,
+/// +), (+, −), (−, −) and takes their axes as given, so tagCorners() fits as it is.
 FixedVector<glm::dmat4, 2> ippePoses(const std::array<cv::Point2d, 4>& rays, double edgeMetres) {
   std::array<cv::Point3d, 4> object;
   std::ranges::transform(tagCorners(edgeMetres), object.begin(),
@@ -85,7 +85,7 @@ PoseCandidates tagPoseCandidates(const CameraModel& camera, const TagCornersPx& 
     if (!isKnown) candidates.add(*refined);
   }
   if (!std::ranges::is_sorted(candidates, {}, &PoseEstimate::rmsPx)) {
-    std::ranges::reverse(candidates);  // two at the most
+    std::ranges::reverse(candidates);  // two at most
   }
   return candidates;
 }

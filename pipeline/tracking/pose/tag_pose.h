@@ -13,7 +13,7 @@
 
 namespace pleinair::tracking {
 
-/// Up to N values in place: what a frame's work makes without allocating.
+/// Up to N values in place, for per-frame work without allocation.
 template <class T, std::size_t N>
 class FixedVector {
  public:
@@ -39,28 +39,29 @@ class FixedVector {
   std::size_t size_ = 0;
 };
 
-/// The pose of one tag: cameraFromTarget is cameraFromTag, in the frame of tagCorners().
+/// The pose of one tag; cameraFromTarget is cameraFromTag, in the frame of tagCorners().
 struct TagPose {
   PoseEstimate estimate;
-  std::optional<PoseEstimate> alternative;  ///< the one that was rejected
+  std::optional<PoseEstimate> alternative;  ///< the rejected one
   AmbiguityResolution choice = AmbiguityResolution::kOnly;
-  double ambiguityEvidence = kLoneEvidence;  ///< for this one against its alternative
+  double ambiguityEvidence = kLoneEvidence;  ///< for this pose against its alternative
 };
 
-/// A tag's corners in its own frame and in the picture.
+/// A tag's corners in its own frame and in the image.
 std::array<Correspondence, 4> tagCorrespondences(const TagCornersPx& corners, double edgeMetres);
 
-/// A square's pose and its alternative.
+/// The pose of a square and its alternative.
 using PoseCandidates = FixedVector<PoseEstimate, 2>;
 
-/// The one or two poses that explain a tag's corners, the better fit first; none where the corners
-/// are degenerate. IPPE (Collins and Bartoli, "Infinitesimal Plane-Based Pose Estimation", IJCV
-/// 2014; OpenCV's SOLVEPNP_IPPE_SQUARE) on undistorted corners, both then refined in pixels.
+/// Returns the one or two poses that explain a tag's corners, the better fit first; none where the
+/// corners are degenerate. IPPE (Collins and Bartoli, "Infinitesimal Plane-Based Pose Estimation",
+/// IJCV 2014; OpenCV's SOLVEPNP_IPPE_SQUARE) on undistorted corners; both are then refined in
+/// pixels.
 PoseCandidates tagPoseCandidates(const CameraModel& camera, const TagCornersPx& corners,
                                  double edgeMetres);
 
-/// One of tagPoseCandidates(), the wrong alternative rejected; nothing of none. `prior`: the
-/// cameraFromTag that other tags of the world or the previous frame suggest.
+/// Chooses one of tagPoseCandidates() and rejects its alternative; nothing if there is none.
+/// `prior`: the cameraFromTag suggested by the world's other tags or by the previous frame.
 std::optional<TagPose> chooseTagPose(const PoseCandidates& candidates,
                                      const std::optional<PosePrior>& prior);
 

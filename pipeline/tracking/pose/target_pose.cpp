@@ -9,25 +9,25 @@
 namespace pleinair::tracking {
 namespace {
 
-/// A feature's noise in pictures up to 640 px wide; those of wider ones are followed reduced.
+/// A feature's noise in images up to 640 px wide; wider ones are reduced to follow features.
 constexpr double kFeatureNoisePx = 0.12;
 constexpr double kFollowedSidePx = 640.0;
-/// The part of a sighting's variance that others from the same place share, so that no filter
-/// averages it away: what a corner's edges, lens and pixels do to it (docs/measured.md).
+/// The part of a sighting's variance that all sightings from one position share, so that no filter
+/// averages it away: the effect of edges, lens and pixels on a corner (docs/measured.md).
 constexpr double kShared = 0.15;
-/// A sighting further than this from what was predicted, in sigmas and px, puts that in doubt.
+/// A sighting further than this from the prediction, in sigmas and px, casts doubt on it.
 constexpr double kDoubtSigmas = 3.0;
 constexpr double kDoubtPx = 0.5;
-/// So many doubts in a row say that the target does not move with the features around it.
-constexpr int kManyDoubts = 4;
+/// After this many doubts in a row the target does not move with the features around it.
+constexpr int kMaxDoubts = 4;
 constexpr auto kAloneFor = std::chrono::seconds(2);
-/// How fast the mean of differences follows them, and how far it may lie from zero, in sigmas of
-/// one (by chance: a third of one).
+/// Rate at which the mean difference follows new ones, and its largest expected distance from zero,
+/// in sigmas of one (by chance: a third of one).
 constexpr double kBiasRate = 0.2;
 constexpr double kBiasSigmas = 0.4;
-/// Jumps larger than this part of the picture are cuts: not blended.
-constexpr double kLargestBlend = 0.1;
-/// Without features: what is left of a velocity after a second, and what it is good for.
+/// Jumps larger than this part of the image are cuts and not blended.
+constexpr double kMaxBlendedJump = 0.1;
+/// Without features: the part of a velocity left after a second, and its standard deviation.
 constexpr double kVelocityKept = 1e-4;
 constexpr double kGuessPx = 3.0;
 
@@ -87,7 +87,7 @@ void TargetPose::predict(const CameraModel& camera, std::span<const FeatureTrack
   if (moved) {
     moveByFeatures(*moved);
   } else {
-    moveOn(camera, step);
+    extrapolate(camera, step);
   }
   velocity_ = (1.0 / step) * motionBetween(before_, filter_.cameraFromTarget());
   last_ = now;
@@ -99,8 +99,8 @@ void TargetPose::moveByFeatures(const LandmarkPose& moved) {
   rmsPx_ = moved.estimate.rmsPx;
 }
 
-/// On as before, ever slower.
-void TargetPose::moveOn(const CameraModel& camera, double step) {
+/// Continues the last motion, ever slower.
+void TargetPose::extrapolate(const CameraModel& camera, double step) {
   const double kept = std::pow(kVelocityKept, step);
   const glm::dmat4 guess = movedBy(filter_.cameraFromTarget(), (kept * step) * velocity_);
   const double distance = std::max(0.01, guess[3].z);
@@ -137,15 +137,14 @@ void TargetPose::see(const CameraModel& camera, std::span<const FeatureTrack> tr
   if (drawnBefore) {
     const double jump = rmsDistancePx(camera, filter_.cameraFromTarget(),
                                       drawnBefore->cameraFromTarget, modelPoints);
-    const bool isCut = !(jump < kLargestBlend * longSidePx(camera));
+    const bool isCut = !(jump < kMaxBlendedJump * longSidePx(camera));
     offset_ =
         isCut ? Twist{} : motionBetween(filter_.cameraFromTarget(), drawnBefore->cameraFromTarget);
     blendFrom_ = now;
   }
 }
 
-/// The more sightings lie, now or all lately, on one side of what was predicted, the more they
-/// count.
+/// Sightings count more the more of them, now or recently, lie on one side of the prediction.
 void TargetPose::correct(const CameraModel& camera, const PoseEstimate& seen,
                          std::span<const glm::dvec3> modelPoints, hal::TimePoint now) {
   const glm::dmat4 predicted = filter_.cameraFromTarget();
@@ -158,7 +157,7 @@ void TargetPose::correct(const CameraModel& camera, const PoseEstimate& seen,
 
   const bool isDoubtful = apart > std::max(kDoubtPx, kDoubtSigmas * expected);
   const double byBias = bias / (kBiasSigmas * expected);
-  if (!std::isfinite(byBias)) {  // beyond the camera: nothing of the past holds
+  if (!std::isfinite(byBias)) {  // beyond the camera: no earlier estimate holds
     bias_ = {};
     return filter_.start(seen);
   }
@@ -168,8 +167,9 @@ void TargetPose::correct(const CameraModel& camera, const PoseEstimate& seen,
   if (apart > 0.0) bias_ = std::min(1.0, left / apart) * bias_;
 
   doubts_ = isDoubtful ? doubts_ + 1 : 0;
-  if (doubts_ >= kManyDoubts) {
-    if (!movesAlone_) isAnchored_ = false;  // again, with what lies on its tags only
+  if (doubts_ >= kMaxDoubts) {
+    // Anchor again, with landmarks on the target's tags only.
+    if (!movesAlone_) isAnchored_ = false;
     movesAlone_ = true;
     movedAlone_ = now;
   } else if (movesAlone_ && now - movedAlone_ > kAloneFor) {
@@ -195,7 +195,7 @@ void TargetPose::anchor(const CameraModel& camera, std::span<const FeatureTrack>
 }
 
 /// Falls smoothly from one to zero.
-double TargetPose::partOfBlend(hal::TimePoint now) const {
+double TargetPose::blendWeight(hal::TimePoint now) const {
   const double over = seconds(options_.blendOver);
   const double t = over > 0.0 ? std::clamp(seconds(now - blendFrom_) / over, 0.0, 1.0) : 1.0;
   return 1.0 - t * t * (3.0 - 2.0 * t);
@@ -204,7 +204,7 @@ double TargetPose::partOfBlend(hal::TimePoint now) const {
 std::optional<PoseEstimate> TargetPose::drawn(hal::TimePoint now) const {
   std::optional<PoseEstimate> out = predicted();
   if (!out) return out;
-  const Twist offset = partOfBlend(now) * offset_;
+  const Twist offset = blendWeight(now) * offset_;
   out->cameraFromTarget = movedBy(out->cameraFromTarget, offset);
   out->covariance = out->covariance + shared_ +
                     isotropic(glm::length(offset.rotation), glm::length(offset.shift));

@@ -42,14 +42,14 @@ std::array<Rejection, 8> rejections(const TrackingCounters& counters) {
 
 namespace {
 
-/// Key frames are made no more often than this, unless something new is seen.
+/// Least time between two key frames, unless something new is seen.
 constexpr hal::Duration kKeyPeriod = std::chrono::milliseconds(60);
 
-/// How often a picture without tags is searched for mirrored ones.
+/// Time between two searches for mirrored tags while no tag is seen.
 constexpr hal::Duration kMirrorPeriod = std::chrono::seconds(1);
 
 /// The corners of a cube on a tag.
-std::vector<glm::dvec3> standingOn(double edgeMetres) {
+std::vector<glm::dvec3> cubeOn(double edgeMetres) {
   std::vector<glm::dvec3> points;
   for (const double height : {0.0, edgeMetres}) {
     for (const glm::dvec3& foot : tagCorners(edgeMetres)) {
@@ -59,8 +59,8 @@ std::vector<glm::dvec3> standingOn(double edgeMetres) {
   return points;
 }
 
-/// Where a tag appears; nothing where it does not: behind the camera, or far beside the picture,
-/// where a lens' model may fold it back.
+/// Projected corners of a tag; nothing where it is behind the camera or far beside the image, where
+/// a lens model may fold it back.
 std::optional<TagCornersPx> projectedCorners(const CameraModel& camera,
                                              const glm::dmat4& cameraFromTag, double edgeMetres) {
   const auto points = tagCorners(edgeMetres);
@@ -83,7 +83,7 @@ bool isInside(const TagCornersPx& corners, const CameraModel& camera) {
   });
 }
 
-double leastEdge(const TagCornersPx& corners) {
+double shortestEdgePx(const TagCornersPx& corners) {
   double least = glm::distance(corners[3], corners[0]);
   for (std::size_t i = 0; i < 3; ++i) {
     least = std::min(least, glm::distance(corners[i], corners[i + 1]));
@@ -116,7 +116,7 @@ Tracker::Tracker(std::optional<CameraModel> camera, std::vector<TagMarker> marke
       isWithWorld_(markers_.size()),
       isSeen_(markers_.size()) {
   for (const TagMarker& marker : markers_) {
-    models_.push_back(standingOn(marker.edgeMetres));
+    models_.push_back(cubeOn(marker.edgeMetres));
     if (!marker.worldFromTag) continue;
     worldPlanes_.push_back(
         {.targetFromTag = *marker.worldFromTag, .edgeMetres = marker.edgeMetres});
@@ -133,7 +133,7 @@ void Tracker::reset() {
   features_.reset();
   tags_.clear();
   expected_.clear();
-  searched_.reset();
+  lastFullSearch_.reset();
   searchedMirrored_.reset();
 }
 
@@ -162,7 +162,7 @@ TrackingResult Tracker::track(LumaFrame& frame, hal::TimePoint captureTime) {
   return result;
 }
 
-/// Follows features, and with them what is known, into this frame.
+/// Follows features into this frame and predicts all known poses with them.
 void Tracker::predict(LumaFrame& frame, hal::TimePoint now) {
   if (markers_.empty()) return;
   if (options_.poses.filters || options_.poses.carries) features_.follow(frame.pyramid());
@@ -171,8 +171,8 @@ void Tracker::predict(LumaFrame& frame, hal::TimePoint now) {
   expectTags(now);
 }
 
-/// Where tags should be, by what was known before this frame: those of the scene as predicted,
-/// others where they were.
+/// Expected positions of tags from before this frame: predicted ones for tags of the scene, the
+/// last ones for others.
 void Tracker::expectTags(hal::TimePoint now) {
   expected_.clear();
   for (const TrackedTag& tag : tags_) {
@@ -192,13 +192,13 @@ void Tracker::findTags(const hal::PlaneView& luma, hal::FrameSize size, hal::Tim
     takeTags(detector_.detectExpected(luma, size, counters_.detection, expected_));
     if (!tags_.empty()) return;
   }
-  searched_ = now;
+  lastFullSearch_ = now;
   takeTags(detector_.detect(luma, size, counters_.detection, expected_));
   if (tags_.empty()) searchMirrored(luma, size, now);
 }
 
-/// A camera that mirrors its picture shows no tag at all. Once a second without any, that is looked
-/// for, so that the counters can say it.
+/// A camera that mirrors its image shows no readable tag. After each second without tags, searches
+/// the mirrored image, so that the counters can report it.
 void Tracker::searchMirrored(const hal::PlaneView& luma, hal::FrameSize size, hal::TimePoint now) {
   if (markers_.empty() || std::min(size.width, size.height) < kSmallestSearchedSidePx) return;
   const bool isEarly =
@@ -220,10 +220,10 @@ void Tracker::searchMirrored(const hal::PlaneView& luma, hal::FrameSize size, ha
   }
 }
 
-/// Whether to search the whole picture: nothing is known, something is missed, or it is time.
+/// Whether to search the whole image: nothing is known, a tag is missing, or the period is over.
 bool Tracker::needsSearch(hal::TimePoint now) const {
-  if (expected_.empty() || !searched_ || now <= *searched_) return true;
-  return now - *searched_ >= (isMissing_ ? options_.searchPeriod / 2 : options_.searchPeriod);
+  if (expected_.empty() || !lastFullSearch_ || now <= *lastFullSearch_) return true;
+  return now - *lastFullSearch_ >= (isMissing_ ? options_.searchPeriod / 2 : options_.searchPeriod);
 }
 
 void Tracker::takeTags(std::span<const TagDetection> detections) {
@@ -246,7 +246,7 @@ void Tracker::findSightings() {
       ++counters_.unknownTags;
       continue;
     }
-    if (leastEdge(tags_[i].corners) < options_.leastEdgePx) {
+    if (shortestEdgePx(tags_[i].corners) < options_.minEdgePx) {
       ++counters_.smallTags;
       continue;
     }
@@ -307,8 +307,8 @@ void Tracker::missTags(hal::TimePoint now) {
   }
 }
 
-/// Makes this frame the features' key frame where the old one shows too little of it, or where
-/// something was seen for the first time.
+/// Makes this frame the features' key frame where the old one shares too little with it, or where a
+/// target was seen for the first time.
 void Tracker::keepKeyFrame(hal::TimePoint now) {
   if (markers_.empty() || !(options_.poses.filters || options_.poses.carries)) return;
   bool isNew = world_.pose.needsLandmarks();
@@ -325,7 +325,7 @@ void Tracker::keepKeyFrame(hal::TimePoint now) {
   }
 }
 
-/// A tag's own plane, and those of the other tags, if they stand still together.
+/// Collects a tag's own plane, and those of the other tags if they stand still together.
 void Tracker::findPlanes(std::size_t marker) {
   planes_.clear();
   const std::optional<PoseEstimate> own = targets_[marker].pose.predicted();
@@ -340,12 +340,12 @@ void Tracker::findPlanes(std::size_t marker) {
   }
 }
 
-/// A marker's pose: the world's, or its own.
+/// Pose of a marker to draw with: from the world, or its own.
 std::optional<PoseEstimate> Tracker::drawnTag(std::size_t marker, hal::TimePoint now) const {
   return isWithWorld_[marker] != 0 ? worldTag(marker, now) : targets_[marker].pose.drawn(now);
 }
 
-/// Where the world puts a marker.
+/// Pose of a marker as its place in the world gives it.
 std::optional<PoseEstimate> Tracker::worldTag(std::size_t marker, hal::TimePoint now) const {
   if (!markers_[marker].worldFromTag) return std::nullopt;
   std::optional<PoseEstimate> pose = world_.pose.drawn(now);

@@ -18,7 +18,7 @@ cv::Matx33d crossMatrix(const glm::dvec3& v) {
   return {0.0, -v.z, v.y, v.z, 0.0, -v.x, -v.y, v.x, 0.0};
 }
 
-/// An orthonormal basis out of one that rounding has bent.
+/// Removes rounding errors from an orthonormal basis.
 glm::dmat3 orthonormal(const glm::dmat3& m) {
   const glm::dvec3 x = glm::normalize(m[0]);
   const glm::dvec3 z = glm::normalize(glm::cross(x, m[1]));

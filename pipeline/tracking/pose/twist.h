@@ -9,8 +9,8 @@
 
 namespace pleinair::tracking {
 
-/// A small motion of a pose's target in camera axes: a rotation vector about the target's origin
-/// (rad), then a shift (metres). What PoseCovariance is the covariance of.
+/// A small motion of a pose's target in camera axes (an se(3) increment): a rotation vector about
+/// the target's origin (rad), then a shift (metres). PoseCovariance is the covariance of a twist.
 struct Twist {
   glm::dvec3 rotation{0.0};
   glm::dvec3 shift{0.0};
@@ -24,22 +24,22 @@ struct Twist {
 };
 
 glm::dmat4 movedBy(const glm::dmat4& pose, const Twist& motion);
-/// What takes `from` to `to`.
+/// The twist that moves `from` to `to`.
 Twist motionBetween(const glm::dmat4& from, const glm::dmat4& to);
 /// Inverse of a rigid pose.
 glm::dmat4 rigidInverse(const glm::dmat4& pose);
 
-/// The covariance of the same motion as seen at another point of the target, `arm` from its origin
-/// in camera axes: a turn about the one shifts the other.
+/// Covariance of the same motion at another point of the target, `arm` from its origin in camera
+/// axes: a turn about one point shifts the other.
 PoseCovariance atPoint(const PoseCovariance& covariance, const glm::dvec3& arm);
-/// In axes turned by `rotation`.
+/// The covariance in axes turned by `rotation`.
 PoseCovariance turned(const PoseCovariance& covariance, const glm::dmat3& rotation);
 PoseCovariance operator+(const PoseCovariance& a, const PoseCovariance& b);
 PoseCovariance operator*(double factor, const PoseCovariance& covariance);
-/// Independent errors of these standard deviations.
+/// Covariance of independent errors with these standard deviations.
 PoseCovariance isotropic(double rotationRad, double shiftMetres);
 
-/// Predicted mean squared distance in pixels (px²) of where a camera shows a target's points.
+/// Predicted mean squared error (px²) of a target's projected points.
 double projectedVariancePx(const CameraModel& camera, const glm::dmat4& cameraFromTarget,
                            const PoseCovariance& covariance, std::span<const glm::dvec3> points);
 

@@ -11,18 +11,18 @@
 namespace pleinair::tracking {
 namespace {
 
-/// A tag whose corners are further than this (RMS) from where the others put it contradicts them,
-/// and is left out of the solution.
+/// A tag whose corners are further than this (RMS) from the position that the others give it
+/// contradicts them and is left out of the solution.
 constexpr double kContradictionPx = 4.0;
-/// One small tag's own pose is good for no more than this at the other end of the picture. Further
-/// away, a tag counts no more than this in a hypothesis' score.
+/// Error of one small tag's own pose at the other end of the image, at most. A tag further away
+/// counts only this much in a hypothesis' score.
 constexpr double kHypothesisPx = 12.0;
 constexpr double kHuberPx = 1.5;
 /// Hypotheses nearer to each other than this are the same solution.
 constexpr double kSamePoseRad = 0.03;
 constexpr int kMaxRounds = 8;
-/// Hypotheses that are refined, the best first: two are wanted, and a contradicting tag's come in
-/// between.
+/// Hypotheses that are refined, best first: two are wanted, and those of a contradicting tag come
+/// in between.
 constexpr int kMaxRefined = 8;
 
 using TagPoints = std::array<Correspondence, 4>;
@@ -49,7 +49,7 @@ bool WorldPoseSolver::Solution::isNear(const glm::dmat4& cameraFromWorld) const 
   return rotationBetweenRad(estimate.cameraFromTarget, cameraFromWorld) < kSamePoseRad;
 }
 
-/// All tags' poses as the camera's, best first.
+/// Collects all tags' poses as poses of the camera, best first.
 void WorldPoseSolver::collectHypotheses(const CameraModel& camera, std::span<const WorldTag> tags) {
   hypotheses_.clear();
   for (const WorldTag& tag : tags) {
@@ -66,7 +66,7 @@ void WorldPoseSolver::collectHypotheses(const CameraModel& camera, std::span<con
   std::ranges::sort(hypotheses_, {}, &Hypothesis::score);
 }
 
-/// Which tags are where the pose puts them, to so many pixels.
+/// Marks the tags that a pose projects to within `tolerancePx` of their corners.
 void WorldPoseSolver::judge(const CameraModel& camera, const glm::dmat4& pose, double tolerancePx,
                             Agreement& agrees) const {
   agrees.clear();
@@ -75,8 +75,8 @@ void WorldPoseSolver::judge(const CameraModel& camera, const glm::dmat4& pose, d
   }
 }
 
-/// Refines over the tags that agree with the start, and again over those that then do, until these
-/// are the same. False where the last of them are lost on the way.
+/// Refines over the tags that agree with the start, then over those that agree with the result,
+/// until the set does not change. Returns false if all are lost on the way.
 bool WorldPoseSolver::refineFrom(const CameraModel& camera, const glm::dmat4& start,
                                  double tolerancePx, Solution& solution) {
   judge(camera, start, tolerancePx, solution.agrees);
@@ -98,9 +98,9 @@ bool WorldPoseSolver::refineFrom(const CameraModel& camera, const glm::dmat4& st
   return true;
 }
 
-/// With a wide tolerance all sound tags come in although the hypothesis is crude, but a moved one
-/// may bend the pose until none agrees; the narrow one lets tags in one after another. Null where
-/// neither comes to an end.
+/// A wide tolerance admits all valid tags although the hypothesis is crude, but a moved tag may
+/// bend the pose until none agrees; the narrow one admits tags one after another. Returns null
+/// where neither converges.
 WorldPoseSolver::Solution* WorldPoseSolver::refine(const CameraModel& camera,
                                                    const glm::dmat4& start) {
   const bool hasWide = refineFrom(camera, start, kHypothesisPx, wide_);
@@ -111,8 +111,8 @@ WorldPoseSolver::Solution* WorldPoseSolver::refine(const CameraModel& camera,
   return hasNarrow ? &narrow_ : nullptr;
 }
 
-/// Takes a solution that explains more tags than the one there is, or is its alternative: it
-/// explains as many by a pose turned otherwise.
+/// Accepts a solution that explains more tags than the current one, or that is its alternative: it
+/// explains as many with another rotation.
 void WorldPoseSolver::accept(Solution& solution) {
   if (solutionCount_ == 0 || solution.agreeing() > solutions_[0].agreeing()) {
     std::swap(solutions_[0], solution);
@@ -123,7 +123,7 @@ void WorldPoseSolver::accept(Solution& solution) {
   }
 }
 
-/// The better fit first.
+/// Orders the solutions by fit, the better one first.
 void WorldPoseSolver::findSolutions(const CameraModel& camera) {
   solutionCount_ = 0;
   int refinedCount = 0;
@@ -137,7 +137,7 @@ void WorldPoseSolver::findSolutions(const CameraModel& camera) {
     if (Solution* const solution = refine(camera, hypothesis.cameraFromWorld)) accept(*solution);
   }
   if (!std::ranges::is_sorted(solutions(), {}, &Solution::squaredErrorPx)) {
-    std::ranges::reverse(solutions());  // two at the most
+    std::ranges::reverse(solutions());  // two at most
   }
 }
 
@@ -150,7 +150,8 @@ std::optional<WorldPose> WorldPoseSolver::solve(const CameraModel& camera,
   findSolutions(camera);
   if (solutionCount_ == 0) return std::nullopt;
 
-  // Errors over different tags do not say which solution is right: such two stay ambiguous.
+  // Errors over different sets of tags do not tell which solution is right: the choice stays
+  // ambiguous.
   const Solution& first = solutions_.front();
   FixedVector<PoseCandidate, 2> alternatives;
   for (const Solution& each : solutions()) {

@@ -16,29 +16,30 @@
 
 namespace pleinair::tracking {
 
-/// A tag whose place in the world is known, and how the picture shows it.
+/// A tag whose place in the world is known, and its appearance in the image.
 struct WorldTag {
   glm::dmat4 worldFromTag{1.0};
   double edgeMetres = 0.0;
   TagCornersPx corners{};
-  PoseCandidates candidates;  ///< tagPoseCandidates()
+  PoseCandidates candidates;  ///< from tagPoseCandidates()
 };
 
 struct WorldPose {
   PoseEstimate estimate;  ///< cameraFromTarget is cameraFromWorld
   AmbiguityResolution choice = AmbiguityResolution::kOnly;
-  double ambiguityEvidence = kLoneEvidence;  ///< for this one against its alternative
-  /// For each tag 1 where it was used, 0 where it contradicts those; valid until the next solve().
+  double ambiguityEvidence = kLoneEvidence;  ///< for this solution against its alternative
+  /// Per tag: 1 where it was used, 0 where it contradicts the used ones; valid until the next
+  /// solve().
   std::span<const std::uint8_t> agrees;
 };
 
-/// The camera's pose from all tags together. Each tag's poses, alternatives included, are
-/// hypotheses; the two that explain all tags best are refined over all their corners, tags that
-/// contradict are left out, and the wrong one of the two is rejected as for a single tag. Keeps its
-/// buffers from frame to frame, and nothing else; one thread at a time.
+/// Solves the camera's pose from all tags together. Each tag's poses, alternatives included, are
+/// hypotheses; the two that explain all tags best are refined over all their corners. Tags that
+/// contradict them are left out, and the wrong one of the two is rejected as for a single tag.
+/// Keeps its buffers from frame to frame, and no other state; one thread at a time.
 class WorldPoseSolver {
  public:
-  /// Nothing where no tag has a pose.
+  /// Returns nothing where no tag has a pose.
   std::optional<WorldPose> solve(const CameraModel& camera, std::span<const WorldTag> tags,
                                  const std::optional<PosePrior>& prior);
 
@@ -68,13 +69,13 @@ class WorldPoseSolver {
              Agreement& agrees) const;
   std::span<Solution> solutions() { return std::span(solutions_).first(solutionCount_); }
 
-  std::vector<TagPoints> points_;  // of each tag, in the world
+  std::vector<TagPoints> points_;  // per tag, in the world
   std::vector<Hypothesis> hypotheses_;
   std::vector<Correspondence> used_;
   Agreement nextAgrees_;
   Solution wide_;
   Solution narrow_;
-  std::array<Solution, 2> solutions_;  // the one that explains most tags, and its alternative
+  std::array<Solution, 2> solutions_;  // the solution that explains most tags, and its alternative
   std::size_t solutionCount_ = 0;
 };
 

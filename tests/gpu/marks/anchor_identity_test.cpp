@@ -150,7 +150,7 @@ TEST_F(AnchorLife, AllocatesNothingInSteadyState) {
   std::vector<tracking::FeatureMotion> features(200);
   for (std::size_t i = 0; i < features.size(); ++i) {
     const glm::vec2 at(static_cast<float>(i % 20) * 16.0F, static_cast<float>(i / 20) * 24.0F);
-    features[i] = {.then = at, .now = at + glm::vec2(-1.0F, 0.2F), .errorPx = 0.1F};
+    features[i] = {.previous = at, .current = at + glm::vec2(-1.0F, 0.2F), .errorPx = 0.1F};
   }
   ImageMotion motion = panning(-1.0, 0.2);
   motion.features = features;

@@ -22,8 +22,9 @@ namespace pleinair::marks {
 inline constexpr glm::ivec2 kGrid{40, 30};
 inline constexpr int kCellPixels = 8;
 
-inline tracking::ImageMotion following(const glm::dmat3& nowFromThen) {
-  return {.picture = tracking::PictureHomography{.nowFromThen = nowFromThen, .errorPx = 0.01}};
+inline tracking::ImageMotion following(const glm::dmat3& currentFromPrevious) {
+  return {.picture = tracking::ImageHomography{.currentFromPrevious = currentFromPrevious,
+                                               .errorPx = 0.01}};
 }
 inline tracking::ImageMotion panning(double x, double y) {
   return following({1, 0, 0, 0, 1, 0, x, y, 1});

@@ -15,9 +15,10 @@
 namespace pleinair::marks {
 namespace {
 
-tracking::ImageMotion following(const glm::dmat3& nowFromThen) {
+tracking::ImageMotion following(const glm::dmat3& currentFromPrevious) {
   tracking::ImageMotion motion;
-  motion.picture = tracking::PictureHomography{.nowFromThen = nowFromThen, .errorPx = 0.01};
+  motion.picture =
+      tracking::ImageHomography{.currentFromPrevious = currentFromPrevious, .errorPx = 0.01};
   return motion;
 }
 

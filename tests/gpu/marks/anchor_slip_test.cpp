@@ -89,19 +89,19 @@ struct Telling {
 
 constexpr int kNodePixels = 8;
 
-Telling tell(MotionSource source, const glm::dmat3& nowFromThen, hal::FrameSize size) {
+Telling tell(MotionSource source, const glm::dmat3& currentFromPrevious, hal::FrameSize size) {
   Telling told;
-  const glm::dmat3 previousFromCurrent = glm::inverse(nowFromThen);
+  const glm::dmat3 previousFromCurrent = glm::inverse(currentFromPrevious);
   if (source == MotionSource::kPicture) {
-    told.motion.picture = {.nowFromThen = nowFromThen, .errorPx = 0.01};
+    told.motion.picture = {.currentFromPrevious = currentFromPrevious, .errorPx = 0.01};
   } else if (source == MotionSource::kFeatures) {
     // As many as a tracker has, beyond the borders as well, so that each place has a triangle.
     for (int y = -1; y < 12; ++y) {
       for (int x = -1; x < 17; ++x) {
         const glm::dvec2 then(x * 20 + 5 + 7 * ((x + y) % 2), y * 20 + 6 + 5 * (x % 3));
         told.features.push_back({.id = static_cast<std::uint32_t>(told.features.size()),
-                                 .then = glm::vec2(then),
-                                 .now = glm::vec2(moved(nowFromThen, then)),
+                                 .previous = glm::vec2(then),
+                                 .current = glm::vec2(moved(currentFromPrevious, then)),
                                  .errorPx = 0.01F});
       }
     }
@@ -111,7 +111,7 @@ Telling tell(MotionSource source, const glm::dmat3& nowFromThen, hal::FrameSize 
     for (int y = 0; y < nodes.height; ++y) {
       for (int x = 0; x < nodes.width; ++x) {
         const glm::dvec2 here = glm::dvec2(x + 0.5, y + 0.5) * double{kNodePixels};
-        told.forward.emplace_back(glm::vec2(moved(nowFromThen, here) - here), 0.01F, 0.0F);
+        told.forward.emplace_back(glm::vec2(moved(currentFromPrevious, here) - here), 0.01F, 0.0F);
         told.backward.emplace_back(glm::vec2(here - moved(previousFromCurrent, here)), 0.01F, 0.0F);
       }
     }

@@ -135,7 +135,7 @@ TEST_F(ImageMotionTest, WhatTheFeaturesAroundContradictIsNotBelieved) {
   }
   const std::vector<FeatureMotion> features = told(steps);
   update({.features = features,
-          .picture = tracking::PictureHomography{.nowFromThen = left, .errorPx = 0.02}});
+          .picture = tracking::ImageHomography{.currentFromPrevious = left, .errorPx = 0.02}});
   const MotionAnswer inside = askOne({160.0, 120.0});
   EXPECT_EQ(inside.from(), MotionSource::kFeatures);
   EXPECT_NEAR(inside.displacement.x, 2.0F, 1e-3F);

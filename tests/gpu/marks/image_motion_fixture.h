@@ -69,8 +69,8 @@ inline std::vector<tracking::FeatureMotion> told(std::span<const oracles::Featur
   std::vector<tracking::FeatureMotion> features;
   for (const oracles::FeatureStep& each : steps) {
     features.push_back({.id = static_cast<std::uint32_t>(features.size()),
-                        .then = glm::vec2(each.then),
-                        .now = glm::vec2(each.now),
+                        .previous = glm::vec2(each.then),
+                        .current = glm::vec2(each.now),
                         .errorPx = errorPx});
   }
   return features;

@@ -50,7 +50,7 @@ TEST_F(ImageMotionTest, FlowIsInterpolatedAndItsSlopeIsTheJacobian) {
 
 TEST_F(ImageMotionTest, TheHomographysJacobianIsItsDerivative) {
   const glm::dmat3 now(1.02, 0.03, 2e-5, -0.025, 0.99, -4e-5, 3.0, -2.0, 1.0);
-  update({.picture = tracking::PictureHomography{.nowFromThen = now, .errorPx = 0.02}});
+  update({.picture = tracking::ImageHomography{.currentFromPrevious = now, .errorPx = 0.02}});
   std::vector<glm::dvec2> points;
   for (int i = 0; i < 200; ++i) points.push_back(single(anywhere()));
   const std::vector<MotionAnswer> answers = ask(points);
@@ -68,7 +68,7 @@ TEST_F(ImageMotionTest, TheHomographysJacobianIsItsDerivative) {
 
 TEST_F(ImageMotionTest, BackwardLeadsBackFromWhereForwardLed) {
   const glm::dmat3 now(1.02, 0.03, 2e-5, -0.025, 0.99, -4e-5, 3.0, -2.0, 1.0);
-  update({.picture = tracking::PictureHomography{.nowFromThen = now, .errorPx = 0.02}});
+  update({.picture = tracking::ImageHomography{.currentFromPrevious = now, .errorPx = 0.02}});
   for (int i = 0; i < 20; ++i) {
     const glm::dvec2 px = single(anywhere());
     const glm::dvec2 there = moved(now, px);
@@ -107,10 +107,11 @@ TEST_F(ImageMotionTest, TheSmallestPredictedErrorWins) {
   const auto sourceWith = [&](float ofFeatures, double ofPicture, float ofFlow) {
     const std::vector<FeatureMotion> features = told(steps, ofFeatures);
     const std::vector<glm::vec4> flow(1200, glm::vec4(2.0F, 1.0F, ofFlow, 0.0F));
-    update({.features = features,
-            .picture = tracking::PictureHomography{.nowFromThen = shift, .errorPx = ofPicture},
-            .flow = {
-                .nodes = {40, 30}, .stepPx = glm::vec2(8.0F), .forward = flow, .backward = flow}});
+    update(
+        {.features = features,
+         .picture = tracking::ImageHomography{.currentFromPrevious = shift, .errorPx = ofPicture},
+         .flow = {
+             .nodes = {40, 30}, .stepPx = glm::vec2(8.0F), .forward = flow, .backward = flow}});
     return askOne({150.0, 110.0}).from();
   };
   EXPECT_EQ(sourceWith(0.01F, 0.5, 0.5F), MotionSource::kFeatures);
@@ -170,7 +171,7 @@ TEST_F(ImageMotionTest, MotionOfASmallerFrameIsInPxOfTheFullPicture) {
                {.displacement = motion.displacement / scale, .jacobian = motion.jacobian}, 1e-3,
                1e-4, "features");
   const glm::dmat3 now(1.02, 0.03, 2e-5, -0.025, 0.99, -4e-5, 3.0, -2.0, 1.0);
-  updateScaled({.picture = tracking::PictureHomography{.nowFromThen = now, .errorPx = 0.02}});
+  updateScaled({.picture = tracking::ImageHomography{.currentFromPrevious = now, .errorPx = 0.02}});
   const glm::dvec2 there = (moved(now, inFrame) - origin) / scale;
   const glm::dvec2 here = (inFrame - origin) / scale;
   EXPECT_LT(glm::distance(here + glm::dvec2(askOne(here).displacement), there), 1e-3);
@@ -179,8 +180,8 @@ TEST_F(ImageMotionTest, MotionOfASmallerFrameIsInPxOfTheFullPicture) {
 
 TEST_F(ImageMotionTest, MotionSinceAnotherFrameIsRefused) {
   const glm::dmat3 shift(1, 0, 0, 0, 1, 0, 2.0, 1.0, 1.0);
-  const ImageMotion motion{.picture =
-                               tracking::PictureHomography{.nowFromThen = shift, .errorPx = 0.01}};
+  const ImageMotion motion{
+      .picture = tracking::ImageHomography{.currentFromPrevious = shift, .errorPx = 0.01}};
   update(motion);
   EXPECT_FALSE(field_->isCut());
   EXPECT_EQ(askOne({50.0, 50.0}).from(), MotionSource::kPicture);
@@ -199,7 +200,7 @@ TEST_F(ImageMotionTest, MotionSinceAnotherFrameIsRefused) {
 
 TEST_F(ImageMotionTest, TheFieldSaysWhereThingsCameFrom) {
   const glm::dmat3 now(1.02, 0.03, 2e-5, -0.025, 0.99, -4e-5, 3.0, -2.0, 1.0);
-  update({.picture = tracking::PictureHomography{.nowFromThen = now, .errorPx = 0.02}});
+  update({.picture = tracking::ImageHomography{.currentFromPrevious = now, .errorPx = 0.02}});
   const std::vector<float> texels = support::readRgba32f(field_->backward());
   const hal::FrameSize size = field_->backward().size();
   EXPECT_EQ(size, (hal::FrameSize{40, 30}));

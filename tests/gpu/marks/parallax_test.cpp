@@ -43,9 +43,9 @@ class ParallaxTest : public ImageMotionTest {
 
   void updateWith(const std::vector<FeatureMotion>& features) {
     const glm::dmat3 shift(1, 0, 0, 0, 1, 0, kPictureShift.x, kPictureShift.y, 1.0);
-    update(
-        {.features = features,
-         .picture = tracking::PictureHomography{.nowFromThen = shift, .errorPx = kPictureErrorPx}});
+    update({.features = features,
+            .picture = tracking::ImageHomography{.currentFromPrevious = shift,
+                                                 .errorPx = kPictureErrorPx}});
   }
 
   /// Median of how far points, 30 px and more from where the planes meet, are from where they

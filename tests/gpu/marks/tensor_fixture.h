@@ -69,8 +69,9 @@ class TensorTest : public support::GlTest {
     return frame;
   }
 
-  static tracking::ImageMotion following(const glm::dmat3& nowFromThen) {
-    return {.picture = tracking::PictureHomography{.nowFromThen = nowFromThen, .errorPx = 0.01}};
+  static tracking::ImageMotion following(const glm::dmat3& currentFromPrevious) {
+    return {.picture = tracking::ImageHomography{.currentFromPrevious = currentFromPrevious,
+                                                 .errorPx = 0.01}};
   }
   static tracking::ImageMotion standing() { return following(glm::dmat3(1.0)); }
   /// Turns about the middle; y down, so that positive angles are clockwise.

@@ -27,8 +27,8 @@ class PainterlyTest : public StyleTest {
   scene::ArFrame next(const hal::Image& image, double motionPixels = 0.0) {
     picture_ = support::textureOf(image.view());
     motion_ = {.frameSize = image.size(), .sinceSequence = static_cast<std::uint64_t>(number_)};
-    motion_.picture = tracking::PictureHomography{
-        .nowFromThen = glm::dmat3(1, 0, 0, 0, 1, 0, -motionPixels, 0, 1), .errorPx = 0.01};
+    motion_.picture = tracking::ImageHomography{
+        .currentFromPrevious = glm::dmat3(1, 0, 0, 0, 1, 0, -motionPixels, 0, 1), .errorPx = 0.01};
     ++number_;
     scene::ArFrame frame = frameOf(picture_, number_);
     frame.measuredMotion = scene::MeasuredMotion{.motion = &motion_};

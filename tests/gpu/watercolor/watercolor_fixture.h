@@ -63,9 +63,10 @@ class StyleTest : public support::GlTest {
     motion = {};
     motion.frameSize = picture.size();
     motion.sinceSequence = static_cast<std::uint64_t>(number - 1);
-    glm::dmat3 nowFromThen(1.0);
-    nowFromThen[2] = glm::dvec3(by, 1.0);
-    motion.picture = tracking::PictureHomography{.nowFromThen = nowFromThen, .errorPx = 0.01};
+    glm::dmat3 currentFromPrevious(1.0);
+    currentFromPrevious[2] = glm::dvec3(by, 1.0);
+    motion.picture =
+        tracking::ImageHomography{.currentFromPrevious = currentFromPrevious, .errorPx = 0.01};
     motion.noiseLevels = 2.0;
     scene::ArFrame frame = frameOf(picture, number);
     frame.measuredMotion = scene::MeasuredMotion{.motion = &motion};

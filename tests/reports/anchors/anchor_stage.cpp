@@ -39,11 +39,13 @@ AnchorStage::AnchorStage(std::shared_ptr<const scene::Model> model, DensityRule 
   anchors_.emplace(library_, kSize, AnchorOptions{.density = rule});
 }
 
-void AnchorStage::advance(const glm::dmat4& cameraFromModel, const glm::dmat3& nowFromThen) {
+void AnchorStage::advance(const glm::dmat4& cameraFromModel,
+                          const glm::dmat3& currentFromPrevious) {
   tracking::ImageMotion motion;
   motion.frameSize = kSize;
   motion.sinceSequence = sequence_;
-  motion.picture = tracking::PictureHomography{.nowFromThen = nowFromThen, .errorPx = 0.01};
+  motion.picture =
+      tracking::ImageHomography{.currentFromPrevious = currentFromPrevious, .errorPx = 0.01};
   ++sequence_;
   cameraFromModel_ = cameraFromModel;
   frame_ = renderer_->compose(ground_, camera_, {.cameraFromWorld = cameraFromModel}, sequence_,

@@ -29,7 +29,8 @@ class AnchorStage {
   explicit AnchorStage(std::shared_ptr<const scene::Model> model, DensityRule rule = {});
 
   /// The next frame: the model is placed so, the picture moved so.
-  void advance(const glm::dmat4& cameraFromModel, const glm::dmat3& nowFromThen = glm::dmat3(1.0));
+  void advance(const glm::dmat4& cameraFromModel,
+               const glm::dmat3& currentFromPrevious = glm::dmat3(1.0));
 
   std::vector<Anchor> anchors() const { return anchors_->read(); }
   /// Where those are that stay, on the model; without one, all.

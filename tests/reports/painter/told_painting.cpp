@@ -29,8 +29,9 @@ void ReportedPainting::paint(const hal::Image& rgb, glm::dvec2 movedPx) {
   copyColours(rgb.view(), 3, rgba, 4);
   const gpu::Texture texture = support::textureOf(rgba.view());
   tracking::ImageMotion motion{.frameSize = rgb.size(), .sinceSequence = number_};
-  motion.picture = tracking::PictureHomography{
-      .nowFromThen = glm::dmat3(1, 0, 0, 0, 1, 0, movedPx.x, movedPx.y, 1), .errorPx = 0.01};
+  motion.picture = tracking::ImageHomography{
+      .currentFromPrevious = glm::dmat3(1, 0, 0, 0, 1, 0, movedPx.x, movedPx.y, 1),
+      .errorPx = 0.01};
   ++number_;
   scene::ArFrame frame{
       .colour = &texture,

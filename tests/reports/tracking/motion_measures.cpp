@@ -135,16 +135,16 @@ MotionResult measureMotion(const MotionSequence& sequence, const ImageMotionOpti
     out.cuts += motion.isCut ? 1U : 0U;
     out.featuresPerFrame += static_cast<double>(motion.features.size());
     for (const FeatureMotion& feature : motion.features) {
-      const auto there = sequence.moved(i - 1, glm::dvec2(feature.then));
+      const auto there = sequence.moved(i - 1, glm::dvec2(feature.previous));
       if (!there) continue;
-      out.features.add(glm::distance(glm::dvec2(feature.now), *there),
+      out.features.add(glm::distance(glm::dvec2(feature.current), *there),
                        static_cast<double>(feature.errorPx));
     }
     if (motion.picture) {
       ++out.pictures;
       if (!sequence.homographies.empty()) {
         const glm::dmat3 apart =
-            glm::inverse(sequence.homographies[i - 1]) * motion.picture->nowFromThen;
+            glm::inverse(sequence.homographies[i - 1]) * motion.picture->currentFromPrevious;
         out.picture.add(rmsMotion(apart, view.format.size), motion.picture->errorPx);
       }
     }

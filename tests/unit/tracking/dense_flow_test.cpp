@@ -15,7 +15,7 @@
 namespace pleinair::tracking {
 namespace {
 
-using support::nowFromThen;
+using support::currentFromPrevious;
 using support::WallView;
 
 constexpr hal::FrameSize kSize{320, 240};
@@ -57,7 +57,8 @@ void expectExact(const FlowErrors& errors) {
 
 TEST(DenseFlow, IsMeasuredBothWays) {
   Watch watch;
-  const glm::dmat3 truth = nowFromThen({.turn = 0.01, .zoom = 1.01, .shift = {5.3, -2.7}}, kSize);
+  const glm::dmat3 truth =
+      currentFromPrevious({.turn = 0.01, .zoom = 1.01, .shift = {5.3, -2.7}}, kSize);
   watch.step(glm::dmat3(1.0));
   for (int i = 0; i < 3; ++i) {
     const ImageMotion& motion = watch.step(truth);
@@ -71,7 +72,7 @@ TEST(DenseFlow, IsUncertainWhereThereIsNothingToSee) {
   Watch watch;
   const glm::dmat3 still(1.0);
   const WallView plain{.size = kSize, .noiseSigma = 2.0, .contrast = 0.0, .brightness = 120.0};
-  const glm::dmat3 pan = nowFromThen({.shift = {4.0, 0.0}}, kSize);
+  const glm::dmat3 pan = currentFromPrevious({.shift = {4.0, 0.0}}, kSize);
   for (int i = 0; i < 4; ++i) {
     WallView blank = plain;
     blank.noiseSeed = static_cast<unsigned>(900 + i);

@@ -17,7 +17,7 @@
 namespace pleinair::tracking {
 namespace {
 
-using support::nowFromThen;
+using support::currentFromPrevious;
 using support::PlaneStep;
 using support::WallView;
 
@@ -26,9 +26,9 @@ constexpr hal::FrameSize kSize{320, 240};
 double rmsOfFeatures(const ImageMotion& motion, const glm::dmat3& truth) {
   double sum = 0.0;
   for (const FeatureMotion& feature : motion.features) {
-    const glm::dvec2 then(feature.then);
-    const glm::dvec2 now(feature.now);
-    const double off = glm::distance(now, movedBy(truth, then));
+    const glm::dvec2 previous(feature.previous);
+    const glm::dvec2 current(feature.current);
+    const double off = glm::distance(current, movedBy(truth, previous));
     sum += off * off;
   }
   return std::sqrt(sum / static_cast<double>(motion.features.size()));
@@ -52,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_P(ImageMotionOf, IsMeasuredInNoise) {
   Watch watch;
-  const glm::dmat3 truth = nowFromThen(GetParam().step, kSize);
+  const glm::dmat3 truth = currentFromPrevious(GetParam().step, kSize);
   EXPECT_TRUE(watch.step(glm::dmat3(1.0)).isCut);
   double worstPicture = 0.0;
   double worstFeatures = 0.0;
@@ -66,15 +66,15 @@ TEST_P(ImageMotionOf, IsMeasuredInNoise) {
     ASSERT_TRUE(motion.picture) << i;
     ASSERT_GT(motion.features.size(), 40U) << i;
     if (i < 2) continue;  // the first may still be held
-    const double off = rmsMotion(glm::inverse(truth) * motion.picture->nowFromThen, kSize);
+    const double off = rmsMotion(glm::inverse(truth) * motion.picture->currentFromPrevious, kSize);
     worstPicture = std::max(worstPicture, off);
     worstFeatures = std::max(worstFeatures, rmsOfFeatures(motion, truth));
     predictedPicture += motion.picture->errorPx * motion.picture->errorPx;
     actualPicture += off * off;
     for (const FeatureMotion& feature : motion.features) {
-      const glm::dvec2 there = movedBy(truth, glm::dvec2(feature.then));
+      const glm::dvec2 there = movedBy(truth, glm::dvec2(feature.previous));
       predicted += feature.errorPx * feature.errorPx;
-      actual += std::pow(glm::distance(glm::dvec2(feature.now), there), 2);
+      actual += std::pow(glm::distance(glm::dvec2(feature.current), there), 2);
     }
   }
   EXPECT_LT(worstPicture, 0.075);
@@ -90,7 +90,7 @@ TEST_P(ImageMotionOf, IsMeasuredByTheReferenceTrackerToo) {
   Watch watch({.features = FeatureMethod::kHarrisSift, .flow = false, .staticRegions = false});
   watch.view().contrast = 1.6;
   watch.view().brightness = -72.0;
-  const glm::dmat3 truth = nowFromThen(GetParam().step, kSize);
+  const glm::dmat3 truth = currentFromPrevious(GetParam().step, kSize);
   watch.step(glm::dmat3(1.0));
   double predicted = 0.0;
   double actual = 0.0;
@@ -100,11 +100,12 @@ TEST_P(ImageMotionOf, IsMeasuredByTheReferenceTrackerToo) {
     ASSERT_TRUE(motion.picture) << i;
     ASSERT_GT(motion.features.size(), 20U) << i;
     if (i < 3) continue;
-    EXPECT_LT(rmsMotion(glm::inverse(truth) * motion.picture->nowFromThen, kSize), 0.8) << i;
+    EXPECT_LT(rmsMotion(glm::inverse(truth) * motion.picture->currentFromPrevious, kSize), 0.8)
+        << i;
     for (const FeatureMotion& feature : motion.features) {
-      const glm::dvec2 there = movedBy(truth, glm::dvec2(feature.then));
+      const glm::dvec2 there = movedBy(truth, glm::dvec2(feature.previous));
       predicted += feature.errorPx * feature.errorPx;
-      actual += std::pow(glm::distance(glm::dvec2(feature.now), there), 2);
+      actual += std::pow(glm::distance(glm::dvec2(feature.current), there), 2);
     }
   }
   EXPECT_GT(std::sqrt(predicted / actual), 0.5);
@@ -117,9 +118,10 @@ TEST(ImageMotion, StandsStillToTheBitInNoise) {
     const ImageMotion& motion = watch.step(glm::dmat3(1.0));
     if (i == 0) continue;
     ASSERT_TRUE(motion.picture);
-    EXPECT_EQ(motion.picture->nowFromThen, glm::dmat3(1.0)) << i;
+    EXPECT_EQ(motion.picture->currentFromPrevious, glm::dmat3(1.0)) << i;
     ASSERT_GT(motion.features.size(), 40U);
-    for (const FeatureMotion& feature : motion.features) EXPECT_EQ(feature.then, feature.now) << i;
+    for (const FeatureMotion& feature : motion.features)
+      EXPECT_EQ(feature.previous, feature.current) << i;
   }
 }
 
@@ -128,12 +130,12 @@ TEST(ImageMotion, LosesNothingOfASlowPan) {
   watch.step(glm::dmat3(1.0));
   glm::dmat3 total(1.0);
   glm::dmat3 found(1.0);
-  const glm::dmat3 step = nowFromThen({.shift = {0.03, 0.0}}, kSize);
+  const glm::dmat3 step = currentFromPrevious({.shift = {0.03, 0.0}}, kSize);
   for (int i = 0; i < 45; ++i) {
     const ImageMotion& motion = watch.step(step);
     total = step * total;
     ASSERT_TRUE(motion.picture);
-    found = motion.picture->nowFromThen * found;
+    found = motion.picture->currentFromPrevious * found;
     EXPECT_LT(rmsMotion(glm::inverse(total) * found, kSize), 0.15) << i;
   }
 }
@@ -142,11 +144,11 @@ TEST(ImageMotion, LosesNothingOfASlowPan) {
 TEST(ImageMotion, TwoLayersMoveApart) {
   Watch watch;
   watch.step(glm::dmat3(1.0));
-  const glm::dmat3 wall = nowFromThen({.shift = {-1.5, 0.5}}, kSize);
+  const glm::dmat3 wall = currentFromPrevious({.shift = {-1.5, 0.5}}, kSize);
   const glm::dvec2 thing(2.0, -1.0);
   glm::dmat3 thingFromFrame(1.0);
   for (int i = 0; i < 16; ++i) {
-    thingFromFrame = thingFromFrame * glm::inverse(nowFromThen({.shift = thing}, kSize));
+    thingFromFrame = thingFromFrame * glm::inverse(currentFromPrevious({.shift = thing}, kSize));
     const WallView front{.size = kSize,
                          .wallFromFrame = thingFromFrame,
                          .noiseSigma = 2.0,
@@ -156,17 +158,18 @@ TEST(ImageMotion, TwoLayersMoveApart) {
     const ImageMotion& motion = watch.stepBehind(wall, front, corner, corner + 100);
     if (i < 10) continue;  // features are sought in it now and then
     ASSERT_TRUE(motion.picture);
-    EXPECT_LT(rmsMotion(glm::inverse(wall) * motion.picture->nowFromThen, kSize), 0.08) << i;
+    EXPECT_LT(rmsMotion(glm::inverse(wall) * motion.picture->currentFromPrevious, kSize), 0.08)
+        << i;
     int onThing = 0;
     int astray = 0;
     for (const FeatureMotion& feature : motion.features) {
-      const glm::vec2 inThing = feature.then - glm::vec2(corner);
+      const glm::vec2 inThing = feature.previous - glm::vec2(corner);
       if (glm::any(glm::lessThan(inThing, glm::vec2(10.0F))) ||
           glm::any(glm::greaterThan(inThing, glm::vec2(90.0F)))) {
         continue;
       }
       ++onThing;
-      astray += glm::distance(glm::dvec2(feature.now - feature.then), thing) > 0.6 ? 1 : 0;
+      astray += glm::distance(glm::dvec2(feature.current - feature.previous), thing) > 0.6 ? 1 : 0;
     }
     EXPECT_GT(onThing, 5) << i;
     EXPECT_LE(astray, 1) << i;
@@ -175,7 +178,7 @@ TEST(ImageMotion, TwoLayersMoveApart) {
 
 TEST(ImageMotion, ACoveredLensIsNoCutAndWhatItShowedIsFoundAgain) {
   Watch watch;
-  const glm::dmat3 step = nowFromThen({.shift = {0.5, 0.0}}, kSize);
+  const glm::dmat3 step = currentFromPrevious({.shift = {0.5, 0.0}}, kSize);
   for (int i = 0; i < 4; ++i) watch.step(step);
   const hal::Image covered({.pixelFormat = hal::PixelFormat::kGrey8, .size = kSize});
   for (int i = 0; i < 3; ++i) {
@@ -226,13 +229,13 @@ TEST(ImageMotion, SaysSinceWhen) {
 
 TEST(ImageMotion, ACutIsACut) {
   Watch watch;
-  for (int i = 0; i < 3; ++i) watch.step(nowFromThen({.shift = {2.0, 0.0}}, kSize));
+  for (int i = 0; i < 3; ++i) watch.step(currentFromPrevious({.shift = {2.0, 0.0}}, kSize));
   watch.view().wallSeed = 9;
   const ImageMotion& cut = watch.step(glm::dmat3(1.0));
   EXPECT_TRUE(cut.isCut);
   EXPECT_TRUE(cut.features.empty());
   EXPECT_FALSE(cut.picture);
-  const ImageMotion& after = watch.step(nowFromThen({.shift = {2.0, 0.0}}, kSize));
+  const ImageMotion& after = watch.step(currentFromPrevious({.shift = {2.0, 0.0}}, kSize));
   EXPECT_FALSE(after.isCut);
   EXPECT_GT(after.features.size(), 40U);
 }

@@ -20,15 +20,16 @@ class Watch {
     return estimator_.follow(view.planes[0], view.format.size, sequence_++);
   }
   /// The wall, moved on by a step, with noise that differs from frame to frame.
-  const ImageMotion& step(const glm::dmat3& nowFromThen) {
-    view_.wallFromFrame = view_.wallFromFrame * glm::inverse(nowFromThen);
+  const ImageMotion& step(const glm::dmat3& currentFromPrevious) {
+    view_.wallFromFrame = view_.wallFromFrame * glm::inverse(currentFromPrevious);
     ++view_.noiseSeed;
     return see(support::renderWall(view_));
   }
   /// Something else lies over it.
-  const ImageMotion& stepBehind(const glm::dmat3& nowFromThen, const support::WallView& front,
-                                const glm::ivec2& from, const glm::ivec2& to) {
-    view_.wallFromFrame = view_.wallFromFrame * glm::inverse(nowFromThen);
+  const ImageMotion& stepBehind(const glm::dmat3& currentFromPrevious,
+                                const support::WallView& front, const glm::ivec2& from,
+                                const glm::ivec2& to) {
+    view_.wallFromFrame = view_.wallFromFrame * glm::inverse(currentFromPrevious);
     ++view_.noiseSeed;
     hal::Image image = support::renderWall(view_);
     support::layOver(image, front, from, to);

@@ -11,7 +11,7 @@
 namespace pleinair::tracking {
 namespace {
 
-using support::nowFromThen;
+using support::currentFromPrevious;
 using support::WallView;
 
 constexpr hal::FrameSize kSize{320, 240};
@@ -42,7 +42,7 @@ TEST(StaticRegionDetector, CreepingIsNoticed) {
   Watch watch({.flow = false});
   for (int i = 0; i < 12; ++i) watch.step(glm::dmat3(1.0));
   for (int i = 0; i < 30; ++i) {
-    const ImageMotion& motion = watch.step(nowFromThen({.shift = {0.05, 0.0}}, kSize));
+    const ImageMotion& motion = watch.step(currentFromPrevious({.shift = {0.05, 0.0}}, kSize));
     if (i < 5) continue;
     EXPECT_LT(countStill(motion), motion.still.errorPx.size() / 10) << i;
   }
@@ -54,7 +54,7 @@ TEST(StaticRegionDetector, OnlyWhereAThingMovesItIsNotStill) {
   const glm::ivec2 side(96, 80);
   for (int i = 0; i < 16; ++i) {
     const WallView front{.size = kSize,
-                         .wallFromFrame = nowFromThen({.shift = {1.3 * i, 0.0}}, kSize),
+                         .wallFromFrame = currentFromPrevious({.shift = {1.3 * i, 0.0}}, kSize),
                          .noiseSigma = 2.0,
                          .noiseSeed = watch.view().noiseSeed + 100,
                          .wallSeed = 5};
@@ -65,9 +65,9 @@ TEST(StaticRegionDetector, OnlyWhereAThingMovesItIsNotStill) {
       const glm::ivec2 px = 16 * glm::ivec2(f % fields.width, f / fields.width);
       const bool isOn = px.x >= corner.x && px.x < corner.x + side.x && px.y >= corner.y &&
                         px.y < corner.y + side.y;
-      const bool isStill =
+      const bool isStatic =
           motion.still.errorPx[static_cast<std::size_t>(f)] < StaticRegions::kNotStatic;
-      EXPECT_FALSE(isOn && isStill) << i << " at " << px.x << ", " << px.y;
+      EXPECT_FALSE(isOn && isStatic) << i << " at " << px.x << ", " << px.y;
     }
     EXPECT_GT(countStill(motion), 220U) << i;
     // Flow stands still to the bit there, too.

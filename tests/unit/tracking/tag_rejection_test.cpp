@@ -94,7 +94,7 @@ TEST(TagRejection, OfDuplicatesTheOneThatWasThereGoesOn) {
 }
 
 TEST(TagRejection, AVerySmallTagHasNoPose) {
-  Tracker tracker(webcam(), {{.id = 4, .edgeMetres = kEdge}}, {.leastEdgePx = 40.0});
+  Tracker tracker(webcam(), {{.id = 4, .edgeMetres = kEdge}}, {.minEdgePx = 40.0});
   const auto edgeAt = [&](double metres) {
     const hal::Image image = picture(
         {{.id = 4, .edgeMetres = kEdge, .worldFromTag = poseOf({0.0, 0.0, 0.1}, {0, 0, metres})}});
