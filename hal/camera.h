@@ -12,25 +12,26 @@
 
 namespace pleinair::hal {
 
-/// The device's own control loop decides.
+/// The device's own control loop sets the value.
 struct Automatic {
   friend bool operator==(const Automatic&, const Automatic&) = default;
 };
 template <class T>
 using AutomaticOr = std::variant<Automatic, T>;
 
-/// What can be set of a camera, by neutral names; unset: left as the device has it. A back end
-/// converts to the device's units and clamps to its range; what the device does not have is an
-/// error of start() (kUnsupported) that names the control.
+/// Camera controls by neutral names. An unset control keeps the device's value. A back end converts
+/// to the device's units and clamps to its range. start() answers kUnsupported and names the
+/// control if the device lacks it.
 struct CameraControls {
   std::optional<AutomaticOr<Duration>> exposure;
   std::optional<AutomaticOr<double>> gain;   ///< share of the device's range, 0 … 1
-  std::optional<AutomaticOr<double>> focus;  ///< likewise, 0 … 1, in the device's direction
+  std::optional<AutomaticOr<double>> focus;  ///< focus position in the device's direction, 0 … 1
   std::optional<AutomaticOr<double>> whiteBalance;  ///< colour temperature, K
   friend bool operator==(const CameraControls&, const CameraControls&) = default;
 };
 
-/// What a consumer would like; a camera answers with what it does. Unset: the camera's choice.
+/// The stream that a consumer asks for. The camera picks each unset value, and answers with the
+/// StreamFormat that it delivers.
 struct StreamRequest {
   std::optional<FrameSize> size;
   std::optional<PixelFormat> pixelFormat;
@@ -38,11 +39,11 @@ struct StreamRequest {
   CameraControls controls;
 };
 
-/// What a camera does deliver, read back after negotiation.
+/// The format that a camera delivers, read back after negotiation.
 struct StreamFormat {
   FrameFormat frame;
-  std::optional<Duration> framePeriod;      ///< nominal; unset where it has none (single pictures)
-  std::optional<std::uint64_t> frameCount;  ///< of recordings, where the file says
+  std::optional<Duration> framePeriod;      ///< nominal; unset for a single picture, which has none
+  std::optional<std::uint64_t> frameCount;  ///< recordings only, if the file states it
 };
 
 struct CameraIdentity {
@@ -51,29 +52,29 @@ struct CameraIdentity {
   std::string description;
 };
 
-/// No frame came before the deadline; the stream may well go on.
+/// No frame came before the deadline; the stream may still go on.
 struct CameraTimeout {};
-/// Frames from now on have this format.
+/// The frames that follow have this format.
 struct FormatChanged {
   StreamFormat format;
 };
-/// A recording has ended. `truncated` says why where it broke off before its proper end.
+/// A recording has ended. `truncated` gives the reason if it ended early.
 struct EndOfStream {
   std::optional<Error> truncated;
 };
-/// The device is gone; stop(), and start() again once it is back.
+/// The device is gone. Call stop(), and start() again once it is back.
 struct CameraLost {
   Error cause;
 };
 using NextFrame =
     std::variant<CapturedFrame, CameraTimeout, FormatChanged, EndOfStream, CameraLost, Error>;
 
-/// A source of frames: a device, a recording, or a simulation. The same contract for all of them,
-/// held by one conformance suite (tests/conformance/camera_conformance.h).
+/// A source of frames: a device, a recording or a simulation. One contract for all of them, tested
+/// by one conformance suite (tests/conformance/camera_conformance.h).
 ///
-/// States: stopped → start() → streaming → stop() → stopped, as often as wanted. After EndOfStream,
-/// CameraLost or Error, next() keeps answering the same until stop(). All calls come from one
-/// thread, except that frames may outlive the camera and be dropped anywhere.
+/// States: stopped → start() → streaming → stop() → stopped, any number of times. After
+/// EndOfStream, CameraLost or Error, next() repeats that answer until stop(). All calls come from
+/// one thread. Frames may outlive the camera and may be dropped on any thread.
 class Camera {
  public:
   virtual ~Camera() = default;
@@ -88,12 +89,12 @@ class Camera {
   /// (size beyond the limits, no usable format), kIo.
   virtual Result<StreamFormat> start(const StreamRequest& request) = 0;
 
-  /// The next frame, or why there is none. Waits until `deadline` on the camera's clock at the
-  /// latest; kNoDeadline waits for ever. Precondition: streaming. Sequence numbers and capture
-  /// times rise strictly.
+  /// Gives the next frame, or the reason why there is none. Waits at most until `deadline` on the
+  /// camera's clock; kNoDeadline waits for ever. Precondition: streaming. Sequence numbers and
+  /// capture times rise strictly.
   virtual NextFrame next(TimePoint deadline) = 0;
 
-  /// Stops; idempotent; returns within a bounded time whatever the device does. Frames still leased
+  /// Stops streaming within a bounded time, in any state of the device; idempotent. Leased frames
   /// stay valid.
   virtual void stop() = 0;
 };

@@ -9,8 +9,8 @@ namespace pleinair::hal {
 
 using Duration = std::chrono::nanoseconds;
 
-/// The time base of every frame: monotonic, origin arbitrary. On a live system it is
-/// CLOCK_MONOTONIC; under a SteppedClock it is whatever the test or the recording says.
+/// The time base of every frame: monotonic, with an arbitrary origin. On a live system it is
+/// CLOCK_MONOTONIC; under a SteppedClock the test or the recording sets it.
 struct MonotonicTime {
   using duration = Duration;
   using rep = duration::rep;
@@ -23,12 +23,12 @@ using TimePoint = MonotonicTime::time_point;
 /// A deadline that never comes.
 inline constexpr TimePoint kNoDeadline = TimePoint::max();
 
-/// Where time comes from. Injected everywhere, so that no test sleeps. Thread-safe.
+/// The source of time. It is injected everywhere, so that no test sleeps. Thread-safe.
 class Clock {
  public:
   virtual ~Clock() = default;
   virtual TimePoint now() const = 0;
-  /// Returns at `time` (at once if it has passed), or early with false once a stop is requested.
+  /// Returns true at `time` (at once if it has passed), or false early when a stop is requested.
   virtual bool sleepUntil(TimePoint time, std::stop_token stop = {}) = 0;
 };
 
@@ -39,7 +39,7 @@ class SteadyClock final : public Clock {
   bool sleepUntil(TimePoint time, std::stop_token stop = {}) override;
 };
 
-/// Time that moves only when told to: a sleeper jumps to its wake-up time without waiting.
+/// Simulated time: a sleeper jumps to its wake-up time without waiting.
 class SteppedClock final : public Clock {
  public:
   explicit SteppedClock(TimePoint start = TimePoint{}) : now_(start) {}
@@ -52,13 +52,13 @@ class SteppedClock final : public Clock {
   TimePoint now_;
 };
 
-/// When a recorded or simulated camera hands out its frames.
+/// When a recorded or simulated camera delivers its frames.
 enum class Pacing {
-  kStepped,   ///< every frame at once: offline rendering
+  kStepped,   ///< each frame at once: offline rendering
   kRealTime,  ///< each frame at its capture time by the clock
 };
 
-/// For a person: "310 ms" below a second, else "3.3 s".
+/// The duration as text for a person: "310 ms" below a second, else "3.3 s".
 std::string durationText(Duration duration);
 
 }  // namespace pleinair::hal

@@ -7,11 +7,11 @@
 
 namespace pleinair::hal {
 
-/// What kind of failure it is: what a caller decides by, and what the exit status follows from.
+/// The kind of a failure. Callers decide by it, and the exit status follows from it.
 enum class ErrorKind {
-  kInvalidArgument,  ///< the caller asked for something that makes no sense
-  kInvalidInput,     ///< a file or stream is broken or not of a kind we read
-  kUnsupported,      ///< sound, but beyond what this build or device does
+  kInvalidArgument,  ///< the caller asked for something that is not possible at all
+  kInvalidInput,     ///< a file or stream is broken or of an unknown kind
+  kUnsupported,      ///< valid, but not supported by this build or device
   kNotFound,
   kPermissionDenied,
   kNoSpace,  ///< disk or quota full
@@ -22,17 +22,17 @@ enum class ErrorKind {
   kInternal,
 };
 
-/// Whose numbers `Error::code` holds.
+/// The numbering that `Error::code` belongs to.
 enum class ErrorDomain { kNone, kErrno, kLibav, kEgl, kGl };
 
-/// A failure of the world, as a value. It reads as one line: what, where, what would be right.
+/// A failure of the world, as a value. It reads as one line: the place, the problem, the remedy.
 struct Error {
   ErrorKind kind = ErrorKind::kInternal;
   std::string subject;  ///< the device, file or argument: "out/movie.mp4"
   std::string problem;  ///< the operation and what went wrong: "cannot write: disk full"
   std::string remedy;   ///< the next step, or empty: "free space or choose another --output"
   ErrorDomain domain = ErrorDomain::kNone;
-  int code = 0;  ///< in the numbers of `domain`; 0 where there is none
+  int code = 0;  ///< in the numbering of `domain`; 0: none
 
   /// "subject: problem; remedy", without a newline.
   std::string message() const;
@@ -44,8 +44,8 @@ using Result = tl::expected<T, Error>;
 /// An Error with errno's kind, domain and text. `problem` names the operation: "cannot open".
 Error errnoError(std::string subject, std::string problem, int errnoValue, std::string remedy = {});
 
-/// The world failing at start-up, printed as one line and never as a stack trace.
-/// While running, failures are values (`Result`), not exceptions.
+/// A failure of the world at start-up, printed as one line and never as a stack trace. While
+/// running, failures are values (`Result`), not exceptions.
 class Failure : public std::runtime_error {
  public:
   explicit Failure(Error error);
@@ -55,7 +55,7 @@ class Failure : public std::runtime_error {
   Error error_;
 };
 
-/// The value, or a Failure thrown from its error. For start-up code only.
+/// Gives the value, or throws its error as a Failure. For start-up code only.
 template <class T>
 T orThrow(Result<T> result) {
   if (!result) throw Failure(std::move(result.error()));

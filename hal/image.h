@@ -11,13 +11,13 @@
 
 namespace pleinair::hal {
 
-/// One plane of a picture in memory. `bytes` covers at least stride × (rows − 1) + one packed row.
+/// One plane of an image in memory. `bytes` covers at least stride × (rows − 1) + one packed row.
 struct PlaneView {
   std::span<const std::uint8_t> bytes;
   std::size_t strideBytes = 0;
 };
 
-/// A picture in memory that somebody else owns. Never assume a packed stride.
+/// An image in memory that another object owns. Never assume a packed stride.
 struct ImageView {
   FrameFormat format;
   std::array<PlaneView, 3> planes;  ///< the first planeCount(format.pixelFormat) are set
@@ -28,7 +28,7 @@ struct ImageView {
   bool isComplete() const;
 };
 
-/// A picture in memory of our own, with packed rows.
+/// An image that owns its memory, with packed rows.
 class Image {
  public:
   Image() = default;
@@ -49,8 +49,8 @@ class Image {
   std::array<std::vector<std::uint8_t>, 3> planes_;
 };
 
-/// The luma of a picture: a view where the format holds one (grey, NV12, I420, and Bayer's mosaic
-/// is refused), else nothing.
+/// The luma plane of an image, as a view, if the format stores one (grey, NV12, I420); else
+/// nothing. A Bayer mosaic gives nothing.
 std::optional<PlaneView> lumaPlane(const ImageView& image);
 
 }  // namespace pleinair::hal

@@ -20,8 +20,8 @@ Error malformed(std::string_view pattern, std::string problem) {
                .remedy = "write the number once, in the file name, as %d or %04d"};
 }
 
-/// Digits of the conversion at the front of `text` (after its percent sign), and its length;
-/// nothing where it is not %d or %0Nd.
+/// Parses %d or %0Nd at the front of `text`, after its percent sign: the digits and the length of
+/// the conversion. Nothing if it is another conversion.
 std::optional<std::pair<std::size_t, std::size_t>> parseConversion(std::string_view text) {
   if (text.starts_with('d')) return std::pair{std::size_t{1}, std::size_t{1}};
   if (!text.starts_with('0')) return std::nullopt;

@@ -10,17 +10,17 @@
 
 namespace pleinair::hal {
 
-/// A path with one number in its file name, written as printf's %d or %04d: "out/%04d.png". Only
-/// parsed here, never handed to printf. "%%" is a percent sign.
+/// A path with one number in its file name, written as printf's %d or %04d: "out/%04d.png". It is
+/// parsed here and never passed to printf. "%%" is a percent sign.
 class NumberedPath {
  public:
-  /// Errors: kInvalidArgument unless there is exactly one conversion, in the file name, and it is
-  /// %d or %0Nd with N from 1 to 18.
+  /// Errors: kInvalidArgument unless the file name, and only it, holds exactly one conversion, %d
+  /// or %0Nd with N from 1 to 18.
   static Result<NumberedPath> parse(std::string_view pattern);
 
   std::filesystem::path at(std::uint64_t number) const;
 
-  /// The number for which at(number) has this file name, if there is one.
+  /// The number for which at(number) has this file name, if any.
   std::optional<std::uint64_t> numberOf(std::string_view fileName) const;
 
   std::filesystem::path folder() const { return folder_; }
@@ -32,7 +32,7 @@ class NumberedPath {
   std::size_t minDigits_ = 1;
 };
 
-/// Whether the file name holds a percent sign, so that a NumberedPath is meant.
+/// Whether the file name contains a percent sign, so that the caller means a NumberedPath.
 bool looksNumbered(const std::filesystem::path& path);
 
 }  // namespace pleinair::hal

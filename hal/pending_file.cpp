@@ -31,8 +31,8 @@ class SystemFiles final : public FileSystem {
     });
     if (fd == -ELOOP || fd == -EISDIR || fd == -ENXIO) return -EEXIST;
     if (fd < 0) return fd;
-    // The lock ends with the process, however that ends: a file that nobody has locked is stale.
-    // Where a file system knows no locks, the file is taken for stale.
+    // The lock ends with its process in every case, so an unlocked file is stale. On a file system
+    // without locks each such file counts as stale.
     const int locked = retried([&] { return ::flock(fd, LOCK_EX | LOCK_NB); });
     const bool ours = locked != -EWOULDBLOCK && isRegularFileAt(fd, path);
     const int emptied = ours ? retried([&] { return ::ftruncate(fd, 0); }) : -EEXIST;
@@ -52,7 +52,7 @@ class SystemFiles final : public FileSystem {
     return cannotSay ? 0 : synced;
   }
   int close(int fd) override {
-    // After EINTR the descriptor is gone all the same on Linux: never close twice.
+    // On Linux the descriptor is gone after EINTR, too: never close twice.
     return ::close(fd) < 0 && errno != EINTR ? -errno : 0;
   }
   int rename(const std::filesystem::path& from, const std::filesystem::path& to) override {
@@ -63,7 +63,8 @@ class SystemFiles final : public FileSystem {
   }
 
  private:
-  /// Between open() and flock() another writer may have published the file, or removed it.
+  /// Checks the file again: between open() and flock() another writer may have published or removed
+  /// it.
   static bool isRegularFileAt(int fd, const std::filesystem::path& path) {
     struct stat opened = {};
     struct stat named = {};
@@ -97,7 +98,7 @@ Error notWritable(const std::filesystem::path& path, std::string problem, std::s
                .remedy = std::move(remedy)};
 }
 
-/// Where the file is to stand: `path`, or where it leads to.
+/// The path that publish() replaces: `path`, or the target of the symbolic link there.
 Result<std::filesystem::path> targetOf(const std::filesystem::path& path) {
   std::error_code ignored;
   const std::filesystem::file_status status = std::filesystem::status(path, ignored);
@@ -189,7 +190,7 @@ Result<void> PendingFile::publish(Durability durability) {
   const int synced = durability == Durability::kSynced ? files_->sync(fd_) : 0;
   const int renamed = synced < 0 ? synced : files_->rename(temporary_, target_);
   if (renamed < 0) files_->unlink(temporary_);
-  // Closed last, as that unlocks it. After sync() there is nothing left that close() could lose.
+  // Closed last, because closing releases the lock. After sync(), close() cannot lose data.
   files_->close(std::exchange(fd_, -1));
   if (renamed < 0) return tl::unexpected(failure("cannot write", renamed));
   return {};

@@ -12,38 +12,40 @@
 
 namespace pleinair::hal {
 
-/// The system calls that writing files needs, so that a full disk is a unit test. Each answers as
-/// the system's does, but −errno in place of −1, and retries EINTR.
+/// The system calls for writing files, injected so that a unit test can simulate a full disk. Each
+/// gives the system call's answer, with −errno in place of −1, and retries EINTR.
 class FileSystem {
  public:
   virtual ~FileSystem() = default;
-  /// A file descriptor of an empty file, which others cannot create while it is open; what a
-  /// process that died left is replaced. −EEXIST where it is open elsewhere, or no regular file.
+  /// Creates an empty file and gives its descriptor. Other writers cannot create it while it is
+  /// open; a file left by a dead process is replaced. −EEXIST if another process has it open, or if
+  /// it is not a regular file.
   virtual int create(const std::filesystem::path& path) = 0;
   virtual ssize_t write(int fd, std::span<const std::uint8_t> bytes) = 0;
   virtual std::int64_t seek(int fd, std::int64_t offset, int whence) = 0;
-  /// Until what was written has reached the disk, where the file system can say so.
+  /// Waits until the written data has reached the disk, if the file system reports it.
   virtual int sync(int fd) = 0;
   virtual int close(int fd) = 0;
   virtual int rename(const std::filesystem::path& from, const std::filesystem::path& to) = 0;
   virtual int unlink(const std::filesystem::path& path) = 0;
 };
 
-/// The real one; stateless, any thread.
+/// The kernel's file system; stateless, any thread.
 FileSystem& systemFiles();
 
-/// Whether a file has to be on the disk before it takes its name: then a loss of power never leaves
-/// an empty file there, at the cost of waiting for the disk.
+/// Whether the data must be on the disk before the file takes its name. If so, a power loss never
+/// leaves an empty file, but publish() waits for the disk.
 enum class Durability { kSynced, kUnsynced };
 
-/// A file that is written under a temporary name (".name.part" in the same folder; ".name.2.part"
-/// and so on while another writer has that) and takes its own name in publish(): of two writers,
-/// the later one's stands. Destroyed without, it removes what it wrote; what stood under the name
-/// before stays. A symbolic link to a file stays a link: the file that it leads to is replaced.
+/// A file that is written under a temporary name (".name.part" in the same folder, or
+/// ".name.2.part" and so on while another writer holds that name) and takes its final name in
+/// publish(). If two writers publish, the later file stays. Destruction without publish() removes
+/// the temporary file and leaves an existing file of that name alone. A symbolic link to a file
+/// stays a link: its target is replaced.
 class PendingFile {
  public:
-  /// Errors: kNotFound (no such folder), kPermissionDenied, kInvalidArgument (a folder, a device or
-  /// anything else but a regular file stands there), kNoSpace, kIo. `files` must outlive this.
+  /// Errors: kNotFound (no such folder), kPermissionDenied, kInvalidArgument (`path` is a folder, a
+  /// device or anything else but a regular file), kNoSpace, kIo. `files` must outlive this object.
   static Result<PendingFile> create(const std::filesystem::path& path,
                                     FileSystem& files = systemFiles());
 
@@ -53,12 +55,12 @@ class PendingFile {
   PendingFile& operator=(const PendingFile&) = delete;
   ~PendingFile();
 
-  /// All of `bytes`. Errors: kNoSpace, kIo.
+  /// Writes all of `bytes`. Errors: kNoSpace, kIo.
   Result<void> write(std::span<const std::uint8_t> bytes);
-  /// As lseek; the new offset. Errors: kIo.
+  /// Moves the write position like lseek and gives the new offset. Errors: kIo.
   Result<std::int64_t> seek(std::int64_t offset, int whence);
-  /// Brings it to the disk, renames and closes. Errors: kNoSpace (some file systems say so only
-  /// now), kIo.
+  /// Writes the data to the disk (kSynced), renames the file and closes it. Errors: kNoSpace (some
+  /// file systems report it only here), kIo.
   Result<void> publish(Durability durability = Durability::kSynced);
 
  private:
@@ -66,8 +68,8 @@ class PendingFile {
   int createTemporary();
   Error failure(const char* operation, std::int64_t minusErrno) const;
 
-  std::filesystem::path path_;    ///< as given, for messages
-  std::filesystem::path target_;  ///< links followed
+  std::filesystem::path path_;    ///< as given by the caller, for messages
+  std::filesystem::path target_;  ///< with links resolved
   std::filesystem::path temporary_;
   FileSystem* files_;
   int fd_ = -1;

@@ -6,7 +6,7 @@
 
 namespace pleinair::hal {
 
-/// Memory layouts of pictures. Names are V4L2's and libav's where those agree.
+/// Memory layouts of images. The names are V4L2's and libav's where these two agree.
 enum class PixelFormat {
   kGrey8,
   kRgb8,   ///< bytes R, G, B
@@ -39,13 +39,13 @@ struct FrameSize {
   friend bool operator==(const FrameSize&, const FrameSize&) = default;
 };
 
-/// The largest picture that is accepted, refused from its header before it is decoded.
+/// The largest image that is accepted. A larger one is refused by its header, before decoding.
 inline constexpr int kMaxSidePixels = 8192;
 inline constexpr std::int64_t kMaxPixels = 64'000'000;
 /// Whether both sides are at least 1 px and within the limits above.
 bool isAcceptedSize(FrameSize size);
 
-/// A picture's layout, without its strides (those come with each plane).
+/// The layout of an image without its strides, which come with each plane.
 struct FrameFormat {
   PixelFormat pixelFormat = PixelFormat::kRgb8;
   FrameSize size;

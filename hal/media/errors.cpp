@@ -11,7 +11,7 @@
 
 namespace pleinair::hal::libav {
 
-/// Takes libav's log lines.
+/// Receives libav's log lines.
 struct LogRouter {
   static thread_local LogCapture* current;
 
@@ -27,7 +27,7 @@ struct LogRouter {
     }
     for (const char c : line) {
       if (c == '\0' || c == '\n') break;
-      // What a broken file makes libav say is not to steer a terminal.
+      // Escapes control characters: the text of a broken file must not control a terminal.
       current->firstError_ += c >= ' ' && c <= '~' ? c : '?';
     }
   }
@@ -50,8 +50,8 @@ void routeLog() {
 
 Error libavError(std::string subject, std::string problem, int code, ErrorKind kind,
                  std::string remedy) {
-  // Of the errno values inside libav's codes only those tell of the world that come from the system
-  // calls of our own readers and writers; the rest is libav refusing data.
+  // Only the errno values from this module's own readers and writers describe the world. With any
+  // other value libav rejects the data.
   switch (AVUNERROR(code)) {
     case EIO:
     case ENOSPC:

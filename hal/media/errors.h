@@ -6,17 +6,17 @@
 
 namespace pleinair::hal::libav {
 
-/// An Error with libav's code and text. Failures of reading and writing that come as errno values
-/// (disk full, I/O error, no permission) keep their kind; `kind` is for everything else.
+/// An Error with libav's code and text. Read and write failures that arrive as errno values (disk
+/// full, I/O error, no permission) keep their kind; all others get `kind`.
 Error libavError(std::string subject, std::string problem, int code,
                  ErrorKind kind = ErrorKind::kInvalidInput, std::string remedy = {});
 
-/// Keeps libav from printing, for the whole process; call before any other use of it. Its error
-/// lines go to the LogCapture of the calling thread, if there is one, and are dropped otherwise.
+/// Redirects libav's log for the whole process; call before any other use of libav. Its error lines
+/// go to the LogCapture of the calling thread, if there is one; all other lines are dropped.
 void routeLog();
 
-/// The first line that libav logged as an error on this thread while this lives. One at a time on a
-/// thread; the inner one hides the outer.
+/// Captures the first line that libav logs as an error on this thread while this object lives. If
+/// captures are nested on a thread, the inner one receives the lines.
 class LogCapture {
  public:
   LogCapture();
@@ -24,7 +24,7 @@ class LogCapture {
   LogCapture(const LogCapture&) = delete;
   LogCapture& operator=(const LogCapture&) = delete;
 
-  /// Printable text without a newline; empty if there was no error.
+  /// Printable text without a newline; empty without an error.
   const std::string& firstError() const { return firstError_; }
   void clear() { firstError_.clear(); }
 

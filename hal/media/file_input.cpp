@@ -11,7 +11,7 @@
 namespace pleinair::hal::libav {
 
 Result<FileInput> FileInput::open(const std::filesystem::path& path) {
-  // O_NONBLOCK: opening a pipe without a writer must not wait.
+  // O_NONBLOCK: opening a pipe without a writer must not block.
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (fd < 0) return tl::unexpected(errnoError(path.string(), "cannot open", errno));
   FileInput file(fd, 0);

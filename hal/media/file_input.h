@@ -9,8 +9,8 @@
 
 namespace pleinair::hal::libav {
 
-/// A regular file opened for reading, never interpreted as a URL. Pipes and devices, which could
-/// block, are refused.
+/// A regular file opened for reading; its name is never interpreted as a URL. Pipes and devices are
+/// refused, since they could block.
 class FileInput {
  public:
   /// Errors: kNotFound, kPermissionDenied, kInvalidInput (not a file, or empty), kIo.
@@ -32,7 +32,7 @@ class FileInput {
   std::int64_t sizeBytes_ = 0;
 };
 
-/// libav's view of a FileInput: a demuxer reads through it and can open nothing else.
+/// An AVIOContext over a FileInput. A demuxer that reads through it can open no other file.
 class DemuxerIo {
  public:
   explicit DemuxerIo(FileInput file);

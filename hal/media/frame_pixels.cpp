@@ -26,7 +26,8 @@ bool isJpegLayout(int format) {
          format == AV_PIX_FMT_YUVJ411P;
 }
 
-/// The same layout without the range in its name, which swscale deprecates.
+/// Replaces the full-range layouts (YUVJ…), which swscale deprecates, by the same layouts without a
+/// range.
 AVPixelFormat plainLayout(int format) {
   switch (format) {
     case AV_PIX_FMT_YUVJ420P:
@@ -56,7 +57,7 @@ std::optional<PixelFormat> nativeFormat(const AVFrame& frame) {
     case AV_PIX_FMT_NV12:
       return PixelFormat::kNv12;
     case AV_PIX_FMT_YUYV422:
-      // libav's rows of odd width end in half a macropixel.
+      // In libav, rows of odd width end in half a macropixel.
       return frame.width % 2 == 0 ? std::optional(PixelFormat::kYuyv) : std::nullopt;
     case AV_PIX_FMT_GRAY8:
       return PixelFormat::kGrey8;
@@ -86,7 +87,7 @@ std::optional<LentPicture> lendWithoutCopy(const std::shared_ptr<const AVFrame>&
       isYCbCr(*native) ? encodingOf(*frame) : ColorEncoding{};
   if (!encoding) return std::nullopt;
   for (int plane = 0; plane < planeCount(*native); ++plane) {
-    if (frame->linesize[plane] <= 0) return std::nullopt;  // stored bottom up
+    if (frame->linesize[plane] <= 0) return std::nullopt;  // stored bottom-up
   }
   const FrameFormat format{
       .pixelFormat = *native, .size = {frame->width, frame->height}, .encoding = *encoding};
@@ -117,7 +118,7 @@ Frame grey8FromGrey16(const AVFrame& source) {
   return target;
 }
 
-/// Y'CbCr matrix and range of both sides, so that swscale does not guess.
+/// Sets the Y'CbCr matrix and range of both sides, so that swscale does not guess.
 void setColors(SwsContext& scaler, const AVFrame& source) {
   int matrix = source.colorspace;
   if (const std::optional<ColorEncoding> encoding = encodingOf(source)) {
@@ -151,7 +152,7 @@ Result<Frame> convert(const AVFrame& source, AVPixelFormat format) {
   return target;
 }
 
-/// 8-bit sRGB-coded compositing, as picture viewers do it.
+/// Composites over white in 8-bit sRGB, as image viewers do.
 Frame overWhite(const AVFrame& rgba) {
   Frame target = allocate(AV_PIX_FMT_RGB24, rgba.width, rgba.height);
   for (int y = 0; y < rgba.height; ++y) {
@@ -195,11 +196,11 @@ Result<LentPicture> lendRgba(const AVFrame& frame) {
   return LentPicture{.view = viewOf(*rgba, format), .lease = rgba};
 }
 
-/// As stored, not yet turned.
+/// Lends the image as stored, without applying its orientation.
 Result<LentPicture> lendStored(const std::shared_ptr<const AVFrame>& frame, Delivery delivery,
                                Orientation orientation) {
   std::optional<LentPicture> lent = lendWithoutCopy(frame);
-  // YUYV's pixels share chroma in pairs, so that it cannot be turned.
+  // YUYV cannot be rotated: pairs of its pixels share chroma.
   const bool mayStay =
       lent && delivery == Delivery::kAsStored &&
       (lent->view.format.pixelFormat != PixelFormat::kYuyv || orientation.isUpright());

@@ -10,26 +10,26 @@
 
 namespace pleinair::hal::libav {
 
-/// A decoded picture in a format of ours: planes lent by `lease`.
+/// A decoded image in one of the HAL's formats; `lease` keeps its planes alive.
 struct LentPicture {
   ImageView view;
   std::shared_ptr<const void> lease;
 };
 
-/// The Y'CbCr encoding of a frame: its tags; where it has none, full range for the JPEG layouts,
-/// else limited; BT.709 from 720 lines up, else BT.601. Nothing where it is another one (BT.2020).
+/// The Y'CbCr encoding of a frame, from its tags. Defaults: full range for the JPEG layouts, else
+/// limited; BT.709 from 720 lines up, else BT.601. Nothing for another encoding (BT.2020).
 std::optional<ColorEncoding> encodingOf(const AVFrame& frame);
 
-/// Of the frame's display matrix; upright where it has none.
+/// The orientation of a frame, from its display matrix; upright without one.
 Orientation orientationOf(const AVFrame& frame);
 
-/// kRgb: RGB8 always. kRgba: RGBA8 always, alpha kept, rows and columns as stored.
+/// kRgb: RGB8 always. kRgba: RGBA8 always, with alpha, rows and columns as stored.
 enum class Delivery { kAsStored, kRgb, kRgba };
 
-/// The frame as I420, NV12, YUYV, grey or RGB8 without a copy where its layout is one of these;
-/// else converted: 16-bit grey to grey, everything else to RGB8, alpha laid over white paper.
-/// Where its display matrix turns or mirrors it, an upright copy (of YUYV as RGB8).
-/// Errors: kUnsupported (size beyond the limits, or a layout that libav cannot convert).
+/// Converts a frame. I420, NV12, YUYV, grey and RGB8 are lent without a copy; 16-bit grey becomes
+/// grey, every other layout becomes RGB8 with alpha over white. If the display matrix turns or
+/// mirrors the frame, the result is an upright copy (YUYV as RGB8). Errors: kUnsupported (size
+/// beyond the limits, or a layout that libav cannot convert).
 Result<LentPicture> lendPicture(const std::shared_ptr<const AVFrame>& frame,
                                 Delivery delivery = Delivery::kAsStored);
 

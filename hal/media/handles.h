@@ -1,7 +1,7 @@
 #pragma once
 
-// Owning handles for libav's objects, and its C headers in one place. For .cpp files of the HAL and
-// its internal headers only.
+// Owning handles for libav's objects, and libav's C headers in one place. For .cpp files and
+// internal headers of the HAL only.
 
 #include <memory>
 #include <new>
@@ -38,7 +38,7 @@ struct FreeScaler {
 };
 struct FreeIo {
   void operator()(AVIOContext* context) const {
-    // The buffer may have been replaced by libav since it was given.
+    // libav may have replaced the buffer since.
     if (context != nullptr) av_freep(&context->buffer);
     avio_context_free(&context);
   }
@@ -56,7 +56,7 @@ using Scaler = std::unique_ptr<SwsContext, FreeScaler>;
 using IoContext = std::unique_ptr<AVIOContext, FreeIo>;
 using Dictionary = std::unique_ptr<AVDictionary, FreeDictionary>;
 
-/// What libav allocated; std::bad_alloc where it had no memory.
+/// Owns an object that libav allocated; throws std::bad_alloc if the allocation failed.
 template <class Handle, class T>
 Handle owned(T* pointer) {
   if (pointer == nullptr) throw std::bad_alloc();

@@ -12,8 +12,8 @@ namespace {
 
 constexpr ColorEncoding kJfif{.matrix = ColorMatrix::kBt601, .range = ColorRange::kFull};
 
-/// How many samples of a picture's chroma lie within two by two of its pixels: 4:4:4 has 2 by 2,
-/// 4:2:2 has 1 by 2. Nothing where it is not 8-bit planar Y'CbCr.
+/// How many chroma samples cover two by two pixels: 2 by 2 in 4:4:4, 1 by 2 in 4:2:2. Nothing for
+/// other layouts than 8-bit planar Y'CbCr.
 struct ChromaDensity {
   int across = 0;  ///< 0: half a sample
   int down = 0;
@@ -50,7 +50,7 @@ void copyLuma(const AVFrame& from, Image& to) {
   }
 }
 
-/// The mean of the samples that a pixel of 4:2:0 chroma covers, rounded.
+/// Averages the samples that a pixel of 4:2:0 chroma covers, rounded.
 void averageChroma(const AVFrame& from, ChromaDensity density, int plane, Image& to) {
   const int sourceRows =
       density.down == 2 ? from.height : planeRows(PixelFormat::kI420, plane, from.height);

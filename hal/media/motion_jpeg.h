@@ -9,10 +9,10 @@
 
 namespace pleinair::hal::libav {
 
-/// A camera's JPEG as I420 with full range, whatever chroma it stores: 4:2:0 is lent without a
-/// copy, other chroma averaged, none is neutral. Rows and columns as stored; the Huffman tables may
-/// be left out, as Motion-JPEG does. `subject` names the camera in errors: kInvalidInput (not a
-/// JPEG, truncated or corrupt), kUnsupported (size, coding).
+/// Decodes a camera's JPEG to I420 with full range: 4:2:0 is lent without a copy, other chroma is
+/// averaged, missing chroma is neutral. Rows and columns stay as stored. The Huffman tables may be
+/// missing, as in Motion-JPEG. `subject` names the camera in errors: kInvalidInput (not a JPEG,
+/// truncated or corrupt), kUnsupported (size, coding).
 Result<LentPicture> decodeMotionJpeg(std::span<const std::uint8_t> bytes,
                                      const std::string& subject);
 

@@ -10,7 +10,8 @@
 namespace pleinair::hal::libav {
 namespace {
 
-/// Whether a matrix's diagonal outweighs the other one so far that it turns by no degree.
+/// Whether one diagonal of a matrix outweighs the other so far that the matrix turns by less than a
+/// degree.
 bool outweighs(std::array<std::int64_t, 2> diagonal, std::array<std::int64_t, 2> other) {
   constexpr std::int64_t kOverTanOfADegree = 57;
   const std::int64_t least = std::min(std::abs(diagonal[0]), std::abs(diagonal[1]));
@@ -41,7 +42,7 @@ void turnPlane(const PlaneView& stored, FrameSize size, Orientation orientation,
   }
   if (orientation.transposed) std::swap(right, down);
   const FrameSize shown = oriented(size, orientation);
-  // In strips, so that the stored rows that a transposed strip crosses stay in the cache.
+  // Width of a strip. The stored rows that a transposed strip crosses stay in the cache.
   constexpr int kStripPixels = 64;
   for (int strip = 0; strip < shown.width; strip += kStripPixels) {
     const int end = std::min(strip + kStripPixels, shown.width);

@@ -12,7 +12,8 @@
 namespace pleinair::hal::libav {
 namespace {
 
-/// More than any sound picture within the size limits takes, even uncompressed at 16 bits.
+/// An upper bound on the file size of a valid picture within the size limits, even uncompressed at
+/// 16 bits.
 constexpr std::int64_t kMaxPictureFileBytes = 512'000'000;
 
 AVCodecID codecOf(PictureKind kind) {
@@ -28,7 +29,8 @@ AVCodecID codecOf(PictureKind kind) {
     case PictureKind::kWebp:
       return AV_CODEC_ID_WEBP;
     case PictureKind::kPnm:
-      return AV_CODEC_ID_PPM;  // libav's PNM decoders are one; the file says which it is
+      // libav has one decoder for all PNM types, which reads the type from the file
+      return AV_CODEC_ID_PPM;
   }
   return AV_CODEC_ID_NONE;
 }
@@ -76,7 +78,7 @@ CodecContext openDecoder(AVCodecID id) {
   auto decoder = owned<CodecContext>(avcodec_alloc_context3(codec));
   decoder->err_recognition = AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER | AV_EF_EXPLODE;
   decoder->max_pixels = kMaxPixels;
-  decoder->thread_count = 1;  // its log lines come on this thread
+  decoder->thread_count = 1;  // keeps its log lines on this thread
   return avcodec_open2(decoder.get(), codec, nullptr) < 0 ? nullptr : std::move(decoder);
 }
 
@@ -98,7 +100,7 @@ Result<std::shared_ptr<const AVFrame>> decode(const AVPacket& packet, const std:
   int status = avcodec_send_packet(decoder.get(), &packet);
   if (status >= 0) status = avcodec_send_packet(decoder.get(), nullptr);
   if (status >= 0) status = avcodec_receive_frame(decoder.get(), frame.get());
-  // Where the decoder complained it has filled in what it could not read.
+  // The decoder filled the missing parts in if it logged an error.
   if (!log.firstError().empty()) {
     return tl::unexpected(broken(subject, "is a broken picture: " + log.firstError()));
   }
@@ -136,7 +138,7 @@ Result<std::shared_ptr<const AVFrame>> decodePicture(std::span<const std::uint8_
   if (std::cmp_greater(bytes.size(), kMaxPictureFileBytes)) {
     return tl::unexpected(broken(subject, "is too large a file for a picture"));
   }
-  const Packet packet = makePacket();  // libav reads a little beyond the end: a padded copy
+  const Packet packet = makePacket();  // a padded copy: libav reads a little beyond the end
   if (av_new_packet(packet.get(), static_cast<int>(bytes.size())) < 0) throw std::bad_alloc();
   if (!bytes.empty()) std::memcpy(packet->data, bytes.data(), bytes.size());
   return decode(*packet, subject);

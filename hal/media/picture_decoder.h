@@ -13,16 +13,16 @@
 
 namespace pleinair::hal::libav {
 
-/// "WxH px is too large", as every reader refuses a header beyond the limits.
+/// "WxH px is too large": the error of every reader for a header beyond the limits.
 Error tooLarge(std::string subject, FrameSize size);
 
-/// Decodes a whole picture; a truncated or corrupt one is refused, never half shown. Its size is
-/// checked in the header first. The frame comes as stored; a JPEG's has its EXIF orientation as a
+/// Decodes a picture file. Truncated or corrupt files are refused, never shown in part. The size in
+/// the header is checked first. The frame is as stored, with a JPEG's EXIF orientation as its
 /// display matrix. Errors: as FileInput::open, and kInvalidInput (not a picture, broken),
 /// kUnsupported (size, coding).
 Result<std::shared_ptr<const AVFrame>> decodePicture(const std::filesystem::path& path);
 
-/// The same for a whole file in memory; `subject` names it in errors.
+/// Decodes a picture file in memory; `subject` names it in errors.
 Result<std::shared_ptr<const AVFrame>> decodePicture(std::span<const std::uint8_t> bytes,
                                                      const std::string& subject);
 

@@ -36,8 +36,9 @@ FrameSize sizeOf(std::uint32_t width, std::uint32_t height) {
   return {toSide(width), toSide(height)};
 }
 
-/// Calls visit(marker, offset of the segment's payload, its bytes) for each marker segment up to
-/// the first scan's entropy-coded data, until it answers true; gives where it stopped.
+/// Calls visit(marker, offset of the segment's payload, its bytes) for each marker segment before
+/// the first scan's entropy-coded data, until it returns true. Returns the offset at which it
+/// stopped.
 template <class Visitor>
 std::size_t walkJpeg(Bytes bytes, Visitor visit) {
   std::size_t at = 2;
@@ -74,7 +75,8 @@ std::optional<FrameSize> jpegSize(Bytes bytes) {
   return size;
 }
 
-/// An end-of-image marker after the first scan begins; inside entropy-coded data 0xFF is stuffed.
+/// Whether an end-of-image marker follows the start of the first scan. Inside entropy-coded data,
+/// 0xFF is stuffed.
 bool jpegHasEnd(Bytes bytes) {
   const std::size_t scan =
       walkJpeg(bytes, [](std::uint8_t marker, std::size_t, std::size_t) { return marker == 0xDA; });
@@ -112,11 +114,11 @@ std::optional<FrameSize> webpSize(Bytes bytes) {
 
 std::optional<FrameSize> bmpSize(Bytes bytes) {
   if (bytes.size() < 26) return std::nullopt;
-  if (littleEndian(bytes, 14, 4) == 12) {  // OS/2's header
+  if (littleEndian(bytes, 14, 4) == 12) {  // the OS/2 header
     return sizeOf(littleEndian(bytes, 18, 2), littleEndian(bytes, 20, 2));
   }
   std::uint32_t height = littleEndian(bytes, 22, 4);
-  if (height > 0x7FFFFFFF) height = ~height + 1;  // negative: stored top down
+  if (height > 0x7FFFFFFF) height = ~height + 1;  // negative: stored top-down
   return sizeOf(littleEndian(bytes, 18, 4), height);
 }
 

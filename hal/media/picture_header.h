@@ -11,16 +11,16 @@ namespace pleinair::hal::libav {
 
 enum class PictureKind { kPng, kJpeg, kBmp, kTiff, kWebp, kPnm };
 
-/// What the first bytes say that a file is: its signature only.
+/// The file type by its signature, the first bytes.
 std::optional<PictureKind> pictureKindOf(std::span<const std::uint8_t> bytes);
 
-/// The size that the header of a whole file in memory gives, before anything is decoded. Nothing
-/// where it has none in reach (also of a broken file); TIFF is not looked into.
+/// The size in the header of a picture file in memory, without decoding. Nothing if no header is
+/// found (also in broken files) and for TIFF, which is not parsed.
 std::optional<FrameSize> peekPictureSize(PictureKind kind, std::span<const std::uint8_t> bytes);
 
-/// What is wrong with a whole file in memory that libav would gloss over (it fills what a JPEG
-/// lacks with grey, and shows a palette picture without its palette): "breaks off before its end".
-/// Nothing where no such flaw is found.
+/// A defect of a picture file in memory that libav would hide: it fills the missing part of a JPEG
+/// with grey, and shows a palette picture without its palette. For example "breaks off before its
+/// end". Nothing if no such defect is found.
 std::optional<std::string_view> flawOf(PictureKind kind, std::span<const std::uint8_t> bytes);
 
 }  // namespace pleinair::hal::libav

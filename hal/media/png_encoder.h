@@ -9,13 +9,13 @@
 
 namespace pleinair::hal::libav {
 
-/// Encodes pictures of one format as PNG, quickly rather than small. One thread.
+/// Encodes images of one format as PNG, optimized for speed rather than size. One thread.
 class PngEncoder {
  public:
-  /// For RGB8, RGBA8 or grey. Errors: kUnsupported (format, or no encoder in this libav).
+  /// For RGB8, RGBA8 or grey. Errors: kUnsupported (format, or libav without a PNG encoder).
   static Result<PngEncoder> open(FrameFormat format);
 
-  /// The bytes of a whole PNG file. Precondition: `picture` is complete and of open()'s format.
+  /// Gives a whole PNG file. Precondition: `picture` is complete and has open()'s format.
   Result<std::vector<std::uint8_t>> encode(const ImageView& picture);
 
  private:

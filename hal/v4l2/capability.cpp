@@ -11,7 +11,7 @@
 namespace pleinair::hal::v4l2 {
 namespace {
 
-/// The kernel's fixed fields need not end in a zero.
+/// Reads one of the kernel's fixed-size text fields, which need not end in a zero.
 template <std::size_t kSize>
 std::string textOf(const __u8 (&field)[kSize]) {
   return {std::begin(field), std::find(std::begin(field), std::end(field), 0)};

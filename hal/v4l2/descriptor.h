@@ -6,7 +6,7 @@
 
 namespace pleinair::hal::v4l2 {
 
-/// Owns a descriptor of `calls`; closes it on any thread.
+/// Owns a file descriptor that `calls` opened; closes it on any thread.
 class Descriptor {
  public:
   Descriptor() = default;

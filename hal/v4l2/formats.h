@@ -7,13 +7,12 @@
 
 namespace pleinair::hal::v4l2 {
 
-/// "YUYV"; bytes that are no printable ASCII as "\x1f", spaces at the end left out, and the
-/// big-endian flag (bit 31) as "-BE", as v4l2-ctl writes it.
+/// A fourcc as text, as v4l2-ctl writes it: "YUYV", with non-printable bytes as "\x1f", without
+/// trailing spaces, and with "-BE" for the big-endian flag (bit 31).
 std::string fourccText(std::uint32_t fourcc);
 
-/// The Y'CbCr encoding that v4l2_pix_format's fields say, with the kernel's defaults where they say
-/// "default". BT.2020 and SMPTE 240M, which the painter does not know, count as the nearest:
-/// BT.709.
+/// The Y'CbCr encoding that v4l2_pix_format's fields give; "default" values follow the kernel's
+/// rules. BT.2020 and SMPTE 240M are not supported and count as BT.709, the nearest.
 ColorEncoding colorEncodingOf(std::uint32_t colorspace, std::uint32_t encoding,
                               std::uint32_t quantization);
 

@@ -12,7 +12,7 @@
 namespace pleinair::hal::v4l2 {
 namespace {
 
-/// call()'s answer, or −errno; called again after EINTR.
+/// Gives call()'s answer, or −errno; retries after EINTR.
 template <class Call>
 auto untilDone(Call call) {
   for (;;) {
@@ -56,7 +56,7 @@ class KernelCalls final : public SystemCalls {
     const TimePoint start = clock.now();
     return untilDone([&] {
       timespec left{};
-      // After EINTR only what is left of the time is waited.
+      // After EINTR, waits only for the rest of the time.
       if (timeout) left = toTimespec(std::max(*timeout - (clock.now() - start), Duration::zero()));
       return ::ppoll(waitFor.data(), waitFor.size(), timeout ? &left : nullptr, nullptr);
     });

@@ -11,9 +11,9 @@
 
 namespace pleinair::hal::v4l2 {
 
-/// What V4L2 devices are driven through; a test stands a device of its own behind it.
-/// Every call answers −errno where the system says −1, and goes on by itself after EINTR.
-/// Thread-safe. Outlives every camera, output and frame that uses it.
+/// The system calls behind V4L2 devices; tests inject a fake device. Each call gives −errno in
+/// place of −1 and retries EINTR. Thread-safe. Must outlive every camera, output and frame that
+/// uses it.
 class SystemCalls {
  public:
   virtual ~SystemCalls() = default;
@@ -21,21 +21,22 @@ class SystemCalls {
   SystemCalls(const SystemCalls&) = delete;
   SystemCalls& operator=(const SystemCalls&) = delete;
 
-  /// A descriptor. O_CLOEXEC is added to `flags`.
+  /// Opens a device node and gives its file descriptor. O_CLOEXEC is added to `flags`.
   virtual int open(const char* path, int flags) = 0;
-  /// Never retried: the descriptor is gone whatever it answers.
+  /// Closes a descriptor. Never retried: the descriptor is gone whatever the answer.
   virtual int close(int fd) = 0;
   virtual int ioctl(int fd, unsigned long request, void* argument) = 0;
-  /// Shared, readable and writable. 0 with `address` set.
+  /// Maps memory, shared, readable and writable. 0, with `address` set.
   virtual int map(int fd, std::size_t length, std::int64_t offset, void*& address) = 0;
   virtual int unmap(void* address, std::size_t length) = 0;
-  /// How many of `waitFor` are ready; 0 once `timeout` is over. Unset: waits for ever.
+  /// Waits, and gives the number of ready descriptors in `waitFor`; 0 after `timeout`. Without
+  /// `timeout` it waits for ever.
   virtual int poll(std::span<pollfd> waitFor, std::optional<Duration> timeout) = 0;
-  /// The bytes written, which may be fewer.
+  /// Writes, and gives the number of bytes written, which may be fewer.
   virtual std::int64_t write(int fd, std::span<const std::uint8_t> bytes) = 0;
 };
 
-/// The kernel's.
+/// The kernel's system calls.
 SystemCalls& kernelCalls();
 
 }  // namespace pleinair::hal::v4l2

@@ -18,7 +18,7 @@ namespace {
 
 const std::string kShaders = "pipeline/marks/shaders/";
 constexpr std::size_t kCellBytes = 32;  // shaders/anchor_cells.glsl
-constexpr int kMostStrata = 4;          // along a cell's side, likewise
+constexpr int kMostStrata = 4;          // along a cell's side (shaders/anchor_cells.glsl)
 constexpr GLbitfield kStored = GL_SHADER_STORAGE_BARRIER_BIT;
 constexpr glm::ivec2 kSlotGroup{64, 1};
 constexpr glm::ivec2 kCellGroup{8, 8};
@@ -27,15 +27,15 @@ glm::ivec2 gridOf(hal::FrameSize full, int cellPixels) {
   return {(full.width + cellPixels - 1) / cellPixels, (full.height + cellPixels - 1) / cellPixels};
 }
 
-/// Room for every cell to be halfway between what it aims at and where it becomes too crowded,
-/// those beyond the border too, and for those that fade out beside them.
+/// Slots for every cell, including those beyond the border, at a density halfway between target and
+/// deathAbove, and for the anchors that fade out.
 std::uint32_t slotsFor(glm::ivec2 grid, const DensityRule& rule) {
   const int twice = (grid.x + 2) * (grid.y + 2) * (rule.target + rule.deathAbove);
   const int fading = twice / 10;
   return static_cast<std::uint32_t>((twice + fading + 1) / 2);
 }
 
-/// How far a fade of this length goes in `step`.
+/// The part of a fade of this length that `step` completes.
 float fadeOf(hal::Duration step, hal::Duration length) {
   if (length <= hal::Duration(0)) return 1.0F;
   return static_cast<float>(static_cast<double>(step.count()) /
@@ -76,10 +76,10 @@ struct AnchorSet::State {
   gpu::Program spawn;
   gpu::Buffer anchors;
   gpu::Buffer cells;
-  gpu::Buffer births;  // free slots, in order
+  gpu::Buffer births;  // the free slots, in order
   gpu::Texture noIds;
   hal::TimePoint lastTime;
-  std::uint32_t salt = 0;  // of this frame's births
+  std::uint32_t salt = 0;  // of this frame's spawns
   bool hasPast = false;
   bool hasBegunAnew = true;
 
@@ -88,7 +88,8 @@ struct AnchorSet::State {
     const double side = std::ceil(std::sqrt(static_cast<double>(options.density.target)));
     return std::clamp(static_cast<int>(side), 1, kMostStrata);
   }
-  /// How far beyond the border anchors go on: who trembles there is not born again and again.
+  /// The margin beyond the border in which anchors live on: an anchor that jitters at the border
+  /// must not be respawned every frame.
   float margin() const { return static_cast<float>(options.density.cellPixels); }
 
   gpu::Program& begin(gpu::Program& program, const scene::ArFrame& frame) {
@@ -233,7 +234,7 @@ const AnchorOptions& AnchorSet::options() const {
 
 std::vector<Anchor> AnchorSet::read() const {
   std::vector<Anchor> read(state_->slots);
-  state_->anchors.read(std::as_writable_bytes(std::span(read)));  // a lost GPU leaves them free
+  state_->anchors.read(std::as_writable_bytes(std::span(read)));  // stays free if the GPU was lost
   return read;
 }
 

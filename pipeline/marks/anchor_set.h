@@ -16,12 +16,12 @@
 
 namespace pleinair::marks {
 
-/// How many anchors there are (thesis §5.3, with hysteresis): a cell of the grid with fewer than
-/// `birthBelow` is filled up to `target`; one with more than `deathAbove` loses one a frame. What
-/// lies between changes nothing, which is what keeps the turnover low. Of a cell that shows both
-/// models and the camera's picture, each has its share.
+/// Density control (thesis §5.3, with hysteresis): a cell with fewer anchors than `birthBelow` is
+/// filled up to `target`; a cell with more than `deathAbove` loses one per frame. In between,
+/// nothing changes, which keeps the turnover low. In a cell that shows both models and the camera
+/// image, each of the two gets its share.
 struct DensityRule {
-  int cellPixels = 8;  ///< the cell's side, in px of the full picture
+  int cellPixels = 8;  ///< side of a cell, in px of the full image
   int target = 2;
   int birthBelow = 1;
   int deathAbove = 4;
@@ -29,26 +29,28 @@ struct DensityRule {
 
 struct AnchorOptions {
   DensityRule density;
-  unsigned seed = 1;  ///< of all that is random
+  unsigned seed = 1;  ///< seeds all random numbers
 };
 
-/// How anchors hold on from frame to frame; may change with each.
+/// How anchors persist from frame to frame; may change with each frame.
 struct AnchorHold {
-  hal::Duration fadeIn = std::chrono::milliseconds(300);   ///< from nothing to all; 0: at once
-  hal::Duration fadeOut = std::chrono::milliseconds(200);  ///< from all to nothing; likewise
-  bool hasSlack = true;  ///< DensityRule's about its target; else births and deaths keep to that
+  /// time from invisible to visible; 0: at once
+  hal::Duration fadeIn = std::chrono::milliseconds(300);
+  /// time from visible to invisible; 0: at once
+  hal::Duration fadeOut = std::chrono::milliseconds(200);
+  bool hasSlack = true;  ///< hysteresis of DensityRule; if false, density is kept at the target
 };
 
-/// The anchors of a style's marks: born where the picture has too few, carried with what they lie
-/// on (a surface of a model, exactly; else the image, by the best that is known of its motion),
-/// faded out where what they lie on is hidden and where they crowd. Each has a slot of its own as
-/// long as it lives, so that styles keep what they know of a mark in buffers beside it. All on the
-/// GPU, nothing is read back; the same frames with the same times give the same anchors. All calls
-/// on the thread of the GL context it was made in.
+/// The anchors of a style's marks. They are spawned where the image has too few, follow the surface
+/// that they lie on (exactly on a model; else by the best known image motion), and fade out when
+/// their surface is occluded or their cell is too crowded. An anchor keeps its slot for life, so
+/// that styles can store the data of its mark in parallel buffers. All data stays on the GPU;
+/// nothing is read back. The same frames with the same times give the same anchors. All calls on
+/// the thread of the GL context that was current at construction.
 class AnchorSet {
  public:
-  /// `library` has gpu::marksShaders(), gpu::sceneShaders() and gpu::gpuShaders(). Pictures'
-  /// full size is `full`. Throws hal::Failure where the GPU has no memory for them.
+  /// `library` has gpu::marksShaders(), gpu::sceneShaders() and gpu::gpuShaders(). `full` is the
+  /// size of the full image. Throws hal::Failure if GPU memory runs out.
   AnchorSet(const gpu::ShaderLibrary& library, hal::FrameSize full, AnchorOptions options);
   ~AnchorSet();
   AnchorSet(const AnchorSet&) = delete;
@@ -56,27 +58,28 @@ class AnchorSet {
   AnchorSet(AnchorSet&&) = delete;
   AnchorSet& operator=(AnchorSet&&) = delete;
 
-  /// Goes on to the next frame, whose `motion` has been updated. The first frame, one after
-  /// reset(), and one after a cut begins anew, with all anchors there at once. Preconditions:
-  /// frame.full() is the constructor's size; the style's needs() ask for surfaces and
-  /// measuredMotion.
+  /// Advances to the next frame, for which `motion` has been updated. The first frame, a frame
+  /// after reset() and a frame after a cut start anew, with all anchors visible at once.
+  /// Preconditions: frame.full() is the constructor's size; the style's needs() include surfaces
+  /// and measuredMotion.
   void advance(const scene::ArFrame& frame, const MotionField& motion, gpu::PassTimer& timer,
                const AnchorHold& hold = {});
-  /// Whether the last advance() began anew: what styles keep of slots is of other anchors.
+  /// Whether the last advance() started anew, so that data which a style stores per slot is
+  /// invalid.
   bool hasBegunAnew() const;
 
-  /// slotCount() Anchors; those that are not alive are free slots.
+  /// slotCount() Anchors; a slot without kAlive is free.
   const gpu::Buffer& anchors() const;
   std::uint32_t slotCount() const;
   const AnchorOptions& options() const;
 
-  /// Waits for the GPU and reads all slots: for measures and tests. All are free where a lost GPU
-  /// has nothing to read.
+  /// Waits for the GPU and reads all slots: for measures and tests. All slots are free if the GPU
+  /// was lost.
   std::vector<Anchor> read() const;
 
-  /// The next advance() begins anew, with other anchors than ever before.
+  /// Makes the next advance() start anew, with other anchors than before.
   void beginAnew();
-  /// Forgets all: the next advance() begins anew, with the anchors of a first frame.
+  /// Forgets the past: the next advance() starts anew, with the anchors of a first frame.
   void reset();
 
  private:

@@ -8,14 +8,14 @@
 
 namespace pleinair::marks {
 
-/// How much of the time between two frames counts for what fades and settles: none of a step
-/// backwards, and a second of a longer pause. Any thread.
+/// The time between two frames that counts for fades and means: 0 for a step backwards, at most a
+/// second for a pause. Any thread.
 inline hal::Duration timeStep(hal::TimePoint last, hal::TimePoint now) {
   return std::clamp<hal::Duration>(now - last, hal::Duration(0), std::chrono::seconds(1));
 }
 
-/// What is left of the past's weight after `step` in an exponential mean with this time constant,
-/// in [0, 1]: nothing where that is not above 0. A step backwards counts as none. Any thread.
+/// The share of the past's weight, in [0, 1], that remains in an exponential mean after `step`. 0
+/// for a time constant of 0 or less. A step backwards counts as 0. Any thread.
 inline float keptAfter(hal::Duration step, double timeConstantSeconds) {
   if (timeConstantSeconds <= 0.0) return 0.0F;
   const double seconds = std::max(0.0, std::chrono::duration<double>(step).count());

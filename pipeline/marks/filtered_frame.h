@@ -12,41 +12,41 @@
 
 namespace pleinair::marks {
 
-/// What FilteredFrame goes by beside the AR frame.
+/// The inputs of FilteredFrame besides the AR frame.
 struct FilteredFrameInput {
-  /// MotionField::backward(): where what is seen of the camera's picture has come from.
+  /// MotionField::backward(): the motion of the camera image since the previous frame.
   const gpu::Texture* backward = nullptr;
-  bool isCut = false;  ///< MotionField::isCut(): the past is of no use
+  bool isCut = false;  ///< MotionField::isCut(): the past cannot be used
   double timeConstantSeconds = 0.3;
-  double noiseLevels = 2.0;  ///< of the camera, one standard deviation, in 1/255
+  double noiseLevels = 2.0;  ///< the camera's noise, one standard deviation, in 1/255
 };
 
-/// The AR frame's colour averaged over time along the motion of what it shows, so that what is
-/// decided of it (edges, thresholds) does not tremble with the sensor's noise: a picture without
-/// noise, not a slower one.
+/// The AR frame's colour, averaged over time along the motion of the image content, so that edges
+/// and thresholds do not flicker with sensor noise. The filter removes noise and adds no lag.
 ///
-/// The past is fetched from where the pixel's content was (ArFrame::motion where an object is seen,
-/// else `backward`; Catmull-Rom, so that it is not blurred by being moved) and counts by how long
-/// it has been averaged (a normalised exponential mean: frames after a first one count alike). It
-/// is bounded to the range of the colours around the pixel now, widened by the noise (variance
-/// clipping: Salvi, "An excursion in temporal supersampling", 2016; Karis, "High quality temporal
-/// supersampling", 2014), and does not count at all where its place is unknown or outside, where
-/// models come or go, at a cut, in the first frame, after reset(), and at another level of quality,
-/// whose detail it has not. With a time constant of 0 the picture is the frame's.
+/// Each pixel fetches its past from the place where its content was (ArFrame::motion on objects,
+/// else `backward`; with Catmull-Rom, so that motion does not blur). The past is weighted by the
+/// number of frames in it (a normalised exponential mean: the frames after a first one have equal
+/// weights) and clamped to the range of the current colours around the pixel, widened by the noise
+/// (variance clipping: Salvi, "An excursion in temporal supersampling", 2016; Karis, "High quality
+/// temporal supersampling", 2014). The past is rejected where its place is unknown or outside the
+/// image, where models appear or disappear, at a cut, in the first frame, after reset(), and after
+/// a change of quality level, whose detail it lacks. With a time constant of 0 the output is the
+/// frame's colour.
 ///
-/// All calls on the thread of the GL context it was made in.
+/// All calls on the thread of the GL context that was current at construction.
 class FilteredFrame {
  public:
   /// `library` has gpu::marksShaders() and gpu::sceneShaders().
   explicit FilteredFrame(const gpu::ShaderLibrary& library);
 
-  /// Takes the next frame in. A frame whose time is not after the last one's adds to the mean as if
-  /// no time had passed. Throws hal::Failure where the GPU has no memory for a new size.
+  /// Adds the next frame. A frame whose time is not after the previous one's is added as if no time
+  /// had passed. Throws hal::Failure if GPU memory for a new size runs out.
   void update(const scene::ArFrame& frame, const FilteredFrameInput& input, gpu::PassTimer& timer);
 
-  /// RGBA16F, LINEAR, the frame's size: sRGB-coded colour; A: how many frames' worth of colours
-  /// there are in it (1: this one alone), below 0 where a virtual object is seen. Valid until the
-  /// next update(). Precondition: there was one.
+  /// RGBA16F, LINEAR, the frame's size: sRGB-coded colour. A: the number of frames in the mean (1:
+  /// this one alone), below 0 on virtual objects. Valid until the next update(). Precondition:
+  /// update() was called.
   const gpu::Texture& picture() const { return *now_; }
 
   /// Forgets the past.
@@ -63,8 +63,8 @@ class FilteredFrame {
 
   gpu::Program average_;
   gpu::Program averageObjects_;
-  gpu::Texture noMotion_;  // stands where a frame has no texture for a sampler
-  std::vector<std::unique_ptr<Canvas>> canvases_;  // of each size that was seen
+  gpu::Texture noMotion_;                          // bound in place of a texture that a frame lacks
+  std::vector<std::unique_ptr<Canvas>> canvases_;  // one for each size so far
   const gpu::Texture* now_ = nullptr;
   hal::FrameSize full_;
   hal::TimePoint lastTime_;

@@ -32,7 +32,7 @@ constexpr unsigned kPlanesBlock = 1;
 constexpr unsigned kMotionBlock = 2;
 constexpr unsigned kFeaturesBlock = 3;
 
-/// As shaders/image_motion.glsl has them.
+/// Same layout as in shaders/image_motion.glsl.
 struct GpuFeature {
   glm::vec2 then{0.0F};
   glm::vec2 now{0.0F};
@@ -52,13 +52,13 @@ glm::vec2 vec(hal::FrameSize size) {
   return {size.width, size.height};
 }
 
-/// Takes px of the full picture to those of a grid whose cells are `step` frame px wide: × xy + zw.
+/// Maps px of the full image to nodes of a grid whose cells are `step` frame px wide: × xy + zw.
 glm::vec4 gridOf(const scene::MeasuredMotion& movement, glm::dvec2 step, double shift) {
   const glm::dvec2 scale = movement.frameScale / step;
   return {glm::vec2(scale), glm::vec2(movement.frameOrigin / step + shift)};
 }
 
-/// The homography in px of the full picture; the identity stays so to the bit.
+/// Converts a homography to px of the full image; the identity stays exact.
 glm::dmat3 ofFull(const glm::dmat3& ofFrame, const scene::MeasuredMotion& movement) {
   if (ofFrame == glm::dmat3(1.0)) return ofFrame;
   const glm::dmat3 frameFromFull(movement.frameScale.x, 0.0, 0.0,  //
@@ -67,8 +67,9 @@ glm::dmat3 ofFull(const glm::dmat3& ofFrame, const scene::MeasuredMotion& moveme
   return glm::inverse(frameFromFull) * ofFrame * frameFromFull;
 }
 
-/// What features do otherwise than the picture's homography, beyond their own errors: parallax. The
-/// variance over both axes, px² of the frame, of the half of them that fits better.
+/// Parallax: the motion of the features relative to the image's homography, beyond their own
+/// errors. Gives the variance over both axes, px² of the frame, of the half of the features that
+/// fits better.
 float parallaxVariance(const ImageMotion& motion) {
   constexpr std::size_t kLeastFeatures = 16;
   const std::size_t count = std::min(motion.features.size(), tracking::kMaxMovedFeatures);
@@ -87,7 +88,7 @@ float parallaxVariance(const ImageMotion& motion) {
     std::nth_element(values.begin(), middle, values.begin() + static_cast<std::ptrdiff_t>(count));
     return *middle;
   };
-  constexpr float kMedianOfMean = 0.693F;  // of the square of a normal deviation in a plane
+  constexpr float kMedianOfMean = 0.693F;  // for the square of a 2D normal deviate
   return std::max(0.0F, medianOf(apart) / kMedianOfMean - medianOf(expected));
 }
 
@@ -121,7 +122,7 @@ struct MotionField::State {
   gpu::Buffer features;
   gpu::Buffer noPlanes;
   const gpu::Buffer* planes = nullptr;
-  tracking::CameraModel camera;  // of the picture's size that was updated last
+  tracking::CameraModel camera;  // for the size of the last update
   glm::vec2 pixelsOfFull{1.0F};
   std::array<GpuFeature, tracking::kMaxMovedFeatures> staged{};
   std::optional<std::uint64_t> last;  // the frame that was updated
@@ -207,7 +208,7 @@ void MotionField::State::takeScene(const scene::ArFrame& frame, GpuMotion& made)
   made.known.x = static_cast<float>(frame.surfaces->planeCount);
 }
 
-/// Only where the scene has real objects are there layers.
+/// Layers exist only in scenes with real objects.
 void MotionField::State::layFeatures(const scene::ArFrame& frame, int count) {
   if (count == 0 || !frame.surfaces || !frame.hasObjects) return;
   const auto isReal = [](std::uint32_t object) { return object >= scene::kRealObject; };

@@ -12,18 +12,19 @@
 namespace pleinair::marks {
 
 struct MotionFieldOptions {
-  bool follows = true;  ///< else all is taken to rest on the screen, models too; a cut stays one
+  /// if false, everything counts as static on the screen, models included; a cut stays a cut
+  bool follows = true;
 };
 
-/// What is known of the motion of the camera's picture, on the GPU: homography, features, dense
-/// flow, stillness (tracking::ImageMotion) and the scene's planes, for shaders that ask about
-/// single points (shaders/image_motion.glsl), and as a field for those that carry whole pictures
-/// along. At each place the source with the smallest predicted error is taken. All calls on the
-/// thread of the GL context it was made in.
+/// The motion of the camera image, on the GPU: homography, features, dense flow, static regions
+/// (tracking::ImageMotion) and the scene's planes. Shaders can query single points
+/// (shaders/image_motion.glsl) or read a dense field for warping whole images. Each query uses the
+/// source with the smallest predicted error. All calls on the thread of the GL context that was
+/// current at construction.
 class MotionField {
  public:
-  /// `library` has gpu::marksShaders() and gpu::sceneShaders(). Pictures' full size is `full`.
-  /// Throws hal::Failure where the GPU has no memory for it.
+  /// `library` has gpu::marksShaders() and gpu::sceneShaders(). `full` is the size of the full
+  /// image. Throws hal::Failure if GPU memory runs out.
   MotionField(const gpu::ShaderLibrary& library, hal::FrameSize full);
   ~MotionField();
   MotionField(const MotionField&) = delete;
@@ -31,29 +32,29 @@ class MotionField {
   MotionField(MotionField&&) = delete;
   MotionField& operator=(MotionField&&) = delete;
 
-  /// Takes what `frame` knows (ArFrame::measuredMotion, surfaces). A motion that refers to another
-  /// frame than the last update's is refused: that is a cut. Precondition: frame.full() is the
+  /// Takes the motion of `frame` (ArFrame::measuredMotion, surfaces). A motion relative to any
+  /// frame but the previous update's counts as a cut. Precondition: frame.full() is the
   /// constructor's size.
   void update(const scene::ArFrame& frame, gpu::PassTimer& timer,
               const MotionFieldOptions& options = {});
 
-  /// Whether nothing of the past goes on: the first frame, a cut, a motion that was refused.
+  /// Whether the past is invalid: first frame, cut, or a motion relative to another frame.
   bool isCut() const;
-  /// The last update's MotionFieldOptions::follows.
+  /// MotionFieldOptions::follows of the last update.
   bool follows() const;
 
-  /// The image's motion as a field, models not counted (where they are seen, ArFrame::motion says
-  /// more): RGBA16F, LINEAR, texel (i, j) in the middle of kFieldPixels² px of the full picture:
-  /// displacement since the frame before (px of the full picture; leads from where it was to here),
-  /// its predicted error (px), MotionSource. What is at p was at p − displacement.
+  /// The motion of the camera image as a field (on models, ArFrame::motion is more exact): RGBA16F,
+  /// LINEAR; texel (i, j) is centred on a block of kFieldPixels² px of the full image. It holds the
+  /// displacement since the previous frame (px of the full image, from there to here), the
+  /// predicted error (px) and the MotionSource. The content at p was at p − displacement.
   const gpu::Texture& backward() const;
   static constexpr int kFieldPixels = 8;
 
-  /// Binds what shaders/image_motion.glsl reads for questions forward in time: uniform blocks 1 to
-  /// 3, two textures, and the camera. Preconditions: the program is in use; there was an update().
+  /// Binds the inputs of shaders/image_motion.glsl for forward queries: uniform blocks 1 to 3, two
+  /// textures, and the camera. Preconditions: the program is in use; update() was called.
   void bind(gpu::Program& program) const;
 
-  /// Forgets the frame before.
+  /// Forgets the previous frame.
   void reset();
 
  private:

@@ -22,7 +22,7 @@ void PointBins::allocate(hal::FrameSize bins, std::uint32_t slots) {
   bins_ = {bins.width, bins.height};
   slots_ = slots;
   const auto binCount = static_cast<std::size_t>(bins.pixels());
-  // Each sort leaves the counts and lists empty for the next.
+  // Each sort clears the counts and lists for the next.
   const std::vector<std::uint32_t> empty(2 * binCount + slots, 0);
   links_ = gpu::Buffer::of(std::span<const std::uint32_t>(empty), gpu::BufferUsage::kDynamic);
   starts_ = gpu::Buffer((binCount + 1) * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic);

@@ -11,39 +11,40 @@
 
 namespace pleinair::marks {
 
-/// A point of a slot, as it lies in buffers (shaders/point_bins.glsl).
+/// A point, as stored in its slot (shaders/point_bins.glsl).
 struct BinnedPoint {
-  glm::ivec2 at{0};          ///< px of the picture in 1/64, so that distances are exact integers
-  std::int32_t penalty = 0;  ///< what squared distances to it are lengthened by, px² in 1/4096
+  glm::ivec2 at{0};          ///< px of the image in 1/64, so that distances are exact integers
+  std::int32_t penalty = 0;  ///< added to squared distances, px² in 1/4096
   std::int32_t slot = kNone;
 
-  static constexpr std::int32_t kNone = -1;  ///< of a slot without a point
-  static constexpr float kUnits = 64.0F;     ///< in a px
+  static constexpr std::int32_t kNone = -1;  ///< the slot of an entry without a point
+  static constexpr float kUnits = 64.0F;     ///< per px
 };
 static_assert(sizeof(BinnedPoint) == 16);
 
-/// Points that roam, sorted by the rectangle of the picture they lie in, so that a pixel's nearest
-/// are found without asking all (shaders/point_bins.glsl). All on the GPU; the order depends on
-/// nothing but the points: bins row by row, slots upwards in each. Points outside the picture
-/// belong to the nearest bin. All calls on the thread of the GL context it was made in.
+/// Moving points, sorted into rectangular bins of the image, so that a pixel finds its nearest
+/// points without testing all (shaders/point_bins.glsl). All data stays on the GPU. The order
+/// depends on the points alone: bins row by row, slots in rising order within a bin. Points outside
+/// the image belong to the nearest bin. All calls on the thread of the GL context that was current
+/// at construction.
 class PointBins {
  public:
   /// `library` has gpu::marksShaders().
   explicit PointBins(const gpu::ShaderLibrary& library);
 
-  /// Makes room for `slots` points in `bins` bins; what was sorted is forgotten. Throws
-  /// hal::Failure where the GPU has no memory for them.
+  /// Allocates `slots` points in `bins` bins, and discards the sorted points. Throws hal::Failure
+  /// if GPU memory runs out.
   void allocate(hal::FrameSize bins, std::uint32_t slots);
 
-  /// Sorts a buffer of BinnedPoints, one a slot, in px of a picture of this size.
+  /// Sorts a buffer of BinnedPoints, one per slot, in px of an image of this size.
   void sort(const gpu::Buffer& points, hal::FrameSize picture);
 
-  /// bins + 1 unsigned integers: where each bin begins in sorted().
+  /// bins + 1 unsigned integers: the start of each bin in sorted().
   const gpu::Buffer& starts() const { return starts_; }
-  /// The BinnedPoints there are.
+  /// The valid BinnedPoints, sorted by bin.
   const gpu::Buffer& sorted() const { return sorted_; }
   glm::ivec2 bins() const { return bins_; }
-  /// Sides of a bin of a picture of this size, in its px.
+  /// Side lengths of a bin in an image of this size, px.
   glm::vec2 binPixels(hal::FrameSize picture) const;
 
  private:
@@ -52,7 +53,7 @@ class PointBins {
   gpu::Program gather_;
   glm::ivec2 bins_{0};
   std::uint32_t slots_ = 0;
-  gpu::Buffer links_;  // a count and a first slot for each bin, then the slot after each slot
+  gpu::Buffer links_;  // a count and a first slot per bin, then the next slot for each slot
   gpu::Buffer starts_;
   gpu::Buffer sorted_;
 };

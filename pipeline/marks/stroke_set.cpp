@@ -18,13 +18,15 @@ const std::string kShaders = "pipeline/marks/shaders/";
 constexpr std::size_t kStrokeBytes = 96;  // shaders/stroke.glsl
 constexpr std::size_t kCommandBytes = 16;
 constexpr glm::ivec2 kSlotGroup{64, 1};
-constexpr std::size_t kDetailLevel = 1;  // of the field, whose detail says where a layer is painted
+// the level of the field whose detail decides where a layer is painted
+constexpr std::size_t kDetailLevel = 1;
 
 double secondsOf(hal::Duration duration) {
   return std::chrono::duration<double>(duration).count();
 }
 
-/// About the golden section of n, and coprime to it: neighbours in slots are far apart in order.
+/// A number near the golden section of n and coprime to it, so that neighbouring slots are far
+/// apart in the painting order.
 std::uint32_t strideFor(std::uint32_t n) {
   auto stride = std::max(1U, static_cast<std::uint32_t>(0.618 * n));
   while (std::gcd(stride, n) != 1U) ++stride;
@@ -68,7 +70,7 @@ struct StrokeSet::State {
 
 namespace {
 
-/// Texture coordinates of a field's level for a px of the full picture.
+/// Scale from px of the full image to texture coordinates of a field's level.
 glm::vec2 scaleOf(const TensorField& field, std::size_t level) {
   const hal::FrameSize size = field.resolved(level).size();
   return glm::vec2(1.0 / (field.regionPixels(level) * glm::dvec2(size.width, size.height)));

@@ -20,7 +20,7 @@ namespace {
 const std::string kShaders = "pipeline/marks/shaders/";
 constexpr int kRegionPixels = 8;
 constexpr std::size_t kEdgeWords = 1 + 128;  // shaders/edge_bins.glsl
-constexpr float kLeastEdge = 0.05F;          // of luma: what sensor noise makes
+constexpr float kLeastEdge = 0.05F;          // of luma: the level of sensor noise
 constexpr glm::ivec2 kGroup{8, 8};
 constexpr GLbitfield kWritten = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
 
@@ -35,7 +35,7 @@ gpu::Texture tensors(hal::FrameSize size) {
 }  // namespace
 
 struct TensorField::State {
-  /// What is kept of the regions of one size.
+  /// The textures of one level's region size.
   struct Level {
     explicit Level(hal::FrameSize size)
         : regions(tensors(size)), filled(tensors(size)), resolved(tensors(size)) {}
@@ -43,7 +43,7 @@ struct TensorField::State {
     gpu::Texture filled;
     gpu::Texture resolved;
   };
-  /// Of pictures of one size.
+  /// The textures of one image size.
   struct Gradient {
     explicit Gradient(hal::FrameSize size)
         : texture(gpu::TextureFormat::kRg16f, size), target({&texture}) {}

@@ -14,23 +14,23 @@
 namespace pleinair::marks {
 
 struct TensorFieldOptions {
-  /// How much virtual surfaces' own form leads: the edge strength (gradient.frag's P) of one that
-  /// is seen edge on.
+  /// The weight of a virtual surface's own form: the edge strength (gradient.frag's P) of a surface
+  /// seen edge-on.
   double form = 0.5;
-  double fillSigma = 1.0;  ///< of the radial-basis filling, in regions
-  hal::Duration memory = std::chrono::milliseconds(400);  ///< time constant; 0: each frame alone
+  double fillSigma = 1.0;  ///< width of the radial-basis interpolation, in regions
+  hal::Duration memory = std::chrono::milliseconds(400);  ///< time constant; 0: no memory
   double slack = 0.15;  ///< a region's detail is held until it differs by more than this part
 };
 
-/// In which direction things in the picture lie: edges' directions as tensors, spread over where
-/// there are none by a pyramid (thesis §4.2). A tensor is (cos 2θ, sin 2θ) times how much its
-/// pixels agree, θ the gradient's direction: strokes run across it. The first frame, one after
-/// reset() and one after a cut of the motion have no past. All calls on the thread of the GL
-/// context it was made in.
+/// The local orientation of the image: directions of edges as tensors, extended to regions without
+/// edges by a pyramid (thesis §4.2). A tensor is (cos 2θ, sin 2θ) times the agreement of its
+/// pixels, θ the gradient's direction; strokes run across it. The first frame, a frame after
+/// reset() and a frame after a cut have no past. All calls on the thread of the GL context that was
+/// current at construction.
 class TensorField {
  public:
-  /// `library` has gpu::marksShaders() and gpu::gpuShaders(). Pictures' full size is `full`. Throws
-  /// hal::Failure where the GPU has no memory for it.
+  /// `library` has gpu::marksShaders() and gpu::gpuShaders(). `full` is the size of the full image.
+  /// Throws hal::Failure if GPU memory runs out.
   TensorField(const gpu::ShaderLibrary& library, hal::FrameSize full);
   ~TensorField();
   TensorField(const TensorField&) = delete;
@@ -38,21 +38,21 @@ class TensorField {
   TensorField(TensorField&&) = delete;
   TensorField& operator=(TensorField&&) = delete;
 
-  /// Takes a frame's picture (RGBA8, of frame.size()), carrying what it knew along `motion`, which
-  /// has been updated for the frame. Precondition: frame.full() is the constructor's size.
+  /// Adds a frame's image (RGBA8, of frame.size()) and carries the past along `motion`, which has
+  /// been updated for the frame. Precondition: frame.full() is the constructor's size.
   void update(const scene::ArFrame& frame, const gpu::Texture& picture, const MotionField& motion,
               const TensorFieldOptions& options, gpu::PassTimer& timer);
 
   std::size_t levelCount() const;
-  /// RGBA16F, LINEAR: a level's tensors, looked up from there on: tensor, how sure this level
-  /// itself is of it in [0, 1], and detail: the mean gradient in units of a strong edge's. Level 0
-  /// has the finest regions; each further one's are twice as wide.
+  /// RGBA16F, LINEAR: a level's tensors after the look-up in coarser levels: tensor; confidence of
+  /// this level itself, in [0, 1]; detail: the mean gradient in units of a strong edge's. Level 0
+  /// has the finest regions; each further level doubles their width.
   const gpu::Texture& resolved(std::size_t level) const;
-  /// The same before the look-up, as the pyramid has it.
+  /// The same before the look-up, as interpolated on each level.
   const gpu::Texture& filled(std::size_t level) const;
-  /// Before the filling: regions that have edges.
+  /// Before the interpolation: only regions with edges have tensors.
   const gpu::Texture& regions() const;
-  /// A region's side on a level, px of the full picture.
+  /// Side of a region on a level, px of the full image.
   double regionPixels(std::size_t level) const;
 
   /// Forgets the past.

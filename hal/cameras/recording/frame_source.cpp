@@ -21,7 +21,8 @@ SourceResult pictures(const Result<std::vector<std::filesystem::path>>& paths, D
   return openPictures(*paths, period);
 }
 
-/// Decided by the signature; a broken one by the name, so that the error speaks of a picture.
+/// Decides by the signature. If that is broken, decides by the name, so that the error names a
+/// picture.
 Result<bool> isPicture(const std::filesystem::path& path) {
   if (isPictureName(path)) return true;
   const Result<libav::FileInput> file = libav::FileInput::open(path);
@@ -32,7 +33,7 @@ Result<bool> isPicture(const std::filesystem::path& path) {
     return tl::unexpected(errnoError(path.string(), "cannot read", static_cast<int>(-got)));
   }
   const auto kind = libav::pictureKindOf(std::span(head).first(static_cast<std::size_t>(got)));
-  // A stream of JPEGs is a movie and begins as a JPEG does.
+  // Motion-JPEG is a movie although it begins as a JPEG picture does.
   const std::string ending = path.extension().string();
   const bool isJpegStream = ending == ".mjpeg" || ending == ".mjpg";
   return kind.has_value() && !isJpegStream;

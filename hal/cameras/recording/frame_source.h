@@ -14,16 +14,16 @@
 namespace pleinair::hal::recording {
 
 struct SourceFrame {
-  std::shared_ptr<const AVFrame> frame;  ///< as stored, with the display matrix that turns it
-  std::optional<Duration> time;          ///< as the file says, from an origin of its own
-  std::uint64_t droppedBefore = 0;       ///< broken frames left out since the last one
+  std::shared_ptr<const AVFrame> frame;  ///< as stored, with its display matrix
+  std::optional<Duration> time;          ///< the file's timestamp, with an arbitrary origin
+  std::uint64_t droppedBefore = 0;       ///< broken frames skipped since the previous one
 };
 struct SourceEnd {
-  std::optional<Error> truncated;  ///< why it ended before its proper end
+  std::optional<Error> truncated;  ///< the reason, if the source ended early
 };
 using SourceItem = std::variant<SourceFrame, SourceEnd, Error>;
 
-/// The sound frames of one recording, once through.
+/// The valid frames of one recording, played once.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
@@ -36,11 +36,13 @@ class FrameSource {
 /// Errors: as Camera::start.
 Result<std::unique_ptr<FrameSource>> openMovie(const std::filesystem::path& path);
 
-/// Pictures in the order given, `period` apart (one alone has none). A broken one is left out.
+/// Pictures in the given order, `period` apart (a single picture has none). Broken ones are
+/// skipped.
 std::unique_ptr<FrameSource> openPictures(std::vector<std::filesystem::path> paths,
                                           std::optional<Duration> period);
 
-/// Decides by what stands at `path`. Errors: as Camera::start.
+/// Opens a movie, a picture, a folder or a pattern, whichever `path` names. Errors: as
+/// Camera::start.
 Result<std::unique_ptr<FrameSource>> openSource(const std::filesystem::path& path,
                                                 Duration picturePeriod);
 

@@ -11,13 +11,13 @@ namespace {
 
 struct Element {
   std::uint64_t id = 0;
-  std::optional<std::uint64_t> sizeBytes;  ///< of its data; nothing: unknown
+  std::optional<std::uint64_t> sizeBytes;  ///< size of the element's data; unset: unknown
   std::size_t headerBytes = 0;
 };
 
-/// A variable-size integer at the front of `bytes`: its length by its leading zeros.
+/// A variable-size integer at the front of `bytes`; its leading zeros give its length.
 struct VariableInteger {
-  std::uint64_t raw = 0;  ///< marker bit included, as in an ID
+  std::uint64_t raw = 0;  ///< with the marker bit, as in an ID
   std::size_t length = 0;
 };
 
@@ -52,7 +52,7 @@ bool segmentBreaksOff(const libav::FileInput& file) {
   constexpr std::uint64_t kSegment = 0x18538067;
   const auto fileBytes = static_cast<std::uint64_t>(file.sizeBytes());
   std::uint64_t at = 0;
-  // The EBML header, perhaps a Void, then the Segment.
+  // The EBML header comes first, then possibly a Void, then the Segment.
   for (int i = 0; i < 8 && at < fileBytes; ++i) {
     const std::optional<Element> element = elementAt(file, static_cast<std::int64_t>(at));
     if (!element || !element->sizeBytes) return false;

@@ -4,8 +4,8 @@
 
 namespace pleinair::hal::recording {
 
-/// Whether a Matroska file ends before its Segment says that it does (RFC 8794 §4, RFC 9559 §5.1).
-/// False where the size is unknown, as in a live stream.
+/// Whether a Matroska file is truncated: it ends before the end that its Segment declares (RFC 8794
+/// §4, RFC 9559 §5.1). False if the size is unknown, as in a live stream.
 bool segmentBreaksOff(const libav::FileInput& file);
 
 }  // namespace pleinair::hal::recording

@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::string_view kRemedy = "give a movie with a picture track, such as MP4, MKV or Y4M";
 
-/// libav's demuxers that read other files or the network. They could open none (see demuxer());
-/// they are refused by name so that the error says why.
+/// libav's demuxers that read other files or the network. A DemuxerIo lets them
+/// open none; they are refused by name, so that the error gives the reason.
 constexpr std::array<std::string_view, 8> kPlaylists = {"hls",  "concat", "dash",   "sdp",
                                                         "rtsp", "imf",    "image2", "tty"};
 
@@ -36,7 +36,7 @@ Error aborted(const std::string& subject, std::string problem) {
                .remedy = "record or copy it again if it ought to be whole"};
 }
 
-/// libav's own words where it had any.
+/// An error with libav's own message, if it logged one.
 Error broken(const std::string& subject, const std::string& problem, int code,
              const libav::LogCapture& log) {
   Error error =
@@ -55,7 +55,7 @@ int refuseToOpen(AVFormatContext*, AVIOContext**, const char*, int, AVDictionary
   return AVERROR(EPERM);
 }
 
-/// A file that keeps libav searching for streams is given up.
+/// Ends the opening of a file in which libav keeps searching for streams.
 class OpeningDeadline {
  public:
   static int hasPassed(void* opaque) {
@@ -70,8 +70,8 @@ class OpeningDeadline {
 struct DemuxedFile {
   libav::DemuxerIo io;
   libav::InputContext context;
-  AVStream* stream = nullptr;  ///< the context's
-  std::string complaint;  ///< libav's first while opening, of a file that it opened all the same
+  AVStream* stream = nullptr;  ///< owned by the context
+  std::string complaint;       ///< libav's first error line while it opened a file successfully
 };
 
 Result<void> openContainer(DemuxedFile& file, const std::string& subject) {
@@ -92,7 +92,7 @@ Result<void> openContainer(DemuxedFile& file, const std::string& subject) {
   context->io_open = &refuseToOpen;
   context->protocol_whitelist = av_strdup("none");
   context->max_streams = 64;
-  status = avformat_open_input(&context, "", format, nullptr);  // frees it where it fails
+  status = avformat_open_input(&context, "", format, nullptr);  // frees the context on failure
   if (status < 0) {
     return tl::unexpected(broken(subject, "is a broken movie", status, log));
   }
@@ -101,7 +101,7 @@ Result<void> openContainer(DemuxedFile& file, const std::string& subject) {
   return {};
 }
 
-/// Each stream's header must be within the limits before any of it is decoded.
+/// Checks the size in each stream's header before decoding.
 Result<void> checkSizes(const DemuxedFile& file, const std::string& subject) {
   for (unsigned i = 0; i < file.context->nb_streams; ++i) {
     const AVCodecParameters& parameters = *file.context->streams[i]->codecpar;
@@ -148,7 +148,7 @@ Result<libav::CodecContext> openDecoder(const AVStream& stream, const std::strin
   decoder->pkt_timebase = stream.time_base;
   decoder->max_pixels = kMaxPixels;
   decoder->thread_count = 2;
-  // Broken frames come out too, marked, so that they are counted.
+  // The decoder delivers broken frames, too, marked as corrupt, so that they are counted.
   decoder->flags |= AV_CODEC_FLAG_OUTPUT_CORRUPT;
   if (status >= 0) status = avcodec_open2(decoder.get(), codec, nullptr);
   if (status < 0) return tl::unexpected(broken(subject, "is a broken movie", status, log));
@@ -173,7 +173,8 @@ class MovieSource final : public FrameSource {
 
   std::optional<std::uint64_t> frameCount() const override {
     std::int64_t count = file_.stream->nb_frames;
-    // One frame lasts one unit of its time base, and libav divides the file's size by a frame's.
+    // For Y4M, libav divides the file's size by a frame's, and one frame lasts one unit of the time
+    // base.
     if (isY4m()) count = file_.stream->duration;
     const std::uint64_t total =
         (count > 0 ? static_cast<std::uint64_t>(count) : 0) + boxes_.fragmentSamples;
@@ -204,7 +205,7 @@ class MovieSource final : public FrameSource {
   Mp4Boxes boxes_;
   bool waitingForKey_ = false;
   bool atEnd_ = false;
-  std::uint64_t dropped_ = 0;  ///< since the last frame delivered
+  std::uint64_t dropped_ = 0;  ///< since the previous delivered frame
   std::int64_t packetsRead_ = 0;
   std::int64_t lastPacketEnd_ = 0;
   std::optional<Error> truncated_;
@@ -212,11 +213,11 @@ class MovieSource final : public FrameSource {
 
 bool MovieSource::isSound(const AVFrame& frame) const {
   const bool broken = (frame.flags & AV_FRAME_FLAG_CORRUPT) != 0 || frame.decode_error_flags != 0;
-  // What follows a broken frame is predicted from it, up to the next key frame.
+  // The frames after a broken one are predicted from it, up to the next key frame.
   return !broken && (!waitingForKey_ || frame.key_frame != 0);
 }
 
-/// What the container says goes before what the pictures' coding does.
+/// The container's display matrix takes precedence over the codec's.
 void MovieSource::tagWithOrientation(AVFrame& frame) const {
   std::size_t bytes = 0;
   const std::uint8_t* matrix =
@@ -263,10 +264,10 @@ SourceItem MovieSource::next() {
   return SourceEnd{.truncated = truncated_};
 }
 
-/// One packet from the file to the decoder, or the end.
+/// Feeds the decoder one packet from the file, or the end of the stream.
 void MovieSource::feed() {
   if (atEnd_) {
-    // A decoder that asks for more after its end would loop for ever.
+    // A decoder that keeps asking for input after the end would loop for ever.
     avcodec_flush_buffers(decoder_.get());
     avcodec_send_packet(decoder_.get(), nullptr);
     return;
@@ -293,12 +294,13 @@ void MovieSource::reachEnd(int status, const libav::LogCapture& log) {
 std::optional<Error> MovieSource::whyTruncated(const libav::LogCapture& log) const {
   bool cut = false;
   if (isMp4()) {
-    // Edit lists leave samples out on purpose; where libav complained of the index they are lost.
+    // Edit lists skip samples on purpose. If libav reported errors in the index, they count as
+    // lost.
     const bool indexIsShort = packetsRead_ < avformat_index_get_entries_count(file_.stream);
     const bool samplesAreLost = !file_.complaint.empty() && packetsRead_ < file_.stream->nb_frames;
     cut = indexIsShort || samplesAreLost || (boxes_.fragmentSamples > 0 && boxes_.aborted);
   } else if (isY4m()) {
-    // libav ends without a word where the last picture is too short.
+    // libav reports no error if the last frame is too short.
     cut = lastPacketEnd_ != file_.io.file().sizeBytes();
   } else if (isMatroska() && segmentBreaksOff(file_.io.file())) {
     cut = true;

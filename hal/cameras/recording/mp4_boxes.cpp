@@ -15,7 +15,7 @@ constexpr std::uint32_t fourcc(const char (&name)[5]) {
 
 struct Box {
   std::uint32_t type = 0;
-  std::int64_t payload = 0;  ///< offset in the file
+  std::int64_t payload = 0;  ///< its offset in the file
   std::int64_t end = 0;
 };
 
@@ -58,7 +58,7 @@ class Scanner {
     if (size == 1) {
       size = number(at + 8, 8);
       box.payload = at + 16;
-    } else if (size == 0) {  // to the end of the file
+    } else if (size == 0) {  // the box extends to the end of the file
       size = static_cast<std::uint64_t>(file_.sizeBytes() - at);
     }
     constexpr std::uint64_t kLargestFile = std::uint64_t{1} << 62;

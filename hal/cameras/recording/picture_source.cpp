@@ -69,7 +69,7 @@ bool naturallyLess(std::string_view a, std::string_view b) {
     b.remove_prefix(1);
   }
   if (a.empty() != b.empty()) return a.empty();
-  return wholeA < wholeB;  // "01" and "1": any order, but always the same
+  return wholeA < wholeB;  // "01" and "1": any fixed order will do
 }
 
 Result<std::vector<fs::path>> picturesIn(const fs::path& folder) {

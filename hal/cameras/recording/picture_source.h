@@ -9,18 +9,18 @@
 
 namespace pleinair::hal::recording {
 
-/// Whether the name ends as pictures do (.png, .JPG …).
+/// Whether the name has a picture file's extension (.png, .JPG …).
 bool isPictureName(const std::filesystem::path& path);
 
 /// Natural order: runs of digits compare as numbers ("a2" before "a10").
 bool naturallyLess(std::string_view a, std::string_view b);
 
-/// The pictures directly in a folder, in natural order; hidden files are ignored. Errors:
-/// kInvalidInput (none there), kPermissionDenied, kIo.
+/// The picture files of a folder, not of its subfolders, in natural order, without hidden files.
+/// Errors: kInvalidInput (none), kPermissionDenied, kIo.
 Result<std::vector<std::filesystem::path>> picturesIn(const std::filesystem::path& folder);
 
-/// The files of a pattern, from the smallest number up to the first gap. Errors: kNotFound (none),
-/// kPermissionDenied, kIo.
+/// The files that a pattern names, from the smallest number up to the first gap. Errors: kNotFound
+/// (none), kPermissionDenied, kIo.
 Result<std::vector<std::filesystem::path>> picturesOf(const NumberedPath& pattern,
                                                       std::string_view patternText);
 

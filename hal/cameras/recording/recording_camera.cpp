@@ -33,7 +33,7 @@ class RecordingCamera final : public Camera {
 
  private:
   Result<void> open();
-  /// Fills pending_ or, where there is no further frame, ending_.
+  /// Fills pending_, or ending_ if there is no further frame.
   void fetch();
   void endWith(NextFrame ending) { ending_ = std::move(ending); }
   void handleEnd(const SourceEnd& end);

@@ -7,7 +7,7 @@ namespace {
 
 constexpr Duration kLargestGlitch = std::chrono::seconds(1);
 constexpr Duration kLargestGap = std::chrono::hours(24);
-/// Timestamps beyond are nonsense, and would overflow when subtracted.
+/// Larger timestamps are invalid, and would overflow when subtracted.
 constexpr Duration kLargestTime = std::chrono::hours(24 * 365 * 100);
 
 }  // namespace
@@ -23,7 +23,8 @@ Duration Timeline::place(std::optional<Duration> time, std::uint64_t droppedBefo
   constexpr std::uint64_t kMostPeriods = 1'000'000;
   const auto periods = static_cast<std::int64_t>(std::min(droppedBefore, kMostPeriods)) + 1;
   const Duration expected = *last_ + periods * period_;
-  if (time && !origin_) origin_ = *time - expected;  // the first sound one, or after startOver()
+  // the first valid timestamp, or the first after startOver()
+  if (time && !origin_) origin_ = *time - expected;
   const Duration ours = time ? *time - *origin_ : expected;
   if (!time) {
     ++mended_;

@@ -7,12 +7,13 @@
 
 namespace pleinair::hal::recording {
 
-/// Turns a recording's timestamps into times since its first frame that rise strictly. Sound ones
-/// come through exactly; the others are fixed:
-/// - missing: one period (and one for each frame left out) after the last;
-/// - not after the last by up to a second: half a period after the last, so that the next sound one
-///   is in time again;
-/// - a jump back by more, or on by more than a day: the clock was set; goes on one period later.
+/// Converts a recording's timestamps to strictly rising times since its first frame. Valid
+/// timestamps are kept exactly; the others are corrected:
+/// - missing: one period after the last time, plus one for each skipped frame;
+/// - up to a second before the last time, or equal to it: half a period after the last time, so
+///   that the next valid timestamp fits again;
+/// - a larger jump back, or a jump of more than a day forward: the clock was set. Time goes on one
+///   period after the last time.
 class Timeline {
  public:
   explicit Timeline(Duration nominalPeriod) : period_(nominalPeriod) {}
@@ -26,8 +27,8 @@ class Timeline {
 
  private:
   Duration period_;
-  std::optional<Duration> last_;    ///< of our times
-  std::optional<Duration> origin_;  ///< the recording's time where ours is zero
+  std::optional<Duration> last_;    ///< in output time
+  std::optional<Duration> origin_;  ///< the recording's timestamp at output time zero
   std::uint64_t mended_ = 0;
 };
 

@@ -12,9 +12,9 @@
 namespace pleinair::hal::v4l2 {
 namespace {
 
-/// One that the driver fills, one that waits, and what the program holds of frames at a time.
+/// One buffer for the driver to fill, one queued, and the frames that the program holds at a time.
 constexpr std::uint32_t kWantedBuffers = 6;
-/// One to fill while another is looked at. v4l2loopback gives no more than two by default.
+/// One buffer to fill while the other is read. v4l2loopback gives no more than two by default.
 constexpr std::uint32_t kFewestBuffers = 2;
 
 struct PlaneFacts {
@@ -22,7 +22,7 @@ struct PlaneFacts {
   std::int64_t offset = 0;
 };
 
-/// Where the driver says its buffer lies, or −errno.
+/// Queries the place of the driver's buffer. 0 or −errno.
 int queryBuffer(const Device& device, std::uint32_t index, std::size_t planes,
                 std::vector<PlaneFacts>& facts) {
   std::array<v4l2_plane, VIDEO_MAX_PLANES> planeInfo{};
@@ -80,7 +80,7 @@ Result<Buffer> mapBuffer(const Device& device, std::uint32_t index,
     const int answer = device.calls().map(device.fd(), fact.length, fact.offset, address);
     if (answer < 0) return tl::unexpected(device.failure("cannot map its buffers", answer));
     Mapping mapping(device.calls(), address, fact.length);
-    const bool isPicture = neededBytes[plane] > 0;  // a GPU has no use for a JPEG
+    const bool isPicture = neededBytes[plane] > 0;  // compressed: a GPU cannot use a JPEG
     buffer.planes.push_back(
         {.mapping = std::move(mapping),
          .dmaBuf = isPicture ? exportPlane(device, index, plane) : Descriptor()});
@@ -106,7 +106,7 @@ Result<BufferSet> BufferSet::allocate(const Device& device,
   if (const int answer = requestBuffers(device, count); answer < 0) {
     return tl::unexpected(device.failure("cannot allocate its buffers", answer));
   }
-  BufferSet set(device);  // gives back what it has on every way out
+  BufferSet set(device);  // frees its buffers on each return path
   if (count < kFewestBuffers) {
     return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
                                 .subject = device.node(),
@@ -126,8 +126,8 @@ Result<BufferSet> BufferSet::allocate(const Device& device,
 BufferSet::~BufferSet() {
   if (device_ == nullptr) return;
   buffers_.clear();
-  // Leased buffers become orphans. A driver that knows none says EBUSY, and keeps them until the
-  // last lease has gone.
+  // Leased buffers become orphans. A driver without that feature answers EBUSY and keeps them until
+  // the last lease has been dropped.
   std::uint32_t none = 0;
   requestBuffers(*device_, none);
 }

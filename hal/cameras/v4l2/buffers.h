@@ -13,7 +13,7 @@
 
 namespace pleinair::hal::v4l2 {
 
-/// A part of a driver's buffer in our memory; unmaps itself on any thread.
+/// A mapping of a driver's buffer into the process; unmaps itself on any thread.
 class Mapping {
  public:
   Mapping(SystemCalls& calls, void* address, std::size_t length)
@@ -39,29 +39,30 @@ class Mapping {
 
 /// One memory plane of a buffer.
 ///
-/// No sync brackets the CPU's reads: an MMAP buffer is coherent for the CPU between DQBUF and QBUF,
-/// where the driver itself cleans and invalidates its caches (vb2's finish and prepare; we ask for
-/// no V4L2_MEMORY_FLAG_NON_COHERENT). DMA_BUF_IOCTL_SYNC is for those who map the exported dma-buf.
+/// No sync calls bracket the CPU's reads: an MMAP buffer is coherent for the CPU between DQBUF and
+/// QBUF, since the driver cleans and invalidates its caches (vb2's finish and prepare;
+/// V4L2_MEMORY_FLAG_NON_COHERENT is not requested). DMA_BUF_IOCTL_SYNC is for users who map the
+/// exported dma-buf.
 struct BufferPlane {
   Mapping mapping;
-  Descriptor dmaBuf;  ///< unset where the driver exports none
+  Descriptor dmaBuf;  ///< unset if the driver does not export it
 };
 
 /// The mappings of a buffer. They stay valid after the stream and its device are closed, until the
-/// last lease goes: the kernel keeps the memory of a mapping.
+/// last lease is dropped: a mapping keeps the kernel's memory alive.
 struct Buffer {
   std::vector<BufferPlane> planes;
 };
 
-/// Buffers whose leases have been dropped, on their way back to the camera's thread, which alone
-/// may give them to the driver. Thread-safe.
+/// Indices of buffers whose leases have been dropped. They return to the camera's thread, the only
+/// one that may queue them in the driver. Thread-safe.
 class Returns {
  public:
   void put(std::uint32_t index) {
     const std::scoped_lock lock(mutex_);
     indices_.push_back(index);
   }
-  /// Swaps what came back into `into`, which is empty and keeps its memory.
+  /// Moves the returned indices into `into`, which must be empty and keeps its memory.
   void take(std::vector<std::uint32_t>& into) {
     const std::scoped_lock lock(mutex_);
     std::swap(indices_, into);
@@ -72,12 +73,12 @@ class Returns {
   std::vector<std::uint32_t> indices_;
 };
 
-/// The buffers of one stream, shared with the driver. Gives them back when destroyed; leased ones
-/// live on as orphans.
+/// The buffers of one stream, shared with the driver. The destructor frees them; leased ones live
+/// on as orphans.
 class BufferSet {
  public:
-  /// Allocates, maps and exports. `neededBytes` of each memory plane; 0 of a JPEG's. Errors: kBusy,
-  /// kUnsupported (too few, or too small for the format), kIo.
+  /// Allocates, maps and exports the buffers. `neededBytes`: for each memory plane; 0 for JPEG.
+  /// Errors: kBusy, kUnsupported (too few, or too small for the format), kIo.
   static Result<BufferSet> allocate(const Device& device,
                                     const std::vector<std::size_t>& neededBytes);
 

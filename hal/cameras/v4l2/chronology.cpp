@@ -10,7 +10,8 @@ namespace {
 
 constexpr Duration kMostAhead = std::chrono::milliseconds(100);
 
-/// Of two 32-bit numbers that wrap; a step of half the range and more is one backwards.
+/// The difference of two 32-bit counters that wrap; a difference of at least half the range counts
+/// as a step backwards.
 std::uint32_t framesBetween(std::uint32_t last, std::uint32_t next) {
   const std::uint32_t step = next - last;
   return step == 0 || step > 0x7FFFFFFF ? 0 : step - 1;

@@ -13,10 +13,10 @@
 namespace pleinair::hal::v4l2 {
 namespace {
 
-/// V4L2_CID_EXPOSURE_ABSOLUTE's unit.
+/// The unit of V4L2_CID_EXPOSURE_ABSOLUTE.
 using ExposureTicks = std::chrono::duration<double, std::ratio<1, 10'000>>;
 
-/// What the device says of one of its controls.
+/// The device's description of one of its controls.
 struct Control {
   std::uint32_t id = 0;
   std::int64_t min = 0, max = 0, step = 1;
@@ -62,8 +62,8 @@ bool hasMenuItem(const Device& device, const Control& control, std::int64_t item
   return device.ask(VIDIOC_QUERYMENU, query) >= 0;
 }
 
-/// How the device has one of the neutral controls: the control that sets a value, and the one that
-/// switches the device's own loop with the values that do it. Some lack one of them.
+/// The V4L2 controls behind a neutral control: the one that sets a value, and the one that switches
+/// the device's automatic control on and off, with its values. A device may lack either.
 struct Pair {
   std::string name;
   std::optional<Control> value;
@@ -145,7 +145,7 @@ Result<void> setValue(const Device& device, const Pair& pair, double value) {
   return set(device, pair.value->id, onStep(*pair.value, value), pair.name);
 }
 
-/// A share of a control's range in its units.
+/// Converts a share of a control's range to the control's units.
 double ofRange(const Pair& pair, double share) {
   if (!pair.value) return 0;
   const auto min = static_cast<double>(pair.value->min);

@@ -5,9 +5,9 @@
 
 namespace pleinair::hal::v4l2 {
 
-/// Sets what is set in `controls`; leaves the rest as the device has it. Values are clamped to the
-/// device's range and rounded to its steps. Errors: kUnsupported where the device lacks the control
-/// (or its automatic), naming those that it has; kBusy, kIo.
+/// Sets the given controls; unset ones keep the device's values. Values are clamped to the device's
+/// range and rounded to its steps. Errors: kUnsupported if the device lacks a control (or its
+/// automatic mode), with the available ones; kBusy, kIo.
 Result<void> setControls(const Device& device, const CameraControls& controls);
 
 }  // namespace pleinair::hal::v4l2

@@ -10,14 +10,14 @@
 
 namespace pleinair::hal::v4l2 {
 
-/// An open capture node. One thread at a time; closes with its last owner.
+/// An open capture node. One thread at a time; the last owner closes it.
 class Device {
  public:
-  /// Opens without blocking. Errors: kNotFound, kPermissionDenied, kBusy, kUnsupported (it captures
-  /// no video, or cannot stream it), kIo.
+  /// Opens without blocking. Errors: kNotFound, kPermissionDenied, kBusy, kUnsupported (no video
+  /// capture or no streaming), kIo.
   static Result<Device> open(SystemCalls& calls, const std::string& node);
 
-  /// 0 or more, or −errno.
+  /// Calls ioctl. 0 or more, or −errno.
   template <class Argument>
   int ask(unsigned long request, Argument& argument) const {
     return calls_->ioctl(descriptor_.get(), request, &argument);
@@ -27,12 +27,12 @@ class Device {
   int fd() const { return descriptor_.get(); }
   const std::string& node() const { return node_; }
   const Capability& capability() const { return capability_; }
-  /// The multi-planar interface where the device has only that.
+  /// Whether the device has only the multi-planar interface.
   bool isMultiPlanar() const;
   /// V4L2_BUF_TYPE_VIDEO_CAPTURE or …_MPLANE.
   std::uint32_t bufferType() const;
 
-  /// "/dev/video0: `problem`: the system's text". `answer` is a negative one of ask().
+  /// "/dev/video0: `problem`: the system's text". `answer` is a negative answer of ask().
   Error failure(std::string problem, int answer) const;
 
  private:
@@ -44,7 +44,7 @@ class Device {
   Capability capability_;
 };
 
-/// Whether −errno says that the device has been unplugged, or will answer nothing any more.
+/// Whether −errno means that the device was unplugged or no longer answers.
 bool meansLost(int answer);
 
 }  // namespace pleinair::hal::v4l2

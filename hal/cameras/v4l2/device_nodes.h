@@ -8,8 +8,8 @@
 
 namespace pleinair::hal::v4l2 {
 
-/// The parts of the file system where the kernel and udev say what devices there are; a test says
-/// its own. One thread at a time.
+/// The parts of the file system in which the kernel and udev describe the devices; injected for
+/// tests. One thread at a time.
 class DeviceNodes {
  public:
   virtual ~DeviceNodes() = default;
@@ -17,18 +17,19 @@ class DeviceNodes {
   DeviceNodes(const DeviceNodes&) = delete;
   DeviceNodes& operator=(const DeviceNodes&) = delete;
 
-  /// The names in a folder, in no order; none where there is no such folder.
+  /// The names in a folder, in no order; empty if the folder does not exist.
   virtual std::vector<std::string> list(const std::string& folder) = 0;
-  /// Where a symbolic link leads in the end: "/dev/video0".
+  /// The final target of a symbolic link: "/dev/video0".
   virtual std::optional<std::string> target(const std::string& link) = 0;
-  /// The first line of a file, without its end; nothing where it cannot be read.
+  /// The first line of a file, without its end; nothing if the file cannot be read.
   virtual std::optional<std::string> firstLine(const std::string& file) = 0;
 };
 
-/// This system's.
+/// The nodes of the running system.
 DeviceNodes& kernelNodes();
 
-/// What cameras and their listing reach devices through. Both outlive what uses them, frames too.
+/// The access to devices for cameras and their listing. Both members outlive their users, frames
+/// included.
 struct System {
   SystemCalls& calls;
   DeviceNodes& nodes;

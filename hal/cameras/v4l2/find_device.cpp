@@ -23,7 +23,7 @@ std::vector<std::string> nodeNames(DeviceNodes& nodes) {
   return names;
 }
 
-/// The links of a folder by the node that they lead to.
+/// Maps each device node to the names of a folder's links to it.
 std::multimap<std::string, std::string> linksByNode(DeviceNodes& nodes, const std::string& folder) {
   std::vector<std::string> names = nodes.list(folder);
   std::ranges::sort(names);
@@ -38,7 +38,7 @@ std::string sysfsOf(const std::string& name) {
   return "/sys/class/video4linux/" + name;
 }
 
-/// What shells and TOML take without quotes.
+/// The text without characters that shells and TOML would require to be quoted.
 std::string plainText(std::string text) {
   const auto isPlain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
@@ -49,7 +49,7 @@ std::string plainText(std::string text) {
   return text;
 }
 
-/// One look at /dev, which gives each node its id.
+/// A snapshot of /dev that gives each node its id.
 class Listing {
  public:
   explicit Listing(const System& system)
@@ -81,7 +81,8 @@ class Listing {
       camera.problem = device.error();
       return camera;
     }
-    // A loopback device whose two sides share a node is a camera while somebody feeds it.
+    // A loopback device whose output and capture sides share a node is a camera only while it is
+    // fed.
     const bool hasFormats = !enumerateFormats(*device).empty();
     if (!hasFormats && device->capability().outputsVideo()) return std::nullopt;
     camera.modes = modesOf(*device);
@@ -97,7 +98,7 @@ class Listing {
     return taken_.insert({id, node}).second ? id : node;
   }
 
-  /// Of a USB device, whose interface is the node's device.
+  /// The serial number of a USB device. The node's device is an interface of it.
   std::string serialOf(const std::string& name) {
     return system_.nodes.firstLine(sysfsOf(name) + "/device/../serial").value_or("");
   }

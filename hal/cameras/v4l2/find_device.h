@@ -8,21 +8,21 @@
 
 namespace pleinair::hal::v4l2 {
 
-/// The cameras that are there, by node number, with their modes. Left out are nodes that capture no
-/// video (metadata, outputs, codecs, radio) and loopback devices that nobody feeds. One that cannot
-/// be looked at is listed with its problem.
+/// The connected cameras, by node number, with their modes. Nodes that capture no video (metadata,
+/// outputs, codecs, radio) are skipped, and so are loopback devices without a feeder. A camera that
+/// cannot be queried is listed with its problem.
 ///
-/// The id is the first of these that there is:
+/// The id is the first of these that exists:
 /// 1. the name of udev's link in /dev/v4l/by-id (maker, model and serial; "…-video-index0"), unless
-///    another device has the same, as of two cameras without serials;
-/// 2. the name of its link in /dev/v4l/by-path (the socket that it is plugged into);
-/// 3. bus, card and the node's index on its device, where there is no udev:
-///    "platform:vivid-000-vivid-index0";
-/// 4. the node's path, where nothing else can be read.
+/// another device has the same one, such as two cameras without serials;
+/// 2. the name of its link in /dev/v4l/by-path (its USB port or bus address);
+/// 3. without udev: bus, card and the node's index on its device,
+/// "platform:vivid-000-vivid-index0";
+/// 4. the node's path, if nothing else can be read.
 std::vector<CameraDescription> listDevices(const System& system);
 
-/// The node of an id of listDevices(), of any link's name, or of a path (which need not exist).
-/// Errors: kNotFound, with the ids that there are.
+/// The node for an id of listDevices(), for the name of any link, or for a path (which need not
+/// exist). Errors: kNotFound, with the available ids.
 Result<std::string> findNode(const System& system, const std::string& id);
 
 }  // namespace pleinair::hal::v4l2

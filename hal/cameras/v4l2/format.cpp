@@ -17,7 +17,7 @@ namespace {
 
 using std::chrono_literals::operator""s;
 
-/// Of both interfaces, in one shape.
+/// A format of the single- or multi-planar interface.
 struct PlainFormat {
   std::uint32_t fourcc = 0;
   std::uint32_t width = 0, height = 0;
@@ -59,7 +59,7 @@ PlainFormat plain(const v4l2_format& format, bool isMultiPlanar) {
 }
 
 v4l2_format requestOf(const Device& device, const ModeChoice& choice) {
-  constexpr FrameSize kAnySize{640, 480};  // the driver corrects it
+  constexpr FrameSize kAnySize{640, 480};  // the driver adjusts it
   const FrameSize size = choice.size.value_or(kAnySize);
   v4l2_format format{};
   format.type = device.bufferType();
@@ -116,14 +116,14 @@ Result<Negotiated> understood(const Device& device, const PlainFormat& format) {
   FrameFormat& frame = negotiated.stream.frame;
   frame.pixelFormat = layout->pixelFormat;
   frame.size = size;
-  if (layout->isJpeg) {  // as JFIF has it, whatever the driver says
+  if (layout->isJpeg) {  // JFIF's encoding, whatever the driver reports
     frame.encoding = {.matrix = ColorMatrix::kBt601, .range = ColorRange::kFull};
     return negotiated;
   }
   if (isYCbCr(frame.pixelFormat)) {
     frame.encoding = colorEncodingOf(format.colorspace, format.encoding, format.quantization);
   }
-  // A stride below a packed row is none, and a driver that gives one is taken to pack its rows.
+  // A stride smaller than a packed row is invalid; such a driver is assumed to pack its rows.
   std::array<std::size_t, 3> strides = format.strides;
   for (int plane = 0; plane < layout->memoryPlanes; ++plane) {
     std::size_t& stride = strides.at(static_cast<std::size_t>(plane));
@@ -133,7 +133,7 @@ Result<Negotiated> understood(const Device& device, const PlainFormat& format) {
   return negotiated;
 }
 
-/// Sets the rate where there is one to set, and reads it.
+/// Sets the frame rate if the device has one, and reads it back.
 std::optional<Duration> negotiatePeriod(const Device& device, std::optional<Duration> wanted) {
   v4l2_streamparm parameters{};
   parameters.type = device.bufferType();
@@ -141,7 +141,7 @@ std::optional<Duration> negotiatePeriod(const Device& device, std::optional<Dura
   v4l2_captureparm& capture = parameters.parm.capture;
   if (wanted && (capture.capability & V4L2_CAP_TIMEPERFRAME) != 0) {
     capture.timeperframe = fractionOf(*wanted);
-    // A rate that it refuses is no failure: what holds is read again.
+    // A refused rate is no error: the current one is read back.
     device.ask(VIDIOC_S_PARM, parameters);
     parameters = {};
     parameters.type = device.bufferType();
@@ -150,7 +150,7 @@ std::optional<Duration> negotiatePeriod(const Device& device, std::optional<Dura
   return durationOf(parameters.parm.capture.timeperframe);
 }
 
-/// What a digital input receives becomes what is captured. Other devices have no timings.
+/// Makes the signal timings of a digital input (HDMI) the capture timings. Other devices have none.
 Result<void> adoptTimings(const Device& device) {
   v4l2_dv_timings timings{};
   const int answer = device.ask(VIDIOC_QUERY_DV_TIMINGS, timings);

@@ -11,26 +11,26 @@ struct v4l2_fract;
 
 namespace pleinair::hal::v4l2 {
 
-/// What a device and we agreed on, as it was read back.
+/// The negotiated format, as read back from the device.
 struct Negotiated {
   const Layout* layout = nullptr;
   StreamFormat stream;
-  std::array<PlanePlace, 3> places;  ///< of an uncompressed picture
+  std::array<PlanePlace, 3> places;  ///< for uncompressed formats only
 };
 
-/// Of the format that is set now; nothing where there is none.
+/// The size of the current format; nothing if none is set.
 std::optional<FrameSize> currentSize(const Device& device);
 
-/// Nothing of 0/n and n/0.
+/// The period of a fraction; nothing for 0/n and n/0.
 std::optional<Duration> durationOf(const v4l2_fract& period);
-/// A fraction that drivers find in their lists: 1/30, 1001/30000; else in units of 100 ns, rounded
-/// up, because some drivers take the longest period that is not above.
+/// The period as a fraction that occurs in drivers' lists, such as 1/30 or 1001/30000; else in
+/// units of 100 ns, rounded up, because some drivers take the longest period that is not longer.
 v4l2_fract fractionOf(Duration period);
 
-/// Sets the mode that comes nearest to the request, and the rate; takes over the timings of a
-/// device with a digital input (HDMI). What S_FMT answers is the truth. Errors: kBusy, kUnsupported
-/// (nothing we read, fields apart, size beyond the limits), kNotFound (unplugged), kDeviceLost (no
-/// signal), kIo.
+/// Sets the mode nearest to the request and its frame rate; adopts the signal timings of a device
+/// with a digital input (HDMI). The format that S_FMT answers is used. Errors: kBusy, kUnsupported
+/// (no known format, separate fields, size beyond the limits), kNotFound (unplugged), kDeviceLost
+/// (no signal), kIo.
 Result<Negotiated> negotiate(const Device& device, const StreamRequest& request);
 
 }  // namespace pleinair::hal::v4l2

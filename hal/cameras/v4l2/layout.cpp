@@ -8,7 +8,7 @@
 namespace pleinair::hal::v4l2 {
 namespace {
 
-// The kernel's interface, as the kernel's documentation has it.
+// Checks the constants of the kernel's interface against the kernel's documentation.
 static_assert(V4L2_PIX_FMT_YUYV == 0x56595559 && V4L2_PIX_FMT_NV12M == 0x32314D4E);
 static_assert(sizeof(v4l2_buffer{}.timestamp) == 2 * sizeof(long));
 
@@ -47,7 +47,7 @@ std::array<PlanePlace, 3> planePlaces(const Layout& layout, FrameSize size,
   const std::size_t lumaStride =
       memoryStrides[0] != 0 ? memoryStrides[0] : rowBytes(format, 0, size.width);
   std::array<PlanePlace, 3> places{};
-  std::size_t end = 0;  // of the planes that share memory
+  std::size_t end = 0;  // of the planes that share a memory plane
   for (int plane = 0; plane < planeCount(format); ++plane) {
     PlanePlace& place = places.at(static_cast<std::size_t>(plane));
     const std::size_t packed = rowBytes(format, plane, size.width);

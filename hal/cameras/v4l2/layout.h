@@ -11,19 +11,19 @@
 
 namespace pleinair::hal::v4l2 {
 
-/// How one of the kernel's pixel formats lies in memory.
+/// The memory layout of one of the kernel's pixel formats.
 struct Layout {
   std::uint32_t fourcc = 0;
-  PixelFormat pixelFormat = PixelFormat::kYuyv;  ///< of the frames; of JPEGs, once decoded
-  int memoryPlanes = 1;  ///< buffers a frame; the planes of a picture may share one
+  PixelFormat pixelFormat = PixelFormat::kYuyv;  ///< of the frames; for JPEG, after decoding
+  int memoryPlanes = 1;  ///< buffers per frame; several image planes may share one
   bool isJpeg = false;
 };
 
-/// What is read, what costs least to paint first.
+/// The supported formats, the one that is cheapest to paint first.
 std::span<const Layout> layouts();
 const Layout* findLayout(std::uint32_t fourcc);
 
-/// Where a plane of a picture lies.
+/// The place of an image plane in memory.
 struct PlanePlace {
   int memoryPlane = 0;
   std::size_t offsetBytes = 0;
@@ -31,10 +31,10 @@ struct PlanePlace {
   std::size_t sizeBytes = 0;  ///< stride × (rows − 1) + one packed row
 };
 
-/// The planes of an uncompressed picture whose memory planes have these strides (bytesperline; 0:
-/// the driver does not say, so that rows are packed). Planes that share a memory plane follow each
-/// other; chroma's stride is then luma's, or half of it where it is not interleaved, as V4L2's
-/// "YUV formats" prescribes.
+/// The places of an uncompressed image's planes, for the given strides of its memory planes
+/// (bytesperline; 0: unknown, so that rows are packed). Planes that share a memory plane follow
+/// each other; the chroma stride is then the luma stride, or half of it if chroma is not
+/// interleaved, as V4L2's "YUV formats" prescribes.
 std::array<PlanePlace, 3> planePlaces(const Layout& layout, FrameSize size,
                                       std::array<std::size_t, 3> memoryStrides);
 

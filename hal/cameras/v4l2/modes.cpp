@@ -14,9 +14,9 @@
 namespace pleinair::hal::v4l2 {
 namespace {
 
-/// More than any device lists; ends the enumeration of a driver that never says EINVAL.
+/// An upper bound on enumerations, for drivers that never answer EINVAL. No device lists as many.
 constexpr std::uint32_t kMostEntries = 256;
-/// The rate that is looked for where none is asked for.
+/// The frame period that is preferred if none is requested.
 constexpr Duration kFluentPeriod = std::chrono::milliseconds(40);
 
 FrameSize sizeOf(std::uint32_t width, std::uint32_t height) {
@@ -60,7 +60,7 @@ int distance(FrameSize a, FrameSize b) {
   return std::abs(a.width - b.width) + std::abs(a.height - b.height);
 }
 
-/// How far a mode is from a request; smaller is better, the earlier the weightier.
+/// The distance of a mode from a request; smaller is better, earlier members weigh more.
 using Cost = std::tuple<bool, bool, int, Duration, bool, std::ptrdiff_t>;
 
 struct Candidate {
@@ -69,8 +69,9 @@ struct Candidate {
 };
 
 Duration shortfall(const std::vector<Duration>& periods, Duration wanted) {
-  if (periods.empty()) return Duration::zero();                   // it does not say: let it show
-  constexpr Duration kRounding = std::chrono::microseconds(100);  // 30 and 30000/1001 are alike
+  if (periods.empty()) return Duration::zero();  // the driver does not say: test by streaming
+  // 30 and 30000/1001 count as equal
+  constexpr Duration kRounding = std::chrono::microseconds(100);
   const Duration late = periods.front() - wanted;
   return late <= wanted / 100 + kRounding ? Duration::zero() : late;
 }

@@ -11,7 +11,7 @@
 
 namespace pleinair::hal::v4l2 {
 
-/// Sizes that a device offers in one pixel format: one, or a range in steps.
+/// Sizes that a device offers in one pixel format: a single size, or a range with steps.
 struct SizeRange {
   FrameSize smallest;
   FrameSize largest;
@@ -24,26 +24,27 @@ struct DeviceFormat {
   std::vector<SizeRange> sizes;  ///< empty where the driver does not say
 };
 
-/// What the device says it can capture, in its own order.
+/// The formats that the device lists, in its own order.
 std::vector<DeviceFormat> enumerateFormats(const Device& device);
 
-/// Frame periods at one size, shortest first; of a range, both ends. Empty where it does not say.
+/// The frame periods at one size, shortest first; for a range, both ends. Empty if the driver does
+/// not say.
 std::vector<Duration> enumeratePeriods(const Device& device, std::uint32_t fourcc, FrameSize size);
 
-/// The modes as the listing shows them.
+/// The device's modes for the listing of cameras.
 std::vector<CameraMode> modesOf(const Device& device);
 
-/// What to ask the device for.
+/// The mode to request from the device.
 struct ModeChoice {
   const Layout* layout = nullptr;
-  std::optional<FrameSize> size;  ///< unset: whatever the device has set
+  std::optional<FrameSize> size;  ///< unset: the device's current size
   std::optional<Duration> period;
 };
 
-/// The mode that comes nearest to the request, by, in this order: the pixel format asked for;
-/// colour; the size asked for (else the device's current one); whether the rate asked for (else a
-/// fluent one) is reached; no compression; what costs least to paint. Errors: kUnsupported (none of
-/// its formats is read, or it has none now).
+/// The mode nearest to the request. The criteria, in this order: the requested pixel format;
+/// colour; the requested size (else the device's current size); whether the requested rate (else a
+/// fluent one) is reached; no compression; the format that is cheapest to paint. Errors:
+/// kUnsupported (no supported format, or the device offers none now).
 Result<ModeChoice> chooseMode(const Device& device, const StreamRequest& request);
 
 }  // namespace pleinair::hal::v4l2

@@ -14,7 +14,7 @@
 namespace pleinair::hal::v4l2 {
 namespace {
 
-/// Between two looks at a driver that says it is ready and has nothing.
+/// The pause before a driver is polled again that signalled readiness but had no buffer.
 constexpr Duration kNap = std::chrono::milliseconds(1);
 
 FrameHealth healthOf(const Filled& filled, const Negotiated& negotiated) {
@@ -29,7 +29,7 @@ FrameHealth healthOf(const Filled& filled, const Negotiated& negotiated) {
   return FrameHealth::kValid;
 }
 
-/// Before there is a sound picture.
+/// The image that a corrupt frame starts from before the first valid one.
 std::shared_ptr<const Image> blackPicture(FrameFormat format) {
   const auto image = std::make_shared<Image>(format);
   for (const int plane : {1, 2}) std::ranges::fill(image->plane(plane), std::uint8_t{128});
@@ -95,7 +95,7 @@ std::optional<NextFrame> Session::step(TimePoint deadline) {
   if (ready < 0) return fail("cannot be waited for", ready);
   if (ready == 0) return CameraTimeout{};
   if ((waitFor.revents & POLLPRI) != 0 && isSourceChanged()) return followSource();
-  return readFrame(deadline);  // also after POLLERR and POLLHUP: DQBUF says what is wrong
+  return readFrame(deadline);  // also after POLLERR and POLLHUP: DQBUF gives the error
 }
 
 std::optional<NextFrame> Session::readFrame(TimePoint deadline) {
@@ -104,10 +104,11 @@ std::optional<NextFrame> Session::readFrame(TimePoint deadline) {
   if (answer == -EAGAIN) {
     const TimePoint now = clock_.now();
     if (now >= deadline) return CameraTimeout{};
-    clock_.sleepUntil(std::min(deadline, now + kNap));  // or this would spin
+    clock_.sleepUntil(std::min(deadline, now + kNap));  // avoids a busy loop
     return std::nullopt;
   }
-  // The last buffer before a change of source; a driver that says it before the first has no other.
+  // EPIPE follows the last buffer before a change of source. Before the first frame it means that
+  // the driver has no buffers at all.
   if (answer == -EPIPE && hasFrames_) return followSource();
   if (answer < 0) return fail("gives no more frames", answer);
   hasFrames_ = true;

@@ -11,22 +11,22 @@
 
 namespace pleinair::hal::v4l2 {
 
-/// A camera from start() to stop(). One thread; the frames go anywhere.
+/// A camera from start() to stop(). One thread; frames may be dropped on any.
 class Session {
  public:
   Session(Device device, const StreamRequest& request, Clock& clock);
 
-  /// Sets the controls, negotiates and starts. Errors as of Camera::start().
+  /// Sets the controls, negotiates and starts. Errors: as Camera::start().
   Result<StreamFormat> begin();
   /// As Camera::next().
   NextFrame next(TimePoint deadline);
 
  private:
-  /// What ends a wait, or nothing where the driver only seemed to have something.
+  /// Processes one event. Gives next()'s answer, or nothing after a spurious wake-up.
   std::optional<NextFrame> step(TimePoint deadline);
   std::optional<NextFrame> readFrame(TimePoint deadline);
   CapturedFrame frameOf(Filled filled);
-  /// Whether the pixels begin where a whole picture has room; puts them there if not.
+  /// Resets each pixel offset behind which a whole image has no room to 0. False if there was one.
   bool fitIntoBuffer(Filled& filled) const;
   void lendPixels(const Filled& filled, CapturedFrame& frame);
   void decodePixels(const Filled& filled, CapturedFrame& frame);
@@ -34,7 +34,7 @@ class Session {
   bool isSourceChanged() const;
   Result<void> restart();
   std::optional<NextFrame> followSource();
-  /// Keeps the answer for every later call.
+  /// Stores the answer, which every later call repeats.
   NextFrame end(NextFrame answer);
   NextFrame fail(std::string problem, int answer);
 
@@ -43,11 +43,11 @@ class Session {
   Clock& clock_;
   Negotiated negotiated_;
   Chronology chronology_;
-  std::unique_ptr<Stream> stream_;  ///< before device_ goes
+  std::unique_ptr<Stream> stream_;  ///< destroyed before device_
   bool wasStarving_ = false;
-  int requeueFailure_ = 0;                 ///< −errno, told by the next call
+  int requeueFailure_ = 0;                 ///< −errno, reported by the next call
   bool hasFrames_ = false;                 ///< since the device was last started
-  std::shared_ptr<const void> lastLease_;  ///< of the last sound JPEG
+  std::shared_ptr<const void> lastLease_;  ///< of the last valid JPEG
   ImageView lastPicture_;
   std::optional<NextFrame> ended_;
 };

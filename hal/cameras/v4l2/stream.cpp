@@ -10,7 +10,7 @@
 namespace pleinair::hal::v4l2 {
 namespace {
 
-/// Tells the stream, when the last copy goes, that its buffer is free; keeps the mapping until
+/// Tells the stream that a buffer is free when the last copy is dropped; keeps the mapping until
 /// then.
 class Lease {
  public:
@@ -26,7 +26,7 @@ class Lease {
   std::uint32_t index_;
 };
 
-/// A v4l2_buffer with the planes that the multi-planar interface wants.
+/// A v4l2_buffer with the plane array that the multi-planar interface requires.
 struct BufferRequest {
   explicit BufferRequest(const Device& device) {
     buffer.type = device.bufferType();
@@ -57,7 +57,7 @@ std::vector<std::size_t> neededBytesOf(const Negotiated& negotiated) {
   return needed;
 }
 
-/// Whether the device tells when its source changes; many have no such event.
+/// Whether the device reports changes of its source; many lack the event.
 bool subscribeToSourceChanges(const Device& device) {
   v4l2_event_subscription subscription{};
   subscription.type = V4L2_EVENT_SOURCE_CHANGE;
@@ -88,7 +88,7 @@ Result<std::unique_ptr<Stream>> Stream::start(const Device& device, const Negoti
 
 Stream::~Stream() {
   int type = static_cast<int>(device_.bufferType());
-  device_.ask(VIDIOC_STREAMOFF, type);  // a device that is gone refuses, and does not stream either
+  device_.ask(VIDIOC_STREAMOFF, type);  // fails on a lost device, which no longer streams either
 }
 
 int Stream::queue(std::uint32_t index) {
@@ -112,7 +112,8 @@ int Stream::dequeue(Filled& filled) {
   BufferRequest request(device_);
   if (const int answer = device_.ask(VIDIOC_DQBUF, request.buffer); answer < 0) return answer;
   const v4l2_buffer& buffer = request.buffer;
-  if (buffer.index >= buffers_.count()) return -EIO;  // a driver that answers nonsense
+  // guards against an invalid index from the driver
+  if (buffer.index >= buffers_.count()) return -EIO;
   filled = {.index = buffer.index,
             .flags = buffer.flags,
             .sequence = buffer.sequence,

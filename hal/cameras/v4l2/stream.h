@@ -18,35 +18,36 @@ struct Filled {
   std::uint32_t sequence = 0;
   Duration timestamp{0};
   struct Plane {
-    std::size_t offsetBytes = 0;  ///< of the pixels (data_offset)
-    std::size_t usedBytes = 0;    ///< of pixels
+    std::size_t offsetBytes = 0;  ///< where the pixels begin (data_offset)
+    std::size_t usedBytes = 0;    ///< bytes of pixels
   };
   std::array<Plane, 3> planes;
 };
 
-/// A device that streams into its buffers. One thread; leases are dropped on any. Ends with its
-/// destruction; the device outlives it.
+/// A device that streams into its buffers. One thread; leases may be dropped on any. The destructor
+/// ends the stream; the device must outlive it.
 class Stream {
  public:
-  /// Errors: as BufferSet::allocate, and kBusy, kIo of starting.
+  /// Errors: as BufferSet::allocate; kBusy and kIo if streaming cannot start.
   static Result<std::unique_ptr<Stream>> start(const Device& device, const Negotiated& negotiated);
   ~Stream();
   Stream(const Stream&) = delete;
   Stream& operator=(const Stream&) = delete;
 
-  /// Gives the driver what the leases have given back. 0 or −errno.
+  /// Queues the buffers that the dropped leases have returned. 0 or −errno.
   int queueReturned();
-  /// 0 or −errno; −EAGAIN where none is full.
+  /// Takes a filled buffer. 0 or −errno; −EAGAIN if there is none.
   int dequeue(Filled& filled);
-  /// Gives a dequeued buffer back at once. 0 or −errno.
+  /// Queues a dequeued buffer again at once. 0 or −errno.
   int queue(std::uint32_t index);
-  /// Lends a dequeued buffer: it goes back with queueReturned() once the lease has been dropped.
+  /// Lends a dequeued buffer. queueReturned() queues it once the lease has been dropped.
   std::shared_ptr<const void> lend(std::uint32_t index);
 
   const Buffer& buffer(std::uint32_t index) const { return *buffers_.at(index); }
-  /// Whether the driver would have no buffer left if another dequeued one were lent.
+  /// Whether lending one more dequeued buffer would leave the driver with none.
   bool mustKeepTheNext() const { return lent_ + 1 >= buffers_.count(); }
-  /// Whether frames are lost because of leases unless dequeue() comes in time: one buffer is left.
+  /// Whether leases will cause an underrun unless dequeue() comes in time: the driver has one
+  /// buffer left.
   bool isStarving() const { return lent_ > 0 && lent_ + 1 >= buffers_.count(); }
   bool hasEvents() const { return hasEvents_; }
 

@@ -12,24 +12,25 @@ namespace pleinair::hal::v4l2 {
 
 class Session;
 
-/// A V4L2 device (docs/cameras.md): memory-mapped buffers, exported as dma-bufs where the driver
-/// does that, over the single- or the multi-planar interface.
+/// A V4L2 device (docs/cameras.md): memory-mapped buffers, exported as dma-bufs if the driver can
+/// do that, over the single- or the multi-planar interface.
 ///
-/// start() takes the mode that comes nearest to the request (hal/cameras/v4l2/modes.h), reads back
-/// what the driver made of it, and sets the controls. Its errors are Camera's; besides, kNotFound
-/// names the cameras that there are.
+/// start() selects the mode nearest to the request (hal/cameras/v4l2/modes.h), reads back the
+/// format that the driver set, and sets the controls. Its errors are those of Camera::start();
+/// kNotFound names the available cameras.
 ///
-/// Frames lend the driver's buffers. Where a frame more would leave the driver with none, it is
-/// copied instead, so that a consumer that holds on to frames costs time and not the stream. JPEGs
-/// are decoded within next(), to I420. Of a frame that is kIncomplete or kCorrupt the rest of the
-/// picture is what the buffer held before, and of a JPEG the last sound picture.
+/// Frames lend the driver's buffers. If one more lease would leave the driver without a buffer, the
+/// frame is copied instead: a consumer that holds frames costs time, but never stops the stream.
+/// JPEGs are decoded within next(), to I420. A frame that is kIncomplete or kCorrupt shows the
+/// buffer's previous content in its missing part; a JPEG shows the last valid image.
 ///
-/// next() answers CameraLost after ENODEV, ENXIO, EIO, EINVAL and EBADF (what drivers say once they
-/// are unplugged or wedged), and Error after anything else; FormatChanged when the device's source
-/// has changed (V4L2_EVENT_SOURCE_CHANGE), having negotiated and started anew.
+/// next() answers CameraLost after ENODEV, ENXIO, EIO, EINVAL and EBADF (which drivers answer once
+/// they are unplugged or hang), and Error after any other error. It answers FormatChanged after a
+/// change of the device's source (V4L2_EVENT_SOURCE_CHANGE), when it has negotiated and started
+/// again.
 class V4l2Camera final : public Camera {
  public:
-  /// `id`: as V4l2Backend::list() gives it, or a node's path. Nothing is opened before start().
+  /// `id`: as V4l2Backend::list() gives it, or a node's path. No device is opened before start().
   V4l2Camera(std::string id, System system, Clock& clock);
   ~V4l2Camera() override;
 

@@ -4,7 +4,7 @@
 struct Anchor {
   vec2 px;
   vec2 displacement;
-  vec4 jacobian;  // column by column
+  vec4 jacobian;  // column-major
   vec2 barycentrics;
   float error;
   float fade;

@@ -1,16 +1,17 @@
-// Purpose: whether an anchor of the camera's picture is still seen, or something that is no model has come
-//          before it: it remembers what it lies on in the two numbers that others keep barycentrics in.
+// Purpose: whether an anchor of the camera image is still visible, or an object that is not a model
+//          occludes it. The anchor remembers the appearance of its surroundings in the two numbers
+//          that hold barycentrics in other anchors.
 // Inputs:  picture (ArFrame::colour) and fullSize; noise: sigma, in [0, 1].
-// Outputs: looks: 1 + luma, and 4 * mismatch frames + 1 + red less blue; (0, 0): not looked at yet.
+// Outputs: looks: 1 + luma, and 4 * mismatch frames + 1 + red less blue; (0, 0): not sampled yet.
 // Precision: highp.
 uniform highp sampler2D picture;
 uniform float noise;
 
-const float kMismatchFrames = 4.0;    // after which it is hidden
-const float kReach = 2.0;            // px of the full picture, that an anchor may be off
-const float kSlack = 14.0 / 255.0;   // light changes
+const float kMismatchFrames = 4.0;  // the anchor is hidden after so many
+const float kReach = 2.0;  // px of the full image: error allowed in the anchor's position
+const float kSlack = 14.0 / 255.0;  // allowance for changes of light
 const float kNoiseSlack = 3.0;
-const float kPace = 0.25;            // of what is learnt in a frame, as light goes slowly
+const float kPace = 0.25;  // learning rate per frame, slow enough for changes of light
 const float kPerMismatch = 4.0;
 
 struct Looks {
@@ -32,7 +33,7 @@ Looks looksAt(vec2 px) {
   return here;
 }
 
-// What is remembered after this frame.
+// The appearance to remember after this frame.
 vec2 remembered(vec2 looks, vec2 px) {
   Looks here = looksAt(px);
   if (looks.y == 0.0) return here.mean + 1.0;
@@ -45,7 +46,8 @@ vec2 remembered(vec2 looks, vec2 px) {
   return known + 1.0 + vec2(0.0, kPerMismatch * mismatch);
 }
 
-// It was seen to be hidden, and has not been seen long enough since.
+// Whether the anchor counts as occluded: a visible one from kMismatchFrames mismatches on, a hidden
+// one until its count is back at 0.
 bool isMismatch(vec2 looks, bool wasHidden) {
   return looks.y >= kPerMismatch * (wasHidden ? 1.0 : kMismatchFrames);
 }

@@ -1,19 +1,19 @@
-// Purpose: what is counted of anchors in each cell of the grid that their density is kept on.
-// Inputs, outputs: places in px of the full picture; cells row by row.
+// Purpose: the anchor counts of each cell of the density grid.
+// Inputs, outputs: places in px of the full image; cells row by row.
 // Precision: integers; highp for places.
 struct Cell {
-  uint inImage;     // anchors that stay, in the camera's picture
-  uint onObjects;   // likewise, on virtual objects
-  uint mostSpare;   // age and slot of the one to go first
-  uint strata;      // which parts of the cell they are in: 16 bits for the image, 16 for objects
-  uint births;      // wanted: 16 bits for the image, 16 for objects
-  uint firstBirth;  // of the frame's
+  uint inImage;  // staying anchors in the camera image
+  uint onObjects;  // staying anchors on virtual objects
+  uint mostSpare;  // age and slot of the next anchor to remove
+  uint strata;  // the occupied parts of the cell: 16 bits for the image, 16 for objects
+  uint births;  // wanted spawns: 16 bits for the image, 16 for objects
+  uint firstBirth;  // index in the frame's spawns
   uint spare0;
   uint spare1;
 };
 
 uniform ivec2 grid;
-uniform int cellPixels;  // a cell's side
+uniform int cellPixels;  // side of a cell
 uniform int strataSide;  // parts along a cell's side, at most 4
 
 ivec2 cellAt(vec2 px) { return ivec2(floor(px / float(cellPixels))); }

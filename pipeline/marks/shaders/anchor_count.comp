@@ -1,7 +1,7 @@
-// Purpose: fades anchors in and out, and counts those that stay in each cell.
-// Inputs:  anchor_cells.glsl's; fadeIn, fadeOut: how far a fade goes in this frame.
-// Outputs: anchors; cells, whose counts were 0 (anchor_spawn.comp). An anchor an invocation.
-// Precision: highp; counts are of integers, so that order does not matter.
+// Purpose: fades anchors in and out, and counts the staying ones in each cell.
+// Inputs:  anchor_cells.glsl's; fadeIn, fadeOut: the part of a fade that this frame completes.
+// Outputs: anchors; cells, whose counts were 0 (anchor_spawn.comp). One invocation per anchor.
+// Precision: highp; counts are integers, so that order does not matter.
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/anchor_cells.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
@@ -13,7 +13,7 @@ uniform float fadeOut;
 uniform uint slots;
 
 const uint kSlotBits = 20u;
-const float kAgeUnits = 64.0;   // a second
+const float kAgeUnits = 64.0;  // units per second
 
 void main() {
   uint slot = gl_GlobalInvocationID.x;
@@ -38,7 +38,7 @@ void main() {
     atomicAdd(cells[index].inImage, 1u);
   }
   atomicOr(cells[index].strata, 1u << (stratumAt(anchors[slot].px, at) + (isOnObject ? 16u : 0u)));
-  // The youngest goes first: what has been there for long is what people look at.
+  // The youngest anchor is removed first: viewers look at those that have been there for long.
   uint youth = 4095u - min(uint(anchors[slot].age * kAgeUnits), 4095u);
   atomicMax(cells[index].mostSpare, youth << kSlotBits | slot);
 }

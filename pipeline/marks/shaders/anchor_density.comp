@@ -1,8 +1,8 @@
-// Purpose: keeps the density of anchors in a cell: how many are to be born, and which is to go
-//          (thesis §5.3, with hysteresis).
-// Inputs:  anchor_cells.glsl's; the rule (marks::DensityRule): target, birthBelow, deathAbove; ids and
-//          its pixelsOfFull if hasObjects; fullSize.
-// Outputs: births of each cell; anchors: the ones to go. A cell an invocation.
+// Purpose: controls the density of anchors in a cell: the number of spawns, and the anchor to
+//          remove (thesis §5.3, with hysteresis).
+// Inputs:  anchor_cells.glsl's; the rule (marks::DensityRule): target, birthBelow, deathAbove; ids
+//          and its pixelsOfFull if hasObjects; fullSize.
+// Outputs: births of each cell; anchors: those to remove. One invocation per cell.
 // Precision: integers; highp for places.
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/anchor_cells.glsl"
@@ -19,9 +19,9 @@ uniform int birthBelow;
 uniform int deathAbove;
 
 const uint kSlotMask = 0xFFFFFu;
-const float kLeastShare = 0.12;  // of a cell: less has no anchor of its own
+const float kLeastShare = 0.12;  // of a cell: a smaller part gets no anchor of its own
 
-// The part of the cell that shows virtual objects.
+// The part of the cell that virtual objects cover.
 float objectShare(ivec2 cell) {
   ivec2 low = ivec2(floor(vec2(cell * cellPixels) * pixelsOfFull));
   ivec2 high = min(ivec2(ceil(vec2((cell + 1) * cellPixels) * pixelsOfFull)), textureSize(ids, 0));
@@ -38,8 +38,8 @@ float objectShare(ivec2 cell) {
   return seen == 0 ? 0.0 : float(shown) / float(seen);
 }
 
-// Whether the cells around hold what they are to: then an empty one among them is a gap by chance, and
-// filling it up would crowd them later on.
+// Whether the surrounding cells hold their target. An empty cell among them is then a gap by
+// chance, and filling it would crowd them later.
 bool isAmongFull(ivec2 cell) {
   uint around = 0u;
   for (int y = -1; y <= 1; ++y) {
@@ -67,7 +67,7 @@ void main() {
   if (cell.inImage + cell.onObjects > uint(deathAbove)) {
     anchors[cell.mostSpare & kSlotMask].state |= kDying;
   }
-  // Cells at the border may be cut off.
+  // Border cells may be cut off.
   vec2 inside = clamp((fullSize - vec2(at * cellPixels)) / float(cellPixels), 0.0, 1.0);
   float whole = inside.x * inside.y;
   float share = hasObjects ? objectShare(at) : 0.0;

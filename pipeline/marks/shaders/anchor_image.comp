@@ -1,10 +1,10 @@
-// Purpose: carries the anchors that live in the camera's picture, and opens the frame for all others:
-//          what lives on a surface is hidden until its object's pass (anchor_surface.comp) finds it.
+// Purpose: moves the anchors of the camera image, and prepares all others: an anchor on a surface
+//          is hidden until the pass of its object (anchor_surface.comp) finds it.
 // Inputs:  image_motion.glsl's, flow forward; ids and its pixelsOfFull if hasObjects; fullSize;
-//          anchor_appearance.glsl's; margin: px beyond the border after which an anchor is gone; stepSeconds;
-//          follows: whether anything is carried, else surfaces' anchors rest like all others, and none is
-//          looked at; anew: whether all are to go.
-// Outputs: anchors. One an invocation.
+//          anchor_appearance.glsl's; margin: px beyond the border at which an anchor is removed;
+//          stepSeconds; follows: whether anchors move; if not, surface anchors rest like all others
+//          and no appearance is compared; anew: whether all anchors are removed.
+// Outputs: anchors. One invocation per anchor.
 // Precision: highp.
 #include "pipeline/marks/shaders/image_motion.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
@@ -48,7 +48,8 @@ void main() {
     bool isInside = all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, textureSize(ids, 0)));
     isHidden = isInside && objectOf(texelFetch(ids, pixel, 0).r) != object;
   }
-  // What a model hides is not looked at, nor what is known to lie on another real object.
+  // Appearance is not compared behind a model, nor for an anchor known to lie on another real
+  // object.
   vec2 looks = anchors[slot].barycentrics;
   if (follows && !isHidden && all(greaterThan(px, vec2(0.0))) && all(lessThan(px, fullSize))) {
     looks = remembered(looks, px);

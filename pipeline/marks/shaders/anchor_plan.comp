@@ -1,7 +1,8 @@
-// Purpose: gives each birth a free slot: both in order, so that the same births get the same slots on
-//          every GPU. One group does all of it.
+// Purpose: assigns a free slot to each spawn, both in order, so that every GPU assigns the same
+//          slots. A single work group.
 // Inputs:  anchors, slots of them; births of the cells, cellCount of them.
-// Outputs: cells: the number of the cell's first birth; plan: the free slots' number, then the slots.
+// Outputs: cells: the index of the cell's first spawn; plan: the number of free slots, then the
+//          slots.
 // Precision: integers.
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/anchor_cells.glsl"

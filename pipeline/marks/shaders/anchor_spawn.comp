@@ -1,10 +1,10 @@
-// Purpose: puts new anchors into a cell, each into a part of it that has none (thesis §4.3.1: jittered),
-//          on what is seen there: the exact point of a virtual surface behind the pixel (thesis
-//          §5.3), or the camera's picture.
-// Inputs:  anchor_cells.glsl's; births and slots (anchor_plan.comp); ids, barycentrics (ArFrame) and
-//          their pixelsOfFull if hasObjects; fullSize; salt: another one each frame; atOnce: whether
-//          they are there without a fade; motion: MotionField's field.
-// Outputs: anchors; counts empty for the next frame. A cell an invocation.
+// Purpose: spawns anchors in a cell, each in a part of it without one (thesis §4.3.1: jittered), on
+//          the visible content there: the exact point of a virtual surface behind the pixel (thesis
+//          §5.3), or the camera image.
+// Inputs:  anchor_cells.glsl's; births and slots (anchor_plan.comp); ids, barycentrics (ArFrame)
+//          and their pixelsOfFull if hasObjects; fullSize; salt: another one each frame; atOnce:
+//          whether anchors appear without a fade; motion: MotionField's field.
+// Outputs: anchors; counts cleared for the next frame. One invocation per cell.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
@@ -26,13 +26,13 @@ uniform uint salt;
 uniform bool atOnce;
 uniform highp sampler2D motion;
 
-const int kTries = 6;           // for a place in the part, and as many in the whole cell
+const int kTries = 6;  // attempts in one part of the cell, then as many in the whole cell
 
 ivec2 pixelAt(vec2 px) { return clamp(ivec2(floor(px * pixelsOfFull)), ivec2(0), textureSize(ids, 0) - 1); }
 
-// The next free part of the cell, of those not in `taken`; any where all are. One colour of a
-// chequerboard over all cells goes first: then hardly any square of a cell's size is empty, wherever it
-// comes to lie, and a pan spawns few.
+// The next free part of the cell that is not in `taken`; any part if all are. One colour of a
+// chequerboard over all cells is filled first: then nearly every square of a cell's size holds an
+// anchor, wherever it moves, and a pan spawns few.
 int freePart(ivec2 cell, uint taken, uint hash) {
   int parts = strataSide * strataSide;
   int first = int(hash % uint(parts));
@@ -47,7 +47,7 @@ int freePart(ivec2 cell, uint taken, uint hash) {
   return spare < 0 ? first : spare;
 }
 
-// What comes into the picture does so with its marks.
+// Whether the content has just entered the image. Its marks appear without a fade.
 bool hasComeIn(vec2 px) {
   vec4 moved = textureLod(motion, px / fullSize, 0.0);
   vec2 from = px - moved.xy;
@@ -56,7 +56,7 @@ bool hasComeIn(vec2 px) {
 
 void spawn(ivec2 cell, uint number, bool onObject, inout uint taken) {
   if (number >= freeCount) return;
-  uint hash = hashOf(cell, hashOf(salt) + number);  // no frame's numbers follow another's
+  uint hash = hashOf(cell, hashOf(salt) + number);  // separates the sequences of different frames
   int part = freePart(cell, taken, hash);
   taken |= 1u << uint(part);
   vec2 corner = vec2(part % strataSide, part / strataSide);
@@ -86,7 +86,8 @@ void spawn(ivec2 cell, uint number, bool onObject, inout uint taken) {
   born.error = 0.0;
   born.fade = atOnce || hasComeIn(px) ? 1.0 : 0.0;
   born.age = 0.0;
-  born.seed = hashOf(hash ^ 0x9E3779B9u);  // tells nothing of the place, which came of the same hash
+  // independent of the place, which came from the same hash
+  born.seed = hashOf(hash ^ 0x9E3779B9u);
   born.surface = onObject ? id : idOf(objectOf(id), 0u);
   born.state = kAlive | kBorn | kSourceUnknown;
   if (onObject) {

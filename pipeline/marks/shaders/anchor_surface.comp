@@ -1,8 +1,8 @@
-// Purpose: carries the anchors on one virtual model: each is evaluated on its triangle as it is posed
-//          now (thesis §5.3), and hidden where another surface is seen instead.
-// Inputs:  surface_point.glsl's, of a camera with the full picture's pixels; object, of ids; ids,
+// Purpose: moves the anchors on one virtual model: evaluates each on its triangle at the current
+//          pose (thesis §5.3), and hides it where another surface is visible instead.
+// Inputs:  surface_point.glsl's, of a camera with the full image's pixels; object, of ids; ids,
 //          depth, nearMetres, farMetres (ArFrame), pixelsOfFull, fullSize, margin.
-// Outputs: anchors. One an invocation.
+// Outputs: anchors. One invocation per anchor.
 // Precision: highp.
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
@@ -27,12 +27,12 @@ float depthAt(ivec2 pixel) {
   return 2.0 * farMetres * nearMetres / (farMetres + nearMetres - ndc * (farMetres - nearMetres));
 }
 
-// Of what is seen there now.
+// Whether the surface visible at px is the anchor's.
 bool isSeen(vec2 px, vec3 place, vec3 normal) {
   ivec2 pixel = ivec2(floor(px * pixelsOfFull));
   if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, textureSize(ids, 0)))) return true;
   if (objectOf(texelFetch(ids, pixel, 0).r) != object) return false;
-  // How much nearer or farther the surface is a pixel away, as a part of its distance.
+  // The relative change of the surface's distance per pixel.
   float slope = length(normal.xy / (focal * pixelsOfFull)) * place.z / max(abs(dot(normal, place)), 1e-9);
   float tolerance = kDepthTolerance + min(slope, kMostSlope);
   return abs(depthAt(pixel) - place.z) < tolerance * place.z;
@@ -65,7 +65,7 @@ void main() {
     if (before.z > 0.0) {
       shift = px - projected(before);
       source = kSourceSurface;
-      // The triangle's affine map from where its corners were to where they are.
+      // The triangle's affine map from its previous corners to its current ones.
       vec3 was[3];
       for (int i = 0; i < 3; ++i) {
         was[i] = transformed(body.then, posed[body.places.z + point.corners[i]].position);
@@ -79,7 +79,7 @@ void main() {
         vec2 b = projected(corners[2]) - projected(corners[0]);
         float area = u.x * v.y - u.y * v.x;
         float longest = max(dot(u, u), dot(v, v));
-        // Seen edge on, a triangle says nothing of directions across it.
+        // An edge-on triangle gives no direction across it.
         if (abs(area) > 0.02 * longest) {
           jacobian = vec4(a * v.y - b * u.y, b * u.x - a * v.x) / area;
         }

@@ -1,5 +1,5 @@
-// Purpose: the bins that edge strengths are counted in.
-// Inputs, outputs: P in [0, 4√2]; bins are as wide as their root, for weak edges are many.
+// Purpose: the histogram bins of edge strengths.
+// Inputs, outputs: P in [0, 4√2]; bins are uniform in its square root, because weak edges are many.
 // Precision: highp.
 const int kBins = 128;
 const float kMostEdge = 5.7;

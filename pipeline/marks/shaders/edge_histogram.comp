@@ -1,7 +1,7 @@
-// Purpose: how strong the frame's edges are: a histogram of every fourth pixel's P.
+// Purpose: the distribution of the frame's edge strengths: a histogram of every fourth pixel's P.
 // Inputs:  tensors (gradient.frag).
-// Outputs: bins, which were 0 (edge_threshold.comp). A pixel an invocation.
-// Precision: counts of integers, so that order does not matter.
+// Outputs: bins, which were 0 (edge_threshold.comp). One invocation per pixel.
+// Precision: integer counts, so that order does not matter.
 #include "pipeline/marks/shaders/edge_bins.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 0) buffer Edges {

@@ -1,8 +1,8 @@
-// Purpose: what counts as a strong edge in this frame: a third of the 99.5th percentile of P, smoothed
-//          in time (the thesis takes a third of the largest, which one bright object or hot pixel
-//          moves).
-// Inputs:  bins (edge_histogram.comp; emptied here); share: of the way to this frame's in [0, 1];
-//          least: below, all is noise.
+// Purpose: the threshold of a strong edge in this frame: a third of the 99.5th percentile of P,
+//          smoothed in time (the thesis takes a third of the maximum, which one bright object or
+//          hot pixel changes).
+// Inputs:  bins (edge_histogram.comp; cleared here); share: of the way to this frame's value, in
+//          [0, 1]; least: everything below is noise.
 // Outputs: threshold. One invocation.
 // Precision: highp.
 #include "pipeline/marks/shaders/edge_bins.glsl"

@@ -1,7 +1,7 @@
-// Purpose: what each feature of the camera's picture lies on: a real object of the scene (an occluder),
-//          or none; features beside a border belong to neither side.
-// Inputs:  ids (ArFrame::ids), size and pixelsOfFull of its picture; count.
-// Outputs: features: the layer, as image_motion.glsl has it. A feature an invocation.
+// Purpose: the layer of each feature of the camera image: the real object of the scene (an
+//          occluder) that it lies on, or none. Features beside a border belong to neither side.
+// Inputs:  ids (ArFrame::ids), size and pixelsOfFull of its image; count.
+// Outputs: features: the layer, as in image_motion.glsl. One invocation per feature.
 // Precision: integers; highp for places.
 #include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 64) in;
@@ -14,9 +14,9 @@ uniform highp usampler2D ids;
 uniform vec2 pixelsOfFull;
 uniform int count;
 
-const int kReach = 3;           // px: about half of a feature's window
+const int kReach = 3;  // px: about half of a feature's window
 
-// Virtual objects hide the camera's picture, but it goes on behind them.
+// Virtual objects cover the camera image, which goes on behind them.
 uint layerAt(ivec2 pixel) {
   uint object = objectOf(texelFetch(ids, clamp(pixel, ivec2(0), textureSize(ids, 0) - 1), 0).r);
   return object >= kRealObject ? object : 0u;

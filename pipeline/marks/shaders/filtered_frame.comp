@@ -1,6 +1,6 @@
-// Purpose: the camera's picture averaged over time along its motion (marks/filtered_frame.h). One
-//          invocation does a block of 4x4 pixels: the picture moves by one displacement there, so that its
-//          past needs 7x7 reads for all of them.
+// Purpose: averages the camera image over time along its motion (marks/filtered_frame.h). One
+//          invocation does a block of 4x4 pixels with a single displacement, so that the past of
+//          all of them takes 7x7 reads.
 // Inputs:  filtered_frame.glsl's; backward (marks/motion_field.h); pixelsOfFull.
 // Outputs: filtered.
 // Precision: highp.
@@ -17,7 +17,7 @@ ivec2 corner;
 vec4 before[kPixels];  // the past that belongs to each pixel
 float trust[kPixels];
 
-// Catmull-Rom's weights of the four texels around a place that is f beyond the second.
+// Catmull-Rom weights of four texels for a place f beyond the second.
 vec4 weightsOf(float f) {
   return vec4(((-0.5 * f + 1.0) * f - 0.5) * f, (1.5 * f - 2.5) * f * f + 1.0,
               ((-1.5 * f + 2.0) * f + 0.5) * f, (0.5 * f - 0.5) * f * f);

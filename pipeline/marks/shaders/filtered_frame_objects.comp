@@ -1,8 +1,8 @@
-// Purpose: writes the filtered picture anew where an object is seen, whose own motion leads back. A pass of its
-//          own over what filtered_frame.comp wrote: there are few such pixels.
+// Purpose: rewrites the filtered frame on virtual objects, whose own motion leads to their past. A
+//          separate pass after filtered_frame.comp, because there are few such pixels.
 // Inputs:  filtered_frame.glsl's; ids, and motion (ArFrame) if hasMotion.
-// Outputs: filtered, where an object is seen. A block of 4x4 pixels an invocation: software renderers pay for
-//          each.
+// Outputs: filtered, on virtual objects. One invocation per block of 4x4 pixels, since software
+//          renderers pay for each.
 // Precision: highp.
 #include "pipeline/scene/render/shaders/object_id.glsl"
 #include "pipeline/marks/shaders/filtered_frame.glsl"
@@ -42,8 +42,8 @@ void main() {
   ivec2 corner = ivec2(gl_GlobalInvocationID.xy) * 4;
   ivec2 last = textureSize(picture, 0) - 1;
   if (any(greaterThan(corner, last))) return;
-  // A loop and no `if`: software renderers pay for both sides of a branch, but leave a loop that no
-  // invocation is in.
+  // A loop in place of `if`: software renderers run both sides of a branch, but skip a loop that no
+  // invocation enters.
   for (int i = showsObjects(corner, last) ? 0 : kPixels; i < kPixels; ++i) {
     ivec2 p = corner + ivec2(i & 3, i >> 2);
     uint object = objectOf(texelFetch(ids, min(p, last), 0).r);

@@ -1,9 +1,10 @@
 // Purpose: each pixel's edge as a tensor: the gradient by Sobel's operator (thesis eq. 5-8) in the
-//          doubled angle (eq. 9), where directions have no sign and can be added.
-//          On virtual surfaces their own form can lead: the way in which they turn from the eye.
-// Inputs:  picture (RGBA8, sRGB-coded); clamped at the border. ids, normals (ArFrame) if hasObjects;
-//          form: how much of it.
-// Outputs: RG16F: P cos 2θ, P sin 2θ, θ the gradient's direction; P is its length, of luma in [0, 1].
+//          doubled angle (eq. 9), in which directions have no sign and can be added. On virtual
+//          surfaces, their own form can lead: the direction in which they turn from the eye.
+// Inputs:  picture (RGBA8, sRGB-coded), clamped at the border; ids, normals (ArFrame) if
+//          hasObjects; form: its weight.
+// Outputs: RG16F: P cos 2θ, P sin 2θ, θ the gradient's direction; P is its length, of luma in [0,
+//          1].
 // Precision: highp for squares of small differences.
 uniform sampler2D picture;
 uniform highp usampler2D ids;

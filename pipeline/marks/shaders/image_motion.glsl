@@ -1,9 +1,10 @@
-// Purpose: how a point of the camera's picture moves from the frame before to this one, or how a point
-//          of this frame came: of all sources that know, the one with the smallest predicted error.
-// Inputs:  what marks::MotionField binds, uniform blocks 1 to 3, flow and still; bodies.glsl's, of a
-//          camera with the full picture's pixels.
-// Outputs: displacement, Jacobian, predicted error, source (anchor.glsl). All px of the full picture.
-// Precision: highp. Displacements are sums of differences, so that nothing moves where nothing did.
+// Purpose: the motion of a point of the camera image since the previous frame, forward from its old
+//          place or backward from its new one: of all available sources, the one with the smallest
+//          predicted error.
+// Inputs:  those that marks::MotionField binds: uniform blocks 1 to 3, flow and still;
+//          bodies.glsl's, of a camera with the full image's pixels.
+// Outputs: displacement, Jacobian, predicted error, source (anchor.glsl). All px of the full image.
+// Precision: highp. Displacements are sums of differences, so that a static image gives exactly 0.
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/scene/render/shaders/planes.glsl"
 
@@ -12,8 +13,8 @@ const float kUnknownError = 1.0e4;
 const float kLeastError = 1.0e-3;
 
 struct Feature {
-  vec4 places;  // then, now
-  vec4 about;   // predicted error; the real object it lies on, 0: none, below 0: on a border
+  vec4 places;  // previous, current
+  vec4 about;  // predicted error; the real object that it lies on, 0: none, below 0: on a border
 };
 
 layout(std140, binding = 1) uniform Planes { Body planes[kMaxPlanes]; };
@@ -21,14 +22,14 @@ layout(std140, binding = 2) uniform Motion {
   mat4 currentFromPrevious;    // the picture's homography, in the upper left 3x3
   mat4 previousFromCurrent;
   vec4 flowGrid;       // node = px * xy + zw
-  vec4 stillGrid;      // field likewise
+  vec4 stillGrid;  // field = px * xy + zw
   vec4 known;          // planes, features, whether there is a homography, its error
   vec4 nodes;          // x of flow, z of still fields; 0: none
-  vec4 fullByFrame;    // px of the full picture for one of the captured frame
+  vec4 fullByFrame;  // px of the full image per px of the captured frame
 };
 layout(std140, binding = 3) uniform Features { Feature features[kMostFeatures]; };
 
-uniform sampler2D flow;   // RGBA32F, forward or backward as the question is
+uniform sampler2D flow;  // RGBA32F, forward or backward like the query
 uniform sampler2D still;  // R32F
 
 struct Moved {
@@ -44,7 +45,8 @@ Moved nothingKnown() { return Moved(vec2(0.0), kNoTurn, kUnknownError, kSourceUn
 
 // --- planes of the scene
 
-// Where what the plane shows at px is shown in the other frame, less px; z: depth, 0 if not there.
+// The point's position in the other frame, by the plane's motion, less px; z: depth, 0 if not
+// there.
 vec3 planeShift(Body plane, vec2 px, bool backward) {
   vec3 ray = rayThrough(px);
   vec3 here;
@@ -86,7 +88,7 @@ Moved byPlanes(vec2 px, bool backward) {
   return moved;
 }
 
-// --- the picture as a whole
+// --- the image as a whole
 
 vec2 homographyShift(mat3 h, vec2 px) {
   vec3 p = h * vec3(px, 1.0);
@@ -109,15 +111,15 @@ Moved byPicture(vec2 px, bool backward) {
 // --- the three nearest features of the same layer (thesis §4.3.3)
 
 struct Neighbours {
-  vec2 at[3];     // then, or now if we go backward
+  vec2 at[3];  // previous; current in backward queries
   vec2 shift[3];
   float error[3];
-  float away;     // the nearest one's distance
+  float away;  // distance of the nearest one
   int count;
 };
 
 Neighbours nearestFeatures(vec2 px, float layer, bool backward) {
-  vec3 away = vec3(1.0e12);  // squared, the nearest first
+  vec3 away = vec3(1.0e12);  // squared, nearest first
   ivec3 which = ivec3(-1);
   int count = int(known.y);
   for (int i = 0; i < kMostFeatures; ++i) {
@@ -144,12 +146,12 @@ Neighbours nearestFeatures(vec2 px, float layer, bool backward) {
   return near;
 }
 
-// A turn, zoom and shift that fits all three best: what is left where they are no triangle.
+// The best rotation, zoom and shift for all three, used where they form no triangle.
 Moved bySimilarity(vec2 px, Neighbours near) {
   vec2 middle = (near.at[0] + near.at[1] + near.at[2]) / 3.0;
   vec2 shift = (near.shift[0] + near.shift[1] + near.shift[2]) / 3.0;
   float spread = 0.0;
-  vec2 turn = vec2(0.0);  // less one
+  vec2 turn = vec2(0.0);  // minus one
   float variance = 0.0;
   for (int k = 0; k < 3; ++k) {
     vec2 a = near.at[k] - middle;
@@ -158,7 +160,7 @@ Moved bySimilarity(vec2 px, Neighbours near) {
     turn += vec2(dot(a, d), a.x * d.y - a.y * d.x);
     variance += near.error[k] * near.error[k] / 3.0;
   }
-  const float kLeastSpread = 9.0;  // px²: closer together, they say nothing of turns
+  const float kLeastSpread = 9.0;  // px²: closer features give no rotation
   turn = spread > kLeastSpread ? turn / spread : vec2(0.0);
   vec2 arm = px - middle;
   float lever = spread > kLeastSpread ? dot(arm, arm) / spread : 0.0;
@@ -167,19 +169,19 @@ Moved bySimilarity(vec2 px, Neighbours near) {
                sqrt(variance * (1.0 / 3.0 + lever)), kSourceFeatures);
 }
 
-// Barycentric coordinates of the point as it was, applied to where the corners are (eq. 13-19).
+// The previous point's barycentric coordinates, applied to the current corners (eq. 13-19).
 Moved byTriangle(vec2 px, Neighbours near) {
   vec2 u = near.at[1] - near.at[0];
   vec2 v = near.at[2] - near.at[0];
   float area = u.x * v.y - u.y * v.x;
   float longest = max(max(dot(u, u), dot(v, v)), dot(u - v, u - v));
-  const float kLeastHeight = 0.25;  // of the longest side: flatter ones amplify noise
+  const float kLeastHeight = 0.25;  // of the longest side: flatter triangles amplify noise
   if (abs(area) <= kLeastHeight * longest) return bySimilarity(px, near);  // or all in one place
   vec2 arm = px - near.at[0];
   float b = (arm.x * v.y - arm.y * v.x) / area;
   float c = (u.x * arm.y - u.y * arm.x) / area;
   vec3 weights = vec3(1.0 - b - c, b, c);
-  if (dot(weights, weights) > 3.0) return bySimilarity(px, near);  // far outside of it
+  if (dot(weights, weights) > 3.0) return bySimilarity(px, near);  // far outside the triangle
   vec2 du = near.shift[1] - near.shift[0];
   vec2 dv = near.shift[2] - near.shift[0];
   vec2 shift = near.shift[0] + b * du + c * dv;
@@ -194,8 +196,8 @@ vec4 flowNode(ivec2 node) {
   return texelFetch(flow, clamp(node, ivec2(0), textureSize(flow, 0) - 1), 0);
 }
 
-// Between the border and the outermost nodes it goes on as between these: if it stood, anchors there
-// would slip by half a node's slope a frame. An error does not.
+// Extrapolates between the border and the outermost nodes: constant flow would make anchors there
+// drift by half a node's slope per frame. The error is not extrapolated.
 vec4 flowAt(vec2 node) {
   const float kBeyond = 1.5;  // nodes: as far as anchors go beyond the border
   ivec2 corner = clamp(ivec2(floor(node)), ivec2(0), max(textureSize(flow, 0) - 2, ivec2(0)));
@@ -211,13 +213,13 @@ Moved byFlow(vec2 px) {
   if (nodes.x == 0.0) return nothingKnown();
   vec2 node = px * flowGrid.xy + flowGrid.zw;
   vec4 here = flowAt(node);
-  // Over two nodes: flow is smooth, its noise is not.
+  // Central differences over two nodes: the flow is smooth, its noise is not.
   vec2 x = (flowAt(node + vec2(1.0, 0.0)).xy - flowAt(node - vec2(1.0, 0.0)).xy) * 0.5 * flowGrid.x;
   vec2 y = (flowAt(node + vec2(0.0, 1.0)).xy - flowAt(node - vec2(0.0, 1.0)).xy) * 0.5 * flowGrid.y;
   return Moved(here.xy, kNoTurn + vec4(x, y), here.z, kSourceFlow);
 }
 
-// --- stillness
+// --- static regions
 
 float stillError(vec2 px) {
   if (nodes.z == 0.0) return kUnknownError;
@@ -225,8 +227,8 @@ float stillError(vec2 px) {
   return texelFetch(still, clamp(field, ivec2(0), textureSize(still, 0) - 1), 0).r * fullByFrame.x;
 }
 
-// The picture's homography, and what the neighbours do otherwise, as far as features all over the
-// picture do otherwise by more than their errors: the best estimate of both (a Kalman gain).
+// The image's homography plus the neighbours' residual motion, weighted by how far residuals all
+// over the image exceed the features' errors: the best estimate of both (a Kalman gain).
 Moved withParallax(Moved whole, Neighbours near, float share, bool backward) {
   float variance = nodes.y;
   if (known.z == 0.0 || variance == 0.0) return whole;
@@ -245,7 +247,7 @@ Moved withParallax(Moved whole, Neighbours near, float share, bool backward) {
 
 // --- the choice
 
-// How far a motion is from what a witness saw, beyond what the witness may err.
+// How far a motion differs from a witness's, beyond the witness's own error.
 float contradicted(Moved moved, vec2 seen, float error) {
   return max(0.0, distance(moved.displacement, seen) - 2.5 * error);
 }
@@ -266,7 +268,7 @@ Moved imageMotionAt(vec2 px, float layer, bool backward) {
   Moved whole = byPicture(px, backward);
   if (near.count == 3) {
     Moved triangle = byTriangle(px, near);
-    // What the neighbours do otherwise than the whole does, or than each other, may go on between
+    // The neighbours' residual against the homography, or among themselves, may continue between
     // them and here.
     float off = 0.0;
     float odd = 0.0;

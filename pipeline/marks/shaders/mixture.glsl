@@ -1,6 +1,6 @@
-// Purpose: a colour as a limited palette has it.
+// Purpose: maps a colour to a limited palette.
 // Inputs:  mixtures (styles::makeMixtures), colour: sRGB-coded in [0, 1].
-// Outputs: the mixture, likewise; between the look-up's colours in a straight line.
+// Outputs: the mixture, sRGB-coded; interpolated linearly between the entries of the look-up table.
 // Precision: highp.
 uniform highp sampler2D mixtures;
 

@@ -1,6 +1,6 @@
-// Purpose: lays each bin's points in their place, slots upwards, so that nothing is left of the order in
-//          which they came.
-// Inputs:  points; links (point_bins_link.comp; lists are emptied here for the next frame), starts
+// Purpose: writes each bin's points in rising order of slots, so that the result does not depend on
+//          the order of the lists.
+// Inputs:  points; links (point_bins_link.comp; lists are cleared here for the next frame), starts
 //          (point_bins_scan.comp), slots: how many.
 // Outputs: sorted.
 // Precision: integers are exact.
@@ -12,7 +12,7 @@ layout(std430, binding = 2) readonly buffer Starts { uint starts[]; };
 layout(std430, binding = 3) buffer Sorted { ivec4 sorted[]; };
 uniform int slots;
 
-const uint kHeap = 48u;  // more points than this in a bin
+const uint kHeap = 48u;  // points in a bin, above which gatherAll() is used
 
 void insertAll(uint first, uint next) {
   for (uint end = first; next != 0u; ++end) {
@@ -27,7 +27,8 @@ void insertAll(uint first, uint next) {
   }
 }
 
-// Of a heap the square would take too long (llvmpipe ends a shader's loops after 65535 rounds).
+// For very full bins, which would take quadratic time (llvmpipe ends a shader's loops after 65535
+// rounds).
 void gatherAll(uint first, uint end, ivec2 bin) {
   for (int slot = 0; slot < slots && first < end; ++slot) {
     ivec4 point = points[slot];

@@ -1,8 +1,8 @@
-// Purpose: puts every point in its bin's list, and counts.
-// Inputs:  points, one a slot (point_bins.glsl); slots: how many.
-// Outputs: links: for each bin its points' count and the slot of one of them; then for each slot the one
-//          after it. Slots + 1; 0 is none. The lists' order is that of chance: point_bins_gather.comp
-//          ends it.
+// Purpose: puts every point into its bin's list, and counts them.
+// Inputs:  points, one per slot (point_bins.glsl); slots: how many.
+// Outputs: links: for each bin the count of its points and the slot of one of them; then for each
+//          slot the next one. Stored as slot + 1; 0 is none. The order of the lists is random;
+//          point_bins_gather.comp sorts them.
 // Precision: integers are exact.
 #include "pipeline/marks/shaders/point_bins.glsl"
 layout(local_size_x = 64) in;

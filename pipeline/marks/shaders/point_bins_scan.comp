@@ -1,5 +1,6 @@
-// Purpose: where each bin's points begin: the sums of the counts before it. One group does it all.
-// Inputs:  links (point_bins_link.comp; counts are emptied here for the next frame), count: of bins.
+// Purpose: the start of each bin's points: a prefix sum of the counts. A single work group.
+// Inputs:  links (point_bins_link.comp; counts are cleared here for the next frame), count: of
+//          bins.
 // Outputs: starts: count + 1 places.
 // Precision: integers are exact.
 layout(local_size_x = 128) in;

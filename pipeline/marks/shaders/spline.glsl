@@ -1,7 +1,7 @@
-// Purpose: a cubic B-spline whose end points are tripled, so that it begins and ends there (thesis
+// Purpose: a cubic B-spline with tripled end points, so that it begins and ends there (thesis
 //          §4.4): 8 control points, 9 spans.
 // Inputs:  its points; s in [0, kSplineSpans].
-// Outputs: the place there, the direction, and how far along the stroke it is.
+// Outputs: the place at s, the direction, and the part of the stroke's length up to it.
 // Precision: highp.
 const int kSplineLast = 7;
 const int kSplineSpans = 9;
@@ -9,7 +9,7 @@ const int kSplineSpans = 9;
 struct SplinePlace {
   vec2 at;
   vec2 along;  // unit
-  float part;  // of its length, in [0, 1], where its points lie evenly
+  float part;  // of its length, in [0, 1], if its points are evenly spaced
 };
 
 SplinePlace splineAt(vec2 points[8], float s) {
@@ -25,13 +25,13 @@ SplinePlace splineAt(vec2 points[8], float s) {
                       3.0 * v * v * v - 6.0 * v * v + 4.0, u * u * u) / 6.0;
   vec2 at = weights.x * c0 + weights.y * c1 + weights.z * c2 + weights.w * c3;
   vec2 along = -v * v * c0 + (3.0 * u * u - 4.0 * u) * c1 + (-3.0 * v * v + 4.0 * v) * c2 + u * u * c3;
-  // At the very ends the spline stands still; its direction there is the first or last chord's.
+  // The derivative vanishes at the ends; the direction there is that of the first or last chord.
   if (dot(along, along) < 1e-6) along = c3 - c0;
   if (dot(along, along) < 1e-6) along = vec2(1.0, 0.0);
   return SplinePlace(at, normalize(along), dot(weights, vec4(which)) / float(kSplineLast));
 }
 
-// The points' way from the first to the last, px.
+// Length of the polyline through the points, px.
 float splineLength(vec2 points[8]) {
   float sum = 0.0;
   for (int i = 0; i < kSplineLast; ++i) sum += distance(points[i], points[i + 1]);

@@ -1,10 +1,10 @@
-// Purpose: what is drawn of each stroke: the control points of its spline, in the order of painting.
-// Inputs:  anchors, strokes, ranks (stroke_order.comp); segment: px; width: px, widthSpread: by which
-//          part strokes differ; opacity; leaveLight; mixture.glsl's if
-//          isLimited; jitter: of hue, saturation, value.
-// Outputs: instances: 8 points (px of the full picture), colour (sRGB-coded) and opacity; half the
-//          width (px), the brush's variant, 4 more where it is mirrored, the virtual object that it is
-//          of, 0 for what is real, its anchor's age (s). An anchor an invocation.
+// Purpose: the drawn form of each stroke: the control points of its spline, in painting order.
+// Inputs:  anchors, strokes, ranks (stroke_order.comp); segment: px; width: px, widthSpread: random
+//          part of it; opacity; leaveLight; mixture.glsl's if isLimited; jitter: of hue,
+//          saturation, value.
+// Outputs: instances: 8 points (px of the full image), colour (sRGB-coded) and opacity; half the
+//          width (px), the brush's variant, plus 4 if it is mirrored, the stroke's virtual object
+//          or 0 for real content, its anchor's age (s). One invocation per anchor.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
@@ -34,7 +34,7 @@ const int kPoints = 8;
 const float kGreyHue = 0.4;
 const float kSpeck = 0.5;
 
-// The place `s` segments along an arm.
+// The point `s` segments along an arm.
 vec2 along(vec4 first, vec4 second, float s) {
   vec4 part = clamp(vec4(s, s - 1.0, s - 2.0, s - 3.0), 0.0, 1.0);
   return first.xy * part.x + first.zw * part.y + second.xy * part.z + second.zw * part.w;
@@ -50,9 +50,9 @@ void main() {
   Stroke stroke = strokes[slot];
   uint seed = anchors[slot].seed;
   vec2 px = anchors[slot].px;
-  // A stroke that comes or goes grows or shrinks, too.
+  // A stroke that fades in or out also grows or shrinks.
   float grown = mix(0.35, 1.0, stroke.seen);
-  // Strokes differ in length, but none goes on beyond where it was found to end.
+  // Lengths vary randomly, but never beyond the traced end.
   vec2 lengths = stroke.lengths * grown * (0.875 + 0.25 * randomOf(seed, 0x3u));
   float wide = width * (1.0 + widthSpread * 2.0 * randomOf(seed, 0x11u)) * mix(0.6, 1.0, stroke.seen);
   lengths = max(lengths, vec2(0.3 * wide / segment));  // a dab, not a speck
@@ -68,14 +68,14 @@ void main() {
   vec3 hue = vec3(randomOf(seed, 0x21u), randomOf(seed, 0x22u), randomOf(seed, 0x23u));
   hue -= dot(hue, vec3(0.299, 0.587, 0.114));
   colour = luma + (colour - luma) * (1.0 + 2.0 * jitter.y * randomOf(seed, 0x24u));
-  // Greys stay nearly grey.
+  // Jitter leaves greys nearly grey.
   float chroma = max(colour.r, max(colour.g, colour.b)) - min(colour.r, min(colour.g, colour.b));
   colour += 2.0 * jitter.x * hue * (0.25 + luma) * mix(kGreyHue, 1.0, smoothstep(0.0, 0.25, chroma));
   colour *= 1.0 + 2.0 * jitter.z * randomOf(seed, 0x25u);
   Instance made;
   for (int i = 0; i < 4; ++i) made.points[i] = vec4(points[2 * i], points[2 * i + 1]);
   float light = smoothstep(0.2, 0.95, luma);
-  // What is cut short on both sides is a speck that little stands behind: paint it thinly.
+  // A stroke cut short on both sides is a speck with little support: paint it thinly.
   float stands = mix(kSpeck, 1.0, smoothstep(0.8, 2.2, stroke.lengths.x + stroke.lengths.y));
   colour = clamp(colour, 0.0, 1.0);
   if (isLimited) colour = mixtureOf(colour);

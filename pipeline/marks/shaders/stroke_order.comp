@@ -1,5 +1,5 @@
-// Purpose: who is painted when: strokes that are seen, in an order that never changes while they live
-//          and has nothing to do with where they are. One group does all of it.
+// Purpose: the painting order of the visible strokes. It never changes during their lives and does
+//          not depend on their places. A single work group.
 // Inputs:  strokes, slots of them; stride: coprime to slots; vertices of each.
 // Outputs: ranks: of each slot, or none; command: glDrawArraysIndirect's.
 // Precision: integers.

@@ -1,9 +1,10 @@
-// Purpose: grows each anchor's stroke along the tensor field (thesis §4.4), both ways, and blends it with
-//          what it was: directions one by one, lengths, colour and existence in time constants
-//          (§5.4), so that a stroke lives as long as its anchor.
-// Inputs:  anchors; field: tensors to follow, detailField: where there is how much detail; paint,
-//          modelPaint: the picture, reduced, of what is real and of models; ids if hasObjects; the rest as marks::StrokeRule has it.
-// Outputs: strokes. An anchor an invocation.
+// Purpose: traces each anchor's stroke along the tensor field (thesis §4.4), both ways, and blends
+//          it with its past: directions one by one, lengths, colour and existence with time
+//          constants (§5.4), so that a stroke lives as long as its anchor.
+// Inputs:  anchors; field: tensors to follow, detailField: tensors with the detail; paint,
+//          modelPaint: the reduced images of the real part and of the models; ids if hasObjects;
+//          the rest as in marks::StrokeRule.
+// Outputs: strokes. One invocation per anchor.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
@@ -22,7 +23,7 @@ uniform bool hasObjects;
 uniform bool anew;
 uniform vec2 fullSize;
 uniform vec2 pixelsOfFull;
-uniform vec2 fieldScale;     // texture coordinates of the fields for a px
+uniform vec2 fieldScale;  // px of the full image to texture coordinates of the fields
 uniform vec2 detailScale;
 uniform uint slots;
 uniform float segment;       // px
@@ -30,14 +31,14 @@ uniform float steps;         // at most kArm
 uniform float leastSteps;
 uniform float colourThreshold;
 uniform float cutOff;        // cosine
-uniform vec2 detailBand;     // where the layer is painted
-uniform float modelDetail;   // by how much it counts more on virtual surfaces
-uniform float detailSpread;  // by how much anchors differ about it
-uniform float slack;         // the part by which it is wider for what is there
-uniform bool bothWays;       // else only ahead, as the thesis walks
-uniform float wander;        // rad: how far a stroke's hand strays from the field
-uniform vec4 past;           // shares that stay: shape, colour, existence up, existence down
-uniform float mostColour;    // by which a colour may change in this frame
+uniform vec2 detailBand;  // range of detail in which the layer is painted
+uniform float modelDetail;  // factor of the detail on virtual surfaces
+uniform float detailSpread;  // random spread of the band among anchors
+uniform float slack;  // hysteresis: the part by which the band is wider for existing strokes
+uniform bool bothWays;  // false: only ahead, as in the thesis
+uniform float wander;  // rad: the random deviation of a stroke from the field
+uniform vec4 past;  // the past's shares: shape, colour, existence rising, existence falling
+uniform float mostColour;  // the largest change of colour in this frame
 
 vec2 directionAt(vec2 px) {
   vec2 tensor = textureLod(field, px * fieldScale, 0.0).xy;
@@ -48,14 +49,14 @@ vec2 directionAt(vec2 px) {
   return vec2(-gradient.y, gradient.x);
 }
 
-// Of what the stroke is of, where there is any near.
+// The colour of the stroke's own object, if any of it is near.
 vec3 colourAt(vec2 px, uint object) {
   vec4 seen = isVirtual(object) ? textureLod(modelPaint, px / fullSize, 0.0)
                                 : textureLod(paint, px / fullSize, 0.0);
   return seen.rgb / max(seen.a, 1e-4);
 }
 
-// 0 for all that is real: the camera's picture goes on over occluders.
+// 0 for all real content: the camera image goes on over occluders.
 uint paintedObject(uint object) { return isVirtual(object) ? object : 0u; }
 
 uint objectAt(vec2 px) {
@@ -63,13 +64,13 @@ uint objectAt(vec2 px) {
   return paintedObject(objectOf(texelFetch(ids, pixel, 0).r));
 }
 
-// What the stroke stands on counts for more than what it goes over, or little lights would go out.
+// The anchor's place counts more than the rest of the stroke, or small lights would vanish.
 const float kOwnWeight = 3.0;
 
 struct Arm {
   vec2 directions[kArm];
   float length;
-  vec3 colour;   // summed over what is seen of it
+  vec3 colour;  // sum over its visible part
   float weight;
 };
 
@@ -78,7 +79,7 @@ float detailAt(vec2 px, uint object) {
   return isVirtual(object) ? modelDetail * detail : detail;
 }
 
-// Perceptual enough: luma counts most.
+// A roughly perceptual distance: luma counts most.
 float apart(vec3 a, vec3 b) {
   vec3 d = a - b;
   return sqrt(dot(d * d, vec3(0.9, 1.5, 0.6)));
@@ -108,13 +109,13 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, uint object) {
     float difference = apart(there, own);
     bool isOther = hasObjects && objectAt(at) != object;
     if (goesOn && isOther) {
-      // Not beyond the boundary of virtual and real, nor of one object and the next.
+      // An arm ends at the border between virtual and real content, and between objects.
       bool half_ = objectAt(at - 0.5 * segment * direction) != object;
       arm.length = min(arm.length, float(i) + (half_ ? 0.15 : 0.6));
       goesOn = false;
     }
     if (goesOn && detailAt(at, object) < 0.4 * detailBand.x) {
-      // A finer layer's stroke does not cross into what is for coarser ones.
+      // A finer layer's stroke does not enter regions of coarser layers.
       arm.length = min(arm.length, max(float(i) + 0.5, leastSteps));
       goesOn = false;
     }
@@ -134,8 +135,8 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, uint object) {
   return arm;
 }
 
-// An arm that has held on to its past. Directions are lines until the heading gives them a sign: each goes
-// on from the one before it.
+// An arm blended with its past. The stored directions are lines; the heading gives the first one
+// its sign, and each one gives the next its sign.
 vec2[kArm] heldArm(vec2 now[kArm], vec4 was[2], vec2 heading, vec4 jacobian) {
   vec2 before[kArm] = vec2[kArm](was[0].xy, was[0].zw, was[1].xy, was[1].zw);
   vec2 held[kArm];
@@ -147,7 +148,7 @@ vec2[kArm] heldArm(vec2 now[kArm], vec4 was[2], vec2 heading, vec4 jacobian) {
   return held;
 }
 
-// What now lies over something else draws back sooner than it would grow.
+// An arm that now covers other content shrinks faster than it would grow.
 float heldLength(float now, float was) {
   float stays = now < 0.6 * was ? past.x * past.x * past.x * past.x : past.x;
   return mix(now, was, stays);
@@ -166,7 +167,7 @@ void main() {
   bool isNew = anew || (state & kBorn) != 0u;
   Stroke old = strokes[slot];
   if (!isNew && (state & kHidden) != 0u) {
-    // What hides it has other colours and directions: it goes as it was.
+    // The occluder has other colours and directions: the stroke fades out unchanged.
     old.seen = old.exists * anchors[slot].fade;
     strokes[slot] = old;
     return;
@@ -180,7 +181,7 @@ void main() {
   vec2 heading = directionAt(px);
   heading = vec2(hand.x * heading.x - hand.y * heading.y, hand.y * heading.x + hand.x * heading.y);
   if (!isNew) {
-    // The same way round as before.
+    // Keeps the previous orientation.
     vec2 was = anchors[slot].jacobian.xy * old.ahead[0].x + anchors[slot].jacobian.zw * old.ahead[0].y;
     if (dot(was, heading) < 0.0) heading = -heading;
   }
@@ -193,7 +194,7 @@ void main() {
   }
   vec3 colour = (kOwnWeight * own + ahead.colour + behind.colour) / (kOwnWeight + ahead.weight + behind.weight);
 
-  // Wanted where there is that much detail; what is there stays a little longer.
+  // A stroke is wanted where the detail lies in its band; an existing one stays a little longer.
   float detail = detailAt(px, object) + detailSpread * (hash - 0.5);
   bool was = !isNew && old.wanted > 0.5;
   float wider = was ? 1.0 - slack : 1.0;
@@ -213,7 +214,7 @@ void main() {
   made.behind[1] = vec4(behind.directions[2], behind.directions[3]);
   if (isNew) {
     made.lengths = vec2(ahead.length, behind.length);
-    made.exists = goal;  // its anchor fades in
+    made.exists = goal;  // the anchor fades it in
     made.colour = colour;
   } else {
     made.lengths = vec2(heldLength(ahead.length, old.lengths.x), heldLength(behind.length, old.lengths.y));

@@ -1,7 +1,7 @@
-// Purpose: gives a region without a direction that of its neighbours, by radial-basis interpolation in
-//          5x5 (thesis §4.2, step 2, with eq. 12's weights).
+// Purpose: gives a region without a direction that of its neighbours, by radial-basis interpolation
+//          over 5x5 regions (thesis §4.2, step 2, with eq. 12's weights).
 // Inputs:  regions (tensor_regions.comp or tensor_reduce.comp); sigma: in regions.
-// Outputs: filled RGBA16F, alike. A region an invocation.
+// Outputs: filled RGBA16F, same layout. One invocation per region.
 // Precision: highp.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba16f, binding = 0) writeonly uniform highp image2D filled;
@@ -26,7 +26,7 @@ void main() {
     }
   }
   vec2 around = weights > 1e-4 ? sum / weights : vec2(0.0);
-  // Half sure of its own direction, it goes half with the others.
+  // A region that is half sure of its own direction takes half of its neighbours'.
   float known = max(own.z, smoothstep(0.0, 0.1, weights) * (1.0 - own.z));
   imageStore(filled, region, vec4(mix(around, own.xy, own.z), known, own.w));
 }

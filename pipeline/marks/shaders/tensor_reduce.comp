@@ -1,8 +1,9 @@
-// Purpose: the next level of the tensor pyramid: low-pass (Gaussian) and every second region (thesis
-//          §4.2, step 3). The filter is even, about the middle of the four regions that one of this
-//          level covers: about one of them, each level would lie half a region askew.
+// Purpose: the next level of the tensor pyramid: low-pass (Gaussian), then every second region
+//          (thesis §4.2, step 3). The filter has an even width and is centred between the four
+//          regions that one region of this level covers; centred on one of them, each level would
+//          be off by half a region.
 // Inputs:  filled (tensor_fill.comp).
-// Outputs: reduced RGBA16F of half the size, alike. A region an invocation.
+// Outputs: reduced RGBA16F of half the size, same layout. One invocation per region.
 // Precision: highp.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba16f, binding = 0) writeonly uniform highp image2D reduced;

@@ -1,11 +1,11 @@
-// Purpose: the tensors of a region's edge pixels, summed and divided by their strengths (thesis §4.2,
-//          step 1), and carried along with the motion from frame to frame.
+// Purpose: the tensors of a region's edge pixels, summed and divided by their strengths (thesis
+//          §4.2, step 1), and carried along the motion from frame to frame.
 // Inputs:  tensors (gradient.frag), threshold (edge_threshold.comp), pixelsOfFull; regionPixels: a
-//          region's side in px of the full picture; before: the last frame's, motion (MotionField's),
-//          if hasPast; past: the share of it that stays; slack: by which part detail may differ from what
-//          is held of it.
-// Outputs: regions RGBA16F: tensor (its length is how much its pixels agree, in [0, 1]), how sure it
-//          is that there is one, in [0, 1]; detail: the mean P in thresholds. A region an invocation.
+//          region's side in px of the full image; before: the previous frame's regions, motion
+//          (MotionField's), if hasPast; past: the share of it that remains; slack: by which part
+//          detail may differ from the held value.
+// Outputs: regions RGBA16F: tensor (its length is the agreement of its pixels, in [0, 1]), its
+//          confidence in [0, 1]; detail: the mean P in thresholds. One invocation per region.
 // Precision: highp.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 0) readonly buffer Edges { float threshold; };
@@ -20,10 +20,10 @@ uniform bool hasPast;
 uniform float past;
 uniform float slack;
 
-// This many px of strong edge are a direction for sure.
+// So many px of strong edge give full confidence.
 const float kSurePixels = 4.0;
 
-// A tensor turned by an angle.
+// Rotates a tensor by an angle.
 vec2 turned(vec2 tensor, float angle) {
   float c = cos(2.0 * angle);
   float s = sin(2.0 * angle);
@@ -45,7 +45,7 @@ void main() {
     for (int x = low.x; x < high.x; ++x) {
       vec2 tensor = texelFetch(tensors, ivec2(x, y), 0).xy;
       float p = length(tensor);
-      // Soft about the threshold, so that noise does not switch it.
+      // A soft threshold, so that noise does not switch it.
       float weight = smoothstep(0.6, 1.4, p / threshold);
       sum += weight * tensor;
       strengths += weight * p;
@@ -71,13 +71,14 @@ void main() {
     if (isInside && moved.z < 4.0) {
       vec4 old = textureLod(before, from / (vec2(size) * regionPixels), 0.0);
       old.xy = turned(old.xy, turn);
-      // What is sure of itself counts; a direction that is gone fades.
+      // The past counts by its confidence; a direction that has vanished fades.
       float oldWeight = past * old.z;
       float newWeight = (1.0 - past) * now.z;
       vec2 tensor = oldWeight + newWeight > 0.0
                         ? (oldWeight * old.xy + newWeight * now.xy) / (oldWeight + newWeight)
                         : vec2(0.0);
-      // Detail is held until it differs by more than its slack: noise moves no region to another class.
+      // Detail is held until it differs by more than its slack, so that noise moves no region to
+      // another layer.
       float detail = clamp(old.w, now.w * (1.0 - slack), now.w / (1.0 - slack));
       now = vec4(tensor, oldWeight + newWeight, mix(detail, old.w, past));
     }

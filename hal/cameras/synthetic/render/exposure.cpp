@@ -44,7 +44,7 @@ std::optional<glm::dvec2> Exposure::project(const SurfacePoint& point) const {
   for (int step = 0; step < kMostSteps; ++step) {
     const auto at = viewAt(y).project(inWorld(point, worldFromMoverAt(y)));
     if (!at || !rolls()) return at;
-    // Rows far outside are not exposed: their moments are kept near the frame's own.
+    // Rows far outside the image are not exposed: their times are clamped near the frame's own.
     const double next = std::fmin(std::fmax(at->y, -1.0 * size_.height), 2.0 * size_.height);
     if (std::abs(next - y) < kSettledPx) return at;
     y = next;

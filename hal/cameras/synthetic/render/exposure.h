@@ -13,12 +13,12 @@
 
 namespace pleinair::hal::synthetic {
 
-/// How a frame is taken: all rows at once, or, with a rolling shutter, each a row time after the
-/// one above it. The moment is continuous over the picture, so that it is a row's own at the
-/// row's middle: y = row + 0.5.
+/// The exposure times of a frame's rows: all rows at once, or, with a rolling shutter, each row one
+/// row time after the row above it. Time is continuous over the image: y = row + 0.5 has exactly
+/// the time of that row.
 class Exposure {
  public:
-  /// Keeps a reference to `motion`. `start` is the time of row 0 since the first frame's.
+  /// Keeps a reference to `motion`. `start` is the time of row 0, counted from the first frame.
   Exposure(FrameSize size, const Motion& motion, Duration start, Duration rowTime);
 
   FrameSize size() const { return size_; }
@@ -27,10 +27,10 @@ class Exposure {
   CameraView viewAt(double y) const;
   glm::dmat4 worldFromMoverAt(double y) const;
 
-  /// What is seen at a pixel coordinate; nothing where there is nothing.
+  /// The surface point visible at a pixel coordinate, if any.
   std::optional<SurfacePoint> seenAt(const Geometry& geometry, glm::dvec2 pixel) const;
-  /// Where a point of a surface appears, px, hidden or not; nothing where it is behind the camera,
-  /// or where a rolling shutter's rows never meet it within reach of the picture.
+  /// Projects a surface point to the image, px, whether it is occluded or not. Nothing if the point
+  /// is behind the camera, or if no row of a rolling shutter meets it near the image.
   std::optional<glm::dvec2> project(const SurfacePoint& point) const;
 
  private:

@@ -16,7 +16,8 @@ namespace {
 constexpr glm::dvec3 kHomeEye{0.04, -1.14, 0.57};
 constexpr glm::dvec3 kHomeTarget{0.025, 0.06, 0.150};
 
-/// OpenCV's camera at `position`, looking at `target`, the world's z up in the picture.
+/// The pose of an OpenCV camera at `position` that looks at `target`, with the world's z up in the
+/// image.
 glm::dmat4 lookAt(glm::dvec3 position, glm::dvec3 target) {
   const glm::dvec3 z = glm::normalize(target - position);
   const glm::dvec3 x = glm::normalize(glm::cross(z, glm::dvec3(0, 0, 1)));
@@ -31,7 +32,7 @@ double swing(double seconds, double periodSeconds) {
   return std::sin(2 * std::numbers::pi * seconds / periodSeconds);
 }
 
-/// From 0 to 1 with rest at both ends, over `from` … `to`.
+/// Smooth step from 0 to 1 over `from` … `to`, with zero speed at both ends.
 double eased(double value, double from, double to) {
   const double t = glm::clamp((value - from) / (to - from), 0.0, 1.0);
   return t * t * t * (t * (6 * t - 15) + 10);

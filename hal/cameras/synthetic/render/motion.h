@@ -10,11 +10,11 @@
 
 namespace pleinair::hal::synthetic {
 
-/// A smooth, seeded signal around 0: a few sinusoids with unrelated periods and phases.
+/// A smooth, seeded signal around 0: a sum of a few sinusoids with unrelated periods and phases.
 class Wander {
  public:
   Wander() = default;
-  /// Swings within ±`amplitude`, its slowest part with about `periodSeconds`.
+  /// Varies within ±`amplitude`; its slowest component has a period of about `periodSeconds`.
   Wander(std::uint64_t seed, double amplitude, double periodSeconds);
   double at(double seconds) const;
 
@@ -27,16 +27,16 @@ class Wander {
   std::array<Wave, 3> waves_;
 };
 
-/// How the camera and what passes before it move in a shot: pure functions of the time since the
-/// first frame, smooth but for the cuts of kCut. The world's z is up from the bench's top, y away
-/// from who works there, metres.
+/// The motion of the camera and of the arm in a shot: pure functions of the time since the first
+/// frame, smooth except at the cuts of kCut. World frame: z up from the bench's top, y away from
+/// the person at the bench, metres.
 class Motion {
  public:
   Motion(SyntheticShot shot, std::uint64_t seed);
 
-  /// To OpenCV's camera frame (x right, y down, z forward); rigid.
+  /// Maps world coordinates to OpenCV's camera frame (x right, y down, z forward); rigid.
   glm::dmat4 cameraFromWorld(double seconds) const;
-  /// Of the arm that reaches in; below the floor where the shot has none. Rigid.
+  /// The pose of the moving arm; below the floor in shots without the arm. Rigid.
   glm::dmat4 worldFromMover(double seconds) const;
 
  private:

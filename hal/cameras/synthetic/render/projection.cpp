@@ -23,7 +23,7 @@ struct Corners {
   }
 };
 
-/// The part of a convex outline, in camera coordinates, that is far enough before the camera.
+/// Clips a convex outline, in camera coordinates, against the near plane.
 Corners clippedNear(const Corners& all) {
   Corners kept;
   for (std::size_t i = 0; i < all.count; ++i) {
@@ -57,7 +57,8 @@ bool project(const Geometry& geometry, std::uint32_t facet, const glm::dmat4& ca
   const glm::dmat3 turn(cameraFromSolid);
   const glm::dvec3 shift(cameraFromSolid[3]);
   const glm::dvec3 normal = turn * flat.normal;
-  const double offset = flat.offset + glm::dot(normal, shift);  // of the plane from the eye
+  // distance of the plane from the eye
+  const double offset = flat.offset + glm::dot(normal, shift);
   if (offset > -kEdgeOnMetres) return false;
 
   Corners corners;
@@ -115,7 +116,7 @@ bool mayShow(const Solid& solid, const glm::dmat4& cameraFromSolid, const Pinhol
              FrameSize size, double marginPx) {
   const glm::dvec3 centre(cameraFromSolid * glm::dvec4(solid.centre, 1));
   if (centre.z + solid.radius < kNearMetres) return false;
-  // Against the planes through the eye and the picture's sides.
+  // Tests the sphere against the planes through the eye and the image's sides.
   const auto isBeyond = [&](double at, double focal, double first, double last) {
     const double low = (first - marginPx) / focal;
     const double high = (last + marginPx) / focal;

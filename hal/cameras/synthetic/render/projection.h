@@ -11,14 +11,14 @@
 
 namespace pleinair::hal::synthetic {
 
-/// A quantity that changes evenly over the picture: x·px + y·py + one. A facet's 1/depth is one,
-/// and u/depth and v/depth are.
+/// A linear function of the image coordinates: x·px + y·py + one. For a facet, 1/depth, u/depth and
+/// v/depth are such functions.
 struct OverPicture {
   double x = 0, y = 0, one = 0;
   double at(double px, double py) const { return x * px + y * py + one; }
 };
 
-/// A facet as a convex outline in the picture. Only what is before the camera is in it.
+/// A facet projected to a convex outline in the image, clipped at the near plane.
 struct ProjectedFacet {
   struct Edge {
     float x = 0, y = 0;  ///< its upper end, px
@@ -28,16 +28,16 @@ struct ProjectedFacet {
   std::uint32_t facet = 0;
   float left = 0, right = 0, top = 0, bottom = 0;  ///< px
   OverPicture inverseDepth, uOverDepth, vOverDepth;
-  std::vector<Edge> edges;  ///< those that are not level
+  std::vector<Edge> edges;  ///< without the horizontal edges
 };
 
-/// Projects a facet whose solid stands as `cameraFromSolid` says. False where it is turned away,
-/// edge-on or behind the camera; `out` keeps its memory.
+/// Projects a facet of a solid at the pose `cameraFromSolid`. False if the facet faces away, is
+/// edge-on or lies behind the camera. `out` keeps its memory.
 bool project(const Geometry& geometry, std::uint32_t facet, const glm::dmat4& cameraFromSolid,
              const PinholeIntrinsics& intrinsics, ProjectedFacet& out);
 
-/// Whether a sphere may be before the camera and in the columns and rows of the picture, which is
-/// taken to be `marginPx` larger all around.
+/// Whether a solid's bounding sphere may be visible in the given columns and rows of the image,
+/// extended by `marginPx` on all sides.
 bool mayShow(const Solid& solid, const glm::dmat4& cameraFromSolid,
              const PinholeIntrinsics& intrinsics, FrameSize size, double marginPx);
 

@@ -19,9 +19,9 @@ namespace {
 
 constexpr std::size_t kCodedSteps = 4096;
 
-/// Between coded levels in sixty-fourths and linear light.
+/// Converts between coded levels in sixty-fourths and linear light.
 struct Coding {
-  std::array<float, (kLevelSteps >> 4) + 2> linear{};  // quarters of a level
+  std::array<float, (kLevelSteps >> 4) + 2> linear{};  // by quarters of a level
   std::array<std::int16_t, kCodedSteps + 1> level{};
   Coding() {
     for (std::size_t i = 0; i < linear.size(); ++i) {
@@ -97,7 +97,7 @@ void Renderer::addStanding(const Solid& solid) {
   }
 }
 
-/// Where a facet is seen from several rows' moments, and as far beyond as it moves between them.
+/// Adds the facets of a solid at the times of several rows, with a margin for the motion between.
 void Renderer::addRolling(const Solid& solid) {
   constexpr int kMoments = 9;
   constexpr float kMarginPx = 3;
@@ -153,7 +153,7 @@ void Renderer::projectActive() {
     ProjectedFacet& facet = projected_[slot];
     const glm::dmat4& pose = candidate.moves ? cameraFromMover : view.cameraFromWorld;
     if (!project(world_->geometry, candidate.facet, pose, view.intrinsics, facet)) {
-      facet.top = facet.bottom = -1;  // turned away at this row's moment
+      facet.top = facet.bottom = -1;  // faces away at this row's time
     }
   }
 }

@@ -13,20 +13,20 @@
 
 namespace pleinair::hal::synthetic {
 
-/// Looks at the workbench, row by row. Keeps its memory from frame to frame; one thread at a time,
-/// while any number share a world.
+/// Renders the workbench row by row. Keeps its memory from frame to frame. One thread per renderer;
+/// any number of renderers may share a world.
 class Renderer {
  public:
   explicit Renderer(std::shared_ptr<const World> world) : world_(std::move(world)) {}
 
-  /// Begins a picture. Keeps a reference to `exposure` until the next.
+  /// Begins an image. Keeps a reference to `exposure` until the next call.
   void begin(const Exposure& exposure);
 
-  /// The next row, from row 0 on: three sRGB-coded levels a pixel, in sixty-fourths.
+  /// Renders the next row, from row 0 on: three sRGB-coded levels per pixel, in sixty-fourths.
   std::span<const std::int16_t> nextRow();
 
  private:
-  /// A facet that may be seen, and the rows it may reach.
+  /// A facet that may be visible, and the rows that it may reach.
   struct Candidate {
     std::uint32_t facet = 0;
     bool moves = false;
@@ -46,9 +46,9 @@ class Renderer {
   const Exposure* exposure_ = nullptr;
   int row_ = 0;
   std::vector<Candidate> candidates_;
-  std::vector<ProjectedFacet> projected_;  ///< each candidate, as the row sees it
-  std::vector<std::uint16_t> order_;       ///< of the candidates, by first row
-  std::size_t next_ = 0;                   ///< of the order, not yet reached
+  std::vector<ProjectedFacet> projected_;  ///< each candidate at the current row's time
+  std::vector<std::uint16_t> order_;       ///< indices of candidates, by first row
+  std::size_t next_ = 0;                   ///< in order_, the first one not yet reached
   std::vector<std::uint16_t> active_;      ///< candidates that may reach the row
   ProjectedFacet scratch_;
   ScanLine line_;

@@ -8,23 +8,24 @@
 namespace pleinair::hal::synthetic {
 namespace {
 
-// The compilers' portable vectors: SSE and NEON alike.
+// The compilers' portable vector types: SSE and NEON alike.
 using Byte16 = std::uint8_t __attribute__((vector_size(16)));
 using Word8 = std::uint16_t __attribute__((vector_size(16)));
 using Float4 = float __attribute__((vector_size(16)));
 using Int4 = std::int32_t __attribute__((vector_size(16)));
 
 constexpr int kStep = 8;  // pixels between exact perspective divisions
-/// Finer than the footprint's own level: crisp edges, which the two taps keep from shimmering.
+/// Selects a finer level than the footprint asks for: edges stay sharp, and the two taps keep them
+/// from flickering.
 constexpr float kLevelBias = -0.75F;
 constexpr float kSubTexels = 128;
 
-/// Where a texture is read: coordinates in texels of one mip level, from its outer corner.
+/// Reads one mip level of a texture at texel coordinates, counted from the texture's outer corner.
 struct Reader {
   const MipTexture::Level* level = nullptr;
-  float scale = 1;  ///< texels of this level in one of the finest
+  float scale = 1;  ///< texels of this level per texel of the finest
 
-  /// Bilinear between texel centres: channels of 0 to 65280, in the lower half.
+  /// Bilinear sample between texel centres: channels of 0 to 65280, in the lower half.
   Word8 at(float u, float v) const {
     const float highX = static_cast<float>(level->width) - 1.01F;
     const float highY = static_cast<float>(level->height) - 1.01F;
@@ -45,8 +46,8 @@ struct Reader {
   }
 
  private:
-  /// A texel and the next in its row. Widens with zero bytes, for little-endian machines (all of
-  /// ours).
+  /// Reads a texel and its right neighbour. Widens with zero bytes, for little-endian machines (the
+  /// only ones supported).
   static Word8 pair(const Texel* texel) {
     Byte16 bytes{};
     std::memcpy(&bytes, texel, 2 * sizeof(Texel));
@@ -56,12 +57,12 @@ struct Reader {
   }
 };
 
-/// Texels of the finest level, from the texture's outer corner.
+/// A point in texels of the finest level, from the texture's outer corner.
 struct Point {
   float u = 0, v = 0;
 };
 
-/// The perspective of one facet in texels.
+/// The perspective mapping from the image to one facet's texels.
 struct Perspective {
   const ProjectedFacet& facet;
   double texelsPerMetre;
@@ -72,7 +73,7 @@ struct Perspective {
     return {static_cast<float>((facet.uOverDepth.at(px, py) * depth + halfU) * texelsPerMetre),
             static_cast<float>((facet.vOverDepth.at(px, py) * depth + halfV) * texelsPerMetre)};
   }
-  /// How the point moves with a pixel: along x, and along y.
+  /// The derivatives of the texture point with respect to the pixel's x and y.
   void derivatives(double px, double py, Point& alongX, Point& alongY) const {
     const double depth = 1 / facet.inverseDepth.at(px, py);
     const double u = facet.uOverDepth.at(px, py) * depth;
@@ -90,12 +91,12 @@ float squaredLength(Point p) {
   return p.u * p.u + p.v * p.v;
 }
 
-/// How a stretch of pixels reads its texture.
+/// The texture filter for a run of pixels.
 struct Footprint {
   Reader fine, coarse;
-  std::uint16_t coarseShare = 0;  ///< of 128
+  std::uint16_t coarseShare = 0;  ///< weight of the coarser level, of 128
   bool isLong = false;
-  Point tap;  ///< from the pixel to one of two taps along the longer side
+  Point tap;  ///< offset from the pixel to either tap along the longer side
 };
 
 Footprint footprintOf(const PatchTexture& texture, Point alongX, Point alongY) {
@@ -109,7 +110,7 @@ Footprint footprintOf(const PatchTexture& texture, Point alongX, Point alongY) {
   Footprint footprint;
   footprint.isLong = longer > 1.7F * shorter;
   footprint.tap = {0.25F * along.u, 0.25F * along.v};
-  const float texels = std::max({shorter, longer / 4, 1e-12F});  // squared
+  const float texels = std::max({shorter, longer / 4, 1e-12F});  // squared length
   const auto& levels = texture.texture.levels();
   const float lod = std::clamp(0.5F * std::log2(texels) + kLevelBias, 0.0F,
                                static_cast<float>(levels.size()) - 1);

@@ -20,7 +20,8 @@ void ScanLine::follow(int y, std::span<const ProjectedFacet> all,
   std::ranges::fill(firstPart_, -1);
   for (int line = 0; line < kLines; ++line) {
     crossed(static_cast<float>(y) + (static_cast<float>(line) + 0.5F) / kLines, all, facets);
-    // Nearly sorted already: lines that follow each other cross facets in much the same order.
+    // Insertion sort: the order is nearly right already, since consecutive lines cross facets in
+    // much the same order.
     for (std::size_t i = 1; i < segments_.size(); ++i) {
       const Segment moved = segments_[i];
       std::size_t at = i;
@@ -30,7 +31,7 @@ void ScanLine::follow(int y, std::span<const ProjectedFacet> all,
     resolve(line);
   }
   merge();
-  // Those that were crossed come first, in their order; the others keep theirs.
+  // Moves the facets that were crossed to the front, in their order; the others keep theirs.
   std::size_t placed = 0;
   for (const Segment& segment : segments_) {
     const auto at = std::find(facets.begin() + static_cast<std::ptrdiff_t>(placed), facets.end(),

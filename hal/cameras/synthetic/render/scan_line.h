@@ -9,36 +9,36 @@
 
 namespace pleinair::hal::synthetic {
 
-/// What is seen along one row of pixels: which facet each pixel shows, or, where edges run through
-/// it, how much of it each facet covers. Four lines across the row's height are followed, each with
-/// the exact places where one facet hides the next, so that edges are smooth. Reuses its memory.
+/// Visibility along one row of pixels: the facet that each pixel shows or, at edges, the coverage
+/// of each facet. Traces four lines across the row's height and finds the exact places where one
+/// facet occludes the next, so that edges are antialiased. Reuses its memory.
 class ScanLine {
  public:
   static constexpr std::uint16_t kMixed = 0xFFFF;
-  static constexpr std::uint16_t kNothing = 0xFFFE;  ///< of the facets' indices
+  static constexpr std::uint16_t kNothing = 0xFFFE;  ///< also the end of the valid facet indices
 
-  /// A facet's share of a mixed pixel.
+  /// A facet's coverage of a mixed pixel.
   struct Share {
-    std::uint16_t index = kNothing;  ///< among the facets given to follow()
+    std::uint16_t index = kNothing;  ///< index into the facets given to follow()
     float coverage = 0;
   };
 
   void resize(int width);
 
-  /// Follows row `y`. `facets` are those that may reach the row, in any order; their order is
-  /// changed to one that is quick for the next row. Indices are those of `all`.
+  /// Traces row `y`. `facets` holds the facets that may reach the row, in any order; it is
+  /// reordered to make the next row fast. Indices refer to `all`.
   void follow(int y, std::span<const ProjectedFacet> all, std::vector<std::uint16_t>& facets);
 
-  /// What pixel x shows, or kMixed.
+  /// The facet at pixel x, kNothing or kMixed.
   std::uint16_t indexAt(int x) const { return indices_[static_cast<std::size_t>(x)]; }
-  /// The shares of a mixed pixel, which sum to 1; valid until the next call.
+  /// The coverage of a mixed pixel's facets, with sum 1; valid until the next call.
   std::span<const Share> sharesAt(int x);
 
  private:
   static constexpr int kLines = 4;
   struct Segment {
     float left = 0, right = 0;
-    double slope = 0, one = 0;  ///< of 1/depth along the line
+    double slope = 0, one = 0;  ///< 1/depth along the line
     std::uint16_t index = 0;
   };
   struct Part {

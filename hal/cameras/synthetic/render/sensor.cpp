@@ -21,7 +21,7 @@ constexpr std::size_t kNoiseSteps = std::size_t{1} << 15;
 constexpr std::size_t kQuarters = (kLevelSteps >> 4) + 1;
 constexpr std::int16_t kHalf = 1 << (kLevelBits - 1);
 
-/// The standard normal's value with this much probability below it, by bisection.
+/// The quantile function of the standard normal distribution, by bisection.
 double normalQuantile(double probability) {
   double low = -6;
   double high = 6;
@@ -33,13 +33,14 @@ double normalQuantile(double probability) {
   return (low + high) / 2;
 }
 
-/// Equally likely values of a normal distribution, shuffled.
+/// Equally likely values of a normal distribution, in random order.
 std::vector<std::int16_t> noiseTable(std::uint64_t seed, double sigma) {
   constexpr std::size_t kValues = 1024;
   std::vector<std::int16_t> table(kNoiseSteps);
   for (std::size_t i = 0; i < kValues; ++i) {
     const double probability = (static_cast<double>(i) + 0.5) / kValues;
-    // Of two that are added; the table's own spread falls a little short of the normal's tails.
+    // Each pixel adds two table values, hence √0.5. The factor 1.0005 makes up for the tails that
+    // the table lacks.
     const double value = sigma * std::sqrt(0.5) * 1.0005 * normalQuantile(probability);
     const auto fixed = static_cast<std::int16_t>(std::lround(value * (1 << kLevelBits)));
     for (std::size_t copy = i; copy < kNoiseSteps; copy += kValues) table[copy] = fixed;
@@ -57,7 +58,7 @@ Short8 load(const std::int16_t* from) {
   return values;
 }
 
-/// Eight sums, rounded to bytes, in the low byte of each lane.
+/// Adds gain and noise to eight values and rounds them to bytes, in the low byte of each lane.
 Short8 rounded(const std::int16_t* levels, const std::int16_t* first, const std::int16_t* second) {
   const Short8 sum = (load(levels) + load(first) + load(second) + kHalf) >> kLevelBits;
   const Short8 fromZero = sum > 0 ? sum : Short8{};

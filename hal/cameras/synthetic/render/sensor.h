@@ -7,21 +7,21 @@
 
 namespace pleinair::hal::synthetic {
 
-/// What a frame's light is multiplied by, channel by channel.
+/// Gains of a frame's linear light, one per channel.
 using SensorGains = std::array<double, 3>;
 
-/// Turns levels in sixty-fourths into bytes: gains (in linear light), Gaussian noise, rounding. The
-/// noise of a pixel is a pure function of (seed, frame, row, column, channel): two stretches of a
-/// table, begun anywhere, added up.
+/// Converts levels in sixty-fourths to bytes: gains (in linear light), Gaussian noise, rounding. A
+/// pixel's noise is a pure function of (seed, frame, row, column, channel): the sum of two runs of
+/// a table, each from its own offset.
 class Sensor {
  public:
   /// `noiseSigma` in 8-bit levels of the coded picture; at most kMostNoise.
   static constexpr double kMostNoise = 40;
   Sensor(std::uint64_t seed, double noiseSigma);
 
-  /// The frame whose rows follow.
+  /// Selects the frame that the next rows belong to.
   void beginFrame(std::uint64_t frame, const SensorGains& gains);
-  /// Row `y`, three bytes a pixel. Precondition: the sizes are the same.
+  /// Converts row `y`, three bytes per pixel. Precondition: the sizes are the same.
   void exposeRow(int y, std::span<const std::int16_t> levels, std::span<std::uint8_t> rgb8) const;
 
  private:
@@ -31,10 +31,11 @@ class Sensor {
   std::uint64_t seed_;
   std::uint64_t frame_ = 0;
   bool isNoisy_;
-  std::vector<std::int16_t> noise_;  ///< sixty-fourths, at random
+  std::vector<std::int16_t> noise_;  ///< in sixty-fourths, shuffled
   bool hasGains_ = false;
   SensorGains gains_{1, 1, 1};
-  std::array<std::vector<std::int16_t>, 3> gained_;  ///< levels by quarters of a level
+  /// output levels, indexed by quarters of a level
+  std::array<std::vector<std::int16_t>, 3> gained_;
 };
 
 }  // namespace pleinair::hal::synthetic

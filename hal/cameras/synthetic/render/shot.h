@@ -7,23 +7,23 @@
 
 namespace pleinair::hal {
 
-/// What happens in front of the synthetic camera.
+/// The scripted scenes of the synthetic camera.
 enum class SyntheticShot {
-  kWalkaround,  ///< held by hand, around the bench
-  kPan,         ///< on a tripod, turning from side to side
+  kWalkaround,  ///< handheld, around the bench
+  kPan,         ///< on a tripod, panning from side to side
   kDolly,       ///< on a rail, towards the bench and back
-  kRoll,        ///< turning about its own axis
-  kStill,       ///< nothing moves
-  kOccluder,    ///< an arm reaches in and out again, before a camera that is held still by hand
-  kCut,         ///< held by hand, with a hard change of view every two seconds
+  kRoll,        ///< rotating about the optical axis
+  kStill,       ///< static
+  kOccluder,    ///< an arm reaches in and out again, before a handheld camera that stays in place
+  kCut,         ///< handheld, with a hard cut every two seconds
 };
 
 std::string_view toString(SyntheticShot shot);
-/// Nothing where no shot has the name.
+/// The shot of this name, if there is one.
 std::optional<SyntheticShot> syntheticShotNamed(std::string_view name);
-/// In the enumeration's order.
+/// All names, in the enumeration's order.
 std::span<const std::string_view> syntheticShots();
-/// "walkaround, pan, …"
+/// All names as text: "walkaround, pan, …"
 std::string syntheticShotNames();
 
 }  // namespace pleinair::hal

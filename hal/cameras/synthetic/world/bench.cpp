@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kMiddleY = static_cast<float>((kBenchFront + kBenchBack) / 2);
 
-/// A place on the bench's top in world coordinates.
+/// A placement on the bench's top, in world coordinates.
 Placement onTop(float x, float y, float degrees = 0) {
   return {{x, y - kMiddleY}, degrees};
 }
@@ -39,7 +39,7 @@ void paintTop(Canvas& canvas, std::uint32_t seed) {
   paintTagCard(canvas, onTop(0, 0), benchTags()[0]);
 }
 
-/// Two drawers.
+/// The bench's front with two drawers.
 void paintApron(Canvas& canvas) {
   board(0x9a6d42, 51)(canvas);
   const glm::vec2 half(0.46F, canvas.half().y - 0.022F);

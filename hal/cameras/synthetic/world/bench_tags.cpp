@@ -10,14 +10,14 @@
 namespace pleinair::hal {
 namespace {
 
-/// A tag that lies face up on a standing thing, upright along the thing's y.
+/// A tag that lies face up on an upright object and reads upright along the object's y.
 BenchTag lying(int id, double edgeMetres, const glm::dmat4& pose, glm::dvec3 at) {
   const glm::dmat4 tag(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, -1, 0, 0), glm::dvec4(0, 0, -1, 0),
                        glm::dvec4(at, 1));
   return {id, "tag36h11", edgeMetres, pose * tag};
 }
 
-/// A tag on a front: read along the thing's y.
+/// A tag on an object's front, upright along the object's y.
 BenchTag onFront(int id, double edgeMetres, const glm::dmat4& pose, glm::dvec3 at) {
   const glm::dmat4 tag(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 0, -1, 0), glm::dvec4(0, 1, 0, 0),
                        glm::dvec4(at, 1));

@@ -7,13 +7,12 @@
 
 namespace pleinair::hal {
 
-/// A tag that lies in the world, as a scene file describes it.
+/// A tag in the world, as a scene file describes it.
 ///
 /// Tag frame: origin at the tag's centre, x right and y down as the upright tag is read, z away
-/// from its reader (into what it sticks to), metres. AprilTag's corner i lies at (−h, +h), (+h,
-/// +h),
-/// (+h, −h), (−h, −h) with h = edge / 2: bottom left, then counter-clockwise as it is read. Those
-/// are the object points of AprilTag 3.3's estimate_tag_pose().
+/// from its reader (into the surface behind it), metres. AprilTag's corner i lies at (−h, +h), (+h,
+/// +h), (+h, −h), (−h, −h) with h = edge / 2: bottom left first, then counter-clockwise as it is
+/// read. These are the object points of AprilTag 3.3's estimate_tag_pose().
 struct BenchTag {
   int id = 0;
   std::string family;     ///< "tag36h11"
@@ -25,8 +24,8 @@ struct BenchTag {
 glm::dvec3 tagCorner(double edgeMetres, int corner);
 
 /// The tags of the synthetic camera's workbench; the same for every seed. Tag 0 lies on the bench's
-/// top, at the world's origin and upright along its y, with nothing within 0.15 m along x and 0.10
-/// m along y of it.
+/// top, at the world's origin and upright along its y; no object lies within 0.15 m along x and
+/// 0.10 m along y of it.
 std::vector<BenchTag> benchTags();
 
 }  // namespace pleinair::hal

@@ -14,10 +14,11 @@
 namespace pleinair::hal::synthetic {
 namespace {
 
-/// What moves keeps the light of one place: above the bench, where it spends most of its time.
+/// The moving arm is lit as at one fixed place: above the bench, where it spends most of its time.
 constexpr glm::dvec3 kMoverLitAt{0.10, -0.20, 0.22};
 
-/// What faces the wall or the floor this much is hardly ever seen, and need not be fine.
+/// Faces turned to the wall or the floor by more than this are hardly ever seen and get coarse
+/// textures.
 constexpr double kTurnedAway = 0.7;
 
 glm::dvec3 moved(const glm::dmat4& pose, glm::dvec3 point) {
@@ -27,7 +28,7 @@ glm::dvec3 moved(const glm::dmat4& pose, glm::dvec3 point) {
 std::vector<glm::dvec2> ringOutline(double radius, int sides) {
   std::vector<glm::dvec2> ring;
   for (int i = 0; i < sides; ++i) {
-    // From the back, so that the front, at −y, is in the middle of the side's canvas.
+    // Starts at the back, so that the front, at −y, is in the middle of the side's canvas.
     const double angle = std::numbers::pi * (0.5 + 2.0 * i / sides);
     ring.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
   }
@@ -139,7 +140,7 @@ void Builder::endSolid(const std::optional<Ends>& ends) {
     occluder.planes.emplace_back(glm::vec3(facet.normal), static_cast<float>(facet.offset));
     occluder.patches.push_back(facet.patch);
   }
-  // The ends close it where it has none of its own.
+  // The end planes close the occluder where a cone has none.
   occluder.planes.emplace_back(glm::vec3(ends->axis),
                                static_cast<float>(glm::dot(ends->axis, ends->top)));
   occluder.planes.emplace_back(glm::vec3(-ends->axis),

@@ -13,7 +13,7 @@
 
 namespace pleinair::hal::synthetic {
 
-/// Paints a patch as it would look in even white light.
+/// Paints the albedo of a patch: its colours in even white light.
 using Painter = std::function<void(Canvas&)>;
 
 struct PointAndNormal {
@@ -21,33 +21,33 @@ struct PointAndNormal {
   glm::dvec3 normal{0};
 };
 
-/// A surface, flat or rolled up, with a texture of its own.
+/// A surface, flat or rolled up, with its own texture.
 struct Patch {
-  glm::vec2 half{0};                            ///< its canvas, metres
-  std::function<PointAndNormal(glm::vec2)> at;  ///< where a point of the canvas is
+  glm::vec2 half{0};                            ///< of its canvas, metres
+  std::function<PointAndNormal(glm::vec2)> at;  ///< the surface point for a point of the canvas
   Painter paint;
-  double coarseness = 1;     ///< its texels, in those of the bench's top
-  double lightStep = 0.007;  ///< metres between points whose light is computed
-  bool glows = false;        ///< not lit by what lights the room
+  double coarseness = 1;     ///< size of its texels relative to the bench top's
+  double lightStep = 0.007;  ///< metres between the points at which light is computed
+  bool glows = false;        ///< emissive: the room's light does not change it
   bool moves = false;
 };
 
-/// What keeps light out: convex, its inside where dot(xyz, p) ≤ w for all planes.
+/// A shadow caster: a convex solid, with its inside where dot(xyz, p) ≤ w for all planes.
 struct Occluder {
   glm::vec3 centre{0};
   float radius = 0;
   std::vector<glm::vec4> planes;
-  std::vector<std::uint16_t> patches;  ///< what it looks like
+  std::vector<std::uint16_t> patches;  ///< the patches of its surface
 };
 
-/// The world as a plan: its shape, and how its surfaces are painted.
+/// The description of the world: its shape, and the painters of its surfaces.
 struct Plan {
   Geometry geometry;
   std::vector<Patch> patches;
   std::vector<Occluder> occluders;
 };
 
-/// How the patches that follow are made.
+/// The texture and light settings of the patches that follow.
 struct Finish {
   double coarseness = 1;
   double lightStep = 0.007;
@@ -55,35 +55,37 @@ struct Finish {
   bool moves = false;
 };
 
-/// Puts solids into a plan. Poses take a solid's own coordinates to the world's (or the mover's):
-/// it stands on z = 0, x to its right and y to its back as its front is looked at.
+/// Adds solids to a plan. A pose maps the solid's own coordinates to the world's (or the mover's).
+/// In its own coordinates the solid stands on z = 0, with x to its right and y to its back, seen
+/// from its front.
 class Builder {
  public:
   Plan& plan() { return plan_; }
   Finish& finish() { return finish_; }
 
-  /// The faces of a box; `other` where one is not set. There is no bottom unless it is set.
+  /// The painters of a box's faces; `other` stands in for each unset one. A box has a bottom only
+  /// if `bottom` is set.
   struct BoxFaces {
     Painter other, top, front, right, back, left, bottom;
   };
   void box(const glm::dmat4& pose, glm::dvec3 size, const BoxFaces& faces);
-  /// Upright over a convex outline, anticlockwise from above; a side painter for each of its edges.
+  /// A prism over a convex outline, anticlockwise from above, with one side painter per edge.
   void prism(const glm::dmat4& pose, const std::vector<glm::dvec2>& outline, double height,
              const std::vector<Painter>& sides, const Painter& top, const Painter& bottom = {});
   struct Round {
     double bottomRadius = 0, topRadius = 0, height = 0;
     int sides = 24;
   };
-  /// A cylinder or a cone's frustum; ends without a painter are left open. The side's canvas is as
-  /// wide as it is round, its middle at the front.
+  /// A cylinder or a frustum of a cone; an end without a painter stays open. The side's canvas is
+  /// as wide as the circumference, with the front in the middle.
   void cylinder(const glm::dmat4& pose, const Round& round, const Painter& side,
                 const Painter& top = {}, const Painter& bottom = {});
-  /// The inner wall of a vessel: a cylinder that is seen from its axis. Casts no shadow.
+  /// The inner wall of a vessel: a cylinder seen from its axis. Casts no shadow.
   void hollow(const glm::dmat4& pose, const Round& round, const Painter& side);
   /// A cylinder between two points.
   void rod(glm::dvec3 from, glm::dvec3 to, double fromRadius, double toRadius, int sides,
            const Painter& side, const Painter& end = {});
-  /// A rectangle without thickness, seen from `right` × `up`. Casts no shadow.
+  /// A thin rectangle whose front faces `right` × `up`. Casts no shadow.
   void panel(glm::dvec3 centre, glm::dvec3 right, glm::dvec3 up, glm::dvec2 half,
              const Painter& painter);
 
@@ -102,14 +104,14 @@ class Builder {
   };
   static Ends endsOf(const glm::dmat4& pose, double height);
   void beginSolid();
-  /// Casts shadows where its ends are known.
+  /// Adds an occluder if the ends are known.
   void endSolid(const std::optional<Ends>& ends);
 
   Plan plan_;
   Finish finish_;
 };
 
-/// A pose: at `position`, turned anticlockwise about z as seen from above.
+/// The pose at `position`, turned anticlockwise about z as seen from above.
 glm::dmat4 standing(glm::dvec3 position, double degrees = 0);
 
 }  // namespace pleinair::hal::synthetic

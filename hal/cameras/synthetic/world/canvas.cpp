@@ -7,7 +7,7 @@
 namespace pleinair::hal::synthetic {
 namespace {
 
-/// Where the shadow of a point one metre above a lying surface falls: away from the window.
+/// Offset of the shadow of a point one metre above a horizontal surface: away from the window.
 constexpr glm::vec2 kShadowOfHeight{1.1F, 0.35F};
 
 }  // namespace
@@ -34,13 +34,13 @@ void Canvas::blend(int x, int y, const Paint& paint) {
 
 namespace {
 
-/// Brightness across something round, lit from its left.
+/// Brightness across a round object, lit from its left.
 float roundLight(float acrossOverRadius) {
   const float gloss = std::exp(-(acrossOverRadius + 0.35F) * (acrossOverRadius + 0.35F) * 14);
   return 0.80F - 0.30F * acrossOverRadius + 0.45F * gloss;
 }
 
-/// A shadow in the shape of a thing: its distances, blurred and shifted.
+/// Paints the shadow of a shape from its distance function, blurred and shifted.
 template <class Distance>
 void paintShadowOf(Canvas& canvas, Placement at, glm::vec2 half, const Distance& distance) {
   at.centreMetres += glm::vec2(0.007F, -0.006F);

@@ -14,19 +14,19 @@
 
 namespace pleinair::hal::synthetic {
 
-/// Where a thing lies on a canvas: its own x axis is turned counter-clockwise by the angle.
+/// Position of an object on a canvas; the object's x axis is turned counter-clockwise by the angle.
 struct Placement {
   glm::vec2 centreMetres{0};
   float angleDegrees = 0;
 };
 
-/// A colour laid over what is there.
+/// A colour with opacity, painted over the existing one.
 struct Paint {
   glm::vec3 linearRgb{0};
   float coverage = 0;
 };
 
-/// `top` over `bottom`.
+/// Composites `top` over `bottom`.
 inline Paint over(Paint top, Paint bottom) {
   const float rest = bottom.coverage * (1 - top.coverage);
   const float coverage = top.coverage + rest;
@@ -50,7 +50,7 @@ inline float strokeDistance(glm::vec2 p, glm::vec2 from, glm::vec2 to, float wid
   const float t = glm::clamp(glm::dot(p - from, along) / glm::dot(along, along), 0.0F, 1.0F);
   return glm::length(p - from - along * t) - width / 2;
 }
-/// Of a convex triangle with counter-clockwise corners; exact along its sides.
+/// Distance to a convex triangle with counter-clockwise corners; exact along its sides.
 inline float triangleDistance(glm::vec2 p, glm::vec2 a, glm::vec2 b, glm::vec2 c) {
   const auto side = [p](glm::vec2 from, glm::vec2 to) {
     const glm::vec2 along = glm::normalize(to - from);
@@ -59,11 +59,11 @@ inline float triangleDistance(glm::vec2 p, glm::vec2 a, glm::vec2 b, glm::vec2 c
   return std::max({side(a, b), side(b, c), side(c, a)});
 }
 
-/// A flat surface that things are painted on, one over the other, in metres: as it is looked at, x
+/// A flat surface on which shapes are painted one over the other, in metres: seen from its front, x
 /// runs to the right and y up. Row 0 of the texture is at the smallest y.
 class Canvas {
  public:
-  /// Paints on `level`, whose first texel's outer corner is at −`half`. Keeps a reference.
+  /// Paints on `level`; the outer corner of its first texel is at −`half`. Keeps a reference.
   Canvas(MipTexture::Level& level, glm::vec2 half, float texelMetres)
       : level_(level), half_(half), texel_(texelMetres) {}
 
@@ -71,7 +71,7 @@ class Canvas {
   /// The surface spans ±half() around the origin.
   glm::vec2 half() const { return half_; }
 
-  /// How much of a texel whose centre is at this distance lies inside a shape.
+  /// The share of a texel inside a shape, from the texel centre's distance to the shape.
   float inside(float distanceMetres) const {
     return glm::clamp(0.5F - distanceMetres / texel_, 0.0F, 1.0F);
   }
@@ -79,14 +79,14 @@ class Canvas {
     return {linearRgb, inside(distanceMetres) * opacity};
   }
 
-  /// Lays shade(point) → linear RGB over the whole surface.
+  /// Fills the whole surface with shade(point) → linear RGB.
   template <class Shade>
   void paintAll(const Shade& shade) {
     paint({}, half_ + 2 * texel_, [&](glm::vec2 p) { return Paint{shade(p), 1}; });
   }
 
-  /// The same for what changes slowly along x, such as grain: only every fourth texel of a row is
-  /// asked for, and those between are interpolated.
+  /// The same for shades that change slowly along x, such as wood grain: shade() is called for
+  /// every fourth texel of a row, and the texels between are interpolated.
   template <class Shade>
   void paintAllAlongX(const Shade& shade) {
     constexpr int kStep = 4;
@@ -108,8 +108,8 @@ class Canvas {
     }
   }
 
-  /// Lays `shade(point) → Paint` over every texel within ±`half` (metres) of a thing; `point` is in
-  /// the thing's own coordinates, metres.
+  /// Paints `shade(point) → Paint` over every texel within ±`half` (metres) of an object; `point`
+  /// is in the object's own coordinates, metres.
   template <class Shade>
   void paint(const Placement& at, glm::vec2 half, const Shade& shade) {
     const float angle = at.angleDegrees * 0.017453293F;
@@ -142,8 +142,8 @@ class Canvas {
   float texel_;
 };
 
-// Tools that lie or hang flat, with their shadows. Unless said otherwise they hang: their heads are
-// towards +y.
+// Tools that lie or hang flat, with their shadows. Unless stated otherwise they hang, with their
+// heads towards +y.
 
 /// A combination wrench, open end up.
 void paintWrench(Canvas& canvas, const Placement& at, float lengthMetres);

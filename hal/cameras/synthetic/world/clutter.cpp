@@ -27,7 +27,7 @@ void buildMug(Builder& builder) {
                  plain(0xe6e1d4));
   builder.panel(at + glm::dvec3(0, 0, 0.0625), {1, 0, 0}, {0, 1, 0}, {0.0275, 0.0275},
                 plain(0x3a2012));
-  // The rim, as far as a ring of facets goes: two half rings of boxes would show their joints.
+  // The handle and the rim: two half rings of boxes would show their joints.
   std::array<glm::dvec3, 5> handle{{{0.038, 0, 0.072},
                                     {0.058, 0, 0.070},
                                     {0.067, 0, 0.048},
@@ -54,7 +54,7 @@ void buildBooks(Builder& builder) {
               {.other = pages, .top = cover, .left = ochre});
 }
 
-/// Small parts in a heap, as dots of their colour.
+/// A heap of small parts, painted as dots of one colour.
 Painter heapOf(std::uint32_t srgb) {
   const glm::vec3 colour = linearFromSrgb(srgb);
   return [colour](Canvas& canvas) {

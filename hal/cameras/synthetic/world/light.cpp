@@ -15,9 +15,9 @@ namespace pleinair::hal::synthetic {
 namespace {
 
 constexpr float kPi = 3.14159265F;
-constexpr float kLiftMetres = 0.0012F;  // rays start this far off their surface
+constexpr float kLiftMetres = 0.0012F;  // distance of a ray's origin from its surface
 
-// Warm against cool: the sun's patch and the lamp, and the sky's blue in every shadow.
+// Warm against cool light: sun and lamp are warm, the sky tints every shadow blue.
 const glm::vec3 kSunDirection = glm::normalize(glm::vec3(-0.80F, -0.34F, 0.40F));
 constexpr glm::vec3 kSunLight{1.62F, 1.24F, 0.76F};
 constexpr float kSunRadius = 0.015F;
@@ -25,19 +25,21 @@ constexpr glm::vec3 kSkyLight{1.55F, 1.80F, 2.08F};
 constexpr glm::vec3 kRoomFromWindowSide{0.375F, 0.425F, 0.480F};
 constexpr glm::vec3 kRoomFromElsewhere{0.290F, 0.285F, 0.275F};
 constexpr glm::vec3 kRoomFromBelow{0.190F, 0.155F, 0.120F};
-constexpr glm::vec3 kThrownBack{0.60F, 0.55F, 0.48F};  ///< by what is nearby, of its colour
-constexpr float kNearbyMetres = 0.55F;                 // what is farther belongs to the room
+/// share of light that nearby surfaces reflect, in their colour
+constexpr glm::vec3 kThrownBack{0.60F, 0.55F, 0.48F};
+constexpr float kNearbyMetres = 0.55F;  // beyond this distance, light counts as the room's
 
-/// Point `i` of n evenly spread in the unit square, in two independent ways (R2 sequences).
+/// Point `i` of n points evenly spread in the unit square, with two independent sets (R2
+/// sequences).
 glm::vec2 spread(int i, float shift) {
   const auto n = static_cast<float>(i);
   return glm::fract(glm::vec2(shift + n * 0.7548776662F, shift + n * 0.5698402910F));
 }
 
-/// Directions and places of `kCount` rays, the same for every point.
+/// Directions and origins of `kCount` rays, the same for every point.
 template <int kCount>
 struct Rays {
-  std::array<glm::vec2, kCount> cell{};    ///< where in the point's cell it starts, ±0.5
+  std::array<glm::vec2, kCount> cell{};    ///< origin within the point's lattice cell, ±0.5
   std::array<glm::vec2, kCount> square{};  ///< in the unit square
   std::array<glm::vec2, kCount> disc{};    ///< in the unit disc
 
@@ -53,7 +55,7 @@ struct Rays {
   }
 };
 
-/// The tile between two of the lattice's points, which `pointAt(x, y)` gives.
+/// The surface tile between neighbouring lattice points, which `pointAt(x, y)` gives.
 template <class PointAt>
 Tile tileOf(const PointAt& pointAt, glm::ivec2 first, glm::ivec2 last) {
   const auto middle = pointAt((first.x + last.x) / 2, (first.y + last.y) / 2);
@@ -72,7 +74,7 @@ Tile tileOf(const PointAt& pointAt, glm::ivec2 first, glm::ivec2 last) {
   return tile;
 }
 
-/// Two directions at right angles to `normal`.
+/// Two unit vectors at right angles to `normal` and to each other.
 std::array<glm::vec3, 2> across(glm::vec3 normal) {
   const glm::vec3 helper = std::abs(normal.z) > 0.9F ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
   const glm::vec3 first = glm::normalize(glm::cross(helper, normal));
@@ -180,7 +182,8 @@ glm::vec3 RoomLight::roomAt(const Point& at, const Near& near) const {
   const auto [right, up] = across(at.normal);
   glm::vec3 sum(0);
   for (std::size_t i = 0; i < kRays; ++i) {
-    // Even in the disc below is by the cosine in the hemisphere above.
+    // Malley's method: an even distribution in the disc gives a cosine distribution in the
+    // hemisphere.
     const glm::vec2 disc = kSpread.disc[i];
     const glm::vec3 direction =
         disc.x * right + disc.y * up + std::sqrt(1 - kSpread.square[i].y) * at.normal;
@@ -220,7 +223,7 @@ RoomLight::Lattice RoomLight::on(const Patch& patch) const {
     const PointAndNormal surface = patch.at(at);
     const glm::vec3 alongX(patch.at(at + glm::vec2(step.x, 0)).point - surface.point);
     const glm::vec3 alongY(patch.at(at + glm::vec2(0, step.y)).point - surface.point);
-    // Rays stay on the patch at its rims.
+    // At the rims of the patch, rays start on the patch.
     const auto half = [](int i, int end) { return i == 0 || i == end - 1 ? 0.0F : 1.0F; };
     const glm::vec3 normal(surface.normal);
     return Point{glm::vec3(surface.point) + kLiftMetres * normal, normal,
@@ -251,7 +254,7 @@ RoomLight::Lattice RoomLight::on(const Patch& patch) const {
       }
     }
   }
-  // What is covered takes its neighbours' light, lest darkness bleed out from under things.
+  // Covered points take their neighbours' light, so that no darkness bleeds out from under objects.
   for (int pass = 0; pass < 2; ++pass) {
     const std::vector<bool> covered = isCovered;
     for (int y = 0; y < lattice.rows; ++y) {
@@ -283,14 +286,14 @@ RoomLight::Lattice RoomLight::on(const Patch& patch) const {
 
 namespace {
 
-/// Bright light is taken together at the end, as film does, so that paper in the sun keeps its hue.
+/// Compresses highlights smoothly, as film does, so that paper in the sun keeps its hue.
 float exposed(float light) {
   constexpr float kShoulder = 0.60F;
   if (light <= kShoulder) return light;
   return 1 - (1 - kShoulder) * std::exp((kShoulder - light) / (1 - kShoulder));
 }
 
-/// exposed() by table.
+/// A lookup table of exposed().
 class Film {
  public:
   Film() {

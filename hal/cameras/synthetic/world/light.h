@@ -17,20 +17,21 @@ struct Pane {
 inline constexpr float kWindowX = -1.75F;
 const std::vector<Pane>& windowPanes();
 
-/// The lamp's bulb, and where the lamp points.
+/// The position of the lamp's bulb, and the direction of its beam.
 inline constexpr glm::vec3 kLampAt{0.375F, 0.13F, 0.475F};
 inline constexpr glm::vec3 kLampAxis{-0.300F, -0.420F, -0.8565F};  // unit
 
-/// The light in the room: a low sun through the window's panes, the sky in them, a lamp, and what
-/// the room throws back, with the shadows of everything that stands there. Each of a patch's points
-/// uses the same rays, so that there is no grain, and rays start all over a point's cell, so that
-/// shadows have no steps. Immutable; thread-safe.
+/// The light in the room: a low sun through the window's panes, the sky in them, a lamp, and the
+/// light that the room reflects, with the shadows of every object. All points of a patch use the
+/// same rays, so that there is no grain; the rays' origins are spread over each point's lattice
+/// cell, so that shadows have no steps. Immutable; thread-safe.
 class RoomLight {
  public:
-  /// `colours`: the mean colour of each patch, for what is thrown back nearby. Keeps references.
+  /// `colours`: the mean colour of each patch, for the light that nearby surfaces reflect. Keeps
+  /// references.
   RoomLight(const std::vector<Occluder>& occluders, const std::vector<glm::vec3>& colours);
 
-  /// What falls on a patch, on a lattice over its canvas with points on its rims.
+  /// The light that falls on a patch, sampled on a lattice over its canvas with points on its rims.
   struct Lattice {
     int columns = 0, rows = 0;
     std::vector<glm::vec3> linearRgb;
@@ -39,7 +40,7 @@ class RoomLight {
 
  private:
   struct Point {
-    glm::vec3 point{0}, normal{0}, alongX{0}, alongY{0};  ///< the lattice's steps
+    glm::vec3 point{0}, normal{0}, alongX{0}, alongY{0};  ///< with the lattice's steps
   };
   using Near = std::vector<const Occluder*>;
   glm::vec3 sunAt(const Point& at, const Near& near) const;
@@ -52,7 +53,7 @@ class RoomLight {
   std::vector<glm::vec3> occluderColours_;
 };
 
-/// Multiplies what is painted by the light, with a dither against bands.
+/// Multiplies the painted colours by the light, with a dither against banding.
 void shine(const RoomLight::Lattice& light, glm::vec2 half, float texelMetres,
            MipTexture::Level& level);
 

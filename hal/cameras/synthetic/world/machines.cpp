@@ -16,7 +16,7 @@ glm::dvec3 moved(const glm::dmat4& pose, glm::dvec3 point) {
   return glm::dvec3(pose * glm::dvec4(point, 1));
 }
 
-/// A pose within another, turned by `degrees` about its z.
+/// A pose relative to another, turned by `degrees` about its z.
 glm::dmat4 within(const glm::dmat4& pose, glm::dvec3 position, double degrees = 0) {
   return pose * standing(position, degrees);
 }
@@ -97,7 +97,7 @@ void buildVise(Builder& builder) {
   builder.box(within(pose, {0, -0.072, 0.072}), {0.135, 0.044, 0.068},
               {.other = iron, .bottom = plain(0x33434c)});
   builder.box(within(pose, {0, -0.046, 0.100}), {0.125, 0.008, 0.038}, {.other = steel()});
-  // Held between the jaws: a brass bar.
+  // A brass bar between the jaws.
   builder.box(within(pose, {0.012, -0.021, 0.094}), {0.030, 0.040, 0.085},
               {.other = steel(0xbb9348)});
   const glm::dvec3 screw = moved(pose, {0, -0.130, 0.062});
@@ -132,7 +132,8 @@ void buildLamp(Builder& builder) {
               plain(kBlack));
   builder.rod(elbow, neck - 0.012 * out, 0.007, 0.007, 12, polished(0x6a716e));
   builder.rod(neck - 0.030 * out, neck, 0.020, 0.027, 20, plain(kBlack));
-  // Seen from its axis too; a shade without a bottom, or its own light would not come out.
+  // The shade is visible from inside, too, and has no bottom, which would block the lamp's own
+  // light.
   const glm::dmat4 pose = [&] {
     const glm::dvec3 x = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), -out));
     return glm::dmat4(glm::dvec4(x, 0), glm::dvec4(glm::cross(-out, x), 0), glm::dvec4(-out, 0),
@@ -152,8 +153,8 @@ void buildMachines(Builder& builder) {
   buildLamp(builder);
 }
 
-/// A gloved hand around a wrench, its middle at the origin, and the sleeve it comes out of, which
-/// leads back to the one who works there.
+/// A gloved hand around a wrench, its middle at the origin, and the sleeve that leads back to the
+/// person at the bench.
 void buildArm(Builder& builder) {
   constexpr std::uint32_t kGlove = 0xb98a4e;
   constexpr std::uint32_t kSleeve = 0x45607c;
@@ -163,7 +164,7 @@ void buildArm(Builder& builder) {
   const Painter glove = plain(kGlove);
   builder.box(standing({0.010, -0.006, -0.020}, -44), {0.082, 0.088, 0.040},
               {.other = glove, .bottom = glove});
-  // Four fingers bent around what they hold, and the thumb beside them.
+  // Four fingers bent around the wrench, and the thumb beside them.
   for (int i = 0; i < 4; ++i) {
     const double along = 0.030 - 0.020 * i;
     const glm::dvec3 knuckle(-0.020 + along * 0.70, 0.030 + along * 0.72, 0.010);

@@ -6,17 +6,17 @@
 
 namespace pleinair::hal::synthetic {
 
-// What things are made of. Colours are sRGB-coded 0xRRGGBB.
+// Surface materials. Colours are sRGB-coded 0xRRGGBB.
 
-/// One colour, a little uneven.
+/// One colour with slight variation.
 Painter plain(std::uint32_t srgb);
-/// Paint on sheet metal: one colour, worn bright along the edges.
+/// Painted sheet metal: one colour, with bright, worn edges.
 Painter enamel(std::uint32_t srgb);
-/// Ground steel, streaked along x, with a soft gloss across.
+/// Ground steel, streaked along x, with a soft highlight across.
 Painter steel(std::uint32_t srgb = 0xb4b8ba);
-/// The side of a cylinder that shines: bright and dark bands along its axis.
+/// The side of a polished cylinder: bright and dark bands along its axis.
 Painter polished(std::uint32_t srgb);
-/// A board, its grain along x or along y.
+/// A wooden board, with the grain along x or along y.
 Painter board(std::uint32_t srgb, std::uint32_t seed, bool alongY = false);
 /// Bands of two colours along x, such as a motor's fins; `period` in metres.
 Painter striped(std::uint32_t srgb, std::uint32_t between, float period, float share);
@@ -28,7 +28,7 @@ Painter cardboard();
 /// A sleeve, folded across its length (y).
 Painter cloth(std::uint32_t srgb);
 
-/// One thing painted over another.
+/// One painter's result with another one's over it.
 Painter layered(Painter below, Painter above);
 
 }  // namespace pleinair::hal::synthetic

@@ -9,7 +9,7 @@
 
 namespace pleinair::hal::synthetic {
 
-/// sRGB-coded.
+/// An sRGB-coded texel.
 struct Texel {
   std::uint8_t red = 0, green = 0, blue = 0, unused = 0;
 };
@@ -22,7 +22,7 @@ inline glm::vec3 linearRgbOf(Texel texel) {
   return {linearFromLevel(texel.red), linearFromLevel(texel.green), linearFromLevel(texel.blue)};
 }
 
-/// A picture at full, half, quarter … resolution.
+/// An image at full, half, quarter … resolution.
 class MipTexture {
  public:
   struct Level {
@@ -31,13 +31,13 @@ class MipTexture {
     std::vector<Texel> texels;  ///< row-major, packed
   };
 
-  /// A black texture of this size, at least 2 × 2.
+  /// A black texture of at least 2 × 2 texels.
   MipTexture(int width, int height);
 
   Level& base() { return levels_.front(); }
   const std::vector<Level>& levels() const { return levels_; }
-  /// Makes the coarser levels, each texel the mean, in linear light, of the four below it. The last
-  /// row or column of an odd level counts twice. No level is smaller than 2 × 2.
+  /// Makes the coarser levels: each texel is the mean, in linear light, of four texels of the finer
+  /// level. An odd level's last row or column counts twice. No level is smaller than 2 × 2.
   void buildLevels();
 
  private:

@@ -12,7 +12,7 @@ float latticeValue(std::uint32_t seed, std::int32_t x, std::int32_t y) {
   return static_cast<float>(hash >> 8) * 0x1p-24F;
 }
 
-/// Of what fits into 32 bits; std::floor is a call where SSE4.1 may be absent.
+/// Floor of a value that fits into 32 bits; std::floor is a function call without SSE4.1.
 std::int32_t floorOf(float value) {
   const auto towardsZero = static_cast<std::int32_t>(value);
   return towardsZero - (value < static_cast<float>(towardsZero) ? 1 : 0);

@@ -14,7 +14,7 @@ constexpr std::uint64_t mixBits(std::uint64_t value) {
   return value ^ (value >> 31);
 }
 
-/// A number in [0, 1) that belongs to (seed, index), the same on every machine.
+/// A pseudo-random number in [0, 1) for (seed, index), the same on every machine.
 constexpr double unitRandom(std::uint64_t seed, std::uint64_t index) {
   return static_cast<double>(mixBits(mixBits(seed) ^ index) >> 11) * 0x1p-53;
 }
@@ -22,7 +22,8 @@ constexpr double unitRandom(std::uint64_t seed, std::uint64_t index) {
 /// Smooth noise in [0, 1] with features of size 1: a lattice of random values, interpolated.
 float valueNoise(std::uint32_t seed, glm::vec2 point);
 
-/// `octaves` of valueNoise, each half the size and height of the one before; in [0, 1], mean 0.5.
+/// `octaves` of valueNoise, each with half the feature size and amplitude of the one before; in [0,
+/// 1], mean 0.5.
 float fractalNoise(std::uint32_t seed, glm::vec2 point, int octaves);
 
 }  // namespace pleinair::hal::synthetic

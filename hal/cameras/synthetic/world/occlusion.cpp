@@ -9,7 +9,7 @@
 namespace pleinair::hal::synthetic {
 namespace {
 
-/// Whether all of the tile lies outside one of the occluder's planes.
+/// Whether the whole tile lies outside one plane of an occluder.
 bool isOutside(const Tile& tile, const glm::vec4& plane) {
   const glm::vec3 normal(plane);
   if (!tile.isFlat) return glm::dot(normal, tile.centre) - plane.w > tile.radius;

@@ -11,9 +11,9 @@ namespace pleinair::hal::synthetic {
 
 using Occluders = std::vector<const Occluder*>;
 
-/// Where a ray goes into an occluder, in its directions, or infinity.
+/// The distance, in units of `direction`, at which a ray enters an occluder, or infinity.
 float entry(const Occluder& occluder, glm::vec3 origin, glm::vec3 direction);
-/// Whether the ray meets one of them before it has gone `distance` times its direction.
+/// Whether the ray enters an occluder before `distance` units of its direction.
 bool isBlocked(const Occluders& near, glm::vec3 origin, glm::vec3 direction, float distance);
 
 bool isInside(const Occluder& occluder, glm::vec3 point);
@@ -26,10 +26,10 @@ struct Tile {
   bool isFlat = false;
 };
 
-/// Those that a ray from the tile to within `farRadius` of `to` may meet.
+/// The occluders that a ray from the tile to within `farRadius` of `to` may meet.
 Occluders between(const Occluders& occluders, const Tile& tile, glm::vec3 to, float farRadius);
 
-/// Those that are near the tile and not behind it.
+/// The occluders near the tile and not behind it.
 Occluders around(const Occluders& occluders, const Tile& tile, float withinMetres);
 
 }  // namespace pleinair::hal::synthetic

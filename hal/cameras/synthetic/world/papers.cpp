@@ -10,7 +10,7 @@
 namespace pleinair::hal::synthetic {
 namespace {
 
-/// The share of a square texel at `p` (tag frame, metres) that lies on white cells.
+/// The share of white cells in a square texel at `p` (tag frame, metres).
 float tagWhiteness(const TagBitmap& bitmap, glm::vec2 p, float texelMetres, float cellMetres) {
   constexpr int kSamples = 4;
   int white = 0;
@@ -45,7 +45,7 @@ void paintTagCard(Canvas& canvas, const Placement& at, const BenchTag& tag) {
   const glm::vec3 black(0.024F, 0.024F, 0.026F);
   canvas.shadow(at, half, 0.002F, 0.0020F);
   canvas.paint(at, half + canvas.texelMetres(), [&](glm::vec2 p) {
-    // The tag's y runs down as it is read, the placement's up.
+    // The tag's y runs down as it is read; the placement's y runs up.
     const float whiteness = tagWhiteness(bitmap, {p.x, -p.y}, canvas.texelMetres(), cell);
     return canvas.fill(glm::mix(black, white, whiteness), boxDistance(p, half, 0.002F));
   });

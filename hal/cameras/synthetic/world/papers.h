@@ -7,7 +7,7 @@
 
 namespace pleinair::hal::synthetic {
 
-/// A tag on a white card, its middle at `at`.
+/// A tag on a white card, centred on `at`.
 void paintTagCard(Canvas& canvas, const Placement& at, const BenchTag& tag);
 /// The printed poster of a gear show; fills the canvas.
 void paintPoster(Canvas& canvas);
@@ -17,7 +17,7 @@ void paintDrawing(Canvas& canvas, const Placement& at);
 void paintNotes(Canvas& canvas, const Placement& at, glm::vec2 half, std::uint32_t seed);
 /// A sticky note, 76 mm.
 void paintStickyNote(Canvas& canvas, const Placement& at, std::uint32_t srgb);
-/// The ring that a mug left.
+/// The ring-shaped stain of a mug.
 void paintMugRing(Canvas& canvas, const Placement& at);
 
 }  // namespace pleinair::hal::synthetic

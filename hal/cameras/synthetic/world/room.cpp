@@ -22,7 +22,7 @@ constexpr glm::dvec3 kX{1, 0, 0};
 constexpr glm::dvec3 kY{0, 1, 0};
 constexpr glm::dvec3 kZ{0, 0, 1};
 
-/// Plaster, a muted sage that the warm wood and the sun stand out against.
+/// Plaster in a muted sage green that contrasts with the warm wood and the sun.
 Painter plaster(std::uint32_t srgb) {
   const glm::vec3 colour = linearFromSrgb(srgb);
   return [colour](Canvas& canvas) {
@@ -31,7 +31,7 @@ Painter plaster(std::uint32_t srgb) {
   };
 }
 
-/// What is outside: a bright, hazy sky above far trees.
+/// The view outside: a bright, hazy sky above far trees.
 void paintSky(Canvas& canvas) {
   canvas.paintAll([&](glm::vec2 p) {
     const float up = p.y / canvas.half().y;
@@ -91,7 +91,7 @@ void paintPegboard(Canvas& canvas) {
 }
 
 void buildWall(Builder& builder) {
-  // The part behind the bench is finer than what lies above and beside it.
+  // The part of the wall behind the bench has finer textures than the parts above and beside it.
   const Painter sage = plaster(0xb7bcab);
   constexpr double kFineLeft = -1.35;
   constexpr double kFineRight = 1.45;

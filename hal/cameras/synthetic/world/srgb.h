@@ -9,11 +9,11 @@
 
 namespace pleinair::hal::synthetic {
 
-/// sRGB coding (IEC 61966-2-1), channel by channel; light is linear, 0 to 1. Thread-safe.
+/// sRGB coding (IEC 61966-2-1), per channel; light is linear, 0 to 1. Thread-safe.
 
 /// 0xRRGGBB in linear light.
 glm::vec3 linearFromSrgb(std::uint32_t rrggbb);
-/// The level, 0 to 255, of light that is clamped to 0 … 1.
+/// The level, 0 to 255, of light, which is clamped to 0 … 1.
 float levelFromLinear(float linear);
 
 struct SrgbTables {

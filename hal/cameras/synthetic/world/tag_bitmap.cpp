@@ -25,7 +25,8 @@ TagBitmap tag36h11Bitmap(int id) {
   for (std::size_t i = 0; i < kTagCells; ++i) {
     bitmap[0][i] = bitmap[kTagCells - 1][i] = bitmap[i][0] = bitmap[i][kTagCells - 1] = true;
   }
-  // As apriltag_to_image() does, whose picture cannot be freed without a second library.
+  // Same layout as apriltag_to_image(), which is not used: freeing its image takes a second
+  // library.
   constexpr std::size_t kBorderStart = (kTagCells - kTagCellsPerEdge) / 2;
   for (std::uint32_t bit = 0; bit < family->nbits; ++bit) {
     const std::size_t row = family->bit_y[bit] + kBorderStart;

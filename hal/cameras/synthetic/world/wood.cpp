@@ -39,7 +39,7 @@ void Wood::take(glm::ivec2 place) {
   }
 }
 
-/// Bends the grain around the plank's knots and says how deep inside one the point lies.
+/// Bends the grain around the plank's knots and gives the point's depth inside a knot.
 float Wood::bendAroundKnots(glm::vec2 p, float& y) const {
   float inKnot = 0;
   for (const Knot& knot : plank_.knots) {
@@ -54,7 +54,7 @@ float Wood::bendAroundKnots(glm::vec2 p, float& y) const {
   return inKnot;
 }
 
-/// 0 in early wood, 1 in the dark line that ends a year.
+/// Darkness of the year rings: 0 in early wood, 1 in the dark line that ends a year.
 float Wood::yearRings(glm::vec2 p, float y) const {
   const float warp = fractalNoise(plank_.id, {p.x * 2.1F, p.y * 9}, 2) - 0.5F;
   const float acrossMetres = y + plank_.ringShift + 0.022F * warp;

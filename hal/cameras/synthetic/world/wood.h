@@ -8,8 +8,8 @@
 
 namespace pleinair::hal::synthetic {
 
-/// Oiled planks along x, worn by work, with grain and a few knots. Remembers the plank that it was
-/// asked for last: neighbouring points are quick. One thread at a time.
+/// Oiled planks along x, worn by use, with grain and a few knots. Caches the last plank, so that
+/// neighbouring points are fast. One thread at a time.
 class Wood {
  public:
   explicit Wood(std::uint32_t seed) : seed_(seed) {}
@@ -21,7 +21,7 @@ class Wood {
   static constexpr int kKnotsAPlank = 2;
   struct Knot {
     glm::vec2 centre{0};
-    float radius = 0;  ///< 0: none
+    float radius = 0;  ///< 0: no knot
   };
   struct Plank {
     glm::ivec2 place{-1 << 20};

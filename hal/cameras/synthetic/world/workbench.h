@@ -9,8 +9,8 @@
 
 namespace pleinair::hal::synthetic {
 
-// Where the larger things stand, metres; the world's origin is on the bench's top, x to the right
-// of who works there, y to the wall, z up. Tags stick to some of them.
+// Positions of the larger objects, metres. World frame: origin on the bench's top, x to the right
+// of the person at the bench, y towards the wall, z up. Some objects carry tags.
 
 inline constexpr double kBenchHalfWidth = 1.15;
 inline constexpr double kBenchFront = -0.46;
@@ -26,14 +26,14 @@ inline const glm::dmat4 kBooksPose = standing({-0.59, -0.10, 0}, 22);
 inline constexpr double kBooksHeight = 0.056;
 inline constexpr glm::dvec3 kWallSheetCentre{-0.205, kWallY - 0.002, 0.40};
 
-/// The workbench in its room. The shape is the same for every seed; the wood is not.
+/// Plans the workbench and its room. The shape is the same for every seed; the wood varies with it.
 Plan planWorkbench(std::uint32_t seed);
 
-// Its parts, in one file each.
+// The parts of the plan, one file each.
 void buildRoom(Builder& builder);                       ///< room.cpp: walls, window, floor, shelf
 void buildBench(Builder& builder, std::uint32_t seed);  ///< bench.cpp, with what lies flat on it
 void buildMachines(Builder& builder);  ///< machines.cpp: toolbox, gear motor, vise, lamp
 void buildClutter(Builder& builder);   ///< clutter.cpp: mug, books, bins, oil can, crate …
-void buildArm(Builder& builder);       ///< arm.cpp: what reaches in, in its own coordinates
+void buildArm(Builder& builder);       ///< machines.cpp: the reaching arm, in its own coordinates
 
 }  // namespace pleinair::hal::synthetic

@@ -15,7 +15,7 @@
 namespace pleinair::hal::synthetic {
 namespace {
 
-/// Runs work(i) for all i below `count`, on all processors; the first are begun first.
+/// Runs work(i) for all i below `count`, on all processors; starts in rising order of i.
 template <class Work>
 void forAll(std::size_t count, const Work& work) {
   std::atomic<std::size_t> next{0};
@@ -50,7 +50,7 @@ glm::vec3 meanLinearRgb(const MipTexture::Level& level) {
   return sum / count;
 }
 
-/// The largest first, so that no processor is left alone with one at the end.
+/// The largest patches first, so that no processor is left alone with a large one at the end.
 std::vector<std::size_t> byFallingSize(const std::vector<PatchTexture>& textures) {
   std::vector<std::size_t> order(textures.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -1,6 +1,7 @@
-// Purpose: what borders.frag packs of a pixel: its virtual object, 0 for what is real, another one that
-//          is within a pixel, and how much of the pixel is its own.
-// Inputs, outputs: packed, or in parts. Precision: integers.
+// Purpose: packs and unpacks a pixel of borders.frag: its virtual object (0 for real content),
+//          another object within a pixel, and the share of the pixel that is its own.
+// Inputs, outputs: packed, or in parts.
+// Precision: integers.
 uint borderOf(uint own, uint other, float share) {
   return own | other << 9u | uint(share * 255.0 + 0.5) << 18u;
 }

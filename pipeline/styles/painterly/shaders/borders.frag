@@ -1,7 +1,9 @@
-// Purpose: where strokes of one thing give way to another's: the boundaries of virtual objects among
-//          each other and with what is real, two pixels wide, so that a clipped edge is smooth.
-//          Occluders are real: they hide models, but the picture goes on over their edges.
-// Inputs:  ids (scene::ArFrame). Outputs: R32UI: border.glsl's. Precision: integers.
+// Purpose: the borders at which strokes are clipped: those of virtual objects against each other
+//          and against real content, two pixels wide, so that a clipped edge is smooth. Occluders
+//          count as real: they hide models, but the image goes on over their edges.
+// Inputs:  ids (scene::ArFrame).
+// Outputs: R32UI, packed as in border.glsl.
+// Precision: integers.
 #include "pipeline/scene/render/shaders/object_id.glsl"
 #include "pipeline/styles/painterly/shaders/border.glsl"
 uniform usampler2D ids;
@@ -14,7 +16,7 @@ void main() {
   uint other = 0u;
   float share = 0.0;
   for (int i = 0; i < 9; ++i) {
-    // The middle first: who it is says who the others are.
+    // The middle comes first: its object decides which neighbours are others.
     ivec2 step = i == 0 ? ivec2(0) : i < 5 ? ivec2((i - 1) % 3, (i - 1) / 3) - 1 : ivec2(i % 3, i / 3) - 1;
     uint object = objectOf(texelFetch(ids, clamp(p + step, ivec2(0), last), 0).r);
     object = isVirtual(object) ? object : 0u;

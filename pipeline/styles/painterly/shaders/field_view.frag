@@ -1,10 +1,11 @@
-// Purpose: the tensor field for people: short lines along the direction that strokes take (thesis figures
-//          15, 16), blue where edges have it and red where it is filled in; the pyramid's levels; or the
-//          regions, by how much detail they have.
-// Inputs:  picture; fields of four levels (marks::TensorField::resolved); fieldScale: texture coordinates
-//          for a px of the full picture, of the first level; shown: 0 directions, 1 pyramid, 2 regions;
-//          pixelsOfFull; bands: where middling and fine strokes begin.
-// Outputs: RGBA8, sRGB-coded, opaque. Precision: highp for places.
+// Purpose: debug views of the tensor field: short lines along the direction of strokes (thesis
+//          figures 15, 16), blue on edges and red where interpolated; the pyramid's levels; or the
+//          regions, by their detail.
+// Inputs:  picture; fields of four levels (marks::TensorField::resolved); fieldScale: texture
+//          coordinates per px of the full image, on the first level; shown: 0 directions, 1
+//          pyramid, 2 regions; pixelsOfFull; bands: where medium and fine strokes begin.
+// Outputs: RGBA8, sRGB-coded, opaque.
+// Precision: highp for places.
 uniform sampler2D picture;
 uniform highp sampler2D field0;
 uniform highp sampler2D field1;
@@ -39,7 +40,7 @@ vec3 linesOver(vec3 ground, vec2 px, int level) {
 
 void main() {
   vec2 px = gl_FragCoord.xy / pixelsOfFull;
-  if (shown == 1) {  // a level a quarter
+  if (shown == 1) {  // one level per quarter
     vec2 half_ = 0.5 * size;
     ivec2 quarter = ivec2(greaterThanEqual(gl_FragCoord.xy, half_));
     vec2 inside = (gl_FragCoord.xy - vec2(quarter) * half_) * 2.0;

@@ -1,7 +1,8 @@
-// Purpose: what is painted on: the ground's colour, with a thin first wash of the picture.
-// Inputs:  paint: the picture, much reduced (LINEAR); ground: sRGB-coded; wash: how much of it;
+// Purpose: the ground under the strokes: its colour, with a thin first wash of the image.
+// Inputs:  paint: the image, much reduced (LINEAR); ground: sRGB-coded; wash: its share;
 //          mixture.glsl's if isLimited.
-// Outputs: 0: sRGB-coded colour; 1: no height. Precision: mediump would do, but for places.
+// Outputs: 0: sRGB-coded colour; 1: no height.
+// Precision: mediump suffices, except for places.
 #include "pipeline/marks/shaders/mixture.glsl"
 uniform sampler2D paint;
 uniform vec2 size;

@@ -1,6 +1,7 @@
-// Purpose: a picture at half its size: the mean of 2x2.
+// Purpose: an image at half its size: the mean of 2x2 pixels.
 // Inputs:  picture (LINEAR); size: of the output.
-// Outputs: alike. Precision: highp for places.
+// Outputs: the same format.
+// Precision: highp for places.
 uniform sampler2D picture;
 uniform vec2 size;
 layout(location = 0) out vec4 half_;

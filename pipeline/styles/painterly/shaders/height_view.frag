@@ -1,5 +1,7 @@
-// Purpose: how thick the paint lies, for people who want to see it.
-// Inputs:  heights (stroke_mark.glsl). Outputs: RGBA8, grey, opaque. Precision: mediump would do.
+// Purpose: debug view of the paint's thickness.
+// Inputs:  heights (stroke_mark.glsl).
+// Outputs: RGBA8, grey, opaque.
+// Precision: mediump suffices.
 uniform sampler2D heights;
 layout(location = 0) out vec4 picture;
 

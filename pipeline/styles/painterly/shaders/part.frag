@@ -1,7 +1,7 @@
-// Purpose: a picture at half its size, of what is real and of all models, each of the two by itself: the mean of those
-//          of 2x2 that are.
+// Purpose: two images at half size, one of the real content and one of all models: each the mean of
+//          those of 2x2 pixels that belong to it.
 // Inputs:  picture (RGBA8), ids (ArFrame).
-// Outputs: 0 real, 1 models: RGBA16F, premultiplied: alpha is the share of the 2x2.
+// Outputs: 0 real, 1 models: RGBA16F, premultiplied: alpha is the share of the 2x2 pixels.
 // Precision: highp for places.
 #include "pipeline/scene/render/shaders/object_id.glsl"
 uniform sampler2D picture;

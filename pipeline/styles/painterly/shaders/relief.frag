@@ -1,8 +1,9 @@
-// Purpose: light on the paint's relief, once a pixel, on its canvas; and what is in focus kept
-//          crisp.
-// Inputs:  colours, heights (stroke_mark.glsl); substrate.glsl's: what it is painted on; frame, normalFocus if
-//          hasFocus; relief, gloss, weave: how much of each; tooth: how much the substrate's grain keeps
-//          paint from its hollows, where the washed ground is seen; palette: saturation, warmth.
+// Purpose: light on the relief of the paint and its canvas, once per pixel; content in focus stays
+//          sharp.
+// Inputs:  colours, heights (stroke_mark.glsl); substrate.glsl's: the canvas; frame, normalFocus if
+//          hasFocus; relief, gloss, weave: the weight of each; tooth: how much the substrate's
+//          grain keeps paint from its hollows, where the washed ground shows; palette: saturation,
+//          warmth.
 // Outputs: RGBA8, sRGB-coded, opaque.
 // Precision: highp for places.
 #include "pipeline/styles/painterly/shaders/paint_light.glsl"
@@ -22,7 +23,7 @@ uniform float saturation;
 uniform float warmth;
 layout(location = 0) out vec4 picture;
 
-// Dry paint stays on the substrate's heights; where more is put on, it goes deeper.
+// Dry paint stays on the substrate's heights; more paint reaches deeper.
 float caught(float height, float amount) {
   float level = mix(0.9, 0.4, amount);
   return mix(1.0, smoothstep(level - 0.16, level + 0.16, height), tooth);
@@ -31,7 +32,7 @@ float caught(float height, float amount) {
 void main() {
   ivec2 p = ivec2(gl_FragCoord.xy);
   vec3 rgb = texelFetch(colours, p, 0).rgb;
-  // Each tap is the mean of four: the height of a stroke's side is a step, and would sparkle.
+  // Each tap is the mean of four: the side of a stroke is a step in height and would flicker.
   vec2 texel = 1.0 / vec2(textureSize(heights, 0));
   vec2 place = gl_FragCoord.xy * texel;
   float nw = texture(heights, place + vec2(-0.7, -0.7) * texel).r;

@@ -1,5 +1,6 @@
-// Purpose: the paint that a brush leaves, and how thick it lies.
-// Inputs, outputs: stroke_mark.glsl's. Precision: as there.
+// Purpose: the paint of a brush mark and its thickness.
+// Inputs, outputs: stroke_mark.glsl's.
+// Precision: as there.
 #include "pipeline/styles/painterly/shaders/stroke_mark.glsl"
 
 void main() {

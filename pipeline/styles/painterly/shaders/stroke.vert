@@ -1,8 +1,8 @@
-// Purpose: a stroke as it is painted.
+// Purpose: the vertices of painted strokes.
 // Inputs:  stroke_strips.comp's vertices; fullSize: px.
-// Outputs: brush: along and across the stroke, in [0, 1] and in the brush's variant; along: the stroke's
-//          direction, px; paint; aspect: how long the stroke is by its width; sense: of the brush across
-//          the stroke; object: what it is of.
+// Outputs: brush: along and across the stroke, in [0, 1] and in the brush's variant; along: the
+//          stroke's direction, px; paint; aspect: the stroke's length by its width; sense: of the
+//          brush across the stroke; object: the stroke's.
 // Precision: highp.
 layout(location = 0) in vec2 at;
 layout(location = 1) in vec2 brushAt;

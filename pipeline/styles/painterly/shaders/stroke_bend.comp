@@ -1,6 +1,7 @@
-// Purpose: as few quads as a stroke's curvature needs: where along its spline a strip is to bend.
-// Inputs:  instances, instanceCount of them in drawn; bend: px that a quad's chord may lie off.
-// Outputs: plans: breaks. A stroke an invocation.
+// Purpose: chooses the knots of the spline at which a stroke's strip bends: as few quads as its
+//          curvature needs.
+// Inputs:  instances, instanceCount of them in drawn; bend: px that a quad's chord may deviate.
+// Outputs: plans: breaks. One invocation per stroke.
 // Precision: highp.
 #include "pipeline/marks/shaders/spline.glsl"
 #include "pipeline/styles/painterly/shaders/stroke_instance.glsl"
@@ -19,13 +20,14 @@ void main() {
   uint breaks = 0u;
   float way = 0.0;
   float turn = 0.0;
-  SplinePlace before = splineAt(points, 1.0);  // the first span, a sixth of a part long, is straight
+  // the first span, a sixth of a full span long, is straight
+  SplinePlace before = splineAt(points, 1.0);
   for (int knot = 2; knot < kSplineSpans; ++knot) {
     SplinePlace here = splineAt(points, float(knot));
     float further = distance(here.at, before.at);
     float turned = distance(here.along, before.along);
-    // An arc that turns by θ over a length l lies l θ / 8 off its chord, and its sides, which are
-    // half a width away, that times θ² / 8 more.
+    // An arc of length l that turns by θ deviates from its chord by l θ / 8; its sides, half a
+    // width away, deviate by another half width × θ² / 8.
     float turns = turn + turned;
     bool isOff = (way + further + halfWidth * turns) * turns > 8.0 * bend;
     if (isOff && way > 0.0) breaks |= 1u << uint(knot - 1);

@@ -1,7 +1,9 @@
-// Purpose: light on each stroke by itself, as the thesis has it (§4.4): the normal from the finite
+// Purpose: lights each stroke by itself, as in the thesis (§4.4): the normal comes from finite
 //          differences of the brush's height, in the stroke's tangent frame.
-// Inputs:  relief, gloss: how much; stroke_mark.glsl's; along: the stroke's direction; sense: of the
-//          brush across it. Outputs: the paint, lit. Precision: mediump would do.
+// Inputs:  relief, gloss: weights; stroke_mark.glsl's; along: the stroke's direction; sense: of the
+//          brush across it.
+// Outputs: the lit paint.
+// Precision: mediump suffices.
 #include "pipeline/styles/painterly/shaders/paint_light.glsl"
 uniform float relief;
 uniform float gloss;

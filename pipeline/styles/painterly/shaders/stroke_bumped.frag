@@ -1,5 +1,6 @@
-// Purpose: as stroke.frag, each stroke in the light by itself.
-// Inputs, outputs: stroke_mark.glsl's, stroke_bump.glsl's. Precision: as there.
+// Purpose: like stroke.frag, with each stroke lit by itself.
+// Inputs, outputs: stroke_mark.glsl's, stroke_bump.glsl's.
+// Precision: as there.
 #include "pipeline/styles/painterly/shaders/stroke_mark.glsl"
 #include "pipeline/styles/painterly/shaders/stroke_bump.glsl"
 

@@ -1,5 +1,6 @@
-// Purpose: as stroke_bumped.frag and stroke_clipped.frag.
-// Inputs, outputs: theirs. Precision: as there.
+// Purpose: stroke_bumped.frag and stroke_clipped.frag in one.
+// Inputs, outputs: theirs.
+// Precision: as there.
 #include "pipeline/styles/painterly/shaders/stroke_mark.glsl"
 #include "pipeline/styles/painterly/shaders/stroke_bump.glsl"
 #include "pipeline/styles/painterly/shaders/stroke_clip.glsl"

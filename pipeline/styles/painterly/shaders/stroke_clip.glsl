@@ -1,6 +1,6 @@
-// Purpose: paint that does not run over the boundary of what its stroke is of (thesis §5.5).
+// Purpose: keeps a stroke's paint inside the border of its object (thesis §5.5).
 // Inputs:  borders (borders.frag); object: the stroke's.
-// Outputs: how much of a fragment is the stroke's to paint, in [0, 1].
+// Outputs: the share of a fragment that the stroke may paint, in [0, 1].
 // Precision: integers.
 #include "pipeline/styles/painterly/shaders/border.glsl"
 uniform usampler2D borders;

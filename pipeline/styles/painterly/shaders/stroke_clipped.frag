@@ -1,5 +1,6 @@
-// Purpose: as stroke.frag, of a frame that shows models: no paint beyond a thing's boundary.
-// Inputs, outputs: stroke_mark.glsl's, stroke_clip.glsl's. Precision: as there.
+// Purpose: like stroke.frag, for a frame with models: no paint beyond an object's border.
+// Inputs, outputs: stroke_mark.glsl's, stroke_clip.glsl's.
+// Precision: as there.
 #include "pipeline/styles/painterly/shaders/stroke_mark.glsl"
 #include "pipeline/styles/painterly/shaders/stroke_clip.glsl"
 

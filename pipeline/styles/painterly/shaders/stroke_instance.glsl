@@ -1,9 +1,10 @@
-// Purpose: a stroke as marks::StrokeSet lays it out (marks/shaders/stroke_instances.comp).
-// Inputs, outputs: px of the full picture. Precision: highp.
+// Purpose: a stroke as marks::StrokeSet stores it (marks/shaders/stroke_instances.comp).
+// Inputs, outputs: px of the full image.
+// Precision: highp.
 struct Instance {
   vec4 points[4];
   vec4 paint;
-  vec4 shape;  // half the width, variant (4 more where it is mirrored), its object, its anchor's age
+  vec4 shape;  // half the width; variant, plus 4 if mirrored; its object; its anchor's age
 };
 
 // glDrawArraysIndirect's.
@@ -14,13 +15,13 @@ struct DrawCommand {
   uint spare;
 };
 
-// Where a stroke's strip is broken into quads, and where its vertices begin.
+// The knots at which a stroke's strip is divided into quads, and its first vertex.
 struct StripPlan {
   uint breaks;  // bit i: at the spline's i-th knot
   uint first;
 };
 
-// Each strip's first and last vertex stand twice, so that all are one.
+// Each strip's first and last vertex are doubled, which joins all strips into one.
 uint stripVertices(uint quads) { return 2u * quads + 4u; }
 
 void pointsOf(vec4 pairs[4], out vec2 points[8]) {

@@ -1,8 +1,8 @@
-// Purpose: the mark that a brush leaves, at a fragment of a stroke.
-// Inputs:  brushes: R how much of the brush's paint is there, G its height; of the stroke, stroke.vert's.
-// Outputs: 0: sRGB-coded colour, premultiplied, and its coverage; 1: height likewise, and in G how much
-//          paint there is. To be blended over what is there.
-// Precision: mediump would do, but for places.
+// Purpose: the mark of a brush, at a fragment of a stroke.
+// Inputs:  brushes: R coverage of the brush's paint, G its height; stroke.vert's of the stroke.
+// Outputs: 0: sRGB-coded colour, premultiplied, and its coverage; 1: height, premultiplied, and in
+//          G the amount of paint. To be blended over the existing paint.
+// Precision: mediump suffices, except for places.
 uniform sampler2D brushes;
 in vec2 brush;
 flat in vec4 paint;
@@ -12,7 +12,8 @@ layout(location = 1) out vec4 height;
 
 const float kThinEnd = 1.2;  // widths
 
-// The brush's ends keep their shape: a width of each end is the texture's first and last quarter.
+// The brush's ends keep their shape: a width of each end takes the texture's first and last
+// quarter.
 vec2 brushPlace() {
   float cap = min(1.0, 0.5 * aspect);
   float fromStart = brush.x * aspect;
@@ -23,12 +24,12 @@ vec2 brushPlace() {
   return vec2(onward, brush.y);
 }
 
-// Little pigment on the ridge's sides, more in its furrows' shade: the colour goes with the height.
+// Less pigment on the sides of ridges, more in the shade of furrows: the colour follows the height.
 vec3 pigment(float thick) { return paint.rgb * (0.94 + 0.12 * thick); }
 
 void leave(vec3 rgb, float thick, float cover) {
   colour = vec4(rgb * cover, cover);
-  // At its ends paint goes over into what lies there: a step would be a seam across the stroke.
+  // At its ends the paint fades into the paint below; a step would be a seam across the stroke.
   float fromEnds = aspect * min(brush.x, 1.0 - brush.x);
   float body = cover * smoothstep(0.0, kThinEnd, fromEnds);
   height = vec4(thick * body, body, 0.0, body);

@@ -1,6 +1,6 @@
-// Purpose: where each stroke's strip begins among the vertices, in the order of painting. One group
-//          does all of it.
-// Inputs:  instanceCount strokes in drawn; plans: breaks; even: quads of all of them, if above 0.
+// Purpose: the first vertex of each stroke's strip, in painting order. A single work group.
+// Inputs:  instanceCount strokes in drawn; plans: breaks; even: if above 0, the number of quads of
+//          every strip.
 // Outputs: plans: first; command: glDrawArraysIndirect's.
 // Precision: integers.
 #include "pipeline/styles/painterly/shaders/stroke_instance.glsl"

@@ -1,6 +1,6 @@
-// Purpose: an instance a stroke, as a strip of quads along its spline, evenly: for views.
+// Purpose: one instance per stroke, as a strip of equal quads along its spline: for debug views.
 // Inputs:  marks::StrokeSet's instances; quads: of the strip.
-// Outputs: of the strip's vertex gl_VertexID: its place on the spline and the direction there.
+// Outputs: for the strip's vertex gl_VertexID: its place on the spline and the direction there.
 // Precision: highp.
 #include "pipeline/marks/shaders/spline.glsl"
 layout(location = 0) in vec4 first;

@@ -1,7 +1,8 @@
-// Purpose: the vertices of strokes, each a strip of quads along its spline, all of them one strip.
-// Inputs:  instances, instanceCount of them in drawn; plans (stroke_offsets.comp); even: quads of all
-//          of them (the thesis's 4 (n + 2), §4.4), if above 0.
-// Outputs: vertices, as stroke.vert takes them. A stroke an invocation.
+// Purpose: the vertices of strokes: each stroke is a strip of quads along its spline, and all
+//          strips are joined into one.
+// Inputs:  instances, instanceCount of them in drawn; plans (stroke_offsets.comp); even: if above
+//          0, the number of quads of every strip (the thesis's 4 (n + 2), §4.4).
+// Outputs: vertices in the layout of stroke.vert. One invocation per stroke.
 // Precision: highp.
 #include "pipeline/marks/shaders/spline.glsl"
 #include "pipeline/styles/painterly/shaders/stroke_instance.glsl"
@@ -11,7 +12,7 @@ struct Vertex {
   uint brush;   // unorms: along and across the stroke, in the brush's variant
   uint along;   // snorms: the stroke's direction
   uvec2 paint;  // halves
-  uint shape;   // halves: how long the stroke is by its width; the sense of the brush across it
+  uint shape;  // halves: the stroke's length by its width; the sense of the brush across it
   uint object;
 };
 layout(std430, binding = 0) readonly buffer Instances { Instance instances[]; };

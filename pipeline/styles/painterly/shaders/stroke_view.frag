@@ -1,7 +1,8 @@
-// Purpose: strokes for people who want to see how they are made.
-// Inputs:  stroke_view.vert's; shown: 0 whole strokes in their layer's colour, 1 skeletons in it, 2
-//          anchors by age; layer: its colour.
-// Outputs: 0: sRGB-coded, premultiplied; 1: nothing that matters. Precision: mediump would do.
+// Purpose: debug views of strokes.
+// Inputs:  stroke_view.vert's; shown: 0 whole strokes in their layer's colour, 1 skeletons in that
+//          colour, 2 anchors by age; layer: its colour.
+// Outputs: 0: sRGB-coded, premultiplied; 1: unused.
+// Precision: mediump suffices.
 uniform int shown;
 uniform vec3 layer;
 in float across;

@@ -1,5 +1,5 @@
-// Purpose: strokes for people who want to see how they are made: whole, as skeletons, or as anchors.
-// Inputs:  stroke_spline.glsl's; fullSize: px; shown: what (stroke_view.frag).
+// Purpose: debug views of strokes: whole, as skeletons, or as anchors.
+// Inputs:  stroke_spline.glsl's; fullSize: px; shown: as in stroke_view.frag.
 // Outputs: across: in [-1, 1]; paint; age: of the anchor, s.
 // Precision: highp.
 #include "pipeline/styles/painterly/shaders/stroke_spline.glsl"

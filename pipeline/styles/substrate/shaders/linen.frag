@@ -1,15 +1,16 @@
-// Purpose: one tile of primed linen that repeats without a seam, made once: plain weave, whose threads
-//          are uneven and do not run quite straight, half filled by the priming.
+// Purpose: one seamless tile of primed linen, rendered once: plain weave with uneven, slightly wavy
+//          threads, half filled by the priming.
 // Inputs:  none.
-// Outputs: RGBA8, as paper.frag's: R height, G light from the top left on that relief (0.5 is flat), B
-//          and A a slow wander in x and y.
+// Outputs: RGBA8, as in paper.frag: R height, G light from the top left on that relief (0.5 is
+//          flat), B and A a slow wander in x and y.
 // Precision: highp.
 #include "pipeline/styles/substrate/shaders/tile_noise.glsl"
 layout(location = 0) out vec4 paper;
 
-const float kThreads = 102.0;  // a tile: a thread is 5 px; even, or the weave would have a seam
+// per tile: a thread is 5 px; an even number, or the weave would have a seam
+const float kThreads = 102.0;
 
-// A thread's ridge, and how thick it is at a place along it.
+// Height of a thread's ridge, with the thread's thickness at a place along it.
 float ridge(float across, float along, uint salt) {
   float thread = floor(across + 0.5);
   vec2 place = vec2(mod(thread, kThreads) * 37.0, along * float(kTile) / kThreads);

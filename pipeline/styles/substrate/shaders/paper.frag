@@ -1,12 +1,12 @@
-// Purpose: one tile of watercolor paper that repeats without a seam, made once.
+// Purpose: one seamless tile of watercolor paper, rendered once.
 // Inputs:  none.
-// Outputs: RGBA8: R height of a cold-pressed substrate, G light from the top left on that relief (0.5 is
+// Outputs: RGBA8: R height of cold-pressed paper, G light from the top left on that relief (0.5 is
 //          flat), B and A a slow wander in x and y (0.5 is none).
 // Precision: highp.
 #include "pipeline/styles/substrate/shaders/tile_noise.glsl"
 layout(location = 0) out vec4 paper;
 
-// Bumps of the felt, tooth and single fibres. The detour breaks up the lattice.
+// Bumps of the felt, tooth and single fibres. The domain warp breaks up the lattice.
 float heightAt(vec2 at) {
   vec2 bent = at + 2.4 * vec2(noise(at, 16, 11u), noise(at, 16, 12u));
   float slow = noise(at, 32, 4u);

@@ -1,6 +1,7 @@
-// Purpose: noise that repeats with the substrate's tile.
+// Purpose: noise with the period of the substrate's tile.
 // Inputs:  places, px of the tile.
-// Outputs: noise in about [-1, 1]. Precision: highp.
+// Outputs: noise in about [-1, 1].
+// Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
 const int kTile = 512;  // px, as in the code
 

@@ -1,11 +1,11 @@
 // Purpose: each seed's next place: the mean of its cell's edge pixels if there are enough (thesis
-//          §3.2.3), else the middle of its cell, which spreads seeds evenly (Lloyd, "Least squares
-//          quantization in PCM", 1982). A seed rests, to the bit, until that place has been far for a
-//          while, so that noise moves none. For each cell also its exact mean colour (§3.2.1).
-// Inputs:  sums (tile.comp; emptied here for the next frame), points (seeds.comp), slots, pixelsOfFull,
-//          minEdgePixels; follow and drift: the parts in [0, 1] of the way to the edge and the middle;
-//          reach: as in seeds.comp; rest: px of the full picture that are not far; patience and passed: s;
-//          atOnce: without rest.
+//          §3.2.3), else the centroid of its cell, which spaces seeds evenly (Lloyd, "Least squares
+//          quantization in PCM", 1982). A seed rests exactly until that place has been far away for
+//          a while, so that noise moves no seed. Also each cell's exact mean colour (§3.2.1).
+// Inputs:  sums (tile.comp; cleared here for the next frame), points (seeds.comp), slots,
+//          pixelsOfFull, minEdgePixels; follow and drift: the parts in [0, 1] of the way to the
+//          edge and to the centroid; reach: as in seeds.comp; rest: px of the full image within
+//          which a place is not far; patience and passed: s; atOnce: without rest.
 // Outputs: seeds; meansNow (RGBA16F, if wantsMeans): linear mean; 1 where the cell has pixels.
 // Precision: sums are exact.
 #include "pipeline/styles/watercolor/shaders/seed.glsl"
@@ -30,21 +30,22 @@ uniform bool wantsMeans;
 const int kWords = 9;
 const float kArrived = 0.25;  // of `rest`
 
-// Whole pixels first: a sum can have more bits than a float.
+// Divides whole pixels first: a sum can have more bits than a float.
 vec2 meanOf(uvec2 sum, uint count) {
   uvec2 whole = sum / count;
   return vec2(whole) + vec2(sum - whole * count) / float(count) + 0.5;
 }
 
-// From the cell's middle to its edge pixels: all the way in the thesis's manner (without a drift to the
-// middle), else by how many there are, so that a pixel that comes and goes does little.
+// The weight of the edge pixels against the cell's centroid: 1 in the thesis's manner (without a
+// drift to the centroid), else growing with their number, so that single pixels that come and go
+// change little.
 float pullOf(uint edges) {
   float number = float(edges);
   float least = float(minEdgePixels);
   return drift > 0.0 ? clamp((number - 0.5 * least) / (1.5 * least), 0.0, 1.0) : step(least, number);
 }
 
-// How far it goes of its way (px of the full picture) in this frame.
+// The seed's step in this frame, px of the full image.
 vec2 stepOf(inout Seed seed, vec2 way, float part) {
   if (atOnce) {
     seed.state &= ~kMoving;
@@ -53,7 +54,7 @@ vec2 stepOf(inout Seed seed, vec2 way, float part) {
   }
   float far = length(way);
   bool isMoving = (seed.state & kMoving) != 0u;
-  // What hovers about the border because of noise gets nowhere.
+  // A seed whose distance hovers about the limit because of noise does not move.
   float reason = clamp(4.0 * (far / max(rest, 1.0e-4) - 1.0), -2.0, 1.0);
   seed.restless = isMoving ? 0.0 : max(0.0, seed.restless + passed * reason);
   if (!isMoving && seed.restless > patience) isMoving = true;

@@ -1,7 +1,4 @@
-// Purpose: the picture as most looks have it.
-// Inputs:  composition.glsl's.
-// Outputs: RGBA8, sRGB-coded, opaque.
-// Precision: highp, as composition.glsl says.
+// Purpose: the watercolor image without mosaic and focus, for most presets.
 #include "pipeline/styles/watercolor/shaders/composition.glsl"
 layout(location = 0) out vec4 picture;
 

@@ -1,10 +1,10 @@
-// Purpose: the picture with flat cells mixed in (the thesis's mosaic), and with what is in focus kept
-//          crisp: drawn on the paper instead of painted. A program of its own, because software
-//          renderers pay for both sides of a branch.
-// Inputs:  composition.glsl's and palette.glsl's; means (linear); mosaic in [0, 1]; frame, the AR frame's
-//          colour; hasFocus, and then normalFocus with the frame's focus in A.
+// Purpose: the watercolor image with flat cells mixed in (the thesis's mosaic) and with content in
+//          focus kept sharp: drawn on the paper instead of painted. A separate program, because
+//          software renderers run both sides of a branch.
+// Inputs:  composition.glsl's and palette.glsl's; means (linear); mosaic in [0, 1]; frame, the AR
+//          frame's colour; hasFocus, and then normalFocus with the frame's focus in A.
 // Outputs: RGBA8, sRGB-coded, opaque.
-// Precision: highp, as composition.glsl says.
+// Precision: highp, as in composition.glsl.
 #include "pipeline/gpu/shaders/colour.glsl"
 #include "pipeline/styles/watercolor/shaders/composition.glsl"
 #include "pipeline/styles/watercolor/shaders/palette.glsl"

@@ -1,9 +1,9 @@
-// Purpose: washes on paper, a pixel at a time: a light wash, a dark one glazed over it where the picture
-//          is dark, lines (thesis §3.2.2) and the substrate (§3.5).
-// Inputs:  tiling, darkLayer and lightLayer (layers.frag, LINEAR); substrate.glsl's;
-//          pictureSize, threshold, and the parameters of the same names (watercolor_parameters.h).
+// Purpose: washes on paper, per pixel: a light wash, a dark one glazed over it where the image is
+//          dark, lines (thesis §3.2.2) and the substrate (§3.5).
+// Inputs:  tiling, darkLayer and lightLayer (layers.frag, LINEAR); substrate.glsl's; pictureSize,
+//          threshold, and the parameters of the same names (watercolor_parameters.h).
 // Outputs: sRGB-coded colours.
-// Precision: highp for places; colours would do with less.
+// Precision: highp for places; less would suffice for colours.
 #include "pipeline/styles/watercolor/shaders/density.glsl"
 #include "pipeline/styles/substrate/shaders/substrate.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
@@ -19,14 +19,14 @@ uniform float rim;
 uniform float granulation;
 uniform float grain;
 
-// The substrate's relief, and its warm white.
+// Applies the substrate's relief and its warm white.
 vec3 onSubstrate(vec3 colour, vec4 substrate) {
   return colour * (1.0 + grain * (substrate.g - 0.5)) * mix(vec3(1.0), vec3(1.0, 0.992, 0.97), grain);
 }
 
-// How dark the line is, from 0 to 1.
+// Darkness of the line, from 0 to 1.
 float lineAt(ivec2 p, float valley) {
-  // Four pixels in one read; the mean takes the steps out of the line.
+  // Four pixels in one read; their mean smooths the steps of the line.
   uvec4 words = textureGather(tiling, (vec2(p) + 1.0) / pictureSize);
   vec4 roots = vec4(words >> 24u) * (1.0 / 255.0);
   float strength = 0.25 * dot(roots, roots);
@@ -44,7 +44,7 @@ vec3 washAt(ivec2 p, vec4 substrate) {
   float place = 2.0 * dark.a - 0.5;
   float hard = light.a;
 
-  // How much of the dark glaze lies here, and the rim where it has dried.
+  // The coverage of the dark glaze here, and the dark rim where it has dried.
   float sharp = smoothstep(0.34, 0.66, place + 0.25 * hard * valley);
   float glaze = 1.0 - mix(clamp(place, 0.0, 1.0), sharp, hard);
   float atRim = hard * smoothstep(0.05, 0.42, place) * glaze;
@@ -59,7 +59,7 @@ vec3 washAt(ivec2 p, vec4 substrate) {
   return colourOf(density * max(1.0 + granulation * grains, 0.2));
 }
 
-// The line over it, and the substrate under it.
+// Adds the line over the wash, and the substrate.
 vec3 finished(vec3 wash, ivec2 p, vec4 substrate) {
   vec3 ink = mix(vec3(1.0), vec3(0.22, 0.2, 0.22), lineAt(p, 0.5 - substrate.r));
   return onSubstrate(wash * ink, substrate);

@@ -1,7 +1,8 @@
-// Purpose: paint as optical density: what the pigments of layers add up in (Beer and Lambert: they absorb
-//          and do not scatter, which is Kubelka and Munk's model of transparent paint over white).
-// Inputs, outputs: sRGB-coded colours; densities in [0, 8] in base 2; both packed as in a texture of 8
-//          bits: the root, because thin layers matter most.
+// Purpose: paint as optical density, in which the pigments of layers add up (Beer-Lambert: pigments
+//          absorb and do not scatter, which is the Kubelka-Munk model of transparent paint over
+//          white).
+// Inputs, outputs: sRGB-coded colours; densities in [0, 8] in base 2; both packed for 8-bit
+//          textures as square roots, because thin layers matter most.
 // Precision: highp.
 const vec3 kLuma = vec3(0.299, 0.587, 0.114);
 

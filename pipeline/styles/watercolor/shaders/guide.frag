@@ -1,7 +1,7 @@
-// Purpose: the picture at half size in the colours it is to be painted with, small things smoothed
-//          away: what decides where one wash ends and the next begins, so that shapes are rounded as
-//          a brush would.
-// Inputs:  picture (RGBA8, sRGB-coded, LINEAR), texel (1 / its size), reach: px of the picture;
+// Purpose: the guide: the image at half size in the colours of the paint, with small details
+//          smoothed away. It decides where one wash ends and the next begins, so that shapes are
+//          rounded as by a brush.
+// Inputs:  picture (RGBA8, sRGB-coded, LINEAR), texel (1 / its size), reach: px of the image;
 //          palette.glsl's.
 // Outputs: RGBA8: sRGB-coded colour.
 // Precision: highp for places.

@@ -1,7 +1,8 @@
-// Purpose: what a colour is painted with.
+// Purpose: the paint colour for a colour of the image.
 // Inputs:  sRGB-coded colours; `vividness` and `luminosity` in [0, 1] (watercolor_parameters.h).
-// Outputs: sRGB-coded colours. Precision: mediump would do.
-const vec3 kDarkest = vec3(0.10, 0.11, 0.15);  // no pigment is black: an indigo
+// Outputs: sRGB-coded colours.
+// Precision: mediump suffices.
+const vec3 kDarkest = vec3(0.10, 0.11, 0.15);  // an indigo, since no pigment is black
 
 // Transparent paint on white: lights open up towards the paper, darks stay coloured.
 vec3 painted(vec3 srgb, float vividness, float luminosity) {

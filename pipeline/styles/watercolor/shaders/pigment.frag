@@ -1,9 +1,10 @@
-// Purpose: what lies ready on the palette around a place: the two colours, a dark and a light one, that
-//          tell its surroundings best, and how loaded the brush is. Cells have no sides here: near
-//          ones count by how much of them is near. One pixel for 4x4 of the picture.
-// Inputs:  tiling, darkWash and lightWash (washes.comp), substrate.glsl's, cellPixels, reach (cells).
-// Outputs: darkPigment, lightPigment (RGBA8): sRGB-coded; A of the dark one: the light one's share, of
-//          the light one: the load, 0.5 is the usual.
+// Purpose: the palette of a place: the two colours, a dark and a light one, that represent its
+//          surroundings best, and the load of the brush. Cells have no borders here: each counts by
+//          its area nearby. One pixel per 4x4 of the image.
+// Inputs:  tiling, darkWash and lightWash (washes.comp), substrate.glsl's, cellPixels, reach
+//          (cells).
+// Outputs: darkPigment, lightPigment (RGBA8): sRGB-coded; A of the dark one: the light one's share;
+//          A of the light one: the load, 0.5 is normal.
 // Precision: highp.
 #include "pipeline/styles/substrate/shaders/substrate.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
@@ -22,7 +23,7 @@ const vec2 kTap[13] = vec2[13](
     vec2(-0.26, -0.45), vec2(0.26, -0.45), vec2(0.83, 0.48), vec2(0.0, 0.96), vec2(-0.83, 0.48),
     vec2(-0.83, -0.48), vec2(0.0, -0.96), vec2(0.83, -0.48));
 
-// How much pigment the brush has left here; 0.5 is the usual amount.
+// The amount of pigment in the brush here; 0.5 is normal.
 float loadAt(vec2 pixel) {
   vec2 place = onPaper(pixel);
   return 0.5 + 0.7 * (sheetAt(place, 0.25).b - 0.5) + 0.5 * (sheetAt(place, 0.5).a - 0.5);
@@ -47,7 +48,7 @@ void main() {
   }
   mean /= weights;
 
-  // The direction in which the colours differ most, by power iteration from luma's.
+  // The direction in which the colours differ most, by power iteration that starts at luma's.
   vec3 axis = vec3(0.5, 0.7, 0.4);
   for (int round = 0; round < 2; ++round) {
     vec3 next = vec3(1.0e-5);
@@ -71,7 +72,7 @@ void main() {
   float skew = clamp(third / (weights * variance * spread), -3.0, 3.0);
   float up = 0.5 * (skew + sqrt(skew * skew + 4.0));
   float share = 1.0 / (1.0 + up * up);
-  // The colours themselves: means of what lies on either side.
+  // The two colours: the means of the colours on either side.
   vec4 low = vec4(mean, 1.0) * 1.0e-4;
   vec4 high = low;
   float border = 0.5 * (up - 1.0 / up) * spread;
@@ -81,7 +82,7 @@ void main() {
     vec4 d = vec4(dark[i].rgb, 1.0) * dark[i].a;
     vec4 l = vec4(light[i].rgb, 1.0) * light[i].a;
     float steep = 4.0 / spread;
-    // Bounded: what exp() gives beyond a float's range is left to the GPU.
+    // Bounded, because the result of exp() beyond a float's range depends on the GPU.
     float wd = 1.0 / (1.0 + exp(min(-steep * a, 60.0)));
     float wl = 1.0 / (1.0 + exp(min(-steep * b, 60.0)));
     low += d * (1.0 - wd) + l * (1.0 - wl);

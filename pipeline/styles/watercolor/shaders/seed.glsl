@@ -1,16 +1,16 @@
-// Purpose: a cell's seed (cell_tiling.h, CellSeed): where it is drawn to from its anchor.
-// Inputs, outputs: px of the full picture.
+// Purpose: a cell's seed (cell_tiling.h, CellSeed): its displacement from its anchor.
+// Inputs, outputs: px of the full image.
 // Precision: highp.
 struct Seed {
   vec2 offset;     // from the anchor
-  float restless;  // how long it has had reason to move, s
+  float restless;  // how long its target has been far away, s
   uint state;
-  uint parent;     // the slot whose cell it was born in, plus one
+  uint parent;  // the slot of the cell in which it was spawned, plus one
   uint spare0;
   uint spare1;
   uint spare2;
 };
 
 const uint kMoving = 1u;
-const uint kBornSeed = 2u;  // in this frame
+const uint kBornSeed = 2u;  // spawned in this frame
 const uint kLiving = 4u;

@@ -1,11 +1,11 @@
-// Purpose: carries every seed with its anchor and says where it is in this picture.
-// Inputs:  anchors (marks/anchor.glsl), seeds (seed.glsl), tilingThen (tiling_word.glsl) if hasThen:
-//          the tiling of the frame before; slots; carries: whether the anchors have moved since the
-//          last time; beginsAnew: all are new; full: the full
-//          picture's size in px; pixelsOfFull; reach: the most a seed is away from its anchor, px of the
-//          full picture; growth: the penalty of an anchor that is not seen yet, px² of this picture.
+// Purpose: carries every seed with its anchor and gives its place in this image.
+// Inputs:  anchors (marks/anchor.glsl), seeds (seed.glsl), tilingThen (tiling_word.glsl) if
+//          hasThen: the previous frame's tiling; slots; carries: whether the anchors have moved
+//          since the last time; beginsAnew: all seeds are new; full: the full image's size in px;
+//          pixelsOfFull; reach: the largest distance of a seed from its anchor, px of the full
+//          image; growth: the penalty of an anchor that has not faded in, px² of this image.
 // Outputs: seeds; points (marks/point_bins.glsl).
-// Precision: points end on the lattice of 1/64 px.
+// Precision: points are rounded to the lattice of 1/64 px.
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/styles/watercolor/shaders/seed.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"

@@ -1,8 +1,9 @@
-// Purpose: what the views show of seeds and their anchors, where fragment shaders can read it.
-// Inputs:  anchors (marks/anchor.glsl), seeds (seed.glsl), points (marks/point_bins.glsl): of this frame's
-//          tiling; slots, pixelsOfFull.
-// Outputs: places (RGBA32F): px of the seed and of its anchor; ways (RGBA16F): how the anchor was
-//          carried (its source), its age in s, its fade, 1 where its seed is moving.
+// Purpose: copies seeds and their anchors into textures that the fragment shaders of the debug
+//          views can read.
+// Inputs:  anchors (marks/anchor.glsl), seeds (seed.glsl), points (marks/point_bins.glsl): of this
+//          frame's tiling; slots, pixelsOfFull.
+// Outputs: places (RGBA32F): px of the seed and of its anchor; ways (RGBA16F): the source of the
+//          anchor's motion, its age in s, its fade, 1 if its seed is moving.
 // Precision: highp.
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/styles/watercolor/shaders/seed.glsl"

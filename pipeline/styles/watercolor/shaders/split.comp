@@ -1,10 +1,10 @@
-// Purpose: for each cell the sums that its two washes, a dark and a light one, are made from: moments
-//          of luma, and colour against luma. One invocation does a block of 4x4 pixels of the guide
-//          and adds once per cell that the block holds.
+// Purpose: the sums per cell from which its two washes, a dark and a light one, are computed:
+//          moments of luma, and colour against luma. One invocation does a block of 4x4 pixels of
+//          the guide and adds once per cell in the block.
 // Inputs:  guide (guide.frag), tiling (tiling_word.glsl, twice the guide's size).
-// Outputs: moments: per cell 8 words: R, G, B, count, L R, L G, L B, L³ / 8192; of 8-bit values, with
-//          the luma L = 2 R + 5 G + B, whose mean is exactly that of the mean colour.
-// Precision: integers, so that order does not matter; up to 4096 pixels a cell.
+// Outputs: moments: per cell 8 words: R, G, B, count, L R, L G, L B, L³ / 8192; of 8-bit values,
+//          with the luma L = 2 R + 5 G + B, whose mean is exactly that of the mean colour.
+// Precision: integers, so that order does not matter; up to 4096 pixels per cell.
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
 layout(local_size_x = 16, local_size_y = 4) in;
 layout(std430, binding = 0) buffer Moments { uint moments[]; };

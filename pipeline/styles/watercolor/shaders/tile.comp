@@ -1,13 +1,14 @@
-// Purpose: for each pixel the nearest seed (thesis §3.2.1; of seeds that are not yet seen in full the
-//          cell is smaller: a power diagram) and the edge strength (eq. 2-4), and for each cell the sums
-//          that its mean colour and its re-tiling need. One invocation does a block of 4x4 pixels and
-//          adds once per cell that the block holds.
-// Inputs:  picture (sRGB-coded), ids (R32UI) if hasObjects; sorted, starts, bins, binPixels: the seeds
-//          (marks/point_bins.h); alpha, beta, threshold; wantsMeans: whether colours are summed, too.
+// Purpose: for each pixel the nearest seed (thesis §3.2.1; a seed that is fading in has a smaller
+//          cell: a power diagram) and the edge strength (eq. 2-4), and for each cell the sums for
+//          its mean colour and its next tiling. One invocation does a block of 4x4 pixels and adds
+//          once per cell in the block.
+// Inputs:  picture (sRGB-coded), ids (R32UI) if hasObjects; sorted, starts, bins, binPixels: the
+//          seeds (marks/point_bins.h); alpha, beta, threshold; wantsMeans: whether colours are
+//          summed, too.
 // Outputs: tiling (R32UI, tiling_word.glsl), sums: per cell 9 words, linear R, G, B in 1/16384,
 //          pixels, over edge pixels x, y, count, and over all pixels x, y.
-// Precision: integers for distances and sums, so that order does not matter; of equally near seeds the
-//          first of `sorted`. Further than 350 px distances are to 1/4 px.
+// Precision: integers for distances and sums, so that order does not matter; of equally near seeds
+//          the first in `sorted` wins. Beyond 350 px, distances are rounded to 1/4 px.
 #include "pipeline/marks/shaders/point_bins.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
 layout(local_size_x = 16, local_size_y = 4) in;
@@ -25,7 +26,7 @@ uniform bool wantsMeans;
 
 const int kSide = 4;
 const int kPixels = 16;
-const uint kWords = 9u;  // of a cell in sums
+const uint kWords = 9u;  // words per cell in sums
 const uint kTriangleBits = 22u;  // scene::kTriangleBits
 const uint kRealObject = 512u;   // scene::kRealObject
 const float kHalfDiagonal = 2.1213204;  // between the block's middle and its corner pixels' centres
@@ -36,16 +37,18 @@ uint nearest[kPixels];  // the slot, plus one
 
 vec2 middle() { return vec2(corner) + 2.0; }
 
-// The points of bins `low` to `high` of a row lie side by side.
+// The range of the points in bins `low` to `high` of a row, which are contiguous.
 uvec2 rangeOf(ivec2 low, ivec2 high, int row) {
   int first = row * bins.x;
   return uvec2(starts[first + low.x], starts[first + high.x + 1]);
 }
 
-// What no seed that has a pixel of the block is further from its middle than: one near seed bounds it.
+// An upper bound on the distance from the block's middle to any seed that owns a pixel of the
+// block. One near seed gives it.
 float reachOf() {
   ivec2 here = binOf(middle());
-  for (int ring = 1;; ring *= 2) {  // once nearly always; wider where there are none
+  // nearly always a single round; wider rings where there are no seeds
+  for (int ring = 1;; ring *= 2) {
     ivec2 low = max(here - ring, ivec2(0));
     ivec2 high = min(here + ring, bins - 1);
     float near = 1.0e12;
@@ -94,8 +97,8 @@ void findNearest() {
 
 ivec2 inPicture(ivec2 at) { return clamp(at, ivec2(0), size - 1); }
 
-// Eq. 2 and 3 are sums over the two directions of ∇: one direction's part.
-// YUV is ITU-R BT.601's Y', Cb, Cr.
+// One direction's part of eq. 2 and 3, which are sums over the two directions of ∇. YUV is ITU-R
+// BT.601's Y', Cb, Cr.
 float differenceOf(vec4 a, vec4 b) {
   vec3 d = a.rgb - b.rgb;
   float y = dot(d, vec3(0.299, 0.587, 0.114));
@@ -106,7 +109,7 @@ float differenceOf(vec4 a, vec4 b) {
   return (beta * yuv + (1.0 - beta) * rgb) * 0.5;
 }
 
-// IEC 61966-2-1 with y^0.4 as a polynomial: within 0.2/255 of the exact curve.
+// IEC 61966-2-1 with a polynomial for y^0.4: within 0.2/255 of the exact curve.
 vec3 linearFromSrgbFast(vec3 srgb) {
   vec3 y = (srgb + 0.055) * (1.0 / 1.055);
   vec3 root = ((((2.121072 * y - 6.588469) * y + 8.066004) * y - 5.157318) * y + 2.353418) * y +
@@ -120,7 +123,7 @@ void addColour(uint index, uvec3 colour) {
   atomicAdd(sums[index + 2u], colour.b);
 }
 
-// `places`: x, y in the block and how many, as of `place`.
+// `places`: sums of x and y in the block, and the count, packed as in `place`.
 void addPlaces(uint places, uint x, uint y, uint count) {
   uint number = places >> 16u;
   atomicAdd(sums[x], (places & 0xFFu) + number * uint(corner.x));
@@ -144,7 +147,7 @@ void main() {
     for (int i = 0; i < 36; ++i) {
       uint id = texelFetch(ids, inPicture(first + ivec2(i % 6, i / 6)), 0).r;
       uint object = id >> kTriangleBits;
-      block[i].a = object < kRealObject ? float(object) : 0.0;  // real things have their own edges
+      block[i].a = object < kRealObject ? float(object) : 0.0;  // real content has its own edges
     }
   }
 
@@ -160,7 +163,7 @@ void main() {
     place[i] = uint(inBlock.x | (inBlock.y << 8) | (1 << 16));
     edge[i] = isEdge ? place[i] : 0u;
     uint word = packTiling(nearest[i] - 1u, isEdge, silhouette ? 1.0 : strength);
-    imageStore(tiling, corner + inBlock, uvec4(word, 0u, 0u, 0u));  // beyond the border: no effect
+    imageStore(tiling, corner + inBlock, uvec4(word, 0u, 0u, 0u));  // no effect beyond the border
     if (any(greaterThanEqual(corner + inBlock, size))) nearest[i] = 0u;
   }
 

@@ -1,6 +1,6 @@
-// Purpose: what a pixel of the tiling says, packed in one R32UI word: its cell, whether it is an edge
-//          pixel (thesis eq. 4), and how strong its edge is.
-// Inputs, outputs: slots of anchors (marks/anchor_set.h), whose cells they are; strengths in [0, 1].
+// Purpose: a pixel of the tiling, packed into one R32UI word: its cell, whether it is an edge pixel
+//          (thesis eq. 4), and the strength of its edge.
+// Inputs, outputs: slots of the cells' anchors (marks/anchor_set.h); strengths in [0, 1].
 // Precision: highp; integers are exact.
 // Layout:  bits 0..21 slot, 22 edge, 24..31 square root of the strength in 1/255.
 const uint kSlotBits = 0x3FFFFFu;
@@ -12,11 +12,11 @@ uint packTiling(uint slot, bool isEdge, float strength) {
 }
 uint slotOf(uint word) { return word & kSlotBits; }
 bool isEdge(uint word) { return (word & kEdgeBit) != 0u; }
-// The root is what the 8 bits hold: faint edges matter most.
+// The 8 bits hold the square root: faint edges matter most.
 float strengthOf(uint word) {
   float root = float(word >> 24u) * (1.0 / 255.0);
   return root * root;
 }
 
-// Where textures that have a texel for each slot have it.
+// The texel of a slot, in textures with one texel per slot.
 ivec2 texelOf(uint slot) { return ivec2(slot & 255u, slot >> 8u); }

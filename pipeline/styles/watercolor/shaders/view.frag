@@ -1,7 +1,8 @@
-// Purpose: the style's inner pictures, for people.
-// Inputs:  tiling, means, places and ways (show_seeds.comp), darkPigment, lightPigment, paper, picture;
-//          `view` as in watercolor.cpp; pictureSize.
-// Outputs: RGBA8, sRGB-coded, opaque. Precision: highp.
+// Purpose: the style's debug views.
+// Inputs:  tiling, means, places and ways (show_seeds.comp), darkPigment, lightPigment, paper,
+//          picture; `view` as in watercolor.cpp; pictureSize.
+// Outputs: RGBA8, sRGB-coded, opaque.
+// Precision: highp.
 #include "pipeline/gpu/shaders/colour.glsl"
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
@@ -28,7 +29,7 @@ const int kDark = 7;
 const int kLight = 8;
 const int kPaper = 9;
 
-// As marks::MotionSource counts: unknown, surface, plane, picture, features, flow, still.
+// In the order of marks::MotionSource: unknown, surface, plane, image, features, flow, still.
 const vec3 kSourceColours[7] =
     vec3[7](vec3(0.5), vec3(0.9, 0.5, 0.1), vec3(0.75, 0.25, 0.8), vec3(0.2, 0.45, 0.9),
             vec3(0.1, 0.7, 0.65), vec3(0.85, 0.15, 0.2), vec3(0.3, 0.65, 0.2));
@@ -44,7 +45,7 @@ vec3 cellColour(uint slot) {
   return 0.25 + 0.75 * vec3(uvec3(hash, hash >> 8u, hash >> 16u) & 255u) / 255.0;
 }
 
-// Fresh anchors pale, the source of their motion as the hue.
+// New anchors are pale; the hue is the source of their motion.
 vec3 anchorColour(vec4 way) {
   vec3 hue = kSourceColours[clamp(int(way.x + 0.5), 0, 6)];
   return mix(vec3(1.0), hue, (0.35 + 0.65 * (1.0 - exp(-way.y))) * way.z);

@@ -1,10 +1,12 @@
-// Purpose: a cell's two washes, the light one that is laid first and the dark one that is glazed over
-//          it: the two colours and their shares that have the moments of the cell's pixels (moment
-//          preserving thresholding: Tsai, 1985; Delp and Mitchell, 1979), which are averaged over time,
-//          so that a cell that gains or loses pixels changes its colours slowly.
-// Inputs:  moments (split.comp; emptied here for the next frame), seeds (seed.glsl), past: this pass's
-//          mean moments of the frame before; slots; kept: the part of the past's weight that this frame
-//          leaves, 0 where there is none. A cell begins with the past of the one that it was born in.
+// Purpose: a cell's two washes: the light one, which is painted first, and the dark one, which is
+//          glazed over it. The two colours and their shares preserve the moments of the cell's
+//          pixels (moment-preserving thresholding: Tsai, 1985; Delp and Mitchell, 1979). The
+//          moments are averaged over time, so that a cell that gains or loses pixels changes its
+//          colours slowly.
+// Inputs:  moments (split.comp; cleared here for the next frame), seeds (seed.glsl), past: this
+//          pass's mean moments of the previous frame; slots; kept: the part of the past's weight
+//          that remains, 0 without a past. A new cell takes the past of the cell in which it was
+//          spawned.
 // Outputs: darkWash, lightWash (RGBA8): sRGB-coded; A of the light one: its share. now: per cell 8
 //          floats: mean R, G, B in levels, frames' worth of pixels; L R, L G, L B, L³ / 16.
 // Precision: highp; a frame's sums below 2^24 are exact.
@@ -20,12 +22,12 @@ layout(binding = 1, rgba8) writeonly uniform highp image2D lightWash;
 uniform int slots;
 uniform float kept;
 
-const vec3 kLuma = vec3(0.25, 0.625, 0.125);  // split.comp's, in levels
-const float kLeastSpread = 3.0;   // levels: below, a cell is of one colour
+const vec3 kLuma = vec3(0.25, 0.625, 0.125);  // as in split.comp, in levels
+const float kLeastSpread = 3.0;  // levels; below it, a cell has one colour
 const float kWholeCell = 6.0;     // pixels of the guide that count as a frame's worth
 const float kMostFrames = 64.0;
 
-// The mean of a frame's moments and what the past has; first.w is the weight.
+// The mean of a frame's moments and the past's; first.w is the weight.
 void average(inout vec4 first, inout vec4 second, int slot) {
   uint parent = seeds[slot].parent;
   bool isBorn = (seeds[slot].state & kBornSeed) != 0u;
@@ -33,7 +35,7 @@ void average(inout vec4 first, inout vec4 second, int slot) {
   if (kept <= 0.0 || from < 0) return;
   vec4 firstThen = past[2 * from];
   vec4 secondThen = past[2 * from + 1];
-  // What has changed for good is taken at once.
+  // A lasting change is adopted at once.
   float apart = length(first.rgb - firstThen.rgb);
   float alike = first.w > 0.0 ? 1.0 - smoothstep(12.0, 40.0, apart) : 1.0;
   float before = kept * alike * min(firstThen.w, kMostFrames);
@@ -73,8 +75,8 @@ void main() {
     float spread = sqrt(variance);
     float third = second.a - 3.0 * m * variance - m * m * m;
     float skew = clamp(third / (variance * spread), -4.0, 4.0);
-    float up = 0.5 * (skew + sqrt(skew * skew + 4.0));  // the light colour, in spreads
-    vec3 slope = (second.rgb - m * mean) / variance;    // of colour over luma
+    float up = 0.5 * (skew + sqrt(skew * skew + 4.0));  // the light colour, in standard deviations
+    vec3 slope = (second.rgb - m * mean) / variance;  // of colour over luma
     light = clamp((mean + slope * spread * up) / 255.0, 0.0, 1.0);
     dark = clamp((mean - slope * spread / up) / 255.0, 0.0, 1.0);
     share = 1.0 / (1.0 + up * up);
