@@ -9,14 +9,14 @@
 #include <sys/types.h>
 
 #include "hal/error.h"
+#include "hal/file_descriptor.h"
 
 namespace pleinair::hal {
 
 /// The system calls that writing files needs, so that a full disk is a unit test. Each answers as
 /// the system's does, but −errno in place of −1, and retries EINTR.
-class FileSystem {
+class FileSystem : public DescriptorCloser {
  public:
-  virtual ~FileSystem() = default;
   /// A file descriptor of an empty file, which others cannot create while it is open; what a
   /// process that died left is replaced. −EEXIST where it is open elsewhere, or no regular file.
   virtual int create(const std::filesystem::path& path) = 0;
@@ -24,7 +24,6 @@ class FileSystem {
   virtual std::int64_t seek(int fd, std::int64_t offset, int whence) = 0;
   /// Until what was written has reached the disk, where the file system can say so.
   virtual int sync(int fd) = 0;
-  virtual int close(int fd) = 0;
   virtual int rename(const std::filesystem::path& from, const std::filesystem::path& to) = 0;
   virtual int unlink(const std::filesystem::path& path) = 0;
 };
@@ -47,7 +46,7 @@ class PendingFile {
   static Result<PendingFile> create(const std::filesystem::path& path,
                                     FileSystem& files = systemFiles());
 
-  PendingFile(PendingFile&& other) noexcept;
+  PendingFile(PendingFile&& other) noexcept = default;
   PendingFile& operator=(PendingFile&&) = delete;
   PendingFile(const PendingFile&) = delete;
   PendingFile& operator=(const PendingFile&) = delete;
@@ -63,14 +62,14 @@ class PendingFile {
 
  private:
   PendingFile(std::filesystem::path path, std::filesystem::path target, FileSystem& files);
-  int createTemporary();
+  Result<void> createTemporary();
   Error failure(const char* operation, std::int64_t minusErrno) const;
 
   std::filesystem::path path_;    ///< as given, for messages
   std::filesystem::path target_;  ///< links followed
   std::filesystem::path temporary_;
   FileSystem* files_;
-  int fd_ = -1;
+  FileDescriptor file_;
 };
 
 }  // namespace pleinair::hal

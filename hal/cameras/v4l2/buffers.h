@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hal/cameras/v4l2/device.h"
-#include "hal/v4l2/descriptor.h"
+#include "hal/file_descriptor.h"
 #include "hal/v4l2/system_calls.h"
 
 namespace pleinair::hal::v4l2 {
@@ -44,7 +44,7 @@ class Mapping {
 /// no V4L2_MEMORY_FLAG_NON_COHERENT). DMA_BUF_IOCTL_SYNC is for those who map the exported dma-buf.
 struct BufferPlane {
   Mapping mapping;
-  Descriptor dmaBuf;  ///< unset where the driver exports none
+  FileDescriptor dmaBuf;  ///< unset where the driver exports none
 };
 
 /// The mappings of a buffer. They stay valid after the stream and its device are closed, until the
