@@ -31,14 +31,13 @@ class SystemFiles final : public FileSystem {
     });
     if (fd == -ELOOP || fd == -EISDIR || fd == -ENXIO) return -EEXIST;
     if (fd < 0) return fd;
-    // The lock ends with its process in every case, so an unlocked file is stale. On a file system
-    // without locks each such file counts as stale.
+    FileDescriptor file(fd);
+    // The lock ends with the process, however that ends: a file that nobody has locked is stale.
+    // Where a file system knows no locks, the file is taken for stale.
     const int locked = retried([&] { return ::flock(fd, LOCK_EX | LOCK_NB); });
     const bool ours = locked != -EWOULDBLOCK && isRegularFileAt(fd, path);
     const int emptied = ours ? retried([&] { return ::ftruncate(fd, 0); }) : -EEXIST;
-    if (emptied == 0) return fd;
-    ::close(fd);
-    return emptied;
+    return emptied == 0 ? file.release() : emptied;
   }
   ssize_t write(int fd, std::span<const std::uint8_t> bytes) override {
     return retried([&] { return ::write(fd, bytes.data(), bytes.size()); });
@@ -51,10 +50,7 @@ class SystemFiles final : public FileSystem {
     const bool cannotSay = synced == -EINVAL || synced == -ENOSYS || synced == -EROFS;
     return cannotSay ? 0 : synced;
   }
-  int close(int fd) override {
-    // On Linux the descriptor is gone after EINTR, too: never close twice.
-    return ::close(fd) < 0 && errno != EINTR ? -errno : 0;
-  }
+  int close(int fd) override { return systemCloser().close(fd); }
   int rename(const std::filesystem::path& from, const std::filesystem::path& to) override {
     return retried([&] { return ::rename(from.c_str(), to.c_str()); });
   }
@@ -130,17 +126,9 @@ PendingFile::PendingFile(std::filesystem::path path, std::filesystem::path targe
                          FileSystem& files)
     : path_(std::move(path)), target_(std::move(target)), files_(&files) {}
 
-PendingFile::PendingFile(PendingFile&& other) noexcept
-    : path_(std::move(other.path_)),
-      target_(std::move(other.target_)),
-      temporary_(std::move(other.temporary_)),
-      files_(other.files_),
-      fd_(std::exchange(other.fd_, -1)) {}
-
 PendingFile::~PendingFile() {
-  if (fd_ < 0) return;
-  files_->unlink(temporary_);  // first: closing unlocks it for the next writer
-  files_->close(fd_);
+  if (file_)
+    files_->unlink(temporary_);  // before it is closed, which unlocks it for the next writer
 }
 
 Error PendingFile::failure(const char* operation, std::int64_t minusErrno) const {
@@ -152,12 +140,11 @@ Result<PendingFile> PendingFile::create(const std::filesystem::path& path, FileS
   Result<std::filesystem::path> target = targetOf(path);
   if (!target) return tl::unexpected(std::move(target.error()));
   PendingFile file(path, *std::move(target), files);
-  file.fd_ = file.createTemporary();
-  if (file.fd_ < 0) return tl::unexpected(file.failure("cannot write", file.fd_));
+  if (auto created = file.createTemporary(); !created) return tl::unexpected(created.error());
   return file;
 }
 
-int PendingFile::createTemporary() {
+Result<void> PendingFile::createTemporary() {
   constexpr int kWritersAtOnce = 100;
   const std::string name = target_.filename().string();
   int fd = -EEXIST;
@@ -167,12 +154,14 @@ int PendingFile::createTemporary() {
     temporary_.replace_filename(std::string(".").append(name).append(number).append(".part"));
     fd = files_->create(temporary_);
   }
-  return fd;
+  if (fd < 0) return tl::unexpected(failure("cannot write", fd));
+  file_ = FileDescriptor(fd, *files_);
+  return {};
 }
 
 Result<void> PendingFile::write(std::span<const std::uint8_t> bytes) {
   while (!bytes.empty()) {
-    const ssize_t written = files_->write(fd_, bytes);
+    const ssize_t written = files_->write(file_.get(), bytes);
     if (written < 0) return tl::unexpected(failure("cannot write", written));
     if (written == 0) return tl::unexpected(failure("cannot write", -EIO));
     bytes = bytes.subspan(static_cast<std::size_t>(written));
@@ -181,17 +170,17 @@ Result<void> PendingFile::write(std::span<const std::uint8_t> bytes) {
 }
 
 Result<std::int64_t> PendingFile::seek(std::int64_t offset, int whence) {
-  const std::int64_t position = files_->seek(fd_, offset, whence);
+  const std::int64_t position = files_->seek(file_.get(), offset, whence);
   if (position < 0) return tl::unexpected(failure("cannot seek", position));
   return position;
 }
 
 Result<void> PendingFile::publish(Durability durability) {
-  const int synced = durability == Durability::kSynced ? files_->sync(fd_) : 0;
+  const int synced = durability == Durability::kSynced ? files_->sync(file_.get()) : 0;
   const int renamed = synced < 0 ? synced : files_->rename(temporary_, target_);
   if (renamed < 0) files_->unlink(temporary_);
-  // Closed last, because closing releases the lock. After sync(), close() cannot lose data.
-  files_->close(std::exchange(fd_, -1));
+  // Closed last, as that unlocks it. After sync() there is nothing left that close() could lose.
+  file_.reset();
   if (renamed < 0) return tl::unexpected(failure("cannot write", renamed));
   return {};
 }

@@ -9,23 +9,21 @@
 #include <sys/types.h>
 
 #include "hal/error.h"
+#include "hal/file_descriptor.h"
 
 namespace pleinair::hal {
 
-/// The system calls for writing files, injected so that a unit test can simulate a full disk. Each
-/// gives the system call's answer, with −errno in place of −1, and retries EINTR.
-class FileSystem {
+/// The system calls that writing files needs, so that a full disk is a unit test. Each answers as
+/// the system's does, but −errno in place of −1, and retries EINTR.
+class FileSystem : public DescriptorCloser {
  public:
-  virtual ~FileSystem() = default;
-  /// Creates an empty file and gives its descriptor. Other writers cannot create it while it is
-  /// open; a file left by a dead process is replaced. −EEXIST if another process has it open, or if
-  /// it is not a regular file.
+  /// A file descriptor of an empty file, which others cannot create while it is open; what a
+  /// process that died left is replaced. −EEXIST where it is open elsewhere, or no regular file.
   virtual int create(const std::filesystem::path& path) = 0;
   virtual ssize_t write(int fd, std::span<const std::uint8_t> bytes) = 0;
   virtual std::int64_t seek(int fd, std::int64_t offset, int whence) = 0;
   /// Waits until the written data has reached the disk, if the file system reports it.
   virtual int sync(int fd) = 0;
-  virtual int close(int fd) = 0;
   virtual int rename(const std::filesystem::path& from, const std::filesystem::path& to) = 0;
   virtual int unlink(const std::filesystem::path& path) = 0;
 };
@@ -49,7 +47,7 @@ class PendingFile {
   static Result<PendingFile> create(const std::filesystem::path& path,
                                     FileSystem& files = systemFiles());
 
-  PendingFile(PendingFile&& other) noexcept;
+  PendingFile(PendingFile&& other) noexcept = default;
   PendingFile& operator=(PendingFile&&) = delete;
   PendingFile(const PendingFile&) = delete;
   PendingFile& operator=(const PendingFile&) = delete;
@@ -65,14 +63,14 @@ class PendingFile {
 
  private:
   PendingFile(std::filesystem::path path, std::filesystem::path target, FileSystem& files);
-  int createTemporary();
+  Result<void> createTemporary();
   Error failure(const char* operation, std::int64_t minusErrno) const;
 
   std::filesystem::path path_;    ///< as given by the caller, for messages
   std::filesystem::path target_;  ///< with links resolved
   std::filesystem::path temporary_;
   FileSystem* files_;
-  int fd_ = -1;
+  FileDescriptor file_;
 };
 
 }  // namespace pleinair::hal

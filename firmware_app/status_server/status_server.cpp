@@ -12,9 +12,9 @@
 #include <netinet/in.h>
 #include <spdlog/spdlog.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include "firmware_app/status_server/listen_address.h"
+#include "hal/file_descriptor.h"
 
 namespace pleinair::app {
 
@@ -50,21 +50,6 @@ struct ResponseDeleter {
 };
 using Daemon = std::unique_ptr<MHD_Daemon, DaemonDeleter>;
 using Response = std::unique_ptr<MHD_Response, ResponseDeleter>;
-
-class Socket {
- public:
-  explicit Socket(int fd) : fd_(fd) {}
-  ~Socket() {
-    if (fd_ >= 0) close(fd_);
-  }
-  Socket(const Socket&) = delete;
-  Socket& operator=(const Socket&) = delete;
-  int get() const { return fd_; }
-  void release() { fd_ = -1; }
-
- private:
-  int fd_;
-};
 
 struct Answer {
   unsigned status = MHD_HTTP_OK;
@@ -144,8 +129,8 @@ class MicroHttpServer final : public StatusServer {
  public:
   MicroHttpServer(const std::string& listen, const ListenAddress& address, StatusPages pages)
       : pages_(std::move(pages)) {
-    Socket socket(::socket(address.storage.ss_family, SOCK_STREAM | SOCK_CLOEXEC, 0));
-    if (socket.get() < 0) throw cannotListen(listen, errno);
+    hal::FileDescriptor socket(::socket(address.storage.ss_family, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    if (!socket) throw cannotListen(listen, errno);
     listenAt(socket.get(), address, listen);
     address_ = boundTo(socket.get());
     daemon_.reset(

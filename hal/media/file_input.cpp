@@ -11,12 +11,11 @@
 namespace pleinair::hal::libav {
 
 Result<FileInput> FileInput::open(const std::filesystem::path& path) {
-  // O_NONBLOCK: opening a pipe without a writer must not block.
-  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (fd < 0) return tl::unexpected(errnoError(path.string(), "cannot open", errno));
-  FileInput file(fd, 0);
+  // O_NONBLOCK: opening a pipe without a writer must not wait.
+  FileInput file(FileDescriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)));
+  if (!file.file_) return tl::unexpected(errnoError(path.string(), "cannot open", errno));
   struct stat status = {};
-  if (::fstat(fd, &status) != 0) {
+  if (::fstat(file.file_.get(), &status) != 0) {
     return tl::unexpected(errnoError(path.string(), "cannot read", errno));
   }
   if (!S_ISREG(status.st_mode)) {
@@ -35,24 +34,11 @@ Result<FileInput> FileInput::open(const std::filesystem::path& path) {
   return file;
 }
 
-FileInput::FileInput(FileInput&& other) noexcept
-    : fd_(std::exchange(other.fd_, -1)), sizeBytes_(other.sizeBytes_) {}
-
-FileInput& FileInput::operator=(FileInput&& other) noexcept {
-  std::swap(fd_, other.fd_);
-  std::swap(sizeBytes_, other.sizeBytes_);
-  return *this;
-}
-
-FileInput::~FileInput() {
-  if (fd_ >= 0) ::close(fd_);
-}
-
 std::int64_t FileInput::readAt(std::int64_t offset, std::uint8_t* bytes, std::size_t count) const {
   std::size_t done = 0;
   while (done < count) {
     const ssize_t got =
-        ::pread(fd_, bytes + done, count - done, offset + static_cast<std::int64_t>(done));
+        ::pread(file_.get(), bytes + done, count - done, offset + static_cast<std::int64_t>(done));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return -errno;
     if (got == 0) break;

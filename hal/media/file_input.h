@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "hal/error.h"
+#include "hal/file_descriptor.h"
 #include "hal/media/handles.h"
 
 namespace pleinair::hal::libav {
@@ -16,19 +18,14 @@ class FileInput {
   /// Errors: kNotFound, kPermissionDenied, kInvalidInput (not a file, or empty), kIo.
   static Result<FileInput> open(const std::filesystem::path& path);
 
-  FileInput(FileInput&& other) noexcept;
-  FileInput& operator=(FileInput&& other) noexcept;
-  FileInput(const FileInput&) = delete;
-  FileInput& operator=(const FileInput&) = delete;
-  ~FileInput();
-
   std::int64_t sizeBytes() const { return sizeBytes_; }
   /// Reads up to `count` bytes at `offset`; fewer at the end, −errno on an error.
   std::int64_t readAt(std::int64_t offset, std::uint8_t* bytes, std::size_t count) const;
 
  private:
-  FileInput(int fd, std::int64_t sizeBytes) : fd_(fd), sizeBytes_(sizeBytes) {}
-  int fd_ = -1;
+  explicit FileInput(FileDescriptor file) : file_(std::move(file)) {}
+
+  FileDescriptor file_;
   std::int64_t sizeBytes_ = 0;
 };
 

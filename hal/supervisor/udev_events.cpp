@@ -10,6 +10,7 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
+#include "hal/file_descriptor.h"
 #include "hal/supervisor/hotplug_monitor.h"
 
 namespace pleinair::hal {
@@ -22,25 +23,6 @@ struct UdevRelease {
 };
 template <class T>
 using UdevHandle = std::unique_ptr<T, UdevRelease>;
-
-class EventDescriptor {
- public:
-  EventDescriptor() : fd_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
-  ~EventDescriptor() {
-    if (fd_ >= 0) close(fd_);
-  }
-  EventDescriptor(const EventDescriptor&) = delete;
-  EventDescriptor& operator=(const EventDescriptor&) = delete;
-
-  int fd() const { return fd_; }
-  void set() const {
-    const std::uint64_t one = 1;
-    [[maybe_unused]] const ssize_t written = write(fd_, &one, sizeof one);
-  }
-
- private:
-  int fd_;
-};
 
 std::string textOf(const char* text) {
   return text == nullptr ? std::string() : std::string(text);
@@ -59,7 +41,7 @@ class UdevEvents final : public DeviceEvents {
     if (!context_) return tl::unexpected(failed("cannot open", ENOMEM));
     // udev's own news, not the kernel's: the node has its name and permissions by then.
     monitor_.reset(udev_monitor_new_from_netlink(context_.get(), "udev"));
-    if (!monitor_ || interrupted_.fd() < 0) return tl::unexpected(failed("cannot listen", errno));
+    if (!monitor_ || !interrupted_) return tl::unexpected(failed("cannot listen", errno));
     for (const char* subsystem : {"video4linux", "usb"}) {
       const int error =
           udev_monitor_filter_add_match_subsystem_devtype(monitor_.get(), subsystem, nullptr);
@@ -73,7 +55,7 @@ class UdevEvents final : public DeviceEvents {
   Result<DeviceEvent> next() override {
     std::array<pollfd, 2> sources{
         pollfd{.fd = udev_monitor_get_fd(monitor_.get()), .events = POLLIN, .revents = 0},
-        pollfd{.fd = interrupted_.fd(), .events = POLLIN, .revents = 0}};
+        pollfd{.fd = interrupted_.get(), .events = POLLIN, .revents = 0}};
     for (;;) {
       if (poll(sources.data(), sources.size(), -1) < 0) {
         if (errno == EINTR) continue;
@@ -92,12 +74,15 @@ class UdevEvents final : public DeviceEvents {
     }
   }
 
-  void interrupt() override { interrupted_.set(); }
+  void interrupt() override {
+    const std::uint64_t one = 1;
+    [[maybe_unused]] const ssize_t written = write(interrupted_.get(), &one, sizeof one);
+  }
 
  private:
   UdevHandle<udev> context_;
   UdevHandle<udev_monitor> monitor_;
-  EventDescriptor interrupted_;
+  FileDescriptor interrupted_{eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
 };
 
 }  // namespace

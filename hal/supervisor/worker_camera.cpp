@@ -1,7 +1,6 @@
 #include "hal/supervisor/worker_camera.h"
 
 #include <condition_variable>
-#include <cstdint>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -25,6 +24,11 @@ bool holdsWithin(std::condition_variable& changed, std::unique_lock<std::mutex>&
   return changed.wait_until(lock, std::chrono::steady_clock::now() + limit, condition);
 }
 
+/// Whether more comes after this.
+bool goesOn(const NextFrame& next) {
+  return std::holds_alternative<CapturedFrame>(next) || std::holds_alternative<FormatChanged>(next);
+}
+
 }  // namespace
 
 /// What the thread and its owner share; whoever is last frees it.
@@ -46,15 +50,13 @@ class WorkerCamera::Worker {
   bool stop(Duration limit);
   bool quit(Duration limit);
 
-  /// The thread.
+  /// The driver thread.
   void run();
 
  private:
   void stream();
-  void post(NextFrame next);
-  /// Takes the waiting frame out of the mail, and counts it.
-  void replace(std::optional<CapturedFrame>& replaced);
-  void clearMail();
+  /// Hands `next` over once what was handed over before has been taken. Whether the stream goes on.
+  bool handOver(NextFrame next);
   bool shallStream() {
     const std::scoped_lock lock(mutex_);
     return shallStream_;
@@ -74,12 +76,7 @@ class WorkerCamera::Worker {
   bool hasQuit_ = false;
   bool isAbandoned_ = false;
   std::optional<Result<StreamFormat>> started_;
-  // The mail, in the order in which it is taken.
-  std::optional<FormatChanged> format_;
-  std::optional<CapturedFrame> frame_;
-  std::optional<NextFrame> ending_;
-  std::uint64_t dropped_ = 0;  // of frames that were replaced, and before them
-  std::uint64_t underruns_ = 0;
+  std::optional<NextFrame> handedOver_;  // and not taken yet; an ending stays
 
   std::unique_ptr<Camera> camera_;  // the thread's
 };
@@ -101,7 +98,7 @@ Result<StreamFormat> WorkerCamera::Worker::start(const StreamRequest& request, D
   isIdle_ = false;
   shallStream_ = true;
   started_.reset();
-  clearMail();
+  handedOver_.reset();
   changed_.notify_all();
   holdsWithin(changed_, lock, limit,
               [&] { return started_.has_value() || interrupted.stop_requested(); });
@@ -120,20 +117,18 @@ Result<StreamFormat> WorkerCamera::Worker::start(const StreamRequest& request, D
 }
 
 NextFrame WorkerCamera::Worker::next(TimePoint deadline) {
-  const auto hasMail = [this] { return format_ || frame_ || ending_; };
+  const auto isThere = [this] { return handedOver_.has_value(); };
   std::unique_lock lock(mutex_);
   if (deadline == kNoDeadline) {
-    changed_.wait(lock, hasMail);
+    changed_.wait(lock, isThere);
   } else {
     const std::chrono::steady_clock::time_point until(deadline.time_since_epoch());
-    if (!changed_.wait_until(lock, until, hasMail)) return CameraTimeout{};
+    if (!changed_.wait_until(lock, until, isThere)) return CameraTimeout{};
   }
-  if (format_) return *std::exchange(format_, std::nullopt);
-  if (!frame_) return *ending_;
-  CapturedFrame frame = *std::exchange(frame_, std::nullopt);
-  frame.droppedBefore += std::exchange(dropped_, 0);
-  frame.underrunsBefore += std::exchange(underruns_, 0);
-  return frame;
+  if (!goesOn(*handedOver_)) return *handedOver_;
+  NextFrame next = *std::exchange(handedOver_, std::nullopt);
+  changed_.notify_all();
+  return next;
 }
 
 bool WorkerCamera::Worker::stop(Duration limit) {
@@ -141,7 +136,7 @@ bool WorkerCamera::Worker::stop(Duration limit) {
   shallStream_ = false;
   changed_.notify_all();
   const bool isIdle = holdsWithin(changed_, lock, limit, [this] { return isIdle_; });
-  clearMail();
+  handedOver_.reset();
   return isIdle;
 }
 
@@ -157,7 +152,7 @@ bool WorkerCamera::Worker::quit(Duration limit) {
 }
 
 void WorkerCamera::Worker::run() {
-  pthread_setname_np(pthread_self(), "camera");
+  pthread_setname_np(pthread_self(), "driver");
   std::unique_lock lock(mutex_);
   for (;;) {
     changed_.wait(lock, [this] { return !isIdle_ || shallQuit_; });
@@ -190,45 +185,22 @@ void WorkerCamera::Worker::stream() {
   while (shallStream()) {
     NextFrame next = camera_->next(clock_.now() + kPollInterval);
     if (std::holds_alternative<CameraTimeout>(next)) continue;
-    const bool goesOn =
-        std::holds_alternative<CapturedFrame>(next) || std::holds_alternative<FormatChanged>(next);
-    post(std::move(next));
-    if (goesOn) continue;
+    const bool isLast = !goesOn(next);
+    if (!handOver(std::move(next))) return;
+    if (!isLast) continue;
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return !shallStream_; });
     return;
   }
 }
 
-void WorkerCamera::Worker::post(NextFrame next) {
-  std::optional<CapturedFrame> replaced;  // its lease goes back without the lock
-  const std::scoped_lock lock(mutex_);
-  if (!shallStream_) return;
-  if (auto* frame = std::get_if<CapturedFrame>(&next)) {
-    replace(replaced);
-    frame_ = std::move(*frame);
-  } else if (auto* changed = std::get_if<FormatChanged>(&next)) {
-    replace(replaced);  // it is of the former format
-    format_ = std::move(*changed);
-  } else {
-    ending_ = std::move(next);
-  }
+bool WorkerCamera::Worker::handOver(NextFrame next) {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return !shallStream_ || !handedOver_; });
+  if (!shallStream_) return false;
+  handedOver_ = std::move(next);
   changed_.notify_all();
-}
-
-void WorkerCamera::Worker::replace(std::optional<CapturedFrame>& replaced) {
-  if (!frame_) return;
-  dropped_ += frame_->droppedBefore + 1;
-  underruns_ += frame_->underrunsBefore + 1;
-  replaced = std::exchange(frame_, std::nullopt);
-}
-
-void WorkerCamera::Worker::clearMail() {
-  format_.reset();
-  frame_.reset();
-  ending_.reset();
-  dropped_ = 0;
-  underruns_ = 0;
+  return true;
 }
 
 WorkerCamera::WorkerCamera(CameraFactory make, WorkerLimits limits,

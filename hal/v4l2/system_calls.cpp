@@ -34,7 +34,7 @@ class KernelCalls final : public SystemCalls {
     return untilDone([&] { return ::open(path, flags | O_CLOEXEC); });
   }
 
-  int close(int fd) override { return ::close(fd) == 0 ? 0 : -errno; }
+  int close(int fd) override { return systemCloser().close(fd); }
 
   int ioctl(int fd, unsigned long request, void* argument) override {
     return untilDone([&] { return ::ioctl(fd, request, argument); });

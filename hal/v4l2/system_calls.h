@@ -8,23 +8,21 @@
 #include <poll.h>
 
 #include "hal/clock.h"
+#include "hal/file_descriptor.h"
 
 namespace pleinair::hal::v4l2 {
 
-/// The system calls behind V4L2 devices; tests inject a fake device. Each call gives −errno in
-/// place of −1 and retries EINTR. Thread-safe. Must outlive every camera, output and frame that
-/// uses it.
-class SystemCalls {
+/// What V4L2 devices are driven through; a test stands a device of its own behind it.
+/// Every call answers −errno where the system says −1, and goes on by itself after EINTR.
+/// Thread-safe. Outlives every camera, output and frame that uses it.
+class SystemCalls : public DescriptorCloser {
  public:
-  virtual ~SystemCalls() = default;
   SystemCalls() = default;
   SystemCalls(const SystemCalls&) = delete;
   SystemCalls& operator=(const SystemCalls&) = delete;
 
-  /// Opens a device node and gives its file descriptor. O_CLOEXEC is added to `flags`.
+  /// A descriptor, which a FileDescriptor closes with this. O_CLOEXEC is added to `flags`.
   virtual int open(const char* path, int flags) = 0;
-  /// Closes a descriptor. Never retried: the descriptor is gone whatever the answer.
-  virtual int close(int fd) = 0;
   virtual int ioctl(int fd, unsigned long request, void* argument) = 0;
   /// Maps memory, shared, readable and writable. 0, with `address` set.
   virtual int map(int fd, std::size_t length, std::int64_t offset, void*& address) = 0;

@@ -46,14 +46,14 @@ int queryBuffer(const Device& device, std::uint32_t index, std::size_t planes,
   return 0;
 }
 
-Descriptor exportPlane(const Device& device, std::uint32_t index, std::size_t plane) {
+FileDescriptor exportPlane(const Device& device, std::uint32_t index, std::size_t plane) {
   v4l2_exportbuffer request{};
   request.type = device.bufferType();
   request.index = index;
   request.plane = static_cast<std::uint32_t>(plane);
   request.flags = O_CLOEXEC | O_RDONLY;
   if (device.ask(VIDIOC_EXPBUF, request) < 0) return {};
-  return {device.calls(), request.fd};
+  return FileDescriptor(request.fd, device.calls());
 }
 
 Error tooSmall(const Device& device, std::size_t got, std::size_t needed) {
@@ -83,7 +83,7 @@ Result<Buffer> mapBuffer(const Device& device, std::uint32_t index,
     const bool isPicture = neededBytes[plane] > 0;  // compressed: a GPU cannot use a JPEG
     buffer.planes.push_back(
         {.mapping = std::move(mapping),
-         .dmaBuf = isPicture ? exportPlane(device, index, plane) : Descriptor()});
+         .dmaBuf = isPicture ? exportPlane(device, index, plane) : FileDescriptor()});
   }
   return buffer;
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hal/cameras/v4l2/device.h"
-#include "hal/v4l2/descriptor.h"
+#include "hal/file_descriptor.h"
 #include "hal/v4l2/system_calls.h"
 
 namespace pleinair::hal::v4l2 {
@@ -45,7 +45,7 @@ class Mapping {
 /// exported dma-buf.
 struct BufferPlane {
   Mapping mapping;
-  Descriptor dmaBuf;  ///< unset if the driver does not export it
+  FileDescriptor dmaBuf;  ///< unset where the driver exports none
 };
 
 /// The mappings of a buffer. They stay valid after the stream and its device are closed, until the

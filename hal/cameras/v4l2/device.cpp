@@ -35,7 +35,8 @@ std::string remedyOf(int answer, const std::string& node) {
 
 }  // namespace
 
-Device::Device(SystemCalls& calls, std::string node, Descriptor descriptor, Capability capability)
+Device::Device(SystemCalls& calls, std::string node, FileDescriptor descriptor,
+               Capability capability)
     : calls_(&calls),
       node_(std::move(node)),
       descriptor_(std::move(descriptor)),
@@ -46,7 +47,7 @@ Result<Device> Device::open(SystemCalls& calls, const std::string& node) {
   if (fd < 0) {
     return tl::unexpected(errnoError(node, "cannot open", -fd, remedyOf(fd, node)));
   }
-  Descriptor descriptor(calls, fd);
+  FileDescriptor descriptor(fd, calls);
   Result<Capability> capability = queryCapability(calls, fd, node);
   if (!capability) return tl::unexpected(std::move(capability.error()));
   if (!capability->capturesVideo()) {

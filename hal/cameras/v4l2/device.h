@@ -4,8 +4,8 @@
 #include <string>
 
 #include "hal/error.h"
+#include "hal/file_descriptor.h"
 #include "hal/v4l2/capability.h"
-#include "hal/v4l2/descriptor.h"
 #include "hal/v4l2/system_calls.h"
 
 namespace pleinair::hal::v4l2 {
@@ -36,11 +36,11 @@ class Device {
   Error failure(std::string problem, int answer) const;
 
  private:
-  Device(SystemCalls& calls, std::string node, Descriptor descriptor, Capability capability);
+  Device(SystemCalls& calls, std::string node, FileDescriptor descriptor, Capability capability);
 
   SystemCalls* calls_;
   std::string node_;
-  Descriptor descriptor_;
+  FileDescriptor descriptor_;
   Capability capability_;
 };
 

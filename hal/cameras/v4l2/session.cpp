@@ -194,7 +194,7 @@ void Session::lendPixels(const Filled& filled, CapturedFrame& frame) {
     const auto index = static_cast<std::size_t>(plane);
     const PlanePlace& place = negotiated_.places.at(index);
     const auto memoryPlane = static_cast<std::size_t>(place.memoryPlane);
-    const Descriptor& dmaBuf = buffer.planes.at(memoryPlane).dmaBuf;
+    const FileDescriptor& dmaBuf = buffer.planes.at(memoryPlane).dmaBuf;
     if (!dmaBuf) continue;
     frame.dmaBufs.at(index) = {
         .fd = dmaBuf.get(),

@@ -9,8 +9,8 @@
 #include <fcntl.h>
 #include <linux/videodev2.h>
 
+#include "hal/file_descriptor.h"
 #include "hal/v4l2/capability.h"
-#include "hal/v4l2/descriptor.h"
 #include "hal/v4l2/formats.h"
 
 namespace pleinair::hal {
@@ -55,7 +55,7 @@ LoopbackDevice inspect(const std::string& node, v4l2::SystemCalls& calls) {
     device.problem = errnoError(node, "cannot open", -opened);
     return device;
   }
-  const v4l2::Descriptor descriptor(calls, opened);
+  const FileDescriptor descriptor(opened, calls);
   const Result<v4l2::Capability> capability = v4l2::queryCapability(calls, opened, node);
   if (!capability) {
     device.problem = capability.error();

@@ -10,9 +10,9 @@
 #include <fcntl.h>
 #include <linux/videodev2.h>
 
+#include "hal/file_descriptor.h"
 #include "hal/outputs/v4l2_loopback/negotiation.h"
 #include "hal/v4l2/capability.h"
-#include "hal/v4l2/descriptor.h"
 
 namespace pleinair::hal {
 namespace {
@@ -103,7 +103,7 @@ class LoopbackOutput final : public MemoryOutput {
     if (opened < 0) {
       return tl::unexpected(errnoError(device_, "cannot open", -opened, remedyOfOpening(-opened)));
     }
-    descriptor_ = v4l2::Descriptor(calls(), opened);
+    descriptor_ = FileDescriptor(opened, calls());
     const Result<v4l2::Capability> capability = v4l2::queryCapability(calls(), opened, device_);
     if (!capability) return tl::unexpected(capability.error());
     if (capability->has(V4L2_CAP_VIDEO_OUTPUT) && capability->has(V4L2_CAP_READWRITE)) return {};
@@ -140,7 +140,7 @@ class LoopbackOutput final : public MemoryOutput {
   std::string device_;  ///< as named, then its node
   std::optional<PixelFormat> layout_;
   V4l2System system_;
-  v4l2::Descriptor descriptor_;
+  FileDescriptor descriptor_;
   loopback::FrameLayout picture_;
   std::vector<std::uint8_t> frame_;
   std::uint64_t skipped_ = 0;

@@ -31,10 +31,10 @@ class Driver {
     waiting_.push_back(std::move(next));
     changed_.notify_all();
   }
-  /// All that was given has been taken, and whatever came of it was posted.
-  void waitUntilTaken() {
+  /// Two have been taken, the second of which cannot be handed over before the first is.
+  void waitUntilHeldBack() {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return waiting_.empty() && isAsked_; });
+    changed_.wait(lock, [this] { return taken_ == 2; });
   }
   void hangIn(Call call) {
     const std::scoped_lock lock(mutex_);
@@ -65,14 +65,13 @@ class Driver {
   NextFrame next() {
     call(Call::kNext);
     std::unique_lock lock(mutex_);
-    isAsked_ = true;
-    changed_.notify_all();
     if (waiting_.empty()) {
       lock.unlock();
       std::this_thread::yield();
       return CameraTimeout{};
     }
-    isAsked_ = false;
+    ++taken_;
+    changed_.notify_all();
     NextFrame next = std::move(waiting_.front());
     waiting_.erase(waiting_.begin());
     return next;
@@ -88,7 +87,7 @@ class Driver {
   std::condition_variable changed_;
   std::vector<NextFrame> waiting_;
   std::optional<Call> hangs_;
-  bool isAsked_ = false;
+  int taken_ = 0;
   bool isGone_ = false;
   bool isHanging_ = false;
 };
@@ -163,17 +162,33 @@ TEST_F(WorkerCameraTest, HandsFramesFormatsAndTheEndOverInOrder) {
   EXPECT_TRUE(std::holds_alternative<CameraLost>(worker->next(kNoDeadline))) << "again and again";
 }
 
-TEST_F(WorkerCameraTest, KeepsTheNewestFrameAndCountsThoseThatItReplaced) {
+TEST_F(WorkerCameraTest, DropsNoFrameHoweverLateItIsTaken) {
   const auto worker = camera(kPatient);
   ASSERT_TRUE(worker->start({}));
   driver_->give(frameNumber(1));
   driver_->give(frameNumber(4, 2));
+  driver_->give(FormatChanged{});
   driver_->give(frameNumber(6, 1));
-  driver_->waitUntilTaken();
-  const auto frame = std::get<CapturedFrame>(worker->next(kNoDeadline));
-  EXPECT_EQ(frame.sequence, 6U);
-  EXPECT_EQ(frame.droppedBefore, 5U);
-  EXPECT_EQ(frame.underrunsBefore, 2U) << "those that were replaced here";
+  driver_->waitUntilHeldBack();  // one is handed over, one is in the thread's hand
+  for (const auto& [sequence, dropped] : {std::pair{1U, 0U}, {4U, 2U}, {6U, 1U}}) {
+    NextFrame next = worker->next(kNoDeadline);
+    if (std::holds_alternative<FormatChanged>(next)) next = worker->next(kNoDeadline);
+    const auto frame = std::get<CapturedFrame>(std::move(next));
+    EXPECT_EQ(frame.sequence, sequence);
+    EXPECT_EQ(frame.droppedBefore, dropped) << "the camera's own count";
+    EXPECT_EQ(frame.underrunsBefore, 0U) << "the camera had buffers";
+  }
+}
+
+TEST_F(WorkerCameraTest, StopsWhileAFrameIsNotTaken) {
+  const auto worker = camera(kPatient);
+  ASSERT_TRUE(worker->start({}));
+  for (std::uint64_t i = 0; i < 3; ++i) driver_->give(frameNumber(i));
+  driver_->waitUntilHeldBack();
+  worker->stop();
+  ASSERT_TRUE(worker->start({}));
+  EXPECT_EQ(std::get<CapturedFrame>(worker->next(kNoDeadline)).sequence, 2U)
+      << "of the new session; what was under way went with the old one";
 }
 
 TEST_F(WorkerCameraTest, TimesOut) {

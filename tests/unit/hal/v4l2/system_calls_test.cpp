@@ -14,8 +14,8 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include "hal/file_descriptor.h"
 #include "hal/v4l2/capability.h"
-#include "hal/v4l2/descriptor.h"
 
 namespace pleinair::hal::v4l2 {
 namespace {
@@ -33,13 +33,13 @@ TEST(KernelCalls, AnswerWithNegativeErrno) {
 }
 
 TEST(KernelCalls, OpenFilesThatNoChildInherits) {
-  const Descriptor zero(kernelCalls(), kernelCalls().open("/dev/zero", O_RDONLY));
+  const FileDescriptor zero(kernelCalls().open("/dev/zero", O_RDONLY), kernelCalls());
   ASSERT_TRUE(zero);
   EXPECT_NE(::fcntl(zero.get(), F_GETFD) & FD_CLOEXEC, 0);
 }
 
 TEST(KernelCalls, SayThatAFileIsNoV4l2Device) {
-  const Descriptor zero(kernelCalls(), kernelCalls().open("/dev/zero", O_RDONLY));
+  const FileDescriptor zero(kernelCalls().open("/dev/zero", O_RDONLY), kernelCalls());
   const Result<Capability> capability = queryCapability(kernelCalls(), zero.get(), "/dev/zero");
   ASSERT_FALSE(capability);
   EXPECT_EQ(capability.error().kind, ErrorKind::kUnsupported);
@@ -48,7 +48,7 @@ TEST(KernelCalls, SayThatAFileIsNoV4l2Device) {
 }
 
 TEST(KernelCalls, MapShared) {
-  const Descriptor file(kernelCalls(), ::memfd_create("frame", MFD_CLOEXEC));
+  const FileDescriptor file(::memfd_create("frame", MFD_CLOEXEC), kernelCalls());
   ASSERT_EQ(::ftruncate(file.get(), 4096), 0);
   void* address = nullptr;
   ASSERT_EQ(kernelCalls().map(file.get(), 4096, 0, address), 0);
@@ -61,8 +61,8 @@ TEST(KernelCalls, MapShared) {
 TEST(KernelCalls, PollUntilReadyOrTheTimeoutIsOver) {
   std::array<int, 2> ends{};
   ASSERT_EQ(::pipe2(ends.data(), O_CLOEXEC), 0);
-  const Descriptor read(kernelCalls(), ends[0]);
-  const Descriptor write(kernelCalls(), ends[1]);
+  const FileDescriptor read(ends[0], kernelCalls());
+  const FileDescriptor write(ends[1], kernelCalls());
   pollfd waitFor{.fd = read.get(), .events = POLLIN, .revents = 0};
   EXPECT_EQ(kernelCalls().poll({&waitFor, 1}, Duration::zero()), 0);
   const std::array<std::uint8_t, 1> byte{7};
@@ -104,8 +104,8 @@ class Interruptions {
 TEST(KernelCalls, GoOnAfterSignals) {
   std::array<int, 2> ends{};
   ASSERT_EQ(::pipe2(ends.data(), O_CLOEXEC), 0);
-  const Descriptor read(kernelCalls(), ends[0]);
-  const Descriptor write(kernelCalls(), ends[1]);
+  const FileDescriptor read(ends[0], kernelCalls());
+  const FileDescriptor write(ends[1], kernelCalls());
   pollfd waitFor{.fd = read.get(), .events = POLLIN, .revents = 0};
   const Interruptions interrupting(write.get());
   EXPECT_EQ(kernelCalls().poll({&waitFor, 1}, std::nullopt), 1);
