@@ -236,11 +236,13 @@ void CameraSupervisor::noteSilence() {
 std::string CameraSupervisor::silenceText() const {
   const FrameCounts counts = frames_.counts();
   const std::uint64_t corrupt = counts.corrupt - framesBeforeSilence_.corrupt;
+  const std::uint64_t incomplete = counts.incomplete - framesBeforeSilence_.incomplete;
   const std::uint64_t misTimed = counts.misTimed - framesBeforeSilence_.misTimed;
   const std::string duration = durationText(watchdog_.silence());
-  if (corrupt + misTimed == 0) return "has given no frame for " + duration;
+  if (corrupt + incomplete + misTimed == 0) return "has given no frame for " + duration;
   return "has given no usable frame for " + duration + " (" + std::to_string(corrupt) +
-         " corrupt, " + std::to_string(misTimed) + " with a wrong time)";
+         " corrupt, " + std::to_string(incomplete) + " incomplete, " + std::to_string(misTimed) +
+         " with a wrong time)";
 }
 
 void CameraSupervisor::lose(std::string reason, std::optional<Error> cause) {

@@ -11,6 +11,7 @@ FrameCounts FrameCounts::operator+(const FrameCounts& other) const {
           .underruns = underruns + other.underruns,
           .lostInStall = lostInStall + other.lostInStall,
           .corrupt = corrupt + other.corrupt,
+          .incomplete = incomplete + other.incomplete,
           .misTimed = misTimed + other.misTimed};
 }
 
@@ -22,7 +23,17 @@ std::variant<SupervisedFrame, FrameRefusal> SessionFrames::take(CapturedFrame fr
   waiting_.dropped += underruns + (isStalled ? 0 : lost);
   waiting_.lostInStall += isStalled ? lost : 0;
   if (const auto refusal = refusalOf(frame, now)) {
-    ++(*refusal == FrameRefusal::kCorrupt ? waiting_.corrupt : waiting_.misTimed);
+    switch (*refusal) {
+      case FrameRefusal::kCorrupt:
+        ++waiting_.corrupt;
+        break;
+      case FrameRefusal::kIncomplete:
+        ++waiting_.incomplete;
+        break;
+      case FrameRefusal::kMisTimed:
+        ++waiting_.misTimed;
+        break;
+    }
     return *refusal;
   }
 
@@ -33,6 +44,7 @@ std::variant<SupervisedFrame, FrameRefusal> SessionFrames::take(CapturedFrame fr
   SupervisedFrame taken{.frame = std::move(frame),
                         .lostInStall = waiting_.lostInStall,
                         .corruptBefore = waiting_.corrupt,
+                        .incompleteBefore = waiting_.incomplete,
                         .misTimedBefore = waiting_.misTimed};
   waiting_.delivered = 1;
   counts_ = counts_ + waiting_;
@@ -42,7 +54,10 @@ std::variant<SupervisedFrame, FrameRefusal> SessionFrames::take(CapturedFrame fr
 
 std::optional<FrameRefusal> SessionFrames::refusalOf(const CapturedFrame& frame,
                                                      TimePoint now) const {
-  if (!frame.image.isComplete()) return FrameRefusal::kCorrupt;
+  if (frame.health == FrameHealth::kIncomplete) return FrameRefusal::kIncomplete;
+  if (frame.health == FrameHealth::kCorrupt || !frame.image.isComplete()) {
+    return FrameRefusal::kCorrupt;
+  }
   if (lastTime_ && frame.captureTime <= *lastTime_) return FrameRefusal::kMisTimed;
   // One such frame would make all that follow look late.
   if (isDevice_ && frame.captureTime > now + kFutureTolerance) return FrameRefusal::kMisTimed;

@@ -12,17 +12,17 @@ namespace pleinair::hal {
 
 /// A frame of a camera that may have been lost and opened anew since the last one. Its sequence and
 /// captureTime rise strictly over all sessions: sequence = the last one's + 1 + frame.droppedBefore
-/// + corruptBefore + misTimedBefore, so that a ledger's sums agree. Frames that nobody knows of,
-/// between two sessions, are not in it.
+/// + corruptBefore + incompleteBefore + misTimedBefore, so that a ledger's sums agree. Frames that
+/// nobody knows of, between two sessions, are not in it. Its health is kValid.
 struct SupervisedFrame {
   CapturedFrame frame;
   /// Of frame.droppedBefore, those lost while the camera was stalled.
   std::uint64_t lostInStall = 0;
-  /// Frames since the last one that came, but could not be let out: planes too small for their
-  /// format; …
-  std::uint64_t corruptBefore = 0;
-  /// … a capture time that repeats, goes back, or lies in the future.
-  std::uint64_t misTimedBefore = 0;
+  // Frames since the last one that came, but could not be let out:
+  std::uint64_t corruptBefore = 0;     ///< health kCorrupt, or planes too small for their format
+  std::uint64_t incompleteBefore = 0;  ///< health kIncomplete
+  std::uint64_t misTimedBefore =
+      0;  ///< a capture time that repeats, goes back, or is in the future
 };
 
 /// All of a supervisor's frames. made() = the sum of the others.
@@ -32,14 +32,17 @@ struct FrameCounts {
   std::uint64_t underruns = 0;    ///< … for want of a free buffer
   std::uint64_t lostInStall = 0;  ///< while the camera was stalled
   std::uint64_t corrupt = 0;
+  std::uint64_t incomplete = 0;
   std::uint64_t misTimed = 0;
-  std::uint64_t made() const { return delivered + dropped + lostInStall + corrupt + misTimed; }
+  std::uint64_t made() const {
+    return delivered + dropped + lostInStall + corrupt + incomplete + misTimed;
+  }
   FrameCounts operator+(const FrameCounts& other) const;
   friend bool operator==(const FrameCounts&, const FrameCounts&) = default;
 };
 
 /// Why a frame is not let out.
-enum class FrameRefusal { kCorrupt, kMisTimed };
+enum class FrameRefusal { kCorrupt, kIncomplete, kMisTimed };
 
 /// Numbers the frames of all sessions of a camera in one sequence and keeps back those that are not
 /// what they say. One thread.

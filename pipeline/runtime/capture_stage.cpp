@@ -22,7 +22,7 @@ void CaptureStage::step(hal::TimePoint deadline) {
   hal::SupervisedNext next = camera_.next(deadline);
   countLost();
   if (auto* frame = std::get_if<hal::SupervisedFrame>(&next)) {
-    receive(*frame);
+    handOn(std::move(frame->frame));
     return;
   }
   const std::scoped_lock lock(mutex_);
@@ -44,16 +44,6 @@ void CaptureStage::step(hal::TimePoint deadline) {
   frames_.wake();
 }
 
-void CaptureStage::receive(hal::SupervisedFrame& next) {
-  if (next.frame.health == hal::FrameHealth::kCorrupt) {
-    ledger_.count(Outcome::kCorrupt);
-  } else if (next.frame.health == hal::FrameHealth::kIncomplete) {
-    ledger_.count(Outcome::kIncomplete);
-  } else {
-    handOn(std::move(next.frame));
-  }
-}
-
 /// Enters what never came out of the supervisor, also where no sound frame follows any more.
 void CaptureStage::countLost() {
   const hal::FrameCounts counts = camera_.frameCounts();
@@ -62,6 +52,7 @@ void CaptureStage::countLost() {
   ledger_.count(Outcome::kBufferUnderrun, underruns);
   ledger_.count(Outcome::kDroppedByDriver, counts.dropped - counted_.dropped - underruns);
   ledger_.count(Outcome::kCorrupt, counts.corrupt - counted_.corrupt);
+  ledger_.count(Outcome::kIncomplete, counts.incomplete - counted_.incomplete);
   ledger_.count(Outcome::kMisTimed, counts.misTimed - counted_.misTimed);
   counted_ = counts;
 }

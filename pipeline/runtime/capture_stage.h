@@ -50,7 +50,6 @@ class CaptureStage {
   Status status() const;
 
  private:
-  void receive(hal::SupervisedFrame& next);
   void countLost();
   void handOn(hal::CapturedFrame frame);
 

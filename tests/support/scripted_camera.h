@@ -28,6 +28,7 @@ struct ScriptedFrame {
   std::uint64_t underruns = 0;
   hal::Duration timeError{};  ///< of its capture time
   bool isTooShort = false;    ///< its plane does not hold its format
+  hal::FrameHealth health = hal::FrameHealth::kValid;
   std::optional<hal::FrameFormat> format;
 };
 /// Nothing happens; a camera whose script is over stays silent.
@@ -163,6 +164,7 @@ class ScriptedCamera final : public hal::Camera {
                              .underrunsBefore = scripted.underruns,
                              .captureTime = time_ + scripted.timeError,
                              .lease = image};
+    frame.health = scripted.health;
     if (scripted.isTooShort) {
       std::span<const std::uint8_t>& bytes = frame.image.planes[0].bytes;
       bytes = bytes.first(bytes.size() - 1);

@@ -49,7 +49,73 @@ std::string plainText(std::string text) {
   return text;
 }
 
-/// A snapshot of /dev that gives each node its id.
+std::string baseName(const std::string& path) {
+  return path.substr(path.rfind('/') + 1);
+}
+
+/// udev's ID_PATH of a node, "pci-0000:00:14.0-usb-0:4:1.0", as its rule 60-persistent-v4l and its
+/// builtin path_id derive it from sysfs; empty where the kernel does not tell.
+std::string pathIdOf(DeviceNodes& nodes, const std::string& name) {
+  std::string id;
+  std::string skipped;  // of parents that belong to the same bus, only the lowest is named
+  std::string folder = nodes.target(sysfsOf(name) + "/device").value_or("");
+  for (; folder.size() > 1; folder.resize(folder.rfind('/'))) {
+    const std::string bus = baseName(nodes.target(folder + "/subsystem").value_or(""));
+    if (bus == skipped) continue;
+    const std::string device = baseName(folder);
+    std::string part;
+    if (bus == "usb") {
+      part = "usb-0:" + device.substr(device.find('-') + 1);
+    } else if (bus == "pci" || bus == "platform") {
+      part = bus + "-" + device;
+    } else {
+      continue;
+    }
+    skipped = bus;
+    id = id.empty() ? part : part + "-" + id;
+  }
+  return id;
+}
+
+std::string indexOf(DeviceNodes& nodes, const std::string& name) {
+  return "-video-index" + nodes.firstLine(sysfsOf(name) + "/index").value_or("0");
+}
+
+/// The name of the link that udev makes, or is about to make, in /dev/v4l/by-path; or empty.
+std::string byPathName(DeviceNodes& nodes, const std::string& name) {
+  const std::string id = pathIdOf(nodes, name);
+  return id.empty() ? id : id + indexOf(nodes, name);
+}
+
+/// The name of the link in /dev/v4l/by-id of a USB device; or empty.
+std::string byIdName(DeviceNodes& nodes, const std::string& name) {
+  const auto text = [&](const char* file) {
+    return nodes.firstLine(sysfsOf(name) + "/device/../" + file).value_or("");
+  };
+  const auto either = [&](const char* file, const char* otherwise) {
+    const std::string found = text(file);
+    return found.empty() ? text(otherwise) : found;
+  };
+  const std::string vendor = either("manufacturer", "idVendor");
+  const std::string model = either("product", "idProduct");
+  if (vendor.empty() || model.empty()) return {};
+  const std::string serial = text("serial");
+  return plainText("usb-" + vendor + "_" + model + (serial.empty() ? "" : "_" + serial)) +
+         indexOf(nodes, name);
+}
+
+/// Whether a link cannot be this node's, for the kernel says that it is another device's.
+bool contradictsPath(DeviceNodes& nodes, const std::string& link, const std::string& name) {
+  const std::string own = byPathName(nodes, name);
+  // The same device has a second link, whose name tells the version of USB.
+  return !own.empty() && link != own && link.find("usbv") == std::string::npos;
+}
+bool contradictsId(DeviceNodes& nodes, const std::string& link, const std::string& name) {
+  const auto serial = nodes.firstLine(sysfsOf(name) + "/device/../serial");
+  return serial && !serial->empty() && link.find(plainText(*serial)) == std::string::npos;
+}
+
+/// One look at /dev, which gives each node its id.
 class Listing {
  public:
   explicit Listing(const System& system)
@@ -90,8 +156,12 @@ class Listing {
   }
 
   std::string idOf(const std::string& name, const std::string& node, const Capability* capability) {
-    if (const auto link = byId_.find(node); link != byId_.end()) return link->second;
-    if (const auto link = byPath_.find(node); link != byPath_.end()) return link->second;
+    for (auto [link, end] = byId_.equal_range(node); link != end; ++link) {
+      if (!contradictsId(system_.nodes, link->second, name)) return link->second;
+    }
+    for (auto [link, end] = byPath_.equal_range(node); link != end; ++link) {
+      if (!contradictsPath(system_.nodes, link->second, name)) return link->second;
+    }
     if (capability == nullptr) return node;
     const std::string index = system_.nodes.firstLine(sysfsOf(name) + "/index").value_or("0");
     const std::string id = plainText(capability->bus + "-" + capability->card + "-index" + index);
@@ -107,6 +177,27 @@ class Listing {
   std::multimap<std::string, std::string> byId_, byPath_;
   std::map<std::string, std::string> taken_;
 };
+
+/// The one node that the kernel describes as udev's link of this name; nothing where there is none,
+/// or where several are alike.
+std::optional<std::string> nodeBySysfs(DeviceNodes& nodes, const std::string& id) {
+  std::optional<std::string> found;
+  for (const std::string& name : nodeNames(nodes)) {
+    if (byPathName(nodes, name) != id && byIdName(nodes, name) != id) continue;
+    if (found) return std::nullopt;
+    found = "/dev/" + name;
+  }
+  return found;
+}
+
+/// Where udev's link of this name leads, unless it is stale.
+std::optional<std::string> nodeByLink(DeviceNodes& nodes, const std::string& id) {
+  auto node = nodes.target(std::string(kById) + "/" + id);
+  if (node && !contradictsId(nodes, id, baseName(*node))) return node;
+  node = nodes.target(std::string(kByPath) + "/" + id);
+  if (node && !contradictsPath(nodes, id, baseName(*node))) return node;
+  return std::nullopt;
+}
 
 Error notThere(const std::string& id, const std::vector<CameraDescription>& cameras) {
   std::string there;
@@ -128,9 +219,8 @@ std::vector<CameraDescription> listDevices(const System& system) {
 
 Result<std::string> findNode(const System& system, const std::string& id) {
   if (id.starts_with('/')) return id;
-  for (const char* folder : {kById, kByPath}) {
-    if (auto node = system.nodes.target(std::string(folder) + "/" + id)) return *std::move(node);
-  }
+  if (auto node = nodeBySysfs(system.nodes, id)) return *std::move(node);
+  if (auto node = nodeByLink(system.nodes, id)) return *std::move(node);
   const std::vector<CameraDescription> cameras = listDevices(system);
   const auto found = std::ranges::find(
       cameras, id, [](const CameraDescription& camera) { return camera.identity.id; });

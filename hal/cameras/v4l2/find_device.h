@@ -21,8 +21,10 @@ namespace pleinair::hal::v4l2 {
 /// 4. the node's path, if nothing else can be read.
 std::vector<CameraDescription> listDevices(const System& system);
 
-/// The node for an id of listDevices(), for the name of any link, or for a path (which need not
-/// exist). Errors: kNotFound, with the available ids.
+/// The node of an id of listDevices(), of any link's name, or of a path (which need not exist).
+/// The kernel's account of its nodes (sysfs) comes before udev's links, which may still lead to a
+/// node that is gone or is another device's by now: after a reset of a driver, udev moves them
+/// later. Errors: kNotFound, with the ids that there are.
 Result<std::string> findNode(const System& system, const std::string& id);
 
 }  // namespace pleinair::hal::v4l2

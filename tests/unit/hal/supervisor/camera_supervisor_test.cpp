@@ -228,8 +228,45 @@ TEST(CameraSupervisor, ACameraOfOnlyCorruptFramesIsStalledAndSaysSo) {
   const auto all = supervised.run(seconds(4));
   EXPECT_THAT(firstOf(all, "stalled").reason,
               testing::MatchesRegex("has given no usable frame for 3[0-9]+ ms "
-                                    "\\(1[0-9] corrupt, 0 with a wrong time\\)"));
+                                    "\\(1[0-9] corrupt, 0 incomplete, 0 with a wrong time\\)"));
   EXPECT_THAT(firstOf(all, "lost").reason, HasSubstr("no usable frame for 3.3 s"));
+}
+
+TEST(CameraSupervisor, FramesThatTheDeviceMarksAsUnusableAreRefusedAndCounted) {
+  Supervised supervised;
+  supervised.add(
+      {{.steps = scriptOf(scriptedFrames(1), ScriptedFrame{.health = FrameHealth::kCorrupt},
+                          ScriptedFrame{.health = FrameHealth::kIncomplete},
+                          ScriptedFrame{.health = FrameHealth::kIncomplete}, scriptedFrames(1))}});
+  const auto frames = framesOf(supervised.run(milliseconds(250)));
+  ASSERT_EQ(frames.size(), 2U);
+  expectLedgerOf(frames);
+  EXPECT_EQ(frames[1].corruptBefore, 1U);
+  EXPECT_EQ(frames[1].incompleteBefore, 2U);
+  EXPECT_EQ(supervised.supervisor().status().counts.frames,
+            (FrameCounts{.delivered = 2, .corrupt = 1, .incomplete = 2}));
+}
+
+TEST(CameraSupervisor, ACameraWhoseDriverMarksEachFrameCorruptIsStalledAndOpenedAnew) {
+  Supervised supervised;
+  const std::vector<support::ScriptedStep> corrupt(200,
+                                                   ScriptedFrame{.health = FrameHealth::kCorrupt});
+  supervised.add({{.steps = scriptOf(scriptedFrames(2), corrupt)}, {.steps = scriptedFrames(2)}});
+  const auto all = supervised.run(seconds(5));
+  EXPECT_THAT(firstOf(all, "stalled").reason,
+              testing::ContainsRegex("1[0-9] corrupt, 0 incomplete"));
+  EXPECT_THAT(firstOf(all, "lost").reason, HasSubstr("no usable frame for 3.3 s"));
+  EXPECT_THAT(framesOf(all), testing::SizeIs(4)) << "of which the last two came anew";
+}
+
+TEST(CameraSupervisor, ACameraOfOnlyCorruptFramesFromItsStartNeverCountsAsStreaming) {
+  Supervised supervised;
+  const std::vector<support::ScriptedStep> corrupt(200,
+                                                   ScriptedFrame{.health = FrameHealth::kCorrupt});
+  supervised.add({{.steps = corrupt}});
+  const auto all = supervised.run(milliseconds(5100));
+  EXPECT_THAT(story(all), ElementsAre("opening", "format", "lost", "backing off"));
+  EXPECT_THAT(firstOf(all, "lost").reason, HasSubstr("corrupt, 0 incomplete"));
 }
 
 TEST(CameraSupervisor, AJumpOfTheClockIsNoSilenceOfTheCamera) {

@@ -128,7 +128,8 @@ inline void expectLedgerOf(const std::vector<SupervisedFrame>& frames) {
   std::uint64_t expected = 0;
   std::optional<TimePoint> last;
   for (const SupervisedFrame& each : frames) {
-    expected += each.frame.droppedBefore + each.corruptBefore + each.misTimedBefore;
+    expected +=
+        each.frame.droppedBefore + each.corruptBefore + each.incompleteBefore + each.misTimedBefore;
     EXPECT_EQ(each.frame.sequence, expected);
     EXPECT_LE(each.lostInStall + each.frame.underrunsBefore, each.frame.droppedBefore);
     EXPECT_TRUE(each.frame.image.isComplete());

@@ -100,7 +100,8 @@ class Promises {
     std::uint64_t expected = 0;
     TimePoint last = TimePoint::min();
     for (const SupervisedFrame& each : frames_) {
-      expected += each.frame.droppedBefore + each.corruptBefore + each.misTimedBefore;
+      expected += each.frame.droppedBefore + each.corruptBefore + each.incompleteBefore +
+                  each.misTimedBefore;
       ASSERT_EQ(each.frame.sequence, expected++);
       ASSERT_GT(each.frame.captureTime, last);
       ASSERT_LE(each.lostInStall + each.frame.underrunsBefore, each.frame.droppedBefore);

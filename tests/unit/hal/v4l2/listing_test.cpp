@@ -131,6 +131,78 @@ TEST_F(V4l2Listing, FindsACameraThatHasMovedToAnotherNode) {
   EXPECT_EQ(camera->identity().description, "Again at /dev/video1");
 }
 
+class V4l2StaleLinks : public V4l2Listing {
+ protected:
+  /// What sysfs tells of a node of a USB camera at this port.
+  void describeUsb(const std::string& name, const std::string& port) {
+    const std::string host = "/sys/devices/pci0000:00/0000:00:14.0";
+    const std::string device = host + "/usb1/1-" + port;
+    const std::string interface = device + "/1-" + port + ":1.0";
+    nodes_.links["/sys/class/video4linux/" + name + "/device"] = interface;
+    nodes_.links[interface + "/subsystem"] = "/sys/bus/usb";
+    nodes_.links[device + "/subsystem"] = "/sys/bus/usb";
+    nodes_.links[host + "/usb1/subsystem"] = "/sys/bus/usb";
+    nodes_.links[host + "/subsystem"] = "/sys/bus/pci";
+    nodes_.files["/sys/class/video4linux/" + name + "/index"] = "0";
+  }
+  void describePlatform(const std::string& name, const std::string& device) {
+    nodes_.links["/sys/class/video4linux/" + name + "/device"] = "/sys/devices/platform/" + device;
+    nodes_.links["/sys/devices/platform/" + device + "/subsystem"] = "/sys/bus/platform";
+    nodes_.files["/sys/class/video4linux/" + name + "/index"] = "0";
+  }
+  std::string openedAs(const std::string& id) {
+    const std::unique_ptr<Camera> camera = backend_.make(id, clock_);
+    const Result<StreamFormat> format = camera->start({});
+    return format ? camera->identity().description : format.error().message();
+  }
+};
+
+TEST_F(V4l2StaleLinks, AByPathLinkThatUdevHasNotMovedYetIsNotFollowed) {
+  plugAt("video0", {.openFailure = ENODEV});  // what the driver left behind
+  plugAt("video1", {.card = "Reset"});
+  describePlatform("video1", "vivid.0");
+  link("/dev/v4l/by-path", "platform-vivid.0-video-index0", "/dev/video0");
+  EXPECT_EQ(openedAs("platform-vivid.0-video-index0"), "Reset at /dev/video1");
+}
+
+TEST_F(V4l2StaleLinks, ALinkToANodeThatAnotherCameraHasTakenIsNotFollowed) {
+  constexpr const char* kFormer = "pci-0000:00:14.0-usb-0:4:1.0-video-index0";
+  plugAt("video0", {.card = "Other"});
+  describeUsb("video0", "2");
+  link("/dev/v4l/by-path", kFormer, "/dev/video0");
+  EXPECT_THAT(openedAs(kFormer), HasSubstr("no V4L2 camera of this id is there"));
+  plugAt("video3", {.card = "Same"});
+  describeUsb("video3", "4");
+  EXPECT_EQ(openedAs(kFormer), "Same at /dev/video3");
+  EXPECT_EQ(openedAs("pci-0000:00:14.0-usb-0:2:1.0-video-index0"), "Other at /dev/video0");
+}
+
+TEST_F(V4l2StaleLinks, AByIdLinkOfAnotherSerialIsNotFollowed) {
+  constexpr const char* kFormer = "usb-Acme_Inc_HD_Webcam_0042-video-index0";
+  const auto describe = [&](const std::string& name, const std::string& serial) {
+    const std::string device = "/sys/class/video4linux/" + name + "/device/../";
+    nodes_.files[device + "manufacturer"] = "Acme Inc";
+    nodes_.files[device + "product"] = "HD Webcam";
+    nodes_.files[device + "serial"] = serial;
+  };
+  plugAt("video0", {.card = "Other"});
+  describe("video0", "0077");
+  link("/dev/v4l/by-id", kFormer, "/dev/video0");
+  EXPECT_THAT(openedAs(kFormer), HasSubstr("no V4L2 camera of this id is there"));
+  EXPECT_THAT(ids(), ElementsAre("platform:fake-000-Other-index0")) << "not by the stale link";
+  plugAt("video1", {.card = "Same"});
+  describe("video1", "0042");
+  EXPECT_EQ(openedAs(kFormer), "Same at /dev/video1");
+}
+
+TEST_F(V4l2StaleLinks, TheNameWithTheVersionOfUsbIsTheSameDevices) {
+  constexpr const char* kVersioned = "pci-0000:00:14.0-usbv2-0:4:1.0-video-index0";
+  plugAt("video0", {.card = "Same"});
+  describeUsb("video0", "4");
+  link("/dev/v4l/by-path", kVersioned, "/dev/video0");
+  EXPECT_EQ(openedAs(kVersioned), "Same at /dev/video0");
+}
+
 TEST_F(V4l2Listing, SaysWhatThereIsWhereAnIdIsNot) {
   plugAt("video0", {});
   const Result<StreamFormat> format = backend_.make("usb-Gone", clock_)->start({});
