@@ -14,7 +14,7 @@
 
 namespace pleinair::config {
 
-enum class ParameterKind { kNumber, kInteger, kSwitch, kChoice, kText, kPath, kSize };
+enum class ParameterKind { kNumber, kInteger, kSwitch, kChoice, kText, kPath, kSize, kPathList };
 
 enum class TakesEffect {
   kLive,     ///< at the next frame
@@ -29,7 +29,8 @@ struct ChoiceIndex {
 
 /// In the order of ParameterKind.
 using ParameterValue =
-    std::variant<double, int, bool, ChoiceIndex, std::string, std::filesystem::path, PixelSize>;
+    std::variant<double, int, bool, ChoiceIndex, std::string, std::filesystem::path, PixelSize,
+                 std::vector<std::filesystem::path>>;
 
 /// What consoles, profiles and `--help` know of a parameter.
 struct ParameterDescriptor {
@@ -39,16 +40,20 @@ struct ParameterDescriptor {
   NumberRange numberRange;    ///< of a number
   IntegerRange integerRange;  ///< of an integer
   SizeRange sizeRange;        ///< of a size
-  /// Of a choice, by index. Of a path, words that stand for something else ("none"); text that goes
-  /// on from one of them after a colon is no path. Of a size, what stands for 0x0, if anything.
+  LengthRange lengthRange;    ///< of a list
+  /// Of a choice, by index. Of a path and of a list's elements, words that stand for something else
+  /// ("none"); text that goes on from one of them after a colon is no path. Of a size, what stands
+  /// for 0x0, if anything.
   std::vector<std::string> choices;
   /// Of a path, names of other things, with what follows them: "serial:NUMBER" allows any text that
   /// goes on from "serial:".
   std::vector<std::string> openChoices;
-  /// Which texts a text may be; unset: any.
+  /// Which texts a text, or an element of a list, may be; unset: any.
   std::function<bool(std::string_view)> takesText;
-  std::string textAllowed;  ///< of a text, for messages: "a name that ... lists"; empty: any
-  std::string pathEnding;   ///< of a path: ".toml"; empty: any
+  /// Of a text, for messages: "a name that ... lists"; of a list, what an element is beside the
+  /// choices; empty: any.
+  std::string textAllowed;
+  std::string pathEnding;  ///< of a path: ".toml"; empty: any
   TakesEffect takesEffect = TakesEffect::kLive;
 
   ParameterKind kind() const { return static_cast<ParameterKind>(defaultValue.index()); }
@@ -62,18 +67,27 @@ struct ParameterDescriptor {
   /// Of this parameter's kind and within its range.
   bool allows(const ParameterValue& value) const;
 
-  /// Of a path's text: that it is one, and neither of the choices nor of the open choices.
+  /// Of a list: whether the text may be one of its elements.
+  bool allowsElement(const std::string& text) const;
+  /// Of the text of a path or of a list's element: that it is a path, and neither of the choices
+  /// nor of the open choices.
   bool isPath(std::string_view text) const;
-  /// The value as a person writes it ("8", "true", "cells"); parse() reads it back exactly.
+  /// The value as a person writes it ("8", "true", "cells"); parse() reads it back exactly. A
+  /// list's elements are separated by commas; a comma or backslash of theirs follows a backslash.
   std::string textOf(const ParameterValue& value) const;
   /// Nothing where the text is not an allowed value.
   std::optional<ParameterValue> parse(std::string_view text) const;
   /// The value as TOML: strings in quotes, and paths absolute, so that they hold in any file.
   /// Throws a ConfigError where it is not UTF-8.
   std::string tomlOf(const ParameterValue& value) const;
+  /// The text of a value, or of an element of a list, as a TOML string.
+  std::string tomlOfText(std::string text) const;
   /// Text that parse() does not take, for a message: `"celsl" (did you mean "cells"?)`.
   std::string foundIn(std::string_view text) const;
 };
+
+/// A list as ParameterDescriptor::textOf() writes it: "window,a\\,b.mp4".
+std::string textOfPaths(const std::vector<std::filesystem::path>& paths);
 
 /// The parameters that one style or part of the program has. Immutable.
 class ParameterList {

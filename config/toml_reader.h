@@ -73,6 +73,10 @@ class TomlTable {
     return toArray<N>(*values);
   }
 
+  /// An array of strings; `allowed` is for the message, the whole of it.
+  std::optional<std::vector<std::string>> optionalStrings(std::string_view key, LengthRange length,
+                                                          std::string_view allowed) const;
+
   /// A string out of `choices`; gives the index of the one found.
   std::size_t choice(std::string_view key, std::span<const std::string> choices) const;
   std::optional<std::size_t> optionalChoice(std::string_view key,
@@ -100,6 +104,7 @@ class TomlTable {
 
   bool has(std::string_view key) const;       ///< does not make the key known
   bool isString(std::string_view key) const;  ///< likewise; for keys of two types
+  bool isTable(std::string_view key) const;   ///< likewise
   std::vector<std::string> keys() const;      ///< every key in the table, sorted
   int lineOf(std::string_view key) const;     ///< where absent, its table's line; 0 for the root
   std::string pathOf(std::string_view key) const;  ///< "tag[0].edge"

@@ -12,8 +12,8 @@ LivePipeline::LivePipeline(hal::CameraSupervisor& camera, hal::Clock& clock)
       began_(clock.now()),
       capture_(camera, clock, ledger_, frames_) {}
 
-OutputStage& LivePipeline::addOutput(std::unique_ptr<hal::MemoryOutput> output,
-                                     hal::OutputFormat format, OutputStageOptions options) {
+OutputStage& LivePipeline::addOutput(std::unique_ptr<hal::Output> output, hal::OutputFormat format,
+                                     OutputStageOptions options) {
   assert(!paint_);
   outputs_.push_back(std::make_unique<OutputStage>(std::move(output), format, std::move(options),
                                                    clock_, ledger_));

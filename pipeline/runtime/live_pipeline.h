@@ -28,7 +28,7 @@ class LivePipeline {
   /// Both outlive this.
   LivePipeline(hal::CameraSupervisor& camera, hal::Clock& clock);
 
-  OutputStage& addOutput(std::unique_ptr<hal::MemoryOutput> output, hal::OutputFormat format,
+  OutputStage& addOutput(std::unique_ptr<hal::Output> output, hal::OutputFormat format,
                          OutputStageOptions options);
   void makePaintStage(PainterFactory factory, PaintStageOptions options);
 

@@ -13,7 +13,7 @@ constexpr hal::Duration kLongestReopening = std::chrono::seconds(8);
 
 }  // namespace
 
-OutputStage::OutputStage(std::unique_ptr<hal::MemoryOutput> output, hal::OutputFormat format,
+OutputStage::OutputStage(std::unique_ptr<hal::Output> output, hal::OutputFormat format,
                          OutputStageOptions options, hal::Clock& clock, FrameLedger& ledger)
     : output_(std::move(output)),
       format_(format),
@@ -119,9 +119,10 @@ hal::Duration OutputStage::timeOf(const WaitingPicture& picture) {
 void OutputStage::present(const Due& due) {
   const hal::TimePoint began = clock_.now();
   const hal::ImageView view = buffers_.at(due.picture.buffer)->image.view();
-  const std::uint64_t skippedBefore = output_->skippedPictures();
-  hal::Result<void> written = output_->write(view, timeOf(due.picture));
-  const bool isSkipped = output_->skippedPictures() > skippedBefore;
+  hal::MemoryOutput& output = *output_->memory();
+  const std::uint64_t skippedBefore = output.skippedPictures();
+  hal::Result<void> written = output.write(view, timeOf(due.picture));
+  const bool isSkipped = output.skippedPictures() > skippedBefore;
   const hal::TimePoint ended = clock_.now();
   const std::scoped_lock lock(mutex_);
   isWriting_ = false;

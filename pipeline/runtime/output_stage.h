@@ -29,7 +29,7 @@ struct OutputStageOptions {
   std::optional<std::uint64_t> limit = std::nullopt;
   /// Opens the output anew after it has failed, on the output's thread; without, that is the end of
   /// it. It has to take the same format again.
-  std::function<hal::Result<std::unique_ptr<hal::MemoryOutput>>()> reopen;
+  std::function<hal::Result<std::unique_ptr<hal::Output>>()> reopen;
   hal::OutputRequest request;  ///< what it was started with
 };
 
@@ -39,7 +39,7 @@ struct OutputStageOptions {
 class OutputStage {
  public:
   /// `output` was started and answered `format`. Ledger and clock outlive this.
-  OutputStage(std::unique_ptr<hal::MemoryOutput> output, hal::OutputFormat format,
+  OutputStage(std::unique_ptr<hal::Output> output, hal::OutputFormat format,
               OutputStageOptions options, hal::Clock& clock, FrameLedger& ledger);
 
   const std::string& name() const { return options_.name; }
@@ -107,7 +107,7 @@ class OutputStage {
   void tryToReopen();
   hal::Duration timeOf(const WaitingPicture& picture);
 
-  std::unique_ptr<hal::MemoryOutput> output_;
+  std::unique_ptr<hal::Output> output_;
   hal::OutputFormat format_;
   OutputStageOptions options_;
   hal::Clock& clock_;

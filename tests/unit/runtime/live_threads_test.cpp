@@ -35,7 +35,7 @@ class BlockingOutput final : public hal::MemoryOutput {
   hal::Result<hal::OutputFormat> start(const hal::OutputRequest& request) override {
     return hal::OutputFormat{
         .frame = {.pixelFormat = hal::PixelFormat::kGrey8, .size = request.size, .encoding = {}},
-        .refreshPeriod = {}};
+        .refresh = {}};
   }
   hal::Result<void> write(const hal::ImageView&, hal::Duration) override {
     if (control_.blocks) control_.release.acquire();
