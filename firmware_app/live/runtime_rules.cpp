@@ -35,8 +35,7 @@ runtime::PaintStageOptions paintRules(const RuntimeSettings& settings,
   const auto pinned = std::ranges::find(names, settings.quality);
   runtime::PaintStageOptions options{.governor = {.levels = names.size(), .pinned = {}},
                                      .latency = {},
-                                     .framePeriod = stream.framePeriod,
-                                     .refresh = {}};
+                                     .framePeriod = stream.framePeriod};
   if (pinned != names.end()) {
     options.governor.pinned = static_cast<std::size_t>(pinned - names.begin());
   }

@@ -71,8 +71,7 @@ class Live {
         [outputs](const auto&) { return std::make_unique<PassThroughPainter>(outputs); },
         {.governor = {.levels = 5, .pinned = {}},
          .latency = {.configured = 20ms},
-         .framePeriod = period,
-         .refresh = {}});
+         .framePeriod = period});
     threads_.startPainter();
     while (!threads_.isPainterReady()) std::this_thread::sleep_for(1ms);
     threads_.startOutputs();

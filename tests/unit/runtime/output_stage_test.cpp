@@ -79,7 +79,7 @@ class OutputStageTest : public testing::Test {
       OutputFrame& picture = stage_->buffer();
       picture.image = hal::Image(kFormat);
       picture.captureTime = now;
-      stage_->submit(ledger_.open(), now, now + 10ms);
+      stage_->submit(ledger_.open(), now, 10ms);
       for (const hal::TimePoint end = now + 33ms; clock_.now() < end;) {
         const auto next = stage_->step();
         clock_.sleepUntil(next ? std::clamp(*next, clock_.now() + 1ms, end) : end);
