@@ -72,6 +72,45 @@ std::string allowedPaths(const ParameterDescriptor& descriptor) {
   return words.empty() ? path : listText(words) + ", or " + path;
 }
 
+std::string allowedElements(const ParameterDescriptor& descriptor) {
+  std::vector<std::string> words = descriptor.choices;
+  words.insert(words.end(), descriptor.openChoices.begin(), descriptor.openChoices.end());
+  const std::string path = descriptor.textAllowed.empty() ? "a path" : descriptor.textAllowed;
+  return words.empty() ? path : listText(words) + ", or " + path;
+}
+
+/// "an array of 1 to 8 of: window, loopback:DEVICE, or a path"
+std::string allowedLists(const ParameterDescriptor& descriptor) {
+  return descriptor.lengthRange.describe("texts") + ", each " + allowedElements(descriptor);
+}
+
+bool isAllowedList(const ParameterDescriptor& descriptor,
+                   const std::vector<std::filesystem::path>& list) {
+  return descriptor.lengthRange.contains(list.size()) &&
+         std::all_of(list.begin(), list.end(), [&](const std::filesystem::path& each) {
+           return descriptor.allowsElement(each.string());
+         });
+}
+
+/// The elements of a list's text; nothing where a backslash is before anything but a comma or
+/// another.
+std::optional<std::vector<std::filesystem::path>> parsedList(std::string_view text) {
+  std::vector<std::filesystem::path> list;
+  std::string element;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == ',') {
+      list.emplace_back(std::exchange(element, {}));
+      continue;
+    }
+    if (text[i] == '\\' && (++i == text.size() || (text[i] != ',' && text[i] != '\\'))) {
+      return std::nullopt;
+    }
+    element += text[i];
+  }
+  list.emplace_back(element);
+  return list;
+}
+
 std::string allowedSizes(const ParameterDescriptor& descriptor) {
   const std::string sizes = descriptor.sizeRange.describe();
   return descriptor.choices.empty() ? sizes : descriptor.choices.front() + ", or " + sizes;
@@ -103,6 +142,9 @@ std::optional<ParameterValue> parsedAs(const ParameterDescriptor& descriptor,
       if (isAmong(descriptor.choices, text)) return PixelSize{};
       if (const auto size = parsedSize(text); size && *size != PixelSize{}) return *size;
       return std::nullopt;
+    case ParameterKind::kPathList:
+      if (auto list = parsedList(text)) return *std::move(list);
+      return std::nullopt;
   }
   return std::nullopt;
 }
@@ -115,6 +157,18 @@ std::optional<ParameterValue> parsedAs(const ParameterDescriptor& descriptor,
 }
 
 }  // namespace
+
+std::string textOfPaths(const std::vector<std::filesystem::path>& paths) {
+  std::string text;
+  for (const std::filesystem::path& each : paths) {
+    if (!text.empty()) text += ',';
+    for (const char c : each.string()) {
+      if (c == ',' || c == '\\') text += '\\';
+      text += c;
+    }
+  }
+  return text;
+}
 
 std::string_view ParameterDescriptor::unit() const {
   if (kind() == ParameterKind::kNumber) return numberRange.unit;
@@ -139,6 +193,8 @@ std::string ParameterDescriptor::allowed() const {
       return allowedPaths(*this);
     case ParameterKind::kSize:
       return allowedSizes(*this);
+    case ParameterKind::kPathList:
+      return allowedLists(*this);
   }
   return {};
 }
@@ -159,7 +215,14 @@ bool ParameterDescriptor::allows(const ParameterValue& value) const {
   if (const auto* size = std::get_if<PixelSize>(&value)) {
     return sizeRange.contains(*size) || (*size == PixelSize{} && !choices.empty());
   }
+  if (const auto* list = std::get_if<std::vector<std::filesystem::path>>(&value)) {
+    return isAllowedList(*this, *list);
+  }
   return true;
+}
+
+bool ParameterDescriptor::allowsElement(const std::string& text) const {
+  return isAllowedPath(*this, text) && (!takesText || takesText(text));
 }
 
 bool ParameterDescriptor::isPath(std::string_view text) const {
@@ -176,6 +239,9 @@ std::string ParameterDescriptor::textOf(const ParameterValue& value) const {
     const bool isWord = *size == PixelSize{} && !choices.empty();
     return isWord ? choices.front() : fmt::format("{}x{}", size->width, size->height);
   }
+  if (const auto* list = std::get_if<std::vector<std::filesystem::path>>(&value)) {
+    return textOfPaths(*list);
+  }
   return std::get<bool>(value) ? "true" : "false";
 }
 
@@ -187,8 +253,20 @@ std::optional<ParameterValue> ParameterDescriptor::parse(std::string_view text) 
 
 std::string ParameterDescriptor::tomlOf(const ParameterValue& value) const {
   if (kind() < ParameterKind::kChoice) return textOf(value);
-  std::string text = textOf(value);
-  if (kind() == ParameterKind::kPath && isPath(text)) {
+  if (const auto* list = std::get_if<std::vector<std::filesystem::path>>(&value)) {
+    std::string toml;
+    for (const std::filesystem::path& each : *list) {
+      if (!toml.empty()) toml += ", ";
+      toml += tomlOfText(each.string());
+    }
+    return "[" + toml + "]";
+  }
+  return tomlOfText(textOf(value));
+}
+
+std::string ParameterDescriptor::tomlOfText(std::string text) const {
+  const bool mayBePath = kind() == ParameterKind::kPath || kind() == ParameterKind::kPathList;
+  if (mayBePath && isPath(text)) {
     std::error_code failure;
     const std::filesystem::path absolute = std::filesystem::absolute(text, failure);
     if (!failure) text = absolute.lexically_normal().string();
@@ -203,7 +281,8 @@ std::string ParameterDescriptor::tomlOf(const ParameterValue& value) const {
 
 std::string ParameterDescriptor::allowedInsteadOf(std::string_view text) const {
   const std::size_t colon = text.find(':');
-  if (kind() != ParameterKind::kPath || colon == std::string_view::npos) return allowed();
+  const bool mayBePath = kind() == ParameterKind::kPath || kind() == ParameterKind::kPathList;
+  if (!mayBePath || colon == std::string_view::npos) return allowed();
   std::vector<std::string> words;
   for (const std::vector<std::string>* each : {&choices, &openChoices}) {
     std::copy_if(each->begin(), each->end(), std::back_inserter(words), [&](const auto& word) {
@@ -225,7 +304,7 @@ ParameterList::ParameterList(std::vector<ParameterDescriptor> descriptors)
   for (std::size_t i = 0; i < descriptors_.size(); ++i) {
     [[maybe_unused]] const ParameterDescriptor& each = descriptors_[i];
     assert(isBareName(each.name) && indexOf(each.name) == i);
-    assert(each.kind() == ParameterKind::kPath ||
+    assert(each.kind() == ParameterKind::kPath || each.kind() == ParameterKind::kPathList ||
            std::all_of(each.choices.begin(), each.choices.end(), isBareName));
     assert(each.kind() != ParameterKind::kSize || each.choices.size() <= 1);
     assert(each.help.find('\n') == std::string::npos);

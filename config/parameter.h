@@ -14,7 +14,7 @@
 
 namespace pleinair::config {
 
-enum class ParameterKind { kNumber, kInteger, kSwitch, kChoice, kText, kPath, kSize };
+enum class ParameterKind { kNumber, kInteger, kSwitch, kChoice, kText, kPath, kSize, kPathList };
 
 enum class TakesEffect {
   kLive,     ///< takes effect at the next frame
@@ -29,27 +29,31 @@ struct ChoiceIndex {
 
 /// Alternatives in the order of ParameterKind.
 using ParameterValue =
-    std::variant<double, int, bool, ChoiceIndex, std::string, std::filesystem::path, PixelSize>;
+    std::variant<double, int, bool, ChoiceIndex, std::string, std::filesystem::path, PixelSize,
+                 std::vector<std::filesystem::path>>;
 
 /// Description of a parameter for consoles, profiles and `--help`.
 struct ParameterDescriptor {
   std::string name;  ///< lower case with underscores, a TOML key: "cell_size"
   std::string help;  ///< one line
   ParameterValue defaultValue;
-  NumberRange numberRange;    ///< for a number
-  IntegerRange integerRange;  ///< for an integer
-  SizeRange sizeRange;        ///< for a size
-  /// For a choice: the names, by index. For a path: words with a meaning of their own ("none");
-  /// text that continues one of them after a colon is no path. For a size: the word for 0x0, if
-  /// there is one.
+  NumberRange numberRange;    ///< of a number
+  IntegerRange integerRange;  ///< of an integer
+  SizeRange sizeRange;        ///< of a size
+  LengthRange lengthRange;    ///< of a list
+  /// Of a choice, by index. Of a path and of a list's elements, words that stand for something else
+  /// ("none"); text that goes on from one of them after a colon is no path. Of a size, what stands
+  /// for 0x0, if anything.
   std::vector<std::string> choices;
   /// For a path: names with an argument. "serial:NUMBER" allows any text that begins with
   /// "serial:".
   std::vector<std::string> openChoices;
-  /// For a text: whether a text is allowed; unset: any is.
+  /// Which texts a text, or an element of a list, may be; unset: any.
   std::function<bool(std::string_view)> takesText;
-  std::string textAllowed;  ///< for a text, in messages: "a name that ... lists"; empty: any
-  std::string pathEnding;   ///< for a path: ".toml"; empty: any
+  /// Of a text, for messages: "a name that ... lists"; of a list, what an element is beside the
+  /// choices; empty: any.
+  std::string textAllowed;
+  std::string pathEnding;  ///< of a path: ".toml"; empty: any
   TakesEffect takesEffect = TakesEffect::kLive;
 
   ParameterKind kind() const { return static_cast<ParameterKind>(defaultValue.index()); }
@@ -63,20 +67,29 @@ struct ParameterDescriptor {
   /// Whether the value has this parameter's kind and is within its range.
   bool allows(const ParameterValue& value) const;
 
-  /// Whether a text is a path, and neither one of the choices nor of the open choices.
+  /// Of a list: whether the text may be one of its elements.
+  bool allowsElement(const std::string& text) const;
+  /// Of the text of a path or of a list's element: that it is a path, and neither of the choices
+  /// nor of the open choices.
   bool isPath(std::string_view text) const;
-  /// The value as people write it ("8", "true", "cells"); parse() reads it back exactly.
+  /// The value as a person writes it ("8", "true", "cells"); parse() reads it back exactly. A
+  /// list's elements are separated by commas; a comma or backslash of theirs follows a backslash.
   std::string textOf(const ParameterValue& value) const;
   /// Nothing if the text is not an allowed value.
   std::optional<ParameterValue> parse(std::string_view text) const;
   /// The value as TOML: strings in quotes, and paths absolute, so that they are valid in any file.
   /// Throws a ConfigError if it is not UTF-8.
   std::string tomlOf(const ParameterValue& value) const;
-  /// A text that parse() rejects, for a message: `"celsl" (did you mean "cells"?)`.
+  /// The text of a value, or of an element of a list, as a TOML string.
+  std::string tomlOfText(std::string text) const;
+  /// Text that parse() does not take, for a message: `"celsl" (did you mean "cells"?)`.
   std::string foundIn(std::string_view text) const;
 };
 
-/// The parameters of one style or part of the program. Immutable.
+/// A list as ParameterDescriptor::textOf() writes it: "window,a\\,b.mp4".
+std::string textOfPaths(const std::vector<std::filesystem::path>& paths);
+
+/// The parameters that one style or part of the program has. Immutable.
 class ParameterList {
  public:
   /// Asserts that names are unique TOML keys and that defaults are allowed values.

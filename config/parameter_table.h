@@ -119,7 +119,31 @@ ParameterBinding<P> pathParameter(const std::string& name, std::filesystem::path
           }};
 }
 
-/// A size; `word`, if given, stands for 0x0.
+/// Files or folders, each of which may also be one of `words`; `openWords` (openChoices), `allowed`
+/// and `takes` (textAllowed and takesText, of each) as of ParameterDescriptor.
+template <class P>
+ParameterBinding<P> pathListParameter(const std::string& name,
+                                      std::vector<std::filesystem::path> P::*member,
+                                      LengthRange length, const std::vector<std::string>& words,
+                                      const std::vector<std::string>& openWords,
+                                      const std::string& help, const std::string& allowed = {},
+                                      std::function<bool(std::string_view)> takes = {},
+                                      TakesEffect takesEffect = TakesEffect::kRestart) {
+  return {{.name = name,
+           .help = help,
+           .lengthRange = length,
+           .choices = words,
+           .openChoices = openWords,
+           .takesText = std::move(takes),
+           .textAllowed = allowed,
+           .takesEffect = takesEffect},
+          [member](const P& p) { return ParameterValue(p.*member); },
+          [member](P& p, const ParameterValue& value) {
+            p.*member = std::get<std::vector<std::filesystem::path>>(value);
+          }};
+}
+
+/// A size; with a `word`, that stands for 0x0.
 template <class P>
 ParameterBinding<P> sizeParameter(const std::string& name, PixelSize P::*member,
                                   const SizeRange& range, const std::vector<std::string>& word,

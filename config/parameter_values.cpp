@@ -34,6 +34,24 @@ std::optional<ParameterValue> readText(const TomlTable& table,
   return inItsFolder(std::move(*value), descriptor, table.directory());
 }
 
+std::optional<ParameterValue> readList(const TomlTable& table,
+                                       const ParameterDescriptor& descriptor) {
+  const auto texts =
+      table.optionalStrings(descriptor.name, descriptor.lengthRange, descriptor.allowed());
+  if (!texts) return std::nullopt;
+  std::vector<std::filesystem::path> list;
+  for (const std::string& text : *texts) {
+    if (!descriptor.allowsElement(text)) {
+      throw table.error(descriptor.name, "found " + descriptor.foundIn(text),
+                        descriptor.allowedInsteadOf(text));
+    }
+    // An absolute path stays.
+    list.push_back(descriptor.isPath(text) ? table.directory() / text
+                                           : std::filesystem::path(text));
+  }
+  return list;
+}
+
 std::optional<ParameterValue> read(const TomlTable& table, const ParameterDescriptor& descriptor) {
   const std::string& name = descriptor.name;
   switch (descriptor.kind()) {
@@ -52,6 +70,8 @@ std::optional<ParameterValue> read(const TomlTable& table, const ParameterDescri
     case ParameterKind::kPath:
     case ParameterKind::kSize:
       return readText(table, descriptor);
+    case ParameterKind::kPathList:
+      return readList(table, descriptor);
   }
   return std::nullopt;
 }

@@ -196,6 +196,27 @@ std::vector<double> TomlTable::numbers(std::string_view key, LengthRange length,
                    length.describe(range.describe(true)));
 }
 
+std::optional<std::vector<std::string>> TomlTable::optionalStrings(std::string_view key,
+                                                                   LengthRange length,
+                                                                   std::string_view allowed) const {
+  const toml::node* node = state_->ask(key);
+  if (!node) return std::nullopt;
+  const auto* array = node->as_array();
+  if (!array || !length.contains(array->size())) {
+    throw state_->wrong(pathOf(key), *node, true, std::string(allowed));
+  }
+  std::vector<std::string> values;
+  for (const toml::node& element : *array) {
+    const auto* text = element.as_string();
+    if (!text) {
+      throw state_->wrong(fmt::format("{}[{}]", pathOf(key), values.size()), element, true,
+                          std::string(allowed));
+    }
+    values.push_back(text->get());
+  }
+  return values;
+}
+
 std::optional<std::size_t> TomlTable::optionalChoice(std::string_view key,
                                                      std::span<const std::string> choices) const {
   const toml::node* node = state_->ask(key);
@@ -255,6 +276,11 @@ bool TomlTable::has(std::string_view key) const {
 bool TomlTable::isString(std::string_view key) const {
   const toml::node* node = state_->table->get(key);
   return node != nullptr && node->is_string();
+}
+
+bool TomlTable::isTable(std::string_view key) const {
+  const toml::node* node = state_->table->get(key);
+  return node != nullptr && node->is_table();
 }
 
 std::vector<std::string> TomlTable::keys() const {

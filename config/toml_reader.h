@@ -73,7 +73,11 @@ class TomlTable {
     return toArray<N>(*values);
   }
 
-  /// A string out of `choices`; returns its index.
+  /// An array of strings; `allowed` is for the message, the whole of it.
+  std::optional<std::vector<std::string>> optionalStrings(std::string_view key, LengthRange length,
+                                                          std::string_view allowed) const;
+
+  /// A string out of `choices`; gives the index of the one found.
   std::size_t choice(std::string_view key, std::span<const std::string> choices) const;
   std::optional<std::size_t> optionalChoice(std::string_view key,
                                             std::span<const std::string> choices) const;
@@ -98,11 +102,11 @@ class TomlTable {
   /// An array of tables, `[[key]]`; empty if absent.
   std::vector<TomlTable> tables(std::string_view key) const;
 
-  bool has(std::string_view key) const;  ///< does not mark the key as known
-  /// Does not mark the key as known; for keys of two types.
-  bool isString(std::string_view key) const;
-  std::vector<std::string> keys() const;   ///< every key in the table, sorted
-  int lineOf(std::string_view key) const;  ///< if absent, the line of its table; 0 for the root
+  bool has(std::string_view key) const;       ///< does not make the key known
+  bool isString(std::string_view key) const;  ///< likewise; for keys of two types
+  bool isTable(std::string_view key) const;   ///< likewise
+  std::vector<std::string> keys() const;      ///< every key in the table, sorted
+  int lineOf(std::string_view key) const;     ///< where absent, its table's line; 0 for the root
   std::string pathOf(std::string_view key) const;  ///< "tag[0].edge"
   const std::string& file() const;                 ///< the name for messages
   /// Directory of the file, to which its relative paths refer; empty for text.

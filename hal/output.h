@@ -3,10 +3,12 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "hal/clock.h"
 #include "hal/error.h"
 #include "hal/image.h"
+#include "hal/surface.h"
 
 namespace pleinair::hal {
 
@@ -16,10 +18,17 @@ struct OutputRequest {
   std::optional<Duration> framePeriod;  ///< nominal, where the source has one
 };
 
+/// When a display changes its picture: at `phase` and every `period` before and after it.
+struct Refresh {
+  Duration period;
+  std::optional<TimePoint> phase;  ///< one of those moments, on the steady clock; unset: unknown
+  friend bool operator==(const Refresh&, const Refresh&) = default;
+};
+
 /// What the output takes. The pipeline scales and converts to it (pipeline/present).
 struct OutputFormat {
   FrameFormat frame;
-  std::optional<Duration> refreshPeriod;  ///< of a display; unset where there is none
+  std::optional<Refresh> refresh;  ///< of a display; unset where there is none
 };
 
 struct OutputIdentity {
@@ -27,36 +36,105 @@ struct OutputIdentity {
   std::string id;       ///< path or device
 };
 
-/// A sink that takes pictures in memory: movie, frames, loopback, preview. One conformance suite
-/// holds them all (tests/conformance/output_conformance.h). All calls come from one thread.
+class MemoryOutput;
+class SurfaceOutput;
+
+/// Where painted pictures go: a file, a device, a display. An output takes pictures in memory
+/// (MemoryOutput) or lends surfaces that are filled and handed back (SurfaceOutput). One contract
+/// for all of them, held by one conformance suite (tests/conformance/output_conformance.h).
+///
+/// States: made → start() → started → finish() → finished. After an error of any call but start()'s
+/// only destruction is allowed; destruction is allowed in every state. All calls come from one
+/// thread. Time is the steady clock's.
+class Output {
+ public:
+  virtual ~Output() = default;
+  Output() = default;
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+
+  virtual OutputIdentity identity() const = 0;
+
+  /// Opens, and answers the format of the pictures. Called once. Errors: kPermissionDenied,
+  /// kNotFound (no such folder or device), kNoSpace, kBusy, kUnsupported (size), kIo.
+  virtual Result<OutputFormat> start(const OutputRequest& request) = 0;
+
+  /// Completes and publishes. Precondition: started. Errors: kNoSpace, kIo, kDeviceLost.
+  virtual Result<void> finish() = 0;
+
+  // How it takes pictures: exactly one of these is not null. It is this object.
+
+  virtual MemoryOutput* memory() { return nullptr; }
+  virtual SurfaceOutput* surfaces() { return nullptr; }
+};
+
+/// An output that takes pictures in memory: a movie, frames, a loopback, a window.
 ///
 /// An output to files writes under temporary names and publishes in finish(): until then, and if it
 /// is destroyed without, nothing stands under the final name, and what stood there before still
 /// does. A folder of frames publishes each whole frame as it comes.
-class MemoryOutput {
+class MemoryOutput : public Output {
  public:
-  virtual ~MemoryOutput() = default;
-  MemoryOutput() = default;
-  MemoryOutput(const MemoryOutput&) = delete;
-  MemoryOutput& operator=(const MemoryOutput&) = delete;
-
-  virtual OutputIdentity identity() const = 0;
-
-  /// Opens. Called once, before write(). Errors: kPermissionDenied, kNotFound (no such folder),
-  /// kNoSpace, kUnsupported (size), kIo.
-  virtual Result<OutputFormat> start(const OutputRequest& request) = 0;
+  MemoryOutput* memory() final { return this; }
 
   /// Takes one picture of the format that start() answered; copies what it keeps. `time` is the
-  /// capture time since the first picture's and rises strictly. Errors: kNoSpace, kIo,
-  /// kDeviceLost; after one, only destruction is allowed.
+  /// capture time since the first picture's and rises strictly. Waits for as long as the output
+  /// takes, unless the kind's traits say that it skips. Errors: kNoSpace, kIo, kDeviceLost.
   virtual Result<void> write(const ImageView& picture, Duration time) = 0;
 
-  /// How many of the pictures that write() took were dropped, because whoever reads them was too
-  /// slow; of outputs to devices that must not be waited for.
+  /// How many of the pictures that write() took were dropped, because their reader was too slow.
   virtual std::uint64_t skippedPictures() const { return 0; }
+};
 
-  /// Completes and publishes. Errors as write(). Afterwards only destruction is allowed.
-  virtual Result<void> finish() = 0;
+/// How a submitted surface ended.
+struct PresentationEvent {
+  enum class Result {
+    kShown,       ///< it was on the display from `time` on
+    kSuperseded,  ///< a surface that was submitted later took its refresh
+    kSkipped,     ///< the display did not take it
+  };
+  SurfaceId surface{};
+  Result result = Result::kShown;
+  /// Which refresh it was, counted by the display; unset where the display does not count.
+  std::optional<std::uint64_t> sequence;
+  TimePoint time;  ///< of that refresh; where it was not shown, when that was known
+};
+
+/// An output that lends its buffers, so that pictures reach a display without a copy in between.
+///
+/// A surface is free → acquire() → lent → submit() → queued → its event. It is free again once its
+/// event says that it was not shown, or, where it was shown, once another has taken its place.
+/// release() gives a lent one back. Every submitted surface ends in exactly one event, in the order
+/// of submission, unless finish(), an error or destruction comes before. No call waits, for the
+/// display, for a fence or for a free surface.
+///
+/// Surfaces, their ids and file descriptors belong to the output, which keeps them open from
+/// start() until it is destroyed.
+class SurfaceOutput : public Output {
+ public:
+  SurfaceOutput* surfaces() final { return this; }
+
+  /// A free surface of the format that start() answered; nothing where all are in use. Errors:
+  /// kDeviceLost.
+  virtual Result<std::optional<Surface>> acquire() = 0;
+
+  /// The memory of a lent surface, for the processor, until the mapping is destroyed, which has to
+  /// come before submit() and release(). Errors: kUnsupported (it cannot be mapped), kIo,
+  /// kDeviceLost.
+  virtual Result<SurfaceMapping> map(const Surface& surface) = 0;
+
+  /// Takes a lent surface back unshown.
+  virtual void release(const Surface& surface) = 0;
+
+  /// Has a lent surface shown once `fence` has signalled, at the refresh nearest to `due`, or the
+  /// first one after that where it is late. Errors: kDeviceLost, kIo; the surface is lent no more.
+  virtual Result<void> submit(const Surface& surface, Fence fence, TimePoint due) = 0;
+
+  /// Appends the events since the last call, oldest first. Errors: kDeviceLost, kIo.
+  virtual Result<void> takeEvents(std::vector<PresentationEvent>& events) = 0;
+
+  /// When takeEvents() will have the next one, as far as can be told; none where nothing is queued.
+  virtual std::optional<TimePoint> nextEvent() const = 0;
 };
 
 }  // namespace pleinair::hal

@@ -1,17 +1,24 @@
 #include "firmware_app/cli/subcommand_options.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "config/parameter.h"
 #include "config/profiles.h"
 #include "config/suggestion.h"
 #include "firmware_app/cli/option_values.h"
 #include "firmware_app/commands/commands.h"
+#include "hal/outputs/registry.h"
 
 namespace pleinair::app {
 namespace {
@@ -107,23 +114,33 @@ void addRender(CLI::App& app, RenderOptions& options, std::function<int()>& chos
   command.callback([&] { chosen = [&options] { return render(options); }; });
 }
 
-/// --output, up to three times: the targets in their order.
+/// "a window on the desktop (window); …; files as of render"
+std::string outputHelp() {
+  std::string help;
+  std::vector<std::string> files;
+  for (const hal::OutputKind& kind : hal::outputKinds()) {
+    if (kind.traits.writesFiles) {
+      std::ranges::copy(kind.forms, std::back_inserter(files));
+    } else {
+      help += fmt::format("{}: {}; ", fmt::join(kind.forms, ", "), kind.help);
+    }
+  }
+  return fmt::format("{}or a path: {}. Default: window; may be given several times", help,
+                     fmt::join(files, ", "));
+}
+
+/// --output, as often as wanted: the targets in their order.
 void addOutputs(CLI::App& command, ConfigurationRequest& request) {
-  static constexpr std::array kKeys{"output.target", "output.second_target", "output.third_target"};
   const auto assign = [&request](const std::vector<std::string>& targets) {
-    if (targets.size() > kKeys.size()) throw CLI::ValidationError("--output: three at the most");
-    for (std::size_t i = 0; i < targets.size(); ++i) {
-      if (const std::string refusal = refuseStandardOutput(targets[i]); !refusal.empty()) {
+    for (const std::string& target : targets) {
+      if (const std::string refusal = refuseStandardOutput(target); !refusal.empty()) {
         throw CLI::ValidationError("--output: " + refusal);
       }
-      request.options.push_back({kKeys.at(i), targets[i], "--output"});
     }
+    const std::vector<std::filesystem::path> list(targets.begin(), targets.end());
+    request.options.push_back({"output.targets", config::textOfPaths(list), "--output"});
   };
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--output", assign,
-          "window (default), loopback (a V4L2 device that others read as a camera), or a file or "
-          "folder as of render; may be given up to three times")
+  command.add_option_function<std::vector<std::string>>("--output", assign, outputHelp())
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("NAME|PATH");

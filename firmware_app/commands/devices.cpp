@@ -3,18 +3,15 @@
 #include "firmware_app/commands/commands.h"
 #include "firmware_app/devices/inventory.h"
 #include "firmware_app/live/camera_selection.h"
-#include "hal/outputs/window/window.h"
+#include "hal/outputs/registry.h"
 
 namespace pleinair::app {
 namespace {
 
 Inventory takeInventory() {
-  Inventory inventory{.cameras = listDeviceCameras(deviceBackends())};
-  inventory.loopbacks = hal::listLoopbacks();
-  inventory.displays = listDisplays();
-  // Not shown before start().
-  if (const auto window = hal::openWindow(); !window) inventory.noWindow = window.error();
-  return inventory;
+  return {.cameras = listDeviceCameras(deviceBackends()),
+          .outputs = listOutputs(hal::outputKinds()),
+          .displays = listDisplays()};
 }
 
 }  // namespace

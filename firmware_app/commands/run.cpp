@@ -1,7 +1,6 @@
 #include <algorithm>
-#include <map>
+#include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -14,18 +13,20 @@
 #include "firmware_app/live/live_painting.h"
 #include "hal/clock.h"
 #include "hal/error.h"
-#include "hal/outputs/open_output.h"
+#include "hal/outputs/registry.h"
 
 namespace pleinair::app {
 namespace {
 
-/// In their order, without those that are not there.
 std::vector<std::string> targetsOf(const OutputSettings& output) {
-  std::vector<std::string> targets{output.target.string()};
-  for (const auto& each : {output.secondTarget, output.thirdTarget}) {
-    if (each != kNoTarget) targets.push_back(each.string());
-  }
+  std::vector<std::string> targets;
+  for (const std::filesystem::path& each : output.targets) targets.push_back(each.string());
   return targets;
+}
+
+bool isFile(const std::string& target) {
+  const auto kind = hal::outputKindOf(target);
+  return kind && (*kind)->traits.writesFiles;
 }
 
 void refuseTwice(std::vector<std::string> targets) {
@@ -45,7 +46,7 @@ void refuseCollisionsOf(const Configuration& configuration, const scene::Scene& 
   if (isRecording(camera)) read.insert(read.begin(), {"--camera", camera.source});
   std::vector<NamedPath> written;
   for (const std::string& target : targetsOf(configuration.output())) {
-    if (hal::isFileOutputName(target)) written.push_back({"--output", target});
+    if (isFile(target)) written.push_back({"--output", target});
   }
   refuseCollisions(read, written);
   refuseTwice(targetsOf(configuration.output()));
@@ -58,15 +59,6 @@ void requireFolder(const std::filesystem::path& folder) {
                                 .subject = folder.string(),
                                 .problem = "is not a folder",
                                 .remedy = "make it, or give another --snapshots DIR"});
-}
-
-hal::OutputOptions outputOptions(const OutputSettings& output) {
-  static const std::map<std::string, hal::PixelFormat> kLayouts{{"yuyv", hal::PixelFormat::kYuyv},
-                                                                {"nv12", hal::PixelFormat::kNv12},
-                                                                {"i420", hal::PixelFormat::kI420}};
-  const auto layout = kLayouts.find(output.loopbackFormat);
-  return {.loopbackLayout =
-              layout == kLayouts.end() ? std::nullopt : std::optional(layout->second)};
 }
 
 }  // namespace
@@ -91,7 +83,7 @@ int run(const RunOptions& options) {
              configuration,
              {.output = {}, .frames = options.frames, .shaderDirectory = options.shaderDirectory}),
          .outputs = targetsOf(output),
-         .outputOptions = outputOptions(output),
+         .outputOptions = output.options,
          .runtime = configuration.runtime(),
          .serveStatus =
              [&](StatusPages pages) {

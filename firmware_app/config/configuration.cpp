@@ -12,6 +12,7 @@
 #include "config/profiles.h"
 #include "config/suggestion.h"
 #include "firmware_app/config/configuration_sections.h"
+#include "firmware_app/config/former_keys.h"
 #include "pipeline/engine/painter.h"
 #include "pipeline/styles/style_registry.h"
 
@@ -68,6 +69,7 @@ void applyEnvironment(Sections& sections, std::vector<EnvironmentVariable> varia
   std::ranges::sort(variables, {}, &EnvironmentVariable::name);
   const std::vector<std::string> others{std::string(kSiteFileVariable)};
   for (const EnvironmentVariable& variable : variables) {
+    refuseFormerKey(variable);
     if (variable.name != kSiteFileVariable) sections.apply(variable, others);
   }
 }
@@ -81,6 +83,7 @@ void applySetting(Sections& sections, const std::string& setting) {
                        .allowed = "NAME=VALUE, such as cell_size=12 or camera.rate=15"});
   }
   const std::string name = setting.substr(0, equals);
+  refuseFormerKey(name, "--set " + name);
   const bool hasSection = name.find('.') != std::string::npos;
   const std::string section = hasSection ? "" : styleSection(paintingOf(sections).style);
   sections.apply(name, std::string_view(setting).substr(equals + 1), "--set " + name, section);
@@ -104,6 +107,7 @@ void applyCommandLine(Sections& sections, const ConfigurationRequest& request) {
 std::optional<TomlDocument> readProfile(Sections sections, const ConfigurationRequest& request,
                                         const std::optional<SiteFile>& site,
                                         std::vector<fs::path>& files) {
+  if (site) refuseFormerKeys(site->document.root());
   if (site) sections.apply(site->document);
   for (const EnvironmentVariable& variable : request.environment) {
     if (variable.name == kProfileVariable) sections.apply(variable);
@@ -151,6 +155,13 @@ void validateStyle(Sections& sections, const Sections& before) {
   std::vector<std::string> views{std::string(kFinishedView)};
   for (const DebugView& view : debugViewsOf(settled.style)) views.push_back(view.name);
   checkName(sections, kViewKey, settled.view, "the views", views);
+}
+
+/// Whether a value is this path, or a list that has it.
+bool holdsPath(const config::ParameterValue& value, const std::string& path) {
+  if (const auto* one = std::get_if<fs::path>(&value)) return one->string() == path;
+  const auto* list = std::get_if<std::vector<fs::path>>(&value);
+  return list != nullptr && std::ranges::find(*list, fs::path(path)) != list->end();
 }
 
 void lay(Sections& sections, const std::function<void(Sections&)>& layer) {
@@ -216,6 +227,7 @@ Configuration::Configuration(const ConfigurationRequest& request)
     if (profile->root().has(kProfileKey)) {
       throw profile->root().error(kProfileKey, "a profile builds on no other", "[sections] only");
     }
+    refuseFormerKeys(profile->root());
     lay(sections_, [&](Sections& sections) { sections.apply(*profile); });
   }
   if (site) lay(sections_, [&](Sections& sections) { sections.apply(site->document); });
@@ -267,10 +279,9 @@ std::optional<std::string> Configuration::keyThatNamed(const std::string& path) 
     const auto descriptors = section.values.list().descriptors();
     for (std::size_t i = 0; i < descriptors.size(); ++i) {
       const config::ParameterDescriptor& each = descriptors[i];
-      if (each.kind() != config::ParameterKind::kPath) continue;
       const std::string& place = section.values.origin(each.name);
       const bool isSaid = place == config::kDefaultOrigin || place.starts_with("--");
-      if (isSaid || each.textOf(section.values.at(i)) != path) continue;
+      if (isSaid || !holdsPath(section.values.at(i), path)) continue;
       return section.name.empty() ? each.name : fmt::format("{}.{}", section.name, each.name);
     }
   }

@@ -9,11 +9,9 @@
 
 #include "config/sections.h"
 #include "hal/error.h"
+#include "hal/outputs/registry.h"
 
 namespace pleinair::app {
-
-/// An output that is not there.
-inline constexpr const char* kNoTarget = "none";
 
 /// [camera]
 struct CameraSettings {
@@ -43,11 +41,9 @@ struct PaintingSettings {
 
 /// [output]
 struct OutputSettings {
-  std::filesystem::path target = "window";  ///< or a loopback, a movie or pictures
-  std::filesystem::path secondTarget{kNoTarget};
-  std::filesystem::path thirdTarget{kNoTarget};
-  std::string loopbackFormat = "auto";
-  std::filesystem::path snapshots = ".";  ///< the folder that snapshots are saved to
+  std::vector<std::filesystem::path> targets{"window"};  ///< as of hal::openOutput()
+  std::filesystem::path snapshots = ".";                 ///< the folder that snapshots are saved to
+  hal::OutputOptionsByKind options;                      ///< [output.KIND]
 };
 
 /// [runtime]

@@ -1,5 +1,10 @@
 #include "firmware_app/config/configuration_sections.h"
 
+#include <algorithm>
+#include <iterator>
+#include <memory>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "config/parameter_table.h"
@@ -8,6 +13,7 @@
 #include "firmware_app/live/camera_selection.h"
 #include "firmware_app/status_server/listen_address.h"
 #include "hal/cameras/synthetic/render/shot.h"
+#include "hal/outputs/registry.h"
 #include "hal/pixel_format.h"
 #include "pipeline/engine/painter.h"
 #include "pipeline/styles/style_registry.h"
@@ -19,6 +25,7 @@ using config::choiceParameter;
 using config::integerParameter;
 using config::numberParameter;
 using config::ParameterTable;
+using config::pathListParameter;
 using config::pathParameter;
 using config::sizeParameter;
 using config::switchParameter;
@@ -119,26 +126,44 @@ const ParameterTable<PaintingSettings>& paintingTable() {
 }
 
 const ParameterTable<OutputSettings>& outputTable() {
-  static const std::vector<std::string> kLoopbackNames{"loopback:DEVICE"};
+  static constexpr std::size_t kMostTargets = 8;
   static const ParameterTable<OutputSettings> kTable{
-      pathParameter(
-          "target", &OutputSettings::target, {"window", "loopback"},
-          "Where a live painting goes: \"window\", \"loopback\" (a V4L2 device that others "
-          "read as a camera; \"loopback:/dev/video50\"), or a movie's or pictures' path.",
-          TakesEffect::kRestart, {}, kLoopbackNames),
-      pathParameter("second_target", &OutputSettings::secondTarget,
-                    {kNoTarget, "window", "loopback"}, "A second place where a live painting goes.",
-                    TakesEffect::kRestart, {}, kLoopbackNames),
-      pathParameter("third_target", &OutputSettings::thirdTarget, {kNoTarget, "window", "loopback"},
-                    "A third place where a live painting goes.", TakesEffect::kRestart, {},
-                    kLoopbackNames),
-      choiceParameter("loopback_format", &OutputSettings::loopbackFormat,
-                      {"auto", "yuyv", "nv12", "i420"},
-                      "The layout of a loopback's pictures; \"auto\": what the device takes.",
-                      TakesEffect::kRestart),
+      pathListParameter("targets", &OutputSettings::targets, {.min = 1, .max = kMostTargets},
+                        hal::outputWords(), hal::outputPrefixes(),
+                        "Where a live painting goes; docs/outputs.md lists the kinds.",
+                        "a movie's or pictures' path (a folder as ./NAME or NAME/)",
+                        [](std::string_view text) {
+                          const std::string target(text);
+                          // Other mistakes are told when it is opened.
+                          return !hal::isBareWord(target) || hal::outputKindOf(target).has_value();
+                        }),
       pathParameter("snapshots", &OutputSettings::snapshots, {"."},
                     "The folder that the window's key s saves to; \".\": where the program runs.")};
   return kTable;
+}
+
+std::string sectionOf(const hal::OutputKind& kind) {
+  return fmt::format("output.{}", kind.name);
+}
+
+/// [output.KIND] of each kind that has options.
+std::vector<config::Section> outputKindSections() {
+  std::vector<config::Section> sections;
+  for (const hal::OutputKind& kind : hal::outputKinds()) {
+    std::vector<config::ParameterDescriptor> descriptors;
+    for (const hal::OutputOption& option : kind.options) {
+      descriptors.push_back({.name = option.name,
+                             .help = option.help,
+                             .defaultValue = config::ChoiceIndex{0},
+                             .choices = option.choices,
+                             .takesEffect = TakesEffect::kRestart});
+    }
+    if (descriptors.empty()) continue;
+    sections.push_back({sectionOf(kind), fmt::format("Outputs of the kind {}.", kind.name),
+                        config::ParameterValues(std::make_shared<const config::ParameterList>(
+                            std::move(descriptors)))});
+  }
+  return sections;
 }
 
 std::vector<std::string> qualityChoices() {
@@ -207,6 +232,7 @@ config::Sections defaultSections() {
       {"output", "Where it goes.", outputTable().defaults()},
       {"runtime", "How it keeps up.", runtimeTable().defaults()},
       {"status", "What is told of the running program.", statusTable().defaults()}};
+  std::ranges::move(outputKindSections(), std::back_inserter(sections));
   for (const styles::StyleInfo& info : styles::styleInfos()) {
     sections.push_back({fmt::format("style.{}", info.name),
                         fmt::format("The style {}: {}.", info.name, info.help), info.defaults});
@@ -227,7 +253,15 @@ PaintingSettings paintingOf(const config::Sections& sections) {
 }
 
 OutputSettings outputOf(const config::Sections& sections) {
-  return outputTable().typed(sections.values("output"));
+  OutputSettings settings = outputTable().typed(sections.values("output"));
+  for (const hal::OutputKind& kind : hal::outputKinds()) {
+    if (kind.options.empty()) continue;
+    const config::ParameterValues& values = sections.values(sectionOf(kind));
+    for (const hal::OutputOption& option : kind.options) {
+      settings.options[kind.name][option.name] = values.text(option.name);
+    }
+  }
+  return settings;
 }
 
 RuntimeSettings runtimeOf(const config::Sections& sections) {

@@ -25,7 +25,8 @@ std::vector<std::string> openCameraNames();
 bool isCameraName(std::string_view source);
 
 /// Every key that the program knows, at its default: the profile, [camera], [painting], [output],
-/// [status] and a [style.…] for each style.
+/// [status], an [output.…] for each kind of outputs that has options and a [style.…] for each
+/// style.
 config::Sections defaultSections();
 
 // The settings in force of what defaultSections() made.

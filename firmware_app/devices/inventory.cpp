@@ -21,6 +21,18 @@ DeviceCameras listDeviceCameras(std::span<const hal::SelectableBackend> backends
   return all;
 }
 
+std::vector<KindOfOutputs> listOutputs(std::span<const hal::OutputKind> kinds) {
+  std::vector<KindOfOutputs> all;
+  for (const hal::OutputKind& kind : kinds) {
+    all.push_back({.kind = kind.name,
+                   .help = kind.help,
+                   .forms = kind.forms,
+                   .isFile = kind.traits.writesFiles,
+                   .listing = kind.list == nullptr ? hal::OutputListing{} : kind.list()});
+  }
+  return all;
+}
+
 namespace {
 
 namespace fs = std::filesystem;

@@ -8,7 +8,7 @@
 
 #include "hal/camera_backend.h"
 #include "hal/error.h"
-#include "hal/outputs/v4l2_loopback/loopback_devices.h"
+#include "hal/output_kind.h"
 #include "hal/supervisor/camera_selector.h"
 
 namespace pleinair::app {
@@ -31,21 +31,31 @@ struct Display {
 /// Those in `folder`, which is /sys/class/drm; nothing where there is no such folder.
 std::vector<Display> listDisplays(const std::filesystem::path& folder = "/sys/class/drm");
 
+/// The outputs of a kind that are there, or how files of it are named.
+struct KindOfOutputs {
+  std::string kind;
+  std::string help;
+  std::vector<std::string> forms;  ///< as of hal::OutputKind
+  bool isFile = false;
+  hal::OutputListing listing;  ///< empty for files
+};
+
+std::vector<KindOfOutputs> listOutputs(std::span<const hal::OutputKind> kinds);
+
 /// What is there to paint from and to.
 struct Inventory {
   DeviceCameras cameras;
-  std::vector<hal::LoopbackDevice> loopbacks;
+  std::vector<KindOfOutputs> outputs;
   std::vector<Display> displays;
-  std::optional<hal::Error> noWindow;  ///< why no window can be opened; unset: it can
 };
 
 /// For people: a line a device, its formats below; empty lists say so and what to do.
 std::string asText(const Inventory& inventory);
 
 /// For programs: {"cameras": [{"backend", "id", "name", "serial", "node", "formats": [{"layout",
-/// "width", "height", "rates", "read"} …], "problem"} …], "outputs": {"loopbacks": [{"node",
-/// "card", "driver", "writable", "layouts", "problem"} …], "displays": [{"name", "connected",
-/// "modes"} …], "window"}, "problems": [text …]}; "problem" is null where there is none.
+/// "width", "height", "rates", "read"} …], "problem"} …], "outputs": [{"kind", "target", "name",
+/// "formats", "busy", "problem"} …], "displays": [{"name", "connected", "modes"} …], "problems":
+/// [text …]}; "problem" is null where there is none.
 std::string asJson(const Inventory& inventory);
 
 }  // namespace pleinair::app

@@ -35,10 +35,10 @@ Json cameraOf(const hal::CameraDescription& camera) {
           {"problem", problemOf(camera.problem)}};
 }
 
-Json loopbackOf(const hal::LoopbackDevice& device) {
-  return {{"node", device.node},       {"card", device.card},
-          {"driver", device.driver},   {"writable", device.isWritable},
-          {"layouts", device.layouts}, {"problem", problemOf(device.problem)}};
+Json outputOf(const std::string& kind, const hal::OutputDescription& output) {
+  return {{"kind", kind},          {"target", output.target},
+          {"name", output.name},   {"formats", output.formats},
+          {"busy", output.isBusy}, {"problem", problemOf(output.problem)}};
 }
 
 Json displayOf(const Display& display) {
@@ -55,11 +55,15 @@ Json arrayOf(const Items& items, Make make) {
 }  // namespace
 
 std::string asJson(const Inventory& inventory) {
-  const Json outputs{{"window", !inventory.noWindow.has_value()},
-                     {"loopbacks", arrayOf(inventory.loopbacks, loopbackOf)},
-                     {"displays", arrayOf(inventory.displays, displayOf)}};
+  Json outputs = Json::array();
+  for (const KindOfOutputs& kind : inventory.outputs) {
+    for (const hal::OutputDescription& each : kind.listing.outputs) {
+      outputs.push_back(outputOf(kind.kind, each));
+    }
+  }
   const Json document{{"cameras", arrayOf(inventory.cameras.cameras, cameraOf)},
-                      {"outputs", outputs},
+                      {"outputs", std::move(outputs)},
+                      {"displays", arrayOf(inventory.displays, displayOf)},
                       {"problems", arrayOf(inventory.cameras.problems, [](const hal::Error& error) {
                          return error.message();
                        })}};

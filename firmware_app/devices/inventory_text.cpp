@@ -79,26 +79,29 @@ std::string camerasText(const Inventory& inventory) {
   return text;
 }
 
-std::string loopbackText(const hal::LoopbackDevice& device) {
-  if (device.problem) return fmt::format("  {}\n", device.node) + problemText(*device.problem);
-  return fmt::format("  loopback:{}  {}  {}\n", device.node, device.card,
-                     !device.isWritable ? "(another program writes to it)"
-                                        : fmt::format("{}", fmt::join(device.layouts, " ")));
+std::string outputText(const hal::OutputDescription& output) {
+  std::string text = "  " + output.target;
+  if (output.problem) return text + "\n" + problemText(*output.problem);
+  if (!output.name.empty()) text += "  " + output.name;
+  if (output.isBusy) {
+    text += "  (another program writes to it)";
+  } else if (!output.formats.empty()) {
+    text += fmt::format("  {}", fmt::join(output.formats, " "));
+  }
+  return text + "\n";
 }
 
 std::string outputsText(const Inventory& inventory) {
   std::string text = "Outputs (--output NAME)\n";
-  if (inventory.noWindow) {
-    text += fmt::format("  no window: {}\n", inventory.noWindow->problem);
-    if (!inventory.noWindow->remedy.empty()) text += "    -> " + inventory.noWindow->remedy + "\n";
-  } else {
-    text += "  window\n";
+  for (const KindOfOutputs& kind : inventory.outputs) {
+    if (kind.isFile) {
+      text += fmt::format("  {}: {}\n", fmt::join(kind.forms, ", "), kind.help);
+      continue;
+    }
+    for (const hal::OutputDescription& each : kind.listing.outputs) text += outputText(each);
+    if (!kind.listing.problem) continue;
+    text += fmt::format("  no {}\n", kind.kind) + problemText(*kind.listing.problem);
   }
-  for (const hal::LoopbackDevice& each : inventory.loopbacks) text += loopbackText(each);
-  if (inventory.loopbacks.empty()) {
-    text += fmt::format("  no loopback: {} makes one\n", hal::kLoadLoopback);
-  }
-  text += "  FILE or FOLDER: a movie or pictures\n";
   return text;
 }
 

@@ -1,5 +1,6 @@
 #include "firmware_app/live/live_painter.h"
 
+#include <cassert>
 #include <utility>
 
 namespace pleinair::app {
@@ -16,6 +17,13 @@ hal::Result<void> LivePainter::paint(const hal::CapturedFrame& frame, std::size_
     seen_ = std::move(newest);
   }
   parameters_.quality = quality;
+  for (const int reader : closed_) {
+    for (;;) {
+      const hal::Result<bool> taken = painter_.take(reader, dropped_, false);
+      if (!taken) return tl::unexpected(taken.error());
+      if (!*taken) break;
+    }
+  }
   const bool isStill = controls_.takeSnapshotRequest();
   if (!isStill) {
     const auto painted = painter_.paint(frame, parameters_);
@@ -30,6 +38,15 @@ hal::Result<void> LivePainter::paint(const hal::CapturedFrame& frame, std::size_
   }
   controls_.putSnapshot(painter_.snapshot());
   return {};
+}
+
+void LivePainter::open(std::size_t output, const hal::FrameFormat& format) {
+  assert(output == readers_.size());
+  readers_.push_back(painter_.openReadback(format));
+}
+
+void LivePainter::close(std::size_t output) {
+  closed_.push_back(readers_.at(output));
 }
 
 hal::Result<bool> LivePainter::take(std::size_t output, OutputFrame& picture) {

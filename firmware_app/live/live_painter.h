@@ -20,11 +20,15 @@ class LivePainter final : public runtime::FramePainter {
 
   hal::Result<void> paint(const hal::CapturedFrame& frame, std::size_t quality) override;
   hal::Result<bool> take(std::size_t output, OutputFrame& picture) override;
+  void open(std::size_t output, const hal::FrameFormat& format) override;
+  void close(std::size_t output) override;
 
  private:
   Painter painter_;
   LiveControls& controls_;
   std::vector<int> readers_;
+  std::vector<int> closed_;  ///< readers whose pictures are dropped
+  OutputFrame dropped_;
   std::shared_ptr<const PaintParameters> seen_;  ///< what parameters_ was made from
   PaintParameters parameters_;
 };

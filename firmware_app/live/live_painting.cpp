@@ -159,10 +159,9 @@ class LivePainting {
     const hal::OutputRequest request{.size = pictureSize(), .framePeriod = stream_.framePeriod};
     auto* window = dynamic_cast<hal::Window*>(opened_.at(index).get());
     const hal::OutputFormat format = orThrow(opened_.at(index)->start(request));
-    if (window != nullptr) {
-      window_.emplace(*window, tuning_, *job_.clock);
-      stepped_.push_back(index);
-    }
+    if (window != nullptr) window_.emplace(*window, tuning_, *job_.clock);
+    const hal::OutputKind& kind = *orThrow(hal::outputKindOf(job_.outputs.at(index)));
+    if (kind.traits.isOnMainThread) stepped_.push_back(index);
     runtime::OutputStageOptions options =
         outputRules(job_.outputs.at(index), job_.outputOptions, job_.runtime, stream_);
     options.request = request;
@@ -338,8 +337,8 @@ class LivePainting {
   LiveControls controls_;
   SnapshotSaver saver_;
   LiveReporter reporter_;
-  std::vector<std::unique_ptr<hal::MemoryOutput>> opened_;  ///< until they are the chain's
-  std::vector<std::size_t> stepped_;                        ///< outputs of this thread: the window
+  std::vector<std::unique_ptr<hal::Output>> opened_;  ///< until they are the chain's
+  std::vector<std::size_t> stepped_;                  ///< outputs of this thread: the window
   std::optional<LiveWindow> window_;
   std::optional<runtime::LiveThreads> threads_;
   std::unique_ptr<hal::HotplugMonitor> hotplug_;  ///< tells the supervisor

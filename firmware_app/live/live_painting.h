@@ -11,7 +11,7 @@
 #include "firmware_app/status_server/status_server.h"
 #include "hal/camera.h"
 #include "hal/clock.h"
-#include "hal/outputs/open_output.h"
+#include "hal/outputs/registry.h"
 #include "hal/supervisor/camera_selector.h"
 #include "pipeline/scene/description/scene.h"
 
@@ -24,7 +24,7 @@ struct LiveJob {
   hal::Clock* clock = nullptr;
   PaintingOptions options;           ///< its output is not looked at
   std::vector<std::string> outputs;  ///< as of hal::openOutput(); at least one
-  hal::OutputOptions outputOptions;
+  hal::OutputOptionsByKind outputOptions;
   RuntimeSettings runtime;
   /// Begins to serve what is told of the painting; may give none.
   std::function<std::unique_ptr<StatusServer>(StatusPages)> serveStatus;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "hal/outputs/v4l2_loopback/loopback_output.h"
+#include "hal/outputs/registry.h"
 #include "pipeline/engine/painter.h"
 
 namespace pleinair::app {
@@ -35,8 +35,7 @@ runtime::PaintStageOptions paintRules(const RuntimeSettings& settings,
   const auto pinned = std::ranges::find(names, settings.quality);
   runtime::PaintStageOptions options{.governor = {.levels = names.size(), .pinned = {}},
                                      .latency = {},
-                                     .framePeriod = stream.framePeriod,
-                                     .refresh = {}};
+                                     .framePeriod = stream.framePeriod};
   if (pinned != names.end()) {
     options.governor.pinned = static_cast<std::size_t>(pinned - names.begin());
   }
@@ -49,22 +48,23 @@ runtime::PaintStageOptions paintRules(const RuntimeSettings& settings,
   return options;
 }
 
-runtime::OutputStageOptions outputRules(const std::string& name,
-                                        const hal::OutputOptions& outputOptions,
+runtime::OutputStageOptions outputRules(const std::string& target,
+                                        const hal::OutputOptionsByKind& outputOptions,
                                         const RuntimeSettings& settings,
                                         const hal::StreamFormat& stream) {
+  const hal::OutputTraits& traits = hal::orThrow(hal::outputKindOf(target))->traits;
   const hal::Duration period = stream.framePeriod.value_or(kUsualPeriod);
   const hal::Duration longest = ofMilliseconds(settings.maxLatencyMs);
   constexpr hal::Duration kMostTolerance = std::chrono::milliseconds(8);
-  runtime::OutputStageOptions options{.name = name,
-                                      .rules = {.isPaced = !hal::isFileOutputName(name),
-                                                .tolerance = std::min(period / 4, kMostTolerance)},
-                                      .waiting = waitingPictures(longest, period),
-                                      .limit = {},
-                                      .reopen = {},
-                                      .request = {}};
-  if (hal::isLoopbackName(name)) {
-    options.reopen = [name, outputOptions] { return hal::openOutput(name, outputOptions); };
+  runtime::OutputStageOptions options{
+      .name = target,
+      .rules = {.isPaced = traits.isPaced, .tolerance = std::min(period / 4, kMostTolerance)},
+      .waiting = waitingPictures(longest, period),
+      .limit = {},
+      .reopen = {},
+      .request = {}};
+  if (traits.reopens) {
+    options.reopen = [target, outputOptions] { return hal::openOutput(target, outputOptions); };
   }
   return options;
 }

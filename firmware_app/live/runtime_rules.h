@@ -5,7 +5,7 @@
 
 #include "firmware_app/config/configuration.h"
 #include "hal/camera.h"
-#include "hal/outputs/open_output.h"
+#include "hal/outputs/registry.h"
 #include "pipeline/runtime/output_stage.h"
 #include "pipeline/runtime/paint_stage.h"
 
@@ -20,10 +20,10 @@ std::vector<std::string> qualityNames();
 runtime::PaintStageOptions paintRules(const RuntimeSettings& settings,
                                       const hal::StreamFormat& stream);
 
-/// How an output named `name` is fed: files get each picture as it comes, others at its due time;
-/// what is a device is opened again after it has failed.
-runtime::OutputStageOptions outputRules(const std::string& name,
-                                        const hal::OutputOptions& outputOptions,
+/// How the output of a target is fed, by the traits of its kind. Throws hal::Failure where it is of
+/// none.
+runtime::OutputStageOptions outputRules(const std::string& target,
+                                        const hal::OutputOptionsByKind& outputOptions,
                                         const RuntimeSettings& settings,
                                         const hal::StreamFormat& stream);
 

@@ -18,7 +18,7 @@
 #include "firmware_app/offline/poses_file.h"
 #include "firmware_app/scene/scene_warnings.h"
 #include "hal/media/picture_file.h"
-#include "hal/outputs/open_output.h"
+#include "hal/outputs/registry.h"
 #include "hal/pending_file.h"
 #include "pipeline/engine/painter.h"
 #include "pipeline/present/contact_sheet.h"

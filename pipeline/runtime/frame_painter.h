@@ -28,10 +28,16 @@ class FramePainter {
   /// Copies an output's oldest finished picture into `picture`, whose memory is reused; false if
   /// none is ready. Never waits. Errors: kDeviceLost.
   virtual hal::Result<bool> take(std::size_t output, OutputFrame& picture) = 0;
+
+  /// Begins another output: from the next frame on its pictures are brought to memory in `format`.
+  /// `output`: the next number after those that there were. Throws hal::Failure.
+  virtual void open(std::size_t output, const hal::FrameFormat& format) = 0;
+  /// Ends an output: its pictures that were not taken are dropped.
+  virtual void close(std::size_t output) = 0;
 };
 
-/// Makes a painter that brings its pictures to memory in these formats, one an output. Throws
-/// hal::Failure.
+/// Makes a painter that brings its pictures to memory in these formats, one an output, numbered
+/// from 0. Throws hal::Failure.
 using PainterFactory =
     std::function<std::unique_ptr<FramePainter>(const std::vector<hal::FrameFormat>& outputs)>;
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -22,15 +23,25 @@ namespace pleinair::runtime {
 /// under a SteppedClock whoever steps the stages in turn has the same pipeline, repeatable.
 ///
 /// Order: step capture() until its status has a format; addOutput(), at least one;
-/// makePaintStage(); paint().start(); then capture().open() and all stages at will.
+/// makePaintStage(); paint().start(); then capture().open() and all stages at will. Outputs may
+/// come and go after that too. Calls are the program's own thread's where they say no other.
 class LivePipeline {
  public:
   /// Both outlive this.
   LivePipeline(hal::CameraSupervisor& camera, hal::Clock& clock);
 
-  OutputStage& addOutput(std::unique_ptr<hal::MemoryOutput> output, hal::OutputFormat format,
+  OutputStage& addOutput(std::unique_ptr<hal::Output> output, hal::OutputFormat format,
                          OutputStageOptions options);
+  /// The step by which the latency changes is the longest refresh of the outputs that have one.
   void makePaintStage(PainterFactory factory, PaintStageOptions options);
+
+  /// Has no more frames painted for an output. It stays among the outputs until takeRemoved() gives
+  /// it. Precondition: there is a paint stage.
+  void removeOutput(OutputStage& output);
+  /// An output that was removed and gets no more pictures, if there is one. The caller steps it no
+  /// more, calls finish(), which hands over what is due and ends the rest as kStopped, and destroys
+  /// it. Status and outputCount() know it no longer; the ledger has its frames.
+  std::unique_ptr<OutputStage> takeRemoved();
 
   hal::CameraSupervisor& camera() { return camera_; }
   hal::Clock& clock() { return clock_; }
@@ -53,7 +64,9 @@ class LivePipeline {
   FrameLedger ledger_;
   Mailbox<ArrivedFrame> frames_;
   CaptureStage capture_;
+  mutable std::mutex outputsMutex_;  ///< of outputs_, for threads that ask for the status
   std::vector<std::unique_ptr<OutputStage>> outputs_;
+  std::vector<OutputStage*> removed_;  ///< of outputs_, until they are taken
   std::optional<PaintStage> paint_;
 };
 

@@ -15,6 +15,7 @@ constexpr std::array<Words, kOutcomes> kWords{{
     {"late", "late"},
     {"superseded", "superseded by a newer one"},
     {"output_busy", "while an output was busy"},
+    {"no_surface", "for want of a surface"},
     {"output_failed", "by a failed output"},
     {"replaced", "replaced by a newer one"},
     {"paused", "while paused"},

@@ -13,6 +13,7 @@ enum class Outcome {
   kLate,              ///< its picture was ready too late for its due time
   kSuperseded,        ///< a newer picture fell due at the same time
   kOutputBusy,        ///< its outputs were still taking an earlier one, or skipped it for that
+  kNoSurface,         ///< its outputs had no free surface for it
   kOutputFailed,      ///< its outputs took no picture
   kReplaced,          ///< a newer frame came before it was painted
   kPaused,            ///< it came during a pause
@@ -27,7 +28,7 @@ enum class Outcome {
   kStalled,           ///< it was lost while the camera stalled
   kDroppedByDriver,   ///< the camera, or its driver, left it out for other reasons
 };
-inline constexpr std::size_t kOutcomes = 18;
+inline constexpr std::size_t kOutcomes = 19;
 
 /// As a name in JSON and in metrics: "shown_off_schedule".
 std::string_view nameOf(Outcome outcome);

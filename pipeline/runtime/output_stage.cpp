@@ -10,10 +10,31 @@ namespace {
 
 constexpr hal::Duration kFirstReopening = std::chrono::milliseconds(500);
 constexpr hal::Duration kLongestReopening = std::chrono::seconds(8);
+/// More than any display lends.
+constexpr std::size_t kMostSurfaces = 16;
+
+/// A surface is submitted half a refresh before its due time, which is when the display takes it,
+/// and counts as in time only if it is seen at that refresh.
+PresentationRules rulesOf(hal::Output& output, const hal::OutputFormat& format,
+                          PresentationRules rules) {
+  if (output.surfaces() == nullptr) return rules;
+  rules.lead = format.refresh ? format.refresh->period / 2 : hal::Duration{0};
+  rules.tolerance = hal::Duration{0};
+  return rules;
+}
 
 }  // namespace
 
-OutputStage::OutputStage(std::unique_ptr<hal::MemoryOutput> output, hal::OutputFormat format,
+hal::Result<hal::Fence> copyPicture(const OutputFrame& picture, hal::SurfaceOutput& output,
+                                    const hal::Surface& surface) {
+  const hal::Result<hal::SurfaceMapping> mapping = output.map(surface);
+  if (!mapping) return tl::unexpected(mapping.error());
+  const auto copied = hal::copyToSurface(picture.image.view(), surface, *mapping);
+  if (!copied) return tl::unexpected(copied.error());
+  return hal::Fence();
+}
+
+OutputStage::OutputStage(std::unique_ptr<hal::Output> output, hal::OutputFormat format,
                          OutputStageOptions options, hal::Clock& clock, FrameLedger& ledger)
     : output_(std::move(output)),
       format_(format),
@@ -21,7 +42,10 @@ OutputStage::OutputStage(std::unique_ptr<hal::MemoryOutput> output, hal::OutputF
       clock_(clock),
       ledger_(ledger),
       reopenAfter_(kFirstReopening),
-      queue_(options_.rules, options_.waiting) {
+      queue_(rulesOf(*output_, format_, options_.rules), options_.waiting),
+      refresh_(format_.refresh) {
+  queued_.reserve(kMostSurfaces);
+  events_.reserve(kMostSurfaces);
   // One is being taken and one is being filled while the others wait. The last freed is filled
   // first, so that those which are never needed take no memory.
   for (std::size_t i = 0; i < options_.waiting + 2; ++i) {
@@ -42,18 +66,24 @@ OutputFrame& OutputStage::buffer() {
   return *buffers_.at(*filling_);
 }
 
+std::optional<hal::Duration> OutputStage::refreshPeriod() const {
+  const std::scoped_lock lock(mutex_);
+  return refresh_ ? std::optional(refresh_->period) : std::nullopt;
+}
+
 void OutputStage::submit(std::optional<FrameLedger::Ticket> ticket, hal::TimePoint ready,
-                         hal::TimePoint due) {
+                         hal::Duration latency) {
   const std::scoped_lock lock(mutex_);
   assert(filling_);
   const std::size_t buffer = *std::exchange(filling_, std::nullopt);
   ++status_.submitted;
   if (!ticket) ++status_.repeats;
+  const hal::TimePoint captured = buffers_.at(buffer)->captureTime;
   const WaitingPicture picture{.buffer = buffer,
                                .ticket = ticket,
-                               .captured = buffers_.at(buffer)->captureTime,
+                               .captured = captured,
                                .ready = ready,
-                               .due = due};
+                               .due = dueTime(captured, latency, refresh_)};
   if (status_.isFinal) {
     end(picture, Outcome::kOutputFailed);
     return;
@@ -73,18 +103,25 @@ void OutputStage::submit(std::optional<FrameLedger::Ticket> ticket, hal::TimePoi
 
 void OutputStage::end(const WaitingPicture& picture, Outcome outcome) {
   free_.push_back(picture.buffer);
+  count(picture, outcome);
+}
+
+/// As end(), of a picture whose buffer is free already.
+void OutputStage::count(const WaitingPicture& picture, Outcome outcome) {
   ++status_.ended.at(static_cast<std::size_t>(outcome));
   if (picture.ticket) ledger_.end(*picture.ticket, outcome);
 }
 
 void OutputStage::endAll(Outcome outcome) {
+  for (const Queued& each : queued_) count(each.picture, outcome);
+  queued_.clear();
   while (queue_.size() > 0) end(queue_.removeOldest(), outcome);
 }
 
 std::optional<OutputStage::Due> OutputStage::takeDue() {
   const std::scoped_lock lock(mutex_);
   while (auto ruling = queue_.next(clock_.now())) {
-    if (options_.limit && status_.presented >= *options_.limit) {
+    if (options_.limit && status_.presented + queued_.size() >= *options_.limit) {
       end(ruling->picture, Outcome::kStopped);
       continue;
     }
@@ -103,9 +140,14 @@ void OutputStage::handOver() {
 
 std::optional<hal::TimePoint> OutputStage::step() {
   tryToReopen();
+  takeEvents();
   handOver();
   const std::scoped_lock lock(mutex_);
   std::optional<hal::TimePoint> next = queue_.nextTime();
+  if (!queued_.empty()) {
+    const auto event = output_->surfaces()->nextEvent();
+    if (event) next = next ? std::min(*next, *event) : event;
+  }
   if (status_.isFailed && !status_.isFinal) next = next ? std::min(*next, reopenAt_) : reopenAt_;
   return next;
 }
@@ -117,11 +159,27 @@ hal::Duration OutputStage::timeOf(const WaitingPicture& picture) {
 }
 
 void OutputStage::present(const Due& due) {
+  if (hal::SurfaceOutput* surfaces = output_->surfaces()) {
+    presentSurface(*surfaces, due);
+  } else {
+    presentInMemory(*output_->memory(), due);
+  }
+}
+
+/// Precondition: the mutex is held, as of what follows up to takeEvents().
+void OutputStage::countShown(const WaitingPicture& picture, hal::TimePoint time) {
+  reopenAfter_ = kFirstReopening;
+  ++status_.presented;
+  rate_.count(time);
+  latency_.add(time - picture.captured, time);
+}
+
+void OutputStage::presentInMemory(hal::MemoryOutput& output, const Due& due) {
   const hal::TimePoint began = clock_.now();
   const hal::ImageView view = buffers_.at(due.picture.buffer)->image.view();
-  const std::uint64_t skippedBefore = output_->skippedPictures();
-  hal::Result<void> written = output_->write(view, timeOf(due.picture));
-  const bool isSkipped = output_->skippedPictures() > skippedBefore;
+  const std::uint64_t skippedBefore = output.skippedPictures();
+  hal::Result<void> written = output.write(view, timeOf(due.picture));
+  const bool isSkipped = output.skippedPictures() > skippedBefore;
   const hal::TimePoint ended = clock_.now();
   const std::scoped_lock lock(mutex_);
   isWriting_ = false;
@@ -132,15 +190,83 @@ void OutputStage::present(const Due& due) {
     fail(std::move(written.error()));
     return;
   }
-  reopenAfter_ = kFirstReopening;
   if (isSkipped) {
+    reopenAfter_ = kFirstReopening;
     end(due.picture, Outcome::kOutputBusy);
     return;
   }
-  ++status_.presented;
-  rate_.count(began);
-  latency_.add(began - due.picture.captured, began);
+  countShown(due.picture, began);
   end(due.picture, due.outcome);
+}
+
+void OutputStage::presentSurface(hal::SurfaceOutput& output, const Due& due) {
+  const hal::TimePoint began = clock_.now();
+  hal::Result<bool> submitted = submitSurface(output, due);
+  const hal::TimePoint ended = clock_.now();
+  const std::scoped_lock lock(mutex_);
+  isWriting_ = false;
+  queue_.presented(ended);
+  writing_.add(ended - began, ended);
+  if (!submitted) {
+    end(due.picture, Outcome::kOutputFailed);
+    fail(std::move(submitted.error()));
+  } else if (!*submitted) {
+    end(due.picture, Outcome::kNoSurface);
+  } else {
+    free_.push_back(due.picture.buffer);
+  }
+}
+
+/// False where no surface is free.
+hal::Result<bool> OutputStage::submitSurface(hal::SurfaceOutput& output, const Due& due) {
+  const hal::Result<std::optional<hal::Surface>> surface = output.acquire();
+  if (!surface) return tl::unexpected(surface.error());
+  if (!*surface) return false;
+  hal::Result<hal::Fence> fence =
+      options_.fill(*buffers_.at(due.picture.buffer), output, **surface);
+  if (!fence) return tl::unexpected(fence.error());
+  // What is shown before its time, lest the picture freeze, is to be seen at once.
+  const hal::TimePoint time =
+      due.outcome == Outcome::kShown ? due.picture.due : std::min(due.picture.due, clock_.now());
+  const auto submitted = output.submit(**surface, *std::move(fence), time);
+  if (!submitted) return tl::unexpected(submitted.error());
+  const std::scoped_lock lock(mutex_);
+  queued_.push_back({.surface = (*surface)->id, .picture = due.picture});
+  return true;
+}
+
+void OutputStage::takeEvents() {
+  if (!output_ || queued_.empty()) return;
+  events_.clear();
+  hal::Result<void> taken = output_->surfaces()->takeEvents(events_);
+  const std::scoped_lock lock(mutex_);
+  for (const hal::PresentationEvent& event : events_) ended(event);
+  if (!taken) fail(std::move(taken.error()));
+}
+
+/// Precondition: the mutex is held.
+void OutputStage::ended(const hal::PresentationEvent& event) {
+  const auto queued = std::ranges::find(queued_, event.surface, &Queued::surface);
+  assert(queued != queued_.end());
+  const bool isShown = event.result == hal::PresentationEvent::Result::kShown;
+  const Outcome outcome = outcomeOf(event, *queued);
+  if (isShown) {
+    countShown(queued->picture, event.time);
+    if (refresh_) refresh_->phase = event.time;
+  }
+  count(queued->picture, outcome);
+  queued_.erase(queued);
+}
+
+Outcome OutputStage::outcomeOf(const hal::PresentationEvent& event, const Queued& queued) const {
+  using Result = hal::PresentationEvent::Result;
+  if (event.result == Result::kSuperseded) return Outcome::kSuperseded;
+  if (event.result == Result::kSkipped) return Outcome::kOutputBusy;
+  // Another refresh than the one that was meant is at least one period away.
+  const hal::Duration off = event.time - queued.picture.due;
+  const hal::Duration tolerance = refresh_ ? refresh_->period / 2 : options_.rules.tolerance;
+  const bool isOnTime = off > -tolerance && off < tolerance;
+  return isOnTime ? Outcome::kShown : Outcome::kShownOffSchedule;
 }
 
 void OutputStage::fail(hal::Error error) {
@@ -173,6 +299,7 @@ void OutputStage::tryToReopen() {
     return;
   }
   output_ = std::move(*opened);
+  refresh_ = format->refresh;
   firstTime_.reset();
   status_.isFailed = false;
 }
@@ -193,6 +320,7 @@ void OutputStage::wake() {
 }
 
 hal::Result<void> OutputStage::finish() {
+  takeEvents();
   handOver();
   {
     const std::scoped_lock lock(mutex_);
@@ -211,7 +339,7 @@ bool OutputStage::isFull() const {
 
 bool OutputStage::isIdle() const {
   const std::scoped_lock lock(mutex_);
-  return queue_.size() == 0 && !isWriting_;
+  return queue_.size() == 0 && queued_.empty() && !isWriting_;
 }
 
 bool OutputStage::Status::addsUp() const {
@@ -221,7 +349,8 @@ bool OutputStage::Status::addsUp() const {
 OutputStage::Status OutputStage::status() const {
   const std::scoped_lock lock(mutex_);
   Status status = status_;
-  status.waiting = queue_.size() + (isWriting_ ? 1 : 0);
+  status.waiting = queue_.size() + queued_.size() + (isWriting_ ? 1 : 0);
+  status.refresh = refresh_;
   const hal::TimePoint now = clock_.now();
   status.perSecond = rate_.perSecond(now);
   status.latency = latency_.recent(now);

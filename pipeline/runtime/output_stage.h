@@ -19,6 +19,14 @@
 
 namespace pleinair::runtime {
 
+/// As OutputStageOptions::fill. Errors: those of the output; kUnsupported.
+using SurfaceFill = std::function<hal::Result<hal::Fence>(
+    const OutputFrame& picture, hal::SurfaceOutput& output, const hal::Surface& surface)>;
+
+/// Maps the surface and copies the picture.
+hal::Result<hal::Fence> copyPicture(const OutputFrame& picture, hal::SurfaceOutput& output,
+                                    const hal::Surface& surface);
+
 struct OutputStageOptions {
   std::string name;
   PresentationRules rules;
@@ -27,31 +35,41 @@ struct OutputStageOptions {
   std::size_t waiting = 8;
   /// How many it gets; what comes after them ends as kStopped.
   std::optional<std::uint64_t> limit = std::nullopt;
+  /// Brings a picture into a surface that the output lends, and gives the fence behind that work.
+  /// By default the processor copies it (hal::copyToSurface()); a painter on the GPU draws it
+  /// there. Of outputs that lend surfaces; on the output's thread.
+  SurfaceFill fill = copyPicture;
   /// Opens the output anew after it has failed, on the output's thread; without, that is the end of
   /// it. It has to take the same format again.
-  std::function<hal::Result<std::unique_ptr<hal::MemoryOutput>>()> reopen;
+  std::function<hal::Result<std::unique_ptr<hal::Output>>()> reopen;
   hal::OutputRequest request;  ///< what it was started with
 };
 
-/// Where pictures are handed to an output, each at its due time: its own thread, so that one that
-/// stalls holds up nobody else. The painter's thread fills buffers; where too many pictures wait,
-/// one gives way: the oldest, unless even that is still to come.
+/// Hands pictures to an output, each at its due time on the output's own refresh. It has a thread
+/// of its own, so that an output that stalls holds up no other. The painter's thread fills buffers;
+/// where too many pictures wait, one gives way: the oldest, unless even that is still to come.
+///
+/// An output in memory has shown a picture once it has taken it. An output that lends surfaces has
+/// shown it once its presentation event says so: until then the picture counts as waiting.
 class OutputStage {
  public:
   /// `output` was started and answered `format`. Ledger and clock outlive this.
-  OutputStage(std::unique_ptr<hal::MemoryOutput> output, hal::OutputFormat format,
+  OutputStage(std::unique_ptr<hal::Output> output, hal::OutputFormat format,
               OutputStageOptions options, hal::Clock& clock, FrameLedger& ledger);
 
   const std::string& name() const { return options_.name; }
   const hal::OutputFormat& format() const { return format_; }
   bool isPaced() const { return options_.rules.isPaced; }
+  /// The period of its refresh, where it has one. Any thread.
+  std::optional<hal::Duration> refreshPeriod() const;
 
   // The painter's thread.
 
   /// A picture to be filled, which belongs to the caller until submit() or a second call.
   OutputFrame& buffer();
-  /// Takes that picture. `ticket`: none for repeats.
-  void submit(std::optional<FrameLedger::Ticket> ticket, hal::TimePoint ready, hal::TimePoint due);
+  /// Takes that picture, which is due `latency` after its capture. `ticket`: none for repeats.
+  void submit(std::optional<FrameLedger::Ticket> ticket, hal::TimePoint ready,
+              hal::Duration latency);
 
   // The output's thread.
 
@@ -83,8 +101,11 @@ class OutputStage {
     double perSecond = 0.0;
     std::uint64_t presented = 0;
     hal::Duration latencySum{0};  ///< of all that were presented
-    DurationHistogram latency;    ///< from capture to being handed over, of late
-    DurationHistogram writing;    ///< how long the output took, of late
+    /// From capture to being handed over; of surfaces, to being seen. Of late.
+    DurationHistogram latency;
+    DurationHistogram writing;  ///< how long the output took, of late
+    /// Of a display; with the moment of the last refresh that is known.
+    std::optional<hal::Refresh> refresh;
     std::uint64_t failures = 0;
     bool isFailed = false;
     bool isFinal = false;               ///< and will not be opened again
@@ -98,16 +119,29 @@ class OutputStage {
     WaitingPicture picture;
     Outcome outcome{};
   };
+  /// A picture whose surface waits for its presentation event.
+  struct Queued {
+    hal::SurfaceId surface{};
+    WaitingPicture picture;
+  };
   void handOver();
   std::optional<Due> takeDue();
   void present(const Due& due);
+  void presentInMemory(hal::MemoryOutput& output, const Due& due);
+  void presentSurface(hal::SurfaceOutput& output, const Due& due);
+  hal::Result<bool> submitSurface(hal::SurfaceOutput& output, const Due& due);
+  void takeEvents();
+  void ended(const hal::PresentationEvent& event);
+  Outcome outcomeOf(const hal::PresentationEvent& event, const Queued& queued) const;
+  void countShown(const WaitingPicture& picture, hal::TimePoint time);
   void end(const WaitingPicture& picture, Outcome outcome);
+  void count(const WaitingPicture& picture, Outcome outcome);
   void endAll(Outcome outcome);
   void fail(hal::Error error);
   void tryToReopen();
   hal::Duration timeOf(const WaitingPicture& picture);
 
-  std::unique_ptr<hal::MemoryOutput> output_;
+  std::unique_ptr<hal::Output> output_;
   hal::OutputFormat format_;
   OutputStageOptions options_;
   hal::Clock& clock_;
@@ -115,6 +149,7 @@ class OutputStage {
   std::optional<hal::TimePoint> firstTime_;  ///< of what the output has got
   hal::Duration reopenAfter_;                ///< grows until a picture is taken
   std::vector<std::unique_ptr<OutputFrame>> buffers_;
+  std::vector<hal::PresentationEvent> events_;  ///< kept for its memory
 
   mutable std::mutex mutex_;  // of what follows
   std::condition_variable changed_;
@@ -122,6 +157,8 @@ class OutputStage {
   PresentationQueue queue_;
   std::vector<std::size_t> free_;
   std::optional<std::size_t> filling_;
+  std::vector<Queued> queued_;  ///< surfaces without an event yet, oldest first
+  std::optional<hal::Refresh> refresh_;
   bool isWriting_ = false;
   hal::TimePoint reopenAt_;
   Status status_;

@@ -40,30 +40,35 @@ PaintStage::PaintStage(PainterFactory factory, std::vector<OutputStage*> outputs
                        PaintStageOptions options, hal::Clock& clock, FrameLedger& ledger,
                        Mailbox<ArrivedFrame>& frames)
     : factory_(std::move(factory)),
-      outputs_(std::move(outputs)),
       options_(options),
       clock_(clock),
       ledger_(ledger),
       frames_(frames),
       reviveAfter_(kFirstRevival),
-      taken_(outputs_.size(), 0),
       governor_(options.governor),
       latency_(options.latency) {
-  assert(!outputs_.empty());
+  assert(!outputs.empty());
   inFlight_.reserve(kMaxInFlight);
-  for (const OutputStage* output : outputs_) formats_.push_back(output->format().frame);
+  for (OutputStage* output : outputs) outputs_.push_back({.stage = output});
 }
 
 PaintStage::~PaintStage() = default;
 
 void PaintStage::start() {
-  painter_ = factory_(formats_);
+  std::vector<hal::FrameFormat> formats;
+  for (Output& output : outputs_) {
+    output.id = formats.size();
+    formats.push_back(output.stage->format().frame);
+  }
+  nextId_ = formats.size();
+  painter_ = factory_(formats);
   const std::scoped_lock lock(mutex_);
   hasPainter_ = true;
 }
 
 bool PaintStage::step() {
   noteSuspension();
+  handleRequests();
   if (!painter_ && !revive()) return false;
   bool didAnything = collect();
   if (painter_ && inFlight_.size() < kMaxInFlight) didAnything = paintNewest() || didAnything;
@@ -79,16 +84,69 @@ void PaintStage::noteSuspension() {
   lastStep_ = now;
 }
 
+void PaintStage::add(OutputStage& output) {
+  const std::scoped_lock lock(mutex_);
+  toOpen_.push_back(&output);
+}
+
+void PaintStage::remove(OutputStage& output) {
+  const std::scoped_lock lock(mutex_);
+  toClose_.push_back(&output);
+}
+
+bool PaintStage::hasLetGoOf(const OutputStage& output) const {
+  const std::scoped_lock lock(mutex_);
+  return std::ranges::find(toOpen_, &output) == toOpen_.end() &&
+         std::ranges::find(toClose_, &output) == toClose_.end();
+}
+
+void PaintStage::handleRequests() {
+  std::vector<OutputStage*> toOpen;
+  std::vector<OutputStage*> toClose;
+  {
+    const std::scoped_lock lock(mutex_);
+    if (toOpen_.empty() && toClose_.empty()) return;
+    toOpen = toOpen_;
+    toClose = toClose_;
+  }
+  for (OutputStage* output : toOpen) open(*output);
+  for (OutputStage* output : toClose) close(*output);
+  const std::scoped_lock lock(mutex_);
+  std::erase_if(toOpen_,
+                [&](auto* each) { return std::ranges::find(toOpen, each) != toOpen.end(); });
+  std::erase_if(toClose_,
+                [&](auto* each) { return std::ranges::find(toClose, each) != toClose.end(); });
+}
+
+void PaintStage::open(OutputStage& output) {
+  outputs_.push_back({.stage = &output, .id = nextId_++, .taken = inFlight_.size()});
+  if (!painter_) return;
+  try {
+    painter_->open(outputs_.back().id, output.format().frame);
+  } catch (const hal::Failure& error) {
+    lose(error.error());
+  }
+}
+
+void PaintStage::close(OutputStage& output) {
+  const auto closed = std::ranges::find(outputs_, &output, &Output::stage);
+  if (closed == outputs_.end()) return;
+  for (std::size_t i = closed->taken; i < inFlight_.size(); ++i) {
+    if (inFlight_[i].ticket) ledger_.end(*inFlight_[i].ticket, Outcome::kStopped);
+    --inFlight_[i].waitedForBy;
+  }
+  if (painter_) painter_->close(closed->id);
+  outputs_.erase(closed);
+}
+
 bool PaintStage::collect() {
   bool tookAny = false;
   for (std::size_t i = 0; painter_ && i < outputs_.size(); ++i) {
-    while (painter_ && taken_.at(i) < inFlight_.size() && collectFor(i)) tookAny = true;
+    while (painter_ && outputs_[i].taken < inFlight_.size() && collectFor(outputs_[i])) {
+      tookAny = true;
+    }
   }
-  while (!inFlight_.empty() && inFlight_.front().takenBy == outputs_.size()) {
-    finished(inFlight_.front(), clock_.now());
-    inFlight_.erase(inFlight_.begin());
-    for (std::size_t& taken : taken_) --taken;
-  }
+  removeFinished();
   if (!inFlight_.empty()) {
     const hal::TimePoint since = std::max(inFlight_.front().issued, resumedAt_);
     if (clock_.now() - since > kNeverReady) lose(neverReady());
@@ -96,22 +154,29 @@ bool PaintStage::collect() {
   return tookAny;
 }
 
-bool PaintStage::collectFor(std::size_t output) {
-  const hal::Result<bool> taken = painter_->take(output, outputs_.at(output)->buffer());
+void PaintStage::removeFinished() {
+  while (!inFlight_.empty() && inFlight_.front().waitedForBy == 0) {
+    finished(inFlight_.front(), clock_.now());
+    inFlight_.erase(inFlight_.begin());
+    for (Output& output : outputs_) --output.taken;
+  }
+}
+
+bool PaintStage::collectFor(Output& output) {
+  const hal::Result<bool> taken = painter_->take(output.id, output.stage->buffer());
   if (!taken) {
     lose(taken.error());
     return false;
   }
   if (!*taken) return false;
-  InFlight& frame = inFlight_.at(taken_.at(output)++);
-  ++frame.takenBy;
+  InFlight& frame = inFlight_.at(output.taken++);
+  --frame.waitedForBy;
   hal::Duration latency{};
   {
     const std::scoped_lock lock(mutex_);
     latency = latency_.latency();
   }
-  outputs_.at(output)->submit(frame.ticket, clock_.now(),
-                              dueTime(frame.captured, latency, options_.refresh));
+  output.stage->submit(frame.ticket, clock_.now(), latency);
   return true;
 }
 
@@ -148,12 +213,17 @@ bool PaintStage::paintNewest() {
 
 hal::Result<void> PaintStage::paint(const ArrivedFrame& arrived) {
   const hal::CapturedFrame& frame = arrived.frame;
+  if (outputs_.empty()) {
+    ledger_.end(arrived.ticket, Outcome::kOutputFailed);
+    return {};
+  }
   const bool isRepeat = isPaused_ && held_;
   if (!isRepeat) hold(frame);
   InFlight painting{.ticket = arrived.ticket,
                     .captured = frame.captureTime,
                     .arrived = arrived.arrived,
-                    .began = clock_.now()};
+                    .began = clock_.now(),
+                    .waitedForBy = outputs_.size()};
   {
     const std::scoped_lock lock(mutex_);
     painting.quality = governor_.level();
@@ -196,12 +266,12 @@ void PaintStage::refuse(const ArrivedFrame& arrived, const hal::Error& error) {
 /// Ends what is being painted, for the outputs that have not got it.
 void PaintStage::endInFlight(Outcome outcome) {
   for (const InFlight& frame : inFlight_) {
-    for (std::size_t i = frame.takenBy; frame.ticket && i < outputs_.size(); ++i) {
+    for (std::size_t i = 0; frame.ticket && i < frame.waitedForBy; ++i) {
       ledger_.end(*frame.ticket, outcome);
     }
   }
   inFlight_.clear();
-  std::ranges::fill(taken_, 0);
+  for (Output& output : outputs_) output.taken = 0;
 }
 
 /// The GPU is gone, with all that was on it.

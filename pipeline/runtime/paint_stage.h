@@ -29,13 +29,13 @@ struct PaintStageOptions {
   /// What a frame may take at the most, whatever the latency: the camera's period, or a longer one
   /// where fewer frames are wanted; unset: only the latency counts.
   std::optional<hal::Duration> framePeriod;
-  std::optional<Refresh> refresh;  ///< of the outputs' display, where there is one
 };
 
 /// Paints the newest frame, watches what that costs, and gives the pictures to the outputs. step()
 /// and start() are one thread's, on which the painter lives and dies; the rest is any thread's.
 class PaintStage {
  public:
+  /// The outputs outlive this, or are let go of (letGo()).
   PaintStage(PainterFactory factory, std::vector<OutputStage*> outputs, PaintStageOptions options,
              hal::Clock& clock, FrameLedger& ledger, Mailbox<ArrivedFrame>& frames);
   ~PaintStage();
@@ -48,6 +48,13 @@ class PaintStage {
   void wait();
   /// Ends what is in flight as kStopped; frees the painter.
   void stop();
+
+  /// From the next step() on, frames are painted for this output too. Any thread.
+  void add(OutputStage& output);
+  /// Asks for the opposite: the frames in flight end as kStopped for it. Any thread.
+  void remove(OutputStage& output);
+  /// Whether the output is not used any more, and may be destroyed. Any thread.
+  bool hasLetGoOf(const OutputStage& output) const;
 
   /// During a pause the frame that came last is painted again and again, so that tuning shows.
   void setPaused(bool on) { isPaused_ = on; }
@@ -83,14 +90,23 @@ class PaintStage {
     hal::TimePoint began;
     hal::TimePoint issued;
     std::size_t quality = 0;
-    std::size_t takenBy = 0;  ///< how many outputs have it
+    std::size_t waitedForBy = 0;  ///< how many outputs have not got it
+  };
+  struct Output {
+    OutputStage* stage = nullptr;
+    std::size_t id = 0;     ///< the painter's
+    std::size_t taken = 0;  ///< how many of inFlight_ it has got, or was not there for
   };
   /// One on the GPU while the next is tracked; more would only wait there and grow old.
   static constexpr std::size_t kMaxInFlight = 2;
 
   void noteSuspension();
+  void handleRequests();
+  void open(OutputStage& output);
+  void close(OutputStage& output);
   bool collect();
-  bool collectFor(std::size_t output);
+  bool collectFor(Output& output);
+  void removeFinished();
   void finished(const InFlight& frame, hal::TimePoint now);
   double loadOf(const InFlight& frame, hal::TimePoint now) const;
   bool paintNewest();
@@ -102,8 +118,8 @@ class PaintStage {
   bool revive();
 
   PainterFactory factory_;
-  std::vector<OutputStage*> outputs_;
-  std::vector<hal::FrameFormat> formats_;
+  std::vector<Output> outputs_;
+  std::size_t nextId_ = 0;
   PaintStageOptions options_;
   hal::Clock& clock_;
   FrameLedger& ledger_;
@@ -113,7 +129,6 @@ class PaintStage {
   hal::TimePoint reviveAt_;
   hal::Duration reviveAfter_;
   std::vector<InFlight> inFlight_;  ///< oldest first, kMaxInFlight at the most
-  std::vector<std::size_t> taken_;  ///< of each output: how many of inFlight_ it has
   std::optional<hal::Image> held_;  ///< of a pause
   hal::TimePoint lastFinished_;
   hal::TimePoint lastStep_;
@@ -131,6 +146,8 @@ class PaintStage {
   std::optional<hal::Error> failure_;
   bool hasPainter_ = false;
   double load_ = 0.0;
+  std::vector<OutputStage*> toOpen_;   ///< asked for with add()
+  std::vector<OutputStage*> toClose_;  ///< with remove(); until they are let go of
 };
 
 }  // namespace pleinair::runtime

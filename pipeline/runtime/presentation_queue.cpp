@@ -6,11 +6,11 @@
 namespace pleinair::runtime {
 
 hal::TimePoint dueTime(hal::TimePoint captured, hal::Duration latency,
-                       const std::optional<Refresh>& refresh) {
+                       const std::optional<hal::Refresh>& refresh) {
   const hal::TimePoint earliest = captured + latency;
-  if (!refresh) return earliest;
+  if (!refresh || !refresh->phase) return earliest;
   assert(refresh->period > hal::Duration::zero());
-  hal::Duration past = (earliest - refresh->reference) % refresh->period;
+  hal::Duration past = (earliest - *refresh->phase) % refresh->period;
   if (past < hal::Duration::zero()) past += refresh->period;
   return past == hal::Duration::zero() ? earliest : earliest + (refresh->period - past);
 }
@@ -49,15 +49,15 @@ hal::TimePoint PresentationQueue::timeOf(const WaitingPicture& picture) const {
   if (!rules_.isPaced) return picture.ready;
   // Pictures keep coming, so that a pause would be one of ours.
   if (shown_ && picture.readyGap <= rules_.longestGap) {
-    return std::min(picture.due, std::max(picture.ready, *shown_ + rules_.longestGap));
+    return std::min(handOverTime(picture), std::max(picture.ready, *shown_ + rules_.longestGap));
   }
-  return picture.due;
+  return handOverTime(picture);
 }
 
 std::optional<PresentationQueue::Ruling> PresentationQueue::next(hal::TimePoint now) {
   const std::optional<hal::TimePoint> time = nextTime();
   if (!time || *time > now) return std::nullopt;
-  const bool hasNewer = waiting_.size() > 1 && waiting_[1].due <= now;
+  const bool hasNewer = waiting_.size() > 1 && handOverTime(waiting_[1]) <= now;
   const WaitingPicture picture = removeOldest();
   Outcome outcome = Outcome::kShown;
   if (rules_.isPaced) {
@@ -85,7 +85,7 @@ Outcome PresentationQueue::outcomeOfDropped(const WaitingPicture& picture, bool 
 
 Outcome PresentationQueue::outcomeOfNewest(const WaitingPicture& picture,
                                            hal::TimePoint now) const {
-  if (now < picture.due) return Outcome::kShownOffSchedule;
+  if (now < handOverTime(picture)) return Outcome::kShownOffSchedule;
   if (std::max(picture.ready, now) <= picture.due + rules_.tolerance) return Outcome::kShown;
   if (wouldFreeze(now)) return Outcome::kShownOffSchedule;
   return outcomeOfDropped(picture, false);

@@ -6,21 +6,16 @@
 #include <vector>
 
 #include "hal/clock.h"
+#include "hal/output.h"
 #include "pipeline/runtime/frame_ledger.h"
 #include "pipeline/runtime/outcome.h"
 
 namespace pleinair::runtime {
 
-/// When a display changes its picture: at `reference` and every `period` before and after.
-struct Refresh {
-  hal::Duration period;
-  hal::TimePoint reference;
-};
-
-/// When a frame captured at `captured` is to be seen: captured + latency, or the first refresh at
-/// or after that.
+/// When a frame captured at `captured` is to be seen: captured + latency, or, on a display whose
+/// refreshes are known to the moment, the first of them at or after that.
 hal::TimePoint dueTime(hal::TimePoint captured, hal::Duration latency,
-                       const std::optional<Refresh>& refresh);
+                       const std::optional<hal::Refresh>& refresh);
 
 /// A painted picture that waits to be shown.
 struct WaitingPicture {
@@ -38,6 +33,9 @@ struct PresentationRules {
   /// How long after its due time a picture still counts as being in time. A refresh allows none for
   /// painting; the clock's own waking may be so late.
   hal::Duration tolerance = std::chrono::milliseconds(8);
+  /// How long before its due time a picture is handed over: displays take it for their next
+  /// refresh.
+  hal::Duration lead{0};
   /// Late pictures are shown where else nothing new would be seen for longer than this; and those
   /// that are still to come, where the latency has just risen.
   hal::Duration longestGap = std::chrono::milliseconds(200);
@@ -72,6 +70,9 @@ class PresentationQueue {
   void presented(hal::TimePoint now) { busyUntil_ = now; }
 
  private:
+  hal::TimePoint handOverTime(const WaitingPicture& picture) const {
+    return picture.due - rules_.lead;
+  }
   hal::TimePoint timeOf(const WaitingPicture& picture) const;
   bool isReadyInTime(const WaitingPicture& picture) const;
   bool wouldFreeze(hal::TimePoint now) const;

@@ -68,8 +68,7 @@ Late runLive(hal::FrameSize size, const std::string& style, hal::Duration latenc
       },
       {.governor = {.levels = qualityLevels().size(), .pinned = {}},
        .latency = {.configured = latency},
-       .framePeriod = kPeriod,
-       .refresh = {}});
+       .framePeriod = kPeriod});
   threads.startPainter();
   while (!threads.isPainterReady()) std::this_thread::sleep_for(1ms);
   threads.startOutputs();

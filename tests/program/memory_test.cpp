@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/outputs/open_output.h"
+#include "hal/outputs/registry.h"
 #include "tests/program/program.h"
 #include "tests/support/tag_scene.h"
 #include "tests/support/temporary_folder.h"

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "hal/outputs/open_output.h"
+#include "hal/outputs/registry.h"
 #include "tests/support/board_scene.h"
 #include "tests/support/tag_scene.h"
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cstdint>
 #include <deque>
@@ -120,7 +121,7 @@ class SimulatedPainter final : public runtime::FramePainter {
  public:
   SimulatedPainter(SimulatedGpu& gpu, const std::vector<hal::FrameFormat>& outputs,
                    hal::Clock& clock)
-      : gpu_(gpu), formats_(outputs), clock_(clock), taken_(outputs.size(), 0) {
+      : gpu_(gpu), formats_(outputs), clock_(clock), taken_(outputs.size(), 0u) {
     ++gpu_.painters;
     ++gpu_.made;
     gpu_.nextReady.reset();
@@ -142,18 +143,24 @@ class SimulatedPainter final : public runtime::FramePainter {
 
   hal::Result<bool> take(std::size_t output, OutputFrame& picture) override {
     if (gpu_.isLost) return tl::unexpected(lost());
-    const std::size_t index = taken_.at(output) - done_;
+    const std::size_t index = taken_.at(output).value() - done_;
     if (index >= work_.size() || work_.at(index).ready > clock_.now()) return false;
     if (picture.image.format() != formats_.at(output)) picture.image = hal::Image(formats_[output]);
     picture.sequence = work_.at(index).sequence;
     picture.captureTime = work_.at(index).captured;
-    ++taken_.at(output);
-    while (!work_.empty() && std::ranges::all_of(taken_, [&](auto t) { return t > done_; })) {
-      work_.pop_front();
-      ++done_;
-    }
-    tellNext();
+    ++*taken_.at(output);
+    forgetTaken();
     return true;
+  }
+
+  void open(std::size_t output, const hal::FrameFormat& format) override {
+    assert(output == taken_.size());
+    formats_.push_back(format);
+    taken_.emplace_back(done_ + work_.size());
+  }
+  void close(std::size_t output) override {
+    taken_.at(output).reset();
+    forgetTaken();
   }
 
  private:
@@ -165,6 +172,14 @@ class SimulatedPainter final : public runtime::FramePainter {
   static hal::Error lost() {
     return {.kind = hal::ErrorKind::kDeviceLost, .subject = "GPU", .problem = "was lost"};
   }
+  void forgetTaken() {
+    const auto hasIt = [&](const auto& taken) { return !taken || *taken > done_; };
+    while (!work_.empty() && std::ranges::all_of(taken_, hasIt)) {
+      work_.pop_front();
+      ++done_;
+    }
+    tellNext();
+  }
   void tellNext() {
     gpu_.nextReady = work_.empty() ? std::nullopt : std::optional(work_.front().ready);
   }
@@ -175,7 +190,7 @@ class SimulatedPainter final : public runtime::FramePainter {
   hal::TimePoint busyUntil_;
   std::deque<Work> work_;
   std::size_t done_ = 0;
-  std::vector<std::size_t> taken_;
+  std::vector<std::optional<std::size_t>> taken_;  ///< of each output; none of closed ones
 };
 
 /// Notes when it got which picture.
@@ -186,11 +201,14 @@ class NotingOutput final : public hal::MemoryOutput {
     hal::TimePoint presented;
     friend bool operator==(const Note&, const Note&) = default;
   };
-  NotingOutput(std::vector<Note>& notes, hal::Clock& clock) : notes_(notes), clock_(clock) {}
+  NotingOutput(std::vector<Note>& notes, hal::Clock& clock,
+               std::optional<hal::Refresh> refresh = std::nullopt)
+      : notes_(notes), clock_(clock), refresh_(refresh) {}
   hal::OutputIdentity identity() const override { return {"noting", "noting"}; }
   hal::Result<hal::OutputFormat> start(const hal::OutputRequest& request) override {
     return hal::OutputFormat{
-        .frame = {.pixelFormat = hal::PixelFormat::kGrey8, .size = request.size}};
+        .frame = {.pixelFormat = hal::PixelFormat::kGrey8, .size = request.size},
+        .refresh = refresh_};
   }
   hal::Result<void> write(const hal::ImageView&, hal::Duration time) override {
     notes_.push_back({time, clock_.now()});
@@ -201,6 +219,7 @@ class NotingOutput final : public hal::MemoryOutput {
  private:
   std::vector<Note>& notes_;
   hal::Clock& clock_;
+  std::optional<hal::Refresh> refresh_;
 };
 
 /// The chain with all its stages stepped in turn.
@@ -210,21 +229,25 @@ class LiveSimulation {
   SimulatedGpu gpu;
   runtime::PaintStageOptions painting{.governor = {.levels = 5, .pinned = {}},
                                       .latency = {},
-                                      .framePeriod = std::chrono::microseconds(33'333),
-                                      .refresh = {}};
+                                      .framePeriod = std::chrono::microseconds(33'333)};
   std::vector<NotingOutput::Note> notes;
 
   /// Begins with this camera; `makeOutput` adds another output.
-  void begin(hal::CameraSelector& selector, std::size_t waiting = 16) {
+  void begin(hal::CameraSelector& selector, std::size_t waiting = 16,
+             std::optional<hal::Refresh> refresh = std::nullopt) {
     supervisor_ = std::make_unique<hal::CameraSupervisor>(selector, clock);
     chain = std::make_unique<runtime::LivePipeline>(*supervisor_, clock);
     while (!chain->capture().status().format) chain->capture().step(clock.now());
-    addOutput({.name = "noting", .waiting = waiting});
+    addOutput({.name = "noting", .waiting = waiting}, refresh);
   }
-  void addOutput(runtime::OutputStageOptions options) {
-    auto output = std::make_unique<NotingOutput>(notes, clock);
+  runtime::OutputStage& addOutput(runtime::OutputStageOptions options,
+                                  std::optional<hal::Refresh> refresh = std::nullopt) {
+    return addOutput(std::make_unique<NotingOutput>(notes, clock, refresh), std::move(options));
+  }
+  runtime::OutputStage& addOutput(std::unique_ptr<hal::Output> output,
+                                  runtime::OutputStageOptions options) {
     const auto format = *output->start({.size = {8, 6}});
-    chain->addOutput(std::move(output), format, std::move(options));
+    return chain->addOutput(std::move(output), format, std::move(options));
   }
   void start() {
     chain->makePaintStage(

@@ -8,7 +8,7 @@
 
 #include "hal/camera.h"
 #include "hal/cameras/recording/recording.h"
-#include "hal/outputs/open_output.h"
+#include "hal/outputs/registry.h"
 #include "tests/support/test_pictures.h"
 
 namespace pleinair::support {

@@ -13,11 +13,21 @@ namespace pleinair::support {
 /// Gives each frame as it came, at once, to all outputs: grey, of the frame's size. No GPU.
 class PassThroughPainter final : public runtime::FramePainter {
  public:
-  explicit PassThroughPainter(std::size_t outputs) : waiting_(outputs) {}
+  explicit PassThroughPainter(std::size_t outputs) : waiting_(outputs), isOpen_(outputs, true) {}
 
   hal::Result<void> paint(const hal::CapturedFrame& frame, std::size_t) override {
-    for (auto& pictures : waiting_) pictures.push_back(frame);
+    for (std::size_t i = 0; i < waiting_.size(); ++i) {
+      if (isOpen_[i]) waiting_[i].push_back(frame);
+    }
     return {};
+  }
+  void open(std::size_t, const hal::FrameFormat&) override {
+    waiting_.emplace_back();
+    isOpen_.push_back(true);
+  }
+  void close(std::size_t output) override {
+    waiting_.at(output).clear();
+    isOpen_.at(output) = false;
   }
   hal::Result<bool> take(std::size_t output, OutputFrame& picture) override {
     auto& pictures = waiting_.at(output);
@@ -38,6 +48,7 @@ class PassThroughPainter final : public runtime::FramePainter {
 
  private:
   std::vector<std::deque<hal::CapturedFrame>> waiting_;
+  std::vector<bool> isOpen_;
 };
 
 }  // namespace pleinair::support

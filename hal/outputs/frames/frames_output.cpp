@@ -147,7 +147,7 @@ class FramesOutput final : public MemoryOutput {
     SinkResult sink = openSink(path_, files_);
     if (!sink) return tl::unexpected(sink.error());
     sink_ = *std::move(sink);
-    return OutputFormat{.frame = format, .refreshPeriod = std::nullopt};
+    return OutputFormat{.frame = format, .refresh = std::nullopt};
   }
 
   Result<void> write(const ImageView& picture, Duration) override {
@@ -169,7 +169,26 @@ class FramesOutput final : public MemoryOutput {
   std::unique_ptr<PictureSink> sink_;
 };
 
+bool isFramesTarget(const std::string& target) {
+  const std::filesystem::path path(target);
+  std::error_code ignored;
+  return !target.empty() && (std::filesystem::is_directory(path, ignored) || !path.has_filename() ||
+                             !path.has_extension() || endsInPng(path));
+}
+
 }  // namespace
+
+OutputKind framesKind() {
+  return {.name = "frames",
+          .help = "pictures: one .png, numbered ones, or a folder of them",
+          .forms = {"picture.png", "out/%04d.png", "folder/"},
+          .traits = {.writesFiles = true},
+          .options = {},
+          .recognizes = isFramesTarget,
+          .list = nullptr,
+          .make = [](const std::string& target, const OutputOptions&)
+              -> Result<std::unique_ptr<Output>> { return openFramesOutput(target); }};
+}
 
 std::unique_ptr<MemoryOutput> openFramesOutput(std::filesystem::path path, FileSystem& files) {
   return std::make_unique<FramesOutput>(std::move(path), files);

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "hal/output.h"
+#include "hal/output_kind.h"
 #include "hal/pending_file.h"
 
 namespace pleinair::hal {
@@ -16,5 +17,8 @@ namespace pleinair::hal {
 /// kInvalidArgument (the pattern is malformed, or does not end in .png).
 std::unique_ptr<MemoryOutput> openFramesOutput(std::filesystem::path path,
                                                FileSystem& files = systemFiles());
+
+/// One .png, a numbered pattern, or a folder.
+OutputKind framesKind();
 
 }  // namespace pleinair::hal

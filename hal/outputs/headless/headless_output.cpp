@@ -46,8 +46,10 @@ std::uint64_t hashOf(const ImageView& picture) {
   return hash;
 }
 
-HeadlessOutput::HeadlessOutput(PixelFormat format, ColorEncoding encoding)
-    : format_{.pixelFormat = format, .size = {}, .encoding = encoding}, running_(kOffsetBasis) {}
+HeadlessOutput::HeadlessOutput(PixelFormat format, ColorEncoding encoding, Keeps keeps)
+    : format_{.pixelFormat = format, .size = {}, .encoding = encoding},
+      keeps_(keeps),
+      running_(kOffsetBasis) {}
 
 OutputIdentity HeadlessOutput::identity() const {
   return {.backend = "headless", .id = "headless"};
@@ -61,11 +63,12 @@ Result<OutputFormat> HeadlessOutput::start(const OutputRequest& request) {
                                 .remedy = "use 1 to 8192 px a side and at most 64 Mpx"});
   }
   format_.size = request.size;
-  return OutputFormat{.frame = format_, .refreshPeriod = std::nullopt};
+  return OutputFormat{.frame = format_, .refresh = std::nullopt};
 }
 
 Result<void> HeadlessOutput::write(const ImageView& picture, Duration time) {
   assert(picture.format == format_ && picture.isComplete());
+  if (keeps_ == Keeps::kNothing) return {};
   hashes_.push_back(hashOf(picture));
   times_.push_back(time);
   running_ = mix(running_, hashes_.back());
@@ -74,6 +77,21 @@ Result<void> HeadlessOutput::write(const ImageView& picture, Duration time) {
 
 Result<void> HeadlessOutput::finish() {
   return {};
+}
+
+OutputKind headlessKind() {
+  return {
+      .name = "headless",
+      .help = "nothing is shown or written: to measure, and to run with the status server alone",
+      .forms = {"headless"},
+      .traits = {.isPaced = true},
+      .options = {},
+      .recognizes = [](const std::string& target) { return target == "headless"; },
+      .list = [] { return OutputListing{.outputs = {{.target = "headless"}}, .problem = {}}; },
+      .make = [](const std::string&, const OutputOptions&) -> Result<std::unique_ptr<Output>> {
+        return std::make_unique<HeadlessOutput>(PixelFormat::kRgb8, ColorEncoding{},
+                                                HeadlessOutput::Keeps::kNothing);
+      }};
 }
 
 }  // namespace pleinair::hal

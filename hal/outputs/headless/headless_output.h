@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hal/output.h"
+#include "hal/output_kind.h"
 
 namespace pleinair::hal {
 
@@ -14,7 +15,11 @@ std::uint64_t hashOf(const ImageView& picture);
 /// Takes pictures and keeps only what tests and measurements ask for. Needs no file and no display.
 class HeadlessOutput final : public MemoryOutput {
  public:
-  explicit HeadlessOutput(PixelFormat format = PixelFormat::kRgb8, ColorEncoding encoding = {});
+  /// What is kept of each picture: its hash and time, or nothing, however long it runs.
+  enum class Keeps { kHashes, kNothing };
+
+  explicit HeadlessOutput(PixelFormat format = PixelFormat::kRgb8, ColorEncoding encoding = {},
+                          Keeps keeps = Keeps::kHashes);
 
   OutputIdentity identity() const override;
   Result<OutputFormat> start(const OutputRequest& request) override;
@@ -29,9 +34,13 @@ class HeadlessOutput final : public MemoryOutput {
 
  private:
   FrameFormat format_;
+  Keeps keeps_;
   std::vector<std::uint64_t> hashes_;
   std::vector<Duration> times_;
   std::uint64_t running_;
 };
+
+/// "headless": it stands in for a display where there is none.
+OutputKind headlessKind();
 
 }  // namespace pleinair::hal

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "hal/outputs/movie/movie_writer.h"
@@ -86,7 +87,7 @@ Result<OutputFormat> MovieOutput::start(const OutputRequest& request) {
   auto writer = openWriter(*kind);
   if (!writer) return tl::unexpected(writer.error());
   writer_ = *std::move(writer);
-  return OutputFormat{.frame = format_.frame, .refreshPeriod = std::nullopt};
+  return OutputFormat{.frame = format_.frame, .refresh = std::nullopt};
 }
 
 Result<std::unique_ptr<movie::MovieWriter>> MovieOutput::openWriter(MovieKind kind) {
@@ -99,6 +100,22 @@ Result<std::unique_ptr<movie::MovieWriter>> MovieOutput::openWriter(MovieKind ki
 
 std::unique_ptr<MemoryOutput> openMovieOutput(std::filesystem::path path, FileSystem& files) {
   return std::make_unique<MovieOutput>(std::move(path), files);
+}
+
+OutputKind movieKind() {
+  return {.name = "movie",
+          .help = "a movie (.mp4, .mkv), or uncompressed (.y4m)",
+          .forms = {"movie.mp4", "movie.mkv", "movie.y4m"},
+          .traits = {.writesFiles = true},
+          .options = {},
+          .recognizes =
+              [](const std::string& target) {
+                std::error_code ignored;
+                return isMovieName(target) && !std::filesystem::is_directory(target, ignored);
+              },
+          .list = nullptr,
+          .make = [](const std::string& target, const OutputOptions&)
+              -> Result<std::unique_ptr<Output>> { return openMovieOutput(target); }};
 }
 
 bool isMovieName(const std::filesystem::path& path) {

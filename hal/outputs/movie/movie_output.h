@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "hal/output.h"
+#include "hal/output_kind.h"
 #include "hal/pending_file.h"
 
 namespace pleinair::hal {
@@ -24,5 +25,8 @@ std::unique_ptr<MemoryOutput> openMovieOutput(std::filesystem::path path,
 
 /// Whether the ending is one of the above (".MP4" as well).
 bool isMovieName(const std::filesystem::path& path);
+
+/// A path with such an ending, where no folder has it.
+OutputKind movieKind();
 
 }  // namespace pleinair::hal

@@ -1,5 +1,6 @@
 #include "hal/outputs/v4l2_loopback/loopback_output.h"
 
+#include <array>
 #include <cassert>
 #include <cerrno>
 #include <cstdint>
@@ -66,7 +67,7 @@ class LoopbackOutput final : public MemoryOutput {
       loopback::announceRate(calls(), descriptor_.get(), *request.framePeriod);
     }
     startStream();
-    return OutputFormat{.frame = picture_.format, .refreshPeriod = std::nullopt};
+    return OutputFormat{.frame = picture_.format, .refresh = std::nullopt};
   }
 
   Result<void> write(const ImageView& picture, Duration) override {
@@ -154,10 +155,66 @@ Error invalid(const std::string& name, std::string problem, std::string remedy) 
           .remedy = std::move(remedy)};
 }
 
-}  // namespace
-
 bool isLoopbackName(const std::string& name) {
   return name == kName || name.starts_with(std::string(kName) + ":");
+}
+
+/// The words of the option, and what they mean.
+constexpr std::string_view kFormatOption = "format";
+constexpr std::array kLayouts{std::pair{std::string_view("yuyv"), PixelFormat::kYuyv},
+                              std::pair{std::string_view("nv12"), PixelFormat::kNv12},
+                              std::pair{std::string_view("i420"), PixelFormat::kI420}};
+
+/// Unset for "auto", and where the option is not given.
+Result<std::optional<PixelFormat>> layoutOf(const OutputOptions& options) {
+  const auto given = options.find(kFormatOption);
+  if (given == options.end() || given->second == "auto") return std::nullopt;
+  for (const auto& [word, layout] : kLayouts) {
+    if (given->second == word) return layout;
+  }
+  return tl::unexpected(
+      invalid(std::string(kName), "cannot write " + given->second, "give yuyv, nv12 or i420"));
+}
+
+OutputDescription descriptionOf(const LoopbackDevice& device) {
+  return {.target = std::string(kName) + ":" + device.node,
+          .name = device.card,
+          .formats = device.layouts,
+          .isBusy = !device.problem && !device.isWritable,
+          .problem = device.problem};
+}
+
+OutputListing listing() {
+  OutputListing listing;
+  for (const LoopbackDevice& each : listLoopbacks()) listing.outputs.push_back(descriptionOf(each));
+  if (listing.outputs.empty()) {
+    listing.problem = Error{.kind = ErrorKind::kNotFound,
+                            .subject = std::string(kName),
+                            .problem = "there is no device",
+                            .remedy = kLoadLoopback};
+  }
+  return listing;
+}
+
+Result<std::unique_ptr<Output>> make(const std::string& target, const OutputOptions& options) {
+  const Result<std::optional<PixelFormat>> layout = layoutOf(options);
+  if (!layout) return tl::unexpected(layout.error());
+  return openLoopback(target, *layout);
+}
+
+}  // namespace
+
+OutputKind loopbackKind() {
+  return {.name = std::string(kName),
+          .help = "a V4L2 device that other programs read as a camera, by node or label",
+          .forms = {"loopback", "loopback:DEVICE"},
+          .traits = {.isPaced = true, .reopens = true, .skips = true},
+          .options = {{.name = std::string(kFormatOption),
+                       .help = "The layout of its pictures; \"auto\": what the device takes.",
+                       .choices = {"auto", "yuyv", "nv12", "i420"}}},
+          .recognizes = isLoopbackName,
+          .list = listing,
+          .make = make};
 }
 
 Result<std::unique_ptr<MemoryOutput>> openLoopback(const std::string& name,

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "hal/output.h"
+#include "hal/output_kind.h"
 #include "hal/outputs/v4l2_loopback/loopback_devices.h"
 
 namespace pleinair::hal {
@@ -26,7 +27,7 @@ Result<std::unique_ptr<MemoryOutput>> openLoopback(const std::string& name,
                                                    std::optional<PixelFormat> layout = {},
                                                    const V4l2System& system = {});
 
-/// Whether `name` is one for openLoopback().
-bool isLoopbackName(const std::string& name);
+/// "loopback" and "loopback:DEVICE"; its option `format` is the layout.
+OutputKind loopbackKind();
 
 }  // namespace pleinair::hal

@@ -70,7 +70,7 @@ Error refused(const std::string& subject, const std::string& answered) {
           .problem = "takes none of the layouts that can be written" +
                      (answered.empty() ? "" : " (it answers " + answered + ")"),
           .remedy = "YUYV, NV12 or I420 must be among `v4l2-ctl -d " + subject +
-                    " --list-formats-out`; another loopback_format may do"};
+                    " --list-formats-out`; another format in [output.loopback] may do"};
 }
 
 Error failed(const std::string& subject, int errnoValue) {

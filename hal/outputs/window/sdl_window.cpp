@@ -45,10 +45,11 @@ RendererHandle makeRenderer(SDL_Window* window) {
   return RendererHandle(SDL_CreateRenderer(window, -1, 0));
 }
 
-std::optional<Duration> refreshOf(SDL_Window* window) {
+/// SDL tells the period only.
+std::optional<Refresh> refreshOf(SDL_Window* window) {
   SDL_DisplayMode mode{};
   if (SDL_GetWindowDisplayMode(window, &mode) != 0 || mode.refresh_rate <= 0) return std::nullopt;
-  return Duration(std::chrono::seconds(1)) / mode.refresh_rate;
+  return Refresh{.period = Duration(std::chrono::seconds(1)) / mode.refresh_rate, .phase = {}};
 }
 
 class SdlWindow final : public Window {
@@ -98,7 +99,7 @@ Result<OutputFormat> SdlWindow::start(const OutputRequest& request) {
   }
   format_ = {.pixelFormat = PixelFormat::kRgba8, .size = request.size};
   if (Result<void> opened = open(request.size); !opened) return tl::unexpected(opened.error());
-  return OutputFormat{.frame = format_, .refreshPeriod = refreshOf(window_.get())};
+  return OutputFormat{.frame = format_, .refresh = refreshOf(window_.get())};
 }
 
 Result<void> SdlWindow::open(FrameSize picture) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hal/output.h"
+#include "hal/output_kind.h"
 
 namespace pleinair::hal {
 
@@ -33,7 +34,7 @@ using WindowEvent = std::variant<KeyPressed, WindowClosed, WindowResized>;
 /// All of it, over all windows of the process, on one thread, which is asserted.
 ///
 /// start() shows it in the picture's size where that fits the screen, and answers RGBA8 and the
-/// screen's refresh.
+/// period of the screen's refresh.
 class Window : public MemoryOutput {
  public:
   /// What has happened since the last call, oldest first. To be called several times a second, or
@@ -58,5 +59,8 @@ class Window : public MemoryOutput {
 /// A window through SDL, on the display that the environment names; start() shows it. Errors:
 /// kNotFound (there is no display), kUnsupported (this build has no window).
 Result<std::unique_ptr<Window>> openWindow();
+
+/// "window".
+OutputKind windowKind();
 
 }  // namespace pleinair::hal

@@ -48,8 +48,7 @@ class LiveEngine {
         },
         {.governor = {.levels = qualityLevels().size(), .pinned = {}},
          .latency = {},
-         .framePeriod = 33'333us,
-         .refresh = {}});
+         .framePeriod = 33'333us});
     chain_.paint().start();
     chain_.capture().open();
   }

@@ -16,7 +16,7 @@ def run(guest):
     check_oracle(guest)
     for layout, fourcc, camera in LAYOUTS:
         live.control(guest, **camera)
-        program = live.Program(guest, f"--set output.loopback_format={layout}")
+        program = live.Program(guest, f"--set output.loopback.format={layout}")
         program.wait_for_more(2)
         frame = live.read_frames(guest, 2, name=layout)[-1]
         assert frame.form.fourcc == fourcc, frame.form.text

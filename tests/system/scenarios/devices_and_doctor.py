@@ -16,10 +16,10 @@ def run(guest):
     formats = {entry["layout"]: entry for entry in camera["formats"]}
     assert {"YUYV", "NV12", "GREY", "RGGB"} <= set(formats), sorted(formats)
     assert formats["YUYV"]["read"], formats["YUYV"]
-    (loopback,) = devices["outputs"]["loopbacks"]
-    assert loopback["node"] == live.LOOPBACK, loopback
-    assert loopback["writable"], loopback
-    assert {"YUYV", "NV12", "YU12"} <= set(loopback["layouts"]), loopback
+    (loopback,) = [output for output in devices["outputs"] if output["kind"] == "loopback"]
+    assert loopback["target"] == f"loopback:{live.LOOPBACK}", loopback
+    assert not loopback["busy"], loopback
+    assert {"YUYV", "NV12", "YU12"} <= set(loopback["formats"]), loopback
 
     checks = doctor(guest)
     assert "ES 3." in find(checks, "OpenGL ES")["text"], checks  # software, of which it warns

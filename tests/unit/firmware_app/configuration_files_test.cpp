@@ -161,13 +161,13 @@ TEST_F(ConfigurationTest, EveryKeyHasItsVariable) {
   request_.environment = {{"PLEINAIR_CAMERA_SOURCE", "/in.mp4"},
                           {"PLEINAIR_PAINTING_STYLE", "none"},
                           {"PLEINAIR_PAINTING_SIZE", "320x240"},
-                          {"PLEINAIR_OUTPUT_TARGET", "/out.mp4"},
+                          {"PLEINAIR_OUTPUT_TARGETS", "window,/out\\,.mp4"},
                           {"PLEINAIR_STYLE_WATERCOLOR_CELL_SIZE", "9"}};
   const Configuration configuration = resolved();
   EXPECT_EQ(configuration.camera().source, "/in.mp4");
   EXPECT_EQ(configuration.painting().style, "none");
   EXPECT_EQ(configuration.painting().size, (config::PixelSize{320, 240}));
-  EXPECT_EQ(configuration.output().target, "/out.mp4");
+  EXPECT_EQ(configuration.output().targets, (std::vector<fs::path>{"window", "/out,.mp4"}));
   EXPECT_EQ(configuration.origin("painting.style"), "PLEINAIR_PAINTING_STYLE");
   EXPECT_EQ(configuration.origin("style.watercolor.cell_size"),
             "PLEINAIR_STYLE_WATERCOLOR_CELL_SIZE");

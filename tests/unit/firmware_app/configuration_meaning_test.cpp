@@ -83,7 +83,7 @@ TEST_F(ConfigurationTest, WhatItPrintsIsASiteFileOfTheSameValues) {
     EXPECT_EQ(copy.painting().look, "wet_in_wet");
     EXPECT_EQ(copy.painting().size, configuration.painting().size);
     EXPECT_EQ(copy.camera().framesPerSecond, 12.5);
-    EXPECT_EQ(copy.output().target, configuration.output().target);
+    EXPECT_EQ(copy.output().targets, configuration.output().targets);
     EXPECT_EQ(copy.camera().source, configuration.camera().source);
   }
 }

@@ -25,7 +25,7 @@ class LivePipelineTest : public testing::Test {
     selector_.reset(new hal::CameraSelector(support::selectorOf(
         [options](hal::Clock& clock) { return std::make_unique<PacedCamera>(options, clock); },
         live_.clock)));
-    live_.begin(*selector_, waiting_);
+    live_.begin(*selector_, waiting_, refresh_);
     began_ = live_.clock.now();
     live_.start();
   }
@@ -58,6 +58,7 @@ class LivePipelineTest : public testing::Test {
   std::unique_ptr<hal::CameraSelector> selector_;
   hal::TimePoint began_;
   std::size_t waiting_ = 16;
+  std::optional<hal::Refresh> refresh_;
 };
 
 TEST_F(LivePipelineTest, PresentsEveryFrameThatIsReadyExactlyAtItsDueTime) {
@@ -74,14 +75,14 @@ TEST_F(LivePipelineTest, PresentsEveryFrameThatIsReadyExactlyAtItsDueTime) {
 }
 
 TEST_F(LivePipelineTest, PresentsAtTheFirstRefreshAtOrAfterTheLatency) {
-  const Refresh refresh{.period = 16'666'667ns, .reference = hal::TimePoint(7ms)};
-  live_.painting.refresh = refresh;
+  const hal::Refresh refresh{.period = 16'666'667ns, .phase = hal::TimePoint(7ms)};
+  refresh_ = refresh;
   begin({.frames = 1'000});
   live_.drain();
   EXPECT_EQ(counts().of(Outcome::kShown), 1'000u);
   for (const NotingOutput::Note& note : live_.notes) {
     const hal::TimePoint captured = began_ + note.time;
-    ASSERT_EQ((note.presented - refresh.reference) % refresh.period, 0ns);
+    ASSERT_EQ((note.presented - *refresh.phase) % refresh.period, 0ns);
     ASSERT_GE(note.presented, captured + 120ms);
     ASSERT_LT(note.presented - refresh.period, captured + 120ms);
   }

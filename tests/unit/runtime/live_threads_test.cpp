@@ -35,7 +35,7 @@ class BlockingOutput final : public hal::MemoryOutput {
   hal::Result<hal::OutputFormat> start(const hal::OutputRequest& request) override {
     return hal::OutputFormat{
         .frame = {.pixelFormat = hal::PixelFormat::kGrey8, .size = request.size, .encoding = {}},
-        .refreshPeriod = {}};
+        .refresh = {}};
   }
   hal::Result<void> write(const hal::ImageView&, hal::Duration) override {
     if (control_.blocks) control_.release.acquire();
@@ -71,8 +71,7 @@ class Live {
         [outputs](const auto&) { return std::make_unique<PassThroughPainter>(outputs); },
         {.governor = {.levels = 5, .pinned = {}},
          .latency = {.configured = 20ms},
-         .framePeriod = period,
-         .refresh = {}});
+         .framePeriod = period});
     threads_.startPainter();
     while (!threads_.isPainterReady()) std::this_thread::sleep_for(1ms);
     threads_.startOutputs();

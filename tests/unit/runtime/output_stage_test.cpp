@@ -33,7 +33,7 @@ class DeviceOutput final : public hal::MemoryOutput {
   hal::Result<hal::OutputFormat> start(const hal::OutputRequest&) override {
     if (device_.isGone) return tl::unexpected(error("is not there"));
     ++device_.opened;
-    return hal::OutputFormat{.frame = device_.format, .refreshPeriod = {}};
+    return hal::OutputFormat{.frame = device_.format, .refresh = {}};
   }
   hal::Result<void> write(const hal::ImageView&, hal::Duration) override {
     if (device_.isBroken) return tl::unexpected(error("cannot write"));
@@ -63,7 +63,7 @@ class OutputStageTest : public testing::Test {
   void begin(bool reopens) {
     OutputStageOptions options{.name = "device"};
     if (reopens) {
-      options.reopen = [this]() -> hal::Result<std::unique_ptr<hal::MemoryOutput>> {
+      options.reopen = [this]() -> hal::Result<std::unique_ptr<hal::Output>> {
         return std::make_unique<DeviceOutput>(device_);
       };
     }
@@ -79,7 +79,7 @@ class OutputStageTest : public testing::Test {
       OutputFrame& picture = stage_->buffer();
       picture.image = hal::Image(kFormat);
       picture.captureTime = now;
-      stage_->submit(ledger_.open(), now, now + 10ms);
+      stage_->submit(ledger_.open(), now, 10ms);
       for (const hal::TimePoint end = now + 33ms; clock_.now() < end;) {
         const auto next = stage_->step();
         clock_.sleepUntil(next ? std::clamp(*next, clock_.now() + 1ms, end) : end);

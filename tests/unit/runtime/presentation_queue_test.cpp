@@ -36,11 +36,13 @@ class PresentationQueueTest : public testing::Test {
 };
 
 TEST(DueTime, IsTheFirstRefreshAtOrAfterTheLatency) {
-  const Refresh refresh{.period = 16ms, .reference = at(5ms)};
+  const hal::Refresh refresh{.period = 16ms, .phase = at(5ms)};
   EXPECT_EQ(dueTime(at(0ms), 100ms, std::nullopt), at(100ms));
   EXPECT_EQ(dueTime(at(0ms), 101ms, refresh), at(101ms)) << "exactly on one";
   EXPECT_EQ(dueTime(at(0ms), 102ms, refresh), at(117ms));
-  EXPECT_EQ(dueTime(at(-500ms), 0ms, refresh), at(-491ms)) << "before the reference";
+  EXPECT_EQ(dueTime(at(-500ms), 0ms, refresh), at(-491ms)) << "before the phase";
+  EXPECT_EQ(dueTime(at(0ms), 102ms, hal::Refresh{.period = 16ms, .phase = {}}), at(102ms))
+      << "where the phase is not known";
 }
 
 TEST_F(PresentationQueueTest, LetsEarlyPicturesWait) {

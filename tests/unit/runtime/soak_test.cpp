@@ -20,7 +20,7 @@ class ForgettingOutput final : public hal::MemoryOutput {
   hal::Result<hal::OutputFormat> start(const hal::OutputRequest& request) override {
     return hal::OutputFormat{
         .frame = {.pixelFormat = hal::PixelFormat::kGrey8, .size = request.size, .encoding = {}},
-        .refreshPeriod = {}};
+        .refresh = {}};
   }
   hal::Result<void> write(const hal::ImageView&, hal::Duration) override { return {}; }
   hal::Result<void> finish() override { return {}; }

@@ -30,12 +30,15 @@ Inventory full() {
                              .subject = "/dev/video2",
                              .problem = "cannot open: Permission denied",
                              .remedy = "join the group video"}}};
-  inventory.loopbacks = {{.node = "/dev/video50",
-                          .card = "pleinair",
-                          .driver = "v4l2 loopback",
-                          .isLoopback = true,
-                          .isWritable = true,
-                          .layouts = {"YUYV", "NV12"}}};
+  inventory.outputs = {
+      {.kind = "window", .listing = {.outputs = {{.target = "window"}}}},
+      {.kind = "loopback",
+       .listing =
+           {.outputs = {{.target = "loopback:/dev/video50",
+                         .name = "pleinair",
+                         .formats = {"YUYV", "NV12"}},
+                        {.target = "loopback:/dev/video51", .name = "other", .isBusy = true}}}},
+      {.kind = "movie", .help = "a movie", .forms = {"a.mp4", "a.mkv"}, .isFile = true}};
   inventory.displays = {
       {.name = "card0-HDMI-A-1", .isConnected = true, .modes = {"1920x1080", "1280x720"}},
       {.name = "card0-DP-1"}};
@@ -55,7 +58,8 @@ TEST(Inventory, IsALineADeviceAndALayout) {
             "Outputs (--output NAME)\n"
             "  window\n"
             "  loopback:/dev/video50  pleinair  YUYV NV12\n"
-            "  FILE or FOLDER: a movie or pictures\n"
+            "  loopback:/dev/video51  other  (another program writes to it)\n"
+            "  a.mp4, a.mkv: a movie\n"
             "\n"
             "Displays\n"
             "  card0-HDMI-A-1  1920x1080 1280x720\n"
@@ -64,14 +68,14 @@ TEST(Inventory, IsALineADeviceAndALayout) {
 
 TEST(Inventory, SaysWhatToDoWhereThereIsNothing) {
   Inventory empty;
-  empty.noWindow = hal::Error{.kind = hal::ErrorKind::kNotFound,
-                              .subject = "window",
-                              .problem = "there is no display",
-                              .remedy = "start a desktop"};
+  empty.outputs = {{.kind = "window",
+                    .listing = {.problem = hal::Error{.kind = hal::ErrorKind::kNotFound,
+                                                      .subject = "window",
+                                                      .problem = "there is no display",
+                                                      .remedy = "start a desktop"}}}};
   const std::string text = asText(empty);
   EXPECT_THAT(text, HasSubstr("  none. Plug one in, or see `pleinair doctor`"));
-  EXPECT_THAT(text, HasSubstr("  no window: there is no display\n    -> start a desktop\n"));
-  EXPECT_THAT(text, HasSubstr("  no loopback: sudo modprobe v4l2loopback"));
+  EXPECT_THAT(text, HasSubstr("  no window\n    there is no display\n    -> start a desktop\n"));
   EXPECT_THAT(text, HasSubstr("  none that the kernel knows\n"));
 }
 
@@ -86,7 +90,7 @@ TEST(Inventory, TellsOfBackEndsThatFail) {
 
 TEST(Inventory, IsJson) {
   Inventory inventory = full();
-  inventory.loopbacks[0].card = "l\xff";
+  inventory.outputs[1].listing.outputs[0].name = "l\xff";
   const nlohmann::json document = nlohmann::json::parse(asJson(inventory));
   const nlohmann::json& camera = document["cameras"][0];
   EXPECT_EQ(camera["id"], "usb-046d");
@@ -96,9 +100,12 @@ TEST(Inventory, IsJson) {
   EXPECT_TRUE(camera["problem"].is_null());
   EXPECT_EQ(document["cameras"][1]["problem"],
             "/dev/video2: cannot open: Permission denied; join the group video");
-  EXPECT_EQ(document["outputs"]["window"], true);
-  EXPECT_EQ(document["outputs"]["loopbacks"][0]["layouts"][1], "NV12");
-  EXPECT_EQ(document["outputs"]["displays"][0]["connected"], true);
+  EXPECT_EQ(document["outputs"].size(), 3u);
+  EXPECT_EQ(document["outputs"][0]["kind"], "window");
+  EXPECT_EQ(document["outputs"][1]["target"], "loopback:/dev/video50");
+  EXPECT_EQ(document["outputs"][1]["formats"][1], "NV12");
+  EXPECT_EQ(document["outputs"][2]["busy"], true);
+  EXPECT_EQ(document["displays"][0]["connected"], true);
   EXPECT_TRUE(document["problems"].empty());
 }
 

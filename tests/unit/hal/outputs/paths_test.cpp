@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/numbered_path.h"
-#include "hal/outputs/open_output.h"
+#include "hal/outputs/registry.h"
 #include "tests/support/media_files.h"
 #include "tests/support/temporary_folder.h"
 
@@ -54,6 +54,60 @@ TEST(OpenFileOutput, ChoosesByThePath) {
     EXPECT_EQ(output.error().kind, ErrorKind::kInvalidArgument);
     EXPECT_THAT(output.error().message(), testing::HasSubstr(".mp4, .mkv, .y4m or .png"));
   }
+}
+
+TEST(OutputRegistry, ChoosesTheKindByTheTarget) {
+  const support::TemporaryFolder folder;
+  for (const auto& [target, kind] : {std::pair{"window", "window"},
+                                     {"headless", "headless"},
+                                     {"loopback", "loopback"},
+                                     {"loopback:/dev/video50", "loopback"},
+                                     {"loopback:a card", "loopback"},
+                                     {"loopback.mp4", "movie"},
+                                     {"./window", "frames"},
+                                     {"window/", "frames"},
+                                     {".", "frames"},
+                                     {"..", "frames"},
+                                     {"a/b", "frames"},
+                                     {"%04d.png", "frames"}}) {
+    const auto found = outputKindOf(target);
+    ASSERT_TRUE(found) << target << ": " << found.error().message();
+    EXPECT_EQ((*found)->name, kind) << target;
+  }
+}
+
+TEST(OutputRegistry, RefusesABareWordThatIsNoKind) {
+  for (const std::string word : {"display", "Window", "display:HDMI-A-1", "out"}) {
+    for (const hal::Error& error :
+         {outputKindOf(word).error(), openOutput(word).error(), openFileOutput(word).error()}) {
+      EXPECT_EQ(error.kind, ErrorKind::kInvalidArgument);
+      EXPECT_THAT(error.message(), testing::HasSubstr("./" + word + " or " + word + "/"));
+      EXPECT_THAT(error.message(), testing::HasSubstr("window, loopback, loopback:DEVICE"));
+    }
+  }
+  EXPECT_THAT(openFileOutput("window").error().message(), testing::HasSubstr("is no file"));
+}
+
+TEST(OutputRegistry, ListsKindsWhoseFormsAreTheirs) {
+  for (const OutputKind& kind : outputKinds()) {
+    EXPECT_FALSE(kind.help.empty()) << kind.name;
+    EXPECT_EQ(kind.list == nullptr, kind.traits.writesFiles) << kind.name;
+    for (const std::string& form : kind.forms) {
+      const auto found = outputKindOf(form);
+      ASSERT_TRUE(found) << form;
+      EXPECT_EQ((*found)->name, kind.name) << form;
+    }
+    for (const OutputOption& option : kind.options) EXPECT_GE(option.choices.size(), 2u);
+  }
+  EXPECT_THAT(outputWords(), testing::ElementsAre("window", "loopback", "headless"));
+  EXPECT_THAT(outputPrefixes(), testing::ElementsAre("loopback:DEVICE"));
+}
+
+TEST(OutputRegistry, GivesAKindItsOptions) {
+  EXPECT_TRUE(openOutput("loopback", {{"loopback", {{"format", "nv12"}}}}));
+  const auto refused = openOutput("loopback", {{"loopback", {{"format", "rgb"}}}});
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message(), testing::HasSubstr("yuyv, nv12 or i420"));
 }
 
 TEST(FramesOutput, MakesItsFolderButNotItsParents) {

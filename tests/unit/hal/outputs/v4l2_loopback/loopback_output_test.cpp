@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-#include "hal/outputs/open_output.h"
+#include "hal/outputs/registry.h"
 #include "tests/unit/hal/outputs/v4l2_loopback/loopback_fixture.h"
 
 namespace pleinair::hal {
@@ -204,7 +204,7 @@ TEST_F(LoopbackOutput, RefusesNamesAndLayoutsThatAreNone) {
 
 TEST_F(LoopbackOutput, IsWhatOpenOutputGives) {
   for (const char* name : {"loopback", "loopback:/dev/video50", "loopback:hall"}) {
-    const auto output = openOutput(name, {.loopbackLayout = PixelFormat::kNv12});
+    const auto output = openOutput(name, {{"loopback", {{"format", "nv12"}}}});
     ASSERT_TRUE(output) << output.error().message();
     EXPECT_EQ((*output)->identity().backend, "loopback");
   }

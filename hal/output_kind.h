@@ -1,0 +1,74 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hal/error.h"
+#include "hal/output.h"
+
+namespace pleinair::hal {
+
+/// What the program does differently for outputs of a kind. It reads these, never a kind's name.
+struct OutputTraits {
+  /// Shows each picture at its due time. Otherwise it takes all of them, as soon as they come.
+  bool isPaced = false;
+  /// A device that may come back: it is opened again after it has failed.
+  bool reopens = false;
+  /// write() never waits for readers: what cannot be taken at once is skipped and counted.
+  bool skips = false;
+  /// Lends surfaces (SurfaceOutput). Otherwise it takes pictures in memory (MemoryOutput).
+  bool lendsSurfaces = false;
+  /// Its target is a path, which is written to. Offline painting goes to these only.
+  bool writesFiles = false;
+  /// It has to be used on the program's own thread, as windows have.
+  bool isOnMainThread = false;
+};
+
+/// A setting that outputs of a kind have, one of some words: a key of [output.KIND].
+struct OutputOption {
+  std::string name;
+  std::string help;
+  std::vector<std::string> choices;  ///< the first is the default
+};
+
+/// The values of a kind's options, by name. One that is missing has its default.
+using OutputOptions = std::map<std::string, std::string, std::less<>>;
+
+/// What a kind tells of an output that is there.
+struct OutputDescription {
+  std::string target;                ///< what --output takes: "loopback:/dev/video50"
+  std::string name;                  ///< "pleinair", a card's label; empty where it has none
+  std::vector<std::string> formats;  ///< that a device takes: fourccs
+  bool isBusy = false;               ///< another program has it
+  std::optional<Error> problem;      ///< why it could not be looked at
+};
+
+/// The outputs of a kind that are there.
+struct OutputListing {
+  std::vector<OutputDescription> outputs;
+  std::optional<Error> problem;  ///< why there is none, and what to do
+};
+
+/// A kind of outputs: a folder under hal/outputs exports one, and hal/outputs/registry.cpp lists
+/// it. Constant; the functions may be called on any thread, one at a time.
+struct OutputKind {
+  std::string name;  ///< "loopback"
+  std::string help;  ///< one line
+  /// How a target is written, for help and messages: "loopback", "loopback:DEVICE". Words in
+  /// capitals stand for something else. Without a word of its own (files): "movie.mp4".
+  std::vector<std::string> forms;
+  OutputTraits traits;
+  std::vector<OutputOption> options;
+  /// Whether a target is of this kind. Looks at files, opens no device.
+  bool (*recognizes)(const std::string& target);
+  /// The outputs that are there; null for files, which are made.
+  OutputListing (*list)();
+  /// Makes one; opens nothing before its start(). Errors: kInvalidArgument (a malformed target or
+  /// option), kNotFound (there is no display), kUnsupported (this build lacks it).
+  Result<std::unique_ptr<Output>> (*make)(const std::string& target, const OutputOptions& options);
+};
+
+}  // namespace pleinair::hal

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include "hal/error.h"
+#include "hal/image.h"
+
+namespace pleinair::hal {
+
+/// A pixel layout as DRM names it (drm_fourcc.h).
+constexpr std::uint32_t drmFourcc(char a, char b, char c, char d) {
+  const auto byte = [](char character) {
+    return std::uint32_t{static_cast<unsigned char>(character)};
+  };
+  return byte(a) | byte(b) << 8 | byte(c) << 16 | byte(d) << 24;
+}
+inline constexpr std::uint32_t kXrgb8888 = drmFourcc('X', 'R', '2', '4');  ///< bytes B, G, R, X
+inline constexpr std::uint32_t kArgb8888 = drmFourcc('A', 'R', '2', '4');  ///< bytes B, G, R, A
+inline constexpr std::uint32_t kXbgr8888 = drmFourcc('X', 'B', '2', '4');  ///< bytes R, G, B, X
+inline constexpr std::uint32_t kAbgr8888 = drmFourcc('A', 'B', '2', '4');  ///< bytes R, G, B, A
+/// The modifier of rows one after the other.
+inline constexpr std::uint64_t kLinearModifier = 0;
+
+/// Which of its output's surfaces one is. It lasts as long as the surface does, so that what was
+/// imported is kept by it, never by a file descriptor's number.
+enum class SurfaceId : std::uint32_t {};
+
+/// A plane of a surface.
+struct SurfacePlane {
+  int dmaBuf = -1;  ///< a file descriptor of the output's
+  std::size_t offsetBytes = 0;
+  std::size_t strideBytes = 0;
+};
+
+/// A buffer that an output lends. A value that refers to the output's buffer.
+struct Surface {
+  SurfaceId id{};
+  FrameFormat format;  ///< of the picture that it shows
+  std::uint32_t fourcc = kXrgb8888;
+  std::uint64_t modifier = kLinearModifier;
+  int planeCount = 1;
+  std::array<SurfacePlane, 4> planes;
+};
+
+/// When a surface's content is complete: a sync_file that it owns, or nothing, where it is
+/// already. Move-only; any thread.
+class Fence {
+ public:
+  /// Signalled.
+  Fence() = default;
+  /// Takes the descriptor over.
+  explicit Fence(int syncFile) : syncFile_(syncFile) {}
+  Fence(Fence&& other) noexcept : syncFile_(std::exchange(other.syncFile_, -1)) {}
+  Fence& operator=(Fence&& other) noexcept {
+    std::swap(syncFile_, other.syncFile_);
+    return *this;
+  }
+  ~Fence();
+
+  /// −1: signalled.
+  int syncFile() const { return syncFile_; }
+
+ private:
+  int syncFile_ = -1;
+};
+
+/// Ends the processor's access to a surface. An output implements it; SurfaceMapping calls it.
+class SurfaceUnmapper {
+ public:
+  virtual void unmap(SurfaceId surface) = 0;
+
+ protected:
+  ~SurfaceUnmapper() = default;
+};
+
+/// The processor's access to a surface, from map() until it is destroyed: what lies between the
+/// start and the end of DMA_BUF_IOCTL_SYNC for buffers that need it. Move-only; the output outlives
+/// it; the output's thread.
+class SurfaceMapping {
+ public:
+  /// `planes`: the bytes of each plane from its offset on.
+  SurfaceMapping(SurfaceUnmapper& unmapper, SurfaceId surface,
+                 std::array<std::span<std::uint8_t>, 4> planes)
+      : unmapper_(&unmapper), surface_(surface), planes_(planes) {}
+  SurfaceMapping(SurfaceMapping&& other) noexcept
+      : unmapper_(std::exchange(other.unmapper_, nullptr)),
+        surface_(other.surface_),
+        planes_(other.planes_) {}
+  SurfaceMapping& operator=(SurfaceMapping&&) = delete;
+  ~SurfaceMapping() {
+    if (unmapper_ != nullptr) unmapper_->unmap(surface_);
+  }
+
+  std::span<std::uint8_t> plane(std::size_t index) const { return planes_.at(index); }
+
+ private:
+  SurfaceUnmapper* unmapper_;
+  SurfaceId surface_;
+  std::array<std::span<std::uint8_t>, 4> planes_;
+};
+
+/// Copies an RGBA picture of the surface's size into its memory, in the surface's order of
+/// channels. Errors: kUnsupported (another picture format, fourcc or modifier), kInvalidArgument
+/// (the sizes differ, or the mapping is too small).
+Result<void> copyToSurface(const ImageView& picture, const Surface& surface,
+                           const SurfaceMapping& mapping);
+
+}  // namespace pleinair::hal
