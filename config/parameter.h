@@ -48,7 +48,7 @@ struct ParameterDescriptor {
   /// Which texts a text may be; unset: any.
   std::function<bool(std::string_view)> takesText;
   std::string textAllowed;  ///< of a text, for messages: "a name that ... lists"; empty: any
-  std::string pathEnding;   ///< of a path: ".toml"; empty: any
+  std::string pathEnding;   ///< of a path, in either case: ".toml"; empty: any
   TakesEffect takesEffect = TakesEffect::kLive;
 
   ParameterKind kind() const { return static_cast<ParameterKind>(defaultValue.index()); }
