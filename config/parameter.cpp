@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cctype>
 #include <charconv>
 #include <iterator>
 #include <system_error>
@@ -54,6 +55,14 @@ bool isAmongOpen(const std::vector<std::string>& openChoices, std::string_view t
   });
 }
 
+/// Files of cameras and of other systems end in ".PNG". `ending` is in lower case.
+bool endsWith(std::string_view path, std::string_view ending) {
+  if (path.size() < ending.size()) return false;
+  return std::ranges::equal(path.substr(path.size() - ending.size()), ending, {}, [](char c) {
+    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  });
+}
+
 bool isAllowedPath(const ParameterDescriptor& descriptor, const std::string& path) {
   const auto& words = descriptor.choices;
   const bool isPlain = path.size() <= kLongestPath && path.find('\0') == std::string::npos;
@@ -61,7 +70,7 @@ bool isAllowedPath(const ParameterDescriptor& descriptor, const std::string& pat
   if (isAmongOpen(descriptor.openChoices, path)) return isPlain;
   const bool goesOnFromAWord = std::any_of(
       words.begin(), words.end(), [&](const auto& word) { return path.starts_with(word + ':'); });
-  return !goesOnFromAWord && !path.empty() && isPlain && path.ends_with(descriptor.pathEnding);
+  return !goesOnFromAWord && !path.empty() && isPlain && endsWith(path, descriptor.pathEnding);
 }
 
 std::string allowedPaths(const ParameterDescriptor& descriptor) {

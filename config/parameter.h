@@ -50,10 +50,8 @@ struct ParameterDescriptor {
   std::vector<std::string> openChoices;
   /// Which texts a text, or an element of a list, may be; unset: any.
   std::function<bool(std::string_view)> takesText;
-  /// Of a text, for messages: "a name that ... lists"; of a list, what an element is beside the
-  /// choices; empty: any.
-  std::string textAllowed;
-  std::string pathEnding;  ///< of a path: ".toml"; empty: any
+  std::string textAllowed;  ///< of a text, for messages: "a name that ... lists"; empty: any
+  std::string pathEnding;   ///< of a path, in either case: ".toml"; empty: any
   TakesEffect takesEffect = TakesEffect::kLive;
 
   ParameterKind kind() const { return static_cast<ParameterKind>(defaultValue.index()); }

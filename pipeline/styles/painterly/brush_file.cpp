@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::int64_t kMostFileBytes = 16LL << 20;  // of the largest, not compressed, and more
 constexpr int kAspect = 4;                           // of a mark
+constexpr int kLeastPaint = 8;                       // of 255, somewhere in a mark
 
 hal::Error refused(const std::filesystem::path& path, std::string problem) {
   return {.kind = hal::ErrorKind::kInvalidInput,
@@ -59,6 +60,14 @@ std::optional<int> variantsOf(hal::FrameSize size) {
   return std::nullopt;
 }
 
+/// The most paint that any texel has, in 255ths.
+int mostPaintOf(const BrushMarks& marks) {
+  int most = 0;
+  for (std::size_t i = 0; i < marks.texels.size(); i += 2)
+    most = std::max<int>(most, marks.texels[i]);
+  return most;
+}
+
 /// The mean of a channel over the texels [fromX, toX) x [fromY, toY).
 std::uint8_t meanOf(const BrushMarks& marks, int fromX, int toX, int fromY, int toY, int channel) {
   const auto stride = static_cast<std::size_t>(kAspect * marks.across) * 2;
@@ -99,6 +108,13 @@ hal::Result<BrushMarks> readBrushFile(const std::filesystem::path& path) {
         marks.texels.push_back(static_cast<std::uint8_t>((row[x + c] * row[x + 3] + 127) / 255));
       }
     }
+  }
+  if (mostPaintOf(marks) < kLeastPaint) {
+    return tl::unexpected(
+        hal::Error{.kind = hal::ErrorKind::kInvalidInput,
+                   .subject = "brush " + path.string(),
+                   .problem = "has no paint in it: it is black or transparent all over",
+                   .remedy = "paint is white, or red, on black; invert what is black on white"});
   }
   return marks;
 }

@@ -19,7 +19,8 @@ struct BrushMarks {
 
 /// A PNG file's marks: its red is paint, its green height, which in a grey picture are the same;
 /// what is transparent has neither. Four times as wide as high: one mark; square: four. Errors:
-/// kNotFound, kPermissionDenied, kIo, kInvalidInput (no PNG, broken, of another shape or size).
+/// kNotFound, kPermissionDenied, kIo, kInvalidInput (no PNG, broken, of another shape or size, or
+/// hardly any paint in it, so that no stroke would be seen).
 hal::Result<BrushMarks> readBrushFile(const std::filesystem::path& path);
 
 /// The same marks with as many texels across as are asked for, each the mean of those it covers;

@@ -57,6 +57,7 @@ TEST(TextParameter, TakesWhatIsAllowed) {
   EXPECT_EQ(with("title", "Élan \"vital\"").title, "Élan \"vital\"");
   EXPECT_EQ(with("style", "ink").style, "ink");
   EXPECT_EQ(with("scene", "a b/desk.toml").scene, fs::path("a b/desk.toml"));
+  EXPECT_EQ(with("profile", "SITE.TOML").profile, fs::path("SITE.TOML"));
   EXPECT_EQ(with("scene", "synthetic").scene, fs::path("synthetic"));
   EXPECT_EQ(with("profile", "./none.toml").profile, fs::path("./none.toml"));
   EXPECT_EQ(with("size", "1280x720").size, (PixelSize{1280, 720}));

@@ -109,10 +109,26 @@ TEST_F(BrushFileTest, OtherShapesAndSizesAreRefusedInOneLine) {
   }
   for (const hal::FrameSize size : {hal::FrameSize{32, 8}, {32, 32}, {1024, 256}, {1024, 1024}}) {
     const fs::path path = write("sound.png", hal::PixelFormat::kGrey8, size, [](int, int) {
-      return std::array{1, 0, 0, 0};
+      return std::array{90, 0, 0, 0};
     });
     EXPECT_TRUE(readBrushFile(path)) << size.width << "x" << size.height;
   }
+}
+
+TEST_F(BrushFileTest, OnesWithoutPaintAreRefusedWithTheReason) {
+  const auto colours = {std::array{0, 0, 0, 255}, std::array{0, 255, 255, 255},
+                        std::array{255, 255, 255, 0}, std::array{3, 3, 3, 255}};
+  for (const std::array<int, 4>& colour : colours) {
+    const auto marks = readBrushFile(
+        write("black.png", hal::PixelFormat::kRgba8, {64, 16}, [&](int, int) { return colour; }));
+    ASSERT_FALSE(marks);
+    EXPECT_EQ(marks.error().kind, hal::ErrorKind::kInvalidInput);
+    EXPECT_THAT(marks.error().message(), HasSubstr("black.png: has no paint in it"));
+    EXPECT_THAT(marks.error().message(), HasSubstr("paint is white"));
+  }
+  EXPECT_TRUE(readBrushFile(write("dot.png", hal::PixelFormat::kGrey8, {64, 16}, [](int x, int y) {
+    return std::array{x == 5 && y == 5 ? 255 : 0, 0, 0, 0};
+  })));
 }
 
 TEST_F(BrushFileTest, WhatIsNoPngIsSaid) {
