@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -19,10 +18,6 @@ constexpr std::size_t kStrokeBytes = 96;  // shaders/stroke.glsl
 constexpr std::size_t kCommandBytes = 16;
 constexpr glm::ivec2 kSlotGroup{64, 1};
 constexpr std::size_t kDetailLevel = 1;  // of the field, whose detail says where a layer is painted
-
-double secondsOf(hal::Duration duration) {
-  return std::chrono::duration<double>(duration).count();
-}
 
 /// About the golden section of n, and coprime to it: neighbours in slots are far apart in order.
 std::uint32_t strideFor(std::uint32_t n) {
@@ -80,7 +75,7 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
                             const TensorField& field, const StrokePaint& paint,
                             const StrokeRule& rule, hal::Duration step) {
   const auto stays = [step](hal::Duration timeConstant) {
-    return keptAfter(step, secondsOf(timeConstant));
+    return keptAfter(step, hal::toSeconds(timeConstant));
   };
   const std::size_t level = std::min(rule.fieldLevel, field.levelCount() - 1);
   const std::size_t detail = std::min(kDetailLevel, field.levelCount() - 1);
@@ -112,7 +107,7 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .set("wander", rule.wanderRad)
       .set("past", glm::vec4(stays(rule.shapeMemory), stays(rule.colourMemory),
                              stays(rule.appearing), stays(rule.vanishing)))
-      .set("mostColour", rule.mostColourPerSecond * static_cast<float>(secondsOf(step)))
+      .set("mostColour", rule.mostColourPerSecond * static_cast<float>(hal::toSeconds(step)))
       .dispatch(allSlots(), kSlotGroup, GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
