@@ -58,7 +58,22 @@ enum class Pacing {
   kRealTime,  ///< each frame at its capture time by the clock
 };
 
-/// The duration as text for a person: "310 ms" below a second, else "3.3 s".
+/// A duration as a number, for formulas and reports.
+constexpr double toSeconds(Duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+constexpr double toMilliseconds(Duration duration) {
+  return std::chrono::duration<double, std::milli>(duration).count();
+}
+/// Rounded to the nearest nanosecond. Precondition: at most 292 years.
+constexpr Duration fromSeconds(double seconds) {
+  return std::chrono::round<Duration>(std::chrono::duration<double>(seconds));
+}
+constexpr Duration fromMilliseconds(double milliseconds) {
+  return std::chrono::round<Duration>(std::chrono::duration<double, std::milli>(milliseconds));
+}
+
+/// For a person: "310 ms" below a second, else "3.3 s".
 std::string durationText(Duration duration);
 
 }  // namespace pleinair::hal

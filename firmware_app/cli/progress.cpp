@@ -14,7 +14,7 @@ namespace {
 constexpr hal::Duration kRedrawPeriod = std::chrono::milliseconds(250);
 
 double rate(std::uint64_t done, hal::Duration elapsed) {
-  const double seconds = std::chrono::duration<double>(elapsed).count();
+  const double seconds = hal::toSeconds(elapsed);
   return seconds > 0.0 ? static_cast<double>(done) / seconds : 0.0;
 }
 

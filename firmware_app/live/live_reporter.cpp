@@ -16,10 +16,6 @@ namespace {
 constexpr const char* kClearLine = "\r\033[K";
 constexpr hal::Duration kBetweenLines = std::chrono::milliseconds(250);
 
-double milliseconds(hal::Duration duration) {
-  return std::chrono::duration<double, std::milli>(duration).count();
-}
-
 }  // namespace
 
 LiveReporter::LiveReporter(std::vector<std::string> qualityNames)
@@ -88,10 +84,10 @@ void LiveReporter::tellPainting(const runtime::RuntimeStatus& status) {
       last_ ? last_->painting : runtime::PaintStage::Status{.hasPainter = true};
   if (now.latencyRaised > before.latencyRaised) {
     warn("painting takes too long at quality {}: latency raised to {:.0f} ms",
-         qualityNames_.at(now.quality), milliseconds(now.latency));
+         qualityNames_.at(now.quality), hal::toMilliseconds(now.latency));
   }
   if (now.latencyLowered > before.latencyLowered && now.latency == now.configuredLatency) {
-    inform("latency is back at {:.0f} ms", milliseconds(now.latency));
+    inform("latency is back at {:.0f} ms", hal::toMilliseconds(now.latency));
   }
   if (now.contextLosses > before.contextLosses && now.failure) {
     warn("{}; a new context is made", now.failure->message());

@@ -9,10 +9,6 @@
 namespace pleinair::app {
 namespace {
 
-hal::Duration ofMilliseconds(double milliseconds) {
-  return std::chrono::round<hal::Duration>(std::chrono::duration<double, std::milli>(milliseconds));
-}
-
 constexpr hal::Duration kUsualPeriod = std::chrono::microseconds(33'333);
 
 /// As many as fall due within the longest latency, and two to spare.
@@ -39,10 +35,10 @@ runtime::PaintStageOptions paintRules(const RuntimeSettings& settings,
   if (pinned != names.end()) {
     options.governor.pinned = static_cast<std::size_t>(pinned - names.begin());
   }
-  options.latency.configured = ofMilliseconds(settings.latencyMs);
-  options.latency.maximum = ofMilliseconds(settings.maxLatencyMs);
+  options.latency.configured = hal::fromMilliseconds(settings.latencyMs);
+  options.latency.maximum = hal::fromMilliseconds(settings.maxLatencyMs);
   if (settings.rate > 0.0) {
-    const hal::Duration wanted = ofMilliseconds(1000.0 / settings.rate);
+    const hal::Duration wanted = hal::fromMilliseconds(1000.0 / settings.rate);
     options.framePeriod = std::max(wanted, stream.framePeriod.value_or(wanted));
   }
   return options;
@@ -54,7 +50,7 @@ runtime::OutputStageOptions outputRules(const std::string& target,
                                         const hal::StreamFormat& stream) {
   const hal::OutputTraits& traits = hal::orThrow(hal::outputKindOf(target))->traits;
   const hal::Duration period = stream.framePeriod.value_or(kUsualPeriod);
-  const hal::Duration longest = ofMilliseconds(settings.maxLatencyMs);
+  const hal::Duration longest = hal::fromMilliseconds(settings.maxLatencyMs);
   constexpr hal::Duration kMostTolerance = std::chrono::milliseconds(8);
   runtime::OutputStageOptions options{
       .name = target,

@@ -79,8 +79,8 @@ class Painting {
       finish();
       summary = fmt::format("{} {} {} in {:.1f} s ({:.1f} frames/s): {}\n", job_.done,
                             progress.frames(), progress.frames() == 1 ? "frame" : "frames",
-                            std::chrono::duration<double>(progress.elapsed()).count(),
-                            progress.framesPerSecond(), job_.options.output.string());
+                            hal::toSeconds(progress.elapsed()), progress.framesPerSecond(),
+                            job_.options.output.string());
     }
     warn(unseenTagsWarning(job_.scene, seenTags_));
     // Whether it arrived is looked at once, at the program's end.

@@ -33,7 +33,7 @@ Json tagJson(const tracking::TrackedTag& tag) {
 
 std::string posesLine(std::uint64_t frame, hal::Duration time,
                       const tracking::TrackingResult& tracking) {
-  Json json{{"frame", frame}, {"time_s", std::chrono::duration<double>(time).count()}};
+  Json json{{"frame", frame}, {"time_s", hal::toSeconds(time)}};
   if (tracking.cameraFromWorld) {
     json["cameraFromWorld"] = rowMajor(*tracking.cameraFromWorld);
     if (tracking.worldSource != tracking::PoseSource::kSeen) {

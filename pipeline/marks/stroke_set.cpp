@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -21,12 +20,7 @@ constexpr glm::ivec2 kSlotGroup{64, 1};
 // the level of the field whose detail decides where a layer is painted
 constexpr std::size_t kDetailLevel = 1;
 
-double secondsOf(hal::Duration duration) {
-  return std::chrono::duration<double>(duration).count();
-}
-
-/// A number near the golden section of n and coprime to it, so that neighbouring slots are far
-/// apart in the painting order.
+/// About the golden section of n, and coprime to it: neighbours in slots are far apart in order.
 std::uint32_t strideFor(std::uint32_t n) {
   auto stride = std::max(1U, static_cast<std::uint32_t>(0.618 * n));
   while (std::gcd(stride, n) != 1U) ++stride;
@@ -82,7 +76,7 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
                             const TensorField& field, const StrokePaint& paint,
                             const StrokeRule& rule, hal::Duration step) {
   const auto stays = [step](hal::Duration timeConstant) {
-    return keptAfter(step, secondsOf(timeConstant));
+    return keptAfter(step, hal::toSeconds(timeConstant));
   };
   const std::size_t level = std::min(rule.fieldLevel, field.levelCount() - 1);
   const std::size_t detail = std::min(kDetailLevel, field.levelCount() - 1);
@@ -114,7 +108,7 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .set("wander", rule.wanderRad)
       .set("past", glm::vec4(stays(rule.shapeMemory), stays(rule.colourMemory),
                              stays(rule.appearing), stays(rule.vanishing)))
-      .set("mostColour", rule.mostColourPerSecond * static_cast<float>(secondsOf(step)))
+      .set("mostColour", rule.mostColourPerSecond * static_cast<float>(hal::toSeconds(step)))
       .dispatch(allSlots(), kSlotGroup, GL_SHADER_STORAGE_BARRIER_BIT);
 }
 

@@ -17,7 +17,7 @@ bool LedgerCounts::addsUp() const {
 }
 
 std::string LedgerCounts::summary(hal::Duration elapsed) const {
-  const double seconds = std::chrono::duration<double>(elapsed).count();
+  const double seconds = hal::toSeconds(elapsed);
   const double rate = seconds > 0.0 ? static_cast<double>(shown()) / seconds : 0.0;
   std::string text = fmt::format("showed {} {} in {:.1f} s ({:.1f} frames/s)", shown(),
                                  shown() == 1 ? "frame" : "frames", seconds, rate);

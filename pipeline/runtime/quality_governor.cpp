@@ -82,7 +82,7 @@ void QualityGovernor::learnRatio(hal::TimePoint now) {
 
 double QualityGovernor::ratioAbove(hal::TimePoint now) const {
   const Learnt& learnt = learnt_.at(level_ - 1);
-  const double age = std::chrono::duration<double>(now - learnt.at).count();
+  const double age = hal::toSeconds(now - learnt.at);
   return kUsualRatio + (learnt.ratio - kUsualRatio) * std::exp2(-age / kRatioHalfLifeSeconds);
 }
 

@@ -15,25 +15,17 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<double, 4> kShares{0.5, 0.9, 0.95, 0.99};
 
-double milliseconds(hal::Duration duration) {
-  return std::chrono::duration<double, std::milli>(duration).count();
-}
-
-double seconds(hal::Duration duration) {
-  return std::chrono::duration<double>(duration).count();
-}
-
 const std::string& qualityName(const RuntimeStatus& status, const std::vector<std::string>& names) {
   return names.at(status.painting.quality);
 }
 
 Json toJson(const DurationHistogram& durations) {
   return {{"count", durations.count()},
-          {"p50_ms", milliseconds(durations.percentile(0.5))},
-          {"p90_ms", milliseconds(durations.percentile(0.9))},
-          {"p95_ms", milliseconds(durations.percentile(0.95))},
-          {"p99_ms", milliseconds(durations.percentile(0.99))},
-          {"max_ms", milliseconds(durations.max())}};
+          {"p50_ms", hal::toMilliseconds(durations.percentile(0.5))},
+          {"p90_ms", hal::toMilliseconds(durations.percentile(0.9))},
+          {"p95_ms", hal::toMilliseconds(durations.percentile(0.95))},
+          {"p99_ms", hal::toMilliseconds(durations.percentile(0.99))},
+          {"max_ms", hal::toMilliseconds(durations.max())}};
 }
 
 Json toJson(const std::array<std::uint64_t, kOutcomes>& ended) {
@@ -54,7 +46,7 @@ Json cameraJson(const CaptureStage::Status& camera) {
   Json json{{"state", hal::toString(camera.state)},
             {"reason", camera.reason},
             {"frames_per_second", camera.perSecond},
-            {"delivery_p50_ms", milliseconds(camera.delay)},
+            {"delivery_p50_ms", hal::toMilliseconds(camera.delay)},
             {"opens", camera.opens},
             {"losses", camera.losses},
             {"stalls", camera.stalls}};
@@ -76,8 +68,8 @@ Json paintingJson(const RuntimeStatus& status, const std::vector<std::string>& n
             {"quality", qualityName(status, names)},
             {"quality_lowered", painting.qualityLowered},
             {"quality_raised", painting.qualityRaised},
-            {"latency_ms", milliseconds(painting.latency)},
-            {"latency_configured_ms", milliseconds(painting.configuredLatency)},
+            {"latency_ms", hal::toMilliseconds(painting.latency)},
+            {"latency_configured_ms", hal::toMilliseconds(painting.configuredLatency)},
             {"latency_raised", painting.latencyRaised},
             {"latency_lowered", painting.latencyLowered},
             {"failures", painting.failures},
@@ -127,9 +119,9 @@ class Metrics {
   void summary(const DurationHistogram& recent, std::uint64_t count, hal::Duration sum,
                const std::string& labels) {
     for (const double share : kShares) {
-      sample(seconds(recent.percentile(share)), fmt::format("{},quantile=\"{}\"", labels, share));
+      sample(hal::toSeconds(recent.percentile(share)), fmt::format("{},quantile=\"{}\"", labels, share));
     }
-    sample(seconds(sum), labels, "_sum");
+    sample(hal::toSeconds(sum), labels, "_sum");
     sample(static_cast<double>(count), labels, "_count");
   }
   const std::string& text() const { return text_; }
@@ -196,7 +188,7 @@ void addPainting(Metrics& metrics, const RuntimeStatus& status,
   metrics.single("quality_raised_total", "counter", "How often quality was raised.",
                  number(painting.qualityRaised));
   metrics.single("latency_target_seconds", "gauge", "When after its capture a frame is due.",
-                 seconds(painting.latency));
+                 hal::toSeconds(painting.latency));
   metrics.single("latency_raised_total", "counter", "How often the target had to be raised.",
                  number(painting.latencyRaised));
   metrics.single("latency_lowered_total", "counter", "How often it went back.",
@@ -245,14 +237,14 @@ std::string statusLine(const RuntimeStatus& status, const std::vector<std::strin
   }
   std::string text = fmt::format("{} · {:.1f} → {:.1f} frames/s · {:.0f} ms (p95 {:.0f}) · {}",
                                  hal::toString(status.camera.state), status.camera.perSecond, shown,
-                                 milliseconds(status.painting.latency), milliseconds(p95),
+                                 hal::toMilliseconds(status.painting.latency), hal::toMilliseconds(p95),
                                  qualityName(status, qualityNames));
   if (status.ledger.dropped() > 0) text += fmt::format(" · {} dropped", status.ledger.dropped());
   return text;
 }
 
 std::string statusJson(const RuntimeStatus& status, const std::vector<std::string>& qualityNames) {
-  Json json{{"uptime_s", seconds(status.uptime)},
+  Json json{{"uptime_s", hal::toSeconds(status.uptime)},
             {"healthy", status.isHealthy()},
             {"camera", cameraJson(status.camera)},
             {"painting", paintingJson(status, qualityNames)},
@@ -271,7 +263,7 @@ std::string statusJson(const RuntimeStatus& status, const std::vector<std::strin
 std::string statusMetrics(const RuntimeStatus& status,
                           const std::vector<std::string>& qualityNames) {
   Metrics metrics;
-  metrics.single("uptime_seconds", "gauge", "Since the start.", seconds(status.uptime));
+  metrics.single("uptime_seconds", "gauge", "Since the start.", hal::toSeconds(status.uptime));
   metrics.single("healthy", "gauge", "1 while pictures come out.", status.isHealthy() ? 1 : 0);
   addFrames(metrics, status);
   addCamera(metrics, status.camera);

@@ -78,23 +78,19 @@ Late runLive(hal::FrameSize size, const std::string& style, hal::Duration latenc
   return late;
 }
 
-double milliseconds(hal::Duration duration) {
-  return std::chrono::duration<double, std::milli>(duration).count();
-}
-
 void live(benchmark::State& state, hal::FrameSize size, const std::string& style, bool isLoaded) {
   constexpr hal::Duration kLatency = 120ms;
   for (auto _ : state) {
     const BusyCores busy(isLoaded);
     const Late late = runLive(size, style, kLatency);
-    state.counters["p50_ms"] = milliseconds(late.presented.percentile(0.5));
-    state.counters["p95_ms"] = milliseconds(late.presented.percentile(0.95));
-    state.counters["p99_ms"] = milliseconds(late.presented.percentile(0.99));
-    state.counters["max_ms"] = milliseconds(late.presented.max());
+    state.counters["p50_ms"] = hal::toMilliseconds(late.presented.percentile(0.5));
+    state.counters["p95_ms"] = hal::toMilliseconds(late.presented.percentile(0.95));
+    state.counters["p99_ms"] = hal::toMilliseconds(late.presented.percentile(0.99));
+    state.counters["max_ms"] = hal::toMilliseconds(late.presented.max());
     state.counters["shown"] = static_cast<double>(late.status.ledger.shown());
     state.counters["dropped"] = static_cast<double>(late.status.ledger.dropped());
     state.counters["level"] = static_cast<double>(late.status.painting.quality);
-    state.counters["latency_ms"] = milliseconds(late.status.painting.latency);
+    state.counters["latency_ms"] = hal::toMilliseconds(late.status.painting.latency);
   }
 }
 

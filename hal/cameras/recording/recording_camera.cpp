@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -7,6 +6,7 @@
 #include "hal/cameras/recording/recording.h"
 #include "hal/cameras/recording/timeline.h"
 #include "hal/media/frame_pixels.h"
+#include "hal/paced_frame.h"
 
 namespace pleinair::hal {
 namespace {
@@ -143,13 +143,7 @@ NextFrame RecordingCamera::next(TimePoint deadline) {
     format_.frame = pending_->image.format;
     return FormatChanged{.format = format_};
   }
-  if (options_.pacing == Pacing::kRealTime && pending_->captureTime > clock_.now()) {
-    clock_.sleepUntil(std::min(pending_->captureTime, deadline));
-    if (pending_->captureTime > deadline) return CameraTimeout{};
-  }
-  CapturedFrame frame = *std::move(pending_);
-  pending_.reset();
-  return frame;
+  return takePaced(pending_, options_.pacing, clock_, deadline);
 }
 
 }  // namespace

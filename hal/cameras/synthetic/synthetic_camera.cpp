@@ -1,13 +1,13 @@
 #include "hal/cameras/synthetic/synthetic_camera.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <string>
 #include <utility>
 
 #include "hal/cameras/synthetic/world/noise.h"
 #include "hal/cameras/synthetic/world/world.h"
+#include "hal/paced_frame.h"
 
 namespace pleinair::hal {
 namespace {
@@ -120,8 +120,7 @@ Exposure SyntheticCamera::exposureOf(std::uint64_t sequence) const {
 }
 
 synthetic::SensorGains SyntheticCamera::gainsOf(std::uint64_t sequence) const {
-  const double seconds =
-      static_cast<double>(sequence) * std::chrono::duration<double>(options_.framePeriod).count();
+  const double seconds = static_cast<double>(sequence) * toSeconds(options_.framePeriod);
   const double gain = std::exp2(options_.exposureDriftStops * brightness_.at(seconds));
   const double warmth = 1 + options_.whiteBalanceDrift * balance_.at(seconds);
   return {gain * warmth, gain, gain / warmth};
@@ -158,13 +157,7 @@ NextFrame SyntheticCamera::next(TimePoint deadline) {
     pending_->droppedBefore = sequence - nextSequence_;
     nextSequence_ = sequence + 1;
   }
-  if (options_.pacing == Pacing::kRealTime && pending_->captureTime > clock_.now()) {
-    clock_.sleepUntil(std::min(pending_->captureTime, deadline));
-    if (pending_->captureTime > deadline) return CameraTimeout{};
-  }
-  CapturedFrame frame = *std::move(pending_);
-  pending_.reset();
-  return frame;
+  return takePaced(pending_, options_.pacing, clock_, deadline);
 }
 
 GroundTruth SyntheticCamera::truth(std::uint64_t sequence) const {

@@ -31,10 +31,6 @@ constexpr double kMaxBlendedJump = 0.1;
 constexpr double kVelocityKept = 1e-4;
 constexpr double kGuessPx = 3.0;
 
-double seconds(hal::Duration duration) {
-  return std::chrono::duration<double>(duration).count();
-}
-
 double rmsDistancePx(const CameraModel& camera, const glm::dmat4& a, const glm::dmat4& b,
                      std::span<const glm::dvec3> points) {
   double sum = 0.0;
@@ -82,7 +78,7 @@ void TargetPose::predict(const CameraModel& camera, std::span<const FeatureTrack
   if (now - seen_ > options_.carryFor || now <= last_) return reset();
   if (!options_.filters && !options_.carries) return;
   before_ = filter_.cameraFromTarget();
-  const double step = seconds(now - last_);
+  const double step = hal::toSeconds(now - last_);
   const auto moved = landmarks_.solve(camera, tracks, before_, keyFromTarget_, noisePx(camera));
   if (moved) {
     moveByFeatures(*moved);
@@ -195,9 +191,9 @@ void TargetPose::anchor(const CameraModel& camera, std::span<const FeatureTrack>
 }
 
 /// Falls smoothly from one to zero.
-double TargetPose::blendWeight(hal::TimePoint now) const {
-  const double over = seconds(options_.blendOver);
-  const double t = over > 0.0 ? std::clamp(seconds(now - blendFrom_) / over, 0.0, 1.0) : 1.0;
+double TargetPose::partOfBlend(hal::TimePoint now) const {
+  const double over = hal::toSeconds(options_.blendOver);
+  const double t = over > 0.0 ? std::clamp(hal::toSeconds(now - blendFrom_) / over, 0.0, 1.0) : 1.0;
   return 1.0 - t * t * (3.0 - 2.0 * t);
 }
 

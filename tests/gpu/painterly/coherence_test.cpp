@@ -18,10 +18,6 @@
 namespace pleinair::styles {
 namespace {
 
-double secondsOf(hal::Duration duration) {
-  return std::chrono::duration<double>(duration).count();
-}
-
 marks::StrokeRule held(const PainterlyParameters& p) {
   marks::StrokeRule rule;
   holdOn(rule, p);
@@ -31,12 +27,12 @@ marks::StrokeRule held(const PainterlyParameters& p) {
 TEST(CoherenceDial, InTheMiddleIsTheThesiss) {
   const PainterlyParameters p{.coherence = 0.5};
   // 0.95 on the past, 30 times a second.
-  EXPECT_NEAR(std::exp(-1.0 / 30.0 / secondsOf(held(p).shapeMemory)), 0.95, 0.0005);
+  EXPECT_NEAR(std::exp(-1.0 / 30.0 / hal::toSeconds(held(p).shapeMemory)), 0.95, 0.0005);
   EXPECT_EQ(held(p).colourMemory, held(p).shapeMemory);
-  EXPECT_NEAR(secondsOf(held(p).appearing), 0.3, 1e-6);
-  EXPECT_NEAR(secondsOf(anchorHoldOf(p).fadeIn), 0.3, 1e-6);
-  EXPECT_NEAR(secondsOf(anchorHoldOf(p).fadeOut), 0.2, 1e-6);
-  EXPECT_NEAR(secondsOf(fieldOf(p).memory), 0.4, 1e-6);
+  EXPECT_NEAR(hal::toSeconds(held(p).appearing), 0.3, 1e-6);
+  EXPECT_NEAR(hal::toSeconds(anchorHoldOf(p).fadeIn), 0.3, 1e-6);
+  EXPECT_NEAR(hal::toSeconds(anchorHoldOf(p).fadeOut), 0.2, 1e-6);
+  EXPECT_NEAR(hal::toSeconds(fieldOf(p).memory), 0.4, 1e-6);
 }
 
 TEST(CoherenceDial, AtItsEndsNothingAndAllIsHeld) {

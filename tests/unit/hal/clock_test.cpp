@@ -36,5 +36,12 @@ TEST(SteadyClock, SleepsNotAtAllForAPastTimeAndWakesForAStop) {
   EXPECT_LT(clock.now(), before + 1h);
 }
 
+TEST(Durations, AreNumbersAndBack) {
+  EXPECT_EQ(toSeconds(1500ms), 1.5);
+  EXPECT_EQ(toMilliseconds(Duration(33'333'333)), 33.333333);
+  EXPECT_EQ(fromSeconds(-1.5), -1500ms);
+  EXPECT_EQ(fromMilliseconds(0.0000016), Duration(2)) << "rounded, not cut";
+}
+
 }  // namespace
 }  // namespace pleinair::hal

@@ -1,23 +1,14 @@
 #include "hal/cameras/synthetic/render/exposure.h"
 
-#include <chrono>
 #include <cmath>
 
 namespace pleinair::hal::synthetic {
-namespace {
-
-double seconds(Duration time) {
-  return std::chrono::duration<double>(time).count();
-}
-
-}  // namespace
-
 Exposure::Exposure(FrameSize size, const Motion& motion, Duration start, Duration rowTime)
     : size_(size),
       intrinsics_(syntheticIntrinsics(size)),
       motion_(&motion),
-      startSeconds_(seconds(start)),
-      rowSeconds_(seconds(rowTime)),
+      startSeconds_(toSeconds(start)),
+      rowSeconds_(toSeconds(rowTime)),
       rowTime_(rowTime) {}
 
 double Exposure::secondsAt(double y) const {
