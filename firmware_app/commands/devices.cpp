@@ -12,7 +12,7 @@ Inventory takeInventory() {
   Inventory inventory{.cameras = listDeviceCameras(deviceBackends())};
   inventory.loopbacks = hal::listLoopbacks();
   inventory.displays = listDisplays();
-  // Not shown before start().
+  // The window is not shown before start().
   if (const auto window = hal::openWindow(); !window) inventory.noWindow = window.error();
   return inventory;
 }
@@ -21,7 +21,7 @@ Inventory takeInventory() {
 
 int listDevices(const DevicesOptions& options) {
   const Inventory inventory = takeInventory();
-  // Whether it arrived is looked at once, at the program's end.
+  // Write errors are checked once, at the end of the program.
   std::fputs((options.json ? asJson(inventory) : asText(inventory)).c_str(), stdout);
   return 0;
 }

@@ -19,7 +19,7 @@
 namespace pleinair::app {
 namespace {
 
-/// In their order, without those that are not there.
+/// The configured targets, in their order.
 std::vector<std::string> targetsOf(const OutputSettings& output) {
   std::vector<std::string> targets{output.target.string()};
   for (const auto& each : {output.secondTarget, output.thirdTarget}) {
@@ -38,7 +38,7 @@ void refuseTwice(std::vector<std::string> targets) {
                                 .remedy = "give each output once"});
 }
 
-/// The painting would overwrite what it is painted from, or itself.
+/// Refuses outputs that would overwrite an input or one another.
 void refuseCollisionsOf(const Configuration& configuration, const scene::Scene& scene) {
   std::vector<NamedPath> read = configuredFiles(configuration, scene);
   const CameraSettings camera = configuration.camera();
@@ -72,7 +72,7 @@ hal::OutputOptions outputOptions(const OutputSettings& output) {
 }  // namespace
 
 int run(const RunOptions& options) {
-  const Interrupt interrupt;  // from the first moment on, a signal ends it in order
+  const Interrupt interrupt;  // first, so that a signal ends the program in order from here on
   const Configuration configuration(options.configuration);
   return configuration.attributing([&] {
     scene::Scene scene = configuredScene(configuration);

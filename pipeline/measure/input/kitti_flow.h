@@ -21,7 +21,7 @@ struct KittiFlowField {
 
 /// Reads flow as KITTI stores it: a PNG of 16-bit RGB with u = (R − 32768)/64 px, v likewise of G,
 /// and B other than 0 where it is valid (Menze and Geiger, 2015). `size` is that of the frames.
-/// Errors: as hal::readDeepRgb(), and kInvalidInput (another size, nothing valid in it).
+/// Errors: as hal::readRgb16(), and kInvalidInput (another size, nothing valid in it).
 hal::Result<KittiFlowField> readKittiFlow(const std::filesystem::path& path, cv::Size size);
 
 /// Takes what a mask shows (other than black) out of what is seen. Errors: as

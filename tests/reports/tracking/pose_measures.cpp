@@ -34,7 +34,7 @@ std::optional<ModelPx> toldPx(const TruthSequence& sequence, std::span<const Tol
   return modelPx(sequence.camera, *found->second.cameraFromTag, sequence.marker(id).edgeMetres);
 }
 
-/// Each point's error.
+/// The error of each point.
 std::optional<ModelPx> errorPx(const TruthSequence& sequence, std::span<const Told> told,
                                std::size_t frame, int id) {
   std::optional<ModelPx> error = toldPx(sequence, told, frame, id);
@@ -66,7 +66,7 @@ double squaredDistanceAt(const TruthSequence& sequence, std::span<const Told> to
   return count == 0 ? std::nan("") : sum / static_cast<double>(8 * count);
 }
 
-/// The tag with its white border, or the right part of it.
+/// The outline of the tag with its white border, or of the right part of it.
 std::vector<cv::Point> coverOf(const TagCornersPx& corners, double part) {
   constexpr double kBorder = 1.3;
   const glm::dvec2 centre = (corners[0] + corners[1] + corners[2] + corners[3]) / 4.0;

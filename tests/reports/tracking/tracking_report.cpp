@@ -1,6 +1,6 @@
-// Prints what docs/measured.md says of poses, as Markdown: `tracking_report [PART ...] [SHOT ...]`,
-// where a part is lag, hidden, tremble, poses or covariance, and a shot desk, virtual or one of the
-// workbench's; all without one. Takes minutes.
+// Prints the tables of poses in docs/measured.md as Markdown: `tracking_report [PART ...] [SHOT
+// ...]`, where a part is lag, hidden, tremble, poses or covariance, and a shot is desk, virtual or
+// one of the workbench's; all by default. Takes minutes.
 
 #include <algorithm>
 #include <array>
@@ -168,7 +168,7 @@ void reportHidden(const std::vector<TruthSequence>& sequences) {
   }
 }
 
-/// How much larger errors are than what was predicted, as a model on a tag shows them.
+/// The ratio of actual to predicted errors, measured on a model on a tag.
 void reportCovariance(const std::vector<TruthSequence>& sequences) {
   std::printf(
       "\n### Errors against predicted ones, px of a cube on a tag, RMS\n\n"
