@@ -9,7 +9,7 @@
 #include "pipeline/measure/input/sensor_noise.h"
 #include "pipeline/measure/picture.h"
 #include "tests/oracles/stroke_oracle.h"
-#include "tests/reports/painter/told_painting.h"
+#include "tests/reports/painter/reported_painting.h"
 
 namespace pleinair {
 namespace {

@@ -12,7 +12,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "pipeline/measure/input/measured_input.h"
-#include "tests/reports/painter/told_painting.h"
+#include "tests/reports/painter/reported_painting.h"
 
 namespace pleinair {
 namespace {

@@ -23,7 +23,7 @@ enum class Layout {
 };
 
 /// A tracker's result for one frame.
-struct Told {
+struct TrackedPoses {
   std::optional<glm::dmat4> cameraFromWorld;
   PoseCovariance worldCovariance{};
   std::map<int, TrackedTag> tags;  ///< those with a pose
@@ -33,8 +33,8 @@ struct Told {
 using Retouch = std::function<void(const TruthFrame& frame, std::size_t index, hal::Image& luma)>;
 
 /// Tracks every frame of a sequence.
-std::vector<Told> trackAll(const TruthSequence& sequence, Layout layout,
-                           const TrackerOptions& options = {}, const Retouch& retouch = {});
+std::vector<TrackedPoses> trackAll(const TruthSequence& sequence, Layout layout,
+                                   const TrackerOptions& options = {}, const Retouch& retouch = {});
 
 /// The eight corners of a cube that stands on a tag, in the tag's frame: sample points of a model.
 std::array<glm::dvec3, 8> modelPoints(double edgeMetres);
@@ -59,7 +59,7 @@ struct PredictedErrors {
   double actualPx = 0.0;
   double predictedPx = 0.0;  ///< from the poses' covariances
 };
-PredictedErrors predictedErrors(const TruthSequence& sequence, std::span<const Told> told,
+PredictedErrors predictedErrors(const TruthSequence& sequence, std::span<const TrackedPoses> told,
                                 PoseSource source = PoseSource::kSeen);
 
 /// The percentile `part` (0 … 1) of the values; NaN without values.
@@ -72,12 +72,12 @@ struct Tremble {
   double frameToFrame = 0.0;
 };
 /// Over the frames from `firstFrame` on in which the tag has a pose.
-Tremble trembleOf(const TruthSequence& sequence, std::span<const Told> told, int id,
+Tremble trembleOf(const TruthSequence& sequence, std::span<const TrackedPoses> told, int id,
                   std::size_t firstFrame);
 
 /// The model's lag behind the truth, ms: the shift of the true path, interpolated between frames,
 /// that fits the estimates best. Over the frames in which the tag has a pose.
-double lagMs(const TruthSequence& sequence, std::span<const Told> told, int id);
+double lagMs(const TruthSequence& sequence, std::span<const TrackedPoses> told, int id);
 
 /// Tags that are covered periodically.
 struct Hiding {
@@ -106,7 +106,7 @@ struct HiddenResult {
   std::vector<double> settlePx;  ///< error 10 frames after each return
 };
 /// Jumps are searched in the first frame after an interval and the five frames after that.
-HiddenResult hiddenResult(const TruthSequence& sequence, std::span<const Told> told, int id,
+HiddenResult hiddenResult(const TruthSequence& sequence, std::span<const TrackedPoses> told, int id,
                           const Hiding& hiding);
 
 }  // namespace pleinair::tracking

@@ -1,4 +1,4 @@
-#include "tests/reports/painter/told_painting.h"
+#include "tests/reports/painter/reported_painting.h"
 
 #include <algorithm>
 #include <string>
