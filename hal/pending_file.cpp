@@ -81,7 +81,7 @@ std::string remedyFor(int errnoValue) {
     case EACCES:
     case EPERM:
     case EROFS:
-      return "choose a place that may be written to";
+      return "choose a place with write permission";
     default:
       return {};
   }

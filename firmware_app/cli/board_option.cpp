@@ -15,7 +15,7 @@ constexpr const char* kKinds =
     "checkerboard:COLUMNSxROWS (inner corners, 3 to 50 a side) or "
     "aprilgrid:COLUMNSxROWS (tags, 2 to 20 a side)";
 constexpr double kLongestMetres = 10.0;
-constexpr int kTagIds = 587;  // of tag36h11
+constexpr int kTagIds = 587;  // ids in tag36h11
 
 [[noreturn]] void refuse(std::string subject, std::string problem, std::string remedy) {
   throw hal::Failure(hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
@@ -33,7 +33,7 @@ struct Sides {
   int rows = 0;
 };
 
-/// "9x6", both from `least` to `most`.
+/// Parses "9x6"; both numbers from `least` to `most`.
 std::optional<Sides> sidesOf(std::string_view text, int least, int most) {
   const std::size_t by = text.find('x');
   if (by == std::string_view::npos) return std::nullopt;
@@ -84,7 +84,7 @@ calibration::Board aprilGridOf(const BoardOption& option, std::string_view text)
   const double spacing = option.spacing.value_or(0.3);
   if (!(spacing >= 0.1 && spacing <= 2.0)) {
     refuse("--spacing", fmt::format("found {:g}", spacing),
-           "allowed: the gap between tags, of a tag's edge, in [0.1, 2]");
+           "allowed: the gap between tags as a share of a tag's edge, in [0.1, 2]");
   }
   const int firstId = option.firstId.value_or(0);
   const int tags = sides->columns * sides->rows;

@@ -7,17 +7,17 @@
 
 namespace pleinair::app {
 
-/// A board as options of the command line tell it.
+/// The command line's options for a board, unparsed.
 struct BoardOption {
   std::string kind;               ///< --board: "checkerboard:9x6" or "aprilgrid:6x6"
   std::optional<double> square;   ///< --square, metres
   std::optional<double> tagEdge;  ///< --tag-edge, metres
-  std::optional<double> spacing;  ///< --spacing, of the tag edge
+  std::optional<double> spacing;  ///< in tag edges
   std::optional<int> firstId;     ///< --first-id
 };
 
-/// Throws hal::Failure (kInvalidArgument): what is unknown, out of range, missing, or not of
-/// that kind of board.
+/// The board that the options describe. Throws hal::Failure (kInvalidArgument) for an option that
+/// is unknown, out of range, missing, or for another kind of board.
 calibration::Board boardOf(const BoardOption& option);
 
 }  // namespace pleinair::app

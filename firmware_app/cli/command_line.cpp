@@ -32,7 +32,8 @@ void logToStandardError() {
 
 namespace {
 
-/// What was not recognised, the first option of it where there is one: the rest may be its value.
+/// The error text for unknown arguments. It names the first unknown option, if any: the other
+/// arguments may be its value.
 std::string unknownText(const CLI::App& app, const std::vector<std::string>& unknown) {
   const auto option =
       std::ranges::find_if(unknown, [](const std::string& text) { return text.starts_with('-'); });
@@ -51,10 +52,10 @@ std::string unknownText(const CLI::App& app, const std::vector<std::string>& unk
   return fmt::format("{}: {}", word, config::unknownText("command", word, known));
 }
 
-/// CLI11's own message on one line, under our exit status.
+/// Prints CLI11's message on one line and gives pleinair's exit status.
 int reportParseError(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-  // CLI11 would say that --input is missing where "--inpt" was meant for it.
+  // CLI11 would report a missing --input if the user typed "--inpt".
   const std::vector<std::string> unknown = app.remaining(true);
   const bool isAboutUnknown = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr ||
                               dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
@@ -66,13 +67,13 @@ int reportParseError(const CLI::App& app, const CLI::ParseError& error) {
   return static_cast<int>(ExitStatus::kUsage);
 }
 
-/// The status, unless what was printed did not arrive.
+/// Gives `status`, or kUsage if standard output could not be written.
 int withOutputFlushed(int status) {
   errno = 0;
   std::cout.flush();  // CLI11's help
   const bool arrived = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
   if (arrived || status != 0) return status;
-  if (errno == 0) {  // it failed on the way, and what for is forgotten: ask again
+  if (errno == 0) {  // an earlier write failed and its errno is lost: try again
     std::clearerr(stdout);
     std::fputc('\n', stdout);
     std::fflush(stdout);
@@ -82,8 +83,8 @@ int withOutputFlushed(int status) {
   return static_cast<int>(ExitStatus::kUsage);
 }
 
-/// The arguments in the order in which CLI11 wants them, the last first. It would take the argument
-/// after "--name=" for the value.
+/// The arguments in CLI11's order, last first. Splits "--name=": CLI11 would take the next argument
+/// for its value.
 std::vector<std::string> argumentsReversed(int argc, const char* const* argv) {
   std::vector<std::string> arguments;
   for (const char* each :
@@ -103,7 +104,7 @@ int parseAndRun(int argc, const char* const* argv) {
   CLI::App app("pleinair paints live augmented-reality video with marks that stay put.",
                "pleinair");
   app.set_version_flag("--version", kVersion);
-  app.require_subcommand(0, 1);  // none is named below: CLI11 would keep quiet about a wrong one
+  app.require_subcommand(0, 1);  // 0, because with 1 CLI11 would not report a wrong name
   SubcommandOptions options;
   std::function<int()> chosen;
   addSubcommands(app, options, chosen);

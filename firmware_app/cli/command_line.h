@@ -2,13 +2,13 @@
 
 namespace pleinair::app {
 
-/// Warnings and notes go to standard error, one a line: "pleinair: warning: …".
+/// Directs warnings and notes to standard error, one per line: "pleinair: warning: …".
 void logToStandardError();
 
-/// Reads the command line, runs the command, and returns the exit status: 0; 1 for internal errors
-/// and devices; 2 for arguments, configuration, input and full disks; 128 + a signal that broke it
-/// off. Errors are one line on standard error. Standard output that does not take what is printed
-/// (a full disk) counts as an error of the caller's.
+/// Reads the command line, runs the subcommand, and returns the exit status: 0; 1 for internal
+/// errors and device failures; 2 for arguments, configuration, input and full disks; 128 + the
+/// number of the signal that interrupted it. Errors are one line on standard error. A failed write
+/// to standard output counts as 2.
 int runCommandLine(int argc, const char* const* argv);
 
 }  // namespace pleinair::app

@@ -13,14 +13,14 @@ namespace pleinair::app {
 
 void printError(std::string_view message) {
   std::string line(message);
-  // File names and arguments may hold anything.
+  // Replaces control characters: file names and arguments may contain any.
   std::ranges::replace_if(
       line, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, '?');
   fmt::print(stderr, "pleinair: {}\n", line);
 }
 
 ExitStatus exitStatusOf(const hal::Error& error) {
-  // The GPU's input is a shader of --shaders; whatever else it refuses is the device's.
+  // For GL errors, only a shader from --shaders is the user's input; all others are the device's.
   const bool isInput =
       error.kind == hal::ErrorKind::kInvalidInput || error.kind == hal::ErrorKind::kNotFound;
   const bool isShader = error.domain == hal::ErrorDomain::kGl && isInput;

@@ -6,19 +6,19 @@
 
 namespace pleinair::app {
 
-/// What the program exits with.
+/// The exit status of the program.
 enum class ExitStatus {
   kSuccess = 0,
-  kInternal = 1,  ///< internal error, or a device's
-  kUsage = 2,     ///< arguments, configuration, input or a full disk: what the caller can fix
+  kInternal = 1,  ///< internal error or device failure
+  kUsage = 2,     ///< arguments, configuration, input or a full disk: errors that the user can fix
 };
 
 ExitStatus exitStatusOf(const hal::Error& error);
 
-/// Prints "pleinair: <message>" as one line on standard error, whatever the message quotes.
+/// Prints "pleinair: <message>" as one line on standard error, with control characters replaced.
 void printError(std::string_view message);
 
-/// Prints the exception as printError() does. To be called in a catch block.
+/// Prints the current exception with printError(). Call it in a catch block.
 ExitStatus reportCurrentException();
 
 }  // namespace pleinair::app

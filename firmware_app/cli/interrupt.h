@@ -6,13 +6,12 @@
 
 namespace pleinair::app {
 
-/// What the exit status of a program that a signal ended adds to the signal's number, as in shells.
+/// The exit status of a program that a signal ended is this number plus the signal's, as in shells.
 inline constexpr int kSignalExitBase = 128;
 
-/// Turns SIGINT, SIGTERM and SIGHUP into a question that loops ask, so that files are left in
-/// order. A second time, each ends the process at once. What
-/// was ignored (as nohup has it) stays ignored. The former actions come back at the end. One a
-/// process.
+/// Catches SIGINT, SIGTERM and SIGHUP, so that loops can poll received() and close their files in
+/// order. A second signal ends the process at once. An ignored signal (as under nohup) stays
+/// ignored. The destructor restores the former actions. One instance per process.
 class Interrupt {
  public:
   Interrupt();
@@ -20,7 +19,7 @@ class Interrupt {
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 
-  /// The signal's number, or 0 if there was none. Any thread.
+  /// The number of the received signal, or 0. Any thread.
   static int received();
 
  private:
@@ -28,7 +27,7 @@ class Interrupt {
   std::array<struct sigaction, kSignals.size()> former_{};
 };
 
-/// "SIGTERM", of those that Interrupt takes.
+/// The name of a signal that Interrupt catches: "SIGTERM".
 std::string_view signalName(int signal);
 
 }  // namespace pleinair::app

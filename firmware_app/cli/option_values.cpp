@@ -14,14 +14,14 @@
 namespace pleinair::app {
 namespace {
 
-/// A year at 30 frames a second.
+/// A year at 30 frames per second.
 constexpr std::uint64_t kMostFrames = 1'000'000'000;
 
 std::string foundText(std::string_view text, std::string_view allowed) {
   return fmt::format("found \"{}\", allowed: {}", text, allowed);
 }
 
-/// With its sign, and nothing after it.
+/// Parses the whole text as a number with an optional sign.
 std::optional<double> signedNumber(std::string_view text) {
   double number = 0;
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -29,10 +29,10 @@ std::optional<double> signedNumber(std::string_view text) {
   return isNumber ? std::optional(number) : std::nullopt;
 }
 
-/// Takes a number in digits, and nothing else, off the front.
+/// Parses digits at the front of the text, without a sign, and removes them.
 template <class Number>
 bool takeNumber(std::string_view& text, Number& number) {
-  // from_chars would take a sign.
+  // from_chars would accept a sign.
   if (text.empty() || text.front() < '0' || text.front() > '9') return false;
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
   text.remove_prefix(static_cast<std::size_t>(end - text.data()));
@@ -56,7 +56,7 @@ double numberOf(const std::string& option, const std::string& text, std::string_
   std::string_view rest = text;
   if (!unit.empty() && rest.ends_with(unit)) rest.remove_suffix(unit.size());
   const std::optional<double> number = signedNumber(rest);
-  if (number && *number >= least && *number <= most) return *number;  // false of NaN
+  if (number && *number >= least && *number <= most) return *number;  // false for NaN
   throw CLI::ValidationError(
       option, foundText(text, fmt::format("a number from {:g} to {:g}{}{}", least, most,
                                           unit.empty() ? "" : " ", unit)));
@@ -80,7 +80,7 @@ std::string refuseStandardOutput(const std::string& text) {
 }
 
 std::string requirePngName(const std::string& text) {
-  if (text.empty()) return {};  // refuseEmptyValues() says it better
+  if (text.empty()) return {};  // refuseEmptyValues() gives the better message
   const std::filesystem::path ending = std::filesystem::path(text).extension();
   if (ending == ".png" || ending == ".PNG") return {};
   return foundText(text, "a name that ends in .png");

@@ -9,25 +9,26 @@
 
 namespace pleinair::app {
 
-/// A whole number from `least` on. Throws CLI::ValidationError of `option`, which says the limits.
+/// Parses a whole number of at least `least`. Throws CLI::ValidationError for `option`, with the
+/// limits.
 std::uint64_t frameCountOf(const std::string& text, const std::string& option = "--frames",
                            std::uint64_t least = 1);
 
-/// A number within limits, with a unit after it or without. Throws CLI::ValidationError, which says
-/// what is allowed of `option`.
+/// Parses a number within limits, with or without its unit. Throws CLI::ValidationError for
+/// `option`, with the limits.
 double numberOf(const std::string& option, const std::string& text, std::string_view unit,
                 double least, double most);
-/// "X,Y", neither beyond ± `most`. Likewise.
+/// Parses "X,Y", both within ± `most`. Throws CLI::ValidationError for `option`, with the limits.
 std::pair<double, double> vectorOf(const std::string& option, const std::string& text, double most);
 
-// Checks for CLI::Option::check(): empty, or what is wrong.
+// Checks for CLI::Option::check(). Each gives an empty string, or the error text.
 
-/// "-" would make a file or a folder of that name.
+/// Refuses "-", which would create a file or folder of that name.
 std::string refuseStandardOutput(const std::string& text);
-/// Names that end in .png or .PNG.
+/// Requires a name that ends in .png or .PNG.
 std::string requirePngName(const std::string& text);
 
-/// Adds a check against empty values to each option of the command that takes one.
+/// Adds a check against empty values to each option of the subcommand that takes a value.
 void refuseEmptyValues(CLI::App& command);
 
 }  // namespace pleinair::app

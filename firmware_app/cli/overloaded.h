@@ -2,7 +2,7 @@
 
 namespace pleinair::app {
 
-/// A visitor made of lambdas.
+/// A visitor for std::visit, made of lambdas.
 template <class... Functions>
 struct Overloaded : Functions... {
   using Functions::operator()...;

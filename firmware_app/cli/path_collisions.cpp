@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Absolute, links followed as far as there is something, without a slash at the end.
-fs::path trueName(const fs::path& path) {
+/// The absolute path without a trailing slash; links are resolved as far as the path exists.
+fs::path resolvedPath(const fs::path& path) {
   std::error_code error;
   const fs::path absolute = fs::absolute(path, error);
   if (error) return path;
@@ -27,7 +27,7 @@ fs::path trueName(const fs::path& path) {
 }
 
 fs::path folderOf(const fs::path& path) {
-  return trueName(path.has_parent_path() ? path.parent_path() : fs::path("."));
+  return resolvedPath(path.has_parent_path() ? path.parent_path() : fs::path("."));
 }
 
 bool isFolder(const fs::path& path) {
@@ -35,13 +35,14 @@ bool isFolder(const fs::path& path) {
   return fs::is_directory(path, ignored);
 }
 
-/// One file, or the pictures in a folder.
+/// A file, or the pictures in a folder.
 struct Place {
   std::string option;
-  fs::path path;                             ///< as given
-  bool isRow = false;                        ///< many pictures
-  fs::path canonicalPath;                    ///< the file, or the folder of a row
-  std::optional<hal::NumberedPath> pattern;  ///< of a row; unset: every picture in the folder
+  fs::path path;           ///< as given by the user
+  bool isSeries = false;   ///< numbered pictures
+  fs::path canonicalPath;  ///< the file, or the folder of the numbered pictures
+  /// of numbered pictures; unset: every picture in the folder
+  std::optional<hal::NumberedPath> pattern;
 
   bool holds(const Place& file) const {
     const fs::path name = file.path.filename();
@@ -52,54 +53,54 @@ struct Place {
 };
 
 Place fileAt(const NamedPath& named) {
-  return {.option = named.option, .path = named.path, .canonicalPath = trueName(named.path)};
+  return {.option = named.option, .path = named.path, .canonicalPath = resolvedPath(named.path)};
 }
 
-Place rowAt(const NamedPath& named, const fs::path& folder, const fs::path& pattern) {
+Place seriesAt(const NamedPath& named, const fs::path& folder, const fs::path& pattern) {
   Place place{.option = named.option,
               .path = named.path,
-              .isRow = true,
-              .canonicalPath = trueName(folder.empty() ? fs::path(".") : folder)};
-  // A malformed one is refused where it is opened.
+              .isSeries = true,
+              .canonicalPath = resolvedPath(folder.empty() ? fs::path(".") : folder)};
+  // A malformed pattern is reported when the output is opened.
   if (const auto parsed = hal::NumberedPath::parse(pattern.string())) place.pattern = *parsed;
   return place;
 }
 
 Place readPlace(const NamedPath& named) {
   std::error_code ignored;
-  if (isFolder(named.path)) return rowAt(named, named.path, {});
+  if (isFolder(named.path)) return seriesAt(named, named.path, {});
   if (!fs::exists(named.path, ignored) && hal::looksNumbered(named.path)) {
-    return rowAt(named, named.path.parent_path(), named.path);
+    return seriesAt(named, named.path.parent_path(), named.path);
   }
   return fileAt(named);
 }
 
 Place writtenPlace(const NamedPath& named) {
-  if (!isPictureRow(named.path)) return fileAt(named);
+  if (!isFrameSeries(named.path)) return fileAt(named);
   const bool isPattern = !isFolder(named.path) && hal::looksNumbered(named.path);
-  return isPattern ? rowAt(named, named.path.parent_path(), named.path)
-                   : rowAt(named, named.path, named.path / "%06d.png");
+  return isPattern ? seriesAt(named, named.path.parent_path(), named.path)
+                   : seriesAt(named, named.path, named.path / "%06d.png");
 }
 
 bool collide(const Place& a, const Place& b) {
-  if (a.isRow == b.isRow) return a.canonicalPath == b.canonicalPath;
-  return a.isRow ? a.holds(b) : b.holds(a);
+  if (a.isSeries == b.isSeries) return a.canonicalPath == b.canonicalPath;
+  return a.isSeries ? a.holds(b) : b.holds(a);
 }
 
 [[noreturn]] void refuse(const Place& written, const Place& other) {
-  const std::string problem = written.isRow && other.isRow
+  const std::string problem = written.isSeries && other.isSeries
                                   ? fmt::format("is in the folder of {} as well", other.option)
                                   : fmt::format("is {} as well", other.option);
   throw hal::Failure(hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
                                 .subject = written.path.string(),
                                 .problem = problem,
                                 .remedy = fmt::format("give {} another {}", written.option,
-                                                      written.isRow ? "folder" : "name")});
+                                                      written.isSeries ? "folder" : "name")});
 }
 
 }  // namespace
 
-bool isPictureRow(const fs::path& output) {
+bool isFrameSeries(const fs::path& output) {
   if (isFolder(output)) return true;
   if (hal::isMovieName(output)) return false;
   return !output.has_filename() || !output.has_extension() || hal::looksNumbered(output);
@@ -110,7 +111,7 @@ void refuseCollisions(const std::vector<NamedPath>& read, const std::vector<Name
   others.reserve(read.size() + written.size());
   for (const NamedPath& named : read) others.push_back(readPlace(named));
   for (const NamedPath& named : written) {
-    // Only --output can be a row.
+    // Only --output can name numbered pictures.
     Place place = named.option == "--output" ? writtenPlace(named) : fileAt(named);
     for (const Place& other : others) {
       if (collide(place, other)) refuse(place, other);

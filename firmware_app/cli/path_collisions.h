@@ -6,17 +6,18 @@
 
 namespace pleinair::app {
 
-/// A file, or a row of pictures, and the option that names it, or what it is.
+/// A file or a series of numbered pictures, and the option or description that names it.
 struct NamedPath {
   std::string option;  ///< "--input", "a file of the scene"
   std::filesystem::path path;
 };
 
-/// Whether `output` means numbered pictures, each published as it comes: a folder or a pattern.
-bool isPictureRow(const std::filesystem::path& output);
+/// Whether `output` means numbered pictures, each published when it is complete: a folder or a
+/// pattern.
+bool isFrameSeries(const std::filesystem::path& output);
 
-/// Nothing may be written over what is read, nor two things into one place; pictures may not go
-/// into the folder that pictures are read from. Links are followed. Throws hal::Failure
+/// Checks that no output overwrites an input, that no two outputs have the same place, and that no
+/// pictures are written into a folder that is read. Links are followed. Throws hal::Failure
 /// (kInvalidArgument).
 void refuseCollisions(const std::vector<NamedPath>& read, const std::vector<NamedPath>& written);
 

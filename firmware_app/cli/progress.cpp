@@ -71,7 +71,7 @@ hal::Duration Progress::elapsed() const {
 }
 
 void Progress::draw() const {
-  // Carriage return, text, and clear to the end of the line.
+  // Carriage return, text, then clear to the end of the line.
   fmt::print(stderr, "\r{}\x1b[K", progressLine(subcommand_, done_, total_, elapsed()));
   std::fflush(stderr);
 }

@@ -8,11 +8,10 @@
 
 namespace pleinair::app {
 
-/// A line on standard error that says how far long work is, with its rate and the time left; only
-/// where standard error is a terminal.
+/// A progress line on standard error with the rate and the time left; shown only on a terminal.
 class Progress {
  public:
-  /// `total`: frames, where known. The clock outlives it.
+  /// `total`: the number of frames, if known. The clock must outlive this object.
   Progress(std::string subcommand, std::optional<std::uint64_t> total, const hal::Clock& clock);
   /// Ends the line.
   ~Progress();
@@ -21,10 +20,10 @@ class Progress {
 
   /// After each frame; redraws a few times a second.
   void advance();
-  /// Clears the line, so that something else can be said; the next advance() redraws it.
+  /// Clears the line before other output; the next advance() redraws it.
   void interrupt();
   std::uint64_t frames() const { return done_; }
-  /// Since the start.
+  /// The average rate since the start.
   double framesPerSecond() const;
   hal::Duration elapsed() const;
 
@@ -40,7 +39,7 @@ class Progress {
   bool isTerminal_;
 };
 
-/// The line itself: "painting 37/150  24.1 frames/s  5 s left".
+/// The text of the line: "painting 37/150  24.1 frames/s  5 s left".
 std::string progressLine(const std::string& subcommand, std::uint64_t done,
                          std::optional<std::uint64_t> total, hal::Duration elapsed);
 

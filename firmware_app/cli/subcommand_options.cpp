@@ -23,7 +23,7 @@
 namespace pleinair::app {
 namespace {
 
-/// An option that gives a key of the configuration, which checks it.
+/// Adds an option that sets a key of the configuration. The configuration validates the value.
 CLI::Option* addKey(CLI::App& command, ConfigurationRequest& request, const std::string& option,
                     const std::string& key, const std::string& help, const std::string& type) {
   return command
@@ -36,16 +36,16 @@ CLI::Option* addKey(CLI::App& command, ConfigurationRequest& request, const std:
       ->type_name(type);
 }
 
-/// Where the configuration comes from.
+/// Adds the options that select the configuration's sources.
 void addConfiguration(CLI::App& command, ConfigurationRequest& request) {
   command
       .add_option("--profile", request.profile,
-                  fmt::format("what to build on: {}, or a file (.toml)",
+                  fmt::format("the base configuration: {}, or a file (.toml)",
                               config::listText(config::profileNames())))
       ->type_name("NAME|FILE");
   command
       .add_option("--config", request.siteFile,
-                  fmt::format("the site file (default: ${}, else {} where there is one)",
+                  fmt::format("the site file (default: ${}, else {} if it exists)",
                               "PLEINAIR_CONFIG", request.defaultSiteFile.string()))
       ->type_name("FILE");
   command
@@ -56,13 +56,13 @@ void addConfiguration(CLI::App& command, ConfigurationRequest& request) {
       ->take_all();
 }
 
-/// The options of [painting], for commands that paint.
+/// Adds the options of [painting], for subcommands that paint.
 void addPainting(CLI::App& command, ConfigurationRequest& request) {
-  addKey(command, request, "--style", "painting.style",
-         "how to paint; `pleinair styles` lists them", "NAME");
+  addKey(command, request, "--style", "painting.style", "the style; `pleinair styles` lists them",
+         "NAME");
   addKey(command, request, "--look", "painting.look", "a preset of the style's parameters", "NAME");
-  addKey(command, request, "--view", "painting.view",
-         "an inner picture instead of the finished one", "NAME");
+  addKey(command, request, "--view", "painting.view", "a debug view instead of the finished image",
+         "NAME");
   addKey(command, request, "--scene", "painting.scene", "tags and models (TOML)", "FILE");
   addConfiguration(command, request);
 }
@@ -92,18 +92,18 @@ void addRender(CLI::App& app, RenderOptions& options, std::function<int()>& chos
       ->type_name("PATH");
   addPainting(command, options.configuration);
   addKey(command, options.configuration, "--size", "painting.size",
-         "of the painting (default: the input's); movies have even sides", "WxH");
+         "size of the painting (default: the input's); movies need even sides", "WxH");
   addFrames(
       command, [&options](std::uint64_t count) { options.painting.frames = count; },
-      "paint the first N only");
+      "paint the first N frames only");
   command
       .add_option("--poses", options.painting.poses,
-                  "write what was tracked, a JSON object a frame")
+                  "write the tracking results, one JSON object per frame")
       ->check(refuseStandardOutput)
       ->type_name("FILE");
   command
       .add_option("--contact-sheet", options.painting.contactSheet,
-                  "write a PNG of several moments, original beside painting")
+                  "write a PNG that shows originals and paintings side by side")
       ->check(requirePngName)
       ->type_name("FILE");
   command
@@ -150,15 +150,15 @@ void addRun(CLI::App& app, RunOptions& options, std::function<int()>& chosen) {
   CLI::App& command = *app.add_subcommand("run", "paint a camera live");
   ConfigurationRequest& configuration = options.configuration;
   addKey(command, configuration, "--camera", "camera.source",
-         "synthetic (default), auto, a device as docs/cameras.md says, or a recording's path, "
-         "played over and over at its own pace",
+         "synthetic (default), auto, a device (see docs/cameras.md), or a recording's path, "
+         "played in a loop at its own rate",
          "NAME|PATH");
   addOutputs(command, configuration);
   addPainting(command, configuration);
   addKey(command, configuration, "--size", "painting.size",
-         "of the painting (default: the camera's)", "WxH");
+         "size of the painting (default: the camera's)", "WxH");
   addFrames(
-      command, [&options](std::uint64_t count) { options.frames = count; }, "end after N");
+      command, [&options](std::uint64_t count) { options.frames = count; }, "end after N frames");
   addKey(command, configuration, "--snapshots", "output.snapshots",
          "the folder that the key s saves pictures to (default: .)", "DIR");
   command
@@ -173,19 +173,19 @@ void addRun(CLI::App& app, RunOptions& options, std::function<int()>& chosen) {
 void addRecord(CLI::App& app, RecordOptions& options, std::function<int()>& chosen) {
   CLI::App& command = *app.add_subcommand("record", "record a camera");
   ConfigurationRequest& configuration = options.configuration;
-  addKey(command, configuration, "--camera", "camera.source", "as of run (default: synthetic)",
+  addKey(command, configuration, "--camera", "camera.source", "as in run (default: synthetic)",
          "NAME|PATH");
-  command.add_option("--output", options.output, "as of render")
+  command.add_option("--output", options.output, "as in render")
       ->required()
       ->check(refuseStandardOutput)
       ->type_name("PATH");
   addFrames(
-      command, [&options](std::uint64_t count) { options.frames = count; }, "how many")
+      command, [&options](std::uint64_t count) { options.frames = count; }, "record N frames")
       ->default_str(std::to_string(options.frames));
   addKey(command, configuration, "--size", "camera.size",
-         "of the frames (default: 640x480); movies have even sides", "WxH");
+         "size of the frames (default: 640x480); movies need even sides", "WxH");
   addKey(command, configuration, "--seed", "camera.seed",
-         "of the synthetic camera's world and path (default: 1)", "N");
+         "seed of the synthetic camera's world and path (default: 1)", "N");
   command
       .add_option("--write-scene", options.writeScene,
                   "write a scene file that fits the synthetic camera's world")
@@ -207,7 +207,8 @@ void addBoard(CLI::App& command, BoardOption& board) {
   command.add_option("--tag-edge", board.tagEdge, "edge of an aprilgrid's tag, the black square")
       ->type_name("METRES");
   command
-      .add_option("--spacing", board.spacing, "gap between tags, of a tag's edge (default: 0.3)")
+      .add_option("--spacing", board.spacing,
+                  "gap between tags, as a share of a tag's edge (default: 0.3)")
       ->type_name("SHARE");
   command.add_option("--first-id", board.firstId, "id of the lower left tag (default: 0)")
       ->type_name("ID");
@@ -215,10 +216,10 @@ void addBoard(CLI::App& command, BoardOption& board) {
 
 void addCalibrate(CLI::App& app, CalibrateOptions& options, std::function<int()>& chosen) {
   CLI::App& command =
-      *app.add_subcommand("calibrate", "find a camera's lens from views of a board");
+      *app.add_subcommand("calibrate", "calibrate a camera's lens from views of a board");
   CLI::Option* camera = addKey(command, options.configuration, "--camera", "camera.source",
-                               "as of run: until the views suffice, or SIGINT", "NAME|PATH");
-  command.add_option("--input", options.input, "a recording, as of render")
+                               "as in run; ends when the views suffice, or at SIGINT", "NAME|PATH");
+  command.add_option("--input", options.input, "a recording, as in render")
       ->excludes(camera)
       ->type_name("PATH");
   addBoard(command, options.board);
@@ -228,49 +229,50 @@ void addCalibrate(CLI::App& app, CalibrateOptions& options, std::function<int()>
       ->type_name("FILE");
   addFrames(
       command, [&options](std::uint64_t count) { options.frames = count; },
-      "look at the first N only");
+      "use the first N frames only");
   command
       .add_option("--views-folder", options.viewsFolder,
-                  "write the views that were chosen, with their corners, and the coverage")
+                  "write the selected views with their corners, and the coverage")
       ->type_name("DIR");
   addKey(command, options.configuration, "--size", "camera.size",
-         "asked of a camera (default: 640x480)", "WxH");
+         "frame size to request from a camera (default: 640x480)", "WxH");
   addConfiguration(command, options.configuration);
   refuseEmptyValues(command);
   command.callback([&] { chosen = [&options] { return calibrate(options); }; });
 }
 
 void addConfig(CLI::App& app, ConfigOptions& options, std::function<int()>& chosen) {
-  CLI::App& command =
-      *app.add_subcommand("config", "print what is in force, and where each value came from");
+  CLI::App& command = *app.add_subcommand(
+      "config", "print the effective configuration, with the origin of each value");
   addPainting(command, options.configuration);
-  addKey(command, options.configuration, "--camera", "camera.source", "as of run", "NAME|PATH");
-  command.add_flag("--given", options.givenOnly, "leave out what nobody gave: a short site file");
+  addKey(command, options.configuration, "--camera", "camera.source", "as in run", "NAME|PATH");
+  command.add_flag("--given", options.givenOnly, "leave default values out: a short site file");
   refuseEmptyValues(command);
   command.callback([&] { chosen = [&options] { return printConfiguration(options); }; });
 }
 
 void addDevices(CLI::App& app, DevicesOptions& options, std::function<int()>& chosen) {
-  CLI::App& command = *app.add_subcommand("devices", "list the cameras and outputs that are there");
-  command.add_flag("--json", options.json, "for programs");
+  CLI::App& command = *app.add_subcommand("devices", "list the available cameras and outputs");
+  command.add_flag("--json", options.json, "print JSON");
   command.callback([&] { chosen = [&options] { return listDevices(options); }; });
 }
 
 void addDoctor(CLI::App& app, DoctorOptions& options, std::function<int()>& chosen) {
   CLI::App& command =
-      *app.add_subcommand("doctor", "say what works on this machine, and what fixes the rest");
-  command.add_flag("--json", options.json, "for programs");
+      *app.add_subcommand("doctor", "check this machine, and show how to fix each failed check");
+  command.add_flag("--json", options.json, "print JSON");
   addConfiguration(command, options.configuration);
   refuseEmptyValues(command);
   command.callback([&] { chosen = [&options] { return examineMachine(options); }; });
 }
 
-/// How `measure` moves a photograph; `other` says how a recording moves by itself.
+/// Adds the options of `measure` that move a photograph; they exclude `other`, which gives the
+/// motion of a recording.
 void addPhotographMotion(CLI::App& command, CLI::Option* other, MeasureOptions& options) {
   CLI::Option* still = command
                            .add_flag_callback(
                                "--still", [&options] { options.movedBy = "--still"; },
-                               "show a photograph as it is, with the sensor's noise")
+                               "show a photograph without motion, with sensor noise")
                            ->excludes(other);
   const auto add = [&](const std::string& name, const std::string& help, const std::string& type,
                        auto assign) {
@@ -287,16 +289,16 @@ void addPhotographMotion(CLI::App& command, CLI::Option* other, MeasureOptions& 
         ->excludes(still);
   };
   measure::PhotographMotion& motion = options.photograph;
-  add("--pan", "move a photograph by so many px a frame, such as -1.5,-0.5", "VX,VY",
+  add("--pan", "move a photograph by this many px per frame, such as -1.5,-0.5", "VX,VY",
       [&motion](const std::string& text) {
         const auto [x, y] = vectorOf("--pan", text, 40);
         motion.pan = {x, y};
       });
-  add("--zoom", "move into a photograph by so much a frame, such as 1%", "PERCENT",
+  add("--zoom", "zoom into a photograph by this share per frame, such as 1%", "PERCENT",
       [&motion](const std::string& text) {
         motion.zoomPercent = numberOf("--zoom", text, "%", -10, 10);
       });
-  add("--roll", "turn a photograph by so many degrees a frame", "DEGREES",
+  add("--roll", "turn a photograph by this many degrees per frame", "DEGREES",
       [&motion](const std::string& text) {
         motion.rollDegrees = numberOf("--roll", text, "", -45, 45);
       });
@@ -304,7 +306,7 @@ void addPhotographMotion(CLI::App& command, CLI::Option* other, MeasureOptions& 
 
 void addMeasure(CLI::App& app, MeasureOptions& options, std::function<int()>& chosen) {
   CLI::App& command = *app.add_subcommand(
-      "measure", "paint a sequence whose motion is known, and say how coherent the painting is");
+      "measure", "paint a sequence of known motion, and measure how coherent the painting is");
   CLI::Option* input =
       command
           .add_option("--input", options.input,
@@ -314,10 +316,11 @@ void addMeasure(CLI::App& app, MeasureOptions& options, std::function<int()>& ch
   addKey(command, options.configuration, "--camera", "camera.source",
          "the workbench, whose motion is known (default: synthetic)", "synthetic:SHOT")
       ->excludes(input);
-  CLI::Option* motion =
-      command.add_option("--motion", options.motion, "how a recording moves (as motion.json)")
-          ->needs(input)
-          ->type_name("FILE");
+  CLI::Option* motion = command
+                            .add_option("--motion", options.motion,
+                                        "file with the motion of a recording (as motion.json)")
+                            ->needs(input)
+                            ->type_name("FILE");
   addPhotographMotion(command, motion, options);
   command
       .add_option_function<std::string>(
@@ -325,21 +328,21 @@ void addMeasure(CLI::App& app, MeasureOptions& options, std::function<int()>& ch
           [&options](const std::string& text) {
             options.noiseLevels = numberOf("--noise", text, "", 0, 40);
           },
-          "of the sensor, on a photograph and on the still scene, in 8-bit levels (default: 2)")
+          "sensor noise on a photograph and on the still scene, in 8-bit levels (default: 2)")
       ->type_name("SIGMA");
   addFrames(
       command, [&options](std::uint64_t count) { options.frames = count; },
-      "measure N (default: all, or 60 where there is no end)");
+      "measure N frames (default: all, or 60 of an endless input)");
   command
       .add_option_function<std::string>(
           "--settle",
           [&options](const std::string& text) {
             options.settle = frameCountOf(text, "--settle", 0);
           },
-          "paint N frames before measuring (default: 0, or 30 where there is no end)")
+          "paint N frames before measuring (default: 0, or 30 with an endless input)")
       ->type_name("N");
   command.add_flag("--gates", options.gates, "exit with 1 unless the style passes its gates");
-  command.add_option("--json", options.json, "write the report for programs")
+  command.add_option("--json", options.json, "write the report as JSON")
       ->check(refuseStandardOutput)
       ->type_name("FILE");
   command.add_option("--html", options.html, "write the report as one page, with plots")
@@ -348,11 +351,11 @@ void addMeasure(CLI::App& app, MeasureOptions& options, std::function<int()>& ch
   addPainting(command, options.configuration);
   addKey(
       command, options.configuration, "--size", "painting.size",
-      "of a photograph's frames (default: its own, scaled down to 640x480 or as many px), of the "
-      "workbench's, or of the painting of a recording whose motion is not known",
+      "size of a photograph's frames (default: its own, scaled down to 640x480 or as many px), of "
+      "the workbench's, or of the painting of a recording of unknown motion",
       "WxH");
   addKey(command, options.configuration, "--quality", "runtime.quality",
-         "the level to paint at (default: the best)", "NAME");
+         "the quality level to paint at (default: the best)", "NAME");
   refuseEmptyValues(command);
   command.callback([&] { chosen = [&options] { return runMeasure(options); }; });
 }
@@ -374,9 +377,8 @@ void addSubcommands(CLI::App& app, SubcommandOptions& options, std::function<int
   addConfig(app, options.config, chosen);
   addDevices(app, options.devices, chosen);
   addDoctor(app, options.doctor, chosen);
-  app.add_subcommand("styles", "list styles with their looks, parameters and views")->callback([&] {
-    chosen = listStyles;
-  });
+  app.add_subcommand("styles", "list styles with their looks, parameters and debug views")
+      ->callback([&] { chosen = listStyles; });
 }
 
 }  // namespace pleinair::app

@@ -8,7 +8,7 @@
 
 namespace pleinair::app {
 
-/// What is asked of each subcommand.
+/// The options of each subcommand.
 struct SubcommandOptions {
   RenderOptions render;
   RecordOptions record;
@@ -20,9 +20,9 @@ struct SubcommandOptions {
   DoctorOptions doctor;
 };
 
-/// Adds all subcommands with their options. Parsing fills `options` and sets `chosen` to what
-/// carries the subcommand out; both outlive the parsing and what was chosen. The environment is
-/// read here.
+/// Adds all subcommands with their options. Parsing fills `options` and sets `chosen` to the
+/// function that runs the subcommand. Both must outlive the parsing and that call. Reads the
+/// environment.
 void addSubcommands(CLI::App& app, SubcommandOptions& options, std::function<int()>& chosen);
 
 }  // namespace pleinair::app

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kIndent = 4;
 constexpr std::size_t kGap = 2;
 
-/// Characters, not bytes, of UTF-8.
+/// The number of UTF-8 characters.
 std::size_t widthOf(std::string_view text) {
   return static_cast<std::size_t>(std::ranges::count_if(
       text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));

@@ -11,8 +11,8 @@ struct TextRow {
   std::string text;
 };
 
-/// Rows for a terminal: names in one column, beside them their texts, which go on in their own
-/// column where they would pass `columns`. Longer words stick out.
+/// Formats rows for a terminal: names in one column, their texts in a second one, wrapped within it
+/// at `columns`. Longer words are not broken.
 std::string textTable(const std::vector<TextRow>& rows, std::size_t columns = 100);
 
 }  // namespace pleinair::app

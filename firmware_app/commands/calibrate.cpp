@@ -35,7 +35,8 @@ namespace fs = std::filesystem;
 using calibration::CalibrationReport;
 using calibration::CalibrationSession;
 
-constexpr hal::Duration kLongestLook = std::chrono::milliseconds(100);  // then a signal is seen
+// bounds the wait until a signal is noticed
+constexpr hal::Duration kPollInterval = std::chrono::milliseconds(100);
 
 [[noreturn]] void refuse(hal::ErrorKind kind, std::string subject, std::string problem,
                          std::string remedy) {
@@ -45,14 +46,15 @@ constexpr hal::Duration kLongestLook = std::chrono::milliseconds(100);  // then 
                                 .remedy = std::move(remedy)});
 }
 
-/// Photographs are not taken in one movement, whatever their times.
+/// Whether the input is a set of photographs, which have no common motion, whatever their times.
 bool arePhotographs(const fs::path& input) {
   std::error_code ignored;
   return fs::is_directory(input, ignored) || hal::looksNumbered(input) ||
          hal::recording::isPictureName(input);
 }
 
-/// Whether there is a calibration that will be replaced. Any other file is not ours to write over.
+/// Whether `output` is an existing calibration, which will be replaced. Refuses any other existing
+/// file.
 bool replacesCalibration(const fs::path& output) {
   std::error_code ignored;
   if (!fs::exists(output, ignored)) return false;
@@ -60,12 +62,14 @@ bool replacesCalibration(const fs::path& output) {
     tracking::loadCalibration(output);
   } catch (const config::ConfigError&) {
     refuse(hal::ErrorKind::kInvalidArgument, output.string(),
-           "is there and is no calibration, and is not written over", "give --output another name");
+           "exists and is not a calibration, so it is not overwritten",
+           "give --output another name");
   }
   return true;
 }
 
-/// Where pictures of views go, which are numbered: others of an earlier run would mix with them.
+/// Requires an empty folder for the view pictures, which are numbered: those of an earlier run
+/// would mix with them.
 void requireEmptyFolder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -80,11 +84,11 @@ void requireEmptyFolder(const fs::path& folder) {
   }
 }
 
-/// One calibration: where pictures come from, and where it goes.
-class Calibrating {
+/// One calibration, from its camera to its output.
+class CalibrationRun {
  public:
-  Calibrating(const CalibrateOptions& options, std::string subject, hal::Camera& camera,
-              const hal::StreamRequest& request)
+  CalibrationRun(const CalibrateOptions& options, std::string subject, hal::Camera& camera,
+                 const hal::StreamRequest& request)
       : options_(options),
         subject_(std::move(subject)),
         camera_(camera),
@@ -98,15 +102,16 @@ class Calibrating {
         progress_(clock_) {}
 
   int run() {
-    const int signal = watch();
+    const int signal = receiveAll();
     progress_.interrupt();
     camera_.stop();
     if (signal != 0 && !isLive_) {
-      printError(fmt::format("broken off by {}; nothing was written", signalName(signal)));
+      printError(fmt::format("interrupted by {}; nothing was written", signalName(signal)));
       return kSignalExitBase + signal;
     }
     const CalibrationReport report = session_.solve();
-    if (options_.viewsFolder) writeViews(report);  // of a refused one too: they show why
+    // also for a refused calibration: they show the reason
+    if (options_.viewsFolder) writeViews(report);
     if (!report.isGood()) refuseReport(report);
     const std::string text = calibration::calibrationText(session_.board(), report);
     hal::orThrow(file_.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
@@ -116,12 +121,12 @@ class Calibrating {
   }
 
  private:
-  /// Until it is over. The signal that ended it, or 0.
-  int watch() {
+  /// Runs to the end. Gives the number of the signal that interrupted it, or 0.
+  int receiveAll() {
     while (!options_.frames || session_.selector().counts().pictures < *options_.frames) {
       if (const int signal = Interrupt::received(); signal != 0) return signal;
       if (isLive_ && session_.selector().isComplete()) break;
-      hal::NextFrame next = camera_.next(isLive_ ? clock_.now() + kLongestLook : hal::kNoDeadline);
+      hal::NextFrame next = camera_.next(isLive_ ? clock_.now() + kPollInterval : hal::kNoDeadline);
       if (!receive(next)) break;
     }
     return 0;
@@ -131,18 +136,18 @@ class Calibrating {
   bool receive(hal::NextFrame& next) {
     const Overloaded take{
         [&](hal::CapturedFrame& frame) {
-          look(frame);
+          examine(frame);
           return true;
         },
         [](hal::CameraTimeout&) { return true; },
-        [](hal::FormatChanged&) { return true; },  // every frame says its own
+        [](hal::FormatChanged&) { return true; },  // each frame carries its own format
         [&](hal::EndOfStream& end) {
           if (end.truncated) warn(end.truncated->message());
           return false;
         },
         [&](hal::CameraLost& lost) {
           if (session_.selector().views().empty()) throw hal::Failure(std::move(lost.cause));
-          warn(lost.cause.message() + "; what was seen until then is used");
+          warn(lost.cause.message() + "; the views so far are used");
           return false;
         },
         [](hal::Error& error) -> bool { throw hal::Failure(std::move(error)); },
@@ -150,14 +155,14 @@ class Calibrating {
     return std::visit(take, next);
   }
 
-  void look(const hal::CapturedFrame& frame) {
+  void examine(const hal::CapturedFrame& frame) {
     if (frame.health != hal::FrameHealth::kValid) return;
     const hal::FrameSize size = frame.image.format.size;
     if (size != format_.frame.size) {
       refuse(hal::ErrorKind::kInvalidInput, subject_,
-             fmt::format("its pictures change from {}x{} to {}x{}", format_.frame.size.width,
+             fmt::format("its frame size changes from {}x{} to {}x{}", format_.frame.size.width,
                          format_.frame.size.height, size.width, size.height),
-             "a calibration is of one size: give pictures of one");
+             "a calibration is for one frame size: give frames of one size");
     }
     const calibration::ViewOutcome outcome = session_.offer(frame.image, frame.captureTime);
     progress_.advance(session_.selector(), outcome);
@@ -187,7 +192,7 @@ class Calibrating {
     std::string remedy = report.refusals.front().remedy;
     if (report.refusals.front().reason == calibration::RefusalReason::kNoBoard) {
       if (const auto other = session_.otherBoard()) {
-        reasons.push_back("there is " + *other + " instead");
+        reasons.push_back("the frames show " + *other + " instead");
       }
     }
     refuse(hal::ErrorKind::kInvalidInput, subject_,
@@ -238,19 +243,20 @@ int calibrate(const CalibrateOptions& options) {
   const Interrupt interrupt;
   const Configuration configuration(options.configuration);
   return configuration.attributing([&] {
-    boardOf(options.board);  // what is wrong with it shows before a camera is opened
+    boardOf(options.board);  // reports errors before a camera is opened
     if (!options.input) refuseSlipOfCamera(configuration);
     refuseCollisionsOf(options, configuration);
     if (options.viewsFolder) requireEmptyFolder(*options.viewsFolder);
     if (options.input) {
       hal::SteppedClock clock;
       const auto recording = hal::openRecording(*options.input, clock);
-      return Calibrating(options, options.input->string(), *recording, {}).run();
+      return CalibrationRun(options, options.input->string(), *recording, {}).run();
     }
     const CameraSettings settings = configuration.camera();
     hal::SteadyClock clock;
     const auto camera = chosenCamera(settings, clock);
-    return Calibrating(options, settings.source.string(), *camera, streamRequestOf(settings)).run();
+    return CalibrationRun(options, settings.source.string(), *camera, streamRequestOf(settings))
+        .run();
   });
 }
 

@@ -15,34 +15,34 @@ namespace pleinair::app {
 struct CalibrateOptions {
   ConfigurationRequest configuration;
   BoardOption board;
-  std::optional<std::filesystem::path> input;  ///< a recording; else [camera]'s camera
+  std::optional<std::filesystem::path> input;  ///< a recording; unset: the camera of [camera]
   std::filesystem::path output;
   std::optional<std::uint64_t> frames;
   std::optional<std::filesystem::path> viewsFolder;
 };
 
-/// Finds a camera's lens from views of a board: `pleinair calibrate`. A recording is looked at
-/// frame by frame; a camera until the views suffice, --frames are over or a signal comes, which
-/// then uses what there is. Throws hal::Failure, for a calibration that is not to be trusted
-/// too, and config::ConfigError. Returns the exit status: 0, or 128 + the signal that broke off a
-/// recording. The output is written whole or not at all; a calibration that stood there is
-/// replaced, and said so; any other file is refused.
+/// Calibrates a camera's lens from views of a board: `pleinair calibrate`. A recording is examined
+/// frame by frame; a camera until the views suffice, --frames is reached, or a signal comes, after
+/// which the views so far are used. Throws hal::Failure, also for an untrustworthy calibration, and
+/// config::ConfigError. Returns the exit status: 0, or 128 + the signal that interrupted a
+/// recording. The output is written completely or not at all. An existing calibration is replaced,
+/// with a note; any other existing file is refused.
 int calibrate(const CalibrateOptions& options);
 
 struct ConfigOptions {
   ConfigurationRequest configuration;
-  bool givenOnly = false;  ///< leave out what nobody gave
+  bool givenOnly = false;  ///< leave default values out
 };
 
-/// Prints what is in force, where each value came from and what is allowed, as TOML: `pleinair
-/// config`. Throws config::ConfigError. Returns the exit status.
+/// Prints the effective configuration as TOML, with the origin and the allowed range of each value:
+/// `pleinair config`. Throws config::ConfigError. Returns the exit status.
 int printConfiguration(const ConfigOptions& options);
 
 struct DevicesOptions {
   bool json = false;
 };
 
-/// Prints the cameras and outputs that are there, with ids and formats: `pleinair devices`.
+/// Prints the available cameras and outputs, with ids and formats: `pleinair devices`.
 int listDevices(const DevicesOptions& options);
 
 struct DoctorOptions {
@@ -50,16 +50,16 @@ struct DoctorOptions {
   bool json = false;
 };
 
-/// Prints what works on this machine, what does not, and what fixes it: `pleinair doctor`. Gives 0
-/// where nothing is wrong, warnings or not, else 1.
+/// Checks this machine and prints the findings, each failed check with the command that fixes it:
+/// `pleinair doctor`. Returns 0 unless a check failed, also with warnings; else 1.
 int examineMachine(const DoctorOptions& options);
 
 struct MeasureOptions {
   ConfigurationRequest configuration;
   std::optional<std::filesystem::path> input;   ///< default: the synthetic camera
-  std::optional<std::filesystem::path> motion;  ///< how a recording moves
-  measure::PhotographMotion photograph;         ///< how a photograph is moved
-  std::string movedBy;                          ///< "--pan", "--still" …; empty: by none
+  std::optional<std::filesystem::path> motion;  ///< file with the motion of a recording
+  measure::PhotographMotion photograph;         ///< motion of a photograph
+  std::string movedBy;                          ///< "--pan", "--still" …; empty: none was given
   double noiseLevels = 2.0;
   std::optional<std::uint64_t> frames;
   std::optional<std::uint64_t> settle;
@@ -68,10 +68,9 @@ struct MeasureOptions {
   std::optional<std::filesystem::path> html;
 };
 
-/// Paints a sequence of which the motion is known and prints how coherent the painting is:
-/// `pleinair measure`. Throws hal::Failure and config::ConfigError. Returns the exit status:
-/// 0; 1 where a gate was asked for and not passed; 2 where the controls do not read as they must;
-/// or 128 + the signal that broke it off.
+/// Paints a sequence of known motion and prints how coherent the painting is: `pleinair measure`.
+/// Throws hal::Failure and config::ConfigError. Returns the exit status: 0; 1 if --gates was given
+/// and a gate failed; 2 if a negative control failed; or 128 + the signal that interrupted it.
 int runMeasure(const MeasureOptions& options);
 
 struct RecordOptions {
@@ -88,26 +87,26 @@ int record(const RecordOptions& options);
 struct RenderOptions {
   ConfigurationRequest configuration;
   std::filesystem::path input;
-  PaintingOptions painting;  ///< of one run alone; the rest is configuration
+  PaintingOptions painting;  ///< the options that are not configuration
 };
 
-/// Paints a recording, frame by frame, none dropped: `pleinair render`. Throws hal::Failure
-/// and config::ConfigError. Returns the exit status: 0, or 128 + the signal that broke it off.
-/// Then, or after a failure, nothing stands under the output's name, but a folder or a pattern
-/// keeps the whole frames that were written so far.
+/// Paints a recording, every frame: `pleinair render`. Throws hal::Failure and config::ConfigError.
+/// Returns the exit status: 0, or 128 + the signal that interrupted it. After a signal or a
+/// failure, no file has the output's name; a folder or a pattern keeps the complete frames written
+/// so far.
 int render(const RenderOptions& options);
 
 struct RunOptions {
   ConfigurationRequest configuration;
-  std::optional<std::uint64_t> frames;  ///< default: until someone ends it
+  std::optional<std::uint64_t> frames;  ///< default: until the user ends it
   std::filesystem::path shaderDirectory;
 };
 
-/// Paints a camera live: `pleinair run`. Throws hal::Failure and config::ConfigError. Returns
-/// the exit status: 0, also where a signal ended it.
+/// Paints a camera live: `pleinair run`. Throws hal::Failure and config::ConfigError. Returns the
+/// exit status: 0, also after a signal.
 int run(const RunOptions& options);
 
-/// Lists the styles with their looks, parameters and views, without a GPU: `pleinair styles`.
+/// Lists the styles with their looks, parameters and debug views, without a GPU: `pleinair styles`.
 int listStyles();
 
 }  // namespace pleinair::app

@@ -7,7 +7,7 @@ namespace pleinair::app {
 int printConfiguration(const ConfigOptions& options) {
   const Configuration configuration(options.configuration);
   const auto which = options.givenOnly ? config::Printed::kGiven : config::Printed::kAll;
-  // Whether it arrived is looked at once, at the program's end.
+  // Write errors are checked once, at the end of the program.
   std::fputs(configuration.toToml(which).c_str(), stdout);
   return 0;
 }

@@ -18,7 +18,7 @@ Inventory takeInventory() {
 
 int listDevices(const DevicesOptions& options) {
   const Inventory inventory = takeInventory();
-  // Whether it arrived is looked at once, at the program's end.
+  // Write errors are checked once, at the end of the program.
   std::fputs((options.json ? asJson(inventory) : asText(inventory)).c_str(), stdout);
   return 0;
 }

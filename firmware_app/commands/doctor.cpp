@@ -23,7 +23,7 @@ int examineMachine(const DoctorOptions& options) {
   }
   probes.configurationError = [&] { return configurationError; };
   const std::vector<doctor::Finding> findings = doctor::examine(probes);
-  // Whether it arrived is looked at once, at the program's end.
+  // Write errors are checked once, at the end of the program.
   std::fputs((options.json ? doctor::asJson(findings) : doctor::asText(findings)).c_str(), stdout);
   const bool isWrong = std::ranges::find(findings, doctor::Verdict::kWrong,
                                          &doctor::Finding::verdict) != findings.end();

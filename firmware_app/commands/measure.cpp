@@ -33,7 +33,7 @@ using hal::orThrow;
 constexpr int kGateFailed = 1;
 constexpr int kControlsWrong = 2;
 
-/// Of inputs that go on as long as is wanted: two seconds, after one.
+/// For endless inputs: two seconds of measurement, after one second.
 constexpr std::uint64_t kFramesByDefault = 60;
 constexpr std::uint64_t kSettleByDefault = 30;
 
@@ -44,7 +44,7 @@ hal::Failure refusal(std::string subject, std::string problem, std::string remed
                        .remedy = std::move(remedy)});
 }
 
-/// How many frames an input that has no end is asked for.
+/// The number of frames to request from an endless input.
 std::uint64_t framesWanted(const MeasureOptions& options) {
   return options.frames.value_or(kFramesByDefault) + options.settle.value_or(kSettleByDefault);
 }
@@ -53,7 +53,7 @@ std::unique_ptr<measure::MeasuredInput> openPhotographOf(const MeasureOptions& o
                                                          const Configuration& configuration) {
   const std::string& by = options.movedBy;
   if (!options.input) {
-    throw refusal(by, "moves a photograph, and there is none",
+    throw refusal(by, "moves a photograph, but --input is missing",
                   fmt::format("give --input PICTURE, or leave {} out", by));
   }
   measure::PhotographOptions photograph{.size = {},
@@ -81,7 +81,8 @@ std::unique_ptr<measure::MeasuredInput> openWorkbenchOf(const MeasureOptions& op
   refuseSlipOfCamera(configuration);
   const CameraSettings camera = configuredCamera(configuration);
   if (!isSynthetic(camera)) {
-    throw refusal(camera.source.string(), "no device and no played recording can be measured",
+    throw refusal(camera.source.string(),
+                  "neither a device nor a recording played live can be measured",
                   "give --input a recording, or --camera synthetic:SHOT");
   }
   hal::SyntheticOptions synthetic = syntheticOptions(camera);
@@ -100,7 +101,7 @@ std::unique_ptr<measure::MeasuredInput> openInput(const MeasureOptions& options,
   return orThrow(measure::openPlainRecording(*options.input, options.motion));
 }
 
-/// The size that is painted at. A truth is one of the input's own pixels.
+/// The size to paint at. A known motion is in px of the input's own size.
 hal::FrameSize pictureSizeOf(const Configuration& configuration, measure::MeasuredInput& input) {
   const hal::FrameSize own = input.format().size;
   const config::PixelSize asked = configuration.painting().size;
@@ -124,7 +125,7 @@ std::string settingsText(const Configuration& configuration, hal::FrameSize size
                      size.width, size.height, quality);
 }
 
-/// Runs it with progress; nothing where it was broken off.
+/// Runs the measurement with progress; nothing if it was interrupted.
 std::optional<measure::Report> measured(measure::MeasuredInput& input,
                                         measure::MeasuredPainter& painter,
                                         measure::MeasurementOptions options) {
@@ -137,7 +138,7 @@ std::optional<measure::Report> measured(measure::MeasuredInput& input,
   return orThrow(measure::measure(input, painter, options));
 }
 
-/// What cannot be written shows before anything is painted.
+/// Creates the file early, so that a path that cannot be written is reported before painting.
 std::optional<hal::PendingFile> created(const std::optional<fs::path>& path) {
   if (!path) return std::nullopt;
   return orThrow(hal::PendingFile::create(*path));
@@ -163,17 +164,17 @@ void refuseCollisionsOf(const MeasureOptions& options, std::vector<NamedPath> re
 
 int statusOf(const measure::Report& report, bool gates) {
   if (!report.areControlsSound()) {
-    printError("the controls do not read as they must; see the report");
+    printError("a negative control failed; see the report");
     return kControlsWrong;
   }
   return gates && !report.areGatesPassed() ? kGateFailed : 0;
 }
 
-/// --gates would pass whatever has none.
+/// Refuses --gates for a style without gates, which would always pass.
 void refuseGatesOf(const std::string& style) {
   if (measure::hasGates(style)) return;
   throw refusal(
-      "--gates", fmt::format("the style {} has none", style),
+      "--gates", fmt::format("the style {} has no gates", style),
       fmt::format("leave it out, or measure one of {}", config::listText(measure::gatedStyles())));
 }
 
@@ -214,7 +215,7 @@ int measureConfigured(const MeasureOptions& options, const Configuration& config
                 .settle = settle,
                 .stillNoiseLevels = options.noiseLevels});
   if (!report) {
-    printError(fmt::format("broken off by {}", signalName(Interrupt::received())));
+    printError(fmt::format("interrupted by {}", signalName(Interrupt::received())));
     return kSignalExitBase + Interrupt::received();
   }
   publish(html, measure::reportHtml(*report));

@@ -23,15 +23,15 @@ bool isDevice(const CameraSettings& settings) {
   return !isSynthetic(settings) && !isRecording(settings);
 }
 
-/// The camera, stopped, once what it knows of its scene is written.
+/// Opens the camera, stopped, and writes its scene if requested.
 std::unique_ptr<hal::Camera> openCamera(const RecordOptions& options,
                                         const CameraSettings& settings, hal::Clock& clock) {
   if (!isSynthetic(settings)) {
     if (options.writeScene) {
-      const std::string what = isDevice(settings) ? "a device" : "a recording";
+      const std::string source = isDevice(settings) ? "a device" : "a recording";
       throw hal::Failure({.kind = hal::ErrorKind::kInvalidArgument,
                           .subject = "--write-scene",
-                          .problem = "nothing knows the scene of " + what,
+                          .problem = "the scene of " + source + " is not known",
                           .remedy = "leave it out, or record the synthetic camera"});
     }
     if (isDevice(settings)) return chosenCamera(settings, clock);
@@ -55,15 +55,15 @@ int record(const RecordOptions& options) {
     refuseCollisionsOf(options, configuration);
     const CameraSettings settings = configuration.camera();
     hal::SteppedClock stepped;
-    hal::SteadyClock steady;  // what a device films goes by
+    hal::SteadyClock steady;  // the clock of a real device
     hal::Clock& clock = isDevice(settings) ? static_cast<hal::Clock&>(steady) : stepped;
     const auto camera = openCamera(options, settings, clock);
     return runPainting(
         {.camera = camera.get(),
          .request = streamRequestOf(settings),
          .options = {.output = options.output, .style = "none", .frames = options.frames},
-         .doing = "recording",
-         .done = "recorded"});
+         .progressVerb = "recording",
+         .summaryVerb = "recorded"});
   });
 }
 

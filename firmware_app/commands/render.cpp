@@ -7,7 +7,7 @@
 namespace pleinair::app {
 namespace {
 
-/// The painting would overwrite what it is painted from, or itself.
+/// Refuses outputs that would overwrite an input or one another.
 void refuseCollisionsOf(const RenderOptions& options, std::vector<NamedPath> read) {
   read.insert(read.begin(), {"--input", options.input});
   const PaintingOptions& painting = options.painting;
@@ -29,8 +29,8 @@ int render(const RenderOptions& options) {
     return runPainting({.camera = recording.get(),
                         .options = configuredPainting(configuration, options.painting),
                         .scene = std::move(scene),
-                        .doing = "painting",
-                        .done = "painted"});
+                        .progressVerb = "painting",
+                        .summaryVerb = "painted"});
   });
 }
 

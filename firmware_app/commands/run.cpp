@@ -39,7 +39,7 @@ void refuseTwice(std::vector<std::string> targets) {
                                 .remedy = "give each output once"});
 }
 
-/// The painting would overwrite what it is painted from, or itself.
+/// Refuses outputs that would overwrite an input or one another.
 void refuseCollisionsOf(const Configuration& configuration, const scene::Scene& scene) {
   std::vector<NamedPath> read = configuredFiles(configuration, scene);
   const CameraSettings camera = configuration.camera();
@@ -64,7 +64,7 @@ void requireFolder(const std::filesystem::path& folder) {
 }  // namespace
 
 int run(const RunOptions& options) {
-  const Interrupt interrupt;  // from the first moment on, a signal ends it in order
+  const Interrupt interrupt;  // first, so that a signal ends the program in order from here on
   const Configuration configuration(options.configuration);
   return configuration.attributing([&] {
     scene::Scene scene = configuredScene(configuration);

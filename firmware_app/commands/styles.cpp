@@ -13,7 +13,7 @@
 namespace pleinair::app {
 namespace {
 
-/// A heading, and its rows in columns; nothing where there are none.
+/// A heading and its rows in columns; empty without rows.
 std::string section(const std::string& heading, const std::vector<TextRow>& rows) {
   return rows.empty() ? "" : "  " + heading + "\n" + textTable(rows);
 }
@@ -31,15 +31,14 @@ std::string describe(const styles::StyleInfo& info) {
   std::vector<TextRow> views;
   for (const DebugView& view : debugViewsOf(info.name)) views.push_back({view.name, view.help});
   return fmt::format("{}: {}\n", info.name, info.help) + section("looks (--look NAME)", looks) +
-         section("parameters (--set NAME=VALUE), with their default and what is allowed",
-                 parameters) +
-         section("views (--view NAME)", views);
+         section("parameters (--set NAME=VALUE), with defaults and allowed values", parameters) +
+         section("debug views (--view NAME)", views);
 }
 
 }  // namespace
 
 int listStyles() {
-  // Whether it arrived is looked at once, at the program's end.
+  // Write errors are checked once, at the end of the program.
   std::string text;
   for (const styles::StyleInfo& info : styles::styleInfos()) {
     text += (text.empty() ? "" : "\n") + describe(info);

@@ -13,10 +13,10 @@
 
 namespace pleinair::app {
 
-/// The cameras that are devices, of all back ends.
+/// The cameras of all back ends that are devices.
 struct DeviceCameras {
   std::vector<hal::CameraDescription> cameras;
-  std::vector<hal::Error> problems;  ///< of back ends that could not list theirs
+  std::vector<hal::Error> problems;  ///< of back ends that failed to list their cameras
 };
 
 DeviceCameras listDeviceCameras(std::span<const hal::SelectableBackend> backends);
@@ -25,10 +25,10 @@ DeviceCameras listDeviceCameras(std::span<const hal::SelectableBackend> backends
 struct Display {
   std::string name;  ///< "card0-HDMI-A-1"
   bool isConnected = false;
-  std::vector<std::string> modes;  ///< "1920x1080", the preferred one first; of one size once
+  std::vector<std::string> modes;  ///< "1920x1080", the preferred one first, each size once
 };
 
-/// Those in `folder`, which is /sys/class/drm; nothing where there is no such folder.
+/// Lists the connectors in `folder`, which is /sys/class/drm; empty if the folder does not exist.
 std::vector<Display> listDisplays(const std::filesystem::path& folder = "/sys/class/drm");
 
 /// The outputs of a kind that are there, or how files of it are named.
@@ -49,7 +49,8 @@ struct Inventory {
   std::vector<Display> displays;
 };
 
-/// For people: a line a device, its formats below; empty lists say so and what to do.
+/// Text for the terminal: a line per device, its formats below. An empty list says so and gives the
+/// next step.
 std::string asText(const Inventory& inventory);
 
 /// For programs: {"cameras": [{"backend", "id", "name", "serial", "node", "formats": [{"layout",

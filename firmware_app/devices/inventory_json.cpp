@@ -67,7 +67,7 @@ std::string asJson(const Inventory& inventory) {
                       {"problems", arrayOf(inventory.cameras.problems, [](const hal::Error& error) {
                          return error.message();
                        })}};
-  // Labels come from devices, and may hold anything.
+  // Replaces invalid UTF-8, since labels come from devices.
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

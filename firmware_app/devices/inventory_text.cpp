@@ -9,7 +9,7 @@
 namespace pleinair::app {
 namespace {
 
-/// "30", "29.97"
+/// A frame rate: "30", "29.97".
 std::string rateText(hal::Duration period) {
   const double rate = 1e9 / static_cast<double>(period.count());
   const double whole = std::round(rate);
@@ -17,7 +17,7 @@ std::string rateText(hal::Duration period) {
                                         : fmt::format("{:.2f}", rate);
 }
 
-/// "640x480 at 30, 15"
+/// A size with its rates: "640x480 at 30, 15".
 std::string sizeText(const hal::CameraMode& mode) {
   std::string text = fmt::format("{}x{}", mode.size.width, mode.size.height);
   std::vector<std::string> rates;
@@ -28,7 +28,7 @@ std::string sizeText(const hal::CameraMode& mode) {
   return text;
 }
 
-/// The sizes of a layout, in the order in which the device has them.
+/// The sizes of a layout, in the device's order.
 struct LayoutLines {
   std::string layout;
   bool isSupported = true;
@@ -61,7 +61,7 @@ std::string cameraText(const hal::CameraDescription& camera) {
   if (camera.problem) text += problemText(*camera.problem);
   for (const LayoutLines& layout : byLayout(camera.modes)) {
     text += fmt::format("    {:<5} {}{}\n", layout.layout, fmt::join(layout.sizes, "; "),
-                        layout.isSupported ? "" : " (not read)");
+                        layout.isSupported ? "" : " (not supported)");
   }
   if (!camera.problem && camera.modes.empty()) text += "    offers no formats\n";
   return text;
@@ -73,8 +73,8 @@ std::string camerasText(const Inventory& inventory) {
   for (const hal::Error& each : inventory.cameras.problems) text += "  " + each.message() + "\n";
   if (inventory.cameras.cameras.empty() && inventory.cameras.problems.empty()) {
     text +=
-        "  none. Plug one in, or see `pleinair doctor`; without one, --camera synthetic and the\n"
-        "  path of a recording do.\n";
+        "  none. Plug one in, see `pleinair doctor`, or use --camera synthetic or the path of a\n"
+        "  recording.\n";
   }
   return text;
 }
@@ -110,9 +110,9 @@ std::string displaysText(const Inventory& inventory) {
   for (const Display& each : inventory.displays) {
     text += fmt::format("  {}  {}\n", each.name,
                         each.isConnected ? fmt::format("{}", fmt::join(each.modes, " "))
-                                         : std::string("nothing is connected"));
+                                         : std::string("not connected"));
   }
-  if (inventory.displays.empty()) text += "  none that the kernel knows\n";
+  if (inventory.displays.empty()) text += "  the kernel lists none\n";
   return text;
 }
 

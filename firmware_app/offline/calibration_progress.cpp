@@ -17,16 +17,16 @@ using calibration::ViewOutcome;
 using calibration::ViewSelector;
 
 constexpr hal::Duration kRedrawPeriod = std::chrono::milliseconds(250);
-constexpr hal::Duration kTellPeriod = std::chrono::seconds(5);
+constexpr hal::Duration kReportPeriod = std::chrono::seconds(5);
 
 std::string_view outcomeText(ViewOutcome outcome) {
   switch (outcome) {
     case ViewOutcome::kTaken:
       return "taken";
     case ViewOutcome::kNoBoard:
-      return "the board is not seen, or not all of it";
+      return "the board is not completely visible";
     case ViewOutcome::kBlurred:
-      return "blurred: hold it still, give it light";
+      return "blurred: hold it still, or add light";
     case ViewOutcome::kMoving:
       return "moving: hold it still";
     case ViewOutcome::kNothingNew:
@@ -35,8 +35,8 @@ std::string_view outcomeText(ViewOutcome outcome) {
   return "nothing new";
 }
 
-std::string wishText(const ViewSelector& selector) {
-  if (selector.counts().withBoard == 0) return "show the board, all of it";
+std::string nextStepText(const ViewSelector& selector) {
+  if (selector.counts().withBoard == 0) return "show the whole board";
   if (const auto request = selector.coverage().missingViews()) return *request;
   return selector.isComplete() ? "enough" : "show it in a few more ways";
 }
@@ -79,7 +79,7 @@ std::vector<std::string> coveragePanel(const ViewSelector& selector, ViewOutcome
           ? fmt::format("sharpest edges {:.1f} px", selector.sharpestEdgePx())
           : std::string(),
       fmt::format("now:  {}", outcomeText(last)),
-      fmt::format("next: {}", wishText(selector))};
+      fmt::format("next: {}", nextStepText(selector))};
   std::vector<std::string> lines;
   for (int row = 0; row < calibration::kCellRows; ++row) {
     lines.push_back(cellsText(coverage, row) + "  " + beside.at(static_cast<std::size_t>(row)));
@@ -96,7 +96,7 @@ void CalibrationProgress::advance(const ViewSelector& selector, ViewOutcome outc
     if (drawnLines_ > 0 && outcome != ViewOutcome::kTaken && now - told_ < kRedrawPeriod) return;
     draw(coveragePanel(selector, outcome));
   } else {
-    if (now - told_ < kTellPeriod) return;
+    if (now - told_ < kReportPeriod) return;
     tell(selector);
   }
   told_ = now;
@@ -104,7 +104,7 @@ void CalibrationProgress::advance(const ViewSelector& selector, ViewOutcome outc
 
 void CalibrationProgress::interrupt() {
   if (drawnLines_ == 0) return;
-  fmt::print(stderr, "\x1b[{}A\x1b[J", drawnLines_);  // up, and clear from there on
+  fmt::print(stderr, "\x1b[{}A\x1b[J", drawnLines_);  // cursor up, then clear from there on
   std::fflush(stderr);
   drawnLines_ = 0;
 }
@@ -118,7 +118,8 @@ void CalibrationProgress::draw(const std::vector<std::string>& lines) {
 }
 
 void CalibrationProgress::tell(const ViewSelector& selector) {
-  std::string line = fmt::format("{} views; next: {}", selector.views().size(), wishText(selector));
+  std::string line =
+      fmt::format("{} views; next: {}", selector.views().size(), nextStepText(selector));
   if (line == lastLine_) return;
   spdlog::info("{}", line);
   lastLine_ = std::move(line);

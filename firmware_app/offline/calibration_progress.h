@@ -9,19 +9,20 @@
 
 namespace pleinair::app {
 
-/// The cells of the picture with how many views reach each (. none, o one, O more), beside it what
-/// there is and what became of the last picture, below it what to do next. A line each.
+/// The lines of the panel: the cells of the image with the number of views that reach each (. none,
+/// o one, O more), beside them the state and the outcome of the last picture, below them the next
+/// step.
 std::vector<std::string> coveragePanel(const calibration::ViewSelector& selector,
                                        calibration::ViewOutcome last);
 
-/// Says on standard error how far a calibration is: the panel where that is a terminal, else a line
-/// every few seconds where something has changed. One thread.
+/// Shows the progress of a calibration on standard error: the panel on a terminal, else a line
+/// every few seconds after a change. One thread.
 class CalibrationProgress {
  public:
   explicit CalibrationProgress(const hal::Clock& clock);
   /// After each picture.
   void advance(const calibration::ViewSelector& selector, calibration::ViewOutcome outcome);
-  /// Clears the panel, so that something else can be said.
+  /// Clears the panel before other output.
   void interrupt();
 
  private:

@@ -5,10 +5,10 @@
 
 namespace pleinair::app {
 
-/// The engine, as what is measured.
+/// The engine as a MeasuredPainter.
 class MeasuredEngine final : public measure::MeasuredPainter {
  public:
-  /// `painter` outlives it and paints pictures of `size`.
+  /// `painter` must outlive it and paints frames of `size`.
   MeasuredEngine(Painter& painter, PaintParameters parameters, hal::FrameSize size)
       : painter_(painter), parameters_(std::move(parameters)), size_(size) {}
 

@@ -45,10 +45,10 @@ std::optional<File> created(const std::optional<std::filesystem::path>& path) {
   return orThrow(File::create(*path));
 }
 
-/// One run of a job: the camera, the painter and everything that is written.
+/// One run of a job: the camera, the painter and all outputs.
 class Painting {
  public:
-  /// What can be wrong with the job shows before the output starts, which may make a folder.
+  /// Checks the job before it starts the output, which may create a folder.
   explicit Painting(const PaintingJob& job)
       : job_(job),
         stream_(orThrow(job.camera->start(job.request))),
@@ -70,20 +70,20 @@ class Painting {
     warn(blackViewWarning(job.scene, job.options.view));
   }
 
-  /// 0, or the signal that broke it off.
+  /// 0, or 128 + the signal that interrupted it.
   int run() {
     std::string summary;
     {
-      Progress progress(job_.doing, framesToPaint(stream_, job_), realTime_);
+      Progress progress(job_.progressVerb, framesToPaint(stream_, job_), realTime_);
       if (const int signal = paintAll(progress); signal != 0) return signal;
       finish();
-      summary = fmt::format("{} {} {} in {:.1f} s ({:.1f} frames/s): {}\n", job_.done,
+      summary = fmt::format("{} {} {} in {:.1f} s ({:.1f} frames/s): {}\n", job_.summaryVerb,
                             progress.frames(), progress.frames() == 1 ? "frame" : "frames",
                             hal::toSeconds(progress.elapsed()), progress.framesPerSecond(),
                             job_.options.output.string());
     }
     warn(unseenTagsWarning(job_.scene, seenTags_));
-    // Whether it arrived is looked at once, at the program's end.
+    // Write errors are checked once, at the end of the program.
     std::fputs(summary.c_str(), stdout);
     return 0;
   }
@@ -91,7 +91,7 @@ class Painting {
  private:
   hal::FrameSize pictureSize() const { return job_.options.size.value_or(stream_.frame.size); }
 
-  /// As run().
+  /// Returns like run().
   int paintAll(Progress& progress) {
     while (!job_.options.frames || progress.frames() < *job_.options.frames) {
       if (const int signal = Interrupt::received(); signal != 0) return signal;
@@ -103,7 +103,7 @@ class Painting {
     return 0;
   }
 
-  /// Nothing at the end. A recording that broke off gives what it had, with a warning.
+  /// Nothing at the end. A truncated recording gives its frames, with a warning.
   std::optional<hal::CapturedFrame> nextFrame(Progress& progress) {
     std::optional<hal::CapturedFrame> frame;
     constexpr bool kGoesOn = true;
@@ -113,9 +113,10 @@ class Painting {
           frame = std::move(next);
           return kDone;
         },
-        // Never without a deadline.
+        // cannot occur without a deadline
         [](hal::CameraTimeout&) { return kGoesOn; },
-        // Every frame says its format, and the painter fits it into the picture, whose size stays.
+        // Each frame carries its format, and the painter fits it into the output frame, whose size
+        // stays.
         [](hal::FormatChanged&) { return kGoesOn; },
         [&](hal::EndOfStream& end) {
           if (end.truncated) {
@@ -150,14 +151,14 @@ class Painting {
     }
   }
 
-  /// Takes one picture that has been read to the output; false if there is none.
+  /// Passes one frame that has been read back to the output; false if there is none.
   bool write(bool wait) {
     if (!orThrow(painter_.take(reader_, read_, wait))) return false;
     orThrow(output_->write(read_.image.view(), read_.captureTime - *firstTime_));
     return true;
   }
 
-  /// Everything is written before the first thing takes its name.
+  /// Writes all outputs before the first one takes its name.
   void finish() {
     while (write(true)) {
     }
@@ -169,7 +170,7 @@ class Painting {
   }
 
   const PaintingJob& job_;
-  hal::SteadyClock realTime_;  // for the progress
+  hal::SteadyClock realTime_;  // for the progress line
   hal::StreamFormat stream_;
   std::unique_ptr<hal::MemoryOutput> output_;
   Painter painter_;
@@ -186,8 +187,8 @@ class Painting {
 
 void reportInterruption(int signal, const PaintingJob& job) {
   printError(fmt::format(
-      "broken off by {}; {}", signalName(signal),
-      isPictureRow(job.options.output) ? "frames written so far stay" : "nothing was written"));
+      "interrupted by {}; {}", signalName(signal),
+      isFrameSeries(job.options.output) ? "complete frames are kept" : "nothing was written"));
 }
 
 }  // namespace

@@ -14,40 +14,40 @@
 
 namespace pleinair::app {
 
-/// What the user chooses.
+/// The options of one run.
 struct PaintingOptions {
   std::filesystem::path output;
   std::string style = "watercolor";
   std::optional<hal::FrameSize> size;                 ///< default: the camera's
   std::optional<std::uint64_t> frames;                ///< default: all
-  std::string view;                                   ///< empty: the finished picture
-  std::optional<config::ParameterValues> parameters;  ///< of the style; default: its own
+  std::string view;                                   ///< a debug view; empty: the finished image
+  std::optional<config::ParameterValues> parameters;  ///< of the style; default: the style's own
   std::optional<std::filesystem::path> poses;
   std::optional<std::filesystem::path> contactSheet;
   std::filesystem::path shaderDirectory;
 };
 
-/// The style's own parameters, or those of the options, with their view.
+/// The parameters to paint with: those of the options, or the style's own, with the debug view.
 PaintParameters parametersOf(const Painter& painter, const PaintingOptions& options);
 
-/// Every frame of a camera through a Painter to an output: what `render` and `record` have in
-/// common.
+/// Passes every frame of a camera through a Painter to an output: the common part of `render` and
+/// `record`.
 struct PaintingJob {
   hal::Camera* camera = nullptr;  ///< stopped; delivers stepped
   hal::StreamRequest request;     ///< of a device
   PaintingOptions options;
   scene::Scene scene;
-  std::string doing;  ///< for the progress: "painting"
-  std::string done;   ///< for the summary: "painted"
+  std::string progressVerb;  ///< verb of the progress line: "painting"
+  std::string summaryVerb;   ///< verb of the summary: "painted"
 };
 
 /// Runs the job with progress, and a summary on standard output. Throws hal::Failure and
-/// config::ConfigError. Returns the exit status: 0, or 128 + the signal that broke it off, with a
+/// config::ConfigError. Returns the exit status: 0, or 128 + the signal that interrupted it, with a
 /// line on standard error.
 ///
-/// A movie, a single picture, poses and a contact sheet stand under their names once all of them
-/// are whole, and not at all after a failure or a signal. A folder or a pattern keeps the whole
-/// frames that were written so far. Nothing partial stands under any name.
+/// A movie, a single picture, poses and a contact sheet take their names once all of them are
+/// complete, and never after a failure or a signal. A folder or a pattern keeps the complete frames
+/// written so far. No partial file ever has a final name.
 int runPainting(const PaintingJob& job);
 
 }  // namespace pleinair::app

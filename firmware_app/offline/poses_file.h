@@ -11,20 +11,21 @@
 
 namespace pleinair::app {
 
-/// What was tracked, as one JSON object a line and frame:
+/// The tracking results, one JSON object per line and frame:
 ///   frame           counted from 0
 ///   time_s          since the first frame
 ///   cameraFromWorld 16 numbers by rows; absent without a world or when lost
-///   worldSource     "carried" where no tag tells it in this frame, but features of the picture do
-///   tags            by rising id: id; corners, 4 × [x, y] px of the captured frame, pixel centres
-///   at
-///                   +0.5, AprilTag's order; cameraFromTag (AprilTag's tag frame), where the tag's
-///                   size and the camera are known; source: "carried" where it is not seen
-///   rejected        what was read and not used, by reason, where anything was: faint, duplicate,
-///                   unknown, mirrored, small, degenerate; ambiguous and contradicting are used
+///   worldSource     "carried" if no tag gave the pose in this frame, but image features did
+///   tags            in rising order of id: id; corners, 4 × [x, y] px of the captured frame, pixel
+///                   centres at +0.5, AprilTag's order; cameraFromTag (AprilTag's tag frame), if
+///                   the tag's size and the camera are known; source: "carried" if the tag was not
+///                   detected in this frame
+///   rejected        counts of unused detections, by reason: faint, duplicate, unknown, mirrored,
+///                   small, degenerate; and of used ones that are ambiguous or contradicting.
+///                   Absent without any
 class PosesFile {
  public:
-  /// Errors as PendingFile::create. Nothing stands under the name until publish().
+  /// Creates the file, which takes its name in publish(). Errors as PendingFile::create.
   static hal::Result<PosesFile> create(const std::filesystem::path& path);
 
   hal::Result<void> write(std::uint64_t frame, hal::Duration time,

@@ -10,15 +10,15 @@
 
 namespace pleinair::app {
 
-/// That poses come from an assumed lens, for a scene with tags and without a camera.
+/// Warns that poses come from an assumed lens, for a scene with tags and without a camera.
 std::optional<std::string> assumedCameraWarning(const scene::Scene& scene, hal::FrameSize frame);
 
-/// Which of the scene's tags no frame showed, of those that carry a model, or of all where none was
-/// seen: most likely a wrong id or family. `seen` are the ids of all tags that were found.
+/// Warns about the scene's tags with a model that no frame showed, or about all tags if none was
+/// seen: most likely their id or family is wrong. `seen` holds the ids of all detected tags.
 std::optional<std::string> unseenTagsWarning(const scene::Scene& scene, const std::set<int>& seen);
 
-/// That a view of the models (scene::bufferViews()) is black, where the scene has neither models
-/// nor planes.
+/// Warns that a debug view of the models (scene::bufferViews()) is black, for a scene without
+/// models and planes.
 std::optional<std::string> blackViewWarning(const scene::Scene& scene, std::string_view view);
 
 }  // namespace pleinair::app

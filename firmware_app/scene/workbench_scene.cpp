@@ -13,7 +13,7 @@
 namespace pleinair::app {
 namespace {
 
-/// A machine on the tag that lies free on the bench, and a gear on what else lies flat.
+/// A machine on the tag with free space on the bench, and gears on other flat tags.
 constexpr const char* kModels = R"(
 [[model]]
 name = "gearbox"
@@ -32,7 +32,7 @@ thickness_m = 0.03
 colour = "#3f8fb5"
 )";
 
-/// Turns about the fixed axes x, then y, then z, as scene files have them.
+/// Rotation angles about the fixed axes x, then y, then z, as in scene files.
 glm::dvec3 rotationDegrees(const glm::dmat4& pose) {
   const double cosY = std::hypot(pose[0][0], pose[0][1]);
   glm::dvec3 radians(0.0, std::atan2(-pose[0][2], cosY), 0.0);
@@ -40,7 +40,7 @@ glm::dvec3 rotationDegrees(const glm::dmat4& pose) {
     radians.x = std::atan2(pose[1][2], pose[2][2]);
     radians.z = std::atan2(pose[0][1], pose[0][0]);
   } else {
-    // The axes of x and z have come to lie in one line: all of their turn is given to x.
+    // Gimbal lock: the axes of x and z coincide, and x takes the whole rotation.
     radians.x = std::atan2(-pose[2][1], pose[1][1]);
   }
   return glm::degrees(radians);

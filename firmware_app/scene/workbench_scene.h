@@ -9,11 +9,11 @@
 
 namespace pleinair::app {
 
-/// A scene file for recordings of the synthetic camera: its intrinsics, the tags of its workbench,
-/// and models on some of them, so that there is something to paint.
+/// The scene file for recordings of the synthetic camera: its intrinsics, the tags of its
+/// workbench, and models on some of them.
 std::string workbenchScene(const hal::GroundTruth& truth, hal::FrameSize size);
 
-/// Writes it. Errors as hal::PendingFile.
+/// Writes workbenchScene() to `path`. Errors as hal::PendingFile.
 hal::Result<void> writeWorkbenchScene(const std::filesystem::path& path,
                                       const hal::GroundTruth& truth, hal::FrameSize size);
 

@@ -43,7 +43,7 @@ LogCapture::~LogCapture() {
   LogRouter::current = outer_;
 }
 
-void routeLog() {
+void redirectLog() {
   static std::once_flag once;
   std::call_once(once, [] { av_log_set_callback(&LogRouter::take); });
 }

@@ -13,7 +13,7 @@ Error libavError(std::string subject, std::string problem, int code,
 
 /// Redirects libav's log for the whole process; call before any other use of libav. Its error lines
 /// go to the LogCapture of the calling thread, if there is one; all other lines are dropped.
-void routeLog();
+void redirectLog();
 
 /// Captures the first line that libav logs as an error on this thread while this object lives. If
 /// captures are nested on a thread, the inner one receives the lines.

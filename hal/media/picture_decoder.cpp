@@ -39,7 +39,7 @@ Error broken(const std::string& subject, std::string problem) {
   return Error{.kind = ErrorKind::kInvalidInput,
                .subject = subject,
                .problem = std::move(problem),
-               .remedy = "give a whole PNG or JPEG picture"};
+               .remedy = "give a complete PNG or JPEG picture"};
 }
 
 Result<Packet> readWhole(const FileInput& file, const std::string& subject) {
@@ -53,20 +53,20 @@ Result<Packet> readWhole(const FileInput& file, const std::string& subject) {
   if (got < 0) {
     return tl::unexpected(errnoError(subject, "cannot read", static_cast<int>(-got)));
   }
-  if (got != size) return tl::unexpected(broken(subject, "became shorter while it was read"));
+  if (got != size) return tl::unexpected(broken(subject, "was truncated while it was read"));
   return packet;
 }
 
 Result<PictureKind> checkHeader(std::span<const std::uint8_t> bytes, const std::string& subject) {
   const std::optional<PictureKind> kind = pictureKindOf(bytes);
-  if (!kind) return tl::unexpected(broken(subject, "is not a picture of a kind that is read"));
+  if (!kind) return tl::unexpected(broken(subject, "is not in a supported picture format"));
   if (const std::optional<FrameSize> size = peekPictureSize(*kind, bytes)) {
     if (size->width < 1 || size->height < 1) {
       return tl::unexpected(broken(subject, "is a broken picture: its size is zero"));
     }
     if (!isAcceptedSize(*size)) return tl::unexpected(tooLarge(subject, *size));
   }
-  if (const auto flaw = flawOf(*kind, bytes)) {
+  if (const auto flaw = defectOf(*kind, bytes)) {
     return tl::unexpected(broken(subject, "is a broken picture: it " + std::string(*flaw)));
   }
   return *kind;
@@ -83,7 +83,7 @@ CodecContext openDecoder(AVCodecID id) {
 }
 
 Result<std::shared_ptr<const AVFrame>> decode(const AVPacket& packet, const std::string& subject) {
-  routeLog();
+  redirectLog();
   const std::span<const std::uint8_t> bytes(packet.data, static_cast<std::size_t>(packet.size));
   const Result<PictureKind> kind = checkHeader(bytes, subject);
   if (!kind) return tl::unexpected(kind.error());
@@ -106,7 +106,8 @@ Result<std::shared_ptr<const AVFrame>> decode(const AVPacket& packet, const std:
   }
   if (status < 0) {
     return tl::unexpected(libavError(subject, "is a broken picture", status,
-                                     ErrorKind::kInvalidInput, "give a whole PNG or JPEG picture"));
+                                     ErrorKind::kInvalidInput,
+                                     "give a complete PNG or JPEG picture"));
   }
   const FrameSize size{frame->width, frame->height};
   if (!isAcceptedSize(size)) return tl::unexpected(tooLarge(subject, size));

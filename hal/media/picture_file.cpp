@@ -40,7 +40,7 @@ Result<Image> decodeRgba(std::span<const std::uint8_t> bytes, const std::string&
   return Image(picture->view);
 }
 
-Result<DeepPicture> readDeepRgb(const std::filesystem::path& path) {
+Result<Rgb16Image> readRgb16(const std::filesystem::path& path) {
   const Result<std::shared_ptr<const AVFrame>> decoded = libav::decodePicture(path);
   if (!decoded) return tl::unexpected(decoded.error());
   const AVFrame& frame = **decoded;
@@ -51,7 +51,7 @@ Result<DeepPicture> readDeepRgb(const std::filesystem::path& path) {
                                 .problem = "is no picture of 16-bit RGB",
                                 .remedy = "give a PNG of 16 bits a channel, without alpha"});
   }
-  DeepPicture picture{.size = {frame.width, frame.height}, .rgb = {}};
+  Rgb16Image picture{.size = {frame.width, frame.height}, .rgb = {}};
   const std::size_t rowSamples = 3 * static_cast<std::size_t>(frame.width);
   picture.rgb.reserve(rowSamples * static_cast<std::size_t>(frame.height));
   for (int y = 0; y < frame.height; ++y) {

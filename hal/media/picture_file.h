@@ -25,14 +25,14 @@ Result<Image> readPictureRgb(const std::filesystem::path& path);
 Result<Image> decodeRgba(std::span<const std::uint8_t> bytes, const std::string& subject);
 
 /// An image of 16-bit RGB, rows packed from the top.
-struct DeepPicture {
+struct Rgb16Image {
   FrameSize size;
   std::vector<std::uint16_t> rgb;
 };
 
 /// Reads a PNG file of 16-bit RGB at full depth: the format of measurements such as KITTI's flow.
 /// Errors: as readPicture(), and kInvalidInput (another depth, or no colour).
-Result<DeepPicture> readDeepRgb(const std::filesystem::path& path);
+Result<Rgb16Image> readRgb16(const std::filesystem::path& path);
 
 /// Encodes RGB8, RGBA8 or grey as a PNG file in memory. Errors: kUnsupported (format).
 Result<std::vector<std::uint8_t>> encodePng(const ImageView& picture);

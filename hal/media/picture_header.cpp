@@ -174,11 +174,11 @@ std::optional<FrameSize> peekPictureSize(PictureKind kind, Bytes bytes) {
   return std::nullopt;
 }
 
-std::optional<std::string_view> flawOf(PictureKind kind, Bytes bytes) {
+std::optional<std::string_view> defectOf(PictureKind kind, Bytes bytes) {
   const bool hasEnd = kind == PictureKind::kJpeg  ? jpegHasEnd(bytes)
                       : kind == PictureKind::kPng ? pngHasChunk(bytes, "IEND")
                                                   : true;
-  if (!hasEnd) return "breaks off before its end";
+  if (!hasEnd) return "is truncated";
   constexpr std::size_t kColorTypeAt = 25;
   constexpr std::uint8_t kPaletteColor = 3;
   const bool needsPalette = kind == PictureKind::kPng && bytes.size() > kColorTypeAt &&

@@ -21,6 +21,6 @@ std::optional<FrameSize> peekPictureSize(PictureKind kind, std::span<const std::
 /// A defect of a picture file in memory that libav would hide: it fills the missing part of a JPEG
 /// with grey, and shows a palette picture without its palette. For example "breaks off before its
 /// end". Nothing if no such defect is found.
-std::optional<std::string_view> flawOf(PictureKind kind, std::span<const std::uint8_t> bytes);
+std::optional<std::string_view> defectOf(PictureKind kind, std::span<const std::uint8_t> bytes);
 
 }  // namespace pleinair::hal::libav

@@ -33,7 +33,7 @@ PngEncoder::PngEncoder(CodecContext codec, FrameFormat format)
     : codec_(std::move(codec)), format_(format), packet_(makePacket()) {}
 
 Result<PngEncoder> PngEncoder::open(FrameFormat format) {
-  routeLog();
+  redirectLog();
   const AVPixelFormat layout = layoutOf(format.pixelFormat);
   if (layout == AV_PIX_FMT_NONE) {
     return tl::unexpected(unsupported("cannot hold " + std::string(toString(format.pixelFormat))));

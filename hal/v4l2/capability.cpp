@@ -40,7 +40,7 @@ Result<Capability> queryCapability(SystemCalls& calls, int fd, const std::string
                                   .domain = ErrorDomain::kErrno,
                                   .code = ENOTTY});
     }
-    return tl::unexpected(errnoError(subject, "cannot ask for its capabilities", -result));
+    return tl::unexpected(errnoError(subject, "cannot query its capabilities", -result));
   }
   const bool perNode = (answer.capabilities & V4L2_CAP_DEVICE_CAPS) != 0;
   return Capability{.driver = textOf(answer.driver),

@@ -54,9 +54,9 @@ Late runLive(hal::FrameSize size, const std::string& style, hal::Duration latenc
   runtime::LivePipeline chain(supervisor, clock);
   runtime::LiveThreads threads(chain);
   while (!chain.capture().status().format) std::this_thread::sleep_for(1ms);
-  std::vector<support::NotingOutput::Note> notes;
+  std::vector<support::CapturingOutput::Note> notes;
   notes.reserve(10'000);
-  auto output = std::make_unique<support::NotingOutput>(notes, clock);
+  auto output = std::make_unique<support::CapturingOutput>(notes, clock);
   const auto format = *output->start({.size = size, .framePeriod = {}});
   chain.addOutput(std::move(output), format, {.name = "paced", .waiting = 16});
   app::LiveControls controls({.style = styles::styleInfo(style).defaults, .view = {}});

@@ -5,7 +5,7 @@
 
 namespace pleinair::fuzz {
 
-/// Runs `task`; a configuration error is an answer, of one line, and anything else a finding.
+/// Runs `task`. A configuration error must be one line; any other exception is a finding.
 template <class Task>
 void expectConfigErrors(Task task) {
   try {

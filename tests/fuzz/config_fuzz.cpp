@@ -1,6 +1,6 @@
-// The whole way of a configuration: a site file, and after the first zero byte, each ended by one,
-// variables of the environment (PLEINAIR_…) and settings (--set). What resolves is printed, and
-// what is printed resolves to the same.
+// Resolves a whole configuration. The input is a site file; after its first zero byte come
+// environment variables (PLEINAIR_…) and settings (--set), each ended by a zero byte. The resolved
+// configuration is printed, and the printed one must resolve to the same.
 #include <string>
 #include <string_view>
 
@@ -12,7 +12,7 @@ namespace {
 
 using namespace pleinair;
 
-/// Another than the one that a machine may have.
+/// Keeps the site file of the machine out.
 constexpr const char* kNoSiteFile = "/nonexistent/site.toml";
 
 fuzz::MemoryFile fileOf(std::string_view text) {

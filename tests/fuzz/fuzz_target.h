@@ -14,8 +14,8 @@
 
 #include "hal/image.h"
 
-/// What each target defines: one input, read to its end. Returns 0; −1 keeps libFuzzer from
-/// learning from it. Whatever else than a clear error comes out of it is a finding.
+/// Each target defines this function, which reads one input to its end. Returns 0, or −1 to keep
+/// the input out of libFuzzer's corpus. Any result but success or a clear error is a finding.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace pleinair::fuzz {
@@ -24,13 +24,13 @@ inline std::string_view asText(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// Ends the process as a sanitizer does, so that the input is kept.
+/// Ends the process as a sanitizer does, so that libFuzzer saves the input.
 [[noreturn]] inline void fail(const std::string& why) {
   std::fprintf(stderr, "finding: %s\n", why.c_str());
   std::abort();
 }
 
-/// Whatever the input, an error is one line that does not steer a terminal.
+/// An error must be one line without control characters, whatever the input.
 inline void expectOneLine(std::string_view message) {
   const bool isClean = std::ranges::none_of(message, [](char c) {
     const auto byte = static_cast<unsigned char>(c);
@@ -39,7 +39,7 @@ inline void expectOneLine(std::string_view message) {
   if (!isClean || message.empty()) fail("not one printable line: " + std::string(message));
 }
 
-/// Reads every byte that a picture claims to have; the address sanitizer judges.
+/// Reads every byte of an image, for the address sanitizer to check.
 inline std::uint32_t touch(const hal::ImageView& picture) {
   if (!picture.isComplete()) fail("an incomplete picture");
   std::uint32_t sum = 0;
@@ -52,7 +52,7 @@ inline std::uint32_t touch(const hal::ImageView& picture) {
   return sum;
 }
 
-/// A file in memory with the bytes of one input, for what reads files.
+/// A file in memory with the input's bytes, for code that reads files.
 class MemoryFile {
  public:
   MemoryFile(const std::uint8_t* data, std::size_t size) : fd_(memfd_create("input", MFD_CLOEXEC)) {

@@ -1,7 +1,7 @@
-// Bytes as a glTF model: container, JSON, nodes, accessors, textures, skins, morph targets; and
-// what it makes of them, posed at moments of its clips. Nothing touches the disk. Input is a .glb
-// or a .gltf; where it is text, also as a .glb of its own making, so that a mutation need not keep
-// chunk lengths right: JSON up to the first NUL, and BIN after it.
+// Parses bytes as a glTF model (container, JSON, nodes, accessors, textures, skins, morph targets)
+// and poses the model at several times of its clips. Touches no file. The input is a .glb or a
+// .gltf. Text is also wrapped into a .glb, so that a mutation need not keep chunk lengths right:
+// JSON up to the first NUL, BIN after it.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -72,7 +72,7 @@ void requireSound(const scene::Model& model) {
   require(std::isfinite(boundingSphere(model).radiusMetres), "no bounds");
 }
 
-/// A few vertices of each surface, where the pose has them, and within its sphere.
+/// Checks that a few vertices of each surface are where the pose puts them, and within its sphere.
 void requireSound(const scene::Model& model, const scene::ModelPose& pose) {
   const scene::BoundingSphere sphere = scene::boundingSphere(model, pose);
   require(std::isfinite(sphere.radiusMetres), "no bounds of a pose");

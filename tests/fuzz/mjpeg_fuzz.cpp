@@ -1,4 +1,4 @@
-// Bytes as a camera's JPEG: decoder, and chroma of any density to 4:2:0.
+// Decodes bytes as a camera's JPEG, and converts chroma of any density to 4:2:0.
 #include <optional>
 #include <span>
 
@@ -10,7 +10,7 @@ namespace {
 
 using namespace pleinair;
 
-/// Larger ones within the limits are sound and slow, and teach nothing new.
+/// Larger images within the limits are valid and slow, and find nothing new.
 constexpr std::int64_t kMostPixels = 1'000'000;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Text as a motion.json, and what it says asked for over frames.
+// Parses text as a motion.json, and queries its motion over several frames.
 #include "pipeline/measure/input/motion_file.h"
 #include "tests/fuzz/fuzz_target.h"
 

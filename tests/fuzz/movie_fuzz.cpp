@@ -1,4 +1,4 @@
-// Bytes as a recording: probing, demuxing, decoding, the timeline, and how it ends.
+// Reads bytes as a recording: probing, demuxing, decoding, the timeline, and the end.
 #include <variant>
 
 #include "hal/cameras/recording/recording.h"
@@ -14,7 +14,7 @@ struct Reader {
   hal::TimePoint last{hal::Duration(-1)};
   std::optional<std::uint64_t> sequence;
 
-  /// Each answers whether to go on.
+  /// Each returns whether to go on.
   bool operator()(const hal::CapturedFrame& frame) {
     fuzz::touch(frame.image);
     if (frame.captureTime <= last) fuzz::fail("time does not rise");

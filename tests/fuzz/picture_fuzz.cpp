@@ -1,4 +1,4 @@
-// Bytes as a picture file: signature, header, decoder, conversion, orientation.
+// Reads bytes as a picture file: signature, header, decoder, conversion, orientation.
 #include <optional>
 #include <span>
 
@@ -10,7 +10,7 @@ namespace {
 
 using namespace pleinair;
 
-/// Larger ones within the limits are sound and slow, and teach nothing new.
+/// Larger images within the limits are valid and slow, and find nothing new.
 constexpr std::int64_t kMostPixels = 1'000'000;
 
 bool isSlow(std::span<const std::uint8_t> bytes) {
@@ -42,7 +42,7 @@ std::uint32_t crc32(std::span<const std::uint8_t> bytes) {
   return ~crc;
 }
 
-/// Gives every whole chunk of a PNG its right checksum.
+/// Corrects the checksum of every complete chunk of a PNG.
 void mendPng(std::span<std::uint8_t> bytes) {
   constexpr std::size_t kSignature = 8;
   constexpr std::size_t kOverhead = 12;  // length, type, checksum
@@ -64,8 +64,8 @@ extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, st
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
                                                std::size_t most, unsigned seed);
 
-/// libFuzzer's own, and in three cases of four checksums that match, or else no PNG would get past
-/// its header.
+/// libFuzzer's own mutation. In three of four cases the checksums are corrected, or no PNG would
+/// get past its header.
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
                                                std::size_t most, unsigned seed) {
   const std::size_t mutated = LLVMFuzzerMutate(data, size, most);

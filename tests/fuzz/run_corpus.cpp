@@ -1,5 +1,5 @@
-// Feeds the kept inputs of a fuzz target to it once, in an ordinary build: what was found and
-// fixed stays fixed. `run FOLDER`
+// Runs a fuzz target once on its saved inputs, in an ordinary build: a regression test of past
+// findings. `run FOLDER`
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -18,7 +18,7 @@ int main(int count, char** arguments) {
   }
   std::ranges::sort(files);
   for (const std::filesystem::path& path : files) {
-    std::printf("%s\n", path.filename().c_str());  // the last one is the culprit
+    std::printf("%s\n", path.filename().c_str());  // the last name printed is the failing input
     std::fflush(stdout);
     std::ifstream file(path, std::ios::binary);
     const std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};

@@ -1,4 +1,5 @@
-// Text as a scene file and as a calibration, and what is computed from them before the first frame.
+// Parses text as a scene file and as a calibration, and runs the computations before the first
+// frame.
 #include "config/toml_reader.h"
 #include "pipeline/scene/description/scene_file.h"
 #include "pipeline/tracking/camera/calibration_file.h"
@@ -8,10 +9,10 @@ namespace {
 
 using namespace pleinair;
 
-/// Nothing is there, so that no file is opened beside the scene.
+/// A missing folder, so that no file is opened beside the scene.
 constexpr const char* kFolder = "/nonexistent";
 
-/// Rays through the corners and the middle, and back to where they came from.
+/// Maps the corners and the middle to rays, and back.
 void look(const tracking::CameraModel& camera) {
   const glm::dvec2 size(camera.imageSize().width, camera.imageSize().height);
   for (const glm::dvec2 at : {glm::dvec2(0.0), glm::dvec2(0.5), glm::dvec2(1.0)}) {

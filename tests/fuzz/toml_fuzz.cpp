@@ -1,4 +1,4 @@
-// Text as TOML, every key of it asked for as every type.
+// Parses text as TOML, and reads every key as every type.
 #include "config/toml_reader.h"
 #include "tests/fuzz/config_errors.h"
 
@@ -31,7 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     walk(document.root());
     document.root().finish();
   });
-  // Nothing asked for: every key is unknown.
+  // Without any known key: every key is an error.
   fuzz::expectConfigErrors([&] {
     const auto document = config::TomlDocument::parseText(fuzz::asText(data, size), "in.toml");
     document.root().finish();

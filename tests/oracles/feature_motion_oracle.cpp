@@ -19,7 +19,7 @@ Complex complexOf(glm::dvec2 v) {
   return {v.x, v.y};
 }
 
-/// Of the corners as columns (x, y, 1): times barycentrics it is the point (eq. 13).
+/// The corners as columns (x, y, 1), which map barycentrics to the point (eq. 13).
 glm::dmat3 cornersOf(const FeatureTriangle& triangle, glm::dvec2 FeatureStep::*place) {
   return {glm::dvec3(triangle[0].*place, 1.0), glm::dvec3(triangle[1].*place, 1.0),
           glm::dvec3(triangle[2].*place, 1.0)};

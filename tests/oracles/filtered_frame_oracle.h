@@ -11,14 +11,14 @@
 
 namespace pleinair::oracles {
 
-/// marks::FilteredFrame on the CPU, as plainly as it can be said, for a camera's picture without
-/// objects. Row by row: sRGB-coded colour, frames' worth of it in A.
+/// A plain CPU version of marks::FilteredFrame, for a camera image without objects. Row by row:
+/// sRGB-coded colour, the number of frames in A.
 struct FilteredFrameOracle {
-  /// displacement (px), predicted error (px); a negative error: nothing is known.
+  /// displacement (px), predicted error (px); a negative error: unknown.
   using Flow = std::function<glm::dvec3(glm::ivec2 block)>;
 
-  /// The next frame. `kept`: the part of the past's weight that is left; 0: none. `noise`: σ.
-  /// Blocks of 4×4 px move as one.
+  /// Adds the next frame. `kept`: the remaining part of the past's weight; 0: no past. `noise`: σ.
+  /// Blocks of 4×4 px have one displacement.
   void take(const hal::ImageView& frame, const Flow& flow, double kept, double noise);
 
   hal::FrameSize size;

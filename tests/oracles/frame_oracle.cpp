@@ -29,7 +29,7 @@ double byteAt(const ImageView& image, int plane, int column, int row) {
   return image.row(plane, row)[static_cast<std::size_t>(column)];
 }
 
-/// From quantised bytes (which need not be whole).
+/// From quantised bytes, which may be fractional.
 glm::dvec3 rgbFromBytes(double luma, double cb, double cr, hal::ColorEncoding encoding) {
   const bool limited = encoding.range == ColorRange::kLimited;
   const double y = limited ? (luma - 16.0) / 219.0 : luma / 255.0;
@@ -52,12 +52,12 @@ glm::dvec3 bytesFromRgb(glm::dvec3 rgb, hal::ColorEncoding encoding) {
   return {16.0 + 219.0 * y, 128.0 + 224.0 * pb, 128.0 + 224.0 * pr};
 }
 
-/// Where chroma column i sits, in luma columns: 2i or 2i + ½.
+/// The position of chroma column i, in luma columns: 2i or 2i + ½.
 double sitedAt(hal::ColorEncoding encoding) {
   return encoding.range == ColorRange::kLimited ? 0.0 : 0.5;
 }
 
-/// Linear between two samples of a line of `count`, ends repeated.
+/// Linear interpolation between two samples of a line of `count`, with repeated ends.
 struct Between {
   int first;
   int second;
@@ -127,7 +127,7 @@ double filtered(const ImageView& image, const Kernel& kernel, int x, int y) {
   return sum / 8.0;
 }
 
-/// 'R', 'G' or 'B' at a pixel, from the pattern's four letters.
+/// The colour, 'R', 'G' or 'B', of a pixel in the pattern's four letters.
 char bayerColour(PixelFormat format, int x, int y) {
   const char* letters = format == PixelFormat::kBayerRggb8   ? "RGGB"
                         : format == PixelFormat::kBayerGrbg8 ? "GRBG"
@@ -181,7 +181,7 @@ glm::dvec3 rgbPixel(const ImageView& image, int x, int y) {
          255.0;
 }
 
-/// Scale and origin that fill `size` with as much of `source` as fits.
+/// Aspect fill: the scale and origin that fill `size` with as much of `source` as fits.
 struct Cover {
   double scale;
   glm::dvec2 origin;
@@ -267,7 +267,7 @@ Picture resampledByArea(const Picture& picture, hal::FrameSize size) {
 
 namespace {
 
-/// The colour that a chroma sample stands for: of the pixels around its site.
+/// The colour of a chroma sample: the mean of the pixels around its site.
 glm::dvec3 chromaColour(const Picture& picture, int x, int y, hal::FrameFormat format) {
   const auto row = [&](int at) {
     if (format.encoding.range == ColorRange::kFull) {

@@ -16,7 +16,7 @@ namespace pleinair::oracles {
 namespace {
 
 using nlohmann::json;
-using Matrix = std::array<double, 16>;  // by columns
+using Matrix = std::array<double, 16>;  // column-major
 using Numbers = std::vector<double>;
 
 constexpr Matrix kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -76,7 +76,7 @@ Numbers normalised(Numbers q) {
   return q;
 }
 
-/// Appendix C.4.
+/// Spherical interpolation, as in appendix C.4.
 Numbers slerp(const Numbers& from, const Numbers& to, double t) {
   double dot = 0.0;
   for (std::size_t i = 0; i < 4; ++i) dot += from[i] * to[i];
@@ -111,7 +111,7 @@ struct GltfOracle::File {
     }
   }
 
-  /// All elements, one after another (section 3.6.2), without sparse ones.
+  /// All elements of an accessor in sequence (section 3.6.2); sparse ones are not supported.
   Numbers numbers(const json& index) const {
     const json& accessor = root["accessors"][index.get<std::size_t>()];
     if (accessor.contains("sparse")) throw std::runtime_error("the oracle knows no sparse ones");
@@ -156,7 +156,7 @@ struct GltfOracle::File {
     }
   }
 
-  /// What an animation says about a node's property; nothing where it says nothing.
+  /// The value of a node's property in an animation, if the animation has a channel for it.
   std::optional<Numbers> animated(std::optional<std::size_t> animation, double seconds,
                                   std::size_t node, const std::string& path) const {
     if (!animation) return std::nullopt;
@@ -216,7 +216,7 @@ struct GltfOracle::File {
   }
 
   Matrix global(std::size_t index, std::optional<std::size_t> animation, double seconds) const {
-    if (knownAt_ != std::pair(animation, seconds)) known_.clear();  // only to save time
+    if (knownAt_ != std::pair(animation, seconds)) known_.clear();  // only for speed
     knownAt_ = {animation, seconds};
     if (const auto known = known_.find(index); known != known_.end()) return known->second;
     Matrix result = local(index, animation, seconds);
@@ -234,7 +234,7 @@ struct GltfOracle::File {
     return root["meshes"][root["nodes"][node]["mesh"].get<std::size_t>()]["primitives"][index];
   }
 
-  /// Positions with their morph targets (section 3.7.2.2).
+  /// Positions with morph targets applied (section 3.7.2.2).
   Numbers positions(std::size_t node, std::size_t index, std::optional<std::size_t> animation,
                     double seconds) const {
     const json& shape = primitive(node, index);
@@ -255,7 +255,7 @@ struct GltfOracle::File {
     return result;
   }
 
-  /// What takes each vertex to the root's frame.
+  /// The matrix that maps each vertex to the root's frame.
   std::vector<Matrix> placements(std::size_t node, const json& attributes, std::size_t vertices,
                                  std::optional<std::size_t> animation, double seconds) const {
     if (!root["nodes"][node].contains("skin")) {

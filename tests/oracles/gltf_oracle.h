@@ -10,9 +10,9 @@
 
 namespace pleinair::oracles {
 
-/// A .glb's animations and skins as glTF 2.0 says them (sections 3.7.3, 3.11, appendix C), straight
-/// from its JSON and numbers, with matrices of 16 numbers: nothing of ours is used. For sound files
-/// with one buffer, for .glb as Blender and the sample models have it.
+/// An independent reading of a .glb's animations and skins by glTF 2.0 (sections 3.7.3, 3.11,
+/// appendix C), from its JSON and numbers; it shares no code with the product. For valid .glb files
+/// with one buffer, as Blender and the sample models have them.
 class GltfOracle {
  public:
   using Point = std::array<double, 3>;
@@ -26,17 +26,17 @@ class GltfOracle {
   std::size_t animations() const;
   double lastKey(std::size_t animation) const;
 
-  /// Nodes that show a mesh, in the file's order of nodes.
+  /// The nodes with a mesh, in the file's order.
   std::vector<std::size_t> shownNodes() const;
-  /// Its own, or else its mesh's.
+  /// The node's own name, else its mesh's.
   std::string nodeName(std::size_t node) const;
   std::size_t primitives(std::size_t node) const;
 
-  /// The corners of a primitive's triangles (three each, of mode TRIANGLES) where the node shows
-  /// them, in glTF's own axes; at rest without an animation.
+  /// The corners of a primitive's triangles (three each, of mode TRIANGLES) at a node, in glTF's
+  /// own axes; at rest without an animation.
   std::vector<Point> corners(std::size_t node, std::size_t primitive,
                              std::optional<std::size_t> animation, double seconds) const;
-  /// Where the node's origin is.
+  /// The position of the node's origin.
   Point origin(std::size_t node, std::optional<std::size_t> animation, double seconds) const;
 
  private:

@@ -39,7 +39,7 @@ class Picture {
 
   void draw(const std::array<Corner, 3>& c, std::uint32_t id) {
     const double area = cross(c[1].px - c[0].px, c[2].px - c[0].px);
-    if (area >= 0.0) return;  // image rows go down: what faces the camera runs with the clock
+    if (area >= 0.0) return;  // image rows go down: front faces run clockwise
     glm::dvec2 low = glm::min(c[0].px, glm::min(c[1].px, c[2].px)) - 1.0;
     glm::dvec2 high = glm::max(c[0].px, glm::max(c[1].px, c[2].px)) + 1.0;
     low = glm::max(low, glm::dvec2(0.0));
@@ -57,7 +57,7 @@ class Picture {
         pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.width) +
                 static_cast<std::size_t>(x)];
     const glm::dvec2 p(x + 0.5, y + 0.5);
-    std::array<double, 3> overDepth{};  // barycentric weights over each corner's depth
+    std::array<double, 3> overDepth{};  // barycentric weights divided by each corner's depth
     bool isInside = true;
     for (std::size_t i = 0; i < 3; ++i) {
       const Corner& a = c[(i + 1) % 3];

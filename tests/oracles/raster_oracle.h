@@ -14,26 +14,26 @@
 
 namespace pleinair::oracles {
 
-/// A mesh and where it is: a rotation, a uniform scale and a translation.
+/// A mesh and its pose: a rotation, a uniform scale and a translation.
 struct PlacedMesh {
   const scene::Mesh* mesh = nullptr;
   glm::dmat4 cameraFromModel{1.0};
 };
 
-/// What a pixel's centre shows.
+/// The content of a pixel's centre.
 struct RasterPixel {
-  std::uint32_t id = 0;          ///< as scene::ArFrame::ids
+  std::uint32_t id = 0;          ///< as in scene::ArFrame::ids
   double depthMetres = 0.0;      ///< along the camera's axis
-  glm::dvec3 cameraNormal{0.0};  ///< unit, interpolated; zero where no model is
+  glm::dvec3 cameraNormal{0.0};  ///< unit vector, interpolated; zero without a model
   glm::dvec2 texture{0.0};       ///< the vertices' attributes, interpolated
   glm::dvec4 colour{0.0};
-  /// An edge of a triangle that faces the camera is this near, in pixels; large where none is.
+  /// Distance of the nearest edge of a front-facing triangle, in pixels; large if there is none.
   double edgeDistancePx = 1e9;
 };
 
-/// Every pixel centre against every triangle that faces the camera, in double: vertices go through
-/// the camera model, edges between them are straight in the picture, and attributes are linear on
-/// the triangle (perspective-correct). Precondition: all vertices are in front of the camera.
+/// Tests every pixel centre against every front-facing triangle, in double: vertices go through the
+/// camera model, edges between them are straight in the image, and attributes are linear on the
+/// triangle (perspective-correct). Precondition: all vertices are in front of the camera.
 std::vector<RasterPixel> rasterise(std::span<const PlacedMesh> meshes,
                                    const tracking::CameraModel& camera);
 

@@ -14,7 +14,7 @@ double angleOf(glm::dvec2 unitA, glm::dvec2 unitB) {
   return std::acos(std::clamp(glm::dot(unitA, unitB), -1.0, 1.0));
 }
 
-/// The sense that bends least.
+/// The direction's sign that bends least from the heading.
 glm::dvec2 onward(glm::dvec2 direction, glm::dvec2 heading) {
   return glm::dot(direction, heading) < 0.0 ? -direction : direction;
 }

@@ -51,7 +51,7 @@ std::optional<TrianglePoint> pointBehind(const PosedModel& posed, std::uint32_t 
   for (std::size_t i = 0; i < 3; ++i) seen[i] = camera.project(corners[i]);
   const double area = cross(seen[1] - seen[0], seen[2] - seen[0]);
   if (std::abs(area) < 1e-9) return std::nullopt;
-  // linear in the picture, then each weighted by its nearness
+  // linear in the image, then each weighted by its inverse depth
   const glm::dvec3 flat(cross(seen[1] - px, seen[2] - px) / area,
                         cross(seen[2] - px, seen[0] - px) / area,
                         cross(seen[0] - px, seen[1] - px) / area);

@@ -25,13 +25,13 @@ double lumaAt(const hal::ImageView& image, int x, int y) {
   return 0.299 * rgb.r + 0.587 * rgb.g + 0.114 * rgb.b;
 }
 
-/// Whether `x` is more than nothing; gradually: sure from `enough` on.
+/// Whether `x` is above 0; gradual: 0 to 1, with 1 from `enough` on.
 double isSome(double x, double enough, Decision decision) {
   if (decision == Decision::kThesis) return x > 0.0 ? 1.0 : 0.0;
   return glm::smoothstep(0.0, enough, x);
 }
 
-/// Of four texels about a place, in regions; clamped at the border.
+/// Bilinear interpolation of four regions around a place, in regions; clamped at the border.
 glm::dvec2 bilinear(const std::vector<glm::dvec2>& tensors, hal::FrameSize size, glm::dvec2 at) {
   const glm::dvec2 low = glm::floor(at - 0.5);
   const glm::dvec2 part = at - 0.5 - low;
@@ -49,7 +49,7 @@ glm::dvec2 gradual(const TensorRegion& own, glm::dvec2 upper) {
   return glm::mix(upper, tensor, glm::smoothstep(0.02, 0.1, glm::length(tensor)));
 }
 
-/// All of a level, looked up gradually.
+/// The gradual look-up for all regions of a level.
 std::vector<glm::dvec2> resolved(const std::vector<TensorGrid>& pyramid, std::size_t level) {
   const TensorGrid& grid = pyramid[level];
   std::vector<glm::dvec2> above;
@@ -206,7 +206,7 @@ glm::dvec2 lookedUp(const std::vector<TensorGrid>& pyramid, std::size_t level, g
   for (std::size_t i = level; i < pyramid.size(); ++i) {
     const int shift = static_cast<int>(i - level);
     const TensorRegion& found = pyramid[i].at(region.x >> shift, region.y >> shift);
-    // What cancels is no direction, either.
+    // Tensors that cancel give no direction.
     if (found.known > 0.0 && glm::length(found.tensor) > 1e-6) return found.tensor;
   }
   return kNothingAnywhere;

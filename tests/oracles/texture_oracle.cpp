@@ -11,7 +11,7 @@ double linearOf(double srgb) {
   return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
 }
 
-/// A texel's index within 0 … count − 1.
+/// The index of a texel, wrapped into 0 … count − 1.
 int wrapped(int texel, int count, scene::TextureEdge edge) {
   if (edge == scene::TextureEdge::kClamp) return std::clamp(texel, 0, count - 1);
   const auto modulo = [](int value, int by) { return (value % by + by) % by; };

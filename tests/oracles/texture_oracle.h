@@ -7,11 +7,11 @@
 
 namespace pleinair::oracles {
 
-/// Bilinear, of texels as linear light, whose centres are at half texels; beyond the picture as the
-/// edges say (OpenGL ES 3.1, section 8.14). `place` is 0 to 1 over the picture.
+/// Bilinear filter over texels in linear light, with centres at half texels; outside the image, the
+/// edge mode decides (OpenGL ES 3.1, section 8.14). `place` is 0 to 1 over the image.
 glm::dvec3 sampleLinear(const scene::ModelTexture& texture, const glm::dvec2& place);
 
-/// IEC 61966-2-1.
+/// sRGB coding of linear light (IEC 61966-2-1).
 double srgbOf(double linear);
 
 }  // namespace pleinair::oracles

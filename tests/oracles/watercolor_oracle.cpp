@@ -128,7 +128,7 @@ TwoColours twoColoursOf(const std::vector<glm::dvec3>& colours) {
   }
   TwoColours result{.dark = mean, .light = mean, .lumaSpread = std::sqrt(second)};
   if (second <= 0.0) return result;
-  // Two points p and 1 − p apart have the skewness (1 − 2p) / √(p (1 − p)).
+  // Two points with weights p and 1 − p have the skewness (1 − 2p) / √(p (1 − p)).
   const double skewness = third / std::pow(second, 1.5);
   const double p = 0.5 - 0.5 * skewness / std::sqrt(skewness * skewness + 4.0);
   const glm::dvec3 perSpread = covariance / result.lumaSpread;

@@ -34,7 +34,7 @@ class Calibrate : public testing::Test {
   /// A movie of a good tour.
   std::string movie() const {
     const std::string file = path("board.mp4");
-    writeBoardMovie(file, board_, camera_, goodTour(board_, camera_),
+    writeBoardMovie(file, board_, camera_, calibrationPoses(board_, camera_),
                     {.picture = {.samplesPerSide = 3, .blurSigmaPx = 0.6, .noiseSigma = 2.0},
                      .movingFrames = 1});
     return file;
@@ -88,7 +88,7 @@ TEST_F(Calibrate, FindsTheLensOfAMovie) {
   std::ofstream(path("camera.toml")) << "[[tag]]\nid = 0\n";
   const ProgramRun foreign = calibrated(input);
   EXPECT_EQ(foreign.status, 2);
-  EXPECT_THAT(foreign.error, HasSubstr("is no calibration, and is not written over"));
+  EXPECT_THAT(foreign.error, HasSubstr("is not a calibration, so it is not overwritten"));
   EXPECT_EQ(contentOf(path("camera.toml")), "[[tag]]\nid = 0\n");
 }
 
@@ -97,7 +97,7 @@ TEST_F(Calibrate, ARefusedOneIsNotWrittenAndSaysWhy) {
   expectRefused(
       calibrated(input, {"--board", "checkerboard:10x7", "--square", "0.025", "--frames", "8"}),
       AllOf(HasSubstr("the board is in none of"),
-            HasSubstr("there is a checkerboard of 9x6 inner corners instead")));
+            HasSubstr("the frames show a checkerboard of 9x6 inner corners instead")));
   expectRefused(calibrated(input, {"--frames", "9"}),
                 AllOf(HasSubstr("of 9 pictures"), HasSubstr("it takes 8")));
 }

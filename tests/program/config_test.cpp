@@ -195,7 +195,7 @@ TEST_F(ConfigSubcommand, RecordTakesARecording) {
                 AllOf(HasSubstr("in.png"), HasSubstr("--camera")));
   expectRefused(runProgram({"record", "--config", site, "--output", path("o.png"), "--write-scene",
                             path("scene.toml")}),
-                HasSubstr("--write-scene: nothing knows the scene of a recording"));
+                HasSubstr("--write-scene: the scene of a recording is not known"));
 }
 
 TEST_F(ConfigSubcommand, LateErrorsNameThePlaceOfTheValue) {

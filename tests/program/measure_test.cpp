@@ -103,7 +103,7 @@ TEST_F(Measure, MakesAFailedGateAnExitStatus) {
       "--set",   "painting.style=none"};
   std::vector<std::string> gated = arguments;
   gated.emplace_back("--gates");
-  expectRefused(gated, AllOf(HasSubstr("--gates"), HasSubstr("the style none has none"),
+  expectRefused(gated, AllOf(HasSubstr("--gates"), HasSubstr("the style none has no gates"),
                              HasSubstr("painterly, watercolor")));
   gated[gated.size() - 2] = "painting.style=watercolor";
   gated.insert(gated.end(), {"--json", path("r.json")});
@@ -177,7 +177,7 @@ TEST_F(Measure, RefusesOptionsThatMakeNoSense) {
        {std::vector<std::string>{}, {"--camera", "synthetic"}}) {
     std::vector<std::string> arguments{"--zoom", "1%"};
     arguments.insert(arguments.end(), camera.begin(), camera.end());
-    expectRefused(arguments, HasSubstr("--zoom: moves a photograph, and there is none"));
+    expectRefused(arguments, HasSubstr("--zoom: moves a photograph, but --input is missing"));
   }
   expectRefused({"--size", "320x240", "--set", "camera.size=200x180"},
                 AllOf(HasSubstr("200x180"), HasSubstr("leave one of the two sizes out")));

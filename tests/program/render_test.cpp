@@ -193,7 +193,7 @@ TEST_F(Render, LeavesNothingBehindWhenTerminated) {
   const ProgramRun run =
       runProgram({"render", "--input", path("in.y4m"), "--output", path("out.mp4")}, limits);
   EXPECT_EQ(run.status, 128 + 15);
-  EXPECT_EQ(run.error, "pleinair: broken off by SIGTERM; nothing was written\n");
+  EXPECT_EQ(run.error, "pleinair: interrupted by SIGTERM; nothing was written\n");
   EXPECT_EQ(folder_.entryCount(), 1u);
 }
 
@@ -204,7 +204,7 @@ TEST_F(Render, KeepsTheWholePicturesOfAFolderWhenTerminated) {
   const ProgramRun run =
       runProgram({"render", "--input", path("in.y4m"), "--output", path("out/")}, limits);
   EXPECT_EQ(run.status, 128 + 15);
-  EXPECT_EQ(run.error, "pleinair: broken off by SIGTERM; frames written so far stay\n");
+  EXPECT_EQ(run.error, "pleinair: interrupted by SIGTERM; complete frames are kept\n");
   for (const auto& entry : std::filesystem::directory_iterator(path("out"))) {
     EXPECT_TRUE(hal::readPicture(entry.path())) << entry.path();
   }

@@ -15,7 +15,7 @@
 
 namespace {
 
-/// Where a module's code is mapped.
+/// The address range of a module's code.
 struct Module {
   std::uintptr_t begin = 0;
   std::uintptr_t end = 0;
@@ -59,11 +59,11 @@ Modules modules;
 std::array<std::atomic<const void*>, kSites> sites;
 thread_local bool judging = false;
 
-/// The address in our own code that an allocation was asked for from; null where it is a library's.
-/// `caller` is where operator new returns to. What lies between us and it of the C++ library does
-/// not count; nor do functions of this program that a library entered: nothing of ours is called
-/// back while frames are painted, but the linker shares templates such as std::vector's.
-const void* askedFrom(const void* caller) {
+/// The address in the program's own code that requested an allocation; null if a library did.
+/// `caller` is the return address of operator new. Frames of the C++ library in between are
+/// skipped. A function of this program below a library's frame does not count: no library calls the
+/// program back while frames are painted, but the linker shares templates such as std::vector's.
+const void* requestedFrom(const void* caller) {
   std::array<void*, 48> frames{};
   const int count = backtrace(frames.data(), static_cast<int>(frames.size()));
   const std::span<void*> all(frames.data(), static_cast<std::size_t>(count));
@@ -80,7 +80,7 @@ const void* askedFrom(const void* caller) {
 void judge(const void* caller) {
   if (!counting || judging) return;
   judging = true;
-  if (const void* const place = askedFrom(caller)) {
+  if (const void* const place = requestedFrom(caller)) {
     const auto number = static_cast<std::size_t>(allocations++);
     if (number < kSites) sites[number] = place;
   }
@@ -116,7 +116,7 @@ void* operator new[](std::size_t size, std::align_val_t alignment) {
   judge(__builtin_return_address(0));
   return allocate(size, alignment);
 }
-// The driver's LLVM uses these and gives back through operator delete.
+// The driver's LLVM allocates with these and frees with operator delete.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   judge(__builtin_return_address(0));
   return std::malloc(size == 0 ? 1 : size);
@@ -156,7 +156,7 @@ int allocationsIn(const std::function<void()>& work) {
   modules = {};
   dl_iterate_phdr(&addModule, &modules);
   std::array<void*, 1> once{};
-  backtrace(once.data(), 1);  // loads what it needs
+  backtrace(once.data(), 1);  // the first call loads the libraries that it needs
   allocations = 0;
   counting = true;
   work();

@@ -5,13 +5,13 @@
 
 namespace pleinair::support {
 
-/// How often our own code calls operator new during `work`, on any thread. Ours is what is linked
-/// into this program: a call counts by the stack it came from, past the C++ library's frames (which
-/// is where std::string allocates). What OpenCV, Mesa and LLVM, shared libraries all, ask for
-/// themselves does not count. A program that links this has its global operator new replaced.
+/// How often the program's own code calls operator new during `work`, on any thread. A call counts
+/// if its stack leads to code linked into this program; frames of the C++ library are skipped
+/// (std::string allocates there). Calls from OpenCV, Mesa and LLVM, all shared libraries, do not
+/// count. Linking this file replaces the program's global operator new.
 int allocationsIn(const std::function<void()>& work);
 
-/// Where the first few of the last allocationsIn() came from, for addr2line.
+/// The addresses of the first few of the last allocationsIn(), for addr2line.
 std::string allocationSites();
 
 }  // namespace pleinair::support

@@ -14,11 +14,11 @@ namespace pleinair::support {
 struct BoardMovieOptions {
   BoardPictureOptions picture{.blurSigmaPx = 0.6, .noiseSigma = 2.0};
   int stillFrames = 3;   ///< at each hold
-  int movingFrames = 3;  ///< from each hold to the next
+  int movingFrames = 3;  ///< between two holds
   double movingBlurPx = 2.5;
 };
 
-/// Films a board that is held in each of these ways, and carried from each to the next.
+/// Writes a movie of a board that is held in each of these poses and carried from each to the next.
 inline void writeBoardMovie(const std::filesystem::path& path, const calibration::Board& board,
                             const tracking::CameraModel& camera,
                             const std::vector<BoardHold>& holds,

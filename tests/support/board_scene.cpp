@@ -19,7 +19,7 @@ using calibration::AprilGrid;
 using calibration::Checkerboard;
 
 constexpr double kFar = 1e9;
-constexpr int kTagCells = 8;  // across the black border's outer edge
+constexpr int kTagCells = 8;  // cells along the outer edge of the black border
 
 std::vector<std::vector<bool>> tagCells(int id) {
   const std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)> family(tag36h11_create(),
@@ -67,7 +67,7 @@ void blur(std::vector<float>& grey, hal::FrameSize size, double sigma) {
 
 }  // namespace
 
-/// What is printed where, in metres from the board's centre.
+/// The printed board: its ink at a place, in metres from the board's centre.
 class BoardRenderer::Print {
  public:
   explicit Print(const calibration::Board& board) : kind_(board.kind()) {
@@ -100,7 +100,7 @@ class BoardRenderer::Print {
   }
 
   Ink at(const AprilGrid& grid, const glm::dvec2& place) const {
-    // From the lower left tag's lower left corner, in tag edges, y up.
+    // From the lower left corner of the lower left tag, in tag edges, y up.
     const double pitch = 1.0 + grid.spacing;
     const double x = place.x / grid.tagEdgeMetres + (grid.columns * pitch - grid.spacing) / 2.0;
     const double y = -place.y / grid.tagEdgeMetres + (grid.rows * pitch - grid.spacing) / 2.0;
@@ -113,7 +113,7 @@ class BoardRenderer::Print {
     const double row = std::floor((y + grid.spacing) / pitch);
     const double inX = x - column * pitch;  // negative: in the gap before the tag
     const double inY = y - row * pitch;
-    if (inX < 0.0 && inY < 0.0) return Ink::kBlack;  // the square at four tags' corners
+    if (inX < 0.0 && inY < 0.0) return Ink::kBlack;  // the square between the corners of four tags
     if (inX < 0.0 || inY < 0.0) return Ink::kWhite;
     if (column >= grid.columns || row >= grid.rows || column < 0.0 || row < 0.0) return Ink::kWhite;
     const auto tag = static_cast<std::size_t>(row * grid.columns + column);
@@ -212,7 +212,7 @@ glm::dmat4 cameraFromBoard(const calibration::Board& board, const tracking::Came
   const auto ray = camera.unproject(hold.at * glm::dvec2(size.width, size.height));
   const glm::dvec3 centre = ray.value_or(glm::dvec3(0.0, 0.0, 1.0)) * distance;
   glm::dmat4 pose = glm::translate(glm::dmat4(1.0), centre);
-  // The camera's y points down: a turn that brings the left side nearer goes against it.
+  // The camera's y points down, so that a positive yaw, left side nearer, is a negative rotation.
   pose = glm::rotate(pose, -hold.yaw, glm::dvec3(0.0, 1.0, 0.0));
   pose = glm::rotate(pose, hold.pitch, glm::dvec3(1.0, 0.0, 0.0));
   return glm::rotate(pose, hold.roll, glm::dvec3(0.0, 0.0, 1.0));
@@ -220,7 +220,7 @@ glm::dmat4 cameraFromBoard(const calibration::Board& board, const tracking::Came
 
 namespace {
 
-/// Moves a hold towards the middle until all of the board is in the picture.
+/// Moves a hold towards the middle until the whole board is in the image.
 BoardHold pulledIn(const calibration::Board& board, const tracking::CameraModel& camera,
                    BoardHold hold) {
   const glm::dvec2 size(camera.imageSize().width, camera.imageSize().height);
@@ -257,8 +257,8 @@ BoardHold pulledIn(const calibration::Board& board, const tracking::CameraModel&
 
 }  // namespace
 
-std::vector<BoardHold> goodTour(const calibration::Board& board,
-                                const tracking::CameraModel& camera) {
+std::vector<BoardHold> calibrationPoses(const calibration::Board& board,
+                                        const tracking::CameraModel& camera) {
   constexpr double kTilt = 0.55;
   std::vector<BoardHold> tour{
       {.span = 0.8},

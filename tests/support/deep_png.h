@@ -9,10 +9,10 @@
 
 namespace pleinair::support {
 
-/// Writes a PNG of 16-bit RGB, which nothing in the product writes: stored, not compressed.
-class DeepPng {
+/// A PNG of 16-bit RGB, uncompressed. The product only reads such files.
+class Rgb16Png {
  public:
-  DeepPng(int width, int height)
+  Rgb16Png(int width, int height)
       : width_(width), height_(height), samples_(3U * static_cast<std::size_t>(width * height)) {}
 
   void set(int x, int y, std::array<std::uint16_t, 3> rgb) {
@@ -84,9 +84,9 @@ class DeepPng {
   std::vector<std::uint16_t> samples_;
 };
 
-/// A KITTI file of one flow everywhere.
-inline DeepPng constantFlow(int width, int height, double u, double v) {
-  DeepPng png(width, height);
+/// A KITTI file with one flow vector everywhere.
+inline Rgb16Png constantFlow(int width, int height, double u, double v) {
+  Rgb16Png png(width, height);
   const auto coded = [](double px) { return static_cast<std::uint16_t>(32768 + 64 * px); };
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) png.set(x, y, {coded(u), coded(v), 1});

@@ -4,7 +4,7 @@
 
 namespace pleinair::support {
 
-/// Sets a variable of the environment, or takes it away (nullptr). While there is one thread.
+/// Sets an environment variable, or unsets it (nullptr). Only while the process has one thread.
 inline void setVariable(const char* name, const char* value) {
   // NOLINTBEGIN(concurrency-mt-unsafe)
   if (value == nullptr) {

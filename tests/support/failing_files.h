@@ -8,8 +8,8 @@
 
 namespace pleinair::support {
 
-/// The real file system, with a disk that is full after so many bytes and calls that can be made to
-/// fail. Short writes are the rule.
+/// The real file system with a disk that is full after a number of bytes, and with calls that can
+/// be made to fail. Writes are always short.
 class FailingFiles final : public hal::FileSystem {
  public:
   explicit FailingFiles(std::int64_t freeBytes) : freeBytes_(freeBytes) {}
@@ -30,7 +30,7 @@ class FailingFiles final : public hal::FileSystem {
   std::int64_t seek(int fd, std::int64_t offset, int whence) override {
     return real_.seek(fd, offset, whence);
   }
-  int sync(int) override { return syncAnswer; }  // the real one would only take time
+  int sync(int) override { return syncAnswer; }  // a real sync would only take time
   int close(int fd) override { return real_.close(fd); }
   int rename(const std::filesystem::path& from, const std::filesystem::path& to) override {
     return renameAnswer != 0 ? renameAnswer : real_.rename(from, to);

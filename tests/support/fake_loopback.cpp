@@ -27,7 +27,7 @@ std::uint32_t aligned(std::uint32_t value, std::uint32_t to) {
   return (value + to - 1) / to * to;
 }
 
-/// Strides and sizes as the drivers work them out, from the width alone.
+/// Computes strides and sizes from the width, as the drivers do.
 v4l2_pix_format worked(const FakeOutputNode& node, v4l2_pix_format pix) {
   pix.width = std::clamp<std::uint32_t>(pix.width, 1, node.maxSide);
   pix.height = std::clamp<std::uint32_t>(pix.height, 1, node.maxSide);

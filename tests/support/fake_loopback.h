@@ -13,32 +13,33 @@
 
 namespace pleinair::support {
 
-/// One V4L2 node that takes pictures, as v4l2loopback 0.12 to 0.15 or another driver behaves.
-/// Tests set what it is like and read what happened to it.
+/// A fake V4L2 output node that behaves like v4l2loopback 0.12 to 0.15 or another driver. Tests set
+/// its properties and read the calls that it received.
 struct FakeOutputNode {
-  // What it is like.
+  // Properties.
   std::string driver = "v4l2 loopback";
   std::string card = "pleinair";
   std::uint32_t capabilities =
       V4L2_CAP_VIDEO_OUTPUT | V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_READWRITE | V4L2_CAP_STREAMING;
   std::vector<std::uint32_t> layouts{V4L2_PIX_FMT_YUYV, V4L2_PIX_FMT_NV12, V4L2_PIX_FMT_YUV420};
   bool listsLayouts = true;
-  std::uint32_t otherwise = V4L2_PIX_FMT_BGR32;  ///< answered for a layout it does not have
-  bool refusesOthers = false;                    ///< EINVAL instead
-  std::uint32_t alignment = 1;                   ///< of strides, in bytes
-  bool answersPages = true;  ///< VIDIOC_S_FMT's sizeimage is in whole pages (0.12, 0.13)
+  /// the answer to a layout that it does not support
+  std::uint32_t otherwise = V4L2_PIX_FMT_BGR32;
+  bool refusesOthers = false;   ///< EINVAL in place of `otherwise`
+  std::uint32_t alignment = 1;  ///< of strides, in bytes
+  bool answersPages = true;     ///< VIDIOC_S_FMT's sizeimage is in whole pages (0.12, 0.13)
   std::uint32_t maxSide = 8192;
-  bool isHeld = false;  ///< `format` stays, whatever is asked
+  bool isHeld = false;  ///< `format` stays, whatever is requested
   v4l2_pix_format format{};
   bool startsWithoutBuffers = true;  ///< VIDIOC_STREAMON without VIDIOC_REQBUFS (before 0.14)
 
-  // Answers instead of what it would do: −errno.
+  // Answers in place of the normal ones: −errno.
   int openAnswer = 0;
   int capabilityAnswer = 0;
   int setFormatAnswer = 0;
-  std::deque<std::int64_t> writeAnswers;  ///< one a write(); 0: takes it
+  std::deque<std::int64_t> writeAnswers;  ///< one per write(); 0: accept
 
-  // What happened.
+  // Recorded calls.
   std::vector<v4l2_pix_format> asked;              ///< every VIDIOC_S_FMT
   std::vector<std::vector<std::uint8_t>> written;  ///< every frame taken
   v4l2_fract rate{};
@@ -49,8 +50,8 @@ struct FakeOutputNode {
   bool wasOpenedBlocking = false;
 };
 
-/// Nodes by their paths; a path without one is not there. Thread-safe but for the nodes, which are
-/// set up before and read after.
+/// Fake nodes by their paths; any other path does not exist. Thread-safe, except for the nodes,
+/// which tests set up before and read after the run.
 class FakeLoopback final : public hal::v4l2::SystemCalls {
  public:
   FakeOutputNode& node(const std::string& path) { return nodes_[path]; }

@@ -76,7 +76,7 @@ int FakeV4l2::close(int fd) {
   files_.erase(fd);
   if (device->owner != fd) return 0;
   device->halt();
-  // A mapping holds the open file, and the file its queue.
+  // A mapping keeps the open file alive, and the file its queue.
   const bool isMapped =
       std::ranges::any_of(mapped_, [&](const auto& each) { return each.second.device == device; });
   if (!isMapped) device->freeBuffers();
@@ -123,7 +123,7 @@ int FakeV4l2::pollOne(pollfd& waitFor, const Device& device) const {
   } else if (!device.streaming) {
     waitFor.revents = POLLERR;
   } else {
-    // With a change of source comes a last, empty buffer.
+    // A last, empty buffer announces a change of source.
     if (!device.done.empty() || device.sourceChanging) waitFor.revents |= POLLIN;
     if (device.eventPending) waitFor.revents |= static_cast<short>(waitFor.events & POLLPRI);
   }

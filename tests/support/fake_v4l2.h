@@ -20,12 +20,12 @@
 
 namespace pleinair::support {
 
-/// A pixel format that a fake device offers, at some sizes and rates.
+/// A pixel format of a fake device, with sizes and rates.
 struct FakeFormat {
   std::uint32_t fourcc = V4L2_PIX_FMT_YUYV;
   std::vector<hal::FrameSize> sizes{{64, 48}};
   std::vector<v4l2_fract> periods{{1, 25}};
-  /// Instead of single sizes: anything from the first of `sizes` to the last, by this step.
+  /// With a step, `sizes` is a range: any size from its first to its last.
   std::optional<hal::FrameSize> step;
 };
 
@@ -36,18 +36,18 @@ struct FakeControl {
   std::set<std::uint32_t> menu;
 };
 
-/// What is unlike the others about one frame, numbered from 0 at each STREAMON.
+/// The exceptional properties of one frame. Frames are numbered from 0 at each STREAMON.
 struct FakeFrame {
-  std::uint32_t skipped = 0;  ///< frames that the device loses before it
+  std::uint32_t skipped = 0;  ///< frames that the device loses before this one
   std::uint32_t addedFlags = 0;
   std::optional<std::uint32_t> bytesUsed;  ///< of the first memory plane
   std::optional<hal::Duration> timestamp;
   std::optional<std::uint32_t> dataOffset;
   std::optional<std::vector<std::uint8_t>> jpeg;
-  std::optional<hal::FrameSize> changesSourceTo;  ///< instead of the frame comes an event
+  std::optional<hal::FrameSize> changesSourceTo;  ///< this event comes in place of the frame
 };
 
-/// A device, as its driver would present it. Frame n holds testPicture(format, n), or `jpeg`.
+/// A fake device, as its driver presents it. Frame n holds testPicture(format, n), or `jpeg`.
 struct FakeVideo {
   std::string node = "/dev/video0";
   std::string driver = "fake";
@@ -62,36 +62,37 @@ struct FakeVideo {
   std::uint32_t quantization = 0;
   std::vector<FakeControl> controls;
   std::uint32_t mostBuffers = 32;
-  std::size_t missingBufferBytes = 0;  ///< by which buffers are smaller than they should be
+  std::size_t missingBufferBytes = 0;  ///< how much smaller than needed the buffers are
   bool exportsDmaBufs = true;
-  bool keepsMappedBuffers = false;  ///< an old driver: REQBUFS(0) is EBUSY while one is mapped
+  /// behaves like an old driver: REQBUFS(0) is EBUSY while a buffer is mapped
+  bool keepsMappedBuffers = false;
   std::uint32_t timestampFlags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
   std::uint32_t firstSequence = 0;
   std::vector<std::uint8_t> jpeg;
   std::map<std::uint64_t, FakeFrame> frames;
-  std::optional<std::uint64_t> stallsAt;          ///< from this frame on none comes
-  std::map<unsigned long, int> failures;          ///< errno that a request always fails with
-  std::optional<int> openFailure;                 ///< errno
-  int spuriousReadies = 0;                        ///< times that poll() is ready for nothing
-  std::function<void(v4l2_format&)> amendFormat;  ///< last word on S_FMT's answer
+  std::optional<std::uint64_t> stallsAt;  ///< no frame comes from this one on
+  std::map<unsigned long, int> failures;  ///< errno with which a request always fails
+  std::optional<int> openFailure;         ///< errno
+  int spuriousReadies = 0;                ///< how often poll() reports readiness without an event
+  std::function<void(v4l2_format&)> amendFormat;  ///< changes S_FMT's answer last
 };
 
-/// A kernel with fake V4L2 devices, as strict as videobuf2 about states. Time is `clock`'s, which a
-/// wait moves on. Thread-safe; outlives all that uses it.
+/// A kernel with fake V4L2 devices, as strict about states as videobuf2. Uses `clock`'s time; a
+/// wait advances it. Thread-safe; must outlive its users.
 class FakeV4l2 final : public hal::v4l2::SystemCalls {
  public:
   explicit FakeV4l2(hal::Clock& clock) : clock_(clock) {}
 
-  /// Replaces the device at the same node. Its reference is good until it is unplugged.
+  /// Replaces the device at the same node. The reference is valid until the device is unplugged.
   FakeVideo& plug(FakeVideo video);
-  /// From now on every request of it answers this errno; its node is gone.
+  /// From now on every request to it answers this errno; its node is gone.
   void unplug(const std::string& node, int errnoValue);
 
-  // What has not been given back.
-  int descriptors() const;  ///< of devices
+  // Resources that have not been released.
+  int descriptors() const;  ///< file descriptors of devices
   int dmaBufs() const;
   int mappings() const;
-  int buffers() const;  ///< driver's buffers whose memory is held by anybody
+  int buffers() const;  ///< buffers of drivers whose memory is still in use
 
   int controlValue(const std::string& node, std::uint32_t id) const;
   int opens() const;
@@ -128,7 +129,7 @@ class FakeV4l2 final : public hal::v4l2::SystemCalls {
   int opens_ = 0;
 };
 
-/// Folders, links and files that are made up.
+/// Fake folders, links and files.
 class FakeNodes final : public hal::v4l2::DeviceNodes {
  public:
   std::map<std::string, std::vector<std::string>> folders;

@@ -99,7 +99,7 @@ int FakeV4l2::Device::queryCapability(v4l2_capability& capability) const {
   copyText(capability.card, video.card);
   copyText(capability.bus_info, video.bus);
   capability.device_caps = video.caps;
-  // Of the whole device: more than this node does.
+  // The whole device has more capabilities than this node.
   capability.capabilities = video.caps | V4L2_CAP_DEVICE_CAPS | V4L2_CAP_META_CAPTURE;
   return 0;
 }
@@ -149,7 +149,7 @@ int FakeV4l2::Device::setFormat(v4l2_format& wanted) {
                                    : hal::FrameSize{static_cast<int>(wanted.fmt.pix.width),
                                                     static_cast<int>(wanted.fmt.pix.height)};
   const auto found = std::ranges::find(video.formats, fourcc, &FakeFormat::fourcc);
-  // As drivers do: what it does not have becomes what it has.
+  // Like a driver, replaces an unsupported format by a supported one.
   formatIndex =
       found == video.formats.end() ? 0 : static_cast<std::size_t>(found - video.formats.begin());
   const auto& sizes = format().sizes;

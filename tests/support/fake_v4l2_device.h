@@ -1,6 +1,6 @@
 #pragma once
 
-// The inside of tests/support/fake_v4l2.h: one device's state.
+// Internal to tests/support/fake_v4l2.h: one device's state.
 
 #include <deque>
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace pleinair::support {
 
-/// A device between open() and close(), one queue as in videobuf2. The kernel's lock is held.
+/// A device between open() and close(), with one queue as in videobuf2. The kernel's lock is held.
 struct FakeV4l2::Device {
   Device(FakeVideo given, hal::Clock& time, FakeV4l2& in)
       : video(std::move(given)), clock(time), kernel(in) {}
@@ -24,11 +24,11 @@ struct FakeV4l2::Device {
   };
 
   int answer(int fd, unsigned long request, void* argument);
-  /// Makes the frames whose time has come.
+  /// Makes the frames that are due.
   void advance();
   std::optional<hal::TimePoint> nextFrameTime() const;
   bool isMultiPlanar() const { return (video.caps & V4L2_CAP_VIDEO_CAPTURE) == 0; }
-  /// No longer streams; nothing is queued.
+  /// Stops streaming and clears the queue.
   void halt();
   void freeBuffers();
 

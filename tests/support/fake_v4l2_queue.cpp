@@ -27,7 +27,7 @@ std::vector<std::size_t> FakeV4l2::Device::strides() const {
   std::vector<std::size_t> strides;
   for (int plane = 0; plane < hal::planeCount(layout->pixelFormat); ++plane) {
     std::size_t stride = hal::rowBytes(layout->pixelFormat, plane, now.width) + video.rowPadding;
-    // In shared memory I420's chroma has half of luma's.
+    // In shared memory, I420's chroma stride is half of luma's.
     const bool isHalf =
         layout->memoryPlanes == 1 && plane > 0 && layout->pixelFormat == hal::PixelFormat::kI420;
     if (isHalf) stride = strides.front() / 2;
@@ -65,7 +65,7 @@ int FakeV4l2::Device::requestBuffers(int fd, v4l2_requestbuffers& request) {
   for (std::uint32_t i = 0; i < request.count; ++i) {
     Buffer buffer;
     for (const std::size_t bytes : planeSizes()) {
-      // A little more than is needed, as pages are.
+      // A little more than needed, because buffers are whole pages.
       const std::size_t room = video.missingBufferBytes > 0
                                    ? bytes - std::min(bytes, video.missingBufferBytes)
                                    : bytes + 64;
@@ -81,7 +81,7 @@ int FakeV4l2::Device::requestBuffers(int fd, v4l2_requestbuffers& request) {
 int FakeV4l2::Device::queryBuffer(v4l2_buffer& buffer) const {
   if (buffer.type != type() || buffer.index >= buffers.size()) return -EINVAL;
   const auto& planes = buffers[buffer.index].planes;
-  // Offsets are cookies: buffer and plane.
+  // Offsets are cookies made of buffer and plane.
   const auto cookie = [&](std::size_t plane) { return u32((buffer.index * 8 + plane) << 12); };
   if (!isMultiPlanar()) {
     buffer.length = u32(planes[0]->size());

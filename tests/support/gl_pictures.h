@@ -15,7 +15,7 @@
 
 namespace pleinair::support {
 
-/// Every byte random.
+/// An image of random bytes.
 inline hal::Image randomImage(hal::FrameFormat format, unsigned seed = 1) {
   hal::Image image(format);
   std::mt19937 random(seed);
@@ -25,7 +25,7 @@ inline hal::Image randomImage(hal::FrameFormat format, unsigned seed = 1) {
   return image;
 }
 
-/// An RGB8 picture of slow waves, another in each channel: periods of 30 px and more.
+/// An RGB8 image of smooth waves, different in each channel, with periods of 30 px and more.
 inline hal::Image wavyImage(hal::FrameSize size) {
   hal::Image image({.pixelFormat = hal::PixelFormat::kRgb8, .size = size});
   for (int y = 0; y < size.height; ++y) {
@@ -40,7 +40,7 @@ inline hal::Image wavyImage(hal::FrameSize size) {
   return image;
 }
 
-/// A copy of an image whose rows lie `extraBytes` further apart, 0xA5 between them.
+/// A copy of an image with `extraBytes` of padding (0xA5) after each row.
 class PaddedImage {
  public:
   PaddedImage(const hal::ImageView& image, std::size_t extraBytes) : view_(image) {
@@ -63,7 +63,7 @@ class PaddedImage {
   hal::ImageView view_;
 };
 
-/// The largest difference of any channel, in 1/255, between an RGBA8 image and what it should be.
+/// The largest error of any channel of an RGBA8 image, in 1/255.
 inline double largestError(hal::Image& image, const oracles::Picture& expected) {
   EXPECT_EQ(image.size(), expected.size);
   double largest = 0.0;

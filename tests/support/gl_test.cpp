@@ -59,7 +59,7 @@ hal::Image readRgba8(const gpu::Texture& texture) {
 }
 
 std::vector<std::uint32_t> readR32ui(const gpu::Texture& texture) {
-  // Integer targets are always readable as four components.
+  // Integer targets can always be read as four components.
   std::vector<std::uint32_t> four(pixels(texture) * 4);
   readPixels(texture, GL_RGBA_INTEGER, GL_UNSIGNED_INT, four.data());
   std::vector<std::uint32_t> one(pixels(texture));

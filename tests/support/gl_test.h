@@ -15,8 +15,8 @@
 
 namespace pleinair::support {
 
-/// A test with an OpenGL ES context of its own, and what tests need to put pictures in and out.
-/// Skips, saying why, where no context can be had.
+/// A test with its own OpenGL ES context, and with helpers that transfer images to and from
+/// textures. Skips with the reason if no context can be created.
 class GlTest : public testing::Test {
  protected:
   void SetUp() override;
@@ -30,7 +30,7 @@ gpu::Texture textureOf(const hal::ImageView& image);
 /// Reads a texture back, blocking. For tests only.
 hal::Image readRgba8(const gpu::Texture& texture);
 std::vector<std::uint32_t> readR32ui(const gpu::Texture& texture);
-/// Reads a floating-point texture (kRgba16f, kRg16f, …) as 4 floats a pixel.
+/// Reads a floating-point texture (kRgba16f, kRg16f, …) as 4 floats per pixel.
 std::vector<float> readRgba32f(const gpu::Texture& texture);
 /// Reads a whole buffer of T.
 template <class T>

@@ -19,10 +19,10 @@
 
 namespace pleinair::support {
 
-// A live chain under a stepped clock: a camera that is paced by it, a painter whose GPU takes as
-// long as a test says, an output that notes when it got what. One thread; the same on every run.
+// A live pipeline under a stepped clock: a camera with its own pace, a painter with a simulated GPU
+// time, and an output that records its frames. One thread; every run gives the same result.
 
-/// An endless camera with a frame each period, each handed out some time after its capture.
+/// An endless camera with one frame per period, delivered some time after its capture.
 struct PacedCameraOptions {
   hal::Duration period = std::chrono::microseconds(33'333);
   std::function<hal::Duration(std::uint64_t)> delay = [](std::uint64_t) {
@@ -31,7 +31,7 @@ struct PacedCameraOptions {
   std::function<hal::FrameHealth(std::uint64_t)> health = [](std::uint64_t) {
     return hal::FrameHealth::kValid;
   };
-  std::optional<std::uint64_t> frames;  ///< unset: it goes on for ever
+  std::optional<std::uint64_t> frames;  ///< unset: endless
   hal::FrameSize size{8, 6};
 };
 
@@ -75,7 +75,7 @@ class PacedCamera final : public hal::Camera {
   std::uint64_t next_ = 0;
 };
 
-/// A back end of one camera.
+/// A back end with a single camera.
 class SingleBackend final : public hal::CameraBackend {
  public:
   using Make = std::function<std::unique_ptr<hal::Camera>(hal::Clock&)>;
@@ -103,20 +103,20 @@ inline hal::CameraSelector selectorOf(SingleBackend::Make make, hal::Clock& cloc
   return {std::move(backends), "single", clock};
 }
 
-/// What a simulated GPU does; shared by the painters of one chain, which come and go.
+/// A simulated GPU, shared by the painters of one pipeline, which come and go.
 struct SimulatedGpu {
-  /// How long it works on a frame at a quality.
+  /// GPU time of a frame at a quality level.
   std::function<hal::Duration(std::uint64_t sequence, std::size_t quality)> cost =
       [](std::uint64_t, std::size_t) { return std::chrono::milliseconds(20); };
   std::function<bool(std::uint64_t sequence)> isLostAt = [](std::uint64_t) { return false; };
-  int failingStarts = 0;  ///< how many painters cannot be made from now on
-  int painters = 0;       ///< that exist
+  int failingStarts = 0;  ///< how many of the next painters cannot be created
+  int painters = 0;       ///< that exist now
   int made = 0;
   std::optional<hal::TimePoint> nextReady;
   bool isLost = false;
 };
 
-/// Works on one frame after another.
+/// Paints one frame after another.
 class SimulatedPainter final : public runtime::FramePainter {
  public:
   SimulatedPainter(SimulatedGpu& gpu, const std::vector<hal::FrameFormat>& outputs,
@@ -193,11 +193,11 @@ class SimulatedPainter final : public runtime::FramePainter {
   std::vector<std::optional<std::size_t>> taken_;  ///< of each output; none of closed ones
 };
 
-/// Notes when it got which picture.
-class NotingOutput final : public hal::MemoryOutput {
+/// Records the time and the number of each frame that it gets.
+class CapturingOutput final : public hal::MemoryOutput {
  public:
   struct Note {
-    hal::Duration time;  ///< of capture, since the first's
+    hal::Duration time;  ///< capture time, counted from the first frame's
     hal::TimePoint presented;
     friend bool operator==(const Note&, const Note&) = default;
   };
@@ -222,7 +222,7 @@ class NotingOutput final : public hal::MemoryOutput {
   std::optional<hal::Refresh> refresh_;
 };
 
-/// The chain with all its stages stepped in turn.
+/// The pipeline, with all stages stepped in turn.
 class LiveSimulation {
  public:
   hal::SteppedClock clock{hal::TimePoint(std::chrono::seconds(100))};
@@ -274,7 +274,7 @@ class LiveSimulation {
     }
     stepAll();
   }
-  /// Until the camera has ended, with all of its frames.
+  /// Runs until the camera has ended and all of its frames are done.
   void drain() {
     while (!chain->isDrained()) runFor(std::chrono::milliseconds(10));
   }
@@ -294,9 +294,10 @@ class LiveSimulation {
       if (const auto next = chain->output(i).step()) wake_ = wake_ ? std::min(*wake_, *next) : next;
     }
   }
-  /// The next moment at which anything but the camera has something to do.
+  /// The next time at which any part but the camera has work to do.
   hal::TimePoint nextEvent(hal::TimePoint end) const {
-    // What has no time of its own (a painter that is to be made anew) is looked at so often.
+    // A part without a time of its own (a painter that is to be recreated) is polled at this
+    // interval.
     hal::TimePoint next = std::min(end, clock.now() + std::chrono::milliseconds(20));
     if (gpu.nextReady) next = std::min(next, std::max(*gpu.nextReady, clock.now()));
     if (wake_) next = std::min(next, std::max(*wake_, clock.now()));

@@ -13,7 +13,7 @@
 
 namespace pleinair::support {
 
-/// Writes `count` test pictures to a movie, pattern, folder or PNG; gives the output's format.
+/// Writes `count` test images to a movie, pattern, folder or PNG; gives the output's format.
 inline hal::FrameFormat writeMedia(const std::filesystem::path& path, int count,
                                    hal::FrameSize size = {64, 48},
                                    std::vector<hal::Duration> times = {}) {
@@ -29,7 +29,7 @@ inline hal::FrameFormat writeMedia(const std::filesystem::path& path, int count,
   return format.frame;
 }
 
-/// Everything that a recording gives.
+/// The whole content of a recording.
 struct Played {
   hal::StreamFormat format;
   std::vector<hal::CapturedFrame> frames;
@@ -39,7 +39,7 @@ struct Played {
   hal::NextFrame ending;
 };
 
-/// Plays up to `most` frames. The error is start()'s.
+/// Plays up to `most` frames. The error is that of start().
 inline hal::Result<Played> play(const std::filesystem::path& path,
                                 hal::RecordingOptions options = {}, std::size_t most = 10'000) {
   hal::SteppedClock clock(hal::TimePoint(std::chrono::seconds(7)));

@@ -10,7 +10,7 @@
 
 namespace pleinair::support {
 
-/// Gives each frame as it came, at once, to all outputs: grey, of the frame's size. No GPU.
+/// A painter without a GPU: passes each frame to all outputs at once, grey, at the frame's size.
 class PassThroughPainter final : public runtime::FramePainter {
  public:
   explicit PassThroughPainter(std::size_t outputs) : waiting_(outputs), isOpen_(outputs, true) {}

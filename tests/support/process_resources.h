@@ -11,11 +11,11 @@
 
 namespace pleinair::support {
 
-/// What this process holds.
+/// The resources of this process.
 struct ProcessResources {
   std::size_t descriptors = 0;
   std::size_t threads = 0;
-  std::size_t residentKiB = 0;  ///< of its memory, what is resident
+  std::size_t residentKiB = 0;  ///< resident memory
 
   static ProcessResources now() {
     const auto count = [](const char* folder) {
@@ -31,7 +31,7 @@ struct ProcessResources {
             .residentKiB = resident * pageBytes / 1024};
   }
 
-  /// Bytes that were allocated and not freed.
+  /// Bytes that are allocated now.
   static std::size_t allocatedBytes() { return mallinfo2().uordblks; }
 };
 

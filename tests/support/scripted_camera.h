@@ -20,10 +20,10 @@
 
 namespace pleinair::support {
 
-// Cameras that do what a script says, by the clock, and nothing else.
+// Cameras that follow a script, timed by the clock.
 
 struct ScriptedFrame {
-  hal::Duration after = std::chrono::milliseconds(33);  ///< the step before
+  hal::Duration after = std::chrono::milliseconds(33);  ///< since the previous step
   std::uint64_t dropped = 0;
   std::uint64_t underruns = 0;
   hal::Duration timeError{};  ///< of its capture time
@@ -31,11 +31,11 @@ struct ScriptedFrame {
   hal::FrameHealth health = hal::FrameHealth::kValid;
   std::optional<hal::FrameFormat> format;
 };
-/// Nothing happens; a camera whose script is over stays silent.
+/// No event. A camera at the end of its script stays silent.
 struct ScriptedSilence {
   hal::Duration duration;
 };
-/// The clock jumps in the middle of a wait, as of a computer that was suspended.
+/// The clock jumps during a wait, as after a suspend.
 struct ScriptedJump {
   hal::Duration by;
 };
@@ -46,7 +46,7 @@ inline hal::FrameFormat scriptedFormat(int width = 8, int height = 6) {
   return {.pixelFormat = hal::PixelFormat::kGrey8, .size = {width, height}};
 }
 
-/// From one start() to its stop().
+/// The steps from one start() to its stop().
 struct ScriptedSession {
   std::optional<hal::Error> startError;
   hal::Duration startTakes{};
@@ -54,17 +54,17 @@ struct ScriptedSession {
   std::vector<ScriptedStep> steps;
 };
 
-/// A device and what becomes of it, start by start; after the last session it is not there.
+/// A device with one session per start(); after the last session it is gone.
 struct ScriptedDevice {
   hal::CameraDescription description;
   std::vector<ScriptedSession> sessions;
   bool repeatsLast = false;
-  // What was done to it:
+  // Recorded calls.
   std::size_t starts = 0;
   std::vector<hal::TimePoint> startTimes;
-  hal::Duration jumped{};  ///< by ScriptedJump and startTakes, beyond any deadline
-  int alive = 0;           ///< cameras of it that exist
-  int streaming = 0;       ///< of those, started and not stopped
+  hal::Duration jumped{};  ///< time by which ScriptedJump and startTakes exceeded deadlines
+  int alive = 0;           ///< cameras of this device that exist
+  int streaming = 0;       ///< the started ones among them
 };
 
 inline hal::Error scriptedError(hal::ErrorKind kind, std::string problem) {
@@ -119,7 +119,7 @@ class ScriptedCamera final : public hal::Camera {
         continue;
       }
       time_ = due;
-      if (endsSession(step)) return answerOf(step);  // again and again, until stop()
+      if (endsSession(step)) return answerOf(step);  // repeated until stop()
       ++step_;
       if (!std::holds_alternative<ScriptedSilence>(step)) return answerOf(step);
     }
@@ -159,7 +159,8 @@ class ScriptedCamera final : public hal::Camera {
     const auto image = std::make_shared<hal::Image>(scripted.format.value_or(format_));
     hal::CapturedFrame frame{.image = image->view(),
                              .dmaBufs = {},
-                             .sequence = 0,  // wrong on purpose: the supervisor counts by itself
+                             // wrong on purpose: the supervisor numbers frames itself
+                             .sequence = 0,
                              .droppedBefore = scripted.dropped,
                              .underrunsBefore = scripted.underruns,
                              .captureTime = time_ + scripted.timeError,
@@ -180,7 +181,7 @@ class ScriptedCamera final : public hal::Camera {
   hal::TimePoint time_;
 };
 
-/// A back end whose devices are scripted.
+/// A back end with scripted devices.
 class ScriptedBackend final : public hal::CameraBackend {
  public:
   ScriptedBackend(std::string name, hal::SteppedClock& clock)
@@ -222,13 +223,13 @@ class ScriptedBackend final : public hal::CameraBackend {
   std::optional<hal::Error> listError_;
 };
 
-/// `count` frames, a period apart.
+/// A script of `count` frames, one period apart.
 inline std::vector<ScriptedStep> scriptedFrames(
     int count, hal::Duration period = std::chrono::milliseconds(33)) {
   return std::vector<ScriptedStep>(static_cast<std::size_t>(count), ScriptedFrame{.after = period});
 }
 
-/// The steps of all, one after another.
+/// Concatenates the steps of several scripts.
 template <class... Steps>
 std::vector<ScriptedStep> scriptOf(Steps... steps) {
   std::vector<ScriptedStep> script;

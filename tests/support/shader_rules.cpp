@@ -32,24 +32,24 @@ long count(const std::string& text, const std::string& pattern) {
   return static_cast<long>(allMatches(text, pattern).size());
 }
 
-/// Code without comments and preprocessor lines: statements only.
+/// The code without comments and preprocessor lines.
 std::string statements(std::string_view text) {
   return std::regex_replace(withoutComments(text), std::regex("(^|\n)[ \t]*#[^\n]*"), "$1");
 }
 
-Complaints forbid(const std::string& code, const std::string& pattern, const std::string& why) {
-  Complaints complaints;
+Violations forbid(const std::string& code, const std::string& pattern, const std::string& why) {
+  Violations violations;
   for (const std::smatch& match : allMatches(code, pattern)) {
-    complaints.push_back("\"" + match.str() + "\": " + why);
+    violations.push_back("\"" + match.str() + "\": " + why);
   }
-  return complaints;
+  return violations;
 }
 
-void append(Complaints& to, Complaints from) {
+void append(Violations& to, Violations from) {
   std::ranges::move(from, std::back_inserter(to));
 }
 
-/// Recursive descent over a constant expression.
+/// Evaluates a constant expression by recursive descent.
 class Evaluator {
  public:
   Evaluator(std::string_view expression, const std::string& code, int depth = 0)
@@ -130,7 +130,7 @@ class Evaluator {
 
 long bytesOfType(const std::string& type, const std::string& code);
 
-/// Bytes of the variables that "float a[4], b" declares.
+/// The size in bytes of the variables that "float a[4], b" declares.
 long bytesOfDeclaration(const std::string& type, const std::string& names,
                         const std::string& code) {
   long bytes = 0;
@@ -177,47 +177,47 @@ long constantValue(std::string_view expression, const std::string& code) {
   return Evaluator(expression, code).all();
 }
 
-Complaints headCommentRule(const ShaderText& shader) {
+Violations headCommentRule(const ShaderText& shader) {
   std::smatch match;
   std::string head;
   if (std::regex_search(shader.written, match, std::regex("^(?:[ \t]*//[^\n]*\n)+")))
     head = match.str();
   std::ranges::transform(head, head.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  Complaints complaints;
+  Violations violations;
   for (const char* part : {"purpose:", "inputs", "outputs", "precision:"}) {
     if (head.find(part) == std::string::npos) {
-      complaints.push_back("the head comment (the // lines that the file begins with) lacks \"" +
+      violations.push_back("the head comment (the // lines that the file begins with) lacks \"" +
                            std::string(part) + "\"");
     }
   }
-  return complaints;
+  return violations;
 }
 
-Complaints languageRule(const ShaderText& shader) {
+Violations languageRule(const ShaderText& shader) {
   const std::string code = withoutComments(shader.expanded);
-  Complaints complaints = forbid(code, "#\\s*version", "the shader library puts the version");
-  append(complaints,
+  Violations violations = forbid(code, "#\\s*version", "the shader library puts the version");
+  append(violations,
          forbid(code,
                 "\\b(?:gl_PrimitiveID(?:In)?|EmitVertex|EndPrimitive|gl_TessCoord|gl_TessLevel\\w+|"
                 "gl_InvocationID)\\b",
                 "geometry, tessellation and primitive ids are not on every target (rule 1)"));
-  append(complaints,
+  append(violations,
          forbid(shader.name, "\\.(?:geom|tesc|tese)$", "no such stage on every target"));
-  return complaints;
+  return violations;
 }
 
-Complaints graphicsStageRule(const ShaderText& shader) {
+Violations graphicsStageRule(const ShaderText& shader) {
   const Stage stage = stageOf(shader);
   if (stage != Stage::kVertex && stage != Stage::kFragment) return {};
   const std::string code = statements(shader.expanded);
   const std::string why = "storage belongs in compute shaders (rules 2 and 3)";
-  Complaints complaints = forbid(code, "\\bbuffer\\s+\\w+\\s*\\{", why);
-  append(complaints, forbid(code, kImageType, why));
-  return complaints;
+  Violations violations = forbid(code, "\\bbuffer\\s+\\w+\\s*\\{", why);
+  append(violations, forbid(code, kImageType, why));
+  return violations;
 }
 
-Complaints outputsRule(const ShaderText& shader) {
+Violations outputsRule(const ShaderText& shader) {
   if (stageOf(shader) != Stage::kFragment) return {};
   long outputs = 0;
   const std::string code = statements(shader.expanded);
@@ -231,33 +231,33 @@ Complaints outputsRule(const ShaderText& shader) {
   return {std::to_string(outputs) + " colour targets; 4 are on every target (rule 3)"};
 }
 
-Complaints computeLimitsRule(const ShaderText& shader) {
+Violations computeLimitsRule(const ShaderText& shader) {
   if (stageOf(shader) != Stage::kCompute) return {};
   const std::string code = statements(shader.expanded);
-  Complaints complaints;
+  Violations violations;
   const auto sizes = allMatches(code, "local_size_[xyz]\\s*=\\s*([^,)]+)");
   long invocations = 1;
   for (const std::smatch& size : sizes) {
     invocations *= constantValue(size[1].str(), withoutComments(shader.expanded));
   }
-  if (sizes.empty()) complaints.emplace_back("no local_size");
+  if (sizes.empty()) violations.emplace_back("no local_size");
   if (invocations > kMaxInvocations) {
-    complaints.push_back("groups of " + std::to_string(invocations) +
+    violations.push_back("groups of " + std::to_string(invocations) +
                          "; 128 invocations are on every target (rule 4)");
   }
   const long buffers = count(code, "\\bbuffer\\s+\\w+\\s*\\{");
   if (buffers > kMaxBindings) {
-    complaints.push_back(std::to_string(buffers) +
+    violations.push_back(std::to_string(buffers) +
                          " storage buffers; 4 are on every target (rule 4)");
   }
   const long images = count(code, std::string("\\buniform\\b[^;(){}]*") + kImageType);
   if (images > kMaxBindings) {
-    complaints.push_back(std::to_string(images) + " images; 4 are on every target (rule 4)");
+    violations.push_back(std::to_string(images) + " images; 4 are on every target (rule 4)");
   }
-  return complaints;
+  return violations;
 }
 
-Complaints sharedMemoryRule(const ShaderText& shader) {
+Violations sharedMemoryRule(const ShaderText& shader) {
   const std::string code = statements(shader.expanded);
   const std::string constants = withoutComments(shader.expanded);
   long bytes = 0;
@@ -269,9 +269,9 @@ Complaints sharedMemoryRule(const ShaderText& shader) {
   return {std::to_string(bytes) + " bytes of shared memory; 16384 are on every target (rule 4)"};
 }
 
-Complaints imageFormatsRule(const ShaderText& shader) {
+Violations imageFormatsRule(const ShaderText& shader) {
   const std::string code = statements(shader.expanded);
-  Complaints complaints =
+  Violations violations =
       forbid(code, "\\bimageAtomic\\w+", "atomics live in storage buffers (rule 6)");
   const std::regex allowed("\\b(?:rgba8|rgba16f|rgba32f|r32f|r32ui)\\b");
   const std::regex readWrite("\\b(?:r32f|r32ui)\\b");
@@ -281,55 +281,55 @@ Complaints imageFormatsRule(const ShaderText& shader) {
                      kImageType + "\\s*\\w+")) {
     const std::string image = match.str();
     if (!std::regex_search(image, allowed)) {
-      complaints.push_back("\"" + image + "\": its format is not on every target (rule 6)");
+      violations.push_back("\"" + image + "\": its format is not on every target (rule 6)");
     } else if (!std::regex_search(image, oneWay) && !std::regex_search(image, readWrite)) {
-      complaints.push_back("\"" + image + "\": only r32f and r32ui are read and written (rule 6)");
+      violations.push_back("\"" + image + "\": only r32f and r32ui are read and written (rule 6)");
     }
   }
-  return complaints;
+  return violations;
 }
 
-Complaints atomicOrderRule(const ShaderText& shader) {
+Violations atomicOrderRule(const ShaderText& shader) {
   const std::string code = statements(shader.expanded);
-  Complaints complaints;
+  Violations violations;
   for (const std::smatch& match : allMatches(
            code, "(\\w+|\\S)?\\s*\\batomic(?:Add|CounterIncrement|CounterDecrement)\\s*\\(")) {
-    // As a statement of its own, what it returns goes nowhere.
+    // The operation's result is unused if it is a statement of its own.
     static constexpr std::array<std::string_view, 6> kStatementAfter{"",  ";", "{",
                                                                      "}", ")", "else"};
     if (std::ranges::find(kStatementAfter, match[1].str()) == kStatementAfter.end()) {
-      complaints.push_back("\"" + match.str() +
+      violations.push_back("\"" + match.str() +
                            "\": its result is an order that changes from run to run (rule 7)");
     }
   }
-  return complaints;
+  return violations;
 }
 
-Complaints precisionRule(const ShaderText& shader) {
+Violations precisionRule(const ShaderText& shader) {
   const std::string code = statements(shader.expanded);
-  Complaints complaints = forbid(code, "\\blowp\\b", "colours need 8 bits and more (rule 8)");
+  Violations violations = forbid(code, "\\blowp\\b", "colours need 8 bits and more (rule 8)");
   const std::regex colour("\\bmediump\\s+vec[34]\\s+\\w*(?:[cC]olou?r|[rR]gb)\\w*");
   for (const std::smatch& match : allMatches(code, "\\bmediump\\s+\\w+(?:\\s+\\w+)?")) {
     if (!std::regex_match(match.str(), colour)) {
-      complaints.push_back("\"" + match.str() +
+      violations.push_back("\"" + match.str() +
                            "\": mediump is for colours, vec3 or vec4 named so (rule 8)");
     }
   }
-  return complaints;
+  return violations;
 }
 
-Complaints shaderRules(const ShaderText& shader) {
-  Complaints complaints;
+Violations shaderRules(const ShaderText& shader) {
+  Violations violations;
   for (const auto rule :
        {headCommentRule, languageRule, graphicsStageRule, outputsRule, computeLimitsRule,
         sharedMemoryRule, imageFormatsRule, atomicOrderRule, precisionRule}) {
     try {
-      append(complaints, rule(shader));
+      append(violations, rule(shader));
     } catch (const std::invalid_argument& unreadable) {
-      complaints.emplace_back(unreadable.what());
+      violations.emplace_back(unreadable.what());
     }
   }
-  return complaints;
+  return violations;
 }
 
 }  // namespace pleinair::support

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kPaperMarginCells = 2.0;
 
-/// The library's picture of one tag, and how many cells its black square has.
+/// The library's bitmap of one tag, and the number of cells along its black square.
 class TagBitmap {
  public:
   explicit TagBitmap(int id) {
@@ -40,7 +40,7 @@ class TagBitmap {
 
   double cellsAtBorder() const { return cellsAtBorder_; }
 
-  /// Whether the tag is white at a place of the paper, in cells from its centre, x right, y down.
+  /// Whether the tag is white at a place on the paper, in cells from its centre, x right, y down.
   bool isWhiteAt(const glm::dvec2& cells) const {
     const int x = static_cast<int>(std::floor(cells.x + side_ / 2.0));
     const int y = static_cast<int>(std::floor(cells.y + side_ / 2.0));
@@ -76,14 +76,15 @@ class TagPainter {
       least = glm::min(least, corner);
       most = glm::max(most, corner);
     }
-    constexpr double kBulgePx = 8.0;  // a lens bends the paper's edges beyond its corners
+    // how far lens distortion bends the paper's edges beyond its corners
+    constexpr double kBulgePx = 8.0;
     const auto clampTo = [](double value, int end) {
       return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(end)));
     };
     const int left = clampTo(least.x - kBulgePx, size.width);
     const int right = clampTo(most.x + kBulgePx, size.width);
     const int bottom = clampTo(most.y + kBulgePx, size.height);
-    std::vector<glm::dvec2> above;  // where the paper is at pixel corners, row by row
+    std::vector<glm::dvec2> above;  // places on the paper at the pixel corners, row by row
     std::vector<glm::dvec2> below;
     for (int y = clampTo(least.y - kBulgePx, size.height); y < bottom; ++y) {
       if (above.empty()) above = cellsAlong(left, right, y);
@@ -101,7 +102,7 @@ class TagPainter {
  private:
   using PixelCorners = std::array<glm::dvec2, 4>;  // top left, top right, bottom left, bottom right
 
-  /// The places on the paper (cells) of the pixel corners from (left, y) to (right, y).
+  /// The places on the paper (cells) at the pixel corners from (left, y) to (right, y).
   std::vector<glm::dvec2> cellsAlong(int left, int right, int y) const {
     std::vector<glm::dvec2> cells;
     const glm::dvec3 origin(tagFromCamera_[3]);
@@ -116,7 +117,7 @@ class TagPainter {
     return cells;
   }
 
-  /// Within a pixel, the lens is linear to far less than a sample's distance.
+  /// Within a pixel, the lens counts as linear: its error is far below a sample's distance.
   double pixelValue(const PixelCorners& at, double behind) const {
     const auto isSameCell = [&](const glm::dvec2& cells) {
       return glm::floor(cells) == glm::floor(at[0]);

@@ -11,7 +11,7 @@
 
 namespace pleinair::support {
 
-/// A tag36h11 in the world. Its paper is white and two cells wider than the black square.
+/// A tag36h11 in the world, on white paper two cells wider than the black square.
 struct SceneTag {
   int id = 0;
   double edgeMetres = 0.1;
@@ -19,7 +19,7 @@ struct SceneTag {
 };
 
 struct TagPictureOptions {
-  int samplesPerSide = 5;  ///< of a pixel: its square is integrated over samplesPerSide² points
+  int samplesPerSide = 5;  ///< per pixel: its area is integrated over samplesPerSide² points
   double black = 30.0;
   double white = 220.0;
   double background = 120.0;
@@ -30,16 +30,16 @@ struct TagPictureOptions {
 /// A pose from a rotation vector (rad; its direction is the axis) and a translation (metres).
 glm::dmat4 poseOf(const glm::dvec3& rotationVector, const glm::dvec3& translation);
 
-/// A grey picture of tags through a lens, from the library's own bitmaps (apriltag_to_image). Each
-/// tag must lie in front of the camera and face it; later ones cover earlier ones.
+/// Renders a grey image of tags through a lens, from the library's own bitmaps (apriltag_to_image).
+/// Each tag must lie in front of the camera and face it; later ones cover earlier ones.
 hal::Image renderTags(const tracking::CameraModel& camera, const glm::dmat4& cameraFromWorld,
                       std::span<const SceneTag> tags, const TagPictureOptions& options = {});
 
-/// Where the lens shows a tag's corners.
+/// The image positions of a tag's corners, through the lens.
 tracking::TagCornersPx trueCorners(const tracking::CameraModel& camera,
                                    const glm::dmat4& cameraFromTag, double edgeMetres);
 
-/// The same picture in another format, neutral in colour. Mosaics and subsampled formats too.
+/// The same image in another format with neutral colour; also mosaics and subsampled formats.
 hal::Image neutralPicture(const hal::Image& grey, hal::PixelFormat format);
 
 }  // namespace pleinair::support

@@ -9,7 +9,7 @@
 
 namespace pleinair::support {
 
-/// A new folder for one test, removed with everything in it.
+/// A new folder for one test; the destructor removes it with its content.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -25,7 +25,7 @@ class TemporaryFolder {
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  /// Entries directly in it, hidden ones too.
+  /// The number of entries directly in it, including hidden ones.
   std::size_t entryCount() const {
     const std::filesystem::directory_iterator first(path_);
     return static_cast<std::size_t>(std::distance(first, std::filesystem::directory_iterator()));

@@ -1,4 +1,4 @@
-// What every test runs under, set before main().
+// The environment of every test, set before main().
 #include <cstdio>
 #include <cstdlib>
 
@@ -6,16 +6,16 @@
 
 namespace {
 
-// Blending into 32-bit floats becomes a GL error, as on the targets (docs/gpu.md, rule 5).
+// Makes blending into 32-bit floats a GL error, as on the targets (docs/gpu.md, rule 5).
 [[maybe_unused]] const int kFloatBlendForbidden =
     setenv("MESA_EXTENSION_OVERRIDE", "-GL_EXT_float_blend", 0);
 
-// Compiling shaders to machine code is most of what a small GPU test costs (0.3 s a program the
-// first time, 10 ms from the cache); kept with the build, it goes when the build goes.
+// Compiling shaders to machine code takes most of the time of a small GPU test (0.3 s per program
+// the first time, 10 ms from the cache). The cache lies in the build folder and is removed with it.
 [[maybe_unused]] const int kShaderCacheDirectory =
     setenv("MESA_SHADER_CACHE_DIR", PLEINAIR_BUILD_DIR, 0);
 
-/// Tells CTest of a suite that could not run at all (cmake/AddSuites.cmake).
+/// Tells CTest that a whole suite was skipped (cmake/AddSuites.cmake).
 class SkipReporter : public testing::EmptyTestEventListener {
  public:
   void OnTestProgramEnd(const testing::UnitTest& tests) override {
@@ -26,15 +26,17 @@ class SkipReporter : public testing::EmptyTestEventListener {
 };
 
 [[maybe_unused]] const bool kReportsSkips = [] {
-  testing::UnitTest::GetInstance()->listeners().Append(new SkipReporter);  // takes it
+  // the listeners take ownership
+  testing::UnitTest::GetInstance()->listeners().Append(new SkipReporter);
   return true;
 }();
 
 }  // namespace
 
-// The sanitizers' run-time libraries call these. Mesa keeps tables until exit. Its rasteriser and
-// LLVM are not built with the thread sanitizer, which sees some of their locks taken and never
-// released until it leaves all of them alone, also those that LLVM's compiler takes in libgcc.
+// Hooks of the sanitizers' run-time libraries. Mesa keeps tables until exit. Its rasteriser and
+// LLVM are not built with the thread sanitizer, which then misses the release of some of their
+// locks; hence it ignores both completely, including the locks that LLVM's compiler takes in
+// libgcc.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {
   return "leak:libgallium\nleak:swrast_dri.so\nleak:libLLVM\nleak:libEGL\n";

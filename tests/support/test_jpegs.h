@@ -11,10 +11,10 @@
 
 namespace pleinair::support {
 
-/// Of every JPEG of the fuzzing corpus that stands upright.
+/// The size of every upright JPEG in the fuzzing corpus.
 inline constexpr hal::FrameSize kTestJpegSize{21, 14};
 
-/// A JPEG of tests/fuzz/corpus/picture, all the same picture: "j420.jpg", "j422.jpg" …
+/// A JPEG of tests/fuzz/corpus/picture; all show the same image: "j420.jpg", "j422.jpg" …
 inline std::vector<std::uint8_t> testJpeg(const std::string& name) {
   std::ifstream file(std::string(PLEINAIR_TESTS_DIR) + "/fuzz/corpus/picture/" + name,
                      std::ios::binary);

@@ -6,8 +6,8 @@
 
 namespace pleinair::support {
 
-/// A smooth picture that differs from number to number, in any 8-bit format; chroma stays near
-/// neutral, so that subsampling loses little.
+/// A smooth image that varies with `number`, in any 8-bit format. Chroma stays near neutral, so
+/// that subsampling loses little.
 inline hal::Image testPicture(hal::FrameFormat format, int number) {
   hal::Image image(format);
   for (int plane = 0; plane < hal::planeCount(format.pixelFormat); ++plane) {

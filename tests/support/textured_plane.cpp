@@ -11,7 +11,7 @@
 namespace pleinair::support {
 namespace {
 
-/// A number in [-1, 1] of a lattice point.
+/// The random value of a lattice point, in [-1, 1].
 double latticeValue(int x, int y, unsigned seed) {
   std::uint32_t h = static_cast<std::uint32_t>(x) * 0x9E3779B1U +
                     static_cast<std::uint32_t>(y) * 0x85EBCA77U + seed * 0xC2B2AE3DU;
@@ -21,7 +21,7 @@ double latticeValue(int x, int y, unsigned seed) {
   return static_cast<double>(h) / 2147483647.5 - 1.0;
 }
 
-/// Twice continuously differentiable between lattice points.
+/// A weight that is twice continuously differentiable between lattice points.
 double smooth(double t) {
   return t * t * t * (t * (6.0 * t - 15.0) + 10.0);
 }
@@ -80,8 +80,8 @@ hal::Image renderWall(const WallView& view) {
   return image;
 }
 
-void layOver(hal::Image& image, const WallView& view, const glm::ivec2& from,
-             const glm::ivec2& to) {
+void overlayWall(hal::Image& image, const WallView& view, const glm::ivec2& from,
+                 const glm::ivec2& to) {
   const glm::ivec2 end(image.size().width, image.size().height);
   render(image, view, glm::max(from, glm::ivec2(0)), glm::min(to, end));
 }

@@ -9,8 +9,8 @@
 
 namespace pleinair::support {
 
-/// The eight orientations by their EXIF numbers, 1 to 8, and each one's display matrix, whose ones
-/// stand for 1.0 (rows: a b, c d).
+/// The eight EXIF orientations, 1 to 8, with their display matrices in units of 1.0 (rows: a b, c
+/// d).
 struct ExifOrientation {
   int number;
   std::array<int, 4> matrix;
@@ -44,9 +44,9 @@ inline PlaneSize planeSize(hal::FrameFormat format, int plane) {
       hal::planeRows(format.pixelFormat, plane, format.size.height), pixelBytes};
 }
 
-/// What a picture stored with an EXIF orientation shows, pixel by pixel from the standard's words:
-/// at which sides of the scene its first row and column lie (CIPA DC-008, tag 0x0112).
-inline hal::Image shownByExif(const hal::ImageView& stored, int orientation) {
+/// The upright image of a picture stored with an EXIF orientation, from the standard's definition:
+/// the sides of the scene at which its first row and column lie (CIPA DC-008, tag 0x0112).
+inline hal::Image uprightByExif(const hal::ImageView& stored, int orientation) {
   hal::FrameFormat format = stored.format;
   if (orientation >= 5) std::swap(format.size.width, format.size.height);
   hal::Image shown(format);
@@ -78,7 +78,7 @@ inline hal::Image shownByExif(const hal::ImageView& stored, int orientation) {
   return shown;
 }
 
-/// No two neighbours alike in any plane, and no symmetry.
+/// An image without symmetry in which neighbouring pixels differ in each plane.
 inline hal::Image unevenPicture(hal::FrameFormat format) {
   hal::Image image(format);
   std::uint32_t value = 7;

@@ -45,7 +45,7 @@ bool isOnPath(const std::string& program) {
   _exit(127);
 }
 
-/// One line, or nothing if none comes.
+/// Reads one line; nothing if none comes in time.
 std::optional<std::string> readLine(int fd) {
   std::string line;
   for (char c = 0;;) {
@@ -56,7 +56,7 @@ std::optional<std::string> readLine(int fd) {
   }
 }
 
-/// The fields of an XWD file's header (X11/XWDFile.h) that are needed.
+/// The required fields of an XWD file's header (X11/XWDFile.h).
 struct XwdHeader {
   std::size_t headerBytes, width, height, bitsPerPixel, strideBytes, colours;
 };
@@ -92,7 +92,7 @@ XServer::XServer(hal::FrameSize screen) {
   const std::string size = std::to_string(screen.width) + "x" + std::to_string(screen.height);
   process_ = fork();
   if (process_ == 0) {
-    prctl(PR_SET_PDEATHSIG, SIGTERM);  // a test that crashes takes it along
+    prctl(PR_SET_PDEATHSIG, SIGTERM);  // a test that crashes ends it, too
     close(number[0]);
     become({"Xvfb", "-displayfd", std::to_string(number[1]), "-screen", "0", size + "x24", "-fbdir",
             folder_.path().string(), "-nolisten", "tcp", "-noreset"});
@@ -138,7 +138,7 @@ int XServer::xdotool(const std::vector<std::string>& arguments) const {
     std::vector<std::string> command{"xdotool"};
     command.insert(command.end(), arguments.begin(), arguments.end());
     dup2(open("/dev/null", O_WRONLY | O_CLOEXEC), STDOUT_FILENO);
-    alarm(kPatienceMilliseconds / 1000);  // it may wait for ever
+    alarm(kPatienceMilliseconds / 1000);  // the call may block for ever
     become(std::move(command));
   }
   int status = 0;

@@ -10,32 +10,32 @@
 
 namespace pleinair::support {
 
-/// An X server in memory (Xvfb) on a free display, without a window manager, for one test.
+/// A private X server in memory (Xvfb) on a free display, without a window manager, for one test.
 class XServer {
  public:
-  /// Why none can be had here: Xvfb or xdotool is not installed. Empty: it can.
+  /// The reason why it is not available here: Xvfb or xdotool is not installed. Empty if it is.
   static std::string missing();
 
-  /// Returns when it takes clients. Throws std::runtime_error. Precondition: missing() is empty.
+  /// Returns when it accepts clients. Throws std::runtime_error. Precondition: missing() is empty.
   explicit XServer(hal::FrameSize screen = {800, 600});
   ~XServer();
   XServer(const XServer&) = delete;
   XServer& operator=(const XServer&) = delete;
 
-  /// For the environment variable DISPLAY.
+  /// The value for the environment variable DISPLAY.
   const std::string& display() const { return display_; }
-  /// What is on the screen, as RGB8.
+  /// The content of the screen, as RGB8.
   hal::Image screen() const;
-  /// Presses keys, named as xdotool has them ("shift+Tab"), for the window with the focus.
+  /// Presses keys, in xdotool's names ("shift+Tab"), in the window with the focus.
   void press(const std::vector<std::string>& keys) const;
-  /// Waits until a window with a title that matches (a regular expression) is shown, at most some
-  /// seconds; false if there is none by then.
+  /// Waits a few seconds for a window whose title matches a regular expression; false if there is
+  /// none by then.
   bool waitForTitle(const std::string& pattern) const;
 
  private:
   int xdotool(const std::vector<std::string>& arguments) const;
 
-  TemporaryFolder folder_;  ///< with the screen's memory
+  TemporaryFolder folder_;  ///< contains the screen's memory
   std::string display_;
   pid_t process_ = -1;
 };

@@ -1,4 +1,4 @@
-"""What scenarios share: the drivers, the program in flight, and those who read what it paints."""
+"""Shared by the scenarios: the drivers, the running program, and the readers of its outputs."""
 import json
 import os
 
@@ -14,7 +14,7 @@ STATUS = "127.0.0.1:9117"
 
 def load_drivers(guest, vivid="", loopbacks=1):
     """vivid, with more parameters, as /dev/video0, and v4l2loopback as /dev/video50 and on. Frames are
-    small; readers see a loopback only while somebody writes to it."""
+    small; readers see a loopback only while a program writes to it."""
     numbers = [str(50 + i) for i in range(loopbacks)]
     guest.run(
         f"modprobe vivid n_devs=1 node_types=0x1 {vivid}\n"
@@ -26,13 +26,13 @@ def load_drivers(guest, vivid="", loopbacks=1):
 
 
 def set_camera(guest, fourcc, size=CAMERA_SIZE):
-    """What the driver gives until somebody asks for something else."""
+    """The driver's default format."""
     guest.run(f"v4l2-ctl -d {CAMERA} "
               f"--set-fmt-video=width={size[0]},height={size[1]},pixelformat={fourcc}")
 
 
 def control(guest, **values):
-    """Sets controls of vivid's."""
+    """Sets vivid's controls."""
     listing = ",".join(f"{name}={value}" for name, value in values.items())
     guest.run(f"v4l2-ctl -d {CAMERA} --set-ctrl {listing}")
 
@@ -46,7 +46,7 @@ def plug(guest):
 
 
 def uptime(guest):
-    """The guest's monotonic clock in seconds, which V4L2's timestamps are on as well."""
+    """The guest's monotonic clock in seconds, which V4L2's timestamps use, too."""
     return float(guest.run("cut -d' ' -f1 /proc/uptime").output)
 
 
@@ -57,14 +57,14 @@ class Program:
                  style="none"):
         self._guest = guest
         targets = " ".join(f"--output loopback:{node}" for node in outputs)
-        # Under emulation compiling shaders is dear and running them cheap: Mesa's compiler is told not to
-        # optimise, which halves the start.
+        # Under emulation, compiling shaders costs more than running them: Mesa's compiler does not
+        # optimise, which halves the time to start.
         self.command = guest.start(
             f"env GALLIVM_PERF=nopt ./pleinair run --camera {camera} {targets} --style {style} "
             f"--size {SIZE[0]}x{SIZE[1]} --set status.listen={STATUS} {arguments}", "pleinair")
 
     def status(self):
-        """The JSON that its status page shows; nothing before there is one."""
+        """The JSON of its status page; None until the page exists."""
         host, port = STATUS.split(":")
         page = self._guest.run(
             f"exec 3<>/dev/tcp/{host}/{port} || exit 1\n"
@@ -95,15 +95,15 @@ class Program:
         return seen[-1]
 
     def wait_for_more(self, count, seconds=60):
-        """Waits until it has shown so many frames more."""
+        """Waits until it has shown this many more frames."""
         goal = self.shown() + count
         return self.wait_until(lambda status: shown_of(status) >= goal, f"{goal} frames shown",
                                seconds)
 
     def stop(self, seconds=2):
-        """Ends it by SIGTERM: within so long, with status 0 and a ledger that adds up, which it returns.
-        Under emulation one call of GL's may take longer than a stop; then the program says that it left
-        the painter behind, with status 1."""
+        """Ends it by SIGTERM. It must end in time, with status 0 and consistent frame counts, which this
+        returns. Under emulation one GL call may take longer than the time to stop; then the program
+        reports that it abandoned the painter, with status 1."""
         begin = uptime(self._guest)
         self.command.signal("TERM")
         finished = self.command.wait(seconds + 5)
@@ -134,7 +134,7 @@ def check_sums(status):
 
 
 def read_frames(guest, count, device=LOOPBACK, name="read", skip=0, seconds=60):
-    """What another program reads of a device: `count` frames, as v4l2-ctl takes them."""
+    """Reads `count` frames from a device with v4l2-ctl, like another program."""
     form = frames.Format(guest.run(f"v4l2-ctl -d {device} --get-fmt-video").output)
     guest.run(f"timeout {guest.patient(seconds):.0f} v4l2-ctl -d {device} --stream-mmap "
               f"--stream-skip={skip} --stream-count={count} --stream-to=/host/{name}.raw",

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""What CTest runs: makes a guest ready, or runs one scenario in it.
+"""Called by CTest: prepares a guest, or runs one scenario in it.
 
-usage: system_test.py FOLDER prepare PROGRAM ...     builds the guest's image, tries how it runs
+usage: system_test.py FOLDER prepare PROGRAM ...     builds the guest's image, tests it
        system_test.py FOLDER SCENARIO                one of scenarios/
 
-FOLDER, in the build tree, keeps what the one leaves for the other, and of each scenario all that it wrote.
-Exit status: 0; 1 with what was found and the guest's logs; 77, a skip, where there can be no guest.
+FOLDER, in the build tree, holds the results of `prepare` and all files of each scenario.
+Exit status: 0; 1 with the failure and the guest's logs; 77, a skip, if no guest can run here.
 """
 import importlib
 import json
@@ -26,7 +26,7 @@ SKIPPED = 77
 
 
 def prepare(folder, programs):
-    """Leaves guest.json: the image and the accelerator, or why there is none; and the programs."""
+    """Writes guest.json: the image and the accelerator, or the reason why there is none; and the programs."""
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(os.path.join(folder, "programs"))
     for program in programs:  # without debug information they load faster in the guest
@@ -76,7 +76,7 @@ def run_scenario(folder, name):
 
 
 def show_logs(guest):
-    """The ends of what the kernel said and of what each command printed that was started."""
+    """The last lines of the kernel's log and of the output of each started command."""
     try:
         guest.run("dmesg >/host/dmesg.log", seconds=5)
     except machine.GuestError as error:

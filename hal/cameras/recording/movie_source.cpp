@@ -15,7 +15,7 @@
 namespace pleinair::hal::recording {
 namespace {
 
-constexpr std::string_view kRemedy = "give a movie with a picture track, such as MP4, MKV or Y4M";
+constexpr std::string_view kRemedy = "give a movie with a video track, such as MP4, MKV or Y4M";
 
 /// libav's demuxers that read other files or the network. A DemuxerIo lets them
 /// open none; they are refused by name, so that the error gives the reason.
@@ -33,7 +33,7 @@ Error aborted(const std::string& subject, std::string problem) {
   return Error{.kind = ErrorKind::kInvalidInput,
                .subject = subject,
                .problem = std::move(problem),
-               .remedy = "record or copy it again if it ought to be whole"};
+               .remedy = "record or copy it again if it should be complete"};
 }
 
 /// An error with libav's own message, if it logged one.
@@ -79,7 +79,7 @@ Result<void> openContainer(DemuxedFile& file, const std::string& subject) {
   const AVInputFormat* format = nullptr;
   int status = av_probe_input_buffer2(file.io.context(), &format, "", nullptr, 0, 0);
   if (status < 0) {
-    return tl::unexpected(broken(subject, "is not a movie of a kind that is read"));
+    return tl::unexpected(broken(subject, "is not in a supported movie format"));
   }
   const bool isPlaylist = std::ranges::any_of(
       kPlaylists, [&](std::string_view name) { return isOneOf(format->name, name); });
@@ -286,8 +286,9 @@ void MovieSource::feed() {
 
 void MovieSource::reachEnd(int status, const libav::LogCapture& log) {
   atEnd_ = true;
-  truncated_ = status == AVERROR_EOF ? whyTruncated(log)
-                                     : std::optional(broken(subject_, "breaks off", status, log));
+  truncated_ = status == AVERROR_EOF
+                   ? whyTruncated(log)
+                   : std::optional(broken(subject_, "cannot be read to its end", status, log));
   avcodec_send_packet(decoder_.get(), nullptr);
 }
 
@@ -305,16 +306,16 @@ std::optional<Error> MovieSource::whyTruncated(const libav::LogCapture& log) con
   } else if (isMatroska() && segmentBreaksOff(file_.io.file())) {
     cut = true;
   } else if (!log.firstError().empty()) {
-    return aborted(subject_, "breaks off before its end: " + log.firstError());
+    return aborted(subject_, "is truncated: " + log.firstError());
   }
   if (!cut) return std::nullopt;
-  return aborted(subject_, "breaks off before its end");
+  return aborted(subject_, "is truncated");
 }
 
 }  // namespace
 
 Result<std::unique_ptr<FrameSource>> openMovie(const std::filesystem::path& path) {
-  libav::routeLog();
+  libav::redirectLog();
   const std::string subject = path.string();
   Result<libav::FileInput> input = libav::FileInput::open(path);
   if (!input) return tl::unexpected(input.error());

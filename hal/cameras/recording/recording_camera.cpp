@@ -76,7 +76,7 @@ Result<StreamFormat> RecordingCamera::start(const StreamRequest&) {
   fetch();
   if (!pending_) {
     Error error{.kind = ErrorKind::kInvalidInput,
-                .problem = "holds no sound picture",
+                .problem = "has no valid frame",
                 .remedy = "give another recording"};
     if (const auto* end = std::get_if<EndOfStream>(&*ending_); end && end->truncated) {
       error = *end->truncated;

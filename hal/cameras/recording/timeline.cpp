@@ -15,7 +15,7 @@ constexpr Duration kLargestTime = std::chrono::hours(24 * 365 * 100);
 Duration Timeline::place(std::optional<Duration> time, std::uint64_t droppedBefore) {
   if (time && (*time > kLargestTime || *time < -kLargestTime)) time.reset();
   if (!last_) {
-    if (!time) ++mended_;
+    if (!time) ++corrected_;
     if (!origin_) origin_ = time;
     last_ = Duration::zero();
     return *last_;
@@ -27,14 +27,14 @@ Duration Timeline::place(std::optional<Duration> time, std::uint64_t droppedBefo
   if (time && !origin_) origin_ = *time - expected;
   const Duration ours = time ? *time - *origin_ : expected;
   if (!time) {
-    ++mended_;
+    ++corrected_;
     last_ = expected;
   } else if (ours < *last_ - kLargestGlitch || ours > *last_ + kLargestGap) {
-    ++mended_;
+    ++corrected_;
     origin_ = *time - expected;
     last_ = expected;
   } else if (ours <= *last_) {
-    ++mended_;
+    ++corrected_;
     last_ = *last_ + std::max(period_ / 2, Duration(1));
   } else {
     last_ = ours;

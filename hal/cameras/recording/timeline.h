@@ -23,13 +23,13 @@ class Timeline {
   /// The recording starts over: the next frame comes one period after the last.
   void startOver();
 
-  std::uint64_t mendedCount() const { return mended_; }
+  std::uint64_t correctedCount() const { return corrected_; }
 
  private:
   Duration period_;
   std::optional<Duration> last_;    ///< in output time
   std::optional<Duration> origin_;  ///< the recording's timestamp at output time zero
-  std::uint64_t mended_ = 0;
+  std::uint64_t corrected_ = 0;
 };
 
 }  // namespace pleinair::hal::recording

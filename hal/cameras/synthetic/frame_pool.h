@@ -8,13 +8,13 @@
 
 namespace pleinair::hal::synthetic {
 
-/// Pictures of one format that go around: a lease comes back when its last copy is dropped, on any
-/// thread, after the pool itself is gone too.
+/// A pool of images of one format. A lease returns its image to the pool when its last copy is
+/// dropped, on any thread, also after the destruction of the pool.
 class FramePool {
  public:
   explicit FramePool(FrameFormat format) : format_(format), shelf_(std::make_shared<Shelf>()) {}
 
-  /// A picture with whatever was in it before; a new one where all are out. Thread-safe.
+  /// Lends an image with undefined content; allocates a new one if all are lent. Thread-safe.
   std::shared_ptr<Image> take();
 
  private:

@@ -29,7 +29,7 @@ Quad worldCorners(const BenchTag& tag, double edgeMetres) {
   return corners;
 }
 
-/// The part of a convex outline where normal · p ≤ offset.
+/// Clips a convex outline to the half-space normal · p ≤ offset.
 Outline clipped(const Outline& outline, glm::dvec3 normal, double offset) {
   Outline kept;
   for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -51,9 +51,10 @@ double areaOf(const Outline& outline) {
   return glm::length(sum) / 2;
 }
 
-/// Whether a part of a convex outline lies in the pyramid between an eye and a quad before it.
+/// Whether any part of a convex outline lies in the pyramid between an eye and a quad in front of
+/// it.
 bool isBetween(Outline outline, glm::dvec3 eye, const Quad& quad, glm::dvec3 normal) {
-  constexpr double kAboveMetres = 1e-4;  // what the quad is painted on is not before it
+  constexpr double kAboveMetres = 1e-4;  // excludes the surface that carries the quad
   constexpr double kLeastArea = 1e-10;
   const double side = glm::dot(normal, eye - quad[0]) > 0 ? 1 : -1;
   outline = clipped(outline, -side * normal, -side * glm::dot(normal, quad[0]) - kAboveMetres);
@@ -97,7 +98,7 @@ TagTruth truthOfTag(const Exposure& exposure, const Geometry& geometry, const Be
     const glm::dvec2 at = exposure.project({border[i]}).value_or(glm::dvec2(kNowhere));
     truth.isInside &= isInside(at, exposure.size());
     if (!truth.isInside) continue;
-    // At each corner's own moment, where the shutter rolls.
+    // With a rolling shutter, each corner has its own time.
     const CameraView view = exposure.viewAt(at.y);
     const bool isTurnedAway = glm::dot(glm::dvec3(tag.worldFromTag[2]),
                                        view.eye() - glm::dvec3(tag.worldFromTag[3])) >= 0;
@@ -123,12 +124,12 @@ GroundTruth truthOf(const Exposure& exposure, const Geometry& geometry) {
 FlowVector flowBetween(const Exposure& first, const Exposure& second, const Geometry& geometry,
                        glm::dvec2 pixel) {
   constexpr double kSamePointMetres = 1e-6;
-  const std::optional<SurfacePoint> surface = first.seenAt(geometry, pixel);
+  const std::optional<SurfacePoint> surface = first.visibleAt(geometry, pixel);
   if (!surface) return {};
   const std::optional<glm::dvec2> moved = second.project(*surface);
   if (!moved) return {};
   if (!isInside(*moved, second.size())) return {.px = *moved - pixel, .visible = false};
-  const std::optional<SurfacePoint> seen = second.seenAt(geometry, *moved);
+  const std::optional<SurfacePoint> seen = second.visibleAt(geometry, *moved);
   const bool isSame = seen && seen->moves == surface->moves &&
                       glm::distance(seen->point, surface->point) < kSamePointMetres;
   return {.px = *moved - pixel, .visible = isSame};

@@ -16,23 +16,23 @@ namespace pleinair::hal {
 
 struct TagTruth {
   BenchTag tag;
-  std::array<glm::dvec2, 4> cornersPx{};  ///< in AprilTag's order; may lie outside the picture
-  bool isInside = false;                  ///< whether the white border, too, is all in the picture
-  bool isVisible = false;  ///< inside, seen from its front, and nothing before any part of it
+  std::array<glm::dvec2, 4> cornersPx{};  ///< in AprilTag's order; may lie outside the image
+  bool isInside = false;   ///< whether the tag and its white border are completely in the image
+  bool isVisible = false;  ///< inside, facing the camera, and not occluded
 };
 
-/// What was true when a frame was taken. With a rolling shutter, the pose is the middle row's
-/// (SyntheticCamera::cameraFromWorld() has each row's), while corners are where they appear.
+/// The true state of a frame. With a rolling shutter, the pose is that of the middle row
+/// (SyntheticCamera::cameraFromWorld() gives each row's), and the corners are where they appear.
 struct GroundTruth {
   PinholeIntrinsics intrinsics;
   glm::dmat4 cameraFromWorld{1};  ///< OpenCV's camera frame; world: z up from the bench, metres
   std::vector<TagTruth> tags;
 };
 
-/// How a surface point moves from one frame to another.
+/// The motion of a surface point from one frame to another.
 struct FlowVector {
   glm::dvec2 px{0};      ///< position in the second frame − position in the first
-  bool visible = false;  ///< in the second frame: inside the picture, not behind anything
+  bool visible = false;  ///< in the second frame: inside the image and not occluded
 };
 
 /// The flow at every pixel centre of the first frame, or of every n-th pixel of every n-th row, row
@@ -47,7 +47,7 @@ namespace synthetic {
 
 GroundTruth truthOf(const Exposure& exposure, const Geometry& geometry);
 
-/// The flow at `pixel` of the first frame; zero and not visible where nothing is seen there.
+/// The flow at `pixel` of the first frame; zero and not visible if no surface is seen there.
 FlowVector flowBetween(const Exposure& first, const Exposure& second, const Geometry& geometry,
                        glm::dvec2 pixel);
 FlowField flowFieldBetween(const Exposure& first, const Exposure& second, const Geometry& geometry,

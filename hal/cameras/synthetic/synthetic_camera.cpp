@@ -50,7 +50,7 @@ std::optional<Error> problemOf(const SyntheticOptions& options) {
   if (options.framePeriod <= Duration::zero()) {
     return invalid("the frame period is not positive", "choose one such as 33 ms");
   }
-  if (outside(options.noiseSigma, synthetic::Sensor::kMostNoise)) {
+  if (outside(options.noiseSigma, synthetic::Sensor::kMaxNoise)) {
     return invalid("the noise is out of range",
                    "choose a standard deviation of 0 to 40 8-bit levels, such as 2");
   }

@@ -71,7 +71,7 @@ class SyntheticCamera final : public Camera {
   SyntheticOptions options_;
   Clock& clock_;
   synthetic::Motion motion_;
-  synthetic::Wander brightness_, balance_;
+  synthetic::SmoothNoise brightness_, balance_;
   synthetic::Sensor sensor_;
   synthetic::FramePool pool_;
   std::optional<synthetic::Renderer> renderer_;

@@ -61,14 +61,14 @@ Error tooSmall(const Device& device, std::size_t got, std::size_t needed) {
           .subject = device.node(),
           .problem = "gives buffers of " + std::to_string(got) + " bytes, where its format needs " +
                      std::to_string(needed),
-          .remedy = "ask for another size (camera.size); the driver contradicts itself"};
+          .remedy = "ask for another size (camera.size); the driver is inconsistent"};
 }
 
 Result<Buffer> mapBuffer(const Device& device, std::uint32_t index,
                          const std::vector<std::size_t>& neededBytes) {
   std::vector<PlaneFacts> facts;
   if (const int answer = queryBuffer(device, index, neededBytes.size(), facts); answer < 0) {
-    return tl::unexpected(device.failure("cannot ask for its buffers", answer));
+    return tl::unexpected(device.failure("cannot query its buffers", answer));
   }
   Buffer buffer;
   for (std::size_t plane = 0; plane < neededBytes.size(); ++plane) {

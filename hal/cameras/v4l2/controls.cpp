@@ -126,8 +126,8 @@ Error missing(const Device& device, const std::string& what) {
   return {.kind = ErrorKind::kUnsupported,
           .subject = device.node(),
           .problem = "has no control of " + what + " (" + device.capability().card + ")",
-          .remedy = has.empty() ? "leave it to the device, which has none of them"
-                                : "leave it to the device, which has " + has};
+          .remedy = has.empty() ? "remove the setting; the device has no such controls"
+                                : "remove the setting; the device has " + has};
 }
 
 Result<void> setAutomatic(const Device& device, const Pair& pair) {

@@ -52,7 +52,7 @@ Result<Device> Device::open(SystemCalls& calls, const std::string& node) {
   if (!capability) return tl::unexpected(std::move(capability.error()));
   if (!capability->capturesVideo()) {
     return tl::unexpected(unsupported(node, "captures no video (" + capability->card + ")",
-                                      "choose a node that does, or start what feeds it"));
+                                      "choose another node, or start its source"));
   }
   if (!capability->has(V4L2_CAP_STREAMING)) {
     return tl::unexpected(unsupported(node, "has no streaming I/O (" + capability->card + ")",

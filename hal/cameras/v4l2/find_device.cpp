@@ -206,8 +206,8 @@ Error notThere(const std::string& id, const std::vector<CameraDescription>& came
   }
   return {.kind = ErrorKind::kNotFound,
           .subject = id,
-          .problem = "no V4L2 camera of this id is there",
-          .remedy = there.empty() ? "plug it in; there is none now"
+          .problem = "no V4L2 camera with this id is connected",
+          .remedy = there.empty() ? "plug it in; no camera is connected"
                                   : "plug it in, or choose one of " + there};
 }
 

@@ -95,8 +95,9 @@ Error refused(const Device& device, std::string problem) {
 Result<Negotiated> understood(const Device& device, const PlainFormat& format) {
   const Layout* layout = findLayout(format.fourcc);
   if (layout == nullptr) {
-    return tl::unexpected(refused(device, "answers with the pixel format " +
-                                              fourccText(format.fourcc) + ", which is not read"));
+    return tl::unexpected(refused(
+        device,
+        "answers with the pixel format " + fourccText(format.fourcc) + ", which is not supported"));
   }
   constexpr std::uint32_t kMost = kMaxSidePixels + 1;
   const FrameSize size{static_cast<int>(std::min(format.width, kMost)),
@@ -106,7 +107,8 @@ Result<Negotiated> understood(const Device& device, const PlainFormat& format) {
                                               "x" + std::to_string(format.height) + " px"));
   }
   if (areFieldsApart(format.field)) {
-    return tl::unexpected(refused(device, "delivers the two fields of a frame apart"));
+    return tl::unexpected(
+        refused(device, "delivers the two fields of a frame separately (interlaced)"));
   }
   if (format.memoryPlanes != layout->memoryPlanes) {
     return tl::unexpected(refused(device, "answers with " + std::to_string(format.memoryPlanes) +
@@ -155,14 +157,14 @@ Result<void> adoptTimings(const Device& device) {
   v4l2_dv_timings timings{};
   const int answer = device.ask(VIDIOC_QUERY_DV_TIMINGS, timings);
   if (answer == -ENOLINK || answer == -ENOLCK || answer == -ERANGE) {
-    Error error = device.failure("has no signal that it understands", answer);
+    Error error = device.failure("receives no signal, or an unsupported one", answer);
     error.kind = ErrorKind::kDeviceLost;
-    error.remedy = "connect and switch on what feeds it";
+    error.remedy = "connect the source and switch it on";
     return tl::unexpected(std::move(error));
   }
   if (answer < 0) return {};
   if (const int set = device.ask(VIDIOC_S_DV_TIMINGS, timings); set < 0) {
-    return tl::unexpected(device.failure("cannot take over its input's timings", set));
+    return tl::unexpected(device.failure("cannot set its input's timings", set));
   }
   return {};
 }

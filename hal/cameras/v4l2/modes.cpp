@@ -102,7 +102,7 @@ Error nothingToChoose(const Device& device, const std::vector<DeviceFormat>& for
     return {.kind = ErrorKind::kUnsupported,
             .subject = device.node(),
             .problem = "offers no pixel format now (" + device.capability().card + ")",
-            .remedy = "start what feeds it, or choose another camera"};
+            .remedy = "start its source, or choose another camera"};
   }
   return {.kind = ErrorKind::kUnsupported,
           .subject = device.node(),

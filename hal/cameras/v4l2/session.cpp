@@ -15,7 +15,7 @@ namespace pleinair::hal::v4l2 {
 namespace {
 
 /// The pause before a driver is polled again that signalled readiness but had no buffer.
-constexpr Duration kNap = std::chrono::milliseconds(1);
+constexpr Duration kRetryInterval = std::chrono::milliseconds(1);
 
 FrameHealth healthOf(const Filled& filled, const Negotiated& negotiated) {
   if ((filled.flags & V4L2_BUF_FLAG_ERROR) != 0) return FrameHealth::kCorrupt;
@@ -85,14 +85,14 @@ NextFrame Session::next(TimePoint deadline) {
 
 std::optional<NextFrame> Session::step(TimePoint deadline) {
   const int returned = std::min(stream_->queueReturned(), requeueFailure_);
-  if (returned < 0) return fail("does not take its buffers back", returned);
+  if (returned < 0) return fail("refuses to requeue its buffers", returned);
 
   std::optional<Duration> timeout;
   if (deadline != kNoDeadline) timeout = std::max(deadline - clock_.now(), Duration::zero());
   pollfd waitFor{.fd = device_.fd(), .events = POLLIN, .revents = 0};
   if (stream_->hasEvents()) waitFor.events |= POLLPRI;
   const int ready = device_.calls().poll({&waitFor, 1}, timeout);
-  if (ready < 0) return fail("cannot be waited for", ready);
+  if (ready < 0) return fail("cannot be polled", ready);
   if (ready == 0) return CameraTimeout{};
   if ((waitFor.revents & POLLPRI) != 0 && isSourceChanged()) return followSource();
   return readFrame(deadline);  // also after POLLERR and POLLHUP: DQBUF gives the error
@@ -104,13 +104,13 @@ std::optional<NextFrame> Session::readFrame(TimePoint deadline) {
   if (answer == -EAGAIN) {
     const TimePoint now = clock_.now();
     if (now >= deadline) return CameraTimeout{};
-    clock_.sleepUntil(std::min(deadline, now + kNap));  // avoids a busy loop
+    clock_.sleepUntil(std::min(deadline, now + kRetryInterval));  // avoids a busy loop
     return std::nullopt;
   }
   // EPIPE follows the last buffer before a change of source. Before the first frame it means that
   // the driver has no buffers at all.
   if (answer == -EPIPE && hasFrames_) return followSource();
-  if (answer < 0) return fail("gives no more frames", answer);
+  if (answer < 0) return fail("delivers no more frames", answer);
   hasFrames_ = true;
   return frameOf(filled);
 }

@@ -75,7 +75,7 @@ Result<std::unique_ptr<Stream>> Stream::start(const Device& device, const Negoti
   std::unique_ptr<Stream> stream(new Stream(device, *std::move(buffers)));
   for (std::uint32_t index = 0; index < stream->buffers_.count(); ++index) {
     if (const int answer = stream->queue(index); answer < 0) {
-      return tl::unexpected(device.failure("does not take its buffers", answer));
+      return tl::unexpected(device.failure("refuses to queue its buffers", answer));
     }
   }
   stream->hasEvents_ = subscribeToSourceChanges(device);

@@ -191,7 +191,7 @@ Result<void> H264Writer::finish() {
 
 Result<std::unique_ptr<MovieWriter>> openH264Writer(Container container, const MovieFormat& format,
                                                     const std::string& subject, PendingFile& file) {
-  libav::routeLog();
+  libav::redirectLog();
   auto writer = std::make_unique<H264Writer>(container, subject, format, file);
   if (Result<void> opened = writer->open(); !opened) return tl::unexpected(opened.error());
   return writer;

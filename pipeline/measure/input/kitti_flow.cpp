@@ -90,7 +90,7 @@ class FlowSequence final : public TrueMotion {
 }  // namespace
 
 hal::Result<KittiFlowField> readKittiFlow(const std::filesystem::path& path, cv::Size size) {
-  const hal::Result<hal::DeepPicture> picture = hal::readDeepRgb(path);
+  const hal::Result<hal::Rgb16Image> picture = hal::readRgb16(path);
   if (!picture) return tl::unexpected(picture.error());
   if (picture->size != hal::FrameSize{size.width, size.height}) {
     return tl::unexpected(wrongSize(path, picture->size, size));

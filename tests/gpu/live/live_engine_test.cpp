@@ -39,7 +39,7 @@ class LiveEngine {
         controls_(watercolorParameters()) {
     options.qualityLevels = true;
     while (!chain_.capture().status().format) chain_.capture().step(clock_.now());
-    auto output = std::make_unique<support::NotingOutput>(notes_, clock_);
+    auto output = std::make_unique<support::CapturingOutput>(notes_, clock_);
     const auto format = *output->start({.size = kSize, .framePeriod = {}});
     chain_.addOutput(std::move(output), format, {.name = "noting", .waiting = 16});
     chain_.makePaintStage(
@@ -71,7 +71,7 @@ class LiveEngine {
 
  private:
   hal::SteppedClock clock_{hal::TimePoint(100s)};
-  std::vector<support::NotingOutput::Note> notes_;
+  std::vector<support::CapturingOutput::Note> notes_;
   hal::CameraSelector selector_;
   hal::CameraSupervisor supervisor_;
   LiveControls controls_;

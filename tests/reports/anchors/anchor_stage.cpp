@@ -13,7 +13,7 @@
 namespace pleinair::marks {
 namespace {
 
-constexpr std::uint32_t kModel = 1;  // its object id
+constexpr std::uint32_t kModel = 1;  // the model's object id
 
 scene::Scene sceneOf(std::shared_ptr<const scene::Model> model) {
   scene::Scene scene;
@@ -54,7 +54,7 @@ void AnchorStage::advance(const glm::dmat4& cameraFromModel,
   frame_.measuredMotion = scene::MeasuredMotion{.motion = &motion};
   field_->update(frame_, timer_);
   anchors_->advance(frame_, *field_, timer_);
-  frame_.measuredMotion.reset();  // it does not outlive this call
+  frame_.measuredMotion.reset();  // it points into this call's arguments
 }
 
 std::vector<glm::dvec2> AnchorStage::places() const {
@@ -101,10 +101,11 @@ std::vector<glm::dvec2> AnchorStage::seen(std::span<const SurfaceSample> samples
     if (pixel.x < 0 || pixel.y < 0 || pixel.x >= kSize.width || pixel.y >= kSize.height) continue;
     const std::uint32_t id = shown[static_cast<std::size_t>(pixel.y * kSize.width + pixel.x)];
     if (id >> scene::kTriangleBits != kModel) continue;
-    // Whether what is drawn there is as far away, on the ray through the sample.
+    // Whether the surface drawn there is as far away as the sample, on the ray through it.
     const auto& [a, b, c] = posed[id & (scene::kMaxTriangles - 1)];
     const glm::dvec3 normal = glm::cross(b - a, c - a);
-    const double away = glm::dot(normal, a) / glm::dot(normal, place);  // as a part of the sample's
+    // relative to the sample's distance
+    const double away = glm::dot(normal, a) / glm::dot(normal, place);
     if (std::abs(away - 1.0) < kTolerance) places.push_back(px);
   }
   return places;

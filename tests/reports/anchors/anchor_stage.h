@@ -17,15 +17,15 @@
 
 namespace pleinair::marks {
 
-/// A scene of at most one model, frame by frame, with the anchors that live in it. All calls on the
-/// thread of the GL context it was made in.
+/// A sequence of frames of a scene with at most one model, and its anchors. All calls on the thread
+/// of the GL context that was current at construction.
 class AnchorStage {
  public:
   static constexpr hal::FrameSize kSize{640, 480};
   static constexpr hal::Duration kStep = std::chrono::milliseconds(33);
   static constexpr int kCellPixels = 8;
 
-  /// `model` may be null: the camera's picture alone.
+  /// `model` may be null: the camera image alone.
   explicit AnchorStage(std::shared_ptr<const scene::Model> model, DensityRule rule = {});
 
   /// The next frame: the model is placed so, the picture moved so.
@@ -33,13 +33,13 @@ class AnchorStage {
                const glm::dmat3& currentFromPrevious = glm::dmat3(1.0));
 
   std::vector<Anchor> anchors() const { return anchors_->read(); }
-  /// Where those are that stay, on the model; without one, all.
+  /// The places of the staying anchors on the model; without a model, of all.
   std::vector<glm::dvec2> places() const;
-  /// Cells that show the model; without one, all.
+  /// The cells that show the model; without a model, all cells.
   CellGrid grid() const;
-  /// Where those of the samples appear that are seen.
+  /// The image positions of the visible samples.
   std::vector<glm::dvec2> seen(std::span<const SurfaceSample> samples) const;
-  /// The model's triangles as they are now, in the camera's frame.
+  /// The model's triangles in their current pose, in the camera's frame.
   std::vector<Triangle> triangles() const;
   hal::Image picture() const;
 

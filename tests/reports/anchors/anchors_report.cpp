@@ -1,8 +1,8 @@
-// Prints what docs/measured.md says of anchors, as Markdown, and draws the thesis's figure 28:
-// `anchors_report [PART ...]`, where a part is cells, turnover or drifts; all without one. A PNG
-// for each model goes into the current folder. On the left of a PNG, in red, the points that
-// area-weighted sampling of the surface gives (thesis §5.3.1), as many as ours in the near view; on
-// the right, in blue, ours; above the near view, below the far one.
+// Prints the anchors' tables of docs/measured.md as Markdown, and draws the thesis's figure 28:
+// `anchors_report [PART ...]`, where a part is cells, turnover or drifts; all by default. Writes a
+// PNG for each model into the current folder. Left, in red: the points of area-weighted sampling of
+// the surface (thesis §5.3.1), as many as anchors in the near view. Right, in blue: the anchors.
+// Top: the near view; bottom: the far one.
 
 #include <algorithm>
 #include <array>
@@ -31,7 +31,7 @@
 namespace pleinair::marks {
 namespace {
 
-constexpr double kNearShare = 1.2;  // of the picture's height that the model's sphere takes
+constexpr double kNearShare = 1.2;  // of the image's height that the model's sphere covers
 constexpr double kFarShare = 0.4;
 constexpr int kStandingFrames = 30;
 constexpr int kTravelFrames = 90;
@@ -52,7 +52,7 @@ std::vector<Subject> subjects() {
   return all;
 }
 
-/// A model and how it is looked at.
+/// A model and its views.
 class View {
  public:
   View(const scene::Model& model, const tracking::CameraModel& camera) : camera_(camera) {
@@ -70,7 +70,7 @@ class View {
     radius_ = 0.5 * glm::distance(low, high);
   }
 
-  /// From aslant above; `share` of the picture's height, turned by `yaw`.
+  /// From above at an angle; the sphere covers `share` of the image's height; turned by `yaw`.
   glm::dmat4 cameraFromModel(double share, double yaw) const {
     const double distance = 2.0 * radius_ * camera_.intrinsics().fy /
                             (share * static_cast<double>(camera_.imageSize().height));
@@ -85,7 +85,7 @@ class View {
   double radius_ = 1.0;
 };
 
-/// The first of the samples, so many that cells hold as many of them as `mean` says.
+/// The first samples, as many as give the cells a mean of `mean`.
 std::span<const SurfaceSample> asMany(const AnchorStage& stage, const CellGrid& grid, double mean,
                                       std::span<const SurfaceSample> samples) {
   std::size_t low = 1;
@@ -130,7 +130,7 @@ void draw(hal::Image& sheet, hal::Image& picture, std::span<const glm::dvec2> po
   }
 }
 
-/// How many of those that stay were born, a frame.
+/// The number of spawned anchors that stay, per frame.
 struct Turnover {
   double born = 0.0;
   double staying = 0.0;

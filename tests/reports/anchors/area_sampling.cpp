@@ -37,7 +37,7 @@ std::vector<SurfaceSample> sampleByArea(std::span<const Triangle> triangles, std
     areas.push_back(0.5 * glm::length(glm::cross(b - a, c - a)));
   }
   std::vector<double> sums(areas.size());
-  std::partial_sum(areas.begin(), areas.end(), sums.begin());  // eq. 20-21, not yet divided
+  std::partial_sum(areas.begin(), areas.end(), sums.begin());  // eq. 20-21, not yet normalised
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> ofArea(0.0, sums.back());
   std::uniform_real_distribution<double> unit(0.0, 1.0);

@@ -30,10 +30,9 @@ struct SurfaceSample {
   }
 };
 
-/// The basic sampling of surfaces that the thesis compares with (§5.3.1, eq. 20-21): a triangle
-/// with a probability proportional to its area, and a uniform point on it: barycentrics 1 - √u, √u
-/// (1 - v), √u v (eq. 25 as it is printed does not add up to one). Random, but the same for the
-/// same seed.
+/// The basic surface sampling to which the thesis compares (§5.3.1, eq. 20-21): a triangle with a
+/// probability proportional to its area, and a uniform point on it with the barycentrics 1 - √u, √u
+/// (1 - v), √u v (eq. 25 as printed does not add up to one). Deterministic for a seed.
 std::vector<SurfaceSample> sampleByArea(std::span<const Triangle> triangles, std::size_t count,
                                         unsigned seed);
 

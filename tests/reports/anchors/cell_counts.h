@@ -11,26 +11,26 @@
 
 namespace pleinair::marks {
 
-/// How many points the cells of a grid hold.
+/// Statistics of the number of points per cell.
 struct CellCounts {
   std::size_t cells = 0;
   double mean = 0.0;
   double spread = 0.0;  ///< standard deviation
-  double empty = 0.0;   ///< part of the cells, in [0, 1]
+  double empty = 0.0;   ///< share of the cells, in [0, 1]
   int most = 0;
 
   /// "2.03 ± 0.41, 0.0 % empty".
   std::string text() const;
 };
 
-/// The cells that count: those of which at least nine tenths of the pixels are covered.
+/// The counted cells: those with at least nine tenths of their pixels covered.
 class CellGrid {
  public:
-  /// `covered`: of each pixel, row by row.
+  /// `covered`: one value per pixel, row by row.
   CellGrid(hal::FrameSize size, int cellPixels, const std::vector<bool>& covered);
 
   CellCounts count(std::span<const glm::dvec2> points) const;
-  /// Whether the point lies in a cell that counts.
+  /// Whether the point lies in a counted cell.
   bool holds(glm::dvec2 px) const;
   std::size_t cells() const;
 

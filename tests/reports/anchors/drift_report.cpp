@@ -33,18 +33,18 @@ using tracking::percentile;
 constexpr hal::FrameSize kSize{640, 480};
 constexpr std::size_t kFrames = 90;
 constexpr double kNoise = 2.0;
-constexpr std::array<int, 2> kAges{10, 30};  // frames after which drifts are looked at
+constexpr std::array<int, 2> kAges{10, 30};  // ages, in frames, at which drift is measured
 
 enum class Poses { kNone, kEstimated, kTrue };
 
-/// Where an anchor should be, as long as the truth knows.
+/// The true place of an anchor, while it is known.
 struct Followed {
   std::uint32_t seed = 0;
   glm::dvec2 expected{0.0};
   int age = 0;
 };
 
-/// As a camera's picture, RGBA.
+/// A camera image in RGBA.
 std::vector<std::uint8_t> greyOf(const hal::ImageView& luma) {
   std::vector<std::uint8_t> rgba;
   for (int y = 0; y < luma.format.size.height; ++y) {
@@ -56,19 +56,19 @@ std::vector<std::uint8_t> greyOf(const hal::ImageView& luma) {
   return rgba;
 }
 
-/// What was found on a shot.
+/// The errors measured on a shot.
 struct Drifts {
   std::vector<double> step;                  ///< error of a frame's displacement, px
-  std::array<std::vector<double>, 2> after;  ///< frames of kAges
+  std::array<std::vector<double>, 2> after;  ///< after the frames of kAges
   std::array<double, 7> bySource{};
-  std::array<double, 7> squares{};           ///< of these errors, by source
-  std::array<double, 7> predictedSquares{};  ///< and as they were predicted
+  std::array<double, 7> squares{};           ///< of the displacement errors, by source
+  std::array<double, 7> predictedSquares{};  ///< of the predicted errors
 };
 
 scene::Scene benchScene(Poses poses) {
   scene::Scene scene;
   if (poses == Poses::kNone) return scene;
-  // The top of the workbench; what stands on it is no part of the plane.
+  // The top of the workbench; the objects on it are not part of the plane.
   scene.planes.push_back({.name = "bench",
                           .attachFromPlane = glm::translate(glm::dmat4(1.0), {0.0, -0.01, 0.0}),
                           .sizeMetres = {2.3, 0.9}});
@@ -120,7 +120,7 @@ class DriftRun {
     anchors_->advance(composed, *field_, timer_);
   }
 
-  /// Of those in frame i, whose px count from 0 … size.
+  /// Follows the anchors of frame i, with px in 0 … size.
   void follow(std::size_t i) {
     const std::vector<Anchor> now = anchors_->read();
     followed_.resize(now.size());

@@ -1,6 +1,6 @@
-// Prints what OpenCV's filters read, measured as `pleinair measure` measures styles.
-// `coherence_report PHOTOGRAPH ...`: each panned by (-1.5, -0.5) px a frame, zoomed by 1 % and
-// rolled by 1°, with noise of 2 levels, at 640x480. Takes a minute a photograph and filter.
+// Measures OpenCV's filters as `pleinair measure` measures styles. `coherence_report PHOTOGRAPH
+// ...`: each photograph is panned by (-1.5, -0.5) px per frame, zoomed by 1 % and rolled by 1°,
+// with noise of 2 levels, at 640x480. Takes a minute per photograph and filter.
 
 #include <cstdio>
 #include <functional>
@@ -14,7 +14,7 @@
 namespace pleinair::measure {
 namespace {
 
-/// A filter of single frames: it remembers nothing.
+/// A filter of single frames, without memory.
 class FilterPainter final : public MeasuredPainter {
  public:
   using Filter = std::function<void(const cv::Mat& input, cv::Mat& output)>;
@@ -64,7 +64,7 @@ void report(const std::string& photograph, const PhotographMotion& motion,
   const auto measured = hal::orThrow(measure(
       *input, painter, {.style = filter.name, .settings = "its own defaults", .stillSettle = 0}));
   std::puts(reportText(*measured).c_str());
-  std::fflush(stdout);  // minutes pass until the next
+  std::fflush(stdout);  // the next line takes minutes
 }
 
 }  // namespace

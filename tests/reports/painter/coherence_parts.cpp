@@ -36,7 +36,7 @@ void printRow(std::string_view name, const measure::Report& report) {
     line += " " + measure::textOf(column, report.measures[measure::Subject::kPainting]) + " |";
   }
   fmt::print("{} {} | {} |\n", line, turnoverText(report.inside), turnoverText(report.insideStill));
-  std::fflush(stdout);  // minutes pass until the next
+  std::fflush(stdout);  // the next line takes minutes
 }
 
 void printInput(const std::string& title, const OpenInput& open, const MeasuredLength& length) {

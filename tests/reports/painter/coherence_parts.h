@@ -13,15 +13,15 @@
 
 namespace pleinair {
 
-/// The painter as it is, with a part of its coherence switched off, or with its dial elsewhere.
+/// The painter with one part of its coherence switched off, or with one parameter changed.
 struct CoherenceVariant {
   std::string_view name;
-  std::string_view parameter;  ///< empty: as it is
+  std::string_view parameter;  ///< empty: unchanged
   std::string_view value;
 };
 std::span<const CoherenceVariant> coherenceVariants();
 
-/// How long is measured, in frames. A still of a second and more settles what the past holds.
+/// The measured length, in frames. A second or more of a static image settles the past.
 struct MeasuredLength {
   std::uint64_t frames = 30;
   std::uint64_t settle = 60;
@@ -31,13 +31,13 @@ struct MeasuredLength {
 
 using OpenInput = std::function<std::unique_ptr<measure::MeasuredInput>()>;
 
-/// Measures variants of the painter on one input, which is opened anew for each.
+/// Measures variants of the painter on one input, which is reopened for each.
 class CoherenceParts {
  public:
-  /// Throws hal::Failure as Painter does.
+  /// Throws hal::Failure like Painter.
   CoherenceParts(OpenInput open, const MeasuredLength& length);
 
-  /// Throws hal::Failure: of the input.
+  /// Throws hal::Failure if the input fails.
   measure::Report measured(const CoherenceVariant& variant);
 
  private:
@@ -46,8 +46,8 @@ class CoherenceParts {
   std::unique_ptr<Painter> painter_;
 };
 
-/// Prints all variants on one photograph that pans, rolls and zooms, and on the workbench, as
-/// Markdown. Throws hal::Failure: of the photograph.
+/// Prints all variants as Markdown, on a photograph that pans, rolls and zooms, and on the
+/// workbench. Throws hal::Failure for the photograph.
 void printCoherenceParts(const std::filesystem::path& photograph, hal::FrameSize size,
                          const MeasuredLength& length);
 

@@ -41,7 +41,7 @@ FieldComparison compareField(const gpu::ShaderLibrary& library, const hal::Image
   scene::ArFrame frame{.colour = &picture};
   motion.update(frame, timer);
   const TensorFieldOptions options{.memory = hal::Duration(0)};
-  field.update(frame, picture, motion, options, timer);  // the first one warms up
+  field.update(frame, picture, motion, options, timer);  // the first update warms up
   glFinish();
   const Stopwatch pyramid;
   for (int i = 0; i < kRuns; ++i) field.update(frame, picture, motion, options, timer);
@@ -49,7 +49,7 @@ FieldComparison compareField(const gpu::ShaderLibrary& library, const hal::Image
   found.pyramidMs = pyramid.ms() / kRuns;
 
   const oracles::TensorImage gradients = oracles::gradientTensors(image.view());
-  // The thesis's threshold, of the robust largest P.
+  // The thesis's threshold, from the robust maximum of P.
   const double threshold = oracles::edgePercentile(gradients, 0.995) / 3.0;
   const Stopwatch oracle;
   const oracles::TensorGrid grid =

@@ -9,18 +9,18 @@
 #include "pipeline/measure/input/sensor_noise.h"
 #include "pipeline/measure/picture.h"
 #include "tests/oracles/stroke_oracle.h"
-#include "tests/reports/painter/told_painting.h"
+#include "tests/reports/painter/reported_painting.h"
 
 namespace pleinair {
 namespace {
 
 constexpr std::uint64_t kFrames = 60;
-constexpr int kSamples = 24;  // of a spline
+constexpr int kSamples = 24;  // on a spline
 constexpr double kNoiseLevels = 2.0;
-constexpr float kInner = 0.6F;  // of a stroke's width: no brush has gaps there worth a stroke
+constexpr float kInner = 0.6F;  // of a stroke's width: inside it, no brush has visible gaps
 constexpr float kOpaque = 0.75F;
 
-/// As a still, under fresh noise.
+/// Paints a static image under changing noise.
 void paintAtRest(ReportedPainting& painting, const hal::Image& picture) {
   const cv::Mat3f exact = measure::toFloat(picture.view());
   for (std::uint64_t i = 0; i < kFrames; ++i) {
@@ -53,8 +53,8 @@ std::vector<Drawn> inOrder(const ReportedPainting& painting) {
   return drawn;
 }
 
-/// Calls `each(index of the pixel)` for those within `reach` of the stroke's spine, until it gives
-/// false; whether it never did.
+/// Calls `each(index of the pixel)` for the pixels within `reach` of the stroke's spine until it
+/// returns false. Returns whether it never did.
 template <class Each>
 bool overPixels(const Drawn& stroke, float reach, hal::FrameSize size, const Each& each) {
   glm::vec2 low = stroke.spine.front();

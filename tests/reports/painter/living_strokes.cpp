@@ -12,7 +12,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "pipeline/measure/input/measured_input.h"
-#include "tests/reports/painter/told_painting.h"
+#include "tests/reports/painter/reported_painting.h"
 
 namespace pleinair {
 namespace {
@@ -23,7 +23,7 @@ constexpr int kFirst = 60;
 constexpr int kApart = 10;
 constexpr std::size_t kShown = 3;
 constexpr std::size_t kCircles = 12;
-const cv::Rect kPart(200, 140, 320, 240);  // of the first frame shown
+const cv::Rect kPart(200, 140, 320, 240);  // of the first frame
 constexpr int kMagnified = 2;
 
 struct Painted {
@@ -31,7 +31,7 @@ struct Painted {
   std::map<std::uint32_t, glm::vec2> strokes;  // by their anchors' seeds
 };
 
-/// Of strokes that are seen, of all layers.
+/// The visible strokes of all layers.
 std::map<std::uint32_t, glm::vec2> seenOf(const ReportedPainting& painting) {
   std::map<std::uint32_t, glm::vec2> seen;
   for (std::size_t layer = 0; layer < painting.layerCount(); ++layer) {
@@ -67,7 +67,7 @@ std::vector<Painted> paint(const gpu::ShaderLibrary& library,
   return shown;
 }
 
-/// Far from each other, in the part that is shown of all frames.
+/// Strokes far from each other, in the part that all frames show.
 std::map<std::uint32_t, glm::vec2> chosen(const std::map<std::uint32_t, glm::vec2>& strokes) {
   const glm::vec2 low(static_cast<float>(kPart.x) + 55.0F, static_cast<float>(kPart.y) + 35.0F);
   const glm::vec2 high(static_cast<float>(kPart.br().x) - 20.0F,

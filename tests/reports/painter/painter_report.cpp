@@ -1,11 +1,13 @@
-// Prints what docs/measured.md says of the painter, as Markdown.
-// `painter_report fields FOLDER [PICTURE ...]`: the tensor pyramid beside the global radial-basis
-// interpolation; into FOLDER go the error maps; without pictures, those of the shared data.
-// `painter_report table1`: the thesis's table 1 beside ours. Leave the machine alone meanwhile.
-// `painter_report parts PHOTOGRAPH [WIDTHxHEIGHT [FRAMES]]`: what each part of its coherence is
-// worth, on moving pictures; half an hour at 640x480 and 30 frames.
-// `painter_report lives FOLDER PHOTOGRAPH`: the thesis's figure 26 with ours, as a PNG in FOLDER.
-// `painter_report hidden PHOTOGRAPH ...`: how many strokes of a painting at rest are for nothing.
+// Prints the painter's tables of docs/measured.md as Markdown.
+// `painter_report fields FOLDER [PICTURE ...]`: the tensor pyramid compared with the global
+// radial-basis interpolation; writes error maps into FOLDER; uses the shared data by default.
+// `painter_report table1`: the thesis's table 1 and the same for pleinair; run nothing else
+// meanwhile.
+// `painter_report parts PHOTOGRAPH [WIDTHxHEIGHT [FRAMES]]`: the effect of each part of its
+// coherence, on moving images; half an hour at 640x480 and 30 frames.
+// `painter_report lives FOLDER PHOTOGRAPH`: the counterpart of the thesis's figure 26, as a PNG in
+// FOLDER.
+// `painter_report hidden PHOTOGRAPH ...`: how many strokes of a painting at rest are invisible.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -38,7 +40,7 @@
 namespace pleinair {
 namespace {
 
-constexpr double kSigmaPx = 8.0;  // of eq. 12: the width of the pyramid's finest regions
+constexpr double kSigmaPx = 8.0;  // for eq. 12: the width of the pyramid's finest regions
 constexpr int kFrames = 16;
 constexpr int kRounds = 7;
 
@@ -119,7 +121,7 @@ std::vector<hal::CapturedFrame> workbench(hal::FrameSize size) {
   return frames;
 }
 
-/// Paints the workbench there and back, again and again.
+/// Paints the workbench's frames forwards and backwards, repeatedly.
 class Easel {
  public:
   Easel(hal::FrameSize size, gpu::PassTiming timing)
@@ -133,7 +135,7 @@ class Easel {
     round();
   }
 
-  /// ms a frame.
+  /// ms per frame.
   double round() {
     const auto start = std::chrono::steady_clock::now();
     for (std::size_t i = 0; i < kFrames; ++i) {
@@ -150,7 +152,7 @@ class Easel {
     return std::chrono::duration<double, std::milli>(end - start).count() / kFrames;
   }
 
-  /// Since the start, in all.
+  /// Totals since the start.
   std::array<double, kStages> stages() const {
     std::array<double, kStages> sums{};
     for (const gpu::PassTime& each : painter_.passTimes()) {

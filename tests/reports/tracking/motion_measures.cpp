@@ -32,7 +32,8 @@ glm::dmat3 matrixOf(const CameraModel& camera) {
   return {k.fx, 0.0, 0.0, 0.0, k.fy, 0.0, k.cx, k.cy, 1.0};
 }
 
-/// Pictures of a plane, or of one without end, by what takes its places to px of each frame.
+/// The sequence of a plane, bounded or endless, from the homography of its places to px of each
+/// frame.
 MotionSequence planeMotion(TruthSequence sequence, const std::vector<glm::dmat3>& pxFromPlane) {
   MotionSequence out{.name = sequence.name, .luma = {}, .homographies = {}, .moved = {}};
   for (std::size_t i = 0; i < sequence.frames.size(); ++i) {
@@ -107,7 +108,7 @@ MotionSequence layersMotion() {
 double Errors::ratio() const {
   std::vector<double> ratios;
   for (std::size_t i = 0; i < actual.size(); ++i) ratios.push_back(actual[i] / predicted[i]);
-  constexpr double kMedianOfNormal = 0.8326;  // of the length over two axes, by its RMS
+  constexpr double kMedianOfNormal = 0.8326;  // for the length over two axes, relative to its RMS
   return percentile(std::move(ratios), 0.5) / kMedianOfNormal;
 }
 

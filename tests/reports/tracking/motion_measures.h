@@ -14,14 +14,14 @@
 
 namespace pleinair::tracking {
 
-/// Pictures of which the motion from each to the next is known.
+/// A sequence of images with known motion from each to the next.
 struct MotionSequence {
   std::string name;
   std::vector<hal::Image> luma;
-  /// From each frame to the next; empty where the picture does not follow one.
+  /// From each frame to the next; empty if the image does not follow one.
   std::vector<glm::dmat3> homographies;
-  /// Where what frame `then` shows at a place is in the next, px; nothing where that is not known,
-  /// or not seen there.
+  /// The place in the next frame of the content at a place of frame `then`, px; nothing if it is
+  /// unknown or hidden there.
   std::function<std::optional<glm::dvec2>(std::size_t then, const glm::dvec2& px)> moved;
 };
 
@@ -29,11 +29,11 @@ struct MotionSequence {
 MotionSequence deskMotion(std::size_t mostFrames = 1000);
 /// virtual_camera: 640×480. Precondition: hasVirtualCamera().
 MotionSequence virtualCameraMotion(std::size_t mostFrames = 1000);
-/// synth_layers: 640×360, layers that move apart by some 10 px a frame.
+/// synth_layers: 640×360, layers with a relative motion of some 10 px per frame.
 MotionSequence layersMotion();
 bool hasLayers();
 
-/// Errors in px of the frame, each with what was predicted of it.
+/// Errors in px of the frame, each with its prediction.
 struct Errors {
   std::vector<double> actual;
   std::vector<double> predicted;
@@ -41,14 +41,14 @@ struct Errors {
     actual.push_back(error);
     predicted.push_back(prediction);
   }
-  /// What the median of actual by predicted errors is, in parts of what it would be of normally
-  /// distributed ones: 1 where predictions are right.
+  /// The median ratio of actual to predicted errors, relative to that of normally distributed
+  /// errors: 1 if the predictions are right.
   double ratio() const;
-  /// Of the part of the errors that is predicted to be smallest.
+  /// The part of the errors with the smallest predictions.
   Errors surest(double part) const;
 };
 
-/// What an estimator found, from the third frame on.
+/// The results of an estimator, from the third frame on.
 struct MotionResult {
   std::size_t frames = 0;
   std::size_t cuts = 0;

@@ -1,4 +1,4 @@
-// Prints what docs/measured.md says of how the picture's motion is found, as Markdown.
+// Prints the tables of image motion in docs/measured.md, as Markdown.
 
 #include <cstdio>
 #include <vector>

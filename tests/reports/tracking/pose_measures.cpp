@@ -27,15 +27,15 @@ ModelPx truePx(const TruthSequence& sequence, std::size_t frame, int id) {
                  marker.edgeMetres);
 }
 
-std::optional<ModelPx> toldPx(const TruthSequence& sequence, std::span<const Told> told,
+std::optional<ModelPx> toldPx(const TruthSequence& sequence, std::span<const TrackedPoses> told,
                               std::size_t frame, int id) {
   const auto found = told[frame].tags.find(id);
   if (found == told[frame].tags.end()) return std::nullopt;
   return modelPx(sequence.camera, *found->second.cameraFromTag, sequence.marker(id).edgeMetres);
 }
 
-/// Each point's error.
-std::optional<ModelPx> errorPx(const TruthSequence& sequence, std::span<const Told> told,
+/// The error of each point.
+std::optional<ModelPx> errorPx(const TruthSequence& sequence, std::span<const TrackedPoses> told,
                                std::size_t frame, int id) {
   std::optional<ModelPx> error = toldPx(sequence, told, frame, id);
   if (!error) return std::nullopt;
@@ -45,7 +45,7 @@ std::optional<ModelPx> errorPx(const TruthSequence& sequence, std::span<const To
 }
 
 /// The mean squared distance to the true path `shiftFrames` frames earlier.
-double squaredDistanceAt(const TruthSequence& sequence, std::span<const Told> told, int id,
+double squaredDistanceAt(const TruthSequence& sequence, std::span<const TrackedPoses> told, int id,
                          double shiftFrames) {
   double sum = 0.0;
   std::size_t count = 0;
@@ -66,7 +66,7 @@ double squaredDistanceAt(const TruthSequence& sequence, std::span<const Told> to
   return count == 0 ? std::nan("") : sum / static_cast<double>(8 * count);
 }
 
-/// The tag with its white border, or the right part of it.
+/// The outline of the tag with its white border, or of the right part of it.
 std::vector<cv::Point> coverOf(const TagCornersPx& corners, double part) {
   constexpr double kBorder = 1.3;
   const glm::dvec2 centre = (corners[0] + corners[1] + corners[2] + corners[3]) / 4.0;
@@ -83,10 +83,10 @@ std::vector<cv::Point> coverOf(const TagCornersPx& corners, double part) {
 
 }  // namespace
 
-std::vector<Told> trackAll(const TruthSequence& sequence, Layout layout,
-                           const TrackerOptions& options, const Retouch& retouch) {
+std::vector<TrackedPoses> trackAll(const TruthSequence& sequence, Layout layout,
+                                   const TrackerOptions& options, const Retouch& retouch) {
   Tracker tracker(sequence.camera, markersOf(sequence, layout), options);
-  std::vector<Told> all;
+  std::vector<TrackedPoses> all;
   hal::Image retouched;
   for (std::size_t i = 0; i < sequence.frames.size(); ++i) {
     const TruthFrame& frame = sequence.frames[i];
@@ -96,7 +96,8 @@ std::vector<Told> trackAll(const TruthSequence& sequence, Layout layout,
     }
     const TrackingResult result =
         tracker.track(retouch ? retouched.view() : frame.luma.view(), frame.time);
-    Told told{.cameraFromWorld = result.cameraFromWorld, .worldCovariance = result.worldCovariance};
+    TrackedPoses told{.cameraFromWorld = result.cameraFromWorld,
+                      .worldCovariance = result.worldCovariance};
     for (const TrackedTag& tag : result.tags) {
       if (tag.cameraFromTag) told.tags[tag.id] = tag;
     }
@@ -141,7 +142,7 @@ ModelError modelError(const TruthSequence& sequence, std::size_t frame, int id,
                        modelPx(sequence.camera, truth, marker.edgeMetres))};
 }
 
-PredictedErrors predictedErrors(const TruthSequence& sequence, std::span<const Told> told,
+PredictedErrors predictedErrors(const TruthSequence& sequence, std::span<const TrackedPoses> told,
                                 PoseSource source) {
   double actual = 0.0;
   double predicted = 0.0;
@@ -171,7 +172,7 @@ double rootMeanSquare(std::span<const double> values) {
   return values.empty() ? std::nan("") : std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-Tremble trembleOf(const TruthSequence& sequence, std::span<const Told> told, int id,
+Tremble trembleOf(const TruthSequence& sequence, std::span<const TrackedPoses> told, int id,
                   std::size_t firstFrame) {
   std::vector<ModelPx> seen;
   std::vector<double> steps;
@@ -190,7 +191,7 @@ Tremble trembleOf(const TruthSequence& sequence, std::span<const Told> told, int
   return {.aboutMean = rootMeanSquare(offsets), .frameToFrame = rootMeanSquare(steps)};
 }
 
-double lagMs(const TruthSequence& sequence, std::span<const Told> told, int id) {
+double lagMs(const TruthSequence& sequence, std::span<const TrackedPoses> told, int id) {
   constexpr double kStep = 0.02;  // frames
   double best = 0.0;
   double least = std::numeric_limits<double>::infinity();
@@ -217,7 +218,7 @@ Retouch hidden(const Hiding& hiding, std::optional<int> onlyId) {
   };
 }
 
-HiddenResult hiddenResult(const TruthSequence& sequence, std::span<const Told> told, int id,
+HiddenResult hiddenResult(const TruthSequence& sequence, std::span<const TrackedPoses> told, int id,
                           const Hiding& hiding) {
   constexpr std::size_t kAfter = 10;
   HiddenResult out;

@@ -16,36 +16,36 @@
 
 namespace pleinair::tracking {
 
-/// How a sequence's tags are put into a tracker's scene.
+/// How a sequence's tags are described in a tracker's scene.
 enum class Layout {
   kWorld,  ///< with their places in the world
-  kLoose   ///< each by itself: only its size is known
+  kLoose   ///< each by itself, with only its size known
 };
 
-/// What a tracker said of one frame.
-struct Told {
+/// A tracker's result for one frame.
+struct TrackedPoses {
   std::optional<glm::dmat4> cameraFromWorld;
   PoseCovariance worldCovariance{};
   std::map<int, TrackedTag> tags;  ///< those with a pose
 };
 
-/// Changes a picture before it is tracked: `index` is the frame's in its sequence.
+/// Edits an image before it is tracked; `index` is the frame's index in its sequence.
 using Retouch = std::function<void(const TruthFrame& frame, std::size_t index, hal::Image& luma)>;
 
 /// Tracks every frame of a sequence.
-std::vector<Told> trackAll(const TruthSequence& sequence, Layout layout,
-                           const TrackerOptions& options = {}, const Retouch& retouch = {});
+std::vector<TrackedPoses> trackAll(const TruthSequence& sequence, Layout layout,
+                                   const TrackerOptions& options = {}, const Retouch& retouch = {});
 
-/// The eight corners of a cube that stands on a tag, in its frame: what a model's points do.
+/// The eight corners of a cube that stands on a tag, in the tag's frame: sample points of a model.
 std::array<glm::dvec3, 8> modelPoints(double edgeMetres);
-/// Where a lens shows them.
+/// The image positions of modelPoints().
 using ModelPx = std::array<glm::dvec2, 8>;
 ModelPx modelPx(const CameraModel& camera, const glm::dmat4& cameraFromTag, double edgeMetres);
 
 /// Root mean square distance of two models' points.
 double rmsBetween(const ModelPx& a, const ModelPx& b);
 
-/// The drawn and the true pose of a tag in one frame, as the picture shows a model on it.
+/// The estimated and the true pose of a tag in one frame, compared by the image of a model on it.
 struct ModelError {
   double rotationDegrees = 0.0;
   double translationMm = 0.0;
@@ -54,58 +54,59 @@ struct ModelError {
 ModelError modelError(const TruthSequence& sequence, std::size_t frame, int id,
                       const glm::dmat4& cameraFromTag);
 
-/// RMS px of a model's points, over all visible tags with a pose from `source`.
+/// RMS error in px of a model's points, over all visible tags with a pose from `source`.
 struct PredictedErrors {
   double actualPx = 0.0;
-  double predictedPx = 0.0;  ///< by the poses' covariances
+  double predictedPx = 0.0;  ///< from the poses' covariances
 };
-PredictedErrors predictedErrors(const TruthSequence& sequence, std::span<const Told> told,
+PredictedErrors predictedErrors(const TruthSequence& sequence, std::span<const TrackedPoses> told,
                                 PoseSource source = PoseSource::kSeen);
 
-/// What stands at `part` (0 … 1) of the sorted values; not a number of none.
+/// The percentile `part` (0 … 1) of the values; NaN without values.
 double percentile(std::vector<double> values, double part);
 double rootMeanSquare(std::span<const double> values);
 
-/// How a model trembles before a camera that stands still (RMS px).
+/// The jitter of a model in front of a static camera (RMS px).
 struct Tremble {
   double aboutMean = 0.0;
   double frameToFrame = 0.0;
 };
 /// Over the frames from `firstFrame` on in which the tag has a pose.
-Tremble trembleOf(const TruthSequence& sequence, std::span<const Told> told, int id,
+Tremble trembleOf(const TruthSequence& sequence, std::span<const TrackedPoses> told, int id,
                   std::size_t firstFrame);
 
-/// By how many ms the model comes after the truth: the shift of the true path, interpolated between
-/// frames, that fits what was told best. Over the frames in which the tag has a pose.
-double lagMs(const TruthSequence& sequence, std::span<const Told> told, int id);
+/// The model's lag behind the truth, ms: the shift of the true path, interpolated between frames,
+/// that fits the estimates best. Over the frames in which the tag has a pose.
+double lagMs(const TruthSequence& sequence, std::span<const TrackedPoses> told, int id);
 
-/// Tags covered for a while, again and again.
+/// Tags that are covered periodically.
 struct Hiding {
   std::size_t firstFrame = 30;
   std::size_t hiddenFrames = 6;
   std::size_t everyFrames = 45;
-  /// 1: the tag with its white border; 0.5: the half of it at its right.
+  /// 1: the tag with its white border; 0.5: its right half.
   double part = 1.0;
 
-  /// Whether a frame's tags are covered.
+  /// Whether the tags are covered in a frame.
   bool hides(std::size_t frame) const {
     return frame >= firstFrame && (frame - firstFrame) % everyFrames < hiddenFrames;
   }
 };
-/// Covers the tags in the picture by grey, one (`onlyId`) or all.
+/// Covers one tag (`onlyId`) or all tags in the image with grey.
 Retouch hidden(const Hiding& hiding, std::optional<int> onlyId = std::nullopt);
 
-/// What a model did while its tag was hidden, over all times that it was visible before and after.
+/// The behaviour of a model while its tag was hidden, over all intervals with a visible tag before
+/// and after.
 struct HiddenResult {
   std::size_t times = 0;
   std::size_t framesHidden = 0;
   std::size_t framesLost = 0;    ///< without a pose
-  std::vector<double> driftPx;   ///< the largest error of each time, less the one before
+  std::vector<double> driftPx;   ///< for each interval: its largest error minus the error before it
   std::vector<double> jumpPx;    ///< largest frame-to-frame change of the error at each return
   std::vector<double> settlePx;  ///< error 10 frames after each return
 };
-/// Jumps are looked for in the frame of the return and the five after it.
-HiddenResult hiddenResult(const TruthSequence& sequence, std::span<const Told> told, int id,
+/// Jumps are searched in the first frame after an interval and the five frames after that.
+HiddenResult hiddenResult(const TruthSequence& sequence, std::span<const TrackedPoses> told, int id,
                           const Hiding& hiding);
 
 }  // namespace pleinair::tracking

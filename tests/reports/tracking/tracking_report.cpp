@@ -1,6 +1,6 @@
-// Prints what docs/measured.md says of poses, as Markdown: `tracking_report [PART ...] [SHOT ...]`,
-// where a part is lag, hidden, tremble, poses or covariance, and a shot desk, virtual or one of the
-// workbench's; all without one. Takes minutes.
+// Prints the tables of poses in docs/measured.md as Markdown: `tracking_report [PART ...] [SHOT
+// ...]`, where a part is lag, hidden, tremble, poses or covariance, and a shot is desk, virtual or
+// one of the workbench's; all by default. Takes minutes.
 
 #include <algorithm>
 #include <array>
@@ -38,7 +38,7 @@ void reportPoses(const TruthSequence& sequence, Layout layout) {
   std::vector<double> degrees;
   std::vector<double> px;
   std::size_t visible = 0;
-  const std::vector<Told> told = trackAll(sequence, layout);
+  const std::vector<TrackedPoses> told = trackAll(sequence, layout);
   for (std::size_t i = 0; i < told.size(); ++i) {
     for (const int id : sequence.frames[i].visible) {
       ++visible;
@@ -71,7 +71,7 @@ void reportTremble(const TruthSequence& still) {
       "\n### Tremble: RMS px of a cube on a tag, a still camera with noise of 2 levels\n\n"
       "| | tag | about its mean | frame to frame |\n|---|---|---|---|\n");
   for (const Layout layout : {Layout::kWorld, Layout::kLoose}) {
-    const std::vector<Told> told = trackAll(still, layout);
+    const std::vector<TrackedPoses> told = trackAll(still, layout);
     for (const int id : idsOf(still)) {
       if (!still.frames.front().visible.contains(id)) continue;
       const Tremble tremble = trembleOf(still, told, id, 30);
@@ -88,7 +88,7 @@ void reportLag(const std::vector<TruthSequence>& sequences) {
       "|---|---|---|\n");
   for (const TruthSequence& sequence : sequences) {
     for (const Layout layout : {Layout::kWorld, Layout::kLoose}) {
-      const std::vector<Told> told = trackAll(sequence, layout);
+      const std::vector<TrackedPoses> told = trackAll(sequence, layout);
       std::string lags;
       std::vector<std::pair<double, double>> speedAndError;
       for (const int id : idsOf(sequence)) {
@@ -135,11 +135,11 @@ void reportHiddenRow(const TruthSequence& sequence, Layout layout, const Hiding&
   };
   const std::set<int> ids = idsOf(sequence);
   if (layout == Layout::kWorld) {
-    const std::vector<Told> told = trackAll(sequence, layout, {}, hidden(hiding));
+    const std::vector<TrackedPoses> told = trackAll(sequence, layout, {}, hidden(hiding));
     for (const int id : ids) add(hiddenResult(sequence, told, id, hiding));
   } else {
     for (const int id : ids) {
-      const std::vector<Told> told = trackAll(sequence, layout, {}, hidden(hiding, id));
+      const std::vector<TrackedPoses> told = trackAll(sequence, layout, {}, hidden(hiding, id));
       add(hiddenResult(sequence, told, id, hiding));
     }
   }
@@ -168,7 +168,7 @@ void reportHidden(const std::vector<TruthSequence>& sequences) {
   }
 }
 
-/// How much larger errors are than what was predicted, as a model on a tag shows them.
+/// The ratio of actual to predicted errors, measured on a model on a tag.
 void reportCovariance(const std::vector<TruthSequence>& sequences) {
   std::printf(
       "\n### Errors against predicted ones, px of a cube on a tag, RMS\n\n"

@@ -58,7 +58,7 @@ bool isInside(const TagCornersPx& corners, hal::FrameSize size) {
   });
 }
 
-/// Fills in which tags are in the picture, where nothing hides any.
+/// Finds the tags that are in the image, in sequences without occlusion.
 void findVisible(TruthFrame& frame) {
   for (const auto& [id, corners] : frame.corners) {
     if (isInside(corners, frame.luma.size())) frame.visible.insert(id);
@@ -75,7 +75,7 @@ glm::dmat3 matrix3(const json& rows) {
   return out;
 }
 
-/// The file's tag poses are in solvePnP's square: x right, y up, z to the viewer.
+/// The file's tag poses use solvePnP's square: x right, y up, z towards the viewer.
 TagMarker virtualMarker(int id, double edgeMetres, const json& tag) {
   cv::Matx33d rotation;
   cv::Rodrigues(
@@ -91,7 +91,7 @@ TagMarker virtualMarker(int id, double edgeMetres, const json& tag) {
   return {.id = id, .edgeMetres = edgeMetres, .worldFromTag = pose};
 }
 
-/// The picture with another focal length, about the same principal point.
+/// Resamples the image to another focal length, about the same principal point.
 hal::Image zoomed(const hal::Image& image, const glm::dvec2& scale, const glm::dvec2& centre) {
   hal::Image out(image.format());
   hal::Image from(image.view());

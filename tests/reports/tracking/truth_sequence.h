@@ -15,16 +15,16 @@
 
 namespace pleinair::tracking {
 
-/// A picture of which all is known.
+/// An image with its ground truth.
 struct TruthFrame {
   hal::Image luma;
   hal::TimePoint time;
   glm::dmat4 cameraFromWorld{1.0};
   std::map<int, TagCornersPx> corners;  ///< tagCorners()' order; may lie outside the picture
-  std::set<int> visible;                ///< wholly in the picture, and nothing before them
+  std::set<int> visible;                ///< completely in the image and not occluded
 };
 
-/// Pictures with known poses, held in memory.
+/// Images with known poses, held in memory.
 struct TruthSequence {
   std::string name;
   CameraModel camera;
@@ -34,13 +34,13 @@ struct TruthSequence {
   const TagMarker& marker(int id) const;
 };
 
-/// desk_6dof: a camera that moves freely over a desk, with motion blur. Precondition:
+/// desk_6dof: a camera in free motion over a desk, with motion blur. Precondition:
 /// hasDeskSequence().
 TruthSequence readDesk();
 
-/// virtual_camera: a photograph under hand shake, turns and zoom. A Tracker has one calibration, so
-/// each picture is resampled to the first one's focal length; the world is the photograph's camera.
-/// What the file says of the tags was itself measured in the photograph. Precondition:
+/// virtual_camera: a photograph under hand shake, rotation and zoom. A Tracker has one calibration,
+/// so each image is resampled to the first one's focal length; the world is the photograph's
+/// camera. The file's tag poses were themselves measured in the photograph. Precondition:
 /// hasVirtualCamera().
 TruthSequence readVirtualCamera();
 bool hasVirtualCamera();

@@ -5,9 +5,8 @@
         stream = guest.start("v4l2-ctl --stream-mmap")
         ...
 
-The folder is shared: what lies in it is at /host in the guest, and commands run there. The image stays
-as it is, each guest writes into a copy of its own. QEMU ends with the process that started it, however
-that ends, and every wait has a deadline.
+The folder is shared: it is /host in the guest, and commands run in it. Each guest writes into its own
+copy of the image. QEMU always ends with the process that started it, and every wait has a deadline.
 """
 import ctypes
 import json
@@ -19,17 +18,17 @@ import tempfile
 import time
 
 BOOT_SECONDS = 120  # 8 on two idle cores under emulation
-# A boot on hardware; how much longer it takes says how much slower everything is here.
+# The time of a boot on hardware; the ratio of a boot here to it scales every timeout.
 USUAL_BOOT_SECONDS = 1.5
 MOST_PATIENCE = 8
 
 
 class GuestError(Exception):
-    """The guest did not do what it was asked to: no boot, no answer, a command that fails."""
+    """The guest failed: no boot, no answer, or a command with an error."""
 
 
 class Finished:
-    """What a command left: its exit status (128 + the signal, as a shell has it) and all it printed."""
+    """The result of a command: its exit status (128 + the signal, as in a shell) and its output."""
 
     def __init__(self, status, output):
         self.status = status
@@ -37,7 +36,7 @@ class Finished:
 
 
 class Background:
-    """A command that runs in the guest while others do."""
+    """A command that runs in the guest in parallel with others."""
 
     def __init__(self, guest, name):
         self._guest = guest
@@ -49,12 +48,12 @@ class Background:
         self._guest.run(f"kill -{name} $(cat {self._base}.pid)")
 
     def caught_signals(self):
-        """Those that it handles itself, as a mask: proc(5), SigCgt."""
+        """The signals that it catches, as a mask: proc(5), SigCgt."""
         line = self._guest.run(f"grep SigCgt /proc/$(cat {self._base}.pid)/status").output
         return int(line.split()[1], 16)
 
     def output(self):
-        """What it printed so far."""
+        """Its output so far."""
         try:
             with open(self._here + ".out", errors="replace") as file:
                 return file.read()
@@ -71,7 +70,7 @@ class Background:
             return Finished(int(file.read()), self.output())
 
     def wait_for_output(self, text, seconds=20):
-        """Waits until it printed this text."""
+        """Waits until its output contains this text."""
         self._guest.wait_for(
             lambda: text in self.output() or not self.is_running(), f'"{text}"', seconds)
         if text not in self.output():
@@ -79,8 +78,8 @@ class Background:
 
 
 class Guest:
-    """One whose boot hangs, which has been seen under emulation, is started anew, with a line that
-    says so; `boots` is how often it is tried."""
+    """A guest whose boot hangs, which happens under emulation, is restarted with a message;
+    `boots` is the number of attempts."""
 
     def __init__(self, image, folder, accelerator, boot_seconds=BOOT_SECONDS, boots=2):
         self.folder = os.path.abspath(folder)
@@ -146,7 +145,7 @@ class Guest:
 
     def start(self, command, name=None):
         """Starts a command and returns at once. It is one program with its arguments, so that signals
-        reach it; a shell's doings go into `sh -c`."""
+        reach it; use `sh -c` for a shell's features."""
         self._count += 1
         name = name or f"started-{self._count}"
         base = f"/host/.guest/{name}"
@@ -167,7 +166,7 @@ class Guest:
             time.sleep(0.05)
 
     def patient(self, seconds):
-        """So many seconds of real hardware, as they are here."""
+        """Scales seconds on real hardware to seconds here."""
         return seconds * self._patience
 
     def _boot(self):
@@ -218,7 +217,7 @@ class Guest:
             time.sleep(0.02)
 
     def _answer(self, kind, what, seconds):
-        """The words of the agent's next line, which is of this kind."""
+        """The words of the agent's next line, which must be of this kind."""
         deadline = time.monotonic() + seconds
         while b"\n" not in self._received:
             self._agent.settimeout(max(0.001, deadline - time.monotonic()))
@@ -258,8 +257,8 @@ def start_with_parent(command, log):
 
 
 def usable_accelerator(image, folder):
-    """"kvm" where a guest boots with it, else "tcg", QEMU's emulation. A KVM that can be opened may
-    still fail to run a kernel, so one is started."""
+    """"kvm" if a guest boots with it, else "tcg", QEMU's emulation. A KVM that can be opened may
+    still fail to run a kernel, so this starts one."""
     if not os.access("/dev/kvm", os.R_OK | os.W_OK):
         return "tcg"
     try:

@@ -1,5 +1,5 @@
-"""The guest's image: built once, kept in the user's cache for all checkouts, and built again when what it
-is made from changes: the scripts beside this file, or the packages that the program needs."""
+"""The guest's image: built once and kept in the user's cache for all checkouts. It is rebuilt when its
+inputs change: the scripts beside this file, or the packages that the program needs."""
 import contextlib
 import fcntl
 import hashlib
@@ -12,7 +12,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 BUILT_FROM = ("build", "init", "initrd-init")
 BUILD_SECONDS = 900
 KEPT_IMAGES = 3
-# What the scripts call, and the Debian package that has it.
+# The programs that the scripts call, with their Debian packages.
 TOOLS = {
     "qemu-system-x86_64": "qemu-system-x86", "mmdebstrap": "mmdebstrap", "mke2fs": "e2fsprogs",
     "busybox": "busybox-static", "cpio": "cpio", "modprobe": "kmod", "make": "make", "gcc": "gcc",
@@ -21,11 +21,11 @@ NOT_TO_BE_HAD = 77  # `build` ends so when packages cannot be fetched
 
 
 class Unavailable(Exception):
-    """No guest on this machine; the text says why."""
+    """This machine cannot run a guest; the text gives the reason."""
 
 
 def check_machine():
-    """Raises Unavailable where guests cannot be built or run."""
+    """Raises Unavailable if guests cannot be built or run."""
     path = os.environ.get("PATH", os.defpath) + ":/usr/sbin:/sbin"
     missing = [package for tool, package in TOOLS.items()
                if package != "fakeroot" or os.geteuid() != 0
@@ -40,7 +40,7 @@ def check_machine():
 
 
 def packages_of(program):
-    """The Debian packages of the libraries that a program names itself; theirs follow from these."""
+    """The Debian packages of the libraries that a program links directly; these pull in the others."""
     needed = [line.split()[1] for line in _output("objdump", "-p", program).splitlines()
               if "NEEDED" in line]
     found = {line.split()[0]: line.split()[2] for line in _output("ldd", program).splitlines()
@@ -58,7 +58,7 @@ def packages_of(program):
 
 
 def ready_image(program, log):
-    """The folder of an image that this program runs in; builds it where there is none."""
+    """The folder of an image for this program; builds the image if there is none."""
     check_machine()
     packages = packages_of(program)
     key = hashlib.sha256(" ".join(packages).encode())
@@ -83,14 +83,14 @@ def _output(*command):
 
 @contextlib.contextmanager
 def _lock(path):
-    """Held by one process at a time, and let go of when it ends."""
+    """A lock of one process at a time, released when the process ends."""
     with open(path, "w") as file:
         fcntl.flock(file, fcntl.LOCK_EX)
         yield
 
 
 def _build(image, packages, log):
-    """Builds beside the image's place and moves it there when it is whole."""
+    """Builds the image under a temporary name and renames it when it is complete."""
     unfinished = image + ".part"
     shutil.rmtree(unfinished, ignore_errors=True)
     os.mkdir(unfinished)
@@ -108,7 +108,7 @@ def _build(image, packages, log):
 
 
 def _run_within(command, log, seconds):
-    """Runs a command; past its deadline it and all it started are asked to end, then made to."""
+    """Runs a command; after its deadline, terminates it and its children, then kills them."""
     process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log,
                                stderr=subprocess.STDOUT, start_new_session=True)
     try:
@@ -126,7 +126,7 @@ def _run_within(command, log, seconds):
 
 
 def _prune(cache):
-    """Keeps the images that were used last."""
+    """Removes all but the most recently used images."""
     images = [entry for entry in os.scandir(cache)
               if entry.name.startswith("guest-") and entry.is_dir()]
     images.sort(key=lambda entry: entry.stat().st_mtime, reverse=True)

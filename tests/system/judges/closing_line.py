@@ -1,4 +1,4 @@
-"""The line that the program ends with:
+"""The last line of the program's output:
 
 showed 90 frames in 3.0 s (30.0 frames/s), 1 off schedule; dropped 3 (1 late, 2 while starting): OUTPUTS
 """
@@ -10,8 +10,8 @@ REASON = re.compile(r"(\d+) (\D+)")
 
 
 def ledger(output):
-    """Its numbers, of all that the program printed: shown, dropped, and each reason; the sums are
-    checked."""
+    """Its numbers, from the program's whole output: shown, dropped, and each reason. Checks the
+    sums."""
     match = LINE.search(output)
     assert match, "no ledger in:\n" + output
     reasons = {}

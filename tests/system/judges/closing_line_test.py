@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What closing_line reads, by hand: each line here is one that the program has printed, or may not."""
+"""Tests closing_line on lines that the program has printed, and on lines that it must not print."""
 import os
 import sys
 import unittest

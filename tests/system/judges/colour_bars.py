@@ -1,4 +1,4 @@
-"""What vivid's pattern "75% Colorbar" is: ITU-R BT.471's 75/0/75/0 bars, as R'G'B' in [0, 255].
+"""vivid's pattern "75% Colorbar": ITU-R BT.471's 75/0/75/0 bars, as R'G'B' in [0, 255].
 
 A picture of them that went through a wrong matrix, a wrong range or swapped chroma is off by far more than
 TOLERANCE: green that is written by BT.601's matrix and read by BT.709's is (0, 161, 0) instead of
@@ -7,7 +7,7 @@ TOLERANCE: green that is written by BT.601's matrix and read by BT.709's is (0, 
 BARS = [("white", (191, 191, 191)), ("yellow", (191, 191, 0)), ("cyan", (0, 191, 191)),
         ("green", (0, 191, 0)), ("magenta", (191, 0, 191)), ("red", (191, 0, 0)),
         ("blue", (0, 0, 191)), ("black", (0, 0, 0))]
-# vivid itself is 3 off, in 8 bits of limited range; the program may be as much, twice.
+# vivid's own error is 3, in 8 bits of limited range; the program may add twice as much.
 TOLERANCE = 8
 
 
@@ -19,8 +19,8 @@ def bars_of(frame, top=0.3, bottom=0.9):
 
 
 def farthest(frame, grey=False):
-    """How far the worst bar is off, in any channel, and a text that says all of them. `grey`: the camera
-    saw luma only (BT.601's)."""
+    """The largest error of any bar in any channel, and all errors as text. `grey`: the camera
+    delivered luma only (BT.601)."""
     worst, lines = 0.0, []
     for (name, expected), found in zip(BARS, bars_of(frame)):
         if grey:

@@ -1,4 +1,4 @@
-"""Raw frames as a V4L2 device gives them, taken apart without any library of the program's."""
+"""Parses raw frames of a V4L2 device, without any of the program's libraries."""
 import re
 import struct
 import zlib
@@ -8,7 +8,7 @@ MATRICES = {"ITU-R 601": (0.299, 0.114), "Rec. 709": (0.2126, 0.0722)}
 
 
 class Format:
-    """What `v4l2-ctl --get-fmt-video` prints of a device."""
+    """A device's format, from the output of `v4l2-ctl --get-fmt-video`."""
 
     def __init__(self, text):
         self.text = text

@@ -17,8 +17,8 @@ TEST(CalibrationText, IsReadAsTheSameCamera) {
   const tracking::CameraModel camera(
       {600, 605, 322, 236}, {.k1 = -0.2, .k2 = 0.05, .p1 = 0.003, .p2 = -0.002}, {640, 480});
   CalibrationReport report;
-  report.choice =
-      chooseLens(idealViews(board, camera, support::goodTour(board, camera), 0.1), {640, 480});
+  report.choice = chooseLens(
+      idealViews(board, camera, support::calibrationPoses(board, camera), 0.1), {640, 480});
   ASSERT_TRUE(report.choice);
   report.worstPlace = "the upper left corner";
   const std::string text = calibrationText(board, report);

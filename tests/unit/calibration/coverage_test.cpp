@@ -67,7 +67,8 @@ TEST(Coverage, WishesForWhatIsMissing) {
 
 TEST(Coverage, IsCompleteAfterAGoodTour) {
   Coverage coverage;
-  for (const auto& hold : support::goodTour(kBoard, kCamera)) coverage.add(traitsOfHold(hold));
+  for (const auto& hold : support::calibrationPoses(kBoard, kCamera))
+    coverage.add(traitsOfHold(hold));
   EXPECT_TRUE(coverage.isComplete()) << *coverage.missingViews();
   EXPECT_GT(coverage.coveredShare(), 0.9);
 }

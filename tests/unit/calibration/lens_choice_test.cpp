@@ -20,8 +20,8 @@ class LensChoiceOfModel : public testing::TestWithParam<Lens> {};
 
 TEST_P(LensChoiceOfModel, TakesTheTermsThatTheViewsNeed) {
   const tracking::CameraModel camera({450, 450, 322, 238}, GetParam().distortion, kSize);
-  const auto choice =
-      chooseLens(idealViews(kBoard, camera, support::goodTour(kBoard, camera), 0.08), kSize);
+  const auto choice = chooseLens(
+      idealViews(kBoard, camera, support::calibrationPoses(kBoard, camera), 0.08), kSize);
   ASSERT_TRUE(choice);
   EXPECT_EQ(toString(choice->fit.model), toString(GetParam().model));
   EXPECT_LT(support::rayErrorPx(camera, choice->fit.camera), 0.6);
@@ -38,7 +38,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(LensChoice, LeavesOutViewsAndPointsThatDisagree) {
   const tracking::CameraModel camera({450, 450, 322, 238}, {.k1 = -0.1}, kSize);
-  auto views = idealViews(kBoard, camera, support::goodTour(kBoard, camera), 0.05);
+  auto views = idealViews(kBoard, camera, support::calibrationPoses(kBoard, camera), 0.05);
   // A view in which the board moved while rows were read out, one that took squares for others, and
   // a corner on a speck of dirt.
   for (auto& point : views[3]) point.px.x += 0.05 * point.px.y;
@@ -57,7 +57,7 @@ TEST(LensChoice, LeavesOutViewsAndPointsThatDisagree) {
 
 TEST(LensChoice, TakesNothingFromFewViews) {
   const tracking::CameraModel camera({450, 450, 322, 238}, {}, kSize);
-  auto views = idealViews(kBoard, camera, support::goodTour(kBoard, camera), 0.05);
+  auto views = idealViews(kBoard, camera, support::calibrationPoses(kBoard, camera), 0.05);
   views.resize(kFewestFittedViews - 1);
   EXPECT_FALSE(chooseLens(views, kSize));
 }

@@ -18,7 +18,7 @@ TEST(LensFit, FindsTheLensFromCornersWithoutNoise) {
   const tracking::CameraModel camera(
       {900, 910, 652, 349}, {.k1 = -0.2, .k2 = 0.06, .p1 = 0.002, .p2 = -0.001, .k3 = 0.01},
       {1280, 720});
-  const auto views = idealViews(kBoard, camera, support::goodTour(kBoard, camera), 0.0);
+  const auto views = idealViews(kBoard, camera, support::calibrationPoses(kBoard, camera), 0.0);
   const auto fit = fitLens(views, camera.imageSize(), LensModel::kK1K2PK3);
   ASSERT_TRUE(fit);
   EXPECT_LT(fit->rmsPx, 1e-4);
@@ -33,7 +33,7 @@ TEST(LensFit, ItsErrorsAreAsLargeAsItsStandardDeviationsSay) {
   // Each free parameter's error over its standard deviation, squared, is 1 on average.
   constexpr int kTrials = 24;
   constexpr double kNoisePx = 0.1;
-  const auto tour = support::goodTour(kBoard, kBarrel);
+  const auto tour = support::calibrationPoses(kBoard, kBarrel);
   const LensVector wanted = parametersOf(kBarrel);
   LensVector sums{};
   double places = 0.0;
@@ -66,15 +66,16 @@ TEST(LensFit, FrontalViewsLeaveTheFocalLengthOpen) {
   const tracking::CameraModel camera({600, 600, 320, 240}, {}, {640, 480});
   const auto frontal = fitLens(idealViews(kBoard, camera, frontalTour(), 0.1), camera.imageSize(),
                                LensModel::kPinhole);
-  const auto tilted = fitLens(idealViews(kBoard, camera, support::goodTour(kBoard, camera), 0.1),
-                              camera.imageSize(), LensModel::kPinhole);
+  const auto tilted =
+      fitLens(idealViews(kBoard, camera, support::calibrationPoses(kBoard, camera), 0.1),
+              camera.imageSize(), LensModel::kPinhole);
   ASSERT_TRUE(frontal && tilted);
   EXPECT_GT(frontal->sigma(0) / frontal->camera.intrinsics().fx, 0.03);
   EXPECT_LT(tilted->sigma(0) / tilted->camera.intrinsics().fx, 0.002);
 }
 
 TEST(LensFit, AWrongScaleOfTheBoardDoesNotChangeTheLens) {
-  auto views = idealViews(kBoard, kBarrel, support::goodTour(kBoard, kBarrel), 0.05);
+  auto views = idealViews(kBoard, kBarrel, support::calibrationPoses(kBoard, kBarrel), 0.05);
   const auto fit = fitLens(views, kBarrel.imageSize(), LensModel::kK1K2);
   for (FitView& view : views) {
     for (auto& point : view) point.target *= 3.7;

@@ -28,7 +28,7 @@ TEST_P(RenderedCalibration, FindsTheLens) {
   const support::BoardRenderer renderer(board, camera);
   CalibrationSession session(board, camera.imageSize(), {.selection = {.isMovement = false}});
   std::uint32_t frame = 0;
-  for (const support::BoardHold& hold : support::goodTour(board, camera)) {
+  for (const support::BoardHold& hold : support::calibrationPoses(board, camera)) {
     const hal::Image picture = renderer.render(
         support::cameraFromBoard(board, camera, hold),
         {.samplesPerSide = 3, .blurSigmaPx = 0.6, .noiseSigma = 2.0, .noiseSeed = frame + 1});

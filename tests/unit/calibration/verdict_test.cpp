@@ -56,7 +56,7 @@ CalibrationReport judged(const std::vector<BoardHold>& tour, const Showing& how 
 }
 
 TEST(Verdict, AGoodTourIsGood) {
-  const CalibrationReport report = judged(support::goodTour(kBoard, kCamera));
+  const CalibrationReport report = judged(support::calibrationPoses(kBoard, kCamera));
   ASSERT_TRUE(report.isGood()) << report.refusals.front().text;
   EXPECT_LT(report.worstSigmaPx, 0.5);
   EXPECT_LE(report.typicalSigmaPx, report.worstSigmaPx);
@@ -84,7 +84,7 @@ TEST(Verdict, RefusesViewsOfTheMiddleOnly) {
 }
 
 TEST(Verdict, NamesTheRegionThatIsMissing) {
-  std::vector<BoardHold> tour = support::goodTour(kBoard, kCamera);
+  std::vector<BoardHold> tour = support::calibrationPoses(kBoard, kCamera);
   std::erase_if(tour, [](const BoardHold& hold) {
     const auto pose = support::cameraFromBoard(kBoard, kCamera, hold);
     const BoardSighting sighting = support::idealSighting(kBoard, kCamera, pose);
@@ -98,7 +98,7 @@ TEST(Verdict, NamesTheRegionThatIsMissing) {
 }
 
 TEST(Verdict, RefusesFewViews) {
-  std::vector<BoardHold> tour = support::goodTour(kBoard, kCamera);
+  std::vector<BoardHold> tour = support::calibrationPoses(kBoard, kCamera);
   tour.resize(5);
   const CalibrationReport report = judged(tour);
   EXPECT_THAT(reasonsOf(report), testing::ElementsAre(RefusalReason::kTooFewViews));
@@ -113,23 +113,25 @@ TEST(Verdict, SaysThatThereIsNoBoard) {
 }
 
 TEST(Verdict, SaysThatItIsBlurred) {
-  const CalibrationReport report = judged(support::goodTour(kBoard, kCamera), {.edgeWidthPx = 8.0});
+  const CalibrationReport report =
+      judged(support::calibrationPoses(kBoard, kCamera), {.edgeWidthPx = 8.0});
   EXPECT_THAT(reasonsOf(report), testing::ElementsAre(RefusalReason::kBlurred));
   EXPECT_THAT(report.refusals.front().text, HasSubstr("8.0 px"));
 }
 
 TEST(Verdict, RefusesALargeError) {
-  EXPECT_THAT(reasonsOf(judged(support::goodTour(kBoard, kCamera), {.noisePx = 0.7})),
+  EXPECT_THAT(reasonsOf(judged(support::calibrationPoses(kBoard, kCamera), {.noisePx = 0.7})),
               Contains(RefusalReason::kLargeError));
 }
 
 TEST(Verdict, RefusesABoardWhoseSquaresAreNone) {
-  const auto reasons = reasonsOf(judged(support::goodTour(kBoard, kCamera), {.stretchX = 1.1}));
+  const auto reasons =
+      reasonsOf(judged(support::calibrationPoses(kBoard, kCamera), {.stretchX = 1.1}));
   EXPECT_FALSE(reasons.empty());
 }
 
 TEST(Verdict, RefusesViewsThatWereSkewedWhileRowsWereRead) {
-  EXPECT_FALSE(judged(support::goodTour(kBoard, kCamera), {.skew = 0.01}).isGood());
+  EXPECT_FALSE(judged(support::calibrationPoses(kBoard, kCamera), {.skew = 0.01}).isGood());
 }
 
 }  // namespace

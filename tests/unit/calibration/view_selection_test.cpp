@@ -94,14 +94,14 @@ TEST_F(ViewSelection, OnePictureMistakenForSharpDoesNotSpoilTheRest) {
 }
 
 TEST_F(ViewSelection, IsCompleteAfterAGoodTourWithFewViews) {
-  for (const BoardHold& held : support::goodTour(kBoard, kCamera)) hold(held);
+  for (const BoardHold& held : support::calibrationPoses(kBoard, kCamera)) hold(held);
   EXPECT_TRUE(selector_.isComplete()) << *selector_.coverage().missingViews();
   EXPECT_LE(selector_.views().size(), 26u);
   EXPECT_EQ(selector_.fitViews().size(), selector_.views().size());
 }
 
 TEST_F(ViewSelection, NeverTakesMoreThanItMay) {
-  const auto tour = support::goodTour(kBoard, kCamera);
+  const auto tour = support::calibrationPoses(kBoard, kCamera);
   for (int round = 0; round < 6; ++round) {
     for (BoardHold held : tour) {
       held.roll += 0.25 * round;
@@ -116,7 +116,7 @@ TEST_F(ViewSelection, NeverTakesMoreThanItMay) {
 TEST_F(ViewSelection, PhotographsNeedNotFollowEachOther) {
   ViewSelector photographs(kBoard, kCamera.imageSize(), {.isMovement = false});
   std::uint32_t frame = 0;
-  for (const BoardHold& held : support::goodTour(kBoard, kCamera)) {
+  for (const BoardHold& held : support::calibrationPoses(kBoard, kCamera)) {
     photographs.offer(
         frame, hal::TimePoint(frame * kPeriod),
         support::idealSighting(kBoard, kCamera, support::cameraFromBoard(kBoard, kCamera, held)));

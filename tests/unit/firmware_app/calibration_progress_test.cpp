@@ -16,7 +16,8 @@ TEST(CalibrationProgress, ShowsCoverageAndWhatToDoNext) {
   const tracking::CameraModel camera({600, 600, 320, 240}, {}, {640, 480});
   calibration::ViewSelector selector(board, camera.imageSize());
   selector.offer(0, hal::TimePoint(), std::nullopt);
-  EXPECT_THAT(coveragePanel(selector, ViewOutcome::kNoBoard)[5], HasSubstr("next: show the board"));
+  EXPECT_THAT(coveragePanel(selector, ViewOutcome::kNoBoard)[5],
+              HasSubstr("next: show the whole board"));
 
   // In the lower left quarter, still.
   const auto pose = support::cameraFromBoard(board, camera, {.at = {0.25, 0.75}, .span = 0.4});

@@ -168,7 +168,7 @@ TEST(CommandLine, HelpsAndTellsItsVersion) {
         "--scene", "--size", "--frames", "--poses", "--contact-sheet", "--shaders"}) {
     EXPECT_THAT(renderHelp.output, HasSubstr(option));
   }
-  EXPECT_THAT(renderHelp.output, HasSubstr("movies have even sides"));
+  EXPECT_THAT(renderHelp.output, HasSubstr("movies need even sides"));
   const Outcome runHelp = run({"run", "--help"});
   EXPECT_EQ(runHelp.status, 0);
   for (const std::string option : {"--camera", "--output", "--style", "--set", "--view", "--scene",

@@ -72,9 +72,9 @@ ShaderText shader(const std::string& name, const std::string& code) {
 
 /// Asserts that a shader breaks just one rule, and says so.
 void expectOnly(const ShaderText& text, const std::string& complaint) {
-  const Complaints complaints = shaderRules(text);
-  ASSERT_EQ(complaints.size(), 1U) << testing::PrintToString(complaints);
-  EXPECT_THAT(complaints.front(), HasSubstr(complaint));
+  const Violations violations = shaderRules(text);
+  ASSERT_EQ(violations.size(), 1U) << testing::PrintToString(violations);
+  EXPECT_THAT(violations.front(), HasSubstr(complaint));
 }
 
 TEST(ShaderRules, LetGoodShadersPass) {

@@ -12,8 +12,8 @@ TEST(Error, ReadsAsOneLine) {
   const Error error{.kind = ErrorKind::kInvalidInput,
                     .subject = "in.mp4",
                     .problem = "holds no video",
-                    .remedy = "give a movie with a picture track"};
-  EXPECT_EQ(error.message(), "in.mp4: holds no video; give a movie with a picture track");
+                    .remedy = "give a movie with a video track"};
+  EXPECT_EQ(error.message(), "in.mp4: holds no video; give a movie with a video track");
   EXPECT_EQ((Error{.problem = "just this"}).message(), "just this");
 }
 

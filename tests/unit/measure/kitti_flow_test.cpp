@@ -11,7 +11,7 @@ namespace pleinair::measure {
 namespace {
 
 using support::constantFlow;
-using support::DeepPng;
+using support::Rgb16Png;
 using testing::HasSubstr;
 
 const cv::Size kSize(200, 180);
@@ -37,7 +37,7 @@ class KittiFlow : public testing::Test {
 };
 
 TEST_F(KittiFlow, IsReadToThe64thOfAPixel) {
-  DeepPng png = constantFlow(kSize.width, kSize.height, 0, 0);
+  Rgb16Png png = constantFlow(kSize.width, kSize.height, 0, 0);
   png.set(7, 9, {32768 - 160, 32768 + 1, 1});
   png.set(8, 9, {40000, 40000, 0});
   png.write(path("flow.png"));
@@ -55,7 +55,7 @@ TEST_F(KittiFlow, OfAnotherSizeOrDepthIsRefusedInALine) {
               testing::AllOf(HasSubstr("small.png"), HasSubstr("20x10"), HasSubstr("200x180")));
   mask("shallow.png", {});
   EXPECT_THAT(readKittiFlow(path("shallow.png"), kSize).error().message(), HasSubstr("16-bit"));
-  DeepPng(kSize.width, kSize.height).write(path("empty.png"));
+  Rgb16Png(kSize.width, kSize.height).write(path("empty.png"));
   EXPECT_THAT(readKittiFlow(path("empty.png"), kSize).error().message(), HasSubstr("valid"));
   EXPECT_THAT(readKittiFlow(path("absent.png"), kSize).error().message(), HasSubstr("absent.png"));
 }

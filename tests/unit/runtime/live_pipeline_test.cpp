@@ -14,7 +14,7 @@ namespace pleinair::runtime {
 namespace {
 
 using namespace std::chrono_literals;
-using support::NotingOutput;
+using support::CapturingOutput;
 using support::PacedCamera;
 using support::PacedCameraOptions;
 
@@ -80,7 +80,7 @@ TEST_F(LivePipelineTest, PresentsAtTheFirstRefreshAtOrAfterTheLatency) {
   begin({.frames = 1'000});
   live_.drain();
   EXPECT_EQ(counts().of(Outcome::kShown), 1'000u);
-  for (const NotingOutput::Note& note : live_.notes) {
+  for (const CapturingOutput::Note& note : live_.notes) {
     const hal::TimePoint captured = began_ + note.time;
     ASSERT_EQ((note.presented - *refresh.phase) % refresh.period, 0ns);
     ASSERT_GE(note.presented, captured + 120ms);
@@ -315,7 +315,7 @@ TEST_F(LostCameraTest, CountsBrokenFramesAlsoWhereNoSoundOneFollows) {
 class RandomLive : public testing::TestWithParam<unsigned> {};
 
 struct RandomRun {
-  std::vector<NotingOutput::Note> notes;
+  std::vector<CapturingOutput::Note> notes;
   LedgerCounts counts;
   bool addsUp = true;
 };

@@ -12,8 +12,8 @@ TEST(HiddenTags, StayWhereTheyAreOnTheDesk) {
   if (!hasDeskSequence()) GTEST_SKIP() << "no sequence desk_6dof in " PLEINAIR_SHARED_DATA;
   const TruthSequence desk = readDesk();
   const Hiding hiding{.hiddenFrames = 14};
-  const std::vector<Told> told = trackAll(desk, Layout::kLoose, {}, hidden(hiding));
-  const std::vector<Told> without = trackAll(
+  const std::vector<TrackedPoses> told = trackAll(desk, Layout::kLoose, {}, hidden(hiding));
+  const std::vector<TrackedPoses> without = trackAll(
       desk, Layout::kLoose, {.poses = {.filters = false, .carries = false}}, hidden(hiding));
   std::size_t times = 0;
   for (const TagMarker& marker : desk.markers) {

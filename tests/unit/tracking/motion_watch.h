@@ -32,7 +32,7 @@ class Watch {
     view_.wallFromFrame = view_.wallFromFrame * glm::inverse(currentFromPrevious);
     ++view_.noiseSeed;
     hal::Image image = support::renderWall(view_);
-    support::layOver(image, front, from, to);
+    support::overlayWall(image, front, from, to);
     return see(image);
   }
   support::WallView& view() { return view_; }

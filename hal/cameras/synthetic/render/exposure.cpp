@@ -24,7 +24,7 @@ glm::dmat4 Exposure::worldFromMoverAt(double y) const {
   return motion_->worldFromMover(rolls() ? secondsAt(y) : startSeconds_);
 }
 
-std::optional<SurfacePoint> Exposure::seenAt(const Geometry& geometry, glm::dvec2 pixel) const {
+std::optional<SurfacePoint> Exposure::visibleAt(const Geometry& geometry, glm::dvec2 pixel) const {
   return geometry.firstAlong(viewAt(pixel.y).through(pixel), worldFromMoverAt(pixel.y));
 }
 

@@ -28,7 +28,7 @@ class Exposure {
   glm::dmat4 worldFromMoverAt(double y) const;
 
   /// The surface point visible at a pixel coordinate, if any.
-  std::optional<SurfacePoint> seenAt(const Geometry& geometry, glm::dvec2 pixel) const;
+  std::optional<SurfacePoint> visibleAt(const Geometry& geometry, glm::dvec2 pixel) const;
   /// Projects a surface point to the image, px, whether it is occluded or not. Nothing if the point
   /// is behind the camera, or if no row of a rolling shutter meets it near the image.
   std::optional<glm::dvec2> project(const SurfacePoint& point) const;

@@ -44,7 +44,7 @@ glm::dmat4 turnedBy(const glm::dmat4& pose, double radians, glm::dvec3 axis) {
 
 }  // namespace
 
-Wander::Wander(std::uint64_t seed, double amplitude, double periodSeconds) {
+SmoothNoise::SmoothNoise(std::uint64_t seed, double amplitude, double periodSeconds) {
   constexpr std::array<double, 3> kShare{0.62, 0.26, 0.12};
   constexpr std::array<double, 3> kSpeed{1.0, 1.83, 3.19};
   for (std::size_t i = 0; i < waves_.size(); ++i) {
@@ -54,7 +54,7 @@ Wander::Wander(std::uint64_t seed, double amplitude, double periodSeconds) {
   }
 }
 
-double Wander::at(double seconds) const {
+double SmoothNoise::at(double seconds) const {
   double sum = 0;
   for (const Wave& wave : waves_) {
     sum += wave.amplitude * std::sin(wave.radiansPerSecond * seconds + wave.phaseRadians);
@@ -70,19 +70,20 @@ Motion::Motion(SyntheticShot shot, std::uint64_t seed)
       slant_(mixBits(seed) + 4, glm::radians(6.0), 10.3),
       azimuth_(mixBits(seed) + 5, glm::radians(24.0), 11.7),
       roll_(mixBits(seed) + 6, glm::radians(2.5), 6.1),
-      trembleBy_{Wander(mixBits(seed) + 7, 0.0012, 0.61), Wander(mixBits(seed) + 8, 0.0012, 0.53),
-                 Wander(mixBits(seed) + 9, 0.0012, 0.71)},
-      trembleTurn_{Wander(mixBits(seed) + 10, glm::radians(0.14), 0.59),
-                   Wander(mixBits(seed) + 11, glm::radians(0.14), 0.67),
-                   Wander(mixBits(seed) + 12, glm::radians(0.14), 0.49)} {}
+      handShift_{SmoothNoise(mixBits(seed) + 7, 0.0012, 0.61),
+                 SmoothNoise(mixBits(seed) + 8, 0.0012, 0.53),
+                 SmoothNoise(mixBits(seed) + 9, 0.0012, 0.71)},
+      handTurn_{SmoothNoise(mixBits(seed) + 10, glm::radians(0.14), 0.59),
+                SmoothNoise(mixBits(seed) + 11, glm::radians(0.14), 0.67),
+                SmoothNoise(mixBits(seed) + 12, glm::radians(0.14), 0.49)} {}
 
 glm::dmat4 Motion::heldAt(glm::dvec3 eye, glm::dvec3 target, double seconds) const {
-  const glm::dvec3 tremble(trembleBy_[0].at(seconds), trembleBy_[1].at(seconds),
-                           trembleBy_[2].at(seconds));
+  const glm::dvec3 tremble(handShift_[0].at(seconds), handShift_[1].at(seconds),
+                           handShift_[2].at(seconds));
   glm::dmat4 pose = lookAt(eye + tremble, target);
-  pose = turnedBy(pose, trembleTurn_[0].at(seconds), {1, 0, 0});
-  pose = turnedBy(pose, trembleTurn_[1].at(seconds), {0, 1, 0});
-  return turnedBy(pose, roll_.at(seconds) + trembleTurn_[2].at(seconds), {0, 0, 1});
+  pose = turnedBy(pose, handTurn_[0].at(seconds), {1, 0, 0});
+  pose = turnedBy(pose, handTurn_[1].at(seconds), {0, 1, 0});
+  return turnedBy(pose, roll_.at(seconds) + handTurn_[2].at(seconds), {0, 0, 1});
 }
 
 glm::dmat4 Motion::walkaround(double seconds) const {

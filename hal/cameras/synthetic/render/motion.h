@@ -11,11 +11,11 @@
 namespace pleinair::hal::synthetic {
 
 /// A smooth, seeded signal around 0: a sum of a few sinusoids with unrelated periods and phases.
-class Wander {
+class SmoothNoise {
  public:
-  Wander() = default;
+  SmoothNoise() = default;
   /// Varies within ±`amplitude`; its slowest component has a period of about `periodSeconds`.
-  Wander(std::uint64_t seed, double amplitude, double periodSeconds);
+  SmoothNoise(std::uint64_t seed, double amplitude, double periodSeconds);
   double at(double seconds) const;
 
  private:
@@ -45,10 +45,10 @@ class Motion {
   glm::dmat4 cut(double seconds) const;
 
   SyntheticShot shot_;
-  Wander targetX_, targetY_, distance_;  // metres
-  Wander slant_, azimuth_, roll_;        // radians
-  std::array<Wander, 3> trembleBy_;      // metres
-  std::array<Wander, 3> trembleTurn_;    // radians
+  SmoothNoise targetX_, targetY_, distance_;  // metres
+  SmoothNoise slant_, azimuth_, roll_;        // radians
+  std::array<SmoothNoise, 3> handShift_;      // metres
+  std::array<SmoothNoise, 3> handTurn_;       // radians
 };
 
 }  // namespace pleinair::hal::synthetic

@@ -38,13 +38,13 @@ Corners clippedNear(const Corners& all) {
 }
 
 /// A linear function of a point in camera coordinates, divided by the point's depth.
-OverPicture dividedByDepth(glm::dvec3 linear, const PinholeIntrinsics& k) {
+ImageLinear dividedByDepth(glm::dvec3 linear, const PinholeIntrinsics& k) {
   const double x = linear.x / k.fx;
   const double y = linear.y / k.fy;
   return {x, y, linear.z - x * k.cx - y * k.cy};
 }
 
-OverPicture plus(const OverPicture& a, const OverPicture& b, double times) {
+ImageLinear plus(const ImageLinear& a, const ImageLinear& b, double times) {
   return {a.x + times * b.x, a.y + times * b.y, a.one + times * b.one};
 }
 
@@ -112,8 +112,8 @@ bool project(const Geometry& geometry, std::uint32_t facet, const glm::dmat4& ca
   return true;
 }
 
-bool mayShow(const Solid& solid, const glm::dmat4& cameraFromSolid, const PinholeIntrinsics& k,
-             FrameSize size, double marginPx) {
+bool mayBeVisible(const Solid& solid, const glm::dmat4& cameraFromSolid, const PinholeIntrinsics& k,
+                  FrameSize size, double marginPx) {
   const glm::dvec3 centre(cameraFromSolid * glm::dvec4(solid.centre, 1));
   if (centre.z + solid.radius < kNearMetres) return false;
   // Tests the sphere against the planes through the eye and the image's sides.

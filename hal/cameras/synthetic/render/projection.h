@@ -13,7 +13,7 @@ namespace pleinair::hal::synthetic {
 
 /// A linear function of the image coordinates: x·px + y·py + one. For a facet, 1/depth, u/depth and
 /// v/depth are such functions.
-struct OverPicture {
+struct ImageLinear {
   double x = 0, y = 0, one = 0;
   double at(double px, double py) const { return x * px + y * py + one; }
 };
@@ -27,7 +27,7 @@ struct ProjectedFacet {
   };
   std::uint32_t facet = 0;
   float left = 0, right = 0, top = 0, bottom = 0;  ///< px
-  OverPicture inverseDepth, uOverDepth, vOverDepth;
+  ImageLinear inverseDepth, uOverDepth, vOverDepth;
   std::vector<Edge> edges;  ///< without the horizontal edges
 };
 
@@ -38,7 +38,7 @@ bool project(const Geometry& geometry, std::uint32_t facet, const glm::dmat4& ca
 
 /// Whether a solid's bounding sphere may be visible in the given columns and rows of the image,
 /// extended by `marginPx` on all sides.
-bool mayShow(const Solid& solid, const glm::dmat4& cameraFromSolid,
-             const PinholeIntrinsics& intrinsics, FrameSize size, double marginPx);
+bool mayBeVisible(const Solid& solid, const glm::dmat4& cameraFromSolid,
+                  const PinholeIntrinsics& intrinsics, FrameSize size, double marginPx);
 
 }  // namespace pleinair::hal::synthetic

@@ -20,10 +20,10 @@ namespace {
 constexpr std::size_t kCodedSteps = 4096;
 
 /// Converts between coded levels in sixty-fourths and linear light.
-struct Coding {
+struct LevelCoding {
   std::array<float, (kLevelSteps >> 4) + 2> linear{};  // by quarters of a level
   std::array<std::int16_t, kCodedSteps + 1> level{};
-  Coding() {
+  LevelCoding() {
     for (std::size_t i = 0; i < linear.size(); ++i) {
       const float coded = static_cast<float>(i) / 4;
       const auto below = static_cast<std::uint8_t>(std::min(coded, 254.0F));
@@ -44,8 +44,8 @@ struct Coding {
   }
 };
 
-const Coding& coding() {
-  static const Coding kCoding;
+const LevelCoding& coding() {
+  static const LevelCoding kCoding;
   return kCoding;
 }
 
@@ -89,7 +89,7 @@ void Renderer::addStanding(const Solid& solid) {
   const CameraView view = exposure_->viewAt(0);
   const glm::dmat4 pose =
       solid.moves ? view.cameraFromWorld * exposure_->worldFromMoverAt(0) : view.cameraFromWorld;
-  if (!mayShow(solid, pose, view.intrinsics, exposure_->size(), 0)) return;
+  if (!mayBeVisible(solid, pose, view.intrinsics, exposure_->size(), 0)) return;
   for (std::uint32_t i = solid.firstFacet; i < solid.firstFacet + solid.facets; ++i) {
     ProjectedFacet& slot = slotFor(candidates_.size());
     if (!project(world_->geometry, i, pose, view.intrinsics, slot)) continue;
@@ -138,7 +138,7 @@ std::span<const std::int16_t> Renderer::nextRow() {
     if (candidates_[order_[next_]].endRow > row_) active_.push_back(order_[next_]);
   }
   if (exposure_->rolls()) projectActive();
-  line_.follow(row_, projected_, active_);
+  line_.trace(row_, projected_, active_);
   shade();
   ++row_;
   return std::span(levels_).first(levels_.size() - 1);

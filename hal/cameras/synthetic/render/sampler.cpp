@@ -79,7 +79,7 @@ struct Perspective {
     const double u = facet.uOverDepth.at(px, py) * depth;
     const double v = facet.vOverDepth.at(px, py) * depth;
     const double scale = depth * texelsPerMetre;
-    const OverPicture& d = facet.inverseDepth;
+    const ImageLinear& d = facet.inverseDepth;
     alongX = {static_cast<float>((facet.uOverDepth.x - u * d.x) * scale),
               static_cast<float>((facet.vOverDepth.x - v * d.x) * scale)};
     alongY = {static_cast<float>((facet.uOverDepth.y - u * d.y) * scale),

@@ -14,12 +14,12 @@ void ScanLine::resize(int width) {
   firstPart_.resize(count);
 }
 
-void ScanLine::follow(int y, std::span<const ProjectedFacet> all,
-                      std::vector<std::uint16_t>& facets) {
+void ScanLine::trace(int y, std::span<const ProjectedFacet> all,
+                     std::vector<std::uint16_t>& facets) {
   parts_.clear();
   std::ranges::fill(firstPart_, -1);
   for (int line = 0; line < kLines; ++line) {
-    crossed(static_cast<float>(y) + (static_cast<float>(line) + 0.5F) / kLines, all, facets);
+    intersect(static_cast<float>(y) + (static_cast<float>(line) + 0.5F) / kLines, all, facets);
     // Insertion sort: the order is nearly right already, since consecutive lines cross facets in
     // much the same order.
     for (std::size_t i = 1; i < segments_.size(); ++i) {
@@ -42,8 +42,8 @@ void ScanLine::follow(int y, std::span<const ProjectedFacet> all,
   }
 }
 
-void ScanLine::crossed(float y, std::span<const ProjectedFacet> all,
-                       const std::vector<std::uint16_t>& facets) {
+void ScanLine::intersect(float y, std::span<const ProjectedFacet> all,
+                         const std::vector<std::uint16_t>& facets) {
   segments_.clear();
   const auto end = static_cast<float>(width_);
   for (const std::uint16_t index : facets) {
@@ -60,7 +60,7 @@ void ScanLine::crossed(float y, std::span<const ProjectedFacet> all,
     left = std::max(left, 0.0F);
     right = std::min(right, end);
     if (left >= right) continue;
-    const OverPicture& depth = facet.inverseDepth;
+    const ImageLinear& depth = facet.inverseDepth;
     segments_.push_back(
         {left, right, depth.x, depth.y * static_cast<double>(y) + depth.one, index});
   }

@@ -19,7 +19,7 @@ class ScanLine {
 
   /// A facet's coverage of a mixed pixel.
   struct Share {
-    std::uint16_t index = kNothing;  ///< index into the facets given to follow()
+    std::uint16_t index = kNothing;  ///< index into the facets given to trace()
     float coverage = 0;
   };
 
@@ -27,7 +27,7 @@ class ScanLine {
 
   /// Traces row `y`. `facets` holds the facets that may reach the row, in any order; it is
   /// reordered to make the next row fast. Indices refer to `all`.
-  void follow(int y, std::span<const ProjectedFacet> all, std::vector<std::uint16_t>& facets);
+  void trace(int y, std::span<const ProjectedFacet> all, std::vector<std::uint16_t>& facets);
 
   /// The facet at pixel x, kNothing or kMixed.
   std::uint16_t indexAt(int x) const { return indices_[static_cast<std::size_t>(x)]; }
@@ -46,8 +46,8 @@ class ScanLine {
     std::int32_t next = -1;
   };
 
-  void crossed(float y, std::span<const ProjectedFacet> all,
-               const std::vector<std::uint16_t>& facets);
+  void intersect(float y, std::span<const ProjectedFacet> all,
+                 const std::vector<std::uint16_t>& facets);
   void resolve(int line);
   void put(int line, float from, float to, std::uint16_t index);
   void putPart(int line, int x, std::uint16_t index, float coverage);

@@ -86,7 +86,7 @@ void expose(const std::int16_t* levels, const std::int16_t* first, const std::in
 
 Sensor::Sensor(std::uint64_t seed, double noiseSigma)
     : seed_(mixBits(seed ^ 0x5e4507ULL)), isNoisy_(noiseSigma > 0) {
-  if (isNoisy_) noise_ = noiseTable(seed_, std::min(noiseSigma, kMostNoise));
+  if (isNoisy_) noise_ = noiseTable(seed_, std::min(noiseSigma, kMaxNoise));
 }
 
 void Sensor::beginFrame(std::uint64_t frame, const SensorGains& gains) {

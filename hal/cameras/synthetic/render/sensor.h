@@ -15,8 +15,8 @@ using SensorGains = std::array<double, 3>;
 /// a table, each from its own offset.
 class Sensor {
  public:
-  /// `noiseSigma` in 8-bit levels of the coded picture; at most kMostNoise.
-  static constexpr double kMostNoise = 40;
+  /// `noiseSigma` in 8-bit levels of the coded picture; at most kMaxNoise.
+  static constexpr double kMaxNoise = 40;
   Sensor(std::uint64_t seed, double noiseSigma);
 
   /// Selects the frame that the next rows belong to.

@@ -64,20 +64,20 @@ void buildBench(Builder& builder, std::uint32_t seed) {
   const double middleY = (kBenchFront + kBenchBack) / 2;
   const double depth = kBenchBack - kBenchFront;
   const Painter edge = board(0xb07c4a, 52);
-  builder.finish() = {.coarseness = 1, .lightStep = 0.0065};
-  builder.box(standing({0, middleY, -kThickness}), {2 * kBenchHalfWidth, depth, kThickness},
+  builder.patchSettings() = {.coarseness = 1, .lightStep = 0.0065};
+  builder.box(uprightPose({0, middleY, -kThickness}), {2 * kBenchHalfWidth, depth, kThickness},
               {.other = edge, .top = [seed](Canvas& canvas) { paintTop(canvas, seed); }});
-  builder.finish() = {.coarseness = 1.6, .lightStep = 0.02};
-  builder.box(standing({0, kBenchFront + 0.05, -kThickness - 0.13}), {2.1, 0.03, 0.13},
+  builder.patchSettings() = {.coarseness = 1.6, .lightStep = 0.02};
+  builder.box(uprightPose({0, kBenchFront + 0.05, -kThickness - 0.13}), {2.1, 0.03, 0.13},
               {.other = edge, .front = paintApron});
-  builder.finish() = {.coarseness = 3, .lightStep = 0.03};
+  builder.patchSettings() = {.coarseness = 3, .lightStep = 0.03};
   for (const double x : {-1.02, 1.02}) {
     for (const double y : {kBenchFront + 0.085, kBenchBack - 0.08}) {
-      builder.box(standing({x, y, kFloorZ}), {0.09, 0.09, -kFloorZ - kThickness},
+      builder.box(uprightPose({x, y, kFloorZ}), {0.09, 0.09, -kFloorZ - kThickness},
                   {.other = board(0x8f643c, 53, true)});
     }
   }
-  builder.box(standing({0, middleY + 0.02, kFloorZ + 0.16}), {2.02, 0.62, 0.03},
+  builder.box(uprightPose({0, middleY + 0.02, kFloorZ + 0.16}), {2.02, 0.62, 0.03},
               {.other = board(0x7c5734, 54)});
 }
 

@@ -15,7 +15,7 @@ namespace pleinair::hal::synthetic {
 namespace {
 
 /// The moving arm is lit as at one fixed place: above the bench, where it spends most of its time.
-constexpr glm::dvec3 kMoverLitAt{0.10, -0.20, 0.22};
+constexpr glm::dvec3 kArmLightPosition{0.10, -0.20, 0.22};
 
 /// Faces turned to the wall or the floor by more than this are hardly ever seen and get coarse
 /// textures.
@@ -44,7 +44,7 @@ std::vector<glm::dvec3> lifted(const glm::dmat4& pose, const std::vector<glm::dv
 
 }  // namespace
 
-glm::dmat4 standing(glm::dvec3 position, double degrees) {
+glm::dmat4 uprightPose(glm::dvec3 position, double degrees) {
   return glm::rotate(glm::translate(glm::dmat4(1), position), glm::radians(degrees),
                      glm::dvec3(0, 0, 1));
 }
@@ -52,15 +52,16 @@ glm::dmat4 standing(glm::dvec3 position, double degrees) {
 std::uint16_t Builder::addPatch(glm::dvec2 half, std::function<PointAndNormal(glm::vec2)> at,
                                 const Painter& painter) {
   assert(plan_.patches.size() < std::numeric_limits<std::uint16_t>::max());
-  if (finish_.moves) {
+  if (patchSettings_.moves) {
     at = [inPlace = std::move(at)](glm::vec2 p) {
       PointAndNormal lit = inPlace(p);
-      lit.point += kMoverLitAt;
+      lit.point += kArmLightPosition;
       return lit;
     };
   }
-  plan_.patches.push_back({glm::vec2(half), std::move(at), painter, finish_.coarseness,
-                           finish_.lightStep, finish_.glows, finish_.moves});
+  plan_.patches.push_back({glm::vec2(half), std::move(at), painter, patchSettings_.coarseness,
+                           patchSettings_.lightStep, patchSettings_.isEmissive,
+                           patchSettings_.moves});
   return static_cast<std::uint16_t>(plan_.patches.size() - 1);
 }
 
@@ -103,19 +104,19 @@ void Builder::addFace(const std::vector<glm::dvec3>& corners, glm::dvec3 right,
   const glm::dvec2 middle = (low + high) / 2.0;
   frame.centre =
       frame.right * middle.x + frame.up * middle.y + normal * glm::dot(normal, corners[0]);
-  const Finish kept = finish_;
-  if (!finish_.moves && (normal.y > kTurnedAway || normal.z < -kTurnedAway)) {
-    finish_.coarseness *= 4;
-    finish_.lightStep *= 4;
+  const PatchSettings kept = patchSettings_;
+  if (!patchSettings_.moves && (normal.y > kTurnedAway || normal.z < -kTurnedAway)) {
+    patchSettings_.coarseness *= 4;
+    patchSettings_.lightStep *= 4;
   }
   addFacet(corners, addFlatPatch(frame, (high - low) / 2.0, painter), frame);
-  finish_ = kept;
+  patchSettings_ = kept;
 }
 
 void Builder::beginSolid() {
   plan_.geometry.solids.push_back(
       {.firstFacet = static_cast<std::uint32_t>(plan_.geometry.facets.size()),
-       .moves = finish_.moves});
+       .moves = patchSettings_.moves});
 }
 
 void Builder::endSolid(const std::optional<Ends>& ends) {

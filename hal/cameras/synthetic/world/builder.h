@@ -28,7 +28,7 @@ struct Patch {
   Painter paint;
   double coarseness = 1;     ///< size of its texels relative to the bench top's
   double lightStep = 0.007;  ///< metres between the points at which light is computed
-  bool glows = false;        ///< emissive: the room's light does not change it
+  bool isEmissive = false;   ///< emissive: the room's light does not change it
   bool moves = false;
 };
 
@@ -48,10 +48,10 @@ struct Plan {
 };
 
 /// The texture and light settings of the patches that follow.
-struct Finish {
+struct PatchSettings {
   double coarseness = 1;
   double lightStep = 0.007;
-  bool glows = false;
+  bool isEmissive = false;
   bool moves = false;
 };
 
@@ -61,7 +61,7 @@ struct Finish {
 class Builder {
  public:
   Plan& plan() { return plan_; }
-  Finish& finish() { return finish_; }
+  PatchSettings& patchSettings() { return patchSettings_; }
 
   /// The painters of a box's faces; `other` stands in for each unset one. A box has a bottom only
   /// if `bottom` is set.
@@ -108,10 +108,10 @@ class Builder {
   void endSolid(const std::optional<Ends>& ends);
 
   Plan plan_;
-  Finish finish_;
+  PatchSettings patchSettings_;
 };
 
 /// The pose at `position`, turned anticlockwise about z as seen from above.
-glm::dmat4 standing(glm::dvec3 position, double degrees = 0);
+glm::dmat4 uprightPose(glm::dvec3 position, double degrees = 0);
 
 }  // namespace pleinair::hal::synthetic

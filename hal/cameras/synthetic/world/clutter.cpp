@@ -13,8 +13,8 @@ namespace {
 
 void buildMug(Builder& builder) {
   const glm::dvec3 at(0.275, 0.035, 0);
-  const glm::dmat4 pose = standing(at, 0);
-  builder.finish() = {.coarseness = 0.9, .lightStep = 0.005};
+  const glm::dmat4 pose = uprightPose(at, 0);
+  builder.patchSettings() = {.coarseness = 0.9, .lightStep = 0.005};
   const Painter glaze = [](Canvas& canvas) {
     plain(0xe2dccb)(canvas);
     canvas.paint({}, canvas.half(), [&](glm::vec2 p) {
@@ -23,7 +23,7 @@ void buildMug(Builder& builder) {
     });
   };
   builder.cylinder(pose, {0.038, 0.041, 0.088, 32}, glaze);
-  builder.hollow(standing(at + glm::dvec3(0, 0, 0.062)), {0.036, 0.0375, 0.026, 32},
+  builder.hollow(uprightPose(at + glm::dvec3(0, 0, 0.062)), {0.036, 0.0375, 0.026, 32},
                  plain(0xe6e1d4));
   builder.panel(at + glm::dvec3(0, 0, 0.0625), {1, 0, 0}, {0, 1, 0}, {0.0275, 0.0275},
                 plain(0x3a2012));
@@ -33,7 +33,7 @@ void buildMug(Builder& builder) {
                                     {0.067, 0, 0.048},
                                     {0.058, 0, 0.026},
                                     {0.038, 0, 0.020}}};
-  const glm::dmat4 turned = standing(at, -28);
+  const glm::dmat4 turned = uprightPose(at, -28);
   for (std::size_t i = 0; i + 1 < handle.size(); ++i) {
     const auto point = [&](std::size_t k) { return glm::dvec3(turned * glm::dvec4(handle[k], 1)); };
     const glm::dvec3 over = 0.06 * (point(i + 1) - point(i));
@@ -42,15 +42,15 @@ void buildMug(Builder& builder) {
 }
 
 void buildBooks(Builder& builder) {
-  builder.finish() = {.coarseness = 1, .lightStep = 0.008};
+  builder.patchSettings() = {.coarseness = 1, .lightStep = 0.008};
   const Painter pages = ringed(0xe4dcc4, 0xcfc5a8, 0.0032F, 0.6F);
   const Painter blue = enamel(0x35566b);
-  builder.box(kBooksPose * standing({0, 0, 0}, 5), {0.25, 0.18, 0.030},
+  builder.box(kBooksPose * uprightPose({0, 0, 0}, 5), {0.25, 0.18, 0.030},
               {.other = pages, .top = blue, .left = blue});
   const Painter ochre = enamel(0xc9973c);
   const Painter cover =
       layered(ochre, [](Canvas& canvas) { paintTagCard(canvas, {}, benchTags()[4]); });
-  builder.box(kBooksPose * standing({0, 0, 0.030}), {0.215, 0.152, kBooksHeight - 0.030},
+  builder.box(kBooksPose * uprightPose({0, 0, 0.030}), {0.215, 0.152, kBooksHeight - 0.030},
               {.other = pages, .top = cover, .left = ochre});
 }
 
@@ -77,40 +77,40 @@ void buildBins(Builder& builder) {
   constexpr double kDepth = 0.17;
   constexpr double kHeight = 0.092;
   constexpr double kWall = 0.004;
-  builder.finish() = {.coarseness = 1.1, .lightStep = 0.008};
+  builder.patchSettings() = {.coarseness = 1.1, .lightStep = 0.008};
   for (const Bin& bin : kBins) {
-    const glm::dmat4 pose = standing({bin.x, 0.325, 0}, 1.5);
+    const glm::dmat4 pose = uprightPose({bin.x, 0.325, 0}, 1.5);
     const Painter colour = plain(bin.colour);
     const Builder::BoxFaces faces{.other = colour};
     const double side = (kWidth - kWall) / 2;
     const double end = (kDepth - kWall) / 2;
-    builder.box(pose * standing({-side, 0, 0}), {kWall, kDepth, kHeight}, faces);
-    builder.box(pose * standing({side, 0, 0}), {kWall, kDepth, kHeight}, faces);
-    builder.box(pose * standing({0, end, 0}), {kWidth - 2 * kWall, kWall, kHeight}, faces);
-    builder.box(pose * standing({0, -end, 0}), {kWidth - 2 * kWall, kWall, 0.5 * kHeight},
+    builder.box(pose * uprightPose({-side, 0, 0}), {kWall, kDepth, kHeight}, faces);
+    builder.box(pose * uprightPose({side, 0, 0}), {kWall, kDepth, kHeight}, faces);
+    builder.box(pose * uprightPose({0, end, 0}), {kWidth - 2 * kWall, kWall, kHeight}, faces);
+    builder.box(pose * uprightPose({0, -end, 0}), {kWidth - 2 * kWall, kWall, 0.5 * kHeight},
                 {.other = colour,
                  .front = layered(colour, [](Canvas& canvas) {
                    canvas.paint({}, canvas.half(), [&](glm::vec2 p) {
                      return canvas.fill(linearFromSrgb(0xe6dfca), boxDistance(p, {0.036F, 0.013F}));
                    });
                  })});
-    builder.box(pose * standing({0, 0, 0}), {kWidth - 2 * kWall, kDepth - 2 * kWall, 0.036},
+    builder.box(pose * uprightPose({0, 0, 0}), {kWidth - 2 * kWall, kDepth - 2 * kWall, 0.036},
                 {.other = heapOf(bin.parts)});
   }
 }
 
 void buildOilCan(Builder& builder) {
   const glm::dvec3 at(-0.205, 0.235, 0);
-  builder.finish() = {.coarseness = 1, .lightStep = 0.006};
-  builder.cylinder(standing(at), {0.040, 0.040, 0.062, 28}, polished(0x6b7b5e), plain(0x77856a));
-  builder.cylinder(standing(at + glm::dvec3(0, 0, 0.062)), {0.039, 0.007, 0.042, 28},
+  builder.patchSettings() = {.coarseness = 1, .lightStep = 0.006};
+  builder.cylinder(uprightPose(at), {0.040, 0.040, 0.062, 28}, polished(0x6b7b5e), plain(0x77856a));
+  builder.cylinder(uprightPose(at + glm::dvec3(0, 0, 0.062)), {0.039, 0.007, 0.042, 28},
                    polished(0x77876a), plain(0x77856a));
   builder.rod(at + glm::dvec3(0, 0, 0.100), at + glm::dvec3(-0.055, -0.018, 0.185), 0.0055, 0.0025,
               10, polished(0xa8894a));
 }
 
 void buildHexNut(Builder& builder, glm::dvec3 at, double degrees) {
-  builder.cylinder(standing(at, degrees), {0.012, 0.012, 0.010, 6}, plain(0x8d9294),
+  builder.cylinder(uprightPose(at, degrees), {0.012, 0.012, 0.010, 6}, plain(0x8d9294),
                    [](Canvas& canvas) {
                      plain(0xa5aaab)(canvas);
                      canvas.paint({}, canvas.half(), [&](glm::vec2 p) {
@@ -120,7 +120,7 @@ void buildHexNut(Builder& builder, glm::dvec3 at, double degrees) {
 }
 
 void buildSmallThings(Builder& builder) {
-  builder.finish() = {.coarseness = 1, .lightStep = 0.005};
+  builder.patchSettings() = {.coarseness = 1, .lightStep = 0.005};
   buildHexNut(builder, {0.175, -0.155, 0}, 10);
   buildHexNut(builder, {0.205, -0.135, 0}, 32);
   buildHexNut(builder, {0.305, -0.115, 0}, 5);
@@ -135,7 +135,7 @@ void buildSmallThings(Builder& builder) {
               polished(0xa9adae));
   // A brass gear blank beside the motor, and a roll of tape.
   builder.cylinder(
-      standing({-0.285, 0.065, 0}), {0.034, 0.034, 0.016, 28},
+      uprightPose({-0.285, 0.065, 0}), {0.034, 0.034, 0.016, 28},
       striped(0xb08b40, 0x7f6228, 0.0089F, 0.55F), [](Canvas& canvas) {
         plain(0xc09a4b)(canvas);
         canvas.paint({}, canvas.half(), [&](glm::vec2 p) {
@@ -143,15 +143,15 @@ void buildSmallThings(Builder& builder) {
           return over(canvas.fill(linearFromSrgb(0x2c2318), discDistance(p, 0.007F)), rim);
         });
       });
-  builder.cylinder(standing({0.925, 0.10, 0}), {0.052, 0.052, 0.048, 32}, plain(0xd3b98a),
+  builder.cylinder(uprightPose({0.925, 0.10, 0}), {0.052, 0.052, 0.048, 32}, plain(0xd3b98a),
                    [](Canvas& canvas) {
                      plain(0xbfa271)(canvas);
                      canvas.paint({}, canvas.half(), [&](glm::vec2 p) {
                        return canvas.fill(linearFromSrgb(0x5a4630), discDistance(p, 0.034F));
                      });
                    });
-  builder.box(standing({-0.93, 0.22, 0}, -9), {0.30, 0.24, 0.21}, {.other = cardboard()});
-  builder.box(standing({-0.90, 0.22, 0.21}, 6), {0.19, 0.15, 0.07}, {.other = enamel(0x4c7f7a)});
+  builder.box(uprightPose({-0.93, 0.22, 0}, -9), {0.30, 0.24, 0.21}, {.other = cardboard()});
+  builder.box(uprightPose({-0.90, 0.22, 0.21}, 6), {0.19, 0.15, 0.07}, {.other = enamel(0x4c7f7a)});
 }
 
 }  // namespace

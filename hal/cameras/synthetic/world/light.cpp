@@ -26,12 +26,12 @@ constexpr glm::vec3 kRoomFromWindowSide{0.375F, 0.425F, 0.480F};
 constexpr glm::vec3 kRoomFromElsewhere{0.290F, 0.285F, 0.275F};
 constexpr glm::vec3 kRoomFromBelow{0.190F, 0.155F, 0.120F};
 /// share of light that nearby surfaces reflect, in their colour
-constexpr glm::vec3 kThrownBack{0.60F, 0.55F, 0.48F};
+constexpr glm::vec3 kReflected{0.60F, 0.55F, 0.48F};
 constexpr float kNearbyMetres = 0.55F;  // beyond this distance, light counts as the room's
 
 /// Point `i` of n points evenly spread in the unit square, with two independent sets (R2
 /// sequences).
-glm::vec2 spread(int i, float shift) {
+glm::vec2 r2Point(int i, float shift) {
   const auto n = static_cast<float>(i);
   return glm::fract(glm::vec2(shift + n * 0.7548776662F, shift + n * 0.5698402910F));
 }
@@ -46,9 +46,9 @@ struct Rays {
   Rays(float cellShift, float squareShift) {
     for (int i = 0; i < kCount; ++i) {
       const auto k = static_cast<std::size_t>(i);
-      const glm::vec2 swapped = spread(i, cellShift) - 0.5F;
+      const glm::vec2 swapped = r2Point(i, cellShift) - 0.5F;
       cell[k] = {swapped.y, swapped.x};
-      square[k] = spread(i, squareShift);
+      square[k] = r2Point(i, squareShift);
       const float angle = 2 * kPi * square[k].x;
       disc[k] = std::sqrt(square[k].y) * glm::vec2(std::cos(angle), std::sin(angle));
     }
@@ -192,7 +192,7 @@ glm::vec3 RoomLight::roomAt(const Point& at, const Near& near) const {
     const Occluder* hit = nullptr;
     float nearest = kNearbyMetres;
     for (const Occluder* each : near) {
-      const float t = entry(*each, origin, direction);
+      const float t = entryDistance(*each, origin, direction);
       if (t < nearest) {
         nearest = t;
         hit = each;
@@ -204,7 +204,7 @@ glm::vec3 RoomLight::roomAt(const Point& at, const Near& near) const {
       continue;
     }
     const float farness = glm::smoothstep(0.35F * kNearbyMetres, kNearbyMetres, nearest);
-    sum += glm::mix(colourOf(*hit) * kThrownBack, room, farness);
+    sum += glm::mix(colourOf(*hit) * kReflected, room, farness);
   }
   return sum * (1.0F / kRays);
 }
@@ -287,18 +287,18 @@ RoomLight::Lattice RoomLight::on(const Patch& patch) const {
 namespace {
 
 /// Compresses highlights smoothly, as film does, so that paper in the sun keeps its hue.
-float exposed(float light) {
+float toneMapped(float light) {
   constexpr float kShoulder = 0.60F;
   if (light <= kShoulder) return light;
   return 1 - (1 - kShoulder) * std::exp((kShoulder - light) / (1 - kShoulder));
 }
 
-/// A lookup table of exposed().
-class Film {
+/// A lookup table of toneMapped().
+class ToneCurve {
  public:
-  Film() {
+  ToneCurve() {
     for (std::size_t i = 0; i < table_.size(); ++i) {
-      table_[i] = exposed(static_cast<float>(i) / kSteps);
+      table_[i] = toneMapped(static_cast<float>(i) / kSteps);
     }
   }
   float operator()(float light) const {
@@ -313,9 +313,9 @@ class Film {
 
 }  // namespace
 
-void shine(const RoomLight::Lattice& light, glm::vec2 half, float texelMetres,
-           MipTexture::Level& level) {
-  static const Film kFilm;
+void applyLight(const RoomLight::Lattice& light, glm::vec2 half, float texelMetres,
+                MipTexture::Level& level) {
+  static const ToneCurve kToneCurve;
   const auto columns = static_cast<std::size_t>(light.columns);
   const glm::vec2 scale = glm::vec2(light.columns - 1, light.rows - 1) / (2.0F * half);
   const auto place = [texelMetres](int texel, float perMetre, int points) {
@@ -340,7 +340,7 @@ void shine(const RoomLight::Lattice& light, glm::vec2 half, float texelMetres,
       dither = dither * 1664525U + 1013904223U;
       const float jitter = 1 + 0.006F * (static_cast<float>(dither >> 16) / 65536.0F - 0.5F);
       const glm::vec3 lit = linearRgbOf(*texel) * there * jitter;
-      *texel = codedTexel({kFilm(lit.r), kFilm(lit.g), kFilm(lit.b)});
+      *texel = codedTexel({kToneCurve(lit.r), kToneCurve(lit.g), kToneCurve(lit.b)});
     }
   }
 }

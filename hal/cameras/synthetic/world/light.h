@@ -54,7 +54,7 @@ class RoomLight {
 };
 
 /// Multiplies the painted colours by the light, with a dither against banding.
-void shine(const RoomLight::Lattice& light, glm::vec2 half, float texelMetres,
-           MipTexture::Level& level);
+void applyLight(const RoomLight::Lattice& light, glm::vec2 half, float texelMetres,
+                MipTexture::Level& level);
 
 }  // namespace pleinair::hal::synthetic

@@ -18,7 +18,7 @@ glm::dvec3 moved(const glm::dmat4& pose, glm::dvec3 point) {
 
 /// A pose relative to another, turned by `degrees` about its z.
 glm::dmat4 within(const glm::dmat4& pose, glm::dvec3 position, double degrees = 0) {
-  return pose * standing(position, degrees);
+  return pose * uprightPose(position, degrees);
 }
 
 Painter withTag(const Painter& below, int id, glm::vec2 at) {
@@ -31,7 +31,7 @@ void buildToolbox(Builder& builder) {
   constexpr std::uint32_t kRed = 0xb04a30;
   const glm::dmat4& pose = kToolboxPose;
   const glm::dvec3 size = kToolboxSize;
-  builder.finish() = {.coarseness = 1, .lightStep = 0.008};
+  builder.patchSettings() = {.coarseness = 1, .lightStep = 0.008};
   builder.box(pose, size,
               {.other = enamel(kRed), .front = withTag(enamel(kRed), 1, {0.02F, -0.012F})});
   builder.box(within(pose, {0, 0, size.z}), {size.x + 0.012, size.y + 0.012, 0.034},
@@ -52,7 +52,7 @@ void buildGearMotor(Builder& builder) {
   constexpr std::uint32_t kTeal = 0x4c7f7a;
   const glm::dmat4& pose = kMachinePose;
   const glm::dvec3 size = kMachineSize;
-  builder.finish() = {.coarseness = 1, .lightStep = 0.008};
+  builder.patchSettings() = {.coarseness = 1, .lightStep = 0.008};
   builder.box(within(pose, {0.04, 0, -0.014}), {0.38, 0.19, 0.014}, {.other = enamel(0x3c4448)});
   builder.box(pose, size,
               {.other = enamel(kTeal), .front = withTag(enamel(kTeal), 2, {-0.03F, 0})});
@@ -84,9 +84,9 @@ void buildGearMotor(Builder& builder) {
 
 void buildVise(Builder& builder) {
   constexpr std::uint32_t kIron = 0x47606e;
-  const glm::dmat4 pose = standing({0.50, -0.215, 0}, -24);
+  const glm::dmat4 pose = uprightPose({0.50, -0.215, 0}, -24);
   const Painter iron = enamel(kIron);
-  builder.finish() = {.coarseness = 1, .lightStep = 0.007};
+  builder.patchSettings() = {.coarseness = 1, .lightStep = 0.007};
   builder.cylinder(pose, {0.078, 0.074, 0.024, 28}, plain(kIron), plain(kIron));
   builder.box(within(pose, {0, 0.02, 0.024}), {0.088, 0.13, 0.062}, {.other = iron});
   builder.box(within(pose, {0, 0.035, 0.086}), {0.135, 0.050, 0.058}, {.other = iron});
@@ -125,8 +125,8 @@ void buildLamp(Builder& builder) {
   const glm::dvec3 out = glm::normalize(kLampAxis);
   const glm::dvec3 mouth = glm::dvec3(kLampAt) - 0.004 * out;
   const glm::dvec3 neck = mouth - 0.105 * out;
-  builder.finish() = {.coarseness = 1, .lightStep = 0.008};
-  builder.cylinder(standing(foot), {0.072, 0.066, 0.016, 28}, plain(kBlack), plain(kBlack));
+  builder.patchSettings() = {.coarseness = 1, .lightStep = 0.008};
+  builder.cylinder(uprightPose(foot), {0.072, 0.066, 0.016, 28}, plain(kBlack), plain(kBlack));
   builder.rod(foot + glm::dvec3(0, 0, 0.016), elbow, 0.008, 0.008, 12, polished(0x6a716e));
   builder.rod(elbow - glm::dvec3(0.013, 0, 0), elbow + glm::dvec3(0.013, 0, 0), 0.016, 0.016, 14,
               plain(kBlack));
@@ -140,7 +140,7 @@ void buildLamp(Builder& builder) {
                       glm::dvec4(mouth, 1));
   }();
   builder.cylinder(pose, {0.078, 0.028, 0.105, 28}, enamel(0x55796f), plain(0x55796f));
-  builder.finish() = {.coarseness = 1.5, .lightStep = 0.02, .glows = true};
+  builder.patchSettings() = {.coarseness = 1.5, .lightStep = 0.02, .isEmissive = true};
   builder.hollow(pose, {0.0765, 0.027, 0.105, 28}, paintGlow);
 }
 
@@ -158,11 +158,11 @@ void buildMachines(Builder& builder) {
 void buildArm(Builder& builder) {
   constexpr std::uint32_t kGlove = 0xb98a4e;
   constexpr std::uint32_t kSleeve = 0x45607c;
-  builder.finish() = {.coarseness = 1.8, .lightStep = 0.012, .moves = true};
+  builder.patchSettings() = {.coarseness = 1.8, .lightStep = 0.012, .moves = true};
   const glm::dvec3 wrist(0.055, -0.060, 0.018);
   const glm::dvec3 back = glm::normalize(glm::dvec3(0.62, -0.66, 0.30));
   const Painter glove = plain(kGlove);
-  builder.box(standing({0.010, -0.006, -0.020}, -44), {0.082, 0.088, 0.040},
+  builder.box(uprightPose({0.010, -0.006, -0.020}, -44), {0.082, 0.088, 0.040},
               {.other = glove, .bottom = glove});
   // Four fingers bent around the wrench, and the thumb beside them.
   for (int i = 0; i < 4; ++i) {
@@ -181,10 +181,10 @@ void buildArm(Builder& builder) {
   builder.rod(wrist + 0.070 * back, wrist + 0.95 * back, 0.047, 0.066, 20, cloth(kSleeve),
               plain(0x2e4156));
   // The wrench, lying across the palm.
-  builder.box(standing({-0.028, -0.014, -0.030}, 48), {0.21, 0.017, 0.007},
+  builder.box(uprightPose({-0.028, -0.014, -0.030}, 48), {0.21, 0.017, 0.007},
               {.other = steel(), .bottom = steel()});
-  builder.cylinder(standing({-0.098, -0.092, -0.031}), {0.022, 0.022, 0.009, 6}, steel(), steel(),
-                   steel());
+  builder.cylinder(uprightPose({-0.098, -0.092, -0.031}), {0.022, 0.022, 0.009, 6}, steel(),
+                   steel(), steel());
 }
 
 }  // namespace pleinair::hal::synthetic

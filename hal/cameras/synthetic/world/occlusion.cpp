@@ -23,7 +23,7 @@ float distanceTo(const Tile& tile, const glm::vec4& plane) {
 
 }  // namespace
 
-float entry(const Occluder& occluder, glm::vec3 origin, glm::vec3 direction) {
+float entryDistance(const Occluder& occluder, glm::vec3 origin, glm::vec3 direction) {
   const glm::vec3 toCentre = occluder.centre - origin;
   const glm::vec3 apart = glm::cross(toCentre, direction);
   if (glm::dot(apart, apart) > occluder.radius * occluder.radius * glm::dot(direction, direction)) {
@@ -51,8 +51,9 @@ float entry(const Occluder& occluder, glm::vec3 origin, glm::vec3 direction) {
 }
 
 bool isBlocked(const Occluders& near, glm::vec3 origin, glm::vec3 direction, float distance) {
-  return std::ranges::any_of(
-      near, [&](const Occluder* each) { return entry(*each, origin, direction) < distance; });
+  return std::ranges::any_of(near, [&](const Occluder* each) {
+    return entryDistance(*each, origin, direction) < distance;
+  });
 }
 
 bool isInside(const Occluder& occluder, glm::vec3 point) {

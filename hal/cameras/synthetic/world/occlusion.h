@@ -12,7 +12,7 @@ namespace pleinair::hal::synthetic {
 using Occluders = std::vector<const Occluder*>;
 
 /// The distance, in units of `direction`, at which a ray enters an occluder, or infinity.
-float entry(const Occluder& occluder, glm::vec3 origin, glm::vec3 direction);
+float entryDistance(const Occluder& occluder, glm::vec3 origin, glm::vec3 direction);
 /// Whether the ray enters an occluder before `distance` units of its direction.
 bool isBlocked(const Occluders& near, glm::vec3 origin, glm::vec3 direction, float distance);
 

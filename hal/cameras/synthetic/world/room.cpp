@@ -48,11 +48,11 @@ void buildWindow(Builder& builder) {
   for (const Pane& pane : windowPanes()) {
     const glm::dvec2 middle = glm::dvec2(pane.lowYz + pane.highYz) / 2.0;
     const glm::dvec2 half = glm::dvec2(pane.highYz - pane.lowYz) / 2.0;
-    builder.finish() = {.coarseness = 4, .lightStep = 0.1, .glows = true};
+    builder.patchSettings() = {.coarseness = 4, .lightStep = 0.1, .isEmissive = true};
     builder.panel({kLeft + 0.004, middle.x, middle.y}, kY, kZ, half, paintSky);
   }
   // The frame's bars, between and around the panes.
-  builder.finish() = {.coarseness = 3, .lightStep = 0.03};
+  builder.patchSettings() = {.coarseness = 3, .lightStep = 0.03};
   const Painter paint = plain(0xd6d3c6);
   for (const double y : {-1.14, -0.63, -0.12}) {
     builder.panel({kLeft + 0.012, y, 0.95}, kY, kZ, {y == -0.63 ? 0.03 : 0.04, 0.57}, paint);
@@ -60,7 +60,7 @@ void buildWindow(Builder& builder) {
   for (const double z : {0.38, 0.95, 1.52}) {
     builder.panel({kLeft + 0.011, -0.63, z}, kY, kZ, {0.55, z == 0.95 ? 0.03 : 0.04}, paint);
   }
-  builder.box(standing({kLeft + 0.07, -0.63, 0.315}), {0.14, 1.2, 0.03}, {.other = paint});
+  builder.box(uprightPose({kLeft + 0.07, -0.63, 0.315}), {0.14, 1.2, 0.03}, {.other = paint});
 }
 
 void paintPegboard(Canvas& canvas) {
@@ -100,18 +100,18 @@ void buildWall(Builder& builder) {
     builder.panel({(left + right) / 2, kWallY, (low + high) / 2}, kX, kZ,
                   {(right - left) / 2, (high - low) / 2}, sage);
   };
-  builder.finish() = {.coarseness = 3, .lightStep = 0.014};
+  builder.patchSettings() = {.coarseness = 3, .lightStep = 0.014};
   wall(kFineLeft, kFineRight, -0.05, kFineTop);
-  builder.finish() = {.coarseness = 8, .lightStep = 0.06};
+  builder.patchSettings() = {.coarseness = 8, .lightStep = 0.06};
   wall(kLeft, kFineLeft, kFloorZ, kCeiling);
   wall(kFineRight, kRight, kFloorZ, kCeiling);
   wall(kFineLeft, kFineRight, kFineTop, kCeiling);
   wall(kFineLeft, kFineRight, kFloorZ, -0.05);
 
-  builder.finish() = {.coarseness = 1.35, .lightStep = 0.012};
-  builder.box(standing({0.58, kWallY - 0.008, 0.19}), {0.84, 0.016, 0.56},
+  builder.patchSettings() = {.coarseness = 1.35, .lightStep = 0.012};
+  builder.box(uprightPose({0.58, kWallY - 0.008, 0.19}), {0.84, 0.016, 0.56},
               {.other = plain(0xa8986f), .front = paintPegboard});
-  builder.finish() = {.coarseness = 1.35, .lightStep = 0.02};
+  builder.patchSettings() = {.coarseness = 1.35, .lightStep = 0.02};
   builder.panel({-0.56, kWallY - 0.002, 0.50}, kX, kZ, {0.155, 0.212}, paintPoster);
   builder.panel(kWallSheetCentre, kX, kZ, {0.078, 0.108}, [](Canvas& canvas) {
     plain(0xe6e1d2)(canvas);
@@ -126,18 +126,18 @@ void buildWall(Builder& builder) {
 }
 
 void buildShelf(Builder& builder) {
-  builder.finish() = {.coarseness = 1.5, .lightStep = 0.012};
-  builder.box(standing({-0.56, 0.355, 0.80}), {0.86, 0.19, 0.024},
+  builder.patchSettings() = {.coarseness = 1.5, .lightStep = 0.012};
+  builder.box(uprightPose({-0.56, 0.355, 0.80}), {0.86, 0.19, 0.024},
               {.other = board(0xa87a4b, 71), .bottom = board(0xa87a4b, 72)});
   constexpr std::array<std::uint32_t, 3> kTins{0x8f3a2a, 0xc7bd9f, 0x3e6a72};
   double x = -0.88;
   for (const std::uint32_t tin : kTins) {
-    builder.cylinder(standing({x, 0.36, 0.824}), {0.045, 0.045, 0.12, 20},
+    builder.cylinder(uprightPose({x, 0.36, 0.824}), {0.045, 0.045, 0.12, 20},
                      ringed(tin, 0xe3d8bb, 0.09F, 0.55F), plain(0x9a9a94));
     x += 0.115;
   }
-  builder.box(standing({-0.42, 0.36, 0.824}, 4), {0.22, 0.14, 0.12}, {.other = cardboard()});
-  builder.box(standing({-0.22, 0.36, 0.824}), {0.045, 0.13, 0.20}, {.other = enamel(0x35566b)});
+  builder.box(uprightPose({-0.42, 0.36, 0.824}, 4), {0.22, 0.14, 0.12}, {.other = cardboard()});
+  builder.box(uprightPose({-0.22, 0.36, 0.824}), {0.045, 0.13, 0.20}, {.other = enamel(0x35566b)});
 }
 
 }  // namespace
@@ -149,7 +149,7 @@ void buildRoom(Builder& builder) {
   constexpr double kHalfX = (kRight - kLeft) / 2;
   constexpr double kHalfY = (kWallY - kBehind) / 2;
   constexpr double kHalfZ = (kCeiling - kFloorZ) / 2;
-  builder.finish() = {.coarseness = 10, .lightStep = 0.06};
+  builder.patchSettings() = {.coarseness = 10, .lightStep = 0.06};
   builder.panel({kMiddleX, kMiddleY, kFloorZ}, kX, kY, {kHalfX, kHalfY}, board(0x8a7660, 64));
   builder.panel({kMiddleX, kMiddleY, kCeiling}, kX, -kY, {kHalfX, kHalfY}, plain(0xc9c7bd));
   builder.panel({kLeft, kMiddleY, kMiddleZ}, kY, kZ, {kHalfY, kHalfZ}, plain(0x9ba193));

@@ -18,11 +18,11 @@ inline constexpr double kBenchBack = 0.44;
 inline constexpr double kWallY = 0.45;
 inline constexpr double kFloorZ = -0.88;
 
-inline const glm::dmat4 kToolboxPose = standing({-0.49, 0.20, 0}, 13);
+inline const glm::dmat4 kToolboxPose = uprightPose({-0.49, 0.20, 0}, 13);
 inline constexpr glm::dvec3 kToolboxSize{0.40, 0.19, 0.165};
-inline const glm::dmat4 kMachinePose = standing({0.00, 0.29, 0.014}, -5);
+inline const glm::dmat4 kMachinePose = uprightPose({0.00, 0.29, 0.014}, -5);
 inline constexpr glm::dvec3 kMachineSize{0.23, 0.17, 0.15};
-inline const glm::dmat4 kBooksPose = standing({-0.59, -0.10, 0}, 22);
+inline const glm::dmat4 kBooksPose = uprightPose({-0.59, -0.10, 0}, 22);
 inline constexpr double kBooksHeight = 0.056;
 inline constexpr glm::dvec3 kWallSheetCentre{-0.205, kWallY - 0.002, 0.40};
 

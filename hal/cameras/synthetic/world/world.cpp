@@ -84,8 +84,8 @@ World paintWorkbench(std::uint32_t seed, double texelMetres) {
   forAll(order.size(), [&](std::size_t i) {
     const Patch& patch = plan.patches[order[i]];
     PatchTexture& texture = world.textures[order[i]];
-    if (!patch.glows) {
-      shine(light.on(patch), texture.half, texture.texelMetres, texture.texture.base());
+    if (!patch.isEmissive) {
+      applyLight(light.on(patch), texture.half, texture.texelMetres, texture.texture.base());
     }
     texture.texture.buildLevels();
   });

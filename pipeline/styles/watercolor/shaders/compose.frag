@@ -1,4 +1,7 @@
 // Purpose: the watercolor image without mosaic and focus, for most presets.
+// Inputs:  composition.glsl's.
+// Outputs: RGBA8, sRGB-coded, opaque.
+// Precision: highp, as in composition.glsl.
 #include "pipeline/styles/watercolor/shaders/composition.glsl"
 layout(location = 0) out vec4 picture;
 

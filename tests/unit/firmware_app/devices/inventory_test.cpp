@@ -50,7 +50,7 @@ TEST(Inventory, IsALineADeviceAndALayout) {
             "Cameras (--camera ID)\n"
             "  v4l2:usb-046d  C920  /dev/video0  serial:A1\n"
             "    YUYV  640x480 at 29.97, 10; 1280x720\n"
-            "    H264  1920x1080 (not read)\n"
+            "    H264  1920x1080 (not supported)\n"
             "  v4l2:usb-2  /dev/video2\n"
             "    cannot open: Permission denied\n"
             "    -> join the group video\n"
@@ -63,7 +63,7 @@ TEST(Inventory, IsALineADeviceAndALayout) {
             "\n"
             "Displays\n"
             "  card0-HDMI-A-1  1920x1080 1280x720\n"
-            "  card0-DP-1  nothing is connected\n");
+            "  card0-DP-1  not connected\n");
 }
 
 TEST(Inventory, SaysWhatToDoWhereThereIsNothing) {

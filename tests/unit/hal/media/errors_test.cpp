@@ -21,7 +21,7 @@ TEST(LibavError, KeepsTheKindOfFailuresOfTheWorld) {
 }
 
 TEST(LogCapture, TakesTheFirstErrorOfItsThreadAndPrintsNothing) {
-  routeLog();
+  redirectLog();
   testing::internal::CaptureStderr();
   av_log(nullptr, AV_LOG_ERROR, "nobody listens\n");
   LogCapture outer;

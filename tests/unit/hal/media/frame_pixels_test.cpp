@@ -11,7 +11,7 @@
 namespace pleinair::hal::libav {
 namespace {
 
-/// Greys from dark to light in columns, chroma neutral, with the display matrix of `orientation`.
+/// Grey columns from dark to light with neutral chroma, and the display matrix of `orientation`.
 std::shared_ptr<const AVFrame> columnsYuyv(int width, int height, std::size_t orientation) {
   Frame frame = makeFrame();
   frame->format = AV_PIX_FMT_YUYV422;

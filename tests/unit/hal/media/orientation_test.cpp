@@ -23,7 +23,7 @@ TEST(Orientation, TurnsEachFormatAndSizeInAllEightWays) {
         const Orientation orientation = orientationOf(support::displayMatrix(matrix));
         EXPECT_EQ(orientation.isUpright(), number == 1);
         const Image shown = oriented(stored.view(), orientation);
-        const Image expected = support::shownByExif(stored.view(), number);
+        const Image expected = support::uprightByExif(stored.view(), number);
         ASSERT_EQ(shown.size(), expected.size());
         EXPECT_EQ(shown.size(), oriented(size, orientation));
         EXPECT_TRUE(support::equalPixels(shown.view(), expected.view()))
@@ -53,7 +53,7 @@ TEST(Orientation, OfAMatrixThatScalesMovesAndRoundsIsThatOfItsTurn) {
 TEST(Orientation, OtherAnglesAndBrokenMatricesAreIgnored) {
   constexpr int kHalf = 1 << 15;
   constexpr std::int32_t kLeast = std::numeric_limits<std::int32_t>::min();
-  for (const Matrix& matrix : {Matrix{},                                  // nothing
+  for (const Matrix& matrix : {Matrix{},                                  // all zero
                                Matrix{-kHalf, kHalf, 0, -kHalf, -kHalf},  // 135°
                                Matrix{-kHalf, kHalf / 28, 0, 0, -kHalf},  // 178°
                                Matrix{-kHalf, 0, 0, 0, 0},                // flat

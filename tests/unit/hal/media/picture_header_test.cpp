@@ -48,12 +48,12 @@ TEST(PictureHeader, GivesTheSizeOfEachKind) {
     const std::vector<std::uint8_t> bytes = bytesOf(picture.bytes);
     EXPECT_EQ(pictureKindOf(bytes), picture.kind);
     EXPECT_EQ(peekPictureSize(picture.kind, bytes), picture.size) << picture.bytes;
-    // Whatever is cut off, nothing is read past the end (with the address sanitizer).
+    // No truncation makes it read past the end (checked by the address sanitizer).
     for (std::size_t length = 0; length < bytes.size(); ++length) {
       const std::vector<std::uint8_t> cut(bytes.begin(),
                                           bytes.begin() + static_cast<std::ptrdiff_t>(length));
       peekPictureSize(picture.kind, cut);
-      flawOf(picture.kind, cut);
+      defectOf(picture.kind, cut);
     }
   }
 }
@@ -61,8 +61,8 @@ TEST(PictureHeader, GivesTheSizeOfEachKind) {
 TEST(PictureHeader, FindsTheEndOfAJpegNotThatOfItsThumbnail) {
   const std::string thumbnail = "\xFF\xE1\x00\x06\xFF\xD9\xFF\xD9"s;
   const std::string cut = kJpegStart + thumbnail + kJpegFrame + kJpegScan + "data\xFF\x00 more"s;
-  EXPECT_TRUE(flawOf(PictureKind::kJpeg, bytesOf(cut)));
-  EXPECT_FALSE(flawOf(PictureKind::kJpeg, bytesOf(cut + "\xFF\xD9"s)));
+  EXPECT_TRUE(defectOf(PictureKind::kJpeg, bytesOf(cut)));
+  EXPECT_FALSE(defectOf(PictureKind::kJpeg, bytesOf(cut + "\xFF\xD9"s)));
 }
 
 TEST(PictureHeader, NoSizeIsNotASize) {

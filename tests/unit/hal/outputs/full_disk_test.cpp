@@ -14,7 +14,7 @@
 namespace pleinair::hal {
 namespace {
 
-/// Writes pictures of noise, which take room, until something fails.
+/// Writes images of noise, which compress badly, until a write fails.
 Result<void> writeUntilItFails(MemoryOutput& output) {
   const Result<OutputFormat> format = output.start({.size = {320, 240}});
   if (!format) return tl::unexpected(format.error());
@@ -34,7 +34,8 @@ Result<void> writeUntilItFails(MemoryOutput& output) {
 class FullDisk : public testing::TestWithParam<std::string> {};
 
 TEST_P(FullDisk, IsReportedAndLeavesNoPartialMovie) {
-  // From none to nearly enough: the failure comes in the header, in mid-movie, and at the end.
+  // From an empty disk to one that is nearly large enough: the failure comes in the header, in the
+  // middle, and at the end.
   for (const std::int64_t freeBytes : {0, 100, 5'000, 300'000, 1'000'000}) {
     SCOPED_TRACE(freeBytes);
     const support::TemporaryFolder folder;

@@ -1,4 +1,4 @@
-// Recordings that break off, or are broken within: their sound frames come, and nothing else.
+// Recordings that are truncated or damaged inside deliver their valid frames, and no others.
 #include <algorithm>
 #include <fstream>
 #include <iterator>
@@ -41,7 +41,7 @@ class Aborted : public testing::TestWithParam<std::string> {
     }
   }
 
-  /// Each frame must be the whole recording's at that time.
+  /// Each frame must equal the complete recording's frame at that time.
   void expectSound(const support::Played& played) const {
     for (std::size_t i = 0; i < played.frames.size(); ++i) {
       const auto sound = sound_.find(played.times[i]);
@@ -61,7 +61,7 @@ TEST_P(Aborted, GivesItsSoundFramesAndSaysSo) {
   std::size_t longest = 0;
   for (int tenth = 0; tenth < 10; ++tenth) {
     SCOPED_TRACE(tenth);
-    // 11 bytes off the round number: inside a frame, a box or a block.
+    // 11 bytes beyond the round number: inside a frame, a box or a block.
     writeAll(cut, bytes_.substr(0, bytes_.size() * static_cast<unsigned>(tenth) / 10 + 11));
     const Result<support::Played> played = support::play(cut);
     if (!played) {

@@ -1,4 +1,4 @@
-// Known colours through a movie and back, and through each kind of picture.
+// Known colours survive a movie, and each kind of picture.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -171,7 +171,7 @@ TEST(Pictures, ReadPnmAsItIs) {
   EXPECT_THAT(rgb.view().row(0, 0), testing::ElementsAre('a', 'b', 'c', 'd', 'e', 'f'));
   const Image grey = orThrow(readPicture(write("a.pgm", "P5 3 1 255\nxyz")));
   EXPECT_EQ(grey.format().pixelFormat, PixelFormat::kGrey8);
-  // 16-bit grey is scaled, not cut: 0, 0x8080, 0xFFFF.
+  // 16-bit grey is scaled, not truncated: 0, 0x8080, 0xFFFF.
   const Image deep = orThrow(
       readPicture(write("deep.pgm", std::string("P5 3 1 65535\n\0\0\x80\x80\xFF\xFF", 19))));
   EXPECT_THAT(deep.view().row(0, 0), testing::ElementsAre(0, 128, 255));
@@ -192,7 +192,7 @@ TEST(Pictures, AreTheSameAsRgbWithinTheirCoding) {
             (ColorEncoding{.matrix = ColorMatrix::kBt601, .range = ColorRange::kFull}));
   const Image rgb = orThrow(readPictureRgb(photo));
   ASSERT_EQ(rgb.format().pixelFormat, PixelFormat::kRgb8);
-  // Mean colour of the whole picture: chroma filters differ from pixel to pixel, not on average.
+  // Compares the mean colour: chroma filters differ per pixel, but not on average.
   Rgb ours{};
   Rgb theirs{};
   const ImageView view = stored.view();

@@ -1,5 +1,5 @@
-// Every broken file of the shared collection: no crash, no hang, bounded memory, and sound frames
-// or one clear line.
+// Every broken file of the shared collection gives valid frames or one clear line, without a crash,
+// a hang or unbounded memory.
 #include <chrono>
 #include <filesystem>
 #include <string>

@@ -1,4 +1,4 @@
-// Movies with a display matrix and JPEGs with an EXIF orientation come upright.
+// Movies with a display matrix and JPEGs with an EXIF orientation are delivered upright.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -73,7 +73,7 @@ std::string jpegOf(const Image& picture) {
   return {reinterpret_cast<const char*>(packet->data), static_cast<std::size_t>(packet->size)};
 }
 
-/// The JPEG with an EXIF segment of one tag before all others.
+/// Adds an EXIF segment with one tag at the front of the JPEG.
 std::string withExif(std::string jpeg, int orientation) {
   using std::string_literals::operator""s;
   const std::string exif = "Exif\0\0MM\0\x2A\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0"s +
@@ -82,7 +82,7 @@ std::string withExif(std::string jpeg, int orientation) {
   return jpeg.insert(2, header + exif);
 }
 
-/// Of odd size, so that chroma's last row and column stand for one pixel.
+/// Its size is odd, so that the last row and column of chroma cover one pixel.
 std::string storedJpeg() {
   return jpegOf(support::testPicture({.pixelFormat = PixelFormat::kI420, .size = {37, 21}}, 3));
 }
@@ -101,7 +101,7 @@ TEST(MovieOrientation, TurnsFramesInAllEightWays) {
     EXPECT_TRUE(played->changes.empty());
     ASSERT_EQ(played->frames.size(), stored.frames.size());
     for (std::size_t i = 0; i < stored.frames.size(); ++i) {
-      const Image expected = support::shownByExif(stored.frames[i].image, number);
+      const Image expected = support::uprightByExif(stored.frames[i].image, number);
       EXPECT_EQ(played->format.frame, expected.format()) << number;
       EXPECT_TRUE(support::equalPixels(played->frames[i].image, expected.view())) << number;
     }
@@ -132,7 +132,7 @@ TEST(MovieOrientation, PhoneMovieStandsUpright) {
   constexpr int kQuarterTurnAgainstTheClock = 8;
   for (std::size_t i = 0; i < stored.frames.size(); ++i) {
     const Image expected =
-        support::shownByExif(stored.frames[i].image, kQuarterTurnAgainstTheClock);
+        support::uprightByExif(stored.frames[i].image, kQuarterTurnAgainstTheClock);
     EXPECT_TRUE(support::equalPixels(upright.frames[i].image, expected.view())) << i;
   }
 }
@@ -149,11 +149,11 @@ TEST(PictureOrientation, TurnsJpegsInAllEightWays) {
     write(path, withExif(jpeg, number));
     const Result<Image> shown = readPicture(path);
     ASSERT_TRUE(shown) << shown.error().message();
-    const Image expected = support::shownByExif(stored.view(), number);
+    const Image expected = support::uprightByExif(stored.view(), number);
     EXPECT_EQ(shown->size(), expected.size()) << number;
     EXPECT_TRUE(support::equalPixels(shown->view(), expected.view())) << number;
     EXPECT_TRUE(support::equalPixels(orThrow(readPictureRgb(path)).view(),
-                                     support::shownByExif(storedRgb.view(), number).view()))
+                                     support::uprightByExif(storedRgb.view(), number).view()))
         << number;
   }
 }

@@ -15,7 +15,7 @@ TEST(Timeline, KeepsSoundTimesExactly) {
   EXPECT_EQ(timeline.place(Duration(1'000'000'001), 0), Duration(0));
   EXPECT_EQ(timeline.place(Duration(1'000'000'002), 0), Duration(1));
   EXPECT_EQ(timeline.place(Duration(1'033'333'334), 2), Duration(33'333'333));
-  EXPECT_EQ(timeline.mendedCount(), 0u);
+  EXPECT_EQ(timeline.correctedCount(), 0u);
 }
 
 TEST(Timeline, SpacesMissingTimesByThePeriod) {
@@ -25,7 +25,7 @@ TEST(Timeline, SpacesMissingTimesByThePeriod) {
   EXPECT_EQ(timeline.place(std::nullopt, 2), 160ms);
   EXPECT_EQ(timeline.place(Duration(5h), 0), 200ms) << "the first sound time joins on";
   EXPECT_EQ(timeline.place(Duration(5h + 33ms), 0), 233ms);
-  EXPECT_EQ(timeline.mendedCount(), 3u);
+  EXPECT_EQ(timeline.correctedCount(), 3u);
 }
 
 TEST(Timeline, MendsADoubledTimeAndIsInTimeAgain) {
@@ -34,7 +34,7 @@ TEST(Timeline, MendsADoubledTimeAndIsInTimeAgain) {
   timeline.place(40ms, 0);
   EXPECT_EQ(timeline.place(40ms, 0), 60ms);
   EXPECT_EQ(timeline.place(80ms, 0), 80ms);
-  EXPECT_EQ(timeline.mendedCount(), 1u);
+  EXPECT_EQ(timeline.correctedCount(), 1u);
 }
 
 TEST(Timeline, GoesOnAfterTheClockWasSet) {

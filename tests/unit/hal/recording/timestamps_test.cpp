@@ -21,7 +21,7 @@ TEST_P(Timestamps, OfVariableRateComeBackToTheMicrosecond) {
   const support::TemporaryFolder folder;
   const auto path = folder.path() / GetParam();
   std::vector<Duration> times = {0us, 33'333us, 33'334us, 100'001us, 1s + 7us, 1s + 40'007us};
-  // Past a key frame and, in Matroska, past many clusters.
+  // Long enough for several key frames and, in Matroska, many clusters.
   for (int i = 0; i < 150; ++i) times.push_back(times.back() + 16'683us + i * 1us);
   times.push_back(times.back() + 30min);
   support::writeMedia(path, static_cast<int>(times.size()), {32, 32}, times);

@@ -13,7 +13,7 @@ using support::scriptedError;
 using support::ScriptedSession;
 using testing::HasSubstr;
 
-/// Two back ends of devices, and one of what is none.
+/// Two back ends of devices, and one that has no devices.
 class CameraSelectorTest : public testing::Test {
  protected:
   CameraSelector selector(std::string choice) {
@@ -22,7 +22,7 @@ class CameraSelectorTest : public testing::Test {
                            {.backend = files_, .isDevice = false}},
                           std::move(choice), clock_);
   }
-  /// "BACKEND:ID" of what opens, or the error.
+  /// "BACKEND:ID" of the opened camera, or the error.
   std::string opened(const std::string& choice) {
     CameraSelector chosen = selector(choice);
     return told(chosen.open({}));

@@ -70,7 +70,7 @@ TEST(CameraSupervisor, GivesUpACameraThatStopsDeliveringWithoutAnError) {
   EXPECT_THAT(story(all),
               ElementsAre("opening", "format", "streaming", "frames×3", "stalled", "lost",
                           "backing off", "opening", "streaming", "frames×3", "stalled"));
-  // 3 periods of 33 ms and 200 ms after the last frame, to a look's 50 ms.
+  // 3 periods of 33 ms plus 200 ms after the last frame, within a poll interval of 50 ms.
   const Happened stalled = firstOf(all, "stalled");
   EXPECT_GE(stalled.at, milliseconds(99 + 299));
   EXPECT_LE(stalled.at, milliseconds(99 + 299 + 50));
@@ -108,7 +108,7 @@ TEST(CameraSupervisor, AStallThatEndsByItselfIsToldApartFromDrops) {
               HasSubstr("after 1.0 s of silence; 25 were lost"));
 }
 
-/// When each opening was tried.
+/// The time of each attempt to open.
 std::vector<Duration> openingTimes(const std::vector<Happened>& all) {
   std::vector<Duration> times;
   for (const Happened& each : all) {
@@ -205,7 +205,7 @@ TEST(CameraSupervisor, CountsCorruptAndMisTimedFramesAndLetsThemNotOut) {
   Supervised supervised;
   supervised.add(
       {{.steps = scriptOf(scriptedFrames(1), ScriptedFrame{.dropped = 1, .isTooShort = true},
-                          ScriptedFrame{.timeError = -milliseconds(500)},  // back
+                          ScriptedFrame{.timeError = -milliseconds(500)},  // earlier
                           ScriptedFrame{.timeError = seconds(3600)},       // in the future
                           ScriptedFrame{.dropped = 2},
                           ScriptedFrame{.after = Duration::zero()})}});  // the same time
@@ -294,7 +294,7 @@ TEST(CameraSupervisor, AConsumerThatWasAwayIsNoSilenceOfTheCamera) {
   supervised.add(
       {{.steps = scriptOf(scriptedFrames(2), ScriptedFrame{.after = milliseconds(900)})}});
   supervised.run(milliseconds(66));
-  supervised.clock.advance(milliseconds(850));  // it paints, and nobody looks at the camera
+  supervised.clock.advance(milliseconds(850));  // the painter is busy, and nothing polls the camera
   EXPECT_THAT(story(supervised.run(milliseconds(100))), ElementsAre("frames×1"));
 }
 

@@ -38,7 +38,7 @@ TEST(FrameWatchdog, ALongAbsenceCountsAsOneLook) {
   watchdog.frameCame(TimePoint{});
   watchdog.nothingCame(TimePoint{} + hours(1));
   EXPECT_EQ(watchdog.silence(), kLook);
-  watchdog.nothingCame(TimePoint{});  // a clock that goes back takes nothing off
+  watchdog.nothingCame(TimePoint{});  // a clock that jumps back changes nothing
   EXPECT_EQ(watchdog.silence(), kLook);
 }
 

@@ -13,7 +13,7 @@
 namespace pleinair::hal {
 namespace {
 
-/// Events that a test makes up.
+/// Scripted device events.
 class ScriptedEvents final : public DeviceEvents {
  public:
   struct Feed {
@@ -22,7 +22,7 @@ class ScriptedEvents final : public DeviceEvents {
       waiting.push_back(std::move(event));
       changed.notify_all();
     }
-    /// All events were handed on, and the monitor waits for another.
+    /// Waits until all events were passed on and the monitor waits for another.
     void waitUntilTaken() {
       std::unique_lock lock(mutex);
       changed.wait(lock, [this] { return waiting.empty() && isAsked; });
@@ -96,7 +96,7 @@ TEST(UdevEvents, AreInterruptedOrSayWhyThereAreNone) {
     EXPECT_FALSE(events.error().message().empty());
     GTEST_SKIP() << events.error().message();
   }
-  // Whatever comes from this machine's devices in the meantime, it ends.
+  // It ends, whatever events this machine's devices send in the meantime.
   const HotplugMonitor monitor(std::move(*events), [](const DeviceEvent&) {});
 }
 

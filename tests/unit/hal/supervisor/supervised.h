@@ -14,7 +14,7 @@
 
 namespace pleinair::hal {
 
-/// One line of what came out of a supervisor, with when.
+/// One answer of a supervisor, as text, with its time.
 struct Happened {
   Duration at;
   std::string what;  ///< "opening", "format", "frame", "end" …
@@ -22,7 +22,7 @@ struct Happened {
   SupervisedFrame frame;
 };
 
-/// A supervisor over one scripted back end, "usb", and everything that comes out of it.
+/// A supervisor over one scripted back end, "usb", and a record of its answers.
 class Supervised {
  public:
   explicit Supervised(std::string choice = "usb", SupervisorOptions options = {})
@@ -44,7 +44,7 @@ class Supervised {
     return *supervisor_;
   }
 
-  /// Everything that happens within `duration`.
+  /// Collects all answers within `duration`.
   std::vector<Happened> run(Duration duration) {
     const TimePoint until = clock.now() + duration;
     std::vector<Happened> all;
@@ -86,7 +86,7 @@ class Supervised {
   std::unique_ptr<CameraSupervisor> supervisor_;
 };
 
-/// What happened, runs of frames as "frames×12".
+/// The names of the answers, with runs of frames as "frames×12".
 inline std::vector<std::string> story(const std::vector<Happened>& all) {
   std::vector<std::string> lines;
   int frames = 0;
@@ -114,7 +114,7 @@ inline std::vector<SupervisedFrame> framesOf(const std::vector<Happened>& all) {
   return frames;
 }
 
-/// The first that is so named.
+/// The first answer of that name.
 inline Happened firstOf(const std::vector<Happened>& all, const std::string& what) {
   for (const Happened& each : all) {
     if (each.what == what) return each;
@@ -123,7 +123,7 @@ inline Happened firstOf(const std::vector<Happened>& all, const std::string& wha
   return {};
 }
 
-/// What holds of any frames that came out of one supervisor, one after another.
+/// Checks the invariants of the frames from one supervisor, in sequence.
 inline void expectLedgerOf(const std::vector<SupervisedFrame>& frames) {
   std::uint64_t expected = 0;
   std::optional<TimePoint> last;

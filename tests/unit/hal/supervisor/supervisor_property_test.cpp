@@ -1,4 +1,4 @@
-// Random lives of cameras, from fixed seeds: whatever happens, what comes out keeps its promises.
+// Random scripts of cameras, from fixed seeds: the supervisor's answers always keep its contract.
 
 #include <random>
 
@@ -77,7 +77,7 @@ bool mayFollow(CameraState from, CameraState to) {
   return false;
 }
 
-/// Holds what comes out against what was promised, as it comes.
+/// Checks each answer against the contract.
 class Promises {
  public:
   void hold(const SupervisedNext& next) {

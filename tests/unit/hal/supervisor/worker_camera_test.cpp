@@ -21,7 +21,8 @@ namespace {
 
 using testing::HasSubstr;
 
-/// What a driver does next, told by the test; the test waits for the driver, and no clock decides.
+/// A driver that the test controls step by step. The test waits for it, so that timing does not
+/// depend on a clock.
 class Driver {
  public:
   enum class Call { kStart, kNext, kStop };
@@ -54,7 +55,7 @@ class Driver {
     changed_.wait(lock, [this] { return isGone_; });
   }
 
-  // The camera's side.
+  // Called by the camera.
   void call(Call call) {
     std::unique_lock lock(mutex_);
     isHanging_ = hangs_ == call;
@@ -110,7 +111,7 @@ class DrivenCamera final : public Camera {
   std::shared_ptr<Driver> driver_;
 };
 
-/// A back end of one driven camera.
+/// A back end with one controlled camera.
 class DrivenBackend final : public CameraBackend {
  public:
   explicit DrivenBackend(std::shared_ptr<Driver> driver) : driver_(std::move(driver)) {}
@@ -132,7 +133,7 @@ CapturedFrame frameNumber(std::uint64_t number, std::uint64_t dropped = 0) {
 
 class WorkerCameraTest : public testing::Test {
  protected:
-  // Long ones, so that nothing but a hanging driver reaches them, and none at all for those.
+  // Long limits, which only a hanging driver reaches, or none in tests of such drivers.
   static constexpr WorkerLimits kPatient{.start = std::chrono::minutes(1),
                                          .stop = std::chrono::minutes(1)};
   static constexpr WorkerLimits kNone{.start = Duration::zero(), .stop = Duration::zero()};
@@ -220,7 +221,7 @@ TEST_F(WorkerCameraTest, ADriverThatHangsInStopDoesNotHoldUpOurs) {
   worker.reset();
   EXPECT_EQ(*hanging_, 1);
   driver_->letGo();
-  driver_->waitUntilGone();  // the abandoned thread ends by itself, and takes the camera along
+  driver_->waitUntilGone();  // the abandoned thread ends by itself, and destroys the camera
 }
 
 TEST_F(WorkerCameraTest, ADriverThatHangsInStartIsATimeout) {

@@ -28,7 +28,7 @@ TEST(SyntheticCamera, AFrameDoesNotDependOnThoseBefore) {
   SyntheticCamera camera(options, clock);
   ASSERT_TRUE(camera.start({}));
   keepWorkbenchOf(options);
-  clock.advance(5 * options.framePeriod);  // the first five are too late
+  clock.advance(5 * options.framePeriod);  // the first five are missed
   const NextFrame next = camera.next(kNoDeadline);
   const auto& frame = std::get<CapturedFrame>(next);
   EXPECT_EQ(frame.sequence, 5u);

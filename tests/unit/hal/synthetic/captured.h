@@ -13,12 +13,12 @@
 
 namespace pleinair::hal::synthetic {
 
-/// Small and far apart in time, so that the desk is quickly painted and frames differ.
+/// Small frames, far apart in time: the workbench is painted fast and the frames differ.
 inline SyntheticOptions smallOptions() {
   return {.size = {160, 120}, .framePeriod = std::chrono::milliseconds(200)};
 }
 
-/// Keeps the workbench of a seed and size alive: it is painted once for a suite, not for each case.
+/// Keeps the workbench of a seed and size alive, so that a suite paints it once.
 inline void keepWorkbenchOf(const SyntheticOptions& options) {
   static SteppedClock clock;
   static std::map<std::tuple<std::uint32_t, int, int>, std::unique_ptr<SyntheticCamera>> keepers;

@@ -10,7 +10,7 @@
 namespace pleinair::hal::synthetic {
 namespace {
 
-/// A camera, and the same frames seen by the oracle.
+/// A camera, and the oracle's exposures of the same frames.
 struct Both {
   explicit Both(SyntheticShot shot)
       : options{.shot = shot}, camera(options, clock), motion(shot, options.seed) {}
@@ -27,7 +27,8 @@ struct Both {
   }
 };
 
-/// The flow as the oracle has it: meet, carry along, project, and look whether it is met again.
+/// The oracle's flow: find the surface point, move it, project it, and test whether it is visible
+/// there.
 FlowVector oracleFlow(const Both& both, std::uint64_t from, std::uint64_t to, glm::dvec2 pixel) {
   const Geometry& geometry = workbenchGeometry();
   const auto hit = oracleHit(geometry, both.view(from), both.mover(from), pixel);
@@ -72,7 +73,7 @@ TEST(SyntheticFlow, FollowsWhatMovesAndWhatItHides) {
   expectFlowOfOracle(SyntheticShot::kOccluder, 20, 60, 60, 145);
   expectFlowOfOracle(SyntheticShot::kOccluder, 62, 66, 100, 150);
   const Both both(SyntheticShot::kOccluder);
-  // The glove moves while the bench beside it stays.
+  // The glove moves while the bench beside it is static.
   int moving = 0;
   for (int i = 0; i < 150; ++i) {
     const glm::dvec2 pixel(13 + (i * 251) % 620, 7 + (i * 113) % 470);
@@ -107,7 +108,7 @@ TEST(SyntheticFlow, TakesEachVisibleTagCornerToWhereItIsLater) {
   EXPECT_GT(corners, 40);
 }
 
-/// Mean absolute difference, in levels, of `first` to `second` looked up along the flow.
+/// Mean absolute difference, in levels, between `first` and `second` warped along the flow.
 double warpedDifference(const Image& first, const Image& second, const FlowField& flow) {
   double sum = 0;
   int count = 0;

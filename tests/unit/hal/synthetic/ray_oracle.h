@@ -11,7 +11,8 @@
 
 namespace pleinair::hal::synthetic {
 
-/// What a ray meets, found by trying every triangle of every facet (Möller and Trumbore, 1997).
+/// The first surface along a ray, found by testing every triangle of every facet (Möller and
+/// Trumbore, 1997).
 struct OracleHit {
   glm::dvec3 world{0};
   std::uint32_t facet = 0;

@@ -19,7 +19,7 @@ Texel colourOf(std::size_t patch) {
           static_cast<std::uint8_t>(20 + (patch * 59) % 199)};
 }
 
-/// The workbench with each patch in a colour of its own.
+/// The workbench with a different colour for each patch.
 std::shared_ptr<const World> mapOfPatches() {
   World world{workbenchGeometry(), {}};
   std::size_t patches = 0;
@@ -34,7 +34,7 @@ std::shared_ptr<const World> mapOfPatches() {
   return std::make_shared<const World>(std::move(world));
 }
 
-/// Row-major, three levels a pixel.
+/// Row-major, three levels per pixel.
 std::vector<double> rendered(const Exposure& exposure) {
   Renderer renderer(mapOfPatches());
   renderer.begin(exposure);
@@ -60,7 +60,7 @@ std::vector<std::size_t> oraclePatches(const Exposure& exposure) {
   return patches;
 }
 
-/// Every pixel without an edge near it must show what the oracle meets; the others may mix.
+/// Every pixel without an edge nearby must show the oracle's patch; the others may be mixed.
 void expectOraclesPatches(const Exposure& exposure) {
   const std::vector<double> levels = rendered(exposure);
   const std::vector<std::size_t> patches = oraclePatches(exposure);
@@ -112,7 +112,7 @@ TEST(Renderer, ShowsEachRowOfARollingShutterAtItsMoment) {
   expectOraclesPatches(Exposure(kSize, arm, std::chrono::milliseconds(1200), microseconds(280)));
 }
 
-/// The column, with fractions, at which a row turns from one level to another at its largest step.
+/// The column, with subpixel precision, of a row's largest step between two levels.
 double largestStep(const std::vector<double>& levels, int row, int from, int to) {
   double best = 0;
   double at = 0;
@@ -125,14 +125,14 @@ double largestStep(const std::vector<double>& levels, int row, int from, int to)
     const double whole = light(i + 6) - light(i);
     if (std::abs(whole) <= std::abs(best)) continue;
     best = whole;
-    // The pixel between has as much of the right side as its light is on the way.
+    // The pixel between contains the right side in proportion to its light.
     at = x + 2 - (light(i + 3) - light(i)) / whole;
   }
   return at;
 }
 
 TEST(Renderer, SlantsAVerticalEdgeAsFarAsTheCameraTurnsMeanwhile) {
-  // The poster's right edge stands upright at x = -0.405; the pan turns past it.
+  // The poster's right edge is vertical at x = -0.405; the pan passes it.
   const Motion motion(SyntheticShot::kPan, 1);
   const Duration rowTime = std::chrono::microseconds(900);
   const auto columns = [&](Duration each) {
@@ -153,7 +153,7 @@ TEST(Renderer, SlantsAVerticalEdgeAsFarAsTheCameraTurnsMeanwhile) {
 }
 
 TEST(Renderer, GivesEdgesAllShades) {
-  // Many values between two sides: coverage is not in or out.
+  // Coverage takes many values between two patches, not just 0 and 1.
   const Motion motion(SyntheticShot::kRoll, 1);
   const Exposure exposure({640, 480}, motion, std::chrono::milliseconds(300), {});
   const std::vector<double> levels = rendered(exposure);

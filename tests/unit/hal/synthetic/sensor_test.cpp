@@ -23,7 +23,7 @@ std::vector<std::uint8_t> exposed(Sensor sensor, std::uint64_t frame, int y, int
   return rgb8;
 }
 
-/// The correlation of two samples around level 128, where the second is read `shift` later.
+/// The correlation of two samples around level 128, the second read at an offset of `shift`.
 double correlation(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b,
                    std::size_t shift = 0) {
   double product = 0;

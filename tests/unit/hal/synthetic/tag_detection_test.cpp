@@ -55,7 +55,7 @@ class Detector {
       apriltag_detector_create(), apriltag_detector_destroy};
 };
 
-/// How well the detector does on the first frames of a shot.
+/// The detector's accuracy on the first frames of a shot.
 struct Score {
   std::map<int, int> timesVisible, timesFound;
   int corners = 0;
@@ -121,7 +121,7 @@ TEST(SyntheticTags, AreHiddenByTheArmForAWhile) {
   EXPECT_TRUE(isVisible(75, 1)) << "the toolbox's tag stays in sight";
 }
 
-/// Whether the oracle meets something else than the tag's plane at any of many points of the tag.
+/// Whether the oracle finds another surface before the tag at any of many points of the tag.
 bool isHiddenToTheOracle(const CameraView& view, const glm::dmat4& mover, const BenchTag& tag) {
   const double half = tag.edgeMetres * 10 / 16;
   for (int row = 0; row <= 40; ++row) {
@@ -162,7 +162,7 @@ TEST(SyntheticTags, StickToSurfacesInRightHandedFrames) {
     EXPECT_EQ(tags[i].family, "tag36h11");
     const glm::dmat4& pose = tags[i].worldFromTag;
     EXPECT_NEAR(glm::determinant(glm::dmat3(pose)), 1, 1e-12);
-    // Looked at from its front, the tag's middle is what is met there.
+    // From its front, the tag's middle is the first surface.
     const glm::dvec3 middle(pose[3]);
     const Ray towards{middle - 0.01 * glm::dvec3(pose[2]), glm::dvec3(pose[2])};
     const auto met =

@@ -18,7 +18,7 @@ class V4l2Chronology : public testing::Test {
   CapturedFrame numbered(std::uint32_t sequence, bool wasStarving = false) {
     return stamped({.flags = kMonotonic, .sequence = sequence}, wasStarving);
   }
-  /// Of a driver's time before now.
+  /// A frame stamped with a driver's time, relative to now.
   CapturedFrame dated(std::uint32_t flags, Duration time) {
     return stamped({.flags = flags, .sequence = nextNumber_++, .timestamp = time});
   }

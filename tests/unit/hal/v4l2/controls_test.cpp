@@ -11,7 +11,7 @@ using testing::HasSubstr;
 
 class V4l2Controls : public FakeCamera {
  protected:
-  /// As UVC webcams have them.
+  /// The controls of a UVC webcam.
   static std::vector<support::FakeControl> webcam() {
     return {{.id = V4L2_CID_EXPOSURE_AUTO,
              .max = 3,
@@ -79,9 +79,10 @@ TEST_F(V4l2Controls, OfNoNumberAreTheLeast) {
 
 TEST_F(V4l2Controls, ThatAreMissingAreNamedWithThoseThatThereAre) {
   plug({.controls = {{.id = V4L2_CID_GAIN}, {.id = V4L2_CID_AUTO_WHITE_BALANCE, .max = 1}}});
-  EXPECT_EQ(refusal({.focus = 0.5}),
-            "/dev/video0: has no control of focus (Fake camera); leave it to the device, which has "
-            "gain (no auto), white_balance (auto only)");
+  EXPECT_EQ(
+      refusal({.focus = 0.5}),
+      "/dev/video0: has no control of focus (Fake camera); remove the setting; the device has "
+      "gain (no auto), white_balance (auto only)");
   EXPECT_THAT(refusal({.gain = Automatic{}}), HasSubstr("no control of automatic gain"));
   EXPECT_THAT(refusal({.whiteBalance = 5000.0}), HasSubstr("no control of white_balance"));
   startOrFail({.controls = {.gain = 0.5, .whiteBalance = Automatic{}}});
@@ -89,7 +90,7 @@ TEST_F(V4l2Controls, ThatAreMissingAreNamedWithThoseThatThereAre) {
 
 TEST_F(V4l2Controls, OfADeviceWithNoneSaySo) {
   plug();
-  EXPECT_THAT(refusal({.exposure = Duration(1ms)}), HasSubstr("which has none of them"));
+  EXPECT_THAT(refusal({.exposure = Duration(1ms)}), HasSubstr("the device has no such controls"));
 }
 
 TEST_F(V4l2Controls, ThatCannotBeWrittenAreMissing) {

@@ -1,4 +1,4 @@
-// What drivers do wrong, and what is made of it.
+// Faults of drivers, and the camera's answers.
 #include "tests/unit/hal/v4l2/fake_camera.h"
 
 namespace pleinair::hal::v4l2 {
@@ -18,7 +18,7 @@ TEST_F(V4l2Faults, AFlaggedFrameIsCorruptAndTheNextOneSound) {
 }
 
 TEST_F(V4l2Faults, AShortFrameIsIncomplete) {
-  // 64x48 YUYV: 128 bytes a row. The last row's padding need not be there.
+  // 64x48 YUYV: 128 bytes per row. The last row may lack its padding.
   constexpr std::uint32_t kNeeded = (128 + 16) * 47 + 128;
   plug({.rowPadding = 16,
         .frames = {
@@ -109,16 +109,17 @@ TEST_F(V4l2Faults, AnUnknownFailureWhileStreamingIsAnError) {
   frameOrFail();
   video.failures[VIDIOC_DQBUF] = ENOMEM;
   for (int i = 0; i < 2; ++i) {
-    EXPECT_THAT(answerOrFail<Error>().message(), HasSubstr("gives no more frames"));
+    EXPECT_THAT(answerOrFail<Error>().message(), HasSubstr("delivers no more frames"));
   }
 }
 
 TEST_F(V4l2Faults, ABufferThatIsNotTakenBackEndsTheStream) {
   support::FakeVideo& video = plug();
   startOrFail();
-  frameOrFail();  // its lease is dropped here
+  frameOrFail();  // drops its lease
   video.failures[VIDIOC_QBUF] = ENODEV;
-  EXPECT_THAT(answerOrFail<CameraLost>().cause.message(), HasSubstr("take its buffers back"));
+  EXPECT_THAT(answerOrFail<CameraLost>().cause.message(),
+              HasSubstr("refuses to requeue its buffers"));
 }
 
 TEST_F(V4l2Faults, ASourceThatChangesIsNegotiatedAnew) {
@@ -201,7 +202,7 @@ INSTANTIATE_TEST_SUITE_P(
         StartFault{"NoMemory", VIDIOC_REQBUFS, ENOMEM, ErrorKind::kIo, "allocate its buffers"},
         StartFault{"NoBuffer", VIDIOC_QUERYBUF, EINVAL, ErrorKind::kInvalidArgument, "its buffers"},
         StartFault{"NoMapping", kMapFault, EAGAIN, ErrorKind::kIo, "cannot map"},
-        StartFault{"NoQueue", VIDIOC_QBUF, EIO, ErrorKind::kIo, "does not take its buffers"},
+        StartFault{"NoQueue", VIDIOC_QBUF, EIO, ErrorKind::kIo, "refuses to queue its buffers"},
         StartFault{"BusyStream", VIDIOC_STREAMON, EBUSY, ErrorKind::kBusy, "start streaming"},
         StartFault{"NoBandwidth", VIDIOC_STREAMON, ENOSPC, ErrorKind::kNoSpace, "start streaming"},
         StartFault{"NoFormats", VIDIOC_ENUM_FMT, EINVAL, ErrorKind::kUnsupported,

@@ -1,4 +1,4 @@
-// What S_FMT answers is the truth.
+// The format that S_FMT answers is the one that counts.
 #include "hal/cameras/v4l2/format.h"
 
 #include "hal/cameras/v4l2/layout.h"
@@ -111,7 +111,7 @@ TEST_F(V4l2Format, WithFieldsApartIsRefused) {
   support::FakeVideo video;
   video.amendFormat = [](v4l2_format& format) { format.fmt.pix.field = V4L2_FIELD_ALTERNATE; };
   plug(video);
-  EXPECT_THAT(startError().message(), HasSubstr("fields of a frame apart"));
+  EXPECT_THAT(startError().message(), HasSubstr("fields of a frame separately"));
 }
 
 TEST_F(V4l2Format, WithTheWrongNumberOfPlanesIsRefused) {
@@ -162,7 +162,7 @@ TEST(V4l2Fractions, AreThoseOfDriversLists) {
   expectFraction(Duration(33'366'667), 1001, 30000);
   expectFraction(40ms, 1, 25);
   expectFraction(1s, 1, 1);
-  expectFraction(Duration(133'333'333), 1333334, 10'000'000);  // 7.5 a second
+  expectFraction(Duration(133'333'333), 1333334, 10'000'000);  // 7.5 per second
   expectFraction(2s, 20'000'000, 10'000'000);
   EXPECT_EQ(durationOf({.numerator = 1, .denominator = 30}), Duration(33'333'333));
   EXPECT_EQ(durationOf({.numerator = 0, .denominator = 30}), std::nullopt);

@@ -103,7 +103,7 @@ TEST_F(V4l2Jpeg, OfAnotherSizeThanAgreedIsCorrupt) {
   EXPECT_EQ(frame.health, FrameHealth::kCorrupt);
   EXPECT_EQ(frame.image.format, format.frame);
   EXPECT_TRUE(frame.image.isComplete());
-  EXPECT_EQ(meanOf(frame.image, 0), 0) << "black: there is no sound picture yet";
+  EXPECT_EQ(meanOf(frame.image, 0), 0) << "black: there is no valid image yet";
   EXPECT_EQ(meanOf(frame.image, 1), 128);
 }
 

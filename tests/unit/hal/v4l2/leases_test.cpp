@@ -1,4 +1,4 @@
-// Who holds the driver's buffers, and until when.
+// The ownership of the driver's buffers over time.
 #include <thread>
 
 #include "tests/unit/hal/v4l2/fake_camera.h"
@@ -150,7 +150,7 @@ TEST_F(V4l2Leases, ComeBackOverAHundredStartsAndStops) {
     startOrFail();
     CapturedFrame frame = frameOrFail();
     expectPicture(frame, 0);
-    if (cycle % 2 == 0) fromBefore = std::move(frame);  // held over the next start
+    if (cycle % 2 == 0) fromBefore = std::move(frame);  // held across the next start
     camera().stop();
   }
   EXPECT_EQ(kernel_.opens(), 100);

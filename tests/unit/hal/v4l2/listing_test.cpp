@@ -208,9 +208,10 @@ TEST_F(V4l2Listing, SaysWhatThereIsWhereAnIdIsNot) {
   const Result<StreamFormat> format = backend_.make("usb-Gone", clock_)->start({});
   ASSERT_FALSE(format);
   EXPECT_EQ(format.error().kind, ErrorKind::kNotFound);
-  EXPECT_THAT(format.error().message(),
-              HasSubstr("usb-Gone: no V4L2 camera of this id is there; plug it in, or choose one "
-                        "of platform:fake-000-Fake_camera-index0"));
+  EXPECT_THAT(
+      format.error().message(),
+      HasSubstr("usb-Gone: no V4L2 camera with this id is connected; plug it in, or choose one "
+                "of platform:fake-000-Fake_camera-index0"));
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ class V4l2Modes : public FakeCamera {
   }
   static std::string nameOf(const ModeChoice& choice) { return fourccText(choice.layout->fourcc); }
 
-  /// As of a webcam: raw pictures are slow where they are large.
+  /// A webcam's modes: large uncompressed frames are slow.
   const std::vector<support::FakeFormat> webcam_{
       {.fourcc = V4L2_PIX_FMT_YUYV, .sizes = {kVga, kHd}, .periods = {kFps10}},
       {.fourcc = V4L2_PIX_FMT_MJPEG, .sizes = {kVga, kHd}, .periods = {kFps30}}};

@@ -1,4 +1,4 @@
-// The kernel's side of the seam, on files that every system has.
+// Tests the kernel's implementation of the system calls, on files that every system has.
 #include "hal/v4l2/system_calls.h"
 
 #include <array>
@@ -74,7 +74,7 @@ TEST(KernelCalls, PollUntilReadyOrTheTimeoutIsOver) {
 volatile std::sig_atomic_t interruptions = 0;
 volatile int wokenByThird = -1;
 
-/// Interrupts this process every millisecond while it lives; the third time, a byte is written.
+/// Interrupts this process every millisecond during its life; the third time, it writes a byte.
 class Interruptions {
  public:
   explicit Interruptions(int fd) {

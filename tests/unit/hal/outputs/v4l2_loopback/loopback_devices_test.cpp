@@ -32,7 +32,7 @@ TEST_F(LoopbackDevices, AreListedByNumber) {
 }
 
 TEST_F(LoopbackDevices, TellWhatTheyAre) {
-  addNode("video0").capabilities = V4L2_CAP_VIDEO_CAPTURE;  // somebody writes to it
+  addNode("video0").capabilities = V4L2_CAP_VIDEO_CAPTURE;  // another program writes to it
   support::FakeOutputNode& camera = addNode("video1");
   camera.driver = "uvcvideo";
   camera.capabilities = V4L2_CAP_VIDEO_CAPTURE;

@@ -17,7 +17,7 @@
 
 namespace pleinair::hal {
 
-/// Fake nodes in a folder of their own.
+/// Fake nodes in their own folder.
 class LoopbackTest : public testing::Test {
  protected:
   support::FakeOutputNode& addNode(const std::string& name) {
@@ -38,7 +38,7 @@ class LoopbackTest : public testing::Test {
     return output ? *std::move(output) : nullptr;
   }
 
-  /// Luma and chroma that differ from byte to byte.
+  /// An image with luma and chroma that differ from byte to byte.
   static Image picture(const FrameFormat& format) {
     Image image(format);
     for (int plane = 0; plane < planeCount(format.pixelFormat); ++plane) {

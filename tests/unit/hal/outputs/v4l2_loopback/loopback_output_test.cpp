@@ -185,7 +185,7 @@ TEST_F(LoopbackOutput, RefusesWhatTakesNoPictures) {
   EXPECT_EQ(format.error().kind, ErrorKind::kUnsupported);
   EXPECT_THAT(format.error().message(), HasSubstr("C920"));
 
-  node.driver = "v4l2 loopback";  // exclusive_caps=1, and somebody writes
+  node.driver = "v4l2 loopback";  // exclusive_caps=1, with a writer
   format = start(*open("loopback:" + pathOf("video0")));
   ASSERT_FALSE(format);
   EXPECT_EQ(format.error().kind, ErrorKind::kBusy);

@@ -36,7 +36,7 @@ TEST(LetterBox, KeepsShapeAndCentreForEverySize) {
         ASSERT_GE(area.y, 0);
         ASSERT_LE(std::abs(width - area.size.width - 2 * area.x), 1);
         ASSERT_LE(std::abs(height - area.size.height - 2 * area.y), 1);
-        // The other side is the shape's, to half a pixel, or one pixel.
+        // The other side follows from the aspect ratio, to half a pixel, or is one pixel.
         const bool isWide = picture.width * height > picture.height * width;
         const double wanted = isWide ? static_cast<double>(width) * picture.height / picture.width
                                      : static_cast<double>(height) * picture.width / picture.height;

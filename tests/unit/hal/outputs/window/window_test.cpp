@@ -1,4 +1,4 @@
-// The window on SDL's "dummy" driver: all but the display.
+// Tests the window on SDL's "dummy" driver, without a display.
 #include "hal/outputs/window/window.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Coloured, opaque, without two pixels alike beside each other.
+/// An opaque image whose neighbouring pixels all differ.
 Image colours(FrameSize size) {
   Image image({.pixelFormat = PixelFormat::kRgba8, .size = size});
   for (int y = 0; y < size.height; ++y) {
@@ -80,7 +80,7 @@ class WindowTest : public testing::Test {
     std::unique_ptr<Window> window = orThrow(openWindow());
     const OutputFormat format = orThrow(window->start({.size = size}));
     EXPECT_EQ(format.frame, (FrameFormat{.pixelFormat = PixelFormat::kRgba8, .size = size}));
-    window->takeEvents();  // those of opening
+    window->takeEvents();  // discards the events of opening
     return window;
   }
 };
@@ -115,7 +115,7 @@ TEST_F(WindowTest, ScalesLinearlyWhenItIsResized) {
   ASSERT_EQ(shown.size(), (FrameSize{960, 960}));
   EXPECT_EQ(at(shown, 470, 480), (Rgb{0, 0, 0}));
   EXPECT_EQ(at(shown, 490, 480), (Rgb{255, 255, 255}));
-  int between = 0;  // the ramp of a linear filter, which the nearest pixel would not give
+  int between = 0;  // the ramp of a linear filter; a nearest-neighbour filter has none
   for (int x = 470; x < 490; ++x) {
     const int grey = at(shown, x, 480).r;
     between += grey > 10 && grey < 245 ? 1 : 0;

@@ -1,4 +1,4 @@
-#include "tests/reports/painter/told_painting.h"
+#include "tests/reports/painter/reported_painting.h"
 
 #include <algorithm>
 #include <string>
@@ -6,7 +6,7 @@
 namespace pleinair {
 namespace {
 
-/// Copies pixels of `from` into those of `to`, whatever more they hold.
+/// Copies the colours of pixels; a pixel of either image may have more bytes.
 void copyColours(hal::ImageView from, std::size_t fromBytes, hal::Image& to, std::size_t toBytes) {
   for (int y = 0; y < to.size().height; ++y) {
     const auto source = from.row(0, y);

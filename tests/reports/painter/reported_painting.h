@@ -14,19 +14,19 @@
 
 namespace pleinair {
 
-/// A painting of pictures whose motion is told, of which the strokes can be read. `library` has the
-/// shaders of all styles; a GL context is current.
+/// A painting of images with given motion, whose strokes can be read. `library` has the shaders of
+/// all styles; a GL context is current.
 class ReportedPainting {
  public:
   explicit ReportedPainting(const gpu::ShaderLibrary& library) : style_(library) {}
 
   void set(std::string_view parameter, std::string_view value);
-  /// The next frame, RGB8, 1/30 s after the last, moved by `movedPx` since.
+  /// Paints the next frame, RGB8, 1/30 s after the previous one, displaced by `movedPx` since.
   void paint(const hal::Image& rgb, glm::dvec2 movedPx);
-  /// What was painted last, RGB8.
+  /// The last painted image, RGB8.
   hal::Image picture() const;
 
-  /// Of each layer from coarse to fine: slot by slot, and in the order of painting.
+  /// For each layer, from coarse to fine: its strokes by slot, and in painting order.
   std::size_t layerCount() const { return style_.layerCount(); }
   std::vector<marks::Anchor> anchors(std::size_t layer) const;
   std::vector<marks::StrokeSlot> strokes(std::size_t layer) const;
