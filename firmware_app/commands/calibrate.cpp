@@ -93,7 +93,7 @@ class Calibrating {
         format_(hal::orThrow(camera.start(request))),
         file_(hal::orThrow(hal::PendingFile::create(options.output))),
         session_(boardOf(options.board), format_.frame.size,
-                 {.selection = {.isMovement = isLive_ || !arePhotographs(*options.input)},
+                 {.selection = {.isSequence = isLive_ || !arePhotographs(*options.input)},
                   .keepsPictures = options.viewsFolder.has_value()}),
         progress_(clock_) {}
 

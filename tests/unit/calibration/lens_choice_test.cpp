@@ -39,8 +39,8 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(LensChoice, LeavesOutViewsAndPointsThatDisagree) {
   const tracking::CameraModel camera({450, 450, 322, 238}, {.k1 = -0.1}, kSize);
   auto views = idealViews(kBoard, camera, support::goodTour(kBoard, camera), 0.05);
-  // A view in which the board moved while rows were read out, one that took squares for others, and
-  // a corner on a speck of dirt.
+  // A view whose board moved while rows were read out, one whose squares were confused, and a
+  // corner on a speck of dirt.
   for (auto& point : views[3]) point.px.x += 0.05 * point.px.y;
   for (auto& point : views[9]) point.target.x *= 1.3;
   views[5][10].px += glm::dvec2(4.0, -3.0);
@@ -58,7 +58,7 @@ TEST(LensChoice, LeavesOutViewsAndPointsThatDisagree) {
 TEST(LensChoice, TakesNothingFromFewViews) {
   const tracking::CameraModel camera({450, 450, 322, 238}, {}, kSize);
   auto views = idealViews(kBoard, camera, support::goodTour(kBoard, camera), 0.05);
-  views.resize(kFewestFittedViews - 1);
+  views.resize(kMinFittedViews - 1);
   EXPECT_FALSE(chooseLens(views, kSize));
 }
 
