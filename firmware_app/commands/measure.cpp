@@ -162,7 +162,7 @@ void refuseCollisionsOf(const MeasureOptions& options, std::vector<NamedPath> re
 }
 
 int statusOf(const measure::Report& report, bool gates) {
-  if (!report.areControlsSound()) {
+  if (!report.areControlsValid()) {
     printError("the controls do not read as they must; see the report");
     return kControlsWrong;
   }
