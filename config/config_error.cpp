@@ -39,9 +39,9 @@ ConfigError::ConfigError(ConfigFault fault)
     : std::runtime_error(messageOf(fault)), fault_(std::move(fault)) {}
 
 std::string quoted(const std::string& text) {
-  constexpr std::size_t kMostBytes = 60;
-  if (text.size() <= kMostBytes) return '"' + text + '"';
-  std::size_t end = kMostBytes;
+  constexpr std::size_t kMaxBytes = 60;
+  if (text.size() <= kMaxBytes) return '"' + text + '"';
+  std::size_t end = kMaxBytes;
   const auto continuesCharacter = [&](std::size_t i) {
     return (static_cast<unsigned char>(text[i]) & 0xC0u) == 0x80u;
   };

@@ -26,8 +26,8 @@ std::optional<T> wholeTextAs(std::string_view text) {
   return value;
 }
 
-constexpr std::size_t kLongestText = 255;
-constexpr std::size_t kLongestPath = 4096;
+constexpr std::size_t kMaxTextLength = 255;
+constexpr std::size_t kMaxPathLength = 4096;
 
 bool isAmong(const std::vector<std::string>& words, std::string_view text) {
   return std::find(words.begin(), words.end(), text) != words.end();
@@ -65,10 +65,10 @@ bool endsWith(std::string_view path, std::string_view ending) {
 
 bool isAllowedPath(const ParameterDescriptor& descriptor, const std::string& path) {
   const auto& words = descriptor.choices;
-  const bool isPlain = path.size() <= kLongestPath && path.find('\0') == std::string::npos;
+  const bool isPlain = path.size() <= kMaxPathLength && path.find('\0') == std::string::npos;
   if (isAmong(words, path)) return true;
   if (isAmongOpen(descriptor.openChoices, path)) return isPlain;
-  const bool goesOnFromAWord = std::any_of(
+  const bool continuesWord = std::any_of(
       words.begin(), words.end(), [&](const auto& word) { return path.starts_with(word + ':'); });
   return !goesOnFromAWord && !path.empty() && isPlain && endsWith(path, descriptor.pathEnding);
 }
@@ -197,7 +197,7 @@ std::string ParameterDescriptor::allowed() const {
       return "one of " + listText(choices);
     case ParameterKind::kText:
       if (!textAllowed.empty()) return textAllowed;
-      return fmt::format("a text of 1 to {} bytes on one line", kLongestText);
+      return fmt::format("a text of 1 to {} bytes on one line", kMaxTextLength);
     case ParameterKind::kPath:
       return allowedPaths(*this);
     case ParameterKind::kSize:
@@ -215,7 +215,7 @@ bool ParameterDescriptor::allows(const ParameterValue& value) const {
   if (const auto* choice = std::get_if<ChoiceIndex>(&value)) return choice->index < choices.size();
   if (const auto* text = std::get_if<std::string>(&value)) {
     const bool isText =
-        !text->empty() && text->size() <= kLongestText && !hasControlCharacter(*text);
+        !text->empty() && text->size() <= kMaxTextLength && !hasControlCharacter(*text);
     return isText && (!takesText || takesText(*text));
   }
   if (const auto* path = std::get_if<std::filesystem::path>(&value)) {

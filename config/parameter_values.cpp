@@ -13,8 +13,8 @@ namespace pleinair::config {
 namespace {
 
 /// Resolves a relative path against the directory of its file.
-ParameterValue inItsFolder(ParameterValue value, const ParameterDescriptor& descriptor,
-                           const std::filesystem::path& directory) {
+ParameterValue resolved(ParameterValue value, const ParameterDescriptor& descriptor,
+                        const std::filesystem::path& directory) {
   auto* path = std::get_if<std::filesystem::path>(&value);
   if (path == nullptr) return value;
   if (descriptor.isPath(path->string())) *path = directory / *path;  // an absolute path stays
@@ -31,7 +31,7 @@ std::optional<ParameterValue> readText(const TomlTable& table,
     throw table.error(descriptor.name, "found " + descriptor.foundIn(*text),
                       descriptor.allowedInsteadOf(*text));
   }
-  return inItsFolder(std::move(*value), descriptor, table.directory());
+  return resolved(std::move(*value), descriptor, table.directory());
 }
 
 std::optional<ParameterValue> readList(const TomlTable& table,

@@ -10,7 +10,7 @@
 namespace pleinair::config {
 namespace {
 
-constexpr std::size_t kLongestWord = 64;  // limits the quadratic work for a hostile key
+constexpr std::size_t kMaxWordLength = 64;  // limits the quadratic work for a hostile key
 
 std::string folded(std::string_view word) {
   std::string text(word);
@@ -44,7 +44,7 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 }
 
 /// Length of a common word with a colon: "synthetic:nope" is compared by the part after it.
-std::size_t commonFamily(std::string_view a, std::string_view b) {
+std::size_t commonWordLength(std::string_view a, std::string_view b) {
   const std::size_t colon = a.find(':');
   if (colon == std::string_view::npos || !b.starts_with(a.substr(0, colon + 1))) return 0;
   return colon + 1;
@@ -53,15 +53,15 @@ std::size_t commonFamily(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::optional<std::string> nearest(std::string_view word, std::span<const std::string> candidates) {
-  if (word.size() > kLongestWord) return std::nullopt;
+  if (word.size() > kMaxWordLength) return std::nullopt;
   const std::string wanted = folded(word);
   std::optional<std::string> best;
   std::size_t bestDistance = 0;
   for (const std::string& candidate : candidates) {
-    if (candidate.size() > kLongestWord) continue;
+    if (candidate.size() > kMaxWordLength) continue;
     const std::size_t distance = editDistance(wanted, folded(candidate));
     const std::size_t shorter =
-        std::min(word.size(), candidate.size()) - commonFamily(word, candidate);
+        std::min(word.size(), candidate.size()) - commonWordLength(word, candidate);
     const std::size_t tolerated = std::clamp<std::size_t>(shorter / 3, 1, 3);
     // In a word of one or two letters, one edit leaves too little for a suggestion.
     if (distance > tolerated || (distance > 0 && shorter < 3)) continue;

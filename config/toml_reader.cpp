@@ -17,8 +17,8 @@
 namespace pleinair::config {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 20;
-constexpr int kDeepest = 16;
+constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
+constexpr int kMaxDepth = 16;
 constexpr std::string_view kAllowedFile = "a TOML file of at most 1 MiB";
 
 int lineOfRegion(const toml::source_region& region) {
@@ -320,15 +320,15 @@ ConfigError TomlTable::error(std::string_view key, std::string problem, std::str
 
 TomlDocument TomlDocument::parseText(std::string_view text, std::string name,
                                      const std::filesystem::path& directory) {
-  if (text.size() > kMostBytes) {
+  if (text.size() > kMaxBytes) {
     throw ConfigError(
         {.file = std::move(name), .problem = "too large", .allowed = std::string(kAllowedFile)});
   }
-  if (const std::optional<int> line = lineNestedTooDeep(text, kDeepest)) {
+  if (const std::optional<int> line = lineNestedTooDeep(text, kMaxDepth)) {
     throw ConfigError({.file = std::move(name),
                        .line = *line,
                        .problem = "nested too deeply",
-                       .allowed = fmt::format("{} levels", kDeepest)});
+                       .allowed = fmt::format("{} levels", kMaxDepth)});
   }
   auto state = std::make_shared<TomlTable::State>();
   try {
@@ -359,7 +359,7 @@ TomlDocument TomlDocument::parseFile(const std::filesystem::path& path) {
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) throw refuse("cannot open: " + std::generic_category().message(errno));
-  std::string text(kMostBytes + 1, '\0');
+  std::string text(kMaxBytes + 1, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (file.bad()) throw refuse("cannot read");
   text.resize(static_cast<std::size_t>(file.gcount()));

@@ -97,7 +97,7 @@ class CalibrationRun {
         format_(hal::orThrow(camera.start(request))),
         file_(hal::orThrow(hal::PendingFile::create(options.output))),
         session_(boardOf(options.board), format_.frame.size,
-                 {.selection = {.isMovement = isLive_ || !arePhotographs(*options.input)},
+                 {.selection = {.isSequence = isLive_ || !arePhotographs(*options.input)},
                   .keepsPictures = options.viewsFolder.has_value()}),
         progress_(clock_) {}
 

@@ -19,8 +19,8 @@ using tracking::TagDetection;
 
 constexpr double kWindowShare = 0.45;  // of the gap, which the black corner squares fill
 constexpr double kSofteningPx = 0.0;   // none: a corner's neighbour is too close
-constexpr double kSmallestWindowPx = 2.0;
-constexpr double kLargestWindowPx = 8.0;
+constexpr double kMinWindowPx = 2.0;
+constexpr double kMaxWindowPx = 8.0;
 
 struct GridTag {
   int index = 0;  ///< relative to the grid's first tag
@@ -53,10 +53,10 @@ class AprilGridDetector final : public BoardDetector {
     double edge = edgePx(tags.front().seen);
     for (const GridTag& tag : tags) edge = std::min(edge, edgePx(tag.seen));
     const double window =
-        std::clamp(kWindowShare * grid_.spacing * edge, kSmallestWindowPx, kLargestWindowPx);
+        std::clamp(kWindowShare * grid_.spacing * edge, kMinWindowPx, kMaxWindowPx);
     refineCorners(luma, size, static_cast<int>(window), kSofteningPx, corners);
     std::ranges::sort(corners, {}, &SightedCorner::id);
-    if (static_cast<int>(corners.size()) < board_.fewestCorners()) return std::nullopt;
+    if (static_cast<int>(corners.size()) < board_.minCorners()) return std::nullopt;
     const std::optional<double> width = edgeWidth(luma, size, board_, corners);
     if (!width) return std::nullopt;
     return BoardSighting{.corners = std::move(corners), .edgeWidthPx = *width};
@@ -98,7 +98,7 @@ class AprilGridDetector final : public BoardDetector {
   }
 
   std::vector<SightedCorner> placedCorners(const std::vector<GridTag>& tags) const {
-    if (tags.size() * 4 < static_cast<std::size_t>(board_.fewestCorners())) return {};
+    if (tags.size() * 4 < static_cast<std::size_t>(board_.minCorners())) return {};
     std::vector<cv::Point2d> onBoard;
     std::vector<cv::Point2d> inPicture;
     for (const GridTag& tag : tags) {
@@ -115,8 +115,9 @@ class AprilGridDetector final : public BoardDetector {
     std::size_t inPlace = 0;
     for (const GridTag& tag : tags) inPlace += addCorners(tag, pictureFromBoard, corners) ? 1 : 0;
     // Tags of another grid have these ids at other positions.
-    constexpr double kLeastInPlace = 0.75;
-    if (static_cast<double>(inPlace) < kLeastInPlace * static_cast<double>(tags.size())) return {};
+    constexpr double kMinInPlaceShare = 0.75;
+    if (static_cast<double>(inPlace) < kMinInPlaceShare * static_cast<double>(tags.size()))
+      return {};
     return corners;
   }
 

@@ -62,7 +62,7 @@ void Board::lay(const AprilGrid& grid) {
   }
 }
 
-int Board::fewestCorners() const {
+int Board::minCorners() const {
   constexpr int kTags = 6;  // of a grid that may be partly outside of the image
   return std::min(kTags * 4, static_cast<int>(corners_.size()));
 }

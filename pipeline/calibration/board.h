@@ -50,7 +50,7 @@ class Board {
   const std::vector<glm::dvec3>& corners() const { return corners_; }
   const std::vector<BoardEdge>& edges() const { return edges_; }
   /// Least number of corners that count as a sighting.
-  int fewestCorners() const;
+  int minCorners() const;
   /// "checkerboard of 9x6 inner corners, squares of 25 mm".
   std::string text() const;
 

@@ -32,7 +32,7 @@ class BoardDetector {
   BoardDetector(const BoardDetector&) = delete;
   BoardDetector& operator=(const BoardDetector&) = delete;
 
-  /// Returns nothing where the board, or enough of it (Board::fewestCorners()), is not visible. A
+  /// Returns nothing where the board, or enough of it (Board::minCorners()), is not visible. A
   /// checkerboard must be visible as a whole.
   virtual std::optional<BoardSighting> detect(const hal::PlaneView& luma, hal::FrameSize size) = 0;
 };

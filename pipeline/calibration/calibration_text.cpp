@@ -20,7 +20,7 @@ std::string calibrationText(const Board& board, const CalibrationReport& report)
   std::string text = "# A camera's lens, found by pleinair calibrate.\n";
   text += fmt::format("# Board: {}.\n", board.text());
   text += fmt::format("# {} views, {} corners.\n", choice.used.size(), corners);
-  text += fmt::format("# Error: {:.3f} px RMS; {:.3f} px in views that had no part in the fit.\n",
+  text += fmt::format("# Error: {:.3f} px RMS; {:.3f} px in views left out of the fit.\n",
                       fit.rmsPx, choice.heldOutRmsPx);
   text += fmt::format("# Known to {:.2f} px in most of the picture, to {:.2f} px in {}.\n",
                       report.typicalSigmaPx, report.worstSigmaPx, report.worstPlace);

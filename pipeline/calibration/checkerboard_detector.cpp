@@ -21,8 +21,8 @@ constexpr int kSearchedSidePx = 720;
 constexpr double kWindowShare =
     0.35;  // part of the distance to the next corner, so that the window does not reach it
 constexpr double kSofteningPx = 1.0;
-constexpr double kSmallestWindowPx = 2.0;
-constexpr double kLargestWindowPx = 10.0;
+constexpr double kMinWindowPx = 2.0;
+constexpr double kMaxWindowPx = 10.0;
 
 class CheckerboardDetector final : public BoardDetector {
  public:
@@ -33,7 +33,7 @@ class CheckerboardDetector final : public BoardDetector {
     std::vector<SightedCorner> corners = search(luma, size);
     if (corners.empty()) return std::nullopt;
     const double window =
-        std::clamp(kWindowShare * shortestStep(corners), kSmallestWindowPx, kLargestWindowPx);
+        std::clamp(kWindowShare * shortestStep(corners), kMinWindowPx, kMaxWindowPx);
     refineCorners(luma, size, static_cast<int>(window), kSofteningPx, corners);
     if (corners.size() != board_.corners().size()) return std::nullopt;
     const std::optional<double> width = edgeWidth(luma, size, board_, corners);

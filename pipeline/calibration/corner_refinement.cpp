@@ -19,20 +19,20 @@ namespace {
 /// where it started.
 bool isCrossing(const hal::PlaneView& luma, const glm::dvec2& px, double radius) {
   constexpr int kDirections = 16;
-  constexpr double kLeastContrast = 12.0;  // grey levels
-  constexpr double kMostUnlike = 0.3;  // difference of opposite points, relative to the contrast
+  constexpr double kMinContrast = 12.0;  // grey levels
+  constexpr double kMaxAsymmetry = 0.3;  // difference of opposite points, relative to the contrast
   std::array<double, kDirections> grey{};
   for (int i = 0; i < kDirections; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / kDirections;
     grey.at(static_cast<std::size_t>(i)) =
         greyAt(luma, px + radius * glm::dvec2(std::cos(angle), std::sin(angle)));
   }
-  const auto [least, most] = std::ranges::minmax(grey);
+  const auto [min, max] = std::ranges::minmax(grey);
   double unlike = 0.0;
   for (std::size_t i = 0; i < kDirections / 2; ++i) {
     unlike += std::abs(grey.at(i) - grey.at(i + kDirections / 2)) / (kDirections / 2.0);
   }
-  return most - least >= kLeastContrast && unlike <= kMostUnlike * (most - least);
+  return max - min >= kMinContrast && unlike <= kMaxAsymmetry * (max - min);
 }
 
 }  // namespace

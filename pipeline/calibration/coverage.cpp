@@ -11,7 +11,7 @@
 namespace pleinair::calibration {
 namespace {
 
-constexpr double kLeastSlope = 0.27;  // tan 15°
+constexpr double kMinSlope = 0.27;  // tan 15°
 constexpr double kNearSize = 0.5;
 constexpr double kGuessedFocal = 0.9;  // of the longer side; a field of view of 58°
 constexpr double kTiltWorth = 3.0;     // as many cells
@@ -72,15 +72,15 @@ glm::dvec2 slopeOf(const Board& board, const BoardSighting& sighting, hal::Frame
 bool ViewTraits::has(Tilt tilt) const {
   switch (tilt) {
     case Tilt::kLeftNearer:
-      return slope.x > kLeastSlope;
+      return slope.x > kMinSlope;
     case Tilt::kRightNearer:
-      return slope.x < -kLeastSlope;
+      return slope.x < -kMinSlope;
     case Tilt::kTopNearer:
-      return slope.y > kLeastSlope;
+      return slope.y > kMinSlope;
     case Tilt::kBottomNearer:
       break;
   }
-  return slope.y < -kLeastSlope;
+  return slope.y < -kMinSlope;
 }
 
 bool ViewTraits::isNear() const {
@@ -129,7 +129,7 @@ double Coverage::gain(const ViewTraits& traits) const {
   return gain + (isSizeWanted ? kSizeWorth : 0.0);
 }
 
-bool Coverage::canSpare(const ViewTraits& traits) const {
+bool Coverage::isRedundant(const ViewTraits& traits) const {
   for (std::size_t cell = 0; cell < kCells; ++cell) {
     if (traits.cells.test(cell) && cells_.at(cell) <= kWantedPerCell) return false;
   }
@@ -149,7 +149,7 @@ double Coverage::coveredShare() const {
 }
 
 std::vector<std::string> Coverage::uncoveredRegions() const {
-  constexpr double kLeastShare = 1.0 / 3.0;  // of a region's cells
+  constexpr double kMinShare = 1.0 / 3.0;  // of a region's cells
   std::vector<std::string> regions;
   for (const Region& region : kRegions) {
     int covered = 0;
@@ -164,7 +164,7 @@ std::vector<std::string> Coverage::uncoveredRegions() const {
         if (viewsInCell(column, row) > 0) ++covered;
       }
     }
-    if (covered < kLeastShare * all) regions.emplace_back(region.name);
+    if (covered < kMinShare * all) regions.emplace_back(region.name);
   }
   return regions;
 }

@@ -52,7 +52,7 @@ class Coverage {
   /// sizes.
   double gain(const ViewTraits& traits) const;
   /// Whether the coverage would stay complete without this view, which it contains.
-  bool canSpare(const ViewTraits& traits) const;
+  bool isRedundant(const ViewTraits& traits) const;
 
   int viewsInCell(int column, int row) const;
   int viewsWith(Tilt tilt) const { return tilts_.at(static_cast<std::size_t>(tilt)); }

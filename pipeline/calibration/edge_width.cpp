@@ -13,9 +13,9 @@
 namespace pleinair::calibration {
 namespace {
 
-constexpr double kLeastContrast = 12.0;  // grey levels
-constexpr double kLongestReachPx = 10.0;
-constexpr double kShortestReachPx = 3.0;  // a blur wider than the reach would look sharp
+constexpr double kMinContrast = 12.0;  // grey levels
+constexpr double kMaxReachPx = 10.0;
+constexpr double kMinReachPx = 3.0;  // a blur wider than the reach would look sharp
 constexpr int kStepsPerPx = 4;
 
 /// The width of one edge, from the mean profile across its middle fifth.
@@ -24,8 +24,8 @@ std::optional<double> widthOf(const hal::PlaneView& luma, hal::FrameSize size, c
   constexpr int kLines = 7;
   const glm::dvec2 along = b - a;
   const double length = glm::length(along);
-  const double reach = std::min(clearance * length, kLongestReachPx);
-  if (reach < kShortestReachPx) return std::nullopt;
+  const double reach = std::min(clearance * length, kMaxReachPx);
+  if (reach < kMinReachPx) return std::nullopt;
   const glm::dvec2 across(-along.y / length, along.x / length);
   const glm::dvec2 middle = (a + b) / 2.0;
   const double room = reach + 0.1 * length + 2.0;
@@ -44,7 +44,7 @@ std::optional<double> widthOf(const hal::PlaneView& luma, hal::FrameSize size, c
     profile.push_back(sum / kLines);
   }
   const double contrast = std::abs(profile.back() - profile.front());
-  if (contrast < kLeastContrast) return std::nullopt;
+  if (contrast < kMinContrast) return std::nullopt;
   double steepest = 0.0;  // grey levels per pixel, over one pixel
   for (std::size_t i = kStepsPerPx; i < profile.size(); ++i) {
     steepest = std::max(steepest, std::abs(profile[i] - profile[i - kStepsPerPx]));

@@ -14,7 +14,7 @@ constexpr double kFirstHuberPx = 2.0;
 constexpr double kHuberSigmas = 2.0;
 constexpr double kPointSigmas = 6.0;
 constexpr double kViewShare = 3.0;  // relative to the median view's error
-constexpr double kLeastSigmaPx = 0.03;
+constexpr double kMinSigmaPx = 0.03;
 constexpr double kIndifference = 1.02;
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
@@ -36,7 +36,7 @@ double robustSigma(const LensFit& fit, std::span<const FitView> views) {
   for (std::size_t v = 0; v < views.size(); ++v) {
     for (const auto& point : views[v]) distances.push_back(distancePx(fit, v, point));
   }
-  return std::max(kLeastSigmaPx, median(std::move(distances)) / 1.1774);
+  return std::max(kMinSigmaPx, median(std::move(distances)) / 1.1774);
 }
 
 double viewError(const LensFit& fit, std::size_t view, const FitView& points) {
@@ -59,7 +59,7 @@ void reject(std::span<const FitView> views, const LensFit& fit, LensChoice& choi
   std::vector<double> errors;
   for (std::size_t v = 0; v < views.size(); ++v) errors.push_back(viewError(fit, v, views[v]));
   const double sigma = robustSigma(fit, views);
-  const double limit = kViewShare * std::max(median(errors), kLeastSigmaPx);
+  const double limit = kViewShare * std::max(median(errors), kMinSigmaPx);
   for (std::size_t v = 0; v < views.size(); ++v) {
     if (errors[v] > limit) continue;
     FitView kept;
@@ -106,12 +106,12 @@ struct Trial {
 }  // namespace
 
 std::optional<LensChoice> chooseLens(std::span<const FitView> views, hal::FrameSize size) {
-  if (views.size() < kFewestFittedViews) return std::nullopt;
+  if (views.size() < kMinFittedViews) return std::nullopt;
   const std::optional<LensFit> robust = robustFit(views, size);
   if (!robust) return std::nullopt;
   LensChoice choice;
   reject(views, *robust, choice);
-  if (choice.used.size() < kFewestFittedViews) return std::nullopt;
+  if (choice.used.size() < kMinFittedViews) return std::nullopt;
 
   LensFit start = *robust;
   start.cameraFromBoard.clear();
@@ -119,16 +119,16 @@ std::optional<LensChoice> chooseLens(std::span<const FitView> views, hal::FrameS
     start.cameraFromBoard.push_back(robust->cameraFromBoard[v]);
   }
   std::vector<Trial> trials;
-  double least = kUnknown;
+  double lowestRms = kUnknown;
   for (const LensModel model : kLensModels) {
     std::optional<LensFit> fit = fitLens(choice.used, size, model, &start);
     if (!fit) continue;
     const double heldOut = heldOutRms(choice.used, size, *fit);
-    least = std::min(least, heldOut);
+    lowestRms = std::min(lowestRms, heldOut);
     trials.push_back({std::move(*fit), heldOut});
   }
   const auto chosen = std::ranges::find_if(trials, [&](const Trial& trial) {
-    return trial.heldOutRmsPx * trial.heldOutRmsPx <= kIndifference * least * least;
+    return trial.heldOutRmsPx * trial.heldOutRmsPx <= kIndifference * lowestRms * lowestRms;
   });
   if (chosen == trials.end()) return std::nullopt;
   choice.fit = std::move(chosen->fit);

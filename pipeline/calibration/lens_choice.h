@@ -20,12 +20,12 @@ struct LensChoice {
   std::size_t rejectedPoints = 0;      ///< in used views
 };
 
-inline constexpr std::size_t kFewestFittedViews = 6;
+inline constexpr std::size_t kMinFittedViews = 6;
 
 /// Fits robustly, rejects views and points that disagree with the others, and chooses the simplest
 /// lens model whose held-out error is within 2 % (of its square) of the best. Terms that the views
 /// do not need would distort the image where no view was. Returns nothing where fewer than
-/// kFewestFittedViews agree.
+/// kMinFittedViews agree.
 std::optional<LensChoice> chooseLens(std::span<const FitView> views, hal::FrameSize size);
 
 }  // namespace pleinair::calibration

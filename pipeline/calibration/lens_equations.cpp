@@ -8,12 +8,12 @@
 namespace pleinair::calibration {
 namespace {
 
-constexpr double kLeastDepthMetres = 1e-6;
-constexpr double kLeastFocalPx = 1.0;
-constexpr double kMostFocalPx = 1e6;
+constexpr double kMinDepthMetres = 1e-6;
+constexpr double kMinFocalPx = 1.0;
+constexpr double kMaxFocalPx = 1e6;
 
 bool isSound(const LensVec& lens) {
-  const auto isFocal = [](double f) { return f > kLeastFocalPx && f < kMostFocalPx; };
+  const auto isFocal = [](double f) { return f > kMinFocalPx && f < kMaxFocalPx; };
   return isFocal(lens[0]) && isFocal(lens[1]) &&
          std::ranges::all_of(lens.val, [](double value) { return std::isfinite(value); });
 }
@@ -109,7 +109,7 @@ double lensCost(const LensState& state, std::span<const FitView> views, hal::Fra
   for (std::size_t v = 0; v < views.size(); ++v) {
     for (const tracking::Correspondence& point : views[v]) {
       const glm::dvec3 seen(state.cameraFromBoard[v] * glm::dvec4(point.target, 1.0));
-      if (!(seen.z > kLeastDepthMetres)) return kImpossible;
+      if (!(seen.z > kMinDepthMetres)) return kImpossible;
       const double distance = glm::distance(camera.project(seen), point.px);
       cost += distance <= huberPx ? distance * distance : huberPx * (2.0 * distance - huberPx);
     }

@@ -12,9 +12,9 @@
 namespace pleinair::calibration {
 namespace {
 
-constexpr int kMostSteps = 100;
-constexpr double kStill = 1e-9;  // of the cost, a step
-constexpr double kLeastNoisePx = 0.02;
+constexpr int kMaxSteps = 100;
+constexpr double kConvergedShare = 1e-9;  // of the cost, a step
+constexpr double kMinNoisePx = 0.02;
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
 /// Initial focal lengths, relative to the image's longer side: 90°, 64°, 45°, 28°, 14°.
@@ -104,16 +104,16 @@ class Fitting {
     cost_ = lensCost(state_, views_, size_, huberPx_);
     if (!std::isfinite(cost_)) return false;
     double damping = 1e-3;
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMaxSteps; ++step) {
       const std::vector<ViewEquations> equations = linearised();
       const double before = cost_;
-      constexpr double kMostDamping = 1e8;
+      constexpr double kMaxDamping = 1e8;
       while (!take(equations, damping)) {
         damping *= 10.0;
-        if (damping > kMostDamping) return true;  // no step lowers the cost
+        if (damping > kMaxDamping) return true;  // no step lowers the cost
       }
       damping = std::max(damping / 10.0, 1e-12);
-      if (before - cost_ <= kStill * before) return true;
+      if (before - cost_ <= kConvergedShare * before) return true;
     }
     return true;
   }
@@ -165,7 +165,7 @@ class Fitting {
     const LensMatx inverse = inverseOf(system.lens);
     const double unknowns = static_cast<double>(freeParameters(model_) + 6 * views_.size());
     const double spare = std::max(1.0, 2.0 * static_cast<double>(points) - unknowns);
-    const LensMatx independent = inverse * std::max(squares / spare, kLeastNoisePx * kLeastNoisePx);
+    const LensMatx independent = inverse * std::max(squares / spare, kMinNoisePx * kMinNoisePx);
     LensMatrix result{};
     if (inverse(0, 0) == 0.0) {  // the views do not determine all parameters
       for (std::size_t i = 0; i < kLensParameters; ++i) {

@@ -50,10 +50,10 @@ void CalibrationSession::keep(std::uint64_t frame, const hal::PlaneView& luma) {
 /// Keeps images 0, 1, 3, 7, 15 …: a few from the whole recording.
 void CalibrationSession::keepSample(std::uint64_t frame, const hal::PlaneView& luma) {
   const std::uint64_t next = frame + 1;
-  constexpr std::size_t kMost = 6;
+  constexpr std::size_t kMaxSamples = 6;
   if ((next & frame) != 0) return;
   samples_.push_back(greyCopy(luma, size_));
-  if (samples_.size() > kMost) samples_.erase(samples_.begin());
+  if (samples_.size() > kMaxSamples) samples_.erase(samples_.begin());
 }
 
 const hal::Image& CalibrationSession::pictureOf(const SelectedView& view) const {

@@ -7,22 +7,22 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "pipeline/calibration/lens_certainty.h"
+#include "pipeline/calibration/lens_uncertainty.h"
 
 namespace pleinair::calibration {
 namespace {
 
-constexpr std::size_t kFewestViews = 8;
-constexpr double kMostRejectedViews = 1.0 / 3.0;
-constexpr double kLargestRmsPx = 0.5;    // at 640×480; larger in larger images
-constexpr double kLargestSigmaPx = 1.0;  // at 640×480; larger in larger images
-constexpr double kLargestFocalSigma = 0.01;
+constexpr std::size_t kMinViews = 8;
+constexpr double kMaxRejectedViews = 1.0 / 3.0;
+constexpr double kMaxRmsPx = 0.5;    // at 640×480; larger in larger images
+constexpr double kMaxSigmaPx = 1.0;  // at 640×480; larger in larger images
+constexpr double kMaxFocalSigma = 0.01;
 constexpr double kHeldOutShare = 1.5;
 constexpr double kHeldOutPx = 0.1;
-constexpr double kOffCentre = 0.15;      // part of the side
-constexpr double kMostAnamorphic = 1.2;  // ratio of fx and fy
-constexpr double kShortestFocal = 0.2;   // relative to the longer side; 136°
-constexpr double kLongestFocal = 30.0;   // relative to the longer side; 2°
+constexpr double kMaxOffCentre = 0.15;  // part of the side
+constexpr double kMaxAnamorphic = 1.2;  // ratio of fx and fy
+constexpr double kMinFocal = 0.2;       // relative to the longer side; 136°
+constexpr double kMaxFocal = 30.0;      // relative to the longer side; 2°
 
 double pictureScale(hal::FrameSize size) {
   return std::max(1.0, std::hypot(size.width, size.height) / 800.0);
@@ -63,7 +63,7 @@ Refusal tooFewViews(const ViewSelector& selector, std::size_t usable) {
   if (counts.blurred * 2 > counts.withBoard) {
     return {RefusalReason::kBlurred,
             fmt::format("the board is blurred in {} of the {} pictures that show it: its edges are "
-                        "at least {:.1f} px wide, and {:.1f} px are too wide",
+                        "at least {:.1f} px wide; the limit is {:.1f} px",
                         counts.blurred, counts.withBoard, selector.sharpestEdgePx(),
                         selector.widestEdgePx()),
             "focus the camera, give more light, hold the board still"};
@@ -75,11 +75,10 @@ Refusal tooFewViews(const ViewSelector& selector, std::size_t usable) {
                         counts.moving, counts.withBoard),
             "hold the board still for a second at each place"};
   }
-  return {
-      RefusalReason::kTooFewViews,
-      fmt::format("only {} of {} pictures {} of use{}, and it takes {}", usable, counts.pictures,
-                  usable == 1 ? "is" : "are", countsText(counts), kFewestViews),
-      "show the board in more places and tilted more ways"};
+  return {RefusalReason::kTooFewViews,
+          fmt::format("only {} of {} pictures {} usable{}, but {} are needed", usable,
+                      counts.pictures, usable == 1 ? "is" : "are", countsText(counts), kMinViews),
+          "show the board in more places and tilted more ways"};
 }
 
 void judgeCoverage(const CalibrationReport& report, std::vector<Refusal>& refusals) {
@@ -93,7 +92,7 @@ void judgeCoverage(const CalibrationReport& report, std::vector<Refusal>& refusa
 void judgeAngles(const LensFit& fit, std::vector<Refusal>& refusals) {
   const LensVector lens = parametersOf(fit.camera);
   const double share = std::max(fit.sigma(0) / lens[0], fit.sigma(1) / lens[1]);
-  if (share <= kLargestFocalSigma) return;
+  if (share <= kMaxFocalSigma) return;
   const std::string certainty =
       share < 10.0 ? fmt::format("± {:.1f} %", share * 100.0) : std::string("unknown");
   refusals.push_back(
@@ -106,29 +105,28 @@ void judgeAngles(const LensFit& fit, std::vector<Refusal>& refusals) {
 
 void judgeErrors(const LensChoice& choice, std::size_t offered, hal::FrameSize size,
                  std::vector<Refusal>& refusals) {
-  const double largestRms = kLargestRmsPx * pictureScale(size);
+  const double largestRms = kMaxRmsPx * pictureScale(size);
   const std::size_t rejected = offered - choice.usedViews.size();
   constexpr const char* kSoundBoard =
       "glue the board to something flat, measure it, hold it still, lock the focus";
-  if (static_cast<double>(rejected) > kMostRejectedViews * static_cast<double>(offered)) {
+  if (static_cast<double>(rejected) > kMaxRejectedViews * static_cast<double>(offered)) {
     refusals.push_back({RefusalReason::kDisagreement,
                         fmt::format("{} of {} views contradict the others", rejected, offered),
                         kSoundBoard});
   }
   if (choice.fit.rmsPx > largestRms) {
     refusals.push_back({RefusalReason::kLargeError,
-                        fmt::format("no lens fits: the error is {:.2f} px RMS, and {:.2f} px are "
-                                    "too much",
+                        fmt::format("no lens fits: the error is {:.2f} px RMS; the limit is {:.2f} "
+                                    "px",
                                     choice.fit.rmsPx, largestRms),
                         kSoundBoard});
   }
   if (choice.heldOutRmsPx > kHeldOutShare * choice.fit.rmsPx + kHeldOutPx) {
     refusals.push_back(
         {RefusalReason::kHeldOutError,
-         fmt::format(
-             "views that had no part in the fit are off by {:.2f} px RMS, those that had by "
-             "{:.2f} px",
-             choice.heldOutRmsPx, choice.fit.rmsPx),
+         fmt::format("views left out of the fit are off by {:.2f} px RMS, fitted ones by "
+                     "{:.2f} px",
+                     choice.heldOutRmsPx, choice.fit.rmsPx),
          "record more views"});
   }
 }
@@ -140,24 +138,24 @@ void judgePlausibility(const LensFit& fit, hal::FrameSize size, std::vector<Refu
                         "check that the board's squares are square and that the picture is neither "
                         "stretched nor cropped"});
   };
-  if (std::abs(lens[2] / size.width - 0.5) > kOffCentre ||
-      std::abs(lens[3] / size.height - 0.5) > kOffCentre) {
+  if (std::abs(lens[2] / size.width - 0.5) > kMaxOffCentre ||
+      std::abs(lens[3] / size.height - 0.5) > kMaxOffCentre) {
     refuse(fmt::format("the principal point would be at {:.0f}, {:.0f} in a picture of {}x{}",
                        lens[2], lens[3], size.width, size.height));
   }
   const double ratio = lens[0] / lens[1];
-  if (std::max(ratio, 1.0 / ratio) > kMostAnamorphic) {
+  if (std::max(ratio, 1.0 / ratio) > kMaxAnamorphic) {
     refuse(fmt::format("fx would be {:.2f} times fy", ratio));
   }
   const double focal = lens[0] / std::max(size.width, size.height);
-  if (focal < kShortestFocal || focal > kLongestFocal) {
+  if (focal < kMinFocal || focal > kMaxFocal) {
     refuse(fmt::format("the focal length would be {:.2f} times the picture's longer side", focal));
   }
 }
 
 void judgePlaces(CalibrationReport& report, hal::FrameSize size) {
   const LensFit& fit = report.choice->fit;
-  if (foldsInPicture(fit.camera)) {
+  if (foldsInImage(fit.camera)) {
     report.refusals.push_back(
         {RefusalReason::kFoldedLens,
          fmt::format("the distortion ({}) folds back inside of the picture", toString(fit.model)),
@@ -165,7 +163,7 @@ void judgePlaces(CalibrationReport& report, hal::FrameSize size) {
     return;
   }
   std::vector<double> sigmas;
-  for (const PlaceCertainty& place : placeCertainties(fit)) {
+  for (const PlaceUncertainty& place : placeUncertainties(fit)) {
     sigmas.push_back(place.sigmaPx);
     if (place.sigmaPx <= report.worstSigmaPx) continue;
     report.worstSigmaPx = place.sigmaPx;
@@ -173,11 +171,11 @@ void judgePlaces(CalibrationReport& report, hal::FrameSize size) {
   }
   std::ranges::nth_element(sigmas, sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2));
   report.typicalSigmaPx = sigmas[sigmas.size() / 2];
-  const double largest = kLargestSigmaPx * pictureScale(size);
+  const double largest = kMaxSigmaPx * pictureScale(size);
   if (report.worstSigmaPx <= largest) return;
   report.refusals.push_back(
       {RefusalReason::kUncertainPlaces,
-       fmt::format("the lens is known only to {:.1f} px in {}, and {:.1f} px are too much",
+       fmt::format("the lens is known only to {:.1f} px in {}; the limit is {:.1f} px",
                    report.worstSigmaPx, report.worstPlace, largest),
        "bring the board there, tilted"});
 }
@@ -187,7 +185,7 @@ void judgePlaces(CalibrationReport& report, hal::FrameSize size) {
 CalibrationReport solveCalibration(const ViewSelector& selector, hal::FrameSize size) {
   CalibrationReport report{.coverage = selector.coverage()};
   const std::vector<FitView> views = selector.fitViews();
-  if (views.size() < kFewestViews) {
+  if (views.size() < kMinViews) {
     report.refusals.push_back(tooFewViews(selector, views.size()));
     if (!views.empty()) judgeCoverage(report, report.refusals);
     return report;

@@ -13,24 +13,24 @@ namespace {
 
 constexpr double kBlurShare = 1.5;  // relative to the sharpest board's edge width
 // Corners of wider edges cannot be refined to a fraction of a pixel.
-constexpr double kWidestEdgePx = 6.0;
+constexpr double kMaxEdgePx = 6.0;
 /// A rolling shutter skews a moving board by its speed times the read-out time of about 20 ms.
-constexpr double kFastest = 0.05;    // diagonals per second: 40 px at 640×480, a skew of 0.8 px
-constexpr double kLeastGain = 4.0;   // cells
+constexpr double kMaxSpeed = 0.05;   // diagonals per second: 40 px at 640×480, a skew of 0.8 px
+constexpr double kMinGain = 4.0;     // cells
 constexpr double kSameView = 0.025;  // mean distance of the corners, in diagonals
 // Views this different are taken even if they add no coverage.
 constexpr double kDistinctView = 0.08;
 // Diagonals: a rotation by 18° counts as much as another place.
 constexpr double kSlopeWorth = 0.25;
 constexpr double kSharperShare = 0.85;
-constexpr std::size_t kEnoughViews = 15;
+constexpr std::size_t kSufficientViews = 15;
 constexpr std::size_t kSharpestCount = 5;
-constexpr hal::Duration kLongestPause = std::chrono::milliseconds(500);
+constexpr hal::Duration kMaxPause = std::chrono::milliseconds(500);
 
 }  // namespace
 
 std::optional<double> cornerDistancePx(const BoardSighting& a, const BoardSighting& b) {
-  constexpr int kFewest = 4;
+  constexpr int kMinShared = 4;
   double sum = 0.0;
   int count = 0;
   auto other = b.corners.begin();
@@ -41,7 +41,7 @@ std::optional<double> cornerDistancePx(const BoardSighting& a, const BoardSighti
     sum += glm::distance(corner.px, other->px);
     ++count;
   }
-  if (count < kFewest) return std::nullopt;
+  if (count < kMinShared) return std::nullopt;
   return sum / count;
 }
 
@@ -57,11 +57,11 @@ double ViewSelector::sharpestEdgePx() const {
 }
 
 double ViewSelector::widestEdgePx() const {
-  return sharpest_.empty() ? kWidestEdgePx : std::min(kWidestEdgePx, kBlurShare * sharpestEdgePx());
+  return sharpest_.empty() ? kMaxEdgePx : std::min(kMaxEdgePx, kBlurShare * sharpestEdgePx());
 }
 
 bool ViewSelector::isComplete() const {
-  return views_.size() >= kEnoughViews && coverage_.isComplete();
+  return views_.size() >= kSufficientViews && coverage_.isComplete();
 }
 
 ViewOutcome ViewSelector::offer(std::uint64_t frame, hal::TimePoint time,
@@ -85,7 +85,7 @@ ViewOutcome ViewSelector::offer(std::uint64_t frame, hal::TimePoint time,
 
 std::optional<double> ViewSelector::speedOf(hal::TimePoint time,
                                             const BoardSighting& sighting) const {
-  if (!last_ || time - lastTime_ > kLongestPause) return std::nullopt;
+  if (!last_ || time - lastTime_ > kMaxPause) return std::nullopt;
   const double seconds = std::chrono::duration<double>(time - lastTime_).count();
   const std::optional<double> distance = cornerDistancePx(*last_, sighting);
   if (!distance || !(seconds > 0.0)) return std::nullopt;
@@ -103,14 +103,14 @@ void ViewSelector::noteSharpness(double edgeWidthPx) {
 ViewOutcome ViewSelector::judge(std::uint64_t frame, const BoardSighting& sighting,
                                 std::optional<double> speed) {
   if (sighting.edgeWidthPx > widestEdgePx()) return ViewOutcome::kBlurred;
-  if (options_.isMovement &&
-      !(speed.value_or(kFastest * diagonalPx_ + 1.0) <= kFastest * diagonalPx_)) {
+  if (options_.isSequence &&
+      !(speed.value_or(kMaxSpeed * diagonalPx_ + 1.0) <= kMaxSpeed * diagonalPx_)) {
     return ViewOutcome::kMoving;
   }
   SelectedView view{.frame = frame,
                     .sighting = sighting,
                     .traits = traitsOf(board_, sighting, size_),
-                    .speed = options_.isMovement ? speed.value_or(0.0) : 0.0};
+                    .speed = options_.isSequence ? speed.value_or(0.0) : 0.0};
 
   double nearest = std::numeric_limits<double>::infinity();
   std::size_t nearestView = 0;
@@ -129,14 +129,14 @@ ViewOutcome ViewSelector::judge(std::uint64_t frame, const BoardSighting& sighti
     take(std::move(view));
     return ViewOutcome::kTaken;
   }
-  const bool isWanted = coverage_.gain(view.traits) >= kLeastGain;
-  const bool isFull = views_.size() >= options_.mostViews;
+  const bool isWanted = coverage_.gain(view.traits) >= kMinGain;
+  const bool isFull = views_.size() >= options_.maxViews;
   if (isFull && isWanted) {
-    if (const auto spare = spareView()) drop(*spare);
+    if (const auto spare = redundantView()) drop(*spare);
   } else if (!isWanted && nearest < kDistinctView) {
     return ViewOutcome::kNothingNew;
   }
-  if (views_.size() >= options_.mostViews) return ViewOutcome::kNothingNew;
+  if (views_.size() >= options_.maxViews) return ViewOutcome::kNothingNew;
   take(std::move(view));
   return ViewOutcome::kTaken;
 }
@@ -158,10 +158,10 @@ void ViewSelector::drop(std::size_t index) {
   views_.erase(views_.begin() + static_cast<std::ptrdiff_t>(index));
 }
 
-std::optional<std::size_t> ViewSelector::spareView() const {
+std::optional<std::size_t> ViewSelector::redundantView() const {
   std::optional<std::size_t> widest;
   for (std::size_t i = 0; i < views_.size(); ++i) {
-    if (!coverage_.canSpare(views_[i].traits)) continue;
+    if (!coverage_.isRedundant(views_[i].traits)) continue;
     if (!widest || views_[i].sighting.edgeWidthPx > views_[*widest].sighting.edgeWidthPx) {
       widest = i;
     }

@@ -13,8 +13,8 @@ namespace pleinair::calibration {
 struct ViewSelectionOptions {
   /// Whether images follow each other in time, as in a movie or from a camera but not in
   /// photographs. If so, the board's speed is measured.
-  bool isMovement = true;
-  std::size_t mostViews = 40;
+  bool isSequence = true;
+  std::size_t maxViews = 40;
 };
 
 /// A taken view.
@@ -71,7 +71,7 @@ class ViewSelector {
   void take(SelectedView view);
   void drop(std::size_t index);
   /// A view that the others make redundant.
-  std::optional<std::size_t> spareView() const;
+  std::optional<std::size_t> redundantView() const;
 
   const Board& board_;
   hal::FrameSize size_;

@@ -14,12 +14,13 @@ using marks::Anchor;
 
 constexpr int kCellPixels = 8;
 
-bool isSame(const Anchor& then, const Anchor& now) {
-  return then.isAlive() && now.isAlive() && then.seed == now.seed && !now.isBorn();
+bool isSame(const Anchor& previous, const Anchor& current) {
+  return previous.isAlive() && current.isAlive() && previous.seed == current.seed &&
+         !current.isBorn();
 }
 
 /// Anchors have pixel centres at +0.5; images here have them at whole numbers.
-cv::Point2f onPicture(const Anchor& anchor) {
+cv::Point2f imagePoint(const Anchor& anchor) {
   return {anchor.px.x - 0.5F, anchor.px.y - 0.5F};
 }
 
@@ -33,7 +34,7 @@ std::optional<Drift> driftOf(std::vector<float> distances) {
     return static_cast<double>(distances[static_cast<std::size_t>(share * last)]);
   };
   return Drift{.median = at(0.5),
-               .most = at(0.95),
+               .percentile95 = at(0.95),
                .rms = std::sqrt(squares / static_cast<double>(distances.size()))};
 }
 
@@ -43,23 +44,24 @@ class MeanDrift {
   void add(const std::optional<Drift>& drift) {
     if (!drift) return;
     median_ += {drift->median, 1.0};
-    most_ += {drift->most, 1.0};
+    percentile95_ += {drift->percentile95, 1.0};
     square_ += {drift->rms * drift->rms, 1.0};
   }
   std::optional<Drift> value() const {
     if (!median_.value()) return std::nullopt;
-    return Drift{
-        .median = *median_.value(), .most = *most_.value(), .rms = std::sqrt(*square_.value())};
+    return Drift{.median = *median_.value(),
+                 .percentile95 = *percentile95_.value(),
+                 .rms = std::sqrt(*square_.value())};
   }
 
  private:
-  Mean median_, most_, square_;
+  Mean median_, percentile95_, square_;
 };
 
 }  // namespace
 
 bool AnchorMeasures::isInner(const Anchor& anchor) const {
-  return innerRect(frame_).contains(cv::Point(onPicture(anchor)));
+  return innerRect(frame_).contains(cv::Point(imagePoint(anchor)));
 }
 
 void AnchorMeasures::add(std::span<const Anchor> anchors, const MotionMap* sinceLast,
@@ -80,34 +82,34 @@ void AnchorMeasures::add(std::span<const Anchor> anchors, const MotionMap* since
 AnchorFrame AnchorMeasures::compare(std::span<const Anchor> anchors) const {
   AnchorFrame frame;
   for (std::size_t slot = 0; slot < anchors.size(); ++slot) {
-    const Anchor& then = past_.back()[slot];
-    const Anchor& now = anchors[slot];
-    const bool same = isSame(then, now);
-    const bool isBirth = now.isAlive() && !same;
-    const bool isDeath = then.isStaying() && !(same && now.isStaying());
-    frame.alive += now.isAlive() ? 1 : 0;
+    const Anchor& previous = past_.back()[slot];
+    const Anchor& current = anchors[slot];
+    const bool same = isSame(previous, current);
+    const bool isBirth = current.isAlive() && !same;
+    const bool isDeath = previous.isStaying() && !(same && current.isStaying());
+    frame.alive += current.isAlive() ? 1 : 0;
     frame.births += isBirth ? 1 : 0;
     frame.deaths += isDeath ? 1 : 0;
-    frame.inner += now.isAlive() && isInner(now) ? 1 : 0;
-    frame.innerBirths += isBirth && isInner(now) ? 1 : 0;
-    frame.innerDeaths += isDeath && isInner(then) ? 1 : 0;
-    frame.moved += same && now.px != then.px ? 1 : 0;
+    frame.inner += current.isAlive() && isInner(current) ? 1 : 0;
+    frame.innerBirths += isBirth && isInner(current) ? 1 : 0;
+    frame.innerDeaths += isDeath && isInner(previous) ? 1 : 0;
+    frame.moved += same && current.px != previous.px ? 1 : 0;
   }
   return frame;
 }
 
-std::optional<Drift> AnchorMeasures::driftSince(std::span<const Anchor> then,
-                                                std::span<const Anchor> now,
+std::optional<Drift> AnchorMeasures::driftSince(std::span<const Anchor> previous,
+                                                std::span<const Anchor> current,
                                                 const MotionMap* motion) const {
-  if (motion == nullptr || then.size() != now.size()) return std::nullopt;
+  if (motion == nullptr || previous.size() != current.size()) return std::nullopt;
   std::vector<float> distances;
-  for (std::size_t slot = 0; slot < now.size(); ++slot) {
-    const bool isCompared = isSame(then[slot], now[slot]) && then[slot].isStaying() &&
-                            now[slot].isStaying() && isInner(now[slot]);
+  for (std::size_t slot = 0; slot < current.size(); ++slot) {
+    const bool isCompared = isSame(previous[slot], current[slot]) && previous[slot].isStaying() &&
+                            current[slot].isStaying() && isInner(current[slot]);
     if (!isCompared) continue;
-    const auto truth = displacementAt(*motion, onPicture(then[slot]));
+    const auto truth = displacementAt(*motion, imagePoint(previous[slot]));
     if (!truth) continue;
-    const cv::Point2f error = onPicture(now[slot]) - onPicture(then[slot]) - *truth;
+    const cv::Point2f error = imagePoint(current[slot]) - imagePoint(previous[slot]) - *truth;
     distances.push_back(std::hypot(error.x, error.y));
   }
   return driftOf(std::move(distances));

@@ -17,7 +17,7 @@ namespace pleinair::measure {
 /// Distances (px) of anchors from where the true motion moved the points that they were on.
 struct Drift {
   double median = 0;
-  double most = 0;  ///< 95th percentile
+  double percentile95 = 0;
   double rms = 0;
 };
 
@@ -62,8 +62,8 @@ class AnchorMeasures {
 
  private:
   AnchorFrame compare(std::span<const marks::Anchor> anchors) const;
-  std::optional<Drift> driftSince(std::span<const marks::Anchor> then,
-                                  std::span<const marks::Anchor> now,
+  std::optional<Drift> driftSince(std::span<const marks::Anchor> previous,
+                                  std::span<const marks::Anchor> current,
                                   const MotionMap* motion) const;
   void countCells(std::span<const marks::Anchor> anchors);
   bool isInner(const marks::Anchor& anchor) const;

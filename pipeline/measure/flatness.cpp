@@ -185,7 +185,7 @@ double FlatnessMeasures::scale() const {
 }
 
 std::optional<Flatness> FlatnessMeasures::total() const {
-  if (last_.size() < kEnds || std::abs(logScale_) < std::log(kLeastScale)) return std::nullopt;
+  if (last_.size() < kEnds || std::abs(logScale_) < std::log(kMinScale)) return std::nullopt;
   const auto differenceOver = [this](auto member) {
     TextureStatistics first = sumOf(first_, member);
     TextureStatistics last = sumOf(last_, member);

@@ -58,7 +58,7 @@ class FlatnessMeasures {
   double scale() const;
 
   /// Below this, and above its inverse, marks hardly change their size.
-  static constexpr double kLeastScale = 1.15;
+  static constexpr double kMinScale = 1.15;
 
  private:
   struct Pair {

@@ -20,8 +20,8 @@ enum class On {
 struct Gate {
   std::string_view style;
   std::optional<double> Measures::*measure;
-  bool isMost;   ///< true: upper limit; false: lower limit
-  double limit;  ///< or the factor of the reference that follows
+  bool isUpperLimit;  ///< true: upper limit; false: lower limit
+  double limit;       ///< or the factor of the reference that follows
   std::optional<double> Measures::*ofTiling = nullptr;
   On on = On::kAny;
 };
@@ -63,7 +63,7 @@ const MeasureColumn& columnOf(std::optional<double> Measures::*value) {
 Verdict judge(const Gate& gate, const RunConditions& runConditions, const Measures& measures,
               const Measures& tiling) {
   const MeasureColumn& column = columnOf(gate.measure);
-  const char* relation = gate.isMost ? "≤" : "≥";
+  const char* relation = gate.isUpperLimit ? "≤" : "≥";
   const std::optional<double>& found = measures.*gate.measure;
   double limit = gate.limit;
   bool isLimitKnown = true;
@@ -75,12 +75,12 @@ Verdict judge(const Gate& gate, const RunConditions& runConditions, const Measur
     isLimitKnown = reference.has_value();
     verdict.what += fmt::format(" × the tiling's {}", textOf(column, tiling));
   }
-  verdict.comparison = {.value = found, .limit = {}, .isMost = gate.isMost};
+  verdict.comparison = {.value = found, .limit = {}, .isUpperLimit = gate.isUpperLimit};
   if (isLimitKnown) verdict.comparison->limit = limit;
-  if (!found) verdict.found = whyMissing(gate.measure, runConditions);
+  if (!found) verdict.found = reasonMissing(gate.measure, runConditions);
   if (found && !isLimitKnown) verdict.found += ", but the tiling's is not known";
   if (!found || !isLimitKnown) return verdict;
-  const bool isPassed = gate.isMost ? *found <= limit : *found >= limit;
+  const bool isPassed = gate.isUpperLimit ? *found <= limit : *found >= limit;
   verdict.state = isPassed ? Verdict::State::kPassed : Verdict::State::kFailed;
   return verdict;
 }
@@ -114,15 +114,15 @@ std::vector<Verdict> anchorVerdicts(std::string_view style, MotionKind motion,
                                     const std::optional<AnchorSummary>& settled,
                                     const std::optional<AnchorSummary>& still) {
   using State = Verdict::State;
-  constexpr double kMostTurnoverPercent = 0.5;
+  constexpr double kMaxTurnoverPercent = 0.5;
   std::vector<Verdict> verdicts;
   if (style != "painterly") return verdicts;
   if (motion == MotionKind::kPan) {
     Verdict turnover{.what = "births and deaths away from the border ≤ 0.5 % of the marks a frame",
                      .found = "no anchors after two seconds",
-                     .comparison = Verdict::Comparison{.value = {}, .limit = kMostTurnoverPercent}};
+                     .comparison = Verdict::Comparison{.value = {}, .limit = kMaxTurnoverPercent}};
     if (settled) {
-      const bool isPassed = settled->innerTurnoverPercent <= kMostTurnoverPercent;
+      const bool isPassed = settled->innerTurnoverPercent <= kMaxTurnoverPercent;
       turnover.state = isPassed ? State::kPassed : State::kFailed;
       turnover.comparison->value = settled->innerTurnoverPercent;
       turnover.found = fmt::format("{:.2f} %", settled->innerTurnoverPercent);

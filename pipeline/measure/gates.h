@@ -24,7 +24,7 @@ struct Verdict {
   struct Comparison {
     std::optional<double> value;  ///< nothing if it was not measured
     std::optional<double> limit;  ///< nothing if the limit's reference was not measured
-    bool isMost = true;           ///< true: `limit` is an upper limit; false: a lower one
+    bool isUpperLimit = true;     ///< true: `limit` is an upper limit; false: a lower one
   };
   std::optional<Comparison> comparison = {};
 };

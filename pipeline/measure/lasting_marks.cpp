@@ -7,7 +7,7 @@
 namespace pleinair::measure {
 namespace {
 
-constexpr int kMostMarks = 300;
+constexpr int kMaxMarks = 300;
 constexpr double kQuality = 0.01;
 constexpr double kApartPixels = 8;
 constexpr int kPatchRadius = 6;
@@ -29,14 +29,14 @@ bool isFoundAgain(const cv::Mat1f& earlier, const cv::Mat1f& later, cv::Point at
 
 }  // namespace
 
-Mean lastingMarks(const cv::Mat1f& earlier, const Carried<cv::Mat1f>& later) {
+Mean lastingMarks(const cv::Mat1f& earlier, const Warped<cv::Mat1f>& later) {
   cv::Mat1b whole;  // where the whole patch and its search area are valid
   cv::erode(
       later.mask, whole,
       cv::getStructuringElement(cv::MORPH_RECT, {2 * kSearchRadius + 1, 2 * kSearchRadius + 1}),
       {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
   std::vector<cv::Point2f> marks;
-  cv::goodFeaturesToTrack(earlier, marks, kMostMarks, kQuality, kApartPixels, whole);
+  cv::goodFeaturesToTrack(earlier, marks, kMaxMarks, kQuality, kApartPixels, whole);
   Mean found;
   for (const cv::Point2f& mark : marks) {
     const bool isFound = isFoundAgain(earlier, later.picture, cv::Point(mark));

@@ -13,7 +13,7 @@ namespace pleinair::measure {
 namespace {
 
 constexpr hal::Duration kFramePeriod{33'333'333};
-constexpr std::uint64_t kLeastFrames = kShortLag + 1;
+constexpr std::uint64_t kMinFrames = kShortLag + 1;
 
 hal::Error unfit(const MeasuredInput& input, std::string problem, std::string remedy) {
   return {.kind = hal::ErrorKind::kInvalidInput,
@@ -57,7 +57,7 @@ class Measurement {
       }
       if (!options_.goesOn()) return false;
     }
-    if (report_.frames < kLeastFrames) {
+    if (report_.frames < kMinFrames) {
       return tl::unexpected(unfit(
           input_,
           options_.settle == 0
@@ -66,7 +66,7 @@ class Measurement {
                             options_.settle),
           fmt::format("give {} at least, or 11 for all measures; one picture is measured with "
                       "--pan, --zoom, --roll or --still",
-                      kLeastFrames)));
+                      kMinFrames)));
     }
     return true;
   }
@@ -75,10 +75,10 @@ class Measurement {
     const cv::Mat3f input = toFloat(painted.input.view());
     if (report_.frames == 0) {
       report_.size = painted.input.size();
-      if (std::min(report_.size.width, report_.size.height) < kLeastSidePixels) {
+      if (std::min(report_.size.width, report_.size.height) < kMinSidePixels) {
         return tl::unexpected(
             unfit(input_, fmt::format("has frames of {}x{} px", input.cols, input.rows),
-                  fmt::format("give frames of {0}x{0} px at least", kLeastSidePixels)));
+                  fmt::format("give frames of {0}x{0} px at least", kMinSidePixels)));
       }
       sequence_.emplace(input.size(), input_.motion());
       still_ = input;

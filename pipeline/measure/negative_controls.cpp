@@ -10,9 +10,9 @@ namespace {
 using State = Verdict::State;
 
 constexpr std::uint64_t kFixedSeed = 0;
-constexpr double kLeastScreenPattern = 0.25;
+constexpr double kMinScreenPattern = 0.25;
 /// Images carried along the true motion read up to 0.1, those under a wrong motion 0.8 and more.
-constexpr double kMostInputError = 0.5;
+constexpr double kMaxInputError = 0.5;
 /// Below this, in levels, tiles are hardly visible and cannot be told apart.
 constexpr double kSmoothDeviation = 3.0;
 
@@ -29,16 +29,15 @@ std::string likelyCause(const PerSubject<Measures>& measures) {
 /// Of another motion than the pictures' even the input is not carried along. (xEW2 of the input is
 /// a number divided by itself, which says nothing.)
 Verdict motionVerdict(const PerSubject<Measures>& measures) {
-  Verdict verdict{.what =
-                      fmt::format("the input goes along with the motion that is told: nHW2 ≤ {:g}",
-                                  kMostInputError)};
+  Verdict verdict{
+      .what = fmt::format("the input follows the given motion: nHW2 ≤ {:g}", kMaxInputError)};
   const std::optional<double>& carried = measures[Subject::kInput].nHw2;
-  verdict.comparison = {.value = carried, .limit = kMostInputError, .isMost = true};
+  verdict.comparison = {.value = carried, .limit = kMaxInputError, .isUpperLimit = true};
   if (!carried) {
     verdict.found = "nothing to compare along a true motion";
     return verdict;
   }
-  const bool isPassed = *carried <= kMostInputError;
+  const bool isPassed = *carried <= kMaxInputError;
   verdict.state = isPassed ? State::kPassed : State::kFailed;
   verdict.found = fmt::format("{:.3f}", *carried);
   if (isPassed) return verdict;
@@ -75,15 +74,15 @@ Verdict freshVerdict(const PerSubject<Measures>& measures, std::string_view styl
 }
 
 Verdict fixedVerdict(const PerSubject<Measures>& measures, const RunConditions& runConditions) {
-  Verdict verdict{
-      .what = fmt::format("marks fixed to the screen read SCR ≥ {:g}", kLeastScreenPattern)};
+  Verdict verdict{.what =
+                      fmt::format("marks fixed to the screen read SCR ≥ {:g}", kMinScreenPattern)};
   const std::optional<double>& screen = measures[Subject::kFixed].scr;
-  verdict.comparison = {.value = screen, .limit = kLeastScreenPattern, .isMost = false};
+  verdict.comparison = {.value = screen, .limit = kMinScreenPattern, .isUpperLimit = false};
   if (!screen) {
-    verdict.found = "SCR: " + whyMissing(&Measures::scr, runConditions);
+    verdict.found = "SCR: " + reasonMissing(&Measures::scr, runConditions);
     return verdict;
   }
-  const bool isPassed = *screen >= kLeastScreenPattern;
+  const bool isPassed = *screen >= kMinScreenPattern;
   verdict.state = isPassed ? State::kPassed : State::kFailed;
   verdict.found = fmt::format("{:.3f}", *screen) + (isPassed ? "" : likelyCause(measures));
   return verdict;

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <utility>
 
-#include "pipeline/measure/carried_error.h"
 #include "pipeline/measure/deviation.h"
 #include "pipeline/measure/lasting_marks.h"
 #include "pipeline/measure/picture.h"
 #include "pipeline/measure/screen_pattern.h"
+#include "pipeline/measure/warping_error.h"
 
 namespace pleinair::measure {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 /// screen.
 constexpr float kMovedPixels = 8.0F;
 /// Part of the frame; with less, the correlation is meaningless.
-constexpr double kLeastMovedShare = 0.1;
+constexpr double kMinMovedShare = 0.1;
 
 cv::Mat1b movedMask(const MotionMap* motion, cv::Size size) {
   cv::Mat1b mask(size, 0);
@@ -49,7 +49,7 @@ std::optional<double> root(const std::optional<double>& value) {
 }  // namespace
 
 void OutputMeasures::add(const cv::Mat3f& output, const cv::Mat3f& input,
-                         const MotionToHere& motion) {
+                         const MotionFromPast& motion) {
   assert(recent_.empty() || recent_.back().picture.size() == output.size());
   Frame frame;
   recent_.push_back({.picture = output, .highPass = highPass(output)});
@@ -69,23 +69,23 @@ void OutputMeasures::add(const cv::Mat3f& output, const cv::Mat3f& input,
 void OutputMeasures::compareShortLag(Frame& frame, const MotionMap& motion) {
   const Recent& earlier = recent_.front();
   const Recent& later = recent_.back();
-  const Carried<cv::Mat3f> carried = carriedBack(later.picture, motion);
-  frame.error = carriedError(earlier.picture, carried);
+  const Warped<cv::Mat3f> carried = warpedBack(later.picture, motion);
+  frame.error = warpingError(earlier.picture, carried);
   frame.popped = poppedShare(earlier.picture, carried);
   difference_ = differenceAlong(earlier.picture, carried);
   frame.highPassError =
-      carriedError(earlier.highPass, carriedBack(later.highPass, motion, {}, kHighPassReach));
-  frame.misalignedError = carriedError(
+      warpingError(earlier.highPass, warpedBack(later.highPass, motion, {}, kHighPassReach));
+  frame.misalignedError = warpingError(
       earlier.highPass,
-      carriedBack(later.highPass, motion, {kMisalignedX, kMisalignedY}, kHighPassReach));
+      warpedBack(later.highPass, motion, {kMisalignedX, kMisalignedY}, kHighPassReach));
 }
 
 void OutputMeasures::compareLongLag(Frame& frame, const MotionMap* motion) {
   const cv::Mat1f& earlier = greys_.front();
   const cv::Mat1f& later = greys_.back();
-  if (motion != nullptr) frame.lasting = lastingMarks(earlier, carriedBack(later, *motion));
+  if (motion != nullptr) frame.lasting = lastingMarks(earlier, warpedBack(later, *motion));
   const cv::Mat1b moved = movedMask(motion, later.size());
-  if (cv::countNonZero(moved) < kLeastMovedShare * static_cast<double>(moved.total())) return;
+  if (cv::countNonZero(moved) < kMinMovedShare * static_cast<double>(moved.total())) return;
   const auto common = screenCorrelation(relativeGradient(earlier), relativeGradient(later), moved);
   if (common) frame.screen = {*common, 1.0};
 }

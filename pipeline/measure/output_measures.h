@@ -19,7 +19,7 @@ inline constexpr std::size_t kLongLag = 10;
 
 /// Motion to this frame from earlier ones. Null if there is no such frame or its motion is unknown;
 /// SCR then assumes that everything moves.
-struct MotionToHere {
+struct MotionFromPast {
   const MotionMap* shortLag = nullptr;
   const MotionMap* longLag = nullptr;
 };
@@ -41,7 +41,7 @@ class OutputMeasures {
   };
 
   /// Takes the next frame. Precondition: it has the size of the previous ones.
-  void add(const cv::Mat3f& output, const cv::Mat3f& input, const MotionToHere& motion);
+  void add(const cv::Mat3f& output, const cv::Mat3f& input, const MotionFromPast& motion);
 
   const std::vector<Frame>& frames() const { return frames_; }
   /// Measures of one frame, or of sums over frames, relative to the input's; all but xFLK.

@@ -9,7 +9,7 @@ namespace pleinair::measure {
 /// Pixels within this distance of the border are ignored (docs/measuring.md).
 inline constexpr int kBorderPixels = 40;
 /// Frames with a smaller side are not measured: too little would remain.
-inline constexpr int kLeastSidePixels = 160;
+inline constexpr int kMinSidePixels = 160;
 
 /// Converts to RGB in [0, 1]. Precondition: the image is RGB8.
 cv::Mat3f toFloat(const hal::ImageView& rgb8);

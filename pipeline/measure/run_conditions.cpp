@@ -23,7 +23,7 @@ bool needsLongLag(Measure measure) {
 
 }  // namespace
 
-std::string whyMissing(Measure measure, const RunConditions& runConditions) {
+std::string reasonMissing(Measure measure, const RunConditions& runConditions) {
   if (needsMotion(measure) && runConditions.motion == MotionKind::kNone) {
     return "it needs the true motion (motion.json, flow files, or --motion)";
   }
@@ -49,7 +49,7 @@ std::vector<std::string> missingLines(const Measures& measures,
   std::vector<std::pair<std::string, std::string>> namesOfReason;
   for (const MeasureColumn& column : measureColumns()) {
     if (measures.*column.value) continue;
-    const std::string reason = whyMissing(column.value, runConditions);
+    const std::string reason = reasonMissing(column.value, runConditions);
     const auto known =
         std::ranges::find(namesOfReason, reason, &std::pair<std::string, std::string>::first);
     if (known == namesOfReason.end()) {

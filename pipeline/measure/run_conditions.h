@@ -19,8 +19,8 @@ struct RunConditions {
 };
 
 /// Reason why a measure is unavailable: "it compares frames 10 apart, and there are 4".
-std::string whyMissing(std::optional<double> Measures::*measure,
-                       const RunConditions& runConditions);
+std::string reasonMissing(std::optional<double> Measures::*measure,
+                          const RunConditions& runConditions);
 
 /// One line for each such reason: "S10 %, SCR: it compares …".
 std::vector<std::string> missingLines(const Measures& measures, const RunConditions& runConditions);

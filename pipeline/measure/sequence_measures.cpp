@@ -50,8 +50,8 @@ hal::Result<void> SequenceMeasures::add(std::uint64_t index, const cv::Mat3f& in
   if (!shortLag) return tl::unexpected(shortLag.error());
   const auto longLag = motionOver(index, kLongLag);
   if (!longLag) return tl::unexpected(longLag.error());
-  const MotionToHere toHere{.shortLag = *shortLag ? &**shortLag : nullptr,
-                            .longLag = *longLag ? &**longLag : nullptr};
+  const MotionFromPast toHere{.shortLag = *shortLag ? &**shortLag : nullptr,
+                              .longLag = *longLag ? &**longLag : nullptr};
   const PerSubject<cv::Mat3f> pictures = controls_.paint(input, output, index);
   for (const Subject subject : kAllSubjects) {
     outputs_[subject].add(pictures[subject], input, toHere);

@@ -10,11 +10,11 @@
 namespace pleinair::measure {
 namespace {
 
-constexpr std::size_t kMost = 3;
+constexpr std::size_t kMaxWorstFrames = 3;
 constexpr std::uint64_t kApartFrames = 8;
 
 /// A high percentile of the channels that differ at all.
-double brightOf(const cv::Mat3f& difference) {
+double brightLevelOf(const cv::Mat3f& difference) {
   constexpr double kShare = 0.97;
   const cv::Mat1f channels = difference.clone().reshape(1, 1);
   std::vector<float> values(channels.begin(), channels.end());
@@ -28,7 +28,7 @@ double brightOf(const cv::Mat3f& difference) {
 
 /// The largest of 1, 2, 5, 10 … that does not saturate the bright differences.
 double gainOf(const cv::Mat3f& difference) {
-  const double most = 1.0 / std::max(brightOf(difference), 1e-9);
+  const double most = 1.0 / std::max(brightLevelOf(difference), 1e-9);
   double gain = 1;
   for (const double step : {2.0, 5.0, 10.0, 20.0, 50.0, 100.0}) {
     if (step <= most) gain = step;
@@ -45,7 +45,7 @@ void WorstFrames::offer(std::uint64_t frame, double ew2, const cv::Mat3f& input,
   if (near != frames_.end()) {
     if (near->ew2 >= ew2) return;
     frames_.erase(near);
-  } else if (frames_.size() == kMost) {
+  } else if (frames_.size() == kMaxWorstFrames) {
     if (frames_.back().ew2 >= ew2) return;
     frames_.pop_back();
   }

@@ -99,7 +99,7 @@ TEST_F(Calibrate, ARefusedOneIsNotWrittenAndSaysWhy) {
       AllOf(HasSubstr("the board is in none of"),
             HasSubstr("the frames show a checkerboard of 9x6 inner corners instead")));
   expectRefused(calibrated(input, {"--frames", "9"}),
-                AllOf(HasSubstr("of 9 pictures"), HasSubstr("it takes 8")));
+                AllOf(HasSubstr("of 9 pictures"), HasSubstr("8 are needed")));
 }
 
 TEST_F(Calibrate, ACameraIsWatchedUntilItSuffices) {

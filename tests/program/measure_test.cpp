@@ -83,7 +83,7 @@ TEST_F(Measure, ReadsTheInputItselfThroughStyleNone) {
                                    path("r.json"), "--html", path("r.html")});
   ASSERT_EQ(run.status, 0) << run.error;
   EXPECT_THAT(run.out, AllOf(HasSubstr("pan by (-2, -1) px a frame"), HasSubstr("nHW2"),
-                             HasSubstr("sound")));
+                             HasSubstr("valid")));
   const auto json = nlohmann::json::parse(read("r.json"));
   const auto& own = json["measures"]["painting"];
   EXPECT_EQ(json["frames"], 13);

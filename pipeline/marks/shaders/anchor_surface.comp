@@ -48,7 +48,7 @@ void main() {
   uvec4 entry = triangles[body.places.x + numberOf(surface)];
   vec2 part = anchors[slot].barycentrics;
   SurfacePoint point = SurfacePoint(entry.xyz, entry.w, vec3(part, 1.0 - part.x - part.y));
-  vec3 place = positionNow(point);
+  vec3 place = currentPosition(point);
   if (place.z <= 0.0) {
     anchors[slot].state = 0u;
     return;
@@ -61,14 +61,14 @@ void main() {
   vec4 jacobian = vec4(1.0, 0.0, 0.0, 1.0);
   uint source = kSourceUnknown;
   if (body.turnsAbout.w != 0.0) {
-    vec3 before = positionThen(point);
+    vec3 before = previousPosition(point);
     if (before.z > 0.0) {
       shift = px - projected(before);
       source = kSourceSurface;
       // The triangle's affine map from its previous corners to its current ones.
       vec3 was[3];
       for (int i = 0; i < 3; ++i) {
-        was[i] = transformed(body.then, posed[body.places.z + point.corners[i]].position);
+        was[i] = transformed(body.previous, posed[body.places.z + point.corners[i]].position);
       }
       bool isBefore = min(min(was[0].z, was[1].z), was[2].z) > 0.0 &&
                       min(min(corners[0].z, corners[1].z), corners[2].z) > 0.0;

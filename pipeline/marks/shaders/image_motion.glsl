@@ -53,13 +53,13 @@ vec3 planeShift(Body plane, vec2 px, bool backward) {
   vec3 there;
   vec3 hit;
   if (backward) {
-    hit = hitOf(plane.now, plane.extent.xy, ray);
-    there = transformed(plane.then, vec3(hit.xy, 0.0));
-    here = transformed(plane.now, vec3(hit.xy, 0.0));
+    hit = hitOf(plane.current, plane.extent.xy, ray);
+    there = transformed(plane.previous, vec3(hit.xy, 0.0));
+    here = transformed(plane.current, vec3(hit.xy, 0.0));
   } else {
-    hit = hitOf(plane.then, plane.extent.xy, ray);
-    there = transformed(plane.now, vec3(hit.xy, 0.0));
-    here = transformed(plane.then, vec3(hit.xy, 0.0));
+    hit = hitOf(plane.previous, plane.extent.xy, ray);
+    there = transformed(plane.current, vec3(hit.xy, 0.0));
+    here = transformed(plane.previous, vec3(hit.xy, 0.0));
   }
   if (hit.z == 0.0 || there.z <= 0.0) return vec3(0.0);
   return vec3(projected(there) - projected(here), hit.z);

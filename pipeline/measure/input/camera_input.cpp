@@ -24,7 +24,7 @@ class CameraInput final : public MeasuredInput {
   /// Call before the first frame.
   void setMotion(std::unique_ptr<TrueMotion> motion) { motion_ = std::move(motion); }
   /// Call before the first frame; the motion is unknown beyond `count` frames.
-  void setMostFrames(std::uint64_t count) { mostFrames_ = count; }
+  void setMaxFrames(std::uint64_t count) { maxFrames_ = count; }
   void setEndless() { isEndless_ = true; }
   void addNotice(std::string notice) { notices_.push_back(std::move(notice)); }
 
@@ -40,7 +40,7 @@ class CameraInput final : public MeasuredInput {
       hal::NextFrame next = camera_->next(hal::kNoDeadline);
       if (auto* frame = std::get_if<hal::CapturedFrame>(&next)) return accepted(std::move(*frame));
       if (const auto* end = std::get_if<hal::EndOfStream>(&next)) {
-        if (end->truncated) addNotice("the recording breaks off: " + end->truncated->message());
+        if (end->truncated) addNotice("the recording is truncated: " + end->truncated->message());
         return std::nullopt;
       }
       if (auto* lost = std::get_if<hal::CameraLost>(&next)) return tl::unexpected(lost->cause);
@@ -59,7 +59,7 @@ class CameraInput final : public MeasuredInput {
                   "does not fit",
                   "fix it, or leave out --motion"));
     }
-    if (mostFrames_ && accepted_ == *mostFrames_) {
+    if (maxFrames_ && accepted_ == *maxFrames_) {
       return tl::unexpected(failure(
           fmt::format("goes on beyond the {} frames that its motion file is for", accepted_),
           "give a homography for each step, or fewer --frames"));
@@ -81,7 +81,7 @@ class CameraInput final : public MeasuredInput {
   std::unique_ptr<TrueMotion> motion_;
   std::vector<std::string> notices_;
   bool isEndless_ = false;
-  std::optional<std::uint64_t> mostFrames_;
+  std::optional<std::uint64_t> maxFrames_;
   std::uint64_t accepted_ = 0;
 };
 
@@ -104,7 +104,7 @@ hal::Result<std::unique_ptr<MeasuredInput>> openPlainRecording(
     if (!motion) return tl::unexpected(motion.error());
     input->setMotion(std::move(*motion));
     // The length that a movie reports, if any, may be wrong.
-    if (!file->perFrame) input->setMostFrames(file->nextFromFrame.size() + 1);
+    if (!file->perFrame) input->setMaxFrames(file->nextFromFrame.size() + 1);
   }
   return input;
 }

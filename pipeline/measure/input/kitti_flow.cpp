@@ -14,7 +14,7 @@ namespace pleinair::measure {
 namespace {
 
 /// Difference of flow between neighbouring pixels above which one object occludes another.
-constexpr float kLeapPixels = 0.5F;
+constexpr float kBoundaryStepPixels = 0.5F;
 constexpr std::size_t kKeptFields = 12;
 
 hal::Error wrongSize(const std::filesystem::path& path, hal::FrameSize found, cv::Size expected) {
@@ -79,7 +79,8 @@ class FlowSequence final : public TrueMotion {
       }
     }
     if (steps_.size() >= kKeptFields) steps_.erase(steps_.begin());
-    return &steps_.emplace(frame, fieldMap(field->px, field->seen, kLeapPixels)).first->second;
+    return &steps_.emplace(frame, fieldMap(field->px, field->seen, kBoundaryStepPixels))
+                .first->second;
   }
 
   cv::Size frame_;

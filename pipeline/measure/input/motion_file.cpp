@@ -21,9 +21,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t kMostBytes = 64'000'000;
+constexpr std::size_t kMaxBytes = 64'000'000;
 /// With faster motion, no mark is visible twice.
-constexpr double kMostPixels = 1000;
+constexpr double kMaxPixels = 1000;
 
 constexpr const char* kAllowed =
     R"(give {"v": [vx, vy]} in px a frame, or {"homographies": [[9 numbers], …]})";
@@ -85,9 +85,9 @@ hal::Result<MotionFile> parseMotion(std::string_view text, const std::string& su
   }
   if (json.contains("v")) {
     const auto numbers = numbersOf<2>(json["v"]);
-    if (!numbers || std::hypot((*numbers)[0], (*numbers)[1]) > kMostPixels) {
+    if (!numbers || std::hypot((*numbers)[0], (*numbers)[1]) > kMaxPixels) {
       return tl::unexpected(
-          wrong(subject, fmt::format("\"v\" is not two numbers of up to {} px", kMostPixels)));
+          wrong(subject, fmt::format("\"v\" is not two numbers of up to {} px", kMaxPixels)));
     }
     file.perFrame = cv::Point2d((*numbers)[0], (*numbers)[1]);
     return file;
@@ -108,7 +108,7 @@ hal::Result<MotionFile> readMotion(const std::filesystem::path& path) {
   std::array<char, 65536> block{};
   while (stream.read(block.data(), block.size()) || stream.gcount() > 0) {
     text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > kMostBytes) return tl::unexpected(wrong(path.string(), "is too large"));
+    if (text.size() > kMaxBytes) return tl::unexpected(wrong(path.string(), "is too large"));
   }
   return parseMotion(text, path.string());
 }

@@ -27,17 +27,18 @@ cv::Mat1b shrunk(const cv::Mat1b& mask, int pixels) {
 }
 
 /// The seen pixels without those at motion boundaries.
-cv::Mat1b withoutLeaps(const cv::Mat2f& displacement, const cv::Mat1b& seen, float leapPixels) {
+cv::Mat1b withoutBoundaries(const cv::Mat2f& displacement, const cv::Mat1b& seen,
+                            float boundaryStepPixels) {
   cv::Mat1b kept = seen.clone();
-  const auto isLeap = [leapPixels](const cv::Vec2f& a, const cv::Vec2f& b) {
-    return std::abs(a[0] - b[0]) > leapPixels || std::abs(a[1] - b[1]) > leapPixels;
+  const auto isBoundary = [boundaryStepPixels](const cv::Vec2f& a, const cv::Vec2f& b) {
+    return std::abs(a[0] - b[0]) > boundaryStepPixels || std::abs(a[1] - b[1]) > boundaryStepPixels;
   };
   for (int y = 0; y < displacement.rows; ++y) {
     for (int x = 0; x < displacement.cols; ++x) {
       const bool right =
-          x + 1 < displacement.cols && isLeap(displacement(y, x), displacement(y, x + 1));
+          x + 1 < displacement.cols && isBoundary(displacement(y, x), displacement(y, x + 1));
       const bool below =
-          y + 1 < displacement.rows && isLeap(displacement(y, x), displacement(y + 1, x));
+          y + 1 < displacement.rows && isBoundary(displacement(y, x), displacement(y + 1, x));
       if (right || below) kept(y, x) = 0;
     }
   }
@@ -61,8 +62,8 @@ PixelOf<Picture> cubicAt(const Picture& picture, cv::Point first, const std::arr
 }
 
 template <class Picture>
-Carried<Picture> shifted(const Picture& later, cv::Point by) {
-  Carried<Picture> result{Picture(later.size(), PixelOf<Picture>{}), cv::Mat1b(later.size(), 0)};
+Warped<Picture> shifted(const Picture& later, cv::Point by) {
+  Warped<Picture> result{Picture(later.size(), PixelOf<Picture>{}), cv::Mat1b(later.size(), 0)};
   const cv::Rect frame({}, later.size());
   const cv::Rect to = frame & (frame - by);
   if (to.empty()) return result;
@@ -73,9 +74,9 @@ Carried<Picture> shifted(const Picture& later, cv::Point by) {
 }
 
 template <class Picture>
-Carried<Picture> interpolated(const Picture& later, const MotionMap& map, cv::Point offset,
-                              int reachPixels) {
-  Carried<Picture> result{Picture(later.size(), PixelOf<Picture>{}), cv::Mat1b(later.size(), 0)};
+Warped<Picture> interpolated(const Picture& later, const MotionMap& map, cv::Point offset,
+                             int reachPixels) {
+  Warped<Picture> result{Picture(later.size(), PixelOf<Picture>{}), cv::Mat1b(later.size(), 0)};
   const cv::Mat1b valid = reachPixels > 0 ? shrunk(map.valid, reachPixels) : map.valid;
   const cv::Rect inner = innerRect(later.size());
   for (int y = inner.y; y < inner.br().y; ++y) {
@@ -99,8 +100,8 @@ Carried<Picture> interpolated(const Picture& later, const MotionMap& map, cv::Po
 }
 
 template <class Picture>
-Carried<Picture> carried(const Picture& later, const MotionMap& map, cv::Point offset,
-                         int reachPixels) {
+Warped<Picture> carried(const Picture& later, const MotionMap& map, cv::Point offset,
+                        int reachPixels) {
   if (map.shift) return shifted(later, *map.shift + offset);
   return interpolated(later, map, offset, reachPixels);
 }
@@ -121,8 +122,9 @@ MotionMap constantMap(cv::Size frame, cv::Point2d displacement) {
       .shift = {}, .displacement = cv::Mat2f(frame, everywhere), .valid = cv::Mat1b(frame, 255)};
 }
 
-MotionMap fieldMap(cv::Mat2f displacement, const cv::Mat1b& seen, float leapPixels) {
-  const cv::Mat1b valid = shrunk(withoutLeaps(displacement, seen, leapPixels), kBoundaryPixels);
+MotionMap fieldMap(cv::Mat2f displacement, const cv::Mat1b& seen, float boundaryStepPixels) {
+  const cv::Mat1b valid =
+      shrunk(withoutBoundaries(displacement, seen, boundaryStepPixels), kBoundaryPixels);
   return {.shift = {}, .displacement = std::move(displacement), .valid = valid};
 }
 
@@ -142,13 +144,13 @@ std::optional<cv::Point2f> displacementAt(const MotionMap& map, cv::Point2f at) 
   return cv::Point2f(mixed[0], mixed[1]);
 }
 
-Carried<cv::Mat3f> carriedBack(const cv::Mat3f& later, const MotionMap& map, cv::Point offset,
-                               int reachPixels) {
+Warped<cv::Mat3f> warpedBack(const cv::Mat3f& later, const MotionMap& map, cv::Point offset,
+                             int reachPixels) {
   return carried(later, map, offset, reachPixels);
 }
 
-Carried<cv::Mat1f> carriedBack(const cv::Mat1f& later, const MotionMap& map, cv::Point offset,
-                               int reachPixels) {
+Warped<cv::Mat1f> warpedBack(const cv::Mat1f& later, const MotionMap& map, cv::Point offset,
+                             int reachPixels) {
   return carried(later, map, offset, reachPixels);
 }
 

@@ -27,15 +27,15 @@ struct MotionMap {
 MotionMap constantMap(cv::Size frame, cv::Point2d displacement);
 
 /// A map of a measured or computed field. Pixels are invalid where not `seen`, and close to such
-/// pixels or to places where neighbouring displacements differ by more than `leapPixels`.
-MotionMap fieldMap(cv::Mat2f displacement, const cv::Mat1b& seen, float leapPixels);
+/// pixels or to places where neighbouring displacements differ by more than `boundaryStepPixels`.
+MotionMap fieldMap(cv::Mat2f displacement, const cv::Mat1b& seen, float boundaryStepPixels);
 
 /// The interpolated displacement at a point; nothing where it is unknown.
 std::optional<cv::Point2f> displacementAt(const MotionMap& map, cv::Point2f at);
 
 /// A later image warped back to the earlier frame.
 template <class Picture>
-struct Carried {
+struct Warped {
   Picture picture;
   cv::Mat1b mask;  ///< 255 where valid: within the border, with known motion, inside of both frames
 };
@@ -44,9 +44,9 @@ struct Carried {
 /// interpolated by cubic convolution (Keys, 1981, a = −0.5), which loses little. `reachPixels`:
 /// radius of the filter that made the image; pixels whose filter crossed a motion boundary are
 /// invalid.
-Carried<cv::Mat3f> carriedBack(const cv::Mat3f& later, const MotionMap& map, cv::Point offset = {},
-                               int reachPixels = 0);
-Carried<cv::Mat1f> carriedBack(const cv::Mat1f& later, const MotionMap& map, cv::Point offset = {},
-                               int reachPixels = 0);
+Warped<cv::Mat3f> warpedBack(const cv::Mat3f& later, const MotionMap& map, cv::Point offset = {},
+                             int reachPixels = 0);
+Warped<cv::Mat1f> warpedBack(const cv::Mat1f& later, const MotionMap& map, cv::Point offset = {},
+                             int reachPixels = 0);
 
 }  // namespace pleinair::measure

@@ -16,7 +16,7 @@ namespace pleinair::measure {
 namespace {
 
 /// Largest number of the photograph's pixels per pixel of a frame, along a side; more would alias.
-constexpr double kMostSamples = 2.0;
+constexpr double kMaxSamples = 2.0;
 
 bool turnsOrZooms(const PhotographMotion& motion) {
   return motion.zoomPercent != 0 || motion.rollDegrees != 0;
@@ -106,7 +106,7 @@ MovedPhotograph::MovedPhotograph(const hal::Image& rgb8, hal::FrameSize size,
   const double fits = std::min(whole.cols / extent.width, whole.rows / extent.height);
   const double finest = std::max(1.0, fits);
   isMirrored_ = fits < 1.0;
-  samplesPerPixel_ = std::min(finest, kMostSamples);
+  samplesPerPixel_ = std::min(finest, kMaxSamples);
   if (finest > samplesPerPixel_) {
     const double shrink = samplesPerPixel_ / finest;
     cv::resize(whole, photograph_, {}, shrink, shrink, cv::INTER_AREA);

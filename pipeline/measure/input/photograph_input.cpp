@@ -14,11 +14,11 @@ namespace {
 constexpr hal::Duration kFramePeriod{33'333'333};
 
 /// Larger photographs take longer and give no better measures.
-constexpr double kMostPixels = 640.0 * 480.0;
+constexpr double kMaxPixels = 640.0 * 480.0;
 
 hal::FrameSize defaultSize(hal::FrameSize photograph) {
   const double pixels = static_cast<double>(photograph.width) * photograph.height;
-  const double scale = std::min(1.0, std::sqrt(kMostPixels / pixels));
+  const double scale = std::min(1.0, std::sqrt(kMaxPixels / pixels));
   const auto scaled = [scale](int side) {
     return std::max(1, static_cast<int>(std::lround(side * scale)));
   };

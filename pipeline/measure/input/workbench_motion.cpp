@@ -12,8 +12,8 @@ namespace pleinair::measure {
 namespace {
 
 /// Between neighbouring pixels, for each frame between the two; perspective alone stays below it.
-constexpr float kLeapPixelsPerFrame = 0.05F;
-constexpr float kLeastLeapPixels = 0.15F;
+constexpr float kBoundaryStepPixelsPerFrame = 0.05F;
+constexpr float kMinBoundaryPixels = 0.15F;
 
 /// Rays are followed from every other pixel. Between them flow is linear, or discontinuous and then
 /// invalid.
@@ -71,7 +71,7 @@ class WorkbenchMotion final : public TrueMotion {
       }
     }
     const float leap =
-        std::max(kLeastLeapPixels, kLeapPixelsPerFrame * static_cast<float>(to - from));
+        std::max(kMinBoundaryPixels, kBoundaryStepPixelsPerFrame * static_cast<float>(to - from));
     return fieldMap(std::move(displacement), seen, leap);
   }
 

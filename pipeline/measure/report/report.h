@@ -57,7 +57,7 @@ struct Report {
   std::vector<std::string> leftOut;  ///< measures that are missing, and the reasons
 
   /// Whether every evaluated control reads as it must.
-  bool areControlsSound() const;
+  bool areControlsValid() const;
   /// Whether every gate was measured and passed.
   bool areGatesPassed() const;
 };

@@ -176,13 +176,13 @@ std::string reportHtml(const Report& report) {
       title + "</title><style>" + kStyleSheet + "</style></head><body>\n";
   html += fmt::format("<h1>{}</h1><p class=\"soft\">{}</p><p class=\"soft\">{}</p>\n", title,
                       escaped(report.settings + "; " + report.motion), escaped(framesText(report)));
-  if (!report.areControlsSound()) {
+  if (!report.areControlsValid()) {
     html +=
         "<p class=\"alarm\">The controls do not read as they must: nothing in this report can "
         "be relied on.</p>\n";
   }
   html += "<h2>Measures</h2>\n" + measuresTable(report);
-  html += "<h2>Controls</h2>\n" + verdictTable(report.controls, "sound", "WRONG");
+  html += "<h2>Controls</h2>\n" + verdictTable(report.controls, "valid", "WRONG");
   if (!report.gates.empty()) {
     html += "<h2>Gates of " + escaped(report.style) + "</h2>\n" +
             verdictTable(report.gates, "pass", "FAIL");

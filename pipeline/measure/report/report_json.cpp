@@ -42,9 +42,9 @@ Json jsonOf(const std::vector<Verdict>& verdicts) {
          {"found", verdict.found},
          {"value", orNull(comparison.value)},
          {"limit", orNull(comparison.limit)},
-         {"sense", !verdict.comparison ? Json(nullptr)
-                   : comparison.isMost ? Json("at most")
-                                       : Json("at least")},
+         {"sense", !verdict.comparison       ? Json(nullptr)
+                   : comparison.isUpperLimit ? Json("at most")
+                                             : Json("at least")},
          {"passed", isMeasured ? Json(verdict.state == Verdict::State::kPassed) : Json(nullptr)}});
   }
   return list;
@@ -52,7 +52,7 @@ Json jsonOf(const std::vector<Verdict>& verdicts) {
 
 Json jsonOf(const std::optional<Drift>& drift) {
   if (!drift) return nullptr;
-  return {{"median_px", drift->median}, {"p95_px", drift->most}, {"rms_px", drift->rms}};
+  return {{"median_px", drift->median}, {"p95_px", drift->percentile95}, {"rms_px", drift->rms}};
 }
 
 Json jsonOf(const std::optional<AnchorSummary>& anchors) {
@@ -122,7 +122,7 @@ std::string reportJson(const Report& report) {
               {"input", jsonOf(measures[Subject::kInput])},
               {"redrawn", jsonOf(measures[Subject::kFresh])},
               {"fixed", jsonOf(measures[Subject::kFixed])}}},
-            {"controls_sound", report.areControlsSound()},
+            {"controls_valid", report.areControlsValid()},
             {"controls", jsonOf(report.controls)},
             {"gates_passed", report.gates.empty() ? Json(nullptr) : Json(report.areGatesPassed())},
             {"gates", jsonOf(report.gates)},

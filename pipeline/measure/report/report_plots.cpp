@@ -26,14 +26,14 @@ double roundedUp(double value) {
 }
 
 struct Axes {
-  double least = 0, most = 1;  ///< of the values
+  double min = 0, max = 1;     ///< of the values
   double first = 0, last = 1;  ///< of the frames
 
   double x(double frame) const {
     return kLeft + (frame - first) / (last - first) * (kWidth - kLeft - kRight);
   }
   double y(double value) const {
-    return kHeight - kBottom - (value - least) / (most - least) * (kHeight - kTop - kBottom);
+    return kHeight - kBottom - (value - min) / (max - min) * (kHeight - kTop - kBottom);
   }
 };
 
@@ -96,22 +96,22 @@ std::string escaped(const std::string& text) {
 std::string plotSvg(const PlotText& text, const std::vector<std::uint64_t>& frames,
                     const std::vector<PlotLine>& lines) {
   Axes axes;
-  double least = 0;
-  double most = 0;
+  double min = 0;
+  double max = 0;
   std::ptrdiff_t longest = 0;
   for (const PlotLine& line : lines) {
     for (const std::optional<double>& value : line.values) {
       if (!value) continue;
-      least = std::min(least, *value);
-      most = std::max(most, *value);
+      min = std::min(min, *value);
+      max = std::max(max, *value);
     }
     longest = std::max(longest, std::ranges::count_if(line.values, [](const auto& value) {
                          return value.has_value();
                        }));
   }
   if (longest < 2 || frames.size() < 2) return "";
-  axes.most = roundedUp(most);
-  axes.least = least < 0 ? -roundedUp(-least) : 0;
+  axes.max = roundedUp(max);
+  axes.min = min < 0 ? -roundedUp(-min) : 0;
   axes.first = static_cast<double>(frames.front());
   axes.last = static_cast<double>(frames.back());
   const std::string title = escaped(text.title);
@@ -119,8 +119,8 @@ std::string plotSvg(const PlotText& text, const std::vector<std::uint64_t>& fram
       R"(<svg viewBox="0 0 {:g} {:g}" role="img" aria-label="{}"><text class="title" x="{:g}" y="14">{}</text>)",
       kWidth, kHeight, title, kLeft, title);
   svg += axisLabels(text.unit);
-  svg += gridLine(axes, axes.least) + gridLine(axes, (axes.least + axes.most) / 2) +
-         gridLine(axes, axes.most);
+  svg += gridLine(axes, axes.min) + gridLine(axes, (axes.min + axes.max) / 2) +
+         gridLine(axes, axes.max);
   for (const std::uint64_t frame : {frames.front(), frames.back()}) {
     svg += fmt::format(R"(<text class="tick" x="{:.1f}" y="{:.1f}" text-anchor="middle">{}</text>)",
                        axes.x(static_cast<double>(frame)), kHeight - kBottom + 14, frame);

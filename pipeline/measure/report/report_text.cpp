@@ -59,7 +59,7 @@ std::string halfLifeText(const AnchorSummary& anchors) {
 
 std::string driftText(const Drift& drift) {
   return fmt::format("median {:.3f} px, 95 % below {:.3f} px, rms {:.3f} px", drift.median,
-                     drift.most, drift.rms);
+                     drift.percentile95, drift.rms);
 }
 
 std::string listLines(const std::string& title, const std::vector<std::string>& lines) {
@@ -71,7 +71,7 @@ std::string listLines(const std::string& title, const std::vector<std::string>& 
 
 }  // namespace
 
-bool Report::areControlsSound() const {
+bool Report::areControlsValid() const {
   return std::ranges::none_of(
       controls, [](const Verdict& each) { return each.state == Verdict::State::kFailed; });
 }
@@ -152,8 +152,8 @@ std::string reportText(const Report& report) {
   for (const Subject subject : kAllSubjects) {
     text += row(nameOf(subject, report), report.measures[subject]);
   }
-  text += "\nControls\n" + verdictLines(report.controls, "sound", "WRONG");
-  if (!report.areControlsSound()) {
+  text += "\nControls\n" + verdictLines(report.controls, "valid", "WRONG");
+  if (!report.areControlsValid()) {
     text += "  THE CONTROLS DO NOT READ AS THEY MUST: nothing in this report can be relied on.\n";
   }
   if (!report.gates.empty()) {

@@ -1,4 +1,4 @@
-// Purpose: what a picture's pixels are in a memory layout's terms, shared by the packing passes.
+// Purpose: converts an image's pixels to the values of a memory layout; shared by the packing passes.
 // Inputs:  picture (LINEAR, of the output's size), ycbcrFromRgb and ycbcrOffset
 //          (gpu::YcbcrConversion), chromaLeftSited.
 // Outputs: none. Precision: highp: colours keep 8 bits through the matrix.

@@ -19,7 +19,7 @@ using Side = SolidBuilder::Side;
 constexpr int kDefaultHoles = 5;
 constexpr std::size_t kHoleSegments = 36;
 constexpr int kWebRows = 4;
-constexpr std::size_t kLeastCircleSegments = 72;
+constexpr std::size_t kMinCircleSegments = 72;
 constexpr double kSmoothCosine = 0.9;  // edges of the outline that turn less are smoothed
 const glm::dvec2 kAxis(0.0);
 
@@ -73,7 +73,7 @@ GearPlan planOf(const GearParameters& gear) {
   plan.hole = 0.32 * (plan.webOuter - plan.webInner);
   plan.holes = gear.holes.value_or(holesFit(plan, kDefaultHoles) ? kDefaultHoles : 0);
   const auto unit = static_cast<std::size_t>(std::max(1, plan.holes));
-  plan.segments = unit * ((kLeastCircleSegments + unit - 1) / unit);
+  plan.segments = unit * ((kMinCircleSegments + unit - 1) / unit);
   return plan;
 }
 
@@ -280,10 +280,10 @@ std::optional<GearFault> faultOf(const GearParameters& gear) {
                      fmt::format("at least {:.4g} here", thinnestHub)};
   }
   if (plan.holes != 0 && !holesFit(plan, plan.holes)) {
-    int most = 12;
-    while (most > 0 && !holesFit(plan, most)) --most;
+    int max = 12;
+    while (max > 0 && !holesFit(plan, max)) --max;
     return GearFault{"holes", fmt::format("found {}, which do not fit into the web", plan.holes),
-                     most == 0 ? "0 here" : fmt::format("0, or at most {} here", most)};
+                     max == 0 ? "0 here" : fmt::format("0, or at most {} here", max)};
   }
   return std::nullopt;
 }

@@ -21,10 +21,10 @@ struct GearboxParameters {
   friend bool operator==(const GearboxParameters&, const GearboxParameters&) = default;
 };
 
-inline constexpr int kLeastPinionTeeth = 16;
-inline constexpr int kMostPinionTeeth = 30;
-inline constexpr int kLeastWheelTeeth = 36;
-inline constexpr int kMostWheelTeeth = 60;
+inline constexpr int kMinPinionTeeth = 16;
+inline constexpr int kMaxPinionTeeth = 30;
+inline constexpr int kMinWheelTeeth = 36;
+inline constexpr int kMaxWheelTeeth = 60;
 
 /// A gear of the gearbox in the plane across the shafts: x along the gearbox, y up.
 struct GearboxGear {

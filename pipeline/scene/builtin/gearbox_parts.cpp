@@ -20,16 +20,16 @@ constexpr double kPi = std::numbers::pi;
 
 /// The parts of the flange along a long side, between the bearings' bosses.
 std::vector<std::array<double, 2>> flangeStretches(const GearboxPlan& plan) {
-  constexpr double kShortest = 0.006;
+  constexpr double kMinLength = 0.006;
   std::vector<std::array<double, 2>> stretches;
   double from = plan.left - kWall - kFlangeDepth;
   for (const GearboxPlan::Shaft& shaft : plan.shafts) {
     const double to = shaft.x - shaft.bossRadius();
-    if (to - from > kShortest) stretches.push_back({from, to});
+    if (to - from > kMinLength) stretches.push_back({from, to});
     from = shaft.x + shaft.bossRadius();
   }
   const double end = plan.right + kWall + kFlangeDepth;
-  if (end - from > kShortest) stretches.push_back({from, end});
+  if (end - from > kMinLength) stretches.push_back({from, end});
   return stretches;
 }
 

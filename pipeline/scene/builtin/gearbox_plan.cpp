@@ -38,7 +38,7 @@ double moduleOf(const std::array<int, 2>& stage, double distance) {
 }
 
 /// The gears at rest, before the whole is centred.
-std::array<GearboxGear, 4> gearsFromTheInput(const GearboxParameters& parameters) {
+std::array<GearboxGear, 4> gearsFromInput(const GearboxParameters& parameters) {
   std::array<GearboxGear, 4> gears;
   gears[0].form = {.teeth = parameters.stage1[0],
                    .moduleMetres = moduleOf(parameters.stage1, kCentreDistances[0])};
@@ -65,7 +65,7 @@ double seatOf(const GearboxGear& gear, double wanted) {
 
 GearboxPlan gearboxPlan(const GearboxParameters& parameters) {
   GearboxPlan plan;
-  plan.gears = gearsFromTheInput(parameters);
+  plan.gears = gearsFromInput(parameters);
   plan.faceWidths = {0.014, 0.012, 0.020, 0.018};
   plan.faceMiddles = {-0.013, -0.013, 0.009, 0.009};
   plan.seats = {seatOf(plan.gears[0], 0.007), 0.010, seatOf(plan.gears[2], 0.010), 0.014};

@@ -199,8 +199,8 @@ JointWeights midpoint(const JointWeights& a, const JointWeights& b) {
 /// A mesh that grows while its edges are halved.
 class EdgeCutter {
  public:
-  EdgeCutter(const Mesh& mesh, float maxEdgeMetres, std::size_t mostTriangles)
-      : result_(mesh), mostSquared_(maxEdgeMetres * maxEdgeMetres), mostTriangles_(mostTriangles) {
+  EdgeCutter(const Mesh& mesh, float maxEdgeMetres, std::size_t maxTriangles)
+      : result_(mesh), maxSquared_(maxEdgeMetres * maxEdgeMetres), maxTriangles_(maxTriangles) {
     result_.triangles.clear();
   }
 
@@ -224,8 +224,8 @@ class EdgeCutter {
           longestSquared = squared;
         }
       }
-      if (longestSquared <= mostSquared_ ||
-          result_.triangles.size() + pending_.size() >= mostTriangles_) {
+      if (longestSquared <= maxSquared_ ||
+          result_.triangles.size() + pending_.size() >= maxTriangles_) {
         result_.triangles.push_back(corners);
         continue;
       }
@@ -263,17 +263,17 @@ class EdgeCutter {
   }
 
   Mesh result_;
-  float mostSquared_;
-  std::size_t mostTriangles_;
+  float maxSquared_;
+  std::size_t maxTriangles_;
   std::vector<Triangle> pending_;
   std::unordered_map<std::uint64_t, std::uint32_t> middles_;  ///< per edge, lower end first
 };
 
 }  // namespace
 
-Mesh withShortEdges(const Mesh& mesh, float maxEdgeMetres, std::size_t mostTriangles) {
+Mesh withShortEdges(const Mesh& mesh, float maxEdgeMetres, std::size_t maxTriangles) {
   assert(maxEdgeMetres > 0.0F);
-  return EdgeCutter(mesh, maxEdgeMetres, mostTriangles).cut(mesh.triangles);
+  return EdgeCutter(mesh, maxEdgeMetres, maxTriangles).cut(mesh.triangles);
 }
 
 }  // namespace pleinair::scene

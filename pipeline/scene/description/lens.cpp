@@ -12,18 +12,18 @@ bool bendsLines(const tracking::Distortion& d) {
 
 double trustedLensRadius(const tracking::Distortion& d) {
   constexpr int kSteps = 1024;
-  constexpr double kStep = kWidestLens / kSteps;
-  constexpr double kLeastGrowth = 0.05;  // growth of the distorted radius relative to the true one
+  constexpr double kStep = kMaxTrustedRadius / kSteps;
+  constexpr double kMinGrowth = 0.05;  // growth of the distorted radius relative to the true one
   double before = 0.0;
   for (int step = 1; step <= kSteps; ++step) {
     const double radius = step * kStep;
     const double r2 = radius * radius;
     const double below = 1.0 + r2 * (d.k4 + r2 * (d.k5 + r2 * d.k6));
     const double distorted = radius * (1.0 + r2 * (d.k1 + r2 * (d.k2 + r2 * d.k3))) / below;
-    if (!(below > 0.0) || !(distorted - before > kLeastGrowth * kStep)) return radius - kStep;
+    if (!(below > 0.0) || !(distorted - before > kMinGrowth * kStep)) return radius - kStep;
     before = distorted;
   }
-  return kWidestLens;
+  return kMaxTrustedRadius;
 }
 
 }  // namespace pleinair::scene

@@ -72,7 +72,7 @@ void readTags(const TomlTable& root, Scene& scene) {
     }
     const tracking::TagMarker tag = readTag(table, family);
     if (scene.findTag(tag.id) != nullptr) {
-      throw table.error("id", fmt::format("{} is taken by a tag above", tag.id), "each id once");
+      throw table.error("id", fmt::format("{} is used by an earlier tag", tag.id), "unique ids");
     }
     scene.tags.push_back(tag);
   }
@@ -107,8 +107,8 @@ SceneModel readModel(const TomlTable& table, const std::filesystem::path& direct
   model.name =
       table.optionalString("name").value_or(fmt::format("model {}", scene.models.size() + 1));
   if (std::ranges::find(scene.models, model.name, &SceneModel::name) != scene.models.end()) {
-    throw table.error("name", config::quoted(model.name) + " is taken by a model above",
-                      "each name once");
+    throw table.error("name", config::quoted(model.name) + " is used by an earlier model",
+                      "unique names");
   }
   model.source = readSource(table, directory);
   model.tagId = readAttachment(table, scene);
@@ -152,7 +152,7 @@ void readModels(const TomlTable& root, const std::filesystem::path& directory, S
   for (const TomlTable& table : tables) {
     scene.models.push_back(readModel(table, directory, scene));
     const SceneModel& added = scene.models.back();
-    if (auto notice = standingStillNotice(added.model->rig, added.playback)) {
+    if (auto notice = unplayedClipsNotice(added.model->rig, added.playback)) {
       scene.notices.push_back(fmt::format("{}: {}", added.name, *notice));
     }
     if (added.model.use_count() > 1) continue;

@@ -23,7 +23,7 @@ std::optional<int> readAttachment(const config::TomlTable& table, const Scene& s
       scene.tags, [](const tracking::TagMarker& tag) { return tag.worldFromTag.has_value(); });
   if (text == "world") {
     if (hasWorld) return std::nullopt;
-    throw table.error("attach", "no tag says where the world is",
+    throw table.error("attach", "no tag locates the world",
                       "\"world\" once a [[tag]] has a position_m");
   }
   for (const tracking::TagMarker& tag : scene.tags) {
@@ -47,8 +47,8 @@ ScenePlane readPlane(const TomlTable& table, const Scene& scene) {
   plane.name =
       table.optionalString("name").value_or(fmt::format("plane {}", scene.planes.size() + 1));
   if (std::ranges::find(scene.planes, plane.name, &ScenePlane::name) != scene.planes.end()) {
-    throw table.error("name", config::quoted(plane.name) + " is taken by a plane above",
-                      "each name once");
+    throw table.error("name", config::quoted(plane.name) + " is used by an earlier plane",
+                      "unique names");
   }
   plane.tagId = readAttachment(table, scene);
   plane.attachFromPlane = readPose(table).value_or(glm::dmat4(1.0));
@@ -101,14 +101,14 @@ Playback readPlayback(const config::TomlTable& table, const Rig& rig) {
   if (playback.clip) return playback;
   for (const char* key : {"speed", "loop", "start"}) {
     if (!table.has(key)) continue;
-    throw table.error(key, "is for a clip, and none is played",
+    throw table.error(key, "applies to a clip, but none is played",
                       rig.clips.empty() ? "a model with animations; this one has none"
                                         : "clip as one of " + config::listText(namesOf(rig)));
   }
   return playback;
 }
 
-std::optional<std::string> standingStillNotice(const Rig& rig, const Playback& playback) {
+std::optional<std::string> unplayedClipsNotice(const Rig& rig, const Playback& playback) {
   if (playback.clip || rig.clips.empty()) return std::nullopt;
   return fmt::format("stands at rest; clip = \"NAME\" plays one of its animations: {}",
                      config::listText(namesOf(rig)));

@@ -22,7 +22,7 @@ void readPlanes(const config::TomlTable& root, Scene& scene);
 Playback readPlayback(const config::TomlTable& table, const Rig& rig);
 
 /// A notice for a model that has clips, none of which is played; it names the key to set.
-std::optional<std::string> standingStillNotice(const Rig& rig, const Playback& playback);
+std::optional<std::string> unplayedClipsNotice(const Rig& rig, const Playback& playback);
 
 /// A scene file's [light]:
 ///

@@ -49,12 +49,12 @@ std::array<int, 2> readStage(const config::TomlTable& table, std::string_view ke
   if (!teeth) return otherwise;
   const std::array<int, 2> stage{static_cast<int>((*teeth)[0]), static_cast<int>((*teeth)[1])};
   const bool areWhole = stage[0] == (*teeth)[0] && stage[1] == (*teeth)[1];
-  if (!areWhole || stage[0] < kLeastPinionTeeth || stage[0] > kMostPinionTeeth ||
-      stage[1] < kLeastWheelTeeth || stage[1] > kMostWheelTeeth) {
+  if (!areWhole || stage[0] < kMinPinionTeeth || stage[0] > kMaxPinionTeeth ||
+      stage[1] < kMinWheelTeeth || stage[1] > kMaxWheelTeeth) {
     throw table.error(
         key, fmt::format("found [{}, {}]", (*teeth)[0], (*teeth)[1]),
-        fmt::format("teeth of a pinion, {} to {}, and of a wheel, {} to {}", kLeastPinionTeeth,
-                    kMostPinionTeeth, kLeastWheelTeeth, kMostWheelTeeth));
+        fmt::format("teeth of a pinion, {} to {}, and of a wheel, {} to {}", kMinPinionTeeth,
+                    kMaxPinionTeeth, kMinWheelTeeth, kMaxWheelTeeth));
   }
   return stage;
 }

@@ -59,8 +59,8 @@ T valueOf(std::span<const std::uint8_t> bytes) {
 
 /// A number of glTF; normalised integers become fractions (section 3.11).
 double numberOf(std::span<const std::uint8_t> bytes, int componentType, bool isNormalized) {
-  const auto scaled = [&](double value, double most) {
-    return isNormalized ? std::max(value / most, -1.0) : value;
+  const auto scaled = [&](double value, double max) {
+    return isNormalized ? std::max(value / max, -1.0) : value;
   };
   switch (componentType) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
@@ -126,14 +126,15 @@ Accessors::Elements Accessors::read(int index, const std::string& where) {
                     .isNormalized = accessor.normalized};
   if (elements.componentBytes == 0) refuse(name + ".componentType", "is none of glTF's");
   if (elements.components == 0) refuse(name + ".type", "is not one that is used here");
-  const std::size_t most = elements.components == 16 ? kMaxNodes : kMaxVertices;
-  if (accessor.count < 1 || accessor.count > most) {
+  const std::size_t max = elements.components == 16 ? kMaxNodes : kMaxVertices;
+  if (accessor.count < 1 || accessor.count > max) {
     refuse(name + ".count", fmt::format("found {}", accessor.count),
-           fmt::format("from 1 to {}", most));
+           fmt::format("from 1 to {}", max));
   }
   numbers_ += elements.count * elements.components;
-  if (numbers_ > mostNumbers_) {
-    refuse(where, "makes too many numbers to read", fmt::format("at most {} in all", mostNumbers_));
+  if (numbers_ > maxNumbers_) {
+    refuse(where, "exceeds the total number of values",
+           fmt::format("at most {} in all", maxNumbers_));
   }
   const std::size_t elementBytes = elements.components * elements.componentBytes;
   elements.bytes.resize(elements.count * elementBytes);
@@ -168,7 +169,7 @@ void Accessors::applySparse(const tinygltf::Accessor& accessor, Elements& elemen
   }
   if (sparse.indices.bufferView < 0 || sparse.values.bufferView < 0 ||
       sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0) {
-    refuse(name + ".sparse", "has no sound bufferViews");
+    refuse(name + ".sparse", "has no valid bufferViews");
   }
   const auto count = static_cast<std::size_t>(sparse.count);
   const std::size_t elementBytes = elements.components * elements.componentBytes;

@@ -20,9 +20,9 @@ namespace pleinair::scene::gltf {
 /// finite.
 class Accessors {
  public:
-  /// Reads at most `mostNumbers` numbers in total, repeated reads included.
-  Accessors(const Structure& structure, Resources& resources, std::size_t mostNumbers = kMaxNumbers)
-      : structure_(structure), resources_(resources), mostNumbers_(mostNumbers) {}
+  /// Reads at most `maxNumbers` numbers in total, repeated reads included.
+  Accessors(const Structure& structure, Resources& resources, std::size_t maxNumbers = kMaxNumbers)
+      : structure_(structure), resources_(resources), maxNumbers_(maxNumbers) {}
 
   /// Vectors of 1 to 4 numbers. A missing component is 0, or 1 if it is the fourth. Normalised
   /// integers become fractions.
@@ -56,7 +56,7 @@ class Accessors {
 
   const Structure& structure_;
   Resources& resources_;
-  std::size_t mostNumbers_;
+  std::size_t maxNumbers_;
   std::size_t numbers_ = 0;  ///< number of numbers read so far
 };
 

@@ -63,7 +63,7 @@ void checkRotations(const Channel& channel, const std::string& where) {
 }
 
 /// Gives unnamed clips a name, and makes all names unique.
-void nameApart(std::vector<std::pair<std::size_t, Clip>>& clips) {
+void makeNamesUnique(std::vector<std::pair<std::size_t, Clip>>& clips) {
   std::set<std::string> taken;
   std::map<std::string, std::size_t> copies;  // number of clips so far with a name from the file
   for (auto& [index, clip] : clips) {
@@ -79,11 +79,11 @@ void nameApart(std::vector<std::pair<std::size_t, Clip>>& clips) {
 std::vector<Clip> ClipReader::read() {
   std::vector<std::pair<std::size_t, Clip>> clips;
   for (std::size_t i = 0; i < structure_.animations.size(); ++i) clips.emplace_back(i, readClip(i));
-  nameApart(clips);
+  makeNamesUnique(clips);
   std::vector<Clip> moving;
   for (auto& [index, clip] : clips) {
     if (clip.channels.empty()) {
-      still_.push_back(clip.name);
+      emptyClips_.push_back(clip.name);
     } else {
       moving.push_back(std::move(clip));
     }
@@ -177,15 +177,15 @@ void ClipReader::readKeys(const AnimationSamplerEntry& sampler, const std::strin
 std::vector<std::string> ClipReader::notices() const {
   std::vector<std::string> notices;
   if (!unknownPaths_.empty()) {
-    notices.push_back("its animations move what is not known here: " +
+    notices.push_back("its animations have unsupported targets: " +
                       shortList({unknownPaths_.begin(), unknownPaths_.end()}));
   }
   if (channelsWithoutNode_ > 0) {
     notices.push_back(fmt::format("{} of its animations' channels name no node and are not played",
                                   channelsWithoutNode_));
   }
-  if (!still_.empty()) {
-    notices.push_back("its animations that move nothing are left out: " + shortList(still_));
+  if (!emptyClips_.empty()) {
+    notices.push_back("its animations without effect are left out: " + shortList(emptyClips_));
   }
   return notices;
 }

@@ -40,7 +40,7 @@ class ClipReader {
   Accessors accessors_;
   std::set<std::string> unknownPaths_;
   std::size_t channelsWithoutNode_ = 0;
-  std::vector<std::string> still_;  ///< clips that move nothing
+  std::vector<std::string> emptyClips_;  ///< clips that move nothing
 };
 
 }  // namespace pleinair::scene::gltf

@@ -16,7 +16,7 @@ constexpr std::size_t kChunkHeaderBytes = 8;
 constexpr std::uint32_t kMagic = 0x46546C67;        // "glTF"
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;    // "JSON"
 constexpr std::uint32_t kBinaryChunk = 0x004E4942;  // "BIN"
-constexpr const char* kWhole = "export or copy it again";
+constexpr const char* kExportAgain = "export or copy it again";
 
 std::uint32_t wordAt(std::span<const std::uint8_t> bytes, std::size_t offset) {
   std::uint32_t word = 0;
@@ -31,13 +31,13 @@ struct Chunk {
 
 /// Removes the next chunk from the front of `rest`.
 Chunk takeChunk(std::span<const std::uint8_t>& rest) {
-  if (rest.size() < kChunkHeaderBytes) refuse("", "breaks off in a chunk's header", kWhole);
+  if (rest.size() < kChunkHeaderBytes) refuse("", "is truncated in a chunk's header", kExportAgain);
   const std::size_t length = wordAt(rest, 0);
   if (length > rest.size() - kChunkHeaderBytes) {
     refuse("",
-           fmt::format("a chunk says {} bytes, and {} are there", length,
+           fmt::format("a chunk declares {} bytes but has {}", length,
                        rest.size() - kChunkHeaderBytes),
-           kWhole);
+           kExportAgain);
   }
   if (length % 4 != 0) refuse("", fmt::format("a chunk of {} bytes is no multiple of 4", length));
   const Chunk chunk{wordAt(rest, 4), rest.subspan(kChunkHeaderBytes, length)};
@@ -46,16 +46,16 @@ Chunk takeChunk(std::span<const std::uint8_t>& rest) {
 }
 
 Container openBinary(std::span<const std::uint8_t> file) {
-  if (file.size() < kHeaderBytes) refuse("", "breaks off in its header", kWhole);
+  if (file.size() < kHeaderBytes) refuse("", "is truncated in its header", kExportAgain);
   if (const std::uint32_t version = wordAt(file, 4); version != 2) {
     refuseUnsupported("", fmt::format("is binary glTF of version {}", version), "give version 2");
   }
   const std::size_t length = wordAt(file, 8);
   if (length > file.size()) {
-    refuse("", fmt::format("says {} bytes, and {} are there", length, file.size()), kWhole);
+    refuse("", fmt::format("declares {} bytes but has {}", length, file.size()), kExportAgain);
   }
   if (length < kHeaderBytes + kChunkHeaderBytes) {
-    refuse("", fmt::format("says {} bytes, which hold no chunk", length), kWhole);
+    refuse("", fmt::format("declares {} bytes, too few for a chunk", length), kExportAgain);
   }
   std::span<const std::uint8_t> rest = file.subspan(kHeaderBytes, length - kHeaderBytes);
   const Chunk first = takeChunk(rest);
@@ -75,7 +75,7 @@ Container openBinary(std::span<const std::uint8_t> file) {
 }  // namespace
 
 Container openContainer(std::span<const std::uint8_t> file) {
-  if (file.empty()) refuse("", "is empty", kWhole);
+  if (file.empty()) refuse("", "is empty", kExportAgain);
   Container container;
   if (file.size() >= 4 && wordAt(file, 0) == kMagic) {
     container = openBinary(file);

@@ -54,9 +54,10 @@ inline std::string oneLine(std::string text) {
 
 /// A comma-separated list, shortened to stay readable.
 inline std::string shortList(const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 8;
-  const std::span<const std::string> first = std::span(names).first(std::min(kMost, names.size()));
-  return fmt::format("{}{}", fmt::join(first, ", "), names.size() > kMost ? ", ..." : "");
+  constexpr std::size_t kMaxNames = 8;
+  const std::span<const std::string> first =
+      std::span(names).first(std::min(kMaxNames, names.size()));
+  return fmt::format("{}{}", fmt::join(first, ", "), names.size() > kMaxNames ? ", ..." : "");
 }
 
 }  // namespace pleinair::scene::gltf

@@ -33,7 +33,7 @@ using gltf::refuse;
 /// glTF: y up, z to the front. Ours: z up, −y towards the reader of the tag.
 constexpr glm::dmat4 kModelFromGltf{1.0, 0.0,  0.0, 0.0, 0.0, 0.0, 1.0, 0.0,
                                     0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0};
-constexpr double kWidestMetres = 1e6;
+constexpr double kMaxModelMetres = 1e6;
 
 class ModelBuilder {
  public:
@@ -53,9 +53,9 @@ class ModelBuilder {
     addRig();
     numberParts(model_);
     const BoundingSphere sphere = boundingSphere(model_);
-    if (!(sphere.radiusMetres + glm::length(sphere.centre) <= kWidestMetres)) {
+    if (!(sphere.radiusMetres + glm::length(sphere.centre) <= kMaxModelMetres)) {
       refuse("", fmt::format("is {:.3g} m wide or away", sphere.radiusMetres),
-             fmt::format("at most {} m", kWidestMetres));
+             fmt::format("at most {} m", kMaxModelMetres));
     }
     addNotices();
     return std::move(model_);
@@ -87,17 +87,17 @@ class ModelBuilder {
     if (range.triangles == 0) return;
     drawnTriangles_ += range.triangles;
     if (drawnTriangles_ > kMaxTriangles) {
-      refuse(where, "makes too many triangles with its like",
+      refuse(where, "exceeds the total number of triangles",
              fmt::format("at most {} drawn", kMaxTriangles));
     }
     drawnVertices_ += range.vertices;
     if (drawnVertices_ > gltf::kMaxDrawnVertices) {
-      refuse(where, "shows too many vertices with its like",
+      refuse(where, "exceeds the total number of shown vertices",
              fmt::format("at most {} in all", gltf::kMaxDrawnVertices));
     }
     drawnMorphs_ += range.morphs;
     if (drawnMorphs_ > gltf::kMaxDrawnMorphs) {
-      refuse(where, "makes too many vertices to morph with its like",
+      refuse(where, "exceeds the total number of morphed vertices",
              fmt::format("at most {} in all, counted for each target", gltf::kMaxDrawnMorphs));
     }
     const std::string& meshName = meshes[static_cast<std::size_t>(node.mesh)].name;
@@ -124,7 +124,7 @@ class ModelBuilder {
     }
     posedJoints_ += joints;
     if (posedJoints_ > gltf::kMaxPosedJoints) {
-      refuse(where + ".skin", "makes too many joints to pose with its like",
+      refuse(where + ".skin", "exceeds the total number of posed joints",
              fmt::format("at most {}", gltf::kMaxPosedJoints));
     }
     return place;
@@ -142,7 +142,7 @@ class ModelBuilder {
     const auto& mesh = structure_.gltf.meshes[static_cast<std::size_t>(meshIndex)];
     primitives_ += mesh.primitives.size();
     if (primitives_ > gltf::kMaxPrimitives) {
-      refuse(fmt::format("meshes[{}]", meshIndex), "makes too many primitives with its like",
+      refuse(fmt::format("meshes[{}]", meshIndex), "exceeds the total number of primitives",
              fmt::format("at most {} in all", gltf::kMaxPrimitives));
     }
     gltf::checkMorphTargets(mesh, fmt::format("meshes[{}]", meshIndex));
@@ -179,20 +179,20 @@ class ModelBuilder {
   void addNotices() {
     auto& notices = model_.notices;
     notices = clips_.notices();
-    if (surfaces_.heldByMore() > 0) {
+    if (surfaces_.reducedVertices() > 0) {
       notices.push_back(
           fmt::format("{} of its vertices are held by more than 4 joints; the strongest 4 do",
-                      surfaces_.heldByMore()));
+                      surfaces_.reducedVertices()));
     }
     if (surfaces_.hasOtherMorphs()) {
       notices.emplace_back("its morph targets move vertices, but no colours and no textures");
     }
     if (hasLines_) notices.emplace_back("its points and lines are not shown");
     if (!materials_.blended().empty()) {
-      notices.push_back("drawn solid or not at all instead of see-through: " +
+      notices.push_back("drawn opaque or alpha-masked instead of blended: " +
                         gltf::shortList(materials_.blended()));
     }
-    if (model_.parts.empty()) notices.emplace_back("there is nothing in it to be seen");
+    if (model_.parts.empty()) notices.emplace_back("it contains nothing visible");
     for (std::string& notice : notices) notice = gltf::oneLine(std::move(notice));
   }
 

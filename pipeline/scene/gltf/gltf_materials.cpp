@@ -102,7 +102,7 @@ std::size_t MaterialReader::placeAmong(std::vector<ModelTexture>& textures, Mode
   if (same != textures.end()) return static_cast<std::size_t>(same - textures.begin());
   texturePixels_ += made.picture->size().pixels();
   if (texturePixels_ > kMaxTexturePixels) {
-    refuse(where, "makes too many pixels with the textures before it",
+    refuse(where, "exceeds the total number of texture pixels",
            fmt::format("at most {} Mpx in all", kMaxTexturePixels / 1'000'000));
   }
   textures.push_back(std::move(made));

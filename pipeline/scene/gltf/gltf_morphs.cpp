@@ -78,7 +78,7 @@ std::vector<MorphTarget> MorphReader::read(const tinygltf::Primitive& primitive,
                                            const std::string& where) {
   moves_ += 2 * primitive.targets.size() * std::max(vertices, kept);
   if (moves_ > kMaxMorphMoves) {
-    refuse(where + ".targets", "make too many moves of vertices",
+    refuse(where + ".targets", "exceed the total number of vertex offsets",
            fmt::format("at most {} in all", kMaxMorphMoves));
   }
   std::vector<MorphTarget> targets;

@@ -144,8 +144,7 @@ NodeTree nodeTreeOf(const tinygltf::Model& gltf) {
       rootFromNode = tree.rootFromNode[parent] * rootFromNode;
     }
     if (!isBounded(rootFromNode)) {
-      refuse(fmt::format("nodes[{}]", node),
-             "is moved or scaled beyond all measure by its parents");
+      refuse(fmt::format("nodes[{}]", node), "is out of range after its parents' transforms");
     }
     tree.rootFromNode[node] = rootFromNode;
     tree.rigIndex[node] = tree.rig.size();

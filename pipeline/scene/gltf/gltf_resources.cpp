@@ -77,7 +77,7 @@ bool hasScheme(std::string_view uri) {
 
 }  // namespace
 
-std::vector<std::uint8_t> readWholeFile(const std::filesystem::path& path, std::int64_t mostBytes,
+std::vector<std::uint8_t> readWholeFile(const std::filesystem::path& path, std::int64_t maxBytes,
                                         const std::string& where) {
   const hal::Result<hal::libav::FileInput> file = hal::libav::FileInput::open(path);
   if (!file) {
@@ -87,7 +87,7 @@ std::vector<std::uint8_t> readWholeFile(const std::filesystem::path& path, std::
     throw Fault(error.kind, where, error.problem,
                 isNone ? "export or copy it again" : error.remedy);
   }
-  if (file->sizeBytes() > mostBytes) {
+  if (file->sizeBytes() > maxBytes) {
     refuse(where, fmt::format("takes {} MiB", file->sizeBytes() >> 20),
            fmt::format("at most {} MiB for a model and all its files", kMaxResourceBytes >> 20));
   }
@@ -153,7 +153,7 @@ std::vector<std::uint8_t> Resources::load(std::string_view uri, const std::strin
   }
   bytesLeft_ -= static_cast<std::int64_t>(bytes.size());
   if (bytesLeft_ < 0) {
-    refuse(where, "is too much",
+    refuse(where, "exceeds the size limit",
            fmt::format("at most {} MiB for a model and all its files", kMaxResourceBytes >> 20));
   }
   return bytes;

@@ -15,8 +15,8 @@
 
 namespace pleinair::scene::gltf {
 
-/// Reads a whole file of at most `mostBytes`. Throws Fault with `where`.
-std::vector<std::uint8_t> readWholeFile(const std::filesystem::path& path, std::int64_t mostBytes,
+/// Reads a whole file of at most `maxBytes`. Throws Fault with `where`.
+std::vector<std::uint8_t> readWholeFile(const std::filesystem::path& path, std::int64_t maxBytes,
                                         const std::string& where);
 
 /// Resolves a relative URI to a file, which must be within `folder` after links are followed.

@@ -121,25 +121,25 @@ Skin SkinReader::read(const tinygltf::Skin& skin, const std::string& name) {
       jointFromMesh[column][3] = column == 3 ? 1.0 : 0.0;
     }
     if (!isBounded(tree_.rootFromNode[static_cast<std::size_t>(node)] * jointFromMesh)) {
-      refuse(where, "takes the mesh beyond all measure");
+      refuse(where, "has values out of range");
     }
     result.joints.push_back(tree_.rigIndex[static_cast<std::size_t>(node)]);
   }
   return result;
 }
 
-HeldVertices readJointWeights(Accessors& accessors, const tinygltf::Primitive& primitive,
+VertexJoints readJointWeights(Accessors& accessors, const tinygltf::Primitive& primitive,
                               std::size_t vertices, const std::string& where) {
   std::vector<Strongest> holds(vertices);
   int set = 0;
   while (readSet(accessors, primitive, set, where, holds)) ++set;
-  HeldVertices result;
+  VertexJoints result;
   result.joints.reserve(vertices);
   for (const Strongest& each : holds) {
     result.joints.push_back(normalised(each, where));
     float kept = 0.0F;
     for (const float weight : each.weights) kept += weight;
-    if (each.others > 0.01F * (kept + each.others)) ++result.heldByMore;
+    if (each.others > 0.01F * (kept + each.others)) ++result.reducedVertices;
   }
   return result;
 }

@@ -32,14 +32,14 @@ class SkinReader {
 };
 
 /// Joint weights of a primitive's vertices: the four strongest joints of each.
-struct HeldVertices {
+struct VertexJoints {
   std::vector<JointWeights> joints;
   /// Vertices for which the dropped joints weigh more than a hundredth.
-  std::size_t heldByMore = 0;
+  std::size_t reducedVertices = 0;
 };
 
 /// Reads them. Without JOINTS_0, the first joint holds all vertices. Throws Fault.
-HeldVertices readJointWeights(Accessors& accessors, const tinygltf::Primitive& primitive,
+VertexJoints readJointWeights(Accessors& accessors, const tinygltf::Primitive& primitive,
                               std::size_t vertices, const std::string& where);
 
 /// The highest joint that holds any vertex; 0 if there is none.

@@ -127,9 +127,9 @@ std::optional<Mesh> SurfaceReader::read(const tinygltf::Primitive& primitive,
   readVertices(primitive, mapping, where, mesh);
   readTriangles(primitive, where, mesh);
   if (isSkinned) {
-    HeldVertices held = readJointWeights(accessors_, primitive, mesh.vertices.size(), where);
+    VertexJoints held = readJointWeights(accessors_, primitive, mesh.vertices.size(), where);
     mesh.joints = std::move(held.joints);
-    heldByMore_ += held.heldByMore;
+    reducedVertices_ += held.reducedVertices;
   }
   mesh.morphTargets =
       morphs_.read(primitive, mesh.vertices.size(), isFlat ? 3 * mesh.triangles.size() : 0, where);

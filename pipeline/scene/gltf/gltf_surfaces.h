@@ -31,7 +31,7 @@ class SurfaceReader {
 
   /// Notices about everything read so far: the number of vertices with more joints than are kept,
   /// and whether morph targets move more than is supported.
-  std::size_t heldByMore() const { return heldByMore_; }
+  std::size_t reducedVertices() const { return reducedVertices_; }
   bool hasOtherMorphs() const { return morphs_.hasOthers(); }
 
  private:
@@ -41,7 +41,7 @@ class SurfaceReader {
 
   Accessors& accessors_;
   MorphReader morphs_;
-  std::size_t heldByMore_ = 0;
+  std::size_t reducedVertices_ = 0;
   std::size_t vertices_ = 0;
   std::size_t triangles_ = 0;
 };

@@ -22,11 +22,11 @@ constexpr double kKeyBand = 0.04;     // relative to the light on the plane; 2 t
 constexpr double kKeyShare = 0.68;    // of the light on the plane, where nothing is known
 constexpr double kGreyWorld = 0.25;   // assumed mean reflectance of the scene
 // Part of the light reflected by the plane that reaches models from below.
-constexpr double kThrownBack = 0.7;
+constexpr double kReflected = 0.7;
 /// In the camera's frame.
-constexpr glm::dvec3 kLeftAboveBehindViewer{-0.45, -0.45, -0.77};
+constexpr glm::dvec3 kDefaultTowardKey{-0.45, -0.45, -0.77};
 constexpr double kPriorSeconds = 1.0;
-constexpr double kLowestKey = 0.25;  // sine of its height over the plane
+constexpr double kMinKeyHeight = 0.25;  // sine of its height over the plane
 
 double luminance(const glm::dvec3& linearRgb) {
   return luminanceOf(glm::vec3(linearRgb));
@@ -46,11 +46,11 @@ glm::dvec3 raised(const glm::dvec3& toward) {
   const double length = glm::length(toward);
   if (!(length > 1e-9)) return {0.0, 0.0, 1.0};
   const glm::dvec3 unit = toward / length;
-  if (unit.z >= kLowestKey) return unit;
+  if (unit.z >= kMinKeyHeight) return unit;
   const double across = std::hypot(unit.x, unit.y);
   if (!(across > 1e-9)) return {0.0, 0.0, 1.0};
-  const double flat = std::sqrt(1.0 - kLowestKey * kLowestKey) / across;
-  return {flat * unit.x, flat * unit.y, kLowestKey};
+  const double flat = std::sqrt(1.0 - kMinKeyHeight * kMinKeyHeight) / across;
+  return {flat * unit.x, flat * unit.y, kMinKeyHeight};
 }
 
 /// Key and ambient light of one channel for a known direction: fitLight()'s equations with the
@@ -174,8 +174,8 @@ std::optional<glm::dvec3> LightEstimator::whiteFacing(const glm::dmat3& attachFr
     sum += weight * glm::dvec3(reading.paper.white);
     weights += weight;
   }
-  constexpr double kLeastWeight = 0.02;
-  if (weights < kLeastWeight) return std::nullopt;
+  constexpr double kMinWeight = 0.02;
+  if (weights < kMinWeight) return std::nullopt;
   return sum / weights;
 }
 
@@ -208,7 +208,7 @@ void LightEstimator::followPrior(Place& place, const glm::dmat3& attachFromCamer
     return;
   }
   if (place.seconds > kPriorSeconds) return;
-  glm::dvec3 toward = kLeftAboveBehindViewer;
+  glm::dvec3 toward = kDefaultTowardKey;
   constexpr double kConvincing = 0.25;  // part of the variance
   if (statistics_.explained > kConvincing) {
     toward +=
@@ -258,7 +258,7 @@ void LightEstimator::followKey(Place& place, const glm::dvec3& white,
   place.keyVector.follow(glm::length(fit.keyVector) * toward, share, kKeyBand);
   place.key.follow(key, share, kKeyBand);
   place.sky.follow(sky, share, kKeyBand);
-  place.ground.follow(kThrownBack * reflected, share, kKeyBand);
+  place.ground.follow(kReflected * reflected, share, kKeyBand);
 }
 
 Lighting LightEstimator::composed(const Place& place) const {
@@ -271,7 +271,7 @@ Lighting LightEstimator::composed(const Place& place) const {
     light.towardKey = glm::vec3(toward);
     light.key = glm::vec3(kKeyShare / toward.z * white);
     light.sky = glm::vec3((1.0 - kKeyShare) * white);
-    light.ground = glm::vec3(kThrownBack * kGreyWorld * white);
+    light.ground = glm::vec3(kReflected * kGreyWorld * white);
     return light;
   }
   const glm::dvec3 toward = raised(place.keyVector.value());

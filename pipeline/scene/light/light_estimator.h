@@ -127,7 +127,7 @@ class LightEstimator {
   std::vector<Place> places_;
   std::vector<PlaceLighting> lights_;
   std::optional<hal::TimePoint> lastTime_;
-  // Of the last frame.
+  // Readings of the last frame.
   std::vector<Reading> readings_;
   std::vector<LightSample> samples_;
   ImageStatistics statistics_;

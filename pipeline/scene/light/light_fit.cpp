@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kSampleSigma = 0.10;  // variation of a real room's light between places
 constexpr double kHuber = 2.5;         // sigmas
-constexpr double kLeastAmbient = 0.08;
+constexpr double kMinAmbient = 0.08;
 constexpr int kSteps = 8;
 
 double square(double value) {
@@ -53,7 +53,7 @@ struct Problem {
         right += weight * sample.irradiance * row;
       }
       const glm::dvec4 solved = glm::inverse(normalEquations) * right;
-      fit = {.ambient = std::max(solved.x, kLeastAmbient),
+      fit = {.ambient = std::max(solved.x, kMinAmbient),
              .keyVector = glm::dvec3(solved.y, solved.z, solved.w)};
     }
     return fit;
@@ -72,16 +72,16 @@ LightFit fitLight(std::span<const LightSample> samples, const LightFit& prior,
   // Planes that face away from the start's key light carry no information about it: try other
   // starts.
   LightFit best = problem.solvedFrom(prior);
-  double least = problem.cost(best);
+  double lowestCost = problem.cost(best);
   for (const LightSample& sample : samples) {
     const double strength = glm::length(prior.keyVector);
     const LightFit fit = problem.solvedFrom(
         {.ambient = prior.ambient,
          .keyVector = strength * glm::normalize(glm::normalize(prior.keyVector) + sample.normal)});
     const double cost = problem.cost(fit);
-    if (!(cost < least)) continue;
+    if (!(cost < lowestCost)) continue;
     best = fit;
-    least = cost;
+    lowestCost = cost;
   }
   return best;
 }

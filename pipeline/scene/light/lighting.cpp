@@ -11,9 +11,9 @@
 namespace pleinair::scene {
 namespace {
 
-constexpr float kKeyShare = 0.6F;  // of the light on the plane
-constexpr float kLowest = 0.4F;    // a lower key light is not strengthened further
-constexpr float kThrownBack = 0.2F;
+constexpr float kKeyShare = 0.6F;    // of the light on the plane
+constexpr float kMinKeySine = 0.4F;  // a lower key light is not strengthened further
+constexpr float kReflected = 0.2F;
 
 glm::vec3 towardLight(const Light& light, const glm::dmat3& cameraFromAttach) {
   if (light.frame == Light::Frame::kAttached) return light.towardLight;
@@ -26,11 +26,11 @@ Lighting fixedLighting(const Light& light, const glm::dmat3& cameraFromAttach) {
   Lighting fixed;
   fixed.towardKey = towardLight(light, cameraFromAttach);
   const float height = std::max(fixed.towardKey.z, 0.0F);
-  fixed.key = light.key.value_or(glm::vec3(kKeyShare / std::max(height, kLowest)));
+  fixed.key = light.key.value_or(glm::vec3(kKeyShare / std::max(height, kMinKeySine)));
   fixed.sky = light.ambient.value_or(glm::vec3(1.0F - kKeyShare));
   const bool isUsual = !light.key && !light.ambient;
   fixed.white = isUsual ? glm::vec3(1.0F) : glm::min(fixed.sky + height * fixed.key, 1.0F);
-  fixed.ground = kThrownBack * fixed.white;
+  fixed.ground = kReflected * fixed.white;
   fixed.bandsAllLight = light.ambient.has_value();
   return fixed;
 }

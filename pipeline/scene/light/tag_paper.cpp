@@ -13,11 +13,11 @@
 namespace pleinair::scene {
 namespace {
 
-constexpr double kLeastCellPx = 1.8;  // width of a border; narrower ones mix with their neighbours
+constexpr double kMinCellPx = 1.8;  // width of a border; narrower ones mix with their neighbours
 constexpr double kCleanCellPx = 4.0;
 constexpr int kAlongSide = 12;
 constexpr std::size_t kReadings = 4 * kAlongSide;
-constexpr double kLeastShare = 2.0 / 3.0;  // part of a ring's readings
+constexpr double kMinShare = 2.0 / 3.0;  // part of a ring's readings
 
 /// The homography of the square −1 … 1 (x right, y down) to the image: Heckbert, "Fundamentals of
 /// Texture Mapping and Image Warping" (1989), §2.2.3, for a square around the origin.
@@ -61,7 +61,7 @@ Borders widthOfBorders(const tracking::TagCornersPx& corners, int cells) {
                                      std::min(sidePx(0, 1), sidePx(2, 3)) / cells};
   Borders borders;
   for (std::size_t pair = 0; pair < 2; ++pair) {
-    if (!(cellPx[pair] >= kLeastCellPx)) continue;
+    if (!(cellPx[pair] >= kMinCellPx)) continue;
     borders.isRead[pair] = true;
     borders.cellPx = borders.cellPx > 0.0 ? std::min(borders.cellPx, cellPx[pair]) : cellPx[pair];
   }
@@ -121,28 +121,28 @@ std::optional<int> cellsAlongEdge(std::string_view family) {
 std::optional<TagPaper> readTagPaper(const LinearImage& picture,
                                      const tracking::TagCornersPx& corners, int cells) {
   const Borders borders = widthOfBorders(corners, cells);
-  const auto least =
-      static_cast<std::size_t>(kLeastShare * static_cast<double>(borders.readings()));
-  if (least == 0) return std::nullopt;
+  const auto minReadings =
+      static_cast<std::size_t>(kMinShare * static_cast<double>(borders.readings()));
+  if (minReadings == 0) return std::nullopt;
   const glm::dmat3 pictureFromTag = pictureFromSquare(corners);
   const double halfCell = 1.0 / cells;  // the square's half side is 1
   Readings onPaper = readRing(picture, pictureFromTag, 1.0 + halfCell, borders);
   Readings onInk = readRing(picture, pictureFromTag, 1.0 - halfCell, borders);
-  if (onPaper.count < least || onInk.count < least) return std::nullopt;
+  if (onPaper.count < minReadings || onInk.count < minReadings) return std::nullopt;
   const MiddleHalf paper = middleHalf(onPaper);
   const MiddleHalf ink = middleHalf(onInk);
   const float white = luminanceOf(paper.mean);
   const float black = luminanceOf(ink.mean);
-  constexpr float kLeastWhite = 0.01F;
-  constexpr float kMostBlack = 0.45F;  // relative to white; glossy ink and haze raise it
-  constexpr float kMostSpread = 0.8F;
-  if (white < kLeastWhite || black > kMostBlack * white || paper.spread > kMostSpread) {
+  constexpr float kMinWhite = 0.01F;
+  constexpr float kMaxBlack = 0.45F;  // relative to white; glossy ink and haze raise it
+  constexpr float kMaxSpread = 0.8F;
+  if (white < kMinWhite || black > kMaxBlack * white || paper.spread > kMaxSpread) {
     return std::nullopt;
   }
   const double clean = std::clamp(borders.cellPx / kCleanCellPx, 0.0, 1.0);
-  const float even = 1.0F - paper.spread / kMostSpread;
-  constexpr float kDarkest = 1e-3F;  // per channel: coloured light may lack one
-  return TagPaper{.white = glm::max(paper.mean, kDarkest),
+  const float even = 1.0F - paper.spread / kMaxSpread;
+  constexpr float kMinChannel = 1e-3F;  // per channel: coloured light may lack one
+  return TagPaper{.white = glm::max(paper.mean, kMinChannel),
                   .black = ink.mean,
                   .confidence = std::max(static_cast<float>(clean) * even, 0.05F)};
 }

@@ -52,9 +52,9 @@ BoundingSphere boundingSphere(const Mesh& mesh);
 /// The same surface with no edge longer than `maxEdgeMetres` (> 0). Triangles that shared an edge
 /// or a vertex still do: longest edges are halved, and an edge's length is the same from both
 /// sides. Existing vertices keep their positions; new ones interpolate joint weights and morph
-/// targets. Stops at about `mostTriangles` triangles.
+/// targets. Stops at about `maxTriangles` triangles.
 Mesh withShortEdges(const Mesh& mesh, float maxEdgeMetres,
-                    std::size_t mostTriangles = std::numeric_limits<std::size_t>::max());
+                    std::size_t maxTriangles = std::numeric_limits<std::size_t>::max());
 
 /// Upper bound of the factor by which an affine transform stretches lengths; exact where its axes
 /// stay perpendicular.

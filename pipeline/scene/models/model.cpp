@@ -30,7 +30,7 @@ std::span<const Surface> surfacesOf(const Model& model, const ModelPart& part) {
 }
 
 /// Limits the memory of morph targets of subdivided surfaces: triangles times targets times parts.
-constexpr std::size_t kMostCutMorphs = 4'000'000;
+constexpr std::size_t kMaxSubdividedMorphs = 4'000'000;
 
 /// The largest scale at which each surface is drawn.
 std::vector<double> scalesAtRest(const Model& model) {
@@ -126,24 +126,23 @@ const ModelPart* findPart(const Model& model, std::string_view name) {
   return found == model.parts.end() ? nullptr : &*found;
 }
 
-Model withShortEdges(const Model& model, double maxEdgeMetres, std::size_t mostTriangles) {
+Model withShortEdges(const Model& model, double maxEdgeMetres, std::size_t maxTriangles) {
   Model result = model;
   const std::vector<double> scales = scalesAtRest(model);
   std::vector<std::size_t> uses(model.surfaces.size(), 0);
   for (const ModelPart& part : model.parts) {
     for (std::size_t i = 0; i < part.surfaceCount; ++i) ++uses[part.firstSurface + i];
   }
-  std::size_t mostMorphs = kMostCutMorphs;
+  std::size_t maxMorphs = kMaxSubdividedMorphs;
   for (std::size_t i = 0; i < scales.size(); ++i) {
     const auto edge = static_cast<float>(maxEdgeMetres / scales[i]);
     if (!(scales[i] > 0.0) || !(edge > 0.0F)) continue;
     Mesh& mesh = result.surfaces[i].mesh;
     const std::size_t morphs = mesh.morphTargets.size() * uses[i];
-    const std::size_t most =
-        morphs > 0 ? std::min(mostTriangles, mostMorphs / morphs) : mostTriangles;
-    mesh = withShortEdges(mesh, edge, most);
-    mostTriangles -= std::min(mostTriangles, mesh.triangles.size());
-    mostMorphs -= std::min(mostMorphs, morphs * mesh.triangles.size());
+    const std::size_t max = morphs > 0 ? std::min(maxTriangles, maxMorphs / morphs) : maxTriangles;
+    mesh = withShortEdges(mesh, edge, max);
+    maxTriangles -= std::min(maxTriangles, mesh.triangles.size());
+    maxMorphs -= std::min(maxMorphs, morphs * mesh.triangles.size());
   }
   numberParts(result);
   return result;
@@ -166,10 +165,10 @@ MorphReach morphReach(const SurfaceBounds& bounds, const ModelPart& part, const 
   glm::dvec3 half(0.0);
   for (std::size_t i = 0; i < bounds.morphs.size(); ++i) {
     const auto weight = static_cast<double>(pose.weights[part.firstWeight + i]);
-    const glm::dvec3 least(bounds.morphs[i].least);
-    const glm::dvec3 most(bounds.morphs[i].most);
-    middle += 0.5 * weight * (least + most);
-    half += 0.5 * std::abs(weight) * (most - least);
+    const glm::dvec3 min(bounds.morphs[i].min);
+    const glm::dvec3 max(bounds.morphs[i].max);
+    middle += 0.5 * weight * (min + max);
+    half += 0.5 * std::abs(weight) * (max - min);
   }
   return {.middle = middle, .radiusMetres = glm::length(half)};
 }
@@ -214,10 +213,10 @@ BoundingSphere sphereAroundAll(const Model& model, const ModelPose& pose, bool s
   glm::dvec3 low(0.0);
   glm::dvec3 high(0.0);
   forEachSphere(model, pose, sweeps, [&](const BoundingSphere& sphere) {
-    const glm::dvec3 least = sphere.centre - sphere.radiusMetres;
-    const glm::dvec3 most = sphere.centre + sphere.radiusMetres;
-    low = isEmpty ? least : glm::min(low, least);
-    high = isEmpty ? most : glm::max(high, most);
+    const glm::dvec3 min = sphere.centre - sphere.radiusMetres;
+    const glm::dvec3 max = sphere.centre + sphere.radiusMetres;
+    low = isEmpty ? min : glm::min(low, min);
+    high = isEmpty ? max : glm::max(high, max);
     isEmpty = false;
   });
   BoundingSphere all{.centre = 0.5 * (low + high)};

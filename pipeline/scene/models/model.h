@@ -106,6 +106,6 @@ const ModelPart* findPart(const Model& model, std::string_view name);
 
 /// The same model with no edge longer than `maxEdgeMetres` (see the mesh's function), measured in
 /// the model's frame at rest.
-Model withShortEdges(const Model& model, double maxEdgeMetres, std::size_t mostTriangles);
+Model withShortEdges(const Model& model, double maxEdgeMetres, std::size_t maxTriangles);
 
 }  // namespace pleinair::scene

@@ -95,7 +95,7 @@ void addWeights(const Rig& rig, const ModelPart& part, const std::optional<ClipM
   const auto weights = std::span(pose.weights).last(part.weightCount);
   const auto set = [&](const auto& values) {
     for (std::size_t i = 0; i < std::min(weights.size(), values.size()); ++i) {
-      weights[i] = std::clamp(static_cast<float>(values[i]), -kMostOfWeight, kMostOfWeight);
+      weights[i] = std::clamp(static_cast<float>(values[i]), -kMaxMorphWeight, kMaxMorphWeight);
     }
   };
   const std::size_t channel = pose.weightsChannels[*part.node];

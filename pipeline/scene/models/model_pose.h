@@ -12,7 +12,7 @@
 
 namespace pleinair::scene {
 
-inline constexpr float kMostOfWeight = 1e4F;
+inline constexpr float kMaxMorphWeight = 1e4F;
 
 /// Pose of a model at one moment; ModelPart's matrix and weight indices refer to it. Keeps its
 /// memory from pose to pose.
@@ -30,8 +30,8 @@ struct ModelPose {
 
 /// Computes the pose of `model` at `moment` of a clip (nothing: at rest), after its built-in parts
 /// have turned for `turning`. Allocates only if `pose` held less before. Everything in a pose is
-/// finite: a node that a clip moves beyond kMostOfMatrix stays with its parent, and weights are
-/// clamped to ±kMostOfWeight.
+/// finite: a node that a clip moves beyond kMaxMatrixValue stays with its parent, and weights are
+/// clamped to ±kMaxMorphWeight.
 void poseModel(const Model& model, const std::optional<ClipMoment>& moment, hal::Duration turning,
                ModelPose& pose);
 

@@ -19,7 +19,7 @@ glm::dmat4 parentFromNode(const NodePlace& place) {
 bool isBounded(const glm::dmat4& matrix) {
   for (int column = 0; column < 4; ++column) {
     for (int row = 0; row < 4; ++row) {
-      if (!(std::abs(matrix[column][row]) <= kMostOfMatrix)) return false;  // rejects NaN too
+      if (!(std::abs(matrix[column][row]) <= kMaxMatrixValue)) return false;  // rejects NaN too
     }
   }
   return true;

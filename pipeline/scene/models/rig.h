@@ -25,9 +25,9 @@ struct NodePlace {
 
 glm::dmat4 parentFromNode(const NodePlace& place);
 
-inline constexpr double kMostOfMatrix = 1e9;
-/// Whether all numbers are finite and at most kMostOfMatrix, so that products of such matrices stay
-/// finite.
+inline constexpr double kMaxMatrixValue = 1e9;
+/// Whether all numbers are finite and at most kMaxMatrixValue, so that products of such matrices
+/// stay finite.
 bool isBounded(const glm::dmat4& matrix);
 
 /// A frame with other frames below it: a node of a glTF.

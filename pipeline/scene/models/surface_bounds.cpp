@@ -13,15 +13,15 @@ namespace {
 MorphBounds boundsOf(const MorphTarget& target) {
   MorphBounds bounds;  // include 0, since most targets leave some vertex unmoved
   for (const glm::vec3& move : target.positions) {
-    bounds.least = glm::min(bounds.least, move);
-    bounds.most = glm::max(bounds.most, move);
+    bounds.min = glm::min(bounds.min, move);
+    bounds.max = glm::max(bounds.max, move);
   }
   return bounds;
 }
 
 /// Calls `visit(joint, position)` for each vertex and each joint that holds it.
 template <class Visit>
-void forEachHold(const Mesh& mesh, Visit visit) {
+void forEachJointVertex(const Mesh& mesh, Visit visit) {
   for (std::size_t i = 0; i < mesh.joints.size(); ++i) {
     for (std::size_t j = 0; j < 4; ++j) {
       if (mesh.joints[i].weights[j] > 0.0F) {
@@ -37,7 +37,7 @@ std::vector<JointBounds> jointBoundsOf(const Mesh& mesh) {
     glm::vec3 high{std::numeric_limits<float>::lowest()};
   };
   std::vector<Box> boxes;
-  forEachHold(mesh, [&](std::uint16_t joint, const glm::vec3& position) {
+  forEachJointVertex(mesh, [&](std::uint16_t joint, const glm::vec3& position) {
     if (boxes.size() <= joint) boxes.resize(joint + std::size_t{1});
     boxes[joint].low = glm::min(boxes[joint].low, position);
     boxes[joint].high = glm::max(boxes[joint].high, position);
@@ -50,7 +50,7 @@ std::vector<JointBounds> jointBoundsOf(const Mesh& mesh) {
     bounds.push_back({.joint = static_cast<std::uint16_t>(joint),
                       .centre = 0.5F * (boxes[joint].low + boxes[joint].high)});
   }
-  forEachHold(mesh, [&](std::uint16_t joint, const glm::vec3& position) {
+  forEachJointVertex(mesh, [&](std::uint16_t joint, const glm::vec3& position) {
     JointBounds& of = bounds[placeOfJoint[joint]];
     of.radiusMetres = std::max(of.radiusMetres, glm::distance(of.centre, position));
   });

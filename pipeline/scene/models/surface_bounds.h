@@ -12,8 +12,8 @@ namespace pleinair::scene {
 
 /// Range of a morph target's vertex offsets at weight 1, along each axis.
 struct MorphBounds {
-  glm::vec3 least{0.0F};
-  glm::vec3 most{0.0F};
+  glm::vec3 min{0.0F};
+  glm::vec3 max{0.0F};
 };
 
 /// A sphere around the vertices that a joint holds.

@@ -21,8 +21,8 @@ namespace pleinair::scene {
 namespace {
 
 /// Nearer points are not drawn; this keeps depth precision for the rest of a model.
-constexpr double kNearestMetres = 1e-3;
-constexpr double kFarthestByNearest = 1000.0;
+constexpr double kMinNearMetres = 1e-3;
+constexpr double kMaxDepthRatio = 1000.0;
 constexpr ArFrame kCameraOnly{.nearMetres = 0.1F, .farMetres = 10.0F};
 constexpr glm::vec4 kNoNormal(128.0F / 255.0F, 128.0F / 255.0F, 128.0F / 255.0F, 0.0F);
 
@@ -93,7 +93,7 @@ ArFrameRenderer::Surfaces::Surfaces(hal::FrameSize size, bool hasModels)
 }
 
 void ArFrameRenderer::takeSurfaces(hal::FrameSize size) {
-  now_ = &surfaces_.of(size, size, !scene_.models.empty());
+  surfacesNow_ = &surfaces_.of(size, size, !scene_.models.empty());
 }
 
 /// Runs everything once that a frame may need: poses in front of the camera, draws, and reads.
@@ -101,7 +101,7 @@ void ArFrameRenderer::warmUp(hal::FrameSize size) {
   takeSurfaces(size);
   if (!surfacePass_) return;
   const tracking::CameraModel camera = assumedCamera(size);
-  if (!now_->known) now_->known.emplace(size);
+  if (!surfacesNow_->buffers) surfacesNow_->buffers.emplace(size);
   visible_.clear();
   if (!scene_.models.empty()) {
     const gpu::Texture picture(gpu::TextureFormat::kRgba8, size, gpu::TextureFilter::kLinear);
@@ -120,9 +120,9 @@ void ArFrameRenderer::warmUp(hal::FrameSize size) {
       if (shadow_) shadow_->draw();
       drawModels(picture);
     }
-    now_->showsCameraOnly = false;
+    surfacesNow_->showsCameraOnly = false;
   }
-  surfacePass_->warmUp(now_->ids, camera, bodies_, *now_->known);
+  surfacePass_->warmUp(surfacesNow_->ids, camera, bodies_, *surfacesNow_->buffers);
   reset();
 }
 
@@ -130,7 +130,7 @@ void ArFrameRenderer::reset() {
   geometry_.reset();
   bodies_.reset();
   if (shadow_) shadow_->reset();
-  before_.reset();
+  lastStamp_.reset();
   firstTime_.reset();
   std::ranges::fill(firstSight_, std::nullopt);
 }
@@ -159,10 +159,10 @@ const ArFrame& ArFrameRenderer::compose(const gpu::Texture& picture,
     const auto scope = timer.measure("compose");
     drawFrame(picture, camera);
   }
-  frame_.colour = visible_.empty() ? &picture : &now_->colour;
-  frame_.ids = &now_->ids;
-  frame_.normalFocus = &now_->normalFocus;
-  frame_.depth = &now_->depth;
+  frame_.colour = visible_.empty() ? &picture : &surfacesNow_->colour;
+  frame_.ids = &surfacesNow_->ids;
+  frame_.normalFocus = &surfacesNow_->normalFocus;
+  frame_.depth = &surfacesNow_->depth;
   frame_.hasObjects = !visible_.empty();
   frame_.hasFocus = std::ranges::any_of(
       visible_, [&](std::size_t each) { return scene_.models[each].focus > 0.0F; });
@@ -172,14 +172,14 @@ const ArFrame& ArFrameRenderer::compose(const gpu::Texture& picture,
     const auto scope = timer.measure("surfaces");
     findSurfaces(camera);
   }
-  before_ = Stamp{sequence, captureTime};
+  lastStamp_ = Stamp{sequence, captureTime};
   return frame_;
 }
 
 void ArFrameRenderer::poseModels(hal::TimePoint captureTime) {
   geometry_.beginFrame();
   for (std::size_t i = 0; i < scene_.models.size(); ++i) {
-    if (!bodies_.model(i).now) continue;
+    if (!bodies_.model(i).current) continue;
     if (!firstSight_[i]) firstSight_[i] = captureTime;
     const hal::TimePoint start =
         scene_.models[i].playback.startsOnSight ? *firstSight_[i] : *firstTime_;
@@ -198,22 +198,22 @@ void ArFrameRenderer::drawFrame(const gpu::Texture& picture, const tracking::Cam
   setCamera(camera);
   if (shadow_) shadow_->draw();
   drawModels(picture);
-  now_->showsCameraOnly = false;
+  surfacesNow_->showsCameraOnly = false;
 }
 
 void ArFrameRenderer::findVisible() {
   visible_.clear();
   for (std::size_t i = 0; i < scene_.models.size(); ++i) {
-    const auto& now = bodies_.model(i).now;
-    if (!now || geometry_.batches(i).empty()) continue;
-    const DepthSpan span = depthSpan(geometry_.sphere(i), now->cameraFromBody);
-    if (span.farthest > kNearestMetres) visible_.push_back(i);
+    const auto& current = bodies_.model(i).current;
+    if (!current || geometry_.batches(i).empty()) continue;
+    const DepthSpan span = depthSpan(geometry_.sphere(i), current->cameraFromBody);
+    if (span.farthest > kMinNearMetres) visible_.push_back(i);
   }
 }
 
 void ArFrameRenderer::findLights(std::span<const PlaceLighting> lights) {
   for (const std::size_t i : visible_) {
-    const glm::dmat3 cameraFromAttach(bodies_.model(i).now->attachment.cameraFromAttach);
+    const glm::dmat3 cameraFromAttach(bodies_.model(i).current->attachment.cameraFromAttach);
     const auto known = std::ranges::find(lights, scene_.models[i].tagId, &PlaceLighting::tagId);
     const Lighting light = known != lights.end()
                                ? withSceneDirection(known->light, scene_.light, cameraFromAttach)
@@ -223,33 +223,36 @@ void ArFrameRenderer::findLights(std::span<const PlaceLighting> lights) {
 }
 
 void ArFrameRenderer::clearToCamera() {
-  if (now_->showsCameraOnly) return;
-  now_->withoutColour.beginDiscarding();
-  now_->withoutColour.clearUnsigned(0, glm::uvec4(0U));
-  now_->withoutColour.clearColour(1, kNoNormal);
-  now_->withoutColour.clearDepth();
-  now_->showsCameraOnly = true;
+  if (surfacesNow_->showsCameraOnly) return;
+  surfacesNow_->withoutColour.beginDiscarding();
+  surfacesNow_->withoutColour.clearUnsigned(0, glm::uvec4(0U));
+  surfacesNow_->withoutColour.clearColour(1, kNoNormal);
+  surfacesNow_->withoutColour.clearDepth();
+  surfacesNow_->showsCameraOnly = true;
 }
 
 void ArFrameRenderer::drawBackground(const gpu::Texture& picture) {
   // Depth is cleared at the start of the pass: later, a tile-based GPU would split the pass
   // (docs/gpu.md, rule 10).
-  now_->target.beginDiscarding();
-  now_->target.clearDepth();
-  background_.use().texture("picture", picture).drawArea(now_->target, {0, 0}, now_->target.size());
+  surfacesNow_->target.beginDiscarding();
+  surfacesNow_->target.clearDepth();
+  background_.use()
+      .texture("picture", picture)
+      .drawArea(surfacesNow_->target, {0, 0}, surfacesNow_->target.size());
 }
 
 void ArFrameRenderer::setCamera(const tracking::CameraModel& camera) {
   double nearest = HUGE_VAL;
-  double farthest = kNearestMetres * kFarthestByNearest;
+  double farthest = kMinNearMetres * kMaxDepthRatio;
   for (const std::size_t i : visible_) {
-    const auto& now = bodies_.model(i).now;
-    const auto span = depthSpan(geometry_.sphere(i), now ? now->cameraFromBody : glm::dmat4(1.0));
+    const auto& current = bodies_.model(i).current;
+    const auto span =
+        depthSpan(geometry_.sphere(i), current ? current->cameraFromBody : glm::dmat4(1.0));
     nearest = std::min(nearest, span.nearest);
     farthest = std::max(farthest, span.farthest);
   }
   farthest *= 1.001;  // margin for rounding
-  nearest = std::max(0.999 * nearest, farthest / kFarthestByNearest);
+  nearest = std::max(0.999 * nearest, farthest / kMaxDepthRatio);
   frame_.nearMetres = static_cast<float>(nearest);
   frame_.farMetres = static_cast<float>(farthest);
 
@@ -304,12 +307,12 @@ void ArFrameRenderer::drawModel(std::size_t index, const gpu::Texture& picture) 
 /// Sets the uniforms that all materials of a model share.
 gpu::Program& ArFrameRenderer::beginModel(gpu::Program& program, std::size_t index) {
   const SceneModel& model = scene_.models[index];
-  const Body::Moment now = bodies_.model(index).now.value_or(Body::Moment{});
+  const Body::Moment current = bodies_.model(index).current.value_or(Body::Moment{});
   program.use();
   setLighting(program, lights_[index]);
   // Rotation and uniform scale: normals, of any length, transform like positions.
-  return program.set("cameraFromModel", glm::mat4(now.cameraFromBody))
-      .set("cameraFromModelNormals", glm::mat3(glm::dmat3(now.cameraFromBody)))
+  return program.set("cameraFromModel", glm::mat4(current.cameraFromBody))
+      .set("cameraFromModelNormals", glm::mat3(glm::dmat3(current.cameraFromBody)))
       .set("object", objectId(scene_, index))
       .set("focus", model.focus);
 }
@@ -324,10 +327,10 @@ void ArFrameRenderer::setMaterial(gpu::Program& program, std::size_t index,
 }
 
 void ArFrameRenderer::findSurfaces(const tracking::CameraModel& camera) {
-  if (!now_->known) now_->known.emplace(now_->ids.size());
-  surfacePass_->run(now_->ids, camera, bodies_, visible_, *now_->known);
-  frame_.barycentrics = &now_->known->barycentrics;
-  frame_.parts = &now_->known->parts;
+  if (!surfacesNow_->buffers) surfacesNow_->buffers.emplace(surfacesNow_->ids.size());
+  surfacePass_->run(surfacesNow_->ids, camera, bodies_, visible_, *surfacesNow_->buffers);
+  frame_.barycentrics = &surfacesNow_->buffers->barycentrics;
+  frame_.parts = &surfacesNow_->buffers->parts;
   camera_ = camera;
   frame_.surfaces =
       SurfaceAccess{.posed = geometry_.isEmpty() ? nullptr : &geometry_.posed(),
@@ -337,10 +340,10 @@ void ArFrameRenderer::findSurfaces(const tracking::CameraModel& camera) {
                     .models = visible_,
                     .objects = objects_,
                     .camera = &*camera_};
-  if (!before_) return;
-  frame_.motion = SurfaceMotion{.texture = &now_->known->motion,
-                                .sinceSequence = before_->sequence,
-                                .sinceTime = before_->time};
+  if (!lastStamp_) return;
+  frame_.motion = SurfaceMotion{.texture = &surfacesNow_->buffers->motion,
+                                .sinceSequence = lastStamp_->sequence,
+                                .sinceTime = lastStamp_->time};
 }
 
 }  // namespace pleinair::scene

@@ -67,7 +67,7 @@ class ArFrameRenderer {
     gpu::RenderTarget target;         // all attachments
     gpu::RenderTarget withoutColour;  // for frames that show only the camera image
     bool showsCameraOnly = false;     // whether ids, normals and depth hold only the camera
-    std::optional<SurfacePass::Buffers> known;  // if asked for
+    std::optional<SurfacePass::Buffers> buffers;  // if asked for
   };
   struct Stamp {
     std::uint64_t sequence = 0;
@@ -112,9 +112,9 @@ class ArFrameRenderer {
   Shading shading_ = Shading::kToon;
   std::vector<std::optional<hal::TimePoint>> firstSight_;  // per model
   gpu::PerSize<Surfaces> surfaces_;                        // per composed size
-  Surfaces* now_ = nullptr;                                // of this frame's size
+  Surfaces* surfacesNow_ = nullptr;                        // of this frame's size
   std::optional<hal::TimePoint> firstTime_;
-  std::optional<Stamp> before_;  // the frame for which bodies and poses were last advanced
+  std::optional<Stamp> lastStamp_;  // the frame for which bodies and poses were last advanced
   ArFrame frame_;
 };
 

@@ -58,7 +58,7 @@ ContactShadow::ContactShadow(const gpu::ShaderLibrary& library, const Scene& sce
   for (std::size_t i = 0; i < scene.models.size(); ++i) {
     const std::optional<int>& tagId = scene.models[i].tagId;
     const bool isNew = std::ranges::find(maps_, tagId, &Map::tagId) == maps_.end();
-    if (!casters_.casts(i) || !isNew || maps_.size() == kMostMaps) continue;
+    if (!casters_.casts(i) || !isNew || maps_.size() == kMaxShadowMaps) continue;
     maps_.emplace_back().tagId = tagId;
   }
   for (Map& map : maps_) map.casters.reserve(scene.models.size());
@@ -91,18 +91,18 @@ void ContactShadow::reset() {
 
 void ContactShadow::cast(std::span<const std::size_t> visible, const SceneBodies& bodies,
                          std::span<const Lighting> cameraLights) {
-  for (Map& map : maps_) castOne(map, visible, bodies, cameraLights);
+  for (Map& map : maps_) castMap(map, visible, bodies, cameraLights);
 }
 
-void ContactShadow::castOne(Map& map, std::span<const std::size_t> visible,
+void ContactShadow::castMap(Map& map, std::span<const std::size_t> visible,
                             const SceneBodies& bodies, std::span<const Lighting> cameraLights) {
   map.isShown = false;
   objects_.clear();
   poses_.clear();
   spheres_.clear();
   for (const std::size_t i : visible) {
-    const auto& now = bodies.model(i).now;
-    if (!now || scene_.models[i].tagId != map.tagId || !casters_.casts(i)) continue;
+    const auto& current = bodies.model(i).current;
+    if (!current || scene_.models[i].tagId != map.tagId || !casters_.casts(i)) continue;
     const glm::dmat4& attachFromModel = scene_.models[i].attachFromModel;
     const BoundingSphere& sphere = geometry_.sphere(i);
     objects_.push_back(i);
@@ -110,7 +110,7 @@ void ContactShadow::castOne(Map& map, std::span<const std::size_t> visible,
     spheres_.push_back(
         {.centre = glm::dvec3(attachFromModel * glm::dvec4(sphere.centre, 1.0)),
          .radiusMetres = glm::length(glm::dvec3(attachFromModel[0])) * sphere.radiusMetres});
-    map.cameraFromAttach = now->attachment.cameraFromAttach;
+    map.cameraFromAttach = current->attachment.cameraFromAttach;
     map.light = cameraLights[i];
   }
   if (objects_.empty()) return;
@@ -138,7 +138,7 @@ bool ContactShadow::isUpToDate(const Map& map, const ShadowPlan& plan) const {
   }
   if (glm::distance(map.plan->shear, plan.shear) > kSameShear || map.casters != poses_)
     return false;
-  return std::ranges::all_of(objects_, [&](std::size_t each) { return geometry_.isStill(each); });
+  return std::ranges::all_of(objects_, [&](std::size_t each) { return geometry_.isStatic(each); });
 }
 
 void ContactShadow::drawCasters(const Map& map) {

@@ -30,11 +30,11 @@ namespace pleinair::scene {
 ///
 /// There is one shadow map per attach frame, in coordinates of that frame, so that it does not
 /// change while the camera moves; it is drawn again only when its models or its light have moved.
-/// At most kMostMaps attach frames, the scene's first ones, have a map. All calls on the thread of
-/// the GL context that it was made in.
+/// At most kMaxShadowMaps attach frames, the scene's first ones, have a map. All calls on the
+/// thread of the GL context that it was made in.
 class ContactShadow {
  public:
-  static constexpr std::size_t kMostMaps = 4;
+  static constexpr std::size_t kMaxShadowMaps = 4;
 
   /// `library` has gpu::gpuShaders() and gpu::sceneShaders(). Keeps references.
   ContactShadow(const gpu::ShaderLibrary& library, const Scene& scene,
@@ -70,12 +70,12 @@ class ContactShadow {
     std::optional<ShadowPlan> plan;
     std::vector<glm::dmat4> casters;  // poses in the map: of its models, in the attach frame
     double contactHeight = 0.0;
-    // Of this frame.
+    // State in this frame.
     bool isShown = false;
     glm::dmat4 cameraFromAttach{1.0};
     Lighting light;
   };
-  void castOne(Map& map, std::span<const std::size_t> visible, const SceneBodies& bodies,
+  void castMap(Map& map, std::span<const std::size_t> visible, const SceneBodies& bodies,
                std::span<const Lighting> cameraLights);
   bool isUpToDate(const Map& map, const ShadowPlan& plan) const;
   void drawCasters(const Map& map);
@@ -90,7 +90,7 @@ class ContactShadow {
   gpu::Program receive_;
   gpu::VertexArrayHandle noAttributes_;
   std::vector<Map> maps_;
-  // Of the current map; kept for their memory.
+  // Scratch data for one map, kept to reuse memory.
   std::vector<std::size_t> objects_;
   std::vector<glm::dmat4> poses_;
   std::vector<BoundingSphere> spheres_;

@@ -35,7 +35,7 @@ RestVertex restVertex(const Mesh& mesh, std::size_t index, const ModelPart& part
   return rest;
 }
 
-LookVertex lookVertex(const MeshVertex& vertex) {
+VertexAttributes attributesOf(const MeshVertex& vertex) {
   return {.texture = vertex.texture,
           .colour = glm::u16vec4(65535.0F * glm::clamp(vertex.colour, 0.0F, 1.0F) + 0.5F)};
 }
@@ -47,7 +47,7 @@ bool isMirrored(const ModelPart& part) {
 
 /// For each vertex the first one equal to it. Generated meshes often have one vertex per corner;
 /// equal vertices that move differently stay separate.
-std::vector<std::uint32_t> firstAlike(const Mesh& mesh) {
+std::vector<std::uint32_t> firstEqualVertices(const Mesh& mesh) {
   static_assert(sizeof(MeshVertex) == 12 * sizeof(float));  // all bytes are compared
   std::vector<std::uint32_t> first(mesh.vertices.size());
   std::iota(first.begin(), first.end(), 0U);
@@ -71,7 +71,7 @@ std::vector<std::array<std::uint32_t, 3>> withOwnLastVertices(const Mesh& mesh, 
   std::vector<std::array<std::uint32_t, 3>> triangles;
   triangles.reserve(mesh.triangles.size());
   std::vector<bool> isTaken(mesh.vertices.size(), false);
-  const std::vector<std::uint32_t> alike = firstAlike(mesh);
+  const std::vector<std::uint32_t> alike = firstEqualVertices(mesh);
   for (std::array<std::uint32_t, 3> corners : mesh.triangles) {
     for (std::uint32_t& corner : corners) corner = alike[corner];
     if (mirrored) std::swap(corners[0], corners[1]);
@@ -91,7 +91,7 @@ class Layout {
       : model_(model), drawn_(drawn), nextExtra_(model.triangleCount()) {
     const std::uint32_t triangles = model.triangleCount();
     drawn_.rest.resize(triangles);
-    drawn_.looks.resize(triangles);
+    drawn_.attributes.resize(triangles);
     drawn_.triangles.reserve(triangles);
     materials_.reserve(triangles);
   }
@@ -128,7 +128,7 @@ class Layout {
  private:
   void put(std::uint32_t place, const Mesh& mesh, std::uint32_t vertex, const ModelPart& part) {
     drawn_.rest[place] = restVertex(mesh, vertex, part);
-    drawn_.looks[place] = lookVertex(mesh.vertices[vertex]);
+    drawn_.attributes[place] = attributesOf(mesh.vertices[vertex]);
     source_.emplace_back(place, vertex);
   }
 
@@ -137,7 +137,7 @@ class Layout {
     if (place == kNoVertex) {
       place = nextExtra_++;
       drawn_.rest.emplace_back();
-      drawn_.looks.emplace_back();
+      drawn_.attributes.emplace_back();
       put(place, mesh, vertex, part);
     }
     return place;

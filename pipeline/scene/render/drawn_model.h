@@ -24,11 +24,11 @@ struct RestVertex {
 static_assert(sizeof(RestVertex) == 32);
 
 /// The vertex attributes that do not move.
-struct LookVertex {
+struct VertexAttributes {
   glm::vec2 texture{0.0F};
   glm::u16vec4 colour{0};  ///< linear light; 8 bits would band in the dark
 };
-static_assert(sizeof(LookVertex) == 16);
+static_assert(sizeof(VertexAttributes) == 16);
 
 /// The offset of a vertex by a morph target.
 struct MorphDelta {
@@ -68,7 +68,7 @@ struct DrawnModel {
   explicit DrawnModel(const Model& model);
 
   std::vector<RestVertex> rest;
-  std::vector<LookVertex> looks;  ///< one per element of `rest`
+  std::vector<VertexAttributes> attributes;  ///< one per element of `rest`
   std::vector<DrawnTriangle> triangles;
   std::vector<std::uint32_t> indices;  ///< of all batches
   std::vector<DrawBatch> batches;

@@ -10,8 +10,8 @@
 namespace pleinair::scene {
 namespace {
 
-constexpr int kGroupSize = 64;                                         // as in shaders/posing.glsl
-constexpr std::uint32_t kMostVertices = kGroupSize * gpu::kMaxGroups;  // of one dispatch
+constexpr int kGroupSize = 64;  // as in shaders/posing.glsl
+constexpr std::uint32_t kMaxDispatchVertices = kGroupSize * gpu::kMaxGroups;  // of one dispatch
 constexpr std::size_t kPosedBytes = 16;
 
 gpu::TextureWrap wrapOf(TextureEdge edge) {
@@ -29,7 +29,7 @@ gpu::Texture uploaded(const ModelTexture& texture) {
 }
 
 /// Whether the model never changes.
-bool standsStill(const Model& model, const Playback& playback) {
+bool isAlwaysStatic(const Model& model, const Playback& playback) {
   return !playback.clip && std::ranges::all_of(model.parts, [](const ModelPart& part) {
     return part.radiansPerSecond == 0.0;
   });
@@ -105,7 +105,7 @@ void PosedGeometry::addModel(const Model& model, std::vector<DrawnModel>& drawn)
 
 void PosedGeometry::upload(const std::vector<DrawnModel>& drawn) {
   rest_ = joined(drawn, &DrawnModel::rest);
-  looks_ = joined(drawn, &DrawnModel::looks);
+  attributes_ = joined(drawn, &DrawnModel::attributes);
   indices_ = joined(drawn, &DrawnModel::indices);
   triangles_ = joined(drawn, &DrawnModel::triangles);
   deltas_ = joined(drawn, &DrawnModel::deltas);
@@ -118,8 +118,8 @@ void PosedGeometry::makeVertexArray() {
   glBindVertexArray(vertexArray_.get());
   glVertexAttribFormat(0, 3, GL_FLOAT, GL_FALSE, 0);
   glVertexAttribIFormat(1, 1, GL_UNSIGNED_INT, 12);
-  glVertexAttribFormat(2, 2, GL_FLOAT, GL_FALSE, offsetof(LookVertex, texture));
-  glVertexAttribFormat(3, 4, GL_UNSIGNED_SHORT, GL_TRUE, offsetof(LookVertex, colour));
+  glVertexAttribFormat(2, 2, GL_FLOAT, GL_FALSE, offsetof(VertexAttributes, texture));
+  glVertexAttribFormat(3, 4, GL_UNSIGNED_SHORT, GL_TRUE, offsetof(VertexAttributes, colour));
   for (const GLuint attribute : {0U, 1U, 2U, 3U}) {
     glVertexAttribBinding(attribute, attribute / 2);
     glEnableVertexAttribArray(attribute);
@@ -142,8 +142,8 @@ void PosedGeometry::pose(std::size_t index, hal::Duration elapsed, hal::Duration
   object.isPosed = true;
   const SceneModel& sceneModel = scene_.models[index];
   const Model& model = *sceneModel.model;
-  const bool isStill = standsStill(model, sceneModel.playback);
-  if (isStill && object.isAtRest[half_]) return;
+  const bool isStatic = isAlwaysStatic(model, sceneModel.playback);
+  if (isStatic && object.isAtRest[half_]) return;
   poseModel(model, momentOf(model.rig, sceneModel.playback, elapsed), turning, object.pose);
   object.sphere = boundingSphere(model, object.pose);
   boundingSpheres(model, object.pose, object.spheres);
@@ -162,7 +162,7 @@ void PosedGeometry::endPosing() {
     object.isWritten[half_] = true;
     if (object.isAtRest[half_]) continue;
     runPose(object);
-    object.isAtRest[half_] = standsStill(*scene_.models[i].model, scene_.models[i].playback);
+    object.isAtRest[half_] = isAlwaysStatic(*scene_.models[i].model, scene_.models[i].playback);
   }
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
 }
@@ -185,7 +185,7 @@ void PosedGeometry::writeMatrices() {
 void PosedGeometry::runPose(const ObjectSlot& object) {
   const ModelSlot& slot = models_[object.model];
   const std::uint32_t firstPosed =
-      place(static_cast<std::size_t>(&object - objects_.data())).firstNow;
+      place(static_cast<std::size_t>(&object - objects_.data())).firstCurrent;
   for (const PoseRange& range : slot.ranges) {
     gpu::Program& program = range.targetCount > 0 ? poseMorphed_ : pose_;
     program.use()
@@ -203,8 +203,8 @@ void PosedGeometry::runPose(const ObjectSlot& object) {
           .set("firstWeightRow", firstWeightRow_)
           .set("firstWeight", object.firstWeight + range.firstWeight);
     }
-    for (std::uint32_t first = 0; first < range.vertexCount; first += kMostVertices) {
-      const std::uint32_t count = std::min(range.vertexCount - first, kMostVertices);
+    for (std::uint32_t first = 0; first < range.vertexCount; first += kMaxDispatchVertices) {
+      const std::uint32_t count = std::min(range.vertexCount - first, kMaxDispatchVertices);
       program.set("firstVertex", first).dispatch({static_cast<int>(count), 1}, {kGroupSize, 1}, 0);
     }
   }
@@ -214,8 +214,8 @@ void PosedGeometry::reset() {
   for (ObjectSlot& object : objects_) object.isWritten = {};
 }
 
-bool PosedGeometry::isStill(std::size_t object) const {
-  return standsStill(model(object), scene_.models[object].playback);
+bool PosedGeometry::isStatic(std::size_t object) const {
+  return isAlwaysStatic(model(object), scene_.models[object].playback);
 }
 
 ObjectPlace PosedGeometry::place(std::size_t index) const {
@@ -224,18 +224,19 @@ ObjectPlace PosedGeometry::place(std::size_t index) const {
     return static_cast<std::uint32_t>(half) * posedCount_ + object.firstPosed;
   };
   ObjectPlace place{.firstTriangle = models_[object.model].firstTriangle,
-                    .firstNow = halfOf(half_)};
-  if (object.isWritten[1 - half_]) place.firstThen = halfOf(1 - half_);
+                    .firstCurrent = halfOf(half_)};
+  if (object.isWritten[1 - half_]) place.firstPrevious = halfOf(1 - half_);
   return place;
 }
 
 void PosedGeometry::bind(std::size_t index) const {
   const ModelSlot& slot = models_[objects_[index].model];
   glBindVertexArray(vertexArray_.get());
-  glBindVertexBuffer(0, posed_.name(), static_cast<GLintptr>(kPosedBytes * place(index).firstNow),
-                     kPosedBytes);
-  glBindVertexBuffer(1, looks_.name(), static_cast<GLintptr>(sizeof(LookVertex) * slot.firstVertex),
-                     sizeof(LookVertex));
+  glBindVertexBuffer(0, posed_.name(),
+                     static_cast<GLintptr>(kPosedBytes * place(index).firstCurrent), kPosedBytes);
+  glBindVertexBuffer(1, attributes_.name(),
+                     static_cast<GLintptr>(sizeof(VertexAttributes) * slot.firstVertex),
+                     sizeof(VertexAttributes));
 }
 
 void PosedGeometry::unbind() {

@@ -20,9 +20,9 @@ namespace pleinair::scene {
 /// Offsets of an object's data in the buffers of PosedGeometry, in elements.
 struct ObjectPlace {
   std::uint32_t firstTriangle = 0;  ///< in triangles()
-  std::uint32_t firstNow = 0;       ///< in posed(): the object in this frame
+  std::uint32_t firstCurrent = 0;   ///< in posed(): the object in this frame
   /// In posed(): the object in the previous frame; nothing if it was not posed then.
-  std::optional<std::uint32_t> firstThen;
+  std::optional<std::uint32_t> firstPrevious;
 };
 
 /// A scene's models on the GPU: their constant data, and their posed vertices in this frame and the
@@ -49,7 +49,7 @@ class PosedGeometry {
   /// A sphere around the posed object, in its model's frame.
   const BoundingSphere& sphere(std::size_t object) const { return objects_[object].sphere; }
   /// Whether the object never changes.
-  bool isStill(std::size_t object) const;
+  bool isStatic(std::size_t object) const;
   /// Several spheres that bound it more closely.
   std::span<const BoundingSphere> spheres(std::size_t object) const {
     return objects_[object].spheres;
@@ -119,7 +119,7 @@ class PosedGeometry {
   std::size_t half_ = 0;               // of this frame
   std::vector<glm::vec4> matrixRows_;  // of all objects, followed by their weights
   gpu::Buffer rest_;
-  gpu::Buffer looks_;
+  gpu::Buffer attributes_;
   gpu::Buffer indices_;
   gpu::Buffer triangles_;
   gpu::Buffer deltas_;

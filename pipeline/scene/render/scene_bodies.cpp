@@ -34,11 +34,11 @@ namespace {
 
 void advanceTo(Body& body, const std::optional<Attachment>& attachment,
                const glm::dmat4& attachFromBody) {
-  body.then = body.now;
-  body.now.reset();
+  body.previous = body.current;
+  body.current.reset();
   if (!attachment) return;
-  body.now = Body::Moment{.cameraFromBody = attachment->cameraFromAttach * attachFromBody,
-                          .attachment = *attachment};
+  body.current = Body::Moment{.cameraFromBody = attachment->cameraFromAttach * attachFromBody,
+                              .attachment = *attachment};
 }
 
 }  // namespace

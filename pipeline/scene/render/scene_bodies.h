@@ -54,8 +54,8 @@ struct Body {
     glm::dmat4 cameraFromBody{1.0};
     Attachment attachment;
   };
-  std::optional<Moment> now;   ///< nothing if the pose is unknown
-  std::optional<Moment> then;  ///< in the previous frame
+  std::optional<Moment> current;   ///< nothing if the pose is unknown
+  std::optional<Moment> previous;  ///< in the previous frame
 };
 
 /// Poses of a scene's models and planes in this frame and the previous one.

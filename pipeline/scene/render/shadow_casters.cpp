@@ -18,9 +18,9 @@
 namespace pleinair::scene {
 namespace {
 
-constexpr double kMostShear = 1.6;     // a key light below 32° is raised to that angle
-constexpr double kMostDistance = 2.0;  // of a caster from the plane, in radii
-constexpr double kMargin = 1.2;        // for the penumbra
+constexpr double kMaxShear = 1.6;     // a key light below 32° is raised to that angle
+constexpr double kMaxDistance = 2.0;  // of a caster from the plane, in radii
+constexpr double kMargin = 1.2;       // for the penumbra
 constexpr double kBelow = 0.03;  // part of the height below the plane that still casts a shadow
 constexpr double kStepsADoubling = 4.0;
 
@@ -58,12 +58,12 @@ std::optional<ShadowPlan> planShadow(std::span<const BoundingSphere> spheres,
   const double up = std::max(towardKey.z, 1e-3);
   plan.shear = -glm::dvec2(towardKey) / up;
   const double shear = glm::length(plan.shear);
-  if (shear > kMostShear) plan.shear *= kMostShear / shear;
+  if (shear > kMaxShear) plan.shear *= kMaxShear / shear;
   Bounds bounds;
   for (const BoundingSphere& sphere : spheres) {
     const double r = sphere.radiusMetres;
     const bool isNear =
-        sphere.centre.z - r < kMostDistance * r && sphere.centre.z + r > 0.0 && r > 0.0;
+        sphere.centre.z - r < kMaxDistance * r && sphere.centre.z + r > 0.0 && r > 0.0;
     if (!isNear) continue;
     const glm::dvec2 foot(sphere.centre);
     bounds.add(foot, glm::dvec2(r));
@@ -91,7 +91,7 @@ std::optional<ShadowPlan> planShadow(std::span<const BoundingSphere> spheres,
 namespace {
 
 constexpr double kCellOfRadius = 1.0 / 28.0;  // about a texel of a shadow's map
-constexpr float kFarthestCell = 1e9F;         // limit up to which a cell index fits an integer
+constexpr float kMaxCell = 1e9F;              // limit up to which a cell index fits an integer
 constexpr std::size_t kPosedBytes = 16;
 
 /// Position of a vertex at rest, by its strongest joint.
@@ -122,7 +122,7 @@ std::vector<std::uint32_t> coarseTriangles(const DrawnModel& drawn,
   std::vector<std::uint32_t> representative(rest.size());
   for (std::uint32_t i = 0; i < rest.size(); ++i) {
     const glm::vec3 cells = glm::floor(rest[i] / static_cast<float>(cellMetres));
-    const glm::ivec3 at(glm::clamp(cells, -kFarthestCell, kFarthestCell));
+    const glm::ivec3 at(glm::clamp(cells, -kMaxCell, kMaxCell));
     const RestVertex& vertex = drawn.rest[i];
     const Cell cell{vertex.firstMatrix, vertex.joints & 0xFFU, at.x, at.y, at.z};
     representative[i] = representatives.try_emplace(cell, i).first->second;
@@ -171,7 +171,7 @@ void ShadowCasters::draw(std::size_t object) const {
   glBindVertexArray(vertexArray_.get());
   glBindVertexBuffer(
       0, geometry_.posed().name(),
-      static_cast<GLintptr>(kPosedBytes * std::size_t{geometry_.place(object).firstNow}),
+      static_cast<GLintptr>(kPosedBytes * std::size_t{geometry_.place(object).firstCurrent}),
       kPosedBytes);
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(slot.indexCount), GL_UNSIGNED_INT,
                  reinterpret_cast<const void*>(slot.firstIndex * sizeof(std::uint32_t)));

@@ -72,14 +72,14 @@ SurfacePass::Buffers::Buffers(hal::FrameSize size)
 
 SurfacePass::GpuBody SurfacePass::gpuBody(const Body& body) {
   GpuBody made;
-  if (!body.now) return made;
-  made.now = rowsOf(body.now->cameraFromBody);
-  if (!body.then) return made;
-  made.then = rowsOf(body.then->cameraFromBody);
-  made.turnsAbout = glm::vec4(body.now->attachment.turnsAbout, 1.0F);
+  if (!body.current) return made;
+  made.current = rowsOf(body.current->cameraFromBody);
+  if (!body.previous) return made;
+  made.previous = rowsOf(body.previous->cameraFromBody);
+  made.turnsAbout = glm::vec4(body.current->attachment.turnsAbout, 1.0F);
   // The errors of both poses move the pixel; the earlier one's acts nearly as the later one's.
   const SquareRoot root =
-      squareRootOfSum(body.now->attachment.covariance, body.then->attachment.covariance);
+      squareRootOfSum(body.current->attachment.covariance, body.previous->attachment.covariance);
   for (std::size_t k = 0; k < 6; ++k) {
     made.errorTurns[k] = glm::vec4(root[0][k], root[1][k], root[2][k], 0.0F);
     made.errorShifts[k] = glm::vec4(root[3][k], root[4][k], root[5][k], 0.0F);
@@ -91,21 +91,22 @@ void SurfacePass::writeBodies(const SceneBodies& bodies) {
   for (std::size_t i = 0; i < scene_.planes.size(); ++i) {
     GpuBody& plane = staged_[i];
     plane = gpuBody(bodies.plane(i));
-    if (bodies.plane(i).now) plane.extent = glm::vec4(0.5 * scene_.planes[i].sizeMetres, 0.0, 0.0);
+    if (bodies.plane(i).current)
+      plane.extent = glm::vec4(0.5 * scene_.planes[i].sizeMetres, 0.0, 0.0);
   }
   for (std::size_t i = 0; i < scene_.models.size(); ++i) {
     GpuBody& model = staged_[kMaxPlanes + i];
     model = gpuBody(bodies.model(i));
     const ObjectPlace place = geometry_.place(i);
-    if (!place.firstThen) model.turnsAbout.w = 0.0F;
-    model.places = {place.firstTriangle, place.firstNow, place.firstThen.value_or(0), 0};
+    if (!place.firstPrevious) model.turnsAbout.w = 0.0F;
+    model.places = {place.firstTriangle, place.firstCurrent, place.firstPrevious.value_or(0), 0};
   }
   bodies_.write(std::as_bytes(std::span(staged_)));
 }
 
 ScreenArea SurfacePass::areaOfModel(std::size_t index, const Body& body,
                                     const tracking::CameraModel& camera) const {
-  const glm::dmat4 cameraFromModel = body.now ? body.now->cameraFromBody : glm::dmat4(1.0);
+  const glm::dmat4 cameraFromModel = body.current ? body.current->cameraFromBody : glm::dmat4(1.0);
   const double scale = glm::length(glm::dvec3(cameraFromModel[0]));
   ScreenArea area;
   for (const BoundingSphere& sphere : geometry_.spheres(index)) {
@@ -121,14 +122,14 @@ ScreenArea SurfacePass::areaOfPlanes(const SceneBodies& bodies,
                                      const tracking::CameraModel& camera) const {
   ScreenArea area;
   for (std::size_t i = 0; i < scene_.planes.size(); ++i) {
-    const auto& now = bodies.plane(i).now;
-    if (!now) continue;
+    const auto& current = bodies.plane(i).current;
+    if (!current) continue;
     const glm::dvec2 half = 0.5 * scene_.planes[i].sizeMetres;
     std::array<glm::dvec3, 4> corners{};
     for (unsigned c = 0; c < 4; ++c) {
       const glm::dvec4 corner((c & 1U) != 0 ? half.x : -half.x, (c & 2U) != 0 ? half.y : -half.y,
                               0.0, 1.0);
-      corners[c] = glm::dvec3(now->cameraFromBody * corner);
+      corners[c] = glm::dvec3(current->cameraFromBody * corner);
     }
     area = unionOf(area, areaAround(corners, camera));
   }

@@ -55,8 +55,8 @@ class SurfacePass {
  private:
   /// As in shaders/bodies.glsl.
   struct GpuBody {
-    std::array<glm::vec4, 3> now{};
-    std::array<glm::vec4, 3> then{};
+    std::array<glm::vec4, 3> current{};
+    std::array<glm::vec4, 3> previous{};
     glm::vec4 turnsAbout{0.0F};
     std::array<glm::vec4, 6> errorTurns{};
     std::array<glm::vec4, 6> errorShifts{};

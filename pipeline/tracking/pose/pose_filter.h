@@ -30,7 +30,7 @@ class PoseFilter {
  private:
   glm::dmat4 pose_{1.0};
   PoseCovariance kept_{};  ///< accumulated from frame to frame
-  /// Of the last motion; not accumulated, since motions refer to a key frame.
+  /// Covariance of the last motion; not accumulated, since motions refer to a key frame.
   PoseCovariance measured_{};
 };
 

@@ -53,9 +53,9 @@ class ArFrameTest : public SceneGlTest {
   }
 };
 
-// seen upright from the front, a tag has no rotation in tracking's frame
+// an upright tag seen from the front has no rotation in tracking's frame
 const glm::dmat4 kOneMetreAhead = glm::translate(glm::dmat4(1.0), {0.0, 0.0, 1.0});
-// its nearer face is at 0.999 m: 80 + 200 · 0.15 / 0.999 = 110.03, and so on
+// the nearer face is at 0.999 m: 80 + 200 · 0.15 / 0.999 = 110.03, and so on
 constexpr Extent kRightAndUp{110, 130, 34, 46};
 
 TEST_F(ArFrameTest, AttachesToATagAsItsAuthorSeesIt) {
@@ -80,7 +80,7 @@ TEST_F(ArFrameTest, FindsAHiddenTagWhereTheWorldHasIt) {
   const ArFrame& hidden =
       compose(renderer, picture, plainCamera(), {.cameraFromWorld = cameraFromWorld});
   EXPECT_EQ(extentOf(*hidden.ids, 1), kRightAndUp);
-  // seen, it counts where it is: someone has moved it
+  // a tag that is seen counts with its own pose: someone has moved it
   const glm::dmat4 elsewhere = glm::translate(glm::dmat4(1.0), {0.1, 0.2, 1.0});
   const std::array sightings{TagSighting{.id = 4, .cameraFromTag = elsewhere}};
   const ArFrame& seen = compose(renderer, picture, plainCamera(),
@@ -128,7 +128,7 @@ TEST_F(ArFrameTest, DrawsModelsOntoASinglePixel) {
   const glm::dmat4 ahead = glm::translate(glm::dmat4(1.0), {-0.2, 0.1, 0.5}) * kTagFromAttach;
   const ArFrame& frame =
       compose(renderer, picture, assumedCamera({1, 1}), {.cameraFromWorld = ahead});
-  // the pixel sees ±0.29 m of that plane, and its middle the box
+  // the pixel sees ±0.29 m of that plane, and the box at its centre
   EXPECT_EQ(readR32ui(*frame.ids)[0] >> kTriangleBits, 1u);
 }
 
@@ -155,7 +155,8 @@ TEST_F(ArFrameTest, DrawsNothingOfWhatIsBehindTheCamera) {
 }
 
 TEST_F(ArFrameTest, CutsWhatReachesBehindTheCameraAtTheHorizon) {
-  // a floor 1 m below the camera, 40 m before and behind it, under lenses that fold far out
+  // a floor 1 m below the camera, 40 m in front of and behind it, under lenses that fold far
+  // outside
   for (const double k1 : {0.0, -0.3, 0.3}) {
     Scene scene;
     scene.models.push_back(placed(BoxSource{{80.0, 80.0, 0.01}}));
@@ -172,7 +173,7 @@ TEST_F(ArFrameTest, CutsWhatReachesBehindTheCameraAtTheHorizon) {
       for (std::size_t x = 0; x < 160; ++x) {
         if (y < 60) {
           ASSERT_EQ(ids[row + x], 0u) << k1 << ": " << x << "," << y;
-        } else if (y > 68) {  // its far edge is at 60 + 200 / 40
+        } else if (y > 68) {  // the far edge is at 60 + 200 / 40
           ASSERT_EQ(ids[row + x] >> kTriangleBits, 1u) << k1 << ": " << x << "," << y;
         }
       }

@@ -1,4 +1,4 @@
-// Shadows on a plane against rays cast on the CPU.
+// Compares shadows on a plane with rays cast on the CPU.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr hal::FrameSize kSize{320, 240};
 constexpr double kFocal = 400.0;
-constexpr double kSoftness = 0.13;  // contact_shadow.cpp's
+constexpr double kSoftness = 0.13;  // as in contact_shadow.cpp
 constexpr int kTag = 4;
 constexpr glm::dvec3 kBox{0.06, 0.06, 0.05};
 constexpr double kTexel = 0.0015;  // of the map for that box, m
@@ -23,10 +23,10 @@ tracking::CameraModel camera() {
   return {{.fx = kFocal, .fy = kFocal, .cx = 160.0, .cy = 120.0}, {}, kSize};
 }
 
-/// Straight from above, a metre away.
+/// A camera one metre straight above.
 const glm::dmat4 kAbove = glm::translate(glm::dmat4(1.0), {0.0, 0.0, 1.0});
 
-/// All of the plane's light is the key light's.
+/// All of the plane's light comes from the key light.
 Lighting keyAlone(const glm::vec3& toward) {
   const glm::vec3 unit = glm::normalize(toward);
   return {.towardKey = unit,
@@ -40,10 +40,10 @@ Lighting skyAlone() {
   return {.key = glm::vec3(0.0F), .sky = glm::vec3(1.0F), .white = glm::vec3(1.0F)};
 }
 
-/// The share of a light with a tent's profile that the box keeps off a point of its plane.
+/// The share of a light with a tent profile that the box blocks at a point of the plane.
 double keptOff(const glm::dvec2& at, const glm::dvec2& shear) {
   constexpr int kRays = 24, kHeights = 60;
-  const auto tentPoint = [](int i) {  // evenly by probability
+  const auto tentPoint = [](int i) {  // evenly spaced in probability
     const double u = (i + 0.5) / kRays;
     return u < 0.5 ? std::sqrt(2.0 * u) - 1.0 : 1.0 - std::sqrt(2.0 * (1.0 - u));
   };
@@ -85,7 +85,7 @@ class ContactShadowTest : public SceneGlTest {
     return renderer.compose(white_, camera(), {.tags = sightings}, 1, hal::TimePoint{}, timer_, {},
                             lights);
   }
-  /// What a composed picture shows.
+  /// A composed image.
   struct Shown {
     hal::Image colour;
     std::vector<std::uint32_t> ids;
@@ -95,13 +95,13 @@ class ContactShadowTest : public SceneGlTest {
     bool isCamera(const glm::ivec2& px) const {
       return ids[static_cast<std::size_t>(px.y * kSize.width + px.x)] == 0;
     }
-    /// The share of the light that is missing.
+    /// The blocked share of the light.
     double missing(const glm::ivec2& px) {
       const double coded = colour.row(0, px.y)[static_cast<std::size_t>(4 * px.x)] / 255.0;
       return 1.0 - std::pow(coded, 2.2);
     }
   };
-  /// Of a point of the plane, seen from above.
+  /// At a point of the plane, seen from above.
   static glm::ivec2 pixelAbove(const glm::dvec2& at) {
     return {static_cast<int>(160.0 + kFocal * at.x), static_cast<int>(120.0 - kFocal * at.y)};
   }
@@ -143,7 +143,7 @@ TEST_F(ContactShadowTest, KeepsOffTheLightThatRaysMeet) {
   }
 }
 
-/// Half dark where the top's far edge throws its shadow, and sharper where the box is near.
+/// Half dark at the shadow of the top's far edge, and sharper close to the box.
 TEST_F(ContactShadowTest, PenumbraeLieAtTheEdgeAndGrowWithHeight) {
   ArFrameRenderer renderer(library_, boxOnTag());
   Shown shown(drawn(renderer, keyAlone({-1, 0, 1})));
@@ -160,7 +160,7 @@ TEST_F(ContactShadowTest, PenumbraeLieAtTheEdgeAndGrowWithHeight) {
   const double px = 1.0 / kFocal;
   const auto [farWidth, farHalf] = widthAndMiddle({0.045, 0.0}, {px, 0.0});
   EXPECT_NEAR(0.045 + farHalf * px, 0.03 + kBox.z, 2.0 * kTexel + px);
-  // Beside the box's foot what casts is low; at the shadow's end it is high.
+  // Close to the box's foot the caster is low; at the shadow's end it is high.
   const auto [nearWidth, nearHalf] = widthAndMiddle({0.034, 0.0}, {0.0, px});
   const auto [highWidth, highHalf] = widthAndMiddle({0.07, 0.0}, {0.0, px});
   EXPECT_NEAR(highHalf * px, 0.03, 2.0 * kTexel + px);
@@ -185,7 +185,7 @@ TEST_F(ContactShadowTest, KeepsStillAndGoesWithThePlane) {
   Shown second(drawn(renderer, light));
   EXPECT_TRUE(std::ranges::equal(first.colour.plane(0), second.colour.plane(0)));
 
-  // A camera that has moved by 16 px sees the same shadow there.
+  // A camera that moved by 16 px sees the same shadow there.
   const glm::dmat4 moved = glm::translate(kAbove, {16.0 / kFocal, 0.0, 0.0});
   Shown third(drawn(renderer, light, moved));
   for (int y = 90; y < 150; y += 7) {
@@ -196,7 +196,7 @@ TEST_F(ContactShadowTest, KeepsStillAndGoesWithThePlane) {
   }
 }
 
-/// A map's place is kept while it does; after a reset it is as if nothing had been before.
+/// The map's position stays while it fits; after a reset, no earlier position counts.
 TEST_F(ContactShadowTest, ResetForgetsWhereItsMapWas) {
   const Lighting before = keyAlone({-0.8F, 0.1F, 1});
   const Lighting light = keyAlone({-0.6F, 0, 1});
@@ -245,7 +245,7 @@ TEST_F(ContactShadowTest, IsNotThereWithoutAModelOrWithoutStrength) {
   }
 }
 
-/// A real thing hides the shadow behind it, and its own is in the camera's picture already.
+/// A real object hides the shadow behind it; its own shadow is part of the camera image.
 TEST_F(ContactShadowTest, OccludersHideItAndCastNone) {
   Scene scene = boxOnTag();
   scene.models.push_back(placed(BoxSource{{0.02, 0.02, 0.02}}, kTag));

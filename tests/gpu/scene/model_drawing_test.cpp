@@ -1,4 +1,4 @@
-// Materials, textures and parts as drawn, against the CPU rasteriser and plain arithmetic.
+// Compares drawn materials, textures and parts with the CPU rasteriser and plain arithmetic.
 #include <cmath>
 #include <numbers>
 
@@ -20,12 +20,12 @@ tracking::CameraModel camera() {
   return {{.fx = 200.0, .fy = 200.0, .cx = 80.0, .cy = 60.0}, {}, kSize};
 }
 
-/// 0.4 m ahead, aslant.
+/// 0.4 m in front of the camera, tilted.
 glm::dmat4 aslant() {
   return glm::rotate(glm::translate(glm::dmat4(1.0), {0.01, 0.0, 0.4}), 0.7, {0.9, 0.3, 0.1});
 }
 
-/// A square of 0.2 m in z = 0 that faces −z, with places on a texture `times` over.
+/// A square of 0.2 m in z = 0 that faces −z, with its texture repeated `times` times.
 Mesh square(float times = 1.0F) {
   Mesh mesh;
   for (const glm::vec2& at : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(1, 1), glm::vec2(0, 1)}) {
@@ -37,7 +37,7 @@ Mesh square(float times = 1.0F) {
   return mesh;
 }
 
-/// A picture whose texels are all different.
+/// An image whose texels are all different.
 std::shared_ptr<const hal::Image> motley(hal::FrameSize size) {
   auto image = std::make_shared<hal::Image>(
       hal::FrameFormat{.pixelFormat = hal::PixelFormat::kRgba8, .size = size});
@@ -56,7 +56,7 @@ std::shared_ptr<const hal::Image> motley(hal::FrameSize size) {
 
 class ModelDrawing : public SceneGlTest {
  protected:
-  /// A scene lit from the camera: what faces it is in the brightest band.
+  /// A scene lit from the camera: surfaces that face it are in the brightest band.
   static Scene sceneOf(Model model) {
     Scene scene;
     SceneModel placed;
@@ -92,7 +92,7 @@ class ModelTextures : public ModelDrawing,
                       public testing::WithParamInterface<std::pair<TextureEdge, TextureEdge>> {};
 
 TEST_P(ModelTextures, AreSampledLinearlyInLinearLight) {
-  // 5 × 3 texels over the square twice and more: magnified, with every edge in view
+  // 5 × 3 texels over the square, repeated more than twice: magnified, with every edge in view
   Model model = singlePartModel("square", square(2.3F));
   model.textures.push_back(
       {.picture = motley({5, 3}), .across = GetParam().first, .down = GetParam().second});
@@ -114,8 +114,8 @@ TEST_P(ModelTextures, AreSampledLinearlyInLinearLight) {
                                 glm::dvec3(model.materials[0].baseColour);
       const glm::ivec3 seen = drawn.rgbAt(x, y);
       for (int c = 0; c < 3; ++c) {
-        // 8 bits below the texel, as GL has at least, are up to a 256th of a step between texels,
-        // which sRGB stretches in the dark
+        // With 8 bits below the texel, the least that GL allows, samples are off by up to a 256th
+        // of a step between texels, which sRGB enlarges in the dark.
         const double tolerance = linear[c] < 0.05 ? 8.0 : 2.5;
         ASSERT_NEAR(seen[c], 255.0 * oracles::srgbOf(linear[c]), tolerance) << x << ',' << y;
       }
@@ -169,7 +169,7 @@ TEST_F(ModelDrawing, ShowsDoubleSidedSurfacesFromBehindWithTheirNormalsTurned) {
   Drawn drawn = draw(sceneOf(model), behind);
   EXPECT_NE(drawn.ids[60 * 160 + 80], 0u);
   EXPECT_EQ(drawn.rgbAt(80, 60), glm::ivec3(255));
-  EXPECT_LE(drawn.normals.row(0, 60)[4 * 80 + 2], 1);  // towards the camera
+  EXPECT_LE(drawn.normals.row(0, 60)[4 * 80 + 2], 1);  // faces the camera
 }
 
 TEST_F(ModelDrawing, TurnsMirroredAndFlattenedPartsTheRightWayOut) {
@@ -198,7 +198,7 @@ TEST_F(ModelDrawing, TurnsPartsByCaptureTime) {
   EXPECT_EQ(draw(sceneOf(turning), aslant()).ids,
             draw(sceneOf(turning), aslant(), std::chrono::seconds(3)).ids);
   EXPECT_NE(moving.ids, draw(sceneOf(turning), aslant()).ids);
-  EXPECT_EQ(moving.ids, draw(sceneOf(turning), aslant(), after).ids);  // again the same
+  EXPECT_EQ(moving.ids, draw(sceneOf(turning), aslant(), after).ids);  // the same again
 }
 
 TEST_F(ModelDrawing, TimeStartsAgainAfterAReset) {
@@ -219,7 +219,7 @@ TEST_F(ModelDrawing, TimeStartsAgainAfterAReset) {
 }
 
 TEST_F(ModelDrawing, NumbersTrianglesByPart) {
-  // two parts share a surface, one beside the other
+  // two adjacent parts share a surface
   Model model = singlePartModel("left", boxMesh({0.05, 0.05, 0.05}));
   model.parts[0].modelFromPart = glm::translate(glm::dmat4(1.0), {-0.08, 0.0, 0.0});
   model.parts.push_back(model.parts[0]);

@@ -95,7 +95,7 @@ Model bendingArm() {
       mesh.triangles.push_back({at(ring - 1, side), at(ring, side + 1), at(ring - 1, side + 1)});
     }
   }
-  // seen from outside, against the clock
+  // counter-clockwise as seen from outside
   for (auto& triangle : mesh.triangles) {
     const auto& [a, b, c] = triangle;
     const glm::vec3 normal = glm::cross(mesh.vertices[b].position - mesh.vertices[a].position,

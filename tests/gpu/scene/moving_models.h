@@ -4,13 +4,13 @@
 
 namespace pleinair::scene {
 
-/// Two parts that turn by themselves, one of them mirrored.
+/// Two rotating parts, one of them mirrored.
 Model turningGears();
-/// Two boxes that share a mesh, hung on animated nodes.
+/// Two boxes that share a mesh, on animated nodes.
 Model swingingBoxes();
-/// A tube over two joints, one of which bends.
+/// A tube with two joints, one of which bends.
 Model bendingArm();
-/// A ball whose morph targets are animated, normals and all, on a node that moves too.
+/// A ball with animated morph targets, including normals, on a moving node.
 Model breathingBall();
 
 }  // namespace pleinair::scene

@@ -1,5 +1,5 @@
-// Planes and occluders, which stand for real things: how they move, how well that is known, and
-// what they hide.
+// Planes and occluders, which represent real objects: their motion, its predicted error, and the
+// models that they hide.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -35,17 +35,17 @@ class PlaneMotion : public SceneGlTest {
     const gpu::Texture picture = plainPicture(kSize);
     const ArFrameNeeds needs{.surfaces = true};
     renderer.compose(picture, camera(),
-                     {.cameraFromWorld = thenAslant(), .worldCovariance = covariance}, 2, kThen,
-                     timer_, needs);
+                     {.cameraFromWorld = previousAslant(), .worldCovariance = covariance}, 2,
+                     kPrevious, timer_, needs);
     const ArFrame& frame = renderer.compose(
-        picture, camera(), {.cameraFromWorld = nowAslant(), .worldCovariance = covariance}, 3, kNow,
-        timer_, needs);
+        picture, camera(), {.cameraFromWorld = currentAslant(), .worldCovariance = covariance}, 3,
+        kCurrent, timer_, needs);
     return support::readRgba32f(*frame.motion->texture);
   }
-  /// The desk's point behind a pixel; nothing beyond its extent.
+  /// The point of the desk at a pixel; nothing beyond its extent.
   static std::optional<glm::dvec3> deskPoint(glm::dvec2 px) {
     const glm::dvec3 ray = *camera().unproject(px);
-    const glm::dmat4 m = nowAslant();
+    const glm::dmat4 m = currentAslant();
     const glm::dvec3 normal(m[2]);
     const glm::dvec3 at = ray * (glm::dot(glm::dvec3(m[3]), normal) / glm::dot(ray, normal));
     const glm::dvec3 onDesk(glm::inverse(m) * glm::dvec4(at, 1.0));
@@ -63,9 +63,10 @@ TEST_F(PlaneMotion, IsThatOfThePose) {
     const auto at = deskPoint(px);
     if (!at) continue;
     ++inside;
-    const glm::dvec2 then = camera().project(glm::dvec3(thenAslant() * glm::dvec4(*at, 1.0)));
-    EXPECT_LT(glm::distance(glm::dvec2(motion[4 * i], motion[4 * i + 1]), px - then),
-              std::max(0.01, 0.001 * glm::distance(px, then)));
+    const glm::dvec2 previous =
+        camera().project(glm::dvec3(previousAslant() * glm::dvec4(*at, 1.0)));
+    EXPECT_LT(glm::distance(glm::dvec2(motion[4 * i], motion[4 * i + 1]), px - previous),
+              std::max(0.01, 0.001 * glm::distance(px, previous)));
     EXPECT_EQ(motion[4 * i + 3], 2.0F);  // SurfaceMotionSource::kPlane
   }
   EXPECT_GT(inside, 2000);
@@ -74,7 +75,7 @@ TEST_F(PlaneMotion, IsThatOfThePose) {
   EXPECT_NEAR(known, inside, 0.01 * inside);  // and no more: the extent is kept
 }
 
-/// Predicted errors against those of poses drawn from the covariance.
+/// Compares predicted errors with those of poses drawn from the covariance.
 TEST_F(PlaneMotion, PredictsItsError) {
   std::array<double, 6> sigma{2e-3, 1e-3, 3e-3, 2e-4, 4e-4, 1e-3};
   tracking::PoseCovariance covariance{};
@@ -100,16 +101,18 @@ TEST_F(PlaneMotion, PredictsItsError) {
     double squares = 0.0;
     constexpr int kDraws = 4000;
     const glm::dvec3 truth = *deskPoint(px);
-    const glm::dvec2 trueThen = camera().project(glm::dvec3(thenAslant() * glm::dvec4(truth, 1.0)));
+    const glm::dvec2 trueThen =
+        camera().project(glm::dvec3(previousAslant() * glm::dvec4(truth, 1.0)));
     for (int draw = 0; draw < kDraws; ++draw) {
-      // as both poses are guessed, the pixel is taken for another point, and that for elsewhere
-      const glm::dmat4 now = moved(nowAslant());
+      // with both poses wrong, the pixel is taken for another point, which is projected elsewhere
+      const glm::dmat4 current = moved(currentAslant());
       const glm::dvec3 ray = *camera().unproject(px);
-      const glm::dvec3 facing(now[2]);
-      const glm::dvec3 at = ray * (glm::dot(glm::dvec3(now[3]), facing) / glm::dot(ray, facing));
-      const glm::dvec4 guess = glm::inverse(now) * glm::dvec4(at, 1.0);
-      const glm::dvec2 then = camera().project(glm::dvec3(moved(thenAslant()) * guess));
-      squares += glm::dot(then - trueThen, then - trueThen);
+      const glm::dvec3 facing(current[2]);
+      const glm::dvec3 at =
+          ray * (glm::dot(glm::dvec3(current[3]), facing) / glm::dot(ray, facing));
+      const glm::dvec4 guess = glm::inverse(current) * glm::dvec4(at, 1.0);
+      const glm::dvec2 previous = camera().project(glm::dvec3(moved(previousAslant()) * guess));
+      squares += glm::dot(previous - trueThen, previous - trueThen);
     }
     const double actual = std::sqrt(squares / kDraws);
     const auto i = static_cast<std::size_t>(pixel.y * kSize.width + pixel.x);
@@ -123,26 +126,26 @@ TEST_F(PlaneMotion, IsUnknownWithoutAPoseBefore) {
   const gpu::Texture picture = plainPicture(kSize);
   const ArFrameNeeds needs{.surfaces = true};
   const auto next = [&](std::optional<glm::dmat4> pose, std::uint64_t sequence) {
-    return renderer.compose(picture, camera(), {.cameraFromWorld = pose}, sequence, kThen, timer_,
-                            needs);
+    return renderer.compose(picture, camera(), {.cameraFromWorld = pose}, sequence, kPrevious,
+                            timer_, needs);
   };
-  EXPECT_FALSE(next(thenAslant(), 1).motion.has_value());
+  EXPECT_FALSE(next(previousAslant(), 1).motion.has_value());
   const auto middleSource = [&](const ArFrame& frame) {
     return support::readRgba32f(*frame.motion->texture)[(88 * 240 + 122) * 4 + 3];
   };
-  EXPECT_EQ(middleSource(next(nowAslant(), 2)), 2.0F);
+  EXPECT_EQ(middleSource(next(currentAslant(), 2)), 2.0F);
   EXPECT_EQ(middleSource(next(std::nullopt, 3)), 0.0F);
-  EXPECT_EQ(middleSource(next(nowAslant(), 4)), 0.0F);
-  EXPECT_EQ(middleSource(next(nowAslant(), 5)), 2.0F);
+  EXPECT_EQ(middleSource(next(currentAslant(), 4)), 0.0F);
+  EXPECT_EQ(middleSource(next(currentAslant(), 5)), 2.0F);
   renderer.reset();
-  EXPECT_FALSE(next(nowAslant(), 6).motion.has_value());
+  EXPECT_FALSE(next(currentAslant(), 6).motion.has_value());
 }
 
 class Occluders : public SceneGlTest {};
 
 TEST_F(Occluders, HideWhatIsBehindThemAndShowTheCamera) {
   Scene scene;
-  for (const double z : {0.5, 0.4}) {  // a wide box, and a narrow one before it
+  for (const double z : {0.5, 0.4}) {  // a wide box, and a narrow one in front of it
     SceneModel box = placed(BoxSource{{z == 0.5 ? 0.3 : 0.1, 0.3, 0.01}});
     box.attachFromModel = glm::translate(glm::dmat4(1.0), {0.0, 0.0, z});
     box.focus = 1.0F;
@@ -169,7 +172,8 @@ TEST_F(Occluders, HideWhatIsBehindThemAndShowTheCamera) {
       std::ranges::equal(normals.plane(0).subspan(4 * hidden, 4), std::array{128, 128, 128, 0}));
 }
 
-/// They are where their pose says, which may be wrong; what is virtual is where it is drawn.
+/// Occluders are at their estimated poses, which may be wrong; virtual models are where they are
+/// drawn.
 TEST_F(Occluders, MoveAsWellAsTheirPoseIsKnown) {
   Scene scene;
   for (const double x : {-0.1, 0.1}) {
@@ -190,7 +194,7 @@ TEST_F(Occluders, MoveAsWellAsTheirPoseIsKnown) {
   std::vector<float> motion;
   for (const std::uint64_t sequence : {1U, 2U}) {
     const ArFrame& frame =
-        renderer.compose(picture, camera, poses, sequence, kThen, timer_, {.surfaces = true});
+        renderer.compose(picture, camera, poses, sequence, kPrevious, timer_, {.surfaces = true});
     if (frame.motion) motion = support::readRgba32f(*frame.motion->texture);
   }
   ASSERT_FALSE(motion.empty());
@@ -199,7 +203,7 @@ TEST_F(Occluders, MoveAsWellAsTheirPoseIsKnown) {
   EXPECT_EQ(isVirtual[3], 1.0F);  // SurfaceMotionSource::kSurface
   EXPECT_EQ(isReal[3], 1.0F);
   EXPECT_EQ(isVirtual[2], 0.0F);
-  // Both frames' poses err; the box's front is 0.4 m away, or 5 mm nearer.
+  // The poses of both frames are wrong; the box's front is 0.4 m away, or 5 mm nearer.
   EXPECT_NEAR(isReal[2], std::sqrt(2.0) * kSigmaMetres * 200.0 / 0.4, 0.02);
 }
 

@@ -16,7 +16,7 @@
 
 namespace pleinair::scene {
 
-/// A GL test with the shaders of scenes, a plain camera picture, and window depth read back.
+/// A GL test with the scene shaders, a plain camera image, and window depth read back.
 class SceneGlTest : public support::GlTest {
  protected:
   static constexpr std::array<std::uint8_t, 3> kGround{30, 60, 90};
@@ -48,7 +48,7 @@ class SceneGlTest : public support::GlTest {
     return renderer.compose(picture, camera, poses, 7, hal::TimePoint(hal::Duration(9)), timer_);
   }
 
-  /// Window depth in [0, 1], exact: its bits go through an integer target.
+  /// Window depth in [0, 1], exact: its bits are read through an integer target.
   std::vector<float> readDepth(const gpu::Texture& depth) {
     gpu::Texture bits(gpu::TextureFormat::kR32ui, depth.size());
     const gpu::RenderTarget target({&bits});

@@ -1,4 +1,4 @@
-// Drawn models against a CPU rasteriser: ids, depth, normals and toon bands, pixel by pixel.
+// Compares drawn models with a CPU rasteriser: ids, depth, normals and toon bands, per pixel.
 #include <cmath>
 #include <string>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr hal::FrameSize kSize{200, 150};
 constexpr double kEdgePx = 0.02;       // a rasteriser's 8 bits below the pixel, and float vertices
-constexpr double kBandMargin = 0.004;  // of intensities about the toon shader's thresholds
+constexpr double kBandMargin = 0.004;  // intensities near the toon shader's thresholds
 
 struct RasterCase {
   std::string name;
@@ -27,7 +27,7 @@ class SceneRaster : public SceneGlTest, public testing::WithParamInterface<Raste
   }
 };
 
-/// A gear seen aslant, and boxes that stand in front of it and through it.
+/// A tilted gear, with boxes in front of it and through it.
 Scene mixedScene() {
   Scene scene;
   const auto add = [&](ModelSource source, const glm::dvec3& at, double turnDeg, double scale) {
@@ -46,7 +46,7 @@ Scene mixedScene() {
   add(BoxSource{{0.03, 0.02, 0.05}}, {0.02, -0.03, 0.01}, 35.0, 1.0);
   add(BoxSource{{0.3, 0.2, 0.1}}, {-0.05, 0.03, 0.0}, -70.0, 0.15);
   scene.light.frame = Light::Frame::kCamera;
-  scene.light.shadow = 0.0F;  // the ground is looked at, too
+  scene.light.shadow = 0.0F;  // the background is compared too
   return scene;
 }
 
@@ -113,7 +113,7 @@ TEST_P(SceneRaster, ShowsWhatTheOracleShows) {
       EXPECT_NEAR(rgba[static_cast<std::size_t>(c)], coded, 0.6) << where;
     }
   }
-  // that the picture has everything in it
+  // check that the image contains everything
   EXPECT_GT(judged, static_cast<int>(0.85 * static_cast<double>(kSize.pixels())));
   for (const int count : seen) EXPECT_GT(count, 200);
   for (const int count : bands) EXPECT_GT(count, 200);

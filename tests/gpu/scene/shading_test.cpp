@@ -1,4 +1,4 @@
-// Shaded models against the equations on the CPU, pixel by pixel.
+// Compares shaded models with the equations on the CPU, per pixel.
 #include <cmath>
 #include <string>
 
@@ -32,7 +32,7 @@ class SceneShading : public SceneGlTest {
     return glm::rotate(glm::translate(glm::dmat4(1.0), {0.0, 0.0, 0.18}), glm::radians(140.0),
                        {1.0, 0.15, 0.1});
   }
-  /// A warm key light and a cool ambient one, in the attach frame.
+  /// A warm key light and cool ambient light, in the attach frame.
   static Lighting evening() {
     return {.towardKey = glm::normalize(glm::vec3(-0.6F, -0.3F, 0.7F)),
             .key = {0.9F, 0.7F, 0.4F},
@@ -41,7 +41,7 @@ class SceneShading : public SceneGlTest {
             .white = {0.8F, 0.7F, 0.6F}};
   }
 
-  /// The largest error of any channel, in 1/255, and how many pixels were judged.
+  /// The largest error of any channel, in 1/255, and the number of compared pixels.
   std::pair<double, int> judge(Shading shading, const Lighting& attachLight) {
     const Scene scene = gear();
     ArFrameRenderer renderer(library_, scene);
@@ -100,7 +100,7 @@ TEST_F(SceneShading, SmoothIsTheOracles) {
   }
 }
 
-/// The control: another light is another picture.
+/// Negative control: another light gives another image.
 TEST_F(SceneShading, DependsOnTheLight) {
   Lighting other = evening();
   other.key.r *= 0.9F;

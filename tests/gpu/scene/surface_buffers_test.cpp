@@ -1,5 +1,5 @@
-// Motion, barycentrics and parts of each pixel, against finite differences of projected points and
-// plain arithmetic on the CPU.
+// Compares motion, barycentrics and parts of each pixel with finite differences of projected points
+// and plain arithmetic on the CPU.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -31,14 +31,14 @@ struct Case {
   tracking::Distortion lens;
 };
 
-/// What two frames know, and where the model was in each.
+/// The buffers of two frames, and the model's pose in each.
 struct Frames {
   std::vector<std::uint32_t> ids;
   std::vector<std::uint32_t> barycentrics;
   std::vector<std::uint32_t> parts;
-  std::vector<float> motion;  // four numbers a pixel
-  oracles::PosedModel then;
-  oracles::PosedModel now;
+  std::vector<float> motion;  // four numbers per pixel
+  oracles::PosedModel previous;
+  oracles::PosedModel current;
 };
 
 class SurfaceBuffers : public SceneGlTest, public testing::WithParamInterface<Case> {
@@ -72,31 +72,32 @@ class SurfaceBuffers : public SceneGlTest, public testing::WithParamInterface<Ca
       return renderer.compose(picture, camera(), {.cameraFromWorld = pose}, sequence, time, timer_,
                               {.surfaces = true});
     };
-    compose(glm::dmat4(1.0), 1, hal::TimePoint{});  // time starts
-    compose(thenAslant(), 2, kThen);
-    const ArFrame frame = compose(nowAslant(), 3, kNow);
+    compose(glm::dmat4(1.0), 1, hal::TimePoint{});  // time starts here
+    compose(previousAslant(), 2, kPrevious);
+    const ArFrame frame = compose(currentAslant(), 3, kCurrent);
     EXPECT_TRUE(frame.motion.has_value());
     EXPECT_EQ(frame.motion->sinceSequence, 2u);
-    EXPECT_EQ(frame.motion->sinceTime, kThen);
+    EXPECT_EQ(frame.motion->sinceTime, kPrevious);
     return {.ids = support::readR32ui(*frame.ids),
             .barycentrics = support::readR32ui(*frame.barycentrics),
             .parts = support::readR32ui(*frame.parts),
             .motion = support::readRgba32f(*frame.motion->texture),
-            .then = posed(scene, kThen.time_since_epoch(), thenAslant()),
-            .now = posed(scene, kNow.time_since_epoch(), nowAslant())};
+            .previous = posed(scene, kPrevious.time_since_epoch(), previousAslant()),
+            .current = posed(scene, kCurrent.time_since_epoch(), currentAslant())};
   }
 
-  /// How many pixels are further off than the measure allows.
-  static int wrongMotions(const Frames& frames, const oracles::PosedModel& then, int& judged,
+  /// The number of pixels that are off by more than the tolerance.
+  static int wrongMotions(const Frames& frames, const oracles::PosedModel& previous, int& judged,
                           double& largestError) {
     int wrong = 0;
     for (std::size_t i = 0; i < frames.ids.size(); ++i) {
       if (frames.ids[i] == 0) continue;
       const glm::dvec2 px = pixelCentre(i);
-      const auto point = oracles::pointBehind(frames.now, frames.ids[i] & kNumbers, camera(), px);
+      const auto point =
+          oracles::pointBehind(frames.current, frames.ids[i] & kNumbers, camera(), px);
       if (!point) continue;
-      const glm::dvec2 expected = camera().project(oracles::cameraPoint(frames.now, *point)) -
-                                  camera().project(oracles::cameraPoint(then, *point));
+      const glm::dvec2 expected = camera().project(oracles::cameraPoint(frames.current, *point)) -
+                                  camera().project(oracles::cameraPoint(previous, *point));
       const glm::dvec2 found(frames.motion[4 * i], frames.motion[4 * i + 1]);
       const double error = glm::distance(found, expected);
       const double allowed = std::max(0.01, 0.001 * glm::length(expected));
@@ -117,31 +118,32 @@ TEST_P(SurfaceBuffers, MotionIsTheDifferenceOfProjectedPoints) {
   const Frames frames = twoFrames(scene);
   int judged = 0;
   double largest = 0.0;
-  const int wrong = wrongMotions(frames, frames.then, judged, largest);
+  const int wrong = wrongMotions(frames, frames.previous, judged, largest);
   RecordProperty("largest_error_px", std::to_string(largest));
   EXPECT_GT(judged, 3000);
-  EXPECT_LE(wrong, judged / 1000) << "largest " << largest;  // pixels on a triangle's very edge
+  EXPECT_LE(wrong, judged / 1000) << "largest " << largest;  // pixels exactly on a triangle's edge
   const auto first = std::ranges::find_if(frames.ids, [](std::uint32_t id) { return id != 0; });
   const auto at = static_cast<std::size_t>(4 * (first - frames.ids.begin()));
   EXPECT_EQ(frames.motion[at + 3], 1.0F);  // SurfaceMotionSource::kSurface
   EXPECT_EQ(frames.motion[at + 2], 0.0F);  // exact
 }
 
-/// The measure must tell motion that forgets what moves by itself, or the camera.
+/// Negative control: motion without the model's animation, or without the camera's motion, must
+/// fail.
 TEST_P(SurfaceBuffers, MotionThatForgetsSomethingIsWrong) {
   const Scene scene = sceneOf(GetParam().make());
   const Frames frames = twoFrames(scene);
   int judged = 0;
   double largest = 0.0;
-  oracles::PosedModel cameraStands = frames.then;
-  cameraStands.cameraFromModel = frames.now.cameraFromModel;
+  oracles::PosedModel cameraStands = frames.previous;
+  cameraStands.cameraFromModel = frames.current.cameraFromModel;
   EXPECT_GT(wrongMotions(frames, cameraStands, judged, largest), judged * 9 / 10);
   const bool movesByItself =
       scene.models[0].playback.clip || scene.models[0].model->parts[0].radiansPerSecond != 0.0;
   if (!movesByItself) return;
   judged = 0;
-  oracles::PosedModel modelStands = frames.then;
-  modelStands.pose = frames.now.pose;
+  oracles::PosedModel modelStands = frames.previous;
+  modelStands.pose = frames.current.pose;
   EXPECT_GT(wrongMotions(frames, modelStands, judged, largest), judged / 3);
 }
 
@@ -163,7 +165,7 @@ TEST_P(SurfaceBuffers, BarycentricsAndPartsAreThoseOfTheSurface) {
     ASSERT_EQ(frames.parts[i] >> kTriangleBits, 1u);
     const auto* part = partOfTriangle(model, number);
     ASSERT_EQ(frames.parts[i] & kNumbers, static_cast<std::size_t>(part - model.parts.data()));
-    const auto expected = oracles::pointBehind(frames.now, number, camera(), pixelCentre(i));
+    const auto expected = oracles::pointBehind(frames.current, number, camera(), pixelCentre(i));
     if (!expected) continue;
     const glm::dvec2 two(glm::unpackUnorm2x16(frames.barycentrics[i]));
     const glm::dvec3 at(two, 1.0 - two.x - two.y);
@@ -191,7 +193,8 @@ INSTANTIATE_TEST_SUITE_P(Models, SurfaceBuffers,
 
 class SteadyState : public SceneGlTest {};
 
-/// Models that turn, swing, bend and breathe, a plane and an occluder, with all that is asked for.
+/// Rotating, swinging, bending and morphing models, a plane and an occluder, with all optional
+/// buffers.
 TEST_F(SteadyState, AllocatesNothing) {
   Scene scene;
   const glm::dmat4 step = glm::translate(glm::dmat4(1.0), {0.03, 0.02, 0.0});
@@ -216,9 +219,10 @@ TEST_F(SteadyState, AllocatesNothing) {
     for (int i = 0; i < frames; ++i) {
       ++sequence;
       const double turn = 0.01 * static_cast<double>(sequence);
-      renderer.compose(
-          picture, camera, {.cameraFromWorld = glm::rotate(thenAslant(), turn, {0.0, 0.0, 1.0})},
-          sequence, hal::TimePoint(sequence * milliseconds(33)), timer_, {.surfaces = true});
+      renderer.compose(picture, camera,
+                       {.cameraFromWorld = glm::rotate(previousAslant(), turn, {0.0, 0.0, 1.0})},
+                       sequence, hal::TimePoint(sequence * milliseconds(33)), timer_,
+                       {.surfaces = true});
     }
   };
   play(5);

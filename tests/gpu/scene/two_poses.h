@@ -13,18 +13,18 @@
 
 namespace pleinair::scene {
 
-// Two frames, a thirtieth of a second apart, and what stands in them.
+// Two frames, a thirtieth of a second apart, and their scene.
 
 inline constexpr hal::FrameSize kTwoPosesSize{240, 180};
 
-inline const hal::TimePoint kThen{std::chrono::milliseconds(400)};
-inline const hal::TimePoint kNow{std::chrono::milliseconds(433)};
+inline const hal::TimePoint kPrevious{std::chrono::milliseconds(400)};
+inline const hal::TimePoint kCurrent{std::chrono::milliseconds(433)};
 
-inline glm::dmat4 thenAslant() {
+inline glm::dmat4 previousAslant() {
   return glm::rotate(glm::translate(glm::dmat4(1.0), {0.012, -0.004, 0.42}), 0.72, {0.9, 0.3, 0.1});
 }
-/// A hand's movement further: some 5 px, and 0.6° of turn.
-inline glm::dmat4 nowAslant() {
+/// The pose after a movement of the hand: about 5 px, and 0.6° of turn.
+inline glm::dmat4 currentAslant() {
   return glm::rotate(glm::translate(glm::dmat4(1.0), {0.004, 0.001, 0.415}), 0.73,
                      {0.9, 0.31, 0.1});
 }

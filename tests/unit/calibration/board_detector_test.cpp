@@ -23,7 +23,7 @@ struct Accuracy {
   glm::dvec2 bias{0.0};
 };
 
-/// A checkerboard upside down is the same.
+/// A checkerboard upside down looks the same.
 Accuracy accuracyOf(const Board& board, const BoardSighting& sighting, const glm::dmat4& pose) {
   Accuracy best{.rmsPx = 1e9};
   for (const double sign : {1.0, -1.0}) {
@@ -68,7 +68,7 @@ TEST_P(EveryBoard, CornersAreWhereTheyAreToATenthOfAPixel) {
     EXPECT_GT(sighting->edgeWidthPx, 1.5);
     EXPECT_LT(sighting->edgeWidthPx, 2.6);
   }
-  // Pixel centres taken for integers would be a bias of half a pixel.
+  // Pixel centres taken as integers would bias corners by half a pixel.
   EXPECT_LT(glm::length(bias), 0.03);
 }
 
@@ -119,7 +119,7 @@ TEST(OtherBoard, IsNamed) {
   const hal::Image picture =
       renderer.render(support::cameraFromBoard(kCheckerboard, kBarrel, {.span = 0.5}));
   const hal::PlaneView luma = picture.view().planes[0];
-  // Who counts squares says 10x7.
+  // A user who counts squares enters 10x7.
   EXPECT_EQ(otherBoardIn(Board(Checkerboard{10, 7, 0.025}), luma, picture.size()),
             "a checkerboard of 9x6 inner corners");
   EXPECT_FALSE(otherBoardIn(kGrid, luma, picture.size()));

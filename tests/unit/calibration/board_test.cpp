@@ -16,7 +16,7 @@ TEST(Board, CheckerboardIsAGridAboutItsCentre) {
   EXPECT_NEAR(glm::distance(board.corners()[1], glm::dvec3(-0.01, -0.02, 0.0)), 0.0, 1e-12);
   EXPECT_NEAR(glm::distance(board.corners()[11], glm::dvec3(0.03, 0.02, 0.0)), 0.0, 1e-12);
   EXPECT_EQ(board.edges().size(), 3u * 3u + 4u * 2u);
-  EXPECT_EQ(board.fewestCorners(), 12);
+  EXPECT_EQ(board.minCorners(), 12);
   for (const BoardEdge& edge : board.edges()) {
     const glm::dvec3 along = board.corners()[static_cast<std::size_t>(edge.to)] -
                              board.corners()[static_cast<std::size_t>(edge.from)];

@@ -7,7 +7,7 @@
 
 namespace pleinair::calibration {
 
-/// What a lens without fault but noise gives of a tour.
+/// The views of a tour through a lens without error but noise.
 inline std::vector<FitView> idealViews(const Board& board, const tracking::CameraModel& camera,
                                        const std::vector<support::BoardHold>& tour, double noisePx,
                                        std::uint32_t seed = 1) {
@@ -24,7 +24,7 @@ inline std::vector<FitView> idealViews(const Board& board, const tracking::Camer
   return views;
 }
 
-/// The board facing the camera, in many places.
+/// The board facing the camera, at many positions.
 inline std::vector<support::BoardHold> frontalTour() {
   std::vector<support::BoardHold> tour;
   for (const double y : {0.25, 0.5, 0.75}) {

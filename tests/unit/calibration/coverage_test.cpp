@@ -28,7 +28,7 @@ TEST(Coverage, KnowsWhichSideOfABoardIsNearer) {
   EXPECT_TRUE(has({.yaw = -0.5}, Tilt::kRightNearer));
   EXPECT_TRUE(has({.pitch = 0.5}, Tilt::kTopNearer));
   EXPECT_TRUE(has({.pitch = -0.5}, Tilt::kBottomNearer));
-  // Also where the board is turned in its plane, and aside.
+  // Also for boards rotated in their plane and off-centre.
   EXPECT_TRUE(has({.at = {0.7, 0.6}, .yaw = 0.5, .roll = 1.2}, Tilt::kLeftNearer));
   for (const Tilt tilt :
        {Tilt::kLeftNearer, Tilt::kRightNearer, Tilt::kTopNearer, Tilt::kBottomNearer}) {
@@ -80,9 +80,9 @@ TEST(Coverage, GivesBackWhatIsRemoved) {
   coverage.add(near);
   coverage.add(near);
   EXPECT_EQ(coverage.gain(near), 0.0);
-  EXPECT_FALSE(coverage.canSpare(near));
+  EXPECT_FALSE(coverage.isRedundant(near));
   coverage.add(near);
-  EXPECT_TRUE(coverage.canSpare(near));
+  EXPECT_TRUE(coverage.isRedundant(near));
   for (int i = 0; i < 3; ++i) coverage.remove(near);
   EXPECT_EQ(coverage.gain(near), gain);
   EXPECT_EQ(coverage.coveredShare(), 0.0);

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pipeline/calibration/lens_certainty.h"
+#include "pipeline/calibration/lens_uncertainty.h"
 #include "tests/unit/calibration/calibration_views.h"
 
 namespace pleinair::calibration {
@@ -30,7 +30,7 @@ TEST(LensFit, FindsTheLensFromCornersWithoutNoise) {
 }
 
 TEST(LensFit, ItsErrorsAreAsLargeAsItsStandardDeviationsSay) {
-  // Each free parameter's error over its standard deviation, squared, is 1 on average.
+  // The squared ratio of each free parameter's error to its standard deviation is 1 on average.
   constexpr int kTrials = 24;
   constexpr double kNoisePx = 0.1;
   const auto tour = support::calibrationPoses(kBoard, kBarrel);
@@ -49,7 +49,7 @@ TEST(LensFit, ItsErrorsAreAsLargeAsItsStandardDeviationsSay) {
       sums.at(i) += error * error / kTrials;
     }
     double worst = 0.0;
-    for (const PlaceCertainty& place : placeCertainties(*fit))
+    for (const PlaceUncertainty& place : placeUncertainties(*fit))
       worst = std::max(worst, place.sigmaPx);
     places += support::rayErrorPx(kBarrel, fit->camera) / worst / kTrials;
   }
@@ -57,7 +57,7 @@ TEST(LensFit, ItsErrorsAreAsLargeAsItsStandardDeviationsSay) {
     EXPECT_GT(sums.at(i), 0.4) << i;
     EXPECT_LT(sums.at(i), 2.0) << i;
   }
-  // The largest error over the picture is about the largest that is predicted.
+  // The largest error over the image is about the largest predicted one.
   EXPECT_GT(places, 0.4);
   EXPECT_LT(places, 2.0);
 }
@@ -87,9 +87,9 @@ TEST(LensFit, AWrongScaleOfTheBoardDoesNotChangeTheLens) {
 }
 
 TEST(LensCertainty, SeesALensThatFoldsBack) {
-  EXPECT_FALSE(foldsInPicture(kBarrel));
-  // Its radius falls beyond r² = 1 / (3 · 0.8), within the picture's corners at r = 0.95.
-  EXPECT_TRUE(foldsInPicture({{420, 420, 320, 240}, {.k1 = -0.8}, {640, 480}}));
+  EXPECT_FALSE(foldsInImage(kBarrel));
+  // The radius falls beyond r² = 1 / (3 · 0.8), inside of the image's corners at r = 0.95.
+  EXPECT_TRUE(foldsInImage({{420, 420, 320, 240}, {.k1 = -0.8}, {640, 480}}));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Boards rendered through known lenses, found, chosen and solved.
+// Detects boards rendered through known lenses, and fits and chooses the lens.
 #include <chrono>
 
 #include <gmock/gmock.h>
@@ -26,7 +26,7 @@ class RenderedCalibration : public testing::TestWithParam<Case> {};
 TEST_P(RenderedCalibration, FindsTheLens) {
   const auto& [name, board, camera, largestRayErrorPx] = GetParam();
   const support::BoardRenderer renderer(board, camera);
-  CalibrationSession session(board, camera.imageSize(), {.selection = {.isMovement = false}});
+  CalibrationSession session(board, camera.imageSize(), {.selection = {.isSequence = false}});
   std::uint32_t frame = 0;
   for (const support::BoardHold& hold : support::calibrationPoses(board, camera)) {
     const hal::Image picture = renderer.render(
@@ -44,7 +44,7 @@ TEST_P(RenderedCalibration, FindsTheLens) {
   EXPECT_NEAR(found.cy, wanted.cy, 0.0008 * camera.imageSize().width);
   const double error = support::rayErrorPx(camera, report.choice->fit.camera);
   EXPECT_LT(error, largestRayErrorPx);
-  EXPECT_LT(error, 3.5 * report.worstSigmaPx);  // it knows how good it is
+  EXPECT_LT(error, 3.5 * report.worstSigmaPx);  // the predicted error holds
   EXPECT_LT(report.choice->fit.rmsPx, 0.15);
   RecordProperty("ray_error_px", std::to_string(error));
   RecordProperty("views", static_cast<int>(report.choice->used.size()));

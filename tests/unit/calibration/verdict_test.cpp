@@ -22,12 +22,12 @@ struct Showing {
   double noisePx = 0.08;
   double edgeWidthPx = 1.5;
   double stretchX = 1.0;
-  double skew = 0.0;  ///< px a row by which rows of a view are shifted, changing with each view
+  double skew = 0.0;  ///< shift per row of a view, in px, different in each view
 };
 
-/// As photographs, one a hold.
+/// Like photographs, one per hold.
 ViewSelector shown(const std::vector<BoardHold>& tour, const Showing& how = {}) {
-  ViewSelector selector(kBoard, kCamera.imageSize(), {.isMovement = false});
+  ViewSelector selector(kBoard, kCamera.imageSize(), {.isSequence = false});
   std::uint32_t frame = 0;
   for (const BoardHold& hold : tour) {
     glm::dmat4 pose = support::cameraFromBoard(kBoard, kCamera, hold);

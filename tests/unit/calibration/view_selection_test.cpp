@@ -16,7 +16,7 @@ const Board kBoard(Checkerboard{9, 6, 0.025});
 const tracking::CameraModel kCamera({600, 600, 320, 240}, {}, {640, 480});
 constexpr hal::Duration kPeriod = std::chrono::milliseconds(33);
 
-/// Shows boards to a selector, a frame period after each other.
+/// Shows boards to a selector, one frame period apart.
 class ViewSelection : public testing::Test {
  protected:
   ViewOutcome show(const BoardHold& hold, double edgeWidthPx = 1.5) {
@@ -25,7 +25,7 @@ class ViewSelection : public testing::Test {
     sighting.edgeWidthPx = edgeWidthPx;
     return offer(std::move(sighting));
   }
-  /// Twice, so that it is seen to be still.
+  /// Twice, so that the board is known to be at rest.
   ViewOutcome hold(const BoardHold& held, double edgeWidthPx = 1.5) {
     show(held, edgeWidthPx);
     return show(held, edgeWidthPx);
@@ -40,7 +40,7 @@ class ViewSelection : public testing::Test {
 };
 
 TEST_F(ViewSelection, TakesAStillViewOnce) {
-  EXPECT_EQ(show({}), ViewOutcome::kMoving);  // nothing tells yet
+  EXPECT_EQ(show({}), ViewOutcome::kMoving);  // nothing to compare with yet
   EXPECT_EQ(show({}), ViewOutcome::kTaken);
   for (int i = 0; i < 20; ++i) EXPECT_EQ(show({}), ViewOutcome::kNothingNew);
   EXPECT_EQ(selector_.views().size(), 1u);
@@ -50,7 +50,7 @@ TEST_F(ViewSelection, TakesAStillViewOnce) {
 }
 
 TEST_F(ViewSelection, LeavesOutMovingBoards) {
-  // 3 px a picture are 90 px a second: its rows would be a pixel or two apart.
+  // 3 px per image are 90 px per second: rows would shift by a pixel or two.
   for (int i = 0; i < 40; ++i) {
     EXPECT_EQ(show({.at = {0.3 + i * 3.0 / 640.0, 0.5}}), ViewOutcome::kMoving);
   }
@@ -58,7 +58,7 @@ TEST_F(ViewSelection, LeavesOutMovingBoards) {
 }
 
 TEST_F(ViewSelection, TakesASlowHand) {
-  // 0.4 px a picture: a hand that holds still.
+  // 0.4 px per image: a hand that tries to hold still.
   show({});
   EXPECT_EQ(show({.at = {0.5 + 0.4 / 640.0, 0.5}}), ViewOutcome::kTaken);
 }
@@ -75,7 +75,7 @@ TEST_F(ViewSelection, ABlurredOneIsDroppedOnceSharperOnesCome) {
   for (int i = 0; i < 3; ++i) hold({.at = {0.6, 0.5}}, 1.5);
   ASSERT_EQ(selector_.views().size(), 1u);
   EXPECT_EQ(selector_.views()[0].sighting.edgeWidthPx, 1.5);
-  // Its tilt is wanted again.
+  // Its tilt is required again.
   EXPECT_EQ(selector_.coverage().viewsWith(Tilt::kLeftNearer), 0);
 }
 
@@ -114,7 +114,7 @@ TEST_F(ViewSelection, NeverTakesMoreThanItMay) {
 }
 
 TEST_F(ViewSelection, PhotographsNeedNotFollowEachOther) {
-  ViewSelector photographs(kBoard, kCamera.imageSize(), {.isMovement = false});
+  ViewSelector photographs(kBoard, kCamera.imageSize(), {.isSequence = false});
   std::uint32_t frame = 0;
   for (const BoardHold& held : support::calibrationPoses(kBoard, kCamera)) {
     photographs.offer(

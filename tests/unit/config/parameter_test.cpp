@@ -143,7 +143,7 @@ TEST(Parameter, PrintsATomlTableWithItsHelp) {
 
 TEST(Parameter, PrintsWhatWasGivenAlone) {
   EXPECT_EQ(table().defaults().toToml(Printed::kGiven), "");
-  // Given is given, were it the default's value.
+  // A value that was set counts as set even if it equals the default.
   EXPECT_EQ(table().defaults().with("seed", "1", "--set").toToml(Printed::kGiven),
             "# Of the noise.\n"
             "# a whole number at least 0; default: 1; at the next start\n"

@@ -16,7 +16,7 @@ Anchor anchorAt(float x, float y, std::uint32_t seed) {
   return {.px = {x, y}, .fade = 1.0F, .seed = seed, .state = Anchor::kAlive};
 }
 
-/// One in the middle of each 8×8 cell.
+/// One at the centre of each 8×8 cell.
 std::vector<Anchor> oneACell() {
   std::vector<Anchor> anchors;
   for (int y = 0; y < kSize.height / 8; ++y) {
@@ -61,7 +61,7 @@ TEST(AnchorMeasures, CountsBirthsAndDeathsHereAndAwayFromTheBorder) {
   anchors[0].state = 0;                                           // died at the border
   anchors[15 * 40 + 20].state = Anchor::kAlive | Anchor::kDying;  // dies in the middle
   anchors[15 * 40 + 21].state = Anchor::kAlive | Anchor::kHidden;
-  anchors[15 * 40 + 22].seed = 9003;  // the slot of one that died is another's: both
+  anchors[15 * 40 + 22].seed = 9003;  // the slot of a dead anchor is reused: a death and a birth
   measures.add(anchors, nullptr, nullptr);
   const AnchorFrame& frame = measures.frames().back();
   EXPECT_EQ(frame.births, 3u);
@@ -75,7 +75,7 @@ TEST(AnchorMeasures, TellsTheHalfLifeFromTheDeaths) {
   AnchorMeasures measures(kSize);
   std::vector<Anchor> anchors = oneACell();
   measures.add(anchors, nullptr, nullptr);
-  // In each frame a tenth of those in the middle is replaced.
+  // In each frame a tenth of the inner anchors is replaced.
   std::uint32_t seed = 10'000;
   for (int frame = 0; frame < 10; ++frame) {
     for (std::size_t i = static_cast<std::size_t>(frame); i < anchors.size(); i += 10) {
@@ -114,7 +114,7 @@ TEST(AnchorMeasures, ReadsTheSlipAgainstTheTrueMotion) {
   const auto all = measures.total();
   ASSERT_TRUE(all && all->drift && all->longDrift);
   EXPECT_NEAR(all->drift->median, 0.05, 1e-4);
-  EXPECT_NEAR(all->drift->most, 0.05, 1e-4);
+  EXPECT_NEAR(all->drift->percentile95, 0.05, 1e-4);
   EXPECT_NEAR(all->drift->rms, 0.05, 1e-4);
   EXPECT_NEAR(all->longDrift->median, 0.5, 1e-3);
   EXPECT_EQ(all->moved, 1200);
@@ -123,7 +123,7 @@ TEST(AnchorMeasures, ReadsTheSlipAgainstTheTrueMotion) {
 TEST(AnchorMeasures, ReadsTheSpreadOverCells) {
   AnchorMeasures measures(kSize);
   std::vector<Anchor> anchors = oneACell();
-  // Those of every other cell go to the next: 2, 0, 2, 0 …
+  // The anchors of every other cell move to the next one: 2, 0, 2, 0 …
   for (std::size_t i = 0; i < anchors.size(); i += 2) anchors[i].px.x += 8;
   measures.add(anchors, nullptr, nullptr);
   measures.add(anchors, nullptr, nullptr);

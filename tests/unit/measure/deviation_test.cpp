@@ -50,7 +50,7 @@ TEST(Flicker, OfASensorIsTwoOverRootPiTimesItsNoise) {
   constexpr double kLevels = 4;
   const cv::Mat3f a = toFloat(withSensorNoise(scene, kLevels, 0).view());
   const cv::Mat3f b = toFloat(withSensorNoise(scene, kLevels, 1).view());
-  // |difference of two normals|, rounding to levels added.
+  // Mean |difference of two normals|, plus rounding to levels.
   const double expected = 2 / std::sqrt(M_PI) * std::sqrt(kLevels * kLevels + 1.0 / 12) / 255;
   EXPECT_NEAR(*absoluteDifference(a, b).value() / expected, 1.0, 0.01);
 }

@@ -28,10 +28,10 @@ TEST(Texture, OfACheckerboardKnowsItsSquares) {
     for (int x = 0; x < kSize.width; ++x) board(y, x) = (x + y) % 2 == 0 ? 0.0F : 0.99F;
   }
   const TextureStatistics texture = textureOf(board);
-  // One px along a row or column changes the square; one along a diagonal does not.
+  // One px along a row or column changes the square; one px along a diagonal does not.
   EXPECT_NEAR(texture.cooccurrences[0](0, 15), 0.25, 2e-3);
   EXPECT_NEAR(texture.cooccurrences[0](0, 0), 0.25, 2e-3);
-  // Two px never do.
+  // Two px never change it.
   EXPECT_EQ(texture.cooccurrences[1](0, 15), 0.0);
   EXPECT_NEAR(texture.cooccurrences[1](0, 0) + texture.cooccurrences[1](15, 15), 1.0, 1e-9);
 }

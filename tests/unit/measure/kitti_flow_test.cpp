@@ -64,7 +64,7 @@ TEST_F(KittiFlow, IsComposedOverFrames) {
   std::vector<std::filesystem::path> flows;
   for (int i = 0; i < 3; ++i) {
     flows.push_back(path("flow" + std::to_string(i) + ".png"));
-    // Each leads further by half a pixel more.
+    // Each flow is longer by half a pixel.
     constantFlow(kSize.width, kSize.height, 1 + 0.5 * i, -0.25).write(flows.back());
   }
   const auto motion = flowSequence(kSize, flows, {});
@@ -73,7 +73,7 @@ TEST_F(KittiFlow, IsComposedOverFrames) {
   EXPECT_NE(map->valid(90, 100), 0);
   EXPECT_EQ(map->displacement(90, 100), cv::Vec2f(4.5F, -0.75F));
   EXPECT_EQ(motion->between(1, 2)->displacement(90, 100), cv::Vec2f(1.5F, -0.25F));
-  // What leaves the frame is not known.
+  // Flow that leaves the frame is invalid.
   EXPECT_EQ(map->valid(90, 198), 0);
 }
 

@@ -13,7 +13,7 @@ const cv::Point kShift(-15, -5);
 
 Mean lasting(const cv::Mat3f& earlier, const cv::Mat3f& later, cv::Point shift = kShift) {
   return lastingMarks(greyOf(earlier),
-                      carriedBack(greyOf(later), constantMap(kSize, cv::Point2d(shift))));
+                      warpedBack(greyOf(later), constantMap(kSize, cv::Point2d(shift))));
 }
 
 TEST(LastingMarks, AreAllOfAPatternThatIsCarried) {
@@ -22,7 +22,7 @@ TEST(LastingMarks, AreAllOfAPatternThatIsCarried) {
   const Mean found = lasting(earlier, windowOf(canvas, cv::Point(20, 20) - kShift, kSize));
   EXPECT_GT(found.weight, 100);
   EXPECT_EQ(found.value(), 1.0);
-  // One px beside is still found; four are not.
+  // A mark one px away is still found; one four px away is not.
   EXPECT_EQ(*lasting(earlier, windowOf(canvas, cv::Point(21, 20) - kShift, kSize)).value(), 1.0);
   EXPECT_LT(*lasting(earlier, windowOf(canvas, cv::Point(24, 20) - kShift, kSize)).value(), 0.1);
 }
@@ -41,7 +41,7 @@ TEST(LastingMarks, AreNotToldOfAFlatPicture) {
 TEST(LastingMarks, AreThreeHundredAtTheMost) {
   const cv::Mat3f wide = noisePicture({900, 700}, 0.2, 4);
   const Mean found =
-      lastingMarks(greyOf(wide), carriedBack(greyOf(wide), constantMap(wide.size(), {0, 0})));
+      lastingMarks(greyOf(wide), warpedBack(greyOf(wide), constantMap(wide.size(), {0, 0})));
   EXPECT_EQ(found.weight, 300);
 }
 

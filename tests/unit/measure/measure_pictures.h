@@ -7,7 +7,7 @@
 
 namespace pleinair::measure {
 
-/// White Gaussian noise about the middle grey, each channel by itself.
+/// White Gaussian noise around middle grey, independent per channel.
 inline cv::Mat3f noisePicture(cv::Size size, double sigma, std::uint64_t seed) {
   cv::RNG random(seed);
   cv::Mat3f picture(size);
@@ -15,14 +15,14 @@ inline cv::Mat3f noisePicture(cv::Size size, double sigma, std::uint64_t seed) {
   return picture;
 }
 
-/// Blobs of a few px: something with corners.
+/// Blobs of a few px, which give corners.
 inline cv::Mat3f blobPicture(cv::Size size, std::uint64_t seed) {
   cv::Mat3f picture;
   cv::GaussianBlur(noisePicture(size, 1.0, seed), picture, {}, 2.0);
   return picture;
 }
 
-/// `size` of `canvas` from a place in it: what a camera sees that pans over it.
+/// The part of `canvas` of this `size` at a position: the view of a camera that pans over it.
 inline cv::Mat3f windowOf(const cv::Mat3f& canvas, cv::Point at, cv::Size size) {
   return canvas(cv::Rect(at, size)).clone();
 }

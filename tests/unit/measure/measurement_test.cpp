@@ -21,7 +21,7 @@ using testing::HasSubstr;
 
 constexpr hal::FrameSize kFrame{200, 180};
 
-/// Paints by a function of the picture and how often it was asked.
+/// Paints by a function of the image and the number of calls so far.
 class FunctionPainter final : public MeasuredPainter {
  public:
   using Function = std::function<cv::Mat3f(const cv::Mat3f&, int)>;
@@ -51,7 +51,7 @@ class MeasurementTest : public testing::Test {
     return hal::orThrow(
         openPhotograph(path("photo.png"), {.size = kFrame, .motion = motion, .frames = frames}));
   }
-  /// Frames of a pan into a folder.
+  /// Writes the frames of a pan into a folder.
   void writeFrames(int count, hal::FrameSize size = kFrame) {
     std::filesystem::create_directory(path("in"));
     const cv::Mat3f canvas = blobPicture({400, 300}, 2);
@@ -89,8 +89,8 @@ TEST_F(MeasurementTest, OfTheInputItselfIsPerfectButForItsNoise) {
   EXPECT_EQ(own.popPercent, 0.0);
   EXPECT_EQ(own.s10Percent, 100.0);
   EXPECT_LT(std::abs(*own.scr), 0.1);
-  EXPECT_TRUE(report.areControlsSound());
-  EXPECT_FALSE(report.areGatesPassed());  // noise passes through, and nothing departs
+  EXPECT_TRUE(report.areControlsValid());
+  EXPECT_FALSE(report.areGatesPassed());  // noise passes through, and nothing is painted
   EXPECT_EQ(report.frames, 14u);
   EXPECT_EQ(report.overTime.size(), 14u);
   EXPECT_FALSE(report.worst.empty());
@@ -117,7 +117,7 @@ TEST_F(MeasurementTest, SeesMarksThatAreRedrawnAlsoUnderZoomAndRoll) {
     EXPECT_GT(*report.measures[Subject::kPainting].nHw2, 0.5);
     EXPECT_GT(*report.measures[Subject::kPainting].xFlk, 1);
     EXPECT_LT(*report.measures[Subject::kInput].nHw2, 0.05);
-    EXPECT_TRUE(report.areControlsSound());
+    EXPECT_TRUE(report.areControlsValid());
   }
 }
 
@@ -230,7 +230,7 @@ TEST_F(MeasurementTest, SaysWhatCannotBeHadWithoutTruth) {
   EXPECT_THAT(report.leftOut, testing::Contains(HasSubstr("motion.json")));
 }
 
-/// Such a movie does not say how many frames it has.
+/// Such a movie does not give its number of frames.
 TEST(MeasuredRecording, RefusesToGoOnBeyondItsMotion) {
   const support::TemporaryFolder folder;
   support::writeMedia(folder.path() / "in.mkv", 4);

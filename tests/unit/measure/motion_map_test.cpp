@@ -34,7 +34,7 @@ TEST(MotionMap, IsAShiftWhereTheMotionIsWhole) {
 
 TEST(MotionMap, InterpolatesQuadraticsExactly) {
   const MotionMap map = constantMap(kSize, {2.3, -1.6});
-  const Carried<cv::Mat1f> carried = carriedBack(quadratic(), map, {4, 2});
+  const Warped<cv::Mat1f> carried = warpedBack(quadratic(), map, {4, 2});
   int seen = 0;
   for (int y = 0; y < kSize.height; ++y) {
     for (int x = 0; x < kSize.width; ++x) {
@@ -49,7 +49,7 @@ TEST(MotionMap, InterpolatesQuadraticsExactly) {
 
 TEST(MotionMap, LeavesOutWhatComesFromOutsideTheFrame) {
   const MotionMap map = constantMap(kSize, {100.0, 0});
-  const Carried<cv::Mat1f> carried = carriedBack(quadratic(), map);
+  const Warped<cv::Mat1f> carried = warpedBack(quadratic(), map);
   EXPECT_NE(carried.mask(90, 99), 0);
   EXPECT_EQ(carried.mask(90, 100), 0);
 }
@@ -67,8 +67,8 @@ TEST(MotionMap, LeavesOutMotionBoundariesAndWhatIsHidden) {
   EXPECT_NE(map.valid(50, 103), 0);
   EXPECT_EQ(map.valid(93, 63), 0);
   EXPECT_NE(map.valid(94, 64), 0);
-  // What has looked 12 px around itself is left out 12 px further.
-  const Carried<cv::Mat1f> wide = carriedBack(quadratic(), map, {}, 12);
+  // With a filter radius of 12 px, 12 px more are invalid.
+  const Warped<cv::Mat1f> wide = warpedBack(quadratic(), map, {}, 12);
   EXPECT_EQ(wide.mask(50, 84), 0);
   EXPECT_NE(wide.mask(50, 83), 0);
 }

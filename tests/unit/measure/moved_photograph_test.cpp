@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/measure/carried_error.h"
 #include "pipeline/measure/picture.h"
+#include "pipeline/measure/warping_error.h"
 #include "tests/unit/measure/measure_pictures.h"
 
 namespace pleinair::measure {
@@ -20,7 +20,7 @@ TEST(MovedPhotograph, PansToTheBitWhereTheWayIsWhole) {
   const auto motion = moved.motion();
   EXPECT_EQ(motion->kind(), MotionKind::kPan);
   const hal::Result<MotionMap> map = motion->between(3, 5);
-  const Mean error = carriedError(moved.frame(3), carriedBack(moved.frame(5), *map));
+  const Mean error = warpingError(moved.frame(3), warpedBack(moved.frame(5), *map));
   EXPECT_LT(*error.value(), 1e-11);
   EXPECT_FALSE(moved.isMirrored());
 }
@@ -30,8 +30,8 @@ void expectFollows(const PhotographMotion& how) {
   const auto motion = moved.motion();
   const cv::Mat3f earlier = moved.frame(2);
   const cv::Mat3f later = moved.frame(12);
-  const Mean along = carriedError(earlier, carriedBack(later, *motion->between(2, 12)));
-  const Mean standing = carriedError(earlier, carriedBack(later, constantMap({240, 200}, {0, 0})));
+  const Mean along = warpingError(earlier, warpedBack(later, *motion->between(2, 12)));
+  const Mean standing = warpingError(earlier, warpedBack(later, constantMap({240, 200}, {0, 0})));
   EXPECT_LT(*along.value(), 2e-5) << "along the motion";
   EXPECT_GT(*standing.value(), 100 * *along.value());
 }
@@ -52,7 +52,7 @@ TEST(MovedPhotograph, GoesOnMirroredBeyondItsEdges) {
   const MovedPhotograph moved(photograph({200, 160}), kFrame, {.pan = {2, 0}}, 40);
   EXPECT_TRUE(moved.isMirrored());
   const Mean error =
-      carriedError(moved.frame(0), carriedBack(moved.frame(30), *moved.motion()->between(0, 30)));
+      warpingError(moved.frame(0), warpedBack(moved.frame(30), *moved.motion()->between(0, 30)));
   EXPECT_LT(*error.value(), 1e-11);
 }
 

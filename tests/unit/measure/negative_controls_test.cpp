@@ -23,7 +23,7 @@ const cv::Point2d kPan(-1.5, -0.5);
 const RunConditions kPanned{
     .motion = MotionKind::kPan, .frames = 14, .stillFrames = 4, .stillNoiseLevels = 2};
 
-/// What a pan over a canvas reads, painted by nobody.
+/// Plausible measures of a pan over a canvas.
 PerSubject<Measures> measuresOf(const cv::Mat3f& canvas, double noiseLevels = 2) {
   const auto motion = constantMotion(kSize, 2 * kPan);
   SequenceMeasures measures(kSize, motion.get());
@@ -185,7 +185,7 @@ TEST(Gates, SayWhyOneWasNotMeasuredAndCompareNumbers) {
   ASSERT_TRUE(lasting->comparison);
   EXPECT_FALSE(lasting->comparison->value);
   EXPECT_EQ(lasting->comparison->limit, 90);
-  EXPECT_FALSE(lasting->comparison->isMost);
+  EXPECT_FALSE(lasting->comparison->isUpperLimit);
   const auto deviation = std::ranges::find_if(
       verdicts, [](const Verdict& each) { return each.what.starts_with("DEP"); });
   ASSERT_TRUE(deviation != verdicts.end() && deviation->comparison);
@@ -200,7 +200,7 @@ TEST(RunConditions, SayWhyAMeasureIsMissing) {
               testing::ElementsAre(HasSubstr("EW2, xEW2, nHW2, POP %, S10 %: it needs the true"),
                                    HasSubstr("SCR: too little"), HasSubstr("xFLK: no still"),
                                    HasSubstr("DEP, DET: the input has no detail")));
-  EXPECT_THAT(whyMissing(&Measures::xFlk, {.stillFrames = 4}), HasSubstr("--noise 0"));
+  EXPECT_THAT(reasonMissing(&Measures::xFlk, {.stillFrames = 4}), HasSubstr("--noise 0"));
   EXPECT_THAT(missingLines(good(), {}), testing::IsEmpty());
 }
 

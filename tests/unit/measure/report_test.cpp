@@ -25,7 +25,7 @@ Report report() {
       {"nHW2 ≤ 0.3", Verdict::State::kPassed, "0.062",
        Verdict::Comparison{.value = 0.0625, .limit = 0.3}},
       {"S10 % ≥ 90", Verdict::State::kNotMeasured, "it compares frames 10 apart, and there are 3",
-       Verdict::Comparison{.value = {}, .limit = 90, .isMost = false}}};
+       Verdict::Comparison{.value = {}, .limit = 90, .isUpperLimit = false}}};
   report.inside = AnchorSummary{.frames = 3, .alive = 100, .drift = Drift{.median = 0.5}};
   for (std::uint64_t i = 0; i < 3; ++i) {
     FrameValues values{.frame = i};
@@ -58,7 +58,7 @@ TEST(Report, IsJsonWithNullForWhatCouldNotBeHad) {
   EXPECT_EQ(missing["sense"], "at least");
   EXPECT_TRUE(missing["passed"].is_null());
   EXPECT_EQ(json["gates_passed"], false);
-  EXPECT_EQ(json["controls_sound"], true);
+  EXPECT_EQ(json["controls_valid"], true);
   EXPECT_EQ(json["inside"]["drift"]["median_px"], 0.5);
   EXPECT_TRUE(json["inside"]["half_life_frames"].is_null());
   EXPECT_EQ(json["inside"]["half_life_over_frames"], 3);
@@ -94,10 +94,10 @@ TEST(Report, DoesNotTellAHalfLifeThatNobodySaw) {
 
 TEST(Report, SaysLoudlyThatControlsAreWrong) {
   Report wrong = report();
-  EXPECT_TRUE(wrong.areControlsSound());
+  EXPECT_TRUE(wrong.areControlsValid());
   EXPECT_THAT(reportText(wrong), Not(HasSubstr("MUST")));
   wrong.controls.push_back({"redrawn", Verdict::State::kFailed, "they pass"});
-  EXPECT_FALSE(wrong.areControlsSound());
+  EXPECT_FALSE(wrong.areControlsValid());
   EXPECT_THAT(reportText(wrong), AllOf(HasSubstr("WRONG"), HasSubstr("DO NOT READ AS THEY MUST")));
   EXPECT_THAT(reportHtml(wrong), HasSubstr("can be relied on"));
 }

@@ -21,7 +21,7 @@ double correlation(const cv::Mat3f& a, const cv::Mat3f& b) {
 TEST(ScreenPattern, IsOneOfWhatStaysWhateverItsContrast) {
   const cv::Mat3f picture = blobPicture(kSize, 1);
   EXPECT_NEAR(correlation(picture, picture), 1.0, 1e-6);
-  // Of half the contrast: but for the floor of the mean, the same.
+  // At half the contrast the result is the same, apart from the constant in the mean.
   EXPECT_GT(correlation(picture, toned(picture, 0.5, 0.2)), 0.98);
 }
 
@@ -51,7 +51,7 @@ TEST(VoronoiTiling, GivesEachTileTheMeanOfWhatItCovers) {
   const cv::Scalar before = cv::mean(picture);
   const cv::Scalar after = cv::mean(painted);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(before[c], after[c], 1e-5);
-  // A tile has 64 px on the average, and its mean an eighth of the noise; larger ones less.
+  // A tile has 64 px on average, so its mean has an eighth of the noise; larger tiles have less.
   cv::Scalar mean, deviation;
   cv::meanStdDev(painted, mean, deviation);
   EXPECT_NEAR(deviation[0], 0.1 / 8, 0.003);

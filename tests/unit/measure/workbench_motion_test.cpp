@@ -16,7 +16,7 @@ TEST(WorkbenchMotion, IsTheCamerasOwnFlow) {
   ASSERT_TRUE(map);
   int valid = 0;
   int hidden = 0;
-  int wrong = 0;  // what is thinner than two pixels, and moves almost alike
+  int wrong = 0;  // pixels on objects thinner than two pixels that move almost alike
   const cv::Rect inner = innerRect({320, 240});
   for (int y = inner.y; y < inner.br().y; ++y) {
     for (int x = inner.x; x < inner.br().x; ++x) {

@@ -57,7 +57,7 @@ BenchLight benchLightAt(const glm::dvec3& point, const glm::dvec3& up) {
     colours.push_back(benchIrradiance(point, normal));
     samples.push_back({.normal = normal, .irradiance = luminance(colours.back())});
   }
-  // So wide a prior is none.
+  // A prior this wide has no effect.
   const LightFit fit =
       fitLight(samples, {.ambient = 0.3, .keyVector = 0.5 * up}, {.ambient = 100.0, .key = 100.0});
   BenchLight bench;

@@ -1,4 +1,5 @@
-// What channels say between their keys: by hand, and by the formulas of glTF 2.0, appendix C.
+// Values of channels between their keys, computed by hand and by the formulas of glTF 2.0, appendix
+// C.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -70,7 +71,7 @@ Channel turns(Interpolation interpolation, std::vector<float> values) {
           .width = 4};
 }
 
-/// About z.
+/// A rotation about z.
 std::array<float, 4> turnedBy(double degrees) {
   const double half = degrees * std::numbers::pi / 360.0;
   return {0, 0, static_cast<float>(std::sin(half)), static_cast<float>(std::cos(half))};
@@ -86,12 +87,13 @@ TEST(ChannelValue, OfTurnsGoesEvenlyRound) {
 }
 
 TEST(ChannelValue, OfTurnsGoesTheShorterWay) {
-  const auto to = turnedBy(270.0);  // as far as −90°
+  const auto to = turnedBy(270.0);  // the same as −90°
   const Channel channel = turns(Interpolation::kLinear, {0, 0, 0, 1, to[0], to[1], to[2], to[3]});
   const auto turned = turnedBy(-45.0);
   EXPECT_THAT(at(channel, 0.5), near({0, 0, turned[2], turned[3]}));
   const Channel same = turns(Interpolation::kLinear, {0, 0, 0, 1, 0, 0, 0, -1});
-  const auto value = at(same, 0.3);  // the same turn, of the other sign: never goes round
+  // The same rotation with the opposite sign must not go the long way.
+  const auto value = at(same, 0.3);
   EXPECT_NEAR(std::abs(value[3]), 1.0, 1e-9);
 }
 

@@ -33,7 +33,7 @@ Model twins() {
 void expectSound(const Model& model) {
   const DrawnModel drawn(model);
   ASSERT_EQ(drawn.triangles.size(), model.triangleCount());
-  ASSERT_EQ(drawn.rest.size(), drawn.looks.size());
+  ASSERT_EQ(drawn.rest.size(), drawn.attributes.size());
   std::uint32_t number = 0;
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const ModelPart& part = model.parts[p];

@@ -158,7 +158,7 @@ TEST(GltfAnimation, LeavesOutWhatTheSpecificationSaysToIgnore) {
   const Model model = parsed(builder);
   EXPECT_EQ(model.rig.clips[0].channels.size(), 1u);
   EXPECT_THAT(model.notices, testing::ElementsAre(
-                                 "its animations move what is not known here: \"pointer\"",
+                                 "its animations have unsupported targets: \"pointer\"",
                                  "1 of its animations' channels name no node and are not played"));
 }
 
@@ -328,7 +328,7 @@ TEST(AnimationRefusals, BoundTheKeysOfAllAnimations) {
   const hal::Result<Model> model = parseGltf(builder.bytes(), "m.glb");
   ASSERT_FALSE(model);
   EXPECT_EQ(model.error().message(),
-            "m.glb: animations[0].samplers[0].input: makes too many numbers to read; at most "
+            "m.glb: animations[0].samplers[0].input: exceeds the total number of values; at most "
             "16000000 in all");
 }
 

@@ -9,12 +9,12 @@
 
 namespace pleinair::scene {
 
-/// Puts a glTF together, with its bytes in one buffer.
+/// Builds a glTF with its bytes in one buffer.
 class GltfBuilder {
  public:
   nlohmann::json root = {{"asset", {{"version", "2.0"}}}};
 
-  /// Gives the new bufferView's index.
+  /// Returns the new bufferView's index.
   int addView(const void* bytes, std::size_t count) {
     while (binary_.size() % 4 != 0) binary_.push_back(0);
     root["bufferViews"].push_back(
@@ -24,7 +24,7 @@ class GltfBuilder {
     return static_cast<int>(root["bufferViews"].size()) - 1;
   }
 
-  /// Gives the new accessor's index.
+  /// Returns the new accessor's index.
   template <class T>
   int addAccessor(const std::vector<T>& values, const std::string& type, int componentType,
                   std::size_t components, bool normalized = false) {
@@ -41,7 +41,8 @@ class GltfBuilder {
     return addAccessor(values, type, 5126, components);
   }
 
-  /// A mesh of one primitive, and a node that shows it. Gives the primitive, to be added to.
+  /// Adds a mesh of one primitive and a node that shows it. Returns the primitive, for adding to
+  /// it.
   nlohmann::json& addMesh(const std::vector<float>& positions, const std::string& name = "part") {
     const int accessor = addFloats(positions, "VEC3", 3);
     root["meshes"].push_back({{"primitives", {{{"attributes", {{"POSITION", accessor}}}}}}});

@@ -1,4 +1,4 @@
-// Real models, and the broken ones of the validator's own tests.
+// Reads real models, and the broken ones of the validator's own tests.
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -16,7 +16,7 @@ namespace {
 
 const std::filesystem::path kData = PLEINAIR_SHARED_DATA;
 
-/// Whether the validator found no error and nothing is required that is not supported.
+/// Whether the validator found no error and no unsupported extension is required.
 bool mustLoad(const std::filesystem::path& file) {
   const auto report = nlohmann::json::parse(std::ifstream(file.string() + ".report.json"));
   return report.at("issues").at("numErrors") == 0 &&
@@ -48,7 +48,7 @@ TEST(MalformedGltf, LoadsWhatIsSoundAndRefusesTheRestInALine) {
       EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     }
   }
-  EXPECT_EQ(sound, 14);  // that they were found
+  EXPECT_EQ(sound, 14);  // check that the files were found
   EXPECT_GE(broken, 28);
 }
 
@@ -58,7 +58,7 @@ struct RealModel {
   std::uint32_t triangles;
   std::size_t materials;
   std::size_t textures;
-  glm::dvec3 low;  ///< of its vertices through its nodes, worked out apart; in our frame
+  glm::dvec3 low;  ///< bounds of its vertices, computed independently; in our frame
   glm::dvec3 high;
 };
 

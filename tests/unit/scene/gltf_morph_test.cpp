@@ -1,4 +1,4 @@
-// Morph targets: what they move, alone, by clips, and before skins.
+// Morph targets: the vertices that they move, by themselves, with clips, and before skins.
 #include <cmath>
 #include <functional>
 
@@ -24,8 +24,8 @@ Model parsed(const GltfBuilder& builder) {
   return *std::move(model);
 }
 
-/// A triangle that faces +z; the first target lifts corner 2 by 2 along z, the second moves all by
-/// 1 along x. Accessors: 0 positions, 1 and 2 the targets', 3 the normals.
+/// A triangle that faces +z. The first target lifts corner 2 by 2 along z, the second moves all
+/// corners by 1 along x. Accessors: 0 positions, 1 and 2 the targets', 3 the normals.
 GltfBuilder morphing() {
   GltfBuilder builder;
   auto& primitive = builder.addMesh(kTriangle, "face");
@@ -129,7 +129,7 @@ TEST(Morph, TakesSparseTargets) {
   expectNear(vertexOf(model, 2).position, {0, 0, 1});
 }
 
-/// Morph targets, a skin of two joints, splines of weights and of turns, all at once.
+/// Morph targets, a skin of two joints, splines of weights and of rotations, all at once.
 GltfBuilder everything() {
   GltfBuilder builder = morphing();
   auto& attributes = builder.root["meshes"][0]["primitives"][0]["attributes"];
@@ -214,14 +214,15 @@ TEST(Morph, IsRefusedWhereItIsNone) {
 TEST(Morph, IsNotReadWithoutBounds) {
   GltfBuilder builder;
   auto& primitive = builder.addMesh(kTriangle);
-  // nothing in the file, and 64 times 150,000 moves, twice
+  // small in the file, but 64 times 150,000 offsets, twice
   builder.root["accessors"][0] = {{"componentType", 5126}, {"count", 150'000}, {"type", "VEC3"}};
   for (int i = 0; i < 64; ++i) primitive["targets"].push_back({{"POSITION", 0}});
   const hal::Result<Model> model = parseGltf(builder.bytes(), "m.glb");
   ASSERT_FALSE(model);
-  EXPECT_EQ(model.error().message(),
-            "m.glb: meshes[0].primitives[0].targets: make too many moves of vertices; at most "
-            "16000000 in all");
+  EXPECT_EQ(
+      model.error().message(),
+      "m.glb: meshes[0].primitives[0].targets: exceed the total number of vertex offsets; at most "
+      "16000000 in all");
 }
 
 TEST(Morph, IsNotShownWithoutBounds) {
@@ -236,7 +237,7 @@ TEST(Morph, IsNotShownWithoutBounds) {
   const hal::Result<Model> model = parseGltf(builder.bytes(), "m.glb");
   ASSERT_FALSE(model);  // 64 targets of 3 vertices and 100 triangles: 6592 each
   EXPECT_EQ(model.error().message(),
-            "m.glb: nodes[1213]: makes too many vertices to morph with its like; at most 8000000 "
+            "m.glb: nodes[1213]: exceeds the total number of morphed vertices; at most 8000000 "
             "in all, counted for each target");
 }
 

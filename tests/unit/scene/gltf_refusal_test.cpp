@@ -1,4 +1,4 @@
-// Broken and hostile glTF: each is refused in one line that says where and what.
+// Broken and hostile glTF: each file is refused with one line that names the place and the problem.
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -28,7 +28,7 @@ std::string refusalOf(std::string_view text) {
   return refusalOf({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
-/// A triangle with a material, to be spoilt.
+/// A triangle with a material, for tests to corrupt.
 GltfBuilder soundModel() {
   GltfBuilder builder;
   builder.addMesh({0, 0, 0, 1, 0, 0, 0, 1, 0})["material"] = 0;
@@ -106,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(
                    r["nodes"].push_back({{"scale", {1e6, 1, 1}}, {"children", {0}}});
                    r["scenes"][0]["nodes"] = {1};
                  },
-                 "m.glb: nodes[0]: is moved or scaled beyond all measure by its parents"},
+                 "m.glb: nodes[0]: is out of range after its parents' transforms"},
         Spoiling{"Material", [](json& r) { r["meshes"][0]["primitives"][0]["material"] = 1; },
                  "m.glb: meshes[0].primitives[0].material: there is no materials[1]"},
         Spoiling{"Texture",
@@ -176,10 +176,10 @@ TEST(GltfRefusals, BoundWhatInstancesDraw) {
   builder.addMesh(positions);
   for (int i = 0; i < 4200; ++i) builder.root["nodes"].push_back({{"mesh", 0}});
   EXPECT_EQ(refusalOf(builder.bytes()),
-            "m.glb: nodes[4194]: makes too many triangles with its like; at most 4194304 drawn");
+            "m.glb: nodes[4194]: exceeds the total number of triangles; at most 4194304 drawn");
 }
 
-/// Hardly any of them are drawn, but each node that shows them looks at all.
+/// Hardly any vertices are drawn, but each node that shows the mesh processes all of them.
 TEST(GltfRefusals, BoundTheVerticesThatInstancesShow) {
   GltfBuilder builder;
   std::vector<float> positions(std::size_t{3} * 630'000, 0.0F);
@@ -188,8 +188,9 @@ TEST(GltfRefusals, BoundTheVerticesThatInstancesShow) {
   primitive["attributes"]["NORMAL"] = primitive["attributes"]["POSITION"];
   primitive["indices"] = builder.addAccessor<std::uint8_t>({0, 1, 2}, "SCALAR", 5121, 1);
   for (int i = 0; i < 20; ++i) builder.root["nodes"].push_back({{"mesh", 0}});
-  EXPECT_EQ(refusalOf(builder.bytes()),
-            "m.glb: nodes[19]: shows too many vertices with its like; at most 12582912 in all");
+  EXPECT_EQ(
+      refusalOf(builder.bytes()),
+      "m.glb: nodes[19]: exceeds the total number of shown vertices; at most 12582912 in all");
 }
 
 TEST(GltfRefusals, BoundPrimitives) {
@@ -197,10 +198,10 @@ TEST(GltfRefusals, BoundPrimitives) {
   const json empty = {{"attributes", json::object()}};
   builder.root["meshes"] = {{{"primitives", json(50'001, empty)}}};
   builder.root["skins"] = {{{"joints", {0}}}};
-  // shared, so read once; with a skin, once again
+  // shared, so read once; with a skin, read a second time
   builder.root["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}}, {{"mesh", 0}, {"skin", 0}}};
   EXPECT_EQ(refusalOf(builder.bytes()),
-            "m.glb: meshes[0]: makes too many primitives with its like; at most 100000 in all");
+            "m.glb: meshes[0]: exceeds the total number of primitives; at most 100000 in all");
 }
 
 TEST(GltfRefusals, BoundWhatAccessorsMakeToRead) {
@@ -213,7 +214,7 @@ TEST(GltfRefusals, BoundWhatAccessorsMakeToRead) {
     accessors.vectors(0, "here");
     FAIL() << "nothing thrown";
   } catch (const gltf::Fault& fault) {
-    EXPECT_STREQ(fault.what(), "here: makes too many numbers to read");
+    EXPECT_STREQ(fault.what(), "here: exceeds the total number of values");
     EXPECT_EQ(fault.remedy(), "at most 24 in all");
   }
 }
@@ -238,7 +239,7 @@ TEST(GltfRefusals, BoundTexturesThatShareAPicture) {
     }
   }
   EXPECT_EQ(refusalOf(builder.bytes()),
-            "m.glb: textures[8]: makes too many pixels with the textures before it; at most 48 Mpx "
+            "m.glb: textures[8]: exceeds the total number of texture pixels; at most 48 Mpx "
             "in all");
 }
 

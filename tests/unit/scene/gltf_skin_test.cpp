@@ -1,4 +1,4 @@
-// Skins: what holds vertices, and where that takes them.
+// Skins: joint weights of vertices, and the resulting positions.
 #include <cmath>
 #include <functional>
 
@@ -27,7 +27,7 @@ std::string refusalOf(const GltfBuilder& builder) {
   return model ? "(was taken)" : model.error().message();
 }
 
-/// `count` matrices, each moving by its vector.
+/// `count` matrices; each translates by its vector.
 std::vector<float> movingMatrices(const std::vector<glm::vec3>& moves) {
   std::vector<float> values;
   for (const glm::vec3& move : moves) {
@@ -36,8 +36,8 @@ std::vector<float> movingMatrices(const std::vector<glm::vec3>& moves) {
   return values;
 }
 
-/// A triangle on two bones, the second below the first: corner 0 is the first's, corner 1 is half
-/// each's, corner 2 the second's. Nodes: 0 shows it, 1 and 2 are the bones.
+/// A triangle on two bones, the second a child of the first: corner 0 follows the first bone,
+/// corner 1 both equally, corner 2 the second. Nodes: 0 shows the triangle, 1 and 2 are the bones.
 GltfBuilder twoBones() {
   GltfBuilder builder;
   auto& primitive = builder.addMesh(kTriangle, "figure");
@@ -46,7 +46,7 @@ GltfBuilder twoBones() {
   primitive["attributes"]["WEIGHTS_0"] =
       builder.addFloats({1, 0, 0, 0, 0.5, 0.5, 0, 0, 2, 0, 0, 0}, "VEC4", 4);
   builder.root["nodes"][0]["skin"] = 0;
-  builder.root["nodes"][0]["translation"] = {100, 100, 100};  // does not count
+  builder.root["nodes"][0]["translation"] = {100, 100, 100};  // is ignored
   builder.root["nodes"].push_back({{"translation", {0, 0, 3}}, {"children", {2}}});
   builder.root["nodes"].push_back({{"translation", {0, 4, 0}}});
   // the second joint was bound at y = 1
@@ -55,7 +55,7 @@ GltfBuilder twoBones() {
   return builder;
 }
 
-/// A vertex of a part's first surface, posed.
+/// A posed vertex of a part's first surface.
 MeshVertex vertexOf(const Model& model, std::size_t vertex,
                     const std::optional<ClipMoment>& moment = std::nullopt, std::size_t part = 0) {
   ModelPose pose;
@@ -69,7 +69,7 @@ void expectNear(const glm::vec3& a, const glm::vec3& b) {
 
 TEST(Skin, PutsVerticesWhereItsJointsAre) {
   const Model model = parsed(twoBones());
-  // joint 0 moves by (0, 0, 3), joint 1 by (0, 3, 3); weights are taken by their sum
+  // joint 0 moves by (0, 0, 3), joint 1 by (0, 3, 3); weights are normalised by their sum
   expectNear(vertexOf(model, 0).position, {0, -3, 0});
   expectNear(vertexOf(model, 1).position, {1, -3, 1.5});
   expectNear(vertexOf(model, 2).position, {0, -3, 4});
@@ -94,7 +94,7 @@ TEST(Skin, FollowsAClip) {
   EXPECT_EQ(model.rig.clips[0].name, "animation 1");
   EXPECT_EQ(model.rig.clips[0].seconds, 2.0);
   const ClipMoment end{.clip = 0, .seconds = 2.0};
-  // the second bone turns 90° about z at (0, 4, 3): its corner, bound at its origin, stays
+  // the second bone turns 90° about z at (0, 4, 3); the corner bound at its origin does not move
   expectNear(vertexOf(model, 0, end).position, {0, -3, 0});
   expectNear(vertexOf(model, 2, end).position, {0, -3, 4});
   // corner 1 is (1, -1, 0) from it: at (1, 5, 3), and by the first bone at (1, 0, 3)
@@ -104,7 +104,7 @@ TEST(Skin, FollowsAClip) {
 TEST(Skin, IsSharedByTheNodesThatShowAMeshWithIt) {
   GltfBuilder builder = twoBones();
   builder.root["nodes"].push_back({{"mesh", 0}, {"skin", 0}, {"translation", {7, 7, 7}}});
-  builder.root["nodes"].push_back({{"mesh", 0}, {"translation", {0, 0, 9}}});  // and without
+  builder.root["nodes"].push_back({{"mesh", 0}, {"translation", {0, 0, 9}}});  // and once without
   const Model model = parsed(builder);
   ASSERT_EQ(model.parts.size(), 3u);
   EXPECT_EQ(model.surfaces.size(), 2u);
@@ -206,7 +206,7 @@ TEST(Skin, IsNotPosedWithoutBounds) {
   EXPECT_EQ(refusalOf(builder), "(was taken)");
   builder.root["nodes"].push_back({{"mesh", 0}, {"skin", 0}});
   EXPECT_EQ(refusalOf(builder),
-            "m.glb: nodes[640].skin: makes too many joints to pose with its like; at most 65536");
+            "m.glb: nodes[640].skin: exceeds the total number of posed joints; at most 65536");
 }
 
 }  // namespace

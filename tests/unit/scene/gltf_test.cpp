@@ -1,4 +1,4 @@
-// Sound glTF of every layout that is promised, against what the specification says it shows.
+// Valid glTF of every supported layout, compared with the specification.
 #include <cmath>
 #include <numbers>
 
@@ -22,7 +22,7 @@ Model parsed(const GltfBuilder& builder) {
   return *std::move(model);
 }
 
-/// Where a corner of a part's triangle is in the model's frame, at rest.
+/// Position of a corner of a part's triangle in the model's frame, at rest.
 glm::dvec3 cornerOf(const Model& model, std::size_t part, std::size_t triangle,
                     std::size_t corner) {
   ModelPose pose;
@@ -110,7 +110,7 @@ TEST(Gltf, TakesIndicesOfAllTypes) {
 }
 
 TEST(Gltf, UnrollsStripsAndFansWithTheirWinding) {
-  // a square in z = 0 that faces +z, so −y here
+  // a square in z = 0 that faces +z, which becomes −y
   const std::vector<float> strip{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
   const std::vector<float> fan{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
   for (const auto& [mode, positions] : {std::pair(5, strip), std::pair(6, fan)}) {
@@ -152,7 +152,7 @@ TEST(Gltf, RepairsNormalsWithoutLength) {
   auto& primitive = builder.addMesh(kTriangle);
   primitive["attributes"]["NORMAL"] = builder.addFloats({0, 0, 0, 0, 3, 4, 0, 0, 1}, "VEC3", 3);
   const Mesh mesh = parsed(builder).surfaces[0].mesh;
-  EXPECT_EQ(mesh.vertices[0].normal, glm::vec3(0, 0, 1));  // the triangle's
+  EXPECT_EQ(mesh.vertices[0].normal, glm::vec3(0, 0, 1));  // the triangle's normal
   EXPECT_EQ(mesh.vertices[1].normal, glm::vec3(0, 0.6F, 0.8F));
 }
 
@@ -170,14 +170,14 @@ TEST(Gltf, ReplacesSparseElements) {
   const Model model = parsed(builder);
   expectNear(cornerOf(model, 0, 0, 1), {5, 0, 0});
   expectNear(cornerOf(model, 0, 0, 2), {0, 0, 1});
-  // without a bufferView, the rest is zero: no triangle is left
+  // without a bufferView, the other values are zero: no triangle remains
   builder.root["accessors"][0].erase("bufferView");
   EXPECT_EQ(parsed(builder).triangleCount(), 0u);
 }
 
 TEST(Gltf, ReadsInterleavedAndQuantizedVertices) {
   GltfBuilder builder;
-  // x y z as normalised bytes, and a byte that belongs to nobody
+  // x y z as normalised bytes, and a byte of padding
   builder.root["extensionsRequired"] = {"KHR_mesh_quantization"};
   builder.addMesh(kTriangle);
   const std::vector<std::int8_t> bytes{0, 0, 0, 99, 127, 0, 0, 99, 0, -127, 0, 99};
@@ -246,7 +246,7 @@ TEST(Gltf, ReadsMaterialsAndTheirTextures) {
   const auto seen = model.textures[0].picture->view();
   EXPECT_EQ(seen.format.pixelFormat, hal::PixelFormat::kRgba8);
   EXPECT_THAT(seen.row(0, 0), testing::ElementsAreArray(pixels));
-  // the extension's formula: scaled, turned with the clock as pictures have y, moved
+  // the extension's formula: scale, rotate (clockwise, since y points down), translate
   const MeshVertex& vertex = model.surfaces[0].mesh.vertices[1];  // (1, 0)
   EXPECT_NEAR(vertex.texture.x, 0.5, 1e-6);
   EXPECT_NEAR(vertex.texture.y, 0.25 - 2.0, 1e-6);
@@ -284,17 +284,17 @@ TEST(Gltf, SaysWhatItDoesNotShow) {
   builder.root["meshes"][0]["primitives"][0]["material"] = 0;
   EXPECT_THAT(
       parsed(builder).notices,
-      testing::ElementsAre("its animations that move nothing are left out: wave bye",
+      testing::ElementsAre("its animations without effect are left out: wave bye",
                            "its morph targets move vertices, but no colours and no textures",
                            "its points and lines are not shown",
-                           "drawn solid or not at all instead of see-through: glass"));
+                           "drawn opaque or alpha-masked instead of blended: glass"));
 }
 
 TEST(Gltf, MayShowNothing) {
   const Model model = parsed(GltfBuilder());
   EXPECT_EQ(model.triangleCount(), 0u);
   EXPECT_EQ(boundingSphere(model).radiusMetres, 0.0);
-  EXPECT_THAT(model.notices, testing::ElementsAre("there is nothing in it to be seen"));
+  EXPECT_THAT(model.notices, testing::ElementsAre("it contains nothing visible"));
 }
 
 }  // namespace

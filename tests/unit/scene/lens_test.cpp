@@ -12,8 +12,8 @@ TEST(Lens, BendsLinesWithAnyTerm) {
 }
 
 TEST(Lens, IsTrustedUntilItsRadiusFoldsBack) {
-  EXPECT_EQ(trustedLensRadius({}), kWidestLens);
-  EXPECT_EQ(trustedLensRadius({.k1 = 0.2}), kWidestLens);
+  EXPECT_EQ(trustedLensRadius({}), kMaxTrustedRadius);
+  EXPECT_EQ(trustedLensRadius({.k1 = 0.2}), kMaxTrustedRadius);
   // r (1 − 0.3 r²) turns at r = 1 / √0.9
   EXPECT_NEAR(trustedLensRadius({.k1 = -0.3}), 1.05, 0.04);
   // a denominator that falls to 0 at r = 1

@@ -19,7 +19,7 @@ namespace {
 constexpr std::array<std::optional<int>, 2> kPlaces{0, std::nullopt};
 constexpr std::chrono::milliseconds kFrame(33);
 
-/// Four tags that face different ways, a warm key light from the right and a cool even one.
+/// Four tags that face different ways, a warm key light from the right and cool ambient light.
 RoomOfTags manyTags() {
   RoomOfTags room;
   room.towardKey = {0.7, -0.3, 0.6};
@@ -40,7 +40,7 @@ Shot from(double aroundDegrees) {
   return {.cameraFromWorld = lookingAtOrigin(0.6, 40.0, aroundDegrees)};
 }
 
-/// An estimator and the time that goes on for it.
+/// An estimator and its clock.
 class Watching {
  public:
   explicit Watching(const RoomOfTags& room, std::optional<glm::dvec3> towardKey = std::nullopt)
@@ -70,7 +70,7 @@ double degreesApart(const glm::vec3& a, const glm::dvec3& b) {
   return glm::degrees(std::acos(std::min(cosine, 1.0)));
 }
 
-/// On the table, and everywhere else that faces up.
+/// On the table, and at all other places that face up.
 glm::dvec3 whiteOnTable(const RoomOfTags& room) {
   return room.ambient + room.key * glm::normalize(room.towardKey).z;
 }
@@ -94,12 +94,12 @@ TEST(LightEstimator, TagsThatFaceDifferentWaysShowTheKeyLight) {
   Watching watching(room);
   const Lighting& light = watching.see(from(0));
   EXPECT_LT(degreesApart(light.towardKey, room.towardKey), 18.0);
-  // Warm against cool.
+  // Warm versus cool.
   EXPECT_GT(light.key.r / light.key.b, 1.15F * light.sky.r / light.sky.b);
   EXPECT_NEAR(luminanceOf(light.key) / luminanceOf(light.sky), 0.46 / 0.22, 1.0);
 }
 
-/// The control: what one plane shows could come from anywhere, so it is taken for the prior's.
+/// Negative control: light on one plane could come from any direction, so the prior decides.
 TEST(LightEstimator, OneTagLeavesTheUpperLeftBehindTheViewer) {
   const RoomOfTags room = oneTag();
   Watching watching(room);
@@ -183,7 +183,7 @@ TEST(LightEstimator, AHiddenTagKeepsItsLightAndTheExposuresChange) {
   EXPECT_EQ(light->towardKey, before.towardKey);
 }
 
-/// Its corners are where it should be, which something else may cover.
+/// The tag's corners are at the expected position, which something else may cover.
 TEST(LightEstimator, DoesNotReadTagsThatAreCarried) {
   RoomOfTags room = manyTags();
   Watching watching(room);
@@ -225,7 +225,7 @@ TEST(LightEstimator, ADirectionThatIsKnownStays) {
   expectNear(light.white, whiteOnTable(room), 0.02);
 }
 
-/// Two of the paper's channels are 0 then.
+/// Two of the paper's channels are 0 in this light.
 TEST(LightEstimator, LightOfOneColourIsLight) {
   RoomOfTags room = manyTags();
   room.key = {0.0, 0.0, 0.6};

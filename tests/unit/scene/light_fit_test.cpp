@@ -46,7 +46,7 @@ TEST(LightFit, OnePlaneLeavesThePriorsDirection) {
   EXPECT_LT(degreesApart(fitLight(samples, kPrior).keyVector, kPrior.keyVector), 1e-6);
 }
 
-/// A start that every sample faces away from has no slope to go down.
+/// A start that every sample faces away from has no gradient to descend.
 TEST(LightFit, LeavesAPriorThatShinesFromBehind) {
   const LightFit behind{.ambient = 0.4, .keyVector = glm::dvec3(0.0, 0.3, 0.4)};
   const LightFit front{.ambient = 0.3, .keyVector = glm::dvec3(0.0, -0.9, 0.4)};

@@ -22,9 +22,9 @@ namespace {
 
 constexpr int kTag = 0;  // on the bench's top
 constexpr std::array<std::optional<int>, 1> kPlaces{kTag};
-constexpr glm::dvec3 kPaper{0.78, 0.77, 0.74};  // papers.cpp's white
+constexpr glm::dvec3 kPaper{0.78, 0.77, 0.74};  // the white of papers.cpp
 
-/// The tracker and the estimator on what the synthetic camera sees.
+/// Runs the tracker and the estimator on images of the synthetic camera.
 class Watching {
  public:
   explicit Watching(const hal::SyntheticOptions& options)
@@ -54,7 +54,7 @@ class Watching {
     atOnce_->follow(frame.image, tracked, frame.captureTime);
     return estimator_->lights()[0].light;
   }
-  /// Of the same frame, as if it were the first.
+  /// Estimates from the same frame as if it were the first.
   const Lighting& atOnce() const { return atOnce_->lights()[0].light; }
 
  private:
@@ -76,7 +76,7 @@ const BenchLight& truth() {
   return kLight;
 }
 
-/// What the white border around the tag should look like.
+/// Expected colour of the white border around the tag.
 const glm::dvec3& trueWhite() {
   static const glm::dvec3 kWhite = [] {
     glm::dvec3 sum(0.0);
@@ -93,7 +93,7 @@ const glm::dvec3& trueWhite() {
   return kWhite;
 }
 
-/// The largest difference of two colours' shares, however bright they are.
+/// The largest difference of two colours' chromaticities, whatever their brightness.
 double castError(const glm::vec3& is, const glm::dvec3& should) {
   const glm::dvec3 a = glm::dvec3(is) / double{is.r + is.g + is.b};
   const glm::dvec3 b = should / (should.r + should.g + should.b);
@@ -104,7 +104,7 @@ double stopsApart(const glm::vec3& is, const glm::dvec3& should) {
   return std::abs(std::log2(double{is.g} / should.g));
 }
 
-/// The largest of what is added, by name into the test's report.
+/// Collects the largest of the added values, and records it by name in the test's report.
 class Largest {
  public:
   explicit Largest(std::string name) : name_(std::move(name)) {}
@@ -138,7 +138,7 @@ TEST_P(LightOnTheWorkbench, IsWhereTheSunIs) {
   EXPECT_LT(stops.value(), 0.35);
   EXPECT_LT(cast.value(), 0.05);
   EXPECT_LT(turn.value(), 2.0);
-  // Where the scene's default light is; that one would be far off.
+  // For a scene with the default light, which would be far off here.
   EXPECT_GT(degreesApart({-0.37F, 0.56F, 0.74F}, truth().towardKey), 55.0);
 }
 
@@ -148,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(Shots, LightOnTheWorkbench,
                                          hal::SyntheticShot::kOccluder),
                          [](const auto& shot) { return std::string(hal::toString(shot.param)); });
 
-/// With the sensor's noise, and the poses' that come of it.
+/// With sensor noise, and the noise in poses that follows from it.
 TEST(LightOnTheWorkbenchTest, RestsOnAStillShot) {
   Watching watching({.shot = hal::SyntheticShot::kStill});
   for (int i = 0; i < 15; ++i) watching.next();

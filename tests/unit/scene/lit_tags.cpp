@@ -40,7 +40,8 @@ std::vector<LitTag> litTags(const RoomOfTags& room, const glm::dmat4& cameraFrom
   return lit;
 }
 
-/// Of what the ray through a pixel meets, nearest first; light as it appears before the gain.
+/// Colour of the nearest surface that the ray through a pixel meets; light as it appears before the
+/// gain.
 glm::dvec3 seenAlong(const RoomOfTags& room, const std::vector<LitTag>& tags, const glm::dvec3& ray,
                      const glm::dvec2& inPicture) {
   double nearest = HUGE_VAL;

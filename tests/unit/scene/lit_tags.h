@@ -13,39 +13,39 @@
 
 namespace pleinair::scene {
 
-/// One far light and an even one, in the world; on white paper, linear.
+/// A distant light and uniform ambient light, in the world; on white paper, linear.
 struct RoomOfTags {
   glm::dvec3 towardKey{0.0, 0.0, 1.0};
   glm::dvec3 key{0.5};
   glm::dvec3 ambient{0.2};
-  glm::dvec3 background{0.2};  ///< what is seen beside the tags, as it appears
-  /// Doublings of the background from the picture's middle to its edges.
+  glm::dvec3 background{0.2};  ///< colour of the background as it appears
+  /// Doublings of the background's brightness from the image's centre to its edges.
   glm::dvec2 backgroundSlope{0.0};
   std::vector<tracking::TagMarker> tags;
-  double ink = 0.05;  ///< beside the paper
+  double ink = 0.05;  ///< relative to the paper
 };
 
 struct Shot {
   glm::dmat4 cameraFromWorld{1.0};
-  glm::dvec3 gain{1.0};  ///< the camera's, in linear light
+  glm::dvec3 gain{1.0};  ///< of the camera, in linear light
 };
 
 tracking::CameraModel tagCamera();
 
-/// At `metres` from the origin of the world, `downDegrees` over its plane z = 0 and `aroundDegrees`
-/// from its −y; upright.
+/// An upright camera at `metres` from the origin of the world, `downDegrees` above its plane z = 0
+/// and `aroundDegrees` from its −y.
 glm::dmat4 lookingAtOrigin(double metres, double downDegrees, double aroundDegrees);
 
-/// A tag that is turned in the world (about x, then z) and lies in its plane where both are 0.
+/// A tag rotated in the world about x, then z; with both at 0 it lies in the world's plane.
 tracking::TagMarker placedTag(int id, const glm::dvec3& at, double aboutX, double aboutZ);
 
-/// RGB8; tags have a white border, a black one, and grey for their code.
+/// RGB8; tags have a white border, a black one, and grey in place of their code.
 hal::Image pictureOf(const RoomOfTags& room, const Shot& shot);
 
-/// The same through a noisy sensor; `sigma` in 8-bit levels.
+/// The same with sensor noise; `sigma` in 8-bit levels.
 hal::Image noisy(const hal::Image& image, std::uint32_t seed, double sigma = 2.0);
 
-/// What tracking says of it, without error. Belongs to `tags`.
+/// The tracking result without error. Refers to `tags`.
 struct Tracked {
   std::vector<tracking::TrackedTag> tags;
   glm::dmat4 cameraFromWorld{1.0};

@@ -55,7 +55,7 @@ TEST(ShortEdges, LeaveAFineMeshAlone) {
   EXPECT_EQ(withShortEdges(box, 10.0F).triangles.size(), box.triangles.size());
 }
 
-/// A square of two triangles that share an edge and are bent along it.
+/// A square of two triangles, folded along the edge that they share.
 Mesh heldSquare() {
   Mesh square;
   for (const glm::vec3 corner :
@@ -80,7 +80,7 @@ TEST(ShortEdges, ShareTheirVertices) {
       edges.insert(std::minmax(triangle[i], triangle[(i + 1) % 3]));
     }
   }
-  // by indices; a disc's characteristic is 1
+  // by indices; the Euler characteristic of a disc is 1
   EXPECT_EQ(fine.vertices.size() + fine.triangles.size(), edges.size() + 1);
   std::set<std::array<float, 3>> places;
   for (const MeshVertex& vertex : fine.vertices) {
@@ -112,7 +112,7 @@ TEST(ShortEdges, KeepWhatHoldsAndMorphsVertices) {
   EXPECT_EQ(fine.joints[edge].joints, (std::array<std::uint16_t, 4>{1, 0, 2, 3}));
   EXPECT_NEAR(fine.joints[edge].weights[0], 0.65F, 1e-6);
   EXPECT_FLOAT_EQ(fine.morphTargets[0].positions[edge].z, 0.5F);
-  // all that was there is where it was
+  // all original vertices keep their positions
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(fine.vertices[i].position, heldSquare().vertices[i].position);
     EXPECT_EQ(fine.joints[i].weights, heldSquare().joints[i].weights);
@@ -120,7 +120,7 @@ TEST(ShortEdges, KeepWhatHoldsAndMorphsVertices) {
 }
 
 TEST(ShortEdges, LeaveNoCracksAlongHardEdges) {
-  Mesh box = boxMesh({2.0, 4.0, 0.5});  // each side has vertices of its own
+  Mesh box = boxMesh({2.0, 4.0, 0.5});  // each side has its own vertices
   for (const MeshVertex& vertex : box.vertices) {
     const auto at = [&](int axis, float most) { return 0.5F + vertex.position[axis] / most; };
     const float left = 0.3F * at(0, 2.0F);
@@ -135,7 +135,7 @@ TEST(ShortEdges, LeaveNoCracksAlongHardEdges) {
   for (std::size_t i = 0; i < fine.vertices.size(); ++i) {
     const glm::vec3& p = fine.vertices[i].position;
     const JointWeights& held = heldAt.try_emplace({p.x, p.y, p.z}, fine.joints[i]).first->second;
-    EXPECT_EQ(held.joints, fine.joints[i].joints);  // the same from both sides, to the bit
+    EXPECT_EQ(held.joints, fine.joints[i].joints);  // exactly the same from both sides
     EXPECT_EQ(held.weights, fine.joints[i].weights);
   }
   EXPECT_LT(heldAt.size(), fine.vertices.size());

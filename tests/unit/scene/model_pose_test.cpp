@@ -1,4 +1,4 @@
-// Poses of models that are put together by hand.
+// Poses of hand-made models.
 #include "pipeline/scene/models/model_pose.h"
 
 #include <cmath>
@@ -18,9 +18,9 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Two bones, the second a metre up the first, and a box of 1 × 1 × 2 m of which the lower half is
-/// the first's and the upper half the second's; it has a morph target that widens it. "bend" turns
-/// the second bone by 90° in a second, and widens the box.
+/// Two bones, the second one metre above the first, and a box of 1 × 1 × 2 m. The lower half
+/// follows the first bone and the upper half the second. A morph target widens the box. "bend"
+/// turns the second bone by 90° in one second and widens the box.
 Model bentBox() {
   Model model = singlePartModel("box", boxMesh({1.0, 1.0, 2.0}));
   Mesh& mesh = model.surfaces[0].mesh;
@@ -67,7 +67,7 @@ TEST(ModelPose, BendsWithJointsAndMorphs) {
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const MeshVertex& bound = mesh.vertices[i];
     const glm::vec3 wide(2.0F * bound.position.x, bound.position.y, bound.position.z);
-    // upper: about the bone's end at z = 1, z becomes x and x becomes −z
+    // upper half: about the joint at z = 1, z becomes x and x becomes −z
     const bool isUpper = bound.position.z > 1.0F;
     const glm::vec3 position = isUpper ? glm::vec3(wide.z - 1.0F, wide.y, 1.0F - wide.x) : wide;
     const glm::vec3 normal =
@@ -118,7 +118,7 @@ TEST(ModelPose, TurnsBuiltinParts) {
     for (const ModelPart& part : gearbox.parts) {
       EXPECT_EQ(pose.matrices[part.firstMatrix], modelFromPart(part, time)) << part.name;
     }
-    // every moment is within what holds them all
+    // at every moment the bounds hold all vertices
     const BoundingSphere now = boundingSphere(gearbox, pose);
     const BoundingSphere ever = boundingSphere(gearbox);
     EXPECT_LE(glm::distance(now.centre, ever.centre) + now.radiusMetres, ever.radiusMetres * 1.5);

@@ -13,7 +13,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// A box of 1 × 2 × 3 m whose part is moved and turns four times a second.
+/// A box of 1 × 2 × 3 m whose part is translated and turns four times per second.
 Model spinningBox() {
   Model model = singlePartModel("box", boxMesh({1.0, 2.0, 3.0}));
   model.parts[0].modelFromPart =

@@ -1,4 +1,5 @@
-// Real models in motion, against the specification's own formulas and what must hold at any moment.
+// Compares real models in motion with the specification's formulas, and checks invariants at all
+// moments.
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -18,7 +19,8 @@ const std::filesystem::path kData = PLEINAIR_SHARED_DATA;
 struct MovingModel {
   std::string file;
   std::vector<std::string> clips;
-  std::size_t turnedBones;  ///< at least so many joints each clip turns, but does not shift
+  /// Least number of joints that each clip rotates but does not translate.
+  std::size_t turnedBones;
 };
 
 class MovingGltf : public testing::TestWithParam<MovingModel> {
@@ -30,7 +32,7 @@ class MovingGltf : public testing::TestWithParam<MovingModel> {
     model_ = *std::move(read);
   }
 
-  /// Calls `check(moment)` with the pose at `count` moments of each clip, its ends among them.
+  /// Calls `check(moment)` with the pose at `count` moments of each clip, including its ends.
   template <class Check>
   void atMoments(int count, Check check) {
     for (std::size_t clip = 0; clip < model_.rig.clips.size(); ++clip) {
@@ -75,7 +77,7 @@ TEST_P(MovingGltf, StaysWithinItsSphere) {
   EXPECT_LT(loosest, 1.5);
 }
 
-/// The corners of a part's surface where it is posed, in glTF's axes.
+/// Posed corners of a part's surface, in glTF's axes.
 std::vector<glm::dvec3> posedCorners(const Model& model, const ModelPart& part, std::size_t surface,
                                      const ModelPose& pose) {
   std::vector<glm::dvec3> corners;
@@ -88,7 +90,7 @@ std::vector<glm::dvec3> posedCorners(const Model& model, const ModelPart& part, 
   return corners;
 }
 
-/// Whether `found` are `expected` without some triangles (those that have no area are left out).
+/// Whether `found` equals `expected` apart from missing triangles (those without area are dropped).
 bool areAmong(const std::vector<glm::dvec3>& found,
               const std::vector<oracles::GltfOracle::Point>& expected, double tolerance) {
   std::size_t next = 0;
@@ -140,7 +142,7 @@ TEST_P(MovingGltf, BeginsWithItsFirstKeys) {
   }
 }
 
-/// Whether a clip shifts a joint against its parent, by what the file's keys say.
+/// Whether a clip translates a joint relative to its parent, according to the file's keys.
 bool isShifted(const Clip& clip, std::size_t node) {
   for (const Channel& channel : clip.channels) {
     if (channel.node != node || channel.property != AnimatedProperty::kTranslation) continue;

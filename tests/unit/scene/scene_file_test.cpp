@@ -93,7 +93,7 @@ colour = [0.25, 0.5, 1]
   EXPECT_EQ(wheel.tagId, 7);
   EXPECT_EQ(wheel.srgb, glm::vec3(1.0F, 128.0F / 255.0F, 0.0F));
   EXPECT_EQ(wheel.focus, 0.5F);
-  // scaled, turned to the left, moved
+  // scaled, rotated to the left, translated
   expectNear(wheel.attachFromModel * glm::dvec4(1, 0, 0, 1), {0.1, 2.2, 0.3});
   const auto& gear = std::get<GearSource>(wheel.source);
   EXPECT_EQ(gear.form.teeth, 24);
@@ -134,7 +134,7 @@ TEST(SceneFile, FindsACalibrationBesideItself) {
   const Scene scene = loadScene(directory / "scene.toml");
   ASSERT_TRUE(scene.camera);
   EXPECT_EQ(scene.camera->distortion().k1, -0.2);
-  // a lens that bends lines needs shorter ones
+  // a lens that bends lines needs shorter edges
   EXPECT_GT(scene.models[0].model->triangleCount(), 500u);
   std::filesystem::remove(directory / "camera.toml");
   try {
@@ -151,7 +151,7 @@ TEST(SceneFile, PlacesTagsByTheirAuthorsFrame) {
   const Scene scene =
       parsed("[[tag]]\nid = 0\nedge_m = 1\nposition_m = [1, 2, 3]\nrotation_deg = [90, 0, 0]\n");
   const glm::dmat4 worldFromTag = *scene.tags[0].worldFromTag;
-  // stood up by 90° about x, the tag's top (−y of tracking's frame) points up, and its face
+  // after a rotation by 90° about x, the tag's top (−y of tracking's frame) points up, and its face
   // (−z of tracking's frame) to −y
   expectNear(worldFromTag * glm::dvec4(0, -1, 0, 0), {0, 0, 1});
   expectNear(worldFromTag * glm::dvec4(0, 0, -1, 0), {0, -1, 0});
@@ -160,7 +160,7 @@ TEST(SceneFile, PlacesTagsByTheirAuthorsFrame) {
 
 TEST(SceneFile, TurnsAboutFixedAxesXThenYThenZ) {
   const Scene scene = parsed(kTag + kGear + "rotation_deg = [90, 90, 0]\n");
-  // x leaves (0, 1, 0) pointing to z, y then takes z to x
+  // x turns (0, 1, 0) to z, then y turns z to x
   expectNear(scene.models[0].attachFromModel * glm::dvec4(0, 1, 0, 0), {1, 0, 0});
 }
 
@@ -181,10 +181,10 @@ TEST(SceneFile, FindsModelsBesideItself) {
                       "scene.toml", directory);
   };
   const Scene scene = sceneWith("parts/empty.GLTF");
-  EXPECT_EQ(scene.models[0].srgb, glm::vec3(1.0F));  // files have colours of their own
+  EXPECT_EQ(scene.models[0].srgb, glm::vec3(1.0F));  // files have their own colours
   ASSERT_EQ(scene.notices.size(), 1u);
   EXPECT_EQ(scene.notices[0],
-            (directory / "parts/empty.GLTF").string() + ": there is nothing in it to be seen");
+            (directory / "parts/empty.GLTF").string() + ": it contains nothing visible");
   try {
     sceneWith("gone.glb");
     FAIL() << "nothing thrown";
@@ -242,7 +242,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"[[tag]]\nid = 587\nedge_m = 1\n",
                 "scene.toml:2: tag[0].id: found 587, allowed: a whole number in [0, 586]"},
         Mistake{kTag + kTag,
-                "scene.toml:6: tag[1].id: 0 is taken by a tag above, allowed: each id once"},
+                "scene.toml:6: tag[1].id: 0 is used by an earlier tag, allowed: unique ids"},
         Mistake{kTag + "[[tag]]\nfamily = \"tag25h9\"\nid = 1\nedge_m = 1\n",
                 "scene.toml:6: tag[1].family: found \"tag25h9\", allowed: one family a scene, and "
                 "tag[0] has \"tag36h11\""},
@@ -256,7 +256,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "has no [[tag]]"},
         Mistake{"[[tag]]\nid = 0\nedge_m = 1\n[[model]]\nsource = \"builtin:box\"\n"
                 "attach = \"world\"\n",
-                "scene.toml:6: model[0].attach: no tag says where the world is, allowed: "
+                "scene.toml:6: model[0].attach: no tag locates the world, allowed: "
                 "\"world\" once a [[tag]] has a position_m"},
         Mistake{kTag + kGear + "colour = \"#12345\"\n",
                 "scene.toml:9: model[0].colour: found \"#12345\", allowed: \"#rrggbb\" or an array "
@@ -281,7 +281,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "scene.toml:9: model[0].bore_diameter_m: found 0.08, too wide for the teeth, "
                 "allowed: at most 0.07 here"},
         Mistake{kTag + kGear + kGear,
-                "scene.toml:10: model[1].name: \"gear\" is taken by a model above, allowed: each "
+                "scene.toml:10: model[1].name: \"gear\" is used by an earlier model, allowed: each "
                 "name once"},
         Mistake{kTag + kGear + "rotation_deg = [1, 2]\n",
                 "scene.toml:9: model[0].rotation_deg: found an array of 2, allowed: an array of 3 "
@@ -372,7 +372,7 @@ TEST(AssumedCamera, SeesSixtyDegrees) {
 TEST(FittedCamera, FollowsAspectFill) {
   const tracking::CameraModel camera({.fx = 1000, .fy = 1000, .cx = 640, .cy = 360}, {.k1 = -0.1},
                                      {1280, 720});
-  // 640×480 is covered by 960×720 of the frame's middle, at 2/3
+  // 640×480 is covered by the central 960×720 of the frame, at a scale of 2/3
   const tracking::CameraModel fitted = fittedCamera(camera, {640, 480});
   EXPECT_EQ(fitted.imageSize(), (hal::FrameSize{640, 480}));
   const glm::dvec3 p(0.1, -0.2, 1.3);

@@ -63,7 +63,7 @@ TEST(Lighting, FixedIsWhiteOnThePlane) {
 
 TEST(Lighting, ADirectionOfTheCamerasStaysWithTheCamera) {
   Light read = light("direction = [0, 0, 1]\nframe = \"camera\"");
-  // A tag that lies on its back before the camera: its z goes up, the camera's −y.
+  // A tag that lies on its back in front of the camera: its z points up, the camera's −y.
   const glm::dmat3 cameraFromAttach(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0));
   const Lighting there = withSceneDirection({}, read, cameraFromAttach);
   const Lighting seen = turned(glm::mat3(cameraFromAttach), there);

@@ -50,7 +50,7 @@ TEST(ScenePlanes, MistakesAreNamed) {
   EXPECT_EQ(
       errorOf(plane + "size_m = [1, 1]\nname = \"a\"\n" + "[[plane]]\nattach = \"world\"\n" +
               "size_m = [1, 1]\nname = \"a\"\n"),
-      "scene.toml:12: plane[1].name: \"a\" is taken by a plane above, allowed: each name once");
+      "scene.toml:12: plane[1].name: \"a\" is used by an earlier plane, allowed: unique names");
   std::string many = kTag;
   for (int i = 0; i < 9; ++i) many += "[[plane]]\nattach = \"world\"\nsize_m = [1, 1]\n";
   EXPECT_EQ(errorOf(many), "scene.toml:5: plane: found 9 planes, allowed: at most 8");

@@ -1,4 +1,4 @@
-// The keys of a [[model]] that say how its clips are played.
+// Keys of a [[model]] that control its clips.
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -114,11 +114,12 @@ TEST_F(ScenePlayback, ListsTheClipsThatThereAre) {
 }
 
 TEST_F(ScenePlayback, RefusesKeysThatDoNothing) {
-  EXPECT_EQ(errorOf("walker.glb", "speed = 2\n"),
-            "scene.toml:8: model[0].speed: is for a clip, and none is played, allowed: clip as one "
-            "of Survey, Walk, Run");
+  EXPECT_EQ(
+      errorOf("walker.glb", "speed = 2\n"),
+      "scene.toml:8: model[0].speed: applies to a clip, but none is played, allowed: clip as one "
+      "of Survey, Walk, Run");
   EXPECT_EQ(errorOf("builtin:box", "start = \"on_sight\"\n"),
-            "scene.toml:8: model[0].start: is for a clip, and none is played, allowed: a model "
+            "scene.toml:8: model[0].start: applies to a clip, but none is played, allowed: a model "
             "with animations; this one has none");
   EXPECT_EQ(errorOf("turner.glb", "start = \"soon\"\n"),
             "scene.toml:8: model[0].start: found \"soon\", allowed: at_once, on_sight");

@@ -33,7 +33,8 @@ TEST(ShadowPlan, CoversWhereTheShadowOfAllFalls) {
       EXPECT_LE(std::abs(clip.z), 1.0);
     }
   }
-  // The foot of what stands on the plane is its own shadow; higher points' fall away from the key.
+  // A foot on the plane coincides with its own shadow; shadows of higher points fall away from the
+  // key light.
   const glm::dvec4 foot = map * glm::dvec4(0.1, 0.2, 0.0, 1.0);
   const glm::dvec4 top = map * glm::dvec4(0.1, 0.2, 0.05, 1.0);
   EXPECT_NEAR((top.x - foot.x) * plan->half, 0.05, 1e-12);

@@ -24,7 +24,7 @@ inline glm::dvec3 areaVector(const std::array<glm::dvec3, 3>& corners) {
   return 0.5 * glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
 }
 
-/// By the divergence theorem; positive where triangles face outward.
+/// Volume by the divergence theorem; positive where triangles face outward.
 inline double volumeOf(const Mesh& mesh) {
   double six = 0.0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -34,8 +34,8 @@ inline double volumeOf(const Mesh& mesh) {
   return six / 6.0;
 }
 
-/// Directed edges, by the positions of their ends, that are not met by exactly one edge of the
-/// opposite direction. 0 for a closed, consistently oriented 2-manifold.
+/// Number of directed edges, by the positions of their ends, without exactly one opposite edge. 0
+/// for a closed, consistently oriented 2-manifold.
 inline int unmatchedEdges(const Mesh& mesh) {
   using Point = std::tuple<float, float, float>;
   const auto key = [&](std::uint32_t i) {
@@ -67,8 +67,8 @@ inline long eulerCharacteristic(const Mesh& mesh) {
   return static_cast<long>(points.size()) - 3 * faces / 2 + faces;
 }
 
-/// Triangles without area, or with a vertex normal that is no unit vector or is more than
-/// acos(`leastCosine`) off the triangle's own.
+/// Number of triangles without area, or with a vertex normal that is not a unit vector or deviates
+/// by more than acos(`leastCosine`) from the triangle's own.
 inline int wrongNormals(const Mesh& mesh, double leastCosine) {
   int wrong = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

@@ -26,7 +26,7 @@ CameraModel read(const std::string& text) {
   return camera;
 }
 
-/// The message that refuses the text.
+/// The message with which the text is refused.
 std::string refusal(const std::string& text) {
   try {
     read(text);

@@ -14,7 +14,7 @@ CameraModel pinhole() {
   return {kIntrinsics, {}, {640, 480}};
 }
 
-/// All eight terms, of the size that a wide webcam lens has.
+/// All eight terms, at magnitudes of a wide webcam lens.
 CameraModel distorted() {
   return {kIntrinsics,
           {.k1 = -0.21,
@@ -38,7 +38,7 @@ TEST(CameraModel, ProjectsByThePinholesFormula) {
   EXPECT_DOUBLE_EQ(px.y, 608.0 * -0.2 + 237.1);
 }
 
-/// Against OpenCV's formula, written out for one point (x, y) = (0.5, 0.25).
+/// Compares with OpenCV's formula, written out for one point (x, y) = (0.5, 0.25).
 TEST(CameraModel, DistortsAsOpenCvDocuments) {
   const CameraModel camera(
       {.fx = 1.0, .fy = 1.0, .cx = 0.0, .cy = 0.0},

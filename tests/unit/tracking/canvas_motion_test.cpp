@@ -27,7 +27,7 @@ double wallAt(glm::dvec2 p) {
   return value;
 }
 
-/// What a camera sees of it that has turned, zoomed and shifted, with 2×2 samples a pixel.
+/// The view of a camera that has turned, zoomed and shifted, with 2×2 samples per pixel.
 std::vector<std::uint8_t> seen(const PlaneSimilarity& wallFromFrame, double noise = 0.0,
                                unsigned seed = 1) {
   std::vector<std::uint8_t> luma;
@@ -45,7 +45,7 @@ std::vector<std::uint8_t> seen(const PlaneSimilarity& wallFromFrame, double nois
   return luma;
 }
 
-/// Who finds the motion.
+/// The source of the motion.
 enum class By { kItself, kEstimator };
 std::string nameOf(const testing::TestParamInfo<By>& by) {
   return by.param == By::kItself ? "ByItself" : "ByTheEstimator";
@@ -71,7 +71,7 @@ class Follower {
   std::uint64_t number_ = 0;
 };
 
-/// The farthest that two similarities take a corner of the frame apart.
+/// The largest distance of a frame corner's positions under two similarities.
 double apart(const PlaneSimilarity& a, const PlaneSimilarity& b) {
   double most = 0.0;
   for (const double x : {0.0, 320.0}) {
@@ -109,7 +109,7 @@ class FollowTest : public testing::TestWithParam<Path> {
   static double worstBy(By by);
 };
 
-// Each over several key frames.
+// Each motion runs over several key frames.
 INSTANTIATE_TEST_SUITE_P(Paths, FollowTest,
                          testing::Values(Path{"pan", 0.0, 1.0, {7.1, 1.7}},
                                          Path{"roll", 2.5, 1.0, {0.0, 0.0}},
@@ -157,7 +157,7 @@ TEST_P(CanvasMotion, IsNotTakenAlongByAThing) {
   Follower follower(GetParam());
   for (int i = 0; i < 15; ++i) {
     std::vector<std::uint8_t> luma = seen({});
-    for (int y = 60; y < 180; ++y) {  // a quarter of the picture, 8 px a frame
+    for (int y = 60; y < 180; ++y) {  // a quarter of the image, 8 px per frame
       for (int x = 0; x < 130; ++x) {
         const int column = x + 8 * i;
         luma[static_cast<std::size_t>(y * kSize.width + column)] =
@@ -175,9 +175,9 @@ TEST_P(CanvasMotion, StaysWhereNothingCanBeFollowed) {
   EXPECT_NEAR(before.shift.x, 12.0, 0.7);
   const std::vector<std::uint8_t> blank(static_cast<std::size_t>(kSize.pixels()), 90);
   EXPECT_EQ(follower.see(blank).shift, before.shift);
-  // A cut: another place altogether.
+  // A cut to another part of the wall.
   EXPECT_EQ(follower.see(seen({.shift = {5000.0, 900.0}})).shift, before.shift);
-  // And on from there.
+  // Motion continues from there.
   EXPECT_NEAR(follower.see(seen({.shift = {5006.0, 900.0}})).shift.x, before.shift.x + 6.0, 0.7);
   follower.reset();
   EXPECT_EQ(follower.see(seen({})).shift, glm::dvec2(0.0));

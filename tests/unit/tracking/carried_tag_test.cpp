@@ -26,7 +26,7 @@ CameraModel webcam() {
   return {{.fx = 600.0, .fy = 605.0, .cx = 323.0, .cy = 238.0}, {}, {640, 480}};
 }
 
-/// A tag on a table; other tags, of which the tracker knows nothing, are its pattern.
+/// A tag on a table; other tags, unknown to the tracker, serve as texture.
 std::vector<SceneTag> table(bool hasTag) {
   std::vector<SceneTag> tags;
   if (hasTag) tags.push_back({.id = kId, .edgeMetres = kEdge});
@@ -46,7 +46,7 @@ glm::dmat4 viewAt(int frame) {
   return poseOf({0.5, 0.1 + 0.004 * frame, 0.2}, {0.002 * frame - 0.02, 0.01, 0.6});
 }
 
-/// Frames at 30 a second of a camera that moves over the table.
+/// Frames at 30 per second of a camera that moves over the table.
 class CarriedTag : public testing::Test {
  protected:
   TrackingResult show(Tracker& tracker, bool hasTag) {
@@ -63,7 +63,7 @@ class CarriedTag : public testing::Test {
     const auto found = std::ranges::find(result.tags, kId, &TrackedTag::id);
     return found == result.tags.end() || !found->cameraFromTag ? nullptr : &*found;
   }
-  /// RMS px of the corners of a cube on the tag against the truth of the frame shown last.
+  /// RMS error (px) of the corners of a cube on the tag, against the truth of the last frame.
   double errorPx(const TrackedTag& tag) const {
     return cubeDistance(*tag.cameraFromTag, viewAt(frame_ - 1));
   }
@@ -144,7 +144,7 @@ TEST_F(CarriedTag, IsForgottenAtAReset) {
   EXPECT_EQ(tagOf(show(tracker, false)), nullptr);
 }
 
-/// A return that was far off is blended: the drawn pose moves there in steps.
+/// A large error at the tag's return is blended: the drawn pose moves in steps.
 TEST(TargetPose, BlendsAwayWhatWasWrongAtAReturn) {
   const CameraModel camera = webcam();
   const auto points = tagCorners(kEdge);
@@ -174,11 +174,11 @@ TEST(TargetPose, BlendsAwayWhatWasWrongAtAReturn) {
   EXPECT_NEAR(last, 0.01, 0.0005);
 }
 
-/// A tag that is moved by hand before a still background is followed at once.
+/// A tag moved by hand in front of a static background is followed at once.
 TEST(MovedTag, DoesNotStayWithTheBackground) {
   Tracker tracker(webcam(), {{.id = kId, .edgeMetres = kEdge}});
   std::vector<SceneTag> tags = table(true);
-  std::ranges::rotate(tags, tags.begin() + 1);  // the moved tag above the others
+  std::ranges::rotate(tags, tags.begin() + 1);  // draw the moved tag above the others
   for (int i = 0; i < 24; ++i) {
     const double aside = i < 6 ? 0.0 : 0.006 * (i - 5);
     tags.back().worldFromTag = poseOf({}, {aside, 0.0, 0.0});

@@ -23,7 +23,7 @@ fs::path sequence(const std::string& name) {
   return fs::path(PLEINAIR_SHARED_DATA) / "sequences" / name;
 }
 
-/// The ids in one picture, as the detector with its defaults finds them.
+/// The ids in one image, as detected with default options.
 std::set<int> idsIn(const fs::path& picture, TagDetector& detector) {
   hal::SteppedClock clock;
   const auto camera = hal::openRecording(picture, clock);
@@ -74,7 +74,7 @@ TEST(DataRecall, RoomWalkAgainstItsGroundTruth) {
     std::string name;
     words >> name;
     const fs::path picture = sequence("room_walk") / name;
-    if (!fs::exists(picture)) continue;  // the list is longer than the walk
+    if (!fs::exists(picture)) continue;  // the list is longer than the recorded walk
     const std::set<int> found = idsIn(picture, detector);
     std::set<int> expected;
     for (int id = 0; words >> id;) expected.insert(id);
@@ -112,15 +112,15 @@ TEST(DataRecall, TagSheet) {
     recall.wrong += static_cast<int>(std::ranges::count_if(found, isForeign));
   }
   report("tag_sheet", recall);
-  EXPECT_GE(recall.found, 262);  // 268; some of the 300 are outside of their picture
+  EXPECT_GE(recall.found, 262);  // 268; some of the 300 are outside of their image
   EXPECT_EQ(recall.wrong, 0);
 }
 
 TEST(DataRecall, Duckiebot) {
   const auto pictures = picturesOf(sequence("duckiebot"), ".png");
   if (pictures.empty()) GTEST_SKIP() << "no sequence duckiebot in " PLEINAIR_SHARED_DATA;
-  // No list comes with these pictures. These ids were read by the detector, each of the table's in
-  // three pictures or more; that all of them are in each picture is not sure.
+  // These images have no list of tags. The detector read these ids, each of the table's in three
+  // images or more; it is not certain that all of them are in each image.
   const std::set<int> table{22, 24, 58, 85, 144, 198};
   const std::set<int> single{60, 318, 328, 387};
   TagDetector detector;
@@ -133,7 +133,7 @@ TEST(DataRecall, Duckiebot) {
       ++(expected.contains(id) ? recall.found : recall.wrong);
   }
   report("duckiebot", recall);
-  EXPECT_GE(recall.found, 28);  // 29; 19 with pictures reduced to the half
+  EXPECT_GE(recall.found, 28);  // 29; 19 with images reduced by half
   EXPECT_EQ(recall.wrong, 0);
 }
 

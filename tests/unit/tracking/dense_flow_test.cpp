@@ -22,10 +22,10 @@ constexpr hal::FrameSize kSize{320, 240};
 
 struct FlowErrors {
   std::vector<double> px;
-  std::vector<double> ratios;  // by what was predicted
+  std::vector<double> ratios;  // error over predicted error
 };
 
-/// Of the nodes whose place is inside and stays in the picture.
+/// Nodes whose position is inside of the image in both frames.
 FlowErrors errorsOf(std::span<const glm::vec4> nodes, const DenseFlow& flow,
                     const glm::dmat3& truth) {
   FlowErrors out;

@@ -16,9 +16,9 @@ using nlohmann::json;
 const std::string kStem =
     std::string(PLEINAIR_SHARED_DATA) + "/sequences/desk_6dof/planar6dof_720p_slow";
 
-/// The file lists the corners of the library's own picture: top left, top right, bottom right,
-/// bottom left. (The desk was drawn with OpenCV's pictures, which are turned by 180°; the file has
-/// taken that into account.) tagCorners() begins at the bottom left and goes the other way round.
+/// The file lists corners as in the library's own image: top left, top right, bottom right, bottom
+/// left. (The desk was drawn with OpenCV's images, which are rotated by 180°; the file accounts for
+/// that.) tagCorners() begins at the bottom left and goes the other way round.
 constexpr std::array<std::size_t, 4> kFileCornerOf{3, 2, 1, 0};
 
 CameraModel readCamera(const json& file) {
@@ -32,7 +32,7 @@ CameraModel readCamera(const json& file) {
           {file.at("width"), file.at("height")}};
 }
 
-/// The frame of a flat square from its corners.
+/// The frame of a flat square, from its corners.
 TagMarker readMarker(int id, const json& tag) {
   std::array<glm::dvec3, 4> corners{};
   for (std::size_t i = 0; i < 4; ++i) {

@@ -12,7 +12,7 @@
 
 namespace pleinair::tracking {
 
-/// What is known of the sequence desk_6dof: a camera over a desk with five tags.
+/// Ground truth of the sequence desk_6dof: a camera over a desk with five tags.
 struct DeskSequence {
   struct Frame {
     glm::dmat4 cameraFromWorld{1.0};
@@ -21,7 +21,7 @@ struct DeskSequence {
 
   std::string moviePath;
   CameraModel camera;
-  std::vector<TagMarker> markers;  ///< with their places in the world
+  std::vector<TagMarker> markers;  ///< with their poses in the world
   std::vector<Frame> frames;
 };
 

@@ -6,8 +6,8 @@
 namespace pleinair::tracking {
 namespace {
 
-/// desk_6dof with all tags covered by grey for 0.47 s, three times: the models stay to a pixel or
-/// two although all that was known is hidden, and do not jump when it comes back.
+/// desk_6dof with all tags covered by grey for 0.47 s, three times. Although all known tags are
+/// hidden, the models stay within a pixel or two, and do not jump when the tags reappear.
 TEST(HiddenTags, StayWhereTheyAreOnTheDesk) {
   if (!hasDeskSequence()) GTEST_SKIP() << "no sequence desk_6dof in " PLEINAIR_SHARED_DATA;
   const TruthSequence desk = readDesk();

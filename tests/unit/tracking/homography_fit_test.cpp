@@ -13,7 +13,7 @@ namespace {
 
 constexpr hal::FrameSize kSize{640, 480};
 
-/// Pairs that a homography explains but for normal errors, and others that are anywhere.
+/// Pairs that agree with a homography apart from normal errors, and outliers at random positions.
 std::vector<PointPair> pairsOf(const glm::dmat3& truth, std::size_t count, double errorPx,
                                double wrongPart) {
   std::mt19937 random(5);

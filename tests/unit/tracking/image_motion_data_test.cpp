@@ -15,7 +15,7 @@ void expectCalibrated(const Errors& errors) {
   EXPECT_LT(errors.ratio(), 2.0);
 }
 
-/// Flow that goes along with the picture is better than its texture tells.
+/// Flow that follows the dominant motion is more accurate than its texture allows.
 void expectCautious(const Errors& errors) {
   EXPECT_GT(errors.ratio(), 0.15);
   EXPECT_LT(errors.ratio(), 1.5);

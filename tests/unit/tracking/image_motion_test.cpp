@@ -65,7 +65,7 @@ TEST_P(ImageMotionOf, IsMeasuredInNoise) {
     ASSERT_FALSE(motion.isCut) << i;
     ASSERT_TRUE(motion.picture) << i;
     ASSERT_GT(motion.features.size(), 40U) << i;
-    if (i < 2) continue;  // the first may still be held
+    if (i < 2) continue;  // the first frames may still be held
     const double off = rmsMotion(glm::inverse(truth) * motion.picture->currentFromPrevious, kSize);
     worstPicture = std::max(worstPicture, off);
     worstFeatures = std::max(worstFeatures, rmsOfFeatures(motion, truth));
@@ -85,7 +85,7 @@ TEST_P(ImageMotionOf, IsMeasuredInNoise) {
   EXPECT_LT(std::sqrt(predictedPicture / actualPicture), 2.0);
 }
 
-/// Corners that are found anew in each frame tremble by half a pixel and more on soft patches.
+/// Corners that are detected anew in each frame jitter by half a pixel, and more on soft patches.
 TEST_P(ImageMotionOf, IsMeasuredByTheReferenceTrackerToo) {
   Watch watch({.features = FeatureMethod::kHarrisSift, .flow = false, .staticRegions = false});
   watch.view().contrast = 1.6;
@@ -140,7 +140,7 @@ TEST(ImageMotion, LosesNothingOfASlowPan) {
   }
 }
 
-/// A thing that moves by itself before the wall.
+/// An object that moves on its own in front of the wall.
 TEST(ImageMotion, TwoLayersMoveApart) {
   Watch watch;
   watch.step(glm::dmat3(1.0));
@@ -156,7 +156,7 @@ TEST(ImageMotion, TwoLayersMoveApart) {
                          .wallSeed = 5};
     const glm::ivec2 corner(90 + 2 * i, 120 - i);
     const ImageMotion& motion = watch.stepBehind(wall, front, corner, corner + 100);
-    if (i < 10) continue;  // features are sought in it now and then
+    if (i < 10) continue;  // features are searched on it now and then
     ASSERT_TRUE(motion.picture);
     EXPECT_LT(rmsMotion(glm::inverse(wall) * motion.picture->currentFromPrevious, kSize), 0.08)
         << i;

@@ -20,7 +20,8 @@ constexpr std::array<PixelFormat, 10> kAllFormats{
     PixelFormat::kBayerRggb8, PixelFormat::kBayerGrbg8, PixelFormat::kBayerGbrg8,
     PixelFormat::kBayerBggr8};
 
-/// The channel (0 red, 1 green, 2 blue) that a mosaic's name gives its first two rows.
+/// The channel (0 red, 1 green, 2 blue) of each pixel in a mosaic's first two rows, by the mosaic's
+/// name.
 int mosaicChannel(PixelFormat format, int x, int y) {
   const std::string_view names = format == PixelFormat::kBayerRggb8   ? "RGGB"
                                  : format == PixelFormat::kBayerGrbg8 ? "GRBG"
@@ -79,7 +80,7 @@ TEST(LumaConverter, TakesPicturesOfAnySize) {
   }
 }
 
-/// Tags are found at the same place in every format: no mosaic shifts the picture.
+/// Tags are found at the same position in every format: no mosaic shifts the image.
 TEST(LumaConverter, ShiftsNoTag) {
   const CameraModel camera({.fx = 500.0, .fy = 500.0, .cx = 160.0, .cy = 120.0}, {}, {320, 240});
   const support::SceneTag tag{

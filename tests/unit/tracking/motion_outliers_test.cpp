@@ -7,7 +7,7 @@
 namespace pleinair::tracking {
 namespace {
 
-/// A grid of features of which the right half moves otherwise than the left.
+/// A grid of features whose right half moves differently from the left.
 struct TwoHalves {
   std::vector<cv::Point2f> places;
   std::vector<cv::Point2f> steps;

@@ -10,7 +10,7 @@
 
 namespace pleinair::tracking {
 
-/// Follows what a camera sees of a wall.
+/// Feeds an estimator with a camera's views of a wall.
 class Watch {
  public:
   explicit Watch(ImageMotionOptions options = {}) : estimator_(options) {}
@@ -19,13 +19,13 @@ class Watch {
     const hal::ImageView view = image.view();
     return estimator_.follow(view.planes[0], view.format.size, sequence_++);
   }
-  /// The wall, moved on by a step, with noise that differs from frame to frame.
+  /// The next view of the wall, moved by a step, with noise that differs from frame to frame.
   const ImageMotion& step(const glm::dmat3& currentFromPrevious) {
     view_.wallFromFrame = view_.wallFromFrame * glm::inverse(currentFromPrevious);
     ++view_.noiseSeed;
     return see(support::renderWall(view_));
   }
-  /// Something else lies over it.
+  /// The same with another object in front of the wall.
   const ImageMotion& stepBehind(const glm::dmat3& currentFromPrevious,
                                 const support::WallView& front, const glm::ivec2& from,
                                 const glm::ivec2& to) {

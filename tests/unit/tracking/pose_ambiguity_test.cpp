@@ -87,7 +87,7 @@ TEST(AmbiguityResolution, FramesThatContradictUnlearnAMistake) {
   EXPECT_LT(frame, 8);
 }
 
-/// With errors that do not differ, nothing may ever look clear.
+/// With equal errors, no choice may ever become clear.
 TEST(AmbiguityResolution, EqualErrorsStayAmbiguous) {
   AmbiguityDecision decision = resolveAmbiguity(alternatives(0.1, 0.1), kFreedom, std::nullopt);
   for (int frame = 0; frame < 100; ++frame) {

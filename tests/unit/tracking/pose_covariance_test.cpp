@@ -51,8 +51,8 @@ struct Ratio {
   double value() const { return std::sqrt(actual / predicted); }
 };
 
-/// Tags in random poses under noise: errors of a model on them are what the covariances say, to a
-/// factor of two, at first sight and when filtered; for a tag in the world too.
+/// Tags in random poses under noise: errors of a model on them agree with the covariances within a
+/// factor of two, at first sight and filtered; for a tag in the world too.
 TEST(PoseCovariance, SaysHowLargeErrorsAre) {
   std::mt19937 random(17);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);

@@ -18,7 +18,7 @@ using support::poseOf;
 constexpr double kTurnNoise = 0.004;
 constexpr double kShiftNoise = 0.001;
 
-/// What a tag says, with noise of which the covariance is known.
+/// A tag's pose with noise of known covariance.
 class NoisyTag {
  public:
   PoseEstimate see(const glm::dmat4& truth) {
@@ -62,8 +62,8 @@ TEST(PoseFilter, TremblesFarLessThanWhatItIsTold) {
   EXPECT_LT(std::sqrt(filtered), 0.1 * std::sqrt(told));
 }
 
-/// Before a moving target the filter stays with it; the mean of the last eight sightings, which
-/// trembles no less, comes late.
+/// The filter follows a moving target without lag; the mean of the last eight sightings has no less
+/// noise, and lags.
 TEST(PoseFilter, DoesNotLagAsAMovingAverageDoes) {
   NoisyTag tag;
   PoseFilter filter;
@@ -93,7 +93,7 @@ TEST(PoseFilter, DoesNotLagAsAMovingAverageDoes) {
   EXPECT_GT(average / 60.0, 0.03);
 }
 
-/// With its own covariance's gain, errors are as large as it says.
+/// With the gain of its own covariance, errors are as large as predicted.
 TEST(PoseFilter, KnowsHowGoodItIs) {
   const glm::dmat4 truth = poseOf({0.4, 0.1, 0.0}, {0.0, 0.0, 0.7});
   NoisyTag tag;

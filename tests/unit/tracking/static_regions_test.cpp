@@ -70,7 +70,7 @@ TEST(StaticRegionDetector, OnlyWhereAThingMovesItIsNotStill) {
       EXPECT_FALSE(isOn && isStatic) << i << " at " << px.x << ", " << px.y;
     }
     EXPECT_GT(countStill(motion), 220U) << i;
-    // Flow stands still to the bit there, too.
+    // Flow is exactly zero there, too.
     std::size_t zeros = 0;
     for (const glm::vec4& node : motion.flow.forward) {
       zeros += glm::vec2(node) == glm::vec2(0.0F) ? 1U : 0U;

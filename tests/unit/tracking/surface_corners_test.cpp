@@ -13,7 +13,7 @@
 namespace pleinair::tracking {
 namespace {
 
-/// A picture of soft blobs, shifted; `covered` columns of it are grey.
+/// An image of soft blobs, shifted; `covered` columns of it are grey.
 hal::Image blobs(hal::FrameSize size, glm::dvec2 shift, int coveredTo = 0) {
   hal::Image image({.pixelFormat = hal::PixelFormat::kGrey8, .size = size});
   for (int y = 0; y < size.height; ++y) {
@@ -70,7 +70,7 @@ TEST(SurfaceCorners, LosesWhatIsCoveredAndFindsItAgain) {
   features.makeKey({});
   follow(features, blobs(size, {}, 320));
   std::ptrdiff_t covered = 0;
-  std::ptrdiff_t foundCovered = 0;  // some meet their like beyond the cover's edge
+  std::ptrdiff_t foundCovered = 0;  // some match similar blobs beyond the cover's edge
   for (const FeatureTrack& track : features.tracks()) {
     if (track.keyPx.x < 300.0) {
       ++covered;

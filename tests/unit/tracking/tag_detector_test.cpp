@@ -56,8 +56,8 @@ double worstCornerPx(const TagCornersPx& a, const TagCornersPx& b) {
   return worst;
 }
 
-/// tagCorners() against the picture that the library publishes: upright and unturned, the corners
-/// begin at the bottom left and go against the clock.
+/// Checks tagCorners() against the image that the library publishes: on an upright tag, corners
+/// begin at the bottom left and go counter-clockwise.
 TEST(TagDetector, CornersBeginBottomLeftOfTheUprightTag) {
   const SceneTag tag{.id = 5, .edgeMetres = 0.1, .worldFromTag = poseOf({}, {0.0, 0.0, 0.5})};
   const auto found = detect(support::renderTags(webcam(), kIdentity, {&tag, 1}));
@@ -178,7 +178,7 @@ TEST(TagDetector, FindsNothingInNoiseAndFlatPictures) {
   }
 }
 
-/// A picture whose rows are further apart than their length.
+/// An image whose stride is larger than its width.
 TEST(TagDetector, KeepsToTheStride) {
   const SceneTag tag{.id = 9, .edgeMetres = 0.1, .worldFromTag = poseOf({}, {0.0, 0.0, 0.5})};
   const hal::Image image = support::renderTags(webcam({320, 240}), kIdentity, {&tag, 1});

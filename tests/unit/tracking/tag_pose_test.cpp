@@ -35,7 +35,7 @@ double positionError(const PoseEstimate& pose, const glm::dmat4& truth) {
   return glm::distance(glm::dvec3(pose.cameraFromTarget[3]), glm::dvec3(truth[3]));
 }
 
-/// Tags turned all ways, up to 60° off the front.
+/// Tags in all orientations, up to 60° from the front.
 std::vector<glm::dmat4> manyPoses() {
   std::vector<glm::dmat4> poses;
   for (int i = 0; i < 40; ++i) {
@@ -60,10 +60,10 @@ TEST(TagPose, OfExactCornersIsExact) {
   }
 }
 
-/// The tag's own frame: upright before the camera it has no rotation.
+/// The tag's own frame: an upright tag in front of the camera has no rotation.
 TEST(TagPose, OfAnUprightTagHasNoRotation) {
   const CameraModel camera = webcam();
-  // Straight ahead, where the principal point shows it, no alternative differs.
+  // Straight ahead, at the principal point, the two alternatives coincide.
   const glm::dmat4 truth = poseOf({}, {0.0, 0.0, 0.4});
   const auto candidates = tagPoseCandidates(camera, trueCorners(camera, truth, kEdge), kEdge);
   ASSERT_FALSE(candidates.empty());
@@ -96,8 +96,8 @@ TEST(TagPose, PredictsItsOwnError) {
   EXPECT_LT(positionRatio / count, 3.0);
 }
 
-/// Seen from near the front and from afar, noise makes the wrong alternative fit better now and
-/// then; a pose known from elsewhere tells them apart.
+/// Seen from near the front or from afar, noise sometimes makes the wrong alternative fit better; a
+/// pose from another source resolves the ambiguity.
 TEST(TagPose, PriorRejectsTheWrongTwinNearTheFront) {
   const CameraModel camera = webcam();
   std::mt19937 random(3);
@@ -136,7 +136,7 @@ TEST(TagPose, ErrorDecidesWhereItIsClear) {
   const glm::dmat4 truth = poseOf({0.7, 0.0, 0.0}, {0.0, 0.0, 0.3});
   const auto candidates = tagPoseCandidates(camera, trueCorners(camera, truth, kEdge), kEdge);
   ASSERT_EQ(candidates.size(), 2U);
-  // Even a prior that says otherwise does not help the wrong alternative.
+  // Even a contradicting prior does not help the wrong alternative.
   const auto pose =
       chooseTagPose(candidates, PosePrior{.cameraFromTarget = candidates[1].cameraFromTarget});
   ASSERT_TRUE(pose);
@@ -151,7 +151,7 @@ TEST(TagPose, OfDegenerateCornersIsNone) {
   const std::array<TagCornersPx, 5> degenerate{
       {{p, p, p, p},
        {p, p + glm::dvec2(10, 10), p + glm::dvec2(20, 20), p + glm::dvec2(30, 30)},
-       {p, p + glm::dvec2(50, 0), p + glm::dvec2(50, 50), p + glm::dvec2(0, 50)},  // turned over
+       {p, p + glm::dvec2(50, 0), p + glm::dvec2(50, 50), p + glm::dvec2(0, 50)},  // mirrored
        {p, p + glm::dvec2(50, 0), p + glm::dvec2(50, 0), p},
        {glm::dvec2(nan, 0.0), p, p + glm::dvec2(10, 0), p + glm::dvec2(0, 10)}}};
   for (std::size_t i = 0; i < degenerate.size(); ++i) {

@@ -37,7 +37,7 @@ std::uint32_t countOf(const TrackingCounters& counters, std::string_view reason)
   return found == all.end() ? 999 : found->count;
 }
 
-/// What was rejected in all; the reasons that are only noted are not.
+/// Sum of all rejections; reasons that are only recorded do not count.
 std::uint32_t sumOf(const TrackingCounters& counters) {
   std::uint32_t sum = 0;
   for (const Rejection& each : rejections(counters)) {
@@ -74,7 +74,7 @@ TEST(TagRejection, AMirroredPictureIsToldOnceASecond) {
   EXPECT_EQ(sumOf(tracker.counters()), 2U);
 }
 
-/// Two of the same id: the one that was there goes on, although the other is nearer and clearer.
+/// Two tags with the same id: the known one is kept, although the other is nearer and clearer.
 TEST(TagRejection, OfDuplicatesTheOneThatWasThereGoesOn) {
   Tracker tracker(webcam(), {{.id = 4, .edgeMetres = kEdge}});
   const glm::dvec3 place(-0.15, 0.0, 0.8);
@@ -89,7 +89,7 @@ TEST(TagRejection, OfDuplicatesTheOneThatWasThereGoesOn) {
   for (int i = 1; i < 4; ++i) EXPECT_LT(glm::distance(positionIn(both, i), place), 0.01);
   EXPECT_EQ(countOf(tracker.counters(), "duplicate"), 3U);
 
-  tracker.reset();  // nothing is known: the clearer
+  tracker.reset();  // nothing is known: the clearer one wins
   EXPECT_GT(glm::distance(positionIn(both, 5), place), 0.1);
 }
 
@@ -109,7 +109,7 @@ TEST(TagRejection, AVerySmallTagHasNoPose) {
   EXPECT_EQ(countOf(tracker.counters(), "small"), 1U);
 }
 
-/// A tag whose border is clear, and whose bits have faded to a third of their contrast.
+/// A tag with a clear border whose bits have faded to a third of their contrast.
 TEST(TagRejection, ATagWithFaintBitsIsNone) {
   TrackerOptions options;
   options.detector.minDecisionMargin = 60.0;

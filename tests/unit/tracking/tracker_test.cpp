@@ -80,7 +80,7 @@ TEST(Tracker, MarkersWithoutAPlaceHavePosesButTellNoWorld) {
   const auto tags = table();
   auto markers = markersOf(tags);
   for (TagMarker& marker : markers) marker.worldFromTag.reset();
-  markers.pop_back();  // tag 30 is found, and nothing is known of its size
+  markers.pop_back();  // tag 30 is detected, but its size is unknown
   const hal::Image image = support::renderTags(webcam(), kView, tags);
   Tracker tracker(webcam(), markers);
   const TrackingResult result = tracker.track(image.view(), {});
@@ -108,8 +108,8 @@ TEST(Tracker, FindsAMovedTagWhereItIsAndCountsIt) {
             0.005);
 }
 
-/// A tag that comes nearer the front, where its alternatives look alike: with what was seen before,
-/// the pose is chosen by it; after too long, or a reset, it is a guess again.
+/// A tag turns towards the front, where its alternatives look alike: earlier frames resolve the
+/// ambiguity; after too long a time or a reset it is a guess again.
 TEST(Tracker, RemembersForAWhile) {
   SceneTag tag{.id = 4, .edgeMetres = kEdge};
   const std::vector<TagMarker> markers{{.id = 4, .edgeMetres = kEdge}};
@@ -134,7 +134,7 @@ TEST(Tracker, RemembersForAWhile) {
   EXPECT_EQ(tracker.counters().ambiguousTags, 3U);
 }
 
-/// A still, ambiguous tag under noise does not flip between its alternatives.
+/// A static, ambiguous tag under noise does not flip between its alternatives.
 TEST(Tracker, DoesNotFlickerBetweenTwins) {
   const SceneTag tag{
       .id = 4, .edgeMetres = kEdge, .worldFromTag = poseOf({0.1, 0.06, 0.0}, {0.05, 0.02, 1.1})};

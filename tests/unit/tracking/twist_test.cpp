@@ -33,7 +33,7 @@ TEST(Twist, TheInverseTakesBack) {
   }
 }
 
-/// The spread of a tag's pose, drawn from the world's, is what atPoint() says.
+/// The spread of a tag's pose, drawn from the world's, agrees with atPoint().
 TEST(Twist, ACovarianceIsSeenFromAnotherPoint) {
   const PoseCovariance ofWorld = isotropic(0.01, 0.002);
   const glm::dmat4 worldFromTag = poseOf({0.0, 0.5, 0.0}, {0.3, 0.1, -0.1});

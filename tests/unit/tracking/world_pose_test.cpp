@@ -25,7 +25,7 @@ CameraModel webcam() {
           {640, 480}};
 }
 
-/// Where a tag is said to be, and where it is.
+/// The assumed and the true pose of a tag.
 struct PlacedTag {
   glm::dmat4 worldFromTag{1.0};
   glm::dmat4 movedBy{1.0};
@@ -48,7 +48,7 @@ std::vector<WorldTag> seen(const CameraModel& camera, const std::vector<PlacedTa
   return tags;
 }
 
-/// Five tags on a table, each turned its own way.
+/// Five tags on a table, each with its own rotation.
 std::vector<PlacedTag> table(double edgeMetres) {
   std::vector<PlacedTag> placed;
   for (const glm::dvec2& at : {glm::dvec2(0.0, 0.0), glm::dvec2(0.18, 0.1), glm::dvec2(-0.2, 0.12),
@@ -88,8 +88,8 @@ TEST(WorldPose, OfExactCornersIsExact) {
   }
 }
 
-/// Small noisy tags whose own poses are many degrees off, near the front where alternatives look
-/// alike: together they leave no doubt.
+/// Small noisy tags near the front, whose own poses are many degrees off and ambiguous: together
+/// they determine the pose clearly.
 TEST(WorldPose, OfSmallNoisyTagsIsRight) {
   WorldPoseSolver solver;
   const CameraModel camera = webcam();
@@ -129,7 +129,7 @@ TEST(WorldPose, LeavesOutATagThatWasMoved) {
   }
 }
 
-/// Two tags that contradict each other: one of them is believed, and there is a pose.
+/// Two tags that contradict each other: one of them is used, and there is a pose.
 TEST(WorldPose, OfTwoTagsThatDisagreeBelievesOne) {
   WorldPoseSolver solver;
   const CameraModel camera = webcam();
@@ -145,7 +145,7 @@ TEST(WorldPose, OfTwoTagsThatDisagreeBelievesOne) {
   }
 }
 
-/// Which of the two was moved, their errors cannot tell; what was known before can.
+/// Errors cannot tell which of the two was moved; the previous pose can.
 TEST(WorldPose, OfTwoTagsThatDisagreeThePriorsIsBelieved) {
   WorldPoseSolver solver;
   const CameraModel camera = webcam();
@@ -170,7 +170,7 @@ TEST(WorldPose, OfTwoTagsThatDisagreeThePriorsIsBelieved) {
   }
 }
 
-/// A single tag near the front: only the pose of before tells the alternatives apart.
+/// A single tag near the front: only the previous pose resolves the ambiguity.
 TEST(WorldPose, OfOneTagKeepsToThePrior) {
   WorldPoseSolver solver;
   const CameraModel camera = webcam();

@@ -1,18 +1,18 @@
-// Purpose: what moves as one in front of the camera, and how the camera sees its points.
+// Purpose: bodies that move as one in front of the camera, and projection of their points.
 // Inputs:  focal, centre: of the pinhole in px. Bodies come in uniform blocks (scene::SurfacePass
 //          writes them), which are read once for all invocations.
-// Outputs: where a point of a body is, in metres and in px, and how well that is known.
+// Outputs: position of a point of a body, in metres and in px, and its predicted error.
 // Precision: highp; metres, camera frame, px.
 #include "pipeline/scene/render/shaders/lens.glsl"
 
 struct Body {
-  vec4 now[3];   // rows: camera from body in this frame
-  vec4 then[3];  // in the frame before
-  vec4 turnsAbout;      // what errors turn about; w: 1 if known in both frames
-  vec4 errorTurns[6];   // square root of the poses' covariance, column by column: rad
+  vec4 current[3];   // rows: camera from body in this frame
+  vec4 previous[3];  // in the previous frame
+  vec4 turnsAbout;  // origin of the pose errors; w: 1 if known in both frames
+  vec4 errorTurns[6];  // square root of the poses' covariance, column by column: rad
   vec4 errorShifts[6];  // metres
-  vec4 extent;          // of a plane: half its size
-  uvec4 places;         // of a model: first triangle, first vertex now, first vertex then
+  vec4 extent;  // half the size of a plane
+  uvec4 places;  // of a model: first triangle, first vertex in this frame and in the previous one
   vec4 padding[11];     // to a block's alignment
 };
 
@@ -30,8 +30,8 @@ vec2 projected(vec3 p) {
   return focal * bent.xy / bent.z + centre;
 }
 
-// One standard deviation of where a real body's point appears, over both axes, in px. The lens bends
-// too little to matter here.
+// Predicted error of a real body's point: one standard deviation over both axes, in px. Ignores the
+// lens, which bends too little to matter here.
 float predictedError(Body body, vec3 p) {
   vec3 arm = p - body.turnsAbout.xyz;
   float variance = 0.0;

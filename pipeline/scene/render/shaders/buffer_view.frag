@@ -1,6 +1,6 @@
-// Purpose: pictures of an AR frame's buffers, for people.
-// Inputs:  the buffers (scene/ar_frame.h; a single texel of 0 for what is not there); view, as
-//          scene::bufferViews() counts; depthRange: the near and the far plane in metres.
+// Purpose: pictures of an AR frame's buffers, for people to look at.
+// Inputs:  the buffers (scene/render/ar_frame.h; a single texel of 0 for a missing one); view, as
+//          scene::bufferViews() numbers them; depthRange: the near and the far plane in metres.
 // Outputs: colour RGBA8, sRGB-coded.
 // Precision: highp for ids and depth.
 #include "pipeline/scene/render/shaders/object_id.glsl"
@@ -18,7 +18,7 @@ layout(location = 0) out vec4 colour;
 
 const float kFullMotionPx = 16.0;
 
-// A hue each, neighbours far apart (Weyl sequence of the golden ratio).
+// One hue per number; neighbours are far apart (Weyl sequence of the golden ratio).
 vec3 hue(float turns) {
   return clamp(abs(fract(turns + vec3(0.0, 2.0, 1.0) / 3.0) * 6.0 - 3.0) - 1.0, 0.0, 1.0);
 }
@@ -29,7 +29,7 @@ vec3 colourOf(uint number) {
   return light * mix(vec3(1.0), hue(turns), 0.75);
 }
 
-// Nearest white, and models in front of the camera never black.
+// White is nearest; models in front of the camera are never black.
 float nearness(float window) {
   float near = depthRange.x;
   float far = depthRange.y;

@@ -1,4 +1,4 @@
-// Purpose: the camera's picture as the ground that models are drawn over.
+// Purpose: the camera image as the background of the models.
 // Inputs:  picture, of the target's size.
 // Outputs: colour RGBA8; ids R32UI: 0, the camera; normalFocus RGBA8: no normal, focus 0.
 // Precision: exact, a copy.

@@ -1,14 +1,15 @@
-// Purpose: lens distortion: Brown-Conrady with OpenCV's rational terms, as tracking/camera_model.h
-//          has it.
-// Inputs:  its coefficients, and how far from the axis they hold (scene::setLens()).
-// Outputs: what the lens adds to a point.
+// Purpose: lens distortion: Brown-Conrady with OpenCV's rational terms, as in
+//          tracking/camera/camera_model.h.
+// Inputs:  its coefficients, and the radius up to which they hold (scene::setLens()).
+// Outputs: the shift of a point by the lens.
 // Precision: highp; a hundredth of a pixel at 1280 px needs 17 bits.
 uniform vec3 radial;      // k1 k2 k3
 uniform vec2 tangential;  // p1 p2
 uniform vec3 radialBelow; // k4 k5 k6
 uniform float trustedRadius;
 
-// What the lens adds to a point of the plane z = 1. Outside the trusted radius: what it adds there.
+// Shift of a point on the plane z = 1 by the lens. Beyond the trusted radius: the shift at that
+// radius.
 vec2 lensShift(vec2 p) {
   p *= min(1.0, trustedRadius / max(length(p), 1e-9));
   float r2 = dot(p, p);
@@ -19,8 +20,8 @@ vec2 lensShift(vec2 p) {
   return p * (above / below - 1.0) + bent;
 }
 
-// A camera point as the lens shows it, times its depth. The shift is bounded, so that it fades to
-// none towards z = 0, and stays none behind the camera.
+// A camera point shifted by the lens, times its depth. The shift is bounded, so that it fades to
+// zero towards z = 0, and is zero behind the camera.
 vec3 throughLens(vec3 p) {
   if (p.z > 0.0) p.xy += p.z * lensShift(p.xy / p.z);
   return p;

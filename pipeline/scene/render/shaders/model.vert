@@ -1,10 +1,11 @@
-// Purpose: a model's posed vertices through the camera, lens distortion included. Image rows grow
-//          with y, so row 0 of the target is the picture's top.
-// Inputs:  position in the model's frame, octahedral normal (posing.glsl's output); place on the
-//          texture, linear colour; cameraFromModel and what takes normals (of any length) along;
+// Purpose: projects a model's posed vertices through the camera, with lens distortion. Image rows grow
+//          with y, so row 0 of the target is the image's top.
+// Inputs:  position in the model's frame, octahedral normal (posing.glsl's output); texture
+//          coordinate, linear colour; cameraFromModel and the matrix for normals (of any length);
 //          pinhole terms in clip space.
-// Outputs: normal and the way to the viewer in the camera's frame, place, colour, the triangle's number.
-// Precision: highp, for lens.glsl's reasons.
+// Outputs: normal and direction to the viewer in the camera's frame, texture coordinate, colour, the
+//          triangle's number.
+// Precision: highp, for the same reason as in lens.glsl.
 #include "pipeline/scene/render/shaders/lens.glsl"
 #include "pipeline/scene/render/shaders/octahedral.glsl"
 

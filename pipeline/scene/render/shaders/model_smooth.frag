@@ -1,6 +1,6 @@
-// Purpose: a solid surface, shaded smoothly.
-// Inputs:  model_surface.glsl's, shading_smooth.glsl's.
-// Outputs: model_surface.glsl's. Precision: as there.
+// Purpose: an opaque surface, shaded smoothly.
+// Inputs:  those of model_surface.glsl and shading_smooth.glsl.
+// Outputs: those of model_surface.glsl. Precision: as there.
 #include "pipeline/scene/render/shaders/model_surface.glsl"
 #include "pipeline/scene/render/shaders/shading_smooth.glsl"
 

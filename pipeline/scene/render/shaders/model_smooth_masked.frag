@@ -1,6 +1,7 @@
-// Purpose: a surface that is not there where its coverage is low, shaded smoothly.
-// Inputs:  model_surface.glsl's, shading_smooth.glsl's; coverageCutoff, below which nothing is.
-// Outputs: model_surface.glsl's. Precision: as there.
+// Purpose: an alpha-masked surface, shaded smoothly.
+// Inputs:  those of model_surface.glsl and shading_smooth.glsl; coverageCutoff, below which nothing is
+//          drawn.
+// Outputs: those of model_surface.glsl. Precision: as there.
 #include "pipeline/scene/render/shaders/model_surface.glsl"
 #include "pipeline/scene/render/shaders/shading_smooth.glsl"
 

@@ -1,8 +1,8 @@
-// Purpose: a model's surface in its light, and what styles need of it; shared by surfaces with and
-//          without holes.
+// Purpose: a model's lit surface, and the data that styles need of it; shared by opaque and
+//          alpha-masked surfaces.
 // Inputs:  cameraNormal, towardViewer, texturePlace, vertexColour, triangle; object, baseColour and
 //          baseTexture (sampled as linear light), focus; those of shaded().
-// Outputs: colour RGBA8, sRGB-coded; ids R32UI; normalFocus RGBA8 (scene/ar_frame.h).
+// Outputs: colour RGBA8, sRGB-coded; ids R32UI; normalFocus RGBA8 (scene/render/ar_frame.h).
 // Precision: highp; bands are thresholds.
 #include "pipeline/scene/render/shaders/object_id.glsl"
 
@@ -21,10 +21,11 @@ layout(location = 0) out vec4 colour;
 layout(location = 1) out uint ids;
 layout(location = 2) out vec4 normalFocus;
 
-// sRGB-coded; of shading_toon.glsl or shading_smooth.glsl, which who includes this also includes.
+// Returns an sRGB-coded colour. Defined in shading_toon.glsl or shading_smooth.glsl; a shader that
+// includes this file includes one of those too.
 vec3 shaded(vec3 linearRgb, vec3 n, vec3 towardViewer);
 
-// Linear light, and coverage.
+// Linear light and coverage.
 vec4 surfaceColour() {
   return baseColour * vertexColour * texture(baseTexture, texturePlace);
 }

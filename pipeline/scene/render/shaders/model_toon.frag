@@ -1,6 +1,6 @@
-// Purpose: a solid surface, shaded in toon bands.
-// Inputs:  model_surface.glsl's, shading_toon.glsl's.
-// Outputs: model_surface.glsl's. Precision: as there.
+// Purpose: an opaque surface, shaded in toon bands.
+// Inputs:  those of model_surface.glsl and shading_toon.glsl.
+// Outputs: those of model_surface.glsl. Precision: as there.
 #include "pipeline/scene/render/shaders/model_surface.glsl"
 #include "pipeline/scene/render/shaders/shading_toon.glsl"
 

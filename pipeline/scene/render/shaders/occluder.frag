@@ -1,5 +1,5 @@
-// Purpose: a real thing's shape, which hides what is behind it: the camera's picture as it is, with
-//          the thing's id and, by the depth test, its depth.
+// Purpose: the shape of a real object, which hides models behind it: the unchanged camera image with the
+//          object's id and, by the depth test, its depth.
 // Inputs:  picture, of the target's size; triangle; object.
 // Outputs: colour RGBA8; ids R32UI; normalFocus RGBA8: no normal, focus 0.
 // Precision: exact, a copy.

@@ -1,8 +1,8 @@
 // Purpose: unit vectors in 32 bits (Cigolle et al., "A Survey of Efficient Representations for
 //          Independent Unit Vectors", 2014), as scene::octahedral() packs them.
 // Inputs:  unit vectors, or two 16-bit snorms in a word.
-// Outputs: the other.
-// Precision: highp; 16 bits a coordinate, 0.003 degrees.
+// Outputs: the respective other form.
+// Precision: highp; 16 bits per coordinate, 0.003 degrees.
 vec2 octahedralFold(vec2 flat2) {
   return (1.0 - abs(flat2.yx)) *
          vec2(flat2.x < 0.0 ? -1.0 : 1.0, flat2.y < 0.0 ? -1.0 : 1.0);

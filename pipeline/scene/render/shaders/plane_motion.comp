@@ -1,7 +1,7 @@
-// Purpose: the motion since the frame before of pixels that show a plane of the scene.
-// Inputs:  ids (ArFrame::ids); the planes' bodies, planeCount of them; origin, size: of the
-//          rectangle in px that the planes are in; planes.glsl's.
-// Outputs: motion RGBA16F, as surface.comp has it; pixels of models are left alone. A pixel an
+// Purpose: motion since the previous frame of pixels that show a plane of the scene.
+// Inputs:  ids (ArFrame::ids); the planes' bodies, planeCount of them; origin, size: the rectangle in
+//          px that contains the planes; those of planes.glsl.
+// Outputs: motion RGBA16F, as in surface.comp; pixels of models are not written. One pixel per
 //          invocation.
 // Precision: highp; the displacement is rounded to 11 bits.
 #include "pipeline/scene/render/shaders/object_id.glsl"
@@ -27,13 +27,14 @@ void main() {
   float nearest = 0.0;
   for (int i = 0; i < kMaxPlanes; ++i) {
     if (i >= planeCount) break;
-    vec3 hit = hitOf(planes[i].now, planes[i].extent.xy, ray);
-    vec3 now = hit.z * ray;
-    vec3 then = transformed(planes[i].then, vec3(hit.xy, 0.0));
+    vec3 hit = hitOf(planes[i].current, planes[i].extent.xy, ray);
+    vec3 current = hit.z * ray;
+    vec3 previous = transformed(planes[i].previous, vec3(hit.xy, 0.0));
     if (hit.z == 0.0 || (nearest > 0.0 && hit.z >= nearest)) continue;
     nearest = hit.z;
-    bool isKnown = planes[i].turnsAbout.w != 0.0 && then.z > 0.0;
-    moved = isKnown ? vec4(projected(now) - projected(then), predictedError(planes[i], now), kPlane)
+    bool isKnown = planes[i].turnsAbout.w != 0.0 && previous.z > 0.0;
+    moved = isKnown ? vec4(projected(current) - projected(previous),
+                           predictedError(planes[i], current), kPlane)
                     : vec4(0.0);
   }
   if (any(greaterThanEqual(pixel, origin + size)) || nearest == 0.0) return;

@@ -1,12 +1,12 @@
-// Purpose: where rays meet the planes of a scene.
-// Inputs:  bodies.glsl's.
-// Outputs: points on planes: (x, y) on it and the depth.
+// Purpose: intersections of rays with the planes of a scene.
+// Inputs:  those of bodies.glsl.
+// Outputs: points on planes: (x, y) on the plane, and the depth.
 // Precision: highp; metres.
 #include "pipeline/scene/render/shaders/bodies.glsl"
 
 const int kMaxPlanes = 8;  // scene::kMaxPlanes
 
-// Undoes the lens by fixed-point iteration, as OpenCV's undistortPoints() does.
+// Undoes the lens distortion by fixed-point iteration, as OpenCV's undistortPoints() does.
 vec3 rayThrough(vec2 px) {
   vec2 bent = (px - centre) / focal;
   vec2 p = bent;
@@ -16,8 +16,8 @@ vec3 rayThrough(vec2 px) {
   return vec3(p, 1.0);
 }
 
-// Where the ray meets a plane of this pose, as (x, y) on it, and the depth; no depth (0) beyond half
-// its size.
+// Intersection of the ray with a plane of this pose: (x, y) on the plane, and the depth; depth 0
+// outside of the plane's half size.
 vec3 hitOf(vec4 pose[3], vec2 halfSize, vec3 ray) {
   vec3 x = vec3(pose[0].x, pose[1].x, pose[2].x);
   vec3 y = vec3(pose[0].y, pose[1].y, pose[2].y);

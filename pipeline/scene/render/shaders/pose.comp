@@ -1,5 +1,5 @@
 // Purpose: poses vertices without morph targets.
-// Inputs, outputs, precision: posing.glsl's. A vertex an invocation.
+// Inputs, outputs, precision: as in posing.glsl. One vertex per invocation.
 #include "pipeline/scene/render/shaders/posing.glsl"
 
 void main() {

@@ -1,7 +1,8 @@
 // Purpose: poses vertices with morph targets.
-// Inputs:  posing.glsl's; storage 3: what each target adds to each vertex (scene::MorphDelta),
-//          target by target; the place of this range's weights, behind the matrices.
-// Outputs, precision: posing.glsl's. A vertex an invocation.
+// Inputs:  those of posing.glsl; storage 3: the offset of each vertex by each target
+//          (scene::MorphDelta), target by target; the place of this range's weights, after the
+//          matrices.
+// Outputs, precision: as in posing.glsl. One vertex per invocation.
 #include "pipeline/scene/render/shaders/posing.glsl"
 
 struct MorphDelta {
@@ -12,8 +13,8 @@ layout(std430, binding = 3) readonly buffer Deltas { MorphDelta deltas[]; };
 
 uniform uint targetCount;
 uniform uint firstDelta;
-uniform uint firstWeightRow;  // of matrixRows; four weights a row
-uniform uint firstWeight;     // from there
+uniform uint firstWeightRow;  // in matrixRows; four weights per row
+uniform uint firstWeight;  // counted from that row
 
 float weightAt(uint target) {
   uint i = firstWeight + target;

@@ -1,9 +1,9 @@
 // Purpose: poses a model's vertices: morph targets, then joints (linear blend skinning; glTF 2.0,
-//          section 3.7.3.3). A rigid part is held by one joint.
+//          section 3.7.3.3). A rigid part has one joint.
 // Inputs:  storage 0: vertices at rest (scene::RestVertex); 1: matrices of all models, three rows
-//          each, and behind them their weights; firstMatrix: of this object.
-// Outputs: storage 2: position in the model's frame, octahedral normal; 16 bytes a vertex.
-// Precision: highp; weights 16 bits, made to sum to 1.
+//          each, followed by their weights; firstMatrix: of this object.
+// Outputs: storage 2: position in the model's frame, octahedral normal; 16 bytes per vertex.
+// Precision: highp; weights have 16 bits and are normalised to sum to 1.
 #include "pipeline/scene/render/shaders/octahedral.glsl"
 
 layout(local_size_x = 64) in;
@@ -23,8 +23,8 @@ layout(std430, binding = 0) readonly buffer Rest { RestVertex rest[]; };
 layout(std430, binding = 1) readonly buffer Matrices { vec4 matrixRows[]; };
 layout(std430, binding = 2) writeonly buffer Posed { PosedVertex posed[]; };
 
-uniform uint firstRest;   // of this range, in rest
-uniform uint firstPosed;  // likewise, in posed
+uniform uint firstRest;  // of this range, in rest
+uniform uint firstPosed;  // of this range, in posed
 uniform uint vertexCount;
 uniform uint firstVertex;  // of this dispatch, from the range's start
 uniform uint firstMatrix;
@@ -56,14 +56,15 @@ Transform heldBy(RestVertex v) {
   return sum;
 }
 
-// Normals go with the cofactors, which mirrored and flattened parts have too.
+// Normals transform by the cofactors, which exist for mirrored and flattened parts too.
 vec3 turnedNormal(Transform t, vec3 n) {
   vec3 cx = cross(t.y.xyz, t.z.xyz);
   vec3 cy = cross(t.z.xyz, t.x.xyz);
   vec3 cz = cross(t.x.xyz, t.y.xyz);
   vec3 turned = vec3(dot(cx, n), dot(cy, n), dot(cz, n));
   if (dot(t.x.xyz, cx) < 0.0) turned = -turned;
-  float size = max(max(abs(turned.x), abs(turned.y)), abs(turned.z));  // its square may vanish
+  // Scaled first, since its square may underflow.
+  float size = max(max(abs(turned.x), abs(turned.y)), abs(turned.z));
   return size > 0.0 ? normalize(turned / size) : vec3(0.0, 0.0, 1.0);
 }
 

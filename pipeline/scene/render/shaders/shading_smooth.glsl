@@ -1,4 +1,4 @@
-// Purpose: how a model's surface looks in the light that falls on it (scene/lighting.h), smoothly.
+// Purpose: smooth shading of a model's surface in its light (scene/light/lighting.h).
 // Inputs:  the light in the camera's frame (scene::setLighting()); colours in linear light.
 // Outputs: none. Precision: highp.
 #include "pipeline/gpu/shaders/colour.glsl"
@@ -9,8 +9,8 @@ uniform vec3 keyLight;
 uniform vec3 skyLight;
 uniform vec3 groundLight;
 
-// Lambert under a hemisphere of ambient light and the key light, with a soft gloss (Blinn-Phong,
-// normalised). What a camera would clip keeps its hue.
+// Lambert shading under a hemisphere of ambient light and the key light, with a soft gloss
+// (normalised Blinn-Phong). Values that a camera would clip keep their hue.
 vec3 shaded(vec3 linearRgb, vec3 n, vec3 towardViewer) {
   const float kGloss = 0.04;
   const float kExponent = 24.0;

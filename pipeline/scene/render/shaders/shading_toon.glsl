@@ -1,5 +1,5 @@
-// Purpose: how a model's surface looks in the light that falls on it (scene/lighting.h): in the three
-//          bands of thesis section 3.2.2.
+// Purpose: shading of a model's surface in its light (scene/light/lighting.h) in the three bands of
+//          thesis section 3.2.2.
 // Inputs:  the light in the camera's frame (scene::setLighting()); colours in linear light.
 // Outputs: none. Precision: highp; bands are thresholds.
 #include "pipeline/gpu/shaders/colour.glsl"
@@ -7,9 +7,9 @@
 uniform vec3 towardKey;
 uniform vec3 up;
 uniform vec3 whiteLight;
-uniform float ambientInBands;  // its share of the light that bands are of
+uniform float ambientInBands;  // share of ambient light in the light that selects the band
 uniform float deepestShade;    // the darkest band's factor; the thesis's is 0.1
-uniform vec3 shadeTint;        // of sRGB-coded colours that the key light does not reach
+uniform vec3 shadeTint;  // factor on sRGB-coded colours where the key light does not reach
 
 float band(float intensity) {
   if (intensity > 0.7) return 1.0;
@@ -17,8 +17,9 @@ float band(float intensity) {
   return 0.1;
 }
 
-// White in full light is as white paper is in the picture; the bands' factors multiply coded values:
-// 0.4 of the light would look like 0.67. Shade takes the ambient light's hue.
+// A white surface in full light is as bright as white paper in the image. The bands' factors
+// multiply coded values: 0.4 of the light would look like 0.67. Shade takes the hue of the ambient
+// light.
 vec3 shaded(vec3 linearRgb, vec3 n, vec3 towardViewer) {
   float b = band(mix(clamp(dot(towardKey, n), 0.0, 1.0), 0.5 + 0.5 * dot(up, n), ambientInBands));
   b = 1.0 - (1.0 - b) * (1.0 - deepestShade) / 0.9;

@@ -1,7 +1,7 @@
 // Purpose: the first half of a shadow's blur: along rows.
-// Inputs:  map RG8 (shadow_cast.frag's); shadow_blur.glsl's.
-// Outputs: blurred RGBA8: the key light's shadow, the mean height of what casts it, the ambient
-//          light's shadow.
+// Inputs:  map RG8 (from shadow_cast.frag); those of shadow_blur.glsl.
+// Outputs: blurred RGBA8: the key light's shadow, the mean height of its casters, the ambient light's
+//          shadow.
 // Precision: highp; sums of 25.
 #include "pipeline/scene/render/shaders/shadow_blur.glsl"
 

@@ -1,6 +1,6 @@
-// Purpose: the second half of a shadow's blur: along columns. Fades at the map's rim.
-// Inputs:  map RGBA8 (shadow_blur_across.frag's); shadow_blur.glsl's.
-// Outputs: kept RG8: the share of the key light and of the ambient light that is kept off.
+// Purpose: the second half of a shadow's blur: along columns. Fades at the map's edge.
+// Inputs:  map RGBA8 (from shadow_blur_across.frag); those of shadow_blur.glsl.
+// Outputs: kept RG8: the blocked share of the key light and of the ambient light.
 // Precision: highp; sums of 25.
 #include "pipeline/scene/render/shaders/shadow_blur.glsl"
 

@@ -1,6 +1,6 @@
-// Purpose: marks a texel of a shadow's map; by the depth test, with the lowest thing over it.
+// Purpose: marks a texel of a shadow map; the depth test keeps the lowest surface over it.
 // Inputs:  height, 0 … 1.
-// Outputs: map RG8: 1 where something is, and its height.
+// Outputs: map RG8: 1 where there is a surface, and its height.
 // Precision: 8 bits.
 in float height;
 

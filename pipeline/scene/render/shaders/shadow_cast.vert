@@ -1,7 +1,7 @@
-// Purpose: a model's shadow on a plane, seen along the light: where it falls, and how high what
-//          casts it is.
+// Purpose: projects a model along the light onto a plane: position of its shadow, and height of the
+//          caster.
 // Inputs:  position in the model's frame; mapFromModel (scene::ShadowPlan).
-// Outputs: the position in the shadow's map; height, 0 … 1 of the map's.
+// Outputs: the position in the shadow map; height, 0 … 1 of the map's.
 // Precision: highp.
 uniform mat4 mapFromModel;
 

@@ -1,9 +1,9 @@
-// Purpose: darkens the camera's picture where models keep light off a plane; by multiplying blending
-//          of sRGB-coded values, so light's share is coded, too.
-// Inputs:  map RG8 (shadow_blur_down.frag's); keyShare, ambientShare: of the plane's light, channel
-//          by channel.
-// Outputs: colour: what the picture is multiplied by.
-// Precision: highp for places; colours have 8 bits.
+// Purpose: darkens the camera image where models block the light of a plane. Blending multiplies
+//          sRGB-coded values, so the share of light is coded too.
+// Inputs:  map RG8 (from shadow_blur_down.frag); keyShare, ambientShare: shares of the plane's light
+//          per channel.
+// Outputs: colour: the factor on the image.
+// Precision: highp for positions; colours have 8 bits.
 uniform highp sampler2D map;
 uniform vec3 keyShare;
 uniform vec3 ambientShare;
@@ -12,7 +12,7 @@ in vec2 mapPlace;
 
 layout(location = 0) out vec4 colour;
 
-// x to the power of 1 / 2.2, within 0.011.
+// x to the power of 1 / 2.2, with an error up to 0.011.
 vec3 coded(vec3 x) {
   vec3 root = sqrt(x);
   return mix(root, sqrt(root), 0.182);

@@ -1,9 +1,9 @@
-// Purpose: the square of a plane that a shadow's map covers, as the camera sees it, in small cells
+// Purpose: the square of a plane that a shadow map covers, projected by the camera in small cells,
 //          because a lens bends lines.
-// Inputs:  the vertex number; square: its centre and half its side in the attach frame; cells a
-//          side; map; cameraFromAttach; lens.glsl's; pinhole terms in clip space.
-// Outputs: the place on the map, 0 … 1; nothing of cells that hold no shadow, which are most.
-// Precision: highp, for lens.glsl's reasons.
+// Inputs:  the vertex number; square: its centre and half its side in the attach frame; cells per
+//          side; map; cameraFromAttach; those of lens.glsl; pinhole terms in clip space.
+// Outputs: the position on the map, 0 … 1; cells without shadow, which are most, are discarded.
+// Precision: highp, for the same reason as in lens.glsl.
 #include "pipeline/scene/render/shaders/lens.glsl"
 
 uniform mat4 cameraFromAttach;
@@ -17,7 +17,7 @@ out vec2 mapPlace;
 
 const int kCorners[6] = int[6](0, 1, 2, 2, 1, 3);  // of two triangles
 
-// Whether anything of a cell, and of the texels beside it that are blended in, is dark: each tap is
+// Whether any texel of a cell, or next to it within the filter's reach, is dark. Each tap lies
 // between four texels.
 bool holdsShadow(ivec2 cell) {
   vec2 texel = 1.0 / vec2(textureSize(map, 0));
@@ -38,7 +38,7 @@ void main() {
   ivec2 place = ivec2(cell % cells, cell / cells);
   if (!holdsShadow(place)) {
     mapPlace = vec2(0.0);
-    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside
+    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside of the clip volume
     return;
   }
   ivec2 at = place + ivec2(corner & 1, corner >> 1);

@@ -1,5 +1,5 @@
-// Purpose: what is known about the pixels of a virtual model, whose motion is exact.
-// Inputs, outputs, precision: surface.glsl's.
+// Purpose: surface data of the pixels of a virtual model, whose motion is exact.
+// Inputs, outputs, precision: as in surface.glsl.
 #include "pipeline/scene/render/shaders/surface.glsl"
 
-float errorAt(vec3 now) { return 0.0; }
+float errorAt(vec3 current) { return 0.0; }

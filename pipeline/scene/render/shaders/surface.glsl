@@ -1,11 +1,10 @@
-// Purpose: what is known about the pixels of one model beyond what was drawn: their motion since the
-//          frame before, their points on the surface, and their parts. Other pixels are left alone.
-//          Shared by models that are virtual and those that are real.
-// Inputs:  ids (ArFrame::ids); object, of ids; origin, size: of the rectangle in px that the model
-//          is in; surface_point.glsl's.
-// Outputs: motion RGBA16F: displacement in px since the frame before (x right, y down), predicted
-//          error in px, SurfaceMotionSource (scene/ar_frame.h); barycentrics R32UI: those of the triangle's
-//          first two corners, 16 bits each; parts R32UI, like ids. A pixel an invocation.
+// Purpose: per-pixel data of one model: motion since the previous frame, point on the surface, and
+//          part. Other pixels are not written. Shared by virtual models and occluders.
+// Inputs:  ids (ArFrame::ids); object, of ids; origin, size: the rectangle in px that contains the
+//          model; those of surface_point.glsl.
+// Outputs: motion RGBA16F: displacement in px since the previous frame (x right, y down), predicted
+//          error in px, SurfaceMotionSource (scene/render/ar_frame.h); barycentrics R32UI: those of the triangle's
+//          first two corners, 16 bits each; parts R32UI, like ids. One pixel per invocation.
 // Precision: highp; the displacement is rounded to 11 bits.
 #include "pipeline/scene/render/shaders/object_id.glsl"
 #include "pipeline/scene/render/shaders/surface_point.glsl"
@@ -23,8 +22,9 @@ layout(r32ui, binding = 2) writeonly uniform highp uimage2D parts;
 
 const float kSurface = 1.0;
 
-// Defined by who includes this: of a point of the body, camera frame.
-float errorAt(vec3 now);
+// Predicted error at a point of the body, camera frame. Defined by the shader that includes this
+// file.
+float errorAt(vec3 current);
 
 void main() {
   ivec2 pixel = origin + ivec2(gl_GlobalInvocationID.xy);
@@ -32,11 +32,11 @@ void main() {
   uint id = texelFetch(ids, pixel, 0).r;
   if (objectOf(id) != object) return;
   SurfacePoint point = surfacePointAt(numberOf(id), vec2(pixel) + 0.5);
-  vec3 now = positionNow(point);
-  vec3 then = positionThen(point);
+  vec3 current = currentPosition(point);
+  vec3 previous = previousPosition(point);
   vec4 moved = vec4(0.0);
-  if (body.turnsAbout.w != 0.0 && now.z > 0.0 && then.z > 0.0) {
-    moved = vec4(projected(now) - projected(then), errorAt(now), kSurface);
+  if (body.turnsAbout.w != 0.0 && current.z > 0.0 && previous.z > 0.0) {
+    moved = vec4(projected(current) - projected(previous), errorAt(current), kSurface);
   }
   imageStore(motion, pixel, moved);
   imageStore(barycentrics, pixel, uvec4(packUnorm2x16(point.barycentrics.xy)));

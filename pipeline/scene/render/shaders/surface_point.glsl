@@ -1,9 +1,9 @@
-// Purpose: the point of a model's surface behind a pixel, exactly: its triangle's corners and the
-//          barycentrics there, perspective-correct, as the rasteriser has them.
+// Purpose: the exact point of a model's surface at a pixel: the corners of its triangle and
+//          perspective-correct barycentrics, as the rasteriser computes them.
 // Inputs:  storage 0: posed vertices; 1: triangles (scene::PosedGeometry); the model's body;
-//          bodies.glsl's.
-// Outputs: the point, and where it is in this frame and the one before (camera frame, metres).
-// Precision: highp. Barycentrics come of areas relative to the pixel, which keeps their digits.
+//          those of bodies.glsl.
+// Outputs: the point, and its position in this frame and the previous one (camera frame, metres).
+// Precision: highp. Barycentrics are computed from areas relative to the pixel, which keeps precision.
 #include "pipeline/scene/render/shaders/bodies.glsl"
 
 struct PosedVertex {
@@ -21,11 +21,11 @@ struct SurfacePoint {
 };
 
 vec3 cameraPosition(uint corner) {
-  return transformed(body.now, posed[body.places.y + corner].position);
+  return transformed(body.current, posed[body.places.y + corner].position);
 }
 
-// In px, times depth, from the pixel's centre: linear on the triangle, also where a corner is behind
-// the camera.
+// In px, times depth, relative to the pixel's centre: linear on the triangle, even if a corner is
+// behind the camera.
 vec2 fromPixel(vec3 cameraPoint, vec2 px) {
   vec3 p = throughLens(cameraPoint);
   return focal * p.xy + (centre - px) * p.z;
@@ -39,23 +39,23 @@ SurfacePoint surfacePointAt(uint triangle, vec2 px) {
   vec3 areas = vec3(b.x * c.y - b.y * c.x, c.x * a.y - c.y * a.x, a.x * b.y - a.y * b.x);
   float sum = areas.x + areas.y + areas.z;
   vec3 at = abs(sum) > 0.0 ? areas / sum : vec3(1.0 / 3.0);
-  at = clamp(at, 0.0, 1.0);  // a pixel's centre on an edge rounds to beyond it
+  at = clamp(at, 0.0, 1.0);  // rounding may put a pixel's centre beyond the edge
   return SurfacePoint(entry.xyz, entry.w, at / (at.x + at.y + at.z));
 }
 
-vec3 positionNow(SurfacePoint point) {
+vec3 currentPosition(SurfacePoint point) {
   vec3 at = vec3(0.0);
   for (int i = 0; i < 3; ++i) {
     at += point.barycentrics[i] * posed[body.places.y + point.corners[i]].position;
   }
-  return transformed(body.now, at);
+  return transformed(body.current, at);
 }
 
-// Precondition: the model is known in the frame before.
-vec3 positionThen(SurfacePoint point) {
+// Precondition: the model's previous pose is known.
+vec3 previousPosition(SurfacePoint point) {
   vec3 at = vec3(0.0);
   for (int i = 0; i < 3; ++i) {
     at += point.barycentrics[i] * posed[body.places.z + point.corners[i]].position;
   }
-  return transformed(body.then, at);
+  return transformed(body.previous, at);
 }

@@ -1,6 +1,5 @@
-// Purpose: what is known about the pixels of a real thing's shape (an occluder), which is where its
-//          pose says only as well as that is known.
-// Inputs, outputs, precision: surface.glsl's.
+// Purpose: surface data of the pixels of an occluder, whose motion has the error of its pose.
+// Inputs, outputs, precision: as in surface.glsl.
 #include "pipeline/scene/render/shaders/surface.glsl"
 
-float errorAt(vec3 now) { return predictedError(body, now); }
+float errorAt(vec3 current) { return predictedError(body, current); }

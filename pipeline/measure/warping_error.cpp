@@ -1,4 +1,4 @@
-#include "pipeline/measure/carried_error.h"
+#include "pipeline/measure/warping_error.h"
 
 #include <algorithm>
 #include <cassert>
@@ -9,7 +9,7 @@ namespace {
 
 /// Calls visit(difference) for each valid pixel.
 template <class Visit>
-void forEachDifference(const cv::Mat3f& earlier, const Carried<cv::Mat3f>& later, Visit visit) {
+void forEachDifference(const cv::Mat3f& earlier, const Warped<cv::Mat3f>& later, Visit visit) {
   assert(earlier.size() == later.picture.size());
   for (int y = 0; y < earlier.rows; ++y) {
     const cv::Vec3f* a = earlier[y];
@@ -23,7 +23,7 @@ void forEachDifference(const cv::Mat3f& earlier, const Carried<cv::Mat3f>& later
 
 }  // namespace
 
-Mean carriedError(const cv::Mat3f& earlier, const Carried<cv::Mat3f>& later) {
+Mean warpingError(const cv::Mat3f& earlier, const Warped<cv::Mat3f>& later) {
   Mean mean;
   forEachDifference(earlier, later, [&mean](int, int, const cv::Vec3f& difference) {
     mean.sum += static_cast<double>(difference.dot(difference)) / 3.0;
@@ -32,7 +32,7 @@ Mean carriedError(const cv::Mat3f& earlier, const Carried<cv::Mat3f>& later) {
   return mean;
 }
 
-Mean poppedShare(const cv::Mat3f& earlier, const Carried<cv::Mat3f>& later) {
+Mean poppedShare(const cv::Mat3f& earlier, const Warped<cv::Mat3f>& later) {
   // Slightly more, so that rounding does not decide about a difference of 24 whole levels.
   constexpr float kPop = 24.001F / 255.0F;
   Mean mean;
@@ -45,7 +45,7 @@ Mean poppedShare(const cv::Mat3f& earlier, const Carried<cv::Mat3f>& later) {
   return mean;
 }
 
-cv::Mat3f differenceAlong(const cv::Mat3f& earlier, const Carried<cv::Mat3f>& later) {
+cv::Mat3f differenceAlong(const cv::Mat3f& earlier, const Warped<cv::Mat3f>& later) {
   cv::Mat3f picture(earlier.size(), cv::Vec3f());
   forEachDifference(earlier, later, [&picture](int y, int x, const cv::Vec3f& difference) {
     picture(y, x) = {std::abs(difference[0]), std::abs(difference[1]), std::abs(difference[2])};

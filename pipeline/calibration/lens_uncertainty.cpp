@@ -1,4 +1,4 @@
-#include "pipeline/calibration/lens_certainty.h"
+#include "pipeline/calibration/lens_uncertainty.h"
 
 #include <cmath>
 #include <limits>
@@ -43,10 +43,10 @@ std::vector<glm::dvec2> places(hal::FrameSize size) {
 
 }  // namespace
 
-std::vector<PlaceCertainty> placeCertainties(const LensFit& fit) {
+std::vector<PlaceUncertainty> placeUncertainties(const LensFit& fit) {
   const LensVector parameters = parametersOf(fit.camera);
   const LensVec lens(parameters.data());
-  std::vector<PlaceCertainty> certainties;
+  std::vector<PlaceUncertainty> certainties;
   std::vector<ByLens> byLens;
   std::vector<ByTurn> byTurn;
   cv::Matx33d turns = cv::Matx33d::zeros();
@@ -70,7 +70,7 @@ std::vector<PlaceCertainty> placeCertainties(const LensFit& fit) {
   return certainties;
 }
 
-bool foldsInPicture(const tracking::CameraModel& camera) {
+bool foldsInImage(const tracking::CameraModel& camera) {
   constexpr double kBeyond = 1.02;
   constexpr int kSteps = 200;
   const hal::FrameSize size = camera.imageSize();

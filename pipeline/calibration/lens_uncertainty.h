@@ -9,7 +9,7 @@
 namespace pleinair::calibration {
 
 /// Uncertainty of the lens at one place of the image.
-struct PlaceCertainty {
+struct PlaceUncertainty {
   glm::dvec2 px{0.0};
   double sigmaPx = 0.0;
 };
@@ -18,10 +18,10 @@ struct PlaceCertainty {
 /// whole image, from the fit's covariance. A rotation of the camera common to all places does not
 /// count, since poses absorb it. mrcal calls this the projection uncertainty. Infinite where the
 /// lens has no inverse.
-std::vector<PlaceCertainty> placeCertainties(const LensFit& fit);
+std::vector<PlaceUncertainty> placeUncertainties(const LensFit& fit);
 
 /// Whether the distortion folds over within the image's corners or a little beyond. A fitted
 /// polynomial may do so: two rays then share one place, or a ray further out appears further in.
-bool foldsInPicture(const tracking::CameraModel& camera);
+bool foldsInImage(const tracking::CameraModel& camera);
 
 }  // namespace pleinair::calibration
