@@ -191,7 +191,7 @@ void TargetPose::anchor(const CameraModel& camera, std::span<const FeatureTrack>
 }
 
 /// Falls smoothly from one to zero.
-double TargetPose::partOfBlend(hal::TimePoint now) const {
+double TargetPose::blendWeight(hal::TimePoint now) const {
   const double over = hal::toSeconds(options_.blendOver);
   const double t = over > 0.0 ? std::clamp(hal::toSeconds(now - blendFrom_) / over, 0.0, 1.0) : 1.0;
   return 1.0 - t * t * (3.0 - 2.0 * t);
