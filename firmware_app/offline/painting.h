@@ -27,8 +27,9 @@ struct PaintingOptions {
   std::filesystem::path shaderDirectory;
 };
 
-/// The style's own parameters, or those of the options, with their view.
-PaintParameters parametersOf(const Painter& painter, const PaintingOptions& options);
+/// What a painting begins with, live or not: the options' parameters, or else the style's own, and
+/// their view. Throws hal::Failure (kInvalidArgument) for an unknown view, with all names.
+PaintParameters startParameters(const PaintingOptions& options);
 
 /// Every frame of a camera through a Painter to an output: what `render` and `record` have in
 /// common.

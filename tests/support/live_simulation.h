@@ -140,7 +140,7 @@ class SimulatedPainter final : public runtime::FramePainter {
     return {};
   }
 
-  hal::Result<bool> take(std::size_t output, OutputFrame& picture) override {
+  hal::Result<bool> poll(std::size_t output, OutputFrame& picture) override {
     if (gpu_.isLost) return tl::unexpected(lost());
     const std::size_t index = taken_.at(output) - done_;
     if (index >= work_.size() || work_.at(index).ready > clock_.now()) return false;
@@ -155,6 +155,7 @@ class SimulatedPainter final : public runtime::FramePainter {
     tellNext();
     return true;
   }
+  void wait(hal::Duration) override {}  // who steps the clock knows nextReady
 
  private:
   struct Work {

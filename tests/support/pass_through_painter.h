@@ -19,7 +19,7 @@ class PassThroughPainter final : public runtime::FramePainter {
     for (auto& pictures : waiting_) pictures.push_back(frame);
     return {};
   }
-  hal::Result<bool> take(std::size_t output, OutputFrame& picture) override {
+  hal::Result<bool> poll(std::size_t output, OutputFrame& picture) override {
     auto& pictures = waiting_.at(output);
     if (pictures.empty()) return false;
     const hal::CapturedFrame frame = std::move(pictures.front());
@@ -35,6 +35,7 @@ class PassThroughPainter final : public runtime::FramePainter {
     picture.captureTime = frame.captureTime;
     return true;
   }
+  void wait(hal::Duration) override {}  // all is ready at once
 
  private:
   std::vector<std::deque<hal::CapturedFrame>> waiting_;
