@@ -197,7 +197,7 @@ int measureConfigured(const MeasureOptions& options, const Configuration& config
                    .tracksTags = !scene.tags.empty(),
                    .expectedFormat = input->format(),
                    .qualityLevels = quality != 0});
-  PaintParameters parameters = parametersOf(painter, painting);
+  PaintParameters parameters = startParameters(painting);
   parameters.quality = quality;
   MeasuredEngine engine(painter, std::move(parameters), size);
 

@@ -11,8 +11,7 @@
 
 namespace pleinair::app {
 
-/// What whoever operates a live painting asks of the painter's thread, and what comes back.
-/// Thread-safe.
+/// Requests of the main thread to the paint thread, and the snapshots that come back. Any thread.
 class LiveControls {
  public:
   explicit LiveControls(PaintParameters parameters) { setParameters(std::move(parameters)); }
@@ -28,7 +27,7 @@ class LiveControls {
     return parameters_;
   }
 
-  /// The next frame is to be kept as a still.
+  /// The next frame is to be kept as a snapshot.
   void requestSnapshot() {
     const std::scoped_lock lock(mutex_);
     wantsSnapshot_ = true;
@@ -37,20 +36,20 @@ class LiveControls {
     const std::scoped_lock lock(mutex_);
     return std::exchange(wantsSnapshot_, false);
   }
-  void putSnapshot(hal::Result<hal::Image> still) {
+  void putSnapshot(hal::Result<hal::Image> snapshot) {
     const std::scoped_lock lock(mutex_);
-    still_ = std::move(still);
+    snapshot_ = std::move(snapshot);
   }
   std::optional<hal::Result<hal::Image>> takeSnapshot() {
     const std::scoped_lock lock(mutex_);
-    return std::exchange(still_, std::nullopt);
+    return std::exchange(snapshot_, std::nullopt);
   }
 
  private:
   mutable std::mutex mutex_;
   std::shared_ptr<const PaintParameters> parameters_;
   bool wantsSnapshot_ = false;
-  std::optional<hal::Result<hal::Image>> still_;
+  std::optional<hal::Result<hal::Image>> snapshot_;
 };
 
 }  // namespace pleinair::app

@@ -8,7 +8,8 @@ namespace pleinair::app {
 LivePainter::LivePainter(const PainterOptions& options,
                          const std::vector<hal::FrameFormat>& outputs, LiveControls& controls)
     : painter_(options), controls_(controls), seen_(controls.parameters()), parameters_(*seen_) {
-  for (const hal::FrameFormat& format : outputs) readers_.push_back(painter_.openReadback(format));
+  for (const hal::FrameFormat& format : outputs)
+    readbacks_.push_back(painter_.openReadback(format));
 }
 
 hal::Result<void> LivePainter::paint(const hal::CapturedFrame& frame, std::size_t quality) {
@@ -17,19 +18,12 @@ hal::Result<void> LivePainter::paint(const hal::CapturedFrame& frame, std::size_
     seen_ = std::move(newest);
   }
   parameters_.quality = quality;
-  for (const int reader : closed_) {
-    for (;;) {
-      const hal::Result<bool> taken = painter_.take(reader, dropped_, false);
-      if (!taken) return tl::unexpected(taken.error());
-      if (!*taken) break;
-    }
-  }
-  const bool isStill = controls_.takeSnapshotRequest();
-  if (!isStill) {
+  const bool isSnapshot = controls_.takeSnapshotRequest();
+  if (!isSnapshot) {
     const auto painted = painter_.paint(frame, parameters_);
     return painted ? hal::Result<void>() : tl::unexpected(painted.error());
   }
-  // A still is the finished picture at its best, whatever is looked at.
+  // A snapshot is the finished picture at its best, whatever view is painted.
   PaintParameters parameters = parameters_;
   parameters.view.clear();
   parameters.quality = 0;
@@ -40,17 +34,13 @@ hal::Result<void> LivePainter::paint(const hal::CapturedFrame& frame, std::size_
   return {};
 }
 
-void LivePainter::open(std::size_t output, const hal::FrameFormat& format) {
-  assert(output == readers_.size());
-  readers_.push_back(painter_.openReadback(format));
+hal::Result<bool> LivePainter::poll(std::size_t output, OutputFrame& picture) {
+  return painter_.poll(readbacks_.at(output), picture);
 }
 
-void LivePainter::close(std::size_t output) {
-  closed_.push_back(readers_.at(output));
-}
-
-hal::Result<bool> LivePainter::take(std::size_t output, OutputFrame& picture) {
-  return painter_.take(readers_.at(output), picture, false);
+void LivePainter::wait(hal::Duration limit) {
+  // A GPU that is lost gives no picture: poll() says so.
+  [[maybe_unused]] const auto isReady = painter_.waitForAny(limit);
 }
 
 }  // namespace pleinair::app

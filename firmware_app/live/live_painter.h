@@ -10,8 +10,9 @@
 
 namespace pleinair::app {
 
-/// The engine's Painter for a live chain, with the parameters and snapshots that are asked for
-/// meanwhile. `controls` outlives it.
+/// The engine's Painter for a live chain, in a GL context of its own on the paint thread, with the
+/// parameters and snapshots that are asked for meanwhile. Paint thread only; `controls` outlives
+/// it.
 class LivePainter final : public runtime::FramePainter {
  public:
   /// Throws hal::Failure.
@@ -19,16 +20,13 @@ class LivePainter final : public runtime::FramePainter {
               LiveControls& controls);
 
   hal::Result<void> paint(const hal::CapturedFrame& frame, std::size_t quality) override;
-  hal::Result<bool> take(std::size_t output, OutputFrame& picture) override;
-  void open(std::size_t output, const hal::FrameFormat& format) override;
-  void close(std::size_t output) override;
+  hal::Result<bool> poll(std::size_t output, OutputFrame& picture) override;
+  void wait(hal::Duration limit) override;
 
  private:
   Painter painter_;
   LiveControls& controls_;
-  std::vector<int> readers_;
-  std::vector<int> closed_;  ///< readers whose pictures are dropped
-  OutputFrame dropped_;
+  std::vector<int> readbacks_;
   std::shared_ptr<const PaintParameters> seen_;  ///< what parameters_ was made from
   PaintParameters parameters_;
 };

@@ -14,7 +14,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "config/suggestion.h"
 #include "firmware_app/cli/interrupt.h"
 #include "firmware_app/live/camera_selection.h"
 #include "firmware_app/live/live_controls.h"
@@ -49,28 +48,13 @@ constexpr double kRateOfPictures = 8.0;
 /// Within the two seconds that ending may take, with some left for leaving.
 constexpr hal::Duration kStopPatience = 1500ms;
 
-PaintParameters startOf(const PaintingOptions& options) {
-  return {.style = options.parameters.value_or(styles::styleInfo(options.style).defaults),
-          .view = options.view};
-}
-
 LiveTuning tuningOf(const PaintingOptions& options) {
   const styles::StyleInfo& info = styles::styleInfo(options.style);
   std::vector<LiveLook> looks;
   for (const styles::Look& look : info.looks) {
     looks.push_back({std::string(look.name), info.parametersOf(look.name)});
   }
-  return {options.style, startOf(options), debugViewsOf(options.style), std::move(looks)};
-}
-
-void checkView(const PaintingOptions& options) {
-  std::vector<std::string> names;
-  for (const DebugView& view : debugViewsOf(options.style)) names.push_back(view.name);
-  if (options.view.empty() || std::ranges::find(names, options.view) != names.end()) return;
-  throw hal::Failure({.kind = hal::ErrorKind::kInvalidArgument,
-                      .subject = "view \"" + options.view + "\"",
-                      .problem = config::unknownText("view", options.view, names),
-                      .remedy = "choose one of: " + config::listText(names)});
+  return {options.style, startParameters(options), debugViewsOf(options.style), std::move(looks)};
 }
 
 /// The live chain with all that is around it, on the program's own thread.
@@ -81,10 +65,9 @@ class LivePainting {
         supervisor_(*job.selector, *job.clock, {}, job.request),
         chain_(supervisor_, *job.clock),
         tuning_(tuningOf(job.options)),
-        controls_(startOf(job.options)),
+        controls_(startParameters(job.options)),
         saver_(job.snapshots),
         reporter_(qualityNames()) {
-    checkView(job.options);
     for (const std::string& name : job.outputs) {
       opened_.push_back(orThrow(hal::openOutput(name, job.outputOptions)));
     }

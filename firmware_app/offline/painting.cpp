@@ -22,6 +22,7 @@
 #include "hal/pending_file.h"
 #include "pipeline/engine/painter.h"
 #include "pipeline/present/contact_sheet.h"
+#include "pipeline/styles/style_registry.h"
 
 namespace pleinair::app {
 namespace {
@@ -59,7 +60,7 @@ class Painting {
                   .tracksTags = !job.scene.tags.empty() || job.options.poses,
                   .shaderDirectory = job.options.shaderDirectory,
                   .expectedFormat = stream_.frame}),
-        parameters_(parametersOf(painter_, job.options)),
+        parameters_(startParameters(job.options)),
         poses_(created<PosesFile>(job.options.poses)),
         sheetFile_(created<hal::PendingFile>(job.options.contactSheet)),
         outputFormat_(
@@ -153,7 +154,8 @@ class Painting {
 
   /// Passes one frame that has been read back to the output; false if there is none.
   bool write(bool wait) {
-    if (!orThrow(painter_.take(reader_, read_, wait))) return false;
+    if (!orThrow(wait ? painter_.wait(reader_, read_) : painter_.poll(reader_, read_)))
+      return false;
     orThrow(output_->write(read_.image.view(), read_.captureTime - *firstTime_));
     return true;
   }
@@ -193,11 +195,10 @@ void reportInterruption(int signal, const PaintingJob& job) {
 
 }  // namespace
 
-PaintParameters parametersOf(const Painter& painter, const PaintingOptions& options) {
-  PaintParameters parameters = painter.defaultParameters();
-  parameters.view = options.view;
-  if (options.parameters) parameters.style = *options.parameters;
-  return parameters;
+PaintParameters startParameters(const PaintingOptions& options) {
+  hal::orThrow(checkDebugView(options.style, options.view));
+  return {.style = options.parameters.value_or(styles::styleInfo(options.style).defaults),
+          .view = options.view};
 }
 
 int runPainting(const PaintingJob& job) {

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "config/suggestion.h"
 #include "hal/error.h"
 #include "pipeline/engine/quality_levels.h"
@@ -35,7 +37,7 @@ const gpu::ContextInfo& checked(const gpu::ContextInfo& context, hal::FrameSize 
 }
 
 /// A processor does not hang; it may only have much to do.
-gpu::GpuTestHook seamOf(const PainterOptions& options, const gpu::ContextInfo& context) {
+gpu::GpuTestHook hookOf(const PainterOptions& options, const gpu::ContextInfo& context) {
   gpu::GpuTestHook testHook = options.testHook;
   if (context.isSoftware && testHook.patience == gpu::GpuTestHook{}.patience)
     testHook.patience = std::chrono::minutes(1);
@@ -60,15 +62,28 @@ bool isOurs(std::string_view view) {
 
 }  // namespace
 
-FramePipeline::FramePipeline(const PainterOptions& options, const gpu::ContextInfo& context)
-    : context_(checked(context, options.pictureSize)),
-      testHook_(seamOf(options, context)),
+ContextScope::ContextScope(const PainterGl& gl, gpu::ResetMonitor* monitor) {
+  const bool isLost = monitor != nullptr && monitor->loss();
+  if (!gl.own) {
+    if (!isLost) hostState_.emplace();
+    return;
+  }
+  if (gl.own->isCurrent()) return;
+  previous_.emplace();
+  if (gl.own->makeCurrent()) return;
+  assert(monitor != nullptr);
+  monitor->note(gpu::gpuLost("its context cannot be made current", GL_NO_ERROR));
+}
+
+FramePipeline::FramePipeline(const PainterOptions& options, PainterGl gl)
+    : gl_(std::move(gl)),
+      testHook_(hookOf(options, checked(gl_.info, options.pictureSize))),
       watch_(testHook_),
       pictureSize_(options.pictureSize),
       scene_(options.scene),
       tracksTags_(options.tracksTags),
       library_(makeLibrary(options)),
-      timer_(options.passTiming, &context),
+      timer_(options.passTiming, &gl_.info),
       uploader_(library_),
       renderer_(library_, options.scene),
       bufferViewer_(library_),
@@ -85,10 +100,10 @@ FramePipeline::FramePipeline(const PainterOptions& options, const gpu::ContextIn
 
 /// A blank frame through the whole chain at each level, untimed: all that frames of the expected
 /// format need is compiled, allocated and drawn once (docs/gpu.md, rule 14). Conversions of other
-/// layouts are linked by now, but a driver may finish them at their first frame. Readers warm up
+/// layouts are linked by now, but a driver may finish them at their first frame. Read-backs warm up
 /// when they are opened.
 void FramePipeline::warmUp(const hal::FrameFormat& expected) {
-  hal::orThrow(gpu::checkDeviceLimit(context_, expected.size, "frame size"));
+  hal::orThrow(gpu::checkDeviceLimit(gl_.info, expected.size, "frame size"));
   const hal::Image blank(expected);
   for (const Level& level : levels_) warmUp(level, blank);
   style_->reset();
@@ -106,18 +121,6 @@ void FramePipeline::warmUp(const Level& level, const hal::Image& blank) {
   style_->paint(frame, {}, untimed);
 }
 
-PaintParameters FramePipeline::defaultParameters() const {
-  return {.style = defaults_, .view = {}};
-}
-
-std::vector<QualityLevel> qualityLevels() {
-  std::vector<QualityLevel> levels;
-  for (const QualityPlan& plan : qualityPlans()) {
-    levels.push_back({std::string(plan.name), std::string(plan.help)});
-  }
-  return levels;
-}
-
 std::vector<DebugView> debugViewsOf(std::string_view style) {
   std::vector<DebugView> views{
       {std::string(kCameraView), "what the camera shows, at the picture's size"},
@@ -131,30 +134,14 @@ std::vector<DebugView> debugViewsOf(std::string_view style) {
   return views;
 }
 
-std::vector<DebugView> FramePipeline::views() const {
-  return debugViewsOf(style_->name());
-}
-
-std::vector<PainterLook> FramePipeline::looks() const {
-  std::vector<PainterLook> looks;
-  for (const styles::Look& look : styles::styleInfo(style_->name()).looks) {
-    looks.push_back({std::string(look.name), std::string(look.help)});
-  }
-  return looks;
-}
-
-config::ParameterValues FramePipeline::lookParameters(std::string_view look) const {
-  return styles::styleInfo(style_->name()).parametersOf(look);
-}
-
-hal::Result<void> FramePipeline::checkView(const std::string& view) const {
+hal::Result<void> checkDebugView(std::string_view style, std::string_view view) {
   if (view.empty() || isOurs(view)) return {};
-  const auto ofStyle = style_->views();
+  const auto& ofStyle = styles::styleInfo(style).views;
   if (std::ranges::find(ofStyle, view, &styles::DebugViewInfo::name) != ofStyle.end()) return {};
   std::vector<std::string> names;
-  for (const DebugView& each : views()) names.push_back(each.name);
+  for (DebugView& each : debugViewsOf(style)) names.push_back(std::move(each.name));
   return tl::unexpected(hal::Error{.kind = hal::ErrorKind::kInvalidArgument,
-                                   .subject = "view \"" + view + "\"",
+                                   .subject = fmt::format("view \"{}\"", view),
                                    .problem = config::unknownText("view", view, names),
                                    .remedy = "choose one of: " + config::listText(names)});
 }
@@ -219,7 +206,6 @@ hal::Result<Picture> FramePipeline::paint(const hal::CapturedFrame& frame,
   }
 }
 
-/// `error`, or the loss of the GPU where that is behind it.
 hal::Error FramePipeline::metLoss(const hal::Error& error) {
   if (error.kind == hal::ErrorKind::kDeviceLost) watch_.note(error);
   const auto sound = watch_.check();
@@ -229,9 +215,9 @@ hal::Error FramePipeline::metLoss(const hal::Error& error) {
 /// Whether it can be painted; what follows a frame's size is ready then.
 hal::Result<void> FramePipeline::checkFrame(const hal::CapturedFrame& frame,
                                             const PaintParameters& parameters) {
-  if (auto known = checkView(parameters.view); !known) return known;
+  if (auto known = checkDebugView(style_->name(), parameters.view); !known) return known;
   if (auto known = checkQuality(parameters.quality); !known) return known;
-  if (auto fits = gpu::checkDeviceLimit(context_, frame.image.format.size, "frame"); !fits) {
+  if (auto fits = gpu::checkDeviceLimit(gl_.info, frame.image.format.size, "frame"); !fits) {
     return fits;
   }
   if (auto ready = style_->prepare(parameters.style); !ready) return ready;
@@ -248,10 +234,7 @@ hal::Result<Picture> FramePipeline::paintChecked(const hal::CapturedFrame& frame
   if (tracker_) tracked = tracker_->track(luma_, frame.captureTime);
   picture_ = &paintView(
       compose(frame, tracked, levels_[parameters.quality], needsOf(parameters.view)), parameters);
-  {
-    const auto scope = timer_.measure("read back");
-    readers_.submit(*picture_, pictureSize_, frame);
-  }
+  submitReadbacks(frame);
   glFlush();  // the GPU works on while the next frame is tracked
   return Picture{.texture = picture_->name(),
                  .size = picture_->size(),
@@ -295,24 +278,21 @@ scene::ArFrame FramePipeline::compose(const hal::CapturedFrame& frame,
   return composed;
 }
 
-/// Motion is followed in the captured frame; the canvas has the full picture's pixels. Where the
-/// picture's motion is estimated, the canvas goes by that.
+/// Motion is followed in the captured frame; the canvas has the full picture's pixels and goes by
+/// the same motion.
 void FramePipeline::followPicture(const hal::CapturedFrame& frame, scene::ArFrameNeeds needs,
                                   scene::ArFrame& composed) {
   const auto scope = timer_.measure("follow picture");
   const hal::FrameSize size = frame.image.format.size;
   const gpu::AspectFill fit = gpu::coverFit(size, pictureSize_);
+  const tracking::ImageMotion& motion = imageMotion_.follow(luma_, frame.sequence);
   if (needs.measuredMotion) {
-    composed.measuredMotion =
-        scene::MeasuredMotion{.motion = &imageMotion_.follow(luma_, frame.sequence),
-                              .frameScale = fit.scale,
-                              .frameOrigin = fit.origin};
+    composed.measuredMotion = scene::MeasuredMotion{
+        .motion = &motion, .frameScale = fit.scale, .frameOrigin = fit.origin};
   }
   if (!style_->usesCanvas()) return;
   const tracking::PlaneSimilarity frameFromPicture{{fit.scale.x, 0.0}, fit.origin};
-  const tracking::PlaneSimilarity& moved = composed.measuredMotion
-                                               ? motion_.follow(*composed.measuredMotion->motion)
-                                               : motion_.follow(luma_.luma(), size);
+  const tracking::PlaneSimilarity& moved = motion_.follow(motion);
   composed.canvasFromPicture = frameFromPicture.inverse() * moved * frameFromPicture;
 }
 
@@ -330,39 +310,32 @@ const gpu::Texture& FramePipeline::paintView(const scene::ArFrame& frame,
   return view == kArView ? *frame.colour : painted;
 }
 
-int FramePipeline::openReadback(const hal::FrameFormat& format) {
-  hal::orThrow(
-      gpu::checkDeviceLimit(context_, present::Readback::packedSize(format), "picture to be read"));
-  hal::orThrow(watch_.check());
-  std::vector<hal::FrameSize> sizes;
-  for (const Level& level : levels_) sizes.push_back(level.size);
-  try {
-    return readers_.open(library_, format, sizes, testHook_);
-  } catch (const hal::Failure& error) {
-    throw hal::Failure(metLoss(error.error()));
+/// Lets each read-back that has room read the picture of this frame; the others skip it.
+void FramePipeline::submitReadbacks(const hal::CapturedFrame& frame) {
+  const auto scope = timer_.measure("read back");
+  for (auto& [id, readback] : readbacks_) {
+    if (!readback.ring.hasRoom()) {
+      ++readback.skipped;
+      continue;
+    }
+    readback.ring.submit(*picture_, pictureSize_);
+    readback.inFlight.push_back({frame.sequence, frame.captureTime, paintings_});
   }
+  ++paintings_;
 }
 
-hal::Result<bool> FramePipeline::take(int number, OutputFrame& picture, bool wait) {
-  if (loss()) return tl::unexpected(*loss());
-  const hal::Result<bool> taken = readers_.take(number, picture, wait);
-  if (!taken) return tl::unexpected(metLoss(taken.error()));
-  return *taken;
-}
-
-hal::Result<hal::Image> FramePipeline::snapshot() {
-  return read(picture_);
-}
-
-hal::Result<hal::Image> FramePipeline::cameraSnapshot() {
-  return read(camera_);
-}
-
-hal::Result<std::vector<marks::Anchor>> FramePipeline::anchors() {
-  if (auto sound = watch_.check(); !sound) return tl::unexpected(std::move(sound.error()));
-  std::vector<marks::Anchor> anchors = style_->readAnchors();
-  if (auto sound = watch_.check(); !sound) return tl::unexpected(std::move(sound.error()));
-  return anchors;
+/// Copies a read-back's oldest picture as `copy` does: Readback::poll() or Readback::wait().
+hal::Result<bool> FramePipeline::copyOldest(
+    int number, OutputFrame& picture, hal::Result<bool> (present::Readback::*copy)(hal::Image&)) {
+  if (watch_.loss()) return tl::unexpected(*watch_.loss());
+  OpenReadback& readback = readbacks_.at(number);
+  const hal::Result<bool> copied = (readback.ring.*copy)(picture.image);
+  if (!copied) return tl::unexpected(metLoss(copied.error()));
+  if (!*copied) return false;
+  picture.sequence = readback.inFlight.front().sequence;
+  picture.captureTime = readback.inFlight.front().captureTime;
+  readback.inFlight.erase(readback.inFlight.begin());
+  return true;
 }
 
 hal::Result<hal::Image> FramePipeline::read(const gpu::Texture* texture) {
@@ -373,24 +346,11 @@ hal::Result<hal::Image> FramePipeline::read(const gpu::Texture* texture) {
     if (!snapshots_) snapshots_.emplace(library_, format, 1, testHook_);
     snapshots_->submit(*texture, pictureSize_);
     hal::Image image;
-    hal::orThrow(snapshots_->take(image, true));
+    hal::orThrow(snapshots_->wait(image));
     return image;
   } catch (const hal::Failure& error) {
     return tl::unexpected(metLoss(error.error()));
   }
-}
-
-void FramePipeline::reset() {
-  style_->reset();
-  renderer_.reset();
-  motion_.reset();
-  imageMotion_.reset();
-  if (light_) light_->reset();
-  if (tracker_) tracker_->reset();
-}
-
-std::vector<gpu::PassTime> FramePipeline::passTimes() const {
-  return {timer_.times().begin(), timer_.times().end()};
 }
 
 }  // namespace pleinair

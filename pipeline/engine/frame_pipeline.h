@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -8,10 +9,11 @@
 #include <vector>
 
 #include "pipeline/engine/painter.h"
-#include "pipeline/engine/readbacks.h"
 #include "pipeline/gpu/aspect_fill.h"
+#include "pipeline/gpu/egl_context.h"
 #include "pipeline/gpu/frame_upload.h"
 #include "pipeline/gpu/gpu_loss.h"
+#include "pipeline/gpu/host_state.h"
 #include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/present/readback.h"
@@ -26,41 +28,58 @@
 
 namespace pleinair {
 
-/// What a Painter does, on the thread of its GL context: each stage in its order, once a frame.
-/// Painter's contract, but for threads.
-class FramePipeline {
+/// The GL context that a Painter works in.
+struct PainterGl {
+  std::unique_ptr<gpu::EglContext> own;  ///< none: the host's
+  gpu::ContextInfo info;
+};
+
+/// While one lives, the Painter's context is current on the calling thread, in the state that its
+/// passes rely on; when it goes, the host's is as PainterContext says.
+class ContextScope {
  public:
-  FramePipeline(const PainterOptions& options, const gpu::ContextInfo& context);
-
-  PaintParameters defaultParameters() const;
-  std::vector<DebugView> views() const;
-  std::vector<PainterLook> looks() const;
-  config::ParameterValues lookParameters(std::string_view look) const;
-  hal::Result<Picture> paint(const hal::CapturedFrame& frame, const PaintParameters& parameters);
-
-  int openReadback(const hal::FrameFormat& format);
-  hal::Result<bool> take(int reader, OutputFrame& picture, bool wait);
-  bool hasRoom(int reader) const { return readers_.hasRoom(reader); }
-  std::uint64_t skipped(int reader) const { return readers_.skipped(reader); }
-  hal::Result<hal::Image> snapshot();
-  hal::Result<hal::Image> cameraSnapshot();
-  hal::Result<std::vector<marks::Anchor>> anchors();
-
-  void reset();
-  /// Why nothing comes any more, once the GPU is lost.
-  const std::optional<hal::Error>& loss() const { return watch_.loss(); }
-  std::vector<gpu::PassTime> passTimes() const;
+  /// `monitor` is told where the driver refuses our own context. A lost context of a host stays as
+  /// it is: another one may be current by now. None: the context was made just now.
+  ContextScope(const PainterGl& gl, gpu::ResetMonitor* monitor);
 
  private:
+  std::optional<gpu::CurrentContextKeeper> previous_;
+  std::optional<gpu::HostState> hostState_;
+};
+
+/// A Painter's GL objects and stages, and the order in which a frame goes through them. Painter's
+/// members (painter.cpp) work on it inside a ContextScope. Paint thread only.
+class FramePipeline {
+ public:
+  /// Precondition: the context is current.
+  FramePipeline(const PainterOptions& options, PainterGl gl);
+
+ private:
+  friend class Painter;
+
+  /// A read-back with the frames that its pictures in flight are of.
+  struct OpenReadback {
+    struct Stamp {
+      std::uint64_t sequence = 0;
+      hal::TimePoint captureTime;
+      std::uint64_t painting = 0;  ///< counts paintings, whatever their frame
+    };
+    explicit OpenReadback(present::Readback readback) : ring(std::move(readback)) {}
+    present::Readback ring;
+    std::vector<Stamp> inFlight;  ///< oldest first
+    std::uint64_t skipped = 0;
+  };
+
   /// A level of quality that can be painted at.
   struct Level {
     hal::FrameSize size;
     std::optional<tracking::CameraModel> camera;  // of the picture at this size, not of the frame
   };
 
+  /// For a call of the Painter.
+  ContextScope enter() { return {gl_, &watch_}; }
   void warmUp(const hal::FrameFormat& expected);
   void warmUp(const Level& level, const hal::Image& blank);
-  hal::Result<void> checkView(const std::string& view) const;
   hal::Result<void> checkQuality(std::size_t quality) const;
   hal::Result<void> checkFrame(const hal::CapturedFrame& frame, const PaintParameters& parameters);
   hal::Result<void> adaptTo(hal::FrameSize frameSize);
@@ -73,11 +92,17 @@ class FramePipeline {
                      scene::ArFrame& composed);
   const gpu::Texture& paintView(const scene::ArFrame& frame, const PaintParameters& parameters);
   hal::Result<hal::Image> read(const gpu::Texture* texture);
+  hal::Result<bool> copyOldest(int number, OutputFrame& picture,
+                               hal::Result<bool> (present::Readback::*copy)(hal::Image&));
+  void submitReadbacks(const hal::CapturedFrame& frame);
+  /// `error`, or the loss of the GPU where that is behind it.
   hal::Error metLoss(const hal::Error& error);
+  /// Painter::paint().
+  hal::Result<Picture> paint(const hal::CapturedFrame& frame, const PaintParameters& parameters);
   hal::Result<Picture> paintChecked(const hal::CapturedFrame& frame,
                                     const PaintParameters& parameters);
 
-  gpu::ContextInfo context_;
+  PainterGl gl_;
   gpu::GpuTestHook testHook_;
   gpu::ResetMonitor watch_;
   hal::FrameSize pictureSize_;
@@ -98,8 +123,10 @@ class FramePipeline {
   tracking::ImageMotionEstimator imageMotion_;
   std::optional<scene::LightEstimator> light_;  // where the scene leaves it to the camera
   std::vector<scene::TagSighting> sightings_;
-  Readbacks readers_;
-  std::optional<present::Readback> snapshots_;  // made for the first still
+  std::map<int, OpenReadback> readbacks_;
+  int nextReadback_ = 0;
+  std::uint64_t paintings_ = 0;
+  std::optional<present::Readback> snapshots_;  // made for the first snapshot
   const gpu::Texture* picture_ = nullptr;       // of the last paint
   const gpu::Texture* camera_ = nullptr;
 };

@@ -1,17 +1,18 @@
 #include "pipeline/engine/painter.h"
 
-#include <functional>
-#include <optional>
+#include <cassert>
 #include <utility>
 
 #include "hal/error.h"
 #include "pipeline/engine/frame_pipeline.h"
+#include "pipeline/engine/quality_levels.h"
 #include "pipeline/gpu/handle.h"
-#include "pipeline/gpu/host_state.h"
-#include "pipeline/gpu/render_thread.h"
+#include "pipeline/styles/style_registry.h"
 
 namespace pleinair {
 namespace {
+
+constexpr int kPicturesInFlight = 3;  // in a read-back
 
 void checkSize(hal::FrameSize size) {
   if (hal::isAcceptedSize(size)) return;
@@ -26,135 +27,159 @@ void checkSize(hal::FrameSize size) {
 
 }  // namespace
 
-struct Painter::Impl {
-  std::optional<gpu::RenderThread> thread;    // with kOwn only
-  std::optional<gpu::EglContext> ownContext;  // lives and dies on the thread
-  gpu::ContextInfo contextInfo;
-  std::optional<FramePipeline> chain;
-
-  explicit Impl(const PainterOptions& options) {
-    checkSize(options.pictureSize);
-    if (options.context == PainterContext::kOwn) {
-      thread.emplace("painter");
-    } else {
-      contextInfo = gpu::inspectCurrentContext("host");
-    }
-    try {
-      run([&] { build(options); });
-    } catch (...) {
-      run([&] { tearDown(); });
-      throw;
-    }
+std::vector<QualityLevel> qualityLevels() {
+  std::vector<QualityLevel> levels;
+  for (const QualityPlan& plan : qualityPlans()) {
+    levels.push_back({std::string(plan.name), std::string(plan.help)});
   }
-  ~Impl() {
-    run([&] { tearDown(); });
+  return levels;
+}
+
+Painter::Painter(const PainterOptions& options) {
+  checkSize(options.pictureSize);
+  const gpu::CurrentContextKeeper previous;
+  PainterGl gl;
+  if (options.context == PainterContext::kOwn) {
+    gl.own = std::make_unique<gpu::EglContext>();
+    gl.info = gl.own->info();
+  } else {
+    gl.info = gpu::inspectCurrentContext("host");
   }
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
+  const ContextScope scope(gl, nullptr);
+  pipeline_ = std::make_unique<FramePipeline>(options, std::move(gl));
+}
 
-  void build(const PainterOptions& options) {
-    if (thread) {
-      ownContext.emplace();
-      contextInfo = ownContext->info();
-    }
-    chain.emplace(options, contextInfo);
-  }
-
-  bool isLost() const { return chain && chain->loss(); }
-
-  /// A lost context's objects go with it; nothing more is asked of its driver than that.
-  void tearDown() {
-    {
-      std::optional<gpu::ContextLossGuard> abandon;
-      if (isLost()) abandon.emplace();
-      chain.reset();
-    }
-    ownContext.reset();
-  }
-
-  void run(const std::function<void()>& task) {
-    if (thread) {
-      thread->run(task);
-    } else if (isLost()) {
-      task();  // the host's context may be another one by now: it stays as it is
-    } else {
-      const gpu::HostState state;
-      task();
-    }
-  }
-
-  /// What `task` returns, from the context's thread.
-  template <class Task>
-  auto call(Task task) {
-    std::optional<decltype(task())> result;
-    run([&] { result.emplace(task()); });
-    return std::move(*result);
-  }
-};
-
-Painter::Painter(const PainterOptions& options) : impl_(std::make_unique<Impl>(options)) {}
-
-Painter::~Painter() = default;
+/// A lost context's objects go with it; nothing more is asked of its driver than that.
+Painter::~Painter() {
+  const ContextScope scope = pipeline_->enter();
+  std::optional<gpu::ContextLossGuard> abandon;
+  if (pipeline_->watch_.loss()) abandon.emplace();
+  pipeline_.reset();
+}
 
 const gpu::ContextInfo& Painter::contextInfo() const {
-  return impl_->contextInfo;
+  return pipeline_->gl_.info;
 }
 
 PaintParameters Painter::defaultParameters() const {
-  return impl_->chain->defaultParameters();
+  return {.style = pipeline_->defaults_, .view = {}};
 }
 
 std::vector<DebugView> Painter::views() const {
-  return impl_->chain->views();
+  return debugViewsOf(pipeline_->style_->name());
 }
 
 std::vector<PainterLook> Painter::looks() const {
-  return impl_->chain->looks();
+  std::vector<PainterLook> looks;
+  for (const styles::Look& look : styles::styleInfo(pipeline_->style_->name()).looks) {
+    looks.push_back({std::string(look.name), std::string(look.help)});
+  }
+  return looks;
 }
 
 config::ParameterValues Painter::lookParameters(std::string_view look) const {
-  return impl_->chain->lookParameters(look);
+  return styles::styleInfo(pipeline_->style_->name()).parametersOf(look);
 }
 
 hal::Result<Picture> Painter::paint(const hal::CapturedFrame& frame,
                                     const PaintParameters& parameters) {
-  return impl_->call([&] { return impl_->chain->paint(frame, parameters); });
+  const ContextScope scope = pipeline_->enter();
+  return pipeline_->paint(frame, parameters);
 }
 
 int Painter::openReadback(const hal::FrameFormat& format) {
-  return impl_->call([&] { return impl_->chain->openReadback(format); });
+  FramePipeline& p = *pipeline_;
+  const ContextScope scope = p.enter();
+  hal::orThrow(gpu::checkDeviceLimit(p.gl_.info, present::Readback::packedSize(format),
+                                     "picture to be read"));
+  hal::orThrow(p.watch_.check());
+  try {
+    present::Readback ring(p.library_, format, kPicturesInFlight, p.testHook_);
+    for (const FramePipeline::Level& level : p.levels_) ring.warmUp(level.size);
+    p.readbacks_.emplace(p.nextReadback_, std::move(ring));
+    return p.nextReadback_++;
+  } catch (const hal::Failure& error) {
+    throw hal::Failure(p.metLoss(error.error()));
+  }
 }
 
-hal::Result<bool> Painter::take(int reader, OutputFrame& picture, bool wait) {
-  return impl_->call([&] { return impl_->chain->take(reader, picture, wait); });
+void Painter::closeReadback(int readback) {
+  const ContextScope scope = pipeline_->enter();
+  std::optional<gpu::ContextLossGuard> abandon;
+  if (pipeline_->watch_.loss()) abandon.emplace();
+  [[maybe_unused]] const auto closed = pipeline_->readbacks_.erase(readback);
+  assert(closed == 1);
 }
 
-bool Painter::hasRoom(int reader) const {
-  return impl_->chain->hasRoom(reader);
+hal::Result<bool> Painter::poll(int readback, OutputFrame& picture) {
+  const ContextScope scope = pipeline_->enter();
+  return pipeline_->copyOldest(readback, picture, &present::Readback::poll);
 }
 
-std::uint64_t Painter::skipped(int reader) const {
-  return impl_->chain->skipped(reader);
+hal::Result<bool> Painter::wait(int readback, OutputFrame& picture) {
+  const ContextScope scope = pipeline_->enter();
+  return pipeline_->copyOldest(readback, picture, &present::Readback::wait);
+}
+
+hal::Result<bool> Painter::waitForAny(hal::Duration limit) {
+  FramePipeline& p = *pipeline_;
+  const ContextScope scope = p.enter();
+  if (p.watch_.loss()) return tl::unexpected(*p.watch_.loss());
+  // The GPU works in the order of paintings, and within one in that of the read-backs.
+  const FramePipeline::OpenReadback* oldest = nullptr;
+  for (const auto& [number, each] : p.readbacks_) {
+    if (each.inFlight.empty()) continue;
+    const bool isOlder =
+        oldest == nullptr || each.inFlight.front().painting < oldest->inFlight.front().painting;
+    if (isOlder) oldest = &each;
+  }
+  if (oldest == nullptr) return false;
+  const hal::Result<bool> isReady = oldest->ring.isReadyWithin(limit);
+  if (!isReady) return tl::unexpected(p.metLoss(isReady.error()));
+  return *isReady;
+}
+
+bool Painter::hasRoom(int readback) const {
+  return pipeline_->readbacks_.at(readback).ring.hasRoom();
+}
+
+std::uint64_t Painter::skipped(int readback) const {
+  return pipeline_->readbacks_.at(readback).skipped;
 }
 
 hal::Result<hal::Image> Painter::snapshot() const {
-  return impl_->call([&] { return impl_->chain->snapshot(); });
+  const ContextScope scope = pipeline_->enter();
+  return pipeline_->read(pipeline_->picture_);
 }
 
 hal::Result<hal::Image> Painter::cameraSnapshot() const {
-  return impl_->call([&] { return impl_->chain->cameraSnapshot(); });
+  const ContextScope scope = pipeline_->enter();
+  return pipeline_->read(pipeline_->camera_);
 }
 
 hal::Result<std::vector<marks::Anchor>> Painter::anchors() const {
-  return impl_->call([&] { return impl_->chain->anchors(); });
+  FramePipeline& p = *pipeline_;
+  const ContextScope scope = p.enter();
+  if (auto sound = p.watch_.check(); !sound) return tl::unexpected(std::move(sound.error()));
+  std::vector<marks::Anchor> anchors = p.style_->readAnchors();
+  if (auto sound = p.watch_.check(); !sound) return tl::unexpected(std::move(sound.error()));
+  return anchors;
 }
 
 void Painter::reset() {
-  impl_->run([&] { impl_->chain->reset(); });
+  FramePipeline& p = *pipeline_;
+  const ContextScope scope = p.enter();
+  p.style_->reset();
+  p.renderer_.reset();
+  p.motion_.reset();
+  p.imageMotion_.reset();
+  if (p.light_) p.light_->reset();
+  if (p.tracker_) p.tracker_->reset();
 }
 
 std::vector<gpu::PassTime> Painter::passTimes() const {
-  return impl_->chain->passTimes();
+  const auto times = pipeline_->timer_.times();
+  return {times.begin(), times.end()};
 }
 
 }  // namespace pleinair

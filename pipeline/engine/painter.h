@@ -22,10 +22,16 @@
 
 namespace pleinair {
 
-/// Whose GL context a Painter works in.
+class FramePipeline;
+
+/// Whose GL context a Painter works in. Either way the Painter has no thread of its own: one thread
+/// makes it, calls it and destroys it (the *paint thread* of docs/architecture-threads.md).
 enum class PainterContext {
-  kOwn,  ///< its own, on a thread of its own; call the Painter from any one thread
-  /// The one that is current on the caller's thread, always the same. Each call works whatever the
+  /// Its own, made with it. Each call makes it current on the calling thread. A context of somebody
+  /// else that was current there is current again when the call returns; where none was, the
+  /// Painter's stays, so that a thread that only paints never switches.
+  kOwn,
+  /// The one that is current on the calling thread, always the same. Each call works whatever the
   /// host has bound and switched on, and leaves nothing bound and all switches as in a new context;
   /// the viewport stays.
   kHost,
@@ -77,6 +83,10 @@ struct DebugView {
 /// (kInvalidArgument) for an unknown style, with all names.
 std::vector<DebugView> debugViewsOf(std::string_view style);
 
+/// Whether PaintParameters::view may be `view`: empty, or one of debugViewsOf(style). Error:
+/// kInvalidArgument, with all names. Throws as debugViewsOf(). Any thread.
+hal::Result<void> checkDebugView(std::string_view style, std::string_view view);
+
 /// A named preset of the style's parameters.
 struct PainterLook {
   std::string name;
@@ -94,7 +104,7 @@ struct Picture {
   std::size_t quality = 0;            ///< in qualityLevels()
 };
 
-/// A picture in memory, read through a reader of the Painter.
+/// A picture in memory, as a read-back of the Painter gives it.
 struct OutputFrame {
   hal::Image image;
   std::uint64_t sequence = 0;
@@ -102,7 +112,8 @@ struct OutputFrame {
 };
 
 /// The engine: captured frames in, painted pictures out. No globals; several in one process are
-/// independent, and the same frames with the same times give the same pictures, live or not.
+/// independent, and the same frames with the same times give the same pictures, live or not. All
+/// calls come from the thread that made it.
 ///
 /// The GPU may be lost (a reset after a fault or a hang, a device taken away, a fence that does not
 /// come within two seconds). From then on this Painter answers each call with kDeviceLost, does
@@ -133,18 +144,28 @@ class Painter {
   /// or memory). Then, for ever: kDeviceLost. Precondition: frame.image.isComplete().
   hal::Result<Picture> paint(const hal::CapturedFrame& frame, const PaintParameters& parameters);
 
-  /// Opens a reader: from now on each painted picture is also brought to memory in `format` (RGBA8,
-  /// RGB8, grey, I420, NV12, YUYV; of any accepted size, filled as frames are). Up to 3 are under
-  /// way; a picture that finds the reader full is not read and counts as skipped. Returns the
-  /// reader's number. Throws hal::Failure (kUnsupported where the GPU has no room for it,
-  /// kDeviceLost).
+  /// Opens a read-back, at any time: from the next paint() on, each painted picture is also brought
+  /// to memory in `format` (RGBA8, RGB8, grey, I420, NV12, YUYV; of any accepted size, filled as
+  /// frames are). Up to 3 are in flight; a picture that finds the read-back full is not read and
+  /// counts as skipped. Returns the read-back's number, which no other gets. Waits until what it
+  /// needs is compiled and allocated. Throws hal::Failure (kUnsupported where the GPU has no room
+  /// for it, kDeviceLost).
   int openReadback(const hal::FrameFormat& format);
-  /// Copies the reader's oldest picture into `picture`, reusing its memory; false if none is ready.
-  /// With `wait`, false only if none is in flight. Error: kDeviceLost, for ever.
-  hal::Result<bool> take(int reader, OutputFrame& picture, bool wait);
+  /// Closes a read-back, at any time; its pictures in flight are dropped, and those of other
+  /// read-backs come as before. Precondition, as for all that follows: it is open.
+  void closeReadback(int readback);
+  /// Copies the read-back's oldest picture into `picture`, reusing its memory; false if none is
+  /// ready. Never waits. Error: kDeviceLost, for ever.
+  hal::Result<bool> poll(int readback, OutputFrame& picture);
+  /// The same, but waits for the GPU: false only if none is in flight.
+  hal::Result<bool> wait(int readback, OutputFrame& picture);
+  /// Waits until the picture that will be ready first, of all read-backs, can be polled, but no
+  /// longer than `limit` of real time: whether it can. False at once if none is in flight. Sleeps
+  /// in the driver (glClientWaitSync). Error: kDeviceLost, for ever.
+  hal::Result<bool> waitForAny(hal::Duration limit);
   /// Whether another paint() would still be read.
-  bool hasRoom(int reader) const;
-  std::uint64_t skipped(int reader) const;
+  bool hasRoom(int readback) const;
+  std::uint64_t skipped(int readback) const;
 
   /// Waits for the last paint and reads it, or what the camera showed of it, as RGB8 of the
   /// picture's full size: for snapshots. Errors: kDeviceLost, for ever; kUnsupported (no memory).
@@ -162,8 +183,7 @@ class Painter {
   std::vector<gpu::PassTime> passTimes() const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<FramePipeline> pipeline_;
 };
 
 }  // namespace pleinair

@@ -18,6 +18,7 @@
 #include <unistd.h>
 
 #include "hal/error.h"
+#include "hal/file_descriptor.h"
 #include "pipeline/gpu/gl.h"
 #include "pipeline/gpu/gpu_loss.h"
 
@@ -45,27 +46,18 @@ Function eglFunction(const char* name) {
   return reinterpret_cast<Function>(eglGetProcAddress(name));
 }
 
+struct GbmDeviceDeleter {
+  void operator()(gbm_device* device) const { gbm_device_destroy(device); }
+};
+
 /// An open render node with its GBM device.
 struct GbmNode {
-  int fd = -1;
-  gbm_device* device = nullptr;
+  hal::FileDescriptor node;
+  std::unique_ptr<gbm_device, GbmDeviceDeleter> device;
 
   GbmNode() = default;
-  explicit GbmNode(const std::string& path) : fd(open(path.c_str(), O_RDWR | O_CLOEXEC)) {
-    if (fd >= 0) device = gbm_create_device(fd);
-  }
-  GbmNode(const GbmNode&) = delete;
-  GbmNode& operator=(const GbmNode&) = delete;
-  GbmNode(GbmNode&& other) noexcept
-      : fd(std::exchange(other.fd, -1)), device(std::exchange(other.device, nullptr)) {}
-  GbmNode& operator=(GbmNode&& other) noexcept {
-    std::swap(fd, other.fd);
-    std::swap(device, other.device);
-    return *this;
-  }
-  ~GbmNode() {
-    if (device != nullptr) gbm_device_destroy(device);
-    if (fd >= 0) close(fd);
+  explicit GbmNode(const std::string& path) : node(open(path.c_str(), O_RDWR | O_CLOEXEC)) {
+    if (node) device.reset(gbm_create_device(node.get()));
   }
 };
 
@@ -184,7 +176,7 @@ class OpenContext {
   std::string_view openGbm(const std::string& path) {
     node_ = GbmNode(path);
     if (node_.device == nullptr) return "no usable render node";
-    return open(eglGetPlatformDisplay(EGL_PLATFORM_GBM_KHR, node_.device, nullptr), "gbm");
+    return open(eglGetPlatformDisplay(EGL_PLATFORM_GBM_KHR, node_.device.get(), nullptr), "gbm");
   }
 
   bool makeCurrent() {
@@ -352,6 +344,26 @@ EglContext::~EglContext() = default;
 
 const ContextInfo& EglContext::info() const {
   return impl_->chosen->info();
+}
+
+bool EglContext::isCurrent() const {
+  return eglGetCurrentContext() == impl_->chosen->context();
+}
+
+bool EglContext::makeCurrent() const {
+  return isCurrent() || impl_->chosen->makeCurrent();
+}
+
+CurrentContextKeeper::CurrentContextKeeper()
+    : display_(eglGetCurrentDisplay()),
+      context_(eglGetCurrentContext()),
+      draw_(eglGetCurrentSurface(EGL_DRAW)),
+      read_(eglGetCurrentSurface(EGL_READ)) {}
+
+CurrentContextKeeper::~CurrentContextKeeper() {
+  if (context_ == EGL_NO_CONTEXT || eglGetCurrentContext() == context_) return;
+  [[maybe_unused]] const bool isBack = eglMakeCurrent(display_, draw_, read_, context_) == EGL_TRUE;
+  assert(isBack);
 }
 
 }  // namespace pleinair::gpu

@@ -21,10 +21,10 @@ struct ContextInfo {
 };
 
 /// An OpenGL ES 3.1 context of our own, without a window system, that tells of resets where the
-/// driver can. It is current on the thread that
-/// made it until destroyed there; GL objects made meanwhile belong to that thread. In builds with
-/// assertions, a GL error in it aborts with the driver's message: it is always a broken contract of
-/// ours.
+/// driver can. It belongs to the thread that made it: there it is current from the beginning, made
+/// current again with makeCurrent() where another one took its place, and destroyed while it is
+/// current. In builds with assertions, a GL error in it aborts with the driver's message: it is
+/// always a broken contract of ours.
 class EglContext {
  public:
   /// Tries EGL's surfaceless platform, then its devices, then GBM on the render nodes, and takes
@@ -36,10 +36,31 @@ class EglContext {
   EglContext& operator=(const EglContext&) = delete;
 
   const ContextInfo& info() const;
+  bool isCurrent() const;
+  /// Makes it current on the thread that made it; false where the driver refuses, as it may once
+  /// the context is lost.
+  bool makeCurrent() const;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
+};
+
+/// Remembers which context is current on this thread and makes it current again when it goes;
+/// where none was, the one that is current then stays.
+class CurrentContextKeeper {
+ public:
+  CurrentContextKeeper();
+  ~CurrentContextKeeper();
+  CurrentContextKeeper(const CurrentContextKeeper&) = delete;
+  CurrentContextKeeper& operator=(const CurrentContextKeeper&) = delete;
+
+ private:
+  // EGLDisplay, EGLContext and the EGLSurfaces to draw to and to read from.
+  void* display_;
+  void* context_;
+  void* draw_;
+  void* read_;
 };
 
 /// An error (kUnsupported) that names the device's limit where a texture of this size exceeds it.

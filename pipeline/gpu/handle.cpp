@@ -42,8 +42,8 @@ FenceState Fence::state(GLuint64 timeoutNs, const GpuTestHook& testHook) const {
   }
 }
 
-hal::Result<bool> Fence::passed(const GpuTestHook& testHook) const {
-  const FenceState now = state(0, testHook);
+hal::Result<bool> Fence::passed(const GpuTestHook& testHook, hal::Duration limit) const {
+  const FenceState now = state(static_cast<GLuint64>(limit.count()), testHook);
   if (now != FenceState::kFailed) return now == FenceState::kSignalled;
   return tl::unexpected(waitFailed());
 }

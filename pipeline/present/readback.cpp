@@ -106,7 +106,7 @@ void Readback::warmUp(FrameSize pictureSize) {
   assert(isEmpty());
   submit(gpu::Texture(gpu::TextureFormat::kRgba8, pictureSize, gpu::TextureFilter::kLinear));
   hal::Image dropped;
-  hal::orThrow(take(dropped, true));
+  hal::orThrow(wait(dropped));
 }
 
 void Readback::pack(const gpu::Texture& picture) {
@@ -144,15 +144,25 @@ void Readback::submit(const gpu::Texture& picture, FrameSize fullSize) {
   ++submitted_;
 }
 
-hal::Result<bool> Readback::take(hal::Image& image, bool wait) {
+hal::Result<bool> Readback::poll(hal::Image& image) {
   if (isEmpty()) return false;
-  Slot& slot = ring_[taken_ % ring_.size()];
-  if (wait) {
-    if (const auto copied = slot.copied.wait(testHook_); !copied)
-      return tl::unexpected(copied.error());
-  } else if (const auto copied = slot.copied.passed(testHook_); !copied || !*copied) {
-    return copied;
-  }
+  const auto isReady = isReadyWithin(hal::Duration::zero());
+  return isReady && *isReady ? copyOldest(image) : isReady;
+}
+
+hal::Result<bool> Readback::wait(hal::Image& image) {
+  if (isEmpty()) return false;
+  const auto copied = ring_[taken_ % ring_.size()].copied.wait(testHook_);
+  return copied ? copyOldest(image) : tl::unexpected(copied.error());
+}
+
+hal::Result<bool> Readback::isReadyWithin(hal::Duration limit) const {
+  assert(!isEmpty());
+  return ring_[taken_ % ring_.size()].copied.passed(testHook_, limit);
+}
+
+hal::Result<bool> Readback::copyOldest(hal::Image& image) {
+  const Slot& slot = ring_[taken_ % ring_.size()];
   if (image.format() != format_) image = hal::Image(format_);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer.name());
   const void* bytes = glMapBufferRange(

@@ -18,9 +18,9 @@
 
 namespace pleinair::present {
 
-/// Reads output frames back to memory in an output's format without stalling the GPU: a pass scales
-/// and converts, a ring of buffers takes the copies, and a fence tells when one is ready. On the
-/// thread of the GL context.
+/// Brings painted pictures to memory in an output's format without stalling the GPU: scaled and
+/// converted by a pass, copied into a ring of buffers, and handed out when a fence says so. Paint
+/// thread only.
 class Readback {
  public:
   /// `library` has presentShaders(). `format`: RGBA8, RGB8, grey, I420, NV12 or YUYV. `depth`:
@@ -45,10 +45,15 @@ class Readback {
   void submit(const gpu::Texture& picture, hal::FrameSize fullSize);
   void submit(const gpu::Texture& picture) { submit(picture, picture.size()); }
 
-  /// Copies the oldest image into `image`, which gets this reader's format; images come in the
-  /// order in which they were submitted. Returns false if none is ready, or with `wait` only if
-  /// none is in flight. Error: kDeviceLost; no further image comes.
-  hal::Result<bool> take(hal::Image& image, bool wait);
+  /// Copies the oldest picture into `image`, which gets this read-back's format; pictures come in
+  /// the order in which they were submitted. False if none is ready. Error: kDeviceLost; no picture
+  /// comes any more.
+  hal::Result<bool> poll(hal::Image& image);
+  /// The same, but waits for the oldest picture: false only if none is in flight.
+  hal::Result<bool> wait(hal::Image& image);
+  /// Whether the oldest picture is ready, after waiting for it `limit` of real time at most. Error:
+  /// kDeviceLost. Precondition: !isEmpty().
+  hal::Result<bool> isReadyWithin(hal::Duration limit) const;
 
  private:
   struct Slot {
@@ -62,6 +67,7 @@ class Readback {
     hal::FrameSize texels;
   };
   void pack(const gpu::Texture& picture);
+  hal::Result<bool> copyOldest(hal::Image& image);
   void unpack(const std::uint8_t* bytes, hal::Image& image) const;
 
   hal::FrameFormat format_;

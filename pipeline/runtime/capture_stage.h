@@ -21,8 +21,10 @@ struct ArrivedFrame {
   hal::TimePoint arrived;
 };
 
-/// Takes frames from a supervised camera, enters each into the ledger, and hands the newest on.
-/// step() is one thread's, the rest is any thread's.
+/// Takes frames from a supervised camera, enters each into the ledger, and puts it into the mailbox
+/// between camera and painter, the only one: a frame that a newer one takes the place of ends
+/// there, as kReplaced. Frames lost before ended in the camera or its driver, which say why. step()
+/// is the camera thread's, the rest is any thread's.
 class CaptureStage {
  public:
   /// All outlive this.

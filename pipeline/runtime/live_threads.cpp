@@ -108,6 +108,7 @@ LiveThreads::Stopped LiveThreads::stop(hal::Duration patience) {
   // A camera that does not let go must not keep the others from ending in order.
   join(kCamera, deadline - patience / 2, stopped);
   stopsPainter_ = true;
+  if (threads_.contains(kPainter)) chain_.paint().wake();
   join(kPainter, deadline - patience / 4, stopped);
   stopsOutputs_ = true;
   for (std::size_t i = 0; i < chain_.outputCount(); ++i) chain_.output(i).wake();

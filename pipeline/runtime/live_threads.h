@@ -17,25 +17,26 @@
 
 namespace pleinair::runtime {
 
-/// Runs a live chain: a thread each for the camera, the painter and every output but those that the
-/// caller steps itself. All calls from one thread.
+/// Runs a live chain: the camera thread, the paint thread and an output thread for every output but
+/// those that the caller steps itself (docs/architecture-threads.md). Main thread only.
 class LiveThreads {
  public:
-  /// The painter's thread, among those that are stuck.
-  static constexpr const char* kPainter = "live painter";
+  /// The paint thread, among those that are stuck.
+  static constexpr const char* kPainter = "paint";
 
-  /// Starts the camera's thread. The chain outlives this.
+  /// Starts the camera thread. The chain outlives this.
   explicit LiveThreads(LivePipeline& chain);
   /// Precondition: stop() has been called, and left nobody behind.
   ~LiveThreads();
   LiveThreads(const LiveThreads&) = delete;
   LiveThreads& operator=(const LiveThreads&) = delete;
 
-  /// Starts the painter's thread, which makes the painter.
+  /// Starts the paint thread, which makes the painter.
   void startPainter();
   /// Whether the painter is there; throws what it failed with (hal::Failure).
   bool isPainterReady();
-  /// Lets frames flow to the outputs, each on its thread; `stepped`: which the caller steps itself.
+  /// Lets frames flow to the outputs, each on its output thread; `stepped`: which the caller steps
+  /// itself.
   void startOutputs(const std::vector<std::size_t>& stepped = {});
 
   /// Ends the camera, the painter and the outputs in that order, and completes what they write.

@@ -15,7 +15,7 @@ enum class Outcome {
   kOutputBusy,        ///< its outputs were still taking an earlier one, or skipped it for that
   kNoSurface,         ///< its outputs had no free surface for it
   kOutputFailed,      ///< its outputs took no picture
-  kReplaced,          ///< a newer frame came before it was painted
+  kReplaced,          ///< a newer frame came before it was painted: the painter was too slow
   kPaused,            ///< it came during a pause
   kStarting,          ///< it came before the painter was ready
   kStopped,           ///< it was in flight when all ended

@@ -15,6 +15,15 @@ constexpr hal::Duration kLongestRevival = std::chrono::seconds(5);
 /// where it can tell; this is for those that say nothing, software ones on a crowded machine apart.
 constexpr hal::Duration kNeverReady = std::chrono::seconds(10);
 
+/// How long the thread sleeps on its mailbox at a time.
+constexpr hal::Duration kIdle = std::chrono::milliseconds(50);
+/// How long it waits for the GPU at a time, where no mailbox wakes it: how much later than it could
+/// be a new frame is begun, …
+constexpr hal::Duration kLongestWait = std::chrono::milliseconds(1);
+/// … and, where no other frame can be begun, how late it notices that it is to stop.
+constexpr hal::Duration kLongestFullWait = std::chrono::milliseconds(2);
+constexpr hal::Duration kRevivalPoll = std::chrono::milliseconds(2);
+
 hal::Error neverReady() {
   return {.kind = hal::ErrorKind::kDeviceLost,
           .subject = "GPU",
@@ -154,16 +163,8 @@ bool PaintStage::collect() {
   return tookAny;
 }
 
-void PaintStage::removeFinished() {
-  while (!inFlight_.empty() && inFlight_.front().waitedForBy == 0) {
-    finished(inFlight_.front(), clock_.now());
-    inFlight_.erase(inFlight_.begin());
-    for (Output& output : outputs_) --output.taken;
-  }
-}
-
-bool PaintStage::collectFor(Output& output) {
-  const hal::Result<bool> taken = painter_->take(output.id, output.stage->buffer());
+bool PaintStage::collectFor(std::size_t output) {
+  const hal::Result<bool> taken = painter_->poll(output, outputs_.at(output)->buffer());
   if (!taken) {
     lose(taken.error());
     return false;
@@ -301,13 +302,12 @@ bool PaintStage::revive() {
 }
 
 void PaintStage::wait() {
-  // A picture's end is seen by asking only.
-  constexpr hal::Duration kPollInterval = std::chrono::microseconds(500);
-  constexpr hal::Duration kIdle = std::chrono::milliseconds(50);
-  if (inFlight_.size() >= kMaxInFlight || !painter_) {
-    std::this_thread::sleep_for(kPollInterval);
+  if (!painter_) {
+    std::this_thread::sleep_for(kRevivalPoll);
+  } else if (inFlight_.empty()) {
+    frames_.wait(kIdle);
   } else {
-    frames_.wait(inFlight_.empty() ? kIdle : kPollInterval);
+    painter_->wait(inFlight_.size() < kMaxInFlight ? kLongestWait : kLongestFullWait);
   }
 }
 

@@ -31,8 +31,9 @@ struct PaintStageOptions {
   std::optional<hal::Duration> framePeriod;
 };
 
-/// Paints the newest frame, watches what that costs, and gives the pictures to the outputs. step()
-/// and start() are one thread's, on which the painter lives and dies; the rest is any thread's.
+/// Paints the newest frame, watches what that costs, and gives the pictures to the outputs.
+/// start(), step(), wait() and stop() are the paint thread's, on which the painter and its GL
+/// context live and die; the rest is any thread's.
 class PaintStage {
  public:
   /// The outputs outlive this, or are let go of (letGo()).
@@ -44,8 +45,13 @@ class PaintStage {
   void start();
   /// Collects what is finished and begins to paint what has come. Whether it did anything.
   bool step();
-  /// Until there may be something for step() to do; by real time.
+  /// Until there may be something for step() to do; by real time. It sleeps on the mailbox and,
+  /// while pictures are in flight, on the GPU's fence of the oldest, 1 ms at a time where another
+  /// frame could be begun and 2 ms where not: a frame that comes or a stop() waits that long at the
+  /// most.
   void wait();
+  /// Lets wait() return where it sleeps on the mailbox. Any thread.
+  void wake() { frames_.wake(); }
   /// Ends what is in flight as kStopped; frees the painter.
   void stop();
 

@@ -84,7 +84,7 @@ void packAndReadBack(benchmark::State& state, PixelFormat format) {
   hal::Image image;
   timePass(state, [&] {
     reader.submit(picture);
-    hal::orThrow(reader.take(image, true));
+    hal::orThrow(reader.wait(image));
   });
 }
 

@@ -83,7 +83,8 @@ class Chain {
         hal::TimePoint(hal::Duration(33'333'333) * static_cast<std::int64_t>(number_));
     ++number_;
     const hal::Result<Picture> painted = painter_.paint(frame, parameters_);
-    hal::orThrow(painter_.take(reader_, picture_, !painter_.hasRoom(reader_)));
+    hal::orThrow(painter_.hasRoom(reader_) ? painter_.poll(reader_, picture_)
+                                           : painter_.wait(reader_, picture_));
     return painted && !painted->tracking.tags.empty();
   }
   Painter& painter() { return painter_; }

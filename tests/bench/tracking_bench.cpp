@@ -8,7 +8,6 @@
 #include <benchmark/benchmark.h>
 
 #include "pipeline/tracking/image/luma.h"
-#include "pipeline/tracking/motion/canvas_motion.h"
 #include "pipeline/tracking/motion/image_motion_estimator.h"
 #include "pipeline/tracking/pose/tracker.h"
 #include "tests/reports/tracking/pose_measures.h"
@@ -158,29 +157,6 @@ void solveFiveTags(benchmark::State& state) {
   }
 }
 BENCHMARK(solveFiveTags)->Unit(benchmark::kMicrosecond);
-
-/// The picture's motion as a whole: two pictures by turns, so that every frame moves by a few px.
-void followThePicture(benchmark::State& state) {
-  const hal::FrameSize size{static_cast<int>(state.range(0)), static_cast<int>(state.range(1))};
-  const CameraModel camera = cameraOf(size);
-  LumaConverter luma;
-  std::vector<hal::Image> images;
-  for (const double aside : {0.0, 0.004}) {
-    images.push_back(support::renderTags(camera, poseOf({0.35, 0.1, 0.2}, {aside, 0.0, 0.7}),
-                                         table(), {.noiseSigma = 2.0}));
-  }
-  CanvasMotion motion;
-  std::size_t number = 0;
-  for (auto _ : state) {
-    const hal::Image& image = images[number++ % 2];
-    benchmark::DoNotOptimize(motion.follow(luma.convert(image.view()), size));
-  }
-}
-BENCHMARK(followThePicture)
-    ->ArgNames({"width", "height"})
-    ->Args({640, 480})
-    ->Args({1280, 720})
-    ->Unit(benchmark::kMillisecond);
 
 /// All that is found out about how the picture moves, on the walk around the workbench.
 void estimateMotion(benchmark::State& state, const ImageMotionOptions& options) {

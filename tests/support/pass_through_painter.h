@@ -21,15 +21,7 @@ class PassThroughPainter final : public runtime::FramePainter {
     }
     return {};
   }
-  void open(std::size_t, const hal::FrameFormat&) override {
-    waiting_.emplace_back();
-    isOpen_.push_back(true);
-  }
-  void close(std::size_t output) override {
-    waiting_.at(output).clear();
-    isOpen_.at(output) = false;
-  }
-  hal::Result<bool> take(std::size_t output, OutputFrame& picture) override {
+  hal::Result<bool> poll(std::size_t output, OutputFrame& picture) override {
     auto& pictures = waiting_.at(output);
     if (pictures.empty()) return false;
     const hal::CapturedFrame frame = std::move(pictures.front());
@@ -45,6 +37,7 @@ class PassThroughPainter final : public runtime::FramePainter {
     picture.captureTime = frame.captureTime;
     return true;
   }
+  void wait(hal::Duration) override {}  // all is ready at once
 
  private:
   std::vector<std::deque<hal::CapturedFrame>> waiting_;

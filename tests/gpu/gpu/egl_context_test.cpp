@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <latch>
 #include <thread>
 #include <vector>
 
@@ -10,7 +11,6 @@
 
 #include "hal/error.h"
 #include "pipeline/gpu/frame_upload.h"
-#include "pipeline/gpu/render_thread.h"
 #include "tests/support/gl_pictures.h"
 #include "tests/support/gl_test.h"
 
@@ -100,19 +100,35 @@ TEST_F(EglContextTest, PaintsTheSameOnTwoThreadsAtOnce) {
   EXPECT_TRUE(results[0] == paintedBytes());
 }
 
-TEST_F(EglContextTest, LivesOnARenderThreadWhileTheTestHasItsOwn) {
-  RenderThread thread("second");
-  std::unique_ptr<EglContext> context;
-  std::unique_ptr<Texture> texture;
-  thread.run([&] { context = std::make_unique<EglContext>(); });
-  thread.run([&] {
-    texture = std::make_unique<Texture>(TextureFormat::kRgba8, hal::FrameSize{1, 1});
+TEST_F(EglContextTest, LivesOnAnotherThreadWhileTheTestHasItsOwn) {
+  std::latch isMade(1);
+  std::latch mayGo(1);
+  std::jthread second([&] {
+    const EglContext context;
+    const Texture texture(TextureFormat::kRgba8, hal::FrameSize{1, 1});
+    isMade.count_down();
+    mayGo.wait();
   });
+  isMade.wait();
   EXPECT_TRUE(Texture(TextureFormat::kRgba8, {1, 1}));
-  thread.run([&] {
-    texture.reset();
-    context.reset();
-  });
+  mayGo.count_down();
+}
+
+TEST_F(EglContextTest, IsMadeCurrentAgainBesideAnotherOfTheSameThread) {
+  EXPECT_TRUE(context_->isCurrent());
+  {
+    const CurrentContextKeeper first;
+    const EglContext second;
+    EXPECT_TRUE(second.isCurrent());
+    EXPECT_FALSE(context_->isCurrent());
+    {
+      const CurrentContextKeeper keepsSecond;
+      EXPECT_TRUE(context_->makeCurrent());
+      EXPECT_TRUE(Texture(TextureFormat::kRgba8, {1, 1}));
+    }
+    EXPECT_TRUE(second.isCurrent());
+  }
+  EXPECT_TRUE(context_->isCurrent());
 }
 
 }  // namespace

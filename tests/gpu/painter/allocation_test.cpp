@@ -80,7 +80,8 @@ struct Show {
       ++painted;
       mostTags = std::max(mostTags, result->tracking.tags.size());
       everWorld |= result->tracking.cameraFromWorld.has_value();
-      while (hal::orThrow(painter.take(reader, picture, !painter.hasRoom(reader)))) {
+      while (hal::orThrow(painter.hasRoom(reader) ? painter.poll(reader, picture)
+                                                  : painter.wait(reader, picture))) {
       }
     }
   }

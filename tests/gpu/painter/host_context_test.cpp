@@ -136,7 +136,7 @@ TEST_F(HostContextTest, LeavesTheHostsContextAsNew) {
       expectNothingBound();
       expectSwitchesOfANewContext();
     }
-    ASSERT_TRUE(hal::orThrow(painter.take(reader, picture, true)));
+    ASSERT_TRUE(hal::orThrow(painter.wait(reader, picture)));
     hal::orThrow(painter.snapshot());
     expectNothingBound();
     expectSwitchesOfANewContext();
@@ -159,6 +159,45 @@ TEST_F(HostContextTest, PaintsWhateverTheHostHasSet) {
     EXPECT_EQ(bytesOf(hal::orThrow(painter.snapshot())), painted(own, testFrame(i))) << i;
   }
   const gpu::HostState tidy;
+}
+
+TEST_F(HostContextTest, IsCurrentAgainAfterEachCallOfAPainterWithItsOwn) {
+  {
+    Painter own({.pictureSize = kSize});
+    EXPECT_TRUE(context_->isCurrent());
+    const int readback = own.openReadback({hal::PixelFormat::kRgb8, kSize});
+    EXPECT_TRUE(context_->isCurrent());
+    ASSERT_TRUE(own.paint(testFrame(0), own.defaultParameters()));
+    EXPECT_TRUE(context_->isCurrent());
+    OutputFrame picture;
+    ASSERT_TRUE(hal::orThrow(own.wait(readback, picture)));
+    EXPECT_TRUE(context_->isCurrent());
+    own.reset();
+    own.closeReadback(readback);
+    EXPECT_TRUE(context_->isCurrent());
+  }
+  EXPECT_TRUE(context_->isCurrent()) << "and after its end";
+  EXPECT_THROW(Painter({.pictureSize = kSize, .style = "gouache"}), hal::Failure);
+  EXPECT_TRUE(context_->isCurrent()) << "and after one that could not be made";
+}
+
+TEST_F(PainterTest, SeveralOfOneThreadHaveTheirOwnContexts) {
+  auto first = std::make_unique<Painter>(PainterOptions{.pictureSize = kSize});
+  Painter second({.pictureSize = kSize});
+  const auto wanted = painted(*first, testFrame(0));
+  EXPECT_EQ(painted(second, testFrame(0)), wanted);
+  first.reset();  // before the one that came after it
+  EXPECT_TRUE(second.paint(testFrame(1), second.defaultParameters()));
+  Painter third({.pictureSize = kSize});
+  EXPECT_EQ(painted(third, testFrame(0)), wanted);
+}
+
+TEST_F(PainterTest, KeepsItsContextOnAThreadThatHasNoOther) {
+  Painter painter({.pictureSize = kSize});
+  EGLContext context = eglGetCurrentContext();
+  EXPECT_NE(context, EGL_NO_CONTEXT);
+  ASSERT_TRUE(painter.paint(testFrame(0), painter.defaultParameters()));
+  EXPECT_EQ(eglGetCurrentContext(), context);
 }
 
 TEST(PainterInAHostsContext, SaysWhereThereIsNone) {

@@ -48,8 +48,9 @@ void expectNothingComes(Painter& painter, int reader) {
   const PaintParameters parameters = painter.defaultParameters();
   for (int round = 0; round < 2; ++round) {
     expectLost(painter.paint(testFrame(7), parameters));
-    expectLost(painter.take(reader, picture, false));
-    expectLost(painter.take(reader, picture, true));
+    expectLost(painter.poll(reader, picture));
+    expectLost(painter.wait(reader, picture));
+    expectLost(painter.waitForAny(std::chrono::minutes(1)));
     expectLost(painter.snapshot());
     expectLost(painter.cameraSnapshot());
     painter.reset();
@@ -94,10 +95,10 @@ TEST_F(PainterTest, TakesAGpuThatDoesNotAnswerForLost) {
   ASSERT_TRUE(painter.paint(testFrame(0), painter.defaultParameters()));
   driver.hangs = true;
   OutputFrame picture;
-  EXPECT_FALSE(hal::orThrow(painter.take(reader, picture, false))) << "it may only be late";
+  EXPECT_FALSE(hal::orThrow(painter.poll(reader, picture))) << "it may only be late";
   const hal::TimePoint before = driver.clock.now();
   driver.fencesAsked = 0;
-  const auto taken = painter.take(reader, picture, true);
+  const auto taken = painter.wait(reader, picture);
   expectLost(taken);
   EXPECT_THAT(taken.error().message(), testing::HasSubstr("hangs"));
   EXPECT_EQ(driver.fencesAsked, 3);
@@ -106,7 +107,34 @@ TEST_F(PainterTest, TakesAGpuThatDoesNotAnswerForLost) {
   expectNothingComes(painter, reader);
 }
 
-TEST_F(PainterTest, NoticesALossWhileAStillIsWaitedFor) {
+TEST_F(PainterTest, WaitsForAPictureNoLongerThanItMay) {
+  BadDriver driver;
+  Painter painter({.pictureSize = kSize, .testHook = driver.testHook()});
+  const int readback = painter.openReadback({hal::PixelFormat::kRgb8, kSize});
+  ASSERT_TRUE(painter.paint(testFrame(0), painter.defaultParameters()));
+  driver.hangs = true;
+  const hal::TimePoint before = driver.clock.now();
+  driver.fencesAsked = 0;
+  EXPECT_FALSE(hal::orThrow(painter.waitForAny(std::chrono::milliseconds(1))));
+  EXPECT_EQ(driver.fencesAsked, 1) << "not again and again";
+  EXPECT_EQ(driver.clock.now() - before, std::chrono::milliseconds(1));
+  driver.hangs = false;
+  OutputFrame picture;
+  EXPECT_TRUE(hal::orThrow(painter.wait(readback, picture))) << "it was only late";
+}
+
+TEST_F(PainterTest, ClosesAReadbackOfALostGpu) {
+  BadDriver driver;
+  Painter painter({.pictureSize = kSize, .testHook = driver.testHook()});
+  const int readback = painter.openReadback({hal::PixelFormat::kRgb8, kSize});
+  ASSERT_TRUE(painter.paint(testFrame(0), painter.defaultParameters()));
+  driver.status = GL_GUILTY_CONTEXT_RESET_KHR;
+  expectLost(painter.paint(testFrame(1), painter.defaultParameters()));
+  painter.closeReadback(readback);
+  expectLost(painter.paint(testFrame(1), painter.defaultParameters()));
+}
+
+TEST_F(PainterTest, NoticesALossWhileASnapshotIsWaitedFor) {
   BadDriver driver;
   Painter painter({.pictureSize = kSize, .testHook = driver.testHook()});
   const int reader = painter.openReadback({hal::PixelFormat::kRgb8, kSize});

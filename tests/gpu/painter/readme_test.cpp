@@ -18,7 +18,7 @@ class ReadmeTest : public pleinair::PainterTest {
   }
   void run() {
 #include "readme_program.inc"
-    while (hal::orThrow(painter.take(reader, picture, true))) show(picture.image);
+    while (hal::orThrow(painter.wait(readback, picture))) show(picture.image);
   }
 
   int number_ = 0;

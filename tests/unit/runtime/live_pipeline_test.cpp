@@ -288,6 +288,36 @@ TEST_F(LostCameraTest, GoesOnWhenTheCameraIsBack) {
   expectSumsToAgree();
 }
 
+/// Only the mailbox between camera and painter replaces frames, and only it says so.
+TEST_F(LostCameraTest, ASlowPainterReplacesFramesAndTheCameraLosesNone) {
+  live_.gpu.cost = [](auto, auto) { return 100ms; };  // three frames' time
+  begin({{.startError = {},
+          .steps = support::scriptOf(support::scriptedFrames(90), hal::EndOfStream{})}});
+  live_.runFor(5s);
+  EXPECT_EQ(counts().captured, 90u);
+  EXPECT_GE(counts().of(Outcome::kReplaced), 55u);
+  EXPECT_EQ(counts().of(Outcome::kBufferUnderrun), 0u);
+  EXPECT_EQ(counts().of(Outcome::kDroppedByDriver), 0u);
+  EXPECT_EQ(counts().shown() + counts().of(Outcome::kReplaced) + counts().of(Outcome::kLate) +
+                counts().of(Outcome::kSuperseded),
+            90u);
+  expectSumsToAgree();
+}
+
+TEST_F(LostCameraTest, ACameraWithoutABufferIsAnUnderrunAndNothingElse) {
+  const support::ScriptedFrame starved{.after = 99ms, .dropped = 2, .underruns = 2};
+  begin({{.startError = {},
+          .steps = support::scriptOf(support::scriptedFrames(30), starved,
+                                     support::scriptedFrames(30), starved, hal::EndOfStream{})}});
+  live_.runFor(5s);
+  EXPECT_EQ(counts().captured, 66u);
+  EXPECT_EQ(counts().of(Outcome::kBufferUnderrun), 4u);
+  EXPECT_EQ(counts().of(Outcome::kReplaced), 0u);
+  EXPECT_EQ(counts().of(Outcome::kDroppedByDriver), 0u);
+  EXPECT_EQ(counts().of(Outcome::kShown), 62u);
+  expectSumsToAgree();
+}
+
 TEST_F(LostCameraTest, CountsWhatWasLostInAStallApart) {
   begin({{.startError = {},
           .steps = support::scriptOf(

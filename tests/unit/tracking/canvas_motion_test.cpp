@@ -45,18 +45,10 @@ std::vector<std::uint8_t> seen(const PlaneSimilarity& wallFromFrame, double nois
   return luma;
 }
 
-/// The source of the motion.
-enum class By { kItself, kEstimator };
-std::string nameOf(const testing::TestParamInfo<By>& by) {
-  return by.param == By::kItself ? "ByItself" : "ByTheEstimator";
-}
-
 class Follower {
  public:
-  explicit Follower(By by) : by_(by) {}
   const PlaneSimilarity& see(const std::vector<std::uint8_t>& luma, hal::FrameSize size = kSize) {
     const hal::PlaneView plane{.bytes = luma, .strideBytes = static_cast<std::size_t>(size.width)};
-    if (by_ == By::kItself) return motion_.follow(plane, size);
     return motion_.follow(estimator_.follow(plane, size, number_++));
   }
   void reset() {
@@ -65,7 +57,6 @@ class Follower {
   }
 
  private:
-  By by_;
   CanvasMotion motion_;
   ImageMotionEstimator estimator_{{.flow = false, .staticRegions = false}};
   std::uint64_t number_ = 0;
@@ -104,10 +95,7 @@ struct Path {
   friend std::ostream& operator<<(std::ostream& out, const Path& path) { return out << path.name; }
 };
 
-class FollowTest : public testing::TestWithParam<Path> {
- protected:
-  static double worstBy(By by);
-};
+class FollowTest : public testing::TestWithParam<Path> {};
 
 // Each motion runs over several key frames.
 INSTANTIATE_TEST_SUITE_P(Paths, FollowTest,
@@ -117,28 +105,20 @@ INSTANTIATE_TEST_SUITE_P(Paths, FollowTest,
                                          Path{"all", 1.2, 1.015, {3.5, -2.0}}),
                          [](const auto& each) { return std::string(each.param.name); });
 
-double FollowTest::worstBy(By by) {
+TEST_P(FollowTest, FindsTheMotion) {
   const Path& path = GetParam();
-  Follower follower(by);
+  Follower follower;
   double worst = 0.0;
   for (int i = 0; i < 16; ++i) {
     const PlaneSimilarity truth =
         turned(path.degrees * i, std::pow(path.zoom, i), path.shift * static_cast<double>(i));
     worst = std::max(worst, apart(follower.see(seen(truth, 2.0, static_cast<unsigned>(i))), truth));
   }
-  return worst;
+  EXPECT_LT(worst, 3.0) << "px at the frame's corners, after 16 frames";
 }
 
-TEST_P(FollowTest, FindsTheMotion) {
-  EXPECT_LT(worstBy(By::kItself), 3.0) << "px at the frame's corners, after 16 frames";
-  EXPECT_LT(worstBy(By::kEstimator), 3.0);
-}
-
-class CanvasMotion : public testing::TestWithParam<By> {};
-INSTANTIATE_TEST_SUITE_P(Both, CanvasMotion, testing::Values(By::kItself, By::kEstimator), nameOf);
-
-TEST_P(CanvasMotion, StandsStillInSpiteOfNoise) {
-  Follower follower(GetParam());
+TEST(CanvasMotionTest, StandsStillInSpiteOfNoise) {
+  Follower follower;
   for (unsigned i = 0; i < 12; ++i) {
     const PlaneSimilarity found = follower.see(seen({}, 3.0, i));
     EXPECT_EQ(found.linear, glm::dvec2(1.0, 0.0)) << i;
@@ -146,15 +126,15 @@ TEST_P(CanvasMotion, StandsStillInSpiteOfNoise) {
   }
 }
 
-TEST_P(CanvasMotion, FollowsASlowPanThatNoFrameShows) {
-  Follower follower(GetParam());
+TEST(CanvasMotionTest, FollowsASlowPanThatNoFrameShows) {
+  Follower follower;
   PlaneSimilarity found;
   for (int i = 0; i <= 20; ++i) found = follower.see(seen({.shift = {0.2 * i, 0.0}}));
   EXPECT_NEAR(found.shift.x, 4.0, 0.5);
 }
 
-TEST_P(CanvasMotion, IsNotTakenAlongByAThing) {
-  Follower follower(GetParam());
+TEST(CanvasMotionTest, IsNotTakenAlongByAThing) {
+  Follower follower;
   for (int i = 0; i < 15; ++i) {
     std::vector<std::uint8_t> luma = seen({});
     for (int y = 60; y < 180; ++y) {  // a quarter of the image, 8 px per frame
@@ -168,8 +148,8 @@ TEST_P(CanvasMotion, IsNotTakenAlongByAThing) {
   }
 }
 
-TEST_P(CanvasMotion, StaysWhereNothingCanBeFollowed) {
-  Follower follower(GetParam());
+TEST(CanvasMotionTest, StaysWhereNothingCanBeFollowed) {
+  Follower follower;
   follower.see(seen({}));
   const PlaneSimilarity before = follower.see(seen({.shift = {12.0, 0.0}}));
   EXPECT_NEAR(before.shift.x, 12.0, 0.7);
@@ -183,8 +163,8 @@ TEST_P(CanvasMotion, StaysWhereNothingCanBeFollowed) {
   EXPECT_EQ(follower.see(seen({})).shift, glm::dvec2(0.0));
 }
 
-TEST_P(CanvasMotion, TakesPicturesOfAnySize) {
-  Follower follower(GetParam());
+TEST(CanvasMotionTest, TakesPicturesOfAnySize) {
+  Follower follower;
   for (const hal::FrameSize size : {hal::FrameSize{1, 1}, {3, 700}, {16, 16}, {1280, 720}}) {
     const std::vector<std::uint8_t> luma(static_cast<std::size_t>(size.pixels()), 77);
     for (int i = 0; i < 2; ++i) {

@@ -16,17 +16,17 @@ TEST_F(PainterTest, ReadsPicturesInOrder) {
   Painter painter(kPlain);
   const int reader = painter.openReadback({PixelFormat::kRgb8, {96, 64}});
   OutputFrame picture;
-  EXPECT_FALSE(hal::orThrow(painter.take(reader, picture, false)));
-  EXPECT_FALSE(hal::orThrow(painter.take(reader, picture, true)));
+  EXPECT_FALSE(hal::orThrow(painter.poll(reader, picture)));
+  EXPECT_FALSE(hal::orThrow(painter.wait(reader, picture)));
   paintFrames(painter, 0, 3);
   for (int i = 0; i < 3; ++i) {
-    ASSERT_TRUE(hal::orThrow(painter.take(reader, picture, true)));
+    ASSERT_TRUE(hal::orThrow(painter.wait(reader, picture)));
     const hal::CapturedFrame frame = testFrame(i);
     EXPECT_EQ(picture.sequence, frame.sequence);
     EXPECT_EQ(picture.captureTime, frame.captureTime);
     EXPECT_EQ(bytesOf(picture.image), bytesOf(hal::Image(frame.image))) << i;
   }
-  EXPECT_FALSE(hal::orThrow(painter.take(reader, picture, true)));
+  EXPECT_FALSE(hal::orThrow(painter.wait(reader, picture)));
   EXPECT_EQ(painter.skipped(reader), 0u);
 }
 
@@ -36,9 +36,9 @@ TEST_F(PainterTest, TakesWithoutWaitingOnceTheGpuIsDone) {
   paintFrames(painter, 0, 1);
   const hal::Image still = hal::orThrow(painter.snapshot());  // waits for the GPU
   OutputFrame picture;
-  ASSERT_TRUE(hal::orThrow(painter.take(reader, picture, false)));
+  ASSERT_TRUE(hal::orThrow(painter.poll(reader, picture)));
   EXPECT_EQ(bytesOf(picture.image), bytesOf(still));
-  EXPECT_FALSE(hal::orThrow(painter.take(reader, picture, false)));
+  EXPECT_FALSE(hal::orThrow(painter.poll(reader, picture)));
 }
 
 TEST_F(PainterTest, SkipsPicturesWhileAReaderIsFull) {
@@ -53,17 +53,66 @@ TEST_F(PainterTest, SkipsPicturesWhileAReaderIsFull) {
   EXPECT_EQ(painter.skipped(late), 0u);
   OutputFrame picture;
   for (const std::uint64_t sequence : {0u, 1u, 2u}) {
-    ASSERT_TRUE(hal::orThrow(painter.take(slow, picture, true)));
+    ASSERT_TRUE(hal::orThrow(painter.wait(slow, picture)));
     EXPECT_EQ(picture.sequence, sequence);
   }
-  EXPECT_FALSE(hal::orThrow(painter.take(slow, picture, true)));
+  EXPECT_FALSE(hal::orThrow(painter.wait(slow, picture)));
   paintFrames(painter, 5, 6);
-  ASSERT_TRUE(hal::orThrow(painter.take(slow, picture, true)));
+  ASSERT_TRUE(hal::orThrow(painter.wait(slow, picture)));
   EXPECT_EQ(picture.sequence, 5u);
   for (const std::uint64_t sequence : {3u, 4u, 5u}) {
-    ASSERT_TRUE(hal::orThrow(painter.take(late, picture, true)));
+    ASSERT_TRUE(hal::orThrow(painter.wait(late, picture)));
     EXPECT_EQ(picture.sequence, sequence);
   }
+}
+
+TEST_F(PainterTest, OpensAndClosesReadbacksWhilePicturesAreInFlight) {
+  Painter painter(kPlain);
+  const int first = painter.openReadback({PixelFormat::kRgb8, {96, 64}});
+  const int second = painter.openReadback({PixelFormat::kGrey8, {48, 32}});
+  paintFrames(painter, 0, 2);
+  painter.closeReadback(second);  // with two pictures in flight
+  const int third = painter.openReadback({PixelFormat::kRgb8, {96, 64}});
+  EXPECT_NE(third, second) << "no number comes twice";
+  paintFrames(painter, 2, 3);
+  OutputFrame picture;
+  for (const std::uint64_t sequence : {0u, 1u, 2u}) {
+    ASSERT_TRUE(hal::orThrow(painter.wait(first, picture)));
+    EXPECT_EQ(picture.sequence, sequence);
+    EXPECT_EQ(bytesOf(picture.image),
+              bytesOf(hal::Image(testFrame(static_cast<int>(sequence)).image)));
+  }
+  ASSERT_TRUE(hal::orThrow(painter.wait(third, picture)));
+  EXPECT_EQ(picture.sequence, 2u) << "the first since it was opened";
+  EXPECT_EQ(bytesOf(picture.image), bytesOf(hal::Image(testFrame(2).image)));
+  painter.closeReadback(first);
+  painter.closeReadback(third);
+  paintFrames(painter, 3, 5);  // nothing is read
+  EXPECT_FALSE(hal::orThrow(painter.waitForAny(std::chrono::seconds(1))));
+}
+
+TEST_F(PainterTest, PaintsTheSameWhateverReadbacksComeAndGo) {
+  Painter plain({.pictureSize = {96, 64}});
+  Painter read({.pictureSize = {96, 64}});
+  for (int i = 0; i < 6; ++i) {
+    const int readback = read.openReadback({PixelFormat::kI420, {64, 48}});
+    EXPECT_EQ(painted(read, testFrame(i)), painted(plain, testFrame(i))) << i;
+    if (i % 2 == 0) read.closeReadback(readback);
+  }
+}
+
+TEST_F(PainterTest, WaitsForTheOldestPictureOfAllReadbacks) {
+  Painter painter(kPlain);
+  const int slow = painter.openReadback({PixelFormat::kRgb8, {96, 64}});
+  const int fast = painter.openReadback({PixelFormat::kGrey8, {48, 32}});
+  EXPECT_FALSE(hal::orThrow(painter.waitForAny(std::chrono::minutes(1)))) << "none is in flight";
+  paintFrames(painter, 0, 2);
+  OutputFrame picture;
+  for (const int readback : {slow, fast, slow, fast}) {
+    ASSERT_TRUE(hal::orThrow(painter.waitForAny(std::chrono::minutes(1))));
+    ASSERT_TRUE(hal::orThrow(painter.poll(readback, picture))) << readback;
+  }
+  EXPECT_FALSE(hal::orThrow(painter.waitForAny(std::chrono::minutes(1)))) << "all are taken";
 }
 
 TEST_F(PainterTest, ReadsIntoSeveralLayoutsAndSizesAtOnce) {
@@ -88,7 +137,7 @@ TEST_F(PainterTest, ReadsIntoSeveralLayoutsAndSizesAtOnce) {
   OutputFrame picture;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto& [format, planes] = all[i];
-    ASSERT_TRUE(hal::orThrow(painter.take(readers[i], picture, true)));
+    ASSERT_TRUE(hal::orThrow(painter.wait(readers[i], picture)));
     ASSERT_EQ(picture.image.format(), format);
     const bool isPlanar =
         format.pixelFormat == PixelFormat::kI420 || format.pixelFormat == PixelFormat::kNv12;
