@@ -5,6 +5,7 @@
 #include "config/parameter_table.h"
 #include "config/profiles.h"
 #include "firmware_app/config/control_text.h"
+#include "firmware_app/config/renamed.h"
 #include "firmware_app/live/camera_selection.h"
 #include "firmware_app/status_server/listen_address.h"
 #include "hal/cameras/synthetic/render/shot.h"
@@ -211,7 +212,7 @@ config::Sections defaultSections() {
     sections.push_back({fmt::format("style.{}", info.name),
                         fmt::format("The style {}: {}.", info.name, info.help), info.defaults});
   }
-  return config::Sections(std::move(sections), std::string(kVariablePrefix));
+  return config::Sections(std::move(sections), std::string(kVariablePrefix), renamedKeys());
 }
 
 std::filesystem::path profileOf(const config::Sections& sections) {
