@@ -167,7 +167,7 @@ void addRecord(CLI::App& app, RecordOptions& options, std::function<int()>& chos
       ->default_str(std::to_string(options.frames));
   addKey(command, configuration, "--size", "camera.size",
          "of the frames (default: 640x480); movies have even sides", "WxH");
-  addKey(command, configuration, "--seed", "camera.seed",
+  addKey(command, configuration, "--seed", "camera.synthetic.seed",
          "of the synthetic camera's world and path (default: 1)", "N");
   command
       .add_option("--write-scene", options.writeScene,

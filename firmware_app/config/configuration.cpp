@@ -230,6 +230,11 @@ Configuration::Configuration(const ConfigurationRequest& request)
   applyLook(sections_);
 }
 
+const ParameterValues& CameraSettings::tableOf(const hal::CameraKind& kind) const {
+  const auto found = tables.find(kind.name);
+  return found == tables.end() ? kind.defaults : found->second;
+}
+
 CameraSettings Configuration::camera() const {
   return cameraOf(sections_);
 }

@@ -12,7 +12,12 @@ struct RenamedValue {
   std::string_view now;
 };
 
-constexpr std::array<config::RenamedKey, 2> kKeys{{
+constexpr std::array<config::RenamedKey, 7> kKeys{{
+    {"camera.seed", "camera.synthetic.seed"},
+    {"camera.noise", "camera.synthetic.noise"},
+    {"camera.exposure_drift", "camera.synthetic.exposure_drift"},
+    {"camera.white_balance_drift", "camera.synthetic.white_balance_drift"},
+    {"camera.readout", "camera.synthetic.readout"},
     {"output.stills", "output.snapshots"},
     {"style.watercolor.steady_time", "style.watercolor.filter_time"},
 }};
