@@ -65,8 +65,9 @@ void attribute(const std::string& origin, ConfigFault& fault) {
 
 }  // namespace
 
-Sections::Sections(std::vector<Section> sections, std::string prefix)
-    : sections_(std::move(sections)), prefix_(std::move(prefix)) {
+Sections::Sections(std::vector<Section> sections, std::string prefix,
+                   std::span<const RenamedKey> renamed)
+    : sections_(std::move(sections)), prefix_(std::move(prefix)), renamed_(renamed) {
   std::vector<std::string> variables;
   for (const Section& section : sections_) {
     for (const std::string& name : section.values.list().names()) {
@@ -75,6 +76,8 @@ Sections::Sections(std::vector<Section> sections, std::string prefix)
   }
   std::sort(variables.begin(), variables.end());
   assert(std::adjacent_find(variables.begin(), variables.end()) == variables.end());
+  assert(std::all_of(renamed_.begin(), renamed_.end(),
+                     [&](const RenamedKey& each) { return !find(each.old) && find(each.now); }));
 }
 
 const ParameterValues& Sections::values(std::string_view section) const {
@@ -118,7 +121,13 @@ std::string Sections::variableOf(const Section& section, std::string_view parame
   return prefix_ + asVariable(joined(section.name, parameter));
 }
 
-/// Keys allowed in a table: its parameters and the tables within it.
+const RenamedKey* Sections::renamedKey(std::string_view key) const {
+  const auto found = std::find_if(renamed_.begin(), renamed_.end(),
+                                  [&](const RenamedKey& each) { return each.old == key; });
+  return found == renamed_.end() ? nullptr : &*found;
+}
+
+/// What may stand in a table: its parameters and the tables within it.
 std::vector<std::string> Sections::keysIn(std::string_view table) const {
   std::vector<std::string> keys;
   for (const Section& section : sections_) {
@@ -155,7 +164,11 @@ void Sections::refuseUnknownKeys(const TomlTable& table, const std::string& name
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
     if (!first || table.lineOf(key) < table.lineOf(*first)) first = key;
   }
-  if (first) throw table.error(*first, problemOf(*first, known), listText(known));
+  if (!first) return;
+  if (const RenamedKey* renamed = renamedKey(joined(name, *first))) {
+    throw table.error(*first, fmt::format("is now {}", renamed->now), {});
+  }
+  throw table.error(*first, problemOf(*first, known), listText(known));
 }
 
 void Sections::apply(const TomlDocument& document) {
@@ -191,8 +204,11 @@ void Sections::set(const Key& key, std::string_view text, const std::string& ori
 
 ConfigError Sections::unknownKey(std::string_view key, const std::string& origin,
                                  std::string_view section) const {
-  std::vector<std::string> near = keysIn(section);  // listed in the message
-  std::vector<std::string> all = near;              // candidates for suggestions
+  if (const RenamedKey* renamed = renamedKey(joined(section, key))) {
+    return ConfigError({.file = origin, .problem = fmt::format("is now {}", renamed->now)});
+  }
+  std::vector<std::string> near = keysIn(section);  // to be listed
+  std::vector<std::string> all = near;              // to be suggested
   if (section.empty()) near.clear();
   const std::string_view table = key.substr(0, std::min(key.rfind('.'), key.size()));
   const std::string_view name = key.substr(std::min(key.rfind('.') + 1, key.size()));
@@ -225,6 +241,11 @@ void Sections::apply(std::string_view key, std::string_view text, const std::str
 
 ConfigError Sections::unknownVariable(const std::string& name,
                                       std::span<const std::string> others) const {
+  for (const RenamedKey& each : renamed_) {
+    if (prefix_ + asVariable(each.old) != name) continue;
+    return ConfigError(
+        {.file = name, .problem = fmt::format("is now {}{}", prefix_, asVariable(each.now))});
+  }
   std::vector<std::string> all(others.begin(), others.end());
   std::vector<std::string> near;
   std::vector<std::string> groups(others.begin(), others.end());

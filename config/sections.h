@@ -24,14 +24,22 @@ struct EnvironmentVariable {
   std::string value;
 };
 
-/// A value for each parameter of each section, and its origin. Layers are applied from the weakest
-/// to the strongest; a layer that fails changes nothing. A key is named with its section:
-/// "painting.style". A value type; one thread at a time.
+/// A key that has another name now. Whoever still gives the old one is told so.
+struct RenamedKey {
+  std::string_view old;  ///< with its section: "camera.seed"
+  std::string_view now;  ///< "camera.synthetic.seed"
+};
+
+/// A value for each parameter of each section, and where it came from. Layers are laid over it, the
+/// weakest first; one that fails leaves it as it was. A key is named with its section:
+/// "painting.style". A value; one thread at a time.
 class Sections {
  public:
-  /// Asserts that names are unique, also as environment variables. `prefix` begins those:
-  /// "PLEINAIR_".
-  Sections(std::vector<Section> sections, std::string prefix);
+  /// Names are unique, also as variables of the environment, or it asserts. `prefix` is what those
+  /// begin with: "PLEINAIR_". `renamed` outlives this; its old names are refused, in any layer, by
+  /// an error that says the new one. They are no keys, and the new ones are, or it asserts.
+  Sections(std::vector<Section> sections, std::string prefix,
+           std::span<const RenamedKey> renamed = {});
 
   std::span<const Section> all() const { return sections_; }
   /// Asserts that the section exists.
@@ -78,12 +86,14 @@ class Sections {
   std::vector<std::string> keysIn(std::string_view table) const;
   void refuseUnknownKeys(const TomlTable& table, const std::string& name) const;
   std::string problemOf(std::string_view unknownKey, std::span<const std::string> known) const;
+  const RenamedKey* renamedKey(std::string_view key) const;
   ConfigError unknownKey(std::string_view key, const std::string& origin,
                          std::string_view section) const;
   ConfigError unknownVariable(const std::string& name, std::span<const std::string> others) const;
 
   std::vector<Section> sections_;
   std::string prefix_;
+  std::span<const RenamedKey> renamed_;
 };
 
 }  // namespace pleinair::config

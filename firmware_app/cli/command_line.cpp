@@ -19,6 +19,7 @@
 #include "config/suggestion.h"
 #include "firmware_app/cli/exit_status.h"
 #include "firmware_app/cli/subcommand_options.h"
+#include "firmware_app/config/renamed.h"
 #include "firmware_app/version.h"
 
 namespace pleinair::app {
@@ -42,6 +43,7 @@ std::string unknownText(const CLI::App& app, const std::vector<std::string>& unk
   const std::vector<CLI::App*> commands = app.get_subcommands();
   std::vector<std::string> known;
   if (option != unknown.end()) {
+    if (const auto now = renamedOption(name)) return fmt::format("{} is now {}", name, *now);
     for (const CLI::Option* each : (commands.empty() ? app : *commands.front()).get_options()) {
       known.push_back(each->get_name());
     }

@@ -183,9 +183,9 @@ void addRecord(CLI::App& app, RecordOptions& options, std::function<int()>& chos
       command, [&options](std::uint64_t count) { options.frames = count; }, "record N frames")
       ->default_str(std::to_string(options.frames));
   addKey(command, configuration, "--size", "camera.size",
-         "size of the frames (default: 640x480); movies need even sides", "WxH");
-  addKey(command, configuration, "--seed", "camera.seed",
-         "seed of the synthetic camera's world and path (default: 1)", "N");
+         "of the frames (default: 640x480); movies have even sides", "WxH");
+  addKey(command, configuration, "--seed", "camera.synthetic.seed",
+         "of the synthetic camera's world and path (default: 1)", "N");
   command
       .add_option("--write-scene", options.writeScene,
                   "write a scene file that fits the synthetic camera's world")

@@ -5,7 +5,7 @@
 #include "firmware_app/config/configured_parts.h"
 #include "firmware_app/live/camera_selection.h"
 #include "firmware_app/scene/workbench_scene.h"
-#include "hal/cameras/recording/recording.h"
+#include "hal/cameras/recording/recording_kind.h"
 
 namespace pleinair::app {
 namespace {
@@ -35,7 +35,9 @@ std::unique_ptr<hal::Camera> openCamera(const RecordOptions& options,
                           .remedy = "leave it out, or record the synthetic camera"});
     }
     if (isDevice(settings)) return chosenCamera(settings, clock);
-    return hal::openRecording(settings.source, clock);
+    const hal::CameraKind& kind = hal::recording::cameraKind();
+    return kind.open(settings.tableOf(kind), backendOptionsOf(settings, hal::Pacing::kStepped))
+        ->make(settings.source.string(), clock);
   }
   hal::SyntheticOptions synthetic = syntheticOptions(settings);
   synthetic.frameCount = options.frames;

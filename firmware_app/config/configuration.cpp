@@ -12,7 +12,7 @@
 #include "config/profiles.h"
 #include "config/suggestion.h"
 #include "firmware_app/config/configuration_sections.h"
-#include "firmware_app/config/former_keys.h"
+#include "firmware_app/config/renamed.h"
 #include "pipeline/engine/painter.h"
 #include "pipeline/styles/style_registry.h"
 
@@ -132,6 +132,9 @@ std::optional<TomlDocument> readProfile(Sections sections, const ConfigurationRe
 void checkName(const Sections& sections, std::string_view key, const std::string& name,
                std::string_view what, const std::vector<std::string>& names) {
   if (std::ranges::find(names, name) != names.end()) return;
+  if (const auto now = renamedValue(key, name)) {
+    throw sections.errorAt(key, fmt::format("{} is now \"{}\"", config::quoted(name), *now), {});
+  }
   throw sections.errorAt(
       key, "found " + config::foundText(name, names),
       fmt::format("{} of {}: {}", what, paintingOf(sections).style, config::listText(names)));
@@ -236,6 +239,11 @@ Configuration::Configuration(const ConfigurationRequest& request)
   checkLatency(sections_);
   given_ = sections_;
   applyLook(sections_);
+}
+
+const ParameterValues& CameraSettings::tableOf(const hal::CameraKind& kind) const {
+  const auto found = tables.find(kind.name);
+  return found == tables.end() ? kind.defaults : found->second;
 }
 
 CameraSettings Configuration::camera() const {

@@ -1,13 +1,17 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "config/parameter_values.h"
 #include "config/sections.h"
+#include "hal/camera_kind.h"
 #include "hal/error.h"
 #include "hal/outputs/registry.h"
 
@@ -23,11 +27,11 @@ struct CameraSettings {
   std::string gain = "device";
   std::string focus = "device";
   std::string whiteBalance = "device";
-  int seed = 1;  ///< of the synthetic camera, as all below
-  double exposureDriftStops = 0;
-  double whiteBalanceDrift = 0;  ///< a share
-  double readout = 0;            ///< of the frame period; 0: global shutter
-  double noise = 2.0;
+  /// The tables of the kinds of cameras, such as [camera.synthetic], by the kind's name. One that
+  /// is missing is at its defaults.
+  std::map<std::string, config::ParameterValues, std::less<>> tables;
+
+  const config::ParameterValues& tableOf(const hal::CameraKind& kind) const;
 };
 
 /// [painting]

@@ -10,10 +10,9 @@
 #include "config/parameter_table.h"
 #include "config/profiles.h"
 #include "firmware_app/config/control_text.h"
-#include "firmware_app/live/camera_selection.h"
+#include "firmware_app/config/renamed.h"
 #include "firmware_app/status_server/listen_address.h"
-#include "hal/cameras/synthetic/render/shot.h"
-#include "hal/outputs/registry.h"
+#include "hal/cameras/registry.h"
 #include "hal/pixel_format.h"
 #include "pipeline/engine/painter.h"
 #include "pipeline/styles/style_registry.h"
@@ -22,7 +21,6 @@ namespace pleinair::app {
 namespace {
 
 using config::choiceParameter;
-using config::integerParameter;
 using config::numberParameter;
 using config::ParameterTable;
 using config::pathListParameter;
@@ -84,22 +82,7 @@ const ParameterTable<CameraSettings>& cameraTable() {
       controlParameter("focus", &CameraSettings::focus, kShareText,
                        "Of a device, as a share of its range; \"device\": as it is set."),
       controlParameter("white_balance", &CameraSettings::whiteBalance, kWhiteBalanceText,
-                       "Of a device, the light's colour temperature; \"device\": as it is set."),
-      integerParameter("seed", &CameraSettings::seed, {.min = 0},
-                       "Of the synthetic camera's world and path.", TakesEffect::kRestart),
-      numberParameter(
-          "noise", &CameraSettings::noise, {.min = 0, .max = 40, .unit = "8-bit levels"},
-          "Standard deviation of the synthetic camera's sensor.", TakesEffect::kRestart),
-      numberParameter("exposure_drift", &CameraSettings::exposureDriftStops,
-                      {.min = 0, .max = 2, .unit = "stops"},
-                      "How far the synthetic camera's brightness wanders.", TakesEffect::kRestart),
-      numberParameter(
-          "white_balance_drift", &CameraSettings::whiteBalanceDrift, {.min = 0, .max = 0.5},
-          "How far its red and blue wander against each other, as a share.", TakesEffect::kRestart),
-      numberParameter("readout", &CameraSettings::readout, {.min = 0, .max = 1},
-                      "The share of a frame's time that its rolling shutter takes; 0: all rows at "
-                      "once.",
-                      TakesEffect::kRestart)};
+                       "Of a device, the light's colour temperature; \"device\": as it is set.")};
   return kTable;
 }
 
@@ -189,6 +172,10 @@ const ParameterTable<RuntimeSettings>& runtimeTable() {
   return kTable;
 }
 
+std::string cameraSection(const hal::CameraKind& kind) {
+  return fmt::format("camera.{}", kind.name);
+}
+
 const ParameterTable<StatusSettings>& statusTable() {
   static const ParameterTable<StatusSettings> kTable{textParameter(
       "listen", &StatusSettings::listen, std::string(kAllowedListen),
@@ -201,20 +188,24 @@ const ParameterTable<StatusSettings>& statusTable() {
 
 std::vector<std::string> cameraNames() {
   std::vector<std::string> names{"auto"};
-  for (const hal::SelectableBackend& each : deviceBackends()) {
-    names.emplace_back(each.backend->name());
-  }
-  names.emplace_back("synthetic");
-  for (const std::string_view shot : hal::syntheticShots()) {
-    names.push_back(fmt::format("synthetic:{}", shot));
+  for (const hal::CameraKind* kind : hal::cameraKinds()) {
+    if (kind->naming == hal::CameraNaming::kPaths) continue;
+    names.emplace_back(kind->name);
+    if (kind->naming != hal::CameraNaming::kListed) continue;
+    const auto cameras = kind->open(kind->defaults, {})->list();
+    if (!cameras) continue;
+    for (const hal::CameraDescription& each : *cameras) {
+      names.push_back(fmt::format("{}:{}", kind->name, each.identity.id));
+    }
   }
   return names;
 }
 
 std::vector<std::string> openCameraNames() {
   std::vector<std::string> names;
-  for (const hal::SelectableBackend& each : deviceBackends()) {
-    names.push_back(fmt::format("{}:ID", each.backend->name()));
+  for (const hal::CameraKind* kind : hal::cameraKinds()) {
+    if (kind->naming != hal::CameraNaming::kDevices) continue;
+    names.push_back(fmt::format("{}:ID", kind->name));
   }
   names.emplace_back("serial:NUMBER");
   return names;
@@ -227,17 +218,20 @@ bool isCameraName(std::string_view source) {
 config::Sections defaultSections() {
   std::vector<config::Section> sections{
       {"", "", profileTable().defaults()},
-      {"camera", "What is painted live and recorded.", cameraTable().defaults()},
-      {"painting", "What is made of it.", paintingTable().defaults()},
-      {"output", "Where it goes.", outputTable().defaults()},
-      {"runtime", "How it keeps up.", runtimeTable().defaults()},
-      {"status", "What is told of the running program.", statusTable().defaults()}};
-  std::ranges::move(outputKindSections(), std::back_inserter(sections));
+      {"camera", "What is painted live and recorded.", cameraTable().defaults()}};
+  for (const hal::CameraKind* kind : hal::cameraKinds()) {
+    sections.push_back({cameraSection(*kind),
+                        fmt::format("The camera {}: {}.", kind->name, kind->help), kind->defaults});
+  }
+  sections.push_back({"painting", "What is made of it.", paintingTable().defaults()});
+  sections.push_back({"output", "Where it goes.", outputTable().defaults()});
+  sections.push_back({"runtime", "How it keeps up.", runtimeTable().defaults()});
+  sections.push_back({"status", "What is told of the running program.", statusTable().defaults()});
   for (const styles::StyleInfo& info : styles::styleInfos()) {
     sections.push_back({fmt::format("style.{}", info.name),
                         fmt::format("The style {}: {}.", info.name, info.help), info.defaults});
   }
-  return config::Sections(std::move(sections), std::string(kVariablePrefix));
+  return config::Sections(std::move(sections), std::string(kVariablePrefix), renamedKeys());
 }
 
 std::filesystem::path profileOf(const config::Sections& sections) {
@@ -245,7 +239,11 @@ std::filesystem::path profileOf(const config::Sections& sections) {
 }
 
 CameraSettings cameraOf(const config::Sections& sections) {
-  return cameraTable().typed(sections.values("camera"));
+  CameraSettings settings = cameraTable().typed(sections.values("camera"));
+  for (const hal::CameraKind* kind : hal::cameraKinds()) {
+    settings.tables.emplace(kind->name, sections.values(cameraSection(*kind)));
+  }
+  return settings;
 }
 
 PaintingSettings paintingOf(const config::Sections& sections) {

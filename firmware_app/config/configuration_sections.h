@@ -24,9 +24,8 @@ std::vector<std::string> openCameraNames();
 /// Whether camera.source is one of either; else it is a recording's path.
 bool isCameraName(std::string_view source);
 
-/// Every key that the program knows, at its default: the profile, [camera], [painting], [output],
-/// [status], an [output.…] for each kind of outputs that has options and a [style.…] for each
-/// style.
+/// Every key that the program knows, at its default: the profile, [camera] with a [camera.…] for
+/// each kind, [painting], [output], [runtime], [status] and a [style.…] for each style.
 config::Sections defaultSections();
 
 // The settings in force of what defaultSections() made.

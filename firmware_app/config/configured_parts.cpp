@@ -1,8 +1,8 @@
 #include "firmware_app/config/configured_parts.h"
 
 #include <algorithm>
-#include <chrono>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -11,7 +11,8 @@
 #include "config/suggestion.h"
 #include "firmware_app/config/configuration_sections.h"
 #include "firmware_app/config/control_text.h"
-#include "hal/cameras/synthetic/open_synthetic.h"
+#include "hal/cameras/registry.h"
+#include "hal/cameras/synthetic/synthetic_kind.h"
 #include "hal/error.h"
 #include "pipeline/scene/description/scene_file.h"
 #include "pipeline/styles/style_registry.h"
@@ -19,8 +20,18 @@
 namespace pleinair::app {
 namespace {
 
-hal::Result<std::optional<hal::SyntheticShot>> shotOf(const CameraSettings& camera) {
-  return hal::syntheticShotOf(camera.source.string(), "camera.source");
+/// "synthetic" of "synthetic:pan" and of "synthetic".
+std::string_view wordBeforeColon(std::string_view source) {
+  return source.substr(0, std::min(source.find(':'), source.size()));
+}
+
+/// "synthetic:nope": a kind whose cameras have fixed names has none of this one.
+bool isUnlistedCamera(const std::string& source) {
+  return !isCameraName(source) &&
+         std::ranges::any_of(hal::cameraKinds(), [&](const hal::CameraKind* kind) {
+           return kind->naming == hal::CameraNaming::kListed &&
+                  source.starts_with(std::string(kind->name) + ":");
+         });
 }
 
 hal::FrameSize frameSizeOf(const config::PixelSize& size) {
@@ -32,7 +43,7 @@ bool isSlipOfOpenName(const std::string& name) {
   const std::size_t colon = name.find(':');
   if (colon == std::string::npos) return false;
   std::vector<std::string> words;
-  for (const std::string& each : openCameraNames()) words.push_back(each.substr(0, each.find(':')));
+  for (const std::string& each : openCameraNames()) words.emplace_back(wordBeforeColon(each));
   return config::nearest(name.substr(0, colon), words).has_value();
 }
 
@@ -67,7 +78,7 @@ void refuseSlipOfCamera(const Configuration& configuration) {
   const std::filesystem::path source = configuration.camera().source;
   const std::string name = source.filename().string();  // a file's folder may be before it
   std::error_code ignored;
-  if (!shotOf(configuration.camera())) {
+  if (isUnlistedCamera(source.string())) {
     throw configuration.errorAt("camera.source",
                                 "found " + config::foundText(source.string(), names),
                                 config::listText(names));
@@ -84,37 +95,39 @@ bool isRecording(const CameraSettings& camera) {
 }
 
 bool isSynthetic(const CameraSettings& camera) {
-  return shotOf(camera).value_or(std::nullopt).has_value();
+  const std::string source = camera.source.string();
+  return isCameraName(source) && wordBeforeColon(source) == hal::synthetic::cameraKind().name;
+}
+
+hal::CameraBackendOptions backendOptionsOf(const CameraSettings& camera, hal::Pacing pacing) {
+  return {.size = frameSizeOf(camera.size),
+          .framePeriod = hal::fromSeconds(1.0 / camera.framesPerSecond),
+          .pacing = pacing};
 }
 
 hal::SyntheticOptions syntheticOptions(const CameraSettings& camera) {
-  const std::chrono::duration<double> period(1.0 / camera.framesPerSecond);
-  const auto rowTime =
-      period * (camera.readout / std::max(camera.size.height, 1));  // rounded down: it must fit
-  return {.size = frameSizeOf(camera.size),
-          .framePeriod = std::chrono::round<hal::Duration>(period),
-          .shot = shotOf(camera).value_or(std::nullopt).value_or(hal::SyntheticOptions().shot),
-          .seed = static_cast<std::uint32_t>(camera.seed),
-          .noiseSigma = camera.noise,
-          .exposureDriftStops = camera.exposureDriftStops,
-          .whiteBalanceDrift = camera.whiteBalanceDrift,
-          .rowTime = std::chrono::duration_cast<hal::Duration>(rowTime)};
+  hal::SyntheticOptions options =
+      hal::synthetic::optionsOf(camera.tableOf(hal::synthetic::cameraKind()),
+                                backendOptionsOf(camera, hal::Pacing::kStepped));
+  const std::string source = camera.source.string();
+  const std::size_t colon = source.find(':');
+  if (isSynthetic(camera) && colon != std::string::npos) {
+    options.shot = hal::syntheticShotNamed(source.substr(colon + 1)).value();
+  }
+  return options;
 }
 
 hal::StreamRequest streamRequestOf(const CameraSettings& camera) {
-  const std::chrono::duration<double> period(1.0 / camera.framesPerSecond);
   hal::StreamRequest request{
       .size = frameSizeOf(camera.size),
-      .framePeriod = std::chrono::round<hal::Duration>(period),
+      .framePeriod = hal::fromSeconds(1.0 / camera.framesPerSecond),
       .controls = {.gain = kShareText.parsed(camera.gain),
                    .focus = kShareText.parsed(camera.focus),
                    .whiteBalance = kWhiteBalanceText.parsed(camera.whiteBalance)}};
   if (const auto exposure = kExposureText.parsed(camera.exposure)) {
-    using Milliseconds = std::chrono::duration<double, std::milli>;
     const double* time = std::get_if<double>(&*exposure);
-    request.controls.exposure = time == nullptr
-                                    ? hal::AutomaticOr<hal::Duration>(hal::Automatic{})
-                                    : std::chrono::round<hal::Duration>(Milliseconds(*time));
+    request.controls.exposure = time == nullptr ? hal::AutomaticOr<hal::Duration>(hal::Automatic{})
+                                                : hal::fromMilliseconds(*time);
   }
   return request;
 }

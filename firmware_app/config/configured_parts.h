@@ -28,6 +28,10 @@ void refuseSlipOfCamera(const Configuration& configuration);
 bool isSynthetic(const CameraSettings& camera);
 /// Whether the source is a path, and no camera's name.
 bool isRecording(const CameraSettings& camera);
+/// What a back end is made with, besides its kind's table.
+hal::CameraBackendOptions backendOptionsOf(const CameraSettings& camera, hal::Pacing pacing);
+/// The synthetic camera's options, stepped, whatever the source; the shot is the source's where it
+/// names one.
 hal::SyntheticOptions syntheticOptions(const CameraSettings& camera);
 /// What a device is asked for: size, rate and controls.
 hal::StreamRequest streamRequestOf(const CameraSettings& camera);

@@ -1,15 +1,15 @@
 #include "firmware_app/live/camera_selection.h"
 
+#include <cstddef>
 #include <filesystem>
+#include <span>
 #include <system_error>
 #include <utility>
 
 #include "config/suggestion.h"
 #include "firmware_app/config/configuration_sections.h"
 #include "firmware_app/config/configured_parts.h"
-#include "hal/cameras/recording/recording_backend.h"
-#include "hal/cameras/synthetic/synthetic_backend.h"
-#include "hal/cameras/v4l2/v4l2_backend.h"
+#include "hal/cameras/registry.h"
 #include "hal/error.h"
 #include "hal/numbered_path.h"
 #include "hal/supervisor/worker_camera.h"
@@ -22,24 +22,23 @@ bool namesRecording(const std::filesystem::path& path) {
   return std::filesystem::exists(path, ignored) || hal::looksNumbered(path);
 }
 
-hal::SelectableBackend synthetic(const CameraSettings& settings) {
-  hal::SyntheticOptions options = syntheticOptions(settings);
-  options.pacing = hal::Pacing::kRealTime;
-  return {.backend = std::make_shared<hal::SyntheticBackend>(options), .isDevice = false};
-}
-
-hal::SelectableBackend recordings() {
-  const hal::RecordingOptions options{.pacing = hal::Pacing::kRealTime, .loop = true};
-  return {.backend = std::make_shared<hal::RecordingBackend>(options), .isDevice = false};
-}
-
 /// As the selector has it.
-std::string choiceOf(const CameraSettings& settings) {
+std::string choiceOf(const CameraSettings& settings,
+                     std::span<const hal::SelectableBackend> backends) {
   const std::string source = settings.source.string();
-  if (isSynthetic(settings)) {
-    return "synthetic:" + std::string(hal::toString(syntheticOptions(settings).shot));
+  const auto kinds = hal::cameraKinds();
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    const hal::CameraKind& kind = *kinds[i];
+    // Of cameras that are always there, the first is meant by name: its errors are its own then.
+    if (kind.naming == hal::CameraNaming::kListed && source == kind.name) {
+      const auto cameras = backends[i].backend->list();
+      if (cameras && !cameras->empty()) return source + ":" + cameras->front().identity.id;
+    }
+    if (kind.naming == hal::CameraNaming::kPaths && isRecording(settings) &&
+        namesRecording(settings.source)) {
+      return std::string(kind.name) + ":" + source;
+    }
   }
-  if (isRecording(settings) && namesRecording(settings.source)) return "recording:" + source;
   return source;
 }
 
@@ -54,15 +53,24 @@ hal::Error noCamera(const std::string& source) {
 }  // namespace
 
 std::vector<hal::SelectableBackend> deviceBackends() {
-  return {{.backend = std::make_shared<hal::v4l2::V4l2Backend>()}};
+  std::vector<hal::SelectableBackend> backends;
+  for (const hal::CameraKind* kind : hal::cameraKinds()) {
+    if (kind->naming != hal::CameraNaming::kDevices) continue;
+    backends.push_back({.backend = kind->open(kind->defaults, {})});
+  }
+  return backends;
 }
 
 std::unique_ptr<hal::CameraSelector> makeCameraSelector(const CameraSettings& settings,
                                                         hal::Clock& clock) {
-  std::vector<hal::SelectableBackend> backends = deviceBackends();
-  backends.push_back(synthetic(settings));
-  backends.push_back(recordings());
-  auto selector = std::make_unique<hal::CameraSelector>(std::move(backends), choiceOf(settings),
+  const hal::CameraBackendOptions options = backendOptionsOf(settings, hal::Pacing::kRealTime);
+  std::vector<hal::SelectableBackend> backends;
+  for (const hal::CameraKind* kind : hal::cameraKinds()) {
+    backends.push_back({.backend = kind->open(settings.tableOf(*kind), options),
+                        .isDevice = kind->naming == hal::CameraNaming::kDevices});
+  }
+  std::string choice = choiceOf(settings, backends);
+  auto selector = std::make_unique<hal::CameraSelector>(std::move(backends), std::move(choice),
                                                         clock, hal::onThreadsOfTheirOwn());
   if (!selector->check()) throw hal::Failure(noCamera(settings.source.string()));
   return selector;

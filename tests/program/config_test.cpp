@@ -178,7 +178,8 @@ TEST_F(ConfigSubcommand, ALookIsItsValues) {
 }
 
 TEST_F(ConfigSubcommand, RecordTakesItsOptionsFromTheSiteFile) {
-  const std::string site = write("site.toml", "[camera]\nsize = \"64x48\"\nnoise = 0\n");
+  const std::string site =
+      write("site.toml", "[camera]\nsize = \"64x48\"\n[camera.synthetic]\nnoise = 0\n");
   const ProgramRun run =
       runProgram({"record", "--config", site, "--frames", "1", "--output", path("out.png")});
   ASSERT_EQ(run.status, 0) << run.error;

@@ -153,9 +153,9 @@ TEST_F(Render, WritesPosesALineAFrame) {
 
 TEST_F(Render, RecordsTheShotsOfTheWorkbench) {
   const auto record = [this](const std::string& shot, const std::string& name) {
-    const ProgramRun run = runProgram({"record", "--camera", "synthetic:" + shot, "--frames", "2",
-                                       "--set", "camera.rate=1", "--set", "camera.noise=0",
-                                       "--size", "64x48", "--output", path(name)});
+    const ProgramRun run = runProgram(
+        {"record", "--camera", "synthetic:" + shot, "--frames", "2", "--set", "camera.rate=1",
+         "--set", "camera.synthetic.noise=0", "--size", "64x48", "--output", path(name)});
     EXPECT_EQ(run.status, 0) << run.error;
     return run;
   };

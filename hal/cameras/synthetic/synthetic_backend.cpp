@@ -4,8 +4,6 @@
 #include <iterator>
 #include <utility>
 
-#include "hal/cameras/synthetic/open_synthetic.h"
-
 namespace pleinair::hal {
 namespace {
 
@@ -48,11 +46,16 @@ Result<std::vector<CameraDescription>> SyntheticBackend::list() {
 }
 
 std::unique_ptr<Camera> SyntheticBackend::make(const std::string& id, Clock& clock) {
-  const std::string name = "synthetic:" + id;
-  Result<std::optional<SyntheticShot>> shot = syntheticShotOf(name, name);
-  if (!shot) return std::make_unique<NoShot>(std::move(shot.error()));
+  const std::optional<SyntheticShot> shot = syntheticShotNamed(id);
+  if (!shot) {
+    return std::make_unique<NoShot>(
+        Error{.kind = ErrorKind::kInvalidArgument,
+              .subject = "synthetic:" + id,
+              .problem = "the synthetic camera has no shot \"" + id + "\"",
+              .remedy = "allowed: " + syntheticShotNames()});
+  }
   SyntheticOptions options = options_;
-  options.shot = shot->value();
+  options.shot = *shot;
   return std::make_unique<SyntheticCamera>(options, clock);
 }
 

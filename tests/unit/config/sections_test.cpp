@@ -1,5 +1,6 @@
 #include "config/sections.h"
 
+#include <array>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -179,6 +180,30 @@ TEST(Sections, AttributesThePlaceOfAValue) {
   EXPECT_EQ(inFile.file(), "a:b.toml");
   EXPECT_EQ(inFile.line(), 1);
   EXPECT_STREQ(all.errorAt("camera.seed", "is no good", "").what(), "--seed: is no good");
+}
+
+TEST(Sections, RefuseARenamedKeyInEveryLayerAndNameTheNewOne) {
+  static constexpr std::array<RenamedKey, 2> kRenamed{
+      {{"camera.random", "camera.seed"}, {"style.oil.width", "style.oil.brush-size"}}};
+  const Sections plain = sections();
+  Sections all({plain.all().begin(), plain.all().end()}, "APP_", kRenamed);
+  EXPECT_EQ(thrownBy([&] {
+              all.apply(TomlDocument::parseText("[camera]\nrate = 15\nrandom = 1\n", "site.toml"));
+            }),
+            "site.toml:3: camera.random: is now camera.seed");
+  EXPECT_EQ(thrownBy([&] { all.apply("camera.random", "1", "--set camera.random"); }),
+            "--set camera.random: is now camera.seed");
+  EXPECT_EQ(thrownBy([&] { all.apply("width", "1", "--set width", "style.oil"); }),
+            "--set width: is now style.oil.brush-size");
+  EXPECT_EQ(thrownBy([&] {
+              all.apply(EnvironmentVariable{"APP_CAMERA_RANDOM", "1"});
+            }),
+            "APP_CAMERA_RANDOM: is now APP_CAMERA_SEED");
+  EXPECT_EQ(thrownBy([&] {
+              all.apply(EnvironmentVariable{"APP_STYLE_OIL_WIDTH", "1"});
+            }),
+            "APP_STYLE_OIL_WIDTH: is now APP_STYLE_OIL_BRUSH_SIZE");
+  EXPECT_EQ(all.values("camera").text("seed"), "1") << "nothing is taken from it";
 }
 
 TEST(Sections, ForgetAKey) {

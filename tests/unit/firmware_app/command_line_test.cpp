@@ -146,6 +146,9 @@ TEST(CommandLine, ChecksWhatRunIsGivenBeforeItOpensAnything) {
   expectRefused({"run", "--output", "out.avi"}, "out.avi: does not say what to write");
   expectRefused({"run", "--output", "-"}, "--output: found \"-\"");
   expectRefused({"run", "--snapshots", "/no-such-folder"}, "/no-such-folder: is not a folder");
+  expectRefused({"run", "--stills", "/tmp"},
+                "--stills is now --snapshots; see pleinair run --help");
+  expectRefused({"run", "--stills=/tmp"}, "--stills is now --snapshots; see pleinair run --help");
   expectRefused({"run", "--frames", "0"}, "--frames");
   expectRefused({"run", "--size", "0x0"}, "--size");
   for (const char* option : {"--camera", "--output", "--scene", "--style", "--view", "--set",

@@ -35,17 +35,17 @@ TEST_F(ConfigurationTest, EveryProfileOfTheProgramLoads) {
 }
 
 TEST_F(ConfigurationTest, TheStrongestLayerNamesTheProfile) {
-  const fs::path one = write("1.toml", "[camera]\nseed = 1\n");
-  const fs::path two = write("2.toml", "[camera]\nseed = 2\n");
-  const fs::path three = write("3.toml", "[camera]\nseed = 3\n");
+  const fs::path one = write("1.toml", "[camera.synthetic]\nseed = 1\n");
+  const fs::path two = write("2.toml", "[camera.synthetic]\nseed = 2\n");
+  const fs::path three = write("3.toml", "[camera.synthetic]\nseed = 3\n");
   request_.siteFile = write("s.toml", "profile = \"1.toml\"\n");  // beside it
-  EXPECT_EQ(resolved().origin("camera.seed"), one.string() + ":2");
+  EXPECT_EQ(resolved().origin("camera.synthetic.seed"), one.string() + ":2");
   request_.environment = {{"PLEINAIR_PROFILE", two.string()}};
-  EXPECT_EQ(resolved().origin("camera.seed"), two.string() + ":2");
+  EXPECT_EQ(resolved().origin("camera.synthetic.seed"), two.string() + ":2");
   request_.profile = three.string();
-  EXPECT_EQ(resolved().origin("camera.seed"), three.string() + ":2");
+  EXPECT_EQ(resolved().origin("camera.synthetic.seed"), three.string() + ":2");
   request_.profile = "none";
-  EXPECT_EQ(resolved().origin("camera.seed"), "default");
+  EXPECT_EQ(resolved().origin("camera.synthetic.seed"), "default");
 }
 
 TEST_F(ConfigurationTest, ProfilesNameTheirMistakes) {
@@ -71,22 +71,22 @@ TEST_F(ConfigurationTest, ProfilesNameTheirMistakes) {
 // ---- the site file
 
 TEST_F(ConfigurationTest, FindsTheSiteFile) {
-  const fs::path machine = write("machine.toml", "[camera]\nseed = 1\n");
-  const fs::path variable = write("variable.toml", "[camera]\nseed = 2\n");
-  const fs::path option = write("option.toml", "[camera]\nseed = 3\n");
+  const fs::path machine = write("machine.toml", "[camera.synthetic]\nseed = 1\n");
+  const fs::path variable = write("variable.toml", "[camera.synthetic]\nseed = 2\n");
+  const fs::path option = write("option.toml", "[camera.synthetic]\nseed = 3\n");
   request_.defaultSiteFile = machine;
-  EXPECT_EQ(resolved().camera().seed, 1);
+  EXPECT_EQ(seedOf(resolved()), "1");
   EXPECT_THAT(resolved().files(), testing::ElementsAre(machine));
   request_.environment = {{"PLEINAIR_CONFIG", variable.string()}};
-  EXPECT_EQ(resolved().camera().seed, 2);
+  EXPECT_EQ(seedOf(resolved()), "2");
   request_.siteFile = option;
-  EXPECT_EQ(resolved().camera().seed, 3);
+  EXPECT_EQ(seedOf(resolved()), "3");
 }
 
 TEST_F(ConfigurationTest, AnEmptyVariableMeansNoSiteFile) {
-  request_.defaultSiteFile = write("machine.toml", "[camera]\nseed = 5\n");
+  request_.defaultSiteFile = write("machine.toml", "[camera.synthetic]\nseed = 5\n");
   request_.environment = {{"PLEINAIR_CONFIG", ""}};
-  EXPECT_EQ(resolved().camera().seed, 1);
+  EXPECT_EQ(seedOf(resolved()), "1");
 }
 
 TEST_F(ConfigurationTest, ASiteFileThatIsNamedMustBeReadable) {
@@ -103,13 +103,14 @@ TEST_F(ConfigurationTest, ASiteFileThatIsNamedMustBeReadable) {
 }
 
 TEST_F(ConfigurationTest, TakesByteOrderMarksAndCarriageReturns) {
-  request_.siteFile =
-      write("s.toml", "\xef\xbb\xbf# a site\r\n[camera]\r\nseed = 7 # of it\r\nrate = 5\r\n");
+  request_.siteFile = write(
+      "s.toml", "\xef\xbb\xbf# a site\r\n[camera]\r\nsize = \"64x48\" # of it\r\nrate = 5\r\n");
   const Configuration configuration = resolved();
-  EXPECT_EQ(configuration.camera().seed, 7);
+  EXPECT_EQ(configuration.camera().size, (config::PixelSize{64, 48}));
   EXPECT_EQ(configuration.origin("camera.rate"), path("s.toml").string() + ":4");
-  request_.siteFile = write("s.toml", "\xef\xbb\xbf\r\n\r\n[camera]\r\nsede = 7\r\n");
-  EXPECT_THAT(refusal(), StartsWith(path("s.toml").string() + ":4: camera.sede: unknown key"));
+  request_.siteFile = write("s.toml", "\xef\xbb\xbf\r\n\r\n[camera.synthetic]\r\nsede = 7\r\n");
+  EXPECT_THAT(refusal(),
+              StartsWith(path("s.toml").string() + ":4: camera.synthetic.sede: unknown key"));
   request_.siteFile = write("s.toml", "");
   EXPECT_EQ(refusal(), "(nothing thrown)");
 }
@@ -120,9 +121,10 @@ TEST_F(ConfigurationTest, RefusesWhatIsNoTomlOrTooMuchOfIt) {
     return refusal();
   };
   const std::string name = path("s.toml").string();
-  EXPECT_THAT(refused("[camera]\nseed = 1\nseed = 2\n"), StartsWith(name + ":3: not TOML: "));
+  EXPECT_THAT(refused("[camera.synthetic]\nseed = 1\nseed = 2\n"),
+              StartsWith(name + ":3: not TOML: "));
   EXPECT_THAT(refused("[camera\n"), StartsWith(name + ":1: not TOML: "));
-  EXPECT_THAT(refused(std::string("[camera]\nseed\0 = 1\n", 19)),
+  EXPECT_THAT(refused(std::string("[camera.synthetic]\nseed\0 = 1\n", 29)),
               StartsWith(name + ":2: not TOML"));
   EXPECT_THAT(refused("a = " + std::string(200'000, '[')), HasSubstr("nested too deeply"));
   EXPECT_THAT(refused(std::string(100'000, 'a') + " = 1\n"), HasSubstr("unknown key"));

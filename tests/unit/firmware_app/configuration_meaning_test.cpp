@@ -97,7 +97,7 @@ TEST_F(ConfigurationTest, TheShortFormKeepsALookOpen) {
 
 TEST_F(ConfigurationTest, TellsEveryKindOfOrigin) {
   request_.profile = "kiosk";
-  request_.siteFile = write("s.toml", "[camera]\nseed = 5\n");
+  request_.siteFile = write("s.toml", "[camera.synthetic]\nseed = 5\n");
   request_.environment = {{"PLEINAIR_CAMERA_RATE", "12.5"}};
   request_.options = {{"painting.look", "wet_in_wet", "--look"}};
   request_.set = {"wobble=0.1"};
@@ -163,12 +163,12 @@ TEST_F(ConfigurationTest, BecomesAPaintersOptions) {
 TEST_F(ConfigurationTest, BecomesASyntheticCamerasOptions) {
   request_.set = {"camera.rate=25",
                   "camera.size=320x240",
-                  "camera.seed=7",
-                  "camera.noise=0",
+                  "camera.synthetic.seed=7",
+                  "camera.synthetic.noise=0",
                   "camera.source=synthetic:roll",
-                  "camera.exposure_drift=0.5",
-                  "camera.white_balance_drift=0.1",
-                  "camera.readout=0.5"};
+                  "camera.synthetic.exposure_drift=0.5",
+                  "camera.synthetic.white_balance_drift=0.1",
+                  "camera.synthetic.readout=0.5"};
   const CameraSettings camera = resolved().camera();
   EXPECT_TRUE(isSynthetic(camera));
   const hal::SyntheticOptions options = syntheticOptions(camera);

@@ -95,11 +95,11 @@ TEST_F(ConfigurationTest, OfEachPairTheStrongerLayerWins) {
 }
 
 TEST_F(ConfigurationTest, LayersLeaveOtherKeysAlone) {
-  request_.profile = write("p.toml", "[camera]\nrate = 10\nseed = 5\n").string();
-  request_.siteFile = write("s.toml", "[camera]\nseed = 6\n");
-  const CameraSettings camera = resolved().camera();
-  EXPECT_EQ(camera.framesPerSecond, 10);
-  EXPECT_EQ(camera.seed, 6);
+  request_.profile =
+      write("p.toml", "[camera]\nrate = 10\n[camera.synthetic]\nseed = 5\n").string();
+  request_.siteFile = write("s.toml", "[camera.synthetic]\nseed = 6\n");
+  EXPECT_EQ(resolved().camera().framesPerSecond, 10);
+  EXPECT_EQ(seedOf(resolved()), "6");
 }
 
 // ---- looks and styles
@@ -194,7 +194,7 @@ TEST_F(ConfigurationTest, SetIsOfTheStyleThatTheCommandLineChooses) {
   request_.set = {"cell_size=20", "painting.style=none"};
   EXPECT_THAT(refusal(),
               StartsWith("--set cell_size: unknown key (did you mean "
-                         "\"style.watercolor.cell_size\"?), allowed: camera.…, painting.…, "));
+                         "\"style.watercolor.cell_size\"?), allowed: camera.…, camera.synthetic.…, "));
 }
 
 TEST_F(ConfigurationTest, SetNamesItsMistakes) {

@@ -8,6 +8,7 @@
 
 #include "config/config_error.h"
 #include "firmware_app/config/configuration.h"
+#include "hal/cameras/synthetic/synthetic_kind.h"
 #include "tests/support/temporary_folder.h"
 
 namespace pleinair::app {
@@ -25,6 +26,11 @@ class ConfigurationTest : public testing::Test {
   }
 
   Configuration resolved() const { return Configuration(request_); }
+
+  /// [camera.synthetic]'s seed.
+  static std::string seedOf(const Configuration& configuration) {
+    return configuration.camera().tableOf(hal::synthetic::cameraKind()).text("seed");
+  }
 
   /// What the error says; "(nothing thrown)" if there is none.
   std::string refusal() const {

@@ -118,6 +118,7 @@ TEST(DocumentedFiles, GuideToTheConfigurationShowsTheMessagesOfMistakes) {
   EXPECT_THAT(guide, testing::HasSubstr(resolved("\n\n\n\n\n[painting]\nstlye = \"none\"\n")));
   EXPECT_THAT(guide, testing::HasSubstr(resolved("\ncell_size = 8\n")));
   EXPECT_THAT(guide, testing::HasSubstr(resolved("", {"cell_size=0"})));
+  EXPECT_THAT(guide, testing::HasSubstr(resolved("[output]\nstills = \".\"\n")));
 }
 
 }  // namespace

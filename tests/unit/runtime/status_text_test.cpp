@@ -61,6 +61,28 @@ TEST(StatusJson, HoldsEverything) {
   EXPECT_EQ(json["outputs"][0]["name"], "loopback");
   EXPECT_NEAR(json["outputs"][0]["latency"]["p95_ms"], 121.0, 0.1);
   EXPECT_EQ(json["healthy"], true);
+  EXPECT_EQ(json["uptime_s"], 90.0);
+  EXPECT_EQ(json["camera"]["state"], "streaming");
+  EXPECT_EQ(json["painting"]["stages"]["tracking"]["count"], 100);
+  EXPECT_EQ(json["outputs"][0]["state"], "taking");
+  EXPECT_EQ(json["outputs"][0]["ended"]["shown"], 100);
+  EXPECT_EQ(json["outputs"][0]["submitted"], 100);
+}
+
+TEST(StatusJson, LeavesOutWhatIsNotKnown) {
+  RuntimeStatus status = someStatus();
+  auto json = nlohmann::json::parse(statusJson(status, levels()));
+  EXPECT_FALSE(json["camera"].contains("last_loss"));
+  EXPECT_FALSE(json["outputs"][0].contains("last_failure"));
+  status.camera.camera.reset();
+  status.camera.lastLoss = "unplugged";
+  status.outputs[0].failure = hal::Error{.subject = "/dev/video50", .problem = "is gone"};
+  status.outputs[0].isFailed = true;
+  json = nlohmann::json::parse(statusJson(status, levels()));
+  EXPECT_FALSE(json["camera"].contains("id"));
+  EXPECT_EQ(json["camera"]["last_loss"], "unplugged");
+  EXPECT_EQ(json["outputs"][0]["last_failure"], "/dev/video50: is gone");
+  EXPECT_EQ(json["outputs"][0]["state"], "reopening");
 }
 
 TEST(StatusJson, SurvivesNamesThatAreNoText) {
@@ -87,13 +109,18 @@ TEST(StatusMetrics, AreInPrometheusFormat) {
     }
   }
   EXPECT_EQ(text.back(), '\n');
-  EXPECT_THAT(text, HasSubstr("pleinair_frames_total{outcome=\"replaced\"} 3\n"));
-  EXPECT_THAT(text, HasSubstr("pleinair_quality_level{level=\"high\"} 1\n"));
+  EXPECT_THAT(text, HasSubstr("pleinair_frames_ended_total{outcome=\"replaced\"} 3\n"));
+  EXPECT_THAT(text, HasSubstr("pleinair_painting_quality{quality=\"high\"} 1\n"));
+  EXPECT_THAT(text, HasSubstr("pleinair_output_latency_seconds_sum{output=\"loopback\"} 12.1\n"));
   EXPECT_THAT(text,
-              HasSubstr("pleinair_capture_to_present_seconds_sum{output=\"loopback\"} 12.1\n"));
-  EXPECT_THAT(
-      text,
-      HasSubstr("pleinair_capture_to_present_seconds{output=\"loopback\",quantile=\"0.95\"} 0.12"));
+              HasSubstr("pleinair_output_latency_seconds{output=\"loopback\",quantile=\"0.95\"} "
+                        "0.12"));
+  EXPECT_THAT(text, HasSubstr("pleinair_painting_stages_seconds_count{stage=\"tracking\"} 100\n"));
+  EXPECT_THAT(text, HasSubstr("pleinair_camera_state{state=\"backing off\"} 0\n"));
+  EXPECT_THAT(text, HasSubstr("pleinair_camera_state{state=\"streaming\"} 1\n"));
+  EXPECT_THAT(text, HasSubstr("pleinair_output_state{output=\"loopback\",state=\"taking\"} 1\n"));
+  EXPECT_THAT(text, HasSubstr("\npleinair_uptime_seconds 90\n"));
+  EXPECT_THAT(text, HasSubstr("\npleinair_healthy 1\n"));
 }
 
 TEST(StatusMetrics, EscapeLabels) {

@@ -1,10 +1,16 @@
 #include "firmware_app/live/camera_selection.h"
 
+#include <set>
+#include <string>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "firmware_app/config/configuration_sections.h"
 #include "firmware_app/config/configured_parts.h"
+#include "hal/cameras/recording/recording_kind.h"
+#include "hal/cameras/registry.h"
+#include "hal/cameras/synthetic/synthetic_kind.h"
 #include "hal/error.h"
 #include "tests/support/media_files.h"
 #include "tests/support/temporary_folder.h"
@@ -79,6 +85,49 @@ TEST(CameraSelection, EveryDeviceBackEndHasItsNames) {
     EXPECT_THAT(cameraNames(), Contains(name));
     EXPECT_THAT(openCameraNames(), Contains(name + ":ID"));
   }
+}
+
+TEST(CameraKinds, AreWhollyDescribedAndHaveEachATable) {
+  std::set<std::string> names;
+  const config::Sections sections = defaultSections();
+  for (const hal::CameraKind* kind : hal::cameraKinds()) {
+    EXPECT_TRUE(names.insert(std::string(kind->name)).second) << kind->name;
+    EXPECT_FALSE(kind->help.empty()) << kind->name;
+    EXPECT_EQ(sections.values("camera." + std::string(kind->name)), kind->defaults);
+    const auto backend = kind->open(kind->defaults, {});
+    EXPECT_EQ(backend->name(), kind->name);
+    EXPECT_TRUE(backend->list()) << kind->name;
+  }
+  EXPECT_THAT(names, testing::ElementsAre("recording", "synthetic", "v4l2"));
+}
+
+TEST(CameraSelection, TakesWhatAKindsOwnTableSays) {
+  hal::SteppedClock clock;
+  const hal::CameraKind& synthetic = hal::synthetic::cameraKind();
+  CameraSettings settings{.source = "synthetic", .size = {64, 48}};
+  settings.tables.emplace(synthetic.name,
+                          synthetic.defaults.with("shot", "roll").with("seed", "5"));
+  EXPECT_EQ(chosenCamera(settings, clock)->identity().id, "synthetic:roll:5");
+  settings.source = "synthetic:pan";
+  EXPECT_EQ(chosenCamera(settings, clock)->identity().id, "synthetic:pan:5");
+}
+
+TEST(CameraSelection, PlaysARecordingOnceAndAtTheConfiguredRateOfItsPictures) {
+  const support::TemporaryFolder folder;
+  support::writeMedia(folder.path() / "%02d.png", 3);
+  hal::SteppedClock clock;
+  const hal::CameraKind& recording = hal::recording::cameraKind();
+  CameraSettings settings{.source = folder.path()};
+  settings.tables.emplace(recording.name,
+                          recording.defaults.with("loop", "false").with("picture_rate", "10"));
+  const auto camera = chosenCamera(settings, clock);
+  const hal::TimePoint start = clock.now();
+  ASSERT_TRUE(camera->start({}));
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_TRUE(std::holds_alternative<hal::CapturedFrame>(camera->next(hal::kNoDeadline))) << i;
+    EXPECT_EQ(clock.now() - start, i * std::chrono::milliseconds(100));
+  }
+  EXPECT_TRUE(std::holds_alternative<hal::EndOfStream>(camera->next(hal::kNoDeadline)));
 }
 
 TEST(CameraSelection, NamesAreNoPaths) {

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "hal/camera_kind.h"
+#include "hal/cameras/synthetic/synthetic_camera.h"
+
+namespace pleinair::hal::synthetic {
+
+/// The simulated camera, by its shots. [camera.synthetic] has its keys (docs/workbench.md).
+const CameraKind& cameraKind();
+
+/// What [camera.synthetic] and what all cameras have in common come to.
+SyntheticOptions optionsOf(const config::ParameterValues& own, const CameraBackendOptions& options);
+
+}  // namespace pleinair::hal::synthetic

@@ -1,0 +1,258 @@
+#include "pipeline/runtime/metrics.h"
+
+#include <array>
+#include <utility>
+
+namespace pleinair::runtime {
+namespace {
+
+using Readings = std::vector<std::pair<std::string, MetricValue>>;
+
+Readings one(MetricValue value) {
+  Readings readings;
+  readings.emplace_back(std::string(), std::move(value));
+  return readings;
+}
+
+Readings textOf(const std::optional<hal::Error>& error) {
+  return error ? one(error->message()) : one({});
+}
+
+Readings byOutcome(const std::array<std::uint64_t, kOutcomes>& ended) {
+  Readings readings;
+  for (const Outcome outcome : allOutcomes()) {
+    readings.emplace_back(nameOf(outcome), ended.at(static_cast<std::size_t>(outcome)));
+  }
+  return readings;
+}
+
+Readings cameraText(const MetricMoment& moment, std::string hal::CameraIdentity::*member) {
+  const std::optional<hal::CameraIdentity>& camera = moment.status.camera.camera;
+  return camera ? one((*camera).*member) : one({});
+}
+
+StateReading cameraState(hal::CameraState current) {
+  StateReading state{.names = {}, .current = static_cast<std::size_t>(current)};
+  for (int i = 0; i <= static_cast<int>(hal::CameraState::kEnded); ++i) {
+    state.names.emplace_back(hal::toString(static_cast<hal::CameraState>(i)));
+  }
+  return state;
+}
+
+StateReading outputState(const OutputStage::Status& output) {
+  const std::size_t current = output.isFinal ? 2 : output.isFailed ? 1 : 0;
+  return {.names = {"taking", "reopening", "failed"}, .current = current};
+}
+
+Readings paintStages(const PaintStage::Status& painting) {
+  Readings readings;
+  for (const PaintStage::Stage& stage : painting.stages) {
+    readings.emplace_back(
+        stage.name, SummaryReading{.recent = stage.recent, .count = stage.count, .sum = stage.sum});
+  }
+  return readings;
+}
+
+// Short names for the declarations below.
+using Moment = const MetricMoment&;
+using enum MetricScope;
+using enum MetricType;
+constexpr MetricUnit kNoUnit = MetricUnit::kNone;
+constexpr MetricUnit kS = MetricUnit::kSeconds;
+constexpr MetricUnit kMs = MetricUnit::kMilliseconds;
+
+std::vector<Metric> programMetrics() {
+  return {
+      {kProgram, "uptime", "", kGauge, kS, "Time since the start.",
+       [](Moment m) { return one(m.status.uptime); }},
+      {kProgram, "healthy", "", kGauge, kNoUnit,
+       "Whether the camera streams and every output takes images, as in /healthz.",
+       [](Moment m) { return one(m.status.isHealthy()); }},
+  };
+}
+
+std::vector<Metric> cameraMetrics() {
+  return {
+      {kCamera, "state", "", kState, kNoUnit, "State of the camera (docs/cameras.md).",
+       [](Moment m) { return one(cameraState(m.status.camera.state)); }, "camera_streaming"},
+      {kCamera, "reason", "", kText, kNoUnit, "What the device did that led to the state.",
+       [](Moment m) { return one(m.status.camera.reason); }},
+      {kCamera, "frames_per_second", "", kGauge, kNoUnit, "Frames that arrived in the last second.",
+       [](Moment m) { return one(m.status.camera.perSecond); }},
+      {kCamera, "delivery_p50", "", kGauge, kMs,
+       "Median time from capture to arrival in the program.",
+       [](Moment m) { return one(m.status.camera.delay); }},
+      {kCamera, "opens", "", kCounter, kNoUnit, "Times that a camera was opened.",
+       [](Moment m) { return one(m.status.camera.opens); }},
+      {kCamera, "losses", "", kCounter, kNoUnit, "Times that the camera was lost.",
+       [](Moment m) { return one(m.status.camera.losses); }},
+      {kCamera, "stalls", "", kCounter, kNoUnit, "Times that the camera fell silent.",
+       [](Moment m) { return one(m.status.camera.stalls); }},
+      {kCamera, "last_loss", "", kText, kNoUnit, "Why the camera was lost the last time.",
+       [](Moment m) {
+         const std::string& why = m.status.camera.lastLoss;
+         return why.empty() ? one({}) : one(why);
+       }},
+      {kCamera, "backend", "", kText, kNoUnit, "Kind of the camera, such as v4l2.",
+       [](Moment m) { return cameraText(m, &hal::CameraIdentity::backend); }},
+      {kCamera, "id", "", kText, kNoUnit, "Stable id of the camera.",
+       [](Moment m) { return cameraText(m, &hal::CameraIdentity::id); }},
+      {kCamera, "description", "", kText, kNoUnit, "Name of the camera for people.",
+       [](Moment m) { return cameraText(m, &hal::CameraIdentity::description); }},
+      {kCamera, "format", "", kText, kNoUnit, "Pixel layout, width and height of its frames.",
+       [](Moment m) {
+         const std::optional<hal::StreamFormat>& format = m.status.camera.format;
+         return format ? one(format->frame) : one({});
+       }},
+  };
+}
+
+std::vector<Metric> paintingMetrics() {
+  return {
+      {kPainting, "frames_per_second", "", kGauge, kNoUnit, "Images painted in the last second.",
+       [](Moment m) { return one(m.status.painting.perSecond); }, "painted_per_second"},
+      {kPainting, "painted", "", kCounter, kNoUnit, "Images painted.",
+       [](Moment m) { return one(m.status.painting.painted); }, "painted_total"},
+      {kPainting, "load", "", kGauge, kNoUnit, "Share of its time budget that the last frame took.",
+       [](Moment m) { return one(m.status.painting.load); }, "load"},
+      {kPainting, "quality", "", kState, kNoUnit, "Quality level in force.",
+       [](Moment m) {
+         return one(StateReading{.names = m.qualityNames, .current = m.status.painting.quality});
+       },
+       "quality_level"},
+      {kPainting, "quality_lowered", "", kCounter, kNoUnit, "Times that quality was lowered.",
+       [](Moment m) { return one(m.status.painting.qualityLowered); }, "quality_lowered_total"},
+      {kPainting, "quality_raised", "", kCounter, kNoUnit, "Times that quality was raised.",
+       [](Moment m) { return one(m.status.painting.qualityRaised); }, "quality_raised_total"},
+      {kPainting, "latency", "", kGauge, kMs, "Latency in force: from capture to the due time.",
+       [](Moment m) { return one(m.status.painting.latency); }, "latency_target_seconds"},
+      {kPainting, "latency_configured", "", kGauge, kMs, "Latency that is configured.",
+       [](Moment m) { return one(m.status.painting.configuredLatency); }},
+      {kPainting, "latency_raised", "", kCounter, kNoUnit, "Times that the latency was raised.",
+       [](Moment m) { return one(m.status.painting.latencyRaised); }, "latency_raised_total"},
+      {kPainting, "latency_lowered", "", kCounter, kNoUnit,
+       "Times that the latency was lowered again.",
+       [](Moment m) { return one(m.status.painting.latencyLowered); }, "latency_lowered_total"},
+      {kPainting, "failures", "", kCounter, kNoUnit, "Frames that the painter refused.",
+       [](Moment m) { return one(m.status.painting.failures); }},
+      {kPainting, "context_losses", "", kCounter, kNoUnit, "Times that the GPU was lost.",
+       [](Moment m) { return one(m.status.painting.contextLosses); }, "context_losses_total"},
+      {kPainting, "last_failure", "", kText, kNoUnit, "The last refusal or loss of the GPU.",
+       [](Moment m) { return textOf(m.status.painting.failure); }},
+      {kPainting, "stages", "stage", kSummary, kMs,
+       "Time that each stage takes of a frame's latency.",
+       [](Moment m) { return paintStages(m.status.painting); }, "stage_seconds"},
+  };
+}
+
+std::vector<Metric> outputMetrics() {
+  return {
+      {kOutput, "name", "", kText, kNoUnit, "Name of the output, the label \"output\" in /metrics.",
+       [](Moment m) { return one(m.output->name); }},
+      {kOutput, "format", "", kText, kNoUnit, "Pixel layout, width and height of its images.",
+       [](Moment m) { return one(m.output->format); }},
+      {kOutput, "state", "", kState, kNoUnit, "Whether the output takes images.",
+       [](Moment m) { return one(outputState(*m.output)); }, "output_up"},
+      {kOutput, "frames_per_second", "", kGauge, kNoUnit,
+       "Images that the output took in the last second.",
+       [](Moment m) { return one(m.output->perSecond); }, "output_per_second"},
+      {kOutput, "latency", "", kSummary, kMs, "Time from capture until the output was given it.",
+       [](Moment m) {
+         return one(SummaryReading{.recent = m.output->latency,
+                                   .count = m.output->presented,
+                                   .sum = m.output->latencySum});
+       },
+       "capture_to_present_seconds"},
+      {kOutput, "writing", "", kSummary, kMs, "Time that the output takes for an image.",
+       [](Moment m) {
+         return one(SummaryReading{.recent = m.output->writing, .count = {}, .sum = {}});
+       }},
+      {kOutput, "submitted", "", kCounter, kNoUnit, "Images submitted to the output.",
+       [](Moment m) { return one(m.output->submitted); }},
+      {kOutput, "repeats", "", kCounter, kNoUnit,
+       "Of those, images without a camera frame of their own: during a pause.",
+       [](Moment m) { return one(m.output->repeats); }},
+      {kOutput, "waiting", "", kGauge, kNoUnit, "Images that are not due yet.",
+       [](Moment m) { return one(m.output->waiting); }},
+      {kOutput, "ended", "outcome", kCounter, kNoUnit, "Images of the output by outcome.",
+       [](Moment m) { return byOutcome(m.output->ended); }, "output_pictures_total"},
+      {kOutput, "failures", "", kCounter, kNoUnit, "Times that the output failed.",
+       [](Moment m) { return one(m.output->failures); }},
+      {kOutput, "last_failure", "", kText, kNoUnit, "Why the output failed the last time.",
+       [](Moment m) { return textOf(m.output->failure); }},
+  };
+}
+
+std::vector<Metric> frameMetrics() {
+  return {
+      {kFrames, "captured", "", kCounter, kNoUnit, "Frames that the camera made.",
+       [](Moment m) { return one(m.status.ledger.captured); }},
+      {kFrames, "in_flight", "", kGauge, kNoUnit, "Frames that have no outcome yet.",
+       [](Moment m) { return one(m.status.ledger.inFlight); }},
+      {kFrames, "ended", "outcome", kCounter, kNoUnit, "Frames by outcome; each has exactly one.",
+       [](Moment m) { return byOutcome(m.status.ledger.ended); }, "frames_total"},
+  };
+}
+
+/// How a scope begins a name, in JSON and in Prometheus' format.
+struct ScopeNames {
+  std::string_view json;
+  std::string_view prometheus;
+};
+
+ScopeNames namesOf(MetricScope scope) {
+  switch (scope) {
+    case kProgram:
+      return {"", ""};
+    case kCamera:
+      return {"camera.", "camera_"};
+    case kPainting:
+      return {"painting.", "painting_"};
+    case kOutput:
+      return {"outputs[].", "output_"};
+    case kFrames:
+      return {"frames.", "frames_"};
+  }
+  return {};
+}
+
+}  // namespace
+
+const std::vector<Metric>& allMetrics() {
+  static const std::vector<Metric> kMetrics = [] {
+    std::vector<Metric> all;
+    for (const auto& part :
+         {programMetrics(), cameraMetrics(), paintingMetrics(), outputMetrics(), frameMetrics()}) {
+      all.insert(all.end(), part.begin(), part.end());
+    }
+    return all;
+  }();
+  return kMetrics;
+}
+
+std::string jsonKey(const Metric& metric) {
+  std::string key(metric.name);
+  if (metric.type == kSummary) return key;  // its members carry the unit
+  if (metric.unit == kS) key += "_s";
+  if (metric.unit == kMs) key += "_ms";
+  return key;
+}
+
+std::string jsonPath(const Metric& metric) {
+  return std::string(namesOf(metric.scope).json) + jsonKey(metric);
+}
+
+std::string prometheusName(const Metric& metric) {
+  if (metric.type == kText) return {};
+  std::string name = std::string(namesOf(metric.scope).prometheus) + std::string(metric.name);
+  if (metric.unit != kNoUnit) name += "_seconds";
+  if (metric.type == kCounter) name += "_total";
+  return name;
+}
+
+std::string_view toString(MetricType type) {
+  constexpr std::array<std::string_view, 5> kNames{"text", "gauge", "counter", "state", "summary"};
+  return kNames.at(static_cast<std::size_t>(type));
+}
+
+}  // namespace pleinair::runtime
