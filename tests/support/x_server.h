@@ -22,6 +22,9 @@ class XServer {
   XServer(const XServer&) = delete;
   XServer& operator=(const XServer&) = delete;
 
+  /// Ends it at once, under whatever is shown on it.
+  void kill();
+
   /// For the environment variable DISPLAY.
   const std::string& display() const { return display_; }
   /// What is on the screen, as RGB8.
