@@ -22,6 +22,11 @@ class LivePainter final : public runtime::FramePainter {
   hal::Result<bool> take(std::size_t output, OutputFrame& picture) override;
 
  private:
+  /// Paints a blank frame at each level of quality with the first parameters, which the Painter,
+  /// warmed up with the defaults, does not know: what their look needs (programs, brushes) is made
+  /// here and not in the first frame.
+  void warmUp(const PainterOptions& options);
+
   Painter painter_;
   LiveControls& controls_;
   std::vector<int> readers_;

@@ -15,7 +15,10 @@
 #include <gtest/gtest.h>
 
 #include "firmware_app/cli/interrupt.h"
+#include "firmware_app/live/live_painter.h"
 #include "hal/error.h"
+#include "pipeline/styles/painterly/brushes.h"
+#include "pipeline/styles/style_registry.h"
 #include "tests/support/live_simulation.h"
 #include "tests/support/media_files.h"
 #include "tests/support/temporary_folder.h"
@@ -127,6 +130,22 @@ TEST_F(LivePaintingTest, GoesOnWhenTheCameraComesBack) {
 TEST_F(LivePaintingTest, SaysAtTheStartThatThereIsNoCamera) {
   EXPECT_THAT(paintFrom(-1, 3), testing::HasSubstr("is not there"));
   EXPECT_EQ(folder_.entryCount(), 0u) << "and leaves no file";
+}
+
+TEST(LivePainter, MakesTheBrushesOfItsFirstLookBeforeTheFirstFrame) {
+  const PaintParameters first{.style = styles::styleInfo("painterly").parametersOf("sketch"),
+                              .view = {}};
+  LiveControls controls(first);
+  LivePainter painter({.pictureSize = kFormat.size,
+                       .style = "painterly",
+                       .tracksTags = false,
+                       .expectedFormat = kFormat},
+                      {kFormat}, controls);
+  const std::uint64_t before = styles::brushesMade();
+  EXPECT_GT(before, 0U);
+  const hal::Image image = support::testPicture(kFormat, 1);
+  EXPECT_TRUE(painter.paint({.image = image.view()}, 0));
+  EXPECT_EQ(styles::brushesMade(), before);
 }
 
 TEST_F(LivePaintingTest, TellsItsStatusWhileItWaitsForACamera) {
