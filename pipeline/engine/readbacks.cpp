@@ -30,8 +30,9 @@ void Readbacks::submit(const gpu::Texture& picture, hal::FrameSize fullSize,
 
 hal::Result<bool> Readbacks::take(int number, OutputFrame& picture, bool wait) {
   Reader& reader = at(number);
-  const hal::Result<bool> taken = reader.ring.take(picture.image, wait);
-  if (!taken || !*taken) return taken;
+  const auto taken = reader.ring.take(picture.image, wait);
+  if (!taken) return tl::unexpected(taken.error());
+  if (*taken == present::ReadbackResult::kNoImage) return false;
   picture.sequence = reader.inFlight.front().sequence;
   picture.captureTime = reader.inFlight.front().captureTime;
   reader.inFlight.erase(reader.inFlight.begin());

@@ -42,9 +42,9 @@ FenceState Fence::state(GLuint64 timeoutNs, const GpuTestHook& testHook) const {
   }
 }
 
-hal::Result<bool> Fence::passed(const GpuTestHook& testHook) const {
+hal::Result<FenceState> Fence::poll(const GpuTestHook& testHook) const {
   const FenceState now = state(0, testHook);
-  if (now != FenceState::kFailed) return now == FenceState::kSignalled;
+  if (now != FenceState::kFailed) return now;
   return tl::unexpected(waitFailed());
 }
 

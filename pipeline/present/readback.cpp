@@ -143,14 +143,16 @@ void Readback::submit(const gpu::Texture& picture, FrameSize fullSize) {
   ++submitted_;
 }
 
-hal::Result<bool> Readback::take(hal::Image& image, bool wait) {
-  if (isEmpty()) return false;
+hal::Result<ReadbackResult> Readback::take(hal::Image& image, bool wait) {
+  if (isEmpty()) return ReadbackResult::kNoImage;
   Slot& slot = ring_[taken_ % ring_.size()];
   if (wait) {
     if (const auto copied = slot.copied.wait(testHook_); !copied)
       return tl::unexpected(copied.error());
-  } else if (const auto copied = slot.copied.passed(testHook_); !copied || !*copied) {
-    return copied;
+  } else {
+    const auto copied = slot.copied.poll(testHook_);
+    if (!copied) return tl::unexpected(copied.error());
+    if (*copied == gpu::FenceState::kNotYet) return ReadbackResult::kNoImage;
   }
   if (image.format() != format_) image = hal::Image(format_);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer.name());
@@ -161,7 +163,7 @@ hal::Result<bool> Readback::take(hal::Image& image, bool wait) {
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   if (!sound) return tl::unexpected(unreadable(format_.size));
   ++taken_;
-  return true;
+  return ReadbackResult::kImage;
 }
 
 void Readback::unpack(const std::uint8_t* bytes, hal::Image& image) const {

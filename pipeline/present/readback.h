@@ -18,6 +18,9 @@
 
 namespace pleinair::present {
 
+/// What Readback::take() came to.
+enum class ReadbackResult { kNoImage, kImage };
+
 /// Brings painted pictures to memory in an output's format without stalling the GPU: scaled and
 /// converted by a pass, copied into a ring of buffers, and handed out when a fence says so. On the
 /// thread of the GL context.
@@ -46,9 +49,9 @@ class Readback {
   void submit(const gpu::Texture& picture) { submit(picture, picture.size()); }
 
   /// Copies the oldest picture into `image`, which gets this reader's format; pictures come in the
-  /// order they were submitted. False if none is ready; with `wait` only if there is none at all.
+  /// order they were submitted. kNoImage if none is ready; with `wait` only if none is in flight.
   /// Error: kDeviceLost; no picture comes any more.
-  hal::Result<bool> take(hal::Image& image, bool wait);
+  hal::Result<ReadbackResult> take(hal::Image& image, bool wait);
 
  private:
   struct Slot {
