@@ -1,11 +1,18 @@
 #include <cstdio>
 
+#include <spdlog/spdlog.h>
+
 #include "firmware_app/commands/commands.h"
+#include "firmware_app/config/requested_parts.h"
 
 namespace pleinair::app {
 
 int printConfiguration(const ConfigOptions& options) {
   const Configuration configuration(options.configuration);
+  // Devices may be another machine's, or not plugged in yet: `pleinair doctor` judges those.
+  for (const doctor::RequestedPart& part : requestedParts(configuration)) {
+    if (part.problem && !part.isDevice) spdlog::warn("{}", part.problem->message());
+  }
   const auto which = options.givenOnly ? config::Printed::kGiven : config::Printed::kAll;
   // Write errors are checked once, at the end of the program.
   std::fputs(configuration.toToml(which).c_str(), stdout);

@@ -6,6 +6,7 @@
 
 #include "config/config_error.h"
 #include "firmware_app/commands/commands.h"
+#include "firmware_app/config/requested_parts.h"
 #include "firmware_app/devices/inventory.h"
 #include "firmware_app/doctor/checks.h"
 #include "firmware_app/live/camera_selection.h"
@@ -16,11 +17,15 @@ int examineMachine(const DoctorOptions& options) {
   probes.cameras = [] { return listDeviceCameras(deviceBackends()); };
   probes.snapshots = ".";
   std::optional<std::string> configurationError;
+  std::vector<doctor::RequestedPart> requested;
   try {
-    probes.snapshots = Configuration(options.configuration).output().snapshots;
+    const Configuration configuration(options.configuration);
+    probes.snapshots = configuration.output().snapshots;
+    requested = requestedParts(configuration);
   } catch (const config::ConfigError& error) {
     configurationError = error.what();
   }
+  probes.requested = [&] { return requested; };
   probes.configurationError = [&] { return configurationError; };
   const std::vector<doctor::Finding> findings = doctor::examine(probes);
   // Write errors are checked once, at the end of the program.

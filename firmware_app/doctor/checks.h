@@ -24,6 +24,9 @@ Finding checkConfiguration(const Probes& probes);  ///< profile, site file, vari
 Finding checkDisk(const Probes& probes);           ///< the folder of snapshots
 Finding checkMemory(const Probes& probes);
 
+/// One for each part that the configuration asks for: whether it is there.
+std::vector<Finding> checkRequested(const Probes& probes);
+
 /// All of them.
 std::vector<Finding> examine(const Probes& probes);
 

@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "firmware_app/doctor/checks.h"
 
 namespace pleinair::app::doctor {
@@ -9,6 +11,7 @@ std::vector<Finding> examine(const Probes& probes) {
                             checkClock, checkUdev, checkConfiguration, checkDisk, checkMemory}) {
     findings.push_back(check(probes));
   }
+  for (Finding& finding : checkRequested(probes)) findings.push_back(std::move(finding));
   return findings;
 }
 

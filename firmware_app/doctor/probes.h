@@ -14,6 +14,15 @@
 
 namespace pleinair::app::doctor {
 
+/// Something that the configuration asks for.
+struct RequestedPart {
+  std::string part;   ///< "camera", "output", "scene", "style", "status"
+  std::string value;  ///< as configured
+  std::optional<hal::Error> problem = std::nullopt;  ///< why it cannot be had
+  bool isChosen = true;   ///< else a default, or something that is waited for: only a warning
+  bool isDevice = false;  ///< part of the machine, and neither a file nor a folder
+};
+
 /// What the checks look at; tests put their own behind it. One thread.
 struct Probes {
   /// The text of a small file without white space at its end; nothing where it cannot be read.
@@ -31,10 +40,12 @@ struct Probes {
   std::function<std::vector<hal::LoopbackDevice>()> loopbacks;
   /// What is wrong with the configuration, in a line; nothing where it is sound.
   std::function<std::optional<std::string>()> configurationError;
+  /// What the configuration asks for; nothing where it is not valid.
+  std::function<std::vector<RequestedPart>()> requested;
   std::filesystem::path snapshots;  ///< the folder that snapshots go to
 };
 
-/// This machine's, but for `cameras`, `configurationError` and `snapshots`.
+/// This machine's, but for `cameras`, `configurationError`, `requested` and `snapshots`.
 Probes systemProbes();
 
 }  // namespace pleinair::app::doctor

@@ -8,8 +8,19 @@ namespace pleinair::app {
 LivePainter::LivePainter(const PainterOptions& options,
                          const std::vector<hal::FrameFormat>& outputs, LiveControls& controls)
     : painter_(options), controls_(controls), seen_(controls.parameters()), parameters_(*seen_) {
-  for (const hal::FrameFormat& format : outputs)
-    readbacks_.push_back(painter_.openReadback(format));
+  warmUp(options);
+  for (const hal::FrameFormat& format : outputs) readers_.push_back(painter_.openReadback(format));
+}
+
+void LivePainter::warmUp(const PainterOptions& options) {
+  const hal::Image blank(options.expectedFormat.value_or(
+      hal::FrameFormat{.pixelFormat = hal::PixelFormat::kGrey8, .size = options.pictureSize}));
+  const std::size_t levels = options.qualityLevels ? qualityLevels().size() : 1;
+  for (parameters_.quality = 0; parameters_.quality < levels; ++parameters_.quality) {
+    // Where it fails, the first frame does so as well, and says why.
+    static_cast<void>(painter_.paint({.image = blank.view()}, parameters_));
+  }
+  painter_.reset();
 }
 
 hal::Result<void> LivePainter::paint(const hal::CapturedFrame& frame, std::size_t quality) {

@@ -24,6 +24,11 @@ class LivePainter final : public runtime::FramePainter {
   void wait(hal::Duration limit) override;
 
  private:
+  /// Paints a blank frame at each level of quality with the first parameters, which the Painter,
+  /// warmed up with the defaults, does not know: what their look needs (programs, brushes) is made
+  /// here and not in the first frame.
+  void warmUp(const PainterOptions& options);
+
   Painter painter_;
   LiveControls& controls_;
   std::vector<int> readbacks_;

@@ -1,6 +1,7 @@
 #include "firmware_app/live/live_painting.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -15,6 +16,7 @@
 #include <spdlog/spdlog.h>
 
 #include "firmware_app/cli/interrupt.h"
+#include "firmware_app/config/requested_parts.h"
 #include "firmware_app/live/camera_selection.h"
 #include "firmware_app/live/live_controls.h"
 #include "firmware_app/live/live_painter.h"
@@ -69,6 +71,7 @@ class LivePainting {
         saver_(job.snapshots),
         reporter_(qualityNames()) {
     for (const std::string& name : job.outputs) {
+      orThrow(checkOutputFolder(name));  // a camera may be long in coming
       opened_.push_back(orThrow(hal::openOutput(name, job.outputOptions)));
     }
   }
@@ -82,6 +85,8 @@ class LivePainting {
     std::string why;
     hotplug_ = watchDevices(supervisor_, why);
     if (!hotplug_) spdlog::debug("no news of plugged cameras: {}", why);
+    waitingSince_ = began_;
+    if (job_.serveStatus) server_ = job_.serveStatus(statusPages());
     if (awaitStream()) {
       startOutputs();
       if (awaitPainter()) paint();
@@ -129,13 +134,27 @@ class LivePainting {
     chain_.makePaintStage([this](const auto& formats) { return makePainter(formats); },
                           paintRules(job_.runtime, stream_));
     threads_->startPainter();
-    if (job_.serveStatus) server_ = job_.serveStatus(statusPages());
+    isPipelineMade_.store(true, std::memory_order_release);
   }
 
-  StatusPages statusPages() const {
-    return {.json = [this] { return runtime::statusJson(chain_.status(), qualityNames()); },
-            .metrics = [this] { return runtime::statusMetrics(chain_.status(), qualityNames()); },
-            .healthy = [this] { return chain_.status().isHealthy(); }};
+  /// Any thread. While a camera is awaited, there are neither outputs nor a painter yet.
+  runtime::RuntimeStatus statusNow() {
+    if (isPipelineMade_.load(std::memory_order_acquire)) return chain_.status();
+    runtime::RuntimeStatus status{.uptime = job_.clock->now() - waitingSince_,
+                                  .camera = chain_.capture().status(),
+                                  .painting = {},
+                                  .outputs = {},
+                                  .ledger = chain_.ledger().counts()};
+    const std::optional<hal::Error>& cause = status.camera.cause;
+    status.camera.reason =
+        "waiting for a camera: " + (cause ? cause->message() : status.camera.reason);
+    return status;
+  }
+
+  StatusPages statusPages() {
+    return {.json = [this] { return runtime::statusJson(statusNow(), qualityNames()); },
+            .metrics = [this] { return runtime::statusMetrics(statusNow(), qualityNames()); },
+            .healthy = [this] { return statusNow().isHealthy(); }};
   }
 
   void startOutput(std::size_t index) {
@@ -219,7 +238,9 @@ class LivePainting {
     if (now - captioned_ < kBetweenCaptions) return;
     captioned_ = now;
     const double rate = chain_.output(stepped_.front()).status().perSecond;
-    window_->update(rate, rate > kRateOfPictures);
+    const auto drawn = window_->update(rate, rate > kRateOfPictures);
+    // Beside others the window alone fails, at its next picture.
+    if (!drawn && chain_.outputCount() == 1) failure_ = drawn.error();
   }
 
   void handleSnapshots() {
@@ -325,8 +346,10 @@ class LivePainting {
   std::optional<LiveWindow> window_;
   std::optional<runtime::LiveThreads> threads_;
   std::unique_ptr<hal::HotplugMonitor> hotplug_;  ///< tells the supervisor
+  std::atomic<bool> isPipelineMade_ = false;      ///< outputs and painter, which status pages tell
   std::unique_ptr<StatusServer> server_;          ///< asks the chain
 
+  hal::TimePoint waitingSince_;  ///< before any status page is asked for
   hal::TimePoint began_;
   hal::TimePoint reported_;
   hal::TimePoint captioned_;

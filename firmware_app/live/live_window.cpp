@@ -57,16 +57,17 @@ std::string LiveWindow::caption(double framesPerSecond) const {
   return tuning_.showsHelp() ? LiveTuning::help() + "\n\n" + text : text;
 }
 
-void LiveWindow::update(double framesPerSecond, bool pictureFollows) {
+hal::Result<void> LiveWindow::update(double framesPerSecond, bool pictureFollows) {
   const hal::TimePoint now = clock_.now();
-  if (!pictureFollows && now - updated_ < kRedrawPeriod) return;
+  if (!pictureFollows && now - updated_ < kRedrawPeriod) return {};
   updated_ = now;
   window_.setTitle(fmt::format("pleinair: {}", tuning_.state()));
   const double opacity = tuning_.showsHelp() ? 1.0 : fading_.opacity(now);
   window_.setCaption(opacity > 0.0 ? caption(framesPerSecond) : std::string(), opacity);
   const bool isSeen = opacity > 0.0 || drawnOpacity_ > 0.0;
   drawnOpacity_ = opacity;
-  if (!pictureFollows && isSeen) hal::orThrow(window_.redraw());
+  if (!pictureFollows && isSeen) return window_.redraw();
+  return {};
 }
 
 }  // namespace pleinair::app

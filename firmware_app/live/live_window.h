@@ -50,8 +50,8 @@ class LiveWindow {
   /// Says something in the caption until the next key.
   void notify(const std::string& notice);
   /// Brings title and caption up to date; to be called before each picture, and while none comes.
-  /// Throws hal::Failure where the window can no longer be drawn.
-  void update(double framesPerSecond, bool pictureFollows);
+  /// Errors: redraw()'s, where no picture follows.
+  hal::Result<void> update(double framesPerSecond, bool pictureFollows);
 
  private:
   void press(const hal::KeyPressed& key, Requests& requests);

@@ -34,17 +34,18 @@ class Measurement {
                .input = input_.description(),
                .settled = options_.settle};
     for (auto part : {&Measurement::measureSequence, &Measurement::measureStill}) {
-      const hal::Result<bool> isDone = (this->*part)();
-      if (!isDone) return tl::unexpected(isDone.error());
-      if (!*isDone) return std::nullopt;
+      const hal::Result<Progress> progress = (this->*part)();
+      if (!progress) return tl::unexpected(progress.error());
+      if (*progress == Progress::kAborted) return std::nullopt;
     }
     judge();
     return std::move(report_);
   }
 
  private:
-  /// Returns false if it was aborted.
-  hal::Result<bool> measureSequence() {
+  enum class Progress { kDone, kAborted };
+
+  hal::Result<Progress> measureSequence() {
     for (std::uint64_t index = 0;; ++index) {
       if (options_.frames && index == options_.settle + *options_.frames) break;
       const hal::Result<std::optional<hal::CapturedFrame>> frame = input_.next();
@@ -55,7 +56,7 @@ class Measurement {
       if (index >= options_.settle) {
         if (auto added = add(index, *painted); !added) return tl::unexpected(added.error());
       }
-      if (!options_.goesOn()) return false;
+      if (!options_.goesOn()) return Progress::kAborted;
     }
     if (report_.frames < kMinFrames) {
       return tl::unexpected(unfit(
@@ -68,7 +69,7 @@ class Measurement {
                       "--pan, --zoom, --roll or --still",
                       kMinFrames)));
     }
-    return true;
+    return Progress::kDone;
   }
 
   hal::Result<void> add(std::uint64_t index, const PaintedFrame& painted) {
@@ -105,9 +106,8 @@ class Measurement {
     return values;
   }
 
-  /// Returns false if it was aborted.
-  hal::Result<bool> measureStill() {
-    if (options_.stillFrames == 0) return true;
+  hal::Result<Progress> measureStill() {
+    if (options_.stillFrames == 0) return Progress::kDone;
     painter_.reset();
     StillMeasures still(still_.size());
     AnchorMeasures anchors(still_.size());
@@ -124,13 +124,13 @@ class Measurement {
         still.add(toFloat(painted->input.view()), toFloat(painted->output.view()));
         if (!painted->anchors.empty()) anchors.add(painted->anchors, nullptr, nullptr);
       }
-      if (!options_.goesOn()) return false;
+      if (!options_.goesOn()) return Progress::kAborted;
     }
     report_.stillFrames = options_.stillFrames;
     report_.insideStill = anchors.total();
     report_.stillNoise = options_.stillNoiseLevels;
     for (const Subject subject : kAllSubjects) flicker_[subject] = still.flicker(subject);
-    return true;
+    return Progress::kDone;
   }
 
   void judge() {

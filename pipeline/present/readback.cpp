@@ -144,25 +144,17 @@ void Readback::submit(const gpu::Texture& picture, FrameSize fullSize) {
   ++submitted_;
 }
 
-hal::Result<bool> Readback::poll(hal::Image& image) {
-  if (isEmpty()) return false;
-  const auto isReady = isReadyWithin(hal::Duration::zero());
-  return isReady && *isReady ? copyOldest(image) : isReady;
-}
-
-hal::Result<bool> Readback::wait(hal::Image& image) {
-  if (isEmpty()) return false;
-  const auto copied = ring_[taken_ % ring_.size()].copied.wait(testHook_);
-  return copied ? copyOldest(image) : tl::unexpected(copied.error());
-}
-
-hal::Result<bool> Readback::isReadyWithin(hal::Duration limit) const {
-  assert(!isEmpty());
-  return ring_[taken_ % ring_.size()].copied.passed(testHook_, limit);
-}
-
-hal::Result<bool> Readback::copyOldest(hal::Image& image) {
-  const Slot& slot = ring_[taken_ % ring_.size()];
+hal::Result<ReadbackResult> Readback::take(hal::Image& image, bool wait) {
+  if (isEmpty()) return ReadbackResult::kNoImage;
+  Slot& slot = ring_[taken_ % ring_.size()];
+  if (wait) {
+    if (const auto copied = slot.copied.wait(testHook_); !copied)
+      return tl::unexpected(copied.error());
+  } else {
+    const auto copied = slot.copied.poll(testHook_);
+    if (!copied) return tl::unexpected(copied.error());
+    if (*copied == gpu::FenceState::kNotYet) return ReadbackResult::kNoImage;
+  }
   if (image.format() != format_) image = hal::Image(format_);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer.name());
   const void* bytes = glMapBufferRange(
@@ -172,7 +164,7 @@ hal::Result<bool> Readback::copyOldest(hal::Image& image) {
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   if (!sound) return tl::unexpected(unreadable(format_.size));
   ++taken_;
-  return true;
+  return ReadbackResult::kImage;
 }
 
 void Readback::unpack(const std::uint8_t* bytes, hal::Image& image) const {

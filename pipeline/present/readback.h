@@ -18,6 +18,9 @@
 
 namespace pleinair::present {
 
+/// What Readback::take() came to.
+enum class ReadbackResult { kNoImage, kImage };
+
 /// Brings painted pictures to memory in an output's format without stalling the GPU: scaled and
 /// converted by a pass, copied into a ring of buffers, and handed out when a fence says so. Paint
 /// thread only.
@@ -45,15 +48,10 @@ class Readback {
   void submit(const gpu::Texture& picture, hal::FrameSize fullSize);
   void submit(const gpu::Texture& picture) { submit(picture, picture.size()); }
 
-  /// Copies the oldest picture into `image`, which gets this read-back's format; pictures come in
-  /// the order in which they were submitted. False if none is ready. Error: kDeviceLost; no picture
-  /// comes any more.
-  hal::Result<bool> poll(hal::Image& image);
-  /// The same, but waits for the oldest picture: false only if none is in flight.
-  hal::Result<bool> wait(hal::Image& image);
-  /// Whether the oldest picture is ready, after waiting for it `limit` of real time at most. Error:
-  /// kDeviceLost. Precondition: !isEmpty().
-  hal::Result<bool> isReadyWithin(hal::Duration limit) const;
+  /// Copies the oldest picture into `image`, which gets this reader's format; pictures come in the
+  /// order they were submitted. kNoImage if none is ready; with `wait` only if none is in flight.
+  /// Error: kDeviceLost; no picture comes any more.
+  hal::Result<ReadbackResult> take(hal::Image& image, bool wait);
 
  private:
   struct Slot {

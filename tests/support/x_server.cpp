@@ -106,8 +106,15 @@ XServer::XServer(hal::FrameSize screen) {
 
 XServer::~XServer() {
   if (process_ <= 0) return;
-  kill(process_, SIGTERM);
+  ::kill(process_, SIGTERM);
   waitpid(process_, nullptr, 0);
+}
+
+void XServer::kill() {
+  if (process_ <= 0) return;
+  ::kill(process_, SIGKILL);
+  waitpid(process_, nullptr, 0);
+  process_ = -1;
 }
 
 hal::Image XServer::screen() const {

@@ -22,7 +22,10 @@ class XServer {
   XServer(const XServer&) = delete;
   XServer& operator=(const XServer&) = delete;
 
-  /// The value for the environment variable DISPLAY.
+  /// Ends it at once, under whatever is shown on it.
+  void kill();
+
+  /// For the environment variable DISPLAY.
   const std::string& display() const { return display_; }
   /// The content of the screen, as RGB8.
   hal::Image screen() const;

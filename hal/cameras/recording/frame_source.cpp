@@ -21,10 +21,12 @@ SourceResult pictures(const Result<std::vector<std::filesystem::path>>& paths, D
   return openPictures(*paths, period);
 }
 
-/// Decides by the signature. If that is broken, decides by the name, so that the error names a
-/// picture.
-Result<bool> isPicture(const std::filesystem::path& path) {
-  if (isPictureName(path)) return true;
+enum class RecordingKind { kPicture, kMovie };
+
+/// The kind that the file's signature tells. A picture's name decides first, so that the error
+/// about a broken picture speaks of a picture.
+Result<RecordingKind> kindOf(const std::filesystem::path& path) {
+  if (isPictureName(path)) return RecordingKind::kPicture;
   const Result<libav::FileInput> file = libav::FileInput::open(path);
   if (!file) return tl::unexpected(file.error());
   std::array<std::uint8_t, 16> head{};
@@ -36,7 +38,7 @@ Result<bool> isPicture(const std::filesystem::path& path) {
   // Motion-JPEG is a movie although it begins as a JPEG picture does.
   const std::string ending = path.extension().string();
   const bool isJpegStream = ending == ".mjpeg" || ending == ".mjpg";
-  return kind.has_value() && !isJpegStream;
+  return kind && !isJpegStream ? RecordingKind::kPicture : RecordingKind::kMovie;
 }
 
 }  // namespace
@@ -55,9 +57,9 @@ SourceResult openSource(const std::filesystem::path& path, Duration picturePerio
     return tl::unexpected(
         errnoError(path.string(), "cannot open", value, "check the path of the recording"));
   }
-  const Result<bool> picture = isPicture(path);
-  if (!picture) return tl::unexpected(picture.error());
-  if (*picture) return openPictures({path}, std::nullopt);
+  const Result<RecordingKind> kind = kindOf(path);
+  if (!kind) return tl::unexpected(kind.error());
+  if (*kind == RecordingKind::kPicture) return openPictures({path}, std::nullopt);
   return openMovie(path);
 }
 

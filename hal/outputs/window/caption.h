@@ -18,6 +18,8 @@ class Caption {
   void set(const std::string& text, double opacity);
   /// `pixelScale`: pixels of the screen to one of the desktop's units.
   void draw(SDL_Renderer* renderer, double pixelScale);
+  /// Leaves the texture to the process's end: SDL may not be called any more.
+  void abandon() { static_cast<void>(texture_.release()); }
 
  private:
   /// A texture of the text, kept until it has to be another.

@@ -8,6 +8,8 @@
 
 #include <SDL.h>
 
+#include "hal/outputs/window/display_connection.h"
+
 namespace pleinair::hal::window {
 namespace {
 
@@ -39,6 +41,12 @@ Error noDisplay(const std::string& cause) {
 
 Result<SdlVideo> SdlVideo::open() {
   assert(users == 0 || isOnItsThread());
+  if (display_connection::isLost()) {
+    return tl::unexpected(Error{.kind = ErrorKind::kDeviceLost,
+                                .subject = "window",
+                                .problem = "the display server is gone",
+                                .remedy = "start the program again"});
+  }
   const std::string drivers = namedDrivers();
   if (drivers.empty() && !isSet("SDL_VIDEODRIVER")) {
     return tl::unexpected(noDisplay("DISPLAY and WAYLAND_DISPLAY are not set"));
@@ -59,7 +67,7 @@ SdlVideo::~SdlVideo() {
   if (!isOpen_) return;
   assert(isOnItsThread());
   --users;
-  SDL_QuitSubSystem(SDL_INIT_VIDEO);
+  if (!display_connection::isLost()) SDL_QuitSubSystem(SDL_INIT_VIDEO);
 }
 
 bool SdlVideo::isOnItsThread() {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "hal/outputs/window/caption.h"
+#include "hal/outputs/window/display_connection.h"
 #include "hal/outputs/window/key_name.h"
 #include "hal/outputs/window/sdl_handles.h"
 #include "hal/outputs/window/sdl_video.h"
@@ -17,6 +18,8 @@
 
 namespace pleinair::hal {
 namespace {
+
+namespace display_connection = window::display_connection;
 
 using window::RendererHandle;
 using window::SdlVideo;
@@ -31,6 +34,13 @@ Error failure(ErrorKind kind, const char* problem, std::string remedy = {}) {
           .subject = kSubject,
           .problem = std::string(problem) + ": " + SDL_GetError(),
           .remedy = std::move(remedy)};
+}
+
+Error displayLost() {
+  return {.kind = ErrorKind::kDeviceLost,
+          .subject = kSubject,
+          .problem = "the display server is gone",
+          .remedy = "start the program again once it is back"};
 }
 
 /// A renderer on OpenGL ES where there is a GPU; SDL's choice otherwise, its software at the worst.
@@ -55,6 +65,11 @@ std::optional<Refresh> refreshOf(SDL_Window* window) {
 class SdlWindow final : public Window {
  public:
   explicit SdlWindow(SdlVideo video) : video_(std::move(video)) {}
+  ~SdlWindow() override {
+    if (display_connection::isLost()) abandon();
+  }
+  SdlWindow(const SdlWindow&) = delete;
+  SdlWindow& operator=(const SdlWindow&) = delete;
 
   OutputIdentity identity() const override { return {.backend = "window", .id = "window"}; }
   Result<OutputFormat> start(const OutputRequest& request) override;
@@ -77,6 +92,8 @@ class SdlWindow final : public Window {
   /// Puts an event of SDL's into the queue of the window that it is for.
   void route(const SDL_Event& event);
   void accept(const SDL_WindowEvent& event);
+  /// Leaves what SDL holds to the process's end.
+  void abandon();
   bool isStarted() const { return texture_ != nullptr && SdlVideo::isOnItsThread(); }
 
   FrameFormat format_;
@@ -110,6 +127,7 @@ Result<void> SdlWindow::open(FrameSize picture) {
   window_.reset(SDL_CreateWindow("pleinair", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
                                  size.width, size.height, kFlags));
   if (window_ == nullptr) return tl::unexpected(failure(ErrorKind::kIo, "cannot open"));
+  display_connection::watch(window_.get());
   SDL_SetWindowData(window_.get(), kSelf, this);
   renderer_ = makeRenderer(window_.get());
   if (renderer_ == nullptr) return tl::unexpected(failure(ErrorKind::kIo, "cannot draw"));
@@ -152,6 +170,7 @@ Result<void> SdlWindow::draw() {
 
 Result<void> SdlWindow::write(const ImageView& picture, Duration) {
   assert(isStarted() && picture.format == format_ && picture.isComplete());
+  if (display_connection::isLost()) return tl::unexpected(displayLost());
   void* pixels = nullptr;
   int strideBytes = 0;
   if (SDL_LockTexture(texture_.get(), nullptr, &pixels, &strideBytes) != 0) {
@@ -168,13 +187,23 @@ Result<void> SdlWindow::write(const ImageView& picture, Duration) {
 
 Result<void> SdlWindow::redraw() {
   assert(isStarted());
+  if (display_connection::isLost()) return tl::unexpected(displayLost());
   if (Result<void> drawn = draw(); !drawn) return drawn;
   SDL_RenderPresent(renderer_.get());
+  if (display_connection::isLost()) return tl::unexpected(displayLost());
   return {};
+}
+
+void SdlWindow::abandon() {
+  caption_.abandon();
+  static_cast<void>(texture_.release());
+  static_cast<void>(renderer_.release());
+  static_cast<void>(window_.release());
 }
 
 Result<Image> SdlWindow::shown() {
   assert(isStarted());
+  if (display_connection::isLost()) return tl::unexpected(displayLost());
   if (Result<void> drawn = draw(); !drawn) return tl::unexpected(drawn.error());
   Image image({.pixelFormat = PixelFormat::kRgb8, .size = pixelSize()});
   // Before it is presented: afterwards it may be gone.
@@ -189,7 +218,7 @@ Result<Image> SdlWindow::shown() {
 std::vector<WindowEvent> SdlWindow::takeEvents() {
   assert(isStarted());
   SDL_Event event;
-  while (SDL_PollEvent(&event) != 0) route(event);
+  while (!display_connection::isLost() && SDL_PollEvent(&event) != 0) route(event);
   return std::exchange(events_, {});
 }
 
@@ -233,11 +262,12 @@ void SdlWindow::accept(const SDL_WindowEvent& event) {
 
 void SdlWindow::setCaption(const std::string& text, double opacity) {
   assert(SdlVideo::isOnItsThread());
-  caption_.set(text, opacity);
+  if (!display_connection::isLost()) caption_.set(text, opacity);
 }
 
 void SdlWindow::setTitle(const std::string& title) {
   assert(isStarted());
+  if (display_connection::isLost()) return;
   // Each time the desktop is told, and this may be called for every picture.
   if (title == SDL_GetWindowTitle(window_.get())) return;
   SDL_SetWindowTitle(window_.get(), title.c_str());
@@ -245,6 +275,7 @@ void SdlWindow::setTitle(const std::string& title) {
 
 void SdlWindow::setFullScreen(bool on) {
   assert(isStarted());
+  if (display_connection::isLost()) return;
   SDL_SetWindowFullscreen(window_.get(), on ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
   SDL_ShowCursor(on ? SDL_DISABLE : SDL_ENABLE);
 }

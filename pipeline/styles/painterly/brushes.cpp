@@ -1,6 +1,7 @@
 #include "pipeline/styles/painterly/brushes.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -117,6 +118,8 @@ Mark markAt(const Hairs& hairs, const Noise& noise, double u, double v) {
   return {.cover = cover, .height = std::clamp(0.65 * body + 0.5 * pushed + piled, 0.0, 1.0)};
 }
 
+std::atomic<std::uint64_t> brushCount = 0;
+
 std::uint8_t byteOf(double part) {
   return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(part, 0.0, 1.0)));
 }
@@ -124,6 +127,7 @@ std::uint8_t byteOf(double part) {
 }  // namespace
 
 gpu::Texture makeBrush(Brush brush, int across) {
+  ++brushCount;
   const Hairs hairs = hairsOf(brush);
   const auto along = static_cast<int>(kBrushAspect) * across;
   const hal::FrameSize size{along, across * kBrushVariants};
@@ -151,6 +155,10 @@ gpu::Texture makeBrush(Brush brush, int across) {
   gpu::Texture texture(gpu::TextureFormat::kRg8, size, gpu::TextureFilter::kLinear);
   texture.upload(bytes, static_cast<std::size_t>(size.width) * 2);
   return texture;
+}
+
+std::uint64_t brushesMade() {
+  return brushCount;
 }
 
 }  // namespace pleinair::styles

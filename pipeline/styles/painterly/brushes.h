@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string_view>
 
 #include "hal/image.h"
@@ -19,5 +20,9 @@ inline constexpr int kBrushVariants = 4;  ///< of each, below each other, so tha
 /// On the thread of a GL context. Precondition: `across` is above 0.
 gpu::Texture makeBrush(Brush brush, int across);
 inline constexpr double kBrushAspect = 4.0;
+
+/// How often makeBrush() has been called in this process: it takes up to 120 ms, so that none may
+/// be made in mid-play. Any thread.
+std::uint64_t brushesMade();
 
 }  // namespace pleinair::styles

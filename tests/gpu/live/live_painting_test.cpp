@@ -2,15 +2,23 @@
 #include "firmware_app/live/live_painting.h"
 
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <thread>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "firmware_app/cli/interrupt.h"
+#include "firmware_app/live/live_painter.h"
 #include "hal/error.h"
+#include "pipeline/styles/painterly/brushes.h"
+#include "pipeline/styles/style_registry.h"
 #include "tests/support/live_simulation.h"
 #include "tests/support/media_files.h"
 #include "tests/support/temporary_folder.h"
@@ -75,6 +83,13 @@ class LivePaintingTest : public testing::Test {
                .outputs = {output_.string()},
                .outputOptions = {},
                .runtime = {},
+               .serveStatus =
+                   [this](StatusPages pages) {
+                     const std::scoped_lock lock(mutex_);
+                     pages_ = std::move(pages);
+                     return std::make_unique<Served>(*this);
+                   },
+               .waitsForCamera = waits_,
                .scene = {},
                .snapshots = folder_.path()});
     } catch (const hal::Failure& error) {
@@ -83,6 +98,24 @@ class LivePaintingTest : public testing::Test {
     return "";
   }
 
+  /// Takes the pages back when the painting is over, as the server does.
+  class Served final : public StatusServer {
+   public:
+    explicit Served(LivePaintingTest& test) : test_(test) {}
+    ~Served() override {
+      const std::scoped_lock lock(test_.mutex_);
+      test_.pages_ = {};
+    }
+    const std::string& address() const override { return address_; }
+
+   private:
+    LivePaintingTest& test_;
+    std::string address_ = "nowhere";
+  };
+
+  std::mutex mutex_;
+  StatusPages pages_;
+  bool waits_ = false;
   support::TemporaryFolder folder_;
   std::filesystem::path output_ = folder_.path() / "out.mp4";
 };
@@ -97,6 +130,51 @@ TEST_F(LivePaintingTest, GoesOnWhenTheCameraComesBack) {
 TEST_F(LivePaintingTest, SaysAtTheStartThatThereIsNoCamera) {
   EXPECT_THAT(paintFrom(-1, 3), testing::HasSubstr("is not there"));
   EXPECT_EQ(folder_.entryCount(), 0u) << "and leaves no file";
+}
+
+TEST(LivePainter, MakesTheBrushesOfItsFirstLookBeforeTheFirstFrame) {
+  const PaintParameters first{.style = styles::styleInfo("painterly").parametersOf("sketch"),
+                              .view = {}};
+  LiveControls controls(first);
+  LivePainter painter({.pictureSize = kFormat.size,
+                       .style = "painterly",
+                       .tracksTags = false,
+                       .expectedFormat = kFormat},
+                      {kFormat}, controls);
+  const std::uint64_t before = styles::brushesMade();
+  EXPECT_GT(before, 0U);
+  const hal::Image image = support::testPicture(kFormat, 1);
+  EXPECT_TRUE(painter.paint({.image = image.view()}, 0));
+  EXPECT_EQ(styles::brushesMade(), before);
+}
+
+TEST_F(LivePaintingTest, TellsItsStatusWhileItWaitsForACamera) {
+  std::thread asks([&] {
+    std::string json;
+    for (int i = 0; i < 500 && json.find("is not there") == std::string::npos; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      const std::scoped_lock lock(mutex_);
+      if (pages_.json) json = pages_.json();
+    }
+    EXPECT_THAT(json, testing::ContainsRegex("\"waiting for a camera: .*lost: is not there"));
+    const std::scoped_lock lock(mutex_);
+    if (pages_.json) {
+      EXPECT_FALSE(pages_.healthy());
+      EXPECT_THAT(pages_.metrics(), testing::HasSubstr("pleinair_"));
+    }
+    std::raise(SIGTERM);
+  });
+  const Interrupt interrupt;
+  waits_ = true;
+  EXPECT_EQ(paintFrom(-1, 3), "");
+  asks.join();
+}
+
+TEST_F(LivePaintingTest, ChecksTheFoldersOfItsOutputsBeforeItWaitsForACamera) {
+  waits_ = true;
+  output_ = folder_.path() / "none" / "out.mp4";
+  EXPECT_THAT(paintFrom(-1, 3),
+              testing::AllOf(testing::HasSubstr("none is not there"), testing::HasSubstr("mkdir")));
 }
 
 }  // namespace

@@ -41,6 +41,7 @@ struct HealthyMachine {
                                               .isLoopback = true,
                                               .isWritable = true}};
   std::optional<std::string> configurationError;
+  std::vector<RequestedPart> requested{{.part = "camera", .value = "auto"}};
 
   /// Valid while this lives.
   Probes probes() {
@@ -57,6 +58,7 @@ struct HealthyMachine {
             .cameras = [this] { return cameras; },
             .loopbacks = [this] { return loopbacks; },
             .configurationError = [this] { return configurationError; },
+            .requested = [this] { return requested; },
             .snapshots = "/srv/snapshots"};
   }
 };

@@ -81,6 +81,34 @@ TEST(CheckConfiguration, RepeatsTheError) {
   EXPECT_EQ(finding.text, "site.toml:3: look: unknown key");
 }
 
+TEST(CheckRequested, SaysOfEachPartWhetherItIsThereAndWhatFixesIt) {
+  HealthyMachine machine;
+  hal::Error missing{.kind = hal::ErrorKind::kNotFound,
+                     .subject = "/srv/out.mp4",
+                     .problem = "its folder /srv is not there",
+                     .remedy = "mkdir -p '/srv'"};
+  hal::Error broken{.kind = hal::ErrorKind::kInvalidArgument,
+                    .subject = "configuration",
+                    .problem = "desk.toml:3: tag[0].edge_m: missing",
+                    .remedy = {}};
+  machine.requested = {{.part = "camera", .value = "auto", .problem = missing, .isChosen = false},
+                       {.part = "output", .value = "/srv/out.mp4", .problem = missing},
+                       {.part = "scene", .value = "desk.toml", .problem = broken},
+                       {.part = "style", .value = "painterly"}};
+  const std::vector<Finding> findings = checkRequested(machine.probes());
+  ASSERT_EQ(findings.size(), 4U);
+  EXPECT_EQ(findings[0].check, "requested camera");
+  EXPECT_EQ(findings[0].verdict, Verdict::kWarning) << "a default, or waited for";
+  EXPECT_EQ(findings[1].verdict, Verdict::kWrong);
+  EXPECT_EQ(findings[1].text, "/srv/out.mp4: its folder /srv is not there");
+  EXPECT_EQ(findings[1].remedy, "mkdir -p '/srv'");
+  EXPECT_EQ(findings[2].verdict, Verdict::kWrong);
+  EXPECT_EQ(findings[2].text, "desk.toml:3: tag[0].edge_m: missing");
+  EXPECT_THAT(findings[2].remedy, HasSubstr("pleinair config"));
+  EXPECT_EQ(findings[3].verdict, Verdict::kOk);
+  EXPECT_EQ(examine(machine.probes()).back().check, "requested style");
+}
+
 TEST(CheckDisk, WarnsBeforeItIsFull) {
   HealthyMachine machine;
   EXPECT_EQ(checkDisk(machine.probes()).text, "/srv/snapshots: 20000 MB free");

@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <string>
 #include <thread>
 
 #include <SDL.h>
@@ -10,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/environment.h"
+#include "tests/support/x_server.h"
 
 namespace pleinair::hal {
 namespace {
@@ -84,6 +89,42 @@ class WindowTest : public testing::Test {
     return window;
   }
 };
+
+/// A window on an X server that is killed; ends the process as a test's child.
+[[noreturn]] void loseTheServer() {
+  support::XServer server;
+  support::setVariable("SDL_VIDEODRIVER", "x11");
+  support::setVariable("DISPLAY", server.display().c_str());
+  const auto say = [](const char* text) { std::fputs(text, stderr); };
+  {
+    const std::unique_ptr<Window> window = orThrow(openWindow());
+    orThrow(window->start({.size = {64, 48}}));
+    const Image picture = colours({64, 48});
+    window->setCaption("caption", 1.0);
+    if (window->write(picture.view(), {})) say("shown, ");
+    server.kill();
+    window->takeEvents();
+    const Result<void> written = window->write(picture.view(), {});
+    if (!written && written.error().kind == ErrorKind::kDeviceLost) say("lost, ");
+    if (!window->shown()) say("not read, ");
+    window->setTitle("title");
+    window->setFullScreen(true);
+    window->setCaption("other", 1.0);
+    if (window->takeEvents().empty()) say("no events, ");
+  }
+  const auto again = openWindow();
+  if (!again && again.error().kind == ErrorKind::kDeviceLost) say("not opened again, ");
+  say("goes on");
+  std::exit(0);  // NOLINT(concurrency-mt-unsafe): a child of its own
+}
+
+TEST(WindowOnXDeathTest, AServerThatDiesIsALossOfTheWindowAlone) {
+  if (const std::string missing = support::XServer::missing(); !missing.empty()) {
+    GTEST_SKIP() << missing;
+  }
+  EXPECT_EXIT(loseTheServer(), testing::ExitedWithCode(0),
+              "shown, lost, not read, no events, not opened again, goes on");
+}
 
 TEST_F(WindowTest, IsBlackBeforeTheFirstPicture) {
   const auto window = open({320, 240});

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <SDL.h>
+
+namespace pleinair::hal::window {
+
+/// Watches the connection to the X server, whose end would otherwise end the process: Xlib calls
+/// exit() when it meets it. All windows share one connection, which cannot be had again: once it is
+/// lost, nothing of SDL's may be called any more, and what SDL holds is left to the process's end.
+/// Other display servers are not watched. All on SDL's thread.
+namespace display_connection {
+
+/// From the opening of a window on. Idempotent.
+void watch(SDL_Window* window);
+/// Asks the connection each time.
+bool isLost();
+
+}  // namespace display_connection
+}  // namespace pleinair::hal::window

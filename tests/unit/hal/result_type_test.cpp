@@ -1,0 +1,51 @@
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pleinair::hal {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The engine's read-back interface, which still has it.
+constexpr std::array kExcepted{"pipeline/engine/frame_pipeline.h", "pipeline/engine/painter.h",
+                               "pipeline/engine/readbacks.h", "pipeline/runtime/frame_painter.h",
+                               "firmware_app/live/live_painter.h"};
+
+std::vector<std::string> headersWith(const fs::path& root, const std::string& text) {
+  std::vector<std::string> found;
+  for (const char* module : {"hal", "config", "pipeline", "firmware_app"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / module)) {
+      if (entry.path().extension() != ".h") continue;
+      std::ifstream file(entry.path());
+      const std::string code{std::istreambuf_iterator<char>(file),
+                             std::istreambuf_iterator<char>()};
+      if (code.find(text) != std::string::npos) {
+        found.push_back(fs::relative(entry.path(), root).generic_string());
+      }
+    }
+  }
+  return found;
+}
+
+/// `if (result)` asks whether there is an error, which is easily taken for the bool inside: a
+/// function that answers yes or no, or fails, returns an enumeration, which no `if` takes.
+TEST(ResultType, HoldsNoBoolInAnyHeader) {
+  const fs::path root = fs::path(PLEINAIR_TESTS_DIR).parent_path();
+  ASSERT_THAT(headersWith(root, "#pragma once"), testing::SizeIs(testing::Gt(100U)));
+  std::vector<std::string> found = headersWith(root, "Result<bool>");
+  std::erase_if(found, [](const std::string& header) {
+    return std::ranges::find(kExcepted, header) != kExcepted.end();
+  });
+  EXPECT_THAT(found, testing::IsEmpty());
+}
+
+}  // namespace
+}  // namespace pleinair::hal
