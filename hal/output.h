@@ -41,7 +41,7 @@ class SurfaceOutput;
 
 /// Where painted pictures go: a file, a device, a display. An output takes pictures in memory
 /// (MemoryOutput) or lends surfaces that are filled and handed back (SurfaceOutput). One contract
-/// for all of them, held by one conformance suite (tests/conformance/output_conformance.h).
+/// for all of them, held by tests/conformance/{output,surface}_conformance.h.
 ///
 /// States: made → start() → started → finish() → finished. After an error of any call but start()'s
 /// only destruction is allowed; destruction is allowed in every state. All calls come from one

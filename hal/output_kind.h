@@ -23,7 +23,7 @@ struct OutputTraits {
   bool lendsSurfaces = false;
   /// Its target is a path, which is written to. Offline painting goes to these only.
   bool writesFiles = false;
-  /// It has to be used on the program's own thread, as windows have.
+  /// It has to be used on the main thread, as windows have.
   bool isOnMainThread = false;
 };
 

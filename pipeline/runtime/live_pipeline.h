@@ -24,7 +24,7 @@ namespace pleinair::runtime {
 ///
 /// Order: step capture() until its status has a format; addOutput(), at least one;
 /// makePaintStage(); paint().start(); then capture().open() and all stages at will. Outputs may
-/// come and go after that too. Calls are the program's own thread's where they say no other.
+/// come and go after that too. Main thread, where a call says no other.
 class LivePipeline {
  public:
   /// Both outlive this.

@@ -37,16 +37,16 @@ struct OutputStageOptions {
   std::optional<std::uint64_t> limit = std::nullopt;
   /// Brings a picture into a surface that the output lends, and gives the fence behind that work.
   /// By default the processor copies it (hal::copyToSurface()); a painter on the GPU draws it
-  /// there. Of outputs that lend surfaces; on the output's thread.
+  /// there. Of outputs that lend surfaces; on the output thread.
   SurfaceFill fill = copyPicture;
-  /// Opens the output anew after it has failed, on the output's thread; without, that is the end of
+  /// Opens the output anew after it has failed, on the output thread; without, that is the end of
   /// it. It has to take the same format again.
   std::function<hal::Result<std::unique_ptr<hal::Output>>()> reopen;
   hal::OutputRequest request;  ///< what it was started with
 };
 
 /// Hands pictures to an output, each at its due time on the output's own refresh. It has a thread
-/// of its own, so that an output that stalls holds up no other. The painter's thread fills buffers;
+/// of its own, so that an output that stalls holds up no other. The paint thread fills buffers;
 /// where too many pictures wait, one gives way: the oldest, unless even that is still to come.
 ///
 /// An output in memory has shown a picture once it has taken it. An output that lends surfaces has
@@ -63,7 +63,7 @@ class OutputStage {
   /// The period of its refresh, where it has one. Any thread.
   std::optional<hal::Duration> refreshPeriod() const;
 
-  // The painter's thread.
+  // Paint thread.
 
   /// A picture to be filled, which belongs to the caller until submit() or a second call.
   OutputFrame& buffer();
@@ -71,7 +71,7 @@ class OutputStage {
   void submit(std::optional<FrameLedger::Ticket> ticket, hal::TimePoint ready,
               hal::Duration latency);
 
-  // The output's thread.
+  // Output thread.
 
   /// Hands over what is due. When to call again at the latest: none while nothing waits.
   std::optional<hal::TimePoint> step();

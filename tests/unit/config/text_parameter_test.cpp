@@ -2,6 +2,8 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -179,6 +181,45 @@ TEST(TextParameter, NoOriginBreaksTheFile) {
   const auto document = TomlDocument::parseText(toml, "p.toml");
   EXPECT_EQ(table().typed(table().defaults().with(document.root())).title, "t") << toml;
   EXPECT_THAT(toml, testing::HasSubstr("title = \"t\"  # a?scene = \"x\"???.toml:3\n"));
+}
+
+// ---- lists
+
+struct Lists {
+  std::vector<fs::path> sources{"none"};
+};
+
+const ParameterTable<Lists>& lists() {
+  static const ParameterTable<Lists> kTable{pathListParameter(
+      "sources", &Lists::sources, {.min = 1, .max = 3}, {"none"}, {"serial:NUMBER"},
+      "What is read.", "a path", [](std::string_view text) { return text != "bad"; })};
+  return kTable;
+}
+
+TEST(PathListParameter, IsWrittenWithCommas) {
+  for (const std::string text : {"none", "a", "a,b c,serial:1", "a\\,b,c\\\\d", "none,/x/"}) {
+    const ParameterValues values = lists().defaults().with("sources", text, "--set");
+    EXPECT_EQ(values.text("sources"), text);
+  }
+  EXPECT_THAT(lists().typed(lists().defaults().with("sources", "a\\,b,c\\\\d", "--set")).sources,
+              testing::ElementsAre("a,b", "c\\d"));
+  for (const std::string text : {"", ",", "a,", "a,b,c,d", "a\\", "a\\b", "none:1", "a,bad"}) {
+    EXPECT_THROW((void)lists().defaults().with("sources", text, "--set"), ConfigError) << text;
+  }
+}
+
+TEST(PathListParameter, IsAnArrayInAFile) {
+  const auto read = [](const std::string& array) {
+    const auto document = TomlDocument::parseText("sources = " + array, "a.toml", "/folder");
+    return lists().defaults().with(document.root());
+  };
+  EXPECT_THAT(lists().typed(read(R"(["none", "a", "serial:7"])")).sources,
+              testing::ElementsAre("none", "/folder/a", "serial:7"));
+  EXPECT_THAT(read(R"(["none", "a,\"b"])").toToml(),
+              testing::HasSubstr(R"(sources = ["none", "/folder/a,\"b"]  # a.toml:1)"));
+  for (const std::string array : {"[]", "\"a\"", "[1]", R"(["a", "b", "c", "d"])", R"(["bad"])"}) {
+    EXPECT_THROW(read(array), ConfigError) << array;
+  }
 }
 
 }  // namespace
