@@ -70,7 +70,7 @@ bool isAllowedPath(const ParameterDescriptor& descriptor, const std::string& pat
   if (isAmongOpen(descriptor.openChoices, path)) return isPlain;
   const bool continuesWord = std::any_of(
       words.begin(), words.end(), [&](const auto& word) { return path.starts_with(word + ':'); });
-  return !goesOnFromAWord && !path.empty() && isPlain && endsWith(path, descriptor.pathEnding);
+  return !continuesWord && !path.empty() && isPlain && endsWith(path, descriptor.pathEnding);
 }
 
 std::string allowedPaths(const ParameterDescriptor& descriptor) {

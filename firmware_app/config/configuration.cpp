@@ -69,7 +69,6 @@ void applyEnvironment(Sections& sections, std::vector<EnvironmentVariable> varia
   std::ranges::sort(variables, {}, &EnvironmentVariable::name);
   const std::vector<std::string> others{std::string(kSiteFileVariable)};
   for (const EnvironmentVariable& variable : variables) {
-    refuseFormerKey(variable);
     if (variable.name != kSiteFileVariable) sections.apply(variable, others);
   }
 }
@@ -83,7 +82,6 @@ void applySetting(Sections& sections, const std::string& setting) {
                        .allowed = "NAME=VALUE, such as cell_size=12 or camera.rate=15"});
   }
   const std::string name = setting.substr(0, equals);
-  refuseFormerKey(name, "--set " + name);
   const bool hasSection = name.find('.') != std::string::npos;
   const std::string section = hasSection ? "" : styleSection(paintingOf(sections).style);
   sections.apply(name, std::string_view(setting).substr(equals + 1), "--set " + name, section);
@@ -107,7 +105,6 @@ void applyCommandLine(Sections& sections, const ConfigurationRequest& request) {
 std::optional<TomlDocument> readProfile(Sections sections, const ConfigurationRequest& request,
                                         const std::optional<SiteFile>& site,
                                         std::vector<fs::path>& files) {
-  if (site) refuseFormerKeys(site->document.root());
   if (site) sections.apply(site->document);
   for (const EnvironmentVariable& variable : request.environment) {
     if (variable.name == kProfileVariable) sections.apply(variable);
@@ -230,7 +227,6 @@ Configuration::Configuration(const ConfigurationRequest& request)
     if (profile->root().has(kProfileKey)) {
       throw profile->root().error(kProfileKey, "a profile builds on no other", "[sections] only");
     }
-    refuseFormerKeys(profile->root());
     lay(sections_, [&](Sections& sections) { sections.apply(*profile); });
   }
   if (site) lay(sections_, [&](Sections& sections) { sections.apply(site->document); });

@@ -12,12 +12,16 @@ struct RenamedValue {
   std::string_view now;
 };
 
-constexpr std::array<config::RenamedKey, 7> kKeys{{
+constexpr std::array<config::RenamedKey, 11> kKeys{{
     {"camera.seed", "camera.synthetic.seed"},
     {"camera.noise", "camera.synthetic.noise"},
     {"camera.exposure_drift", "camera.synthetic.exposure_drift"},
     {"camera.white_balance_drift", "camera.synthetic.white_balance_drift"},
     {"camera.readout", "camera.synthetic.readout"},
+    {"output.target", "output.targets"},
+    {"output.second_target", "output.targets"},
+    {"output.third_target", "output.targets"},
+    {"output.loopback_format", "output.loopback.format"},
     {"output.stills", "output.snapshots"},
     {"style.watercolor.steady_time", "style.watercolor.filter_time"},
 }};

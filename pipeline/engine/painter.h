@@ -25,7 +25,7 @@ namespace pleinair {
 class FramePipeline;
 
 /// Whose GL context a Painter works in. Either way the Painter has no thread of its own: one thread
-/// makes it, calls it and destroys it (the *paint thread* of docs/architecture-threads.md).
+/// makes it, calls it and destroys it (the *paint thread* of docs/architecture.md).
 enum class PainterContext {
   /// Its own, made with it. Each call makes it current on the calling thread. A context of somebody
   /// else that was current there is current again when the call returns; where none was, the

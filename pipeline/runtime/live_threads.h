@@ -18,7 +18,7 @@
 namespace pleinair::runtime {
 
 /// Runs a live chain: the camera thread, the paint thread and an output thread for every output but
-/// those that the caller steps itself (docs/architecture-threads.md). Main thread only.
+/// those that the caller steps itself (docs/architecture.md). Main thread only.
 class LiveThreads {
  public:
   /// The paint thread, among those that are stuck.

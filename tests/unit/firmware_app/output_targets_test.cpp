@@ -94,7 +94,7 @@ TEST_F(OutputTargets, HadOtherKeys) {
   for (const auto& [former, now] : {std::pair{"target", "output.targets"},
                                     {"second_target", "output.targets"},
                                     {"third_target", "output.targets"},
-                                    {"loopback_format", "format of [output.loopback]"}}) {
+                                    {"loopback_format", "output.loopback.format"}}) {
     const std::string key = std::string("output.") + former;
     EXPECT_THAT(refusalOf(std::string(former) + " = \"window\""),
                 testing::AllOf(HasSubstr("site.toml:2: " + key + ": is now "), HasSubstr(now)));
