@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <tl/expected.hpp>
 
@@ -44,6 +45,23 @@ using Result = tl::expected<T, Error>;
 /// An Error with errno's kind, domain and text. `problem` names the operation: "cannot open".
 Error errnoError(std::string subject, std::string problem, int errnoValue, std::string remedy = {});
 
+/// Yes, no, or an error: the answer of a call that can fail. It converts to no bool, because an
+/// `if` on a Result<bool> would ask for the error where its reader takes it for the answer.
+class [[nodiscard]] Answer {
+ public:
+  Answer(bool isYes) : answer_(isYes) {}
+  Answer(tl::unexpected<Error> error) : answer_(std::move(error)) {}
+
+  bool hasError() const { return !answer_.has_value(); }
+  /// Precondition: hasError().
+  const Error& error() const { return answer_.error(); }
+  /// Precondition: !hasError().
+  bool isYes() const { return *answer_; }
+
+ private:
+  Result<bool> answer_;
+};
+
 /// A failure of the world at start-up, printed as one line and never as a stack trace. While
 /// running, failures are values (`Result`), not exceptions.
 class Failure : public std::runtime_error {
@@ -60,6 +78,12 @@ template <class T>
 T orThrow(Result<T> result) {
   if (!result) throw Failure(std::move(result.error()));
   if constexpr (!std::is_void_v<T>) return std::move(*result);
+}
+
+/// Whether the answer is yes, or a Failure thrown from its error. For start-up code only.
+inline bool orThrow(const Answer& answer) {
+  if (answer.hasError()) throw Failure(answer.error());
+  return answer.isYes();
 }
 
 }  // namespace pleinair::hal

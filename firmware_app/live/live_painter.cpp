@@ -9,7 +9,7 @@ LivePainter::LivePainter(const PainterOptions& options,
                          const std::vector<hal::FrameFormat>& outputs, LiveControls& controls)
     : painter_(options), controls_(controls), seen_(controls.parameters()), parameters_(*seen_) {
   warmUp(options);
-  for (const hal::FrameFormat& format : outputs) readers_.push_back(painter_.openReadback(format));
+  for (const hal::FrameFormat& format : outputs) readbacks_.push_back(painter_.openReadback(format));
 }
 
 void LivePainter::warmUp(const PainterOptions& options) {
@@ -45,13 +45,22 @@ hal::Result<void> LivePainter::paint(const hal::CapturedFrame& frame, std::size_
   return {};
 }
 
-hal::Result<bool> LivePainter::poll(std::size_t output, OutputFrame& picture) {
+hal::Answer LivePainter::poll(std::size_t output, OutputFrame& picture) {
   return painter_.poll(readbacks_.at(output), picture);
 }
 
 void LivePainter::wait(hal::Duration limit) {
   // A GPU that is lost gives no picture: poll() says so.
   [[maybe_unused]] const auto isReady = painter_.waitForAny(limit);
+}
+
+void LivePainter::open(std::size_t output, const hal::FrameFormat& format) {
+  assert(output == readbacks_.size());
+  readbacks_.push_back(painter_.openReadback(format));
+}
+
+void LivePainter::close(std::size_t output) {
+  painter_.closeReadback(readbacks_.at(output));
 }
 
 }  // namespace pleinair::app

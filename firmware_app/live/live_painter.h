@@ -20,8 +20,10 @@ class LivePainter final : public runtime::FramePainter {
               LiveControls& controls);
 
   hal::Result<void> paint(const hal::CapturedFrame& frame, std::size_t quality) override;
-  hal::Result<bool> poll(std::size_t output, OutputFrame& picture) override;
+  hal::Answer poll(std::size_t output, OutputFrame& picture) override;
   void wait(hal::Duration limit) override;
+  void open(std::size_t output, const hal::FrameFormat& format) override;
+  void close(std::size_t output) override;
 
  private:
   /// Paints a blank frame at each level of quality with the first parameters, which the Painter,

@@ -325,13 +325,13 @@ void FramePipeline::submitReadbacks(const hal::CapturedFrame& frame) {
 }
 
 /// Copies a read-back's oldest picture as `copy` does: Readback::poll() or Readback::wait().
-hal::Result<bool> FramePipeline::copyOldest(
-    int number, OutputFrame& picture, hal::Result<bool> (present::Readback::*copy)(hal::Image&)) {
+hal::Answer FramePipeline::copyOldest(
+    int number, OutputFrame& picture, hal::Answer (present::Readback::*copy)(hal::Image&)) {
   if (watch_.loss()) return tl::unexpected(*watch_.loss());
   OpenReadback& readback = readbacks_.at(number);
-  const hal::Result<bool> copied = (readback.ring.*copy)(picture.image);
-  if (!copied) return tl::unexpected(metLoss(copied.error()));
-  if (!*copied) return false;
+  const hal::Answer copied = (readback.ring.*copy)(picture.image);
+  if (copied.hasError()) return tl::unexpected(metLoss(copied.error()));
+  if (!copied.isYes()) return false;
   picture.sequence = readback.inFlight.front().sequence;
   picture.captureTime = readback.inFlight.front().captureTime;
   readback.inFlight.erase(readback.inFlight.begin());

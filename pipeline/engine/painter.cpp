@@ -111,17 +111,17 @@ void Painter::closeReadback(int readback) {
   assert(closed == 1);
 }
 
-hal::Result<bool> Painter::poll(int readback, OutputFrame& picture) {
+hal::Answer Painter::poll(int readback, OutputFrame& picture) {
   const ContextScope scope = pipeline_->enter();
   return pipeline_->copyOldest(readback, picture, &present::Readback::poll);
 }
 
-hal::Result<bool> Painter::wait(int readback, OutputFrame& picture) {
+hal::Answer Painter::wait(int readback, OutputFrame& picture) {
   const ContextScope scope = pipeline_->enter();
   return pipeline_->copyOldest(readback, picture, &present::Readback::wait);
 }
 
-hal::Result<bool> Painter::waitForAny(hal::Duration limit) {
+hal::Answer Painter::waitForAny(hal::Duration limit) {
   FramePipeline& p = *pipeline_;
   const ContextScope scope = p.enter();
   if (p.watch_.loss()) return tl::unexpected(*p.watch_.loss());
@@ -134,9 +134,9 @@ hal::Result<bool> Painter::waitForAny(hal::Duration limit) {
     if (isOlder) oldest = &each;
   }
   if (oldest == nullptr) return false;
-  const hal::Result<bool> isReady = oldest->ring.isReadyWithin(limit);
-  if (!isReady) return tl::unexpected(p.metLoss(isReady.error()));
-  return *isReady;
+  const hal::Answer isReady = oldest->ring.isReadyWithin(limit);
+  if (isReady.hasError()) return tl::unexpected(p.metLoss(isReady.error()));
+  return isReady;
 }
 
 bool Painter::hasRoom(int readback) const {

@@ -156,13 +156,13 @@ class Painter {
   void closeReadback(int readback);
   /// Copies the read-back's oldest picture into `picture`, reusing its memory; false if none is
   /// ready. Never waits. Error: kDeviceLost, for ever.
-  hal::Result<bool> poll(int readback, OutputFrame& picture);
+  hal::Answer poll(int readback, OutputFrame& picture);
   /// The same, but waits for the GPU: false only if none is in flight.
-  hal::Result<bool> wait(int readback, OutputFrame& picture);
+  hal::Answer wait(int readback, OutputFrame& picture);
   /// Waits until the picture that will be ready first, of all read-backs, can be polled, but no
   /// longer than `limit` of real time: whether it can. False at once if none is in flight. Sleeps
   /// in the driver (glClientWaitSync). Error: kDeviceLost, for ever.
-  hal::Result<bool> waitForAny(hal::Duration limit);
+  hal::Answer waitForAny(hal::Duration limit);
   /// Whether another paint() would still be read.
   bool hasRoom(int readback) const;
   std::uint64_t skipped(int readback) const;

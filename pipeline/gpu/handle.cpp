@@ -42,9 +42,9 @@ FenceState Fence::state(GLuint64 timeoutNs, const GpuTestHook& testHook) const {
   }
 }
 
-hal::Result<FenceState> Fence::poll(const GpuTestHook& testHook) const {
-  const FenceState now = state(0, testHook);
-  if (now != FenceState::kFailed) return now;
+hal::Answer Fence::passed(const GpuTestHook& testHook, hal::Duration limit) const {
+  const FenceState now = state(static_cast<GLuint64>(limit.count()), testHook);
+  if (now != FenceState::kFailed) return now == FenceState::kSignalled;
   return tl::unexpected(waitFailed());
 }
 

@@ -122,8 +122,9 @@ class Fence {
   /// How it stands, after waiting `timeoutNs` at most. Flushes, so that it is reached. An empty
   /// one, as a driver gives that has lost its GPU, has failed.
   FenceState state(GLuint64 timeoutNs = 0) const { return state(timeoutNs, {}); }
-  /// kSignalled or kNotYet. Does not wait. Error: kDeviceLost, where the GPU never passes it.
-  hal::Result<FenceState> poll(const GpuTestHook& testHook = {}) const;
+  /// Whether the GPU has passed it, after waiting for it `limit` of real time at most. Error:
+  /// kDeviceLost, where it never will.
+  hal::Answer passed(const GpuTestHook& testHook = {}, hal::Duration limit = {}) const;
   /// Returns when the GPU has passed it. Error: kDeviceLost, where it never will or does not within
   /// the testHook's patience.
   hal::Result<void> wait(const GpuTestHook& testHook = {}) const;

@@ -19,8 +19,8 @@ using hal::FrameFormat;
 using hal::FrameSize;
 using hal::PixelFormat;
 
-/// Name of the shader that packs a plane. Each plane has its own, because the software rasteriser
-/// runs every branch of a shared one.
+/// The shader that packs a plane. One each: the software rasteriser runs every branch of a shared
+/// one.
 std::string_view shaderOf(PixelFormat format, int plane) {
   switch (format) {
     case PixelFormat::kRgba8:
@@ -42,15 +42,14 @@ std::string_view shaderOf(PixelFormat format, int plane) {
   return "pipeline/present/shaders/pack_luma.frag";
 }
 
-/// Size of a packed plane in texels of four bytes.
+/// The packed texels of a plane, four bytes each.
 FrameSize planeTexels(const FrameFormat& format, int plane) {
   const std::size_t bytes = rowBytes(format.pixelFormat, plane, format.size.width);
   return {static_cast<int>((bytes + 3) / 4),
           planeRows(format.pixelFormat, plane, format.size.height)};
 }
 
-/// The colour encoding of luma and chroma for grey, RGB and RGBA outputs: full range, so that white
-/// stays white.
+/// Luma and chroma as grey, RGB and RGBA outputs need it: full range, so that white stays white.
 hal::ColorEncoding encodingOf(const FrameFormat& format) {
   if (isYCbCr(format.pixelFormat)) return format.encoding;
   return {.matrix = hal::ColorMatrix::kBt601, .range = hal::ColorRange::kFull};
@@ -65,8 +64,8 @@ hal::Error unreadable(FrameSize size) {
           .domain = hal::ErrorDomain::kGl};
 }
 
-/// Origin of a plane in the packed texture: chroma lies below luma, and Cr of I420 beside its Cb,
-/// so that the texture is no higher than 1.5 times the image.
+/// Where a plane begins in the packed texture: below luma, Cr of I420 beside its Cb, so that the
+/// texture stays within 1.5 times the picture's height.
 glm::ivec2 planeOrigin(const FrameFormat& format, int plane) {
   if (plane == 0) return {0, 0};
   return {plane == 1 ? 0 : planeTexels(format, 1).width, planeTexels(format, 0).height};
@@ -144,27 +143,36 @@ void Readback::submit(const gpu::Texture& picture, FrameSize fullSize) {
   ++submitted_;
 }
 
-hal::Result<ReadbackResult> Readback::take(hal::Image& image, bool wait) {
-  if (isEmpty()) return ReadbackResult::kNoImage;
-  Slot& slot = ring_[taken_ % ring_.size()];
-  if (wait) {
-    if (const auto copied = slot.copied.wait(testHook_); !copied)
-      return tl::unexpected(copied.error());
-  } else {
-    const auto copied = slot.copied.poll(testHook_);
-    if (!copied) return tl::unexpected(copied.error());
-    if (*copied == gpu::FenceState::kNotYet) return ReadbackResult::kNoImage;
-  }
+hal::Answer Readback::poll(hal::Image& image) {
+  if (isEmpty()) return false;
+  const hal::Answer isReady = isReadyWithin(hal::Duration::zero());
+  return !isReady.hasError() && isReady.isYes() ? copyOldest(image) : isReady;
+}
+
+hal::Answer Readback::wait(hal::Image& image) {
+  if (isEmpty()) return false;
+  const auto copied = ring_[taken_ % ring_.size()].copied.wait(testHook_);
+  if (!copied) return tl::unexpected(copied.error());
+  return copyOldest(image);
+}
+
+hal::Answer Readback::isReadyWithin(hal::Duration limit) const {
+  assert(!isEmpty());
+  return ring_[taken_ % ring_.size()].copied.passed(testHook_, limit);
+}
+
+hal::Answer Readback::copyOldest(hal::Image& image) {
+  const Slot& slot = ring_[taken_ % ring_.size()];
   if (image.format() != format_) image = hal::Image(format_);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer.name());
   const void* bytes = glMapBufferRange(
       GL_PIXEL_PACK_BUFFER, 0, static_cast<GLsizeiptr>(slot.buffer.sizeBytes()), GL_MAP_READ_BIT);
   if (bytes != nullptr) unpack(static_cast<const std::uint8_t*>(bytes), image);
-  const bool sound = bytes != nullptr && glUnmapBuffer(GL_PIXEL_PACK_BUFFER) == GL_TRUE;
+  const bool isIntact = bytes != nullptr && glUnmapBuffer(GL_PIXEL_PACK_BUFFER) == GL_TRUE;
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  if (!sound) return tl::unexpected(unreadable(format_.size));
+  if (!isIntact) return tl::unexpected(unreadable(format_.size));
   ++taken_;
-  return ReadbackResult::kImage;
+  return true;
 }
 
 void Readback::unpack(const std::uint8_t* bytes, hal::Image& image) const {

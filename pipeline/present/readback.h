@@ -18,40 +18,42 @@
 
 namespace pleinair::present {
 
-/// What Readback::take() came to.
-enum class ReadbackResult { kNoImage, kImage };
-
 /// Brings painted pictures to memory in an output's format without stalling the GPU: scaled and
 /// converted by a pass, copied into a ring of buffers, and handed out when a fence says so. Paint
 /// thread only.
 class Readback {
  public:
-  /// `library` has presentShaders(). `format`: RGBA8, RGB8, grey, I420, NV12 or YUYV. `depth`:
-  /// largest number of images in flight.
+  /// `library` has presentShaders(); `format`: RGBA8, RGB8, grey, I420, NV12 or YUYV; `depth`: how
+  /// many pictures may be in flight.
   Readback(const gpu::ShaderLibrary& library, hal::FrameFormat format, int depth = 3,
            gpu::GpuTestHook testHook = {});
 
-  /// Size of the texture that an image of this format passes through. Above the device's limit, no
-  /// reader can be made.
+  /// Of the texture that a picture of this format goes through: beyond the device's limit, none can
+  /// be made.
   static hal::FrameSize packedSize(const hal::FrameFormat& format);
 
-  /// Reads and drops one image of this size with undefined contents, so that everything is compiled
-  /// and allocated. Throws hal::Failure (kDeviceLost). Precondition: isEmpty().
+  /// Reads one picture of this size, undefined, and drops it: what pictures need is compiled and
+  /// allocated then. Throws hal::Failure (kDeviceLost). Precondition: isEmpty().
   void warmUp(hal::FrameSize pictureSize);
 
   const hal::FrameFormat& format() const { return format_; }
   bool hasRoom() const { return submitted_ - taken_ < ring_.size(); }
   bool isEmpty() const { return submitted_ == taken_; }
 
-  /// Begins to read `picture` (RGBA8, LINEAR), which may be a reduced version of an image of
-  /// `fullSize`; it is scaled to the format's size as that image would be. Precondition: hasRoom().
+  /// Begins to read `picture` (RGBA8, LINEAR), laid onto the format's size as one of `fullSize` is,
+  /// which it may be a smaller version of. Precondition: hasRoom().
   void submit(const gpu::Texture& picture, hal::FrameSize fullSize);
   void submit(const gpu::Texture& picture) { submit(picture, picture.size()); }
 
-  /// Copies the oldest picture into `image`, which gets this reader's format; pictures come in the
-  /// order they were submitted. kNoImage if none is ready; with `wait` only if none is in flight.
-  /// Error: kDeviceLost; no picture comes any more.
-  hal::Result<ReadbackResult> take(hal::Image& image, bool wait);
+  /// Copies the oldest picture into `image`, which gets this read-back's format; pictures come in
+  /// the order in which they were submitted. False if none is ready. Error: kDeviceLost; no picture
+  /// comes any more.
+  hal::Answer poll(hal::Image& image);
+  /// The same, but waits for the oldest picture: false only if none is in flight.
+  hal::Answer wait(hal::Image& image);
+  /// Whether the oldest picture is ready, after waiting for it `limit` of real time at most. Error:
+  /// kDeviceLost. Precondition: !isEmpty().
+  hal::Answer isReadyWithin(hal::Duration limit) const;
 
  private:
   struct Slot {
@@ -65,7 +67,7 @@ class Readback {
     hal::FrameSize texels;
   };
   void pack(const gpu::Texture& picture);
-  hal::Result<bool> copyOldest(hal::Image& image);
+  hal::Answer copyOldest(hal::Image& image);
   void unpack(const std::uint8_t* bytes, hal::Image& image) const;
 
   hal::FrameFormat format_;

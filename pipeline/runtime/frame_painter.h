@@ -28,10 +28,16 @@ class FramePainter {
   virtual hal::Result<void> paint(const hal::CapturedFrame& frame, std::size_t quality) = 0;
   /// Copies an output's oldest finished picture into `picture`, whose memory is reused; false if
   /// none is ready. Never waits. Errors: kDeviceLost.
-  virtual hal::Result<bool> poll(std::size_t output, OutputFrame& picture) = 0;
+  virtual hal::Answer poll(std::size_t output, OutputFrame& picture) = 0;
   /// Returns once a picture in flight can be polled, or `limit` of real time is over. An error
   /// shows in the next poll(). Precondition: one is in flight.
   virtual void wait(hal::Duration limit) = 0;
+
+  /// Begins another output: from the next frame on its pictures are brought to memory in `format`.
+  /// `output`: the next number after those that there were. Throws hal::Failure.
+  virtual void open(std::size_t output, const hal::FrameFormat& format) = 0;
+  /// Ends an output: its pictures that were not taken are dropped.
+  virtual void close(std::size_t output) = 0;
 };
 
 /// Makes a painter that brings its pictures to memory in these formats, one an output, numbered

@@ -201,16 +201,16 @@ void OutputStage::presentInMemory(hal::MemoryOutput& output, const Due& due) {
 
 void OutputStage::presentSurface(hal::SurfaceOutput& output, const Due& due) {
   const hal::TimePoint began = clock_.now();
-  hal::Result<bool> submitted = submitSurface(output, due);
+  const hal::Answer submitted = submitSurface(output, due);
   const hal::TimePoint ended = clock_.now();
   const std::scoped_lock lock(mutex_);
   isWriting_ = false;
   queue_.presented(ended);
   writing_.add(ended - began, ended);
-  if (!submitted) {
+  if (submitted.hasError()) {
     end(due.picture, Outcome::kOutputFailed);
-    fail(std::move(submitted.error()));
-  } else if (!*submitted) {
+    fail(submitted.error());
+  } else if (!submitted.isYes()) {
     end(due.picture, Outcome::kNoSurface);
   } else {
     free_.push_back(due.picture.buffer);
@@ -218,7 +218,7 @@ void OutputStage::presentSurface(hal::SurfaceOutput& output, const Due& due) {
 }
 
 /// False where no surface is free.
-hal::Result<bool> OutputStage::submitSurface(hal::SurfaceOutput& output, const Due& due) {
+hal::Answer OutputStage::submitSurface(hal::SurfaceOutput& output, const Due& due) {
   const hal::Result<std::optional<hal::Surface>> surface = output.acquire();
   if (!surface) return tl::unexpected(surface.error());
   if (!*surface) return false;

@@ -129,7 +129,7 @@ class OutputStage {
   void present(const Due& due);
   void presentInMemory(hal::MemoryOutput& output, const Due& due);
   void presentSurface(hal::SurfaceOutput& output, const Due& due);
-  hal::Result<bool> submitSurface(hal::SurfaceOutput& output, const Due& due);
+  hal::Answer submitSurface(hal::SurfaceOutput& output, const Due& due);
   void takeEvents();
   void ended(const hal::PresentationEvent& event);
   Outcome outcomeOf(const hal::PresentationEvent& event, const Queued& queued) const;

@@ -163,13 +163,21 @@ bool PaintStage::collect() {
   return tookAny;
 }
 
-bool PaintStage::collectFor(std::size_t output) {
-  const hal::Result<bool> taken = painter_->poll(output, outputs_.at(output)->buffer());
-  if (!taken) {
+void PaintStage::removeFinished() {
+  while (!inFlight_.empty() && inFlight_.front().waitedForBy == 0) {
+    finished(inFlight_.front(), clock_.now());
+    inFlight_.erase(inFlight_.begin());
+    for (Output& output : outputs_) --output.taken;
+  }
+}
+
+bool PaintStage::collectFor(Output& output) {
+  const hal::Answer taken = painter_->poll(output.id, output.stage->buffer());
+  if (taken.hasError()) {
     lose(taken.error());
     return false;
   }
-  if (!*taken) return false;
+  if (!taken.isYes()) return false;
   InFlight& frame = inFlight_.at(output.taken++);
   --frame.waitedForBy;
   hal::Duration latency{};

@@ -141,7 +141,7 @@ class SimulatedPainter final : public runtime::FramePainter {
     return {};
   }
 
-  hal::Result<bool> poll(std::size_t output, OutputFrame& picture) override {
+  hal::Answer poll(std::size_t output, OutputFrame& picture) override {
     if (gpu_.isLost) return tl::unexpected(lost());
     const std::size_t index = taken_.at(output).value() - done_;
     if (index >= work_.size() || work_.at(index).ready > clock_.now()) return false;

@@ -21,7 +21,7 @@ class PassThroughPainter final : public runtime::FramePainter {
     }
     return {};
   }
-  hal::Result<bool> poll(std::size_t output, OutputFrame& picture) override {
+  hal::Answer poll(std::size_t output, OutputFrame& picture) override {
     auto& pictures = waiting_.at(output);
     if (pictures.empty()) return false;
     const hal::CapturedFrame frame = std::move(pictures.front());

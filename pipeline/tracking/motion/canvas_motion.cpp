@@ -53,9 +53,9 @@ void CanvasMotion::reset() {
 
 const PlaneSimilarity& CanvasMotion::follow(const ImageMotion& motion) {
   if (motion.isCut || !motion.picture) return firstFromFrame_;
-  const glm::dmat3& nowFromThen = motion.picture->nowFromThen;
-  if (nowFromThen == glm::dmat3(1.0)) return firstFromFrame_;
-  firstFromSeen_ = firstFromSeen_ * nearestTo(nowFromThen, motion.frameSize).inverse();
+  const glm::dmat3& currentFromPrevious = motion.picture->currentFromPrevious;
+  if (currentFromPrevious == glm::dmat3(1.0)) return firstFromFrame_;
+  firstFromSeen_ = firstFromSeen_ * nearestTo(currentFromPrevious, motion.frameSize).inverse();
   if (apartPx(firstFromSeen_, firstFromFrame_, motion.frameSize) >
       kStillPx * firstFromFrame_.scale()) {
     firstFromFrame_ = firstFromSeen_;

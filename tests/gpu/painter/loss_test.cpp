@@ -42,6 +42,11 @@ void expectLost(const hal::Result<T>& result) {
   EXPECT_EQ(result.error().kind, hal::ErrorKind::kDeviceLost);
 }
 
+void expectLost(const hal::Answer& answer) {
+  ASSERT_TRUE(answer.hasError());
+  EXPECT_EQ(answer.error().kind, hal::ErrorKind::kDeviceLost);
+}
+
 /// All calls of a Painter whose GPU is gone.
 void expectNothingComes(Painter& painter, int reader) {
   OutputFrame picture;

@@ -44,7 +44,7 @@ class ReadbackTest : public GlTest {
     Readback reader(library_, format);
     reader.submit(textureOf(rgb.view()));
     hal::Image image;
-    EXPECT_EQ(hal::orThrow(reader.take(image, true)), ReadbackResult::kImage);
+    EXPECT_TRUE(hal::orThrow(reader.wait(image)));
     EXPECT_EQ(image.format(), format);
     return image;
   }
@@ -149,12 +149,11 @@ TEST_F(ReadbackTest, HandsPicturesOutInTheirOrder) {
   for (int round = 0; round < 4; ++round) {  // the ring turns over
     while (reader.hasRoom()) reader.submit(grey(submitted++));
     for (int i = 0; i < 2; ++i) {
-      ASSERT_EQ(hal::orThrow(reader.take(image, true)), ReadbackResult::kImage);
+      ASSERT_TRUE(hal::orThrow(reader.wait(image)));
       EXPECT_EQ(image.plane(0)[0], taken++);
     }
   }
-  while (hal::orThrow(reader.take(image, true)) == ReadbackResult::kImage)
-    EXPECT_EQ(image.plane(0)[0], taken++);
+  while (hal::orThrow(reader.wait(image))) EXPECT_EQ(image.plane(0)[0], taken++);
   EXPECT_EQ(taken, submitted);
   EXPECT_EQ(submitted, 9);
 }
@@ -176,7 +175,7 @@ TEST_F(ReadbackTest, WarmsUpWithoutATrace) {
   EXPECT_FALSE(reader.hasRoom());
   hal::Image image;
   for (const int expected : {7, 8}) {
-    ASSERT_EQ(hal::orThrow(reader.take(image, true)), ReadbackResult::kImage);
+    ASSERT_TRUE(hal::orThrow(reader.wait(image)));
     EXPECT_EQ(image.plane(0)[15], expected);
   }
 }
@@ -191,21 +190,21 @@ TEST_F(ReadbackTest, SaysWhetherThereIsRoom) {
   reader.submit(grey(2));
   EXPECT_FALSE(reader.hasRoom());
   hal::Image image;
-  EXPECT_EQ(hal::orThrow(reader.take(image, true)), ReadbackResult::kImage);
+  EXPECT_TRUE(hal::orThrow(reader.wait(image)));
   EXPECT_TRUE(reader.hasRoom());
 }
 
 TEST_F(ReadbackTest, TakesNothingWhereNothingIsAndWithoutWaitingOnlyWhatIsReady) {
   Readback reader(library_, {.pixelFormat = PixelFormat::kGrey8, .size = {4, 4}});
   hal::Image image;
-  EXPECT_EQ(hal::orThrow(reader.take(image, false)), ReadbackResult::kNoImage);
-  EXPECT_EQ(hal::orThrow(reader.take(image, true)), ReadbackResult::kNoImage);
+  EXPECT_FALSE(hal::orThrow(reader.poll(image)));
+  EXPECT_FALSE(hal::orThrow(reader.wait(image)));
   EXPECT_EQ(image.size(), FrameSize{});
   reader.submit(grey(9));
   EXPECT_TRUE(gpu::Fence::insert().wait());  // so the earlier one has, too
-  EXPECT_EQ(hal::orThrow(reader.take(image, false)), ReadbackResult::kImage);
+  EXPECT_TRUE(hal::orThrow(reader.poll(image)));
   EXPECT_EQ(image.plane(0)[15], 9);
-  EXPECT_EQ(hal::orThrow(reader.take(image, false)), ReadbackResult::kNoImage);
+  EXPECT_FALSE(hal::orThrow(reader.poll(image)));
 }
 
 TEST_F(ReadbackTest, KeepsTheMemoryOfTheImageItFills) {
@@ -213,7 +212,7 @@ TEST_F(ReadbackTest, KeepsTheMemoryOfTheImageItFills) {
   hal::Image image(reader.format());
   const std::uint8_t* const memory = image.plane(0).data();
   reader.submit(grey(9));
-  ASSERT_EQ(hal::orThrow(reader.take(image, true)), ReadbackResult::kImage);
+  ASSERT_TRUE(hal::orThrow(reader.wait(image)));
   EXPECT_EQ(image.plane(0).data(), memory);
 }
 
