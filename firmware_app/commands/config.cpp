@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <string>
 
 #include <spdlog/spdlog.h>
 
@@ -9,13 +10,14 @@ namespace pleinair::app {
 
 int printConfiguration(const ConfigOptions& options) {
   const Configuration configuration(options.configuration);
+  const auto which = options.givenOnly ? config::Printed::kGiven : config::Printed::kAll;
+  const std::string text = configuration.toToml(which);
   // Devices may be another machine's, or not plugged in yet: `pleinair doctor` judges those.
   for (const doctor::RequestedPart& part : requestedParts(configuration)) {
     if (part.problem && !part.isDevice) spdlog::warn("{}", part.problem->message());
   }
-  const auto which = options.givenOnly ? config::Printed::kGiven : config::Printed::kAll;
-  // Write errors are checked once, at the end of the program.
-  std::fputs(configuration.toToml(which).c_str(), stdout);
+  // Whether it arrived is looked at once, at the program's end.
+  std::fputs(text.c_str(), stdout);
   return 0;
 }
 

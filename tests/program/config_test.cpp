@@ -142,6 +142,15 @@ TEST_F(ConfigSubcommand, RefusesDeepNesting) {
                 HasSubstr("s.toml:1: nested too deeply"));
 }
 
+TEST_F(ConfigSubcommand, WarnsOfFilesAndFoldersThatAreNotThere) {
+  const ProgramRun run = runProgram({"config", "--set", "output.target=" + path("none/out.mp4"),
+                                     "--set", "camera.source=" + path("none.mp4")});
+  EXPECT_EQ(run.status, 0) << run.error;
+  EXPECT_THAT(run.error, HasSubstr("mkdir -p '" + path("none") + "'"));
+  EXPECT_THAT(run.error, HasSubstr("none.mp4: is neither a camera nor a file"));
+  EXPECT_THAT(run.out, HasSubstr("none/out.mp4"));
+}
+
 TEST_F(ConfigSubcommand, SaysWhatTomlCannotHold) {
   // Files may be named in Latin-1, and are found by that name, but TOML is UTF-8.
   expectRefused(runProgram({"config", "--scene", "/caf\xe9.toml"}), HasSubstr("UTF-8"));

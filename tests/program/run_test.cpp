@@ -264,6 +264,21 @@ TEST_F(RunInWindow, SavesTheFinishedPictureUnderAnyView) {
   }
 }
 
+TEST_F(RunInWindow, GoesOnWithTheMovieWhereTheXServerDies) {
+  writeMedia(path("in.y4m"), 10, kSize);
+  const ProgramRun live = runShown({"--camera", path("in.y4m"), "--output", "window", "--output",
+                                    path("out.mp4"), "--style", "none", "--frames", "60"},
+                                   [&](pid_t) {
+                                     waitForTitle("none.*");
+                                     server_->kill();
+                                   });
+  EXPECT_THAT(live.error, HasSubstr("window: the display server is gone"));
+  EXPECT_EQ(live.status, 1) << live.error;
+  const auto played = play(path("out.mp4"));
+  ASSERT_TRUE(played);
+  EXPECT_EQ(played->frames.size(), 60U);
+}
+
 TEST_F(RunInWindow, StopsWithinTwoSecondsOfASignal) {
   writeMedia(path("in.y4m"), 10, kSize);
   for (const int signal : {SIGINT, SIGTERM}) {

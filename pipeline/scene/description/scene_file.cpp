@@ -44,12 +44,26 @@ tracking::CameraModel readCamera(const TomlTable& table, const std::filesystem::
   }
 }
 
+/// A printed tag is centimetres wide, or decimetres on a wall: 12 is 12 mm or 12 cm, not metres.
+constexpr config::NumberRange kTagEdge{.min = 0.002, .max = 3.0, .unit = "metres"};
+
+double readTagEdge(const TomlTable& table) {
+  refuseOtherUnits(table, "edge_m");
+  const double edge =
+      table.has("edge_m") ? table.number("edge_m") : table.number("edge_m", kTagEdge);
+  if (kTagEdge.contains(edge)) return edge;
+  const std::string hint = edge > kTagEdge.max
+                               ? fmt::format(" metres; {0:g} mm are {1:g} m, {0:g} cm are {2:g} m",
+                                             edge, edge / 1000, edge / 100)
+                               : "";
+  throw table.error("edge_m", fmt::format("found {:g}{}", edge, hint), kTagEdge.describe());
+}
+
 tracking::TagMarker readTag(const TomlTable& table, std::string_view family) {
   tracking::TagMarker tag;
   const bool isDefault = family == tracking::kDefaultTagFamily;
   tag.id = table.integer("id", {.min = 0, .max = isDefault ? kHighestId36h11 : kHighestId});
-  tag.edgeMetres =
-      table.number("edge_m", {.min = 0.0, .max = 100.0, .minOpen = true, .unit = "metres"});
+  tag.edgeMetres = readTagEdge(table);
   if (const auto worldFromAttach = readPose(table)) {
     tag.worldFromTag = *worldFromAttach * kAttachFromTag;
   }
@@ -124,20 +138,22 @@ SceneModel readModel(const TomlTable& table, const std::filesystem::path& direct
   return model;
 }
 
-/// Notices about a model: parts of its file that are not shown, and a size far larger than any tag.
+/// Names the parts of a model's file that are not shown, and a model that is far larger than
+/// anything with tags.
 std::vector<std::string> noticesOf(const SceneModel& model) {
   constexpr double kHugeMetres = 2.0;
   std::vector<std::string> notices;
   const auto* file = std::get_if<FileSource>(&model.source);
-  if (file == nullptr) return notices;
+  const std::string name = file != nullptr ? file->path.string() : model.name;
   for (const std::string& notice : model.model->notices) {
-    notices.push_back(fmt::format("{}: {}", file->path.string(), notice));
+    notices.push_back(fmt::format("{}: {}", name, notice));
   }
   const double scale = glm::length(glm::dvec3(model.attachFromModel[0]));
   const double width = 2.0 * scale * boundingSphere(*model.model).radiusMetres;
   if (width > kHugeMetres) {
-    notices.push_back(fmt::format("{}: is {:.3g} m wide here; a scale of {:.2g} makes it 0.2 m",
-                                  file->path.string(), width, 0.2 * scale / width));
+    notices.push_back(
+        fmt::format("{}: is {:.3g} m wide here{}; a scale of {:.2g} makes it 0.2 m", name, width,
+                    file != nullptr ? "" : " (its lengths are in metres)", 0.2 * scale / width));
   }
   return notices;
 }

@@ -42,7 +42,7 @@ namespace {
 
 using config::TomlTable;
 
-ScenePlane readPlane(const TomlTable& table, const Scene& scene) {
+ScenePlane readPlane(const TomlTable& table, Scene& scene) {
   ScenePlane plane;
   plane.name =
       table.optionalString("name").value_or(fmt::format("plane {}", scene.planes.size() + 1));
@@ -52,9 +52,15 @@ ScenePlane readPlane(const TomlTable& table, const Scene& scene) {
   }
   plane.tagId = readAttachment(table, scene);
   plane.attachFromPlane = readPose(table).value_or(glm::dmat4(1.0));
+  refuseOtherUnits(table, "size_m");
   const auto size =
       table.vector<2>("size_m", {.min = 0.0, .max = 1000.0, .minOpen = true, .unit = "metres"});
   plane.sizeMetres = {size[0], size[1]};
+  constexpr double kHugeMetres = 20.0;
+  if (std::max(size[0], size[1]) > kHugeMetres) {
+    scene.notices.push_back(fmt::format("{}: is {:g} x {:g} metres; size_m is in metres",
+                                        plane.name, size[0], size[1]));
+  }
   return plane;
 }
 

@@ -106,6 +106,7 @@ bool isModelFile(std::string name) {
 }  // namespace
 
 std::optional<glm::dmat4> readPose(const config::TomlTable& table) {
+  refuseOtherUnits(table, "position_m");
   const auto position = table.optionalVector<3>("position_m", kCoordinate);
   const auto rotation = table.optionalVector<3>("rotation_deg", kAngle);
   if (!position && !rotation) return std::nullopt;
@@ -118,6 +119,16 @@ std::optional<glm::dmat4> readPose(const config::TomlTable& table) {
     pose = glm::rotate(pose, angles[axis], about);
   }
   return pose;
+}
+
+void refuseOtherUnits(const config::TomlTable& table, std::string_view key) {
+  const std::string quantity(key.substr(0, key.size() - 2));
+  for (const char* unit : {"_mm", "_cm", "_metres", ""}) {
+    const std::string other = quantity + unit;
+    if (!table.has(other)) continue;
+    throw table.error(other, "is no key: lengths are in metres",
+                      fmt::format("{} (60 mm are 0.06)", key));
+  }
 }
 
 std::optional<glm::vec3> readColour(const config::TomlTable& table, std::string_view key) {

@@ -16,7 +16,11 @@ namespace pleinair::scene {
 /// the table has neither.
 std::optional<glm::dmat4> readPose(const config::TomlTable& table);
 
-/// Reads a colour: three sRGB numbers or "#rrggbb"; sRGB-coded.
+/// Throws config::ConfigError where the table has a length in another unit than metres, or without
+/// one: "edge_mm" or "edge" for "edge_m". Precondition: `key` ends in "_m".
+void refuseOtherUnits(const config::TomlTable& table, std::string_view key);
+
+/// A colour: three sRGB numbers or "#rrggbb"; sRGB-coded.
 std::optional<glm::vec3> readColour(const config::TomlTable& table,
                                     std::string_view key = "colour");
 

@@ -236,9 +236,21 @@ INSTANTIATE_TEST_SUITE_P(
     All, SceneFileMistake,
     testing::Values(
         Mistake{"[[tag]]\nid = 0\n",
-                "scene.toml:1: tag[0].edge_m: missing, allowed: a number of metres in (0, 100]"},
+                "scene.toml:1: tag[0].edge_m: missing, allowed: a number of metres in [0.002, 3]"},
         Mistake{"[[tag]]\nid = 0\nedge_m = 0\n",
-                "scene.toml:3: tag[0].edge_m: found 0, allowed: a number of metres in (0, 100]"},
+                "scene.toml:3: tag[0].edge_m: found 0, allowed: a number of metres in [0.002, 3]"},
+        Mistake{"[[tag]]\nid = 0\nedge_m = 12\n",
+                "scene.toml:3: tag[0].edge_m: found 12 metres; 12 mm are 0.012 m, 12 cm are 0.12 "
+                "m, allowed: a number of metres in [0.002, 3]"},
+        Mistake{"[[tag]]\nid = 0\nedge_mm = 60\n",
+                "scene.toml:3: tag[0].edge_mm: is no key: lengths are in metres, allowed: edge_m "
+                "(60 mm are 0.06)"},
+        Mistake{"[[tag]]\nid = 0\nedge = 0.06\n",
+                "scene.toml:3: tag[0].edge: is no key: lengths are in metres, allowed: edge_m (60 "
+                "mm are 0.06)"},
+        Mistake{kTag + "[[plane]]\nattach = \"tag:0\"\nsize_cm = [20, 20]\n",
+                "scene.toml:7: plane[0].size_cm: is no key: lengths are in metres, allowed: size_m "
+                "(60 mm are 0.06)"},
         Mistake{"[[tag]]\nid = 587\nedge_m = 1\n",
                 "scene.toml:2: tag[0].id: found 587, allowed: a whole number in [0, 586]"},
         Mistake{kTag + kTag,
