@@ -11,7 +11,7 @@
 #include "pipeline/gpu/aspect_fill.h"
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/present/present_shaders.h"
-#include "pipeline/styles/style_registry.h"
+#include "pipeline/styles/registry.h"
 
 namespace pleinair {
 namespace {
@@ -81,6 +81,7 @@ FramePipeline::FramePipeline(const PainterOptions& options, const gpu::ContextIn
   }
   warmUp(options.expectedFormat.value_or(
       hal::FrameFormat{.pixelFormat = hal::PixelFormat::kGrey8, .size = pictureSize_}));
+  library_.setTimer(&timer_);
 }
 
 /// A blank frame through the whole chain at each level, untimed: all that frames of the expected
@@ -96,14 +97,13 @@ void FramePipeline::warmUp(const hal::FrameFormat& expected) {
 }
 
 void FramePipeline::warmUp(const Level& level, const hal::Image& blank) {
-  gpu::PassTimer untimed;
   const gpu::Texture& camera =
       uploader_.upload(blank.view(), level.size, fitTo(level, blank.size()));
   renderer_.warmUp(level.size);
   scene::ArFrame frame = renderer_.compose(camera, scene::assumedCamera(level.size),
-                                           scene::PoseSet{}, 0, hal::TimePoint{}, untimed);
+                                           scene::PoseSet{}, 0, hal::TimePoint{});
   frame.fullSize = pictureSize_;
-  style_->paint(frame, {}, untimed);
+  style_->paint(frame, {});
 }
 
 PaintParameters FramePipeline::defaultParameters() const {
@@ -125,31 +125,31 @@ std::vector<DebugView> debugViewsOf(std::string_view style) {
   for (const scene::BufferView& view : scene::bufferViews()) {
     views.push_back({std::string(view.name), std::string(view.help)});
   }
-  for (const styles::DebugViewInfo& view : styles::styleInfo(style).views) {
+  for (const styles::DebugViewInfo& view : styles::styleKind(style).views) {
     views.push_back({std::string(view.name), std::string(view.help)});
   }
   return views;
 }
 
 std::vector<DebugView> FramePipeline::views() const {
-  return debugViewsOf(style_->name());
+  return debugViewsOf(style_->kind().name);
 }
 
 std::vector<PainterLook> FramePipeline::looks() const {
   std::vector<PainterLook> looks;
-  for (const styles::Look& look : styles::styleInfo(style_->name()).looks) {
+  for (const styles::Look& look : style_->kind().looks) {
     looks.push_back({std::string(look.name), std::string(look.help)});
   }
   return looks;
 }
 
 config::ParameterValues FramePipeline::lookParameters(std::string_view look) const {
-  return styles::styleInfo(style_->name()).parametersOf(look);
+  return style_->kind().parametersOf(look);
 }
 
 hal::Result<void> FramePipeline::checkView(const std::string& view) const {
   if (view.empty() || isOurs(view)) return {};
-  const auto ofStyle = style_->views();
+  const auto ofStyle = style_->kind().views;
   if (std::ranges::find(ofStyle, view, &styles::DebugViewInfo::name) != ofStyle.end()) return {};
   std::vector<std::string> names;
   for (const DebugView& each : views()) names.push_back(each.name);
@@ -243,6 +243,7 @@ hal::Result<Picture> FramePipeline::paintChecked(const hal::CapturedFrame& frame
   if (auto sound = checkFrame(frame, parameters); !sound) {
     return tl::unexpected(std::move(sound.error()));
   }
+  timer_.beginFrame();
   tracking::TrackingResult tracked;
   luma_.take(frame.image);
   if (tracker_) tracked = tracker_->track(luma_, frame.captureTime);
@@ -263,7 +264,7 @@ hal::Result<Picture> FramePipeline::paintChecked(const hal::CapturedFrame& frame
 
 scene::ArFrameNeeds FramePipeline::needsOf(const std::string& view) const {
   const scene::BufferView* buffer = scene::findBufferView(view);
-  scene::ArFrameNeeds needs = style_->needs();
+  scene::ArFrameNeeds needs = style_->kind().needs;
   needs.surfaces = needs.surfaces || (buffer != nullptr && buffer->needs.surfaces);
   return needs;
 }
@@ -284,14 +285,13 @@ scene::ArFrame FramePipeline::compose(const hal::CapturedFrame& frame,
     light_->follow(frame.image, tracked, frame.captureTime);
     lights = light_->lights();
   }
-  scene::ArFrame composed =
-      renderer_.compose(*camera_, *level.camera,
-                        {.cameraFromWorld = tracked.cameraFromWorld,
-                         .worldCovariance = tracked.worldCovariance,
-                         .tags = sightings_},
-                        frame.sequence, frame.captureTime, timer_, needs, lights);
+  scene::ArFrame composed = renderer_.compose(*camera_, *level.camera,
+                                              {.cameraFromWorld = tracked.cameraFromWorld,
+                                               .worldCovariance = tracked.worldCovariance,
+                                               .tags = sightings_},
+                                              frame.sequence, frame.captureTime, needs, lights);
   composed.fullSize = pictureSize_;
-  if (style_->usesCanvas() || needs.measuredMotion) followPicture(frame, needs, composed);
+  if (needs.canvas || needs.measuredMotion) followPicture(frame, needs, composed);
   return composed;
 }
 
@@ -308,7 +308,7 @@ void FramePipeline::followPicture(const hal::CapturedFrame& frame, scene::ArFram
                               .frameScale = fit.scale,
                               .frameOrigin = fit.origin};
   }
-  if (!style_->usesCanvas()) return;
+  if (!needs.canvas) return;
   const tracking::PlaneSimilarity frameFromPicture{{fit.scale.x, 0.0}, fit.origin};
   const tracking::PlaneSimilarity& moved = composed.measuredMotion
                                                ? motion_.follow(*composed.measuredMotion->motion)
@@ -321,8 +321,7 @@ const gpu::Texture& FramePipeline::paintView(const scene::ArFrame& frame,
   const std::string_view view = parameters.view;
   style_->setParameters(parameters.style);
   // The style's state advances the same whatever is looked at.
-  const gpu::Texture& painted =
-      style_->paint(frame, isOurs(view) ? std::string_view{} : view, timer_);
+  const gpu::Texture& painted = style_->paint(frame, isOurs(view) ? std::string_view{} : view);
   if (view == kCameraView) return *camera_;
   if (const scene::BufferView* buffer = scene::findBufferView(view)) {
     return bufferViewer_.show(*buffer, frame);

@@ -8,7 +8,6 @@
 #include "hal/clock.h"
 #include "hal/pixel_format.h"
 #include "pipeline/gpu/buffer.h"
-#include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/marks/anchor.h"
 #include "pipeline/marks/motion_field.h"
@@ -60,8 +59,7 @@ class AnchorSet {
   /// reset(), and one after a cut begins anew, with all anchors there at once. Preconditions:
   /// frame.full() is the constructor's size; the style's needs() ask for surfaces and
   /// measuredMotion.
-  void advance(const scene::ArFrame& frame, const MotionField& motion, gpu::PassTimer& timer,
-               const AnchorHold& hold = {});
+  void advance(const scene::ArFrame& frame, const MotionField& motion, const AnchorHold& hold = {});
   /// Whether the last advance() began anew: what styles keep of slots is of other anchors.
   bool hasBegunAnew() const;
 

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "hal/clock.h"
-#include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
@@ -42,7 +41,7 @@ class FilteredFrame {
 
   /// Takes the next frame in. A frame whose time is not after the last one's adds to the mean as if
   /// no time had passed. Throws hal::Failure where the GPU has no memory for a new size.
-  void update(const scene::ArFrame& frame, const FilteredFrameInput& input, gpu::PassTimer& timer);
+  void update(const scene::ArFrame& frame, const FilteredFrameInput& input);
 
   /// RGBA16F, LINEAR, the frame's size: sRGB-coded colour; A: how many frames' worth of colours
   /// there are in it (1: this one alone), below 0 where a virtual object is seen. Valid until the

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <memory>
 
-#include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
@@ -34,8 +33,7 @@ class MotionField {
   /// Takes what `frame` knows (ArFrame::measuredMotion, surfaces). A motion that refers to another
   /// frame than the last update's is refused: that is a cut. Precondition: frame.full() is the
   /// constructor's size.
-  void update(const scene::ArFrame& frame, gpu::PassTimer& timer,
-              const MotionFieldOptions& options = {});
+  void update(const scene::ArFrame& frame, const MotionFieldOptions& options = {});
 
   /// Whether nothing of the past goes on: the first frame, a cut, a motion that was refused.
   bool isCut() const;

@@ -8,7 +8,6 @@
 
 #include "hal/clock.h"
 #include "pipeline/gpu/buffer.h"
-#include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/marks/anchor_set.h"
@@ -71,7 +70,7 @@ class StrokeSet {
   /// have begun anew, strokes are what the frame says, without a past. Preconditions: both are of
   /// frame.full(), and the anchors have the constructor's number of slots.
   void update(const scene::ArFrame& frame, const AnchorSet& anchors, const TensorField& field,
-              const StrokePaint& paint, const StrokeRule& rule, gpu::PassTimer& timer);
+              const StrokePaint& paint, const StrokeRule& rule);
 
   /// Of each stroke that is seen, in the order of painting: four pairs of points, paint, shape
   /// (shaders/stroke_instances.comp), 96 bytes; and glDrawArraysIndirect's command for triangle

@@ -2,17 +2,17 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "pipeline/measure/anchor_measures.h"
 #include "pipeline/measure/input/true_motion.h"
 #include "pipeline/measure/measures.h"
 #include "pipeline/measure/run_conditions.h"
+#include "pipeline/styles/coherence_gates.h"
 
 namespace pleinair::measure {
 
-/// How something that must read in a certain way does read.
+/// Whether a reading is within its limit.
 struct Verdict {
   enum class State { kPassed, kFailed, kNotMeasured };
 
@@ -29,21 +29,16 @@ struct Verdict {
   std::optional<Comparison> comparison = {};
 };
 
-/// Whether a style has gates of its own.
-bool hasGates(std::string_view style);
+/// The verdicts of a style's gates on an output's measures under these conditions, whose motion
+/// decides which of them are judged; `tiling` is what tiles fixed to the screen read on the same
+/// frames.
+std::vector<Verdict> gateVerdicts(const styles::CoherenceGates& gates,
+                                  const RunConditions& runConditions, const Measures& measures,
+                                  const Measures& tiling);
 
-/// Those that have.
-std::vector<std::string> gatedStyles();
-
-/// What the gates of `style` say to an output's measures under these runConditions, whose motion
-/// decides which of them are shut; `tiling` is what tiles fixed to the screen read on the same
-/// frames. Precondition: hasGates(style).
-std::vector<Verdict> gateVerdicts(std::string_view style, const RunConditions& runConditions,
-                                  const Measures& measures, const Measures& tiling);
-
-/// What they say to the style's anchors: under a pan, once two seconds are over, and on a still
-/// scene. Empty for styles whose anchors have no gates.
-std::vector<Verdict> anchorVerdicts(std::string_view style, MotionKind motion,
+/// The verdicts on the style's anchors: under a pan, once two seconds are over, and on a still
+/// scene. Empty for styles that do not hold their anchors.
+std::vector<Verdict> anchorVerdicts(const styles::CoherenceGates& gates, MotionKind motion,
                                     const std::optional<AnchorSummary>& settled,
                                     const std::optional<AnchorSummary>& still);
 

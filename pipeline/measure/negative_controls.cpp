@@ -1,5 +1,6 @@
 #include "pipeline/measure/negative_controls.h"
 
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -17,6 +18,15 @@ constexpr double kLeastScreenPattern = 0.25;
 constexpr double kMostInputError = 0.5;
 /// Below this, in levels, tiles are hardly seen: there is nothing to tell one from the next by.
 constexpr double kSmoothDeviation = 3.0;
+
+/// Marks that are redrawn in each frame must fail one of these, where the style has no gates.
+constexpr std::array kReferenceGates{
+    styles::CoherenceGate{styles::CoherenceMeasure::kNHw2, styles::CoherenceGate::Side::kMost, 0.2},
+    styles::CoherenceGate{styles::CoherenceMeasure::kS10, styles::CoherenceGate::Side::kLeast, 80},
+    styles::CoherenceGate{styles::CoherenceMeasure::kXFlk, styles::CoherenceGate::Side::kMost, 0.5},
+    styles::CoherenceGate{styles::CoherenceMeasure::kDet, styles::CoherenceGate::Side::kLeast,
+                          0.75},
+};
 
 /// Why a control may read wrong though the measures are sound.
 std::string likelyCause(const PerSubject<Measures>& measures) {
@@ -63,12 +73,12 @@ Verdict motionVerdict(const PerSubject<Measures>& measures) {
   return verdict;
 }
 
-Verdict freshVerdict(const PerSubject<Measures>& measures, std::string_view style,
+Verdict freshVerdict(const PerSubject<Measures>& measures, const styles::CoherenceGates& gates,
                      const RunConditions& runConditions) {
   Verdict verdict{.what = "marks redrawn each frame fail the gates"};
   bool isMeasured = false;
   for (const Verdict& gate :
-       gateVerdicts(style, runConditions, measures[Subject::kFresh], measures[Subject::kFixed])) {
+       gateVerdicts(gates, runConditions, measures[Subject::kFresh], measures[Subject::kFixed])) {
     isMeasured |= gate.state != State::kNotMeasured;
     if (gate.state != State::kFailed) continue;
     verdict.state = State::kPassed;
@@ -116,11 +126,13 @@ PerSubject<cv::Mat3f> ControlPainter::paint(const cv::Mat3f& input, const cv::Ma
   return pictures;
 }
 
-std::vector<Verdict> controlVerdicts(const PerSubject<Measures>& measures, std::string_view style,
+std::vector<Verdict> controlVerdicts(const PerSubject<Measures>& measures,
+                                     const styles::CoherenceGates& gates,
                                      const RunConditions& runConditions) {
-  const std::string_view gated = hasGates(style) ? style : "painterly";
+  const styles::CoherenceGates judged =
+      gates.empty() ? styles::CoherenceGates{kReferenceGates} : gates;
   return {inputVerdict(measures[Subject::kInput]), motionVerdict(measures),
-          freshVerdict(measures, gated, runConditions), fixedVerdict(measures, runConditions)};
+          freshVerdict(measures, judged, runConditions), fixedVerdict(measures, runConditions)};
 }
 
 }  // namespace pleinair::measure

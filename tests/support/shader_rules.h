@@ -8,9 +8,10 @@ namespace pleinair::support {
 
 /// A shader as its author wrote it, and as it is compiled.
 struct ShaderText {
-  std::string name;      ///< its ending says the stage: .vert .frag .comp, or .glsl to include
-  std::string written;   ///< the file
-  std::string expanded;  ///< with its includes, without version and precisions
+  std::string name;          ///< its ending says the stage: .vert .frag .comp, or .glsl to include
+  std::string written;       ///< the file
+  std::string expanded;      ///< with its includes, without version, precisions and lines left out
+  std::string variant = {};  ///< its name and the flags that it is compiled with
 };
 
 /// What breaks a rule, as sentences; empty when nothing does.

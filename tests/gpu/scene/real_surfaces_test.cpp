@@ -36,10 +36,10 @@ class PlaneMotion : public SceneGlTest {
     const ArFrameNeeds needs{.surfaces = true};
     renderer.compose(picture, camera(),
                      {.cameraFromWorld = thenAslant(), .worldCovariance = covariance}, 2, kThen,
-                     timer_, needs);
+                     needs);
     const ArFrame& frame = renderer.compose(
         picture, camera(), {.cameraFromWorld = nowAslant(), .worldCovariance = covariance}, 3, kNow,
-        timer_, needs);
+        needs);
     return support::readRgba32f(*frame.motion->texture);
   }
   /// The desk's point behind a pixel; nothing beyond its extent.
@@ -123,8 +123,7 @@ TEST_F(PlaneMotion, IsUnknownWithoutAPoseBefore) {
   const gpu::Texture picture = plainPicture(kSize);
   const ArFrameNeeds needs{.surfaces = true};
   const auto next = [&](std::optional<glm::dmat4> pose, std::uint64_t sequence) {
-    return renderer.compose(picture, camera(), {.cameraFromWorld = pose}, sequence, kThen, timer_,
-                            needs);
+    return renderer.compose(picture, camera(), {.cameraFromWorld = pose}, sequence, kThen, needs);
   };
   EXPECT_FALSE(next(thenAslant(), 1).motion.has_value());
   const auto middleSource = [&](const ArFrame& frame) {
@@ -190,7 +189,7 @@ TEST_F(Occluders, MoveAsWellAsTheirPoseIsKnown) {
   std::vector<float> motion;
   for (const std::uint64_t sequence : {1U, 2U}) {
     const ArFrame& frame =
-        renderer.compose(picture, camera, poses, sequence, kThen, timer_, {.surfaces = true});
+        renderer.compose(picture, camera, poses, sequence, kThen, {.surfaces = true});
     if (frame.motion) motion = support::readRgba32f(*frame.motion->texture);
   }
   ASSERT_FALSE(motion.empty());

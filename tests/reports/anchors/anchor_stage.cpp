@@ -47,11 +47,11 @@ void AnchorStage::advance(const glm::dmat4& cameraFromModel, const glm::dmat3& n
   ++sequence_;
   cameraFromModel_ = cameraFromModel;
   frame_ = renderer_->compose(ground_, camera_, {.cameraFromWorld = cameraFromModel}, sequence_,
-                              hal::TimePoint(kStep * static_cast<int>(sequence_)), timer_,
+                              hal::TimePoint(kStep * static_cast<int>(sequence_)),
                               {.surfaces = true, .measuredMotion = true});
   frame_.measuredMotion = scene::MeasuredMotion{.motion = &motion};
-  field_->update(frame_, timer_);
-  anchors_->advance(frame_, *field_, timer_);
+  field_->update(frame_);
+  anchors_->advance(frame_, *field_);
   frame_.measuredMotion.reset();  // it does not outlive this call
 }
 

@@ -1,9 +1,0 @@
-// Purpose: as stroke.frag, of a frame that shows models: no paint beyond a thing's boundary.
-// Inputs, outputs: stroke_mark.glsl's, stroke_clip.glsl's. Precision: as there.
-#include "pipeline/styles/painterly/shaders/stroke_mark.glsl"
-#include "pipeline/styles/painterly/shaders/stroke_clip.glsl"
-
-void main() {
-  vec2 texel = texture(brushes, brushPlace()).rg;
-  leave(pigment(texel.g), texel.g, paint.a * texel.r * within());
-}
