@@ -4,6 +4,7 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -19,10 +20,9 @@
 #include "firmware_app/live/runtime_rules.h"
 #include "firmware_app/offline/measured_engine.h"
 #include "hal/pending_file.h"
-#include "pipeline/measure/gates.h"
 #include "pipeline/measure/input/measured_input.h"
 #include "pipeline/measure/measurement.h"
-#include "pipeline/styles/style_registry.h"
+#include "pipeline/styles/registry.h"
 
 namespace pleinair::app {
 namespace {
@@ -118,7 +118,7 @@ hal::FrameSize pictureSizeOf(const Configuration& configuration, measure::Measur
 std::string settingsText(const Configuration& configuration, hal::FrameSize size,
                          const std::string& quality) {
   const PaintingSettings painting = configuration.painting();
-  const auto looks = styles::styleInfo(painting.style).looks;
+  const auto looks = styles::styleKind(painting.style).looks;
   std::string look = painting.look;
   if (look == kDefaultLook) look = looks.empty() ? "" : std::string(looks.front().name);
   return fmt::format("{}{}x{}, quality {}", look.empty() ? "" : fmt::format("look {}, ", look),
@@ -172,10 +172,13 @@ int statusOf(const measure::Report& report, bool gates) {
 
 /// Refuses --gates for a style without gates, which would always pass.
 void refuseGatesOf(const std::string& style) {
-  if (measure::hasGates(style)) return;
-  throw refusal(
-      "--gates", fmt::format("the style {} has no gates", style),
-      fmt::format("leave it out, or measure one of {}", config::listText(measure::gatedStyles())));
+  if (!styles::styleKind(style).coherence.empty()) return;
+  std::vector<std::string> gated;
+  for (const styles::StyleKind* kind : styles::styleKinds()) {
+    if (!kind->coherence.empty()) gated.emplace_back(kind->name);
+  }
+  throw refusal("--gates", fmt::format("the style {} has none", style),
+                fmt::format("leave it out, or measure one of {}", config::listText(gated)));
 }
 
 int measureConfigured(const MeasureOptions& options, const Configuration& configuration) {
@@ -210,6 +213,7 @@ int measureConfigured(const MeasureOptions& options, const Configuration& config
   const std::optional<measure::Report> report =
       measured(*input, engine,
                {.style = painting.style,
+                .coherence = styles::styleKind(painting.style).coherence,
                 .settings = settingsText(configuration, size, levels.at(quality)),
                 .frames = frames,
                 .settle = settle,

@@ -8,7 +8,7 @@
 #include "firmware_app/cli/text_table.h"
 #include "firmware_app/commands/commands.h"
 #include "pipeline/engine/painter.h"
-#include "pipeline/styles/style_registry.h"
+#include "pipeline/styles/registry.h"
 
 namespace pleinair::app {
 namespace {
@@ -18,7 +18,7 @@ std::string section(const std::string& heading, const std::vector<TextRow>& rows
   return rows.empty() ? "" : "  " + heading + "\n" + textTable(rows);
 }
 
-std::string describe(const styles::StyleInfo& info) {
+std::string describe(const styles::StyleKind& info) {
   std::vector<TextRow> looks;
   for (const styles::Look& look : info.looks) {
     looks.push_back({std::string(look.name), std::string(look.help)});
@@ -40,8 +40,8 @@ std::string describe(const styles::StyleInfo& info) {
 int listStyles() {
   // Write errors are checked once, at the end of the program.
   std::string text;
-  for (const styles::StyleInfo& info : styles::styleInfos()) {
-    text += (text.empty() ? "" : "\n") + describe(info);
+  for (const styles::StyleKind* kind : styles::styleKinds()) {
+    text += (text.empty() ? "" : "\n") + describe(*kind);
   }
   std::fputs(text.c_str(), stdout);
   return 0;

@@ -14,7 +14,7 @@
 #include "firmware_app/config/configuration_sections.h"
 #include "firmware_app/config/renamed.h"
 #include "pipeline/engine/painter.h"
-#include "pipeline/styles/style_registry.h"
+#include "pipeline/styles/registry.h"
 
 namespace pleinair::app {
 namespace {
@@ -148,7 +148,7 @@ void validateStyle(Sections& sections, const Sections& before) {
   }
   const PaintingSettings settled = paintingOf(sections);
   std::vector<std::string> looks{std::string(kDefaultLook)};
-  for (const styles::Look& look : styles::styleInfo(settled.style).looks) {
+  for (const styles::Look& look : styles::styleKind(settled.style).looks) {
     looks.emplace_back(look.name);
   }
   checkName(sections, kLookKey, settled.look, "the looks", looks);
@@ -176,7 +176,7 @@ void applyLook(Sections& sections) {
   if (painting.look == kDefaultLook) return;
   const std::string section = styleSection(painting.style);
   const ParameterValues given = sections.values(section);
-  const ParameterValues look = styles::styleInfo(painting.style).parametersOf(painting.look);
+  const ParameterValues look = styles::styleKind(painting.style).parametersOf(painting.look);
   ParameterValues values = given;
   for (std::size_t i = 0; i < given.list().descriptors().size(); ++i) {
     const std::string& name = given.list().descriptors()[i].name;

@@ -15,7 +15,7 @@
 #include "hal/cameras/registry.h"
 #include "hal/pixel_format.h"
 #include "pipeline/engine/painter.h"
-#include "pipeline/styles/style_registry.h"
+#include "pipeline/styles/registry.h"
 
 namespace pleinair::app {
 namespace {
@@ -88,7 +88,7 @@ const ParameterTable<CameraSettings>& cameraTable() {
 
 std::vector<std::string> styleNames() {
   std::vector<std::string> names;
-  for (const styles::StyleInfo& info : styles::styleInfos()) names.emplace_back(info.name);
+  for (const styles::StyleKind* kind : styles::styleKinds()) names.emplace_back(kind->name);
   return names;
 }
 
@@ -227,9 +227,9 @@ config::Sections defaultSections() {
   sections.push_back({"output", "Where it goes.", outputTable().defaults()});
   sections.push_back({"runtime", "How it keeps up.", runtimeTable().defaults()});
   sections.push_back({"status", "What is told of the running program.", statusTable().defaults()});
-  for (const styles::StyleInfo& info : styles::styleInfos()) {
-    sections.push_back({fmt::format("style.{}", info.name),
-                        fmt::format("The style {}: {}.", info.name, info.help), info.defaults});
+  for (const styles::StyleKind* kind : styles::styleKinds()) {
+    sections.push_back({fmt::format("style.{}", kind->name),
+                        fmt::format("The style {}: {}.", kind->name, kind->help), kind->defaults});
   }
   return config::Sections(std::move(sections), std::string(kVariablePrefix), renamedKeys());
 }

@@ -15,7 +15,7 @@
 #include "hal/cameras/synthetic/synthetic_kind.h"
 #include "hal/error.h"
 #include "pipeline/scene/description/scene_file.h"
-#include "pipeline/styles/style_registry.h"
+#include "pipeline/styles/registry.h"
 
 namespace pleinair::app {
 namespace {
@@ -55,7 +55,7 @@ PaintingOptions configuredPainting(const Configuration& configuration, PaintingO
   options.view = painting.view == kFinishedView ? "" : painting.view;
   if (painting.size != config::PixelSize{}) options.size = frameSizeOf(painting.size);
   options.parameters = configuration.styleParameters();
-  const auto check = styles::styleInfo(options.style).check;
+  const auto check = styles::styleKind(options.style).check;
   if (check != nullptr) hal::orThrow(check(*options.parameters));
   return options;
 }

@@ -33,7 +33,7 @@
 #include "pipeline/runtime/live_pipeline.h"
 #include "pipeline/runtime/live_threads.h"
 #include "pipeline/runtime/status_text.h"
-#include "pipeline/styles/style_registry.h"
+#include "pipeline/styles/registry.h"
 
 namespace pleinair::app {
 namespace {
@@ -51,7 +51,7 @@ constexpr double kRateOfPictures = 8.0;
 constexpr hal::Duration kStopPatience = 1500ms;
 
 LiveTuning tuningOf(const PaintingOptions& options) {
-  const styles::StyleInfo& info = styles::styleInfo(options.style);
+  const styles::StyleKind& info = styles::styleKind(options.style);
   std::vector<LiveLook> looks;
   for (const styles::Look& look : info.looks) {
     looks.push_back({std::string(look.name), info.parametersOf(look.name)});

@@ -22,7 +22,7 @@
 #include "hal/pending_file.h"
 #include "pipeline/engine/painter.h"
 #include "pipeline/present/contact_sheet.h"
-#include "pipeline/styles/style_registry.h"
+#include "pipeline/styles/registry.h"
 
 namespace pleinair::app {
 namespace {
@@ -197,7 +197,7 @@ void reportInterruption(int signal, const PaintingJob& job) {
 
 PaintParameters startParameters(const PaintingOptions& options) {
   hal::orThrow(checkDebugView(options.style, options.view));
-  return {.style = options.parameters.value_or(styles::styleInfo(options.style).defaults),
+  return {.style = options.parameters.value_or(styles::styleKind(options.style).defaults),
           .view = options.view};
 }
 

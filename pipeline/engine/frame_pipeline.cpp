@@ -13,7 +13,7 @@
 #include "pipeline/gpu/aspect_fill.h"
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/present/present_shaders.h"
-#include "pipeline/styles/style_registry.h"
+#include "pipeline/styles/registry.h"
 
 namespace pleinair {
 namespace {
@@ -96,6 +96,7 @@ FramePipeline::FramePipeline(const PainterOptions& options, PainterGl gl)
   }
   warmUp(options.expectedFormat.value_or(
       hal::FrameFormat{.pixelFormat = hal::PixelFormat::kGrey8, .size = pictureSize_}));
+  library_.setTimer(&timer_);
 }
 
 /// A blank frame through the whole chain at each level, untimed: all that frames of the expected
@@ -111,14 +112,13 @@ void FramePipeline::warmUp(const hal::FrameFormat& expected) {
 }
 
 void FramePipeline::warmUp(const Level& level, const hal::Image& blank) {
-  gpu::PassTimer untimed;
   const gpu::Texture& camera =
       uploader_.upload(blank.view(), level.size, fitTo(level, blank.size()));
   renderer_.warmUp(level.size);
   scene::ArFrame frame = renderer_.compose(camera, scene::assumedCamera(level.size),
-                                           scene::PoseSet{}, 0, hal::TimePoint{}, untimed);
+                                           scene::PoseSet{}, 0, hal::TimePoint{});
   frame.fullSize = pictureSize_;
-  style_->paint(frame, {}, untimed);
+  style_->paint(frame, {});
 }
 
 std::vector<DebugView> debugViewsOf(std::string_view style) {
@@ -128,7 +128,7 @@ std::vector<DebugView> debugViewsOf(std::string_view style) {
   for (const scene::BufferView& view : scene::bufferViews()) {
     views.push_back({std::string(view.name), std::string(view.help)});
   }
-  for (const styles::DebugViewInfo& view : styles::styleInfo(style).views) {
+  for (const styles::DebugViewInfo& view : styles::styleKind(style).views) {
     views.push_back({std::string(view.name), std::string(view.help)});
   }
   return views;
@@ -136,7 +136,7 @@ std::vector<DebugView> debugViewsOf(std::string_view style) {
 
 hal::Result<void> checkDebugView(std::string_view style, std::string_view view) {
   if (view.empty() || isOurs(view)) return {};
-  const auto& ofStyle = styles::styleInfo(style).views;
+  const auto ofStyle = styles::styleKind(style).views;
   if (std::ranges::find(ofStyle, view, &styles::DebugViewInfo::name) != ofStyle.end()) return {};
   std::vector<std::string> names;
   for (DebugView& each : debugViewsOf(style)) names.push_back(std::move(each.name));
@@ -229,6 +229,7 @@ hal::Result<Picture> FramePipeline::paintChecked(const hal::CapturedFrame& frame
   if (auto sound = checkFrame(frame, parameters); !sound) {
     return tl::unexpected(std::move(sound.error()));
   }
+  timer_.beginFrame();
   tracking::TrackingResult tracked;
   luma_.take(frame.image);
   if (tracker_) tracked = tracker_->track(luma_, frame.captureTime);
@@ -246,7 +247,7 @@ hal::Result<Picture> FramePipeline::paintChecked(const hal::CapturedFrame& frame
 
 scene::ArFrameNeeds FramePipeline::needsOf(const std::string& view) const {
   const scene::BufferView* buffer = scene::findBufferView(view);
-  scene::ArFrameNeeds needs = style_->needs();
+  scene::ArFrameNeeds needs = style_->kind().needs;
   needs.surfaces = needs.surfaces || (buffer != nullptr && buffer->needs.surfaces);
   return needs;
 }
@@ -267,14 +268,13 @@ scene::ArFrame FramePipeline::compose(const hal::CapturedFrame& frame,
     light_->follow(frame.image, tracked, frame.captureTime);
     lights = light_->lights();
   }
-  scene::ArFrame composed =
-      renderer_.compose(*camera_, *level.camera,
-                        {.cameraFromWorld = tracked.cameraFromWorld,
-                         .worldCovariance = tracked.worldCovariance,
-                         .tags = sightings_},
-                        frame.sequence, frame.captureTime, timer_, needs, lights);
+  scene::ArFrame composed = renderer_.compose(*camera_, *level.camera,
+                                              {.cameraFromWorld = tracked.cameraFromWorld,
+                                               .worldCovariance = tracked.worldCovariance,
+                                               .tags = sightings_},
+                                              frame.sequence, frame.captureTime, needs, lights);
   composed.fullSize = pictureSize_;
-  if (style_->usesCanvas() || needs.measuredMotion) followPicture(frame, needs, composed);
+  if (needs.canvas || needs.measuredMotion) followPicture(frame, needs, composed);
   return composed;
 }
 
@@ -290,7 +290,7 @@ void FramePipeline::followPicture(const hal::CapturedFrame& frame, scene::ArFram
     composed.measuredMotion = scene::MeasuredMotion{
         .motion = &motion, .frameScale = fit.scale, .frameOrigin = fit.origin};
   }
-  if (!style_->usesCanvas()) return;
+  if (!needs.canvas) return;
   const tracking::PlaneSimilarity frameFromPicture{{fit.scale.x, 0.0}, fit.origin};
   const tracking::PlaneSimilarity& moved = motion_.follow(motion);
   composed.canvasFromPicture = frameFromPicture.inverse() * moved * frameFromPicture;
@@ -301,8 +301,7 @@ const gpu::Texture& FramePipeline::paintView(const scene::ArFrame& frame,
   const std::string_view view = parameters.view;
   style_->setParameters(parameters.style);
   // The style's state advances the same whatever is looked at.
-  const gpu::Texture& painted =
-      style_->paint(frame, isOurs(view) ? std::string_view{} : view, timer_);
+  const gpu::Texture& painted = style_->paint(frame, isOurs(view) ? std::string_view{} : view);
   if (view == kCameraView) return *camera_;
   if (const scene::BufferView* buffer = scene::findBufferView(view)) {
     return bufferViewer_.show(*buffer, frame);

@@ -7,7 +7,7 @@
 #include "pipeline/engine/frame_pipeline.h"
 #include "pipeline/engine/quality_levels.h"
 #include "pipeline/gpu/handle.h"
-#include "pipeline/styles/style_registry.h"
+#include "pipeline/styles/registry.h"
 
 namespace pleinair {
 namespace {
@@ -66,19 +66,19 @@ PaintParameters Painter::defaultParameters() const {
 }
 
 std::vector<DebugView> Painter::views() const {
-  return debugViewsOf(pipeline_->style_->name());
+  return debugViewsOf(pipeline_->style_->kind().name);
 }
 
 std::vector<PainterLook> Painter::looks() const {
   std::vector<PainterLook> looks;
-  for (const styles::Look& look : styles::styleInfo(pipeline_->style_->name()).looks) {
+  for (const styles::Look& look : styles::styleKind(pipeline_->style_->kind().name).looks) {
     looks.push_back({std::string(look.name), std::string(look.help)});
   }
   return looks;
 }
 
 config::ParameterValues Painter::lookParameters(std::string_view look) const {
-  return styles::styleInfo(pipeline_->style_->name()).parametersOf(look);
+  return styles::styleKind(pipeline_->style_->kind().name).parametersOf(look);
 }
 
 hal::Result<Picture> Painter::paint(const hal::CapturedFrame& frame,

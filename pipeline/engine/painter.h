@@ -179,7 +179,8 @@ class Painter {
 
   /// Forgets the past, as after a cut.
   void reset();
-  /// Of each pass so far, where PainterOptions asked for it.
+  /// The times of each pass so far, where PainterOptions::passTiming asked for them: kSampled for
+  /// products, which times one frame in gpu::PassTimer::kSampledEvery.
   std::vector<gpu::PassTime> passTimes() const;
 
  private:

@@ -6,21 +6,39 @@
 namespace pleinair::gpu {
 namespace {
 
-/// Whoever reads the picture meets a lost GPU.
+/// A lost GPU shows where the picture is read.
 void waitForGpu() {
   (void)Fence::insert().wait();
 }
 
-PassTiming possible(PassTiming wanted, const ContextInfo* context) {
-  if (wanted != PassTiming::kQueries) return wanted;
-  const bool usable = context != nullptr && context->hasTimerQuery && !context->isSoftware;
-  return usable ? wanted : PassTiming::kOff;
+bool hasUsableQueries(const ContextInfo* context) {
+  return context != nullptr && context->hasTimerQuery && !context->isSoftware;
 }
 
 }  // namespace
 
 PassTimer::PassTimer(PassTiming timing, const ContextInfo* context)
-    : timing_(possible(timing, context)) {}
+    : means_(Means::kNone),
+      isSampled_(timing == PassTiming::kSampled),
+      isOn_(timing != PassTiming::kOff && !isSampled_) {
+  if (timing == PassTiming::kOff) return;
+  const bool wantsFences = timing == PassTiming::kFences;
+  if (!wantsFences && hasUsableQueries(context)) {
+    means_ = Means::kQueries;
+  } else if (timing != PassTiming::kQueries) {
+    means_ = Means::kFences;
+  } else {
+    isOn_ = false;
+  }
+}
+
+void PassTimer::beginFrame() {
+  ++frame_;
+  if (!isSampled_) return;
+  isOn_ = frame_ % kSampledEvery == 0;
+  if (means_ != Means::kQueries || frame_ % kSampledEvery > 1) return;
+  for (std::size_t slot = 0; slot < times_.size(); ++slot) collect(slot);
+}
 
 std::size_t PassTimer::slotOf(std::string_view pass) {
   const auto found = std::ranges::find(times_, pass, &PassTime::pass);
@@ -30,11 +48,16 @@ std::size_t PassTimer::slotOf(std::string_view pass) {
   return times_.size() - 1;
 }
 
+PassTimer::Scope PassTimer::measureWithin(std::string_view pass) {
+  if (isMeasuring_) return {nullptr, 0};
+  return measure(pass);
+}
+
 PassTimer::Scope PassTimer::measure(std::string_view pass) {
-  if (timing_ == PassTiming::kOff) return {nullptr, 0};
+  if (!isOn_) return {nullptr, 0};
   assert(!isMeasuring_);
   const std::size_t slot = slotOf(pass);
-  if (timing_ == PassTiming::kFences) {
+  if (means_ == Means::kFences) {
     waitForGpu();
     isMeasuring_ = true;
     began_ = std::chrono::steady_clock::now();
@@ -46,15 +69,16 @@ PassTimer::Scope PassTimer::measure(std::string_view pass) {
   QueryHandle& query = queries.ring[queries.issued % kInFlight];
   if (!query) query = QueryHandle::make();
   glBeginQuery(GL_TIME_ELAPSED_EXT, query.get());
+  queries.frames[queries.issued % kInFlight] = frame_;
   isMeasuring_ = true;
   return {this, slot};
 }
 
 void PassTimer::end(std::size_t slot) {
   isMeasuring_ = false;
-  if (timing_ == PassTiming::kFences) {
+  if (means_ == Means::kFences) {
     waitForGpu();
-    add(slot, std::chrono::steady_clock::now() - began_);
+    add(slot, frame_, std::chrono::steady_clock::now() - began_);
     return;
   }
   glEndQuery(GL_TIME_ELAPSED_EXT);
@@ -72,22 +96,31 @@ void PassTimer::distrustAfterDisjoint() {
 void PassTimer::collect(std::size_t slot) {
   Queries& queries = queries_[slot];
   while (queries.read < queries.issued) {
-    const GLuint query = queries.ring[queries.read % kInFlight].get();
+    const std::size_t place = queries.read % kInFlight;
+    const GLuint query = queries.ring[place].get();
     GLuint available = GL_FALSE;
     glGetQueryObjectuiv(query, GL_QUERY_RESULT_AVAILABLE, &available);
     if (available == GL_FALSE) return;
     distrustAfterDisjoint();
     GLuint nanoseconds = 0;  // 32 bits hold 4.2 s
     glGetQueryObjectuiv(query, GL_QUERY_RESULT, &nanoseconds);
-    if (queries.read >= queries.soundFrom) add(slot, std::chrono::nanoseconds(nanoseconds));
+    if (queries.read >= queries.soundFrom) {
+      add(slot, queries.frames[place], std::chrono::nanoseconds(nanoseconds));
+    }
     ++queries.read;
   }
 }
 
-void PassTimer::add(std::size_t slot, std::chrono::nanoseconds time) {
-  times_[slot].last = time;
-  times_[slot].total += time;
-  ++times_[slot].count;
+void PassTimer::add(std::size_t slot, std::uint64_t frame, std::chrono::nanoseconds time) {
+  PassTime& pass = times_[slot];
+  std::uint64_t& lastFrame = queries_[slot].frame;
+  const bool isSameFrame = pass.count > 0 && frame != 0 && frame == lastFrame;
+  lastFrame = frame;
+  pass.last = isSameFrame ? pass.last + time : time;
+  pass.peak = std::max(pass.peak, pass.last);
+  pass.total += time;
+  ++pass.count;
+  if (!isSameFrame) ++pass.frames;
 }
 
 }  // namespace pleinair::gpu

@@ -5,7 +5,11 @@
 #include <cassert>
 #include <utility>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glm/gtc/type_ptr.hpp>
+
+#include "hal/error.h"
 
 namespace pleinair::gpu {
 namespace {
@@ -22,10 +26,40 @@ bool isImageFormat(TextureFormat format) {
   return program && static_cast<GLuint>(current) == program.get();
 }
 
-[[maybe_unused]] bool hasGroupSize(const ProgramHandle& program, glm::ivec2 size) {
-  std::array<GLint, 3> local{size.x, size.y, 1};  // a lost context answers nothing
+/// The local_size of a compute program; 1x1 for others.
+glm::ivec2 groupSizeOf(const ProgramHandle& program) {
+  std::array<GLint, 3> local{1, 1, 1};  // a lost context answers nothing
   glGetProgramiv(program.get(), GL_COMPUTE_WORK_GROUP_SIZE, local.data());
-  return local[0] == size.x && local[1] == size.y && local[2] == 1;
+  return glm::max(glm::ivec2(local[0], local[1]), glm::ivec2(1));
+}
+
+/// "pipeline/styles/watercolor/shaders/guide.frag" is timed as "watercolor: guide"; flags stay.
+std::string passOf(const std::string& label) {
+  const std::size_t flags = std::min(label.find(' '), label.size());
+  const std::string path = label.substr(0, flags);
+  const std::size_t slash = path.rfind('/');
+  const std::string file = slash == std::string::npos ? path : path.substr(slash + 1);
+  std::string folder = slash == std::string::npos ? "" : path.substr(0, slash);
+  if (folder.ends_with("/shaders")) folder.resize(folder.size() - std::string("/shaders").size());
+  folder = folder.substr(folder.rfind('/') + 1);  // npos + 1 is 0
+  return (folder.empty() ? "" : folder + ": ") + file.substr(0, file.find('.')) +
+         label.substr(flags);
+}
+
+const char* nameOf(ShaderInput::Kind kind) {
+  switch (kind) {
+    case ShaderInput::Kind::kUniform:
+      return "uniform";
+    case ShaderInput::Kind::kSampler:
+      return "sampler";
+    case ShaderInput::Kind::kImage:
+      return "image";
+    case ShaderInput::Kind::kUniformBlock:
+      return "uniform block";
+    case ShaderInput::Kind::kStorageBlock:
+      return "storage block";
+  }
+  return "";
 }
 
 GLuint groups(int items, int groupSize) {
@@ -34,26 +68,81 @@ GLuint groups(int items, int groupSize) {
 
 }  // namespace
 
-Program::Program(ProgramHandle handle, std::string label)
+Program::Program(ProgramHandle handle, ProgramKind kind, std::string label,
+                 std::vector<ShaderInput> inputs, TimerSlot timer)
     : handle_(std::move(handle)),
       label_(std::move(label)),
+      pass_(passOf(label_)),
+      timer_(std::move(timer)),
       emptyVertexArray_(VertexArrayHandle::make()) {
+  for (ShaderInput& input : inputs) inputs_.push_back({.declared = std::move(input)});
+  findLocations();
+  if (kind == ProgramKind::kCompute) groupSize_ = groupSizeOf(handle_);
+}
+
+void Program::findLocations() {
   GLint count = 0;
   glGetProgramiv(handle_.get(), GL_ACTIVE_UNIFORMS, &count);
   for (GLuint i = 0; i < static_cast<GLuint>(count); ++i) {
-    std::array<GLchar, 128> name{};
+    std::array<GLchar, 128> text{};
     GLint size = 0;
     GLenum type = 0;
-    glGetActiveUniform(handle_.get(), i, static_cast<GLsizei>(name.size()), nullptr, &size, &type,
-                       name.data());
-    uniforms_.push_back({name.data(), glGetUniformLocation(handle_.get(), name.data())});
+    glGetActiveUniform(handle_.get(), i, static_cast<GLsizei>(text.size()), nullptr, &size, &type,
+                       text.data());
+    const GLint location = glGetUniformLocation(handle_.get(), text.data());
+    if (location < 0) continue;  // of a block
+    std::string name = text.data();
+    if (name.ends_with("[0]")) name.resize(name.size() - 3);
+    for (Input& input : inputs_) {
+      if (input.declared.name == name) input.location = location;
+    }
   }
 }
 
-GLint Program::location(std::string_view uniform) const {
+void Program::refuse(const std::string& problem) const {
+  std::vector<std::string> names;
+  for (const Input& each : inputs_) {
+    names.push_back(fmt::format("{} {}", nameOf(each.declared.kind), each.declared.name));
+  }
+  throw hal::Failure(
+      {.kind = hal::ErrorKind::kInternal,
+       .subject = fmt::format("program {}", label_),
+       .problem = problem,
+       .remedy = fmt::format(
+           "its shaders declare {}",
+           names.empty() ? "nothing to set" : fmt::format("{}", fmt::join(names, ", ")))});
+}
+
+const Program::Input& Program::input(ShaderInput::Kind kind, std::string_view name) const {
   assert(isCurrent(handle_));
-  const auto found = std::ranges::find(uniforms_, uniform, &Uniform::name);
-  return found == uniforms_.end() ? -1 : found->location;
+  for (const Input& each : inputs_) {
+    if (each.declared.kind == kind && each.declared.name == name) return each;
+  }
+  refuse(fmt::format("has no {} \"{}\"", nameOf(kind), name));
+}
+
+bool Program::hasUniform(std::string_view name) const {
+  return std::ranges::any_of(inputs_, [&](const Input& each) {
+    return each.declared.name == name && (each.declared.kind == ShaderInput::Kind::kUniform ||
+                                          each.declared.kind == ShaderInput::Kind::kSampler);
+  });
+}
+
+GLint Program::location(std::string_view uniform, std::string_view type) const {
+  const Input& found = input(ShaderInput::Kind::kUniform, uniform);
+  const std::string& declared = found.declared.type;
+  if (declared != type && (declared != "bool" || type != "int")) {
+    refuse(fmt::format("has a {} {}, which cannot be set to a {}", declared, uniform, type));
+  }
+  return found.location;
+}
+
+unsigned Program::binding(ShaderInput::Kind kind, std::string_view name) const {
+  const Input& found = input(kind, name);
+  if (found.declared.binding < 0) {
+    refuse(fmt::format("has a {} {} whose layout names no binding", nameOf(kind), name));
+  }
+  return static_cast<unsigned>(found.declared.binding);
 }
 
 Program& Program::use() {
@@ -63,39 +152,39 @@ Program& Program::use() {
 }
 
 Program& Program::set(std::string_view uniform, int value) {
-  glUniform1i(location(uniform), value);
+  glUniform1i(location(uniform, "int"), value);
   return *this;
 }
 Program& Program::set(std::string_view uniform, unsigned value) {
-  glUniform1ui(location(uniform), value);
+  glUniform1ui(location(uniform, "uint"), value);
   return *this;
 }
 Program& Program::set(std::string_view uniform, float value) {
-  glUniform1f(location(uniform), value);
+  glUniform1f(location(uniform, "float"), value);
   return *this;
 }
 Program& Program::set(std::string_view uniform, glm::ivec2 value) {
-  glUniform2i(location(uniform), value.x, value.y);
+  glUniform2i(location(uniform, "ivec2"), value.x, value.y);
   return *this;
 }
 Program& Program::set(std::string_view uniform, glm::vec2 value) {
-  glUniform2f(location(uniform), value.x, value.y);
+  glUniform2f(location(uniform, "vec2"), value.x, value.y);
   return *this;
 }
 Program& Program::set(std::string_view uniform, glm::vec3 value) {
-  glUniform3f(location(uniform), value.x, value.y, value.z);
+  glUniform3f(location(uniform, "vec3"), value.x, value.y, value.z);
   return *this;
 }
 Program& Program::set(std::string_view uniform, glm::vec4 value) {
-  glUniform4f(location(uniform), value.x, value.y, value.z, value.w);
+  glUniform4f(location(uniform, "vec4"), value.x, value.y, value.z, value.w);
   return *this;
 }
 Program& Program::set(std::string_view uniform, const glm::mat3& value) {
-  glUniformMatrix3fv(location(uniform), 1, GL_FALSE, glm::value_ptr(value));
+  glUniformMatrix3fv(location(uniform, "mat3"), 1, GL_FALSE, glm::value_ptr(value));
   return *this;
 }
 Program& Program::set(std::string_view uniform, const glm::mat4& value) {
-  glUniformMatrix4fv(location(uniform), 1, GL_FALSE, glm::value_ptr(value));
+  glUniformMatrix4fv(location(uniform, "mat4"), 1, GL_FALSE, glm::value_ptr(value));
   return *this;
 }
 
@@ -103,35 +192,39 @@ Program& Program::texture(std::string_view sampler, const Texture& texture) {
   assert(nextTextureUnit_ < kMaxTextureUnits);
   glActiveTexture(GL_TEXTURE0 + nextTextureUnit_);
   glBindTexture(GL_TEXTURE_2D, texture.name());
-  glUniform1i(location(sampler), static_cast<GLint>(nextTextureUnit_));
+  glUniform1i(input(ShaderInput::Kind::kSampler, sampler).location,
+              static_cast<GLint>(nextTextureUnit_));
   glActiveTexture(GL_TEXTURE0);
   ++nextTextureUnit_;
   return *this;
 }
 
-Program& Program::storage(unsigned binding, const Buffer& buffer) {
-  assert(binding < kMaxStorageBuffers);
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.name());
+Program& Program::storage(std::string_view block, const Buffer& buffer) {
+  const unsigned place = binding(ShaderInput::Kind::kStorageBlock, block);
+  assert(place < kMaxStorageBuffers);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, place, buffer.name());
   return *this;
 }
 
-Program& Program::uniformBlock(unsigned binding, const Buffer& buffer, std::size_t offsetBytes,
-                               std::size_t sizeBytes) {
-  assert(binding < kMaxUniformBlocks && offsetBytes % kUniformAlignment == 0);
+Program& Program::uniformBlock(std::string_view block, const Buffer& buffer,
+                               std::size_t offsetBytes, std::size_t sizeBytes) {
+  const unsigned place = binding(ShaderInput::Kind::kUniformBlock, block);
+  assert(place < kMaxUniformBlocks && offsetBytes % kUniformAlignment == 0);
   assert(offsetBytes + sizeBytes <= buffer.sizeBytes());
-  glBindBufferRange(GL_UNIFORM_BUFFER, binding, buffer.name(), static_cast<GLintptr>(offsetBytes),
+  glBindBufferRange(GL_UNIFORM_BUFFER, place, buffer.name(), static_cast<GLintptr>(offsetBytes),
                     static_cast<GLsizeiptr>(sizeBytes));
   return *this;
 }
 
-Program& Program::image(unsigned binding, const Texture& texture, ImageAccess access) {
-  assert(binding < kMaxImages && isImageFormat(texture.format()));
+Program& Program::image(std::string_view name, const Texture& texture, ImageAccess access) {
+  const unsigned place = binding(ShaderInput::Kind::kImage, name);
+  assert(place < kMaxImages && isImageFormat(texture.format()));
   assert(access != ImageAccess::kReadWrite || texture.format() == TextureFormat::kR32f ||
          texture.format() == TextureFormat::kR32ui);
   const GLenum mode = access == ImageAccess::kRead    ? GL_READ_ONLY
                       : access == ImageAccess::kWrite ? GL_WRITE_ONLY
                                                       : GL_READ_WRITE;
-  glBindImageTexture(binding, texture.name(), 0, GL_FALSE, 0, mode,
+  glBindImageTexture(place, texture.name(), 0, GL_FALSE, 0, mode,
                      glFormat(texture.format()).internal);
   return *this;
 }
@@ -155,16 +248,25 @@ void Program::drawTriangle() {
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   glBindVertexArray(emptyVertexArray_.get());
+  const PassTimer::Scope scope = measure();
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glBindVertexArray(0);
 }
 
-void Program::dispatch(glm::ivec2 items, glm::ivec2 groupSize, GLbitfield barriers) {
+void Program::dispatch(glm::ivec2 items, GLbitfield barriers) {
   assert(items.x > 0 && items.y > 0);
-  assert(isCurrent(handle_) && hasGroupSize(handle_, groupSize));
-  assert(groups(items.x, groupSize.x) <= kMaxGroups && groups(items.y, groupSize.y) <= kMaxGroups);
-  glDispatchCompute(groups(items.x, groupSize.x), groups(items.y, groupSize.y), 1);
+  assert(isCurrent(handle_));
+  const GLuint across = groups(items.x, groupSize_.x);
+  const GLuint down = groups(items.y, groupSize_.y);
+  assert(across <= kMaxGroups && down <= kMaxGroups);
+  const PassTimer::Scope scope = measure();
+  glDispatchCompute(across, down, 1);
   glMemoryBarrier(barriers);
+}
+
+PassTimer::Scope Program::measure() const {
+  PassTimer* const timer = timer_ == nullptr ? nullptr : *timer_;
+  return timer == nullptr ? PassTimer::Scope(nullptr, 0) : timer->measureWithin(pass_);
 }
 
 }  // namespace pleinair::gpu

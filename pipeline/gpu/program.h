@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,7 +15,9 @@
 
 #include "pipeline/gpu/buffer.h"
 #include "pipeline/gpu/handle.h"
+#include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/render_target.h"
+#include "pipeline/gpu/shader_interface.h"
 #include "pipeline/gpu/texture.h"
 
 namespace pleinair::gpu {
@@ -28,20 +32,38 @@ inline constexpr unsigned kMaxGroups = 65535;
 /// Of a uniform block's place in its buffer: no GPU asks for more (GL ES 3.1, table 20.46).
 inline constexpr std::size_t kUniformAlignment = 256;
 
+enum class ProgramKind { kDraw, kCompute };
 enum class ImageAccess { kRead, kWrite, kReadWrite };
 
 /// A linked program. `use()` binds it; the setters then fill its uniforms and bindings, and one of
-/// the draws or dispatch() runs it. Nothing else may use() another program in between. Setting a
-/// uniform that the compiler removed does nothing; naming one that the shader never had is the same
-/// to GL, so tests compare results, not calls.
+/// the draws or dispatch() runs it. Nothing else may use() another program in between.
+///
+/// It knows the names that its shaders declare: the setters throw hal::Failure (kInternal, with all
+/// names) for a name that is none of them, or is of another kind or type. A declared name that the
+/// compiler removed, because nothing depends on it, may be set and does nothing.
+///
+/// Each draw and dispatch is timed under pass() where the ShaderLibrary that it is from has a
+/// timer.
 class Program {
  public:
-  Program() = default;
-  Program(ProgramHandle handle, std::string label);
+  /// Where a library keeps the timer of all its programs.
+  using TimerSlot = std::shared_ptr<PassTimer*>;
 
-  /// The fragment or compute shader's name.
+  Program() = default;
+  /// `inputs` are all that its shaders' texts declare.
+  Program(ProgramHandle handle, ProgramKind kind, std::string label,
+          std::vector<ShaderInput> inputs, TimerSlot timer);
+
+  /// The fragment or compute shader's name, with the defines that it was made with.
   const std::string& label() const { return label_; }
+  /// The name that it is timed under: its shader's folder and file, "watercolor: guide".
+  const std::string& pass() const { return pass_; }
+  /// Whether its shaders declare a uniform or sampler of this name: for code that fills several
+  /// programs alike.
+  bool hasUniform(std::string_view name) const;
   explicit operator bool() const { return static_cast<bool>(handle_); }
+  /// The local_size of a compute program.
+  glm::ivec2 groupSize() const { return groupSize_; }
 
   /// Binds the program and forgets the texture units given out before.
   Program& use();
@@ -57,38 +79,48 @@ class Program {
   Program& set(std::string_view uniform, const glm::mat4& value);
   /// Binds the texture to the next free unit and the sampler to it.
   Program& texture(std::string_view sampler, const Texture& texture);
-  /// Binds a storage buffer to `layout(binding = …)`.
-  Program& storage(unsigned binding, const Buffer& buffer);
-  /// Binds part of a buffer to the uniform block `layout(std140, binding = …)`. Precondition: the
-  /// offset is a multiple of kUniformAlignment.
-  Program& uniformBlock(unsigned binding, const Buffer& buffer, std::size_t offsetBytes,
+  /// Binds a storage buffer to the block `layout(std430, binding = …) buffer NAME`.
+  Program& storage(std::string_view block, const Buffer& buffer);
+  /// Binds part of a buffer to the block `layout(std140, binding = …) uniform NAME`. Precondition:
+  /// the offset is a multiple of kUniformAlignment.
+  Program& uniformBlock(std::string_view block, const Buffer& buffer, std::size_t offsetBytes,
                         std::size_t sizeBytes);
-  /// Binds a texture as an image to `layout(binding = …)`. RGBA8, RGBA16F, RGBA32F, R32F, R32UI
-  /// only, and read-write only the latter two (docs/gpu.md, rule 6).
-  Program& image(unsigned binding, const Texture& texture, ImageAccess access);
+  /// Binds a texture to an image `layout(binding = …)`. RGBA8, RGBA16F, RGBA32F, R32F, R32UI only,
+  /// and read-write only the latter two (docs/gpu.md, rule 6).
+  Program& image(std::string_view name, const Texture& texture, ImageAccess access);
 
   /// Runs a full-screen pass over `target`; every pixel is written, no blending, no depth. What was
   /// in the target is lost, its depth too.
   void drawFullscreen(const RenderTarget& target);
   /// Runs the pass over a part of `target` only and keeps the rest.
   void drawArea(const RenderTarget& target, glm::ivec2 origin, hal::FrameSize size);
-  /// Runs a compute program over `items` invocations, rounded up to whole groups of `groupSize`,
-  /// which is the shader's local_size (at most kMaxGroups of them), then makes its writes visible
-  /// to what `barriers` (GL_*_BARRIER_BIT) names.
-  void dispatch(glm::ivec2 items, glm::ivec2 groupSize, GLbitfield barriers);
+  /// Runs a compute program over `items` invocations, rounded up to whole groups (at most
+  /// kMaxGroups along each axis), then makes its writes visible to what `barriers`
+  /// (GL_*_BARRIER_BIT) names.
+  void dispatch(glm::ivec2 items, GLbitfield barriers);
+  /// Times GL calls of the caller's own, which draw with this program, while the scope lives.
+  [[nodiscard]] PassTimer::Scope measure() const;
 
  private:
-  void drawTriangle();
-  /// Asserts that the program is the current one; -1 for a uniform that is not active.
-  GLint location(std::string_view uniform) const;
-
-  struct Uniform {
-    std::string name;
-    GLint location;
+  struct Input {
+    ShaderInput declared;
+    GLint location = -1;  // of uniforms and samplers that the compiler kept
   };
+
+  void drawTriangle();
+  void findLocations();
+  const Input& input(ShaderInput::Kind kind, std::string_view name) const;
+  /// Asserts that the program is the current one; -1 for a uniform that the compiler removed.
+  GLint location(std::string_view uniform, std::string_view type) const;
+  unsigned binding(ShaderInput::Kind kind, std::string_view name) const;
+  [[noreturn]] void refuse(const std::string& problem) const;
+
   ProgramHandle handle_;
   std::string label_;
-  std::vector<Uniform> uniforms_;
+  std::string pass_;
+  std::vector<Input> inputs_;
+  TimerSlot timer_;
+  glm::ivec2 groupSize_{1};
   VertexArrayHandle emptyVertexArray_;
   unsigned nextTextureUnit_ = 0;
 };

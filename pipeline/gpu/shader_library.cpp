@@ -41,6 +41,24 @@ std::string_view includedName(std::string_view line) {
   return line.substr(0, line.find('"'));
 }
 
+/// "stroke.frag BUMPED CLIPPED".
+std::string labelOf(std::string_view name, const ShaderDefines& defines) {
+  std::string label(name);
+  for (const ShaderDefine& define : defines) {
+    if (define.value.empty()) label += " " + define.name;
+  }
+  return label;
+}
+
+/// What several texts of one program declare, each name once.
+void addInputs(std::string_view text, std::vector<ShaderInput>& inputs) {
+  for (ShaderInput& input : declaredInputs(text)) {
+    if (std::ranges::find(inputs, input.name, &ShaderInput::name) == inputs.end()) {
+      inputs.push_back(std::move(input));
+    }
+  }
+}
+
 Error shaderError(std::string_view name, std::string problem) {
   return Error{.kind = ErrorKind::kInvalidInput,
                .subject = fmt::format("shader {}", name),
@@ -128,31 +146,38 @@ void ShaderLibrary::expandInto(std::string_view name, std::string_view includer,
   int number = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number;
+    const bool isRead = output.conditions.reads(line);
     const std::string_view included = includedName(line);
     if (included.empty()) {
       output.text += line + "\n";
       output.lines.push_back({std::string(name), number});
-    } else if (std::ranges::find(output.files, included) == output.files.end()) {
+    } else if (isRead && std::ranges::find(output.files, included) == output.files.end()) {
       expandInto(included, name, output);
     }
   }
 }
 
-ShaderLibrary::Expansion ShaderLibrary::expand(std::string_view name) const {
+ShaderLibrary::Expansion ShaderLibrary::expand(std::string_view name,
+                                               const ShaderDefines& defines) const {
   Expansion result{.text = std::string(kHeader)};
-  for (int line = 1; line <= std::ranges::count(kHeader, '\n'); ++line) {
+  for (const ShaderDefine& define : defines) {
+    const std::string line = fmt::format("#define {} {}", define.name, define.value);
+    (void)result.conditions.reads(line);
+    result.text += line + "\n";
+  }
+  for (int line = 1; line <= std::ranges::count(result.text, '\n'); ++line) {
     result.lines.push_back({"shader library's header", line});
   }
   expandInto(name, {}, result);
   return result;
 }
 
-std::string ShaderLibrary::expanded(std::string_view name) const {
-  return expand(name).text;
+std::string ShaderLibrary::expanded(std::string_view name, const ShaderDefines& defines) const {
+  return expand(name, defines).text;
 }
 
-ShaderHandle ShaderLibrary::compile(GLenum stage, std::string_view name) const {
-  const Expansion source = expand(name);
+ShaderHandle ShaderLibrary::compile(GLenum stage, std::string_view name,
+                                    const Expansion& source) const {
   ShaderHandle shader(glCreateShader(stage));
   const GLchar* pointer = source.text.c_str();
   glShaderSource(shader.get(), 1, &pointer, nullptr);
@@ -168,7 +193,8 @@ ShaderHandle ShaderLibrary::compile(GLenum stage, std::string_view name) const {
   return shader;
 }
 
-Program ShaderLibrary::link(std::span<const ShaderHandle> shaders, std::string_view label) const {
+Program ShaderLibrary::link(ProgramKind kind, std::span<const ShaderHandle> shaders,
+                            std::string label, std::span<const Expansion* const> sources) const {
   ProgramHandle program = ProgramHandle::make();
   for (const ShaderHandle& shader : shaders) glAttachShader(program.get(), shader.get());
   glLinkProgram(program.get());
@@ -180,22 +206,30 @@ Program ShaderLibrary::link(std::span<const ShaderHandle> shaders, std::string_v
     glGetProgramInfoLog(program.get(), static_cast<GLsizei>(log.size()), nullptr, log.data());
     throw hal::Failure(shaderError(label, fmt::format("does not link: {}", log.data())));
   }
-  return Program(std::move(program), std::string(label));
+  std::vector<ShaderInput> inputs;
+  for (const Expansion* source : sources) addInputs(source->text, inputs);
+  return {std::move(program), kind, std::move(label), std::move(inputs), timer_};
 }
 
-Program ShaderLibrary::fragmentPass(std::string_view fragmentName) const {
-  return draw(kFullscreenVertex, fragmentName);
+Program ShaderLibrary::fragmentPass(std::string_view fragmentName,
+                                    const ShaderDefines& defines) const {
+  return draw(kFullscreenVertex, fragmentName, defines);
 }
 
-Program ShaderLibrary::compute(std::string_view computeName) const {
-  const std::array<ShaderHandle, 1> shaders{compile(GL_COMPUTE_SHADER, computeName)};
-  return link(shaders, computeName);
+Program ShaderLibrary::compute(std::string_view computeName, const ShaderDefines& defines) const {
+  const Expansion source = expand(computeName, defines);
+  const std::array<ShaderHandle, 1> shaders{compile(GL_COMPUTE_SHADER, computeName, source)};
+  return link(ProgramKind::kCompute, shaders, labelOf(computeName, defines), std::array{&source});
 }
 
-Program ShaderLibrary::draw(std::string_view vertexName, std::string_view fragmentName) const {
-  const std::array<ShaderHandle, 2> shaders{compile(GL_VERTEX_SHADER, vertexName),
-                                            compile(GL_FRAGMENT_SHADER, fragmentName)};
-  return link(shaders, fragmentName);
+Program ShaderLibrary::draw(std::string_view vertexName, std::string_view fragmentName,
+                            const ShaderDefines& defines) const {
+  const Expansion vertices = expand(vertexName, defines);
+  const Expansion fragments = expand(fragmentName, defines);
+  const std::array<ShaderHandle, 2> shaders{compile(GL_VERTEX_SHADER, vertexName, vertices),
+                                            compile(GL_FRAGMENT_SHADER, fragmentName, fragments)};
+  return link(ProgramKind::kDraw, shaders, labelOf(fragmentName, defines),
+              std::array{&vertices, &fragments});
 }
 
 }  // namespace pleinair::gpu

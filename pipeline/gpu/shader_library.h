@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,30 +23,45 @@ struct SourceLine {
 /// (`#line` would be simpler, but Mesa forgets the file's number.)
 std::string nameLinesOfLog(const std::string& log, std::span<const SourceLine> lines);
 
+/// A macro that the shaders of a program are compiled with, by which one file makes several
+/// programs: `#define NAME VALUE` before the text. Without a value it is a flag, for `#ifdef`, and
+/// part of the program's name.
+struct ShaderDefine {
+  std::string name;
+  std::string value = {};
+};
+using ShaderDefines = std::vector<ShaderDefine>;
+
 /// Shader texts by name, and programs made from them. A name is the file's path from the top of the
 /// tree ("pipeline/gpu/shaders/fullscreen.vert"). A file of that path below the override directory
 /// takes the embedded text's place, for live editing.
 ///
 /// Texts are without `#version` and default precisions, which are put before them; a line
-/// `#include "name"` takes in another text of the library (once each).
+/// `#include "name"` takes in another text of the library (once each), unless an `#ifdef` leaves
+/// it out.
 class ShaderLibrary {
  public:
   /// Throws hal::Failure (kNotFound) where the override directory is not there.
   explicit ShaderLibrary(std::filesystem::path overrideDirectory = {});
 
-  /// Adds a room's shaders: `library.add(gpuShaders())`. The texts outlive the library.
+  /// Adds a module's shaders: `library.add(gpuShaders())`. The texts outlive the library.
   void add(std::span<const EmbeddedShader> shaders);
 
   /// A full-screen pass: shaders/fullscreen.vert and this fragment shader.
-  Program fragmentPass(std::string_view fragmentName) const;
-  Program compute(std::string_view computeName) const;
-  Program draw(std::string_view vertexName, std::string_view fragmentName) const;
+  Program fragmentPass(std::string_view fragmentName, const ShaderDefines& defines = {}) const;
+  Program compute(std::string_view computeName, const ShaderDefines& defines = {}) const;
+  Program draw(std::string_view vertexName, std::string_view fragmentName,
+               const ShaderDefines& defines = {}) const;
 
-  /// The text as the compiler gets it: version, precisions, includes.
+  /// From now on, each run of the programs of this library, made before or after, is timed by
+  /// `timer`, which outlives that; null: by none, as at first. On the thread of the programs.
+  void setTimer(PassTimer* timer) { *timer_ = timer; }
+
+  /// The text as the compiler gets it: version, precisions, defines, includes.
   /// Throws hal::Failure for an unknown name or include, as the programs above do, and they
   /// also for a text that does not compile or link, with the compiler's log, and all for a file of
   /// the override directory that cannot be read.
-  std::string expanded(std::string_view name) const;
+  std::string expanded(std::string_view name, const ShaderDefines& defines = {}) const;
 
  private:
   std::string text(std::string_view name, std::string_view includer) const;
@@ -53,14 +69,17 @@ class ShaderLibrary {
     std::string text;
     std::vector<SourceLine> lines;
     std::vector<std::string> files;
+    ShaderConditions conditions;
   };
-  Expansion expand(std::string_view name) const;
+  Expansion expand(std::string_view name, const ShaderDefines& defines) const;
   void expandInto(std::string_view name, std::string_view includer, Expansion& output) const;
-  ShaderHandle compile(GLenum stage, std::string_view name) const;
-  Program link(std::span<const ShaderHandle> shaders, std::string_view label) const;
+  ShaderHandle compile(GLenum stage, std::string_view name, const Expansion& source) const;
+  Program link(ProgramKind kind, std::span<const ShaderHandle> shaders, std::string label,
+               std::span<const Expansion* const> sources) const;
 
   std::filesystem::path overrideDirectory_;
   std::vector<EmbeddedShader> shaders_;
+  Program::TimerSlot timer_ = std::make_shared<PassTimer*>(nullptr);
 };
 
 /// The shaders of pipeline/gpu itself.

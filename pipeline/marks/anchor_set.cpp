@@ -20,8 +20,6 @@ const std::string kShaders = "pipeline/marks/shaders/";
 constexpr std::size_t kCellBytes = 32;  // shaders/anchor_cells.glsl
 constexpr int kMostStrata = 4;          // along a cell's side (shaders/anchor_cells.glsl)
 constexpr GLbitfield kStored = GL_SHADER_STORAGE_BARRIER_BIT;
-constexpr glm::ivec2 kSlotGroup{64, 1};
-constexpr glm::ivec2 kCellGroup{8, 8};
 
 glm::ivec2 gridOf(hal::FrameSize full, int cellPixels) {
   return {(full.width + cellPixels - 1) / cellPixels, (full.height + cellPixels - 1) / cellPixels};
@@ -88,18 +86,23 @@ struct AnchorSet::State {
     const double side = std::ceil(std::sqrt(static_cast<double>(options.density.target)));
     return std::clamp(static_cast<int>(side), 1, kMostStrata);
   }
-  /// The margin beyond the border in which anchors live on: an anchor that jitters at the border
-  /// must not be respawned every frame.
+  /// How far beyond the border anchors go on: an anchor that jitters there must not be
+  /// respawned every frame.
   float margin() const { return static_cast<float>(options.density.cellPixels); }
 
-  gpu::Program& begin(gpu::Program& program, const scene::ArFrame& frame) {
-    return program.use()
-        .texture("ids", frame.hasObjects ? *frame.ids : noIds)
-        .set("hasObjects", frame.hasObjects ? 1 : 0)
+  /// For programs that look at the frame.
+  gpu::Program& setFrame(gpu::Program& program, const scene::ArFrame& frame) {
+    return program.texture("ids", frame.hasObjects ? *frame.ids : noIds)
         .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
-        .set("fullSize", glm::vec2(full.width, full.height))
-        .set("margin", margin())
-        .set("slots", slots)
+        .set("fullSize", glm::vec2(full.width, full.height));
+  }
+  /// For programs that carry anchors.
+  gpu::Program& beginCarrying(gpu::Program& program, const scene::ArFrame& frame) {
+    return setFrame(program.use(), frame).set("margin", margin()).set("slots", slots);
+  }
+  /// For programs of cells of density.
+  gpu::Program& beginCells(gpu::Program& program) {
+    return program.use()
         .set("grid", grid)
         .set("cellPixels", options.density.cellPixels)
         .set("strataSide", strataSide());
@@ -107,13 +110,15 @@ struct AnchorSet::State {
 
   void carryInImage(const scene::ArFrame& frame, const MotionField& motion, hal::Duration step);
   void carryOnSurfaces(const scene::ArFrame& frame);
-  void countAnchors(const scene::ArFrame& frame, const AnchorHold& hold, hal::Duration step);
+  void countAnchors(const AnchorHold& hold, hal::Duration step);
   void keepDensity(const scene::ArFrame& frame, const MotionField& motion, const AnchorHold& hold);
 };
 
 void AnchorSet::State::carryInImage(const scene::ArFrame& frame, const MotionField& motion,
                                     hal::Duration step) {
-  begin(image, frame).storage(0, anchors);
+  beginCarrying(image, frame)
+      .set("hasObjects", frame.hasObjects ? 1 : 0)
+      .storage("Anchors", anchors);
   motion.bind(image);
   constexpr double kUsualNoise = 2.0;
   const bool isNoiseKnown = frame.measuredMotion && frame.measuredMotion->motion != nullptr;
@@ -123,7 +128,7 @@ void AnchorSet::State::carryInImage(const scene::ArFrame& frame, const MotionFie
       .set("stepSeconds", std::chrono::duration<float>(step).count())
       .set("follows", motion.follows() ? 1 : 0)
       .set("anew", hasBegunAnew ? 1 : 0)
-      .dispatch(allSlots(), kSlotGroup, kStored);
+      .dispatch(allSlots(), kStored);
 }
 
 void AnchorSet::State::carryOnSurfaces(const scene::ArFrame& frame) {
@@ -133,12 +138,12 @@ void AnchorSet::State::carryOnSurfaces(const scene::ArFrame& frame) {
   const glm::vec2 pixelsOfFull(frame.pixelsOfFull());
   for (const std::size_t model : access.models) {
     if (access.objects[model] >= scene::kRealObject) continue;
-    begin(surface, frame)
+    beginCarrying(surface, frame)
         .texture("depth", *frame.depth)
-        .storage(0, *access.posed)
-        .storage(1, *access.triangles)
-        .storage(2, anchors)
-        .uniformBlock(0, *access.bodies,
+        .storage("Posed", *access.posed)
+        .storage("Triangles", *access.triangles)
+        .storage("Anchors", anchors)
+        .uniformBlock("OneBody", *access.bodies,
                       (scene::kMaxPlanes + model) * scene::SurfaceAccess::kBodyBytes,
                       scene::SurfaceAccess::kBodyBytes)
         .set("object", access.objects[model])
@@ -147,45 +152,48 @@ void AnchorSet::State::carryOnSurfaces(const scene::ArFrame& frame) {
         .set("focal", glm::vec2(pinhole.fx, pinhole.fy) / pixelsOfFull)
         .set("centre", glm::vec2(pinhole.cx, pinhole.cy) / pixelsOfFull);
     scene::setLens(surface, *access.camera);
-    surface.dispatch(allSlots(), kSlotGroup, kStored);
+    surface.dispatch(allSlots(), kStored);
   }
 }
 
-void AnchorSet::State::countAnchors(const scene::ArFrame& frame, const AnchorHold& hold,
-                                    hal::Duration step) {
-  begin(count, frame)
-      .storage(0, anchors)
-      .storage(1, cells)
+void AnchorSet::State::countAnchors(const AnchorHold& hold, hal::Duration step) {
+  beginCells(count)
+      .set("slots", slots)
+      .storage("Anchors", anchors)
+      .storage("Cells", cells)
       .set("fadeIn", fadeOf(step, hold.fadeIn))
       .set("fadeOut", fadeOf(step, hold.fadeOut))
-      .dispatch(allSlots(), kSlotGroup, kStored);
+      .dispatch(allSlots(), kStored);
 }
 
 void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionField& motion,
                                    const AnchorHold& hold) {
   const DensityRule& rule = options.density;
-  begin(density, frame)
-      .storage(0, anchors)
-      .storage(1, cells)
+  setFrame(beginCells(density), frame)
+      .set("hasObjects", frame.hasObjects ? 1 : 0)
+      .storage("Anchors", anchors)
+      .storage("Cells", cells)
       .set("target", rule.target)
       .set("birthBelow", hold.hasSlack ? rule.birthBelow : rule.target)
       .set("deathAbove", hold.hasSlack ? rule.deathAbove : rule.target)
-      .dispatch(grid, kCellGroup, kStored);
-  begin(plan, frame)
-      .storage(0, anchors)
-      .storage(1, cells)
-      .storage(2, births)
+      .dispatch(grid, kStored);
+  beginCells(plan)
+      .set("slots", slots)
+      .storage("Anchors", anchors)
+      .storage("Cells", cells)
+      .storage("Plan", births)
       .set("cellCount", static_cast<unsigned>(grid.x * grid.y))
-      .dispatch({1, 1}, {128, 1}, kStored);
-  begin(spawn, frame)
+      .dispatch({1, 1}, kStored);
+  setFrame(beginCells(spawn), frame)
+      .set("hasObjects", frame.hasObjects ? 1 : 0)
       .texture("barycentrics", frame.barycentrics != nullptr ? *frame.barycentrics : noIds)
       .texture("motion", motion.backward())
-      .storage(0, anchors)
-      .storage(1, cells)
-      .storage(2, births)
+      .storage("Anchors", anchors)
+      .storage("Cells", cells)
+      .storage("Plan", births)
       .set("salt", options.seed * 0x9E3779B9U + salt)
       .set("atOnce", hasBegunAnew || hold.fadeIn <= hal::Duration(0) ? 1 : 0)
-      .dispatch(grid, kCellGroup, kStored | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
+      .dispatch(grid, kStored | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
 }
 
 AnchorSet::AnchorSet(const gpu::ShaderLibrary& library, hal::FrameSize full, AnchorOptions options)
@@ -197,7 +205,7 @@ AnchorSet::AnchorSet(const gpu::ShaderLibrary& library, hal::FrameSize full, Anc
 AnchorSet::~AnchorSet() = default;
 
 void AnchorSet::advance(const scene::ArFrame& frame, const MotionField& motion,
-                        gpu::PassTimer& timer, const AnchorHold& hold) {
+                        const AnchorHold& hold) {
   State& s = *state_;
   assert(frame.full() == s.full);
   assert(!frame.hasObjects || frame.barycentrics != nullptr);
@@ -207,12 +215,10 @@ void AnchorSet::advance(const scene::ArFrame& frame, const MotionField& motion,
   s.hasPast = true;
   ++s.salt;
   {
-    const auto scope = timer.measure("carry anchors");
     s.carryInImage(frame, motion, step);
     if (motion.follows()) s.carryOnSurfaces(frame);
   }
-  const auto scope = timer.measure("keep density");
-  s.countAnchors(frame, hold, step);
+  s.countAnchors(hold, step);
   s.keepDensity(frame, motion, hold);
 }
 

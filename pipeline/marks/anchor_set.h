@@ -8,7 +8,6 @@
 #include "hal/clock.h"
 #include "hal/pixel_format.h"
 #include "pipeline/gpu/buffer.h"
-#include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/marks/anchor.h"
 #include "pipeline/marks/motion_field.h"
@@ -58,14 +57,12 @@ class AnchorSet {
   AnchorSet(AnchorSet&&) = delete;
   AnchorSet& operator=(AnchorSet&&) = delete;
 
-  /// Advances to the next frame, for which `motion` has been updated. The first frame, a frame
-  /// after reset() and a frame after a cut start anew, with all anchors visible at once.
-  /// Preconditions: frame.full() is the constructor's size; the style's needs() include surfaces
-  /// and measuredMotion.
-  void advance(const scene::ArFrame& frame, const MotionField& motion, gpu::PassTimer& timer,
-               const AnchorHold& hold = {});
-  /// Whether the last advance() started anew, so that data which a style stores per slot is
-  /// invalid.
+  /// Goes on to the next frame, whose `motion` has been updated. The first frame, one after
+  /// reset(), and one after a cut begins anew, with all anchors there at once. Preconditions:
+  /// frame.full() is the constructor's size; the style's needs() ask for surfaces and
+  /// measuredMotion.
+  void advance(const scene::ArFrame& frame, const MotionField& motion, const AnchorHold& hold = {});
+  /// Whether the last advance() began anew: what styles keep of slots is of other anchors.
   bool hasBegunAnew() const;
 
   /// slotCount() Anchors; a slot without kAlive is free.

@@ -13,8 +13,7 @@ using gpu::ImageAccess;
 using gpu::TextureFilter;
 using gpu::TextureFormat;
 
-constexpr int kBlockPixels = 4;  // as in both shaders
-constexpr glm::ivec2 kGroup{16, 4};
+constexpr int kBlockPixels = 4;  // as both shaders have it
 const std::string kShaders = "pipeline/marks/shaders/";
 
 }  // namespace
@@ -36,8 +35,7 @@ FilteredFrame::Canvas& FilteredFrame::canvasOf(hal::FrameSize size) {
   return *canvases_.emplace_back(std::make_unique<Canvas>(size));
 }
 
-void FilteredFrame::update(const scene::ArFrame& frame, const FilteredFrameInput& input,
-                           gpu::PassTimer& timer) {
+void FilteredFrame::update(const scene::ArFrame& frame, const FilteredFrameInput& input) {
   assert(input.backward != nullptr);
   if (full_ != frame.full()) {
     reset();
@@ -45,7 +43,6 @@ void FilteredFrame::update(const scene::ArFrame& frame, const FilteredFrameInput
     canvases_.clear();
     full_ = frame.full();
   }
-  const auto scope = timer.measure("filtered picture");
   Canvas& canvas = canvasOf(frame.size());
   const int writes = now_ == &canvas.pictures[0] ? 1 : 0;
   const gpu::Texture& past = canvas.pictures[1 - writes];
@@ -55,7 +52,7 @@ void FilteredFrame::update(const scene::ArFrame& frame, const FilteredFrameInput
       hasPast ? keptAfter(frame.captureTime - lastTime_, input.timeConstantSeconds) : 0.0F;
   const auto begin = [&](gpu::Program& program) -> gpu::Program& {
     return program.use()
-        .image(0, canvas.pictures[writes], ImageAccess::kWrite)
+        .image("filtered", canvas.pictures[writes], ImageAccess::kWrite)
         .texture("picture", *frame.colour)
         .texture("past", past)
         .set("kept", kept)
@@ -67,13 +64,13 @@ void FilteredFrame::update(const scene::ArFrame& frame, const FilteredFrameInput
   begin(average_)
       .texture("backward", *input.backward)
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
-      .dispatch(blocks, kGroup, kStored);
+      .dispatch(blocks, kStored);
   if (frame.hasObjects) {
     begin(averageObjects_)
         .texture("motion", hasMotion ? *frame.motion->texture : noMotion_)
         .texture("ids", *frame.ids)
         .set("hasMotion", hasMotion ? 1 : 0)
-        .dispatch(blocks, kGroup, kStored);
+        .dispatch(blocks, kStored);
   }
   now_ = &canvas.pictures[writes];
   lastTime_ = frame.captureTime;

@@ -28,9 +28,6 @@ static_assert(static_cast<int>(MotionSource::kPlane) ==
               static_cast<int>(scene::SurfaceMotionSource::kPlane));
 
 const std::string kShaders = "pipeline/marks/shaders/";
-constexpr unsigned kPlanesBlock = 1;
-constexpr unsigned kMotionBlock = 2;
-constexpr unsigned kFeaturesBlock = 3;
 
 /// Same layout as in shaders/image_motion.glsl.
 struct GpuFeature {
@@ -214,19 +211,18 @@ void MotionField::State::layFeatures(const scene::ArFrame& frame, int count) {
   const auto isReal = [](std::uint32_t object) { return object >= scene::kRealObject; };
   if (std::ranges::none_of(frame.surfaces->objects, isReal)) return;
   findLayers.use()
-      .storage(0, features)
+      .storage("Features", features)
       .texture("ids", *frame.ids)
       .set("pixelsOfFull", pixelsOfFull)
       .set("count", count)
-      .dispatch({count, 1}, {64, 1}, GL_UNIFORM_BARRIER_BIT);
+      .dispatch({count, 1}, GL_UNIFORM_BARRIER_BIT);
 }
 
 void MotionField::State::bind(gpu::Program& program, const gpu::Texture& flow) const {
   const tracking::Intrinsics& pinhole = camera.intrinsics();
-  program
-      .uniformBlock(kPlanesBlock, *planes, 0, scene::kMaxPlanes * scene::SurfaceAccess::kBodyBytes)
-      .uniformBlock(kMotionBlock, motion, 0, motion.sizeBytes())
-      .uniformBlock(kFeaturesBlock, features, 0, features.sizeBytes())
+  program.uniformBlock("Planes", *planes, 0, scene::kMaxPlanes * scene::SurfaceAccess::kBodyBytes)
+      .uniformBlock("Motion", motion, 0, motion.sizeBytes())
+      .uniformBlock("Features", features, 0, features.sizeBytes())
       .texture("flow", flow)
       .texture("still", still)
       .set("focal", glm::vec2(pinhole.fx, pinhole.fy) / pixelsOfFull)
@@ -239,8 +235,7 @@ MotionField::MotionField(const gpu::ShaderLibrary& library, hal::FrameSize full)
 
 MotionField::~MotionField() = default;
 
-void MotionField::update(const scene::ArFrame& frame, gpu::PassTimer& timer,
-                         const MotionFieldOptions& options) {
+void MotionField::update(const scene::ArFrame& frame, const MotionFieldOptions& options) {
   State& s = *state_;
   assert(frame.full() == s.full);
   GpuMotion made;
@@ -260,13 +255,12 @@ void MotionField::update(const scene::ArFrame& frame, gpu::PassTimer& timer,
   s.motion.write(std::as_bytes(std::span(&made, 1)));
   s.last = frame.sequence;
 
-  const auto scope = timer.measure("motion field");
   s.layFeatures(frame, static_cast<int>(made.known.y));
   s.makeField.use();
   s.bind(s.makeField, s.flowBackward);
-  s.makeField.image(0, s.field, gpu::ImageAccess::kWrite)
+  s.makeField.image("field", s.field, gpu::ImageAccess::kWrite)
       .set("fieldPixels", static_cast<float>(kFieldPixels))
-      .dispatch({s.field.size().width, s.field.size().height}, {8, 8},
+      .dispatch({s.field.size().width, s.field.size().height},
                 GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <memory>
 
-#include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
@@ -35,8 +34,7 @@ class MotionField {
   /// Takes the motion of `frame` (ArFrame::measuredMotion, surfaces). A motion relative to any
   /// frame but the previous update's counts as a cut. Precondition: frame.full() is the
   /// constructor's size.
-  void update(const scene::ArFrame& frame, gpu::PassTimer& timer,
-              const MotionFieldOptions& options = {});
+  void update(const scene::ArFrame& frame, const MotionFieldOptions& options = {});
 
   /// Whether the past is invalid: first frame, cut, or a motion relative to another frame.
   bool isCut() const;

@@ -8,8 +8,6 @@ namespace pleinair::marks {
 namespace {
 
 const std::string kShaders = "pipeline/marks/shaders/";
-constexpr int kGroup = 64;       // as in point_bins_link.comp and _gather.comp
-constexpr int kScanGroup = 128;  // as in point_bins_scan.comp
 
 }  // namespace
 
@@ -37,26 +35,26 @@ void PointBins::sort(const gpu::Buffer& points, hal::FrameSize picture) {
   assert(points.sizeBytes() == std::size_t{slots_} * sizeof(BinnedPoint));
   const int count = bins_.x * bins_.y;
   link_.use()
-      .storage(0, points)
-      .storage(1, links_)
+      .storage("Points", points)
+      .storage("Links", links_)
       .set("bins", bins_)
       .set("binPixels", binPixels(picture))
       .set("slots", static_cast<int>(slots_))
-      .dispatch({static_cast<int>(slots_), 1}, {kGroup, 1}, GL_SHADER_STORAGE_BARRIER_BIT);
+      .dispatch({static_cast<int>(slots_), 1}, GL_SHADER_STORAGE_BARRIER_BIT);
   scan_.use()
-      .storage(0, links_)
-      .storage(1, starts_)
+      .storage("Links", links_)
+      .storage("Starts", starts_)
       .set("count", count)
-      .dispatch({kScanGroup, 1}, {kScanGroup, 1}, GL_SHADER_STORAGE_BARRIER_BIT);
+      .dispatch({1, 1}, GL_SHADER_STORAGE_BARRIER_BIT);
   gather_.use()
-      .storage(0, points)
-      .storage(1, links_)
-      .storage(2, starts_)
-      .storage(3, sorted_)
+      .storage("Points", points)
+      .storage("Links", links_)
+      .storage("Starts", starts_)
+      .storage("Sorted", sorted_)
       .set("bins", bins_)
       .set("binPixels", binPixels(picture))
       .set("slots", static_cast<int>(slots_))
-      .dispatch({count, 1}, {kGroup, 1}, GL_SHADER_STORAGE_BARRIER_BIT);
+      .dispatch({count, 1}, GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 }  // namespace pleinair::marks

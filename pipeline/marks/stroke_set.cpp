@@ -16,9 +16,11 @@ namespace {
 const std::string kShaders = "pipeline/marks/shaders/";
 constexpr std::size_t kStrokeBytes = 96;  // shaders/stroke.glsl
 constexpr std::size_t kCommandBytes = 16;
-constexpr glm::ivec2 kSlotGroup{64, 1};
-// the level of the field whose detail decides where a layer is painted
-constexpr std::size_t kDetailLevel = 1;
+constexpr std::size_t kDetailLevel = 1;  // of the field, whose detail says where a layer is painted
+
+double secondsOf(hal::Duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
 
 /// About the golden section of n, and coprime to it: neighbours in slots are far apart in order.
 std::uint32_t strideFor(std::uint32_t n) {
@@ -81,8 +83,8 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
   const std::size_t level = std::min(rule.fieldLevel, field.levelCount() - 1);
   const std::size_t detail = std::min(kDetailLevel, field.levelCount() - 1);
   trace.use()
-      .storage(0, anchors.anchors())
-      .storage(1, strokes)
+      .storage("Anchors", anchors.anchors())
+      .storage("Strokes", strokes)
       .texture("field", field.resolved(level))
       .texture("detailField", field.resolved(detail))
       .texture("paint", *paint.real)
@@ -108,24 +110,24 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .set("wander", rule.wanderRad)
       .set("past", glm::vec4(stays(rule.shapeMemory), stays(rule.colourMemory),
                              stays(rule.appearing), stays(rule.vanishing)))
-      .set("mostColour", rule.mostColourPerSecond * static_cast<float>(hal::toSeconds(step)))
-      .dispatch(allSlots(), kSlotGroup, GL_SHADER_STORAGE_BARRIER_BIT);
+      .set("mostColour", rule.mostColourPerSecond * static_cast<float>(secondsOf(step)))
+      .dispatch(allSlots(), GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 void StrokeSet::State::layOut(const AnchorSet& anchors, const StrokeRule& rule) {
   order.use()
-      .storage(0, strokes)
-      .storage(1, ranks)
-      .storage(2, command)
+      .storage("Strokes", strokes)
+      .storage("Ranks", ranks)
+      .storage("Command", command)
       .set("slots", slots)
       .set("stride", strideFor(slots))
       .set("vertices", static_cast<unsigned>(verticesOf(rule.quads)))
-      .dispatch({1, 1}, {128, 1}, GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+      .dispatch({1, 1}, GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
   lay.use()
-      .storage(0, anchors.anchors())
-      .storage(1, strokes)
-      .storage(2, ranks)
-      .storage(3, instances)
+      .storage("Anchors", anchors.anchors())
+      .storage("Strokes", strokes)
+      .storage("Ranks", ranks)
+      .storage("Instances", instances)
       .set("slots", slots)
       .set("segment", rule.segmentPx)
       .set("width", rule.widthPx)
@@ -135,8 +137,7 @@ void StrokeSet::State::layOut(const AnchorSet& anchors, const StrokeRule& rule) 
       .texture("mixtures", rule.mixtures != nullptr ? *rule.mixtures : anyColour)
       .set("isLimited", rule.mixtures != nullptr ? 1 : 0)
       .set("jitter", rule.jitter)
-      .dispatch(allSlots(), kSlotGroup,
-                GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+      .dispatch(allSlots(), GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 StrokeSet::StrokeSet(const gpu::ShaderLibrary& library, std::uint32_t slotCount)
@@ -145,13 +146,11 @@ StrokeSet::StrokeSet(const gpu::ShaderLibrary& library, std::uint32_t slotCount)
 StrokeSet::~StrokeSet() = default;
 
 void StrokeSet::update(const scene::ArFrame& frame, const AnchorSet& anchors,
-                       const TensorField& field, const StrokePaint& paint, const StrokeRule& rule,
-                       gpu::PassTimer& timer) {
+                       const TensorField& field, const StrokePaint& paint, const StrokeRule& rule) {
   State& s = *state_;
   assert(anchors.slotCount() == s.slots);
   const hal::Duration step = timeStep(s.lastTime, frame.captureTime);
   s.lastTime = frame.captureTime;
-  const auto scope = timer.measure("grow strokes");
   s.grow(frame, anchors, field, paint, rule, step);
   s.layOut(anchors, rule);
 }

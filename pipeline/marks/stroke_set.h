@@ -8,7 +8,6 @@
 
 #include "hal/clock.h"
 #include "pipeline/gpu/buffer.h"
-#include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/marks/anchor_set.h"
@@ -74,7 +73,7 @@ class StrokeSet {
   /// have started anew, the strokes have no past. Preconditions: both are of frame.full(), and the
   /// anchors have the constructor's number of slots.
   void update(const scene::ArFrame& frame, const AnchorSet& anchors, const TensorField& field,
-              const StrokePaint& paint, const StrokeRule& rule, gpu::PassTimer& timer);
+              const StrokePaint& paint, const StrokeRule& rule);
 
   /// The visible strokes, in painting order, 96 bytes each: four pairs of points, paint, shape
   /// (shaders/stroke_instances.comp). Also glDrawArraysIndirect's command for triangle strips of

@@ -20,8 +20,7 @@ namespace {
 const std::string kShaders = "pipeline/marks/shaders/";
 constexpr int kRegionPixels = 8;
 constexpr std::size_t kEdgeWords = 1 + 128;  // shaders/edge_bins.glsl
-constexpr float kLeastEdge = 0.05F;          // of luma: the level of sensor noise
-constexpr glm::ivec2 kGroup{8, 8};
+constexpr float kLeastEdge = 0.05F;          // of luma: what sensor noise makes
 constexpr GLbitfield kWritten = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
 
 glm::ivec2 itemsOf(const gpu::Texture& texture) {
@@ -115,13 +114,13 @@ void TensorField::State::findEdges(const scene::ArFrame& frame, const gpu::Textu
       .drawFullscreen(made.target);
   histogram.use()
       .texture("tensors", made.texture)
-      .storage(0, edges)
-      .dispatch((itemsOf(made.texture) + 1) / 2, kGroup, GL_SHADER_STORAGE_BARRIER_BIT);
+      .storage("Edges", edges)
+      .dispatch((itemsOf(made.texture) + 1) / 2, GL_SHADER_STORAGE_BARRIER_BIT);
   threshold.use()
-      .storage(0, edges)
+      .storage("Edges", edges)
       .set("share", share)
       .set("least", kLeastEdge)
-      .dispatch({1, 1}, {1, 1}, GL_SHADER_STORAGE_BARRIER_BIT);
+      .dispatch({1, 1}, GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 void TensorField::State::sumRegions(const scene::ArFrame& frame, const MotionField& motion,
@@ -132,15 +131,15 @@ void TensorField::State::sumRegions(const scene::ArFrame& frame, const MotionFie
       .texture("tensors", gradientOf(frame.size()).texture)
       .texture("before", before)
       .texture("motion", motion.backward())
-      .storage(0, edges)
-      .image(0, finest.regions, gpu::ImageAccess::kWrite)
+      .storage("Edges", edges)
+      .image("regions", finest.regions, gpu::ImageAccess::kWrite)
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .set("fullSize", glm::vec2(full.width, full.height))
       .set("regionPixels", static_cast<float>(kRegionPixels))
       .set("hasPast", goesOn ? 1 : 0)
       .set("past", past)
       .set("slack", slack)
-      .dispatch(itemsOf(finest.regions), kGroup, kWritten);
+      .dispatch(itemsOf(finest.regions), kWritten);
 }
 
 void TensorField::State::buildPyramid(const TensorFieldOptions& options) {
@@ -148,14 +147,14 @@ void TensorField::State::buildPyramid(const TensorFieldOptions& options) {
     if (i > 0) {
       reduce.use()
           .texture("filled", levels[i - 1].filled)
-          .image(0, levels[i].regions, gpu::ImageAccess::kWrite)
-          .dispatch(itemsOf(levels[i].regions), kGroup, kWritten);
+          .image("reduced", levels[i].regions, gpu::ImageAccess::kWrite)
+          .dispatch(itemsOf(levels[i].regions), kWritten);
     }
     fill.use()
         .texture("regions", levels[i].regions)
-        .image(0, levels[i].filled, gpu::ImageAccess::kWrite)
+        .image("filled", levels[i].filled, gpu::ImageAccess::kWrite)
         .set("sigma", static_cast<float>(options.fillSigma))
-        .dispatch(itemsOf(levels[i].filled), kGroup, kWritten);
+        .dispatch(itemsOf(levels[i].filled), kWritten);
   }
   for (std::size_t i = levels.size(); i-- > 0;) {
     const bool isTop = i + 1 == levels.size();
@@ -163,8 +162,8 @@ void TensorField::State::buildPyramid(const TensorFieldOptions& options) {
         .texture("filled", levels[i].filled)
         .texture("above", isTop ? levels[i].filled : levels[i + 1].resolved)
         .set("isTop", isTop ? 1 : 0)
-        .image(0, levels[i].resolved, gpu::ImageAccess::kWrite)
-        .dispatch(itemsOf(levels[i].resolved), kGroup, kWritten);
+        .image("resolved", levels[i].resolved, gpu::ImageAccess::kWrite)
+        .dispatch(itemsOf(levels[i].resolved), kWritten);
   }
 }
 
@@ -174,8 +173,7 @@ TensorField::TensorField(const gpu::ShaderLibrary& library, hal::FrameSize full)
 TensorField::~TensorField() = default;
 
 void TensorField::update(const scene::ArFrame& frame, const gpu::Texture& picture,
-                         const MotionField& motion, const TensorFieldOptions& options,
-                         gpu::PassTimer& timer) {
+                         const MotionField& motion, const TensorFieldOptions& options) {
   State& s = *state_;
   assert(frame.full() == s.full && picture.size() == frame.size());
   assert(options.slack >= 0.0 && options.slack < 1.0);
@@ -185,7 +183,6 @@ void TensorField::update(const scene::ArFrame& frame, const gpu::Texture& pictur
   const double past = goesOn ? keptAfter(step, memory) : 0.0;
   s.lastTime = frame.captureTime;
   s.hasPast = true;
-  const auto scope = timer.measure("tensor field");
   s.findEdges(frame, picture, options.form, static_cast<float>(1.0 - past));
   s.sumRegions(frame, motion, goesOn, static_cast<float>(past), static_cast<float>(options.slack));
   s.buildPyramid(options);

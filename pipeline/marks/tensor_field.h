@@ -5,7 +5,6 @@
 
 #include "hal/clock.h"
 #include "hal/pixel_format.h"
-#include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/marks/motion_field.h"
@@ -41,7 +40,7 @@ class TensorField {
   /// Adds a frame's image (RGBA8, of frame.size()) and carries the past along `motion`, which has
   /// been updated for the frame. Precondition: frame.full() is the constructor's size.
   void update(const scene::ArFrame& frame, const gpu::Texture& picture, const MotionField& motion,
-              const TensorFieldOptions& options, gpu::PassTimer& timer);
+              const TensorFieldOptions& options);
 
   std::size_t levelCount() const;
   /// RGBA16F, LINEAR: a level's tensors after the look-up in coarser levels: tensor; confidence of

@@ -1,56 +1,49 @@
 #include "pipeline/measure/gates.h"
 
 #include <algorithm>
-#include <array>
-#include <cassert>
 
 #include <fmt/format.h>
 
 namespace pleinair::measure {
 namespace {
 
-/// Motions for which a gate is evaluated.
-enum class On {
-  kAny,
-  kPan,         ///< one vector, which may be zero; not measured where the motion is unknown
-  kOtherKnown,  ///< motion other than one global translation
-  kMoving,      ///< known or not
-};
+using styles::CoherenceGate;
+using styles::CoherenceMeasure;
+using styles::GateMotion;
 
-struct Gate {
-  std::string_view style;
-  std::optional<double> Measures::*measure;
-  bool isUpperLimit;  ///< true: upper limit; false: lower limit
-  double limit;       ///< or the factor of the reference that follows
-  std::optional<double> Measures::*ofTiling = nullptr;
-  On on = On::kAny;
-};
+std::optional<double> Measures::*memberOf(CoherenceMeasure measure) {
+  switch (measure) {
+    case CoherenceMeasure::kEw2:
+      return &Measures::ew2;
+    case CoherenceMeasure::kXEw2:
+      return &Measures::xEw2;
+    case CoherenceMeasure::kNHw2:
+      return &Measures::nHw2;
+    case CoherenceMeasure::kPop:
+      return &Measures::popPercent;
+    case CoherenceMeasure::kS10:
+      return &Measures::s10Percent;
+    case CoherenceMeasure::kScr:
+      return &Measures::scr;
+    case CoherenceMeasure::kXFlk:
+      return &Measures::xFlk;
+    case CoherenceMeasure::kDep:
+      return &Measures::dep;
+    case CoherenceMeasure::kDet:
+      return &Measures::det;
+  }
+  return nullptr;
+}
 
-constexpr std::array kGates{
-    Gate{"painterly", &Measures::ew2, true, 0.6, nullptr, On::kPan},
-    Gate{"painterly", &Measures::nHw2, true, 0.10, nullptr, On::kPan},
-    Gate{"painterly", &Measures::nHw2, true, 0.20, nullptr, On::kOtherKnown},
-    Gate{"painterly", &Measures::s10Percent, false, 90, nullptr, On::kPan},
-    Gate{"painterly", &Measures::s10Percent, false, 80, nullptr, On::kOtherKnown},
-    Gate{"painterly", &Measures::popPercent, true, 1, nullptr, On::kPan},
-    Gate{"painterly", &Measures::xFlk, true, 0.5},
-    Gate{"painterly", &Measures::dep, false, 0.75, &Measures::dep},
-    Gate{"painterly", &Measures::det, false, 0.75},
-    Gate{"watercolor", &Measures::nHw2, true, 0.30},
-    Gate{"watercolor", &Measures::xFlk, true, 0.15},
-    Gate{"watercolor", &Measures::dep, false, 0.75, &Measures::dep},
-    Gate{"watercolor", &Measures::scr, true, 0.3, &Measures::scr, On::kMoving},
-};
-
-bool isShutOn(const Gate& gate, MotionKind motion) {
-  switch (gate.on) {
-    case On::kAny:
+bool isJudgedOn(const CoherenceGate& gate, MotionKind motion) {
+  switch (gate.motion) {
+    case GateMotion::kAny:
       return true;
-    case On::kPan:  // if the motion is unknown, the gate counts as not measured and not passed
+    case GateMotion::kPan:  // if the motion is unknown, the gate counts as not measured and not passed
       return motion != MotionKind::kOther;
-    case On::kOtherKnown:
+    case GateMotion::kOtherKnown:
       return motion == MotionKind::kOther;
-    case On::kMoving:
+    case GateMotion::kMoving:
       return motion != MotionKind::kStill;
   }
   return false;
@@ -60,63 +53,53 @@ const MeasureColumn& columnOf(std::optional<double> Measures::*value) {
   return *std::ranges::find(measureColumns(), value, &MeasureColumn::value);
 }
 
-Verdict judge(const Gate& gate, const RunConditions& runConditions, const Measures& measures,
-              const Measures& tiling) {
-  const MeasureColumn& column = columnOf(gate.measure);
-  const char* relation = gate.isUpperLimit ? "≤" : "≥";
-  const std::optional<double>& found = measures.*gate.measure;
+Verdict judge(const CoherenceGate& gate, const RunConditions& runConditions,
+              const Measures& measures, const Measures& tiling) {
+  std::optional<double> Measures::*const measure = memberOf(gate.measure);
+  const MeasureColumn& column = columnOf(measure);
+  const bool isUpperLimit = gate.side == CoherenceGate::Side::kMost;
+  const char* relation = isUpperLimit ? "≤" : "≥";
+  const std::optional<double>& found = measures.*measure;
   double limit = gate.limit;
   bool isLimitKnown = true;
   Verdict verdict{.what = fmt::format("{} {} {:g}", column.name, relation, gate.limit),
                   .found = textOf(column, measures)};
-  if (gate.ofTiling != nullptr) {
-    const std::optional<double>& reference = tiling.*gate.ofTiling;
+  if (gate.isOfTiling) {
+    const std::optional<double>& reference = tiling.*measure;
     limit *= reference.value_or(0);
     isLimitKnown = reference.has_value();
     verdict.what += fmt::format(" × the tiling's {}", textOf(column, tiling));
   }
-  verdict.comparison = {.value = found, .limit = {}, .isUpperLimit = gate.isUpperLimit};
+  verdict.comparison = {.value = found, .limit = {}, .isUpperLimit = isUpperLimit};
   if (isLimitKnown) verdict.comparison->limit = limit;
-  if (!found) verdict.found = reasonMissing(gate.measure, runConditions);
+  if (!found) verdict.found = reasonMissing(measure, runConditions);
   if (found && !isLimitKnown) verdict.found += ", but the tiling's is not known";
   if (!found || !isLimitKnown) return verdict;
-  const bool isPassed = gate.isUpperLimit ? *found <= limit : *found >= limit;
+  const bool isPassed = isUpperLimit ? *found <= limit : *found >= limit;
   verdict.state = isPassed ? Verdict::State::kPassed : Verdict::State::kFailed;
   return verdict;
 }
 
 }  // namespace
 
-bool hasGates(std::string_view style) {
-  return std::ranges::find(kGates, style, &Gate::style) != kGates.end();
-}
-
-std::vector<std::string> gatedStyles() {
-  std::vector<std::string> styles;
-  for (const Gate& gate : kGates) {
-    if (styles.empty() || styles.back() != gate.style) styles.emplace_back(gate.style);
-  }
-  return styles;
-}
-
-std::vector<Verdict> gateVerdicts(std::string_view style, const RunConditions& runConditions,
-                                  const Measures& measures, const Measures& tiling) {
-  assert(hasGates(style));
+std::vector<Verdict> gateVerdicts(const styles::CoherenceGates& gates,
+                                  const RunConditions& runConditions, const Measures& measures,
+                                  const Measures& tiling) {
   std::vector<Verdict> verdicts;
-  for (const Gate& gate : kGates) {
-    if (gate.style != style || !isShutOn(gate, runConditions.motion)) continue;
+  for (const CoherenceGate& gate : gates.gates) {
+    if (!isJudgedOn(gate, runConditions.motion)) continue;
     verdicts.push_back(judge(gate, runConditions, measures, tiling));
   }
   return verdicts;
 }
 
-std::vector<Verdict> anchorVerdicts(std::string_view style, MotionKind motion,
+std::vector<Verdict> anchorVerdicts(const styles::CoherenceGates& gates, MotionKind motion,
                                     const std::optional<AnchorSummary>& settled,
                                     const std::optional<AnchorSummary>& still) {
   using State = Verdict::State;
   constexpr double kMaxTurnoverPercent = 0.5;
   std::vector<Verdict> verdicts;
-  if (style != "painterly") return verdicts;
+  if (!gates.holdsAnchors) return verdicts;
   if (motion == MotionKind::kPan) {
     Verdict turnover{.what = "births and deaths away from the border ≤ 0.5 % of the marks a frame",
                      .found = "no anchors after two seconds",

@@ -2,13 +2,13 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "pipeline/measure/anchor_measures.h"
 #include "pipeline/measure/input/true_motion.h"
 #include "pipeline/measure/measures.h"
 #include "pipeline/measure/run_conditions.h"
+#include "pipeline/styles/coherence_gates.h"
 
 namespace pleinair::measure {
 
@@ -29,21 +29,15 @@ struct Verdict {
   std::optional<Comparison> comparison = {};
 };
 
-/// Whether a style has its own gates.
-bool hasGates(std::string_view style);
-
-/// Names of the styles that have gates.
-std::vector<std::string> gatedStyles();
-
-/// Evaluates the gates of `style` for an output's measures under these conditions, whose motion
-/// decides which gates apply. `tiling`: measures of tiles fixed to the screen on the same frames.
-/// Precondition: hasGates(style).
-std::vector<Verdict> gateVerdicts(std::string_view style, const RunConditions& runConditions,
-                                  const Measures& measures, const Measures& tiling);
+/// Evaluates a style's gates for an output's measures under these conditions, whose motion decides
+/// which gates apply. `tiling`: measures of tiles fixed to the screen on the same frames.
+std::vector<Verdict> gateVerdicts(const styles::CoherenceGates& gates,
+                                  const RunConditions& runConditions, const Measures& measures,
+                                  const Measures& tiling);
 
 /// Evaluates the gates on the style's anchors: under a pan, after the first two seconds, and on a
 /// still scene. Empty for styles without such gates.
-std::vector<Verdict> anchorVerdicts(std::string_view style, MotionKind motion,
+std::vector<Verdict> anchorVerdicts(const styles::CoherenceGates& gates, MotionKind motion,
                                     const std::optional<AnchorSummary>& settled,
                                     const std::optional<AnchorSummary>& still);
 

@@ -150,14 +150,12 @@ class Measurement {
                       *options_.frames, report_.frames));
     }
     report_.leftOut = leftOut();
-    report_.controls = controlVerdicts(report_.measures, report_.style, runConditions());
-    if (hasGates(report_.style)) {
-      report_.gates =
-          gateVerdicts(report_.style, runConditions(), report_.measures[Subject::kPainting],
-                       report_.measures[Subject::kFixed]);
-    }
-    for (Verdict& verdict :
-         anchorVerdicts(report_.style, report_.motionKind, settledAnchors(), report_.insideStill)) {
+    report_.controls = controlVerdicts(report_.measures, options_.coherence, runConditions());
+    report_.gates =
+        gateVerdicts(options_.coherence, runConditions(), report_.measures[Subject::kPainting],
+                     report_.measures[Subject::kFixed]);
+    for (Verdict& verdict : anchorVerdicts(options_.coherence, report_.motionKind, settledAnchors(),
+                                           report_.insideStill)) {
       report_.gates.push_back(std::move(verdict));
     }
   }

@@ -12,6 +12,7 @@
 #include "pipeline/marks/anchor.h"
 #include "pipeline/measure/input/measured_input.h"
 #include "pipeline/measure/report/report.h"
+#include "pipeline/styles/coherence_gates.h"
 
 namespace pleinair::measure {
 
@@ -38,6 +39,7 @@ class MeasuredPainter {
 
 struct MeasurementOptions {
   std::string style;
+  styles::CoherenceGates coherence = {};  ///< the style's
   std::string settings;
   /// Largest number of measured frames; default: the whole input.
   std::optional<std::uint64_t> frames;

@@ -1,5 +1,7 @@
 #include "pipeline/measure/negative_controls.h"
 
+#include <array>
+
 #include <fmt/format.h>
 
 #include "pipeline/measure/picture.h"
@@ -15,6 +17,12 @@ constexpr double kMinScreenPattern = 0.25;
 constexpr double kMaxInputError = 0.5;
 /// Below this, in levels, tiles are hardly visible and cannot be told apart.
 constexpr double kSmoothDeviation = 3.0;
+
+/// Gates for marks that are redrawn in each frame, where the style has no gates of its own.
+constexpr std::array kReferenceGates{
+    styles::CoherenceGate{styles::CoherenceMeasure::kNHw2, styles::CoherenceGate::Side::kMost, 0.2},
+    styles::CoherenceGate{styles::CoherenceMeasure::kXFlk, styles::CoherenceGate::Side::kMost, 0.5},
+};
 
 /// Why a control may read wrong although the measures are valid.
 std::string likelyCause(const PerSubject<Measures>& measures) {
@@ -53,12 +61,12 @@ bool isOfCoherence(const Verdict& gate) {
          gate.what.starts_with("POP ");
 }
 
-Verdict freshVerdict(const PerSubject<Measures>& measures, std::string_view style,
+Verdict freshVerdict(const PerSubject<Measures>& measures, const styles::CoherenceGates& gates,
                      const RunConditions& runConditions) {
   Verdict verdict{.what = "marks redrawn each frame fail the gates of coherence"};
   bool isMeasured = false;
   for (const Verdict& gate :
-       gateVerdicts(style, runConditions, measures[Subject::kFresh], measures[Subject::kFixed])) {
+       gateVerdicts(gates, runConditions, measures[Subject::kFresh], measures[Subject::kFixed])) {
     if (!isOfCoherence(gate)) continue;
     isMeasured |= gate.state != State::kNotMeasured;
     if (gate.state != State::kFailed) continue;
@@ -108,10 +116,12 @@ PerSubject<cv::Mat3f> ControlPainter::paint(const cv::Mat3f& input, const cv::Ma
   return pictures;
 }
 
-std::vector<Verdict> controlVerdicts(const PerSubject<Measures>& measures, std::string_view style,
+std::vector<Verdict> controlVerdicts(const PerSubject<Measures>& measures,
+                                     const styles::CoherenceGates& gates,
                                      const RunConditions& runConditions) {
-  const std::string_view gated = hasGates(style) ? style : "painterly";
-  return {motionVerdict(measures), freshVerdict(measures, gated, runConditions),
+  const styles::CoherenceGates judged =
+      gates.empty() ? styles::CoherenceGates{kReferenceGates} : gates;
+  return {motionVerdict(measures), freshVerdict(measures, judged, runConditions),
           fixedVerdict(measures, runConditions)};
 }
 

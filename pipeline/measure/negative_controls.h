@@ -47,8 +47,10 @@ class ControlPainter {
   VoronoiTiling fixed_;
 };
 
-/// Whether the controls read as they must; a control that cannot be evaluated says why.
-std::vector<Verdict> controlVerdicts(const PerSubject<Measures>& measures, std::string_view style,
+/// Whether the controls read as they must; a control that cannot be evaluated says why. A style
+/// without gates is judged by reference gates.
+std::vector<Verdict> controlVerdicts(const PerSubject<Measures>& measures,
+                                     const styles::CoherenceGates& gates,
                                      const RunConditions& runConditions);
 
 }  // namespace pleinair::measure

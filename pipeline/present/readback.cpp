@@ -118,10 +118,10 @@ void Readback::pack(const gpu::Texture& picture) {
         .texture("picture", picture)
         .set("ycbcrFromRgb", ycbcr.fromRgb)
         .set("ycbcrOffset", ycbcr.offset)
-        .set("chromaLeftSited", gpu::isChromaLeftSited(encoding) ? 1 : 0)
-        .set("plane", static_cast<int>(plane))
-        .set("origin", pass.origin)
-        .drawArea(target_, pass.origin, pass.texels);
+        .set("chromaLeftSited", gpu::isChromaLeftSited(encoding) ? 1 : 0);
+    if (pass.program.hasUniform("plane")) pass.program.set("plane", static_cast<int>(plane));
+    if (pass.program.hasUniform("origin")) pass.program.set("origin", pass.origin);
+    pass.program.drawArea(target_, pass.origin, pass.texels);
   }
 }
 

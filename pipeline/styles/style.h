@@ -1,21 +1,26 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "config/parameter_values.h"
 #include "hal/error.h"
-#include "pipeline/gpu/pass_timer.h"
+#include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/marks/anchor.h"
 #include "pipeline/scene/render/ar_frame.h"
+#include "pipeline/styles/coherence_gates.h"
+#include "pipeline/styles/debug_views.h"
 
 namespace pleinair::marks {
 class AnchorSet;
 }
 
 namespace pleinair::styles {
+
+class Style;
 
 /// A named preset of a style. Its values replace the defaults; what a person sets replaces both.
 struct Look {
@@ -24,10 +29,26 @@ struct Look {
   std::string_view toml;  ///< a table of the style's parameters, as in a configuration file
 };
 
-/// One of a style's inner pictures, for people who want to see how it works.
-struct DebugViewInfo {
-  std::string_view name;  ///< "cells"
+/// The descriptor of a style: all that is known of it without a GPU, and how to make it. Each
+/// style's folder exports one, which pipeline/styles/registry.cpp lists.
+struct StyleKind {
+  std::string_view name;
   std::string_view help;
+  config::ParameterValues defaults;           ///< its list() describes what can be tuned
+  std::span<const Look> looks = {};           ///< the first has the defaults' values
+  std::span<const DebugViewInfo> views = {};  ///< its inner pictures, apart from the finished one
+  scene::ArFrameNeeds needs = {};             ///< beyond what every AR frame has
+  CoherenceGates coherence = {};              ///< what `measure --gates` holds it to
+  std::vector<std::span<const gpu::EmbeddedShader>> shaders = {};  ///< of its own and its parts
+  /// Whether files that parameters name are there and valid, without a GPU; null: they name none.
+  hal::Result<void> (*check)(const config::ParameterValues& values) = nullptr;
+  /// Makes one, on the thread of the current GL context, with its programs warmed up. `library`,
+  /// which outlives it, has the shaders of all styles, marks and the scene.
+  std::unique_ptr<Style> (*make)(const gpu::ShaderLibrary& library) = nullptr;
+
+  /// The defaults under the look's values, whose origin names the look. Throws config::ConfigError
+  /// for an unknown name, with all names.
+  config::ParameterValues parametersOf(std::string_view look) const;
 };
 
 /// Turns AR frames into pictures. Keeps its own state between frames and knows nothing of cameras,
@@ -41,20 +62,13 @@ class Style {
   Style(Style&&) = delete;
   Style& operator=(Style&&) = delete;
 
-  virtual std::string_view name() const = 0;
-  /// Its inner pictures, apart from the finished one.
-  virtual std::span<const DebugViewInfo> views() const = 0;
+  /// The style's descriptor.
+  virtual const StyleKind& kind() const = 0;
 
-  /// What it looks at of an AR frame beyond what each has.
-  virtual scene::ArFrameNeeds needs() const { return {}; }
-
-  /// Whether it looks at ArFrame::canvasFromPicture, which costs a little to find.
-  virtual bool usesCanvas() const { return false; }
-
-  /// The snapshot in force; its list() describes what can be tuned. At first the defaults.
+  /// The snapshot in force. At first the defaults.
   virtual const config::ParameterValues& parameters() const = 0;
-  /// Makes ready what a snapshot names outside the program, such as a file. Errors: of that; the
-  /// snapshot is not put in force then.
+  /// Makes ready what a snapshot names outside the program, such as a file. Errors: that file's;
+  /// the snapshot is not put in force then.
   virtual hal::Result<void> prepare([[maybe_unused]] const config::ParameterValues& values) {
     return {};
   }
@@ -64,16 +78,16 @@ class Style {
 
   /// Paints `frame`; the RGBA8 result (sRGB-coded, opaque) has the frame's size, row 0 at the top,
   /// and is valid until the next call. `view` is empty for the finished picture or names one of
-  /// views(); the style's state advances the same whatever is looked at. Frames of another full
-  /// size than the last reset it; of another size alone (a level of quality) they go on where it
-  /// was. Each size is allocated for once.
-  virtual const gpu::Texture& paint(const scene::ArFrame& frame, std::string_view view,
-                                    gpu::PassTimer& timer) = 0;
+  /// the descriptor's views; the style's state advances the same for each. A frame of another full
+  /// size than the last resets it; a frame of another size alone (a quality level) does not. Each
+  /// size is allocated for once.
+  virtual const gpu::Texture& paint(const scene::ArFrame& frame, std::string_view view) = 0;
 
   /// Its marks' anchors as they were painted last, of several layers the finest's; null where it
   /// has none.
   virtual const marks::AnchorSet* anchors() const { return nullptr; }
-  /// Waits for the GPU and reads those of all layers, a slot each, free ones too: for measures.
+  /// Waits for the GPU and reads the anchors of all layers, a slot each, free ones too: for
+  /// measures.
   virtual std::vector<marks::Anchor> readAnchors() const { return {}; }
 
   /// Forgets the past: the next frame is painted as a first one.

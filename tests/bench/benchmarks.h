@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
+#include <string_view>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -31,7 +33,7 @@ inline void atBothSizes(benchmark::internal::Benchmark* benchmark) {
   benchmark->MeasureProcessCPUTime();
 }
 
-/// For timeOnePass().
+/// For timePasses().
 inline void passAtBothSizes(benchmark::internal::Benchmark* benchmark) {
   benchmark->Args({640, 480})->Args({1280, 720})->Unit(benchmark::kMillisecond);
   benchmark->MeasureProcessCPUTime()->UseManualTime()->MinTime(0.2);
@@ -48,20 +50,27 @@ inline double millisecondsSince(std::chrono::steady_clock::time_point start) {
       .count();
 }
 
-/// One pass out of whole frames, each of which `advance()` makes: what the timer, which times by
-/// fences, says of it.
+/// Some passes out of whole frames, each of which `advance()` makes: the sum of what the timer,
+/// which times by fences, says of those whose names begin with one of `passes`.
 template <class Advance>
-void timeOnePass(benchmark::State& state, gpu::PassTimer& timer, const char* pass,
-                 Advance advance) {
+void timePasses(benchmark::State& state, const gpu::PassTimer& timer,
+                std::initializer_list<std::string_view> passes, Advance advance) {
+  const auto sum = [&] {
+    std::chrono::nanoseconds total{0};
+    for (const gpu::PassTime& each : timer.times()) {
+      for (const std::string_view pass : passes) {
+        if (each.pass.starts_with(pass)) total += each.total;
+      }
+    }
+    return total;
+  };
   std::vector<double> times;
   for ([[maybe_unused]] auto _ : state) {
+    const std::chrono::nanoseconds before = sum();
     advance();
-    for (const gpu::PassTime& each : timer.times()) {
-      if (each.pass != pass) continue;
-      const double seconds = std::chrono::duration<double>(each.last).count();
-      state.SetIterationTime(seconds);
-      times.push_back(seconds * 1e3);
-    }
+    const double seconds = std::chrono::duration<double>(sum() - before).count();
+    state.SetIterationTime(seconds);
+    times.push_back(seconds * 1e3);
   }
   state.counters["median_ms"] = medianOf(times);
 }

@@ -10,7 +10,7 @@
 #include "firmware_app/live/live_painter.h"
 #include "pipeline/runtime/live_pipeline.h"
 #include "pipeline/runtime/live_threads.h"
-#include "pipeline/styles/style_registry.h"
+#include "pipeline/styles/registry.h"
 #include "tests/support/live_simulation.h"
 #include "tests/support/pass_through_painter.h"
 
@@ -59,7 +59,7 @@ Late runLive(hal::FrameSize size, const std::string& style, hal::Duration latenc
   auto output = std::make_unique<support::CapturingOutput>(notes, clock);
   const auto format = *output->start({.size = size, .framePeriod = {}});
   chain.addOutput(std::move(output), format, {.name = "paced", .waiting = 16});
-  app::LiveControls controls({.style = styles::styleInfo(style).defaults, .view = {}});
+  app::LiveControls controls({.style = styles::styleKind(style).defaults, .view = {}});
   chain.makePaintStage(
       [&](const auto& formats) -> std::unique_ptr<runtime::FramePainter> {
         if (style == "none") return std::make_unique<support::PassThroughPainter>(formats.size());

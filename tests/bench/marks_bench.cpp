@@ -72,24 +72,24 @@ struct Bench {
         std::make_unique<marks::AnchorSet>(library, size, marks::AnchorOptions{.density = rule});
     colour = gpu::Texture(gpu::TextureFormat::kRgba8, size);
     ids = gpu::Texture(gpu::TextureFormat::kR32ui, size);
-    gpu::PassTimer untimed;
-    for (int i = 0; i < 8; ++i) advance(untimed);
+    for (int i = 0; i < 8; ++i) advance();
     hal::orThrow(gpu::Fence::insert().wait());
+    library.setTimer(&timer);
   }
 
-  void advance(gpu::PassTimer& with) {
+  void advance() {
     motion.image.sinceSequence = number;
-    advance(with, motion.image);
+    advance(motion.image);
   }
-  void advance(gpu::PassTimer& with, const tracking::ImageMotion& image) {
+  void advance(const tracking::ImageMotion& image) {
     ++number;
     scene::ArFrame frame{.colour = &colour,
                          .ids = &ids,
                          .measuredMotion = scene::MeasuredMotion{.motion = &image},
                          .sequence = number,
                          .captureTime = timeOfFrame(number)};
-    field->update(frame, with);
-    anchors->advance(frame, *field, with);
+    field->update(frame);
+    anchors->advance(frame, *field);
   }
 
   gpu::EglContext context;
@@ -106,7 +106,7 @@ struct Bench {
 void together(benchmark::State& state, marks::DensityRule rule) {
   Bench bench(sizeOf(state), gpu::PassTiming::kOff, rule);
   for ([[maybe_unused]] auto _ : state) {
-    bench.advance(bench.timer);
+    bench.advance();
     hal::orThrow(gpu::Fence::insert().wait());
   }
   double alive = 0.0;
@@ -114,9 +114,9 @@ void together(benchmark::State& state, marks::DensityRule rule) {
   state.counters["anchors"] = alive;
 }
 
-void onePass(benchmark::State& state, const char* pass) {
+void passes(benchmark::State& state, std::initializer_list<std::string_view> names) {
   Bench bench(sizeOf(state), gpu::PassTiming::kFences, {});
-  timeOnePass(state, bench.timer, pass, [&bench] { bench.advance(bench.timer); });
+  timePasses(state, bench.timer, names, [&bench] { bench.advance(); });
 }
 
 /// The walk around the workbench, forth and back: the motion found in the picture, then anchors.
@@ -136,7 +136,7 @@ void withThePicturesMotion(benchmark::State& state) {
     const tracking::ImageMotion& motion =
         estimator.follow(frame.planes[0], size, bench.number + 1);  // as advance() counts
     const Clock::time_point found = Clock::now();
-    bench.advance(bench.timer, motion);
+    bench.advance(motion);
     hal::orThrow(gpu::Fence::insert().wait());
     finding.push_back(std::chrono::duration<double, std::milli>(found - start).count());
     all.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
@@ -157,14 +157,21 @@ BENCHMARK(withThePicturesMotion)
     ->Name("marks/one anchor a cell, with finding the picture's motion")
     ->Iterations(240)
     ->Apply(atBothSizes);
-BENCHMARK_CAPTURE(onePass, field, "motion field")
-    ->Name("marks/motion field")
-    ->Apply(passAtBothSizes);
-BENCHMARK_CAPTURE(onePass, carry, "carry anchors")
-    ->Name("marks/carry anchors")
-    ->Apply(passAtBothSizes);
-BENCHMARK_CAPTURE(onePass, density, "keep density")
-    ->Name("marks/keep density")
-    ->Apply(passAtBothSizes);
+void motionField(benchmark::State& state) {
+  passes(state, {"marks: feature_layers", "marks: motion_field"});
+}
+
+void carryAnchors(benchmark::State& state) {
+  passes(state, {"marks: anchor_image", "marks: anchor_surface"});
+}
+
+void keepDensity(benchmark::State& state) {
+  passes(state, {"marks: anchor_count", "marks: anchor_density", "marks: anchor_plan",
+                 "marks: anchor_spawn"});
+}
+
+BENCHMARK(motionField)->Name("marks/motion field")->Apply(passAtBothSizes);
+BENCHMARK(carryAnchors)->Name("marks/carry anchors")->Apply(passAtBothSizes);
+BENCHMARK(keepDensity)->Name("marks/keep density")->Apply(passAtBothSizes);
 
 }  // namespace

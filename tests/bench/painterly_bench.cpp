@@ -1,9 +1,11 @@
 // What the painter costs, in the thesis's four stages (table 1: tensor field, features and
 // matching, warping of anchors, painting), beside OpenCV's stylization of the same frames in the
 // same run. Stages are timed by fences, which makes their sum more than the whole.
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <string>
 #include <string_view>
@@ -80,10 +82,16 @@ void whole(benchmark::State& state, const char* style) {
   }
 }
 
+/// Whether a pass is one of those, by the begin of its name.
+bool beginsWithOneOf(std::string_view pass, std::initializer_list<std::string_view> names) {
+  return std::ranges::any_of(names, [&](std::string_view name) { return pass.starts_with(name); });
+}
+
 std::string_view stageOf(std::string_view pass) {
-  if (pass == "tensor field") return "tensor";
+  if (beginsWithOneOf(pass, {"marks: gradient", "marks: edge_", "marks: tensor_"})) return "tensor";
   if (pass == "follow picture") return "features";
-  if (pass == "motion field" || pass == "carry anchors" || pass == "keep density") return "warping";
+  if (beginsWithOneOf(pass, {"marks: feature_layers", "marks: motion_field", "marks: anchor_"}))
+    return "warping";
   return "painting";
 }
 

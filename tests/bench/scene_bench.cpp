@@ -142,11 +142,10 @@ void compose(benchmark::State& state, const std::string& text, ArFrameNeeds need
       .cameraFromTag =
           glm::rotate(glm::translate(glm::dmat4(1.0), {0.0, 0.0, 0.25}), 0.5, {1.0, 0.0, 0.0})};
   const tracking::CameraModel camera = assumedCamera(size);
-  gpu::PassTimer timer;
   std::uint64_t sequence = 0;
   for (auto _ : state) {
     const hal::TimePoint time(++sequence * std::chrono::milliseconds(33));  // what turns, turns
-    renderer.compose(picture, camera, {.tags = {&sighting, 1}}, sequence, time, timer, needs);
+    renderer.compose(picture, camera, {.tags = {&sighting, 1}}, sequence, time, needs);
     hal::orThrow(gpu::Fence::insert().wait());
   }
 }

@@ -15,7 +15,7 @@
 #include "pipeline/gpu/handle.h"
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/scene/scene_shaders.h"
-#include "pipeline/styles/style_registry.h"
+#include "pipeline/styles/registry.h"
 #include "tests/bench/benchmarks.h"
 
 namespace {
@@ -70,12 +70,12 @@ struct Bench {
     barycentrics = gpu::Texture(gpu::TextureFormat::kR32ui, size);
     std::ranges::fill(idPixels, 0U);
     barycentrics.upload({bytes, idPixels.size() * 4}, static_cast<std::size_t>(size.width) * 4);
-    gpu::PassTimer untimed;
-    for (int i = 0; i < kFrames; ++i) paint(untimed);
+    for (int i = 0; i < kFrames; ++i) paint();
     hal::orThrow(gpu::Fence::insert().wait());
+    library.setTimer(&timer);
   }
 
-  void paint(gpu::PassTimer& with) {
+  void paint() {
     const scene::ArFrame frame{.colour = &frames[static_cast<std::size_t>(number % kFrames)],
                                .ids = &ids,
                                .barycentrics = &barycentrics,
@@ -83,7 +83,7 @@ struct Bench {
                                .sequence = static_cast<std::uint64_t>(number),
                                .captureTime = timeOfFrame(static_cast<std::uint64_t>(number))};
     ++number;
-    style->paint(frame, "", with);
+    style->paint(frame, "");
   }
 
   gpu::EglContext context;
@@ -103,7 +103,7 @@ void wholeStyle(benchmark::State& state, bool hasObjects) {
   std::vector<double> times;
   for ([[maybe_unused]] auto _ : state) {
     const auto start = std::chrono::steady_clock::now();
-    bench.paint(bench.timer);
+    bench.paint();
     hal::orThrow(gpu::Fence::insert().wait());
     times.push_back(millisecondsSince(start));
   }
@@ -112,7 +112,7 @@ void wholeStyle(benchmark::State& state, bool hasObjects) {
 
 void onePass(benchmark::State& state, const char* pass) {
   Bench bench(sizeOf(state), gpu::PassTiming::kFences);
-  timeOnePass(state, bench.timer, pass, [&bench] { bench.paint(bench.timer); });
+  timePasses(state, bench.timer, {pass}, [&bench] { bench.paint(); });
 }
 
 void openCvStylization(benchmark::State& state) {

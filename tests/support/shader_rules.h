@@ -8,9 +8,10 @@ namespace pleinair::support {
 
 /// A shader's source, as written and as compiled.
 struct ShaderText {
-  std::string name;     ///< its extension gives the stage: .vert .frag .comp, or .glsl for includes
-  std::string written;  ///< the file's content
-  std::string expanded;  ///< with its includes, without version and precision statements
+  std::string name;          ///< its ending says the stage: .vert .frag .comp, or .glsl to include
+  std::string written;       ///< the file
+  std::string expanded;      ///< with its includes, without version, precisions and lines left out
+  std::string variant = {};  ///< its name and the flags that it is compiled with
 };
 
 /// Violations of a rule, as sentences; empty if there are none.

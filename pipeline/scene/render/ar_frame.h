@@ -77,6 +77,7 @@ struct ArFrameNeeds {
   /// ArFrame::motion, barycentrics, parts and surfaces, if the scene has any
   bool surfaces = false;
   bool measuredMotion = false;       ///< ArFrame::measuredMotion
+  bool canvas = false;               ///< ArFrame::canvasFromPicture, which costs a little to find
   Shading shading = Shading::kToon;  ///< of models
 };
 

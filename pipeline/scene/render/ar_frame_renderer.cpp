@@ -68,11 +68,13 @@ void ArFrameRenderer::makePrograms(const gpu::ShaderLibrary& library) {
     return std::ranges::any_of(each.model->materials, isAlphaMasked);
   });
   for (const Shading shading : {Shading::kToon, Shading::kSmooth}) {
-    const std::string name = std::string("pipeline/scene/render/shaders/model_") +
-                             (shading == Shading::kToon ? "toon" : "smooth");
+    constexpr std::string_view kFragments = "pipeline/scene/render/shaders/model.frag";
+    gpu::ShaderDefines defines;
+    if (shading == Shading::kToon) defines.push_back({"TOON"});
     SurfacePrograms& programs = programsOf(shading);
-    programs.solid = library.draw(kVertices, name + ".frag");
-    if (hasAlphaMask) programs.alphaMasked = library.draw(kVertices, name + "_masked.frag");
+    programs.solid = library.draw(kVertices, kFragments, defines);
+    defines.push_back({"MASKED"});
+    if (hasAlphaMask) programs.alphaMasked = library.draw(kVertices, kFragments, defines);
   }
   if (std::ranges::any_of(scene_.models, &SceneModel::isOccluder)) {
     occluder_ = library.draw(kVertices, "pipeline/scene/render/shaders/occluder.frag");
@@ -138,27 +140,17 @@ void ArFrameRenderer::reset() {
 const ArFrame& ArFrameRenderer::compose(const gpu::Texture& picture,
                                         const tracking::CameraModel& camera, const PoseSet& poses,
                                         std::uint64_t sequence, hal::TimePoint captureTime,
-                                        gpu::PassTimer& timer, ArFrameNeeds needs,
-                                        std::span<const PlaceLighting> lights) {
+                                        ArFrameNeeds needs, std::span<const PlaceLighting> lights) {
   assert(picture.size() == camera.imageSize());
   takeSurfaces(picture.size());
   if (!firstTime_) firstTime_ = captureTime;
   bodies_.advance(poses);
-  {
-    const auto scope = timer.measure("pose models");
-    poseModels(captureTime);
-  }
+  poseModels(captureTime);
   findVisible();
   findLights(lights);
   shading_ = needs.shading;
-  if (shadow_) {
-    const auto scope = timer.measure("cast shadows");
-    shadow_->cast(visible_, bodies_, lights_);
-  }
-  {
-    const auto scope = timer.measure("compose");
-    drawFrame(picture, camera);
-  }
+  if (shadow_) shadow_->cast(visible_, bodies_, lights_);
+  drawFrame(picture, camera);
   frame_.colour = visible_.empty() ? &picture : &surfacesNow_->colour;
   frame_.ids = &surfacesNow_->ids;
   frame_.normalFocus = &surfacesNow_->normalFocus;
@@ -168,10 +160,7 @@ const ArFrame& ArFrameRenderer::compose(const gpu::Texture& picture,
       visible_, [&](std::size_t each) { return scene_.models[each].focus > 0.0F; });
   frame_.sequence = sequence;
   frame_.captureTime = captureTime;
-  if (needs.surfaces && surfacePass_) {
-    const auto scope = timer.measure("surfaces");
-    findSurfaces(camera);
-  }
+  if (needs.surfaces && surfacePass_) findSurfaces(camera);
   lastStamp_ = Stamp{sequence, captureTime};
   return frame_;
 }
@@ -265,9 +254,11 @@ void ArFrameRenderer::setCamera(const tracking::CameraModel& camera) {
     if (program == nullptr || !*program) continue;
     program->use()
         .set("clipFocal", glm::vec2(2.0 * glm::dvec2(pinhole.fx, pinhole.fy) / size))
-        .set("clipCentre", glm::vec2(2.0 * glm::dvec2(pinhole.cx, pinhole.cy) / size - 1.0))
-        .set("clipDepth",
-             glm::vec2((farthest + nearest) / range, -2.0 * farthest * nearest / range));
+        .set("clipCentre", glm::vec2(2.0 * glm::dvec2(pinhole.cx, pinhole.cy) / size - 1.0));
+    if (program != receiver) {
+      program->set("clipDepth",
+                   glm::vec2((farthest + nearest) / range, -2.0 * farthest * nearest / range));
+    }
     setLens(*program, camera);
   }
 }
@@ -291,34 +282,35 @@ void ArFrameRenderer::drawModel(std::size_t index, const gpu::Texture& picture) 
   const bool isOccluder = scene_.models[index].isOccluder;
   for (const DrawBatch& batch : geometry_.batches(index)) {
     const Material& material = model.materials[batch.material];
+    SurfacePrograms& programs = programsOf(shading_);
+    gpu::Program* const program = isOccluder                ? &occluder_
+                                  : isAlphaMasked(material) ? &programs.alphaMasked
+                                                            : &programs.solid;
     if (isOccluder) {
-      beginModel(occluder_, index).texture("picture", picture);
+      beginModel(*program, index).texture("picture", picture);
     } else {
-      SurfacePrograms& programs = programsOf(shading_);
-      setMaterial(
-          beginModel(isAlphaMasked(material) ? programs.alphaMasked : programs.solid, index), index,
-          material);
+      setMaterial(beginModel(*program, index), index, material);
     }
     (material.isDoubleSided ? glDisable : glEnable)(GL_CULL_FACE);
+    const gpu::PassTimer::Scope scope = program->measure();
     geometry_.draw(index, batch);
   }
 }
 
 /// Sets the uniforms that all materials of a model share.
 gpu::Program& ArFrameRenderer::beginModel(gpu::Program& program, std::size_t index) {
-  const SceneModel& model = scene_.models[index];
   const Body::Moment current = bodies_.model(index).current.value_or(Body::Moment{});
   program.use();
-  setLighting(program, lights_[index]);
   // Rotation and uniform scale: normals, of any length, transform like positions.
   return program.set("cameraFromModel", glm::mat4(current.cameraFromBody))
       .set("cameraFromModelNormals", glm::mat3(glm::dmat3(current.cameraFromBody)))
-      .set("object", objectId(scene_, index))
-      .set("focus", model.focus);
+      .set("object", objectId(scene_, index));
 }
 
 void ArFrameRenderer::setMaterial(gpu::Program& program, std::size_t index,
                                   const Material& material) {
+  setLighting(program, lights_[index], shading_);
+  program.set("focus", scene_.models[index].focus);
   const glm::vec4 tint(linearFromSrgb(scene_.models[index].srgb), 1.0F);
   program.set("baseColour", tint * material.baseColour)
       .texture("baseTexture",

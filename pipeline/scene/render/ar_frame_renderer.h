@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/per_size.h"
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/render_target.h"
@@ -49,8 +48,7 @@ class ArFrameRenderer {
   /// picture (RGBA8, LINEAR) has the size camera.imageSize() (see fittedCamera()).
   const ArFrame& compose(const gpu::Texture& picture, const tracking::CameraModel& camera,
                          const PoseSet& poses, std::uint64_t sequence, hal::TimePoint captureTime,
-                         gpu::PassTimer& timer, ArFrameNeeds needs = {},
-                         std::span<const PlaceLighting> lights = {});
+                         ArFrameNeeds needs = {}, std::span<const PlaceLighting> lights = {});
 
   /// Forgets the previous frames: the next one is the first, has no motion, and restarts the time.
   void reset();

@@ -153,6 +153,7 @@ void ContactShadow::drawCasters(const Map& map) {
   cast_.use();
   for (std::size_t i = 0; i < objects_.size(); ++i) {
     cast_.set("mapFromModel", glm::mat4(map.plan->mapFromAttach() * poses_[i]));
+    const gpu::PassTimer::Scope scope = cast_.measure();
     casters_.draw(objects_[i]);
   }
   map.castTarget.discardDepth();
@@ -194,6 +195,7 @@ void ContactShadow::draw() {
         .set("cells", kReceiverCells)
         .set("keyShare", scene_.light.shadow * key)
         .set("ambientShare", scene_.light.shadow * (1.0F - key));
+    const gpu::PassTimer::Scope scope = receive_.measure();
     glDrawArrays(GL_TRIANGLES, 0, 6 * kReceiverCells * kReceiverCells);
   }
   glBindVertexArray(0);

@@ -10,8 +10,6 @@
 namespace pleinair::scene {
 namespace {
 
-constexpr int kGroupSize = 64;  // as in shaders/posing.glsl
-constexpr std::uint32_t kMaxDispatchVertices = kGroupSize * gpu::kMaxGroups;  // of one dispatch
 constexpr std::size_t kPosedBytes = 16;
 
 gpu::TextureWrap wrapOf(TextureEdge edge) {
@@ -78,7 +76,7 @@ PosedGeometry::PosedGeometry(const gpu::ShaderLibrary& library, const Scene& sce
   matrixRows_.resize(matrixRows_.size() + (weights + 3) / 4);
   pose_ = library.compute("pipeline/scene/render/shaders/pose.comp");
   if (weights > 0)
-    poseMorphed_ = library.compute("pipeline/scene/render/shaders/pose_morphed.comp");
+    poseMorphed_ = library.compute("pipeline/scene/render/shaders/pose.comp", {{"MORPHED"}});
   upload(drawn);
   makeVertexArray();
 }
@@ -189,23 +187,25 @@ void PosedGeometry::runPose(const ObjectSlot& object) {
   for (const PoseRange& range : slot.ranges) {
     gpu::Program& program = range.targetCount > 0 ? poseMorphed_ : pose_;
     program.use()
-        .storage(0, rest_)
-        .storage(1, matrices_)
-        .storage(2, posed_)
+        .storage("Rest", rest_)
+        .storage("Matrices", matrices_)
+        .storage("Posed", posed_)
         .set("firstRest", slot.firstVertex + range.firstVertex)
         .set("firstPosed", firstPosed + range.firstVertex)
         .set("vertexCount", range.vertexCount)
         .set("firstMatrix", object.firstMatrix);
     if (range.targetCount > 0) {
-      program.storage(3, deltas_)
+      program.storage("Deltas", deltas_)
           .set("targetCount", range.targetCount)
           .set("firstDelta", slot.firstDelta + range.firstDelta)
           .set("firstWeightRow", firstWeightRow_)
           .set("firstWeight", object.firstWeight + range.firstWeight);
     }
-    for (std::uint32_t first = 0; first < range.vertexCount; first += kMaxDispatchVertices) {
-      const std::uint32_t count = std::min(range.vertexCount - first, kMaxDispatchVertices);
-      program.set("firstVertex", first).dispatch({static_cast<int>(count), 1}, {kGroupSize, 1}, 0);
+    const std::uint32_t maxVertices =
+        static_cast<std::uint32_t>(program.groupSize().x) * gpu::kMaxGroups;  // of a dispatch
+    for (std::uint32_t first = 0; first < range.vertexCount; first += maxVertices) {
+      const std::uint32_t count = std::min(range.vertexCount - first, maxVertices);
+      program.set("firstVertex", first).dispatch({static_cast<int>(count), 1}, 0);
     }
   }
 }

@@ -42,15 +42,17 @@ float deepestShade(const Lighting& light) {
   return std::clamp(kDarkerThanSeen * std::pow(share, kCoding), kThesis, 1.0F);
 }
 
-void setLighting(gpu::Program& program, const Lighting& cameraLight) {
+void setLighting(gpu::Program& program, const Lighting& cameraLight, Shading shading) {
+  program.set("towardKey", cameraLight.towardKey).set("up", cameraLight.up);
+  if (shading == Shading::kSmooth) {
+    program.set("keyLight", cameraLight.key)
+        .set("skyLight", cameraLight.sky)
+        .set("groundLight", cameraLight.ground);
+    return;
+  }
   const float key = luminanceOf(cameraLight.key);
   const float sky = cameraLight.bandsAllLight ? luminanceOf(cameraLight.sky) : 0.0F;
   program.set("ambientInBands", sky / std::max(sky + key, 1e-4F))
-      .set("towardKey", cameraLight.towardKey)
-      .set("up", cameraLight.up)
-      .set("keyLight", cameraLight.key)
-      .set("skyLight", cameraLight.sky)
-      .set("groundLight", cameraLight.ground)
       .set("whiteLight", cameraLight.white)
       .set("shadeTint", shadeTint(cameraLight))
       .set("deepestShade", deepestShade(cameraLight));

@@ -2,6 +2,7 @@
 
 #include "pipeline/gpu/program.h"
 #include "pipeline/scene/light/lighting.h"
+#include "pipeline/scene/render/ar_frame.h"
 #include "pipeline/tracking/camera/camera_model.h"
 
 namespace pleinair::scene {
@@ -9,9 +10,9 @@ namespace pleinair::scene {
 /// Fills the uniforms of shaders/lens.glsl. Precondition: the program is in use.
 void setLens(gpu::Program& program, const tracking::CameraModel& camera);
 
-/// Fills the uniforms of shaders/shading_toon.glsl and shading_smooth.glsl with light in the
+/// Fills the uniforms of shaders/shading_toon.glsl or shading_smooth.glsl with light in the
 /// camera's frame. Precondition: the program is in use.
-void setLighting(gpu::Program& program, const Lighting& cameraLight);
+void setLighting(gpu::Program& program, const Lighting& cameraLight, Shading shading);
 
 /// The factor on sRGB-coded colours where the key light does not reach: the hue of ambient light
 /// relative to all light, at equal brightness.

@@ -54,7 +54,7 @@ SurfacePass::SurfacePass(const gpu::ShaderLibrary& library, const Scene& scene,
   if (!scene.models.empty())
     surface_ = library.compute("pipeline/scene/render/shaders/surface.comp");
   if (std::ranges::any_of(scene.models, &SceneModel::isOccluder)) {
-    realSurface_ = library.compute("pipeline/scene/render/shaders/surface_real.comp");
+    realSurface_ = library.compute("pipeline/scene/render/shaders/surface.comp", {{"REAL"}});
   }
   if (!scene.planes.empty())
     planes_ = library.compute("pipeline/scene/render/shaders/plane_motion.comp");
@@ -152,24 +152,24 @@ gpu::Program& SurfacePass::begin(gpu::Program& program, const gpu::Texture& ids,
 void SurfacePass::runPlanes(const gpu::Texture& ids, const tracking::CameraModel& camera,
                             const ScreenArea& area, const Buffers& buffers) {
   begin(planes_, ids, camera, area)
-      .uniformBlock(0, bodies_, 0, kMaxPlanes * sizeof(GpuBody))
+      .uniformBlock("Planes", bodies_, 0, kMaxPlanes * sizeof(GpuBody))
       .set("planeCount", static_cast<int>(scene_.planes.size()))
-      .image(0, buffers.motion, gpu::ImageAccess::kWrite)
-      .dispatch(area.size, {8, 8}, 0);
+      .image("motion", buffers.motion, gpu::ImageAccess::kWrite)
+      .dispatch(area.size, 0);
 }
 
 void SurfacePass::runModel(gpu::Program& program, std::size_t index, const gpu::Texture& ids,
                            const tracking::CameraModel& camera, const ScreenArea& area,
                            const Buffers& buffers) {
   begin(program, ids, camera, area)
-      .uniformBlock(0, bodies_, (kMaxPlanes + index) * sizeof(GpuBody), sizeof(GpuBody))
-      .storage(0, geometry_.posed())
-      .storage(1, geometry_.triangles())
-      .image(0, buffers.motion, gpu::ImageAccess::kWrite)
-      .image(1, buffers.barycentrics, gpu::ImageAccess::kWrite)
-      .image(2, buffers.parts, gpu::ImageAccess::kWrite)
+      .uniformBlock("OneBody", bodies_, (kMaxPlanes + index) * sizeof(GpuBody), sizeof(GpuBody))
+      .storage("Posed", geometry_.posed())
+      .storage("Triangles", geometry_.triangles())
+      .image("motion", buffers.motion, gpu::ImageAccess::kWrite)
+      .image("barycentrics", buffers.barycentrics, gpu::ImageAccess::kWrite)
+      .image("parts", buffers.parts, gpu::ImageAccess::kWrite)
       .set("object", objectId(scene_, index))
-      .dispatch(area.size, {8, 8}, 0);
+      .dispatch(area.size, 0);
 }
 
 /// Clears only the written area: clearing a whole image costs as much as drawing a model.

@@ -20,10 +20,12 @@
 #include "pipeline/styles/painterly/brush_cache.h"
 #include "pipeline/styles/painterly/coherence.h"
 #include "pipeline/styles/painterly/layers.h"
+#include "pipeline/styles/painterly/painterly_shaders.h"
 #include "pipeline/styles/painterly/painterly_views.h"
 #include "pipeline/styles/painterly/palette.h"
 #include "pipeline/styles/painterly/reduced_images.h"
 #include "pipeline/styles/painterly/stroke_drawing.h"
+#include "pipeline/styles/substrate/substrate_shaders.h"
 
 namespace pleinair::styles {
 namespace {
@@ -90,6 +92,29 @@ struct Painting {
   std::vector<std::unique_ptr<Layer>> layers;
 };
 
+constexpr auto kMost = CoherenceGate::Side::kMost;
+constexpr auto kLeast = CoherenceGate::Side::kLeast;
+/// The limits that its paintings are held to (docs/measuring.md).
+constexpr std::array kGates{
+    CoherenceGate{CoherenceMeasure::kEw2, kMost, 0.6, false, GateMotion::kPan},
+    CoherenceGate{CoherenceMeasure::kNHw2, kMost, 0.10, false, GateMotion::kPan},
+    CoherenceGate{CoherenceMeasure::kNHw2, kMost, 0.20, false, GateMotion::kOtherKnown},
+    CoherenceGate{CoherenceMeasure::kS10, kLeast, 90, false, GateMotion::kPan},
+    CoherenceGate{CoherenceMeasure::kS10, kLeast, 80, false, GateMotion::kOtherKnown},
+    CoherenceGate{CoherenceMeasure::kPop, kMost, 1, false, GateMotion::kPan},
+    CoherenceGate{CoherenceMeasure::kXFlk, kMost, 0.5},
+    CoherenceGate{CoherenceMeasure::kDep, kLeast, 0.75, true},
+    CoherenceGate{CoherenceMeasure::kDet, kLeast, 0.75},
+};
+
+/// Whether the brush's file is there and valid. Reads it; any thread. Errors: readBrushFile()'s.
+hal::Result<void> checkBrush(const config::ParameterValues& values) {
+  const std::filesystem::path file = painterlyParameters().typed(values).brushFile;
+  if (file == kNoBrushFile) return {};
+  const hal::Result<BrushMarks> marks = readBrushFile(file);
+  return marks ? hal::Result<void>() : tl::unexpected(marks.error());
+}
+
 }  // namespace
 
 struct Painterly::State {
@@ -98,7 +123,8 @@ struct Painterly::State {
         reduced(library),
         ground(library.fragmentPass(kShaders + "ground.frag")),
         relief(library.fragmentPass(kShaders + "relief.frag")),
-        fieldView(library.fragmentPass(kShaders + "field_view.frag")),
+        fieldView(
+            library.fragmentPass(kShaders + "field_view.frag", viewDefines(painterlyViews()))),
         heightView(library.fragmentPass(kShaders + "height_view.frag")),
         borders(library.fragmentPass(kShaders + "borders.frag")),
         linen(library, Substrate::Kind::kLinen),
@@ -125,16 +151,14 @@ struct Painterly::State {
   Canvas* canvas = nullptr;  // of this frame
 
   void take(const scene::ArFrame& frame, const PainterlyParameters& p);
-  void grow(const scene::ArFrame& frame, const PainterlyParameters& p, gpu::PassTimer& timer);
+  void grow(const scene::ArFrame& frame, const PainterlyParameters& p);
   /// Where strokes are clipped; null where nothing virtual is seen.
   const Texture* findBorders(const scene::ArFrame& frame);
-  void drawStrokes(const scene::ArFrame& frame, const PainterlyParameters& p,
-                   gpu::PassTimer& timer);
-  void light(const scene::ArFrame& frame, const PainterlyParameters& p, gpu::PassTimer& timer);
-  void showField(const scene::ArFrame& frame, const PainterlyParameters& p, int shown);
-  void showStrokes(const scene::ArFrame& frame, StrokeDrawing::Shown shown);
-  const Texture& show(const scene::ArFrame& frame, const PainterlyParameters& p,
-                      std::string_view view);
+  void drawStrokes(const scene::ArFrame& frame, const PainterlyParameters& p);
+  void light(const scene::ArFrame& frame, const PainterlyParameters& p);
+  void showField(const scene::ArFrame& frame, const PainterlyParameters& p, std::size_t view);
+  void showStrokes(const scene::ArFrame& frame, std::size_t view);
+  const Texture& show(const scene::ArFrame& frame, const PainterlyParameters& p, std::size_t view);
 };
 
 void Painterly::State::take(const scene::ArFrame& frame, const PainterlyParameters& p) {
@@ -157,19 +181,18 @@ void Painterly::State::take(const scene::ArFrame& frame, const PainterlyParamete
   }
 }
 
-void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParameters& p,
-                            gpu::PassTimer& timer) {
-  painting->motion.update(frame, timer, motionOf(p));
-  painting->field.update(frame, *frame.colour, painting->motion, fieldOf(p), timer);
+void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParameters& p) {
+  painting->motion.update(frame, motionOf(p));
+  painting->field.update(frame, *frame.colour, painting->motion, fieldOf(p));
   for (std::size_t i = 0; i < painting->layers.size(); ++i) {
     Layer& layer = *painting->layers[i];
     if (p.coherence <= 0.0) layer.anchors.beginAnew();
-    layer.anchors.advance(frame, painting->motion, timer, anchorHoldOf(p));
+    layer.anchors.advance(frame, painting->motion, anchorHoldOf(p));
     marks::StrokeRule rule = ruleOf(p, painting->plan, i);
     rule.mixtures = mixtures ? &*mixtures : nullptr;
     const double width = widthOf(painting->plan, i) * frame.pixelsOfFull().x;
     layer.strokes.update(frame, layer.anchors, painting->field,
-                         reduced.paintOf(kTexelOfWidth * width), rule, timer);
+                         reduced.paintOf(kTexelOfWidth * width), rule);
   }
 }
 
@@ -179,9 +202,7 @@ const Texture* Painterly::State::findBorders(const scene::ArFrame& frame) {
   return &canvas->borders;
 }
 
-void Painterly::State::drawStrokes(const scene::ArFrame& frame, const PainterlyParameters& p,
-                                   gpu::PassTimer& timer) {
-  const auto scope = timer.measure("painterly: strokes");
+void Painterly::State::drawStrokes(const scene::ArFrame& frame, const PainterlyParameters& p) {
   const Texture* const clip = findBorders(frame);
   // All of them before any is drawn: what is drawn on stays in a tile's memory (docs/gpu.md).
   for (const auto& layer : painting->layers) {
@@ -204,9 +225,7 @@ void Painterly::State::drawStrokes(const scene::ArFrame& frame, const PainterlyP
   }
 }
 
-void Painterly::State::light(const scene::ArFrame& frame, const PainterlyParameters& p,
-                             gpu::PassTimer& timer) {
-  const auto scope = timer.measure("painterly: light");
+void Painterly::State::light(const scene::ArFrame& frame, const PainterlyParameters& p) {
   const Substrate& substrate = p.support == Substrate::Kind::kLinen ? linen : paper;
   substrate.bind(relief.use(), frame);
   relief.texture("colours", canvas->colour)
@@ -226,7 +245,7 @@ void Painterly::State::light(const scene::ArFrame& frame, const PainterlyParamet
 }
 
 void Painterly::State::showField(const scene::ArFrame& frame, const PainterlyParameters& p,
-                                 int shown) {
+                                 std::size_t view) {
   const marks::TensorField& field = painting->field;
   const auto level = [&](std::size_t i) -> const Texture& {
     return field.resolved(std::min(i, field.levelCount() - 1));
@@ -238,14 +257,14 @@ void Painterly::State::showField(const scene::ArFrame& frame, const PainterlyPar
       .texture("field2", level(2))
       .texture("field3", level(3))
       .set("size", glm::vec2(canvas->size.width, canvas->size.height))
-      .set("shown", shown)
+      .set("view", static_cast<int>(view))
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .set("bands", glm::vec2(p.middleDetail, p.detail))
       .drawFullscreen(canvas->finished);
 }
 
 /// Over a pale picture.
-void Painterly::State::showStrokes(const scene::ArFrame& frame, StrokeDrawing::Shown shown) {
+void Painterly::State::showStrokes(const scene::ArFrame& frame, std::size_t view) {
   ground.use()
       .texture("paint", *frame.colour)
       .set("size", glm::vec2(canvas->size.width, canvas->size.height))
@@ -257,26 +276,46 @@ void Painterly::State::showStrokes(const scene::ArFrame& frame, StrokeDrawing::S
   for (std::size_t i = 0; i < painting->layers.size(); ++i) {
     const float part =
         static_cast<float>(i) / std::max(1.0F, static_cast<float>(painting->layers.size() - 1));
-    drawing.show(painting->layers[i]->strokes, kQuads, shown, layerColour(part), painting->full,
+    drawing.show(painting->layers[i]->strokes, kQuads, view, layerColour(part), painting->full,
                  canvas->strokes);
   }
 }
 
 const Texture& Painterly::State::show(const scene::ArFrame& frame, const PainterlyParameters& p,
-                                      std::string_view view) {
-  if (view == kHeightView) {
-    heightView.use().texture("heights", canvas->height).drawFullscreen(canvas->finished);
-    return canvas->picture;
+                                      std::size_t view) {
+  switch (viewerOf(view)) {
+    case PainterlyViewer::kField:
+      showField(frame, p, view);
+      return canvas->picture;
+    case PainterlyViewer::kStrokes:
+      showStrokes(frame, view);
+      return canvas->colour;
+    case PainterlyViewer::kHeight:
+      break;
   }
-  if (view == kTensorsView || view == kPyramidView || view == kRegionsView) {
-    showField(frame, p, view == kTensorsView ? 0 : view == kPyramidView ? 1 : 2);
-    return canvas->picture;
-  }
-  using Shown = StrokeDrawing::Shown;
-  showStrokes(frame, view == kLayersView      ? Shown::kWhole
-                     : view == kSkeletonsView ? Shown::kSkeletons
-                                              : Shown::kAnchors);
-  return canvas->colour;
+  drawStrokes(frame, p);
+  heightView.use().texture("heights", canvas->height).drawFullscreen(canvas->finished);
+  return canvas->picture;
+}
+
+const StyleKind& painterlyKind() {
+  static const StyleKind kKind{
+      .name = "painterly",
+      .help = "layers of brush strokes that live (thesis chapter IV, and on)",
+      .defaults = painterlyParameters().defaults(),
+      .looks = painterlyLooks(),
+      .views = painterlyViews(),
+      .needs = {.surfaces = true,
+                .measuredMotion = true,
+                .canvas = true,
+                .shading = scene::Shading::kSmooth},
+      .coherence = {.gates = kGates, .holdsAnchors = true},
+      .shaders = {gpu::painterlyShaders(), gpu::substrateShaders()},
+      .check = checkBrush,
+      .make = [](const gpu::ShaderLibrary& library) -> std::unique_ptr<Style> {
+        return std::make_unique<Painterly>(library);
+      }};
+  return kKind;
 }
 
 Painterly::Painterly(const gpu::ShaderLibrary& library)
@@ -285,10 +324,6 @@ Painterly::Painterly(const gpu::ShaderLibrary& library)
 }
 
 Painterly::~Painterly() = default;
-
-scene::ArFrameNeeds Painterly::needs() const {
-  return {.surfaces = true, .measuredMotion = true, .shading = scene::Shading::kSmooth};
-}
 
 /// A program's real cost on software renderers is at its first use: here, not in the first frame
 /// that shows a model, has a focus or is looked at in another way.
@@ -299,15 +334,14 @@ void Painterly::warmUp() {
   grey.upload(zeros, std::size_t{16} * 4);
   Texture ids(TextureFormat::kR32ui, kSize);
   ids.upload(zeros, std::size_t{16} * 4);
-  gpu::PassTimer untimed;
   scene::ArFrame frame{.colour = &grey, .ids = &ids, .normalFocus = &grey, .barycentrics = &ids};
-  for (const DebugViewInfo& view : painterlyViews()) paint(frame, view.name, untimed);
+  for (const DebugViewInfo& view : painterlyViews()) paint(frame, view.name);
   for (const StrokeBump bump : {StrokeBump::kEach, StrokeBump::kOnce}) {
     p_.bump = bump;
     for (const bool isShown : {true, false}) {
       frame.hasObjects = frame.hasFocus = isShown;
       ++frame.sequence;
-      paint(frame, {}, untimed);
+      paint(frame, {});
     }
   }
   p_ = painterlyParameters().typed(values_);
@@ -321,29 +355,20 @@ hal::Result<void> Painterly::prepare(const config::ParameterValues& values) {
   return state_->brushes.take(painterlyParameters().typed(values).brushFile);
 }
 
-hal::Result<void> checkPainterly(const config::ParameterValues& values) {
-  const std::filesystem::path file = painterlyParameters().typed(values).brushFile;
-  if (file == kNoBrushFile) return {};
-  const hal::Result<BrushMarks> marks = readBrushFile(file);
-  return marks ? hal::Result<void>() : tl::unexpected(marks.error());
-}
-
 void Painterly::setParameters(const config::ParameterValues& values) {
   if (values == values_) return;
   p_ = painterlyParameters().typed(values);
   values_ = values;
 }
 
-const Texture& Painterly::paint(const scene::ArFrame& frame, std::string_view view,
-                                gpu::PassTimer& timer) {
+const Texture& Painterly::paint(const scene::ArFrame& frame, std::string_view view) {
   State& s = *state_;
   s.take(frame, p_);
-  s.reduced.update(frame, timer);
-  s.grow(frame, p_, timer);
-  if (!view.empty() && view != kHeightView) return s.show(frame, p_, view);
-  s.drawStrokes(frame, p_, timer);
-  if (view == kHeightView) return s.show(frame, p_, view);
-  s.light(frame, p_, timer);
+  s.reduced.update(frame);
+  s.grow(frame, p_);
+  if (!view.empty()) return s.show(frame, p_, viewIndex(painterlyViews(), view));
+  s.drawStrokes(frame, p_);
+  s.light(frame, p_);
   return s.canvas->picture;
 }
 

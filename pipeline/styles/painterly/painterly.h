@@ -10,14 +10,12 @@
 #include "pipeline/marks/anchor_set.h"
 #include "pipeline/marks/stroke_set.h"
 #include "pipeline/styles/painterly/painterly_parameters.h"
-#include "pipeline/styles/painterly/painterly_views.h"
 #include "pipeline/styles/style.h"
 
 namespace pleinair::styles {
 
-/// Whether what the parameters name outside the program, a brush's file, is there and sound. Reads
-/// it; any thread. Errors: readBrushFile()'s.
-hal::Result<void> checkPainterly(const config::ParameterValues& values);
+/// The style "painterly".
+const StyleKind& painterlyKind();
 
 /// Chapter IV of the thesis, and on: layers of brush strokes, from broad to fine, that
 /// follow the tensor field of the picture's edges. Each stroke belongs to an anchor, goes with what
@@ -39,15 +37,11 @@ class Painterly final : public Style {
   Painterly(Painterly&&) = delete;
   Painterly& operator=(Painterly&&) = delete;
 
-  std::string_view name() const override { return "painterly"; }
-  std::span<const DebugViewInfo> views() const override { return painterlyViews(); }
-  scene::ArFrameNeeds needs() const override;
-  bool usesCanvas() const override { return true; }
+  const StyleKind& kind() const override { return painterlyKind(); }
   const config::ParameterValues& parameters() const override { return values_; }
   hal::Result<void> prepare(const config::ParameterValues& values) override;
   void setParameters(const config::ParameterValues& values) override;
-  const gpu::Texture& paint(const scene::ArFrame& frame, std::string_view view,
-                            gpu::PassTimer& timer) override;
+  const gpu::Texture& paint(const scene::ArFrame& frame, std::string_view view) override;
   const marks::AnchorSet* anchors() const override;
   std::vector<marks::Anchor> readAnchors() const override;
   void reset() override;

@@ -7,20 +7,38 @@
 namespace pleinair::styles {
 namespace {
 
-constexpr std::array<DebugViewInfo, 7> kViews{{
-    {kTensorsView, "the tensor field: which way strokes go; blue from edges, red filled in"},
-    {kPyramidView, "four levels of its pyramid"},
-    {kRegionsView, "what is painted finely (red), middlingly (yellow) and broadly (blue)"},
-    {kLayersView, "strokes in their layer's colour"},
-    {kSkeletonsView, "the strokes' skeletons in their layer's colour"},
-    {kAnchorsView, "the strokes' anchors: red ones are young"},
-    {kHeightView, "how thick the paint lies"},
-}};
+struct View {
+  DebugViewInfo info;
+  PainterlyViewer viewer;
+};
+
+constexpr std::array kViews{
+    View{{"tensors", "the tensor field: which way strokes go; blue from edges, red filled in"},
+         PainterlyViewer::kField},
+    View{{"pyramid", "four levels of its pyramid"}, PainterlyViewer::kField},
+    View{{"regions", "what is painted finely (red), middlingly (yellow) and broadly (blue)"},
+         PainterlyViewer::kField},
+    View{{"layers", "strokes in their layer's colour"}, PainterlyViewer::kStrokes},
+    View{{"skeletons", "the strokes' skeletons in their layer's colour"},
+         PainterlyViewer::kStrokes},
+    View{{"anchors", "the strokes' anchors: red ones are young"}, PainterlyViewer::kStrokes},
+    View{{"height", "how thick the paint lies"}, PainterlyViewer::kHeight},
+};
+
+constexpr auto kInfos = [] {
+  std::array<DebugViewInfo, kViews.size()> infos;
+  for (std::size_t i = 0; i < infos.size(); ++i) infos[i] = kViews[i].info;
+  return infos;
+}();
 
 }  // namespace
 
 std::span<const DebugViewInfo> painterlyViews() {
-  return kViews;
+  return kInfos;
+}
+
+PainterlyViewer viewerOf(std::size_t viewIndex) {
+  return kViews.at(viewIndex).viewer;
 }
 
 glm::vec3 layerColour(float part) {

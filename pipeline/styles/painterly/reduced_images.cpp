@@ -31,8 +31,7 @@ ReducedImages::ReducedImages(const gpu::ShaderLibrary& library)
     : halve_(library.fragmentPass(kShaders + "halve.frag")),
       part_(library.fragmentPass(kShaders + "part.frag")) {}
 
-void ReducedImages::update(const scene::ArFrame& frame, gpu::PassTimer& timer) {
-  const auto scope = timer.measure("painterly: reduce");
+void ReducedImages::update(const scene::ArFrame& frame) {
   Surfaces& surfaces = surfaces_.of(frame.size(), frame.size());
   now_ = &surfaces;
   picture_ = frame.colour;

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <optional>
 
-#include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/per_size.h"
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/render_target.h"
@@ -26,7 +25,7 @@ class ReducedImages {
   /// `library` has gpu::painterlyShaders() and gpu::sceneShaders().
   explicit ReducedImages(const gpu::ShaderLibrary& library);
 
-  void update(const scene::ArFrame& frame, gpu::PassTimer& timer);
+  void update(const scene::ArFrame& frame);
   /// Those whose texels are at most `px` of the picture wide. Until the next update().
   marks::StrokePaint paintOf(double px) const;
   /// All of the picture, `halvings` times reduced. Precondition: 1 to kHalvings.

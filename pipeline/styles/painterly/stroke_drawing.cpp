@@ -3,14 +3,16 @@
 #include <cstddef>
 #include <string>
 
+#include "pipeline/styles/painterly/painterly_views.h"
+
 namespace pleinair::styles {
 namespace {
 
 const std::string kShaders = "pipeline/styles/painterly/shaders/";
 constexpr GLuint kInstanceAttributes = 6;  // of stroke_spline.glsl, four floats each
 
-gpu::Program paintProgram(const gpu::ShaderLibrary& library, const std::string& fragments) {
-  return library.draw(kShaders + "stroke.vert", kShaders + fragments);
+gpu::Program paintProgram(const gpu::ShaderLibrary& library, const gpu::ShaderDefines& defines) {
+  return library.draw(kShaders + "stroke.vert", kShaders + "stroke.frag", defines);
 }
 
 gpu::VertexArrayHandle instanceLayout() {
@@ -46,8 +48,9 @@ gpu::VertexArrayHandle stripLayout() {
 }
 
 /// Blends what the command draws of the vertices over what is there.
-void drawOver(const gpu::RenderTarget& target, const gpu::VertexArrayHandle& layout,
-              const gpu::Buffer& vertices, std::size_t strideBytes, const gpu::Buffer& command) {
+void drawOver(const gpu::Program& program, const gpu::RenderTarget& target,
+              const gpu::VertexArrayHandle& layout, const gpu::Buffer& vertices,
+              std::size_t strideBytes, const gpu::Buffer& command) {
   const auto stride = static_cast<GLsizei>(strideBytes);
   target.beginKeeping();
   glDisable(GL_DEPTH_TEST);
@@ -57,6 +60,7 @@ void drawOver(const gpu::RenderTarget& target, const gpu::VertexArrayHandle& lay
   glBindVertexArray(layout.get());
   glBindVertexBuffer(0, vertices.name(), 0, stride);
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, command.name());
+  const gpu::PassTimer::Scope scope = program.measure();
   glDrawArraysIndirect(GL_TRIANGLE_STRIP, nullptr);
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
   glBindVertexBuffer(0, 0, 0, stride);
@@ -67,10 +71,11 @@ void drawOver(const gpu::RenderTarget& target, const gpu::VertexArrayHandle& lay
 }  // namespace
 
 StrokeDrawing::StrokeDrawing(const gpu::ShaderLibrary& library)
-    : paint_{{{paintProgram(library, "stroke.frag"), paintProgram(library, "stroke_clipped.frag")},
-              {paintProgram(library, "stroke_bumped.frag"),
-               paintProgram(library, "stroke_bumped_clipped.frag")}}},
-      view_(library.draw(kShaders + "stroke_view.vert", kShaders + "stroke_view.frag")),
+    : paint_{{{paintProgram(library, {}), paintProgram(library, {{"CLIPPED"}})},
+              {paintProgram(library, {{"BUMPED"}}),
+               paintProgram(library, {{"BUMPED"}, {"CLIPPED"}})}}},
+      view_(library.draw(kShaders + "stroke_view.vert", kShaders + "stroke_view.frag",
+                         viewDefines(painterlyViews()))),
       strips_(stripLayout()),
       instances_(instanceLayout()) {}
 
@@ -81,18 +86,18 @@ void StrokeDrawing::draw(const StrokeStrips& strips, const gpu::Texture& brush,
   program.use().texture("brushes", brush).set("fullSize", glm::vec2(full.width, full.height));
   if (light.each) program.set("relief", light.relief).set("gloss", light.gloss);
   if (borders != nullptr) program.texture("borders", *borders);
-  drawOver(target, strips_, strips.vertices, StrokeStrips::kVertexBytes, strips.command);
+  drawOver(program, target, strips_, strips.vertices, StrokeStrips::kVertexBytes, strips.command);
 }
 
-void StrokeDrawing::show(const marks::StrokeSet& strokes, int quads, Shown shown,
+void StrokeDrawing::show(const marks::StrokeSet& strokes, int quads, std::size_t view,
                          const glm::vec3& layer, hal::FrameSize full,
                          const gpu::RenderTarget& target) {
   view_.use()
       .set("quads", static_cast<float>(quads))
-      .set("shown", static_cast<int>(shown))
+      .set("view", static_cast<int>(view))
       .set("layer", layer)
       .set("fullSize", glm::vec2(full.width, full.height));
-  drawOver(target, instances_, strokes.instances(), marks::StrokeSet::kInstanceBytes,
+  drawOver(view_, target, instances_, strokes.instances(), marks::StrokeSet::kInstanceBytes,
            strokes.command());
 }
 

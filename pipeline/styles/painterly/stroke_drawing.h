@@ -32,11 +32,10 @@ class StrokeDrawing {
   void draw(const StrokeStrips& strips, const gpu::Texture& brush, const StrokeLight& light,
             const gpu::Texture* borders, hal::FrameSize full, const gpu::RenderTarget& target);
 
-  /// What can be shown of strokes instead of their paint.
-  enum class Shown { kWhole, kSkeletons, kAnchors };
-  /// Draws that of a layer, in its colour, or anchors by their age. `quads` is the StrokeRule's
+  /// Draws a view of a layer's strokes, in its colour, or anchors by their age; `view` is its place
+  /// in painterlyViews(), one whose viewer is kStrokes. `quads` is the StrokeRule's
   /// that the strokes were laid out by.
-  void show(const marks::StrokeSet& strokes, int quads, Shown shown, const glm::vec3& layer,
+  void show(const marks::StrokeSet& strokes, int quads, std::size_t view, const glm::vec3& layer,
             hal::FrameSize full, const gpu::RenderTarget& target);
 
  private:

@@ -7,7 +7,6 @@ namespace pleinair::styles {
 namespace {
 
 const std::string kShaders = "pipeline/styles/painterly/shaders/";
-constexpr glm::ivec2 kGroup{64, 1};
 constexpr std::size_t kPlanBytes = 8;
 constexpr std::size_t kCommandBytes = 16;
 constexpr std::size_t kCurvatureQuads = 7;  // at most: the spline's 9 spans, but for the outer ones
@@ -51,25 +50,25 @@ void StrokeStripMaker::lay(const gpu::Buffer& instances, const gpu::Buffer& draw
   }
   if (!isEven) {
     bend_.use()
-        .storage(0, instances)
-        .storage(1, drawn)
-        .storage(2, strips.plans)
+        .storage("Instances", instances)
+        .storage("Drawn", drawn)
+        .storage("Plans", strips.plans)
         .set("bend", kBendPx)
-        .dispatch(all, kGroup, GL_SHADER_STORAGE_BARRIER_BIT);
+        .dispatch(all, GL_SHADER_STORAGE_BARRIER_BIT);
   }
   offsets_.use()
-      .storage(0, drawn)
-      .storage(1, strips.plans)
-      .storage(2, strips.command)
+      .storage("Drawn", drawn)
+      .storage("Plans", strips.plans)
+      .storage("Command", strips.command)
       .set("even", static_cast<unsigned>(even))
-      .dispatch({1, 1}, {128, 1}, GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+      .dispatch({1, 1}, GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
   lay_.use()
-      .storage(0, instances)
-      .storage(1, drawn)
-      .storage(2, strips.plans)
-      .storage(3, strips.vertices)
+      .storage("Instances", instances)
+      .storage("Drawn", drawn)
+      .storage("Plans", strips.plans)
+      .storage("Vertices", strips.vertices)
       .set("even", static_cast<unsigned>(even))
-      .dispatch(all, kGroup, GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
+      .dispatch(all, GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
 }
 
 }  // namespace pleinair::styles

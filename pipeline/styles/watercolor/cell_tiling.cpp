@@ -24,7 +24,6 @@ constexpr float kReachCells = 1.0F;     // of a seed from its anchor
 constexpr float kGrowthCells = 1.25F;   // a cell of an anchor without fade has no pixel
 constexpr double kPatienceSeconds = 0.25;
 const std::string kShaders = "pipeline/styles/watercolor/shaders/";
-constexpr glm::ivec2 kSlotGroup{64, 1};
 
 /// An edge in a cell has the fewer pixels the smaller the picture is.
 unsigned minEdgePixels(int ofFull, float pixelsOfFull) {
@@ -72,29 +71,28 @@ void CellTiling::allocate(hal::FrameSize full, int cellSizePixels, std::uint32_t
 }
 
 void CellTiling::tile(const TilingFrame& input, const marks::AnchorSet& anchors,
-                      const WatercolorParameters& p, gpu::PassTimer& timer) {
+                      const WatercolorParameters& p) {
   assert(anchors.slotCount() == slots_ && input.frame->full() == full_);
-  placeSeeds(input, anchors, true, timer);
+  placeSeeds(input, anchors, true);
   for (int i = 0; anchors.hasBegunAnew() && i < kSettlingRounds; ++i) {
-    findCells(input, p, timer);
-    moveSeeds(input, p, true, timer);
-    placeSeeds(input, anchors, false, timer);
+    findCells(input, p);
+    moveSeeds(input, p, true);
+    placeSeeds(input, anchors, false);
   }
-  findCells(input, p, timer);
-  moveSeeds(input, p, false, timer);
+  findCells(input, p);
+  moveSeeds(input, p, false);
 }
 
 /// Where the seeds are, and in which bins; they are carried with their anchors if these have moved.
-void CellTiling::placeSeeds(const TilingFrame& input, const marks::AnchorSet& anchors, bool carries,
-                            gpu::PassTimer& timer) {
-  const auto scope = timer.measure("watercolor: seeds");
+void CellTiling::placeSeeds(const TilingFrame& input, const marks::AnchorSet& anchors,
+                            bool carries) {
   const scene::ArFrame& frame = *input.frame;
   const glm::vec2 pixelsOfFull(frame.pixelsOfFull());
   const float growth = kGrowthCells * static_cast<float>(cellSize_) * pixelsOfFull.x;
   place_.use()
-      .storage(0, anchors.anchors())
-      .storage(1, seeds_)
-      .storage(2, points_)
+      .storage("Anchors", anchors.anchors())
+      .storage("Seeds", seeds_)
+      .storage("Points", points_)
       .texture("tilingThen", input.tilingThen != nullptr ? *input.tilingThen : *input.tiling)
       .set("hasThen", input.tilingThen != nullptr ? 1 : 0)
       .set("slots", static_cast<int>(slots_))
@@ -104,20 +102,18 @@ void CellTiling::placeSeeds(const TilingFrame& input, const marks::AnchorSet& an
       .set("pixelsOfFull", pixelsOfFull)
       .set("reach", kReachCells * static_cast<float>(cellSize_))
       .set("growth", growth * growth)
-      .dispatch({static_cast<int>(slots_), 1}, kSlotGroup, GL_SHADER_STORAGE_BARRIER_BIT);
+      .dispatch({static_cast<int>(slots_), 1}, GL_SHADER_STORAGE_BARRIER_BIT);
   bins_.sort(points_, frame.size());
 }
 
-void CellTiling::findCells(const TilingFrame& input, const WatercolorParameters& p,
-                           gpu::PassTimer& timer) {
+void CellTiling::findCells(const TilingFrame& input, const WatercolorParameters& p) {
   const scene::ArFrame& frame = *input.frame;
   const hal::FrameSize size = frame.size();
-  const auto scope = timer.measure("watercolor: tile");
   nearest_.use()
-      .storage(0, bins_.starts())
-      .storage(1, sums_)
-      .storage(2, bins_.sorted())
-      .image(0, *input.tiling, ImageAccess::kWrite)
+      .storage("Starts", bins_.starts())
+      .storage("Sums", sums_)
+      .storage("Sorted", bins_.sorted())
+      .image("tiling", *input.tiling, ImageAccess::kWrite)
       .texture("picture", *input.picture)
       .texture("ids", frame.hasObjects ? *frame.ids : *input.tiling)
       .set("hasObjects", frame.hasObjects ? 1 : 0)
@@ -129,22 +125,20 @@ void CellTiling::findCells(const TilingFrame& input, const WatercolorParameters&
       .set("wantsMeans", input.wantsMeans ? 1 : 0)
       .dispatch({(size.width + kBlockPixels - 1) / kBlockPixels,
                  (size.height + kBlockPixels - 1) / kBlockPixels},
-                {16, 4}, kWritten);
+                kWritten);
 }
 
 /// `atOnce`: all the way, whatever the time constants.
-void CellTiling::moveSeeds(const TilingFrame& input, const WatercolorParameters& p, bool atOnce,
-                           gpu::PassTimer& timer) {
+void CellTiling::moveSeeds(const TilingFrame& input, const WatercolorParameters& p, bool atOnce) {
   const glm::vec2 pixelsOfFull(input.frame->pixelsOfFull());
   const bool jumps = atOnce || p.retileTimeSeconds <= 0.0;
   const bool stays = p.returnTimeSeconds <= 0.0;
   const float drift = stays ? 0.0F : atOnce ? 1.0F : shareOf(input.step, p.returnTimeSeconds);
-  const auto scope = timer.measure("watercolor: cells");
   move_.use()
-      .storage(0, seeds_)
-      .storage(1, sums_)
-      .storage(2, points_)
-      .image(0, means_, ImageAccess::kWrite)
+      .storage("Seeds", seeds_)
+      .storage("Sums", sums_)
+      .storage("Points", points_)
+      .image("means", means_, ImageAccess::kWrite)
       .set("slots", static_cast<int>(slots_))
       .set("pixelsOfFull", pixelsOfFull)
       .set("minEdgePixels", minEdgePixels(p.retilePixels, pixelsOfFull.x))
@@ -156,7 +150,7 @@ void CellTiling::moveSeeds(const TilingFrame& input, const WatercolorParameters&
       .set("passed", std::chrono::duration<float>(input.step).count())
       .set("atOnce", atOnce ? 1 : 0)
       .set("wantsMeans", input.wantsMeans ? 1 : 0)
-      .dispatch({static_cast<int>(slots_), 1}, kSlotGroup, kWritten);
+      .dispatch({static_cast<int>(slots_), 1}, kWritten);
 }
 
 std::size_t CellTiling::readMoving() const {

@@ -8,7 +8,6 @@
 
 #include "hal/clock.h"
 #include "pipeline/gpu/buffer.h"
-#include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
@@ -61,7 +60,7 @@ class CellTiling {
 
   /// Tiles a frame; where the anchors have begun anew their seeds settle in a few rounds at once.
   void tile(const TilingFrame& input, const marks::AnchorSet& anchors,
-            const WatercolorParameters& parameters, gpu::PassTimer& timer);
+            const WatercolorParameters& parameters);
 
   /// CellSeeds, one a slot: for the next frame.
   const gpu::Buffer& seeds() const { return seeds_; }
@@ -75,11 +74,9 @@ class CellTiling {
   std::size_t readMoving() const;
 
  private:
-  void placeSeeds(const TilingFrame& input, const marks::AnchorSet& anchors, bool carries,
-                  gpu::PassTimer& timer);
-  void findCells(const TilingFrame& input, const WatercolorParameters& p, gpu::PassTimer& timer);
-  void moveSeeds(const TilingFrame& input, const WatercolorParameters& p, bool atOnce,
-                 gpu::PassTimer& timer);
+  void placeSeeds(const TilingFrame& input, const marks::AnchorSet& anchors, bool carries);
+  void findCells(const TilingFrame& input, const WatercolorParameters& p);
+  void moveSeeds(const TilingFrame& input, const WatercolorParameters& p, bool atOnce);
 
   gpu::Program place_;
   gpu::Program nearest_;

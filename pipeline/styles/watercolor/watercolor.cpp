@@ -10,6 +10,8 @@
 #include "pipeline/marks/filtered_frame.h"
 #include "pipeline/marks/motion_field.h"
 #include "pipeline/styles/substrate/substrate.h"
+#include "pipeline/styles/substrate/substrate_shaders.h"
+#include "pipeline/styles/watercolor/watercolor_shaders.h"
 
 namespace pleinair::styles {
 namespace {
@@ -22,13 +24,12 @@ using gpu::TextureFormat;
 constexpr GLbitfield kWritten = GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                                 GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
 constexpr int kBlockPixels = 4;  // as in split.comp
-constexpr glm::ivec2 kSlotGroup{64, 1};
 constexpr double kUsualNoiseLevels = 2.0;
 const std::string kShaders = "pipeline/styles/watercolor/shaders/";
 
 constexpr std::string_view kMeansView = "means";
 constexpr std::string_view kFilteredView = "filtered";
-/// In the order of view.frag.
+/// view.frag gets each one's number as VIEW_NAME.
 constexpr std::array<DebugViewInfo, 10> kViews{{
     {"seeds", "the cells' seeds over the frame"},
     {"cells", "the Voronoi cells, each in a colour of its own, with their seeds"},
@@ -46,6 +47,15 @@ constexpr std::array<DebugViewInfo, 10> kViews{{
     {"light", "the light washes"},
     {"paper", "the substrate of paper"},
 }};
+
+/// The limits that its paintings are held to (docs/measuring.md).
+constexpr std::array kGates{
+    CoherenceGate{CoherenceMeasure::kNHw2, CoherenceGate::Side::kMost, 0.30},
+    CoherenceGate{CoherenceMeasure::kXFlk, CoherenceGate::Side::kMost, 0.15},
+    CoherenceGate{CoherenceMeasure::kDep, CoherenceGate::Side::kLeast, 0.75, true},
+    CoherenceGate{CoherenceMeasure::kScr, CoherenceGate::Side::kMost, 0.3, true,
+                  GateMotion::kMoving},
+};
 
 /// One anchor a cell in the mean. Squares of two cells a side have enough of them for births and
 /// deaths to be rare: three of four must be gone, or half as many again be there.
@@ -69,9 +79,9 @@ struct Watercolor::Passes {
         pigment(library.fragmentPass(kShaders + "pigment.frag")),
         layers(library.fragmentPass(kShaders + "layers.frag")),
         compose(library.fragmentPass(kShaders + "compose.frag")),
-        composeMore(library.fragmentPass(kShaders + "compose_more.frag")),
+        composeMore(library.fragmentPass(kShaders + "compose.frag", {{"MOSAIC"}})),
         showSeeds(library.compute(kShaders + "show_seeds.comp")),
-        view(library.fragmentPass(kShaders + "view.frag")),
+        view(library.fragmentPass(kShaders + "view.frag", viewDefines(kViews))),
         substrate(library, Substrate::Kind::kPaper) {}
 
   marks::FilteredFrame filtered;
@@ -110,8 +120,20 @@ Watercolor::Watercolor(const gpu::ShaderLibrary& library)
 
 Watercolor::~Watercolor() = default;
 
-std::span<const DebugViewInfo> watercolorViews() {
-  return kViews;
+const StyleKind& watercolorKind() {
+  static const StyleKind kKind{
+      .name = "watercolor",
+      .help = "washes of pigment on paper (thesis chapter III, and on)",
+      .defaults = watercolorParameters().defaults(),
+      .looks = watercolorLooks(),
+      .views = kViews,
+      .needs = {.surfaces = true, .measuredMotion = true, .canvas = true},
+      .coherence = {.gates = kGates},
+      .shaders = {gpu::watercolorShaders(), gpu::substrateShaders()},
+      .make = [](const gpu::ShaderLibrary& library) -> std::unique_ptr<Style> {
+        return std::make_unique<Watercolor>(library);
+      }};
+  return kKind;
 }
 
 void Watercolor::setParameters(const config::ParameterValues& values) {
@@ -146,20 +168,19 @@ Watercolor::Inner Watercolor::inner() const {
           .lightWash = &marks_->cells->lightWash};
 }
 
-const Texture& Watercolor::paint(const scene::ArFrame& frame, std::string_view view,
-                                 gpu::PassTimer& timer) {
+const Texture& Watercolor::paint(const scene::ArFrame& frame, std::string_view view) {
   takeMarks(frame);
   takeCanvas(frame);
   step_ = hasPast_ ? marks::timeStep(lastTime_, frame.captureTime) : hal::Duration(0);
-  marks_->field.update(frame, timer);
-  marks_->anchors->advance(frame, marks_->field, timer);
-  filtered(frame, timer);
-  tile(frame, p_.mosaic > 0.0 || view == kMeansView, timer);
-  paintWashes(frame, timer);
+  marks_->field.update(frame);
+  marks_->anchors->advance(frame, marks_->field);
+  filtered(frame);
+  tile(frame, p_.mosaic > 0.0 || view == kMeansView);
+  paintWashes(frame);
   lastTime_ = frame.captureTime;
   hasPast_ = true;
   if (view.empty()) {
-    compose(frame, timer);
+    compose(frame);
   } else {
     showView(frame, view);
   }
@@ -196,7 +217,7 @@ void Watercolor::takeCanvas(const scene::ArFrame& frame) {
 }
 
 /// What edges and colours are taken from.
-void Watercolor::filtered(const scene::ArFrame& frame, gpu::PassTimer& timer) {
+void Watercolor::filtered(const scene::ArFrame& frame) {
   picture_ = frame.colour;
   if (p_.filterTimeSeconds <= 0.0) {
     passes_->filtered.reset();
@@ -204,16 +225,14 @@ void Watercolor::filtered(const scene::ArFrame& frame, gpu::PassTimer& timer) {
   }
   const auto* const motion = frame.measuredMotion ? frame.measuredMotion->motion : nullptr;
   const double noise = motion != nullptr ? motion->noiseLevels : 0.0;
-  passes_->filtered.update(frame,
-                           {.backward = &marks_->field.backward(),
-                            .isCut = marks_->field.isCut(),
-                            .timeConstantSeconds = p_.filterTimeSeconds,
-                            .noiseLevels = noise > 0.0 ? noise : kUsualNoiseLevels},
-                           timer);
+  passes_->filtered.update(frame, {.backward = &marks_->field.backward(),
+                                   .isCut = marks_->field.isCut(),
+                                   .timeConstantSeconds = p_.filterTimeSeconds,
+                                   .noiseLevels = noise > 0.0 ? noise : kUsualNoiseLevels});
   picture_ = &passes_->filtered.picture();
 }
 
-void Watercolor::tile(const scene::ArFrame& frame, bool wantsMeans, gpu::PassTimer& timer) {
+void Watercolor::tile(const scene::ArFrame& frame, bool wantsMeans) {
   passes_->tiler.tile(
       {.frame = &frame,
        .picture = picture_,
@@ -221,35 +240,28 @@ void Watercolor::tile(const scene::ArFrame& frame, bool wantsMeans, gpu::PassTim
        .tiling = &canvas_->tiling,
        .step = step_,
        .wantsMeans = wantsMeans},
-      *marks_->anchors, p_, timer);
+      *marks_->anchors, p_);
 }
 
 /// What the cells hold of the picture becomes two smooth layers of pigment.
-void Watercolor::paintWashes(const scene::ArFrame& frame, gpu::PassTimer& timer) {
+void Watercolor::paintWashes(const scene::ArFrame& frame) {
   const WatercolorCanvas& s = *canvas_;
   const WatercolorCells& cells = *marks_->cells;
-  {
-    const auto scope = timer.measure("watercolor: guide");
-    passes_->guide.use()
-        .texture("picture", *picture_)
-        .set("texel", 1.0F / glm::vec2(s.size.width, s.size.height))
-        .set("reach", static_cast<float>(p_.simplicity) * pixelsOfFull_)
-        .set("vividness", static_cast<float>(p_.vividness))
-        .set("luminosity", static_cast<float>(p_.luminosity))
-        .drawFullscreen(s.guideTarget);
-  }
-  mixWashes(timer);
-  {
-    const auto scope = timer.measure("watercolor: pigment");
-    passes_->substrate.bind(passes_->pigment.use(), frame);
-    passes_->pigment.texture("tiling", s.tiling)
-        .texture("darkWash", cells.darkWash)
-        .texture("lightWash", cells.lightWash)
-        .set("cellPixels", glm::vec2(static_cast<float>(marks_->cellSize) * pixelsOfFull_))
-        .set("reach", static_cast<float>(p_.bleeding))
-        .drawFullscreen(s.pigmentTarget);
-  }
-  const auto scope = timer.measure("watercolor: layers");
+  passes_->guide.use()
+      .texture("picture", *picture_)
+      .set("texel", 1.0F / glm::vec2(s.size.width, s.size.height))
+      .set("reach", static_cast<float>(p_.simplicity) * pixelsOfFull_)
+      .set("vividness", static_cast<float>(p_.vividness))
+      .set("luminosity", static_cast<float>(p_.luminosity))
+      .drawFullscreen(s.guideTarget);
+  mixWashes();
+  passes_->substrate.bind(passes_->pigment.use(), frame);
+  passes_->pigment.texture("tiling", s.tiling)
+      .texture("darkWash", cells.darkWash)
+      .texture("lightWash", cells.lightWash)
+      .set("cellPixels", glm::vec2(static_cast<float>(marks_->cellSize) * pixelsOfFull_))
+      .set("reach", static_cast<float>(p_.bleeding))
+      .drawFullscreen(s.pigmentTarget);
   passes_->layers.use()
       .texture("guide", s.guide)
       .texture("darkPigment", s.darkPigment)
@@ -262,35 +274,33 @@ void Watercolor::paintWashes(const scene::ArFrame& frame, gpu::PassTimer& timer)
 }
 
 /// The two colours of each cell, averaged over time.
-void Watercolor::mixWashes(gpu::PassTimer& timer) {
+void Watercolor::mixWashes() {
   const WatercolorCanvas& s = *canvas_;
   WatercolorCells& cells = *marks_->cells;
-  const auto scope = timer.measure("watercolor: split");
   const hal::FrameSize half = s.guide.size();
   passes_->split.use()
-      .storage(0, cells.moments)
+      .storage("Moments", cells.moments)
       .texture("guide", s.guide)
       .texture("tiling", s.tiling)
       .dispatch({(half.width + kBlockPixels - 1) / kBlockPixels,
                  (half.height + kBlockPixels - 1) / kBlockPixels},
-                {16, 4}, kWritten);
+                kWritten);
   const bool hasPast = hasPast_ && !marks_->anchors->hasBegunAnew();
   passes_->washes.use()
-      .storage(0, cells.moments)
-      .storage(1, passes_->tiler.seeds())
-      .storage(2, cells.averages[cells.latest])
-      .storage(3, cells.averages[1 - cells.latest])
-      .image(0, cells.darkWash, ImageAccess::kWrite)
-      .image(1, cells.lightWash, ImageAccess::kWrite)
+      .storage("Moments", cells.moments)
+      .storage("Seeds", passes_->tiler.seeds())
+      .storage("Past", cells.averages[cells.latest])
+      .storage("Now", cells.averages[1 - cells.latest])
+      .image("darkWash", cells.darkWash, ImageAccess::kWrite)
+      .image("lightWash", cells.lightWash, ImageAccess::kWrite)
       .set("slots", static_cast<int>(cells.slots))
       .set("kept", hasPast ? marks::keptAfter(step_, p_.colourTimeSeconds) : 0.0F)
-      .dispatch({static_cast<int>(cells.slots), 1}, kSlotGroup, kWritten);
+      .dispatch({static_cast<int>(cells.slots), 1}, kWritten);
   cells.latest = 1 - cells.latest;
 }
 
-void Watercolor::compose(const scene::ArFrame& frame, gpu::PassTimer& timer) {
+void Watercolor::compose(const scene::ArFrame& frame) {
   const WatercolorCanvas& s = *canvas_;
-  const auto scope = timer.measure("watercolor: compose");
   const bool needsMore = frame.hasFocus || p_.mosaic > 0.0;
   gpu::Program& pass = needsMore ? passes_->composeMore : passes_->compose;
   passes_->substrate.bind(pass.use(), frame);
@@ -318,19 +328,17 @@ void Watercolor::compose(const scene::ArFrame& frame, gpu::PassTimer& timer) {
 }
 
 void Watercolor::showView(const scene::ArFrame& frame, std::string_view view) {
-  const auto* const found = std::ranges::find(kViews, view, &DebugViewInfo::name);
-  assert(found != kViews.end());
   const WatercolorCanvas& s = *canvas_;
   const WatercolorCells& cells = *marks_->cells;
   passes_->showSeeds.use()
-      .storage(0, marks_->anchors->anchors())
-      .storage(1, passes_->tiler.seeds())
-      .storage(2, passes_->tiler.points())
-      .image(0, cells.places, ImageAccess::kWrite)
-      .image(1, cells.ways, ImageAccess::kWrite)
+      .storage("Anchors", marks_->anchors->anchors())
+      .storage("Seeds", passes_->tiler.seeds())
+      .storage("Points", passes_->tiler.points())
+      .image("places", cells.places, ImageAccess::kWrite)
+      .image("ways", cells.ways, ImageAccess::kWrite)
       .set("slots", static_cast<int>(cells.slots))
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
-      .dispatch({static_cast<int>(cells.slots), 1}, kSlotGroup, kWritten);
+      .dispatch({static_cast<int>(cells.slots), 1}, kWritten);
   passes_->view.use()
       .texture("tiling", s.tiling)
       .texture("means", passes_->tiler.means())
@@ -340,7 +348,7 @@ void Watercolor::showView(const scene::ArFrame& frame, std::string_view view) {
       .texture("lightPigment", s.lightPigment)
       .texture("paper", passes_->substrate.tile())
       .texture("picture", view == kFilteredView ? *picture_ : *frame.colour)
-      .set("view", static_cast<int>(found - kViews.begin()))
+      .set("view", static_cast<int>(viewIndex(kViews, view)))
       .set("pictureSize", glm::vec2(s.size.width, s.size.height))
       .drawFullscreen(s.pictureTarget);
 }
@@ -349,16 +357,15 @@ void Watercolor::showView(const scene::ArFrame& frame, std::string_view view) {
 void Watercolor::warmUp() {
   Texture grey(TextureFormat::kRgba8, {16, 16}, TextureFilter::kLinear);
   grey.upload(std::array<std::uint8_t, std::size_t{16} * 16 * 4>{}, std::size_t{16} * 4);
-  gpu::PassTimer timer;
   const scene::ArFrame frame{.colour = &grey};
-  paint(frame, "", timer);
-  paint({.colour = &grey, .normalFocus = &grey, .hasFocus = true, .sequence = 1}, "", timer);
-  paint({.colour = &grey, .sequence = 2}, kViews.front().name, timer);
+  paint(frame, "");
+  paint({.colour = &grey, .normalFocus = &grey, .hasFocus = true, .sequence = 1}, "");
+  paint({.colour = &grey, .sequence = 2}, kViews.front().name);
   const std::vector<std::uint8_t> noObjects(std::size_t{16} * 16 * 4);
   Texture ids(TextureFormat::kR32ui, grey.size());
   ids.upload(noObjects, std::size_t{16} * 4);
-  paint({.colour = &grey, .ids = &ids, .barycentrics = &ids, .hasObjects = true, .sequence = 3}, "",
-        timer);
+  paint({.colour = &grey, .ids = &ids, .barycentrics = &ids, .hasObjects = true, .sequence = 3},
+        "");
   canvas_ = previousCanvas_ = nullptr;
   canvases_.clear();
   marks_.reset();

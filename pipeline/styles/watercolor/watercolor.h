@@ -12,8 +12,8 @@
 
 namespace pleinair::styles {
 
-/// The style's inner pictures, apart from the finished one.
-std::span<const DebugViewInfo> watercolorViews();
+/// The style "watercolor".
+const StyleKind& watercolorKind();
 
 /// Chapter III of the thesis, and on: the frame tiled by the Voronoi cells of seeds that are drawn
 /// to the edges. A seed belongs to an anchor (marks::AnchorSet) and goes with the thing it lies on.
@@ -44,14 +44,10 @@ class Watercolor final : public Style {
   Watercolor(Watercolor&&) = delete;
   Watercolor& operator=(Watercolor&&) = delete;
 
-  std::string_view name() const override { return "watercolor"; }
-  std::span<const DebugViewInfo> views() const override { return watercolorViews(); }
-  scene::ArFrameNeeds needs() const override { return {.surfaces = true, .measuredMotion = true}; }
-  bool usesCanvas() const override { return true; }
+  const StyleKind& kind() const override { return watercolorKind(); }
   const config::ParameterValues& parameters() const override { return values_; }
   void setParameters(const config::ParameterValues& values) override;
-  const gpu::Texture& paint(const scene::ArFrame& frame, std::string_view view,
-                            gpu::PassTimer& timer) override;
+  const gpu::Texture& paint(const scene::ArFrame& frame, std::string_view view) override;
   const marks::AnchorSet* anchors() const override;
   std::vector<marks::Anchor> readAnchors() const override;
   void reset() override;
@@ -73,11 +69,11 @@ class Watercolor final : public Style {
 
   void takeMarks(const scene::ArFrame& frame);
   void takeCanvas(const scene::ArFrame& frame);
-  void filtered(const scene::ArFrame& frame, gpu::PassTimer& timer);
-  void tile(const scene::ArFrame& frame, bool wantsMeans, gpu::PassTimer& timer);
-  void paintWashes(const scene::ArFrame& frame, gpu::PassTimer& timer);
-  void mixWashes(gpu::PassTimer& timer);
-  void compose(const scene::ArFrame& frame, gpu::PassTimer& timer);
+  void filtered(const scene::ArFrame& frame);
+  void tile(const scene::ArFrame& frame, bool wantsMeans);
+  void paintWashes(const scene::ArFrame& frame);
+  void mixWashes();
+  void compose(const scene::ArFrame& frame);
   void showView(const scene::ArFrame& frame, std::string_view view);
   void warmUp();
 

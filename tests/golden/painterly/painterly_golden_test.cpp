@@ -41,7 +41,7 @@ hal::Image stillLife() {
 class PainterlyGolden : public PainterlyTest {
  protected:
   hal::Image painted(Painterly& style, std::string_view view = {}) {
-    return support::readRgba8(style.paint(next(stillLife()), view, timer_));
+    return support::readRgba8(style.paint(next(stillLife()), view));
   }
   static std::string compare(const char* name, const hal::Image& picture) {
     return golden::compareWithGolden(

@@ -51,7 +51,7 @@ class WatercolorGolden : public StyleTest {
     hal::Image result;
     for (int i = 0; i < count; ++i) {
       const gpu::Texture texture = support::textureOf(picture(i).view());
-      result = support::readRgba8(style.paint(frameOf(texture, i), view, timer_));
+      result = support::readRgba8(style.paint(frameOf(texture, i), view));
     }
     return result;
   }
@@ -86,9 +86,9 @@ TEST_F(WatercolorGolden, AnotherTilingIsNotAlike) {
   Watercolor style(library_);
   const gpu::Texture texture = support::textureOf(stillLife().view());
   style.setParameters(style.parameters().with("mosaic", "1"));
-  const hal::Image one = support::readRgba8(style.paint(frameOf(texture), "", timer_));
+  const hal::Image one = support::readRgba8(style.paint(frameOf(texture), ""));
   style.setParameters(style.parameters().with("seed", "2"));
-  const hal::Image other = support::readRgba8(style.paint(frameOf(texture), "", timer_));
+  const hal::Image other = support::readRgba8(style.paint(frameOf(texture), ""));
   const golden::Likeness found = golden::likeness(one.view(), other.view());
   EXPECT_LT(found.psnrDecibels, kLeast.psnrDecibels);
   EXPECT_LT(found.ssim, kLeast.ssim);

@@ -55,6 +55,36 @@ TEST_F(PassTimerTest, ReadsQueriesLaterWithoutWaiting) {
   EXPECT_LT(timer.times()[0].count, 10);  // the last is still in flight
 }
 
+TEST_F(PassTimerTest, AddsUpTheRunsOfAFrame) {
+  PassTimer timer(PassTiming::kFences);
+  for (const int runs : {3, 1}) {
+    timer.beginFrame();
+    for (int i = 0; i < runs; ++i) const auto scope = timer.measure("nothing");
+  }
+  const PassTime& time = timer.times()[0];
+  EXPECT_EQ(time.count, 4);
+  EXPECT_EQ(time.frames, 2);
+  EXPECT_EQ(time.mean(), time.total / 2);
+  EXPECT_GE(time.peak, time.last);
+  EXPECT_GE(time.peak, time.total - time.peak);
+}
+
+TEST_F(PassTimerTest, SamplesOneFrameInManyAlsoWithoutQueries) {
+  ContextInfo info = context_->info();
+  info.hasTimerQuery = false;
+  PassTimer timer(PassTiming::kSampled, &info);
+  EXPECT_FALSE(timer.hasQueries());
+  const auto frame = [&] {
+    timer.beginFrame();
+    const auto scope = timer.measure("nothing");
+  };
+  for (std::uint64_t i = 1; i < PassTimer::kSampledEvery; ++i) frame();
+  EXPECT_TRUE(timer.times().empty());
+  for (std::uint64_t i = 0; i < 2 * PassTimer::kSampledEvery; ++i) frame();
+  ASSERT_EQ(timer.times().size(), 1U);
+  EXPECT_EQ(timer.times()[0].frames, 2);
+}
+
 using PassTimerDeathTest = PassTimerTest;
 
 TEST_F(PassTimerDeathTest, RefusesPassesWithinPasses) {

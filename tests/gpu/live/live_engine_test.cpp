@@ -6,7 +6,7 @@
 
 #include "firmware_app/live/live_painter.h"
 #include "pipeline/runtime/live_pipeline.h"
-#include "pipeline/styles/style_registry.h"
+#include "pipeline/styles/registry.h"
 #include "tests/support/live_simulation.h"
 #include "tests/support/process_resources.h"
 
@@ -21,7 +21,7 @@ constexpr hal::FrameSize kSize{160, 120};
 constexpr unsigned kGuiltyContextReset = 0x8253;  // GL_GUILTY_CONTEXT_RESET
 
 PaintParameters watercolorParameters() {
-  return {.style = styles::styleInfo("watercolor").defaults, .view = {}};
+  return {.style = styles::styleKind("watercolor").defaults, .view = {}};
 }
 
 /// Live painting under a stepped clock: the painter takes as long as it takes, the clock stands

@@ -18,7 +18,7 @@
 #include "firmware_app/live/live_painter.h"
 #include "hal/error.h"
 #include "pipeline/styles/painterly/brushes.h"
-#include "pipeline/styles/style_registry.h"
+#include "pipeline/styles/registry.h"
 #include "tests/support/live_simulation.h"
 #include "tests/support/media_files.h"
 #include "tests/support/temporary_folder.h"
@@ -133,7 +133,7 @@ TEST_F(LivePaintingTest, SaysAtTheStartThatThereIsNoCamera) {
 }
 
 TEST(LivePainter, MakesTheBrushesOfItsFirstLookBeforeTheFirstFrame) {
-  const PaintParameters first{.style = styles::styleInfo("painterly").parametersOf("sketch"),
+  const PaintParameters first{.style = styles::styleKind("painterly").parametersOf("sketch"),
                               .view = {}};
   LiveControls controls(first);
   LivePainter painter({.pictureSize = kFormat.size,

@@ -119,12 +119,12 @@ TEST_F(AnchorLife, LevelsOfQualityChangeNothingOfPlaces) {
   motion_.frameSize = kSize;
   motion_.sinceSequence = sequence_;
   scene::ArFrame frame =
-      renderer_->compose(half, halfCamera, boxAt(160.0), ++sequence_, time_ += kStep, timer_,
+      renderer_->compose(half, halfCamera, boxAt(160.0), ++sequence_, time_ += kStep,
                          {.surfaces = true, .measuredMotion = true});
   frame.fullSize = kSize;
   frame.measuredMotion = scene::MeasuredMotion{.motion = &motion_};
-  field_->update(frame, timer_);
-  set_->advance(frame, *field_, timer_);
+  field_->update(frame);
+  set_->advance(frame, *field_);
   const std::vector<Anchor> after = set_->read();
   int onBox = 0;
   for (std::size_t slot = 0; slot < before.size(); ++slot) {

@@ -59,8 +59,8 @@ class AnchorLife : public MarksTest {
 
   void advance(const tracking::ImageMotion& motion, const scene::PoseSet& poses = {}) {
     const scene::ArFrame frame = compose(*renderer_, poses, motion);
-    field_->update(frame, timer_);
-    set_->advance(frame, *field_, timer_);
+    field_->update(frame);
+    set_->advance(frame, *field_);
   }
   std::vector<Anchor> next(const tracking::ImageMotion& motion, const scene::PoseSet& poses = {}) {
     advance(motion, poses);

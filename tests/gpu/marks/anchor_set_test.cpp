@@ -29,8 +29,8 @@ TEST_F(AnchorSetTest, FillsEachCellAtFirst) {
   MotionField field(library_, kSize);
   AnchorSet set(library_, kSize, {});
   const scene::ArFrame frame = compose(renderer, {}, {});
-  field.update(frame, timer_);
-  set.advance(frame, field, timer_);
+  field.update(frame);
+  set.advance(frame, field);
   std::vector<int> counts(40 * 30);
   for (const Anchor& each : alive(set)) {
     EXPECT_EQ(each.fade, 1.0F);
@@ -50,8 +50,8 @@ TEST_F(AnchorSetTest, GoesWithTheHomographyOfThePicture) {
   for (int i = 0; i < 60; ++i) {
     const scene::ArFrame frame =
         compose(renderer, {}, i == 0 ? tracking::ImageMotion{} : following(step));
-    field.update(frame, timer_);
-    set.advance(frame, field, timer_);
+    field.update(frame);
+    set.advance(frame, field);
     if (i == 0) {
       first = set.read();
     } else {
@@ -97,8 +97,8 @@ TEST_P(OnSurfaces, StaysOnItsTriangle) {
     const glm::dmat4 pose = poseAt(i);
     const scene::ArFrame frame =
         compose(renderer, {.cameraFromWorld = pose}, following(glm::dmat3(1.0)));
-    field.update(frame, timer_);
-    set.advance(frame, field, timer_);
+    field.update(frame);
+    set.advance(frame, field);
     const hal::Duration elapsed = time_ - start;
     const scene::SceneModel& only = scene.models[0];
     oracles::PosedModel posed{.model = only.model.get(), .cameraFromModel = pose};

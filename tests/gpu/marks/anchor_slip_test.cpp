@@ -145,8 +145,8 @@ TEST_P(AnchorDrift, StaysBelowATwentiethOfAPixel) {
   Slips slips;
   for (int i = 0; i < kFrames + 1; ++i) {
     const scene::ArFrame frame = compose(renderer, {}, i == 0 ? ImageMotion{} : told.motion);
-    field.update(frame, timer_);
-    set.advance(frame, field, timer_);
+    field.update(frame);
+    set.advance(frame, field);
     const std::vector<Anchor> anchors = set.read();
     slips.add(anchors, [](glm::dvec2 px) { return moved(GetParam().step, px); });
     ASSERT_EQ(movedByOthers(anchors, GetParam().source), 0);
@@ -198,8 +198,8 @@ TEST_F(MarksTest, AnchorsOnAPlaneStayWithItsTruePose) {
   Slips slips;
   for (int i = 0; i < kFrames + 1; ++i) {
     const scene::ArFrame frame = compose(renderer, {.cameraFromWorld = poseAt(i)}, {});
-    field.update(frame, timer_);
-    set.advance(frame, field, timer_);
+    field.update(frame);
+    set.advance(frame, field);
     const std::vector<Anchor> anchors = set.read();
     slips.add(anchors, [&](glm::dvec2 px) {
       return camera().project(glm::dvec3(poseAt(i) * onPlane(poseAt(i - 1), px)));

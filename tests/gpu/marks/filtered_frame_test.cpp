@@ -80,12 +80,10 @@ class FilteredFrameTest : public support::GlTest {
             .captureTime = hal::TimePoint(std::chrono::milliseconds(40) * number)};
   }
   void take(const scene::ArFrame& frame, bool isCut = false, double timeConstant = kTimeConstant) {
-    steady_->update(frame,
-                    {.backward = &backward_,
-                     .isCut = isCut,
-                     .timeConstantSeconds = timeConstant,
-                     .noiseLevels = kNoise},
-                    timer_);
+    steady_->update(frame, {.backward = &backward_,
+                            .isCut = isCut,
+                            .timeConstantSeconds = timeConstant,
+                            .noiseLevels = kNoise});
   }
   std::vector<float> picture() const { return readRgba32f(steady_->picture()); }
 
@@ -113,7 +111,6 @@ class FilteredFrameTest : public support::GlTest {
   }
 
   gpu::ShaderLibrary library_;
-  gpu::PassTimer timer_;
   gpu::Texture backward_;
   gpu::Texture picture_;
   std::unique_ptr<FilteredFrame> steady_;

@@ -35,7 +35,7 @@ class ImageMotionTest : public MarksTest {
   }
 
   void update(const tracking::ImageMotion& motion, const scene::PoseSet& poses = {}) {
-    field_->update(compose(*renderer_, poses, motion), timer_);
+    field_->update(compose(*renderer_, poses, motion));
   }
   std::vector<MotionAnswer> ask(const std::vector<glm::dvec2>& points, float layer = 0.0F) {
     std::vector<MotionQuestion> questions;

@@ -161,7 +161,7 @@ TEST_F(ImageMotionTest, MotionOfASmallerFrameIsInPxOfTheFullPicture) {
     motion_.frameSize = {160, 140};
     frame.measuredMotion =
         scene::MeasuredMotion{.motion = &motion_, .frameScale = scale, .frameOrigin = origin};
-    field_->update(frame, timer_);
+    field_->update(frame);
   };
   updateScaled({.features = features});
   const glm::dvec2 inFrame(61.0, 64.0);
@@ -187,7 +187,7 @@ TEST_F(ImageMotionTest, MotionSinceAnotherFrameIsRefused) {
   EXPECT_EQ(askOne({50.0, 50.0}).from(), MotionSource::kPicture);
   scene::ArFrame frame = compose(*renderer_, {}, motion);
   motion_.sinceSequence -= 1;
-  field_->update(frame, timer_);
+  field_->update(frame);
   EXPECT_TRUE(field_->isCut());
   EXPECT_EQ(askOne({50.0, 50.0}).from(), MotionSource::kUnknown);
   EXPECT_EQ(askOne({50.0, 50.0}).displacement, glm::vec2(0.0F));

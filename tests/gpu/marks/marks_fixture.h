@@ -50,7 +50,7 @@ class MarksTest : public scene::SceneGlTest {
     motion_ = motion;
     ++sequence_;
     time_ += kStep;
-    scene::ArFrame frame = renderer.compose(picture_, camera(), poses, sequence_, time_, timer_,
+    scene::ArFrame frame = renderer.compose(picture_, camera(), poses, sequence_, time_,
                                             {.surfaces = true, .measuredMotion = true});
     frame.measuredMotion = scene::MeasuredMotion{.motion = &motion_};
     return frame;

@@ -61,10 +61,10 @@ class MotionQuestions {
     gpu::Buffer asked(questions.size() * sizeof(MotionQuestion), gpu::BufferUsage::kDynamic);
     const gpu::Buffer answers(questions.size() * sizeof(MotionAnswer), gpu::BufferUsage::kDynamic);
     asked.write(std::as_bytes(std::span(questions)));
-    program_.use().storage(0, asked).storage(1, answers);
+    program_.use().storage("Questions", asked).storage("Answers", answers);
     field.bind(program_);
     program_.set("count", static_cast<int>(questions.size()))
-        .dispatch({static_cast<int>(questions.size()), 1}, {64, 1}, GL_BUFFER_UPDATE_BARRIER_BIT);
+        .dispatch({static_cast<int>(questions.size()), 1}, GL_BUFFER_UPDATE_BARRIER_BIT);
     return support::readBuffer<MotionAnswer>(answers);
   }
 

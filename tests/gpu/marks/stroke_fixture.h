@@ -111,11 +111,11 @@ class StrokeTest : public TensorTest {
       frame.barycentrics = &zeros_;
       frame.normalFocus = &texture;
     }
-    motionField_->update(frame, timer_);
-    field_->update(frame, texture, *motionField_, kNoMemory, timer_);
-    anchors_->advance(frame, *motionField_, timer_);
+    motionField_->update(frame);
+    field_->update(frame, texture, *motionField_, kNoMemory);
+    anchors_->advance(frame, *motionField_);
     const StrokePaint paints{.real = &colours, .models = &colours};
-    strokes_->update(frame, *anchors_, *field_, paints, rule, timer_);
+    strokes_->update(frame, *anchors_, *field_, paints, rule);
   }
 
   std::vector<StrokeSlot> readStrokes() const {

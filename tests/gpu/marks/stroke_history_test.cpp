@@ -59,9 +59,9 @@ class StrokeHistory : public support::GlTest {
     const gpu::Buffer answers(questions.size() * sizeof(glm::vec2), gpu::BufferUsage::kDynamic);
     gpu::Program program = library.compute("tests/held_directions.comp");
     program.use()
-        .storage(0, asked)
-        .storage(1, answers)
-        .dispatch({static_cast<int>(questions.size()), 1}, {64, 1}, GL_BUFFER_UPDATE_BARRIER_BIT);
+        .storage("Questions", asked)
+        .storage("Answers", answers)
+        .dispatch({static_cast<int>(questions.size()), 1}, GL_BUFFER_UPDATE_BARRIER_BIT);
     return support::readBuffer<glm::vec2>(answers);
   }
   glm::vec2 answerTo(const Question& question) { return answersTo({question}).front(); }

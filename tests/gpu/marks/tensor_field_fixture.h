@@ -38,8 +38,8 @@ class TensorFieldFixture : public TensorTest {
               const TensorFieldOptions& options = {}, hal::Duration step = kStep) {
     const gpu::Texture texture = support::textureOf(picture.view());
     const scene::ArFrame frame = frameOf(texture, motion, step);
-    motionField_->update(frame, timer_);
-    field_->update(frame, texture, *motionField_, options, timer_);
+    motionField_->update(frame);
+    field_->update(frame, texture, *motionField_, options);
   }
 
   std::optional<MotionField> motionField_;

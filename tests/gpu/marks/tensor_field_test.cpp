@@ -237,8 +237,8 @@ TEST_F(TensorFieldTest, ASmallerVersionHasTheSameField) {
   scene::ArFrame frame = frameOf(texture);
   motion_.frameSize = kSize;
   frame.fullSize = kSize;
-  motionField_->update(frame, timer_);
-  field_->update(frame, texture, *motionField_, kNoMemory, timer_);
+  motionField_->update(frame);
+  field_->update(frame, texture, *motionField_, kNoMemory);
   const std::vector<FieldTexel> less = read(field_->resolved(0));
   ASSERT_EQ(less.size(), whole.size());
   std::vector<double> apart;

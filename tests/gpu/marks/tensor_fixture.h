@@ -93,7 +93,6 @@ class TensorTest : public support::GlTest {
   }
 
   gpu::ShaderLibrary library_;
-  gpu::PassTimer timer_;
   tracking::ImageMotion motion_;
   std::uint64_t sequence_ = 0;
   hal::TimePoint time_;

@@ -113,7 +113,7 @@ TEST_F(Coherence, ColoursAreBlendedAsTheThesisDoes) {
     const auto show = [&](std::uint8_t level) {
       scene::ArFrame frame = next(plain(level));
       frame.captureTime = hal::TimePoint(hal::Duration(33'333'333) * number_);
-      style.paint(frame, "", timer_);
+      style.paint(frame, "");
     };
     show(200);
     constexpr int kFrames = 12;

@@ -37,7 +37,7 @@ class PainterlyTest : public StyleTest {
 
   std::vector<std::uint8_t> paint(Style& style, const scene::ArFrame& frame,
                                   std::string_view view = {}) {
-    return bytesOf(style.paint(frame, view, timer_));
+    return bytesOf(style.paint(frame, view));
   }
   static std::vector<std::uint8_t> bytesOf(const gpu::Texture& texture) {
     hal::Image image = support::readRgba8(texture);

@@ -57,7 +57,7 @@ TEST_F(PainterlyTest, APaintingIsLikeItsPictureButNotIt) {
 TEST_F(PainterlyTest, EveryViewIsPaintedAtEverySize) {
   Painterly style(library_);
   std::vector<Bytes> pictures{paint(style, next(0.0, 0.0))};
-  for (const DebugViewInfo& view : style.views()) {
+  for (const DebugViewInfo& view : style.kind().views) {
     for (const hal::FrameSize size : {hal::FrameSize{1, 1}, {1, 9}, {9, 1}, kSize}) {
       const Bytes picture = paint(style, next(0.0, 0.0, size), view.name);
       ASSERT_EQ(picture.size(), static_cast<std::size_t>(size.pixels()) * 4);
@@ -74,7 +74,7 @@ TEST_F(PainterlyTest, StateAdvancesTheSameWhateverIsLookedAt) {
   Painterly finished(library_);
   for (int i = 0; i < 3; ++i) {
     const scene::ArFrame frame = next(2.0 * i, 2.0);
-    paint(looked, frame, looked.views()[static_cast<std::size_t>(i)].name);
+    paint(looked, frame, looked.kind().views[static_cast<std::size_t>(i)].name);
     paint(finished, frame);
   }
   const scene::ArFrame frame = next(6.0, 2.0);
@@ -83,7 +83,7 @@ TEST_F(PainterlyTest, StateAdvancesTheSameWhateverIsLookedAt) {
 
 TEST_F(PainterlyTest, LooksDiffer) {
   std::vector<Bytes> painted;
-  const StyleInfo& info = styleInfo("painterly");
+  const StyleKind& info = styleKind("painterly");
   EXPECT_GE(info.looks.size(), 5U);
   const hal::Image image = testPicture(kSize, 5);
   for (const Look& look : info.looks) {
@@ -252,7 +252,7 @@ TEST_F(PainterlyTest, ASmallerVersionKeepsTheStrokes) {
   motion_.frameSize = kSize;
   frame.measuredMotion->frameScale = glm::dvec2(1.0);
   frame.fullSize = kSize;
-  EXPECT_EQ(style.paint(frame, "", timer_).size(), (hal::FrameSize{96, 72}));
+  EXPECT_EQ(style.paint(frame, "").size(), (hal::FrameSize{96, 72}));
   const std::vector<marks::Anchor> after = style.anchors()->read();
   for (std::size_t i = 0; i < before.size(); ++i) {
     ASSERT_EQ(after[i].isAlive(), before[i].isAlive());
@@ -290,11 +290,10 @@ TEST_F(PainterlyTest, AllocatesNothingAfterTheFirstFrameOfASize) {
   Painterly style(library_);
   for (int i = 0; i < 2; ++i) paint(style, next(0.0, 0.0));
   const scene::ArFrame frame = next(0.0, 0.0);
-  EXPECT_EQ(support::allocationsIn([&] { style.paint(frame, "", timer_); }), 0)
+  EXPECT_EQ(support::allocationsIn([&] { style.paint(frame, ""); }), 0)
       << support::allocationSites();
   const scene::ArFrame other = next(0.0, 0.0, {64, 64});
-  EXPECT_GT(support::allocationsIn([&] { style.paint(other, "", timer_); }), 0)
-      << "the counter counts";
+  EXPECT_GT(support::allocationsIn([&] { style.paint(other, ""); }), 0) << "the counter counts";
 }
 
 }  // namespace

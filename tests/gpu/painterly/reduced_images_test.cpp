@@ -39,7 +39,7 @@ struct TwoParts {
 TEST_F(PainterlyTest, ReducedImagesMixNoModelIntoWhatIsReal) {
   const TwoParts parts;
   ReducedImages reduced(library_);
-  reduced.update(parts.frame(true), timer_);
+  reduced.update(parts.frame(true));
   for (const double px : {2.0, 4.0, 8.0, 16.0, 32.0}) {
     SCOPED_TRACE(px);
     const marks::StrokePaint paint = reduced.paintOf(px);
@@ -66,7 +66,7 @@ TEST_F(PainterlyTest, ReducedImagesMixNoModelIntoWhatIsReal) {
 TEST_F(PainterlyTest, ReducedImagesWithoutModelsAreMeans) {
   const TwoParts parts;
   ReducedImages reduced(library_);
-  reduced.update(parts.frame(false), timer_);
+  reduced.update(parts.frame(false));
   EXPECT_EQ(reduced.paintOf(1.5).real, &parts.picture);
   const marks::StrokePaint paint = reduced.paintOf(9.0);
   EXPECT_EQ(paint.real, paint.models);

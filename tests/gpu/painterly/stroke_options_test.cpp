@@ -109,8 +109,8 @@ TEST_F(BrushFilesTest, ABadOneIsRefusedAndThePaintingGoesOn) {
   const hal::Result<void> prepared = style.prepare(bad);
   ASSERT_FALSE(prepared);
   EXPECT_THAT(prepared.error().message(), testing::HasSubstr("is 100x30 px"));
-  EXPECT_FALSE(checkPainterly(bad));
-  EXPECT_TRUE(checkPainterly(style.parameters()));
+  EXPECT_FALSE(painterlyKind().check(bad));
+  EXPECT_TRUE(painterlyKind().check(style.parameters()));
   style.reset();
   EXPECT_EQ(paint(style, next(image)), before);
 }

@@ -28,7 +28,7 @@ class Turnover : public PainterlyTest {
       picture_ = support::textureOf(picture.view());
       scene::ArFrame frame = followed(picture_, i, pan, motion_);
       frame.captureTime = hal::TimePoint(hal::Duration(33'333'333) * i);
-      style.paint(frame, "", timer_);
+      style.paint(frame, "");
       if (i < kTwoSeconds) continue;
       measures.resize(1 + style.layerCount(), measure::AnchorMeasures({kSize.width, kSize.height}));
       measures[0].add(style.readAnchors(), nullptr, nullptr);

@@ -82,8 +82,7 @@ class ContactShadowTest : public SceneGlTest {
                        const glm::dmat4& cameraFromTag = kAbove) {
     const std::array sightings{TagSighting{.id = kTag, .cameraFromTag = cameraFromTag}};
     const std::array lights{PlaceLighting{.tagId = kTag, .light = light}};
-    return renderer.compose(white_, camera(), {.tags = sightings}, 1, hal::TimePoint{}, timer_, {},
-                            lights);
+    return renderer.compose(white_, camera(), {.tags = sightings}, 1, hal::TimePoint{}, {}, lights);
   }
   /// A composed image.
   struct Shown {
@@ -232,7 +231,7 @@ TEST_F(ContactShadowTest, IsNotThereWithoutAModelOrWithoutStrength) {
   EXPECT_EQ(shown.missing(pixelAbove({0.055, 0.0})), 0.0);
 
   ArFrameRenderer renderer(library_, boxOnTag());
-  const ArFrame& none = renderer.compose(white_, camera(), {}, 1, hal::TimePoint{}, timer_, {}, {});
+  const ArFrame& none = renderer.compose(white_, camera(), {}, 1, hal::TimePoint{}, {}, {});
   EXPECT_EQ(none.colour, &white_);
 
   Scene floating = boxOnTag();

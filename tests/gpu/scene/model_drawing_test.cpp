@@ -80,9 +80,9 @@ class ModelDrawing : public SceneGlTest {
     ArFrameRenderer renderer(library_, scene);
     const gpu::Texture picture = plainPicture(kSize);
     const hal::TimePoint first(hal::Duration(5'000));
-    renderer.compose(picture, camera(), {.cameraFromWorld = cameraFromWorld}, 1, first, timer_);
-    const ArFrame& frame = renderer.compose(picture, camera(), {.cameraFromWorld = cameraFromWorld},
-                                            2, first + after, timer_);
+    renderer.compose(picture, camera(), {.cameraFromWorld = cameraFromWorld}, 1, first);
+    const ArFrame& frame =
+        renderer.compose(picture, camera(), {.cameraFromWorld = cameraFromWorld}, 2, first + after);
     return {support::readRgba8(*frame.colour), support::readR32ui(*frame.ids),
             support::readRgba8(*frame.normalFocus)};
   }
@@ -207,10 +207,9 @@ TEST_F(ModelDrawing, TimeStartsAgainAfterAReset) {
   ArFrameRenderer renderer(library_, sceneOf(turning));
   const gpu::Texture picture = plainPicture(kSize);
   const auto idsAt = [&](hal::Duration time) {
-    return support::readR32ui(*renderer
-                                   .compose(picture, camera(), {.cameraFromWorld = aslant()}, 1,
-                                            hal::TimePoint(time), timer_)
-                                   .ids);
+    return support::readR32ui(
+        *renderer.compose(picture, camera(), {.cameraFromWorld = aslant()}, 1, hal::TimePoint(time))
+             .ids);
   };
   const auto first = idsAt(std::chrono::seconds(5));
   EXPECT_NE(idsAt(std::chrono::milliseconds(5100)), first);

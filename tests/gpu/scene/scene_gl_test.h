@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/scene/render/ar_frame_renderer.h"
 #include "pipeline/scene/scene_shaders.h"
@@ -45,7 +44,7 @@ class SceneGlTest : public support::GlTest {
 
   const ArFrame& compose(ArFrameRenderer& renderer, const gpu::Texture& picture,
                          const tracking::CameraModel& camera, const PoseSet& poses) {
-    return renderer.compose(picture, camera, poses, 7, hal::TimePoint(hal::Duration(9)), timer_);
+    return renderer.compose(picture, camera, poses, 7, hal::TimePoint(hal::Duration(9)));
   }
 
   /// Window depth in [0, 1], exact: its bits are read through an integer target.
@@ -62,7 +61,6 @@ class SceneGlTest : public support::GlTest {
   }
 
   gpu::ShaderLibrary library_;
-  gpu::PassTimer timer_;
 
  private:
   static constexpr std::array<gpu::EmbeddedShader, 1> kTestShaders{

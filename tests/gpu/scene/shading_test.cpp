@@ -49,7 +49,7 @@ class SceneShading : public SceneGlTest {
     const std::array lights{PlaceLighting{.tagId = std::nullopt, .light = attachLight}};
     const ArFrame& frame =
         renderer.compose(picture, camera(), {.cameraFromWorld = aslant()}, 7,
-                         hal::TimePoint(hal::Duration(9)), timer_, {.shading = shading}, lights);
+                         hal::TimePoint(hal::Duration(9)), {.shading = shading}, lights);
     const std::array placedGear{
         oracles::PlacedMesh{&scene.models[0].model->surfaces[0].mesh, aslant()}};
     const auto expected = oracles::rasterise(placedGear, camera());
@@ -111,8 +111,8 @@ TEST_F(SceneShading, DependsOnTheLight) {
     const std::array lights{PlaceLighting{.tagId = std::nullopt, .light = light}};
     return support::readRgba8(*renderer
                                    .compose(picture, camera(), {.cameraFromWorld = aslant()}, 7,
-                                            hal::TimePoint(hal::Duration(9)), timer_,
-                                            {.shading = shading}, lights)
+                                            hal::TimePoint(hal::Duration(9)), {.shading = shading},
+                                            lights)
                                    .colour);
   };
   hal::Image smooth = drawn(evening(), Shading::kSmooth);

@@ -69,7 +69,7 @@ class SurfaceBuffers : public SceneGlTest, public testing::WithParamInterface<Ca
     ArFrameRenderer renderer(library_, scene);
     const gpu::Texture picture = plainPicture(kSize);
     const auto compose = [&](const glm::dmat4& pose, std::uint64_t sequence, hal::TimePoint time) {
-      return renderer.compose(picture, camera(), {.cameraFromWorld = pose}, sequence, time, timer_,
+      return renderer.compose(picture, camera(), {.cameraFromWorld = pose}, sequence, time,
                               {.surfaces = true});
     };
     compose(glm::dmat4(1.0), 1, hal::TimePoint{});  // time starts here
@@ -220,9 +220,8 @@ TEST_F(SteadyState, AllocatesNothing) {
       ++sequence;
       const double turn = 0.01 * static_cast<double>(sequence);
       renderer.compose(picture, camera,
-                       {.cameraFromWorld = glm::rotate(previousAslant(), turn, {0.0, 0.0, 1.0})},
-                       sequence, hal::TimePoint(sequence * milliseconds(33)), timer_,
-                       {.surfaces = true});
+                       {.cameraFromWorld = glm::rotate(thenAslant(), turn, {0.0, 0.0, 1.0})},
+                       sequence, hal::TimePoint(sequence * milliseconds(33)), {.surfaces = true});
     }
   };
   play(5);

@@ -56,7 +56,7 @@ class PassTest : public StyleTest, public testing::WithParamInterface<Size> {
     p.cellSizePixels = GetParam().cell;
     style_->setParameters(watercolorParameters().valuesOf(p, "test"));
   }
-  void paint(int number) { style_->paint(frameOf(picture_, number), "means", timer_); }
+  void paint(int number) { style_->paint(frameOf(picture_, number), "means"); }
 
   const CellTiling& tiler() const { return *style_->inner().tiler; }
   /// Those that made the last tiling, a slot each.

@@ -38,7 +38,7 @@ class WatercolorTest : public StyleTest {
   std::vector<std::uint8_t> paintFrame(Style& style, int number, hal::FrameSize size = {120, 90},
                                        std::string_view view = {}) {
     const gpu::Texture picture = textureOf(testPicture(size, 5, number * 3.0).view());
-    return bytesOf(style.paint(frameOf(picture, number), view, timer_));
+    return bytesOf(style.paint(frameOf(picture, number), view));
   }
 };
 
@@ -74,7 +74,7 @@ TEST_F(WatercolorTest, ASmallerVersionKeepsTheSeeds) {
   const gpu::Texture smaller = textureOf(testPicture({66, 50}, 5, 9.0).view());
   scene::ArFrame frame = frameOf(smaller, 3);  // no time passes
   frame.fullSize = hal::FrameSize{120, 90};
-  style.paint(frame, "", timer_);
+  style.paint(frame, "");
   const auto after = pointsOf(style);
   ASSERT_EQ(after.size(), before.size());
   const auto seeds = offsetsOf(style);
@@ -107,11 +107,11 @@ TEST_F(WatercolorTest, KeepsWhatIsInFocusCrisp) {
   Watercolor style(library_);
   style.setParameters(style.parameters().with("grain", "0"));
   scene::ArFrame frame = frameOf(picture, 0);
-  const std::vector<std::uint8_t> without = bytesOf(style.paint(frame, {}, timer_));
+  const std::vector<std::uint8_t> without = bytesOf(style.paint(frame, {}));
   style.reset();
   frame.normalFocus = &normalFocus;
   frame.hasFocus = true;
-  const std::vector<std::uint8_t> with = bytesOf(style.paint(frame, {}, timer_));
+  const std::vector<std::uint8_t> with = bytesOf(style.paint(frame, {}));
   const std::vector<std::uint8_t> crisp = bytesOf(picture);
   for (std::size_t i = 0; i < with.size(); ++i) {
     const bool isInFocus = i / 4 % kSize.width >= kSize.width / 2;
@@ -133,7 +133,7 @@ TEST_F(WatercolorTest, StateAdvancesTheSameWhateverIsLookedAt) {
 TEST_F(WatercolorTest, EveryViewIsPaintedAtEverySize) {
   Watercolor style(library_);
   std::vector<std::vector<std::uint8_t>> pictures{paintFrame(style, 0)};
-  for (const DebugViewInfo& view : style.views()) {
+  for (const DebugViewInfo& view : style.kind().views) {
     for (const hal::FrameSize size : {hal::FrameSize{1, 1}, {1, 9}, {9, 1}, {120, 90}}) {
       const auto picture = paintFrame(style, 0, size, view.name);
       for (std::size_t i = 3; i < picture.size(); i += 4) ASSERT_EQ(picture[i], 255) << view.name;
@@ -148,9 +148,9 @@ TEST_F(WatercolorTest, EveryViewIsPaintedAtEverySize) {
 TEST_F(WatercolorTest, StillSceneComesToRest) {
   Watercolor style(library_);
   const gpu::Texture picture = textureOf(testPicture({120, 90}, 5).view());
-  for (int i = 0; i < 250; ++i) style.paint(frameOf(picture, i), "", timer_);
-  const auto settled = bytesOf(style.paint(frameOf(picture, 250), "", timer_));
-  EXPECT_EQ(bytesOf(style.paint(frameOf(picture, 251), "", timer_)), settled);
+  for (int i = 0; i < 250; ++i) style.paint(frameOf(picture, i), "");
+  const auto settled = bytesOf(style.paint(frameOf(picture, 250), ""));
+  EXPECT_EQ(bytesOf(style.paint(frameOf(picture, 251), "")), settled);
 }
 
 TEST_F(WatercolorTest, TimeThatStandsOrRunsBackMovesNoSeed) {
@@ -159,11 +159,11 @@ TEST_F(WatercolorTest, TimeThatStandsOrRunsBackMovesNoSeed) {
   paintFrame(style, 5);
   const auto at5 = offsetsOf(style);
   const gpu::Texture other = textureOf(testPicture({120, 90}, 5, 9.0).view());
-  style.paint(frameOf(other, 5), "", timer_);
+  style.paint(frameOf(other, 5), "");
   EXPECT_EQ(offsetsOf(style), at5);
-  style.paint(frameOf(other, 2), "", timer_);
+  style.paint(frameOf(other, 2), "");
   EXPECT_EQ(offsetsOf(style), at5);
-  style.paint(frameOf(other, 4), "", timer_);
+  style.paint(frameOf(other, 4), "");
   EXPECT_NE(offsetsOf(style), at5);
 }
 
@@ -180,7 +180,7 @@ class StillCameraTest : public WatercolorTest {
     const gpu::Texture picture = textureOf(image.view());
     tracking::ImageMotion motion;
     const scene::ArFrame frame = followed(picture, static_cast<int>(number_++), {0.0, 0.0}, motion);
-    return readRgba8(style.paint(frame, {}, timer_));
+    return readRgba8(style.paint(frame, {}));
   }
 
   static constexpr hal::FrameSize kSize{160, 120};
@@ -244,7 +244,7 @@ TEST_F(WatercolorTest, APanCarriesTheCells) {
     }
     const gpu::Texture picture = textureOf(image.view());
     tracking::ImageMotion motion;
-    style.paint(followed(picture, i, kBy, motion), {}, timer_);
+    style.paint(followed(picture, i, kBy, motion), {});
     const auto now = support::readR32ui(*style.inner().tiling);
     if (i > 6) {
       EXPECT_GT(carriedPart(then, now, kSize, kBy), 0.95) << i;
@@ -259,10 +259,10 @@ TEST_F(WatercolorTest, ACutStartsAnew) {
   const gpu::Texture one = textureOf(testPicture({120, 90}, 5).view());
   const gpu::Texture other = textureOf(testPicture({120, 90}, 6, 50.0).view());
   tracking::ImageMotion motion;
-  for (int i = 0; i < 5; ++i) style.paint(followed(one, i, {0.0, 0.0}, motion), {}, timer_);
+  for (int i = 0; i < 5; ++i) style.paint(followed(one, i, {0.0, 0.0}, motion), {});
   scene::ArFrame cut = followed(other, 5, {0.0, 0.0}, motion);
   motion.isCut = true;
-  style.paint(cut, {}, timer_);
+  style.paint(cut, {});
   // Nothing of the old scene goes on.
   EXPECT_EQ(style.inner().tiler->readMoving(), 0U);
   for (const CellSeed& seed : support::readBuffer<CellSeed>(style.inner().tiler->seeds())) {
@@ -281,7 +281,7 @@ TEST_F(WatercolorTest, NewbornCellsAreOfTheirParentsColours) {
   for (int i = 0; i < 12; ++i) {
     const gpu::Texture picture = textureOf(testPicture(kSize, 5, 4.0 * i).view());
     tracking::ImageMotion motion;
-    style.paint(followed(picture, i, {-4.0, 0.0}, motion), {}, timer_);
+    style.paint(followed(picture, i, {-4.0, 0.0}, motion), {});
     hal::Image washes = readRgba8(*style.inner().darkWash);
     const auto seeds = support::readBuffer<CellSeed>(style.inner().tiler->seeds());
     const auto words = support::readR32ui(*style.inner().tiling);
@@ -303,10 +303,10 @@ TEST_F(WatercolorTest, NewbornCellsAreOfTheirParentsColours) {
 TEST_F(WatercolorTest, AllocatesNothingAfterTheFirstFrameOfASize) {
   Watercolor style(library_);
   const gpu::Texture picture = textureOf(testPicture({120, 90}, 5).view());
-  style.paint(frameOf(picture, 0), "", timer_);
-  EXPECT_EQ(support::allocationsIn([&] { style.paint(frameOf(picture, 1), "", timer_); }), 0);
+  style.paint(frameOf(picture, 0), "");
+  EXPECT_EQ(support::allocationsIn([&] { style.paint(frameOf(picture, 1), ""); }), 0);
   const gpu::Texture other = textureOf(testPicture({64, 64}, 5).view());
-  EXPECT_GT(support::allocationsIn([&] { style.paint(frameOf(other, 2), "", timer_); }), 0)
+  EXPECT_GT(support::allocationsIn([&] { style.paint(frameOf(other, 2), ""); }), 0)
       << "the counter counts";
 }
 
@@ -331,7 +331,7 @@ TEST_F(WatercolorTest, SilhouettesOfObjectsAreEdges) {
   frame.barycentrics = &barycentrics;
   frame.hasObjects = true;
   Watercolor style(library_);
-  style.paint(frame, "", timer_);
+  style.paint(frame, "");
   const auto words = support::readR32ui(*style.inner().tiling);
   for (std::size_t y = 0; y < 48; ++y) {
     for (std::size_t x = 0; x < 64; ++x) {
@@ -346,8 +346,8 @@ TEST_F(WatercolorTest, SilhouettesOfObjectsAreEdges) {
 }
 
 TEST_F(WatercolorTest, MakesStylesByNameAndRefusesOthersWithTheList) {
-  for (const StyleInfo& info : styleInfos()) {
-    EXPECT_EQ(makeStyle(info.name, library_)->name(), info.name);
+  for (const StyleKind* kind : styleKinds()) {
+    EXPECT_EQ(&makeStyle(kind->name, library_)->kind(), kind);
   }
   try {
     makeStyle("watercolour", library_);
@@ -357,20 +357,20 @@ TEST_F(WatercolorTest, MakesStylesByNameAndRefusesOthersWithTheList) {
     EXPECT_THAT(error.what(), testing::HasSubstr("watercolour"));
     EXPECT_THAT(error.what(), testing::HasSubstr("watercolor, painterly, none"));
   }
-  EXPECT_EQ(makeStyle("watercolor", library_)->name(), "watercolor");
+  EXPECT_EQ(makeStyle("watercolor", library_)->kind().name, "watercolor");
 }
 
-TEST(StyleInfos, LooksGiveValuesOfTheStylesListAndUnknownOnesAreRefused) {
-  for (const StyleInfo& info : styleInfos()) {
-    for (const Look& look : info.looks) {
+TEST(StyleKinds, LooksGiveValuesOfTheStylesListAndUnknownOnesAreRefused) {
+  for (const StyleKind* kind : styleKinds()) {
+    for (const Look& look : kind->looks) {
       SCOPED_TRACE(look.name);
-      const config::ParameterValues values = info.parametersOf(look.name);
-      EXPECT_EQ(&values.list(), &info.defaults.list());
-      EXPECT_EQ(values == info.defaults, &look == &info.looks.front());
+      const config::ParameterValues values = kind->parametersOf(look.name);
+      EXPECT_EQ(&values.list(), &kind->defaults.list());
+      EXPECT_EQ(values == kind->defaults, &look == &kind->looks.front());
     }
   }
   try {
-    styleInfo("watercolor").parametersOf("gouache");
+    styleKind("watercolor").parametersOf("gouache");
     FAIL() << "has it";
   } catch (const config::ConfigError& error) {
     EXPECT_EQ(error.found(), "gouache");
@@ -381,7 +381,7 @@ TEST(StyleInfos, LooksGiveValuesOfTheStylesListAndUnknownOnesAreRefused) {
 TEST_F(WatercolorTest, TheStyleNoneHandsTheFrameThrough) {
   const auto style = makeStyle("none", library_);
   const gpu::Texture picture = textureOf(testPicture({9, 7}, 5).view());
-  EXPECT_EQ(&style->paint(frameOf(picture), "", timer_), &picture);
+  EXPECT_EQ(&style->paint(frameOf(picture), ""), &picture);
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ config::ParameterValues plainPaint(const Watercolor& style) {
 
 class WashTest : public StyleTest {
  protected:
-  static double noiseGain(Watercolor& style, gpu::PassTimer& timer);
+  static double noiseGain(Watercolor& style);
 };
 
 TEST_F(WashTest, TheGuideIsTheSmoothedPicture) {
@@ -60,7 +60,7 @@ TEST_F(WashTest, TheGuideIsTheSmoothedPicture) {
   style.setParameters(plainPaint(style));
   hal::Image image = testPicture({61, 47}, 3);
   const gpu::Texture picture = textureOf(image.view());
-  style.paint(frameOf(picture), "", timer_);
+  style.paint(frameOf(picture), "");
   hal::Image guide = readRgba8(*style.inner().guide);
   ASSERT_EQ(guide.size(), (hal::FrameSize{31, 24}));
   const double reach = WatercolorParameters().simplicity;
@@ -97,7 +97,7 @@ TEST_F(WashTest, ACellsTwoWashesHaveTheMomentsOfItsPixels) {
     style.setParameters(style.parameters().with("cell_size", std::to_string(cell)));
     const hal::FrameSize size{161, 118};
     const gpu::Texture picture = textureOf(testPicture(size, 7).view());
-    style.paint(frameOf(picture), "", timer_);
+    style.paint(frameOf(picture), "");
     hal::Image guide = readRgba8(*style.inner().guide);
     hal::Image dark = readRgba8(*style.inner().darkWash);
     hal::Image light = readRgba8(*style.inner().lightWash);
@@ -154,7 +154,7 @@ TEST_F(WashTest, WashesEndAtTheEdgesOfThePicture) {
       filled(kSize, [&](int x, int y) { return x + 0.5 < edgeAt(y) ? dark : light; }).view());
   Watercolor style(library_);
   style.setParameters(plainPaint(style));
-  hal::Image painted = readRgba8(style.paint(frameOf(picture), "", timer_));
+  hal::Image painted = readRgba8(style.paint(frameOf(picture), ""));
   for (int y = 4; y < kSize.height - 4; ++y) {
     for (int x = 4; x < kSize.width - 4; ++x) {
       const double away = x + 0.5 - edgeAt(y);
@@ -174,7 +174,7 @@ TEST_F(WashTest, GradientsHaveNoSteps) {
       textureOf(filled(kSize, [](int x, int) { return glm::dvec3(0.2 + 0.003 * x); }).view());
   Watercolor style(library_);
   style.setParameters(plainPaint(style));
-  hal::Image painted = readRgba8(style.paint(frameOf(picture), "", timer_));
+  hal::Image painted = readRgba8(style.paint(frameOf(picture), ""));
   for (int y = 8; y < kSize.height - 8; ++y) {
     for (int x = 12; x < kSize.width - 12; ++x) {
       ASSERT_NEAR(colourAt(painted, x, y).g, 0.2 + 0.003 * x, 4.0 / 255.0) << x << "," << y;
@@ -185,7 +185,7 @@ TEST_F(WashTest, GradientsHaveNoSteps) {
 
 /// How much of a still camera's noise comes through: mean change of the painted picture from frame
 /// to frame over that of the camera's (docs/measuring.md, xFLK).
-double WashTest::noiseGain(Watercolor& style, gpu::PassTimer& timer) {
+double WashTest::noiseGain(Watercolor& style) {
   constexpr hal::FrameSize kSize{240, 180};
   std::mt19937 random(5);
   std::normal_distribution<double> noise(0.0, 2.0 / 255.0);
@@ -205,7 +205,7 @@ double WashTest::noiseGain(Watercolor& style, gpu::PassTimer& timer) {
     const gpu::Texture picture = textureOf(seen.view());
     tracking::ImageMotion motion;
     const scene::ArFrame frame = followed(picture, i, {0.0, 0.0}, motion);
-    hal::Image painted = readRgba8(style.paint(frame, "", timer));
+    hal::Image painted = readRgba8(style.paint(frame, ""));
     if (i > 12) {  // seeds are where they belong
       for (std::size_t k = 0; k < seen.plane(0).size(); ++k) {
         in += std::abs(int{seen.plane(0)[k]} - int{lastIn.plane(0)[k]});
@@ -222,8 +222,8 @@ TEST_F(WashTest, AStillSceneIsNearlyAStillPainting) {
   Watercolor style(library_);
   for (const Look& look : watercolorLooks()) {
     style.reset();
-    style.setParameters(styleInfo("watercolor").parametersOf(look.name));
-    const double gain = noiseGain(style, timer_);
+    style.setParameters(styleKind("watercolor").parametersOf(look.name));
+    const double gain = noiseGain(style);
     RecordProperty(std::string(look.name), std::to_string(gain));
     EXPECT_LT(gain, 0.15) << look.name;
   }
@@ -233,9 +233,9 @@ TEST_F(WashTest, AMosaicShowsTheCells) {
   Watercolor style(library_);
   const gpu::Texture picture = textureOf(testPicture({120, 90}, 5).view());
   style.setParameters(plainPaint(style).with("mosaic", "1"));
-  hal::Image mosaic = readRgba8(style.paint(frameOf(picture), "", timer_));
+  hal::Image mosaic = readRgba8(style.paint(frameOf(picture), ""));
   style.reset();
-  hal::Image means = readRgba8(style.paint(frameOf(picture), "means", timer_));
+  hal::Image means = readRgba8(style.paint(frameOf(picture), "means"));
   EXPECT_LE(largestDifference(mosaic, means), 1);
 }
 
@@ -250,7 +250,7 @@ class PaperTest : public WashTest {
         textureOf(filled(kSize, [](int, int) { return glm::dvec3(0.5); }).view());
     scene::ArFrame frame = frameOf(grey);
     frame.canvasFromPicture = canvasFromPicture;
-    return readRgba8(style.paint(frame, "", timer_));
+    return readRgba8(style.paint(frame, ""));
   }
 
   /// How `moved` correlates with `still` looked up at `from` of each pixel: 1 where it is the same.

@@ -6,7 +6,7 @@
 
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/scene/scene_shaders.h"
-#include "pipeline/styles/style_registry.h"
+#include "pipeline/styles/registry.h"
 #include "pipeline/styles/watercolor/watercolor.h"
 #include "tests/support/gl_test.h"
 
@@ -74,7 +74,6 @@ class StyleTest : public support::GlTest {
   }
 
   gpu::ShaderLibrary library_;
-  gpu::PassTimer timer_;
 };
 
 }  // namespace pleinair::styles

@@ -49,12 +49,12 @@ void AnchorStage::advance(const glm::dmat4& cameraFromModel,
   ++sequence_;
   cameraFromModel_ = cameraFromModel;
   frame_ = renderer_->compose(ground_, camera_, {.cameraFromWorld = cameraFromModel}, sequence_,
-                              hal::TimePoint(kStep * static_cast<int>(sequence_)), timer_,
+                              hal::TimePoint(kStep * static_cast<int>(sequence_)),
                               {.surfaces = true, .measuredMotion = true});
   frame_.measuredMotion = scene::MeasuredMotion{.motion = &motion};
-  field_->update(frame_, timer_);
-  anchors_->advance(frame_, *field_, timer_);
-  frame_.measuredMotion.reset();  // it points into this call's arguments
+  field_->update(frame_);
+  anchors_->advance(frame_, *field_);
+  frame_.measuredMotion.reset();  // it does not outlive this call
 }
 
 std::vector<glm::dvec2> AnchorStage::places() const {

@@ -49,7 +49,6 @@ class AnchorStage {
   std::vector<std::uint32_t> ids() const;
 
   gpu::ShaderLibrary library_;
-  gpu::PassTimer timer_;
   std::shared_ptr<const scene::Model> model_;
   tracking::CameraModel camera_;
   gpu::Texture ground_;

@@ -113,11 +113,11 @@ class DriftRun {
         estimator_.follow(frame.luma.view().planes[0], kSize, i + 1);
     picture_.upload(greyOf(frame.luma.view()), std::size_t{4} * kSize.width);
     scene::ArFrame composed =
-        renderer_->compose(picture_, sequence_.camera, posesOf(frame), i + 1, frame.time, timer_,
+        renderer_->compose(picture_, sequence_.camera, posesOf(frame), i + 1, frame.time,
                            {.surfaces = true, .measuredMotion = true});
     composed.measuredMotion = scene::MeasuredMotion{.motion = &motion};
-    field_->update(composed, timer_);
-    anchors_->advance(composed, *field_, timer_);
+    field_->update(composed);
+    anchors_->advance(composed, *field_);
   }
 
   /// Follows the anchors of frame i, with px in 0 … size.
@@ -173,7 +173,6 @@ class DriftRun {
   tracking::Tracker tracker_;
   tracking::ImageMotionEstimator estimator_;
   gpu::ShaderLibrary library_;
-  gpu::PassTimer timer_;
   gpu::Texture picture_;
   std::optional<scene::ArFrameRenderer> renderer_;
   std::optional<MotionField> field_;

@@ -10,6 +10,7 @@
 
 #include "firmware_app/offline/measured_engine.h"
 #include "pipeline/measure/measurement.h"
+#include "pipeline/styles/registry.h"
 
 namespace pleinair {
 namespace {
@@ -79,6 +80,7 @@ measure::Report CoherenceParts::measured(const CoherenceVariant& variant) {
   std::optional<measure::Report> report =
       hal::orThrow(measure::measure(*input, engine,
                                     {.style = "painterly",
+                                     .coherence = styles::styleKind("painterly").coherence,
                                      .settings = std::string(variant.name),
                                      .frames = length_.frames,
                                      .settle = length_.settle,

@@ -35,16 +35,15 @@ FieldComparison compareField(const gpu::ShaderLibrary& library, const hal::Image
                              double sigmaPx) {
   FieldComparison found;
   const gpu::Texture picture = support::textureOf(image.view());
-  gpu::PassTimer timer;
   MotionField motion(library, image.size());
   TensorField field(library, image.size());
   scene::ArFrame frame{.colour = &picture};
-  motion.update(frame, timer);
+  motion.update(frame);
   const TensorFieldOptions options{.memory = hal::Duration(0)};
-  field.update(frame, picture, motion, options, timer);  // the first update warms up
+  field.update(frame, picture, motion, options);  // the first one warms up
   glFinish();
   const Stopwatch pyramid;
-  for (int i = 0; i < kRuns; ++i) field.update(frame, picture, motion, options, timer);
+  for (int i = 0; i < kRuns; ++i) field.update(frame, picture, motion, options);
   glFinish();
   found.pyramidMs = pyramid.ms() / kRuns;
 

@@ -16,9 +16,11 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -31,7 +33,7 @@
 #include "pipeline/gpu/egl_context.h"
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/scene/scene_shaders.h"
-#include "pipeline/styles/style_registry.h"
+#include "pipeline/styles/registry.h"
 #include "tests/reports/painter/coherence_parts.h"
 #include "tests/reports/painter/field_comparison.h"
 #include "tests/reports/painter/hidden_strokes.h"
@@ -102,10 +104,16 @@ void compareFields(const std::filesystem::path& folder,
 /// The thesis's four stages (table 1).
 enum Stage : std::size_t { kTensor, kFeatures, kWarping, kPainting, kStages };
 
+/// Whether a pass is one of those, by the begin of its name.
+bool beginsWithOneOf(std::string_view pass, std::initializer_list<std::string_view> names) {
+  return std::ranges::any_of(names, [&](std::string_view name) { return pass.starts_with(name); });
+}
+
 Stage stageOf(const std::string& pass) {
-  if (pass == "tensor field") return kTensor;
+  if (beginsWithOneOf(pass, {"marks: gradient", "marks: edge_", "marks: tensor_"})) return kTensor;
   if (pass == "follow picture") return kFeatures;
-  if (pass == "motion field" || pass == "carry anchors" || pass == "keep density") return kWarping;
+  if (beginsWithOneOf(pass, {"marks: feature_layers", "marks: motion_field", "marks: anchor_"}))
+    return kWarping;
   return kPainting;
 }
 

@@ -38,7 +38,7 @@ void ReportedPainting::paint(const hal::Image& rgb, glm::dvec2 movedPx) {
       .sequence = number_,
       .captureTime = hal::TimePoint(hal::Duration(33'333'333) * static_cast<int>(number_))};
   frame.measuredMotion = scene::MeasuredMotion{.motion = &motion};
-  painted_ = &style_.paint(frame, "", timer_);
+  painted_ = &style_.paint(frame, "");
 }
 
 hal::Image ReportedPainting::picture() const {

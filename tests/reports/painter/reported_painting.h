@@ -7,7 +7,6 @@
 #include <glm/vec2.hpp>
 
 #include "hal/image.h"
-#include "pipeline/gpu/pass_timer.h"
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/styles/painterly/painterly.h"
 #include "tests/gpu/marks/stroke_fixture.h"
@@ -34,7 +33,6 @@ class ReportedPainting {
 
  private:
   styles::Painterly style_;
-  gpu::PassTimer timer_;
   const gpu::Texture* painted_ = nullptr;
   std::uint64_t number_ = 0;
 };

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pipeline/styles/style_registry.h"
+#include "pipeline/styles/registry.h"
 
 namespace pleinair::app {
 namespace {
@@ -107,7 +107,7 @@ TEST_F(ConfigurationTest, LayersLeaveOtherKeysAlone) {
 TEST_F(ConfigurationTest, ALookReplacesDefaults) {
   request_.options = {{"painting.look", "wet_in_wet", "--look"}};
   const Configuration configuration = resolved();
-  const auto look = styles::styleInfo("watercolor").parametersOf("wet_in_wet");
+  const auto look = styles::styleKind("watercolor").parametersOf("wet_in_wet");
   EXPECT_EQ(configuration.styleParameters(), look);
   EXPECT_EQ(configuration.styleParameters().origin("bleeding"), "look wet_in_wet");
   EXPECT_EQ(configuration.styleParameters().origin("cell_size"), "default");
@@ -116,7 +116,7 @@ TEST_F(ConfigurationTest, ALookReplacesDefaults) {
 TEST_F(ConfigurationTest, WhatAnyLayerGivesWinsOverTheLookOfAnyOther) {
   const std::string look = "[painting]\nlook = \"wet_in_wet\"\n";
   // Against the look's, were it the default's.
-  const std::string usual = styles::styleInfo("watercolor").defaults.text("bleeding");
+  const std::string usual = styles::styleKind("watercolor").defaults.text("bleeding");
   const std::string value = "[style.watercolor]\nbleeding = " + usual + "\n";
   // The weaker layer's value stands against the stronger one's look.
   request_.profile = write("p.toml", value).string();
@@ -134,7 +134,7 @@ TEST_F(ConfigurationTest, WhatAnyLayerGivesWinsOverTheLookOfAnyOther) {
 TEST_F(ConfigurationTest, TheStrongestLayersLookIsTheOne) {
   request_.siteFile = write("s.toml", "[painting]\nlook = \"wet_in_wet\"\n");
   request_.options = {{"painting.look", "default", "--look"}};
-  EXPECT_EQ(resolved().styleParameters(), styles::styleInfo("watercolor").defaults);
+  EXPECT_EQ(resolved().styleParameters(), styles::styleKind("watercolor").defaults);
 }
 
 TEST_F(ConfigurationTest, AnotherStyleForgetsLookAndViewOfTheFormer) {
@@ -165,11 +165,11 @@ TEST_F(ConfigurationTest, ALayersOwnLookIsOfTheStyleItNames) {
 }
 
 TEST_F(ConfigurationTest, EveryLookOfEveryStyleIsTaken) {
-  for (const styles::StyleInfo& style : styles::styleInfos()) {
-    for (const styles::Look& look : style.looks) {
-      request_.options = {{"painting.style", std::string(style.name), "--style"},
+  for (const styles::StyleKind* style : styles::styleKinds()) {
+    for (const styles::Look& look : style->looks) {
+      request_.options = {{"painting.style", std::string(style->name), "--style"},
                           {"painting.look", std::string(look.name), "--look"}};
-      EXPECT_EQ(resolved().styleParameters(), style.parametersOf(look.name)) << look.name;
+      EXPECT_EQ(resolved().styleParameters(), style->parametersOf(look.name)) << look.name;
     }
   }
 }

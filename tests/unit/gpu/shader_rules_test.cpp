@@ -6,11 +6,14 @@
 #include <fstream>
 #include <iterator>
 #include <regex>
-#include <sstream>
+#include <set>
 #include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "pipeline/gpu/shader_interface.h"
+#include "pipeline/gpu/shader_library.h"
 
 namespace pleinair::support {
 namespace {
@@ -25,49 +28,89 @@ std::string read(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-std::string expand(const fs::path& root, const std::string& name, std::vector<std::string>& seen) {
-  seen.push_back(name);
-  std::istringstream lines(read(root / name));
-  std::string result;
-  static const std::regex kInclude("#include \"([^\"]+)\".*");
-  for (std::string line; std::getline(lines, line);) {
-    std::smatch match;
-    if (!std::regex_match(line, match, kInclude)) {
-      result += line + "\n";
-    } else if (std::ranges::find(seen, match[1].str()) == seen.end()) {
-      result += expand(root, match[1].str(), seen);
-    }
+/// The names that `#ifdef` and `#ifndef` ask for.
+std::set<std::string> flagsOf(const std::string& text) {
+  std::set<std::string> flags;
+  static const std::regex kCondition("#\\s*(?:ifdef|ifndef)\\s+(\\w+)");
+  for (std::sregex_iterator match(text.begin(), text.end(), kCondition), end; match != end;
+       ++match) {
+    flags.insert((*match)[1].str());
   }
-  return result;
+  return flags;
 }
 
+/// The flags that a shader and its includes know, also includes that only a variant takes in.
+std::set<std::string> allFlagsOf(const gpu::ShaderLibrary& library, const std::string& name) {
+  std::set<std::string> flags;
+  for (std::size_t known = 1; known != flags.size();) {
+    known = flags.size();
+    gpu::ShaderDefines defines;
+    for (const std::string& flag : flags) defines.push_back({flag});
+    flags.merge(flagsOf(library.expanded(name, defines)));
+    if (known == 0 && flags.empty()) break;
+  }
+  return flags;
+}
+
+/// Without the version and precisions that the library puts first.
+std::string withoutHeader(const std::string& text, const std::string& header) {
+  return text.substr(header.size());
+}
+
+/// Every variant of every shader: with each selection of the flags that its text asks for.
 std::vector<ShaderText> shadersOfTheTree() {
   const fs::path root = fs::path(PLEINAIR_TESTS_DIR).parent_path();
   static constexpr std::array<std::string_view, 7> kEndings{".vert", ".frag", ".comp", ".glsl",
                                                             ".geom", ".tesc", ".tese"};
+  const gpu::ShaderLibrary library(root);
+  constexpr std::array kEmpty{gpu::EmbeddedShader{"empty", ""}};
+  gpu::ShaderLibrary bare;
+  bare.add(kEmpty);
+  const std::string header = bare.expanded("empty");
   std::vector<ShaderText> shaders;
   for (const auto& entry : fs::recursive_directory_iterator(root / "pipeline")) {
     const std::string ending = entry.path().extension().string();
     if (std::ranges::find(kEndings, ending) == kEndings.end()) continue;
     const std::string name = fs::relative(entry.path(), root).generic_string();
-    std::vector<std::string> seen;
-    shaders.push_back({name, read(entry.path()), expand(root, name, seen)});
+    const std::set<std::string> found = allFlagsOf(library, name);
+    const std::vector<std::string> flags(found.begin(), found.end());
+    for (std::size_t selection = 0; selection < std::size_t{1} << flags.size(); ++selection) {
+      gpu::ShaderDefines defines;
+      for (std::size_t i = 0; i < flags.size(); ++i) {
+        if ((selection >> i & 1U) != 0) defines.push_back({flags[i]});
+      }
+      std::string label = name;
+      for (const gpu::ShaderDefine& define : defines) label += " " + define.name;
+      shaders.push_back({name, read(entry.path()),
+                         gpu::activeLines(withoutHeader(library.expanded(name, defines), header)),
+                         label});
+    }
   }
   return shaders;
+}
+
+TEST(ShaderRules, AreHeldAgainstEveryVariant) {
+  std::set<std::string> variants;
+  for (const ShaderText& shader : shadersOfTheTree()) variants.insert(shader.variant);
+  const std::string strokes = "pipeline/styles/painterly/shaders/stroke.frag";
+  for (const char* flags : {"", " BUMPED", " CLIPPED", " BUMPED CLIPPED"}) {
+    EXPECT_TRUE(variants.contains(strokes + flags)) << flags;
+  }
+  EXPECT_TRUE(variants.contains("pipeline/scene/render/shaders/model.frag MASKED TOON"));
 }
 
 TEST(ShaderRules, HoldForEveryShaderOfTheTree) {
   const std::vector<ShaderText> shaders = shadersOfTheTree();
   EXPECT_GE(shaders.size(), 5U);
   for (const ShaderText& shader : shaders) {
-    EXPECT_THAT(shaderRules(shader), IsEmpty()) << shader.name;
+    EXPECT_THAT(shaderRules(shader), IsEmpty()) << shader.variant;
   }
 }
 
 constexpr const char* kHead = "// Purpose: p. Inputs: i. Outputs: o. Precision: highp.\n";
 
 ShaderText shader(const std::string& name, const std::string& code) {
-  return {name, kHead + code, kHead + code};
+  return {name, kHead + code, kHead + code, name};
 }
 
 /// Asserts that a shader breaks just one rule, and says so.

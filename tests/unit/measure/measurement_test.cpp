@@ -9,6 +9,7 @@
 #include "hal/media/picture_file.h"
 #include "pipeline/measure/picture.h"
 #include "pipeline/measure/voronoi_tiling.h"
+#include "pipeline/styles/registry.h"
 #include "tests/support/deep_png.h"
 #include "tests/support/media_files.h"
 #include "tests/support/temporary_folder.h"
@@ -66,7 +67,10 @@ class MeasurementTest : public testing::Test {
   }
   static Report run(MeasuredInput& input, const FunctionPainter::Function& function,
                     MeasurementOptions options = {
-                        .style = "watercolor", .stillFrames = 4, .stillSettle = 1}) {
+                        .style = "watercolor",
+                        .coherence = styles::styleKind("watercolor").coherence,
+                        .stillFrames = 4,
+                        .stillSettle = 1}) {
     FunctionPainter painter(function);
     return *hal::orThrow(measure(input, painter, options));
   }

@@ -1,18 +1,17 @@
-// Purpose: debug views of the tensor field: short lines along the direction of strokes (thesis
-//          figures 15, 16), blue on edges and red where interpolated; the pyramid's levels; or the
-//          regions, by their detail.
-// Inputs:  picture; fields of four levels (marks::TensorField::resolved); fieldScale: texture
-//          coordinates per px of the full image, on the first level; shown: 0 directions, 1
-//          pyramid, 2 regions; pixelsOfFull; bands: where medium and fine strokes begin.
-// Outputs: RGBA8, sRGB-coded, opaque.
-// Precision: highp for places.
+// Purpose: the tensor field for people: short lines along the direction that strokes take (thesis figures
+//          15, 16), blue where edges have it and red where it is filled in; the pyramid's levels; or the
+//          regions, by how much detail they have.
+// Inputs:  picture; fields of four levels (marks::TensorField::resolved); fieldScale: texture coordinates
+//          for a px of the full picture, of the first level; view: of VIEW_TENSORS, VIEW_PYRAMID, VIEW_REGIONS;
+//          pixelsOfFull; bands: where middling and fine strokes begin.
+// Outputs: RGBA8, sRGB-coded, opaque. Precision: highp for places.
 uniform sampler2D picture;
 uniform highp sampler2D field0;
 uniform highp sampler2D field1;
 uniform highp sampler2D field2;
 uniform highp sampler2D field3;
 uniform vec2 size;
-uniform int shown;
+uniform int view;
 uniform vec2 pixelsOfFull;
 uniform vec2 bands;
 layout(location = 0) out vec4 colour;
@@ -40,7 +39,7 @@ vec3 linesOver(vec3 ground, vec2 px, int level) {
 
 void main() {
   vec2 px = gl_FragCoord.xy / pixelsOfFull;
-  if (shown == 1) {  // one level per quarter
+  if (view == VIEW_PYRAMID) {  // a level a quarter
     vec2 half_ = 0.5 * size;
     ivec2 quarter = ivec2(greaterThanEqual(gl_FragCoord.xy, half_));
     vec2 inside = (gl_FragCoord.xy - vec2(quarter) * half_) * 2.0;
@@ -49,7 +48,7 @@ void main() {
     return;
   }
   vec3 seen = texture(picture, gl_FragCoord.xy / size).rgb;
-  if (shown == 2) {
+  if (view == VIEW_REGIONS) {
     float detail = texture(field1, px * pixelsOfFull / size).w;
     vec3 region = detail > bands.y ? vec3(0.9, 0.3, 0.2)
                   : detail > bands.x ? vec3(0.95, 0.8, 0.3) : vec3(0.3, 0.45, 0.8);

@@ -1,9 +1,8 @@
-// Purpose: debug views of strokes.
-// Inputs:  stroke_view.vert's; shown: 0 whole strokes in their layer's colour, 1 skeletons in that
-//          colour, 2 anchors by age; layer: its colour.
-// Outputs: 0: sRGB-coded, premultiplied; 1: unused.
-// Precision: mediump suffices.
-uniform int shown;
+// Purpose: strokes for people who want to see how they are made.
+// Inputs:  stroke_view.vert's; view: of VIEW_LAYERS (whole strokes in their layer's colour),
+//          VIEW_SKELETONS (in it), VIEW_ANCHORS (by age); layer: its colour.
+// Outputs: 0: sRGB-coded, premultiplied; 1: nothing that matters. Precision: mediump would do.
+uniform int view;
 uniform vec3 layer;
 in float across;
 flat in vec4 paint;
@@ -17,7 +16,7 @@ vec3 byAge() { return mix(vec3(0.95, 0.15, 0.1), vec3(0.15, 0.35, 0.95), 1.0 - e
 void main() {
   float luma = dot(paint.rgb, vec3(0.299, 0.587, 0.114));
   vec3 whole = layer * (0.35 + 0.65 * luma) * (1.0 - 0.35 * across * across);
-  vec3 rgb = shown == 0 ? whole : (shown == 1 ? layer : byAge());
+  vec3 rgb = view == VIEW_LAYERS ? whole : (view == VIEW_SKELETONS ? layer : byAge());
   colour = vec4(rgb * paint.a, paint.a);
   height = vec4(0.0, 0.0, 0.0, paint.a);
 }

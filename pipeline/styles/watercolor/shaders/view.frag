@@ -1,8 +1,7 @@
-// Purpose: the style's debug views.
-// Inputs:  tiling, means, places and ways (show_seeds.comp), darkPigment, lightPigment, paper,
-//          picture; `view` as in watercolor.cpp; pictureSize.
-// Outputs: RGBA8, sRGB-coded, opaque.
-// Precision: highp.
+// Purpose: the style's inner pictures, for people.
+// Inputs:  tiling, means, places and ways (show_seeds.comp), darkPigment, lightPigment, paper, picture;
+//          `view`: one of VIEW_…, the style's list of views; pictureSize.
+// Outputs: RGBA8, sRGB-coded, opaque. Precision: highp.
 #include "pipeline/gpu/shaders/colour.glsl"
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
@@ -18,18 +17,7 @@ uniform int view;
 uniform vec2 pictureSize;
 layout(location = 0) out vec4 colour;
 
-const int kSeeds = 0;
-const int kCells = 1;
-const int kAnchors = 2;
-const int kMeans = 3;
-const int kEdges = 4;
-const int kRetiling = 5;
-const int kSteady = 6;
-const int kDark = 7;
-const int kLight = 8;
-const int kPaper = 9;
-
-// In the order of marks::MotionSource: unknown, surface, plane, image, features, flow, still.
+// As marks::MotionSource counts: unknown, surface, plane, picture, features, flow, still.
 const vec3 kSourceColours[7] =
     vec3[7](vec3(0.5), vec3(0.9, 0.5, 0.1), vec3(0.75, 0.25, 0.8), vec3(0.2, 0.45, 0.9),
             vec3(0.1, 0.7, 0.65), vec3(0.85, 0.15, 0.2), vec3(0.3, 0.65, 0.2));
@@ -60,28 +48,28 @@ void main() {
   vec2 at = place.xy;
   float inDot = step(distance(gl_FragCoord.xy, at), 1.2);
   vec3 rgb = vec3(0.0);
-  if (view == kSeeds) {
+  if (view == VIEW_SEEDS) {
     rgb = mix(0.4 + 0.6 * texelFetch(picture, p, 0).rgb, vec3(0.0), inDot);
-  } else if (view == kAnchors) {
+  } else if (view == VIEW_ANCHORS) {
     rgb = mix(anchorColour(way), vec3(0.0), step(distance(gl_FragCoord.xy, place.zw), 1.2));
-  } else if (view == kCells) {
+  } else if (view == VIEW_CELLS) {
     rgb = mix(cellColour(slotOf(word)), vec3(0.0), inDot);
-  } else if (view == kMeans) {
+  } else if (view == VIEW_MEANS) {
     rgb = srgbFromLinear(texelFetch(means, cell, 0).rgb);
-  } else if (view == kEdges) {
+  } else if (view == VIEW_EDGES) {
     rgb = isEdge(word) ? vec3(0.0) : vec3(1.0 - 0.7 * sqrt(strengthOf(word)));
-  } else if (view == kRetiling) {
+  } else if (view == VIEW_RETILING) {
     rgb = isEdge(word) ? vec3(0.55) : vec3(1.0);
     float line = step(distanceToLine(gl_FragCoord.xy, place.zw, at), 0.6);
     rgb = mix(rgb, vec3(0.2, 0.4, 0.9), line);
     rgb = mix(rgb, way.w > 0.5 ? vec3(0.9, 0.1, 0.1) : vec3(0.0), inDot);
-  } else if (view == kSteady) {
+  } else if (view == VIEW_FILTERED) {
     rgb = texelFetch(picture, p, 0).rgb;
-  } else if (view == kDark) {
+  } else if (view == VIEW_DARK) {
     rgb = texture(darkPigment, gl_FragCoord.xy / pictureSize).rgb;
-  } else if (view == kLight) {
+  } else if (view == VIEW_LIGHT) {
     rgb = texture(lightPigment, gl_FragCoord.xy / pictureSize).rgb;
-  } else {
+  } else if (view == VIEW_PAPER) {
     rgb = texelFetch(paper, p & 511, 0).rgb;
     rgb = vec3(rgb.r * 0.5 + rgb.g * 0.5);
   }

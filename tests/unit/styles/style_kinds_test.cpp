@@ -1,0 +1,44 @@
+// What the descriptors of all styles say, without a GPU.
+#include <array>
+#include <set>
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "pipeline/styles/registry.h"
+
+namespace pleinair::styles {
+namespace {
+
+TEST(StyleKinds, AreDescribedInFull) {
+  std::set<std::string_view> names;
+  for (const StyleKind* kind : styleKinds()) {
+    SCOPED_TRACE(kind->name);
+    EXPECT_TRUE(names.insert(kind->name).second);
+    EXPECT_EQ(&styleKind(kind->name), kind);
+    EXPECT_NE(kind->help, "");
+    EXPECT_NE(kind->make, nullptr);
+    EXPECT_TRUE(kind->check == nullptr || kind->check(kind->defaults));
+    std::set<std::string_view> views;
+    for (const DebugViewInfo& view : kind->views) {
+      EXPECT_TRUE(views.insert(view.name).second) << view.name;
+      EXPECT_EQ(&kind->views[viewIndex(kind->views, view.name)], &view);
+      EXPECT_NE(view.help, "");
+    }
+    EXPECT_FALSE(kind->coherence.holdsAnchors && kind->coherence.empty());
+  }
+  EXPECT_THAT(names, testing::IsSupersetOf({"watercolor", "painterly", "none"}));
+}
+
+TEST(DebugViews, GiveShadersTheirOwnNumbers) {
+  constexpr std::array<DebugViewInfo, 2> kViews{{{"cells", "c"}, {"wet_edges", "w"}}};
+  const gpu::ShaderDefines defines = viewDefines(kViews);
+  ASSERT_EQ(defines.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(defines[i].name, i == 0 ? "VIEW_CELLS" : "VIEW_WET_EDGES");
+    EXPECT_EQ(defines[i].value, std::to_string(viewIndex(kViews, kViews.at(i).name)));
+  }
+}
+
+}  // namespace
+}  // namespace pleinair::styles
