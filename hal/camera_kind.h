@@ -27,7 +27,8 @@ struct CameraBackendOptions {
 };
 
 /// The descriptor of a kind of cameras: all that the program knows of it. Each folder under
-/// hal/cameras exports one; hal/cameras/CMakeLists.txt lists them (docs/decisions/0023-camera-kinds.md).
+/// hal/cameras exports one; hal/cameras/CMakeLists.txt lists them
+/// (docs/decisions/0023-camera-kinds.md).
 struct CameraKind {
   std::string_view name;  ///< "v4l2": in camera.source; its table is [camera.v4l2]
   std::string_view help;  ///< what they are, one line without a full stop

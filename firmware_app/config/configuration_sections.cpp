@@ -225,6 +225,7 @@ config::Sections defaultSections() {
   }
   sections.push_back({"painting", "What is made of it.", paintingTable().defaults()});
   sections.push_back({"output", "Where it goes.", outputTable().defaults()});
+  for (config::Section& section : outputKindSections()) sections.push_back(std::move(section));
   sections.push_back({"runtime", "How it keeps up.", runtimeTable().defaults()});
   sections.push_back({"status", "What is told of the running program.", statusTable().defaults()});
   for (const styles::StyleKind* kind : styles::styleKinds()) {

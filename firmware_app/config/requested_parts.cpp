@@ -21,9 +21,7 @@
 #include "firmware_app/status_server/status_server.h"
 #include "hal/clock.h"
 #include "hal/numbered_path.h"
-#include "hal/outputs/open_output.h"
-#include "hal/outputs/v4l2_loopback/loopback_devices.h"
-#include "hal/outputs/v4l2_loopback/loopback_output.h"
+#include "hal/outputs/registry.h"
 
 namespace pleinair::app {
 namespace {
@@ -109,29 +107,47 @@ RequestedPart cameraPart(const Configuration& configuration) {
   return part;
 }
 
-std::optional<hal::Error> outputProblem(const std::string& target) {
-  if (auto folder = checkOutputFolder(target); !folder) return folder.error();
-  if (hal::isLoopbackName(target)) {
-    const std::size_t colon = target.find(':');
-    const auto node = hal::findLoopback(colon == std::string::npos ? "" : target.substr(colon + 1));
-    // One that is written to is there.
-    if (!node && node.error().kind != hal::ErrorKind::kBusy) return node.error();
+/// Whether a target such as "loopback", "loopback:/dev/video50" or "loopback:LABEL" means this one.
+bool isMeant(const std::string& target, const hal::OutputDescription& output) {
+  const std::size_t colon = target.find(':');
+  return colon == std::string::npos || target == output.target ||
+         target.substr(colon + 1) == output.name;
+}
+
+std::optional<hal::Error> deviceOutputProblem(const hal::OutputKind& kind,
+                                              const std::string& target) {
+  if (kind.list == nullptr) return std::nullopt;
+  const hal::OutputListing there = kind.list();
+  std::optional<hal::Error> problem = there.problem;
+  for (const hal::OutputDescription& output : there.outputs) {
+    if (!isMeant(target, output)) continue;
+    if (!output.problem) return std::nullopt;
+    problem = output.problem;
   }
-  if (auto opened = hal::openOutput(target); !opened) return opened.error();
+  if (problem) return problem;
+  return hal::Error{.kind = hal::ErrorKind::kNotFound,
+                    .subject = target,
+                    .problem = "no such output is there",
+                    .remedy = "choose one that `pleinair devices` lists"};
+}
+
+std::optional<hal::Error> outputProblem(const hal::OutputKind& kind, const std::string& target,
+                                        const hal::OutputOptionsByKind& options) {
+  if (auto folder = checkOutputFolder(target); !folder) return folder.error();
+  if (auto problem = deviceOutputProblem(kind, target)) return problem;
+  if (auto opened = hal::openOutput(target, options); !opened) return opened.error();
   return std::nullopt;
 }
 
 void addOutputs(const Configuration& configuration, std::vector<RequestedPart>& parts) {
-  const OutputSettings output = configuration.output();
-  const std::pair<const char*, fs::path> targets[] = {{"output.target", output.target},
-                                                      {"output.second_target", output.secondTarget},
-                                                      {"output.third_target", output.thirdTarget}};
-  for (const auto& [key, target] : targets) {
-    if (target == kNoTarget) continue;
-    RequestedPart part{.part = "output", .value = target.string()};
-    part.isChosen = configuration.origin(key) != config::kDefaultOrigin;
-    part.isDevice = !hal::isFileOutputName(part.value);
-    part.problem = outputProblem(part.value);
+  const OutputSettings settings = configuration.output();
+  const bool isChosen = configuration.origin("output.targets") != config::kDefaultOrigin;
+  for (const auto& each : settings.targets) {
+    RequestedPart part{.part = "output", .value = std::string(each)};
+    part.isChosen = isChosen;
+    const auto kind = hal::outputKindOf(part.value);
+    part.isDevice = kind && !(*kind)->traits.writesFiles;
+    part.problem = kind ? outputProblem(**kind, part.value, settings.options) : kind.error();
     parts.push_back(std::move(part));
   }
 }
@@ -139,7 +155,8 @@ void addOutputs(const Configuration& configuration, std::vector<RequestedPart>& 
 }  // namespace
 
 hal::Result<void> checkOutputFolder(const std::string& target) {
-  if (!hal::isFileOutputName(target)) return {};
+  const auto kind = hal::outputKindOf(target);
+  if (!kind || !(*kind)->traits.writesFiles) return {};
   const fs::path path(target);
   std::error_code ignored;
   fs::path folder = path;

@@ -9,7 +9,8 @@ LivePainter::LivePainter(const PainterOptions& options,
                          const std::vector<hal::FrameFormat>& outputs, LiveControls& controls)
     : painter_(options), controls_(controls), seen_(controls.parameters()), parameters_(*seen_) {
   warmUp(options);
-  for (const hal::FrameFormat& format : outputs) readbacks_.push_back(painter_.openReadback(format));
+  for (const hal::FrameFormat& format : outputs)
+    readbacks_.push_back(painter_.openReadback(format));
 }
 
 void LivePainter::warmUp(const PainterOptions& options) {

@@ -198,7 +198,7 @@ gpu::AspectFill FramePipeline::fitTo(const Level& level, hal::FrameSize frameSiz
 
 hal::Result<Picture> FramePipeline::paint(const hal::CapturedFrame& frame,
                                           const PaintParameters& parameters) {
-  if (auto sound = watch_.check(); !sound) return tl::unexpected(std::move(sound.error()));
+  if (auto valid = watch_.check(); !valid) return tl::unexpected(std::move(valid.error()));
   try {
     return paintChecked(frame, parameters);
   } catch (const hal::Failure& error) {  // no memory for frames of a new size or layout
@@ -208,14 +208,14 @@ hal::Result<Picture> FramePipeline::paint(const hal::CapturedFrame& frame,
 
 hal::Error FramePipeline::metLoss(const hal::Error& error) {
   if (error.kind == hal::ErrorKind::kDeviceLost) watch_.note(error);
-  const auto sound = watch_.check();
-  return sound ? error : sound.error();
+  const auto valid = watch_.check();
+  return valid ? error : valid.error();
 }
 
 /// Whether it can be painted; what follows a frame's size is ready then.
 hal::Result<void> FramePipeline::checkFrame(const hal::CapturedFrame& frame,
                                             const PaintParameters& parameters) {
-  if (auto known = checkDebugView(style_->name(), parameters.view); !known) return known;
+  if (auto known = checkDebugView(style_->kind().name, parameters.view); !known) return known;
   if (auto known = checkQuality(parameters.quality); !known) return known;
   if (auto fits = gpu::checkDeviceLimit(gl_.info, frame.image.format.size, "frame"); !fits) {
     return fits;
@@ -226,8 +226,8 @@ hal::Result<void> FramePipeline::checkFrame(const hal::CapturedFrame& frame,
 
 hal::Result<Picture> FramePipeline::paintChecked(const hal::CapturedFrame& frame,
                                                  const PaintParameters& parameters) {
-  if (auto sound = checkFrame(frame, parameters); !sound) {
-    return tl::unexpected(std::move(sound.error()));
+  if (auto valid = checkFrame(frame, parameters); !valid) {
+    return tl::unexpected(std::move(valid.error()));
   }
   timer_.beginFrame();
   tracking::TrackingResult tracked;
@@ -324,8 +324,8 @@ void FramePipeline::submitReadbacks(const hal::CapturedFrame& frame) {
 }
 
 /// Copies a read-back's oldest picture as `copy` does: Readback::poll() or Readback::wait().
-hal::Answer FramePipeline::copyOldest(
-    int number, OutputFrame& picture, hal::Answer (present::Readback::*copy)(hal::Image&)) {
+hal::Answer FramePipeline::copyOldest(int number, OutputFrame& picture,
+                                      hal::Answer (present::Readback::*copy)(hal::Image&)) {
   if (watch_.loss()) return tl::unexpected(*watch_.loss());
   OpenReadback& readback = readbacks_.at(number);
   const hal::Answer copied = (readback.ring.*copy)(picture.image);
@@ -338,7 +338,7 @@ hal::Answer FramePipeline::copyOldest(
 }
 
 hal::Result<hal::Image> FramePipeline::read(const gpu::Texture* texture) {
-  if (auto sound = watch_.check(); !sound) return tl::unexpected(std::move(sound.error()));
+  if (auto valid = watch_.check(); !valid) return tl::unexpected(std::move(valid.error()));
   assert(texture != nullptr);
   try {
     const hal::FrameFormat format{.pixelFormat = hal::PixelFormat::kRgb8, .size = pictureSize_};

@@ -93,7 +93,7 @@ class FramePipeline {
   const gpu::Texture& paintView(const scene::ArFrame& frame, const PaintParameters& parameters);
   hal::Result<hal::Image> read(const gpu::Texture* texture);
   hal::Answer copyOldest(int number, OutputFrame& picture,
-                               hal::Answer (present::Readback::*copy)(hal::Image&));
+                         hal::Answer (present::Readback::*copy)(hal::Image&));
   void submitReadbacks(const hal::CapturedFrame& frame);
   /// `error`, or the loss of the GPU where that is behind it.
   hal::Error metLoss(const hal::Error& error);

@@ -39,7 +39,8 @@ bool isJudgedOn(const CoherenceGate& gate, MotionKind motion) {
   switch (gate.motion) {
     case GateMotion::kAny:
       return true;
-    case GateMotion::kPan:  // if the motion is unknown, the gate counts as not measured and not passed
+    case GateMotion::kPan:  // if the motion is unknown, the gate counts as not measured and not
+                            // passed
       return motion != MotionKind::kOther;
     case GateMotion::kOtherKnown:
       return motion == MotionKind::kOther;

@@ -202,8 +202,8 @@ class CapturingOutput final : public hal::MemoryOutput {
     hal::TimePoint presented;
     friend bool operator==(const Note&, const Note&) = default;
   };
-  NotingOutput(std::vector<Note>& notes, hal::Clock& clock,
-               std::optional<hal::Refresh> refresh = std::nullopt)
+  CapturingOutput(std::vector<Note>& notes, hal::Clock& clock,
+                  std::optional<hal::Refresh> refresh = std::nullopt)
       : notes_(notes), clock_(clock), refresh_(refresh) {}
   hal::OutputIdentity identity() const override { return {"noting", "noting"}; }
   hal::Result<hal::OutputFormat> start(const hal::OutputRequest& request) override {
@@ -231,7 +231,7 @@ class LiveSimulation {
   runtime::PaintStageOptions painting{.governor = {.levels = 5, .pinned = {}},
                                       .latency = {},
                                       .framePeriod = std::chrono::microseconds(33'333)};
-  std::vector<NotingOutput::Note> notes;
+  std::vector<CapturingOutput::Note> notes;
 
   /// Begins with this camera; `makeOutput` adds another output.
   void begin(hal::CameraSelector& selector, std::size_t waiting = 16,
@@ -243,7 +243,7 @@ class LiveSimulation {
   }
   runtime::OutputStage& addOutput(runtime::OutputStageOptions options,
                                   std::optional<hal::Refresh> refresh = std::nullopt) {
-    return addOutput(std::make_unique<NotingOutput>(notes, clock, refresh), std::move(options));
+    return addOutput(std::make_unique<CapturingOutput>(notes, clock, refresh), std::move(options));
   }
   runtime::OutputStage& addOutput(std::unique_ptr<hal::Output> output,
                                   runtime::OutputStageOptions options) {

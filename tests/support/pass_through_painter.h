@@ -21,6 +21,14 @@ class PassThroughPainter final : public runtime::FramePainter {
     }
     return {};
   }
+  void open(std::size_t, const hal::FrameFormat&) override {
+    waiting_.emplace_back();
+    isOpen_.push_back(true);
+  }
+  void close(std::size_t output) override {
+    waiting_.at(output).clear();
+    isOpen_.at(output) = false;
+  }
   hal::Answer poll(std::size_t output, OutputFrame& picture) override {
     auto& pictures = waiting_.at(output);
     if (pictures.empty()) return false;

@@ -35,11 +35,11 @@ class PlaneMotion : public SceneGlTest {
     const gpu::Texture picture = plainPicture(kSize);
     const ArFrameNeeds needs{.surfaces = true};
     renderer.compose(picture, camera(),
-                     {.cameraFromWorld = thenAslant(), .worldCovariance = covariance}, 2, kThen,
-                     needs);
+                     {.cameraFromWorld = previousAslant(), .worldCovariance = covariance}, 2,
+                     kPrevious, needs);
     const ArFrame& frame = renderer.compose(
-        picture, camera(), {.cameraFromWorld = nowAslant(), .worldCovariance = covariance}, 3, kNow,
-        needs);
+        picture, camera(), {.cameraFromWorld = currentAslant(), .worldCovariance = covariance}, 3,
+        kCurrent, needs);
     return support::readRgba32f(*frame.motion->texture);
   }
   /// The point of the desk at a pixel; nothing beyond its extent.
@@ -126,7 +126,8 @@ TEST_F(PlaneMotion, IsUnknownWithoutAPoseBefore) {
   const gpu::Texture picture = plainPicture(kSize);
   const ArFrameNeeds needs{.surfaces = true};
   const auto next = [&](std::optional<glm::dmat4> pose, std::uint64_t sequence) {
-    return renderer.compose(picture, camera(), {.cameraFromWorld = pose}, sequence, kThen, needs);
+    return renderer.compose(picture, camera(), {.cameraFromWorld = pose}, sequence, kPrevious,
+                            needs);
   };
   EXPECT_FALSE(next(previousAslant(), 1).motion.has_value());
   const auto middleSource = [&](const ArFrame& frame) {
@@ -193,7 +194,7 @@ TEST_F(Occluders, MoveAsWellAsTheirPoseIsKnown) {
   std::vector<float> motion;
   for (const std::uint64_t sequence : {1U, 2U}) {
     const ArFrame& frame =
-        renderer.compose(picture, camera, poses, sequence, kThen, {.surfaces = true});
+        renderer.compose(picture, camera, poses, sequence, kPrevious, {.surfaces = true});
     if (frame.motion) motion = support::readRgba32f(*frame.motion->texture);
   }
   ASSERT_FALSE(motion.empty());

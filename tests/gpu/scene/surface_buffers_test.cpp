@@ -220,7 +220,7 @@ TEST_F(SteadyState, AllocatesNothing) {
       ++sequence;
       const double turn = 0.01 * static_cast<double>(sequence);
       renderer.compose(picture, camera,
-                       {.cameraFromWorld = glm::rotate(thenAslant(), turn, {0.0, 0.0, 1.0})},
+                       {.cameraFromWorld = glm::rotate(previousAslant(), turn, {0.0, 0.0, 1.0})},
                        sequence, hal::TimePoint(sequence * milliseconds(33)), {.surfaces = true});
     }
   };

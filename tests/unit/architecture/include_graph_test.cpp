@@ -74,7 +74,8 @@ std::vector<std::string> productSources() {
 /// Files of the product that a file includes; headers that the build makes count as files of the
 /// folder they are named for.
 std::vector<std::string> includesOf(const std::string& text) {
-  static const std::regex kInclude(R"re(#include "((?:config|firmware_app|hal|pipeline)/[^"]+)")re");
+  static const std::regex kInclude(
+      R"re(#include "((?:config|firmware_app|hal|pipeline)/[^"]+)")re");
   std::vector<std::string> found;
   for (std::sregex_iterator match(text.begin(), text.end(), kInclude), end; match != end; ++match) {
     found.push_back((*match)[1]);
@@ -143,9 +144,8 @@ std::string pictureOf(const Graph& graph) {
                            const std::string& to) -> bool {
     const auto at = groups.find(from);
     if (at == groups.end()) return false;
-    return std::ranges::any_of(at->second, [&](const std::string& next) {
-      return next == to || self(self, next, to);
-    });
+    return std::ranges::any_of(
+        at->second, [&](const std::string& next) { return next == to || self(self, next, to); });
   };
   std::string picture = "```mermaid\ngraph TD\n";
   for (const auto& [from, allowed] : groups) {

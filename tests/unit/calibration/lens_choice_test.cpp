@@ -58,7 +58,7 @@ TEST(LensChoice, LeavesOutViewsAndPointsThatDisagree) {
 TEST(LensChoice, TakesNothingFromFewViews) {
   const tracking::CameraModel camera({450, 450, 322, 238}, {}, kSize);
   auto views = idealViews(kBoard, camera, support::calibrationPoses(kBoard, camera), 0.05);
-  views.resize(kFewestFittedViews - 1);
+  views.resize(kMinFittedViews - 1);
   EXPECT_FALSE(chooseLens(views, kSize));
 }
 

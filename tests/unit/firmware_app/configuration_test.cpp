@@ -192,9 +192,10 @@ TEST_F(ConfigurationTest, OfSeveralSetsTheLastWins) {
 
 TEST_F(ConfigurationTest, SetIsOfTheStyleThatTheCommandLineChooses) {
   request_.set = {"cell_size=20", "painting.style=none"};
-  EXPECT_THAT(refusal(),
-              StartsWith("--set cell_size: unknown key (did you mean "
-                         "\"style.watercolor.cell_size\"?), allowed: camera.…, camera.synthetic.…, "));
+  EXPECT_THAT(
+      refusal(),
+      StartsWith("--set cell_size: unknown key (did you mean "
+                 "\"style.watercolor.cell_size\"?), allowed: camera.…, camera.synthetic.…, "));
 }
 
 TEST_F(ConfigurationTest, SetNamesItsMistakes) {

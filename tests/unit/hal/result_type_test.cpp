@@ -33,8 +33,8 @@ std::vector<std::string> headersWith(const fs::path& root, const std::string& te
   return found;
 }
 
-/// `if (result)` asks for the error, and is easily taken for the bool: a function that answers yes or
-/// no, or fails, returns a hal::Answer or an enumeration.
+/// `if (result)` asks for the error, and is easily taken for the bool: a function that answers yes
+/// or no, or fails, returns a hal::Answer or an enumeration.
 TEST(ResultType, HoldsNoBoolInAnyHeader) {
   const fs::path root = fs::path(PLEINAIR_TESTS_DIR).parent_path();
   ASSERT_THAT(headersWith(root, "#pragma once"), testing::SizeIs(testing::Gt(100U)));

@@ -113,7 +113,7 @@ TEST(Controls, MarksRedrawnEachFrameMustFailAGateOfCoherence) {
   measures[Subject::kFixed] = {.scr = 0.5, .dep = 20};
   const auto freshReads = [&](const Measures& fresh) {
     measures[Subject::kFresh] = fresh;
-    const auto verdicts = controlVerdicts(measures, "painterly", kPanned);
+    const auto verdicts = controlVerdicts(measures, gatesOf("painterly"), kPanned);
     return std::ranges::find_if(
                verdicts, [](const Verdict& each) { return each.what.starts_with("marks redrawn"); })
         ->state;
@@ -141,7 +141,7 @@ TEST(Controls, EachCanFail) {
   measures[Subject::kInput] = {.nHw2 = 0.9};
   measures[Subject::kFresh] = good();
   measures[Subject::kFixed] = {.scr = 0.01, .dep = 20};
-  for (const Verdict& verdict : controlVerdicts(measures, "painterly", kPanned)) {
+  for (const Verdict& verdict : controlVerdicts(measures, gatesOf("painterly"), kPanned)) {
     EXPECT_EQ(verdict.state, State::kFailed) << verdict.what;
   }
 }
