@@ -143,7 +143,7 @@ TEST_F(ConfigSubcommand, RefusesDeepNesting) {
 }
 
 TEST_F(ConfigSubcommand, WarnsOfFilesAndFoldersThatAreNotThere) {
-  const ProgramRun run = runProgram({"config", "--set", "output.target=" + path("none/out.mp4"),
+  const ProgramRun run = runProgram({"config", "--set", "output.targets=" + path("none/out.mp4"),
                                      "--set", "camera.source=" + path("none.mp4")});
   EXPECT_EQ(run.status, 0) << run.error;
   EXPECT_THAT(run.error, HasSubstr("mkdir -p '" + path("none") + "'"));

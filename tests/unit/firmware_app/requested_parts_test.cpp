@@ -15,7 +15,7 @@ using testing::HasSubstr;
 class RequestedPartsTest : public ConfigurationTest {
  protected:
   RequestedPartsTest() {
-    request_.set = {"camera.source=synthetic", "output.target=" + path("out.mp4").string()};
+    request_.set = {"camera.source=synthetic", "output.targets=" + path("out.mp4").string()};
   }
 
   /// The problem of a part, in a line with its remedy; empty where there is none.
@@ -50,7 +50,7 @@ TEST_F(RequestedPartsTest, ADeviceThatIsNotThere) {
 }
 
 TEST_F(RequestedPartsTest, AFolderOfAnOutputThatIsNotThereWithTheCommandThatMakesIt) {
-  request_.set.push_back("output.target=" + path("none/out.mp4").string());
+  request_.set.push_back("output.targets=" + path("none/out.mp4").string());
   EXPECT_THAT(problemOf("output"), HasSubstr("mkdir -p '" + path("none").string() + "'"));
   EXPECT_TRUE(checkOutputFolder(path("frames/").string()));
   EXPECT_TRUE(checkOutputFolder("window"));

@@ -170,7 +170,7 @@ TEST_F(V4l2StaleLinks, ALinkToANodeThatAnotherCameraHasTakenIsNotFollowed) {
   plugAt("video0", {.card = "Other"});
   describeUsb("video0", "2");
   link("/dev/v4l/by-path", kFormer, "/dev/video0");
-  EXPECT_THAT(openedAs(kFormer), HasSubstr("no V4L2 camera of this id is there"));
+  EXPECT_THAT(openedAs(kFormer), HasSubstr("no V4L2 camera with this id is connected"));
   plugAt("video3", {.card = "Same"});
   describeUsb("video3", "4");
   EXPECT_EQ(openedAs(kFormer), "Same at /dev/video3");
@@ -188,7 +188,7 @@ TEST_F(V4l2StaleLinks, AByIdLinkOfAnotherSerialIsNotFollowed) {
   plugAt("video0", {.card = "Other"});
   describe("video0", "0077");
   link("/dev/v4l/by-id", kFormer, "/dev/video0");
-  EXPECT_THAT(openedAs(kFormer), HasSubstr("no V4L2 camera of this id is there"));
+  EXPECT_THAT(openedAs(kFormer), HasSubstr("no V4L2 camera with this id is connected"));
   EXPECT_THAT(ids(), ElementsAre("platform:fake-000-Other-index0")) << "not by the stale link";
   plugAt("video1", {.card = "Same"});
   describe("video1", "0042");
