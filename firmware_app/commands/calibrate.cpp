@@ -16,7 +16,7 @@
 #include "firmware_app/cli/overloaded.h"
 #include "firmware_app/commands/commands.h"
 #include "firmware_app/config/configured_parts.h"
-#include "firmware_app/live/camera_selection.h"
+#include "firmware_app/config/camera_selection.h"
 #include "firmware_app/offline/calibration_progress.h"
 #include "hal/cameras/recording/picture_source.h"
 #include "hal/cameras/recording/recording.h"

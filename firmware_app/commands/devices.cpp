@@ -2,7 +2,7 @@
 
 #include "firmware_app/commands/commands.h"
 #include "firmware_app/devices/inventory.h"
-#include "firmware_app/live/camera_selection.h"
+#include "firmware_app/config/camera_selection.h"
 #include "hal/outputs/registry.h"
 
 namespace pleinair::app {

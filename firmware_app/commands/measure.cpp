@@ -177,7 +177,7 @@ void refuseGatesOf(const std::string& style) {
   for (const styles::StyleKind* kind : styles::styleKinds()) {
     if (!kind->coherence.empty()) gated.emplace_back(kind->name);
   }
-  throw refusal("--gates", fmt::format("the style {} has none", style),
+  throw refusal("--gates", fmt::format("the style {} has no gates", style),
                 fmt::format("leave it out, or measure one of {}", config::listText(gated)));
 }
 

@@ -17,7 +17,7 @@
 
 #include "firmware_app/cli/interrupt.h"
 #include "firmware_app/config/requested_parts.h"
-#include "firmware_app/live/camera_selection.h"
+#include "firmware_app/config/camera_selection.h"
 #include "firmware_app/live/live_controls.h"
 #include "firmware_app/live/live_painter.h"
 #include "firmware_app/live/live_reporter.h"

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "pipeline/measure/output_measures.h"
-#include "pipeline/measure/picture.h"
+#include "pipeline/measure/input/picture.h"
 
 namespace pleinair::measure {
 namespace {

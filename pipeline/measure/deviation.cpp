@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "pipeline/measure/picture.h"
+#include "pipeline/measure/input/picture.h"
 
 namespace pleinair::measure {
 namespace {

@@ -11,7 +11,7 @@
 #include "hal/image.h"
 #include "pipeline/marks/anchor.h"
 #include "pipeline/measure/input/measured_input.h"
-#include "pipeline/measure/report/report.h"
+#include "pipeline/measure/measurement_report.h"
 #include "pipeline/styles/coherence_gates.h"
 
 namespace pleinair::measure {

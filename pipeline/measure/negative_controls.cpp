@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/measure/picture.h"
+#include "pipeline/measure/input/picture.h"
 
 namespace pleinair::measure {
 namespace {
@@ -22,6 +22,8 @@ constexpr double kSmoothDeviation = 3.0;
 constexpr std::array kReferenceGates{
     styles::CoherenceGate{styles::CoherenceMeasure::kNHw2, styles::CoherenceGate::Side::kMost, 0.2},
     styles::CoherenceGate{styles::CoherenceMeasure::kXFlk, styles::CoherenceGate::Side::kMost, 0.5},
+    styles::CoherenceGate{styles::CoherenceMeasure::kPop, styles::CoherenceGate::Side::kMost, 1,
+                          false, styles::GateMotion::kPan},
 };
 
 /// Why a control may read wrong although the measures are valid.

@@ -6,7 +6,7 @@
 
 #include "pipeline/measure/deviation.h"
 #include "pipeline/measure/lasting_marks.h"
-#include "pipeline/measure/picture.h"
+#include "pipeline/measure/input/picture.h"
 #include "pipeline/measure/screen_pattern.h"
 #include "pipeline/measure/warping_error.h"
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "pipeline/measure/picture.h"
+#include "pipeline/measure/input/picture.h"
 
 namespace pleinair::measure {
 namespace {

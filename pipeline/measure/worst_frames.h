@@ -5,7 +5,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "pipeline/measure/report/report.h"
+#include "pipeline/measure/measurement_report.h"
 
 namespace pleinair::measure {
 

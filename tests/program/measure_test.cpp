@@ -104,7 +104,7 @@ TEST_F(Measure, MakesAFailedGateAnExitStatus) {
   std::vector<std::string> gated = arguments;
   gated.emplace_back("--gates");
   expectRefused(gated, AllOf(HasSubstr("--gates"), HasSubstr("the style none has no gates"),
-                             HasSubstr("painterly, watercolor")));
+                             HasSubstr("watercolor, painterly")));
   gated[gated.size() - 2] = "painting.style=watercolor";
   gated.insert(gated.end(), {"--json", path("r.json")});
   const ProgramRun run = measured(gated);

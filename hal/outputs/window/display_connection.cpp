@@ -50,6 +50,10 @@ void watch(SDL_Window* window) {
 #endif
 }
 
+void forget() {
+  connection = -1;
+}
+
 bool isLost() {
   if (lost || connection < 0) return lost;
   pollfd socket{.fd = connection, .events = 0, .revents = 0};

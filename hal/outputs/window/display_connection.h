@@ -10,9 +10,11 @@ namespace pleinair::hal::window {
 /// Other display servers are not watched. All on SDL's thread.
 namespace display_connection {
 
-/// From the opening of a window on. Idempotent.
+/// Starts with the opening of a window. Idempotent.
 void watch(SDL_Window* window);
-/// Asks the connection each time.
+/// Ends the watch, before SDL closes the connection.
+void forget();
+/// Polls the connection at each call.
 bool isLost();
 
 }  // namespace display_connection

@@ -67,7 +67,9 @@ SdlVideo::~SdlVideo() {
   if (!isOpen_) return;
   assert(isOnItsThread());
   --users;
-  if (!display_connection::isLost()) SDL_QuitSubSystem(SDL_INIT_VIDEO);
+  if (display_connection::isLost()) return;
+  if (users == 0) display_connection::forget();
+  SDL_QuitSubSystem(SDL_INIT_VIDEO);
 }
 
 bool SdlVideo::isOnItsThread() {

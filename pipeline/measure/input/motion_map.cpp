@@ -8,7 +8,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "pipeline/measure/picture.h"
+#include "pipeline/measure/input/picture.h"
 
 namespace pleinair::measure {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "pipeline/measure/input/known_motion.h"
 #include "pipeline/measure/input/motion_map.h"
-#include "pipeline/measure/picture.h"
+#include "pipeline/measure/input/picture.h"
 
 namespace pleinair::measure {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "pipeline/measure/picture.h"
+#include "pipeline/measure/input/picture.h"
 
 namespace pleinair::measure {
 

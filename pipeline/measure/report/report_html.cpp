@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "hal/media/picture_file.h"
-#include "pipeline/measure/report/report.h"
+#include "pipeline/measure/measurement_report.h"
 #include "pipeline/measure/report/report_plots.h"
 
 namespace pleinair::measure {

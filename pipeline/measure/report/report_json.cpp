@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include "pipeline/measure/report/report.h"
+#include "pipeline/measure/measurement_report.h"
 
 namespace pleinair::measure {
 namespace {

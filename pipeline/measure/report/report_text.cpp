@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/measure/report/report.h"
+#include "pipeline/measure/measurement_report.h"
 
 namespace pleinair::measure {
 namespace {

@@ -15,7 +15,7 @@
 #include "pipeline/scene/description/scene.h"
 #include "pipeline/scene/description/scene_tables.h"
 #include "pipeline/scene/description/scene_values.h"
-#include "pipeline/scene/render/ar_frame.h"
+#include "pipeline/scene/models/limits.h"
 #include "pipeline/tracking/camera/calibration_file.h"
 
 namespace pleinair::scene {

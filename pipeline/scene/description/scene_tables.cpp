@@ -13,7 +13,7 @@
 
 #include "config/suggestion.h"
 #include "pipeline/scene/description/scene_values.h"
-#include "pipeline/scene/light/linear_image.h"
+#include "pipeline/scene/models/linear_light.h"
 
 namespace pleinair::scene {
 

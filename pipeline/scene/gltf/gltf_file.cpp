@@ -23,7 +23,7 @@
 #include "pipeline/scene/gltf/gltf_skins.h"
 #include "pipeline/scene/gltf/gltf_structure.h"
 #include "pipeline/scene/gltf/gltf_surfaces.h"
-#include "pipeline/scene/render/ar_frame.h"
+#include "pipeline/scene/models/limits.h"
 
 namespace pleinair::scene {
 namespace {

@@ -16,14 +16,10 @@ namespace {
 
 using hal::PixelFormat;
 
-float linearFromCoded(float coded) {
-  return coded <= 0.04045F ? coded / 12.92F : std::pow((coded + 0.055F) / 1.055F, 2.4F);
-}
-
 std::array<float, 256> linearLevels() {
   std::array<float, 256> levels{};
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    levels[i] = linearFromCoded(static_cast<float>(i) / 255.0F);
+    levels[i] = linearFromSrgb(static_cast<float>(i) / 255.0F);
   }
   return levels;
 }
@@ -45,10 +41,6 @@ glm::ivec2 redOf(PixelFormat format) {
 }
 
 }  // namespace
-
-glm::vec3 linearFromSrgb(const glm::vec3& srgb) {
-  return {linearFromCoded(srgb.r), linearFromCoded(srgb.g), linearFromCoded(srgb.b)};
-}
 
 LinearImage::LinearImage(const hal::ImageView& image) : image_(image) {
   assert(image.isComplete());

@@ -5,16 +5,9 @@
 #include <glm/vec3.hpp>
 
 #include "hal/image.h"
+#include "pipeline/scene/models/linear_light.h"
 
 namespace pleinair::scene {
-
-/// Relative luminance of linear light (BT.709 primaries, as sRGB has).
-inline float luminanceOf(const glm::vec3& linearRgb) {
-  return 0.2126F * linearRgb.r + 0.7152F * linearRgb.g + 0.0722F * linearRgb.b;
-}
-
-/// Decodes sRGB (IEC 61966-2-1), channel by channel.
-glm::vec3 linearFromSrgb(const glm::vec3& srgb);
 
 /// Reads single pixels of an image of any format as linear light in [0, 1], without converting the
 /// rest. Assumes sRGB coding. A pixel of a mosaic is its 2 × 2 cell; chroma is that of the sample's

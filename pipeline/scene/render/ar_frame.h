@@ -11,6 +11,7 @@
 #include "hal/pixel_format.h"
 #include "pipeline/gpu/buffer.h"
 #include "pipeline/gpu/texture.h"
+#include "pipeline/scene/models/limits.h"
 #include "pipeline/tracking/camera/camera_model.h"
 #include "pipeline/tracking/motion/image_motion.h"
 
@@ -25,11 +26,6 @@ enum class Shading {
 /// Object ids of ArFrame::ids: the camera image is 0; models count from 1 in the scene's order;
 /// occluders have kRealObject added, since the camera image is visible there.
 inline constexpr std::uint32_t kCameraObject = 0;
-/// ArFrame::ids packs an object (upper bits) and a triangle of it (lower bits).
-inline constexpr std::uint32_t kTriangleBits = 22;
-inline constexpr std::uint32_t kRealObject = 1U << (31U - kTriangleBits);
-inline constexpr std::uint32_t kMaxObjects = kRealObject - 1U;
-inline constexpr std::uint32_t kMaxTriangles = 1U << kTriangleBits;
 
 /// Source of a pixel's motion.
 enum class SurfaceMotionSource {

@@ -9,7 +9,7 @@
 
 #include "pipeline/engine/painter.h"
 #include "pipeline/measure/input/measured_input.h"
-#include "pipeline/measure/report/report.h"
+#include "pipeline/measure/measurement_report.h"
 
 namespace pleinair {
 

@@ -1,4 +1,4 @@
-#include "firmware_app/cli/command_line.h"
+#include "firmware_app/command_line.h"
 
 #include <algorithm>
 #include <string>

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/media/picture_file.h"
-#include "pipeline/measure/picture.h"
+#include "pipeline/measure/input/picture.h"
 #include "pipeline/measure/voronoi_tiling.h"
 #include "pipeline/styles/registry.h"
 #include "tests/support/deep_png.h"

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/measure/input/known_motion.h"
-#include "pipeline/measure/picture.h"
+#include "pipeline/measure/input/picture.h"
 
 namespace pleinair::measure {
 namespace {

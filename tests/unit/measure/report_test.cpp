@@ -1,4 +1,4 @@
-#include "pipeline/measure/report/report.h"
+#include "pipeline/measure/measurement_report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/measure/picture.h"
+#include "pipeline/measure/input/picture.h"
 #include "pipeline/measure/voronoi_tiling.h"
 #include "tests/unit/measure/measure_pictures.h"
 

@@ -293,8 +293,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "scene.toml:9: model[0].bore_diameter_m: found 0.08, too wide for the teeth, "
                 "allowed: at most 0.07 here"},
         Mistake{kTag + kGear + kGear,
-                "scene.toml:10: model[1].name: \"gear\" is used by an earlier model, allowed: each "
-                "name once"},
+                "scene.toml:10: model[1].name: \"gear\" is used by an earlier model, allowed: "
+                "unique names"},
         Mistake{kTag + kGear + "rotation_deg = [1, 2]\n",
                 "scene.toml:9: model[0].rotation_deg: found an array of 2, allowed: an array of 3 "
                 "numbers of degrees in [-360, 360]"},

@@ -1,4 +1,4 @@
-#include "firmware_app/live/camera_selection.h"
+#include "firmware_app/config/camera_selection.h"
 
 #include <set>
 #include <string>

@@ -1,4 +1,4 @@
-#include "firmware_app/cli/command_line.h"
+#include "firmware_app/command_line.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -18,8 +18,8 @@
 
 #include "config/suggestion.h"
 #include "firmware_app/cli/exit_status.h"
-#include "firmware_app/cli/subcommand_options.h"
 #include "firmware_app/config/renamed.h"
+#include "firmware_app/subcommand_options.h"
 #include "firmware_app/version.h"
 
 namespace pleinair::app {

@@ -1,4 +1,4 @@
-#include "pipeline/measure/picture.h"
+#include "pipeline/measure/input/picture.h"
 
 #include <cassert>
 

@@ -1,4 +1,4 @@
-#include "firmware_app/cli/subcommand_options.h"
+#include "firmware_app/subcommand_options.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+
+namespace pleinair::scene {
+
+// ArFrame::ids packs an object (upper bits) and a triangle of it (lower bits) in 31 bits.
+
+inline constexpr std::uint32_t kTriangleBits = 22;
+/// The number that stands for real things.
+inline constexpr std::uint32_t kRealObject = 1U << (31U - kTriangleBits);
+inline constexpr std::uint32_t kMaxObjects = kRealObject - 1U;
+inline constexpr std::uint32_t kMaxTriangles = 1U << kTriangleBits;
+
+}  // namespace pleinair::scene
