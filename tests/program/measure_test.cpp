@@ -122,7 +122,7 @@ TEST_F(Measure, FailsWhereTheControlsAreWrong) {
   write("in/motion.json", R"({"v": [0, 0]})");
   const ProgramRun run = measured({"--input", path("in"), "--style", "none", "--noise", "0"});
   EXPECT_EQ(run.status, 2);
-  EXPECT_THAT(run.error, HasSubstr("controls"));
+  EXPECT_THAT(run.error, HasSubstr("negative control"));
   EXPECT_THAT(run.out, AllOf(HasSubstr("WRONG"), HasSubstr("too smooth")));
 }
 
