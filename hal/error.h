@@ -19,6 +19,7 @@ enum class ErrorKind {
   kBusy,
   kTimeout,
   kDeviceLost,
+  kCancelled,  ///< the caller asked for the end of it
   kIo,
   kInternal,
 };

@@ -38,6 +38,7 @@ ExitStatus exitStatusOf(const hal::Error& error) {
     case hal::ErrorKind::kBusy:
     case hal::ErrorKind::kTimeout:
     case hal::ErrorKind::kDeviceLost:
+    case hal::ErrorKind::kCancelled:
     case hal::ErrorKind::kIo:
     case hal::ErrorKind::kInternal:
       break;

@@ -18,6 +18,7 @@ void LivePainter::warmUp(const PainterOptions& options) {
       hal::FrameFormat{.pixelFormat = hal::PixelFormat::kGrey8, .size = options.pictureSize}));
   const std::size_t levels = options.qualityLevels ? qualityLevels().size() : 1;
   for (parameters_.quality = 0; parameters_.quality < levels; ++parameters_.quality) {
+    if (options.isCancelled && options.isCancelled()) return;
     // Where it fails, the first frame does so as well, and says why.
     static_cast<void>(painter_.paint({.image = blank.view()}, parameters_));
   }

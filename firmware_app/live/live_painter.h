@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "firmware_app/live/live_controls.h"
@@ -24,6 +25,7 @@ class LivePainter final : public runtime::FramePainter {
   void wait(hal::Duration limit) override;
   void open(std::size_t output, const hal::FrameFormat& format) override;
   void close(std::size_t output) override;
+  std::span<const gpu::PassTime> passTimes() const override { return painter_.passTimes(); }
 
  private:
   /// Paints a blank frame at each level of quality with the first parameters, which the Painter,

@@ -16,8 +16,8 @@
 #include <spdlog/spdlog.h>
 
 #include "firmware_app/cli/interrupt.h"
-#include "firmware_app/config/requested_parts.h"
 #include "firmware_app/config/camera_selection.h"
+#include "firmware_app/config/requested_parts.h"
 #include "firmware_app/live/live_controls.h"
 #include "firmware_app/live/live_painter.h"
 #include "firmware_app/live/live_reporter.h"
@@ -178,16 +178,18 @@ class LivePainting {
                                  .tracksTags = !job_.scene.tags.empty(),
                                  .shaderDirectory = job_.options.shaderDirectory,
                                  .expectedFormat = stream_.frame,
-                                 .qualityLevels = job_.runtime.quality != qualityNames().front()};
+                                 .passTiming = gpu::PassTiming::kSampled,
+                                 .qualityLevels = job_.runtime.quality != qualityNames().front(),
+                                 .isCancelled = [] { return Interrupt::received() != 0; }};
     return std::make_unique<LivePainter>(options, formats, controls_);
   }
 
   bool awaitPainter() {
-    while (!threads_->isPainterReady()) {
-      if (Interrupt::received() != 0) return false;
+    while (Interrupt::received() == 0) {
+      if (threads_->isPainterReady()) return true;
       job_.clock->sleepUntil(job_.clock->now() + kPollInterval);
     }
-    return true;
+    return false;
   }
 
   void paint() {

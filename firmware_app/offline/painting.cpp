@@ -59,7 +59,8 @@ class Painting {
                   .style = job.options.style,
                   .tracksTags = !job.scene.tags.empty() || job.options.poses,
                   .shaderDirectory = job.options.shaderDirectory,
-                  .expectedFormat = stream_.frame}),
+                  .expectedFormat = stream_.frame,
+                  .isCancelled = [] { return Interrupt::received() != 0; }}),
         parameters_(startParameters(job.options)),
         poses_(created<PosesFile>(job.options.poses)),
         sheetFile_(created<hal::PendingFile>(job.options.contactSheet)),
@@ -203,7 +204,13 @@ PaintParameters startParameters(const PaintingOptions& options) {
 
 int runPainting(const PaintingJob& job) {
   const Interrupt interrupt;
-  const int signal = Painting(job).run();
+  int signal = 0;
+  try {
+    signal = Painting(job).run();
+  } catch (const hal::Failure& failure) {
+    if (failure.error().kind != hal::ErrorKind::kCancelled) throw;
+    signal = Interrupt::received();
+  }
   if (signal == 0) return 0;
   reportInterruption(signal, job);
   return kSignalExitBase + signal;

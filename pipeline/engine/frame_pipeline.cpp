@@ -27,6 +27,7 @@ gpu::ShaderLibrary makeLibrary(const PainterOptions& options) {
   library.add(gpu::sceneShaders());
   library.add(gpu::marksShaders());
   styles::addStyleShaders(library);
+  library.setCancellation(options.isCancelled);
   return library;
 }
 
@@ -97,6 +98,7 @@ FramePipeline::FramePipeline(const PainterOptions& options, PainterGl gl)
   warmUp(options.expectedFormat.value_or(
       hal::FrameFormat{.pixelFormat = hal::PixelFormat::kGrey8, .size = pictureSize_}));
   library_.setTimer(&timer_);
+  library_.setCancellation(nullptr);
 }
 
 /// A blank frame through the whole chain at each level, untimed: all that frames of the expected
@@ -106,7 +108,10 @@ FramePipeline::FramePipeline(const PainterOptions& options, PainterGl gl)
 void FramePipeline::warmUp(const hal::FrameFormat& expected) {
   hal::orThrow(gpu::checkDeviceLimit(gl_.info, expected.size, "frame size"));
   const hal::Image blank(expected);
-  for (const Level& level : levels_) warmUp(level, blank);
+  for (const Level& level : levels_) {
+    library_.throwIfCancelled();
+    warmUp(level, blank);
+  }
   style_->reset();
   renderer_.reset();  // time does not start with the blank frames
 }

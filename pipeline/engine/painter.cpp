@@ -177,9 +177,8 @@ void Painter::reset() {
   if (p.tracker_) p.tracker_->reset();
 }
 
-std::vector<gpu::PassTime> Painter::passTimes() const {
-  const auto times = pipeline_->timer_.times();
-  return {times.begin(), times.end()};
+std::span<const gpu::PassTime> Painter::passTimes() const {
+  return pipeline_->timer_.times();
 }
 
 }  // namespace pleinair

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -61,6 +62,10 @@ struct PainterOptions {
   /// Whether PaintParameters::quality may be other than 0: all levels are allocated and warmed up
   /// then, for about twice the memory (docs/decisions/0008-quality-levels.md).
   bool qualityLevels = false;
+  /// Asked before each program that the making of a Painter compiles, which takes up to 20 s
+  /// without a shader cache: true ends it with a hal::Failure (kCancelled). Null: it cannot be
+  /// cancelled.
+  std::function<bool()> isCancelled = nullptr;
   /// In place of what the driver is asked; for tests.
   gpu::GpuTestHook testHook = {};
 };
@@ -180,8 +185,9 @@ class Painter {
   /// Forgets the past, as after a cut.
   void reset();
   /// The times of each pass so far, where PainterOptions::passTiming asked for them: kSampled for
-  /// products, which times one frame in gpu::PassTimer::kSampledEvery.
-  std::vector<gpu::PassTime> passTimes() const;
+  /// products, which times one frame in gpu::PassTimer::kSampledEvery. Valid until the next
+  /// paint().
+  std::span<const gpu::PassTime> passTimes() const;
 
  private:
   std::unique_ptr<FramePipeline> pipeline_;

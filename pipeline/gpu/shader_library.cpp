@@ -195,6 +195,7 @@ ShaderHandle ShaderLibrary::compile(GLenum stage, std::string_view name,
 
 Program ShaderLibrary::link(ProgramKind kind, std::span<const ShaderHandle> shaders,
                             std::string label, std::span<const Expansion* const> sources) const {
+  throwIfCancelled();
   ProgramHandle program = ProgramHandle::make();
   for (const ShaderHandle& shader : shaders) glAttachShader(program.get(), shader.get());
   glLinkProgram(program.get());
@@ -209,6 +210,14 @@ Program ShaderLibrary::link(ProgramKind kind, std::span<const ShaderHandle> shad
   std::vector<ShaderInput> inputs;
   for (const Expansion* source : sources) addInputs(source->text, inputs);
   return {std::move(program), kind, std::move(label), std::move(inputs), timer_};
+}
+
+void ShaderLibrary::throwIfCancelled() const {
+  if (!isCancelled_ || !isCancelled_()) return;
+  throw hal::Failure({.kind = hal::ErrorKind::kCancelled,
+                      .subject = "shaders",
+                      .problem = "their compilation was cancelled",
+                      .remedy = {}});
 }
 
 Program ShaderLibrary::fragmentPass(std::string_view fragmentName,

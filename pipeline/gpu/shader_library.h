@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "pipeline/gpu/embedded_shader.h"
@@ -57,6 +59,12 @@ class ShaderLibrary {
   /// `timer`, which outlives that; null: by none, as at first. On the thread of the programs.
   void setTimer(PassTimer* timer) { *timer_ = timer; }
 
+  /// From now on, `isCancelled` is asked before each program is made, which throws a hal::Failure
+  /// (kCancelled) where it says so; null: nothing is asked, as at first.
+  void setCancellation(std::function<bool()> isCancelled) { isCancelled_ = std::move(isCancelled); }
+  /// Asks it, for other long work.
+  void throwIfCancelled() const;
+
   /// The text as the compiler gets it: version, precisions, defines, includes.
   /// Throws hal::Failure for an unknown name or include, as the programs above do, and they
   /// also for a text that does not compile or link, with the compiler's log, and all for a file of
@@ -79,6 +87,7 @@ class ShaderLibrary {
 
   std::filesystem::path overrideDirectory_;
   std::vector<EmbeddedShader> shaders_;
+  std::function<bool()> isCancelled_;
   Program::TimerSlot timer_ = std::make_shared<PassTimer*>(nullptr);
 };
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "hal/captured_frame.h"
@@ -10,6 +11,7 @@
 #include "hal/error.h"
 #include "hal/pixel_format.h"
 #include "pipeline/engine/painter.h"
+#include "pipeline/gpu/pass_timer.h"
 
 namespace pleinair::runtime {
 
@@ -38,6 +40,9 @@ class FramePainter {
   virtual void open(std::size_t output, const hal::FrameFormat& format) = 0;
   /// Ends an output: its pictures that were not taken are dropped.
   virtual void close(std::size_t output) = 0;
+
+  /// The times of the painter's passes in the frames that were timed; valid until the next paint().
+  virtual std::span<const gpu::PassTime> passTimes() const { return {}; }
 };
 
 /// Makes a painter that brings its pictures to memory in these formats, one an output, numbered

@@ -53,6 +53,16 @@ Readings paintStages(const PaintStage::Status& painting) {
   return readings;
 }
 
+/// Durations of the passes, by their names.
+template <class Read>
+Readings paintPasses(const PaintStage::Status& painting, Read read) {
+  Readings readings;
+  for (const gpu::PassTime& pass : painting.passes) {
+    readings.emplace_back(pass.pass, hal::Duration(read(pass)));
+  }
+  return readings;
+}
+
 // Short names for the declarations below.
 using Moment = const MetricMoment&;
 using enum MetricScope;
@@ -142,6 +152,21 @@ std::vector<Metric> paintingMetrics() {
       {kPainting, "stages", "stage", kSummary, kMs,
        "Time that each stage takes of a frame's latency.",
        [](Moment m) { return paintStages(m.status.painting); }, "stage_seconds"},
+      {kPainting, "pass_mean", "pass", kGauge, kMs,
+       "Mean time of each pass on the GPU in the timed frames, one in 128.",
+       [](Moment m) {
+         return paintPasses(m.status.painting, [](const gpu::PassTime& p) { return p.mean(); });
+       }},
+      {kPainting, "pass_last", "pass", kGauge, kMs,
+       "Time of each pass on the GPU in the last timed frame.",
+       [](Moment m) {
+         return paintPasses(m.status.painting, [](const gpu::PassTime& p) { return p.last; });
+       }},
+      {kPainting, "pass_peak", "pass", kGauge, kMs,
+       "Longest time of each pass on the GPU in a timed frame.",
+       [](Moment m) {
+         return paintPasses(m.status.painting, [](const gpu::PassTime& p) { return p.peak; });
+       }},
   };
 }
 

@@ -22,6 +22,8 @@ constexpr hal::Duration kIdle = std::chrono::milliseconds(50);
 constexpr hal::Duration kLongestWait = std::chrono::milliseconds(1);
 /// … and, where no other frame can be begun, how late it notices that it is to stop.
 constexpr hal::Duration kLongestFullWait = std::chrono::milliseconds(2);
+/// How often the times of passes are copied for the status, in frames.
+constexpr std::uint64_t kFramesPerPassTimes = 32;
 constexpr hal::Duration kRevivalPoll = std::chrono::milliseconds(2);
 
 hal::Error neverReady() {
@@ -203,6 +205,10 @@ void PaintStage::finished(const InFlight& frame, hal::TimePoint now) {
   stages_.at(kFinishing).add(now - frame.issued, now);
   rate_.count(now);
   ++painted_;
+  if (painter_ && painted_ % kFramesPerPassTimes == 0) {
+    const auto times = painter_->passTimes();
+    passes_.assign(times.begin(), times.end());  // in place: allocates for new passes only
+  }
   if (frame.ticket) {
     stages_.at(kReady).add(now - frame.captured, now);
     load_ = loadOf(frame, now);
@@ -341,7 +347,8 @@ PaintStage::Status PaintStage::status() const {
                 .hasPainter = hasPainter_,
                 .failure = failure_,
                 .perSecond = rate_.perSecond(clock_.now()),
-                .load = load_};
+                .load = load_,
+                .passes = passes_};
   const hal::TimePoint now = clock_.now();
   for (std::size_t i = 0; i < stages_.size(); ++i) {
     const RecentDurations& each = stages_.at(i);

@@ -84,6 +84,7 @@ class PaintStage {
     double perSecond = 0.0;
     double load = 0.0;  ///< of the budget, the last frame's
     std::vector<Stage> stages;
+    std::vector<gpu::PassTime> passes;  ///< of the frames that were timed
   };
   Status status() const;
 
@@ -152,6 +153,7 @@ class PaintStage {
   std::optional<hal::Error> failure_;
   bool hasPainter_ = false;
   double load_ = 0.0;
+  std::vector<gpu::PassTime> passes_;
   std::vector<OutputStage*> toOpen_;   ///< asked for with add()
   std::vector<OutputStage*> toClose_;  ///< with remove(); until they are let go of
 };

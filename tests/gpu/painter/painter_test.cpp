@@ -235,5 +235,25 @@ TEST_F(PainterTest, RefusesWhatItCannotPaintAtTheStart) {
   EXPECT_THAT(startupErrorOf(options), AllOf(HasSubstr("tag99h99"), HasSubstr("tag36h11")));
 }
 
+TEST_F(PainterTest, CanBeCancelledWhileItIsMade) {
+  for (const int programs : {0, 3, 40}) {
+    int asked = 0;
+    const auto isCancelled = [&] { return ++asked > programs; };
+    try {
+      Painter painter({.pictureSize = {96, 64}, .qualityLevels = true, .isCancelled = isCancelled});
+      ADD_FAILURE() << "was made";
+    } catch (const hal::Failure& failure) {
+      EXPECT_EQ(failure.error().kind, hal::ErrorKind::kCancelled);
+    }
+    EXPECT_EQ(asked, programs + 1) << "went on after it was cancelled";
+  }
+  int asked = 0;
+  Painter painter({.pictureSize = {96, 64}, .isCancelled = [&] { return ++asked < 0; }});
+  EXPECT_GT(asked, 40);
+  const int whileMade = asked;
+  ASSERT_TRUE(painter.paint(testFrame(0), painter.defaultParameters()));
+  EXPECT_EQ(asked, whileMade) << "what is made later cannot be cancelled";
+}
+
 }  // namespace
 }  // namespace pleinair
