@@ -177,8 +177,8 @@ class LivePainting {
                                  .style = job_.options.style,
                                  .tracksTags = !job_.scene.tags.empty(),
                                  .shaderDirectory = job_.options.shaderDirectory,
-                                 .expectedFormat = stream_.frame,
                                  .passTiming = gpu::PassTiming::kSampled,
+                                 .expectedFormat = stream_.frame,
                                  .qualityLevels = job_.runtime.quality != qualityNames().front(),
                                  .isCancelled = [] { return Interrupt::received() != 0; }};
     return std::make_unique<LivePainter>(options, formats, controls_);

@@ -17,10 +17,9 @@ constexpr hal::Duration kNeverReady = std::chrono::seconds(10);
 
 /// How long the thread sleeps on its mailbox at a time.
 constexpr hal::Duration kIdle = std::chrono::milliseconds(50);
-/// How long it waits for the GPU at a time, where no mailbox wakes it: how much later than it could
-/// be a new frame is begun, …
+/// Longest wait for the GPU at a time, which no mailbox ends: it delays a new frame by as much.
 constexpr hal::Duration kLongestWait = std::chrono::milliseconds(1);
-/// … and, where no other frame can be begun, how late it notices that it is to stop.
+/// The same while no other frame can be begun: it delays a stop.
 constexpr hal::Duration kLongestFullWait = std::chrono::milliseconds(2);
 /// How often the times of passes are copied for the status, in frames.
 constexpr std::uint64_t kFramesPerPassTimes = 32;
