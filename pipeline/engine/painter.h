@@ -56,8 +56,8 @@ struct PainterOptions {
   PainterContext context = PainterContext::kOwn;
   std::filesystem::path shaderDirectory;  ///< overrides embedded shaders; empty: none
   gpu::PassTiming passTiming = gpu::PassTiming::kOff;
-  /// Of the frames that will come, so that the first one finds all compiled and allocated; without,
-  /// it may take longer. Others may come all the same.
+  /// The format of the frames to come, for which everything is compiled and allocated in advance;
+  /// unset: the first frame may take longer. Frames of other formats are accepted too.
   std::optional<hal::FrameFormat> expectedFormat = std::nullopt;
   /// Whether PaintParameters::quality may be other than 0: all levels are allocated and warmed up
   /// then, for about twice the memory (docs/decisions/0008-quality-levels.md).
