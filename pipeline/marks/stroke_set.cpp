@@ -16,9 +16,11 @@ namespace {
 const std::string kShaders = "pipeline/marks/shaders/";
 constexpr std::size_t kStrokeBytes = 96;  // shaders/stroke.glsl
 constexpr std::size_t kCommandBytes = 16;
-constexpr std::size_t kDetailLevel = 1;  // of the field, whose detail says where a layer is painted
+// the level of the field whose detail decides where a layer is painted
+constexpr std::size_t kDetailLevel = 1;
 
-/// About the golden section of n, and coprime to it: neighbours in slots are far apart in order.
+/// A number near the golden section of n and coprime to it, so that neighbouring slots are far
+/// apart in the painting order.
 std::uint32_t strideFor(std::uint32_t n) {
   auto stride = std::max(1U, static_cast<std::uint32_t>(0.618 * n));
   while (std::gcd(stride, n) != 1U) ++stride;
