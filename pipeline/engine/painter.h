@@ -70,7 +70,7 @@ struct PainterOptions {
   gpu::GpuTestHook testHook = {};
 };
 
-/// What may change from frame to frame: one immutable snapshot.
+/// The parameter set of a frame, with its debug view and quality level.
 struct PaintParameters {
   config::ParameterValues style;  ///< of the style's list: Painter::defaultParameters()
   std::string view;               ///< empty for the finished picture, or one of views()
