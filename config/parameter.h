@@ -41,17 +41,19 @@ struct ParameterDescriptor {
   IntegerRange integerRange;  ///< of an integer
   SizeRange sizeRange;        ///< of a size
   LengthRange lengthRange;    ///< of a list
-  /// Of a choice, by index. Of a path and of a list's elements, words that stand for something else
-  /// ("none"); text that goes on from one of them after a colon is no path. Of a size, what stands
-  /// for 0x0, if anything.
+  /// For a choice: its words, by index. For a path and for the elements of a list: words that stand
+  /// for something else ("none"); a text that continues one of them after a colon is no path. For a
+  /// size: the word for 0x0, if there is one.
   std::vector<std::string> choices;
   /// For a path: names with an argument. "serial:NUMBER" allows any text that begins with
   /// "serial:".
   std::vector<std::string> openChoices;
   /// Which texts a text, or an element of a list, may be; unset: any.
   std::function<bool(std::string_view)> takesText;
-  std::string textAllowed;  ///< of a text, for messages: "a name that ... lists"; empty: any
-  std::string pathEnding;   ///< of a path, in either case: ".toml"; empty: any
+  /// For messages. For a text: "a name that ... lists"; for a list: the elements allowed beside the
+  /// choices. Empty: any.
+  std::string textAllowed;
+  std::string pathEnding;  ///< for a path, in either case: ".toml"; empty: any
   TakesEffect takesEffect = TakesEffect::kLive;
 
   ParameterKind kind() const { return static_cast<ParameterKind>(defaultValue.index()); }
@@ -65,10 +67,10 @@ struct ParameterDescriptor {
   /// Whether the value has this parameter's kind and is within its range.
   bool allows(const ParameterValue& value) const;
 
-  /// Of a list: whether the text may be one of its elements.
+  /// Whether the text may be an element of the list. Precondition: it is a list.
   bool allowsElement(const std::string& text) const;
-  /// Of the text of a path or of a list's element: that it is a path, and neither of the choices
-  /// nor of the open choices.
+  /// Whether the text, of a path or of a list's element, is a path, and neither a choice nor an
+  /// open choice.
   bool isPath(std::string_view text) const;
   /// The value as a person writes it ("8", "true", "cells"); parse() reads it back exactly. A
   /// list's elements are separated by commas; a comma or backslash of theirs follows a backslash.

@@ -169,7 +169,7 @@ ParameterBinding<P> sizeParameter(const std::string& name, PixelSize P::*member,
 ///     }
 ///
 /// A style hands out `defaults()`, which the program changes knowing no P, and calls `typed()` on
-/// the snapshot that comes with each frame. Immutable; any thread.
+/// the parameter set of each frame. Immutable; any thread.
 template <class P>
 class ParameterTable {
  public:

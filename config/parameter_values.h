@@ -19,8 +19,8 @@ enum class Printed {
   kGiven  ///< values whose origin is not "default"
 };
 
-/// A value for each parameter of a list: an immutable snapshot. A copy shares its data, so swapping
-/// snapshots at a frame boundary costs nothing; changes make a new snapshot. Any thread may read
+/// A value for each parameter of a list: an immutable parameter set. A copy shares its data, so
+/// replacing a set at a frame boundary costs nothing; changes make a new set. Any thread may read
 /// one. It does not depend on styles: a style gets its typed struct from its ParameterTable.
 class ParameterValues {
  public:
@@ -35,18 +35,18 @@ class ParameterValues {
   /// "default", "site.toml:12", or the origin given to with(). Throws as text() does.
   const std::string& origin(std::string_view name) const;
 
-  /// A snapshot with one value changed, as from a command line or a console. `origin` is the source
+  /// A set with one value changed, as from a command line or a console. `origin` is the source
   /// of the text: "--set". Throws a ConfigError for an unknown name or a wrong value.
   [[nodiscard]] ParameterValues with(std::string_view name, std::string_view text,
                                      std::string origin = {}) const;
 
-  /// A snapshot with the values from a table. Throws a ConfigError for a wrong value, and for a key
+  /// A set with the values from a table. Throws a ConfigError for a wrong value, and for a key
   /// that is no parameter.
   [[nodiscard]] ParameterValues with(const TomlTable& table) const;
   /// The same as with(), but a key that is no parameter is left to the caller.
   [[nodiscard]] ParameterValues withKnownKeys(const TomlTable& table) const;
 
-  /// A snapshot with the value at `index` changed. Asserts that the descriptor allows the value.
+  /// A set with the value at `index` changed. Asserts that the descriptor allows the value.
   [[nodiscard]] ParameterValues with(std::size_t index, ParameterValue value,
                                      std::string origin) const;
 
@@ -56,7 +56,7 @@ class ParameterValues {
 
   /// Whether both have the same values of the same list, whatever their origins.
   bool operator==(const ParameterValues& other) const;
-  /// Whether changing from this snapshot to `next`, of the same list, needs a new pipeline.
+  /// Whether changing from this set to `next`, of the same list, needs a new pipeline.
   bool needsRestartFor(const ParameterValues& next) const;
 
  private:

@@ -1,8 +1,8 @@
 #include <cstdio>
 
 #include "firmware_app/commands/commands.h"
-#include "firmware_app/devices/inventory.h"
 #include "firmware_app/config/camera_selection.h"
+#include "firmware_app/devices/inventory.h"
 #include "hal/outputs/registry.h"
 
 namespace pleinair::app {

@@ -6,10 +6,10 @@
 
 #include "config/config_error.h"
 #include "firmware_app/commands/commands.h"
+#include "firmware_app/config/camera_selection.h"
 #include "firmware_app/config/requested_parts.h"
 #include "firmware_app/devices/inventory.h"
 #include "firmware_app/doctor/checks.h"
-#include "firmware_app/config/camera_selection.h"
 
 namespace pleinair::app {
 int examineMachine(const DoctorOptions& options) {

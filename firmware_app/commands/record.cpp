@@ -2,8 +2,8 @@
 #include <string>
 
 #include "firmware_app/commands/commands.h"
-#include "firmware_app/config/configured_parts.h"
 #include "firmware_app/config/camera_selection.h"
+#include "firmware_app/config/configured_parts.h"
 #include "firmware_app/scene/workbench_scene.h"
 #include "hal/cameras/recording/recording_kind.h"
 

@@ -8,8 +8,8 @@
 
 #include "firmware_app/cli/interrupt.h"
 #include "firmware_app/commands/commands.h"
-#include "firmware_app/config/configured_parts.h"
 #include "firmware_app/config/camera_selection.h"
+#include "firmware_app/config/configured_parts.h"
 #include "firmware_app/live/live_painting.h"
 #include "hal/clock.h"
 #include "hal/error.h"

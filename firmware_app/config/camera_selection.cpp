@@ -29,7 +29,8 @@ std::string choiceOf(const CameraSettings& settings,
   const auto kinds = hal::cameraKinds();
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     const hal::CameraKind& kind = *kinds[i];
-    // Of cameras that are always there, the first is meant by name: its errors are its own then.
+    // The bare name of a kind whose cameras are always there means its first camera, which then
+    // reports its own errors.
     if (kind.naming == hal::CameraNaming::kListed && source == kind.name) {
       const auto cameras = backends[i].backend->list();
       if (cameras && !cameras->empty()) return source + ":" + cameras->front().identity.id;

@@ -212,7 +212,7 @@ std::vector<EnvironmentVariable> environmentOfProcess() {
     const std::size_t equals = text.find('=');
     if (!text.starts_with(kVariablePrefix) || equals == std::string_view::npos) continue;
     const std::string name(text.substr(0, equals));
-    // Of one that is there twice the first counts, as for getenv().
+    // If a variable is given twice, the first counts, as for getenv().
     if (std::ranges::find(variables, name, &EnvironmentVariable::name) != variables.end()) continue;
     variables.push_back({name, std::string(text.substr(equals + 1))});
   }

@@ -102,7 +102,7 @@ class Configuration {
   OutputSettings output() const;
   RuntimeSettings runtime() const;
   StatusSettings status() const;
-  /// Of the style in force.
+  /// The parameters of the style in force.
   const config::ParameterValues& styleParameters() const;
 
   const std::string& origin(std::string_view key) const { return sections_.origin(key); }

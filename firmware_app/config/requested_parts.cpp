@@ -13,10 +13,10 @@
 #include <unistd.h>
 
 #include "config/config_error.h"
+#include "firmware_app/config/camera_selection.h"
 #include "firmware_app/config/configuration_sections.h"
 #include "firmware_app/config/configured_parts.h"
 #include "firmware_app/devices/inventory.h"
-#include "firmware_app/config/camera_selection.h"
 #include "firmware_app/status_server/listen_address.h"
 #include "firmware_app/status_server/status_server.h"
 #include "hal/clock.h"

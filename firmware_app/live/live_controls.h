@@ -16,11 +16,11 @@ class LiveControls {
  public:
   explicit LiveControls(PaintParameters parameters) { setParameters(std::move(parameters)); }
 
-  /// One snapshot, in force from the next frame on.
+  /// Replaces the parameter set, from the next frame on.
   void setParameters(PaintParameters parameters) {
-    auto snapshot = std::make_shared<const PaintParameters>(std::move(parameters));
+    auto next = std::make_shared<const PaintParameters>(std::move(parameters));
     const std::scoped_lock lock(mutex_);
-    parameters_ = std::move(snapshot);
+    parameters_ = std::move(next);
   }
   std::shared_ptr<const PaintParameters> parameters() const {
     const std::scoped_lock lock(mutex_);

@@ -17,7 +17,7 @@ struct LiveLook {
   config::ParameterValues values;
 };
 
-/// What keys do to a running painting: keys in, snapshots of parameters out. One thread.
+/// Changes the parameters of a running painting by keys: keys in, parameter sets out. One thread.
 class LiveTuning {
  public:
   /// What a key asks of others.

@@ -10,7 +10,7 @@
 namespace pleinair::app {
 namespace {
 
-/// Of the caption where no picture draws it.
+/// How often the caption is drawn where no picture draws it.
 constexpr hal::Duration kRedrawPeriod = std::chrono::milliseconds(33);
 
 }  // namespace

@@ -34,7 +34,7 @@ Step roundStep(double size) {
   return step;
 }
 
-/// Of an open-ended range: a hundredth of what the value is about.
+/// A hundredth of the range; of an open-ended range, a hundredth of the value, at least of 1.
 Step stepOf(const NumberRange& range, double value) {
   const double span = range.max - range.min;
   if (std::isfinite(span) && span > 0.0) return roundStep(span / kStepsPerRange);

@@ -11,7 +11,7 @@ namespace pleinair::hal {
 struct WatchdogRule {
   int periods = 3;
   Duration margin = std::chrono::milliseconds(200);
-  /// Of cameras that name none.
+  /// The frame period assumed for a camera that does not report one.
   Duration unknownPeriod = std::chrono::milliseconds(100);
 };
 

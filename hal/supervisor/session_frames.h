@@ -16,7 +16,7 @@ namespace pleinair::hal {
 /// nobody knows of, between two sessions, are not in it. Its health is kValid.
 struct SupervisedFrame {
   CapturedFrame frame;
-  /// Of frame.droppedBefore, those lost while the camera was stalled.
+  /// The part of frame.droppedBefore that was lost while the camera was stalled.
   std::uint64_t lostInStall = 0;
   // Frames since the last one that came, but could not be let out:
   std::uint64_t corruptBefore = 0;     ///< health kCorrupt, or planes too small for their format

@@ -56,8 +56,8 @@ struct PainterOptions {
   PainterContext context = PainterContext::kOwn;
   std::filesystem::path shaderDirectory;  ///< overrides embedded shaders; empty: none
   gpu::PassTiming passTiming = gpu::PassTiming::kOff;
-  /// Of the frames that will come, so that the first one finds all compiled and allocated; without,
-  /// it may take longer. Others may come all the same.
+  /// The format of the frames to come, for which everything is compiled and allocated in advance;
+  /// unset: the first frame may take longer. Frames of other formats are accepted too.
   std::optional<hal::FrameFormat> expectedFormat = std::nullopt;
   /// Whether PaintParameters::quality may be other than 0: all levels are allocated and warmed up
   /// then, for about twice the memory (docs/decisions/0008-quality-levels.md).
@@ -70,7 +70,7 @@ struct PainterOptions {
   gpu::GpuTestHook testHook = {};
 };
 
-/// What may change from frame to frame: one immutable snapshot.
+/// The parameter set of a frame, with its debug view and quality level.
 struct PaintParameters {
   config::ParameterValues style;  ///< of the style's list: Painter::defaultParameters()
   std::string view;               ///< empty for the finished picture, or one of views()

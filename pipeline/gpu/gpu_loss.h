@@ -28,8 +28,8 @@ hal::Error gpuLost(std::string problem, int glCode);
 /// Notices that the current context's GPU was reset, and remembers it. On the context's thread.
 class ResetMonitor {
  public:
-  /// Of the current context. A driver that cannot be asked is taken for sound until something
-  /// fails.
+  /// Monitors the current context. If its driver cannot be asked, the GPU counts as healthy until a
+  /// call fails.
   explicit ResetMonitor(GpuTestHook testHook = {});
 
   /// Asks the driver unless the GPU is known to be lost.

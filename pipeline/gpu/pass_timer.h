@@ -34,7 +34,7 @@ struct PassTime {
   int count = 0;                     ///< runs
   int frames = 0;                    ///< timed frames in which it ran
 
-  /// Of a timed frame in which it ran.
+  /// The mean over the timed frames in which it ran.
   std::chrono::nanoseconds mean() const { return frames == 0 ? total : total / frames; }
 };
 

@@ -27,9 +27,9 @@ inline constexpr unsigned kMaxTextureUnits = 16;
 inline constexpr unsigned kMaxStorageBuffers = 4;
 inline constexpr unsigned kMaxImages = 4;
 inline constexpr unsigned kMaxUniformBlocks = 12;
-/// Of a dispatch, along each axis: all GPUs take as many (GL ES 3.1, table 20.45).
+/// Groups of a dispatch along each axis that every GPU accepts (GL ES 3.1, table 20.45).
 inline constexpr unsigned kMaxGroups = 65535;
-/// Of a uniform block's place in its buffer: no GPU asks for more (GL ES 3.1, table 20.46).
+/// Alignment of a uniform block in its buffer; no GPU requires more (GL ES 3.1, table 20.46).
 inline constexpr std::size_t kUniformAlignment = 256;
 
 enum class ProgramKind { kDraw, kCompute };

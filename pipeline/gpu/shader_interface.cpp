@@ -103,7 +103,7 @@ Kind kindOf(std::string_view type) {
   return type.find("image") != std::string_view::npos ? Kind::kImage : Kind::kUniform;
 }
 
-/// Of `uniform vec2 a, b[3];`: a and b.
+/// Adds the uniforms of a declaration: a and b for `uniform vec2 a, b[3];`.
 void addUniforms(const Tokens& declaration, const Tokens& all, std::vector<ShaderInput>& inputs) {
   const Tokens rest = unqualified(declaration);
   if (rest.empty()) return;

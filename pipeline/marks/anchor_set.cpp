@@ -86,8 +86,8 @@ struct AnchorSet::State {
     const double side = std::ceil(std::sqrt(static_cast<double>(options.density.target)));
     return std::clamp(static_cast<int>(side), 1, kMostStrata);
   }
-  /// How far beyond the border anchors go on: an anchor that jitters there must not be
-  /// respawned every frame.
+  /// The margin beyond the border in which anchors live on: an anchor that jitters at the border
+  /// must not be respawned every frame.
   float margin() const { return static_cast<float>(options.density.cellPixels); }
 
   /// For programs that look at the frame.

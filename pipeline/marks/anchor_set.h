@@ -57,12 +57,13 @@ class AnchorSet {
   AnchorSet(AnchorSet&&) = delete;
   AnchorSet& operator=(AnchorSet&&) = delete;
 
-  /// Goes on to the next frame, whose `motion` has been updated. The first frame, one after
-  /// reset(), and one after a cut begins anew, with all anchors there at once. Preconditions:
-  /// frame.full() is the constructor's size; the style's needs() ask for surfaces and
+  /// Advances to the next frame, for which `motion` has been updated. The first frame, a frame
+  /// after reset() and a frame after a cut start anew, with all anchors visible at once.
+  /// Preconditions: frame.full() is the constructor's size; the style's needs include surfaces and
   /// measuredMotion.
   void advance(const scene::ArFrame& frame, const MotionField& motion, const AnchorHold& hold = {});
-  /// Whether the last advance() began anew: what styles keep of slots is of other anchors.
+  /// Whether the last advance() started anew, so that data which a style stores per slot is
+  /// invalid.
   bool hasBegunAnew() const;
 
   /// slotCount() Anchors; a slot without kAlive is free.

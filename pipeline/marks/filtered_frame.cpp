@@ -13,7 +13,7 @@ using gpu::ImageAccess;
 using gpu::TextureFilter;
 using gpu::TextureFormat;
 
-constexpr int kBlockPixels = 4;  // as both shaders have it
+constexpr int kBlockPixels = 4;  // as in both shaders
 const std::string kShaders = "pipeline/marks/shaders/";
 
 }  // namespace

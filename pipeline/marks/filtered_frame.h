@@ -39,8 +39,8 @@ class FilteredFrame {
   /// `library` has gpu::marksShaders() and gpu::sceneShaders().
   explicit FilteredFrame(const gpu::ShaderLibrary& library);
 
-  /// Takes the next frame in. A frame whose time is not after the last one's adds to the mean as if
-  /// no time had passed. Throws hal::Failure where the GPU has no memory for a new size.
+  /// Adds the next frame. A frame whose time is not after the previous one's is added as if no time
+  /// had passed. Throws hal::Failure if GPU memory for a new size runs out.
   void update(const scene::ArFrame& frame, const FilteredFrameInput& input);
 
   /// RGBA16F, LINEAR, the frame's size: sRGB-coded colour. A: the number of frames in the mean (1:

@@ -16,13 +16,11 @@ namespace {
 const std::string kShaders = "pipeline/marks/shaders/";
 constexpr std::size_t kStrokeBytes = 96;  // shaders/stroke.glsl
 constexpr std::size_t kCommandBytes = 16;
-constexpr std::size_t kDetailLevel = 1;  // of the field, whose detail says where a layer is painted
+// the level of the field whose detail decides where a layer is painted
+constexpr std::size_t kDetailLevel = 1;
 
-double secondsOf(hal::Duration duration) {
-  return std::chrono::duration<double>(duration).count();
-}
-
-/// About the golden section of n, and coprime to it: neighbours in slots are far apart in order.
+/// A number near the golden section of n and coprime to it, so that neighbouring slots are far
+/// apart in the painting order.
 std::uint32_t strideFor(std::uint32_t n) {
   auto stride = std::max(1U, static_cast<std::uint32_t>(0.618 * n));
   while (std::gcd(stride, n) != 1U) ++stride;
@@ -110,7 +108,7 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .set("wander", rule.wanderRad)
       .set("past", glm::vec4(stays(rule.shapeMemory), stays(rule.colourMemory),
                              stays(rule.appearing), stays(rule.vanishing)))
-      .set("mostColour", rule.mostColourPerSecond * static_cast<float>(secondsOf(step)))
+      .set("mostColour", rule.mostColourPerSecond * static_cast<float>(hal::toSeconds(step)))
       .dispatch(allSlots(), GL_SHADER_STORAGE_BARRIER_BIT);
 }
 

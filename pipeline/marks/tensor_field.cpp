@@ -20,7 +20,7 @@ namespace {
 const std::string kShaders = "pipeline/marks/shaders/";
 constexpr int kRegionPixels = 8;
 constexpr std::size_t kEdgeWords = 1 + 128;  // shaders/edge_bins.glsl
-constexpr float kLeastEdge = 0.05F;          // of luma: what sensor noise makes
+constexpr float kLeastEdge = 0.05F;          // of luma: the level of sensor noise
 constexpr GLbitfield kWritten = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
 
 glm::ivec2 itemsOf(const gpu::Texture& texture) {

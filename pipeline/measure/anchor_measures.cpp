@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "pipeline/measure/output_measures.h"
 #include "pipeline/measure/input/picture.h"
+#include "pipeline/measure/output_measures.h"
 
 namespace pleinair::measure {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/measure/input/sensor_noise.h"
 #include "pipeline/measure/input/picture.h"
+#include "pipeline/measure/input/sensor_noise.h"
 #include "pipeline/measure/sequence_measures.h"
 #include "pipeline/measure/worst_frames.h"
 

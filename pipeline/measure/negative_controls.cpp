@@ -36,8 +36,8 @@ std::string likelyCause(const PerSubject<Measures>& measures) {
   return "";
 }
 
-/// Of another motion than the pictures' even the input is not carried along. (xEW2 of the input is
-/// a number divided by itself, which says nothing.)
+/// Under a motion other than that of the images, even the input does not match. (xEW2 of the input
+/// is a number divided by itself and proves nothing.)
 Verdict motionVerdict(const PerSubject<Measures>& measures) {
   Verdict verdict{
       .what = fmt::format("the input follows the given motion: nHW2 ≤ {:g}", kMaxInputError)};

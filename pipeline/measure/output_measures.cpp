@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "pipeline/measure/deviation.h"
-#include "pipeline/measure/lasting_marks.h"
 #include "pipeline/measure/input/picture.h"
+#include "pipeline/measure/lasting_marks.h"
 #include "pipeline/measure/screen_pattern.h"
 #include "pipeline/measure/warping_error.h"
 

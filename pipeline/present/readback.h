@@ -28,8 +28,8 @@ class Readback {
   Readback(const gpu::ShaderLibrary& library, hal::FrameFormat format, int depth = 3,
            gpu::GpuTestHook testHook = {});
 
-  /// Of the texture that a picture of this format goes through: beyond the device's limit, none can
-  /// be made.
+  /// The size of the texture that a picture of this format is packed into. A read-back cannot be
+  /// made if it exceeds the device's limit.
   static hal::FrameSize packedSize(const hal::FrameFormat& format);
 
   /// Reads one picture of this size, undefined, and drops it: what pictures need is compiled and

@@ -41,7 +41,7 @@ class LatencyControl {
   std::uint64_t raised_ = 0;
   std::uint64_t lowered_ = 0;
 
-  // Of the last second:
+  // Counts of the last second:
   hal::TimePoint windowBegan_;
   bool hasWindow_ = false;
   bool wasLowest_ = false;

@@ -41,7 +41,7 @@ struct StateReading {
 };
 struct SummaryReading {
   DurationHistogram recent;
-  /// Of all since the start; unset where only the recent ones are known.
+  /// The number of durations since the start; unset where only the recent ones are known.
   std::optional<std::uint64_t> count;
   hal::Duration sum{0};
 };

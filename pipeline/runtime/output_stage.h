@@ -101,10 +101,10 @@ class OutputStage {
     double perSecond = 0.0;
     std::uint64_t presented = 0;
     hal::Duration latencySum{0};  ///< of all that were presented
-    /// From capture to being handed over; of surfaces, to being seen. Of late.
+    /// Recent times from capture to being handed over; for surfaces, to being shown.
     DurationHistogram latency;
     DurationHistogram writing;  ///< how long the output took, of late
-    /// Of a display; with the moment of the last refresh that is known.
+    /// The refresh of a display, with the time of the last one that is known.
     std::optional<hal::Refresh> refresh;
     std::uint64_t failures = 0;
     bool isFailed = false;

@@ -86,7 +86,7 @@ bool PaintStage::step() {
   return didAnything;
 }
 
-/// Where the clock jumps, the GPU stood still as well, and is not to attribute.
+/// If the clock jumps, the machine was suspended and the GPU with it: not a lost GPU.
 void PaintStage::noteSuspension() {
   constexpr hal::Duration kJump = std::chrono::seconds(1);
   const hal::TimePoint now = clock_.now();
@@ -190,8 +190,8 @@ bool PaintStage::collectFor(Output& output) {
   return true;
 }
 
-/// Of the frame period what the painter was busy with it; of what the camera left of the latency,
-/// which no quality brings back, what has passed.
+/// The larger of two shares: the painter's time for the frame of the frame period, and the time
+/// since its arrival of the latency that the camera's delivery left.
 double PaintStage::loadOf(const InFlight& frame, hal::TimePoint now) const {
   const hal::Duration cost = now - std::max(frame.began, lastFinished_);
   const hal::Duration left = frame.captured + latency_.latency() - frame.arrived;

@@ -36,7 +36,7 @@ struct PaintStageOptions {
 /// context live and die; the rest is any thread's.
 class PaintStage {
  public:
-  /// The outputs outlive this, or are let go of (letGo()).
+  /// The outputs outlive this, or are released first (remove(), hasLetGoOf()).
   PaintStage(PainterFactory factory, std::vector<OutputStage*> outputs, PaintStageOptions options,
              hal::Clock& clock, FrameLedger& ledger, Mailbox<ArrivedFrame>& frames);
   ~PaintStage();
@@ -57,7 +57,8 @@ class PaintStage {
 
   /// From the next step() on, frames are painted for this output too. Any thread.
   void add(OutputStage& output);
-  /// Asks for the opposite: the frames in flight end as kStopped for it. Any thread.
+  /// From the next step() on, no more frames are painted for this output; its frames in flight end
+  /// as kStopped. Any thread.
   void remove(OutputStage& output);
   /// Whether the output is not used any more, and may be destroyed. Any thread.
   bool hasLetGoOf(const OutputStage& output) const;
@@ -71,7 +72,7 @@ class PaintStage {
     std::string_view name;
     DurationHistogram recent;
     std::uint64_t count = 0;  ///< of all
-    hal::Duration sum{0};     ///< likewise
+    hal::Duration sum{0};     ///< of all
   };
   struct Status {
     std::size_t quality = 0;

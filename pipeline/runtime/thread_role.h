@@ -4,7 +4,8 @@
 
 namespace pleinair::runtime {
 
-/// Of prompt threads: above all ordinary ones, below the kernel's own interrupt threads (50).
+/// The real-time priority of prompt threads: above all ordinary threads, below the kernel's own
+/// interrupt threads (50).
 inline constexpr int kPromptPriority = 10;
 
 /// What a thread is for, and so how urgently it runs.

@@ -65,14 +65,14 @@ class Style {
   /// The style's descriptor.
   virtual const StyleKind& kind() const = 0;
 
-  /// The snapshot in force. At first the defaults.
+  /// The parameter set in force. At first the defaults.
   virtual const config::ParameterValues& parameters() const = 0;
-  /// Makes ready what a snapshot names outside the program, such as a file. Errors: that file's;
-  /// the snapshot is not put in force then.
+  /// Loads the files that a parameter set names. Errors: those of the file; the set in force stays
+  /// as it was.
   virtual hal::Result<void> prepare([[maybe_unused]] const config::ParameterValues& values) {
     return {};
   }
-  /// Puts another snapshot of the same list in force, from the next paint() on. Precondition: it
+  /// Puts another set of the same list in force, from the next paint() on. Precondition: it
   /// was prepared.
   virtual void setParameters(const config::ParameterValues& values) = 0;
 

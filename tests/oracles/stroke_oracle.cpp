@@ -77,14 +77,6 @@ StrokeArm strokeArm(const StrokeGround& ground, const StrokeWalk& walk, glm::dve
   return arm;
 }
 
-glm::dvec2 placeOn(const StrokeArm& arm, double segmentPx, glm::dvec2 anchor, double segments) {
-  for (std::size_t i = 0; i < arm.directions.size(); ++i) {
-    const double part = std::clamp(segments - static_cast<double>(i), 0.0, 1.0);
-    anchor += part * segmentPx * arm.directions[i];
-  }
-  return anchor;
-}
-
 glm::dvec2 averagedDirection(glm::dvec2 now, glm::dvec2 past, double pastShare) {
   constexpr int kSteps = 20'000;
   const auto doubled = [](glm::dvec2 d) {

@@ -48,9 +48,6 @@ struct StrokeArm {
 StrokeArm strokeArm(const StrokeGround& ground, const StrokeWalk& walk, glm::dvec2 anchor,
                     glm::dvec2 heading);
 
-/// The place `segments` along an arm's polyline from its anchor.
-glm::dvec2 placeOn(const StrokeArm& arm, double segmentPx, glm::dvec2 anchor, double segments);
-
 /// The result of the thesis's average (§5.4) of a past direction with a new one after many short
 /// steps, in the doubled angle; `pastShare` is the past's weight after all of them. Unit vectors,
 /// whose signs have no meaning.

@@ -29,7 +29,7 @@ class HeadlessOutput final : public MemoryOutput {
   std::uint64_t count() const { return hashes_.size(); }
   const std::vector<std::uint64_t>& hashes() const { return hashes_; }
   const std::vector<Duration>& times() const { return times_; }
-  /// Of all pictures in their order, times left out.
+  /// One hash over all pictures in their order, without their times.
   std::uint64_t runningHash() const { return running_; }
 
  private:

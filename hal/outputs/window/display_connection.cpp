@@ -22,7 +22,7 @@ int onError(Display*) {
 }
 void onExit(Display*, void*) {}
 
-/// Of the library that SDL has loaded; null where that has no such function.
+/// A function of the Xlib that SDL has loaded; null if that library lacks it.
 template <class Function>
 Function xlib(const char* name) {
   static void* const library = dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD);

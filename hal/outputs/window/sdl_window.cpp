@@ -86,7 +86,7 @@ class SdlWindow final : public Window {
  private:
   Result<void> open(FrameSize picture);
   Result<void> draw();
-  /// Of what is drawn on, which on dense screens has more pixels than the window has units.
+  /// The size of the drawable, which on dense screens has more pixels than the window has units.
   FrameSize pixelSize() const;
   double pixelScale() const;
   /// Puts an event of SDL's into the queue of the window that it is for.

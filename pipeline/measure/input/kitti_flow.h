@@ -21,7 +21,7 @@ struct KittiFlowField {
 
 /// Reads flow in KITTI's format: a PNG of 16-bit RGB with u = (R − 32768)/64 px, v likewise from G,
 /// and B other than 0 where it is valid (Menze and Geiger, 2015). `size` is that of the frames.
-/// Errors: as hal::readDeepRgb(), and kInvalidInput (another size, no valid pixel).
+/// Errors: as hal::readRgb16(), and kInvalidInput (another size, no valid pixel).
 hal::Result<KittiFlowField> readKittiFlow(const std::filesystem::path& path, cv::Size size);
 
 /// Clears `seen` where a mask is not black. Errors: as hal::readPictureRgb(), and kInvalidInput

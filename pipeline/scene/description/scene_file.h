@@ -35,7 +35,7 @@ namespace pleinair::scene {
 ///     teeth = 18                  # of a gear, as are module_m, thickness_m, pressure_angle_deg,
 ///                                 # bore_diameter_m, hub_diameter_m, holes
 ///
-/// Frames are the author's (attach_frame.h): on a tag, x goes to its right, y to its top, z out of
+/// Frames are the attach frames (scene.h): on a tag, x goes to its right, y to its top, z out of
 /// it. rotation_deg turns about the fixed axes x, then y, then z (Rz · Ry · Rx), as Blender's XYZ
 /// angles and URDF's roll, pitch, yaw do; scale comes first, position last.
 ///

@@ -25,7 +25,7 @@ struct LayerPlan {
 /// Strokes grow with the picture, so that any size takes about as many.
 LayerPlan planOf(const PainterlyParameters& p, hal::FrameSize full);
 
-/// Of a layer's strokes, in px of the full picture.
+/// The width of a layer's strokes, in px of the full picture.
 double widthOf(const LayerPlan& plan, std::size_t layer);
 /// As many anchors as make the coverage with strokes of full length.
 marks::AnchorOptions anchorsOf(const LayerPlan& plan, std::size_t layer);

@@ -73,7 +73,7 @@ bool isInside(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, con
   return part.x >= 0.0 && part.y >= 0.0 && part.z >= 0.0 && part.x + part.y + part.z <= 1.0;
 }
 
-/// Of all tetrahedra and triangles of the points: there are few.
+/// The nearest over all tetrahedra and triangles of the points, of which there are few.
 glm::dvec3 nearestInHull(const Points& points, const glm::dvec3& p) {
   glm::dvec3 nearest = points.front();
   const auto offer = [&](const glm::dvec3& place) {

@@ -11,7 +11,7 @@ constexpr std::size_t kPlanBytes = 8;
 constexpr std::size_t kCommandBytes = 16;
 constexpr std::size_t kCurvatureQuads = 7;  // at most: the spline's 9 spans, but for the outer ones
 constexpr std::size_t kThesisQuads = 36;
-/// Of a storage buffer, that every GPU has (GL ES 3.1, table 20.45).
+/// The size of a storage buffer that every GPU supports (GL ES 3.1, table 20.45).
 constexpr std::size_t kMostBytes = std::size_t{1} << 27U;
 /// Px of the full picture that a quad may lie off its stroke: less than is seen.
 constexpr float kBendPx = 0.3F;

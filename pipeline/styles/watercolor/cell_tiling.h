@@ -62,9 +62,9 @@ class CellTiling {
   void tile(const TilingFrame& input, const marks::AnchorSet& anchors,
             const WatercolorParameters& parameters);
 
-  /// CellSeeds, one a slot: for the next frame.
+  /// A CellSeed per slot, for the next frame.
   const gpu::Buffer& seeds() const { return seeds_; }
-  /// marks::BinnedPoints, one a slot: where the seeds are of the last tiling.
+  /// A marks::BinnedPoint per slot: the seeds of the last tiling.
   const gpu::Buffer& points() const { return points_; }
   /// RGBA16F, a texel a slot (slotTextureSize): linear RGB; 0 in A where it has no pixel. Only
   /// after a frame that wanted means.

@@ -82,7 +82,7 @@ inline int births(const std::vector<Anchor>& anchors, float border = 0.0F) {
   }));
 }
 
-/// Of those that stay, row by row; `objects` or the picture.
+/// The number of staying anchors in each cell, row by row; on `objects` or in the picture.
 inline std::vector<int> cellCounts(const std::vector<Anchor>& anchors, bool objects = false) {
   std::vector<int> counts(static_cast<std::size_t>(kGrid.x * kGrid.y));
   for (const Anchor& each : anchors) {

@@ -44,7 +44,7 @@ double angleBetween(glm::vec2 a, glm::vec2 b) {
 
 class StrokeLife : public StrokeTest {
  protected:
-  /// Of all strokes that have an anchor well inside the picture.
+  /// Over all strokes whose anchor is well inside the picture.
   std::vector<StrokeSlot> inner() const {
     const std::vector<StrokeSlot> strokes = readStrokes();
     std::vector<StrokeSlot> found;
@@ -114,7 +114,7 @@ TEST_F(StrokeLife, AColourChangesNoFasterThanItMay) {
 TEST_F(StrokeLife, ThePastTurnsWithWhatItIsOn) {
   constexpr double kRoll = 0.04;
   constexpr int kFrames = 8;
-  // Of a picture gone blank all that is left is the past.
+  // When the picture goes blank, only history is left.
   const hal::Image blank = greyPicture(kSize, kGrey);
   for (const double along : {1.0, -1.0, 0.0}) {
     beginAnew();

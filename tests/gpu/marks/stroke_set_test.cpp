@@ -140,7 +140,7 @@ TEST_F(StrokeSetTest, OneWayIsNearTheThesissSkeleton) {
   }
   ASSERT_GT(apart.size(), 300U);
   std::ranges::sort(apart);
-  // Of 24 px: the thesis's step leaves the ring by half a segment's turn each time.
+  // A ring of 24 px: the thesis's step leaves the ring by half a segment's turn each time.
   EXPECT_LT(apart[apart.size() / 2], 1.5);
   EXPECT_LT(apart[apart.size() * 95 / 100], 4.0);
 }
@@ -283,7 +283,7 @@ TEST_F(StrokeSetTest, InstancesLieOnTheirSkeletons) {
     EXPECT_LE(each.halfWidth, 0.5F * rule.widthPx * 1.3F + 0.01F);
     EXPECT_LE(each.paint.a, 0.8F + 1e-6F);
     whole += each.paint.a > 0.8F - 1e-6F ? 1 : 0;
-    // Of equal parts, but for corners that a chord cuts.
+    // Equal parts, but for corners that a chord cuts.
     const float part = glm::distance(each.points[0], each.points[1]);
     for (std::size_t i = 1; i < 7; ++i) {
       EXPECT_LE(glm::distance(each.points[i], each.points[i + 1]), 1.15F * part + 0.05F);

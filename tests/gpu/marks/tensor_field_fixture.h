@@ -12,7 +12,7 @@ inline double degrees(double radians) {
   return radians * 180.0 / std::numbers::pi;
 }
 
-/// Of a region among 32 a row.
+/// The index of a region, with 32 in a row.
 inline std::size_t placeOf(int x, int y) {
   return static_cast<std::size_t>(y) * 32U + static_cast<std::size_t>(x);
 }

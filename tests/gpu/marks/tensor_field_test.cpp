@@ -73,7 +73,7 @@ TEST_F(TensorFieldTest, TheThresholdIsAThirdOfThePercentile) {
     update(image, standing(), kNoMemory);
     const oracles::TensorImage gradients = oracles::gradientTensors(image.view());
     const double percentile = oracles::edgePercentile(gradients, 0.995);
-    // Of 128 bins, as wide as their root, and of every fourth pixel.
+    // From 128 bins, as wide as their root, and every fourth pixel.
     const double binWidth = 2.0 * std::sqrt(percentile * 5.7) / 128.0;
     EXPECT_NEAR(3.0 * thresholdOf(gradients), percentile, 2.0 * binWidth) << contrast;
   }

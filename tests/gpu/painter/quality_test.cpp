@@ -33,7 +33,7 @@ std::vector<hal::CapturedFrame> workbench(int first, int count) {
   return frames;
 }
 
-/// Of the workbench, at 19 px the largest; smaller than 15 px it would be refused.
+/// The workbench's largest tag, at 19 px; a tag smaller than 15 px would be refused.
 constexpr int kTag = 3;
 
 /// A box on one of the workbench's tags, which has a place in no world.

@@ -103,7 +103,7 @@ class Coherence : public PainterlyTest {
   }
 };
 
-/// Of a picture that turns dark, α of the past is left in each frame of 1/30 s.
+/// When the picture turns dark, α of the past is left after each frame of 1/30 s.
 TEST_F(Coherence, ColoursAreBlendedAsTheThesisDoes) {
   for (const auto& [parameter, value, weight] :
        {std::tuple("coherence", "0.5", 0.95), {"history", "false", 0.0}}) {

@@ -16,8 +16,8 @@ constexpr int kMeasured = 30;
 
 class Turnover : public PainterlyTest {
  protected:
-  /// Of a painting whose strokes are as large as at 640x480, told of a pan, noise from frame to
-  /// frame: of all layers, and of each.
+  /// The anchors' summaries, over all layers and for each, of a painting whose strokes are as large
+  /// as at 640x480, under a given pan and with noise from frame to frame.
   std::vector<measure::AnchorSummary> under(glm::dvec2 pan, const char* hysteresis = "true") {
     restart();
     Painterly style(library_);

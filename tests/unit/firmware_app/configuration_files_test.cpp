@@ -139,7 +139,7 @@ TEST_F(ConfigurationTest, NothingUnknownIsSkipped) {
     return refusal();
   };
   const std::string name = path("s.toml").string();
-  // Of a style that is not in force, too.
+  // Also for a style that is not in force.
   EXPECT_THAT(refused("[painting]\nstyle = \"none\"\n[style.watercolor]\ncell_sise = 3\n"),
               StartsWith(name + ":4: style.watercolor.cell_sise: unknown key (did you mean "
                                 "\"cell_size\"?), allowed: bleeding, cell_size, "));

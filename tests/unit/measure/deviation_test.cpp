@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/measure/input/sensor_noise.h"
 #include "pipeline/measure/input/picture.h"
+#include "pipeline/measure/input/sensor_noise.h"
 #include "tests/unit/measure/measure_pictures.h"
 
 namespace pleinair::measure {

@@ -7,8 +7,8 @@
 
 #include "pipeline/measure/gates.h"
 #include "pipeline/measure/input/known_motion.h"
-#include "pipeline/measure/input/sensor_noise.h"
 #include "pipeline/measure/input/picture.h"
+#include "pipeline/measure/input/sensor_noise.h"
 #include "pipeline/measure/sequence_measures.h"
 #include "pipeline/styles/registry.h"
 #include "tests/unit/measure/measure_pictures.h"

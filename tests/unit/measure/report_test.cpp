@@ -1,8 +1,8 @@
-#include "pipeline/measure/measurement_report.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include "pipeline/measure/measurement_report.h"
 
 namespace pleinair::measure {
 namespace {

@@ -1,9 +1,9 @@
 // Purpose: poses vertices.
 // Defines: MORPHED: with morph targets.
-// Inputs:  posing.glsl's; MORPHED: storage 3: what each target adds to each vertex
-//          (scene::MorphDelta), target by target; the place of this range's weights, behind the
+// Inputs:  posing.glsl's; MORPHED: storage 3: the offset of each vertex by each target
+//          (scene::MorphDelta), target by target; the place of this range's weights, after the
 //          matrices.
-// Outputs, precision: posing.glsl's. A vertex an invocation.
+// Outputs, precision: posing.glsl's. One vertex per invocation.
 #include "pipeline/scene/render/shaders/posing.glsl"
 
 #ifdef MORPHED

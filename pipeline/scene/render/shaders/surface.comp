@@ -1,6 +1,6 @@
-// Purpose: what is known about the pixels of a model.
-// Defines: REAL: of a real thing's shape (an occluder), which is where its pose says only as well as
-//          that is known; without, of a virtual model, whose motion is exact.
+// Purpose: surface data of the pixels of a model.
+// Defines: REAL: the model is an occluder, whose motion has the error of its pose; without it, a virtual
+//          model, whose motion is exact.
 // Inputs, outputs, precision: surface.glsl's.
 #include "pipeline/scene/render/shaders/surface.glsl"
 

@@ -1,6 +1,6 @@
-// Purpose: the tensor field for people: short lines along the direction that strokes take (thesis figures
-//          15, 16), blue where edges have it and red where it is filled in; the pyramid's levels; or the
-//          regions, by how much detail they have.
+// Purpose: debug views of the tensor field: short lines along the direction of strokes (thesis
+//          figures 15, 16), blue on edges and red where interpolated; the pyramid's levels; or the
+//          regions, by their detail.
 // Inputs:  picture; fields of four levels (marks::TensorField::resolved); fieldScale: texture coordinates
 //          for a px of the full picture, of the first level; view: of VIEW_TENSORS, VIEW_PYRAMID, VIEW_REGIONS;
 //          pixelsOfFull; bands: where middling and fine strokes begin.
@@ -39,7 +39,7 @@ vec3 linesOver(vec3 ground, vec2 px, int level) {
 
 void main() {
   vec2 px = gl_FragCoord.xy / pixelsOfFull;
-  if (view == VIEW_PYRAMID) {  // a level a quarter
+  if (view == VIEW_PYRAMID) {  // one level per quarter
     vec2 half_ = 0.5 * size;
     ivec2 quarter = ivec2(greaterThanEqual(gl_FragCoord.xy, half_));
     vec2 inside = (gl_FragCoord.xy - vec2(quarter) * half_) * 2.0;

@@ -1,6 +1,6 @@
-// Purpose: the paint that a brush leaves, and how thick it lies.
-// Defines: BUMPED: each stroke is in the light by itself. CLIPPED: no paint lies beyond the boundary
-//          of what a stroke is of, in frames that show models.
+// Purpose: the paint of a brush mark and its thickness.
+// Defines: BUMPED: each stroke is lit by itself. CLIPPED: for a frame with models: no paint beyond an
+//          object's border.
 // Inputs, outputs: stroke_mark.glsl's; BUMPED: stroke_bump.glsl's; CLIPPED: stroke_clip.glsl's.
 // Precision: as there.
 #include "pipeline/styles/painterly/shaders/stroke_mark.glsl"

@@ -1,7 +1,7 @@
-// Purpose: strokes for people who want to see how they are made.
+// Purpose: debug views of strokes.
 // Inputs:  stroke_view.vert's; view: of VIEW_LAYERS (whole strokes in their layer's colour),
-//          VIEW_SKELETONS (in it), VIEW_ANCHORS (by age); layer: its colour.
-// Outputs: 0: sRGB-coded, premultiplied; 1: nothing that matters. Precision: mediump would do.
+//          VIEW_SKELETONS (in that colour), VIEW_ANCHORS (by age); layer: its colour.
+// Outputs: 0: sRGB-coded, premultiplied; 1: unused. Precision: mediump suffices.
 uniform int view;
 uniform vec3 layer;
 in float across;

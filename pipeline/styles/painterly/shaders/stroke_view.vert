@@ -1,4 +1,4 @@
-// Purpose: strokes for people who want to see how they are made: whole, as skeletons, or as anchors.
+// Purpose: debug views of strokes: whole, as skeletons, or as anchors.
 // Inputs:  stroke_spline.glsl's; fullSize: px; view: as stroke_view.frag.
 // Outputs: across: in [-1, 1]; paint; age: of the anchor, s.
 // Precision: highp.

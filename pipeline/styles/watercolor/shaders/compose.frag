@@ -1,7 +1,7 @@
-// Purpose: the picture as most looks have it. A define and no branch has the rest, because software
-//          renderers pay for both sides of a branch.
-// Defines: MOSAIC: with flat cells mixed in (the thesis's mosaic), and with what is in focus kept
-//          crisp: drawn on the paper instead of painted.
+// Purpose: the watercolor picture without mosaic and focus, for most looks. They are a define and not a
+//          branch, because software renderers run both sides of a branch.
+// Defines: MOSAIC: flat cells mixed in (the thesis's mosaic), and content in focus kept sharp: drawn on
+//          the paper instead of painted.
 // Inputs:  composition.glsl's. MOSAIC: palette.glsl's; means (linear); mosaic in [0, 1]; frame, the
 //          AR frame's colour; hasFocus, and then normalFocus with the frame's focus in A.
 // Outputs: RGBA8, sRGB-coded, opaque.

@@ -1,4 +1,4 @@
-// Purpose: the style's inner pictures, for people.
+// Purpose: the style's debug views.
 // Inputs:  tiling, means, places and ways (show_seeds.comp), darkPigment, lightPigment, paper, picture;
 //          `view`: one of VIEW_…, the style's list of views; pictureSize.
 // Outputs: RGBA8, sRGB-coded, opaque. Precision: highp.
@@ -17,7 +17,7 @@ uniform int view;
 uniform vec2 pictureSize;
 layout(location = 0) out vec4 colour;
 
-// As marks::MotionSource counts: unknown, surface, plane, picture, features, flow, still.
+// In the order of marks::MotionSource: unknown, surface, plane, image, features, flow, still.
 const vec3 kSourceColours[7] =
     vec3[7](vec3(0.5), vec3(0.9, 0.5, 0.1), vec3(0.75, 0.25, 0.8), vec3(0.2, 0.45, 0.9),
             vec3(0.1, 0.7, 0.65), vec3(0.85, 0.15, 0.2), vec3(0.3, 0.65, 0.2));
