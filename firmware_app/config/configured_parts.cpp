@@ -99,6 +99,15 @@ bool isSynthetic(const CameraSettings& camera) {
   return isCameraName(source) && wordBeforeColon(source) == hal::synthetic::cameraKind().name;
 }
 
+bool isAlwaysThere(const CameraSettings& camera) {
+  const std::string source = camera.source.string();
+  return isCameraName(source) &&
+         std::ranges::any_of(hal::cameraKinds(), [&](const hal::CameraKind* kind) {
+           return kind->naming == hal::CameraNaming::kListed &&
+                  wordBeforeColon(source) == kind->name;
+         });
+}
+
 hal::CameraBackendOptions backendOptionsOf(const CameraSettings& camera, hal::Pacing pacing) {
   return {.size = frameSizeOf(camera.size),
           .framePeriod = hal::fromSeconds(1.0 / camera.framesPerSecond),

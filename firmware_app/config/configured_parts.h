@@ -26,6 +26,8 @@ CameraSettings configuredCamera(const Configuration& configuration);
 /// Throws config::ConfigError where [camera]'s source is most likely a slip of a name.
 void refuseSlipOfCamera(const Configuration& configuration);
 bool isSynthetic(const CameraSettings& camera);
+/// Whether the camera is of a kind whose cameras are always there (hal::CameraNaming::kListed).
+bool isAlwaysThere(const CameraSettings& camera);
 /// Whether the source is a path, and no camera's name.
 bool isRecording(const CameraSettings& camera);
 /// What a back end is made with, besides its kind's table.

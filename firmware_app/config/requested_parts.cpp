@@ -101,7 +101,7 @@ RequestedPart cameraPart(const Configuration& configuration) {
   RequestedPart part{.part = "camera", .value = camera.source.string()};
   part.isChosen = configuration.origin("camera.source") != config::kDefaultOrigin && !camera.wait;
   part.problem = thrownBy([&] { refuseSlipOfCamera(configuration); });
-  if (part.problem || isSynthetic(camera)) return part;
+  if (part.problem || isAlwaysThere(camera)) return part;
   part.isDevice = !isRecording(camera);
   part.problem = part.isDevice ? deviceProblem(part.value) : recordingProblem(camera);
   return part;
