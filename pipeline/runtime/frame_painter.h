@@ -11,7 +11,6 @@
 #include "hal/error.h"
 #include "hal/pixel_format.h"
 #include "pipeline/engine/painter.h"
-#include "pipeline/gpu/pass_timer.h"
 
 namespace pleinair::runtime {
 
