@@ -17,10 +17,10 @@ enum class CameraNaming {
   kPaths,    ///< the path of a file or folder
 };
 
-/// What a back end needs to know besides its own table.
+/// The settings of a back end that are common to all kinds, beside its own table.
 struct CameraBackendOptions {
   FrameSize size{640, 480};          ///< of a camera that makes its frames
-  Duration framePeriod{33'333'333};  ///< likewise
+  Duration framePeriod{33'333'333};  ///< of such a camera
   /// kRealTime: a live source, which goes on for as long as it is read; kStepped: every frame once,
   /// as fast as it is asked for. Devices have a pace of their own.
   Pacing pacing = Pacing::kRealTime;

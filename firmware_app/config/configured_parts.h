@@ -30,7 +30,7 @@ bool isSynthetic(const CameraSettings& camera);
 bool isAlwaysThere(const CameraSettings& camera);
 /// Whether the source is a path, and no camera's name.
 bool isRecording(const CameraSettings& camera);
-/// What a back end is made with, besides its kind's table.
+/// The settings that a back end is made with, beside its kind's table.
 hal::CameraBackendOptions backendOptionsOf(const CameraSettings& camera, hal::Pacing pacing);
 /// The synthetic camera's options, stepped, whatever the source; the shot is the source's where it
 /// names one.

@@ -17,7 +17,7 @@ std::span<const config::RenamedKey> renamedKeys();
 /// The option that `option` is now: "--snapshots" of "--stills".
 std::optional<std::string_view> renamedOption(std::string_view option);
 
-/// What the value of a key is called now: "filtered" of painting.view's "steady".
+/// The present name of a value of a key: "filtered" for painting.view's "steady".
 std::optional<std::string_view> renamedValue(std::string_view key, std::string_view value);
 
 }  // namespace pleinair::app

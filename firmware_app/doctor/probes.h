@@ -38,9 +38,9 @@ struct Probes {
   std::function<hal::Result<gpu::ContextInfo>()> graphics;
   std::function<DeviceCameras()> cameras;
   std::function<std::vector<hal::LoopbackDevice>()> loopbacks;
-  /// What is wrong with the configuration, in a line; nothing where it is sound.
+  /// The error of the configuration, in a line; nothing where it is valid.
   std::function<std::optional<std::string>()> configurationError;
-  /// What the configuration asks for; nothing where it is not valid.
+  /// The parts that the configuration asks for; none where it is not valid.
   std::function<std::vector<RequestedPart>()> requested;
   std::filesystem::path snapshots;  ///< the folder that snapshots go to
 };

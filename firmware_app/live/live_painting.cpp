@@ -317,8 +317,9 @@ class LivePainting {
     threads_.reset();
   }
 
-  /// What hangs still uses what would be destroyed. A painter that is still being made is no
-  /// failure: drivers compile and cannot be broken off, and nothing was painted that could be lost.
+  /// A thread that hangs still uses these objects, so the process exits without destroying them. A
+  /// painter that is still being made is no failure: a driver cannot be stopped within the program
+  /// that it compiles, and nothing was painted that could be lost.
   [[noreturn]] void leave(const std::vector<std::string>& stuck) {
     reporter_.interrupt();
     if (!hasBegun_) {

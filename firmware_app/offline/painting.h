@@ -27,8 +27,9 @@ struct PaintingOptions {
   std::filesystem::path shaderDirectory;
 };
 
-/// What a painting begins with, live or not: the options' parameters, or else the style's own, and
-/// their view. Throws hal::Failure (kInvalidArgument) for an unknown view, with all names.
+/// The parameters that a painting begins with, live or not: those of the options, or else the
+/// style's own, and the options' view. Throws hal::Failure (kInvalidArgument) for an unknown view,
+/// with all names.
 PaintParameters startParameters(const PaintingOptions& options);
 
 /// Passes every frame of a camera through a Painter to an output: the common part of `render` and

@@ -22,9 +22,9 @@ struct WorkerLimits {
 /// A camera on a thread of its own, the driver thread, for devices whose drivers may block. It
 /// hands over what the camera gives one by one, in order, and drops nothing: a camera whose frames
 /// are not taken runs out of buffers, which it counts itself. The newest frame is chosen further
-/// on, in one place (runtime::Mailbox). A call that outlasts its limit is abandoned: ours returns,
-/// and the thread ends by itself, camera and all, if ever the driver lets go; until then start()
-/// answers kBusy.
+/// on, in one place (runtime::Mailbox). A call over its limit returns to
+/// the caller; the driver thread is abandoned, and destroys its camera when the driver returns.
+/// Until then start() answers kBusy.
 ///
 /// Real time only: deadlines are the SteadyClock's. Contract as of Camera; start() also answers
 /// kTimeout and kBusy. stop() and the destructor together wait once for the limit of a stop.

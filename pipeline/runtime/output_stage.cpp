@@ -225,7 +225,7 @@ hal::Answer OutputStage::submitSurface(hal::SurfaceOutput& output, const Due& du
   hal::Result<hal::Fence> fence =
       options_.fill(*buffers_.at(due.picture.buffer), output, **surface);
   if (!fence) return tl::unexpected(fence.error());
-  // What is shown before its time, lest the picture freeze, is to be seen at once.
+  // A picture shown early, to avoid a freeze, is submitted for immediate display.
   const hal::TimePoint time =
       due.outcome == Outcome::kShown ? due.picture.due : std::min(due.picture.due, clock_.now());
   const auto submitted = output.submit(**surface, *std::move(fence), time);

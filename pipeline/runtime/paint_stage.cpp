@@ -316,7 +316,7 @@ bool PaintStage::revive() {
 
 void PaintStage::wait() {
   if (!painter_) {
-    std::this_thread::sleep_for(kRevivalPoll);
+    std::this_thread::sleep_for(kRevivalPoll);  // a frame in the mailbox would end a wait at once
   } else if (inFlight_.empty()) {
     frames_.wait(kIdle);
   } else {
