@@ -56,7 +56,7 @@ std::string nodeOf(const std::string& id) {
   return {};
 }
 
-bool isMeant(const std::string& source, const hal::CameraDescription& camera) {
+bool matches(const std::string& source, const hal::CameraDescription& camera) {
   constexpr std::string_view kSerial = "serial:";
   const std::string& backend = camera.identity.backend;
   if (source == "auto" || source == backend) return true;
@@ -70,7 +70,7 @@ std::optional<hal::Error> deviceProblem(const std::string& source) {
   const DeviceCameras there = listDeviceCameras(deviceBackends());
   std::optional<hal::Error> problem;
   for (const hal::CameraDescription& camera : there.cameras) {
-    if (!isMeant(source, camera)) continue;
+    if (!matches(source, camera)) continue;
     if (!camera.problem && std::ranges::any_of(camera.modes, &hal::CameraMode::isSupported)) {
       return std::nullopt;
     }
@@ -107,36 +107,16 @@ RequestedPart cameraPart(const Configuration& configuration) {
   return part;
 }
 
-/// Whether a target such as "loopback", "loopback:/dev/video50" or "loopback:LABEL" means this one.
-bool isMeant(const std::string& target, const hal::OutputDescription& output) {
-  const std::size_t colon = target.find(':');
-  return colon == std::string::npos || target == output.target ||
-         target.substr(colon + 1) == output.name;
-}
-
-std::optional<hal::Error> deviceOutputProblem(const hal::OutputKind& kind,
-                                              const std::string& target) {
-  if (kind.list == nullptr) return std::nullopt;
-  const hal::OutputListing there = kind.list();
-  std::optional<hal::Error> problem = there.problem;
-  for (const hal::OutputDescription& output : there.outputs) {
-    if (!isMeant(target, output)) continue;
-    if (!output.problem) return std::nullopt;
-    problem = output.problem;
-  }
-  if (problem) return problem;
-  return hal::Error{.kind = hal::ErrorKind::kNotFound,
-                    .subject = target,
-                    .problem = "no such output is there",
-                    .remedy = "choose one that `pleinair devices` lists"};
-}
-
 std::optional<hal::Error> outputProblem(const hal::OutputKind& kind, const std::string& target,
                                         const hal::OutputOptionsByKind& options) {
   if (auto folder = checkOutputFolder(target); !folder) return folder.error();
-  if (auto problem = deviceOutputProblem(kind, target)) return problem;
   if (auto opened = hal::openOutput(target, options); !opened) return opened.error();
-  return std::nullopt;
+  return kind.problemOf == nullptr ? std::nullopt : kind.problemOf(target);
+}
+
+/// Most likely by pleinair's own service, which runs.
+bool isUsedByAnother(const RequestedPart& part) {
+  return part.problem && part.problem->kind == hal::ErrorKind::kBusy;
 }
 
 void addOutputs(const Configuration& configuration, std::vector<RequestedPart>& parts) {
@@ -144,10 +124,10 @@ void addOutputs(const Configuration& configuration, std::vector<RequestedPart>& 
   const bool isChosen = configuration.origin("output.targets") != config::kDefaultOrigin;
   for (const auto& each : settings.targets) {
     RequestedPart part{.part = "output", .value = std::string(each)};
-    part.isChosen = isChosen;
     const auto kind = hal::outputKindOf(part.value);
     part.isDevice = kind && !(*kind)->traits.writesFiles;
     part.problem = kind ? outputProblem(**kind, part.value, settings.options) : kind.error();
+    part.isChosen = isChosen && !isUsedByAnother(part);
     parts.push_back(std::move(part));
   }
 }
@@ -194,8 +174,7 @@ std::vector<RequestedPart> requestedParts(const Configuration& configuration) {
                             .healthy = [] { return false; }};
     RequestedPart part{.part = "status", .value = listen, .isDevice = true};
     part.problem = thrownBy([&] { startStatusServer(listen, pages); });
-    // Most likely pleinair's own service, which runs.
-    part.isChosen = !part.problem || part.problem->kind != hal::ErrorKind::kBusy;
+    part.isChosen = !isUsedByAnother(part);
     parts.push_back(std::move(part));
   }
   return parts;

@@ -186,6 +186,7 @@ OutputKind framesKind() {
           .options = {},
           .recognizes = isFramesTarget,
           .list = nullptr,
+          .problemOf = nullptr,
           .make = [](const std::string& target, const OutputOptions&)
               -> Result<std::unique_ptr<Output>> { return openFramesOutput(target); }};
 }

@@ -88,6 +88,7 @@ OutputKind headlessKind() {
       .options = {},
       .recognizes = [](const std::string& target) { return target == "headless"; },
       .list = [] { return OutputListing{.outputs = {{.target = "headless"}}, .problem = {}}; },
+      .problemOf = nullptr,
       .make = [](const std::string&, const OutputOptions&) -> Result<std::unique_ptr<Output>> {
         return std::make_unique<HeadlessOutput>(PixelFormat::kRgb8, ColorEncoding{},
                                                 HeadlessOutput::Keeps::kNothing);

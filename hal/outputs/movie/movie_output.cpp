@@ -114,6 +114,7 @@ OutputKind movieKind() {
                 return isMovieName(target) && !std::filesystem::is_directory(target, ignored);
               },
           .list = nullptr,
+          .problemOf = nullptr,
           .make = [](const std::string& target, const OutputOptions&)
               -> Result<std::unique_ptr<Output>> { return openMovieOutput(target); }};
 }

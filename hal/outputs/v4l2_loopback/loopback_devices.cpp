@@ -99,6 +99,22 @@ Error notFound(const std::string& name, const std::vector<LoopbackDevice>& devic
                         : "give one of these labels, or a node as loopback:/dev/video50"};
 }
 
+std::string remedyOfOpening(int errnoValue) {
+  switch (errnoValue) {
+    case ENOENT:
+    case ENXIO:
+    case ENODEV:
+      return kLoadLoopback;
+    case EACCES:
+    case EPERM:
+      return kJoinVideo;
+    case EBUSY:
+      return "too many programs have it open: end one, or raise v4l2loopback's max_openers";
+    default:
+      return {};
+  }
+}
+
 }  // namespace
 
 Error loopbackInUse(const std::string& node) {
@@ -132,6 +148,26 @@ Result<std::string> findLoopback(const std::string& name, const V4l2System& syst
     if (taken == nullptr) taken = &device;
   }
   return tl::unexpected(taken != nullptr ? loopbackInUse(taken->node) : notFound(name, devices));
+}
+
+Result<OpenLoopback> openLoopbackNode(const std::string& name, const V4l2System& system) {
+  Result<std::string> node = findLoopback(name, system);
+  if (!node) return tl::unexpected(std::move(node.error()));
+  const int opened = system.calls->open(node->c_str(), O_RDWR | O_NONBLOCK);
+  if (opened < 0) {
+    return tl::unexpected(errnoError(*node, "cannot open", -opened, remedyOfOpening(-opened)));
+  }
+  FileDescriptor descriptor(opened, *system.calls);
+  const Result<v4l2::Capability> capability = v4l2::queryCapability(*system.calls, opened, *node);
+  if (!capability) return tl::unexpected(capability.error());
+  if (capability->has(V4L2_CAP_VIDEO_OUTPUT) && capability->has(V4L2_CAP_READWRITE)) {
+    return OpenLoopback{.node = *std::move(node), .descriptor = std::move(descriptor)};
+  }
+  if (capability->driver == kLoopbackDriver) return tl::unexpected(loopbackInUse(*node));
+  return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
+                              .subject = *node,
+                              .problem = "(" + capability->card + ") takes no pictures by write()",
+                              .remedy = "give a loopback's node; `pleinair devices` lists them"});
 }
 
 }  // namespace pleinair::hal

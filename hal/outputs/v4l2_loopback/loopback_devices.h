@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hal/error.h"
+#include "hal/file_descriptor.h"
 #include "hal/v4l2/system_calls.h"
 
 namespace pleinair::hal {
@@ -42,6 +43,15 @@ std::vector<LoopbackDevice> listLoopbacks(const V4l2System& system = {});
 /// kPermissionDenied, kBusy (somebody writes to it); each says what to do, and kNotFound what there
 /// is.
 Result<std::string> findLoopback(const std::string& name, const V4l2System& system = {});
+
+struct OpenLoopback {
+  std::string node;
+  FileDescriptor descriptor;
+};
+
+/// Opens the node that a name means (findLoopback) for writing pictures to it. Errors also:
+/// kNotFound (no such node), kUnsupported (its driver takes no pictures by write()).
+Result<OpenLoopback> openLoopbackNode(const std::string& name, const V4l2System& system = {});
 
 /// kBusy, with what to do: the loopback's output side is another program's.
 Error loopbackInUse(const std::string& node);

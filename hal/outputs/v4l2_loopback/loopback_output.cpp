@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include <fcntl.h>
 #include <linux/videodev2.h>
 
 #include "hal/file_descriptor.h"
@@ -19,22 +18,6 @@ namespace pleinair::hal {
 namespace {
 
 constexpr std::string_view kName = "loopback";
-
-std::string remedyOfOpening(int errnoValue) {
-  switch (errnoValue) {
-    case ENOENT:
-    case ENXIO:
-    case ENODEV:
-      return kLoadLoopback;
-    case EACCES:
-    case EPERM:
-      return kJoinVideo;
-    case EBUSY:
-      return "too many programs have it open: end one, or raise v4l2loopback's max_openers";
-    default:
-      return {};
-  }
-}
 
 class LoopbackOutput final : public MemoryOutput {
  public:
@@ -54,10 +37,10 @@ class LoopbackOutput final : public MemoryOutput {
                                   .problem = "cannot take this size",
                                   .remedy = "use 1 to 8192 px a side and at most 64 Mpx"});
     }
-    Result<std::string> node = findLoopback(device_, system_);
-    if (!node) return tl::unexpected(node.error());
-    device_ = *std::move(node);
-    if (Result<void> opened = open(); !opened) return tl::unexpected(opened.error());
+    Result<OpenLoopback> opened = openLoopbackNode(device_, system_);
+    if (!opened) return tl::unexpected(opened.error());
+    device_ = std::move(opened->node);
+    descriptor_ = std::move(opened->descriptor);
     const Result<loopback::Agreement> agreement =
         loopback::negotiate(calls(), descriptor_.get(), device_, request, layout_);
     if (!agreement) return tl::unexpected(agreement.error());
@@ -98,23 +81,6 @@ class LoopbackOutput final : public MemoryOutput {
 
  private:
   v4l2::SystemCalls& calls() const { return *system_.calls; }
-
-  Result<void> open() {
-    const int opened = calls().open(device_.c_str(), O_RDWR | O_NONBLOCK);
-    if (opened < 0) {
-      return tl::unexpected(errnoError(device_, "cannot open", -opened, remedyOfOpening(-opened)));
-    }
-    descriptor_ = FileDescriptor(opened, calls());
-    const Result<v4l2::Capability> capability = v4l2::queryCapability(calls(), opened, device_);
-    if (!capability) return tl::unexpected(capability.error());
-    if (capability->has(V4L2_CAP_VIDEO_OUTPUT) && capability->has(V4L2_CAP_READWRITE)) return {};
-    if (capability->driver == "v4l2 loopback") return tl::unexpected(loopbackInUse(device_));
-    return tl::unexpected(
-        Error{.kind = ErrorKind::kUnsupported,
-              .subject = device_,
-              .problem = "(" + capability->card + ") takes no pictures by write()",
-              .remedy = "give a loopback's node; `pleinair devices` lists them"});
-  }
 
   /// Newer versions of v4l2loopback refuse without buffers of ours, and start with the first
   /// write(). Those before 0.13 want it: closed without, a device with exclusive_caps=1 takes no
@@ -196,6 +162,15 @@ OutputListing listing() {
   return listing;
 }
 
+std::string deviceOf(const std::string& target) {
+  return target == kName ? "" : target.substr(kName.size() + 1);
+}
+
+std::optional<Error> problemOf(const std::string& target) {
+  const Result<OpenLoopback> opened = openLoopbackNode(deviceOf(target));
+  return opened ? std::nullopt : std::optional(opened.error());
+}
+
 Result<std::unique_ptr<Output>> make(const std::string& target, const OutputOptions& options) {
   const Result<std::optional<PixelFormat>> layout = layoutOf(options);
   if (!layout) return tl::unexpected(layout.error());
@@ -214,14 +189,14 @@ OutputKind loopbackKind() {
                        .choices = {"auto", "yuyv", "nv12", "i420"}}},
           .recognizes = isLoopbackName,
           .list = listing,
+          .problemOf = problemOf,
           .make = make};
 }
 
 Result<std::unique_ptr<MemoryOutput>> openLoopback(const std::string& name,
                                                    std::optional<PixelFormat> layout,
                                                    const V4l2System& system) {
-  const bool isBare = name == kName;
-  if (!isLoopbackName(name) || (!isBare && name.size() == kName.size() + 1)) {
+  if (!isLoopbackName(name) || (name != kName && deviceOf(name).empty())) {
     return tl::unexpected(invalid(name, "names no loopback",
                                   "give loopback, loopback:/dev/video50 or loopback:LABEL"));
   }
@@ -230,8 +205,7 @@ Result<std::unique_ptr<MemoryOutput>> openLoopback(const std::string& name,
     return tl::unexpected(
         invalid(name, "cannot write " + std::string(toString(*layout)), "give yuyv, nv12 or i420"));
   }
-  const std::string device = isBare ? "" : name.substr(kName.size() + 1);
-  return std::make_unique<LoopbackOutput>(device, layout, system);
+  return std::make_unique<LoopbackOutput>(deviceOf(name), layout, system);
 }
 
 }  // namespace pleinair::hal

@@ -22,6 +22,7 @@ OutputKind windowKind() {
           .options = {},
           .recognizes = [](const std::string& target) { return target == "window"; },
           .list = listWindow,
+          .problemOf = [](const std::string&) { return listWindow().problem; },
           .make = [](const std::string&, const OutputOptions&) -> Result<std::unique_ptr<Output>> {
             return openWindow();
           }};

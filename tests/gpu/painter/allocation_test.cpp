@@ -61,6 +61,12 @@ std::vector<hal::CapturedFrame> framesOf(hal::PixelFormat format) {
   return frames;
 }
 
+/// Two levels on, and round: visits all of them where their number is odd.
+std::size_t levelAfter(std::size_t level) {
+  const std::size_t count = qualityLevels().size();
+  return count % 2 == 1 ? (level + 2) % count : (level + 1) % count;
+}
+
 /// A row of frames as an output has them painted.
 struct Show {
   Painter& painter;
@@ -74,7 +80,7 @@ struct Show {
 
   void play(const std::vector<hal::CapturedFrame>& frames) {
     for (const hal::CapturedFrame& frame : frames) {
-      if (changesLevels && painted % 2 == 0) parameters.quality = (parameters.quality + 2) % 5;
+      if (changesLevels && painted % 2 == 0) parameters.quality = levelAfter(parameters.quality);
       const hal::Result<Picture> result = painter.paint(frame, parameters);
       if (!result) continue;
       ++painted;
@@ -114,7 +120,6 @@ TEST_F(PainterTest, ChangesOfLevelAllocateNothing) {
                    .scene = sceneOfTags(),
                    .expectedFormat = frames[0].image.format,
                    .qualityLevels = true});
-  ASSERT_EQ(qualityLevels().size(), 5U);
   Show show{.painter = painter};
   show.play(frames);  // at full only: the others are ready
   show.changesLevels = true;

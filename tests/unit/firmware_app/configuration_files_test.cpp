@@ -1,11 +1,15 @@
 // Where a configuration is read from: profiles, the site file, the environment.
+#include <set>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "config/profiles.h"
+#include "pipeline/styles/registry.h"
 #include "tests/unit/firmware_app/configuration_test.h"
 
 namespace pleinair::app {
@@ -147,10 +151,12 @@ TEST_F(ConfigurationTest, NothingUnknownIsSkipped) {
             name +
                 ":4: style.watercolor.cell_size: found 3, allowed: a whole number of px in [4, "
                 "64]");
+  std::set<std::string> names;
+  for (const styles::StyleKind* kind : styles::styleKinds()) names.emplace(kind->name);
   EXPECT_EQ(refused("[style.watercolour]\ncell_size = 8\n"),
-            name +
-                ":1: style.watercolour: unknown key (did you mean \"watercolor\"?), allowed: "
-                "none, painterly, watercolor");
+            fmt::format("{}:1: style.watercolour: unknown key (did you mean \"watercolor\"?), "
+                        "allowed: {}",
+                        name, fmt::join(names, ", ")));
   EXPECT_EQ(refused("[painting]\ncell_size = 8\n"),
             name +
                 ":2: painting.cell_size: unknown key (it belongs to [style.watercolor]), "

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "hal/outputs/registry.h"
 #include "tests/unit/firmware_app/configuration_test.h"
 
 namespace pleinair::app {
@@ -56,6 +57,19 @@ TEST_F(RequestedPartsTest, AFolderOfAnOutputThatIsNotThereWithTheCommandThatMake
   EXPECT_TRUE(checkOutputFolder("window"));
   EXPECT_TRUE(checkOutputFolder("loopback:/dev/video50"));
   EXPECT_FALSE(checkOutputFolder(path("none/%04d.png").string()));
+}
+
+TEST_F(RequestedPartsTest, ALoopbackIsJudgedAsItsStartFindsIt) {
+  const std::filesystem::path link = path("by-path-link");
+  std::filesystem::create_symlink("/dev/null", link);
+  for (const std::string& node :
+       {std::string("/dev/null"), std::string("/dev/none"), link.string()}) {
+    const std::string target = "loopback:" + node;
+    const auto started = hal::orThrow(hal::openOutput(target))->start({.size = {64, 48}});
+    ASSERT_FALSE(started) << target;
+    request_.set.push_back("output.targets=" + target);
+    EXPECT_EQ(problemOf("output"), started.error().message());
+  }
 }
 
 TEST_F(RequestedPartsTest, ASceneAndItsCalibration) {

@@ -98,7 +98,7 @@ TEST(CameraKinds, AreWhollyDescribedAndHaveEachATable) {
     EXPECT_EQ(backend->name(), kind->name);
     EXPECT_TRUE(backend->list()) << kind->name;
   }
-  EXPECT_THAT(names, testing::ElementsAre("recording", "synthetic", "v4l2"));
+  EXPECT_THAT(names, testing::IsSupersetOf({"recording", "synthetic", "v4l2"}));
 }
 
 TEST(CameraSelection, TakesWhatAKindsOwnTableSays) {

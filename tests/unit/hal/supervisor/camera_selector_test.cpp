@@ -51,6 +51,22 @@ TEST_F(CameraSelectorTest, ByIdNodeAndSerial) {
   EXPECT_EQ(opened("serial:XYZ"), "usb:x");
 }
 
+TEST_F(CameraSelectorTest, FollowsACameraToTheNodeThatItGotAfterAReset) {
+  const auto device = usb_->add("046d:0825", {sound_}, "/dev/video0");
+  const auto other = usb_->add("046d:9999", {sound_}, "/dev/video2");
+  device->repeatsLast = other->repeatsLast = true;
+  CameraSelector chosen = selector("usb:/dev/video0");
+  EXPECT_EQ(told(chosen.open({})), "usb:046d:0825");
+  device->description.node = "/dev/video1";
+  EXPECT_EQ(told(chosen.open({})), "usb:046d:0825") << "the node is gone, the camera is not";
+  other->description.node = "/dev/video0";
+  EXPECT_EQ(told(chosen.open({})), "usb:046d:9999") << "the node in the choice comes first";
+  other->description.node = "/dev/video2";
+  EXPECT_EQ(told(chosen.open({})), "usb:046d:9999") << "the last that was opened there";
+  CameraSelector fresh = selector("usb:/dev/video0");
+  EXPECT_EQ(told(fresh.open({})), "scripted: is not there") << "no camera was opened there";
+}
+
 TEST_F(CameraSelectorTest, ABackEndsFirstThatWorks) {
   usb_->add("a", {busy_});
   usb_->add("b", {sound_});

@@ -105,6 +105,29 @@ TEST_F(LoopbackDevices, WithoutPermissionSayHowToGetIt) {
   }
 }
 
+TEST_F(LoopbackDevices, AreOpenedByNameAndRefusedWithTheReason) {
+  addNode("video4").card = "hall";
+  const Result<OpenLoopback> opened = openLoopbackNode("hall", system());
+  ASSERT_TRUE(opened);
+  EXPECT_EQ(opened->node, pathOf("video4"));
+  EXPECT_TRUE(opened->descriptor);
+  addNode("video5").capabilities = V4L2_CAP_VIDEO_CAPTURE;
+  addNode("video6").openAnswer = -EACCES;
+  support::FakeOutputNode& streaming = addNode("video7");
+  streaming.driver = "vivid";
+  streaming.capabilities = V4L2_CAP_VIDEO_OUTPUT | V4L2_CAP_STREAMING;
+  const auto kindOf = [&](const char* name) {
+    const Result<OpenLoopback> refused = openLoopbackNode(pathOf(name), system());
+    EXPECT_FALSE(refused) << name;
+    return refused ? ErrorKind::kIo : refused.error().kind;
+  };
+  EXPECT_EQ(kindOf("video5"), ErrorKind::kBusy);
+  EXPECT_EQ(kindOf("video6"), ErrorKind::kPermissionDenied);
+  EXPECT_EQ(kindOf("video7"), ErrorKind::kUnsupported) << "it takes buffers only";
+  EXPECT_EQ(kindOf("video8"), ErrorKind::kNotFound);
+  EXPECT_EQ(fake_.openDescriptors(), 1u) << "the one that is kept";
+}
+
 TEST_F(LoopbackDevices, ThatAreNoV4l2AreToldByTheRealCalls) {
   std::ofstream(folder_.path() / "video0") << "a file";
   const std::vector<LoopbackDevice> devices = listLoopbacks({.nodes = folder_.path()});
