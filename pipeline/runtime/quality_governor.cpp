@@ -64,10 +64,11 @@ bool QualityGovernor::isOverBudget() const {
 }
 
 double QualityGovernor::median() const {
-  std::array<double, kWindow> sorted = recent_;
+  std::array<double, kWindow> loads = recent_;
   const auto count = static_cast<std::ptrdiff_t>(std::min(seen_, kWindow));
-  std::sort(sorted.begin(), sorted.begin() + count);
-  return sorted.at(static_cast<std::size_t>(count) / 2);
+  const auto middle = loads.begin() + count / 2;
+  std::nth_element(loads.begin(), middle, loads.begin() + count);
+  return *middle;
 }
 
 /// The level below has run for a few frames: what did leaving the one above bring?

@@ -3,8 +3,10 @@
 // pass by pass.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <ctime>
 #include <map>
 #include <string>
 #include <utility>
@@ -129,6 +131,45 @@ void stages(benchmark::State& state) {
   for (const auto& [pass, times] : ms) state.counters[pass] = medianOf(times);
 }
 
+double processSeconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// What sampled pass times cost: blocks of frames with and without them in turn, so that what else
+/// runs on the machine meets both. CPU time of all threads; the mean ratio of the pairs of blocks,
+/// and the upper bound of its 95 % confidence interval (Student's t).
+void sampledPassTimes(benchmark::State& state) {
+  constexpr int kPairs = 16;
+  constexpr double kStudent95 = 1.753;  // one-sided, 15 degrees of freedom
+  const auto framesOfBlock = static_cast<int>(gpu::PassTimer::kSampledEvery);
+  Chain without(sizeOf(state), "watercolor", 0, gpu::PassTiming::kOff);
+  Chain sampled(sizeOf(state), "watercolor", 0, gpu::PassTiming::kSampled);
+  const auto secondsOf = [&](Chain& chain) {
+    const double start = processSeconds();
+    for (int i = 0; i < framesOfBlock; ++i) chain.paint();
+    return processSeconds() - start;
+  };
+  for ([[maybe_unused]] auto _ : state) {
+    double sum = 0.0;
+    double squares = 0.0;
+    for (int i = 0; i < kPairs; ++i) {
+      const bool isSampledFirst = i % 2 == 1;
+      const double first = secondsOf(isSampledFirst ? sampled : without);
+      const double second = secondsOf(isSampledFirst ? without : sampled);
+      const double ratio = isSampledFirst ? first / second : second / first;
+      sum += ratio;
+      squares += ratio * ratio;
+    }
+    const double mean = sum / kPairs;
+    const double variance = std::max(0.0, (squares - sum * mean) / (kPairs - 1));
+    state.counters["cpu_ratio"] = mean;
+    state.counters["cpu_ratio_upper95"] = mean + kStudent95 * std::sqrt(variance / kPairs);
+    state.counters["frames_each"] = kPairs * framesOfBlock;
+  }
+}
+
 void atBothSizes(benchmark::internal::Benchmark* benchmark) {
   benchmark->Args({640, 480})->Args({1280, 720})->Unit(benchmark::kMillisecond)->UseRealTime();
   benchmark->MeasureProcessCPUTime()->MinTime(2.0);
@@ -138,6 +179,12 @@ BENCHMARK_CAPTURE(wholeChain, watercolor, "watercolor")
     ->Name("chain/watercolor")
     ->Apply(atBothSizes);
 BENCHMARK_CAPTURE(wholeChain, none, "none")->Name("chain/none")->Apply(atBothSizes);
+
+BENCHMARK(sampledPassTimes)
+    ->Name("chain/watercolor, cost of sampled pass times")
+    ->Args({320, 240})
+    ->Iterations(1)
+    ->Unit(benchmark::kSecond);
 
 BENCHMARK(stages)->Name("chain/watercolor, pass by pass")->Apply(atBothSizes);
 

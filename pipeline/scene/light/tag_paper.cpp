@@ -73,7 +73,7 @@ Readings readRing(const LinearImage& picture, const glm::dmat3& pictureFromTag, 
                   const Borders& borders) {
   Readings readings;
   for (int side = 0; side < 4; ++side) {
-    if (!borders.isRead[side % 2]) continue;
+    if (!borders.isRead.at(static_cast<std::size_t>(side % 2))) continue;
     for (int i = 0; i < kAlongSide; ++i) {
       const double along = 0.85 * (2.0 * i / (kAlongSide - 1) - 1.0);
       const double across = side < 2 ? reach : -reach;
