@@ -25,6 +25,8 @@ class FileDescriptor {
   /// this.
   explicit FileDescriptor(int fd, DescriptorCloser& closer = systemCloser())
       : closer_(&closer), fd_(fd) {}
+  FileDescriptor(const FileDescriptor&) = delete;
+  FileDescriptor& operator=(const FileDescriptor&) = delete;
   FileDescriptor(FileDescriptor&& other) noexcept : closer_(other.closer_), fd_(other.release()) {}
   FileDescriptor& operator=(FileDescriptor&& other) noexcept {
     if (this == &other) return *this;

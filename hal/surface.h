@@ -54,6 +54,8 @@ class Fence {
   Fence() = default;
   /// Takes the descriptor over.
   explicit Fence(int syncFile) : syncFile_(syncFile) {}
+  Fence(const Fence&) = delete;
+  Fence& operator=(const Fence&) = delete;
   Fence(Fence&& other) noexcept : syncFile_(std::exchange(other.syncFile_, -1)) {}
   Fence& operator=(Fence&& other) noexcept {
     std::swap(syncFile_, other.syncFile_);
@@ -86,6 +88,8 @@ class SurfaceMapping {
   SurfaceMapping(SurfaceUnmapper& unmapper, SurfaceId surface,
                  std::array<std::span<std::uint8_t>, 4> planes)
       : unmapper_(&unmapper), surface_(surface), planes_(planes) {}
+  SurfaceMapping(const SurfaceMapping&) = delete;
+  SurfaceMapping& operator=(const SurfaceMapping&) = delete;
   SurfaceMapping(SurfaceMapping&& other) noexcept
       : unmapper_(std::exchange(other.unmapper_, nullptr)),
         surface_(other.surface_),

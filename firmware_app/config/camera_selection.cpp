@@ -25,7 +25,7 @@ bool namesRecording(const std::filesystem::path& path) {
 /// As the selector has it.
 std::string choiceOf(const CameraSettings& settings,
                      std::span<const hal::SelectableBackend> backends) {
-  const std::string source = settings.source.string();
+  std::string source = settings.source.string();
   const auto kinds = hal::cameraKinds();
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     const hal::CameraKind& kind = *kinds[i];

@@ -18,6 +18,7 @@ namespace pleinair::hal::v4l2 {
 class SystemCalls : public DescriptorCloser {
  public:
   SystemCalls() = default;
+  ~SystemCalls() override = default;
   SystemCalls(const SystemCalls&) = delete;
   SystemCalls& operator=(const SystemCalls&) = delete;
 
