@@ -163,12 +163,13 @@ class LivePainting {
     const hal::OutputFormat format = orThrow(opened_.at(index)->start(request));
     if (window != nullptr) window_.emplace(*window, tuning_, *job_.clock);
     const hal::OutputKind& kind = *orThrow(hal::outputKindOf(job_.outputs.at(index)));
-    if (kind.traits.isOnMainThread) stepped_.push_back(index);
     runtime::OutputStageOptions options =
         outputRules(job_.outputs.at(index), job_.outputOptions, job_.runtime, stream_);
     options.request = request;
     options.limit = job_.options.frames;
-    chain_.addOutput(std::move(opened_.at(index)), format, std::move(options));
+    runtime::OutputStage& output =
+        chain_.addOutput(std::move(opened_.at(index)), format, std::move(options));
+    if (kind.traits.isOnMainThread) stepped_.push_back(&output);
   }
 
   std::unique_ptr<runtime::FramePainter> makePainter(const std::vector<hal::FrameFormat>& formats) {
@@ -194,7 +195,7 @@ class LivePainting {
 
   void paint() {
     hasBegun_ = true;
-    threads_->startOutputs(stepped_);
+    threads_->startOutputs({stepped_.begin(), stepped_.end()});
     began_ = job_.clock->now();
     while (!isOver()) look();
   }
@@ -216,8 +217,8 @@ class LivePainting {
   /// One round of the program's own thread.
   void look() {
     hal::TimePoint wake = job_.clock->now() + kPollInterval;
-    for (const std::size_t index : stepped_) {
-      if (const auto next = chain_.output(index).step()) wake = std::min(wake, *next);
+    for (runtime::OutputStage* output : stepped_) {
+      if (const auto next = output->step()) wake = std::min(wake, *next);
     }
     handleWindow();
     handleSnapshots();
@@ -225,7 +226,7 @@ class LivePainting {
     if (stepped_.empty()) {
       job_.clock->sleepUntil(wake);
     } else {
-      chain_.output(stepped_.front()).wait(wake);
+      stepped_.front()->wait(wake);
     }
   }
 
@@ -239,7 +240,7 @@ class LivePainting {
     const hal::TimePoint now = job_.clock->now();
     if (now - captioned_ < kBetweenCaptions) return;
     captioned_ = now;
-    const double rate = chain_.output(stepped_.front()).status().perSecond;
+    const double rate = stepped_.front()->status().perSecond;
     const auto drawn = window_->update(rate, rate > kRateOfPictures);
     // Beside others the window alone fails, at its next picture.
     if (!drawn && chain_.outputCount() == 1) failure_ = drawn.error();
@@ -309,8 +310,8 @@ class LivePainting {
     const runtime::LiveThreads::Stopped stopped = threads_->stop(kStopPatience);
     if (!stopped.stuck.empty()) leave(stopped.stuck);
     failures_ = stopped.failures;
-    for (const std::size_t index : stepped_) {
-      if (auto finished = chain_.output(index).finish(); !finished) {
+    for (runtime::OutputStage* output : stepped_) {
+      if (auto finished = output->finish(); !finished) {
         failures_.push_back(std::move(finished.error()));
       }
     }
@@ -345,7 +346,7 @@ class LivePainting {
   SnapshotSaver saver_;
   LiveReporter reporter_;
   std::vector<std::unique_ptr<hal::Output>> opened_;  ///< until they are the chain's
-  std::vector<std::size_t> stepped_;                  ///< outputs of this thread: the window
+  std::vector<runtime::OutputStage*> stepped_;        ///< outputs of this thread: the window
   std::optional<LiveWindow> window_;
   std::optional<runtime::LiveThreads> threads_;
   std::unique_ptr<hal::HotplugMonitor> hotplug_;  ///< tells the supervisor

@@ -35,13 +35,15 @@ class LivePipeline {
   /// The step by which the latency changes is the longest refresh of the outputs that have one.
   void makePaintStage(PainterFactory factory, PaintStageOptions options);
 
-  /// Has no more frames painted for an output. It stays among the outputs until takeRemoved() gives
-  /// it. Precondition: there is a paint stage.
+  /// Stops painting for an output, from the paint stage's next step on. The output stays among the
+  /// others until takeRemoved() gives it. Precondition: there is a paint stage.
   void removeOutput(OutputStage& output);
-  /// An output that was removed and gets no more pictures, if there is one. The caller steps it no
-  /// more, calls finish(), which hands over what is due and ends the rest as kStopped, and destroys
-  /// it. Status and outputCount() know it no longer; the ledger has its frames.
-  std::unique_ptr<OutputStage> takeRemoved();
+  /// Whether the paint stage has stopped using a removed output. Any thread.
+  bool hasLetGoOf(const OutputStage& output) const { return paint_->hasLetGoOf(output); }
+  /// Hands over a removed output; null until hasLetGoOf() is true. The caller no longer steps it,
+  /// calls finish(), unless that was done, and destroys it. Status and outputCount() leave it out;
+  /// its frames stay in the ledger.
+  std::unique_ptr<OutputStage> takeRemoved(OutputStage& output);
 
   hal::CameraSupervisor& camera() { return camera_; }
   hal::Clock& clock() { return clock_; }
@@ -66,7 +68,6 @@ class LivePipeline {
   CaptureStage capture_;
   mutable std::mutex outputsMutex_;  ///< of outputs_, for threads that ask for the status
   std::vector<std::unique_ptr<OutputStage>> outputs_;
-  std::vector<OutputStage*> removed_;  ///< of outputs_, until they are taken
   std::optional<PaintStage> paint_;
 };
 

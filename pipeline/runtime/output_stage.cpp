@@ -224,7 +224,10 @@ hal::Answer OutputStage::submitSurface(hal::SurfaceOutput& output, const Due& du
   if (!*surface) return false;
   hal::Result<hal::Fence> fence =
       options_.fill(*buffers_.at(due.picture.buffer), output, **surface);
-  if (!fence) return tl::unexpected(fence.error());
+  if (!fence) {
+    output.release(**surface);
+    return tl::unexpected(fence.error());
+  }
   // A picture shown early, to avoid a freeze, is submitted for immediate display.
   const hal::TimePoint time =
       due.outcome == Outcome::kShown ? due.picture.due : std::min(due.picture.due, clock_.now());

@@ -95,13 +95,20 @@ void PaintStage::noteSuspension() {
 }
 
 void PaintStage::add(OutputStage& output) {
-  const std::scoped_lock lock(mutex_);
-  toOpen_.push_back(&output);
+  {
+    const std::scoped_lock lock(mutex_);
+    toOpen_.push_back(&output);
+  }
+  wake();
 }
 
 void PaintStage::remove(OutputStage& output) {
-  const std::scoped_lock lock(mutex_);
-  toClose_.push_back(&output);
+  {
+    const std::scoped_lock lock(mutex_);
+    assert(std::ranges::find(toClose_, &output) == toClose_.end());
+    toClose_.push_back(&output);
+  }
+  wake();
 }
 
 bool PaintStage::hasLetGoOf(const OutputStage& output) const {
@@ -126,6 +133,8 @@ void PaintStage::handleRequests() {
                 [&](auto* each) { return std::ranges::find(toOpen, each) != toOpen.end(); });
   std::erase_if(toClose_,
                 [&](auto* each) { return std::ranges::find(toClose, each) != toClose.end(); });
+  // Under the lock: afterwards hasLetGoOf() is true, and the output may be destroyed.
+  for (OutputStage* output : toClose) output->wake();
 }
 
 void PaintStage::open(OutputStage& output) {

@@ -58,9 +58,10 @@ class PaintStage {
   /// From the next step() on, frames are painted for this output too. Any thread.
   void add(OutputStage& output);
   /// From the next step() on, no more frames are painted for this output; its frames in flight end
-  /// as kStopped. Any thread.
+  /// as kStopped, and its wait() is woken. Once for each output. Any thread.
   void remove(OutputStage& output);
-  /// Whether the output is not used any more, and may be destroyed. Any thread.
+  /// Whether neither add() nor remove() of the output is pending: once removed, it is not used any
+  /// more and may be destroyed. Any thread.
   bool hasLetGoOf(const OutputStage& output) const;
 
   /// During a pause the frame that came last is painted again and again, so that tuning shows.

@@ -32,6 +32,7 @@ struct FakeDisplay {
   };
   std::vector<Shown> shown;
   int opened = 0;
+  int lent = 0;  ///< surfaces that were acquired, and neither submitted nor released
 };
 
 /// A display behind the contract of hal::SurfaceOutput: surfaces in shared memory (memfd),
