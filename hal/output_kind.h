@@ -17,10 +17,6 @@ struct OutputTraits {
   bool isPaced = false;
   /// A device that may come back: it is opened again after it has failed.
   bool reopens = false;
-  /// write() never waits for readers: what cannot be taken at once is skipped and counted.
-  bool skips = false;
-  /// Lends surfaces (SurfaceOutput). Otherwise it takes pictures in memory (MemoryOutput).
-  bool lendsSurfaces = false;
   /// Its target is a path, which is written to. Offline painting goes to these only.
   bool writesFiles = false;
   /// It has to be used on the main thread, as windows have.
