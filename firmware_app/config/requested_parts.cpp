@@ -56,7 +56,7 @@ std::string nodeOf(const std::string& id) {
   return {};
 }
 
-bool isMeant(const std::string& source, const hal::CameraDescription& camera) {
+bool isRequested(const std::string& source, const hal::CameraDescription& camera) {
   constexpr std::string_view kSerial = "serial:";
   const std::string& backend = camera.identity.backend;
   if (source == "auto" || source == backend) return true;
@@ -70,7 +70,7 @@ std::optional<hal::Error> deviceProblem(const std::string& source) {
   const DeviceCameras there = listDeviceCameras(deviceBackends());
   std::optional<hal::Error> problem;
   for (const hal::CameraDescription& camera : there.cameras) {
-    if (!isMeant(source, camera)) continue;
+    if (!isRequested(source, camera)) continue;
     if (!camera.problem && std::ranges::any_of(camera.modes, &hal::CameraMode::isSupported)) {
       return std::nullopt;
     }
@@ -108,7 +108,7 @@ RequestedPart cameraPart(const Configuration& configuration) {
 }
 
 /// Whether a target such as "loopback", "loopback:/dev/video50" or "loopback:LABEL" means this one.
-bool isMeant(const std::string& target, const hal::OutputDescription& output) {
+bool isRequested(const std::string& target, const hal::OutputDescription& output) {
   const std::size_t colon = target.find(':');
   return colon == std::string::npos || target == output.target ||
          target.substr(colon + 1) == output.name;
@@ -120,7 +120,7 @@ std::optional<hal::Error> deviceOutputProblem(const hal::OutputKind& kind,
   const hal::OutputListing there = kind.list();
   std::optional<hal::Error> problem = there.problem;
   for (const hal::OutputDescription& output : there.outputs) {
-    if (!isMeant(target, output)) continue;
+    if (!isRequested(target, output)) continue;
     if (!output.problem) return std::nullopt;
     problem = output.problem;
   }

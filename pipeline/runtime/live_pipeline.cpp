@@ -42,7 +42,7 @@ void LivePipeline::removeOutput(OutputStage& output) {
 }
 
 std::unique_ptr<OutputStage> LivePipeline::takeRemoved(OutputStage& output) {
-  if (!hasLetGoOf(output)) return nullptr;
+  if (!hasReleased(output)) return nullptr;
   const std::scoped_lock lock(outputsMutex_);
   const auto owner = std::ranges::find(outputs_, &output, &std::unique_ptr<OutputStage>::get);
   assert(owner != outputs_.end());

@@ -95,7 +95,7 @@ void LiveThreads::launchOutput(const std::string& name, OutputStage& output) {
 }
 
 bool LiveThreads::mayEnd(const OutputThread& thread) const {
-  return stopsOutputs_ || (thread.isRemoved && pipeline_.hasLetGoOf(*thread.output));
+  return stopsOutputs_ || (thread.isRemoved && pipeline_.hasReleased(*thread.output));
 }
 
 void LiveThreads::runOutput(OutputThread& thread) {
@@ -110,7 +110,7 @@ void LiveThreads::removeOutput(OutputStage& output) {
   const auto thread = std::ranges::find(outputThreads_, &output, &OutputThread::output);
   assert(thread != outputThreads_.end() && !thread->isRemoved);
   pipeline_.removeOutput(output);
-  thread->isRemoved = true;  // after the request, which hasLetGoOf() answers
+  thread->isRemoved = true;  // after the request, which hasReleased() answers
   output.wake();
 }
 

@@ -230,7 +230,7 @@ std::vector<Metric> frameMetrics() {
   };
 }
 
-/// How a scope begins a name, in JSON and in Prometheus' format.
+/// The prefix of a scope's names, in JSON and in Prometheus' format.
 struct ScopeNames {
   std::string_view json;
   std::string_view prometheus;

@@ -116,10 +116,10 @@ TEST(LiveEngineTest, GivesTheFinishedPictureAsAStillUnderAnyView) {
   live.step();
   live.controls().requestSnapshot();
   live.drain();
-  const auto still = live.controls().takeSnapshot();
-  ASSERT_TRUE(still);
-  ASSERT_TRUE(*still);
-  EXPECT_EQ((*still)->size(), kSize);
+  const auto snapshot = live.controls().takeSnapshot();
+  ASSERT_TRUE(snapshot);
+  ASSERT_TRUE(*snapshot);
+  EXPECT_EQ((*snapshot)->size(), kSize);
 }
 
 TEST(LiveEngineTest, StartsAndStopsWithoutLeavingAnything) {
