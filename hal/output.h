@@ -12,7 +12,7 @@
 
 namespace pleinair::hal {
 
-/// What the pipeline offers to an output.
+/// The stream that the pipeline offers to an output.
 struct OutputRequest {
   FrameSize size;
   std::optional<Duration> framePeriod;  ///< nominal, where the source has one
@@ -25,7 +25,7 @@ struct Refresh {
   friend bool operator==(const Refresh&, const Refresh&) = default;
 };
 
-/// What the output takes. The pipeline scales and converts to it (pipeline/present).
+/// The format that an output takes. The pipeline scales and converts to it (pipeline/present).
 struct OutputFormat {
   FrameFormat frame;
   std::optional<Refresh> refresh;  ///< of a display; unset where there is none

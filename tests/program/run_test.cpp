@@ -228,7 +228,7 @@ TEST_F(RunInWindow, ObeysKeys) {
         waitForSnapshots(path("snapshots"), 2);
         server_->press({"v", "space", "shift+l"});
         waitForTitle("watercolor[^a-z]+mosaic");
-        // What the new look needs has been compiled before it is to end.
+        // The third snapshot shows that the new look's programs are compiled.
         server_->press({"s"});
         waitForSnapshots(path("snapshots"), 3);
         server_->press({"Escape"});

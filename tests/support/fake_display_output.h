@@ -10,7 +10,7 @@
 
 namespace pleinair::support {
 
-/// What a display is, and what it does; shared by the outputs that open it one after another.
+/// The properties and behaviour of a display; shared by the outputs that open it one after another.
 struct FakeDisplay {
   hal::Duration period = std::chrono::nanoseconds(16'666'667);
   hal::TimePoint phase;  ///< one of its refreshes

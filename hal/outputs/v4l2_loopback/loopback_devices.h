@@ -46,7 +46,7 @@ Result<std::string> findLoopback(const std::string& name, const V4l2System& syst
 /// kBusy, with what to do: the loopback's output side is another program's.
 Error loopbackInUse(const std::string& node);
 
-/// What to do where a node may not be opened.
+/// The remedy if a node may not be opened.
 inline constexpr const char* kJoinVideo =
     "join the group video: sudo usermod -aG video $USER, then log in again";
 

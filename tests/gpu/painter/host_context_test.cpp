@@ -67,7 +67,7 @@ void expectSwitchesOfANewContext() {
   EXPECT_EQ(viewport, kViewport);
 }
 
-/// What a host's own drawing may leave behind, and what would spoil ours.
+/// GL state that a host's drawing may leave behind and that would spoil the Painter's.
 class UntidyHost {
  public:
   UntidyHost() : texture_(gpu::TextureFormat::kRgba8, {4, 4}) { glGenSamplers(1, &sampler_); }

@@ -168,7 +168,7 @@ TEST_F(PainterTest, ItsContextTellsOfResetsWhereTheDriverCan) {
 
 class LostHostContextTest : public support::GlTest {};
 
-/// What the Painter had stays in the dead context; a new one in the host's next context works.
+/// The Painter's objects stay in the lost context; a new Painter in the host's next context works.
 TEST_F(LostHostContextTest, IsLeftAsItIs) {
   BadDriver driver;
   auto lost = std::make_unique<Painter>(PainterOptions{

@@ -1,5 +1,5 @@
-// The live chain under a stepped clock: every case of the fixed latency
-// (docs/decisions/0009-fixed-latency.md), and what may befall a camera and a GPU meanwhile.
+// The live pipeline under a stepped clock: every case of the fixed latency
+// (docs/decisions/0009-fixed-latency.md), and failures of cameras and of the GPU.
 #include "pipeline/runtime/live_pipeline.h"
 
 #include <array>
@@ -37,7 +37,7 @@ class LivePipelineTest : public testing::Test {
     EXPECT_TRUE(counts().addsUp());
     for (const auto& output : status().outputs) EXPECT_TRUE(output.addsUp()) << output.name;
   }
-  /// The longest time without a new picture.
+  /// The longest time between two images at the output.
   hal::Duration maxGap() const {
     hal::Duration longest{0};
     for (std::size_t i = 1; i < live_.notes.size(); ++i) {
@@ -45,7 +45,7 @@ class LivePipelineTest : public testing::Test {
     }
     return longest;
   }
-  /// From capture to being shown, of each picture from `first` on.
+  /// The time from capture to being shown for each image from `first` on.
   std::vector<hal::Duration> latencies(std::size_t first = 0) const {
     std::vector<hal::Duration> found;
     for (std::size_t i = first; i < live_.notes.size(); ++i) {
@@ -259,7 +259,7 @@ TEST_F(LivePipelineTest, GivesAnOutputNoMoreThanItsLimit) {
   expectSumsToAgree();
 }
 
-/// With cameras that go and come back.
+/// Cameras that are lost and come back.
 class LostCameraTest : public LivePipelineTest {
  protected:
   void begin(std::vector<support::ScriptedSession> sessions) {
@@ -288,7 +288,7 @@ TEST_F(LostCameraTest, GoesOnWhenTheCameraIsBack) {
   expectSumsToAgree();
 }
 
-/// Only the mailbox between camera and painter replaces frames, and only it says so.
+/// Only the mailbox between camera and painter replaces frames.
 TEST_F(LostCameraTest, ASlowPainterReplacesFramesAndTheCameraLosesNone) {
   live_.gpu.cost = [](auto, auto) { return 100ms; };  // three frames' time
   begin({{.startError = {},
@@ -341,7 +341,7 @@ TEST_F(LostCameraTest, CountsBrokenFramesAlsoWhereNoSoundOneFollows) {
   expectSumsToAgree();
 }
 
-/// Random loads, delays and faults, the same for the same seed.
+/// Random loads, delays and faults; a seed determines them.
 class RandomLive : public testing::TestWithParam<unsigned> {};
 
 struct RandomRun {

@@ -1,5 +1,6 @@
-// The live chain on its threads and the real clock: what may block, hang or be stopped at any
-// moment. Nothing here depends on how fast the machine is; waits have generous limits.
+// The live pipeline on its threads and the real clock: stages that block, hang, come, go or
+// are stopped at any moment. No result depends on the speed of the machine; waits have generous
+// limits.
 #include "pipeline/runtime/live_threads.h"
 
 #include <chrono>
@@ -21,7 +22,7 @@ using support::PacedCamera;
 using support::PassThroughPainter;
 using support::ProcessResources;
 
-/// Counts what it gets, and blocks where it is told to.
+/// Counts its images, and blocks on request.
 class BlockingOutput final : public hal::MemoryOutput {
  public:
   struct Control {
@@ -56,7 +57,7 @@ class BlockingOutput final : public hal::MemoryOutput {
   Control& control_;
 };
 
-/// A chain of a paced camera, a painter that passes on, and outputs that block.
+/// A live pipeline with a paced camera, a painter that copies frames, and outputs that may block.
 class Live {
  public:
   explicit Live(std::size_t outputs, hal::Duration period = 4ms)
@@ -96,7 +97,8 @@ class Live {
     const hal::OutputFormat format = formatOf(*output);
     return threads_.addOutput(std::move(output), format, options());
   }
-  /// Returns when the output has got so many more pictures; the test's own time limit ends it.
+  /// Returns when the output has got `count` more images. Only the test's time limit ends it
+  /// sooner.
   void awaitPictures(std::size_t index, int count) {
     std::atomic<int>& written = output(index).written;
     const int wanted = written + count;
@@ -157,7 +159,7 @@ TEST(LiveThreadsTest, LeavesBehindAnOutputThatNeverComesBack) {
   EXPECT_TRUE(live.stop().stuck.empty());
 }
 
-/// Every picture of every output, and every frame of the ledger, has an outcome or is on its way.
+/// Each frame of each output, and each frame of the ledger, has an outcome or is in flight.
 void expectSumsToAgree(const LivePipeline& chain) {
   const RuntimeStatus status = chain.status();
   EXPECT_TRUE(status.ledger.addsUp());
@@ -197,7 +199,7 @@ TEST(LiveThreadsTest, OutputsComeAndGoWhileFramesFlow) {
   expectSumsToAgree(live.chain());
   const LedgerCounts ledger = live.chain().ledger().counts();
   EXPECT_EQ(ledger.inFlight, 0u);
-  // Each frame that an output has shown was shown, and those of both only once.
+  // The ledger counts a frame once that both outputs have shown.
   const std::uint64_t other = second.status().presented;
   EXPECT_GE(ledger.shown(), std::max(ended.presented, other));
   EXPECT_LE(ledger.shown(), ended.presented + other);
@@ -238,7 +240,7 @@ TEST(LiveThreadsTest, OutputsThatComeAndGoAHundredTimesLeaveNothing) {
   }
   EXPECT_EQ(ProcessResources::now().threads, before.threads);
   live.awaitPictures(0, 5);
-  // Not taken, it is ended with the others.
+  // A removed output that nobody takes is ended by stop().
   live.threads().removeOutput(live.add());
   EXPECT_TRUE(live.stop().stuck.empty());
   expectSumsToAgree(live.chain());

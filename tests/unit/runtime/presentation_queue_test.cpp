@@ -13,7 +13,7 @@ hal::TimePoint at(hal::Duration time) {
   return kStart + time;
 }
 
-/// Captured 100 ms before its due time.
+/// A frame that was captured 100 ms before its due time.
 WaitingFrame frame(hal::Duration ready, hal::Duration due) {
   return {
       .buffer = 0, .ticket = {}, .captured = at(due - 100ms), .ready = at(ready), .due = at(due)};
@@ -21,12 +21,12 @@ WaitingFrame frame(hal::Duration ready, hal::Duration due) {
 
 class PresentationQueueTest : public testing::Test {
  protected:
-  /// The outcome of the next frame that is decided on now, or nothing.
+  /// The outcome of the frame that next() decides on now, if any.
   std::optional<Outcome> outcomeAt(hal::Duration now) {
     const auto decision = queue_.next(at(now));
     return decision ? std::optional(decision->outcome) : std::nullopt;
   }
-  /// Something has been shown just now, so that nothing threatens to freeze.
+  /// Shows a frame now, so that no freeze is imminent.
   void showOneAt(hal::Duration now) {
     queue_.push(frame(now, now));
     ASSERT_EQ(outcomeAt(now), Outcome::kShown);

@@ -1,5 +1,5 @@
 // Outputs that lend surfaces, and outputs that come and go, in a live pipeline under a stepped
-// clock: a camera of 30 frames a second, a painter that takes 20 ms, displays that are made up.
+// clock: a camera of 30 frames a second, a painter that takes 20 ms, simulated displays.
 #include <algorithm>
 #include <chrono>
 #include <memory>
@@ -29,7 +29,7 @@ class SurfaceOutputTest : public testing::Test {
             },
             live_.clock)) {}
 
-  /// With the simulation's own output in memory, of which these tests take the sums only.
+  /// Begins with the simulation's own output in memory, of which these tests check the sums only.
   void begin(std::uint64_t frames) {
     camera_.frames = frames;
     live_.begin(selector_);
@@ -82,7 +82,7 @@ TEST_F(SurfaceOutputTest, LearnsThePhaseFromTheFirstFlip) {
   live_.drain();
   EXPECT_EQ(of(stage, Outcome::kShown), 100u);
   ASSERT_EQ(display.shown.size(), 100u);
-  // Those that were painted before the first flip do not know it yet.
+  // The due times of frames painted before the first flip do not use its phase.
   for (std::size_t i = 6; i < display.shown.size(); ++i) {
     const hal::TimePoint captured = began_ + static_cast<int>(i) * camera_.period;
     const hal::Refresh refresh{.period = display.period, .phase = display.phase};

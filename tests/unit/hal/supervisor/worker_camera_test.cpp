@@ -32,7 +32,7 @@ class Driver {
     waiting_.push_back(std::move(next));
     changed_.notify_all();
   }
-  /// Two have been taken, the second of which cannot be handed over before the first is.
+  /// Waits until two frames were taken; the second cannot be handed over before the first.
   void waitUntilHeldBack() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return taken_ == 2; });
