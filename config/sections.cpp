@@ -127,7 +127,7 @@ const RenamedKey* Sections::renamedKey(std::string_view key) const {
   return found == renamed_.end() ? nullptr : &*found;
 }
 
-/// What may stand in a table: its parameters and the tables within it.
+/// The keys that a table may have: its parameters and its subtables.
 std::vector<std::string> Sections::keysIn(std::string_view table) const {
   std::vector<std::string> keys;
   for (const Section& section : sections_) {

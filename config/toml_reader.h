@@ -102,11 +102,13 @@ class TomlTable {
   /// An array of tables, `[[key]]`; empty if absent.
   std::vector<TomlTable> tables(std::string_view key) const;
 
-  bool has(std::string_view key) const;       ///< does not make the key known
-  bool isString(std::string_view key) const;  ///< likewise; for keys of two types
-  bool isTable(std::string_view key) const;   ///< likewise
-  std::vector<std::string> keys() const;      ///< every key in the table, sorted
-  int lineOf(std::string_view key) const;     ///< where absent, its table's line; 0 for the root
+  // These three do not make the key known.
+  bool has(std::string_view key) const;
+  bool isString(std::string_view key) const;
+  bool isTable(std::string_view key) const;
+
+  std::vector<std::string> keys() const;   ///< every key in the table, sorted
+  int lineOf(std::string_view key) const;  ///< where absent, its table's line; 0 for the root
   std::string pathOf(std::string_view key) const;  ///< "tag[0].edge"
   const std::string& file() const;                 ///< the name for messages
   /// Directory of the file, to which its relative paths refer; empty for text.

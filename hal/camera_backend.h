@@ -12,24 +12,24 @@
 
 namespace pleinair::hal {
 
-/// One kind of frames that a device offers.
+/// A stream mode that a device offers.
 struct CameraMode {
-  std::string layout;             ///< the device's own name of it: a fourcc such as "YUYV", "MJPG"
-  FrameSize size;                 ///< the largest, where it takes a range
-  std::vector<Duration> periods;  ///< shortest first; empty where it does not say
-  bool isSupported = true;        ///< whether we read this layout
+  std::string layout;  ///< the device's name of the pixel layout: a fourcc such as "YUYV", "MJPG"
+  FrameSize size;      ///< the largest, if it takes a range
+  std::vector<Duration> periods;  ///< shortest first; empty if unknown
+  bool isSupported = true;        ///< whether pleinair reads this layout
 };
 
-/// What a back end tells of a device without streaming from it.
+/// A device as its back end describes it without streaming from it.
 struct CameraDescription {
   CameraIdentity identity;
-  std::string serial;  ///< empty where it has none
-  std::string node;    ///< "/dev/video0"; empty where it has none
+  std::string serial;  ///< empty if it has none
+  std::string node;    ///< "/dev/video0"; empty if it has none
   std::vector<CameraMode> modes;
-  std::optional<Error> problem;  ///< why it could not be looked at (permissions, busy)
+  std::optional<Error> problem;  ///< why it could not be inspected (permissions, busy)
 };
 
-/// A family of cameras: finds those that are there, and makes them. One thread at a time.
+/// A family of cameras: lists those that are present, and makes them. One thread at a time.
 class CameraBackend {
  public:
   virtual ~CameraBackend() = default;
@@ -39,11 +39,11 @@ class CameraBackend {
 
   virtual std::string_view name() const = 0;  ///< "v4l2"
 
-  /// What is there now, in an order that does not change while nothing is plugged. Errors: kIo.
+  /// The devices that are present, in an order that only plugging changes. Errors: kIo.
   virtual Result<std::vector<CameraDescription>> list() = 0;
 
-  /// The device of that identity().id, stopped; it need not be there (start() says so). The clock
-  /// outlives the camera.
+  /// Makes the camera with that identity().id, stopped. It need not be present; start() reports
+  /// that. The clock outlives the camera.
   virtual std::unique_ptr<Camera> make(const std::string& id, Clock& clock) = 0;
 };
 

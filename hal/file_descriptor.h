@@ -4,7 +4,7 @@
 
 namespace pleinair::hal {
 
-/// What closes a file descriptor, so that tests can put another system in its place.
+/// Closes file descriptors; tests replace it with a simulated system.
 class DescriptorCloser {
  public:
   virtual ~DescriptorCloser() = default;

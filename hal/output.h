@@ -12,7 +12,7 @@
 
 namespace pleinair::hal {
 
-/// What the pipeline offers to an output.
+/// The stream that the pipeline offers to an output.
 struct OutputRequest {
   FrameSize size;
   std::optional<Duration> framePeriod;  ///< nominal, where the source has one
@@ -25,7 +25,7 @@ struct Refresh {
   friend bool operator==(const Refresh&, const Refresh&) = default;
 };
 
-/// What the output takes. The pipeline scales and converts to it (pipeline/present).
+/// The format that an output takes. The pipeline scales and converts to it (pipeline/present).
 struct OutputFormat {
   FrameFormat frame;
   std::optional<Refresh> refresh;  ///< of a display; unset where there is none
@@ -44,7 +44,8 @@ class SurfaceOutput;
 /// for all of them, held by tests/conformance/{output,surface}_conformance.h.
 ///
 /// States: made → start() → started → finish() → finished. After an error of any call but start()'s
-/// only destruction is allowed; destruction is allowed in every state. All calls come from one
+/// only destruction is allowed, and release() of lent surfaces; destruction is allowed in every
+/// state. All calls come from one
 /// thread. Time is the steady clock's.
 class Output {
  public:
@@ -79,7 +80,8 @@ class MemoryOutput : public Output {
 
   /// Takes one picture of the format that start() answered; copies what it keeps. `time` is the
   /// capture time since the first picture's and rises strictly. Waits for as long as the output
-  /// takes, unless the kind's traits say that it skips. Errors: kNoSpace, kIo, kDeviceLost.
+  /// takes, but never for readers: a picture that they are too slow for is dropped and counted
+  /// (skippedPictures()). Errors: kNoSpace, kIo, kDeviceLost.
   virtual Result<void> write(const ImageView& picture, Duration time) = 0;
 
   /// How many of the pictures that write() took were dropped, because their reader was too slow.

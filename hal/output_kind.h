@@ -11,16 +11,12 @@
 
 namespace pleinair::hal {
 
-/// What the program does differently for outputs of a kind. It reads these, never a kind's name.
+/// Properties of a kind of outputs on which the program depends. It never depends on a kind's name.
 struct OutputTraits {
   /// Shows each picture at its due time. Otherwise it takes all of them, as soon as they come.
   bool isPaced = false;
   /// A device that may come back: it is opened again after it has failed.
   bool reopens = false;
-  /// write() never waits for readers: what cannot be taken at once is skipped and counted.
-  bool skips = false;
-  /// Lends surfaces (SurfaceOutput). Otherwise it takes pictures in memory (MemoryOutput).
-  bool lendsSurfaces = false;
   /// Its target is a path, which is written to. Offline painting goes to these only.
   bool writesFiles = false;
   /// It has to be used on the main thread, as windows have.
@@ -37,9 +33,9 @@ struct OutputOption {
 /// The values of a kind's options, by name. One that is missing has its default.
 using OutputOptions = std::map<std::string, std::string, std::less<>>;
 
-/// What a kind tells of an output that is there.
+/// An output that is present, as its kind describes it.
 struct OutputDescription {
-  std::string target;                ///< what --output takes: "loopback:/dev/video50"
+  std::string target;                ///< an argument of --output: "loopback:/dev/video50"
   std::string name;                  ///< "pleinair", a card's label; empty where it has none
   std::vector<std::string> formats;  ///< that a device takes: fourccs
   bool isBusy = false;               ///< another program has it

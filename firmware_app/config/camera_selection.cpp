@@ -72,7 +72,7 @@ std::unique_ptr<hal::CameraSelector> makeCameraSelector(const CameraSettings& se
   }
   std::string choice = choiceOf(settings, backends);
   auto selector = std::make_unique<hal::CameraSelector>(std::move(backends), std::move(choice),
-                                                        clock, hal::onThreadsOfTheirOwn());
+                                                        clock, hal::onDriverThreads());
   if (!selector->check()) throw hal::Failure(noCamera(settings.source.string()));
   return selector;
 }

@@ -15,10 +15,10 @@ namespace pleinair::app {
 /// The back ends whose cameras are devices, in the order in which "auto" tries them.
 std::vector<hal::SelectableBackend> deviceBackends();
 
-/// What camera.source chooses among, all of which deliver in real time: devices, each on a thread
-/// of its own, so that none holds up the program for long; the synthetic camera; and a recording,
-/// which is played over and over at its own pace. Throws hal::Failure (kNotFound) where the
-/// source is neither a camera's name nor a file. Nothing is opened. The clock outlives the cameras.
+/// Makes the selector of camera.source. Its candidates deliver in real time: devices, each on its
+/// own driver thread, so that none blocks the program for long; the synthetic camera; and a
+/// recording, which is repeated at its own pace. It opens nothing. Throws hal::Failure (kNotFound)
+/// if the source is neither a camera's name nor a file. The clock outlives the cameras.
 std::unique_ptr<hal::CameraSelector> makeCameraSelector(const CameraSettings& settings,
                                                         hal::Clock& clock);
 

@@ -83,7 +83,7 @@ struct ConfigurationRequest {
 /// The variables of this process that begin with PLEINAIR_.
 std::vector<config::EnvironmentVariable> environmentOfProcess();
 
-/// What is in force, and where each value came from. Immutable; one thread at a time.
+/// The values in force and their origins. Immutable; one thread at a time.
 class Configuration {
  public:
   /// Lays over the defaults: the profile, the site file, the environment, the command line; a look

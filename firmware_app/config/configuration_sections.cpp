@@ -44,7 +44,7 @@ const ParameterTable<ProfileSettings>& profileTable() {
         words.emplace_back(kNoFile);
         return words;
       }(),
-      "What all this builds on: a profile of the program's, or a file.", TakesEffect::kRestart,
+      "Profile that these keys override: a built-in one, or a file.", TakesEffect::kRestart,
       ".toml")};
   return kTable;
 }
@@ -159,15 +159,16 @@ const ParameterTable<RuntimeSettings>& runtimeTable() {
   using R = RuntimeSettings;
   static const ParameterTable<R> kTable{
       numberParameter("latency", &R::latencyMs, {.min = 10, .max = 2000, .unit = "ms"},
-                      "From a frame's capture until it is shown.", TakesEffect::kRestart),
-      numberParameter("max_latency", &R::maxLatencyMs, {.min = 10, .max = 4000, .unit = "ms"},
-                      "How far that may rise where even the lowest quality misses it.",
-                      TakesEffect::kRestart),
+                      "Time from a frame's capture until it is shown.", TakesEffect::kRestart),
+      numberParameter(
+          "max_latency", &R::maxLatencyMs, {.min = 10, .max = 4000, .unit = "ms"},
+          "Limit of a raised latency, if even the lowest quality misses the configured one.",
+          TakesEffect::kRestart),
       choiceParameter("quality", &R::quality, qualityChoices(),
-                      "\"auto\": the best that keeps up; or a level that is kept.",
+                      "Quality level to keep; \"auto\": the best level that keeps up.",
                       TakesEffect::kRestart),
       numberParameter("rate", &R::rate, {.min = 0, .max = 240, .unit = "frames a second"},
-                      "What quality is lowered for to keep up with; 0: the camera's rate.",
+                      "Frame rate that quality is lowered for; 0: the camera's.",
                       TakesEffect::kRestart)};
   return kTable;
 }
@@ -179,7 +180,7 @@ std::string cameraSection(const hal::CameraKind& kind) {
 const ParameterTable<StatusSettings>& statusTable() {
   static const ParameterTable<StatusSettings> kTable{textParameter(
       "listen", &StatusSettings::listen, std::string(kAllowedListen),
-      "Where /status, /metrics and /healthz are served over HTTP.", TakesEffect::kRestart,
+      "Address of the HTTP server of /status, /metrics and /healthz.", TakesEffect::kRestart,
       [](std::string_view text) { return parseListen(std::string(text)).has_value(); })};
   return kTable;
 }
@@ -218,16 +219,18 @@ bool isCameraName(std::string_view source) {
 config::Sections defaultSections() {
   std::vector<config::Section> sections{
       {"", "", profileTable().defaults()},
-      {"camera", "What is painted live and recorded.", cameraTable().defaults()}};
+      {"camera", "The camera that is painted live or recorded.", cameraTable().defaults()}};
   for (const hal::CameraKind* kind : hal::cameraKinds()) {
     sections.push_back({cameraSection(*kind),
                         fmt::format("The camera {}: {}.", kind->name, kind->help), kind->defaults});
   }
-  sections.push_back({"painting", "What is made of it.", paintingTable().defaults()});
-  sections.push_back({"output", "Where it goes.", outputTable().defaults()});
+  sections.push_back({"painting", "The painting.", paintingTable().defaults()});
+  sections.push_back({"output", "The outputs of the painting.", outputTable().defaults()});
   for (config::Section& section : outputKindSections()) sections.push_back(std::move(section));
-  sections.push_back({"runtime", "How it keeps up.", runtimeTable().defaults()});
-  sections.push_back({"status", "What is told of the running program.", statusTable().defaults()});
+  sections.push_back(
+      {"runtime", "Latency and quality of live painting.", runtimeTable().defaults()});
+  sections.push_back(
+      {"status", "Status of the running program over HTTP.", statusTable().defaults()});
   for (const styles::StyleKind* kind : styles::styleKinds()) {
     sections.push_back({fmt::format("style.{}", kind->name),
                         fmt::format("The style {}: {}.", kind->name, kind->help), kind->defaults});

@@ -13,7 +13,7 @@
 
 namespace pleinair::app {
 
-// What a configuration means to the parts of the program.
+// Converts a configuration to options of the parts of the program.
 
 /// `options` with what [painting] and the style's table say.
 PaintingOptions configuredPainting(const Configuration& configuration, PaintingOptions options);
@@ -35,7 +35,7 @@ hal::CameraBackendOptions backendOptionsOf(const CameraSettings& camera, hal::Pa
 /// The synthetic camera's options, stepped, whatever the source; the shot is the source's where it
 /// names one.
 hal::SyntheticOptions syntheticOptions(const CameraSettings& camera);
-/// What a device is asked for: size, rate and controls.
+/// The request to a device: size, rate and controls.
 hal::StreamRequest streamRequestOf(const CameraSettings& camera);
 
 /// [status]'s server, started; null where it is off. Throws hal::Failure as

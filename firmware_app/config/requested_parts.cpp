@@ -56,7 +56,7 @@ std::string nodeOf(const std::string& id) {
   return {};
 }
 
-bool matches(const std::string& source, const hal::CameraDescription& camera) {
+bool isRequested(const std::string& source, const hal::CameraDescription& camera) {
   constexpr std::string_view kSerial = "serial:";
   const std::string& backend = camera.identity.backend;
   if (source == "auto" || source == backend) return true;
@@ -70,7 +70,7 @@ std::optional<hal::Error> deviceProblem(const std::string& source) {
   const DeviceCameras there = listDeviceCameras(deviceBackends());
   std::optional<hal::Error> problem;
   for (const hal::CameraDescription& camera : there.cameras) {
-    if (!matches(source, camera)) continue;
+    if (!isRequested(source, camera)) continue;
     if (!camera.problem && std::ranges::any_of(camera.modes, &hal::CameraMode::isSupported)) {
       return std::nullopt;
     }

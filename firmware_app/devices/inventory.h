@@ -42,7 +42,7 @@ struct KindOfOutputs {
 
 std::vector<KindOfOutputs> listOutputs(std::span<const hal::OutputKind> kinds);
 
-/// What is there to paint from and to.
+/// The cameras and outputs of this machine.
 struct Inventory {
   DeviceCameras cameras;
   std::vector<KindOfOutputs> outputs;

@@ -13,7 +13,7 @@ enum class Verdict {
 };
 std::string_view toString(Verdict verdict);  ///< "ok", "warning", "wrong"
 
-/// What one check found.
+/// The result of one check.
 struct Finding {
   std::string check;  ///< "OpenGL ES"
   Verdict verdict = Verdict::kOk;

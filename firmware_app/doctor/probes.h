@@ -23,11 +23,11 @@ struct RequestedPart {
   bool isDevice = false;  ///< part of the machine, and neither a file nor a folder
 };
 
-/// What the checks look at; tests put their own behind it. One thread.
+/// The checks' access to the machine; tests replace it. One thread.
 struct Probes {
   /// The text of a small file without white space at its end; nothing where it cannot be read.
   std::function<std::optional<std::string>(const std::filesystem::path&)> read;
-  /// What is in a folder, sorted; nothing where there is no such folder.
+  /// The entries of a folder, sorted; none if there is no such folder.
   std::function<std::vector<std::filesystem::path>(const std::filesystem::path&)> list;
   /// Whether it may be read and written (a folder: entered, too): 0, or errno.
   std::function<int(const std::filesystem::path&)> access;

@@ -27,7 +27,7 @@ class LiveControls {
     return parameters_;
   }
 
-  /// The next frame is to be kept as a snapshot.
+  /// Requests a snapshot of the next frame.
   void requestSnapshot() {
     const std::scoped_lock lock(mutex_);
     wantsSnapshot_ = true;

@@ -19,7 +19,7 @@ void LivePainter::warmUp(const PainterOptions& options) {
   const std::size_t levels = options.qualityLevels ? qualityLevels().size() : 1;
   for (parameters_.quality = 0; parameters_.quality < levels; ++parameters_.quality) {
     if (options.isCancelled && options.isCancelled()) return;
-    // Where it fails, the first frame does so as well, and says why.
+    // An error is reported by the first frame, which has it too.
     static_cast<void>(painter_.paint({.image = blank.view()}, parameters_));
   }
   painter_.reset();
@@ -36,7 +36,7 @@ hal::Result<void> LivePainter::paint(const hal::CapturedFrame& frame, std::size_
     const auto painted = painter_.paint(frame, parameters_);
     return painted ? hal::Result<void>() : tl::unexpected(painted.error());
   }
-  // A snapshot is the finished picture at its best, whatever view is painted.
+  // A snapshot shows the finished picture at the best quality, whatever view is painted.
   PaintParameters parameters = parameters_;
   parameters.view.clear();
   parameters.quality = 0;
@@ -47,12 +47,12 @@ hal::Result<void> LivePainter::paint(const hal::CapturedFrame& frame, std::size_
   return {};
 }
 
-hal::Answer LivePainter::poll(std::size_t output, OutputFrame& picture) {
-  return painter_.poll(readbacks_.at(output), picture);
+hal::Answer LivePainter::poll(std::size_t output, OutputFrame& frame) {
+  return painter_.poll(readbacks_.at(output), frame);
 }
 
 void LivePainter::wait(hal::Duration limit) {
-  // A GPU that is lost gives no picture: poll() says so.
+  // The next poll() reports a lost GPU.
   [[maybe_unused]] const auto isReady = painter_.waitForAny(limit);
 }
 

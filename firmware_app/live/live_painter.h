@@ -11,9 +11,8 @@
 
 namespace pleinair::app {
 
-/// The engine's Painter for a live chain, in a GL context of its own on the paint thread, with the
-/// parameters and snapshots that are asked for meanwhile. Paint thread only; `controls` outlives
-/// it.
+/// The engine's Painter for a live pipeline, in its own GL context. It applies the parameter sets
+/// and snapshot requests of `controls`, which outlives it. Paint thread only.
 class LivePainter final : public runtime::FramePainter {
  public:
   /// Throws hal::Failure.
@@ -21,22 +20,22 @@ class LivePainter final : public runtime::FramePainter {
               LiveControls& controls);
 
   hal::Result<void> paint(const hal::CapturedFrame& frame, std::size_t quality) override;
-  hal::Answer poll(std::size_t output, OutputFrame& picture) override;
+  hal::Answer poll(std::size_t output, OutputFrame& frame) override;
   void wait(hal::Duration limit) override;
   void open(std::size_t output, const hal::FrameFormat& format) override;
   void close(std::size_t output) override;
   std::span<const gpu::PassTime> passTimes() const override { return painter_.passTimes(); }
 
  private:
-  /// Paints a blank frame at each level of quality with the first parameters, which the Painter,
-  /// warmed up with the defaults, does not know: what their look needs (programs, brushes) is made
-  /// here and not in the first frame.
+  /// Paints a blank frame at each quality level with the first parameter set. The Painter has
+  /// warmed up with the defaults only; the look's programs and brushes are loaded here instead of
+  /// in the first frame.
   void warmUp(const PainterOptions& options);
 
   Painter painter_;
   LiveControls& controls_;
   std::vector<int> readbacks_;
-  std::shared_ptr<const PaintParameters> seen_;  ///< what parameters_ was made from
+  std::shared_ptr<const PaintParameters> seen_;  ///< the origin of parameters_
   PaintParameters parameters_;
 };
 

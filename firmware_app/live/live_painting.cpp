@@ -41,13 +41,13 @@ namespace {
 using hal::orThrow;
 using namespace std::chrono_literals;
 
-/// How often the program's own thread looks at keys, signals and the state of things.
+/// How often the main thread polls keys, signals and the state of the pipeline.
 constexpr hal::Duration kPollInterval = 10ms;
-constexpr hal::Duration kBetweenReports = 100ms;
-constexpr hal::Duration kBetweenCaptions = 33ms;
-/// From this rate on, the next picture draws the caption soon enough.
-constexpr double kRateOfPictures = 8.0;
-/// Within the two seconds that ending may take, with some left for leaving.
+constexpr hal::Duration kReportInterval = 100ms;
+constexpr hal::Duration kCaptionInterval = 33ms;
+/// From this many frames a second on, the next image draws the caption soon enough.
+constexpr double kMinCaptionRate = 8.0;
+/// Part of the two seconds that ending may take; the rest is for the exit itself.
 constexpr hal::Duration kStopPatience = 1500ms;
 
 LiveTuning tuningOf(const PaintingOptions& options) {
@@ -59,19 +59,19 @@ LiveTuning tuningOf(const PaintingOptions& options) {
   return {options.style, startParameters(options), debugViewsOf(options.style), std::move(looks)};
 }
 
-/// The live chain with all that is around it, on the program's own thread.
+/// The live pipeline with its window, status server, snapshots and reports. Main thread.
 class LivePainting {
  public:
   explicit LivePainting(const LiveJob& job)
       : job_(job),
         supervisor_(*job.selector, *job.clock, {}, job.request),
-        chain_(supervisor_, *job.clock),
+        pipeline_(supervisor_, *job.clock),
         tuning_(tuningOf(job.options)),
         controls_(startParameters(job.options)),
         saver_(job.snapshots),
         reporter_(qualityNames()) {
     for (const std::string& name : job.outputs) {
-      orThrow(checkOutputFolder(name));  // a camera may be long in coming
+      orThrow(checkOutputFolder(name));  // now, because the camera may come much later
       opened_.push_back(orThrow(hal::openOutput(name, job.outputOptions)));
     }
   }
@@ -81,10 +81,10 @@ class LivePainting {
 
   void run() {
     began_ = job_.clock->now();
-    threads_.emplace(chain_);
+    threads_.emplace(pipeline_);
     std::string why;
     hotplug_ = watchDevices(supervisor_, why);
-    if (!hotplug_) spdlog::debug("no news of plugged cameras: {}", why);
+    if (!hotplug_) spdlog::debug("no hot-plug events: {}", why);
     waitingSince_ = began_;
     if (job_.serveStatus) server_ = job_.serveStatus(statusPages());
     if (awaitStream()) {
@@ -95,18 +95,18 @@ class LivePainting {
   }
 
  private:
-  /// False where it was broken off before.
+  /// Returns false if a signal ended the wait.
   bool awaitStream() {
     for (;;) {
       if (Interrupt::received() != 0) return false;
-      const runtime::CaptureStage::Status camera = chain_.capture().status();
+      const runtime::CaptureStage::Status camera = pipeline_.capture().status();
       if (camera.format) {
         stream_ = *camera.format;
         return true;
       }
       const bool gaveUp = camera.hasEnded || (camera.cause && !job_.waitsForCamera);
       if (gaveUp) throw hal::Failure(camera.cause.value_or(noFrames()));
-      if (camera.cause) tellOfWaiting(camera.cause->message());
+      if (camera.cause) reportWaiting(camera.cause->message());
       job_.clock->sleepUntil(job_.clock->now() + kPollInterval);
     }
   }
@@ -118,8 +118,9 @@ class LivePainting {
             .remedy = {}};
   }
 
-  void tellOfWaiting(const std::string& cause) {
-    if (std::exchange(waitedFor_, cause) != cause) spdlog::warn("waiting for a camera: {}", cause);
+  void reportWaiting(const std::string& cause) {
+    if (std::exchange(waitingCause_, cause) != cause)
+      spdlog::warn("waiting for a camera: {}", cause);
   }
 
   hal::FrameSize pictureSize() const { return job_.options.size.value_or(stream_.frame.size); }
@@ -131,20 +132,20 @@ class LivePainting {
       if (warning) spdlog::warn("{}", *warning);
     }
     for (std::size_t i = 0; i < opened_.size(); ++i) startOutput(i);
-    chain_.makePaintStage([this](const auto& formats) { return makePainter(formats); },
-                          paintRules(job_.runtime, stream_));
+    pipeline_.makePaintStage([this](const auto& formats) { return makePainter(formats); },
+                             paintRules(job_.runtime, stream_));
     threads_->startPainter();
     isPipelineMade_.store(true, std::memory_order_release);
   }
 
-  /// Any thread. While a camera is awaited, there are neither outputs nor a painter yet.
+  /// Any thread. Before the camera's first frame there are neither outputs nor a painter.
   runtime::RuntimeStatus statusNow() {
-    if (isPipelineMade_.load(std::memory_order_acquire)) return chain_.status();
+    if (isPipelineMade_.load(std::memory_order_acquire)) return pipeline_.status();
     runtime::RuntimeStatus status{.uptime = job_.clock->now() - waitingSince_,
-                                  .camera = chain_.capture().status(),
+                                  .camera = pipeline_.capture().status(),
                                   .painting = {},
                                   .outputs = {},
-                                  .ledger = chain_.ledger().counts()};
+                                  .ledger = pipeline_.ledger().counts()};
     const std::optional<hal::Error>& cause = status.camera.cause;
     status.camera.reason =
         "waiting for a camera: " + (cause ? cause->message() : status.camera.reason);
@@ -163,12 +164,13 @@ class LivePainting {
     const hal::OutputFormat format = orThrow(opened_.at(index)->start(request));
     if (window != nullptr) window_.emplace(*window, tuning_, *job_.clock);
     const hal::OutputKind& kind = *orThrow(hal::outputKindOf(job_.outputs.at(index)));
-    if (kind.traits.isOnMainThread) stepped_.push_back(index);
     runtime::OutputStageOptions options =
         outputRules(job_.outputs.at(index), job_.outputOptions, job_.runtime, stream_);
     options.request = request;
     options.limit = job_.options.frames;
-    chain_.addOutput(std::move(opened_.at(index)), format, std::move(options));
+    runtime::OutputStage& output =
+        pipeline_.addOutput(std::move(opened_.at(index)), format, std::move(options));
+    if (kind.traits.isOnMainThread) stepped_.push_back(&output);
   }
 
   std::unique_ptr<runtime::FramePainter> makePainter(const std::vector<hal::FrameFormat>& formats) {
@@ -194,30 +196,30 @@ class LivePainting {
 
   void paint() {
     hasBegun_ = true;
-    threads_->startOutputs(stepped_);
+    threads_->startOutputs({stepped_.begin(), stepped_.end()});
     began_ = job_.clock->now();
-    while (!isOver()) look();
+    while (!isOver()) poll();
   }
 
   bool isOver() const {
     return Interrupt::received() != 0 || wantsToQuit_ || failure_ || haveOutputsEnded() ||
-           chain_.isDrained();
+           pipeline_.isDrained();
   }
 
-  /// Whether each has got its frames, or has failed for good.
+  /// Whether each output has got its frames or has failed for good.
   bool haveOutputsEnded() const {
-    for (std::size_t i = 0; i < chain_.outputCount(); ++i) {
-      const runtime::OutputStage& output = chain_.output(i);
+    for (std::size_t i = 0; i < pipeline_.outputCount(); ++i) {
+      const runtime::OutputStage& output = pipeline_.output(i);
       if (!output.isFull() && !output.status().isFinal) return false;
     }
     return true;
   }
 
-  /// One round of the program's own thread.
-  void look() {
+  /// One iteration of the main thread's loop.
+  void poll() {
     hal::TimePoint wake = job_.clock->now() + kPollInterval;
-    for (const std::size_t index : stepped_) {
-      if (const auto next = chain_.output(index).step()) wake = std::min(wake, *next);
+    for (runtime::OutputStage* output : stepped_) {
+      if (const auto next = output->step()) wake = std::min(wake, *next);
     }
     handleWindow();
     handleSnapshots();
@@ -225,7 +227,7 @@ class LivePainting {
     if (stepped_.empty()) {
       job_.clock->sleepUntil(wake);
     } else {
-      chain_.output(stepped_.front()).wait(wake);
+      stepped_.front()->wait(wake);
     }
   }
 
@@ -235,36 +237,36 @@ class LivePainting {
     wantsToQuit_ = wantsToQuit_ || requests.quit;
     wantsSnapshot_ = wantsSnapshot_ || requests.snapshot;
     if (requests.tuned) controls_.setParameters(tuning_.parameters());
-    chain_.paint().setPaused(tuning_.isPaused());
+    pipeline_.paint().setPaused(tuning_.isPaused());
     const hal::TimePoint now = job_.clock->now();
-    if (now - captioned_ < kBetweenCaptions) return;
+    if (now - captioned_ < kCaptionInterval) return;
     captioned_ = now;
-    const double rate = chain_.output(stepped_.front()).status().perSecond;
-    const auto drawn = window_->update(rate, rate > kRateOfPictures);
-    // Beside others the window alone fails, at its next picture.
-    if (!drawn && chain_.outputCount() == 1) failure_ = drawn.error();
+    const double rate = stepped_.front()->status().perSecond;
+    const auto drawn = window_->update(rate, rate > kMinCaptionRate);
+    // If there are other outputs, the window alone fails, at its next image.
+    if (!drawn && pipeline_.outputCount() == 1) failure_ = drawn.error();
   }
 
   void handleSnapshots() {
     if (const auto saved = saver_.takeResult()) reportSnapshot(*saved);
-    // Two requests in quick succession: the second's picture waits until the first's is on disk.
+    // A second snapshot waits until the first one is on disk.
     if (saver_.isBusy() || saveSnapshot()) return;
     if (std::exchange(wantsSnapshot_, false)) controls_.requestSnapshot();
   }
 
-  /// Begins to save a still that was painted; false where there is none.
+  /// Begins to save a snapshot that was painted; returns false if there is none.
   bool saveSnapshot() {
-    auto still = controls_.takeSnapshot();
-    if (!still) return false;
-    if (*still) {
-      saver_.save(**std::move(still));
+    auto snapshot = controls_.takeSnapshot();
+    if (!snapshot) return false;
+    if (*snapshot) {
+      saver_.save(**std::move(snapshot));
     } else {
-      tell(still->error().message(), false);
+      notify(snapshot->error().message(), false);
     }
     return true;
   }
 
-  /// At the end: those that were painted are saved, and told of.
+  /// Saves and reports the painted snapshots, at the end.
   void finishSnapshots() {
     do {
       if (const auto saved = saver_.awaitResult()) reportSnapshot(*saved);
@@ -272,10 +274,10 @@ class LivePainting {
   }
 
   void reportSnapshot(const hal::Result<std::filesystem::path>& saved) {
-    tell(saved ? "saved " + saved->string() : saved.error().message(), saved.has_value());
+    notify(saved ? "saved " + saved->string() : saved.error().message(), saved.has_value());
   }
 
-  void tell(const std::string& text, bool isGood) {
+  void notify(const std::string& text, bool isGood) {
     if (window_) window_->notify(text);
     reporter_.interrupt();
     spdlog::log(isGood ? spdlog::level::info : spdlog::level::warn, "{}", text);
@@ -283,11 +285,11 @@ class LivePainting {
 
   void report() {
     const hal::TimePoint now = job_.clock->now();
-    if (now - reported_ < kBetweenReports) return;
+    if (now - reported_ < kReportInterval) return;
     reported_ = now;
-    const runtime::RuntimeStatus status = chain_.status();
+    const runtime::RuntimeStatus status = pipeline_.status();
     reporter_.update(status, now);
-    // Where not one frame can be painted, none of the others can.
+    // If the first frames cannot be painted, no later one can.
     const bool isHopeless = status.painting.painted == 0 && status.painting.failures > 0;
     if (isHopeless) failure_ = status.painting.failure;
   }
@@ -297,35 +299,35 @@ class LivePainting {
     stopThreads();
     finishSnapshots();
     reporter_.interrupt();
-    const runtime::LedgerCounts ledger = chain_.ledger().counts();
+    const runtime::LedgerCounts ledger = pipeline_.ledger().counts();
     fmt::print("{}: {}\n", ledger.summary(elapsed), fmt::join(job_.outputs, ", "));
     if (!failure_ && !failures_.empty()) failure_ = failures_.front();
     if (failure_) throw hal::Failure(*failure_);
   }
 
-  /// Idempotent. Does not come back where something hangs.
+  /// Idempotent. Does not return if a thread hangs.
   void stopThreads() {
     if (!threads_) return;
     const runtime::LiveThreads::Stopped stopped = threads_->stop(kStopPatience);
-    if (!stopped.stuck.empty()) leave(stopped.stuck);
+    if (!stopped.stuck.empty()) exitWithStuckThreads(stopped.stuck);
     failures_ = stopped.failures;
-    for (const std::size_t index : stepped_) {
-      if (auto finished = chain_.output(index).finish(); !finished) {
+    for (runtime::OutputStage* output : stepped_) {
+      if (auto finished = output->finish(); !finished) {
         failures_.push_back(std::move(finished.error()));
       }
     }
     threads_.reset();
   }
 
-  /// A thread that hangs still uses these objects, so the process exits without destroying them. A
-  /// painter that is still being made is no failure: a driver cannot be stopped within the program
-  /// that it compiles, and nothing was painted that could be lost.
-  [[noreturn]] void leave(const std::vector<std::string>& stuck) {
+  /// Exits the process without destroying the objects, which the stuck threads still use. A painter
+  /// that is still being created is no failure: a driver cannot be stopped while it compiles a
+  /// program, and nothing has been painted that could be lost.
+  [[noreturn]] void exitWithStuckThreads(const std::vector<std::string>& stuck) {
     reporter_.interrupt();
     if (!hasBegun_) {
-      for (std::size_t i = 0; i < chain_.outputCount(); ++i) chain_.output(i).discard();
+      for (std::size_t i = 0; i < pipeline_.outputCount(); ++i) pipeline_.output(i).discard();
     }
-    fmt::print("{}: {}\n", chain_.ledger().counts().summary(job_.clock->now() - began_),
+    fmt::print("{}: {}\n", pipeline_.ledger().counts().summary(job_.clock->now() - began_),
                fmt::join(job_.outputs, ", "));
     const bool isOnlyStarting =
         !hasBegun_ && stuck.size() == 1 && stuck.front() == runtime::LiveThreads::kPainter;
@@ -338,28 +340,28 @@ class LivePainting {
 
   const LiveJob& job_;
   hal::CameraSupervisor supervisor_;
-  runtime::LivePipeline chain_;
+  runtime::LivePipeline pipeline_;
   hal::StreamFormat stream_;
   LiveTuning tuning_;
   LiveControls controls_;
   SnapshotSaver saver_;
   LiveReporter reporter_;
-  std::vector<std::unique_ptr<hal::Output>> opened_;  ///< until they are the chain's
-  std::vector<std::size_t> stepped_;                  ///< outputs of this thread: the window
+  std::vector<std::unique_ptr<hal::Output>> opened_;  ///< until the pipeline owns them
+  std::vector<runtime::OutputStage*> stepped_;  ///< outputs stepped on the main thread: the window
   std::optional<LiveWindow> window_;
   std::optional<runtime::LiveThreads> threads_;
-  std::unique_ptr<hal::HotplugMonitor> hotplug_;  ///< tells the supervisor
-  std::atomic<bool> isPipelineMade_ = false;      ///< outputs and painter, which status pages tell
-  std::unique_ptr<StatusServer> server_;          ///< asks the chain
+  std::unique_ptr<hal::HotplugMonitor> hotplug_;  ///< notifies the supervisor
+  std::atomic<bool> isPipelineMade_ = false;      ///< outputs and paint stage exist
+  std::unique_ptr<StatusServer> server_;          ///< reads the pipeline's status
 
-  hal::TimePoint waitingSince_;  ///< before any status page is asked for
+  hal::TimePoint waitingSince_;  ///< set before the status server starts
   hal::TimePoint began_;
   hal::TimePoint reported_;
   hal::TimePoint captioned_;
-  std::string waitedFor_;
-  std::vector<hal::Error> failures_;   ///< of outputs, at the end
-  std::optional<hal::Error> failure_;  ///< why it ended, where that is not its proper end
-  bool hasBegun_ = false;              ///< to hand pictures to outputs
+  std::string waitingCause_;
+  std::vector<hal::Error> failures_;   ///< errors of outputs, at the end
+  std::optional<hal::Error> failure_;  ///< the error that ended the painting
+  bool hasBegun_ = false;              ///< frames flow to the outputs
   bool wantsToQuit_ = false;
   bool wantsSnapshot_ = false;
 };

@@ -17,31 +17,29 @@
 
 namespace pleinair::app {
 
-/// A camera's frames, painted as they come.
+/// The job of painting a camera's frames live.
 struct LiveJob {
   hal::CameraSelector* selector = nullptr;
   hal::StreamRequest request;
   hal::Clock* clock = nullptr;
-  PaintingOptions options;           ///< its output is not looked at
-  std::vector<std::string> outputs;  ///< as of hal::openOutput(); at least one
+  PaintingOptions options;           ///< its output is ignored
+  std::vector<std::string> outputs;  ///< targets for hal::openOutput(); at least one
   hal::OutputOptionsByKind outputOptions;
   RuntimeSettings runtime;
-  /// Begins to serve what is told of the painting; may give none.
+  /// Starts the status server; may return null.
   std::function<std::unique_ptr<StatusServer>(StatusPages)> serveStatus;
-  bool waitsForCamera = false;  ///< at the start, where there is none; later it always does
+  bool waitsForCamera = false;  ///< at the start; after a loss it always waits
   scene::Scene scene;
   std::filesystem::path snapshots;  ///< the folder that snapshots go to
 };
 
-/// Runs the job until its frames are shown, the recording ends, a window is closed, a key or a
-/// signal says so; then prints the ledger on standard output and gives 0: ending it is no failure,
-/// and a file has all that was written to it. A camera or a GPU that is lost, and an output that
-/// can be opened again, are waited for. Throws hal::Failure and config::ConfigError; where an
-/// output failed for good, after the ledger.
+/// Runs the job until its frames are shown, the recording ends, the window is closed, or a key or a
+/// signal ends it; then completes the outputs, prints the ledger on standard output and returns 0.
+/// It waits for a lost camera or GPU, and for outputs that can be opened again. Throws hal::Failure
+/// and config::ConfigError; if an output failed for good, after printing the ledger.
 ///
-/// All ends within two seconds of a signal, which the caller's Interrupt takes: what does not (a
-/// driver that hangs) is left behind, and the process ends here, with status 1, or 0 where nothing
-/// had been painted yet.
+/// It ends within two seconds of a signal, which the caller's Interrupt receives. If a thread hangs
+/// in a driver, the process exits here, with status 1, or 0 if nothing had been painted yet.
 int runLive(const LiveJob& job);
 
 }  // namespace pleinair::app

@@ -1,5 +1,6 @@
 #include "firmware_app/live/live_reporter.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <utility>
@@ -14,7 +15,7 @@ namespace pleinair::app {
 namespace {
 
 constexpr const char* kClearLine = "\r\033[K";
-constexpr hal::Duration kBetweenLines = std::chrono::milliseconds(250);
+constexpr hal::Duration kLineInterval = std::chrono::milliseconds(250);
 
 }  // namespace
 
@@ -43,18 +44,18 @@ void LiveReporter::inform(const char* format, const Arguments&... arguments) {
 }
 
 void LiveReporter::update(const runtime::RuntimeStatus& status, hal::TimePoint now) {
-  tellCamera(status);
-  tellPainting(status);
-  tellOutputs(status);
+  reportCamera(status);
+  reportPainting(status);
+  reportOutputs(status);
   last_ = status;
-  if (!isTerminal_ || (drawn_ && now - *drawn_ < kBetweenLines)) return;
+  if (!isTerminal_ || (drawn_ && now - *drawn_ < kLineInterval)) return;
   drawn_ = now;
   isDrawn_ = true;
   fmt::print(stderr, "{}{}", kClearLine, runtime::statusLine(status, qualityNames_));
   std::fflush(stderr);
 }
 
-void LiveReporter::tellCamera(const runtime::RuntimeStatus& status) {
+void LiveReporter::reportCamera(const runtime::RuntimeStatus& status) {
   const runtime::CaptureStage::Status& camera = status.camera;
   if (last_ && last_->camera.state == camera.state) return;
   const std::string name = camera.camera ? camera.camera->id : "camera";
@@ -71,14 +72,13 @@ void LiveReporter::tellCamera(const runtime::RuntimeStatus& status) {
     warn("{}: {}", name, camera.reason);
     return;
   }
-  // Lost and backing off follow each other at once, and again at every try: one line for each
-  // cause.
+  // Lost and backing off alternate at every attempt; each cause is reported once.
   const bool isNews = !isAgain || lastLoss_ != camera.lastLoss;
   lastLoss_ = camera.lastLoss;
   if (isNews) warn("{}: lost: {}; it is tried again until it is back", name, camera.lastLoss);
 }
 
-void LiveReporter::tellPainting(const runtime::RuntimeStatus& status) {
+void LiveReporter::reportPainting(const runtime::RuntimeStatus& status) {
   const runtime::PaintStage::Status& now = status.painting;
   const runtime::PaintStage::Status before =
       last_ ? last_->painting : runtime::PaintStage::Status{.hasPainter = true};
@@ -101,15 +101,22 @@ void LiveReporter::tellPainting(const runtime::RuntimeStatus& status) {
   }
 }
 
-void LiveReporter::tellOutputs(const runtime::RuntimeStatus& status) {
-  for (std::size_t i = 0; i < status.outputs.size(); ++i) {
-    const auto& output = status.outputs.at(i);
-    const std::uint64_t before = last_ ? last_->outputs.at(i).failures : 0;
-    const bool wasFailed = last_ && last_->outputs.at(i).isFailed;
+/// Null for an output that was added since.
+const runtime::OutputStage::Status* LiveReporter::lastStatusOf(const std::string& output) const {
+  if (!last_) return nullptr;
+  const auto found = std::ranges::find(last_->outputs, output, &runtime::OutputStage::Status::name);
+  return found == last_->outputs.end() ? nullptr : &*found;
+}
+
+void LiveReporter::reportOutputs(const runtime::RuntimeStatus& status) {
+  for (const runtime::OutputStage::Status& output : status.outputs) {
+    const runtime::OutputStage::Status* last = lastStatusOf(output.name);
+    const std::uint64_t before = last != nullptr ? last->failures : 0;
+    const bool wasFailed = last != nullptr && last->isFailed;
     if (output.failures > before && output.failure && !wasFailed) {
       warn("{}{}", output.failure->message(), output.isFinal ? "" : "; trying again");
     }
-    if (wasFailed && !output.isFailed) inform("{}: takes pictures again", output.name);
+    if (wasFailed && !output.isFailed) inform("{}: takes images again", output.name);
   }
 }
 

@@ -10,25 +10,26 @@
 
 namespace pleinair::app {
 
-/// Tells what happens to a live chain: a status line on standard error where that is a terminal,
-/// and what went wrong or well again as log messages. One thread.
+/// Reports the state of a live pipeline: a status line on standard error if that is a terminal, and
+/// log messages about failures and recoveries. One thread.
 class LiveReporter {
  public:
   explicit LiveReporter(std::vector<std::string> qualityNames);
-  /// Ends the line.
+  /// Ends the status line.
   ~LiveReporter();
   LiveReporter(const LiveReporter&) = delete;
   LiveReporter& operator=(const LiveReporter&) = delete;
 
   /// To be called several times a second.
   void update(const runtime::RuntimeStatus& status, hal::TimePoint now);
-  /// Clears the line, so that something else can be said.
+  /// Clears the status line, before other output.
   void interrupt();
 
  private:
-  void tellCamera(const runtime::RuntimeStatus& status);
-  void tellPainting(const runtime::RuntimeStatus& status);
-  void tellOutputs(const runtime::RuntimeStatus& status);
+  void reportCamera(const runtime::RuntimeStatus& status);
+  void reportPainting(const runtime::RuntimeStatus& status);
+  void reportOutputs(const runtime::RuntimeStatus& status);
+  const runtime::OutputStage::Status* lastStatusOf(const std::string& output) const;
   template <class... Arguments>
   void warn(const char* format, const Arguments&... arguments);
   template <class... Arguments>

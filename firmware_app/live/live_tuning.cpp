@@ -22,7 +22,7 @@ std::size_t around(std::size_t index, int direction, std::size_t count) {
   return (index + (direction > 0 ? 1 : count - 1)) % count;
 }
 
-/// "4 to 64", where that says all.
+/// "4 to 64", or the full description of a range that is not closed and finite.
 std::string rangeText(const ParameterDescriptor& parameter) {
   const config::NumberRange& numbers = parameter.numberRange;
   const bool isPlain =
@@ -45,9 +45,8 @@ LiveTuning::LiveTuning(std::string style, PaintParameters start,
       views_{std::string()},
       looks_(std::move(looks)) {
   for (const DebugView& view : views) views_.push_back(view.name);
-  const auto isStale = [this](const LiveLook& look) { return look.values == parameters_.style; };
-  const auto worn = std::ranges::find_if(looks_, isStale);
-  if (worn != looks_.end()) look_ = static_cast<std::size_t>(worn - looks_.begin());
+  const auto current = std::ranges::find(looks_, parameters_.style, &LiveLook::values);
+  if (current != looks_.end()) look_ = static_cast<std::size_t>(current - looks_.begin());
   const auto descriptors = parameters_.style.list().descriptors();
   for (std::size_t i = 0; i < descriptors.size(); ++i) {
     if (descriptors[i].takesEffect == config::TakesEffect::kLive) tunable_.push_back(i);
@@ -56,11 +55,11 @@ LiveTuning::LiveTuning(std::string style, PaintParameters start,
 
 LiveTuning::Request LiveTuning::press(const hal::KeyPressed& key) {
   if (pressHeld(key)) return Request::kNone;
-  // A held key would turn these on and off.
+  // A held key must not toggle these repeatedly.
   return key.isRepeat ? Request::kUnknownKey : pressOnce(key);
 }
 
-/// Keys that go on while they are held. Whether this is one.
+/// Handles the keys that repeat while they are held; returns whether this is one.
 bool LiveTuning::pressHeld(const hal::KeyPressed& key) {
   if (key.name == "tab") {
     choose(key.shift ? -1 : 1);
@@ -106,7 +105,7 @@ void LiveTuning::change(int direction, bool large) {
   if (next) parameters_.style = parameters_.style.with(index, *next, kOrigin);
 }
 
-/// To what the look has, or else to the style's default.
+/// Resets to the look's value, or to the style's default if no look is chosen.
 void LiveTuning::resetParameter() {
   if (tunable_.empty()) return;
   const std::size_t index = tunable_[chosen_];

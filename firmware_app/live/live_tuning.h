@@ -11,40 +11,40 @@
 
 namespace pleinair::app {
 
-/// A look that can be put on while pictures run.
+/// A look that can be chosen while painting goes on.
 struct LiveLook {
   std::string name;
   config::ParameterValues values;
 };
 
-/// Changes the parameters of a running painting by keys: keys in, parameter sets out. One thread.
+/// Changes the parameters of a live painting by keys: keys in, parameter sets out. One thread.
 class LiveTuning {
  public:
-  /// What a key asks of others.
+  /// The effect of a key that LiveTuning does not handle itself.
   enum class Request {
-    kUnknownKey,  ///< nothing; it means nothing here
-    kNone,        ///< nothing; it was about the parameters
+    kUnknownKey,  ///< the key has no meaning
+    kNone,        ///< the key was handled
     kSnapshot,
     kFullScreen,
     kQuit,
   };
 
-  /// Starts from `start`; `style` is for the captions.
+  /// `start`: the first parameter set. `style`: its name, for captions.
   LiveTuning(std::string style, PaintParameters start, const std::vector<DebugView>& views,
              std::vector<LiveLook> looks);
 
   Request press(const hal::KeyPressed& key);
 
-  /// To paint the next frame with.
+  /// The parameter set for the next frame.
   const PaintParameters& parameters() const { return parameters_; }
   bool isPaused() const { return isPaused_; }
   bool showsHelp() const { return showsHelp_; }
 
   /// "watercolor · wash, changed · view cells · paused".
   std::string state() const;
-  /// The chosen parameter with its value, range and help; or why there is none.
+  /// The chosen parameter with its value, range and help; or that there is none.
   std::string parameterLine() const;
-  /// A line a key, in two columns.
+  /// The list of keys: a line for each, in two columns separated by a tab.
   static std::string help();
 
  private:
@@ -58,7 +58,7 @@ class LiveTuning {
 
   std::string style_;
   PaintParameters parameters_;
-  std::vector<std::string> views_;  ///< the first is the finished picture's: empty
+  std::vector<std::string> views_;  ///< the first is empty: the finished picture
   std::vector<LiveLook> looks_;
   std::optional<std::size_t> look_;
   std::vector<std::size_t> tunable_;  ///< indices into the style's list

@@ -10,14 +10,14 @@
 namespace pleinair::app {
 namespace {
 
-/// How often the caption is drawn where no picture draws it.
+/// Period of drawing the caption while no image draws it.
 constexpr hal::Duration kRedrawPeriod = std::chrono::milliseconds(33);
 
 }  // namespace
 
 LiveWindow::LiveWindow(hal::Window& window, LiveTuning& tuning, const hal::Clock& clock)
     : window_(window), tuning_(tuning), clock_(clock), notice_("h: help") {
-  fading_.callUp(clock.now());
+  fading_.restart(clock.now());
 }
 
 LiveWindow::Requests LiveWindow::takeRequests() {
@@ -25,7 +25,7 @@ LiveWindow::Requests LiveWindow::takeRequests() {
   for (const hal::WindowEvent& event : window_.takeEvents()) {
     std::visit(Overloaded{[&](const hal::KeyPressed& key) { press(key, requests); },
                           [&](const hal::WindowClosed&) { requests.quit = true; },
-                          [](const hal::WindowResized&) {}},  // it scales by itself
+                          [](const hal::WindowResized&) {}},  // the window scales by itself
                event);
   }
   return requests;
@@ -36,7 +36,7 @@ void LiveWindow::press(const hal::KeyPressed& key, Requests& requests) {
   if (request == LiveTuning::Request::kUnknownKey) return;
   requests.tuned = true;
   notice_.clear();
-  fading_.callUp(clock_.now());
+  fading_.restart(clock_.now());
   if (request == LiveTuning::Request::kQuit) requests.quit = true;
   if (request == LiveTuning::Request::kSnapshot) requests.snapshot = true;
   if (request == LiveTuning::Request::kFullScreen) {
@@ -47,7 +47,7 @@ void LiveWindow::press(const hal::KeyPressed& key, Requests& requests) {
 
 void LiveWindow::notify(const std::string& notice) {
   notice_ = notice;
-  fading_.callUp(clock_.now());
+  fading_.restart(clock_.now());
 }
 
 std::string LiveWindow::caption(double framesPerSecond) const {
@@ -57,16 +57,16 @@ std::string LiveWindow::caption(double framesPerSecond) const {
   return tuning_.showsHelp() ? LiveTuning::help() + "\n\n" + text : text;
 }
 
-hal::Result<void> LiveWindow::update(double framesPerSecond, bool pictureFollows) {
+hal::Result<void> LiveWindow::update(double framesPerSecond, bool imageFollows) {
   const hal::TimePoint now = clock_.now();
-  if (!pictureFollows && now - updated_ < kRedrawPeriod) return {};
+  if (!imageFollows && now - updated_ < kRedrawPeriod) return {};
   updated_ = now;
   window_.setTitle(fmt::format("pleinair: {}", tuning_.state()));
   const double opacity = tuning_.showsHelp() ? 1.0 : fading_.opacity(now);
   window_.setCaption(opacity > 0.0 ? caption(framesPerSecond) : std::string(), opacity);
   const bool isSeen = opacity > 0.0 || drawnOpacity_ > 0.0;
   drawnOpacity_ = opacity;
-  if (!pictureFollows && isSeen) return window_.redraw();
+  if (!imageFollows && isSeen) return window_.redraw();
   return {};
 }
 

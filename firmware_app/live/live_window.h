@@ -11,47 +11,48 @@
 
 namespace pleinair::app {
 
-/// How much of a caption is to be seen: all of it for three seconds after it was last called up,
-/// then less for half a second.
+/// The opacity of the caption: full for three seconds after the last restart(), then fading for
+/// half a second.
 class Fading {
  public:
   static constexpr hal::Duration kStays = std::chrono::seconds(3);
   static constexpr hal::Duration kFades = std::chrono::milliseconds(500);
 
-  void callUp(hal::TimePoint now) { calledUp_ = now; }
+  void restart(hal::TimePoint now) { restartedAt_ = now; }
   /// From 0 to 1.
   double opacity(hal::TimePoint now) const {
-    if (!calledUp_) return 0.0;
-    const std::chrono::duration<double> faded = now - *calledUp_ - kStays;
+    if (!restartedAt_) return 0.0;
+    const std::chrono::duration<double> faded = now - *restartedAt_ - kStays;
     if (faded.count() <= 0.0) return 1.0;
     const double left = 1.0 - faded / std::chrono::duration<double>(kFades);
     return left > 0.0 ? left : 0.0;
   }
 
  private:
-  std::optional<hal::TimePoint> calledUp_;
+  std::optional<hal::TimePoint> restartedAt_;
 };
 
-/// The window of a live painting: keys to the tuning, and what the tuning says to the title and the
-/// caption. On the window's thread.
+/// The window of a live painting: passes keys to the tuning, and shows the tuning's state in the
+/// title and the caption. Only on the window's thread.
 class LiveWindow {
  public:
-  /// All outlive this.
+  /// All references outlive this.
   LiveWindow(hal::Window& window, LiveTuning& tuning, const hal::Clock& clock);
 
-  /// What the user has asked for since the last call.
+  /// The user's requests since the last call.
   struct Requests {
     bool quit = false;
     bool snapshot = false;
-    bool tuned = false;  ///< parameters, view or look may have changed
+    bool tuned = false;  ///< parameters, debug view or look may have changed
   };
   Requests takeRequests();
 
-  /// Says something in the caption until the next key.
+  /// Shows a notice in the caption until the next key.
   void notify(const std::string& notice);
-  /// Brings title and caption up to date; to be called before each picture, and while none comes.
-  /// Errors: redraw()'s, where no picture follows.
-  hal::Result<void> update(double framesPerSecond, bool pictureFollows);
+  /// Updates title and caption. To be called before each image, and regularly while there is none.
+  /// `imageFollows`: an image will draw the caption soon; otherwise it is drawn now. Errors: those
+  /// of hal::Window::redraw().
+  hal::Result<void> update(double framesPerSecond, bool imageFollows);
 
  private:
   void press(const hal::KeyPressed& key, Requests& requests);

@@ -25,7 +25,7 @@ struct Step {
   double size() const { return digit * std::pow(10.0, exponent); }
 };
 
-/// The largest that is not above `size`, but for rounding.
+/// The largest step that is not above `size`, apart from rounding.
 Step roundStep(double size) {
   Step step{.digit = 1, .exponent = static_cast<int>(std::floor(std::log10(size) + 1e-9))};
   const double leading = size / std::pow(10.0, step.exponent) + 1e-9;
@@ -34,14 +34,14 @@ Step roundStep(double size) {
   return step;
 }
 
-/// A hundredth of the range; of an open-ended range, a hundredth of the value, at least of 1.
+/// A hundredth of the range; if that is infinite, a hundredth of the value or of 1, the larger.
 Step stepOf(const NumberRange& range, double value) {
   const double span = range.max - range.min;
   if (std::isfinite(span) && span > 0.0) return roundStep(span / kStepsPerRange);
   return roundStep(std::max(std::abs(value), 1.0) / kStepsPerRange);
 }
 
-/// The double that people mean by the decimal: 0.3, not 0.30000000000000004.
+/// The double nearest to the decimal that people read: 0.3, not 0.30000000000000004.
 double asDecimal(double value, int decimals) {
   const std::string text = fmt::format("{:.{}f}", value, std::max(0, decimals));
   double decimal = value;
@@ -52,11 +52,11 @@ double asDecimal(double value, int decimals) {
 double steppedNumber(const NumberRange& range, double value, int direction, bool large) {
   const Step step = stepOf(range, value);
   const double size = step.size() * (large ? kLargeFactor : 1);
-  // To the next multiple in that direction; one that is a hair away counts as reached.
-  constexpr double kHair = 1e-6;
+  // The next multiple in that direction; one within the tolerance counts as reached.
+  constexpr double kTolerance = 1e-6;
   const double multiples = value / size;
-  const double next =
-      direction > 0 ? std::floor(multiples + kHair) + 1.0 : std::ceil(multiples - kHair) - 1.0;
+  const double next = direction > 0 ? std::floor(multiples + kTolerance) + 1.0
+                                    : std::ceil(multiples - kTolerance) - 1.0;
   return std::clamp(asDecimal(next * size, -step.exponent), range.min, range.max);
 }
 

@@ -6,10 +6,10 @@
 
 namespace pleinair::app {
 
-/// The next value of a parameter up (`direction` +1) or down (−1). Numbers go by 1, 2 or 5 times a
-/// power of ten, about a hundredth of their range, to multiples of it; integers by 1; both by ten
-/// times as much with `large`, and no further than their range. Switches turn over and choices go
-/// round. Nothing where it stays as it is.
+/// The next value of a parameter up (`direction` +1) or down (−1). Numbers move to the next
+/// multiple of a step of 1, 2 or 5 times a power of ten, about a hundredth of their range; integers
+/// move by 1. `large` multiplies the step by ten. Both stop at the ends of their range. Switches
+/// toggle and choices wrap around. Unset if the value cannot change.
 std::optional<config::ParameterValue> stepped(const config::ParameterDescriptor& descriptor,
                                               const config::ParameterValue& value, int direction,
                                               bool large);

@@ -11,10 +11,11 @@ namespace {
 
 constexpr hal::Duration kUsualPeriod = std::chrono::microseconds(33'333);
 
-/// As many as fall due within the longest latency, and two to spare.
-std::size_t waitingPictures(hal::Duration longestLatency, hal::Duration period) {
-  constexpr std::int64_t kMost = 64;
-  return static_cast<std::size_t>(std::clamp<std::int64_t>(longestLatency / period + 2, 3, kMost));
+/// As many frames as fall due within the maximum latency, and two more.
+std::size_t queueCapacity(hal::Duration maxLatency, hal::Duration period) {
+  constexpr std::int64_t kMaxWaiting = 64;
+  return static_cast<std::size_t>(
+      std::clamp<std::int64_t>(maxLatency / period + 2, 3, kMaxWaiting));
 }
 
 }  // namespace
@@ -50,12 +51,12 @@ runtime::OutputStageOptions outputRules(const std::string& target,
                                         const hal::StreamFormat& stream) {
   const hal::OutputTraits& traits = hal::orThrow(hal::outputKindOf(target))->traits;
   const hal::Duration period = stream.framePeriod.value_or(kUsualPeriod);
-  const hal::Duration longest = hal::fromMilliseconds(settings.maxLatencyMs);
-  constexpr hal::Duration kMostTolerance = std::chrono::milliseconds(8);
+  const hal::Duration maxLatency = hal::fromMilliseconds(settings.maxLatencyMs);
+  constexpr hal::Duration kMaxTolerance = std::chrono::milliseconds(8);
   runtime::OutputStageOptions options{
       .name = target,
-      .rules = {.isPaced = traits.isPaced, .tolerance = std::min(period / 4, kMostTolerance)},
-      .waiting = waitingPictures(longest, period),
+      .rules = {.isPaced = traits.isPaced, .tolerance = std::min(period / 4, kMaxTolerance)},
+      .waiting = queueCapacity(maxLatency, period),
       .limit = {},
       .reopen = {},
       .request = {}};

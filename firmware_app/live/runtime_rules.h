@@ -11,17 +11,17 @@
 
 namespace pleinair::app {
 
-// What [runtime] means to the live chain.
+// Converts [runtime] to options of the live pipeline.
 
-/// The names of the engine's levels of quality, the best first.
+/// The names of the engine's quality levels, best first.
 std::vector<std::string> qualityNames();
 
-/// How costs and latency are kept for a camera's stream.
+/// Rules of quality, latency and time budget for a camera's stream.
 runtime::PaintStageOptions paintRules(const RuntimeSettings& settings,
                                       const hal::StreamFormat& stream);
 
-/// How the output of a target is fed, by the traits of its kind. Throws hal::Failure where it is of
-/// none.
+/// Options of the output stage of a target, from the traits of its kind. Throws hal::Failure for a
+/// target of no kind.
 runtime::OutputStageOptions outputRules(const std::string& target,
                                         const hal::OutputOptionsByKind& outputOptions,
                                         const RuntimeSettings& settings,

@@ -37,12 +37,12 @@ int renameToNew(const fs::path& from, const fs::path& to) {
 
 }  // namespace
 
-hal::Result<fs::path> saveSnapshot(const fs::path& folder, const hal::ImageView& picture,
+hal::Result<fs::path> saveSnapshot(const fs::path& folder, const hal::ImageView& image,
                                    std::time_t time) {
   const std::string name = stem(time);
-  // Written whole under a hidden name of this process's, then renamed, which replaces nothing.
+  // The file is written under a hidden name that is unique to this process, then renamed.
   const fs::path hidden = folder / fmt::format(".{}.{}.png", name, getpid());
-  if (auto written = hal::writePng(hidden, picture); !written) {
+  if (auto written = hal::writePng(hidden, image); !written) {
     return tl::unexpected(std::move(written.error()));
   }
   fs::path path = folder / (name + ".png");
@@ -59,9 +59,9 @@ hal::Result<fs::path> saveSnapshot(const fs::path& folder, const hal::ImageView&
   return path;
 }
 
-void SnapshotSaver::save(hal::Image still) {
+void SnapshotSaver::save(hal::Image snapshot) {
   assert(!isBusy());
-  saving_ = std::async(std::launch::async, [folder = folder_, image = std::move(still)] {
+  saving_ = std::async(std::launch::async, [folder = folder_, image = std::move(snapshot)] {
     return saveSnapshot(folder, image.view(), std::time(nullptr));
   });
 }

@@ -29,8 +29,8 @@ class OpenConnections {
   std::vector<Connection> connections_;
 };
 
-/// What is told of the running program. Each is called on the server's thread for every request,
-/// and must neither wait nor touch the GPU. One that throws is answered with status 500.
+/// The contents of the status pages. Each function is called on the server's thread for every
+/// request, and must neither wait nor use the GPU. If it throws, the answer has status 500.
 struct StatusPages {
   std::function<std::string()> json;     ///< /status
   std::function<std::string()> metrics;  ///< /metrics: Prometheus' text format 0.0.4

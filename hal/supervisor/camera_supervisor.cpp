@@ -44,7 +44,7 @@ CameraSupervisor::CameraSupervisor(CameraSelector& selector, Clock& clock,
       options_(options),
       request_(std::move(request)),
       backOff_(options.backOff),
-      watchdog_(options.watchdog, options.longestLook) {
+      watchdog_(options.watchdog, options.maxPollInterval) {
   enter(CameraState::kOpening, "opens " + selector_.choice());
 }
 
@@ -94,9 +94,9 @@ void CameraSupervisor::enter(CameraState state, std::string reason, std::optiona
   status_.camera = camera_;
 }
 
-void CameraSupervisor::tell(const StreamFormat& format) {
-  if (told_ && isSame(*told_, format)) return;
-  told_ = format;
+void CameraSupervisor::announce(const StreamFormat& format) {
+  if (announced_ && isSame(*announced_, format)) return;
+  announced_ = format;
   pending_.emplace_back(FormatChanged{format});
 }
 
@@ -110,7 +110,7 @@ void CameraSupervisor::step(TimePoint deadline) {
       [[fallthrough]];
     case CameraState::kStreaming:
     case CameraState::kStalled:
-      look(deadline);
+      pollCamera(deadline);
       return;
     case CameraState::kLost:
       closeAndBackOff();
@@ -139,7 +139,7 @@ void CameraSupervisor::open() {
   watchdog_.frameCame(startedAt_);
   frames_.beginSession(opened_->isDevice);
   framesBeforeSilence_ = frames_.counts();
-  tell(opened_->format);
+  announce(opened_->format);
 }
 
 void CameraSupervisor::close() {
@@ -148,18 +148,19 @@ void CameraSupervisor::close() {
   opened_.reset();
 }
 
-void CameraSupervisor::look(TimePoint deadline) {
-  const TimePoint until = std::min(deadline, clock_.now() + options_.longestLook);
+void CameraSupervisor::pollCamera(TimePoint deadline) {
+  const TimePoint until = std::min(deadline, clock_.now() + options_.maxPollInterval);
   NextFrame next = opened_->camera->next(until);
   std::visit(Overloaded{
                  [&](CapturedFrame& frame) { receive(std::move(frame)); },
                  [&](CameraTimeout&) {
-                   if (clock_.now() < until) clock_.sleepUntil(until, wakeToken());  // came early
+                   if (clock_.now() < until)
+                     clock_.sleepUntil(until, wakeToken());  // it returned early
                    noteSilence();
                  },
                  [&](FormatChanged& changed) {
                    watchdog_.expect(changed.format.framePeriod);
-                   tell(changed.format);
+                   announce(changed.format);
                  },
                  [&](EndOfStream& ending) { receiveEnd(std::move(ending)); },
                  [&](CameraLost& lost) {
@@ -177,8 +178,8 @@ void CameraSupervisor::look(TimePoint deadline) {
 
 void CameraSupervisor::receive(CapturedFrame frame) {
   auto taken = frames_.take(std::move(frame), clock_.now(), state_ == CameraState::kStalled);
-  if (auto* sound = std::get_if<SupervisedFrame>(&taken)) {
-    hand(std::move(*sound));
+  if (auto* supervised = std::get_if<SupervisedFrame>(&taken)) {
+    deliver(std::move(*supervised));
   } else {
     noteSilence();
   }
@@ -195,11 +196,11 @@ void CameraSupervisor::receiveEnd(EndOfStream ending) {
   end(std::move(reason), std::move(ending.truncated));
 }
 
-void CameraSupervisor::hand(SupervisedFrame frame) {
+void CameraSupervisor::deliver(SupervisedFrame frame) {
   const TimePoint now = clock_.now();
-  StreamFormat format = *told_;
+  StreamFormat format = *announced_;
   format.frame = frame.frame.image.format;
-  tell(format);  // where the back end did not
+  announce(format);  // if the back end did not
   if (state_ == CameraState::kOpening) {
     streamingSince_ = now;
     selector_.wasOfUse(*camera_);
@@ -268,7 +269,7 @@ void CameraSupervisor::closeAndBackOff() {
 void CameraSupervisor::backOff(TimePoint deadline) {
   clock_.sleepUntil(std::min(deadline, openAgainAt_), wakeToken());
   if (clock_.now() < openAgainAt_) return;
-  haveDevicesChanged_ = false;  // the opening sees what has changed until now
+  haveDevicesChanged_ = false;  // the opening sees all changes until now
   camera_.reset();
   enter(CameraState::kOpening, "opens " + selector_.choice() + " again");
 }
@@ -278,7 +279,7 @@ void CameraSupervisor::noteDeviceChange() {
                                   state_ == CameraState::kStalled ||
                                   state_ == CameraState::kBackingOff;
   if (!isChangeOfInterest || !haveDevicesChanged_.exchange(false)) return;
-  if (state_ != CameraState::kBackingOff) return;  // an open camera tells by itself
+  if (state_ != CameraState::kBackingOff) return;  // an open camera reports its own loss
   backOff_.reset();
   openAgainAt_ = std::min(openAgainAt_, clock_.now() + options_.settleTime);
 }

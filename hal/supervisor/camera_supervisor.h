@@ -22,24 +22,24 @@
 
 namespace pleinair::hal {
 
-/// opening → streaming → stalled → lost → backing off → opening …; a stalled camera may stream
-/// again by itself. Ended: a recording's end, or stop().
+/// The states of a supervised camera: opening → streaming → stalled → lost → backing off → opening
+/// … A stalled camera may go back to streaming by itself.
 enum class CameraState {
-  kOpening,    ///< until the first frame came
-  kStreaming,  ///< frames come
-  kStalled,    ///< open, but no usable frame has come for longer than the watchdog's limit
-  kLost,       ///< given up: an error, unplugged, could not be opened, or stalled for too long
-  kBackingOff,
-  kEnded,
+  kOpening,     ///< until the first frame
+  kStreaming,   ///< frames arrive
+  kStalled,     ///< open, but no usable frame has come for longer than the watchdog's limit
+  kLost,        ///< an error, unplugged, could not be opened, or stalled for too long
+  kBackingOff,  ///< waits before the next opening
+  kEnded,       ///< after the end of a recording, or stop()
 };
 std::string_view toString(CameraState state);  ///< "opening", "backing off" …
 
 struct CameraStateChanged {
   CameraState state = CameraState::kOpening;
-  std::string reason;  ///< one line: what the device did, or what opening it failed with
-  /// The camera that it is about; none while one is looked for.
+  std::string reason;  ///< one line: the device's behaviour, or the error of opening it
+  /// Unset until a camera is open.
   std::optional<CameraIdentity> camera;
-  /// With kLost, what the back end or the selection said; none where the watchdog gave it up.
+  /// With kLost: the error of the back end or the selector; unset if the watchdog gave up.
   std::optional<Error> cause;
 };
 
@@ -49,24 +49,24 @@ using SupervisedNext =
 struct SupervisorOptions {
   WatchdogRule watchdog;
   BackOffRule backOff;
-  /// A stalled camera is torn down and opened anew after being silent for this long beyond the
-  /// watchdog's limit.
+  /// A stalled camera is closed and opened again once it has been silent for so much longer than
+  /// the watchdog's limit.
   Duration stallPatience = std::chrono::seconds(3);
-  /// The longest that a device may take from its start to its first usable frame.
+  /// Longest time that a device may take from its start to its first usable frame.
   Duration firstFrameLimit = std::chrono::seconds(5);
-  /// A device change (hot-plug) is followed by an opening this much later: udev tells of a camera's
-  /// several nodes one after another.
+  /// Time from a hot-plug event to the next opening: udev reports the nodes of a camera one after
+  /// another.
   Duration settleTime = std::chrono::milliseconds(100);
-  /// The longest single wait in the camera: how late wake() and stop() may be noticed.
-  Duration longestLook = std::chrono::milliseconds(50);
+  /// Longest single wait for the camera: wake() and stop() may be noticed so much later.
+  Duration maxPollInterval = std::chrono::milliseconds(50);
 };
 
-/// Since the supervisor was made.
+/// Counts since the construction of the supervisor.
 struct SupervisorCounts {
-  std::uint64_t opens = 0;         ///< that worked
-  std::uint64_t openFailures = 0;  ///< of the whole selection
-  std::uint64_t losses = 0;        ///< of an open camera
-  std::uint64_t errors = 0;        ///< of those, by an Error of the back end
+  std::uint64_t opens = 0;         ///< successful openings
+  std::uint64_t openFailures = 0;  ///< openings for which no camera of the selection worked
+  std::uint64_t losses = 0;        ///< losses of an open camera
+  std::uint64_t errors = 0;        ///< losses by an Error of the back end
   std::uint64_t stalls = 0;
   std::uint64_t resumptions = 0;  ///< stalls that ended by themselves
   FrameCounts frames;
@@ -79,20 +79,20 @@ struct SupervisorStatus {
   SupervisorCounts counts;
 };
 
-/// Keeps a camera streaming, whatever happens to it: opens what the selector chooses, watches that
-/// frames come, and opens anew what was lost, after a pause that grows. Pull-based as Camera, so
-/// that all is deterministic under a SteppedClock: there is no thread in here; whoever calls next()
-/// owns the device, and the destructor belongs to the same thread.
+/// Keeps a camera streaming: opens the selector's choice, watches that frames arrive, and opens a
+/// lost camera again after a growing back-off. Like Camera it is pull-based and has no thread, so
+/// that it is deterministic under a SteppedClock. The thread that calls next() owns the device and
+/// destroys the supervisor.
 ///
-/// What comes out, for each opening: CameraStateChanged (kOpening), FormatChanged, whenever the
-/// format is not the last one told, CameraStateChanged (kStreaming), and frames. Between kLost and
-/// the next kOpening comes kBackingOff. Sequence numbers and capture times of the frames rise
-/// strictly across all openings (SupervisedFrame says what the gaps were).
+/// next() gives for each opening CameraStateChanged (kOpening), FormatChanged if the format differs
+/// from the last one announced, CameraStateChanged (kStreaming), and frames. kBackingOff comes
+/// between kLost and the next kOpening. Sequence numbers and capture times of the frames rise
+/// strictly across all openings; SupervisedFrame gives the reasons of gaps.
 ///
-/// Recordings and simulations (OpenedCamera::isDevice false) are not watched for silence: their
-/// pauses are what was recorded. Their end is kEnded; where they fail, they are lost as devices
-/// are. To fail at start-up rather than wait for a camera, see that no kLost comes before the first
-/// FormatChanged, and throw its cause.
+/// Recordings and simulations (OpenedCamera::isDevice false) are not watched for silence, because
+/// pauses may be recorded. At their end the state is kEnded; after an error they are lost like
+/// devices. A caller that wants to fail at start-up, instead of waiting for a camera, throws the
+/// cause of a kLost that comes before the first FormatChanged.
 class CameraSupervisor {
  public:
   /// The selector and the clock outlive this. Nothing is opened before next().
@@ -102,21 +102,21 @@ class CameraSupervisor {
   CameraSupervisor(const CameraSupervisor&) = delete;
   CameraSupervisor& operator=(const CameraSupervisor&) = delete;
 
-  /// What happened next, or CameraTimeout at `deadline`. Never fails. Overruns the deadline by no
-  /// more than one opening or closing takes. After kEnded it keeps answering EndOfStream.
+  /// Gives the next frame or change, or CameraTimeout at `deadline`. Never fails. Overruns the
+  /// deadline at most by the duration of one opening or closing. Repeats EndOfStream after kEnded.
   SupervisedNext next(TimePoint deadline);
 
-  /// next() returns soon, if only with CameraTimeout. Any thread.
+  /// Makes next() return soon, at least with CameraTimeout. Any thread.
   void wake();
-  /// Something was plugged or unplugged: a back-off is cut short, and starts small again. Any
-  /// thread.
+  /// To be called when a device was plugged or unplugged: ends a back-off early and resets its
+  /// duration. Any thread.
   void devicesChanged();
-  /// The next next() closes the camera and ends; one that waits is woken, in an opening too. The
-  /// selector opens nothing more. Returns at once. Any thread.
+  /// Makes next() close the camera and end; wakes a waiting next(), also during an opening. The
+  /// selector opens no more cameras. Returns at once. Any thread.
   void stop();
 
-  /// All frames so far, with those that came after the last one that was let out. The thread of
-  /// next(); status() has them for the others.
+  /// Counts of all frames so far, including those dropped since the last delivered one. Only on the
+  /// thread of next(); other threads use status().
   FrameCounts frameCounts() const { return frames_.counts(); }
   CameraState state() const { return state_.load(); }  ///< any thread
   SupervisorStatus status() const;                     ///< any thread
@@ -125,16 +125,16 @@ class CameraSupervisor {
   SupervisedNext advance(TimePoint deadline);
   std::optional<SupervisedNext> takePending();
   void enter(CameraState state, std::string reason, std::optional<Error> cause = std::nullopt);
-  void tell(const StreamFormat& format);
+  void announce(const StreamFormat& format);
 
   void step(TimePoint deadline);
   void open();
   void close();
-  /// Takes one look at the open camera, until `deadline` at the latest.
-  void look(TimePoint deadline);
+  /// Polls the open camera once, at most until `deadline`.
+  void pollCamera(TimePoint deadline);
   void receive(CapturedFrame frame);
   void receiveEnd(EndOfStream end);
-  void hand(SupervisedFrame frame);
+  void deliver(SupervisedFrame frame);
   void noteSilence();
   std::string silenceText() const;
   void lose(std::string reason, std::optional<Error> cause = std::nullopt);
@@ -155,7 +155,7 @@ class CameraSupervisor {
 
   std::optional<OpenedCamera> opened_;
   std::optional<CameraIdentity> camera_;
-  std::optional<StreamFormat> told_;
+  std::optional<StreamFormat> announced_;
   std::optional<Error> truncated_;
   TimePoint startedAt_;
   TimePoint streamingSince_;
@@ -165,14 +165,14 @@ class CameraSupervisor {
   SessionFrames frames_;
   FrameCounts framesBeforeSilence_;
   SupervisorCounts counts_;
-  // Handed out one by one; its memory is kept, for there is one for each frame.
+  // Answers that next() gives one by one; a member so that its memory is reused.
   std::vector<SupervisedNext> pending_;
   std::size_t handedOut_ = 0;
 
   std::atomic<CameraState> state_ = CameraState::kOpening;
   std::atomic<bool> isStopped_ = false;
   std::atomic<bool> haveDevicesChanged_ = false;
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // guards the members below
   SupervisorStatus status_;
   std::stop_source woken_;
 };

@@ -10,12 +10,12 @@ void FrameWatchdog::expect(std::optional<Duration> framePeriod) {
 
 void FrameWatchdog::frameCame(TimePoint now) {
   silence_ = Duration::zero();
-  lastLook_ = now;
+  lastPoll_ = now;
 }
 
 void FrameWatchdog::nothingCame(TimePoint now) {
-  silence_ += std::clamp(now - lastLook_, Duration::zero(), longestLook_);
-  lastLook_ = now;
+  silence_ += std::clamp(now - lastPoll_, Duration::zero(), maxPollInterval_);
+  lastPoll_ = now;
 }
 
 }  // namespace pleinair::hal

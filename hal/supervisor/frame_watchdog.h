@@ -15,19 +15,19 @@ struct WatchdogRule {
   Duration unknownPeriod = std::chrono::milliseconds(100);
 };
 
-/// How long a camera has been silent while somebody listened. Time in which nobody looked is not
-/// the camera's: a consumer that was away, a computer that was suspended, a clock that was set
-/// forward count for one look at the most.
+/// Measures how long a camera has been silent while it was polled. Time without polling does not
+/// count: a busy consumer, a suspended computer and a jump of the clock count for at most one poll.
 class FrameWatchdog {
  public:
-  /// A look that took longer than `longestLook` counts as that.
-  FrameWatchdog(WatchdogRule rule, Duration longestLook) : rule_(rule), longestLook_(longestLook) {}
+  /// The time since the previous poll counts for at most `maxPollInterval`.
+  FrameWatchdog(WatchdogRule rule, Duration maxPollInterval)
+      : rule_(rule), maxPollInterval_(maxPollInterval) {}
 
-  /// The camera's frame period, from now on.
+  /// Sets the camera's frame period, from which the limit follows.
   void expect(std::optional<Duration> framePeriod);
-  /// Silence begins anew.
+  /// Notes a usable frame, which ends the silence.
   void frameCame(TimePoint now);
-  /// Nothing usable came until now.
+  /// Notes that no usable frame has come until `now`.
   void nothingCame(TimePoint now);
 
   Duration silence() const { return silence_; }
@@ -36,10 +36,10 @@ class FrameWatchdog {
 
  private:
   WatchdogRule rule_;
-  Duration longestLook_;
+  Duration maxPollInterval_;
   Duration limit_{};
   Duration silence_{};
-  TimePoint lastLook_;
+  TimePoint lastPoll_;
 };
 
 }  // namespace pleinair::hal

@@ -9,14 +9,14 @@
 
 namespace pleinair::hal {
 
-/// The kernel's news of a device that was plugged or unplugged, or changed.
+/// An event of a device that was plugged, unplugged or changed.
 struct DeviceEvent {
   std::string action;     ///< "add", "remove", "change" …
   std::string subsystem;  ///< "video4linux", "usb"
-  std::string node;       ///< "/dev/video0"; empty where it has none
+  std::string node;       ///< "/dev/video0"; empty if it has none
 };
 
-/// Where such news come from.
+/// A source of device events.
 class DeviceEvents {
  public:
   virtual ~DeviceEvents() = default;
@@ -24,19 +24,20 @@ class DeviceEvents {
   DeviceEvents(const DeviceEvents&) = delete;
   DeviceEvents& operator=(const DeviceEvents&) = delete;
 
-  /// Waits for the next event. Errors: kIo, after which nothing more comes; kNotFound once it was
-  /// interrupted.
+  /// Waits for the next event. Errors: kIo, after which there are no more events; kNotFound after
+  /// interrupt().
   virtual Result<DeviceEvent> next() = 0;
-  /// next() returns, now and from then on. Any thread.
+  /// Makes next() return, now and from then on. Any thread.
   virtual void interrupt() = 0;
 };
 
-/// udev's, of cameras' subsystems. Errors: kUnsupported (built without udev), kIo (no udev here).
+/// udev's events of the subsystems of cameras. Errors: kUnsupported (built without udev), kIo (udev
+/// does not run).
 Result<std::unique_ptr<DeviceEvents>> udevEvents();
 
-/// Tells of each event on a thread of its own, such as to a CameraSupervisor's devicesChanged().
-/// Without one, or once its events fail, cameras are found again all the same, if later: by the
-/// supervisor's back-off alone.
+/// Reports each event, for example to CameraSupervisor::devicesChanged(), from its own thread. If
+/// there is no monitor, or its source has failed, the supervisor still finds cameras again, but
+/// only after its back-off.
 class HotplugMonitor {
  public:
   /// `changed` is called on the monitor's thread, until the destructor.
@@ -49,7 +50,7 @@ class HotplugMonitor {
  private:
   std::unique_ptr<DeviceEvents> events_;
   std::function<void(const DeviceEvent&)> changed_;
-  std::thread thread_;  // last: it uses the rest
+  std::thread thread_;  // last, because it uses the other members
 };
 
 }  // namespace pleinair::hal

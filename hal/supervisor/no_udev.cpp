@@ -1,4 +1,4 @@
-// In place of udev_events.cpp where libudev is not there.
+// Replaces udev_events.cpp in builds without libudev.
 
 #include "hal/supervisor/hotplug_monitor.h"
 

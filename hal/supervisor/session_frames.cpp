@@ -59,7 +59,7 @@ std::optional<FrameRefusal> SessionFrames::refusalOf(const CapturedFrame& frame,
     return FrameRefusal::kCorrupt;
   }
   if (lastTime_ && frame.captureTime <= *lastTime_) return FrameRefusal::kMisTimed;
-  // One such frame would make all that follow look late.
+  // After such a frame all later ones would go back in time.
   if (isDevice_ && frame.captureTime > now + kFutureTolerance) return FrameRefusal::kMisTimed;
   return std::nullopt;
 }

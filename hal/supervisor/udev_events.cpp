@@ -35,11 +35,10 @@ Error failed(std::string problem, int errnoValue) {
 
 class UdevEvents final : public DeviceEvents {
  public:
-  /// Nothing more on success.
   Result<void> open() {
     context_.reset(udev_new());
     if (!context_) return tl::unexpected(failed("cannot open", ENOMEM));
-    // udev's own news, not the kernel's: the node has its name and permissions by then.
+    // udev's events, not the kernel's, because only then the node has its name and permissions.
     monitor_.reset(udev_monitor_new_from_netlink(context_.get(), "udev"));
     if (!monitor_ || !interrupted_) return tl::unexpected(failed("cannot listen", errno));
     for (const char* subsystem : {"video4linux", "usb"}) {
@@ -67,7 +66,7 @@ class UdevEvents final : public DeviceEvents {
       }
       if ((sources[0].revents & POLLIN) == 0) return tl::unexpected(failed("cannot wait", EIO));
       const UdevHandle<udev_device> device(udev_monitor_receive_device(monitor_.get()));
-      if (!device) continue;  // another's, or more than fitted into the socket
+      if (!device) continue;  // filtered out, or the socket's buffer overran
       return DeviceEvent{.action = textOf(udev_device_get_action(device.get())),
                          .subsystem = textOf(udev_device_get_subsystem(device.get())),
                          .node = textOf(udev_device_get_devnode(device.get()))};

@@ -14,24 +14,24 @@
 namespace pleinair::hal {
 namespace {
 
-/// How late the thread notices that it is to stop.
+/// Longest wait for a frame at a time: the thread may notice a stop so much later.
 constexpr Duration kPollInterval = std::chrono::milliseconds(50);
 
-/// `condition` of `lock`'s mutex, within `limit` of real time.
+/// Waits for `condition` for at most `limit` of real time; returns whether it holds.
 template <class Condition>
 bool holdsWithin(std::condition_variable& changed, std::unique_lock<std::mutex>& lock,
                  Duration limit, Condition condition) {
   return changed.wait_until(lock, std::chrono::steady_clock::now() + limit, condition);
 }
 
-/// Whether more comes after this.
+/// Whether the stream goes on after this answer.
 bool goesOn(const NextFrame& next) {
   return std::holds_alternative<CapturedFrame>(next) || std::holds_alternative<FormatChanged>(next);
 }
 
 }  // namespace
 
-/// What the thread and its owner share; whoever is last frees it.
+/// The state that the thread and its owner share. The last of them frees it.
 class WorkerCamera::Worker {
  public:
   Worker(CameraFactory make, std::shared_ptr<std::atomic<int>> hanging)
@@ -46,7 +46,7 @@ class WorkerCamera::Worker {
   Result<StreamFormat> start(const StreamRequest& request, Duration limit,
                              const std::stop_token& interrupted);
   NextFrame next(TimePoint deadline);
-  /// Whether it did within the limit.
+  /// Each returns whether the thread obeyed within the limit.
   bool stop(Duration limit);
   bool quit(Duration limit);
 
@@ -55,30 +55,30 @@ class WorkerCamera::Worker {
 
  private:
   void stream();
-  /// Hands `next` over once what was handed over before has been taken. Whether the stream goes on.
+  /// Hands `next` over once the previous answer has been taken. Returns false after stop().
   bool handOver(NextFrame next);
-  bool shallStream() {
+  bool isStreamRequested() {
     const std::scoped_lock lock(mutex_);
-    return shallStream_;
+    return isStreamRequested_;
   }
 
-  SteadyClock clock_;   // the camera's
-  CameraFactory make_;  // and whatever that keeps alive
+  SteadyClock clock_;   // the camera's clock
+  CameraFactory make_;  // kept because it may own objects that the camera uses
   std::shared_ptr<std::atomic<int>> hanging_;
 
-  std::mutex mutex_;  // of what follows, but for the camera
+  std::mutex mutex_;  // guards the members below except the camera
   std::condition_variable changed_;
   CameraIdentity identity_;
   StreamRequest request_;
-  bool shallStream_ = false;
-  bool shallQuit_ = false;
+  bool isStreamRequested_ = false;
+  bool isQuitRequested_ = false;
   bool isIdle_ = true;
   bool hasQuit_ = false;
   bool isAbandoned_ = false;
   std::optional<Result<StreamFormat>> started_;
-  std::optional<NextFrame> handedOver_;  // and not taken yet; an ending stays
+  std::optional<NextFrame> handedOver_;  // not taken yet; the end of a stream is never taken
 
-  std::unique_ptr<Camera> camera_;  // the thread's
+  std::unique_ptr<Camera> camera_;  // used by the driver thread only
 };
 
 Result<StreamFormat> WorkerCamera::Worker::start(const StreamRequest& request, Duration limit,
@@ -96,14 +96,14 @@ Result<StreamFormat> WorkerCamera::Worker::start(const StreamRequest& request, D
   }
   request_ = request;
   isIdle_ = false;
-  shallStream_ = true;
+  isStreamRequested_ = true;
   started_.reset();
   handedOver_.reset();
   changed_.notify_all();
   holdsWithin(changed_, lock, limit,
               [&] { return started_.has_value() || interrupted.stop_requested(); });
   if (started_) return *started_;
-  shallStream_ = false;
+  isStreamRequested_ = false;
   if (interrupted.stop_requested()) {
     return tl::unexpected(Error{.kind = ErrorKind::kBusy,
                                 .subject = identity_.backend + ":" + identity_.id,
@@ -133,7 +133,7 @@ NextFrame WorkerCamera::Worker::next(TimePoint deadline) {
 
 bool WorkerCamera::Worker::stop(Duration limit) {
   std::unique_lock lock(mutex_);
-  shallStream_ = false;
+  isStreamRequested_ = false;
   changed_.notify_all();
   const bool isIdle = holdsWithin(changed_, lock, limit, [this] { return isIdle_; });
   handedOver_.reset();
@@ -142,8 +142,8 @@ bool WorkerCamera::Worker::stop(Duration limit) {
 
 bool WorkerCamera::Worker::quit(Duration limit) {
   std::unique_lock lock(mutex_);
-  shallStream_ = false;
-  shallQuit_ = true;
+  isStreamRequested_ = false;
+  isQuitRequested_ = true;
   changed_.notify_all();
   if (holdsWithin(changed_, lock, limit, [this] { return hasQuit_; })) return true;
   isAbandoned_ = true;
@@ -155,7 +155,7 @@ void WorkerCamera::Worker::run() {
   pthread_setname_np(pthread_self(), "driver");
   std::unique_lock lock(mutex_);
   for (;;) {
-    changed_.wait(lock, [this] { return !isIdle_ || shallQuit_; });
+    changed_.wait(lock, [this] { return !isIdle_ || isQuitRequested_; });
     if (isIdle_) break;
     const StreamRequest request = request_;
     lock.unlock();
@@ -182,22 +182,22 @@ void WorkerCamera::Worker::run() {
 }
 
 void WorkerCamera::Worker::stream() {
-  while (shallStream()) {
+  while (isStreamRequested()) {
     NextFrame next = camera_->next(clock_.now() + kPollInterval);
     if (std::holds_alternative<CameraTimeout>(next)) continue;
     const bool isLast = !goesOn(next);
     if (!handOver(std::move(next))) return;
     if (!isLast) continue;
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return !shallStream_; });
+    changed_.wait(lock, [this] { return !isStreamRequested_; });
     return;
   }
 }
 
 bool WorkerCamera::Worker::handOver(NextFrame next) {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return !shallStream_ || !handedOver_; });
-  if (!shallStream_) return false;
+  changed_.wait(lock, [this] { return !isStreamRequested_ || !handedOver_; });
+  if (!isStreamRequested_) return false;
   handedOver_ = std::move(next);
   changed_.notify_all();
   return true;
@@ -225,7 +225,7 @@ CameraIdentity WorkerCamera::identity() const {
 }
 
 Result<StreamFormat> WorkerCamera::start(const StreamRequest& request) {
-  if (const int count = *hanging_; count >= limits_.mostHanging) {
+  if (const int count = *hanging_; count >= limits_.maxHanging) {
     const CameraIdentity who = identity();
     return tl::unexpected(Error{
         .kind = ErrorKind::kBusy,
@@ -244,7 +244,7 @@ void WorkerCamera::stop() {
   isHanging_ = !worker_->stop(isHanging_ ? Duration::zero() : limits_.stop);
 }
 
-CameraWrapper onThreadsOfTheirOwn(WorkerLimits limits) {
+CameraWrapper onDriverThreads(WorkerLimits limits) {
   return [limits, hanging = std::make_shared<std::atomic<int>>(0)](CameraFactory make,
                                                                    std::stop_token stop) {
     return std::make_unique<WorkerCamera>(std::move(make), limits, hanging, std::move(stop));

@@ -11,27 +11,26 @@
 
 namespace pleinair::hal {
 
-/// How long a device may keep its caller waiting.
+/// Limits for devices whose drivers block.
 struct WorkerLimits {
   Duration start = std::chrono::seconds(10);
   Duration stop = std::chrono::seconds(1);
-  /// Threads that hang in a driver at once; beyond it nothing more is opened.
-  int mostHanging = 4;
+  /// Driver threads that may hang at a time; while there are so many, no camera is opened.
+  int maxHanging = 4;
 };
 
-/// A camera on a thread of its own, the driver thread, for devices whose drivers may block. It
-/// hands over what the camera gives one by one, in order, and drops nothing: a camera whose frames
-/// are not taken runs out of buffers, which it counts itself. The newest frame is chosen further
-/// on, in one place (runtime::Mailbox). A call over its limit returns to
-/// the caller; the driver thread is abandoned, and destroys its camera when the driver returns.
-/// Until then start() answers kBusy.
+/// Runs a camera whose driver may block on its own thread, the driver thread. It passes on each
+/// answer of the camera in order and drops none: a camera whose frames are not taken runs out of
+/// buffers and counts that itself; only runtime::Mailbox picks the newest frame. A call that
+/// exceeds its limit returns to the caller. Its driver thread is abandoned and destroys the camera
+/// when the driver returns; until then start() answers kBusy.
 ///
-/// Real time only: deadlines are the SteadyClock's. Contract as of Camera; start() also answers
-/// kTimeout and kBusy. stop() and the destructor together wait once for the limit of a stop.
+/// Real time only: deadlines are the SteadyClock's. The contract is Camera's; start() also answers
+/// kTimeout and kBusy. stop() and the destructor together wait at most once for WorkerLimits::stop.
 class WorkerCamera final : public Camera {
  public:
-  /// `hanging` counts the abandoned threads of all cameras that share it.
-  /// Once `interrupted`, start() does not wait.
+  /// `hanging`: counts the abandoned threads of all cameras that share it; null: of this one.
+  /// `interrupted`: once it is requested, start() does not wait.
   explicit WorkerCamera(CameraFactory make, WorkerLimits limits = {},
                         std::shared_ptr<std::atomic<int>> hanging = nullptr,
                         std::stop_token interrupted = {});
@@ -47,12 +46,12 @@ class WorkerCamera final : public Camera {
   WorkerLimits limits_;
   std::shared_ptr<std::atomic<int>> hanging_;
   std::stop_token interrupted_;
-  std::shared_ptr<Worker> worker_;  // with the thread, which may outlive this
+  std::shared_ptr<Worker> worker_;  // shared with the thread, which may outlive this
   bool isHanging_ = false;
   std::thread thread_;
 };
 
-/// Puts each camera onto a WorkerCamera.
-CameraWrapper onThreadsOfTheirOwn(WorkerLimits limits = {});
+/// Wraps each camera in a WorkerCamera. All share one count of hanging threads.
+CameraWrapper onDriverThreads(WorkerLimits limits = {});
 
 }  // namespace pleinair::hal

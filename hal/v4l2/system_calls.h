@@ -12,7 +12,7 @@
 
 namespace pleinair::hal::v4l2 {
 
-/// What V4L2 devices are driven through; a test stands a device of its own behind it.
+/// The system calls that drive V4L2 devices; tests simulate a device behind them.
 /// Every call answers −errno where the system says −1, and goes on by itself after EINTR.
 /// Thread-safe. Outlives every camera, output and frame that uses it.
 class SystemCalls : public DescriptorCloser {

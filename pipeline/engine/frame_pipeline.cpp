@@ -31,13 +31,13 @@ gpu::ShaderLibrary makeLibrary(const PainterOptions& options) {
   return library;
 }
 
-/// The context, if it takes pictures of this size: asked before anything is allocated.
+/// Gives the context. Throws if it does not support this size, before anything is allocated.
 const gpu::ContextInfo& checked(const gpu::ContextInfo& context, hal::FrameSize pictureSize) {
   hal::orThrow(gpu::checkDeviceLimit(context, pictureSize, "picture size"));
   return context;
 }
 
-/// A processor does not hang; it may only have much to do.
+/// A software GPU does not hang, so it gets more time before it counts as lost.
 gpu::GpuTestHook hookOf(const PainterOptions& options, const gpu::ContextInfo& context) {
   gpu::GpuTestHook testHook = options.testHook;
   if (context.isSoftware && testHook.patience == gpu::GpuTestHook{}.patience)
@@ -45,7 +45,7 @@ gpu::GpuTestHook hookOf(const PainterOptions& options, const gpu::ContextInfo& c
   return testHook;
 }
 
-/// Nothing where no model is shaded by what the camera sees.
+/// Unset if no model is lit by an estimate from the camera's image.
 std::optional<scene::LightEstimator> makeLightEstimator(const PainterOptions& options) {
   const scene::Scene& scene = options.scene;
   if (!options.tracksTags || !scene.light.isEstimated || scene.models.empty()) return std::nullopt;
@@ -57,7 +57,7 @@ std::optional<scene::LightEstimator> makeLightEstimator(const PainterOptions& op
   return scene::LightEstimator(scene.tags, scene.tagFamily, places, towardKey);
 }
 
-bool isOurs(std::string_view view) {
+bool isEngineView(std::string_view view) {
   return view == kCameraView || view == kArView || scene::findBufferView(view) != nullptr;
 }
 
@@ -79,7 +79,7 @@ ContextScope::ContextScope(const PainterGl& gl, gpu::ResetMonitor* monitor) {
 FramePipeline::FramePipeline(const PainterOptions& options, PainterGl gl)
     : gl_(std::move(gl)),
       testHook_(hookOf(options, checked(gl_.info, options.pictureSize))),
-      watch_(testHook_),
+      resetMonitor_(testHook_),
       pictureSize_(options.pictureSize),
       scene_(options.scene),
       tracksTags_(options.tracksTags),
@@ -101,9 +101,9 @@ FramePipeline::FramePipeline(const PainterOptions& options, PainterGl gl)
   library_.setCancellation(nullptr);
 }
 
-/// A blank frame through the whole chain at each level, untimed: all that frames of the expected
-/// format need is compiled, allocated and drawn once (docs/gpu.md, rule 14). Conversions of other
-/// layouts are linked by now, but a driver may finish them at their first frame. Read-backs warm up
+/// Paints a blank frame at each level, untimed, so that every program for the expected format is
+/// compiled and drawn once and every buffer is allocated (docs/gpu.md, rule 14). Conversions of
+/// other layouts are linked, but a driver may finish them at their first frame. Read-backs warm up
 /// when they are opened.
 void FramePipeline::warmUp(const hal::FrameFormat& expected) {
   hal::orThrow(gpu::checkDeviceLimit(gl_.info, expected.size, "frame size"));
@@ -113,7 +113,7 @@ void FramePipeline::warmUp(const hal::FrameFormat& expected) {
     warmUp(level, blank);
   }
   style_->reset();
-  renderer_.reset();  // time does not start with the blank frames
+  renderer_.reset();  // the blank frames are no history
 }
 
 void FramePipeline::warmUp(const Level& level, const hal::Image& blank) {
@@ -140,7 +140,7 @@ std::vector<DebugView> debugViewsOf(std::string_view style) {
 }
 
 hal::Result<void> checkDebugView(std::string_view style, std::string_view view) {
-  if (view.empty() || isOurs(view)) return {};
+  if (view.empty() || isEngineView(view)) return {};
   const auto ofStyle = styles::styleKind(style).views;
   if (std::ranges::find(ofStyle, view, &styles::DebugViewInfo::name) != ofStyle.end()) return {};
   std::vector<std::string> names;
@@ -166,7 +166,8 @@ hal::Result<void> FramePipeline::checkQuality(std::size_t quality) const {
                                    .remedy = "choose one of: " + config::listText(numbers)});
 }
 
-/// Makes ready for frames of this size; nothing changes where the scene's calibration is not.
+/// Prepares for frames of this size. An error, if the scene's calibration is for another size,
+/// changes nothing.
 hal::Result<void> FramePipeline::adaptTo(hal::FrameSize frameSize) {
   if (frameSize_ == frameSize) return {};
   if (scene_.camera) {
@@ -190,7 +191,7 @@ hal::Result<void> FramePipeline::adaptTo(hal::FrameSize frameSize) {
   return {};
 }
 
-/// Px of a level's picture for one of the full one.
+/// Px of a level's picture for each px of the full picture.
 glm::dvec2 FramePipeline::pixelsOfFull(const Level& level) const {
   return glm::dvec2(level.size.width, level.size.height) /
          glm::dvec2(pictureSize_.width, pictureSize_.height);
@@ -203,21 +204,21 @@ gpu::AspectFill FramePipeline::fitTo(const Level& level, hal::FrameSize frameSiz
 
 hal::Result<Picture> FramePipeline::paint(const hal::CapturedFrame& frame,
                                           const PaintParameters& parameters) {
-  if (auto valid = watch_.check(); !valid) return tl::unexpected(std::move(valid.error()));
+  if (auto valid = resetMonitor_.check(); !valid) return tl::unexpected(std::move(valid.error()));
   try {
     return paintChecked(frame, parameters);
-  } catch (const hal::Failure& error) {  // no memory for frames of a new size or layout
-    return tl::unexpected(metLoss(error.error()));
+  } catch (const hal::Failure& error) {  // not enough memory for a new size or layout
+    return tl::unexpected(orLoss(error.error()));
   }
 }
 
-hal::Error FramePipeline::metLoss(const hal::Error& error) {
-  if (error.kind == hal::ErrorKind::kDeviceLost) watch_.note(error);
-  const auto valid = watch_.check();
+hal::Error FramePipeline::orLoss(const hal::Error& error) {
+  if (error.kind == hal::ErrorKind::kDeviceLost) resetMonitor_.note(error);
+  const auto valid = resetMonitor_.check();
   return valid ? error : valid.error();
 }
 
-/// Whether it can be painted; what follows a frame's size is ready then.
+/// Checks that the frame can be painted, and prepares for its size.
 hal::Result<void> FramePipeline::checkFrame(const hal::CapturedFrame& frame,
                                             const PaintParameters& parameters) {
   if (auto known = checkDebugView(style_->kind().name, parameters.view); !known) return known;
@@ -279,13 +280,13 @@ scene::ArFrame FramePipeline::compose(const hal::CapturedFrame& frame,
                                                .tags = sightings_},
                                               frame.sequence, frame.captureTime, needs, lights);
   composed.fullSize = pictureSize_;
-  if (needs.canvas || needs.measuredMotion) followPicture(frame, needs, composed);
+  if (needs.canvas || needs.measuredMotion) measureMotion(frame, needs, composed);
   return composed;
 }
 
-/// Motion is followed in the captured frame; the canvas has the full picture's pixels and goes by
-/// the same motion.
-void FramePipeline::followPicture(const hal::CapturedFrame& frame, scene::ArFrameNeeds needs,
+/// Measures motion in the captured frame, and converts the canvas' motion to px of the full
+/// picture.
+void FramePipeline::measureMotion(const hal::CapturedFrame& frame, scene::ArFrameNeeds needs,
                                   scene::ArFrame& composed) {
   const auto scope = timer_.measure("follow picture");
   const hal::FrameSize size = frame.image.format.size;
@@ -305,8 +306,9 @@ const gpu::Texture& FramePipeline::paintView(const scene::ArFrame& frame,
                                              const PaintParameters& parameters) {
   const std::string_view view = parameters.view;
   style_->setParameters(parameters.style);
-  // The style's state advances the same whatever is looked at.
-  const gpu::Texture& painted = style_->paint(frame, isOurs(view) ? std::string_view{} : view);
+  // The style paints for every view, so that its history does not depend on the view.
+  const gpu::Texture& painted =
+      style_->paint(frame, isEngineView(view) ? std::string_view{} : view);
   if (view == kCameraView) return *camera_;
   if (const scene::BufferView* buffer = scene::findBufferView(view)) {
     return bufferViewer_.show(*buffer, frame);
@@ -314,7 +316,7 @@ const gpu::Texture& FramePipeline::paintView(const scene::ArFrame& frame,
   return view == kArView ? *frame.colour : painted;
 }
 
-/// Lets each read-back that has room read the picture of this frame; the others skip it.
+/// Submits the picture to each read-back that has room; the others skip it.
 void FramePipeline::submitReadbacks(const hal::CapturedFrame& frame) {
   const auto scope = timer_.measure("read back");
   for (auto& [id, readback] : readbacks_) {
@@ -328,22 +330,22 @@ void FramePipeline::submitReadbacks(const hal::CapturedFrame& frame) {
   ++paintings_;
 }
 
-/// Copies a read-back's oldest picture as `copy` does: Readback::poll() or Readback::wait().
-hal::Answer FramePipeline::copyOldest(int number, OutputFrame& picture,
+/// Copies a read-back's oldest output frame with `copy`, Readback::poll() or Readback::wait().
+hal::Answer FramePipeline::copyOldest(int number, OutputFrame& frame,
                                       hal::Answer (present::Readback::*copy)(hal::Image&)) {
-  if (watch_.loss()) return tl::unexpected(*watch_.loss());
+  if (resetMonitor_.loss()) return tl::unexpected(*resetMonitor_.loss());
   OpenReadback& readback = readbacks_.at(number);
-  const hal::Answer copied = (readback.ring.*copy)(picture.image);
-  if (copied.hasError()) return tl::unexpected(metLoss(copied.error()));
+  const hal::Answer copied = (readback.ring.*copy)(frame.image);
+  if (copied.hasError()) return tl::unexpected(orLoss(copied.error()));
   if (!copied.isYes()) return false;
-  picture.sequence = readback.inFlight.front().sequence;
-  picture.captureTime = readback.inFlight.front().captureTime;
+  frame.sequence = readback.inFlight.front().sequence;
+  frame.captureTime = readback.inFlight.front().captureTime;
   readback.inFlight.erase(readback.inFlight.begin());
   return true;
 }
 
 hal::Result<hal::Image> FramePipeline::read(const gpu::Texture* texture) {
-  if (auto valid = watch_.check(); !valid) return tl::unexpected(std::move(valid.error()));
+  if (auto valid = resetMonitor_.check(); !valid) return tl::unexpected(std::move(valid.error()));
   assert(texture != nullptr);
   try {
     const hal::FrameFormat format{.pixelFormat = hal::PixelFormat::kRgb8, .size = pictureSize_};
@@ -353,7 +355,7 @@ hal::Result<hal::Image> FramePipeline::read(const gpu::Texture* texture) {
     hal::orThrow(snapshots_->wait(image));
     return image;
   } catch (const hal::Failure& error) {
-    return tl::unexpected(metLoss(error.error()));
+    return tl::unexpected(orLoss(error.error()));
   }
 }
 

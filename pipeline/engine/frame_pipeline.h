@@ -30,16 +30,16 @@ namespace pleinair {
 
 /// The GL context that a Painter works in.
 struct PainterGl {
-  std::unique_ptr<gpu::EglContext> own;  ///< none: the host's
+  std::unique_ptr<gpu::EglContext> own;  ///< null: the host's context
   gpu::ContextInfo info;
 };
 
-/// While one lives, the Painter's context is current on the calling thread, in the state that its
-/// passes rely on; when it goes, the host's is as PainterContext says.
+/// Makes the Painter's context current on the calling thread, in the state that its passes rely on.
+/// The destructor restores the host's context as PainterContext specifies.
 class ContextScope {
  public:
-  /// `monitor` is told where the driver refuses our own context. A lost context of a host stays as
-  /// it is: another one may be current by now. None: the context was made just now.
+  /// `monitor` is notified if the driver refuses the Painter's own context; null for a new context.
+  /// The state of a host is left alone after a loss, because another context may be current.
   ContextScope(const PainterGl& gl, gpu::ResetMonitor* monitor);
 
  private:
@@ -47,8 +47,8 @@ class ContextScope {
   std::optional<gpu::HostState> hostState_;
 };
 
-/// A Painter's GL objects and stages, and the order in which a frame goes through them. Painter's
-/// members (painter.cpp) work on it inside a ContextScope. Paint thread only.
+/// A Painter's GL objects and stages, and the order in which a frame passes through them. The
+/// members of Painter (painter.cpp) use it inside a ContextScope. Paint thread only.
 class FramePipeline {
  public:
   /// Precondition: the context is current.
@@ -57,12 +57,12 @@ class FramePipeline {
  private:
   friend class Painter;
 
-  /// A read-back with the frames that its pictures in flight are of.
+  /// A read-back with the origins of its output frames in flight.
   struct OpenReadback {
     struct Stamp {
       std::uint64_t sequence = 0;
       hal::TimePoint captureTime;
-      std::uint64_t painting = 0;  ///< counts paintings, whatever their frame
+      std::uint64_t painting = 0;  ///< number of the painting, whatever its frame
     };
     explicit OpenReadback(present::Readback readback) : ring(std::move(readback)) {}
     present::Readback ring;
@@ -70,14 +70,14 @@ class FramePipeline {
     std::uint64_t skipped = 0;
   };
 
-  /// A level of quality that can be painted at.
+  /// A quality level that can be painted at.
   struct Level {
     hal::FrameSize size;
-    std::optional<tracking::CameraModel> camera;  // of the picture at this size, not of the frame
+    std::optional<tracking::CameraModel> camera;  // of the picture, not of the frame
   };
 
-  /// For a call of the Painter.
-  ContextScope enter() { return {gl_, &watch_}; }
+  /// Enters the context for a call of the Painter.
+  ContextScope enter() { return {gl_, &resetMonitor_}; }
   void warmUp(const hal::FrameFormat& expected);
   void warmUp(const Level& level, const hal::Image& blank);
   hal::Result<void> checkQuality(std::size_t quality) const;
@@ -88,23 +88,23 @@ class FramePipeline {
   scene::ArFrame compose(const hal::CapturedFrame& frame, const tracking::TrackingResult& tracked,
                          const Level& level, scene::ArFrameNeeds needs);
   scene::ArFrameNeeds needsOf(const std::string& view) const;
-  void followPicture(const hal::CapturedFrame& frame, scene::ArFrameNeeds needs,
+  void measureMotion(const hal::CapturedFrame& frame, scene::ArFrameNeeds needs,
                      scene::ArFrame& composed);
   const gpu::Texture& paintView(const scene::ArFrame& frame, const PaintParameters& parameters);
   hal::Result<hal::Image> read(const gpu::Texture* texture);
-  hal::Answer copyOldest(int number, OutputFrame& picture,
+  hal::Answer copyOldest(int number, OutputFrame& frame,
                          hal::Answer (present::Readback::*copy)(hal::Image&));
   void submitReadbacks(const hal::CapturedFrame& frame);
-  /// `error`, or the loss of the GPU where that is behind it.
-  hal::Error metLoss(const hal::Error& error);
-  /// Painter::paint().
+  /// Gives the loss of the GPU if that caused `error`, otherwise `error`.
+  hal::Error orLoss(const hal::Error& error);
+  /// Implements Painter::paint().
   hal::Result<Picture> paint(const hal::CapturedFrame& frame, const PaintParameters& parameters);
   hal::Result<Picture> paintChecked(const hal::CapturedFrame& frame,
                                     const PaintParameters& parameters);
 
   PainterGl gl_;
   gpu::GpuTestHook testHook_;
-  gpu::ResetMonitor watch_;
+  gpu::ResetMonitor resetMonitor_;
   hal::FrameSize pictureSize_;
   std::vector<Level> levels_;
   scene::Scene scene_;
@@ -116,18 +116,18 @@ class FramePipeline {
   scene::BufferViewer bufferViewer_;
   std::unique_ptr<styles::Style> style_;
   config::ParameterValues defaults_;  // of the style
-  hal::FrameSize frameSize_;          // of the last frame; what follows is made for it
+  hal::FrameSize frameSize_;          // of the last frame, which the next two members are for
   std::optional<tracking::Tracker> tracker_;
-  tracking::LumaFrame luma_;  // of the frame
+  tracking::LumaFrame luma_;  // of the frame being painted
   tracking::CanvasMotion motion_;
   tracking::ImageMotionEstimator imageMotion_;
-  std::optional<scene::LightEstimator> light_;  // where the scene leaves it to the camera
+  std::optional<scene::LightEstimator> light_;  // if the scene's light is estimated
   std::vector<scene::TagSighting> sightings_;
   std::map<int, OpenReadback> readbacks_;
   int nextReadback_ = 0;
   std::uint64_t paintings_ = 0;
-  std::optional<present::Readback> snapshots_;  // made for the first snapshot
-  const gpu::Texture* picture_ = nullptr;       // of the last paint
+  std::optional<present::Readback> snapshots_;  // created for the first snapshot
+  const gpu::Texture* picture_ = nullptr;       // the last picture
   const gpu::Texture* camera_ = nullptr;
 };
 

@@ -12,7 +12,7 @@
 namespace pleinair {
 namespace {
 
-constexpr int kPicturesInFlight = 3;  // in a read-back
+constexpr int kReadbackDepth = 3;  ///< output frames of a read-back in flight
 
 void checkSize(hal::FrameSize size) {
   if (hal::isAcceptedSize(size)) return;
@@ -49,11 +49,11 @@ Painter::Painter(const PainterOptions& options) {
   pipeline_ = std::make_unique<FramePipeline>(options, std::move(gl));
 }
 
-/// A lost context's objects go with it; nothing more is asked of its driver than that.
+/// The objects of a lost context are abandoned, without calls to its driver.
 Painter::~Painter() {
   const ContextScope scope = pipeline_->enter();
   std::optional<gpu::ContextLossGuard> abandon;
-  if (pipeline_->watch_.loss()) abandon.emplace();
+  if (pipeline_->resetMonitor_.loss()) abandon.emplace();
   pipeline_.reset();
 }
 
@@ -69,18 +69,6 @@ std::vector<DebugView> Painter::views() const {
   return debugViewsOf(pipeline_->style_->kind().name);
 }
 
-std::vector<PainterLook> Painter::looks() const {
-  std::vector<PainterLook> looks;
-  for (const styles::Look& look : styles::styleKind(pipeline_->style_->kind().name).looks) {
-    looks.push_back({std::string(look.name), std::string(look.help)});
-  }
-  return looks;
-}
-
-config::ParameterValues Painter::lookParameters(std::string_view look) const {
-  return styles::styleKind(pipeline_->style_->kind().name).parametersOf(look);
-}
-
 hal::Result<Picture> Painter::paint(const hal::CapturedFrame& frame,
                                     const PaintParameters& parameters) {
   const ContextScope scope = pipeline_->enter();
@@ -92,40 +80,40 @@ int Painter::openReadback(const hal::FrameFormat& format) {
   const ContextScope scope = p.enter();
   hal::orThrow(gpu::checkDeviceLimit(p.gl_.info, present::Readback::packedSize(format),
                                      "picture to be read"));
-  hal::orThrow(p.watch_.check());
+  hal::orThrow(p.resetMonitor_.check());
   try {
-    present::Readback ring(p.library_, format, kPicturesInFlight, p.testHook_);
+    present::Readback ring(p.library_, format, kReadbackDepth, p.testHook_);
     for (const FramePipeline::Level& level : p.levels_) ring.warmUp(level.size);
     p.readbacks_.emplace(p.nextReadback_, std::move(ring));
     return p.nextReadback_++;
   } catch (const hal::Failure& error) {
-    throw hal::Failure(p.metLoss(error.error()));
+    throw hal::Failure(p.orLoss(error.error()));
   }
 }
 
 void Painter::closeReadback(int readback) {
   const ContextScope scope = pipeline_->enter();
   std::optional<gpu::ContextLossGuard> abandon;
-  if (pipeline_->watch_.loss()) abandon.emplace();
+  if (pipeline_->resetMonitor_.loss()) abandon.emplace();
   [[maybe_unused]] const auto closed = pipeline_->readbacks_.erase(readback);
   assert(closed == 1);
 }
 
-hal::Answer Painter::poll(int readback, OutputFrame& picture) {
+hal::Answer Painter::poll(int readback, OutputFrame& frame) {
   const ContextScope scope = pipeline_->enter();
-  return pipeline_->copyOldest(readback, picture, &present::Readback::poll);
+  return pipeline_->copyOldest(readback, frame, &present::Readback::poll);
 }
 
-hal::Answer Painter::wait(int readback, OutputFrame& picture) {
+hal::Answer Painter::wait(int readback, OutputFrame& frame) {
   const ContextScope scope = pipeline_->enter();
-  return pipeline_->copyOldest(readback, picture, &present::Readback::wait);
+  return pipeline_->copyOldest(readback, frame, &present::Readback::wait);
 }
 
 hal::Answer Painter::waitForAny(hal::Duration limit) {
   FramePipeline& p = *pipeline_;
   const ContextScope scope = p.enter();
-  if (p.watch_.loss()) return tl::unexpected(*p.watch_.loss());
-  // The GPU works in the order of paintings, and within one in that of the read-backs.
+  if (p.resetMonitor_.loss()) return tl::unexpected(*p.resetMonitor_.loss());
+  // The GPU works in the order of paintings and, within one, of read-backs.
   const FramePipeline::OpenReadback* oldest = nullptr;
   for (const auto& [number, each] : p.readbacks_) {
     if (each.inFlight.empty()) continue;
@@ -135,7 +123,7 @@ hal::Answer Painter::waitForAny(hal::Duration limit) {
   }
   if (oldest == nullptr) return false;
   const hal::Answer isReady = oldest->ring.isReadyWithin(limit);
-  if (isReady.hasError()) return tl::unexpected(p.metLoss(isReady.error()));
+  if (isReady.hasError()) return tl::unexpected(p.orLoss(isReady.error()));
   return isReady;
 }
 
@@ -160,9 +148,9 @@ hal::Result<hal::Image> Painter::cameraSnapshot() const {
 hal::Result<std::vector<marks::Anchor>> Painter::anchors() const {
   FramePipeline& p = *pipeline_;
   const ContextScope scope = p.enter();
-  if (auto sound = p.watch_.check(); !sound) return tl::unexpected(std::move(sound.error()));
+  if (auto valid = p.resetMonitor_.check(); !valid) return tl::unexpected(std::move(valid.error()));
   std::vector<marks::Anchor> anchors = p.style_->readAnchors();
-  if (auto sound = p.watch_.check(); !sound) return tl::unexpected(std::move(sound.error()));
+  if (auto valid = p.resetMonitor_.check(); !valid) return tl::unexpected(std::move(valid.error()));
   return anchors;
 }
 

@@ -25,110 +25,108 @@ namespace pleinair {
 
 class FramePipeline;
 
-/// Whose GL context a Painter works in. Either way the Painter has no thread of its own: one thread
-/// makes it, calls it and destroys it (the *paint thread* of docs/architecture.md).
+/// The GL context that a Painter works in. A Painter has no thread: one thread creates, calls and
+/// destroys it (the *paint thread* of docs/architecture.md).
 enum class PainterContext {
-  /// Its own, made with it. Each call makes it current on the calling thread. A context of somebody
-  /// else that was current there is current again when the call returns; where none was, the
-  /// Painter's stays, so that a thread that only paints never switches.
+  /// A context that the Painter creates. Each call makes it current on the calling thread. If
+  /// another
+  /// context was current there, it is current again when the call returns; otherwise the Painter's
+  /// stays current, so that a thread that only paints never switches.
   kOwn,
-  /// The one that is current on the calling thread, always the same. Each call works whatever the
-  /// host has bound and switched on, and leaves nothing bound and all switches as in a new context;
-  /// the viewport stays.
+  /// The host's context, which is current on the calling thread, always the same one. Each call
+  /// works
+  /// with any bindings and enabled capabilities of the host. It leaves nothing bound and all
+  /// capabilities as in a new context; the viewport is restored.
   kHost,
 };
 
-/// A level of quality, from which the time and memory of painting follow.
+/// A quality level, which determines the time and memory that painting takes.
 struct QualityLevel {
   std::string name;
   std::string help;
 };
 
-/// All levels, best first. A style takes about two thirds of the time of the level before; what
-/// does not depend on the picture's size (tracking, models, read-back) stays.
+/// All quality levels, best first. At each level a style takes about two thirds of the time of the
+/// level before. Work that does not depend on the picture's size (tracking, models, read-back)
+/// takes the same time at all levels.
 std::vector<QualityLevel> qualityLevels();
 
 struct PainterOptions {
-  hal::FrameSize pictureSize;  ///< of what is painted; frames are scaled to fill it
-  scene::Scene scene;          ///< empty: the camera's picture alone
+  hal::FrameSize pictureSize;  ///< size of the full picture; frames are scaled to fill it
+  scene::Scene scene;          ///< empty: the camera's image alone
   std::string style = "watercolor";
-  bool tracksTags = true;  ///< without, no tag is looked for and no model appears
+  bool tracksTags = true;  ///< if unset, no tag is detected and no model appears
   PainterContext context = PainterContext::kOwn;
   std::filesystem::path shaderDirectory;  ///< overrides embedded shaders; empty: none
   gpu::PassTiming passTiming = gpu::PassTiming::kOff;
-  /// The format of the frames to come, for which everything is compiled and allocated in advance;
+  /// The expected format of frames, for which all programs and buffers are prepared in advance;
   /// unset: the first frame may take longer. Frames of other formats are accepted too.
   std::optional<hal::FrameFormat> expectedFormat = std::nullopt;
-  /// Whether PaintParameters::quality may be other than 0: all levels are allocated and warmed up
-  /// then, for about twice the memory (docs/decisions/0008-quality-levels.md).
+  /// Allows PaintParameters::quality other than 0. All levels are allocated and warmed up then,
+  /// which takes about twice the memory (docs/decisions/0008-quality-levels.md).
   bool qualityLevels = false;
-  /// Asked before each program that the making of a Painter compiles, which takes up to 20 s
-  /// without a shader cache: true ends it with a hal::Failure (kCancelled). Null: it cannot be
+  /// Called before each program that the constructor compiles, which takes up to 20 s without a
+  /// shader cache in all: true ends it with a hal::Failure (kCancelled). Null: it cannot be
   /// cancelled.
   std::function<bool()> isCancelled = nullptr;
-  /// In place of what the driver is asked; for tests.
+  /// Replaces answers of the driver, in tests.
   gpu::GpuTestHook testHook = {};
 };
 
 /// The parameter set of a frame, with its debug view and quality level.
 struct PaintParameters {
-  config::ParameterValues style;  ///< of the style's list: Painter::defaultParameters()
-  std::string view;               ///< empty for the finished picture, or one of views()
-  /// In qualityLevels(). A change keeps the past: the picture goes on, softer or sharper.
+  config::ParameterValues style;  ///< values of the style's list: Painter::defaultParameters()
+  std::string view;               ///< one of views(), or empty for the finished picture
+  /// Index into qualityLevels(). A change keeps the history: the painting goes on, softer or
+  /// sharper.
   std::size_t quality = 0;
 };
 
-/// A view that can be painted instead of the finished picture.
+/// A debug view, which can be painted instead of the finished picture.
 struct DebugView {
   std::string name;
   std::string help;
 };
 
-/// The views of a style, the engine's own first, without a GPU. Throws hal::Failure
-/// (kInvalidArgument) for an unknown style, with all names.
+/// The debug views of the engine, then those of a style. Needs no GPU. Throws hal::Failure
+/// (kInvalidArgument, lists the valid names) for an unknown style. Any thread.
 std::vector<DebugView> debugViewsOf(std::string_view style);
 
-/// Whether PaintParameters::view may be `view`: empty, or one of debugViewsOf(style). Error:
-/// kInvalidArgument, with all names. Throws as debugViewsOf(). Any thread.
+/// Checks a PaintParameters::view: empty, or one of debugViewsOf(style). Error: kInvalidArgument,
+/// lists the valid names. Throws as debugViewsOf(). Any thread.
 hal::Result<void> checkDebugView(std::string_view style, std::string_view view);
 
-/// A named preset of the style's parameters.
-struct PainterLook {
-  std::string name;
-  std::string help;
-};
-
-/// A painted picture. Its texture, which lives in the Painter's context, and the list of its tags
-/// belong to the Painter and are valid until the next paint().
+/// A painted picture. Its texture, in the Painter's context, and its list of tags belong to the
+/// Painter and are valid until the next paint().
 struct Picture {
   unsigned texture = 0;  ///< GL name, RGBA8, sRGB-coded, row 0 at the top
-  hal::FrameSize size;   ///< smaller than PainterOptions::pictureSize at lower levels of quality
+  hal::FrameSize size;   ///< smaller than PainterOptions::pictureSize at lower quality levels
   std::uint64_t sequence = 0;
   hal::TimePoint captureTime;
-  tracking::TrackingResult tracking;  ///< in pixels of the captured frame
-  std::size_t quality = 0;            ///< in qualityLevels()
+  tracking::TrackingResult tracking;  ///< in px of the captured frame
+  std::size_t quality = 0;            ///< index into qualityLevels()
 };
 
-/// A picture in memory, as a read-back of the Painter gives it.
+/// A picture in memory, scaled and converted, as a read-back of the Painter gives it.
 struct OutputFrame {
   hal::Image image;
   std::uint64_t sequence = 0;
   hal::TimePoint captureTime;
 };
 
-/// The engine: captured frames in, painted pictures out. No globals; several in one process are
-/// independent, and the same frames with the same times give the same pictures, live or not. All
-/// calls come from the thread that made it.
+/// The engine: captured frames in, painted pictures out. It has no globals; several Painters in one
+/// process are independent. The same frames with the same times give the same pictures, live or
+/// offline. All calls come from the thread that created it.
 ///
-/// The GPU may be lost (a reset after a fault or a hang, a device taken away, a fence that does not
-/// come within two seconds). From then on this Painter answers each call with kDeviceLost, does
-/// nothing and can only be destroyed; another one can be made in the same process. In a host's
-/// context, the host makes a new context first, and the old one keeps what the Painter had in it
-/// until the host destroys it.
+/// The GPU may be lost: a reset after a fault or a hang, a removed device, a fence that does not
+/// signal within two seconds. From then on each call gives kDeviceLost and does nothing, and the
+/// Painter can only be destroyed; another one can be created in the same process. In a host's
+/// context, the host creates a new context first. The old context keeps the Painter's objects until
+/// the host destroys it.
 class Painter {
  public:
-  /// Builds the whole chain and warms it up. Throws hal::Failure (no GPU, unknown style or tag
-  /// family: lists the valid ones, size beyond the limits).
+  /// Creates all stages and warms them up. Throws hal::Failure: no GPU, unknown style or tag family
+  /// (lists the valid ones), a size beyond the limits, cancelled.
   explicit Painter(const PainterOptions& options);
   ~Painter();
   Painter(const Painter&) = delete;
@@ -137,56 +135,51 @@ class Painter {
   const gpu::ContextInfo& contextInfo() const;
   PaintParameters defaultParameters() const;
   std::vector<DebugView> views() const;
-  std::vector<PainterLook> looks() const;
-  /// The style's defaults under a look's values. Throws config::ConfigError for an unknown one,
-  /// with all names.
-  config::ParameterValues lookParameters(std::string_view look) const;
 
-  /// Tracks, composes and paints one frame, which may have any size and layout. Returns when the
-  /// work is issued, not when the GPU is done. Errors, after which all is as if the frame had not
-  /// come: kInvalidArgument (unknown view or level: lists the valid ones), kInvalidInput (the frame
-  /// has another size than the scene's calibration is for), kUnsupported (beyond the GPU's limits
-  /// or memory). Then, for ever: kDeviceLost. Precondition: frame.image.isComplete().
+  /// Tracks, composes and paints one frame of any size and layout. Returns when the work is issued,
+  /// before the GPU is done. Errors that leave the Painter as it was: kInvalidArgument (unknown
+  /// view or level, lists the valid ones), kInvalidInput (the frame's size is not that of the
+  /// scene's calibration), kUnsupported (beyond the GPU's limits or memory). Permanent error:
+  /// kDeviceLost. Precondition: frame.image.isComplete().
   hal::Result<Picture> paint(const hal::CapturedFrame& frame, const PaintParameters& parameters);
 
-  /// Opens a read-back, at any time: from the next paint() on, each painted picture is also brought
-  /// to memory in `format` (RGBA8, RGB8, grey, I420, NV12, YUYV; of any accepted size, filled as
-  /// frames are). Up to 3 are in flight; a picture that finds the read-back full is not read and
-  /// counts as skipped. Returns the read-back's number, which no other gets. Waits until what it
-  /// needs is compiled and allocated. Throws hal::Failure (kUnsupported where the GPU has no room
-  /// for it, kDeviceLost).
+  /// Opens a read-back, at any time: from the next paint() on, each picture is also brought to
+  /// memory in `format` (RGBA8, RGB8, grey, I420, NV12, YUYV; any accepted size, which the picture
+  /// fills). Up to 3 output frames are in flight; while there are 3, pictures are skipped and
+  /// counted. Returns the read-back's number, which is never reused. Compiles and allocates before
+  /// it returns. Throws hal::Failure (kUnsupported if the GPU's limits or memory do not suffice,
+  /// kDeviceLost).
   int openReadback(const hal::FrameFormat& format);
-  /// Closes a read-back, at any time; its pictures in flight are dropped, and those of other
-  /// read-backs come as before. Precondition, as for all that follows: it is open.
+  /// Closes a read-back, at any time, and drops its output frames in flight; other read-backs are
+  /// not affected. Precondition, here and below: it is open.
   void closeReadback(int readback);
-  /// Copies the read-back's oldest picture into `picture`, reusing its memory; false if none is
-  /// ready. Never waits. Error: kDeviceLost, for ever.
-  hal::Answer poll(int readback, OutputFrame& picture);
-  /// The same, but waits for the GPU: false only if none is in flight.
-  hal::Answer wait(int readback, OutputFrame& picture);
-  /// Waits until the picture that will be ready first, of all read-backs, can be polled, but no
-  /// longer than `limit` of real time: whether it can. False at once if none is in flight. Sleeps
-  /// in the driver (glClientWaitSync). Error: kDeviceLost, for ever.
+  /// Copies the read-back's oldest output frame into `frame`, reusing its memory; false if none is
+  /// ready. Never waits. Permanent error: kDeviceLost.
+  hal::Answer poll(int readback, OutputFrame& frame);
+  /// Like poll(), but waits for the GPU: false only if none is in flight.
+  hal::Answer wait(int readback, OutputFrame& frame);
+  /// Waits until the first output frame in flight, of all read-backs, can be polled, at most for
+  /// `limit` of real time; returns whether it can. False at once if none is in flight. Sleeps in
+  /// the driver (glClientWaitSync). Permanent error: kDeviceLost.
   hal::Answer waitForAny(hal::Duration limit);
-  /// Whether another paint() would still be read.
+  /// Whether the next picture would be read and not skipped.
   bool hasRoom(int readback) const;
-  std::uint64_t skipped(int readback) const;
+  std::uint64_t skipped(int readback) const;  ///< number of skipped pictures
 
-  /// Waits for the last paint and reads it, or what the camera showed of it, as RGB8 of the
-  /// picture's full size: for snapshots. Errors: kDeviceLost, for ever; kUnsupported (no memory).
-  /// Precondition: something was painted.
+  /// snapshot() reads the last picture, cameraSnapshot() the camera's part of it, as RGB8 of the
+  /// full size; both wait for the GPU. Errors: kDeviceLost (permanent), kUnsupported (no memory).
+  /// Precondition: a picture was painted.
   hal::Result<hal::Image> snapshot() const;
   hal::Result<hal::Image> cameraSnapshot() const;
 
-  /// Waits for the last paint and reads the style's anchors, of all its layers, a slot each, free
-  /// ones too: for measures. Empty for a style without. Error: kDeviceLost, for ever.
+  /// Waits for the GPU and reads the style's anchors for measures: all slots of all layers, free
+  /// ones too. Empty for a style without anchors. Permanent error: kDeviceLost.
   hal::Result<std::vector<marks::Anchor>> anchors() const;
 
-  /// Forgets the past, as after a cut.
+  /// Discards all history, as after a cut.
   void reset();
-  /// The times of each pass so far, where PainterOptions::passTiming asked for them: kSampled for
-  /// products, which times one frame in gpu::PassTimer::kSampledEvery. Valid until the next
-  /// paint().
+  /// Times of each pass so far; empty if PainterOptions::passTiming is kOff. kSampled times one
+  /// frame in gpu::PassTimer::kSampledEvery. Valid until the next paint().
   std::span<const gpu::PassTime> passTimes() const;
 
  private:

@@ -8,18 +8,18 @@
 
 namespace pleinair {
 
-/// What is done at a level of quality; painter.h's qualityLevels() are their names.
+/// How a quality level is painted. qualityLevels() in painter.h gives the names.
 struct QualityPlan {
   std::string_view name;
   std::string_view help;
-  double side = 1.0;  ///< of the picture that is painted, against the full one's
+  double side = 1.0;  ///< side of the painted picture divided by that of the full one
 };
 
-/// All, best first.
+/// All levels, best first.
 std::span<const QualityPlan> qualityPlans();
 
-/// The size at which a picture of `full` is painted at a level: even where that leaves a picture,
-/// so that what is done for 2x2 pixels lies where it does at other levels.
+/// The size at which a picture of size `full` is painted at a level. Both sides are even, unless
+/// that would leave nothing, so that blocks of 2x2 px lie at the same places at all levels.
 hal::FrameSize sizeAt(hal::FrameSize full, const QualityPlan& plan);
 
 }  // namespace pleinair

@@ -44,7 +44,7 @@ void CaptureStage::step(hal::TimePoint deadline) {
   frames_.wake();
 }
 
-/// Enters what never came out of the supervisor, also where no sound frame follows any more.
+/// Enters frames that the supervisor dropped, even if no valid frame follows.
 void CaptureStage::countLost() {
   const hal::FrameCounts counts = camera_.frameCounts();
   const std::uint64_t underruns = counts.underruns - counted_.underruns;

@@ -22,32 +22,32 @@ struct ArrivedFrame {
 };
 
 /// Takes frames from a supervised camera, enters each into the ledger, and puts it into the mailbox
-/// between camera and painter, the only one: a frame that a newer one takes the place of ends
-/// there, as kReplaced. Frames lost before ended in the camera or its driver, which say why. step()
-/// is the camera thread's, the rest is any thread's.
+/// between camera and painter, where a frame that a newer one replaces ends as kReplaced. Frames
+/// that the camera or its driver lost are entered under the reasons that those give. step() belongs
+/// to the camera thread; any thread may call the rest.
 class CaptureStage {
  public:
-  /// All outlive this.
+  /// All references outlive this.
   CaptureStage(hal::CameraSupervisor& camera, hal::Clock& clock, FrameLedger& ledger,
                Mailbox<ArrivedFrame>& frames);
 
-  /// Waits for what the camera does next, until `deadline`.
+  /// Waits for the camera's next frame or change of state, at most until `deadline`.
   void step(hal::TimePoint deadline);
 
-  /// From now on frames are handed on; before, they end as kStarting.
+  /// Lets frames through to the painter; until then they end as kStarting.
   void open();
 
   struct Status {
     hal::CameraState state = hal::CameraState::kOpening;
     std::string reason;
-    std::string lastLoss;  ///< why the camera was lost last; empty: never
+    std::string lastLoss;  ///< reason of the last loss; empty: none so far
     std::optional<hal::CameraIdentity> camera;
-    std::optional<hal::StreamFormat> format;  ///< the last one told
+    std::optional<hal::StreamFormat> format;  ///< the last one announced
     double perSecond = 0.0;
     std::uint64_t stalls = 0, losses = 0, opens = 0;
-    hal::Duration delay{0};           ///< from capture to here, the median of late
-    bool hasEnded = false;            ///< no frame comes any more
-    std::optional<hal::Error> cause;  ///< of the last loss, or why the recording broke off
+    hal::Duration delay{0};           ///< recent median time from capture to arrival
+    bool hasEnded = false;            ///< no more frames will come
+    std::optional<hal::Error> cause;  ///< of the last loss, or of a truncated recording
   };
   Status status() const;
 
@@ -60,9 +60,9 @@ class CaptureStage {
   FrameLedger& ledger_;
   Mailbox<ArrivedFrame>& frames_;
   bool hasEnded_ = false;
-  hal::FrameCounts counted_;  ///< what the ledger has of the supervisor's
+  hal::FrameCounts counted_;  ///< the supervisor's counts that are in the ledger
 
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // guards the members below
   bool isOpen_ = false;
   Status status_;
   FrameRate rate_;

@@ -70,7 +70,7 @@ void RecentDurations::add(hal::Duration duration, hal::TimePoint now) {
 }
 
 DurationHistogram RecentDurations::recent(hal::TimePoint now) const {
-  // What add() would turn away is old, though nothing has come that turned it.
+  // Only add() makes the halves take turns; halves that are too old are left out here.
   const hal::Duration age = now - turned_;
   if (age >= 2 * kHalf) return {};
   DurationHistogram recent = halves_.at(current_);

@@ -7,8 +7,8 @@
 
 namespace pleinair::runtime {
 
-/// Durations sorted into buckets that grow with them, so that any percentile is known to 1 % in
-/// fixed memory (after HdrHistogram). From 1 µs to about a minute; beyond counts as that.
+/// A histogram of durations whose buckets grow with the duration, so that any percentile is known
+/// to 1 % in fixed memory (after HdrHistogram). Range: 1 µs to about a minute; others are clamped.
 class DurationHistogram {
  public:
   void add(hal::Duration duration);
@@ -18,11 +18,11 @@ class DurationHistogram {
   std::uint64_t count() const { return count_; }
   hal::Duration sum() const { return sum_; }
   hal::Duration max() const { return max_; }
-  /// The duration that a share (0 … 1) of all do not exceed; 0 where there are none.
+  /// The duration that a share (0 … 1) of all durations do not exceed; 0 if there are none.
   hal::Duration percentile(double share) const;
 
  private:
-  static constexpr int kSubBuckets = 128;  // of each power of two
+  static constexpr int kSubBuckets = 128;  // in each power of two
   static constexpr int kPowers = 20;
   static std::size_t bucketOf(std::uint64_t microseconds);
   static std::uint64_t upperEdge(std::size_t bucket);
@@ -33,17 +33,17 @@ class DurationHistogram {
   hal::Duration max_{0};
 };
 
-/// A histogram of what was added lately: within the last half a minute to a minute, whether
-/// anything came or not. Two of them, turned about each half a minute; allocates nothing.
+/// A histogram of the durations added within the last 30 to 60 s. It consists of two histograms
+/// that take turns every 30 s. Allocates nothing.
 class RecentDurations {
  public:
   static constexpr hal::Duration kHalf = std::chrono::seconds(30);
 
   void add(hal::Duration duration, hal::TimePoint now);
-  /// What was added lately. Precondition: `now` is not before the last add().
+  /// Precondition: `now` is not before the last add().
   DurationHistogram recent(hal::TimePoint now) const;
-  std::uint64_t count() const { return count_; }  ///< of all
-  hal::Duration sum() const { return sum_; }      ///< likewise
+  std::uint64_t count() const { return count_; }  ///< since the start
+  hal::Duration sum() const { return sum_; }      ///< since the start
 
  private:
   std::array<DurationHistogram, 2> halves_;

@@ -18,16 +18,16 @@ struct LedgerCounts {
 
   std::uint64_t of(Outcome outcome) const { return ended.at(static_cast<std::size_t>(outcome)); }
   std::uint64_t shown() const { return of(Outcome::kShown) + of(Outcome::kShownOffSchedule); }
-  /// Ended without having been shown.
+  /// Frames that ended without being shown.
   std::uint64_t dropped() const;
-  /// Whether captured = inFlight + all that ended.
+  /// Whether captured = inFlight + sum of ended.
   bool addsUp() const;
-  /// "showed 90 frames in 3.0 s (30.0 frames/s); dropped 2 (1 replaced by a newer one, …)": without
-  /// colons, so that what follows one is no part of it.
+  /// "showed 90 frames in 3.0 s (30.0 frames/s); dropped 2 (1 replaced by a newer one, …)". It has
+  /// no colons, so that a caller can append text after one.
   std::string summary(hal::Duration elapsed) const;
 };
 
-/// The book of frames: each that was captured is entered once and ends once. Thread-safe; allocates
+/// Accounts for all captured frames: each is entered once and ends once. Any thread; allocates
 /// nothing.
 class FrameLedger {
  public:
@@ -35,17 +35,17 @@ class FrameLedger {
   struct Ticket {
     std::uint16_t slot = 0;
   };
-  /// How many can be in flight at a time.
+  /// Capacity: frames in flight at a time.
   static constexpr std::size_t kMaxInFlight = 256;
 
   /// Enters a frame. Precondition: fewer than kMaxInFlight are in flight.
   Ticket open();
-  /// Enters frames that ended before we had them.
+  /// Enters frames that ended before they reached the program.
   void count(Outcome outcome, std::uint64_t frames = 1);
-  /// From now on the frame has so many parts, each of which ends by itself; at least one.
+  /// Splits a frame into parts, one for each output, that end separately. Precondition: parts >= 1.
   void split(Ticket ticket, int parts);
-  /// Ends the frame, or one of its parts; the last part ends the frame, under the best outcome of
-  /// all (Outcome's order). Precondition: it is in flight.
+  /// Ends one part; the last part ends the frame, under the best outcome of all its parts (in
+  /// Outcome's order). Precondition: the frame is in flight.
   void end(Ticket ticket, Outcome outcome);
 
   LedgerCounts counts() const;

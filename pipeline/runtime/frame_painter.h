@@ -14,8 +14,8 @@
 
 namespace pleinair::runtime {
 
-/// What live frames are painted with: the engine's Painter, or a test's. Paint thread only, from
-/// its making to its destruction.
+/// The painter of live frames: the engine's Painter, or a test's. It is created, used and destroyed
+/// on the paint thread.
 class FramePainter {
  public:
   virtual ~FramePainter() = default;
@@ -23,29 +23,27 @@ class FramePainter {
   FramePainter(const FramePainter&) = delete;
   FramePainter& operator=(const FramePainter&) = delete;
 
-  /// Begins to paint `frame` at a level of quality (0: the best), for each of its outputs. Errors:
-  /// kDeviceLost: nothing comes out of this painter any more, and a new one is needed; others: this
-  /// frame could not be painted.
+  /// Begins to paint `frame` for each open output at a quality level (0: the best). Errors:
+  /// kDeviceLost, after which a new painter is needed; others: this frame could not be painted.
   virtual hal::Result<void> paint(const hal::CapturedFrame& frame, std::size_t quality) = 0;
-  /// Copies an output's oldest finished picture into `picture`, whose memory is reused; false if
-  /// none is ready. Never waits. Errors: kDeviceLost.
-  virtual hal::Answer poll(std::size_t output, OutputFrame& picture) = 0;
-  /// Returns once a picture in flight can be polled, or `limit` of real time is over. An error
-  /// shows in the next poll(). Precondition: one is in flight.
+  /// Copies an output's oldest finished frame into `frame`, whose memory is reused; false if none
+  /// is ready. Never waits. Errors: kDeviceLost.
+  virtual hal::Answer poll(std::size_t output, OutputFrame& frame) = 0;
+  /// Returns once a frame in flight can be polled, or after `limit` of real time. The next poll()
+  /// gives any error. Precondition: one is in flight.
   virtual void wait(hal::Duration limit) = 0;
 
-  /// Begins another output: from the next frame on its pictures are brought to memory in `format`.
-  /// `output`: the next number after those that there were. Throws hal::Failure.
+  /// Opens an output: from the next paint() on, frames are read back for it in `format`. `output`:
+  /// the number of outputs opened so far. Throws hal::Failure.
   virtual void open(std::size_t output, const hal::FrameFormat& format) = 0;
-  /// Ends an output: its pictures that were not taken are dropped.
+  /// Closes an output; its frames in flight are dropped.
   virtual void close(std::size_t output) = 0;
 
-  /// The times of the painter's passes in the frames that were timed; valid until the next paint().
+  /// Times of the painter's passes in the timed frames; valid until the next paint().
   virtual std::span<const gpu::PassTime> passTimes() const { return {}; }
 };
 
-/// Makes a painter that brings its pictures to memory in these formats, one an output, numbered
-/// from 0. Throws hal::Failure.
+/// Makes a painter with an open output for each format, numbered from 0. Throws hal::Failure.
 using PainterFactory =
     std::function<std::unique_ptr<FramePainter>(const std::vector<hal::FrameFormat>& outputs)>;
 

@@ -8,7 +8,7 @@
 
 namespace pleinair::runtime {
 
-/// Events a second over the last second or so. Allocates nothing.
+/// Events per second, measured over the last second. Allocates nothing.
 class FrameRate {
  public:
   void count(hal::TimePoint now) {
@@ -16,12 +16,12 @@ class FrameRate {
     next_ = (next_ + 1) % times_.size();
     if (size_ < times_.size()) ++size_;
   }
-  /// Falls to 0 within two seconds where nothing comes any more.
+  /// Falls to 0 within two seconds after the last event.
   double perSecond(hal::TimePoint now) const {
     constexpr hal::Duration kWindow = std::chrono::seconds(1);
     constexpr hal::Duration kPatience = std::chrono::seconds(2);
     if (size_ < 2 || now - back(0) > kPatience) return 0.0;
-    // To the newest, not to now: a steady rate reads steady.
+    // Measured up to the newest event, not to now, so that a steady rate gives a steady value.
     std::size_t counted = 1;
     while (counted < size_ && back(0) - back(counted) <= kWindow) ++counted;
     if (counted < 2) counted = 2;
@@ -32,7 +32,7 @@ class FrameRate {
   }
 
  private:
-  /// The time of the `age`-th last.
+  /// The time of the event `age` events before the newest.
   hal::TimePoint back(std::size_t age) const {
     return times_.at((next_ + times_.size() - 1 - age) % times_.size());
   }

@@ -6,8 +6,8 @@
 namespace pleinair::runtime {
 namespace {
 
-/// Fewer pictures say nothing, such as the first after the camera was away for seconds.
-constexpr std::uint64_t kFewest = 3;
+/// Fewer frames prove nothing, such as the first one after a lost camera is back.
+constexpr std::uint64_t kMinFrames = 3;
 
 }  // namespace
 
@@ -17,7 +17,7 @@ LatencyControl::LatencyControl(LatencyRules rules) : rules_(rules), latency_(rul
 
 void LatencyControl::beginWindow(hal::TimePoint now) {
   windowBegan_ = now;
-  pictures_ = 0;
+  frames_ = 0;
   lateness_.clear();
 }
 
@@ -28,12 +28,12 @@ bool LatencyControl::ready(hal::Duration slack, bool isLowestQuality, hal::TimeP
     wasLowest_ = isLowestQuality;
     beginWindow(now);
   }
-  ++pictures_;
+  ++frames_;
   if (slack < hal::Duration::zero()) lateness_.add(-slack);
-  // Room for a step less, and half a step so that the next picture does not miss it.
+  // The slack has to cover the step and half a step more, so that the next frame is in time too.
   if (slack < rules_.step + rules_.step / 2) roomSince_ = now;
-  if (now - windowBegan_ >= rules_.raiseAfter && pictures_ >= kFewest) {
-    const bool misses = 2 * lateness_.count() > pictures_;
+  if (now - windowBegan_ >= rules_.raiseAfter && frames_ >= kMinFrames) {
+    const bool misses = 2 * lateness_.count() > frames_;
     const bool changed = isLowestQuality && misses && raise(now);
     beginWindow(now);
     if (changed) return true;

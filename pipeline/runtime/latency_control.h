@@ -11,24 +11,24 @@ namespace pleinair::runtime {
 struct LatencyRules {
   hal::Duration configured = std::chrono::milliseconds(120);
   hal::Duration maximum = std::chrono::milliseconds(400);  ///< at least `configured`
-  hal::Duration step = std::chrono::microseconds(16'667);  ///< a refresh
+  hal::Duration step = std::chrono::microseconds(16'667);  ///< one refresh period
   hal::Duration raiseAfter = std::chrono::seconds(1);
   hal::Duration lowerAfter = std::chrono::seconds(5);
 };
 
-/// How long after its capture a frame is shown. It stays where it was configured while there is any
-/// other way; where the lowest quality misses it for a second, it rises by as many refreshes as
-/// were missing, and goes back by one at a time once there is room to spare. One thread.
+/// The latency in force. It is the configured one as long as some quality level meets it. If the
+/// lowest level misses it for a second, it rises by as many refreshes as most late frames lacked;
+/// it falls by one refresh at a time once all frames have been early enough. One thread.
 class LatencyControl {
  public:
   explicit LatencyControl(LatencyRules rules);
 
   hal::Duration latency() const { return latency_; }
-  std::uint64_t raised() const { return raised_; }    ///< how often so far
-  std::uint64_t lowered() const { return lowered_; }  ///< likewise
+  std::uint64_t raised() const { return raised_; }    ///< number of rises so far
+  std::uint64_t lowered() const { return lowered_; }  ///< number of falls so far
 
-  /// A picture was ready at `now`, so long before captured + latency() (negative: after).
-  /// `isLowestQuality`: nothing else is left to be done about it. True if the latency changes.
+  /// Notes a frame that was ready at `now`, `slack` before captured + latency() (negative: after).
+  /// `isLowestQuality`: quality cannot be lowered further. Returns whether the latency changes.
   bool ready(hal::Duration slack, bool isLowestQuality, hal::TimePoint now);
 
  private:
@@ -41,14 +41,14 @@ class LatencyControl {
   std::uint64_t raised_ = 0;
   std::uint64_t lowered_ = 0;
 
-  // Counts of the last second:
+  // Counts since windowBegan_, for up to a second:
   hal::TimePoint windowBegan_;
   bool hasWindow_ = false;
   bool wasLowest_ = false;
-  std::uint64_t pictures_ = 0;
-  DurationHistogram lateness_;  ///< of the late ones
+  std::uint64_t frames_ = 0;
+  DurationHistogram lateness_;  ///< of the late frames
 
-  hal::TimePoint roomSince_;  ///< since when all had room for a step less
+  hal::TimePoint roomSince_;  ///< since then each frame would have met the latency of a step less
 };
 
 }  // namespace pleinair::runtime

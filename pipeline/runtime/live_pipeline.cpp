@@ -37,20 +37,17 @@ void LivePipeline::makePaintStage(PainterFactory factory, PaintStageOptions opti
 }
 
 void LivePipeline::removeOutput(OutputStage& output) {
-  assert(paint_ && std::ranges::find(removed_, &output) == removed_.end());
-  removed_.push_back(&output);
+  assert(paint_);
   paint_->remove(output);
 }
 
-std::unique_ptr<OutputStage> LivePipeline::takeRemoved() {
-  const auto ready = std::ranges::find_if(
-      removed_, [this](const OutputStage* each) { return paint_->hasLetGoOf(*each); });
-  if (ready == removed_.end()) return nullptr;
+std::unique_ptr<OutputStage> LivePipeline::takeRemoved(OutputStage& output) {
+  if (!hasReleased(output)) return nullptr;
   const std::scoped_lock lock(outputsMutex_);
-  const auto owner = std::ranges::find(outputs_, *ready, &std::unique_ptr<OutputStage>::get);
+  const auto owner = std::ranges::find(outputs_, &output, &std::unique_ptr<OutputStage>::get);
+  assert(owner != outputs_.end());
   std::unique_ptr<OutputStage> taken = std::move(*owner);
   outputs_.erase(owner);
-  removed_.erase(ready);
   return taken;
 }
 

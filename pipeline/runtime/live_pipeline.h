@@ -18,30 +18,35 @@
 
 namespace pleinair::runtime {
 
-/// From a camera to the outputs, live: stages with one-frame mailboxes between them, and the ledger
-/// that every frame is entered into. Runs nothing by itself: LiveThreads gives each stage a thread;
-/// under a SteppedClock whoever steps the stages in turn has the same pipeline, repeatable.
+/// The stages from a camera to the outputs, the mailbox between camera and painter, and the ledger
+/// that every frame is entered into. It has no threads: LiveThreads runs each stage on one, and a
+/// test under a SteppedClock steps them in turn, with the same result on every run.
 ///
-/// Order: step capture() until its status has a format; addOutput(), at least one;
-/// makePaintStage(); paint().start(); then capture().open() and all stages at will. Outputs may
-/// come and go after that too. Main thread, where a call says no other.
+/// Order of calls: step capture() until its status has a format; addOutput(), at least once;
+/// makePaintStage(); paint().start(); capture().open(); then the stages in any order. Outputs may
+/// be added and removed after that too. Main thread, unless a call says otherwise.
 class LivePipeline {
  public:
-  /// Both outlive this.
+  /// The camera and the clock outlive this.
   LivePipeline(hal::CameraSupervisor& camera, hal::Clock& clock);
 
+  /// Adds an output that was started and answered `format`. Once there is a paint stage, frames are
+  /// painted for it from that stage's next step on.
   OutputStage& addOutput(std::unique_ptr<hal::Output> output, hal::OutputFormat format,
                          OutputStageOptions options);
-  /// The step by which the latency changes is the longest refresh of the outputs that have one.
+  /// The latency changes in steps of the longest refresh period of the outputs present now.
+  /// Precondition: there is an output.
   void makePaintStage(PainterFactory factory, PaintStageOptions options);
 
-  /// Has no more frames painted for an output. It stays among the outputs until takeRemoved() gives
-  /// it. Precondition: there is a paint stage.
+  /// Stops painting for an output, from the paint stage's next step on. The output stays among the
+  /// others until takeRemoved() gives it. Precondition: there is a paint stage.
   void removeOutput(OutputStage& output);
-  /// An output that was removed and gets no more pictures, if there is one. The caller steps it no
-  /// more, calls finish(), which hands over what is due and ends the rest as kStopped, and destroys
-  /// it. Status and outputCount() know it no longer; the ledger has its frames.
-  std::unique_ptr<OutputStage> takeRemoved();
+  /// Whether the paint stage has stopped using a removed output. Any thread.
+  bool hasReleased(const OutputStage& output) const { return paint_->hasReleased(output); }
+  /// Hands over a removed output; null until hasReleased() is true. The caller no longer steps it,
+  /// calls finish(), unless that was done, and destroys it. Status and outputCount() leave it out;
+  /// its frames stay in the ledger.
+  std::unique_ptr<OutputStage> takeRemoved(OutputStage& output);
 
   hal::CameraSupervisor& camera() { return camera_; }
   hal::Clock& clock() { return clock_; }
@@ -52,9 +57,9 @@ class LivePipeline {
   const OutputStage& output(std::size_t index) const { return *outputs_.at(index); }
   const FrameLedger& ledger() const { return ledger_; }
 
-  /// Whether the camera has ended and every frame of it too. Any thread.
+  /// Whether the camera has ended and all of its frames have an outcome. Any thread.
   bool isDrained() const;
-  /// All that is known at this moment. Any thread, once there is a paint stage.
+  /// A copy of the state of all stages. Any thread, once there is a paint stage.
   RuntimeStatus status() const;
 
  private:
@@ -64,9 +69,8 @@ class LivePipeline {
   FrameLedger ledger_;
   Mailbox<ArrivedFrame> frames_;
   CaptureStage capture_;
-  mutable std::mutex outputsMutex_;  ///< of outputs_, for threads that ask for the status
+  mutable std::mutex outputsMutex_;  ///< guards outputs_ against status()
   std::vector<std::unique_ptr<OutputStage>> outputs_;
-  std::vector<OutputStage*> removed_;  ///< of outputs_, until they are taken
   std::optional<PaintStage> paint_;
 };
 

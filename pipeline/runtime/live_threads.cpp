@@ -8,12 +8,12 @@ namespace pleinair::runtime {
 namespace {
 
 constexpr const char* kCamera = "camera";
-/// How long the camera may be asked at a time: how late its thread notices the end.
-constexpr hal::Duration kCameraLook = std::chrono::milliseconds(100);
+/// Longest wait for the camera at a time: by as much its thread may be late to notice stop().
+constexpr hal::Duration kMaxCameraWait = std::chrono::milliseconds(100);
 
 }  // namespace
 
-LiveThreads::LiveThreads(LivePipeline& chain) : chain_(chain) {
+LiveThreads::LiveThreads(LivePipeline& pipeline) : pipeline_(pipeline) {
   launch(kCamera, ThreadRole::kPrompt, [this] { runCamera(); });
 }
 
@@ -32,8 +32,8 @@ void LiveThreads::launch(const std::string& name, ThreadRole role, std::function
 }
 
 void LiveThreads::runCamera() {
-  while (!stopsCamera_) chain_.capture().step(chain_.clock().now() + kCameraLook);
-  chain_.capture().step(chain_.clock().now());  // closes it: stop() was asked for
+  while (!stopsCamera_) pipeline_.capture().step(pipeline_.clock().now() + kMaxCameraWait);
+  pipeline_.capture().step(pipeline_.clock().now());  // the supervisor, stopped, closes the camera
 }
 
 void LiveThreads::startPainter() {
@@ -42,7 +42,7 @@ void LiveThreads::startPainter() {
 
 void LiveThreads::runPainter() {
   try {
-    chain_.paint().start();
+    pipeline_.paint().start();
   } catch (const hal::Failure& error) {
     const std::scoped_lock lock(mutex_);
     painterFailure_ = error.error();
@@ -53,9 +53,9 @@ void LiveThreads::runPainter() {
     isPainterReady_ = true;
   }
   while (!stopsPainter_) {
-    if (!chain_.paint().step()) chain_.paint().wait();
+    if (!pipeline_.paint().step()) pipeline_.paint().wait();
   }
-  chain_.paint().stop();
+  pipeline_.paint().stop();
 }
 
 bool LiveThreads::isPainterReady() {
@@ -64,24 +64,82 @@ bool LiveThreads::isPainterReady() {
   return isPainterReady_;
 }
 
-void LiveThreads::startOutputs(const std::vector<std::size_t>& stepped) {
-  for (std::size_t i = 0; i < chain_.outputCount(); ++i) {
-    if (std::ranges::find(stepped, i) != stepped.end()) continue;
-    OutputStage& output = chain_.output(i);
-    outputNames_.push_back("output " + std::to_string(i));
-    // Files are encoded on their thread, which is not to be in the way of others.
-    const ThreadRole role = output.isPaced() ? ThreadRole::kPrompt : ThreadRole::kOrdinary;
-    launch(outputNames_.back(), role, [this, &output] { runOutput(output); });
+void LiveThreads::startOutputs(const std::vector<const OutputStage*>& stepped) {
+  for (std::size_t i = 0; i < pipeline_.outputCount(); ++i) {
+    OutputStage& output = pipeline_.output(i);
+    const std::string name = nextOutputName();
+    if (std::ranges::find(stepped, &output) == stepped.end()) launchOutput(name, output);
   }
-  chain_.capture().open();
+  pipeline_.capture().open();
 }
 
-void LiveThreads::runOutput(OutputStage& output) {
-  while (!stopsOutputs_) output.wait(output.step());
-  if (auto finished = output.finish(); !finished) {
+OutputStage& LiveThreads::addOutput(std::unique_ptr<hal::Output> output, hal::OutputFormat format,
+                                    OutputStageOptions options) {
+  assert(!stopsOutputs_);
+  OutputStage& added = pipeline_.addOutput(std::move(output), format, std::move(options));
+  launchOutput(nextOutputName(), added);
+  return added;
+}
+
+std::string LiveThreads::nextOutputName() {
+  return "output " + std::to_string(nextOutput_++);
+}
+
+void LiveThreads::launchOutput(const std::string& name, OutputStage& output) {
+  OutputThread& thread = outputThreads_.emplace_back();
+  thread.name = name;
+  thread.output = &output;
+  // Files are encoded on their output threads, which must not delay the others.
+  const ThreadRole role = output.isPaced() ? ThreadRole::kPrompt : ThreadRole::kOrdinary;
+  launch(thread.name, role, [this, &thread] { runOutput(thread); });
+}
+
+bool LiveThreads::mayEnd(const OutputThread& thread) const {
+  return stopsOutputs_ || (thread.isRemoved && pipeline_.hasReleased(*thread.output));
+}
+
+void LiveThreads::runOutput(OutputThread& thread) {
+  while (!mayEnd(thread)) thread.output->wait(thread.output->step());
+  if (auto finished = thread.output->finish(); !finished) {
     const std::scoped_lock lock(mutex_);
-    failures_.push_back(std::move(finished.error()));
+    thread.failure = std::move(finished.error());
   }
+}
+
+void LiveThreads::removeOutput(OutputStage& output) {
+  const auto thread = std::ranges::find(outputThreads_, &output, &OutputThread::output);
+  assert(thread != outputThreads_.end() && !thread->isRemoved);
+  pipeline_.removeOutput(output);
+  thread->isRemoved = true;  // after the request, which hasReleased() answers
+  output.wake();
+}
+
+std::optional<LiveThreads::Removed> LiveThreads::takeRemoved(hal::Duration patience) {
+  const auto isDone = [this](const OutputThread& thread) {
+    return thread.isRemoved && threads_.contains(thread.name) && hasEnded(thread.name);
+  };
+  auto done = outputThreads_.end();
+  {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, patience, [&] {
+      done = std::ranges::find_if(outputThreads_, isDone);
+      return done != outputThreads_.end();
+    });
+  }
+  if (done == outputThreads_.end()) return std::nullopt;
+  Stopped joined;
+  join(done->name, std::chrono::steady_clock::now(), joined);
+  assert(joined.stuck.empty());
+  Removed removed{.output = pipeline_.takeRemoved(*done->output),
+                  .failure = std::move(done->failure)};
+  assert(removed.output);
+  outputThreads_.erase(done);
+  return removed;
+}
+
+/// Precondition: the mutex is held.
+bool LiveThreads::hasEnded(const std::string& name) const {
+  return std::ranges::find(ended_, name) != ended_.end();
 }
 
 void LiveThreads::join(const std::string& name, std::chrono::steady_clock::time_point deadline,
@@ -90,11 +148,11 @@ void LiveThreads::join(const std::string& name, std::chrono::steady_clock::time_
   if (thread == threads_.end()) return;
   {
     std::unique_lock lock(mutex_);
-    const auto hasEnded = [&] { return std::ranges::find(ended_, name) != ended_.end(); };
-    if (!changed_.wait_until(lock, deadline, hasEnded)) {
+    if (!changed_.wait_until(lock, deadline, [&] { return hasEnded(name); })) {
       stopped.stuck.push_back(name);
       return;
     }
+    std::erase(ended_, name);
   }
   thread->second.join();
   threads_.erase(thread);
@@ -104,19 +162,21 @@ LiveThreads::Stopped LiveThreads::stop(hal::Duration patience) {
   const auto deadline = std::chrono::steady_clock::now() + patience;
   Stopped stopped;
   stopsCamera_ = true;
-  chain_.camera().stop();
+  pipeline_.camera().stop();
   // A camera that does not let go must not keep the others from ending in order.
   join(kCamera, deadline - patience / 2, stopped);
   stopsPainter_ = true;
-  if (threads_.contains(kPainter)) chain_.paint().wake();
+  if (threads_.contains(kPainter)) pipeline_.paint().wake();
   join(kPainter, deadline - patience / 4, stopped);
   stopsOutputs_ = true;
-  for (std::size_t i = 0; i < chain_.outputCount(); ++i) chain_.output(i).wake();
-  for (const std::string& name : outputNames_) join(name, deadline, stopped);
-  // What was not waited for long enough, for the others' sake.
+  for (std::size_t i = 0; i < pipeline_.outputCount(); ++i) pipeline_.output(i).wake();
+  for (const OutputThread& thread : outputThreads_) join(thread.name, deadline, stopped);
+  // Threads that got only a share of the patience get the rest of it.
   for (const std::string& name : std::exchange(stopped.stuck, {})) join(name, deadline, stopped);
   const std::scoped_lock lock(mutex_);
-  stopped.failures = failures_;
+  for (const OutputThread& thread : outputThreads_) {
+    if (thread.failure) stopped.failures.push_back(*thread.failure);
+  }
   return stopped;
 }
 

@@ -9,11 +9,11 @@
 
 namespace pleinair::runtime {
 
-/// Hands things from one thread to another: one waits at the most, and a newer one takes its place.
+/// Passes values from one thread to another. It holds at most one, which a newer one replaces.
 template <class T>
 class Mailbox {
  public:
-  /// Puts `value` there; gives what it took the place of.
+  /// Stores `value`; gives the value that it replaced.
   std::optional<T> put(T value) {
     const std::scoped_lock lock(mutex_);
     std::optional<T> replaced = std::exchange(value_, std::optional<T>(std::move(value)));
@@ -26,7 +26,7 @@ class Mailbox {
     return std::exchange(value_, std::nullopt);
   }
 
-  /// Returns once something waits, wake() is called, or `patience` (of real time) is over.
+  /// Returns once there is a value, after wake(), or after `patience` of real time.
   void wait(hal::Duration patience) {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, patience, [this] { return value_.has_value() || isWoken_; });

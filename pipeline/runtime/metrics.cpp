@@ -176,6 +176,17 @@ std::vector<Metric> outputMetrics() {
        [](Moment m) { return one(m.output->name); }},
       {kOutput, "format", "", kText, kNoUnit, "Pixel layout, width and height of its images.",
        [](Moment m) { return one(m.output->format); }},
+      {kOutput, "refresh_period", "", kGauge, kS, "Time between refreshes, if it has a display.",
+       [](Moment m) {
+         const std::optional<hal::Refresh>& refresh = m.output->refresh;
+         return refresh ? one(refresh->period) : one({});
+       }},
+      {kOutput, "refresh_phase", "", kGauge, kS,
+       "Time of one of its refreshes on the steady clock, once it is known.",
+       [](Moment m) {
+         const std::optional<hal::Refresh>& refresh = m.output->refresh;
+         return refresh && refresh->phase ? one(refresh->phase->time_since_epoch()) : one({});
+       }},
       {kOutput, "state", "", kState, kNoUnit, "Whether the output takes images.",
        [](Moment m) { return one(outputState(*m.output)); }, "output_up"},
       {kOutput, "frames_per_second", "", kGauge, kNoUnit,
@@ -219,7 +230,7 @@ std::vector<Metric> frameMetrics() {
   };
 }
 
-/// How a scope begins a name, in JSON and in Prometheus' format.
+/// The prefix of a scope's names, in JSON and in Prometheus' format.
 struct ScopeNames {
   std::string_view json;
   std::string_view prometheus;

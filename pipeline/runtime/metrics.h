@@ -17,7 +17,7 @@ namespace pleinair::runtime {
 enum class MetricType {
   kText,     ///< texts and formats: only in JSON
   kGauge,    ///< a number or a switch that goes up and down
-  kCounter,  ///< only grows
+  kCounter,  ///< a count since the start
   kState,    ///< one of several names; in Prometheus' format a sample for each, 1 for the current
   kSummary,  ///< durations: a distribution of the last 30 to 60 s; sum and count since the start
 };
@@ -25,14 +25,14 @@ enum class MetricType {
 /// The unit in JSON, whose name carries it ("_s", "_ms"). Prometheus' format has seconds only.
 enum class MetricUnit { kNone, kSeconds, kMilliseconds };
 
-/// The part of the live chain that a metric belongs to, in the order in which they are written.
+/// The part of the live pipeline that a metric belongs to, in the order of the output.
 enum class MetricScope { kProgram, kCamera, kPainting, kOutput, kFrames };
 
-/// The moment that metrics are read from.
+/// The state that metrics are read from.
 struct MetricMoment {
   const RuntimeStatus& status;
-  const std::vector<std::string>& qualityNames;  ///< of the levels, the best first
-  const OutputStage::Status* output = nullptr;   ///< for metrics of kOutput: which one
+  const std::vector<std::string>& qualityNames;  ///< names of the levels, best first
+  const OutputStage::Status* output = nullptr;   ///< the output, for metrics of kOutput
 };
 
 struct StateReading {
@@ -41,28 +41,29 @@ struct StateReading {
 };
 struct SummaryReading {
   DurationHistogram recent;
-  /// The number of durations since the start; unset where only the recent ones are known.
+  /// Number of durations since the start; unset if only the recent ones are known.
   std::optional<std::uint64_t> count;
   hal::Duration sum{0};
 };
-/// monostate: not known at this moment; the metric is left out.
+/// monostate: unknown at this moment; the metric is left out.
 using MetricValue = std::variant<std::monostate, std::string, hal::FrameFormat, bool, std::uint64_t,
                                  double, hal::Duration, StateReading, SummaryReading>;
 
-/// One figure that the running program reports. Its declaration gives the member of /status, the
-/// family of /metrics with its help, and the row in docs/operation.md. Names follow from the
-/// declaration: "camera", "losses", a counter are `camera.losses` and `camera_losses_total`.
+/// A metric of the running program. This declaration yields its member in /status, its family in
+/// /metrics with help, and its row in docs/operation.md. The names follow from it: the counter
+/// "losses" of kCamera is `camera.losses` and `camera_losses_total`.
 struct Metric {
   MetricScope scope = MetricScope::kProgram;
-  std::string_view name;   ///< without scope and unit: "losses"
-  std::string_view label;  ///< what distinguishes several values: "outcome"; empty: there is one
+  std::string_view name;  ///< without scope and unit: "losses"
+  std::string_view
+      label;  ///< the label that tells several values apart: "outcome"; empty: one value
   MetricType type = MetricType::kGauge;
   MetricUnit unit = MetricUnit::kNone;
   std::string_view help;  ///< one sentence
-  /// The values at that moment, by the label's value; one, by an empty one, where there is no
-  /// label. Any thread.
+  /// Reads the values, each with its label's value; without a label, one value with an empty one.
+  /// Any thread.
   std::vector<std::pair<std::string, MetricValue>> (*read)(const MetricMoment&) = nullptr;
-  /// The family in /metrics that this one took the place of, for whoever has dashboards.
+  /// The family of /metrics that this one replaces, for those who have dashboards.
   std::string_view formerly;
 };
 
@@ -71,7 +72,7 @@ const std::vector<Metric>& allMetrics();
 
 /// Its key in the scope's JSON object: "latency_ms".
 std::string jsonKey(const Metric& metric);
-/// Where it is in /status: "camera.losses", "outputs[].state".
+/// Its path in /status: "camera.losses", "outputs[].state".
 std::string jsonPath(const Metric& metric);
 /// Its family in /metrics, without "pleinair_": "camera_losses_total"; empty for kText.
 std::string prometheusName(const Metric& metric);

@@ -8,13 +8,13 @@
 namespace pleinair::runtime {
 namespace {
 
-constexpr hal::Duration kFirstReopening = std::chrono::milliseconds(500);
-constexpr hal::Duration kLongestReopening = std::chrono::seconds(8);
-/// More than any display lends.
-constexpr std::size_t kMostSurfaces = 16;
+constexpr hal::Duration kFirstReopenDelay = std::chrono::milliseconds(500);
+constexpr hal::Duration kMaxReopenDelay = std::chrono::seconds(8);
+/// More surfaces than any display lends.
+constexpr std::size_t kMaxSurfaces = 16;
 
-/// A surface is submitted half a refresh before its due time, which is when the display takes it,
-/// and counts as in time only if it is seen at that refresh.
+/// A surface is submitted half a refresh before its due time, so that the display flips it at that
+/// refresh; only then it counts as shown in time.
 PresentationRules rulesOf(hal::Output& output, const hal::OutputFormat& format,
                           PresentationRules rules) {
   if (output.surfaces() == nullptr) return rules;
@@ -25,11 +25,11 @@ PresentationRules rulesOf(hal::Output& output, const hal::OutputFormat& format,
 
 }  // namespace
 
-hal::Result<hal::Fence> copyPicture(const OutputFrame& picture, hal::SurfaceOutput& output,
-                                    const hal::Surface& surface) {
+hal::Result<hal::Fence> copyOutputFrame(const OutputFrame& frame, hal::SurfaceOutput& output,
+                                        const hal::Surface& surface) {
   const hal::Result<hal::SurfaceMapping> mapping = output.map(surface);
   if (!mapping) return tl::unexpected(mapping.error());
-  const auto copied = hal::copyToSurface(picture.image.view(), surface, *mapping);
+  const auto copied = hal::copyToSurface(frame.image.view(), surface, *mapping);
   if (!copied) return tl::unexpected(copied.error());
   return hal::Fence();
 }
@@ -41,13 +41,13 @@ OutputStage::OutputStage(std::unique_ptr<hal::Output> output, hal::OutputFormat 
       options_(std::move(options)),
       clock_(clock),
       ledger_(ledger),
-      reopenAfter_(kFirstReopening),
+      reopenAfter_(kFirstReopenDelay),
       queue_(rulesOf(*output_, format_, options_.rules), options_.waiting),
       refresh_(format_.refresh) {
-  queued_.reserve(kMostSurfaces);
-  events_.reserve(kMostSurfaces);
-  // One is being taken and one is being filled while the others wait. The last freed is filled
-  // first, so that those which are never needed take no memory.
+  queued_.reserve(kMaxSurfaces);
+  events_.reserve(kMaxSurfaces);
+  // One is written and one is filled while the others wait. The last one freed is reused first, so
+  // that buffers which are never needed take no memory.
   for (std::size_t i = 0; i < options_.waiting + 2; ++i) {
     buffers_.push_back(std::make_unique<OutputFrame>());
     free_.push_back(options_.waiting + 1 - i);
@@ -79,57 +79,57 @@ void OutputStage::submit(std::optional<FrameLedger::Ticket> ticket, hal::TimePoi
   ++status_.submitted;
   if (!ticket) ++status_.repeats;
   const hal::TimePoint captured = buffers_.at(buffer)->captureTime;
-  const WaitingPicture picture{.buffer = buffer,
-                               .ticket = ticket,
-                               .captured = captured,
-                               .ready = ready,
-                               .due = dueTime(captured, latency, refresh_)};
+  const WaitingFrame frame{.buffer = buffer,
+                           .ticket = ticket,
+                           .captured = captured,
+                           .ready = ready,
+                           .due = dueTime(captured, latency, refresh_)};
   if (status_.isFinal) {
-    end(picture, Outcome::kOutputFailed);
+    end(frame, Outcome::kOutputFailed);
     return;
   }
   if (queue_.isFull()) {
-    // Where the oldest is still waiting for its time, dropping it again and again would show none.
+    // If the oldest is not due yet, dropping the oldest each time would show none.
     if (*queue_.nextTime() > clock_.now()) {
-      end(picture, Outcome::kOutputBusy);
+      end(frame, Outcome::kOutputBusy);
       return;
     }
     end(queue_.removeOldest(), Outcome::kOutputBusy);
   }
-  queue_.push(picture);
+  queue_.push(frame);
   isWoken_ = true;
   changed_.notify_all();
 }
 
-void OutputStage::end(const WaitingPicture& picture, Outcome outcome) {
-  free_.push_back(picture.buffer);
-  count(picture, outcome);
+void OutputStage::end(const WaitingFrame& frame, Outcome outcome) {
+  free_.push_back(frame.buffer);
+  count(frame, outcome);
 }
 
-/// As end(), of a picture whose buffer is free already.
-void OutputStage::count(const WaitingPicture& picture, Outcome outcome) {
+/// As end(), for a frame whose buffer is free already.
+void OutputStage::count(const WaitingFrame& frame, Outcome outcome) {
   ++status_.ended.at(static_cast<std::size_t>(outcome));
-  if (picture.ticket) ledger_.end(*picture.ticket, outcome);
+  if (frame.ticket) ledger_.end(*frame.ticket, outcome);
 }
 
 void OutputStage::endAll(Outcome outcome) {
-  for (const Queued& each : queued_) count(each.picture, outcome);
+  for (const Queued& each : queued_) count(each.frame, outcome);
   queued_.clear();
   while (queue_.size() > 0) end(queue_.removeOldest(), outcome);
 }
 
 std::optional<OutputStage::Due> OutputStage::takeDue() {
   const std::scoped_lock lock(mutex_);
-  while (auto ruling = queue_.next(clock_.now())) {
+  while (auto decision = queue_.next(clock_.now())) {
     if (options_.limit && status_.presented + queued_.size() >= *options_.limit) {
-      end(ruling->picture, Outcome::kStopped);
+      end(decision->frame, Outcome::kStopped);
       continue;
     }
-    if (isShown(ruling->outcome) && !status_.isFailed) {
+    if (isShown(decision->outcome) && !status_.isFailed) {
       isWriting_ = true;
-      return Due{ruling->picture, ruling->outcome};
+      return Due{decision->frame, decision->outcome};
     }
-    end(ruling->picture, status_.isFailed ? Outcome::kOutputFailed : ruling->outcome);
+    end(decision->frame, status_.isFailed ? Outcome::kOutputFailed : decision->outcome);
   }
   return std::nullopt;
 }
@@ -152,10 +152,10 @@ std::optional<hal::TimePoint> OutputStage::step() {
   return next;
 }
 
-/// Since the first picture that this opening of the output has got.
-hal::Duration OutputStage::timeOf(const WaitingPicture& picture) {
-  if (!firstTime_) firstTime_ = picture.captured;
-  return picture.captured - *firstTime_;
+/// Capture time since the first frame that this opening of the output has got.
+hal::Duration OutputStage::timeOf(const WaitingFrame& frame) {
+  if (!firstTime_) firstTime_ = frame.captured;
+  return frame.captured - *firstTime_;
 }
 
 void OutputStage::present(const Due& due) {
@@ -166,19 +166,19 @@ void OutputStage::present(const Due& due) {
   }
 }
 
-/// Precondition: the mutex is held, as of what follows up to takeEvents().
-void OutputStage::countShown(const WaitingPicture& picture, hal::TimePoint time) {
-  reopenAfter_ = kFirstReopening;
+/// Precondition: the mutex is held.
+void OutputStage::countShown(const WaitingFrame& frame, hal::TimePoint time) {
+  reopenAfter_ = kFirstReopenDelay;
   ++status_.presented;
   rate_.count(time);
-  latency_.add(time - picture.captured, time);
+  latency_.add(time - frame.captured, time);
 }
 
 void OutputStage::presentInMemory(hal::MemoryOutput& output, const Due& due) {
   const hal::TimePoint began = clock_.now();
-  const hal::ImageView view = buffers_.at(due.picture.buffer)->image.view();
+  const hal::ImageView view = buffers_.at(due.frame.buffer)->image.view();
   const std::uint64_t skippedBefore = output.skippedPictures();
-  hal::Result<void> written = output.write(view, timeOf(due.picture));
+  hal::Result<void> written = output.write(view, timeOf(due.frame));
   const bool isSkipped = output.skippedPictures() > skippedBefore;
   const hal::TimePoint ended = clock_.now();
   const std::scoped_lock lock(mutex_);
@@ -186,17 +186,17 @@ void OutputStage::presentInMemory(hal::MemoryOutput& output, const Due& due) {
   queue_.presented(ended);
   writing_.add(ended - began, ended);
   if (!written) {
-    end(due.picture, Outcome::kOutputFailed);
+    end(due.frame, Outcome::kOutputFailed);
     fail(std::move(written.error()));
     return;
   }
   if (isSkipped) {
-    reopenAfter_ = kFirstReopening;
-    end(due.picture, Outcome::kOutputBusy);
+    reopenAfter_ = kFirstReopenDelay;
+    end(due.frame, Outcome::kOutputBusy);
     return;
   }
-  countShown(due.picture, began);
-  end(due.picture, due.outcome);
+  countShown(due.frame, began);
+  end(due.frame, due.outcome);
 }
 
 void OutputStage::presentSurface(hal::SurfaceOutput& output, const Due& due) {
@@ -208,30 +208,32 @@ void OutputStage::presentSurface(hal::SurfaceOutput& output, const Due& due) {
   queue_.presented(ended);
   writing_.add(ended - began, ended);
   if (submitted.hasError()) {
-    end(due.picture, Outcome::kOutputFailed);
+    end(due.frame, Outcome::kOutputFailed);
     fail(submitted.error());
   } else if (!submitted.isYes()) {
-    end(due.picture, Outcome::kNoSurface);
+    end(due.frame, Outcome::kNoSurface);
   } else {
-    free_.push_back(due.picture.buffer);
+    free_.push_back(due.frame.buffer);
   }
 }
 
-/// False where no surface is free.
+/// False if no surface is free.
 hal::Answer OutputStage::submitSurface(hal::SurfaceOutput& output, const Due& due) {
   const hal::Result<std::optional<hal::Surface>> surface = output.acquire();
   if (!surface) return tl::unexpected(surface.error());
   if (!*surface) return false;
-  hal::Result<hal::Fence> fence =
-      options_.fill(*buffers_.at(due.picture.buffer), output, **surface);
-  if (!fence) return tl::unexpected(fence.error());
-  // A picture shown early, to avoid a freeze, is submitted for immediate display.
+  hal::Result<hal::Fence> fence = options_.fill(*buffers_.at(due.frame.buffer), output, **surface);
+  if (!fence) {
+    output.release(**surface);
+    return tl::unexpected(fence.error());
+  }
+  // A frame shown early, to avoid a freeze, is submitted for immediate display.
   const hal::TimePoint time =
-      due.outcome == Outcome::kShown ? due.picture.due : std::min(due.picture.due, clock_.now());
+      due.outcome == Outcome::kShown ? due.frame.due : std::min(due.frame.due, clock_.now());
   const auto submitted = output.submit(**surface, *std::move(fence), time);
   if (!submitted) return tl::unexpected(submitted.error());
   const std::scoped_lock lock(mutex_);
-  queued_.push_back({.surface = (*surface)->id, .picture = due.picture});
+  queued_.push_back({.surface = (*surface)->id, .frame = due.frame});
   return true;
 }
 
@@ -251,10 +253,10 @@ void OutputStage::ended(const hal::PresentationEvent& event) {
   const bool isShown = event.result == hal::PresentationEvent::Result::kShown;
   const Outcome outcome = outcomeOf(event, *queued);
   if (isShown) {
-    countShown(queued->picture, event.time);
+    countShown(queued->frame, event.time);
     if (refresh_) refresh_->phase = event.time;
   }
-  count(queued->picture, outcome);
+  count(queued->frame, outcome);
   queued_.erase(queued);
 }
 
@@ -262,8 +264,8 @@ Outcome OutputStage::outcomeOf(const hal::PresentationEvent& event, const Queued
   using Result = hal::PresentationEvent::Result;
   if (event.result == Result::kSuperseded) return Outcome::kSuperseded;
   if (event.result == Result::kSkipped) return Outcome::kOutputBusy;
-  // Another refresh than the one that was meant is at least one period away.
-  const hal::Duration off = event.time - queued.picture.due;
+  // Any refresh but the due one is at least one period away.
+  const hal::Duration off = event.time - queued.frame.due;
   const hal::Duration tolerance = refresh_ ? refresh_->period / 2 : options_.rules.tolerance;
   const bool isOnTime = off > -tolerance && off < tolerance;
   return isOnTime ? Outcome::kShown : Outcome::kShownOffSchedule;
@@ -275,7 +277,7 @@ void OutputStage::fail(hal::Error error) {
   ++status_.failures;
   status_.failure = std::move(error);
   reopenAt_ = clock_.now() + reopenAfter_;
-  reopenAfter_ = std::min(2 * reopenAfter_, kLongestReopening);
+  reopenAfter_ = std::min(2 * reopenAfter_, kMaxReopenDelay);
   endAll(Outcome::kOutputFailed);
 }
 
@@ -284,7 +286,7 @@ void OutputStage::tryToReopen() {
     const std::scoped_lock lock(mutex_);
     if (!status_.isFailed || status_.isFinal || clock_.now() < reopenAt_) return;
   }
-  output_.reset();  // before another takes the device
+  output_.reset();  // releases the device, which the new output opens
   auto opened = options_.reopen();
   auto format = opened ? (*opened)->start(options_.request)
                        : hal::Result<hal::OutputFormat>(tl::unexpected(opened.error()));
@@ -305,9 +307,9 @@ void OutputStage::tryToReopen() {
 }
 
 void OutputStage::wait(std::optional<hal::TimePoint> time) {
-  constexpr hal::Duration kLongest = std::chrono::milliseconds(100);
+  constexpr hal::Duration kMaxWait = std::chrono::milliseconds(100);
   const hal::Duration patience =
-      time ? std::clamp<hal::Duration>(*time - clock_.now(), hal::Duration{0}, kLongest) : kLongest;
+      time ? std::clamp<hal::Duration>(*time - clock_.now(), hal::Duration{0}, kMaxWait) : kMaxWait;
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, patience, [this] { return isWoken_; });
   isWoken_ = false;
@@ -326,7 +328,7 @@ hal::Result<void> OutputStage::finish() {
     const std::scoped_lock lock(mutex_);
     endAll(Outcome::kStopped);
     if (status_.isFailed) return tl::unexpected(*status_.failure);
-    // A movie of nothing is not to take the place of one that is there.
+    // An empty movie must not replace an existing one.
     if (status_.presented == 0) return {};
   }
   return output_->finish();

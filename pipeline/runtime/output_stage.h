@@ -19,38 +19,38 @@
 
 namespace pleinair::runtime {
 
-/// As OutputStageOptions::fill. Errors: those of the output; kUnsupported.
+/// Brings an output frame into a surface that the output lends, and gives the fence that signals
+/// when that is done. Errors: those of the output; kUnsupported.
 using SurfaceFill = std::function<hal::Result<hal::Fence>(
-    const OutputFrame& picture, hal::SurfaceOutput& output, const hal::Surface& surface)>;
+    const OutputFrame& frame, hal::SurfaceOutput& output, const hal::Surface& surface)>;
 
-/// Maps the surface and copies the picture.
-hal::Result<hal::Fence> copyPicture(const OutputFrame& picture, hal::SurfaceOutput& output,
-                                    const hal::Surface& surface);
+/// A SurfaceFill for the processor: maps the surface and copies the frame (hal::copyToSurface()).
+hal::Result<hal::Fence> copyOutputFrame(const OutputFrame& frame, hal::SurfaceOutput& output,
+                                        const hal::Surface& surface);
 
 struct OutputStageOptions {
   std::string name;
   PresentationRules rules;
-  /// How many pictures can wait, beside one that is being taken: as many as fall due within the
-  /// longest latency.
+  /// Capacity of the queue, beside a frame that is being written: as many as fall due within the
+  /// maximum latency.
   std::size_t waiting = 8;
-  /// How many it gets; what comes after them ends as kStopped.
+  /// Number of frames that the output gets; later ones end as kStopped.
   std::optional<std::uint64_t> limit = std::nullopt;
-  /// Brings a picture into a surface that the output lends, and gives the fence behind that work.
-  /// By default the processor copies it (hal::copyToSurface()); a painter on the GPU draws it
-  /// there. Of outputs that lend surfaces; on the output thread.
-  SurfaceFill fill = copyPicture;
-  /// Opens the output anew after it has failed, on the output thread; without, that is the end of
-  /// it. It has to take the same format again.
+  /// Fills surfaces, for an output that lends them; called on the output thread.
+  SurfaceFill fill = copyOutputFrame;
+  /// Opens the output again after a failure, on the output thread; it has to answer the same
+  /// format. Null: the first failure is final.
   std::function<hal::Result<std::unique_ptr<hal::Output>>()> reopen;
-  hal::OutputRequest request;  ///< what it was started with
+  hal::OutputRequest request;  ///< for start() after reopen()
 };
 
-/// Hands pictures to an output, each at its due time on the output's own refresh. It has a thread
-/// of its own, so that an output that stalls holds up no other. The paint thread fills buffers;
-/// where too many pictures wait, one gives way: the oldest, unless even that is still to come.
+/// Hands frames to an output, each at its due time on the output's own refresh. It runs on an
+/// output thread, so that an output that blocks delays no other. The paint thread fills buffers; if
+/// the queue is full, the oldest frame in it is dropped, or the new one if even the oldest is not
+/// due.
 ///
-/// An output in memory has shown a picture once it has taken it. An output that lends surfaces has
-/// shown it once its presentation event says so: until then the picture counts as waiting.
+/// A memory output has shown a frame once write() returns. A surface-lending output has shown it
+/// once a presentation event says so; until then the frame counts as waiting.
 class OutputStage {
  public:
   /// `output` was started and answered `format`. Ledger and clock outlive this.
@@ -60,35 +60,36 @@ class OutputStage {
   const std::string& name() const { return options_.name; }
   const hal::OutputFormat& format() const { return format_; }
   bool isPaced() const { return options_.rules.isPaced; }
-  /// The period of its refresh, where it has one. Any thread.
+  /// Time between refreshes of its display; unset if it has none. Any thread.
   std::optional<hal::Duration> refreshPeriod() const;
 
   // Paint thread.
 
-  /// A picture to be filled, which belongs to the caller until submit() or a second call.
+  /// A frame for the caller to fill; the same one until submit() takes it.
   OutputFrame& buffer();
-  /// Takes that picture, which is due `latency` after its capture. `ticket`: none for repeats.
+  /// Queues the filled frame, which is due `latency` after its capture. `ready`: when it was
+  /// complete. `ticket`: unset for repeats during a pause.
   void submit(std::optional<FrameLedger::Ticket> ticket, hal::TimePoint ready,
               hal::Duration latency);
 
   // Output thread.
 
-  /// Hands over what is due. When to call again at the latest: none while nothing waits.
+  /// Hands over the frames that are due. Returns when to call again; unset while none waits.
   std::optional<hal::TimePoint> step();
-  /// Until `time`, wake() or submit(); by the clock's real time.
+  /// Returns at `time`, after wake() or submit(), or after 100 ms; waits in real time.
   void wait(std::optional<hal::TimePoint> time);
-  /// Hands over what is due, ends what is not as kStopped, and completes what the output writes.
-  /// Errors: that of the output; the last one where it has failed and was not opened again.
+  /// Hands over the frames that are due, ends the others as kStopped, and completes what the output
+  /// writes. Errors: those of hal::Output::finish(); the last failure if it was not opened again.
   hal::Result<void> finish();
-  /// Lets go of the output without completing it; only destruction is allowed then.
+  /// Destroys the output without completing it. Afterwards only destruction is allowed.
   void discard() { output_.reset(); }
 
   // Any thread.
 
-  void wake();
-  /// Whether it has got as many as it may.
+  void wake();  ///< ends wait(), now or at its next call
+  /// Whether OutputStageOptions::limit is reached.
   bool isFull() const;
-  /// Whether all that was submitted has ended.
+  /// Whether all submitted frames have an outcome.
   bool isIdle() const;
 
   struct Status {
@@ -96,33 +97,33 @@ class OutputStage {
     hal::FrameFormat format;
     std::uint64_t submitted = 0;
     std::uint64_t waiting = 0;
-    std::uint64_t repeats = 0;  ///< of those submitted: without a frame of their own
+    std::uint64_t repeats = 0;  ///< submitted without a ticket
     std::array<std::uint64_t, kOutcomes> ended{};
     double perSecond = 0.0;
     std::uint64_t presented = 0;
-    hal::Duration latencySum{0};  ///< of all that were presented
-    /// Recent times from capture to being handed over; for surfaces, to being shown.
+    hal::Duration latencySum{0};  ///< over all presented frames
+    /// Recent times from capture until write() was called; for surfaces, until they were shown.
     DurationHistogram latency;
-    DurationHistogram writing;  ///< how long the output took, of late
-    /// The refresh of a display, with the time of the last one that is known.
+    DurationHistogram writing;  ///< recent durations of write(), or of filling and submit()
+    /// The display's refresh; its phase is the last refresh that was reported.
     std::optional<hal::Refresh> refresh;
     std::uint64_t failures = 0;
     bool isFailed = false;
-    bool isFinal = false;               ///< and will not be opened again
-    std::optional<hal::Error> failure;  ///< the last
-    bool addsUp() const;
+    bool isFinal = false;               ///< failed, and will not be opened again
+    std::optional<hal::Error> failure;  ///< the last one
+    bool addsUp() const;                ///< submitted = waiting + sum of ended
   };
   Status status() const;
 
  private:
   struct Due {
-    WaitingPicture picture;
+    WaitingFrame frame;
     Outcome outcome{};
   };
-  /// A picture whose surface waits for its presentation event.
+  /// A frame whose surface waits for its presentation event.
   struct Queued {
     hal::SurfaceId surface{};
-    WaitingPicture picture;
+    WaitingFrame frame;
   };
   void handOver();
   std::optional<Due> takeDue();
@@ -133,31 +134,31 @@ class OutputStage {
   void takeEvents();
   void ended(const hal::PresentationEvent& event);
   Outcome outcomeOf(const hal::PresentationEvent& event, const Queued& queued) const;
-  void countShown(const WaitingPicture& picture, hal::TimePoint time);
-  void end(const WaitingPicture& picture, Outcome outcome);
-  void count(const WaitingPicture& picture, Outcome outcome);
+  void countShown(const WaitingFrame& frame, hal::TimePoint time);
+  void end(const WaitingFrame& frame, Outcome outcome);
+  void count(const WaitingFrame& frame, Outcome outcome);
   void endAll(Outcome outcome);
   void fail(hal::Error error);
   void tryToReopen();
-  hal::Duration timeOf(const WaitingPicture& picture);
+  hal::Duration timeOf(const WaitingFrame& frame);
 
   std::unique_ptr<hal::Output> output_;
   hal::OutputFormat format_;
   OutputStageOptions options_;
   hal::Clock& clock_;
   FrameLedger& ledger_;
-  std::optional<hal::TimePoint> firstTime_;  ///< of what the output has got
-  hal::Duration reopenAfter_;                ///< grows until a picture is taken
+  std::optional<hal::TimePoint> firstTime_;  ///< capture time of the first frame since opening
+  hal::Duration reopenAfter_;                ///< grows until a frame is shown
   std::vector<std::unique_ptr<OutputFrame>> buffers_;
-  std::vector<hal::PresentationEvent> events_;  ///< kept for its memory
+  std::vector<hal::PresentationEvent> events_;  ///< a member so that its memory is reused
 
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // guards the members below
   std::condition_variable changed_;
   bool isWoken_ = false;
   PresentationQueue queue_;
   std::vector<std::size_t> free_;
   std::optional<std::size_t> filling_;
-  std::vector<Queued> queued_;  ///< surfaces without an event yet, oldest first
+  std::vector<Queued> queued_;  ///< submitted surfaces without an event, oldest first
   std::optional<hal::Refresh> refresh_;
   bool isWriting_ = false;
   hal::TimePoint reopenAt_;

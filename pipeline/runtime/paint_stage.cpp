@@ -8,27 +8,27 @@
 namespace pleinair::runtime {
 namespace {
 
-constexpr hal::Duration kFirstRevival = std::chrono::milliseconds(100);
-constexpr hal::Duration kLongestRevival = std::chrono::seconds(5);
+constexpr hal::Duration kFirstRevivalDelay = std::chrono::milliseconds(100);
+constexpr hal::Duration kMaxRevivalDelay = std::chrono::seconds(5);
 
-/// A picture that takes longer will not come any more. The painter itself gives up a GPU sooner,
-/// where it can tell; this is for those that say nothing, software ones on a crowded machine apart.
+/// A frame in flight for longer counts as a lost GPU. The painter detects most lost GPUs sooner;
+/// this is the limit for drivers that report nothing, long enough for a software GPU under load.
 constexpr hal::Duration kNeverReady = std::chrono::seconds(10);
 
-/// How long the thread sleeps on its mailbox at a time.
+/// Longest wait on the mailbox at a time.
 constexpr hal::Duration kIdle = std::chrono::milliseconds(50);
-/// Longest wait for the GPU at a time, which no mailbox ends: it delays a new frame by as much.
-constexpr hal::Duration kLongestWait = std::chrono::milliseconds(1);
-/// The same while no other frame can be begun: it delays a stop.
-constexpr hal::Duration kLongestFullWait = std::chrono::milliseconds(2);
-/// How often the times of passes are copied for the status, in frames.
+/// Longest wait for the GPU at a time. The mailbox does not end it, so it delays a new frame.
+constexpr hal::Duration kMaxWait = std::chrono::milliseconds(1);
+/// The same while no other frame can be begun: it delays stop().
+constexpr hal::Duration kMaxFullWait = std::chrono::milliseconds(2);
+/// Pass times are copied for the status once in so many frames.
 constexpr std::uint64_t kFramesPerPassTimes = 32;
 constexpr hal::Duration kRevivalPoll = std::chrono::milliseconds(2);
 
 hal::Error neverReady() {
   return {.kind = hal::ErrorKind::kDeviceLost,
           .subject = "GPU",
-          .problem = "has not finished a picture for 10 s",
+          .problem = "has not finished an image for 10 s",
           .remedy = {}};
 }
 
@@ -36,8 +36,8 @@ constexpr std::array<std::string_view, 5> kStageNames{
     "delivery",    // from capture to arrival
     "mailbox",     // from arrival to the painter
     "issuing",     // tracking and issuing of the GPU's work
-    "finishing",   // from there until the picture is in memory
-    "until_ready"  // from capture until the picture is in memory
+    "finishing",   // from there until the output frames are complete
+    "until_ready"  // from capture until the output frames are complete
 };
 
 double ratio(hal::Duration part, hal::Duration whole) {
@@ -54,7 +54,7 @@ PaintStage::PaintStage(PainterFactory factory, std::vector<OutputStage*> outputs
       clock_(clock),
       ledger_(ledger),
       frames_(frames),
-      reviveAfter_(kFirstRevival),
+      reviveAfter_(kFirstRevivalDelay),
       governor_(options.governor),
       latency_(options.latency) {
   assert(!outputs.empty());
@@ -86,7 +86,7 @@ bool PaintStage::step() {
   return didAnything;
 }
 
-/// If the clock jumps, the machine was suspended and the GPU with it: not a lost GPU.
+/// After a jump of the clock the machine was suspended, so the GPU is not lost.
 void PaintStage::noteSuspension() {
   constexpr hal::Duration kJump = std::chrono::seconds(1);
   const hal::TimePoint now = clock_.now();
@@ -95,16 +95,23 @@ void PaintStage::noteSuspension() {
 }
 
 void PaintStage::add(OutputStage& output) {
-  const std::scoped_lock lock(mutex_);
-  toOpen_.push_back(&output);
+  {
+    const std::scoped_lock lock(mutex_);
+    toOpen_.push_back(&output);
+  }
+  wake();
 }
 
 void PaintStage::remove(OutputStage& output) {
-  const std::scoped_lock lock(mutex_);
-  toClose_.push_back(&output);
+  {
+    const std::scoped_lock lock(mutex_);
+    assert(std::ranges::find(toClose_, &output) == toClose_.end());
+    toClose_.push_back(&output);
+  }
+  wake();
 }
 
-bool PaintStage::hasLetGoOf(const OutputStage& output) const {
+bool PaintStage::hasReleased(const OutputStage& output) const {
   const std::scoped_lock lock(mutex_);
   return std::ranges::find(toOpen_, &output) == toOpen_.end() &&
          std::ranges::find(toClose_, &output) == toClose_.end();
@@ -126,6 +133,8 @@ void PaintStage::handleRequests() {
                 [&](auto* each) { return std::ranges::find(toOpen, each) != toOpen.end(); });
   std::erase_if(toClose_,
                 [&](auto* each) { return std::ranges::find(toClose, each) != toClose.end(); });
+  // Under the lock, because once it is free, hasReleased() is true and the output may be destroyed.
+  for (OutputStage* output : toClose) output->wake();
 }
 
 void PaintStage::open(OutputStage& output) {
@@ -143,7 +152,7 @@ void PaintStage::close(OutputStage& output) {
   if (closed == outputs_.end()) return;
   for (std::size_t i = closed->taken; i < inFlight_.size(); ++i) {
     if (inFlight_[i].ticket) ledger_.end(*inFlight_[i].ticket, Outcome::kStopped);
-    --inFlight_[i].waitedForBy;
+    --inFlight_[i].pendingOutputs;
   }
   if (painter_) painter_->close(closed->id);
   outputs_.erase(closed);
@@ -165,7 +174,7 @@ bool PaintStage::collect() {
 }
 
 void PaintStage::removeFinished() {
-  while (!inFlight_.empty() && inFlight_.front().waitedForBy == 0) {
+  while (!inFlight_.empty() && inFlight_.front().pendingOutputs == 0) {
     finished(inFlight_.front(), clock_.now());
     inFlight_.erase(inFlight_.begin());
     for (Output& output : outputs_) --output.taken;
@@ -180,7 +189,7 @@ bool PaintStage::collectFor(Output& output) {
   }
   if (!taken.isYes()) return false;
   InFlight& frame = inFlight_.at(output.taken++);
-  --frame.waitedForBy;
+  --frame.pendingOutputs;
   hal::Duration latency{};
   {
     const std::scoped_lock lock(mutex_);
@@ -215,7 +224,7 @@ void PaintStage::finished(const InFlight& frame, hal::TimePoint now) {
     latency_.ready(frame.captured + latency_.latency() - now, governor_.isLowest(), now);
   }
   lastFinished_ = now;
-  reviveAfter_ = kFirstRevival;
+  reviveAfter_ = kFirstRevivalDelay;
 }
 
 bool PaintStage::paintNewest() {
@@ -237,7 +246,7 @@ hal::Result<void> PaintStage::paint(const ArrivedFrame& arrived) {
                     .captured = frame.captureTime,
                     .arrived = arrived.arrived,
                     .began = clock_.now(),
-                    .waitedForBy = outputs_.size()};
+                    .pendingOutputs = outputs_.size()};
   {
     const std::scoped_lock lock(mutex_);
     painting.quality = governor_.level();
@@ -277,10 +286,10 @@ void PaintStage::refuse(const ArrivedFrame& arrived, const hal::Error& error) {
   failure_ = error;
 }
 
-/// Ends what is being painted, for the outputs that have not got it.
+/// Ends the frames in flight, for each output that has not got them.
 void PaintStage::endInFlight(Outcome outcome) {
   for (const InFlight& frame : inFlight_) {
-    for (std::size_t i = 0; frame.ticket && i < frame.waitedForBy; ++i) {
+    for (std::size_t i = 0; frame.ticket && i < frame.pendingOutputs; ++i) {
       ledger_.end(*frame.ticket, outcome);
     }
   }
@@ -288,12 +297,12 @@ void PaintStage::endInFlight(Outcome outcome) {
   for (Output& output : outputs_) output.taken = 0;
 }
 
-/// The GPU is gone, with all that was on it.
+/// Handles a lost GPU: destroys the painter and ends its frames.
 void PaintStage::lose(const hal::Error& error) {
   painter_.reset();
   endInFlight(Outcome::kContextLost);
   reviveAt_ = clock_.now() + reviveAfter_;
-  reviveAfter_ = std::min(2 * reviveAfter_, kLongestRevival);
+  reviveAfter_ = std::min(2 * reviveAfter_, kMaxRevivalDelay);
   const std::scoped_lock lock(mutex_);
   ++contextLosses_;
   failure_ = error;
@@ -307,7 +316,7 @@ bool PaintStage::revive() {
     return true;
   } catch (const hal::Failure& error) {
     reviveAt_ = clock_.now() + reviveAfter_;
-    reviveAfter_ = std::min(2 * reviveAfter_, kLongestRevival);
+    reviveAfter_ = std::min(2 * reviveAfter_, kMaxRevivalDelay);
     const std::scoped_lock lock(mutex_);
     failure_ = error.error();
     return false;
@@ -320,7 +329,7 @@ void PaintStage::wait() {
   } else if (inFlight_.empty()) {
     frames_.wait(kIdle);
   } else {
-    painter_->wait(inFlight_.size() < kMaxInFlight ? kLongestWait : kLongestFullWait);
+    painter_->wait(inFlight_.size() < kMaxInFlight ? kMaxWait : kMaxFullWait);
   }
 }
 

@@ -26,53 +26,55 @@ namespace pleinair::runtime {
 struct PaintStageOptions {
   GovernorRules governor;
   LatencyRules latency;
-  /// What a frame may take at the most, whatever the latency: the camera's period, or a longer one
-  /// where fewer frames are wanted; unset: only the latency counts.
+  /// Time budget of a frame, whatever the latency: the camera's period, or a longer one if
+  /// [runtime] rate is lower; unset: only the latency limits it.
   std::optional<hal::Duration> framePeriod;
 };
 
-/// Paints the newest frame, watches what that costs, and gives the pictures to the outputs.
-/// start(), step(), wait() and stop() are the paint thread's, on which the painter and its GL
-/// context live and die; the rest is any thread's.
+/// Paints the newest frame, controls quality and latency by its cost, and passes output frames to
+/// the output stages. start(), step(), wait() and stop() belong to the paint thread, where the
+/// painter and its GL context are created, used and destroyed; any thread may call the rest.
 class PaintStage {
  public:
-  /// The outputs outlive this, or are released first (remove(), hasLetGoOf()).
+  /// All references, and the outputs until they are released (remove(), hasReleased()), outlive
+  /// this. Precondition: there is an output.
   PaintStage(PainterFactory factory, std::vector<OutputStage*> outputs, PaintStageOptions options,
              hal::Clock& clock, FrameLedger& ledger, Mailbox<ArrivedFrame>& frames);
   ~PaintStage();
 
   /// Makes the painter. Throws hal::Failure.
   void start();
-  /// Collects what is finished and begins to paint what has come. Whether it did anything.
+  /// Collects finished frames and begins to paint the newest one. Returns whether it did either.
   bool step();
-  /// Until there may be something for step() to do; by real time. It sleeps on the mailbox and,
-  /// while pictures are in flight, on the GPU's fence of the oldest, 1 ms at a time where another
-  /// frame could be begun and 2 ms where not: a frame that comes or a stop() waits that long at the
-  /// most.
+  /// Waits, in real time, until there may be something for step() to do: on the mailbox or, while
+  /// frames are in flight, on the GPU's fence of the oldest. It waits on a fence for 1 ms at a time
+  /// if another frame could be begun and 2 ms otherwise, which is how long a new frame or a stop()
+  /// may be delayed.
   void wait();
-  /// Lets wait() return where it sleeps on the mailbox. Any thread.
+  /// Ends a wait() on the mailbox. Any thread.
   void wake() { frames_.wake(); }
-  /// Ends what is in flight as kStopped; frees the painter.
+  /// Ends frames in flight as kStopped and destroys the painter.
   void stop();
 
-  /// From the next step() on, frames are painted for this output too. Any thread.
+  /// Frames are painted for this output too, from the next step() on. Any thread.
   void add(OutputStage& output);
-  /// From the next step() on, no more frames are painted for this output; its frames in flight end
-  /// as kStopped. Any thread.
+  /// No more frames are painted for this output from the next step() on, which ends its frames in
+  /// flight as kStopped and wakes its wait(). Precondition: it was not removed before. Any thread.
   void remove(OutputStage& output);
-  /// Whether the output is not used any more, and may be destroyed. Any thread.
-  bool hasLetGoOf(const OutputStage& output) const;
+  /// Whether a removed output is no longer used and may be destroyed: neither its add() nor its
+  /// remove() is pending. Any thread.
+  bool hasReleased(const OutputStage& output) const;
 
-  /// During a pause the frame that came last is painted again and again, so that tuning shows.
+  /// During a pause the last frame is painted repeatedly, so that changed parameters show.
   void setPaused(bool on) { isPaused_ = on; }
-  /// Whether something is being painted.
+  /// Whether a frame is in flight.
   bool isBusy() const { return busy_.load() > 0; }
 
   struct Stage {
     std::string_view name;
     DurationHistogram recent;
-    std::uint64_t count = 0;  ///< of all
-    hal::Duration sum{0};     ///< of all
+    std::uint64_t count = 0;  ///< since the start
+    hal::Duration sum{0};     ///< since the start
   };
   struct Status {
     std::size_t quality = 0;
@@ -81,31 +83,31 @@ class PaintStage {
     std::uint64_t latencyRaised = 0, latencyLowered = 0;
     std::uint64_t painted = 0, failures = 0, contextLosses = 0;
     bool hasPainter = false;
-    std::optional<hal::Error> failure;  ///< the last
+    std::optional<hal::Error> failure;  ///< the last one
     double perSecond = 0.0;
-    double load = 0.0;  ///< of the budget, the last frame's
+    double load = 0.0;  ///< share of its budget that the last frame took
     std::vector<Stage> stages;
-    std::vector<gpu::PassTime> passes;  ///< of the frames that were timed
+    std::vector<gpu::PassTime> passes;  ///< in the timed frames
   };
   Status status() const;
 
  private:
   /// A frame that is being painted.
   struct InFlight {
-    std::optional<FrameLedger::Ticket> ticket;  ///< none for repeats
+    std::optional<FrameLedger::Ticket> ticket;  ///< unset for repeats
     hal::TimePoint captured;
     hal::TimePoint arrived;
     hal::TimePoint began;
     hal::TimePoint issued;
     std::size_t quality = 0;
-    std::size_t waitedForBy = 0;  ///< how many outputs have not got it
+    std::size_t pendingOutputs = 0;  ///< number of outputs that have not got it
   };
   struct Output {
     OutputStage* stage = nullptr;
-    std::size_t id = 0;     ///< the painter's
-    std::size_t taken = 0;  ///< how many of inFlight_ it has got, or was not there for
+    std::size_t id = 0;     ///< its number in the painter
+    std::size_t taken = 0;  ///< number of the first frames of inFlight_ that it has got or missed
   };
-  /// One on the GPU while the next is tracked; more would only wait there and grow old.
+  /// One on the GPU while the next is tracked. More would only wait there and add latency.
   static constexpr std::size_t kMaxInFlight = 2;
 
   void noteSuspension();
@@ -136,8 +138,8 @@ class PaintStage {
   std::unique_ptr<FramePainter> painter_;
   hal::TimePoint reviveAt_;
   hal::Duration reviveAfter_;
-  std::vector<InFlight> inFlight_;  ///< oldest first, kMaxInFlight at the most
-  std::optional<hal::Image> held_;  ///< of a pause
+  std::vector<InFlight> inFlight_;  ///< oldest first, at most kMaxInFlight
+  std::optional<hal::Image> held_;  ///< the image to repeat during a pause
   hal::TimePoint lastFinished_;
   hal::TimePoint lastStep_;
   hal::TimePoint resumedAt_;
@@ -145,7 +147,7 @@ class PaintStage {
   std::atomic<std::size_t> busy_ = 0;
 
   enum StageIndex : std::size_t { kDelay, kWaiting, kIssuing, kFinishing, kReady };
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // guards the members below
   QualityGovernor governor_;
   LatencyControl latency_;
   std::array<RecentDurations, 5> stages_;
@@ -155,8 +157,8 @@ class PaintStage {
   bool hasPainter_ = false;
   double load_ = 0.0;
   std::vector<gpu::PassTime> passes_;
-  std::vector<OutputStage*> toOpen_;   ///< asked for with add()
-  std::vector<OutputStage*> toClose_;  ///< with remove(); until they are let go of
+  std::vector<OutputStage*> toOpen_;   ///< requests of add()
+  std::vector<OutputStage*> toClose_;  ///< requests of remove()
 };
 
 }  // namespace pleinair::runtime

@@ -20,21 +20,21 @@ PresentationQueue::PresentationQueue(PresentationRules rules, std::size_t capaci
   waiting_.reserve(capacity);
 }
 
-void PresentationQueue::push(WaitingPicture picture) {
+void PresentationQueue::push(WaitingFrame frame) {
   assert(!isFull());
   if (!waiting_.empty()) {
-    assert(picture.captured > waiting_.back().captured);
-    picture.due = std::max(picture.due, waiting_.back().due);
+    assert(frame.captured > waiting_.back().captured);
+    frame.due = std::max(frame.due, waiting_.back().due);
   }
-  if (lastReady_) readyGap_ = picture.ready - *lastReady_;
-  lastReady_ = picture.ready;
-  picture.readyGap = readyGap_;
-  waiting_.push_back(picture);
+  if (lastReady_) readyGap_ = frame.ready - *lastReady_;
+  lastReady_ = frame.ready;
+  frame.readyGap = readyGap_;
+  waiting_.push_back(frame);
 }
 
-WaitingPicture PresentationQueue::removeOldest() {
+WaitingFrame PresentationQueue::removeOldest() {
   assert(!waiting_.empty());
-  const WaitingPicture oldest = waiting_.front();
+  const WaitingFrame oldest = waiting_.front();
   waiting_.erase(waiting_.begin());
   return oldest;
 }
@@ -44,51 +44,50 @@ std::optional<hal::TimePoint> PresentationQueue::nextTime() const {
   return timeOf(waiting_.front());
 }
 
-/// When a picture is shown, as far as is known now.
-hal::TimePoint PresentationQueue::timeOf(const WaitingPicture& picture) const {
-  if (!rules_.isPaced) return picture.ready;
-  // Pictures keep coming, so that a pause would be one of ours.
-  if (shown_ && picture.readyGap <= rules_.longestGap) {
-    return std::min(handOverTime(picture), std::max(picture.ready, *shown_ + rules_.longestGap));
+/// When to decide on a frame, as far as is known now.
+hal::TimePoint PresentationQueue::timeOf(const WaitingFrame& frame) const {
+  if (!rules_.isPaced) return frame.ready;
+  // Frames keep coming, so a freeze would be the runtime's fault.
+  if (shown_ && frame.readyGap <= rules_.maxGap) {
+    return std::min(handOverTime(frame), std::max(frame.ready, *shown_ + rules_.maxGap));
   }
-  return handOverTime(picture);
+  return handOverTime(frame);
 }
 
-std::optional<PresentationQueue::Ruling> PresentationQueue::next(hal::TimePoint now) {
+std::optional<PresentationQueue::Decision> PresentationQueue::next(hal::TimePoint now) {
   const std::optional<hal::TimePoint> time = nextTime();
   if (!time || *time > now) return std::nullopt;
   const bool hasNewer = waiting_.size() > 1 && handOverTime(waiting_[1]) <= now;
-  const WaitingPicture picture = removeOldest();
+  const WaitingFrame frame = removeOldest();
   Outcome outcome = Outcome::kShown;
   if (rules_.isPaced) {
-    outcome = hasNewer ? outcomeOfDropped(picture, hasNewer) : outcomeOfNewest(picture, now);
+    outcome = hasNewer ? outcomeOfDropped(frame, hasNewer) : outcomeOfNewest(frame, now);
   }
   if (isShown(outcome)) shown_ = now;
-  return Ruling{picture, outcome};
+  return Decision{frame, outcome};
 }
 
-bool PresentationQueue::isReadyInTime(const WaitingPicture& picture) const {
-  return picture.ready <= picture.due + rules_.tolerance;
+bool PresentationQueue::isReadyInTime(const WaitingFrame& frame) const {
+  return frame.ready <= frame.due + rules_.tolerance;
 }
 
 bool PresentationQueue::wouldFreeze(hal::TimePoint now) const {
   if (!shown_) return true;
-  const hal::Duration untilNext = std::min(readyGap_, rules_.longestGap);
-  return now - *shown_ + untilNext > rules_.longestGap;
+  const hal::Duration untilNext = std::min(readyGap_, rules_.maxGap);
+  return now - *shown_ + untilNext > rules_.maxGap;
 }
 
-Outcome PresentationQueue::outcomeOfDropped(const WaitingPicture& picture, bool hasNewer) const {
-  if (!isReadyInTime(picture)) return Outcome::kLate;
-  const bool wasBusy = picture.due < busyUntil_;
+Outcome PresentationQueue::outcomeOfDropped(const WaitingFrame& frame, bool hasNewer) const {
+  if (!isReadyInTime(frame)) return Outcome::kLate;
+  const bool wasBusy = frame.due < busyUntil_;
   return hasNewer && !wasBusy ? Outcome::kSuperseded : Outcome::kOutputBusy;
 }
 
-Outcome PresentationQueue::outcomeOfNewest(const WaitingPicture& picture,
-                                           hal::TimePoint now) const {
-  if (now < handOverTime(picture)) return Outcome::kShownOffSchedule;
-  if (std::max(picture.ready, now) <= picture.due + rules_.tolerance) return Outcome::kShown;
+Outcome PresentationQueue::outcomeOfNewest(const WaitingFrame& frame, hal::TimePoint now) const {
+  if (now < handOverTime(frame)) return Outcome::kShownOffSchedule;
+  if (std::max(frame.ready, now) <= frame.due + rules_.tolerance) return Outcome::kShown;
   if (wouldFreeze(now)) return Outcome::kShownOffSchedule;
-  return outcomeOfDropped(picture, false);
+  return outcomeOfDropped(frame, false);
 }
 
 }  // namespace pleinair::runtime

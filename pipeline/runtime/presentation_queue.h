@@ -12,38 +12,37 @@
 
 namespace pleinair::runtime {
 
-/// When a frame captured at `captured` is to be seen: captured + latency, or, on a display whose
-/// refreshes are known to the moment, the first of them at or after that.
+/// When a frame captured at `captured` is to be shown: captured + latency, or, if the phase of the
+/// refresh is known, the first refresh at or after that.
 hal::TimePoint dueTime(hal::TimePoint captured, hal::Duration latency,
                        const std::optional<hal::Refresh>& refresh);
 
-/// A painted picture that waits to be shown.
-struct WaitingPicture {
-  std::size_t buffer = 0;                     ///< where its pixels are
-  std::optional<FrameLedger::Ticket> ticket;  ///< of its frame; none for repeats
+/// An output frame that waits to be shown.
+struct WaitingFrame {
+  std::size_t buffer = 0;                     ///< index of the buffer with its pixels
+  std::optional<FrameLedger::Ticket> ticket;  ///< of the captured frame; unset for repeats
   hal::TimePoint captured;
-  hal::TimePoint ready;  ///< when it was painted
+  hal::TimePoint ready;  ///< when the output frame was complete
   hal::TimePoint due;
-  hal::Duration readyGap{0};  ///< since the one before it was ready; push() sets it
+  hal::Duration readyGap{0};  ///< time since the previous one was ready; push() sets it
 };
 
 struct PresentationRules {
-  /// Without it pictures are handed on as they come, each one: files.
+  /// If unset, each frame is handed over at once: files.
   bool isPaced = true;
-  /// How long after its due time a picture still counts as being in time. A refresh allows none for
-  /// painting; the clock's own waking may be so late.
+  /// A frame that is ready, or handed over, by so much after its due time is still in time: the
+  /// thread may wake late.
   hal::Duration tolerance = std::chrono::milliseconds(8);
-  /// How long before its due time a picture is handed over: displays take it for their next
-  /// refresh.
+  /// Time from handing a frame over to its due time: a display shows it at its next refresh.
   hal::Duration lead{0};
-  /// Late pictures are shown where else nothing new would be seen for longer than this; and those
-  /// that are still to come, where the latency has just risen.
-  hal::Duration longestGap = std::chrono::milliseconds(200);
+  /// The display must not freeze for longer: late frames are shown nevertheless, and frames are
+  /// shown before their due times when the latency has just risen.
+  hal::Duration maxGap = std::chrono::milliseconds(200);
 };
 
-/// Decides which picture is shown when, and how each of the others ends
-/// (docs/decisions/0009-fixed-latency.md). Time goes in as an argument. One thread; allocates
-/// nothing beyond its capacity.
+/// Decides which frame is shown when, and the outcome of each of the others
+/// (docs/decisions/0009-fixed-latency.md). The caller passes the time. One thread; allocates only
+/// in its constructor.
 class PresentationQueue {
  public:
   PresentationQueue(PresentationRules rules, std::size_t capacity);
@@ -51,41 +50,39 @@ class PresentationQueue {
   std::size_t size() const { return waiting_.size(); }
   bool isFull() const { return waiting_.size() == capacity_; }
 
-  /// Precondition: !isFull(), captured later than the ones before. A due time before that of an
-  /// earlier picture (the latency fell) is moved to it.
-  void push(WaitingPicture picture);
-  /// The oldest, to make room for a newer one. Precondition: size() > 0.
-  WaitingPicture removeOldest();
+  /// Adds a frame. A due time before that of an earlier frame (the latency fell) is raised to it.
+  /// Precondition: !isFull(), and it was captured later than those before.
+  void push(WaitingFrame frame);
+  /// Takes the oldest frame out, to make room for a newer one. Precondition: size() > 0.
+  WaitingFrame removeOldest();
 
-  struct Ruling {
-    WaitingPicture picture;
-    Outcome outcome{};  ///< isShown(): to be presented now; otherwise dropped for this reason
+  struct Decision {
+    WaitingFrame frame;
+    Outcome outcome{};  ///< present it now if isShown(outcome); otherwise the drop reason
   };
-  /// Rules on the oldest picture, if it is due; to be called until it gives nothing.
-  std::optional<Ruling> next(hal::TimePoint now);
-  /// When next() has something to rule on.
+  /// Takes the oldest frame out if it is due, and decides on it. Call until it gives nothing.
+  std::optional<Decision> next(hal::TimePoint now);
+  /// When next() will give something; unset while the queue is empty.
   std::optional<hal::TimePoint> nextTime() const;
 
-  /// The last picture has been taken at `now`: what fell due meanwhile did so while it was busy.
+  /// The output has taken the last frame at `now`: it was busy when frames fell due before that.
   void presented(hal::TimePoint now) { busyUntil_ = now; }
 
  private:
-  hal::TimePoint handOverTime(const WaitingPicture& picture) const {
-    return picture.due - rules_.lead;
-  }
-  hal::TimePoint timeOf(const WaitingPicture& picture) const;
-  bool isReadyInTime(const WaitingPicture& picture) const;
+  hal::TimePoint handOverTime(const WaitingFrame& frame) const { return frame.due - rules_.lead; }
+  hal::TimePoint timeOf(const WaitingFrame& frame) const;
+  bool isReadyInTime(const WaitingFrame& frame) const;
   bool wouldFreeze(hal::TimePoint now) const;
-  Outcome outcomeOfDropped(const WaitingPicture& picture, bool hasNewer) const;
-  Outcome outcomeOfNewest(const WaitingPicture& picture, hal::TimePoint now) const;
+  Outcome outcomeOfDropped(const WaitingFrame& frame, bool hasNewer) const;
+  Outcome outcomeOfNewest(const WaitingFrame& frame, hal::TimePoint now) const;
 
   PresentationRules rules_;
   std::size_t capacity_;
-  std::vector<WaitingPicture> waiting_;  ///< oldest first
-  std::optional<hal::TimePoint> shown_;  ///< when the last one was
+  std::vector<WaitingFrame> waiting_;    ///< oldest first
+  std::optional<hal::TimePoint> shown_;  ///< when the last one was handed over
   hal::TimePoint busyUntil_;
   std::optional<hal::TimePoint> lastReady_;
-  hal::Duration readyGap_{0};  ///< between the last two
+  hal::Duration readyGap_{0};  ///< time between the last two that were ready
 };
 
 }  // namespace pleinair::runtime

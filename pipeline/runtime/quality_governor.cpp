@@ -8,15 +8,15 @@
 namespace pleinair::runtime {
 namespace {
 
-/// How much dearer the next better level is taken to be until it was left once.
+/// Assumed ratio of loads of adjacent levels, until it has been measured.
 constexpr double kUsualRatio = 1.5;
-/// A rise that lasts so long was right.
+/// A rise that lasts for so long was right.
 constexpr hal::Duration kProof = std::chrono::seconds(10);
-/// From this load on a few frames are enough to act on …
+/// Above this load a few frames are enough to lower quality …
 constexpr double kClearlyOverBudget = 1.25;
-/// … and from this on, one level less will not do.
+/// … and above this load it is lowered by two levels.
 constexpr double kFarOverBudget = 1.9;
-/// What was learnt of a ratio counts half after so long: the load may have been another's.
+/// The weight of a measured ratio halves in this time: another program may have caused the load.
 constexpr double kRatioHalfLifeSeconds = 60.0;
 
 }  // namespace
@@ -30,11 +30,11 @@ QualityGovernor::QualityGovernor(GovernorRules rules)
 }
 
 bool QualityGovernor::painted(double load, std::size_t level, hal::TimePoint now) {
-  // What was in flight at the change says nothing of the level that is in force.
+  // Frames in flight at a change were painted at the previous level.
   if (rules_.pinned || level != level_) return false;
-  if (seen_ == 0) cheapSince_ = now;
+  if (seen_ == 0) fitsSince_ = now;
   recent_.at(seen_ % kWindow) = load;
-  // One frame says little, however dear it was.
+  // A single slow frame must not dominate the mean.
   const double counted = std::min(load, 2.0);
   const double share = std::max(0.1, 1.0 / static_cast<double>(seen_ + 1));
   smooth_ += share * (counted - smooth_);
@@ -57,10 +57,10 @@ bool QualityGovernor::painted(double load, std::size_t level, hal::TimePoint now
 
 bool QualityGovernor::isOverBudget() const {
   const auto filled = recent_.begin() + static_cast<std::ptrdiff_t>(std::min(seen_, kWindow));
-  const auto dear =
+  const auto slow =
       std::count_if(recent_.begin(), filled, [](double load) { return load > kClearlyOverBudget; });
-  if (static_cast<std::size_t>(dear) >= kEnough) return true;
-  return seen_ >= 2 * kWindow && smooth_ > rules_.overBudget;
+  if (static_cast<std::size_t>(slow) >= kEnough) return true;
+  return seen_ >= 2 * kWindow && smooth_ > rules_.lowerAbove;
 }
 
 double QualityGovernor::median() const {
@@ -71,12 +71,12 @@ double QualityGovernor::median() const {
   return *middle;
 }
 
-/// The level below has run for a few frames: what did leaving the one above bring?
+/// Measures the ratio of loads once a lowered level has run for a few frames.
 void QualityGovernor::learnRatio(hal::TimePoint now) {
   if (!loadBefore_) return;
-  constexpr double kLeast = 1.05;
-  constexpr double kMost = 4.0;
-  const double ratio = std::clamp(*loadBefore_ / std::max(median(), 0.01), kLeast, kMost);
+  constexpr double kMinRatio = 1.05;
+  constexpr double kMaxRatio = 4.0;
+  const double ratio = std::clamp(*loadBefore_ / std::max(median(), 0.01), kMinRatio, kMaxRatio);
   learnt_.at(level_ - 1) = {ratio, now};
   loadBefore_.reset();
 }
@@ -89,14 +89,14 @@ double QualityGovernor::ratioAbove(hal::TimePoint now) const {
 
 bool QualityGovernor::mayRaise(hal::TimePoint now) {
   const double expected = std::max(smooth_, median()) * ratioAbove(now);
-  if (expected > rules_.cheapEnough) cheapSince_ = now;
-  return seen_ >= kWindow && now - cheapSince_ >= raiseAfter_;
+  if (expected > rules_.raiseBelow) fitsSince_ = now;
+  return seen_ >= kWindow && now - fitsSince_ >= raiseAfter_;
 }
 
 void QualityGovernor::lower(hal::TimePoint now) {
   const double load = median();
   if (raisedAt_) {
-    raiseAfter_ = std::min(raiseAfter_ * 2, rules_.longestRaiseAfter);
+    raiseAfter_ = std::min(raiseAfter_ * 2, rules_.maxRaiseAfter);
     raisedAt_.reset();
   }
   const std::size_t steps = load > kFarOverBudget && level_ + 2 < rules_.levels ? 2 : 1;
@@ -116,7 +116,7 @@ void QualityGovernor::change(std::size_t level, hal::TimePoint now) {
   seen_ = 0;
   smooth_ = 0.0;
   loadBefore_.reset();
-  cheapSince_ = now;
+  fitsSince_ = now;
 }
 
 }  // namespace pleinair::runtime

@@ -12,28 +12,29 @@
 namespace pleinair::runtime {
 
 struct GovernorRules {
-  std::size_t levels = 1;             ///< of quality, the best one 0
-  std::optional<std::size_t> pinned;  ///< always this one
-  double overBudget = 0.95;           ///< share of the budget from which quality is lowered
-  double cheapEnough = 0.8;  ///< share below which the level above has to stay, as expected
+  std::size_t levels = 1;             ///< number of quality levels; 0 is the best
+  std::optional<std::size_t> pinned;  ///< keeps this level
+  double lowerAbove = 0.95;           ///< smoothed load above which quality is lowered
+  double raiseBelow = 0.8;  ///< expected load of the level above below which quality is raised
   hal::Duration raiseAfter = std::chrono::seconds(2);
-  hal::Duration longestRaiseAfter = std::chrono::minutes(1);
+  hal::Duration maxRaiseAfter = std::chrono::minutes(1);
 };
 
-/// Keeps the cost of frames within their budget by choosing a level of quality. It goes down after
-/// three dear frames of five, and up where the level above is expected to fit for a while, from
-/// what it cost when it was left; a rise that does not last makes the next one wait twice as long.
-/// One thread.
+/// Keeps frames within their time budget by choosing the quality level. It lowers quality after
+/// three of five frames were over budget, or the smoothed load is. It raises quality once the level
+/// above has been expected to fit for a while, judged by the load when that level was left; if a
+/// rise does not last, the next one waits twice as long. One thread.
 class QualityGovernor {
  public:
   explicit QualityGovernor(GovernorRules rules);
 
   std::size_t level() const { return level_; }
   bool isLowest() const { return rules_.pinned || level_ + 1 == rules_.levels; }
-  std::uint64_t lowered() const { return lowered_; }  ///< how often so far
-  std::uint64_t raised() const { return raised_; }    ///< likewise
+  std::uint64_t lowered() const { return lowered_; }  ///< number of times so far
+  std::uint64_t raised() const { return raised_; }    ///< number of times so far
 
-  /// A frame painted at `level` took this share of its budget. True if the level changes.
+  /// Notes that a frame painted at `level` took the share `load` of its time budget. Returns
+  /// whether the level changes.
   bool painted(double load, std::size_t level, hal::TimePoint now);
 
  private:
@@ -54,17 +55,17 @@ class QualityGovernor {
   std::uint64_t lowered_ = 0;
   std::uint64_t raised_ = 0;
 
-  std::array<double, kWindow> recent_{};  ///< loads since the change, the last kWindow
-  std::size_t seen_ = 0;                  ///< since the change
+  std::array<double, kWindow> recent_{};  ///< the last kWindow loads at this level
+  std::size_t seen_ = 0;                  ///< number of frames at this level
   double smooth_ = 0.0;
-  std::optional<double> loadBefore_;  ///< of the level that was left downwards last
+  std::optional<double> loadBefore_;  ///< median load of the level above when it was left
   struct Learnt {
-    double ratio = 1.0;  ///< how much dearer than level i + 1 level i was
+    double ratio = 1.0;  ///< load of level i divided by that of level i + 1
     hal::TimePoint at;
   };
   std::vector<Learnt> learnt_;
-  hal::TimePoint cheapSince_;
-  std::optional<hal::TimePoint> raisedAt_;  ///< until that rise has proved itself
+  hal::TimePoint fitsSince_;
+  std::optional<hal::TimePoint> raisedAt_;  ///< time of a rise that has not yet lasted for kProof
   hal::Duration raiseAfter_;
 };
 

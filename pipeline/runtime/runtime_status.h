@@ -10,7 +10,7 @@
 
 namespace pleinair::runtime {
 
-/// A live chain at one moment.
+/// A copy of a live pipeline's state.
 struct RuntimeStatus {
   hal::Duration uptime{0};
   CaptureStage::Status camera;
@@ -18,7 +18,7 @@ struct RuntimeStatus {
   std::vector<OutputStage::Status> outputs;
   LedgerCounts ledger;
 
-  /// Whether pictures come out: the camera streams and every output takes pictures.
+  /// Whether the camera streams, there is a painter, and every output takes frames.
   bool isHealthy() const;
 };
 

@@ -37,7 +37,7 @@ Json distributionJson(const DurationHistogram& durations) {
           {"max_ms", hal::toMilliseconds(durations.max())}};
 }
 
-/// Null where the value is not known.
+/// Null if the value is unknown.
 Json jsonOf(const Metric& metric, const MetricValue& value) {
   return std::visit(
       Overloads{[](std::monostate) { return Json(); },
@@ -76,7 +76,7 @@ Json scopeJson(MetricScope scope, const MetricMoment& moment) {
 
 // ---- Prometheus
 
-/// "name="value"", with what the value's syntax wants escaped.
+/// "name="value"", escaped as the format requires.
 std::string labelText(std::string_view name, std::string_view value) {
   std::string escaped;
   for (const char c : value) {
@@ -119,7 +119,7 @@ class Samples {
     const std::string braced = labels.empty() ? "" : "{" + labels + "}";
     fmt::format_to(std::back_inserter(text_), "{}{}{} {}\n", family_, suffix, braced, value);
   }
-  /// Recent quantiles; sum and count of all.
+  /// Recent quantiles; sum and count since the start.
   void add(const SummaryReading& summary, const std::string& labels) {
     for (const double share : kShares) {
       add(hal::toSeconds(summary.recent.percentile(share)),
@@ -189,7 +189,7 @@ std::string statusJson(const RuntimeStatus& status, const std::vector<std::strin
     json["outputs"].push_back(scopeJson(MetricScope::kOutput, moment));
   }
   json["frames"] = scopeJson(MetricScope::kFrames, moment);
-  // A device's name may hold anything.
+  // A device's name may hold any bytes.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -8,15 +8,15 @@ namespace pleinair::runtime {
 /// interrupt threads (50).
 inline constexpr int kPromptPriority = 10;
 
-/// What a thread is for, and so how urgently it runs.
+/// The urgency of a thread.
 enum class ThreadRole {
   kOrdinary,
-  kPrompt,  ///< does little, but at its time: captures and presents
+  kPrompt,  ///< short work at fixed times: capturing, presenting
 };
 
-/// Names the calling thread (15 characters are kept) and sets its priority. A prompt one gets
-/// SCHED_RR at kPromptPriority where the system allows it (RLIMIT_RTPRIO, CAP_SYS_NICE), which is
-/// what it returns.
+/// Names the calling thread (15 characters are kept) and sets its priority. A prompt thread gets
+/// SCHED_RR at kPromptPriority if the system permits it (RLIMIT_RTPRIO, CAP_SYS_NICE). Returns
+/// whether it did.
 bool setThreadRole(const std::string& name, ThreadRole role);
 
 }  // namespace pleinair::runtime

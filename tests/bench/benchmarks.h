@@ -16,7 +16,7 @@
 
 namespace pleinair::bench {
 
-// What benchmarks of GPU work share. Time is wall time, CPU that of all threads.
+// Common parts of benchmarks of GPU work. Time is wall time, CPU that of all threads.
 
 /// The benchmark's arguments are width and height.
 inline hal::FrameSize sizeOf(const benchmark::State& state) {

@@ -1,5 +1,5 @@
-// What frames cost on their way in and out: wall time from the first call until a fence says that
-// the GPU is done (timer queries lie on the software rasteriser).
+// Cost of uploading and reading back frames: wall time from the first call until a fence signals
+// that the GPU is done (timer queries lie on the software rasteriser).
 #include <array>
 #include <cstdint>
 

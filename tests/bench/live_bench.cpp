@@ -1,5 +1,5 @@
-// The live chain in real time: how far from its due time each picture is handed over, with nothing
-// else to do and with every core kept busy by somebody else.
+// The live pipeline in real time: how far from its due time each picture is handed over, with
+// nothing else to do and with every core kept busy by somebody else.
 #include <atomic>
 #include <chrono>
 #include <thread>

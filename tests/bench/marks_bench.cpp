@@ -1,7 +1,7 @@
-// What anchors and the motion field cost on the GPU, pass by pass and together, given what the
-// picture says of its motion (tracking_bench measures that); and all of it, with finding that out,
-// on the workbench. Time is wall time up to a fence, CPU that of all threads; on a shared machine
-// compare ratios within a run.
+// Cost of anchors and the motion field on the GPU, pass by pass and together, with the image motion
+// given (tracking_bench measures its cost); and of all of it, image motion included, on the
+// workbench. Time is wall time up to a fence, CPU that of all threads; on a shared machine compare
+// ratios within a run.
 #include <chrono>
 #include <cstdint>
 #include <random>

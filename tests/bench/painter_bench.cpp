@@ -27,7 +27,7 @@ using namespace pleinair;  // NOLINT(google-build-using-namespace): a program, n
 
 constexpr std::uint64_t kFrames = 24;
 
-/// What the camera saw, in memory.
+/// A recorded sequence in memory.
 struct Recording {
   explicit Recording(hal::FrameSize size) {
     hal::SteppedClock clock;

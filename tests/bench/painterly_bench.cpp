@@ -1,4 +1,4 @@
-// What the painter costs, in the thesis's four stages (table 1: tensor field, features and
+// Cost of the painterly style, in the thesis's four stages (table 1: tensor field, features and
 // matching, warping of anchors, painting), beside OpenCV's stylization of the same frames in the
 // same run. Stages are timed by fences, which makes their sum more than the whole.
 #include <algorithm>

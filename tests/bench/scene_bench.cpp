@@ -1,4 +1,4 @@
-// What composing an AR frame costs, wall time with the GPU waited for.
+// Cost of composing an AR frame: wall time until the GPU is done.
 #include <array>
 #include <chrono>
 #include <cmath>

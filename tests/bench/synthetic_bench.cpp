@@ -32,7 +32,7 @@ BENCHMARK(filmFrame)
     ->Args({1280, 720, 0, 0})
     ->Unit(benchmark::kMillisecond);
 
-/// What start() waits for the first time: painting and lighting, on all cores.
+/// The work of the first start(): painting and lighting, on all cores.
 void paintTheWorkbench(benchmark::State& state) {
   for (auto _ : state) {
     benchmark::DoNotOptimize(

@@ -1,4 +1,4 @@
-// What the watercolor costs, pass by pass and whole, beside OpenCV's stylization of the same frames
+// Cost of watercolor, pass by pass and whole, beside OpenCV's stylization of the same frames
 // in the same run. Time is wall time up to a fence, CPU that of all threads; on a shared machine
 // compare ratios within a run.
 #include <algorithm>

@@ -9,7 +9,7 @@
 
 namespace pleinair::support {
 
-/// What a run of the program left.
+/// The result of a run of the program.
 struct ProgramRun {
   int status = 0;  ///< exit status, or −signal
   std::string out;
@@ -29,7 +29,7 @@ struct ProgramLimits {
   std::chrono::seconds time{120};
   /// SIGTERM is sent once this file exists; empty: never.
   std::string terminateWhenExists;
-  /// What it prints goes into this instead of ProgramRun::out; empty: nowhere else.
+  /// The file that takes its standard output, instead of ProgramRun::out; empty: none.
   std::string printsInto;
   /// "NAME=VALUE" sets a variable, "NAME" takes it away. Without, the environment is the test's,
   /// with no variable of the program's but an empty PLEINAIR_CONFIG: what the machine is set up for

@@ -169,17 +169,17 @@ class RunInWindow : public Run {
     return true;
   }
 
-  /// Goes on once the folder holds so many stills, each of which a frame of its own was painted
+  /// Goes on once the folder holds so many snapshots, each of which a frame of its own was painted
   /// for.
   static void waitForSnapshots(const std::filesystem::path& folder, std::ptrdiff_t count) {
-    const auto stills = [&] {
+    const auto savedSnapshots = [&] {
       const std::filesystem::directory_iterator first(folder);
       return std::count_if(first, std::filesystem::directory_iterator(), [](const auto& entry) {
         return entry.path().filename().string().starts_with("pleinair-");
       });
     };
     const auto deadline = std::chrono::steady_clock::now() + kPatience;
-    while (stills() < count) {
+    while (savedSnapshots() < count) {
       if (std::chrono::steady_clock::now() > deadline) throw std::runtime_error("no still comes");
       std::this_thread::yield();
     }
@@ -211,9 +211,9 @@ TEST_F(RunInWindow, ShowsExactlyWhatWasPainted) {
 
 TEST_F(RunInWindow, ObeysKeys) {
   writeMedia(path("in.y4m"), 10, kSize);
-  std::filesystem::create_directory(path("stills"));
+  std::filesystem::create_directory(path("snapshots"));
   const ProgramRun live =
-      runShown({"--camera", path("in.y4m"), "--snapshots", path("stills")}, [&](pid_t) {
+      runShown({"--camera", path("in.y4m"), "--snapshots", path("snapshots")}, [&](pid_t) {
         waitForTitle("watercolor.*");
         server_->press({"Right"});
         waitForTitle("watercolor.*, changed");
@@ -221,20 +221,20 @@ TEST_F(RunInWindow, ObeysKeys) {
         waitForTitle("watercolor.*[a-z_] .*view camera");
         server_->press({"shift+v", "shift+v", "space"});
         waitForTitle("watercolor.*view [b-z][a-z]+ .*paused");
-        // The first frame of a pause is shown, the second repeats it: two stills, and both were.
+        // The first frame of a pause is shown, the second repeats it: two snapshots, and both were.
         server_->press({"s"});
-        waitForSnapshots(path("stills"), 1);
+        waitForSnapshots(path("snapshots"), 1);
         server_->press({"s"});
-        waitForSnapshots(path("stills"), 2);
+        waitForSnapshots(path("snapshots"), 2);
         server_->press({"v", "space", "shift+l"});
         waitForTitle("watercolor[^a-z]+mosaic");
-        // What the new look needs has been compiled before it is to end.
+        // The third snapshot shows that the new look's programs are compiled.
         server_->press({"s"});
-        waitForSnapshots(path("stills"), 3);
+        waitForSnapshots(path("snapshots"), 3);
         server_->press({"Escape"});
       });
   EXPECT_EQ(live.status, 0) << live.error;
-  const std::regex told("pleinair: info: saved " + path("stills"));
+  const std::regex told("pleinair: info: saved " + path("snapshots"));
   EXPECT_EQ(std::distance(std::sregex_iterator(live.error.begin(), live.error.end(), told), {}), 3)
       << live.error;
   EXPECT_THAT(live.out, HasSubstr(" while paused"));
@@ -244,17 +244,18 @@ TEST_F(RunInWindow, ObeysKeys) {
 TEST_F(RunInWindow, SavesTheFinishedPictureUnderAnyView) {
   hal::Image picture = testPicture(kRgb, 0);
   hal::orThrow(hal::writePng(path("in.png"), picture.view()));
-  std::filesystem::create_directory(path("stills"));
-  const ProgramRun live = runShown({"--camera", path("in.png"), "--style", "none", "--view",
-                                    "camera", "--snapshots", path("stills"), "--size", "160x120"},
-                                   [&](pid_t) {
-                                     waitForTitle("none .*view camera");
-                                     server_->press({"s", "s"});
-                                     waitForSnapshots(path("stills"), 1);
-                                     server_->press({"q"});
-                                   });
+  std::filesystem::create_directory(path("snapshots"));
+  const ProgramRun live =
+      runShown({"--camera", path("in.png"), "--style", "none", "--view", "camera", "--snapshots",
+                path("snapshots"), "--size", "160x120"},
+               [&](pid_t) {
+                 waitForTitle("none .*view camera");
+                 server_->press({"s", "s"});
+                 waitForSnapshots(path("snapshots"), 1);
+                 server_->press({"q"});
+               });
   EXPECT_EQ(live.status, 0) << live.error;
-  for (const auto& entry : std::filesystem::directory_iterator(path("stills"))) {
+  for (const auto& entry : std::filesystem::directory_iterator(path("snapshots"))) {
     EXPECT_TRUE(std::regex_match(entry.path().filename().string(),
                                  std::regex(R"(pleinair-\d{8}-\d{6}(-\d)?\.png)")))
         << entry.path();

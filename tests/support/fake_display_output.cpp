@@ -99,6 +99,7 @@ hal::Result<std::optional<hal::Surface>> FakeDisplayOutput::acquire() {
   const auto free = std::ranges::find(buffers_, State::kFree, &Buffer::state);
   if (free == buffers_.end()) return std::nullopt;
   free->state = State::kLent;
+  ++display_.lent;
   return free->surface;
 }
 
@@ -118,6 +119,7 @@ void FakeDisplayOutput::release(const hal::Surface& surface) {
   Buffer& buffer = of(surface);
   assert(buffer.state == State::kLent && !buffer.isMapped);
   buffer.state = State::kFree;
+  --display_.lent;
 }
 
 hal::Result<void> FakeDisplayOutput::submit(const hal::Surface& surface, hal::Fence fence,
@@ -127,6 +129,7 @@ hal::Result<void> FakeDisplayOutput::submit(const hal::Surface& surface, hal::Fe
   Buffer& buffer = of(surface);
   assert(buffer.state == State::kLent && !buffer.isMapped);
   buffer.state = State::kQueued;
+  --display_.lent;
   queue_.push_back(
       {.buffer = &buffer, .fence = std::move(fence), .due = due, .submitted = clock_.now()});
   return {};

@@ -10,7 +10,7 @@
 
 namespace pleinair::support {
 
-/// What a display is, and what it does; shared by the outputs that open it one after another.
+/// The properties and behaviour of a display; shared by the outputs that open it one after another.
 struct FakeDisplay {
   hal::Duration period = std::chrono::nanoseconds(16'666'667);
   hal::TimePoint phase;  ///< one of its refreshes
@@ -32,6 +32,7 @@ struct FakeDisplay {
   };
   std::vector<Shown> shown;
   int opened = 0;
+  int lent = 0;  ///< surfaces that were acquired, and neither submitted nor released
 };
 
 /// A display behind the contract of hal::SurfaceOutput: surfaces in shared memory (memfd),

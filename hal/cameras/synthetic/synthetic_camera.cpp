@@ -34,7 +34,7 @@ Error refused(ErrorKind kind, std::string problem, std::string remedy) {
           .remedy = std::move(remedy)};
 }
 
-/// What is wrong with the options, if anything.
+/// The error of the options; unset if they are valid.
 std::optional<Error> problemOf(const SyntheticOptions& options) {
   const auto outside = [](double value, double most) { return !(value >= 0 && value <= most); };
   const auto invalid = [](std::string problem, std::string remedy) {

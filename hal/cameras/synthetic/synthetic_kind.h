@@ -8,7 +8,7 @@ namespace pleinair::hal::synthetic {
 /// The simulated camera, by its shots. [camera.synthetic] has its keys (docs/workbench.md).
 const CameraKind& cameraKind();
 
-/// What [camera.synthetic] and what all cameras have in common come to.
+/// Options from [camera.synthetic] and the settings of all cameras.
 SyntheticOptions optionsOf(const config::ParameterValues& own, const CameraBackendOptions& options);
 
 }  // namespace pleinair::hal::synthetic

@@ -15,7 +15,7 @@ std::uint64_t hashOf(const ImageView& picture);
 /// Takes pictures and keeps only what tests and measurements ask for. Needs no file and no display.
 class HeadlessOutput final : public MemoryOutput {
  public:
-  /// What is kept of each picture: its hash and time, or nothing, however long it runs.
+  /// The record of each picture: its hash and time, or nothing, for runs of any length.
   enum class Keeps { kHashes, kNothing };
 
   explicit HeadlessOutput(PixelFormat format = PixelFormat::kRgb8, ColorEncoding encoding = {},

@@ -56,7 +56,7 @@ Result<OpenLoopback> openLoopbackNode(const std::string& name, const V4l2System&
 /// kBusy, with what to do: the loopback's output side is another program's.
 Error loopbackInUse(const std::string& node);
 
-/// What to do where a node may not be opened.
+/// The remedy if a node may not be opened.
 inline constexpr const char* kJoinVideo =
     "join the group video: sudo usermod -aG video $USER, then log in again";
 

@@ -183,7 +183,7 @@ OutputKind loopbackKind() {
   return {.name = std::string(kName),
           .help = "a V4L2 device that other programs read as a camera, by node or label",
           .forms = {"loopback", "loopback:DEVICE"},
-          .traits = {.isPaced = true, .reopens = true, .skips = true},
+          .traits = {.isPaced = true, .reopens = true},
           .options = {{.name = std::string(kFormatOption),
                        .help = "The layout of its pictures; \"auto\": what the device takes.",
                        .choices = {"auto", "yuyv", "nv12", "i420"}}},

@@ -13,7 +13,7 @@
 
 namespace pleinair::hal::loopback {
 
-/// What a device agreed to.
+/// The format that a device accepted.
 struct Agreement {
   FrameLayout layout;
   std::size_t frameBytes = 0;  ///< of one write(): at least layout.bytes

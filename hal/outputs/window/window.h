@@ -13,8 +13,8 @@ namespace pleinair::hal {
 /// A key went down, or repeats while it is held. Keys with Control, Alt or the logo key are the
 /// desktop's and do not come.
 struct KeyPressed {
-  /// What the key says without Shift, in lower case: "a", "1", "tab", "left", "pagedown", "f1",
-  /// "space", "escape"; and "?" where it has a key of its own, or that of "/".
+  /// The name of the key without Shift, in lower case: "a", "1", "tab", "left", "pagedown", "f1",
+  /// "space", "escape"; and "?", on its own key or on that of "/".
   std::string name;
   bool shift = false;
   bool isRepeat = false;
@@ -37,8 +37,8 @@ using WindowEvent = std::variant<KeyPressed, WindowClosed, WindowResized>;
 /// period of the screen's refresh.
 class Window : public MemoryOutput {
  public:
-  /// What has happened since the last call, oldest first. To be called several times a second, or
-  /// the desktop takes the program for dead.
+  /// The events since the last call, oldest first. To be called several times a second; otherwise
+  /// the desktop reports that the program does not respond.
   virtual std::vector<WindowEvent> takeEvents() = 0;
 
   // These show with the next write() or redraw().
@@ -52,7 +52,7 @@ class Window : public MemoryOutput {
   virtual void setTitle(const std::string& title) = 0;
   virtual void setFullScreen(bool on) = 0;
 
-  /// What the window shows, as RGB8, drawn anew. Errors: kDeviceLost.
+  /// The content of the window as RGB8, drawn again for this call. Errors: kDeviceLost.
   virtual Result<Image> shown() = 0;
 };
 

@@ -15,8 +15,8 @@ struct Area {
 /// Where a picture lies in a window: as large as fits in its own shape, centred, at least 1 px.
 Area letterBox(FrameSize picture, FrameSize window);
 
-/// What a window opens with: the picture's size, a whole multiple of it where it is very small, or
-/// what fits `room` in its shape.
+/// The size that a window opens with: the picture's, a whole multiple of it if that is very small,
+/// or the largest of its aspect ratio that fits `room`.
 FrameSize openingSize(FrameSize picture, FrameSize room);
 
 }  // namespace pleinair::hal::window

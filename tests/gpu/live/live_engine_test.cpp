@@ -1,4 +1,4 @@
-// The engine's painter in the live chain: many frames, a GPU that is lost, starts and stops.
+// The engine's painter in the live pipeline: many frames, a lost GPU, starts and stops.
 #include <atomic>
 #include <chrono>
 
@@ -24,8 +24,7 @@ PaintParameters watercolorParameters() {
   return {.style = styles::styleKind("watercolor").defaults, .view = {}};
 }
 
-/// Live painting under a stepped clock: the painter takes as long as it takes, the clock stands
-/// still meanwhile.
+/// Live painting under a stepped clock, which stands still while the painter works.
 class LiveEngine {
  public:
   explicit LiveEngine(std::uint64_t frames, PainterOptions options = {.pictureSize = kSize})
@@ -56,7 +55,7 @@ class LiveEngine {
   runtime::LivePipeline& chain() { return chain_; }
   LiveControls& controls() { return controls_; }
 
-  /// One frame's time: what is in flight is finished before the clock goes on.
+  /// Steps the clock by one frame period, after frames in flight have been finished.
   void step() {
     while (chain_.paint().step() || chain_.paint().isBusy()) {
     }
@@ -90,7 +89,7 @@ TEST(LiveEngineTest, PaintsFiveThousandFramesInTheSameMemory) {
   EXPECT_EQ(counts.captured, kFrames);
   EXPECT_EQ(counts.of(Outcome::kShown), kFrames);
   EXPECT_LE(ProcessResources::now().residentKiB, resident + 4 * 1024) << "KiB";
-  // The driver holds more or less at any moment; what grew by 500 bytes a frame would be seen.
+  // The driver's memory fluctuates; growth by 500 bytes a frame would exceed this limit.
   EXPECT_LE(ProcessResources::allocatedBytes(), allocated + 2'000'000);
 }
 
@@ -116,10 +115,10 @@ TEST(LiveEngineTest, GivesTheFinishedPictureAsAStillUnderAnyView) {
   live.step();
   live.controls().requestSnapshot();
   live.drain();
-  const auto still = live.controls().takeSnapshot();
-  ASSERT_TRUE(still);
-  ASSERT_TRUE(*still);
-  EXPECT_EQ((*still)->size(), kSize);
+  const auto snapshot = live.controls().takeSnapshot();
+  ASSERT_TRUE(snapshot);
+  ASSERT_TRUE(*snapshot);
+  EXPECT_EQ((*snapshot)->size(), kSize);
 }
 
 TEST(LiveEngineTest, StartsAndStopsWithoutLeavingAnything) {

@@ -29,7 +29,7 @@ namespace {
 
 constexpr hal::FrameFormat kFormat{.pixelFormat = hal::PixelFormat::kRgb8, .size = {64, 48}};
 
-/// Delivers so many frames, and is gone then; fewer than none: is not there at all.
+/// A camera that is lost after so many frames; a negative number: it is absent.
 class LostCamera final : public hal::Camera {
  public:
   LostCamera(int frames, hal::Clock& clock) : frames_(frames), clock_(clock) {}
@@ -67,7 +67,7 @@ class LostCamera final : public hal::Camera {
 
 class LivePaintingTest : public testing::Test {
  protected:
-  /// What runLive() throws, with a camera that is lost after so many frames, whenever it is opened.
+  /// The error of runLive() with a camera that is lost after so many frames of each opening.
   std::string paintFrom(int framesAnOpening, std::uint64_t frames) {
     hal::SteadyClock clock;
     hal::CameraSelector selector = support::selectorOf(
@@ -98,7 +98,7 @@ class LivePaintingTest : public testing::Test {
     return "";
   }
 
-  /// Takes the pages back when the painting is over, as the server does.
+  /// Drops the pages when the painting ends, like the server.
   class Served final : public StatusServer {
    public:
     explicit Served(LivePaintingTest& test) : test_(test) {}

@@ -1,4 +1,4 @@
-// What is hidden and what comes into view.
+// Anchors on surfaces that are hidden or come into view.
 #include <algorithm>
 #include <cmath>
 #include <vector>

@@ -108,7 +108,7 @@ class FadeWatch {
         fallen_ = std::max(fallen_, was.fade - is.fade);
         continue;
       }
-      // What comes in over the border does so with its marks, and takes them out again.
+      // Marks may enter and leave at the border without fading.
       if (is.isAlive() && isWithin(is.px, 4.0F)) risen_ = std::max(risen_, is.fade);
       if (was.isAlive() && isWithin(was.px, 4.0F)) fallen_ = std::max(fallen_, was.fade);
       if (was.isAlive()) ++ended_;

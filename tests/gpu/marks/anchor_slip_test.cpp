@@ -79,7 +79,7 @@ class Slips {
   int longest_ = 0;
 };
 
-/// What only one source tells of a motion, exactly.
+/// An exact motion that only one source reports.
 struct Telling {
   std::vector<FeatureMotion> features;
   std::vector<glm::vec4> forward;

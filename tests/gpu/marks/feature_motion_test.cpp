@@ -1,4 +1,5 @@
-// What single points are told by the features about them, against the thesis in double.
+// The motion at single points from the features around them, compared with the thesis' formula in
+// double precision.
 #include <array>
 #include <cmath>
 #include <string>

@@ -189,7 +189,7 @@ TEST_F(FilteredFrameTest, PastThatDoesNotBelongIsLeftOut) {
   EXPECT_FRESH(other) << "no time constant";
 }
 
-// What changes where nothing moved is there at once, but for what noise could be.
+// A change without motion appears at once, unless it could be noise.
 TEST_F(FilteredFrameTest, LeavesNoGhosts) {
   for (int i = 0; i < 20; ++i) take(frameOf(seen({0.0, 0.0}, static_cast<unsigned>(i)), i));
   const hal::Image gone = seen({-400.0, 0.0}, 77);  // the disc is not in the picture any more

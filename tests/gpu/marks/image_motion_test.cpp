@@ -1,5 +1,5 @@
-// What single points of the picture are told of their motion, source by source, against plain
-// arithmetic in double and finite differences. Features: feature_motion_test.cpp.
+// The motion at single points of the image, source by source, compared with plain arithmetic in
+// double precision and finite differences. Features: feature_motion_test.cpp.
 #include <array>
 #include <cmath>
 #include <string>

@@ -16,7 +16,7 @@
 
 namespace pleinair::marks {
 
-/// What shaders/image_motion.glsl is asked.
+/// A query to shaders/image_motion.glsl.
 struct MotionQuestion {
   glm::vec2 px{0.0F};
   float layer = 0.0F;     ///< the real object that px is on, or 0

@@ -141,7 +141,7 @@ TEST_F(StrokeHistory, ARollDoesNotLagWhereItIsTold) {
   EXPECT_NEAR(lagOf({1.0F, 0.0F, 0.0F, 1.0F}), untold, 1.0) << "the control";
 }
 
-/// What is seen edge on leaves no direction: then it is what the frame says.
+/// A stroke seen edge-on has no direction left, so it takes the frame's.
 TEST_F(StrokeHistory, WhereNothingIsLeftOfThePastTheFrameSays) {
   const glm::vec2 now = directionOf(40.0);
   const glm::vec2 held = answerTo({.now = now, .jacobian = glm::vec4(0.0F)});

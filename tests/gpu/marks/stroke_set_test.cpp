@@ -12,7 +12,7 @@
 namespace pleinair::marks {
 namespace {
 
-/// What a level of the field, or a picture, gives where it is read between texels.
+/// Bilinear interpolation of a level of the field, or of an image.
 template <class T>
 T bilinear(const std::vector<T>& texels, hal::FrameSize size, glm::dvec2 at) {
   const glm::dvec2 low = glm::floor(at - 0.5);

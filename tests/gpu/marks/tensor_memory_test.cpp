@@ -1,4 +1,4 @@
-// What the tensor field promises of time: memory, carried along, that does not lag.
+// The tensor field over time: its memory is carried along the motion and does not lag.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -14,7 +14,7 @@ namespace {
 
 class TensorMemory : public TensorFieldFixture {};
 
-/// What was known of a picture that has gone blank turns with it, and is forgotten in time.
+/// The memory of an image that has gone blank turns with it, and fades.
 TEST_F(TensorMemory, MemoryIsCarriedAlongARoll) {
   const auto stripes = [](glm::dvec2 px) { return 0.5 + 0.3 * std::sin(0.6 * px.x); };
   constexpr double kRoll = 0.06;
@@ -120,7 +120,7 @@ TEST_F(TensorMemory, ARegionsClassDoesNotFlicker) {
   EXPECT_LE(with, without / 20);
 }
 
-/// What is held is off by the slack at the most, and goes along.
+/// Held detail differs by at most the slack, and is carried along the motion.
 TEST_F(TensorMemory, DetailThatIsHeldIsOffByItsSlackAtMost) {
   const TensorFieldOptions options{.memory = hal::Duration(0), .slack = 0.2};
   const auto texture = [](double strength) {

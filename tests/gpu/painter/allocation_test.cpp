@@ -72,10 +72,10 @@ struct Show {
   Painter& painter;
   bool changesLevels = false;
   PaintParameters parameters = painter.defaultParameters();
-  const int reader = painter.openReadback({hal::PixelFormat::kI420, kFrame});
+  const int readback = painter.openReadback({hal::PixelFormat::kI420, kFrame});
   OutputFrame picture;
   std::size_t painted = 0;
-  std::size_t mostTags = 0;
+  std::size_t maxTags = 0;
   bool everWorld = false;
 
   void play(const std::vector<hal::CapturedFrame>& frames) {
@@ -84,10 +84,10 @@ struct Show {
       const hal::Result<Picture> result = painter.paint(frame, parameters);
       if (!result) continue;
       ++painted;
-      mostTags = std::max(mostTags, result->tracking.tags.size());
+      maxTags = std::max(maxTags, result->tracking.tags.size());
       everWorld |= result->tracking.cameraFromWorld.has_value();
-      while (hal::orThrow(painter.hasRoom(reader) ? painter.poll(reader, picture)
-                                                  : painter.wait(reader, picture))) {
+      while (hal::orThrow(painter.hasRoom(readback) ? painter.poll(readback, picture)
+                                                    : painter.wait(readback, picture))) {
       }
     }
   }
@@ -103,7 +103,7 @@ TEST_P(PainterAllocations, AreNoneAFrameOnceAllIsWarm) {
   Show show{.painter = painter};
   show.play(frames);
   ASSERT_EQ(show.painted, frames.size());
-  ASSERT_EQ(show.mostTags, kTags.size());
+  ASSERT_EQ(show.maxTags, kTags.size());
   ASSERT_TRUE(show.everWorld);
   EXPECT_EQ(support::allocationsIn([&] { show.play(frames); }), 0) << support::allocationSites();
   EXPECT_EQ(show.painted, 2 * frames.size());

@@ -67,7 +67,7 @@ void expectSwitchesOfANewContext() {
   EXPECT_EQ(viewport, kViewport);
 }
 
-/// What a host's own drawing may leave behind, and what would spoil ours.
+/// GL state that a host's drawing may leave behind and that would spoil the Painter's.
 class UntidyHost {
  public:
   UntidyHost() : texture_(gpu::TextureFormat::kRgba8, {4, 4}) { glGenSamplers(1, &sampler_); }
@@ -129,14 +129,14 @@ TEST_F(HostContextTest, LeavesTheHostsContextAsNew) {
   {
     Painter painter(kHosted);
     expectNothingBound();
-    const int reader = painter.openReadback({hal::PixelFormat::kI420, kSize});
+    const int readback = painter.openReadback({hal::PixelFormat::kI420, kSize});
     OutputFrame picture;
     for (int i = 0; i < 2; ++i) {
       ASSERT_TRUE(painter.paint(testFrame(i), painter.defaultParameters()));
       expectNothingBound();
       expectSwitchesOfANewContext();
     }
-    ASSERT_TRUE(hal::orThrow(painter.wait(reader, picture)));
+    ASSERT_TRUE(hal::orThrow(painter.wait(readback, picture)));
     hal::orThrow(painter.snapshot());
     expectNothingBound();
     expectSwitchesOfANewContext();

@@ -48,18 +48,18 @@ void expectLost(const hal::Answer& answer) {
 }
 
 /// All calls of a Painter whose GPU is gone.
-void expectNothingComes(Painter& painter, int reader) {
+void expectNothingComes(Painter& painter, int readback) {
   OutputFrame picture;
   const PaintParameters parameters = painter.defaultParameters();
   for (int round = 0; round < 2; ++round) {
     expectLost(painter.paint(testFrame(7), parameters));
-    expectLost(painter.poll(reader, picture));
-    expectLost(painter.wait(reader, picture));
+    expectLost(painter.poll(readback, picture));
+    expectLost(painter.wait(readback, picture));
     expectLost(painter.waitForAny(std::chrono::minutes(1)));
     expectLost(painter.snapshot());
     expectLost(painter.cameraSnapshot());
     painter.reset();
-    EXPECT_EQ(painter.skipped(reader), 0U);
+    EXPECT_EQ(painter.skipped(readback), 0U);
     EXPECT_FALSE(painter.views().empty());
     try {
       painter.openReadback({hal::PixelFormat::kRgb8, kSize});
@@ -71,14 +71,14 @@ void expectNothingComes(Painter& painter, int reader) {
 }
 
 TEST_F(PainterTest, AnswersALostGpuWithValuesForEver) {
-  Painter sound({.pictureSize = kSize});
-  const auto wanted = painted(sound, testFrame(0));
+  Painter healthy({.pictureSize = kSize});
+  const auto wanted = painted(healthy, testFrame(0));
   for (const unsigned why :
        {GL_GUILTY_CONTEXT_RESET_KHR, GL_INNOCENT_CONTEXT_RESET_KHR, GL_UNKNOWN_CONTEXT_RESET_KHR}) {
     BadDriver driver;
     {
       Painter painter({.pictureSize = kSize, .qualityLevels = true, .testHook = driver.testHook()});
-      const int reader = painter.openReadback({hal::PixelFormat::kRgb8, kSize});
+      const int readback = painter.openReadback({hal::PixelFormat::kRgb8, kSize});
       EXPECT_EQ(painted(painter, testFrame(0)), wanted);
       driver.status = why;
       const auto refused = painter.paint(testFrame(1), painter.defaultParameters());
@@ -86,7 +86,7 @@ TEST_F(PainterTest, AnswersALostGpuWithValuesForEver) {
       EXPECT_EQ(refused.error().code, static_cast<int>(why));
       EXPECT_THAT(refused.error().message(), testing::StartsWith("GPU: was reset"));
       driver.status = GL_NO_ERROR;  // as drivers answer once they have told
-      expectNothingComes(painter, reader);
+      expectNothingComes(painter, readback);
     }
     Painter next({.pictureSize = kSize});
     EXPECT_EQ(painted(next, testFrame(0)), wanted) << "another one works";
@@ -96,20 +96,20 @@ TEST_F(PainterTest, AnswersALostGpuWithValuesForEver) {
 TEST_F(PainterTest, TakesAGpuThatDoesNotAnswerForLost) {
   BadDriver driver;
   Painter painter({.pictureSize = kSize, .testHook = driver.testHook()});
-  const int reader = painter.openReadback({hal::PixelFormat::kRgb8, kSize});
+  const int readback = painter.openReadback({hal::PixelFormat::kRgb8, kSize});
   ASSERT_TRUE(painter.paint(testFrame(0), painter.defaultParameters()));
   driver.hangs = true;
   OutputFrame picture;
-  EXPECT_FALSE(hal::orThrow(painter.poll(reader, picture))) << "it may only be late";
+  EXPECT_FALSE(hal::orThrow(painter.poll(readback, picture))) << "it may only be late";
   const hal::TimePoint before = driver.clock.now();
   driver.fencesAsked = 0;
-  const auto taken = painter.wait(reader, picture);
+  const auto taken = painter.wait(readback, picture);
   expectLost(taken);
   EXPECT_THAT(taken.error().message(), testing::HasSubstr("hangs"));
   EXPECT_EQ(driver.fencesAsked, 3);
   EXPECT_EQ(driver.clock.now() - before, std::chrono::milliseconds(1999));
   driver.hangs = false;
-  expectNothingComes(painter, reader);
+  expectNothingComes(painter, readback);
 }
 
 TEST_F(PainterTest, WaitsForAPictureNoLongerThanItMay) {
@@ -142,12 +142,12 @@ TEST_F(PainterTest, ClosesAReadbackOfALostGpu) {
 TEST_F(PainterTest, NoticesALossWhileASnapshotIsWaitedFor) {
   BadDriver driver;
   Painter painter({.pictureSize = kSize, .testHook = driver.testHook()});
-  const int reader = painter.openReadback({hal::PixelFormat::kRgb8, kSize});
+  const int readback = painter.openReadback({hal::PixelFormat::kRgb8, kSize});
   ASSERT_TRUE(painter.paint(testFrame(0), painter.defaultParameters()));
   driver.hangs = true;
   expectLost(painter.snapshot());
   driver.hangs = false;
-  expectNothingComes(painter, reader);
+  expectNothingComes(painter, readback);
 }
 
 TEST_F(PainterTest, SaysAtStartWhereTheGpuIsLostByThen) {
@@ -163,17 +163,17 @@ TEST_F(PainterTest, ItsContextTellsOfResetsWhereTheDriverCan) {
     GTEST_SKIP() << painter.contextInfo().renderer << " has no reset notification";
   }
   gpu::EglContext context;
-  EXPECT_TRUE(gpu::ResetMonitor().check()) << "a sound one";
+  EXPECT_TRUE(gpu::ResetMonitor().check()) << "a healthy one";
 }
 
 class LostHostContextTest : public support::GlTest {};
 
-/// What the Painter had stays in the dead context; a new one in the host's next context works.
+/// The Painter's objects stay in the lost context; a new Painter in the host's next context works.
 TEST_F(LostHostContextTest, IsLeftAsItIs) {
   BadDriver driver;
   auto lost = std::make_unique<Painter>(PainterOptions{
       .pictureSize = kSize, .context = PainterContext::kHost, .testHook = driver.testHook()});
-  const int reader = lost->openReadback({hal::PixelFormat::kRgb8, kSize});
+  const int readback = lost->openReadback({hal::PixelFormat::kRgb8, kSize});
   const auto picture = lost->paint(testFrame(0), lost->defaultParameters());
   ASSERT_TRUE(picture);
   const unsigned texture = picture->texture;
@@ -186,7 +186,7 @@ TEST_F(LostHostContextTest, IsLeftAsItIs) {
     {
       const gpu::EglContext anew;
       Painter next({.pictureSize = kSize, .context = PainterContext::kHost});
-      expectNothingComes(*lost, reader);
+      expectNothingComes(*lost, readback);
       lost.reset();  // with another context current
       EXPECT_TRUE(next.paint(testFrame(0), next.defaultParameters()));
     }

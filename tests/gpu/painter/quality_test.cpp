@@ -145,7 +145,7 @@ TEST_F(PainterTest, EveryLevelPaintsTheTiniestPictures) {
   }
 }
 
-/// What the camera and the models show lies where it does at the full size, to part of a pixel.
+/// The camera's image and the models lie at the same places as at full size, to a fraction of a px.
 TEST_F(PainterTest, LevelsShowTheSamePlaces) {
   const auto frames = workbench(0, 1);
   for (const hal::FrameSize size : {kSize, hal::FrameSize{306, 171}}) {

@@ -14,31 +14,31 @@ void paintFrames(Painter& painter, int first, int end) {
 
 TEST_F(PainterTest, ReadsPicturesInOrder) {
   Painter painter(kPlain);
-  const int reader = painter.openReadback({PixelFormat::kRgb8, {96, 64}});
+  const int readback = painter.openReadback({PixelFormat::kRgb8, {96, 64}});
   OutputFrame picture;
-  EXPECT_FALSE(hal::orThrow(painter.poll(reader, picture)));
-  EXPECT_FALSE(hal::orThrow(painter.wait(reader, picture)));
+  EXPECT_FALSE(hal::orThrow(painter.poll(readback, picture)));
+  EXPECT_FALSE(hal::orThrow(painter.wait(readback, picture)));
   paintFrames(painter, 0, 3);
   for (int i = 0; i < 3; ++i) {
-    ASSERT_TRUE(hal::orThrow(painter.wait(reader, picture)));
+    ASSERT_TRUE(hal::orThrow(painter.wait(readback, picture)));
     const hal::CapturedFrame frame = testFrame(i);
     EXPECT_EQ(picture.sequence, frame.sequence);
     EXPECT_EQ(picture.captureTime, frame.captureTime);
     EXPECT_EQ(bytesOf(picture.image), bytesOf(hal::Image(frame.image))) << i;
   }
-  EXPECT_FALSE(hal::orThrow(painter.wait(reader, picture)));
-  EXPECT_EQ(painter.skipped(reader), 0u);
+  EXPECT_FALSE(hal::orThrow(painter.wait(readback, picture)));
+  EXPECT_EQ(painter.skipped(readback), 0u);
 }
 
 TEST_F(PainterTest, TakesWithoutWaitingOnceTheGpuIsDone) {
   Painter painter(kPlain);
-  const int reader = painter.openReadback({PixelFormat::kRgb8, {96, 64}});
+  const int readback = painter.openReadback({PixelFormat::kRgb8, {96, 64}});
   paintFrames(painter, 0, 1);
-  const hal::Image still = hal::orThrow(painter.snapshot());  // waits for the GPU
+  const hal::Image snapshot = hal::orThrow(painter.snapshot());  // waits for the GPU
   OutputFrame picture;
-  ASSERT_TRUE(hal::orThrow(painter.poll(reader, picture)));
-  EXPECT_EQ(bytesOf(picture.image), bytesOf(still));
-  EXPECT_FALSE(hal::orThrow(painter.poll(reader, picture)));
+  ASSERT_TRUE(hal::orThrow(painter.poll(readback, picture)));
+  EXPECT_EQ(bytesOf(picture.image), bytesOf(snapshot));
+  EXPECT_FALSE(hal::orThrow(painter.poll(readback, picture)));
 }
 
 TEST_F(PainterTest, SkipsPicturesWhileAReaderIsFull) {

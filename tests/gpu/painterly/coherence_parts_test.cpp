@@ -1,4 +1,4 @@
-// What each part of the painter's coherence is worth: switched off, its own measure is worse.
+// Each part of the painterly style's coherence improves its own measure over that without it.
 #include "tests/reports/painter/coherence_parts.h"
 
 #include <algorithm>

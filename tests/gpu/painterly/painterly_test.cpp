@@ -214,7 +214,7 @@ TEST_F(PainterlyTest, AtNoCoherenceTheFieldIsTheFramesOwn) {
   EXPECT_NE(fieldAfter("0.5", true), fieldAfter("0.5", false)) << "the past is to count";
 }
 
-/// What never lets go keeps its colours, whatever the picture does.
+/// Strokes that are never updated keep their colours, however the image changes.
 TEST_F(PainterlyTest, AtFullCoherenceThePaintingStays) {
   Painterly style(library_);
   style.setParameters(style.parameters().with("coherence", "1").with("wash", "0"));

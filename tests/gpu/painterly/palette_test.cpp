@@ -72,7 +72,7 @@ TEST(Palette, MixesTheNearestThatItCan) {
   }
 }
 
-/// What makes a limited palette flicker no more than the strokes do.
+/// Similar colours map to similar colours, so that a limited palette adds no flicker.
 TEST(Palette, TakesNeighboursToNeighbours) {
   Random random;
   const Pigments pigments = pigmentsOf("zorn");

@@ -1,4 +1,5 @@
-// What is drawn of a stroke: the spline's points against the thesis's text on the CPU, and brushes.
+// The geometry of strokes: the spline's points compared with the thesis' formula on the CPU, and
+// brushes.
 #include <array>
 #include <bit>
 #include <cmath>

@@ -1,4 +1,5 @@
-// What strokes are drawn of: as few quads as they bend, against the splines of the CPU.
+// The quads that strokes are drawn with: as few as their curvature allows, compared with splines of
+// the CPU.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

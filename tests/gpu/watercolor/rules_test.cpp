@@ -1,4 +1,4 @@
-// What llvmpipe would let pass and the targets would not (docs/gpu.md, rules 2-4).
+// Errors that llvmpipe tolerates and the target GPUs do not (docs/gpu.md, rules 2-4).
 #include <regex>
 #include <string>
 

@@ -144,7 +144,7 @@ TEST_F(WashTest, ACellOfTwoColoursIsPaintedWithThose) {
   EXPECT_NEAR(found.lightShare, 0.8, 1e-9);
 }
 
-// What the eye forgives least: washes end where the things do, whatever the cells do there.
+// Washes end at the edges of things, wherever the cells end: viewers notice this most.
 TEST_F(WashTest, WashesEndAtTheEdgesOfThePicture) {
   constexpr hal::FrameSize kSize{160, 120};
   const glm::dvec3 dark(0.25, 0.3, 0.5);

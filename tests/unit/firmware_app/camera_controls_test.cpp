@@ -1,4 +1,4 @@
-// What [camera] asks of a device.
+// Requests of [camera] to a device.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

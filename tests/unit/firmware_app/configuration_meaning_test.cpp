@@ -1,5 +1,5 @@
-// What a configuration says once it is read: to whom a mistake is told, what is printed, what it
-// means.
+// The meaning of a configuration that was read: how errors name their place, how values are
+// printed, which options they give.
 #include <string>
 
 #include <gmock/gmock.h>

@@ -32,7 +32,7 @@ class ConfigurationTest : public testing::Test {
     return configuration.camera().tableOf(hal::synthetic::cameraKind()).text("seed");
   }
 
-  /// What the error says; "(nothing thrown)" if there is none.
+  /// The error's message; "(nothing thrown)" if there is none.
   std::string refusal() const {
     try {
       resolved();

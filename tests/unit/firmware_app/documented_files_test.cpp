@@ -79,7 +79,7 @@ TEST(DocumentedFiles, GuideShowsTheMessageOfAMistake) {
   }
 }
 
-/// What resolves the text as the site file "site.toml"; the error's text, or "".
+/// Resolves the text as the site file "site.toml"; gives the error's text, or "".
 std::string resolved(const std::string& text, const std::vector<std::string>& set = {}) {
   const support::TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "site.toml";

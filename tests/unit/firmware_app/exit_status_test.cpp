@@ -13,7 +13,7 @@ namespace {
 using hal::ErrorDomain;
 using hal::ErrorKind;
 
-/// What is printed of an exception, and the status.
+/// The printed message of an exception, and the exit status.
 template <class Exception>
 std::pair<std::string, ExitStatus> reported(const Exception& exception) {
   testing::internal::CaptureStderr();

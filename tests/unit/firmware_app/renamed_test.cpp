@@ -1,4 +1,4 @@
-// What has another name now is refused by an error that says the new one.
+// Renamed keys, options and views are refused by an error that gives the new name.
 #include "firmware_app/config/renamed.h"
 
 #include <gmock/gmock.h>

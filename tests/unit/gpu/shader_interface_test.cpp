@@ -1,4 +1,4 @@
-// What is read out of a shader's text, without a GPU.
+// The interface that is parsed from a shader's text. Needs no GPU.
 #include "pipeline/gpu/shader_interface.h"
 
 #include <gmock/gmock.h>

@@ -10,7 +10,7 @@ using namespace std::chrono_literals;
 class LatencyControlTest : public testing::Test {
  protected:
   static constexpr hal::Duration kPeriod = 33ms;
-  /// Pictures that are ready so long after their capture.
+  /// Notes frames, each ready `ready` after its capture.
   void run(hal::Duration duration, hal::Duration ready, bool isLowest) {
     for (const hal::TimePoint end = now_ + duration; now_ < end; now_ += kPeriod) {
       control_.ready(control_.latency() - ready, isLowest, now_);

@@ -1,5 +1,5 @@
-// The live chain under a stepped clock: every case of the fixed latency
-// (docs/decisions/0009-fixed-latency.md), and what may befall a camera and a GPU meanwhile.
+// The live pipeline under a stepped clock: every case of the fixed latency
+// (docs/decisions/0009-fixed-latency.md), and failures of cameras and of the GPU.
 #include "pipeline/runtime/live_pipeline.h"
 
 #include <array>
@@ -37,15 +37,15 @@ class LivePipelineTest : public testing::Test {
     EXPECT_TRUE(counts().addsUp());
     for (const auto& output : status().outputs) EXPECT_TRUE(output.addsUp()) << output.name;
   }
-  /// The longest time without a new picture.
-  hal::Duration longestGap() const {
+  /// The longest time between two images at the output.
+  hal::Duration maxGap() const {
     hal::Duration longest{0};
     for (std::size_t i = 1; i < live_.notes.size(); ++i) {
       longest = std::max(longest, live_.notes[i].presented - live_.notes[i - 1].presented);
     }
     return longest;
   }
-  /// From capture to being shown, of each picture from `first` on.
+  /// The time from capture to being shown for each image from `first` on.
   std::vector<hal::Duration> latencies(std::size_t first = 0) const {
     std::vector<hal::Duration> found;
     for (std::size_t i = first; i < live_.notes.size(); ++i) {
@@ -145,7 +145,7 @@ TEST_F(LivePipelineTest, RaisesTheLatencyOnlyWhereNothingElseHelpsAndBringsItBac
   for (const hal::Duration each : latencies(settled)) {
     EXPECT_LE(each, latencySettled + 8ms);
   }
-  EXPECT_LE(longestGap(), 230ms);
+  EXPECT_LE(maxGap(), 230ms);
 
   cost = 15ms;
   live_.runFor(150s);
@@ -161,7 +161,7 @@ TEST_F(LivePipelineTest, SurvivesABurstOfFiftyLateFrames) {
   };
   begin({.frames = 3'000});
   live_.drain();
-  EXPECT_LE(longestGap(), 200ms);
+  EXPECT_LE(maxGap(), 200ms);
   EXPECT_GT(counts().dropped(), 20u);
   EXPECT_LT(counts().dropped(), 60u);
   EXPECT_EQ(latencies().back(), 120ms);
@@ -178,7 +178,7 @@ TEST_F(LivePipelineTest, GivesUpAPictureThatIsNeverReady) {
   EXPECT_EQ(live_.gpu.made, 2);
   EXPECT_EQ(live_.gpu.painters, 1) << "the first one is gone";
   EXPECT_EQ(counts().of(Outcome::kContextLost), 2u) << "it, and the one behind it";
-  EXPECT_LT(longestGap(), 10'500ms);
+  EXPECT_LT(maxGap(), 10'500ms);
   expectSumsToAgree();
 }
 
@@ -241,7 +241,7 @@ TEST_F(LivePipelineTest, ShowsPicturesAlsoWhereFewerCanWaitThanFallDue) {
   begin({.frames = 300});
   live_.drain();
   EXPECT_GE(counts().of(Outcome::kShown), 100u);
-  EXPECT_LE(longestGap(), 300ms);
+  EXPECT_LE(maxGap(), 300ms);
   expectSumsToAgree();
 }
 
@@ -259,7 +259,7 @@ TEST_F(LivePipelineTest, GivesAnOutputNoMoreThanItsLimit) {
   expectSumsToAgree();
 }
 
-/// With cameras that go and come back.
+/// Cameras that are lost and come back.
 class LostCameraTest : public LivePipelineTest {
  protected:
   void begin(std::vector<support::ScriptedSession> sessions) {
@@ -288,7 +288,7 @@ TEST_F(LostCameraTest, GoesOnWhenTheCameraIsBack) {
   expectSumsToAgree();
 }
 
-/// Only the mailbox between camera and painter replaces frames, and only it says so.
+/// Only the mailbox between camera and painter replaces frames.
 TEST_F(LostCameraTest, ASlowPainterReplacesFramesAndTheCameraLosesNone) {
   live_.gpu.cost = [](auto, auto) { return 100ms; };  // three frames' time
   begin({{.startError = {},
@@ -305,10 +305,10 @@ TEST_F(LostCameraTest, ASlowPainterReplacesFramesAndTheCameraLosesNone) {
 }
 
 TEST_F(LostCameraTest, ACameraWithoutABufferIsAnUnderrunAndNothingElse) {
-  const support::ScriptedFrame starved{.after = 99ms, .dropped = 2, .underruns = 2};
+  const support::ScriptedFrame underrun{.after = 99ms, .dropped = 2, .underruns = 2};
   begin({{.startError = {},
-          .steps = support::scriptOf(support::scriptedFrames(30), starved,
-                                     support::scriptedFrames(30), starved, hal::EndOfStream{})}});
+          .steps = support::scriptOf(support::scriptedFrames(30), underrun,
+                                     support::scriptedFrames(30), underrun, hal::EndOfStream{})}});
   live_.runFor(5s);
   EXPECT_EQ(counts().captured, 66u);
   EXPECT_EQ(counts().of(Outcome::kBufferUnderrun), 4u);
@@ -341,7 +341,7 @@ TEST_F(LostCameraTest, CountsBrokenFramesAlsoWhereNoSoundOneFollows) {
   expectSumsToAgree();
 }
 
-/// Random loads, delays and faults, the same for the same seed.
+/// Random loads, delays and faults; a seed determines them.
 class RandomLive : public testing::TestWithParam<unsigned> {};
 
 struct RandomRun {

@@ -1,5 +1,6 @@
-// The live chain on its threads and the real clock: what may block, hang or be stopped at any
-// moment. Nothing here depends on how fast the machine is; waits have generous limits.
+// The live pipeline on its threads and the real clock: stages that block, hang, come, go or
+// are stopped at any moment. No result depends on the speed of the machine; waits have generous
+// limits.
 #include "pipeline/runtime/live_threads.h"
 
 #include <chrono>
@@ -21,13 +22,14 @@ using support::PacedCamera;
 using support::PassThroughPainter;
 using support::ProcessResources;
 
-/// Counts what it gets, and blocks where it is told to.
+/// Counts its images, and blocks on request.
 class BlockingOutput final : public hal::MemoryOutput {
  public:
   struct Control {
-    std::atomic<int> written = 0;
+    std::atomic<int> written = 0;  ///< notified
     std::atomic<bool> blocks = false;
     std::atomic<bool> finished = false;
+    std::binary_semaphore blocked{0};  ///< released when a write begins to block
     std::binary_semaphore release{0};
   };
   explicit BlockingOutput(Control& control) : control_(control) {}
@@ -38,8 +40,12 @@ class BlockingOutput final : public hal::MemoryOutput {
         .refresh = {}};
   }
   hal::Result<void> write(const hal::ImageView&, hal::Duration) override {
-    if (control_.blocks) control_.release.acquire();
+    if (control_.blocks) {
+      control_.blocked.release();
+      control_.release.acquire();
+    }
     ++control_.written;
+    control_.written.notify_all();
     return {};
   }
   hal::Result<void> finish() override {
@@ -51,7 +57,7 @@ class BlockingOutput final : public hal::MemoryOutput {
   Control& control_;
 };
 
-/// A chain of a paced camera, a painter that passes on, and outputs that block.
+/// A live pipeline with a paced camera, a painter that copies frames, and outputs that may block.
 class Live {
  public:
   explicit Live(std::size_t outputs, hal::Duration period = 4ms)
@@ -66,7 +72,11 @@ class Live {
         threads_(chain_),
         controls_(outputs) {
     while (!chain_.capture().status().format) std::this_thread::sleep_for(1ms);
-    for (BlockingOutput::Control& control : controls_) addOutput(control);
+    for (BlockingOutput::Control& control : controls_) {
+      auto output = std::make_unique<BlockingOutput>(control);
+      const hal::OutputFormat format = formatOf(*output);
+      chain_.addOutput(std::move(output), format, options());
+    }
     chain_.makePaintStage(
         [outputs](const auto&) { return std::make_unique<PassThroughPainter>(outputs); },
         {.governor = {.levels = 5, .pinned = {}},
@@ -79,7 +89,21 @@ class Live {
 
   LivePipeline& chain() { return chain_; }
   BlockingOutput::Control& output(std::size_t index) { return controls_.at(index); }
+  LiveThreads& threads() { return threads_; }
   LiveThreads::Stopped stop(hal::Duration patience = 20s) { return threads_.stop(patience); }
+  /// Adds an output while frames flow; its control has the next index.
+  OutputStage& add() {
+    auto output = std::make_unique<BlockingOutput>(controls_.emplace_back());
+    const hal::OutputFormat format = formatOf(*output);
+    return threads_.addOutput(std::move(output), format, options());
+  }
+  /// Returns when the output has got `count` more images. Only the test's time limit ends it
+  /// sooner.
+  void awaitPictures(std::size_t index, int count) {
+    std::atomic<int>& written = output(index).written;
+    const int wanted = written + count;
+    for (int now = written; now < wanted; now = written) written.wait(now);
+  }
   void waitForPictures(std::size_t index, int count) {
     const int wanted = output(index).written + count;
     const auto deadline = std::chrono::steady_clock::now() + 60s;
@@ -91,11 +115,10 @@ class Live {
 
  private:
   static hal::Duration noDelay(std::uint64_t) { return hal::Duration{0}; }
-  void addOutput(BlockingOutput::Control& control) {
-    auto output = std::make_unique<BlockingOutput>(control);
-    const auto format = *output->start({.size = {8, 6}, .framePeriod = {}});
-    chain_.addOutput(std::move(output), format, {.name = "output", .waiting = 8});
+  static hal::OutputFormat formatOf(hal::Output& output) {
+    return *output.start({.size = {8, 6}, .framePeriod = {}});
   }
+  static OutputStageOptions options() { return {.name = "output", .waiting = 8}; }
 
   hal::SteadyClock clock_;
   hal::CameraSelector selector_;
@@ -134,6 +157,94 @@ TEST(LiveThreadsTest, LeavesBehindAnOutputThatNeverComesBack) {
   live.output(0).blocks = false;  // so that this test can end
   live.output(0).release.release();
   EXPECT_TRUE(live.stop().stuck.empty());
+}
+
+/// Each frame of each output, and each frame of the ledger, has an outcome or is in flight.
+void expectSumsToAgree(const LivePipeline& chain) {
+  const RuntimeStatus status = chain.status();
+  EXPECT_TRUE(status.ledger.addsUp());
+  for (const OutputStage::Status& output : status.outputs) EXPECT_TRUE(output.addsUp());
+}
+
+TEST(LiveThreadsTest, OutputsComeAndGoWhileFramesFlow) {
+  Live live(1);
+  OutputStage& first = live.chain().output(0);
+  live.awaitPictures(0, 5);
+  OutputStage& second = live.add();
+  live.awaitPictures(1, 5);
+  live.awaitPictures(0, 5);
+  EXPECT_EQ(live.chain().status().outputs.size(), 2u);
+  expectSumsToAgree(live.chain());
+
+  live.threads().removeOutput(first);
+  const auto removed = live.threads().takeRemoved(60s);
+  ASSERT_TRUE(removed.has_value());
+  EXPECT_EQ(removed->output.get(), &first);
+  EXPECT_FALSE(removed->failure.has_value());
+  EXPECT_TRUE(live.output(0).finished);
+  const OutputStage::Status ended = removed->output->status();
+  EXPECT_TRUE(ended.addsUp());
+  EXPECT_EQ(ended.waiting, 0u);
+  EXPECT_EQ(ended.presented, static_cast<std::uint64_t>(live.output(0).written));
+  EXPECT_FALSE(live.threads().takeRemoved().has_value());
+
+  live.awaitPictures(1, 20);
+  EXPECT_EQ(ended.presented, static_cast<std::uint64_t>(live.output(0).written));
+  EXPECT_EQ(live.chain().outputCount(), 1u);
+  expectSumsToAgree(live.chain());
+
+  EXPECT_TRUE(live.stop().stuck.empty());
+  EXPECT_TRUE(live.output(1).finished);
+  EXPECT_EQ(second.status().waiting, 0u);
+  expectSumsToAgree(live.chain());
+  const LedgerCounts ledger = live.chain().ledger().counts();
+  EXPECT_EQ(ledger.inFlight, 0u);
+  // The ledger counts a frame once that both outputs have shown.
+  const std::uint64_t other = second.status().presented;
+  EXPECT_GE(ledger.shown(), std::max(ended.presented, other));
+  EXPECT_LE(ledger.shown(), ended.presented + other);
+}
+
+TEST(LiveThreadsTest, ARemovedOutputThatBlocksHoldsUpNoOther) {
+  Live live(2);
+  live.awaitPictures(0, 1);
+  live.output(0).blocks = true;
+  live.output(0).blocked.acquire();
+  live.threads().removeOutput(live.chain().output(0));
+  live.awaitPictures(1, 100);
+  EXPECT_FALSE(live.output(0).finished);
+  EXPECT_FALSE(live.threads().takeRemoved().has_value());
+  live.output(0).blocks = false;
+  live.output(0).release.release();
+  EXPECT_TRUE(live.threads().takeRemoved(60s).has_value());
+  EXPECT_TRUE(live.output(0).finished);
+  EXPECT_TRUE(live.stop().stuck.empty());
+  EXPECT_EQ(live.chain().ledger().counts().inFlight, 0u);
+}
+
+TEST(LiveThreadsTest, OutputsThatComeAndGoAHundredTimesLeaveNothing) {
+  Live live(1, 1ms);
+  live.awaitPictures(0, 1);
+  const ProcessResources before = ProcessResources::now();
+  for (std::size_t i = 1; i <= 100; ++i) {
+    OutputStage& added = live.add();
+    if (i % 2 == 0) live.awaitPictures(i, 2);  // otherwise it may go before the painter knows it
+    live.threads().removeOutput(added);
+    if (i % 4 == 0) continue;  // taken later, with the next
+    const auto removed = live.threads().takeRemoved(60s);
+    ASSERT_TRUE(removed.has_value());
+    ASSERT_TRUE(removed->output->status().addsUp());
+  }
+  while (live.chain().outputCount() > 1) {
+    ASSERT_TRUE(live.threads().takeRemoved(60s).has_value());
+  }
+  EXPECT_EQ(ProcessResources::now().threads, before.threads);
+  live.awaitPictures(0, 5);
+  // A removed output that nobody takes is ended by stop().
+  live.threads().removeOutput(live.add());
+  EXPECT_TRUE(live.stop().stuck.empty());
+  expectSumsToAgree(live.chain());
+  EXPECT_EQ(live.chain().ledger().counts().inFlight, 0u);
 }
 
 TEST(LiveThreadsTest, StartsAndStopsAHundredTimesWithoutLeavingAnything) {

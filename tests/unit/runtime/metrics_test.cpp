@@ -39,7 +39,7 @@ std::string familyOf(const Metric& metric) {
   return code(labels.empty() ? name : name + "{" + labels + "}");
 }
 
-/// The table of docs/operation.md, as the declarations have it.
+/// The table of docs/operation.md as generated from the declarations.
 std::string documentedTable() {
   std::string table =
       "| in `/status` | in `/metrics`, after `pleinair_` | type | what |\n|---|---|---|---|\n";
@@ -75,7 +75,7 @@ TEST(MetricDeclarations, NamesAreUniqueAndWhatPrometheusTakes) {
     EXPECT_TRUE(std::regex_match(family, kName)) << family;
     EXPECT_TRUE(families.insert(family).second) << family;
   }
-  // A name that was given up stays given up, or dashboards would show something else under it.
+  // A former name is never reused, because dashboards would show another metric under it.
   for (const Metric& metric : allMetrics()) {
     EXPECT_FALSE(families.contains(std::string(metric.formerly))) << metric.formerly;
   }

@@ -1,4 +1,4 @@
-// One output's stage under a stepped clock: failing, opening anew, skipping.
+// One output's stage under a stepped clock: failures, reopening, skipping.
 #include "pipeline/runtime/output_stage.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ using namespace std::chrono_literals;
 
 constexpr hal::FrameFormat kFormat{.pixelFormat = hal::PixelFormat::kGrey8, .size = {8, 6}};
 
-/// What a device does; shared by the outputs that open it one after another.
+/// The behaviour of a device; shared by the outputs that open it one after another.
 struct Device {
   bool isBroken = false;  ///< write() fails
   bool isFull = false;    ///< write() skips
@@ -72,7 +72,7 @@ class OutputStageTest : public testing::Test {
     stage_ = std::make_unique<OutputStage>(std::move(output), *format, std::move(options), clock_,
                                            ledger_);
   }
-  /// So many frames, a picture each, all on time.
+  /// Submits so many frames, all on time.
   void run(int frames) {
     for (int i = 0; i < frames; ++i) {
       const hal::TimePoint now = clock_.now();

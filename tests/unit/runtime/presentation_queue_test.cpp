@@ -13,22 +13,22 @@ hal::TimePoint at(hal::Duration time) {
   return kStart + time;
 }
 
-/// Captured 100 ms before its due time.
-WaitingPicture picture(hal::Duration ready, hal::Duration due) {
+/// A frame that was captured 100 ms before its due time.
+WaitingFrame frame(hal::Duration ready, hal::Duration due) {
   return {
       .buffer = 0, .ticket = {}, .captured = at(due - 100ms), .ready = at(ready), .due = at(due)};
 }
 
 class PresentationQueueTest : public testing::Test {
  protected:
-  /// The outcome of the next picture that is ruled on now, or nothing.
+  /// The outcome of the frame that next() decides on now, if any.
   std::optional<Outcome> outcomeAt(hal::Duration now) {
-    const auto ruling = queue_.next(at(now));
-    return ruling ? std::optional(ruling->outcome) : std::nullopt;
+    const auto decision = queue_.next(at(now));
+    return decision ? std::optional(decision->outcome) : std::nullopt;
   }
-  /// Something has been shown just now, so that nothing threatens to freeze.
+  /// Shows a frame now, so that no freeze is imminent.
   void showOneAt(hal::Duration now) {
-    queue_.push(picture(now, now));
+    queue_.push(frame(now, now));
     ASSERT_EQ(outcomeAt(now), Outcome::kShown);
   }
 
@@ -46,7 +46,7 @@ TEST(DueTime, IsTheFirstRefreshAtOrAfterTheLatency) {
 }
 
 TEST_F(PresentationQueueTest, LetsEarlyPicturesWait) {
-  queue_.push(picture(20ms, 100ms));
+  queue_.push(frame(20ms, 100ms));
   EXPECT_EQ(queue_.nextTime(), at(100ms));
   EXPECT_EQ(outcomeAt(99ms), std::nullopt);
   EXPECT_EQ(outcomeAt(100ms), Outcome::kShown);
@@ -55,34 +55,34 @@ TEST_F(PresentationQueueTest, LetsEarlyPicturesWait) {
 
 TEST_F(PresentationQueueTest, DropsWhatWasReadyTooLate) {
   showOneAt(60ms);
-  queue_.push(picture(110ms, 100ms));
+  queue_.push(frame(110ms, 100ms));
   EXPECT_EQ(outcomeAt(110ms), Outcome::kLate);
 }
 
 TEST_F(PresentationQueueTest, ToleratesAWakingThatIsALittleLate) {
   showOneAt(0ms);
-  queue_.push(picture(50ms, 100ms));
+  queue_.push(frame(50ms, 100ms));
   EXPECT_EQ(outcomeAt(107ms), Outcome::kShown);
 }
 
 TEST_F(PresentationQueueTest, ShowsALatePictureRatherThanFreeze) {
   showOneAt(0ms);
-  queue_.push(picture(180ms, 130ms));  // 180 ms after the one before: the next comes after 360
+  queue_.push(frame(180ms, 130ms));  // 180 ms after the one before: the next comes after 360
   EXPECT_EQ(outcomeAt(180ms), Outcome::kShownOffSchedule);
-  queue_.push(picture(230ms, 190ms));  // 50 ms after it: the next one comes before 200 ms are over
+  queue_.push(frame(230ms, 190ms));  // 50 ms after it: the next one comes before 200 ms are over
   EXPECT_EQ(outcomeAt(230ms), Outcome::kLate);
 }
 
 TEST_F(PresentationQueueTest, ShowsTheVeryFirstPictureHoweverLate) {
-  queue_.push(picture(900ms, 100ms));
+  queue_.push(frame(900ms, 100ms));
   EXPECT_EQ(outcomeAt(900ms), Outcome::kShownOffSchedule);
 }
 
 TEST_F(PresentationQueueTest, ShowsTheNewestOfThoseDue) {
   showOneAt(0ms);
-  queue_.push(picture(20ms, 100ms));
-  queue_.push(picture(30ms, 102ms));
-  queue_.push(picture(40ms, 140ms));
+  queue_.push(frame(20ms, 100ms));
+  queue_.push(frame(30ms, 102ms));
+  queue_.push(frame(40ms, 140ms));
   EXPECT_EQ(outcomeAt(103ms), Outcome::kSuperseded);
   EXPECT_EQ(outcomeAt(103ms), Outcome::kShown);
   EXPECT_EQ(outcomeAt(103ms), std::nullopt);
@@ -90,9 +90,9 @@ TEST_F(PresentationQueueTest, ShowsTheNewestOfThoseDue) {
 
 TEST_F(PresentationQueueTest, AttributesTheOutputForWhatFellDueWhileItWasBusy) {
   showOneAt(0ms);
-  queue_.push(picture(20ms, 30ms));
-  queue_.push(picture(40ms, 60ms));
-  queue_.push(picture(60ms, 90ms));
+  queue_.push(frame(20ms, 30ms));
+  queue_.push(frame(40ms, 60ms));
+  queue_.push(frame(60ms, 90ms));
   queue_.presented(at(80ms));
   EXPECT_EQ(outcomeAt(80ms), Outcome::kOutputBusy);
   EXPECT_EQ(outcomeAt(80ms), Outcome::kOutputBusy) << "20 ms late";
@@ -109,8 +109,8 @@ TEST_F(PresentationQueueTest, KeepsTheOrderWhenTheLatencyFalls) {
 
 TEST(UnpacedQueue, HandsOnEachPictureAtOnce) {
   PresentationQueue queue({.isPaced = false}, 4);
-  queue.push(picture(20ms, 10ms));
-  queue.push(picture(30ms, 500ms));
+  queue.push(frame(20ms, 10ms));
+  queue.push(frame(30ms, 500ms));
   EXPECT_EQ(queue.nextTime(), at(20ms));
   EXPECT_EQ(queue.next(at(600ms))->outcome, Outcome::kShown);
   EXPECT_EQ(queue.next(at(600ms))->outcome, Outcome::kShown);

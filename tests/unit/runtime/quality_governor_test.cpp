@@ -16,7 +16,7 @@ class QualityGovernorTest : public testing::Test {
   static constexpr hal::Duration kPeriod = 33ms;
   static constexpr std::array<double, 5> kCost{1.0, 0.66, 0.44, 0.29, 0.2};
 
-  /// Frames whose load is `full` at full quality.
+  /// Paints frames whose load is `full` at full quality.
   void run(hal::Duration duration, double full) {
     for (const hal::TimePoint end = now_ + duration; now_ < end; now_ += kPeriod) {
       const std::size_t level = governor_.level();
@@ -60,7 +60,7 @@ TEST_F(QualityGovernorTest, ForgivesSingleDearFrames) {
 }
 
 TEST_F(QualityGovernorTest, DoesNotSwingWhereNoLevelSuits) {
-  // Level 1 costs 1.05 and level 2 costs 0.5: what the usual ratio expects would just fit.
+  // Level 1 costs 1.05 and level 2 costs 0.5: the usual ratio would expect level 1 to fit.
   for (int i = 0; i < 60 * 30; ++i, now_ += kPeriod) {
     const std::size_t level = governor_.level();
     governor_.painted(level == 0 ? 1.6 : level == 1 ? 1.05 : 0.5, level, now_);
@@ -70,7 +70,7 @@ TEST_F(QualityGovernorTest, DoesNotSwingWhereNoLevelSuits) {
 }
 
 TEST_F(QualityGovernorTest, TriesMoreAndMoreSeldomWhatDoesNotLast) {
-  // Something else takes the machine whenever quality has risen: no ratio tells.
+  // Another program loads the machine whenever quality has risen, so no ratio can be measured.
   int raisedFor = 0;
   governor_ = QualityGovernor({.levels = 2, .pinned = {}});
   for (int i = 0; i < 30 * 60 * 10; ++i, now_ += kPeriod) {

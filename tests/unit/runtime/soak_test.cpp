@@ -13,7 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 using support::ProcessResources;
 
-/// Takes pictures and keeps nothing.
+/// Takes images and keeps none.
 class ForgettingOutput final : public hal::MemoryOutput {
  public:
   hal::OutputIdentity identity() const override { return {"forgetting", "forgetting"}; }

@@ -85,6 +85,24 @@ TEST(StatusJson, LeavesOutWhatIsNotKnown) {
   EXPECT_EQ(json["outputs"][0]["state"], "reopening");
 }
 
+TEST(StatusJson, HoldsTheRefreshOfAnOutputAsFarAsItIsKnown) {
+  RuntimeStatus status = someStatus();
+  EXPECT_FALSE(nlohmann::json::parse(statusJson(status, levels()))["outputs"][0].contains(
+      "refresh_period_s"));
+  status.outputs[0].refresh = hal::Refresh{.period = 20ms, .phase = {}};
+  auto output = nlohmann::json::parse(statusJson(status, levels()))["outputs"][0];
+  EXPECT_EQ(output["refresh_period_s"], 0.02);
+  EXPECT_FALSE(output.contains("refresh_phase_s"));
+  status.outputs[0].refresh->phase = hal::TimePoint(12'500ms);
+  output = nlohmann::json::parse(statusJson(status, levels()))["outputs"][0];
+  EXPECT_EQ(output["refresh_phase_s"], 12.5);
+  const std::string metrics = statusMetrics(status, levels());
+  EXPECT_THAT(metrics,
+              HasSubstr("pleinair_output_refresh_period_seconds{output=\"loopback\"} 0.02\n"));
+  EXPECT_THAT(metrics,
+              HasSubstr("pleinair_output_refresh_phase_seconds{output=\"loopback\"} 12.5\n"));
+}
+
 TEST(StatusJson, SurvivesNamesThatAreNoText) {
   RuntimeStatus status = someStatus();
   status.camera.camera->description = "\xff\xfe";

@@ -1,5 +1,5 @@
 // Outputs that lend surfaces, and outputs that come and go, in a live pipeline under a stepped
-// clock: a camera of 30 frames a second, a painter that takes 20 ms, displays that are made up.
+// clock: a camera of 30 frames a second, a painter that takes 20 ms, simulated displays.
 #include <algorithm>
 #include <chrono>
 #include <memory>
@@ -29,7 +29,7 @@ class SurfaceOutputTest : public testing::Test {
             },
             live_.clock)) {}
 
-  /// With the simulation's own output in memory, of which these tests take the sums only.
+  /// Begins with the simulation's own output in memory, of which these tests check the sums only.
   void begin(std::uint64_t frames) {
     camera_.frames = frames;
     live_.begin(selector_);
@@ -82,7 +82,7 @@ TEST_F(SurfaceOutputTest, LearnsThePhaseFromTheFirstFlip) {
   live_.drain();
   EXPECT_EQ(of(stage, Outcome::kShown), 100u);
   ASSERT_EQ(display.shown.size(), 100u);
-  // Those that were painted before the first flip do not know it yet.
+  // The due times of frames painted before the first flip do not use its phase.
   for (std::size_t i = 6; i < display.shown.size(); ++i) {
     const hal::TimePoint captured = began_ + static_cast<int>(i) * camera_.period;
     const hal::Refresh refresh{.period = display.period, .phase = display.phase};
@@ -164,6 +164,26 @@ TEST_F(SurfaceOutputTest, HasASurfaceFilledInAnotherWay) {
   EXPECT_EQ(display.shown.back().firstPixel, 0x32323232u);
 }
 
+TEST_F(SurfaceOutputTest, ReleasesASurfaceThatCannotBeFilled) {
+  FakeDisplay display;
+  OutputStageOptions options{.name = "display", .waiting = 16};
+  options.fill = [](const OutputFrame&, hal::SurfaceOutput&,
+                    const hal::Surface&) -> hal::Result<hal::Fence> {
+    return tl::unexpected(hal::Error{.kind = hal::ErrorKind::kUnsupported,
+                                     .subject = "GPU",
+                                     .problem = "cannot draw there",
+                                     .remedy = {}});
+  };
+  begin(50);
+  const OutputStage& stage = add(display, std::move(options));
+  live_.start();
+  live_.drain();
+  EXPECT_EQ(display.lent, 0);
+  EXPECT_EQ(stage.status().failures, 1u);
+  EXPECT_EQ(of(stage, Outcome::kOutputFailed), 50u);
+  expectSumsToAgree();
+}
+
 TEST_F(SurfaceOutputTest, StepsTheLatencyByTheLongestRefresh) {
   FakeDisplay at50{.period = 20ms};
   live_.gpu.cost = [](auto, auto) { return 130ms; };  // too slow for the latency at any quality
@@ -189,14 +209,13 @@ TEST_F(SurfaceOutputTest, ComesAndGoesWhilePaintingGoesOn) {
   EXPECT_EQ(live_.chain->status().outputs.size(), 2u);
 
   live_.chain->removeOutput(stage);
-  EXPECT_EQ(live_.chain->takeRemoved(), nullptr) << "the painter has not let go of it yet";
+  EXPECT_EQ(live_.chain->takeRemoved(stage), nullptr) << "the painter has not let go of it yet";
   live_.runFor(1s);
-  const std::unique_ptr<OutputStage> removed = live_.chain->takeRemoved();
+  const std::unique_ptr<OutputStage> removed = live_.chain->takeRemoved(stage);
   ASSERT_EQ(removed.get(), &stage);
   EXPECT_TRUE(removed->finish());
   EXPECT_TRUE(removed->status().addsUp());
   EXPECT_EQ(removed->status().waiting, 0u);
-  EXPECT_EQ(live_.chain->takeRemoved(), nullptr);
   EXPECT_EQ(live_.chain->status().outputs.size(), 1u);
   EXPECT_LT(display.shown.size(), 165u);
 
@@ -209,9 +228,10 @@ TEST_F(SurfaceOutputTest, EndsFramesWhileThereIsNoOutput) {
   begin(300);
   live_.start();
   live_.runFor(3s);
-  live_.chain->removeOutput(live_.chain->output(0));
+  OutputStage& only = live_.chain->output(0);
+  live_.chain->removeOutput(only);
   live_.runFor(2s);
-  const std::unique_ptr<OutputStage> removed = live_.chain->takeRemoved();
+  const std::unique_ptr<OutputStage> removed = live_.chain->takeRemoved(only);
   ASSERT_NE(removed, nullptr);
   EXPECT_TRUE(removed->finish());
   live_.runFor(1s);
@@ -237,9 +257,9 @@ TEST_F(SurfaceOutputTest, OutlivesAGpuThatIsLostWhileOutputsComeAndGo) {
     live_.runFor(1s);
     live_.chain->removeOutput(*stages.back());
     live_.runFor(100ms);
-    if (const auto removed = live_.chain->takeRemoved()) {
-      EXPECT_TRUE(removed->finish());
-    }
+    const auto removed = live_.chain->takeRemoved(*stages.back());
+    ASSERT_NE(removed, nullptr);
+    EXPECT_TRUE(removed->finish());
     ASSERT_TRUE(live_.chain->ledger().counts().addsUp());
   }
   live_.drain();

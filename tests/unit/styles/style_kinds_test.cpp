@@ -1,4 +1,4 @@
-// What the descriptors of all styles say, without a GPU.
+// The descriptors of all styles. Needs no GPU.
 #include <array>
 #include <set>
 #include <string>

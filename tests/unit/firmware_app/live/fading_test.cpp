@@ -14,13 +14,13 @@ TEST(Fading, IsNothingUntilItIsCalledUp) {
 
 TEST(Fading, StaysForThreeSecondsAndGoes) {
   Fading fading;
-  fading.callUp(kStart);
+  fading.restart(kStart);
   EXPECT_EQ(fading.opacity(kStart), 1.0);
   EXPECT_EQ(fading.opacity(kStart + 3s), 1.0);
   EXPECT_NEAR(fading.opacity(kStart + 3250ms), 0.5, 1e-9);
   EXPECT_EQ(fading.opacity(kStart + 3500ms), 0.0);
   EXPECT_EQ(fading.opacity(kStart + 1h), 0.0);
-  fading.callUp(kStart + 1h);
+  fading.restart(kStart + 1h);
   EXPECT_EQ(fading.opacity(kStart + 1h + 1s), 1.0);
 }
 

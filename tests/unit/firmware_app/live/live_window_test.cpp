@@ -10,7 +10,7 @@ using namespace std::chrono_literals;
 using testing::HasSubstr;
 using testing::Not;
 
-/// Keeps what it is told.
+/// Records its title and caption.
 class FakeWindow final : public hal::Window {
  public:
   hal::OutputIdentity identity() const override { return {"window", "fake"}; }

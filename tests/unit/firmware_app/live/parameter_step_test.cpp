@@ -21,7 +21,7 @@ ParameterDescriptor integer(int min, int max) {
   return {.name = "i", .defaultValue = min, .integerRange = {.min = min, .max = max}};
 }
 
-/// What `count` steps lead to, as a person writes it; fewer where it stays.
+/// The value after `count` steps, or fewer if it stops, as a person writes it.
 std::string after(const ParameterDescriptor& descriptor, ParameterValue value, int count,
                   bool large = false) {
   for (int i = 0; i < std::abs(count); ++i) {

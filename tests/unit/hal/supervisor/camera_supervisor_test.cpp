@@ -421,9 +421,9 @@ TEST(CameraSupervisor, WithAChoiceOfCamerasPassesOverOneThatGivesNothing) {
   Supervised supervised("auto");
   const auto mute = supervised.add({{.steps = {}}}, "mute");
   mute->repeatsLast = true;
-  const auto sound = supervised.add({{.steps = scriptedFrames(1000)}}, "sound");
+  const auto healthy = supervised.add({{.steps = scriptedFrames(1000)}}, "healthy");
   const auto all = supervised.run(seconds(8));
-  EXPECT_EQ(supervised.supervisor().status().camera->id, "sound");
+  EXPECT_EQ(supervised.supervisor().status().camera->id, "healthy");
   EXPECT_EQ(supervised.supervisor().state(), CameraState::kStreaming);
   EXPECT_EQ(mute->starts, 1U);
 }

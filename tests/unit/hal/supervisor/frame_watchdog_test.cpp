@@ -8,10 +8,10 @@ namespace {
 using std::chrono::hours;
 using std::chrono::milliseconds;
 
-constexpr Duration kLook = milliseconds(50);
+constexpr Duration kPollInterval = milliseconds(50);
 
 TEST(FrameWatchdog, LimitIsThreePeriodsAndAMargin) {
-  FrameWatchdog watchdog({}, kLook);
+  FrameWatchdog watchdog({}, kPollInterval);
   watchdog.expect(milliseconds(40));
   EXPECT_EQ(watchdog.limit(), milliseconds(320));
   watchdog.expect(std::nullopt);
@@ -19,7 +19,7 @@ TEST(FrameWatchdog, LimitIsThreePeriodsAndAMargin) {
 }
 
 TEST(FrameWatchdog, AddsUpSilenceAndForgetsItWithAFrame) {
-  FrameWatchdog watchdog({}, kLook);
+  FrameWatchdog watchdog({}, kPollInterval);
   watchdog.expect(milliseconds(40));
   TimePoint now{};
   watchdog.frameCame(now);
@@ -33,13 +33,13 @@ TEST(FrameWatchdog, AddsUpSilenceAndForgetsItWithAFrame) {
 }
 
 TEST(FrameWatchdog, ALongAbsenceCountsAsOneLook) {
-  FrameWatchdog watchdog({}, kLook);
+  FrameWatchdog watchdog({}, kPollInterval);
   watchdog.expect(milliseconds(40));
   watchdog.frameCame(TimePoint{});
   watchdog.nothingCame(TimePoint{} + hours(1));
-  EXPECT_EQ(watchdog.silence(), kLook);
+  EXPECT_EQ(watchdog.silence(), kPollInterval);
   watchdog.nothingCame(TimePoint{});  // a clock that jumps back changes nothing
-  EXPECT_EQ(watchdog.silence(), kLook);
+  EXPECT_EQ(watchdog.silence(), kPollInterval);
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ class Driver {
     waiting_.push_back(std::move(next));
     changed_.notify_all();
   }
-  /// Two have been taken, the second of which cannot be handed over before the first is.
+  /// Waits until two frames were taken; the second cannot be handed over before the first.
   void waitUntilHeldBack() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return taken_ == 2; });
@@ -240,7 +240,7 @@ TEST_F(WorkerCameraTest, StoppingASupervisorBreaksOffAnOpeningThatHangs) {
   driver_->hangIn(Driver::Call::kStart);
   SteadyClock clock;
   CameraSelector selector({{.backend = std::make_shared<DrivenBackend>(driver_)}}, "driven", clock,
-                          onThreadsOfTheirOwn({.start = kPatient.start, .stop = Duration::zero()}));
+                          onDriverThreads({.start = kPatient.start, .stop = Duration::zero()}));
   {
     CameraSupervisor supervisor(selector, clock);
     std::thread consumer([&] {
@@ -280,7 +280,7 @@ TEST_F(WorkerCameraTest, ASupervisorOnAThreadIsStoppedFromAnother) {
   for (int i = 0; i < 50; ++i) {
     SteadyClock clock;
     CameraSelector selector({{.backend = std::make_shared<DrivenBackend>(driver_)}}, "driven",
-                            clock, onThreadsOfTheirOwn(kPatient));
+                            clock, onDriverThreads(kPatient));
     CameraSupervisor supervisor(selector, clock);
     std::atomic<bool> hasBegun = false;
     std::thread consumer([&] {

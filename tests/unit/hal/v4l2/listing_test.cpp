@@ -133,7 +133,7 @@ TEST_F(V4l2Listing, FindsACameraThatHasMovedToAnotherNode) {
 
 class V4l2StaleLinks : public V4l2Listing {
  protected:
-  /// What sysfs tells of a node of a USB camera at this port.
+  /// Adds the sysfs entries of a node of a USB camera at this port.
   void describeUsb(const std::string& name, const std::string& port) {
     const std::string host = "/sys/devices/pci0000:00/0000:00:14.0";
     const std::string device = host + "/usb1/1-" + port;
