@@ -1,6 +1,6 @@
-#include <utility>
-
 #include "firmware_app/doctor/checks.h"
+
+#include <utility>
 
 namespace pleinair::app::doctor {
 
