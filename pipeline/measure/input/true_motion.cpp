@@ -1,4 +1,4 @@
-#include "pipeline/measure/input/known_motion.h"
+#include "pipeline/measure/input/true_motion.h"
 
 #include <utility>
 
