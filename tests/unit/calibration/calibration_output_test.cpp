@@ -1,4 +1,4 @@
-#include "pipeline/calibration/calibration_text.h"
+#include "pipeline/calibration/calibration_output.h"
 
 #include <fstream>
 
