@@ -23,9 +23,8 @@
 #include "hal/media/picture_file.h"
 #include "hal/numbered_path.h"
 #include "hal/pending_file.h"
-#include "pipeline/calibration/calibration_text.h"
+#include "pipeline/calibration/calibration_output.h"
 #include "pipeline/calibration/session.h"
-#include "pipeline/calibration/view_picture.h"
 #include "pipeline/tracking/camera/calibration_file.h"
 
 namespace pleinair::app {

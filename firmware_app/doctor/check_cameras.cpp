@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -65,6 +67,45 @@ Finding checkCameras(const Probes& probes) {
                                  : "none delivers frames that can be read";
   finding.remedy = cameras.empty() ? "plug one in; lsusb and sudo dmesg tell whether it is seen"
                                    : "`pleinair devices` lists what they offer";
+  return finding;
+}
+
+Finding checkUsbCameras(const Probes& probes) {
+  // /sys/module has loaded modules, and built-in ones that take parameters, as this one does.
+  if (!probes.list("/sys/module/uvcvideo").empty()) {
+    return {.check = "USB cameras", .text = "uvcvideo is loaded"};
+  }
+  return {.check = "USB cameras",
+          .verdict = Verdict::kWarning,
+          .text = "the kernel's uvcvideo is not loaded; plugging in a camera does that",
+          .remedy = "sudo modprobe uvcvideo"};
+}
+
+Finding checkUdev(const Probes& probes) {
+  for (const std::filesystem::path& entry : probes.list("/run/udev")) {
+    if (entry.filename() == "control") return {.check = "udev", .text = "runs"};
+  }
+  return {.check = "udev",
+          .verdict = Verdict::kWarning,
+          .text = "does not run: cameras that come back are found late, and have no stable names",
+          .remedy = "sudo systemctl start systemd-udevd (in a container: mount /run/udev)"};
+}
+
+Finding checkSocketBuffers(const Probes& probes) {
+  constexpr std::uint64_t kEnough =
+      4'000'000;  // one frame of 1280x1024 RGB8 and what comes meanwhile
+  const std::string text = probes.read("/proc/sys/net/core/rmem_max").value_or("");
+  std::uint64_t bytes = 0;
+  std::from_chars(text.data(), text.data() + text.size(), bytes);
+  Finding finding{.check = "socket buffers",
+                  .text = fmt::format("net.core.rmem_max is {} kB", bytes / 1000)};
+  if (bytes < kEnough) {
+    finding.verdict = Verdict::kWarning;
+    finding.text += ": GigE cameras lose frames";
+    finding.remedy =
+        "echo net.core.rmem_max=8388608 | sudo tee /etc/sysctl.d/60-pleinair.conf && "
+        "sudo sysctl --system";
+  }
   return finding;
 }
 

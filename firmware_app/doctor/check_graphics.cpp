@@ -1,3 +1,7 @@
+#include <cerrno>
+#include <string>
+#include <system_error>
+
 #include <fmt/format.h>
 
 #include "firmware_app/doctor/checks.h"
@@ -21,6 +25,31 @@ Finding checkGraphics(const Probes& probes) {
     finding.remedy =
         "sudo apt install libgl1-mesa-dri, or the GPU's own driver; "
         "or paint smaller: --size 320x240";
+  }
+  return finding;
+}
+
+Finding checkRenderNodes(const Probes& probes) {
+  Finding finding{.check = "render nodes"};
+  for (const std::filesystem::path& node : probes.list("/dev/dri")) {
+    if (!node.filename().string().starts_with("renderD")) continue;
+    const int status = probes.access(node);
+    if (status == 0) {
+      finding.verdict = Verdict::kOk;
+      finding.text = node.string();
+      finding.remedy.clear();
+      return finding;
+    }
+    const bool isForbidden = status == EACCES || status == EPERM;
+    finding.verdict = Verdict::kWrong;
+    finding.text = fmt::format("{}: {}", node.string(), std::generic_category().message(status));
+    finding.remedy = isForbidden ? "sudo usermod -aG render,video $USER, then log in again"
+                                 : "see the kernel's log: sudo dmesg | grep -i drm";
+  }
+  if (finding.text.empty()) {
+    finding.verdict = Verdict::kWarning;
+    finding.text = "none in /dev/dri: no GPU, or its driver is not loaded";
+    finding.remedy = "lspci -k | grep -A3 -i vga shows the GPU and the driver that it should have";
   }
   return finding;
 }

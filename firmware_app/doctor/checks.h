@@ -7,8 +7,8 @@
 
 namespace pleinair::app::doctor {
 
-// One check each, in the order in which they are told. What they hold for enough is at the top of
-// their files.
+// The checks in the order in which they are reported. A check_<subject>.cpp holds those of a
+// subject.
 
 Finding checkGraphics(const Probes& probes);       ///< an OpenGL ES 3.1 context, and on what
 Finding checkRenderNodes(const Probes& probes);    ///< /dev/dri may be used

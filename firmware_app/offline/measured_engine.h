@@ -1,5 +1,8 @@
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "pipeline/engine/painter.h"
 #include "pipeline/measure/measurement.h"
 
@@ -12,7 +15,25 @@ class MeasuredEngine final : public measure::MeasuredPainter {
   MeasuredEngine(Painter& painter, PaintParameters parameters, hal::FrameSize size)
       : painter_(painter), parameters_(std::move(parameters)), size_(size) {}
 
-  hal::Result<measure::PaintedFrame> paint(const hal::CapturedFrame& frame) override;
+  hal::Result<measure::PaintedFrame> paint(const hal::CapturedFrame& frame) override {
+    const hal::Result<Picture> picture = painter_.paint(frame, parameters_);
+    if (!picture) return tl::unexpected(picture.error());
+    hal::Result<hal::Image> output = painter_.snapshot();
+    if (!output) return tl::unexpected(output.error());
+    hal::Result<std::vector<marks::Anchor>> anchors = painter_.anchors();
+    if (!anchors) return tl::unexpected(anchors.error());
+    measure::PaintedFrame painted{
+        .input = {}, .output = std::move(*output), .anchors = std::move(*anchors)};
+    const hal::FrameFormat& format = frame.image.format;
+    if (format.pixelFormat == hal::PixelFormat::kRgb8 && format.size == size_) {
+      painted.input = hal::Image(frame.image);
+      return painted;
+    }
+    hal::Result<hal::Image> input = painter_.cameraSnapshot();
+    if (!input) return tl::unexpected(input.error());
+    painted.input = std::move(*input);
+    return painted;
+  }
   void reset() override { painter_.reset(); }
 
  private:

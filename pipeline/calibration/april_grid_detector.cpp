@@ -8,8 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "pipeline/calibration/board_detector.h"
-#include "pipeline/calibration/corner_refinement.h"
-#include "pipeline/calibration/edge_width.h"
+#include "pipeline/calibration/board_sighting.h"
 #include "pipeline/tracking/pose/tag_detector.h"
 
 namespace pleinair::calibration {

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -46,5 +47,11 @@ std::unique_ptr<BoardDetector> makeBoardDetector(const Board& board);
 std::unique_ptr<BoardDetector> makeCheckerboardDetector(const Board& board);
 /// Uses tracking::TagDetector; corners are then refined like those of a checkerboard.
 std::unique_ptr<BoardDetector> makeAprilGridDetector(const Board& board);
+
+/// For an image without the board: finds another board that the user may have confused with it,
+/// that is a checkerboard with one corner more or less per side (counting squares gives one too
+/// many), or tags. "a checkerboard of 8x5 inner corners".
+std::optional<std::string> otherBoardIn(const Board& board, const hal::PlaneView& luma,
+                                        hal::FrameSize size);
 
 }  // namespace pleinair::calibration

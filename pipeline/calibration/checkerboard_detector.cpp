@@ -10,8 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "pipeline/calibration/board_detector.h"
-#include "pipeline/calibration/corner_refinement.h"
-#include "pipeline/calibration/edge_width.h"
+#include "pipeline/calibration/board_sighting.h"
 
 namespace pleinair::calibration {
 namespace {

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-#include "pipeline/calibration/other_board.h"
+#include "pipeline/calibration/board_detector.h"
 
 namespace pleinair::calibration {
 namespace {

@@ -86,7 +86,7 @@ ViewOutcome ViewSelector::offer(std::uint64_t frame, hal::TimePoint time,
 std::optional<double> ViewSelector::speedOf(hal::TimePoint time,
                                             const BoardSighting& sighting) const {
   if (!last_ || time - lastTime_ > kMaxPause) return std::nullopt;
-  const double seconds = std::chrono::duration<double>(time - lastTime_).count();
+  const double seconds = hal::toSeconds(time - lastTime_);
   const std::optional<double> distance = cornerDistancePx(*last_, sighting);
   if (!distance || !(seconds > 0.0)) return std::nullopt;
   return *distance / seconds;

@@ -7,7 +7,6 @@
 #include "pipeline/measure/anchor_measures.h"
 #include "pipeline/measure/input/true_motion.h"
 #include "pipeline/measure/measures.h"
-#include "pipeline/measure/run_conditions.h"
 #include "pipeline/styles/coherence_gates.h"
 
 namespace pleinair::measure {

@@ -21,6 +21,9 @@ struct Mean {
 };
 
 /// a / b; nothing if one is unknown or b is zero.
-std::optional<double> ratio(std::optional<double> a, std::optional<double> b);
+inline std::optional<double> ratio(std::optional<double> a, std::optional<double> b) {
+  if (!a || !b || *b == 0) return std::nullopt;
+  return *a / *b;
+}
 
 }  // namespace pleinair::measure

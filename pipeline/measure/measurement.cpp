@@ -1,18 +1,21 @@
 #include "pipeline/measure/measurement.h"
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "pipeline/measure/input/picture.h"
-#include "pipeline/measure/input/sensor_noise.h"
+#include "pipeline/measure/measurement_report.h"
 #include "pipeline/measure/sequence_measures.h"
-#include "pipeline/measure/worst_frames.h"
 
 namespace pleinair::measure {
 namespace {
 
-constexpr hal::Duration kFramePeriod{33'333'333};
 constexpr std::uint64_t kMinFrames = kShortLag + 1;
 
 hal::Error unfit(const MeasuredInput& input, std::string problem, std::string remedy) {
@@ -20,6 +23,67 @@ hal::Error unfit(const MeasuredInput& input, std::string problem, std::string re
           .subject = input.description(),
           .problem = std::move(problem),
           .remedy = std::move(remedy)};
+}
+
+constexpr std::size_t kMaxWorstFrames = 3;
+constexpr std::uint64_t kApartFrames = 8;
+
+/// A high percentile of the channels that differ at all.
+double brightLevelOf(const cv::Mat3f& difference) {
+  constexpr double kShare = 0.97;
+  const cv::Mat1f channels = difference.clone().reshape(1, 1);
+  std::vector<float> values(channels.begin(), channels.end());
+  std::erase(values, 0.0F);
+  if (values.empty()) return 0;
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(kShare * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/// The largest of 1, 2, 5, 10 … that does not saturate the bright differences.
+double gainOf(const cv::Mat3f& difference) {
+  const double most = 1.0 / std::max(brightLevelOf(difference), 1e-9);
+  double gain = 1;
+  for (const double step : {2.0, 5.0, 10.0, 20.0, 50.0, 100.0}) {
+    if (step <= most) gain = step;
+  }
+  return gain;
+}
+
+/// Keeps the few worst frames of a sequence, some distance apart from each other.
+class WorstFrames {
+ public:
+  void offer(std::uint64_t frame, double ew2, const cv::Mat3f& input, const cv::Mat3f& output,
+             const cv::Mat3f& difference);
+  /// Worst first.
+  std::vector<WorstFrame> frames() const { return frames_; }
+
+ private:
+  std::vector<WorstFrame> frames_;
+};
+
+void WorstFrames::offer(std::uint64_t frame, double ew2, const cv::Mat3f& input,
+                        const cv::Mat3f& output, const cv::Mat3f& difference) {
+  const auto near = std::ranges::find_if(
+      frames_, [frame](const WorstFrame& each) { return frame - each.frame < kApartFrames; });
+  if (near != frames_.end()) {
+    if (near->ew2 >= ew2) return;
+    frames_.erase(near);
+  } else if (frames_.size() == kMaxWorstFrames) {
+    if (frames_.back().ew2 >= ew2) return;
+    frames_.pop_back();
+  }
+  const double gain = gainOf(difference);
+  cv::Mat3f stronger;
+  difference.convertTo(stronger, -1, gain);
+  frames_.push_back({.frame = frame,
+                     .ew2 = ew2,
+                     .input = toImage(input),
+                     .output = toImage(output),
+                     .difference = toImage(stronger),
+                     .differenceGain = gain});
+  std::ranges::sort(frames_, std::greater<>(), &WorstFrame::ew2);
 }
 
 /// One measurement, from the first frame to the report.

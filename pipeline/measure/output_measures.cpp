@@ -4,11 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "pipeline/measure/deviation.h"
+#include "pipeline/measure/image_measures.h"
 #include "pipeline/measure/input/picture.h"
-#include "pipeline/measure/lasting_marks.h"
-#include "pipeline/measure/screen_pattern.h"
-#include "pipeline/measure/warping_error.h"
 
 namespace pleinair::measure {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "pipeline/measure/deviation.h"
+#include "pipeline/measure/image_measures.h"
 
 namespace pleinair::measure {
 

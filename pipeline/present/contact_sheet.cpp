@@ -101,7 +101,7 @@ hal::Image ContactSheet::sheet() const {
     const int row = i / kPairsPerRow;
     place(sheet, moment.original, column, row);
     place(sheet, moment.painted, column + 1, row);
-    const double seconds = std::chrono::duration<double>(moment.time).count();
+    const double seconds = hal::toSeconds(moment.time);
     if (tile.width >= 100) label(sheet, fmt::format("{:.2f} s", seconds), tile, column, row);
   }
   return image;

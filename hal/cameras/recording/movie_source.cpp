@@ -5,9 +5,8 @@
 #include <string_view>
 #include <utility>
 
+#include "hal/cameras/recording/container_scan.h"
 #include "hal/cameras/recording/frame_source.h"
-#include "hal/cameras/recording/matroska_segment.h"
-#include "hal/cameras/recording/mp4_boxes.h"
 #include "hal/media/errors.h"
 #include "hal/media/file_input.h"
 #include "hal/media/picture_decoder.h"

@@ -1,10 +1,34 @@
 #include "hal/cameras/recording/recording_kind.h"
 
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "config/parameter_table.h"
-#include "hal/cameras/recording/recording_backend.h"
+#include "hal/camera_backend.h"
+#include "hal/cameras/recording/recording.h"
 
 namespace pleinair::hal::recording {
 namespace {
+
+/// Recordings as cameras; ids are their paths, as of openRecording(). It lists none: which of a
+/// computer's files are meant, nobody but their owner knows.
+class RecordingBackend final : public CameraBackend {
+ public:
+  explicit RecordingBackend(RecordingOptions options) : options_(options) {}
+
+  std::string_view name() const override { return "recording"; }
+  Result<std::vector<CameraDescription>> list() override {
+    return std::vector<CameraDescription>();
+  }
+  std::unique_ptr<Camera> make(const std::string& id, Clock& clock) override {
+    return openRecording(id, clock, options_);
+  }
+
+ private:
+  RecordingOptions options_;
+};
 
 struct RecordingSettings {
   bool loop = true;

@@ -8,8 +8,6 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "hal/cameras/synthetic/world/tag_bitmap.h"
-
 namespace pleinair::hal::synthetic {
 namespace {
 

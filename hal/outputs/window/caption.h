@@ -3,7 +3,7 @@
 #include <string>
 
 #include "hal/image.h"
-#include "hal/outputs/window/sdl_handles.h"
+#include "hal/outputs/window/sdl_video.h"
 
 namespace pleinair::hal::window {
 

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <memory>
+
+#include <SDL.h>
+
 #include "hal/error.h"
 
 namespace pleinair::hal::window {
@@ -23,5 +27,30 @@ class SdlVideo {
   SdlVideo() = default;
   bool isOpen_ = true;
 };
+
+struct SdlDeleter {
+  void operator()(SDL_Window* window) const { SDL_DestroyWindow(window); }
+  void operator()(SDL_Renderer* renderer) const { SDL_DestroyRenderer(renderer); }
+  void operator()(SDL_Texture* texture) const { SDL_DestroyTexture(texture); }
+};
+using WindowHandle = std::unique_ptr<SDL_Window, SdlDeleter>;
+using RendererHandle = std::unique_ptr<SDL_Renderer, SdlDeleter>;
+/// To be destroyed before its renderer, which takes it along otherwise.
+using TextureHandle = std::unique_ptr<SDL_Texture, SdlDeleter>;
+
+/// Watches the connection to the X server, whose end would otherwise end the process: Xlib calls
+/// exit() when it meets it. All windows share one connection, which cannot be had again: once it is
+/// lost, nothing of SDL's may be called any more, and what SDL holds is left to the process's end.
+/// Other display servers are not watched. All on SDL's thread.
+namespace display_connection {
+
+/// Starts with the opening of a window. Idempotent.
+void watch(SDL_Window* window);
+/// Ends the watch, before SDL closes the connection.
+void forget();
+/// Polls the connection at each call.
+bool isLost();
+
+}  // namespace display_connection
 
 }  // namespace pleinair::hal::window

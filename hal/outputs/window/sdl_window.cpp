@@ -9,9 +9,7 @@
 #include <utility>
 
 #include "hal/outputs/window/caption.h"
-#include "hal/outputs/window/display_connection.h"
 #include "hal/outputs/window/key_name.h"
-#include "hal/outputs/window/sdl_handles.h"
 #include "hal/outputs/window/sdl_video.h"
 #include "hal/outputs/window/window.h"
 #include "hal/outputs/window/window_layout.h"

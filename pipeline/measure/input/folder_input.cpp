@@ -15,8 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr hal::Duration kFramePeriod{33'333'333};
-
 struct FolderContents {
   std::vector<fs::path> frames, flows, occlusions;
 };

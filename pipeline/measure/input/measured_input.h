@@ -10,12 +10,16 @@
 
 #include "hal/cameras/synthetic/synthetic_camera.h"
 #include "hal/captured_frame.h"
+#include "hal/clock.h"
 #include "hal/error.h"
 #include "hal/image.h"
 #include "pipeline/measure/input/moved_photograph.h"
 #include "pipeline/measure/input/true_motion.h"
 
 namespace pleinair::measure {
+
+/// Frame period of inputs without times of their own.
+inline constexpr hal::Duration kFramePeriod{33'333'333};
 
 /// A sequence to paint and measure, with its true motion if that is known. One thread.
 class MeasuredInput {

@@ -14,7 +14,7 @@
 
 #include "config/config_error.h"
 #include "config/suggestion.h"
-#include "pipeline/measure/input/known_motion.h"
+#include "pipeline/measure/input/true_motion.h"
 
 namespace pleinair::measure {
 namespace {

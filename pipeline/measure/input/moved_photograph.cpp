@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
-#include "pipeline/measure/input/known_motion.h"
 #include "pipeline/measure/input/motion_map.h"
 #include "pipeline/measure/input/picture.h"
+#include "pipeline/measure/input/true_motion.h"
 
 namespace pleinair::measure {
 namespace {

@@ -6,19 +6,17 @@
 
 #include "hal/media/picture_file.h"
 #include "pipeline/measure/input/measured_input.h"
-#include "pipeline/measure/input/sensor_noise.h"
+#include "pipeline/measure/input/picture.h"
 
 namespace pleinair::measure {
 namespace {
 
-constexpr hal::Duration kFramePeriod{33'333'333};
-
 /// Larger photographs take longer and give no better measures.
-constexpr double kMaxPixels = 640.0 * 480.0;
+constexpr double kMaxPhotographPixels = 640.0 * 480.0;
 
 hal::FrameSize defaultSize(hal::FrameSize photograph) {
   const double pixels = static_cast<double>(photograph.width) * photograph.height;
-  const double scale = std::min(1.0, std::sqrt(kMaxPixels / pixels));
+  const double scale = std::min(1.0, std::sqrt(kMaxPhotographPixels / pixels));
   const auto scaled = [scale](int side) {
     return std::max(1, static_cast<int>(std::lround(side * scale)));
   };

@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
 namespace pleinair::measure {
@@ -46,6 +47,17 @@ cv::Mat3f highPass(const cv::Mat3f& picture) {
 cv::Rect innerRect(cv::Size frame) {
   return {kBorderPixels, kBorderPixels, frame.width - 2 * kBorderPixels,
           frame.height - 2 * kBorderPixels};
+}
+
+hal::Image withSensorNoise(const cv::Mat3f& picture, double sigmaLevels, std::uint64_t seed) {
+  if (sigmaLevels <= 0) return toImage(picture);
+  // Spreads seeds: sequences of neighbouring seeds would begin alike.
+  constexpr std::uint64_t kSpread = 0x9E3779B97F4A7C15U;
+  cv::RNG random((seed + 1) * kSpread);
+  cv::Mat3f noisy(picture.size());
+  random.fill(noisy, cv::RNG::NORMAL, 0.0, sigmaLevels / 255.0);
+  noisy += picture;
+  return toImage(noisy);
 }
 
 }  // namespace pleinair::measure

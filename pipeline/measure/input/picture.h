@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include <opencv2/core.hpp>
 
 #include "hal/image.h"
@@ -24,5 +26,9 @@ cv::Mat3f highPass(const cv::Mat3f& picture);
 
 /// The part of a frame within its border.
 cv::Rect innerRect(cv::Size frame);
+
+/// Adds sensor noise to an image: white Gaussian noise of `sigmaLevels` (8-bit levels) on each
+/// channel, rounded to RGB8. The noise depends on `seed` only.
+hal::Image withSensorNoise(const cv::Mat3f& picture, double sigmaLevels, std::uint64_t seed);
 
 }  // namespace pleinair::measure

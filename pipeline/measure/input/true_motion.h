@@ -1,7 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
 
 #include "hal/error.h"
 #include "pipeline/measure/input/motion_map.h"
@@ -31,5 +36,14 @@ class TrueMotion {
   /// those of its files. Precondition: from < to.
   virtual hal::Result<MotionMap> between(std::uint64_t from, std::uint64_t to) = 0;
 };
+
+/// Every point moves by `perFrame` px from each frame to the next.
+std::unique_ptr<TrueMotion> constantMotion(cv::Size frame, cv::Point2d perFrame);
+
+/// `frameFromFirst(t)` maps pixels of frame 0 to frame t (pixel centres at whole numbers), in
+/// homogeneous coordinates.
+std::unique_ptr<TrueMotion> homographyMotion(
+    cv::Size frame, std::string description,
+    std::function<cv::Matx33d(std::uint64_t)> frameFromFirst);
 
 }  // namespace pleinair::measure

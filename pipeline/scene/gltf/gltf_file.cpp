@@ -13,7 +13,6 @@
 
 #include "pipeline/scene/gltf/gltf_accessors.h"
 #include "pipeline/scene/gltf/gltf_animations.h"
-#include "pipeline/scene/gltf/gltf_container.h"
 #include "pipeline/scene/gltf/gltf_fault.h"
 #include "pipeline/scene/gltf/gltf_limits.h"
 #include "pipeline/scene/gltf/gltf_materials.h"

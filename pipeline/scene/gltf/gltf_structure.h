@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,16 @@
 #include <tiny_gltf.h>
 
 namespace pleinair::scene::gltf {
+
+/// The two halves of a glTF file. Refers to the file's bytes.
+struct Container {
+  std::string_view json;
+  std::optional<std::span<const std::uint8_t>> binary;  ///< BIN chunk of a .glb
+};
+
+/// Tells .glb (specification, section 4) from .gltf by the first bytes, and splits it. Throws
+/// Fault.
+Container openContainer(std::span<const std::uint8_t> file);
 
 /// Returns null if `object` is not an object or has no such key.
 const nlohmann::json* find(const nlohmann::json& object, const char* key);

@@ -1,7 +1,6 @@
 #include "pipeline/scene/light/light_estimator.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include <glm/common.hpp>
@@ -106,7 +105,7 @@ void LightEstimator::reset() {
 LightEstimator::Step LightEstimator::stepTo(hal::TimePoint captureTime) {
   Step step;
   if (lastTime_) {
-    step.seconds = std::chrono::duration<double>(captureTime - *lastTime_).count();
+    step.seconds = hal::toSeconds(captureTime - *lastTime_);
     step.isFirst = step.seconds < 0.0 || step.seconds > kForgottenSeconds;
     step.seconds = std::clamp(step.seconds, 0.0, kForgottenSeconds);
   }

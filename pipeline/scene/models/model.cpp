@@ -1,26 +1,20 @@
 #include "pipeline/scene/models/model.h"
 
 #include <algorithm>
-#include <chrono>
+#include <cassert>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <numbers>
 #include <span>
 #include <utility>
 
+#include <glm/common.hpp>
 #include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
 
 #include "pipeline/scene/models/mesh.h"
 #include "pipeline/scene/models/model_pose.h"
-
-// Bounding spheres of models at rest (model.h) and posed (model_pose.h).
-#include <algorithm>
-#include <cassert>
-#include <cmath>
-#include <cstddef>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 namespace pleinair::scene {
 namespace {
@@ -104,7 +98,7 @@ Model singlePartModel(std::string name, Mesh mesh) {
 }
 
 glm::dmat4 turnedAfter(const ModelPart& part, hal::Duration time) {
-  const double seconds = std::chrono::duration<double>(time).count();
+  const double seconds = hal::toSeconds(time);
   const double angle = std::remainder(part.radiansPerSecond * seconds, 2.0 * std::numbers::pi);
   return glm::rotate(glm::dmat4(1.0), angle, {0.0, 0.0, 1.0});
 }
@@ -148,6 +142,7 @@ Model withShortEdges(const Model& model, double maxEdgeMetres, std::size_t maxTr
   return result;
 }
 
+// Bounding spheres of models at rest (model.h) and posed (model_pose.h).
 namespace {
 
 /// The reach of a surface's vertices under morph targets: each moves by a vector in this box.

@@ -15,7 +15,6 @@
 #include "hal/image.h"
 #include "pipeline/scene/models/mesh.h"
 #include "pipeline/scene/models/rig.h"
-#include "pipeline/scene/models/surface_bounds.h"
 
 namespace pleinair::scene {
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 
@@ -117,7 +116,7 @@ std::optional<ClipMoment> momentOf(const Rig& rig, const Playback& playback,
                                    hal::Duration elapsed) {
   if (!playback.clip) return std::nullopt;
   const double length = rig.clips[*playback.clip].seconds;
-  const double run = playback.speed * std::chrono::duration<double>(elapsed).count();
+  const double run = playback.speed * hal::toSeconds(elapsed);
   ClipMoment moment{.clip = *playback.clip};
   if (playback.loops) {
     if (length > 0.0) {

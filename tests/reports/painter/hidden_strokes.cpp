@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 
 #include "pipeline/measure/input/picture.h"
-#include "pipeline/measure/input/sensor_noise.h"
 #include "tests/oracles/stroke_oracle.h"
 #include "tests/reports/painter/reported_painting.h"
 

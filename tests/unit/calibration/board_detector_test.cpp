@@ -6,7 +6,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pipeline/calibration/other_board.h"
 #include "tests/support/board_scene.h"
 
 namespace pleinair::calibration {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/measure/input/known_motion.h"
+#include "pipeline/measure/input/true_motion.h"
 #include "tests/unit/measure/measure_pictures.h"
 
 namespace pleinair::measure {

@@ -8,7 +8,7 @@
 
 #include "hal/media/picture_file.h"
 #include "pipeline/measure/input/picture.h"
-#include "pipeline/measure/voronoi_tiling.h"
+#include "pipeline/measure/negative_controls.h"
 #include "pipeline/styles/registry.h"
 #include "tests/support/deep_png.h"
 #include "tests/support/media_files.h"

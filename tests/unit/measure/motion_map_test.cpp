@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/measure/input/known_motion.h"
 #include "pipeline/measure/input/picture.h"
+#include "pipeline/measure/input/true_motion.h"
 
 namespace pleinair::measure {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "pipeline/measure/image_measures.h"
 #include "pipeline/measure/input/picture.h"
-#include "pipeline/measure/warping_error.h"
 #include "tests/unit/measure/measure_pictures.h"
 
 namespace pleinair::measure {

@@ -6,9 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/measure/gates.h"
-#include "pipeline/measure/input/known_motion.h"
 #include "pipeline/measure/input/picture.h"
-#include "pipeline/measure/input/sensor_noise.h"
+#include "pipeline/measure/input/true_motion.h"
 #include "pipeline/measure/sequence_measures.h"
 #include "pipeline/styles/registry.h"
 #include "tests/unit/measure/measure_pictures.h"
@@ -224,6 +223,25 @@ TEST(Gates, OfAnchorsAreThePainterlyOnes) {
     EXPECT_EQ(verdict.state, State::kNotMeasured);
   }
   EXPECT_EQ(anchorVerdicts(gatesOf("painterly"), MotionKind::kOther, busy, quiet).size(), 1u);
+}
+
+TEST(VoronoiTiling, GivesEachTileTheMeanOfWhatItCovers) {
+  const cv::Mat3f picture = noisePicture(kSize, 0.1, 4);
+  const cv::Mat3f painted = VoronoiTiling(kSize, 5).paint(picture);
+  const cv::Scalar before = cv::mean(picture);
+  const cv::Scalar after = cv::mean(painted);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(before[c], after[c], 1e-5);
+  // A tile has 64 px on average, so its mean has an eighth of the noise; larger tiles have less.
+  cv::Scalar mean, deviation;
+  cv::meanStdDev(painted, mean, deviation);
+  EXPECT_NEAR(deviation[0], 0.1 / 8, 0.003);
+}
+
+TEST(VoronoiTiling, IsTheSameOfOneSeedAndAnotherOfAnother) {
+  const cv::Mat3f picture = blobPicture(kSize, 6);
+  const cv::Mat3f painted = VoronoiTiling(kSize, 7).paint(picture);
+  EXPECT_EQ(cv::norm(painted, VoronoiTiling(kSize, 7).paint(picture), cv::NORM_INF), 0);
+  EXPECT_GT(cv::norm(painted, VoronoiTiling(kSize, 8).paint(picture), cv::NORM_INF), 0.05);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 
 #include "hal/cameras/synthetic/world/noise.h"
 #include "hal/cameras/synthetic/world/srgb.h"
-#include "hal/cameras/synthetic/world/tag_bitmap.h"
 
 namespace pleinair::hal::synthetic {
 namespace {

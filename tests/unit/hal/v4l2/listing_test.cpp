@@ -1,4 +1,4 @@
-#include "hal/cameras/v4l2/v4l2_backend.h"
+#include "hal/cameras/v4l2/v4l2_kind.h"
 #include "tests/unit/hal/v4l2/fake_camera.h"
 
 namespace pleinair::hal::v4l2 {
