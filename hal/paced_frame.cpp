@@ -13,9 +13,7 @@ NextFrame takePaced(std::optional<CapturedFrame>& pending, Pacing pacing, Clock&
     clock.sleepUntil(std::min(pending->captureTime, deadline));
     if (pending->captureTime > deadline) return CameraTimeout{};
   }
-  CapturedFrame frame = *std::move(pending);
-  pending.reset();
-  return frame;
+  return *std::exchange(pending, std::nullopt);
 }
 
 }  // namespace pleinair::hal

@@ -13,7 +13,6 @@
 #include "config/config_error.h"
 #include "firmware_app/cli/exit_status.h"
 #include "firmware_app/cli/interrupt.h"
-#include "firmware_app/cli/overloaded.h"
 #include "firmware_app/commands/commands.h"
 #include "firmware_app/config/camera_selection.h"
 #include "firmware_app/config/configured_parts.h"
@@ -22,6 +21,7 @@
 #include "hal/cameras/recording/recording.h"
 #include "hal/media/picture_file.h"
 #include "hal/numbered_path.h"
+#include "hal/overloaded.h"
 #include "hal/pending_file.h"
 #include "pipeline/calibration/calibration_output.h"
 #include "pipeline/calibration/session.h"
@@ -133,7 +133,7 @@ class CalibrationRun {
 
   /// False at the end.
   bool receive(hal::NextFrame& next) {
-    const Overloaded take{
+    const hal::Overloaded take{
         [&](hal::CapturedFrame& frame) {
           examine(frame);
           return true;

@@ -45,7 +45,7 @@ Finding checkPriority(const Probes& probes) {
 }
 
 Finding checkLockedMemory(const Probes& probes) {
-  constexpr std::uint64_t kMiB = 1024 * 1024;
+  constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
   constexpr std::uint64_t kEnough = 8 * kMiB;  // the kernel's default, which drivers count on
   const std::uint64_t most = probes.limit(RLIMIT_MEMLOCK);
   Finding finding{.check = "locked memory",

@@ -76,7 +76,7 @@ std::optional<std::uint64_t> valueOf(std::string_view text, std::string_view nam
 }  // namespace
 
 Finding checkMemory(const Probes& probes) {
-  constexpr std::uint64_t kMiB = 1024 * 1024;
+  constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
   constexpr std::uint64_t kScarce = 512 * kMiB;
   constexpr std::uint64_t kTooLittle = 200 * kMiB;
   const std::string text = probes.read("/proc/meminfo").value_or("");

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "firmware_app/cli/overloaded.h"
+#include "hal/overloaded.h"
 
 namespace pleinair::app {
 namespace {
@@ -23,9 +23,9 @@ LiveWindow::LiveWindow(hal::Window& window, LiveTuning& tuning, const hal::Clock
 LiveWindow::Requests LiveWindow::takeRequests() {
   Requests requests;
   for (const hal::WindowEvent& event : window_.takeEvents()) {
-    std::visit(Overloaded{[&](const hal::KeyPressed& key) { press(key, requests); },
-                          [&](const hal::WindowClosed&) { requests.quit = true; },
-                          [](const hal::WindowResized&) {}},  // the window scales by itself
+    std::visit(hal::Overloaded{[&](const hal::KeyPressed& key) { press(key, requests); },
+                               [&](const hal::WindowClosed&) { requests.quit = true; },
+                               [](const hal::WindowResized&) {}},  // the window scales by itself
                event);
   }
   return requests;

@@ -81,6 +81,7 @@ std::vector<std::string> coveragePanel(const ViewSelector& selector, ViewOutcome
       fmt::format("now:  {}", outcomeText(last)),
       fmt::format("next: {}", nextStepText(selector))};
   std::vector<std::string> lines;
+  lines.reserve(calibration::kCellRows);
   for (int row = 0; row < calibration::kCellRows; ++row) {
     lines.push_back(cellsText(coverage, row) + "  " + beside.at(static_cast<std::size_t>(row)));
   }

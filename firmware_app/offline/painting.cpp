@@ -12,13 +12,13 @@
 
 #include "firmware_app/cli/exit_status.h"
 #include "firmware_app/cli/interrupt.h"
-#include "firmware_app/cli/overloaded.h"
 #include "firmware_app/cli/path_collisions.h"
 #include "firmware_app/cli/progress.h"
 #include "firmware_app/offline/poses_file.h"
 #include "firmware_app/scene/scene_warnings.h"
 #include "hal/media/picture_file.h"
 #include "hal/outputs/registry.h"
+#include "hal/overloaded.h"
 #include "hal/pending_file.h"
 #include "pipeline/engine/painter.h"
 #include "pipeline/present/contact_sheet.h"
@@ -110,7 +110,7 @@ class Painting {
     std::optional<hal::CapturedFrame> frame;
     constexpr bool kGoesOn = true;
     constexpr bool kDone = false;
-    const Overloaded receive{
+    const hal::Overloaded receive{
         [&](hal::CapturedFrame& next) {
           frame = std::move(next);
           return kDone;

@@ -4,7 +4,9 @@
 
 namespace pleinair::app {
 
-std::unique_ptr<StatusServer> startStatusServer(const std::string& listen, StatusPages) {
+std::unique_ptr<StatusServer> startStatusServer(
+    const std::string& listen,
+    StatusPages /*pages*/) {  // NOLINT(performance-unnecessary-value-param): the server keeps them
   if (!orThrow(parseListen(listen))) return nullptr;
   throw hal::Failure({.kind = hal::ErrorKind::kUnsupported,
                       .subject = "status.listen",

@@ -4,14 +4,10 @@
 #include <utility>
 
 #include "hal/clock.h"
+#include "hal/overloaded.h"
 
 namespace pleinair::hal {
 namespace {
-
-template <class... Handlers>
-struct Overloaded : Handlers... {
-  using Handlers::operator()...;
-};
 
 bool isSame(const StreamFormat& a, const StreamFormat& b) {
   return a.frame == b.frame && a.framePeriod == b.framePeriod && a.frameCount == b.frameCount;

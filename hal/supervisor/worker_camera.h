@@ -35,6 +35,8 @@ class WorkerCamera final : public Camera {
                         std::shared_ptr<std::atomic<int>> hanging = nullptr,
                         std::stop_token interrupted = {});
   ~WorkerCamera() override;
+  WorkerCamera(const WorkerCamera&) = delete;
+  WorkerCamera& operator=(const WorkerCamera&) = delete;
 
   CameraIdentity identity() const override;
   Result<StreamFormat> start(const StreamRequest& request) override;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "hal/overloaded.h"
 #include "pipeline/tracking/pose/tag.h"
 
 namespace pleinair::calibration {
@@ -14,16 +15,9 @@ namespace {
 constexpr double kSquareClearance = 0.45;  // of a checkerboard's square
 constexpr double kTagBorder = 1.0 / 8.0;   // of a tag36h11's edge
 
-template <class... Cases>
-struct Overloaded : Cases... {
-  using Cases::operator()...;
-};
-template <class... Cases>
-Overloaded(Cases...) -> Overloaded<Cases...>;
-
 }  // namespace
 
-Board::Board(Kind kind) : kind_(std::move(kind)) {
+Board::Board(Kind kind) : kind_(kind) {
   std::visit([this](const auto& board) { lay(board); }, kind_);
 }
 
@@ -69,16 +63,16 @@ int Board::minCorners() const {
 
 std::string Board::text() const {
   return std::visit(
-      Overloaded{[](const Checkerboard& board) {
-                   return fmt::format("checkerboard of {}x{} inner corners, squares of {:g} mm",
-                                      board.columns, board.rows, board.squareMetres * 1e3);
-                 },
-                 [](const AprilGrid& grid) {
-                   return fmt::format(
-                       "AprilGrid of {}x{} tags from id {}, edges of {:g} mm, spacing {:g}",
-                       grid.columns, grid.rows, grid.firstId, grid.tagEdgeMetres * 1e3,
-                       grid.spacing);
-                 }},
+      hal::Overloaded{
+          [](const Checkerboard& board) {
+            return fmt::format("checkerboard of {}x{} inner corners, squares of {:g} mm",
+                               board.columns, board.rows, board.squareMetres * 1e3);
+          },
+          [](const AprilGrid& grid) {
+            return fmt::format("AprilGrid of {}x{} tags from id {}, edges of {:g} mm, spacing {:g}",
+                               grid.columns, grid.rows, grid.firstId, grid.tagEdgeMetres * 1e3,
+                               grid.spacing);
+          }},
       kind_);
 }
 

@@ -41,6 +41,8 @@ class PaintStage {
   PaintStage(PainterFactory factory, std::vector<OutputStage*> outputs, PaintStageOptions options,
              hal::Clock& clock, FrameLedger& ledger, Mailbox<ArrivedFrame>& frames);
   ~PaintStage();
+  PaintStage(const PaintStage&) = delete;
+  PaintStage& operator=(const PaintStage&) = delete;
 
   /// Makes the painter. Throws hal::Failure.
   void start();

@@ -110,7 +110,7 @@ TagTruth truthOfTag(const Exposure& exposure, const Geometry& geometry, const Be
 }  // namespace
 
 GroundTruth truthOf(const Exposure& exposure, const Geometry& geometry) {
-  const CameraView middle = exposure.viewAt(exposure.size().height / 2 + 0.5);
+  const CameraView middle = exposure.viewAt(static_cast<int>(exposure.size().height / 2) + 0.5);
   GroundTruth truth{
       .intrinsics = middle.intrinsics, .cameraFromWorld = middle.cameraFromWorld, .tags = {}};
   for (const BenchTag& tag : benchTags()) {

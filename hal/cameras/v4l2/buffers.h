@@ -18,6 +18,8 @@ class Mapping {
  public:
   Mapping(SystemCalls& calls, void* address, std::size_t length)
       : calls_(&calls), address_(address), length_(length) {}
+  Mapping(const Mapping&) = delete;
+  Mapping& operator=(const Mapping&) = delete;
   Mapping(Mapping&& other) noexcept
       : calls_(other.calls_),
         address_(std::exchange(other.address_, nullptr)),
@@ -82,6 +84,8 @@ class BufferSet {
   static Result<BufferSet> allocate(const Device& device,
                                     const std::vector<std::size_t>& neededBytes);
 
+  BufferSet(const BufferSet&) = delete;
+  BufferSet& operator=(const BufferSet&) = delete;
   BufferSet(BufferSet&& other) noexcept
       : device_(std::exchange(other.device_, nullptr)), buffers_(std::move(other.buffers_)) {}
   BufferSet& operator=(BufferSet&&) = delete;

@@ -164,7 +164,7 @@ Result<void> apply(const Device& device, const Pair& pair, const AutomaticOr<T>&
 Result<void> setControls(const Device& device, const CameraControls& controls) {
   if (controls.exposure) {
     const auto ticks = [](Duration time) { return ExposureTicks(time).count(); };
-    const auto done = apply(device, exposurePair(device), *controls.exposure, ticks);
+    auto done = apply(device, exposurePair(device), *controls.exposure, ticks);
     if (!done) return done;
   }
   const auto applyShare = [&](const Pair& pair, const AutomaticOr<double>& wanted) {

@@ -49,6 +49,7 @@ Duration durationOf(const timeval& time) {
 
 std::vector<std::size_t> neededBytesOf(const Negotiated& negotiated) {
   std::vector<std::size_t> needed;
+  needed.reserve(static_cast<std::size_t>(negotiated.layout->memoryPlanes));
   for (int i = 0; i < negotiated.layout->memoryPlanes; ++i) {
     needed.push_back(negotiated.layout->isJpeg
                          ? 0

@@ -106,7 +106,7 @@ Result<void> Session::restart() {
   Result<Negotiated> negotiated = negotiate(device_, request_);
   if (!negotiated) return tl::unexpected(std::move(negotiated.error()));
   negotiated_ = *std::move(negotiated);
-  if (const Result<void> set = setControls(device_, request_.controls); !set) return set;
+  if (Result<void> set = setControls(device_, request_.controls); !set) return set;
   Result<std::unique_ptr<Stream>> stream = Stream::start(device_, negotiated_);
   if (!stream) return tl::unexpected(std::move(stream.error()));
   stream_ = *std::move(stream);

@@ -33,6 +33,8 @@ class V4l2Camera final : public Camera {
   /// `id`: as V4l2Backend::list() gives it, or a node's path. No device is opened before start().
   V4l2Camera(std::string id, System system, Clock& clock);
   ~V4l2Camera() override;
+  V4l2Camera(const V4l2Camera&) = delete;
+  V4l2Camera& operator=(const V4l2Camera&) = delete;
 
   CameraIdentity identity() const override;
   Result<StreamFormat> start(const StreamRequest& request) override;

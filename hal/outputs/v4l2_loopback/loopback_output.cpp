@@ -24,6 +24,8 @@ class LoopbackOutput final : public MemoryOutput {
   LoopbackOutput(std::string device, std::optional<PixelFormat> layout, const V4l2System& system)
       : device_(std::move(device)), layout_(layout), system_(system) {}
   ~LoopbackOutput() override { stopStream(); }
+  LoopbackOutput(const LoopbackOutput&) = delete;
+  LoopbackOutput& operator=(const LoopbackOutput&) = delete;
 
   OutputIdentity identity() const override {
     return {.backend = std::string(kName), .id = device_.empty() ? std::string(kName) : device_};

@@ -125,7 +125,8 @@ std::vector<NamedLayout> candidates(v4l2::SystemCalls& calls, int fd,
     if (calls.ioctl(fd, VIDIOC_ENUM_FMT, &entry) < 0) break;
     listed.push_back(entry.pixelformat);
   }
-  std::ranges::stable_partition(result, [&](const NamedLayout& each) {
+  // std::ranges' would not compile with clang 14
+  std::stable_partition(result.begin(), result.end(), [&](const NamedLayout& each) {
     return std::ranges::find(listed, each.fourcc) != listed.end();
   });
   return result;

@@ -274,6 +274,7 @@ Mesh gusset(double depth, double height, double thickness) {
   Mesh mesh;
   for (const double side : {-y, y}) {
     std::vector<glm::dvec3> face;
+    face.reserve(corners.size());
     for (const glm::dvec2& c : corners) face.emplace_back(c.x, side, c.y);
     addFace(mesh, face, inside);
   }

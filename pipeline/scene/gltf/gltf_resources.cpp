@@ -113,7 +113,7 @@ std::filesystem::path fileOf(std::string_view uri, const std::filesystem::path& 
   const std::filesystem::path root =
       std::filesystem::canonical(folder.empty() ? std::filesystem::path(".") : folder, code);
   if (code) refuse(where, "the model's folder cannot be opened: " + code.message());
-  const std::filesystem::path file = std::filesystem::canonical(root / relative, code);
+  std::filesystem::path file = std::filesystem::canonical(root / relative, code);
   if (code) {
     const bool isMissing = code == std::errc::no_such_file_or_directory;
     throw Fault(isMissing ? hal::ErrorKind::kNotFound : hal::ErrorKind::kIo, where,

@@ -16,7 +16,7 @@ namespace {
 constexpr double kMinCellPx = 1.8;  // width of a border; narrower ones mix with their neighbours
 constexpr double kCleanCellPx = 4.0;
 constexpr int kAlongSide = 12;
-constexpr std::size_t kReadings = 4 * kAlongSide;
+constexpr std::size_t kReadings = std::size_t{4} * kAlongSide;
 constexpr double kMinShare = 2.0 / 3.0;  // part of a ring's readings
 
 /// The homography of the square −1 … 1 (x right, y down) to the image: Heckbert, "Fundamentals of
@@ -50,7 +50,9 @@ struct Borders {
   std::array<bool, 2> isRead{};  // below and above; right and left
   double cellPx = 0.0;           // of the narrower pair that is read
 
-  std::size_t readings() const { return 2 * kAlongSide * (std::size_t{isRead[0]} + isRead[1]); }
+  std::size_t readings() const {
+    return std::size_t{2} * kAlongSide * (std::size_t{isRead[0]} + isRead[1]);
+  }
 };
 
 Borders widthOfBorders(const tracking::TagCornersPx& corners, int cells) {

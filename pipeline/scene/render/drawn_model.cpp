@@ -53,6 +53,7 @@ std::vector<std::uint32_t> firstEqualVertices(const Mesh& mesh) {
   std::iota(first.begin(), first.end(), 0U);
   if (!mesh.joints.empty() || !mesh.morphTargets.empty()) return first;
   const auto order = [&](std::uint32_t a, std::uint32_t b) {
+    // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): bits that differ are other vertices
     return std::memcmp(&mesh.vertices[a], &mesh.vertices[b], sizeof(MeshVertex));
   };
   std::vector<std::uint32_t> sorted = first;

@@ -116,7 +116,7 @@ bool HomographyFitter::findAgreeing(std::span<const PointPair> pairs, hal::Frame
 }
 
 bool HomographyFitter::coversEnough(std::span<const PointPair> pairs, hal::FrameSize size) const {
-  std::array<bool, kColumns * kRows> fields{};
+  std::array<bool, std::size_t{kColumns} * kRows> fields{};
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (agrees_[i] == 0) continue;
     const glm::dvec2 part = pairs[i].current / glm::dvec2(size.width, size.height);

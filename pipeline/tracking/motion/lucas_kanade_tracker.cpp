@@ -64,7 +64,7 @@ double lengthOf(const cv::Point2f& p) {
 LucasKanadeTracker::LucasKanadeTracker() {
   features_.reserve(kMaxMovedFeatures);
   seen_.reserve(kMaxMovedFeatures);
-  reset();
+  LucasKanadeTracker::reset();
 }
 
 void LucasKanadeTracker::reset() {

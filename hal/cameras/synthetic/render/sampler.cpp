@@ -119,6 +119,7 @@ Footprint footprintOf(const PatchTexture& texture, Point alongX, Point alongY) {
   footprint.fine = {&levels[index], 1 / static_cast<float>(1U << index)};
   footprint.coarse = {&levels[next], 1 / static_cast<float>(1U << next)};
   footprint.coarseShare =
+      // NOLINTNEXTLINE(bugprone-incorrect-roundings): never negative
       static_cast<std::uint16_t>(128 * (lod - static_cast<float>(index)) + 0.5F);
   return footprint;
 }

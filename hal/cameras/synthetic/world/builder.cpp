@@ -38,6 +38,7 @@ std::vector<glm::dvec2> ringOutline(double radius, int sides) {
 std::vector<glm::dvec3> lifted(const glm::dmat4& pose, const std::vector<glm::dvec2>& outline,
                                double z) {
   std::vector<glm::dvec3> corners;
+  corners.reserve(outline.size());
   for (const glm::dvec2& p : outline) corners.push_back(moved(pose, {p, z}));
   return corners;
 }

@@ -168,17 +168,18 @@ void paintSaw(Canvas& canvas, const Placement& at) {
 
 void paintSquare(Canvas& canvas, const Placement& at) {
   const glm::vec3 blade = linearFromSrgb(0xb3b6b2), stock = linearFromSrgb(0x6d3f24);
-  const auto long_ = [](glm::vec2 p) {
+  const auto bladeShape = [](glm::vec2 p) {
     return boxDistance(p - glm::vec2(0, -0.055F), {0.120F, 0.017F});
   };
-  const auto short_ = [](glm::vec2 p) {
+  const auto stockShape = [](glm::vec2 p) {
     return boxDistance(p - glm::vec2(-0.103F, 0.010F), {0.017F, 0.082F});
   };
-  const auto shape = [&](glm::vec2 p) { return std::min(long_(p), short_(p)); };
+  const auto shape = [&](glm::vec2 p) { return std::min(bladeShape(p), stockShape(p)); };
   const glm::vec2 half(0.130F, 0.100F);
   paintShadowOf(canvas, at, half, shape);
   canvas.paint(at, half, [&](glm::vec2 p) {
-    return over(canvas.fill(stock, short_(p)), canvas.fill(blade * (0.95F - p.x), long_(p)));
+    return over(canvas.fill(stock, stockShape(p)),
+                canvas.fill(blade * (0.95F - p.x), bladeShape(p)));
   });
 }
 
