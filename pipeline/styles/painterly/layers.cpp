@@ -5,6 +5,7 @@
 
 #include <glm/trigonometric.hpp>
 
+#include "pipeline/styles/painterly/brushes.h"
 #include "pipeline/styles/painterly/coherence.h"
 
 namespace pleinair::styles {
@@ -55,10 +56,10 @@ marks::AnchorOptions anchorsOf(const LayerPlan& plan, std::size_t layer) {
 }
 
 int texelsOf(const LayerPlan& plan, std::size_t layer) {
-  const double width = widthOf(plan, layer);
-  int texels = 8;
-  while (texels < width * 1.2 && texels < 64) texels *= 2;
-  return texels;
+  const double wanted = 1.2 * widthOf(plan, layer);
+  const auto* const enough =
+      std::ranges::find_if(kBrushTexels, [&](int each) { return each >= wanted; });
+  return enough != kBrushTexels.end() ? *enough : kBrushTexels.back();
 }
 
 marks::StrokeRule ruleOf(const PainterlyParameters& p, const LayerPlan& plan, std::size_t layer) {

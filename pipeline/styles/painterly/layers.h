@@ -29,7 +29,7 @@ LayerPlan planOf(const PainterlyParameters& p, hal::FrameSize full);
 double widthOf(const LayerPlan& plan, std::size_t layer);
 /// As many anchors as make the coverage with strokes of full length.
 marks::AnchorOptions anchorsOf(const LayerPlan& plan, std::size_t layer);
-/// Texels across a layer's brush: about as many as its strokes have pixels.
+/// Texels across a layer's brush, one of kBrushTexels: about as many as its strokes have pixels.
 int texelsOf(const LayerPlan& plan, std::size_t layer);
 
 /// Coarse strokes are straight and broad and stop late, fine ones bend (thesis §4.4).
