@@ -29,8 +29,8 @@ class LivePainter final : public runtime::FramePainter {
 
  private:
   /// Paints a blank frame at each level of quality with the first parameters, which the Painter,
-  /// warmed up with the defaults, does not know: what their look needs (programs, brushes) is made
-  /// here and not in the first frame.
+  /// warmed up with the defaults, does not know: their buffers are allocated and their programs
+  /// drawn here and not in the first frame.
   void warmUp(const PainterOptions& options);
 
   Painter painter_;
