@@ -57,7 +57,8 @@ std::optional<scene::LightEstimator> makeLightEstimator(const PainterOptions& op
   return scene::LightEstimator(scene.tags, scene.tagFamily, places, towardKey);
 }
 
-bool isOurs(std::string_view view) {
+/// Whether the engine paints this view, not the style.
+bool isEngineView(std::string_view view) {
   return view == kCameraView || view == kArView || scene::findBufferView(view) != nullptr;
 }
 
@@ -140,7 +141,7 @@ std::vector<DebugView> debugViewsOf(std::string_view style) {
 }
 
 hal::Result<void> checkDebugView(std::string_view style, std::string_view view) {
-  if (view.empty() || isOurs(view)) return {};
+  if (view.empty() || isEngineView(view)) return {};
   const auto ofStyle = styles::styleKind(style).views;
   if (std::ranges::find(ofStyle, view, &styles::DebugViewInfo::name) != ofStyle.end()) return {};
   std::vector<std::string> names;
@@ -198,7 +199,7 @@ glm::dvec2 FramePipeline::pixelsOfFull(const Level& level) const {
 
 /// All levels show the same part of a frame, to the fraction of a pixel.
 gpu::AspectFill FramePipeline::fitTo(const Level& level, hal::FrameSize frameSize) const {
-  return gpu::coverFit(frameSize, pictureSize_).withPixels(glm::dvec2(1.0), pixelsOfFull(level));
+  return gpu::aspectFill(frameSize, pictureSize_).withPixels(glm::dvec2(1.0), pixelsOfFull(level));
 }
 
 hal::Result<Picture> FramePipeline::paint(const hal::CapturedFrame& frame,
@@ -289,7 +290,7 @@ void FramePipeline::followPicture(const hal::CapturedFrame& frame, scene::ArFram
                                   scene::ArFrame& composed) {
   const auto scope = timer_.measure("follow picture");
   const hal::FrameSize size = frame.image.format.size;
-  const gpu::AspectFill fit = gpu::coverFit(size, pictureSize_);
+  const gpu::AspectFill fit = gpu::aspectFill(size, pictureSize_);
   const tracking::ImageMotion& motion = imageMotion_.follow(luma_, frame.sequence);
   if (needs.measuredMotion) {
     composed.measuredMotion = scene::MeasuredMotion{
@@ -306,7 +307,8 @@ const gpu::Texture& FramePipeline::paintView(const scene::ArFrame& frame,
   const std::string_view view = parameters.view;
   style_->setParameters(parameters.style);
   // The style's state advances the same whatever is looked at.
-  const gpu::Texture& painted = style_->paint(frame, isOurs(view) ? std::string_view{} : view);
+  const gpu::Texture& painted =
+      style_->paint(frame, isEngineView(view) ? std::string_view{} : view);
   if (view == kCameraView) return *camera_;
   if (const scene::BufferView* buffer = scene::findBufferView(view)) {
     return bufferViewer_.show(*buffer, frame);

@@ -22,7 +22,7 @@
 
 namespace pleinair::gpu {
 
-/// What a program may bind at once (docs/gpu.md, rule 4).
+/// The limits of one program's bindings (docs/gpu.md, rule 4).
 inline constexpr unsigned kMaxTextureUnits = 16;
 inline constexpr unsigned kMaxStorageBuffers = 4;
 inline constexpr unsigned kMaxImages = 4;

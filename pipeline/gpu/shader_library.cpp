@@ -61,7 +61,7 @@ std::string keyOf(std::initializer_list<std::string_view> names, const ShaderDef
   return key;
 }
 
-/// What several texts of one program declare, each name once.
+/// Adds the names that one more text of a program declares, each once.
 void addInputs(std::string_view text, std::vector<ShaderInput>& inputs) {
   for (ShaderInput& input : declaredInputs(text)) {
     if (std::ranges::find(inputs, input.name, &ShaderInput::name) == inputs.end()) {

@@ -21,7 +21,7 @@ class BrushCache {
   BrushCache();
 
   /// From now on brush() gives the file's, or of kNoBrushFile the built-in ones. Reads a file where
-  /// it is another one than before. Errors: readBrushFile()'s; what was in hand stays then.
+  /// it is another one than before. Errors: readBrushFile()'s; the brushes stay as they were then.
   hal::Result<void> take(const std::filesystem::path& file);
 
   /// makeBrush()'s, or the file's, which has no more texels than it has pixels. Valid until

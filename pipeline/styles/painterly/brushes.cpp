@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kSamples = 3;  // of a texel, along each side
 
-/// How a brush marks.
+/// The bristles of a brush and the mark that they leave.
 struct Hairs {
   int bristles;      // across
   double depth;      // of the furrows between them, in [0, 1]
