@@ -27,9 +27,9 @@ class LivePainter final : public runtime::FramePainter {
   std::span<const gpu::PassTime> passTimes() const override { return painter_.passTimes(); }
 
  private:
-  /// Paints a blank frame at each quality level with the first parameter set. The Painter has
-  /// warmed up with the defaults only; the look's programs and brushes are loaded here instead of
-  /// in the first frame.
+  /// Paints a blank frame at each quality level with the first parameter set, which the Painter,
+  /// warmed up with the defaults, does not know: buffers are allocated and programs used for the
+  /// first time here instead of in the first frame.
   void warmUp(const PainterOptions& options);
 
   Painter painter_;

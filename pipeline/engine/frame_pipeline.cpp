@@ -57,6 +57,7 @@ std::optional<scene::LightEstimator> makeLightEstimator(const PainterOptions& op
   return scene::LightEstimator(scene.tags, scene.tagFamily, places, towardKey);
 }
 
+/// Whether the engine paints this view, not the style.
 bool isEngineView(std::string_view view) {
   return view == kCameraView || view == kArView || scene::findBufferView(view) != nullptr;
 }
@@ -199,7 +200,7 @@ glm::dvec2 FramePipeline::pixelsOfFull(const Level& level) const {
 
 /// All levels show the same part of a frame, to the fraction of a pixel.
 gpu::AspectFill FramePipeline::fitTo(const Level& level, hal::FrameSize frameSize) const {
-  return gpu::coverFit(frameSize, pictureSize_).withPixels(glm::dvec2(1.0), pixelsOfFull(level));
+  return gpu::aspectFill(frameSize, pictureSize_).withPixels(glm::dvec2(1.0), pixelsOfFull(level));
 }
 
 hal::Result<Picture> FramePipeline::paint(const hal::CapturedFrame& frame,
@@ -290,7 +291,7 @@ void FramePipeline::measureMotion(const hal::CapturedFrame& frame, scene::ArFram
                                   scene::ArFrame& composed) {
   const auto scope = timer_.measure("follow picture");
   const hal::FrameSize size = frame.image.format.size;
-  const gpu::AspectFill fit = gpu::coverFit(size, pictureSize_);
+  const gpu::AspectFill fit = gpu::aspectFill(size, pictureSize_);
   const tracking::ImageMotion& motion = imageMotion_.follow(luma_, frame.sequence);
   if (needs.measuredMotion) {
     composed.measuredMotion = scene::MeasuredMotion{

@@ -6,7 +6,7 @@
 
 namespace pleinair::gpu {
 
-AspectFill coverFit(hal::FrameSize source, hal::FrameSize target) {
+AspectFill aspectFill(hal::FrameSize source, hal::FrameSize target) {
   const glm::dvec2 sourceSize(source.width, source.height);
   const glm::dvec2 targetSize(target.width, target.height);
   const double scale = std::min(sourceSize.x / targetSize.x, sourceSize.y / targetSize.y);

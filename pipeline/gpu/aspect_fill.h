@@ -6,8 +6,8 @@
 
 namespace pleinair::gpu {
 
-/// How a picture of one size is laid onto another: filled, centred, aspect kept, the overhang cut
-/// off. source px = origin + scale · target px, pixel centres at +0.5.
+/// The mapping that scales a picture to cover a target of another size, centred, with the aspect
+/// kept and the overhang cut off. source px = origin + scale · target px, pixel centres at +0.5.
 struct AspectFill {
   glm::dvec2 origin{0.0};
   glm::dvec2 scale{1.0};
@@ -20,6 +20,7 @@ struct AspectFill {
   bool isIdentity() const;
 };
 
-AspectFill coverFit(hal::FrameSize source, hal::FrameSize target);
+/// The aspect fill of a target with a source. Precondition: both have pixels.
+AspectFill aspectFill(hal::FrameSize source, hal::FrameSize target);
 
 }  // namespace pleinair::gpu

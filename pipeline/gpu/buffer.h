@@ -12,6 +12,9 @@ namespace pleinair::gpu {
 /// How a buffer is used, as GL's hint.
 enum class BufferUsage { kStatic, kDynamic, kReadBack };
 
+/// The size of glDrawArraysIndirect's command (shaders/draw_command.glsl).
+inline constexpr std::size_t kDrawCommandBytes = 16;
+
 /// A buffer of fixed size: storage, vertices, indices or read-back. Belongs to the context it was
 /// made in.
 class Buffer {

@@ -161,7 +161,7 @@ class OpenContext {
     if (node_.device != nullptr) eglTerminate(display_);
   }
 
-  /// What failed, or nothing; then the context is current.
+  /// Makes a context current. Returns the step that failed; empty where none did.
   std::string_view open(EGLDisplay display, std::string_view platform) {
     if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) return "no display";
     display_ = display;

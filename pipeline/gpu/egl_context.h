@@ -9,12 +9,12 @@
 
 namespace pleinair::gpu {
 
-/// What the current context runs on.
+/// The GPU and driver of the current context.
 struct ContextInfo {
   std::string renderer;     ///< "llvmpipe (LLVM 15.0.6, 256 bits)"
   std::string version;      ///< "OpenGL ES 3.2 Mesa 22.3.6"
   std::string platform;     ///< how the display was opened: "surfaceless", "device", "gbm", "host"
-  bool isSoftware = false;  ///< timer queries lie there (docs/gpu.md, rule 13)
+  bool isSoftware = false;  ///< its timer queries are wrong (docs/gpu.md, rule 13)
   bool hasTimerQuery = false;
   bool tellsOfResets = false;  ///< or else a lost GPU shows only where something fails
   int maxSidePixels = 0;       ///< of textures and of what can be drawn into

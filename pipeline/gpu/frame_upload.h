@@ -23,7 +23,7 @@ class FrameUploader {
   /// The frame, filling `size` (AspectFill). Valid until the next upload. Allocates only for a new
   /// size or layout of frames, and for each `size` once. Precondition: image.isComplete().
   const Texture& upload(const hal::ImageView& image, hal::FrameSize size) {
-    return upload(image, size, coverFit(image.format.size, size));
+    return upload(image, size, aspectFill(image.format.size, size));
   }
   /// The same with another fit.
   const Texture& upload(const hal::ImageView& image, hal::FrameSize size, const AspectFill& fit);

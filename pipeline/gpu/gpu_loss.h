@@ -11,13 +11,13 @@
 
 namespace pleinair::gpu {
 
-/// How a lost GPU is noticed. Empty functions are the driver's own; tests put theirs in their
-/// place.
+/// The calls by which a lost GPU is noticed. Empty functions stand for the driver's own; tests
+/// replace them.
 struct GpuTestHook {
   std::function<unsigned()> resetStatus;  ///< glGetGraphicsResetStatus()
   /// glClientWaitSync() with this timeout, ns
   std::function<unsigned(std::uint64_t timeoutNs)> waitForFence;
-  /// A GPU that has not done by then what it was given is taken for lost.
+  /// A GPU that does not finish its work within this time is taken for lost.
   hal::Duration patience = std::chrono::seconds(2);
   const hal::Clock* clock = nullptr;  ///< of the patience; CLOCK_MONOTONIC
 };
@@ -36,7 +36,7 @@ class ResetMonitor {
   hal::Result<void> check();
   /// Remembers a loss that was met elsewhere.
   void note(const hal::Error& loss);
-  /// What happened, once the GPU is lost. Any thread that does not run beside the above.
+  /// The loss, once there was one. Any thread that does not run beside the above.
   const std::optional<hal::Error>& loss() const { return loss_; }
 
  private:
@@ -44,7 +44,7 @@ class ResetMonitor {
   std::optional<hal::Error> loss_;
 };
 
-/// Whether the current context says when it is reset.
+/// Whether the current context reports its resets.
 bool tellsOfResets();
 
 }  // namespace pleinair::gpu

@@ -66,9 +66,9 @@ class PassTimer {
   void beginFrame();
   /// Times what is issued while the scope lives. Precondition: no other scope lives.
   [[nodiscard]] Scope measure(std::string_view pass);
-  /// As measure(); within another scope it times nothing by itself.
+  /// Times like measure(); within another scope it times nothing by itself.
   [[nodiscard]] Scope measureWithin(std::string_view pass);
-  /// In the order of first use.
+  /// Times of all passes, in the order of first use.
   std::span<const PassTime> times() const { return times_; }
   /// Whether times are the GPU's own; else they are from one fence to the next.
   bool hasQueries() const { return means_ == Means::kQueries; }

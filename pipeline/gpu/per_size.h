@@ -9,12 +9,13 @@
 
 namespace pleinair::gpu {
 
-/// What is allocated for pictures of one size, kept for each size that was asked for: levels of
-/// quality come back, and nothing is to be allocated then. May be declared of an incomplete T.
+/// The allocations for images of one size, kept for each size that was asked for: when a level of
+/// quality comes back, nothing is allocated. May be declared of an incomplete T.
 template <class T>
 class PerSize {
  public:
-  /// That of this size; where there is none yet, it is made as T(args…). Valid until clear().
+  /// Returns the entry of this size; the first call for a size makes it as T(args…). Valid until
+  /// clear().
   template <class... Args>
   T& of(hal::FrameSize size, const Args&... args) {
     const auto known = std::ranges::find(all_, size, &Entry::first);

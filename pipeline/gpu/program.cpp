@@ -68,32 +68,57 @@ GLuint groups(int items, int groupSize) {
 
 }  // namespace
 
+struct Program::Linked {
+  ProgramHandle handle;
+  std::string label;
+  std::string pass;
+  std::vector<Input> inputs;
+  glm::ivec2 groupSize{1};
+  VertexArrayHandle emptyVertexArray;
+
+  void findLocations();
+};
+
 Program::Program(ProgramHandle handle, ProgramKind kind, std::string label,
                  std::vector<ShaderInput> inputs, TimerSlot timer)
-    : handle_(std::move(handle)),
-      label_(std::move(label)),
-      pass_(passOf(label_)),
-      timer_(std::move(timer)),
-      emptyVertexArray_(VertexArrayHandle::make()) {
-  for (ShaderInput& input : inputs) inputs_.push_back({.declared = std::move(input)});
-  findLocations();
-  if (kind == ProgramKind::kCompute) groupSize_ = groupSizeOf(handle_);
+    : timer_(std::move(timer)) {
+  auto linked = std::make_shared<Linked>();
+  linked->handle = std::move(handle);
+  linked->pass = passOf(label);
+  linked->label = std::move(label);
+  for (ShaderInput& input : inputs) linked->inputs.push_back({.declared = std::move(input)});
+  linked->findLocations();
+  if (kind == ProgramKind::kCompute) linked->groupSize = groupSizeOf(linked->handle);
+  linked->emptyVertexArray = VertexArrayHandle::make();
+  linked_ = std::move(linked);
 }
 
-void Program::findLocations() {
+const std::string& Program::label() const {
+  return linked_->label;
+}
+
+const std::string& Program::pass() const {
+  return linked_->pass;
+}
+
+glm::ivec2 Program::groupSize() const {
+  return linked_->groupSize;
+}
+
+void Program::Linked::findLocations() {
   GLint count = 0;
-  glGetProgramiv(handle_.get(), GL_ACTIVE_UNIFORMS, &count);
+  glGetProgramiv(handle.get(), GL_ACTIVE_UNIFORMS, &count);
   for (GLuint i = 0; i < static_cast<GLuint>(count); ++i) {
     std::array<GLchar, 128> text{};
     GLint size = 0;
     GLenum type = 0;
-    glGetActiveUniform(handle_.get(), i, static_cast<GLsizei>(text.size()), nullptr, &size, &type,
+    glGetActiveUniform(handle.get(), i, static_cast<GLsizei>(text.size()), nullptr, &size, &type,
                        text.data());
-    const GLint location = glGetUniformLocation(handle_.get(), text.data());
+    const GLint location = glGetUniformLocation(handle.get(), text.data());
     if (location < 0) continue;  // of a block
     std::string name = text.data();
     if (name.ends_with("[0]")) name.resize(name.size() - 3);
-    for (Input& input : inputs_) {
+    for (Input& input : inputs) {
       if (input.declared.name == name) input.location = location;
     }
   }
@@ -101,12 +126,12 @@ void Program::findLocations() {
 
 void Program::refuse(const std::string& problem) const {
   std::vector<std::string> names;
-  for (const Input& each : inputs_) {
+  for (const Input& each : linked_->inputs) {
     names.push_back(fmt::format("{} {}", nameOf(each.declared.kind), each.declared.name));
   }
   throw hal::Failure(
       {.kind = hal::ErrorKind::kInternal,
-       .subject = fmt::format("program {}", label_),
+       .subject = fmt::format("program {}", linked_->label),
        .problem = problem,
        .remedy = fmt::format(
            "its shaders declare {}",
@@ -114,15 +139,15 @@ void Program::refuse(const std::string& problem) const {
 }
 
 const Program::Input& Program::input(ShaderInput::Kind kind, std::string_view name) const {
-  assert(isCurrent(handle_));
-  for (const Input& each : inputs_) {
+  assert(isCurrent(linked_->handle));
+  for (const Input& each : linked_->inputs) {
     if (each.declared.kind == kind && each.declared.name == name) return each;
   }
   refuse(fmt::format("has no {} \"{}\"", nameOf(kind), name));
 }
 
 bool Program::hasUniform(std::string_view name) const {
-  return std::ranges::any_of(inputs_, [&](const Input& each) {
+  return std::ranges::any_of(linked_->inputs, [&](const Input& each) {
     return each.declared.name == name && (each.declared.kind == ShaderInput::Kind::kUniform ||
                                           each.declared.kind == ShaderInput::Kind::kSampler);
   });
@@ -146,7 +171,7 @@ unsigned Program::binding(ShaderInput::Kind kind, std::string_view name) const {
 }
 
 Program& Program::use() {
-  glUseProgram(handle_.get());
+  glUseProgram(linked_->handle.get());
   nextTextureUnit_ = 0;
   return *this;
 }
@@ -243,11 +268,11 @@ void Program::drawArea(const RenderTarget& target, glm::ivec2 origin, hal::Frame
 }
 
 void Program::drawTriangle() {
-  assert(isCurrent(handle_));
+  assert(isCurrent(linked_->handle));
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
-  glBindVertexArray(emptyVertexArray_.get());
+  glBindVertexArray(linked_->emptyVertexArray.get());
   const PassTimer::Scope scope = measure();
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glBindVertexArray(0);
@@ -255,9 +280,9 @@ void Program::drawTriangle() {
 
 void Program::dispatch(glm::ivec2 items, GLbitfield barriers) {
   assert(items.x > 0 && items.y > 0);
-  assert(isCurrent(handle_));
-  const GLuint across = groups(items.x, groupSize_.x);
-  const GLuint down = groups(items.y, groupSize_.y);
+  assert(isCurrent(linked_->handle));
+  const GLuint across = groups(items.x, linked_->groupSize.x);
+  const GLuint down = groups(items.y, linked_->groupSize.y);
   assert(across <= kMaxGroups && down <= kMaxGroups);
   const PassTimer::Scope scope = measure();
   glDispatchCompute(across, down, 1);
@@ -266,7 +291,7 @@ void Program::dispatch(glm::ivec2 items, GLbitfield barriers) {
 
 PassTimer::Scope Program::measure() const {
   PassTimer* const timer = timer_ == nullptr ? nullptr : *timer_;
-  return timer == nullptr ? PassTimer::Scope(nullptr, 0) : timer->measureWithin(pass_);
+  return timer == nullptr ? PassTimer::Scope(nullptr, 0) : timer->measureWithin(linked_->pass);
 }
 
 }  // namespace pleinair::gpu

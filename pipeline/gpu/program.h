@@ -22,7 +22,7 @@
 
 namespace pleinair::gpu {
 
-/// What a program may bind at once (docs/gpu.md, rule 4).
+/// The limits of one program's bindings (docs/gpu.md, rule 4).
 inline constexpr unsigned kMaxTextureUnits = 16;
 inline constexpr unsigned kMaxStorageBuffers = 4;
 inline constexpr unsigned kMaxImages = 4;
@@ -42,6 +42,9 @@ enum class ImageAccess { kRead, kWrite, kReadWrite };
 /// names) for a name that is none of them, or is of another kind or type. A declared name that the
 /// compiler removed, because nothing depends on it, may be set and does nothing.
 ///
+/// Copies share the linked program and with it the values of its uniforms: after each use(), all
+/// that the run reads is filled.
+///
 /// Each draw and dispatch is timed under pass() where the ShaderLibrary that it is from has a
 /// timer.
 class Program {
@@ -55,15 +58,15 @@ class Program {
           std::vector<ShaderInput> inputs, TimerSlot timer);
 
   /// The fragment or compute shader's name, with the defines that it was made with.
-  const std::string& label() const { return label_; }
+  const std::string& label() const;
   /// The name that it is timed under: its shader's folder and file, "watercolor: guide".
-  const std::string& pass() const { return pass_; }
+  const std::string& pass() const;
   /// Whether its shaders declare a uniform or sampler of this name: for code that fills several
   /// programs alike.
   bool hasUniform(std::string_view name) const;
-  explicit operator bool() const { return static_cast<bool>(handle_); }
+  explicit operator bool() const { return linked_ != nullptr; }
   /// The local_size of a compute program.
-  glm::ivec2 groupSize() const { return groupSize_; }
+  glm::ivec2 groupSize() const;
 
   /// Binds the program and forgets the texture units given out before.
   Program& use();
@@ -106,22 +109,17 @@ class Program {
     ShaderInput declared;
     GLint location = -1;  // of uniforms and samplers that the compiler kept
   };
+  struct Linked;
 
   void drawTriangle();
-  void findLocations();
   const Input& input(ShaderInput::Kind kind, std::string_view name) const;
   /// Asserts that the program is the current one; -1 for a uniform that the compiler removed.
   GLint location(std::string_view uniform, std::string_view type) const;
   unsigned binding(ShaderInput::Kind kind, std::string_view name) const;
   [[noreturn]] void refuse(const std::string& problem) const;
 
-  ProgramHandle handle_;
-  std::string label_;
-  std::string pass_;
-  std::vector<Input> inputs_;
+  std::shared_ptr<const Linked> linked_;
   TimerSlot timer_;
-  glm::ivec2 groupSize_{1};
-  VertexArrayHandle emptyVertexArray_;
   unsigned nextTextureUnit_ = 0;
 };
 

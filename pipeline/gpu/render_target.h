@@ -9,7 +9,7 @@
 
 namespace pleinair::gpu {
 
-/// What a pass draws into: up to 4 colour textures of one size and at most one depth texture. The
+/// The target of a pass: up to 4 colour textures of one size and at most one depth texture. The
 /// textures belong to the caller and outlive it.
 class RenderTarget {
  public:
@@ -31,7 +31,7 @@ class RenderTarget {
   /// Clears one bound colour attachment of an unsigned integer format.
   void clearUnsigned(int attachment, glm::uvec4 value) const;
   void clearDepth() const;
-  /// Says that depth will not be read again (docs/gpu.md, rule 10).
+  /// Tells the driver that depth will not be read again (docs/gpu.md, rule 10).
   void discardDepth() const;
 
  private:

@@ -19,7 +19,7 @@ class Resampler {
   /// else a scaled one, valid until the next call with this size. Precondition: RGBA8 with the
   /// LINEAR filter.
   const Texture& resample(const Texture& picture, hal::FrameSize size) {
-    return resample(picture, size, coverFit(picture.size(), size));
+    return resample(picture, size, aspectFill(picture.size(), size));
   }
   /// The same with another fit.
   const Texture& resample(const Texture& picture, hal::FrameSize size, const AspectFill& fit);

@@ -82,7 +82,7 @@ int bindingOf(const Tokens& declaration, const Tokens& all) {
   return -1;
 }
 
-/// What stands between the qualifiers of a declaration and its end: its type and its names.
+/// The text between the qualifiers of a declaration and its end: its type and its names.
 Tokens unqualified(const Tokens& declaration) {
   static const std::set<std::string_view> kQualifiers{
       "uniform",  "buffer",    "highp",    "mediump",  "lowp",   "readonly",

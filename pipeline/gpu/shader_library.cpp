@@ -4,6 +4,8 @@
 #include <array>
 #include <cerrno>
 #include <fstream>
+#include <functional>
+#include <initializer_list>
 #include <optional>
 #include <regex>
 #include <sstream>
@@ -11,6 +13,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "hal/error.h"
 
@@ -50,7 +53,15 @@ std::string labelOf(std::string_view name, const ShaderDefines& defines) {
   return label;
 }
 
-/// What several texts of one program declare, each name once.
+/// Names a program: its shaders, and its defines with their values.
+std::string keyOf(std::initializer_list<std::string_view> names, const ShaderDefines& defines) {
+  std::string key = fmt::format("{}", fmt::join(names, " "));
+  for (const ShaderDefine& define : defines)
+    key += fmt::format(" {}={}", define.name, define.value);
+  return key;
+}
+
+/// Adds the names that one more text of a program declares, each once.
 void addInputs(std::string_view text, std::vector<ShaderInput>& inputs) {
   for (ShaderInput& input : declaredInputs(text)) {
     if (std::ranges::find(inputs, input.name, &ShaderInput::name) == inputs.end()) {
@@ -209,6 +220,7 @@ Program ShaderLibrary::link(ProgramKind kind, std::span<const ShaderHandle> shad
   }
   std::vector<ShaderInput> inputs;
   for (const Expansion* source : sources) addInputs(source->text, inputs);
+  ++compiled_;
   return {std::move(program), kind, std::move(label), std::move(inputs), timer_};
 }
 
@@ -220,25 +232,35 @@ void ShaderLibrary::throwIfCancelled() const {
                       .remedy = {}});
 }
 
+/// The program of this key, made where there is none yet.
+Program ShaderLibrary::made(const std::string& key, const std::function<Program()>& make) const {
+  const auto known = programs_.find(key);
+  return known != programs_.end() ? known->second : programs_.emplace(key, make()).first->second;
+}
+
 Program ShaderLibrary::fragmentPass(std::string_view fragmentName,
                                     const ShaderDefines& defines) const {
   return draw(kFullscreenVertex, fragmentName, defines);
 }
 
 Program ShaderLibrary::compute(std::string_view computeName, const ShaderDefines& defines) const {
-  const Expansion source = expand(computeName, defines);
-  const std::array<ShaderHandle, 1> shaders{compile(GL_COMPUTE_SHADER, computeName, source)};
-  return link(ProgramKind::kCompute, shaders, labelOf(computeName, defines), std::array{&source});
+  return made(keyOf({computeName}, defines), [&] {
+    const Expansion source = expand(computeName, defines);
+    const std::array<ShaderHandle, 1> shaders{compile(GL_COMPUTE_SHADER, computeName, source)};
+    return link(ProgramKind::kCompute, shaders, labelOf(computeName, defines), std::array{&source});
+  });
 }
 
 Program ShaderLibrary::draw(std::string_view vertexName, std::string_view fragmentName,
                             const ShaderDefines& defines) const {
-  const Expansion vertices = expand(vertexName, defines);
-  const Expansion fragments = expand(fragmentName, defines);
-  const std::array<ShaderHandle, 2> shaders{compile(GL_VERTEX_SHADER, vertexName, vertices),
-                                            compile(GL_FRAGMENT_SHADER, fragmentName, fragments)};
-  return link(ProgramKind::kDraw, shaders, labelOf(fragmentName, defines),
-              std::array{&vertices, &fragments});
+  return made(keyOf({vertexName, fragmentName}, defines), [&] {
+    const Expansion vertices = expand(vertexName, defines);
+    const Expansion fragments = expand(fragmentName, defines);
+    const std::array<ShaderHandle, 2> shaders{compile(GL_VERTEX_SHADER, vertexName, vertices),
+                                              compile(GL_FRAGMENT_SHADER, fragmentName, fragments)};
+    return link(ProgramKind::kDraw, shaders, labelOf(fragmentName, defines),
+                std::array{&vertices, &fragments});
+  });
 }
 
 }  // namespace pleinair::gpu

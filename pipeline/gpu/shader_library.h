@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -41,6 +43,11 @@ using ShaderDefines = std::vector<ShaderDefine>;
 /// Texts are without `#version` and default precisions, which are put before them; a line
 /// `#include "name"` takes in another text of the library (once each), unless an `#ifdef` leaves
 /// it out.
+///
+/// A program is compiled at its first request and kept until the library is destroyed; further
+/// requests for the same shaders and defines get a copy of it, so that a style that is set up again
+/// (another look, another size) compiles nothing. Programs belong to one GL context, in which the
+/// library is destroyed once it has made any.
 class ShaderLibrary {
  public:
   /// Throws hal::Failure (kNotFound) where the override directory is not there.
@@ -54,13 +61,15 @@ class ShaderLibrary {
   Program compute(std::string_view computeName, const ShaderDefines& defines = {}) const;
   Program draw(std::string_view vertexName, std::string_view fragmentName,
                const ShaderDefines& defines = {}) const;
+  /// How many programs it has compiled so far.
+  std::size_t compiledPrograms() const { return compiled_; }
 
   /// From now on, each run of the programs of this library, made before or after, is timed by
   /// `timer`, which outlives that; null: by none, as at first. On the thread of the programs.
   void setTimer(PassTimer* timer) { *timer_ = timer; }
 
-  /// From now on, `isCancelled` is asked before each program is made, which throws a hal::Failure
-  /// (kCancelled) where it says so; null: nothing is asked, as at first.
+  /// From now on, `isCancelled` is asked before each program is compiled, which throws a
+  /// hal::Failure (kCancelled) where it says so; null: nothing is asked, as at first.
   void setCancellation(std::function<bool()> isCancelled) { isCancelled_ = std::move(isCancelled); }
   /// Asks it, for other long work.
   void throwIfCancelled() const;
@@ -81,6 +90,7 @@ class ShaderLibrary {
   };
   Expansion expand(std::string_view name, const ShaderDefines& defines) const;
   void expandInto(std::string_view name, std::string_view includer, Expansion& output) const;
+  Program made(const std::string& key, const std::function<Program()>& make) const;
   ShaderHandle compile(GLenum stage, std::string_view name, const Expansion& source) const;
   Program link(ProgramKind kind, std::span<const ShaderHandle> shaders, std::string label,
                std::span<const Expansion* const> sources) const;
@@ -89,6 +99,8 @@ class ShaderLibrary {
   std::vector<EmbeddedShader> shaders_;
   std::function<bool()> isCancelled_;
   Program::TimerSlot timer_ = std::make_shared<PassTimer*>(nullptr);
+  mutable std::map<std::string, Program> programs_;  // by keyOf()
+  mutable std::size_t compiled_ = 0;
 };
 
 /// The shaders of pipeline/gpu itself.

@@ -29,7 +29,7 @@ enum class TextureFormat {
 /// (docs/gpu.md, rule 5). kTrilinear: with all smaller levels, which upload() makes.
 enum class TextureFilter { kNearest, kLinear, kTrilinear };
 
-/// What lies beyond the border: its own texel, the texture once more, or its mirror image.
+/// The texels beyond the border: its own texel, the texture once more, or its mirror image.
 enum class TextureWrap { kClamp, kRepeat, kMirror };
 
 bool isRenderable(TextureFormat format);

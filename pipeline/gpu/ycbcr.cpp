@@ -2,12 +2,14 @@
 
 #include <glm/matrix.hpp>
 
+#include "hal/linear_light.h"
+
 namespace pleinair::gpu {
 
 YcbcrConversion ycbcrConversion(hal::ColorEncoding encoding) {
-  const bool is709 = encoding.matrix == hal::ColorMatrix::kBt709;
-  const float kr = is709 ? 0.2126F : 0.299F;
-  const float kb = is709 ? 0.0722F : 0.114F;
+  const hal::LumaWeights weights = hal::lumaWeights(encoding.matrix);
+  const auto kr = static_cast<float>(weights.red);
+  const auto kb = static_cast<float>(weights.blue);
   const float kg = 1.0F - kr - kb;
   const bool limited = encoding.range == hal::ColorRange::kLimited;
   const float lumaScale = limited ? 255.0F / 219.0F : 1.0F;

@@ -18,7 +18,7 @@ namespace {
 
 const std::string kShaders = "pipeline/marks/shaders/";
 constexpr std::size_t kCellBytes = 32;  // shaders/anchor_cells.glsl
-constexpr int kMostStrata = 4;          // along a cell's side (shaders/anchor_cells.glsl)
+constexpr int kMaxStrata = 4;           // along a cell's side (shaders/anchor_cells.glsl)
 constexpr GLbitfield kStored = GL_SHADER_STORAGE_BARRIER_BIT;
 
 glm::ivec2 gridOf(hal::FrameSize full, int cellPixels) {
@@ -84,7 +84,7 @@ struct AnchorSet::State {
   glm::ivec2 allSlots() const { return {static_cast<int>(slots), 1}; }
   int strataSide() const {
     const double side = std::ceil(std::sqrt(static_cast<double>(options.density.target)));
-    return std::clamp(static_cast<int>(side), 1, kMostStrata);
+    return std::clamp(static_cast<int>(side), 1, kMaxStrata);
   }
   /// The margin beyond the border in which anchors live on: an anchor that jitters at the border
   /// must not be respawned every frame.

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <string>
 
+#include "pipeline/gpu/pixel_block.h"
 #include "pipeline/marks/fading_past.h"
 
 namespace pleinair::marks {
@@ -13,7 +14,6 @@ using gpu::ImageAccess;
 using gpu::TextureFilter;
 using gpu::TextureFormat;
 
-constexpr int kBlockPixels = 4;  // as in both shaders
 const std::string kShaders = "pipeline/marks/shaders/";
 
 }  // namespace
@@ -59,8 +59,7 @@ void FilteredFrame::update(const scene::ArFrame& frame, const FilteredFrameInput
         .set("noise", static_cast<float>(input.noiseLevels / 255.0));
   };
   constexpr GLbitfield kStored = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
-  const glm::ivec2 blocks{(canvas.size.width + kBlockPixels - 1) / kBlockPixels,
-                          (canvas.size.height + kBlockPixels - 1) / kBlockPixels};
+  const glm::ivec2 blocks = gpu::pixelBlocksOf(canvas.size);
   begin(average_)
       .texture("backward", *input.backward)
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))

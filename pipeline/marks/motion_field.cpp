@@ -68,9 +68,9 @@ glm::dmat3 ofFull(const glm::dmat3& ofFrame, const scene::MeasuredMotion& moveme
 /// errors. Gives the variance over both axes, px² of the frame, of the half of the features that
 /// fits better.
 float parallaxVariance(const ImageMotion& motion) {
-  constexpr std::size_t kLeastFeatures = 16;
+  constexpr std::size_t kMinFeatures = 16;
   const std::size_t count = std::min(motion.features.size(), tracking::kMaxMovedFeatures);
-  if (!motion.picture || count < kLeastFeatures) return 0.0F;
+  if (!motion.picture || count < kMinFeatures) return 0.0F;
   std::array<float, tracking::kMaxMovedFeatures> apart{};
   std::array<float, tracking::kMaxMovedFeatures> expected{};
   for (std::size_t i = 0; i < count; ++i) {

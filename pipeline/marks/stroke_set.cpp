@@ -15,7 +15,6 @@ namespace {
 
 const std::string kShaders = "pipeline/marks/shaders/";
 constexpr std::size_t kStrokeBytes = 96;  // shaders/stroke.glsl
-constexpr std::size_t kCommandBytes = 16;
 // the level of the field whose detail decides where a layer is painted
 constexpr std::size_t kDetailLevel = 1;
 
@@ -37,7 +36,7 @@ struct StrokeSet::State {
         lay(library.compute(kShaders + "stroke_instances.comp")),
         strokes(slots * kStrokeBytes, gpu::BufferUsage::kDynamic),
         ranks(slots * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
-        command(kCommandBytes, gpu::BufferUsage::kDynamic),
+        command(gpu::kDrawCommandBytes, gpu::BufferUsage::kDynamic),
         instances(slots * kInstanceBytes, gpu::BufferUsage::kDynamic),
         noIds(gpu::TextureFormat::kR32ui, {1, 1}),
         anyColour(gpu::TextureFormat::kRgba8, {1, 1}) {
@@ -97,7 +96,7 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .set("slots", slots)
       .set("segment", rule.segmentPx)
       .set("steps", rule.steps)
-      .set("leastSteps", rule.leastSteps)
+      .set("minSteps", rule.minSteps)
       .set("colourThreshold", rule.colourThreshold)
       .set("cutOff", std::cos(rule.cutOffRad))
       .set("detailBand", rule.detailBand)
@@ -108,7 +107,7 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .set("wander", rule.wanderRad)
       .set("past", glm::vec4(stays(rule.shapeMemory), stays(rule.colourMemory),
                              stays(rule.appearing), stays(rule.vanishing)))
-      .set("mostColour", rule.mostColourPerSecond * static_cast<float>(hal::toSeconds(step)))
+      .set("maxColour", rule.maxColourPerSecond * static_cast<float>(hal::toSeconds(step)))
       .dispatch(allSlots(), GL_SHADER_STORAGE_BARRIER_BIT);
 }
 

@@ -21,7 +21,7 @@ namespace pleinair::marks {
 struct StrokeRule {
   float segmentPx = 8.0F;
   float steps = 4.0F;             ///< length of each arm in segments, at most 4
-  float leastSteps = 0.5F;        ///< shortest arm: neither colour nor detail ends it earlier
+  float minSteps = 0.5F;          ///< shortest arm: neither colour nor detail ends it earlier
   float colourThreshold = 0.12F;  ///< the arm ends at this difference from the anchor's colour
   float cutOffRad = 0.8F;         ///< the arm ends at this angle between two segments
   /// range of detail in which the layer is painted (TensorField::resolved)
@@ -44,7 +44,7 @@ struct StrokeRule {
   hal::Duration colourMemory = std::chrono::milliseconds(650);
   hal::Duration appearing = std::chrono::milliseconds(300);
   hal::Duration vanishing = std::chrono::milliseconds(300);
-  float mostColourPerSecond = 1.5F;  ///< largest change of a stroke's colour
+  float maxColourPerSecond = 1.5F;  ///< largest change of a stroke's colour
 };
 
 /// The images that strokes take their colours from, of any size (LINEAR, sRGB-coded,

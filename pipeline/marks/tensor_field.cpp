@@ -20,7 +20,7 @@ namespace {
 const std::string kShaders = "pipeline/marks/shaders/";
 constexpr int kRegionPixels = 8;
 constexpr std::size_t kEdgeWords = 1 + 128;  // shaders/edge_bins.glsl
-constexpr float kLeastEdge = 0.05F;          // of luma: the level of sensor noise
+constexpr float kMinEdge = 0.05F;            // of luma: the level of sensor noise
 constexpr GLbitfield kWritten = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
 
 glm::ivec2 itemsOf(const gpu::Texture& texture) {
@@ -119,7 +119,7 @@ void TensorField::State::findEdges(const scene::ArFrame& frame, const gpu::Textu
   threshold.use()
       .storage("Edges", edges)
       .set("share", share)
-      .set("least", kLeastEdge)
+      .set("least", kMinEdge)
       .dispatch({1, 1}, GL_SHADER_STORAGE_BARRIER_BIT);
 }
 

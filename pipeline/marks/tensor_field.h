@@ -28,8 +28,8 @@ struct TensorFieldOptions {
 /// current at construction.
 class TensorField {
  public:
-  /// `library` has gpu::marksShaders() and gpu::gpuShaders(). `full` is the size of the full image.
-  /// Throws hal::Failure if GPU memory runs out.
+  /// `library` has gpu::marksShaders(), sceneShaders(), gpuShaders(). `full`: the size of the full
+  /// image. Throws hal::Failure if GPU memory runs out.
   TensorField(const gpu::ShaderLibrary& library, hal::FrameSize full);
   ~TensorField();
   TensorField(const TensorField&) = delete;

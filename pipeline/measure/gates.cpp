@@ -58,7 +58,7 @@ Verdict judge(const CoherenceGate& gate, const RunConditions& runConditions,
               const Measures& measures, const Measures& tiling) {
   std::optional<double> Measures::*const measure = memberOf(gate.measure);
   const MeasureColumn& column = columnOf(measure);
-  const bool isUpperLimit = gate.side == CoherenceGate::Side::kMost;
+  const bool isUpperLimit = gate.side == CoherenceGate::Side::kMax;
   const char* relation = isUpperLimit ? "≤" : "≥";
   const std::optional<double>& found = measures.*measure;
   double limit = gate.limit;

@@ -87,9 +87,9 @@ constexpr double kSmoothDeviation = 3.0;
 
 /// Gates for marks that are redrawn in each frame, where the style has no gates of its own.
 constexpr std::array kReferenceGates{
-    styles::CoherenceGate{styles::CoherenceMeasure::kNHw2, styles::CoherenceGate::Side::kMost, 0.2},
-    styles::CoherenceGate{styles::CoherenceMeasure::kXFlk, styles::CoherenceGate::Side::kMost, 0.5},
-    styles::CoherenceGate{styles::CoherenceMeasure::kPop, styles::CoherenceGate::Side::kMost, 1,
+    styles::CoherenceGate{styles::CoherenceMeasure::kNHw2, styles::CoherenceGate::Side::kMax, 0.2},
+    styles::CoherenceGate{styles::CoherenceMeasure::kXFlk, styles::CoherenceGate::Side::kMax, 0.5},
+    styles::CoherenceGate{styles::CoherenceMeasure::kPop, styles::CoherenceGate::Side::kMax, 1,
                           false, styles::GateMotion::kPan},
 };
 

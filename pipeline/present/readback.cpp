@@ -131,7 +131,7 @@ void Readback::submit(const gpu::Texture& picture, FrameSize fullSize) {
                                   glm::dvec2(fullSize.width, fullSize.height);
   pack(resampler_.resample(
       picture, format_.size,
-      gpu::coverFit(fullSize, format_.size).withPixels(pixelsOfFull, glm::dvec2(1.0))));
+      gpu::aspectFill(fullSize, format_.size).withPixels(pixelsOfFull, glm::dvec2(1.0))));
   Slot& slot = ring_[submitted_ % ring_.size()];
   target_.beginKeeping();
   glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer.name());

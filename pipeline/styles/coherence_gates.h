@@ -18,7 +18,7 @@ enum class GateMotion {
 /// A limit that a style's paintings keep to.
 struct CoherenceGate {
   CoherenceMeasure measure = CoherenceMeasure::kNHw2;
-  enum class Side { kMost, kLeast } side = Side::kMost;
+  enum class Side { kMax, kMin } side = Side::kMax;
   double limit = 0.0;
   /// The limit is a share of what tiles fixed to the screen read on the same frames.
   bool isOfTiling = false;

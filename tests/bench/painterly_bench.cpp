@@ -119,19 +119,6 @@ void change(benchmark::State& state, const char* name, const char* one, const ch
   }
 }
 
-/// Frames that are the first with their brush, which is made then. Five of them: `flat` is there.
-void newBrush(benchmark::State& state) {
-  Bench bench(sizeOf(state), "painterly", gpu::PassTiming::kOff);
-  const config::ParameterValues style = bench.parameters.style;
-  const std::array<const char*, 5> brushes{"round", "dry", "knife", "marker", "pencil"};
-  std::size_t next = 0;
-  for ([[maybe_unused]] auto _ : state) {
-    bench.parameters.style = style.with("brush", brushes.at(next++));
-    bench.paint();
-    hal::orThrow(bench.painter.snapshot());
-  }
-}
-
 /// From nothing to a painter whose first frame will find all made: the driver's shader cache on
 /// disk decides about most of it.
 void start(benchmark::State& state) {
@@ -186,15 +173,8 @@ void atOneSize(benchmark::internal::Benchmark* benchmark) {
 BENCHMARK_CAPTURE(with, quads, "quads", "thesis")->Name("painterly/4 (n + 2)")->Apply(atSizes);
 BENCHMARK_CAPTURE(with, walk, "walk", "ahead")->Name("painterly/one way")->Apply(atOneSize);
 BENCHMARK_CAPTURE(with, bump, "bump", "each")->Name("painterly/bump each")->Apply(atSizes);
-BENCHMARK(newBrush)
-    ->Name("painterly/a new brush")
-    ->Args({640, 480})
-    ->Iterations(5)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
 BENCHMARK_CAPTURE(change, brush, "brush", "dry", "round")
-    ->Name("painterly/another brush again")
+    ->Name("painterly/another brush")
     ->Apply(atOneSize);
 BENCHMARK_CAPTURE(change, plan, "stroke_size", "4", "5")
     ->Name("painterly/another plan")

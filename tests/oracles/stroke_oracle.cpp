@@ -67,7 +67,7 @@ StrokeArm strokeArm(const StrokeGround& ground, const StrokeWalk& walk, glm::dve
     const double difference = colourDifference(ground.colourAt(at), start);
     if (!hasEnded && difference > walk.colourThreshold) {
       const double part = (walk.colourThreshold - before) / (difference - before);
-      arm.length = std::max(i + std::clamp(part, 0.0, 1.0), walk.leastSteps);
+      arm.length = std::max(i + std::clamp(part, 0.0, 1.0), walk.minSteps);
       hasEnded = true;
     }
     before = difference;

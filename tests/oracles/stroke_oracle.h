@@ -19,7 +19,7 @@ struct StrokeGround {
 struct StrokeWalk {
   double segmentPx = 8.0;
   int steps = 4;  ///< at most
-  double leastSteps = 0.0;
+  double minSteps = 0.0;
   double colourThreshold = 0.1;
   double cutOffRad = 0.8;
 };

@@ -31,10 +31,6 @@ void GlTest::SetUp() {
   }
 }
 
-void GlTest::TearDown() {
-  context_.reset();
-}
-
 gpu::Texture textureOf(const hal::ImageView& image) {
   hal::Image rgba({.pixelFormat = hal::PixelFormat::kRgba8, .size = image.format.size});
   const std::size_t channels = image.format.pixelFormat == hal::PixelFormat::kRgba8 ? 4 : 3;

@@ -20,8 +20,8 @@ namespace pleinair::support {
 class GlTest : public testing::Test {
  protected:
   void SetUp() override;
-  void TearDown() override;
 
+  /// Outlives the members of derived fixtures, whose GL objects go while it is current.
   std::unique_ptr<gpu::EglContext> context_;
 };
 

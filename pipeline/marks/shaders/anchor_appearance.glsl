@@ -4,6 +4,7 @@
 // Inputs:  picture (ArFrame::colour) and fullSize; noise: sigma, in [0, 1].
 // Outputs: looks: 1 + luma, and 4 * mismatch frames + 1 + red less blue; (0, 0): not sampled yet.
 // Precision: highp.
+#include "pipeline/gpu/shaders/luma.glsl"
 uniform highp sampler2D picture;
 uniform float noise;
 
@@ -25,7 +26,7 @@ Looks looksAt(vec2 px) {
   for (int i = 0; i < 5; ++i) {
     vec2 at = i == 4 ? px : px + kReach * (2.0 * vec2(i & 1, i >> 1) - 1.0);
     vec3 c = textureLod(picture, at / fullSize, 0.0).rgb;
-    vec2 value = vec2(dot(c, vec3(0.299, 0.587, 0.114)), c.r - c.b);
+    vec2 value = vec2(lumaOf(c), c.r - c.b);
     here.mean += 0.2 * value;
     here.low = min(here.low, value);
     here.high = max(here.high, value);

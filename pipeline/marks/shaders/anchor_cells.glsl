@@ -4,7 +4,7 @@
 struct Cell {
   uint inImage;  // staying anchors in the camera image
   uint onObjects;  // staying anchors on virtual objects
-  uint mostSpare;  // age and slot of the next anchor to remove
+  uint nextToRemove;  // age and slot of the next anchor to remove
   uint strata;  // the occupied parts of the cell: 16 bits for the image, 16 for objects
   uint births;  // wanted spawns: 16 bits for the image, 16 for objects
   uint firstBirth;  // index in the frame's spawns

@@ -40,5 +40,5 @@ void main() {
   atomicOr(cells[index].strata, 1u << (stratumAt(anchors[slot].px, at) + (isOnObject ? 16u : 0u)));
   // The youngest anchor is removed first: viewers look at those that have been there for long.
   uint youth = 4095u - min(uint(anchors[slot].age * kAgeUnits), 4095u);
-  atomicMax(cells[index].mostSpare, youth << kSlotBits | slot);
+  atomicMax(cells[index].nextToRemove, youth << kSlotBits | slot);
 }

@@ -19,7 +19,7 @@ uniform int birthBelow;
 uniform int deathAbove;
 
 const uint kSlotMask = 0xFFFFFu;
-const float kLeastShare = 0.12;  // of a cell: a smaller part gets no anchor of its own
+const float kMinShare = 0.12;  // of a cell: a smaller part gets no anchor of its own
 
 // The part of the cell that virtual objects cover.
 float objectShare(ivec2 cell) {
@@ -52,7 +52,7 @@ bool isAmongFull(ivec2 cell) {
 }
 
 uint wanted(float share, uint count, bool isGap) {
-  if (share < kLeastShare) return 0u;
+  if (share < kMinShare) return 0u;
   uint least = uint(max(1.0, floor(share * float(birthBelow) + 0.5)));
   uint full = uint(max(1.0, floor(share * float(target) + 0.5)));
   if (count >= least || full <= count) return 0u;
@@ -65,7 +65,7 @@ void main() {
   int index = indexOf(at);
   Cell cell = cells[index];
   if (cell.inImage + cell.onObjects > uint(deathAbove)) {
-    anchors[cell.mostSpare & kSlotMask].state |= kDying;
+    anchors[cell.nextToRemove & kSlotMask].state |= kDying;
   }
   // Border cells may be cut off.
   vec2 inside = clamp((fullSize - vec2(at * cellPixels)) / float(cellPixels), 0.0, 1.0);

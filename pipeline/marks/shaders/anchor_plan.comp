@@ -6,13 +6,10 @@
 // Precision: integers.
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/anchor_cells.glsl"
+#include "pipeline/marks/shaders/anchor_slots.glsl"
 layout(local_size_x = 128) in;
 layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
 layout(std430, binding = 1) buffer Cells { Cell cells[]; };
-layout(std430, binding = 2) writeonly buffer Plan {
-  uint freeCount;
-  uint freeSlots[];
-};
 uniform uint slots;
 uniform uint cellCount;
 

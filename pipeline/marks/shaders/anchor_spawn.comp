@@ -9,14 +9,11 @@
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/anchor_cells.glsl"
+#include "pipeline/marks/shaders/anchor_slots.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 0) writeonly buffer Anchors { Anchor anchors[]; };
 layout(std430, binding = 1) buffer Cells { Cell cells[]; };
-layout(std430, binding = 2) readonly buffer Plan {
-  uint freeCount;
-  uint freeSlots[];
-};
 uniform highp usampler2D ids;
 uniform highp usampler2D barycentrics;
 uniform bool hasObjects;
@@ -107,7 +104,7 @@ void main() {
   cells[index].strata = 0u;
   cells[index].inImage = 0u;
   cells[index].onObjects = 0u;
-  cells[index].mostSpare = 0u;
+  cells[index].nextToRemove = 0u;
   if (births == 0u) return;
   uint number = cells[index].firstBirth;
   uint taken = strata & 0xFFFFu;

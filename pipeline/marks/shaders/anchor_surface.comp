@@ -20,7 +20,7 @@ uniform float margin;
 uniform uint slots;
 
 const float kDepthTolerance = 0.002;  // of the distance, beyond the surface's own slope
-const float kMostSlope = 0.05;
+const float kMaxSlope = 0.05;
 
 float depthAt(ivec2 pixel) {
   float ndc = 2.0 * texelFetch(depth, pixel, 0).r - 1.0;
@@ -34,7 +34,7 @@ bool isSeen(vec2 px, vec3 place, vec3 normal) {
   if (objectOf(texelFetch(ids, pixel, 0).r) != object) return false;
   // The relative change of the surface's distance per pixel.
   float slope = length(normal.xy / (focal * pixelsOfFull)) * place.z / max(abs(dot(normal, place)), 1e-9);
-  float tolerance = kDepthTolerance + min(slope, kMostSlope);
+  float tolerance = kDepthTolerance + min(slope, kMaxSlope);
   return abs(depthAt(pixel) - place.z) < tolerance * place.z;
 }
 

@@ -4,10 +4,7 @@
 // Precision: integer counts, so that order does not matter.
 #include "pipeline/marks/shaders/edge_bins.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(std430, binding = 0) buffer Edges {
-  float threshold;
-  uint bins[kBins];
-};
+layout(std430, binding = 0) buffer Edges { EdgeStrengths frameEdges; };
 uniform highp sampler2D tensors;
 
 shared uint counted[kBins];
@@ -22,6 +19,6 @@ void main() {
   }
   barrier();
   for (uint i = me; i < uint(kBins); i += 64u) {
-    if (counted[i] > 0u) atomicAdd(bins[i], counted[i]);
+    if (counted[i] > 0u) atomicAdd(frameEdges.bins[i], counted[i]);
   }
 }

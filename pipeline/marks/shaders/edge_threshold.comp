@@ -7,26 +7,23 @@
 // Precision: highp.
 #include "pipeline/marks/shaders/edge_bins.glsl"
 layout(local_size_x = 1) in;
-layout(std430, binding = 0) buffer Edges {
-  float threshold;
-  uint bins[kBins];
-};
+layout(std430, binding = 0) buffer Edges { EdgeStrengths frameEdges; };
 uniform float share;
 uniform float least;
 
 void main() {
   uint all = 0u;
-  for (int i = 0; i < kBins; ++i) all += bins[i];
+  for (int i = 0; i < kBins; ++i) all += frameEdges.bins[i];
   uint above = 0u;
   float percentile = 0.0;
   for (int i = kBins - 1; i >= 0; --i) {
-    uint here = bins[i];
-    bins[i] = 0u;
+    uint here = frameEdges.bins[i];
+    frameEdges.bins[i] = 0u;
     if (percentile == 0.0 && here > 0u && (above + here) * 200u >= all) {
       float part = clamp((float(all) / 200.0 - float(above)) / float(here), 0.0, 1.0);
       percentile = strengthOf(float(i) + 1.0 - part);
     }
     above += here;
   }
-  threshold = max(mix(threshold, percentile / 3.0, share), least);
+  frameEdges.threshold = max(mix(frameEdges.threshold, percentile / 3.0, share), least);
 }

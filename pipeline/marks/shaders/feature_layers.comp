@@ -1,14 +1,11 @@
 // Purpose: the layer of each feature of the camera image: the real object of the scene (an
 //          occluder) that it lies on, or none. Features beside a border belong to neither side.
 // Inputs:  ids (ArFrame::ids), size and pixelsOfFull of its image; count.
-// Outputs: features: the layer, as in image_motion.glsl. One invocation per feature.
+// Outputs: features: the layer (feature.glsl). One invocation per feature.
 // Precision: integers; highp for places.
+#include "pipeline/marks/shaders/feature.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 64) in;
-struct Feature {
-  vec4 places;
-  vec4 about;
-};
 layout(std430, binding = 0) buffer Features { Feature features[]; };
 uniform highp usampler2D ids;
 uniform vec2 pixelsOfFull;

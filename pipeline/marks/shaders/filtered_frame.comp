@@ -4,18 +4,18 @@
 // Inputs:  filtered_frame.glsl's; backward (marks/motion_field.h); pixelsOfFull.
 // Outputs: filtered.
 // Precision: highp.
+#include "pipeline/gpu/shaders/pixel_block.glsl"
 #include "pipeline/marks/shaders/filtered_frame.glsl"
 layout(local_size_x = 16, local_size_y = 4) in;
 uniform sampler2D backward;
 uniform vec2 pixelsOfFull;
 
-const int kPixels = 16;
 const float kFieldPixels = 8.0;  // marks::MotionField
 
 ivec2 size;
 ivec2 corner;
-vec4 before[kPixels];  // the past that belongs to each pixel
-float trust[kPixels];
+vec4 before[kBlockPixels];  // the past that belongs to each pixel
+float trust[kBlockPixels];
 
 // Catmull-Rom weights of four texels for a place f beyond the second.
 vec4 weightsOf(float f) {
@@ -35,7 +35,7 @@ void followPicture() {
   vec4 across = weightsOf(from.x - whole.x);
   vec4 down = weightsOf(from.y - whole.y);
   ivec2 first = corner + ivec2(whole) - 1;
-  for (int i = 0; i < kPixels; ++i) before[i] = vec4(0.0);
+  for (int i = 0; i < kBlockPixels; ++i) before[i] = vec4(0.0);
   for (int row = 0; row < 7; ++row) {
     vec4 line[7];
     for (int i = 0; i < 7; ++i) {
@@ -50,15 +50,15 @@ void followPicture() {
       }
     }
   }
-  for (int i = 0; i < kPixels; ++i) {
-    vec2 at = vec2(corner + ivec2(i & 3, i >> 2)) + 0.5 + from;
+  for (int i = 0; i < kBlockPixels; ++i) {
+    vec2 at = vec2(corner + inBlock(i)) + 0.5 + from;
     trust[i] = isInside(at, size) ? known * max(before[i].a, 0.0) : 0.0;
   }
 }
 
 void main() {
   size = textureSize(picture, 0);
-  corner = ivec2(gl_GlobalInvocationID.xy) * 4;
+  corner = ivec2(gl_GlobalInvocationID.xy) * kBlockSide;
   if (any(greaterThanEqual(corner, size))) return;
   followPicture();
 
@@ -77,11 +77,11 @@ void main() {
     sums[i] = a + b + c;
     squares[i] = a * a + b * b + c * c;
   }
-  for (int i = 0; i < kPixels; ++i) {
+  for (int i = 0; i < kBlockPixels; ++i) {
     vec3 now = around[(i >> 2) * 6 + (i & 3) + 7];
     vec4 average = averaged(now, before[i].rgb, trust[i], sums[i] + sums[i + 4] + sums[i + 8],
                             squares[i] + squares[i + 4] + squares[i + 8]);
     // Beyond the border: no effect.
-    imageStore(filtered, corner + ivec2(i & 3, i >> 2), average);
+    imageStore(filtered, corner + inBlock(i), average);
   }
 }

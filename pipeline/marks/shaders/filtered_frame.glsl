@@ -12,7 +12,7 @@ uniform float noise;
 // standard deviations of the colours around a pixel that the past may differ by
 const float kSpread = 1.5;
 const float kNoiseSpread = 2.0;  // standard deviations of the noise that the past may differ by
-const float kMostFrames = 64.0;
+const float kMaxFrames = 64.0;
 
 // The weight of a past whose place has this error, px.
 float trustOf(float error) { return 1.0 - smoothstep(0.75, 2.0, error); }
@@ -28,7 +28,7 @@ vec4 averaged(vec3 now, vec3 before, float trust, vec3 sum, vec3 squares) {
   vec3 square = squares * (1.0 / 9.0);
   vec3 reach = kSpread * sqrt(max(square - mean * mean, 0.0)) + kNoiseSpread * noise;
   vec3 then = clamp(before, mean - reach, mean + reach);
-  float frames = kept > 0.0 ? kept * min(trust, kMostFrames) : 0.0;  // avoids NaN without a past
+  float frames = kept > 0.0 ? kept * min(trust, kMaxFrames) : 0.0;  // avoids NaN without a past
   vec3 colour = frames > 0.0 ? (now + frames * then) / (1.0 + frames) : now;
   return vec4(colour, 1.0 + frames);
 }

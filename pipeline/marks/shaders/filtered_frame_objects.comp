@@ -4,14 +4,13 @@
 // Outputs: filtered, on virtual objects. One invocation per block of 4x4 pixels, since software
 //          renderers pay for each.
 // Precision: highp.
+#include "pipeline/gpu/shaders/pixel_block.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 #include "pipeline/marks/shaders/filtered_frame.glsl"
 layout(local_size_x = 16, local_size_y = 4) in;
 uniform sampler2D motion;
 uniform highp usampler2D ids;
 uniform bool hasMotion;
-
-const int kPixels = 16;
 
 void average(ivec2 p, uint object) {
   ivec2 size = textureSize(picture, 0);
@@ -34,18 +33,18 @@ void average(ivec2 p, uint object) {
 
 bool showsObjects(ivec2 corner, ivec2 last) {
   uint all = 0u;
-  for (int i = 0; i < kPixels; ++i) all |= texelFetch(ids, min(corner + ivec2(i & 3, i >> 2), last), 0).r;
+  for (int i = 0; i < kBlockPixels; ++i) all |= texelFetch(ids, min(corner + inBlock(i), last), 0).r;
   return objectOf(all) != 0u;
 }
 
 void main() {
-  ivec2 corner = ivec2(gl_GlobalInvocationID.xy) * 4;
+  ivec2 corner = ivec2(gl_GlobalInvocationID.xy) * kBlockSide;
   ivec2 last = textureSize(picture, 0) - 1;
   if (any(greaterThan(corner, last))) return;
   // A loop in place of `if`: software renderers run both sides of a branch, but skip a loop that no
   // invocation enters.
-  for (int i = showsObjects(corner, last) ? 0 : kPixels; i < kPixels; ++i) {
-    ivec2 p = corner + ivec2(i & 3, i >> 2);
+  for (int i = showsObjects(corner, last) ? 0 : kBlockPixels; i < kBlockPixels; ++i) {
+    ivec2 p = corner + inBlock(i);
     uint object = objectOf(texelFetch(ids, min(p, last), 0).r);
     if (object != 0u) average(p, object);  // beyond the border: no effect
   }

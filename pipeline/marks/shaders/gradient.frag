@@ -13,10 +13,11 @@ uniform bool hasObjects;
 uniform float form;
 layout(location = 0) out vec2 tensor;
 
+#include "pipeline/gpu/shaders/luma.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 
 float lumaAt(ivec2 at, ivec2 last) {
-  return dot(texelFetch(picture, clamp(at, ivec2(0), last), 0).rgb, vec3(0.299, 0.587, 0.114));
+  return lumaOf(texelFetch(picture, clamp(at, ivec2(0), last), 0).rgb);
 }
 
 void main() {

@@ -6,16 +6,12 @@
 // Outputs: displacement, Jacobian, predicted error, source (anchor.glsl). All px of the full image.
 // Precision: highp. Displacements are sums of differences, so that a static image gives exactly 0.
 #include "pipeline/marks/shaders/anchor.glsl"
+#include "pipeline/marks/shaders/feature.glsl"
 #include "pipeline/scene/render/shaders/planes.glsl"
 
-const int kMostFeatures = 256;  // tracking::kMaxMovedFeatures
+const int kMaxFeatures = 256;  // tracking::kMaxMovedFeatures
 const float kUnknownError = 1.0e4;
-const float kLeastError = 1.0e-3;
-
-struct Feature {
-  vec4 places;  // previous, current
-  vec4 about;  // predicted error; the real object that it lies on, 0: none, below 0: on a border
-};
+const float kMinError = 1.0e-3;
 
 layout(std140, binding = 1) uniform Planes { Body planes[kMaxPlanes]; };
 layout(std140, binding = 2) uniform Motion {
@@ -27,7 +23,7 @@ layout(std140, binding = 2) uniform Motion {
   vec4 nodes;          // x of flow, z of still fields; 0: none
   vec4 fullByFrame;  // px of the full image per px of the captured frame
 };
-layout(std140, binding = 3) uniform Features { Feature features[kMostFeatures]; };
+layout(std140, binding = 3) uniform Features { Feature features[kMaxFeatures]; };
 
 uniform sampler2D flow;  // RGBA32F, forward or backward like the query
 uniform sampler2D still;  // R32F
@@ -122,7 +118,7 @@ Neighbours nearestFeatures(vec2 px, float layer, bool backward) {
   vec3 away = vec3(1.0e12);  // squared, nearest first
   ivec3 which = ivec3(-1);
   int count = int(known.y);
-  for (int i = 0; i < kMostFeatures; ++i) {
+  for (int i = 0; i < kMaxFeatures; ++i) {
     if (i >= count) break;
     vec2 apart = (backward ? features[i].places.zw : features[i].places.xy) - px;
     float d = features[i].about.y == layer ? dot(apart, apart) : 1.0e12;
@@ -160,10 +156,10 @@ Moved bySimilarity(vec2 px, Neighbours near) {
     turn += vec2(dot(a, d), a.x * d.y - a.y * d.x);
     variance += near.error[k] * near.error[k] / 3.0;
   }
-  const float kLeastSpread = 9.0;  // px²: closer features give no rotation
-  turn = spread > kLeastSpread ? turn / spread : vec2(0.0);
+  const float kMinSpread = 9.0;  // px²: closer features give no rotation
+  turn = spread > kMinSpread ? turn / spread : vec2(0.0);
   vec2 arm = px - middle;
-  float lever = spread > kLeastSpread ? dot(arm, arm) / spread : 0.0;
+  float lever = spread > kMinSpread ? dot(arm, arm) / spread : 0.0;
   return Moved(shift + vec2(turn.x * arm.x - turn.y * arm.y, turn.y * arm.x + turn.x * arm.y),
                vec4(1.0 + turn.x, turn.y, -turn.y, 1.0 + turn.x),
                sqrt(variance * (1.0 / 3.0 + lever)), kSourceFeatures);
@@ -175,8 +171,8 @@ Moved byTriangle(vec2 px, Neighbours near) {
   vec2 v = near.at[2] - near.at[0];
   float area = u.x * v.y - u.y * v.x;
   float longest = max(max(dot(u, u), dot(v, v)), dot(u - v, u - v));
-  const float kLeastHeight = 0.25;  // of the longest side: flatter triangles amplify noise
-  if (abs(area) <= kLeastHeight * longest) return bySimilarity(px, near);  // or all in one place
+  const float kMinHeight = 0.25;  // of the longest side: flatter triangles amplify noise
+  if (abs(area) <= kMinHeight * longest) return bySimilarity(px, near);  // or all in one place
   vec2 arm = px - near.at[0];
   float b = (arm.x * v.y - arm.y * v.x) / area;
   float c = (u.x * arm.y - u.y * arm.x) / area;
@@ -299,6 +295,6 @@ Moved imageMotionAt(vec2 px, float layer, bool backward) {
     plane.error = length(vec2(plane.error, contradicted(plane, vec2(0.0), restError)));
     best = better(best, plane);
   }
-  best.error = max(best.error, kLeastError);
+  best.error = max(best.error, kMinError);
   return best;
 }

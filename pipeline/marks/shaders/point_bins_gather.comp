@@ -32,7 +32,7 @@ void insertAll(uint first, uint next) {
 void gatherAll(uint first, uint end, ivec2 bin) {
   for (int slot = 0; slot < slots && first < end; ++slot) {
     ivec4 point = points[slot];
-    if (point.w >= 0 && binOf(vec2(point.xy) / kPointUnits) == bin) sorted[first++] = point;
+    if (point.w >= 0 && binOf(pointPlace(point)) == bin) sorted[first++] = point;
   }
 }
 

@@ -15,7 +15,7 @@ void main() {
   if (slot >= slots) return;
   ivec4 point = points[slot];
   if (point.w < 0) return;
-  ivec2 bin = binOf(vec2(point.xy) / kPointUnits);
+  ivec2 bin = binOf(pointPlace(point));
   int index = bin.y * bins.x + bin.x;
   atomicAdd(links[2 * index], 1u);
   links[2 * bins.x * bins.y + slot] = atomicExchange(links[2 * index + 1], uint(slot + 1));

@@ -7,16 +7,13 @@
 //          or 0 for real content, its anchor's age (s). One invocation per anchor.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
+#include "pipeline/gpu/shaders/luma.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/mixture.glsl"
 #include "pipeline/marks/shaders/stroke.glsl"
+#include "pipeline/marks/shaders/stroke_instance.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 64) in;
-struct Instance {
-  vec4 points[4];
-  vec4 paint;
-  vec4 shape;
-};
 layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
 layout(std430, binding = 1) readonly buffer Strokes { Stroke strokes[]; };
 layout(std430, binding = 2) readonly buffer Ranks { uint ranks[]; };
@@ -64,9 +61,9 @@ void main() {
     points[i] = px + segment * arm;
   }
   vec3 colour = stroke.colour;
-  float luma = dot(colour, vec3(0.299, 0.587, 0.114));
+  float luma = lumaOf(colour);
   vec3 hue = vec3(randomOf(seed, 0x21u), randomOf(seed, 0x22u), randomOf(seed, 0x23u));
-  hue -= dot(hue, vec3(0.299, 0.587, 0.114));
+  hue -= lumaOf(hue);
   colour = luma + (colour - luma) * (1.0 + 2.0 * jitter.y * randomOf(seed, 0x24u));
   // Jitter leaves greys nearly grey.
   float chroma = max(colour.r, max(colour.g, colour.b)) - min(colour.r, min(colour.g, colour.b));

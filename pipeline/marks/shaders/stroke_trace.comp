@@ -28,7 +28,7 @@ uniform vec2 detailScale;
 uniform uint slots;
 uniform float segment;       // px
 uniform float steps;         // at most kArm
-uniform float leastSteps;
+uniform float minSteps;
 uniform float colourThreshold;
 uniform float cutOff;        // cosine
 uniform vec2 detailBand;  // range of detail in which the layer is painted
@@ -38,7 +38,7 @@ uniform float slack;  // hysteresis: the part by which the band is wider for exi
 uniform bool bothWays;  // false: only ahead, as in the thesis
 uniform float wander;  // rad: the random deviation of a stroke from the field
 uniform vec4 past;  // the past's shares: shape, colour, existence rising, existence falling
-uniform float mostColour;  // the largest change of colour in this frame
+uniform float maxColour;  // the largest change of colour in this frame
 
 vec2 directionAt(vec2 px) {
   vec2 tensor = textureLod(field, px * fieldScale, 0.0).xy;
@@ -116,12 +116,12 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, uint object) {
     }
     if (goesOn && detailAt(at, object) < 0.4 * detailBand.x) {
       // A finer layer's stroke does not enter regions of coarser layers.
-      arm.length = min(arm.length, max(float(i) + 0.5, leastSteps));
+      arm.length = min(arm.length, max(float(i) + 0.5, minSteps));
       goesOn = false;
     }
     if (goesOn && difference > colourThreshold) {
       float part = clamp((colourThreshold - before) / max(difference - before, 1e-4), 0.0, 1.0);
-      arm.length = min(arm.length, max(float(i) + part, leastSteps));
+      arm.length = min(arm.length, max(float(i) + part, minSteps));
       goesOn = false;
     }
     if (goesOn && float(i) < steps) {
@@ -222,7 +222,7 @@ void main() {
     if (abs(made.exists - goal) < 0.02) made.exists = goal;
     vec3 change = (colour - old.colour) * (1.0 - past.y);
     float size = length(change);
-    made.colour = old.colour + change * min(1.0, mostColour / max(size, 1e-6));
+    made.colour = old.colour + change * min(1.0, maxColour / max(size, 1e-6));
   }
   made.seen = made.exists * anchors[slot].fade;
   strokes[slot] = made;

@@ -7,8 +7,9 @@
 // Outputs: regions RGBA16F: tensor (its length is the agreement of its pixels, in [0, 1]), its
 //          confidence in [0, 1]; detail: the mean P in thresholds. One invocation per region.
 // Precision: highp.
+#include "pipeline/marks/shaders/edge_bins.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(std430, binding = 0) readonly buffer Edges { float threshold; };
+layout(std430, binding = 0) readonly buffer Edges { EdgeStrengths frameEdges; };
 layout(rgba16f, binding = 0) writeonly uniform highp image2D regions;
 uniform highp sampler2D tensors;
 uniform highp sampler2D before;
@@ -46,7 +47,7 @@ void main() {
       vec2 tensor = texelFetch(tensors, ivec2(x, y), 0).xy;
       float p = length(tensor);
       // A soft threshold, so that noise does not switch it.
-      float weight = smoothstep(0.6, 1.4, p / threshold);
+      float weight = smoothstep(0.6, 1.4, p / frameEdges.threshold);
       sum += weight * tensor;
       strengths += weight * p;
       sure += weight;
@@ -56,7 +57,7 @@ void main() {
   vec2 extent = vec2(high - low);
   float pixels = max(extent.x * extent.y, 1.0);
   vec4 now = vec4(strengths > 0.0 ? sum / strengths : vec2(0.0),
-                  min(sure / (kSurePixels * pixelsOfFull.x), 1.0), edges / (pixels * threshold));
+                  min(sure / (kSurePixels * pixelsOfFull.x), 1.0), edges / (pixels * frameEdges.threshold));
   if (hasPast) {
     vec2 at = (vec2(region) + 0.5) * regionPixels;
     vec4 moved = textureLod(motion, at / fullSize, 0.0);

@@ -21,7 +21,7 @@ tracking::CameraModel assumedCamera(hal::FrameSize size) {
 
 tracking::CameraModel fittedCamera(const tracking::CameraModel& camera,
                                    hal::FrameSize pictureSize) {
-  const gpu::AspectFill fit = gpu::coverFit(camera.imageSize(), pictureSize);
+  const gpu::AspectFill fit = gpu::aspectFill(camera.imageSize(), pictureSize);
   return camera.resampled(1.0 / fit.scale, -fit.origin / fit.scale, pictureSize);
 }
 

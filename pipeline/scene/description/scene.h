@@ -95,7 +95,7 @@ struct Scene {
 /// pixels, no distortion. Poses computed with it look right but are no measurements.
 tracking::CameraModel assumedCamera(hal::FrameSize size);
 
-/// The camera model of an image that gpu::coverFit() scaled to `pictureSize`.
+/// The camera model of an image that gpu::aspectFill() scaled to `pictureSize`.
 tracking::CameraModel fittedCamera(const tracking::CameraModel& camera, hal::FrameSize pictureSize);
 
 }  // namespace pleinair::scene

@@ -20,6 +20,14 @@ gpu::Texture textureOf(const BrushMarks& marks) {
 
 }  // namespace
 
+BrushCache::BrushCache() {
+  for (const Brush brush : kBrushes) {
+    for (const int across : kBrushTexels) {
+      builtIn_.emplace(std::pair(brush, across), makeBrush(brush, across));
+    }
+  }
+}
+
 hal::Result<void> BrushCache::take(const std::filesystem::path& file) {
   if (file == file_) return {};
   std::optional<BrushMarks> marks;
@@ -40,10 +48,7 @@ const gpu::Texture& BrushCache::brush(Brush brush, int across) {
     if (known != ofFile_.end()) return known->second;
     return ofFile_.emplace(across, textureOf(reducedTo(*marks_, across))).first->second;
   }
-  const std::pair key(brush, across);
-  const auto known = builtIn_.find(key);
-  if (known != builtIn_.end()) return known->second;
-  return builtIn_.emplace(key, makeBrush(brush, across)).first->second;
+  return builtIn_.at({brush, across});
 }
 
 }  // namespace pleinair::styles

@@ -14,16 +14,18 @@ namespace pleinair::styles {
 
 inline constexpr const char* kNoBrushFile = "none";
 
-/// The brushes that were made so far, each once: a brush that is taken up again costs nothing. On
-/// the thread of a GL context.
+/// The built-in brushes, all made by the constructor, so that no frame waits for one; and those of
+/// a file, made at their first use. On the thread of a GL context.
 class BrushCache {
  public:
+  BrushCache();
+
   /// From now on brush() gives the file's, or of kNoBrushFile the built-in ones. Reads a file where
-  /// it is another one than before. Errors: readBrushFile()'s; what was in hand stays then.
+  /// it is another one than before. Errors: readBrushFile()'s; the brushes stay as they were then.
   hal::Result<void> take(const std::filesystem::path& file);
 
   /// makeBrush()'s, or the file's, which has no more texels than it has pixels. Valid until
-  /// another file is taken.
+  /// another file is taken. Precondition: `across` is one of kBrushTexels.
   const gpu::Texture& brush(Brush brush, int across);
 
  private:

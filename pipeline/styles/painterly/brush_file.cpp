@@ -15,9 +15,9 @@
 namespace pleinair::styles {
 namespace {
 
-constexpr std::int64_t kMostFileBytes = 16LL << 20;  // of the largest, not compressed, and more
-constexpr int kAspect = 4;                           // of a mark
-constexpr int kLeastPaint = 8;                       // of 255, somewhere in a mark
+constexpr std::int64_t kMaxFileBytes = 16LL << 20;  // of the largest, not compressed, and more
+constexpr int kAspect = 4;                          // of a mark
+constexpr int kMinPaint = 8;                        // of 255, somewhere in a mark
 
 hal::Error refused(const std::filesystem::path& path, std::string problem) {
   return {.kind = hal::ErrorKind::kInvalidInput,
@@ -25,11 +25,11 @@ hal::Error refused(const std::filesystem::path& path, std::string problem) {
           .problem = std::move(problem),
           .remedy = fmt::format("give a PNG of {} to {} px width: four times as wide as high, or "
                                 "square with four marks below each other",
-                                kLeastBrushWidth, kMostBrushWidth)};
+                                kMinBrushWidth, kMaxBrushWidth)};
 }
 
 hal::Error named(hal::Error error, const std::filesystem::path& path) {
-  // What is advised for a file that is empty or none is meant for movies.
+  // The remedy for an empty file, or one that is no file, speaks of movies.
   if (error.kind == hal::ErrorKind::kInvalidInput) return refused(path, error.problem);
   error.subject = "brush " + path.string();
   return error;
@@ -38,7 +38,7 @@ hal::Error named(hal::Error error, const std::filesystem::path& path) {
 hal::Result<std::vector<std::uint8_t>> bytesOf(const std::filesystem::path& path) {
   const hal::Result<hal::libav::FileInput> file = hal::libav::FileInput::open(path);
   if (!file) return tl::unexpected(named(file.error(), path));
-  if (file->sizeBytes() > kMostFileBytes) {
+  if (file->sizeBytes() > kMaxFileBytes) {
     return tl::unexpected(refused(path, fmt::format("takes {} MiB", file->sizeBytes() >> 20)));
   }
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(file->sizeBytes()));
@@ -53,7 +53,7 @@ hal::Result<std::vector<std::uint8_t>> bytesOf(const std::filesystem::path& path
 
 /// How many marks a picture of that size has; nothing where it is no brush's.
 std::optional<int> variantsOf(hal::FrameSize size) {
-  const bool isOfSize = size.width >= kLeastBrushWidth && size.width <= kMostBrushWidth;
+  const bool isOfSize = size.width >= kMinBrushWidth && size.width <= kMaxBrushWidth;
   if (!isOfSize || size.width % kAspect != 0) return std::nullopt;
   if (size.height == size.width / kAspect) return 1;
   if (size.height == size.width) return kAspect;
@@ -61,7 +61,7 @@ std::optional<int> variantsOf(hal::FrameSize size) {
 }
 
 /// The most paint that any texel has, in 255ths.
-int mostPaintOf(const BrushMarks& marks) {
+int maxPaintOf(const BrushMarks& marks) {
   int most = 0;
   for (std::size_t i = 0; i < marks.texels.size(); i += 2)
     most = std::max<int>(most, marks.texels[i]);
@@ -109,7 +109,7 @@ hal::Result<BrushMarks> readBrushFile(const std::filesystem::path& path) {
       }
     }
   }
-  if (mostPaintOf(marks) < kLeastPaint) {
+  if (maxPaintOf(marks) < kMinPaint) {
     return tl::unexpected(
         hal::Error{.kind = hal::ErrorKind::kInvalidInput,
                    .subject = "brush " + path.string(),

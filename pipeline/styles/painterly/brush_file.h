@@ -27,7 +27,7 @@ hal::Result<BrushMarks> readBrushFile(const std::filesystem::path& path);
 /// no more than there are.
 BrushMarks reducedTo(const BrushMarks& marks, int across);
 
-inline constexpr int kLeastBrushWidth = 32;  ///< px of the file
-inline constexpr int kMostBrushWidth = 1024;
+inline constexpr int kMinBrushWidth = 32;  ///< px of the file
+inline constexpr int kMaxBrushWidth = 1024;
 
 }  // namespace pleinair::styles

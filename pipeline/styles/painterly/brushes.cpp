@@ -1,8 +1,10 @@
 #include "pipeline/styles/painterly/brushes.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <random>
 #include <vector>
@@ -10,9 +12,9 @@
 namespace pleinair::styles {
 namespace {
 
-constexpr int kSamples = 3;  // of a texel, along each side
+constexpr std::size_t kSamples = 3;  // of a texel, along each side
 
-/// How a brush marks.
+/// The bristles of a brush and the mark that they leave.
 struct Hairs {
   int bristles;      // across
   double depth;      // of the furrows between them, in [0, 1]
@@ -58,24 +60,27 @@ int floorOf(double x) {
 /// Smooth noise on a line or plane, in [0, 1], from random numbers at whole places.
 class Noise {
  public:
-  explicit Noise(unsigned seed) : values_(4096) {
+  explicit Noise(unsigned seed) : values_(kValues) {
     std::mt19937 random(seed);
     for (double& each : values_) each = static_cast<double>(random()) / 4294967295.0;
   }
   double operator()(double x, double y) const {
     const int ix = floorOf(x);
     const int iy = floorOf(y);
-    const double u = smooth(0.0, 1.0, x - ix);
-    const double v = smooth(0.0, 1.0, y - iy);
+    const double u = eased(x - ix);
+    const double v = eased(y - iy);
     const double above = at(ix, iy) * (1.0 - u) + at(ix + 1, iy) * u;
     const double below = at(ix, iy + 1) * (1.0 - u) + at(ix + 1, iy + 1) * u;
     return above * (1.0 - v) + below * v;
   }
 
  private:
+  static constexpr unsigned kValues = 4096;  // a constant, by which a division is a mask
+
+  static double eased(double part) { return part * part * (3.0 - 2.0 * part); }
   double at(int x, int y) const {
     const unsigned index = static_cast<unsigned>(x) * 73U + static_cast<unsigned>(y) * 1619U;
-    return values_[index % values_.size()];
+    return values_[index % kValues];
   }
   std::vector<double> values_;
 };
@@ -85,40 +90,78 @@ struct Mark {
   double height;
 };
 
-/// u along, v across the stroke, both in [0, 1].
-Mark markAt(const Hairs& hairs, const Noise& noise, double u, double v) {
-  const double across = 2.0 * v - 1.0;
-  // Each bristle is set down and lifted by itself.
-  const double setDown = noise(v * hairs.bristles * 0.8, 3.0);
-  const double lifted = 0.6 * noise(v * hairs.bristles * 0.8, 5.0) + 0.4 * noise(v * 4.0, 6.0);
-  const double arc = hairs.roundness * (1.0 - std::sqrt(std::max(0.0, 1.0 - across * across)));
-  const double fromStart = u - 0.01 - 0.11 * arc - 0.07 * setDown;
-  const double fromEnd = 1.0 - u - 0.01 - 0.13 * arc - (0.10 + 0.14 * hairs.runsDry) * lifted;
-  const double ends = smooth(0.0, 0.05, fromStart) * smooth(0.0, 0.09, fromEnd);
+/// The terms of a mark that depend only on the place along the stroke.
+struct AlongTerms {
+  double u;  // in [0, 1]
+  double waver;
+  double laneShift;
+  double dry;
+  double piled;
+};
 
-  const double wavy = across + 0.08 * (noise(u * 5.0, 11.0) - 0.5);
-  const double sides = 1.0 - smooth(1.0 - hairs.softness, 1.0, std::abs(wavy));
+AlongTerms alongAt(const Hairs& hairs, const Noise& noise, double u) {
+  return {.u = u,
+          .waver = 0.08 * (noise(u * 5.0, 11.0) - 0.5),
+          .laneShift = 0.5 * (noise(u * 3.0, 7.0) - 0.5),
+          .dry = hairs.dryness + hairs.runsDry * smooth(0.45, 1.0, u) * 0.8,
+          .piled = 0.25 * hairs.ridge * smooth(0.6, 0.85, u)};
+}
+
+/// The terms of a mark that depend only on the place across the stroke.
+struct AcrossTerms {
+  double v;  // in [0, 1]
+  double across;
+  double setDown;
+  double lifted;
+  double arc;
+  double pushed;
+};
+
+AcrossTerms acrossAt(const Hairs& hairs, const Noise& noise, double v) {
+  const double across = 2.0 * v - 1.0;
+  return {.v = v,
+          .across = across,
+          // Each bristle is set down and lifted by itself.
+          .setDown = noise(v * hairs.bristles * 0.8, 3.0),
+          .lifted = 0.6 * noise(v * hairs.bristles * 0.8, 5.0) + 0.4 * noise(v * 4.0, 6.0),
+          .arc = hairs.roundness * (1.0 - std::sqrt(std::max(0.0, 1.0 - across * across))),
+          .pushed = hairs.ridge * smooth(0.62, 0.85, std::abs(across)) *
+                    (1.0 - smooth(0.88, 1.0, std::abs(across)))};
+}
+
+Mark markAt(const Hairs& hairs, const Noise& noise, const AlongTerms& along,
+            const AcrossTerms& row) {
+  const double u = along.u;
+  const double fromStart = u - 0.01 - 0.11 * row.arc - 0.07 * row.setDown;
+  const double fromEnd =
+      1.0 - u - 0.01 - 0.13 * row.arc - (0.10 + 0.14 * hairs.runsDry) * row.lifted;
+  const double ends = smooth(0.0, 0.05, fromStart) * smooth(0.0, 0.09, fromEnd);
+  const double sides = 1.0 - smooth(1.0 - hairs.softness, 1.0, std::abs(row.across + along.waver));
 
   // Bristles, which waver a little on their way.
-  const double lane = v * hairs.bristles + 0.5 * (noise(u * 3.0, 7.0) - 0.5);
+  const double lane = row.v * hairs.bristles + along.laneShift;
   const double bristle = noise(lane, u / hairs.streak * 2.0);
   const double fine = noise(lane * 2.7 + 40.0, u / hairs.streak * 3.0 + 9.0);
   const double hair = 0.65 * bristle + 0.35 * fine;
 
-  const double dry = hairs.dryness + hairs.runsDry * smooth(0.45, 1.0, u) * 0.8;
+  const double dry = along.dry;
   const double missing = smooth(1.0 - 0.75 * dry, 1.02 - 0.45 * dry, 1.0 - hair);
-  const double paper = noise(u * 90.0, v * 26.0);
-  const double broken = 1.0 - hairs.grain * smooth(0.42, 0.62, paper);
-  const double cover = ends * sides * (1.0 - missing) * broken;
-
-  const double pushed = hairs.ridge * smooth(0.62, 0.85, std::abs(across)) *
-                        (1.0 - smooth(0.88, 1.0, std::abs(across)));
+  double cover = ends * sides * (1.0 - missing);
+  if (hairs.grain > 0.0) {
+    const double paper = noise(u * 90.0, row.v * 26.0);
+    cover *= 1.0 - hairs.grain * smooth(0.42, 0.62, paper);
+  }
   const double body = 1.0 - hairs.depth * (1.0 - hair);
-  const double piled = 0.25 * hairs.ridge * smooth(0.6, 0.85, u);
-  return {.cover = cover, .height = std::clamp(0.65 * body + 0.5 * pushed + piled, 0.0, 1.0)};
+  return {.cover = cover,
+          .height = std::clamp(0.65 * body + 0.5 * row.pushed + along.piled, 0.0, 1.0)};
 }
 
 std::atomic<std::uint64_t> brushCount = 0;
+
+/// Where a texel's sample lies, in texels from its edge.
+double sampleAt(std::size_t number) {
+  return (static_cast<double>(number) + 0.5) / kSamples;
+}
 
 std::uint8_t byteOf(double part) {
   return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(part, 0.0, 1.0)));
@@ -133,23 +176,30 @@ gpu::Texture makeBrush(Brush brush, int across) {
   const hal::FrameSize size{along, across * kBrushVariants};
   std::vector<std::uint8_t> bytes;
   bytes.reserve(static_cast<std::size_t>(size.pixels()) * 2);
-  std::vector<Noise> noises;
+  std::vector<AlongTerms> columns(static_cast<std::size_t>(size.width) * kSamples);
   for (unsigned variant = 0; variant < kBrushVariants; ++variant) {
-    noises.emplace_back(17U + 31U * variant + 101U * static_cast<unsigned>(brush));
-  }
-  for (int y = 0; y < size.height; ++y) {
-    const Noise& noise = noises[static_cast<std::size_t>(y / across)];
-    for (int x = 0; x < size.width; ++x) {
-      Mark sum{.cover = 0.0, .height = 0.0};
-      for (int i = 0; i < kSamples * kSamples; ++i) {
-        const double u = (x + (i % kSamples + 0.5) / kSamples) / size.width;
-        const double v = (y % across + (i / kSamples + 0.5) / kSamples) / across;
-        const Mark mark = markAt(hairs, noise, u, v);
-        sum.cover += mark.cover;
-        sum.height += mark.height;
+    const Noise noise(17U + 31U * variant + 101U * static_cast<unsigned>(brush));
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const double x = static_cast<double>(i / kSamples) + sampleAt(i % kSamples);
+      columns[i] = alongAt(hairs, noise, x / size.width);
+    }
+    for (int y = 0; y < across; ++y) {
+      std::array<AcrossTerms, kSamples> rows{};
+      for (std::size_t i = 0; i < kSamples; ++i) {
+        rows[i] = acrossAt(hairs, noise, (y + sampleAt(i)) / across);
       }
-      bytes.push_back(byteOf(sum.cover / (kSamples * kSamples)));
-      bytes.push_back(byteOf(sum.height / (kSamples * kSamples)));
+      for (std::size_t x = 0; x < columns.size(); x += kSamples) {
+        Mark sum{.cover = 0.0, .height = 0.0};
+        for (const AcrossTerms& row : rows) {
+          for (std::size_t i = 0; i < kSamples; ++i) {
+            const Mark mark = markAt(hairs, noise, columns[x + i], row);
+            sum.cover += mark.cover;
+            sum.height += mark.height;
+          }
+        }
+        bytes.push_back(byteOf(sum.cover / (kSamples * kSamples)));
+        bytes.push_back(byteOf(sum.height / (kSamples * kSamples)));
+      }
     }
   }
   gpu::Texture texture(gpu::TextureFormat::kRg8, size, gpu::TextureFilter::kLinear);

@@ -11,6 +11,10 @@ namespace pleinair::styles {
 
 /// The brushes that strokes are painted with.
 enum class Brush { kRound, kFlat, kDry, kKnife, kMarker, kPencil };
+inline constexpr std::array kBrushes{Brush::kRound, Brush::kFlat,   Brush::kDry,
+                                     Brush::kKnife, Brush::kMarker, Brush::kPencil};
+/// Texels across, of which a brush is made with each.
+inline constexpr std::array kBrushTexels{8, 16, 32, 64};
 
 inline constexpr int kBrushVariants = 4;  ///< of each, below each other, so that no stamp repeats
 
@@ -21,8 +25,8 @@ inline constexpr int kBrushVariants = 4;  ///< of each, below each other, so tha
 gpu::Texture makeBrush(Brush brush, int across);
 inline constexpr double kBrushAspect = 4.0;
 
-/// How often makeBrush() has been called in this process: it takes up to 120 ms, so that none may
-/// be made in mid-play. Any thread.
+/// How often makeBrush() has been called in this process, for tests: it takes up to 20 ms, so that
+/// none may be made while frames are painted. Any thread.
 std::uint64_t brushesMade();
 
 }  // namespace pleinair::styles

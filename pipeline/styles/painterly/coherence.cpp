@@ -14,7 +14,7 @@ constexpr double kAppearingSeconds = 0.3;
 constexpr double kForever = 1e6;
 /// New strokes are to go as things lie now, and to be seen: field and anchors do not hold on for
 /// ever.
-constexpr double kMostOfTheNew = 4.0;
+constexpr double kMaxHold = 4.0;
 constexpr float kAnyColour = 1e6F;  // a second
 
 hal::Duration scaled(hal::Duration time, double hold) {
@@ -37,7 +37,7 @@ marks::MotionFieldOptions motionOf(const PainterlyParameters& p) {
 
 marks::TensorFieldOptions fieldOf(const PainterlyParameters& p) {
   marks::TensorFieldOptions options;
-  const double hold = p.history ? std::min(holdOf(p), kMostOfTheNew) : 0.0;
+  const double hold = p.history ? std::min(holdOf(p), kMaxHold) : 0.0;
   options.memory = scaled(options.memory, hold);
   if (!p.hysteresis || p.coherence <= 0.0) options.slack = 0.0;
   return options;
@@ -45,7 +45,7 @@ marks::TensorFieldOptions fieldOf(const PainterlyParameters& p) {
 
 marks::AnchorHold anchorHoldOf(const PainterlyParameters& p) {
   marks::AnchorHold anchors;
-  const double hold = p.fades ? std::min(holdOf(p), kMostOfTheNew) : 0.0;
+  const double hold = p.fades ? std::min(holdOf(p), kMaxHold) : 0.0;
   anchors.fadeIn = scaled(anchors.fadeIn, hold);
   anchors.fadeOut = scaled(anchors.fadeOut, hold);
   anchors.hasSlack = p.hysteresis;
@@ -55,8 +55,8 @@ marks::AnchorHold anchorHoldOf(const PainterlyParameters& p) {
 void holdOn(marks::StrokeRule& rule, const PainterlyParameters& p) {
   const double history = p.history ? holdOf(p) : 0.0;
   rule.shapeMemory = rule.colourMemory = secondsOf(history * kMemorySeconds);
-  const double quickest = rule.mostColourPerSecond / std::max(history, 1e-6);
-  rule.mostColourPerSecond = std::min(kAnyColour, static_cast<float>(quickest));
+  const double quickest = rule.maxColourPerSecond / std::max(history, 1e-6);
+  rule.maxColourPerSecond = std::min(kAnyColour, static_cast<float>(quickest));
   const double fades = p.fades ? holdOf(p) : 0.0;
   rule.appearing = rule.vanishing = secondsOf(fades * kAppearingSeconds);
   if (!p.hysteresis) rule.slack = 0.0F;

@@ -8,17 +8,17 @@
 
 namespace pleinair::styles {
 
-// How the painter holds on to its past: what the dial `coherence` scales, and its parts, each of
-// which can be switched off to see what it is worth: `warp`, `history`, `hysteresis`, `fades`.
+// How the style keeps its past: the constants that `coherence` scales, and the parts that can each
+// be switched off, to measure their effect: `warp`, `history`, `hysteresis`, `fades`.
 
-/// What time constants are scaled by: 0 at 0 (at once), 1 in the middle (the thesis's), for ever
+/// The factor of all time constants: 0 at 0 (at once), 1 in the middle (the thesis's), for ever
 /// at 1.
 double holdOf(const PainterlyParameters& p);
 
 marks::MotionFieldOptions motionOf(const PainterlyParameters& p);
 marks::TensorFieldOptions fieldOf(const PainterlyParameters& p);
 marks::AnchorHold anchorHoldOf(const PainterlyParameters& p);
-/// Says it of strokes.
+/// Applies the time constants to a layer's rule.
 void holdOn(marks::StrokeRule& rule, const PainterlyParameters& p);
 
 }  // namespace pleinair::styles

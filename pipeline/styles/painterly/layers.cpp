@@ -5,6 +5,7 @@
 
 #include <glm/trigonometric.hpp>
 
+#include "pipeline/styles/painterly/brushes.h"
 #include "pipeline/styles/painterly/coherence.h"
 
 namespace pleinair::styles {
@@ -12,14 +13,14 @@ namespace {
 
 /// Lengths are given for pictures of so many (640x480).
 constexpr double kReferencePixels = 307200.0;
-constexpr double kLeastPixels = 3.0;
+constexpr double kMinPixels = 3.0;
 
 std::size_t countOf(const PainterlyParameters& p) {
   return static_cast<std::size_t>(p.layers);
 }
 
 /// From how much detail on a layer is painted; the coarsest is everywhere.
-double leastDetail(const PainterlyParameters& p, std::size_t layer) {
+double minDetail(const PainterlyParameters& p, std::size_t layer) {
   if (layer == 0) return -1.0;
   if (layer + 1 == countOf(p)) return p.detail;
   const double part = static_cast<double>(layer - 1) / static_cast<double>(countOf(p) - 2);
@@ -29,8 +30,7 @@ double leastDetail(const PainterlyParameters& p, std::size_t layer) {
 /// Where a layer is painted: not below what it is for, nor where finer strokes hide it.
 glm::vec2 bandOf(const PainterlyParameters& p, std::size_t layer) {
   constexpr double kHidden = 6.0;
-  return {leastDetail(p, layer),
-          layer + 1 < countOf(p) ? kHidden * leastDetail(p, layer + 1) : 1e9};
+  return {minDetail(p, layer), layer + 1 < countOf(p) ? kHidden * minDetail(p, layer + 1) : 1e9};
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ LayerPlan planOf(const PainterlyParameters& p, hal::FrameSize full) {
   const double scale = std::sqrt(static_cast<double>(full.pixels()) / kReferencePixels);
   // Below that a brush has no bristles to show.
   const double finest =
-      std::max(scale * p.strokeSizePixels, std::min(kLeastPixels, p.strokeSizePixels));
+      std::max(scale * p.strokeSizePixels, std::min(kMinPixels, p.strokeSizePixels));
   return {countOf(p), finest, p.layerRatio, p.coverage, p.length, p.seed};
 }
 
@@ -55,10 +55,10 @@ marks::AnchorOptions anchorsOf(const LayerPlan& plan, std::size_t layer) {
 }
 
 int texelsOf(const LayerPlan& plan, std::size_t layer) {
-  const double width = widthOf(plan, layer);
-  int texels = 8;
-  while (texels < width * 1.2 && texels < 64) texels *= 2;
-  return texels;
+  const double wanted = 1.2 * widthOf(plan, layer);
+  const auto* const enough =
+      std::ranges::find_if(kBrushTexels, [&](int each) { return each >= wanted; });
+  return enough != kBrushTexels.end() ? *enough : kBrushTexels.back();
 }
 
 marks::StrokeRule ruleOf(const PainterlyParameters& p, const LayerPlan& plan, std::size_t layer) {

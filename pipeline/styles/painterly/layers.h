@@ -11,7 +11,8 @@ namespace pleinair::styles {
 
 inline constexpr int kQuads = 8;  ///< of a stroke, at most
 
-/// What decides which anchors there are. Layers are counted from the coarsest.
+/// The values that determine the anchors: another plan is another painting. Layers are counted from
+/// the coarsest.
 struct LayerPlan {
   std::size_t layers = 0;
   double finestPixels = 0.0;  // a stroke's width, of the full picture
@@ -27,9 +28,9 @@ LayerPlan planOf(const PainterlyParameters& p, hal::FrameSize full);
 
 /// The width of a layer's strokes, in px of the full picture.
 double widthOf(const LayerPlan& plan, std::size_t layer);
-/// As many anchors as make the coverage with strokes of full length.
+/// Gives a layer as many anchors as reach the coverage with strokes of full length.
 marks::AnchorOptions anchorsOf(const LayerPlan& plan, std::size_t layer);
-/// Texels across a layer's brush: about as many as its strokes have pixels.
+/// Texels across a layer's brush, one of kBrushTexels: about as many as its strokes have pixels.
 int texelsOf(const LayerPlan& plan, std::size_t layer);
 
 /// Coarse strokes are straight and broad and stop late, fine ones bend (thesis §4.4).

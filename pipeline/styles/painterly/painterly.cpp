@@ -46,7 +46,7 @@ glm::vec3 groundOf(const PainterlyParameters& p) {
   return {p.groundRed, p.groundGreen, p.groundBlue};
 }
 
-/// What is painted on, of pictures of one size.
+/// The textures that are painted on, of one image size.
 struct Canvas {
   explicit Canvas(hal::FrameSize pictureSize)
       : size(pictureSize),
@@ -77,7 +77,7 @@ struct Layer {
   StrokeStrips strips;
 };
 
-/// What belongs to one full size and plan.
+/// The state that belongs to one full size and plan.
 struct Painting {
   Painting(const gpu::ShaderLibrary& library, hal::FrameSize fullSize, const LayerPlan& given)
       : full(fullSize), plan(given), motion(library, full), field(library, full) {
@@ -92,19 +92,19 @@ struct Painting {
   std::vector<std::unique_ptr<Layer>> layers;
 };
 
-constexpr auto kMost = CoherenceGate::Side::kMost;
-constexpr auto kLeast = CoherenceGate::Side::kLeast;
+constexpr auto kMax = CoherenceGate::Side::kMax;
+constexpr auto kMin = CoherenceGate::Side::kMin;
 /// The limits that its paintings are held to (docs/measuring.md).
 constexpr std::array kGates{
-    CoherenceGate{CoherenceMeasure::kEw2, kMost, 0.6, false, GateMotion::kPan},
-    CoherenceGate{CoherenceMeasure::kNHw2, kMost, 0.10, false, GateMotion::kPan},
-    CoherenceGate{CoherenceMeasure::kNHw2, kMost, 0.20, false, GateMotion::kOtherKnown},
-    CoherenceGate{CoherenceMeasure::kS10, kLeast, 90, false, GateMotion::kPan},
-    CoherenceGate{CoherenceMeasure::kS10, kLeast, 80, false, GateMotion::kOtherKnown},
-    CoherenceGate{CoherenceMeasure::kPop, kMost, 1, false, GateMotion::kPan},
-    CoherenceGate{CoherenceMeasure::kXFlk, kMost, 0.5},
-    CoherenceGate{CoherenceMeasure::kDep, kLeast, 0.75, true},
-    CoherenceGate{CoherenceMeasure::kDet, kLeast, 0.75},
+    CoherenceGate{CoherenceMeasure::kEw2, kMax, 0.6, false, GateMotion::kPan},
+    CoherenceGate{CoherenceMeasure::kNHw2, kMax, 0.10, false, GateMotion::kPan},
+    CoherenceGate{CoherenceMeasure::kNHw2, kMax, 0.20, false, GateMotion::kOtherKnown},
+    CoherenceGate{CoherenceMeasure::kS10, kMin, 90, false, GateMotion::kPan},
+    CoherenceGate{CoherenceMeasure::kS10, kMin, 80, false, GateMotion::kOtherKnown},
+    CoherenceGate{CoherenceMeasure::kPop, kMax, 1, false, GateMotion::kPan},
+    CoherenceGate{CoherenceMeasure::kXFlk, kMax, 0.5},
+    CoherenceGate{CoherenceMeasure::kDep, kMin, 0.75, true},
+    CoherenceGate{CoherenceMeasure::kDet, kMin, 0.75},
 };
 
 /// Whether the brush's file is there and valid. Reads it; any thread. Errors: readBrushFile()'s.

@@ -46,8 +46,8 @@ class Painterly final : public Style {
   std::vector<marks::Anchor> readAnchors() const override;
   void reset() override;
 
-  /// What a layer is painted of, for measures: 0 is the coarsest. None before the first frame;
-  /// valid until the next call.
+  /// The anchors and strokes of a layer, for measures: 0 is the coarsest. None before the first
+  /// frame; valid until the next call.
   struct PaintedLayer {
     const marks::AnchorSet& anchors;
     const marks::StrokeSet& strokes;

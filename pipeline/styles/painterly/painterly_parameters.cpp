@@ -17,7 +17,7 @@ using P = PainterlyParameters;
 
 const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
   static const config::NumberRange kPart{.min = 0, .max = 1};
-  static constexpr std::array<config::Choice<Brush>, 6> kBrushes{{
+  static constexpr std::array<config::Choice<Brush>, kBrushes.size()> kBrushNames{{
       {"round", Brush::kRound},
       {"flat", Brush::kFlat},
       {"dry", Brush::kDry},
@@ -72,7 +72,7 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
       numberParameter("saturation_jitter", &P::saturationJitter, kPart,
                       "How much strokes differ in saturation."),
       numberParameter("value_jitter", &P::valueJitter, kPart, "How much strokes differ in value."),
-      choiceParameter("brush", &P::brush, kBrushes, "What strokes are painted with."),
+      choiceParameter("brush", &P::brush, kBrushNames, "What strokes are painted with."),
       pathParameter("brush_file", &P::brushFile, {kNoBrushFile},
                     "A brush of your own instead: a PNG (docs/painting.md).",
                     config::TakesEffect::kLive, ".png"),

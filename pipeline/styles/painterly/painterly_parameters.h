@@ -20,7 +20,7 @@ enum class StrokeWalk { kBoth, kAhead };
 /// Where paint's relief is lit: once, when all is painted, or on each stroke by itself.
 enum class StrokeBump { kOnce, kEach };
 
-/// What can be tuned of the painter, with the defaults. Lengths are in px of a full
+/// The parameters of the style, with their defaults. Lengths are in px of a full
 /// picture of 640x480.
 struct PainterlyParameters {
   int seed = 1;

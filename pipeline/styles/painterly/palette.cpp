@@ -12,11 +12,13 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "hal/linear_light.h"
+
 namespace pleinair::styles {
 namespace {
 
-constexpr std::size_t kLeastPigments = 2;
-constexpr std::size_t kMostPigments = 8;
+constexpr std::size_t kMinPigments = 2;
+constexpr std::size_t kMaxPigments = 8;
 
 struct Named {
   std::string_view name;
@@ -31,9 +33,10 @@ constexpr std::array<Named, 5> kNamed{{
     {"sepia", "#f7f0e1 #21150c #8a5a34"},
 }};
 
-/// In which distances are nearly those that are seen: brightness, and two of hue.
+constexpr hal::LumaWeights kLuma = hal::lumaWeights(hal::ColorMatrix::kBt601);
+/// A space in which distances are nearly those that are seen: brightness, and two axes of hue.
 const glm::dmat3 kOpponent = glm::transpose(glm::dmat3{
-    glm::dvec3(0.299, 0.587, 0.114) * 1.6,
+    glm::dvec3(kLuma.red, kLuma.green, kLuma.blue) * 1.6,
     glm::dvec3(-0.169, -0.331, 0.5),
     glm::dvec3(0.5, -0.419, -0.081),
 });
@@ -122,7 +125,7 @@ std::optional<Pigments> pigmentsIn(std::string_view text) {
   const auto* named = std::ranges::find(kNamed, text, &Named::name);
   if (named != kNamed.end()) return listed(named->pigments);
   auto own = listed(text);
-  if (!own || own->size() < kLeastPigments || own->size() > kMostPigments) return std::nullopt;
+  if (!own || own->size() < kMinPigments || own->size() > kMaxPigments) return std::nullopt;
   return own;
 }
 

@@ -12,7 +12,7 @@ namespace pleinair::styles {
 /// The pigments that a painting may be mixed of: sRGB-coded in [0, 1]; none: any colour.
 using Pigments = std::vector<glm::vec3>;
 
-/// What isPalette() takes, in words.
+/// The texts that isPalette() accepts, in words.
 inline constexpr const char* kPaletteAllowed =
     "all, zorn, earth, primaries, sepia, or 2 to 8 colours as \"#rrggbb #rrggbb …\"";
 /// Whether a text names a palette or lists pigments.

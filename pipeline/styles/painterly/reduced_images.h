@@ -26,7 +26,7 @@ class ReducedImages {
   explicit ReducedImages(const gpu::ShaderLibrary& library);
 
   void update(const scene::ArFrame& frame);
-  /// Those whose texels are at most `px` of the picture wide. Until the next update().
+  /// The images whose texels are at most `px` of the frame wide. Valid until the next update().
   marks::StrokePaint paintOf(double px) const;
   /// All of the picture, `halvings` times reduced. Precondition: 1 to kHalvings.
   const gpu::Texture& whole(std::size_t halvings) const;

@@ -29,7 +29,7 @@ gpu::VertexArrayHandle instanceLayout() {
   return array;
 }
 
-/// As shaders/stroke_strips.comp packs them for stroke.vert.
+/// The vertex layout that shaders/stroke_strips.comp packs for stroke.vert.
 gpu::VertexArrayHandle stripLayout() {
   gpu::VertexArrayHandle array = gpu::VertexArrayHandle::make();
   glBindVertexArray(array.get());

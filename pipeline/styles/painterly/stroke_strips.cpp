@@ -8,11 +8,10 @@ namespace {
 
 const std::string kShaders = "pipeline/styles/painterly/shaders/";
 constexpr std::size_t kPlanBytes = 8;
-constexpr std::size_t kCommandBytes = 16;
 constexpr std::size_t kCurvatureQuads = 7;  // at most: the spline's 9 spans, but for the outer ones
 constexpr std::size_t kThesisQuads = 36;
 /// The size of a storage buffer that every GPU supports (GL ES 3.1, table 20.45).
-constexpr std::size_t kMostBytes = std::size_t{1} << 27U;
+constexpr std::size_t kMaxBytes = std::size_t{1} << 27U;
 /// Px of the full picture that a quad may lie off its stroke: less than is seen.
 constexpr float kBendPx = 0.3F;
 
@@ -20,9 +19,9 @@ std::size_t verticesOf(std::size_t quads) {
   return 2 * quads + 4;
 }
 
-/// As many as all slots' strokes have room for.
+/// The number of quads for which each slot has room.
 std::size_t evenQuads(std::size_t slots) {
-  const std::size_t vertices = kMostBytes / StrokeStrips::kVertexBytes / slots;
+  const std::size_t vertices = kMaxBytes / StrokeStrips::kVertexBytes / slots;
   return std::clamp(std::max<std::size_t>(vertices / 2, 2) - 2, kCurvatureQuads, kThesisQuads);
 }
 
@@ -42,7 +41,7 @@ void StrokeStripMaker::lay(const gpu::Buffer& instances, const gpu::Buffer& draw
   if (!strips.vertices || strips.quads != quads) {
     const std::size_t each = verticesOf(isEven ? even : kCurvatureQuads);
     strips.plans = gpu::Buffer(slots * kPlanBytes, gpu::BufferUsage::kDynamic);
-    strips.command = gpu::Buffer(kCommandBytes, gpu::BufferUsage::kDynamic);
+    strips.command = gpu::Buffer(gpu::kDrawCommandBytes, gpu::BufferUsage::kDynamic);
     strips.vertices = {};
     strips.vertices =
         gpu::Buffer(slots * each * StrokeStrips::kVertexBytes, gpu::BufferUsage::kDynamic);

@@ -11,7 +11,7 @@
 namespace pleinair::styles {
 namespace {
 
-constexpr int kTilePixels = 512;  // as in the shaders
+constexpr int kTilePixels = 512;  // shaders/tile.glsl
 
 /// Where a pixel lies on the substrate.
 struct Place {

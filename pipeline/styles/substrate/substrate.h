@@ -7,10 +7,11 @@
 
 namespace pleinair::styles {
 
-/// What a picture is painted on. It goes with the picture as a whole, so that it is neither a
-/// dirty window before the scene nor slides under it, and its grain keeps its size on the screen
-/// under any zoom: two octaves of it blend into each other (Cunzi et al., "Dynamic canvas for
-/// immersive non-photorealistic walkthroughs", 2003). All calls on the thread of the GL context.
+/// The paper or linen under a painting. It moves with the image as a whole, so that it neither
+/// looks like a dirty window before the scene nor slides under it, and its grain keeps its size on
+/// the screen under any zoom: two octaves of it blend into each other (Cunzi et al., "Dynamic
+/// canvas for immersive non-photorealistic walkthroughs", 2003). All calls on the thread of the GL
+/// context.
 class Substrate {
  public:
   enum class Kind { kPaper, kLinen };

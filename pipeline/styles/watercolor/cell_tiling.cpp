@@ -7,19 +7,20 @@
 #include <span>
 #include <string>
 
+#include "pipeline/gpu/pixel_block.h"
+
 namespace pleinair::styles {
 namespace {
 
 using gpu::ImageAccess;
 using gpu::TextureFormat;
 
-/// What the next pass reads, and what the next round writes over.
+/// Makes a pass's writes visible to the next pass, and to the next round, which overwrites them.
 constexpr GLbitfield kWritten = GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                                 GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
 constexpr int kSettlingRounds = 5;
-constexpr int kBlockPixels = 4;         // as in tile.comp
-constexpr std::size_t kSumWords = 9;    // a cell, as in tile.comp
-constexpr int kSlotTextureWidth = 256;  // as in tiling_word.glsl
+constexpr std::size_t kSumWords = 9;    // of a cell: cell_sums.glsl
+constexpr int kSlotTextureWidth = 256;  // tiling_word.glsl
 constexpr float kReachCells = 1.0F;     // of a seed from its anchor
 constexpr float kGrowthCells = 1.25F;   // a cell of an anchor without fade has no pixel
 constexpr double kPatienceSeconds = 0.25;
@@ -123,9 +124,7 @@ void CellTiling::findCells(const TilingFrame& input, const WatercolorParameters&
       .set("beta", static_cast<float>(p.edgeBeta))
       .set("threshold", static_cast<float>(p.edgeThreshold))
       .set("wantsMeans", input.wantsMeans ? 1 : 0)
-      .dispatch({(size.width + kBlockPixels - 1) / kBlockPixels,
-                 (size.height + kBlockPixels - 1) / kBlockPixels},
-                kWritten);
+      .dispatch(gpu::pixelBlocksOf(size), kWritten);
 }
 
 /// `atOnce`: all the way, whatever the time constants.

@@ -22,7 +22,7 @@ struct CellSeed {
   glm::vec2 offset{0.0F};    ///< from its anchor, px of the full picture
   float restless = 0.0F;     ///< how long it has had reason to move, s
   std::uint32_t state = 0;   ///< the flags below
-  std::uint32_t parent = 0;  ///< the slot whose cell it was born in, plus one
+  std::uint32_t parent = 0;  ///< the slot of the cell in which it was spawned, plus one
   std::uint32_t spare[3] = {};
 
   static constexpr std::uint32_t kMoving = 1;
@@ -34,13 +34,13 @@ struct CellSeed {
 };
 static_assert(sizeof(CellSeed) == 32);
 
-/// What a frame's tiling is made of.
+/// The inputs of a frame's tiling, and its output.
 struct TilingFrame {
   const scene::ArFrame* frame = nullptr;
-  const gpu::Texture* picture = nullptr;     ///< what edges and colours are taken from
-  const gpu::Texture* tilingThen = nullptr;  ///< of the frame before; null where there is none
+  const gpu::Texture* picture = nullptr;     ///< that edges and colours are taken from
+  const gpu::Texture* tilingThen = nullptr;  ///< of the previous frame; null where there is none
   const gpu::Texture* tiling = nullptr;      ///< to be written: R32UI, shaders/tiling_word.glsl
-  hal::Duration step{0};                     ///< since the frame before
+  hal::Duration step{0};                     ///< since the previous frame
   bool wantsMeans = false;
 };
 
@@ -50,7 +50,7 @@ struct TilingFrame {
 /// diagram). All on the GPU. All calls on the thread of the GL context it was made in.
 class CellTiling {
  public:
-  /// `library` has gpu::watercolorShaders() and gpu::marksShaders().
+  /// `library` has gpu::watercolorShaders(), marksShaders(), sceneShaders().
   explicit CellTiling(const gpu::ShaderLibrary& library);
 
   /// Makes room for so many slots and forgets all seeds. Throws hal::Failure where the GPU has

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "pipeline/gpu/pixel_block.h"
 #include "pipeline/marks/fading_past.h"
 #include "pipeline/marks/filtered_frame.h"
 #include "pipeline/marks/motion_field.h"
@@ -23,7 +24,6 @@ using gpu::TextureFormat;
 
 constexpr GLbitfield kWritten = GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                                 GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
-constexpr int kBlockPixels = 4;  // as in split.comp
 constexpr double kUsualNoiseLevels = 2.0;
 const std::string kShaders = "pipeline/styles/watercolor/shaders/";
 
@@ -50,10 +50,10 @@ constexpr std::array<DebugViewInfo, 10> kViews{{
 
 /// The limits that its paintings are held to (docs/measuring.md).
 constexpr std::array kGates{
-    CoherenceGate{CoherenceMeasure::kNHw2, CoherenceGate::Side::kMost, 0.30},
-    CoherenceGate{CoherenceMeasure::kXFlk, CoherenceGate::Side::kMost, 0.15},
-    CoherenceGate{CoherenceMeasure::kDep, CoherenceGate::Side::kLeast, 0.75, true},
-    CoherenceGate{CoherenceMeasure::kScr, CoherenceGate::Side::kMost, 0.3, true,
+    CoherenceGate{CoherenceMeasure::kNHw2, CoherenceGate::Side::kMax, 0.30},
+    CoherenceGate{CoherenceMeasure::kXFlk, CoherenceGate::Side::kMax, 0.15},
+    CoherenceGate{CoherenceMeasure::kDep, CoherenceGate::Side::kMin, 0.75, true},
+    CoherenceGate{CoherenceMeasure::kScr, CoherenceGate::Side::kMax, 0.3, true,
                   GateMotion::kMoving},
 };
 
@@ -98,7 +98,7 @@ struct Watercolor::Passes {
   Substrate substrate;
 };
 
-/// What belongs to pictures of one full size.
+/// The state that belongs to one full size.
 struct Watercolor::Marks {
   Marks(const gpu::ShaderLibrary& library, hal::FrameSize fullSize)
       : full(fullSize), field(library, full) {}
@@ -216,7 +216,7 @@ void Watercolor::takeCanvas(const scene::ArFrame& frame) {
   pixelsOfFull_ = static_cast<float>(frame.pixelsOfFull().x);
 }
 
-/// What edges and colours are taken from.
+/// Finds the image that edges and colours are taken from.
 void Watercolor::filtered(const scene::ArFrame& frame) {
   picture_ = frame.colour;
   if (p_.filterTimeSeconds <= 0.0) {
@@ -243,7 +243,7 @@ void Watercolor::tile(const scene::ArFrame& frame, bool wantsMeans) {
       *marks_->anchors, p_);
 }
 
-/// What the cells hold of the picture becomes two smooth layers of pigment.
+/// Turns the colours of the cells into two smooth layers of pigment.
 void Watercolor::paintWashes(const scene::ArFrame& frame) {
   const WatercolorCanvas& s = *canvas_;
   const WatercolorCells& cells = *marks_->cells;
@@ -277,14 +277,11 @@ void Watercolor::paintWashes(const scene::ArFrame& frame) {
 void Watercolor::mixWashes() {
   const WatercolorCanvas& s = *canvas_;
   WatercolorCells& cells = *marks_->cells;
-  const hal::FrameSize half = s.guide.size();
   passes_->split.use()
       .storage("Moments", cells.moments)
       .texture("guide", s.guide)
       .texture("tiling", s.tiling)
-      .dispatch({(half.width + kBlockPixels - 1) / kBlockPixels,
-                 (half.height + kBlockPixels - 1) / kBlockPixels},
-                kWritten);
+      .dispatch(gpu::pixelBlocksOf(s.guide.size()), kWritten);
   const bool hasPast = hasPast_ && !marks_->anchors->hasBegunAnew();
   passes_->washes.use()
       .storage("Moments", cells.moments)

@@ -52,14 +52,14 @@ class Watercolor final : public Style {
   std::vector<marks::Anchor> readAnchors() const override;
   void reset() override;
 
-  /// What the last frame's passes left on the GPU, for measures and tests.
+  /// Results of the last frame's passes, on the GPU, for measures and tests.
   struct Inner {
     const CellTiling* tiler;        ///< seeds, means
     const gpu::Texture* tiling;     ///< R32UI a pixel: shaders/tiling_word.glsl
-    const gpu::Texture* filtered;   ///< what edges and colours are taken from
+    const gpu::Texture* filtered;   ///< the image that edges and colours are taken from
     const gpu::Texture* guide;      ///< RGBA8 for 2×2 px: shaders/guide.frag
     const gpu::Texture* darkWash;   ///< RGBA8, a texel a slot: shaders/washes.comp
-    const gpu::Texture* lightWash;  ///< likewise, its share in A
+    const gpu::Texture* lightWash;  ///< the same, with its share in A
   };
   Inner inner() const;
 

@@ -7,7 +7,7 @@
 
 namespace pleinair::styles {
 
-/// What can be tuned of the watercolor, with the defaults. The first group is the thesis's (chapter
+/// The parameters of the style, with their defaults. The first group is the thesis's (chapter
 /// III); with `mosaic` 1, `retile_rest` 0 and the rest of the second group 0 the picture is the
 /// thesis's: flat cells under dark edges.
 struct WatercolorParameters {

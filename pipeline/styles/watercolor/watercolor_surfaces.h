@@ -11,7 +11,7 @@
 
 namespace pleinair::styles {
 
-/// What the watercolor has of the colours of each cell, by its anchor's slot. All levels of quality
+/// The colours of all cells, each in its anchor's slot. All levels of quality
 /// have the same cells.
 struct WatercolorCells {
   explicit WatercolorCells(std::uint32_t slotCount)
@@ -34,10 +34,10 @@ struct WatercolorCells {
   gpu::Texture darkWash;
   gpu::Texture lightWash;
   gpu::Texture places;  ///< for views: shaders/show_seeds.comp
-  gpu::Texture ways;    ///< likewise
+  gpu::Texture ways;    ///< the same
 };
 
-/// What it has of the pixels of pictures of one size; nothing of the past.
+/// The textures of one image size. They hold one frame's pixels, and no history.
 struct WatercolorCanvas {
   explicit WatercolorCanvas(hal::FrameSize pictureSize)
       : size(pictureSize),

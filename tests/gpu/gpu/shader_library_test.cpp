@@ -90,6 +90,26 @@ TEST_F(ShaderLibraryTest, RunsWhatItPutTogether) {
   EXPECT_THAT(readRgba8(picture).plane(0), testing::ElementsAre(51, 102, 153, 255));
 }
 
+TEST_F(ShaderLibraryTest, CompilesTheSameShadersWithTheSameDefinesOnce) {
+  const ShaderLibrary shaders = library();
+  const Texture one(TextureFormat::kRgba8, {1, 1});
+  const Texture other(TextureFormat::kRgba8, {1, 1});
+  Program first = shaders.fragmentPass("t/main.frag");
+  Program second = shaders.fragmentPass("t/main.frag");
+  EXPECT_EQ(shaders.compiledPrograms(), 1U);
+  first.use().drawFullscreen(RenderTarget({&one}));
+  second.use().drawFullscreen(RenderTarget({&other}));
+  EXPECT_THAT(readRgba8(one).plane(0), testing::ElementsAre(51, 102, 153, 255));
+  EXPECT_THAT(readRgba8(other).plane(0), testing::ElementsAre(51, 102, 153, 255));
+  shaders.fragmentPass("t/main.frag", {{"DARK"}});
+  shaders.fragmentPass("t/main.frag", {{"LEVEL", "1"}});
+  EXPECT_EQ(shaders.compiledPrograms(), 3U);
+  shaders.fragmentPass("t/main.frag", {{"LEVEL", "2"}});
+  EXPECT_EQ(shaders.compiledPrograms(), 4U) << "a value makes another program under the same name";
+  EXPECT_THAT(errorOf([&] { shaders.fragmentPass("t/unlinkable.frag"); }), HasSubstr("link"));
+  EXPECT_EQ(shaders.compiledPrograms(), 4U);
+}
+
 TEST_F(ShaderLibraryTest, NamesFileAndLineOfACompileError) {
   EXPECT_THAT(errorOf([] { library().fragmentPass("t/bad_include.frag"); }),
               AllOf(StartsWith("shader t/bad_include.frag: does not compile: t/bad.glsl:3"),

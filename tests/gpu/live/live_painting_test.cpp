@@ -132,10 +132,9 @@ TEST_F(LivePaintingTest, SaysAtTheStartThatThereIsNoCamera) {
   EXPECT_EQ(folder_.entryCount(), 0u) << "and leaves no file";
 }
 
-TEST(LivePainter, MakesTheBrushesOfItsFirstLookBeforeTheFirstFrame) {
-  const PaintParameters first{.style = styles::styleKind("painterly").parametersOf("sketch"),
-                              .view = {}};
-  LiveControls controls(first);
+TEST(LivePainter, MakesNoBrushInAFrameWhateverTheLook) {
+  const styles::StyleKind& kind = styles::styleKind("painterly");
+  LiveControls controls({.style = kind.parametersOf("sketch"), .view = {}});
   LivePainter painter({.pictureSize = kFormat.size,
                        .style = "painterly",
                        .tracksTags = false,
@@ -144,8 +143,11 @@ TEST(LivePainter, MakesTheBrushesOfItsFirstLookBeforeTheFirstFrame) {
   const std::uint64_t before = styles::brushesMade();
   EXPECT_GT(before, 0U);
   const hal::Image image = support::testPicture(kFormat, 1);
-  EXPECT_TRUE(painter.paint({.image = image.view()}, 0));
-  EXPECT_EQ(styles::brushesMade(), before);
+  for (const styles::Look& look : kind.looks) {
+    controls.setParameters({.style = kind.parametersOf(look.name), .view = {}});
+    EXPECT_TRUE(painter.paint({.image = image.view()}, 0));
+    EXPECT_EQ(styles::brushesMade(), before) << look.name;
+  }
 }
 
 TEST_F(LivePaintingTest, TellsItsStatusWhileItWaitsForACamera) {

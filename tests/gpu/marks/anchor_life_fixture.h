@@ -44,12 +44,6 @@ class AnchorLife : public MarksTest {
     if (IsSkipped()) return;
     useScene({});
   }
-  void TearDown() override {
-    set_.reset();
-    field_.reset();
-    renderer_.reset();
-    MarksTest::TearDown();
-  }
 
   void useScene(const scene::Scene& scene) {
     renderer_.emplace(library_, scene);

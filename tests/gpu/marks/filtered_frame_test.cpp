@@ -57,12 +57,6 @@ class FilteredFrameTest : public support::GlTest {
     steady_ = std::make_unique<FilteredFrame>(library_);
     move({0.0, 0.0}, 0.01F);
   }
-  void TearDown() override {
-    steady_.reset();
-    backward_ = {};
-    picture_ = {};
-    GlTest::TearDown();
-  }
 
   /// The field that says that all has moved so.
   void move(glm::vec2 displacement, float error, float source = 5.0F) {

@@ -27,12 +27,6 @@ class ImageMotionTest : public MarksTest {
     field_.emplace(library_, kSize);
     update({});
   }
-  void TearDown() override {
-    field_.reset();
-    renderer_.reset();
-    questions_.reset();
-    MarksTest::TearDown();
-  }
 
   void update(const tracking::ImageMotion& motion, const scene::PoseSet& poses = {}) {
     field_->update(compose(*renderer_, poses, motion));

@@ -33,11 +33,6 @@ class MarksTest : public scene::SceneGlTest {
     picture_ = plainPicture(kSize);
   }
 
-  void TearDown() override {
-    picture_ = {};
-    SceneGlTest::TearDown();
-  }
-
   static tracking::CameraModel camera() {
     return {{.fx = 300.0, .fy = 302.0, .cx = 162.0, .cy = 118.0}, {}, kSize};
   }

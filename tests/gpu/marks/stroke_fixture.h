@@ -64,15 +64,6 @@ class StrokeTest : public TensorTest {
     motionField_.emplace(library_, kSize);
     beginAnew();
   }
-  void TearDown() override {
-    strokes_.reset();
-    anchors_.reset();
-    field_.reset();
-    motionField_.reset();
-    ids_ = {};
-    zeros_ = {};
-    TensorTest::TearDown();
-  }
 
   void beginAnew(const AnchorOptions& options = {.density = {.cellPixels = 12}}) {
     strokes_.reset();

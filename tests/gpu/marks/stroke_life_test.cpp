@@ -35,7 +35,7 @@ constexpr StrokeRule kPlain{.colourThreshold = 5.0F,
                             .colourMemory = kEver,
                             .appearing = kEver,
                             .vanishing = kEver,
-                            .mostColourPerSecond = 1e6F};
+                            .maxColourPerSecond = 1e6F};
 
 /// Between lines, in [0, π/2].
 double angleBetween(glm::vec2 a, glm::vec2 b) {
@@ -100,7 +100,7 @@ TEST_F(StrokeLife, WithoutMemoryEachFrameIsAlone) {
 TEST_F(StrokeLife, AColourChangesNoFasterThanItMay) {
   StrokeRule rule = kPlain;
   rule.colourMemory = kNone;
-  rule.mostColourPerSecond = 0.6F;
+  rule.maxColourPerSecond = 0.6F;
   const hal::Image picture = greyPicture(kSize, kUpright);
   const hal::Image dark = greyPicture(kSize, [](glm::dvec2) { return 0.2; });
   const hal::Image light = greyPicture(kSize, [](glm::dvec2) { return 0.8; });

@@ -53,12 +53,12 @@ class StrokeSetTest : public StrokeTest {
 };
 
 constexpr StrokeRule kPlain{.segmentPx = 6.0F,
-                            .leastSteps = 0.5F,
+                            .minSteps = 0.5F,
                             .colourThreshold = 0.15F,
                             .cutOffRad = 0.5F,
                             .wanderRad = 0.0F};
 constexpr oracles::StrokeWalk kPlainWalk{
-    .segmentPx = 6.0, .steps = 4, .leastSteps = 0.5, .colourThreshold = 0.15, .cutOffRad = 0.5};
+    .segmentPx = 6.0, .steps = 4, .minSteps = 0.5, .colourThreshold = 0.15, .cutOffRad = 0.5};
 
 /// A ramp of colours, in which strokes end here and there.
 hal::Image ramp() {
@@ -148,7 +148,7 @@ TEST_F(StrokeSetTest, OneWayIsNearTheThesissSkeleton) {
 TEST_F(StrokeSetTest, EndsWhereTheColourChanges) {
   const hal::Image paint = greyPicture(kSize, [](glm::dvec2 px) { return px.x < 128 ? 0.2 : 0.8; });
   StrokeRule rule = kPlain;
-  rule.leastSteps = 0.0F;
+  rule.minSteps = 0.0F;
   advance(greyPicture(kSize, kLevel), rule, standing(), &paint);
   int ended = 0;
   for (const StrokeTips& each : tips(rule.segmentPx)) {
@@ -203,7 +203,7 @@ TEST_F(StrokeSetTest, ObjectsAndTheirSurroundingsAreNotCrossed) {
   }
   StrokeRule rule = kPlain;
   rule.colourThreshold = 5.0F;  // it is not the colour that ends them
-  rule.leastSteps = 0.0F;
+  rule.minSteps = 0.0F;
   rule.widthPx = 1.0F;  // the least that is painted is a dab as wide
   advance(greyPicture(kSize, kLevel), rule, standing(), &paint);
   int onObject = 0;
@@ -315,7 +315,7 @@ TEST_F(StrokeSetTest, InstancesLieOnTheirSkeletons) {
 TEST_F(StrokeSetTest, SpecksArePaintedThinly) {
   StrokeRule rule = kPlain;
   rule.opacity = 0.8F;
-  rule.leastSteps = 0.3F;
+  rule.minSteps = 0.3F;
   // Where every pixel is of another colour, strokes are cut short on both sides.
   const hal::Image paint = greyPicture(
       kSize, [](glm::dvec2) { return 0.5; }, 90.0);

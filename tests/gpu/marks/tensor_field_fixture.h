@@ -28,11 +28,6 @@ class TensorFieldFixture : public TensorTest {
     motionField_.emplace(library_, kSize);
     field_.emplace(library_, kSize);
   }
-  void TearDown() override {
-    field_.reset();
-    motionField_.reset();
-    TensorTest::TearDown();
-  }
 
   void update(const hal::Image& picture, const tracking::ImageMotion& motion = standing(),
               const TensorFieldOptions& options = {}, hal::Duration step = kStep) {

@@ -236,7 +236,7 @@ TEST_F(PainterTest, RefusesWhatItCannotPaintAtTheStart) {
 }
 
 TEST_F(PainterTest, CanBeCancelledWhileItIsMade) {
-  for (const int programs : {0, 3, 40}) {
+  for (const int programs : {0, 3, 30}) {
     int asked = 0;
     const auto isCancelled = [&] { return ++asked > programs; };
     try {
@@ -249,7 +249,7 @@ TEST_F(PainterTest, CanBeCancelledWhileItIsMade) {
   }
   int asked = 0;
   Painter painter({.pictureSize = {96, 64}, .isCancelled = [&] { return ++asked < 0; }});
-  EXPECT_GT(asked, 40);
+  EXPECT_GT(asked, 30);
   const int whileMade = asked;
   ASSERT_TRUE(painter.paint(testFrame(0), painter.defaultParameters()));
   EXPECT_EQ(asked, whileMade) << "what is made later cannot be cancelled";

@@ -15,12 +15,6 @@ namespace {
 
 class ClipTest : public PainterlyTest {
  protected:
-  void TearDown() override {
-    ids_ = {};
-    zeros_ = {};
-    PainterlyTest::TearDown();
-  }
-
   void setIds(hal::FrameSize size, const std::function<std::uint32_t(int, int)>& objectAt) {
     std::vector<std::uint32_t> ids;
     for (int y = 0; y < size.height; ++y) {

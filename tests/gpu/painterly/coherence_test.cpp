@@ -45,7 +45,7 @@ TEST(CoherenceDial, AtItsEndsNothingAndAllIsHeld) {
   const PainterlyParameters all{.coherence = 1.0};
   EXPECT_GT(held(all).shapeMemory, std::chrono::hours(24));
   EXPECT_GT(held(all).vanishing, std::chrono::hours(24));
-  EXPECT_LT(held(all).mostColourPerSecond, 1e-4F);
+  EXPECT_LT(held(all).maxColourPerSecond, 1e-4F);
   EXPECT_LT(anchorHoldOf(all).fadeIn, std::chrono::seconds(2)) << "new strokes are to be seen";
   double before = -1.0;
   for (const double coherence : {0.0, 0.1, 0.4, 0.5, 0.7, 0.95, 1.0}) {

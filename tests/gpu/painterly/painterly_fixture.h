@@ -49,11 +49,6 @@ class PainterlyTest : public StyleTest {
   gpu::Texture picture_;
   tracking::ImageMotion motion_;
   int number_ = 0;
-
-  void TearDown() override {
-    picture_ = {};
-    StyleTest::TearDown();
-  }
 };
 
 /// The mean difference of two pictures' bytes, alpha not counted.

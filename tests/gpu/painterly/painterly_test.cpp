@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "pipeline/marks/anchor_set.h"
+#include "pipeline/styles/painterly/brushes.h"
 #include "pipeline/styles/painterly/painterly_parameters.h"
 #include "tests/gpu/painterly/painterly_fixture.h"
 #include "tests/support/allocation_count.h"
@@ -40,6 +41,34 @@ TEST_F(PainterlyTest, GivesTheSamePicturesOnEveryRunAndBesideAnother) {
     const scene::ArFrame frame = next(3.0 * static_cast<double>(i), 3.0);
     EXPECT_EQ(paint(first, frame), alone[i]) << "frame " << i;
     EXPECT_NE(paint(second, frame), alone[i]);
+  }
+}
+
+TEST_F(PainterlyTest, CompilesEachProgramOnceWhateverTheLayersLooksAndSizes) {
+  Painterly style(library_);
+  const std::size_t compiled = library_.compiledPrograms();
+  EXPECT_GT(compiled, 20U);
+  for (const Look& look : style.kind().looks) {
+    style.setParameters(style.kind().parametersOf(look.name));
+    for (const hal::FrameSize size : {kSize, hal::FrameSize{96, 72}}) {
+      paint(style, next(0.0, 0.0, size));
+      EXPECT_EQ(library_.compiledPrograms(), compiled) << look.name;
+    }
+  }
+  const Painterly another(library_);
+  EXPECT_EQ(library_.compiledPrograms(), compiled);
+}
+
+TEST_F(PainterlyTest, MakesNoBrushInAPaintedFrame) {
+  Painterly style(library_);
+  const std::uint64_t made = brushesMade();
+  for (const Look& look : style.kind().looks) {
+    style.setParameters(style.kind().parametersOf(look.name));
+    for (const char* const pixels : {"2", "12"}) {
+      style.setParameters(style.parameters().with("stroke_size", pixels));
+      paint(style, next(0.0, 0.0));
+      EXPECT_EQ(brushesMade(), made) << look.name << ", strokes of " << pixels << " px";
+    }
   }
 }
 

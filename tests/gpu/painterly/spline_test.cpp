@@ -145,8 +145,7 @@ class BrushTest : public support::GlTest {};
 TEST_F(BrushTest, BrushesDifferAndSoDoTheirVariants) {
   constexpr int kAcross = 16;
   std::vector<std::vector<float>> brushes;
-  for (const Brush brush :
-       {Brush::kRound, Brush::kFlat, Brush::kDry, Brush::kKnife, Brush::kMarker, Brush::kPencil}) {
+  for (const Brush brush : kBrushes) {
     const gpu::Texture texture = makeBrush(brush, kAcross);
     ASSERT_EQ(texture.size(), (hal::FrameSize{4 * kAcross, kAcross * kBrushVariants}));
     hal::Image image = support::readRgba8(texture);

@@ -58,11 +58,6 @@ class StripTest : public support::GlTest {
     library_.add(gpu::painterlyShaders());
     maker_.emplace(library_);
   }
-  void TearDown() override {
-    strips_ = {};
-    maker_.reset();
-    GlTest::TearDown();
-  }
 
   /// Fills strips_; slots are more than there are strokes.
   void lay(const std::vector<LaidStroke>& strokes, StrokeQuads quads = StrokeQuads::kCurvature) {

@@ -112,10 +112,6 @@ class ContactShadowTest : public SceneGlTest {
     SceneGlTest::SetUp();
     if (!IsSkipped()) white_ = whitePicture();
   }
-  void TearDown() override {
-    white_ = {};  // while there is a context
-    SceneGlTest::TearDown();
-  }
   gpu::Texture white_;
 };
 

@@ -46,11 +46,6 @@ class PassTest : public StyleTest, public testing::WithParamInterface<Size> {
     picture_ = support::textureOf(image_.view());
     use(thesisParameters());
   }
-  void TearDown() override {
-    style_.reset();
-    picture_ = {};
-    StyleTest::TearDown();
-  }
 
   void use(WatercolorParameters p) {
     p.cellSizePixels = GetParam().cell;

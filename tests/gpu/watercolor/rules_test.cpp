@@ -24,6 +24,7 @@ int localSize(const std::string& text, const char* axis) {
 TEST(WatercolorShaders, KeepWithinWhatTheTargetsAllow) {
   gpu::ShaderLibrary library;
   library.add(gpu::gpuShaders());
+  library.add(gpu::sceneShaders());
   library.add(gpu::marksShaders());
   library.add(gpu::substrateShaders());
   library.add(gpu::watercolorShaders());

@@ -10,6 +10,7 @@
 #include "hal/cameras/synthetic/render/sampler.h"
 #include "hal/cameras/synthetic/world/noise.h"
 #include "hal/cameras/synthetic/world/srgb.h"
+#include "hal/linear_light.h"
 
 namespace pleinair::hal::synthetic {
 namespace {
@@ -99,9 +100,7 @@ void Sensor::beginFrame(std::uint64_t frame, const SensorGains& gains) {
     table.resize(kQuarters);
     for (std::size_t i = 0; i < kQuarters; ++i) {
       const double coded = static_cast<double>(i) / (kQuarters - 1);
-      const double linear =
-          coded <= 0.04045 ? coded / 12.92 : std::pow((coded + 0.055) / 1.055, 2.4);
-      const auto gained = static_cast<float>(linear * gains[channel]);
+      const auto gained = static_cast<float>(hal::linearFromSrgb(coded) * gains[channel]);
       table[i] = static_cast<std::int16_t>(std::lround(levelFromLinear(gained) * 64));
     }
   }

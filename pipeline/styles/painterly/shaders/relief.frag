@@ -6,6 +6,7 @@
 //          warmth.
 // Outputs: RGBA8, sRGB-coded, opaque.
 // Precision: highp for places.
+#include "pipeline/gpu/shaders/luma.glsl"
 #include "pipeline/styles/painterly/shaders/paint_light.glsl"
 #include "pipeline/styles/substrate/shaders/substrate.glsl"
 uniform sampler2D colours;
@@ -46,7 +47,7 @@ void main() {
   vec4 substrate = sheetAt(onPaper(gl_FragCoord.xy), 1.0);
   lit += weave * (1.0 - 0.7 * here) * (2.0 * substrate.g - 1.0);
   rgb = mix(mix(ground, rgb, wash), rgb, caught(substrate.r, texelFetch(heights, p, 0).g));
-  float luma = dot(rgb, vec3(0.299, 0.587, 0.114));
+  float luma = lumaOf(rgb);
   rgb = luma + (rgb - luma) * saturation;
   rgb *= vec3(1.0 + 0.12 * warmth, 1.0, 1.0 - 0.15 * warmth);
   rgb = inLight(rgb, lit) + gloss * shineOf(normal);

@@ -6,11 +6,12 @@
 //          the image to px of the paper, as complex numbers; coarser: weight of the coarser octave.
 // Outputs: as in paper.frag.
 // Precision: highp for places.
+#include "pipeline/styles/substrate/shaders/tile.glsl"
 uniform sampler2D paper;
 uniform vec2 paperLinear;
 uniform vec2 paperShift;
 uniform float coarser;
-const float kPaperTexel = 1.0 / 512.0;
+const float kPaperTexel = 1.0 / float(kTile);
 
 vec2 onPaper(vec2 pixel) {
   return vec2(paperLinear.x * pixel.x - paperLinear.y * pixel.y,

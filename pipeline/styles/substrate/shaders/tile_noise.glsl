@@ -3,7 +3,7 @@
 // Outputs: noise in about [-1, 1].
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
-const int kTile = 512;  // px, as in the code
+#include "pipeline/styles/substrate/shaders/tile.glsl"
 
 // Perlin's gradient noise with a lattice of `spacing` px (a divisor of the tile).
 float noise(vec2 at, int spacing, uint salt) {

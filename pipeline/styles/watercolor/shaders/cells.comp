@@ -2,12 +2,14 @@
 //          §3.2.3), else the centroid of its cell, which spaces seeds evenly (Lloyd, "Least squares
 //          quantization in PCM", 1982). A seed rests exactly until that place has been far away for
 //          a while, so that noise moves no seed. Also each cell's exact mean colour (§3.2.1).
-// Inputs:  sums (tile.comp; cleared here for the next frame), points (seeds.comp), slots,
+// Inputs:  sums (cell_sums.glsl; cleared here for the next frame), points (seeds.comp), slots,
 //          pixelsOfFull, minEdgePixels; follow and drift: the parts in [0, 1] of the way to the
 //          edge and to the centroid; reach: as in seeds.comp; rest: px of the full image within
 //          which a place is not far; patience and passed: s; atOnce: without rest.
 // Outputs: seeds; meansNow (RGBA16F, if wantsMeans): linear mean; 1 where the cell has pixels.
 // Precision: sums are exact.
+#include "pipeline/marks/shaders/point.glsl"
+#include "pipeline/styles/watercolor/shaders/cell_sums.glsl"
 #include "pipeline/styles/watercolor/shaders/seed.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
 layout(local_size_x = 64) in;
@@ -27,7 +29,6 @@ uniform float passed;
 uniform bool atOnce;
 uniform bool wantsMeans;
 
-const int kWords = 9;
 const float kArrived = 0.25;  // of `rest`
 
 // Divides whole pixels first: a sum can have more bits than a float.
@@ -67,11 +68,11 @@ vec2 stepOf(inout Seed seed, vec2 way, float part) {
 void main() {
   int slot = int(gl_GlobalInvocationID.x);
   if (slot >= slots) return;
-  int base = slot * kWords;
+  int base = slot * kSumWords;
   uint count = sums[base + 3];
   if (wantsMeans) {
     vec3 sum = vec3(uvec3(sums[base], sums[base + 1], sums[base + 2]));
-    vec4 mean = count > 0u ? vec4(sum / (float(count) * 16384.0), 1.0) : vec4(0.0);
+    vec4 mean = count > 0u ? vec4(sum / (float(count) * kLinearUnits), 1.0) : vec4(0.0);
     imageStore(means, texelOf(uint(slot)), mean);
   }
   ivec4 point = points[slot];
@@ -81,11 +82,11 @@ void main() {
     float pull = pullOf(edges);
     vec2 target = mix(meanOf(uvec2(sums[base + 7], sums[base + 8]), count),
                       meanOf(uvec2(sums[base + 4], sums[base + 5]), max(edges, 1u)), pull);
-    vec2 way = (target - vec2(point.xy) / 64.0) / pixelsOfFull;
+    vec2 way = (target - pointPlace(point)) / pixelsOfFull;
     float away = length(seed.offset + way);
     if (away > reach) way = (seed.offset + way) * (reach / away) - seed.offset;
     seed.offset += stepOf(seed, way, mix(drift, follow, pull));
     seeds[slot] = seed;
   }
-  for (int i = 0; i < kWords; ++i) sums[base + i] = 0u;
+  for (int i = 0; i < kSumWords; ++i) sums[base + i] = 0u;
 }

@@ -4,6 +4,7 @@
 //          threshold, and the parameters of the same names (watercolor_parameters.h).
 // Outputs: sRGB-coded colours.
 // Precision: highp for places; less would suffice for colours.
+#include "pipeline/gpu/shaders/luma.glsl"
 #include "pipeline/styles/watercolor/shaders/density.glsl"
 #include "pipeline/styles/substrate/shaders/substrate.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
@@ -53,7 +54,7 @@ vec3 washAt(ivec2 p, vec4 substrate) {
   vec3 density = lightDensity + glazeDensity * glaze * (1.0 + rim * atRim);
 
   // Pigment settles in the valleys, less visibly in thick paint; a brush skips the highest grains.
-  float thick = dot(density, kLuma);
+  float thick = lumaOf(density);
   float grains = 2.0 * valley / (1.0 + 0.7 * thick) -
                  0.5 * smoothstep(0.55, 0.9, substrate.r) * smoothstep(1.0, 2.5, thick);
   return colourOf(density * max(1.0 + granulation * grains, 0.2));

@@ -4,8 +4,6 @@
 // Inputs, outputs: sRGB-coded colours; densities in [0, 8] in base 2; both packed for 8-bit
 //          textures as square roots, because thin layers matter most.
 // Precision: highp.
-const vec3 kLuma = vec3(0.299, 0.587, 0.114);
-
 vec3 densityOf(vec3 colour) { return -log2(max(colour, vec3(0.004))); }
 vec3 colourOf(vec3 density) { return exp2(-density); }
 vec3 packDensity(vec3 density) { return sqrt(clamp(density * 0.125, 0.0, 1.0)); }

@@ -7,6 +7,7 @@
 //          position, 0 all dark, 1 all light, as 0.5 x + 0.25; A of the light one: hardness of the
 //          border.
 // Precision: highp.
+#include "pipeline/gpu/shaders/luma.glsl"
 #include "pipeline/styles/watercolor/shaders/density.glsl"
 uniform sampler2D guide;
 uniform sampler2D darkPigment;
@@ -21,7 +22,7 @@ layout(location = 1) out vec4 lightLayer;
 // Varies the amount of paint by the load of the brush; thick paint varies less.
 vec3 loaded(vec3 density, float load) {
   float more = variation * (load - 0.5) * 1.6;
-  return density * max(1.0 + more / (1.0 + 0.7 * dot(density, kLuma)), 0.2);
+  return density * max(1.0 + more / (1.0 + 0.7 * lumaOf(density)), 0.2);
 }
 
 void main() {
@@ -38,7 +39,7 @@ void main() {
   float place = clamp(dot(seen - dark.rgb, axis), -0.5, 1.5);
   float slope = 0.5 * length(vec2(dot(dFdx(seen), axis), dot(dFdy(seen), axis)));
   slope *= pixelsOfFull;  // per px of the full image
-  float striking = contrast / (0.3 + 0.8 * dot(light.rgb, kLuma));  // the eye sees ratios
+  float striking = contrast / (0.3 + 0.8 * lumaOf(light.rgb));  // the eye sees ratios
   float hard = hardness * smoothstep(0.06, 0.25, striking) * smoothstep(0.02, 0.08, slope);
 
   // A third colour, neither of the two nor between them.

@@ -6,6 +6,7 @@
 // Outputs: darkPigment, lightPigment (RGBA8): sRGB-coded; A of the dark one: the light one's share;
 //          A of the light one: the load, 0.5 is normal.
 // Precision: highp.
+#include "pipeline/gpu/shaders/luma.glsl"
 #include "pipeline/styles/substrate/shaders/substrate.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
 uniform highp usampler2D tiling;
@@ -90,7 +91,7 @@ void main() {
   }
   vec3 one = low.rgb / low.a;
   vec3 other = high.rgb / high.a;
-  bool swapped = dot(one - other, vec3(0.299, 0.587, 0.114)) > 0.0;
+  bool swapped = lumaOf(one - other) > 0.0;
   darkPigment = vec4(swapped ? other : one, swapped ? 1.0 - share : share);
   lightPigment = vec4(swapped ? one : other, loadAt(middle));
 }

@@ -4,9 +4,10 @@
 //          since the last time; beginsAnew: all seeds are new; full: the full image's size in px;
 //          pixelsOfFull; reach: the largest distance of a seed from its anchor, px of the full
 //          image; growth: the penalty of an anchor that has not faded in, px² of this image.
-// Outputs: seeds; points (marks/point_bins.glsl).
-// Precision: points are rounded to the lattice of 1/64 px.
+// Outputs: seeds; points (marks/point.glsl).
+// Precision: points are rounded to their lattice.
 #include "pipeline/marks/shaders/anchor.glsl"
+#include "pipeline/marks/shaders/point.glsl"
 #include "pipeline/styles/watercolor/shaders/seed.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
 layout(local_size_x = 64) in;
@@ -51,7 +52,7 @@ void main() {
   Seed seed = seeds[slot];
   if (!isAlive(anchor.state)) {
     seeds[slot].state = 0u;
-    points[slot] = ivec4(0, 0, 0, -1);
+    points[slot] = kNoPoint;
     return;
   }
   if (carries) {
@@ -61,5 +62,5 @@ void main() {
   }
   vec2 at = clamp((anchor.px + seed.offset) * pixelsOfFull, vec2(-kFarAway), vec2(kFarAway));
   float penalty = (1.0 - clamp(anchor.fade, 0.0, 1.0)) * growth;
-  points[slot] = ivec4(ivec2(floor(at * 64.0 + 0.5)), int(penalty * 4096.0), slot);
+  points[slot] = pointAt(at, penalty, slot);
 }

@@ -1,11 +1,12 @@
 // Purpose: copies seeds and their anchors into textures that the fragment shaders of the debug
 //          views can read.
-// Inputs:  anchors (marks/anchor.glsl), seeds (seed.glsl), points (marks/point_bins.glsl): of this
+// Inputs:  anchors (marks/anchor.glsl), seeds (seed.glsl), points (marks/point.glsl): of this
 //          frame's tiling; slots, pixelsOfFull.
 // Outputs: places (RGBA32F): px of the seed and of its anchor; ways (RGBA16F): the source of the
 //          anchor's motion, its age in s, its fade, 1 if its seed is moving.
 // Precision: highp.
 #include "pipeline/marks/shaders/anchor.glsl"
+#include "pipeline/marks/shaders/point.glsl"
 #include "pipeline/styles/watercolor/shaders/seed.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
 layout(local_size_x = 64) in;
@@ -21,7 +22,7 @@ void main() {
   int slot = int(gl_GlobalInvocationID.x);
   if (slot >= slots) return;
   Anchor anchor = anchors[slot];
-  vec2 at = vec2(points[slot].xy) / 64.0;
+  vec2 at = pointPlace(points[slot]);
   float moving = (seeds[slot].state & kMoving) != 0u ? 1.0 : 0.0;
   ivec2 texel = texelOf(uint(slot));
   imageStore(places, texel, vec4(at, anchor.px * pixelsOfFull));

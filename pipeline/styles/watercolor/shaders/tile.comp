@@ -5,11 +5,15 @@
 // Inputs:  picture (sRGB-coded), ids (R32UI) if hasObjects; sorted, starts, bins, binPixels: the
 //          seeds (marks/point_bins.h); alpha, beta, threshold; wantsMeans: whether colours are
 //          summed, too.
-// Outputs: tiling (R32UI, tiling_word.glsl), sums: per cell 9 words, linear R, G, B in 1/16384,
-//          pixels, over edge pixels x, y, count, and over all pixels x, y.
+// Outputs: tiling (R32UI, tiling_word.glsl), sums (cell_sums.glsl).
 // Precision: integers for distances and sums, so that order does not matter; of equally near seeds
 //          the first in `sorted` wins. Beyond 350 px, distances are rounded to 1/4 px.
+#include "pipeline/gpu/shaders/colour.glsl"
+#include "pipeline/gpu/shaders/luma.glsl"
+#include "pipeline/gpu/shaders/pixel_block.glsl"
 #include "pipeline/marks/shaders/point_bins.glsl"
+#include "pipeline/scene/render/shaders/object_id.glsl"
+#include "pipeline/styles/watercolor/shaders/cell_sums.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
 layout(local_size_x = 16, local_size_y = 4) in;
 layout(std430, binding = 0) readonly buffer Starts { uint starts[]; };
@@ -24,16 +28,11 @@ uniform float beta;
 uniform float threshold;
 uniform bool wantsMeans;
 
-const int kSide = 4;
-const int kPixels = 16;
-const uint kWords = 9u;  // words per cell in sums
-const uint kTriangleBits = 22u;  // scene::kTriangleBits
-const uint kRealObject = 512u;   // scene::kRealObject
 const float kHalfDiagonal = 2.1213204;  // between the block's middle and its corner pixels' centres
 
 ivec2 size;
 ivec2 corner;  // the block's first pixel
-uint nearest[kPixels];  // the slot, plus one
+uint nearest[kBlockPixels];  // the slot, plus one
 
 vec2 middle() { return vec2(corner) + 2.0; }
 
@@ -72,8 +71,8 @@ void findNearest() {
   int unit = 64 >> coarser;
   ivec2 low = binOf(middle() - reach);
   ivec2 high = binOf(middle() + reach);
-  int best[kPixels];
-  for (int i = 0; i < kPixels; ++i) {
+  int best[kBlockPixels];
+  for (int i = 0; i < kBlockPixels; ++i) {
     best[i] = 0x7FFFFFFF;
     nearest[i] = 1u;
   }
@@ -86,7 +85,7 @@ void findNearest() {
       uint name = uint(point.w) + 1u;
       int start = s.x * s.x + s.y * s.y - unit * (s.x + s.y) + (point.z >> (2 * coarser));
       s *= 2 * unit;
-      for (int i = 0; i < kPixels; ++i) {
+      for (int i = 0; i < kBlockPixels; ++i) {
         int value = start - ((i & 3) * s.x + (i >> 2) * s.y);
         nearest[i] = value < best[i] ? name : nearest[i];
         best[i] = min(best[i], value);
@@ -101,20 +100,12 @@ ivec2 inPicture(ivec2 at) { return clamp(at, ivec2(0), size - 1); }
 // BT.601's Y', Cb, Cr.
 float differenceOf(vec4 a, vec4 b) {
   vec3 d = a.rgb - b.rgb;
-  float y = dot(d, vec3(0.299, 0.587, 0.114));
+  float y = lumaOf(d);
   float u = (d.b - y) * (1.0 / 1.772);
   float v = (d.r - y) * (1.0 / 1.402);
   float yuv = (1.0 - alpha) * abs(y) + alpha * 0.5 * (abs(u) + abs(v));
   float rgb = (abs(d.r) + abs(d.g) + abs(d.b)) * (1.0 / 3.0);
   return (beta * yuv + (1.0 - beta) * rgb) * 0.5;
-}
-
-// IEC 61966-2-1 with a polynomial for y^0.4: within 0.2/255 of the exact curve.
-vec3 linearFromSrgbFast(vec3 srgb) {
-  vec3 y = (srgb + 0.055) * (1.0 / 1.055);
-  vec3 root = ((((2.121072 * y - 6.588469) * y + 8.066004) * y - 5.157318) * y + 2.353418) * y +
-              0.206812;
-  return mix(y * y * root, srgb * (1.0 / 12.92), lessThanEqual(srgb, vec3(0.04045)));
 }
 
 void addColour(uint index, uvec3 colour) {
@@ -133,7 +124,7 @@ void addPlaces(uint places, uint x, uint y, uint count) {
 
 void main() {
   size = textureSize(picture, 0);
-  corner = ivec2(gl_GlobalInvocationID.xy) * kSide;
+  corner = ivec2(gl_GlobalInvocationID.xy) * kBlockSide;
   if (any(greaterThanEqual(corner, size))) return;
   findNearest();
 
@@ -146,47 +137,47 @@ void main() {
   if (hasObjects) {
     for (int i = 0; i < 36; ++i) {
       uint id = texelFetch(ids, inPicture(first + ivec2(i % 6, i / 6)), 0).r;
-      uint object = id >> kTriangleBits;
+      uint object = objectOf(id);
       block[i].a = object < kRealObject ? float(object) : 0.0;  // real content has its own edges
     }
   }
 
-  uint place[kPixels];  // x, y in the block and 1, 8 bits each
-  uint edge[kPixels];   // the same of an edge pixel
-  for (int i = 0; i < kPixels; ++i) {
+  uint place[kBlockPixels];  // x, y in the block and 1, 8 bits each
+  uint edge[kBlockPixels];   // the same of an edge pixel
+  for (int i = 0; i < kBlockPixels; ++i) {
     int at = (i >> 2) * 6 + (i & 3) + 7;
-    ivec2 inBlock = ivec2(i & 3, i >> 2);
+    ivec2 here = inBlock(i);
     float strength = differenceOf(block[at + 1], block[at - 1]) +
                      differenceOf(block[at + 6], block[at - 6]);
     bool silhouette = block[at + 1].a != block[at - 1].a || block[at + 6].a != block[at - 6].a;
     bool isEdge = strength > threshold || silhouette;
-    place[i] = uint(inBlock.x | (inBlock.y << 8) | (1 << 16));
+    place[i] = uint(here.x | (here.y << 8) | (1 << 16));
     edge[i] = isEdge ? place[i] : 0u;
     uint word = packTiling(nearest[i] - 1u, isEdge, silhouette ? 1.0 : strength);
-    imageStore(tiling, corner + inBlock, uvec4(word, 0u, 0u, 0u));  // no effect beyond the border
-    if (any(greaterThanEqual(corner + inBlock, size))) nearest[i] = 0u;
+    imageStore(tiling, corner + here, uvec4(word, 0u, 0u, 0u));  // no effect beyond the border
+    if (any(greaterThanEqual(corner + here, size))) nearest[i] = 0u;
   }
 
   // Cell by cell, from the highest down, without branches.
   for (uint above = 0xFFFFFFFFu;;) {
     uint name = 0u;
-    for (int i = 0; i < kPixels; ++i) name = max(name, nearest[i] < above ? nearest[i] : 0u);
+    for (int i = 0; i < kBlockPixels; ++i) name = max(name, nearest[i] < above ? nearest[i] : 0u);
     if (name == 0u) break;
     uint places = 0u;
     uint edges = 0u;
-    for (int i = 0; i < kPixels; ++i) {
+    for (int i = 0; i < kBlockPixels; ++i) {
       places += nearest[i] == name ? place[i] : 0u;
       edges += nearest[i] == name ? edge[i] : 0u;
     }
-    uint index = (name - 1u) * kWords;
+    uint index = (name - 1u) * uint(kSumWords);
     addPlaces(places, index + 7u, index + 8u, index + 3u);
     if (edges != 0u) addPlaces(edges, index + 4u, index + 5u, index + 6u);
     if (wantsMeans) {
       uvec3 colour = uvec3(0u);
-      for (int i = 0; i < kPixels; ++i) {
+      for (int i = 0; i < kBlockPixels; ++i) {
         uint taken = nearest[i] == name ? 0xFFFFFFFFu : 0u;
         vec3 srgb = block[(i >> 2) * 6 + (i & 3) + 7].rgb;
-        colour += uvec3(linearFromSrgbFast(srgb) * 16384.0 + 0.5) & taken;
+        colour += uvec3(linearFromSrgbFast(srgb) * kLinearUnits + 0.5) & taken;
       }
       addColour(index, colour);
     }

@@ -4,6 +4,7 @@
 // Outputs: RGBA8, sRGB-coded, opaque. Precision: highp.
 #include "pipeline/gpu/shaders/colour.glsl"
 #include "pipeline/gpu/shaders/hash.glsl"
+#include "pipeline/styles/substrate/shaders/tile.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
 uniform highp usampler2D tiling;
 uniform sampler2D means;
@@ -70,7 +71,7 @@ void main() {
   } else if (view == VIEW_LIGHT) {
     rgb = texture(lightPigment, gl_FragCoord.xy / pictureSize).rgb;
   } else if (view == VIEW_PAPER) {
-    rgb = texelFetch(paper, p & 511, 0).rgb;
+    rgb = texelFetch(paper, p & (kTile - 1), 0).rgb;
     rgb = vec3(rgb.r * 0.5 + rgb.g * 0.5);
   }
   colour = vec4(rgb, 1.0);

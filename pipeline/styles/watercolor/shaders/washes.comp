@@ -3,13 +3,14 @@
 //          pixels (moment-preserving thresholding: Tsai, 1985; Delp and Mitchell, 1979). The
 //          moments are averaged over time, so that a cell that gains or loses pixels changes its
 //          colours slowly.
-// Inputs:  moments (split.comp; cleared here for the next frame), seeds (seed.glsl), past: this
+// Inputs:  moments (moments.glsl; cleared here for the next frame), seeds (seed.glsl), past: this
 //          pass's mean moments of the previous frame; slots; kept: the part of the past's weight
 //          that remains, 0 without a past. A new cell takes the past of the cell in which it was
 //          spawned.
 // Outputs: darkWash, lightWash (RGBA8): sRGB-coded; A of the light one: its share. now: per cell 8
 //          floats: mean R, G, B in levels, frames' worth of pixels; L R, L G, L B, L³ / 16.
 // Precision: highp; a frame's sums below 2^24 are exact.
+#include "pipeline/styles/watercolor/shaders/moments.glsl"
 #include "pipeline/styles/watercolor/shaders/seed.glsl"
 #include "pipeline/styles/watercolor/shaders/tiling_word.glsl"
 layout(local_size_x = 64) in;
@@ -22,10 +23,10 @@ layout(binding = 1, rgba8) writeonly uniform highp image2D lightWash;
 uniform int slots;
 uniform float kept;
 
-const vec3 kLuma = vec3(0.25, 0.625, 0.125);  // as in split.comp, in levels
-const float kLeastSpread = 3.0;  // levels; below it, a cell has one colour
+const vec3 kLuma = vec3(kMomentLuma) / 8.0;  // in levels
+const float kMinSpread = 3.0;  // levels; below it, a cell has one colour
 const float kWholeCell = 6.0;     // pixels of the guide that count as a frame's worth
-const float kMostFrames = 64.0;
+const float kMaxFrames = 64.0;
 
 // The mean of a frame's moments and the past's; first.w is the weight.
 void average(inout vec4 first, inout vec4 second, int slot) {
@@ -38,7 +39,7 @@ void average(inout vec4 first, inout vec4 second, int slot) {
   // A lasting change is adopted at once.
   float apart = length(first.rgb - firstThen.rgb);
   float alike = first.w > 0.0 ? 1.0 - smoothstep(12.0, 40.0, apart) : 1.0;
-  float before = kept * alike * min(firstThen.w, kMostFrames);
+  float before = kept * alike * min(firstThen.w, kMaxFrames);
   float all = before + first.w;
   if (all <= 0.0) return;
   first.rgb = (before * firstThen.rgb + first.w * first.rgb) / all;
@@ -49,7 +50,7 @@ void average(inout vec4 first, inout vec4 second, int slot) {
 void main() {
   int slot = int(gl_GlobalInvocationID.x);
   if (slot >= slots) return;
-  int base = slot * 8;
+  int base = slot * kMomentWords;
   uint pixels = moments[base + 3];
   vec4 first = vec4(0.0);
   vec4 second = vec4(0.0);
@@ -59,7 +60,7 @@ void main() {
                  min(count / kWholeCell, 1.0));
     second = vec4(vec3(uvec3(moments[base + 4], moments[base + 5], moments[base + 6])) / (8.0 * count),
                   float(moments[base + 7]) * 16.0 / count);
-    for (int i = 0; i < 8; ++i) moments[base + i] = 0u;
+    for (int i = 0; i < kMomentWords; ++i) moments[base + i] = 0u;
   }
   if ((seeds[slot].state & kLiving) != 0u) average(first, second, slot);
   now[2 * slot] = first;
@@ -71,7 +72,7 @@ void main() {
   vec3 dark = mean / 255.0;
   vec3 light = dark;
   float share = 0.5;
-  if (variance > kLeastSpread * kLeastSpread) {
+  if (variance > kMinSpread * kMinSpread) {
     float spread = sqrt(variance);
     float third = second.a - 3.0 * m * variance - m * m * m;
     float skew = clamp(third / (variance * spread), -4.0, 4.0);

@@ -1,19 +1,8 @@
-// Purpose: a stroke as marks::StrokeSet stores it (marks/shaders/stroke_instances.comp).
+// Purpose: a stroke's strip of quads, as planned by stroke_bend.comp and stroke_offsets.comp.
 // Inputs, outputs: px of the full image.
 // Precision: highp.
-struct Instance {
-  vec4 points[4];
-  vec4 paint;
-  vec4 shape;  // half the width; variant, plus 4 if mirrored; its object; its anchor's age
-};
-
-// glDrawArraysIndirect's.
-struct DrawCommand {
-  uint vertexCount;
-  uint instanceCount;
-  uint firstVertex;
-  uint spare;
-};
+#include "pipeline/gpu/shaders/draw_command.glsl"
+#include "pipeline/marks/shaders/stroke_instance.glsl"
 
 // The knots at which a stroke's strip is divided into quads, and its first vertex.
 struct StripPlan {
