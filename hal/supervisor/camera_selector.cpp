@@ -156,20 +156,16 @@ Result<OpenedCamera> CameraSelector::openSerial(std::string_view serial,
 Result<OpenedCamera> CameraSelector::openNamed(const SelectableBackend& backend,
                                                std::string_view name,
                                                const StreamRequest& request) {
-  const std::vector<Candidate> found = listed({&backend}).found;
-  for (const Candidate& each : found) {
+  for (const Candidate& each : listed({&backend}).found) {
     if (each.description.node != name) continue;
     Result<OpenedCamera> opened = start(each, request);
     if (opened) atNode_ = each.description.identity;
     return opened;
   }
-  // A driver that was reset may give its camera another node.
-  for (const Candidate& each : found) {
-    if (atNode_ && isSameCamera(each.description.identity, *atNode_)) return start(each, request);
-  }
-  // What is not listed may be another name that the back end knows; if not, it says what there is.
-  const CameraIdentity identity{
-      .backend = std::string(backend.backend->name()), .id = std::string(name), .description = {}};
+  // A driver that was reset may give its camera another node; by its id the back end finds it.
+  // Otherwise the name may be another one that the back end knows; if not, it says what there is.
+  const CameraIdentity identity = atNode_.value_or(
+      CameraIdentity{.backend = std::string(backend.backend->name()), .id = std::string(name)});
   return start({.backend = &backend, .description = {.identity = identity}}, request);
 }
 

@@ -115,6 +115,10 @@ bool contradictsId(DeviceNodes& nodes, const std::string& link, const std::strin
   return serial && !serial->empty() && link.find(plainText(*serial)) == std::string::npos;
 }
 
+bool isUdevRunning(DeviceNodes& nodes) {
+  return std::ranges::count(nodes.list("/run/udev"), "control") > 0;
+}
+
 /// One look at /dev, which gives each node its id.
 class Listing {
  public:
@@ -161,6 +165,9 @@ class Listing {
     }
     for (auto [link, end] = byPath_.equal_range(node); link != end; ++link) {
       if (!contradictsPath(system_.nodes, link->second, name)) return link->second;
+    }
+    if (isUdevRunning(system_.nodes)) {  // its link follows, or has not been moved here yet
+      if (std::string link = byPathName(system_.nodes, name); !link.empty()) return link;
     }
     if (capability == nullptr) return node;
     const std::string index = system_.nodes.firstLine(sysfsOf(name) + "/index").value_or("0");

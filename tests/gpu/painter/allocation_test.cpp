@@ -61,16 +61,11 @@ std::vector<hal::CapturedFrame> framesOf(hal::PixelFormat format) {
   return frames;
 }
 
-/// Two levels on, and round: visits all of them where their number is odd.
-std::size_t levelAfter(std::size_t level) {
-  const std::size_t count = qualityLevels().size();
-  return count % 2 == 1 ? (level + 2) % count : (level + 1) % count;
-}
-
 /// A row of frames as an output has them painted.
 struct Show {
   Painter& painter;
   bool changesLevels = false;
+  const std::size_t levels = qualityLevels().size();
   PaintParameters parameters = painter.defaultParameters();
   const int readback = painter.openReadback({hal::PixelFormat::kI420, kFrame});
   OutputFrame picture;
@@ -78,9 +73,14 @@ struct Show {
   std::size_t maxTags = 0;
   bool everWorld = false;
 
+  /// Visits all levels, the next but one first where that meets all of them.
+  std::size_t levelAfter() const {
+    return (parameters.quality + (levels % 2 == 1 ? 2 : 1)) % levels;
+  }
+
   void play(const std::vector<hal::CapturedFrame>& frames) {
     for (const hal::CapturedFrame& frame : frames) {
-      if (changesLevels && painted % 2 == 0) parameters.quality = levelAfter(parameters.quality);
+      if (changesLevels && painted % 2 == 0) parameters.quality = levelAfter();
       const hal::Result<Picture> result = painter.paint(frame, parameters);
       if (!result) continue;
       ++painted;

@@ -165,6 +165,16 @@ TEST_F(V4l2StaleLinks, AByPathLinkThatUdevHasNotMovedYetIsNotFollowed) {
   EXPECT_EQ(openedAs("platform-vivid.0-video-index0"), "Reset at /dev/video1");
 }
 
+TEST_F(V4l2StaleLinks, GiveAnIdThatStaysOnceUdevHasMovedThem) {
+  constexpr const char* kName = "platform-vivid.0-video-index0";
+  plugAt("video1", {.card = "Reset"});
+  describePlatform("video1", "vivid.0");
+  link("/dev/v4l/by-path", kName, "/dev/video0");
+  EXPECT_THAT(ids(), ElementsAre("platform:fake-000-Reset-index0")) << "without udev";
+  link("/run/udev", "control", "/run/udev/control");
+  EXPECT_THAT(ids(), ElementsAre(kName)) << "udev is about to move its link";
+}
+
 TEST_F(V4l2StaleLinks, ALinkToANodeThatAnotherCameraHasTakenIsNotFollowed) {
   constexpr const char* kFormer = "pci-0000:00:14.0-usb-0:4:1.0-video-index0";
   plugAt("video0", {.card = "Other"});
