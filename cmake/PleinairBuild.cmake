@@ -50,9 +50,16 @@ if(PLEINAIR_FUZZ)
   add_custom_target(fuzz)
 endif()
 
+# Makes the sources that the build generates, and compiles nothing: clang-tidy needs them.
+add_custom_target(generated)
+function(pleinair_generates name)
+  add_custom_target(${name}_generated DEPENDS ${ARGN})
+  add_dependencies(generated ${name}_generated)
+endfunction()
+
 # Compiles a target's sources in batches (docs/decisions/0018-unity-builds.md), because most of the
 # compiler's time goes to headers. Sources of one batch share their unnamed namespaces, so names in
-# them must differ. The preset "clang", which clang-tidy uses, compiles each source by itself.
+# them must differ. The preset "clang" compiles each source by itself.
 option(PLEINAIR_UNITY "Compile the sources of a module in batches" ON)
 function(pleinair_speed_up target)
   if(PLEINAIR_UNITY)

@@ -21,5 +21,6 @@ function(pleinair_embed_shaders target lister)
     DEPENDS ${inputs} "${CMAKE_SOURCE_DIR}/cmake/EmbedShaders.cmake"
     VERBATIM)
   target_sources(${target} PRIVATE "${generated}.cpp" "${generated}.h")
+  pleinair_generates(${target} "${generated}.cpp" "${generated}.h")
   target_include_directories(${target} PUBLIC "${CMAKE_BINARY_DIR}/generated")
 endfunction()
