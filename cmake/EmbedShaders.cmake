@@ -1,5 +1,5 @@
 # Run as a script: writes OUTPUT.cpp, the text of every shader in INPUTS, and OUTPUT.h, which
-# declares the function `LISTER()` that lists them.
+# declares the function `LISTER()` that lists them, and which others include as HEADER.
 string(REPLACE "|" ";" INPUTS "${INPUTS}")
 list(LENGTH INPUTS count)
 
@@ -9,9 +9,8 @@ string(APPEND header "#include \"pipeline/gpu/embedded_shader.h\"\n\n")
 string(APPEND header "namespace pleinair::gpu {\n\n${declaration}\n}  // namespace pleinair::gpu\n")
 file(WRITE "${OUTPUT}.h" "${header}")
 
-set(code "// Made from shader files at build; edit those.\n#include <array>\n#include <span>\n\n")
-string(APPEND code "#include \"pipeline/gpu/embedded_shader.h\"\n\nnamespace pleinair::gpu {\n\n")
-string(APPEND code "${declaration}\n")
+set(code "// Made from shader files at build; edit those.\n#include \"${HEADER}\"\n\n#include <array>\n\n")
+string(APPEND code "namespace pleinair::gpu {\n\n")
 string(APPEND code "std::span<const EmbeddedShader> ${LISTER}() {\n")
 string(APPEND code "  static constexpr std::array<EmbeddedShader, ${count}> kShaders{{\n")
 foreach(input IN LISTS INPUTS)

@@ -17,7 +17,8 @@ function(pleinair_embed_shaders target lister)
   add_custom_command(
     OUTPUT "${generated}.cpp" "${generated}.h"
     COMMAND "${CMAKE_COMMAND}" "-DOUTPUT=${generated}" "-DROOT=${CMAKE_SOURCE_DIR}"
-            "-DLISTER=${lister}" "-DINPUTS=${joined}" -P "${CMAKE_SOURCE_DIR}/cmake/EmbedShaders.cmake"
+            "-DLISTER=${lister}" "-DHEADER=${module}/${name}_shaders.h"
+            "-DINPUTS=${joined}" -P "${CMAKE_SOURCE_DIR}/cmake/EmbedShaders.cmake"
     DEPENDS ${inputs} "${CMAKE_SOURCE_DIR}/cmake/EmbedShaders.cmake"
     VERBATIM)
   target_sources(${target} PRIVATE "${generated}.cpp" "${generated}.h")

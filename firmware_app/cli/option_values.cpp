@@ -15,7 +15,7 @@ namespace pleinair::app {
 namespace {
 
 /// A year at 30 frames per second.
-constexpr std::uint64_t kMostFrames = 1'000'000'000;
+constexpr std::uint64_t kMaxFrames = 1'000'000'000;
 
 std::string foundText(std::string_view text, std::string_view allowed) {
   return fmt::format("found \"{}\", allowed: {}", text, allowed);
@@ -45,10 +45,10 @@ std::uint64_t frameCountOf(const std::string& text, const std::string& option,
                            std::uint64_t least) {
   std::uint64_t count = 0;
   std::string_view rest = text;
-  if (takeNumber(rest, count) && rest.empty() && count >= least && count <= kMostFrames)
+  if (takeNumber(rest, count) && rest.empty() && count >= least && count <= kMaxFrames)
     return count;
   throw CLI::ValidationError(
-      option, foundText(text, fmt::format("a whole number from {} to {}", least, kMostFrames)));
+      option, foundText(text, fmt::format("a whole number from {} to {}", least, kMaxFrames)));
 }
 
 double numberOf(const std::string& option, const std::string& text, std::string_view unit,

@@ -190,16 +190,16 @@ void applyLook(Sections& sections) {
 /// The latency rises to max_latency, so that it cannot begin above it. Blames whichever was given.
 void checkLatency(const Sections& sections) {
   constexpr std::string_view kKey = "runtime.latency";
-  constexpr std::string_view kMostKey = "runtime.max_latency";
+  constexpr std::string_view kMaxKey = "runtime.max_latency";
   const RuntimeSettings runtime = runtimeOf(sections);
   if (runtime.latencyMs <= runtime.maxLatencyMs) return;
   if (sections.origin(kKey) != config::kDefaultOrigin) {
     throw sections.errorAt(kKey, fmt::format("found {}", runtime.latencyMs),
                            fmt::format("at most {}, which is {} ({})", runtime.maxLatencyMs,
-                                       kMostKey, sections.origin(kMostKey)));
+                                       kMaxKey, sections.origin(kMaxKey)));
   }
   throw sections.errorAt(
-      kMostKey, fmt::format("found {}", runtime.maxLatencyMs),
+      kMaxKey, fmt::format("found {}", runtime.maxLatencyMs),
       fmt::format("at least {}, which is {} ({})", runtime.latencyMs, kKey, sections.origin(kKey)));
 }
 

@@ -109,9 +109,9 @@ const ParameterTable<PaintingSettings>& paintingTable() {
 }
 
 const ParameterTable<OutputSettings>& outputTable() {
-  static constexpr std::size_t kMostTargets = 8;
+  static constexpr std::size_t kMaxTargets = 8;
   static const ParameterTable<OutputSettings> kTable{
-      pathListParameter("targets", &OutputSettings::targets, {.min = 1, .max = kMostTargets},
+      pathListParameter("targets", &OutputSettings::targets, {.min = 1, .max = kMaxTargets},
                         hal::outputWords(), hal::outputPrefixes(),
                         "Where a live painting goes; docs/outputs.md lists the kinds.",
                         "a movie's or pictures' path (a folder as ./NAME or NAME/)",

@@ -37,12 +37,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostModes = 256;
+constexpr std::size_t kMaxModes = 256;
 
 std::vector<std::string> linesOf(const fs::path& path) {
   std::vector<std::string> lines;
   std::ifstream file(path);
-  for (std::string line; lines.size() < kMostModes && std::getline(file, line);) {
+  for (std::string line; lines.size() < kMaxModes && std::getline(file, line);) {
     // The kernel lists a size once for each of its rates.
     if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
   }

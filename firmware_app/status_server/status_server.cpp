@@ -38,7 +38,7 @@ namespace {
 constexpr unsigned kSilentSeconds = 5;
 constexpr std::size_t kConnectionBytes = 8192;  // a request's, and what it is answered with beyond
                                                 // its page
-constexpr std::size_t kMostConnections = 16;
+constexpr std::size_t kMaxConnections = 16;
 constexpr unsigned kConnectionLimit = 24;  // with those that are being closed
 constexpr int kBacklog = 16;
 
@@ -169,7 +169,7 @@ class MicroHttpServer final : public StatusServer {
 
   StatusPages pages_;
   std::string address_;
-  OpenConnections connections_{kMostConnections};
+  OpenConnections connections_{kMaxConnections};
   Daemon daemon_;  ///< last: its thread uses the rest
 };
 

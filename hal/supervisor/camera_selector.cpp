@@ -44,6 +44,7 @@ Error noneWorks(const std::string& choice, const std::vector<Error>& reasons) {
               .remedy = "plug one in, or choose another camera.source"};
   if (reasons.empty()) return error;
   std::vector<std::string> texts;
+  texts.reserve(reasons.size());
   for (const Error& reason : reasons) {
     texts.push_back(std::to_string(texts.size() + 1) + ") " + reason.message());
   }

@@ -38,7 +38,7 @@ CameraSupervisor::CameraSupervisor(CameraSelector& selector, Clock& clock,
     : selector_(selector),
       clock_(clock),
       options_(options),
-      request_(std::move(request)),
+      request_(request),
       backOff_(options.backOff),
       watchdog_(options.watchdog, options.maxPollInterval) {
   enter(CameraState::kOpening, "opens " + selector_.choice());

@@ -122,7 +122,7 @@ hal::Answer Painter::waitForAny(hal::Duration limit) {
     if (isOlder) oldest = &each;
   }
   if (oldest == nullptr) return false;
-  const hal::Answer isReady = oldest->ring.isReadyWithin(limit);
+  hal::Answer isReady = oldest->ring.isReadyWithin(limit);
   if (isReady.hasError()) return tl::unexpected(p.orLoss(isReady.error()));
   return isReady;
 }

@@ -11,14 +11,14 @@ namespace {
 using namespace pleinair;
 
 /// Larger images within the limits are valid and slow, and find nothing new.
-constexpr std::int64_t kMostPixels = 1'000'000;
+constexpr std::int64_t kMaxPixels = 1'000'000;
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::span<const std::uint8_t> bytes(data, size);
   const auto picture = hal::libav::peekPictureSize(hal::libav::PictureKind::kJpeg, bytes);
-  if (picture && hal::isAcceptedSize(*picture) && picture->pixels() > kMostPixels) return -1;
+  if (picture && hal::isAcceptedSize(*picture) && picture->pixels() > kMaxPixels) return -1;
   const auto decoded = hal::libav::decodeMotionJpeg(bytes, "camera");
   if (!decoded) {
     fuzz::expectOneLine(decoded.error().message());

@@ -8,7 +8,7 @@ namespace {
 
 using namespace pleinair;
 
-constexpr int kMostFrames = 12;
+constexpr int kMaxFrames = 12;
 
 struct Reader {
   hal::TimePoint last{hal::Duration(-1)};
@@ -51,7 +51,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   Reader reader;
-  for (int i = 0; i < kMostFrames; ++i) {
+  for (int i = 0; i < kMaxFrames; ++i) {
     const hal::NextFrame next = camera->next(hal::kNoDeadline);
     if (!std::visit(reader, next)) break;
   }

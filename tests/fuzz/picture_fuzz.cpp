@@ -11,13 +11,13 @@ namespace {
 using namespace pleinair;
 
 /// Larger images within the limits are valid and slow, and find nothing new.
-constexpr std::int64_t kMostPixels = 1'000'000;
+constexpr std::int64_t kMaxPixels = 1'000'000;
 
 bool isSlow(std::span<const std::uint8_t> bytes) {
   const auto kind = hal::libav::pictureKindOf(bytes);
   if (!kind) return false;
   const std::optional<hal::FrameSize> size = hal::libav::peekPictureSize(*kind, bytes);
-  return size && hal::isAcceptedSize(*size) && size->pixels() > kMostPixels;
+  return size && hal::isAcceptedSize(*size) && size->pixels() > kMaxPixels;
 }
 
 void read(const hal::Result<hal::Image>& picture) {

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr long kMostMebibytes = 250;  // sound pictures of these sizes take up to 180
+constexpr long kMaxMebibytes = 250;  // sound pictures of these sizes take up to 180
 const ProgramLimits kLimits{.addressSpaceBytes = 3UL << 30U, .time = std::chrono::seconds(60)};
 
 class MalformedRender : public testing::TestWithParam<const char*> {
@@ -49,7 +49,7 @@ class MalformedRender : public testing::TestWithParam<const char*> {
     const ProgramRun run =
         runProgram({"render", "--input", input.string(), "--output", output.string()}, kLimits);
     if (!isSanitized()) {
-      EXPECT_LT(run.peakMemoryMebibytes, kMostMebibytes);
+      EXPECT_LT(run.peakMemoryMebibytes, kMaxMebibytes);
     }
     if (run.status == 0) {
       expectPainting(run, output, isSound);

@@ -20,9 +20,9 @@ class FailingFiles final : public hal::FileSystem {
   int create(const std::filesystem::path& path) override { return real_.create(path); }
   ssize_t write(int fd, std::span<const std::uint8_t> bytes) override {
     if (freeBytes_ <= 0) return -ENOSPC;
-    constexpr std::size_t kMostAtOnce = 1000;
+    constexpr std::size_t kMaxAtOnce = 1000;
     const auto room = static_cast<std::size_t>(freeBytes_);
-    const std::size_t count = std::min({bytes.size(), room, kMostAtOnce});
+    const std::size_t count = std::min({bytes.size(), room, kMaxAtOnce});
     const ssize_t written = real_.write(fd, bytes.first(count));
     freeBytes_ -= written;
     return written;

@@ -20,8 +20,8 @@ Duration Timeline::place(std::optional<Duration> time, std::uint64_t droppedBefo
     last_ = Duration::zero();
     return *last_;
   }
-  constexpr std::uint64_t kMostPeriods = 1'000'000;
-  const auto periods = static_cast<std::int64_t>(std::min(droppedBefore, kMostPeriods)) + 1;
+  constexpr std::uint64_t kMaxPeriods = 1'000'000;
+  const auto periods = static_cast<std::int64_t>(std::min(droppedBefore, kMaxPeriods)) + 1;
   const Duration expected = *last_ + periods * period_;
   // the first valid timestamp, or the first after startOver()
   if (time && !origin_) origin_ = *time - expected;

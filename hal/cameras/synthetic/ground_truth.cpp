@@ -53,7 +53,7 @@ double areaOf(const Outline& outline) {
 /// it.
 bool isBetween(Outline outline, glm::dvec3 eye, const Quad& quad, glm::dvec3 normal) {
   constexpr double kAboveMetres = 1e-4;  // excludes the surface that carries the quad
-  constexpr double kLeastArea = 1e-10;
+  constexpr double kMinArea = 1e-10;
   const double side = glm::dot(normal, eye - quad[0]) > 0 ? 1 : -1;
   outline = clipped(outline, -side * normal, -side * glm::dot(normal, quad[0]) - kAboveMetres);
   const glm::dvec3 middle = (quad[0] + quad[2]) / 2.0;
@@ -62,7 +62,7 @@ bool isBetween(Outline outline, glm::dvec3 eye, const Quad& quad, glm::dvec3 nor
     if (glm::dot(out, middle - eye) > 0) out = -out;
     outline = clipped(outline, out, glm::dot(out, eye));
   }
-  return areaOf(outline) > kLeastArea;
+  return areaOf(outline) > kMinArea;
 }
 
 bool isHidden(const Geometry& geometry, const CameraView& view, const glm::dmat4& worldFromMover,

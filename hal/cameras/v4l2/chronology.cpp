@@ -8,7 +8,7 @@
 namespace pleinair::hal::v4l2 {
 namespace {
 
-constexpr Duration kMostAhead = std::chrono::milliseconds(100);
+constexpr Duration kMaxAhead = std::chrono::milliseconds(100);
 
 /// The difference of two 32-bit counters that wrap; a difference of at least half the range counts
 /// as a step backwards.
@@ -38,7 +38,7 @@ void Chronology::stamp(const Filled& filled, bool wasStarving, TimePoint now,
   const TimePoint deviceTime(filled.timestamp);
   const bool isSet = filled.timestamp > Duration::zero();
   const bool rises = !lastDeviceTime_ || deviceTime > *lastDeviceTime_;
-  const bool isTrusted = isMonotonic && isSet && rises && deviceTime <= now + kMostAhead;
+  const bool isTrusted = isMonotonic && isSet && rises && deviceTime <= now + kMaxAhead;
   frame.captureTime = isTrusted ? std::min(deviceTime, now) : now;
   frame.timestampSource = isTrusted ? sourceOf(filled.flags) : TimestampSource::kArrival;
   if (isTrusted) lastDeviceTime_ = deviceTime;

@@ -15,7 +15,7 @@ namespace pleinair::hal::v4l2 {
 namespace {
 
 /// An upper bound on enumerations, for drivers that never answer EINVAL. No device lists as many.
-constexpr std::uint32_t kMostEntries = 256;
+constexpr std::uint32_t kMaxEntries = 256;
 /// The frame period that is preferred if none is requested.
 constexpr Duration kFluentPeriod = std::chrono::milliseconds(40);
 
@@ -35,7 +35,7 @@ int nearestStep(int wanted, int smallest, int largest, int step) {
 
 std::vector<SizeRange> enumerateSizes(const Device& device, std::uint32_t fourcc) {
   std::vector<SizeRange> sizes;
-  for (std::uint32_t index = 0; index < kMostEntries; ++index) {
+  for (std::uint32_t index = 0; index < kMaxEntries; ++index) {
     v4l2_frmsizeenum entry{};
     entry.index = index;
     entry.pixel_format = fourcc;
@@ -119,7 +119,7 @@ FrameSize SizeRange::nearestTo(FrameSize wanted) const {
 
 std::vector<DeviceFormat> enumerateFormats(const Device& device) {
   std::vector<DeviceFormat> formats;
-  for (std::uint32_t index = 0; index < kMostEntries; ++index) {
+  for (std::uint32_t index = 0; index < kMaxEntries; ++index) {
     v4l2_fmtdesc entry{};
     entry.index = index;
     entry.type = device.bufferType();
@@ -135,7 +135,7 @@ std::vector<Duration> enumeratePeriods(const Device& device, std::uint32_t fourc
   const auto add = [&](const v4l2_fract& period) {
     if (const auto duration = durationOf(period)) periods.push_back(*duration);
   };
-  for (std::uint32_t index = 0; index < kMostEntries; ++index) {
+  for (std::uint32_t index = 0; index < kMaxEntries; ++index) {
     v4l2_frmivalenum entry{};
     entry.index = index;
     entry.pixel_format = fourcc;

@@ -277,7 +277,7 @@ void Session::decodePixels(const Filled& filled, CapturedFrame& frame) {
   frame.lease = lastLease_;
 }
 
-V4l2Camera::V4l2Camera(std::string id, System system, Clock& clock)
+V4l2Camera::V4l2Camera(const std::string& id, System system, Clock& clock)
     : system_(system),
       clock_(clock),
       identity_{.backend = "v4l2", .id = id, .description = "V4L2 camera " + id} {}

@@ -31,7 +31,7 @@ class Session;
 class V4l2Camera final : public Camera {
  public:
   /// `id`: as V4l2Backend::list() gives it, or a node's path. No device is opened before start().
-  V4l2Camera(std::string id, System system, Clock& clock);
+  V4l2Camera(const std::string& id, System system, Clock& clock);
   ~V4l2Camera() override;
   V4l2Camera(const V4l2Camera&) = delete;
   V4l2Camera& operator=(const V4l2Camera&) = delete;

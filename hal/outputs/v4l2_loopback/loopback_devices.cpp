@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kLoopbackDriver = "v4l2 loopback";
-constexpr __u32 kMostLayouts = 256;  // a driver that never ends its list
+constexpr __u32 kMaxLayouts = 256;  // a driver that never ends its list
 
 /// "video0", "video1" … in `folder`, by number. Nothing where there is no such folder.
 std::vector<fs::path> videoNodes(const fs::path& folder) {
@@ -32,13 +32,14 @@ std::vector<fs::path> videoNodes(const fs::path& folder) {
   }
   std::ranges::sort(nodes);
   std::vector<fs::path> paths;
+  paths.reserve(nodes.size());
   for (auto& node : nodes) paths.push_back(std::move(node.second));
   return paths;
 }
 
 std::vector<std::string> layoutsOf(v4l2::SystemCalls& calls, int fd) {
   std::vector<std::string> layouts;
-  for (__u32 i = 0; i < kMostLayouts; ++i) {
+  for (__u32 i = 0; i < kMaxLayouts; ++i) {
     v4l2_fmtdesc entry{};
     entry.index = i;
     entry.type = V4L2_BUF_TYPE_VIDEO_OUTPUT;

@@ -116,9 +116,9 @@ std::vector<NamedLayout> candidates(v4l2::SystemCalls& calls, int fd,
   for (const NamedLayout& each : kLayouts) {
     if (!layout || each.layout == *layout) result.push_back(each);
   }
-  constexpr __u32 kMostListed = 256;  // a driver that never ends its list
+  constexpr __u32 kMaxListed = 256;  // a driver that never ends its list
   std::vector<__u32> listed;
-  for (__u32 i = 0; i < kMostListed; ++i) {
+  for (__u32 i = 0; i < kMaxListed; ++i) {
     v4l2_fmtdesc entry{};
     entry.index = i;
     entry.type = V4L2_BUF_TYPE_VIDEO_OUTPUT;

@@ -30,8 +30,8 @@ Area letterBox(FrameSize picture, FrameSize window) {
 }
 
 FrameSize openingSize(FrameSize picture, FrameSize room) {
-  constexpr int kLeastSide = 240;  // less is hard to find on a screen
-  const int times = std::max(1, kLeastSide / std::max(picture.width, picture.height));
+  constexpr int kMinSide = 240;  // less is hard to find on a screen
+  const int times = std::max(1, kMinSide / std::max(picture.width, picture.height));
   const FrameSize wanted{picture.width * times, picture.height * times};
   const bool fits = wanted.width <= room.width && wanted.height <= room.height;
   return fits ? wanted : fitted(picture, room);

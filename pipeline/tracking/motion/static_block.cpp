@@ -92,7 +92,7 @@ StaticBlock::Change StaticBlock::compare(const cv::Mat& picture, const cv::Point
   for (int y = 0; y < kSide; ++y) {
     const std::uint8_t* const row = picture.ptr<std::uint8_t>(corner.y + y) + corner.x;
     const std::int16_t* const mean = &mean_[static_cast<std::size_t>(y + 1) * kTile + 1];
-    std::array<std::int16_t, kSide> difference;
+    std::array<std::int16_t, kSide> difference{};
     for (int x = 0; x < kSide; ++x) {
       difference[static_cast<std::size_t>(x)] =
           static_cast<std::int16_t>(kScale * row[x] - mean[x]);

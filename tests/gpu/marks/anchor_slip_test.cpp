@@ -21,7 +21,7 @@ using tracking::FeatureMotion;
 using tracking::ImageMotion;
 
 constexpr int kFrames = 60;
-constexpr double kMostDriftPx = 0.05;
+constexpr double kMaxDriftPx = 0.05;
 
 glm::dmat3 translation(double x, double y) {
   return {1, 0, 0, 0, 1, 0, x, y, 1};
@@ -154,7 +154,7 @@ TEST_P(AnchorDrift, StaysBelowATwentiethOfAPixel) {
   RecordProperty("worst_px", std::to_string(slips.worst()));
   RecordProperty("rms_px", std::to_string(slips.rms()));
   EXPECT_EQ(slips.longest(), kFrames);
-  EXPECT_LT(slips.worst(), kMostDriftPx);
+  EXPECT_LT(slips.worst(), kMaxDriftPx);
 }
 
 std::vector<Case> cases() {
@@ -209,7 +209,7 @@ TEST_F(MarksTest, AnchorsOnAPlaneStayWithItsTruePose) {
   RecordProperty("worst_px", std::to_string(slips.worst()));
   RecordProperty("rms_px", std::to_string(slips.rms()));
   EXPECT_GT(slips.longest(), kFrames / 2);
-  EXPECT_LT(slips.worst(), kMostDriftPx);
+  EXPECT_LT(slips.worst(), kMaxDriftPx);
 }
 
 }  // namespace

@@ -29,10 +29,10 @@ std::optional<SurfacePoint> Exposure::visibleAt(const Geometry& geometry, glm::d
 }
 
 std::optional<glm::dvec2> Exposure::project(const SurfacePoint& point) const {
-  constexpr int kMostSteps = 60;
+  constexpr int kMaxSteps = 60;
   constexpr double kSettledPx = 1e-10;
   double y = size_.height / 2.0;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const auto at = viewAt(y).project(inWorld(point, worldFromMoverAt(y)));
     if (!at || !rolls()) return at;
     // Rows far outside the image are not exposed: their times are clamped near the frame's own.

@@ -13,10 +13,10 @@ namespace pleinair::hal::synthetic {
 namespace {
 
 constexpr double kNearMetres = 0.03;
-constexpr std::size_t kMostCorners = 40;
+constexpr std::size_t kMaxCorners = 40;
 
 struct Corners {
-  std::array<glm::dvec3, kMostCorners> points;
+  std::array<glm::dvec3, kMaxCorners> points{};
   std::size_t count = 0;
   void add(glm::dvec3 point) {
     if (count < points.size()) points[count++] = point;
@@ -77,7 +77,7 @@ bool project(const Geometry& geometry, std::uint32_t facet, const glm::dmat4& ca
   double right = -left;
   double top = left;
   double bottom = -left;
-  std::array<glm::dvec2, kMostCorners> outline;
+  std::array<glm::dvec2, kMaxCorners> outline{};
   for (std::size_t i = 0; i < corners.count; ++i) {
     const glm::dvec3& p = corners.points[i];
     outline[i] = {k.fx * p.x / p.z + k.cx, k.fy * p.y / p.z + k.cy};

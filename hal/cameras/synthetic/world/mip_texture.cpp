@@ -6,7 +6,7 @@
 namespace pleinair::hal::synthetic {
 namespace {
 
-constexpr std::size_t kMostLevels = 9;
+constexpr std::size_t kMaxLevels = 9;
 constexpr int kSmallestSide = 2;  // the sampler reads texels in pairs
 
 std::vector<Texel> texelsFor(int width, int height) {
@@ -43,8 +43,8 @@ MipTexture::MipTexture(int width, int height) {
 
 void MipTexture::buildLevels() {
   levels_.resize(1);
-  levels_.reserve(kMostLevels);
-  while (levels_.size() < kMostLevels &&
+  levels_.reserve(kMaxLevels);
+  while (levels_.size() < kMaxLevels &&
          std::max(levels_.back().width, levels_.back().height) > kSmallestSide) {
     levels_.push_back(halved(levels_.back()));
   }

@@ -10,6 +10,7 @@ SrgbTables::SrgbTables() {
   }
   for (std::size_t i = 0; i <= kSteps; ++i) {
     const float middle = (static_cast<float>(i) + 0.5F) / kSteps;
+    // NOLINTNEXTLINE(bugprone-incorrect-roundings): never negative
     level[i] = static_cast<std::uint8_t>(levelFromLinear(middle) + 0.5F);
   }
 }
