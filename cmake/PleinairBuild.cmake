@@ -91,7 +91,8 @@ function(pleinair_tests name)
   # It replaces operator new, which other sources of its batch would see.
   set_source_files_properties("${CMAKE_SOURCE_DIR}/tests/support/allocation_count.cpp"
     PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-  add_executable(${name} ${ARG_SOURCES} "${CMAKE_SOURCE_DIR}/tests/support/test_environment.cpp")
+  add_executable(${name} ${ARG_SOURCES} "${CMAKE_SOURCE_DIR}/tests/support/test_environment.cpp"
+    "${CMAKE_SOURCE_DIR}/tests/support/sanitizer_suppressions.cpp")
   pleinair_speed_up(${name})
   # Test code is compiled more often than it runs: this takes 42 % less time than -O2 -g, and keeps
   # line numbers. The product and the oracles keep the flags of the build type.
@@ -107,6 +108,9 @@ function(pleinair_tests name)
   endif()
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
+  endif()
+  if(PLEINAIR_SANITIZE)
+    math(EXPR ARG_TIMEOUT "10 * ${ARG_TIMEOUT}")
   endif()
   if(ARG_BY_SUITE OR ARG_KIND MATCHES "^(gpu|golden)$")
     set(list "${CMAKE_CURRENT_BINARY_DIR}/${name}_suites.cmake")

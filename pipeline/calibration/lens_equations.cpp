@@ -114,7 +114,8 @@ double lensCost(const LensState& state, std::span<const FitView> views, hal::Fra
       cost += distance <= huberPx ? distance * distance : huberPx * (2.0 * distance - huberPx);
     }
   }
-  return std::isfinite(cost) ? cost : kImpossible;
+  if (!std::isfinite(cost)) return kImpossible;
+  return cost;
 }
 
 }  // namespace pleinair::calibration

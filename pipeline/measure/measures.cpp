@@ -92,6 +92,7 @@ std::vector<std::string> missingLines(const Measures& measures,
     }
   }
   std::vector<std::string> lines;
+  lines.reserve(namesOfReason.size());
   for (const auto& [reason, names] : namesOfReason) lines.push_back(names + ": " + reason);
   return lines;
 }

@@ -46,7 +46,7 @@ double ratio(hal::Duration part, hal::Duration whole) {
 
 }  // namespace
 
-PaintStage::PaintStage(PainterFactory factory, std::vector<OutputStage*> outputs,
+PaintStage::PaintStage(PainterFactory factory, const std::vector<OutputStage*>& outputs,
                        PaintStageOptions options, hal::Clock& clock, FrameLedger& ledger,
                        Mailbox<ArrivedFrame>& frames)
     : factory_(std::move(factory)),

@@ -38,8 +38,9 @@ class PaintStage {
  public:
   /// All references, and the outputs until they are released (remove(), hasReleased()), outlive
   /// this. Precondition: there is an output.
-  PaintStage(PainterFactory factory, std::vector<OutputStage*> outputs, PaintStageOptions options,
-             hal::Clock& clock, FrameLedger& ledger, Mailbox<ArrivedFrame>& frames);
+  PaintStage(PainterFactory factory, const std::vector<OutputStage*>& outputs,
+             PaintStageOptions options, hal::Clock& clock, FrameLedger& ledger,
+             Mailbox<ArrivedFrame>& frames);
   ~PaintStage();
   PaintStage(const PaintStage&) = delete;
   PaintStage& operator=(const PaintStage&) = delete;

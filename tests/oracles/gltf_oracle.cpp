@@ -326,7 +326,7 @@ std::vector<std::size_t> GltfOracle::shownNodes() const {
 
 std::string GltfOracle::nodeName(std::size_t node) const {
   const json& shown = file_->root["nodes"][node];
-  const std::string name = shown.value("name", "");
+  std::string name = shown.value("name", "");
   if (!name.empty()) return name;
   return file_->root["meshes"][shown["mesh"].get<std::size_t>()].value("name", "");
 }

@@ -325,7 +325,7 @@ double rayErrorPx(const tracking::CameraModel& truth, const tracking::CameraMode
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const tracking::Projection seen = estimate.projectWithJacobian(rays[i]);
       const glm::dvec2 error = places[i] - seen.px;
-      std::array<glm::dvec2, 3> byTurn;
+      std::array<glm::dvec2, 3> byTurn{};
       for (int axis = 0; axis < 3; ++axis) {
         glm::dvec3 unit(0.0);
         unit[axis] = 1.0;

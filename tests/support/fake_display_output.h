@@ -43,6 +43,8 @@ class FakeDisplayOutput final : public hal::SurfaceOutput, private hal::SurfaceU
   /// Both outlive it.
   FakeDisplayOutput(FakeDisplay& display, const hal::Clock& clock);
   ~FakeDisplayOutput() override;
+  FakeDisplayOutput(const FakeDisplayOutput&) = delete;
+  FakeDisplayOutput& operator=(const FakeDisplayOutput&) = delete;
 
   hal::OutputIdentity identity() const override { return {"fake_display", "fake"}; }
   hal::Result<hal::OutputFormat> start(const hal::OutputRequest& request) override;

@@ -125,7 +125,8 @@ int FakeV4l2::pollOne(pollfd& waitFor, const Device& device) const {
   } else {
     // A last, empty buffer announces a change of source.
     if (!device.done.empty() || device.sourceChanging) waitFor.revents |= POLLIN;
-    if (device.eventPending) waitFor.revents |= static_cast<short>(waitFor.events & POLLPRI);
+    if (device.eventPending)
+      waitFor.revents = static_cast<short>(waitFor.revents | (waitFor.events & POLLPRI));
   }
   return waitFor.revents != 0 ? 1 : 0;
 }

@@ -41,6 +41,7 @@ std::vector<std::size_t> FakeV4l2::Device::planeSizes() const {
   if (layout == nullptr || layout->isJpeg) return {kJpegBytes};
   const hal::FrameSize now = size.width > 0 ? size : format().sizes.front();
   std::vector<std::size_t> sizes;
+  sizes.reserve(static_cast<std::size_t>(hal::planeCount(layout->pixelFormat)));
   for (int plane = 0; plane < hal::planeCount(layout->pixelFormat); ++plane) {
     sizes.push_back(
         strides()[static_cast<std::size_t>(plane)] *
@@ -82,7 +83,9 @@ int FakeV4l2::Device::queryBuffer(v4l2_buffer& buffer) const {
   if (buffer.type != type() || buffer.index >= buffers.size()) return -EINVAL;
   const auto& planes = buffers[buffer.index].planes;
   // Offsets are cookies made of buffer and plane.
-  const auto cookie = [&](std::size_t plane) { return u32((buffer.index * 8 + plane) << 12); };
+  const auto cookie = [&](std::size_t plane) {
+    return u32((std::size_t{buffer.index} * 8 + plane) << 12);
+  };
   if (!isMultiPlanar()) {
     buffer.length = u32(planes[0]->size());
     buffer.m.offset = cookie(0);

@@ -8,11 +8,13 @@ namespace {
 
 // Makes blending into 32-bit floats a GL error, as on the targets (docs/gpu.md, rule 5).
 [[maybe_unused]] const int kFloatBlendForbidden =
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): before main(), there is one thread
     setenv("MESA_EXTENSION_OVERRIDE", "-GL_EXT_float_blend", 0);
 
 // Compiling shaders to machine code takes most of the time of a small GPU test (0.3 s per program
 // the first time, 10 ms from the cache). The cache lies in the build folder and is removed with it.
 [[maybe_unused]] const int kShaderCacheDirectory =
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): before main(), there is one thread
     setenv("MESA_SHADER_CACHE_DIR", PLEINAIR_BUILD_DIR, 0);
 
 /// Tells CTest that a whole suite was skipped (cmake/AddSuites.cmake).
@@ -32,18 +34,3 @@ class SkipReporter : public testing::EmptyTestEventListener {
 }();
 
 }  // namespace
-
-// Hooks of the sanitizers' run-time libraries. Mesa keeps tables until exit. Its rasteriser and
-// LLVM are not built with the thread sanitizer, which then misses the release of some of their
-// locks; hence it ignores both completely, including the locks that LLVM's compiler takes in
-// libgcc.
-extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() {
-  return "leak:libgallium\nleak:swrast_dri.so\nleak:libLLVM\nleak:libEGL\n";
-}
-extern "C" const char* __tsan_default_suppressions();
-extern "C" const char* __tsan_default_suppressions() {
-  return "called_from_lib:swrast_dri.so\ncalled_from_lib:libLLVM\n"
-         "race:swrast_dri.so\nrace:libLLVM\nmutex:__register_frame_info\n"
-         "mutex:__deregister_frame_info\n";
-}

@@ -36,7 +36,7 @@ SquareRoot squareRootOfSum(const tracking::PoseCovariance& a, const tracking::Po
 }
 
 std::array<glm::vec4, 3> rowsOf(const glm::dmat4& m) {
-  std::array<glm::vec4, 3> rows;
+  std::array<glm::vec4, 3> rows{};
   for (std::size_t i = 0; i < 3; ++i) {
     const auto row = static_cast<int>(i);
     rows[i] = glm::vec4(m[0][row], m[1][row], m[2][row], m[3][row]);

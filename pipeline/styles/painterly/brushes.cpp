@@ -180,7 +180,8 @@ gpu::Texture makeBrush(Brush brush, int across) {
   for (unsigned variant = 0; variant < kBrushVariants; ++variant) {
     const Noise noise(17U + 31U * variant + 101U * static_cast<unsigned>(brush));
     for (std::size_t i = 0; i < columns.size(); ++i) {
-      const double x = static_cast<double>(i / kSamples) + sampleAt(i % kSamples);
+      const std::size_t column = i / kSamples;
+      const double x = static_cast<double>(column) + sampleAt(i % kSamples);
       columns[i] = alongAt(hairs, noise, x / size.width);
     }
     for (int y = 0; y < across; ++y) {

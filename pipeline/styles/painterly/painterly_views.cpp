@@ -9,7 +9,7 @@ namespace {
 
 struct View {
   DebugViewInfo info;
-  PainterlyViewer viewer;
+  PainterlyViewer viewer{};
 };
 
 constexpr std::array kViews{

@@ -185,8 +185,8 @@ double median(std::vector<double> values) {
 void printTable1() {
   struct Row {
     hal::FrameSize size;
-    std::array<int, kStages> thesis;
-    int total;
+    std::array<int, kStages> thesis{};
+    int total = 0;
   };
   constexpr std::array<Row, 2> kRows{
       {{{1440, 1050}, {75, 420, 215, 30}, 740}, {{1024, 768}, {50, 173, 125, 27}, 375}}};
@@ -213,6 +213,7 @@ void printTable1() {
     }
     Easel easel(row.size, gpu::PassTiming::kOff);
     std::vector<double> whole;
+    whole.reserve(kRounds);
     for (int i = 0; i < kRounds; ++i) whole.push_back(easel.round());
     fmt::print("| {}x{} | thesis | {} | {} | {} | {} | {} |\n", row.size.width, row.size.height,
                row.thesis[0], row.thesis[1], row.thesis[2], row.thesis[3], row.total);

@@ -195,7 +195,8 @@ double lagMs(const TruthSequence& sequence, std::span<const TrackedPoses> told, 
   constexpr double kStep = 0.02;  // frames
   double best = 0.0;
   double least = std::numeric_limits<double>::infinity();
-  for (double shift = -1.5; shift <= 1.5; shift += kStep) {
+  for (int step = -75; step <= 75; ++step) {
+    const double shift = kStep * step;
     const double distance = squaredDistanceAt(sequence, told, id, shift);
     if (distance < least) {
       least = distance;

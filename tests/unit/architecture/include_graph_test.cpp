@@ -127,7 +127,7 @@ std::string cycleIn(const Graph& graph) {
 std::string groupOf(const std::string& module) {
   const std::size_t first = module.find('/');
   if (first == std::string::npos) return module;
-  const std::string top = module.substr(0, first);
+  std::string top = module.substr(0, first);
   if (top == "firmware_app" || top == "config") return top;
   return module.substr(0, module.find('/', first + 1));
 }

@@ -1,0 +1,23 @@
+// Hooks of the sanitizers' run-time libraries, in every test and, where it is built with a
+// sanitizer, in the program: what they are to pass over in code that is not this tree's.
+
+// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
+
+// Mesa, fontconfig and D-Bus keep tables until the program ends.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:libgallium\nleak:swrast_dri.so\nleak:libLLVM\nleak:libEGL\nleak:libfontconfig\n"
+         "leak:libdbus-1\n";
+}
+
+// Mesa's rasteriser and LLVM synchronise their threads with futexes and with code compiled at run
+// time, of which the thread sanitizer sees nothing: it ignores both completely, including the locks
+// that LLVM's compiler takes in libgcc.
+extern "C" const char* __tsan_default_suppressions();
+extern "C" const char* __tsan_default_suppressions() {
+  return "called_from_lib:libgallium\ncalled_from_lib:swrast_dri.so\ncalled_from_lib:libLLVM\n"
+         "race:libgallium\nrace:swrast_dri.so\nrace:libLLVM\n"
+         "mutex:__register_frame_info\nmutex:__deregister_frame_info\n";
+}
+
+// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
