@@ -25,7 +25,7 @@ TEST(FileDescriptor, ClosesOnceWhatItHolds) {
     FileDescriptor first(0, closer);  // a descriptor like any other
     FileDescriptor second(7, closer);
     FileDescriptor moved(std::move(first));
-    EXPECT_FALSE(first);
+    EXPECT_FALSE(first);  // NOLINT(bugprone-use-after-move): it holds nothing then
     EXPECT_TRUE(moved);
     EXPECT_EQ(moved.get(), 0);
     second = std::move(moved);

@@ -22,6 +22,7 @@ class LivePipelineTest : public testing::Test {
  protected:
   /// Begins with a paced camera; painting starts at once.
   void begin(PacedCameraOptions options = {}) {
+    // NOLINTNEXTLINE(modernize-make-unique): it can be neither copied nor moved
     selector_.reset(new hal::CameraSelector(support::selectorOf(
         [options](hal::Clock& clock) { return std::make_unique<PacedCamera>(options, clock); },
         live_.clock)));
@@ -246,6 +247,7 @@ TEST_F(LivePipelineTest, ShowsPicturesAlsoWhereFewerCanWaitThanFallDue) {
 }
 
 TEST_F(LivePipelineTest, GivesAnOutputNoMoreThanItsLimit) {
+  // NOLINTNEXTLINE(modernize-make-unique): it can be neither copied nor moved
   selector_.reset(new hal::CameraSelector(support::selectorOf(
       [](hal::Clock& clock) { return std::make_unique<PacedCamera>(PacedCameraOptions{}, clock); },
       live_.clock)));

@@ -141,7 +141,7 @@ TEST_F(BrushFileTest, WhatIsNoPngIsSaid) {
   EXPECT_EQ(kindOf(folder_.path()), hal::ErrorKind::kInvalidInput);
   std::ofstream(folder_.path() / "text.png") << "a brush, one would think";
   EXPECT_THAT(readBrushFile(folder_.path() / "text.png").error().message(), HasSubstr("is no PNG"));
-  std::ofstream(folder_.path() / "empty.png");
+  std::ofstream(folder_.path() / "empty.png").flush();
   EXPECT_EQ(kindOf(folder_.path() / "empty.png"), hal::ErrorKind::kInvalidInput);
 
   const fs::path whole = write("whole.png", hal::PixelFormat::kGrey8, {64, 16}, [](int x, int y) {

@@ -18,9 +18,9 @@ class FakeWindow final : public hal::Window {
   hal::Result<void> write(const hal::ImageView&, hal::Duration) override { return {}; }
   hal::Result<void> finish() override { return {}; }
   std::vector<hal::WindowEvent> takeEvents() override { return std::exchange(events, {}); }
-  void setCaption(const std::string& text, double opacity_) override {
+  void setCaption(const std::string& text, double newOpacity) override {
     caption = text;
-    opacity = opacity_;
+    opacity = newOpacity;
   }
   hal::Result<void> redraw() override {
     ++redraws;
