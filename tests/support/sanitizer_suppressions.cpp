@@ -17,7 +17,10 @@ extern "C" const char* __tsan_default_suppressions();
 extern "C" const char* __tsan_default_suppressions() {
   return "called_from_lib:libgallium\ncalled_from_lib:swrast_dri.so\ncalled_from_lib:libLLVM\n"
          "race:libgallium\nrace:swrast_dri.so\nrace:libLLVM\n"
-         "mutex:__register_frame_info\nmutex:__deregister_frame_info\n";
+         "mutex:__register_frame_info\nmutex:__deregister_frame_info\nmutex:_Unwind_Find_FDE\n"
+         // Not built with the sanitizer either: libav's own threads, Pango's fonts, X11's locks.
+         "race:libavutil\nrace:libavcodec\nrace:libfontconfig\nrace:libglib-2.0\n"
+         "deadlock:libxcb\ndeadlock:libX11\n";
 }
 
 // NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
