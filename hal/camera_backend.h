@@ -24,7 +24,9 @@ struct CameraMode {
 struct CameraDescription {
   CameraIdentity identity;
   std::string serial;  ///< empty if it has none
-  std::string node;    ///< "/dev/video0"; empty if it has none
+  /// where it is plugged in: the same for a device that comes back there; empty if unknown
+  std::string path;
+  std::string node;  ///< "/dev/video0"; empty if it has none
   std::vector<CameraMode> modes;
   std::optional<Error> problem;  ///< why it could not be inspected (permissions, busy)
 };

@@ -15,7 +15,7 @@ struct LumaWeights {
   double blue;
 };
 
-/// Those of a matrix. BT.709's are also those of the luminance of linear sRGB.
+/// The weights of a colour matrix. BT.709's are also those of the luminance of linear sRGB.
 constexpr LumaWeights lumaWeights(ColorMatrix matrix) {
   return matrix == ColorMatrix::kBt709 ? LumaWeights{.red = 0.2126, .green = 0.7152, .blue = 0.0722}
                                        : LumaWeights{.red = 0.299, .green = 0.587, .blue = 0.114};

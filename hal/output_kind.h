@@ -62,7 +62,8 @@ struct OutputKind {
   bool (*recognizes)(const std::string& target);
   /// The outputs that are there; null for files, which are made.
   OutputListing (*list)();
-  /// Why a target cannot be used now, found out as start() finds it; null for files.
+  /// Why a target cannot be opened now, found out as start() does it, but no format is negotiated;
+  /// null where there is nothing to open.
   std::optional<Error> (*problemOf)(const std::string& target);
   /// Makes one; opens nothing before its start(). Errors: kInvalidArgument (a malformed target or
   /// option), kNotFound (there is no display), kUnsupported (this build lacks it).

@@ -114,7 +114,7 @@ std::optional<hal::Error> outputProblem(const hal::OutputKind& kind, const std::
   return kind.problemOf == nullptr ? std::nullopt : kind.problemOf(target);
 }
 
-/// Most likely by pleinair's own service, which runs.
+/// Whether another program uses the part; usually that is pleinair's own service.
 bool isUsedByAnother(const RequestedPart& part) {
   return part.problem && part.problem->kind == hal::ErrorKind::kBusy;
 }

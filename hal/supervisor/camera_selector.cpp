@@ -27,6 +27,11 @@ bool isSameCamera(const CameraIdentity& a, const CameraIdentity& b) {
   return a.backend == b.backend && a.id == b.id;
 }
 
+/// Whether both are one device at one place of a bus.
+bool isSameDevice(const CameraDescription& a, const CameraDescription& b) {
+  return !a.path.empty() && a.path == b.path && a.serial == b.serial;
+}
+
 std::string joined(const std::vector<std::string>& texts, std::string_view between) {
   std::string all;
   for (const std::string& text : texts) {
@@ -157,16 +162,23 @@ Result<OpenedCamera> CameraSelector::openSerial(std::string_view serial,
 Result<OpenedCamera> CameraSelector::openNamed(const SelectableBackend& backend,
                                                std::string_view name,
                                                const StreamRequest& request) {
-  for (const Candidate& each : listed({&backend}).found) {
+  const std::vector<Candidate> found = listed({&backend}).found;
+  for (const Candidate& each : found) {
     if (each.description.node != name) continue;
     Result<OpenedCamera> opened = start(each, request);
-    if (opened) atNode_ = each.description.identity;
+    if (opened) openedByNode_ = each.description;
     return opened;
   }
-  // A driver that was reset may give its camera another node; by its id the back end finds it.
-  // Otherwise the name may be another one that the back end knows; if not, it says what there is.
-  const CameraIdentity identity = atNode_.value_or(
-      CameraIdentity{.backend = std::string(backend.backend->name()), .id = std::string(name)});
+  // A driver that was reset may give its camera another node.
+  for (const Candidate& each : found) {
+    if (openedByNode_ && isSameDevice(each.description, *openedByNode_)) {
+      return start(each, request);
+    }
+  }
+  // A name that is not listed may be another one that the back end knows; if not, it says what
+  // there is.
+  const CameraIdentity identity{
+      .backend = std::string(backend.backend->name()), .id = std::string(name), .description = {}};
   return start({.backend = &backend, .description = {.identity = identity}}, request);
 }
 

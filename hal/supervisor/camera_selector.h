@@ -41,7 +41,7 @@ using CameraWrapper =
 /// Finds the camera that a choice names among those of all back ends, and opens it:
 /// - "v4l2": the back end's first that works,
 /// - "v4l2:usb-046d…": by stable id, or by node: "v4l2:/dev/video0"; where no camera has that node
-///   any more, the camera that was opened there is followed to its new one,
+///   any more, the camera that was opened there is followed to its new one (by its path),
 /// - "serial:ABC123": the device with that serial number, whichever back end has it,
 /// - "auto": the first device that works, the back ends in their order.
 /// One thread at a time.
@@ -101,7 +101,8 @@ class CameraSelector {
   CameraWrapper wrapper_;
   std::stop_source stopping_;
   std::vector<CameraIdentity> last_;
-  std::optional<CameraIdentity> atNode_;  ///< the camera last opened by the node in the choice
+  /// the camera last opened by the node in the choice
+  std::optional<CameraDescription> openedByNode_;
 };
 
 }  // namespace pleinair::hal

@@ -42,8 +42,8 @@ enum class ImageAccess { kRead, kWrite, kReadWrite };
 /// names) for a name that is none of them, or is of another kind or type. A declared name that the
 /// compiler removed, because nothing depends on it, may be set and does nothing.
 ///
-/// Copies share the linked program and with it the values of its uniforms: after each use(), all
-/// that the run reads is filled.
+/// Copies share the linked program and with it the values of its uniforms, which last until any
+/// copy sets them: after use(), fill all that the run reads, or be the only user of the program.
 ///
 /// Each draw and dispatch is timed under pass() where the ShaderLibrary that it is from has a
 /// timer.

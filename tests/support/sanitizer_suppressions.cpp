@@ -1,5 +1,6 @@
 // Hooks of the sanitizers' run-time libraries, in every test and, where it is built with a
-// sanitizer, in the program: what they are to pass over in code that is not this tree's.
+// sanitizer, in the program: the reports about
+// other libraries that they ignore.
 
 // NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
 
@@ -19,6 +20,7 @@ extern "C" const char* __tsan_default_suppressions() {
          "race:libgallium\nrace:swrast_dri.so\nrace:libLLVM\n"
          "mutex:__register_frame_info\nmutex:__deregister_frame_info\nmutex:_Unwind_Find_FDE\n"
          // Not built with the sanitizer either: libav's own threads, Pango's fonts, X11's locks.
+         // Races of this tree's own code inside of libav's calls to it are hidden by that, too.
          "race:libavutil\nrace:libavcodec\nrace:libfontconfig\nrace:libglib-2.0\n"
          "deadlock:libxcb\ndeadlock:libX11\n";
 }

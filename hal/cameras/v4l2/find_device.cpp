@@ -115,10 +115,6 @@ bool contradictsId(DeviceNodes& nodes, const std::string& link, const std::strin
   return serial && !serial->empty() && link.find(plainText(*serial)) == std::string::npos;
 }
 
-bool isUdevRunning(DeviceNodes& nodes) {
-  return std::ranges::count(nodes.list("/run/udev"), "control") > 0;
-}
-
 /// One look at /dev, which gives each node its id.
 class Listing {
  public:
@@ -140,8 +136,10 @@ class Listing {
     const std::string node = "/dev/" + name;
     const Result<Device> device = Device::open(system_.calls, node);
     if (!device && device.error().kind == ErrorKind::kUnsupported) return std::nullopt;
-    CameraDescription camera{
-        .identity = {.backend = "v4l2"}, .serial = serialOf(name), .node = node};
+    CameraDescription camera{.identity = {.backend = "v4l2"},
+                             .serial = serialOf(name),
+                             .path = byPathName(system_.nodes, name),
+                             .node = node};
     const std::string card =
         device ? device->capability().card
                : system_.nodes.firstLine(sysfsOf(name) + "/name").value_or("V4L2 device");
@@ -165,9 +163,6 @@ class Listing {
     }
     for (auto [link, end] = byPath_.equal_range(node); link != end; ++link) {
       if (!contradictsPath(system_.nodes, link->second, name)) return link->second;
-    }
-    if (isUdevRunning(system_.nodes)) {  // its link follows, or has not been moved here yet
-      if (std::string link = byPathName(system_.nodes, name); !link.empty()) return link;
     }
     if (capability == nullptr) return node;
     const std::string index = system_.nodes.firstLine(sysfsOf(name) + "/index").value_or("0");

@@ -15,8 +15,7 @@ namespace pleinair::hal::v4l2 {
 /// The id is the first of these that exists:
 /// 1. the name of udev's link in /dev/v4l/by-id (maker, model and serial; "…-video-index0"), unless
 /// another device has the same one, such as two cameras without serials;
-/// 2. the name of its link in /dev/v4l/by-path (its USB port or bus address), also while udev has
-/// yet to make or move it;
+/// 2. the name of its link in /dev/v4l/by-path (its USB port or bus address);
 /// 3. without udev: bus, card and the node's index on its device,
 /// "platform:vivid-000-vivid-index0";
 /// 4. the node's path, if nothing else can be read.

@@ -20,9 +20,10 @@ gpu::Texture textureOf(const BrushMarks& marks) {
 
 }  // namespace
 
-BrushCache::BrushCache() {
+BrushCache::BrushCache(const gpu::ShaderLibrary& library) {
   for (const Brush brush : kBrushes) {
     for (const int across : kBrushTexels) {
+      library.throwIfCancelled();
       builtIn_.emplace(std::pair(brush, across), makeBrush(brush, across));
     }
   }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hal/error.h"
+#include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/styles/painterly/brush_file.h"
 #include "pipeline/styles/painterly/brushes.h"
@@ -18,7 +19,8 @@ inline constexpr const char* kNoBrushFile = "none";
 /// a file, made at their first use. On the thread of a GL context.
 class BrushCache {
  public:
-  BrushCache();
+  /// Throws hal::Failure if the library's cancellation asks for it; `library` is not kept.
+  explicit BrushCache(const gpu::ShaderLibrary& library);
 
   /// From now on brush() gives the file's, or of kNoBrushFile the built-in ones. Reads a file where
   /// it is another one than before. Errors: readBrushFile()'s; the brushes stay as they were then.

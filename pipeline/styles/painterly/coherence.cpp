@@ -12,8 +12,7 @@ namespace {
 constexpr double kMemorySeconds = 0.65;
 constexpr double kAppearingSeconds = 0.3;
 constexpr double kForever = 1e6;
-/// New strokes are to go as things lie now, and to be seen: field and anchors do not hold on for
-/// ever.
+/// Limits the memory of the field and the anchors, so that new strokes follow the present image.
 constexpr double kMaxHold = 4.0;
 constexpr float kAnyColour = 1e6F;  // a second
 

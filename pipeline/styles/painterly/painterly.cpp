@@ -130,7 +130,8 @@ struct Painterly::State {
         linen(library, Substrate::Kind::kLinen),
         paper(library, Substrate::Kind::kPaper),
         strips(library),
-        drawing(library) {}
+        drawing(library),
+        brushes(library) {}
 
   const gpu::ShaderLibrary& library;
   ReducedImages reduced;

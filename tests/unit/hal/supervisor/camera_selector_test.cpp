@@ -55,6 +55,8 @@ TEST_F(CameraSelectorTest, FollowsACameraToTheNodeThatItGotAfterAReset) {
   const auto device = usb_->add("046d:0825", {sound_}, "/dev/video0");
   const auto other = usb_->add("046d:9999", {sound_}, "/dev/video2");
   device->repeatsLast = other->repeatsLast = true;
+  device->description.path = "usb-0:1";
+  other->description.path = "usb-0:2";
   CameraSelector chosen = selector("usb:/dev/video0");
   EXPECT_EQ(told(chosen.open({})), "usb:046d:0825");
   device->description.node = "/dev/video1";
@@ -65,6 +67,22 @@ TEST_F(CameraSelectorTest, FollowsACameraToTheNodeThatItGotAfterAReset) {
   EXPECT_EQ(told(chosen.open({})), "usb:046d:9999") << "the last that was opened there";
   CameraSelector fresh = selector("usb:/dev/video0");
   EXPECT_EQ(told(fresh.open({})), "scripted: is not there") << "no camera was opened there";
+}
+
+TEST_F(CameraSelectorTest, FollowsNoOtherCameraOfTheSameModel) {
+  const auto device = usb_->add("046d:0825", {sound_}, "/dev/video0", "A");
+  const auto twin = usb_->add("046d:0826", {sound_}, "/dev/video2", "B");
+  device->repeatsLast = twin->repeatsLast = true;
+  for (const char* path : {"usb-0:1", ""}) {
+    device->description.path = path;
+    device->description.node = "/dev/video0";
+    CameraSelector chosen = selector("usb:/dev/video0");
+    EXPECT_EQ(told(chosen.open({})), "usb:046d:0825");
+    device->description.path = "usb-0:4";  // unplugged
+    device->description.node = "/dev/video9";
+    twin->description.path = path;  // in its place, where that is known
+    EXPECT_EQ(told(chosen.open({})), "scripted: is not there") << path;
+  }
 }
 
 TEST_F(CameraSelectorTest, ABackEndsFirstThatWorks) {
