@@ -7,8 +7,8 @@
 
 namespace pleinair::hal {
 
-/// What red, green and blue add to the luma of a coded colour, or to the luminance of a linear one.
-/// Their sum is 1.
+/// The shares of red, green and blue in the luma of a coded colour, or in the luminance of a linear
+/// one. Their sum is 1.
 struct LumaWeights {
   double red;
   double green;

@@ -19,7 +19,7 @@ inline constexpr std::string_view kViewKey = "painting.view";
 
 /// The cameras that have a name: "auto", "v4l2", "synthetic:pan" …
 std::vector<std::string> cameraNames();
-/// Those whose names go on after a colon: "serial:NUMBER".
+/// The names that go on after a colon: "serial:NUMBER".
 std::vector<std::string> openCameraNames();
 /// Whether camera.source is one of either; else it is a recording's path.
 bool isCameraName(std::string_view source);

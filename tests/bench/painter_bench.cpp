@@ -137,8 +137,8 @@ double processSeconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// What sampled pass times cost: blocks of frames with and without them in turn, so that what else
-/// runs on the machine meets both. CPU time of all threads; the mean ratio of the pairs of blocks,
+/// The cost of sampled pass times: blocks of frames with and without them alternate, so that other
+/// load on the machine slows both. CPU time of all threads; the mean ratio of the pairs of blocks,
 /// and the upper bound of its 95 % confidence interval (Student's t).
 void sampledPassTimes(benchmark::State& state) {
   constexpr int kPairs = 16;

@@ -54,7 +54,7 @@ class PassTest : public StyleTest, public testing::WithParamInterface<Size> {
   void paint(int number) { style_->paint(frameOf(picture_, number), "means"); }
 
   const CellTiling& tiler() const { return *style_->inner().tiler; }
-  /// Those that made the last tiling, a slot each.
+  /// The anchors that made the last tiling, a slot each.
   std::vector<Site> sites() const {
     std::vector<Site> result;
     for (const marks::BinnedPoint& point : readBuffer<marks::BinnedPoint>(tiler().points())) {
