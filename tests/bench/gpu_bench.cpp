@@ -50,7 +50,7 @@ template <class Pass>
 void timePass(benchmark::State& state, const Pass& pass) {
   for (int warmUp = 0; warmUp < 3; ++warmUp) pass();
   waitForGpu();
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     pass();
     waitForGpu();
   }

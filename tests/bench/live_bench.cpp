@@ -80,7 +80,7 @@ Late runLive(hal::FrameSize size, const std::string& style, hal::Duration latenc
 
 void live(benchmark::State& state, hal::FrameSize size, const std::string& style, bool isLoaded) {
   constexpr hal::Duration kLatency = 120ms;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     const BusyCores busy(isLoaded);
     const Late late = runLive(size, style, kLatency);
     state.counters["p50_ms"] = hal::toMilliseconds(late.presented.percentile(0.5));

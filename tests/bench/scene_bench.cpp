@@ -143,7 +143,7 @@ void compose(benchmark::State& state, const std::string& text, ArFrameNeeds need
           glm::rotate(glm::translate(glm::dmat4(1.0), {0.0, 0.0, 0.25}), 0.5, {1.0, 0.0, 0.0})};
   const tracking::CameraModel camera = assumedCamera(size);
   std::uint64_t sequence = 0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     const hal::TimePoint time(++sequence * std::chrono::milliseconds(33));  // what turns, turns
     renderer.compose(picture, camera, {.tags = {&sighting, 1}}, sequence, time, needs);
     hal::orThrow(gpu::Fence::insert().wait());
@@ -183,7 +183,7 @@ void estimateLight(benchmark::State& state) {
   const std::array<std::optional<int>, 3> places{0, 3, std::nullopt};
   LightEstimator estimator(markers, tracking::kDefaultTagFamily, places);
   hal::TimePoint time;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     estimator.follow(image.view(), tracked, time += std::chrono::milliseconds(33));
   }
   state.counters["tags"] = static_cast<double>(tracked.tags.size());

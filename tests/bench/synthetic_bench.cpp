@@ -18,7 +18,7 @@ void filmFrame(benchmark::State& state) {
   if (state.range(3) != 0) options.rowTime = options.framePeriod / options.size.height;
   SyntheticCamera camera(options, clock);
   if (!camera.start({})) state.SkipWithError("does not start");
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     const NextFrame next = camera.next(kNoDeadline);
     if (!std::holds_alternative<CapturedFrame>(next)) state.SkipWithError("no frame");
   }
@@ -34,7 +34,7 @@ BENCHMARK(filmFrame)
 
 /// The work of the first start(): painting and lighting, on all cores.
 void paintTheWorkbench(benchmark::State& state) {
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     benchmark::DoNotOptimize(
         synthetic::paintWorkbench(1, static_cast<double>(state.range(0)) / 1e5));
   }
@@ -51,7 +51,7 @@ BENCHMARK(paintTheWorkbench)
 void flowOfAFrame(benchmark::State& state) {
   SteppedClock clock;
   const SyntheticCamera camera({}, clock);
-  for (auto _ : state) benchmark::DoNotOptimize(camera.flowField(0, 5));
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(camera.flowField(0, 5));
 }
 BENCHMARK(flowOfAFrame)->Unit(benchmark::kMillisecond);
 

@@ -54,7 +54,7 @@ void trackFiveTags(benchmark::State& state) {
                                                tags, {.noiseSigma = 2.0});
   Tracker tracker(camera, markersOf(tags));
   hal::TimePoint now{};
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     now += std::chrono::milliseconds(33);
     const TrackingResult result = tracker.track(image.view(), now);
     if (result.tags.size() != tags.size() || !result.cameraFromWorld) {
@@ -93,7 +93,7 @@ void trackFrames(benchmark::State& state, const TruthSequence& sequence, bool de
   std::ptrdiff_t step = 1;
   hal::TimePoint now{};
   const auto count = std::ssize(sequence.frames);
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     const hal::ImageView frame = sequence.frames[static_cast<std::size_t>(at)].luma.view();
     const auto start = std::chrono::steady_clock::now();
     if (detectorAlone) {
@@ -144,7 +144,7 @@ void solveFiveTags(benchmark::State& state) {
   const glm::dmat4 cameraFromWorld = poseOf({0.35, 0.1, 0.2}, {0.0, 0.0, 0.7});
   const auto tags = table();
   WorldPoseSolver solver;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     std::vector<WorldTag> seen;
     for (const support::SceneTag& tag : tags) {
       WorldTag world{.worldFromTag = tag.worldFromTag, .edgeMetres = tag.edgeMetres};
@@ -168,7 +168,7 @@ void estimateMotion(benchmark::State& state, const ImageMotionOptions& options) 
   std::ptrdiff_t step = 1;
   std::uint64_t number = 0;  // of frames
   const auto count = std::ssize(sequence.frames);
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     const hal::ImageView frame = sequence.frames[static_cast<std::size_t>(at)].luma.view();
     const auto start = std::chrono::steady_clock::now();
     benchmark::DoNotOptimize(estimator.follow(frame.planes[0], size, number++));

@@ -18,6 +18,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/support/environment.h"
 #include "tests/support/temporary_folder.h"
 
 namespace pleinair::support {
@@ -53,14 +54,14 @@ void prepareEnvironment(const std::vector<std::string>& wanted) {
     const std::string variable = *each;
     if (variable.starts_with("PLEINAIR_")) ours.push_back(variable.substr(0, variable.find('=')));
   }
-  for (const std::string& name : ours) unsetenv(name.c_str());
-  setenv("PLEINAIR_CONFIG", "", 1);
+  for (const std::string& name : ours) setVariable(name.c_str(), nullptr);
+  setVariable("PLEINAIR_CONFIG", "");
   for (const std::string& variable : wanted) {
     const std::size_t equals = variable.find('=');
     if (equals == std::string::npos) {
-      unsetenv(variable.c_str());
+      setVariable(variable.c_str(), nullptr);
     } else {
-      setenv(variable.substr(0, equals).c_str(), variable.c_str() + equals + 1, 1);
+      setVariable(variable.substr(0, equals).c_str(), variable.c_str() + equals + 1);
     }
   }
 }

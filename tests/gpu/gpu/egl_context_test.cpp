@@ -11,6 +11,7 @@
 
 #include "hal/error.h"
 #include "pipeline/gpu/frame_upload.h"
+#include "tests/support/environment.h"
 #include "tests/support/gl_pictures.h"
 #include "tests/support/gl_test.h"
 
@@ -59,9 +60,9 @@ TEST_F(EglContextTest, KnowsTheDevicesLimit) {
 
 TEST_F(EglContextTest, TakesSoftwareWhereItIsAskedFor) {
   context_.reset();
-  setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+  support::setVariable("LIBGL_ALWAYS_SOFTWARE", "1");
   context_ = std::make_unique<EglContext>();
-  unsetenv("LIBGL_ALWAYS_SOFTWARE");
+  support::setVariable("LIBGL_ALWAYS_SOFTWARE", nullptr);
   EXPECT_EQ(eglGetError(), EGL_SUCCESS);
   EXPECT_TRUE(Texture(TextureFormat::kRgba8, {1, 1}));
 }

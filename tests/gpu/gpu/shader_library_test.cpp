@@ -175,7 +175,7 @@ TEST(ShaderOverride, IsRefusedWhereAFileOfItCannotBeRead) {
 TEST(ShaderOverride, MayBeAnEmptyFile) {
   const support::TemporaryFolder folder;
   std::filesystem::create_directories(folder.path() / "t");
-  std::ofstream(folder.path() / "t/inner.glsl");
+  const std::ofstream empty(folder.path() / "t/inner.glsl");
   EXPECT_THAT(library(folder.path()).expanded("t/inner.glsl"), Not(HasSubstr("inner")));
 }
 

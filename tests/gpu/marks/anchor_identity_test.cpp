@@ -2,8 +2,9 @@
 // quality, seeds.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <cstddef>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -58,9 +59,10 @@ TEST_F(AnchorLife, TheSameFramesGiveTheSameAnchorsToTheBit) {
   const std::vector<Anchor> again = play();
   ASSERT_EQ(once.size(), again.size());
   std::size_t different = 0;
+  const auto bytesOf = [](const Anchor& anchor) { return std::as_bytes(std::span(&anchor, 1)); };
   for (std::size_t slot = 0; slot < once.size(); ++slot) {
     if (once[slot].isAlive() != again[slot].isAlive() ||
-        (once[slot].isAlive() && std::memcmp(&once[slot], &again[slot], sizeof(Anchor)) != 0)) {
+        (once[slot].isAlive() && !std::ranges::equal(bytesOf(once[slot]), bytesOf(again[slot])))) {
       ++different;
     }
   }

@@ -178,7 +178,7 @@ TEST(TargetPose, BlendsAwayWhatWasWrongAtAReturn) {
 TEST(MovedTag, DoesNotStayWithTheBackground) {
   Tracker tracker(webcam(), {{.id = kId, .edgeMetres = kEdge}});
   std::vector<SceneTag> tags = table(true);
-  std::ranges::rotate(tags, tags.begin() + 1);  // draw the moved tag above the others
+  std::rotate(tags.begin(), tags.begin() + 1, tags.end());  // draw the moved tag above the others
   for (int i = 0; i < 24; ++i) {
     const double aside = i < 6 ? 0.0 : 0.006 * (i - 5);
     tags.back().worldFromTag = poseOf({}, {aside, 0.0, 0.0});
