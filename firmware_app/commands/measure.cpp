@@ -125,6 +125,11 @@ std::string settingsText(const Configuration& configuration, hal::FrameSize size
                      size.width, size.height, quality);
 }
 
+bool isOnPaper(const PaintingSettings& painting) {
+  const auto looks = styles::styleKind(painting.style).coherence.paperLooks;
+  return std::ranges::find(looks, painting.look) != looks.end();
+}
+
 /// Runs the measurement with progress; nothing if it was interrupted.
 std::optional<measure::Report> measured(measure::MeasuredInput& input,
                                         measure::MeasuredPainter& painter,
@@ -217,7 +222,9 @@ int measureConfigured(const MeasureOptions& options, const Configuration& config
                 .settings = settingsText(configuration, size, levels.at(quality)),
                 .frames = frames,
                 .settle = settle,
-                .stillNoiseLevels = options.noiseLevels});
+                .stillNoiseLevels = options.noiseLevels,
+                .isStanding = options.standing,
+                .isOnPaper = isOnPaper(configuration.painting())});
   if (!report) {
     printError(fmt::format("interrupted by {}", signalName(Interrupt::received())));
     return kSignalExitBase + Interrupt::received();

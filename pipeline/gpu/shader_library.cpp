@@ -16,6 +16,7 @@
 #include <fmt/ranges.h>
 
 #include "hal/error.h"
+#include "pipeline/gpu/gpu_shaders.h"
 
 namespace pleinair::gpu {
 namespace {

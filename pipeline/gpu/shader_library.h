@@ -103,7 +103,4 @@ class ShaderLibrary {
   mutable std::size_t compiled_ = 0;
 };
 
-/// The shaders of pipeline/gpu itself.
-std::span<const EmbeddedShader> gpuShaders();
-
 }  // namespace pleinair::gpu

@@ -43,11 +43,17 @@ struct Anchor {
   static constexpr std::uint32_t kDying = 0x200;  ///< fading out for good: its cell was too crowded
   static constexpr std::uint32_t kHidden = 0x400;  ///< fading out: its surface is occluded
   static constexpr std::uint32_t kBorn = 0x800;    ///< spawned in this frame
+  /// a mover covers it: its mark keeps its slot (AnchorHold::memory) and stays as it is, and is
+  /// clipped where the mover is seen
+  static constexpr std::uint32_t kCovered = 0x1000;
+  static constexpr std::uint32_t kMover = 0x2000;  ///< on a mover (MotionLayers)
+  static constexpr int kCoveredShift = 16;  ///< above it: for how long, in 1/256 s
 
   bool isAlive() const { return (state & kAlive) != 0; }
+  bool isCovered() const { return (state & (kAlive | kCovered)) == (kAlive | kCovered); }
   bool isBorn() const { return (state & kBorn) != 0; }
-  /// Whether the anchor is alive and not fading out.
-  bool isStaying() const { return (state & (kAlive | kDying | kHidden)) == kAlive; }
+  /// Whether the anchor is alive, not fading out and not covered.
+  bool isStaying() const { return (state & (kAlive | kDying | kHidden | kCovered)) == kAlive; }
   MotionSource source() const { return static_cast<MotionSource>(state & kSourceBits); }
 };
 static_assert(sizeof(Anchor) == 64);

@@ -17,7 +17,7 @@ namespace pleinair::marks {
 namespace {
 
 const std::string kShaders = "pipeline/marks/shaders/";
-constexpr std::size_t kCellBytes = 32;  // shaders/anchor_cells.glsl
+constexpr std::size_t kCellBytes = 40;  // shaders/anchor_cells.glsl
 constexpr int kMaxStrata = 4;           // along a cell's side (shaders/anchor_cells.glsl)
 constexpr GLbitfield kStored = GL_SHADER_STORAGE_BARRIER_BIT;
 
@@ -26,11 +26,12 @@ glm::ivec2 gridOf(hal::FrameSize full, int cellPixels) {
 }
 
 /// Slots for every cell, including those beyond the border, at a density halfway between target and
-/// deathAbove, and for the anchors that fade out.
+/// deathAbove, for the anchors that fade out, and for those that other content covers.
 std::uint32_t slotsFor(glm::ivec2 grid, const DensityRule& rule) {
   const int twice = (grid.x + 2) * (grid.y + 2) * (rule.target + rule.deathAbove);
   const int fading = twice / 10;
-  return static_cast<std::uint32_t>((twice + fading + 1) / 2);
+  const int covered = twice / 4;
+  return static_cast<std::uint32_t>((twice + fading + covered + 1) / 2);
 }
 
 /// The part of a fade of this length that `step` completes.
@@ -57,7 +58,9 @@ struct AnchorSet::State {
         anchors(slots * sizeof(Anchor), gpu::BufferUsage::kDynamic),
         cells(static_cast<std::size_t>(grid.x * grid.y) * kCellBytes, gpu::BufferUsage::kDynamic),
         births((slots + 1) * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
-        noIds(gpu::TextureFormat::kR32ui, {1, 1}) {
+        noIds(gpu::TextureFormat::kR32ui, {1, 1}),
+        noMovers(gpu::TextureFormat::kRgba16f, {1, 1}, gpu::TextureFilter::kLinear) {
+    noMovers.upload(std::vector<std::uint8_t>(8), 8);
     anchors.write(std::vector<std::byte>(anchors.sizeBytes()));
     cells.write(std::vector<std::byte>(cells.sizeBytes()));
   }
@@ -76,6 +79,9 @@ struct AnchorSet::State {
   gpu::Buffer cells;
   gpu::Buffer births;  // the free slots, in order
   gpu::Texture noIds;
+  gpu::Texture noMovers;
+  const gpu::Texture* movers = &noMovers;  // of this frame
+  const gpu::Texture* background = &noMovers;
   hal::TimePoint lastTime;
   std::uint32_t salt = 0;  // of this frame's spawns
   bool hasPast = false;
@@ -108,24 +114,25 @@ struct AnchorSet::State {
         .set("strataSide", strataSide());
   }
 
-  void carryInImage(const scene::ArFrame& frame, const MotionField& motion, hal::Duration step);
+  void carryInImage(const scene::ArFrame& frame, const MotionField& motion, const AnchorHold& hold,
+                    hal::Duration step);
   void carryOnSurfaces(const scene::ArFrame& frame);
   void countAnchors(const AnchorHold& hold, hal::Duration step);
   void keepDensity(const scene::ArFrame& frame, const MotionField& motion, const AnchorHold& hold);
 };
 
 void AnchorSet::State::carryInImage(const scene::ArFrame& frame, const MotionField& motion,
-                                    hal::Duration step) {
+                                    const AnchorHold& hold, hal::Duration step) {
   beginCarrying(image, frame)
       .set("hasObjects", frame.hasObjects ? 1 : 0)
       .storage("Anchors", anchors);
   motion.bind(image);
-  constexpr double kUsualNoise = 2.0;
-  const bool isNoiseKnown = frame.measuredMotion && frame.measuredMotion->motion != nullptr;
-  const double noise = isNoiseKnown ? frame.measuredMotion->motion->noiseLevels : kUsualNoise;
   image.texture("picture", *frame.colour)
-      .set("noise", static_cast<float>(noise / 255.0))
+      .texture("movers", *movers)
+      .texture("background", *background)
+      .set("noise", static_cast<float>(motion.noiseLevels() / 255.0))
       .set("stepSeconds", std::chrono::duration<float>(step).count())
+      .set("memorySeconds", static_cast<float>(hal::toSeconds(hold.memory)))
       .set("follows", motion.follows() ? 1 : 0)
       .set("anew", hasBegunAnew ? 1 : 0)
       .dispatch(allSlots(), kStored);
@@ -173,6 +180,7 @@ void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionFiel
       .set("hasObjects", frame.hasObjects ? 1 : 0)
       .storage("Anchors", anchors)
       .storage("Cells", cells)
+      .texture("movers", *movers)
       .set("target", rule.target)
       .set("birthBelow", hold.hasSlack ? rule.birthBelow : rule.target)
       .set("deathAbove", hold.hasSlack ? rule.deathAbove : rule.target)
@@ -188,6 +196,7 @@ void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionFiel
       .set("hasObjects", frame.hasObjects ? 1 : 0)
       .texture("barycentrics", frame.barycentrics != nullptr ? *frame.barycentrics : noIds)
       .texture("motion", motion.backward())
+      .texture("movers", *movers)
       .storage("Anchors", anchors)
       .storage("Cells", cells)
       .storage("Plan", births)
@@ -205,7 +214,7 @@ AnchorSet::AnchorSet(const gpu::ShaderLibrary& library, hal::FrameSize full, Anc
 AnchorSet::~AnchorSet() = default;
 
 void AnchorSet::advance(const scene::ArFrame& frame, const MotionField& motion,
-                        const AnchorHold& hold) {
+                        const AnchorHold& hold, const MotionLayers* layers) {
   State& s = *state_;
   assert(frame.full() == s.full);
   assert(!frame.hasObjects || frame.barycentrics != nullptr);
@@ -213,9 +222,11 @@ void AnchorSet::advance(const scene::ArFrame& frame, const MotionField& motion,
   const hal::Duration step = s.hasPast ? timeStep(s.lastTime, frame.captureTime) : hal::Duration(0);
   s.lastTime = frame.captureTime;
   s.hasPast = true;
+  s.movers = layers != nullptr ? &layers->labels() : &s.noMovers;
+  s.background = layers != nullptr ? &layers->background() : &s.noMovers;
   ++s.salt;
   {
-    s.carryInImage(frame, motion, step);
+    s.carryInImage(frame, motion, hold, step);
     if (motion.follows()) s.carryOnSurfaces(frame);
   }
   s.countAnchors(hold, step);

@@ -11,6 +11,7 @@
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/marks/anchor.h"
 #include "pipeline/marks/motion_field.h"
+#include "pipeline/marks/motion_layers.h"
 #include "pipeline/scene/render/ar_frame.h"
 
 namespace pleinair::marks {
@@ -37,15 +38,19 @@ struct AnchorHold {
   hal::Duration fadeIn = std::chrono::milliseconds(300);
   /// time from visible to invisible; 0: at once
   hal::Duration fadeOut = std::chrono::milliseconds(200);
+  /// how long an anchor is kept that other content covers, so that its mark is the same one when it
+  /// is seen again; at most 255 s. Where slots run short, it is given up earlier.
+  hal::Duration memory = std::chrono::seconds(30);
   bool hasSlack = true;  ///< hysteresis of DensityRule; if false, density is kept at the target
 };
 
 /// The anchors of a style's marks. They are spawned where the image has too few, follow the surface
-/// that they lie on (exactly on a model; else by the best known image motion), and fade out when
-/// their surface is occluded or their cell is too crowded. An anchor keeps its slot for life, so
-/// that styles can store the data of its mark in parallel buffers. All data stays on the GPU;
-/// nothing is read back. The same frames with the same times give the same anchors. All calls on
-/// the thread of the GL context that was current at construction.
+/// that they lie on (exactly on a model; else by the best known image motion), and fade out when a
+/// model occludes their surface or their cell is too crowded. An anchor of the image that other
+/// content covers disappears at once, and is there again when its own is seen. An anchor keeps its
+/// slot for life, so that styles can store the data of its mark in parallel buffers. All data stays
+/// on the GPU; nothing is read back. The same frames with the same times give the same anchors. All
+/// calls on the thread of the GL context that was current at construction.
 class AnchorSet {
  public:
   /// `library` has gpu::marksShaders(), gpu::sceneShaders() and gpu::gpuShaders(). `full` is the
@@ -57,11 +62,13 @@ class AnchorSet {
   AnchorSet(AnchorSet&&) = delete;
   AnchorSet& operator=(AnchorSet&&) = delete;
 
-  /// Advances to the next frame, for which `motion` has been updated. The first frame, a frame
+  /// Advances to the next frame, for which `motion` and `layers` have been updated; without
+  /// layers, nothing covers anything at once. The first frame, a frame
   /// after reset() and a frame after a cut start anew, with all anchors visible at once.
   /// Preconditions: frame.full() is the constructor's size; the style's needs include surfaces and
   /// measuredMotion.
-  void advance(const scene::ArFrame& frame, const MotionField& motion, const AnchorHold& hold = {});
+  void advance(const scene::ArFrame& frame, const MotionField& motion, const AnchorHold& hold = {},
+               const MotionLayers* layers = nullptr);
   /// Whether the last advance() started anew, so that data which a style stores per slot is
   /// invalid.
   bool hasBegunAnew() const;

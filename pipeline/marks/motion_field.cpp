@@ -28,6 +28,7 @@ static_assert(static_cast<int>(MotionSource::kPlane) ==
               static_cast<int>(scene::SurfaceMotionSource::kPlane));
 
 const std::string kShaders = "pipeline/marks/shaders/";
+constexpr double kUsualNoise = 2.0;  // levels, where it was not measured
 
 /// Same layout as in shaders/image_motion.glsl.
 struct GpuFeature {
@@ -125,6 +126,8 @@ struct MotionField::State {
   std::optional<std::uint64_t> last;  // the frame that was updated
   bool isCut = true;
   bool follows = true;
+  bool isStanding = false;
+  double noiseLevels = kUsualNoise;
 
   void takePicture(const scene::MeasuredMotion& movement, GpuMotion& made);
   void takeFeatures(const scene::MeasuredMotion& movement, GpuMotion& made);
@@ -244,11 +247,14 @@ void MotionField::update(const scene::ArFrame& frame, const MotionFieldOptions& 
   static constexpr ImageMotion kRest{.picture = tracking::ImageHomography{}};
   scene::MeasuredMotion movement = frame.measuredMotion.value_or(scene::MeasuredMotion{});
   const bool follows = s.last && (!movement.motion || movement.motion->sinceSequence == *s.last);
+  s.noiseLevels = movement.motion != nullptr ? movement.motion->noiseLevels : kUsualNoise;
   s.isCut = !follows || (movement.motion != nullptr && movement.motion->isCut);
   if (s.isCut || movement.motion == nullptr) movement.motion = &kNothing;
   if (!options.follows && !s.isCut) movement.motion = &kRest;
   if (s.isCut || !options.follows) made.known.x = 0.0F;
   s.follows = options.follows;
+  s.isStanding =
+      movement.motion->picture && movement.motion->picture->currentFromPrevious == glm::dmat3(1.0);
   s.takePicture(movement, made);
   s.takeFeatures(movement, made);
   s.takeGrids(movement, made);
@@ -270,6 +276,14 @@ bool MotionField::isCut() const {
 
 bool MotionField::follows() const {
   return state_->follows;
+}
+
+bool MotionField::isStanding() const {
+  return state_->isStanding;
+}
+
+double MotionField::noiseLevels() const {
+  return state_->noiseLevels;
 }
 
 const gpu::Texture& MotionField::backward() const {

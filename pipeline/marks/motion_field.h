@@ -40,6 +40,10 @@ class MotionField {
   bool isCut() const;
   /// MotionFieldOptions::follows of the last update.
   bool follows() const;
+  /// Whether the homography of the last update is exactly the identity.
+  bool isStanding() const;
+  /// The camera's noise: one standard deviation of a px's luma, in 1/255.
+  double noiseLevels() const;
 
   /// The motion of the camera image as a field (on models, ArFrame::motion is more exact): RGBA16F,
   /// LINEAR; texel (i, j) is centred on a block of kFieldPixels² px of the full image. It holds the

@@ -39,7 +39,9 @@ struct StrokeSet::State {
         command(gpu::kDrawCommandBytes, gpu::BufferUsage::kDynamic),
         instances(slots * kInstanceBytes, gpu::BufferUsage::kDynamic),
         noIds(gpu::TextureFormat::kR32ui, {1, 1}),
-        anyColour(gpu::TextureFormat::kRgba8, {1, 1}) {
+        anyColour(gpu::TextureFormat::kRgba8, {1, 1}),
+        noMovers(gpu::TextureFormat::kRgba16f, {1, 1}, gpu::TextureFilter::kLinear) {
+    noMovers.upload(std::vector<std::uint8_t>(8), 8);
     strokes.write(std::vector<std::byte>(strokes.sizeBytes()));
   }
 
@@ -53,11 +55,13 @@ struct StrokeSet::State {
   gpu::Buffer instances;
   gpu::Texture noIds;
   gpu::Texture anyColour;
+  gpu::Texture noMovers;
   hal::TimePoint lastTime;
 
   glm::ivec2 allSlots() const { return {static_cast<int>(slots), 1}; }
   void grow(const scene::ArFrame& frame, const AnchorSet& anchors, const TensorField& field,
-            const StrokePaint& paint, const StrokeRule& rule, hal::Duration step);
+            const StrokePaint& paint, const StrokeRule& rule, const MotionLayers* layers,
+            hal::Duration step);
   void layOut(const AnchorSet& anchors, const StrokeRule& rule);
 };
 
@@ -73,7 +77,8 @@ glm::vec2 scaleOf(const TensorField& field, std::size_t level) {
 
 void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchors,
                             const TensorField& field, const StrokePaint& paint,
-                            const StrokeRule& rule, hal::Duration step) {
+                            const StrokeRule& rule, const MotionLayers* layers,
+                            hal::Duration step) {
   const auto stays = [step](hal::Duration timeConstant) {
     return keptAfter(step, hal::toSeconds(timeConstant));
   };
@@ -84,8 +89,11 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .storage("Strokes", strokes)
       .texture("field", field.resolved(level))
       .texture("detailField", field.resolved(detail))
+      .texture("moverField", field.movers())
       .texture("paint", *paint.real)
       .texture("modelPaint", *paint.models)
+      .texture("movers", layers != nullptr ? layers->labels() : noMovers)
+      .texture("background", layers != nullptr ? layers->background() : noMovers)
       .texture("ids", frame.hasObjects ? *frame.ids : noIds)
       .set("hasObjects", frame.hasObjects ? 1 : 0)
       .set("anew", anchors.hasBegunAnew() ? 1 : 0)
@@ -93,6 +101,7 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .set("fieldScale", scaleOf(field, level))
       .set("detailScale", scaleOf(field, detail))
+      .set("moverScale", scaleOf(field, 0))
       .set("slots", slots)
       .set("segment", rule.segmentPx)
       .set("steps", rule.steps)
@@ -143,12 +152,13 @@ StrokeSet::StrokeSet(const gpu::ShaderLibrary& library, std::uint32_t slotCount)
 StrokeSet::~StrokeSet() = default;
 
 void StrokeSet::update(const scene::ArFrame& frame, const AnchorSet& anchors,
-                       const TensorField& field, const StrokePaint& paint, const StrokeRule& rule) {
+                       const TensorField& field, const StrokePaint& paint, const StrokeRule& rule,
+                       const MotionLayers* layers) {
   State& s = *state_;
   assert(anchors.slotCount() == s.slots);
   const hal::Duration step = timeStep(s.lastTime, frame.captureTime);
   s.lastTime = frame.captureTime;
-  s.grow(frame, anchors, field, paint, rule, step);
+  s.grow(frame, anchors, field, paint, rule, layers, step);
   s.layOut(anchors, rule);
 }
 

@@ -70,10 +70,12 @@ class StrokeSet {
   StrokeSet& operator=(StrokeSet&&) = delete;
 
   /// Traces the strokes of the frame for which `anchors` and `field` were updated. If the anchors
-  /// have started anew, the strokes have no past. Preconditions: both are of frame.full(), and the
+  /// have started anew, the strokes have no past. With the anchors' `layers`, strokes end at the
+  /// borders of movers. Preconditions: both are of frame.full(), and the
   /// anchors have the constructor's number of slots.
   void update(const scene::ArFrame& frame, const AnchorSet& anchors, const TensorField& field,
-              const StrokePaint& paint, const StrokeRule& rule);
+              const StrokePaint& paint, const StrokeRule& rule,
+              const MotionLayers* layers = nullptr);
 
   /// The visible strokes, in painting order, 96 bytes each: four pairs of points, paint, shape
   /// (shaders/stroke_instances.comp). Also glDrawArraysIndirect's command for triangle strips of

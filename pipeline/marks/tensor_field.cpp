@@ -20,6 +20,7 @@ namespace {
 const std::string kShaders = "pipeline/marks/shaders/";
 constexpr int kRegionPixels = 8;
 constexpr std::size_t kEdgeWords = 1 + 128;  // shaders/edge_bins.glsl
+constexpr float kMoverSigma = 1.5F;  // regions; movers have no coarser levels
 constexpr float kMinEdge = 0.05F;            // of luma: the level of sensor noise
 constexpr GLbitfield kWritten = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
 
@@ -60,11 +61,16 @@ struct TensorField::State {
         reduce(library.compute(kShaders + "tensor_reduce.comp")),
         resolve(library.compute(kShaders + "tensor_resolve.comp")),
         edges(kEdgeWords * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
-        noIds(gpu::TextureFormat::kR32ui, {1, 1}) {
+        noIds(gpu::TextureFormat::kR32ui, {1, 1}),
+        noMovers(gpu::TextureFormat::kRgba16f, {1, 1}, gpu::TextureFilter::kLinear) {
+    noMovers.upload(std::vector<std::uint8_t>(8), 8);
     edges.write(std::vector<std::byte>(edges.sizeBytes()));
     hal::FrameSize size{(full.width + kRegionPixels - 1) / kRegionPixels,
                         (full.height + kRegionPixels - 1) / kRegionPixels};
     before = tensors(size);
+    moverRegions = tensors(size);
+    moversBefore = tensors(size);
+    movers = tensors(size);
     for (;;) {
       levels.emplace_back(size);
       if (size.width == 1 && size.height == 1) break;
@@ -82,8 +88,12 @@ struct TensorField::State {
   gpu::Program resolve;
   gpu::Buffer edges;
   gpu::Texture noIds;
+  gpu::Texture noMovers;
   std::vector<Level> levels;
   gpu::Texture before;
+  gpu::Texture moverRegions;
+  gpu::Texture moversBefore;
+  gpu::Texture movers;  // filled
   std::vector<std::unique_ptr<Gradient>> gradients;
   hal::TimePoint lastTime;
   bool hasPast = false;
@@ -97,8 +107,8 @@ struct TensorField::State {
 
   void findEdges(const scene::ArFrame& frame, const gpu::Texture& picture, double form,
                  float share);
-  void sumRegions(const scene::ArFrame& frame, const MotionField& motion, bool goesOn, float past,
-                  float slack);
+  void sumRegions(const scene::ArFrame& frame, const MotionField& motion,
+                  const MotionLayers* layers, bool goesOn, float past, float slack);
   void buildPyramid(const TensorFieldOptions& options);
 };
 
@@ -124,15 +134,21 @@ void TensorField::State::findEdges(const scene::ArFrame& frame, const gpu::Textu
 }
 
 void TensorField::State::sumRegions(const scene::ArFrame& frame, const MotionField& motion,
-                                    bool goesOn, float past, float slack) {
+                                    const MotionLayers* layers, bool goesOn, float past,
+                                    float slack) {
   Level& finest = levels.front();
   std::swap(finest.regions, before);
-  regions.use()
+  std::swap(moverRegions, moversBefore);
+  motion.bind(regions.use());
+  regions
       .texture("tensors", gradientOf(frame.size()).texture)
       .texture("before", before)
+      .texture("moversBefore", moversBefore)
+      .texture("movers", layers != nullptr ? layers->labels() : noMovers)
       .texture("motion", motion.backward())
       .storage("Edges", edges)
       .image("regions", finest.regions, gpu::ImageAccess::kWrite)
+      .image("moverRegions", moverRegions, gpu::ImageAccess::kWrite)
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .set("fullSize", glm::vec2(full.width, full.height))
       .set("regionPixels", static_cast<float>(kRegionPixels))
@@ -140,6 +156,11 @@ void TensorField::State::sumRegions(const scene::ArFrame& frame, const MotionFie
       .set("past", past)
       .set("slack", slack)
       .dispatch(itemsOf(finest.regions), kWritten);
+  fill.use()
+      .texture("regions", moverRegions)
+      .image("filled", movers, gpu::ImageAccess::kWrite)
+      .set("sigma", kMoverSigma)
+      .dispatch(itemsOf(movers), kWritten);
 }
 
 void TensorField::State::buildPyramid(const TensorFieldOptions& options) {
@@ -173,7 +194,8 @@ TensorField::TensorField(const gpu::ShaderLibrary& library, hal::FrameSize full)
 TensorField::~TensorField() = default;
 
 void TensorField::update(const scene::ArFrame& frame, const gpu::Texture& picture,
-                         const MotionField& motion, const TensorFieldOptions& options) {
+                         const MotionField& motion, const TensorFieldOptions& options,
+                         const MotionLayers* layers) {
   State& s = *state_;
   assert(frame.full() == s.full && picture.size() == frame.size());
   assert(options.slack >= 0.0 && options.slack < 1.0);
@@ -184,7 +206,8 @@ void TensorField::update(const scene::ArFrame& frame, const gpu::Texture& pictur
   s.lastTime = frame.captureTime;
   s.hasPast = true;
   s.findEdges(frame, picture, options.form, static_cast<float>(1.0 - past));
-  s.sumRegions(frame, motion, goesOn, static_cast<float>(past), static_cast<float>(options.slack));
+  s.sumRegions(frame, motion, layers, goesOn, static_cast<float>(past),
+               static_cast<float>(options.slack));
   s.buildPyramid(options);
 }
 
@@ -202,6 +225,10 @@ const gpu::Texture& TensorField::filled(std::size_t level) const {
 
 const gpu::Texture& TensorField::regions() const {
   return state_->levels.front().regions;
+}
+
+const gpu::Texture& TensorField::movers() const {
+  return state_->movers;
 }
 
 double TensorField::regionPixels(std::size_t level) const {

@@ -8,6 +8,7 @@
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/marks/motion_field.h"
+#include "pipeline/marks/motion_layers.h"
 #include "pipeline/scene/render/ar_frame.h"
 
 namespace pleinair::marks {
@@ -38,9 +39,10 @@ class TensorField {
   TensorField& operator=(TensorField&&) = delete;
 
   /// Adds a frame's image (RGBA8, of frame.size()) and carries the past along `motion`, which has
-  /// been updated for the frame. Precondition: frame.full() is the constructor's size.
+  /// been updated for the frame, like `layers`. With these, movers have tensors of their own, and
+  /// the background's stay as they were behind them. Precondition: frame.full() is the constructor's size.
   void update(const scene::ArFrame& frame, const gpu::Texture& picture, const MotionField& motion,
-              const TensorFieldOptions& options);
+              const TensorFieldOptions& options, const MotionLayers* layers = nullptr);
 
   std::size_t levelCount() const;
   /// RGBA16F, LINEAR: a level's tensors after the look-up in coarser levels: tensor; confidence of
@@ -51,6 +53,8 @@ class TensorField {
   const gpu::Texture& filled(std::size_t level) const;
   /// Before the interpolation: only regions with edges have tensors.
   const gpu::Texture& regions() const;
+  /// The tensors of movers, on the finest level only; 0 where none is near.
+  const gpu::Texture& movers() const;
   /// Side of a region on a level, px of the full image.
   double regionPixels(std::size_t level) const;
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -119,6 +120,9 @@ class Measurement {
       if (!painted) return tl::unexpected(painted.error());
       if (index >= options_.settle) {
         if (auto added = add(index, *painted); !added) return tl::unexpected(added.error());
+        if (options_.isStanding) {
+          movers_.add((*frame)->captureTime, painted->input, painted->output);
+        }
       }
       if (!options_.goesOn()) return Progress::kAborted;
     }
@@ -216,10 +220,31 @@ class Measurement {
     report_.leftOut = leftOut();
     report_.controls = controlVerdicts(report_.measures, options_.coherence, runConditions());
     report_.gates =
-        gateVerdicts(options_.coherence, runConditions(), report_.measures[Subject::kPainting],
+        gateVerdicts(judgedGates(), runConditions(), report_.measures[Subject::kPainting],
                      report_.measures[Subject::kFixed]);
+    if (options_.isStanding) judgeMovers();
     for (Verdict& verdict : anchorVerdicts(options_.coherence, report_.motionKind, settledAnchors(),
                                            report_.insideStill)) {
+      report_.gates.push_back(std::move(verdict));
+    }
+  }
+
+  styles::CoherenceGates judgedGates() {
+    styles::CoherenceGates gates = options_.coherence;
+    if (!options_.isStanding) return gates;
+    std::ranges::copy_if(gates.gates, std::back_inserter(standingGates_),
+                         [](const auto& gate) { return gate.motion == styles::GateMotion::kAny; });
+    gates.gates = standingGates_;
+    return gates;
+  }
+
+  void judgeMovers() {
+    report_.movers = movers_.total();
+    if (!report_.movers) return;
+    for (Verdict& verdict : moverControlVerdicts(*report_.movers)) {
+      report_.controls.push_back(std::move(verdict));
+    }
+    for (Verdict& verdict : moverVerdicts(report_.movers->painting, options_.isOnPaper)) {
       report_.gates.push_back(std::move(verdict));
     }
   }
@@ -256,6 +281,8 @@ class Measurement {
   const MeasurementOptions& options_;
   Report report_;
   std::optional<SequenceMeasures> sequence_;
+  MoverMeasures movers_;
+  std::vector<styles::CoherenceGate> standingGates_;
   WorstFrames worst_;
   cv::Mat3f still_;
   PerSubject<std::optional<double>> flicker_;

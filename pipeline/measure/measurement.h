@@ -47,6 +47,10 @@ struct MeasurementOptions {
   std::uint64_t stillFrames = 30;  ///< frames of the still scene; 0: no still scene
   std::uint64_t stillSettle = 30;  ///< frames painted before these
   double stillNoiseLevels = 2.0;
+  /// The camera stands: also measure what moves before it (MoverMeasures). Only the gates that hold
+  /// under any motion are judged beside those.
+  bool isStanding = false;
+  bool isOnPaper = false;  ///< the look is one of the style's CoherenceGates::paperLooks
   /// Called after each frame; returning false aborts.
   std::function<bool()> goesOn = [] { return true; };
 };

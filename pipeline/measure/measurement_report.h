@@ -12,6 +12,7 @@
 #include "pipeline/measure/gates.h"
 #include "pipeline/measure/input/true_motion.h"
 #include "pipeline/measure/measures.h"
+#include "pipeline/measure/mover_measures.h"
 #include "pipeline/measure/negative_controls.h"
 
 namespace pleinair::measure {
@@ -49,6 +50,7 @@ struct Report {
   std::optional<Flatness> flatness;
   std::optional<AnchorSummary> inside;       ///< of the moving sequence
   std::optional<AnchorSummary> insideStill;  ///< of the still scene
+  std::optional<MoverReport> movers;         ///< if the camera stands
   std::vector<FrameValues> overTime;
   std::vector<WorstFrame> worst;  ///< worst first
   std::vector<Verdict> controls;
@@ -69,6 +71,7 @@ std::string nameOf(Subject subject, const Report& report);
 std::string framesText(const Report& report);
 std::vector<std::string> insideLines(const Report& report);
 std::vector<std::string> flatnessLines(const Report& report);
+std::vector<std::string> moverLines(const Report& report);
 
 /// The report as text for a terminal.
 std::string reportText(const Report& report);

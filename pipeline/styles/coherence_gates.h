@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 
 namespace pleinair::styles {
 
@@ -30,6 +31,8 @@ struct CoherenceGates {
   std::span<const CoherenceGate> gates = {};
   /// Whether its anchors must neither be born nor die for no reason.
   bool holdsAnchors = false;
+  /// Looks on bare paper, which show little of the colours of things.
+  std::span<const std::string_view> paperLooks = {};
 
   bool empty() const { return gates.empty(); }
 };

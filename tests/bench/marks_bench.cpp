@@ -11,6 +11,7 @@
 
 #include "hal/error.h"
 #include "pipeline/gpu/egl_context.h"
+#include "pipeline/gpu/gpu_shaders.h"
 #include "pipeline/gpu/handle.h"
 #include "pipeline/marks/anchor_set.h"
 #include "pipeline/marks/marks_shaders.h"

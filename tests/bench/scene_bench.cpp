@@ -14,6 +14,7 @@
 
 #include "hal/error.h"
 #include "pipeline/gpu/egl_context.h"
+#include "pipeline/gpu/gpu_shaders.h"
 #include "pipeline/scene/description/scene_file.h"
 #include "pipeline/scene/light/light_estimator.h"
 #include "pipeline/scene/render/ar_frame_renderer.h"

@@ -19,6 +19,11 @@ const uint kAlive = 0x100u;
 const uint kDying = 0x200u;
 const uint kHidden = 0x400u;
 const uint kBorn = 0x800u;
+// A mover covers it: its mark stays as it is and is clipped.
+const uint kCovered = 0x1000u;
+const uint kMover = 0x2000u;  // on a mover
+const uint kCoveredShift = 16u;  // above it: for how long, in 1/256 s
+const uint kMaxCovered = 0xFFFFu;
 
 const uint kSourceUnknown = 0u;
 const uint kSourceSurface = 1u;
@@ -29,4 +34,7 @@ const uint kSourceFlow = 5u;
 const uint kSourceStill = 6u;
 
 bool isAlive(uint state) { return (state & kAlive) != 0u; }
-bool isStaying(uint state) { return (state & (kAlive | kDying | kHidden)) == kAlive; }
+bool isCovered(uint state) { return (state & (kAlive | kCovered)) == (kAlive | kCovered); }
+bool isStaying(uint state) {
+  return (state & (kAlive | kDying | kHidden | kCovered)) == kAlive;
+}

@@ -1,11 +1,13 @@
 // Purpose: whether an anchor of the camera image is still visible, or an object that is not a model
 //          occludes it. The anchor remembers the appearance of its surroundings in the two numbers
 //          that hold barycentrics in other anchors.
-// Inputs:  picture (ArFrame::colour) and fullSize; noise: sigma, in [0, 1].
+// Inputs:  picture (ArFrame::colour), background (marks::MotionLayers) and fullSize; noise: sigma,
+//          in [0, 1].
 // Outputs: looks: 1 + luma, and 4 * mismatch frames + 1 + red less blue; (0, 0): not sampled yet.
 // Precision: highp.
 #include "pipeline/gpu/shaders/luma.glsl"
 uniform highp sampler2D picture;
+uniform highp sampler2D background;
 uniform float noise;
 
 const float kMismatchFrames = 4.0;  // the anchor is hidden after so many
@@ -21,11 +23,11 @@ struct Looks {
   vec2 high;
 };
 
-Looks looksAt(vec2 px) {
+Looks looksAt(highp sampler2D image, vec2 px) {
   Looks here = Looks(vec2(0.0), vec2(9.0), vec2(-9.0));
   for (int i = 0; i < 5; ++i) {
     vec2 at = i == 4 ? px : px + kReach * (2.0 * vec2(i & 1, i >> 1) - 1.0);
-    vec3 c = textureLod(picture, at / fullSize, 0.0).rgb;
+    vec3 c = textureLod(image, at / fullSize, 0.0).rgb;
     vec2 value = vec2(lumaOf(c), c.r - c.b);
     here.mean += 0.2 * value;
     here.low = min(here.low, value);
@@ -34,18 +36,38 @@ Looks looksAt(vec2 px) {
   return here;
 }
 
+vec2 knownOf(vec2 looks) {
+  return vec2(looks.x, looks.y - kPerMismatch * floor(looks.y / kPerMismatch)) - 1.0;
+}
+
+bool isWithin(Looks here, vec2 known) {
+  float slack = kSlack + kNoiseSlack * noise;
+  return all(greaterThan(known, here.low - slack)) && all(lessThan(known, here.high + slack));
+}
+
 // The appearance to remember after this frame.
 vec2 remembered(vec2 looks, vec2 px) {
-  Looks here = looksAt(px);
+  Looks here = looksAt(picture, px);
   if (looks.y == 0.0) return here.mean + 1.0;
   float mismatch = floor(looks.y / kPerMismatch);
-  vec2 known = vec2(looks.x, looks.y - kPerMismatch * mismatch) - 1.0;
-  float slack = kSlack + kNoiseSlack * noise;
-  bool isKnown = all(greaterThan(known, here.low - slack)) && all(lessThan(known, here.high + slack));
+  vec2 known = knownOf(looks);
+  bool isKnown = isWithin(here, known);
   mismatch = clamp(mismatch + (isKnown ? -1.0 : 1.0), 0.0, kMismatchFrames);
   if (isKnown) known += kPace * (here.mean - known);
   return known + 1.0 + vec2(0.0, kPerMismatch * mismatch);
 }
+
+// Whether the background, where it has been seen, is other than the anchor remembers.
+bool isUnlikeBackground(vec2 looks, vec2 px) {
+  if (looks.y == 0.0 || textureLod(background, px / fullSize, 0.0).a < 1.0) return false;
+  return !isWithin(looksAt(background, px), knownOf(looks));
+}
+
+// Whether something has just come to rest here.
+bool isNewBackground(vec2 px) { return textureLod(background, px / fullSize, 0.0).a < 4.0; }
+
+// Whether its last frame was a mismatch.
+bool isUnlike(vec2 looks) { return looks.y >= kPerMismatch; }
 
 // Whether the anchor counts as occluded: a visible one from kMismatchFrames mismatches on, a hidden
 // one until its count is back at 0.

@@ -2,14 +2,16 @@
 // Inputs, outputs: places in px of the full image; cells row by row.
 // Precision: integers; highp for places.
 struct Cell {
-  uint inImage;  // staying anchors in the camera image
+  uint inImage;  // staying anchors in the camera image, also those that movers cover
   uint onObjects;  // staying anchors on virtual objects
   uint nextToRemove;  // age and slot of the next anchor to remove
   uint strata;  // the occupied parts of the cell: 16 bits for the image, 16 for objects
   uint births;  // wanted spawns: 16 bits for the image, 16 for objects
   uint firstBirth;  // index in the frame's spawns
-  uint spare0;
-  uint spare1;
+  uint onMovers;  // staying anchors on movers
+  uint nextMoverToRemove;
+  uint moverBirths;
+  uint spare;
 };
 
 uniform ivec2 grid;

@@ -20,16 +20,24 @@ void main() {
   if (slot >= slots) return;
   uint state = anchors[slot].state;
   if (!isAlive(state)) return;
-  bool stays = isStaying(state);
-  float fade = clamp(anchors[slot].fade + (stays ? fadeIn : -fadeOut), 0.0, 1.0);
-  anchors[slot].fade = fade;
-  if (!stays) {
-    if (fade == 0.0) anchors[slot].state = 0u;
-    return;
+  bool isBehind = isCovered(state);
+  bool stays = isBehind || isStaying(state);
+  if (!isBehind) {
+    float fade = clamp(anchors[slot].fade + (stays ? fadeIn : -fadeOut), 0.0, 1.0);
+    anchors[slot].fade = fade;
+    if (!stays && fade == 0.0) anchors[slot].state = 0u;
   }
   ivec2 at = cellAt(anchors[slot].px);
-  if (!isInGrid(at)) return;
+  if (!stays || !isInGrid(at)) return;
   int index = indexOf(at);
+  // The youngest anchor is removed first: viewers look at those that have been there for long.
+  uint youth = 4095u - min(uint(anchors[slot].age * kAgeUnits), 4095u);
+  uint candidate = youth << kSlotBits | slot;
+  if ((state & kMover) != 0u) {
+    atomicAdd(cells[index].onMovers, 1u);
+    atomicMax(cells[index].nextMoverToRemove, candidate);
+    return;
+  }
   uint object = objectOf(anchors[slot].surface);
   bool isOnObject = isVirtual(object);
   if (isOnObject) {
@@ -38,7 +46,5 @@ void main() {
     atomicAdd(cells[index].inImage, 1u);
   }
   atomicOr(cells[index].strata, 1u << (stratumAt(anchors[slot].px, at) + (isOnObject ? 16u : 0u)));
-  // The youngest anchor is removed first: viewers look at those that have been there for long.
-  uint youth = 4095u - min(uint(anchors[slot].age * kAgeUnits), 4095u);
-  atomicMax(cells[index].nextToRemove, youth << kSlotBits | slot);
+  atomicMax(cells[index].nextToRemove, candidate);
 }

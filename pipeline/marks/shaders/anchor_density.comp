@@ -1,7 +1,8 @@
 // Purpose: controls the density of anchors in a cell: the number of spawns, and the anchor to
 //          remove (thesis §5.3, with hysteresis).
 // Inputs:  anchor_cells.glsl's; the rule (marks::DensityRule): target, birthBelow, deathAbove; ids
-//          and its pixelsOfFull if hasObjects; fullSize.
+//          and its pixelsOfFull if hasObjects; fullSize; mover_labels.glsl's.
+//          Anchors of the background and of movers are counted apart.
 // Outputs: births of each cell; anchors: those to remove. One invocation per cell.
 // Precision: integers; highp for places.
 #include "pipeline/marks/shaders/anchor.glsl"
@@ -17,6 +18,7 @@ uniform vec2 fullSize;
 uniform int target;
 uniform int birthBelow;
 uniform int deathAbove;
+#include "pipeline/marks/shaders/mover_labels.glsl"
 
 const uint kSlotMask = 0xFFFFFu;
 const float kMinShare = 0.12;  // of a cell: a smaller part gets no anchor of its own
@@ -36,6 +38,16 @@ float objectShare(ivec2 cell) {
     }
   }
   return seen == 0 ? 0.0 : float(shown) / float(seen);
+}
+
+// The part of the cell that movers cover.
+float moverShare(ivec2 cell) {
+  float sum = 0.0;
+  for (int i = 0; i < 9; ++i) {
+    vec2 px = (vec2(cell) + (vec2(i % 3, i / 3) + 0.5) / 3.0) * float(cellPixels);
+    sum += moverAt(px).r;
+  }
+  return sum / 9.0;
 }
 
 // Whether the surrounding cells hold their target. An empty cell among them is then a gap by
@@ -67,6 +79,7 @@ void main() {
   if (cell.inImage + cell.onObjects > uint(deathAbove)) {
     anchors[cell.nextToRemove & kSlotMask].state |= kDying;
   }
+  if (cell.onMovers > uint(deathAbove)) anchors[cell.nextMoverToRemove & kSlotMask].state |= kDying;
   // Border cells may be cut off.
   vec2 inside = clamp((fullSize - vec2(at * cellPixels)) / float(cellPixels), 0.0, 1.0);
   float whole = inside.x * inside.y;
@@ -75,4 +88,5 @@ void main() {
   uint inImage = wanted(whole * (1.0 - share), cell.inImage, isGap);
   uint onObjects = wanted(whole * share, cell.onObjects, isGap);
   cells[index].births = inImage | onObjects << 16u;
+  cells[index].moverBirths = wanted(whole * moverShare(at), cell.onMovers, false);
 }

@@ -2,8 +2,9 @@
 //          is hidden until the pass of its object (anchor_surface.comp) finds it.
 // Inputs:  image_motion.glsl's, flow forward; ids and its pixelsOfFull if hasObjects; fullSize;
 //          anchor_appearance.glsl's; margin: px beyond the border at which an anchor is removed;
-//          stepSeconds; follows: whether anchors move; if not, surface anchors rest like all others
-//          and no appearance is compared; anew: whether all anchors are removed.
+//          stepSeconds; memorySeconds: how long a covered anchor is kept; mover_labels.glsl's;
+//          follows: whether anchors move; if not, surface anchors rest like all others, and neither
+//          appearance nor labels count; anew: whether all anchors are removed.
 // Outputs: anchors. One invocation per anchor.
 // Precision: highp.
 #include "pipeline/marks/shaders/image_motion.glsl"
@@ -16,10 +17,18 @@ uniform vec2 pixelsOfFull;
 uniform vec2 fullSize;
 uniform float margin;
 uniform float stepSeconds;
+uniform float memorySeconds;
 uniform bool follows;
 uniform bool anew;
 uniform uint slots;
 #include "pipeline/marks/shaders/anchor_appearance.glsl"
+#include "pipeline/marks/shaders/mover_labels.glsl"
+
+// The background moves as one; a mover's motion must not carry it along.
+Moved motionOf(vec2 px, float object, bool isOnMover) {
+  if (!isOnMover && known.z != 0.0 && isNearMover(px)) return byPicture(px, false);
+  return imageMotionAt(px, object, false);
+}
 
 void main() {
   uint slot = gl_GlobalInvocationID.x;
@@ -39,7 +48,9 @@ void main() {
     anchors[slot].state = (state & (kAlive | kDying)) | kHidden | kSourceUnknown;
     return;
   }
-  Moved moved = imageMotionAt(anchors[slot].px, float(object), false);
+  bool isOnMover = (state & kMover) != 0u;
+  bool wasCovered = (state & kCovered) != 0u;
+  Moved moved = motionOf(anchors[slot].px, float(object), isOnMover);
   vec2 px = anchors[slot].px + moved.displacement;
   bool isGone = any(lessThan(px, vec2(-margin))) || any(greaterThan(px, fullSize + margin));
   bool isHidden = false;
@@ -51,15 +62,38 @@ void main() {
   // Appearance is not compared behind a model, nor for an anchor known to lie on another real
   // object.
   vec2 looks = anchors[slot].barycentrics;
-  if (follows && !isHidden && all(greaterThan(px, vec2(0.0))) && all(lessThan(px, fullSize))) {
-    looks = remembered(looks, px);
-    isHidden = isMismatch(looks, (state & kHidden) != 0u);
+  bool isCovered = false;
+  bool isInside = all(greaterThan(px, vec2(0.0))) && all(lessThan(px, fullSize));
+  if (follows && !isHidden && isInside) {
+    vec2 mover = moverAt(px);
+    isCovered = !isOnMover && mover.r > (wasCovered ? 0.35 : 0.5);
+    bool isOther = false;
+    if (isCovered) {
+      isOther = isUnlikeBackground(looks, px);
+    } else {
+      looks = remembered(looks, px);
+      isHidden = isMismatch(looks, (state & kHidden) != 0u);
+      if (isOnMover && mover.r < 0.35) {
+        // It has joined the background, or has left the anchor behind.
+        isOnMover = false;
+        isOther = isUnlike(looks) || !isNewBackground(px);
+      } else if (wasCovered) {
+        isOther = isUnlike(looks) && isUnlikeBackground(looks, px);
+      }
+    }
+    isGone = isGone || isOther;
   }
   anchors[slot].barycentrics = looks;
   anchors[slot].px = px;
   anchors[slot].displacement = moved.displacement;
   anchors[slot].jacobian = moved.jacobian;
   anchors[slot].error = moved.error;
+  uint covered = 0u;
   uint flags = (state & (kAlive | kDying)) | (isHidden ? kHidden : 0u);
-  anchors[slot].state = isGone ? 0u : flags | moved.source;
+  if (isCovered) {
+    covered = min((state >> kCoveredShift) + uint(256.0 * stepSeconds + 0.5), kMaxCovered);
+    isGone = isGone || (state & kDying) != 0u || float(covered) > 256.0 * memorySeconds;
+  }
+  flags |= (isCovered ? kCovered : 0u) | (isOnMover ? kMover : 0u);
+  anchors[slot].state = isGone ? 0u : flags | moved.source | (covered << kCoveredShift);
 }

@@ -3,7 +3,7 @@
 //          §5.3), or the camera image.
 // Inputs:  anchor_cells.glsl's; births and slots (anchor_plan.comp); ids, barycentrics (ArFrame)
 //          and their pixelsOfFull if hasObjects; fullSize; salt: another one each frame; atOnce:
-//          whether anchors appear without a fade; motion: MotionField's field.
+//          whether anchors appear without a fade; motion: MotionField's field; mover_labels.glsl's.
 // Outputs: anchors; counts cleared for the next frame. One invocation per cell.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
@@ -22,6 +22,8 @@ uniform vec2 fullSize;
 uniform uint salt;
 uniform bool atOnce;
 uniform highp sampler2D motion;
+
+#include "pipeline/marks/shaders/mover_labels.glsl"
 
 const int kTries = 6;  // attempts in one part of the cell, then as many in the whole cell
 
@@ -51,7 +53,7 @@ bool hasComeIn(vec2 px) {
   return any(lessThan(from, vec2(0.0))) || any(greaterThanEqual(from, fullSize));
 }
 
-void spawn(ivec2 cell, uint number, bool onObject, inout uint taken) {
+void spawn(ivec2 cell, uint number, bool onObject, bool onMover, inout uint taken) {
   if (number >= freeCount) return;
   uint hash = hashOf(cell, hashOf(salt) + number);  // separates the sequences of different frames
   int part = freePart(cell, taken, hash);
@@ -59,6 +61,7 @@ void spawn(ivec2 cell, uint number, bool onObject, inout uint taken) {
   vec2 corner = vec2(part % strataSide, part / strataSide);
   uint id = 0u;
   vec2 px = vec2(0.0);
+  vec2 mover = vec2(0.0);
   bool isFound = false;
   for (int i = 0; i < 2 * kTries && !isFound; ++i) {
     hash = hashOf(hash);
@@ -66,13 +69,10 @@ void spawn(ivec2 cell, uint number, bool onObject, inout uint taken) {
     vec2 inCell = i < kTries ? (corner + 0.1 + 0.8 * jitter) / float(strataSide) : jitter;
     px = (vec2(cell) + inCell) * float(cellPixels);
     if (any(greaterThanEqual(px, fullSize))) continue;
-    if (!hasObjects) {
-      isFound = true;
-      break;
-    }
-    id = texelFetch(ids, pixelAt(px), 0).r;
-    uint object = objectOf(id);
-    isFound = isVirtual(object) == onObject;
+    id = hasObjects ? texelFetch(ids, pixelAt(px), 0).r : 0u;
+    mover = moverAt(px);
+    bool isMover = !isVirtual(objectOf(id)) && mover.r > 0.5;
+    isFound = isVirtual(objectOf(id)) == onObject && isMover == onMover;
   }
   if (!isFound) return;
   Anchor born;
@@ -81,12 +81,12 @@ void spawn(ivec2 cell, uint number, bool onObject, inout uint taken) {
   born.jacobian = vec4(1.0, 0.0, 0.0, 1.0);
   born.barycentrics = vec2(0.0);
   born.error = 0.0;
-  born.fade = atOnce || hasComeIn(px) ? 1.0 : 0.0;
+  born.fade = atOnce || mover.g > 0.0 || hasComeIn(px) ? 1.0 : 0.0;
   born.age = 0.0;
   // independent of the place, which came from the same hash
   born.seed = hashOf(hash ^ 0x9E3779B9u);
   born.surface = onObject ? id : idOf(objectOf(id), 0u);
-  born.state = kAlive | kBorn | kSourceUnknown;
+  born.state = kAlive | kBorn | kSourceUnknown | (onMover ? kMover : 0u);
   if (onObject) {
     ivec2 pixel = pixelAt(px);
     born.px = (vec2(pixel) + 0.5) / pixelsOfFull;
@@ -105,10 +105,15 @@ void main() {
   cells[index].inImage = 0u;
   cells[index].onObjects = 0u;
   cells[index].nextToRemove = 0u;
-  if (births == 0u) return;
+  uint moverBirths = cells[index].moverBirths;
+  cells[index].onMovers = 0u;
+  cells[index].nextMoverToRemove = 0u;
+  if (births + moverBirths == 0u) return;
   uint number = cells[index].firstBirth;
   uint taken = strata & 0xFFFFu;
-  for (uint i = 0u; i < (births & 0xFFFFu); ++i) spawn(at, number++, false, taken);
+  for (uint i = 0u; i < (births & 0xFFFFu); ++i) spawn(at, number++, false, false, taken);
   taken = strata >> 16u;
-  for (uint i = 0u; i < (births >> 16u); ++i) spawn(at, number++, true, taken);
+  for (uint i = 0u; i < (births >> 16u); ++i) spawn(at, number++, true, false, taken);
+  taken = 0u;
+  for (uint i = 0u; i < moverBirths; ++i) spawn(at, number++, false, true, taken);
 }

@@ -78,7 +78,8 @@ void main() {
   if (isLimited) colour = mixtureOf(colour);
   made.paint = vec4(colour, opacity * stands * (1.0 - leaveLight * light) * stroke.seen);
   uint object = objectOf(anchors[slot].surface);
-  made.shape = vec4(0.5 * wide, float(hashOf(seed ^ 0x31u) & 7u), isVirtual(object) ? float(object) : 0.0,
-                    anchors[slot].age);
+  bool isOnMover = (anchors[slot].state & kMover) != 0u;
+  float clipped = isVirtual(object) ? float(object) : isOnMover ? float(kMoverBorder) : 0.0;
+  made.shape = vec4(0.5 * wide, float(hashOf(seed ^ 0x31u) & 7u), clipped, anchors[slot].age);
   instances[rank] = made;
 }

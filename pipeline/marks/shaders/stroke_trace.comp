@@ -1,7 +1,8 @@
 // Purpose: traces each anchor's stroke along the tensor field (thesis §4.4), both ways, and blends
 //          it with its past: directions one by one, lengths, colour and existence with time
 //          constants (§5.4), so that a stroke lives as long as its anchor.
-// Inputs:  anchors; field: tensors to follow, detailField: tensors with the detail; paint,
+// Inputs:  anchors; field: tensors to follow, detailField: tensors with the detail;
+//          moverField: those of movers; mover_labels.glsl's; background (marks::MotionLayers); paint,
 //          modelPaint: the reduced images of the real part and of the models; ids if hasObjects;
 //          the rest as in marks::StrokeRule.
 // Outputs: strokes. One invocation per anchor.
@@ -16,6 +17,8 @@ layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
 layout(std430, binding = 1) buffer Strokes { Stroke strokes[]; };
 uniform highp sampler2D field;
 uniform highp sampler2D detailField;
+uniform highp sampler2D moverField;
+uniform highp sampler2D background;
 uniform highp sampler2D paint;
 uniform highp sampler2D modelPaint;
 uniform highp usampler2D ids;
@@ -25,6 +28,7 @@ uniform vec2 fullSize;
 uniform vec2 pixelsOfFull;
 uniform vec2 fieldScale;  // px of the full image to texture coordinates of the fields
 uniform vec2 detailScale;
+uniform vec2 moverScale;
 uniform uint slots;
 uniform float segment;       // px
 uniform float steps;         // at most kArm
@@ -40,8 +44,14 @@ uniform float wander;  // rad: the random deviation of a stroke from the field
 uniform vec4 past;  // the past's shares: shape, colour, existence rising, existence falling
 uniform float maxColour;  // the largest change of colour in this frame
 
-vec2 directionAt(vec2 px) {
+const vec2 kUpright = vec2(1.0, 0.0);  // a tensor: strokes of movers without any edge
+
+vec2 directionAt(vec2 px, bool isOnMover) {
   vec2 tensor = textureLod(field, px * fieldScale, 0.0).xy;
+  if (isOnMover) {
+    tensor = textureLod(moverField, px * moverScale, 0.0).xy;
+    tensor = dot(tensor, tensor) > 1e-3 ? tensor : kUpright;
+  }
   tensor *= inversesqrt(max(dot(tensor, tensor), 1e-12));
   // Half the angle by square roots; the stroke runs across the gradient.
   vec2 gradient = vec2(sqrt(max(0.0, 0.5 + 0.5 * tensor.x)), sqrt(max(0.0, 0.5 - 0.5 * tensor.x)));
@@ -64,6 +74,10 @@ uint objectAt(vec2 px) {
   return paintedObject(objectOf(texelFetch(ids, pixel, 0).r));
 }
 
+// Where there is little detail, the field is only filled in: strokes keep their shape.
+const vec2 kFlat = vec2(0.2, 0.6);
+const float kQuiet = 0.03;
+
 // The anchor's place counts more than the rest of the stroke, or small lights would vanish.
 const float kOwnWeight = 3.0;
 
@@ -74,18 +88,22 @@ struct Arm {
   float weight;
 };
 
-float detailAt(vec2 px, uint object) {
-  float detail = textureLod(detailField, px * detailScale, 0.0).w;
+float detailAt(vec2 px, uint object, bool isOnMover) {
+  float detail = isOnMover ? textureLod(moverField, px * moverScale, 0.0).w
+                           : textureLod(detailField, px * detailScale, 0.0).w;
   return isVirtual(object) ? modelDetail * detail : detail;
 }
 
+#include "pipeline/marks/shaders/mover_labels.glsl"
+
 // A roughly perceptual distance: luma counts most.
+const vec2 kOtherColour = vec2(0.11, 0.22);  // from here on, and surely
 float apart(vec3 a, vec3 b) {
   vec3 d = a - b;
   return sqrt(dot(d * d, vec3(0.9, 1.5, 0.6)));
 }
 
-Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, uint object) {
+Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, uint object, bool isOnMover) {
   Arm arm;
   arm.length = steps;
   arm.colour = vec3(0.0);
@@ -94,7 +112,7 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, uint object) {
   float before = 0.0;
   vec2 at = from;
   for (int i = 0; i < kArm; ++i) {
-    vec2 direction = directionAt(at + 0.5 * segment * heading);
+    vec2 direction = directionAt(at + 0.5 * segment * heading, isOnMover);
     direction = vec2(hand.x * direction.x - hand.y * direction.y,
                      hand.y * direction.x + hand.x * direction.y);
     float along = dot(direction, heading);
@@ -114,7 +132,13 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, uint object) {
       arm.length = min(arm.length, float(i) + (half_ ? 0.15 : 0.6));
       goesOn = false;
     }
-    if (goesOn && detailAt(at, object) < 0.4 * detailBand.x) {
+    if (goesOn && (moverAt(at).r > 0.5) != isOnMover) {
+      // It does not cross a mover's border.
+      bool isHalf = (moverAt(at - 0.5 * segment * direction).r > 0.5) != isOnMover;
+      arm.length = min(arm.length, float(i) + (isHalf ? 0.25 : 0.75));
+      goesOn = false;
+    }
+    if (goesOn && detailAt(at, object, isOnMover) < 0.4 * detailBand.x) {
       // A finer layer's stroke does not enter regions of coarser layers.
       arm.length = min(arm.length, max(float(i) + 0.5, minSteps));
       goesOn = false;
@@ -137,11 +161,11 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, uint object) {
 
 // An arm blended with its past. The stored directions are lines; the heading gives the first one
 // its sign, and each one gives the next its sign.
-vec2[kArm] heldArm(vec2 now[kArm], vec4 was[2], vec2 heading, vec4 jacobian) {
+vec2[kArm] heldArm(vec2 now[kArm], vec4 was[2], vec2 heading, vec4 jacobian, float stays) {
   vec2 before[kArm] = vec2[kArm](was[0].xy, was[0].zw, was[1].xy, was[1].zw);
   vec2 held[kArm];
   for (int i = 0; i < kArm; ++i) {
-    held[i] = heldDirection(now[i], before[i], jacobian, past.x);
+    held[i] = heldDirection(now[i], before[i], jacobian, stays);
     if (dot(held[i], heading) < 0.0) held[i] = -held[i];
     heading = held[i];
   }
@@ -149,9 +173,27 @@ vec2[kArm] heldArm(vec2 now[kArm], vec4 was[2], vec2 heading, vec4 jacobian) {
 }
 
 // An arm that now covers other content shrinks faster than it would grow.
-float heldLength(float now, float was) {
-  float stays = now < 0.6 * was ? past.x * past.x * past.x * past.x : past.x;
-  return mix(now, was, stays);
+float heldLength(float now, float was, float stays) {
+  return mix(now, was, now < 0.6 * was ? min(stays, pow(past.x, 4.0)) : stays);
+}
+
+// Whether a mover is at the stroke or beside it.
+bool reachesMover(vec2 px, Stroke stroke) {
+  float most = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    most = max(most, moverAt(px + segment * (2.0 * vec2(i & 1, i >> 1) - 1.0)).r);
+  }
+  vec2 ahead = px;
+  vec2 behind = px;
+  for (int i = 0; i < kArm; ++i) {
+    vec4 two = stroke.ahead[i >> 1];
+    ahead += segment * ((i & 1) == 0 ? two.xy : two.zw);
+    two = stroke.behind[i >> 1];
+    behind += segment * ((i & 1) == 0 ? two.xy : two.zw);
+    if (float(i) < stroke.lengths.x) most = max(most, moverAt(ahead).r);
+    if (float(i) < stroke.lengths.y) most = max(most, moverAt(behind).r);
+  }
+  return most > 0.1;
 }
 
 void main() {
@@ -166,11 +208,19 @@ void main() {
   uint seed = anchors[slot].seed;
   bool isNew = anew || (state & kBorn) != 0u;
   Stroke old = strokes[slot];
-  if (!isNew && (state & kHidden) != 0u) {
-    // The occluder has other colours and directions: the stroke fades out unchanged.
-    old.seen = old.exists * anchors[slot].fade;
-    strokes[slot] = old;
-    return;
+  bool isOnMover = (state & kMover) != 0u;
+  bool isCovered = (state & kCovered) != 0u;
+  if (!isNew && ((state & kHidden) != 0u || isCovered || (!isOnMover && reachesMover(px, old)))) {
+    // What is before it has other colours and directions: the stroke stays, or fades out,
+    // unchanged, unless it is of a colour that is not there.
+    vec4 behind = textureLod(background, px / fullSize, 0.0);
+    bool isStale = !isOnMover && behind.a >= 1.0 && apart(old.colour, behind.rgb) > kOtherColour.y;
+    if (!isStale || isCovered) {
+      old.seen = isStale ? 0.0 : old.exists * anchors[slot].fade;
+      strokes[slot] = old;
+      return;
+    }
+    isNew = true;
   }
   uint object = hasObjects ? paintedObject(objectOf(anchors[slot].surface)) : 0u;
 
@@ -178,15 +228,15 @@ void main() {
   float stray = wander * (unitOf(hashOf(seed ^ 0x77u)) + unitOf(hashOf(seed ^ 0x78u)) - 1.0);
   vec2 hand = vec2(cos(stray), sin(stray));
   vec3 own = colourAt(px, object);
-  vec2 heading = directionAt(px);
+  vec2 heading = directionAt(px, isOnMover);
   heading = vec2(hand.x * heading.x - hand.y * heading.y, hand.y * heading.x + hand.x * heading.y);
   if (!isNew) {
     // Keeps the previous orientation.
     vec2 was = anchors[slot].jacobian.xy * old.ahead[0].x + anchors[slot].jacobian.zw * old.ahead[0].y;
     if (dot(was, heading) < 0.0) heading = -heading;
   }
-  Arm ahead = walk(px, heading, hand, own, object);
-  Arm behind = walk(px, -heading, hand, own, object);
+  Arm ahead = walk(px, heading, hand, own, object, isOnMover);
+  Arm behind = walk(px, -heading, hand, own, object, isOnMover);
   if (!bothWays) {
     behind.length = 0.0;
     behind.colour = vec3(0.0);
@@ -195,18 +245,25 @@ void main() {
   vec3 colour = (kOwnWeight * own + ahead.colour + behind.colour) / (kOwnWeight + ahead.weight + behind.weight);
 
   // A stroke is wanted where the detail lies in its band; an existing one stays a little longer.
-  float detail = detailAt(px, object) + detailSpread * (hash - 0.5);
+  float seen = detailAt(px, object, isOnMover);
+  float detail = seen + detailSpread * (hash - 0.5);
   bool was = !isNew && old.wanted > 0.5;
   float wider = was ? 1.0 - slack : 1.0;
   bool wanted = detail >= detailBand.x * wider && detail <= detailBand.y / wider;
   float goal = wanted ? 1.0 : 0.0;
 
+  // The past ends where the stroke stands on clearly other content.
+  float stays = isOnMover ? past.x : pow(past.x, mix(kQuiet, 1.0, smoothstep(kFlat.x, kFlat.y, seen)));
+  float changed = isNew ? 0.0 : smoothstep(kOtherColour.x, kOtherColour.y, apart(colour, old.colour));
   Stroke made;
   made.wanted = goal;
   if (!isNew) {
     vec4 jacobian = anchors[slot].jacobian;
-    ahead.directions = heldArm(ahead.directions, old.ahead, heading, jacobian);
-    behind.directions = heldArm(behind.directions, old.behind, -ahead.directions[0], jacobian);
+    if (changed < 0.5) {
+      ahead.directions = heldArm(ahead.directions, old.ahead, heading, jacobian, stays);
+      behind.directions =
+          heldArm(behind.directions, old.behind, -ahead.directions[0], jacobian, stays);
+    }
   }
   made.ahead[0] = vec4(ahead.directions[0], ahead.directions[1]);
   made.ahead[1] = vec4(ahead.directions[2], ahead.directions[3]);
@@ -217,12 +274,13 @@ void main() {
     made.exists = goal;  // the anchor fades it in
     made.colour = colour;
   } else {
-    made.lengths = vec2(heldLength(ahead.length, old.lengths.x), heldLength(behind.length, old.lengths.y));
-    made.exists = mix(goal, old.exists, goal > old.exists ? past.z : past.w);
+    made.lengths = vec2(heldLength(ahead.length, old.lengths.x, stays),
+                        heldLength(behind.length, old.lengths.y, stays));
+    made.exists = mix(goal, old.exists, (1.0 - changed) * (goal > old.exists ? past.z : past.w));
     if (abs(made.exists - goal) < 0.02) made.exists = goal;
-    vec3 change = (colour - old.colour) * (1.0 - past.y);
-    float size = length(change);
-    made.colour = old.colour + change * min(1.0, maxColour / max(size, 1e-6));
+    vec3 change = colour - old.colour;
+    float held = (1.0 - past.y) * min(1.0, maxColour / max((1.0 - past.y) * length(change), 1e-6));
+    made.colour = old.colour + change * mix(held, 1.0, changed);
   }
   made.seen = made.exists * anchors[slot].fade;
   strokes[slot] = made;

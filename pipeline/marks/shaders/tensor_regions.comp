@@ -1,18 +1,24 @@
 // Purpose: the tensors of a region's edge pixels, summed and divided by their strengths (thesis
-//          §4.2, step 1), and carried along the motion from frame to frame.
+//          §4.2, step 1), and carried along the motion from frame to frame: those of the background
+//          and, by themselves, those of movers. Behind a mover, the background's stay as they were.
 // Inputs:  tensors (gradient.frag), threshold (edge_threshold.comp), pixelsOfFull; regionPixels: a
-//          region's side in px of the full image; before: the previous frame's regions, motion
-//          (MotionField's), if hasPast; past: the share of it that remains; slack: by which part
-//          detail may differ from the held value.
-// Outputs: regions RGBA16F: tensor (its length is the agreement of its pixels, in [0, 1]), its
-//          confidence in [0, 1]; detail: the mean P in thresholds. One invocation per region.
+//          region's side in px of the full image; before, moversBefore: the previous frame's
+//          regions, motion (MotionField's), if hasPast; past: the share of them that remains;
+//          slack: by which part detail may differ from the held value; image_motion.glsl's, of
+//          which only the homography is used; mover_labels.glsl's.
+// Outputs: regions, moverRegions RGBA16F: tensor (its length is the agreement of its pixels, in
+//          [0, 1]), its confidence in [0, 1]; detail: the mean P in thresholds. One invocation per
+//          region.
 // Precision: highp.
 #include "pipeline/marks/shaders/edge_bins.glsl"
+#include "pipeline/marks/shaders/image_motion.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 0) readonly buffer Edges { EdgeStrengths frameEdges; };
 layout(rgba16f, binding = 0) writeonly uniform highp image2D regions;
+layout(rgba16f, binding = 1) writeonly uniform highp image2D moverRegions;
 uniform highp sampler2D tensors;
 uniform highp sampler2D before;
+uniform highp sampler2D moversBefore;
 uniform highp sampler2D motion;
 uniform vec2 pixelsOfFull;
 uniform vec2 fullSize;
@@ -20,15 +26,70 @@ uniform float regionPixels;
 uniform bool hasPast;
 uniform float past;
 uniform float slack;
+#include "pipeline/marks/shaders/mover_labels.glsl"
 
 // So many px of strong edge give full confidence.
 const float kSurePixels = 4.0;
+const float kLeastSeen = 0.35;  // of a region: less of the background says nothing about it
+
+const float kReach = 6.0;  // px: half a region, and the width of an edge
 
 // Rotates a tensor by an angle.
 vec2 turned(vec2 tensor, float angle) {
   float c = cos(2.0 * angle);
   float s = sin(2.0 * angle);
   return vec2(c * tensor.x - s * tensor.y, s * tensor.x + c * tensor.y);
+}
+
+// Sums over the pixels of one kind.
+struct Edge {
+  vec2 sum;
+  float strengths;
+  float sure;
+  float edges;
+  float pixels;
+};
+
+void add(inout Edge edge, vec2 tensor, float part) {
+  float p = length(tensor);
+  // A soft threshold, so that noise does not switch it.
+  float weight = part * smoothstep(0.6, 1.4, p / frameEdges.threshold);
+  edge.sum += weight * tensor;
+  edge.strengths += weight * p;
+  edge.sure += weight;
+  edge.edges += part * p;
+  edge.pixels += part;
+}
+
+// How much of a pixel's edge is the background's, and how much a mover's. A mover's outline is its
+// own.
+vec2 partsAt(vec2 px) {
+  const float kOutline = 3.0;  // px
+  float mover = moverAt(px).r;
+  float around = mover;
+  for (int i = 0; i < 4; ++i) {
+    around = max(around, moverAt(px + kOutline * (2.0 * vec2(i & 1, i >> 1) - 1.0)).r);
+  }
+  return vec2(1.0 - around, mover);
+}
+
+vec4 regionOf(Edge edge) {
+  return vec4(edge.strengths > 0.0 ? edge.sum / edge.strengths : vec2(0.0),
+              min(edge.sure / (kSurePixels * pixelsOfFull.x), 1.0),
+              edge.edges / (max(edge.pixels, 1.0) * frameEdges.threshold));
+}
+
+// The mean of now and the past, which counts by its confidence; a direction that has vanished
+// fades. Detail is held until it differs by more than its slack, so that noise moves no region to
+// another layer.
+vec4 held(vec4 now, vec4 old, float stays) {
+  float oldWeight = stays * old.z;
+  float newWeight = (1.0 - stays) * now.z;
+  vec2 tensor = oldWeight + newWeight > 0.0
+                    ? (oldWeight * old.xy + newWeight * now.xy) / (oldWeight + newWeight)
+                    : vec2(0.0);
+  float detail = clamp(old.w, now.w * (1.0 - slack), now.w / (1.0 - slack));
+  return vec4(tensor, oldWeight + newWeight, mix(detail, old.w, stays));
 }
 
 void main() {
@@ -38,28 +99,28 @@ void main() {
   ivec2 pictureSize = textureSize(tensors, 0);
   ivec2 low = ivec2(floor(vec2(region) * regionPixels * pixelsOfFull));
   ivec2 high = min(ivec2(floor(vec2(region + 1) * regionPixels * pixelsOfFull)), pictureSize);
-  vec2 sum = vec2(0.0);
-  float strengths = 0.0;
-  float sure = 0.0;
-  float edges = 0.0;
+  vec2 at = (vec2(region) + 0.5) * regionPixels;
+  // The mean label around: without any, none is read for the pixels.
+  float near = moverAt(at).r;
+  for (int i = 0; i < 4; ++i) {
+    near = max(near, moverAt(at + kReach * (2.0 * vec2(i & 1, i >> 1) - 1.0)).r);
+  }
+  Edge ground = Edge(vec2(0.0), 0.0, 0.0, 0.0, 0.0);
+  Edge mover = ground;
   for (int y = low.y; y < high.y; ++y) {
     for (int x = low.x; x < high.x; ++x) {
       vec2 tensor = texelFetch(tensors, ivec2(x, y), 0).xy;
-      float p = length(tensor);
-      // A soft threshold, so that noise does not switch it.
-      float weight = smoothstep(0.6, 1.4, p / frameEdges.threshold);
-      sum += weight * tensor;
-      strengths += weight * p;
-      sure += weight;
-      edges += p;
+      vec2 parts = near > 0.0 ? partsAt((vec2(x, y) + 0.5) / pixelsOfFull) : vec2(1.0, 0.0);
+      add(ground, tensor, parts.x);
+      if (parts.y > 0.0) add(mover, tensor, parts.y);
     }
   }
-  vec2 extent = vec2(high - low);
-  float pixels = max(extent.x * extent.y, 1.0);
-  vec4 now = vec4(strengths > 0.0 ? sum / strengths : vec2(0.0),
-                  min(sure / (kSurePixels * pixelsOfFull.x), 1.0), edges / (pixels * frameEdges.threshold));
+  vec2 extent = vec2(max(high - low, 0));
+  float seen = ground.pixels / max(extent.x * extent.y, 1.0);
+  vec4 now = regionOf(ground);
+  vec4 nowOfMover = mover.pixels > 0.0 ? regionOf(mover) : vec4(0.0);
+  bool isHeld = seen < kLeastSeen;
   if (hasPast) {
-    vec2 at = (vec2(region) + 0.5) * regionPixels;
     vec4 moved = textureLod(motion, at / fullSize, 0.0);
     vec2 from = at - moved.xy;
     vec2 texel = 16.0 / fullSize;
@@ -70,19 +131,18 @@ void main() {
     float turn = 0.5 * (dx.y - dy.x) / 32.0;
     bool isInside = all(greaterThanEqual(from, vec2(0.0))) && all(lessThan(from, fullSize));
     if (isInside && moved.z < 4.0) {
-      vec4 old = textureLod(before, from / (vec2(size) * regionPixels), 0.0);
+      vec2 there = from / (vec2(size) * regionPixels);
+      vec2 behind = near > 0.0 && known.z != 0.0 ? at + byPicture(at, true).displacement : from;
+      vec4 old = textureLod(before, behind / (vec2(size) * regionPixels), 0.0);
       old.xy = turned(old.xy, turn);
-      // The past counts by its confidence; a direction that has vanished fades.
-      float oldWeight = past * old.z;
-      float newWeight = (1.0 - past) * now.z;
-      vec2 tensor = oldWeight + newWeight > 0.0
-                        ? (oldWeight * old.xy + newWeight * now.xy) / (oldWeight + newWeight)
-                        : vec2(0.0);
-      // Detail is held until it differs by more than its slack, so that noise moves no region to
-      // another layer.
-      float detail = clamp(old.w, now.w * (1.0 - slack), now.w / (1.0 - slack));
-      now = vec4(tensor, oldWeight + newWeight, mix(detail, old.w, past));
+      now = isHeld ? old : held(now, old, past);
+      if (mover.pixels > 0.0) {
+        vec4 oldOfMover = textureLod(moversBefore, there, 0.0);
+        oldOfMover.xy = turned(oldOfMover.xy, turn);
+        nowOfMover = oldOfMover.w > 0.0 ? held(nowOfMover, oldOfMover, past) : nowOfMover;
+      }
     }
   }
   imageStore(regions, region, now);
+  imageStore(moverRegions, region, nowOfMover);
 }

@@ -188,6 +188,7 @@ std::string reportHtml(const Report& report) {
             verdictTable(report.gates, "pass", "FAIL");
   }
   html += listHtml("Inside", insideLines(report));
+  html += listHtml("Movers", moverLines(report));
   html += listHtml("Flatness", flatnessLines(report));
   html += plotsHtml(report) + worstHtml(report);
   html += listHtml("Left out", report.leftOut) + listHtml("Notes", report.notices);

@@ -89,6 +89,21 @@ Json jsonOf(const std::optional<Flatness>& flatness) {
           {"input", jsonOf(flatness->input)}};
 }
 
+Json jsonOf(const MoverSummary& movers) {
+  return {{"covered_percent", movers.coveredPercent},
+          {"still_percent", orNull(movers.stillPercent)},
+          {"return_levels", orNull(movers.returnLevels)},
+          {"ghost", orNull(movers.ghost)},
+          {"lost_percent", orNull(movers.lostPercent)}};
+}
+
+Json jsonOf(const std::optional<MoverReport>& movers) {
+  if (!movers) return nullptr;
+  return {{"painting", jsonOf(movers->painting)},
+          {"averaging", jsonOf(movers->averaging)},
+          {"displaced_masks", jsonOf(movers->displaced)}};
+}
+
 Json jsonOf(const FrameValues& values) {
   Json json{{"frame", values.frame},
             {"painting", jsonOf(values.painting)},
@@ -129,6 +144,7 @@ std::string reportJson(const Report& report) {
             {"inside", jsonOf(report.inside)},
             {"inside_still", jsonOf(report.insideStill)},
             {"flatness", jsonOf(report.flatness)},
+            {"movers", jsonOf(report.movers)},
             {"left_out", report.leftOut},
             {"notes", report.notices},
             {"over_time", Json::array()}};

@@ -145,6 +145,23 @@ std::vector<std::string> flatnessLines(const Report& report) {
           line("the painting", flatness.painting), line("the input", flatness.input)};
 }
 
+std::vector<std::string> moverLines(const Report& report) {
+  if (!report.movers) return {};
+  const auto text = [](std::optional<double> value, const char* unit) {
+    return value ? fmt::format("{:.3g}{}", *value, unit) : std::string("not seen");
+  };
+  const auto line = [&](const char* of, const MoverSummary& movers) {
+    return fmt::format("{}: STILL {}, RETURN {}, GHOST {}, LOST {}", of,
+                       text(movers.stillPercent, " %"), text(movers.returnLevels, ""),
+                       text(movers.ghost, ""), text(movers.lostPercent, " %"));
+  };
+  return {
+      fmt::format("movers cover {:.2f} % of the frames", report.movers->painting.coveredPercent),
+      line("the painting", report.movers->painting),
+      line("a painter that averages over 0.65 s", report.movers->averaging),
+      line("the painting, under masks laid wrong by 20 px", report.movers->displaced)};
+}
+
 std::string reportText(const Report& report) {
   std::string text = fmt::format("{} ({}) on {}\n{}; {}\n\n", report.style, report.settings,
                                  report.input, report.motion, framesText(report));
@@ -162,6 +179,7 @@ std::string reportText(const Report& report) {
   }
   text += listLines("Inside", insideLines(report));
   text += listLines("Flatness", flatnessLines(report));
+  text += listLines("Movers", moverLines(report));
   text += listLines("Left out", report.leftOut);
   text += listLines("Notes", report.notices);
   return text;

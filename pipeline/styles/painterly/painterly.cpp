@@ -15,6 +15,7 @@
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/marks/anchor_set.h"
 #include "pipeline/marks/motion_field.h"
+#include "pipeline/marks/motion_layers.h"
 #include "pipeline/marks/stroke_set.h"
 #include "pipeline/marks/tensor_field.h"
 #include "pipeline/styles/painterly/brush_cache.h"
@@ -80,7 +81,7 @@ struct Layer {
 /// The state that belongs to one full size and plan.
 struct Painting {
   Painting(const gpu::ShaderLibrary& library, hal::FrameSize fullSize, const LayerPlan& given)
-      : full(fullSize), plan(given), motion(library, full), field(library, full) {
+      : full(fullSize), plan(given), motion(library, full), movers(library, full), field(library, full) {
     for (std::size_t i = 0; i < plan.layers; ++i) {
       layers.push_back(std::make_unique<Layer>(library, full, plan, i));
     }
@@ -88,6 +89,7 @@ struct Painting {
   hal::FrameSize full;
   LayerPlan plan;
   marks::MotionField motion;
+  marks::MotionLayers movers;
   marks::TensorField field;
   std::vector<std::unique_ptr<Layer>> layers;
 };
@@ -107,6 +109,12 @@ constexpr std::array kGates{
     CoherenceGate{CoherenceMeasure::kDet, kMin, 0.75},
 };
 
+constexpr std::array<std::string_view, 2> kPaperLooks{"sketch", "ink"};
+
+bool tellsMovers(const PainterlyParameters& p) {
+  return p.warp && p.movers;
+}
+
 /// Whether the brush's file is there and valid. Reads it; any thread. Errors: readBrushFile()'s.
 hal::Result<void> checkBrush(const config::ParameterValues& values) {
   const std::filesystem::path file = painterlyParameters().typed(values).brushFile;
@@ -125,19 +133,26 @@ struct Painterly::State {
         relief(library.fragmentPass(kShaders + "relief.frag")),
         fieldView(
             library.fragmentPass(kShaders + "field_view.frag", viewDefines(painterlyViews()))),
+        moverView(
+            library.fragmentPass(kShaders + "mover_view.frag", viewDefines(painterlyViews()))),
         heightView(library.fragmentPass(kShaders + "height_view.frag")),
         borders(library.fragmentPass(kShaders + "borders.frag")),
         linen(library, Substrate::Kind::kLinen),
         paper(library, Substrate::Kind::kPaper),
         strips(library),
         drawing(library),
-        brushes(library) {}
+        brushes(library),
+        noIds(TextureFormat::kR32ui, {1, 1}),
+        noMovers(TextureFormat::kRgba16f, {1, 1}, TextureFilter::kLinear) {
+    noMovers.upload(std::vector<std::uint8_t>(8), 8);
+  }
 
   const gpu::ShaderLibrary& library;
   ReducedImages reduced;
   gpu::Program ground;
   gpu::Program relief;
   gpu::Program fieldView;
+  gpu::Program moverView;
   gpu::Program heightView;
   gpu::Program borders;
   Substrate linen;
@@ -145,6 +160,8 @@ struct Painterly::State {
   StrokeStripMaker strips;
   StrokeDrawing drawing;
   BrushCache brushes;
+  Texture noIds;
+  Texture noMovers;
   std::string palette = "all";  // that `mixtures` are of
   std::optional<Texture> mixtures;
   std::unique_ptr<Painting> painting;
@@ -153,8 +170,8 @@ struct Painterly::State {
 
   void take(const scene::ArFrame& frame, const PainterlyParameters& p);
   void grow(const scene::ArFrame& frame, const PainterlyParameters& p);
-  /// Where strokes are clipped; null where nothing virtual is seen.
-  const Texture* findBorders(const scene::ArFrame& frame);
+  /// Where strokes are clipped; null where nothing virtual is seen and movers are not told apart.
+  const Texture* findBorders(const scene::ArFrame& frame, const PainterlyParameters& p);
   void drawStrokes(const scene::ArFrame& frame, const PainterlyParameters& p);
   void light(const scene::ArFrame& frame, const PainterlyParameters& p);
   void showField(const scene::ArFrame& frame, const PainterlyParameters& p, std::size_t view);
@@ -184,27 +201,35 @@ void Painterly::State::take(const scene::ArFrame& frame, const PainterlyParamete
 
 void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParameters& p) {
   painting->motion.update(frame, motionOf(p));
-  painting->field.update(frame, *frame.colour, painting->motion, fieldOf(p));
+  const marks::MotionLayers* const movers = tellsMovers(p) ? &painting->movers : nullptr;
+  if (movers != nullptr) painting->movers.update(frame, painting->motion);
+  painting->field.update(frame, *frame.colour, painting->motion, fieldOf(p), movers);
   for (std::size_t i = 0; i < painting->layers.size(); ++i) {
     Layer& layer = *painting->layers[i];
     if (p.coherence <= 0.0) layer.anchors.beginAnew();
-    layer.anchors.advance(frame, painting->motion, anchorHoldOf(p));
+    layer.anchors.advance(frame, painting->motion, anchorHoldOf(p), movers);
     marks::StrokeRule rule = ruleOf(p, painting->plan, i);
     rule.mixtures = mixtures ? &*mixtures : nullptr;
     const double width = widthOf(painting->plan, i) * frame.pixelsOfFull().x;
     layer.strokes.update(frame, layer.anchors, painting->field,
-                         reduced.paintOf(kTexelOfWidth * width), rule);
+                         reduced.paintOf(kTexelOfWidth * width), rule, movers);
   }
 }
 
-const Texture* Painterly::State::findBorders(const scene::ArFrame& frame) {
-  if (!frame.hasObjects) return nullptr;
-  borders.use().texture("ids", *frame.ids).drawFullscreen(canvas->bordered);
+const Texture* Painterly::State::findBorders(const scene::ArFrame& frame,
+                                             const PainterlyParameters& p) {
+  if (!frame.hasObjects && !tellsMovers(p)) return nullptr;
+  borders.use()
+      .texture("ids", frame.hasObjects ? *frame.ids : noIds)
+      .texture("movers", tellsMovers(p) ? painting->movers.labels() : noMovers)
+      .set("hasObjects", frame.hasObjects ? 1 : 0)
+      .set("size", glm::vec2(canvas->size.width, canvas->size.height))
+      .drawFullscreen(canvas->bordered);
   return &canvas->borders;
 }
 
 void Painterly::State::drawStrokes(const scene::ArFrame& frame, const PainterlyParameters& p) {
-  const Texture* const clip = findBorders(frame);
+  const Texture* const clip = findBorders(frame, p);
   // All of them before any is drawn: what is drawn on stays in a tile's memory (docs/gpu.md).
   for (const auto& layer : painting->layers) {
     strips.lay(layer->strokes.instances(), layer->strokes.command(), p.quads, layer->strips);
@@ -291,6 +316,15 @@ const Texture& Painterly::State::show(const scene::ArFrame& frame, const Painter
     case PainterlyViewer::kStrokes:
       showStrokes(frame, view);
       return canvas->colour;
+    case PainterlyViewer::kMovers:
+      moverView.use()
+          .texture("picture", *frame.colour)
+          .texture("movers", painting->movers.labels())
+          .texture("background", painting->movers.background())
+          .set("size", glm::vec2(canvas->size.width, canvas->size.height))
+          .set("view", static_cast<int>(view))
+          .drawFullscreen(canvas->finished);
+      return canvas->picture;
     case PainterlyViewer::kHeight:
       break;
   }
@@ -310,7 +344,7 @@ const StyleKind& painterlyKind() {
                 .measuredMotion = true,
                 .canvas = true,
                 .shading = scene::Shading::kSmooth},
-      .coherence = {.gates = kGates, .holdsAnchors = true},
+      .coherence = {.gates = kGates, .holdsAnchors = true, .paperLooks = kPaperLooks},
       .shaders = {gpu::painterlyShaders(), gpu::substrateShaders()},
       .check = checkBrush,
       .make = [](const gpu::ShaderLibrary& library) -> std::unique_ptr<Style> {
@@ -398,6 +432,7 @@ Painterly::PaintedLayer Painterly::layer(std::size_t number) const {
 void Painterly::reset() {
   if (!state_->painting) return;
   state_->painting->motion.reset();
+  state_->painting->movers.reset();
   state_->painting->field.reset();
   for (const auto& layer : state_->painting->layers) layer->anchors.reset();
 }

@@ -109,6 +109,8 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
       switchParameter("hysteresis", &P::hysteresis,
                       "Whether what is there stays a little longer than it would newly come."),
       switchParameter("fades", &P::fades, "Whether strokes come and go gradually."),
+      switchParameter("movers", &P::movers,
+                      "Whether what moves by itself is told from the background."),
   };
   return table;
 }

@@ -63,6 +63,7 @@ struct PainterlyParameters {
   bool history = true;
   bool hysteresis = true;
   bool fades = true;
+  bool movers = true;
 };
 
 const config::ParameterTable<PainterlyParameters>& painterlyParameters();

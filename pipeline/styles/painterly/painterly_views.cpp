@@ -22,6 +22,10 @@ constexpr std::array kViews{
     View{{"skeletons", "the strokes' skeletons in their layer's colour"},
          PainterlyViewer::kStrokes},
     View{{"anchors", "the strokes' anchors: red ones are young"}, PainterlyViewer::kStrokes},
+    View{{"movers", "what moves by itself (red), and where that has just changed (yellow)"},
+         PainterlyViewer::kMovers},
+    View{{"background", "the background as it is remembered; black: never seen"},
+         PainterlyViewer::kMovers},
     View{{"height", "how thick the paint lies"}, PainterlyViewer::kHeight},
 };
 

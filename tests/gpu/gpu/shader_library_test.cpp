@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/error.h"
+#include "pipeline/gpu/gpu_shaders.h"
 #include "tests/support/gl_test.h"
 #include "tests/support/temporary_folder.h"
 

@@ -12,6 +12,7 @@
 #include <gmock/gmock.h>
 
 #include "pipeline/gpu/buffer.h"
+#include "pipeline/gpu/gpu_shaders.h"
 #include "pipeline/gpu/handle.h"
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/render_target.h"

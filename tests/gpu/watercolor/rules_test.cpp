@@ -2,6 +2,7 @@
 #include <regex>
 #include <string>
 
+#include "pipeline/gpu/gpu_shaders.h"
 #include "pipeline/styles/substrate/substrate_shaders.h"
 #include "pipeline/styles/watercolor/watercolor_shaders.h"
 #include "tests/gpu/watercolor/watercolor_fixture.h"

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "pipeline/gpu/gpu_shaders.h"
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/scene/scene_shaders.h"
 #include "tests/support/gl_test.h"

@@ -15,6 +15,7 @@
 
 #include "hal/cameras/synthetic/synthetic_camera.h"
 #include "hal/clock.h"
+#include "pipeline/gpu/gpu_shaders.h"
 #include "pipeline/marks/anchor_set.h"
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/scene/render/ar_frame_renderer.h"

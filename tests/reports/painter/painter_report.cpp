@@ -31,6 +31,7 @@
 #include "hal/media/picture_file.h"
 #include "pipeline/engine/painter.h"
 #include "pipeline/gpu/egl_context.h"
+#include "pipeline/gpu/gpu_shaders.h"
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/scene/scene_shaders.h"
 #include "pipeline/styles/registry.h"

@@ -2,6 +2,7 @@
 //          another object within a pixel, and the share of the pixel that is its own.
 // Inputs, outputs: packed, or in parts.
 // Precision: integers.
+#include "pipeline/marks/shaders/stroke_instance.glsl"
 uint borderOf(uint own, uint other, float share) {
   return own | other << 9u | uint(share * 255.0 + 0.5) << 18u;
 }

@@ -1,0 +1,141 @@
+#include "pipeline/marks/motion_layers.h"
+
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "pipeline/gpu/buffer.h"
+#include "pipeline/gpu/program.h"
+#include "pipeline/marks/fading_past.h"
+
+namespace pleinair::marks {
+namespace {
+
+using gpu::ImageAccess;
+using gpu::TextureFilter;
+using gpu::TextureFormat;
+
+const std::string kShaders = "pipeline/marks/shaders/";
+constexpr float kFreshSeconds = 0.3F;
+constexpr unsigned kTurns = 3;  // shaders/motion_layers_tally.glsl
+constexpr GLbitfield kStored = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                               GL_SHADER_STORAGE_BARRIER_BIT;
+
+hal::FrameSize cellsOf(hal::FrameSize full) {
+  constexpr int kSide = MotionLayers::kCellPixels;
+  return {(full.width + kSide - 1) / kSide, (full.height + kSide - 1) / kSide};
+}
+
+}  // namespace
+
+struct MotionLayers::State {
+  State(const gpu::ShaderLibrary& library, hal::FrameSize fullSize)
+      : full(fullSize),
+        size(cellsOf(full)),
+        compare(library.compute(kShaders + "motion_layers.comp")),
+        join(library.compute(kShaders + "motion_layers_join.comp")),
+        candidates(TextureFormat::kRgba8, size),
+        evidence(TextureFormat::kRgba16f, size),
+        tally(kTurns * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
+        noIds(TextureFormat::kR32ui, {1, 1}) {
+    tally.write(std::vector<std::byte>(tally.sizeBytes()));
+    for (std::size_t i = 0; i < 2; ++i) {
+      pictures.at(i) = {TextureFormat::kRgba8, size, TextureFilter::kLinear};
+      labels.at(i) = {TextureFormat::kRgba16f, size, TextureFilter::kLinear};
+      backgrounds.at(i) = {TextureFormat::kRgba16f, size, TextureFilter::kLinear};
+    }
+  }
+
+  hal::FrameSize full;
+  hal::FrameSize size;
+  gpu::Program compare;
+  gpu::Program join;
+  gpu::Texture candidates;
+  gpu::Texture evidence;
+  std::array<gpu::Texture, 2> pictures;
+  std::array<gpu::Texture, 2> labels;
+  std::array<gpu::Texture, 2> backgrounds;
+  gpu::Buffer tally;
+  gpu::Texture noIds;
+  std::size_t now = 0;  // which of the two are this frame's
+  unsigned turn = 0;
+  hal::TimePoint lastTime;
+  bool hasPast = false;
+
+  glm::ivec2 cells() const { return {size.width, size.height}; }
+  gpu::Program& begin(gpu::Program& program, const MotionField& motion, float stepSeconds) const;
+};
+
+gpu::Program& MotionLayers::State::begin(gpu::Program& program, const MotionField& motion,
+                                         float stepSeconds) const {
+  program.use();
+  motion.bind(program);
+  return program.storage("Tally", tally)
+      .set("fullSize", glm::vec2(full.width, full.height))
+      .set("isStanding", motion.isStanding() ? 1 : 0)
+      .set("hasPast", hasPast ? 1 : 0)
+      .set("turn", turn)
+      .set("stepSeconds", stepSeconds);
+}
+
+MotionLayers::MotionLayers(const gpu::ShaderLibrary& library, hal::FrameSize full)
+    : state_(std::make_unique<State>(library, full)) {}
+
+MotionLayers::~MotionLayers() = default;
+
+void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion,
+                          const MotionLayersOptions& options) {
+  State& s = *state_;
+  assert(frame.full() == s.full);
+  if (motion.isCut()) s.hasPast = false;
+  const auto step = static_cast<float>(
+      hal::toSeconds(s.hasPast ? timeStep(s.lastTime, frame.captureTime) : hal::Duration(0)));
+  const std::size_t last = s.now;
+  s.now = 1 - s.now;
+  s.turn = (s.turn + 1) % kTurns;
+  // A cell averages four px.
+  const double noise = motion.noiseLevels() / 255.0 / kCellPixels;
+  s.begin(s.compare, motion, step)
+      .texture("picture", *frame.colour)
+      .texture("ids", frame.hasObjects ? *frame.ids : s.noIds)
+      .texture("lastPicture", s.pictures.at(last))
+      .texture("background", s.backgrounds.at(last))
+      .texture("labels", s.labels.at(last))
+      .texture("motion", motion.backward())
+      .set("hasObjects", frame.hasObjects ? 1 : 0)
+      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
+      .set("noise", static_cast<float>(noise))
+      .image("candidates", s.candidates, ImageAccess::kWrite)
+      .image("evidence", s.evidence, ImageAccess::kWrite)
+      .image("pictureNow", s.pictures.at(s.now), ImageAccess::kWrite)
+      .dispatch(s.cells(), kStored);
+  s.begin(s.join, motion, step)
+      .texture("candidates", s.candidates)
+      .texture("evidence", s.evidence)
+      .texture("picture", s.pictures.at(s.now))
+      .texture("background", s.backgrounds.at(last))
+      .set("restSeconds", static_cast<float>(hal::toSeconds(options.rest)))
+      .set("freshSeconds", kFreshSeconds)
+      .image("labels", s.labels.at(s.now), ImageAccess::kWrite)
+      .image("backgroundNow", s.backgrounds.at(s.now), ImageAccess::kWrite)
+      .dispatch(s.cells(), kStored);
+  s.lastTime = frame.captureTime;
+  s.hasPast = true;
+}
+
+const gpu::Texture& MotionLayers::labels() const {
+  return state_->labels.at(state_->now);
+}
+
+const gpu::Texture& MotionLayers::background() const {
+  return state_->backgrounds.at(state_->now);
+}
+
+void MotionLayers::reset() {
+  state_->hasPast = false;
+}
+
+}  // namespace pleinair::marks

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+
+#include "hal/clock.h"
+#include "pipeline/gpu/shader_library.h"
+#include "pipeline/gpu/texture.h"
+#include "pipeline/marks/motion_field.h"
+#include "pipeline/scene/render/ar_frame.h"
+
+namespace pleinair::marks {
+
+struct MotionLayersOptions {
+  /// after which a mover that has stopped counts as background
+  hal::Duration rest = std::chrono::seconds(4);
+};
+
+/// Splits the camera image into the background, which goes with the camera, and movers, which move
+/// by themselves. The background's colours are remembered and carried along the homography of
+/// MotionField. A mover is what differs from them by more than noise, and has moved: it differs
+/// from the previous frame too, or its measured motion is not the background's, or it was a mover
+/// at its last place. Changes of light that leave edges where they are make no mover, nor does a
+/// change of more than half of the image. What a mover uncovers for the first time is background
+/// after 0.7 s. (Background subtraction with a running mean: Piccardi, "Background subtraction
+/// techniques: a review", 2004.)
+///
+/// One mover is not told from another. Under parallax, near things may count as movers. All calls on
+/// the thread of the GL context that was current at construction.
+class MotionLayers {
+ public:
+  /// `library` has gpu::marksShaders(), gpu::sceneShaders() and gpu::gpuShaders(). `full` is the
+  /// size of the full image. Throws hal::Failure if GPU memory runs out.
+  MotionLayers(const gpu::ShaderLibrary& library, hal::FrameSize full);
+  ~MotionLayers();
+  MotionLayers(const MotionLayers&) = delete;
+  MotionLayers& operator=(const MotionLayers&) = delete;
+  MotionLayers(MotionLayers&&) = delete;
+  MotionLayers& operator=(MotionLayers&&) = delete;
+
+  /// Adds a frame, for which `motion` has been updated. A cut forgets the background. Precondition:
+  /// frame.full() is the constructor's size.
+  void update(const scene::ArFrame& frame, const MotionField& motion,
+              const MotionLayersOptions& options = {});
+
+  /// RGBA16F, LINEAR; a texel is kCellPixels² px of the full image. R: 1 on movers, 0 on the
+  /// background and on models. G: 1 where this has just changed, falling to 0 within 0.3 s. B: how
+  /// long a mover has rested, A: how long it has been seen to move, s.
+  const gpu::Texture& labels() const;
+  /// RGBA16F, LINEAR, as large: the background's mean colour, sRGB-coded, also behind movers; and
+  /// the number of frames in it, 0 where it was never seen.
+  const gpu::Texture& background() const;
+  static constexpr int kCellPixels = 2;
+
+  /// Forgets the past.
+  void reset();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace pleinair::marks

@@ -1,0 +1,101 @@
+// Purpose: compares each cell of the picture with the remembered background and with the previous
+//          frame, and carries its label along the motion (marks/motion_layers.h).
+// Inputs:  motion_layers.glsl's; picture (ArFrame::colour); ids if hasObjects; lastPicture,
+//          background, labels: the previous frame's; motion: MotionField's field; noise: sigma of a
+//          cell, in [0, 1]; hasPast; tally: cells of movers in the previous frame.
+// Outputs: candidates RGBA8: how surely it is other content than the background, the carried label,
+//          luma now and of the background. evidence RGBA16F: whether it has changed since the
+//          previous frame, carried rest, carried maturity, carried freshness. pictureNow RGBA8.
+//          One invocation per cell.
+// Precision: highp.
+#include "pipeline/gpu/shaders/luma.glsl"
+#include "pipeline/marks/shaders/motion_layers.glsl"
+#include "pipeline/marks/shaders/motion_layers_tally.glsl"
+#include "pipeline/scene/render/shaders/object_id.glsl"
+layout(local_size_x = 16, local_size_y = 4) in;
+layout(rgba8, binding = 0) writeonly uniform highp image2D candidates;
+layout(rgba16f, binding = 1) writeonly uniform highp image2D evidence;
+layout(rgba8, binding = 2) writeonly uniform highp image2D pictureNow;
+uniform highp sampler2D picture;
+uniform highp usampler2D ids;
+uniform highp sampler2D lastPicture;
+uniform highp sampler2D background;
+uniform highp sampler2D labels;
+uniform highp sampler2D motion;
+uniform bool hasObjects;
+uniform bool hasPast;
+uniform vec2 pixelsOfFull;
+uniform float noise;
+
+const float kSlack = 0.035;
+const float kNoises = 3.0;
+const float kSurely = 2.4;      // thresholds at which other content is certain
+const float kKnownFrames = 8.0;  // of a background that is known better than the flow
+const float kMovedPx = 0.6;
+const float kMostMovers = 0.55;  // of the picture: more is a change of light
+
+// How surely the colour is the background's in a shadow, or in a little more light.
+float shadeOf(vec3 now, vec3 known) {
+  float before = lumaOf(known);
+  float ratio = lumaOf(now) / max(before, 1e-3);
+  if (before < 0.12 || ratio < 0.68 || ratio > 1.12) return 0.0;
+  return 1.0 - smoothstep(0.5, 1.0, apart(now / ratio - known) / (kSlack + kNoises * noise));
+}
+
+void main() {
+  ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(cell, imageSize(candidates)))) return;
+  vec2 px = (vec2(cell) + 0.5) * kCellPixels;
+  vec3 now = textureLod(picture, px / fullSize, 0.0).rgb;
+  imageStore(pictureNow, cell, vec4(now, 1.0));
+  bool isModel = false;
+  if (hasObjects) {
+    ivec2 pixel = min(ivec2(px * pixelsOfFull), textureSize(ids, 0) - 1);
+    isModel = isVirtual(objectOf(texelFetch(ids, pixel, 0).r));
+  }
+  vec2 shift = backgroundShift(px);
+  vec2 from = px - shift;
+  float luma = lumaOf(now);
+  if (!hasPast || isModel || !isInPicture(from)) {
+    imageStore(candidates, cell, vec4(0.0, 0.0, luma, luma));
+    imageStore(evidence, cell, vec4(0.0));
+    return;
+  }
+  // While the camera moves, colours are compared with all those around.
+  vec3 low = now;
+  vec3 high = now;
+  if (!isStanding) {
+    for (int i = 0; i < 4; ++i) {
+      vec2 at = px + 1.5 * (2.0 * vec2(i & 1, i >> 1) - 1.0);
+      vec3 there = textureLod(picture, at / fullSize, 0.0).rgb;
+      low = min(low, there);
+      high = max(high, there);
+    }
+  }
+  vec4 known = textureLod(background, from / fullSize, 0.0);
+  vec3 before = textureLod(lastPicture, from / fullSize, 0.0).rgb;
+  float least = kSlack + kNoises * noise;
+  float other = smoothstep(least, kSurely * least, beyond(known.rgb, low, high));
+  other *= 1.0 - shadeOf(now, known.rgb);
+  float changed = smoothstep(least, kSurely * least, beyond(before, low, high));
+
+  vec4 moved = textureLod(motion, px / fullSize, 0.0);
+  bool isMoving = moved.w > 0.5 && moved.z < 3.0 &&
+                  distance(moved.xy, shift) > kMovedPx + 2.5 * moved.z;
+  vec4 label = textureLod(labels, from / fullSize, 0.0);
+  if (isMoving) {
+    vec2 back = px - moved.xy;
+    vec4 carried = isInPicture(back) ? textureLod(labels, back / fullSize, 0.0) : vec4(0.0);
+    if (carried.r > label.r) label = carried;
+    // Nothing is known of the ground yet, or it is of the same colour.
+    if (known.a < kKnownFrames) other = 1.0;
+    changed = max(changed, 0.5);
+  }
+  float movers = float(moverCells[(turn + 2u) % 3u]) / float(imageSize(candidates).x * imageSize(candidates).y);
+  if (movers > kMostMovers) {
+    other = 0.0;
+    label = vec4(0.0);
+  }
+  imageStore(candidates, cell, vec4(other, label.r, luma, lumaOf(known.rgb)));
+  imageStore(evidence, cell, vec4(changed, label.b, label.a + (isMoving ? stepSeconds : 0.0), label.g));
+}

@@ -1,0 +1,85 @@
+// Purpose: decides which cells belong to movers, from all that motion_layers.comp found around
+//          each, and adds the others to the background (marks/motion_layers.h).
+// Inputs:  motion_layers.glsl's; candidates, evidence (motion_layers.comp); picture: this frame's,
+//          in cells; background: the previous frame's; hasPast; restSeconds: after which a mover
+//          that rests joins the background; freshSeconds.
+// Outputs: labels RGBA16F: 1 on movers, else 0; freshness: 1 where the label has just changed,
+//          falling to 0; rest and maturity, s. backgroundNow RGBA16F: its mean colour, and the
+//          frames in the mean, 0 if it was never seen. tally. One invocation per cell.
+// Precision: highp.
+#include "pipeline/marks/shaders/motion_layers.glsl"
+#include "pipeline/marks/shaders/motion_layers_tally.glsl"
+layout(local_size_x = 16, local_size_y = 4) in;
+layout(rgba16f, binding = 0) writeonly uniform highp image2D labels;
+layout(rgba16f, binding = 1) writeonly uniform highp image2D backgroundNow;
+uniform highp sampler2D candidates;
+uniform highp sampler2D evidence;
+uniform highp sampler2D picture;
+uniform highp sampler2D background;
+uniform bool hasPast;
+uniform float restSeconds;
+uniform float freshSeconds;
+
+const float kTentative = 0.7;  // s: what has changed once and then rests is no mover
+const float kMatureSeconds = 0.2;
+const float kFrames = 30.0;
+const float kSameStructure = 0.9;
+const float kContrast = 0.02;  // of luma
+
+void main() {
+  ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 size = imageSize(labels);
+  if (cell == ivec2(0)) moverCells[(turn + 1u) % 3u] = 0u;
+  if (any(greaterThanEqual(cell, size))) return;
+  vec2 px = (vec2(cell) + 0.5) * kCellPixels;
+  vec2 from = px - backgroundShift(px);
+  vec3 now = texelFetch(picture, cell, 0).rgb;
+  if (!hasPast) {
+    imageStore(labels, cell, vec4(0.0));
+    imageStore(backgroundNow, cell, vec4(now, 1.0));
+    return;
+  }
+  vec4 own = texelFetch(candidates, cell, 0);
+  vec4 past = texelFetch(evidence, cell, 0);
+  float others = 0.0;
+  float changes = 0.0;
+  float carried = 0.0;
+  vec2 mean = vec2(0.0);
+  vec3 products = vec3(0.0);
+  for (int y = -1; y <= 1; ++y) {
+    for (int x = -1; x <= 1; ++x) {
+      ivec2 at = clamp(cell + 2 * ivec2(x, y), ivec2(0), size - 1);
+      vec4 there = texelFetch(candidates, at, 0);
+      others += there.r / 9.0;
+      carried = max(carried, there.g);
+      changes += texelFetch(evidence, at, 0).r / 9.0;
+      mean += there.ba / 9.0;
+      products += vec3(there.ba * there.ba, there.b * there.a) / 9.0;
+    }
+  }
+  // A change of light leaves edges where they are.
+  vec2 spread = max(products.xy - mean * mean, 0.0);
+  float together = products.z - mean.x * mean.y;
+  bool isLight = min(spread.x, spread.y) > kContrast * kContrast &&
+                 together > kSameStructure * sqrt(spread.x * spread.y);
+  bool wasMover = own.g > 0.5;
+  bool isOther = (own.r > 0.5 && others > 0.25) || (own.r > 0.15 && others > 0.55) || others > 0.8;
+  bool hasCause = changes > 0.08 || carried > 0.5;
+  bool isMover = !isLight && hasCause && (isOther || (wasMover && own.r > 0.15 && others > 0.3));
+  float rest = isMover && changes < 0.05 ? past.g + stepSeconds : 0.0;
+  float maturity = isMover ? past.b : 0.0;
+  vec4 known = isInPicture(from) ? textureLod(background, from / fullSize, 0.0) : vec4(now, 0.0);
+  if (rest > (maturity > kMatureSeconds ? restSeconds : kTentative)) {
+    isMover = false;
+    known.a = 0.0;
+  }
+  float fresh = isMover != wasMover ? 1.0 : max(past.a - stepSeconds / freshSeconds, 0.0);
+  imageStore(labels, cell, vec4(isMover ? 1.0 : 0.0, fresh, rest, maturity));
+  if (isMover) {
+    atomicAdd(moverCells[turn], 1u);
+  } else {
+    float frames = isLight ? 1.0 : min(floor(known.a + 0.5) + 1.0, kFrames);
+    known = vec4(mix(known.rgb, now, 1.0 / frames), frames);
+  }
+  imageStore(backgroundNow, cell, known);
+}

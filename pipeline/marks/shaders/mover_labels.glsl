@@ -1,0 +1,18 @@
+// Purpose: what of the image belongs to movers (marks::MotionLayers::labels).
+// Inputs:  movers; fullSize; places in px of the full image.
+// Outputs: mover: in [0, 1]; freshness: 1 where that has just changed.
+// Precision: highp.
+uniform highp sampler2D movers;
+
+vec2 moverAt(vec2 px) { return textureLod(movers, px / fullSize, 0.0).rg; }
+
+// Whether a mover is so near that the measured motion may be its own.
+bool isNearMover(vec2 px) {
+  const float kNear = 14.0;
+  float most = moverAt(px).r;
+  for (int i = 0; i < 4; ++i) {
+    float along = i < 2 ? -kNear : kNear;
+    most = max(most, moverAt(px + vec2(i % 2 == 0 ? along : 0.0, i % 2 == 0 ? 0.0 : along)).r);
+  }
+  return most > 0.25;
+}

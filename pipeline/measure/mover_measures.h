@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "hal/clock.h"
+#include "hal/image.h"
+#include "pipeline/measure/gates.h"
+
+namespace pleinair::measure {
+
+/// How a painting treats what moves by itself before a standing camera (docs/measuring.md). A value
+/// is missing where nothing of its kind was seen.
+struct MoverSummary {
+  double coveredPercent = 0;  ///< of all pixels of all frames
+  /// STILL: of the pixels away from movers, those that change by more than 8 levels from one frame
+  /// to the next, less the input's own.
+  std::optional<double> stillPercent;
+  /// RETURN: how far the painting differs, 1 s after a mover has left, from that before it came;
+  /// levels, where the input came back to within 4.
+  std::optional<double> returnLevels;
+  /// GHOST: the same after 0.2 s, over the mover's contrast.
+  std::optional<double> ghost;
+  /// LOST: of the mover's pixels, those whose painting is nearer to the painted ground than to the
+  /// camera's picture.
+  std::optional<double> lostPercent;
+};
+
+/// The same of the painting and of controls: a painter that averages its input over the time
+/// constant of strokes, which leaves trails, and the painting under masks that are laid wrong.
+struct MoverReport {
+  MoverSummary painting;
+  MoverSummary averaging;
+  MoverSummary displaced;
+};
+
+/// Collects a sequence before a standing camera; movers are what differs from the median of all
+/// frames. Keeps all frames: six bytes a pixel each. One thread.
+class MoverMeasures {
+ public:
+  /// Takes the next frame and its painting, RGB8 of one size.
+  void add(hal::TimePoint time, const hal::Image& input, const hal::Image& output);
+  /// Nothing if there are fewer than two frames.
+  std::optional<MoverReport> total() const;
+
+ private:
+  cv::Mat3b ground() const;
+  std::vector<cv::Mat1b> findMovers(const cv::Mat3b& ground) const;
+  MoverSummary compare(const std::vector<cv::Mat3b>& outputs,
+                       const std::vector<cv::Mat1b>& movers) const;
+  std::vector<cv::Mat3b> averaged() const;
+
+  std::vector<hal::TimePoint> times_;
+  std::vector<cv::Mat3b> inputs_;
+  std::vector<cv::Mat3b> outputs_;
+};
+
+/// The gates of MoverSummary. `isOnPaper`: on bare paper, LOST says nothing.
+std::vector<Verdict> moverVerdicts(const MoverSummary& movers, bool isOnPaper);
+/// Whether the controls read as they must.
+std::vector<Verdict> moverControlVerdicts(const MoverReport& movers);
+
+}  // namespace pleinair::measure
