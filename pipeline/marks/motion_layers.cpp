@@ -62,6 +62,7 @@ struct MotionLayers::State {
   gpu::Texture noIds;
   std::size_t now = 0;  // which of the two are this frame's
   unsigned turn = 0;
+  hal::FrameSize frameSize;  // of the last update
   hal::TimePoint lastTime;
   bool hasPast = false;
 
@@ -90,7 +91,9 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
                           const MotionLayersOptions& options) {
   State& s = *state_;
   assert(frame.full() == s.full);
-  if (motion.isCut()) s.hasPast = false;
+  // A picture of another quality level differs everywhere.
+  if (motion.isCut() || s.frameSize != frame.size()) s.hasPast = false;
+  s.frameSize = frame.size();
   const auto step = static_cast<float>(
       hal::toSeconds(s.hasPast ? timeStep(s.lastTime, frame.captureTime) : hal::Duration(0)));
   const std::size_t last = s.now;

@@ -38,7 +38,8 @@ class MotionLayers {
   MotionLayers(MotionLayers&&) = delete;
   MotionLayers& operator=(MotionLayers&&) = delete;
 
-  /// Adds a frame, for which `motion` has been updated. A cut forgets the background. Precondition:
+  /// Adds a frame, for which `motion` has been updated. A cut forgets the background, and so does a
+  /// change of frame.size(). Precondition:
   /// frame.full() is the constructor's size.
   void update(const scene::ArFrame& frame, const MotionField& motion,
               const MotionLayersOptions& options = {});

@@ -116,6 +116,9 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .set("wander", rule.wanderRad)
       .set("past", glm::vec4(stays(rule.shapeMemory), stays(rule.colourMemory),
                              stays(rule.appearing), stays(rule.vanishing)))
+      .set("otherColour", rule.otherColour)
+      .set("flatDetail", rule.flatDetail)
+      .set("flatHold", rule.flatHold)
       .set("maxColour", rule.maxColourPerSecond * static_cast<float>(hal::toSeconds(step)))
       .dispatch(allSlots(), GL_SHADER_STORAGE_BARRIER_BIT);
 }

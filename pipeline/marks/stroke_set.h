@@ -45,6 +45,14 @@ struct StrokeRule {
   hal::Duration appearing = std::chrono::milliseconds(300);
   hal::Duration vanishing = std::chrono::milliseconds(300);
   float maxColourPerSecond = 1.5F;  ///< largest change of a stroke's colour
+  /// From the first difference of colour on, a stroke stands on other content, at the second one
+  /// surely: then it has no past. It should be more than noise.
+  glm::vec2 otherColour = kNoColour;
+  static constexpr glm::vec2 kNoColour{1e6F, 2e6F};
+  /// Where there is less detail than this (from none of it at the first to all at the second), the
+  /// field is only filled in, and shapes are held `flatHold` times as long.
+  glm::vec2 flatDetail{0.2F, 0.6F};
+  float flatHold = 1.0F;
 };
 
 /// The images that strokes take their colours from, of any size (LINEAR, sRGB-coded,

@@ -2,10 +2,11 @@
 //          frame, and carries its label along the motion (marks/motion_layers.h).
 // Inputs:  motion_layers.glsl's; picture (ArFrame::colour); ids if hasObjects; lastPicture,
 //          background, labels: the previous frame's; motion: MotionField's field; noise: sigma of a
-//          cell, in [0, 1]; hasPast; tally: cells of movers in the previous frame.
+//          cell, in [0, 1]; hasPast; turn, stepSeconds.
 // Outputs: candidates RGBA8: how surely it is other content than the background, the carried label,
 //          luma now and of the background. evidence RGBA16F: whether it has changed since the
 //          previous frame, carried rest, carried maturity, carried freshness. pictureNow RGBA8.
+//          otherCells: how many cells are surely other content.
 //          One invocation per cell.
 // Precision: highp.
 #include "pipeline/gpu/shaders/luma.glsl"
@@ -32,7 +33,6 @@ const float kNoises = 3.0;
 const float kSurely = 2.4;      // thresholds at which other content is certain
 const float kKnownFrames = 8.0;  // of a background that is known better than the flow
 const float kMovedPx = 0.6;
-const float kMostMovers = 0.55;  // of the picture: more is a change of light
 
 // How surely the colour is the background's in a shadow, or in a little more light.
 float shadeOf(vec3 now, vec3 known) {
@@ -91,11 +91,7 @@ void main() {
     if (known.a < kKnownFrames) other = 1.0;
     changed = max(changed, 0.5);
   }
-  float movers = float(moverCells[(turn + 2u) % 3u]) / float(imageSize(candidates).x * imageSize(candidates).y);
-  if (movers > kMostMovers) {
-    other = 0.0;
-    label = vec4(0.0);
-  }
+  if (other > 0.5) atomicAdd(otherCells[turn], 1u);
   imageStore(candidates, cell, vec4(other, label.r, luma, lumaOf(known.rgb)));
   imageStore(evidence, cell, vec4(changed, label.b, label.a + (isMoving ? stepSeconds : 0.0), label.g));
 }

@@ -24,12 +24,13 @@ const float kTentative = 0.7;  // s: what has changed once and then rests is no 
 const float kMatureSeconds = 0.2;
 const float kFrames = 30.0;
 const float kSameStructure = 0.9;
+const float kMostOthers = 0.5;  // of the picture: if more is other content, the light is
 const float kContrast = 0.02;  // of luma
 
 void main() {
   ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
   ivec2 size = imageSize(labels);
-  if (cell == ivec2(0)) moverCells[(turn + 1u) % 3u] = 0u;
+  if (cell == ivec2(0)) otherCells[(turn + 1u) % 3u] = 0u;
   if (any(greaterThanEqual(cell, size))) return;
   vec2 px = (vec2(cell) + 0.5) * kCellPixels;
   vec2 from = px - backgroundShift(px);
@@ -60,8 +61,9 @@ void main() {
   // A change of light leaves edges where they are.
   vec2 spread = max(products.xy - mean * mean, 0.0);
   float together = products.z - mean.x * mean.y;
-  bool isLight = min(spread.x, spread.y) > kContrast * kContrast &&
-                 together > kSameStructure * sqrt(spread.x * spread.y);
+  bool isLight = float(otherCells[turn]) > kMostOthers * float(size.x * size.y) ||
+                 (min(spread.x, spread.y) > kContrast * kContrast &&
+                 together > kSameStructure * sqrt(spread.x * spread.y));
   bool wasMover = own.g > 0.5;
   bool isOther = (own.r > 0.5 && others > 0.25) || (own.r > 0.15 && others > 0.55) || others > 0.8;
   bool hasCause = changes > 0.08 || carried > 0.5;
@@ -75,9 +77,7 @@ void main() {
   }
   float fresh = isMover != wasMover ? 1.0 : max(past.a - stepSeconds / freshSeconds, 0.0);
   imageStore(labels, cell, vec4(isMover ? 1.0 : 0.0, fresh, rest, maturity));
-  if (isMover) {
-    atomicAdd(moverCells[turn], 1u);
-  } else {
+  if (!isMover) {
     float frames = isLight ? 1.0 : min(floor(known.a + 0.5) + 1.0, kFrames);
     known = vec4(mix(known.rgb, now, 1.0 / frames), frames);
   }

@@ -43,6 +43,9 @@ uniform bool bothWays;  // false: only ahead, as in the thesis
 uniform float wander;  // rad: the random deviation of a stroke from the field
 uniform vec4 past;  // the past's shares: shape, colour, existence rising, existence falling
 uniform float maxColour;  // the largest change of colour in this frame
+uniform vec2 otherColour;
+uniform vec2 flatDetail;
+uniform float flatHold;
 
 const vec2 kUpright = vec2(1.0, 0.0);  // a tensor: strokes of movers without any edge
 
@@ -74,10 +77,6 @@ uint objectAt(vec2 px) {
   return paintedObject(objectOf(texelFetch(ids, pixel, 0).r));
 }
 
-// Where there is little detail, the field is only filled in: strokes keep their shape.
-const vec2 kFlat = vec2(0.2, 0.6);
-const float kQuiet = 0.03;
-
 // The anchor's place counts more than the rest of the stroke, or small lights would vanish.
 const float kOwnWeight = 3.0;
 
@@ -97,7 +96,6 @@ float detailAt(vec2 px, uint object, bool isOnMover) {
 #include "pipeline/marks/shaders/mover_labels.glsl"
 
 // A roughly perceptual distance: luma counts most.
-const vec2 kOtherColour = vec2(0.11, 0.22);  // from here on, and surely
 float apart(vec3 a, vec3 b) {
   vec3 d = a - b;
   return sqrt(dot(d * d, vec3(0.9, 1.5, 0.6)));
@@ -214,7 +212,7 @@ void main() {
     // What is before it has other colours and directions: the stroke stays, or fades out,
     // unchanged, unless it is of a colour that is not there.
     vec4 behind = textureLod(background, px / fullSize, 0.0);
-    bool isStale = !isOnMover && behind.a >= 1.0 && apart(old.colour, behind.rgb) > kOtherColour.y;
+    bool isStale = !isOnMover && behind.a >= 1.0 && apart(old.colour, behind.rgb) > otherColour.y;
     if (!isStale || isCovered) {
       old.seen = isStale ? 0.0 : old.exists * anchors[slot].fade;
       strokes[slot] = old;
@@ -253,8 +251,8 @@ void main() {
   float goal = wanted ? 1.0 : 0.0;
 
   // The past ends where the stroke stands on clearly other content.
-  float stays = isOnMover ? past.x : pow(past.x, mix(kQuiet, 1.0, smoothstep(kFlat.x, kFlat.y, seen)));
-  float changed = isNew ? 0.0 : smoothstep(kOtherColour.x, kOtherColour.y, apart(colour, old.colour));
+  float stays = isOnMover ? past.x : pow(past.x, mix(1.0 / flatHold, 1.0, smoothstep(flatDetail.x, flatDetail.y, seen)));
+  float changed = isNew ? 0.0 : smoothstep(otherColour.x, otherColour.y, apart(colour, old.colour));
   Stroke made;
   made.wanted = goal;
   if (!isNew) {

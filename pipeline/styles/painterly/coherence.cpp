@@ -14,6 +14,10 @@ constexpr double kAppearingSeconds = 0.3;
 constexpr double kForever = 1e6;
 /// Limits the memory of the field and the anchors, so that new strokes follow the present image.
 constexpr double kMaxHold = 4.0;
+/// Of other content, without noise, and what noise adds, in its standard deviations.
+constexpr glm::vec2 kOtherColour{0.09F, 0.18F};
+constexpr glm::vec2 kOtherColourNoises{2.5F, 5.0F};
+constexpr float kFlatHold = 30.0F;
 constexpr float kAnyColour = 1e6F;  // a second
 
 hal::Duration scaled(hal::Duration time, double hold) {
@@ -51,11 +55,20 @@ marks::AnchorHold anchorHoldOf(const PainterlyParameters& p) {
   return anchors;
 }
 
-void holdOn(marks::StrokeRule& rule, const PainterlyParameters& p) {
+bool tellsMovers(const PainterlyParameters& p) {
+  return p.warp && p.movers && p.coherence > 0.0 && p.coherence < 1.0;
+}
+
+void holdOn(marks::StrokeRule& rule, const PainterlyParameters& p, double noiseLevels) {
   const double history = p.history ? holdOf(p) : 0.0;
   rule.shapeMemory = rule.colourMemory = secondsOf(history * kMemorySeconds);
   const double quickest = rule.maxColourPerSecond / std::max(history, 1e-6);
   rule.maxColourPerSecond = std::min(kAnyColour, static_cast<float>(quickest));
+  if (p.history && p.coherence < 1.0) {
+    const auto noise = static_cast<float>(noiseLevels / 255.0);
+    rule.otherColour = kOtherColour + kOtherColourNoises * noise;
+    rule.flatHold = kFlatHold;
+  }
   const double fades = p.fades ? holdOf(p) : 0.0;
   rule.appearing = rule.vanishing = secondsOf(fades * kAppearingSeconds);
   if (!p.hysteresis) rule.slack = 0.0F;

@@ -18,7 +18,9 @@ double holdOf(const PainterlyParameters& p);
 marks::MotionFieldOptions motionOf(const PainterlyParameters& p);
 marks::TensorFieldOptions fieldOf(const PainterlyParameters& p);
 marks::AnchorHold anchorHoldOf(const PainterlyParameters& p);
-/// Applies the time constants to a layer's rule.
-void holdOn(marks::StrokeRule& rule, const PainterlyParameters& p);
+/// Applies the time constants to a layer's rule. `noiseLevels`: the camera's, in 1/255.
+void holdOn(marks::StrokeRule& rule, const PainterlyParameters& p, double noiseLevels);
+/// Whether movers are told from the background. At full coherence, strokes never let go.
+bool tellsMovers(const PainterlyParameters& p);
 
 }  // namespace pleinair::styles

@@ -61,7 +61,8 @@ int texelsOf(const LayerPlan& plan, std::size_t layer) {
   return enough != kBrushTexels.end() ? *enough : kBrushTexels.back();
 }
 
-marks::StrokeRule ruleOf(const PainterlyParameters& p, const LayerPlan& plan, std::size_t layer) {
+marks::StrokeRule ruleOf(const PainterlyParameters& p, const LayerPlan& plan, std::size_t layer,
+                         double noiseLevels) {
   const auto width = static_cast<float>(widthOf(plan, layer));
   const auto coarseness = static_cast<float>(plan.layers - 1 - layer);
   marks::StrokeRule rule;
@@ -83,7 +84,7 @@ marks::StrokeRule ruleOf(const PainterlyParameters& p, const LayerPlan& plan, st
   rule.jitter = {static_cast<float>(p.hueJitter), static_cast<float>(p.saturationJitter),
                  static_cast<float>(p.valueJitter)};
   rule.quads = kQuads;
-  holdOn(rule, p);
+  holdOn(rule, p, noiseLevels);
   return rule;
 }
 

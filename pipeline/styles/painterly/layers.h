@@ -34,6 +34,8 @@ marks::AnchorOptions anchorsOf(const LayerPlan& plan, std::size_t layer);
 int texelsOf(const LayerPlan& plan, std::size_t layer);
 
 /// Coarse strokes are straight and broad and stop late, fine ones bend (thesis §4.4).
-marks::StrokeRule ruleOf(const PainterlyParameters& p, const LayerPlan& plan, std::size_t layer);
+/// `noiseLevels`: the camera's, in 1/255.
+marks::StrokeRule ruleOf(const PainterlyParameters& p, const LayerPlan& plan, std::size_t layer,
+                         double noiseLevels);
 
 }  // namespace pleinair::styles

@@ -111,10 +111,6 @@ constexpr std::array kGates{
 
 constexpr std::array<std::string_view, 2> kPaperLooks{"sketch", "ink"};
 
-bool tellsMovers(const PainterlyParameters& p) {
-  return p.warp && p.movers;
-}
-
 /// Whether the brush's file is there and valid. Reads it; any thread. Errors: readBrushFile()'s.
 hal::Result<void> checkBrush(const config::ParameterValues& values) {
   const std::filesystem::path file = painterlyParameters().typed(values).brushFile;
@@ -208,7 +204,7 @@ void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParamete
     Layer& layer = *painting->layers[i];
     if (p.coherence <= 0.0) layer.anchors.beginAnew();
     layer.anchors.advance(frame, painting->motion, anchorHoldOf(p), movers);
-    marks::StrokeRule rule = ruleOf(p, painting->plan, i);
+    marks::StrokeRule rule = ruleOf(p, painting->plan, i, painting->motion.noiseLevels());
     rule.mixtures = mixtures ? &*mixtures : nullptr;
     const double width = widthOf(painting->plan, i) * frame.pixelsOfFull().x;
     layer.strokes.update(frame, layer.anchors, painting->field,

@@ -85,6 +85,44 @@ TEST_F(StrokeLife, HistoryIsForgottenInTimeAndNotInFrames) {
   }
 }
 
+TEST_F(StrokeLife, ThePastEndsOnOtherContent) {
+  const hal::Image before = greyPicture(kSize, kUpright);
+  const hal::Image now = greyPicture(kSize, kLeaning);
+  const hal::Image dark = greyPicture(kSize, [](glm::dvec2) { return 0.2; });
+  const hal::Image light = greyPicture(kSize, [](glm::dvec2) { return 0.8; });
+  StrokeRule rule = kPlain;
+  for (const float surely : {0.5F, 5.0F}) {  // two greys are 1.04 apart
+    SCOPED_TRACE(surely);
+    rule.otherColour = {0.5F * surely, surely};
+    beginAnew();
+    advance(before, rule, standing(), &dark);
+    advance(now, rule, standing(), &light, milliseconds(30));
+    const bool isOther = surely < 1.0F;
+    for (const StrokeSlot& each : inner()) {
+      EXPECT_NEAR(each.colour.g, isOther ? 0.8 : 0.2, 0.01);
+      EXPECT_NEAR(angleBetween(each.ahead[0], {0.0F, 1.0F}), isOther ? 0.5 : 0.0, 0.03);
+    }
+  }
+}
+
+TEST_F(StrokeLife, WhereThereIsNoDetailShapesAreHeldLonger) {
+  const hal::Image before = greyPicture(kSize, kUpright);
+  const hal::Image now = greyPicture(kSize, kLeaning);
+  StrokeRule rule = kPlain;
+  rule.shapeMemory = milliseconds(100);
+  rule.flatHold = 100.0F;
+  for (const float detail : {1e-3F, 1e3F}) {  // below, and above which there is little
+    SCOPED_TRACE(detail);
+    rule.flatDetail = {detail, 1.1F * detail};
+    beginAnew();
+    advance(before, rule);
+    for (int i = 0; i < 10; ++i) advance(now, rule, standing(), nullptr, milliseconds(60));
+    for (const StrokeSlot& each : inner()) {
+      EXPECT_NEAR(angleBetween(each.ahead[0], {0.0F, 1.0F}), detail < 1.0F ? 0.5 : 0.03, 0.03);
+    }
+  }
+}
+
 TEST_F(StrokeLife, WithoutMemoryEachFrameIsAlone) {
   StrokeRule rule = kPlain;
   rule.shapeMemory = rule.colourMemory = rule.appearing = rule.vanishing = kNone;

@@ -12,6 +12,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "pipeline/gpu/gpu_shaders.h"
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/marks/tensor_field.h"
 #include "pipeline/scene/scene_shaders.h"

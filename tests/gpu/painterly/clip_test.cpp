@@ -51,9 +51,14 @@ TEST_F(ClipTest, BordersAreTheOracles) {
   setIds(kSmall, at);
   const auto seen = [&](int x, int y) { return at(x, y) == real ? 0U : at(x, y); };
   const gpu::Texture borders(gpu::TextureFormat::kR32ui, kSmall);
+  gpu::Texture movers(gpu::TextureFormat::kRgba16f, {1, 1}, gpu::TextureFilter::kLinear);
+  movers.upload(std::vector<std::uint8_t>(8), 8);
   library_.fragmentPass("pipeline/styles/painterly/shaders/borders.frag")
       .use()
       .texture("ids", ids_)
+      .texture("movers", movers)
+      .set("hasObjects", 1)
+      .set("size", glm::vec2(kSmall.width, kSmall.height))
       .drawFullscreen(gpu::RenderTarget({&borders}));
   const std::vector<std::uint32_t> found = support::readR32ui(borders);
   int others = 0;

@@ -20,7 +20,7 @@ namespace {
 
 marks::StrokeRule held(const PainterlyParameters& p) {
   marks::StrokeRule rule;
-  holdOn(rule, p);
+  holdOn(rule, p, 2.0);
   return rule;
 }
 
@@ -115,14 +115,24 @@ TEST_F(Coherence, ColoursAreBlendedAsTheThesisDoes) {
       frame.captureTime = hal::TimePoint(hal::Duration(33'333'333) * number_);
       style.paint(frame, "");
     };
-    show(200);
+    show(132);
     constexpr int kFrames = 12;
     for (int i = 0; i < kFrames; ++i) show(120);
-    const double expected = (120.0 + 80.0 * std::pow(weight, kFrames)) / 255.0;
+    const double expected = (120.0 + 12.0 * std::pow(weight, kFrames)) / 255.0;
     const auto strokes = strokesOf(style);
     EXPECT_GT(strokes.size(), 100U);
     for (const auto& [seed, stroke] : strokes) EXPECT_NEAR(stroke.colour.g, expected, 0.004);
   }
+}
+
+/// What cannot be noise, nor a change of exposure, is another thing.
+TEST_F(Coherence, ALargeChangeIsFollowedAtOnce) {
+  Painterly style(library_);
+  style.paint(next(plain(200)), "");
+  style.paint(next(plain(120)), "");
+  const auto strokes = strokesOf(style);
+  EXPECT_GT(strokes.size(), 100U);
+  for (const auto& [seed, stroke] : strokes) EXPECT_NEAR(stroke.colour.g, 120.0 / 255.0, 0.004);
 }
 
 /// Strokes keep colour and shape as long as they live, whatever the picture does.

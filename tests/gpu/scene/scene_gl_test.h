@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "pipeline/gpu/gpu_shaders.h"
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/scene/render/ar_frame_renderer.h"
 #include "pipeline/scene/scene_shaders.h"

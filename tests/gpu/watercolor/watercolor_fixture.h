@@ -4,6 +4,7 @@
 #include <memory>
 #include <random>
 
+#include "pipeline/gpu/gpu_shaders.h"
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/scene/scene_shaders.h"
 #include "pipeline/styles/registry.h"
