@@ -66,7 +66,7 @@ void main() {
   bool isInside = all(greaterThan(px, vec2(0.0))) && all(lessThan(px, fullSize));
   if (follows && !isHidden && isInside) {
     vec2 mover = moverAt(px);
-    isCovered = !isOnMover && mover.r > (wasCovered ? 0.35 : 0.5);
+    isCovered = !isOnMover && mover.r > (wasCovered ? 0.1 : 0.25);
     bool isOther = false;
     if (isCovered) {
       isOther = isUnlikeBackground(looks, px);

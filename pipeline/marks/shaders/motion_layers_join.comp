@@ -5,7 +5,7 @@
 //          that rests joins the background; freshSeconds.
 // Outputs: labels RGBA16F: 1 on movers, else 0; freshness: 1 where the label has just changed,
 //          falling to 0; rest and maturity, s. backgroundNow RGBA16F: its mean colour, and the
-//          frames in the mean, 0 if it was never seen. tally. One invocation per cell.
+//          frames in the mean, 0 if it was never seen. One invocation per cell.
 // Precision: highp.
 #include "pipeline/marks/shaders/motion_layers.glsl"
 #include "pipeline/marks/shaders/motion_layers_tally.glsl"
@@ -61,9 +61,10 @@ void main() {
   // A change of light leaves edges where they are.
   vec2 spread = max(products.xy - mean * mean, 0.0);
   float together = products.z - mean.x * mean.y;
-  bool isLight = float(otherCells[turn]) > kMostOthers * float(size.x * size.y) ||
-                 (min(spread.x, spread.y) > kContrast * kContrast &&
-                 together > kSameStructure * sqrt(spread.x * spread.y));
+  bool isSameStructure = min(spread.x, spread.y) > kContrast * kContrast &&
+                         together > kSameStructure * sqrt(spread.x * spread.y);
+  bool isEverywhere = float(otherCells[turn]) > kMostOthers * float(size.x * size.y);
+  bool isLight = isSameStructure || isEverywhere;
   bool wasMover = own.g > 0.5;
   bool isOther = (own.r > 0.5 && others > 0.25) || (own.r > 0.15 && others > 0.55) || others > 0.8;
   bool hasCause = changes > 0.08 || carried > 0.5;
@@ -78,7 +79,7 @@ void main() {
   float fresh = isMover != wasMover ? 1.0 : max(past.a - stepSeconds / freshSeconds, 0.0);
   imageStore(labels, cell, vec4(isMover ? 1.0 : 0.0, fresh, rest, maturity));
   if (!isMover) {
-    float frames = isLight ? 1.0 : min(floor(known.a + 0.5) + 1.0, kFrames);
+    float frames = isLight && own.r > 0.15 ? 1.0 : min(floor(known.a + 0.5) + 1.0, kFrames);
     known = vec4(mix(known.rgb, now, 1.0 / frames), frames);
   }
   imageStore(backgroundNow, cell, known);

@@ -1,0 +1,199 @@
+// What moves by itself is told from the background, at once and for as long as it is there; and the
+// anchors behind it are the same when it has passed.
+#include "pipeline/marks/motion_layers.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "tests/gpu/marks/anchor_life_fixture.h"
+#include "tests/gpu/marks/wall_and_disc.h"
+#include "tests/support/gl_test.h"
+
+namespace pleinair::marks {
+namespace {
+
+std::vector<glm::vec4> texelsOf(const gpu::Texture& texture) {
+  const std::vector<float> numbers = support::readRgba32f(texture);
+  std::vector<glm::vec4> texels;
+  for (std::size_t i = 0; i + 3 < numbers.size(); i += 4) {
+    texels.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]);
+  }
+  return texels;
+}
+
+class MotionLayersTest : public AnchorLife {
+ protected:
+  void SetUp() override {
+    AnchorLife::SetUp();
+    if (IsSkipped()) return;
+    layers_.emplace(library_, kSize);
+  }
+
+  void see(const View& view, glm::dvec2 step = glm::dvec2(0.0)) {
+    picture_ = support::textureOf(seen(view, kSize, ++seed_).view());
+    const tracking::ImageMotion motion =
+        seed_ == 1 ? tracking::ImageMotion{} : panning(step.x, step.y);
+    const scene::ArFrame frame = compose(*renderer_, {}, motion);
+    field_->update(frame);
+    layers_->update(frame, *field_);
+    set_->advance(frame, *field_, hold_, &*layers_);
+  }
+
+  /// Over the cells: how many are movers, how many should be, and how many are both.
+  struct Overlap {
+    int found = 0;
+    int wanted = 0;
+    int both = 0;
+    double iou() const { return static_cast<double>(both) / std::max(found + wanted - both, 1); }
+  };
+  Overlap overlapWith(const View& view) const {
+    const std::vector<glm::vec4> labels = texelsOf(layers_->labels());
+    const int width = layers_->labels().size().width;
+    Overlap overlap;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      const auto index = static_cast<int>(i);
+      const glm::dvec2 px = (glm::dvec2(index % width, index / width) + 0.5) *
+                            static_cast<double>(MotionLayers::kCellPixels);
+      const bool isDisc = glm::distance(px, view.disc) < view.radius;
+      const bool isMover = labels[i].r > 0.5F;
+      overlap.found += isMover ? 1 : 0;
+      overlap.wanted += isDisc ? 1 : 0;
+      overlap.both += isMover && isDisc ? 1 : 0;
+    }
+    return overlap;
+  }
+  int movers() const { return overlapWith({}).found; }
+
+  std::optional<MotionLayers> layers_;
+  AnchorHold hold_;
+
+ private:
+  unsigned seed_ = 0;
+};
+
+TEST_F(MotionLayersTest, AStillSceneHasNoMovers) {
+  for (int i = 0; i < 20; ++i) {
+    see({.noiseSigma = 3.0});
+    ASSERT_EQ(movers(), 0) << i;
+  }
+}
+
+TEST_F(MotionLayersTest, APanHasNone) {
+  const glm::dvec2 step(-1.3, 0.4);
+  View view;
+  see(view);
+  for (int i = 0; i < 20; ++i) {
+    view.shift += step;
+    see(view, step);
+    ASSERT_LT(movers(), 10) << i;
+  }
+}
+
+TEST_F(MotionLayersTest, WhatMovesIsFoundWithItsOutline) {
+  see({});
+  see({});
+  for (int i = 0; i < 15; ++i) {
+    const View view{.disc = {60.0 + 12.0 * i, 120.0}, .radius = 35.0};
+    see(view);
+    // It is not seen to move in its first frame, but it is not as before either.
+    ASSERT_GT(overlapWith(view).iou(), 0.85) << i;
+  }
+  see({});
+  EXPECT_EQ(movers(), 0) << "it is gone at once";
+}
+
+TEST_F(MotionLayersTest, WhatComesToRestStaysItselfForAWhile) {
+  see({});
+  View view{.radius = 35.0};
+  for (int i = 0; i < 10; ++i) {
+    view.disc = {60.0 + 10.0 * i, 120.0};
+    see(view);
+  }
+  // Its motion is not measured here: 0.7 s.
+  for (int i = 0; i < 18; ++i) see(view);
+  EXPECT_GT(overlapWith(view).iou(), 0.8);
+  for (int i = 0; i < 8; ++i) see(view);
+  EXPECT_EQ(movers(), 0);
+}
+
+TEST_F(MotionLayersTest, LightIsNoMover) {
+  see({});
+  see({});
+  for (const double light : {0.6, 1.0, 0.8, 0.5, 1.0}) {
+    see({.light = light});
+    ASSERT_EQ(movers(), 0) << light;
+  }
+}
+
+TEST_F(MotionLayersTest, TheBackgroundIsRememberedBehindAMover) {
+  for (int i = 0; i < 8; ++i) see({});
+  const std::vector<glm::vec4> before = texelsOf(layers_->background());
+  const View view{.disc = {160.0, 120.0}, .radius = 35.0};
+  for (int i = 0; i < 5; ++i) see(view);
+  const std::vector<glm::vec4> behind = texelsOf(layers_->background());
+  const auto middle = static_cast<std::size_t>(60 * layers_->background().size().width + 80);
+  EXPECT_LT(glm::distance(glm::vec3(before[middle]), glm::vec3(behind[middle])), 0.02F);
+  EXPECT_GE(behind[middle].a, 5.0F) << "frames in the mean";
+}
+
+TEST_F(MotionLayersTest, ACutForgetsTheBackground) {
+  see({});
+  see({});
+  layers_->reset();
+  see({.disc = {160.0, 120.0}, .radius = 35.0});
+  EXPECT_EQ(movers(), 0);
+}
+
+TEST_F(MotionLayersTest, AnchorsBehindAMoverAreTheSameAfterwards) {
+  for (int i = 0; i < 4; ++i) see({});
+  const std::vector<Anchor> before = set_->read();
+  View view{.radius = 35.0};
+  int covered = 0;
+  for (int i = 0; i < 24; ++i) {
+    view.disc = {-40.0 + 16.0 * i, 120.0};
+    see(view);
+    const std::vector<Anchor> now = set_->read();
+    for (const Anchor& each : now) {
+      if (!each.isAlive() || glm::distance(glm::dvec2(each.px), view.disc) > 30.0) continue;
+      covered += each.isCovered() ? 1 : 0;
+      ASSERT_TRUE(each.isCovered() || (each.state & Anchor::kMover) != 0) << i;
+    }
+  }
+  EXPECT_GT(covered, 500);
+  see({});
+  see({});
+  const std::vector<Anchor> after = set_->read();
+  EXPECT_LT(births(after), 5) << "the wall needs none";
+  int same = 0;
+  int all = 0;
+  for (std::size_t slot = 0; slot < before.size(); ++slot) {
+    if (!before[slot].isStaying()) continue;
+    ++all;
+    const bool isSame = after[slot].isStaying() && after[slot].seed == before[slot].seed;
+    same += isSame ? 1 : 0;
+  }
+  EXPECT_GT(same, all * 97 / 100) << "of " << all;
+}
+
+TEST_F(MotionLayersTest, AnchorsAreRememberedForSoLongOnly) {
+  hold_.memory = std::chrono::milliseconds(200);
+  for (int i = 0; i < 4; ++i) see({});
+  const View view{.disc = {160.0, 120.0}, .radius = 35.0};
+  const auto covered = [&] {
+    const std::vector<Anchor> now = set_->read();
+    return std::ranges::count_if(now, [](const Anchor& each) { return each.isCovered(); });
+  };
+  for (int i = 0; i < 4; ++i) see(view);
+  EXPECT_GT(covered(), 50);
+  for (int i = 0; i < 5; ++i) see(view);
+  EXPECT_LT(covered(), 5);
+}
+
+}  // namespace
+}  // namespace pleinair::marks
