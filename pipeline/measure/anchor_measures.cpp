@@ -86,7 +86,8 @@ AnchorFrame AnchorMeasures::compare(std::span<const Anchor> anchors) const {
     const Anchor& current = anchors[slot];
     const bool same = isSame(previous, current);
     const bool isBirth = current.isAlive() && !same;
-    const bool isDeath = previous.isStaying() && !(same && current.isStaying());
+    const bool isDeath =
+        previous.isStaying() && !(same && (current.isStaying() || current.isCovered()));
     frame.alive += current.isAlive() ? 1 : 0;
     frame.births += isBirth ? 1 : 0;
     frame.deaths += isDeath ? 1 : 0;

@@ -29,12 +29,14 @@ struct MoverSummary {
   std::optional<double> lostPercent;
 };
 
-/// The same of the painting and of controls: a painter that averages its input over the time
-/// constant of strokes, which leaves trails, and the painting under masks that are laid wrong.
+/// The same of the painting and of controls.
 struct MoverReport {
   MoverSummary painting;
+  /// A painter that averages its input over the time constant of strokes, and so leaves trails.
   MoverSummary averaging;
-  MoverSummary displaced;
+  /// The share of the input's own pixels that change away from movers, under masks that are laid
+  /// wrong by 20 px: movers are then beside them.
+  std::optional<double> displacedStillPercent;
 };
 
 /// Collects a sequence before a standing camera; movers are what differs from the median of all
@@ -51,6 +53,7 @@ class MoverMeasures {
   std::vector<cv::Mat1b> findMovers(const cv::Mat3b& ground) const;
   MoverSummary compare(const std::vector<cv::Mat3b>& outputs,
                        const std::vector<cv::Mat1b>& movers) const;
+  std::optional<double> displacedStill(const std::vector<cv::Mat1b>& movers) const;
   std::vector<cv::Mat3b> averaged() const;
 
   std::vector<hal::TimePoint> times_;

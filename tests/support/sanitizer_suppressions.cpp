@@ -21,7 +21,7 @@ extern "C" const char* __tsan_default_suppressions() {
          // Not built with the sanitizer either: libav's own threads, Pango's fonts, X11's locks.
          // Races of this tree's own code inside of libav's calls to it are hidden by that, too.
          "race:libavutil\nrace:libavcodec\nrace:libfontconfig\nrace:libglib-2.0\n"
-         "deadlock:libxcb\ndeadlock:libX11\n";
+         "deadlock:libxcb\ndeadlock:libX11\nmutex:xcb_disconnect\n";
 }
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

@@ -101,7 +101,7 @@ Json jsonOf(const std::optional<MoverReport>& movers) {
   if (!movers) return nullptr;
   return {{"painting", jsonOf(movers->painting)},
           {"averaging", jsonOf(movers->averaging)},
-          {"displaced_masks", jsonOf(movers->displaced)}};
+          {"displaced_still_percent", orNull(movers->displacedStillPercent)}};
 }
 
 Json jsonOf(const FrameValues& values) {

@@ -158,8 +158,7 @@ std::vector<std::string> moverLines(const Report& report) {
   return {
       fmt::format("movers cover {:.2f} % of the frames", report.movers->painting.coveredPercent),
       line("the painting", report.movers->painting),
-      line("a painter that averages over 0.65 s", report.movers->averaging),
-      line("the painting, under masks laid wrong by 20 px", report.movers->displaced)};
+      line("a painter that averages over 0.65 s", report.movers->averaging)};
 }
 
 std::string reportText(const Report& report) {
