@@ -31,7 +31,8 @@ uniform float noise;
 const float kSlack = 0.035;
 const float kNoises = 3.0;
 const float kSurely = 2.4;      // thresholds at which other content is certain
-const float kKnownFrames = 8.0;  // of a background that is known better than the flow
+const float kKnownFrames = 4.0;  // of a background that is known better than the flow
+const float kReach = 2.5;       // px
 const float kMovedPx = 0.6;
 
 // How surely the colour is the background's in a shadow, or in a little more light.
@@ -66,7 +67,7 @@ void main() {
   vec3 high = now;
   if (!isStanding) {
     for (int i = 0; i < 4; ++i) {
-      vec2 at = px + 1.5 * (2.0 * vec2(i & 1, i >> 1) - 1.0);
+      vec2 at = px + kReach * (2.0 * vec2(i & 1, i >> 1) - 1.0);
       vec3 there = textureLod(picture, at / fullSize, 0.0).rgb;
       low = min(low, there);
       high = max(high, there);

@@ -23,6 +23,7 @@ uniform float freshSeconds;
 const float kTentative = 0.7;  // s: what has changed once and then rests is no mover
 const float kMatureSeconds = 0.2;
 const float kFrames = 30.0;
+const float kMovingFrames = 4.0;  // while the camera moves: each frame's interpolation blurs
 const float kSameStructure = 0.9;
 const float kMostOthers = 0.5;  // of the picture: if more is other content, the light is
 const float kContrast = 0.02;  // of luma
@@ -79,7 +80,7 @@ void main() {
   float fresh = isMover != wasMover ? 1.0 : max(past.a - stepSeconds / freshSeconds, 0.0);
   imageStore(labels, cell, vec4(isMover ? 1.0 : 0.0, fresh, rest, maturity));
   if (!isMover) {
-    float frames = isLight && own.r > 0.15 ? 1.0 : min(floor(known.a + 0.5) + 1.0, kFrames);
+    float frames = isLight && own.r > 0.15 ? 1.0 : min(floor(known.a + 0.5) + 1.0, isStanding ? kFrames : kMovingFrames);
     known = vec4(mix(known.rgb, now, 1.0 / frames), frames);
   }
   imageStore(backgroundNow, cell, known);
