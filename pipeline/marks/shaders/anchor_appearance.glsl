@@ -6,6 +6,7 @@
 // Outputs: looks: 1 + luma, and 4 * mismatch frames + 1 + red less blue; (0, 0): not sampled yet.
 // Precision: highp.
 #include "pipeline/gpu/shaders/luma.glsl"
+#include "pipeline/marks/shaders/mover_labels.glsl"
 uniform highp sampler2D picture;
 uniform highp sampler2D background;
 uniform float noise;
@@ -23,11 +24,12 @@ struct Looks {
   vec2 high;
 };
 
-Looks looksAt(highp sampler2D image, vec2 px) {
+// `scale`: from px of the full image to texture coordinates.
+Looks looksAt(highp sampler2D image, vec2 scale, vec2 px) {
   Looks here = Looks(vec2(0.0), vec2(9.0), vec2(-9.0));
   for (int i = 0; i < 5; ++i) {
     vec2 at = i == 4 ? px : px + kReach * (2.0 * vec2(i & 1, i >> 1) - 1.0);
-    vec3 c = textureLod(image, at / fullSize, 0.0).rgb;
+    vec3 c = textureLod(image, at * scale, 0.0).rgb;
     vec2 value = vec2(lumaOf(c), c.r - c.b);
     here.mean += 0.2 * value;
     here.low = min(here.low, value);
@@ -47,7 +49,7 @@ bool isWithin(Looks here, vec2 known) {
 
 // The appearance to remember after this frame.
 vec2 remembered(vec2 looks, vec2 px) {
-  Looks here = looksAt(picture, px);
+  Looks here = looksAt(picture, 1.0 / fullSize, px);
   if (looks.y == 0.0) return here.mean + 1.0;
   float mismatch = floor(looks.y / kPerMismatch);
   vec2 known = knownOf(looks);
@@ -59,12 +61,12 @@ vec2 remembered(vec2 looks, vec2 px) {
 
 // Whether the background, where it has been seen, is other than the anchor remembers.
 bool isUnlikeBackground(vec2 looks, vec2 px) {
-  if (looks.y == 0.0 || textureLod(background, px / fullSize, 0.0).a < 1.0) return false;
-  return !isWithin(looksAt(background, px), knownOf(looks));
+  if (looks.y == 0.0 || textureLod(background, inLayers(background, px), 0.0).a < 1.0) return false;
+  return !isWithin(looksAt(background, inLayers(background, vec2(1.0)), px), knownOf(looks));
 }
 
 // Whether something has just come to rest here.
-bool isNewBackground(vec2 px) { return textureLod(background, px / fullSize, 0.0).a < 4.0; }
+bool isNewBackground(vec2 px) { return textureLod(background, inLayers(background, px), 0.0).a < 4.0; }
 
 // Whether its last frame was a mismatch.
 bool isUnlike(vec2 looks) { return looks.y >= kPerMismatch; }

@@ -22,7 +22,6 @@ uniform bool follows;
 uniform bool anew;
 uniform uint slots;
 #include "pipeline/marks/shaders/anchor_appearance.glsl"
-#include "pipeline/marks/shaders/mover_labels.glsl"
 
 // The background moves as one; a mover's motion must not carry it along.
 Moved motionOf(vec2 px, float object, bool isOnMover) {

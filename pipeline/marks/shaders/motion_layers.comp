@@ -45,7 +45,8 @@ float shadeOf(vec3 now, vec3 known) {
 
 void main() {
   ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(cell, imageSize(candidates)))) return;
+  ivec2 cells = imageSize(candidates);
+  if (any(greaterThanEqual(cell, cells))) return;
   vec2 px = (vec2(cell) + 0.5) * kCellPixels;
   vec3 now = textureLod(picture, px / fullSize, 0.0).rgb;
   imageStore(pictureNow, cell, vec4(now, 1.0));
@@ -73,8 +74,8 @@ void main() {
       high = max(high, there);
     }
   }
-  vec4 known = textureLod(background, from / fullSize, 0.0);
-  vec3 before = textureLod(lastPicture, from / fullSize, 0.0).rgb;
+  vec4 known = textureLod(background, inCells(from, cells), 0.0);
+  vec3 before = textureLod(lastPicture, inCells(from, cells), 0.0).rgb;
   float least = kSlack + kNoises * noise;
   float other = smoothstep(least, kSurely * least, beyond(known.rgb, low, high));
   other *= 1.0 - shadeOf(now, known.rgb);
@@ -83,10 +84,10 @@ void main() {
   vec4 moved = textureLod(motion, px / fullSize, 0.0);
   bool isMoving = moved.w > 0.5 && moved.z < 3.0 &&
                   distance(moved.xy, shift) > kMovedPx + 2.5 * moved.z;
-  vec4 label = textureLod(labels, from / fullSize, 0.0);
+  vec4 label = textureLod(labels, inCells(from, cells), 0.0);
   if (isMoving) {
     vec2 back = px - moved.xy;
-    vec4 carried = isInPicture(back) ? textureLod(labels, back / fullSize, 0.0) : vec4(0.0);
+    vec4 carried = isInPicture(back) ? textureLod(labels, inCells(back, cells), 0.0) : vec4(0.0);
     if (carried.r > label.r) label = carried;
     // Nothing is known of the ground yet, or it is of the same colour.
     if (known.a < kKnownFrames) other = 1.0;

@@ -13,6 +13,9 @@ const float kCellPixels = 2.0;
 // The displacement of the background since the previous frame, from there to px.
 vec2 backgroundShift(vec2 px) { return isStanding ? vec2(0.0) : -byPicture(px, true).displacement; }
 
+// Texture coordinates of a place in the textures of cells, which may reach beyond the image.
+vec2 inCells(vec2 px, ivec2 cells) { return px / (kCellPixels * vec2(cells)); }
+
 bool isInPicture(vec2 px) {
   return all(greaterThanEqual(px, vec2(0.0))) && all(lessThan(px, fullSize));
 }

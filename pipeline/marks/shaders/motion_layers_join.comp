@@ -72,7 +72,7 @@ void main() {
   bool isMover = !isLight && hasCause && (isOther || (wasMover && own.r > 0.15 && others > 0.3));
   float rest = isMover && changes < 0.05 ? past.g + stepSeconds : 0.0;
   float maturity = isMover ? past.b : 0.0;
-  vec4 known = isInPicture(from) ? textureLod(background, from / fullSize, 0.0) : vec4(now, 0.0);
+  vec4 known = isInPicture(from) ? textureLod(background, inCells(from, size), 0.0) : vec4(now, 0.0);
   if (rest > (maturity > kMatureSeconds ? restSeconds : kTentative)) {
     isMover = false;
     known.a = 0.0;

@@ -1,10 +1,17 @@
 // Purpose: what of the image belongs to movers (marks::MotionLayers::labels).
-// Inputs:  movers; fullSize; places in px of the full image.
+// Inputs:  movers; places in px of the full image.
 // Outputs: mover: in [0, 1]; freshness: 1 where that has just changed.
 // Precision: highp.
 uniform highp sampler2D movers;
 
-vec2 moverAt(vec2 px) { return textureLod(movers, px / fullSize, 0.0).rg; }
+const float kMoverPixels = 2.0;  // of a texel: marks::MotionLayers::kCellPixels
+
+// Texture coordinates in the textures of marks::MotionLayers; they may reach beyond the image.
+vec2 inLayers(highp sampler2D layers, vec2 px) {
+  return px / (kMoverPixels * vec2(textureSize(layers, 0)));
+}
+
+vec2 moverAt(vec2 px) { return textureLod(movers, inLayers(movers, px), 0.0).rg; }
 
 // Whether a mover is so near that the measured motion may be its own.
 bool isNearMover(vec2 px) {

@@ -211,7 +211,7 @@ void main() {
   if (!isNew && ((state & kHidden) != 0u || isCovered || (!isOnMover && reachesMover(px, old)))) {
     // What is before it has other colours and directions: the stroke stays, or fades out,
     // unchanged, unless it is of a colour that is not there.
-    vec4 behind = textureLod(background, px / fullSize, 0.0);
+    vec4 behind = textureLod(background, inLayers(background, px), 0.0);
     bool isStale = !isOnMover && behind.a >= 1.0 && apart(old.colour, behind.rgb) > otherColour.y;
     if (!isStale || isCovered) {
       old.seen = isStale ? 0.0 : old.exists * anchors[slot].fade;

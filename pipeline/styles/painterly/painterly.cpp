@@ -220,6 +220,7 @@ const Texture* Painterly::State::findBorders(const scene::ArFrame& frame,
       .texture("movers", tellsMovers(p) ? painting->movers.labels() : noMovers)
       .set("hasObjects", frame.hasObjects ? 1 : 0)
       .set("size", glm::vec2(canvas->size.width, canvas->size.height))
+      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .drawFullscreen(canvas->bordered);
   return &canvas->borders;
 }
@@ -318,6 +319,7 @@ const Texture& Painterly::State::show(const scene::ArFrame& frame, const Painter
           .texture("movers", painting->movers.labels())
           .texture("background", painting->movers.background())
           .set("size", glm::vec2(canvas->size.width, canvas->size.height))
+          .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
           .set("view", static_cast<int>(view))
           .drawFullscreen(canvas->finished);
       return canvas->picture;

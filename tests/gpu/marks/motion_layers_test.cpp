@@ -35,8 +35,8 @@ class MotionLayersTest : public AnchorLife {
     layers_.emplace(library_, kSize);
   }
 
-  void see(const View& view, glm::dvec2 step = glm::dvec2(0.0)) {
-    picture_ = support::textureOf(seen(view, kSize, ++seed_).view());
+  void see(const View& view, glm::dvec2 step = glm::dvec2(0.0), hal::FrameSize size = kSize) {
+    picture_ = support::textureOf(seen(view, size, ++seed_).view());
     const tracking::ImageMotion motion =
         seed_ == 1 ? tracking::ImageMotion{} : panning(step.x, step.y);
     const scene::ArFrame frame = compose(*renderer_, {}, motion);
@@ -82,6 +82,21 @@ TEST_F(MotionLayersTest, AStillSceneHasNoMovers) {
     see({.noiseSigma = 3.0});
     ASSERT_EQ(movers(), 0) << i;
   }
+}
+
+/// The last cells reach beyond the image.
+TEST_F(MotionLayersTest, NorHasOneWithOddSides) {
+  constexpr hal::FrameSize kOdd{319, 237};
+  field_.emplace(library_, kOdd);
+  layers_.emplace(library_, kOdd);
+  set_.emplace(library_, kOdd, AnchorOptions{});
+  for (int i = 0; i < 20; ++i) {
+    see({.noiseSigma = 3.0}, {}, kOdd);
+    ASSERT_EQ(movers(), 0) << i;
+  }
+  const View view{.disc = {280.0, 200.0}, .radius = 30.0};
+  see(view, {}, kOdd);
+  EXPECT_GT(overlapWith(view).iou(), 0.85);
 }
 
 TEST_F(MotionLayersTest, APanHasNone) {

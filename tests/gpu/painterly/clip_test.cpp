@@ -59,6 +59,7 @@ TEST_F(ClipTest, BordersAreTheOracles) {
       .texture("movers", movers)
       .set("hasObjects", 1)
       .set("size", glm::vec2(kSmall.width, kSmall.height))
+      .set("pixelsOfFull", glm::vec2(1.0F))
       .drawFullscreen(gpu::RenderTarget({&borders}));
   const std::vector<std::uint32_t> found = support::readR32ui(borders);
   int others = 0;

@@ -2,7 +2,7 @@
 //          and against real content, and those of movers against the background, two pixels wide,
 //          so that a clipped edge is smooth. Occluders count as real: they hide models, but the
 //          image goes on over their edges.
-// Inputs:  ids (scene::ArFrame) if hasObjects; movers (marks::MotionLayers::labels); size: of the
+// Inputs:  ids (scene::ArFrame) if hasObjects; mover_labels.glsl's; size, pixelsOfFull: of the
 //          frame.
 // Outputs: R32UI, packed as in border.glsl.
 // Precision: integers.
@@ -10,16 +10,17 @@
 #include "pipeline/styles/painterly/shaders/border.glsl"
 uniform usampler2D ids;
 uniform bool hasObjects;
-uniform highp sampler2D movers;
 uniform vec2 size;
+uniform vec2 pixelsOfFull;
+#include "pipeline/marks/shaders/mover_labels.glsl"
 layout(location = 0) out uint border;
 
-float moverAt(ivec2 p) { return textureLod(movers, (vec2(p) + 0.5) / size, 0.0).r; }
+float moverOf(ivec2 p) { return moverAt((vec2(p) + 0.5) / pixelsOfFull).r; }
 
 uint thingAt(ivec2 p) {
   uint object = hasObjects ? objectOf(texelFetch(ids, p, 0).r) : 0u;
   if (isVirtual(object)) return object;
-  return moverAt(p) > 0.5 ? kMoverBorder : 0u;
+  return moverOf(p) > 0.5 ? kMoverBorder : 0u;
 }
 
 void main() {
@@ -30,7 +31,7 @@ void main() {
   float share = 0.0;
   // Labels are half as fine as the image: where one is exactly 0 or 1, so it is all around. A loop
   // that no invocation enters costs nothing on software renderers.
-  float mover = moverAt(p);
+  float mover = moverOf(p);
   bool isUniform = !hasObjects && (mover == 0.0 || mover == 1.0);
   for (int i = isUniform ? 9 : 0; i < 9; ++i) {
     ivec2 step = ivec2(i % 3, i / 3) - 1;
