@@ -33,20 +33,20 @@ class MarksTest : public scene::SceneGlTest {
     picture_ = plainPicture(kSize);
   }
 
-  static tracking::CameraModel camera() {
-    return {{.fx = 300.0, .fy = 302.0, .cx = 162.0, .cy = 118.0}, {}, kSize};
+  static tracking::CameraModel camera(hal::FrameSize size = kSize) {
+    return {{.fx = 300.0, .fy = 302.0, .cx = 162.0, .cy = 118.0}, {}, size};
   }
 
   /// The next frame, whose picture moved so.
   scene::ArFrame compose(scene::ArFrameRenderer& renderer, const scene::PoseSet& poses,
                          tracking::ImageMotion motion) {
-    motion.frameSize = kSize;
+    motion.frameSize = picture_.size();
     motion.sinceSequence = sequence_;
     motion_ = motion;
     ++sequence_;
     time_ += kStep;
-    scene::ArFrame frame = renderer.compose(picture_, camera(), poses, sequence_, time_,
-                                            {.surfaces = true, .measuredMotion = true});
+    scene::ArFrame frame = renderer.compose(picture_, camera(picture_.size()), poses, sequence_,
+                                            time_, {.surfaces = true, .measuredMotion = true});
     frame.measuredMotion = scene::MeasuredMotion{.motion = &motion_};
     return frame;
   }
