@@ -65,12 +65,13 @@ bool isBetween(Outline outline, glm::dvec3 eye, const Quad& quad, glm::dvec3 nor
   return areaOf(outline) > kMinArea;
 }
 
-bool isHidden(const Geometry& geometry, const CameraView& view, const glm::dmat4& worldFromMover,
+bool isHidden(const Geometry& geometry, const CameraView& view, const BodyPoses& bodies,
               const Quad& quad) {
   const glm::dvec3 eye = view.eye();
   const glm::dvec3 normal = glm::normalize(glm::cross(quad[1] - quad[0], quad[2] - quad[0]));
   for (const Solid& solid : geometry.solids) {
-    const glm::dmat4 pose = solid.moves ? worldFromMover : glm::dmat4(1);
+    if (!bodies.has(solid.body)) continue;
+    const glm::dmat4& pose = bodies[solid.body];
     for (std::uint32_t i = solid.firstFacet; i < solid.firstFacet + solid.facets; ++i) {
       const Facet& facet = geometry.facets[i];
       Outline outline;
@@ -100,8 +101,7 @@ TagTruth truthOfTag(const Exposure& exposure, const Geometry& geometry, const Be
     const CameraView view = exposure.viewAt(at.y);
     const bool isTurnedAway = glm::dot(glm::dvec3(tag.worldFromTag[2]),
                                        view.eye() - glm::dvec3(tag.worldFromTag[3])) >= 0;
-    truth.isVisible &=
-        !isTurnedAway && !isHidden(geometry, view, exposure.worldFromMoverAt(at.y), border);
+    truth.isVisible &= !isTurnedAway && !isHidden(geometry, view, exposure.bodiesAt(at.y), border);
   }
   truth.isVisible &= truth.isInside;
   return truth;
@@ -128,7 +128,7 @@ FlowVector flowBetween(const Exposure& first, const Exposure& second, const Geom
   if (!moved) return {};
   if (!isInside(*moved, second.size())) return {.px = *moved - pixel, .visible = false};
   const std::optional<SurfacePoint> seen = second.visibleAt(geometry, *moved);
-  const bool isSame = seen && seen->moves == surface->moves &&
+  const bool isSame = seen && seen->body == surface->body &&
                       glm::distance(seen->point, surface->point) < kSamePointMetres;
   return {.px = *moved - pixel, .visible = isSame};
 }

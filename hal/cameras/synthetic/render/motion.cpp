@@ -133,17 +133,26 @@ glm::dmat4 Motion::cameraFromWorld(double seconds) const {
   return home;
 }
 
-glm::dmat4 Motion::worldFromMover(double seconds) const {
+namespace {
+
+glm::dmat4 worldFromArm(double seconds) {
   constexpr double kPeriodSeconds = 6;
   constexpr glm::dvec3 kAway{0.62, -1.02, 0.30};
   constexpr glm::dvec3 kThere{-0.02, -0.06, 0.105};
-  if (shot_ != SyntheticShot::kOccluder) return glm::translate(glm::dmat4(1), {0, 0, -30});
   const double t = std::fmod(seconds + kPeriodSeconds, kPeriodSeconds);
   const double reached = eased(t, 0.5, 1.9) - eased(t, 3.2, 4.6);
   const glm::dvec3 place = glm::mix(kAway, kThere, reached) +
                            reached * glm::dvec3(0.035 * swing(t, 1.4), 0.03 * swing(t, 1.9), 0);
   const glm::dmat4 pose = glm::translate(glm::dmat4(1), place);
   return glm::rotate(pose, glm::radians(10.0 * swing(t, 2.3)), glm::dvec3(0, 0, 1));
+}
+
+}  // namespace
+
+BodyPoses Motion::bodies(double seconds) const {
+  BodyPoses bodies;
+  if (shot_ == SyntheticShot::kOccluder) bodies.place(kArm, worldFromArm(seconds));
+  return bodies;
 }
 
 }  // namespace pleinair::hal::synthetic

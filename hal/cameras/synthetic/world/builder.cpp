@@ -14,9 +14,6 @@
 namespace pleinair::hal::synthetic {
 namespace {
 
-/// The moving arm is lit as at one fixed place: above the bench, where it spends most of its time.
-constexpr glm::dvec3 kArmLightPosition{0.10, -0.20, 0.22};
-
 /// Faces turned to the wall or the floor by more than this are hardly ever seen and get coarse
 /// textures.
 constexpr double kTurnedAway = 0.7;
@@ -53,16 +50,15 @@ glm::dmat4 uprightPose(glm::dvec3 position, double degrees) {
 std::uint16_t Builder::addPatch(glm::dvec2 half, std::function<PointAndNormal(glm::vec2)> at,
                                 const Painter& painter) {
   assert(plan_.patches.size() < std::numeric_limits<std::uint16_t>::max());
-  if (patchSettings_.moves) {
-    at = [inPlace = std::move(at)](glm::vec2 p) {
-      PointAndNormal lit = inPlace(p);
-      lit.point += kArmLightPosition;
-      return lit;
+  if (patchSettings_.body != kRoom) {
+    at = [inPlace = std::move(at), pose = patchSettings_.litPose](glm::vec2 p) {
+      const PointAndNormal own = inPlace(p);
+      return PointAndNormal{moved(pose, own.point), glm::dmat3(pose) * own.normal};
     };
   }
   plan_.patches.push_back({glm::vec2(half), std::move(at), painter, patchSettings_.coarseness,
                            patchSettings_.lightStep, patchSettings_.isEmissive,
-                           patchSettings_.moves});
+                           patchSettings_.body});
   return static_cast<std::uint16_t>(plan_.patches.size() - 1);
 }
 
@@ -106,7 +102,7 @@ void Builder::addFace(const std::vector<glm::dvec3>& corners, glm::dvec3 right,
   frame.centre =
       frame.right * middle.x + frame.up * middle.y + normal * glm::dot(normal, corners[0]);
   const PatchSettings kept = patchSettings_;
-  if (!patchSettings_.moves && (normal.y > kTurnedAway || normal.z < -kTurnedAway)) {
+  if (patchSettings_.body == kRoom && (normal.y > kTurnedAway || normal.z < -kTurnedAway)) {
     patchSettings_.coarseness *= 4;
     patchSettings_.lightStep *= 4;
   }
@@ -117,7 +113,7 @@ void Builder::addFace(const std::vector<glm::dvec3>& corners, glm::dvec3 right,
 void Builder::beginSolid() {
   plan_.geometry.solids.push_back(
       {.firstFacet = static_cast<std::uint32_t>(plan_.geometry.facets.size()),
-       .moves = patchSettings_.moves});
+       .body = patchSettings_.body});
 }
 
 void Builder::endSolid(const std::optional<Ends>& ends) {
@@ -136,7 +132,7 @@ void Builder::endSolid(const std::optional<Ends>& ends) {
   for (const glm::dvec3& corner : corners) {
     solid.radius = std::max(solid.radius, glm::distance(corner, solid.centre) * (1 + 1e-9));
   }
-  if (!ends || solid.moves) return;
+  if (!ends || solid.body != kRoom) return;
   Occluder occluder{glm::vec3(solid.centre), static_cast<float>(solid.radius), {}, {}};
   for (const Facet& facet : facets) {
     occluder.planes.emplace_back(glm::vec3(facet.normal), static_cast<float>(facet.offset));

@@ -29,7 +29,7 @@ struct Patch {
   double coarseness = 1;     ///< size of its texels relative to the bench top's
   double lightStep = 0.007;  ///< metres between the points at which light is computed
   bool isEmissive = false;   ///< emissive: the room's light does not change it
-  bool moves = false;
+  Body body = kRoom;
 };
 
 /// A shadow caster: a convex solid, with its inside where dot(xyz, p) ≤ w for all planes.
@@ -52,10 +52,11 @@ struct PatchSettings {
   double coarseness = 1;
   double lightStep = 0.007;
   bool isEmissive = false;
-  bool moves = false;
+  Body body = kRoom;
+  glm::dmat4 litPose{1};  ///< worldFromBody at which a moving body is lit, once for all
 };
 
-/// Adds solids to a plan. A pose maps the solid's own coordinates to the world's (or the mover's).
+/// Adds solids to a plan. A pose maps the solid's own coordinates to its body's.
 /// In its own coordinates the solid stands on z = 0, with x to its right and y to its back, seen
 /// from its front.
 class Builder {

@@ -51,9 +51,9 @@ std::vector<std::size_t> oraclePatches(const Exposure& exposure) {
   std::vector<std::size_t> patches;
   for (int y = 0; y < exposure.size().height; ++y) {
     const CameraView view = exposure.viewAt(y + 0.5);
-    const glm::dmat4 mover = exposure.worldFromMoverAt(y + 0.5);
+    const BodyPoses bodies = exposure.bodiesAt(y + 0.5);
     for (int x = 0; x < exposure.size().width; ++x) {
-      const auto hit = oracleHit(geometry, view, mover, {x + 0.5, y + 0.5});
+      const auto hit = oracleHit(geometry, view, bodies, {x + 0.5, y + 0.5});
       patches.push_back(hit ? geometry.facets[hit->facet].patch : 9999);
     }
   }
