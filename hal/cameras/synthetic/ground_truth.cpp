@@ -133,12 +133,19 @@ FlowVector flowBetween(const Exposure& first, const Exposure& second, const Geom
   return {.px = *moved - pixel, .visible = isSame};
 }
 
+namespace {
+
+/// The size of a field with a value for every n-th pixel of every n-th row.
+FrameSize fieldSize(FrameSize frame, int everyNth) {
+  assert(everyNth >= 1);
+  return {(frame.width + everyNth - 1) / everyNth, (frame.height + everyNth - 1) / everyNth};
+}
+
+}  // namespace
+
 FlowField flowFieldBetween(const Exposure& first, const Exposure& second, const Geometry& geometry,
                            int everyNth) {
-  assert(everyNth >= 1);
-  const FrameSize frame = first.size();
-  const FrameSize size{(frame.width + everyNth - 1) / everyNth,
-                       (frame.height + everyNth - 1) / everyNth};
+  const FrameSize size = fieldSize(first.size(), everyNth);
   FlowField field{.size = size, .px = {}, .visible = {}};
   field.px.reserve(static_cast<std::size_t>(size.pixels()));
   field.visible.reserve(static_cast<std::size_t>(size.pixels()));
@@ -151,6 +158,20 @@ FlowField flowFieldBetween(const Exposure& first, const Exposure& second, const 
     }
   }
   return field;
+}
+
+MovingMask movingMaskOf(const Exposure& exposure, const Geometry& geometry, int everyNth) {
+  const FrameSize size = fieldSize(exposure.size(), everyNth);
+  MovingMask mask{.size = size, .bytes = {}};
+  mask.bytes.reserve(static_cast<std::size_t>(size.pixels()));
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      const std::optional<SurfacePoint> seen =
+          exposure.visibleAt(geometry, {x * everyNth + 0.5, y * everyNth + 0.5});
+      mask.bytes.push_back(seen && seen->body != kRoom ? 255 : 0);
+    }
+  }
+  return mask;
 }
 
 }  // namespace pleinair::hal::synthetic

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "hal/cameras/synthetic/render/visitors.h"
 #include "hal/cameras/synthetic/world/noise.h"
 
 namespace pleinair::hal::synthetic {
@@ -15,6 +16,10 @@ namespace {
 
 constexpr glm::dvec3 kHomeEye{0.04, -1.14, 0.57};
 constexpr glm::dvec3 kHomeTarget{0.025, 0.06, 0.150};
+
+// Beyond the wall behind the room, which is visible from inside only: a person fits into the image.
+constexpr glm::dvec3 kVisitorsEye{0.475, -4.0, 0.62};
+constexpr glm::dvec3 kVisitorsTarget{0.475, -0.75, 0.02};
 
 /// The pose of an OpenCV camera at `position` that looks at `target`, with the world's z up in the
 /// image.
@@ -124,7 +129,10 @@ glm::dmat4 Motion::cameraFromWorld(double seconds) const {
     case SyntheticShot::kRoll:
       return turnedBy(home, glm::radians(28.0) * swing(seconds, 6), {0, 0, 1});
     case SyntheticShot::kStill:
+    case SyntheticShot::kLights:
       return home;
+    case SyntheticShot::kVisitors:
+      return lookAt(kVisitorsEye, kVisitorsTarget);
     case SyntheticShot::kOccluder:
       return heldAt(kHomeEye, kHomeTarget, seconds);
     case SyntheticShot::kCut:
@@ -152,6 +160,7 @@ glm::dmat4 worldFromArm(double seconds) {
 BodyPoses Motion::bodies(double seconds) const {
   BodyPoses bodies;
   if (shot_ == SyntheticShot::kOccluder) bodies.place(kArm, worldFromArm(seconds));
+  if (shot_ == SyntheticShot::kVisitors) placeVisitors(seconds, bodies);
   return bodies;
 }
 

@@ -86,6 +86,11 @@ TEST(SyntheticFlow, FollowsWhatMovesAndWhatItHides) {
   EXPECT_GT(moving, 4);
 }
 
+TEST(SyntheticFlow, FollowsThePartsOfPersons) {
+  expectFlowOfOracle(SyntheticShot::kVisitors, 95, 99, 120, 150);
+  expectFlowOfOracle(SyntheticShot::kVisitors, 300, 340, 120, 150);
+}
+
 TEST(SyntheticFlow, IsTheOraclesAcrossACut) {
   expectFlowOfOracle(SyntheticShot::kCut, 59, 61, 5, 120);
 }
@@ -159,6 +164,23 @@ void expectPicturesFollowTheFlow(SyntheticShot shot, std::uint64_t from, std::ui
 
 TEST(SyntheticFlow, IsHowThePictureMoves) {
   expectPicturesFollowTheFlow(SyntheticShot::kWalkaround, 0, 9, Duration::zero());
+}
+
+TEST(SyntheticFlow, IsHowPersonsMove) {
+  SyntheticOptions options{.size = {320, 240}, .shot = SyntheticShot::kVisitors, .noiseSigma = 0};
+  const std::vector<Image> frames = capturedFrames(options, 100);
+  SteppedClock clock;
+  const SyntheticCamera camera(options, clock);
+  const MovingMask mask = camera.movingMask(96);
+  FlowField flow = camera.flowField(96, 99);
+  for (std::size_t i = 0; i < flow.visible.size(); ++i) {
+    if (mask.bytes[i] == 0) flow.visible[i] = 0;
+  }
+  FlowField none = flow;
+  for (glm::vec2& px : none.px) px = glm::vec2(0);
+  const double along = warpedDifference(frames[96], frames[99], flow);
+  EXPECT_LT(along, 3.5);
+  EXPECT_GT(warpedDifference(frames[96], frames[99], none), 3 * along);
 }
 
 TEST(SyntheticFlow, IsHowThePictureMovesUnderARollingShutter) {

@@ -104,6 +104,13 @@ TEST(Renderer, ShowsWhatMoves) {
   expectOraclesPatches(Exposure(kSize, motion, std::chrono::milliseconds(2400), {}));
 }
 
+TEST(Renderer, ShowsPersons) {
+  const Motion motion(SyntheticShot::kVisitors, 1);
+  expectOraclesPatches(Exposure(kSize, motion, std::chrono::milliseconds(3200), {}));
+  expectOraclesPatches(
+      Exposure(kSize, motion, std::chrono::milliseconds(9400), std::chrono::microseconds(280)));
+}
+
 TEST(Renderer, ShowsEachRowOfARollingShutterAtItsMoment) {
   using std::chrono::microseconds;
   const Motion roll(SyntheticShot::kRoll, 1);
