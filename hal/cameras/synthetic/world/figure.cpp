@@ -189,7 +189,7 @@ class FigureBuilder {
   Builder& builder_;
   std::size_t figure_;
   const Look& look_;
-  FigurePoses litPoses_;
+  FigurePoses litPoses_{};
 };
 
 }  // namespace

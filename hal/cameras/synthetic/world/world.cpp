@@ -7,6 +7,7 @@
 #include <mutex>
 #include <numeric>
 #include <thread>
+#include <tuple>
 #include <utility>
 
 #include "hal/cameras/synthetic/world/light.h"
@@ -107,9 +108,10 @@ World paintWorkbench(const WorldOptions& options) {
 
 std::shared_ptr<const World> sharedWorkbench(const WorldOptions& options) {
   static std::mutex mutex;
-  static std::map<WorldOptions, std::weak_ptr<const World>> worlds;
+  static std::map<std::tuple<std::uint32_t, double, bool, bool>, std::weak_ptr<const World>> worlds;
   const std::scoped_lock lock(mutex);
-  std::weak_ptr<const World>& known = worlds[options];
+  std::weak_ptr<const World>& known =
+      worlds[{options.seed, options.texelMetres, options.hasFigures, options.hasSpotlight}];
   if (auto world = known.lock()) return world;
   auto world = std::make_shared<const World>(paintWorkbench(options));
   known = world;

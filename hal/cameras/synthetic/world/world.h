@@ -1,6 +1,5 @@
 #pragma once
 
-#include <compare>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -33,7 +32,6 @@ struct WorldOptions {
   double texelMetres = 0.001;  ///< the texel size of the bench's top
   bool hasFigures = false;     ///< else their textures are left black
   bool hasSpotlight = false;   ///< switched on, beside the room's other light
-  auto operator<=>(const WorldOptions&) const = default;
 };
 
 /// Paints and lights the workbench, on all processors.

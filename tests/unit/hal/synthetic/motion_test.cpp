@@ -62,6 +62,9 @@ TEST(Motion, IsWhatTheShotsNameSays) {
   };
   EXPECT_EQ(Motion(SyntheticShot::kStill, 1).cameraFromWorld(0),
             Motion(SyntheticShot::kStill, 1).cameraFromWorld(17.3));
+  for (const SyntheticShot shot : {SyntheticShot::kVisitors, SyntheticShot::kLights}) {
+    EXPECT_EQ(Motion(shot, 1).cameraFromWorld(0), Motion(shot, 2).cameraFromWorld(17.3));
+  }
   const Placed start = at(SyntheticShot::kPan, 0);
   const Placed later = at(SyntheticShot::kPan, 1.5);
   EXPECT_LT(glm::distance(start.eye, later.eye), 1e-9) << "a tripod stands";

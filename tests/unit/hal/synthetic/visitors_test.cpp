@@ -138,7 +138,8 @@ TEST(SyntheticVisitors, HaveRigidPartsThatStayTogether) {
     return glm::dvec3(bodies[bodyOf(1, part)][3]);
   };
   const BodyPoses first = motion.bodies(0);
-  for (double t = 0; t < kVisitorsSeconds; t += 1 / 30.0) {
+  for (int frame = 0; frame < 480; ++frame) {
+    const double t = frame / 30.0;
     const BodyPoses bodies = motion.bodies(t);
     const BodyPoses next = motion.bodies(t + 1 / 30.0);
     for (Body body = kFirstOfFigures; body < kBodies; ++body) {
@@ -160,7 +161,8 @@ TEST(SyntheticVisitors, SetTheirFeetDownWithoutSliding) {
   const Motion motion(SyntheticShot::kVisitors, 1);
   double slid = 0;
   double walked = 0;
-  for (double t = 2; t < 5; t += 0.02) {
+  for (int step = 0; step < 150; ++step) {
+    const double t = 2 + 0.02 * step;
     const BodyPoses from = motion.bodies(t);
     const BodyPoses to = motion.bodies(t + 0.02);
     const auto moved = [&](FigurePart part) {
@@ -176,7 +178,8 @@ TEST(SyntheticVisitors, SetTheirFeetDownWithoutSliding) {
 TEST(SyntheticVisitors, SecondOneStandsForTwoSeconds) {
   const Motion motion(SyntheticShot::kVisitors, 1);
   int standing = 0;
-  for (double t = 8; t < 14.5; t += 0.1) {
+  for (int step = 0; step < 65; ++step) {
+    const double t = 8 + 0.1 * step;
     const auto trunk = [&](double at) {
       return glm::dvec3(motion.bodies(at)[bodyOf(1, FigurePart::kTrunk)][3]);
     };
