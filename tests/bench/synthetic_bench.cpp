@@ -27,7 +27,7 @@ void filmFrame(benchmark::State& state) {
 }
 BENCHMARK(filmFrame)
     ->ArgNames({"width", "height", "shot", "rolling"})
-    ->ArgsProduct({{640}, {480}, {0, 1, 2, 3, 4, 5, 6}, {0}})
+    ->ArgsProduct({{640}, {480}, {0, 1, 2, 3, 4, 5, 6, 7, 8}, {0}})
     ->Args({640, 480, 0, 1})
     ->Args({1280, 720, 0, 0})
     ->Unit(benchmark::kMillisecond);
@@ -36,7 +36,7 @@ BENCHMARK(filmFrame)
 void paintTheWorkbench(benchmark::State& state) {
   for ([[maybe_unused]] auto _ : state) {
     benchmark::DoNotOptimize(
-        synthetic::paintWorkbench(1, static_cast<double>(state.range(0)) / 1e5));
+        synthetic::paintWorkbench({.texelMetres = static_cast<double>(state.range(0)) / 1e5}));
   }
 }
 BENCHMARK(paintTheWorkbench)

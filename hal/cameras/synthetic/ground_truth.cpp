@@ -65,12 +65,13 @@ bool isBetween(Outline outline, glm::dvec3 eye, const Quad& quad, glm::dvec3 nor
   return areaOf(outline) > kMinArea;
 }
 
-bool isHidden(const Geometry& geometry, const CameraView& view, const glm::dmat4& worldFromMover,
+bool isHidden(const Geometry& geometry, const CameraView& view, const BodyPoses& bodies,
               const Quad& quad) {
   const glm::dvec3 eye = view.eye();
   const glm::dvec3 normal = glm::normalize(glm::cross(quad[1] - quad[0], quad[2] - quad[0]));
   for (const Solid& solid : geometry.solids) {
-    const glm::dmat4 pose = solid.moves ? worldFromMover : glm::dmat4(1);
+    if (!bodies.has(solid.body)) continue;
+    const glm::dmat4& pose = bodies[solid.body];
     for (std::uint32_t i = solid.firstFacet; i < solid.firstFacet + solid.facets; ++i) {
       const Facet& facet = geometry.facets[i];
       Outline outline;
@@ -100,8 +101,7 @@ TagTruth truthOfTag(const Exposure& exposure, const Geometry& geometry, const Be
     const CameraView view = exposure.viewAt(at.y);
     const bool isTurnedAway = glm::dot(glm::dvec3(tag.worldFromTag[2]),
                                        view.eye() - glm::dvec3(tag.worldFromTag[3])) >= 0;
-    truth.isVisible &=
-        !isTurnedAway && !isHidden(geometry, view, exposure.worldFromMoverAt(at.y), border);
+    truth.isVisible &= !isTurnedAway && !isHidden(geometry, view, exposure.bodiesAt(at.y), border);
   }
   truth.isVisible &= truth.isInside;
   return truth;
@@ -128,17 +128,24 @@ FlowVector flowBetween(const Exposure& first, const Exposure& second, const Geom
   if (!moved) return {};
   if (!isInside(*moved, second.size())) return {.px = *moved - pixel, .visible = false};
   const std::optional<SurfacePoint> seen = second.visibleAt(geometry, *moved);
-  const bool isSame = seen && seen->moves == surface->moves &&
+  const bool isSame = seen && seen->body == surface->body &&
                       glm::distance(seen->point, surface->point) < kSamePointMetres;
   return {.px = *moved - pixel, .visible = isSame};
 }
 
+namespace {
+
+/// The size of a field with a value for every n-th pixel of every n-th row.
+FrameSize fieldSize(FrameSize frame, int everyNth) {
+  assert(everyNth >= 1);
+  return {(frame.width + everyNth - 1) / everyNth, (frame.height + everyNth - 1) / everyNth};
+}
+
+}  // namespace
+
 FlowField flowFieldBetween(const Exposure& first, const Exposure& second, const Geometry& geometry,
                            int everyNth) {
-  assert(everyNth >= 1);
-  const FrameSize frame = first.size();
-  const FrameSize size{(frame.width + everyNth - 1) / everyNth,
-                       (frame.height + everyNth - 1) / everyNth};
+  const FrameSize size = fieldSize(first.size(), everyNth);
   FlowField field{.size = size, .px = {}, .visible = {}};
   field.px.reserve(static_cast<std::size_t>(size.pixels()));
   field.visible.reserve(static_cast<std::size_t>(size.pixels()));
@@ -151,6 +158,20 @@ FlowField flowFieldBetween(const Exposure& first, const Exposure& second, const 
     }
   }
   return field;
+}
+
+MovingMask movingMaskOf(const Exposure& exposure, const Geometry& geometry, int everyNth) {
+  const FrameSize size = fieldSize(exposure.size(), everyNth);
+  MovingMask mask{.size = size, .bytes = {}};
+  mask.bytes.reserve(static_cast<std::size_t>(size.pixels()));
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      const std::optional<SurfacePoint> seen =
+          exposure.visibleAt(geometry, {x * everyNth + 0.5, y * everyNth + 0.5});
+      mask.bytes.push_back(seen && seen->body != kRoom ? 255 : 0);
+    }
+  }
+  return mask;
 }
 
 }  // namespace pleinair::hal::synthetic

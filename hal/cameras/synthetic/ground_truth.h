@@ -43,6 +43,13 @@ struct FlowField {
   std::vector<std::uint8_t> visible;  ///< 1 or 0
 };
 
+/// Where a frame shows things that move by themselves (the arm, a figure), at every pixel centre,
+/// or at that of every n-th pixel of every n-th row, row by row.
+struct MovingMask {
+  FrameSize size;                   ///< of the mask
+  std::vector<std::uint8_t> bytes;  ///< 255 where the nearest surface is of such a thing, else 0
+};
+
 namespace synthetic {
 
 GroundTruth truthOf(const Exposure& exposure, const Geometry& geometry);
@@ -52,6 +59,7 @@ FlowVector flowBetween(const Exposure& first, const Exposure& second, const Geom
                        glm::dvec2 pixel);
 FlowField flowFieldBetween(const Exposure& first, const Exposure& second, const Geometry& geometry,
                            int everyNth);
+MovingMask movingMaskOf(const Exposure& exposure, const Geometry& geometry, int everyNth);
 
 }  // namespace synthetic
 }  // namespace pleinair::hal

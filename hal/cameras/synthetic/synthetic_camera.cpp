@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "hal/cameras/synthetic/render/light_changes.h"
 #include "hal/cameras/synthetic/world/noise.h"
 #include "hal/cameras/synthetic/world/world.h"
 #include "hal/paced_frame.h"
@@ -97,7 +98,14 @@ Result<StreamFormat> SyntheticCamera::start(const StreamRequest&) {
   }
   const FrameSize size = options_.size;
   if (!renderer_) {
-    renderer_.emplace(synthetic::sharedWorkbench(options_.seed, texelMetresFor(size)));
+    synthetic::WorldOptions world{.seed = options_.seed,
+                                  .texelMetres = texelMetresFor(size),
+                                  .hasFigures = options_.shot == SyntheticShot::kVisitors};
+    renderer_.emplace(synthetic::sharedWorkbench(world));
+    if (options_.shot == SyntheticShot::kLights) {
+      world.hasSpotlight = true;
+      spotlitRenderer_.emplace(synthetic::sharedWorkbench(world));
+    }
   }
   startTime_ = clock_.now();
   nextSequence_ = 0;
@@ -121,7 +129,8 @@ Exposure SyntheticCamera::exposureOf(std::uint64_t sequence) const {
 
 synthetic::SensorGains SyntheticCamera::gainsOf(std::uint64_t sequence) const {
   const double seconds = static_cast<double>(sequence) * toSeconds(options_.framePeriod);
-  const double gain = std::exp2(options_.exposureDriftStops * brightness_.at(seconds));
+  const double gain = std::exp2(options_.exposureDriftStops * brightness_.at(seconds)) *
+                      synthetic::exposureGain(options_.shot, seconds);
   const double warmth = 1 + options_.whiteBalanceDrift * balance_.at(seconds);
   return {gain * warmth, gain, gain / warmth};
 }
@@ -137,9 +146,12 @@ CapturedFrame SyntheticCamera::capture(std::uint64_t sequence) {
   const std::shared_ptr<Image> image = pool_.take();
   const Exposure exposure = exposureOf(sequence);
   sensor_.beginFrame(sequence, gainsOf(sequence));
-  renderer_->begin(exposure);
+  synthetic::Renderer& renderer = synthetic::isSpotlightOn(options_.shot, exposure.secondsAt(0.5))
+                                      ? *spotlitRenderer_
+                                      : *renderer_;
+  renderer.begin(exposure);
   for (int y = 0; y < options_.size.height; ++y) {
-    sensor_.exposeRow(y, renderer_->nextRow(), image->row(0, y));
+    sensor_.exposeRow(y, renderer.nextRow(), image->row(0, y));
   }
   return {.image = image->view(),
           .dmaBufs = {},
@@ -176,6 +188,10 @@ FlowVector SyntheticCamera::flow(std::uint64_t from, std::uint64_t to, glm::dvec
 FlowField SyntheticCamera::flowField(std::uint64_t from, std::uint64_t to, int everyNth) const {
   return synthetic::flowFieldBetween(exposureOf(from), exposureOf(to),
                                      synthetic::workbenchGeometry(), everyNth);
+}
+
+MovingMask SyntheticCamera::movingMask(std::uint64_t sequence, int everyNth) const {
+  return synthetic::movingMaskOf(exposureOf(sequence), synthetic::workbenchGeometry(), everyNth);
 }
 
 }  // namespace pleinair::hal

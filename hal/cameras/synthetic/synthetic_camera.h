@@ -38,9 +38,9 @@ struct SyntheticOptions {
 /// the consumer or the computer was too slow are left out and counted in droppedBefore.
 /// StreamRequest is not looked at: the options decide.
 ///
-/// start() paints the workbench, which takes about a second and 100 MB at most; the cameras of a
-/// process with the same seed share it. The clock must outlive the camera. truth() and the flows
-/// need no start() and may be called from any thread.
+/// start() paints the workbench, which takes about a second and 100 MB at most, for kLights twice
+/// as much; the cameras of a process with the same seed share it. The clock must outlive the
+/// camera. truth(), the flows and the masks need no start() and may be called from any thread.
 class SyntheticCamera final : public Camera {
  public:
   SyntheticCamera(SyntheticOptions options, Clock& clock);
@@ -59,6 +59,9 @@ class SyntheticCamera final : public Camera {
   FlowVector flow(std::uint64_t from, std::uint64_t to, glm::dvec2 pixel) const;
   /// At every pixel centre, or at every n-th pixel's of every n-th row.
   FlowField flowField(std::uint64_t from, std::uint64_t to, int everyNth = 1) const;
+  /// Where frame `sequence` shows the arm or a figure: at every pixel centre, or at every n-th
+  /// pixel's of every n-th row.
+  MovingMask movingMask(std::uint64_t sequence, int everyNth = 1) const;
 
  private:
   synthetic::Exposure exposureOf(std::uint64_t sequence) const;
@@ -75,6 +78,7 @@ class SyntheticCamera final : public Camera {
   synthetic::Sensor sensor_;
   synthetic::FramePool pool_;
   std::optional<synthetic::Renderer> renderer_;
+  std::optional<synthetic::Renderer> spotlitRenderer_;  ///< of kLights, while the spotlight is on
 
   TimePoint startTime_;
   std::uint64_t nextSequence_ = 0;

@@ -25,12 +25,13 @@ class Exposure {
   bool rolls() const { return rowTime_ != Duration::zero(); }
   double secondsAt(double y) const;
   CameraView viewAt(double y) const;
-  glm::dmat4 worldFromMoverAt(double y) const;
+  BodyPoses bodiesAt(double y) const;
 
   /// The surface point visible at a pixel coordinate, if any.
   std::optional<SurfacePoint> visibleAt(const Geometry& geometry, glm::dvec2 pixel) const;
   /// Projects a surface point to the image, px, whether it is occluded or not. Nothing if the point
-  /// is behind the camera, or if no row of a rolling shutter meets it near the image.
+  /// is behind the camera or its body not in the scene, or if no row of a rolling shutter meets it
+  /// near the image.
   std::optional<glm::dvec2> project(const SurfacePoint& point) const;
 
  private:
@@ -40,6 +41,8 @@ class Exposure {
   double startSeconds_;
   double rowSeconds_;
   Duration rowTime_;
+  CameraView startView_;  ///< at the time of row 0; with a global shutter, of every row
+  BodyPoses startBodies_;
 };
 
 }  // namespace pleinair::hal::synthetic

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "hal/cameras/synthetic/render/visitors.h"
 #include "hal/cameras/synthetic/world/noise.h"
 
 namespace pleinair::hal::synthetic {
@@ -15,6 +16,10 @@ namespace {
 
 constexpr glm::dvec3 kHomeEye{0.04, -1.14, 0.57};
 constexpr glm::dvec3 kHomeTarget{0.025, 0.06, 0.150};
+
+// Beyond the wall behind the room, which is visible from inside only: a person fits into the image.
+constexpr glm::dvec3 kVisitorsEye{0.475, -4.0, 0.62};
+constexpr glm::dvec3 kVisitorsTarget{0.475, -0.75, 0.02};
 
 /// The pose of an OpenCV camera at `position` that looks at `target`, with the world's z up in the
 /// image.
@@ -124,7 +129,10 @@ glm::dmat4 Motion::cameraFromWorld(double seconds) const {
     case SyntheticShot::kRoll:
       return turnedBy(home, glm::radians(28.0) * swing(seconds, 6), {0, 0, 1});
     case SyntheticShot::kStill:
+    case SyntheticShot::kLights:
       return home;
+    case SyntheticShot::kVisitors:
+      return lookAt(kVisitorsEye, kVisitorsTarget);
     case SyntheticShot::kOccluder:
       return heldAt(kHomeEye, kHomeTarget, seconds);
     case SyntheticShot::kCut:
@@ -133,17 +141,27 @@ glm::dmat4 Motion::cameraFromWorld(double seconds) const {
   return home;
 }
 
-glm::dmat4 Motion::worldFromMover(double seconds) const {
+namespace {
+
+glm::dmat4 worldFromArm(double seconds) {
   constexpr double kPeriodSeconds = 6;
   constexpr glm::dvec3 kAway{0.62, -1.02, 0.30};
   constexpr glm::dvec3 kThere{-0.02, -0.06, 0.105};
-  if (shot_ != SyntheticShot::kOccluder) return glm::translate(glm::dmat4(1), {0, 0, -30});
   const double t = std::fmod(seconds + kPeriodSeconds, kPeriodSeconds);
   const double reached = eased(t, 0.5, 1.9) - eased(t, 3.2, 4.6);
   const glm::dvec3 place = glm::mix(kAway, kThere, reached) +
                            reached * glm::dvec3(0.035 * swing(t, 1.4), 0.03 * swing(t, 1.9), 0);
   const glm::dmat4 pose = glm::translate(glm::dmat4(1), place);
   return glm::rotate(pose, glm::radians(10.0 * swing(t, 2.3)), glm::dvec3(0, 0, 1));
+}
+
+}  // namespace
+
+BodyPoses Motion::bodies(double seconds) const {
+  BodyPoses bodies;
+  if (shot_ == SyntheticShot::kOccluder) bodies.place(kArm, worldFromArm(seconds));
+  if (shot_ == SyntheticShot::kVisitors) placeVisitors(seconds, bodies);
+  return bodies;
 }
 
 }  // namespace pleinair::hal::synthetic

@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include "hal/cameras/synthetic/render/shot.h"
+#include "hal/cameras/synthetic/world/bodies.h"
 
 namespace pleinair::hal::synthetic {
 
@@ -27,7 +28,7 @@ class SmoothNoise {
   std::array<Wave, 3> waves_;
 };
 
-/// The motion of the camera and of the arm in a shot: pure functions of the time since the first
+/// The motion of the camera and of the bodies in a shot: pure functions of the time since the first
 /// frame, smooth except at the cuts of kCut. World frame: z up from the bench's top, y away from
 /// the person at the bench, metres.
 class Motion {
@@ -36,8 +37,9 @@ class Motion {
 
   /// Maps world coordinates to OpenCV's camera frame (x right, y down, z forward); rigid.
   glm::dmat4 cameraFromWorld(double seconds) const;
-  /// The pose of the moving arm; below the floor in shots without the arm. Rigid.
-  glm::dmat4 worldFromMover(double seconds) const;
+  /// Where the bodies of the shot are: the room, and the arm of kOccluder or the figures of
+  /// kVisitors.
+  BodyPoses bodies(double seconds) const;
 
  private:
   glm::dmat4 walkaround(double seconds) const;

@@ -59,12 +59,29 @@ void Renderer::begin(const Exposure& exposure) {
   line_.resize(exposure.size().width);
   levels_.assign(3 * static_cast<std::size_t>(exposure.size().width) + 1, 0);
   candidates_.clear();
+  constexpr int kMoments = 9;
+  moments_.clear();
+  for (int moment = 0; moment < (exposure.rolls() ? kMoments : 1); ++moment) {
+    moments_.push_back(momentAt(exposure.size().height * (moment / (kMoments - 1.0))));
+  }
   for (const Solid& solid : world_->geometry.solids) {
-    exposure.rolls() ? addRolling(solid) : addStanding(solid);
+    if (!moments_.front().bodies.has(solid.body)) continue;
+    exposure.rolls() ? addRolling(solid, moments_) : addStanding(solid, moments_.front());
   }
   order_.resize(candidates_.size());
   std::iota(order_.begin(), order_.end(), std::uint16_t{0});
   std::ranges::sort(order_, {}, [this](std::uint16_t i) { return candidates_[i].firstRow; });
+}
+
+Renderer::Moment Renderer::momentAt(double y) const {
+  const CameraView view = exposure_->viewAt(y);
+  Moment moment{view.intrinsics, exposure_->bodiesAt(y), {}};
+  moment.cameraFromBody[kRoom] = view.cameraFromWorld;
+  for (Body body = kRoom + 1; body < kBodies; ++body) {
+    if (!moment.bodies.has(body)) continue;
+    moment.cameraFromBody[body] = view.cameraFromWorld * moment.bodies[body];
+  }
+  return moment;
 }
 
 bool Renderer::isWithin(const ProjectedFacet& facet, float margin) const {
@@ -79,27 +96,24 @@ ProjectedFacet& Renderer::slotFor(std::size_t index) {
   return projected_[index];
 }
 
-void Renderer::addCandidate(std::uint32_t facet, bool moves, float top, float bottom) {
+void Renderer::addCandidate(std::uint32_t facet, Body body, float top, float bottom) {
   const auto height = static_cast<float>(exposure_->size().height);
-  candidates_.push_back({facet, moves, static_cast<int>(std::floor(std::clamp(top, 0.0F, height))),
+  candidates_.push_back({facet, body, static_cast<int>(std::floor(std::clamp(top, 0.0F, height))),
                          static_cast<int>(std::ceil(std::clamp(bottom, 0.0F, height)))});
 }
 
-void Renderer::addStanding(const Solid& solid) {
-  const CameraView view = exposure_->viewAt(0);
-  const glm::dmat4 pose =
-      solid.moves ? view.cameraFromWorld * exposure_->worldFromMoverAt(0) : view.cameraFromWorld;
-  if (!mayBeVisible(solid, pose, view.intrinsics, exposure_->size(), 0)) return;
+void Renderer::addStanding(const Solid& solid, const Moment& moment) {
+  const glm::dmat4& pose = moment.cameraFromBody[solid.body];
+  if (!mayBeVisible(solid, pose, moment.intrinsics, exposure_->size(), 0)) return;
   for (std::uint32_t i = solid.firstFacet; i < solid.firstFacet + solid.facets; ++i) {
     ProjectedFacet& slot = slotFor(candidates_.size());
-    if (!project(world_->geometry, i, pose, view.intrinsics, slot)) continue;
-    if (isWithin(slot, 0)) addCandidate(i, solid.moves, slot.top, slot.bottom);
+    if (!project(world_->geometry, i, pose, moment.intrinsics, slot)) continue;
+    if (isWithin(slot, 0)) addCandidate(i, solid.body, slot.top, slot.bottom);
   }
 }
 
 /// Adds the facets of a solid at the times of several rows, with a margin for the motion between.
-void Renderer::addRolling(const Solid& solid) {
-  constexpr int kMoments = 9;
+void Renderer::addRolling(const Solid& solid, std::span<const Moment> moments) {
   constexpr float kMarginPx = 3;
   const int height = exposure_->size().height;
   for (std::uint32_t i = solid.firstFacet; i < solid.firstFacet + solid.facets; ++i) {
@@ -109,12 +123,9 @@ void Renderer::addRolling(const Solid& solid) {
     float lastTop = 0;
     float lastBottom = 0;
     bool isSeen = false;
-    for (int moment = 0; moment < kMoments; ++moment) {
-      const double y = height * (moment / (kMoments - 1.0));
-      const CameraView view = exposure_->viewAt(y);
-      const glm::dmat4 pose = solid.moves ? view.cameraFromWorld * exposure_->worldFromMoverAt(y)
-                                          : view.cameraFromWorld;
-      if (!project(world_->geometry, i, pose, view.intrinsics, scratch_)) continue;
+    for (const Moment& moment : moments) {
+      const glm::dmat4& pose = moment.cameraFromBody[solid.body];
+      if (!project(world_->geometry, i, pose, moment.intrinsics, scratch_)) continue;
       if (top <= bottom) {
         margin = std::max({margin, kMarginPx + std::abs(scratch_.top - lastTop),
                            kMarginPx + std::abs(scratch_.bottom - lastBottom)});
@@ -127,7 +138,7 @@ void Renderer::addRolling(const Solid& solid) {
     }
     if (!isSeen) continue;
     slotFor(candidates_.size());
-    addCandidate(i, solid.moves, top - margin, bottom + margin);
+    addCandidate(i, solid.body, top - margin, bottom + margin);
   }
 }
 
@@ -145,14 +156,12 @@ std::span<const std::int16_t> Renderer::nextRow() {
 }
 
 void Renderer::projectActive() {
-  const double y = row_ + 0.5;
-  const CameraView view = exposure_->viewAt(y);
-  const glm::dmat4 cameraFromMover = view.cameraFromWorld * exposure_->worldFromMoverAt(y);
+  const Moment moment = momentAt(row_ + 0.5);
   for (const std::uint16_t slot : active_) {
     const Candidate& candidate = candidates_[slot];
     ProjectedFacet& facet = projected_[slot];
-    const glm::dmat4& pose = candidate.moves ? cameraFromMover : view.cameraFromWorld;
-    if (!project(world_->geometry, candidate.facet, pose, view.intrinsics, facet)) {
+    const glm::dmat4& pose = moment.cameraFromBody[candidate.body];
+    if (!project(world_->geometry, candidate.facet, pose, moment.intrinsics, facet)) {
       facet.top = facet.bottom = -1;  // faces away at this row's time
     }
   }

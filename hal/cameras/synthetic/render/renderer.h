@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -29,12 +30,19 @@ class Renderer {
   /// A facet that may be visible, and the rows that it may reach.
   struct Candidate {
     std::uint32_t facet = 0;
-    bool moves = false;
+    Body body = kRoom;
     int firstRow = 0, endRow = 0;
   };
-  void addStanding(const Solid& solid);
-  void addRolling(const Solid& solid);
-  void addCandidate(std::uint32_t facet, bool moves, float top, float bottom);
+  /// The camera's view of the bodies at one time.
+  struct Moment {
+    PinholeIntrinsics intrinsics;
+    BodyPoses bodies;
+    std::array<glm::dmat4, kBodies> cameraFromBody{};  ///< of the bodies in the scene
+  };
+  Moment momentAt(double y) const;
+  void addStanding(const Solid& solid, const Moment& moment);
+  void addRolling(const Solid& solid, std::span<const Moment> moments);
+  void addCandidate(std::uint32_t facet, Body body, float top, float bottom);
   bool isWithin(const ProjectedFacet& facet, float margin) const;
   ProjectedFacet& slotFor(std::size_t index);
   void projectActive();
@@ -45,6 +53,7 @@ class Renderer {
   std::shared_ptr<const World> world_;
   const Exposure* exposure_ = nullptr;
   int row_ = 0;
+  std::vector<Moment> moments_;  ///< of some rows, from the first to the last
   std::vector<Candidate> candidates_;
   std::vector<ProjectedFacet> projected_;  ///< each candidate at the current row's time
   std::vector<std::uint16_t> order_;       ///< indices of candidates, by first row

@@ -7,8 +7,8 @@
 namespace pleinair::hal {
 namespace {
 
-constexpr std::array<std::string_view, 7> kNames{"walkaround", "pan",      "dolly", "roll",
-                                                 "still",      "occluder", "cut"};
+constexpr std::array<std::string_view, 9> kNames{"walkaround", "pan", "dolly",    "roll",  "still",
+                                                 "occluder",   "cut", "visitors", "lights"};
 
 }  // namespace
 

@@ -16,6 +16,8 @@ enum class SyntheticShot {
   kStill,       ///< static
   kOccluder,    ///< an arm reaches in and out again, before a handheld camera that stays in place
   kCut,         ///< handheld, with a hard cut every two seconds
+  kVisitors,    ///< on a tripod, far back; persons cross the room, and one of them stops
+  kLights,      ///< static; a spotlight goes on and off, and the exposure falls and recovers
 };
 
 std::string_view toString(SyntheticShot shot);

@@ -14,9 +14,6 @@
 namespace pleinair::hal::synthetic {
 namespace {
 
-/// The moving arm is lit as at one fixed place: above the bench, where it spends most of its time.
-constexpr glm::dvec3 kArmLightPosition{0.10, -0.20, 0.22};
-
 /// Faces turned to the wall or the floor by more than this are hardly ever seen and get coarse
 /// textures.
 constexpr double kTurnedAway = 0.7;
@@ -50,19 +47,17 @@ glm::dmat4 uprightPose(glm::dvec3 position, double degrees) {
                      glm::dvec3(0, 0, 1));
 }
 
-std::uint16_t Builder::addPatch(glm::dvec2 half, std::function<PointAndNormal(glm::vec2)> at,
-                                const Painter& painter) {
+std::uint16_t Builder::addPatch(glm::dvec2 half, PatchSurface at, const Painter& painter) {
   assert(plan_.patches.size() < std::numeric_limits<std::uint16_t>::max());
-  if (patchSettings_.moves) {
-    at = [inPlace = std::move(at)](glm::vec2 p) {
-      PointAndNormal lit = inPlace(p);
-      lit.point += kArmLightPosition;
-      return lit;
+  if (patchSettings_.body != kRoom) {
+    at = [inPlace = std::move(at), pose = patchSettings_.litPose](glm::vec2 p) {
+      const PointAndNormal own = inPlace(p);
+      return PointAndNormal{moved(pose, own.point), glm::dmat3(pose) * own.normal};
     };
   }
   plan_.patches.push_back({glm::vec2(half), std::move(at), painter, patchSettings_.coarseness,
                            patchSettings_.lightStep, patchSettings_.isEmissive,
-                           patchSettings_.moves});
+                           patchSettings_.body});
   return static_cast<std::uint16_t>(plan_.patches.size() - 1);
 }
 
@@ -106,7 +101,7 @@ void Builder::addFace(const std::vector<glm::dvec3>& corners, glm::dvec3 right,
   frame.centre =
       frame.right * middle.x + frame.up * middle.y + normal * glm::dot(normal, corners[0]);
   const PatchSettings kept = patchSettings_;
-  if (!patchSettings_.moves && (normal.y > kTurnedAway || normal.z < -kTurnedAway)) {
+  if (patchSettings_.body == kRoom && (normal.y > kTurnedAway || normal.z < -kTurnedAway)) {
     patchSettings_.coarseness *= 4;
     patchSettings_.lightStep *= 4;
   }
@@ -117,7 +112,7 @@ void Builder::addFace(const std::vector<glm::dvec3>& corners, glm::dvec3 right,
 void Builder::beginSolid() {
   plan_.geometry.solids.push_back(
       {.firstFacet = static_cast<std::uint32_t>(plan_.geometry.facets.size()),
-       .moves = patchSettings_.moves});
+       .body = patchSettings_.body});
 }
 
 void Builder::endSolid(const std::optional<Ends>& ends) {
@@ -136,7 +131,7 @@ void Builder::endSolid(const std::optional<Ends>& ends) {
   for (const glm::dvec3& corner : corners) {
     solid.radius = std::max(solid.radius, glm::distance(corner, solid.centre) * (1 + 1e-9));
   }
-  if (!ends || solid.moves) return;
+  if (!ends || solid.body != kRoom) return;
   Occluder occluder{glm::vec3(solid.centre), static_cast<float>(solid.radius), {}, {}};
   for (const Facet& facet : facets) {
     occluder.planes.emplace_back(glm::vec3(facet.normal), static_cast<float>(facet.offset));
@@ -212,6 +207,114 @@ void Builder::addRoundSide(const glm::dmat4& pose, const Round& round, const Pai
     addFacet(corners, patch, frame);
     plan_.geometry.facets.back().u.w += u;
   }
+}
+
+namespace {
+
+/// Height on the canvas of each ring of a turned surface: the length of its profile from its
+/// middle.
+std::vector<double> profileOf(const Builder::Turned& shape) {
+  const double radius = (shape.radii.x + shape.radii.y) / 2;
+  std::vector<double> heights{0};
+  for (std::size_t i = 1; i < shape.rings.size(); ++i) {
+    const Builder::Ring& below = shape.rings[i - 1];
+    const Builder::Ring& above = shape.rings[i];
+    heights.push_back(heights.back() +
+                      std::hypot(above.z - below.z, radius * (above.share - below.share)));
+  }
+  const double half = heights.back() / 2;
+  for (double& height : heights) height -= half;
+  return heights;
+}
+
+double meanRadiusOf(const Builder::Turned& shape) {
+  const double share = std::ranges::max(shape.rings, {}, &Builder::Ring::share).share;
+  return share * (shape.radii.x + shape.radii.y) / 2;
+}
+
+/// The direction out of the profile (outwards, up) at each ring, as of a smooth surface.
+std::vector<glm::dvec2> profileNormalsOf(const Builder::Turned& shape) {
+  const double radius = (shape.radii.x + shape.radii.y) / 2;
+  std::vector<glm::dvec2> normals(shape.rings.size());
+  for (std::size_t i = 1; i < shape.rings.size(); ++i) {
+    const glm::dvec2 along(radius * (shape.rings[i].share - shape.rings[i - 1].share),
+                           shape.rings[i].z - shape.rings[i - 1].z);
+    const glm::dvec2 out = glm::normalize(glm::dvec2(along.y, -along.x));
+    normals[i - 1] += out;
+    normals[i] += out;
+  }
+  if (shape.rings.front().share == 0) normals.front() = {0, -1};
+  if (shape.rings.back().share == 0) normals.back() = {0, 1};
+  return normals;
+}
+
+}  // namespace
+
+Builder::PatchSurface Builder::turnedSurface(const glm::dmat4& pose, const Turned& shape) {
+  return [=, heights = profileOf(shape), normals = profileNormalsOf(shape),
+          radius = meanRadiusOf(shape)](glm::vec2 p) {
+    const double angle = -std::numbers::pi / 2 + static_cast<double>(p.x) / radius;
+    const auto above = std::upper_bound(heights.begin() + 1, heights.end() - 1, p.y);
+    const auto i = static_cast<std::size_t>(above - heights.begin());
+    const double t = glm::clamp(
+        (static_cast<double>(p.y) - heights[i - 1]) / (heights[i] - heights[i - 1]), 0.0, 1.0);
+    const glm::dvec2 normal = glm::mix(normals[i - 1], normals[i], t);
+    const double z = glm::mix(shape.rings[i - 1].z, shape.rings[i].z, t);
+    const double share = glm::mix(shape.rings[i - 1].share, shape.rings[i].share, t);
+    const glm::dvec2 out(std::cos(angle), std::sin(angle));
+    const double mean = (shape.radii.x + shape.radii.y) / 2;
+    const glm::dvec3 facing(normal.x * out / shape.radii, normal.y / mean);
+    return PointAndNormal{moved(pose, {share * out * shape.radii, z}),
+                          glm::dvec3(pose * glm::dvec4(glm::normalize(facing), 0))};
+  };
+}
+
+void Builder::turned(const glm::dmat4& pose, const Turned& shape, const Painter& painter) {
+  assert(shape.rings.size() >= 2 && shape.sides >= 3);
+  beginSolid();
+  const std::vector<double> heights = profileOf(shape);
+  const double radius = meanRadiusOf(shape);
+  const std::uint16_t patch =
+      addPatch({std::numbers::pi * radius, heights.back()}, turnedSurface(pose, shape), painter);
+  const double arc = 2 * std::numbers::pi * radius / shape.sides;
+  const auto sides = static_cast<std::size_t>(shape.sides);
+  const auto corner = [&](const Ring& ring, std::size_t side) {
+    const double angle =
+        std::numbers::pi * (0.5 + 2.0 * static_cast<double>(side % sides) / shape.sides);
+    return moved(pose, {ring.share * shape.radii.x * std::cos(angle),
+                        ring.share * shape.radii.y * std::sin(angle), ring.z});
+  };
+  for (std::size_t ring = 1; ring < shape.rings.size(); ++ring) {
+    const Ring& below = shape.rings[ring - 1];
+    const Ring& above = shape.rings[ring];
+    for (std::size_t side = 0; side < sides; ++side) {
+      std::vector<glm::dvec3> corners{corner(below, side)};
+      if (below.share > 0) corners.push_back(corner(below, side + 1));
+      corners.push_back(corner(above, side + 1));
+      if (above.share > 0) corners.push_back(corner(above, side));
+      const glm::dvec3 chord = (corner(below, side + 1) + corner(above, side + 1) -
+                                corner(below, side) - corner(above, side)) /
+                               2.0;
+      const glm::dvec3 rise = (corner(above, side) + corner(above, side + 1) - corner(below, side) -
+                               corner(below, side + 1)) /
+                              2.0;
+      // The canvas's axes along the facet: across the rise and across the chord, so that
+      // neighbouring facets meet at the same heights.
+      const glm::dvec3 normal = glm::cross(chord, rise);
+      const glm::dvec3 right = glm::cross(rise, normal);
+      const glm::dvec3 up = glm::cross(normal, chord);
+      const Frame frame{(corner(below, side) + corner(below, side + 1) + corner(above, side) +
+                         corner(above, side + 1)) /
+                            4.0,
+                        right * (arc / glm::dot(right, chord)),
+                        up * ((heights[ring] - heights[ring - 1]) / glm::dot(up, rise))};
+      addFacet(corners, patch, frame);
+      Facet& facet = plan_.geometry.facets.back();
+      facet.u.w += arc * (static_cast<double>(side) + 0.5) - std::numbers::pi * radius;
+      facet.v.w += (heights[ring] + heights[ring - 1]) / 2;
+    }
+  }
+  endSolid({});
 }
 
 void Builder::cylinder(const glm::dmat4& pose, const Round& round, const Painter& side,

@@ -29,7 +29,7 @@ struct Patch {
   double coarseness = 1;     ///< size of its texels relative to the bench top's
   double lightStep = 0.007;  ///< metres between the points at which light is computed
   bool isEmissive = false;   ///< emissive: the room's light does not change it
-  bool moves = false;
+  Body body = kRoom;
 };
 
 /// A shadow caster: a convex solid, with its inside where dot(xyz, p) ≤ w for all planes.
@@ -52,10 +52,11 @@ struct PatchSettings {
   double coarseness = 1;
   double lightStep = 0.007;
   bool isEmissive = false;
-  bool moves = false;
+  Body body = kRoom;
+  glm::dmat4 litPose{1};  ///< worldFromBody at which a moving body is lit, once for all
 };
 
-/// Adds solids to a plan. A pose maps the solid's own coordinates to the world's (or the mover's).
+/// Adds solids to a plan. A pose maps the solid's own coordinates to its body's.
 /// In its own coordinates the solid stands on z = 0, with x to its right and y to its back, seen
 /// from its front.
 class Builder {
@@ -80,6 +81,19 @@ class Builder {
   /// as wide as the circumference, with the front in the middle.
   void cylinder(const glm::dmat4& pose, const Round& round, const Painter& side,
                 const Painter& top = {}, const Painter& bottom = {});
+  /// A closed surface around the z axis, such as an ellipsoid: rings from its lower end to its
+  /// upper. Casts no shadow.
+  struct Ring {
+    double z = 0;
+    double share = 0;  ///< of Turned::radii; 0 only at an end
+  };
+  struct Turned {
+    std::vector<Ring> rings;
+    glm::dvec2 radii{1};  ///< along x and y
+    int sides = 12;
+  };
+  /// The canvas is as wide as the mean circumference, with the front in the middle.
+  void turned(const glm::dmat4& pose, const Turned& shape, const Painter& painter);
   /// The inner wall of a vessel: a cylinder seen from its axis. Casts no shadow.
   void hollow(const glm::dmat4& pose, const Round& round, const Painter& side);
   /// A cylinder between two points.
@@ -93,8 +107,8 @@ class Builder {
   struct Frame {
     glm::dvec3 centre{0}, right{0}, up{0};
   };
-  std::uint16_t addPatch(glm::dvec2 half, std::function<PointAndNormal(glm::vec2)> at,
-                         const Painter& painter);
+  using PatchSurface = std::function<PointAndNormal(glm::vec2)>;
+  std::uint16_t addPatch(glm::dvec2 half, PatchSurface at, const Painter& painter);
   std::uint16_t addFlatPatch(const Frame& frame, glm::dvec2 half, const Painter& painter);
   void addFacet(const std::vector<glm::dvec3>& corners, std::uint16_t patch, const Frame& frame);
   void addFace(const std::vector<glm::dvec3>& corners, glm::dvec3 right, const Painter& painter);
@@ -103,6 +117,7 @@ class Builder {
     glm::dvec3 axis{0}, foot{0}, top{0};
   };
   static Ends endsOf(const glm::dmat4& pose, double height);
+  static PatchSurface turnedSurface(const glm::dmat4& pose, const Turned& shape);
   void beginSolid();
   /// Adds an occluder if the ends are known.
   void endSolid(const std::optional<Ends>& ends);

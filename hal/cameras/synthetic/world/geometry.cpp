@@ -45,11 +45,10 @@ Ray movedBy(const glm::dmat4& pose, const Ray& ray) {
           glm::dvec3(pose * glm::dvec4(ray.direction, 0))};
 }
 
-bool mayMeet(const Ray& ray, const Solid& solid) {
-  const glm::dvec3 toCentre = solid.centre - ray.origin;
+bool mayMeet(const Ray& ray, glm::dvec3 centre, double radius) {
+  const glm::dvec3 toCentre = centre - ray.origin;
   const glm::dvec3 across = glm::cross(toCentre, ray.direction);
-  return glm::dot(across, across) <=
-         solid.radius * solid.radius * glm::dot(ray.direction, ray.direction);
+  return glm::dot(across, across) <= radius * radius * glm::dot(ray.direction, ray.direction);
 }
 
 bool contains(std::span<const glm::dvec3> corners, glm::dvec3 normal, glm::dvec3 point) {
@@ -63,14 +62,16 @@ bool contains(std::span<const glm::dvec3> corners, glm::dvec3 normal, glm::dvec3
 
 }  // namespace
 
-std::optional<SurfacePoint> Geometry::firstAlong(const Ray& ray,
-                                                 const glm::dmat4& worldFromMover) const {
-  const Ray inMover = movedBy(glm::inverse(worldFromMover), ray);
+std::optional<SurfacePoint> Geometry::firstAlong(const Ray& ray, const BodyPoses& bodies) const {
   double nearest = std::numeric_limits<double>::infinity();
   std::optional<SurfacePoint> found;
   for (const Solid& solid : solids) {
-    const Ray& local = solid.moves ? inMover : ray;
-    if (!mayMeet(local, solid)) continue;
+    if (!bodies.has(solid.body)) continue;
+    const bool moves = solid.body != kRoom;
+    const glm::dmat4& pose = bodies[solid.body];
+    const glm::dvec3 centre = moves ? glm::dvec3(pose * glm::dvec4(solid.centre, 1)) : solid.centre;
+    if (!mayMeet(ray, centre, solid.radius)) continue;
+    const Ray local = moves ? movedBy(glm::inverse(pose), ray) : ray;
     for (std::uint32_t i = solid.firstFacet; i < solid.firstFacet + solid.facets; ++i) {
       const Facet& facet = facets[i];
       const double towards = glm::dot(facet.normal, local.direction);
@@ -80,14 +81,14 @@ std::optional<SurfacePoint> Geometry::firstAlong(const Ray& ray,
       const glm::dvec3 point = local.origin + t * local.direction;
       if (!contains(cornersOf(facet), facet.normal, point)) continue;
       nearest = t;
-      found = SurfacePoint{point, solid.moves, i};
+      found = SurfacePoint{point, solid.body, i};
     }
   }
   return found;
 }
 
-glm::dvec3 inWorld(const SurfacePoint& point, const glm::dmat4& worldFromMover) {
-  return point.moves ? glm::dvec3(worldFromMover * glm::dvec4(point.point, 1)) : point.point;
+glm::dvec3 inWorld(const SurfacePoint& point, const glm::dmat4& worldFromBody) {
+  return point.body != kRoom ? glm::dvec3(worldFromBody * glm::dvec4(point.point, 1)) : point.point;
 }
 
 }  // namespace pleinair::hal::synthetic

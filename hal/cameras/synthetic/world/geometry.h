@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "hal/cameras/synthetic/world/bodies.h"
 #include "hal/pixel_format.h"
 
 namespace pleinair::hal {
@@ -63,18 +64,17 @@ struct Solid {
   double radius = 0;
   std::uint32_t firstFacet = 0;
   std::uint32_t facets = 0;
-  bool moves = false;  ///< in the mover's coordinates, not the world's
+  Body body = kRoom;  ///< in whose coordinates it is
 };
 
-/// A point on a surface, in its solid's own coordinates, which stay the same when the solid moves.
+/// A point on a surface, in its body's own coordinates, which stay the same when the body moves.
 struct SurfacePoint {
   glm::dvec3 point{0};
-  bool moves = false;
+  Body body = kRoom;
   std::uint32_t facet = 0;
 };
 
-/// The scene's geometry: flat facets, all static except the solids of the mover, which move
-/// together.
+/// The scene's geometry: flat facets in solids, each of which moves with its body.
 struct Geometry {
   std::vector<Solid> solids;
   std::vector<Facet> facets;
@@ -84,10 +84,10 @@ struct Geometry {
     return std::span(corners).subspan(facet.firstCorner, facet.corners);
   }
   /// The first surface point along a ray; nothing if the ray leaves the room.
-  std::optional<SurfacePoint> firstAlong(const Ray& ray, const glm::dmat4& worldFromMover) const;
+  std::optional<SurfacePoint> firstAlong(const Ray& ray, const BodyPoses& bodies) const;
 };
 
-/// The point in world coordinates.
-glm::dvec3 inWorld(const SurfacePoint& point, const glm::dmat4& worldFromMover);
+/// The point in world coordinates, its body being at `worldFromBody`.
+glm::dvec3 inWorld(const SurfacePoint& point, const glm::dmat4& worldFromBody);
 
 }  // namespace pleinair::hal::synthetic

@@ -88,10 +88,19 @@ glm::vec3 roomSeenAlong(glm::vec3 direction) {
                   fromBelow);
 }
 
+constexpr glm::vec3 kSpotlightAt{0.95F, -0.75F, 1.25F};
+
 constexpr glm::vec3 kWindowCentre{kWindowX, -0.62F, 1.0F};
 constexpr float kWindowRadius = 0.85F;
-constexpr glm::vec3 kLampLight{0.105F, 0.068F, 0.030F};
-constexpr float kLampRadius = 0.035F;
+constexpr Lamp kBenchLamp{kLampAt, kLampAxis, {0.105F, 0.068F, 0.030F}, 0.035F, 0.60F, 0.90F};
+/// Outside the picture, above the bench's right side; its beam falls on the right part of the wall
+/// and of the bench.
+const Lamp kSpotlight{kSpotlightAt,
+                      glm::normalize(glm::vec3(0.58F, 0.45F, 0.08F) - kSpotlightAt),
+                      {1.75F, 1.55F, 1.25F},
+                      0.04F,
+                      0.880F,
+                      0.955F};
 
 }  // namespace
 
@@ -103,8 +112,10 @@ const std::vector<Pane>& windowPanes() {
   return kPanes;
 }
 
-RoomLight::RoomLight(const std::vector<Occluder>& occluders, const std::vector<glm::vec3>& colours)
-    : occluders_(occluders) {
+RoomLight::RoomLight(const std::vector<Occluder>& occluders, const std::vector<glm::vec3>& colours,
+                     bool hasSpotlight)
+    : occluders_(occluders), lamps_{kBenchLamp} {
+  if (hasSpotlight) lamps_.push_back(kSpotlight);
   for (const Occluder& occluder : occluders) {
     glm::vec3 sum(0);
     for (const std::uint16_t patch : occluder.patches) sum += colours[patch];
@@ -158,22 +169,23 @@ glm::vec3 RoomLight::skyAt(const Point& at, const Near& near) const {
   return kSkyLight * (std::max(sum, 0.0F) * kArea / (kPi * kRays));
 }
 
-glm::vec3 RoomLight::lampAt(const Point& at, const Near& near) const {
+glm::vec3 RoomLight::lampAt(const Lamp& lamp, const Point& at, const Near& near) const {
   constexpr int kRays = 8;
   static const Rays<kRays> kSpread(0.41F, 0.9F);
   float sum = 0;
   for (std::size_t i = 0; i < kRays; ++i) {
     const glm::vec3 origin =
         at.point + kSpread.cell[i].x * at.alongX + kSpread.cell[i].y * at.alongY;
-    const glm::vec3 bulb = kLampAt + kLampRadius * glm::vec3(kSpread.disc[i], 0);
+    const glm::vec3 bulb = lamp.at + lamp.radius * glm::vec3(kSpread.disc[i], 0);
     const glm::vec3 direction = bulb - origin;
     const float distance = glm::length(direction);
     const float facing = glm::dot(at.normal, direction) / distance;
-    const float beam = glm::smoothstep(0.60F, 0.90F, -glm::dot(kLampAxis, direction) / distance);
+    const float beam = glm::smoothstep(lamp.edgeCosine, lamp.innerCosine,
+                                       -glm::dot(lamp.axis, direction) / distance);
     if (facing <= 0 || beam <= 0 || isBlocked(near, origin, direction, 1)) continue;
     sum += facing * beam / (distance * distance);
   }
-  return kLampLight * (sum / kRays);
+  return lamp.light * (sum / kRays);
 }
 
 glm::vec3 RoomLight::roomAt(const Point& at, const Near& near) const {
@@ -239,7 +251,10 @@ RoomLight::Lattice RoomLight::on(const Patch& patch) const {
       const Near sun =
           between(all, tile, tile.centre + 3.0F * kSunDirection, tile.radius + 3.0F * kSunRadius);
       const Near sky = between(all, tile, kWindowCentre, kWindowRadius);
-      const Near lamp = between(all, tile, kLampAt, 2 * kLampRadius);
+      std::vector<Near> nearLamps;
+      for (const Lamp& lamp : lamps_) {
+        nearLamps.push_back(between(all, tile, lamp.at, 2 * lamp.radius));
+      }
       const Near nearby = around(all, tile, kNearbyMetres);
       for (int y = tileY; y < endY; ++y) {
         for (int x = tileX; x < endX; ++x) {
@@ -248,8 +263,11 @@ RoomLight::Lattice RoomLight::on(const Patch& patch) const {
           isCovered[i] = std::ranges::any_of(
               nearby, [&at](const Occluder* each) { return isInside(*each, at.point); });
           if (isCovered[i]) continue;
-          lattice.linearRgb[i] =
-              sunAt(at, sun) + skyAt(at, sky) + lampAt(at, lamp) + roomAt(at, nearby);
+          glm::vec3 light = sunAt(at, sun) + skyAt(at, sky);
+          for (std::size_t lamp = 0; lamp < lamps_.size(); ++lamp) {
+            light += lampAt(lamps_[lamp], at, nearLamps[lamp]);
+          }
+          lattice.linearRgb[i] = light + roomAt(at, nearby);
         }
       }
     }

@@ -158,7 +158,11 @@ void buildMachines(Builder& builder) {
 void buildArm(Builder& builder) {
   constexpr std::uint32_t kGlove = 0xb98a4e;
   constexpr std::uint32_t kSleeve = 0x45607c;
-  builder.patchSettings() = {.coarseness = 1.8, .lightStep = 0.012, .moves = true};
+  // It is lit as above the bench, where it spends most of its time.
+  builder.patchSettings() = {.coarseness = 1.8,
+                             .lightStep = 0.012,
+                             .body = kArm,
+                             .litPose = glm::translate(glm::dmat4(1), {0.10, -0.20, 0.22})};
   const glm::dvec3 wrist(0.055, -0.060, 0.018);
   const glm::dvec3 back = glm::normalize(glm::dvec3(0.62, -0.66, 0.30));
   const Painter glove = plain(kGlove);

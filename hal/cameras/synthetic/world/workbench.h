@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include <glm/mat4x4.hpp>
@@ -25,6 +26,12 @@ inline constexpr glm::dvec3 kMachineSize{0.23, 0.17, 0.15};
 inline const glm::dmat4 kBooksPose = uprightPose({-0.59, -0.10, 0}, 22);
 inline constexpr double kBooksHeight = 0.056;
 inline constexpr glm::dvec3 kWallSheetCentre{-0.205, kWallY - 0.002, 0.40};
+
+/// Where a figure stands that crosses the room at `x`: in front of the bench, the first one facing
+/// to the right, the second one to the left.
+inline glm::dmat4 visitorPose(std::size_t figure, double x) {
+  return figure == 0 ? uprightPose({x, -0.72, kFloorZ}) : uprightPose({x, -0.86, kFloorZ}, 180);
+}
 
 /// Plans the workbench and its room. The shape is the same for every seed; the wood varies with it.
 Plan planWorkbench(std::uint32_t seed);

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <numeric>
 #include <thread>
+#include <tuple>
 #include <utility>
 
 #include "hal/cameras/synthetic/world/light.h"
@@ -40,6 +41,14 @@ PatchTexture blank(const Patch& patch, double texelMetres) {
           patch.half};
 }
 
+bool isInUse(const Patch& patch, const WorldOptions& options) {
+  return patch.body < kFirstOfFigures || options.hasFigures;
+}
+
+PatchTexture unused(const Patch& patch) {
+  return {MipTexture(2, 2), std::max(patch.half.x, patch.half.y), patch.half};
+}
+
 glm::vec3 meanLinearRgb(const MipTexture::Level& level) {
   constexpr std::size_t kStride = 61;
   glm::vec3 sum(0);
@@ -67,22 +76,27 @@ const Geometry& workbenchGeometry() {
   return kGeometry;
 }
 
-World paintWorkbench(std::uint32_t seed, double texelMetres) {
-  const Plan plan = planWorkbench(seed);
+World paintWorkbench(const WorldOptions& options) {
+  const Plan plan = planWorkbench(options.seed);
   World world{workbenchGeometry(), {}};
-  for (const Patch& patch : plan.patches) world.textures.push_back(blank(patch, texelMetres));
+  for (const Patch& patch : plan.patches) {
+    world.textures.push_back(isInUse(patch, options) ? blank(patch, options.texelMetres)
+                                                     : unused(patch));
+  }
   const std::vector<std::size_t> order = byFallingSize(world.textures);
   std::vector<glm::vec3> colours(plan.patches.size());
   forAll(order.size(), [&](std::size_t i) {
     const std::size_t patch = order[i];
+    if (!isInUse(plan.patches[patch], options)) return;
     PatchTexture& texture = world.textures[patch];
     Canvas canvas(texture.texture.base(), texture.half, texture.texelMetres);
     plan.patches[patch].paint(canvas);
     colours[patch] = meanLinearRgb(texture.texture.base());
   });
-  const RoomLight light(plan.occluders, colours);
+  const RoomLight light(plan.occluders, colours, options.hasSpotlight);
   forAll(order.size(), [&](std::size_t i) {
     const Patch& patch = plan.patches[order[i]];
+    if (!isInUse(patch, options)) return;
     PatchTexture& texture = world.textures[order[i]];
     if (!patch.isEmissive) {
       applyLight(light.on(patch), texture.half, texture.texelMetres, texture.texture.base());
@@ -92,13 +106,14 @@ World paintWorkbench(std::uint32_t seed, double texelMetres) {
   return world;
 }
 
-std::shared_ptr<const World> sharedWorkbench(std::uint32_t seed, double texelMetres) {
+std::shared_ptr<const World> sharedWorkbench(const WorldOptions& options) {
   static std::mutex mutex;
-  static std::map<std::pair<std::uint32_t, double>, std::weak_ptr<const World>> worlds;
+  static std::map<std::tuple<std::uint32_t, double, bool, bool>, std::weak_ptr<const World>> worlds;
   const std::scoped_lock lock(mutex);
-  std::weak_ptr<const World>& known = worlds[{seed, texelMetres}];
+  std::weak_ptr<const World>& known =
+      worlds[{options.seed, options.texelMetres, options.hasFigures, options.hasSpotlight}];
   if (auto world = known.lock()) return world;
-  auto world = std::make_shared<const World>(paintWorkbench(seed, texelMetres));
+  auto world = std::make_shared<const World>(paintWorkbench(options));
   known = world;
   return world;
 }

@@ -27,11 +27,17 @@ struct World {
   std::vector<PatchTexture> textures;
 };
 
-/// Paints and lights the workbench, on all processors. `texelMetres` is the texel size of the
-/// bench's top; `seed` varies the wood.
-World paintWorkbench(std::uint32_t seed, double texelMetres);
+struct WorldOptions {
+  std::uint32_t seed = 1;      ///< varies the wood
+  double texelMetres = 0.001;  ///< the texel size of the bench's top
+  bool hasFigures = false;     ///< else their textures are left black
+  bool hasSpotlight = false;   ///< switched on, beside the room's other light
+};
+
+/// Paints and lights the workbench, on all processors.
+World paintWorkbench(const WorldOptions& options);
 
 /// The same, painted once for all users of that world at a time. Thread-safe.
-std::shared_ptr<const World> sharedWorkbench(std::uint32_t seed, double texelMetres);
+std::shared_ptr<const World> sharedWorkbench(const WorldOptions& options);
 
 }  // namespace pleinair::hal::synthetic

@@ -40,6 +40,10 @@ INSTANTIATE_TEST_SUITE_P(
                                           .exposureDriftStops = 0.3,
                                           .whiteBalanceDrift = 0.1,
                                           .rowTime = std::chrono::microseconds(300)}),
+                    synthetic("Lights", {.size = {64, 48},
+                                         .framePeriod = std::chrono::milliseconds(500),
+                                         .frameCount = 5,
+                                         .shot = SyntheticShot::kLights}),
                     synthetic("EndlessRealTime", {.size = {64, 48}, .pacing = Pacing::kRealTime}),
                     synthetic("OnePixel", {.size = {1, 1}, .frameCount = 3})),
     cameraCaseName);

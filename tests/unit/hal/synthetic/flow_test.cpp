@@ -22,8 +22,8 @@ struct Both {
   CameraView view(std::uint64_t frame) const {
     return {syntheticIntrinsics(options.size), camera.truth(frame).cameraFromWorld};
   }
-  glm::dmat4 mover(std::uint64_t frame) const {
-    return motion.worldFromMover(static_cast<double>(frame) * 0.033333333);
+  BodyPoses bodies(std::uint64_t frame) const {
+    return motion.bodies(static_cast<double>(frame) * 0.033333333);
   }
 };
 
@@ -31,18 +31,19 @@ struct Both {
 /// there.
 FlowVector oracleFlow(const Both& both, std::uint64_t from, std::uint64_t to, glm::dvec2 pixel) {
   const Geometry& geometry = workbenchGeometry();
-  const auto hit = oracleHit(geometry, both.view(from), both.mover(from), pixel);
+  const auto hit = oracleHit(geometry, both.view(from), both.bodies(from), pixel);
   if (!hit) return {};
   glm::dvec3 later = hit->world;
-  if (hit->moves) {
-    later = glm::dvec3(both.mover(to) * glm::inverse(both.mover(from)) * glm::dvec4(later, 1));
+  if (hit->body != kRoom) {
+    later = glm::dvec3(both.bodies(to)[hit->body] * glm::inverse(both.bodies(from)[hit->body]) *
+                       glm::dvec4(later, 1));
   }
   const CameraView second = both.view(to);
   const glm::dvec3 seen(second.cameraFromWorld * glm::dvec4(later, 1));
   if (seen.z <= 0) return {};
   const glm::dvec2 px(second.intrinsics.fx * seen.x / seen.z + second.intrinsics.cx,
                       second.intrinsics.fy * seen.y / seen.z + second.intrinsics.cy);
-  const auto again = oracleHit(geometry, second, both.mover(to), px);
+  const auto again = oracleHit(geometry, second, both.bodies(to), px);
   const bool isInside = px.x >= 0 && px.y >= 0 && px.x < 640 && px.y < 480;
   return {px - pixel, isInside && again && glm::distance(again->world, later) < 1e-6};
 }
@@ -77,12 +78,17 @@ TEST(SyntheticFlow, FollowsWhatMovesAndWhatItHides) {
   int moving = 0;
   for (int i = 0; i < 150; ++i) {
     const glm::dvec2 pixel(13 + (i * 251) % 620, 7 + (i * 113) % 470);
-    const auto hit = oracleHit(workbenchGeometry(), both.view(62), both.mover(62), pixel);
-    if (!hit || !hit->moves) continue;
+    const auto hit = oracleHit(workbenchGeometry(), both.view(62), both.bodies(62), pixel);
+    if (!hit || hit->body != kArm) continue;
     ++moving;
     EXPECT_GT(glm::length(both.camera.flow(62, 66, pixel).px), 2.0);
   }
   EXPECT_GT(moving, 4);
+}
+
+TEST(SyntheticFlow, FollowsThePartsOfPersons) {
+  expectFlowOfOracle(SyntheticShot::kVisitors, 95, 99, 120, 150);
+  expectFlowOfOracle(SyntheticShot::kVisitors, 300, 340, 120, 150);
 }
 
 TEST(SyntheticFlow, IsTheOraclesAcrossACut) {
@@ -158,6 +164,23 @@ void expectPicturesFollowTheFlow(SyntheticShot shot, std::uint64_t from, std::ui
 
 TEST(SyntheticFlow, IsHowThePictureMoves) {
   expectPicturesFollowTheFlow(SyntheticShot::kWalkaround, 0, 9, Duration::zero());
+}
+
+TEST(SyntheticFlow, IsHowPersonsMove) {
+  SyntheticOptions options{.size = {320, 240}, .shot = SyntheticShot::kVisitors, .noiseSigma = 0};
+  const std::vector<Image> frames = capturedFrames(options, 100);
+  SteppedClock clock;
+  const SyntheticCamera camera(options, clock);
+  const MovingMask mask = camera.movingMask(96);
+  FlowField flow = camera.flowField(96, 99);
+  for (std::size_t i = 0; i < flow.visible.size(); ++i) {
+    if (mask.bytes[i] == 0) flow.visible[i] = 0;
+  }
+  FlowField none = flow;
+  for (glm::vec2& px : none.px) px = glm::vec2(0);
+  const double along = warpedDifference(frames[96], frames[99], flow);
+  EXPECT_LT(along, 3.5);
+  EXPECT_GT(warpedDifference(frames[96], frames[99], none), 3 * along);
 }
 
 TEST(SyntheticFlow, IsHowThePictureMovesUnderARollingShutter) {

@@ -62,6 +62,9 @@ TEST(Motion, IsWhatTheShotsNameSays) {
   };
   EXPECT_EQ(Motion(SyntheticShot::kStill, 1).cameraFromWorld(0),
             Motion(SyntheticShot::kStill, 1).cameraFromWorld(17.3));
+  for (const SyntheticShot shot : {SyntheticShot::kVisitors, SyntheticShot::kLights}) {
+    EXPECT_EQ(Motion(shot, 1).cameraFromWorld(0), Motion(shot, 2).cameraFromWorld(17.3));
+  }
   const Placed start = at(SyntheticShot::kPan, 0);
   const Placed later = at(SyntheticShot::kPan, 1.5);
   EXPECT_LT(glm::distance(start.eye, later.eye), 1e-9) << "a tripod stands";
@@ -95,13 +98,13 @@ TEST(Motion, MovesTheArmSmoothlyAndOnlyInItsShot) {
   const Motion motion(SyntheticShot::kOccluder, 1);
   double travelled = 0;
   for (int frame = 0; frame < 400; ++frame) {
-    const glm::dvec3 from(motion.worldFromMover(kFrame * frame)[3]);
-    const glm::dvec3 to(motion.worldFromMover(kFrame * (frame + 1))[3]);
+    const glm::dvec3 from(motion.bodies(kFrame * frame)[kArm][3]);
+    const glm::dvec3 to(motion.bodies(kFrame * (frame + 1))[kArm][3]);
     EXPECT_LT(glm::distance(from, to), 0.06) << frame;
     travelled += glm::distance(from, to);
   }
   EXPECT_GT(travelled, 2);
-  EXPECT_LT(Motion(SyntheticShot::kWalkaround, 1).worldFromMover(2.5)[3].z, -10);
+  EXPECT_FALSE(Motion(SyntheticShot::kWalkaround, 1).bodies(2.5).has(kArm));
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace pleinair::hal::synthetic {
 struct OracleHit {
   glm::dvec3 world{0};
   std::uint32_t facet = 0;
-  bool moves = false;
+  Body body = kRoom;
 };
 
 inline std::optional<double> meetsTriangle(glm::dvec3 origin, glm::dvec3 direction, glm::dvec3 a,
@@ -36,7 +36,7 @@ inline std::optional<double> meetsTriangle(glm::dvec3 origin, glm::dvec3 directi
 }
 
 inline std::optional<OracleHit> oracleHit(const Geometry& geometry, const CameraView& view,
-                                          const glm::dmat4& worldFromMover, glm::dvec2 pixel) {
+                                          const BodyPoses& bodies, glm::dvec2 pixel) {
   const glm::dmat4 worldFromCamera = glm::inverse(view.cameraFromWorld);
   const glm::dvec3 origin(worldFromCamera * glm::dvec4(0, 0, 0, 1));
   const glm::dvec3 direction(worldFromCamera *
@@ -45,7 +45,8 @@ inline std::optional<OracleHit> oracleHit(const Geometry& geometry, const Camera
   double nearest = std::numeric_limits<double>::infinity();
   std::optional<OracleHit> hit;
   for (const Solid& solid : geometry.solids) {
-    const glm::dmat4 pose = solid.moves ? worldFromMover : glm::dmat4(1);
+    if (!bodies.has(solid.body)) continue;
+    const glm::dmat4& pose = bodies[solid.body];
     for (std::uint32_t i = solid.firstFacet; i < solid.firstFacet + solid.facets; ++i) {
       const auto corners = geometry.cornersOf(geometry.facets[i]);
       const auto world = [&](std::size_t k) {
@@ -55,7 +56,7 @@ inline std::optional<OracleHit> oracleHit(const Geometry& geometry, const Camera
         const auto t = meetsTriangle(origin, direction, world(0), world(k - 1), world(k));
         if (!t || *t >= nearest) continue;
         nearest = *t;
-        hit = OracleHit{origin + *t * direction, i, solid.moves};
+        hit = OracleHit{origin + *t * direction, i, solid.body};
       }
     }
   }

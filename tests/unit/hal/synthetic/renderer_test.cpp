@@ -51,9 +51,9 @@ std::vector<std::size_t> oraclePatches(const Exposure& exposure) {
   std::vector<std::size_t> patches;
   for (int y = 0; y < exposure.size().height; ++y) {
     const CameraView view = exposure.viewAt(y + 0.5);
-    const glm::dmat4 mover = exposure.worldFromMoverAt(y + 0.5);
+    const BodyPoses bodies = exposure.bodiesAt(y + 0.5);
     for (int x = 0; x < exposure.size().width; ++x) {
-      const auto hit = oracleHit(geometry, view, mover, {x + 0.5, y + 0.5});
+      const auto hit = oracleHit(geometry, view, bodies, {x + 0.5, y + 0.5});
       patches.push_back(hit ? geometry.facets[hit->facet].patch : 9999);
     }
   }
@@ -102,6 +102,13 @@ TEST(Renderer, ShowsWhatRaysMeet) {
 TEST(Renderer, ShowsWhatMoves) {
   const Motion motion(SyntheticShot::kOccluder, 1);
   expectOraclesPatches(Exposure(kSize, motion, std::chrono::milliseconds(2400), {}));
+}
+
+TEST(Renderer, ShowsPersons) {
+  const Motion motion(SyntheticShot::kVisitors, 1);
+  expectOraclesPatches(Exposure(kSize, motion, std::chrono::milliseconds(3200), {}));
+  expectOraclesPatches(
+      Exposure(kSize, motion, std::chrono::milliseconds(9400), std::chrono::microseconds(280)));
 }
 
 TEST(Renderer, ShowsEachRowOfARollingShutterAtItsMoment) {

@@ -122,13 +122,13 @@ TEST(SyntheticTags, AreHiddenByTheArmForAWhile) {
 }
 
 /// Whether the oracle finds another surface before the tag at any of many points of the tag.
-bool isHiddenToTheOracle(const CameraView& view, const glm::dmat4& mover, const BenchTag& tag) {
+bool isHiddenToTheOracle(const CameraView& view, const BodyPoses& bodies, const BenchTag& tag) {
   const double half = tag.edgeMetres * 10 / 16;
   for (int row = 0; row <= 40; ++row) {
     for (int column = 0; column <= 40; ++column) {
       const glm::dvec4 onTag(half * (column / 20.0 - 1), half * (row / 20.0 - 1), 0, 1);
       const glm::dvec3 world(tag.worldFromTag * onTag);
-      const auto hit = oracleHit(workbenchGeometry(), view, mover, *view.project(world));
+      const auto hit = oracleHit(workbenchGeometry(), view, bodies, *view.project(world));
       if (!hit || glm::distance(hit->world, world) > 2e-4) return true;
     }
   }
@@ -143,10 +143,10 @@ TEST(SyntheticTags, AreHiddenWhenRaysSaySo) {
   for (const std::uint64_t frame : {0U, 33U, 36U, 75U}) {
     const GroundTruth truth = camera.truth(frame);
     const CameraView view{truth.intrinsics, truth.cameraFromWorld};
-    const glm::dmat4 mover = motion.worldFromMover(static_cast<double>(frame) * 0.033333333);
+    const BodyPoses bodies = motion.bodies(static_cast<double>(frame) * 0.033333333);
     for (const TagTruth& tag : truth.tags) {
       if (!tag.isInside) continue;
-      EXPECT_EQ(tag.isVisible, !isHiddenToTheOracle(view, mover, tag.tag))
+      EXPECT_EQ(tag.isVisible, !isHiddenToTheOracle(view, bodies, tag.tag))
           << "tag " << tag.tag.id << " in frame " << frame;
       hidden += tag.isVisible ? 0 : 1;
     }
@@ -165,8 +165,7 @@ TEST(SyntheticTags, StickToSurfacesInRightHandedFrames) {
     // From its front, the tag's middle is the first surface.
     const glm::dvec3 middle(pose[3]);
     const Ray towards{middle - 0.01 * glm::dvec3(pose[2]), glm::dvec3(pose[2])};
-    const auto met =
-        workbenchGeometry().firstAlong(towards, glm::translate(glm::dmat4(1), {0, 0, -9}));
+    const auto met = workbenchGeometry().firstAlong(towards, BodyPoses());
     ASSERT_TRUE(met);
     EXPECT_LT(glm::distance(met->point, middle), 1e-9) << "tag " << i;
   }
@@ -178,8 +177,7 @@ TEST(SyntheticTags, LeaveRoomForAModelOnTheFirst) {
   for (int i = -10; i <= 10; ++i) {
     for (int j = -10; j <= 10; ++j) {
       const glm::dvec3 from(0.015 * i, 0.010 * j, 0.12);
-      const auto met = workbenchGeometry().firstAlong({from, {0, 0, -1}},
-                                                      glm::translate(glm::dmat4(1), {0, 0, -9}));
+      const auto met = workbenchGeometry().firstAlong({from, {0, 0, -1}}, BodyPoses());
       ASSERT_TRUE(met);
       EXPECT_NEAR(met->point.z, 0, 1e-9) << from.x << " " << from.y;
     }
