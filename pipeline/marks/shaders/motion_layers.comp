@@ -89,8 +89,9 @@ void main() {
     vec2 back = px - moved.xy;
     vec4 carried = isInPicture(back) ? textureLod(labels, inCells(back, cells), 0.0) : vec4(0.0);
     if (carried.r > label.r) label = carried;
-    // Nothing is known of the ground yet, or it is of the same colour.
-    if (known.a < kKnownFrames) other = 1.0;
+    // The ground is hardly known yet. Measured flow reaches beyond a mover, but nothing changes
+    // there.
+    if (known.a < kKnownFrames && changed > 0.3) other = 1.0;
     changed = max(changed, 0.5);
   }
   if (other > 0.5) atomicAdd(otherCells[turn], 1u);

@@ -65,7 +65,7 @@ void main() {
   bool isSameStructure = min(spread.x, spread.y) > kContrast * kContrast &&
                          together > kSameStructure * sqrt(spread.x * spread.y);
   bool isEverywhere = float(otherCells[turn]) > kMostOthers * float(size.x * size.y);
-  bool isLight = isSameStructure || isEverywhere;
+  bool isLight = isEverywhere || (isSameStructure && carried <= 0.5);
   bool wasMover = own.g > 0.5;
   bool isOther = (own.r > 0.5 && others > 0.25) || (own.r > 0.15 && others > 0.55) || others > 0.8;
   bool hasCause = changes > 0.08 || carried > 0.5;
@@ -79,7 +79,9 @@ void main() {
   }
   float fresh = isMover != wasMover ? 1.0 : max(past.a - stepSeconds / freshSeconds, 0.0);
   imageStore(labels, cell, vec4(isMover ? 1.0 : 0.0, fresh, rest, maturity));
-  if (!isMover) {
+  // Beside a mover, some of it may not be labelled.
+  bool isBeside = others > 0.08 && !isLight;
+  if (known.a < 0.5 || !(isMover || isBeside)) {
     float frames = isLight && own.r > 0.15 ? 1.0 : min(floor(known.a + 0.5) + 1.0, isStanding ? kFrames : kMovingFrames);
     known = vec4(mix(known.rgb, now, 1.0 / frames), frames);
   }

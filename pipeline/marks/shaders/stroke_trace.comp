@@ -170,9 +170,11 @@ vec2[kArm] heldArm(vec2 now[kArm], vec4 was[2], vec2 heading, vec4 jacobian, flo
   return held;
 }
 
-// An arm that now covers other content shrinks faster than it would grow.
+// An arm that now covers other content shrinks faster than it would grow. One that was cut short
+// by something that has gone grows, however long shapes are held.
 float heldLength(float now, float was, float stays) {
-  return mix(now, was, now < 0.6 * was ? min(stays, pow(past.x, 4.0)) : stays);
+  float rate = was < 0.3 * now ? past.x : now < 0.6 * was ? min(stays, pow(past.x, 4.0)) : stays;
+  return mix(now, was, rate);
 }
 
 // Whether a mover is at the stroke or beside it.
