@@ -47,7 +47,7 @@ struct Anchor {
   /// clipped where the mover is seen
   static constexpr std::uint32_t kCovered = 0x1000;
   static constexpr std::uint32_t kMover = 0x2000;  ///< on a mover (MotionLayers)
-  static constexpr int kCoveredShift = 16;  ///< above it: for how long, in 1/256 s
+  static constexpr int kCoveredShift = 16;         ///< above it: for how long, in 1/256 s
 
   bool isAlive() const { return (state & kAlive) != 0; }
   bool isCovered() const { return (state & (kAlive | kCovered)) == (kAlive | kCovered); }

@@ -25,8 +25,8 @@ struct MotionLayersOptions {
 /// after 0.7 s. (Background subtraction with a running mean: Piccardi, "Background subtraction
 /// techniques: a review", 2004.)
 ///
-/// One mover is not told from another. Under parallax, near things may count as movers. All calls on
-/// the thread of the GL context that was current at construction.
+/// One mover is not told from another. Under parallax, near things may count as movers. All calls
+/// on the thread of the GL context that was current at construction.
 class MotionLayers {
  public:
   /// `library` has gpu::marksShaders(), gpu::sceneShaders() and gpu::gpuShaders(). `full` is the

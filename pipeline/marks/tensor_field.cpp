@@ -20,7 +20,7 @@ namespace {
 const std::string kShaders = "pipeline/marks/shaders/";
 constexpr int kRegionPixels = 8;
 constexpr std::size_t kEdgeWords = 1 + 128;  // shaders/edge_bins.glsl
-constexpr float kMoverSigma = 1.5F;  // regions; movers have no coarser levels
+constexpr float kMoverSigma = 1.5F;          // regions; movers have no coarser levels
 constexpr float kMinEdge = 0.05F;            // of luma: the level of sensor noise
 constexpr GLbitfield kWritten = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
 
@@ -140,8 +140,7 @@ void TensorField::State::sumRegions(const scene::ArFrame& frame, const MotionFie
   std::swap(finest.regions, before);
   std::swap(moverRegions, moversBefore);
   motion.bind(regions.use());
-  regions
-      .texture("tensors", gradientOf(frame.size()).texture)
+  regions.texture("tensors", gradientOf(frame.size()).texture)
       .texture("before", before)
       .texture("moversBefore", moversBefore)
       .texture("movers", layers != nullptr ? layers->labels() : noMovers)

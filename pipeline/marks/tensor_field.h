@@ -40,7 +40,8 @@ class TensorField {
 
   /// Adds a frame's image (RGBA8, of frame.size()) and carries the past along `motion`, which has
   /// been updated for the frame, like `layers`. With these, movers have tensors of their own, and
-  /// the background's stay as they were behind them. Precondition: frame.full() is the constructor's size.
+  /// the background's stay as they were behind them. Precondition: frame.full() is the
+  /// constructor's size.
   void update(const scene::ArFrame& frame, const gpu::Texture& picture, const MotionField& motion,
               const TensorFieldOptions& options, const MotionLayers* layers = nullptr);
 

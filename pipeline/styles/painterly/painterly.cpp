@@ -81,7 +81,11 @@ struct Layer {
 /// The state that belongs to one full size and plan.
 struct Painting {
   Painting(const gpu::ShaderLibrary& library, hal::FrameSize fullSize, const LayerPlan& given)
-      : full(fullSize), plan(given), motion(library, full), movers(library, full), field(library, full) {
+      : full(fullSize),
+        plan(given),
+        motion(library, full),
+        movers(library, full),
+        field(library, full) {
     for (std::size_t i = 0; i < plan.layers; ++i) {
       layers.push_back(std::make_unique<Layer>(library, full, plan, i));
     }
