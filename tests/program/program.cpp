@@ -147,7 +147,9 @@ ProgramRun runProgram(const std::vector<std::string>& arguments, const ProgramLi
   bool outOpen = true;
   bool errorOpen = true;
   bool terminated = limits.terminateWhenExists.empty();
-  const auto deadline = std::chrono::steady_clock::now() + limits.time;
+  constexpr int kSlowness = 5;  // of sanitizers, beside what limits allow for
+  const auto deadline =
+      std::chrono::steady_clock::now() + (isSanitized() ? kSlowness : 1) * limits.time;
   while ((outOpen || errorOpen) && std::chrono::steady_clock::now() < deadline) {
     std::array<pollfd, 2> ready{pollfd{outOpen ? out.read : -1, POLLIN, 0},
                                 pollfd{errorOpen ? error.read : -1, POLLIN, 0}};
