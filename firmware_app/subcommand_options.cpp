@@ -266,27 +266,25 @@ void addDoctor(CLI::App& app, DoctorOptions& options, std::function<int()>& chos
   command.callback([&] { chosen = [&options] { return examineMachine(options); }; });
 }
 
-/// Adds the options of `measure` that move a photograph; they exclude `other`, which gives the
-/// motion of a recording.
-void addPhotographMotion(CLI::App& command, CLI::Option* other, MeasureOptions& options) {
-  CLI::Option* still = command
-                           .add_flag_callback(
-                               "--still", [&options] { options.movedBy = "--still"; },
-                               "show a photograph without motion, with sensor noise")
-                           ->excludes(other);
+/// Adds the options of `measure` that move a photograph; they exclude `others`, which say how a
+/// recording moves.
+void addPhotographMotion(CLI::App& command, const std::vector<CLI::Option*>& others,
+                         MeasureOptions& options) {
+  CLI::Option* still = command.add_flag_callback(
+      "--still", [&options] { options.movedBy = "--still"; },
+      "show a photograph without motion, with sensor noise");
+  for (CLI::Option* other : others) still->excludes(other);
   const auto add = [&](const std::string& name, const std::string& help, const std::string& type,
                        auto assign) {
-    command
-        .add_option_function<std::string>(
-            name,
-            [&options, name, assign](const std::string& text) {
-              assign(text);
-              options.movedBy = name;
-            },
-            help)
-        ->type_name(type)
-        ->excludes(other)
-        ->excludes(still);
+    CLI::Option* option = command.add_option_function<std::string>(
+        name,
+        [&options, name, assign](const std::string& text) {
+          assign(text);
+          options.movedBy = name;
+        },
+        help);
+    option->type_name(type)->excludes(still);
+    for (CLI::Option* other : others) option->excludes(other);
   };
   measure::PhotographMotion& motion = options.photograph;
   add("--pan", "move a photograph by this many px per frame, such as -1.5,-0.5", "VX,VY",
@@ -321,12 +319,13 @@ void addMeasure(CLI::App& app, MeasureOptions& options, std::function<int()>& ch
                                         "file with the motion of a recording (as motion.json)")
                             ->needs(input)
                             ->type_name("FILE");
-  command
-      .add_flag("--standing", options.standing,
-                "the camera of a recording stands: measure also what moves before it")
-      ->needs(input)
-      ->excludes(motion);
-  addPhotographMotion(command, motion, options);
+  CLI::Option* standing =
+      command
+          .add_flag("--standing", options.standing,
+                    "the camera of a recording stands: measure also what moves before it")
+          ->needs(input)
+          ->excludes(motion);
+  addPhotographMotion(command, {motion, standing}, options);
   command
       .add_option_function<std::string>(
           "--noise",

@@ -17,7 +17,7 @@ namespace pleinair::marks {
 namespace {
 
 const std::string kShaders = "pipeline/marks/shaders/";
-constexpr std::size_t kCellBytes = 40;  // shaders/anchor_cells.glsl
+constexpr std::size_t kCellBytes = 36;  // shaders/anchor_cells.glsl
 constexpr int kMaxStrata = 4;           // along a cell's side (shaders/anchor_cells.glsl)
 constexpr GLbitfield kStored = GL_SHADER_STORAGE_BARRIER_BIT;
 

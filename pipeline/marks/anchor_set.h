@@ -46,9 +46,10 @@ struct AnchorHold {
 
 /// The anchors of a style's marks. They are spawned where the image has too few, follow the surface
 /// that they lie on (exactly on a model; else by the best known image motion), and fade out when a
-/// model occludes their surface or their cell is too crowded. An anchor of the image that other
-/// content covers disappears at once, and is there again when its own is seen. An anchor keeps its
-/// slot for life, so that styles can store the data of its mark in parallel buffers. All data stays
+/// model occludes their surface or their cell is too crowded. An anchor that a
+/// mover covers stays, for AnchorHold::memory: its mark is to remain as it is, with the mover drawn
+/// over it. An anchor keeps its slot for life, so that styles can store the data of its mark in
+/// parallel buffers. All data stays
 /// on the GPU; nothing is read back. The same frames with the same times give the same anchors. All
 /// calls on the thread of the GL context that was current at construction.
 class AnchorSet {
@@ -63,7 +64,7 @@ class AnchorSet {
   AnchorSet& operator=(AnchorSet&&) = delete;
 
   /// Advances to the next frame, for which `motion` and `layers` have been updated; without
-  /// layers, nothing covers anything at once. The first frame, a frame
+  /// layers, no anchor is covered. The first frame, a frame
   /// after reset() and a frame after a cut start anew, with all anchors visible at once.
   /// Preconditions: frame.full() is the constructor's size; the style's needs include surfaces and
   /// measuredMotion.

@@ -247,7 +247,8 @@ void MotionField::update(const scene::ArFrame& frame, const MotionFieldOptions& 
   static constexpr ImageMotion kRest{.picture = tracking::ImageHomography{}};
   scene::MeasuredMotion movement = frame.measuredMotion.value_or(scene::MeasuredMotion{});
   const bool follows = s.last && (!movement.motion || movement.motion->sinceSequence == *s.last);
-  s.noiseLevels = movement.motion != nullptr ? movement.motion->noiseLevels : kUsualNoise;
+  const bool isNoiseKnown = movement.motion != nullptr && movement.motion->noiseLevels > 0.0;
+  s.noiseLevels = isNoiseKnown ? movement.motion->noiseLevels : kUsualNoise;
   s.isCut = !follows || (movement.motion != nullptr && movement.motion->isCut);
   if (s.isCut || movement.motion == nullptr) movement.motion = &kNothing;
   if (!options.follows && !s.isCut) movement.motion = &kRest;

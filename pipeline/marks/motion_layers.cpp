@@ -20,7 +20,7 @@ using gpu::TextureFormat;
 
 const std::string kShaders = "pipeline/marks/shaders/";
 constexpr float kFreshSeconds = 0.3F;
-constexpr unsigned kTurns = 3;  // shaders/motion_layers_tally.glsl
+constexpr unsigned kTurns = 2;  // shaders/motion_layers_tally.glsl
 constexpr GLbitfield kStored = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                                GL_SHADER_STORAGE_BARRIER_BIT;
 

@@ -51,7 +51,7 @@ struct StrokeRule {
   static constexpr glm::vec2 kNoColour{1e6F, 2e6F};
   /// Where there is less detail than this (from none of it at the first to all at the second), the
   /// field is only filled in, and shapes are held `flatHold` times as long.
-  glm::vec2 flatDetail{0.3F, 0.8F};
+  glm::vec2 flatDetail{0.35F, 0.9F};
   float flatHold = 1.0F;
 };
 

@@ -15,7 +15,7 @@ namespace pleinair::measure {
 /// How a painting treats what moves by itself before a standing camera (docs/measuring.md). A value
 /// is missing where nothing of its kind was seen.
 struct MoverSummary {
-  double coveredPercent = 0;  ///< of all pixels of all frames
+  double coveredPercent = 0;  ///< of all pixels within the border
   /// STILL: of the pixels away from movers, those that change by more than 8 levels from one frame
   /// to the next, less the input's own.
   std::optional<double> stillPercent;
@@ -39,8 +39,8 @@ struct MoverReport {
   std::optional<double> displacedStillPercent;
 };
 
-/// Collects a sequence before a standing camera; movers are what differs from the median of all
-/// frames. Keeps all frames: six bytes a pixel each. One thread.
+/// Collects a sequence before a standing camera; movers are what differs from the median of 41
+/// frames. Keeps all frames: six bytes a pixel each, ten while they are evaluated. One thread.
 class MoverMeasures {
  public:
   /// Takes the next frame and its painting, RGB8 of one size.

@@ -11,7 +11,6 @@ struct Cell {
   uint onMovers;  // staying anchors on movers
   uint nextMoverToRemove;
   uint moverBirths;
-  uint spare;
 };
 
 uniform ivec2 grid;

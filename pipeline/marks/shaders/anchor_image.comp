@@ -23,8 +23,12 @@ uniform bool anew;
 uniform uint slots;
 #include "pipeline/marks/shaders/anchor_appearance.glsl"
 
-// The background moves as one; a mover's motion must not carry it along.
+// The background moves as one; a mover's motion must not carry it along. A mover moves as dense flow
+// says: it is not still, and the image's homography is the background's.
 Moved motionOf(vec2 px, float object, bool isOnMover) {
+  const float kMaxFlowError = 8.0;  // px
+  Moved flowed = byFlow(px);
+  if (isOnMover && flowed.error < kMaxFlowError) return flowed;
   if (!isOnMover && known.z != 0.0 && isNearMover(px)) return byPicture(px, false);
   return imageMotionAt(px, object, false);
 }

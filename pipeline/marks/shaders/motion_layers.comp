@@ -5,7 +5,7 @@
 //          cell, in [0, 1]; hasPast; turn, stepSeconds.
 // Outputs: candidates RGBA8: how surely it is other content than the background, the carried label,
 //          luma now and of the background. evidence RGBA16F: whether it has changed since the
-//          previous frame, carried rest, carried maturity, carried freshness. pictureNow RGBA8.
+//          previous frame, or -1 on models; carried rest, carried maturity, carried freshness. pictureNow RGBA8.
 //          otherCells: how many cells are surely other content.
 //          One invocation per cell.
 // Precision: highp.
@@ -31,7 +31,7 @@ uniform float noise;
 const float kSlack = 0.035;
 const float kNoises = 3.0;
 const float kSurely = 2.4;      // thresholds at which other content is certain
-const float kKnownFrames = 4.0;  // of a background that is known better than the flow
+const float kTrustedFrames = 4.0;  // of background, after which its colours count more than flow
 const float kReach = 2.5;       // px
 const float kMovedPx = 0.6;
 
@@ -60,7 +60,7 @@ void main() {
   float luma = lumaOf(now);
   if (!hasPast || isModel || !isInPicture(from)) {
     imageStore(candidates, cell, vec4(0.0, 0.0, luma, luma));
-    imageStore(evidence, cell, vec4(0.0));
+    imageStore(evidence, cell, vec4(isModel ? -1.0 : 0.0, 0.0, 0.0, 0.0));
     return;
   }
   // While the camera moves, colours are compared with all those around.
@@ -78,7 +78,7 @@ void main() {
   vec3 before = textureLod(lastPicture, inCells(from, cells), 0.0).rgb;
   float least = kSlack + kNoises * noise;
   float other = smoothstep(least, kSurely * least, beyond(known.rgb, low, high));
-  other *= 1.0 - shadeOf(now, known.rgb);
+  other *= known.a < 0.5 ? 0.0 : 1.0 - shadeOf(now, known.rgb);
   float changed = smoothstep(least, kSurely * least, beyond(before, low, high));
 
   vec4 moved = textureLod(motion, px / fullSize, 0.0);
@@ -91,7 +91,7 @@ void main() {
     if (carried.r > label.r) label = carried;
     // The ground is hardly known yet. Measured flow reaches beyond a mover, but nothing changes
     // there.
-    if (known.a < kKnownFrames && changed > 0.3) other = 1.0;
+    if (known.a < kTrustedFrames && changed > 0.3) other = 1.0;
     changed = max(changed, 0.5);
   }
   if (other > 0.5) atomicAdd(otherCells[turn], 1u);

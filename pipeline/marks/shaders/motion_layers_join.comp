@@ -31,18 +31,24 @@ const float kContrast = 0.02;  // of luma
 void main() {
   ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
   ivec2 size = imageSize(labels);
-  if (cell == ivec2(0)) otherCells[(turn + 1u) % 3u] = 0u;
+  if (cell == ivec2(0)) otherCells[1u - turn] = 0u;
   if (any(greaterThanEqual(cell, size))) return;
   vec2 px = (vec2(cell) + 0.5) * kCellPixels;
   vec2 from = px - backgroundShift(px);
   vec3 now = texelFetch(picture, cell, 0).rgb;
+  vec4 past = texelFetch(evidence, cell, 0);
   if (!hasPast) {
     imageStore(labels, cell, vec4(0.0));
-    imageStore(backgroundNow, cell, vec4(now, 1.0));
+    imageStore(backgroundNow, cell, vec4(now, past.r < 0.0 ? 0.0 : 1.0));
     return;
   }
   vec4 own = texelFetch(candidates, cell, 0);
-  vec4 past = texelFetch(evidence, cell, 0);
+  vec4 known = isInPicture(from) ? textureLod(background, inCells(from, size), 0.0) : vec4(now, 0.0);
+  if (past.r < 0.0) {  // a model: what is behind it stays as it was known
+    imageStore(labels, cell, vec4(0.0));
+    imageStore(backgroundNow, cell, known);
+    return;
+  }
   float others = 0.0;
   float changes = 0.0;
   float carried = 0.0;
@@ -54,7 +60,7 @@ void main() {
       vec4 there = texelFetch(candidates, at, 0);
       others += there.r / 9.0;
       carried = max(carried, there.g);
-      changes += texelFetch(evidence, at, 0).r / 9.0;
+      changes += max(texelFetch(evidence, at, 0).r, 0.0) / 9.0;
       mean += there.ba / 9.0;
       products += vec3(there.ba * there.ba, there.b * there.a) / 9.0;
     }
@@ -72,7 +78,6 @@ void main() {
   bool isMover = !isLight && hasCause && (isOther || (wasMover && own.r > 0.15 && others > 0.3));
   float rest = isMover && changes < 0.05 ? past.g + stepSeconds : 0.0;
   float maturity = isMover ? past.b : 0.0;
-  vec4 known = isInPicture(from) ? textureLod(background, inCells(from, size), 0.0) : vec4(now, 0.0);
   if (rest > (maturity > kMatureSeconds ? restSeconds : kTentative)) {
     isMover = false;
     known.a = 0.0;
@@ -81,8 +86,9 @@ void main() {
   imageStore(labels, cell, vec4(isMover ? 1.0 : 0.0, fresh, rest, maturity));
   // Beside a mover, some of it may not be labelled.
   bool isBeside = others > 0.08 && !isLight;
-  if (known.a < 0.5 || !(isMover || isBeside)) {
-    float frames = isLight && own.r > 0.15 ? 1.0 : min(floor(known.a + 0.5) + 1.0, isStanding ? kFrames : kMovingFrames);
+  if (!isMover && (known.a < 0.5 || !isBeside)) {
+    float most = isStanding ? kFrames : kMovingFrames;
+    float frames = isLight && own.r > 0.15 ? 1.0 : min(floor(known.a + 0.5) + 1.0, most);
     known = vec4(mix(known.rgb, now, 1.0 / frames), frames);
   }
   imageStore(backgroundNow, cell, known);

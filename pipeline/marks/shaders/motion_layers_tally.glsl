@@ -1,8 +1,8 @@
-// Purpose: the cells of other content, counted in turns: this frame's, the next one's, which is
-//          cleared, and the previous one's.
-// Inputs:  turn: the frame's number modulo 3; stepSeconds.
+// Purpose: the cells of other content, counted in turns: this frame's, and the next one's, which is
+//          cleared meanwhile.
+// Inputs:  turn: 0 or 1, the other one in the next frame; stepSeconds.
 // Outputs: otherCells.
 // Precision: integers.
-layout(std430, binding = 0) buffer Tally { uint otherCells[3]; };
+layout(std430, binding = 0) buffer Tally { uint otherCells[2]; };
 uniform uint turn;
 uniform float stepSeconds;

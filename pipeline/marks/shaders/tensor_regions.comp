@@ -41,6 +41,10 @@ vec2 turned(vec2 tensor, float angle) {
   return vec2(c * tensor.x - s * tensor.y, s * tensor.x + c * tensor.y);
 }
 
+bool isInPicture(vec2 px) {
+  return all(greaterThanEqual(px, vec2(0.0))) && all(lessThan(px, fullSize));
+}
+
 // Sums over the pixels of one kind.
 struct Edge {
   vec2 sum;
@@ -100,7 +104,7 @@ void main() {
   ivec2 low = ivec2(floor(vec2(region) * regionPixels * pixelsOfFull));
   ivec2 high = min(ivec2(floor(vec2(region + 1) * regionPixels * pixelsOfFull)), pictureSize);
   vec2 at = (vec2(region) + 0.5) * regionPixels;
-  // The mean label around: without any, none is read for the pixels.
+  // The largest label around: without any, none is read for the pixels.
   float near = moverAt(at).r;
   for (int i = 0; i < 4; ++i) {
     near = max(near, moverAt(at + kReach * (2.0 * vec2(i & 1, i >> 1) - 1.0)).r);
@@ -129,18 +133,22 @@ void main() {
     vec2 dy = textureLod(motion, at / fullSize + vec2(0.0, texel.y), 0.0).xy -
               textureLod(motion, at / fullSize - vec2(0.0, texel.y), 0.0).xy;
     float turn = 0.5 * (dx.y - dy.x) / 32.0;
-    bool isInside = all(greaterThanEqual(from, vec2(0.0))) && all(lessThan(from, fullSize));
-    if (isInside && moved.z < 4.0) {
-      vec2 there = from / (vec2(size) * regionPixels);
-      vec2 behind = near > 0.0 && known.z != 0.0 ? at + byPicture(at, true).displacement : from;
-      vec4 old = textureLod(before, behind / (vec2(size) * regionPixels), 0.0);
-      old.xy = turned(old.xy, turn);
+    bool isKnown = isInPicture(from) && moved.z < 4.0;
+    vec2 scale = 1.0 / (vec2(size) * regionPixels);
+    // Near a mover, the measured motion is not the background's.
+    bool isNear = near > 0.0 && known.z != 0.0;
+    vec2 behind = isNear ? at + byPicture(at, true).displacement : from;
+    if (isNear ? isInPicture(behind) : isKnown) {
+      vec4 old = textureLod(before, behind * scale, 0.0);
+      old.xy = turned(old.xy, isNear ? 0.0 : turn);
       now = isHeld ? old : held(now, old, past);
-      if (mover.pixels > 0.0) {
-        vec4 oldOfMover = textureLod(moversBefore, there, 0.0);
-        oldOfMover.xy = turned(oldOfMover.xy, turn);
-        nowOfMover = oldOfMover.w > 0.0 ? held(nowOfMover, oldOfMover, past) : nowOfMover;
-      }
+    } else if (isHeld) {
+      now = textureLod(before, at * scale, 0.0);
+    }
+    if (mover.pixels > 0.0 && isKnown) {
+      vec4 oldOfMover = textureLod(moversBefore, from * scale, 0.0);
+      oldOfMover.xy = turned(oldOfMover.xy, turn);
+      nowOfMover = oldOfMover.w > 0.0 ? held(nowOfMover, oldOfMover, past) : nowOfMover;
     }
   }
   imageStore(regions, region, now);

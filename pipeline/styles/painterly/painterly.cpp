@@ -202,7 +202,11 @@ void Painterly::State::take(const scene::ArFrame& frame, const PainterlyParamete
 void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParameters& p) {
   painting->motion.update(frame, motionOf(p));
   const marks::MotionLayers* const movers = tellsMovers(p) ? &painting->movers : nullptr;
-  if (movers != nullptr) painting->movers.update(frame, painting->motion);
+  if (movers != nullptr) {
+    painting->movers.update(frame, painting->motion);
+  } else {
+    painting->movers.reset();
+  }
   painting->field.update(frame, *frame.colour, painting->motion, fieldOf(p), movers);
   for (std::size_t i = 0; i < painting->layers.size(); ++i) {
     Layer& layer = *painting->layers[i];
@@ -320,8 +324,8 @@ const Texture& Painterly::State::show(const scene::ArFrame& frame, const Painter
     case PainterlyViewer::kMovers:
       moverView.use()
           .texture("picture", *frame.colour)
-          .texture("movers", painting->movers.labels())
-          .texture("background", painting->movers.background())
+          .texture("movers", tellsMovers(p) ? painting->movers.labels() : noMovers)
+          .texture("background", tellsMovers(p) ? painting->movers.background() : noMovers)
           .set("size", glm::vec2(canvas->size.width, canvas->size.height))
           .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
           .set("view", static_cast<int>(view))

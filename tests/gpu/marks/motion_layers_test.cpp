@@ -35,11 +35,17 @@ class MotionLayersTest : public AnchorLife {
     layers_.emplace(library_, kSize);
   }
 
-  void see(const View& view, glm::dvec2 step = glm::dvec2(0.0), hal::FrameSize size = kSize) {
-    picture_ = support::textureOf(seen(view, size, ++seed_).view());
+  void see(const View& view, glm::dvec2 step = glm::dvec2(0.0), hal::FrameSize size = kSize,
+           const scene::PoseSet& poses = {}) {
+    seeImage(seen(view, size, seed_ + 1), step, poses);
+  }
+  void seeImage(const hal::Image& image, glm::dvec2 step = glm::dvec2(0.0),
+                const scene::PoseSet& poses = {}) {
+    ++seed_;
+    picture_ = support::textureOf(image.view());
     const tracking::ImageMotion motion =
         seed_ == 1 ? tracking::ImageMotion{} : panning(step.x, step.y);
-    const scene::ArFrame frame = compose(*renderer_, {}, motion);
+    const scene::ArFrame frame = compose(*renderer_, poses, motion);
     field_->update(frame);
     layers_->update(frame, *field_);
     set_->advance(frame, *field_, hold_, &*layers_);
@@ -158,12 +164,42 @@ TEST_F(MotionLayersTest, TheBackgroundIsRememberedBehindAMover) {
   EXPECT_GE(behind[middle].a, 5.0F) << "frames in the mean";
 }
 
+/// The light of a part, brighter or darker, with the same structure.
+TEST_F(MotionLayersTest, AShadowIsNoMover) {
+  see({});
+  see({});
+  for (const double light : {0.8, 0.9, 1.0}) {
+    hal::Image shaded = seen({.noiseSigma = 1.0}, kSize, 77);
+    for (int y = 60; y < 180; ++y) {
+      for (int x = 80; x < 200; ++x) {
+        auto* p = shaded.row(0, y).data() + std::ptrdiff_t{4} * x;
+        for (int c = 0; c < 3; ++c) p[c] = static_cast<std::uint8_t>(light * p[c]);
+      }
+    }
+    seeImage(shaded);
+    ASSERT_LT(movers(), 60) << "of 3600 cells: its edge " << light;
+  }
+}
+
+/// Models are drawn over the picture, and are no part of it.
+TEST_F(MotionLayersTest, AModelIsNoMoverNorIsWhatItUncovers) {
+  useScene(boxScene());
+  for (int i = 0; i < 20; ++i) {
+    see({}, {}, kSize, boxAt(80.0 + 6.0 * i));
+    ASSERT_LT(movers(), 40) << i << ": it uncovers over 100 cells in each frame";
+  }
+}
+
 TEST_F(MotionLayersTest, ACutForgetsTheBackground) {
   see({});
   see({});
-  layers_->reset();
+  sequence_ += 10;  // the motion is not since the last frame
   see({.disc = {160.0, 120.0}, .radius = 35.0});
   EXPECT_EQ(movers(), 0);
+  see({});
+  layers_->reset();
+  see({.disc = {160.0, 120.0}, .radius = 35.0});
+  EXPECT_EQ(movers(), 0) << "nor does a reset keep it";
 }
 
 TEST_F(MotionLayersTest, AnchorsBehindAMoverAreTheSameAfterwards) {

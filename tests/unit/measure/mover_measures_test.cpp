@@ -1,6 +1,8 @@
 // STILL, RETURN, GHOST and LOST of paintings that are made so that each is known.
 #include "pipeline/measure/mover_measures.h"
 
+#include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <random>

@@ -5,7 +5,7 @@
 // Inputs:  ids (scene::ArFrame) if hasObjects; mover_labels.glsl's; size, pixelsOfFull: of the
 //          frame.
 // Outputs: R32UI, packed as in border.glsl.
-// Precision: integers.
+// Precision: integers; highp for places.
 #include "pipeline/scene/render/shaders/object_id.glsl"
 #include "pipeline/styles/painterly/shaders/border.glsl"
 uniform usampler2D ids;
@@ -29,10 +29,10 @@ void main() {
   uint own = thingAt(p);
   uint other = own;
   float share = 0.0;
-  // Labels are half as fine as the image: where one is exactly 0 or 1, so it is all around. A loop
-  // that no invocation enters costs nothing on software renderers.
+  // Labels are half as fine as the full image: where one is exactly 0 or 1, so it is all around. A
+  // loop that no invocation enters costs nothing on software renderers.
   float mover = moverOf(p);
-  bool isUniform = !hasObjects && (mover == 0.0 || mover == 1.0);
+  bool isUniform = !hasObjects && pixelsOfFull.x > 0.99 && (mover == 0.0 || mover == 1.0);
   for (int i = isUniform ? 9 : 0; i < 9; ++i) {
     ivec2 step = ivec2(i % 3, i / 3) - 1;
     uint object = i == 4 ? own : thingAt(clamp(p + step, ivec2(0), last));
