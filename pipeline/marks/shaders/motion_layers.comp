@@ -30,6 +30,7 @@ uniform float noise;
 
 const float kSlack = 0.035;
 const float kNoises = 3.0;
+const float kMovingSlack = 1.6;  // of a camera that moves: the past is interpolated
 const float kSurely = 2.4;      // thresholds at which other content is certain
 const float kTrustedFrames = 4.0;  // of background, after which its colours count more than flow
 const float kReach = 2.5;       // px
@@ -76,7 +77,7 @@ void main() {
   }
   vec4 known = textureLod(background, inCells(from, cells), 0.0);
   vec3 before = textureLod(lastPicture, inCells(from, cells), 0.0).rgb;
-  float least = kSlack + kNoises * noise;
+  float least = (isStanding ? 1.0 : kMovingSlack) * (kSlack + kNoises * noise);
   float other = smoothstep(least, kSurely * least, beyond(known.rgb, low, high));
   other *= known.a < 0.5 ? 0.0 : 1.0 - shadeOf(now, known.rgb);
   float changed = smoothstep(least, kSurely * least, beyond(before, low, high));
