@@ -46,12 +46,11 @@ struct AnchorHold {
 
 /// The anchors of a style's marks. They are spawned where the image has too few, follow the surface
 /// that they lie on (exactly on a model; else by the best known image motion), and fade out when a
-/// model occludes their surface or their cell is too crowded. An anchor that a
-/// mover covers stays, for AnchorHold::memory: its mark is to remain as it is, with the mover drawn
-/// over it. An anchor keeps its slot for life, so that styles can store the data of its mark in
-/// parallel buffers. All data stays
-/// on the GPU; nothing is read back. The same frames with the same times give the same anchors. All
-/// calls on the thread of the GL context that was current at construction.
+/// model occludes their surface or their cell is too crowded. An anchor that a mover covers stays,
+/// for AnchorHold::memory: its mark is to remain as it is, with the mover drawn over it. An anchor
+/// keeps its slot for life, so that styles can store the data of its mark in parallel buffers. All
+/// data stays on the GPU; nothing is read back. The same frames with the same times give the same
+/// anchors. All calls on the thread of the GL context that was current at construction.
 class AnchorSet {
  public:
   /// `library` has gpu::marksShaders(), gpu::sceneShaders() and gpu::gpuShaders(). `full` is the
@@ -63,11 +62,10 @@ class AnchorSet {
   AnchorSet(AnchorSet&&) = delete;
   AnchorSet& operator=(AnchorSet&&) = delete;
 
-  /// Advances to the next frame, for which `motion` and `layers` have been updated; without
-  /// layers, no anchor is covered. The first frame, a frame
-  /// after reset() and a frame after a cut start anew, with all anchors visible at once.
-  /// Preconditions: frame.full() is the constructor's size; the style's needs include surfaces and
-  /// measuredMotion.
+  /// Advances to the next frame, for which `motion` and `layers` have been updated; without layers,
+  /// no anchor is covered. The first frame, a frame after reset() and a frame after a cut start
+  /// anew, with all anchors visible at once. Preconditions: frame.full() is the constructor's size;
+  /// the style's needs include surfaces and measuredMotion.
   void advance(const scene::ArFrame& frame, const MotionField& motion, const AnchorHold& hold = {},
                const MotionLayers* layers = nullptr);
   /// Whether the last advance() started anew, so that data which a style stores per slot is

@@ -39,8 +39,7 @@ class MotionLayers {
   MotionLayers& operator=(MotionLayers&&) = delete;
 
   /// Adds a frame, for which `motion` has been updated. A cut forgets the background, and so does a
-  /// change of frame.size(). Precondition:
-  /// frame.full() is the constructor's size.
+  /// change of frame.size(). Precondition: frame.full() is the constructor's size.
   void update(const scene::ArFrame& frame, const MotionField& motion,
               const MotionLayersOptions& options = {});
 

@@ -79,8 +79,8 @@ class StrokeSet {
 
   /// Traces the strokes of the frame for which `anchors` and `field` were updated. If the anchors
   /// have started anew, the strokes have no past. With the anchors' `layers`, strokes end at the
-  /// borders of movers. Preconditions: both are of frame.full(), and the
-  /// anchors have the constructor's number of slots.
+  /// borders of movers. Preconditions: both are of frame.full(), and the anchors have the
+  /// constructor's number of slots.
   void update(const scene::ArFrame& frame, const AnchorSet& anchors, const TensorField& field,
               const StrokePaint& paint, const StrokeRule& rule,
               const MotionLayers* layers = nullptr);

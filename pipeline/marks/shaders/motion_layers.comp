@@ -1,13 +1,13 @@
 // Purpose: compares each cell of the picture with the remembered background and with the previous
 //          frame, and carries its label along the motion (marks/motion_layers.h).
-// Inputs:  motion_layers.glsl's; picture (ArFrame::colour); ids if hasObjects; lastPicture,
-//          background, labels: the previous frame's; motion: MotionField's field; noise: sigma of a
-//          cell, in [0, 1]; hasPast; turn, stepSeconds.
+// Inputs:  motion_layers.glsl's, motion_layers_tally.glsl's; picture (ArFrame::colour); ids and its
+//          pixelsOfFull if hasObjects; lastPicture, background, labels: the previous frame's, if
+//          hasPast; motion: MotionField's field; noise: sigma of a cell, in [0, 1].
 // Outputs: candidates RGBA8: how surely it is other content than the background, the carried label,
 //          luma now and of the background. evidence RGBA16F: whether it has changed since the
-//          previous frame, or -1 on models; carried rest, carried maturity, carried freshness. pictureNow RGBA8.
-//          otherCells: how many cells are surely other content.
-//          One invocation per cell.
+//          previous frame, or -1 on models; carried rest, carried maturity, carried freshness.
+//          pictureNow RGBA8: the picture in cells. otherCells: how many cells are surely other
+//          content. One invocation per cell.
 // Precision: highp.
 #include "pipeline/gpu/shaders/luma.glsl"
 #include "pipeline/marks/shaders/motion_layers.glsl"
@@ -29,11 +29,11 @@ uniform vec2 pixelsOfFull;
 uniform float noise;
 
 const float kSlack = 0.035;
-const float kNoises = 3.0;
+const float kNoiseDeviations = 3.0;
 const float kMovingSlack = 1.6;  // of a camera that moves: the past is interpolated
-const float kSurely = 2.4;      // thresholds at which other content is certain
+const float kCertainThresholds = 2.4;  // at so many thresholds, other content is certain
 const float kTrustedFrames = 4.0;  // of background, after which its colours count more than flow
-const float kReach = 2.5;       // px
+const float kReach = 2.5;  // px
 const float kMovedPx = 0.6;
 
 // How surely the colour is the background's in a shadow, or in a little more light.
@@ -41,7 +41,7 @@ float shadeOf(vec3 now, vec3 known) {
   float before = lumaOf(known);
   float ratio = lumaOf(now) / max(before, 1e-3);
   if (before < 0.12 || ratio < 0.68 || ratio > 1.12) return 0.0;
-  return 1.0 - smoothstep(0.5, 1.0, apart(now / ratio - known) / (kSlack + kNoises * noise));
+  return 1.0 - smoothstep(0.5, 1.0, apart(now / ratio - known) / (kSlack + kNoiseDeviations * noise));
 }
 
 void main() {
@@ -77,10 +77,10 @@ void main() {
   }
   vec4 known = textureLod(background, inCells(from, cells), 0.0);
   vec3 before = textureLod(lastPicture, inCells(from, cells), 0.0).rgb;
-  float least = (isStanding ? 1.0 : kMovingSlack) * (kSlack + kNoises * noise);
-  float other = smoothstep(least, kSurely * least, beyond(known.rgb, low, high));
+  float least = (isStanding ? 1.0 : kMovingSlack) * (kSlack + kNoiseDeviations * noise);
+  float other = smoothstep(least, kCertainThresholds * least, beyond(known.rgb, low, high));
   other *= known.a < 0.5 ? 0.0 : 1.0 - shadeOf(now, known.rgb);
-  float changed = smoothstep(least, kSurely * least, beyond(before, low, high));
+  float changed = smoothstep(least, kCertainThresholds * least, beyond(before, low, high));
 
   vec4 moved = textureLod(motion, px / fullSize, 0.0);
   bool isMoving = moved.w > 0.5 && moved.z < 3.0 &&
@@ -97,5 +97,6 @@ void main() {
   }
   if (other > 0.5) atomicAdd(otherCells[turn], 1u);
   imageStore(candidates, cell, vec4(other, label.r, luma, lumaOf(known.rgb)));
-  imageStore(evidence, cell, vec4(changed, label.b, label.a + (isMoving ? stepSeconds : 0.0), label.g));
+  float maturity = label.a + (isMoving ? stepSeconds : 0.0);
+  imageStore(evidence, cell, vec4(changed, label.b, maturity, label.g));
 }

@@ -1,8 +1,9 @@
 // Purpose: decides which cells belong to movers, from all that motion_layers.comp found around
 //          each, and adds the others to the background (marks/motion_layers.h).
-// Inputs:  motion_layers.glsl's; candidates, evidence (motion_layers.comp); picture: this frame's,
-//          in cells; background: the previous frame's; hasPast; restSeconds: after which a mover
-//          that rests joins the background; freshSeconds.
+// Inputs:  motion_layers.glsl's, motion_layers_tally.glsl's; candidates, evidence
+//          (motion_layers.comp); picture: this frame's, in cells; background: the previous frame's,
+//          if hasPast; restSeconds: after so long a mover that rests joins the background;
+//          freshSeconds: freshness falls to 0 within so long.
 // Outputs: labels RGBA16F: 1 on movers, else 0; freshness: 1 where the label has just changed,
 //          falling to 0; rest and maturity, s. backgroundNow RGBA16F: its mean colour, and the
 //          frames in the mean, 0 if it was never seen. One invocation per cell.

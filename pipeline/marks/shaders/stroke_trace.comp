@@ -1,8 +1,8 @@
 // Purpose: traces each anchor's stroke along the tensor field (thesis §4.4), both ways, and blends
 //          it with its past: directions one by one, lengths, colour and existence with time
 //          constants (§5.4), so that a stroke lives as long as its anchor.
-// Inputs:  anchors; field: tensors to follow, detailField: tensors with the detail;
-//          moverField: those of movers; mover_labels.glsl's; background (marks::MotionLayers); paint,
+// Inputs:  anchors; field: tensors to follow, detailField: tensors with the detail, moverField:
+//          those of movers; mover_labels.glsl's; background (marks::MotionLayers); paint,
 //          modelPaint: the reduced images of the real part and of the models; ids if hasObjects;
 //          the rest as in marks::StrokeRule.
 // Outputs: strokes. One invocation per anchor.
@@ -242,7 +242,8 @@ void main() {
     behind.colour = vec3(0.0);
     behind.weight = 0.0;
   }
-  vec3 colour = (kOwnWeight * own + ahead.colour + behind.colour) / (kOwnWeight + ahead.weight + behind.weight);
+  vec3 colour = (kOwnWeight * own + ahead.colour + behind.colour) /
+                (kOwnWeight + ahead.weight + behind.weight);
 
   // A stroke is wanted where the detail lies in its band; an existing one stays a little longer.
   float seen = detailAt(px, object, isOnMover);
@@ -253,7 +254,8 @@ void main() {
   float goal = wanted ? 1.0 : 0.0;
 
   // The past ends where the stroke stands on clearly other content.
-  float stays = isOnMover ? past.x : pow(past.x, mix(1.0 / flatHold, 1.0, smoothstep(flatDetail.x, flatDetail.y, seen)));
+  float byDetail = mix(1.0 / flatHold, 1.0, smoothstep(flatDetail.x, flatDetail.y, seen));
+  float stays = isOnMover ? past.x : pow(past.x, byDetail);
   float changed = isNew ? 0.0 : smoothstep(otherColour.x, otherColour.y, apart(colour, old.colour));
   Stroke made;
   made.wanted = goal;

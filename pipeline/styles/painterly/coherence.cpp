@@ -14,7 +14,8 @@ constexpr double kAppearingSeconds = 0.3;
 constexpr double kForever = 1e6;
 /// Limits the memory of the field and the anchors, so that new strokes follow the present image.
 constexpr double kMaxHold = 4.0;
-/// Of other content, without noise, and what noise adds, in its standard deviations.
+/// The differences of colour from which a stroke stands on other content (StrokeRule::otherColour):
+/// those of an image without noise, and the standard deviations of the noise that are added.
 constexpr glm::vec2 kOtherColour{0.09F, 0.18F};
 constexpr glm::vec2 kOtherColourNoises{2.5F, 5.0F};
 constexpr float kFlatHold = 30.0F;

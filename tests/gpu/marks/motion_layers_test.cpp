@@ -1,5 +1,5 @@
-// What moves by itself is told from the background, at once and for as long as it is there; and the
-// anchors behind it are the same when it has passed.
+// Movers are told from the background at once, and for as long as they are there; and the anchors
+// behind a mover are the same ones when it has passed.
 #include "pipeline/marks/motion_layers.h"
 
 #include <algorithm>
@@ -122,7 +122,7 @@ TEST_F(MotionLayersTest, WhatMovesIsFoundWithItsOutline) {
   for (int i = 0; i < 15; ++i) {
     const View view{.disc = {60.0 + 12.0 * i, 120.0}, .radius = 35.0};
     see(view);
-    // It is not seen to move in its first frame, but it is not as before either.
+    // In its first frame no motion of the disc is known, but the picture has changed there.
     ASSERT_GT(overlapWith(view).iou(), 0.85) << i;
   }
   see({});
@@ -137,7 +137,7 @@ TEST_F(MotionLayersTest, WhatComesToRestStaysItselfForAWhile) {
     view.disc = {60.0 + 10.0 * i, 120.0};
     see(view);
   }
-  // Its motion is not measured here: 0.7 s.
+  // The motion of the disc is not measured here, so that it joins the background after 0.7 s.
   for (int i = 0; i < 18; ++i) see(view);
   EXPECT_GT(overlapWith(view).iou(), 0.8);
   for (int i = 0; i < 8; ++i) see(view);

@@ -1,4 +1,4 @@
-// The dial of coherence and its parts: what they scale, and what becomes of strokes.
+// The dial of coherence and its parts: the times that they scale, and the strokes that result.
 #include "pipeline/styles/painterly/coherence.h"
 
 #include <array>
@@ -125,7 +125,8 @@ TEST_F(Coherence, ColoursAreBlendedAsTheThesisDoes) {
   }
 }
 
-/// What cannot be noise, nor a change of exposure, is another thing.
+/// A change that is too large for noise and for the exposure shows other content: the stroke keeps
+/// nothing of its past.
 TEST_F(Coherence, ALargeChangeIsFollowedAtOnce) {
   Painterly style(library_);
   style.paint(next(plain(200)), "");

@@ -3,8 +3,9 @@
 // Inputs:  ids (ArFrame::ids); object, of ids; origin, size: the rectangle in px that contains the
 //          model; those of surface_point.glsl.
 // Outputs: motion RGBA16F: displacement in px since the previous frame (x right, y down), predicted
-//          error in px, SurfaceMotionSource (scene/render/ar_frame.h); barycentrics R32UI: those of the triangle's
-//          first two corners, 16 bits each; parts R32UI, like ids. One pixel per invocation.
+//          error in px, SurfaceMotionSource (scene/render/ar_frame.h); barycentrics R32UI: those of
+//          the triangle's first two corners, 16 bits each; parts R32UI, like ids. One pixel per
+//          invocation.
 // Precision: highp; the displacement is rounded to 11 bits.
 #include "pipeline/scene/render/shaders/object_id.glsl"
 #include "pipeline/scene/render/shaders/surface_point.glsl"

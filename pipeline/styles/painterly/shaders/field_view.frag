@@ -1,9 +1,9 @@
 // Purpose: debug views of the tensor field: short lines along the direction of strokes (thesis
 //          figures 15, 16), blue on edges and red where interpolated; the pyramid's levels; or the
 //          regions, by their detail.
-// Inputs:  picture; fields of four levels (marks::TensorField::resolved); fieldScale: texture coordinates
-//          for a px of the full picture, of the first level; view: of VIEW_TENSORS, VIEW_PYRAMID, VIEW_REGIONS;
-//          pixelsOfFull; bands: where middling and fine strokes begin.
+// Inputs:  picture; field0 to field3: four levels (marks::TensorField::resolved); size and
+//          pixelsOfFull: of the frame; view: VIEW_TENSORS, VIEW_PYRAMID or VIEW_REGIONS; bands:
+//          the detail at which middling and fine strokes begin.
 // Outputs: RGBA8, sRGB-coded, opaque. Precision: highp for places.
 uniform sampler2D picture;
 uniform highp sampler2D field0;

@@ -12,6 +12,7 @@ layout(location = 5) in vec4 shape;  // half the width, variant, its object, its
 uniform float quads;
 
 SplinePlace splinePlace() {
-  vec2 points[8] = vec2[8](first.xy, first.zw, second.xy, second.zw, third.xy, third.zw, fourth.xy, fourth.zw);
+  vec2 points[8] = vec2[8](first.xy, first.zw, second.xy, second.zw,
+                           third.xy, third.zw, fourth.xy, fourth.zw);
   return splineAt(points, float(gl_VertexID >> 1) / quads * float(kSplineSpans));
 }
