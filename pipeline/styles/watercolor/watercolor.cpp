@@ -24,7 +24,6 @@ using gpu::TextureFormat;
 
 constexpr GLbitfield kWritten = GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                                 GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
-constexpr double kUsualNoiseLevels = 2.0;
 const std::string kShaders = "pipeline/styles/watercolor/shaders/";
 
 constexpr std::string_view kMeansView = "means";
@@ -223,12 +222,10 @@ void Watercolor::filtered(const scene::ArFrame& frame) {
     passes_->filtered.reset();
     return;
   }
-  const auto* const motion = frame.measuredMotion ? frame.measuredMotion->motion : nullptr;
-  const double noise = motion != nullptr ? motion->noiseLevels : 0.0;
   passes_->filtered.update(frame, {.backward = &marks_->field.backward(),
                                    .isCut = marks_->field.isCut(),
                                    .timeConstantSeconds = p_.filterTimeSeconds,
-                                   .noiseLevels = noise > 0.0 ? noise : kUsualNoiseLevels});
+                                   .noiseLevels = marks_->field.noiseLevels()});
   picture_ = &passes_->filtered.picture();
 }
 
