@@ -35,7 +35,9 @@ struct Anchor {
   std::uint32_t seed = 0;  ///< seeds all its random properties, for its whole life
   /// the object and triangle that it lies on (ArFrame::ids); 0: the image
   std::uint32_t surface = 0;
-  std::uint32_t state = 0;  ///< a MotionSource and the flags below
+  /// a MotionSource, the flags below, and in the upper 16 bits for how long a mover has covered it
+  /// (shaders/anchor.glsl)
+  std::uint32_t state = 0;
 
   static constexpr std::uint32_t kSourceBits = 0xFF;
   /// without this flag, the slot is free and its content has no meaning
@@ -47,7 +49,6 @@ struct Anchor {
   /// clipped where the mover is seen
   static constexpr std::uint32_t kCovered = 0x1000;
   static constexpr std::uint32_t kMover = 0x2000;  ///< on a mover (MotionLayers)
-  static constexpr int kCoveredShift = 16;         ///< above it: for how long, in 1/256 s
 
   bool isAlive() const { return (state & kAlive) != 0; }
   bool isCovered() const { return (state & (kAlive | kCovered)) == (kAlive | kCovered); }
