@@ -65,13 +65,13 @@ void main() {
   // Appearance is not compared behind a model, nor for an anchor known to lie on another real
   // object.
   vec2 looks = anchors[slot].barycentrics;
-  bool isCovered = false;
+  bool isBehind = false;
   bool isInside = all(greaterThan(px, vec2(0.0))) && all(lessThan(px, fullSize));
   if (follows && !isHidden && isInside) {
     vec2 mover = moverAt(px);
-    isCovered = !isOnMover && mover.r > (wasCovered ? 0.1 : 0.25);
+    isBehind = !isOnMover && mover.r > (wasCovered ? 0.1 : 0.25);
     bool isOther = false;
-    if (isCovered) {
+    if (isBehind) {
       isOther = isUnlikeBackground(looks, px);
     } else {
       looks = remembered(looks, px);
@@ -93,10 +93,10 @@ void main() {
   anchors[slot].error = moved.error;
   uint covered = 0u;
   uint flags = (state & (kAlive | kDying)) | (isHidden ? kHidden : 0u);
-  if (isCovered) {
+  if (isBehind) {
     covered = min((state >> kCoveredShift) + uint(256.0 * stepSeconds + 0.5), kMaxCovered);
     isGone = isGone || (state & kDying) != 0u || float(covered) > 256.0 * memorySeconds;
   }
-  flags |= (isCovered ? kCovered : 0u) | (isOnMover ? kMover : 0u);
+  flags |= (isBehind ? kCovered : 0u) | (isOnMover ? kMover : 0u);
   anchors[slot].state = isGone ? 0u : flags | moved.source | (covered << kCoveredShift);
 }
