@@ -41,14 +41,14 @@ float shadeOf(vec3 now, vec3 known) {
   float before = lumaOf(known);
   float ratio = lumaOf(now) / max(before, 1e-3);
   if (before < 0.12 || ratio < 0.68 || ratio > 1.12) return 0.0;
-  return 1.0 - smoothstep(0.5, 1.0, apart(now / ratio - known) / (kSlack + kNoiseDeviations * noise));
+  return 1.0 - smoothstep(0.5, 1.0, apart(now / ratio, known) / (kSlack + kNoiseDeviations * noise));
 }
 
 void main() {
   ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
   ivec2 cells = imageSize(candidates);
   if (any(greaterThanEqual(cell, cells))) return;
-  vec2 px = (vec2(cell) + 0.5) * kCellPixels;
+  vec2 px = (vec2(cell) + 0.5) * kLayerCellPixels;
   vec3 now = textureLod(picture, px / fullSize, 0.0).rgb;
   imageStore(pictureNow, cell, vec4(now, 1.0));
   bool isModel = false;
@@ -75,8 +75,8 @@ void main() {
       high = max(high, there);
     }
   }
-  vec4 known = textureLod(background, inCells(from, cells), 0.0);
-  vec3 before = textureLod(lastPicture, inCells(from, cells), 0.0).rgb;
+  vec4 known = textureLod(background, inLayers(background, from), 0.0);
+  vec3 before = textureLod(lastPicture, inLayers(lastPicture, from), 0.0).rgb;
   float least = (isStanding ? 1.0 : kMovingSlack) * (kSlack + kNoiseDeviations * noise);
   float other = smoothstep(least, kCertainThresholds * least, beyond(known.rgb, low, high));
   other *= known.a < 0.5 ? 0.0 : 1.0 - shadeOf(now, known.rgb);
@@ -85,10 +85,10 @@ void main() {
   vec4 moved = textureLod(motion, px / fullSize, 0.0);
   bool isMoving = moved.w > 0.5 && moved.z < 3.0 &&
                   distance(moved.xy, shift) > kMovedPx + 2.5 * moved.z;
-  vec4 label = textureLod(labels, inCells(from, cells), 0.0);
+  vec4 label = textureLod(labels, inLayers(labels, from), 0.0);
   if (isMoving) {
     vec2 back = px - moved.xy;
-    vec4 carried = isInPicture(back) ? textureLod(labels, inCells(back, cells), 0.0) : vec4(0.0);
+    vec4 carried = isInPicture(back) ? textureLod(labels, inLayers(labels, back), 0.0) : vec4(0.0);
     if (carried.r > label.r) label = carried;
     // The ground is hardly known yet. Measured flow reaches beyond a mover, but nothing changes
     // there.

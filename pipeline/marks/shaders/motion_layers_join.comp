@@ -34,7 +34,7 @@ void main() {
   ivec2 size = imageSize(labels);
   if (cell == ivec2(0)) otherCells[1u - turn] = 0u;
   if (any(greaterThanEqual(cell, size))) return;
-  vec2 px = (vec2(cell) + 0.5) * kCellPixels;
+  vec2 px = (vec2(cell) + 0.5) * kLayerCellPixels;
   vec2 from = px - backgroundShift(px);
   vec3 now = texelFetch(picture, cell, 0).rgb;
   vec4 past = texelFetch(evidence, cell, 0);
@@ -44,7 +44,8 @@ void main() {
     return;
   }
   vec4 own = texelFetch(candidates, cell, 0);
-  vec4 known = isInPicture(from) ? textureLod(background, inCells(from, size), 0.0) : vec4(now, 0.0);
+  vec4 known = isInPicture(from) ? textureLod(background, inLayers(background, from), 0.0)
+                                 : vec4(now, 0.0);
   if (past.r < 0.0) {  // a model: what is behind it stays as it was known
     imageStore(labels, cell, vec4(0.0));
     imageStore(backgroundNow, cell, known);

@@ -2,14 +2,8 @@
 // Inputs:  movers; places in px of the full image.
 // Outputs: mover: in [0, 1]; freshness: 1 where that has just changed.
 // Precision: highp.
+#include "pipeline/marks/shaders/layer_cells.glsl"
 uniform highp sampler2D movers;
-
-const float kMoverPixels = 2.0;  // of a texel: marks::MotionLayers::kCellPixels
-
-// Texture coordinates in the textures of marks::MotionLayers; they may reach beyond the image.
-vec2 inLayers(highp sampler2D layers, vec2 px) {
-  return px / (kMoverPixels * vec2(textureSize(layers, 0)));
-}
 
 vec2 moverAt(vec2 px) { return textureLod(movers, inLayers(movers, px), 0.0).rg; }
 

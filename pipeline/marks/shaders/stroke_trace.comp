@@ -9,6 +9,7 @@
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
+#include "pipeline/marks/shaders/colour_difference.glsl"
 #include "pipeline/marks/shaders/stroke.glsl"
 #include "pipeline/marks/shaders/stroke_history.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
@@ -94,12 +95,6 @@ float detailAt(vec2 px, uint object, bool isOnMover) {
 }
 
 #include "pipeline/marks/shaders/mover_labels.glsl"
-
-// A roughly perceptual distance: luma counts most.
-float apart(vec3 a, vec3 b) {
-  vec3 d = a - b;
-  return sqrt(dot(d * d, vec3(0.9, 1.5, 0.6)));
-}
 
 Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, uint object, bool isOnMover) {
   Arm arm;
@@ -209,13 +204,13 @@ void main() {
   bool isNew = anew || (state & kBorn) != 0u;
   Stroke old = strokes[slot];
   bool isOnMover = (state & kMover) != 0u;
-  bool isCovered = (state & kCovered) != 0u;
-  if (!isNew && ((state & kHidden) != 0u || isCovered || (!isOnMover && reachesMover(px, old)))) {
+  bool isBehind = (state & kCovered) != 0u;
+  if (!isNew && ((state & kHidden) != 0u || isBehind || (!isOnMover && reachesMover(px, old)))) {
     // What is before it has other colours and directions: the stroke stays, or fades out,
     // unchanged, unless it is of a colour that is not there.
     vec4 behind = textureLod(background, inLayers(background, px), 0.0);
     bool isStale = !isOnMover && behind.a >= 1.0 && apart(old.colour, behind.rgb) > otherColour.y;
-    if (!isStale || isCovered) {
+    if (!isStale || isBehind) {
       old.seen = isStale ? 0.0 : old.exists * anchors[slot].fade;
       strokes[slot] = old;
       return;

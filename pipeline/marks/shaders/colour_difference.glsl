@@ -1,0 +1,9 @@
+// Purpose: how different two colours are, roughly as they are perceived: luma counts most.
+// Inputs:  sRGB-coded colours, or the difference of two.
+// Outputs: a weighted length, in the same units.
+// Precision: that of the colours.
+float weightedLength(vec3 difference) {
+  return sqrt(dot(difference * difference, vec3(0.9, 1.5, 0.6)));
+}
+
+float apart(vec3 a, vec3 b) { return weightedLength(a - b); }
