@@ -58,9 +58,7 @@ struct AnchorSet::State {
         anchors(slots * sizeof(Anchor), gpu::BufferUsage::kDynamic),
         cells(static_cast<std::size_t>(grid.x * grid.y) * kCellBytes, gpu::BufferUsage::kDynamic),
         births((slots + 1) * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
-        noIds(gpu::TextureFormat::kR32ui, {1, 1}),
-        noMovers(gpu::TextureFormat::kRgba16f, {1, 1}, gpu::TextureFilter::kLinear) {
-    noMovers.upload(std::vector<std::uint8_t>(8), 8);
+        noIds(gpu::TextureFormat::kR32ui, {1, 1}) {
     anchors.write(std::vector<std::byte>(anchors.sizeBytes()));
     cells.write(std::vector<std::byte>(cells.sizeBytes()));
   }
@@ -79,9 +77,8 @@ struct AnchorSet::State {
   gpu::Buffer cells;
   gpu::Buffer births;  // the free slots, in order
   gpu::Texture noIds;
-  gpu::Texture noMovers;
-  const gpu::Texture* movers = &noMovers;  // of this frame
-  const gpu::Texture* background = &noMovers;
+  LayerTextures layerTextures;
+  const MotionLayers* layers = nullptr;  // of this frame; null: movers are not told apart
   hal::TimePoint lastTime;
   std::uint32_t salt = 0;  // of this frame's spawns
   bool hasPast = false;
@@ -128,8 +125,8 @@ void AnchorSet::State::carryInImage(const scene::ArFrame& frame, const MotionFie
       .storage("Anchors", anchors);
   motion.bind(image);
   image.texture("picture", *frame.colour)
-      .texture("movers", *movers)
-      .texture("background", *background)
+      .texture("movers", layerTextures.labelsOf(layers))
+      .texture("background", layerTextures.backgroundOf(layers))
       .set("noise", static_cast<float>(motion.noiseLevels() / 255.0))
       .set("stepSeconds", std::chrono::duration<float>(step).count())
       .set("memorySeconds", static_cast<float>(hal::toSeconds(hold.memory)))
@@ -180,7 +177,7 @@ void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionFiel
       .set("hasObjects", frame.hasObjects ? 1 : 0)
       .storage("Anchors", anchors)
       .storage("Cells", cells)
-      .texture("movers", *movers)
+      .texture("movers", layerTextures.labelsOf(layers))
       .set("target", rule.target)
       .set("birthBelow", hold.hasSlack ? rule.birthBelow : rule.target)
       .set("deathAbove", hold.hasSlack ? rule.deathAbove : rule.target)
@@ -196,7 +193,7 @@ void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionFiel
       .set("hasObjects", frame.hasObjects ? 1 : 0)
       .texture("barycentrics", frame.barycentrics != nullptr ? *frame.barycentrics : noIds)
       .texture("motion", motion.backward())
-      .texture("movers", *movers)
+      .texture("movers", layerTextures.labelsOf(layers))
       .storage("Anchors", anchors)
       .storage("Cells", cells)
       .storage("Plan", births)
@@ -222,8 +219,7 @@ void AnchorSet::advance(const scene::ArFrame& frame, const MotionField& motion,
   const hal::Duration step = s.hasPast ? timeStep(s.lastTime, frame.captureTime) : hal::Duration(0);
   s.lastTime = frame.captureTime;
   s.hasPast = true;
-  s.movers = layers != nullptr ? &layers->labels() : &s.noMovers;
-  s.background = layers != nullptr ? &layers->background() : &s.noMovers;
+  s.layers = layers;
   ++s.salt;
   {
     s.carryInImage(frame, motion, hold, step);

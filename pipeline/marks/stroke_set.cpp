@@ -39,9 +39,7 @@ struct StrokeSet::State {
         command(gpu::kDrawCommandBytes, gpu::BufferUsage::kDynamic),
         instances(slots * kInstanceBytes, gpu::BufferUsage::kDynamic),
         noIds(gpu::TextureFormat::kR32ui, {1, 1}),
-        anyColour(gpu::TextureFormat::kRgba8, {1, 1}),
-        noMovers(gpu::TextureFormat::kRgba16f, {1, 1}, gpu::TextureFilter::kLinear) {
-    noMovers.upload(std::vector<std::uint8_t>(8), 8);
+        anyColour(gpu::TextureFormat::kRgba8, {1, 1}) {
     strokes.write(std::vector<std::byte>(strokes.sizeBytes()));
   }
 
@@ -55,7 +53,7 @@ struct StrokeSet::State {
   gpu::Buffer instances;
   gpu::Texture noIds;
   gpu::Texture anyColour;
-  gpu::Texture noMovers;
+  LayerTextures layerTextures;
   hal::TimePoint lastTime;
 
   glm::ivec2 allSlots() const { return {static_cast<int>(slots), 1}; }
@@ -92,8 +90,8 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .texture("moverField", field.movers())
       .texture("paint", *paint.real)
       .texture("modelPaint", *paint.models)
-      .texture("movers", layers != nullptr ? layers->labels() : noMovers)
-      .texture("background", layers != nullptr ? layers->background() : noMovers)
+      .texture("movers", layerTextures.labelsOf(layers))
+      .texture("background", layerTextures.backgroundOf(layers))
       .texture("ids", frame.hasObjects ? *frame.ids : noIds)
       .set("hasObjects", frame.hasObjects ? 1 : 0)
       .set("anew", anchors.hasBegunAnew() ? 1 : 0)

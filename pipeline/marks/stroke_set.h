@@ -11,6 +11,7 @@
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/marks/anchor_set.h"
+#include "pipeline/marks/motion_layers.h"
 #include "pipeline/marks/tensor_field.h"
 #include "pipeline/scene/render/ar_frame.h"
 

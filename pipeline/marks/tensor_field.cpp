@@ -61,9 +61,7 @@ struct TensorField::State {
         reduce(library.compute(kShaders + "tensor_reduce.comp")),
         resolve(library.compute(kShaders + "tensor_resolve.comp")),
         edges(kEdgeWords * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
-        noIds(gpu::TextureFormat::kR32ui, {1, 1}),
-        noMovers(gpu::TextureFormat::kRgba16f, {1, 1}, gpu::TextureFilter::kLinear) {
-    noMovers.upload(std::vector<std::uint8_t>(8), 8);
+        noIds(gpu::TextureFormat::kR32ui, {1, 1}) {
     edges.write(std::vector<std::byte>(edges.sizeBytes()));
     hal::FrameSize size{(full.width + kRegionPixels - 1) / kRegionPixels,
                         (full.height + kRegionPixels - 1) / kRegionPixels};
@@ -88,7 +86,7 @@ struct TensorField::State {
   gpu::Program resolve;
   gpu::Buffer edges;
   gpu::Texture noIds;
-  gpu::Texture noMovers;
+  LayerTextures layerTextures;
   std::vector<Level> levels;
   gpu::Texture before;
   gpu::Texture moverRegions;
@@ -143,7 +141,7 @@ void TensorField::State::sumRegions(const scene::ArFrame& frame, const MotionFie
   regions.texture("tensors", gradientOf(frame.size()).texture)
       .texture("before", before)
       .texture("moversBefore", moversBefore)
-      .texture("movers", layers != nullptr ? layers->labels() : noMovers)
+      .texture("movers", layerTextures.labelsOf(layers))
       .texture("motion", motion.backward())
       .storage("Edges", edges)
       .image("regions", finest.regions, gpu::ImageAccess::kWrite)

@@ -142,10 +142,7 @@ struct Painterly::State {
         strips(library),
         drawing(library),
         brushes(library),
-        noIds(TextureFormat::kR32ui, {1, 1}),
-        noMovers(TextureFormat::kRgba16f, {1, 1}, TextureFilter::kLinear) {
-    noMovers.upload(std::vector<std::uint8_t>(8), 8);
-  }
+        noIds(TextureFormat::kR32ui, {1, 1}) {}
 
   const gpu::ShaderLibrary& library;
   ReducedImages reduced;
@@ -161,13 +158,17 @@ struct Painterly::State {
   StrokeDrawing drawing;
   BrushCache brushes;
   Texture noIds;
-  Texture noMovers;
+  marks::LayerTextures layerTextures;
   std::string palette = "all";  // that `mixtures` are of
   std::optional<Texture> mixtures;
   std::unique_ptr<Painting> painting;
   gpu::PerSize<Canvas> canvases;
   Canvas* canvas = nullptr;  // of this frame
 
+  /// Null where movers are not told apart.
+  const marks::MotionLayers* moversOf(const PainterlyParameters& p) const {
+    return tellsMovers(p) ? &painting->movers : nullptr;
+  }
   void take(const scene::ArFrame& frame, const PainterlyParameters& p);
   void grow(const scene::ArFrame& frame, const PainterlyParameters& p);
   /// Where strokes are clipped; null where nothing virtual is seen and movers are not told apart.
@@ -201,7 +202,7 @@ void Painterly::State::take(const scene::ArFrame& frame, const PainterlyParamete
 
 void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParameters& p) {
   painting->motion.update(frame, motionOf(p));
-  const marks::MotionLayers* const movers = tellsMovers(p) ? &painting->movers : nullptr;
+  const marks::MotionLayers* const movers = moversOf(p);
   if (movers != nullptr) {
     painting->movers.update(frame, painting->motion);
   } else {
@@ -225,7 +226,7 @@ const Texture* Painterly::State::findBorders(const scene::ArFrame& frame,
   if (!frame.hasObjects && !tellsMovers(p)) return nullptr;
   borders.use()
       .texture("ids", frame.hasObjects ? *frame.ids : noIds)
-      .texture("movers", tellsMovers(p) ? painting->movers.labels() : noMovers)
+      .texture("movers", layerTextures.labelsOf(moversOf(p)))
       .set("hasObjects", frame.hasObjects ? 1 : 0)
       .set("size", glm::vec2(canvas->size.width, canvas->size.height))
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
@@ -324,8 +325,8 @@ const Texture& Painterly::State::show(const scene::ArFrame& frame, const Painter
     case PainterlyViewer::kMovers:
       moverView.use()
           .texture("picture", *frame.colour)
-          .texture("movers", tellsMovers(p) ? painting->movers.labels() : noMovers)
-          .texture("background", tellsMovers(p) ? painting->movers.background() : noMovers)
+          .texture("movers", layerTextures.labelsOf(moversOf(p)))
+          .texture("background", layerTextures.backgroundOf(moversOf(p)))
           .set("size", glm::vec2(canvas->size.width, canvas->size.height))
           .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
           .set("view", static_cast<int>(view))

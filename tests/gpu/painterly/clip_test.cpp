@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "pipeline/gpu/render_target.h"
+#include "pipeline/marks/motion_layers.h"
 #include "tests/gpu/painterly/painterly_fixture.h"
 #include "tests/oracles/stroke_oracle.h"
 
@@ -51,12 +52,11 @@ TEST_F(ClipTest, BordersAreTheOracles) {
   setIds(kSmall, at);
   const auto seen = [&](int x, int y) { return at(x, y) == real ? 0U : at(x, y); };
   const gpu::Texture borders(gpu::TextureFormat::kR32ui, kSmall);
-  gpu::Texture movers(gpu::TextureFormat::kRgba16f, {1, 1}, gpu::TextureFilter::kLinear);
-  movers.upload(std::vector<std::uint8_t>(8), 8);
+  const marks::LayerTextures layerTextures;
   library_.fragmentPass("pipeline/styles/painterly/shaders/borders.frag")
       .use()
       .texture("ids", ids_)
-      .texture("movers", movers)
+      .texture("movers", layerTextures.labelsOf(nullptr))
       .set("hasObjects", 1)
       .set("size", glm::vec2(kSmall.width, kSmall.height))
       .set("pixelsOfFull", glm::vec2(1.0F))
