@@ -41,14 +41,41 @@ class MotionLayersTest : public AnchorLife {
   }
   void seeImage(const hal::Image& image, glm::dvec2 step = glm::dvec2(0.0),
                 const scene::PoseSet& poses = {}) {
+    seeImage(image, seed_ == 0 ? tracking::ImageMotion{} : panning(step.x, step.y), poses);
+  }
+  void seeImage(const hal::Image& image, const tracking::ImageMotion& motion,
+                const scene::PoseSet& poses = {}) {
     ++seed_;
     picture_ = support::textureOf(image.view());
-    const tracking::ImageMotion motion =
-        seed_ == 1 ? tracking::ImageMotion{} : panning(step.x, step.y);
     const scene::ArFrame frame = compose(*renderer_, poses, motion);
     field_->update(frame);
     layers_->update(frame, *field_);
     set_->advance(frame, *field_, hold_, &*layers_);
+  }
+
+  /// A frame with dense flow: the wall rests, and the disc has moved by `step`. The flow reaches
+  /// beyond the disc's outline, as measured flow does.
+  void seeDiscMoved(const View& view, glm::dvec2 step) {
+    constexpr hal::FrameSize kNodes{40, 30};
+    constexpr double kNodePx = 8.0;
+    constexpr float kErrorPx = 0.1F;
+    const double reach = view.radius + 12.0;
+    std::vector<glm::vec4> forward;
+    std::vector<glm::vec4> backward;
+    for (int y = 0; y < kNodes.height; ++y) {
+      for (int x = 0; x < kNodes.width; ++x) {
+        const glm::dvec2 px = kNodePx * (glm::dvec2(x, y) + 0.5);
+        const bool wasDisc = glm::distance(px, view.disc - step) < reach;
+        const bool isDisc = glm::distance(px, view.disc) < reach;
+        forward.emplace_back(wasDisc ? glm::vec2(step) : glm::vec2(0.0F), kErrorPx, 0.0F);
+        backward.emplace_back(isDisc ? glm::vec2(-step) : glm::vec2(0.0F), kErrorPx, 0.0F);
+      }
+    }
+    tracking::ImageMotion motion = panning(0.0, 0.0);
+    motion.picture->errorPx = 1.0;  // where the flow is known, it is the better source
+    motion.flow = {
+        .nodes = kNodes, .stepPx = glm::vec2(kNodePx), .forward = forward, .backward = backward};
+    seeImage(seen(view, kSize, seed_ + 1), motion);
   }
 
   /// Over the cells: how many are movers, how many should be, and how many are both.
@@ -142,6 +169,38 @@ TEST_F(MotionLayersTest, WhatComesToRestStaysItselfForAWhile) {
   EXPECT_GT(overlapWith(view).iou(), 0.8);
   for (int i = 0; i < 8; ++i) see(view);
   EXPECT_EQ(movers(), 0);
+}
+
+/// A disc that was seen to move counts as a mover for MotionLayersOptions::rest.
+TEST_F(MotionLayersTest, AMoverThatRestsJoinsTheBackgroundAfterFourSeconds) {
+  see({});
+  see({});
+  View view{.radius = 35.0};
+  for (int i = 0; i < 12; ++i) {
+    view.disc = {60.0 + 8.0 * i, 120.0};
+    seeDiscMoved(view, {8.0, 0.0});
+  }
+  const auto rest = [&](hal::Duration time) {
+    constexpr hal::Duration kLongStep = std::chrono::milliseconds(100);
+    for (hal::Duration t{0}; t < time; t += kLongStep) {
+      time_ += kLongStep - kStep;
+      see(view);
+    }
+  };
+  rest(std::chrono::milliseconds(3700));
+  EXPECT_GT(overlapWith(view).iou(), 0.8);
+  rest(std::chrono::milliseconds(600));
+  EXPECT_EQ(movers(), 0);
+}
+
+/// A disc that appears and does not move at all: an object that was put down, or a lamp.
+TEST_F(MotionLayersTest, AChangeThatThenRestsJoinsTheBackgroundAfterLessThanASecond) {
+  for (int i = 0; i < 4; ++i) see({});
+  const View view{.disc = {160.0, 120.0}, .radius = 35.0};
+  for (int i = 0; i < 20; ++i) see(view);
+  EXPECT_GT(overlapWith(view).iou(), 0.8) << "after 0.66 s";
+  for (int i = 0; i < 6; ++i) see(view);
+  EXPECT_EQ(movers(), 0) << "after 0.86 s";
 }
 
 TEST_F(MotionLayersTest, LightIsNoMover) {

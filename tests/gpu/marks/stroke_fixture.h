@@ -13,6 +13,7 @@
 #include <glm/vec4.hpp>
 
 #include "pipeline/marks/anchor_set.h"
+#include "pipeline/marks/motion_layers.h"
 #include "pipeline/marks/stroke_set.h"
 #include "tests/gpu/marks/tensor_fixture.h"
 
@@ -103,10 +104,12 @@ class StrokeTest : public TensorTest {
       frame.normalFocus = &texture;
     }
     motionField_->update(frame);
-    field_->update(frame, texture, *motionField_, kNoMemory);
-    anchors_->advance(frame, *motionField_);
+    if (layers_) layers_->update(frame, *motionField_);
+    const MotionLayers* const layers = layers_ ? &*layers_ : nullptr;
+    field_->update(frame, texture, *motionField_, kNoMemory, layers);
+    anchors_->advance(frame, *motionField_, {}, layers);
     const StrokePaint paints{.real = &colours, .models = &colours};
-    strokes_->update(frame, *anchors_, *field_, paints, rule);
+    strokes_->update(frame, *anchors_, *field_, paints, rule, layers);
   }
 
   std::vector<StrokeSlot> readStrokes() const {
@@ -158,6 +161,7 @@ class StrokeTest : public TensorTest {
   }
 
   std::optional<MotionField> motionField_;
+  std::optional<MotionLayers> layers_;  ///< empty: movers are not told apart
   std::optional<TensorField> field_;
   std::optional<AnchorSet> anchors_;
   std::optional<StrokeSet> strokes_;

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <optional>
 
+#include "pipeline/marks/motion_layers.h"
 #include "tests/gpu/marks/tensor_fixture.h"
 
 namespace pleinair::marks {
@@ -34,10 +35,12 @@ class TensorFieldFixture : public TensorTest {
     const gpu::Texture texture = support::textureOf(picture.view());
     const scene::ArFrame frame = frameOf(texture, motion, step);
     motionField_->update(frame);
-    field_->update(frame, texture, *motionField_, options);
+    if (layers_) layers_->update(frame, *motionField_);
+    field_->update(frame, texture, *motionField_, options, layers_ ? &*layers_ : nullptr);
   }
 
   std::optional<MotionField> motionField_;
+  std::optional<MotionLayers> layers_;  ///< empty: movers are not told apart
   std::optional<TensorField> field_;
 };
 

@@ -182,5 +182,74 @@ TEST_F(TensorMemory, ACutAndAResetForget) {
   EXPECT_EQ(bytesOf(), fresh);
 }
 
+/// Upright stripes, and a brighter disc with level ones before them.
+class TensorsBehindAMover : public TensorMemory {
+ protected:
+  static constexpr double kRadius = 36.0;
+
+  static double wall(glm::dvec2 px) { return 0.3 + 0.1 * std::sin(0.6 * px.x); }
+  static double wallAndDisc(glm::dvec2 px) {
+    const bool isDisc = glm::distance(px, glm::dvec2(128.0, 64.0)) < kRadius;
+    return isDisc ? 0.8 + 0.15 * std::sin(0.6 * px.y) : wall(px);
+  }
+  void see(double (*luma)(glm::dvec2), int frames) {
+    for (int i = 0; i < frames; ++i) update(greyPicture(kSize, luma, 1.0, ++seed_));
+  }
+  /// The regions that the disc covers with the width of an edge to spare.
+  static std::vector<std::size_t> behindDisc() {
+    std::vector<std::size_t> regions;
+    for (int y = 0; y < 16; ++y) {
+      for (int x = 0; x < 32; ++x) {
+        const glm::dvec2 middle = 8.0 * (glm::dvec2(x, y) + 0.5);
+        if (glm::distance(middle, glm::dvec2(128.0, 64.0)) < kRadius - 12.0) {
+          regions.push_back(placeOf(x, y));
+        }
+      }
+    }
+    return regions;
+  }
+  static double angleTo(const FieldTexel& texel, glm::dvec2 tensor) {
+    return degrees(oracles::angleBetween(texel.tensor, tensor));
+  }
+
+  static constexpr glm::dvec2 kAcross{1.0, 0.0};  // the tensor of upright stripes
+  static constexpr glm::dvec2 kDown{-1.0, 0.0};   // of level ones
+  unsigned seed_ = 0;
+};
+
+TEST_F(TensorsBehindAMover, TheBackgroundsStayAndTheMoverHasItsOwn) {
+  layers_.emplace(library_, kSize);
+  see(wall, 8);
+  const std::vector<FieldTexel> before = read(field_->regions());
+  see(wallAndDisc, 12);
+  const std::vector<FieldTexel> behind = read(field_->regions());
+  const std::vector<FieldTexel> movers = read(field_->movers());
+  EXPECT_GT(behindDisc().size(), 20U);
+  for (const std::size_t at : behindDisc()) {
+    EXPECT_EQ(behind[at].tensor, before[at].tensor) << at;
+    EXPECT_EQ(behind[at].known, before[at].known) << at;
+    EXPECT_EQ(behind[at].detail, before[at].detail) << at;
+    EXPECT_LT(angleTo(behind[at], kAcross), 5.0) << at;
+    EXPECT_LT(angleTo(movers[at], kDown), 5.0) << at;
+    EXPECT_GT(movers[at].known, 0.5) << at;
+  }
+  EXPECT_EQ(movers[placeOf(2, 8)].tensor, glm::dvec2(0.0)) << "no mover is near";
+  see(wall, 1);
+  const std::vector<FieldTexel> after = read(field_->regions());
+  for (const std::size_t at : behindDisc()) EXPECT_LT(angleTo(after[at], kAcross), 5.0) << at;
+}
+
+/// The control: as many frames of the disc turn the tensors to its own.
+TEST_F(TensorsBehindAMover, WithoutLayersTheyTurnToTheMovers) {
+  see(wall, 8);
+  see(wallAndDisc, 24);
+  const std::vector<FieldTexel> behind = read(field_->regions());
+  const std::vector<FieldTexel> movers = read(field_->movers());
+  for (const std::size_t at : behindDisc()) {
+    EXPECT_LT(angleTo(behind[at], kDown), 10.0) << at;
+    EXPECT_EQ(movers[at].tensor, glm::dvec2(0.0)) << at;
+  }
+}
+
 }  // namespace
 }  // namespace pleinair::marks

@@ -85,6 +85,106 @@ TEST_F(ClipTest, BordersAreTheOracles) {
   EXPECT_GT(others, 100);
 }
 
+/// Borders of movers: labels are sampled as LINEAR textures are, one texel for 2x2 px of the full
+/// image.
+class MoverBordersTest : public ClipTest {
+ protected:
+  static constexpr hal::FrameSize kSmall{23, 17};
+  static constexpr std::uint32_t kMover = 511;  // stroke_instance.glsl's
+
+  void setLabels(hal::FrameSize size) {
+    std::mt19937 random(7);
+    labelSize_ = size;
+    isMover_.clear();
+    std::vector<std::uint8_t> halves;
+    for (int i = 0; i < size.width * size.height; ++i) {
+      isMover_.push_back(random() % 3U == 0U);
+      const std::uint8_t high = isMover_.back() ? 0x3C : 0;  // 1 as a half float
+      for (const std::uint8_t byte :
+           {std::uint8_t{0}, high, std::uint8_t{0}, std::uint8_t{0}, std::uint8_t{0},
+            std::uint8_t{0}, std::uint8_t{0}, std::uint8_t{0}}) {
+        halves.push_back(byte);
+      }
+    }
+    labels_ = gpu::Texture(gpu::TextureFormat::kRgba16f, size, gpu::TextureFilter::kLinear);
+    labels_.upload(halves, static_cast<std::size_t>(size.width) * 8);
+  }
+
+  double labelAt(int x, int y) const {
+    x = std::clamp(x, 0, labelSize_.width - 1);
+    y = std::clamp(y, 0, labelSize_.height - 1);
+    return isMover_[static_cast<std::size_t>(y * labelSize_.width + x)] ? 1.0 : 0.0;
+  }
+  /// The label at a pixel of the frame.
+  double moverAt(int x, int y, double pixelsOfFull) const {
+    const double u = (x + 0.5) / pixelsOfFull / marks::MotionLayers::kCellPixels - 0.5;
+    const double v = (y + 0.5) / pixelsOfFull / marks::MotionLayers::kCellPixels - 0.5;
+    const int left = static_cast<int>(std::floor(u));
+    const int top = static_cast<int>(std::floor(v));
+    return std::lerp(std::lerp(labelAt(left, top), labelAt(left + 1, top), u - left),
+                     std::lerp(labelAt(left, top + 1), labelAt(left + 1, top + 1), u - left),
+                     v - top);
+  }
+
+  gpu::Texture labels_;
+  hal::FrameSize labelSize_;
+  std::vector<bool> isMover_;
+};
+
+TEST_F(MoverBordersTest, AreTheOracles) {
+  constexpr std::uint32_t kModel = 3;
+  struct Case {
+    bool hasObjects;
+    double pixelsOfFull;
+    hal::FrameSize labels;
+  };
+  for (const Case& each : {Case{false, 1.0, {12, 9}}, Case{true, 1.0, {12, 9}},
+                           Case{false, 0.5, {23, 17}}, Case{true, 0.5, {23, 17}}}) {
+    SCOPED_TRACE(testing::Message() << each.hasObjects << " " << each.pixelsOfFull);
+    setLabels(each.labels);
+    const auto isModel = [&](int x, int y) { return each.hasObjects && x > 8 && x < 15 && y > 5; };
+    setIds(kSmall, [&](int x, int y) { return isModel(x, y) ? kModel : 0U; });
+    const auto seen = [&](int x, int y) -> std::uint32_t {
+      x = std::clamp(x, 0, kSmall.width - 1);
+      y = std::clamp(y, 0, kSmall.height - 1);
+      if (isModel(x, y)) return kModel;
+      return moverAt(x, y, each.pixelsOfFull) > 0.5 ? kMover : 0U;
+    };
+    const gpu::Texture borders(gpu::TextureFormat::kR32ui, kSmall);
+    library_.fragmentPass("pipeline/styles/painterly/shaders/borders.frag")
+        .use()
+        .texture("ids", ids_)
+        .texture("movers", labels_)
+        .set("hasObjects", each.hasObjects ? 1 : 0)
+        .set("size", glm::vec2(kSmall.width, kSmall.height))
+        .set("pixelsOfFull", glm::vec2(static_cast<float>(each.pixelsOfFull)))
+        .drawFullscreen(gpu::RenderTarget({&borders}));
+    const std::vector<std::uint32_t> found = support::readR32ui(borders);
+    int ofMovers = 0;
+    int clipped = 0;
+    for (int y = 0; y < kSmall.height; ++y) {
+      for (int x = 0; x < kSmall.width; ++x) {
+        const std::uint32_t border = found[static_cast<std::size_t>(y * kSmall.width + x)];
+        const std::uint32_t own = seen(x, y);
+        std::uint32_t other = own;
+        std::vector<bool> its;
+        for (int i = 0; i < 9; ++i) {
+          const std::uint32_t there = seen(x + i % 3 - 1, y + i / 3 - 1);
+          its.push_back(there == own);
+          if (there != own && (other == own || there > other)) other = there;
+        }
+        EXPECT_EQ(border & 511U, own) << x << "," << y;
+        EXPECT_EQ(border >> 9U & 511U, other) << x << "," << y;
+        EXPECT_NEAR((border >> 18U) / 255.0, oracles::paintableShare(its), 0.5 / 255.0 + 1e-6);
+        ofMovers += own == kMover ? 1 : 0;
+        clipped += other != own ? 1 : 0;
+      }
+    }
+    EXPECT_GT(ofMovers, 30);
+    EXPECT_GT(clipped, 100);
+  }
+}
+
 /// A red disc on blue, painted with broad strokes that go astray and nothing that could be taken
 /// for a spill.
 class SpillTest : public ClipTest {

@@ -1,0 +1,104 @@
+// Strokes behind a mover and beside it: they stay as they are, and are drawn, until it has passed.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gmock/gmock.h>
+
+#include "tests/gpu/marks/stroke_fixture.h"
+
+namespace pleinair::marks {
+namespace {
+
+constexpr glm::dvec2 kDisc{128.0, 64.0};
+constexpr double kRadius = 34.0;
+
+double wall(glm::dvec2 px) {
+  return 0.3 + 0.1 * std::sin(0.6 * px.x);
+}
+double wallAndDisc(glm::dvec2 px) {
+  return glm::distance(px, kDisc) < kRadius ? 0.8 + 0.15 * std::sin(0.6 * px.y) : wall(px);
+}
+
+/// Bit for bit.
+bool isSameStroke(const StrokeSlot& a, const StrokeSlot& b) {
+  return std::memcmp(&a, &b, sizeof(StrokeSlot)) == 0;
+}
+bool isSamePaint(const StrokeInstance& a, const StrokeInstance& b) {
+  return a.points == b.points && a.paint == b.paint && a.halfWidth == b.halfWidth;
+}
+
+class StrokesAtMovers : public StrokeTest {
+ protected:
+  void SetUp() override {
+    StrokeTest::SetUp();
+    if (IsSkipped()) return;
+    layers_.emplace(library_, kSize);
+  }
+  /// Noise differs from frame to frame, so that strokes change that are not held.
+  void see(double (*luma)(glm::dvec2), int frames = 1) {
+    for (int i = 0; i < frames; ++i) advance(greyPicture(kSize, luma, 3.0, ++seed_), {});
+  }
+
+ private:
+  unsigned seed_ = 0;
+};
+
+TEST_F(StrokesAtMovers, StrokesBehindAMoverAndBesideItStayAsTheyAre) {
+  see(wall, 12);
+  const std::vector<Anchor> anchorsBefore = anchors_->read();
+  const std::vector<StrokeSlot> before = readStrokes();
+  int behind = 0;
+  int beside = 0;
+  int far = 0;
+  int changed = 0;
+  for (int frame = 0; frame < 8; ++frame) {
+    see(wallAndDisc);
+    const std::vector<Anchor> anchors = anchors_->read();
+    const std::vector<StrokeSlot> now = readStrokes();
+    for (std::size_t slot = 0; slot < now.size(); ++slot) {
+      const Anchor& anchor = anchors[slot];
+      const bool isSameAnchor = anchorsBefore[slot].isStaying() && anchor.isAlive() &&
+                                anchor.seed == anchorsBefore[slot].seed;
+      if (!isSameAnchor || anchorsBefore[slot].fade < 1.0F) continue;
+      const double away = glm::distance(glm::dvec2(anchor.px), kDisc) - kRadius;
+      if (anchor.isCovered()) {
+        ++behind;
+        EXPECT_TRUE(isSameStroke(now[slot], before[slot])) << away;
+      } else if (anchor.isStaying() && away > 0.0 && away < 3.0) {
+        ++beside;
+        EXPECT_TRUE(isSameStroke(now[slot], before[slot])) << away;
+      } else if (away > 50.0) {
+        ++far;
+        changed += isSameStroke(now[slot], before[slot]) ? 0 : 1;
+      }
+    }
+  }
+  EXPECT_GT(behind, 200);
+  EXPECT_GT(beside, 20);
+  EXPECT_GT(changed, far / 2) << "the control: noise changes strokes far away";
+}
+
+TEST_F(StrokesAtMovers, StrokesBehindAMoverAreDrawnAsBefore) {
+  see(wall, 12);
+  const std::vector<StrokeInstance> before = readInstances();
+  see(wallAndDisc, 8);
+  const std::vector<StrokeInstance> now = readInstances();
+  int behind = 0;
+  for (const StrokeInstance& was : before) {
+    // The anchor is within 16 px of the middle: half of what one arm can be longer than the other.
+    const glm::dvec2 middle = 0.5 * glm::dvec2(was.points[3] + was.points[4]);
+    const bool isBehind = glm::distance(middle, kDisc) < kRadius - 18.0;
+    if (!isBehind) continue;
+    ++behind;
+    EXPECT_TRUE(std::ranges::any_of(
+        now, [&](const StrokeInstance& each) { return isSamePaint(each, was); }))
+        << was.points[0].x << "," << was.points[0].y;
+  }
+  EXPECT_GT(behind, 8);
+}
+
+}  // namespace
+}  // namespace pleinair::marks
