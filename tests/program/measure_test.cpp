@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 
 #include <gmock/gmock.h>
@@ -35,8 +36,10 @@ class Measure : public testing::Test {
     return {std::istreambuf_iterator<char>(file), {}};
   }
 
-  /// Squares of many colours, from a place on.
-  void writePicture(const std::string& name, int fromX, int fromY, hal::FrameSize size = kSize) {
+  /// Squares of many colours, from a place on; violet where `isMover` says so.
+  void writePicture(
+      const std::string& name, int fromX, int fromY, hal::FrameSize size = kSize,
+      const std::function<bool(int, int)>& isMover = [](int, int) { return false; }) {
     hal::Image image({.pixelFormat = hal::PixelFormat::kRgb8, .size = size, .encoding = {}});
     for (int y = 0; y < size.height; ++y) {
       const auto row = image.row(0, y);
@@ -45,6 +48,7 @@ class Measure : public testing::Test {
         for (unsigned c = 0; c < 3; ++c) {
           row[3 * static_cast<std::size_t>(x) + c] =
               static_cast<std::uint8_t>((cell * (c + 3) * 2654435761U) >> 24U);
+          if (isMover(x, y)) row[3 * static_cast<std::size_t>(x) + c] = c == 1 ? 0 : 255;
         }
       }
     }
@@ -58,6 +62,21 @@ class Measure : public testing::Test {
       writePicture("in/" + std::to_string(i) + ".png", 2 * i, i);
     }
     write("in/motion.json", R"({"v": [-2, -1]})");
+  }
+
+  /// A standing camera before which a bar passes once, from the left to the right.
+  void writeVisit() {
+    constexpr int kFrames = 75;
+    constexpr int kFramesUntilItComes = 6;
+    constexpr int kSpeedPx = 8;  // a frame
+    constexpr int kWidthPx = 24;
+    std::filesystem::create_directory(path("in"));
+    for (int i = 0; i < kFrames; ++i) {
+      const int left = (i - kFramesUntilItComes) * kSpeedPx - kWidthPx;
+      writePicture("in/" + std::to_string(100 + i) + ".png", 0, 0, kSize, [&](int x, int y) {
+        return x >= left && x < left + kWidthPx && y >= 50 && y < 130;
+      });
+    }
   }
 
   static ProgramRun measured(std::vector<std::string> arguments) {
@@ -126,6 +145,56 @@ TEST_F(Measure, FailsWhereTheControlsAreWrong) {
   EXPECT_THAT(run.out, AllOf(HasSubstr("WRONG"), HasSubstr("too smooth")));
 }
 
+/// A violet bar crosses a wall of squares, and 1.3 s are left to see that it has gone.
+TEST_F(Measure, JudgesMoversBeforeAStandingCamera) {
+  writeVisit();
+  const ProgramRun run =
+      measured({"--input", path("in"), "--standing", "--style", "none", "--json", path("r.json")});
+  EXPECT_EQ(run.status, 0) << run.error;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("movers cover"), HasSubstr("STILL"), HasSubstr("RETURN"),
+                             HasSubstr("GHOST"), HasSubstr("LOST")));
+  const auto json = nlohmann::json::parse(read("r.json"));
+  const auto& movers = json["movers"];
+  // Each pixel of 80 of the 100 rows within the border, in 3 of 75 frames.
+  EXPECT_NEAR(movers["painting"]["covered_percent"], 3.2, 0.2);
+  EXPECT_EQ(movers["painting"]["still_percent"], 0.0);
+  EXPECT_EQ(movers["painting"]["return_levels"], 0.0);
+  EXPECT_EQ(movers["painting"]["ghost"], 0.0);
+  EXPECT_LT(movers["painting"]["lost_percent"], 1.0);
+  EXPECT_GT(movers["averaging"]["lost_percent"], 15.0) << "the control";
+  EXPECT_GT(movers["averaging"]["ghost"], 0.05) << "the control";
+  EXPECT_EQ(json["controls_valid"], true);
+  EXPECT_EQ(json["measures"]["painting"]["ew2"], nullptr) << "the motion is not known";
+  const auto isOfMovers = [](const nlohmann::json& gate) {
+    return gate["what"].get<std::string>().starts_with("RETURN");
+  };
+  EXPECT_TRUE(std::ranges::any_of(json["gates"], isOfMovers));
+}
+
+TEST_F(Measure, DoesNotLookForMoversUnlessTheCameraStands) {
+  writeVisit();
+  const ProgramRun run =
+      measured({"--input", path("in"), "--style", "none", "--json", path("r.json")});
+  EXPECT_EQ(run.status, 0) << run.error;
+  EXPECT_THAT(run.out, testing::Not(HasSubstr("movers cover")));
+  EXPECT_EQ(nlohmann::json::parse(read("r.json"))["movers"], nullptr);
+}
+
+/// Told to stand, a camera that pans makes a mover of everything, and nothing is left to compare.
+TEST_F(Measure, ACameraThatDoesNotStandLeavesMoversUnjudged) {
+  writePan(24);
+  std::filesystem::remove(path("in/motion.json"));
+  const ProgramRun run =
+      measured({"--input", path("in"), "--standing", "--style", "none", "--json", path("r.json")});
+  EXPECT_EQ(run.status, 0) << run.error;
+  EXPECT_THAT(run.out, HasSubstr("no mover came and went"));
+  const auto movers = nlohmann::json::parse(read("r.json"))["movers"]["painting"];
+  EXPECT_GT(movers["covered_percent"], 95.0);
+  for (const char* name : {"still_percent", "return_levels", "ghost", "lost_percent"}) {
+    EXPECT_EQ(movers[name], nullptr) << name;
+  }
+}
+
 TEST_F(Measure, SaysWhatCannotBeHadWithoutTruth) {
   writePan(4);
   std::filesystem::remove(path("in/motion.json"));
@@ -181,6 +250,10 @@ TEST_F(Measure, RefusesOptionsThatMakeNoSense) {
   }
   expectRefused({"--size", "320x240", "--set", "camera.size=200x180"},
                 AllOf(HasSubstr("200x180"), HasSubstr("leave one of the two sizes out")));
+  expectRefused({"--camera", "synthetic", "--standing"}, HasSubstr("--standing"));
+  expectRefused({"--input", path("in.mkv"), "--standing", "--motion", path("in/motion.json")},
+                HasSubstr("--standing"));
+  expectRefused({"--input", path("in/0.png"), "--standing", "--still"}, HasSubstr("--standing"));
   for (const char* pan : {"1", "a,b", "1,2,3", "100,0", "nan,0", ","}) {
     expectRefused({"--input", path("in/0.png"), "--pan", pan}, HasSubstr("--pan"));
   }
