@@ -145,7 +145,7 @@ TEST_F(Measure, FailsWhereTheControlsAreWrong) {
   EXPECT_THAT(run.out, AllOf(HasSubstr("WRONG"), HasSubstr("too smooth")));
 }
 
-/// A violet bar crosses a wall of squares, and 1.3 s are left to see that it has gone.
+/// A violet bar crosses a wall of squares; the recording goes on for over a second after that.
 TEST_F(Measure, JudgesMoversBeforeAStandingCamera) {
   writeVisit();
   const ProgramRun run =
@@ -155,7 +155,7 @@ TEST_F(Measure, JudgesMoversBeforeAStandingCamera) {
                              HasSubstr("GHOST"), HasSubstr("LOST")));
   const auto json = nlohmann::json::parse(read("r.json"));
   const auto& movers = json["movers"];
-  // Each pixel of 80 of the 100 rows within the border, in 3 of 75 frames.
+  // The bar covers 80 of the 100 rows within the border, each of their pixels in 3 of 75 frames.
   EXPECT_NEAR(movers["painting"]["covered_percent"], 3.2, 0.2);
   EXPECT_EQ(movers["painting"]["still_percent"], 0.0);
   EXPECT_EQ(movers["painting"]["return_levels"], 0.0);
@@ -180,7 +180,7 @@ TEST_F(Measure, DoesNotLookForMoversUnlessTheCameraStands) {
   EXPECT_EQ(nlohmann::json::parse(read("r.json"))["movers"], nullptr);
 }
 
-/// Told to stand, a camera that pans makes a mover of everything, and nothing is left to compare.
+/// If a pan is measured with --standing, everything is a mover, and nothing is left to compare.
 TEST_F(Measure, ACameraThatDoesNotStandLeavesMoversUnjudged) {
   writePan(24);
   std::filesystem::remove(path("in/motion.json"));

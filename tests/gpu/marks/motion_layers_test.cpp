@@ -193,7 +193,7 @@ TEST_F(MotionLayersTest, AMoverThatRestsJoinsTheBackgroundAfterFourSeconds) {
   EXPECT_EQ(movers(), 0);
 }
 
-/// A disc that appears and does not move at all: an object that was put down, or a lamp.
+/// The disc appears and does not move at all, like an object that was put down.
 TEST_F(MotionLayersTest, AChangeThatThenRestsJoinsTheBackgroundAfterLessThanASecond) {
   for (int i = 0; i < 4; ++i) see({});
   const View view{.disc = {160.0, 120.0}, .radius = 35.0};

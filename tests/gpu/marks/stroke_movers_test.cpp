@@ -22,7 +22,7 @@ double wallAndDisc(glm::dvec2 px) {
   return glm::distance(px, kDisc) < kRadius ? 0.8 + 0.15 * std::sin(0.6 * px.y) : wall(px);
 }
 
-/// Bit for bit.
+/// Whether the two are equal bit for bit.
 bool isSameStroke(const StrokeSlot& a, const StrokeSlot& b) {
   return std::memcmp(&a, &b, sizeof(StrokeSlot)) == 0;
 }

@@ -1,4 +1,5 @@
-// The tensor field over time: its memory is carried along the motion and does not lag.
+// The tensor field over time: its memory is carried along the motion, does not lag, and is held
+// behind movers.
 #include <algorithm>
 #include <cmath>
 #include <string>

@@ -85,8 +85,8 @@ TEST_F(ClipTest, BordersAreTheOracles) {
   EXPECT_GT(others, 100);
 }
 
-/// Borders of movers: labels are sampled as LINEAR textures are, one texel for 2x2 px of the full
-/// image.
+/// The borders of movers, from random labels. The oracle samples labels as a LINEAR texture does,
+/// one texel for 2x2 px of the full image.
 class MoverBordersTest : public ClipTest {
  protected:
   static constexpr hal::FrameSize kSmall{23, 17};
