@@ -130,6 +130,7 @@ void AnchorSet::State::carryInImage(const scene::ArFrame& frame, const MotionFie
       .set("noise", static_cast<float>(motion.noiseLevels() / 255.0))
       .set("stepSeconds", std::chrono::duration<float>(step).count())
       .set("memorySeconds", static_cast<float>(hal::toSeconds(hold.memory)))
+      .set("restsWithCamera", layers != nullptr && layers->isStanding() ? 1 : 0)
       .set("follows", motion.follows() ? 1 : 0)
       .set("anew", hasBegunAnew ? 1 : 0)
       .dispatch(allSlots(), kStored);
@@ -221,10 +222,8 @@ void AnchorSet::advance(const scene::ArFrame& frame, const MotionField& motion,
   s.hasPast = true;
   s.layers = layers;
   ++s.salt;
-  {
-    s.carryInImage(frame, motion, hold, step);
-    if (motion.follows()) s.carryOnSurfaces(frame);
-  }
+  s.carryInImage(frame, motion, hold, step);
+  if (motion.follows()) s.carryOnSurfaces(frame);
   s.countAnchors(hold, step);
   s.keepDensity(frame, motion, hold);
 }

@@ -20,6 +20,7 @@ using gpu::TextureFormat;
 
 const std::string kShaders = "pipeline/marks/shaders/";
 constexpr float kFreshSeconds = 0.3F;
+constexpr int kBlock = 8;       // cells along a side (shaders/motion_layers_ground.comp)
 constexpr unsigned kTurns = 2;  // shaders/motion_layers_tally.glsl
 constexpr GLbitfield kStored = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                                GL_SHADER_STORAGE_BARRIER_BIT;
@@ -29,6 +30,10 @@ hal::FrameSize cellsOf(hal::FrameSize full) {
   return {(full.width + kSide - 1) / kSide, (full.height + kSide - 1) / kSide};
 }
 
+hal::FrameSize blocksOf(hal::FrameSize cells) {
+  return {(cells.width + kBlock - 1) / kBlock, (cells.height + kBlock - 1) / kBlock};
+}
+
 }  // namespace
 
 struct MotionLayers::State {
@@ -36,9 +41,11 @@ struct MotionLayers::State {
       : full(fullSize),
         size(cellsOf(full)),
         compare(library.compute(kShaders + "motion_layers.comp")),
+        findGround(library.compute(kShaders + "motion_layers_ground.comp")),
         join(library.compute(kShaders + "motion_layers_join.comp")),
         candidates(TextureFormat::kRgba8, size),
         evidence(TextureFormat::kRgba16f, size),
+        ground(TextureFormat::kRgba16f, blocksOf(size)),
         tally(kTurns * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
         noIds(TextureFormat::kR32ui, {1, 1}) {
     tally.write(std::vector<std::byte>(tally.sizeBytes()));
@@ -52,9 +59,11 @@ struct MotionLayers::State {
   hal::FrameSize full;
   hal::FrameSize size;
   gpu::Program compare;
+  gpu::Program findGround;
   gpu::Program join;
   gpu::Texture candidates;
   gpu::Texture evidence;
+  gpu::Texture ground;
   std::array<gpu::Texture, 2> pictures;
   std::array<gpu::Texture, 2> labels;
   std::array<gpu::Texture, 2> backgrounds;
@@ -65,6 +74,7 @@ struct MotionLayers::State {
   hal::FrameSize frameSize;  // of the last update
   hal::TimePoint lastTime;
   bool hasPast = false;
+  bool isStanding = false;
 
   glm::ivec2 cells() const { return {size.width, size.height}; }
   gpu::Program& begin(gpu::Program& program, const MotionField& motion, float stepSeconds) const;
@@ -115,7 +125,14 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .image("evidence", s.evidence, ImageAccess::kWrite)
       .image("pictureNow", s.pictures.at(s.now), ImageAccess::kWrite)
       .dispatch(s.cells(), kStored);
+  s.findGround.use()
+      .texture("candidates", s.candidates)
+      .texture("evidence", s.evidence)
+      .texture("picture", s.pictures.at(s.now))
+      .image("ground", s.ground, ImageAccess::kWrite)
+      .dispatch({s.ground.size().width, s.ground.size().height}, kStored);
   s.begin(s.join, motion, step)
+      .texture("ground", s.ground)
       .texture("candidates", s.candidates)
       .texture("evidence", s.evidence)
       .texture("picture", s.pictures.at(s.now))
@@ -126,6 +143,7 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .image("backgroundNow", s.backgrounds.at(s.now), ImageAccess::kWrite)
       .dispatch(s.cells(), kStored);
   s.lastTime = frame.captureTime;
+  s.isStanding = s.hasPast && motion.isStanding();
   s.hasPast = true;
 }
 
@@ -135,6 +153,10 @@ const gpu::Texture& MotionLayers::labels() const {
 
 const gpu::Texture& MotionLayers::background() const {
   return state_->backgrounds.at(state_->now);
+}
+
+bool MotionLayers::isStanding() const {
+  return state_->isStanding;
 }
 
 void MotionLayers::reset() {

@@ -52,6 +52,9 @@ class MotionLayers {
   const gpu::Texture& background() const;
   static constexpr int kCellPixels = 2;
 
+  /// Whether the camera has stood since the previous frame, so that all the background rests.
+  bool isStanding() const;
+
   /// Forgets the past.
   void reset();
 

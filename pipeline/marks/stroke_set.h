@@ -30,6 +30,8 @@ struct StrokeRule {
   float modelDetail = 1.0F;    ///< factor of the detail on virtual surfaces
   float detailSpread = 0.0F;   ///< random spread of the band among anchors
   float slack = 0.25F;         ///< hysteresis: existing strokes keep a band wider by this part
+  /// the same before a standing camera; strokes that do not exist yet need half as much to appear
+  float restSlack = 0.6F;
   float wanderRad = 0.1F;      ///< largest deviation of a stroke from the field
   bool bothWays = true;        ///< false: only ahead of the anchor, as in the thesis
   std::size_t fieldLevel = 0;  ///< level of the tensor field; at most its last
@@ -51,7 +53,8 @@ struct StrokeRule {
   glm::vec2 otherColour = kNoColour;
   static constexpr glm::vec2 kNoColour{1e6F, 2e6F};
   /// Where there is less detail than this (from none of it at the first to all at the second), the
-  /// field is only filled in, and shapes are held `flatHold` times as long.
+  /// field is only filled in, and shapes are held `flatHold` times as long; so are all shapes of
+  /// the background before a standing camera.
   glm::vec2 flatDetail{0.35F, 0.9F};
   float flatHold = 1.0F;
 };

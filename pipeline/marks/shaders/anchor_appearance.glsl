@@ -47,15 +47,15 @@ bool isWithin(Looks here, vec2 known) {
   return all(greaterThan(known, here.low - slack)) && all(lessThan(known, here.high + slack));
 }
 
-// The appearance to remember after this frame.
-vec2 remembered(vec2 looks, vec2 px) {
+// The appearance to remember after this frame. Beside a mover, what is seen may be its outline.
+vec2 remembered(vec2 looks, vec2 px, bool isBesideMover) {
   Looks here = looksAt(picture, 1.0 / fullSize, px);
   if (looks.y == 0.0) return here.mean + 1.0;
   float mismatch = floor(looks.y / kPerMismatch);
   vec2 known = knownOf(looks);
   bool isKnown = isWithin(here, known);
   mismatch = clamp(mismatch + (isKnown ? -1.0 : 1.0), 0.0, kMismatchFrames);
-  if (isKnown) known += kPace * (here.mean - known);
+  if (isKnown && !isBesideMover) known += kPace * (here.mean - known);
   return known + 1.0 + vec2(0.0, kPerMismatch * mismatch);
 }
 

@@ -20,8 +20,11 @@ uniform float stepSeconds;
 uniform float memorySeconds;
 uniform bool follows;
 uniform bool anew;
+uniform bool restsWithCamera;
 uniform uint slots;
 #include "pipeline/marks/shaders/anchor_appearance.glsl"
+
+const float kOutline = 5.0;  // px
 
 // The background moves as one; a mover's motion must not carry it along. A mover moves as dense flow
 // says: it is not still, and the image's homography is the background's.
@@ -29,6 +32,7 @@ Moved motionOf(vec2 px, float object, bool isOnMover) {
   const float kMaxFlowError = 8.0;  // px
   Moved flowed = byFlow(px);
   if (isOnMover && flowed.error < kMaxFlowError) return flowed;
+  if (!isOnMover && object < 0.5 && restsWithCamera) return Moved(vec2(0.0), kNoTurn, known.w, kSourcePicture);
   if (!isOnMover && known.z != 0.0 && isNearMover(px)) return byPicture(px, false);
   return imageMotionAt(px, object, false);
 }
@@ -74,7 +78,7 @@ void main() {
     if (isBehind) {
       isOther = isUnlikeBackground(looks, px);
     } else {
-      looks = remembered(looks, px);
+      looks = remembered(looks, px, !isOnMover && nearestMover(px, kOutline) > 0.1);
       isHidden = isMismatch(looks, (state & kHidden) != 0u);
       if (isOnMover && mover.r < 0.35) {
         // It has joined the background, or has left the anchor behind.

@@ -17,17 +17,57 @@ uniform highp sampler2D candidates;
 uniform highp sampler2D evidence;
 uniform highp sampler2D picture;
 uniform highp sampler2D background;
+uniform highp sampler2D ground;
 uniform bool hasPast;
 uniform float restSeconds;
 uniform float freshSeconds;
 
 const float kTentative = 0.7;  // s: what has changed once and then rests is no mover
 const float kMatureSeconds = 0.2;
+const float kSettled = 0.4;  // s of rest, after which a place may turn out to be uncovered
 const float kFrames = 30.0;
 const float kMovingFrames = 4.0;  // while the camera moves: each frame's interpolation blurs
 const float kSameStructure = 0.9;
 const float kMostOthers = 0.5;  // of the picture: if more is other content, the light is
+const int kBlock = 8;  // cells along a side (motion_layers_ground.comp)
+const float kLikelier = 0.06;  // of colour: uncovered rather than covered
 const float kContrast = 0.02;  // of luma
+
+// The colour of the background around, in a window that grows until it has seen enough.
+vec3 surroundings(ivec2 cell) {
+  const float kEnough = 4.0;  // blocks
+  ivec2 size = textureSize(ground, 0);
+  ivec2 block = min(cell / kBlock, size - 1);
+  vec4 sum = vec4(0.0);
+  for (int stride = 1; stride <= 4 && sum.a < kEnough; stride *= 2) {
+    sum = vec4(0.0);
+    for (int y = -2; y <= 2; ++y) {
+      for (int x = -2; x <= 2; ++x) {
+        sum += texelFetch(ground, clamp(block + stride * ivec2(x, y), ivec2(0), size - 1), 0);
+      }
+    }
+  }
+  return sum.rgb / max(sum.a, 1e-3);
+}
+
+// Whether other content around the cell is like its surroundings, and what was remembered there is
+// not: then that was the mover, and has left.
+bool isUncovered(ivec2 cell, ivec2 size) {
+  vec3 around = surroundings(cell);
+  float sum = 0.0;
+  float weights = 1e-3;
+  for (int y = -1; y <= 1; ++y) {
+    for (int x = -1; x <= 1; ++x) {
+      ivec2 at = clamp(cell + 2 * ivec2(x, y), ivec2(0), size - 1);
+      float weight = texelFetch(candidates, at, 0).r;
+      vec2 px = (vec2(at) + 0.5) * kLayerCellPixels;
+      vec3 known = textureLod(background, inLayers(background, px - backgroundShift(px)), 0.0).rgb;
+      sum += weight * (apart(known, around) - apart(texelFetch(picture, at, 0).rgb, around));
+      weights += weight;
+    }
+  }
+  return sum > kLikelier * weights;
+}
 
 void main() {
   ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
@@ -81,6 +121,11 @@ void main() {
   float rest = isMover && changes < 0.05 ? past.g + stepSeconds : 0.0;
   float maturity = isMover ? past.b : 0.0;
   if (rest > (maturity > kMatureSeconds ? restSeconds : kTentative)) {
+    isMover = false;
+    known.a = 0.0;
+  }
+  // A mover that was there when the camera began to look, or that stood there for long.
+  if (isMover && (maturity <= kMatureSeconds || rest > kSettled) && isUncovered(cell, size)) {
     isMover = false;
     known.a = 0.0;
   }

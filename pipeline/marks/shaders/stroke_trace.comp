@@ -47,6 +47,8 @@ uniform float maxColour;  // the largest change of colour in this frame
 uniform vec2 otherColour;
 uniform vec2 flatDetail;
 uniform float flatHold;
+uniform bool isStanding;  // the camera
+uniform float restSlack;
 
 const vec2 kUpright = vec2(1.0, 0.0);  // a tensor: strokes of movers without any edge
 
@@ -243,14 +245,16 @@ void main() {
   // A stroke is wanted where the detail lies in its band; an existing one stays a little longer.
   float seen = detailAt(px, object, isOnMover);
   float detail = seen + detailSpread * (hash - 0.5);
+  // Before a standing camera, nothing but its content changes a stroke of the background.
+  bool isResting = isStanding && !isNew && !isOnMover && object == 0u;
   bool was = !isNew && old.wanted > 0.5;
-  float wider = was ? 1.0 - slack : 1.0;
+  float wider = was ? 1.0 - (isResting ? restSlack : slack) : isResting ? 1.0 + 0.5 * restSlack : 1.0;
   bool wanted = detail >= detailBand.x * wider && detail <= detailBand.y / wider;
   float goal = wanted ? 1.0 : 0.0;
 
   // The past ends where the stroke stands on clearly other content.
-  float byDetail = mix(1.0 / flatHold, 1.0, smoothstep(flatDetail.x, flatDetail.y, seen));
-  float stays = isOnMover ? past.x : pow(past.x, byDetail);
+  float restless = isResting ? 0.0 : smoothstep(flatDetail.x, flatDetail.y, seen);
+  float stays = isOnMover ? past.x : pow(past.x, mix(1.0 / flatHold, 1.0, restless));
   float changed = isNew ? 0.0 : smoothstep(otherColour.x, otherColour.y, apart(colour, old.colour));
   Stroke made;
   made.wanted = goal;

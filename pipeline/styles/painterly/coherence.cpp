@@ -18,7 +18,7 @@ constexpr double kMaxHold = 4.0;
 /// those of an image without noise, and the standard deviations of the noise that are added.
 constexpr glm::vec2 kOtherColour{0.09F, 0.18F};
 constexpr glm::vec2 kOtherColourNoises{2.5F, 5.0F};
-constexpr float kFlatHold = 30.0F;
+constexpr float kFlatHold = 100.0F;
 constexpr float kAnyColour = 1e6F;  // a second
 
 hal::Duration scaled(hal::Duration time, double hold) {
@@ -72,7 +72,7 @@ void holdOn(marks::StrokeRule& rule, const PainterlyParameters& p, double noiseL
   }
   const double fades = p.fades ? holdOf(p) : 0.0;
   rule.appearing = rule.vanishing = secondsOf(fades * kAppearingSeconds);
-  if (!p.hysteresis) rule.slack = 0.0F;
+  if (!p.hysteresis) rule.slack = rule.restSlack = 0.0F;
 }
 
 }  // namespace pleinair::styles
