@@ -89,7 +89,7 @@ void main() {
   if (isMoving) {
     vec2 back = px - moved.xy;
     vec4 carried = isInPicture(back) ? textureLod(labels, inLayers(labels, back), 0.0) : vec4(0.0);
-    if (carried.r > label.r) label = carried;
+    if (carried.r > label.r || (carried.r == label.r && carried.a > label.a)) label = carried;
     // The ground is hardly known yet. Measured flow reaches beyond a mover, but nothing changes
     // there.
     if (known.a < kTrustedFrames && changed > 0.3) other = 1.0;

@@ -125,7 +125,8 @@ void main() {
     known.a = 0.0;
   }
   // A mover that was there when the camera began to look, or that stood there for long.
-  if (isMover && (maturity <= kMatureSeconds || rest > kSettled) && isUncovered(cell, size)) {
+  bool isSettled = rest > (maturity <= kMatureSeconds ? 0.0 : kSettled);
+  if (isMover && isSettled && isUncovered(cell, size)) {
     isMover = false;
     known.a = 0.0;
   }
