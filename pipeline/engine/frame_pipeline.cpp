@@ -239,9 +239,12 @@ hal::Result<Picture> FramePipeline::paintChecked(const hal::CapturedFrame& frame
   timer_.beginFrame();
   tracking::TrackingResult tracked;
   luma_.take(frame.image);
+  const scene::ArFrameNeeds needs = needsOf(parameters.view);
+  const tracking::ImageMotion* const motion = measureMotion(frame.sequence, needs);
+  if (motion != nullptr && motion->isCut) forgetPast();
   if (tracker_) tracked = tracker_->track(luma_, frame.captureTime);
-  picture_ = &paintView(
-      compose(frame, tracked, levels_[parameters.quality], needsOf(parameters.view)), parameters);
+  picture_ =
+      &paintView(compose(frame, tracked, levels_[parameters.quality], needs, motion), parameters);
   submitReadbacks(frame);
   glFlush();  // the GPU works on while the next frame is tracked
   return Picture{.texture = picture_->name(),
@@ -261,7 +264,8 @@ scene::ArFrameNeeds FramePipeline::needsOf(const std::string& view) const {
 
 scene::ArFrame FramePipeline::compose(const hal::CapturedFrame& frame,
                                       const tracking::TrackingResult& tracked, const Level& level,
-                                      scene::ArFrameNeeds needs) {
+                                      scene::ArFrameNeeds needs,
+                                      const tracking::ImageMotion* motion) {
   {
     const auto scope = timer_.measure("camera picture");
     camera_ = &uploader_.upload(frame.image, level.size, fitTo(level, frame.image.format.size));
@@ -281,18 +285,22 @@ scene::ArFrame FramePipeline::compose(const hal::CapturedFrame& frame,
                                                .tags = sightings_},
                                               frame.sequence, frame.captureTime, needs, lights);
   composed.fullSize = pictureSize_;
-  if (needs.canvas || needs.measuredMotion) measureMotion(frame, needs, composed);
+  if (motion != nullptr) addMotion(*motion, needs, composed);
   return composed;
 }
 
-/// Measures motion in the captured frame, and converts the canvas' motion to px of the full
-/// picture.
-void FramePipeline::measureMotion(const hal::CapturedFrame& frame, scene::ArFrameNeeds needs,
-                                  scene::ArFrame& composed) {
+/// Measures motion in the captured frame; null if the style needs none.
+const tracking::ImageMotion* FramePipeline::measureMotion(std::uint64_t sequence,
+                                                          scene::ArFrameNeeds needs) {
+  if (!needs.canvas && !needs.measuredMotion) return nullptr;
   const auto scope = timer_.measure("follow picture");
-  const hal::FrameSize size = frame.image.format.size;
-  const gpu::AspectFill fit = gpu::aspectFill(size, pictureSize_);
-  const tracking::ImageMotion& motion = imageMotion_.follow(luma_, frame.sequence);
+  return &imageMotion_.follow(luma_, sequence);
+}
+
+/// Adds the motion of the camera image, and the canvas' motion in px of the full picture.
+void FramePipeline::addMotion(const tracking::ImageMotion& motion, scene::ArFrameNeeds needs,
+                              scene::ArFrame& composed) {
+  const gpu::AspectFill fit = gpu::aspectFill(motion.frameSize, pictureSize_);
   if (needs.measuredMotion) {
     composed.measuredMotion = scene::MeasuredMotion{
         .motion = &motion, .frameScale = fit.scale, .frameOrigin = fit.origin};
@@ -301,6 +309,16 @@ void FramePipeline::measureMotion(const hal::CapturedFrame& frame, scene::ArFram
   const tracking::PlaneSimilarity frameFromPicture{{fit.scale.x, 0.0}, fit.origin};
   const tracking::PlaneSimilarity& moved = motion_.follow(motion);
   composed.canvasFromPicture = frameFromPicture.inverse() * moved * frameFromPicture;
+}
+
+/// Discards all that earlier frames have left, but for the estimator of image motion, which
+/// discards its own at a cut.
+void FramePipeline::forgetPast() {
+  style_->reset();
+  renderer_.reset();
+  motion_.reset();
+  if (light_) light_->reset();
+  if (tracker_) tracker_->reset();
 }
 
 const gpu::Texture& FramePipeline::paintView(const scene::ArFrame& frame,

@@ -86,10 +86,13 @@ class FramePipeline {
   glm::dvec2 pixelsOfFull(const Level& level) const;
   gpu::AspectFill fitTo(const Level& level, hal::FrameSize frameSize) const;
   scene::ArFrame compose(const hal::CapturedFrame& frame, const tracking::TrackingResult& tracked,
-                         const Level& level, scene::ArFrameNeeds needs);
+                         const Level& level, scene::ArFrameNeeds needs,
+                         const tracking::ImageMotion* motion);
   scene::ArFrameNeeds needsOf(const std::string& view) const;
-  void measureMotion(const hal::CapturedFrame& frame, scene::ArFrameNeeds needs,
-                     scene::ArFrame& composed);
+  const tracking::ImageMotion* measureMotion(std::uint64_t sequence, scene::ArFrameNeeds needs);
+  void addMotion(const tracking::ImageMotion& motion, scene::ArFrameNeeds needs,
+                 scene::ArFrame& composed);
+  void forgetPast();
   const gpu::Texture& paintView(const scene::ArFrame& frame, const PaintParameters& parameters);
   hal::Result<hal::Image> read(const gpu::Texture* texture);
   hal::Answer copyOldest(int number, OutputFrame& frame,

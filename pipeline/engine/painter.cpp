@@ -157,12 +157,8 @@ hal::Result<std::vector<marks::Anchor>> Painter::anchors() const {
 void Painter::reset() {
   FramePipeline& p = *pipeline_;
   const ContextScope scope = p.enter();
-  p.style_->reset();
-  p.renderer_.reset();
-  p.motion_.reset();
+  p.forgetPast();
   p.imageMotion_.reset();
-  if (p.light_) p.light_->reset();
-  if (p.tracker_) p.tracker_->reset();
 }
 
 std::span<const gpu::PassTime> Painter::passTimes() const {

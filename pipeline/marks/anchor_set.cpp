@@ -221,6 +221,7 @@ void AnchorSet::advance(const scene::ArFrame& frame, const MotionField& motion,
   s.lastTime = frame.captureTime;
   s.hasPast = true;
   s.layers = layers;
+  if (motion.isCut()) s.salt = 0;  // as in a first frame
   ++s.salt;
   s.carryInImage(frame, motion, hold, step);
   if (motion.follows()) s.carryOnSurfaces(frame);

@@ -82,6 +82,9 @@ const hal::PlaneView& LumaFrame::luma() {
 
 std::shared_ptr<const LumaPyramid> LumaFrame::pyramid() {
   if (pyramid_) return pyramid_;
+  // All that key frames, the previous frame and this one may share, so that none is made later.
+  constexpr std::size_t kUsual = 7;
+  while (pyramids_.size() < kUsual) pyramids_.push_back(std::make_shared<LumaPyramid>());
   const auto free =
       std::ranges::find_if(pyramids_, [](const auto& each) { return each.use_count() == 1; });
   const auto made =

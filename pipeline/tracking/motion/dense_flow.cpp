@@ -39,11 +39,16 @@ constexpr double kGuessMargin = 1.5;
 }  // namespace
 
 DenseFlowEstimator::DenseFlowEstimator() {
+  reset();
+}
+
+void DenseFlowEstimator::reset() {
   for (Direction& direction : directions_) {
     direction.search = cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_ULTRAFAST);
     direction.search->setFinestScale(1);
     direction.search->setPatchStride(5);
     direction.search->setGradientDescentIterations(8);
+    direction.coarse.release();
   }
 }
 

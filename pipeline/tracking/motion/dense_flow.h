@@ -33,6 +33,9 @@ class DenseFlowEstimator {
               const StaticRegionDetector* staticRegions, double noise);
   /// Valid until the next update().
   DenseFlow flow() const;
+  /// Forgets the last flow, from which the search starts. OpenCV's search keeps a copy of it, so a
+  /// new one is made.
+  void reset();
 
   static constexpr int kStepPx = 8;  ///< approximate node spacing, px of the pyramid's image
 

@@ -29,6 +29,7 @@ struct ImageMotionEstimator::State {
     tracker->reset();
     hold.reset();
     staticRegions.reset();
+    flow.reset();
   }
 };
 

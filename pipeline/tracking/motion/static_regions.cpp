@@ -39,6 +39,7 @@ constexpr std::size_t kMinCells = 24;
 
 void StaticRegionDetector::reset() {
   size_ = {};
+  noise_ = kUsualNoise;
   knowsNoise_ = false;
 }
 

@@ -60,7 +60,8 @@ class StaticRegionDetector {
   std::vector<Cell> cells_;
   std::vector<float> errors_;
   std::vector<double> variances_;
-  double noise_ = 2.0;
+  static constexpr double kUsualNoise = 2.0;  // levels, until it is measured
+  double noise_ = kUsualNoise;
   bool knowsNoise_ = false;
 };
 

@@ -270,6 +270,10 @@ TEST_F(PainterlyTest, ResetCutAndAnotherSizeStartAnew) {
   EXPECT_EQ(paint(other, next(image)), anew) << "a first frame, whenever it comes";
   paint(style, next(0.0, 0.0, {64, 64}));
   EXPECT_EQ(paint(style, next(image)), anew);
+  for (int i = 1; i < 4; ++i) paint(style, next(5.0 * i, 5.0));
+  const scene::ArFrame cut = next(image);
+  motion_.isCut = true;
+  EXPECT_EQ(paint(style, cut), anew);
 }
 
 /// Another level of quality: the same strokes, painted on fewer pixels.

@@ -1,0 +1,134 @@
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "hal/cameras/synthetic/synthetic_camera.h"
+#include "hal/cameras/synthetic/world/bench_tags.h"
+#include "pipeline/styles/registry.h"
+#include "tests/gpu/painter/painter_fixture.h"
+
+namespace pleinair {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr hal::FrameSize kFrame{320, 240};
+constexpr std::size_t kBefore = 5;  // frames of the scene before the cut
+constexpr std::size_t kAfter = 3;
+
+/// Frames of one shot, numbered from `first`, a 30th of a second apart.
+void film(hal::SyntheticShot shot, std::uint64_t first, std::size_t count,
+          std::vector<hal::CapturedFrame>& frames) {
+  hal::SteppedClock clock;
+  hal::SyntheticCamera camera({.size = kFrame, .shot = shot, .seed = 3}, clock);
+  ASSERT_TRUE(camera.start({}));
+  for (std::uint64_t i = 0; i < first + count; ++i) {
+    const hal::NextFrame next = camera.next(hal::kNoDeadline);
+    const auto* frame = std::get_if<hal::CapturedFrame>(&next);
+    ASSERT_NE(frame, nullptr);
+    if (i < first) continue;
+    const auto image = std::make_shared<const hal::Image>(frame->image);
+    const std::size_t number = frames.size();
+    frames.push_back(
+        {.image = image->view(),
+         .sequence = 40 + number,
+         .captureTime = hal::TimePoint(hal::Duration(33'333'333) * static_cast<int>(number)),
+         .lease = image});
+  }
+}
+
+/// A model on a tag of the workbench, which is in sight before the cut and after it.
+scene::Scene boxOnTheBench() {
+  scene::Scene scene;
+  for (const hal::BenchTag& tag : hal::benchTags()) {
+    scene.tags.push_back(
+        {.id = tag.id, .edgeMetres = tag.edgeMetres, .worldFromTag = tag.worldFromTag});
+  }
+  const scene::BoxSource box{glm::dvec3(0.15)};
+  scene.models.push_back(
+      {.name = "box",
+       .source = box,
+       .model = std::make_shared<const scene::Model>(scene::modelOf(box).value()),
+       .tagId = hal::benchTags().front().id,
+       .srgb = {0.1F, 0.2F, 0.9F}});
+  return scene;
+}
+
+/// The workbench from one side, then at once from farther away.
+const std::vector<hal::CapturedFrame>& splicedFrames() {
+  static const std::vector<hal::CapturedFrame> kFrames = [] {
+    std::vector<hal::CapturedFrame> frames;
+    film(hal::SyntheticShot::kWalkaround, 0, kBefore, frames);
+    film(hal::SyntheticShot::kVisitors, 0, kAfter, frames);
+    return frames;
+  }();
+  return kFrames;
+}
+
+struct LookCase {
+  std::string style;
+  std::string look;
+};
+
+std::vector<LookCase> allLooks() {
+  std::vector<LookCase> looks;
+  for (const char* const style : {"painterly", "watercolor"}) {
+    for (const styles::Look& look : styles::styleKind(style).looks) {
+      looks.push_back({style, std::string(look.name)});
+    }
+  }
+  return looks;
+}
+
+PaintParameters parametersOf(const LookCase& look) {
+  return {.style = styles::styleKind(look.style).parametersOf(look.look), .view = {}};
+}
+
+class CutTest : public PainterTest, public testing::WithParamInterface<LookCase> {};
+INSTANTIATE_TEST_SUITE_P(Looks, CutTest, testing::ValuesIn(allLooks()),
+                         [](const auto& each) { return each.param.style + "_" + each.param.look; });
+
+/// The frame of a cut, and those after it, are those of a run that begins there, to the bit.
+TEST_P(CutTest, IsPaintedAsAFirstFrame) {
+  const std::vector<hal::CapturedFrame>& frames = splicedFrames();
+  ASSERT_EQ(frames.size(), kBefore + kAfter);
+  const PaintParameters parameters = parametersOf(GetParam());
+  Painter wentOn({.pictureSize = kFrame, .style = GetParam().style});
+  Painter fresh({.pictureSize = kFrame, .style = GetParam().style});
+  for (std::size_t i = 0; i < kBefore; ++i) painted(wentOn, frames[i], parameters);
+  for (std::size_t i = kBefore; i < frames.size(); ++i) {
+    EXPECT_EQ(painted(wentOn, frames[i], parameters), painted(fresh, frames[i], parameters)) << i;
+  }
+}
+
+/// Control: without a cut, the past shows.
+TEST_P(CutTest, NoCutIsNotPaintedAsAFirstFrame) {
+  const std::vector<hal::CapturedFrame>& frames = splicedFrames();
+  ASSERT_EQ(frames.size(), kBefore + kAfter);
+  const PaintParameters parameters = parametersOf(GetParam());
+  Painter wentOn({.pictureSize = kFrame, .style = GetParam().style});
+  Painter fresh({.pictureSize = kFrame, .style = GetParam().style});
+  for (std::size_t i = 0; i + 1 < kBefore; ++i) painted(wentOn, frames[i], parameters);
+  EXPECT_NE(painted(wentOn, frames[kBefore - 1], parameters),
+            painted(fresh, frames[kBefore - 1], parameters));
+}
+
+/// Neither a model's pose nor the light on it is held over a cut.
+TEST_F(PainterTest, ModelsOfACutAreThoseOfAFirstFrame) {
+  const std::vector<hal::CapturedFrame>& frames = splicedFrames();
+  ASSERT_EQ(frames.size(), kBefore + kAfter);
+  Painter wentOn({.pictureSize = kFrame, .scene = boxOnTheBench()});
+  Painter fresh({.pictureSize = kFrame, .scene = boxOnTheBench()});
+  for (std::size_t i = 0; i < kBefore; ++i) {
+    const auto picture = wentOn.paint(frames[i], wentOn.defaultParameters());
+    ASSERT_TRUE(picture);
+    EXPECT_TRUE(picture->tracking.cameraFromWorld) << i;
+  }
+  for (std::size_t i = kBefore; i < frames.size(); ++i) {
+    EXPECT_EQ(painted(wentOn, frames[i]), painted(fresh, frames[i])) << i;
+  }
+}
+
+}  // namespace
+}  // namespace pleinair
