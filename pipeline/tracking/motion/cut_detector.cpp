@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include <opencv2/imgproc.hpp>
 
@@ -74,6 +75,14 @@ Thumbnail::Match Thumbnail::match(const Thumbnail& other) const {
 
 namespace {
 
+/// Part of the features found at which the view is the same, and at which it is if the thumbnails
+/// match as well: blocks of repeated or hardly any texture match at random places.
+constexpr double kFollowedShare = 0.9;
+constexpr double kHalfFollowedShare = 0.5;
+constexpr double kSameThumbnail = 0.95;
+constexpr double kSharedPart = 0.28;   // of the blocks with texture, in the same view
+constexpr std::size_t kMinBlocks = 6;  // with texture; views with fewer are compared by thumbnails
+constexpr std::size_t kMaxBlankBlocks = 2;  // with texture, of a blank frame
 constexpr double kLostShare = 0.15;   // part of the features found; less means that they are lost
 constexpr double kSameScene = 0.8;    // correlation of thumbnails
 constexpr double kMinContrast = 4.0;  // standard deviation of a thumbnail, grey levels
@@ -81,21 +90,41 @@ constexpr int kMaxBlankFrames = 12;   // blank frames after which the earlier sc
 
 }  // namespace
 
-bool CutDetector::isCut(const LumaPyramid& current, double foundShare) {
-  current_.load(current);
-  if (!seen_) {
-    seen_ = current_;
+/// Compares in both directions: an occluder hides blocks of the earlier frame and brings blocks of
+/// its own into the later one.
+CutDetector::Likeness CutDetector::compare(double foundShare, double noise) {
+  const auto there = comparison_.compare(seen_.view, current_.view, noise);
+  if (there.textured >= kMinBlocks && there.sharedPart >= kSharedPart) return Likeness::kSameView;
+  const auto back = comparison_.compare(current_.view, seen_.view, noise);
+  if (back.textured >= kMinBlocks && back.sharedPart >= kSharedPart) return Likeness::kSameView;
+  const bool isLost = foundShare < kLostShare;
+  if (back.textured <= kMaxBlankBlocks && isLost && current_.thumbnail.contrast() < kMinContrast) {
+    return Likeness::kBlank;
+  }
+  const bool canCompare = there.textured >= kMinBlocks && back.textured >= kMinBlocks;
+  if (!canCompare && !isLost) return Likeness::kSameView;
+  if (canCompare && foundShare < kHalfFollowedShare) return Likeness::kOtherView;
+  const double correlation = seen_.thumbnail.match(current_.thumbnail).correlation;
+  return correlation < (canCompare ? kSameThumbnail : kSameScene) ? Likeness::kOtherView
+                                                                  : Likeness::kSameView;
+}
+
+bool CutDetector::isCut(const LumaPyramid& current, double foundShare, double noise) {
+  current_.thumbnail.load(current);
+  current_.view.load(current);
+  Likeness likeness = Likeness::kOtherView;
+  if (hasSeen_) {
+    likeness = foundShare < kFollowedShare ? compare(foundShare, noise) : Likeness::kSameView;
+  }
+  bool isCut = likeness == Likeness::kOtherView;
+  if (likeness == Likeness::kBlank) {
+    isCut = ++blankFrames_ == kMaxBlankFrames && seen_.thumbnail.contrast() >= kMinContrast;
+    if (!isCut) return false;
+  } else {
     blankFrames_ = 0;
-    return true;
   }
-  if (foundShare < kLostShare && current_.contrast() < kMinContrast) {
-    const bool isCut = ++blankFrames_ == kMaxBlankFrames && seen_->contrast() >= kMinContrast;
-    if (isCut) seen_ = current_;
-    return isCut;
-  }
-  blankFrames_ = 0;
-  const bool isCut = foundShare < kLostShare && seen_->match(current_).correlation < kSameScene;
-  seen_ = current_;
+  hasSeen_ = true;
+  std::swap(seen_, current_);
   return isCut;
 }
 

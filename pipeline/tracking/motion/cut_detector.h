@@ -2,9 +2,10 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
 
 #include <glm/vec2.hpp>
+
+#include "pipeline/tracking/motion/view_comparison.h"
 
 namespace pleinair::tracking {
 
@@ -35,21 +36,32 @@ class Thumbnail {
   std::array<float, static_cast<std::size_t>(kWidth) * kHeight> values_{};
 };
 
-class LumaPyramid;
-
-/// Tells a new scene from one that has moved, been covered or lit differently: a new scene loses
-/// the features and also changes the thumbnail. One thread at a time.
+/// Tells a new view from one that has moved, been covered or lit differently. A frame is a cut if
+/// features are lost and hardly any of the blocks with texture are seen again, forwards or
+/// backwards in time, under one motion that a camera can make between two frames (ViewComparison).
+/// Where blocks cannot tell, for want of texture or because it repeats, thumbnails that match keep
+/// the view. docs/decisions/0025-cuts.md has the margins. One thread at a time.
 class CutDetector {
  public:
-  /// Takes the next frame and the part of the previous frame's features that were found in it. The
-  /// first frame is a cut. Frames without contrast count as a cut only after several in a row.
-  bool isCut(const LumaPyramid& current, double foundShare);
+  /// Takes the next frame, the part of the previous frame's features that were found in it, and the
+  /// noise of the pyramid's pixels (levels). The first frame is a cut. Frames without contrast
+  /// count as a cut only after several in a row.
+  bool isCut(const LumaPyramid& current, double foundShare, double noise);
   /// Treats the next frame as the first one.
-  void reset() { seen_.reset(); }
+  void reset() { hasSeen_ = false; }
 
  private:
-  std::optional<Thumbnail> seen_;  // of the last frame with contrast
-  Thumbnail current_;
+  struct Frame {
+    Thumbnail thumbnail;
+    ViewComparison::View view;
+  };
+  enum class Likeness { kSameView, kOtherView, kBlank };
+  Likeness compare(double foundShare, double noise);
+
+  Frame seen_;  // the last frame with contrast
+  Frame current_;
+  ViewComparison comparison_;
+  bool hasSeen_ = false;
   int blankFrames_ = 0;
 };
 

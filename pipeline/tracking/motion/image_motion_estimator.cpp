@@ -59,7 +59,7 @@ const ImageMotion& ImageMotionEstimator::follow(LumaFrame& frame, std::uint64_t 
 
   const std::span<const SeenFeature> seen = s.tracker->follow(current, s.staticRegions.noise());
   s.motion = {.frameSize = size, .sinceSequence = s.previous ? s.lastSequence : sequence};
-  s.motion.isCut = s.cuts.isCut(*current, s.tracker->foundShare());
+  s.motion.isCut = s.cuts.isCut(*current, s.tracker->foundShare(), s.staticRegions.noise());
   if (s.motion.isCut) {
     s.forget();
     s.tracker->follow(current, s.staticRegions.noise());
