@@ -239,12 +239,16 @@ hal::Result<Picture> FramePipeline::paintChecked(const hal::CapturedFrame& frame
   timer_.beginFrame();
   tracking::TrackingResult tracked;
   luma_.take(frame.image);
+  const Level& level = levels_[parameters.quality];
+  {
+    const auto scope = timer_.measure("camera picture");
+    camera_ = &uploader_.upload(frame.image, level.size, fitTo(level, frame.image.format.size));
+  }
   const scene::ArFrameNeeds needs = needsOf(parameters.view);
   const tracking::ImageMotion* const motion = measureMotion(frame.sequence, needs);
   if (motion != nullptr && motion->isCut) forgetPast();
   if (tracker_) tracked = tracker_->track(luma_, frame.captureTime);
-  picture_ =
-      &paintView(compose(frame, tracked, levels_[parameters.quality], needs, motion), parameters);
+  picture_ = &paintView(compose(frame, tracked, level, needs, motion), parameters);
   submitReadbacks(frame);
   glFlush();  // the GPU works on while the next frame is tracked
   return Picture{.texture = picture_->name(),
@@ -266,10 +270,6 @@ scene::ArFrame FramePipeline::compose(const hal::CapturedFrame& frame,
                                       const tracking::TrackingResult& tracked, const Level& level,
                                       scene::ArFrameNeeds needs,
                                       const tracking::ImageMotion* motion) {
-  {
-    const auto scope = timer_.measure("camera picture");
-    camera_ = &uploader_.upload(frame.image, level.size, fitTo(level, frame.image.format.size));
-  }
   sightings_.clear();
   for (const tracking::TrackedTag& tag : tracked.tags) {
     if (tag.cameraFromTag) sightings_.push_back({tag.id, *tag.cameraFromTag, tag.covariance});
