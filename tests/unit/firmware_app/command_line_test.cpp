@@ -52,7 +52,8 @@ TEST(CommandLine, RefusesWhatItDoesNotKnow) {
     expectRefused(
         {"record", "--output", "/no-such-folder/b.mp4", "--camera", camera},
         "synthetic, synthetic:walkaround, synthetic:pan, synthetic:dolly, synthetic:roll, "
-        "synthetic:still, synthetic:occluder, synthetic:cut, synthetic:visitors, synthetic:lights");
+        "synthetic:still, synthetic:occluder, synthetic:cut, synthetic:visitors, synthetic:lights, "
+        "synthetic:hand");
   }
 }
 
@@ -63,7 +64,7 @@ TEST(CommandLine, NamesOnlyTheShotsWhereAShotIsUnknown) {
       refused.error,
       "pleinair: --camera: found \"synthetic:nope\", allowed: synthetic, synthetic:walkaround, "
       "synthetic:pan, synthetic:dolly, synthetic:roll, synthetic:still, synthetic:occluder, "
-      "synthetic:cut, synthetic:visitors, synthetic:lights\n");
+      "synthetic:cut, synthetic:visitors, synthetic:lights, synthetic:hand\n");
 }
 
 TEST(CommandLine, PointsToTheHelpOfTheSubcommand) {

@@ -130,6 +130,7 @@ glm::dmat4 Motion::cameraFromWorld(double seconds) const {
       return turnedBy(home, glm::radians(28.0) * swing(seconds, 6), {0, 0, 1});
     case SyntheticShot::kStill:
     case SyntheticShot::kLights:
+    case SyntheticShot::kHand:
       return home;
     case SyntheticShot::kVisitors:
       return lookAt(kVisitorsEye, kVisitorsTarget);
@@ -143,16 +144,30 @@ glm::dmat4 Motion::cameraFromWorld(double seconds) const {
 
 namespace {
 
+constexpr glm::dvec3 kArmAway{0.62, -1.02, 0.30};  // beyond the image's corner
+
 glm::dmat4 worldFromArm(double seconds) {
   constexpr double kPeriodSeconds = 6;
-  constexpr glm::dvec3 kAway{0.62, -1.02, 0.30};
   constexpr glm::dvec3 kThere{-0.02, -0.06, 0.105};
   const double t = std::fmod(seconds + kPeriodSeconds, kPeriodSeconds);
   const double reached = eased(t, 0.5, 1.9) - eased(t, 3.2, 4.6);
-  const glm::dvec3 place = glm::mix(kAway, kThere, reached) +
+  const glm::dvec3 place = glm::mix(kArmAway, kThere, reached) +
                            reached * glm::dvec3(0.035 * swing(t, 1.4), 0.03 * swing(t, 1.9), 0);
   const glm::dmat4 pose = glm::translate(glm::dmat4(1), place);
   return glm::rotate(pose, glm::radians(10.0 * swing(t, 2.3)), glm::dvec3(0, 0, 1));
+}
+
+/// It reaches over the bench, rests there for a second, goes on to another place and withdraws.
+glm::dmat4 worldFromSlowArm(double seconds) {
+  constexpr double kPeriodSeconds = 10;
+  constexpr glm::dvec3 kFirst{0.10, -0.16, 0.115};
+  constexpr glm::dvec3 kSecond{-0.14, -0.02, 0.105};
+  const double t = seconds - kPeriodSeconds * std::floor(seconds / kPeriodSeconds);
+  const double reached = eased(t, 0.8, 3.2) - eased(t, 6.0, 8.6);
+  const double wentOn = eased(t, 4.2, 5.6);
+  const glm::dvec3 place = glm::mix(kArmAway, glm::mix(kFirst, kSecond, wentOn), reached);
+  const double turn = glm::radians(8.0 * reached - 14.0 * wentOn);
+  return glm::rotate(glm::translate(glm::dmat4(1), place), turn, glm::dvec3(0, 0, 1));
 }
 
 }  // namespace
@@ -160,6 +175,7 @@ glm::dmat4 worldFromArm(double seconds) {
 BodyPoses Motion::bodies(double seconds) const {
   BodyPoses bodies;
   if (shot_ == SyntheticShot::kOccluder) bodies.place(kArm, worldFromArm(seconds));
+  if (shot_ == SyntheticShot::kHand) bodies.place(kArm, worldFromSlowArm(seconds));
   if (shot_ == SyntheticShot::kVisitors) placeVisitors(seconds, bodies);
   return bodies;
 }

@@ -7,8 +7,8 @@
 namespace pleinair::hal {
 namespace {
 
-constexpr std::array<std::string_view, 9> kNames{"walkaround", "pan", "dolly",    "roll",  "still",
-                                                 "occluder",   "cut", "visitors", "lights"};
+constexpr std::array<std::string_view, 10> kNames{
+    "walkaround", "pan", "dolly", "roll", "still", "occluder", "cut", "visitors", "lights", "hand"};
 
 }  // namespace
 

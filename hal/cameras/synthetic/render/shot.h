@@ -18,6 +18,7 @@ enum class SyntheticShot {
   kCut,         ///< handheld, with a hard cut every two seconds
   kVisitors,    ///< on a tripod, far back; persons cross the room, and one of them stops
   kLights,      ///< static; a spotlight goes on and off, and the exposure falls and recovers
+  kHand,        ///< static; the arm reaches in slowly, rests, goes on, and withdraws
 };
 
 std::string_view toString(SyntheticShot shot);

@@ -86,6 +86,11 @@ TEST(SyntheticFlow, FollowsWhatMovesAndWhatItHides) {
   EXPECT_GT(moving, 4);
 }
 
+TEST(SyntheticFlow, FollowsASlowHandAndWhatItUncovers) {
+  expectFlowOfOracle(SyntheticShot::kHand, 70, 84, 100, 150);
+  expectFlowOfOracle(SyntheticShot::kHand, 190, 230, 100, 150);
+}
+
 TEST(SyntheticFlow, FollowsThePartsOfPersons) {
   expectFlowOfOracle(SyntheticShot::kVisitors, 95, 99, 120, 150);
   expectFlowOfOracle(SyntheticShot::kVisitors, 300, 340, 120, 150);
