@@ -219,9 +219,11 @@ class Measurement {
     }
     report_.leftOut = leftOut();
     report_.controls = controlVerdicts(report_.measures, options_.coherence, runConditions());
-    report_.gates =
-        gateVerdicts(judgedGates(), runConditions(), report_.measures[Subject::kPainting],
-                     report_.measures[Subject::kFixed]);
+    const std::vector<styles::CoherenceGate> judged = judgedGates();
+    styles::CoherenceGates gates = options_.coherence;
+    gates.gates = judged;
+    report_.gates = gateVerdicts(gates, runConditions(), report_.measures[Subject::kPainting],
+                                 report_.measures[Subject::kFixed]);
     if (options_.isStanding) judgeMovers();
     for (Verdict& verdict : anchorVerdicts(options_.coherence, report_.motionKind, settledAnchors(),
                                            report_.insideStill)) {
@@ -229,13 +231,14 @@ class Measurement {
     }
   }
 
-  styles::CoherenceGates judgedGates() {
-    styles::CoherenceGates gates = options_.coherence;
-    if (!options_.isStanding) return gates;
-    std::ranges::copy_if(gates.gates, std::back_inserter(standingGates_),
-                         [](const auto& gate) { return gate.motion == styles::GateMotion::kAny; });
-    gates.gates = standingGates_;
-    return gates;
+  /// Before a standing camera only those that hold under any motion.
+  std::vector<styles::CoherenceGate> judgedGates() const {
+    std::vector<styles::CoherenceGate> judged;
+    std::ranges::copy_if(options_.coherence.gates, std::back_inserter(judged),
+                         [this](const auto& gate) {
+                           return !options_.isStanding || gate.motion == styles::GateMotion::kAny;
+                         });
+    return judged;
   }
 
   void judgeMovers() {
@@ -282,7 +285,6 @@ class Measurement {
   Report report_;
   std::optional<SequenceMeasures> sequence_;
   MoverMeasures movers_;
-  std::vector<styles::CoherenceGate> standingGates_;
   WorstFrames worst_;
   cv::Mat3f still_;
   PerSubject<std::optional<double>> flicker_;

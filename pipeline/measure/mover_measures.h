@@ -49,13 +49,6 @@ class MoverMeasures {
   std::optional<MoverReport> total() const;
 
  private:
-  cv::Mat3b ground() const;
-  std::vector<cv::Mat1b> findMovers(const cv::Mat3b& ground) const;
-  MoverSummary compare(const std::vector<cv::Mat3b>& outputs,
-                       const std::vector<cv::Mat1b>& movers) const;
-  std::optional<double> displacedStill(const std::vector<cv::Mat1b>& movers) const;
-  std::vector<cv::Mat3b> averaged() const;
-
   std::vector<hal::TimePoint> times_;
   std::vector<cv::Mat3b> inputs_;
   std::vector<cv::Mat3b> outputs_;

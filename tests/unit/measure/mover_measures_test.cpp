@@ -1,4 +1,4 @@
-// STILL, RETURN, GHOST and LOST of paintings that are made so that each is known.
+// Measures of movers, on paintings that are made so that each value is known.
 #include "pipeline/measure/mover_measures.h"
 
 #include <algorithm>
@@ -74,7 +74,7 @@ TEST(MoverMeasures, APainterThatNeverPaintsMoversLosesThem) {
 }
 
 TEST(MoverMeasures, ATrailIsAGhost) {
-  // What is seen, half of it 10 frames late.
+  // The painting is the mean of the input and of the input ten frames ago.
   const MoverReport report = reportOf([](int frame) {
     cv::Mat3b painted;
     cv::addWeighted(seen(frame), 0.5, seen(std::max(frame - 10, 0)), 0.5, 0.0, painted);
@@ -88,9 +88,10 @@ TEST(MoverMeasures, APlaceThatIsPaintedAnewHasNotReturned) {
   const MoverReport report = reportOf([](int frame) {
     cv::Mat3b painted = seen(frame);
     const int left = (frame - kComes) * kSpeed;
-    // Behind it, all is ten levels lighter.
-    if (left > 0)
+    // Everything that the bar has passed becomes ten levels lighter.
+    if (left > 0) {
       painted(cv::Rect(0, 0, std::min(left, kSize.width), kSize.height)) += cv::Scalar(10, 10, 10);
+    }
     return painted;
   });
   EXPECT_NEAR(report.painting.returnLevels.value(), 10.0, 2.0);
@@ -102,7 +103,7 @@ TEST(MoverMeasures, AChangeAwayFromMoversIsNotStill) {
     painted(cv::Rect(60, 135, 20, 5)) += cv::Scalar::all(frame % 2 == 0 ? 30 : 0);
     return painted;
   });
-  // 100 px of the 160x100 within the border.
+  // The border leaves 160x100 px, of which 100 change.
   EXPECT_NEAR(report.painting.stillPercent.value(), 0.6, 0.2);
 }
 
@@ -124,6 +125,17 @@ TEST(MoverMeasures, WithoutAMoverNothingIsMeasured) {
   EXPECT_FALSE(report.painting.lostPercent);
   for (const Verdict& verdict : moverVerdicts(report.painting, true)) {
     EXPECT_THAT(verdict.what, testing::Not(testing::HasSubstr("LOST"))) << "on paper";
+    const bool isStill = verdict.what.starts_with("STILL");
+    EXPECT_EQ(verdict.state, isStill ? Verdict::State::kPassed : Verdict::State::kNotMeasured);
+    EXPECT_EQ(verdict.found == "no mover came and went", !isStill) << verdict.what;
+  }
+}
+
+TEST(MoverMeasures, WhatIsMissingSaysWhy) {
+  for (const Verdict& verdict : moverVerdicts({}, false)) {
+    EXPECT_EQ(verdict.state, Verdict::State::kNotMeasured);
+    const bool needsVisit = verdict.what.starts_with("RETURN") || verdict.what.starts_with("GHOST");
+    EXPECT_EQ(verdict.found == "no mover came and went", needsVisit) << verdict.what;
   }
 }
 

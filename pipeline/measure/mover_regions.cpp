@@ -1,0 +1,147 @@
+#include "pipeline/measure/mover_regions.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+
+#include <opencv2/imgproc.hpp>
+
+#include "pipeline/measure/input/picture.h"
+
+namespace pleinair::measure {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int kStillLevels = 8;
+constexpr int kReturnedLevels = 4;
+constexpr double kSmooth = 2.0;  // sigma, px
+constexpr hal::Duration kGhost = 200ms;
+constexpr hal::Duration kReturn = 1s;
+
+/// Calls visit(place) for each pixel within the border.
+template <class Visit>
+void forEachInner(cv::Size size, Visit visit) {
+  const cv::Rect inner = innerRect(size);
+  for (int y = inner.y; y < inner.br().y; ++y) {
+    for (int x = inner.x; x < inner.br().x; ++x) visit(cv::Point(x, y));
+  }
+}
+
+double squaredDistance(const cv::Vec3b& a, const cv::Vec3b& b) {
+  const cv::Vec3d apart = cv::Vec3d(a) - cv::Vec3d(b);
+  return apart.dot(apart);
+}
+
+cv::Mat3b smoothed(const cv::Mat3b& picture) {
+  cv::Mat3b smooth;
+  cv::GaussianBlur(picture, smooth, {}, kSmooth);
+  return smooth;
+}
+
+std::optional<double> percentOf(const Mean& share) {
+  const std::optional<double> value = share.value();
+  return value ? std::optional(100.0 * *value) : std::nullopt;
+}
+
+}  // namespace
+
+void StillRegion::add(const MoverFrame& frame) {
+  if (!far_.empty()) {
+    forEachInner(frame.input.size(), [&](cv::Point at) {
+      if (frame.zones.far(at) != 0 || far_(at) != 0) return;
+      const int change = largestDifference(frame.output(at), output_(at));
+      const int own = largestDifference(frame.input(at), input_(at));
+      changed_ += {change > kStillLevels ? 1.0 : 0.0, 1.0};
+      inputChanged_ += {own > kStillLevels ? 1.0 : 0.0, 1.0};
+    });
+  }
+  input_ = frame.input;
+  output_ = frame.output;
+  far_ = frame.zones.far;
+}
+
+std::optional<double> StillRegion::percent() const {
+  const std::optional<double> changed = percentOf(changed_);
+  if (!changed) return std::nullopt;
+  return std::max(0.0, *changed - inputPercent().value_or(0));
+}
+
+std::optional<double> StillRegion::inputPercent() const {
+  return percentOf(inputChanged_);
+}
+
+Ground::Ground(cv::Size size)
+    : input_(size, cv::Vec3b()), painted_(size, cv::Vec3b()), isKnown_(size, 0) {}
+
+void Ground::take(cv::Point at, const MoverFrame& frame) {
+  input_(at) = frame.input(at);
+  painted_(at) = frame.output(at);
+  isKnown_(at) = 255;
+}
+
+UncoveredRegion::UncoveredRegion(cv::Size size)
+    : size_(size), visits_(static_cast<std::size_t>(size.area())) {}
+
+void UncoveredRegion::add(const MoverFrame& frame, Ground& ground) {
+  forEachInner(size_, [&](cv::Point at) {
+    Visit& visit = visits_[static_cast<std::size_t>(at.y * size_.width + at.x)];
+    if (frame.zones.close(at) != 0) {
+      cover(visit, at, frame, ground);
+      return;
+    }
+    const bool isAwaiting = awaitsReturn(visit, at, frame, ground);
+    if (!isAwaiting && frame.zones.near(at) == 0) ground.take(at, frame);
+  });
+}
+
+void UncoveredRegion::cover(Visit& visit, cv::Point at, const MoverFrame& frame,
+                            const Ground& ground) {
+  visit.isAway = false;
+  if (frame.zones.mover(at) == 0 || !ground.isKnown(at)) return;
+  visit.contrast += {meanDifference(frame.input(at), ground.input(at)), 1.0};
+}
+
+bool UncoveredRegion::awaitsReturn(Visit& visit, cv::Point at, const MoverFrame& frame,
+                                   const Ground& ground) {
+  if (visit.contrast.weight == 0) return false;
+  if (!visit.isAway) {
+    visit.isAway = true;
+    visit.isGhostTaken = false;
+    visit.leftAt = frame.time;
+  }
+  const hal::Duration since = frame.time - visit.leftAt;
+  const bool isSame = largestDifference(frame.input(at), ground.input(at)) <= kReturnedLevels;
+  const double difference = meanDifference(frame.output(at), ground.painted(at));
+  if (!visit.isGhostTaken && since >= kGhost) {
+    visit.isGhostTaken = true;
+    if (isSame) {
+      ghost_ += {difference, 1.0};
+      contrast_ += {*visit.contrast.value(), 1.0};
+    }
+  }
+  if (since < kReturn || frame.zones.near(at) != 0) return true;
+  if (isSame) returned_ += {difference, 1.0};
+  visit = {};
+  return false;
+}
+
+void LostRegion::add(const MoverFrame& frame, const Ground& ground) {
+  if (cv::countNonZero(frame.zones.within) == 0) return;
+  const cv::Mat3b output = smoothed(frame.output);
+  const cv::Mat3b input = smoothed(frame.input);
+  const cv::Mat3b before = smoothed(ground.painting());
+  forEachInner(frame.input.size(), [&](cv::Point at) {
+    if (frame.zones.within(at) == 0 || !ground.isKnown(at)) return;
+    if (largestDifference(frame.input(at), ground.input(at)) <= kContrastLevels) return;
+    const bool isLost =
+        squaredDistance(output(at), before(at)) < squaredDistance(output(at), input(at));
+    lost_ += {isLost ? 1.0 : 0.0, 1.0};
+  });
+}
+
+std::optional<double> LostRegion::percent() const {
+  return percentOf(lost_);
+}
+
+}  // namespace pleinair::measure

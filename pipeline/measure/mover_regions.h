@@ -1,0 +1,102 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "hal/clock.h"
+#include "pipeline/measure/mean.h"
+#include "pipeline/measure/mover_masks.h"
+
+namespace pleinair::measure {
+
+// The regions of a sequence before a standing camera, each with what is measured in it
+// (docs/measuring.md). Frames are added in turn. A value is missing where nothing was compared.
+
+/// A frame and its painting, of one size.
+struct MoverFrame {
+  hal::TimePoint time;
+  const cv::Mat3b& input;
+  const cv::Mat3b& output;
+  const MoverZones& zones;
+};
+
+/// The share of pixels away from movers that change by more than 8 levels from one frame to the
+/// next, less the input's own. STILL, percent.
+class StillRegion {
+ public:
+  void add(const MoverFrame& frame);
+  std::optional<double> percent() const;
+  /// The input's own.
+  std::optional<double> inputPercent() const;
+
+ private:
+  cv::Mat3b input_, output_;  // of the previous frame
+  cv::Mat1b far_;
+  Mean changed_;
+  Mean inputChanged_;
+};
+
+/// What each place showed when it was last seen without a mover.
+class Ground {
+ public:
+  explicit Ground(cv::Size size);
+
+  bool isKnown(cv::Point at) const { return isKnown_(at) != 0; }
+  const cv::Vec3b& input(cv::Point at) const { return input_(at); }
+  const cv::Vec3b& painted(cv::Point at) const { return painted_(at); }
+  /// Where it is not known, a picture that was painted with a mover: the first one.
+  const cv::Mat3b& painting() const { return painted_; }
+  void take(cv::Point at, const MoverFrame& frame);
+  /// Precondition: nothing is known yet.
+  void start(const cv::Mat3b& painting) { painted_ = painting.clone(); }
+
+ private:
+  cv::Mat3b input_, painted_;
+  cv::Mat1b isKnown_;
+};
+
+/// Places that a mover covers and leaves again. RETURN: how far the painting differs, a second
+/// after a mover has left, from that before it came. GHOST: the same after 0.2 s, over the mover's
+/// contrast. Both where the input came back.
+class UncoveredRegion {
+ public:
+  explicit UncoveredRegion(cv::Size size);
+
+  /// Adds to `ground` what is seen without a mover.
+  void add(const MoverFrame& frame, Ground& ground);
+  std::optional<double> returnLevels() const { return returned_.value(); }
+  std::optional<double> ghost() const { return ratio(ghost_.value(), contrast_.value()); }
+
+ private:
+  /// The visit of movers at one pixel.
+  struct Visit {
+    bool isAway = false;  // a mover was here and has left
+    bool isGhostTaken = false;
+    hal::TimePoint leftAt;
+    Mean contrast;
+  };
+  void cover(Visit& visit, cv::Point at, const MoverFrame& frame, const Ground& ground);
+  /// Whether RETURN has still to be measured; until then, the ground stays as it was before.
+  bool awaitsReturn(Visit& visit, cv::Point at, const MoverFrame& frame, const Ground& ground);
+
+  cv::Size size_;
+  std::vector<Visit> visits_;
+  Mean returned_;
+  Mean ghost_;
+  Mean contrast_;
+};
+
+/// The mover's clear pixels. LOST, percent: those whose painting is nearer to the painted ground
+/// than to the camera's picture.
+class LostRegion {
+ public:
+  void add(const MoverFrame& frame, const Ground& ground);
+  std::optional<double> percent() const;
+
+ private:
+  Mean lost_;
+};
+
+}  // namespace pleinair::measure
