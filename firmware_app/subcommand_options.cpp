@@ -319,12 +319,10 @@ void addMeasure(CLI::App& app, MeasureOptions& options, std::function<int()>& ch
                                         "file with the motion of a recording (as motion.json)")
                             ->needs(input)
                             ->type_name("FILE");
-  CLI::Option* standing =
-      command
-          .add_flag("--standing", options.standing,
-                    "the camera of a recording stands: measure also what moves before it")
-          ->needs(input)
-          ->excludes(motion);
+  CLI::Option* standing = command
+                              .add_flag("--standing", options.standing,
+                                        "the camera stands: measure also what moves before it")
+                              ->excludes(motion);
   addPhotographMotion(command, {motion, standing}, options);
   command
       .add_option_function<std::string>(

@@ -59,7 +59,7 @@ struct MeasureOptions {
   std::optional<std::filesystem::path> input;   ///< default: the synthetic camera
   std::optional<std::filesystem::path> motion;  ///< file with the motion of a recording
   measure::PhotographMotion photograph;         ///< motion of a photograph
-  bool standing = false;                        ///< the camera of a recording stands
+  bool standing = false;                        ///< the camera stands
   std::string movedBy;                          ///< "--pan", "--still" …; empty: none was given
   double noiseLevels = 2.0;
   std::optional<std::uint64_t> frames;

@@ -26,4 +26,10 @@ inline std::optional<double> ratio(std::optional<double> a, std::optional<double
   return *a / *b;
 }
 
+/// A share as a percentage; nothing if nothing was counted.
+inline std::optional<double> percentOf(const Mean& share) {
+  const std::optional<double> value = share.value();
+  return value ? std::optional(100.0 * *value) : std::nullopt;
+}
+
 }  // namespace pleinair::measure

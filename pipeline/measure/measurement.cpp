@@ -121,7 +121,7 @@ class Measurement {
       if (index >= options_.settle) {
         if (auto added = add(index, *painted); !added) return tl::unexpected(added.error());
         if (options_.isStanding) {
-          movers_.add((*frame)->captureTime, painted->input, painted->output);
+          observeMovers(index, (*frame)->captureTime, *painted);
         }
       }
       if (!options_.goesOn()) return Progress::kAborted;
@@ -160,6 +160,15 @@ class Measurement {
       worst_.offer(index, *ew2, input, output, sequence_->of(Subject::kPainting).lastDifference());
     }
     return {};
+  }
+
+  void observeMovers(std::uint64_t index, hal::TimePoint time, const PaintedFrame& painted) {
+    TrueMovers* const truth = input_.movers();
+    movers_.add({.time = time,
+                 .input = painted.input,
+                 .output = painted.output,
+                 .trueMovers = truth == nullptr ? cv::Mat1b() : truth->mask(index),
+                 .trueMotion = truth == nullptr ? nullptr : sequence_->lastMotion()});
   }
 
   FrameValues valuesOfLast(std::uint64_t index) const {
@@ -247,7 +256,7 @@ class Measurement {
     for (Verdict& verdict : moverControlVerdicts(*report_.movers)) {
       report_.controls.push_back(std::move(verdict));
     }
-    for (Verdict& verdict : moverVerdicts(report_.movers->painting, options_.isOnPaper)) {
+    for (Verdict& verdict : moverVerdicts(*report_.movers, options_.isOnPaper)) {
       report_.gates.push_back(std::move(verdict));
     }
   }

@@ -8,8 +8,11 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
+#include "pipeline/measure/input/dense_motion.h"
+#include "pipeline/measure/input/picture.h"
 #include "pipeline/measure/mean.h"
 #include "pipeline/measure/mover_regions.h"
+#include "pipeline/measure/output_measures.h"
 
 namespace pleinair::measure {
 namespace {
@@ -20,6 +23,9 @@ constexpr double kMaxStillPercent = 0.2;
 constexpr double kMaxReturnLevels = 4.0;
 constexpr double kMaxGhost = 0.25;
 constexpr double kMaxLostPercent = 15.0;
+constexpr double kMaxMoverNHw2 = 0.25;
+constexpr double kMaxMoverPopPercent = 2.0;
+constexpr double kMaxSeamPopPercent = 3.0;
 
 cv::Mat3b copyOf(const hal::Image& image) {
   cv::Mat3b copy(image.size().height, image.size().width);
@@ -81,18 +87,44 @@ class PaintingRegions {
   UncoveredRegion uncovered_;
 };
 
+cv::Mat3f inUnits(const cv::Mat3b& picture) {
+  cv::Mat3f units;
+  picture.convertTo(units, CV_32F, 1.0 / 255.0);
+  return units;
+}
+
+MoverMotion alongDenseMotion(const std::vector<cv::Mat3b>& inputs,
+                             const std::vector<cv::Mat3b>& outputs,
+                             const std::vector<cv::Mat1b>& movers) {
+  MoverMotion along(inputs.front().size());
+  for (std::size_t t = 0; t < inputs.size(); ++t) {
+    std::optional<MotionMap> motion;
+    if (t >= kShortLag && cv::countNonZero(movers[t - kShortLag]) > 0) {
+      motion = denseMotion(inputs[t - kShortLag], inputs[t]);
+    }
+    along.add(inUnits(inputs[t]), inUnits(outputs[t]), movers[t], motion ? &*motion : nullptr);
+  }
+  return along;
+}
+
 }  // namespace
 
-void MoverMeasures::add(hal::TimePoint time, const hal::Image& input, const hal::Image& output) {
-  times_.push_back(time);
-  inputs_.push_back(copyOf(input));
-  outputs_.push_back(copyOf(output));
+void MoverMeasures::add(const MoverObservation& frame) {
+  times_.push_back(frame.time);
+  inputs_.push_back(copyOf(frame.input));
+  outputs_.push_back(copyOf(frame.output));
+  if (frame.trueMovers.empty()) return;
+  trueMovers_.push_back(frame.trueMovers);
+  if (!motion_) motion_.emplace(frame.trueMovers.size());
+  motion_->add(toFloat(frame.input.view()), toFloat(frame.output.view()), frame.trueMovers,
+               frame.trueMotion);
 }
 
 std::optional<MoverReport> MoverMeasures::total() const {
   if (inputs_.size() < 2) return std::nullopt;
   const cv::Size size = inputs_.front().size();
-  const std::vector<cv::Mat1b> movers = findMovers(inputs_);
+  const bool areTrue = !trueMovers_.empty();
+  const std::vector<cv::Mat1b> movers = areTrue ? trueMovers_ : findMovers(inputs_);
   PaintingRegions painting(size);
   PaintingRegions averaging(size);
   StillRegion displaced;
@@ -106,9 +138,15 @@ std::optional<MoverReport> MoverMeasures::total() const {
     averaging.add({.time = times_[t], .input = input, .output = averaged, .zones = zones});
     displaced.add({.time = times_[t], .input = input, .output = input, .zones = wrong});
   }
-  return MoverReport{.painting = painting.summary(),
+  const MoverMotion motion = areTrue ? *motion_ : alongDenseMotion(inputs_, outputs_, movers);
+  MoverReport report{.areMasksTrue = areTrue,
+                     .painting = painting.summary(),
+                     .alongMotion = {},
                      .averaging = averaging.summary(),
                      .displacedStillPercent = displaced.inputPercent()};
+  for (const Subject subject : kAllSubjects) report.alongMotion[subject] = motion.of(subject);
+  if (report.painting.coveredPercent == 0) report.displacedStillPercent.reset();
+  return report;
 }
 
 namespace {
@@ -136,29 +174,58 @@ Verdict verdictOf(const Limit& limit, std::optional<double> value) {
 
 constexpr const char* kNothingUncovered = "no mover came and went";
 constexpr const char* kNoClearMover = "no mover came that differs from the ground";
+constexpr const char* kNothingFollowed = "no mover was seen for three frames";
+constexpr const char* kNoMover = "no mover was seen";
 constexpr const char* kNothingStill = "movers are everywhere";
 
 constexpr Limit kStillLimit{"STILL", " %", kMaxStillPercent, kNothingStill};
 constexpr Limit kReturnLimit{"RETURN", "", kMaxReturnLevels, kNothingUncovered};
 constexpr Limit kGhostLimit{"GHOST", "", kMaxGhost, kNothingUncovered};
 constexpr Limit kLostLimit{"LOST", " %", kMaxLostPercent, kNoClearMover};
+constexpr Limit kMoverNHw2Limit{"MOVER nHW2", "", kMaxMoverNHw2, kNothingFollowed};
+constexpr Limit kMoverPopLimit{"MOVER POP", " %", kMaxMoverPopPercent, kNothingFollowed};
+constexpr Limit kSeamPopLimit{"SEAM POP", " %", kMaxSeamPopPercent, kNothingFollowed};
 constexpr Limit kAveragingLost{"LOST of a painter that averages over 0.65 s", " %", kMaxLostPercent,
                                kNoClearMover, false};
 constexpr Limit kDisplacedStill{"the input's pixels that change, under masks laid wrong by 20 px",
-                                " %", kMaxStillPercent, kNothingStill, false};
+                                " %", kMaxStillPercent, kNoMover, false};
+
+/// Marks that are redrawn in each frame have to fail at least one of the gates along the motion.
+Verdict redrawnVerdict(const MoverMotionSummary& redrawn) {
+  Verdict verdict{.what = "marks redrawn each frame fail MOVER nHW2, MOVER POP or SEAM POP",
+                  .found = kNothingFollowed};
+  if (!redrawn.nHw2 && !redrawn.popPercent && !redrawn.seamPopPercent) return verdict;
+  verdict.state = Verdict::State::kFailed;
+  verdict.found = "they pass; movers are too plain";
+  for (const Verdict& gate :
+       {verdictOf(kMoverNHw2Limit, redrawn.nHw2), verdictOf(kMoverPopLimit, redrawn.popPercent),
+        verdictOf(kSeamPopLimit, redrawn.seamPopPercent)}) {
+    if (gate.state != Verdict::State::kFailed) continue;
+    verdict.found = verdict.state == Verdict::State::kPassed ? verdict.found + ", " : "";
+    verdict.found += fmt::format("{} fails with {}", gate.what, gate.found);
+    verdict.state = Verdict::State::kPassed;
+  }
+  return verdict;
+}
 
 }  // namespace
 
-std::vector<Verdict> moverVerdicts(const MoverSummary& movers, bool isOnPaper) {
-  std::vector<Verdict> verdicts{verdictOf(kStillLimit, movers.stillPercent),
-                                verdictOf(kReturnLimit, movers.returnLevels),
-                                verdictOf(kGhostLimit, movers.ghost)};
-  if (!isOnPaper) verdicts.push_back(verdictOf(kLostLimit, movers.lostPercent));
+std::vector<Verdict> moverVerdicts(const MoverReport& movers, bool isOnPaper) {
+  const MoverSummary& painting = movers.painting;
+  const MoverMotionSummary& along = movers.alongMotion[Subject::kPainting];
+  std::vector<Verdict> verdicts{verdictOf(kStillLimit, painting.stillPercent),
+                                verdictOf(kReturnLimit, painting.returnLevels),
+                                verdictOf(kGhostLimit, painting.ghost),
+                                verdictOf(kMoverNHw2Limit, along.nHw2),
+                                verdictOf(kMoverPopLimit, along.popPercent),
+                                verdictOf(kSeamPopLimit, along.seamPopPercent)};
+  if (!isOnPaper) verdicts.push_back(verdictOf(kLostLimit, painting.lostPercent));
   return verdicts;
 }
 
 std::vector<Verdict> moverControlVerdicts(const MoverReport& movers) {
   return {verdictOf(kAveragingLost, movers.averaging.lostPercent),
+          redrawnVerdict(movers.alongMotion[Subject::kFresh]),
           verdictOf(kDisplacedStill, movers.displacedStillPercent)};
 }
 

@@ -9,6 +9,7 @@
 #include "hal/clock.h"
 #include "hal/image.h"
 #include "pipeline/measure/gates.h"
+#include "pipeline/measure/mover_motion.h"
 
 namespace pleinair::measure {
 
@@ -31,7 +32,9 @@ struct MoverSummary {
 
 /// The same of the painting and of controls.
 struct MoverReport {
+  bool areMasksTrue = false;  ///< of the input; else they are found, and motion is estimated
   MoverSummary painting;
+  PerSubject<MoverMotionSummary> alongMotion;
   /// A painter that averages its input over the time constant of strokes, and so leaves trails.
   MoverSummary averaging;
   /// The share of the input's own pixels that change away from movers, under masks that are laid
@@ -39,12 +42,24 @@ struct MoverReport {
   std::optional<double> displacedStillPercent;
 };
 
-/// Collects a sequence before a standing camera; movers are what differs from the median of 41
-/// frames. Keeps all frames: six bytes a pixel each, ten while they are evaluated. One thread.
+/// A frame and its painting, RGB8 of one size, with what is known of its movers.
+struct MoverObservation {
+  hal::TimePoint time;
+  const hal::Image& input;
+  const hal::Image& output;
+  cv::Mat1b trueMovers = {};              ///< 255 on them; empty if they are not known
+  const MotionMap* trueMotion = nullptr;  ///< from the frame two before; null: none, or not known
+};
+
+/// Collects a sequence before a standing camera. Movers whose masks are not given are found
+/// (findMovers()), and their motion is estimated (denseMotion()). Keeps all frames: six bytes a
+/// pixel each, seven with masks, ten while they are evaluated. One thread.
 class MoverMeasures {
  public:
-  /// Takes the next frame and its painting, RGB8 of one size.
-  void add(hal::TimePoint time, const hal::Image& input, const hal::Image& output);
+  /// Takes the next frame. Precondition: masks are given for all frames or for none.
+  void add(const MoverObservation& frame);
+  /// Of the last frame. Precondition: masks are given.
+  const cv::Mat1b& lastTrueMovers() const { return trueMovers_.back(); }
   /// Nothing if there are fewer than two frames.
   std::optional<MoverReport> total() const;
 
@@ -52,10 +67,12 @@ class MoverMeasures {
   std::vector<hal::TimePoint> times_;
   std::vector<cv::Mat3b> inputs_;
   std::vector<cv::Mat3b> outputs_;
+  std::vector<cv::Mat1b> trueMovers_;
+  std::optional<MoverMotion> motion_;  ///< of true movers
 };
 
-/// The gates of MoverSummary. `isOnPaper`: on bare paper, LOST says nothing.
-std::vector<Verdict> moverVerdicts(const MoverSummary& movers, bool isOnPaper);
+/// The gates of movers. `isOnPaper`: on bare paper, LOST says nothing.
+std::vector<Verdict> moverVerdicts(const MoverReport& movers, bool isOnPaper);
 /// Whether the controls read as they must.
 std::vector<Verdict> moverControlVerdicts(const MoverReport& movers);
 

@@ -39,11 +39,6 @@ cv::Mat3b smoothed(const cv::Mat3b& picture) {
   return smooth;
 }
 
-std::optional<double> percentOf(const Mean& share) {
-  const std::optional<double> value = share.value();
-  return value ? std::optional(100.0 * *value) : std::nullopt;
-}
-
 }  // namespace
 
 void StillRegion::add(const MoverFrame& frame) {

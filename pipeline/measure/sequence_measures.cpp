@@ -46,7 +46,7 @@ hal::Result<std::optional<MotionMap>> SequenceMeasures::motionOver(std::uint64_t
 hal::Result<void> SequenceMeasures::add(std::uint64_t index, const cv::Mat3f& input,
                                         const cv::Mat3f& output,
                                         std::span<const marks::Anchor> anchors) {
-  const auto shortLag = motionOver(index, kShortLag);
+  auto shortLag = motionOver(index, kShortLag);
   if (!shortLag) return tl::unexpected(shortLag.error());
   const auto longLag = motionOver(index, kLongLag);
   if (!longLag) return tl::unexpected(longLag.error());
@@ -65,6 +65,7 @@ hal::Result<void> SequenceMeasures::add(std::uint64_t index, const cv::Mat3f& in
     flatness_.add(input, output);
     if (toHere.shortLag != nullptr && frames_ % kShortLag == 0) flatness_.follow(*toHere.shortLag);
   }
+  lastMotion_ = std::move(*shortLag);
   ++frames_;
   return {};
 }

@@ -49,6 +49,8 @@ class SequenceMeasures {
   /// All measures but xFLK.
   PerSubject<Measures> totals() const;
   MotionKind motionKind() const;
+  /// The motion from the frame two before to the last one; null if it is not known.
+  const MotionMap* lastMotion() const { return lastMotion_ ? &*lastMotion_ : nullptr; }
 
  private:
   /// Nothing if there is no motion, or no such frame was measured.
@@ -59,6 +61,7 @@ class SequenceMeasures {
   PerSubject<OutputMeasures> outputs_;
   AnchorMeasures anchors_;
   FlatnessMeasures flatness_;
+  std::optional<MotionMap> lastMotion_;
   std::size_t frames_ = 0;
 };
 

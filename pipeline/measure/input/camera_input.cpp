@@ -23,6 +23,7 @@ class CameraInput final : public MeasuredInput {
 
   /// Call before the first frame.
   void setMotion(std::unique_ptr<TrueMotion> motion) { motion_ = std::move(motion); }
+  void setMovers(std::unique_ptr<TrueMovers> movers) { movers_ = std::move(movers); }
   /// Call before the first frame; the motion is unknown beyond `count` frames.
   void setMaxFrames(std::uint64_t count) { maxFrames_ = count; }
   void setEndless() { isEndless_ = true; }
@@ -33,6 +34,7 @@ class CameraInput final : public MeasuredInput {
   std::optional<std::uint64_t> frameCount() const override { return stream_.frameCount; }
   bool isEndless() const override { return isEndless_; }
   TrueMotion* motion() override { return motion_.get(); }
+  TrueMovers* movers() override { return movers_.get(); }
   std::vector<std::string> notices() const override { return notices_; }
 
   hal::Result<std::optional<hal::CapturedFrame>> next() override {
@@ -79,6 +81,7 @@ class CameraInput final : public MeasuredInput {
   std::unique_ptr<hal::Camera> camera_;
   hal::StreamFormat stream_;
   std::unique_ptr<TrueMotion> motion_;
+  std::unique_ptr<TrueMovers> movers_;
   std::vector<std::string> notices_;
   bool isEndless_ = false;
   std::optional<std::uint64_t> maxFrames_;
@@ -118,6 +121,7 @@ hal::Result<std::unique_ptr<MeasuredInput>> openWorkbench(const hal::SyntheticOp
       fmt::format("the workbench, shot \"{}\"", hal::toString(options.shot)), std::move(clock),
       std::move(camera), *stream);
   input->setMotion(workbenchMotion(options));
+  input->setMovers(workbenchMovers(options));
   input->setEndless();
   return input;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstdlib>
 #include <utility>
@@ -126,6 +127,13 @@ MotionMap fieldMap(cv::Mat2f displacement, const cv::Mat1b& seen, float boundary
   const cv::Mat1b valid =
       shrunk(withoutBoundaries(displacement, seen, boundaryStepPixels), kBoundaryPixels);
   return {.shift = {}, .displacement = std::move(displacement), .valid = valid};
+}
+
+MotionMap limitedTo(const cv::Mat1b& region, const MotionMap& map, int reachPixels) {
+  assert(!map.shift);
+  cv::Mat1b valid;
+  cv::bitwise_and(reachPixels > 0 ? shrunk(map.valid, reachPixels) : map.valid, region, valid);
+  return {.shift = {}, .displacement = map.displacement, .valid = valid};
 }
 
 std::optional<cv::Point2f> displacementAt(const MotionMap& map, cv::Point2f at) {

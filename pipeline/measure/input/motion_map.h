@@ -30,6 +30,10 @@ MotionMap constantMap(cv::Size frame, cv::Point2d displacement);
 /// pixels or to places where neighbouring displacements differ by more than `boundaryStepPixels`.
 MotionMap fieldMap(cv::Mat2f displacement, const cv::Mat1b& seen, float boundaryStepPixels);
 
+/// The same field, valid only in a region (255), and there only where a filter of `reachPixels`
+/// radius has crossed no motion boundary. Precondition: it is no shift.
+MotionMap limitedTo(const cv::Mat1b& region, const MotionMap& map, int reachPixels = 0);
+
 /// The interpolated displacement at a point; nothing where it is unknown.
 std::optional<cv::Point2f> displacementAt(const MotionMap& map, cv::Point2f at);
 

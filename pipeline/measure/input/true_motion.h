@@ -37,6 +37,19 @@ class TrueMotion {
   virtual hal::Result<MotionMap> between(std::uint64_t from, std::uint64_t to) = 0;
 };
 
+/// What truly moves by itself before the camera of a sequence.
+class TrueMovers {
+ public:
+  virtual ~TrueMovers() = default;
+  TrueMovers() = default;
+  TrueMovers(const TrueMovers&) = delete;
+  TrueMovers& operator=(const TrueMovers&) = delete;
+
+  /// 255 where a frame, counted from the input's first, shows such a thing, also while it rests;
+  /// else 0.
+  virtual cv::Mat1b mask(std::uint64_t frame) = 0;
+};
+
 /// Every point moves by `perFrame` px from each frame to the next.
 std::unique_ptr<TrueMotion> constantMotion(cv::Size frame, cv::Point2d perFrame);
 

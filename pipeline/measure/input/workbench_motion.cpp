@@ -81,10 +81,28 @@ class WorkbenchMotion final : public TrueMotion {
   hal::SyntheticCamera camera_;
 };
 
+class WorkbenchMovers final : public TrueMovers {
+ public:
+  explicit WorkbenchMovers(const hal::SyntheticOptions& options) : camera_(options, clock_) {}
+
+  cv::Mat1b mask(std::uint64_t frame) override {
+    hal::MovingMask mask = camera_.movingMask(frame);
+    return cv::Mat1b(mask.size.height, mask.size.width, mask.bytes.data()).clone();
+  }
+
+ private:
+  hal::SteppedClock clock_;
+  hal::SyntheticCamera camera_;
+};
+
 }  // namespace
 
 std::unique_ptr<TrueMotion> workbenchMotion(const hal::SyntheticOptions& options) {
   return std::make_unique<WorkbenchMotion>(options);
+}
+
+std::unique_ptr<TrueMovers> workbenchMovers(const hal::SyntheticOptions& options) {
+  return std::make_unique<WorkbenchMovers>(options);
 }
 
 }  // namespace pleinair::measure

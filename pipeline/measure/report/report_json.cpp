@@ -97,10 +97,26 @@ Json jsonOf(const MoverSummary& movers) {
           {"lost_percent", orNull(movers.lostPercent)}};
 }
 
+Json jsonOf(const MoverMotionSummary& along) {
+  return {{"mover_nhw2", orNull(along.nHw2)},
+          {"mover_pop_percent", orNull(along.popPercent)},
+          {"seam_pop_percent", orNull(along.seamPopPercent)}};
+}
+
+template <class Value>
+Json jsonOf(const PerSubject<Value>& values) {
+  return {{"painting", jsonOf(values[Subject::kPainting])},
+          {"input", jsonOf(values[Subject::kInput])},
+          {"redrawn", jsonOf(values[Subject::kFresh])},
+          {"fixed", jsonOf(values[Subject::kFixed])}};
+}
+
 Json jsonOf(const std::optional<MoverReport>& movers) {
   if (!movers) return nullptr;
-  return {{"painting", jsonOf(movers->painting)},
+  return {{"masks", movers->areMasksTrue ? "true" : "found"},
+          {"painting", jsonOf(movers->painting)},
           {"averaging", jsonOf(movers->averaging)},
+          {"along_motion", jsonOf(movers->alongMotion)},
           {"displaced_still_percent", orNull(movers->displacedStillPercent)}};
 }
 
@@ -122,7 +138,6 @@ Json jsonOf(const FrameValues& values) {
 }  // namespace
 
 std::string reportJson(const Report& report) {
-  const PerSubject<Measures>& measures = report.measures;
   Json json{{"style", report.style},
             {"settings", report.settings},
             {"input", report.input},
@@ -132,11 +147,7 @@ std::string reportJson(const Report& report) {
             {"frames", report.frames},
             {"still_frames", report.stillFrames},
             {"still_noise_levels", report.stillNoise},
-            {"measures",
-             {{"painting", jsonOf(measures[Subject::kPainting])},
-              {"input", jsonOf(measures[Subject::kInput])},
-              {"redrawn", jsonOf(measures[Subject::kFresh])},
-              {"fixed", jsonOf(measures[Subject::kFixed])}}},
+            {"measures", jsonOf(report.measures)},
             {"controls_valid", report.areControlsValid()},
             {"controls", jsonOf(report.controls)},
             {"gates_passed", report.gates.empty() ? Json(nullptr) : Json(report.areGatesPassed())},

@@ -155,10 +155,23 @@ std::vector<std::string> moverLines(const Report& report) {
                        text(movers.stillPercent, " %"), text(movers.returnLevels, ""),
                        text(movers.ghost, ""), text(movers.lostPercent, " %"));
   };
-  return {
-      fmt::format("movers cover {:.2f} % of the frames", report.movers->painting.coveredPercent),
-      line("the painting", report.movers->painting),
-      line("a painter that averages over 0.65 s", report.movers->averaging)};
+  const MoverReport& movers = *report.movers;
+  std::vector<std::string> lines{
+      fmt::format("{} cover {:.2f} % of the frames",
+                  movers.areMasksTrue ? "the true masks of movers"
+                                      : "movers, found by their difference from the median,",
+                  movers.painting.coveredPercent),
+      line("the painting", movers.painting),
+      line("a painter that averages over 0.65 s", movers.averaging)};
+  for (const Subject subject : kAllSubjects) {
+    const MoverMotionSummary& along = movers.alongMotion[subject];
+    lines.push_back(
+        fmt::format("{}, along the {} motion: MOVER nHW2 {}, MOVER POP {}, SEAM POP {}",
+                    subject == Subject::kPainting ? "the painting" : nameOf(subject, report),
+                    movers.areMasksTrue ? "true" : "estimated", text(along.nHw2, ""),
+                    text(along.popPercent, " %"), text(along.seamPopPercent, " %")));
+  }
+  return lines;
 }
 
 std::string reportText(const Report& report) {

@@ -1,0 +1,45 @@
+#include "pipeline/measure/input/dense_motion.h"
+
+#include <utility>
+
+#include <opencv2/imgproc.hpp>
+#include <opencv2/video/tracking.hpp>
+
+namespace pleinair::measure {
+namespace {
+
+constexpr double kAgreePixels = 1.0;
+/// Between neighbouring pixels: the field is smooth within a thing.
+constexpr float kDenseBoundaryPixels = 0.5F;
+
+cv::Mat1b lumaOf(const cv::Mat3b& picture) {
+  cv::Mat1b luma;
+  cv::cvtColor(picture, luma, cv::COLOR_RGB2GRAY);
+  return luma;
+}
+
+}  // namespace
+
+MotionMap denseMotion(const cv::Mat3b& earlier, const cv::Mat3b& later) {
+  const cv::Ptr<cv::DISOpticalFlow> search =
+      cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM);
+  const cv::Mat1b from = lumaOf(earlier);
+  const cv::Mat1b to = lumaOf(later);
+  cv::Mat2f forward;
+  cv::Mat2f backward;
+  search->calc(from, to, forward);
+  search->calc(to, from, backward);
+  cv::Mat1b seen(forward.size(), 0);
+  const cv::Rect frame({}, forward.size());
+  for (int y = 0; y < forward.rows; ++y) {
+    for (int x = 0; x < forward.cols; ++x) {
+      const cv::Vec2f& by = forward(y, x);
+      const cv::Point at(cvRound(static_cast<float>(x) + by[0]),
+                         cvRound(static_cast<float>(y) + by[1]));
+      if (frame.contains(at) && cv::norm(by + backward(at)) <= kAgreePixels) seen(y, x) = 255;
+    }
+  }
+  return fieldMap(std::move(forward), seen, kDenseBoundaryPixels);
+}
+
+}  // namespace pleinair::measure
