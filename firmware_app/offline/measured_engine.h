@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -22,8 +23,12 @@ class MeasuredEngine final : public measure::MeasuredPainter {
     if (!output) return tl::unexpected(output.error());
     hal::Result<std::vector<marks::Anchor>> anchors = painter_.anchors();
     if (!anchors) return tl::unexpected(anchors.error());
-    measure::PaintedFrame painted{
-        .input = {}, .output = std::move(*output), .anchors = std::move(*anchors)};
+    hal::Result<std::optional<hal::Image>> movers = painter_.movers();
+    if (!movers) return tl::unexpected(movers.error());
+    measure::PaintedFrame painted{.input = {},
+                                  .output = std::move(*output),
+                                  .anchors = std::move(*anchors),
+                                  .movers = std::move(*movers)};
     const hal::FrameFormat& format = frame.image.format;
     if (format.pixelFormat == hal::PixelFormat::kRgb8 && format.size == size_) {
       painted.input = hal::Image(frame.image);

@@ -7,6 +7,7 @@
 #include "pipeline/engine/frame_pipeline.h"
 #include "pipeline/engine/quality_levels.h"
 #include "pipeline/gpu/handle.h"
+#include "pipeline/marks/motion_layers.h"
 #include "pipeline/styles/registry.h"
 
 namespace pleinair {
@@ -152,6 +153,23 @@ hal::Result<std::vector<marks::Anchor>> Painter::anchors() const {
   std::vector<marks::Anchor> anchors = p.style_->readAnchors();
   if (auto valid = p.resetMonitor_.check(); !valid) return tl::unexpected(std::move(valid.error()));
   return anchors;
+}
+
+hal::Result<std::optional<hal::Image>> Painter::movers() const {
+  FramePipeline& p = *pipeline_;
+  const ContextScope scope = p.enter();
+  if (auto valid = p.resetMonitor_.check(); !valid) return tl::unexpected(std::move(valid.error()));
+  const marks::MotionLayers* const layers = p.style_->movers();
+  if (layers == nullptr) return std::nullopt;
+  try {
+    std::optional<hal::Image> movers = layers->readMovers();
+    if (auto valid = p.resetMonitor_.check(); !valid) {
+      return tl::unexpected(std::move(valid.error()));
+    }
+    return movers;
+  } catch (const hal::Failure& error) {
+    return tl::unexpected(p.orLoss(error.error()));
+  }
 }
 
 void Painter::reset() {

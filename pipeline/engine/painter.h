@@ -175,6 +175,10 @@ class Painter {
   /// Waits for the GPU and reads the style's anchors for measures: all slots of all layers, free
   /// ones too. Empty for a style without anchors. Permanent error: kDeviceLost.
   hal::Result<std::vector<marks::Anchor>> anchors() const;
+  /// Waits for the GPU and reads which places the style takes for movers, for measures: grey, 255
+  /// on them, at half the full size. Nothing for a style that tells no movers. Errors: kDeviceLost
+  /// (permanent), kUnsupported (a texture that cannot be read).
+  hal::Result<std::optional<hal::Image>> movers() const;
 
   /// Discards all history, as after a cut.
   void reset();

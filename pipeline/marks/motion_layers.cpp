@@ -4,11 +4,13 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "pipeline/gpu/buffer.h"
 #include "pipeline/gpu/program.h"
+#include "pipeline/gpu/render_target.h"
 #include "pipeline/marks/fading_past.h"
 
 namespace pleinair::marks {
@@ -157,6 +159,22 @@ const gpu::Texture& MotionLayers::background() const {
 
 bool MotionLayers::isStanding() const {
   return state_->isStanding;
+}
+
+hal::Image MotionLayers::readMovers() const {
+  constexpr std::size_t kChannels = 4;
+  const hal::FrameSize size = state_->size;
+  std::vector<float> values(kChannels * static_cast<std::size_t>(size.pixels()));
+  const gpu::RenderTarget target({&labels()});
+  target.beginKeeping();
+  glReadPixels(0, 0, size.width, size.height, GL_RGBA, GL_FLOAT, values.data());
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  hal::Image movers({.pixelFormat = hal::PixelFormat::kGrey8, .size = size});
+  const std::span<std::uint8_t> levels = movers.plane(0);
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    levels[i] = values[kChannels * i] > 0.5F ? 255 : 0;
+  }
+  return movers;
 }
 
 void MotionLayers::reset() {

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "hal/clock.h"
+#include "hal/image.h"
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/marks/motion_field.h"
@@ -51,6 +52,9 @@ class MotionLayers {
   /// the number of frames in it, 0 where it was never seen.
   const gpu::Texture& background() const;
   static constexpr int kCellPixels = 2;
+  /// Waits for the GPU and reads labels(), for measures: grey, 255 on movers, a pixel for each
+  /// texel. Throws hal::Failure (kUnsupported) where the GPU cannot read such a texture.
+  hal::Image readMovers() const;
 
   /// Whether the camera has stood since the previous frame, so that all the background rests.
   bool isStanding() const;

@@ -87,6 +87,14 @@ void WorstFrames::offer(std::uint64_t frame, double ew2, const cv::Mat3f& input,
   std::ranges::sort(frames_, std::greater<>(), &WorstFrame::ew2);
 }
 
+/// A copy. Precondition: the image is grey.
+cv::Mat1b greyOf(const hal::Image& image) {
+  cv::Mat1b copy(image.size().height, image.size().width);
+  const hal::ImageView view = image.view();
+  for (int y = 0; y < copy.rows; ++y) std::ranges::copy(view.row(0, y), copy.ptr(y));
+  return copy;
+}
+
 /// One measurement, from the first frame to the report.
 class Measurement {
  public:
@@ -169,6 +177,10 @@ class Measurement {
                  .output = painted.output,
                  .trueMovers = truth == nullptr ? cv::Mat1b() : truth->mask(index),
                  .trueMotion = truth == nullptr ? nullptr : sequence_->lastMotion()});
+    if (truth == nullptr || !painted.movers) return;
+    if (!labels_) labels_.emplace();
+    labels_->add(index, time, greyOf(*painted.movers), movers_.lastTrueMovers());
+    report_.overTime.back().labelIou = labels_->lastIou();
   }
 
   FrameValues valuesOfLast(std::uint64_t index) const {
@@ -188,6 +200,7 @@ class Measurement {
     painter_.reset();
     StillMeasures still(still_.size());
     AnchorMeasures anchors(still_.size());
+    LabelMeasures labels;
     for (std::uint64_t i = 0; i < options_.stillSettle + options_.stillFrames; ++i) {
       const hal::Image noisy = withSensorNoise(still_, options_.stillNoiseLevels, i);
       const hal::TimePoint time{kFramePeriod * static_cast<std::int64_t>(i)};
@@ -200,11 +213,16 @@ class Measurement {
       if (i >= options_.stillSettle) {
         still.add(toFloat(painted->input.view()), toFloat(painted->output.view()));
         if (!painted->anchors.empty()) anchors.add(painted->anchors, nullptr, nullptr);
+        if (options_.isStanding && painted->movers) {
+          const cv::Mat1b nothingMoves(still_.size(), 0);
+          labels.add(i, time, greyOf(*painted->movers), nothingMoves);
+        }
       }
       if (!options_.goesOn()) return Progress::kAborted;
     }
     report_.stillFrames = options_.stillFrames;
     report_.insideStill = anchors.total();
+    report_.labelFlipsOnStillPercent = labels.total().flipsPercent;
     report_.stillNoise = options_.stillNoiseLevels;
     for (const Subject subject : kAllSubjects) flicker_[subject] = still.flicker(subject);
     return Progress::kDone;
@@ -259,6 +277,19 @@ class Measurement {
     for (Verdict& verdict : moverVerdicts(*report_.movers, options_.isOnPaper)) {
       report_.gates.push_back(std::move(verdict));
     }
+    judgeLabels();
+  }
+
+  void judgeLabels() {
+    if (!labels_ && !report_.labelFlipsOnStillPercent) return;  // it tells no movers
+    if (labels_) report_.labels = labels_->total();
+    for (Verdict& verdict : labelVerdicts(report_.labels, report_.labelFlipsOnStillPercent)) {
+      report_.gates.push_back(std::move(verdict));
+    }
+    if (!labels_) return;
+    for (Verdict& verdict : labelControlVerdicts(*report_.labels)) {
+      report_.controls.push_back(std::move(verdict));
+    }
   }
 
   RunConditions runConditions() const {
@@ -294,6 +325,7 @@ class Measurement {
   Report report_;
   std::optional<SequenceMeasures> sequence_;
   MoverMeasures movers_;
+  std::optional<LabelMeasures> labels_;
   WorstFrames worst_;
   cv::Mat3f still_;
   PerSubject<std::optional<double>> flicker_;

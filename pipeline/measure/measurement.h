@@ -21,6 +21,9 @@ struct PaintedFrame {
   hal::Image input;
   hal::Image output;
   std::vector<marks::Anchor> anchors;  ///< anchors of its marks; empty if there are none
+  /// Which places the painter takes for movers: grey, 255 on them, at half the size. Nothing if it
+  /// tells no movers.
+  std::optional<hal::Image> movers = {};
 };
 
 /// The subject of a measurement: the engine with a style, or a filter to compare with. One thread.

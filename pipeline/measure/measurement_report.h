@@ -11,6 +11,7 @@
 #include "pipeline/measure/flatness.h"
 #include "pipeline/measure/gates.h"
 #include "pipeline/measure/input/true_motion.h"
+#include "pipeline/measure/label_measures.h"
 #include "pipeline/measure/measures.h"
 #include "pipeline/measure/mover_measures.h"
 #include "pipeline/measure/negative_controls.h"
@@ -22,6 +23,7 @@ struct FrameValues {
   std::uint64_t frame = 0;
   Measures painting, input;
   std::optional<AnchorFrame> anchors;
+  std::optional<double> labelIou;  ///< of the painter's labels of movers with the true masks
 };
 
 /// A frame in which much changed along the motion, for people to look at: its input, its painting,
@@ -51,6 +53,9 @@ struct Report {
   std::optional<AnchorSummary> inside;       ///< of the moving sequence
   std::optional<AnchorSummary> insideStill;  ///< of the still scene
   std::optional<MoverReport> movers;         ///< if the camera stands
+  /// Of the painter's labels of movers, if the camera stands and it has any.
+  std::optional<LabelSummary> labels;              ///< where true masks are known
+  std::optional<double> labelFlipsOnStillPercent;  ///< of the still scene
   std::vector<FrameValues> overTime;
   std::vector<WorstFrame> worst;  ///< worst first
   std::vector<Verdict> controls;
@@ -72,6 +77,7 @@ std::string framesText(const Report& report);
 std::vector<std::string> insideLines(const Report& report);
 std::vector<std::string> flatnessLines(const Report& report);
 std::vector<std::string> moverLines(const Report& report);
+std::vector<std::string> labelLines(const Report& report);
 
 /// The report as text for a terminal.
 std::string reportText(const Report& report);

@@ -16,7 +16,8 @@
 
 namespace pleinair::marks {
 class AnchorSet;
-}
+class MotionLayers;
+}  // namespace pleinair::marks
 
 namespace pleinair::styles {
 
@@ -89,6 +90,9 @@ class Style {
   /// Waits for the GPU and reads the anchors of all layers, a slot each, free ones too: for
   /// measures.
   virtual std::vector<marks::Anchor> readAnchors() const { return {}; }
+
+  /// What it has told from the background in the last frame; null where it tells nothing.
+  virtual const marks::MotionLayers* movers() const { return nullptr; }
 
   /// Forgets the past: the next frame is painted as a first one.
   virtual void reset() = 0;

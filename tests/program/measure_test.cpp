@@ -21,6 +21,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr hal::FrameSize kSize{200, 180};
 
@@ -112,6 +113,40 @@ TEST_F(Measure, ReadsTheInputItselfThroughStyleNone) {
   EXPECT_GT(json["measures"]["redrawn"]["nhw2"], 0.4);
   EXPECT_GT(json["measures"]["fixed"]["scr"], 0.25);
   EXPECT_THAT(read("r.html"), AllOf(HasSubstr("<svg"), HasSubstr("data:image/png")));
+}
+
+TEST_F(Measure, ComparesMoversWithTheirTrueMasks) {
+  // Ten frames a second: the hand comes after 1.5 s, and rests from 3.2 s on.
+  const std::vector<std::string> arguments{
+      "--camera", "synthetic:hand", "--standing",  "--size", "208x160",
+      "--set",    "camera.rate=10", "--frames",    "45",     "--settle",
+      "5",        "--json",         path("r.json")};
+  std::vector<std::string> painted = arguments;
+  painted.insert(painted.end(), {"--style", "painterly"});
+  const ProgramRun run = measured(painted);
+  ASSERT_EQ(run.status, 0) << run.error << run.out;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("true masks of movers"), HasSubstr("MOVER nHW2"),
+                             HasSubstr("IoU with the true masks"), HasSubstr("was labelled")));
+  auto json = nlohmann::json::parse(read("r.json"));
+  EXPECT_EQ(json["movers"]["masks"], "true");
+  EXPECT_GT(json["movers"]["painting"]["covered_percent"], 3.0);
+  EXPECT_TRUE(json["movers"]["along_motion"]["painting"]["mover_pop_percent"].is_number());
+  EXPECT_TRUE(json["movers"]["along_motion"]["painting"]["seam_pop_percent"].is_number());
+  EXPECT_GT(json["labels"]["iou_mean"], 0.4);
+  EXPECT_LT(json["labels"]["iou_displaced_masks"], 0.8);
+  EXPECT_EQ(json["labels"]["still_flips_percent"], 0.0);
+  ASSERT_EQ(json["labels"]["detections"].size(), 1u);
+  EXPECT_EQ(json["labels"]["detections"][0]["found"], true);
+  EXPECT_LE(json["labels"]["detections"][0]["frames"], 3);
+
+  std::vector<std::string> plain = arguments;
+  plain.insert(plain.end(), {"--style", "none"});
+  const ProgramRun unlabelled = measured(plain);
+  ASSERT_EQ(unlabelled.status, 0) << unlabelled.error << unlabelled.out;
+  EXPECT_THAT(unlabelled.out, Not(HasSubstr("IoU with the true masks")));
+  json = nlohmann::json::parse(read("r.json"));
+  EXPECT_TRUE(json["labels"].is_null());
+  EXPECT_LT(json["movers"]["painting"]["lost_percent"], 1.0);
 }
 
 TEST_F(Measure, MakesAFailedGateAnExitStatus) {
@@ -257,6 +292,7 @@ TEST_F(Measure, RefusesOptionsThatMakeNoSense) {
   for (const char* pan : {"1", "a,b", "1,2,3", "100,0", "nan,0", ","}) {
     expectRefused({"--input", path("in/0.png"), "--pan", pan}, HasSubstr("--pan"));
   }
+  expectRefused({"--input", path("in/0.png"), "--still", "--standing"}, HasSubstr("--standing"));
   expectRefused({"--input", path("in/0.png"), "--zoom", "50%"}, HasSubstr("--zoom"));
   expectRefused({"--input", path("in/0.png"), "--roll", "x"}, HasSubstr("--roll"));
   expectRefused({"--input", path("in/0.png"), "--still", "--noise", "-1"}, HasSubstr("--noise"));

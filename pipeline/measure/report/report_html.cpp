@@ -189,6 +189,7 @@ std::string reportHtml(const Report& report) {
   }
   html += listHtml("Inside", insideLines(report));
   html += listHtml("Movers", moverLines(report));
+  html += listHtml("Labels of movers", labelLines(report));
   html += listHtml("Flatness", flatnessLines(report));
   html += plotsHtml(report) + worstHtml(report);
   html += listHtml("Left out", report.leftOut) + listHtml("Notes", report.notices);

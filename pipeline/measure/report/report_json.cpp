@@ -120,10 +120,31 @@ Json jsonOf(const std::optional<MoverReport>& movers) {
           {"displaced_still_percent", orNull(movers->displacedStillPercent)}};
 }
 
+Json labelsOf(const Report& report) {
+  if (!report.labels && !report.labelFlipsOnStillPercent) return nullptr;
+  Json json{{"still_flips_percent", orNull(report.labelFlipsOnStillPercent)}};
+  if (!report.labels) return json;
+  const LabelSummary& labels = *report.labels;
+  json["iou_mean"] = orNull(labels.meanIou);
+  json["iou_worst"] = orNull(labels.worstIou);
+  json["iou_worst_frame"] = labels.worstIou ? Json(labels.worstFrame) : Json(nullptr);
+  json["iou_displaced_masks"] = orNull(labels.displacedIou);
+  json["flips_percent"] = orNull(labels.flipsPercent);
+  json["detections"] = Json::array();
+  for (const Detection& each : labels.detections) {
+    json["detections"].push_back({{"frame", each.frame},
+                                  {"frames", each.frames},
+                                  {"ms", 1000 * hal::toSeconds(each.time)},
+                                  {"found", each.isFound}});
+  }
+  return json;
+}
+
 Json jsonOf(const FrameValues& values) {
   Json json{{"frame", values.frame},
             {"painting", jsonOf(values.painting)},
             {"input", jsonOf(values.input)}};
+  if (values.labelIou) json["label_iou"] = *values.labelIou;
   if (values.anchors) {
     json["anchors"] = {{"alive", values.anchors->alive},
                        {"births", values.anchors->births},
@@ -156,6 +177,7 @@ std::string reportJson(const Report& report) {
             {"inside_still", jsonOf(report.insideStill)},
             {"flatness", jsonOf(report.flatness)},
             {"movers", jsonOf(report.movers)},
+            {"labels", labelsOf(report)},
             {"left_out", report.leftOut},
             {"notes", report.notices},
             {"over_time", Json::array()}};

@@ -174,6 +174,31 @@ std::vector<std::string> moverLines(const Report& report) {
   return lines;
 }
 
+std::vector<std::string> labelLines(const Report& report) {
+  std::vector<std::string> lines;
+  if (report.labels) {
+    const LabelSummary& labels = *report.labels;
+    if (labels.meanIou) {
+      lines.push_back(fmt::format("IoU with the true masks: mean {:.3f}, worst {:.3f} in frame {}",
+                                  *labels.meanIou, *labels.worstIou, labels.worstFrame));
+    }
+    for (const Detection& each : labels.detections) {
+      lines.push_back(fmt::format("the mover that came in frame {} {} after {} frames, {:.0f} ms",
+                                  each.frame, each.isFound ? "was labelled" : "had gone unlabelled",
+                                  each.frames, 1000 * hal::toSeconds(each.time)));
+    }
+    if (labels.flipsPercent) {
+      lines.push_back(
+          fmt::format("labels that flip away from movers: {:.3g} % a frame", *labels.flipsPercent));
+    }
+  }
+  if (report.labelFlipsOnStillPercent) {
+    lines.push_back(fmt::format("labels that flip on the still scene: {:.3g} % a frame",
+                                *report.labelFlipsOnStillPercent));
+  }
+  return lines;
+}
+
 std::string reportText(const Report& report) {
   std::string text = fmt::format("{} ({}) on {}\n{}; {}\n\n", report.style, report.settings,
                                  report.input, report.motion, framesText(report));
@@ -192,6 +217,7 @@ std::string reportText(const Report& report) {
   text += listLines("Inside", insideLines(report));
   text += listLines("Flatness", flatnessLines(report));
   text += listLines("Movers", moverLines(report));
+  text += listLines("Labels of movers", labelLines(report));
   text += listLines("Left out", report.leftOut);
   text += listLines("Notes", report.notices);
   return text;

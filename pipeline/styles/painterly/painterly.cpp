@@ -427,6 +427,10 @@ std::vector<marks::Anchor> Painterly::readAnchors() const {
   return all;
 }
 
+const marks::MotionLayers* Painterly::movers() const {
+  return state_->painting && tellsMovers(p_) ? &state_->painting->movers : nullptr;
+}
+
 std::size_t Painterly::layerCount() const {
   return state_->painting ? state_->painting->layers.size() : 0;
 }

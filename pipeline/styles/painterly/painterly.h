@@ -44,6 +44,7 @@ class Painterly final : public Style {
   const gpu::Texture& paint(const scene::ArFrame& frame, std::string_view view) override;
   const marks::AnchorSet* anchors() const override;
   std::vector<marks::Anchor> readAnchors() const override;
+  const marks::MotionLayers* movers() const override;
   void reset() override;
 
   /// The anchors and strokes of a layer, for measures: 0 is the coarsest. None before the first

@@ -157,6 +157,21 @@ TEST_F(MotionLayersTest, WhatMovesIsFoundWithItsOutline) {
       << "it is gone at once; a cell in a hundred may have been taken for ground";
 }
 
+TEST_F(MotionLayersTest, LabelsAreReadAsTheyAre) {
+  see({});
+  see({});
+  for (int i = 0; i < 6; ++i) see({.disc = {60.0 + 12.0 * i, 120.0}, .radius = 35.0});
+  const std::vector<glm::vec4> labels = texelsOf(layers_->labels());
+  hal::Image read = layers_->readMovers();
+  ASSERT_EQ(read.size(), layers_->labels().size());
+  std::size_t movers = 0;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    EXPECT_EQ(read.plane(0)[i], labels[i].r > 0.5F ? 255 : 0) << i;
+    movers += read.plane(0)[i] != 0 ? 1 : 0;
+  }
+  EXPECT_GT(movers, 500u);
+}
+
 TEST_F(MotionLayersTest, WhatComesToRestStaysItselfForAWhile) {
   see({});
   View view{.radius = 35.0};

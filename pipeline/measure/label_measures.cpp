@@ -1,0 +1,179 @@
+#include "pipeline/measure/label_measures.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include "pipeline/measure/mover_masks.h"
+
+namespace pleinair::measure {
+namespace {
+
+constexpr int kCell = 2;                    // px of a label
+constexpr double kNoticeableShare = 0.003;  // of the frame
+constexpr double kFoundShare = 0.5;         // of a mover
+constexpr int kFarCells = 8;
+constexpr std::uint64_t kDetectionFrames = 3;
+constexpr hal::Duration kDetectionTime = std::chrono::milliseconds(100);
+constexpr double kMaxDisplacedIou = 0.8;
+
+/// The mask in cells: 255 where at least half of a cell is masked.
+cv::Mat1b inCells(const cv::Mat1b& mask, cv::Size cells) {
+  cv::Mat1b even;
+  cv::copyMakeBorder(mask, even, 0, cells.height * kCell - mask.rows, 0,
+                     cells.width * kCell - mask.cols, cv::BORDER_REPLICATE);
+  cv::Mat1b mean;
+  cv::resize(even, mean, cells, 0, 0, cv::INTER_AREA);
+  cv::Mat1b cellMask;
+  cv::threshold(mean, cellMask, 126, 255, cv::THRESH_BINARY);
+  return cellMask;
+}
+
+double countOf(const cv::Mat1b& mask) {
+  return cv::countNonZero(mask);
+}
+
+cv::Mat1b bothOf(const cv::Mat1b& a, const cv::Mat1b& b) {
+  cv::Mat1b both;
+  cv::bitwise_and(a, b, both);
+  return both;
+}
+
+/// Intersection over union. Precondition: one of them is not empty.
+double iouOf(const cv::Mat1b& a, const cv::Mat1b& b) {
+  const double both = countOf(bothOf(a, b));
+  return both / (countOf(a) + countOf(b) - both);
+}
+
+bool isNoticeable(const cv::Mat1b& truth) {
+  return countOf(truth) >= kNoticeableShare * static_cast<double>(truth.total());
+}
+
+bool isLate(const Detection& detection) {
+  return !detection.isFound ||
+         (detection.frames > kDetectionFrames && detection.time > kDetectionTime);
+}
+
+}  // namespace
+
+void LabelMeasures::add(std::uint64_t frame, hal::TimePoint time, const cv::Mat1b& labels,
+                        const cv::Mat1b& truth) {
+  assert((truth.cols + kCell - 1) / kCell == labels.cols);
+  const cv::Mat1b mover = inCells(truth, labels.size());
+  summary_.hasMovers |= cv::countNonZero(mover) > 0;
+  lastIou_.reset();
+  if (isNoticeable(mover)) {
+    overlap(frame, labels, mover);
+    displacedIou_ += {iouOf(inCells(laidWrong(truth), labels.size()), mover), 1.0};
+  }
+  detect(frame, time, labels, mover);
+  compareWithLast(labels, mover);
+}
+
+void LabelMeasures::overlap(std::uint64_t frame, const cv::Mat1b& labels, const cv::Mat1b& truth) {
+  lastIou_ = iouOf(labels, truth);
+  iou_ += {*lastIou_, 1.0};
+  if (summary_.worstIou && *summary_.worstIou <= *lastIou_) return;
+  summary_.worstIou = lastIou_;
+  summary_.worstFrame = frame;
+}
+
+void LabelMeasures::detect(std::uint64_t frame, hal::TimePoint time, const cv::Mat1b& labels,
+                           const cv::Mat1b& truth) {
+  if (cv::countNonZero(truth) == 0) {
+    presence_ = Presence::kNone;
+    return;
+  }
+  if (presence_ == Presence::kNone && isNoticeable(truth)) {
+    presence_ = Presence::kAwaited;
+    cameAt_ = time;
+    summary_.detections.push_back({.frame = frame});
+  }
+  if (presence_ != Presence::kAwaited) return;
+  Detection& detection = summary_.detections.back();
+  detection.frames = frame - detection.frame;
+  detection.time = time - cameAt_;
+  detection.isFound = countOf(bothOf(labels, truth)) >= kFoundShare * countOf(truth);
+  if (detection.isFound) presence_ = Presence::kFound;
+}
+
+void LabelMeasures::compareWithLast(const cv::Mat1b& labels, const cv::Mat1b& truth) {
+  const cv::Mat1b far = grown(truth, kFarCells);
+  if (!lastLabels_.empty()) {
+    cv::Mat1b away;
+    cv::bitwise_or(far, lastFar_, away);
+    cv::bitwise_not(away, away);
+    cv::Mat1b changed;
+    cv::bitwise_xor(labels, lastLabels_, changed);
+    flips_ += {countOf(bothOf(changed, away)), countOf(away)};
+  }
+  lastLabels_ = labels;
+  lastFar_ = far;
+}
+
+LabelSummary LabelMeasures::total() const {
+  LabelSummary summary = summary_;
+  summary.meanIou = iou_.value();
+  summary.flipsPercent = percentOf(flips_);
+  summary.displacedIou = displacedIou_.value();
+  return summary;
+}
+
+namespace {
+
+Verdict judged(std::string what, std::string missing, std::optional<double> value, double limit) {
+  Verdict verdict{
+      .what = std::move(what),
+      .found = std::move(missing),
+      .comparison = Verdict::Comparison{.value = value, .limit = limit, .isUpperLimit = true}};
+  if (!value) return verdict;
+  verdict.state = *value <= limit ? Verdict::State::kPassed : Verdict::State::kFailed;
+  verdict.found = fmt::format("{:.3g}", *value);
+  return verdict;
+}
+
+Verdict detectionVerdict(const std::vector<Detection>& detections) {
+  const auto slowest = std::ranges::max_element(
+      detections, {}, [](const Detection& each) { return std::pair(isLate(each), each.frames); });
+  Verdict verdict{
+      .what = fmt::format("frames until a new mover is labelled ≤ {}, or 100 ms", kDetectionFrames),
+      .found = "no mover came while the scene was empty",
+      .comparison =
+          Verdict::Comparison{.value = {}, .limit = static_cast<double>(kDetectionFrames)}};
+  if (slowest == detections.end()) return verdict;
+  verdict.comparison->value = static_cast<double>(slowest->frames);
+  verdict.state = isLate(*slowest) ? Verdict::State::kFailed : Verdict::State::kPassed;
+  verdict.found = slowest->isFound
+                      ? fmt::format("{} frames, {:.0f} ms", slowest->frames,
+                                    1000 * hal::toSeconds(slowest->time))
+                      : fmt::format("the one that came in frame {} was never", slowest->frame);
+  return verdict;
+}
+
+}  // namespace
+
+std::vector<Verdict> labelVerdicts(const std::optional<LabelSummary>& labels,
+                                   std::optional<double> stillFlipsPercent) {
+  std::vector<Verdict> verdicts;
+  if (labels && labels->hasMovers) verdicts.push_back(detectionVerdict(labels->detections));
+  if (labels && !labels->hasMovers) {
+    verdicts.push_back(judged("labels that flip where nothing moves ≤ 0 %", "fewer than two frames",
+                              labels->flipsPercent, 0));
+  }
+  verdicts.push_back(
+      judged("labels that flip on the still scene ≤ 0 %", "no still scene", stillFlipsPercent, 0));
+  return verdicts;
+}
+
+std::vector<Verdict> labelControlVerdicts(const LabelSummary& labels) {
+  if (!labels.hasMovers) return {};
+  Verdict verdict =
+      judged(fmt::format("IoU of masks laid wrong by {} px ≤ {:g}", kWrongPixels, kMaxDisplacedIou),
+             "no mover of noticeable size", labels.displacedIou, kMaxDisplacedIou);
+  return {verdict};
+}
+
+}  // namespace pleinair::measure
