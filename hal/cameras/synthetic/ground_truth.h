@@ -45,7 +45,7 @@ struct FlowField {
 
 /// Where a frame shows things that move by themselves (the arm, a figure), at every pixel centre,
 /// or at that of every n-th pixel of every n-th row, row by row. A thing that rests stays in the
-/// mask; none rests over the room for 4 s, after which a painter may count it as background.
+/// mask: in no shot does one rest for 4 s, after which a painter may take it for background.
 struct MovingMask {
   FrameSize size;                   ///< of the mask
   std::vector<std::uint8_t> bytes;  ///< 255 where the nearest surface is of such a thing, else 0

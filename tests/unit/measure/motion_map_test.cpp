@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "pipeline/measure/input/dense_motion.h"
 #include "pipeline/measure/input/picture.h"
 #include "pipeline/measure/input/true_motion.h"
+#include "tests/unit/measure/measure_pictures.h"
 
 namespace pleinair::measure {
 namespace {
@@ -86,6 +88,41 @@ TEST(MotionMap, TellsTheDisplacementBetweenPixels) {
   EXPECT_NEAR(at->x, 7.025, 1e-4);
   EXPECT_NEAR(at->y, 4.525, 1e-4);
   EXPECT_FALSE(displacementAt(map, {-1, 5}));
+}
+
+TEST(MotionMap, IsLimitedToARegionAwayFromBoundaries) {
+  const MotionMap map = constantMap(kSize, {2.3, -1.6});
+  cv::Mat1b region(kSize, 0);
+  region(cv::Rect(60, 60, 30, 20)).setTo(255);
+  EXPECT_EQ(cv::countNonZero(limitedTo(region, map).valid), 600);
+  MotionMap hidden = map;
+  hidden.valid(cv::Rect(60, 60, 1, 1)).setTo(0);
+  EXPECT_EQ(cv::countNonZero(limitedTo(region, hidden, 4).valid), 600 - 25);
+}
+
+TEST(DenseMotion, FindsAShiftAndKnowsWhereThereIsNone) {
+  cv::Mat3b canvas;
+  strongBlobs({240, 220}, 5).convertTo(canvas, CV_8U, 255.0);
+  const cv::Mat3b earlier = canvas(cv::Rect(cv::Point(10, 10), kSize)).clone();
+  cv::Mat3b later = canvas(cv::Rect(cv::Point(7, 12), kSize)).clone();
+  strongBlobs({60, 60}, 9).convertTo(later(cv::Rect(100, 80, 60, 60)), CV_8U, 255.0);
+  const MotionMap map = denseMotion(earlier, later);
+  int right = 0;
+  int valid = 0;
+  int wrong = 0;  // in the middle of what has been replaced
+  for (int y = 40; y < 140; ++y) {
+    for (int x = 40; x < 160; ++x) {
+      if (map.valid(y, x) == 0) continue;
+      const bool isReplaced = cv::Rect(108, 88, 44, 44).contains({x, y});
+      wrong += isReplaced ? 1 : 0;
+      if (cv::Rect(80, 60, 80, 80).contains({x, y})) continue;
+      ++valid;
+      right += cv::norm(map.displacement(y, x) - cv::Vec2f(3, -2)) < 0.3 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(valid, 4000);
+  EXPECT_GT(right, 0.95 * valid);
+  EXPECT_LT(wrong, 44 * 44 / 2);
 }
 
 TEST(KnownMotion, FollowsAHomographyOverAnyFrames) {

@@ -49,5 +49,15 @@ TEST(WorkbenchMotion, LeavesOutTheEdgesOfWhatMovesBeforeTheBench) {
   }
 }
 
+TEST(WorkbenchMovers, AreTheArmWhileItIsThereAndAtRest) {
+  const hal::SyntheticOptions options{.size = {160, 120}, .shot = hal::SyntheticShot::kHand};
+  const std::unique_ptr<TrueMovers> movers = workbenchMovers(options);
+  EXPECT_EQ(cv::countNonZero(movers->mask(0)), 0);
+  const cv::Mat1b resting = movers->mask(110);
+  ASSERT_EQ(resting.size(), cv::Size(160, 120));
+  EXPECT_GT(cv::countNonZero(resting), 400);
+  EXPECT_EQ(cv::countNonZero(resting), cv::countNonZero(movers->mask(111)));
+}
+
 }  // namespace
 }  // namespace pleinair::measure
