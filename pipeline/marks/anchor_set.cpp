@@ -127,6 +127,7 @@ void AnchorSet::State::carryInImage(const scene::ArFrame& frame, const MotionFie
   image.texture("picture", *frame.colour)
       .texture("movers", layerTextures.labelsOf(layers))
       .texture("background", layerTextures.backgroundOf(layers))
+      .texture("moverMotion", layerTextures.moverMotionOf(layers))
       .set("noise", static_cast<float>(motion.noiseLevels() / 255.0))
       .set("stepSeconds", std::chrono::duration<float>(step).count())
       .set("memorySeconds", static_cast<float>(hal::toSeconds(hold.memory)))

@@ -295,6 +295,10 @@ void MotionField::bind(gpu::Program& program) const {
   state_->bind(program, state_->flowForward);
 }
 
+void MotionField::bindBackward(gpu::Program& program) const {
+  state_->bind(program, state_->flowBackward);
+}
+
 void MotionField::reset() {
   state_->last.reset();
   state_->isCut = true;

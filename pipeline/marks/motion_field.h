@@ -55,6 +55,8 @@ class MotionField {
   /// Binds the inputs of shaders/image_motion.glsl for forward queries: uniform blocks 1 to 3, two
   /// textures, and the camera. Preconditions: the program is in use; update() was called.
   void bind(gpu::Program& program) const;
+  /// The same with the flow from this frame to the previous one.
+  void bindBackward(gpu::Program& program) const;
 
   /// Forgets the previous frame.
   void reset();

@@ -22,7 +22,6 @@ using gpu::TextureFormat;
 
 const std::string kShaders = "pipeline/marks/shaders/";
 constexpr float kFreshSeconds = 0.3F;
-constexpr int kBlock = 8;       // cells along a side (shaders/motion_layers_ground.comp)
 constexpr unsigned kTurns = 2;  // shaders/motion_layers_tally.glsl
 constexpr GLbitfield kStored = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                                GL_SHADER_STORAGE_BARRIER_BIT;
@@ -33,7 +32,9 @@ hal::FrameSize cellsOf(hal::FrameSize full) {
 }
 
 hal::FrameSize blocksOf(hal::FrameSize cells) {
-  return {(cells.width + kBlock - 1) / kBlock, (cells.height + kBlock - 1) / kBlock};
+  constexpr int kBlockCells = MotionLayers::kBlockCells;  // shaders/layer_blocks.glsl
+  return {(cells.width + kBlockCells - 1) / kBlockCells,
+          (cells.height + kBlockCells - 1) / kBlockCells};
 }
 
 }  // namespace
@@ -44,10 +45,12 @@ struct MotionLayers::State {
         size(cellsOf(full)),
         compare(library.compute(kShaders + "motion_layers.comp")),
         findGround(library.compute(kShaders + "motion_layers_ground.comp")),
+        findMotion(library.compute(kShaders + "mover_motion.comp")),
         join(library.compute(kShaders + "motion_layers_join.comp")),
         candidates(TextureFormat::kRgba8, size),
         evidence(TextureFormat::kRgba16f, size),
         ground(TextureFormat::kRgba16f, blocksOf(size)),
+        moverMotion(TextureFormat::kRgba16f, blocksOf(size)),
         tally(kTurns * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
         noIds(TextureFormat::kR32ui, {1, 1}) {
     tally.write(std::vector<std::byte>(tally.sizeBytes()));
@@ -62,10 +65,12 @@ struct MotionLayers::State {
   hal::FrameSize size;
   gpu::Program compare;
   gpu::Program findGround;
+  gpu::Program findMotion;
   gpu::Program join;
   gpu::Texture candidates;
   gpu::Texture evidence;
   gpu::Texture ground;
+  gpu::Texture moverMotion;
   std::array<gpu::Texture, 2> pictures;
   std::array<gpu::Texture, 2> labels;
   std::array<gpu::Texture, 2> backgrounds;
@@ -120,6 +125,7 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .texture("background", s.backgrounds.at(last))
       .texture("labels", s.labels.at(last))
       .texture("motion", motion.backward())
+      .texture("moverMotion", s.moverMotion)
       .set("hasObjects", frame.hasObjects ? 1 : 0)
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .set("noise", static_cast<float>(noise))
@@ -144,6 +150,11 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .image("labels", s.labels.at(s.now), ImageAccess::kWrite)
       .image("backgroundNow", s.backgrounds.at(s.now), ImageAccess::kWrite)
       .dispatch(s.cells(), kStored);
+  motion.bindBackward(s.findMotion.use());
+  s.findMotion.texture("labels", s.labels.at(s.now))
+      .texture("picture", s.pictures.at(s.now))
+      .image("moverMotion", s.moverMotion, ImageAccess::kWrite)
+      .dispatch({s.moverMotion.size().width, s.moverMotion.size().height}, kStored);
   s.lastTime = frame.captureTime;
   s.isStanding = s.hasPast && motion.isStanding();
   s.hasPast = true;
@@ -155,6 +166,10 @@ const gpu::Texture& MotionLayers::labels() const {
 
 const gpu::Texture& MotionLayers::background() const {
   return state_->backgrounds.at(state_->now);
+}
+
+const gpu::Texture& MotionLayers::moverMotion() const {
+  return state_->moverMotion;
 }
 
 bool MotionLayers::isStanding() const {
@@ -192,6 +207,10 @@ const gpu::Texture& LayerTextures::labelsOf(const MotionLayers* layers) const {
 
 const gpu::Texture& LayerTextures::backgroundOf(const MotionLayers* layers) const {
   return layers != nullptr ? layers->background() : none_;
+}
+
+const gpu::Texture& LayerTextures::moverMotionOf(const MotionLayers* layers) const {
+  return layers != nullptr ? layers->moverMotion() : none_;
 }
 
 }  // namespace pleinair::marks

@@ -56,6 +56,11 @@ class MotionLayers {
   /// texel. Throws hal::Failure (kUnsupported) where the GPU cannot read such a texture.
   hal::Image readMovers() const;
 
+  /// RGBA16F; a texel is kBlockCells² cells. RG: displacement of the movers' textured parts since
+  /// the previous frame, px of the full image, times their weight; B: that weight.
+  const gpu::Texture& moverMotion() const;
+  static constexpr int kBlockCells = 8;
+
   /// Whether the camera has stood since the previous frame, so that all the background rests.
   bool isStanding() const;
 
@@ -75,9 +80,11 @@ class LayerTextures {
   /// Throws hal::Failure if GPU memory runs out.
   LayerTextures();
 
-  /// MotionLayers::labels() and background(). They belong to `layers`, or to this if that is null.
+  /// MotionLayers::labels(), background() and moverMotion(). They belong to `layers`, or to this if
+  /// that is null.
   const gpu::Texture& labelsOf(const MotionLayers* layers) const;
   const gpu::Texture& backgroundOf(const MotionLayers* layers) const;
+  const gpu::Texture& moverMotionOf(const MotionLayers* layers) const;
 
  private:
   gpu::Texture none_;

@@ -27,9 +27,9 @@ struct StrokeRule {
   float cutOffRad = 0.8F;         ///< the arm ends at this angle between two segments
   /// range of detail in which the layer is painted (TensorField::resolved)
   glm::vec2 detailBand{0.0F, 1e9F};
-  float modelDetail = 1.0F;    ///< factor of the detail on virtual surfaces
-  float detailSpread = 0.0F;   ///< random spread of the band among anchors
-  float slack = 0.25F;         ///< hysteresis: existing strokes keep a band wider by this part
+  float modelDetail = 1.0F;   ///< factor of the detail on virtual surfaces
+  float detailSpread = 0.0F;  ///< random spread of the band among anchors
+  float slack = 0.25F;        ///< hysteresis: existing strokes keep a band wider by this part
   /// the same before a standing camera; strokes that do not exist yet need half as much to appear
   float restSlack = 0.6F;
   float wanderRad = 0.1F;      ///< largest deviation of a stroke from the field

@@ -24,14 +24,26 @@ uniform bool restsWithCamera;
 uniform uint slots;
 #include "pipeline/marks/shaders/anchor_appearance.glsl"
 
+#include "pipeline/marks/shaders/layer_blocks.glsl"
+#include "pipeline/marks/shaders/mover_motion.glsl"
+
 const float kOutline = 5.0;  // px
+const float kPlain = 0.06;  // of luma: less contrast shows no motion
 
 // The background moves as one; a mover's motion must not carry it along. A mover moves as dense flow
 // says: it is not still, and the image's homography is the background's.
 Moved motionOf(vec2 px, float object, bool isOnMover) {
   const float kMaxFlowError = 8.0;  // px
   Moved flowed = byFlow(px);
-  if (isOnMover && flowed.error < kMaxFlowError) return flowed;
+  if (isOnMover) {
+    Looks there = looksAt(picture, 1.0 / fullSize, px + flowed.displacement);
+    bool isPlain = there.high.x - there.low.x < kPlain + kNoiseSlack * noise;
+    vec2 together;
+    if ((isPlain || flowed.error > kMaxFlowError) && findMoverMotion(px + flowed.displacement, together)) {
+      return Moved(together, kNoTurn, 1.0, kSourceFlow);
+    }
+    if (flowed.error < kMaxFlowError) return flowed;
+  }
   if (!isOnMover && object < 0.5 && restsWithCamera) return Moved(vec2(0.0), kNoTurn, known.w, kSourcePicture);
   if (!isOnMover && known.z != 0.0 && isNearMover(px)) return byPicture(px, false);
   return imageMotionAt(px, object, false);

@@ -11,7 +11,9 @@
 // Precision: highp.
 #include "pipeline/gpu/shaders/luma.glsl"
 #include "pipeline/marks/shaders/motion_layers.glsl"
+#include "pipeline/marks/shaders/layer_blocks.glsl"
 #include "pipeline/marks/shaders/motion_layers_tally.glsl"
+#include "pipeline/marks/shaders/mover_motion.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 16, local_size_y = 4) in;
 layout(rgba8, binding = 0) writeonly uniform highp image2D candidates;
@@ -86,6 +88,20 @@ void main() {
   bool isMoving = moved.w > 0.5 && moved.z < 3.0 &&
                   distance(moved.xy, shift) > kMovedPx + 2.5 * moved.z;
   vec4 label = textureLod(labels, inLayers(labels, from), 0.0);
+  bool isCarried = false;
+  if (!isMoving && label.r > 0.5) {
+    // A plain part of a mover goes with its other parts.
+    vec2 together;
+    if (findMoverMotion(px, together) && distance(together, shift) > kMovedPx) {
+      vec2 back = px - together;
+      vec4 carried = isInPicture(back) ? textureLod(labels, inLayers(labels, back), 0.0) : vec4(0.0);
+      isCarried = carried.r > 0.5;
+      if (isCarried) {
+        label.ba = vec2(0.0, max(label.a, carried.a));
+        changed = max(changed, 0.5);
+      }
+    }
+  }
   if (isMoving) {
     vec2 back = px - moved.xy;
     vec4 carried = isInPicture(back) ? textureLod(labels, inLayers(labels, back), 0.0) : vec4(0.0);
@@ -97,6 +113,6 @@ void main() {
   }
   if (other > 0.5) atomicAdd(otherCells[turn], 1u);
   imageStore(candidates, cell, vec4(other, label.r, luma, lumaOf(known.rgb)));
-  float maturity = label.a + (isMoving ? stepSeconds : 0.0);
+  float maturity = label.a + (isMoving || isCarried ? stepSeconds : 0.0);
   imageStore(evidence, cell, vec4(changed, label.b, maturity, label.g));
 }

@@ -2,21 +2,20 @@
 //          other content may be expected to look like if it has just been uncovered.
 // Inputs:  candidates, evidence (motion_layers.comp); picture: this frame's, in cells.
 // Outputs: ground RGBA16F: the colour times the share of the block that is background, and that
-//          share. One invocation per block of kBlock² cells.
+//          share. One invocation per block of kLayerBlock² cells.
 // Precision: highp.
+#include "pipeline/marks/shaders/layer_blocks.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba16f, binding = 0) writeonly uniform highp image2D ground;
 uniform highp sampler2D candidates;
 uniform highp sampler2D evidence;
 uniform highp sampler2D picture;
 
-const int kBlock = 8;
-
 void main() {
   ivec2 block = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(block, imageSize(ground)))) return;
-  ivec2 first = block * kBlock;
-  ivec2 end = min(first + kBlock, textureSize(candidates, 0));
+  ivec2 first = block * kLayerBlock;
+  ivec2 end = min(first + kLayerBlock, textureSize(candidates, 0));
   vec4 sum = vec4(0.0);
   for (int y = first.y; y < end.y; y += 2) {
     for (int x = first.x; x < end.x; x += 2) {
@@ -25,5 +24,5 @@ void main() {
       if (isGround) sum += vec4(texelFetch(picture, ivec2(x, y), 0).rgb, 1.0);
     }
   }
-  imageStore(ground, block, sum * (4.0 / float(kBlock * kBlock)));
+  imageStore(ground, block, sum * (4.0 / float(kLayerBlock * kLayerBlock)));
 }

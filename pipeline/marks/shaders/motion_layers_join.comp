@@ -8,6 +8,7 @@
 //          falling to 0; rest and maturity, s. backgroundNow RGBA16F: its mean colour, and the
 //          frames in the mean, 0 if it was never seen. One invocation per cell.
 // Precision: highp.
+#include "pipeline/marks/shaders/layer_blocks.glsl"
 #include "pipeline/marks/shaders/motion_layers.glsl"
 #include "pipeline/marks/shaders/motion_layers_tally.glsl"
 layout(local_size_x = 16, local_size_y = 4) in;
@@ -24,12 +25,10 @@ uniform float freshSeconds;
 
 const float kTentative = 0.7;  // s: what has changed once and then rests is no mover
 const float kMatureSeconds = 0.2;
-const float kSettled = 0.4;  // s of rest, after which a place may turn out to be uncovered
 const float kFrames = 30.0;
 const float kMovingFrames = 4.0;  // while the camera moves: each frame's interpolation blurs
 const float kSameStructure = 0.9;
 const float kMostOthers = 0.5;  // of the picture: if more is other content, the light is
-const int kBlock = 8;  // cells along a side (motion_layers_ground.comp)
 const float kLikelier = 0.06;  // of colour: uncovered rather than covered
 const float kContrast = 0.02;  // of luma
 
@@ -37,7 +36,7 @@ const float kContrast = 0.02;  // of luma
 vec3 surroundings(ivec2 cell) {
   const float kEnough = 4.0;  // blocks
   ivec2 size = textureSize(ground, 0);
-  ivec2 block = min(cell / kBlock, size - 1);
+  ivec2 block = min(cell / kLayerBlock, size - 1);
   vec4 sum = vec4(0.0);
   for (int stride = 1; stride <= 4 && sum.a < kEnough; stride *= 2) {
     sum = vec4(0.0);
@@ -125,8 +124,7 @@ void main() {
     known.a = 0.0;
   }
   // A mover that was there when the camera began to look, or that stood there for long.
-  bool isSettled = rest > (maturity <= kMatureSeconds ? 0.0 : kSettled);
-  if (isMover && isSettled && isUncovered(cell, size)) {
+  if (isMover && rest > 0.0 && maturity <= kMatureSeconds && isUncovered(cell, size)) {
     isMover = false;
     known.a = 0.0;
   }
