@@ -53,20 +53,30 @@ class MotionLayersTest : public AnchorLife {
     set_->advance(frame, *field_, hold_, &*layers_);
   }
 
-  /// A frame with dense flow: the wall rests, and the disc has moved by `step`. The flow reaches
-  /// beyond the disc's outline, as measured flow does.
-  void seeDiscMoved(const View& view, glm::dvec2 step) {
+  enum class Texture { kWhole, kOutline };
+
+  /// A frame with dense flow: the wall rests, and the disc has moved by `step` to the right. The
+  /// flow reaches beyond the disc's outline, as measured flow does. Where the disc has no texture,
+  /// it says that nothing moves.
+  void seeDiscMoved(const View& view, glm::dvec2 step, Texture texture = Texture::kWhole) {
     constexpr hal::FrameSize kNodes{40, 30};
     constexpr double kNodePx = 8.0;
     constexpr float kErrorPx = 0.1F;
+    constexpr double kPlain = 24.0;
+    constexpr double kFront = 24.0;
     const double reach = view.radius + 12.0;
     std::vector<glm::vec4> forward;
     std::vector<glm::vec4> backward;
     for (int y = 0; y < kNodes.height; ++y) {
       for (int x = 0; x < kNodes.width; ++x) {
         const glm::dvec2 px = kNodePx * (glm::dvec2(x, y) + 0.5);
-        const bool wasDisc = glm::distance(px, view.disc - step) < reach;
-        const bool isDisc = glm::distance(px, view.disc) < reach;
+        const auto isSeenToMove = [&](glm::dvec2 disc) {
+          const double away = glm::distance(px, disc);
+          const bool isOutline = away >= kPlain && px.x < disc.x + kFront;
+          return away < reach && (texture == Texture::kWhole || isOutline);
+        };
+        const bool wasDisc = isSeenToMove(view.disc - step);
+        const bool isDisc = isSeenToMove(view.disc);
         forward.emplace_back(wasDisc ? glm::vec2(step) : glm::vec2(0.0F), kErrorPx, 0.0F);
         backward.emplace_back(isDisc ? glm::vec2(-step) : glm::vec2(0.0F), kErrorPx, 0.0F);
       }
@@ -76,6 +86,15 @@ class MotionLayersTest : public AnchorLife {
     motion.flow = {
         .nodes = kNodes, .stepPx = glm::vec2(kNodePx), .forward = forward, .backward = backward};
     seeImage(seen(view, kSize, seed_ + 1), motion);
+  }
+
+  /// Frames 0.1 s apart.
+  void rest(const View& view, hal::Duration time) {
+    constexpr hal::Duration kLongStep = std::chrono::milliseconds(100);
+    for (hal::Duration t{0}; t < time; t += kLongStep) {
+      time_ += kLongStep - kStep;
+      see(view);
+    }
   }
 
   /// Over the cells: how many are movers, how many should be, and how many are both.
@@ -195,17 +214,66 @@ TEST_F(MotionLayersTest, AMoverThatRestsJoinsTheBackgroundAfterFourSeconds) {
     view.disc = {60.0 + 8.0 * i, 120.0};
     seeDiscMoved(view, {8.0, 0.0});
   }
-  const auto rest = [&](hal::Duration time) {
-    constexpr hal::Duration kLongStep = std::chrono::milliseconds(100);
-    for (hal::Duration t{0}; t < time; t += kLongStep) {
-      time_ += kLongStep - kStep;
-      see(view);
-    }
-  };
-  rest(std::chrono::milliseconds(3700));
+  rest(view, std::chrono::milliseconds(3700));
   EXPECT_GT(overlapWith(view).iou(), 0.8);
-  rest(std::chrono::milliseconds(600));
+  rest(view, std::chrono::milliseconds(600));
   EXPECT_EQ(movers(), 0);
+}
+
+/// Like a sleeve: flow is measured at its outline, but for the front.
+TEST_F(MotionLayersTest, APlainMoverGoesWithItsOutline) {
+  see({});
+  see({});
+  View view{.radius = 35.0};
+  std::vector<float> steps;
+  for (int i = 0; i < 12; ++i) {
+    view.disc = {60.0 + 8.0 * i, 120.0};
+    seeDiscMoved(view, {8.0, 0.0}, Texture::kOutline);
+    if (i < 4) continue;
+    for (const Anchor& each : set_->read()) {
+      const bool isOnDisc =
+          each.isStaying() && !each.isBorn() && (each.state & Anchor::kMover) != 0;
+      if (isOnDisc && glm::distance(glm::dvec2(each.px), view.disc) < 14.0) {
+        steps.push_back(each.displacementPx.x);
+      }
+    }
+  }
+  ASSERT_GT(steps.size(), 50u);
+  std::ranges::sort(steps);
+  EXPECT_NEAR(steps[steps.size() / 10], 8.0F, 3.5F);
+  EXPECT_NEAR(steps[steps.size() / 2], 8.0F, 1.0F);
+  rest(view, std::chrono::milliseconds(2000));
+  EXPECT_GT(overlapWith(view).iou(), 0.65) << "most of it is a mover that rests";
+}
+
+/// Flow reaches beyond the disc, and carries nothing there.
+TEST_F(MotionLayersTest, BeforeAStandingCameraTheBackgroundRests) {
+  for (int i = 0; i < 4; ++i) see({});
+  View view{.radius = 35.0};
+  int beside = 0;
+  for (int i = 0; i < 6; ++i) {
+    view.disc = {60.0 + 8.0 * i, 120.0};
+    seeDiscMoved(view, {8.0, 0.0});
+    for (const Anchor& each : set_->read()) {
+      if (!each.isAlive() || each.isBorn() || (each.state & Anchor::kMover) != 0) continue;
+      ASSERT_EQ(each.displacementPx, glm::vec2(0.0F));
+      beside += glm::distance(glm::dvec2(each.px), view.disc) < 46.0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(beside, 100);
+}
+
+/// The disc has stood there since the camera began to look.
+TEST_F(MotionLayersTest, WhatAMoverUncoversForTheFirstTimeIsBackgroundAtOnce) {
+  View view{.disc = {100.0, 120.0}, .radius = 35.0};
+  for (int i = 0; i < 6; ++i) see(view);
+  EXPECT_EQ(movers(), 0);
+  view.disc.x = 220.0;
+  see(view);
+  EXPECT_GT(movers(), 900) << "in its first frame it may be either";
+  see(view);
+  see(view);
+  EXPECT_GT(overlapWith(view).iou(), 0.85) << "only the disc is left";
 }
 
 /// The disc appears and does not move at all, like an object that was put down.
