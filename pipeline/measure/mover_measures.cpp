@@ -197,16 +197,35 @@ constexpr Limit kDisplacedStill{
     "the input's pixels that change more under masks laid wrong by 20 px", " %", kMaxStillPercent,
     kNoMover, false};
 
+/// Half of the limit is left to the painting: an estimated motion along which the input itself
+/// reads more says nothing about the marks.
+Verdict verdictAlong(const Limit& limit, std::optional<double> value,
+                     std::optional<double> ofInput) {
+  if (!ofInput || *ofInput <= limit.value / 2) return verdictOf(limit, value);
+  Limit unexplained = limit;
+  unexplained.missing = "the input does not follow the estimated motion";
+  return verdictOf(unexplained, std::nullopt);
+}
+
+std::vector<Verdict> verdictsAlong(const MoverMotionSummary& painting,
+                                   const MoverMotionSummary& input) {
+  return {verdictAlong(kMoverNHw2Limit, painting.nHw2, input.nHw2),
+          verdictAlong(kMoverPopLimit, painting.popPercent, input.popPercent),
+          verdictAlong(kSeamPopLimit, painting.seamPopPercent, input.seamPopPercent)};
+}
+
 /// Marks that are redrawn in each frame have to fail at least one of the gates along the motion.
-Verdict redrawnVerdict(const MoverMotionSummary& redrawn) {
+Verdict redrawnVerdict(const MoverMotionSummary& redrawn, const MoverMotionSummary& input) {
   Verdict verdict{.what = "marks redrawn each frame fail MOVER nHW2, MOVER POP or SEAM POP",
                   .found = kNothingFollowed};
-  if (!redrawn.nHw2 && !redrawn.popPercent && !redrawn.seamPopPercent) return verdict;
+  const std::vector<Verdict> gates = verdictsAlong(redrawn, input);
+  if (std::ranges::all_of(gates, [](const Verdict& gate) { return !gate.comparison->value; })) {
+    verdict.found = gates.front().found;
+    return verdict;
+  }
   verdict.state = Verdict::State::kFailed;
   verdict.found = "they pass; movers are too plain";
-  for (const Verdict& gate :
-       {verdictOf(kMoverNHw2Limit, redrawn.nHw2), verdictOf(kMoverPopLimit, redrawn.popPercent),
-        verdictOf(kSeamPopLimit, redrawn.seamPopPercent)}) {
+  for (const Verdict& gate : gates) {
     if (gate.state != Verdict::State::kFailed) continue;
     verdict.found = verdict.state == Verdict::State::kPassed ? verdict.found + ", " : "";
     verdict.found += fmt::format("{} fails with {}", gate.what, gate.found);
@@ -219,20 +238,20 @@ Verdict redrawnVerdict(const MoverMotionSummary& redrawn) {
 
 std::vector<Verdict> moverVerdicts(const MoverReport& movers, bool isOnPaper) {
   const MoverSummary& painting = movers.painting;
-  const MoverMotionSummary& along = movers.alongMotion[Subject::kPainting];
   std::vector<Verdict> verdicts{verdictOf(kStillLimit, painting.stillPercent),
                                 verdictOf(kReturnLimit, painting.returnLevels),
-                                verdictOf(kGhostLimit, painting.ghost),
-                                verdictOf(kMoverNHw2Limit, along.nHw2),
-                                verdictOf(kMoverPopLimit, along.popPercent),
-                                verdictOf(kSeamPopLimit, along.seamPopPercent)};
+                                verdictOf(kGhostLimit, painting.ghost)};
+  for (Verdict& verdict :
+       verdictsAlong(movers.alongMotion[Subject::kPainting], movers.alongMotion[Subject::kInput])) {
+    verdicts.push_back(std::move(verdict));
+  }
   if (!isOnPaper) verdicts.push_back(verdictOf(kLostLimit, painting.lostPercent));
   return verdicts;
 }
 
 std::vector<Verdict> moverControlVerdicts(const MoverReport& movers) {
   return {verdictOf(kAveragingLost, movers.averaging.lostPercent),
-          redrawnVerdict(movers.alongMotion[Subject::kFresh]),
+          redrawnVerdict(movers.alongMotion[Subject::kFresh], movers.alongMotion[Subject::kInput]),
           verdictOf(kDisplacedStill, movers.displacedStillPercent)};
 }
 

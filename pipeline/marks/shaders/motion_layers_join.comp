@@ -24,6 +24,8 @@ uniform float restSeconds;
 uniform float freshSeconds;
 
 const float kTentative = 0.7;  // s: what has changed once and then rests is no mover
+const float kRestingChange = 0.05;
+const float kMovingRestingChange = 0.3;  // while the camera moves: its picture trembles
 const float kMatureSeconds = 0.2;
 const float kFrames = 30.0;
 const float kMovingFrames = 4.0;  // while the camera moves: each frame's interpolation blurs
@@ -117,7 +119,8 @@ void main() {
   bool isOther = (own.r > 0.5 && others > 0.25) || (own.r > 0.15 && others > 0.55) || others > 0.8;
   bool hasCause = changes > 0.08 || carried > 0.5;
   bool isMover = !isLight && hasCause && (isOther || (wasMover && own.r > 0.15 && others > 0.3));
-  float rest = isMover && changes < 0.05 ? past.g + stepSeconds : 0.0;
+  bool isResting = changes < (isStanding ? kRestingChange : kMovingRestingChange);
+  float rest = isMover && isResting ? past.g + stepSeconds : 0.0;
   float maturity = isMover ? past.b : 0.0;
   if (rest > (maturity > kMatureSeconds ? restSeconds : kTentative)) {
     isMover = false;

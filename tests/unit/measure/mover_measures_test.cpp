@@ -256,6 +256,24 @@ TEST(MoverMeasures, WithoutAMoverNothingIsMeasured) {
   }
 }
 
+/// An estimated motion that does not explain the input says nothing about marks.
+TEST(MoverMeasures, AlongAWrongMotionNothingIsJudged) {
+  MoverReport report;
+  report.alongMotion[Subject::kPainting] = {.nHw2 = 0.1, .popPercent = 90.0, .seamPopPercent = 1.0};
+  report.alongMotion[Subject::kInput] = {.nHw2 = 0.1, .popPercent = 92.0, .seamPopPercent = 1.4};
+  const auto stateOf = [&](std::string_view name) {
+    for (const Verdict& verdict : moverVerdicts(report, true)) {
+      if (verdict.what.starts_with(name)) return verdict.state;
+    }
+    return Verdict::State::kNotMeasured;
+  };
+  EXPECT_EQ(stateOf("MOVER POP"), Verdict::State::kNotMeasured);
+  EXPECT_EQ(stateOf("MOVER nHW2"), Verdict::State::kPassed);
+  EXPECT_EQ(stateOf("SEAM POP"), Verdict::State::kPassed);
+  report.alongMotion[Subject::kInput].popPercent = 0.9;
+  EXPECT_EQ(stateOf("MOVER POP"), Verdict::State::kFailed) << "the control";
+}
+
 TEST(MoverMeasures, WhatIsMissingSaysWhy) {
   for (const Verdict& verdict : moverVerdicts({}, false)) {
     EXPECT_EQ(verdict.state, Verdict::State::kNotMeasured);
