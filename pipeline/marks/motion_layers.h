@@ -23,11 +23,12 @@ struct MotionLayersOptions {
 /// from the previous frame too, or its measured motion is not the background's, or it was a mover
 /// at its last place. Changes of light that leave edges where they are make no mover, nor does a
 /// change of more than half of the image. What a mover uncovers for the first time is background
-/// after 0.7 s. (Background subtraction with a running mean: Piccardi, "Background subtraction
-/// techniques: a review", 2004.)
+/// as soon as it rests, if it is like its surroundings, else after 0.7 s. (Background subtraction
+/// with a running mean: Piccardi, "Background subtraction techniques: a review", 2004.)
 ///
-/// One mover is not told from another. Under parallax, near things may count as movers. All calls
-/// on the thread of the GL context that was current at construction.
+/// A mover's plain parts go with its textured ones. One mover is not told from another. Under
+/// parallax, near things may count as movers. All calls on the thread of the GL context that was
+/// current at construction.
 class MotionLayers {
  public:
   /// `library` has gpu::marksShaders(), gpu::sceneShaders() and gpu::gpuShaders(). `full` is the

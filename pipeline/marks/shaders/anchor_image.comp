@@ -2,7 +2,8 @@
 //          is hidden until the pass of its object (anchor_surface.comp) finds it.
 // Inputs:  image_motion.glsl's, flow forward; ids and its pixelsOfFull if hasObjects; fullSize;
 //          anchor_appearance.glsl's; margin: px beyond the border at which an anchor is removed;
-//          stepSeconds; memorySeconds: how long a covered anchor is kept; mover_labels.glsl's;
+//          stepSeconds; memorySeconds: how long a covered anchor is kept; mover_labels.glsl's and
+//          mover_motion.glsl's; restsWithCamera: the camera stands, and movers are told apart;
 //          follows: whether anchors move; if not, surface anchors rest like all others, and neither
 //          appearance nor labels count; anew: whether all anchors are removed.
 // Outputs: anchors. One invocation per anchor.
@@ -23,29 +24,33 @@ uniform bool anew;
 uniform bool restsWithCamera;
 uniform uint slots;
 #include "pipeline/marks/shaders/anchor_appearance.glsl"
-
 #include "pipeline/marks/shaders/layer_blocks.glsl"
 #include "pipeline/marks/shaders/mover_motion.glsl"
 
-const float kOutline = 5.0;  // px
-const float kPlain = 0.06;  // of luma: less contrast shows no motion
+const float kOutline = 5.0;       // px around a mover in which its outline may be seen
+const float kPlain = 0.06;        // of luma: less contrast shows no motion
+const float kMaxFlowError = 8.0;  // px
 
-// The background moves as one; a mover's motion must not carry it along. A mover moves as dense flow
-// says: it is not still, and the image's homography is the background's.
-Moved motionOf(vec2 px, float object, bool isOnMover) {
-  const float kMaxFlowError = 8.0;  // px
+// A mover moves as dense flow says: it is not still, and the image's homography is the background's.
+// Its plain parts go with the others.
+Moved moverMotionAt(vec2 px, float object) {
   Moved flowed = byFlow(px);
-  if (isOnMover) {
-    Looks there = looksAt(picture, 1.0 / fullSize, px + flowed.displacement);
-    bool isPlain = there.high.x - there.low.x < kPlain + kNoiseSlack * noise;
-    vec2 together;
-    if ((isPlain || flowed.error > kMaxFlowError) && findMoverMotion(px + flowed.displacement, together)) {
-      return Moved(together, kNoTurn, 1.0, kSourceFlow);
-    }
-    if (flowed.error < kMaxFlowError) return flowed;
+  vec2 now = px + flowed.displacement;
+  Looks there = looksAt(picture, 1.0 / fullSize, now);
+  bool isPlain = there.high.x - there.low.x < kPlain + kNoiseSlack * noise;
+  bool isKnown = flowed.error < kMaxFlowError;
+  vec2 together;
+  if ((isPlain || !isKnown) && findMoverMotion(now, together)) {
+    const float kError = 1.0;  // px
+    return Moved(together, kNoTurn, kError, kSourceFlow);
   }
-  if (!isOnMover && object < 0.5 && restsWithCamera) return Moved(vec2(0.0), kNoTurn, known.w, kSourcePicture);
-  if (!isOnMover && known.z != 0.0 && isNearMover(px)) return byPicture(px, false);
+  return isKnown ? flowed : imageMotionAt(px, object, false);
+}
+
+// The background moves as one; a mover's motion must not carry it along.
+Moved backgroundMotionAt(vec2 px, float object) {
+  if (restsWithCamera && object == 0.0) return Moved(vec2(0.0), kNoTurn, known.w, kSourcePicture);
+  if (known.z != 0.0 && isNearMover(px)) return byPicture(px, false);
   return imageMotionAt(px, object, false);
 }
 
@@ -69,7 +74,8 @@ void main() {
   }
   bool isOnMover = (state & kMover) != 0u;
   bool wasCovered = (state & kCovered) != 0u;
-  Moved moved = motionOf(anchors[slot].px, float(object), isOnMover);
+  Moved moved = isOnMover ? moverMotionAt(anchors[slot].px, float(object))
+                          : backgroundMotionAt(anchors[slot].px, float(object));
   vec2 px = anchors[slot].px + moved.displacement;
   bool isGone = any(lessThan(px, vec2(-margin))) || any(greaterThan(px, fullSize + margin));
   bool isHidden = false;

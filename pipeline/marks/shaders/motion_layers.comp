@@ -2,7 +2,8 @@
 //          frame, and carries its label along the motion (marks/motion_layers.h).
 // Inputs:  motion_layers.glsl's, motion_layers_tally.glsl's; picture (ArFrame::colour); ids and its
 //          pixelsOfFull if hasObjects; lastPicture, background, labels: the previous frame's, if
-//          hasPast; motion: MotionField's field; noise: sigma of a cell, in [0, 1].
+//          hasPast; motion: MotionField's field; mover_motion.glsl's, of the previous frame; noise:
+//          sigma of a cell, in [0, 1].
 // Outputs: candidates RGBA8: how surely it is other content than the background, the carried label,
 //          luma now and of the background. evidence RGBA16F: whether it has changed since the
 //          previous frame, or -1 on models; carried rest, carried maturity, carried freshness.
@@ -10,8 +11,8 @@
 //          content. One invocation per cell.
 // Precision: highp.
 #include "pipeline/gpu/shaders/luma.glsl"
-#include "pipeline/marks/shaders/motion_layers.glsl"
 #include "pipeline/marks/shaders/layer_blocks.glsl"
+#include "pipeline/marks/shaders/motion_layers.glsl"
 #include "pipeline/marks/shaders/motion_layers_tally.glsl"
 #include "pipeline/marks/shaders/mover_motion.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
@@ -89,6 +90,7 @@ void main() {
                   distance(moved.xy, shift) > kMovedPx + 2.5 * moved.z;
   vec4 label = textureLod(labels, inLayers(labels, from), 0.0);
   bool isCarried = false;
+  if (!isMoving && changed > 0.5) label.a = 0.0;  // something else is seen there
   if (!isMoving && label.r > 0.5) {
     // A plain part of a mover goes with its other parts.
     vec2 together;
@@ -96,10 +98,7 @@ void main() {
       vec2 back = px - together;
       vec4 carried = isInPicture(back) ? textureLod(labels, inLayers(labels, back), 0.0) : vec4(0.0);
       isCarried = carried.r > 0.5;
-      if (isCarried) {
-        label.ba = vec2(0.0, max(label.a, carried.a));
-        changed = max(changed, 0.5);
-      }
+      if (isCarried) label.ba = vec2(0.0, max(label.a, carried.a));
     }
   }
   if (isMoving) {

@@ -1,9 +1,9 @@
 // Purpose: decides which cells belong to movers, from all that motion_layers.comp found around
 //          each, and adds the others to the background (marks/motion_layers.h).
 // Inputs:  motion_layers.glsl's, motion_layers_tally.glsl's; candidates, evidence
-//          (motion_layers.comp); picture: this frame's, in cells; background: the previous frame's,
-//          if hasPast; restSeconds: after so long a mover that rests joins the background;
-//          freshSeconds: freshness falls to 0 within so long.
+//          (motion_layers.comp); ground (motion_layers_ground.comp); picture: this frame's, in
+//          cells; background: the previous frame's, if hasPast; restSeconds: after so long a mover
+//          that rests joins the background; freshSeconds: freshness falls to 0 within so long.
 // Outputs: labels RGBA16F: 1 on movers, else 0; freshness: 1 where the label has just changed,
 //          falling to 0; rest and maturity, s. backgroundNow RGBA16F: its mean colour, and the
 //          frames in the mean, 0 if it was never seen. One invocation per cell.
@@ -32,6 +32,7 @@ const float kMovingFrames = 4.0;  // while the camera moves: each frame's interp
 const float kSameStructure = 0.9;
 const float kMostOthers = 0.5;  // of the picture: if more is other content, the light is
 const float kLikelier = 0.06;  // of colour: uncovered rather than covered
+const float kAlike = 0.6;      // share of the memory's difference that is left
 const float kContrast = 0.02;  // of luma
 
 // The colour of the background around, in a window that grows until it has seen enough.
@@ -55,7 +56,7 @@ vec3 surroundings(ivec2 cell) {
 // not: then that was the mover, and has left.
 bool isUncovered(ivec2 cell, ivec2 size) {
   vec3 around = surroundings(cell);
-  float sum = 0.0;
+  vec2 sum = vec2(0.0);  // how unlike they are: the memory, and what is seen
   float weights = 1e-3;
   for (int y = -1; y <= 1; ++y) {
     for (int x = -1; x <= 1; ++x) {
@@ -63,11 +64,12 @@ bool isUncovered(ivec2 cell, ivec2 size) {
       float weight = texelFetch(candidates, at, 0).r;
       vec2 px = (vec2(at) + 0.5) * kLayerCellPixels;
       vec3 known = textureLod(background, inLayers(background, px - backgroundShift(px)), 0.0).rgb;
-      sum += weight * (apart(known, around) - apart(texelFetch(picture, at, 0).rgb, around));
+      vec3 there = texelFetch(picture, at, 0).rgb;
+      sum += weight * vec2(apart(known, around), apart(there, around));
       weights += weight;
     }
   }
-  return sum > kLikelier * weights;
+  return sum.x - sum.y > kLikelier * weights && sum.y < kAlike * sum.x;
 }
 
 void main() {
@@ -126,10 +128,12 @@ void main() {
     isMover = false;
     known.a = 0.0;
   }
-  // A mover that was there when the camera began to look, or that stood there for long.
-  if (isMover && rest > 0.0 && maturity <= kMatureSeconds && isUncovered(cell, size)) {
-    isMover = false;
-    known.a = 0.0;
+  // What was a mover when the camera began to look, or stood there for long, has left. Flow and the
+  // motion of movers reach beyond their outlines: neither makes such a place older.
+  if (isMover && maturity <= kMatureSeconds && isUncovered(cell, size)) {
+    maturity = 0.0;
+    isMover = rest <= 0.0;
+    if (!isMover) known.a = 0.0;
   }
   float fresh = isMover != wasMover ? 1.0 : max(past.a - stepSeconds / freshSeconds, 0.0);
   imageStore(labels, cell, vec4(isMover ? 1.0 : 0.0, fresh, rest, maturity));
