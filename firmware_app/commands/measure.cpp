@@ -207,7 +207,7 @@ int measureConfigured(const MeasureOptions& options, const Configuration& config
                    .qualityLevels = quality != 0});
   PaintParameters parameters = startParameters(painting);
   parameters.quality = quality;
-  MeasuredEngine engine(painter, std::move(parameters), size);
+  MeasuredEngine engine(painter, std::move(parameters), size, options.standing);
 
   const std::uint64_t settle = options.settle.value_or(input->isEndless() ? kSettleByDefault : 0);
   std::optional<std::uint64_t> frames = options.frames;

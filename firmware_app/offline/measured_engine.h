@@ -12,9 +12,14 @@ namespace pleinair::app {
 /// The engine as a MeasuredPainter.
 class MeasuredEngine final : public measure::MeasuredPainter {
  public:
-  /// `painter` must outlive it and paints frames of `size`.
-  MeasuredEngine(Painter& painter, PaintParameters parameters, hal::FrameSize size)
-      : painter_(painter), parameters_(std::move(parameters)), size_(size) {}
+  /// `painter` must outlive it and paints frames of `size`. `readsMovers`: labels of movers are
+  /// read back as well.
+  MeasuredEngine(Painter& painter, PaintParameters parameters, hal::FrameSize size,
+                 bool readsMovers)
+      : painter_(painter),
+        parameters_(std::move(parameters)),
+        size_(size),
+        readsMovers_(readsMovers) {}
 
   hal::Result<measure::PaintedFrame> paint(const hal::CapturedFrame& frame) override {
     const hal::Result<Picture> picture = painter_.paint(frame, parameters_);
@@ -23,7 +28,8 @@ class MeasuredEngine final : public measure::MeasuredPainter {
     if (!output) return tl::unexpected(output.error());
     hal::Result<std::vector<marks::Anchor>> anchors = painter_.anchors();
     if (!anchors) return tl::unexpected(anchors.error());
-    hal::Result<std::optional<hal::Image>> movers = painter_.movers();
+    hal::Result<std::optional<hal::Image>> movers;
+    if (readsMovers_) movers = painter_.movers();
     if (!movers) return tl::unexpected(movers.error());
     measure::PaintedFrame painted{.input = {},
                                   .output = std::move(*output),
@@ -45,6 +51,7 @@ class MeasuredEngine final : public measure::MeasuredPainter {
   Painter& painter_;
   PaintParameters parameters_;
   hal::FrameSize size_;
+  bool readsMovers_;
 };
 
 }  // namespace pleinair::app

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cassert>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -21,6 +22,7 @@ using gpu::TextureFilter;
 using gpu::TextureFormat;
 
 const std::string kShaders = "pipeline/marks/shaders/";
+constexpr hal::Duration kStandingHold = std::chrono::milliseconds(500);
 constexpr float kFreshSeconds = 0.3F;
 constexpr unsigned kTurns = 2;  // shaders/motion_layers_tally.glsl
 constexpr GLbitfield kStored = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
@@ -82,6 +84,7 @@ struct MotionLayers::State {
   hal::TimePoint lastTime;
   bool hasPast = false;
   bool isStanding = false;
+  hal::Duration sinceStanding = kStandingHold;
 
   glm::ivec2 cells() const { return {size.width, size.height}; }
   gpu::Program& begin(gpu::Program& program, const MotionField& motion, float stepSeconds) const;
@@ -111,8 +114,9 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
   // A picture of another quality level differs everywhere.
   if (motion.isCut() || s.frameSize != frame.size()) s.hasPast = false;
   s.frameSize = frame.size();
-  const auto step = static_cast<float>(
-      hal::toSeconds(s.hasPast ? timeStep(s.lastTime, frame.captureTime) : hal::Duration(0)));
+  const hal::Duration passed =
+      s.hasPast ? timeStep(s.lastTime, frame.captureTime) : hal::Duration(0);
+  const auto step = static_cast<float>(hal::toSeconds(passed));
   const std::size_t last = s.now;
   s.now = 1 - s.now;
   s.turn = (s.turn + 1) % kTurns;
@@ -152,11 +156,15 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .dispatch(s.cells(), kStored);
   motion.bindBackward(s.findMotion.use());
   s.findMotion.texture("labels", s.labels.at(s.now))
+      .set("fullSize", glm::vec2(s.full.width, s.full.height))
+      .set("isStanding", motion.isStanding() ? 1 : 0)
       .texture("picture", s.pictures.at(s.now))
       .image("moverMotion", s.moverMotion, ImageAccess::kWrite)
       .dispatch({s.moverMotion.size().width, s.moverMotion.size().height}, kStored);
   s.lastTime = frame.captureTime;
   s.isStanding = s.hasPast && motion.isStanding();
+  if (!s.hasPast) s.sinceStanding = kStandingHold;
+  s.sinceStanding = s.isStanding ? hal::Duration(0) : s.sinceStanding + passed;
   s.hasPast = true;
 }
 
@@ -176,10 +184,15 @@ bool MotionLayers::isStanding() const {
   return state_->isStanding;
 }
 
+bool MotionLayers::hasStood() const {
+  return state_->hasPast && state_->sinceStanding < kStandingHold;
+}
+
 hal::Image MotionLayers::readMovers() const {
   constexpr std::size_t kChannels = 4;
   const hal::FrameSize size = state_->size;
   std::vector<float> values(kChannels * static_cast<std::size_t>(size.pixels()));
+  glMemoryBarrier(GL_FRAMEBUFFER_BARRIER_BIT);  // written as an image
   const gpu::RenderTarget target({&labels()});
   target.beginKeeping();
   glReadPixels(0, 0, size.width, size.height, GL_RGBA, GL_FLOAT, values.data());

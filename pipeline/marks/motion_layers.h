@@ -23,8 +23,8 @@ struct MotionLayersOptions {
 /// from the previous frame too, or its measured motion is not the background's, or it was a mover
 /// at its last place. Changes of light that leave edges where they are make no mover, nor does a
 /// change of more than half of the image. What a mover uncovers for the first time is background
-/// as soon as it rests, if it is like its surroundings, else after 0.7 s. (Background subtraction
-/// with a running mean: Piccardi, "Background subtraction techniques: a review", 2004.)
+/// as soon as it rests, if it is like its surroundings, else like any other mover. (Background
+/// subtraction with a running mean: Piccardi, "Background subtraction techniques: a review", 2004.)
 ///
 /// A mover's plain parts go with its textured ones. One mover is not told from another. Under
 /// parallax, near things may count as movers. All calls on the thread of the GL context that was
@@ -58,12 +58,15 @@ class MotionLayers {
   hal::Image readMovers() const;
 
   /// RGBA16F; a texel is kBlockCells² cells. RG: displacement of the movers' textured parts since
-  /// the previous frame, px of the full image, times their weight; B: that weight.
+  /// the previous frame, less the background's, px of the full image, times their weight; B: that
+  /// weight.
   const gpu::Texture& moverMotion() const;
   static constexpr int kBlockCells = 8;
 
-  /// Whether the camera has stood since the previous frame, so that all the background rests.
+  /// Whether the camera has stood since the previous frame, so that all the background rests; and
+  /// whether it has within the last half second, so that one nudge changes no strokes.
   bool isStanding() const;
+  bool hasStood() const;
 
   /// Forgets the past.
   void reset();

@@ -118,7 +118,7 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .set("flatDetail", rule.flatDetail)
       .set("flatHold", rule.flatHold)
       .set("restSlack", rule.restSlack)
-      .set("isStanding", layers != nullptr && layers->isStanding() ? 1 : 0)
+      .set("isStanding", layers != nullptr && layers->hasStood() ? 1 : 0)
       .set("maxColour", rule.maxColourPerSecond * static_cast<float>(hal::toSeconds(step)))
       .dispatch(allSlots(), GL_SHADER_STORAGE_BARRIER_BIT);
 }

@@ -30,7 +30,8 @@ struct StrokeRule {
   float modelDetail = 1.0F;   ///< factor of the detail on virtual surfaces
   float detailSpread = 0.0F;  ///< random spread of the band among anchors
   float slack = 0.25F;        ///< hysteresis: existing strokes keep a band wider by this part
-  /// the same before a standing camera; strokes that do not exist yet need half as much to appear
+  /// the same before a standing camera, below 1; there, strokes that do not exist yet must lie
+  /// within the band by half of it
   float restSlack = 0.6F;
   float wanderRad = 0.1F;      ///< largest deviation of a stroke from the field
   bool bothWays = true;        ///< false: only ahead of the anchor, as in the thesis

@@ -197,13 +197,13 @@ constexpr Limit kDisplacedStill{
     "the input's pixels that change more under masks laid wrong by 20 px", " %", kMaxStillPercent,
     kNoMover, false};
 
-/// Half of the limit is left to the painting: an estimated motion along which the input itself
-/// reads more says nothing about the marks.
+/// Half of the limit is left to the painting: a motion along which the input itself reads more says
+/// nothing about the marks.
 Verdict verdictAlong(const Limit& limit, std::optional<double> value,
                      std::optional<double> ofInput) {
   if (!ofInput || *ofInput <= limit.value / 2) return verdictOf(limit, value);
   Limit unexplained = limit;
-  unexplained.missing = "the input does not follow the estimated motion";
+  unexplained.missing = "the input itself reads more than half of it";
   return verdictOf(unexplained, std::nullopt);
 }
 

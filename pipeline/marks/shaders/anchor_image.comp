@@ -39,10 +39,11 @@ Moved moverMotionAt(vec2 px, float object) {
   Looks there = looksAt(picture, 1.0 / fullSize, now);
   bool isPlain = there.high.x - there.low.x < kPlain + kNoiseSlack * noise;
   bool isKnown = flowed.error < kMaxFlowError;
-  vec2 together;
-  if ((isPlain || !isKnown) && findMoverMotion(now, together)) {
+  vec2 own;
+  if ((isPlain || !isKnown) && findMoverMotion(now, own)) {
     const float kError = 1.0;  // px
-    return Moved(together, kNoTurn, kError, kSourceFlow);
+    vec2 background = restsWithCamera ? vec2(0.0) : byPicture(px, false).displacement;
+    return Moved(background + own, kNoTurn, kError, kSourceFlow);
   }
   return isKnown ? flowed : imageMotionAt(px, object, false);
 }

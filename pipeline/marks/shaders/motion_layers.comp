@@ -93,9 +93,9 @@ void main() {
   if (!isMoving && changed > 0.5) label.a = 0.0;  // something else is seen there
   if (!isMoving && label.r > 0.5) {
     // A plain part of a mover goes with its other parts.
-    vec2 together;
-    if (findMoverMotion(px, together) && distance(together, shift) > kMovedPx) {
-      vec2 back = px - together;
+    vec2 own;
+    if (findMoverMotion(px, own) && length(own) > kMovedPx) {
+      vec2 back = from - own;
       vec4 carried = isInPicture(back) ? textureLod(labels, inLayers(labels, back), 0.0) : vec4(0.0);
       isCarried = carried.r > 0.5;
       if (isCarried) label.ba = vec2(0.0, max(label.a, carried.a));

@@ -35,8 +35,9 @@ const float kLikelier = 0.06;  // of colour: uncovered rather than covered
 const float kAlike = 0.6;      // share of the memory's difference that is left
 const float kContrast = 0.02;  // of luma
 
-// The colour of the background around, in a window that grows until it has seen enough.
-vec3 surroundings(ivec2 cell) {
+// The colour of the background around, in a window that grows until it has seen enough, and how
+// many blocks of it were seen.
+vec4 surroundings(ivec2 cell) {
   const float kEnough = 4.0;  // blocks
   ivec2 size = textureSize(ground, 0);
   ivec2 block = min(cell / kLayerBlock, size - 1);
@@ -49,13 +50,16 @@ vec3 surroundings(ivec2 cell) {
       }
     }
   }
-  return sum.rgb / max(sum.a, 1e-3);
+  return vec4(sum.rgb / max(sum.a, 1e-3), sum.a);
 }
 
 // Whether other content around the cell is like its surroundings, and what was remembered there is
 // not: then that was the mover, and has left.
 bool isUncovered(ivec2 cell, ivec2 size) {
-  vec3 around = surroundings(cell);
+  const float kLeastSeen = 1.0;  // blocks
+  vec4 surrounding = surroundings(cell);
+  if (surrounding.a < kLeastSeen) return false;
+  vec3 around = surrounding.rgb;
   vec2 sum = vec2(0.0);  // how unlike they are: the memory, and what is seen
   float weights = 1e-3;
   for (int y = -1; y <= 1; ++y) {

@@ -1,13 +1,13 @@
 // Purpose: the motion of movers, in blocks of cells: where a mover has texture, dense flow is right;
 //          its plain parts go with those around (mover_motion.glsl).
-// Inputs:  labels, picture: this frame's, in cells; image_motion.glsl's, flow backward; fullSize.
-// Outputs: moverMotion RGBA16F: displacement from the previous frame (px of the full image) times
-//          weight, and the weight. One invocation per block of kLayerBlock² cells.
+// Inputs:  labels, picture: this frame's, in cells; motion_layers.glsl's, flow backward.
+// Outputs: moverMotion RGBA16F: displacement since the previous frame, less the background's (px of
+//          the full image), times weight, and the weight. One invocation per block of kLayerBlock²
+//          cells.
 // Precision: highp.
 #include "pipeline/gpu/shaders/luma.glsl"
-#include "pipeline/marks/shaders/image_motion.glsl"
-#include "pipeline/marks/shaders/layer_cells.glsl"
 #include "pipeline/marks/shaders/layer_blocks.glsl"
+#include "pipeline/marks/shaders/motion_layers.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba16f, binding = 0) writeonly uniform highp image2D moverMotion;
 uniform highp sampler2D labels;
@@ -38,9 +38,11 @@ void main() {
       }
       float weight = smoothstep(kTexture.x, kTexture.y, high - low);
       if (weight <= 0.0) continue;
-      Moved flowed = byFlow((vec2(cell) + 0.5) * kLayerCellPixels);
+      vec2 px = (vec2(cell) + 0.5) * kLayerCellPixels;
+      Moved flowed = byFlow(px);
       if (flowed.error > kMaxError) continue;
-      sum += weight / (0.25 + flowed.error * flowed.error) * vec3(-flowed.displacement, 1.0);
+      vec2 displacement = -flowed.displacement - backgroundShift(px);
+      sum += weight / (0.25 + flowed.error * flowed.error) * vec3(displacement, 1.0);
     }
   }
   imageStore(moverMotion, block, vec4(sum, 0.0));

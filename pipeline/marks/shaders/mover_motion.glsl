@@ -1,6 +1,6 @@
 // Purpose: the motion of the mover at a place, from the textured places around it.
 // Inputs:  moverMotion (mover_motion.comp); layer_cells.glsl and layer_blocks.glsl before it.
-// Outputs: displacement since the previous frame, px of the full image.
+// Outputs: displacement in a frame, less the background's, px of the full image.
 // Precision: highp.
 uniform highp sampler2D moverMotion;
 
