@@ -23,7 +23,8 @@ struct MotionLayersOptions {
 /// from the previous frame too, or its measured motion is not the background's, or it was a mover
 /// at its last place. Changes of light that leave edges where they are make no mover, nor does a
 /// change of more than half of the image. What a mover uncovers for the first time is background
-/// as soon as it rests, if it is like its surroundings, else like any other mover. (Background
+/// as soon as it rests, if the camera stands and it is like its surroundings, else like any other
+/// mover. (Background
 /// subtraction with a running mean: Piccardi, "Background subtraction techniques: a review", 2004.)
 ///
 /// A mover's plain parts go with its textured ones. One mover is not told from another. Under

@@ -133,8 +133,9 @@ void main() {
     known.a = 0.0;
   }
   // What was a mover when the camera began to look, or stood there for long, has left. Flow and the
-  // motion of movers reach beyond their outlines: neither makes such a place older.
-  if (isMover && maturity <= kMatureSeconds && isUncovered(cell, size)) {
+  // motion of movers reach beyond their outlines: neither makes such a place older. While the camera
+  // moves, new parts of a mover would be taken for such places.
+  if (isStanding && isMover && maturity <= kMatureSeconds && isUncovered(cell, size)) {
     maturity = 0.0;
     isMover = rest <= 0.0;
     if (!isMover) known.a = 0.0;
