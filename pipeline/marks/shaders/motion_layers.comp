@@ -38,6 +38,8 @@ const float kCertainThresholds = 2.4;  // at so many thresholds, other content i
 const float kTrustedFrames = 4.0;  // of background, after which its colours count more than flow
 const float kReach = 2.5;  // px
 const float kMovedPx = 0.6;
+const float kLeastUnlike = 0.02;  // of colour
+const float kSeenOther = 0.6;
 
 // How surely the colour is the background's in a shadow, or in a little more light.
 float shadeOf(vec3 now, vec3 known) {
@@ -45,6 +47,21 @@ float shadeOf(vec3 now, vec3 known) {
   float ratio = lumaOf(now) / max(before, 1e-3);
   if (before < 0.12 || ratio < 0.68 || ratio > 1.12) return 0.0;
   return 1.0 - smoothstep(0.5, 1.0, apart(now / ratio, known) / (kSlack + kNoiseDeviations * noise));
+}
+
+// The label that a mover had at its place in the previous frame. What comes in from outside before a
+// camera that stands is a mover.
+vec4 labelBefore(vec2 px) {
+  if (isInPicture(px)) return textureLod(labels, inLayers(labels, px), 0.0);
+  return isStanding ? vec4(1.0, 0.0, 0.0, 2.0 * kMatureSeconds) : vec4(0.0);
+}
+
+// Whether a colour is rather that of the mover that was there in the previous frame.
+bool isLikeMover(vec3 now, vec2 back, float unlikeBackground) {
+  if (!isInPicture(back)) return false;
+  vec3 there = textureLod(lastPicture, inLayers(lastPicture, back), 0.0).rgb;
+  return unlikeBackground > kLeastUnlike + kNoiseDeviations * noise &&
+         apart(now, there) < kLikeMover * unlikeBackground;
 }
 
 void main() {
@@ -81,7 +98,8 @@ void main() {
   vec4 known = textureLod(background, inLayers(background, from), 0.0);
   vec3 before = textureLod(lastPicture, inLayers(lastPicture, from), 0.0).rgb;
   float least = (isStanding ? 1.0 : kMovingSlack) * (kSlack + kNoiseDeviations * noise);
-  float other = smoothstep(least, kCertainThresholds * least, beyond(known.rgb, low, high));
+  float unlike = beyond(known.rgb, low, high);
+  float other = smoothstep(least, kCertainThresholds * least, unlike);
   other *= known.a < 0.5 ? 0.0 : 1.0 - shadeOf(now, known.rgb);
   float changed = smoothstep(least, kCertainThresholds * least, beyond(before, low, high));
 
@@ -91,19 +109,21 @@ void main() {
   vec4 label = textureLod(labels, inLayers(labels, from), 0.0);
   bool isCarried = false;
   if (!isMoving && changed > 0.5) label.a = 0.0;  // something else is seen there
-  if (!isMoving && label.r > 0.5) {
+  vec2 own;
+  if (!isMoving && max(label.r, other) > 0.5 && findMoverMotion(px, own) && length(own) > kMovedPx) {
     // A plain part of a mover goes with its other parts.
-    vec2 own;
-    if (findMoverMotion(px, own) && length(own) > kMovedPx) {
-      vec2 back = from - own;
-      vec4 carried = isInPicture(back) ? textureLod(labels, inLayers(labels, back), 0.0) : vec4(0.0);
-      isCarried = carried.r > 0.5;
-      if (isCarried) label.ba = vec2(0.0, max(label.a, carried.a));
+    vec2 back = from - own;
+    vec4 carried = labelBefore(back);
+    isCarried = carried.r > 0.5;
+    if (isCarried) {
+      label = vec4(1.0, label.g, 0.0, max(label.a, carried.a));
+      if (isLikeMover(now, back, unlike)) other = max(other, kSeenOther);
     }
   }
   if (isMoving) {
     vec2 back = px - moved.xy;
-    vec4 carried = isInPicture(back) ? textureLod(labels, inLayers(labels, back), 0.0) : vec4(0.0);
+    vec4 carried = labelBefore(back);
+    if (carried.r > 0.5 && isLikeMover(now, back, unlike)) other = max(other, kSeenOther);
     if (carried.r > label.r || (carried.r == label.r && carried.a > label.a)) label = carried;
     // The ground is hardly known yet. Measured flow reaches beyond a mover, but nothing changes
     // there.

@@ -7,6 +7,8 @@
 #include "pipeline/marks/shaders/colour_difference.glsl"
 #include "pipeline/marks/shaders/image_motion.glsl"
 #include "pipeline/marks/shaders/layer_cells.glsl"
+const float kMatureSeconds = 0.2;  // seen to move for so long: a mover, also if it rests
+const float kLikeMover = 0.5;  // of its difference from the background, a colour is the mover's
 uniform vec2 fullSize;
 uniform bool isStanding;
 

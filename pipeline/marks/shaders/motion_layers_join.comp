@@ -26,7 +26,6 @@ uniform float freshSeconds;
 const float kTentative = 0.7;  // s: what has changed once and then rests is no mover
 const float kRestingChange = 0.05;
 const float kMovingRestingChange = 0.3;  // while the camera moves: its picture trembles
-const float kMatureSeconds = 0.2;
 const float kFrames = 30.0;
 const float kMovingFrames = 4.0;  // while the camera moves: each frame's interpolation blurs
 const float kSameStructure = 0.9;
@@ -51,6 +50,21 @@ vec4 surroundings(ivec2 cell) {
     }
   }
   return vec4(sum.rgb / max(sum.a, 1e-3), sum.a);
+}
+
+// How long the parts of the same mover beside the cell have been seen to move: those whose colours
+// are rather its own than the background's.
+float maturityAround(ivec2 cell, ivec2 size, vec3 now, vec3 known) {
+  float unlike = apart(now, known);
+  float most = 0.0;
+  for (int y = -1; y <= 1; ++y) {
+    for (int x = -1; x <= 1; ++x) {
+      ivec2 at = clamp(cell + 2 * ivec2(x, y), ivec2(0), size - 1);
+      bool isSame = apart(texelFetch(picture, at, 0).rgb, now) < kLikeMover * unlike;
+      if (isSame) most = max(most, texelFetch(evidence, at, 0).b);
+    }
+  }
+  return most;
 }
 
 // Whether other content around the cell is like its surroundings, and what was remembered there is
@@ -128,6 +142,7 @@ void main() {
   bool isResting = changes < (isStanding ? kRestingChange : kMovingRestingChange);
   float rest = isMover && isResting ? past.g + stepSeconds : 0.0;
   float maturity = isMover ? past.b : 0.0;
+  if (isMover && maturity <= kMatureSeconds) maturity = maturityAround(cell, size, now, known.rgb);
   if (rest > (maturity > kMatureSeconds ? restSeconds : kTentative)) {
     isMover = false;
     known.a = 0.0;
