@@ -47,11 +47,14 @@ struct MotionLayers::State {
         size(cellsOf(full)),
         compare(library.compute(kShaders + "motion_layers.comp")),
         findGround(library.compute(kShaders + "motion_layers_ground.comp")),
+        findEdges(library.compute(kShaders + "mover_edges.comp")),
         findMotion(library.compute(kShaders + "mover_motion.comp")),
         join(library.compute(kShaders + "motion_layers_join.comp")),
         candidates(TextureFormat::kRgba8, size),
         evidence(TextureFormat::kRgba16f, size),
         ground(TextureFormat::kRgba16f, blocksOf(size)),
+        normals(TextureFormat::kRgba16f, blocksOf(size)),
+        normalMotion(TextureFormat::kRgba16f, blocksOf(size)),
         moverMotion(TextureFormat::kRgba16f, blocksOf(size)),
         tally(kTurns * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
         noIds(TextureFormat::kR32ui, {1, 1}) {
@@ -67,11 +70,14 @@ struct MotionLayers::State {
   hal::FrameSize size;
   gpu::Program compare;
   gpu::Program findGround;
+  gpu::Program findEdges;
   gpu::Program findMotion;
   gpu::Program join;
   gpu::Texture candidates;
   gpu::Texture evidence;
   gpu::Texture ground;
+  gpu::Texture normals;
+  gpu::Texture normalMotion;
   gpu::Texture moverMotion;
   std::array<gpu::Texture, 2> pictures;
   std::array<gpu::Texture, 2> labels;
@@ -154,13 +160,20 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .image("labels", s.labels.at(s.now), ImageAccess::kWrite)
       .image("backgroundNow", s.backgrounds.at(s.now), ImageAccess::kWrite)
       .dispatch(s.cells(), kStored);
-  motion.bindBackward(s.findMotion.use());
-  s.findMotion.texture("labels", s.labels.at(s.now))
+  const glm::ivec2 blocks(s.moverMotion.size().width, s.moverMotion.size().height);
+  motion.bindBackward(s.findEdges.use());
+  s.findEdges.texture("labels", s.labels.at(s.now))
       .set("fullSize", glm::vec2(s.full.width, s.full.height))
       .set("isStanding", motion.isStanding() ? 1 : 0)
       .texture("picture", s.pictures.at(s.now))
+      .image("normals", s.normals, ImageAccess::kWrite)
+      .image("normalMotion", s.normalMotion, ImageAccess::kWrite)
+      .dispatch(blocks, kStored);
+  s.findMotion.use()
+      .texture("normals", s.normals)
+      .texture("normalMotion", s.normalMotion)
       .image("moverMotion", s.moverMotion, ImageAccess::kWrite)
-      .dispatch({s.moverMotion.size().width, s.moverMotion.size().height}, kStored);
+      .dispatch(blocks, kStored);
   s.lastTime = frame.captureTime;
   s.isStanding = s.hasPast && motion.isStanding();
   if (!s.hasPast) s.sinceStanding = kStandingHold;

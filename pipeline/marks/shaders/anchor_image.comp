@@ -28,24 +28,43 @@ uniform uint slots;
 #include "pipeline/marks/shaders/mover_motion.glsl"
 
 const float kOutline = 5.0;       // px around a mover in which its outline may be seen
-const float kPlain = 0.06;        // of luma: less contrast shows no motion
+const float kPlain = 0.006;       // of luma, with kPlainNoise deviations: shows half of a motion
+const float kPlainNoise = 2.0;
 const float kMaxFlowError = 8.0;  // px
 
-// A mover moves as dense flow says: it is not still, and the image's homography is the background's.
-// Its plain parts go with the others.
+// The part of a displacement that the contrast around a place shows: all of it where there is
+// texture, what is across an edge, and none where nothing is seen.
+vec2 seenPart(vec2 displacement, vec2 px) {
+  vec4 corners;
+  for (int i = 0; i < 4; ++i) {
+    vec2 at = px + kReach * (2.0 * vec2(i & 1, i >> 1) - 1.0);
+    corners[i] = lumaOf(textureLod(picture, at / fullSize, 0.0).rgb);
+  }
+  vec2 along = corners.yw - corners.xz;
+  vec2 down = corners.zw - corners.xy;
+  float xx = 0.5 * dot(along, along);
+  float yy = 0.5 * dot(down, down);
+  float xy = 0.25 * (along.x + along.y) * (down.x + down.y);
+  float least = kPlain + kPlainNoise * noise;
+  least *= least;
+  float determinant = (xx + least) * (yy + least) - xy * xy;
+  vec2 seen = vec2(xx * displacement.x + xy * displacement.y, xy * displacement.x + yy * displacement.y);
+  return vec2((yy + least) * seen.x - xy * seen.y, (xx + least) * seen.y - xy * seen.x) / determinant;
+}
+
+// A mover moves as dense flow says where its texture shows it: it is not still, and the image's
+// homography is the background's. Its plain parts, and those along an edge, go with the others.
 Moved moverMotionAt(vec2 px, float object) {
   Moved flowed = byFlow(px);
-  vec2 now = px + flowed.displacement;
-  Looks there = looksAt(picture, 1.0 / fullSize, now);
-  bool isPlain = there.high.x - there.low.x < kPlain + kNoiseSlack * noise;
   bool isKnown = flowed.error < kMaxFlowError;
   vec2 own;
-  if ((isPlain || !isKnown) && findMoverMotion(now, own)) {
-    const float kError = 1.0;  // px
-    vec2 background = restsWithCamera ? vec2(0.0) : byPicture(px, false).displacement;
-    return Moved(background + own, kNoTurn, kError, kSourceFlow);
+  if (!findMoverMotion(px + flowed.displacement, own)) {
+    return isKnown ? flowed : imageMotionAt(px, object, false);
   }
-  return isKnown ? flowed : imageMotionAt(px, object, false);
+  const float kError = 1.0;  // px
+  if (!restsWithCamera) own += byPicture(px, false).displacement;
+  if (isKnown) own += seenPart(flowed.displacement - own, px + own);
+  return Moved(own, flowed.jacobian, kError, kSourceFlow);
 }
 
 // The background moves as one; a mover's motion must not carry it along.
@@ -98,7 +117,7 @@ void main() {
       isOther = isUnlikeBackground(looks, px);
     } else {
       looks = remembered(looks, px, !isOnMover && nearestMover(px, kOutline) > 0.1);
-      isHidden = isMismatch(looks, (state & kHidden) != 0u);
+      isHidden = isMismatch(looks, (state & kHidden) != 0u) || (isOnMover && isUnlike(looks));
       if (isOnMover && mover.r < 0.35) {
         // It has joined the background, or has left the anchor behind.
         isOnMover = false;

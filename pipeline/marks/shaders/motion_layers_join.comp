@@ -55,16 +55,21 @@ vec4 surroundings(ivec2 cell) {
 // How long the parts of the same mover beside the cell have been seen to move: those whose colours
 // are rather its own than the background's.
 float maturityAround(ivec2 cell, ivec2 size, vec3 now, vec3 known) {
+  const int kLeastSame = 3;  // of the nine: a straight border's
   float unlike = apart(now, known);
   float most = 0.0;
+  int same = 0;
   for (int y = -1; y <= 1; ++y) {
     for (int x = -1; x <= 1; ++x) {
       ivec2 at = clamp(cell + 2 * ivec2(x, y), ivec2(0), size - 1);
-      bool isSame = apart(texelFetch(picture, at, 0).rgb, now) < kLikeMover * unlike;
-      if (isSame) most = max(most, texelFetch(evidence, at, 0).b);
+      float there = texelFetch(evidence, at, 0).b;
+      if (there <= kMatureSeconds) continue;
+      if (apart(texelFetch(picture, at, 0).rgb, now) > kLikeMover * unlike) continue;
+      most = max(most, there);
+      ++same;
     }
   }
-  return most;
+  return same < kLeastSame ? 0.0 : most;
 }
 
 // Whether other content around the cell is like its surroundings, and what was remembered there is
@@ -142,7 +147,7 @@ void main() {
   bool isResting = changes < (isStanding ? kRestingChange : kMovingRestingChange);
   float rest = isMover && isResting ? past.g + stepSeconds : 0.0;
   float maturity = isMover ? past.b : 0.0;
-  if (isMover && maturity <= kMatureSeconds) maturity = maturityAround(cell, size, now, known.rgb);
+  if (isMover && maturity <= kMatureSeconds) maturity = max(maturity, maturityAround(cell, size, now, known.rgb));
   if (rest > (maturity > kMatureSeconds ? restSeconds : kTentative)) {
     isMover = false;
     known.a = 0.0;

@@ -1,49 +1,60 @@
-// Purpose: the motion of movers, in blocks of cells: where a mover has texture, dense flow is right;
-//          its plain parts go with those around (mover_motion.glsl).
-// Inputs:  labels, picture: this frame's, in cells; motion_layers.glsl's, flow backward.
+// Purpose: the motion of movers, in blocks of cells: that which agrees best with the edges around
+//          (Lucas and Kanade, "An iterative image registration technique", 1981), in a window that
+//          grows until they have more than one direction.
+// Inputs:  normals, normalMotion (mover_edges.comp).
 // Outputs: moverMotion RGBA16F: displacement since the previous frame, less the background's (px of
-//          the full image), times weight, and the weight. One invocation per block of kLayerBlock²
-//          cells.
+//          the full image), times weight, and the weight, 0 where no mover is near. One invocation
+//          per block.
 // Precision: highp.
-#include "pipeline/gpu/shaders/luma.glsl"
-#include "pipeline/marks/shaders/layer_blocks.glsl"
-#include "pipeline/marks/shaders/motion_layers.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba16f, binding = 0) writeonly uniform highp image2D moverMotion;
-uniform highp sampler2D labels;
-uniform highp sampler2D picture;
+uniform highp sampler2D normals;
+uniform highp sampler2D normalMotion;
 
-const int kStep = 2;  // cells
-const float kMaxError = 3.0;  // px
-const vec2 kTexture = vec2(0.03, 0.1);  // luma: from no texture to enough of it
+const float kEnough = 12.0;   // the smaller eigenvalue: some edges of both directions
+const float kBalance = 0.1;  // of the larger one
+const float kLeast = 0.5;     // of their sum
+
+// The eigenvalues of the matrix (xx, xy, yy), the larger one first.
+vec2 eigenvaluesOf(vec3 m) {
+  float middle = 0.5 * (m.x + m.z);
+  float spread = sqrt(max(0.25 * (m.x - m.z) * (m.x - m.z) + m.y * m.y, 0.0));
+  return vec2(middle + spread, middle - spread);
+}
 
 void main() {
   ivec2 block = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(block, imageSize(moverMotion)))) return;
-  ivec2 first = block * kLayerBlock;
-  ivec2 size = textureSize(labels, 0);
-  vec3 sum = vec3(0.0);
-  for (int y = 0; y < kLayerBlock; y += kStep) {
-    for (int x = 0; x < kLayerBlock; x += kStep) {
-      ivec2 cell = first + ivec2(x, y);
-      if (any(greaterThanEqual(cell, size))) continue;
-      if (texelFetch(labels, cell, 0).r < 0.5) continue;
-      float low = 1.0;
-      float high = 0.0;
-      for (int i = 0; i < 4; ++i) {
-        ivec2 at = clamp(cell + 2 * ivec2(i & 1, i >> 1) - 1, ivec2(0), size - 1);
-        float luma = lumaOf(texelFetch(picture, at, 0).rgb);
-        low = min(low, luma);
-        high = max(high, luma);
+  ivec2 size = imageSize(moverMotion);
+  if (any(greaterThanEqual(block, size))) return;
+  vec3 matrix = vec3(0.0);
+  vec2 moved = vec2(0.0);
+  vec2 values = vec2(0.0);
+  for (int radius = 1; radius <= 8; radius *= 2) {
+    matrix = vec3(0.0);
+    moved = vec2(0.0);
+    float fall = 1.0 / float(radius * radius);
+    for (int y = -radius; y <= radius; ++y) {
+      for (int x = -radius; x <= radius; ++x) {
+        ivec2 at = block + ivec2(x, y);
+        if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size))) continue;
+        float weight = exp(-fall * float(x * x + y * y));
+        matrix += weight * texelFetch(normals, at, 0).xyz;
+        moved += weight * texelFetch(normalMotion, at, 0).xy;
       }
-      float weight = smoothstep(kTexture.x, kTexture.y, high - low);
-      if (weight <= 0.0) continue;
-      vec2 px = (vec2(cell) + 0.5) * kLayerCellPixels;
-      Moved flowed = byFlow(px);
-      if (flowed.error > kMaxError) continue;
-      vec2 displacement = -flowed.displacement - backgroundShift(px);
-      sum += weight / (0.25 + flowed.error * flowed.error) * vec3(displacement, 1.0);
     }
+    values = eigenvaluesOf(matrix);
+    if (values.y > max(kEnough, kBalance * values.x)) break;
   }
-  imageStore(moverMotion, block, vec4(sum, 0.0));
+  float sum = values.x + values.y;
+  if (sum < kLeast) {
+    imageStore(moverMotion, block, vec4(0.0));
+    return;
+  }
+  // Where only one direction is seen, the other one stays near 0.
+  matrix += vec3(1.0, 0.0, 1.0) * 0.01 * sum;
+  float determinant = matrix.x * matrix.z - matrix.y * matrix.y;
+  vec2 displacement = vec2(matrix.z * moved.x - matrix.y * moved.y,
+                           matrix.x * moved.y - matrix.y * moved.x) / determinant;
+  float weight = min(values.y / kEnough, 1.0) + 1e-2;
+  imageStore(moverMotion, block, vec4(weight * vec3(displacement, 1.0), 0.0));
 }
