@@ -7,7 +7,6 @@
 #include <opencv2/core.hpp>
 
 #include "hal/clock.h"
-#include "pipeline/measure/gates.h"
 #include "pipeline/measure/mean.h"
 
 namespace pleinair::measure {
@@ -61,11 +60,5 @@ class LabelMeasures {
   cv::Mat1b lastLabels_;
   cv::Mat1b lastFar_;
 };
-
-/// The gates of labels, of a sequence and of a still scene (percent of flips).
-std::vector<Verdict> labelVerdicts(const std::optional<LabelSummary>& labels,
-                                   std::optional<double> stillFlipsPercent);
-/// Whether the control reads as it must.
-std::vector<Verdict> labelControlVerdicts(const LabelSummary& labels);
 
 }  // namespace pleinair::measure

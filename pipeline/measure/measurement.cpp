@@ -12,6 +12,7 @@
 
 #include "pipeline/measure/input/picture.h"
 #include "pipeline/measure/measurement_report.h"
+#include "pipeline/measure/mover_gates.h"
 #include "pipeline/measure/sequence_measures.h"
 
 namespace pleinair::measure {

@@ -8,7 +8,6 @@
 
 #include "hal/clock.h"
 #include "hal/image.h"
-#include "pipeline/measure/gates.h"
 #include "pipeline/measure/mover_motion.h"
 
 namespace pleinair::measure {
@@ -70,10 +69,5 @@ class MoverMeasures {
   std::vector<cv::Mat1b> trueMovers_;
   std::optional<MoverMotion> motion_;  ///< of true movers
 };
-
-/// The gates of movers. `isOnPaper`: on bare paper, LOST says nothing.
-std::vector<Verdict> moverVerdicts(const MoverReport& movers, bool isOnPaper);
-/// Whether the controls read as they must.
-std::vector<Verdict> moverControlVerdicts(const MoverReport& movers);
 
 }  // namespace pleinair::measure

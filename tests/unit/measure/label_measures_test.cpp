@@ -7,6 +7,8 @@
 
 #include <gmock/gmock.h>
 
+#include "pipeline/measure/mover_gates.h"
+
 namespace pleinair::measure {
 namespace {
 
