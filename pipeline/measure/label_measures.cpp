@@ -56,7 +56,7 @@ void LabelMeasures::add(std::uint64_t frame, hal::TimePoint time, const cv::Mat1
   lastIou_.reset();
   if (isNoticeable(mover)) {
     overlap(frame, labels, mover);
-    displacedIou_ += {iouOf(inCells(laidWrong(truth), labels.size()), mover), 1.0};
+    displacedIou_ += {iouOf(inCells(displaced(truth), labels.size()), mover), 1.0};
   }
   detect(frame, time, labels, mover);
   compareWithLast(labels, mover);

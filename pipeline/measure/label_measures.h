@@ -28,7 +28,7 @@ struct LabelSummary {
   /// The share of places away from movers whose label changes from one frame to the next, percent.
   std::optional<double> flipsPercent;
   bool hasMovers = false;
-  /// Mean IoU of the true masks under masks that are laid wrong by 20 px: a negative control.
+  /// Mean IoU of the true masks with the same displaced (mover_masks.h): a negative control.
   std::optional<double> displacedIou;
 };
 

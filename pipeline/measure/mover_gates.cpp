@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/measure/mover_masks.h"
+
 namespace pleinair::measure {
 namespace {
 
@@ -58,16 +60,18 @@ constexpr Limit kMoverPopLimit{"MOVER POP", " %", kMaxMoverPopPercent, kNothingF
 constexpr Limit kSeamPopLimit{"SEAM POP", " %", kMaxSeamPopPercent, kNothingFollowed};
 constexpr Limit kAveragingLost{"LOST of a painter that averages over 0.65 s", " %", kMaxLostPercent,
                                kNoClearMover, false};
+
+static_assert(kDisplacementPixels == 20, "the names of these controls say it");
 constexpr Limit kDisplacedStill{
-    "the input's pixels that change more under masks laid wrong by 20 px", " %", kMaxStillPercent,
+    "the input's pixels that change more under masks displaced by 20 px", " %", kMaxStillPercent,
     kNoMover, false};
+constexpr Limit kDisplacedIouLimit{"IoU of masks displaced by 20 px", "", kMaxDisplacedIou,
+                                   "no mover of noticeable size"};
 
 constexpr Limit kFlipsLimit{"labels that flip where nothing moves", " %", kMaxFlipsPercent,
                             "fewer than two frames"};
 constexpr Limit kStillFlipsLimit{"labels that flip on the still scene", " %", kMaxFlipsPercent,
                                  "no still scene"};
-constexpr Limit kDisplacedIouLimit{"IoU of masks laid wrong by 20 px", "", kMaxDisplacedIou,
-                                   "no mover of noticeable size"};
 
 /// Half of the limit is left to the painting: a motion along which the input itself reads more says
 /// nothing about the marks.

@@ -102,10 +102,10 @@ cv::Mat1b eroded(const cv::Mat1b& mask, int radius) {
   return smaller;
 }
 
-cv::Mat1b laidWrong(const cv::Mat1b& mask) {
+cv::Mat1b displaced(const cv::Mat1b& mask) {
   cv::Mat1b moved(mask.size(), 0);
-  const cv::Rect from(0, 0, mask.cols - kWrongPixels, mask.rows - kWrongPixels);
-  mask(from).copyTo(moved(from + cv::Point(kWrongPixels, kWrongPixels)));
+  const cv::Rect from(0, 0, mask.cols - kDisplacementPixels, mask.rows - kDisplacementPixels);
+  mask(from).copyTo(moved(from + cv::Point(kDisplacementPixels, kDisplacementPixels)));
   return moved;
 }
 

@@ -27,10 +27,10 @@ cv::Mat1b grown(const cv::Mat1b& mask, int radius);
 /// The masked area without what is within `radius` px of its border.
 cv::Mat1b eroded(const cv::Mat1b& mask, int radius);
 
-/// By which laidWrong() moves a mask to the right and down, px.
-inline constexpr int kWrongPixels = 20;
+/// By which displaced() moves a mask to the right and down.
+inline constexpr int kDisplacementPixels = 20;
 /// A mask that misses its mover: the negative control of masks.
-cv::Mat1b laidWrong(const cv::Mat1b& mask);
+cv::Mat1b displaced(const cv::Mat1b& mask);
 
 /// The masked share of the pixels within the frame's border.
 Mean shareWithinBorder(const cv::Mat1b& mask);

@@ -117,28 +117,29 @@ std::optional<MoverReport> MoverMeasures::total() const {
   const std::vector<cv::Mat1b> movers = areTrue ? trueMovers_ : findMovers(inputs_);
   PaintingRegions painting(size);
   PaintingRegions averaging(size);
-  StillRegion placed;  // of the input
-  StillRegion displaced;
+  StillRegion still;  // of the input
+  StillRegion displacedStill;
   AveragingPainter average;
   for (std::size_t t = 0; t < inputs_.size(); ++t) {
     const cv::Mat3b& input = inputs_[t];
     const cv::Mat3b averaged = average.paint(times_[t], input);
     const MoverZones zones(movers[t]);
-    const MoverZones wrong(laidWrong(movers[t]));
+    const MoverZones displacedZones(displaced(movers[t]));
     painting.add({.time = times_[t], .input = input, .output = outputs_[t], .zones = zones});
     averaging.add({.time = times_[t], .input = input, .output = averaged, .zones = zones});
-    placed.add({.time = times_[t], .input = input, .output = input, .zones = zones});
-    displaced.add({.time = times_[t], .input = input, .output = input, .zones = wrong});
+    still.add({.time = times_[t], .input = input, .output = input, .zones = zones});
+    displacedStill.add(
+        {.time = times_[t], .input = input, .output = input, .zones = displacedZones});
   }
   const MoverMotion motion = areTrue ? *motion_ : alongDenseMotion(inputs_, outputs_, movers);
   MoverReport report{.areMasksTrue = areTrue,
                      .painting = painting.summary(),
                      .alongMotion = {},
                      .averaging = averaging.summary(),
-                     .displacedStillPercent = displaced.inputPercent()};
+                     .displacedStillPercent = displacedStill.inputPercent()};
   // Noise alone changes pixels beside movers, too.
   if (report.displacedStillPercent) {
-    *report.displacedStillPercent -= placed.inputPercent().value_or(0);
+    *report.displacedStillPercent -= still.inputPercent().value_or(0);
   }
   for (const Subject subject : kAllSubjects) report.alongMotion[subject] = motion.of(subject);
   if (report.painting.coveredPercent == 0) report.displacedStillPercent.reset();

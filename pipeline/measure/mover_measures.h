@@ -36,8 +36,8 @@ struct MoverReport {
   PerSubject<MoverMotionSummary> alongMotion;
   /// A painter that averages its input over the time constant of strokes, and so leaves trails.
   MoverSummary averaging;
-  /// By how much more of the input's own pixels change away from movers under masks that are laid
-  /// wrong by 20 px than under the right ones: movers are then beside them.
+  /// By how much more of the input's own pixels change away from movers under displaced masks
+  /// (mover_masks.h) than under the right ones: movers are then beside them.
   std::optional<double> displacedStillPercent;
 };
 
