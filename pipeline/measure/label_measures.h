@@ -40,7 +40,7 @@ class LabelMeasures {
   void add(std::uint64_t frame, hal::TimePoint time, const cv::Mat1b& labels,
            const cv::Mat1b& truth);
   LabelSummary total() const;
-  /// Of the last frame; nothing where no mover of noticeable size was seen.
+  /// The IoU of the last frame; nothing where it showed no mover of noticeable size.
   std::optional<double> lastIou() const { return lastIou_; }
 
  private:

@@ -57,7 +57,7 @@ class MoverMeasures {
  public:
   /// Takes the next frame. Precondition: masks are given for all frames or for none.
   void add(const MoverObservation& frame);
-  /// Of the last frame. Precondition: masks are given.
+  /// The mask of the last frame. Precondition: masks are given.
   const cv::Mat1b& lastTrueMovers() const { return trueMovers_.back(); }
   /// Nothing if there are fewer than two frames.
   std::optional<MoverReport> total() const;
