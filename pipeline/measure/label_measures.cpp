@@ -4,15 +4,16 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "pipeline/marks/motion_layers.h"
 #include "pipeline/measure/mover_masks.h"
 
 namespace pleinair::measure {
 namespace {
 
-constexpr int kCell = 2;                    // px of a label
+constexpr int kCell = marks::MotionLayers::kCellPixels;
 constexpr double kNoticeableShare = 0.003;  // of the frame
 constexpr double kFoundShare = 0.5;         // of a mover
-constexpr int kFarCells = 8;
+constexpr int kFarCells = kFarPixels / kCell;
 
 /// The mask in cells: 255 where at least half of a cell is masked.
 cv::Mat1b inCells(const cv::Mat1b& mask, cv::Size cells) {

@@ -35,6 +35,9 @@ cv::Mat1b displaced(const cv::Mat1b& mask);
 /// The masked share of the pixels within the frame's border.
 Mean shareWithinBorder(const cv::Mat1b& mask);
 
+/// A mover changes nothing beyond this distance.
+inline constexpr int kFarPixels = 16;
+
 /// The parts of a frame around its movers.
 struct MoverZones {
   explicit MoverZones(const cv::Mat1b& movers);
@@ -43,7 +46,7 @@ struct MoverZones {
   cv::Mat1b within;  ///< the mover without 2 px along its border: surely the mover
   cv::Mat1b close;   ///< the mover and 3 px around it: a place outside counts as left
   cv::Mat1b near;    ///< the mover and 12 px around it: a place outside shows the ground
-  cv::Mat1b far;     ///< the mover and 16 px around it: the mover changes nothing outside
+  cv::Mat1b far;     ///< the mover and kFarPixels around it
 };
 
 }  // namespace pleinair::measure
