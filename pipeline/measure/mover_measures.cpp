@@ -1,8 +1,7 @@
 #include "pipeline/measure/mover_measures.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <cstddef>
 
 #include <opencv2/imgproc.hpp>
 
@@ -16,16 +15,6 @@ namespace pleinair::measure {
 namespace {
 
 constexpr double kAveragingSeconds = 0.65;
-
-cv::Mat3b copyOf(const hal::Image& image) {
-  cv::Mat3b copy(image.size().height, image.size().width);
-  const hal::ImageView view = image.view();
-  for (int y = 0; y < copy.rows; ++y) {
-    const auto row = view.row(0, y);
-    std::copy_n(row.data(), static_cast<std::size_t>(copy.cols) * 3, copy.ptr<std::uint8_t>(y));
-  }
-  return copy;
-}
 
 /// Paints the average of the input over the time constant of strokes: a negative control.
 class AveragingPainter {
@@ -101,8 +90,8 @@ MoverMotion alongDenseMotion(const std::vector<cv::Mat3b>& inputs,
 
 void MoverMeasures::add(const MoverObservation& frame) {
   times_.push_back(frame.time);
-  inputs_.push_back(copyOf(frame.input));
-  outputs_.push_back(copyOf(frame.output));
+  inputs_.emplace_back(toLevels(frame.input.view()));
+  outputs_.emplace_back(toLevels(frame.output.view()));
   if (frame.trueMovers.empty()) return;
   trueMovers_.push_back(frame.trueMovers);
   if (!motion_) motion_.emplace(frame.trueMovers.size());
