@@ -10,6 +10,7 @@
 
 #include "pipeline/gpu/program.h"
 #include "pipeline/marks/fading_past.h"
+#include "pipeline/marks/layer_textures.h"
 #include "pipeline/scene/description/scene.h"
 #include "pipeline/scene/render/scene_uniforms.h"
 

@@ -28,7 +28,6 @@ static_assert(static_cast<int>(MotionSource::kPlane) ==
               static_cast<int>(scene::SurfaceMotionSource::kPlane));
 
 const std::string kShaders = "pipeline/marks/shaders/";
-constexpr double kUsualNoise = 2.0;  // levels, where it was not measured
 
 /// Same layout as in shaders/image_motion.glsl.
 struct GpuFeature {
@@ -127,7 +126,7 @@ struct MotionField::State {
   bool isCut = true;
   bool follows = true;
   bool isStanding = false;
-  double noiseLevels = kUsualNoise;
+  double noiseLevels = tracking::kUsualNoiseLevels;
 
   void takePicture(const scene::MeasuredMotion& movement, GpuMotion& made);
   void takeFeatures(const scene::MeasuredMotion& movement, GpuMotion& made);
@@ -248,7 +247,7 @@ void MotionField::update(const scene::ArFrame& frame, const MotionFieldOptions& 
   scene::MeasuredMotion movement = frame.measuredMotion.value_or(scene::MeasuredMotion{});
   const bool follows = s.last && (!movement.motion || movement.motion->sinceSequence == *s.last);
   const bool isNoiseKnown = movement.motion != nullptr && movement.motion->noiseLevels > 0.0;
-  s.noiseLevels = isNoiseKnown ? movement.motion->noiseLevels : kUsualNoise;
+  s.noiseLevels = isNoiseKnown ? movement.motion->noiseLevels : tracking::kUsualNoiseLevels;
   s.isCut = !follows || (movement.motion != nullptr && movement.motion->isCut);
   if (s.isCut || movement.motion == nullptr) movement.motion = &kNothing;
   if (!options.follows && !s.isCut) movement.motion = &kRest;

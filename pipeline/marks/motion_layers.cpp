@@ -222,21 +222,4 @@ void MotionLayers::reset() {
   state_->hasPast = false;
 }
 
-LayerTextures::LayerTextures() : none_(TextureFormat::kRgba16f, {1, 1}, TextureFilter::kLinear) {
-  constexpr std::size_t kTexelBytes = 8;
-  none_.upload(std::vector<std::uint8_t>(kTexelBytes), kTexelBytes);
-}
-
-const gpu::Texture& LayerTextures::labelsOf(const MotionLayers* layers) const {
-  return layers != nullptr ? layers->labels() : none_;
-}
-
-const gpu::Texture& LayerTextures::backgroundOf(const MotionLayers* layers) const {
-  return layers != nullptr ? layers->background() : none_;
-}
-
-const gpu::Texture& LayerTextures::moverMotionOf(const MotionLayers* layers) const {
-  return layers != nullptr ? layers->moverMotion() : none_;
-}
-
 }  // namespace pleinair::marks

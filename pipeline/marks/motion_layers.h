@@ -24,8 +24,8 @@ struct MotionLayersOptions {
 /// at its last place. Changes of light that leave edges where they are make no mover, nor does a
 /// change of more than half of the image. What a mover uncovers for the first time is background
 /// as soon as it rests, if the camera stands and it is like its surroundings, else like any other
-/// mover. (Background
-/// subtraction with a running mean: Piccardi, "Background subtraction techniques: a review", 2004.)
+/// mover. (Background subtraction with a running mean: Piccardi, "Background subtraction
+/// techniques: a review", 2004.)
 ///
 /// A mover's plain parts go with its textured ones. One mover is not told from another. Under
 /// parallax, near things may count as movers. All calls on the thread of the GL context that was
@@ -75,24 +75,6 @@ class MotionLayers {
  private:
   struct State;
   std::unique_ptr<State> state_;
-};
-
-/// The textures to bind for MotionLayers that may be absent: without layers, nothing is a mover and
-/// the background was never seen. All calls on the thread of the GL context that was current at
-/// construction.
-class LayerTextures {
- public:
-  /// Throws hal::Failure if GPU memory runs out.
-  LayerTextures();
-
-  /// MotionLayers::labels(), background() and moverMotion(). They belong to `layers`, or to this if
-  /// that is null.
-  const gpu::Texture& labelsOf(const MotionLayers* layers) const;
-  const gpu::Texture& backgroundOf(const MotionLayers* layers) const;
-  const gpu::Texture& moverMotionOf(const MotionLayers* layers) const;
-
- private:
-  gpu::Texture none_;
 };
 
 }  // namespace pleinair::marks

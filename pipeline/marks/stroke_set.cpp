@@ -9,6 +9,7 @@
 
 #include "pipeline/gpu/program.h"
 #include "pipeline/marks/fading_past.h"
+#include "pipeline/marks/layer_textures.h"
 
 namespace pleinair::marks {
 namespace {

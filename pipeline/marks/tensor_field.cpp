@@ -13,6 +13,7 @@
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/marks/fading_past.h"
+#include "pipeline/marks/layer_textures.h"
 
 namespace pleinair::marks {
 namespace {

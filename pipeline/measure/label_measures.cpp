@@ -1,24 +1,19 @@
 #include "pipeline/measure/label_measures.h"
 
-#include <algorithm>
 #include <cassert>
-#include <chrono>
 
-#include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
+#include "pipeline/marks/motion_layers.h"
 #include "pipeline/measure/mover_masks.h"
 
 namespace pleinair::measure {
 namespace {
 
-constexpr int kCell = 2;                    // px of a label
+constexpr int kCell = marks::MotionLayers::kCellPixels;
 constexpr double kNoticeableShare = 0.003;  // of the frame
 constexpr double kFoundShare = 0.5;         // of a mover
-constexpr int kFarCells = 8;
-constexpr std::uint64_t kDetectionFrames = 3;
-constexpr hal::Duration kDetectionTime = std::chrono::milliseconds(100);
-constexpr double kMaxDisplacedIou = 0.8;
+constexpr int kFarCells = kFarPixels / kCell;
 
 /// The mask in cells: 255 where at least half of a cell is masked.
 cv::Mat1b inCells(const cv::Mat1b& mask, cv::Size cells) {
@@ -52,11 +47,6 @@ bool isNoticeable(const cv::Mat1b& truth) {
   return countOf(truth) >= kNoticeableShare * static_cast<double>(truth.total());
 }
 
-bool isLate(const Detection& detection) {
-  return !detection.isFound ||
-         (detection.frames > kDetectionFrames && detection.time > kDetectionTime);
-}
-
 }  // namespace
 
 void LabelMeasures::add(std::uint64_t frame, hal::TimePoint time, const cv::Mat1b& labels,
@@ -67,7 +57,7 @@ void LabelMeasures::add(std::uint64_t frame, hal::TimePoint time, const cv::Mat1
   lastIou_.reset();
   if (isNoticeable(mover)) {
     overlap(frame, labels, mover);
-    displacedIou_ += {iouOf(inCells(laidWrong(truth), labels.size()), mover), 1.0};
+    displacedIou_ += {iouOf(inCells(displaced(truth), labels.size()), mover), 1.0};
   }
   detect(frame, time, labels, mover);
   compareWithLast(labels, mover);
@@ -120,60 +110,6 @@ LabelSummary LabelMeasures::total() const {
   summary.flipsPercent = percentOf(flips_);
   summary.displacedIou = displacedIou_.value();
   return summary;
-}
-
-namespace {
-
-Verdict judged(std::string what, std::string missing, std::optional<double> value, double limit) {
-  Verdict verdict{
-      .what = std::move(what),
-      .found = std::move(missing),
-      .comparison = Verdict::Comparison{.value = value, .limit = limit, .isUpperLimit = true}};
-  if (!value) return verdict;
-  verdict.state = *value <= limit ? Verdict::State::kPassed : Verdict::State::kFailed;
-  verdict.found = fmt::format("{:.3g}", *value);
-  return verdict;
-}
-
-Verdict detectionVerdict(const std::vector<Detection>& detections) {
-  const auto slowest = std::ranges::max_element(
-      detections, {}, [](const Detection& each) { return std::pair(isLate(each), each.frames); });
-  Verdict verdict{
-      .what = fmt::format("frames until a new mover is labelled ≤ {}, or 100 ms", kDetectionFrames),
-      .found = "no mover came while the scene was empty",
-      .comparison =
-          Verdict::Comparison{.value = {}, .limit = static_cast<double>(kDetectionFrames)}};
-  if (slowest == detections.end()) return verdict;
-  verdict.comparison->value = static_cast<double>(slowest->frames);
-  verdict.state = isLate(*slowest) ? Verdict::State::kFailed : Verdict::State::kPassed;
-  verdict.found = slowest->isFound
-                      ? fmt::format("{} frames, {:.0f} ms", slowest->frames,
-                                    1000 * hal::toSeconds(slowest->time))
-                      : fmt::format("the one that came in frame {} was never", slowest->frame);
-  return verdict;
-}
-
-}  // namespace
-
-std::vector<Verdict> labelVerdicts(const std::optional<LabelSummary>& labels,
-                                   std::optional<double> stillFlipsPercent) {
-  std::vector<Verdict> verdicts;
-  if (labels && labels->hasMovers) verdicts.push_back(detectionVerdict(labels->detections));
-  if (labels && !labels->hasMovers) {
-    verdicts.push_back(judged("labels that flip where nothing moves ≤ 0 %", "fewer than two frames",
-                              labels->flipsPercent, 0));
-  }
-  verdicts.push_back(
-      judged("labels that flip on the still scene ≤ 0 %", "no still scene", stillFlipsPercent, 0));
-  return verdicts;
-}
-
-std::vector<Verdict> labelControlVerdicts(const LabelSummary& labels) {
-  if (!labels.hasMovers) return {};
-  Verdict verdict =
-      judged(fmt::format("IoU of masks laid wrong by {} px ≤ {:g}", kWrongPixels, kMaxDisplacedIou),
-             "no mover of noticeable size", labels.displacedIou, kMaxDisplacedIou);
-  return {verdict};
 }
 
 }  // namespace pleinair::measure

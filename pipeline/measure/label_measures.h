@@ -7,7 +7,6 @@
 #include <opencv2/core.hpp>
 
 #include "hal/clock.h"
-#include "pipeline/measure/gates.h"
 #include "pipeline/measure/mean.h"
 
 namespace pleinair::measure {
@@ -29,7 +28,7 @@ struct LabelSummary {
   /// The share of places away from movers whose label changes from one frame to the next, percent.
   std::optional<double> flipsPercent;
   bool hasMovers = false;
-  /// Mean IoU of the true masks under masks that are laid wrong by 20 px: a negative control.
+  /// Mean IoU of the true masks with the same displaced (mover_masks.h): a negative control.
   std::optional<double> displacedIou;
 };
 
@@ -41,7 +40,7 @@ class LabelMeasures {
   void add(std::uint64_t frame, hal::TimePoint time, const cv::Mat1b& labels,
            const cv::Mat1b& truth);
   LabelSummary total() const;
-  /// Of the last frame; nothing where no mover of noticeable size was seen.
+  /// The IoU of the last frame; nothing where it showed no mover of noticeable size.
   std::optional<double> lastIou() const { return lastIou_; }
 
  private:
@@ -61,11 +60,5 @@ class LabelMeasures {
   cv::Mat1b lastLabels_;
   cv::Mat1b lastFar_;
 };
-
-/// The gates of labels, of a sequence and of a still scene (percent of flips).
-std::vector<Verdict> labelVerdicts(const std::optional<LabelSummary>& labels,
-                                   std::optional<double> stillFlipsPercent);
-/// Whether the control reads as it must.
-std::vector<Verdict> labelControlVerdicts(const LabelSummary& labels);
 
 }  // namespace pleinair::measure

@@ -12,6 +12,7 @@
 
 #include "pipeline/measure/input/picture.h"
 #include "pipeline/measure/measurement_report.h"
+#include "pipeline/measure/mover_gates.h"
 #include "pipeline/measure/sequence_measures.h"
 
 namespace pleinair::measure {
@@ -85,14 +86,6 @@ void WorstFrames::offer(std::uint64_t frame, double ew2, const cv::Mat3f& input,
                      .difference = toImage(stronger),
                      .differenceGain = gain});
   std::ranges::sort(frames_, std::greater<>(), &WorstFrame::ew2);
-}
-
-/// A copy. Precondition: the image is grey.
-cv::Mat1b greyOf(const hal::Image& image) {
-  cv::Mat1b copy(image.size().height, image.size().width);
-  const hal::ImageView view = image.view();
-  for (int y = 0; y < copy.rows; ++y) std::ranges::copy(view.row(0, y), copy.ptr(y));
-  return copy;
 }
 
 /// One measurement, from the first frame to the report.
@@ -179,7 +172,7 @@ class Measurement {
                  .trueMotion = truth == nullptr ? nullptr : sequence_->lastMotion()});
     if (truth == nullptr || !painted.movers) return;
     if (!labels_) labels_.emplace();
-    labels_->add(index, time, greyOf(*painted.movers), movers_.lastTrueMovers());
+    labels_->add(index, time, toLevels(painted.movers->view()), movers_.lastTrueMovers());
     report_.overTime.back().labelIou = labels_->lastIou();
   }
 
@@ -215,7 +208,7 @@ class Measurement {
         if (!painted->anchors.empty()) anchors.add(painted->anchors, nullptr, nullptr);
         if (options_.isStanding && painted->movers) {
           const cv::Mat1b nothingMoves(still_.size(), 0);
-          labels.add(i, time, greyOf(*painted->movers), nothingMoves);
+          labels.add(i, time, toLevels(painted->movers->view()), nothingMoves);
         }
       }
       if (!options_.goesOn()) return Progress::kAborted;

@@ -53,7 +53,7 @@ struct Report {
   std::optional<AnchorSummary> inside;       ///< of the moving sequence
   std::optional<AnchorSummary> insideStill;  ///< of the still scene
   std::optional<MoverReport> movers;         ///< if the camera stands
-  /// Of the painter's labels of movers, if the camera stands and it has any.
+  // The painter's labels of movers are judged if the camera stands and the painter has any.
   std::optional<LabelSummary> labels;              ///< where true masks are known
   std::optional<double> labelFlipsOnStillPercent;  ///< of the still scene
   std::vector<FrameValues> overTime;

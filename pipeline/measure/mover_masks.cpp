@@ -18,7 +18,6 @@ constexpr int kSmallest = 60;  // px of a mover
 constexpr int kWithin = 2;
 constexpr int kClose = 3;
 constexpr int kNear = 12;
-constexpr int kFar = 16;
 
 cv::Mat diskOf(int radius) {
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
@@ -102,10 +101,10 @@ cv::Mat1b eroded(const cv::Mat1b& mask, int radius) {
   return smaller;
 }
 
-cv::Mat1b laidWrong(const cv::Mat1b& mask) {
+cv::Mat1b displaced(const cv::Mat1b& mask) {
   cv::Mat1b moved(mask.size(), 0);
-  const cv::Rect from(0, 0, mask.cols - kWrongPixels, mask.rows - kWrongPixels);
-  mask(from).copyTo(moved(from + cv::Point(kWrongPixels, kWrongPixels)));
+  const cv::Rect from(0, 0, mask.cols - kDisplacementPixels, mask.rows - kDisplacementPixels);
+  mask(from).copyTo(moved(from + cv::Point(kDisplacementPixels, kDisplacementPixels)));
   return moved;
 }
 
@@ -119,6 +118,6 @@ MoverZones::MoverZones(const cv::Mat1b& movers)
       within(eroded(movers, kWithin)),
       close(grown(movers, kClose)),
       near(grown(movers, kNear)),
-      far(grown(movers, kFar)) {}
+      far(grown(movers, kFarPixels)) {}
 
 }  // namespace pleinair::measure

@@ -8,7 +8,6 @@
 
 #include "hal/clock.h"
 #include "hal/image.h"
-#include "pipeline/measure/gates.h"
 #include "pipeline/measure/mover_motion.h"
 
 namespace pleinair::measure {
@@ -37,8 +36,8 @@ struct MoverReport {
   PerSubject<MoverMotionSummary> alongMotion;
   /// A painter that averages its input over the time constant of strokes, and so leaves trails.
   MoverSummary averaging;
-  /// By how much more of the input's own pixels change away from movers under masks that are laid
-  /// wrong by 20 px than under the right ones: movers are then beside them.
+  /// By how much more of the input's own pixels change away from movers under displaced masks
+  /// (mover_masks.h) than under the right ones: movers are then beside them.
   std::optional<double> displacedStillPercent;
 };
 
@@ -58,7 +57,7 @@ class MoverMeasures {
  public:
   /// Takes the next frame. Precondition: masks are given for all frames or for none.
   void add(const MoverObservation& frame);
-  /// Of the last frame. Precondition: masks are given.
+  /// The mask of the last frame. Precondition: masks are given.
   const cv::Mat1b& lastTrueMovers() const { return trueMovers_.back(); }
   /// Nothing if there are fewer than two frames.
   std::optional<MoverReport> total() const;
@@ -70,10 +69,5 @@ class MoverMeasures {
   std::vector<cv::Mat1b> trueMovers_;
   std::optional<MoverMotion> motion_;  ///< of true movers
 };
-
-/// The gates of movers. `isOnPaper`: on bare paper, LOST says nothing.
-std::vector<Verdict> moverVerdicts(const MoverReport& movers, bool isOnPaper);
-/// Whether the controls read as they must.
-std::vector<Verdict> moverControlVerdicts(const MoverReport& movers);
 
 }  // namespace pleinair::measure

@@ -91,7 +91,7 @@ class Style {
   /// measures.
   virtual std::vector<marks::Anchor> readAnchors() const { return {}; }
 
-  /// What it has told from the background in the last frame; null where it tells nothing.
+  /// The movers and background of the last frame; null where the style does not tell them apart.
   virtual const marks::MotionLayers* movers() const { return nullptr; }
 
   /// Forgets the past: the next frame is painted as a first one.

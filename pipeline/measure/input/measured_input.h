@@ -40,7 +40,7 @@ class MeasuredInput {
   virtual hal::Result<std::optional<hal::CapturedFrame>> next() = 0;
   /// Null if the motion is unknown. Lives as long as the input.
   virtual TrueMotion* motion() = 0;
-  /// Null if it is not known what moves by itself. Lives as long as the input.
+  /// Null if the true movers are unknown. Lives as long as the input.
   virtual TrueMovers* movers() { return nullptr; }
   /// Warnings about the input.
   virtual std::vector<std::string> notices() const { return {}; }

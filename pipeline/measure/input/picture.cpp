@@ -6,17 +6,29 @@
 #include <opencv2/imgproc.hpp>
 
 namespace pleinair::measure {
+namespace {
+
+/// A cv::Mat header over the pixels of an image, which OpenCV only reads.
+cv::Mat borrowed(const hal::ImageView& image) {
+  const bool isRgb = image.format.pixelFormat == hal::PixelFormat::kRgb8;
+  assert((isRgb || image.format.pixelFormat == hal::PixelFormat::kGrey8) && image.isComplete());
+  const hal::PlaneView& plane = image.planes[0];
+  auto* const bytes = const_cast<std::uint8_t*>(plane.bytes.data());
+  return {image.format.size.height, image.format.size.width, isRgb ? CV_8UC3 : CV_8UC1, bytes,
+          plane.strideBytes};
+}
+
+}  // namespace
 
 cv::Mat3f toFloat(const hal::ImageView& rgb8) {
-  assert(rgb8.format.pixelFormat == hal::PixelFormat::kRgb8 && rgb8.isComplete());
-  const hal::PlaneView& plane = rgb8.planes[0];
-  // A cv::Mat header over borrowed pixels, which OpenCV only reads.
-  auto* const bytes = const_cast<std::uint8_t*>(plane.bytes.data());
-  const cv::Mat levels(rgb8.format.size.height, rgb8.format.size.width, CV_8UC3, bytes,
-                       plane.strideBytes);
+  assert(rgb8.format.pixelFormat == hal::PixelFormat::kRgb8);
   cv::Mat3f picture;
-  levels.convertTo(picture, CV_32F, 1.0 / 255.0);
+  borrowed(rgb8).convertTo(picture, CV_32F, 1.0 / 255.0);
   return picture;
+}
+
+cv::Mat toLevels(const hal::ImageView& image) {
+  return borrowed(image).clone();
 }
 
 hal::Image toImage(const cv::Mat3f& picture) {

@@ -15,6 +15,8 @@ inline constexpr int kMinSidePixels = 160;
 
 /// Converts to RGB in [0, 1]. Precondition: the image is RGB8.
 cv::Mat3f toFloat(const hal::ImageView& rgb8);
+/// Copies 8-bit levels: three channels of RGB8, one of grey. Precondition: the image is either.
+cv::Mat toLevels(const hal::ImageView& image);
 /// Converts back to RGB8, rounded and clamped.
 hal::Image toImage(const cv::Mat3f& picture);
 

@@ -37,7 +37,7 @@ class TrueMotion {
   virtual hal::Result<MotionMap> between(std::uint64_t from, std::uint64_t to) = 0;
 };
 
-/// What truly moves by itself before the camera of a sequence.
+/// The true masks of movers, the things that move by themselves before the camera of a sequence.
 class TrueMovers {
  public:
   virtual ~TrueMovers() = default;

@@ -9,7 +9,7 @@ namespace pleinair::measure {
 
 /// The true motion of a synthetic camera's frames, from its poses and the geometry of its world.
 std::unique_ptr<TrueMotion> workbenchMotion(const hal::SyntheticOptions& options);
-/// What truly moves in them: the arm and the figures.
+/// The true masks of movers in these frames: the arm and the figures.
 std::unique_ptr<TrueMovers> workbenchMovers(const hal::SyntheticOptions& options);
 
 }  // namespace pleinair::measure

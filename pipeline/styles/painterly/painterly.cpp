@@ -14,6 +14,7 @@
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/marks/anchor_set.h"
+#include "pipeline/marks/layer_textures.h"
 #include "pipeline/marks/motion_field.h"
 #include "pipeline/marks/motion_layers.h"
 #include "pipeline/marks/stroke_set.h"

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <concepts>
+#include <cstddef>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -22,6 +24,13 @@ class LumaPyramid {
   const cv::Mat& picture() const { return levels_.front(); }
   /// Two entries per level: the image, then its gradients (CV_16SC2, times 32).
   const std::vector<cv::Mat>& levels() const { return levels_; }
+  /// The smallest of the levels' images that is large enough, or else the largest one.
+  template <std::predicate<cv::Size> IsLargeEnough>
+  const cv::Mat& smallest(const IsLargeEnough& isLargeEnough) const {
+    std::size_t i = 0;
+    while (i + 2 < levels_.size() && isLargeEnough(levels_[i + 2].size())) i += 2;
+    return levels_[i];
+  }
   /// Size of a pyramid px, in frame px.
   glm::dvec2 reduction() const { return reduction_; }
 

@@ -12,16 +12,10 @@
 namespace pleinair::tracking {
 
 void Thumbnail::load(const LumaPyramid& pyramid) {
-  // Uses the smallest level that is not smaller than a thumbnail. Each level is followed by its
-  // gradients.
-  const auto& levels = pyramid.levels();
-  std::size_t level = 0;
-  while (level + 2 < levels.size() && levels[level + 2].cols >= kWidth &&
-         levels[level + 2].rows >= kHeight) {
-    level += 2;
-  }
+  const cv::Mat& level = pyramid.smallest(
+      [](cv::Size size) { return size.width >= kWidth && size.height >= kHeight; });
   cv::Mat small;
-  cv::resize(levels[level], small, {kWidth, kHeight}, 0.0, 0.0, cv::INTER_AREA);
+  cv::resize(level, small, {kWidth, kHeight}, 0.0, 0.0, cv::INTER_AREA);
   cv::Mat target(kHeight, kWidth, CV_32F, values_.data());
   small.convertTo(target, CV_32F);
 }

@@ -80,6 +80,9 @@ struct StaticRegions {
   static constexpr float kNotStatic = 1.0e4F;
 };
 
+/// The noise of a pixel, in levels, that is assumed where it was not measured.
+inline constexpr double kUsualNoiseLevels = 2.0;
+
 /// Motion of a camera image from the previous frame to this one, measured in the image alone.
 /// Refers to an estimator's buffers and is valid until the estimator takes the next frame.
 struct ImageMotion {

@@ -39,7 +39,7 @@ constexpr std::size_t kMinCells = 24;
 
 void StaticRegionDetector::reset() {
   size_ = {};
-  noise_ = kUsualNoise;
+  noise_ = kUsualNoiseLevels;
   knowsNoise_ = false;
 }
 

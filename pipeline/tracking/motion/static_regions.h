@@ -60,8 +60,7 @@ class StaticRegionDetector {
   std::vector<Cell> cells_;
   std::vector<float> errors_;
   std::vector<double> variances_;
-  static constexpr double kUsualNoise = 2.0;  // levels, until it is measured
-  double noise_ = kUsualNoise;
+  double noise_ = kUsualNoiseLevels;
   bool knowsNoise_ = false;
 };
 

@@ -52,20 +52,19 @@ double textureOf(const cv::Mat& picture, const cv::Rect& block) {
 }  // namespace
 
 void ViewComparison::View::load(const LumaPyramid& pyramid) {
-  // Uses the smallest level that is not smaller. Each level is followed by its gradients.
-  const auto& levels = pyramid.levels();
-  const auto longSide = [&](std::size_t i) { return std::max(levels[i].cols, levels[i].rows); };
-  std::size_t level = 0;
-  while (level + 2 < levels.size() && longSide(level + 2) >= kLongSidePx) level += 2;
-  const int wanted = std::min(kLongSidePx, longSide(0) / kMinReduction);
-  const double scale = std::min(1.0, static_cast<double>(wanted) / longSide(level));
-  const cv::Size size(std::max(1, static_cast<int>(std::lround(scale * levels[level].cols))),
-                      std::max(1, static_cast<int>(std::lround(scale * levels[level].rows))));
-  cv::resize(levels[level], picture_, size, 0.0, 0.0, cv::INTER_AREA);
+  const auto longSide = [](cv::Size size) { return std::max(size.width, size.height); };
+  const cv::Mat& level =
+      pyramid.smallest([&](cv::Size size) { return longSide(size) >= kLongSidePx; });
+  const int whole = longSide(pyramid.picture().size());
+  const int wanted = std::min(kLongSidePx, whole / kMinReduction);
+  const double scale = std::min(1.0, static_cast<double>(wanted) / longSide(level.size()));
+  const cv::Size size(std::max(1, static_cast<int>(std::lround(scale * level.cols))),
+                      std::max(1, static_cast<int>(std::lround(scale * level.rows))));
+  cv::resize(level, picture_, size, 0.0, 0.0, cv::INTER_AREA);
   // Fine texture would not match at shifts by half a pixel.
   constexpr double kSigmaPx = 0.7;
   cv::GaussianBlur(picture_, picture_, {3, 3}, kSigmaPx);
-  reduction_ = static_cast<double>(longSide(0)) / std::max(size.width, size.height);
+  reduction_ = static_cast<double>(whole) / longSide(size);
 }
 
 void ViewComparison::match(Block& block, const cv::Mat& before, const cv::Mat& after,

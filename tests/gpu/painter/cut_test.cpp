@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <variant>
@@ -17,17 +20,16 @@ constexpr hal::FrameSize kFrame{320, 240};
 constexpr std::size_t kBefore = 5;  // frames of the scene before the cut
 constexpr std::size_t kAfter = 3;
 
-/// Frames of one shot, numbered from `first`, a 30th of a second apart.
-void film(hal::SyntheticShot shot, std::uint64_t first, std::size_t count,
+/// Appends the first frames that a camera gives; they count as a 30th of a second apart.
+void film(const hal::SyntheticOptions& options, std::size_t count,
           std::vector<hal::CapturedFrame>& frames) {
   hal::SteppedClock clock;
-  hal::SyntheticCamera camera({.size = kFrame, .shot = shot, .seed = 3}, clock);
+  hal::SyntheticCamera camera(options, clock);
   ASSERT_TRUE(camera.start({}));
-  for (std::uint64_t i = 0; i < first + count; ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     const hal::NextFrame next = camera.next(hal::kNoDeadline);
     const auto* frame = std::get_if<hal::CapturedFrame>(&next);
     ASSERT_NE(frame, nullptr);
-    if (i < first) continue;
     const auto image = std::make_shared<const hal::Image>(frame->image);
     const std::size_t number = frames.size();
     frames.push_back(
@@ -38,7 +40,9 @@ void film(hal::SyntheticShot shot, std::uint64_t first, std::size_t count,
   }
 }
 
-/// A model on a tag of the workbench, which is in sight before the cut and after it.
+constexpr int kTag = 0;  // hal::benchTags()
+
+/// A model on a tag of the workbench.
 scene::Scene boxOnTheBench() {
   scene::Scene scene;
   for (const hal::BenchTag& tag : hal::benchTags()) {
@@ -50,7 +54,7 @@ scene::Scene boxOnTheBench() {
       {.name = "box",
        .source = box,
        .model = std::make_shared<const scene::Model>(scene::modelOf(box).value()),
-       .tagId = hal::benchTags().front().id,
+       .tagId = kTag,
        .srgb = {0.1F, 0.2F, 0.9F}});
   return scene;
 }
@@ -59,8 +63,8 @@ scene::Scene boxOnTheBench() {
 const std::vector<hal::CapturedFrame>& splicedFrames() {
   static const std::vector<hal::CapturedFrame> kFrames = [] {
     std::vector<hal::CapturedFrame> frames;
-    film(hal::SyntheticShot::kWalkaround, 0, kBefore, frames);
-    film(hal::SyntheticShot::kVisitors, 0, kAfter, frames);
+    film({.size = kFrame, .shot = hal::SyntheticShot::kWalkaround, .seed = 3}, kBefore, frames);
+    film({.size = kFrame, .shot = hal::SyntheticShot::kVisitors, .seed = 3}, kAfter, frames);
     return frames;
   }();
   return kFrames;
@@ -114,19 +118,42 @@ TEST_P(CutTest, NoCutIsNotPaintedAsAFirstFrame) {
             painted(fresh, frames[kBefore - 1], parameters));
 }
 
+/// A cut from one side of the workbench to another, with the model's tag in sight before and after.
+std::vector<hal::CapturedFrame> cutBesideTheTag() {
+  // The shot cuts after two seconds.
+  constexpr hal::Duration kTwoSeconds = std::chrono::seconds(2);
+  std::vector<hal::CapturedFrame> frames;
+  film({.size = {640, 480},
+        .framePeriod = kTwoSeconds / kBefore,
+        .shot = hal::SyntheticShot::kCut,
+        .seed = 3},
+       kBefore + kAfter, frames);
+  return frames;
+}
+
+bool seesTag(const Picture& picture, int id) {
+  return std::ranges::any_of(picture.tracking.tags, [id](const tracking::TrackedTag& tag) {
+    return tag.id == id && tag.cameraFromTag && tag.source == tracking::PoseSource::kSeen;
+  });
+}
+
 /// Neither a model's pose nor the light on it is held over a cut.
 TEST_F(PainterTest, ModelsOfACutAreThoseOfAFirstFrame) {
-  const std::vector<hal::CapturedFrame>& frames = splicedFrames();
+  const std::vector<hal::CapturedFrame> frames = cutBesideTheTag();
   ASSERT_EQ(frames.size(), kBefore + kAfter);
   Painter wentOn({.pictureSize = kFrame, .scene = boxOnTheBench()});
   Painter fresh({.pictureSize = kFrame, .scene = boxOnTheBench()});
+  const PaintParameters parameters = wentOn.defaultParameters();
   for (std::size_t i = 0; i < kBefore; ++i) {
-    const auto picture = wentOn.paint(frames[i], wentOn.defaultParameters());
+    const auto picture = wentOn.paint(frames[i], parameters);
     ASSERT_TRUE(picture);
-    EXPECT_TRUE(picture->tracking.cameraFromWorld) << i;
+    EXPECT_TRUE(seesTag(*picture, kTag)) << i;
   }
   for (std::size_t i = kBefore; i < frames.size(); ++i) {
-    EXPECT_EQ(painted(wentOn, frames[i]), painted(fresh, frames[i])) << i;
+    const auto picture = wentOn.paint(frames[i], parameters);
+    ASSERT_TRUE(picture);
+    EXPECT_TRUE(seesTag(*picture, kTag)) << i;
+    EXPECT_EQ(bytesOf(hal::orThrow(wentOn.snapshot())), painted(fresh, frames[i])) << i;
   }
 }
 

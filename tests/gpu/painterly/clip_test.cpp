@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "pipeline/gpu/render_target.h"
+#include "pipeline/marks/layer_textures.h"
 #include "pipeline/marks/motion_layers.h"
 #include "tests/gpu/painterly/painterly_fixture.h"
 #include "tests/oracles/stroke_oracle.h"

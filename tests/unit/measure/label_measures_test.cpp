@@ -7,6 +7,8 @@
 
 #include <gmock/gmock.h>
 
+#include "pipeline/measure/mover_gates.h"
+
 namespace pleinair::measure {
 namespace {
 
@@ -73,7 +75,7 @@ TEST(LabelMeasures, TrueLabelsPass) {
   }
 }
 
-TEST(LabelMeasures, LabelsThatAreLaidWrongOverlapLess) {
+TEST(LabelMeasures, DisplacedLabelsOverlapLess) {
   // The bar of 20 × 40 cells is labelled 5 cells further down: 700 of 900 cells are both.
   const LabelSummary labels = summaryOf([](int frame) {
     cv::Mat1b moved = noLabels();

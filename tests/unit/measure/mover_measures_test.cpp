@@ -10,6 +10,8 @@
 #include <gmock/gmock.h>
 #include <opencv2/imgproc.hpp>
 
+#include "pipeline/measure/mover_gates.h"
+
 namespace pleinair::measure {
 namespace {
 

@@ -106,9 +106,7 @@ TEST(SyntheticCamera, GivesItsBuffersOutAgain) {
 }
 
 TEST(SyntheticCamera, StaysExactlyStillInTheStillShot) {
-  SyntheticOptions options = smallOptions();
-  options.shot = SyntheticShot::kStill;
-  options.noiseSigma = 0;
+  SyntheticOptions options = noiseFreeOptions(SyntheticShot::kStill);
   const std::vector<Image> still = capturedFrames(options, 3);
   EXPECT_TRUE(sameBytes(still[0], still[1]));
   EXPECT_TRUE(sameBytes(still[0], still[2]));

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 #include <tuple>
 #include <variant>
 #include <vector>
@@ -16,6 +19,14 @@ namespace pleinair::hal::synthetic {
 /// Small frames, far apart in time: the workbench is painted fast and the frames differ.
 inline SyntheticOptions smallOptions() {
   return {.size = {160, 120}, .framePeriod = std::chrono::milliseconds(200)};
+}
+
+/// The same of one shot, without noise.
+inline SyntheticOptions noiseFreeOptions(SyntheticShot shot) {
+  SyntheticOptions options = smallOptions();
+  options.shot = shot;
+  options.noiseSigma = 0;
+  return options;
 }
 
 /// Keeps the workbench of a seed and size alive, so that a suite paints it once.
@@ -49,6 +60,12 @@ inline std::vector<Image> capturedFrames(const SyntheticOptions& options, int co
 
 inline std::span<const std::uint8_t> bytesOf(const Image& image) {
   return image.view().planes[0].bytes;
+}
+
+/// The share of a frame's pixels that show something that moves.
+inline double shareOf(const MovingMask& mask) {
+  return static_cast<double>(std::ranges::count(mask.bytes, 255)) /
+         static_cast<double>(mask.bytes.size());
 }
 
 }  // namespace pleinair::hal::synthetic

@@ -19,20 +19,10 @@ constexpr std::uint64_t kRests = 18;
 constexpr std::uint64_t kGoesOn = 26;
 constexpr std::uint64_t kEmptyAfter = 45;
 
-SyntheticOptions handOptions() {
-  SyntheticOptions options = smallOptions();
-  options.shot = SyntheticShot::kHand;
-  options.noiseSigma = 0;
-  return options;
-}
-
-double shareOf(const MovingMask& mask) {
-  return static_cast<double>(std::ranges::count(mask.bytes, 255)) /
-         static_cast<double>(mask.bytes.size());
-}
+const SyntheticOptions kHand = noiseFreeOptions(SyntheticShot::kHand);
 
 TEST(SyntheticHand, LeavesThePictureAsItWas) {
-  const std::vector<Image> frames = capturedFrames(handOptions(), kEmptyAfter + 1);
+  const std::vector<Image> frames = capturedFrames(kHand, kEmptyAfter + 1);
   EXPECT_TRUE(std::ranges::equal(bytesOf(frames[0]), bytesOf(frames[kEmptyAfter])));
   EXPECT_FALSE(std::ranges::equal(bytesOf(frames[0]), bytesOf(frames[kRests])));
   EXPECT_TRUE(std::ranges::equal(bytesOf(frames[kRests]), bytesOf(frames[kRests + 1])))
@@ -41,7 +31,7 @@ TEST(SyntheticHand, LeavesThePictureAsItWas) {
 
 TEST(SyntheticHand, IsInTheMaskWhileItIsThere) {
   SteppedClock clock;
-  const SyntheticCamera camera(handOptions(), clock);
+  const SyntheticCamera camera(kHand, clock);
   EXPECT_EQ(shareOf(camera.movingMask(0)), 0);
   EXPECT_EQ(shareOf(camera.movingMask(kEmptyAfter)), 0);
   for (const std::uint64_t frame : {kReaches, kRests, kGoesOn}) {
@@ -78,7 +68,7 @@ TEST(SyntheticHand, IsTheSameInEveryRoundBeforeAStandingCamera) {
 
 TEST(SyntheticHand, UncoversWhatItHid) {
   SteppedClock clock;
-  const SyntheticCamera camera(handOptions(), clock);
+  const SyntheticCamera camera(kHand, clock);
   const MovingMask before = camera.movingMask(kRests);
   const FlowField hidden = camera.flowField(0, kRests);
   const FlowField uncovered = camera.flowField(0, kEmptyAfter);

@@ -11,12 +11,8 @@ namespace {
 
 /// Frames of 200 ms: the spotlight is on in 5 to 12, the exposure lowest at 30.
 const std::vector<Image>& lightsFrames() {
-  static const std::vector<Image> kFrames = [] {
-    SyntheticOptions options = smallOptions();
-    options.shot = SyntheticShot::kLights;
-    options.noiseSigma = 0;
-    return capturedFrames(options, 46);
-  }();
+  static const std::vector<Image> kFrames =
+      capturedFrames(noiseFreeOptions(SyntheticShot::kLights), 46);
   return kFrames;
 }
 
@@ -46,11 +42,8 @@ TEST(SyntheticLights, ChangeNothingBetweenTheirChanges) {
 }
 
 TEST(SyntheticLights, AreTheStillShotWhileNoneIsOn) {
-  SyntheticOptions options = smallOptions();
-  options.shot = SyntheticShot::kStill;
-  options.noiseSigma = 0;
-  EXPECT_TRUE(
-      std::ranges::equal(bytesOf(capturedFrames(options, 1)[0]), bytesOf(lightsFrames()[0])));
+  const std::vector<Image> still = capturedFrames(noiseFreeOptions(SyntheticShot::kStill), 1);
+  EXPECT_TRUE(std::ranges::equal(bytesOf(still[0]), bytesOf(lightsFrames()[0])));
 }
 
 TEST(SyntheticLights, SpotlightBrightensOnePart) {

@@ -22,21 +22,11 @@ constexpr std::uint64_t kEmptyBetween = 32;
 constexpr std::uint64_t kSecondStands = 56;
 constexpr std::uint64_t kEmptyAfter = 77;
 
-SyntheticOptions visitorOptions() {
-  SyntheticOptions options = smallOptions();
-  options.shot = SyntheticShot::kVisitors;
-  options.noiseSigma = 0;
-  return options;
-}
+const SyntheticOptions kVisitors = noiseFreeOptions(SyntheticShot::kVisitors);
 
 const std::vector<Image>& visitorFrames() {
-  static const std::vector<Image> kFrames = capturedFrames(visitorOptions(), 97);
+  static const std::vector<Image> kFrames = capturedFrames(kVisitors, 97);
   return kFrames;
-}
-
-double shareOf(const MovingMask& mask) {
-  const auto moving = std::ranges::count(mask.bytes, 255);
-  return static_cast<double>(moving) / static_cast<double>(mask.bytes.size());
 }
 
 /// How many of the mask's rows show something that moves.
@@ -59,7 +49,7 @@ TEST(SyntheticVisitors, LeaveThePictureAsItWas) {
 }
 
 TEST(SyntheticVisitors, AreTheSameOnEveryRunAndInEveryRound) {
-  const std::vector<Image> again = capturedFrames(visitorOptions(), 17);
+  const std::vector<Image> again = capturedFrames(kVisitors, 17);
   EXPECT_TRUE(std::ranges::equal(bytesOf(visitorFrames()[16]), bytesOf(again[16])));
   const Motion motion(SyntheticShot::kVisitors, 1);
   const Body hand = bodyOf(1, FigurePart::kLeftForearm);
@@ -71,7 +61,7 @@ TEST(SyntheticVisitors, AreTheSameOnEveryRunAndInEveryRound) {
 
 TEST(SyntheticVisitors, ChangeOnlyThePixelsOfTheMask) {
   SteppedClock clock;
-  const SyntheticCamera camera(visitorOptions(), clock);
+  const SyntheticCamera camera(kVisitors, clock);
   for (const std::uint64_t frame : {kFirstPerson, kSecondStands}) {
     const MovingMask mask = camera.movingMask(frame);
     const auto before = bytesOf(visitorFrames()[0]);
@@ -102,7 +92,7 @@ TEST(SyntheticVisitors, ChangeOnlyThePixelsOfTheMask) {
 
 TEST(SyntheticVisitors, AreInTheMaskWhileTheyCross) {
   SteppedClock clock;
-  const SyntheticCamera camera(visitorOptions(), clock);
+  const SyntheticCamera camera(kVisitors, clock);
   for (const std::uint64_t frame : {std::uint64_t{0}, kEmptyBetween, kEmptyAfter}) {
     EXPECT_EQ(shareOf(camera.movingMask(frame)), 0) << frame;
   }
@@ -203,10 +193,9 @@ std::vector<glm::dvec2> pixelsOf(const Exposure& exposure, Body body) {
 
 TEST(SyntheticVisitors, FlowOfEachPartIsItsProjectedMotion) {
   SteppedClock clock;
-  const SyntheticOptions options = visitorOptions();
-  const SyntheticCamera camera(options, clock);
-  const Motion motion(options.shot, options.seed);
-  const Exposure exposure(options.size, motion, kFirstPerson * options.framePeriod, {});
+  const SyntheticCamera camera(kVisitors, clock);
+  const Motion motion(kVisitors.shot, kVisitors.seed);
+  const Exposure exposure(kVisitors.size, motion, kFirstPerson * kVisitors.framePeriod, {});
   const BodyPoses from = motion.bodies(3.2);
   const BodyPoses to = motion.bodies(3.4);
   const CameraView view = exposure.viewAt(0);

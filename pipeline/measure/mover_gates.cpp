@@ -1,0 +1,173 @@
+#include "pipeline/measure/mover_gates.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "pipeline/measure/mover_masks.h"
+
+namespace pleinair::measure {
+namespace {
+
+constexpr double kMaxStillPercent = 0.2;
+constexpr double kMaxReturnLevels = 4.0;
+constexpr double kMaxGhost = 0.25;
+constexpr double kMaxLostPercent = 15.0;
+constexpr double kMaxMoverNHw2 = 0.25;
+constexpr double kMaxMoverPopPercent = 2.0;
+constexpr double kMaxSeamPopPercent = 3.0;
+constexpr double kMaxFlipsPercent = 0.0;
+constexpr double kMaxDisplacedIou = 0.8;
+constexpr std::uint64_t kDetectionFrames = 3;
+constexpr hal::Duration kDetectionTime = std::chrono::milliseconds(100);
+
+struct Limit {
+  const char* name;
+  const char* unit;
+  double value;
+  const char* missing;  ///< why there may be nothing to compare
+  bool isUpper = true;
+};
+
+Verdict verdictOf(const Limit& limit, std::optional<double> value) {
+  Verdict verdict{.what = fmt::format("{} {} {:g}{}", limit.name, limit.isUpper ? "≤" : ">",
+                                      limit.value, limit.unit),
+                  .found = limit.missing,
+                  .comparison = Verdict::Comparison{
+                      .value = value, .limit = limit.value, .isUpperLimit = limit.isUpper}};
+  if (!value) return verdict;
+  verdict.found = fmt::format("{:.3g}{}", *value, limit.unit);
+  const bool isPassed = limit.isUpper ? *value <= limit.value : *value > limit.value;
+  verdict.state = isPassed ? Verdict::State::kPassed : Verdict::State::kFailed;
+  return verdict;
+}
+
+constexpr const char* kNothingUncovered = "no mover came and went";
+constexpr const char* kNoClearMover = "no mover came that differs from the ground";
+constexpr const char* kNothingFollowed = "no mover was seen for three frames";
+constexpr const char* kNoMover = "no mover was seen";
+constexpr const char* kNothingStill = "movers are everywhere";
+
+constexpr Limit kStillLimit{"STILL", " %", kMaxStillPercent, kNothingStill};
+constexpr Limit kReturnLimit{"RETURN", "", kMaxReturnLevels, kNothingUncovered};
+constexpr Limit kGhostLimit{"GHOST", "", kMaxGhost, kNothingUncovered};
+constexpr Limit kLostLimit{"LOST", " %", kMaxLostPercent, kNoClearMover};
+constexpr Limit kMoverNHw2Limit{"MOVER nHW2", "", kMaxMoverNHw2, kNothingFollowed};
+constexpr Limit kMoverPopLimit{"MOVER POP", " %", kMaxMoverPopPercent, kNothingFollowed};
+constexpr Limit kSeamPopLimit{"SEAM POP", " %", kMaxSeamPopPercent, kNothingFollowed};
+constexpr Limit kAveragingLost{"LOST of a painter that averages over 0.65 s", " %", kMaxLostPercent,
+                               kNoClearMover, false};
+
+static_assert(kDisplacementPixels == 20, "the names of these controls say it");
+constexpr Limit kDisplacedStill{
+    "the input's pixels that change more under masks displaced by 20 px", " %", kMaxStillPercent,
+    kNoMover, false};
+constexpr Limit kDisplacedIouLimit{"IoU of masks displaced by 20 px", "", kMaxDisplacedIou,
+                                   "no mover of noticeable size"};
+
+constexpr Limit kFlipsLimit{"labels that flip where nothing moves", " %", kMaxFlipsPercent,
+                            "fewer than two frames"};
+constexpr Limit kStillFlipsLimit{"labels that flip on the still scene", " %", kMaxFlipsPercent,
+                                 "no still scene"};
+
+/// Half of the limit is left to the painting: a motion along which the input itself reads more says
+/// nothing about the marks.
+Verdict verdictAlong(const Limit& limit, std::optional<double> value,
+                     std::optional<double> ofInput) {
+  if (!ofInput || *ofInput <= limit.value / 2) return verdictOf(limit, value);
+  Limit unexplained = limit;
+  unexplained.missing = "the input itself reads more than half of it";
+  return verdictOf(unexplained, std::nullopt);
+}
+
+std::vector<Verdict> verdictsAlong(const MoverMotionSummary& painting,
+                                   const MoverMotionSummary& input) {
+  return {verdictAlong(kMoverNHw2Limit, painting.nHw2, input.nHw2),
+          verdictAlong(kMoverPopLimit, painting.popPercent, input.popPercent),
+          verdictAlong(kSeamPopLimit, painting.seamPopPercent, input.seamPopPercent)};
+}
+
+/// Marks that are redrawn in each frame have to fail at least one of the gates along the motion.
+Verdict redrawnVerdict(const MoverMotionSummary& redrawn, const MoverMotionSummary& input) {
+  Verdict verdict{.what = "marks redrawn each frame fail MOVER nHW2, MOVER POP or SEAM POP",
+                  .found = kNothingFollowed};
+  const std::vector<Verdict> gates = verdictsAlong(redrawn, input);
+  if (std::ranges::all_of(gates, [](const Verdict& gate) { return !gate.comparison->value; })) {
+    verdict.found = gates.front().found;
+    return verdict;
+  }
+  verdict.state = Verdict::State::kFailed;
+  verdict.found = "they pass; movers are too plain";
+  for (const Verdict& gate : gates) {
+    if (gate.state != Verdict::State::kFailed) continue;
+    verdict.found = verdict.state == Verdict::State::kPassed ? verdict.found + ", " : "";
+    verdict.found += fmt::format("{} fails with {}", gate.what, gate.found);
+    verdict.state = Verdict::State::kPassed;
+  }
+  return verdict;
+}
+
+bool isLate(const Detection& detection) {
+  return !detection.isFound ||
+         (detection.frames > kDetectionFrames && detection.time > kDetectionTime);
+}
+
+Verdict detectionVerdict(const std::vector<Detection>& detections) {
+  const auto slowest = std::ranges::max_element(
+      detections, {}, [](const Detection& each) { return std::pair(isLate(each), each.frames); });
+  Verdict verdict{
+      .what = fmt::format("frames until a new mover is labelled ≤ {}, or 100 ms", kDetectionFrames),
+      .found = "no mover came while the scene was empty",
+      .comparison =
+          Verdict::Comparison{.value = {}, .limit = static_cast<double>(kDetectionFrames)}};
+  if (slowest == detections.end()) return verdict;
+  verdict.comparison->value = static_cast<double>(slowest->frames);
+  verdict.state = isLate(*slowest) ? Verdict::State::kFailed : Verdict::State::kPassed;
+  verdict.found = slowest->isFound
+                      ? fmt::format("{} frames, {:.0f} ms", slowest->frames,
+                                    1000 * hal::toSeconds(slowest->time))
+                      : fmt::format("the one that came in frame {} was never", slowest->frame);
+  return verdict;
+}
+
+}  // namespace
+
+std::vector<Verdict> moverVerdicts(const MoverReport& movers, bool isOnPaper) {
+  const MoverSummary& painting = movers.painting;
+  std::vector<Verdict> verdicts{verdictOf(kStillLimit, painting.stillPercent),
+                                verdictOf(kReturnLimit, painting.returnLevels),
+                                verdictOf(kGhostLimit, painting.ghost)};
+  for (Verdict& verdict :
+       verdictsAlong(movers.alongMotion[Subject::kPainting], movers.alongMotion[Subject::kInput])) {
+    verdicts.push_back(std::move(verdict));
+  }
+  if (!isOnPaper) verdicts.push_back(verdictOf(kLostLimit, painting.lostPercent));
+  return verdicts;
+}
+
+std::vector<Verdict> moverControlVerdicts(const MoverReport& movers) {
+  return {verdictOf(kAveragingLost, movers.averaging.lostPercent),
+          redrawnVerdict(movers.alongMotion[Subject::kFresh], movers.alongMotion[Subject::kInput]),
+          verdictOf(kDisplacedStill, movers.displacedStillPercent)};
+}
+
+std::vector<Verdict> labelVerdicts(const std::optional<LabelSummary>& labels,
+                                   std::optional<double> stillFlipsPercent) {
+  std::vector<Verdict> verdicts;
+  if (labels && labels->hasMovers) verdicts.push_back(detectionVerdict(labels->detections));
+  if (labels && !labels->hasMovers) {
+    verdicts.push_back(verdictOf(kFlipsLimit, labels->flipsPercent));
+  }
+  verdicts.push_back(verdictOf(kStillFlipsLimit, stillFlipsPercent));
+  return verdicts;
+}
+
+std::vector<Verdict> labelControlVerdicts(const LabelSummary& labels) {
+  if (!labels.hasMovers) return {};
+  return {verdictOf(kDisplacedIouLimit, labels.displacedIou)};
+}
+
+}  // namespace pleinair::measure
