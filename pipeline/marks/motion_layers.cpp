@@ -166,6 +166,7 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .set("fullSize", glm::vec2(s.full.width, s.full.height))
       .set("isStanding", motion.isStanding() ? 1 : 0)
       .texture("picture", s.pictures.at(s.now))
+      .texture("moverMotion", s.moverMotion)
       .image("normals", s.normals, ImageAccess::kWrite)
       .image("normalMotion", s.normalMotion, ImageAccess::kWrite)
       .dispatch(blocks, kStored);

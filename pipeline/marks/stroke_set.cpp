@@ -93,6 +93,7 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .texture("modelPaint", *paint.models)
       .texture("movers", layerTextures.labelsOf(layers))
       .texture("background", layerTextures.backgroundOf(layers))
+      .texture("moverMotion", layerTextures.moverMotionOf(layers))
       .texture("ids", frame.hasObjects ? *frame.ids : noIds)
       .set("hasObjects", frame.hasObjects ? 1 : 0)
       .set("anew", anchors.hasBegunAnew() ? 1 : 0)
@@ -119,6 +120,9 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .set("flatDetail", rule.flatDetail)
       .set("flatHold", rule.flatHold)
       .set("restSlack", rule.restSlack)
+      .set("looseness", rule.looseness)
+      .set("loosePx", rule.looseSpeed * static_cast<float>(hal::toSeconds(step)) *
+                          static_cast<float>(frame.full().height))
       .set("isStanding", layers != nullptr && layers->hasStood() ? 1 : 0)
       .set("maxColour", rule.maxColourPerSecond * static_cast<float>(hal::toSeconds(step)))
       .dispatch(allSlots(), GL_SHADER_STORAGE_BARRIER_BIT);

@@ -58,6 +58,10 @@ struct StrokeRule {
   /// the background before a standing camera.
   glm::vec2 flatDetail{0.35F, 0.9F};
   float flatHold = 1.0F;
+  /// In [0, 1]: how much looser fast movers are painted: along their motion, longer, and with less
+  /// detail; between two speeds, heights of the image per second.
+  float looseness = 0.0F;
+  glm::vec2 looseSpeed{0.3F, 1.0F};
 };
 
 /// The images that strokes take their colours from, of any size (LINEAR, sRGB-coded,

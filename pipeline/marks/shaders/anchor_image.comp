@@ -117,11 +117,12 @@ void main() {
       isOther = isUnlikeBackground(looks, px);
     } else {
       looks = remembered(looks, px, !isOnMover && nearestMover(px, kOutline) > 0.1);
-      isHidden = isMismatch(looks, (state & kHidden) != 0u) || (isOnMover && isUnlike(looks));
+      isHidden = isMismatch(looks, (state & kHidden) != 0u);
+      isOther = isOnMover && isUnlike(looks);
       if (isOnMover && mover.r < 0.35) {
         // It has joined the background, or has left the anchor behind.
         isOnMover = false;
-        isOther = isUnlike(looks) || !isNewBackground(px);
+        isOther = isOther || !isNewBackground(px);
       } else if (wasCovered) {
         isOther = isUnlike(looks) && isUnlikeBackground(looks, px);
       }

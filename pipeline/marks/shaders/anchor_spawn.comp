@@ -81,7 +81,7 @@ void spawn(ivec2 cell, uint number, bool onObject, bool onMover, inout uint take
   born.jacobian = vec4(1.0, 0.0, 0.0, 1.0);
   born.barycentrics = vec2(0.0);
   born.error = 0.0;
-  born.fade = atOnce || mover.g > 0.0 || hasComeIn(px) ? 1.0 : 0.0;
+  born.fade = atOnce || onMover || mover.g > 0.0 || hasComeIn(px) ? 1.0 : 0.0;
   born.age = 0.0;
   // independent of the place, which came from the same hash
   born.seed = hashOf(hash ^ 0x9E3779B9u);

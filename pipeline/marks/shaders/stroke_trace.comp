@@ -2,7 +2,8 @@
 //          it with its past: directions one by one, lengths, colour and existence with time
 //          constants (§5.4), so that a stroke lives as long as its anchor.
 // Inputs:  anchors; field: tensors to follow, detailField: tensors with the detail, moverField:
-//          those of movers; mover_labels.glsl's; background (marks::MotionLayers); paint,
+//          those of movers; mover_labels.glsl's and mover_motion.glsl's; background
+//          (marks::MotionLayers); paint,
 //          modelPaint: the reduced images of the real part and of the models; ids if hasObjects;
 //          the rest as in marks::StrokeRule.
 // Outputs: strokes. One invocation per anchor.
@@ -13,6 +14,9 @@
 #include "pipeline/marks/shaders/stroke.glsl"
 #include "pipeline/marks/shaders/stroke_history.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
+#include "pipeline/marks/shaders/layer_blocks.glsl"
+#include "pipeline/marks/shaders/mover_labels.glsl"
+#include "pipeline/marks/shaders/mover_motion.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
 layout(std430, binding = 1) buffer Strokes { Stroke strokes[]; };
@@ -49,15 +53,37 @@ uniform vec2 flatDetail;
 uniform float flatHold;
 uniform bool isStanding;  // the camera
 uniform float restSlack;
+uniform float looseness;
+uniform vec2 loosePx;  // a frame
 
 const vec2 kUpright = vec2(1.0, 0.0);  // a tensor: strokes of movers without any edge
 
-vec2 directionAt(vec2 px, bool isOnMover) {
+// What the stroke is painted on.
+struct Ground {
+  uint object;
+  bool isOnMover;
+  float looseness;  // how much looser it is painted, in [0, 1]
+  vec2 along;       // a tensor, of strokes along the mover's motion
+};
+
+Ground groundOf(uint object, bool isOnMover, vec2 px) {
+  Ground on = Ground(object, isOnMover, 0.0, kUpright);
+  vec2 moved;
+  if (!isOnMover || looseness <= 0.0 || !findMoverMotion(px, moved)) return on;
+  on.looseness = looseness * smoothstep(loosePx.x, loosePx.y, length(moved));
+  on.along = vec2(moved.y * moved.y - moved.x * moved.x, -2.0 * moved.x * moved.y) /
+             max(dot(moved, moved), 1e-6);
+  return on;
+}
+
+vec2 directionAt(vec2 px, Ground on) {
   vec2 tensor = textureLod(field, px * fieldScale, 0.0).xy;
-  if (isOnMover) {
+  if (on.isOnMover) {
     tensor = textureLod(moverField, px * moverScale, 0.0).xy;
     tensor = dot(tensor, tensor) > 1e-3 ? tensor : kUpright;
   }
+  tensor *= inversesqrt(max(dot(tensor, tensor), 1e-12));
+  tensor = mix(tensor, on.along, 0.8 * on.looseness);
   tensor *= inversesqrt(max(dot(tensor, tensor), 1e-12));
   // Half the angle by square roots; the stroke runs across the gradient.
   vec2 gradient = vec2(sqrt(max(0.0, 0.5 + 0.5 * tensor.x)), sqrt(max(0.0, 0.5 - 0.5 * tensor.x)));
@@ -90,15 +116,15 @@ struct Arm {
   float weight;
 };
 
-float detailAt(vec2 px, uint object, bool isOnMover) {
-  float detail = isOnMover ? textureLod(moverField, px * moverScale, 0.0).w
-                           : textureLod(detailField, px * detailScale, 0.0).w;
-  return isVirtual(object) ? modelDetail * detail : detail;
+float detailAt(vec2 px, Ground on) {
+  const float kLooseDetail = 0.6;
+  float detail = on.isOnMover ? textureLod(moverField, px * moverScale, 0.0).w
+                              : textureLod(detailField, px * detailScale, 0.0).w;
+  return (isVirtual(on.object) ? modelDetail : mix(1.0, kLooseDetail, on.looseness)) * detail;
 }
 
-#include "pipeline/marks/shaders/mover_labels.glsl"
-
-Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, uint object, bool isOnMover) {
+Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Ground on) {
+  float threshold = colourThreshold;
   Arm arm;
   arm.length = steps;
   arm.colour = vec3(0.0);
@@ -107,7 +133,7 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, uint object, bool isOnMov
   float before = 0.0;
   vec2 at = from;
   for (int i = 0; i < kArm; ++i) {
-    vec2 direction = directionAt(at + 0.5 * segment * heading, isOnMover);
+    vec2 direction = directionAt(at + 0.5 * segment * heading, on);
     direction = vec2(hand.x * direction.x - hand.y * direction.y,
                      hand.y * direction.x + hand.x * direction.y);
     float along = dot(direction, heading);
@@ -118,33 +144,33 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, uint object, bool isOnMov
     }
     arm.directions[i] = direction;
     at += segment * direction;
-    vec3 there = colourAt(at, object);
+    vec3 there = colourAt(at, on.object);
     float difference = apart(there, own);
-    bool isOther = hasObjects && objectAt(at) != object;
+    bool isOther = hasObjects && objectAt(at) != on.object;
     if (goesOn && isOther) {
       // An arm ends at the border between virtual and real content, and between objects.
-      bool half_ = objectAt(at - 0.5 * segment * direction) != object;
+      bool half_ = objectAt(at - 0.5 * segment * direction) != on.object;
       arm.length = min(arm.length, float(i) + (half_ ? 0.15 : 0.6));
       goesOn = false;
     }
-    if (goesOn && (moverAt(at).r > 0.5) != isOnMover) {
+    if (goesOn && (moverAt(at).r > 0.5) != on.isOnMover) {
       // It does not cross a mover's border.
-      bool isHalf = (moverAt(at - 0.5 * segment * direction).r > 0.5) != isOnMover;
+      bool isHalf = (moverAt(at - 0.5 * segment * direction).r > 0.5) != on.isOnMover;
       arm.length = min(arm.length, float(i) + (isHalf ? 0.25 : 0.75));
       goesOn = false;
     }
-    if (goesOn && detailAt(at, object, isOnMover) < 0.4 * detailBand.x) {
+    if (goesOn && detailAt(at, on) < 0.4 * detailBand.x) {
       // A finer layer's stroke does not enter regions of coarser layers.
       arm.length = min(arm.length, max(float(i) + 0.5, minSteps));
       goesOn = false;
     }
-    if (goesOn && difference > colourThreshold) {
-      float part = clamp((colourThreshold - before) / max(difference - before, 1e-4), 0.0, 1.0);
+    if (goesOn && difference > threshold) {
+      float part = clamp((threshold - before) / max(difference - before, 1e-4), 0.0, 1.0);
       arm.length = min(arm.length, max(float(i) + part, minSteps));
       goesOn = false;
     }
     if (goesOn && float(i) < steps) {
-      float weight = 1.0 - 0.7 * difference / colourThreshold;
+      float weight = 1.0 - 0.7 * difference / threshold;
       arm.colour += weight * there;
       arm.weight += weight;
     }
@@ -167,10 +193,14 @@ vec2[kArm] heldArm(vec2 now[kArm], vec4 was[2], vec2 heading, vec4 jacobian, flo
   return held;
 }
 
+const float kShrinking = 4.0;  // times as fast as shapes change
+const float kMoverShrinking = 20.0;
+
 // An arm that now covers other content shrinks faster than it would grow. One that was cut short
 // by something that has gone grows, however long shapes are held.
-float heldLength(float now, float was, float stays) {
-  float rate = was < 0.3 * now ? past.x : now < 0.6 * was ? min(stays, pow(past.x, 4.0)) : stays;
+float heldLength(float now, float was, float stays, bool isOnMover) {
+  float shrinking = pow(past.x, isOnMover ? kMoverShrinking : kShrinking);
+  float rate = was < 0.3 * now ? past.x : now < 0.6 * was ? min(stays, shrinking) : stays;
   return mix(now, was, rate);
 }
 
@@ -225,15 +255,16 @@ void main() {
   float stray = wander * (unitOf(hashOf(seed ^ 0x77u)) + unitOf(hashOf(seed ^ 0x78u)) - 1.0);
   vec2 hand = vec2(cos(stray), sin(stray));
   vec3 own = colourAt(px, object);
-  vec2 heading = directionAt(px, isOnMover);
+  Ground on = groundOf(object, isOnMover, px);
+  vec2 heading = directionAt(px, on);
   heading = vec2(hand.x * heading.x - hand.y * heading.y, hand.y * heading.x + hand.x * heading.y);
   if (!isNew) {
     // Keeps the previous orientation.
     vec2 was = anchors[slot].jacobian.xy * old.ahead[0].x + anchors[slot].jacobian.zw * old.ahead[0].y;
     if (dot(was, heading) < 0.0) heading = -heading;
   }
-  Arm ahead = walk(px, heading, hand, own, object, isOnMover);
-  Arm behind = walk(px, -heading, hand, own, object, isOnMover);
+  Arm ahead = walk(px, heading, hand, own, on);
+  Arm behind = walk(px, -heading, hand, own, on);
   if (!bothWays) {
     behind.length = 0.0;
     behind.colour = vec3(0.0);
@@ -243,7 +274,7 @@ void main() {
                 (kOwnWeight + ahead.weight + behind.weight);
 
   // A stroke is wanted where the detail lies in its band; an existing one stays a little longer.
-  float seen = detailAt(px, object, isOnMover);
+  float seen = detailAt(px, on);
   float detail = seen + detailSpread * (hash - 0.5);
   // Before a standing camera, nothing but its content changes a stroke of the background.
   bool isResting = isStanding && !isNew && !isOnMover && object == 0u;
@@ -275,8 +306,8 @@ void main() {
     made.exists = goal;  // the anchor fades it in
     made.colour = colour;
   } else {
-    made.lengths = vec2(heldLength(ahead.length, old.lengths.x, stays),
-                        heldLength(behind.length, old.lengths.y, stays));
+    made.lengths = vec2(heldLength(ahead.length, old.lengths.x, stays, isOnMover),
+                        heldLength(behind.length, old.lengths.y, stays, isOnMover));
     made.exists = mix(goal, old.exists, (1.0 - changed) * (goal > old.exists ? past.z : past.w));
     if (abs(made.exists - goal) < 0.02) made.exists = goal;
     vec3 change = colour - old.colour;

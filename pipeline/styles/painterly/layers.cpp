@@ -77,6 +77,7 @@ marks::StrokeRule ruleOf(const PainterlyParameters& p, const LayerPlan& plan, st
   rule.modelDetail = static_cast<float>(p.modelDetail);
   rule.detailSpread = 0.6F * std::max(rule.detailBand.x, 0.0F);
   rule.wanderRad = static_cast<float>(p.wander) * (1.0F + 0.3F * coarseness);
+  rule.looseness = static_cast<float>(p.looseness);
   rule.fieldLevel = plan.layers - 1 - layer;
   rule.widthSpread = static_cast<float>(p.widthVariation);
   rule.opacity = static_cast<float>(p.opacity);

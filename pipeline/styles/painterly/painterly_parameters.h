@@ -35,6 +35,7 @@ struct PainterlyParameters {
   double colourThreshold = 0.11;
   double cutOffDegrees = 45.0;
   double wander = 0.12;
+  double looseness = 0.8;  // of fast movers
   double opacity = 0.95;
   double leaveLight = 0.0;
   double widthVariation = 0.25;
