@@ -147,23 +147,28 @@ void main() {
   bool isResting = changes < (isStanding ? kRestingChange : kMovingRestingChange);
   float rest = isMover && isResting ? past.g + stepSeconds : 0.0;
   float maturity = isMover ? past.b : 0.0;
-  if (isMover && maturity <= kMatureSeconds) maturity = max(maturity, maturityAround(cell, size, now, known.rgb));
+  bool isYoung = isMover && maturity <= kMatureSeconds;
+  // What was a mover when the camera began to look, or stood there for long, has left. Flow and the
+  // motion of movers reach beyond their outlines: neither makes such a place older. While the camera
+  // moves, new parts of a mover would be taken for such places.
+  bool hasLeft = isStanding && isYoung && isUncovered(cell, size);
+  if (hasLeft) {
+    maturity = 0.0;
+  } else if (isYoung) {
+    maturity = max(maturity, maturityAround(cell, size, now, known.rgb));
+  }
   if (rest > (maturity > kMatureSeconds ? restSeconds : kTentative)) {
     isMover = false;
     known.a = 0.0;
   }
-  // What was a mover when the camera began to look, or stood there for long, has left. Flow and the
-  // motion of movers reach beyond their outlines: neither makes such a place older. While the camera
-  // moves, new parts of a mover would be taken for such places.
-  if (isStanding && isMover && maturity <= kMatureSeconds && isUncovered(cell, size)) {
-    maturity = 0.0;
-    isMover = rest <= 0.0;
-    if (!isMover) known.a = 0.0;
+  if (hasLeft && rest > 0.0) {
+    isMover = false;
+    known.a = 0.0;
   }
   float fresh = isMover != wasMover ? 1.0 : max(past.a - stepSeconds / freshSeconds, 0.0);
   imageStore(labels, cell, vec4(isMover ? 1.0 : 0.0, fresh, rest, maturity));
   // Beside a mover, some of it may not be labelled.
-  bool isBeside = others > 0.08 && !isLight;
+  bool isBeside = others > 0.08 && hasCause && !isLight;
   if (!isMover && (known.a < 0.5 || !isBeside)) {
     float most = isStanding ? kFrames : kMovingFrames;
     float frames = isLight && own.r > 0.15 ? 1.0 : min(floor(known.a + 0.5) + 1.0, most);
