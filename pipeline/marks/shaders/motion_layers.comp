@@ -109,8 +109,9 @@ void main() {
   vec4 label = textureLod(labels, inLayers(labels, from), 0.0);
   bool isCarried = false;
   if (!isMoving && changed > 0.5) label.a = 0.0;  // something else is seen there
+  bool isLeft = label.a < 0.0 && changed <= 0.5;
   vec2 own;
-  if (!isMoving && max(label.r, other) > 0.5 && findMoverMotion(px, own) && length(own) > kMovedPx) {
+  if (!isMoving && !isLeft && max(label.r, other) > 0.5 && findMoverMotion(px, own) && length(own) > kMovedPx) {
     // A plain part of a mover goes with its other parts.
     vec2 back = from - own;
     vec4 carried = labelBefore(back);
@@ -124,7 +125,8 @@ void main() {
     vec2 back = px - moved.xy;
     vec4 carried = labelBefore(back);
     if (carried.r > 0.5 && isLikeMover(now, back, unlike)) other = max(other, kSeenOther);
-    if (carried.r > label.r || (carried.r == label.r && carried.a > label.a)) label = carried;
+    bool isOlder = carried.r > label.r || (carried.r == label.r && carried.a > label.a);
+    if (isOlder && !isLeft) label = carried;
     // The ground is hardly known yet. Measured flow reaches beyond a mover, but nothing changes
     // there.
     if (known.a < kTrustedFrames && changed > 0.3) other = 1.0;
@@ -132,6 +134,6 @@ void main() {
   }
   if (other > 0.5) atomicAdd(otherCells[turn], 1u);
   imageStore(candidates, cell, vec4(other, label.r, luma, lumaOf(known.rgb)));
-  float maturity = label.a + (isMoving || isCarried ? stepSeconds : 0.0);
+  float maturity = label.a + (!isLeft && (isMoving || isCarried) ? stepSeconds : 0.0);
   imageStore(evidence, cell, vec4(changed, label.b, maturity, label.g));
 }

@@ -5,7 +5,8 @@
 //          cells; background: the previous frame's, if hasPast; restSeconds: after so long a mover
 //          that rests joins the background; freshSeconds: freshness falls to 0 within so long.
 // Outputs: labels RGBA16F: 1 on movers, else 0; freshness: 1 where the label has just changed,
-//          falling to 0; rest and maturity, s. backgroundNow RGBA16F: its mean colour, and the
+//          falling to 0; rest and maturity, s, the latter
+//          below 0 where a mover has left. backgroundNow RGBA16F: its mean colour, and the
 //          frames in the mean, 0 if it was never seen. One invocation per cell.
 // Precision: highp.
 #include "pipeline/marks/shaders/layer_blocks.glsl"
@@ -23,6 +24,7 @@ uniform bool hasPast;
 uniform float restSeconds;
 uniform float freshSeconds;
 
+const float kHasLeft = -1.0;   // instead of a maturity: nothing but a change makes it a mover's again
 const float kTentative = 0.7;  // s: what has changed once and then rests is no mover
 const float kRestingChange = 0.05;
 const float kMovingRestingChange = 0.3;  // while the camera moves: its picture trembles
@@ -153,7 +155,7 @@ void main() {
   // moves, new parts of a mover would be taken for such places.
   bool hasLeft = isStanding && isYoung && isUncovered(cell, size);
   if (hasLeft) {
-    maturity = 0.0;
+    maturity = kHasLeft;
   } else if (isYoung) {
     maturity = max(maturity, maturityAround(cell, size, now, known.rgb));
   }

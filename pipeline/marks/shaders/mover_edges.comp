@@ -3,7 +3,8 @@
 //          however fast the arm goes.
 // Inputs:  labels, picture: this frame's, in cells; motion_layers.glsl's, flow backward;
 //          mover_motion.glsl's, of the previous frame.
-// Outputs: normals RGBA16F: the sum over edges of w n nᵀ (xx, xy, yy), n the edge's normal.
+// Outputs: normals RGBA16F: the sum over edges of w n nᵀ (xx, xy, yy), n the edge's normal;
+//          and how many of the block's cells are a mover's.
 //          normalMotion RGBA16F: the sum of w n (n · d), d the flow's displacement since the previous
 //          frame, less the background's, px of the full image. w falls with the flow's error, and
 //          where the flow has remained with the background. One invocation per block of
@@ -42,11 +43,13 @@ void main() {
   ivec2 size = textureSize(labels, 0);
   vec3 matrix = vec3(0.0);
   vec2 moved = vec2(0.0);
+  float cells = 0.0;
   for (int y = 0; y < kLayerBlock; y += kStep) {
     for (int x = 0; x < kLayerBlock; x += kStep) {
       ivec2 cell = first + ivec2(x, y);
       if (any(greaterThanEqual(cell, size))) continue;
       if (texelFetch(labels, cell, 0).r < 0.5) continue;
+      cells += float(kStep * kStep);
       vec2 gradient = vec2(lumaAt(cell + ivec2(2, 0), size) - lumaAt(cell - ivec2(2, 0), size),
                            lumaAt(cell + ivec2(0, 2), size) - lumaAt(cell - ivec2(0, 2), size));
       float weight = smoothstep(kContrast.x, kContrast.y, length(gradient));
@@ -63,6 +66,6 @@ void main() {
       moved += weight * along * n;
     }
   }
-  imageStore(normals, block, vec4(matrix, 0.0));
+  imageStore(normals, block, vec4(matrix, cells));
   imageStore(normalMotion, block, vec4(moved, 0.0, 0.0));
 }

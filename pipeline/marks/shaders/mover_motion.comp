@@ -1,6 +1,6 @@
 // Purpose: the motion of movers, in blocks of cells: that which agrees best with the edges around
 //          (Lucas and Kanade, "An iterative image registration technique", 1981), in a window that
-//          grows until they have more than one direction.
+//          grows over the mover until they have more than one direction.
 // Inputs:  normals, normalMotion (mover_edges.comp).
 // Outputs: moverMotion RGBA16F: displacement since the previous frame, less the background's (px of
 //          the full image), times weight, and the weight, 0 where no mover is near. One invocation
@@ -13,7 +13,18 @@ uniform highp sampler2D normalMotion;
 
 const float kEnough = 12.0;   // the smaller eigenvalue: some edges of both directions
 const float kBalance = 0.1;  // of the larger one
+const int kNearest = 2;       // blocks in which all movers count
+const int kFarthest = 8;
 const float kLeast = 0.5;     // of their sum
+
+// Whether a mover lies all the way between two blocks: edges of another one say nothing.
+bool isJoined(ivec2 from, ivec2 to) {
+  for (int i = 1; i < 4; ++i) {
+    ivec2 at = from + ivec2(round(0.25 * float(i) * vec2(to - from)));
+    if (texelFetch(normals, at, 0).a <= 0.0) return false;
+  }
+  return true;
+}
 
 // The eigenvalues of the matrix (xx, xy, yy), the larger one first.
 vec2 eigenvaluesOf(vec3 m) {
@@ -29,7 +40,8 @@ void main() {
   vec3 matrix = vec3(0.0);
   vec2 moved = vec2(0.0);
   vec2 values = vec2(0.0);
-  for (int radius = 1; radius <= 8; radius *= 2) {
+  int farthest = texelFetch(normals, block, 0).a > 0.0 ? kFarthest : kNearest;
+  for (int radius = 1; radius <= farthest; radius *= 2) {
     matrix = vec3(0.0);
     moved = vec2(0.0);
     float fall = 1.0 / float(radius * radius);
@@ -37,8 +49,11 @@ void main() {
       for (int x = -radius; x <= radius; ++x) {
         ivec2 at = block + ivec2(x, y);
         if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size))) continue;
+        vec3 there = texelFetch(normals, at, 0).xyz;
+        if (there.x + there.z <= 0.0) continue;
+        if (radius > kNearest && !isJoined(block, at)) continue;
         float weight = exp(-fall * float(x * x + y * y));
-        matrix += weight * texelFetch(normals, at, 0).xyz;
+        matrix += weight * there;
         moved += weight * texelFetch(normalMotion, at, 0).xy;
       }
     }
