@@ -65,10 +65,11 @@ struct StrokeRule {
 };
 
 /// The images that strokes take their colours from, of any size (LINEAR, sRGB-coded,
-/// premultiplied): one of the real part, one of the models; without models, both are the same.
+/// premultiplied), of the background, of models and of movers. They may be the same one.
 struct StrokePaint {
-  const gpu::Texture* real = nullptr;
+  const gpu::Texture* background = nullptr;
   const gpu::Texture* models = nullptr;
+  const gpu::Texture* movers = nullptr;
 };
 
 /// The strokes of an AnchorSet's anchors: traced along a tensor field (thesis §4.4), blended with

@@ -5,9 +5,9 @@
 //          cells; background: the previous frame's, if hasPast; restSeconds: after so long a mover
 //          that rests joins the background; freshSeconds: freshness falls to 0 within so long.
 // Outputs: labels RGBA16F: 1 on movers, else 0; freshness: 1 where the label has just changed,
-//          falling to 0; rest and maturity, s, the latter
-//          below 0 where a mover has left. backgroundNow RGBA16F: its mean colour, and the
-//          frames in the mean, 0 if it was never seen. One invocation per cell.
+//          falling to 0; rest and maturity, s, the latter below 0 where a mover has left.
+//          backgroundNow RGBA16F: its mean colour, and the frames in the mean, 0 if it was never
+//          seen. One invocation per cell.
 // Precision: highp.
 #include "pipeline/marks/shaders/layer_blocks.glsl"
 #include "pipeline/marks/shaders/motion_layers.glsl"

@@ -3,9 +3,9 @@
 //          constants (§5.4), so that a stroke lives as long as its anchor.
 // Inputs:  anchors; field: tensors to follow, detailField: tensors with the detail, moverField:
 //          those of movers; mover_labels.glsl's and mover_motion.glsl's; background
-//          (marks::MotionLayers); paint,
-//          modelPaint: the reduced images of the real part and of the models; ids if hasObjects;
-//          the rest as in marks::StrokeRule.
+//          (marks::MotionLayers); paint, modelPaint, moverPaint: the reduced images of the
+//          background, of models and of movers; ids if hasObjects; the rest as in
+//          marks::StrokeRule.
 // Outputs: strokes. One invocation per anchor.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
@@ -26,6 +26,7 @@ uniform highp sampler2D moverField;
 uniform highp sampler2D background;
 uniform highp sampler2D paint;
 uniform highp sampler2D modelPaint;
+uniform highp sampler2D moverPaint;
 uniform highp usampler2D ids;
 uniform bool hasObjects;
 uniform bool anew;
@@ -91,10 +92,17 @@ vec2 directionAt(vec2 px, Ground on) {
   return vec2(-gradient.y, gradient.x);
 }
 
-// The colour of the stroke's own object, if any of it is near.
-vec3 colourAt(vec2 px, uint object) {
-  vec4 seen = isVirtual(object) ? textureLod(modelPaint, px / fullSize, 0.0)
-                                : textureLod(paint, px / fullSize, 0.0);
+// The colour of the stroke's own object or layer, if any of it is near.
+vec3 colourAt(vec2 px, uint object, bool isOnMover) {
+  const float kOthers = 1e-3;  // weight of the other layer
+  vec2 at = px / fullSize;
+  if (isVirtual(object)) {
+    vec4 seen = textureLod(modelPaint, at, 0.0);
+    return seen.rgb / max(seen.a, 1e-4);
+  }
+  vec4 ground = textureLod(paint, at, 0.0);
+  vec4 mover = textureLod(moverPaint, at, 0.0);
+  vec4 seen = isOnMover ? mover + kOthers * ground : ground + kOthers * mover;
   return seen.rgb / max(seen.a, 1e-4);
 }
 
@@ -144,7 +152,7 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Ground on) {
     }
     arm.directions[i] = direction;
     at += segment * direction;
-    vec3 there = colourAt(at, on.object);
+    vec3 there = colourAt(at, on.object, on.isOnMover);
     float difference = apart(there, own);
     bool isOther = hasObjects && objectAt(at) != on.object;
     if (goesOn && isOther) {
@@ -254,7 +262,7 @@ void main() {
   float hash = unitOf(hashOf(seed ^ 0x51u));
   float stray = wander * (unitOf(hashOf(seed ^ 0x77u)) + unitOf(hashOf(seed ^ 0x78u)) - 1.0);
   vec2 hand = vec2(cos(stray), sin(stray));
-  vec3 own = colourAt(px, object);
+  vec3 own = colourAt(px, object, isOnMover);
   Ground on = groundOf(object, isOnMover, px);
   vec2 heading = directionAt(px, on);
   heading = vec2(hand.x * heading.x - hand.y * heading.y, hand.y * heading.x + hand.x * heading.y);

@@ -209,6 +209,7 @@ void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParamete
   } else {
     painting->movers.reset();
   }
+  reduced.update(frame, movers);
   painting->field.update(frame, *frame.colour, painting->motion, fieldOf(p), movers);
   for (std::size_t i = 0; i < painting->layers.size(); ++i) {
     Layer& layer = *painting->layers[i];
@@ -407,7 +408,6 @@ void Painterly::setParameters(const config::ParameterValues& values) {
 const Texture& Painterly::paint(const scene::ArFrame& frame, std::string_view view) {
   State& s = *state_;
   s.take(frame, p_);
-  s.reduced.update(frame);
   s.grow(frame, p_);
   if (!view.empty()) return s.show(frame, p_, viewIndex(painterlyViews(), view));
   s.drawStrokes(frame, p_);

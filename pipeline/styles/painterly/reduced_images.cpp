@@ -20,36 +20,42 @@ ReducedImages::Pyramid::Pyramid(hal::FrameSize size, gpu::TextureFormat format) 
 }
 
 ReducedImages::Apart::Apart(hal::FrameSize size)
-    : real(size, gpu::TextureFormat::kRgba16f),
+    : background(size, gpu::TextureFormat::kRgba16f),
       models(size, gpu::TextureFormat::kRgba16f),
-      first({&real.levels[0], &models.levels[0]}) {}
+      movers(size, gpu::TextureFormat::kRgba16f),
+      first({&background.levels[0], &models.levels[0], &movers.levels[0]}) {}
 
 ReducedImages::Surfaces::Surfaces(hal::FrameSize pictureSize)
     : size(pictureSize), whole(size, gpu::TextureFormat::kRgba8) {}
 
 ReducedImages::ReducedImages(const gpu::ShaderLibrary& library)
     : halve_(library.fragmentPass(kShaders + "halve.frag")),
-      part_(library.fragmentPass(kShaders + "part.frag")) {}
+      part_(library.fragmentPass(kShaders + "part.frag")),
+      noIds_(gpu::TextureFormat::kR32ui, {1, 1}) {}
 
-void ReducedImages::update(const scene::ArFrame& frame) {
+void ReducedImages::update(const scene::ArFrame& frame, const marks::MotionLayers* layers) {
   Surfaces& surfaces = surfaces_.of(frame.size(), frame.size());
   now_ = &surfaces;
   picture_ = frame.colour;
-  hasObjects_ = frame.hasObjects;
+  isApart_ = frame.hasObjects || layers != nullptr;
   const hal::FrameSize half = surfaces.whole.levels[0].size();
   halve_.use()
       .texture("picture", *frame.colour)
       .set("size", glm::vec2(half.width, half.height))
       .drawFullscreen(surfaces.whole.targets[0]);
   halve(surfaces.whole, 0);
-  if (!frame.hasObjects) return;
+  if (!isApart_) return;
   if (!surfaces.apart) surfaces.apart.emplace(frame.size());
   part_.use()
       .texture("picture", *frame.colour)
-      .texture("ids", *frame.ids)
+      .texture("ids", frame.hasObjects ? *frame.ids : noIds_)
+      .texture("movers", layerTextures_.labelsOf(layers))
+      .set("hasObjects", frame.hasObjects ? 1 : 0)
+      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .drawFullscreen(surfaces.apart->first);
-  halve(surfaces.apart->real, 0);
-  halve(surfaces.apart->models, 0);
+  halve(surfaces.apart->background, 0);
+  if (frame.hasObjects) halve(surfaces.apart->models, 0);
+  if (layers != nullptr) halve(surfaces.apart->movers, 0);
 }
 
 void ReducedImages::halve(const Pyramid& pyramid, std::size_t from) {
@@ -66,13 +72,16 @@ marks::StrokePaint ReducedImages::paintOf(double px) const {
   assert(now_ != nullptr);
   const auto halvings = static_cast<int>(std::floor(std::log2(px)));
   // The picture itself knows nothing of parts; its pixels are fine enough.
-  if (halvings < 1) return {.real = picture_, .models = picture_};
+  if (halvings < 1) return {.background = picture_, .models = picture_, .movers = picture_};
   const std::size_t level = std::min(static_cast<std::size_t>(halvings), kHalvings) - 1;
-  if (!hasObjects_) {
+  if (!isApart_) {
     const gpu::Texture* whole = &now_->whole.levels[level];
-    return {.real = whole, .models = whole};
+    return {.background = whole, .models = whole, .movers = whole};
   }
-  return {.real = &now_->apart->real.levels[level], .models = &now_->apart->models.levels[level]};
+  const Apart& apart = *now_->apart;
+  return {.background = &apart.background.levels[level],
+          .models = &apart.models.levels[level],
+          .movers = &apart.movers.levels[level]};
 }
 
 const gpu::Texture& ReducedImages::whole(std::size_t halvings) const {

@@ -9,23 +9,25 @@
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
+#include "pipeline/marks/layer_textures.h"
 #include "pipeline/marks/stroke_set.h"
 #include "pipeline/scene/render/ar_frame.h"
 
 namespace pleinair::styles {
 
 /// A frame's picture at half its size, a quarter and on, for strokes to take their colours from:
-/// where there are models, of what the camera sees and of all models, each of the two by
-/// itself, so that what is real is not tinted by what is not (thesis §5.5). Keeps textures for each
-/// size of picture it has seen. All calls on the thread of the GL context it was made in.
+/// of the background, of movers and of all models, each by itself, so that none is tinted by
+/// another (thesis §5.5). Keeps textures for each size of picture it has seen. All calls on the
+/// thread of the GL context it was made in.
 class ReducedImages {
  public:
   static constexpr std::size_t kHalvings = 5;
 
-  /// `library` has gpu::painterlyShaders() and gpu::sceneShaders().
+  /// `library` has gpu::painterlyShaders(), gpu::sceneShaders() and gpu::marksShaders().
   explicit ReducedImages(const gpu::ShaderLibrary& library);
 
-  void update(const scene::ArFrame& frame);
+  /// Without `layers`, nothing is a mover.
+  void update(const scene::ArFrame& frame, const marks::MotionLayers* layers = nullptr);
   /// The images whose texels are at most `px` of the frame wide. Valid until the next update().
   marks::StrokePaint paintOf(double px) const;
   /// All of the picture, `halvings` times reduced. Precondition: 1 to kHalvings.
@@ -42,9 +44,10 @@ class ReducedImages {
   };
   struct Apart {
     explicit Apart(hal::FrameSize size);
-    Pyramid real;
+    Pyramid background;
     Pyramid models;
-    gpu::RenderTarget first;  // the first levels of both
+    Pyramid movers;
+    gpu::RenderTarget first;  // the first levels of all
   };
   struct Surfaces {
     explicit Surfaces(hal::FrameSize pictureSize);
@@ -60,7 +63,9 @@ class ReducedImages {
   gpu::PerSize<Surfaces> surfaces_;
   const Surfaces* now_ = nullptr;
   const gpu::Texture* picture_ = nullptr;
-  bool hasObjects_ = false;
+  bool isApart_ = false;
+  marks::LayerTextures layerTextures_;
+  gpu::Texture noIds_;
 };
 
 }  // namespace pleinair::styles

@@ -108,7 +108,7 @@ class StrokeTest : public TensorTest {
     const MotionLayers* const layers = layers_ ? &*layers_ : nullptr;
     field_->update(frame, texture, *motionField_, kNoMemory, layers);
     anchors_->advance(frame, *motionField_, {}, layers);
-    const StrokePaint paints{.real = &colours, .models = &colours};
+    const StrokePaint paints{.background = &colours, .models = &colours, .movers = &colours};
     strokes_->update(frame, *anchors_, *field_, paints, rule, layers);
   }
 
