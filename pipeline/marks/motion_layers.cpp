@@ -25,6 +25,7 @@ const std::string kShaders = "pipeline/marks/shaders/";
 constexpr hal::Duration kStandingHold = std::chrono::milliseconds(500);
 constexpr float kFreshSeconds = 0.3F;
 constexpr unsigned kTurns = 2;  // shaders/motion_layers_tally.glsl
+constexpr std::size_t kTallied = 3;
 constexpr GLbitfield kStored = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                                GL_SHADER_STORAGE_BARRIER_BIT;
 
@@ -56,7 +57,7 @@ struct MotionLayers::State {
         normals(TextureFormat::kRgba16f, blocksOf(size)),
         normalMotion(TextureFormat::kRgba16f, blocksOf(size)),
         moverMotion(TextureFormat::kRgba16f, blocksOf(size)),
-        tally(kTurns * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
+        tally(kTallied * kTurns * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
         noIds(TextureFormat::kR32ui, {1, 1}) {
     tally.write(std::vector<std::byte>(tally.sizeBytes()));
     for (std::size_t i = 0; i < 2; ++i) {
@@ -144,6 +145,8 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .image("pictureNow", s.pictures.at(s.now), ImageAccess::kWrite)
       .dispatch(s.cells(), kStored);
   s.findGround.use()
+      .storage("Tally", s.tally)
+      .set("turn", s.turn)
       .texture("candidates", s.candidates)
       .texture("evidence", s.evidence)
       .texture("picture", s.pictures.at(s.now))

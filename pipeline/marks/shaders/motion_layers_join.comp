@@ -12,6 +12,7 @@
 #include "pipeline/marks/shaders/layer_blocks.glsl"
 #include "pipeline/marks/shaders/motion_layers.glsl"
 #include "pipeline/marks/shaders/motion_layers_tally.glsl"
+#include "pipeline/marks/shaders/structure.glsl"
 layout(local_size_x = 16, local_size_y = 4) in;
 layout(rgba16f, binding = 0) writeonly uniform highp image2D labels;
 layout(rgba16f, binding = 1) writeonly uniform highp image2D backgroundNow;
@@ -30,11 +31,11 @@ const float kRestingChange = 0.05;
 const float kMovingRestingChange = 0.3;  // while the camera moves: its picture trembles
 const float kFrames = 30.0;
 const float kMovingFrames = 4.0;  // while the camera moves: each frame's interpolation blurs
-const float kSameStructure = 0.9;
 const float kMostOthers = 0.5;  // of the picture: if more is other content, the light is
 const float kLikelier = 0.06;  // of colour: uncovered rather than covered
 const float kAlike = 0.6;      // share of the memory's difference that is left
-const float kContrast = 0.02;  // of luma
+const float kSwitched = 0.04;  // of all blocks: a light has been switched
+const float kMostKept = 0.5;   // of those with edges that have changed
 
 // The colour of the background around, in a window that grows until it has seen enough, and how
 // many blocks of it were seen.
@@ -100,7 +101,11 @@ bool isUncovered(ivec2 cell, ivec2 size) {
 void main() {
   ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
   ivec2 size = imageSize(labels);
-  if (cell == ivec2(0)) otherCells[1u - turn] = 0u;
+  if (cell == ivec2(0)) {
+    otherCells[1u - turn] = 0u;
+    changedBlocks[1u - turn] = 0u;
+    keptBlocks[1u - turn] = 0u;
+  }
   if (any(greaterThanEqual(cell, size))) return;
   vec2 px = (vec2(cell) + 0.5) * kLayerCellPixels;
   vec2 from = px - backgroundShift(px);
@@ -122,8 +127,7 @@ void main() {
   float others = 0.0;
   float changes = 0.0;
   float carried = 0.0;
-  vec2 mean = vec2(0.0);
-  vec3 products = vec3(0.0);
+  Structure structure = noStructure();
   for (int y = -1; y <= 1; ++y) {
     for (int x = -1; x <= 1; ++x) {
       ivec2 at = clamp(cell + 2 * ivec2(x, y), ivec2(0), size - 1);
@@ -131,17 +135,15 @@ void main() {
       others += there.r / 9.0;
       carried = max(carried, there.g);
       changes += max(texelFetch(evidence, at, 0).r, 0.0) / 9.0;
-      mean += there.ba / 9.0;
-      products += vec3(there.ba * there.ba, there.b * there.a) / 9.0;
+      add(structure, there.ba);
     }
   }
   // A change of light leaves edges where they are.
-  vec2 spread = max(products.xy - mean * mean, 0.0);
-  float together = products.z - mean.x * mean.y;
-  bool isSameStructure = min(spread.x, spread.y) > kContrast * kContrast &&
-                         together > kSameStructure * sqrt(spread.x * spread.y);
+  float blocks = float(size.x * size.y) / float(kLayerBlock * kLayerBlock);
+  float kept = float(keptBlocks[turn]);
+  bool isSwitched = kept > kSwitched * blocks && kept > kMostKept * float(changedBlocks[turn]);
   bool isEverywhere = float(otherCells[turn]) > kMostOthers * float(size.x * size.y);
-  bool isLight = isEverywhere || (isSameStructure && carried <= 0.5);
+  bool isLight = isEverywhere || ((isSwitched || isSame(structure)) && carried <= 0.5);
   bool wasMover = own.g > 0.5;
   bool isOther = (own.r > 0.5 && others > 0.25) || (own.r > 0.15 && others > 0.55) || others > 0.8;
   bool hasCause = changes > 0.08 || carried > 0.5;

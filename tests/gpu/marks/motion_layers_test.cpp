@@ -323,6 +323,32 @@ TEST_F(MotionLayersTest, AShadowIsNoMover) {
   }
 }
 
+/// A wall above a plain table, two fifths of which are lit by a lamp.
+hal::Image litByLamp(double lamp, hal::FrameSize size, unsigned seed) {
+  hal::Image image = seen({.noiseSigma = 1.0}, size, seed);
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      auto* p = image.row(0, y).data() + std::ptrdiff_t{4} * x;
+      const bool isTable = y > size.height / 2;
+      const double light = x > 3 * size.width / 5 ? lamp : 1.0;
+      for (int c = 0; c < 3; ++c) {
+        p[c] = static_cast<std::uint8_t>(std::min(light * (isTable ? 90.0 : 0.6 * p[c]), 255.0));
+      }
+    }
+  }
+  return image;
+}
+
+TEST_F(MotionLayersTest, ALampThatIsSwitchedIsNoMover) {
+  for (unsigned i = 0; i < 4; ++i) seeImage(litByLamp(1.0, kSize, i));
+  for (const double lamp : {1.6, 1.0, 1.4}) {
+    for (unsigned i = 0; i < 3; ++i) {
+      seeImage(litByLamp(lamp, kSize, 10 + i));
+      ASSERT_EQ(movers(), 0) << lamp << ", frame " << i;
+    }
+  }
+}
+
 /// Models are drawn over the picture, and are no part of it.
 TEST_F(MotionLayersTest, AModelIsNoMoverNorIsWhatItUncovers) {
   useScene(boxScene());

@@ -1,0 +1,38 @@
+// Purpose: whether two pictures of a place have the same structure: then only its light differs.
+// Inputs:  pairs of lumas.
+// Outputs: how they go together.
+// Precision: highp.
+struct Structure {
+  vec2 sum;
+  vec3 products;
+  float count;
+};
+
+const float kContrast = 0.02;  // of luma
+const float kSameStructure = 0.9;  // correlation
+
+Structure noStructure() { return Structure(vec2(0.0), vec3(0.0), 0.0); }
+
+void add(inout Structure s, vec2 lumas) {
+  s.sum += lumas;
+  s.products += vec3(lumas * lumas, lumas.x * lumas.y);
+  s.count += 1.0;
+}
+
+vec2 variancesOf(Structure s) {
+  vec2 mean = s.sum / s.count;
+  return max(s.products.xy / s.count - mean * mean, 0.0);
+}
+
+// In one of the pictures at least.
+bool hasEdges(Structure s) {
+  vec2 variances = variancesOf(s);
+  return max(variances.x, variances.y) > kContrast * kContrast;
+}
+
+bool isSame(Structure s) {
+  vec2 variances = variancesOf(s);
+  float covariance = (s.products.z - s.sum.x * s.sum.y / s.count) / s.count;
+  return min(variances.x, variances.y) > kContrast * kContrast &&
+         covariance > kSameStructure * sqrt(variances.x * variances.y);
+}
