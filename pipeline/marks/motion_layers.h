@@ -27,7 +27,8 @@ struct MotionLayersOptions {
 /// mover. (Background subtraction with a running mean: Piccardi, "Background subtraction
 /// techniques: a review", 2004.)
 ///
-/// A mover's plain parts go with its textured ones. One mover is not told from another. Under
+/// A mover's plain parts, and those along an edge, go with the others. What comes in from outside
+/// before a camera that stands is a mover at once. One mover is not told from another. Under
 /// parallax, near things may count as movers. All calls on the thread of the GL context that was
 /// current at construction.
 class MotionLayers {
@@ -48,7 +49,7 @@ class MotionLayers {
 
   /// RGBA16F, LINEAR; a texel is kCellPixels² px of the full image. R: 1 on movers, 0 on the
   /// background and on models. G: 1 where this has just changed, falling to 0 within 0.3 s. B: how
-  /// long a mover has rested, A: how long it has been seen to move, s.
+  /// long a mover has rested, A: how long it has been seen to move, s; below 0 where it has left.
   const gpu::Texture& labels() const;
   /// RGBA16F, LINEAR, as large: the background's mean colour, sRGB-coded, also behind movers; and
   /// the number of frames in it, 0 where it was never seen.

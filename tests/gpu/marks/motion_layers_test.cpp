@@ -246,6 +246,19 @@ TEST_F(MotionLayersTest, APlainMoverGoesWithItsOutline) {
   EXPECT_GT(overlapWith(view).iou(), 0.65) << "most of it is a mover that rests";
 }
 
+/// It is seen for less time than makes what appears within the image a mover.
+TEST_F(MotionLayersTest, WhatComesInFromOutsideIsAMoverAtOnce) {
+  see({});
+  see({});
+  View view{.radius = 45.0};
+  for (const double x : {-20.0, -4.0, 12.0, 28.0}) {
+    view.disc = {x, 120.0};
+    seeDiscMoved(view, {16.0, 0.0}, Texture::kOutline);
+  }
+  rest(view, std::chrono::milliseconds(2000));
+  EXPECT_GT(overlapWith(view).iou(), 0.7) << "a mover that rests";
+}
+
 /// Flow reaches beyond the disc, and carries nothing there.
 TEST_F(MotionLayersTest, BeforeAStandingCameraTheBackgroundRests) {
   for (int i = 0; i < 4; ++i) see({});
