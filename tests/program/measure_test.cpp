@@ -149,6 +149,64 @@ TEST_F(Measure, ComparesMoversWithTheirTrueMasks) {
   EXPECT_LT(json["movers"]["painting"]["lost_percent"], 1.0);
 }
 
+/// The gates of movers that say something about a shot of the synthetic camera, at 15 frames a
+/// second.
+struct MoverShot {
+  const char* description;
+  const char* shot;
+  const char* frames;
+  std::vector<const char*> gates;  ///< their beginnings
+  double leastIou;
+};
+
+class MoverGates : public Measure {
+ protected:
+  nlohmann::json measuredOil(const MoverShot& shot, const std::string& movers) {
+    const ProgramRun run =
+        measured({"--camera", std::string("synthetic:") + shot.shot, "--standing", "--size",
+                  "320x240", "--set", "camera.rate=15", "--frames", shot.frames, "--settle", "5",
+                  "--style", "painterly", "--set", "movers=" + movers, "--json", path("r.json")});
+    EXPECT_EQ(run.status, 0) << run.error << run.out;
+    return nlohmann::json::parse(read("r.json"));
+  }
+  static std::string verdictOf(const nlohmann::json& report, const std::string& gate) {
+    for (const auto& each : report["gates"]) {
+      if (each["what"].get<std::string>().starts_with(gate)) return each["verdict"];
+    }
+    return "absent";
+  }
+};
+
+class MoverGatesOf : public MoverGates, public testing::WithParamInterface<MoverShot> {};
+
+TEST_P(MoverGatesOf, ArePassedByOil) {
+  const nlohmann::json report = measuredOil(GetParam(), "true");
+  for (const char* const gate : GetParam().gates) {
+    EXPECT_EQ(verdictOf(report, gate), "pass") << gate << report["gates"];
+  }
+  if (GetParam().leastIou > 0.0) {
+    EXPECT_GT(report["labels"]["iou_mean"], GetParam().leastIou);
+  }
+}
+
+/// A control: a painter of one layer.
+TEST_F(MoverGates, AreFailedWithoutLayers) {
+  const nlohmann::json report = measuredOil({.shot = "hand", .frames = "70"}, "false");
+  for (const char* const gate : {"RETURN", "GHOST", "SEAM POP"}) {
+    EXPECT_EQ(verdictOf(report, gate), "fail") << gate << report["gates"];
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Shots, MoverGatesOf,
+    testing::Values(MoverShot{"Hand",
+                              "hand",
+                              "70",
+                              {"STILL", "RETURN", "GHOST", "SEAM POP", "LOST", "frames until"},
+                              0.8},
+                    MoverShot{"Lights", "lights", "60", {"STILL", "labels that flip where"}, 0.0}),
+    [](const auto& shot) { return std::string(shot.param.description); });
+
 TEST_F(Measure, MakesAFailedGateAnExitStatus) {
   writePicture("photo.png", 0, 0, {320, 260});
   const std::vector<std::string> arguments{
