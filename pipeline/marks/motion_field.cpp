@@ -17,6 +17,7 @@
 #include "pipeline/marks/anchor.h"
 #include "pipeline/scene/description/scene.h"
 #include "pipeline/scene/render/scene_uniforms.h"
+#include "pipeline/tracking/motion/image_motion.h"
 
 namespace pleinair::marks {
 namespace {

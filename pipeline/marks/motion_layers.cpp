@@ -55,7 +55,7 @@ struct MotionLayers::State {
         evidence(TextureFormat::kRgba16f, size),
         ground(TextureFormat::kRgba16f, blocksOf(size)),
         normals(TextureFormat::kRgba16f, blocksOf(size)),
-        normalMotion(TextureFormat::kRgba16f, blocksOf(size)),
+        normalFlow(TextureFormat::kRgba16f, blocksOf(size)),
         moverMotion(TextureFormat::kRgba16f, blocksOf(size)),
         tally(kTallied * kTurns * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
         noIds(TextureFormat::kR32ui, {1, 1}) {
@@ -78,7 +78,7 @@ struct MotionLayers::State {
   gpu::Texture evidence;
   gpu::Texture ground;
   gpu::Texture normals;
-  gpu::Texture normalMotion;
+  gpu::Texture normalFlow;
   gpu::Texture moverMotion;
   std::array<gpu::Texture, 2> pictures;
   std::array<gpu::Texture, 2> labels;
@@ -89,6 +89,7 @@ struct MotionLayers::State {
   unsigned turn = 0;
   hal::FrameSize frameSize;  // of the last update
   hal::TimePoint lastTime;
+  float lastStep = 0.0F;  // s; moverMotion is over it
   bool hasPast = false;
   bool isStanding = false;
   hal::Duration sinceStanding = kStandingHold;
@@ -124,6 +125,7 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
   const hal::Duration passed =
       s.hasPast ? timeStep(s.lastTime, frame.captureTime) : hal::Duration(0);
   const auto step = static_cast<float>(hal::toSeconds(passed));
+  const float motionScale = s.lastStep > 0.0F ? step / s.lastStep : 1.0F;
   const std::size_t last = s.now;
   s.now = 1 - s.now;
   s.turn = (s.turn + 1) % kTurns;
@@ -140,6 +142,7 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .set("hasObjects", frame.hasObjects ? 1 : 0)
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .set("noise", static_cast<float>(noise))
+      .set("motionScale", motionScale)
       .image("candidates", s.candidates, ImageAccess::kWrite)
       .image("evidence", s.evidence, ImageAccess::kWrite)
       .image("pictureNow", s.pictures.at(s.now), ImageAccess::kWrite)
@@ -170,15 +173,17 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .set("isStanding", motion.isStanding() ? 1 : 0)
       .texture("picture", s.pictures.at(s.now))
       .texture("moverMotion", s.moverMotion)
+      .set("motionScale", motionScale)
       .image("normals", s.normals, ImageAccess::kWrite)
-      .image("normalMotion", s.normalMotion, ImageAccess::kWrite)
+      .image("normalFlow", s.normalFlow, ImageAccess::kWrite)
       .dispatch(blocks, kStored);
   s.findMotion.use()
       .texture("normals", s.normals)
-      .texture("normalMotion", s.normalMotion)
+      .texture("normalFlow", s.normalFlow)
       .image("moverMotion", s.moverMotion, ImageAccess::kWrite)
       .dispatch(blocks, kStored);
   s.lastTime = frame.captureTime;
+  s.lastStep = step;
   s.isStanding = s.hasPast && motion.isStanding();
   if (!s.hasPast) s.sinceStanding = kStandingHold;
   s.sinceStanding = s.isStanding ? hal::Duration(0) : s.sinceStanding + passed;

@@ -22,10 +22,10 @@ struct MotionLayersOptions {
 /// MotionField. A mover is what differs from them by more than noise, and has moved: it differs
 /// from the previous frame too, or its measured motion is not the background's, or it was a mover
 /// at its last place. Changes of light that leave edges where they are make no mover, nor does a
-/// change of more than half of the image. What a mover uncovers for the first time is background
-/// as soon as it rests, if the camera stands and it is like its surroundings, else like any other
-/// mover. (Background subtraction with a running mean: Piccardi, "Background subtraction
-/// techniques: a review", 2004.)
+/// change of more than half of the image, or of less if most edges in it stay. What a mover
+/// uncovers for the first time is background as soon as it rests, if the camera stands and it is
+/// like its surroundings, else like any other mover. (Background subtraction with a running mean:
+/// Piccardi, "Background subtraction techniques: a review", 2004.)
 ///
 /// A mover's plain parts, and those along an edge, go with the others. What comes in from outside
 /// before a camera that stands is a mover at once. One mover is not told from another. Under
@@ -59,7 +59,7 @@ class MotionLayers {
   /// texel. Throws hal::Failure (kUnsupported) where the GPU cannot read such a texture.
   hal::Image readMovers() const;
 
-  /// RGBA16F; a texel is kBlockCells² cells. RG: displacement of the movers' textured parts since
+  /// RGBA16F; a texel is kBlockCells² cells. RG: displacement of the movers' edges since
   /// the previous frame, less the background's, px of the full image, times their weight; B: that
   /// weight.
   const gpu::Texture& moverMotion() const;

@@ -58,8 +58,9 @@ struct StrokeRule {
   /// the background before a standing camera.
   glm::vec2 flatDetail{0.35F, 0.9F};
   float flatHold = 1.0F;
-  /// In [0, 1]: how much looser fast movers are painted: along their motion, longer, and with less
-  /// detail; between two speeds, heights of the image per second.
+  /// In [0, 1]: how much looser fast movers are painted: along their motion, and with less detail,
+  /// so that fewer of the finer layers' strokes are needed; between two speeds, heights of the
+  /// image per second.
   float looseness = 0.0F;
   glm::vec2 looseSpeed{0.3F, 1.0F};
 };

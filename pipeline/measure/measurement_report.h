@@ -52,10 +52,10 @@ struct Report {
   std::optional<Flatness> flatness;
   std::optional<AnchorSummary> inside;       ///< of the moving sequence
   std::optional<AnchorSummary> insideStill;  ///< of the still scene
-  std::optional<MoverReport> movers;         ///< if the camera stands
-  // The painter's labels of movers are judged if the camera stands and the painter has any.
-  std::optional<LabelSummary> labels;              ///< where true masks are known
-  std::optional<double> labelFlipsOnStillPercent;  ///< of the still scene
+  /// These three are there if the camera stands; the labels, if the painter has any.
+  std::optional<MoverReport> movers;
+  std::optional<LabelSummary> labels;  ///< where true masks are known
+  std::optional<double> labelFlipsOnStillPercent;
   std::vector<FrameValues> overTime;
   std::vector<WorstFrame> worst;  ///< worst first
   std::vector<Verdict> controls;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "hal/clock.h"
 #include "pipeline/measure/mover_masks.h"
 
 namespace pleinair::measure {

@@ -47,9 +47,8 @@ vec2 seenPart(vec2 displacement, vec2 px) {
   float xy = 0.25 * (along.x + along.y) * (down.x + down.y);
   float least = kPlain + kPlainNoise * noise;
   least *= least;
-  float determinant = (xx + least) * (yy + least) - xy * xy;
-  vec2 seen = vec2(xx * displacement.x + xy * displacement.y, xy * displacement.x + yy * displacement.y);
-  return vec2((yy + least) * seen.x - xy * seen.y, (xx + least) * seen.y - xy * seen.x) / determinant;
+  mat2 seen = mat2(xx, xy, xy, yy);
+  return inverse(seen + mat2(least)) * (seen * displacement);
 }
 
 // A mover moves as dense flow says where its texture shows it: it is not still, and the image's
@@ -64,7 +63,7 @@ Moved moverMotionAt(vec2 px, float object) {
   const float kError = 1.0;  // px
   if (!restsWithCamera) own += byPicture(px, false).displacement;
   if (isKnown) own += seenPart(flowed.displacement - own, px + own);
-  return Moved(own, flowed.jacobian, kError, kSourceFlow);
+  return Moved(own, isKnown ? flowed.jacobian : kNoTurn, kError, kSourceFlow);
 }
 
 // The background moves as one; a mover's motion must not carry it along.

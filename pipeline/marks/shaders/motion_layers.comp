@@ -2,11 +2,12 @@
 //          frame, and carries its label along the motion (marks/motion_layers.h).
 // Inputs:  motion_layers.glsl's, motion_layers_tally.glsl's; picture (ArFrame::colour); ids and its
 //          pixelsOfFull if hasObjects; lastPicture, background, labels: the previous frame's, if
-//          hasPast; motion: MotionField's field; mover_motion.glsl's, of the previous frame; noise:
-//          sigma of a cell, in [0, 1].
+//          hasPast; motion: MotionField's field; mover_motion.glsl's, of the previous frame, and
+//          motionScale, this step over that; noise: sigma of a cell, in [0, 1].
 // Outputs: candidates RGBA8: how surely it is other content than the background, the carried label,
 //          luma now and of the background. evidence RGBA16F: whether it has changed since the
-//          previous frame, or -1 on models; carried rest, carried maturity, carried freshness.
+//          previous frame, or -1 on models; carried rest, carried maturity (below 0: a mover
+//          has left), carried freshness.
 //          pictureNow RGBA8: the picture in cells. otherCells: how many cells are surely other
 //          content. One invocation per cell.
 // Precision: highp.
@@ -30,6 +31,7 @@ uniform bool hasObjects;
 uniform bool hasPast;
 uniform vec2 pixelsOfFull;
 uniform float noise;
+uniform float motionScale;
 
 const float kSlack = 0.035;
 const float kNoiseDeviations = 3.0;
@@ -37,7 +39,7 @@ const float kMovingSlack = 1.6;  // of a camera that moves: the past is interpol
 const float kCertainThresholds = 2.4;  // at so many thresholds, other content is certain
 const float kTrustedFrames = 4.0;  // of background, after which its colours count more than flow
 const float kReach = 2.5;  // px
-const float kMovedPx = 0.6;
+const float kMovedPx = 0.6;  // less may be an error of the flow, at any rate of frames
 const float kLeastUnlike = 0.02;  // of colour
 const float kSeenOther = 0.6;
 
@@ -98,9 +100,9 @@ void main() {
   vec4 known = textureLod(background, inLayers(background, from), 0.0);
   vec3 before = textureLod(lastPicture, inLayers(lastPicture, from), 0.0).rgb;
   float least = (isStanding ? 1.0 : kMovingSlack) * (kSlack + kNoiseDeviations * noise);
-  float unlike = beyond(known.rgb, low, high);
+  float unlike = known.a < 0.5 ? 0.0 : beyond(known.rgb, low, high);
   float other = smoothstep(least, kCertainThresholds * least, unlike);
-  other *= known.a < 0.5 ? 0.0 : 1.0 - shadeOf(now, known.rgb);
+  other *= 1.0 - shadeOf(now, known.rgb);
   float changed = smoothstep(least, kCertainThresholds * least, beyond(before, low, high));
 
   vec4 moved = textureLod(motion, px / fullSize, 0.0);
@@ -111,8 +113,10 @@ void main() {
   if (!isMoving && changed > 0.5) label.a = 0.0;  // something else is seen there
   bool isLeft = label.a < 0.0 && changed <= 0.5;
   vec2 own;
-  if (!isMoving && !isLeft && max(label.r, other) > 0.5 && findMoverMotion(px, own) && length(own) > kMovedPx) {
+  bool mayBeMover = !isMoving && !isLeft && max(label.r, other) > 0.5;
+  if (mayBeMover && findMoverMotion(px, own) && length(own) > kMovedPx) {
     // A plain part of a mover goes with its other parts.
+    own *= motionScale;
     vec2 back = from - own;
     vec4 carried = labelBefore(back);
     isCarried = carried.r > 0.5;

@@ -1,9 +1,11 @@
 // Purpose: the mean colour of what is surely background, in blocks of cells: what a place that is
-//          other content may be expected to look like if it has just been uncovered. And the blocks
-//          with edges that have changed, and those that have kept them: many do if the light changes.
+//          other content may be expected to look like if it has just been uncovered. It also
+//          counts the blocks with edges that have changed, and those of them that have kept their
+//          edges: most do if the light changes.
 // Inputs:  candidates, evidence (motion_layers.comp); picture: this frame's, in cells.
 // Outputs: ground RGBA16F: the colour times the share of the block that is background, and that
-//          share. changedBlocks, keptBlocks (motion_layers_tally.glsl). One invocation per block of kLayerBlock² cells.
+//          share. changedBlocks, keptBlocks (motion_layers_tally.glsl). One invocation per block of
+//          kLayerBlock² cells.
 // Precision: highp.
 #include "pipeline/marks/shaders/layer_blocks.glsl"
 #include "pipeline/marks/shaders/motion_layers_tally.glsl"

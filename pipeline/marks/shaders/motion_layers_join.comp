@@ -25,17 +25,17 @@ uniform bool hasPast;
 uniform float restSeconds;
 uniform float freshSeconds;
 
-const float kHasLeft = -1.0;   // instead of a maturity: nothing but a change makes it a mover's again
+const float kHasLeft = -1.0;   // instead of a maturity: the motion of movers carries nothing here
 const float kTentative = 0.7;  // s: what has changed once and then rests is no mover
 const float kRestingChange = 0.05;
 const float kMovingRestingChange = 0.3;  // while the camera moves: its picture trembles
 const float kFrames = 30.0;
 const float kMovingFrames = 4.0;  // while the camera moves: each frame's interpolation blurs
-const float kMostOthers = 0.5;  // of the picture: if more is other content, the light is
+const float kMostOthers = 0.5;  // of the picture: if more is other content, the light has changed
 const float kLikelier = 0.06;  // of colour: uncovered rather than covered
 const float kAlike = 0.6;      // share of the memory's difference that is left
 const float kSwitched = 0.04;  // of all blocks: a light has been switched
-const float kMostKept = 0.5;   // of those with edges that have changed
+const float kLeastKept = 0.5;   // of those with edges that have changed
 
 // The colour of the background around, in a window that grows until it has seen enough, and how
 // many blocks of it were seen.
@@ -141,7 +141,7 @@ void main() {
   // A change of light leaves edges where they are.
   float blocks = float(size.x * size.y) / float(kLayerBlock * kLayerBlock);
   float kept = float(keptBlocks[turn]);
-  bool isSwitched = kept > kSwitched * blocks && kept > kMostKept * float(changedBlocks[turn]);
+  bool isSwitched = kept > kSwitched * blocks && kept > kLeastKept * float(changedBlocks[turn]);
   bool isEverywhere = float(otherCells[turn]) > kMostOthers * float(size.x * size.y);
   bool isLight = isEverywhere || ((isSwitched || isSame(structure)) && carried <= 0.5);
   bool wasMover = own.g > 0.5;
@@ -155,10 +155,10 @@ void main() {
   // What was a mover when the camera began to look, or stood there for long, has left. Flow and the
   // motion of movers reach beyond their outlines: neither makes such a place older. While the camera
   // moves, new parts of a mover would be taken for such places.
-  bool hasLeft = isStanding && isYoung && isUncovered(cell, size);
+  bool hasLeft = isYoung && isStanding && isUncovered(cell, size);
   if (hasLeft) {
     maturity = kHasLeft;
-  } else if (isYoung) {
+  } else if (isYoung && known.a >= 0.5) {
     maturity = max(maturity, maturityAround(cell, size, now, known.rgb));
   }
   if (rest > (maturity > kMatureSeconds ? restSeconds : kTentative)) {

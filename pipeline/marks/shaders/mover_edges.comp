@@ -2,10 +2,10 @@
 //          motion is not seen (the aperture problem): dense flow is 0 along a sleeve's outline,
 //          however fast the arm goes.
 // Inputs:  labels, picture: this frame's, in cells; motion_layers.glsl's, flow backward;
-//          mover_motion.glsl's, of the previous frame.
+//          mover_motion.glsl's, of the previous frame, and motionScale, this step over that.
 // Outputs: normals RGBA16F: the sum over edges of w n nᵀ (xx, xy, yy), n the edge's normal;
 //          and how many of the block's cells are a mover's.
-//          normalMotion RGBA16F: the sum of w n (n · d), d the flow's displacement since the previous
+//          normalFlow RGBA16F: the sum of w n (n · d), d the flow's displacement since the previous
 //          frame, less the background's, px of the full image. w falls with the flow's error, and
 //          where the flow has remained with the background. One invocation per block of
 //          kLayerBlock² cells.
@@ -16,9 +16,10 @@
 #include "pipeline/marks/shaders/mover_motion.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba16f, binding = 0) writeonly uniform highp image2D normals;
-layout(rgba16f, binding = 1) writeonly uniform highp image2D normalMotion;
+layout(rgba16f, binding = 1) writeonly uniform highp image2D normalFlow;
 uniform highp sampler2D labels;
 uniform highp sampler2D picture;
+uniform float motionScale;
 
 const int kStep = 2;  // cells
 const float kMaxError = 3.0;  // px
@@ -56,16 +57,16 @@ void main() {
       if (weight <= 0.0) continue;
       vec2 px = (vec2(cell) + 0.5) * kLayerCellPixels;
       Moved flowed = byFlow(px);
-      if (flowed.error > kMaxError) continue;
+      if (!(flowed.error <= kMaxError)) continue;
       weight /= 0.25 + flowed.error * flowed.error;
       vec2 n = normalize(gradient);
       float along = dot(n, -flowed.displacement - backgroundShift(px));
       vec2 expected;
-      if (findMoverMotion(px, expected)) weight *= trustIn(along, dot(n, expected));
+      if (findMoverMotion(px, expected)) weight *= trustIn(along, motionScale * dot(n, expected));
       matrix += weight * vec3(n.x * n.x, n.x * n.y, n.y * n.y);
       moved += weight * along * n;
     }
   }
   imageStore(normals, block, vec4(matrix, cells));
-  imageStore(normalMotion, block, vec4(moved, 0.0, 0.0));
+  imageStore(normalFlow, block, vec4(moved, 0.0, 0.0));
 }

@@ -1,7 +1,7 @@
 // Purpose: the motion of movers, in blocks of cells: that which agrees best with the edges around
 //          (Lucas and Kanade, "An iterative image registration technique", 1981), in a window that
 //          grows over the mover until they have more than one direction.
-// Inputs:  normals, normalMotion (mover_edges.comp).
+// Inputs:  normals, normalFlow (mover_edges.comp).
 // Outputs: moverMotion RGBA16F: displacement since the previous frame, less the background's (px of
 //          the full image), times weight, and the weight, 0 where no mover is near. One invocation
 //          per block.
@@ -9,7 +9,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba16f, binding = 0) writeonly uniform highp image2D moverMotion;
 uniform highp sampler2D normals;
-uniform highp sampler2D normalMotion;
+uniform highp sampler2D normalFlow;
 
 const float kEnough = 12.0;   // the smaller eigenvalue: some edges of both directions
 const float kBalance = 0.1;  // of the larger one
@@ -54,14 +54,14 @@ void main() {
         if (radius > kNearest && !isJoined(block, at)) continue;
         float weight = exp(-fall * float(x * x + y * y));
         matrix += weight * there;
-        moved += weight * texelFetch(normalMotion, at, 0).xy;
+        moved += weight * texelFetch(normalFlow, at, 0).xy;
       }
     }
     values = eigenvaluesOf(matrix);
     if (values.y > max(kEnough, kBalance * values.x)) break;
   }
   float sum = values.x + values.y;
-  if (sum < kLeast) {
+  if (!(sum >= kLeast)) {
     imageStore(moverMotion, block, vec4(0.0));
     return;
   }

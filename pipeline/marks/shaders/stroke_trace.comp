@@ -60,24 +60,24 @@ uniform vec2 loosePx;  // a frame
 const vec2 kUpright = vec2(1.0, 0.0);  // a tensor: strokes of movers without any edge
 
 // What the stroke is painted on.
-struct Ground {
+struct Support {
   uint object;
   bool isOnMover;
   float looseness;  // how much looser it is painted, in [0, 1]
   vec2 along;       // a tensor, of strokes along the mover's motion
 };
 
-Ground groundOf(uint object, bool isOnMover, vec2 px) {
-  Ground on = Ground(object, isOnMover, 0.0, kUpright);
+Support supportOf(uint object, bool isOnMover, vec2 px) {
+  Support on = Support(object, isOnMover, 0.0, kUpright);
   vec2 moved;
   if (!isOnMover || looseness <= 0.0 || !findMoverMotion(px, moved)) return on;
-  on.looseness = looseness * smoothstep(loosePx.x, loosePx.y, length(moved));
+  on.looseness = looseness * smoothstep(loosePx.x, max(loosePx.y, loosePx.x + 1e-3), length(moved));
   on.along = vec2(moved.y * moved.y - moved.x * moved.x, -2.0 * moved.x * moved.y) /
              max(dot(moved, moved), 1e-6);
   return on;
 }
 
-vec2 directionAt(vec2 px, Ground on) {
+vec2 directionAt(vec2 px, Support on) {
   vec2 tensor = textureLod(field, px * fieldScale, 0.0).xy;
   if (on.isOnMover) {
     tensor = textureLod(moverField, px * moverScale, 0.0).xy;
@@ -124,15 +124,14 @@ struct Arm {
   float weight;
 };
 
-float detailAt(vec2 px, Ground on) {
+float detailAt(vec2 px, Support on) {
   const float kLooseDetail = 0.6;
   float detail = on.isOnMover ? textureLod(moverField, px * moverScale, 0.0).w
                               : textureLod(detailField, px * detailScale, 0.0).w;
   return (isVirtual(on.object) ? modelDetail : mix(1.0, kLooseDetail, on.looseness)) * detail;
 }
 
-Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Ground on) {
-  float threshold = colourThreshold;
+Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {
   Arm arm;
   arm.length = steps;
   arm.colour = vec3(0.0);
@@ -157,14 +156,14 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Ground on) {
     bool isOther = hasObjects && objectAt(at) != on.object;
     if (goesOn && isOther) {
       // An arm ends at the border between virtual and real content, and between objects.
-      bool half_ = objectAt(at - 0.5 * segment * direction) != on.object;
-      arm.length = min(arm.length, float(i) + (half_ ? 0.15 : 0.6));
+      bool isEarly = objectAt(at - 0.5 * segment * direction) != on.object;
+      arm.length = min(arm.length, float(i) + (isEarly ? 0.15 : 0.6));
       goesOn = false;
     }
     if (goesOn && (moverAt(at).r > 0.5) != on.isOnMover) {
       // It does not cross a mover's border.
-      bool isHalf = (moverAt(at - 0.5 * segment * direction).r > 0.5) != on.isOnMover;
-      arm.length = min(arm.length, float(i) + (isHalf ? 0.25 : 0.75));
+      bool isEarly = (moverAt(at - 0.5 * segment * direction).r > 0.5) != on.isOnMover;
+      arm.length = min(arm.length, float(i) + (isEarly ? 0.25 : 0.75));
       goesOn = false;
     }
     if (goesOn && detailAt(at, on) < 0.4 * detailBand.x) {
@@ -172,13 +171,13 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Ground on) {
       arm.length = min(arm.length, max(float(i) + 0.5, minSteps));
       goesOn = false;
     }
-    if (goesOn && difference > threshold) {
-      float part = clamp((threshold - before) / max(difference - before, 1e-4), 0.0, 1.0);
+    if (goesOn && difference > colourThreshold) {
+      float part = clamp((colourThreshold - before) / max(difference - before, 1e-4), 0.0, 1.0);
       arm.length = min(arm.length, max(float(i) + part, minSteps));
       goesOn = false;
     }
     if (goesOn && float(i) < steps) {
-      float weight = 1.0 - 0.7 * difference / threshold;
+      float weight = 1.0 - 0.7 * difference / colourThreshold;
       arm.colour += weight * there;
       arm.weight += weight;
     }
@@ -263,7 +262,7 @@ void main() {
   float stray = wander * (unitOf(hashOf(seed ^ 0x77u)) + unitOf(hashOf(seed ^ 0x78u)) - 1.0);
   vec2 hand = vec2(cos(stray), sin(stray));
   vec3 own = colourAt(px, object, isOnMover);
-  Ground on = groundOf(object, isOnMover, px);
+  Support on = supportOf(object, isOnMover, px);
   vec2 heading = directionAt(px, on);
   heading = vec2(hand.x * heading.x - hand.y * heading.y, hand.y * heading.x + hand.x * heading.y);
   if (!isNew) {

@@ -1,14 +1,14 @@
 // Purpose: whether two pictures of a place have the same structure: then only its light differs.
 // Inputs:  pairs of lumas.
-// Outputs: how they go together.
+// Outputs: variances and correlation.
 // Precision: highp.
 struct Structure {
   vec2 sum;
-  vec3 products;
+  vec3 products;  // sums of xx, yy, xy
   float count;
 };
 
-const float kContrast = 0.02;  // of luma
+const float kLeastContrast = 0.02;  // of luma
 const float kSameStructure = 0.9;  // correlation
 
 Structure noStructure() { return Structure(vec2(0.0), vec3(0.0), 0.0); }
@@ -24,15 +24,16 @@ vec2 variancesOf(Structure s) {
   return max(s.products.xy / s.count - mean * mean, 0.0);
 }
 
-// In one of the pictures at least.
+// Whether at least one of the pictures has edges.
 bool hasEdges(Structure s) {
   vec2 variances = variancesOf(s);
-  return max(variances.x, variances.y) > kContrast * kContrast;
+  return max(variances.x, variances.y) > kLeastContrast * kLeastContrast;
 }
 
+// Whether both have the same ones.
 bool isSame(Structure s) {
   vec2 variances = variancesOf(s);
   float covariance = (s.products.z - s.sum.x * s.sum.y / s.count) / s.count;
-  return min(variances.x, variances.y) > kContrast * kContrast &&
+  return min(variances.x, variances.y) > kLeastContrast * kLeastContrast &&
          covariance > kSameStructure * sqrt(variances.x * variances.y);
 }

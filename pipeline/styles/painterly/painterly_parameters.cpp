@@ -64,8 +64,8 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
       numberParameter("wander", &P::wander, {.min = 0, .max = 1, .unit = "rad"},
                       "How far a stroke strays from the direction of things."),
       numberParameter("looseness", &P::looseness, kPart,
-                      "How much looser fast movers are painted: fewer, longer strokes along their "
-                      "motion."),
+                      "How much looser fast movers are painted: with fewer fine strokes, and along "
+                      "their motion."),
       numberParameter("opacity", &P::opacity, kPart, "How opaque a stroke's paint is."),
       numberParameter("leave_light", &P::leaveLight, kPart,
                       "How much light places are left to the ground, as pencils do."),

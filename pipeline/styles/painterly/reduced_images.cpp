@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <string>
 
 namespace pleinair::styles {
 namespace {
@@ -37,7 +38,9 @@ void ReducedImages::update(const scene::ArFrame& frame, const marks::MotionLayer
   Surfaces& surfaces = surfaces_.of(frame.size(), frame.size());
   now_ = &surfaces;
   picture_ = frame.colour;
-  isApart_ = frame.hasObjects || layers != nullptr;
+  hasObjects_ = frame.hasObjects;
+  hasMovers_ = layers != nullptr;
+  isApart_ = frame.hasObjects || hasMovers_;
   const hal::FrameSize half = surfaces.whole.levels[0].size();
   halve_.use()
       .texture("picture", *frame.colour)
@@ -55,7 +58,7 @@ void ReducedImages::update(const scene::ArFrame& frame, const marks::MotionLayer
       .drawFullscreen(surfaces.apart->first);
   halve(surfaces.apart->background, 0);
   if (frame.hasObjects) halve(surfaces.apart->models, 0);
-  if (layers != nullptr) halve(surfaces.apart->movers, 0);
+  if (hasMovers_) halve(surfaces.apart->movers, 0);
 }
 
 void ReducedImages::halve(const Pyramid& pyramid, std::size_t from) {
@@ -80,8 +83,8 @@ marks::StrokePaint ReducedImages::paintOf(double px) const {
   }
   const Apart& apart = *now_->apart;
   return {.background = &apart.background.levels[level],
-          .models = &apart.models.levels[level],
-          .movers = &apart.movers.levels[level]};
+          .models = hasObjects_ ? &apart.models.levels[level] : &apart.background.levels[level],
+          .movers = hasMovers_ ? &apart.movers.levels[level] : &apart.background.levels[level]};
 }
 
 const gpu::Texture& ReducedImages::whole(std::size_t halvings) const {

@@ -13,6 +13,10 @@
 #include "pipeline/marks/stroke_set.h"
 #include "pipeline/scene/render/ar_frame.h"
 
+namespace pleinair::marks {
+class MotionLayers;
+}
+
 namespace pleinair::styles {
 
 /// A frame's picture at half its size, a quarter and on, for strokes to take their colours from:
@@ -64,6 +68,8 @@ class ReducedImages {
   const Surfaces* now_ = nullptr;
   const gpu::Texture* picture_ = nullptr;
   bool isApart_ = false;
+  bool hasObjects_ = false;
+  bool hasMovers_ = false;
   marks::LayerTextures layerTextures_;
   gpu::Texture noIds_;
 };

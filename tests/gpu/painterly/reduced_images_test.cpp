@@ -52,6 +52,7 @@ TEST_F(PainterlyTest, ReducedImagesMixNoModelIntoTheBackground) {
   for (const double px : {2.0, 4.0, 8.0, 16.0, 32.0}) {
     SCOPED_TRACE(px);
     const marks::StrokePaint paint = reduced.paintOf(px);
+    EXPECT_EQ(paint.movers, paint.background) << "nothing is a mover";
     const auto expectPure = [&](const gpu::Texture& texture, std::size_t channel) {
       const std::vector<float> texels = support::readRgba32f(texture);
       double share = 0.0;
