@@ -16,8 +16,8 @@
 #include "pipeline/gpu/buffer.h"
 #include "pipeline/marks/anchor.h"
 #include "pipeline/scene/description/scene.h"
+#include "pipeline/scene/render/ar_frame.h"
 #include "pipeline/scene/render/scene_uniforms.h"
-#include "pipeline/tracking/motion/image_motion.h"
 
 namespace pleinair::marks {
 namespace {
