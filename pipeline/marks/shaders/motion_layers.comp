@@ -111,9 +111,10 @@ void main() {
   vec4 label = textureLod(labels, inLayers(labels, from), 0.0);
   bool isCarried = false;
   if (!isMoving && changed > 0.5) label.a = 0.0;  // something else is seen there
-  bool isLeft = label.a < 0.0 && changed <= 0.5;
+  // A mover has uncovered the place: the motion beside it is that mover's.
+  bool hasLeft = label.a < 0.0 && changed <= 0.5;
   vec2 own;
-  bool mayBeMover = !isMoving && !isLeft && max(label.r, other) > 0.5;
+  bool mayBeMover = !isMoving && !hasLeft && max(label.r, other) > 0.5;
   if (mayBeMover && findMoverMotion(px, own) && length(own) > kMovedPx) {
     // A plain part of a mover goes with its other parts.
     own *= motionScale;
@@ -130,7 +131,7 @@ void main() {
     vec4 carried = labelBefore(back);
     if (carried.r > 0.5 && isLikeMover(now, back, unlike)) other = max(other, kSeenOther);
     bool isOlder = carried.r > label.r || (carried.r == label.r && carried.a > label.a);
-    if (isOlder && !isLeft) label = carried;
+    if (isOlder && !hasLeft) label = carried;
     // The ground is hardly known yet. Measured flow reaches beyond a mover, but nothing changes
     // there.
     if (known.a < kTrustedFrames && changed > 0.3) other = 1.0;
@@ -138,6 +139,6 @@ void main() {
   }
   if (other > 0.5) atomicAdd(otherCells[turn], 1u);
   imageStore(candidates, cell, vec4(other, label.r, luma, lumaOf(known.rgb)));
-  float maturity = label.a + (!isLeft && (isMoving || isCarried) ? stepSeconds : 0.0);
+  float maturity = label.a + (!hasLeft && (isMoving || isCarried) ? stepSeconds : 0.0);
   imageStore(evidence, cell, vec4(changed, label.b, maturity, label.g));
 }

@@ -161,11 +161,8 @@ void main() {
   } else if (isYoung && known.a >= 0.5) {
     maturity = max(maturity, maturityAround(cell, size, now, known.rgb));
   }
-  if (rest > (maturity > kMatureSeconds ? restSeconds : kTentative)) {
-    isMover = false;
-    known.a = 0.0;
-  }
-  if (hasLeft && rest > 0.0) {
+  float joinsAfter = hasLeft ? 0.0 : maturity > kMatureSeconds ? restSeconds : kTentative;
+  if (rest > joinsAfter) {
     isMover = false;
     known.a = 0.0;
   }

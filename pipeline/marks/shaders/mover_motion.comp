@@ -11,11 +11,11 @@ layout(rgba16f, binding = 0) writeonly uniform highp image2D moverMotion;
 uniform highp sampler2D normals;
 uniform highp sampler2D normalFlow;
 
-const float kEnough = 12.0;   // the smaller eigenvalue: some edges of both directions
-const float kBalance = 0.1;  // of the larger one
-const int kNearest = 2;       // blocks in which all movers count
-const int kFarthest = 8;
-const float kLeast = 0.5;     // of their sum
+const float kEnough = 12.0;  // the smaller eigenvalue: some edges of both directions
+const float kBalance = 0.1;  // the smaller eigenvalue, in parts of the larger one
+const float kLeast = 0.5;    // the sum of both: any edges at all
+const int kNearest = 2;      // blocks in which all movers count
+const int kFarthest = 8;     // blocks
 
 // Whether a mover lies all the way between two blocks: edges of another one say nothing.
 bool isJoined(ivec2 from, ivec2 to) {
@@ -66,10 +66,8 @@ void main() {
     return;
   }
   // Where only one direction is seen, the other one stays near 0.
-  matrix += vec3(1.0, 0.0, 1.0) * 0.01 * sum;
-  float determinant = matrix.x * matrix.z - matrix.y * matrix.y;
-  vec2 displacement = vec2(matrix.z * moved.x - matrix.y * moved.y,
-                           matrix.x * moved.y - matrix.y * moved.x) / determinant;
+  mat2 damped = mat2(matrix.x, matrix.y, matrix.y, matrix.z) + mat2(0.01 * sum);
+  vec2 displacement = inverse(damped) * moved;
   float weight = min(values.y / kEnough, 1.0) + 1e-2;
   imageStore(moverMotion, block, vec4(weight * vec3(displacement, 1.0), 0.0));
 }
