@@ -89,6 +89,8 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .texture("field", field.resolved(level))
       .texture("detailField", field.resolved(detail))
       .texture("moverField", field.movers())
+      .texture("modelField", field.resolvedModels(level))
+      .texture("modelDetailField", field.resolvedModels(detail))
       .texture("paint", *paint.background)
       .texture("moverPaint", *paint.movers)
       .texture("modelPaint", *paint.models)

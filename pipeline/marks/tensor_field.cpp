@@ -5,6 +5,7 @@
 #include <cassert>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/marks/fading_past.h"
 #include "pipeline/marks/layer_textures.h"
+#include "pipeline/marks/tensor_pyramid.h"
 
 namespace pleinair::marks {
 namespace {
@@ -21,7 +23,7 @@ namespace {
 const std::string kShaders = "pipeline/marks/shaders/";
 constexpr int kRegionPixels = 8;
 constexpr std::size_t kEdgeWords = 1 + 128;  // shaders/edge_bins.glsl
-constexpr float kMoverSigma = 1.5F;          // regions; movers have no coarser levels
+constexpr double kMoverSigma = 1.5;          // regions; movers have no coarser levels
 constexpr float kMinEdge = 0.05F;            // of luma: the level of sensor noise
 constexpr GLbitfield kWritten = GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
 
@@ -36,14 +38,6 @@ gpu::Texture tensors(hal::FrameSize size) {
 }  // namespace
 
 struct TensorField::State {
-  /// The textures of one level's region size.
-  struct Level {
-    explicit Level(hal::FrameSize size)
-        : regions(tensors(size)), filled(tensors(size)), resolved(tensors(size)) {}
-    gpu::Texture regions;
-    gpu::Texture filled;
-    gpu::Texture resolved;
-  };
   /// The textures of one image size.
   struct Gradient {
     explicit Gradient(hal::FrameSize size)
@@ -58,23 +52,18 @@ struct TensorField::State {
         histogram(library.compute(kShaders + "edge_histogram.comp")),
         threshold(library.compute(kShaders + "edge_threshold.comp")),
         regions(library.compute(kShaders + "tensor_regions.comp")),
-        fill(library.compute(kShaders + "tensor_fill.comp")),
-        reduce(library.compute(kShaders + "tensor_reduce.comp")),
-        resolve(library.compute(kShaders + "tensor_resolve.comp")),
+        modelRegions(library.compute(kShaders + "tensor_models.comp")),
+        pyramid(library),
         edges(kEdgeWords * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
         noIds(gpu::TextureFormat::kR32ui, {1, 1}) {
     edges.write(std::vector<std::byte>(edges.sizeBytes()));
-    hal::FrameSize size{(full.width + kRegionPixels - 1) / kRegionPixels,
-                        (full.height + kRegionPixels - 1) / kRegionPixels};
+    const hal::FrameSize size{(full.width + kRegionPixels - 1) / kRegionPixels,
+                              (full.height + kRegionPixels - 1) / kRegionPixels};
     before = tensors(size);
     moverRegions = tensors(size);
     moversBefore = tensors(size);
     movers = tensors(size);
-    for (;;) {
-      levels.emplace_back(size);
-      if (size.width == 1 && size.height == 1) break;
-      size = {(size.width + 1) / 2, (size.height + 1) / 2};
-    }
+    background = TensorPyramidMaker::levelsOf(size);
   }
 
   hal::FrameSize full;
@@ -82,17 +71,31 @@ struct TensorField::State {
   gpu::Program histogram;
   gpu::Program threshold;
   gpu::Program regions;
-  gpu::Program fill;
-  gpu::Program reduce;
-  gpu::Program resolve;
+  gpu::Program modelRegions;
+  TensorPyramidMaker pyramid;
   gpu::Buffer edges;
   gpu::Texture noIds;
   LayerTextures layerTextures;
-  std::vector<Level> levels;
+  /// Tensors of virtual objects; made when the first one is seen.
+  struct Models {
+    explicit Models(hal::FrameSize size)
+        : levels(TensorPyramidMaker::levelsOf(size)),
+          before(tensors(size)),
+          objects(gpu::TextureFormat::kR32ui, size),
+          objectsBefore(gpu::TextureFormat::kR32ui, size) {}
+    std::vector<TensorPyramidMaker::Level> levels;
+    gpu::Texture before;
+    gpu::Texture objects;  // of each region
+    gpu::Texture objectsBefore;
+    bool hasPast = false;
+  };
+
+  std::vector<TensorPyramidMaker::Level> background;
   gpu::Texture before;
   gpu::Texture moverRegions;
   gpu::Texture moversBefore;
   gpu::Texture movers;  // filled
+  std::optional<Models> models;
   std::vector<std::unique_ptr<Gradient>> gradients;
   hal::TimePoint lastTime;
   bool hasPast = false;
@@ -104,25 +107,30 @@ struct TensorField::State {
     return *gradients.emplace_back(std::make_unique<Gradient>(size));
   }
 
-  void findEdges(const scene::ArFrame& frame, const gpu::Texture& picture, double form,
-                 float share);
+  /// What remains of the previous frame.
+  struct Past {
+    bool isThere = false;
+    float share = 0.0F;
+    float slack = 0.0F;
+  };
+  void findEdges(const scene::ArFrame& frame, const gpu::Texture& picture, float share);
   void sumRegions(const scene::ArFrame& frame, const MotionField& motion,
-                  const MotionLayers* layers, bool goesOn, float past, float slack);
-  void buildPyramid(const TensorFieldOptions& options);
+                  const MotionLayers* layers, const Past& past);
+  void sumModels(const scene::ArFrame& frame, double form, const Past& past);
 };
 
 void TensorField::State::findEdges(const scene::ArFrame& frame, const gpu::Texture& picture,
-                                   double form, float share) {
+                                   float share) {
   const Gradient& made = gradientOf(picture.size());
   gradient.use()
       .texture("picture", picture)
       .texture("ids", frame.hasObjects ? *frame.ids : noIds)
-      .texture("normals", frame.hasObjects ? *frame.normalFocus : picture)
       .set("hasObjects", frame.hasObjects ? 1 : 0)
-      .set("form", static_cast<float>(form))
       .drawFullscreen(made.target);
   histogram.use()
       .texture("tensors", made.texture)
+      .texture("ids", frame.hasObjects ? *frame.ids : noIds)
+      .set("hasObjects", frame.hasObjects ? 1 : 0)
       .storage("Edges", edges)
       .dispatch((itemsOf(made.texture) + 1) / 2, GL_SHADER_STORAGE_BARRIER_BIT);
   threshold.use()
@@ -133,9 +141,8 @@ void TensorField::State::findEdges(const scene::ArFrame& frame, const gpu::Textu
 }
 
 void TensorField::State::sumRegions(const scene::ArFrame& frame, const MotionField& motion,
-                                    const MotionLayers* layers, bool goesOn, float past,
-                                    float slack) {
-  Level& finest = levels.front();
+                                    const MotionLayers* layers, const Past& past) {
+  TensorPyramidMaker::Level& finest = background.front();
   std::swap(finest.regions, before);
   std::swap(moverRegions, moversBefore);
   motion.bind(regions.use());
@@ -144,46 +151,49 @@ void TensorField::State::sumRegions(const scene::ArFrame& frame, const MotionFie
       .texture("moversBefore", moversBefore)
       .texture("movers", layerTextures.labelsOf(layers))
       .texture("motion", motion.backward())
+      .texture("ids", frame.hasObjects ? *frame.ids : noIds)
+      .set("hasObjects", frame.hasObjects ? 1 : 0)
       .storage("Edges", edges)
       .image("regions", finest.regions, gpu::ImageAccess::kWrite)
       .image("moverRegions", moverRegions, gpu::ImageAccess::kWrite)
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .set("fullSize", glm::vec2(full.width, full.height))
       .set("regionPixels", static_cast<float>(kRegionPixels))
-      .set("hasPast", goesOn ? 1 : 0)
-      .set("past", past)
-      .set("slack", slack)
+      .set("hasPast", past.isThere ? 1 : 0)
+      .set("past", past.share)
+      .set("slack", past.slack)
       .dispatch(itemsOf(finest.regions), kWritten);
-  fill.use()
-      .texture("regions", moverRegions)
-      .image("filled", movers, gpu::ImageAccess::kWrite)
-      .set("sigma", kMoverSigma)
-      .dispatch(itemsOf(movers), kWritten);
+  pyramid.fill(moverRegions, kMoverSigma, movers);
 }
 
-void TensorField::State::buildPyramid(const TensorFieldOptions& options) {
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    if (i > 0) {
-      reduce.use()
-          .texture("filled", levels[i - 1].filled)
-          .image("reduced", levels[i].regions, gpu::ImageAccess::kWrite)
-          .dispatch(itemsOf(levels[i].regions), kWritten);
-    }
-    fill.use()
-        .texture("regions", levels[i].regions)
-        .image("filled", levels[i].filled, gpu::ImageAccess::kWrite)
-        .set("sigma", static_cast<float>(options.fillSigma))
-        .dispatch(itemsOf(levels[i].filled), kWritten);
+void TensorField::State::sumModels(const scene::ArFrame& frame, double form, const Past& past) {
+  if (!frame.hasObjects) {
+    if (models) models->hasPast = false;
+    return;
   }
-  for (std::size_t i = levels.size(); i-- > 0;) {
-    const bool isTop = i + 1 == levels.size();
-    resolve.use()
-        .texture("filled", levels[i].filled)
-        .texture("above", isTop ? levels[i].filled : levels[i + 1].resolved)
-        .set("isTop", isTop ? 1 : 0)
-        .image("resolved", levels[i].resolved, gpu::ImageAccess::kWrite)
-        .dispatch(itemsOf(levels[i].resolved), kWritten);
-  }
+  if (!models) models.emplace(background.front().regions.size());
+  gpu::Texture& finest = models->levels.front().regions;
+  std::swap(finest, models->before);
+  std::swap(models->objects, models->objectsBefore);
+  const bool goesOn = past.isThere && models->hasPast && frame.motion;
+  modelRegions.use()
+      .texture("tensors", gradientOf(frame.size()).texture)
+      .texture("ids", *frame.ids)
+      .texture("normals", *frame.normalFocus)
+      .texture("surfaceMotion", frame.motion ? *frame.motion->texture : before)
+      .texture("before", models->before)
+      .texture("objectsBefore", models->objectsBefore)
+      .storage("Edges", edges)
+      .image("regions", finest, gpu::ImageAccess::kWrite)
+      .image("objects", models->objects, gpu::ImageAccess::kWrite)
+      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
+      .set("regionPixels", static_cast<float>(kRegionPixels))
+      .set("form", static_cast<float>(form))
+      .set("hasPast", goesOn ? 1 : 0)
+      .set("past", past.share)
+      .set("slack", past.slack)
+      .dispatch(itemsOf(finest), kWritten);
+  models->hasPast = true;
 }
 
 TensorField::TensorField(const gpu::ShaderLibrary& library, hal::FrameSize full)
@@ -203,30 +213,36 @@ void TensorField::update(const scene::ArFrame& frame, const gpu::Texture& pictur
   const double past = goesOn ? keptAfter(step, memory) : 0.0;
   s.lastTime = frame.captureTime;
   s.hasPast = true;
-  s.findEdges(frame, picture, options.form, static_cast<float>(1.0 - past));
-  s.sumRegions(frame, motion, layers, goesOn, static_cast<float>(past),
-               static_cast<float>(options.slack));
-  s.buildPyramid(options);
+  s.findEdges(frame, picture, static_cast<float>(1.0 - past));
+  const State::Past kept{goesOn, static_cast<float>(past), static_cast<float>(options.slack)};
+  s.sumRegions(frame, motion, layers, kept);
+  s.pyramid.build(s.background, options.fillSigma);
+  s.sumModels(frame, options.form, kept);
+  if (frame.hasObjects) s.pyramid.build(s.models->levels, options.fillSigma);
 }
 
 std::size_t TensorField::levelCount() const {
-  return state_->levels.size();
+  return state_->background.size();
 }
 
 const gpu::Texture& TensorField::resolved(std::size_t level) const {
-  return state_->levels[level].resolved;
+  return state_->background[level].resolved;
 }
 
 const gpu::Texture& TensorField::filled(std::size_t level) const {
-  return state_->levels[level].filled;
+  return state_->background[level].filled;
 }
 
 const gpu::Texture& TensorField::regions() const {
-  return state_->levels.front().regions;
+  return state_->background.front().regions;
 }
 
 const gpu::Texture& TensorField::movers() const {
   return state_->movers;
+}
+
+const gpu::Texture& TensorField::resolvedModels(std::size_t level) const {
+  return (state_->models ? state_->models->levels : state_->background)[level].resolved;
 }
 
 double TensorField::regionPixels(std::size_t level) const {

@@ -14,8 +14,8 @@
 namespace pleinair::marks {
 
 struct TensorFieldOptions {
-  /// The weight of a virtual surface's own form: the edge strength (gradient.frag's P) of a surface
-  /// seen edge-on.
+  /// The weight of a virtual surface's own form: the edge strength (gradient.frag's P) of the form
+  /// at its clearest.
   double form = 0.5;
   double fillSigma = 1.0;  ///< width of the radial-basis interpolation, in regions
   hal::Duration memory = std::chrono::milliseconds(400);  ///< time constant; 0: no memory
@@ -24,9 +24,10 @@ struct TensorFieldOptions {
 
 /// The local orientation of the image: directions of edges as tensors, extended to regions without
 /// edges by a pyramid (thesis §4.2). A tensor is (cos 2θ, sin 2θ) times the agreement of its
-/// pixels, θ the gradient's direction; strokes run across it. The first frame, a frame after
-/// reset() and a frame after a cut have no past. All calls on the thread of the GL context that was
-/// current at construction.
+/// pixels, θ the gradient's direction; strokes run across it. The background, movers and virtual
+/// objects have tensors of their own, so that what passes before something turns no strokes of it.
+/// The first frame, a frame after reset() and a frame after a cut have no past. All calls on the
+/// thread of the GL context that was current at construction.
 class TensorField {
  public:
   /// `library` has gpu::marksShaders(), sceneShaders(), gpuShaders(). `full`: the size of the full
@@ -39,9 +40,9 @@ class TensorField {
   TensorField& operator=(TensorField&&) = delete;
 
   /// Adds a frame's image (RGBA8, of frame.size()) and carries the past along `motion`, which has
-  /// been updated for the frame, like `layers`. With these, movers have tensors of their own, and
-  /// the background's stay as they were behind them. Precondition: frame.full() is the
-  /// constructor's size.
+  /// been updated for the frame, like `layers`, and past tensors of virtual objects along
+  /// ArFrame::motion. Behind movers and virtual objects, the background's tensors stay as they
+  /// were. Precondition: frame.full() is the constructor's size.
   void update(const scene::ArFrame& frame, const gpu::Texture& picture, const MotionField& motion,
               const TensorFieldOptions& options, const MotionLayers* layers = nullptr);
 
@@ -56,6 +57,8 @@ class TensorField {
   const gpu::Texture& regions() const;
   /// The tensors of movers, on the finest level only; 0 where none is near.
   const gpu::Texture& movers() const;
+  /// Like resolved(): the tensors of virtual objects. Valid if the last frame had any.
+  const gpu::Texture& resolvedModels(std::size_t level) const;
   /// Side of a region on a level, px of the full image.
   double regionPixels(std::size_t level) const;
 

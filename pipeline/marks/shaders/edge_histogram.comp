@@ -1,11 +1,15 @@
-// Purpose: the distribution of the frame's edge strengths: a histogram of every fourth pixel's P.
-// Inputs:  tensors (gradient.frag).
+// Purpose: the distribution of the frame's edge strengths: a histogram of every fourth pixel's P,
+//          without virtual objects, so that a model that comes in changes nothing elsewhere.
+// Inputs:  tensors (gradient.frag); ids (ArFrame) if hasObjects.
 // Outputs: bins, which were 0 (edge_threshold.comp). One invocation per pixel.
 // Precision: integer counts, so that order does not matter.
 #include "pipeline/marks/shaders/edge_bins.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 0) buffer Edges { EdgeStrengths frameEdges; };
 uniform highp sampler2D tensors;
+uniform highp usampler2D ids;
+uniform bool hasObjects;
+#include "pipeline/scene/render/shaders/object_id.glsl"
 
 shared uint counted[kBins];
 
@@ -14,7 +18,8 @@ void main() {
   for (uint i = me; i < uint(kBins); i += 64u) counted[i] = 0u;
   barrier();
   ivec2 at = ivec2(gl_GlobalInvocationID.xy) * 2;
-  if (all(lessThan(at, textureSize(tensors, 0)))) {
+  if (all(lessThan(at, textureSize(tensors, 0))) &&
+      !(hasObjects && isVirtual(objectOf(texelFetch(ids, at, 0).r)))) {
     atomicAdd(counted[binOf(length(texelFetch(tensors, at, 0).xy))], 1u);
   }
   barrier();

@@ -1,6 +1,7 @@
 // Purpose: the threshold of a strong edge in this frame: a third of the 99.5th percentile of P,
 //          smoothed in time (the thesis takes a third of the maximum, which one bright object or
 //          hot pixel changes).
+//          A frame without any counted pixel leaves it as it is.
 // Inputs:  bins (edge_histogram.comp; cleared here); share: of the way to this frame's value, in
 //          [0, 1]; least: everything below is noise.
 // Outputs: threshold. One invocation.
@@ -25,5 +26,6 @@ void main() {
     }
     above += here;
   }
-  frameEdges.threshold = max(mix(frameEdges.threshold, percentile / 3.0, share), least);
+  float goal = all > 0u ? percentile / 3.0 : frameEdges.threshold;
+  frameEdges.threshold = max(mix(frameEdges.threshold, goal, share), least);
 }

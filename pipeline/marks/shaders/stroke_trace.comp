@@ -1,8 +1,8 @@
 // Purpose: traces each anchor's stroke along the tensor field (thesis §4.4), both ways, and blends
 //          it with its past: directions one by one, lengths, colour and existence with time
 //          constants (§5.4), so that a stroke lives as long as its anchor.
-// Inputs:  anchors; field: tensors to follow, detailField: tensors with the detail, moverField:
-//          those of movers; mover_labels.glsl's and mover_motion.glsl's; background
+// Inputs:  anchors; field: tensors to follow, detailField: tensors with the detail; modelField,
+//          modelDetailField, moverField: those of virtual objects and of movers; mover_labels.glsl's and mover_motion.glsl's; background
 //          (marks::MotionLayers); paint, modelPaint, moverPaint: the reduced images of the
 //          background, of models and of movers; ids if hasObjects; the rest as in
 //          marks::StrokeRule.
@@ -22,6 +22,8 @@ layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
 layout(std430, binding = 1) buffer Strokes { Stroke strokes[]; };
 uniform highp sampler2D field;
 uniform highp sampler2D detailField;
+uniform highp sampler2D modelField;
+uniform highp sampler2D modelDetailField;
 uniform highp sampler2D moverField;
 uniform highp sampler2D background;
 uniform highp sampler2D paint;
@@ -78,10 +80,14 @@ Support supportOf(uint object, bool isOnMover, vec2 px) {
 }
 
 vec2 directionAt(vec2 px, Support on) {
-  vec2 tensor = textureLod(field, px * fieldScale, 0.0).xy;
-  if (on.isOnMover) {
+  vec2 tensor;
+  if (isVirtual(on.object)) {
+    tensor = textureLod(modelField, px * fieldScale, 0.0).xy;
+  } else if (on.isOnMover) {
     tensor = textureLod(moverField, px * moverScale, 0.0).xy;
     tensor = dot(tensor, tensor) > 1e-3 ? tensor : kUpright;
+  } else {
+    tensor = textureLod(field, px * fieldScale, 0.0).xy;
   }
   tensor *= inversesqrt(max(dot(tensor, tensor), 1e-12));
   tensor = mix(tensor, on.along, 0.8 * on.looseness);
@@ -126,9 +132,12 @@ struct Arm {
 
 float detailAt(vec2 px, Support on) {
   const float kLooseDetail = 0.6;
+  if (isVirtual(on.object)) {
+    return modelDetail * textureLod(modelDetailField, px * detailScale, 0.0).w;
+  }
   float detail = on.isOnMover ? textureLod(moverField, px * moverScale, 0.0).w
                               : textureLod(detailField, px * detailScale, 0.0).w;
-  return (isVirtual(on.object) ? modelDetail : mix(1.0, kLooseDetail, on.looseness)) * detail;
+  return mix(1.0, kLooseDetail, on.looseness) * detail;
 }
 
 Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {

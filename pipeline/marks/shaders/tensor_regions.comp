@@ -1,17 +1,18 @@
 // Purpose: the tensors of a region's edge pixels, summed and divided by their strengths (thesis
 //          §4.2, step 1), and carried along the motion from frame to frame: those of the background
-//          and, by themselves, those of movers. Behind a mover, the background's stay as they were.
+//          and, by themselves, those of movers. Behind a mover and behind virtual objects
+//          (tensor_models.comp), the background's stay as they were.
 // Inputs:  tensors (gradient.frag), threshold (edge_threshold.comp), pixelsOfFull; regionPixels: a
 //          region's side in px of the full image; before, moversBefore: the previous frame's
 //          regions, motion (MotionField's), if hasPast; past: the share of them that remains;
 //          slack: by which part detail may differ from the held value; image_motion.glsl's, of
-//          which only the homography is used; mover_labels.glsl's.
-// Outputs: regions, moverRegions RGBA16F: tensor (its length is the agreement of its pixels, in
-//          [0, 1]), its confidence in [0, 1]; detail: the mean P in thresholds. One invocation per
-//          region.
+//          which only the homography is used; mover_labels.glsl's; ids (ArFrame) if hasObjects.
+// Outputs: regions, moverRegions RGBA16F: as in tensor_region.glsl. One invocation per region.
 // Precision: highp.
 #include "pipeline/marks/shaders/edge_bins.glsl"
 #include "pipeline/marks/shaders/image_motion.glsl"
+#include "pipeline/marks/shaders/tensor_region.glsl"
+#include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 0) readonly buffer Edges { EdgeStrengths frameEdges; };
 layout(rgba16f, binding = 0) writeonly uniform highp image2D regions;
@@ -20,6 +21,8 @@ uniform highp sampler2D tensors;
 uniform highp sampler2D before;
 uniform highp sampler2D moversBefore;
 uniform highp sampler2D motion;
+uniform highp usampler2D ids;
+uniform bool hasObjects;
 uniform vec2 pixelsOfFull;
 uniform vec2 fullSize;
 uniform float regionPixels;
@@ -28,41 +31,12 @@ uniform float past;
 uniform float slack;
 #include "pipeline/marks/shaders/mover_labels.glsl"
 
-// So many px of strong edge give full confidence.
-const float kSurePixels = 4.0;
 const float kLeastSeen = 0.35;  // of a region: less of the background says nothing about it
 
 const float kReach = 6.0;  // px: half a region, and the width of an edge
 
-// Rotates a tensor by an angle.
-vec2 turned(vec2 tensor, float angle) {
-  float c = cos(2.0 * angle);
-  float s = sin(2.0 * angle);
-  return vec2(c * tensor.x - s * tensor.y, s * tensor.x + c * tensor.y);
-}
-
 bool isInPicture(vec2 px) {
   return all(greaterThanEqual(px, vec2(0.0))) && all(lessThan(px, fullSize));
-}
-
-// Sums over the pixels of one kind.
-struct Edge {
-  vec2 sum;
-  float strengths;
-  float sure;
-  float edges;
-  float pixels;
-};
-
-void add(inout Edge edge, vec2 tensor, float part) {
-  float p = length(tensor);
-  // A soft threshold, so that noise does not switch it.
-  float weight = part * smoothstep(0.6, 1.4, p / frameEdges.threshold);
-  edge.sum += weight * tensor;
-  edge.strengths += weight * p;
-  edge.sure += weight;
-  edge.edges += part * p;
-  edge.pixels += part;
 }
 
 // How much of a pixel's edge is the background's, and how much a mover's. A mover's outline is its
@@ -75,25 +49,6 @@ vec2 partsAt(vec2 px) {
     around = max(around, moverAt(px + kOutline * (2.0 * vec2(i & 1, i >> 1) - 1.0)).r);
   }
   return vec2(1.0 - around, mover);
-}
-
-vec4 regionOf(Edge edge) {
-  return vec4(edge.strengths > 0.0 ? edge.sum / edge.strengths : vec2(0.0),
-              min(edge.sure / (kSurePixels * pixelsOfFull.x), 1.0),
-              edge.edges / (max(edge.pixels, 1.0) * frameEdges.threshold));
-}
-
-// The mean of now and the past, which counts by its confidence; a direction that has vanished
-// fades. Detail is held until it differs by more than its slack, so that noise moves no region to
-// another layer.
-vec4 held(vec4 now, vec4 old, float stays) {
-  float oldWeight = stays * old.z;
-  float newWeight = (1.0 - stays) * now.z;
-  vec2 tensor = oldWeight + newWeight > 0.0
-                    ? (oldWeight * old.xy + newWeight * now.xy) / (oldWeight + newWeight)
-                    : vec2(0.0);
-  float detail = clamp(old.w, now.w * (1.0 - slack), now.w / (1.0 - slack));
-  return vec4(tensor, oldWeight + newWeight, mix(detail, old.w, stays));
 }
 
 void main() {
@@ -109,20 +64,29 @@ void main() {
   for (int i = 0; i < 4; ++i) {
     near = max(near, moverAt(at + kReach * (2.0 * vec2(i & 1, i >> 1) - 1.0)).r);
   }
-  Edge ground = Edge(vec2(0.0), 0.0, 0.0, 0.0, 0.0);
-  Edge mover = ground;
+  float threshold = frameEdges.threshold;
+  Edge ground = kNoEdge;
+  Edge mover = kNoEdge;
+  float hidden = 0.0;  // by virtual objects
   for (int y = low.y; y < high.y; ++y) {
     for (int x = low.x; x < high.x; ++x) {
+      if (hasObjects && isVirtual(objectOf(texelFetch(ids, ivec2(x, y), 0).r))) {
+        hidden += 1.0;
+        continue;
+      }
       vec2 tensor = texelFetch(tensors, ivec2(x, y), 0).xy;
       vec2 parts = near > 0.0 ? partsAt((vec2(x, y) + 0.5) / pixelsOfFull) : vec2(1.0, 0.0);
-      add(ground, tensor, parts.x);
-      if (parts.y > 0.0) add(mover, tensor, parts.y);
+      add(ground, tensor, parts.x, threshold);
+      if (parts.y > 0.0) add(mover, tensor, parts.y, threshold);
     }
   }
   vec2 extent = vec2(max(high - low, 0));
   float seen = ground.pixels / max(extent.x * extent.y, 1.0);
-  vec4 now = regionOf(ground);
-  vec4 nowOfMover = mover.pixels > 0.0 ? regionOf(mover) : vec4(0.0);
+  hidden /= max(extent.x * extent.y, 1.0);
+  // The rest of a region that a model hides in part says less.
+  float stays = mix(past, 1.0, smoothstep(0.0, 1.0 - kLeastSeen, hidden));
+  vec4 now = regionOf(ground, threshold, pixelsOfFull.x);
+  vec4 nowOfMover = mover.pixels > 0.0 ? regionOf(mover, threshold, pixelsOfFull.x) : vec4(0.0);
   bool isHeld = seen < kLeastSeen;
   if (hasPast) {
     vec4 moved = textureLod(motion, at / fullSize, 0.0);
@@ -141,14 +105,18 @@ void main() {
     if (isNear ? isInPicture(behind) : isKnown) {
       vec4 old = textureLod(before, behind * scale, 0.0);
       old.xy = turned(old.xy, isNear ? 0.0 : turn);
-      now = isHeld ? old : held(now, old, past);
+      if (isHeld) {
+        now = old;
+      } else if (old.w > 0.0) {
+        now = held(now, old, stays, slack);
+      }
     } else if (isHeld) {
       now = textureLod(before, at * scale, 0.0);
     }
     if (mover.pixels > 0.0 && isKnown) {
       vec4 oldOfMover = textureLod(moversBefore, from * scale, 0.0);
       oldOfMover.xy = turned(oldOfMover.xy, turn);
-      nowOfMover = oldOfMover.w > 0.0 ? held(nowOfMover, oldOfMover, past) : nowOfMover;
+      nowOfMover = oldOfMover.w > 0.0 ? held(nowOfMover, oldOfMover, past, slack) : nowOfMover;
     }
   }
   imageStore(regions, region, now);

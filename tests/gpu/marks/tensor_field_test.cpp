@@ -49,9 +49,7 @@ TEST_F(TensorFieldTest, GradientsAreTheThesiss) {
   pass.use()
       .texture("picture", picture)
       .texture("ids", noIds)
-      .texture("normals", picture)
       .set("hasObjects", 0)
-      .set("form", 0.0F)
       .drawFullscreen(target);
   const std::vector<float> values = support::readRgba32f(made);
   const oracles::TensorImage expected = oracles::gradientTensors(image.view());

@@ -1,0 +1,57 @@
+// Purpose: tensors of regions (thesis §4.2, step 1): the sums over a region's pixels of one kind,
+//          and their blend with the past.
+// Inputs:  threshold: of a strong edge (edge_threshold.comp); tensors of pixels (gradient.frag).
+// Outputs: a region: tensor (its length is the agreement of its pixels, in [0, 1]), its confidence
+//          in [0, 1]; detail: the mean P in thresholds.
+// Precision: highp.
+
+// So many px of strong edge give full confidence.
+const float kSurePixels = 4.0;
+
+// Rotates a tensor by an angle.
+vec2 turned(vec2 tensor, float angle) {
+  float c = cos(2.0 * angle);
+  float s = sin(2.0 * angle);
+  return vec2(c * tensor.x - s * tensor.y, s * tensor.x + c * tensor.y);
+}
+
+// Sums over the pixels of one kind.
+struct Edge {
+  vec2 sum;
+  float strengths;
+  float sure;
+  float edges;
+  float pixels;
+};
+
+const Edge kNoEdge = Edge(vec2(0.0), 0.0, 0.0, 0.0, 0.0);
+
+void add(inout Edge edge, vec2 tensor, float part, float threshold) {
+  float p = length(tensor);
+  // A soft threshold, so that noise does not switch it.
+  float weight = part * smoothstep(0.6, 1.4, p / threshold);
+  edge.sum += weight * tensor;
+  edge.strengths += weight * p;
+  edge.sure += weight;
+  edge.edges += part * p;
+  edge.pixels += part;
+}
+
+vec4 regionOf(Edge edge, float threshold, float pixelsOfFull) {
+  return vec4(edge.strengths > 0.0 ? edge.sum / edge.strengths : vec2(0.0),
+              min(edge.sure / (kSurePixels * pixelsOfFull), 1.0),
+              edge.edges / (max(edge.pixels, 1.0) * threshold));
+}
+
+// The mean of now and the past, which counts by its confidence; a direction that has vanished
+// fades. Detail is held until it differs by more than its slack, so that noise moves no region to
+// another layer.
+vec4 held(vec4 now, vec4 old, float stays, float slack) {
+  float oldWeight = stays * old.z;
+  float newWeight = (1.0 - stays) * now.z;
+  vec2 tensor = oldWeight + newWeight > 0.0
+                    ? (oldWeight * old.xy + newWeight * now.xy) / (oldWeight + newWeight)
+                    : vec2(0.0);
+  float detail = clamp(old.w, now.w * (1.0 - slack), now.w / (1.0 - slack));
+  return vec4(tensor, oldWeight + newWeight, mix(detail, old.w, stays));
+}
