@@ -70,7 +70,7 @@ struct MeasuredMotion {
 
 /// Optional contents of an AR frame that a style may ask for.
 struct ArFrameNeeds {
-  /// ArFrame::motion, barycentrics, parts and surfaces, if the scene has any
+  /// ArFrame::motion, barycentrics, parts, forms and surfaces, if the scene has any
   bool surfaces = false;
   bool measuredMotion = false;       ///< ArFrame::measuredMotion
   bool canvas = false;               ///< ArFrame::canvasFromPicture, which costs a little to find
@@ -92,6 +92,10 @@ struct ArFrame {
   const gpu::Texture* barycentrics = nullptr;
   /// Null unless asked for. R32UI: like ids, with the number of the part (Model::parts).
   const gpu::Texture* parts = nullptr;
+  /// Null unless asked for. R32UI: what a painter needs of models' form (shaders/surface_form.glsl):
+  /// a label that changes where one thing ends and another begins, and the direction in which the
+  /// surface bends least. 0 where there is no object.
+  const gpu::Texture* forms = nullptr;
   /// Set if asked for and if there is a previous frame since the last reset.
   std::optional<SurfaceMotion> motion;
   std::optional<SurfaceAccess> surfaces;  ///< set if asked for and if the scene has any

@@ -323,6 +323,7 @@ void ArFrameRenderer::findSurfaces(const tracking::CameraModel& camera) {
   surfacePass_->run(surfacesNow_->ids, camera, bodies_, visible_, *surfacesNow_->buffers);
   frame_.barycentrics = &surfacesNow_->buffers->barycentrics;
   frame_.parts = &surfacesNow_->buffers->parts;
+  frame_.forms = &surfacesNow_->buffers->forms;
   camera_ = camera;
   frame_.surfaces =
       SurfaceAccess{.posed = geometry_.isEmpty() ? nullptr : &geometry_.posed(),

@@ -8,7 +8,7 @@ namespace pleinair::scene {
 namespace {
 
 /// shaders/buffer_view.frag numbers them in this order.
-constexpr std::array<BufferView, 9> kViews{
+constexpr std::array<BufferView, 11> kViews{
     {{"depth", "how near models are: white is nearest", {}},
      {"objects", "a colour for each model; black is the camera's picture", {}},
      {"parts", "a colour for each part of each model", {.surfaces = true}},
@@ -25,6 +25,13 @@ constexpr std::array<BufferView, 9> kViews{
      {"motion_error",
       "how well the view motion is known: white: exactly, yellow: to 0.25 px, red: to 1 px; black: "
       "not at all, or the camera's picture",
+      {.surfaces = true}},
+     {"patches",
+      "a colour for each smooth patch of a model, at whose borders strokes end",
+      {.surfaces = true}},
+     {"form",
+      "the direction in which surfaces bend least: its hue (red: level, blue-green: upright); grey: "
+      "none",
       {.surfaces = true}}}};
 
 gpu::Texture blank(gpu::TextureFormat format) {
@@ -70,6 +77,7 @@ const gpu::Texture& BufferViewer::show(const BufferView& view, const ArFrame& fr
       .texture("depth", *frame.depth)
       .texture("normalFocus", *frame.normalFocus)
       .texture("parts", orNothing(frame.parts))
+      .texture("forms", orNothing(frame.forms))
       .texture("barycentrics", orNothing(frame.barycentrics))
       .texture("motion", frame.motion ? *frame.motion->texture : noMotion_)
       .drawFullscreen(canvas.target);

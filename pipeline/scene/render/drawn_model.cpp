@@ -5,13 +5,20 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
+#include <numbers>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <glm/packing.hpp>
+
+#include "pipeline/scene/models/surface_form.h"
 
 namespace pleinair::scene {
 namespace {
@@ -85,6 +92,25 @@ std::vector<std::array<std::uint32_t, 3>> withOwnLastVertices(const Mesh& mesh, 
   return triangles;
 }
 
+/// `along` in the coordinates of a triangle's corners.
+DrawnForm drawnForm(std::uint32_t patch, const glm::vec3& along,
+                    const std::array<glm::vec3, 3>& corners) {
+  const glm::vec3 a = corners[0] - corners[2];
+  const glm::vec3 b = corners[1] - corners[2];
+  // Least squares: `along` lies in the triangle's plane.
+  const glm::mat2 sides(glm::dot(a, a), glm::dot(a, b), glm::dot(a, b), glm::dot(b, b));
+  DrawnForm form = patch & 0xFFFU;
+  const float clarity = std::min(glm::length(along), 1.0F);
+  if (clarity <= 0.0F || std::abs(glm::determinant(sides)) < 1e-30F) return form;
+  const glm::vec2 at = glm::inverse(sides) * glm::vec2(glm::dot(along, a), glm::dot(along, b));
+  constexpr float kPi = std::numbers::pi_v<float>;
+  float angle = std::atan2(at.y, at.x);
+  if (angle < 0.0F) angle += kPi;
+  form |= (static_cast<std::uint32_t>(std::lround(angle / kPi * 4096.0F)) & 0xFFFU) << 12U;
+  form |= static_cast<std::uint32_t>(std::lround(255.0F * clarity)) << 24U;
+  return form;
+}
+
 /// Lays out a model, one surface of a part after another.
 class Layout {
  public:
@@ -101,6 +127,7 @@ class Layout {
     const ModelPart& part = model_.parts[partIndex];
     const Surface& surface = model_.surfaces[surfaceIndex];
     const auto triangles = withOwnLastVertices(surface.mesh, isMirrored(part));
+    const std::vector<TriangleForm>& forms = formsOfSurface(surfaceIndex, part);
     const auto firstTriangle = static_cast<std::uint32_t>(drawn_.triangles.size());
     const std::uint32_t firstExtra = nextExtra_;
     source_.clear();
@@ -114,8 +141,15 @@ class Layout {
       drawn_.triangles.push_back({{placeOf(triangles[i][0], surface.mesh, part),
                                    placeOf(triangles[i][1], surface.mesh, part), number},
                                   static_cast<std::uint32_t>(partIndex)});
+      std::array<glm::vec3, 3> corners{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        corners[k] = surface.mesh.vertices[triangles[i][k]].position;
+      }
+      drawn_.forms.push_back(drawnForm(firstPatch_ + forms[i].patch, forms[i].along, corners));
       materials_.push_back(surface.material);
     }
+    for (const TriangleForm& form : forms) patches_ = std::max(patches_, firstPatch_ + form.patch);
+    firstPatch_ = patches_ + 1;
     addRange(firstTriangle, static_cast<std::uint32_t>(triangles.size()), surface.mesh, part);
     addRange(firstExtra, nextExtra_ - firstExtra, surface.mesh, part);
   }
@@ -127,6 +161,15 @@ class Layout {
   }
 
  private:
+  /// Parts may share surfaces.
+  const std::vector<TriangleForm>& formsOfSurface(std::size_t index, const ModelPart& part) {
+    const auto known = forms_.find({index, part.skin});
+    if (known != forms_.end()) return known->second;
+    std::vector<std::size_t> limbs;
+    if (part.skin) limbs = limbsOf(model_.rig, model_.rig.skins[*part.skin]);
+    return forms_[{index, part.skin}] = formsOf(model_.surfaces[index].mesh, limbs);
+  }
+
   void put(std::uint32_t place, const Mesh& mesh, std::uint32_t vertex, const ModelPart& part) {
     drawn_.rest[place] = restVertex(mesh, vertex, part);
     drawn_.attributes[place] = attributesOf(mesh.vertices[vertex]);
@@ -205,6 +248,9 @@ class Layout {
   const Model& model_;
   DrawnModel& drawn_;
   std::uint32_t nextExtra_;
+  std::uint32_t firstPatch_ = 0;
+  std::uint32_t patches_ = 0;
+  std::map<std::pair<std::size_t, std::optional<std::size_t>>, std::vector<TriangleForm>> forms_;
   std::vector<std::size_t> materials_;                           // per triangle
   std::vector<std::uint32_t> place_;                             // per vertex of the surface
   std::vector<std::pair<std::uint32_t, std::uint32_t>> source_;  // place, and vertex of the surface

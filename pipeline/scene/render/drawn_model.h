@@ -42,6 +42,13 @@ struct DrawnTriangle {
   std::uint32_t part = 0;
 };
 
+/// The form of a triangle's surface, as shaders/surface_form.glsl reads it. From the lowest bit: 12
+/// bits of its patch (modulo 4096; unlike those of other parts and materials); 12 bits of the angle
+/// of its direction, a line at the angle k · π / 4096, in the coordinates in which the triangle's
+/// first corner is (1, 0), its second (0, 1) and its last the origin; 8 bits of the direction's
+/// clarity.
+using DrawnForm = std::uint32_t;
+
 /// Vertices that are posed in the same way. Deltas are stored target by target, `vertexCount` each.
 struct PoseRange {
   std::uint32_t firstVertex = 0;
@@ -70,6 +77,7 @@ struct DrawnModel {
   std::vector<RestVertex> rest;
   std::vector<VertexAttributes> attributes;  ///< one per element of `rest`
   std::vector<DrawnTriangle> triangles;
+  std::vector<DrawnForm> forms;  ///< one per triangle
   std::vector<std::uint32_t> indices;  ///< of all batches
   std::vector<DrawBatch> batches;
   std::vector<PoseRange> ranges;  ///< cover each vertex once

@@ -106,6 +106,7 @@ void PosedGeometry::upload(const std::vector<DrawnModel>& drawn) {
   attributes_ = joined(drawn, &DrawnModel::attributes);
   indices_ = joined(drawn, &DrawnModel::indices);
   triangles_ = joined(drawn, &DrawnModel::triangles);
+  forms_ = joined(drawn, &DrawnModel::forms);
   deltas_ = joined(drawn, &DrawnModel::deltas);
   posed_ = gpu::Buffer(2 * kPosedBytes * posedCount_, gpu::BufferUsage::kDynamic);
   matrices_ = gpu::Buffer(std::span(matrixRows_).size_bytes(), gpu::BufferUsage::kDynamic);

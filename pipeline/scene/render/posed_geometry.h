@@ -68,6 +68,8 @@ class PosedGeometry {
   const gpu::Buffer& posed() const { return posed_; }
   /// 16 bytes per triangle: DrawnTriangle; corners count from the object's first vertex.
   const gpu::Buffer& triangles() const { return triangles_; }
+  /// 4 bytes per triangle: DrawnForm.
+  const gpu::Buffer& forms() const { return forms_; }
 
   /// Binds an object's posed vertices as attributes 0 (position) and 1 (octahedral normal), its
   /// constant data as 2 (texture) and 3 (colour), and its indices; unbind() ends it. gl_VertexID of
@@ -122,6 +124,7 @@ class PosedGeometry {
   gpu::Buffer attributes_;
   gpu::Buffer indices_;
   gpu::Buffer triangles_;
+  gpu::Buffer forms_;
   gpu::Buffer deltas_;
   gpu::Buffer matrices_;
   gpu::Buffer posed_;

@@ -67,7 +67,8 @@ SurfacePass::Buffers::Buffers(hal::FrameSize size)
     : motion(gpu::TextureFormat::kRgba16f, size),
       barycentrics(gpu::TextureFormat::kR32ui, size),
       parts(gpu::TextureFormat::kR32ui, size),
-      target({&motion, &barycentrics, &parts}),
+      forms(gpu::TextureFormat::kR32ui, size),
+      target({&motion, &barycentrics, &parts, &forms}),
       written{{0, 0}, {size.width, size.height}} {}
 
 SurfacePass::GpuBody SurfacePass::gpuBody(const Body& body) {
@@ -165,9 +166,11 @@ void SurfacePass::runModel(gpu::Program& program, std::size_t index, const gpu::
       .uniformBlock("OneBody", bodies_, (kMaxPlanes + index) * sizeof(GpuBody), sizeof(GpuBody))
       .storage("Posed", geometry_.posed())
       .storage("Triangles", geometry_.triangles())
+      .storage("Forms", geometry_.forms())
       .image("motion", buffers.motion, gpu::ImageAccess::kWrite)
       .image("barycentrics", buffers.barycentrics, gpu::ImageAccess::kWrite)
       .image("parts", buffers.parts, gpu::ImageAccess::kWrite)
+      .image("forms", buffers.forms, gpu::ImageAccess::kWrite)
       .set("object", objectId(scene_, index))
       .dispatch(area.size, 0);
 }
@@ -182,6 +185,7 @@ void SurfacePass::clear(Buffers& buffers) {
   buffers.target.clearColour(0, glm::vec4(0.0F));
   buffers.target.clearUnsigned(1, glm::uvec4(0U));
   buffers.target.clearUnsigned(2, glm::uvec4(0U));
+  buffers.target.clearUnsigned(3, glm::uvec4(0U));
   glDisable(GL_SCISSOR_TEST);
   glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);  // compute writes come after the clear
   buffers.written = {};

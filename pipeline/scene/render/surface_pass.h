@@ -20,7 +20,7 @@
 
 namespace pleinair::scene {
 
-/// Computes per pixel the motion, the point on the surface and the part (layouts: ArFrame), from
+/// Computes per pixel the motion, the point on the surface, the part and the form (layouts: ArFrame), from
 /// the drawn ids and the poses of all bodies in this frame and the previous one. Compute passes
 /// work on the visible areas of bodies only, so that drawing itself outputs no more than ids. All
 /// calls on the thread of the GL context that it was made in.
@@ -35,6 +35,7 @@ class SurfacePass {
     gpu::Texture motion;
     gpu::Texture barycentrics;
     gpu::Texture parts;
+    gpu::Texture forms;
     gpu::RenderTarget target;  // all textures, for clearing
     ScreenArea written;        // area that may be non-zero; at first the whole image
   };

@@ -4,6 +4,7 @@
 // Outputs: colour RGBA8, sRGB-coded.
 // Precision: highp for ids and depth.
 #include "pipeline/scene/render/shaders/object_id.glsl"
+#include "pipeline/scene/render/shaders/surface_form.glsl"
 
 uniform int view;
 uniform vec2 depthRange;
@@ -11,6 +12,7 @@ uniform highp usampler2D ids;
 uniform highp sampler2D depth;
 uniform sampler2D normalFocus;
 uniform highp usampler2D parts;
+uniform highp usampler2D forms;
 uniform highp usampler2D barycentrics;
 uniform highp sampler2D motion;
 
@@ -50,11 +52,17 @@ vec3 errorColour(vec4 moved) {
   return vec3(1.0, 1.0 - smoothstep(0.25, 1.0, e), 1.0 - min(e / 0.25, 1.0));
 }
 
+vec3 directionColour(uint form) {
+  vec2 across = tensorOf(form);
+  return mix(vec3(0.5), hue(atan(-across.y, -across.x) / 6.28318531), length(across));
+}
+
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   uint id = texelFetch(ids, pixel, 0).r;
   uint part = texelFetch(parts, min(pixel, textureSize(parts, 0) - 1), 0).r;
   uint corners = texelFetch(barycentrics, min(pixel, textureSize(barycentrics, 0) - 1), 0).r;
+  uint form = texelFetch(forms, min(pixel, textureSize(forms, 0) - 1), 0).r;
   vec4 moved = texelFetch(motion, min(pixel, textureSize(motion, 0) - 1), 0);
   vec4 facing = texelFetch(normalFocus, pixel, 0);
   vec2 at = unpackUnorm2x16(corners);
@@ -69,5 +77,7 @@ void main() {
   if (view == 6) c = facing.aaa;
   if (view == 7) c = motionColour(moved);
   if (view == 8) c = errorColour(moved);
+  if (view == 9 && isObject) c = colourOf(labelOf(form));
+  if (view == 10 && isObject) c = directionColour(form);
   colour = vec4(c, 1.0);
 }

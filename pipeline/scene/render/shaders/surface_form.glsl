@@ -1,0 +1,33 @@
+// Purpose: packs and unpacks the form of surfaces: of triangles (scene::DrawnForm), and of pixels
+//          (ArFrame::forms): from the lowest bit, 12 bits of a label, which differs where a painter
+//          sees a border (objects, parts, materials, creases, limbs); 12 bits of the angle of a
+//          line in the image, k · π / 4096; 8 bits of how clear that direction is.
+// Inputs, outputs: packed, or in parts.
+// Precision: integers; highp.
+const uint kLabels = 4096u;
+const float kLineStep = 3.14159265 / 4096.0;
+
+uint patchOf(uint drawn) { return drawn & 4095u; }
+// Along the direction: the shares of the first two corners, from the last one.
+vec2 cornersAlong(uint drawn) {
+  float angle = float(drawn >> 12u & 4095u) * kLineStep;
+  return vec2(cos(angle), sin(angle));
+}
+float clarityOf(uint form) { return float(form >> 24u) / 255.0; }
+
+// Labels of one object's patches differ; those of two objects coincide rarely. 0 and the last one
+// are left for the camera image and for movers.
+uint labelOfPatch(uint object, uint number) { return 1u + (object * 1031u + number) % (kLabels - 2u); }
+uint labelOf(uint form) { return form & 4095u; }
+
+uint formOf(uint label, vec2 along, float clarity) {
+  float angle = atan(along.y, along.x);
+  uint line = uint(int(round(angle / kLineStep)) + 8192) & 4095u;
+  return label | line << 12u | uint(clarity * 255.0 + 0.5) << 24u;
+}
+// The tensor of a gradient across the line, as strokes run across gradients; its length is the
+// clarity.
+vec2 tensorOf(uint form) {
+  float doubled = 2.0 * float(form >> 12u & 4095u) * kLineStep;
+  return -clarityOf(form) * vec2(cos(doubled), sin(doubled));
+}
