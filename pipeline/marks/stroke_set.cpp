@@ -82,6 +82,7 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
     return keptAfter(step, hal::toSeconds(timeConstant));
   };
   const std::size_t level = std::min(rule.fieldLevel, field.levelCount() - 1);
+  const bool hasDepth = frame.hasObjects && frame.depth != nullptr;
   const std::size_t detail = std::min(kDetailLevel, field.levelCount() - 1);
   trace.use()
       .storage("Anchors", anchors.anchors())
@@ -97,7 +98,12 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .texture("movers", layerTextures.labelsOf(layers))
       .texture("background", layerTextures.backgroundOf(layers))
       .texture("moverMotion", layerTextures.moverMotionOf(layers))
+      .texture("finePaint", *paint.fineModels)
+      .set("paintTexel", paint.modelTexelPx)
       .texture("ids", frame.hasObjects ? *frame.ids : noIds)
+      .texture("forms", frame.hasObjects ? *frame.forms : noIds)
+      .texture("depth", hasDepth ? *frame.depth : noIds)
+      .set("depthRange", hasDepth ? glm::vec2(frame.nearMetres, frame.farMetres) : glm::vec2(0.0F))
       .set("hasObjects", frame.hasObjects ? 1 : 0)
       .set("anew", anchors.hasBegunAnew() ? 1 : 0)
       .set("fullSize", glm::vec2(frame.full().width, frame.full().height))

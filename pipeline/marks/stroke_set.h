@@ -71,6 +71,10 @@ struct StrokePaint {
   const gpu::Texture* background = nullptr;
   const gpu::Texture* models = nullptr;
   const gpu::Texture* movers = nullptr;
+  /// The image of models at its finest, for strokes beside another patch, whose colours the texels
+  /// of `models` mix in.
+  const gpu::Texture* fineModels = nullptr;
+  float modelTexelPx = 1.0F;  ///< width of a texel of `models`, in px of the full image
 };
 
 /// The strokes of an AnchorSet's anchors: traced along a tensor field (thesis §4.4), blended with

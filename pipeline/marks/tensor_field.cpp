@@ -81,12 +81,12 @@ struct TensorField::State {
     explicit Models(hal::FrameSize size)
         : levels(TensorPyramidMaker::levelsOf(size)),
           before(tensors(size)),
-          objects(gpu::TextureFormat::kR32ui, size),
-          objectsBefore(gpu::TextureFormat::kR32ui, size) {}
+          labels(gpu::TextureFormat::kR32ui, size),
+          labelsBefore(gpu::TextureFormat::kR32ui, size) {}
     std::vector<TensorPyramidMaker::Level> levels;
     gpu::Texture before;
-    gpu::Texture objects;  // of each region
-    gpu::Texture objectsBefore;
+    gpu::Texture labels;  // of each region
+    gpu::Texture labelsBefore;
     bool hasPast = false;
   };
 
@@ -174,18 +174,18 @@ void TensorField::State::sumModels(const scene::ArFrame& frame, double form, con
   if (!models) models.emplace(background.front().regions.size());
   gpu::Texture& finest = models->levels.front().regions;
   std::swap(finest, models->before);
-  std::swap(models->objects, models->objectsBefore);
+  std::swap(models->labels, models->labelsBefore);
   const bool goesOn = past.isThere && models->hasPast && frame.motion;
   modelRegions.use()
       .texture("tensors", gradientOf(frame.size()).texture)
-      .texture("ids", *frame.ids)
+      .texture("forms", *frame.forms)
       .texture("normals", *frame.normalFocus)
       .texture("surfaceMotion", frame.motion ? *frame.motion->texture : before)
       .texture("before", models->before)
-      .texture("objectsBefore", models->objectsBefore)
+      .texture("labelsBefore", models->labelsBefore)
       .storage("Edges", edges)
       .image("regions", finest, gpu::ImageAccess::kWrite)
-      .image("objects", models->objects, gpu::ImageAccess::kWrite)
+      .image("labels", models->labels, gpu::ImageAccess::kWrite)
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .set("regionPixels", static_cast<float>(kRegionPixels))
       .set("form", static_cast<float>(form))

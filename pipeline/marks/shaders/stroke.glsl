@@ -3,12 +3,16 @@
 // Precision: highp.
 const int kArm = 4;  // segments on each side of the anchor
 
+const uint kWanted = 0x80000000u;  // `exists` is to be 1; with hysteresis
+
 struct Stroke {
   vec4 ahead[2];   // four directions
   vec4 behind[2];
   vec2 lengths;  // visible length of each arm, in segments
   float exists;  // opacity, in [0, 1]
-  float wanted;  // target of `exists`, with hysteresis
+  uint state;  // the label of what it lies on (surface_form.glsl), and the flag below
   vec3 colour;     // sRGB-coded
   float seen;  // exists × its anchor's fade
 };
+
+uint labelOfStroke(uint state) { return state & 4095u; }

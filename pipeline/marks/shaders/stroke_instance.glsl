@@ -1,9 +1,8 @@
 // Purpose: the drawn form of a stroke (marks::StrokeSet::instances()).
 // Inputs, outputs: px of the full image.
 // Precision: highp.
-const uint kMoverBorder = 511u;  // in place of an object, of strokes on movers
 struct Instance {
   vec4 points[4];  // two control points of the spline each
   vec4 paint;  // sRGB-coded colour, opacity
-  vec4 shape;  // half the width; variant, plus 4 if mirrored; its object; its anchor's age
+  vec4 shape;  // half the width; variant, plus 4 if mirrored; its label; its anchor's age
 };

@@ -3,8 +3,8 @@
 //          part of it; opacity; leaveLight; mixture.glsl's if isLimited; jitter: of hue,
 //          saturation, value.
 // Outputs: instances: 8 points (px of the full image), colour (sRGB-coded) and opacity; half the
-//          width (px), the brush's variant, plus 4 if it is mirrored, the stroke's virtual object
-//          or 0 for real content, its anchor's age (s). One invocation per anchor.
+//          width (px), the brush's variant, plus 4 if it is mirrored, the label of what the stroke
+//          lies on (surface_form.glsl), its anchor's age (s). One invocation per anchor.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/gpu/shaders/luma.glsl"
@@ -12,7 +12,6 @@
 #include "pipeline/marks/shaders/mixture.glsl"
 #include "pipeline/marks/shaders/stroke.glsl"
 #include "pipeline/marks/shaders/stroke_instance.glsl"
-#include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
 layout(std430, binding = 1) readonly buffer Strokes { Stroke strokes[]; };
@@ -77,9 +76,7 @@ void main() {
   colour = clamp(colour, 0.0, 1.0);
   if (isLimited) colour = mixtureOf(colour);
   made.paint = vec4(colour, opacity * stands * (1.0 - leaveLight * light) * stroke.seen);
-  uint object = objectOf(anchors[slot].surface);
-  bool isOnMover = (anchors[slot].state & kMover) != 0u;
-  float clipped = isVirtual(object) ? float(object) : isOnMover ? float(kMoverBorder) : 0.0;
-  made.shape = vec4(0.5 * wide, float(hashOf(seed ^ 0x31u) & 7u), clipped, anchors[slot].age);
+  made.shape = vec4(0.5 * wide, float(hashOf(seed ^ 0x31u) & 7u),
+                    float(labelOfStroke(stroke.state)), anchors[slot].age);
   instances[rank] = made;
 }

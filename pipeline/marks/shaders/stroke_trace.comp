@@ -1,10 +1,14 @@
 // Purpose: traces each anchor's stroke along the tensor field (thesis §4.4), both ways, and blends
 //          it with its past: directions one by one, lengths, colour and existence with time
 //          constants (§5.4), so that a stroke lives as long as its anchor.
+//          A stroke stays on what it lies on: it ends where the label of the surface changes
+//          (surface_form.glsl), or its depth by a step.
 // Inputs:  anchors; field: tensors to follow, detailField: tensors with the detail; modelField,
 //          modelDetailField, moverField: those of virtual objects and of movers; mover_labels.glsl's and mover_motion.glsl's; background
 //          (marks::MotionLayers); paint, modelPaint, moverPaint: the reduced images of the
-//          background, of models and of movers; ids if hasObjects; the rest as in
+//          background, of models and of movers; finePaint: of models, two px a texel; paintTexel:
+//          of modelPaint, in px of the full image; ids, forms and depth (ArFrame) if hasObjects,
+//          depthRange: the near and the far plane in metres, 0: no depth; the rest as in
 //          marks::StrokeRule.
 // Outputs: strokes. One invocation per anchor.
 // Precision: highp.
@@ -14,6 +18,7 @@
 #include "pipeline/marks/shaders/stroke.glsl"
 #include "pipeline/marks/shaders/stroke_history.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
+#include "pipeline/scene/render/shaders/surface_form.glsl"
 #include "pipeline/marks/shaders/layer_blocks.glsl"
 #include "pipeline/marks/shaders/mover_labels.glsl"
 #include "pipeline/marks/shaders/mover_motion.glsl"
@@ -29,7 +34,12 @@ uniform highp sampler2D background;
 uniform highp sampler2D paint;
 uniform highp sampler2D modelPaint;
 uniform highp sampler2D moverPaint;
+uniform highp sampler2D finePaint;
+uniform float paintTexel;
 uniform highp usampler2D ids;
+uniform highp usampler2D forms;
+uniform highp sampler2D depth;
+uniform vec2 depthRange;
 uniform bool hasObjects;
 uniform bool anew;
 uniform vec2 fullSize;
@@ -63,14 +73,44 @@ const vec2 kUpright = vec2(1.0, 0.0);  // a tensor: strokes of movers without an
 
 // What the stroke is painted on.
 struct Support {
-  uint object;
+  bool isModel;
+  uint label;
+  bool isMixed;  // the reduced image mixes its colours with those of what is beside it
   bool isOnMover;
   float looseness;  // how much looser it is painted, in [0, 1]
   vec2 along;       // a tensor, of strokes along the mover's motion
 };
 
-Support supportOf(uint object, bool isOnMover, vec2 px) {
-  Support on = Support(object, isOnMover, 0.0, kUpright);
+ivec2 pixelAt(vec2 px) {
+  return clamp(ivec2(floor(px * pixelsOfFull)), ivec2(0), textureSize(forms, 0) - 1);
+}
+
+uint labelAt(vec2 px) { return hasObjects ? labelOf(texelFetch(forms, pixelAt(px), 0).r) : 0u; }
+
+// The label of the anchor's triangle: of its pixel, or of the one beside it that shows the triangle.
+uint labelOfAnchor(vec2 px, uint surface) {
+  ivec2 middle = pixelAt(px);
+  ivec2 last = textureSize(ids, 0) - 1;
+  ivec2 found = middle;
+  for (int i = 0; i < 9; ++i) {
+    ivec2 at = clamp(middle + ivec2(i % 3, i / 3) - 1, ivec2(0), last);
+    if (texelFetch(ids, at, 0).r == surface && (i == 4 || found == middle)) found = at;
+  }
+  if (texelFetch(ids, middle, 0).r == surface) found = middle;
+  return labelOf(texelFetch(forms, found, 0).r);
+}
+
+bool isMixedAt(vec2 px, uint label) {
+  for (int i = 0; i < 4; ++i) {
+    vec2 arm = vec2(i < 2 ? float(2 * i - 1) : 0.0, i < 2 ? 0.0 : float(2 * i - 5));
+    if (labelAt(px + paintTexel * arm) != label) return true;
+  }
+  return false;
+}
+
+Support supportOf(bool isModel, uint label, bool isOnMover, vec2 px) {
+  Support on = Support(isModel, label, false, isOnMover, 0.0, kUpright);
+  on.isMixed = isModel && isMixedAt(px, label);
   vec2 moved;
   if (!isOnMover || looseness <= 0.0 || !findMoverMotion(px, moved)) return on;
   on.looseness = looseness * smoothstep(loosePx.x, max(loosePx.y, loosePx.x + 1e-3), length(moved));
@@ -81,7 +121,7 @@ Support supportOf(uint object, bool isOnMover, vec2 px) {
 
 vec2 directionAt(vec2 px, Support on) {
   vec2 tensor;
-  if (isVirtual(on.object)) {
+  if (on.isModel) {
     tensor = textureLod(modelField, px * fieldScale, 0.0).xy;
   } else if (on.isOnMover) {
     tensor = textureLod(moverField, px * moverScale, 0.0).xy;
@@ -98,26 +138,63 @@ vec2 directionAt(vec2 px, Support on) {
   return vec2(-gradient.y, gradient.x);
 }
 
-// The colour of the stroke's own object or layer, if any of it is near.
-vec3 colourAt(vec2 px, uint object, bool isOnMover) {
+// The colour of a patch within a texel of the reduced image.
+vec4 ownColour(vec2 px, uint label) {
+  vec4 sum = vec4(0.0);
+  for (int i = 0; i < 9; ++i) {
+    vec2 at = px + 0.4 * paintTexel * (vec2(i % 3, i / 3) - 1.0);
+    if (labelAt(at) == label) sum += textureLod(finePaint, at / fullSize, 0.0);
+  }
+  return sum;
+}
+
+// The colour of the stroke's own patch or layer, if any of it is near.
+vec3 colourAt(vec2 px, Support on) {
   const float kOthers = 1e-3;  // weight of the other layer
   vec2 at = px / fullSize;
-  if (isVirtual(object)) {
-    vec4 seen = textureLod(modelPaint, at, 0.0);
+  if (on.isModel) {
+    vec4 seen = on.isMixed ? ownColour(px, on.label) : vec4(0.0);
+    if (seen.a <= 0.0) seen = textureLod(modelPaint, at, 0.0);
     return seen.rgb / max(seen.a, 1e-4);
   }
   vec4 ground = textureLod(paint, at, 0.0);
   vec4 mover = textureLod(moverPaint, at, 0.0);
-  vec4 seen = isOnMover ? mover + kOthers * ground : ground + kOthers * mover;
+  vec4 seen = on.isOnMover ? mover + kOthers * ground : ground + kOthers * mover;
   return seen.rgb / max(seen.a, 1e-4);
 }
 
-// 0 for all real content: the camera image goes on over occluders.
-uint paintedObject(uint object) { return isVirtual(object) ? object : 0u; }
+// Window depth is linear on a plane in the image: where it is not, by so much, another surface
+// begins. In metres per metre of distance.
+const float kDepthStep = 0.02;
 
-uint objectAt(vec2 px) {
-  ivec2 pixel = clamp(ivec2(floor(px * pixelsOfFull)), ivec2(0), textureSize(ids, 0) - 1);
-  return paintedObject(objectOf(texelFetch(ids, pixel, 0).r));
+float depthAt(vec2 px) { return texelFetch(depth, pixelAt(px), 0).r; }
+
+bool isStep(float first, float second, float third) {
+  float near = depthRange.x;
+  float far = depthRange.y;
+  float metres = near * far / (far - second * (far - near));
+  float perWindow = metres * metres * (far - near) / (near * far);
+  return abs(first - 2.0 * second + third) * perWindow > kDepthStep * metres;
+}
+
+// The part of a segment that lies on its patch, in [0, 1]; a step of a pixel at a time.
+float partOnPatch(vec2 from, vec2 to, Support on) {
+  float count = max(1.0, ceil(distance(from, to) * max(pixelsOfFull.x, pixelsOfFull.y)));
+  vec2 pace = (to - from) / count;
+  uint label = on.isOnMover ? 0u : on.label;  // models alone have labels in the image
+  bool isDeep = on.isModel && depthRange.y > 0.0;
+  float before = isDeep ? depthAt(from - pace) : 0.0;
+  float here = isDeep ? depthAt(from) : 0.0;
+  for (float i = 1.0; i <= count; i += 1.0) {
+    vec2 at = from + i * pace;
+    if (labelAt(at) != label) return max(0.0, (i - 0.5) / count);
+    if (!isDeep) continue;
+    float next = depthAt(at);
+    if (isStep(before, here, next)) return max(0.0, (i - 1.5) / count);
+    before = here;
+    here = next;
+  }
+  return 1.0;
 }
 
 // The anchor's place counts more than the rest of the stroke, or small lights would vanish.
@@ -132,7 +209,7 @@ struct Arm {
 
 float detailAt(vec2 px, Support on) {
   const float kLooseDetail = 0.6;
-  if (isVirtual(on.object)) {
+  if (on.isModel) {
     return modelDetail * textureLod(modelDetailField, px * detailScale, 0.0).w;
   }
   float detail = on.isOnMover ? textureLod(moverField, px * moverScale, 0.0).w
@@ -159,16 +236,17 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {
       arm.length = min(arm.length, float(i));
     }
     arm.directions[i] = direction;
-    at += segment * direction;
-    vec3 there = colourAt(at, on.object, on.isOnMover);
-    float difference = apart(there, own);
-    bool isOther = hasObjects && objectAt(at) != on.object;
-    if (goesOn && isOther) {
-      // An arm ends at the border between virtual and real content, and between objects.
-      bool isEarly = objectAt(at - 0.5 * segment * direction) != on.object;
-      arm.length = min(arm.length, float(i) + (isEarly ? 0.15 : 0.6));
-      goesOn = false;
+    if (goesOn && hasObjects) {
+      // An arm ends where another surface begins.
+      float part = partOnPatch(at, at + segment * direction, on);
+      if (part < 1.0) {
+        arm.length = min(arm.length, float(i) + part);
+        goesOn = false;
+      }
     }
+    at += segment * direction;
+    vec3 there = goesOn ? colourAt(at, on) : own;
+    float difference = apart(there, own);
     if (goesOn && (moverAt(at).r > 0.5) != on.isOnMover) {
       // It does not cross a mover's border.
       bool isEarly = (moverAt(at - 0.5 * segment * direction).r > 0.5) != on.isOnMover;
@@ -265,13 +343,18 @@ void main() {
     }
     isNew = true;
   }
-  uint object = hasObjects ? paintedObject(objectOf(anchors[slot].surface)) : 0u;
+  bool isModel = hasObjects && isVirtual(objectOf(anchors[slot].surface));
+  uint label = isOnMover ? kMoverLabel : 0u;
+  if (isModel) {
+    // That of its birth: its triangle does not change.
+    label = isNew ? labelOfAnchor(px, anchors[slot].surface) : labelOfStroke(old.state);
+  }
 
   float hash = unitOf(hashOf(seed ^ 0x51u));
   float stray = wander * (unitOf(hashOf(seed ^ 0x77u)) + unitOf(hashOf(seed ^ 0x78u)) - 1.0);
   vec2 hand = vec2(cos(stray), sin(stray));
-  vec3 own = colourAt(px, object, isOnMover);
-  Support on = supportOf(object, isOnMover, px);
+  Support on = supportOf(isModel, label, isOnMover, px);
+  vec3 own = colourAt(px, on);
   vec2 heading = directionAt(px, on);
   heading = vec2(hand.x * heading.x - hand.y * heading.y, hand.y * heading.x + hand.x * heading.y);
   if (!isNew) {
@@ -293,8 +376,8 @@ void main() {
   float seen = detailAt(px, on);
   float detail = seen + detailSpread * (hash - 0.5);
   // Before a standing camera, nothing but its content changes a stroke of the background.
-  bool isResting = isStanding && !isNew && !isOnMover && object == 0u;
-  bool was = !isNew && old.wanted > 0.5;
+  bool isResting = isStanding && !isNew && !isOnMover && !isModel;
+  bool was = !isNew && (old.state & kWanted) != 0u;
   float wider = was ? 1.0 - (isResting ? restSlack : slack) : isResting ? 1.0 + 0.5 * restSlack : 1.0;
   bool wanted = detail >= detailBand.x * wider && detail <= detailBand.y / wider;
   float goal = wanted ? 1.0 : 0.0;
@@ -304,7 +387,7 @@ void main() {
   float stays = isOnMover ? past.x : pow(past.x, mix(1.0 / flatHold, 1.0, restless));
   float changed = isNew ? 0.0 : smoothstep(otherColour.x, otherColour.y, apart(colour, old.colour));
   Stroke made;
-  made.wanted = goal;
+  made.state = label | (wanted ? kWanted : 0u);
   if (!isNew) {
     vec4 jacobian = anchors[slot].jacobian;
     if (changed < 0.5) {

@@ -1,28 +1,29 @@
 // Purpose: the tensors of the virtual objects in each region, apart from the background's
-//          (tensor_regions.comp): of the object that most of the region's virtual pixels are of,
-//          from the edges of its picture and from its form. Carried along the motion of its
-//          surface; another object has no part in its past.
+//          (tensor_regions.comp): of the patch that most of the region's virtual pixels are of,
+//          from the edges of its picture and from its form: the direction in which it bends least,
+//          and towards a silhouette that of the silhouette. Carried along the motion of its
+//          surface; another patch has no part in its past.
 // Inputs:  tensors (gradient.frag), threshold (edge_threshold.comp), pixelsOfFull; regionPixels: a
-//          region's side in px of the full image; ids, normals, surfaceMotion (ArFrame); form: the
-//          weight of the surface's form; before, objectsBefore: the previous frame's, if hasPast;
+//          region's side in px of the full image; forms, normals, surfaceMotion (ArFrame); form: the
+//          weight of the surface's form; before, labelsBefore: the previous frame's, if hasPast;
 //          past: the share of them that remains; slack: by which part detail may differ from the
 //          held value.
-// Outputs: regions RGBA16F: as in tensor_region.glsl; objects R32UI: the object, 0 for none. One
+// Outputs: regions RGBA16F: as in tensor_region.glsl; labels R32UI: the patch's, 0 for none. One
 //          invocation per region.
 // Precision: highp.
 #include "pipeline/marks/shaders/edge_bins.glsl"
 #include "pipeline/marks/shaders/tensor_region.glsl"
-#include "pipeline/scene/render/shaders/object_id.glsl"
+#include "pipeline/scene/render/shaders/surface_form.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 0) readonly buffer Edges { EdgeStrengths frameEdges; };
 layout(rgba16f, binding = 0) writeonly uniform highp image2D regions;
-layout(r32ui, binding = 1) writeonly uniform highp uimage2D objects;
+layout(r32ui, binding = 1) writeonly uniform highp uimage2D labels;
 uniform highp sampler2D tensors;
-uniform highp usampler2D ids;
+uniform highp usampler2D forms;
 uniform highp sampler2D normals;
 uniform highp sampler2D surfaceMotion;
 uniform highp sampler2D before;
-uniform highp usampler2D objectsBefore;
+uniform highp usampler2D labelsBefore;
 uniform vec2 pixelsOfFull;
 uniform float regionPixels;
 uniform float form;
@@ -30,21 +31,18 @@ uniform bool hasPast;
 uniform float past;
 uniform float slack;
 
-uint objectAt(ivec2 p) {
-  uint object = objectOf(texelFetch(ids, p, 0).r);
-  return isVirtual(object) ? object : 0u;
-}
+uint labelAt(ivec2 p) { return labelOf(texelFetch(forms, p, 0).r); }
 
 // Boyer and Moore's majority vote over the virtual pixels.
-uint objectOfMost(ivec2 low, ivec2 high) {
+uint labelOfMost(ivec2 low, ivec2 high) {
   uint most = 0u;
   int lead = 0;
   for (int y = low.y; y < high.y; ++y) {
     for (int x = low.x; x < high.x; ++x) {
-      uint object = objectAt(ivec2(x, y));
-      if (object == 0u) continue;
-      if (lead == 0) most = object;
-      lead += object == most ? 1 : -1;
+      uint label = labelAt(ivec2(x, y));
+      if (label == 0u) continue;
+      if (lead == 0) most = label;
+      lead += label == most ? 1 : -1;
     }
   }
   return most;
@@ -52,13 +50,14 @@ uint objectOfMost(ivec2 low, ivec2 high) {
 
 // The tensor of strokes that the form asks for; its length says how clearly.
 vec2 formAt(ivec2 p) {
+  vec2 bent = tensorOf(texelFetch(forms, p, 0).r);
   vec2 tilt = 2.0 * texelFetch(normals, p, 0).xy - 1.0;
   float steep = dot(tilt, tilt);
-  return vec2(tilt.x * tilt.x - tilt.y * tilt.y, 2.0 * tilt.x * tilt.y) *
-         inversesqrt(max(steep, 1e-4));
+  vec2 silhouette = vec2(tilt.x * tilt.x - tilt.y * tilt.y, 2.0 * tilt.x * tilt.y) / max(steep, 1e-4);
+  return mix(bent, silhouette, smoothstep(0.7, 0.95, steep));
 }
 
-// The motion of the object's pixels, and their moments for its rotation.
+// The motion of the patch's pixels, and their moments for its rotation.
 struct Carried {
   vec2 place;
   vec2 displacement;
@@ -67,8 +66,8 @@ struct Carried {
   float pixels;
 };
 
-// The mean of the past around a place, of this object only; w < 0: there is none.
-vec4 pastAt(vec2 px, uint object) {
+// The mean of the past around a place, of this patch only; w < 0: there is none.
+vec4 pastAt(vec2 px, uint label) {
   vec2 texel = px / regionPixels - 0.5;
   ivec2 first = ivec2(floor(texel));
   vec2 part = texel - floor(texel);
@@ -79,7 +78,7 @@ vec4 pastAt(vec2 px, uint object) {
     ivec2 step = ivec2(i & 1, i >> 1);
     ivec2 at = first + step;
     if (any(lessThan(at, ivec2(0))) || any(greaterThan(at, last))) continue;
-    if (texelFetch(objectsBefore, at, 0).r != object) continue;
+    if (texelFetch(labelsBefore, at, 0).r != label) continue;
     vec2 near = mix(1.0 - part, part, vec2(step));
     sum += near.x * near.y * texelFetch(before, at, 0);
     weights += near.x * near.y;
@@ -91,10 +90,10 @@ void main() {
   ivec2 region = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(region, imageSize(regions)))) return;
   ivec2 low = ivec2(floor(vec2(region) * regionPixels * pixelsOfFull));
-  ivec2 high = min(ivec2(floor(vec2(region + 1) * regionPixels * pixelsOfFull)), textureSize(ids, 0));
-  uint object = objectOfMost(low, high);
-  imageStore(objects, region, uvec4(object));
-  if (object == 0u) {
+  ivec2 high = min(ivec2(floor(vec2(region + 1) * regionPixels * pixelsOfFull)), textureSize(forms, 0));
+  uint label = labelOfMost(low, high);
+  imageStore(labels, region, uvec4(label));
+  if (label == 0u) {
     imageStore(regions, region, vec4(0.0));
     return;
   }
@@ -104,7 +103,7 @@ void main() {
   for (int y = low.y; y < high.y; ++y) {
     for (int x = low.x; x < high.x; ++x) {
       ivec2 p = ivec2(x, y);
-      if (objectAt(p) != object) continue;
+      if (labelAt(p) != label) continue;
       add(seen, texelFetch(tensors, p, 0).xy, 1.0, frameEdges.threshold);
       vec2 lead = form * formAt(p);
       seen.sum += lead;
@@ -129,7 +128,7 @@ void main() {
     float squares = carried.squares - carried.pixels * dot(arm, arm) + 1.0;
     float turn = (carried.turning -
                   carried.pixels * (arm.x * displacement.y - arm.y * displacement.x)) / squares;
-    vec4 old = pastAt(at - displacement, object);
+    vec4 old = pastAt(at - displacement, label);
     if (old.w >= 0.0) {
       old.xy = turned(old.xy, turn);
       now = held(now, old, past, slack);

@@ -228,7 +228,7 @@ const Texture* Painterly::State::findBorders(const scene::ArFrame& frame,
                                              const PainterlyParameters& p) {
   if (!frame.hasObjects && !tellsMovers(p)) return nullptr;
   borders.use()
-      .texture("ids", frame.hasObjects ? *frame.ids : noIds)
+      .texture("forms", frame.hasObjects ? *frame.forms : noIds)
       .texture("movers", layerTextures.labelsOf(moversOf(p)))
       .set("hasObjects", frame.hasObjects ? 1 : 0)
       .set("size", glm::vec2(canvas->size.width, canvas->size.height))
@@ -379,7 +379,7 @@ void Painterly::warmUp() {
   grey.upload(zeros, std::size_t{16} * 4);
   Texture ids(TextureFormat::kR32ui, kSize);
   ids.upload(zeros, std::size_t{16} * 4);
-  scene::ArFrame frame{.colour = &grey, .ids = &ids, .normalFocus = &grey, .barycentrics = &ids};
+  scene::ArFrame frame{.colour = &grey, .ids = &ids, .normalFocus = &grey, .barycentrics = &ids, .forms = &ids};
   for (const DebugViewInfo& view : painterlyViews()) paint(frame, view.name);
   for (const StrokeBump bump : {StrokeBump::kEach, StrokeBump::kOnce}) {
     p_.bump = bump;

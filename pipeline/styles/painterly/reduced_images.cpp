@@ -39,6 +39,7 @@ void ReducedImages::update(const scene::ArFrame& frame, const marks::MotionLayer
   now_ = &surfaces;
   picture_ = frame.colour;
   hasObjects_ = frame.hasObjects;
+  pixelsOfFull_ = frame.pixelsOfFull().x;
   hasMovers_ = layers != nullptr;
   isApart_ = frame.hasObjects || hasMovers_;
   const hal::FrameSize half = surfaces.whole.levels[0].size();
@@ -75,16 +76,32 @@ marks::StrokePaint ReducedImages::paintOf(double px) const {
   assert(now_ != nullptr);
   const auto halvings = static_cast<int>(std::floor(std::log2(px)));
   // The picture itself knows nothing of parts; its pixels are fine enough.
-  if (halvings < 1) return {.background = picture_, .models = picture_, .movers = picture_};
+  const auto texelPx = [this](int halved) {
+    return static_cast<float>(std::ldexp(1.0 / pixelsOfFull_, halved));
+  };
+  if (halvings < 1) {
+    return {.background = picture_,
+            .models = picture_,
+            .movers = picture_,
+            .fineModels = picture_,
+            .modelTexelPx = texelPx(0)};
+  }
   const std::size_t level = std::min(static_cast<std::size_t>(halvings), kHalvings) - 1;
+  const float modelTexelPx = texelPx(static_cast<int>(level) + 1);
   if (!isApart_) {
     const gpu::Texture* whole = &now_->whole.levels[level];
-    return {.background = whole, .models = whole, .movers = whole};
+    return {.background = whole,
+            .models = whole,
+            .movers = whole,
+            .fineModels = whole,
+            .modelTexelPx = modelTexelPx};
   }
   const Apart& apart = *now_->apart;
   return {.background = &apart.background.levels[level],
           .models = hasObjects_ ? &apart.models.levels[level] : &apart.background.levels[level],
-          .movers = hasMovers_ ? &apart.movers.levels[level] : &apart.background.levels[level]};
+          .movers = hasMovers_ ? &apart.movers.levels[level] : &apart.background.levels[level],
+          .fineModels = hasObjects_ ? apart.models.levels.data() : &apart.background.levels[level],
+          .modelTexelPx = modelTexelPx};
 }
 
 const gpu::Texture& ReducedImages::whole(std::size_t halvings) const {

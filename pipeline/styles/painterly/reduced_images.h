@@ -72,6 +72,7 @@ class ReducedImages {
   bool hasMovers_ = false;
   marks::LayerTextures layerTextures_;
   gpu::Texture noIds_;
+  double pixelsOfFull_ = 1.0;
 };
 
 }  // namespace pleinair::styles

@@ -40,13 +40,15 @@ uint formAt(uint triangle, SurfacePoint point, vec3 current) {
   const float kLeast = 0.15;
   const float kMost = 0.5;
   uint drawn = triangleForms[body.places.x + triangle];
-  uint label = labelOfPatch(object, patchOf(drawn));
+  uint label = isVirtual(object) ? labelOfPatch(object, patchOf(drawn)) : 0u;
   vec2 corners = cornersAlong(drawn);
   vec3 last = cameraPosition(point.corners.z);
   vec3 along = corners.x * (cameraPosition(point.corners.x) - last) +
                corners.y * (cameraPosition(point.corners.y) - last);
   float size = length(along);
-  if (clarityOf(drawn) == 0.0 || !(size > 0.0) || !(current.z > 0.0)) return formOf(label, vec2(1.0, 0.0), 0.0);
+  if (clarityOf(drawn) == 0.0 || !(size > 0.0) || !(current.z > 0.0)) {
+    return formOf(label, vec2(1.0, 0.0), 0.0);
+  }
   vec2 seen = seenAlong(along / size, current);
   float foreshortening = length(seen) * current.z / max(focal.x, focal.y);
   float clarity = clarityOf(drawn) * smoothstep(kLeast, kMost, foreshortening);

@@ -5,6 +5,7 @@
 // Inputs, outputs: packed, or in parts.
 // Precision: integers; highp.
 const uint kLabels = 4096u;
+const uint kMoverLabel = kLabels - 1u;  // of what moves by itself before the camera
 const float kLineStep = 3.14159265 / 4096.0;
 
 uint patchOf(uint drawn) { return drawn & 4095u; }
@@ -15,8 +16,8 @@ vec2 cornersAlong(uint drawn) {
 }
 float clarityOf(uint form) { return float(form >> 24u) / 255.0; }
 
-// Labels of one object's patches differ; those of two objects coincide rarely. 0 and the last one
-// are left for the camera image and for movers.
+// Labels of one object's patches differ; those of two objects coincide rarely. 0 is the camera
+// image's, also where an occluder is.
 uint labelOfPatch(uint object, uint number) { return 1u + (object * 1031u + number) % (kLabels - 2u); }
 uint labelOf(uint form) { return form & 4095u; }
 

@@ -1,13 +1,13 @@
-// Purpose: keeps a stroke's paint inside the border of its object (thesis §5.5).
-// Inputs:  borders (borders.frag); object: the stroke's.
+// Purpose: keeps a stroke's paint inside the border of what it lies on (thesis §5.5).
+// Inputs:  borders (borders.frag); label: the stroke's.
 // Outputs: the share of a fragment that the stroke may paint, in [0, 1].
 // Precision: integers.
 #include "pipeline/styles/painterly/shaders/border.glsl"
 uniform usampler2D borders;
-flat in uint object;
+flat in uint label;
 
 float within() {
   uint border = texelFetch(borders, ivec2(gl_FragCoord.xy), 0).r;
   float share = shareOf(border);
-  return ownOf(border) == object ? share : (otherOf(border) == object ? 1.0 - share : 0.0);
+  return ownOf(border) == label ? share : (otherOf(border) == label ? 1.0 - share : 0.0);
 }

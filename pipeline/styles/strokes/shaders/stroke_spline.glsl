@@ -8,7 +8,7 @@ layout(location = 1) in vec4 second;
 layout(location = 2) in vec4 third;
 layout(location = 3) in vec4 fourth;
 layout(location = 4) in vec4 strokePaint;
-layout(location = 5) in vec4 shape;  // half the width, variant, its object, its anchor's age
+layout(location = 5) in vec4 shape;  // half the width, variant, its label, its anchor's age
 uniform float quads;
 
 SplinePlace splinePlace() {

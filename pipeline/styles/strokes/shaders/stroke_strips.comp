@@ -13,7 +13,7 @@ struct Vertex {
   uint along;   // snorms: the stroke's direction
   uvec2 paint;  // halves
   uint shape;  // halves: the stroke's length by its width; the sense of the brush across it
-  uint object;
+  uint label;
 };
 layout(std430, binding = 0) readonly buffer Instances { Instance instances[]; };
 layout(std430, binding = 1) readonly buffer Drawn { DrawCommand drawn; };
@@ -40,7 +40,7 @@ void main() {
   Vertex made;
   made.paint = uvec2(packHalf2x16(paint.rg), packHalf2x16(paint.ba));
   made.shape = packHalf2x16(vec2(min(0.5 * whole / max(shape.x, 0.5), 1000.0), sense));
-  made.object = uint(shape.z);
+  made.label = uint(shape.z);
   uint next = plan.first;
   uint breaks = plan.breaks;
   uint quads = even > 0u ? even : 1u + uint(bitCount(breaks));
