@@ -25,7 +25,7 @@ struct StrokeSlot {
   std::array<glm::vec2, 4> behind;
   glm::vec2 lengths;
   float exists;
-  float wanted;
+  std::uint32_t state;
   glm::vec3 colour;
   float seen;
 };
@@ -37,7 +37,7 @@ struct StrokeInstance {
   glm::vec4 paint;
   float halfWidth;
   float variant;
-  float object;
+  float label;
   float age;
 };
 static_assert(sizeof(StrokeInstance) == StrokeSet::kInstanceBytes);
@@ -58,6 +58,8 @@ class StrokeTest : public TensorTest {
  protected:
   static constexpr TensorFieldOptions kNoMemory{
       .form = 0.0, .memory = hal::Duration(0), .slack = 0.0};
+  static constexpr float kNear = 0.1F;  ///< metres
+  static constexpr float kFar = 10.0F;
 
   void SetUp() override {
     TensorTest::SetUp();
@@ -76,18 +78,39 @@ class StrokeTest : public TensorTest {
 
   /// A virtual object (1) where `isInside` says so.
   void useObject(const std::function<bool(glm::vec2)>& isInside) {
+    usePatches([&](glm::vec2 px) { return isInside(px) ? 1U : 0U; });
+  }
+  /// The patches of a virtual object (1), each a triangle; 0: the camera's picture.
+  void usePatches(const std::function<std::uint32_t(glm::vec2)>& patchAt) {
     std::vector<std::uint32_t> ids;
+    std::vector<std::uint32_t> forms;  // labels without directions
     for (int y = 0; y < kSize.height; ++y) {
       for (int x = 0; x < kSize.width; ++x) {
-        ids.push_back(isInside({x, y}) ? (1U << scene::kTriangleBits) | 1U : 0U);
+        forms.push_back(patchAt({x, y}));
+        ids.push_back(forms.back() != 0U ? (1U << scene::kTriangleBits) | forms.back() : 0U);
       }
     }
     const std::size_t stride = std::size_t{kSize.width} * 4;
     ids_ = gpu::Texture(gpu::TextureFormat::kR32ui, kSize);
     ids_.upload({reinterpret_cast<const std::uint8_t*>(ids.data()), ids.size() * 4}, stride);
+    forms_ = gpu::Texture(gpu::TextureFormat::kR32ui, kSize);
+    forms_.upload({reinterpret_cast<const std::uint8_t*>(forms.data()), forms.size() * 4}, stride);
     zeros_ = gpu::Texture(gpu::TextureFormat::kR32ui, kSize);
     zeros_.upload(std::vector<std::uint8_t>(ids.size() * 4), stride);
     hasObject_ = true;
+  }
+
+  /// How far the object's surfaces are, in metres between 0.1 and 10.
+  void useDepth(const std::function<float(glm::vec2)>& metresAt) {
+    std::vector<float> windows;
+    for (int y = 0; y < kSize.height; ++y) {
+      for (int x = 0; x < kSize.width; ++x) {
+        windows.push_back((kFar - kNear * kFar / metresAt({x, y})) / (kFar - kNear));
+      }
+    }
+    depth_.emplace(gpu::TextureFormat::kR32f, kSize);
+    depth_->upload({reinterpret_cast<const std::uint8_t*>(windows.data()), windows.size() * 4},
+                   std::size_t{kSize.width} * 4);
   }
 
   /// The next frame; colours are `paint`'s, else the picture's.
@@ -100,15 +123,22 @@ class StrokeTest : public TensorTest {
     frame.hasObjects = hasObject_;
     if (hasObject_) {
       frame.ids = &ids_;
+      frame.forms = &forms_;
       frame.barycentrics = &zeros_;
       frame.normalFocus = &texture;
+      if (depth_) frame.depth = &*depth_;
+      frame.nearMetres = kNear;
+      frame.farMetres = kFar;
     }
     motionField_->update(frame);
     if (layers_) layers_->update(frame, *motionField_);
     const MotionLayers* const layers = layers_ ? &*layers_ : nullptr;
     field_->update(frame, texture, *motionField_, kNoMemory, layers);
     anchors_->advance(frame, *motionField_, {}, layers);
-    const StrokePaint paints{.background = &colours, .models = &colours, .movers = &colours};
+    const StrokePaint paints{.background = &colours,
+                             .models = &colours,
+                             .movers = &colours,
+                             .fineModels = &colours};
     strokes_->update(frame, *anchors_, *field_, paints, rule, layers);
   }
 
@@ -166,6 +196,8 @@ class StrokeTest : public TensorTest {
   std::optional<AnchorSet> anchors_;
   std::optional<StrokeSet> strokes_;
   gpu::Texture ids_;
+  gpu::Texture forms_;
+  std::optional<gpu::Texture> depth_;  ///< as a depth buffer holds it
   gpu::Texture zeros_;
   bool hasObject_ = false;
 };

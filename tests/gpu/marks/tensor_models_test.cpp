@@ -54,12 +54,14 @@ class TensorModels : public TensorFieldFixture {
       return place && isQuad(px, *place) ? quadLuma(onQuad(px, *place)) : wall(px);
     });
     std::vector<std::uint32_t> ids;
+    std::vector<std::uint32_t> forms;  // labels without directions
     std::vector<glm::vec4> moved;
     for (int y = 0; y < kSize.height; ++y) {
       for (int x = 0; x < kSize.width; ++x) {
         const glm::dvec2 px(x + 0.5, y + 0.5);
         const bool isIt = place && isQuad(px, *place);
         ids.push_back(isIt ? object_ << scene::kTriangleBits : 0U);
+        forms.push_back(isIt ? object_ : 0U);
         glm::dvec2 by(0.0);
         if (isIt && before && tellsMotion) by = px - fromQuad(onQuad(px, *place), *before);
         moved.emplace_back(by, 0.0, isIt && before ? 1.0 : 0.0);
@@ -68,6 +70,9 @@ class TensorModels : public TensorFieldFixture {
     colour_ = support::textureOf(image.view());
     const auto width = static_cast<std::size_t>(kSize.width);
     ids_ = gpu::Texture(gpu::TextureFormat::kR32ui, kSize);
+    forms_ = gpu::Texture(gpu::TextureFormat::kR32ui, kSize);
+    forms_.upload({reinterpret_cast<const std::uint8_t*>(forms.data()), 4 * forms.size()},
+                  4 * width);
     ids_.upload({reinterpret_cast<const std::uint8_t*>(ids.data()), 4 * ids.size()}, 4 * width);
     moved_ = gpu::Texture(gpu::TextureFormat::kRgba32f, kSize);
     moved_.upload({reinterpret_cast<const std::uint8_t*>(moved.data()), 16 * moved.size()},
@@ -77,6 +82,7 @@ class TensorModels : public TensorFieldFixture {
     scene::ArFrame frame = frameOf(colour_);
     frame.hasObjects = place.has_value();
     frame.ids = &ids_;
+    frame.forms = &forms_;
     frame.normalFocus = &normals_;
     frame.motion = scene::SurfaceMotion{.texture = &moved_};
     motionField_->update(frame);
@@ -106,6 +112,7 @@ class TensorModels : public TensorFieldFixture {
   std::uint32_t object_ = 1;
   gpu::Texture colour_;
   gpu::Texture ids_;
+  gpu::Texture forms_;
   gpu::Texture moved_;
   gpu::Texture normals_;
 };
@@ -173,14 +180,14 @@ TEST_F(TensorModels, AModelLeavesNothingOnTheBackground) {
   }
 }
 
-/// The past of a region is that of its object; another one's does not count.
-TEST_F(TensorModels, AnotherObjectBeginsAnew) {
+/// The past of a region is that of its patch; another one's does not count.
+TEST_F(TensorModels, AnotherPatchBeginsAnew) {
   const Place level{{128.0, 64.0}};
   const Place turned{{128.0, 64.0}, 1.0};
   see(level);
   see(turned, turned);
   const std::vector<double> held = errorsOnQuad(turned);
-  EXPECT_GT(held[held.size() / 2], 5.0) << "the control: the same object, whose past counts";
+  EXPECT_GT(held[held.size() / 2], 5.0) << "the control: the same patch, whose past counts";
   field_->reset();
   see(level);
   object_ = 2;

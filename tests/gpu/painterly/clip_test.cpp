@@ -19,20 +19,25 @@ class ClipTest : public PainterlyTest {
  protected:
   void setIds(hal::FrameSize size, const std::function<std::uint32_t(int, int)>& objectAt) {
     std::vector<std::uint32_t> ids;
+    std::vector<std::uint32_t> forms;  // labels without directions
     for (int y = 0; y < size.height; ++y) {
       for (int x = 0; x < size.width; ++x) {
         const std::uint32_t object = objectAt(x, y);
         ids.push_back(object << scene::kTriangleBits | (object == 0 ? 0U : 7U));
+        forms.push_back(object < scene::kRealObject ? object : 0U);
       }
     }
     const std::size_t stride = static_cast<std::size_t>(size.width) * 4;
     ids_ = gpu::Texture(gpu::TextureFormat::kR32ui, size);
     ids_.upload({reinterpret_cast<const std::uint8_t*>(ids.data()), ids.size() * 4}, stride);
+    forms_ = gpu::Texture(gpu::TextureFormat::kR32ui, size);
+    forms_.upload({reinterpret_cast<const std::uint8_t*>(forms.data()), forms.size() * 4}, stride);
     zeros_ = gpu::Texture(gpu::TextureFormat::kR32ui, size);
     zeros_.upload(std::vector<std::uint8_t>(ids.size() * 4), stride);
   }
 
   gpu::Texture ids_;
+  gpu::Texture forms_;
   gpu::Texture zeros_;
 };
 
@@ -56,7 +61,7 @@ TEST_F(ClipTest, BordersAreTheOracles) {
   const marks::LayerTextures layerTextures;
   library_.fragmentPass("pipeline/styles/painterly/shaders/borders.frag")
       .use()
-      .texture("ids", ids_)
+      .texture("forms", forms_)
       .texture("movers", layerTextures.labelsOf(nullptr))
       .set("hasObjects", 1)
       .set("size", glm::vec2(kSmall.width, kSmall.height))
@@ -67,8 +72,8 @@ TEST_F(ClipTest, BordersAreTheOracles) {
   for (int y = 0; y < kSmall.height; ++y) {
     for (int x = 0; x < kSmall.width; ++x) {
       const std::uint32_t border = found[static_cast<std::size_t>(y * kSmall.width + x)];
-      const std::uint32_t own = border & 511U;
-      const std::uint32_t other = border >> 9U & 511U;
+      const std::uint32_t own = border & 4095U;
+      const std::uint32_t other = border >> 12U & 4095U;
       EXPECT_EQ(own, seen(x, y));
       std::vector<bool> its;
       bool isNear = false;
@@ -77,7 +82,7 @@ TEST_F(ClipTest, BordersAreTheOracles) {
         its.push_back(there == own);
         isNear = isNear || there == other;
       }
-      EXPECT_NEAR((border >> 18U) / 255.0, oracles::paintableShare(its), 0.5 / 255.0 + 1e-6);
+      EXPECT_NEAR((border >> 24U) / 255.0, oracles::paintableShare(its), 0.5 / 255.0 + 1e-6);
       EXPECT_TRUE(isNear);
       others += other != own ? 1 : 0;
       EXPECT_EQ(other == own, std::ranges::all_of(its, [](bool each) { return each; }));
@@ -91,7 +96,7 @@ TEST_F(ClipTest, BordersAreTheOracles) {
 class MoverBordersTest : public ClipTest {
  protected:
   static constexpr hal::FrameSize kSmall{23, 17};
-  static constexpr std::uint32_t kMover = 511;  // stroke_instance.glsl's
+  static constexpr std::uint32_t kMover = 4095;  // surface_form.glsl's
 
   void setLabels(hal::FrameSize size) {
     std::mt19937 random(7);
@@ -154,7 +159,7 @@ TEST_F(MoverBordersTest, AreTheOracles) {
     const gpu::Texture borders(gpu::TextureFormat::kR32ui, kSmall);
     library_.fragmentPass("pipeline/styles/painterly/shaders/borders.frag")
         .use()
-        .texture("ids", ids_)
+        .texture("forms", forms_)
         .texture("movers", labels_)
         .set("hasObjects", each.hasObjects ? 1 : 0)
         .set("size", glm::vec2(kSmall.width, kSmall.height))
@@ -174,9 +179,9 @@ TEST_F(MoverBordersTest, AreTheOracles) {
           its.push_back(there == own);
           if (there != own && (other == own || there > other)) other = there;
         }
-        EXPECT_EQ(border & 511U, own) << x << "," << y;
-        EXPECT_EQ(border >> 9U & 511U, other) << x << "," << y;
-        EXPECT_NEAR((border >> 18U) / 255.0, oracles::paintableShare(its), 0.5 / 255.0 + 1e-6);
+        EXPECT_EQ(border & 4095U, own) << x << "," << y;
+        EXPECT_EQ(border >> 12U & 4095U, other) << x << "," << y;
+        EXPECT_NEAR((border >> 24U) / 255.0, oracles::paintableShare(its), 0.5 / 255.0 + 1e-6);
         ofMovers += own == kMover ? 1 : 0;
         clipped += other != own ? 1 : 0;
       }
@@ -240,6 +245,7 @@ class SpillTest : public ClipTest {
       scene::ArFrame frame = next(disc());
       frame.hasObjects = isKnown;
       frame.ids = &ids_;
+      frame.forms = &forms_;
       frame.barycentrics = &zeros_;
       frame.normalFocus = &picture_;
       painted = paint(style, frame);

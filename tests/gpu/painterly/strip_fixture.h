@@ -23,7 +23,7 @@ struct LaidStroke {
   glm::vec4 paint{1.0F};
   float halfWidth = 4.0F;
   float variant = 0.0F;  // 4 more where it is mirrored
-  float object = 0.0F;
+  float label = 0.0F;
   float age = 0.0F;
 };
 static_assert(sizeof(LaidStroke) == marks::StrokeSet::kInstanceBytes);
@@ -45,7 +45,7 @@ struct StripVertex {
   std::array<std::int16_t, 2> along;
   std::array<std::uint16_t, 4> paint;
   std::array<std::uint16_t, 2> shape;
-  std::uint32_t object;
+  std::uint32_t label;
 };
 static_assert(sizeof(StripVertex) == StrokeStrips::kVertexBytes);
 

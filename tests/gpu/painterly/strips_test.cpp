@@ -183,14 +183,14 @@ TEST_F(StripsTest, TheThesissQuadsAreItsSamples) {
 TEST_F(StripsTest, BrushesVariantsAndObjectsAreTold) {
   LaidStroke plain = straightStroke({0.0F, 0.0F}, {30.0F, 0.0F});
   plain.variant = 2.0F;
-  plain.object = 511.0F;
+  plain.label = 4095.0F;
   LaidStroke mirrored = plain;
   mirrored.variant = 6.0F;
   lay({plain, mirrored});
   const std::vector<StripVertex> all = vertices();
   ASSERT_EQ(all.size(), 12U);
   for (std::size_t i = 0; i < 6; ++i) {
-    EXPECT_EQ(all[i].object, 511U);
+    EXPECT_EQ(all[i].label, 4095U);
     const double row = 4.0 * all[i].brush[1] / 65535.0;
     EXPECT_GT(row, 2.0);
     EXPECT_LT(row, 3.0);
