@@ -281,7 +281,7 @@ TEST_F(StrokeLife, WhatIsThereStaysALittleLonger) {
     rule.detailBand = {detail * part, 1e9F};
     advance(picture, rule);
     int wanted = 0;
-    for (const StrokeSlot& each : inner()) wanted += each.wanted > 0.5F ? 1 : 0;
+    for (const StrokeSlot& each : inner()) wanted += (each.state & 0x80000000U) != 0U ? 1 : 0;
     return static_cast<double>(wanted) / static_cast<double>(inner().size());
   };
   EXPECT_EQ(wantedAt(0.9F), 1.0);
