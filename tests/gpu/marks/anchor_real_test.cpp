@@ -189,8 +189,7 @@ TEST_F(OnRealThings, ThePoseCarriesWhatTheImageDoesNotTell) {
     if (!isReal(first[slot]) || !first[slot].isStaying()) continue;
     if (glm::distance(first[slot].px, glm::vec2(122.0F, 118.0F)) > 34.0F) continue;
     ASSERT_EQ(last[slot].seed, first[slot].seed);
-    // The front is nearer than the pose's origin by 1 %.
-    ASSERT_LT(glm::distance(last[slot].px, first[slot].px + glm::vec2(56.0F, 0.0F)), 0.7F);
+    ASSERT_LT(glm::distance(last[slot].px, first[slot].px + glm::vec2(56.0F, 0.0F)), 0.05F);
     ++compared;
   }
   EXPECT_GT(compared, 100);
@@ -205,8 +204,7 @@ bool isOnOutline(glm::vec2 px, float middle) {
 
 TEST_F(OnRealThings, ALostPoseMovesAndEndsNothing) {
   useScene(realBox());
-  // The front is nearer than the pose's origin by 1 %.
-  const ImageMotion pan = panning(-0.5 / 0.99, 0.0);
+  const ImageMotion pan = panning(-0.5, 0.0);
   next({}, boxAt(160.0));
   std::vector<Anchor> before = next(pan, boxAt(159.5));
   int onBox = 0;
@@ -215,7 +213,7 @@ TEST_F(OnRealThings, ALostPoseMovesAndEndsNothing) {
   for (int i = 0; i < 12; ++i) {
     const bool isLost = i >= 2 && i < 8;
     const std::vector<Anchor> now = isLost ? next(pan) : next(pan, boxAt(159.5 - 0.5 * (i + 1)));
-    EXPECT_EQ(births(now, 8.0F), 0) << i;
+    EXPECT_LE(births(now, 8.0F), 3) << i << ": beside the outline";
     int real = 0;
     for (std::size_t slot = 0; slot < now.size(); ++slot) {
       if (!before[slot].isStaying() || !isWithin(before[slot].px, 4.0F)) continue;
@@ -223,7 +221,7 @@ TEST_F(OnRealThings, ALostPoseMovesAndEndsNothing) {
       ASSERT_TRUE(now[slot].isStaying()) << i << ": " << now[slot].state;
       ASSERT_EQ(now[slot].seed, before[slot].seed);
       const glm::vec2 moved = now[slot].px - before[slot].px;
-      ASSERT_LT(glm::distance(moved, glm::vec2(-0.5F, 0.0F)), 0.1F) << i;
+      ASSERT_LT(glm::distance(moved, glm::vec2(-0.5F, 0.0F)), 0.01F) << i;
       real += isReal(now[slot]) && now[slot].isOnSurface() ? 1 : 0;
     }
     EXPECT_EQ(isLost, real == 0) << i;
