@@ -26,14 +26,17 @@ struct Anchor {
   glm::vec2 displacementPx{0.0F};  ///< since the previous frame
   /// of the position by the previous position; rotates and scales the mark
   glm::mat2 jacobian{1.0F};
-  /// On a surface: barycentric coordinates of the first two corners of its triangle. In the image:
-  /// the appearance of its surroundings (shaders/anchor_appearance.glsl).
-  glm::vec2 barycentrics{0.0F};
+  /// With kOnSurface: coordinates of the first two corners of its triangle, 16-bit unorms, the
+  /// first in the lower half (as in ArFrame::barycentrics).
+  std::uint32_t barycentrics = 0;
+  /// in the camera image: the colour of its surroundings (shaders/anchor_appearance.glsl)
+  std::uint32_t appearance = 0;
   float errorPx = 0.0F;  ///< predicted error of the displacement
   float fade = 0.0F;     ///< visible share of its mark, in [0, 1]
   float ageSeconds = 0.0F;
   std::uint32_t seed = 0;  ///< seeds all its random properties, for its whole life
-  /// the object and triangle that it lies on (ArFrame::ids); 0: the image
+  /// The object and triangle that it lies on (ArFrame::ids), a virtual or a real one; 0: a part of
+  /// the image without a model. The triangle only with kOnSurface.
   std::uint32_t surface = 0;
   /// a MotionSource, the flags below, and in the upper 16 bits for how long a mover has covered it
   /// (shaders/anchor.glsl)
@@ -49,9 +52,12 @@ struct Anchor {
   /// clipped where the mover is seen
   static constexpr std::uint32_t kCovered = 0x1000;
   static constexpr std::uint32_t kMover = 0x2000;  ///< on a mover (MotionLayers)
+  /// its triangle and barycentrics are known: the surface carries it
+  static constexpr std::uint32_t kOnSurface = 0x4000;
 
   bool isAlive() const { return (state & kAlive) != 0; }
   bool isCovered() const { return (state & (kAlive | kCovered)) == (kAlive | kCovered); }
+  bool isOnSurface() const { return (state & (kAlive | kOnSurface)) == (kAlive | kOnSurface); }
   bool isBorn() const { return (state & kBorn) != 0; }
   /// Whether the anchor is alive, not fading out and not covered.
   bool isStaying() const { return (state & (kAlive | kDying | kHidden | kCovered)) == kAlive; }

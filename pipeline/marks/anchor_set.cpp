@@ -20,6 +20,7 @@ namespace {
 const std::string kShaders = "pipeline/marks/shaders/";
 constexpr std::size_t kCellBytes = 36;  // shaders/anchor_cells.glsl
 constexpr int kMaxStrata = 4;           // along a cell's side (shaders/anchor_cells.glsl)
+constexpr unsigned kFirstModel = scene::kMaxPlanes;  // in SurfaceAccess::bodies
 constexpr GLbitfield kStored = GL_SHADER_STORAGE_BARRIER_BIT;
 
 glm::ivec2 gridOf(hal::FrameSize full, int cellPixels) {
@@ -59,6 +60,7 @@ struct AnchorSet::State {
         anchors(slots * sizeof(Anchor), gpu::BufferUsage::kDynamic),
         cells(static_cast<std::size_t>(grid.x * grid.y) * kCellBytes, gpu::BufferUsage::kDynamic),
         births((slots + 1) * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
+        noBodies(scene::SurfaceAccess::kBodyBytes, gpu::BufferUsage::kStatic),
         noIds(gpu::TextureFormat::kR32ui, {1, 1}) {
     anchors.write(std::vector<std::byte>(anchors.sizeBytes()));
     cells.write(std::vector<std::byte>(cells.sizeBytes()));
@@ -77,6 +79,7 @@ struct AnchorSet::State {
   gpu::Buffer anchors;
   gpu::Buffer cells;
   gpu::Buffer births;  // the free slots, in order
+  gpu::Buffer noBodies;
   gpu::Texture noIds;
   LayerTextures layerTextures;
   const MotionLayers* layers = nullptr;  // of this frame; null: movers are not told apart
@@ -112,18 +115,42 @@ struct AnchorSet::State {
         .set("strataSide", strataSide());
   }
 
-  void carryInImage(const scene::ArFrame& frame, const MotionField& motion, const AnchorHold& hold,
-                    hal::Duration step);
   void carryOnSurfaces(const scene::ArFrame& frame);
+  void carryInImage(const scene::ArFrame& frame, const MotionField& motion, const AnchorHold& hold,
+                    hal::Duration step, bool onSurfaces);
   void countAnchors(const AnchorHold& hold, hal::Duration step);
   void keepDensity(const scene::ArFrame& frame, const MotionField& motion, const AnchorHold& hold);
 };
 
+/// By the surfaces of all models, in one dispatch.
+void AnchorSet::State::carryOnSurfaces(const scene::ArFrame& frame) {
+  const scene::SurfaceAccess& access = *frame.surfaces;
+  const tracking::Intrinsics& pinhole = access.camera->intrinsics();
+  const glm::vec2 pixelsOfFull(frame.pixelsOfFull());
+  beginCarrying(surface, frame)
+      .texture("depth", *frame.depth)
+      .storage("Posed", *access.posed)
+      .storage("Triangles", *access.triangles)
+      .storage("Anchors", anchors)
+      .storage("Bodies", *access.bodies)
+      .set("firstModel", kFirstModel)
+      .set("nearMetres", frame.nearMetres)
+      .set("farMetres", frame.farMetres)
+      .set("focal", glm::vec2(pinhole.fx, pinhole.fy) / pixelsOfFull)
+      .set("centre", glm::vec2(pinhole.cx, pinhole.cy) / pixelsOfFull);
+  scene::setLens(surface, *access.camera);
+  surface.dispatch(allSlots(), kStored);
+}
+
 void AnchorSet::State::carryInImage(const scene::ArFrame& frame, const MotionField& motion,
-                                    const AnchorHold& hold, hal::Duration step) {
+                                    const AnchorHold& hold, hal::Duration step, bool onSurfaces) {
   beginCarrying(image, frame)
       .set("hasObjects", frame.hasObjects ? 1 : 0)
-      .storage("Anchors", anchors);
+      .set("onSurfaces", onSurfaces ? 1 : 0)
+      .set("firstModel", kFirstModel)
+      .texture("barycentrics", frame.barycentrics != nullptr ? *frame.barycentrics : noIds)
+      .storage("Anchors", anchors)
+      .storage("Bodies", onSurfaces ? *frame.surfaces->bodies : noBodies);
   motion.bind(image);
   image.texture("picture", *frame.colour)
       .texture("movers", layerTextures.labelsOf(layers))
@@ -136,31 +163,6 @@ void AnchorSet::State::carryInImage(const scene::ArFrame& frame, const MotionFie
       .set("follows", motion.follows() ? 1 : 0)
       .set("anew", hasBegunAnew ? 1 : 0)
       .dispatch(allSlots(), kStored);
-}
-
-void AnchorSet::State::carryOnSurfaces(const scene::ArFrame& frame) {
-  if (!frame.surfaces || frame.surfaces->posed == nullptr || hasBegunAnew) return;
-  const scene::SurfaceAccess& access = *frame.surfaces;
-  const tracking::Intrinsics& pinhole = access.camera->intrinsics();
-  const glm::vec2 pixelsOfFull(frame.pixelsOfFull());
-  for (const std::size_t model : access.models) {
-    if (access.objects[model] >= scene::kRealObject) continue;
-    beginCarrying(surface, frame)
-        .texture("depth", *frame.depth)
-        .storage("Posed", *access.posed)
-        .storage("Triangles", *access.triangles)
-        .storage("Anchors", anchors)
-        .uniformBlock("OneBody", *access.bodies,
-                      (scene::kMaxPlanes + model) * scene::SurfaceAccess::kBodyBytes,
-                      scene::SurfaceAccess::kBodyBytes)
-        .set("object", access.objects[model])
-        .set("nearMetres", frame.nearMetres)
-        .set("farMetres", frame.farMetres)
-        .set("focal", glm::vec2(pinhole.fx, pinhole.fy) / pixelsOfFull)
-        .set("centre", glm::vec2(pinhole.cx, pinhole.cy) / pixelsOfFull);
-    scene::setLens(surface, *access.camera);
-    surface.dispatch(allSlots(), kStored);
-  }
 }
 
 void AnchorSet::State::countAnchors(const AnchorHold& hold, hal::Duration step) {
@@ -225,8 +227,10 @@ void AnchorSet::advance(const scene::ArFrame& frame, const MotionField& motion,
   s.layers = layers;
   if (motion.isCut()) s.salt = 0;  // as in a first frame
   ++s.salt;
-  s.carryInImage(frame, motion, hold, step);
-  if (motion.follows()) s.carryOnSurfaces(frame);
+  const bool onSurfaces =
+      frame.surfaces && frame.surfaces->posed != nullptr && !s.hasBegunAnew && motion.follows();
+  if (onSurfaces) s.carryOnSurfaces(frame);
+  s.carryInImage(frame, motion, hold, step, onSurfaces);
   s.countAnchors(hold, step);
   s.keepDensity(frame, motion, hold);
 }

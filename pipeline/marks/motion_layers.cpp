@@ -58,7 +58,8 @@ struct MotionLayers::State {
         normalFlow(TextureFormat::kRgba16f, blocksOf(size)),
         moverMotion(TextureFormat::kRgba16f, blocksOf(size)),
         tally(kTallied * kTurns * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
-        noIds(TextureFormat::kR32ui, {1, 1}) {
+        noIds(TextureFormat::kR32ui, {1, 1}),
+        noMotion(TextureFormat::kRgba16f, {1, 1}) {
     tally.write(std::vector<std::byte>(tally.sizeBytes()));
     for (std::size_t i = 0; i < 2; ++i) {
       pictures.at(i) = {TextureFormat::kRgba8, size, TextureFilter::kLinear};
@@ -85,9 +86,11 @@ struct MotionLayers::State {
   std::array<gpu::Texture, 2> backgrounds;
   gpu::Buffer tally;
   gpu::Texture noIds;
+  gpu::Texture noMotion;
   std::size_t now = 0;  // which of the two are this frame's
   unsigned turn = 0;
   hal::FrameSize frameSize;  // of the last update
+  std::uint64_t last = 0;    // the frame of the last update
   hal::TimePoint lastTime;
   float lastStep = 0.0F;  // s; moverMotion is over it
   bool hasPast = false;
@@ -95,16 +98,31 @@ struct MotionLayers::State {
   hal::Duration sinceStanding = kStandingHold;
 
   glm::ivec2 cells() const { return {size.width, size.height}; }
-  gpu::Program& begin(gpu::Program& program, const MotionField& motion, float stepSeconds) const;
+  /// Binds what shaders/motion_layers.glsl reads. Precondition: the program is in use.
+  void bindBackground(gpu::Program& program, const scene::ArFrame& frame,
+                      const MotionField& motion) const;
+  gpu::Program& begin(gpu::Program& program, const scene::ArFrame& frame, const MotionField& motion,
+                      float stepSeconds) const;
 };
 
-gpu::Program& MotionLayers::State::begin(gpu::Program& program, const MotionField& motion,
-                                         float stepSeconds) const {
+void MotionLayers::State::bindBackground(gpu::Program& program, const scene::ArFrame& frame,
+                                         const MotionField& motion) const {
+  const bool hasSurfaces = frame.motion && motion.follows() && frame.motion->sinceSequence == last;
+  program.texture("ids", frame.hasObjects ? *frame.ids : noIds)
+      .texture("surfaceMotion", hasSurfaces ? *frame.motion->texture : noMotion)
+      .set("hasObjects", frame.hasObjects ? 1 : 0)
+      .set("hasSurfaces", hasSurfaces ? 1 : 0)
+      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
+      .set("fullSize", glm::vec2(full.width, full.height))
+      .set("isStanding", motion.isStanding() ? 1 : 0);
+}
+
+gpu::Program& MotionLayers::State::begin(gpu::Program& program, const scene::ArFrame& frame,
+                                         const MotionField& motion, float stepSeconds) const {
   program.use();
   motion.bind(program);
+  bindBackground(program, frame, motion);
   return program.storage("Tally", tally)
-      .set("fullSize", glm::vec2(full.width, full.height))
-      .set("isStanding", motion.isStanding() ? 1 : 0)
       .set("hasPast", hasPast ? 1 : 0)
       .set("turn", turn)
       .set("stepSeconds", stepSeconds);
@@ -126,21 +144,18 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       s.hasPast ? timeStep(s.lastTime, frame.captureTime) : hal::Duration(0);
   const auto step = static_cast<float>(hal::toSeconds(passed));
   const float motionScale = s.lastStep > 0.0F ? step / s.lastStep : 1.0F;
-  const std::size_t last = s.now;
+  const std::size_t before = s.now;
   s.now = 1 - s.now;
   s.turn = (s.turn + 1) % kTurns;
   // A cell averages four px.
   const double noise = motion.noiseLevels() / 255.0 / kCellPixels;
-  s.begin(s.compare, motion, step)
+  s.begin(s.compare, frame, motion, step)
       .texture("picture", *frame.colour)
-      .texture("ids", frame.hasObjects ? *frame.ids : s.noIds)
-      .texture("lastPicture", s.pictures.at(last))
-      .texture("background", s.backgrounds.at(last))
-      .texture("labels", s.labels.at(last))
+      .texture("lastPicture", s.pictures.at(before))
+      .texture("background", s.backgrounds.at(before))
+      .texture("labels", s.labels.at(before))
       .texture("motion", motion.backward())
       .texture("moverMotion", s.moverMotion)
-      .set("hasObjects", frame.hasObjects ? 1 : 0)
-      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .set("noise", static_cast<float>(noise))
       .set("motionScale", motionScale)
       .image("candidates", s.candidates, ImageAccess::kWrite)
@@ -155,12 +170,12 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .texture("picture", s.pictures.at(s.now))
       .image("ground", s.ground, ImageAccess::kWrite)
       .dispatch({s.ground.size().width, s.ground.size().height}, kStored);
-  s.begin(s.join, motion, step)
+  s.begin(s.join, frame, motion, step)
       .texture("ground", s.ground)
       .texture("candidates", s.candidates)
       .texture("evidence", s.evidence)
       .texture("picture", s.pictures.at(s.now))
-      .texture("background", s.backgrounds.at(last))
+      .texture("background", s.backgrounds.at(before))
       .set("restSeconds", static_cast<float>(hal::toSeconds(options.rest)))
       .set("freshSeconds", kFreshSeconds)
       .image("labels", s.labels.at(s.now), ImageAccess::kWrite)
@@ -168,9 +183,8 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .dispatch(s.cells(), kStored);
   const glm::ivec2 blocks(s.moverMotion.size().width, s.moverMotion.size().height);
   motion.bindBackward(s.findEdges.use());
+  s.bindBackground(s.findEdges, frame, motion);
   s.findEdges.texture("labels", s.labels.at(s.now))
-      .set("fullSize", glm::vec2(s.full.width, s.full.height))
-      .set("isStanding", motion.isStanding() ? 1 : 0)
       .texture("picture", s.pictures.at(s.now))
       .texture("moverMotion", s.moverMotion)
       .set("motionScale", motionScale)
@@ -182,6 +196,7 @@ void MotionLayers::update(const scene::ArFrame& frame, const MotionField& motion
       .texture("normalFlow", s.normalFlow)
       .image("moverMotion", s.moverMotion, ImageAccess::kWrite)
       .dispatch(blocks, kStored);
+  s.last = frame.sequence;
   s.lastTime = frame.captureTime;
   s.lastStep = step;
   s.isStanding = s.hasPast && motion.isStanding();

@@ -15,11 +15,13 @@
 #include "pipeline/gpu/handle.h"
 #include "pipeline/marks/anchor_set.h"
 #include "pipeline/marks/marks_shaders.h"
+#include "pipeline/scene/render/ar_frame_renderer.h"
 #include "pipeline/scene/scene_shaders.h"
 #include "pipeline/tracking/motion/image_motion_estimator.h"
 #include "tests/bench/benchmarks.h"
 #include "tests/reports/tracking/pose_measures.h"
 #include "tests/reports/tracking/truth_sequence.h"
+#include "tests/support/many_parts.h"
 
 namespace {
 
@@ -149,6 +151,82 @@ void withThePicturesMotion(benchmark::State& state) {
   for (const marks::Anchor& each : bench.anchors->read()) alive += each.isAlive() ? 1.0 : 0.0;
   state.counters["anchors"] = alive;
 }
+
+/// 60,000 anchors at 640×480.
+constexpr marks::DensityRule kThirteenACell{.target = 13, .birthBelow = 11, .deathAbove = 15};
+
+/// A wall of 500 boxes that fills the image, and anchors on it: where the time of a frame goes. The
+/// frame's time is without the timer, which waits before and after each pass.
+void onParts(benchmark::State& state, support::Parts parts, bool isReal) {
+  using Clock = std::chrono::steady_clock;
+  const hal::FrameSize size = sizeOf(state);
+  const scene::Scene scene = support::wallOfBoxes(25, 20, parts, isReal);
+  Bench bench(size, gpu::PassTiming::kFences, kThirteenACell);
+  scene::ArFrameRenderer renderer(bench.library, scene);
+  const tracking::CameraModel camera = scene::assumedCamera(size);
+  int at = 0;
+  std::vector<double> composing;
+  std::vector<double> carrying;
+  const auto frame = [&] {
+    bench.motion.image.sinceSequence = bench.number++;
+    const Clock::time_point start = Clock::now();
+    scene::ArFrame made = renderer.compose(
+        bench.colour, camera, {.cameraFromWorld = support::wallBefore(0.32, at++)}, bench.number,
+        timeOfFrame(bench.number), {.surfaces = true, .measuredMotion = true});
+    hal::orThrow(gpu::Fence::insert().wait());
+    const Clock::time_point composed = Clock::now();
+    made.measuredMotion = scene::MeasuredMotion{.motion = &bench.motion.image};
+    bench.field->update(made);
+    bench.anchors->advance(made, *bench.field);
+    hal::orThrow(gpu::Fence::insert().wait());
+    composing.push_back(std::chrono::duration<double, std::milli>(composed - start).count());
+    carrying.push_back(std::chrono::duration<double, std::milli>(Clock::now() - composed).count());
+  };
+  bench.library.setTimer(nullptr);
+  for (int i = 0; i < 5; ++i) frame();
+  composing.clear();
+  carrying.clear();
+  for ([[maybe_unused]] auto _ : state) frame();
+  state.counters["compose_ms"] = tracking::percentile(composing, 0.5);
+  state.counters["anchors_ms"] = tracking::percentile(carrying, 0.5);
+  bench.library.setTimer(&bench.timer);
+  constexpr int kTimed = 10;
+  for (int i = 0; i < kTimed; ++i) frame();
+  int passes = 0;
+  for (const gpu::PassTime& each : bench.timer.times()) {
+    if (!each.pass.starts_with("marks: anchor")) continue;
+    passes += each.count;
+    const std::string name = each.pass.substr(std::string_view("marks: anchor_").size());
+    state.counters[name + "_ms"] = 1e-6 * static_cast<double>(each.total.count()) / kTimed;
+  }
+  state.counters["passes"] = static_cast<double>(passes) / kTimed;
+  double alive = 0.0;
+  double onSurface = 0.0;
+  for (const marks::Anchor& each : bench.anchors->read()) {
+    alive += each.isAlive() ? 1.0 : 0.0;
+    onSurface += each.isOnSurface() ? 1.0 : 0.0;
+  }
+  state.counters["anchors"] = alive;
+  state.counters["on_parts"] = onSurface;
+}
+
+void atTheSmallSize(benchmark::internal::Benchmark* benchmark) {
+  benchmark->Args({640, 480})->Unit(benchmark::kMillisecond)->UseRealTime();
+  benchmark->MeasureProcessCPUTime()->Iterations(60);
+}
+
+BENCHMARK_CAPTURE(onParts, onePart, support::Parts::kJoined, false)
+    ->Name("marks/60,000 anchors on one part")
+    ->Apply(atTheSmallSize);
+BENCHMARK_CAPTURE(onParts, manyParts, support::Parts::kApart, false)
+    ->Name("marks/60,000 anchors on 500 parts")
+    ->Apply(atTheSmallSize);
+BENCHMARK_CAPTURE(onParts, oneRealPart, support::Parts::kJoined, true)
+    ->Name("marks/60,000 anchors on one real part")
+    ->Apply(atTheSmallSize);
+BENCHMARK_CAPTURE(onParts, manyRealParts, support::Parts::kApart, true)
+    ->Name("marks/60,000 anchors on 500 real parts")
+    ->Apply(atTheSmallSize);
 
 BENCHMARK_CAPTURE(together, onePerCell, kOneACell)
     ->Name("marks/one anchor a cell")

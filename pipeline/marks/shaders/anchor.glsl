@@ -5,7 +5,8 @@ struct Anchor {
   vec2 px;
   vec2 displacement;
   vec4 jacobian;  // column-major
-  vec2 barycentrics;
+  uint barycentrics;  // packUnorm2x16, if kOnSurface
+  uint appearance;    // anchor_appearance.glsl
   float error;
   float fade;
   float age;
@@ -22,6 +23,9 @@ const uint kBorn = 0x800u;
 // A mover covers it: its mark stays as it is and is clipped.
 const uint kCovered = 0x1000u;
 const uint kMover = 0x2000u;  // on a mover
+const uint kOnSurface = 0x4000u;  // its triangle and barycentrics are known
+// Another part of the same real thing is before it: told by anchor_surface.comp to anchor_image.comp.
+const uint kTurnedAway = 0x8000u;
 const uint kCoveredShift = 16u;  // above it: for how long, in 1/256 s
 const uint kMaxCovered = 0xFFFFu;
 

@@ -1,9 +1,9 @@
 // Purpose: whether an anchor of the camera image is still visible, or an object that is not a model
-//          occludes it. The anchor remembers the appearance of its surroundings in the two numbers
-//          that hold barycentrics in other anchors.
+//          occludes it. The anchor remembers the appearance of its surroundings.
 // Inputs:  picture (ArFrame::colour), background (marks::MotionLayers) and fullSize; noise: sigma,
 //          in [0, 1].
 // Outputs: looks: 1 + luma, and 4 * mismatch frames + 1 + red less blue; (0, 0): not sampled yet.
+//          Anchors store it packed in 32 bits.
 // Precision: highp.
 #include "pipeline/gpu/shaders/luma.glsl"
 #include "pipeline/marks/shaders/mover_labels.glsl"
@@ -36,6 +36,24 @@ Looks looksAt(highp sampler2D image, vec2 scale, vec2 px) {
     here.high = max(here.high, value);
   }
   return here;
+}
+
+// From the lowest: 14 bits of red less blue, 14 of luma, 3 of mismatch frames, and 1 if sampled. The
+// mean moves by a quarter of a difference, which 14 bits hold down to 1/16 of a level.
+const float kPackedSteps = 16383.0;
+
+uint packedLooks(vec2 looks) {
+  if (looks.y == 0.0) return 0u;
+  float mismatch = floor(looks.y / kPerMismatch);
+  vec2 known = vec2(looks.x - 1.0, 0.5 * (looks.y - kPerMismatch * mismatch));
+  uvec2 steps = uvec2(kPackedSteps * clamp(known, 0.0, 1.0) + 0.5);
+  return 1u << 31 | uint(mismatch) << 28 | steps.x << 14 | steps.y;
+}
+
+vec2 unpackedLooks(uint stored) {
+  if (stored == 0u) return vec2(0.0);
+  vec2 known = vec2(stored >> 14 & 0x3FFFu, stored & 0x3FFFu) / kPackedSteps;
+  return vec2(1.0 + known.x, kPerMismatch * float(stored >> 28 & 7u) + 2.0 * known.y);
 }
 
 vec2 knownOf(vec2 looks) {

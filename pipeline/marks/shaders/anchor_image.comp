@@ -1,6 +1,8 @@
-// Purpose: moves the anchors of the camera image, and prepares all others: an anchor on a surface
-//          is hidden until the pass of its object (anchor_surface.comp) finds it.
-// Inputs:  image_motion.glsl's, flow forward; ids and its pixelsOfFull if hasObjects; fullSize;
+// Purpose: moves the anchors of the camera image, by the best of the measured motion and, on real
+//          things, that of the surface (anchor_surface.comp, which has moved those on virtual models).
+// Inputs:  image_motion.glsl's, flow forward; ids, barycentrics (ArFrame) and their pixelsOfFull if
+//          hasObjects; bodies, the first of a model at firstModel; fullSize; onSurfaces: whether
+//          anchor_surface.comp has run;
 //          anchor_appearance.glsl's; margin: px beyond the border at which an anchor is removed;
 //          stepSeconds; memorySeconds: how long a covered anchor is kept; mover_labels.glsl's and
 //          mover_motion.glsl's; restsWithCamera: the camera stands, and movers are told apart;
@@ -12,7 +14,9 @@
 #include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) buffer Anchors { Anchor anchors[]; };
+layout(std430, binding = 1) readonly buffer Bodies { Body bodies[]; };
 uniform highp usampler2D ids;
+uniform highp usampler2D barycentrics;
 uniform bool hasObjects;
 uniform vec2 pixelsOfFull;
 uniform vec2 fullSize;
@@ -21,6 +25,8 @@ uniform float stepSeconds;
 uniform float memorySeconds;
 uniform bool follows;
 uniform bool anew;
+uniform bool onSurfaces;
+uniform uint firstModel;
 uniform bool restsWithCamera;
 uniform uint slots;
 #include "pipeline/marks/shaders/anchor_appearance.glsl"
@@ -67,10 +73,46 @@ Moved moverMotionAt(vec2 px, float object) {
 }
 
 // The background moves as one; a mover's motion must not carry it along.
-Moved backgroundMotionAt(vec2 px, float object) {
+Moved backgroundMotionAt(vec2 px, float object, bool isBesideMover) {
   if (restsWithCamera && object == 0.0) return Moved(vec2(0.0), kNoTurn, known.w, kSourcePicture);
-  if (known.z != 0.0 && isNearMover(px)) return byPicture(px, false);
-  return imageMotionAt(px, object, false);
+  if (!isBesideMover) return imageMotionAt(px, object, false);
+  Moved whole = byPicture(px, false);
+  if (object != 0.0) return whole;
+  // Before the camera, a plane may be much nearer than most of the image.
+  Moved plane = byPlanes(px, false);
+  whole.error = length(vec2(whole.error, contradicted(whole, plane.displacement, plane.error)));
+  return better(whole, plane);
+}
+
+// On a real thing: the motion of its surface or the measured one. Where both are far apart, the less
+// certain one errs by the difference. A mover before the thing says nothing about it.
+Moved betterOnSurface(Moved measured, Moved surface, vec2 px, bool isBesideMover) {
+  measured.error =
+      length(vec2(measured.error, contradicted(measured, surface.displacement, surface.error)));
+  if (!isBesideMover) {
+    Moved flowed = byFlow(px);
+    surface.error =
+        length(vec2(surface.error, contradicted(surface, flowed.displacement, flowed.error)));
+    surface.error = length(vec2(surface.error, contradicted(surface, vec2(0.0), stillError(px))));
+  }
+  surface.error = max(surface.error, kMinError);
+  return better(measured, surface);
+}
+
+bool isReal(uint object) { return object >= kRealObject; }
+
+// The pixel of ids at px, or -1.
+ivec2 pixelAt(vec2 px) {
+  ivec2 pixel = ivec2(floor(px * pixelsOfFull));
+  bool isInside = hasObjects && all(greaterThanEqual(pixel, ivec2(0))) &&
+                  all(lessThan(pixel, textureSize(ids, 0)));
+  return isInside ? pixel : ivec2(-1);
+}
+
+// Whether a real thing's model was not known in the previous frame. It has not come before what was
+// seen here: that was the thing.
+bool isNewlyKnown(uint object) {
+  return onSurfaces && bodies[firstModel + object - kRealObject - 1u].turnsAbout.w == 0.0;
 }
 
 void main() {
@@ -83,29 +125,46 @@ void main() {
     return;
   }
   anchors[slot].age += stepSeconds;
-  uint object = objectOf(anchors[slot].surface);
+  uint surface = anchors[slot].surface;
+  uint object = objectOf(surface);
+  vec2 px = anchors[slot].px;
   if (follows && isVirtual(object)) {
+    if (onSurfaces) return;
     anchors[slot].displacement = vec2(0.0);
     anchors[slot].jacobian = kNoTurn;
     anchors[slot].error = kUnknownError;
-    anchors[slot].state = (state & (kAlive | kDying)) | kHidden | kSourceUnknown;
+    anchors[slot].state = (state & (kAlive | kDying | kOnSurface)) | kHidden | kSourceUnknown;
     return;
   }
   bool isOnMover = (state & kMover) != 0u;
   bool wasCovered = (state & kCovered) != 0u;
-  Moved moved = isOnMover ? moverMotionAt(anchors[slot].px, float(object))
-                          : backgroundMotionAt(anchors[slot].px, float(object));
-  vec2 px = anchors[slot].px + moved.displacement;
-  bool isGone = any(lessThan(px, vec2(-margin))) || any(greaterThan(px, fullSize + margin));
-  bool isHidden = false;
-  if (hasObjects) {
-    ivec2 pixel = ivec2(floor(px * pixelsOfFull));
-    bool isInside = all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, textureSize(ids, 0)));
-    isHidden = isInside && objectOf(texelFetch(ids, pixel, 0).r) != object;
+  Moved moved;
+  if (isOnMover) {
+    ivec2 there = pixelAt(px);
+    uint before = there.x >= 0 ? objectOf(texelFetch(ids, there, 0).r) : 0u;
+    moved = moverMotionAt(px, isReal(before) ? float(before) : 0.0);
+  } else {
+    bool isBesideMover = known.z != 0.0 && isNearMover(px);
+    moved = backgroundMotionAt(px, float(object), isBesideMover);
+    if (onSurfaces && (state & kSourceBits) == kSourceSurface && isReal(object)) {
+      Moved surfaceMoved = Moved(anchors[slot].displacement, anchors[slot].jacobian,
+                                 anchors[slot].error, kSourceSurface);
+      moved = betterOnSurface(moved, surfaceMoved, px, isBesideMover);
+    }
   }
+  px += moved.displacement;
+  bool isGone = any(lessThan(px, vec2(-margin))) || any(greaterThan(px, fullSize + margin));
+  ivec2 pixel = pixelAt(px);
+  uint id = pixel.x >= 0 ? texelFetch(ids, pixel, 0).r : 0u;
+  if (object == 0u && !isOnMover && isReal(objectOf(id)) && isNewlyKnown(objectOf(id))) {
+    object = objectOf(id);
+  }
+  // Movers are seen before all real things.
+  bool isHidden = pixel.x >= 0 && (isOnMover ? isVirtual(objectOf(id)) : objectOf(id) != object);
+  isHidden = isHidden || (state & kTurnedAway) != 0u;
   // Appearance is not compared behind a model, nor for an anchor known to lie on another real
   // object.
-  vec2 looks = anchors[slot].barycentrics;
+  vec2 looks = unpackedLooks(anchors[slot].appearance);
   bool isBehind = false;
   bool isInside = all(greaterThan(px, vec2(0.0))) && all(lessThan(px, fullSize));
   if (follows && !isHidden && isInside) {
@@ -122,19 +181,30 @@ void main() {
         // It has joined the background, or has left the anchor behind.
         isOnMover = false;
         isOther = isOther || !isNewBackground(px);
+        if (isReal(objectOf(id))) object = objectOf(id);
       } else if (wasCovered) {
         isOther = isUnlike(looks) && isUnlikeBackground(looks, px);
       }
     }
     isGone = isGone || isOther;
   }
-  anchors[slot].barycentrics = looks;
+  // An anchor that has no point of its surface yet, or has come too far from it, takes the one that
+  // is seen where it is.
+  uint onSurface = isOnMover ? 0u : state & kOnSurface;
+  if (object != objectOf(surface)) surface = idOf(object, 0u);
+  if (onSurface == 0u && !isOnMover && isReal(object) && objectOf(id) == object) {
+    surface = id;
+    anchors[slot].barycentrics = texelFetch(barycentrics, pixel, 0).r;
+    onSurface = kOnSurface;
+  }
+  anchors[slot].surface = surface;
+  anchors[slot].appearance = packedLooks(looks);
   anchors[slot].px = px;
   anchors[slot].displacement = moved.displacement;
   anchors[slot].jacobian = moved.jacobian;
   anchors[slot].error = moved.error;
   uint covered = 0u;
-  uint flags = (state & (kAlive | kDying)) | (isHidden ? kHidden : 0u);
+  uint flags = (state & (kAlive | kDying)) | onSurface | (isHidden ? kHidden : 0u);
   if (isBehind) {
     covered = min((state >> kCoveredShift) + uint(256.0 * stepSeconds + 0.5), kMaxCovered);
     isGone = isGone || (state & kDying) != 0u || float(covered) > 256.0 * memorySeconds;

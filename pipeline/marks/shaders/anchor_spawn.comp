@@ -1,6 +1,6 @@
 // Purpose: spawns anchors in a cell, each in a part of it without one (thesis §4.3.1: jittered), on
-//          the visible content there: the exact point of a virtual surface behind the pixel (thesis
-//          §5.3), or the camera image.
+//          the visible content there: the exact point of the surface behind the pixel (thesis §5.3)
+//          of a model or of a real thing, or else a place of the camera image.
 // Inputs:  anchor_cells.glsl's; births and slots (anchor_plan.comp); ids, barycentrics (ArFrame)
 //          and their pixelsOfFull if hasObjects; fullSize; salt: another one each frame; atOnce:
 //          whether anchors appear without a fade; motion: MotionField's field; mover_labels.glsl's.
@@ -79,18 +79,20 @@ void spawn(ivec2 cell, uint number, bool onObject, bool onMover, inout uint take
   born.px = px;
   born.displacement = vec2(0.0);
   born.jacobian = vec4(1.0, 0.0, 0.0, 1.0);
-  born.barycentrics = vec2(0.0);
+  born.barycentrics = 0u;
+  born.appearance = 0u;
   born.error = 0.0;
   born.fade = atOnce || onMover || mover.g > 0.0 || hasComeIn(px) ? 1.0 : 0.0;
   born.age = 0.0;
   // independent of the place, which came from the same hash
   born.seed = hashOf(hash ^ 0x9E3779B9u);
-  born.surface = onObject ? id : idOf(objectOf(id), 0u);
+  born.surface = onMover ? 0u : id;  // a mover is before all real things
   born.state = kAlive | kBorn | kSourceUnknown | (onMover ? kMover : 0u);
-  if (onObject) {
+  if (born.surface != 0u) {
     ivec2 pixel = pixelAt(px);
     born.px = (vec2(pixel) + 0.5) / pixelsOfFull;
-    born.barycentrics = unpackUnorm2x16(texelFetch(barycentrics, pixel, 0).r);
+    born.barycentrics = texelFetch(barycentrics, pixel, 0).r;
+    born.state |= kOnSurface;
   }
   anchors[freeSlots[number]] = born;
 }

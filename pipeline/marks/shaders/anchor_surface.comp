@@ -1,17 +1,23 @@
-// Purpose: moves the anchors on one virtual model: evaluates each on its triangle at the current
-//          pose (thesis §5.3), and hides it where another surface is visible instead.
-// Inputs:  surface_point.glsl's, of a camera with the full image's pixels; object, of ids; ids,
-//          depth, nearMetres, farMetres (ArFrame), pixelsOfFull, fullSize, margin.
-// Outputs: anchors. One invocation per anchor.
+// Purpose: the motion of the anchors on all models, by the surfaces that they lie on: each is a point
+//          of its triangle (thesis §5.3). On a virtual model that is its place, and it is hidden where
+//          another surface is visible instead. On a real thing it is one of several measurements, of
+//          which anchor_image.comp takes the best.
+// Inputs:  posed_surface.glsl's; bodies, the first of a model at firstModel; bodies.glsl's, of a
+//          camera with the full image's pixels; ids, depth, nearMetres, farMetres (ArFrame),
+//          pixelsOfFull, fullSize, margin.
+// Outputs: anchors. Those on real things keep their places; displacement, jacobian and error are the
+//          surface's, and the source is kSourceSurface where they are known. One invocation per anchor.
 // Precision: highp.
 #include "pipeline/marks/shaders/anchor.glsl"
+#include "pipeline/scene/render/shaders/bodies.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
-#include "pipeline/scene/render/shaders/surface_point.glsl"
+#include "pipeline/scene/render/shaders/posed_surface.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 2) buffer Anchors { Anchor anchors[]; };
+layout(std430, binding = 3) readonly buffer Bodies { Body bodies[]; };
 uniform highp usampler2D ids;
 uniform highp sampler2D depth;
-uniform uint object;
+uniform uint firstModel;
 uniform float nearMetres;
 uniform float farMetres;
 uniform vec2 pixelsOfFull;
@@ -21,54 +27,82 @@ uniform uint slots;
 
 const float kDepthTolerance = 0.002;  // of the distance, beyond the surface's own slope
 const float kMaxSlope = 0.05;
+const float kMaxOff = 3.0;  // px of a real anchor from its point, after which it gets another one
+const vec4 kNoTurn = vec4(1.0, 0.0, 0.0, 1.0);
+const float kUnknownError = 1.0e4;
 
 float depthAt(ivec2 pixel) {
   float ndc = 2.0 * texelFetch(depth, pixel, 0).r - 1.0;
   return 2.0 * farMetres * nearMetres / (farMetres + nearMetres - ndc * (farMetres - nearMetres));
 }
 
-// Whether the surface visible at px is the anchor's.
-bool isSeen(vec2 px, vec3 place, vec3 normal) {
+const uint kSeen = 0u;
+const uint kOtherObject = 1u;
+const uint kOtherPart = 2u;
+
+// What is visible at px, of which the anchor's point is at `place`.
+uint seenAt(vec2 px, uint object, vec3 place, vec3 normal) {
   ivec2 pixel = ivec2(floor(px * pixelsOfFull));
-  if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, textureSize(ids, 0)))) return true;
-  if (objectOf(texelFetch(ids, pixel, 0).r) != object) return false;
+  if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, textureSize(ids, 0)))) return kSeen;
+  if (objectOf(texelFetch(ids, pixel, 0).r) != object) return kOtherObject;
   // The relative change of the surface's distance per pixel.
   float slope = length(normal.xy / (focal * pixelsOfFull)) * place.z / max(abs(dot(normal, place)), 1e-9);
   float tolerance = kDepthTolerance + min(slope, kMaxSlope);
-  return abs(depthAt(pixel) - place.z) < tolerance * place.z;
+  return abs(depthAt(pixel) - place.z) < tolerance * place.z ? kSeen : kOtherPart;
 }
 
 void main() {
   uint slot = gl_GlobalInvocationID.x;
   if (slot >= slots) return;
   uint state = anchors[slot].state;
+  if ((state & (kAlive | kOnSurface)) != (kAlive | kOnSurface)) return;
   uint surface = anchors[slot].surface;
-  if (!isAlive(state) || objectOf(surface) != object) return;
+  uint object = objectOf(surface);
+  bool isReal = !isVirtual(object);
+  uint index = firstModel + (object & (kRealObject - 1u)) - 1u;
+  uvec4 places = bodies[index].places;
+  anchors[slot].displacement = vec2(0.0);
+  anchors[slot].jacobian = kNoTurn;
+  anchors[slot].error = kUnknownError;
+  uint kept = state & ~kSourceBits;
+  if (places.w == 0u) {
+    // A real thing is still to be seen without its model: the anchor goes on in the image.
+    if (isReal) anchors[slot].surface = 0u;
+    anchors[slot].state = isReal ? kept & ~(kOnSurface | kTurnedAway)
+                                 : (state & (kAlive | kDying | kOnSurface)) | kHidden;
+    return;
+  }
 
-  uvec4 entry = triangles[body.places.x + numberOf(surface)];
-  vec2 part = anchors[slot].barycentrics;
+  uvec4 entry = triangles[places.x + numberOf(surface)];
+  vec2 part = unpackUnorm2x16(anchors[slot].barycentrics);
   SurfacePoint point = SurfacePoint(entry.xyz, entry.w, vec3(part, 1.0 - part.x - part.y));
-  vec3 place = currentPosition(point);
+  vec3 place = transformed(bodies[index].current, positionOf(point, places.y));
   if (place.z <= 0.0) {
-    anchors[slot].state = 0u;
+    anchors[slot].state = isReal ? kept & ~(kOnSurface | kTurnedAway) : 0u;
     return;
   }
   vec3 corners[3];
-  for (int i = 0; i < 3; ++i) corners[i] = cameraPosition(point.corners[i]);
+  for (int i = 0; i < 3; ++i) {
+    corners[i] = transformed(bodies[index].current, cornerOf(point, i, places.y));
+  }
   vec3 normal = normalize(cross(corners[1] - corners[0], corners[2] - corners[0]));
   vec2 px = projected(place);
   vec2 shift = vec2(0.0);
-  vec4 jacobian = vec4(1.0, 0.0, 0.0, 1.0);
+  vec2 off = vec2(0.0);  // of a real anchor from its point
+  vec4 jacobian = kNoTurn;
+  float error = kUnknownError;
   uint source = kSourceUnknown;
-  if (body.turnsAbout.w != 0.0) {
-    vec3 before = previousPosition(point);
+  if (bodies[index].turnsAbout.w != 0.0) {
+    vec3 before = transformed(bodies[index].previous, positionOf(point, places.z));
     if (before.z > 0.0) {
-      shift = px - projected(before);
+      vec2 wasPx = projected(before);
+      shift = px - wasPx;
       source = kSourceSurface;
+      error = isReal ? predictedError(bodies[index], place) : 0.0;
       // The triangle's affine map from its previous corners to its current ones.
       vec3 was[3];
       for (int i = 0; i < 3; ++i) {
-        was[i] = transformed(body.previous, posed[body.places.z + point.corners[i]].position);
+        was[i] = transformed(bodies[index].previous, cornerOf(point, i, places.z));
       }
       bool isBefore = min(min(was[0].z, was[1].z), was[2].z) > 0.0 &&
                       min(min(corners[0].z, corners[1].z), corners[2].z) > 0.0;
@@ -84,13 +118,25 @@ void main() {
           jacobian = vec4(a * v.y - b * u.y, b * u.x - a * v.x) / area;
         }
       }
+      if (isReal) {
+        off = anchors[slot].px - wasPx;
+        shift += mat2(jacobian.xy, jacobian.zw) * off - off;
+      }
     }
   }
-  bool isGone = any(lessThan(px, vec2(-margin))) || any(greaterThan(px, fullSize + margin));
-  uint flags = (state & (kAlive | kDying)) | (isSeen(px, place, normal) ? 0u : kHidden);
-  anchors[slot].px = px;
+  uint seen = seenAt(px, object, place, normal);
   anchors[slot].displacement = shift;
   anchors[slot].jacobian = jacobian;
-  anchors[slot].error = source == kSourceSurface ? 0.0 : 1.0e4;
+  anchors[slot].error = error;
+  if (isReal) {
+    uint flags = kept & ~kTurnedAway;
+    if (seen == kOtherPart) flags |= kTurnedAway;
+    if (dot(off, off) > kMaxOff * kMaxOff) flags &= ~kOnSurface;
+    anchors[slot].state = flags | source;
+    return;
+  }
+  anchors[slot].px = px;
+  bool isGone = any(lessThan(px, vec2(-margin))) || any(greaterThan(px, fullSize + margin));
+  uint flags = (state & (kAlive | kDying | kOnSurface)) | (seen == kSeen ? 0u : kHidden);
   anchors[slot].state = isGone ? 0u : flags | source;
 }

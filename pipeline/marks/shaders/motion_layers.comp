@@ -1,14 +1,14 @@
 // Purpose: compares each cell of the picture with the remembered background and with the previous
 //          frame, and carries its label along the motion (marks/motion_layers.h).
-// Inputs:  motion_layers.glsl's, motion_layers_tally.glsl's; picture (ArFrame::colour); ids and its
-//          pixelsOfFull if hasObjects; lastPicture, background, labels: the previous frame's, if
-//          hasPast; motion: MotionField's field; mover_motion.glsl's, of the previous frame, and
+// Inputs:  motion_layers.glsl's, motion_layers_tally.glsl's; picture (ArFrame::colour); lastPicture,
+//          background, labels: the previous frame's, if hasPast; motion: MotionField's field; mover_motion.glsl's, of the previous frame, and
 //          motionScale, this step over that; noise: sigma of a cell, in [0, 1].
 // Outputs: candidates RGBA8: how surely it is other content than the background, the carried label,
 //          luma now and of the background. evidence RGBA16F: whether it has changed since the
-//          previous frame, or -1 on models; carried rest, carried maturity (below 0: a mover
+//          previous frame, or -1 on models, or -2 where another real thing's model was before;
+//          carried rest, carried maturity (below 0: a mover
 //          has left), carried freshness.
-//          pictureNow RGBA8: the picture in cells. otherCells: how many cells are surely other
+//          pictureNow RGBA8: the picture in cells, and in A the real thing that it shows. otherCells: how many cells are surely other
 //          content. One invocation per cell.
 // Precision: highp.
 #include "pipeline/gpu/shaders/luma.glsl"
@@ -16,20 +16,16 @@
 #include "pipeline/marks/shaders/motion_layers.glsl"
 #include "pipeline/marks/shaders/motion_layers_tally.glsl"
 #include "pipeline/marks/shaders/mover_motion.glsl"
-#include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 16, local_size_y = 4) in;
 layout(rgba8, binding = 0) writeonly uniform highp image2D candidates;
 layout(rgba16f, binding = 1) writeonly uniform highp image2D evidence;
 layout(rgba8, binding = 2) writeonly uniform highp image2D pictureNow;
 uniform highp sampler2D picture;
-uniform highp usampler2D ids;
 uniform highp sampler2D lastPicture;
 uniform highp sampler2D background;
 uniform highp sampler2D labels;
 uniform highp sampler2D motion;
-uniform bool hasObjects;
 uniform bool hasPast;
-uniform vec2 pixelsOfFull;
 uniform float noise;
 uniform float motionScale;
 
@@ -66,24 +62,30 @@ bool isLikeMover(vec3 now, vec2 back, float unlikeBackground) {
          apart(now, there) < kLikeMover * unlikeBackground;
 }
 
+// A number for the real thing of an object, 0 for none. Few share one.
+float thingOf(uint object) { return object < kRealObject ? 0.0 : 1.0 + float(object % 255u); }
+
 void main() {
   ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
   ivec2 cells = imageSize(candidates);
   if (any(greaterThanEqual(cell, cells))) return;
   vec2 px = (vec2(cell) + 0.5) * kLayerCellPixels;
   vec3 now = textureLod(picture, px / fullSize, 0.0).rgb;
-  imageStore(pictureNow, cell, vec4(now, 1.0));
-  bool isModel = false;
-  if (hasObjects) {
-    ivec2 pixel = min(ivec2(px * pixelsOfFull), textureSize(ids, 0) - 1);
-    isModel = isVirtual(objectOf(texelFetch(ids, pixel, 0).r));
-  }
+  uint object = objectAt(px);
+  bool isModel = isVirtual(object);
+  float thing = thingOf(object);
+  imageStore(pictureNow, cell, vec4(now, thing / 255.0));
   vec2 shift = backgroundShift(px);
   vec2 from = px - shift;
   float luma = lumaOf(now);
-  if (!hasPast || isModel || !isInPicture(from)) {
+  bool isAnother = false;
+  if (hasPast && isInPicture(from)) {
+    ivec2 there = min(ivec2(from / kLayerCellPixels), textureSize(lastPicture, 0) - 1);
+    isAnother = abs(255.0 * texelFetch(lastPicture, there, 0).a - thing) > 0.5;
+  }
+  if (!hasPast || isModel || isAnother || !isInPicture(from)) {
     imageStore(candidates, cell, vec4(0.0, 0.0, luma, luma));
-    imageStore(evidence, cell, vec4(isModel ? -1.0 : 0.0, 0.0, 0.0, 0.0));
+    imageStore(evidence, cell, vec4(isModel ? -1.0 : isAnother ? -2.0 : 0.0, 0.0, 0.0, 0.0));
     return;
   }
   // While the camera moves, colours are compared with all those around.
@@ -106,8 +108,9 @@ void main() {
   float changed = smoothstep(least, kCertainThresholds * least, beyond(before, low, high));
 
   vec4 moved = textureLod(motion, px / fullSize, 0.0);
-  bool isMoving = moved.w > 0.5 && moved.z < 3.0 &&
-                  distance(moved.xy, shift) > kMovedPx + 2.5 * moved.z;
+  // Measured motion may still be that of most of the image.
+  float otherwise = min(distance(moved.xy, shift), distance(moved.xy, pictureShift(px)));
+  bool isMoving = moved.w > 0.5 && moved.z < 3.0 && otherwise > kMovedPx + 2.5 * moved.z;
   vec4 label = textureLod(labels, inLayers(labels, from), 0.0);
   bool isCarried = false;
   if (!isMoving && changed > 0.5) label.a = 0.0;  // something else is seen there

@@ -117,9 +117,10 @@ void main() {
     return;
   }
   vec4 own = texelFetch(candidates, cell, 0);
-  vec4 known = isInPicture(from) ? textureLod(background, inLayers(background, from), 0.0)
+  bool isAnother = past.r < -1.5;
+  vec4 known = isInPicture(from) && !isAnother ? textureLod(background, inLayers(background, from), 0.0)
                                  : vec4(now, 0.0);
-  if (past.r < 0.0) {  // a model: what is behind it stays as it was known
+  if (past.r < 0.0 && !isAnother) {  // a model: what is behind it stays as it was known
     imageStore(labels, cell, vec4(0.0));
     imageStore(backgroundNow, cell, known);
     return;

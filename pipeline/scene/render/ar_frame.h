@@ -51,7 +51,8 @@ struct SurfaceMotion {
 struct SurfaceAccess {
   const gpu::Buffer* posed = nullptr;      ///< PosedGeometry::posed(); null without models
   const gpu::Buffer* triangles = nullptr;  ///< PosedGeometry::triangles(); null without models
-  /// A uniform block of kBodyBytes a body: kMaxPlanes planes, then the models in the scene's order.
+  /// kBodyBytes a body (shaders/bodies.glsl), for uniform blocks or as storage: kMaxPlanes planes,
+  /// then the models in the scene's order.
   const gpu::Buffer* bodies = nullptr;
   static constexpr std::size_t kBodyBytes = 512;
   std::size_t planeCount = 0;

@@ -88,7 +88,7 @@ SurfacePass::GpuBody SurfacePass::gpuBody(const Body& body) {
   return made;
 }
 
-void SurfacePass::writeBodies(const SceneBodies& bodies) {
+void SurfacePass::writeBodies(const SceneBodies& bodies, std::span<const std::size_t> drawn) {
   for (std::size_t i = 0; i < scene_.planes.size(); ++i) {
     GpuBody& plane = staged_[i];
     plane = gpuBody(bodies.plane(i));
@@ -102,6 +102,7 @@ void SurfacePass::writeBodies(const SceneBodies& bodies) {
     if (!place.firstPrevious) model.turnsAbout.w = 0.0F;
     model.places = {place.firstTriangle, place.firstCurrent, place.firstPrevious.value_or(0), 0};
   }
+  for (const std::size_t i : drawn) staged_[kMaxPlanes + i].places.w = 1;
   bodies_.write(std::as_bytes(std::span(staged_)));
 }
 
@@ -196,7 +197,7 @@ void SurfacePass::run(const gpu::Texture& ids, const tracking::CameraModel& came
                       Buffers& buffers) {
   assert(ids.size() == camera.imageSize() && buffers.motion.size() == ids.size());
   clear(buffers);
-  writeBodies(bodies);
+  writeBodies(bodies, models);
   if (const ScreenArea area = areaOfPlanes(bodies, camera); !area.isEmpty()) {
     buffers.written = unionOf(buffers.written, area);
     runPlanes(ids, camera, area, buffers);
@@ -215,7 +216,7 @@ void SurfacePass::run(const gpu::Texture& ids, const tracking::CameraModel& came
 void SurfacePass::warmUp(const gpu::Texture& ids, const tracking::CameraModel& camera,
                          const SceneBodies& bodies, Buffers& buffers) {
   clear(buffers);
-  writeBodies(bodies);
+  writeBodies(bodies, {});
   constexpr ScreenArea kCorner{{0, 0}, {1, 1}};
   buffers.written = kCorner;
   if (planes_) runPlanes(ids, camera, kCorner, buffers);

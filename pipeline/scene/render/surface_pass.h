@@ -66,7 +66,7 @@ class SurfacePass {
     std::array<glm::vec4, 11> padding{};
   };
   static GpuBody gpuBody(const Body& body);
-  void writeBodies(const SceneBodies& bodies);
+  void writeBodies(const SceneBodies& bodies, std::span<const std::size_t> drawn);
   ScreenArea areaOfModel(std::size_t index, const Body& body,
                          const tracking::CameraModel& camera) const;
   ScreenArea areaOfPlanes(const SceneBodies& bodies, const tracking::CameraModel& camera) const;

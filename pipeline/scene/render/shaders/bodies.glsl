@@ -1,6 +1,7 @@
 // Purpose: bodies that move as one in front of the camera, and projection of their points.
-// Inputs:  focal, centre: of the pinhole in px. Bodies come in uniform blocks (scene::SurfacePass
-//          writes them), which are read once for all invocations.
+// Inputs:  focal, centre: of the pinhole in px. Bodies (scene::SurfacePass writes them) come in
+//          uniform blocks, which are read once for all invocations, or, where each invocation has
+//          another one, in a storage buffer.
 // Outputs: position of a point of a body, in metres and in px, and its predicted error.
 // Precision: highp; metres, camera frame, px.
 #include "pipeline/scene/render/shaders/lens.glsl"
@@ -12,7 +13,9 @@ struct Body {
   vec4 errorTurns[6];  // square root of the poses' covariance, column by column: rad
   vec4 errorShifts[6];  // metres
   vec4 extent;  // half the size of a plane
-  uvec4 places;  // of a model: first triangle, first vertex in this frame and in the previous one
+  // of a model: first triangle, first vertex in this frame and in the previous one; whether it is
+  // drawn in this frame
+  uvec4 places;
   vec4 padding[11];     // to a block's alignment
 };
 

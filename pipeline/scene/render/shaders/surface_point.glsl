@@ -1,24 +1,11 @@
 // Purpose: the exact point of a model's surface at a pixel: the corners of its triangle and
 //          perspective-correct barycentrics, as the rasteriser computes them.
-// Inputs:  storage 0: posed vertices; 1: triangles (scene::PosedGeometry); the model's body;
-//          those of bodies.glsl.
+// Inputs:  posed_surface.glsl's; the model's body; those of bodies.glsl.
 // Outputs: the point, and its position in this frame and the previous one (camera frame, metres).
 // Precision: highp. Barycentrics are computed from areas relative to the pixel, which keeps precision.
 #include "pipeline/scene/render/shaders/bodies.glsl"
-
-struct PosedVertex {
-  vec3 position;
-  uint normal;
-};
-layout(std430, binding = 0) readonly buffer Posed { PosedVertex posed[]; };
-layout(std430, binding = 1) readonly buffer Triangles { uvec4 triangles[]; };  // corners, part
+#include "pipeline/scene/render/shaders/posed_surface.glsl"
 layout(std140, binding = 0) uniform OneBody { Body body; };
-
-struct SurfacePoint {
-  uvec3 corners;  // of the object's vertices
-  uint part;
-  vec3 barycentrics;
-};
 
 vec3 cameraPosition(uint corner) {
   return transformed(body.current, posed[body.places.y + corner].position);
@@ -44,18 +31,10 @@ SurfacePoint surfacePointAt(uint triangle, vec2 px) {
 }
 
 vec3 currentPosition(SurfacePoint point) {
-  vec3 at = vec3(0.0);
-  for (int i = 0; i < 3; ++i) {
-    at += point.barycentrics[i] * posed[body.places.y + point.corners[i]].position;
-  }
-  return transformed(body.current, at);
+  return transformed(body.current, positionOf(point, body.places.y));
 }
 
 // Precondition: the model's previous pose is known.
 vec3 previousPosition(SurfacePoint point) {
-  vec3 at = vec3(0.0);
-  for (int i = 0; i < 3; ++i) {
-    at += point.barycentrics[i] * posed[body.places.z + point.corners[i]].position;
-  }
-  return transformed(body.previous, at);
+  return transformed(body.previous, positionOf(point, body.places.z));
 }
