@@ -83,6 +83,7 @@ struct AnchorSet::State {
   gpu::Texture noIds;
   LayerTextures layerTextures;
   const MotionLayers* layers = nullptr;  // of this frame; null: movers are not told apart
+  const TensorField* field = nullptr;
   hal::TimePoint lastTime;
   std::uint32_t salt = 0;  // of this frame's spawns
   bool hasPast = false;
@@ -194,10 +195,17 @@ void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionFiel
       .storage("Plan", births)
       .set("cellCount", static_cast<unsigned>(grid.x * grid.y))
       .dispatch({1, 1}, kStored);
+  const gpu::Texture* const patches =
+      field != nullptr && frame.motion ? field->patchesBefore() : nullptr;
   setFrame(beginCells(spawn), frame)
       .set("hasObjects", frame.hasObjects ? 1 : 0)
       .texture("barycentrics", frame.barycentrics != nullptr ? *frame.barycentrics : noIds)
       .texture("motion", motion.backward())
+      .texture("forms", frame.hasObjects ? *frame.forms : noIds)
+      .texture("surfaceMotion", frame.motion ? *frame.motion->texture : motion.backward())
+      .texture("patchesBefore", patches != nullptr ? *patches : noIds)
+      .set("hasPatches", patches != nullptr && frame.hasObjects ? 1 : 0)
+      .set("patchPixels", static_cast<float>(field != nullptr ? field->regionPixels(0) : 1.0))
       .texture("movers", layerTextures.labelsOf(layers))
       .storage("Anchors", anchors)
       .storage("Cells", cells)
@@ -216,7 +224,8 @@ AnchorSet::AnchorSet(const gpu::ShaderLibrary& library, hal::FrameSize full, Anc
 AnchorSet::~AnchorSet() = default;
 
 void AnchorSet::advance(const scene::ArFrame& frame, const MotionField& motion,
-                        const AnchorHold& hold, const MotionLayers* layers) {
+                        const AnchorHold& hold, const MotionLayers* layers,
+                        const TensorField* field) {
   State& s = *state_;
   assert(frame.full() == s.full);
   assert(!frame.hasObjects || frame.barycentrics != nullptr);
@@ -225,6 +234,7 @@ void AnchorSet::advance(const scene::ArFrame& frame, const MotionField& motion,
   s.lastTime = frame.captureTime;
   s.hasPast = true;
   s.layers = layers;
+  s.field = field;
   if (motion.isCut()) s.salt = 0;  // as in a first frame
   ++s.salt;
   const bool onSurfaces =

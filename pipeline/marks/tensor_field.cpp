@@ -88,6 +88,7 @@ struct TensorField::State {
     gpu::Texture labels;  // of each region
     gpu::Texture labelsBefore;
     bool hasPast = false;
+    bool hasPatchesBefore = false;
   };
 
   std::vector<TensorPyramidMaker::Level> background;
@@ -168,7 +169,7 @@ void TensorField::State::sumRegions(const scene::ArFrame& frame, const MotionFie
 
 void TensorField::State::sumModels(const scene::ArFrame& frame, double form, const Past& past) {
   if (!frame.hasObjects) {
-    if (models) models->hasPast = false;
+    if (models) models->hasPast = models->hasPatchesBefore = false;
     return;
   }
   if (!models) models.emplace(background.front().regions.size());
@@ -193,6 +194,7 @@ void TensorField::State::sumModels(const scene::ArFrame& frame, double form, con
       .set("past", past.share)
       .set("slack", past.slack)
       .dispatch(itemsOf(finest), kWritten);
+  models->hasPatchesBefore = goesOn;
   models->hasPast = true;
 }
 
@@ -243,6 +245,11 @@ const gpu::Texture& TensorField::movers() const {
 
 const gpu::Texture& TensorField::resolvedModels(std::size_t level) const {
   return (state_->models ? state_->models->levels : state_->background)[level].resolved;
+}
+
+const gpu::Texture* TensorField::patchesBefore() const {
+  return state_->models && state_->models->hasPatchesBefore ? &state_->models->labelsBefore
+                                                            : nullptr;
 }
 
 double TensorField::regionPixels(std::size_t level) const {

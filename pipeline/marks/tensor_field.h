@@ -59,6 +59,9 @@ class TensorField {
   const gpu::Texture& movers() const;
   /// Like resolved(): the tensors of virtual objects. Valid if the last frame had any.
   const gpu::Texture& resolvedModels(std::size_t level) const;
+  /// R32UI: the label of the patch of a model (scene/surface_form.glsl) in each region of the frame
+  /// before the last one; null if that had none or there was none.
+  const gpu::Texture* patchesBefore() const;
   /// Side of a region on a level, px of the full image.
   double regionPixels(std::size_t level) const;
 

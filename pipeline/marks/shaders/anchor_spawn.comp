@@ -22,6 +22,12 @@ uniform vec2 fullSize;
 uniform uint salt;
 uniform bool atOnce;
 uniform highp sampler2D motion;
+uniform highp usampler2D forms;
+uniform highp sampler2D surfaceMotion;
+uniform highp usampler2D patchesBefore;
+uniform bool hasPatches;
+uniform float patchPixels;
+#include "pipeline/scene/render/shaders/surface_form.glsl"
 
 #include "pipeline/marks/shaders/mover_labels.glsl"
 
@@ -53,6 +59,18 @@ bool hasComeIn(vec2 px) {
   return any(lessThan(from, vec2(0.0))) || any(greaterThanEqual(from, fullSize));
 }
 
+// Whether a model's surface has just come to sight from behind something. Its marks appear without
+// a fade: nothing of its own lies beneath them.
+bool hasBeenUncovered(vec2 px) {
+  ivec2 pixel = pixelAt(px);
+  uint label = labelOf(texelFetch(forms, pixel, 0).r);
+  if (!hasPatches || label == 0u) return false;
+  vec2 from = px - texelFetch(surfaceMotion, pixel, 0).xy / pixelsOfFull;
+  ivec2 last = textureSize(patchesBefore, 0) - 1;
+  ivec2 at = clamp(ivec2(floor(from / patchPixels)), ivec2(0), last);
+  return texelFetch(patchesBefore, at, 0).r != label;
+}
+
 void spawn(ivec2 cell, uint number, bool onObject, bool onMover, inout uint taken) {
   if (number >= freeCount) return;
   uint hash = hashOf(cell, hashOf(salt) + number);  // separates the sequences of different frames
@@ -82,7 +100,9 @@ void spawn(ivec2 cell, uint number, bool onObject, bool onMover, inout uint take
   born.barycentrics = 0u;
   born.appearance = 0u;
   born.error = 0.0;
-  born.fade = atOnce || onMover || mover.g > 0.0 || hasComeIn(px) ? 1.0 : 0.0;
+  born.fade = atOnce || onMover || mover.g > 0.0 || hasComeIn(px) ||
+                      (onObject && hasBeenUncovered(px))
+                  ? 1.0 : 0.0;
   born.age = 0.0;
   // independent of the place, which came from the same hash
   born.seed = hashOf(hash ^ 0x9E3779B9u);

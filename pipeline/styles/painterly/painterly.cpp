@@ -215,7 +215,7 @@ void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParamete
   for (std::size_t i = 0; i < painting->layers.size(); ++i) {
     Layer& layer = *painting->layers[i];
     if (p.coherence <= 0.0) layer.anchors.beginAnew();
-    layer.anchors.advance(frame, painting->motion, anchorHoldOf(p), movers);
+    layer.anchors.advance(frame, painting->motion, anchorHoldOf(p), movers, &painting->field);
     marks::StrokeRule rule = ruleOf(p, painting->plan, i, painting->motion.noiseLevels());
     rule.mixtures = mixtures ? &*mixtures : nullptr;
     const double width = widthOf(painting->plan, i) * frame.pixelsOfFull().x;
