@@ -18,7 +18,7 @@ namespace pleinair::marks {
 namespace {
 
 const std::string kShaders = "pipeline/marks/shaders/";
-constexpr std::size_t kCellBytes = 36;  // shaders/anchor_cells.glsl
+constexpr std::size_t kCellBytes = 40;  // shaders/anchor_cells.glsl
 constexpr int kMaxStrata = 4;           // along a cell's side (shaders/anchor_cells.glsl)
 constexpr unsigned kFirstModel = scene::kMaxPlanes;  // in SurfaceAccess::bodies
 constexpr GLbitfield kStored = GL_SHADER_STORAGE_BARRIER_BIT;
@@ -119,7 +119,7 @@ struct AnchorSet::State {
   void carryOnSurfaces(const scene::ArFrame& frame);
   void carryInImage(const scene::ArFrame& frame, const MotionField& motion, const AnchorHold& hold,
                     hal::Duration step, bool onSurfaces);
-  void countAnchors(const AnchorHold& hold, hal::Duration step);
+  void countAnchors(const scene::ArFrame& frame, const AnchorHold& hold, hal::Duration step);
   void keepDensity(const scene::ArFrame& frame, const MotionField& motion, const AnchorHold& hold);
 };
 
@@ -166,8 +166,10 @@ void AnchorSet::State::carryInImage(const scene::ArFrame& frame, const MotionFie
       .dispatch(allSlots(), kStored);
 }
 
-void AnchorSet::State::countAnchors(const AnchorHold& hold, hal::Duration step) {
-  beginCells(count)
+void AnchorSet::State::countAnchors(const scene::ArFrame& frame, const AnchorHold& hold,
+                                    hal::Duration step) {
+  setFrame(beginCells(count), frame)
+      .texture("forms", frame.hasObjects ? *frame.forms : noIds)
       .set("slots", slots)
       .storage("Anchors", anchors)
       .storage("Cells", cells)
@@ -184,6 +186,7 @@ void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionFiel
       .storage("Anchors", anchors)
       .storage("Cells", cells)
       .texture("movers", layerTextures.labelsOf(layers))
+      .texture("forms", frame.hasObjects ? *frame.forms : noIds)
       .set("target", rule.target)
       .set("birthBelow", hold.hasSlack ? rule.birthBelow : rule.target)
       .set("deathAbove", hold.hasSlack ? rule.deathAbove : rule.target)
@@ -241,7 +244,7 @@ void AnchorSet::advance(const scene::ArFrame& frame, const MotionField& motion,
       frame.surfaces && frame.surfaces->posed != nullptr && !s.hasBegunAnew && motion.follows();
   if (onSurfaces) s.carryOnSurfaces(frame);
   s.carryInImage(frame, motion, hold, step, onSurfaces);
-  s.countAnchors(hold, step);
+  s.countAnchors(frame, hold, step);
   s.keepDensity(frame, motion, hold);
 }
 

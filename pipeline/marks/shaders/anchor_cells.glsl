@@ -6,12 +6,20 @@ struct Cell {
   uint onObjects;  // staying anchors on virtual objects
   uint nextToRemove;  // age and slot of the next anchor to remove
   uint strata;  // the occupied parts of the cell: 16 bits for the image, 16 for objects
-  uint births;  // wanted spawns: 16 bits for the image, 16 for objects
+  // wanted spawns: 16 bits for the image, 8 for objects, 8 for patches of objects without anchors
+  uint births;
   uint firstBirth;  // index in the frame's spawns
   uint onMovers;  // staying anchors on movers
   uint nextMoverToRemove;
   uint moverBirths;
+  uint patches;  // which patches of objects have staying anchors (patchBit())
 };
+
+// Of the patch with this label (surface_form.glsl). Neighbours' differ, but for one pair in 31.
+uint patchBit(uint label) { return 1u << (label % 31u); }
+uint birthsInImage(uint births) { return births & 0xFFFFu; }
+uint birthsOnObjects(uint births) { return births >> 16u & 0xFFu; }
+uint birthsOnPatches(uint births) { return births >> 24u; }
 
 uniform ivec2 grid;
 uniform int cellPixels;  // side of a cell

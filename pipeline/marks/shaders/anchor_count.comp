@@ -1,5 +1,5 @@
 // Purpose: fades anchors in and out, and counts the staying ones in each cell.
-// Inputs:  anchor_cells.glsl's; fadeIn, fadeOut: the part of a fade that this frame completes.
+// Inputs:  anchor_cells.glsl's; ids and forms (ArFrame), pixelsOfFull, fullSize; fadeIn, fadeOut: the part of a fade that this frame completes.
 // Outputs: anchors; cells, whose counts were 0 (anchor_spawn.comp). One invocation per anchor.
 // Precision: highp; counts are integers, so that order does not matter.
 #include "pipeline/marks/shaders/anchor.glsl"
@@ -11,6 +11,18 @@ layout(std430, binding = 1) buffer Cells { Cell cells[]; };
 uniform float fadeIn;
 uniform float fadeOut;
 uniform uint slots;
+uniform highp usampler2D ids;
+uniform highp usampler2D forms;
+uniform vec2 pixelsOfFull;
+uniform vec2 fullSize;
+#include "pipeline/scene/render/shaders/surface_form.glsl"
+
+// The bit of the patch that an anchor's pixel shows, if it shows its object.
+uint patchBitAt(vec2 px, uint object) {
+  ivec2 pixel = clamp(ivec2(floor(px * pixelsOfFull)), ivec2(0), textureSize(forms, 0) - 1);
+  if (objectOf(texelFetch(ids, pixel, 0).r) != object) return 0u;
+  return patchBit(labelOf(texelFetch(forms, pixel, 0).r));
+}
 
 const uint kSlotBits = 20u;
 const float kAgeUnits = 64.0;  // units per second
@@ -42,6 +54,7 @@ void main() {
   bool isOnObject = isVirtual(object);
   if (isOnObject) {
     atomicAdd(cells[index].onObjects, 1u);
+    atomicOr(cells[index].patches, patchBitAt(anchors[slot].px, object));
   } else {
     atomicAdd(cells[index].inImage, 1u);
   }

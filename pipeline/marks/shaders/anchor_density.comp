@@ -2,16 +2,19 @@
 //          remove (thesis §5.3, with hysteresis).
 // Inputs:  anchor_cells.glsl's; the rule (marks::DensityRule): target, birthBelow, deathAbove; ids
 //          and its pixelsOfFull if hasObjects; fullSize; mover_labels.glsl's.
-//          Anchors of the background and of movers are counted apart.
+//          forms (ArFrame). Anchors of the background and of movers are counted apart; each
+//          patch of a model that shows enough of itself gets one at least.
 // Outputs: births of each cell; anchors: those to remove. One invocation per cell.
 // Precision: integers; highp for places.
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/anchor_cells.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
+#include "pipeline/scene/render/shaders/surface_form.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 0) buffer Anchors { Anchor anchors[]; };
 layout(std430, binding = 1) buffer Cells { Cell cells[]; };
 uniform highp usampler2D ids;
+uniform highp usampler2D forms;
 uniform bool hasObjects;
 uniform vec2 pixelsOfFull;
 uniform vec2 fullSize;
@@ -23,21 +26,48 @@ uniform int deathAbove;
 const uint kSlotMask = 0xFFFFFu;
 const float kMinShare = 0.12;  // of a cell: a smaller part gets no anchor of its own
 
-// The part of the cell that virtual objects cover.
-float objectShare(ivec2 cell) {
+const int kMaxPatches = 6;  // that are told apart in a cell
+
+// What models show in a cell.
+struct Objects {
+  float share;      // of the cell
+  uint patches;     // how many there are with a share of their own
+  uint unpainted;   // how many of these have no anchor
+};
+
+Objects objectsIn(ivec2 cell, uint painted) {
   ivec2 low = ivec2(floor(vec2(cell * cellPixels) * pixelsOfFull));
   ivec2 high = min(ivec2(ceil(vec2((cell + 1) * cellPixels) * pixelsOfFull)), textureSize(ids, 0));
   int stride = max(1, (high.y - low.y) / 8);
   int shown = 0;
   int seen = 0;
+  uint labels[kMaxPatches];
+  int counts[kMaxPatches];
+  int known = 0;
   for (int y = low.y; y < high.y; y += stride) {
     for (int x = low.x; x < high.x; x += stride) {
-      uint object = objectOf(texelFetch(ids, ivec2(x, y), 0).r);
-      shown += int(isVirtual(object));
       ++seen;
+      if (!isVirtual(objectOf(texelFetch(ids, ivec2(x, y), 0).r))) continue;
+      ++shown;
+      uint label = labelOf(texelFetch(forms, ivec2(x, y), 0).r);
+      int i = 0;
+      while (i < known && labels[i] != label) ++i;
+      if (i == kMaxPatches) continue;
+      if (i == known) {
+        labels[i] = label;
+        counts[i] = 0;
+        ++known;
+      }
+      ++counts[i];
     }
   }
-  return seen == 0 ? 0.0 : float(shown) / float(seen);
+  Objects found = Objects(seen == 0 ? 0.0 : float(shown) / float(seen), 0u, 0u);
+  for (int i = 0; i < known; ++i) {
+    if (float(counts[i]) < kMinShare * float(seen)) continue;
+    ++found.patches;
+    if ((painted & patchBit(labels[i])) == 0u) ++found.unpainted;
+  }
+  return found;
 }
 
 // The part of the cell that movers cover.
@@ -76,17 +106,24 @@ void main() {
   if (!isInGrid(at)) return;
   int index = indexOf(at);
   Cell cell = cells[index];
-  if (cell.inImage + cell.onObjects > uint(deathAbove)) {
+  Objects objects = Objects(0.0, 0u, 0u);
+  if (hasObjects) objects = objectsIn(at, cell.patches);
+  // Each further patch may have an anchor of its own.
+  uint more = max(objects.patches, 1u) - 1u;
+  if (cell.inImage + cell.onObjects > uint(deathAbove) + more) {
     anchors[cell.nextToRemove & kSlotMask].state |= kDying;
   }
   if (cell.onMovers > uint(deathAbove)) anchors[cell.nextMoverToRemove & kSlotMask].state |= kDying;
   // Border cells may be cut off.
   vec2 inside = clamp((fullSize - vec2(at * cellPixels)) / float(cellPixels), 0.0, 1.0);
   float whole = inside.x * inside.y;
-  float share = hasObjects ? objectShare(at) : 0.0;
+  float share = objects.share;
   bool isGap = isAmongFull(at);
   uint inImage = wanted(whole * (1.0 - share), cell.inImage, isGap);
   uint onObjects = wanted(whole * share, cell.onObjects, isGap);
-  cells[index].births = inImage | onObjects << 16u;
+  // A stroke paints its own patch only.
+  uint onPatches = min(objects.unpainted, 255u);
+  onObjects = max(onObjects, onPatches) - onPatches;
+  cells[index].births = inImage | min(onObjects, 255u) << 16u | onPatches << 24u;
   cells[index].moverBirths = wanted(whole * moverShare(at), cell.onMovers, false);
 }

@@ -18,7 +18,9 @@ shared uint bornBefore[128];
 shared uint coveredBefore[128];
 
 uint birthsOf(uint cell) {
-  return (cells[cell].births & 0xFFFFu) + (cells[cell].births >> 16u) + cells[cell].moverBirths;
+  uint births = cells[cell].births;
+  return birthsInImage(births) + birthsOnObjects(births) + birthsOnPatches(births) +
+         cells[cell].moverBirths;
 }
 
 void main() {

@@ -59,11 +59,13 @@ bool hasComeIn(vec2 px) {
   return any(lessThan(from, vec2(0.0))) || any(greaterThanEqual(from, fullSize));
 }
 
+uint labelAt(vec2 px) { return labelOf(texelFetch(forms, pixelAt(px), 0).r); }
+
 // Whether a model's surface has just come to sight from behind something. Its marks appear without
 // a fade: nothing of its own lies beneath them.
 bool hasBeenUncovered(vec2 px) {
   ivec2 pixel = pixelAt(px);
-  uint label = labelOf(texelFetch(forms, pixel, 0).r);
+  uint label = labelAt(px);
   if (!hasPatches || label == 0u) return false;
   vec2 from = px - texelFetch(surfaceMotion, pixel, 0).xy / pixelsOfFull;
   ivec2 last = textureSize(patchesBefore, 0) - 1;
@@ -71,7 +73,10 @@ bool hasBeenUncovered(vec2 px) {
   return texelFetch(patchesBefore, at, 0).r != label;
 }
 
-void spawn(ivec2 cell, uint number, bool onObject, bool onMover, inout uint taken) {
+// `patches`: those that have anchors; the anchor is to lie on another one, unless all are taken. Adds
+// its own.
+void spawn(ivec2 cell, uint number, bool onObject, bool onMover, inout uint taken,
+           inout uint patches) {
   if (number >= freeCount) return;
   uint hash = hashOf(cell, hashOf(salt) + number);  // separates the sequences of different frames
   int part = freePart(cell, taken, hash);
@@ -90,9 +95,11 @@ void spawn(ivec2 cell, uint number, bool onObject, bool onMover, inout uint take
     id = hasObjects ? texelFetch(ids, pixelAt(px), 0).r : 0u;
     mover = moverAt(px);
     bool isMover = !isVirtual(objectOf(id)) && mover.r > 0.5;
-    isFound = isVirtual(objectOf(id)) == onObject && isMover == onMover;
+    isFound = isVirtual(objectOf(id)) == onObject && isMover == onMover &&
+              !(onObject && (patches & patchBit(labelAt(px))) != 0u);
   }
   if (!isFound) return;
+  if (onObject) patches |= patchBit(labelAt(px));
   Anchor born;
   born.px = px;
   born.displacement = vec2(0.0);
@@ -123,6 +130,8 @@ void main() {
   int index = indexOf(at);
   uint births = cells[index].births;
   uint strata = cells[index].strata;
+  uint patches = cells[index].patches;
+  cells[index].patches = 0u;
   cells[index].strata = 0u;
   cells[index].inImage = 0u;
   cells[index].onObjects = 0u;
@@ -132,10 +141,18 @@ void main() {
   cells[index].nextMoverToRemove = 0u;
   if (births + moverBirths == 0u) return;
   uint number = cells[index].firstBirth;
+  uint painted = patches;
+  uint any = 0u;
   uint taken = strata & 0xFFFFu;
-  for (uint i = 0u; i < (births & 0xFFFFu); ++i) spawn(at, number++, false, false, taken);
+  for (uint i = 0u; i < birthsInImage(births); ++i) spawn(at, number++, false, false, taken, any);
   taken = strata >> 16u;
-  for (uint i = 0u; i < (births >> 16u); ++i) spawn(at, number++, true, false, taken);
+  for (uint i = 0u; i < birthsOnPatches(births); ++i) {
+    spawn(at, number++, true, false, taken, painted);
+  }
+  for (uint i = 0u; i < birthsOnObjects(births); ++i) {
+    any = 0u;
+    spawn(at, number++, true, false, taken, any);
+  }
   taken = 0u;
-  for (uint i = 0u; i < moverBirths; ++i) spawn(at, number++, false, true, taken);
+  for (uint i = 0u; i < moverBirths; ++i) spawn(at, number++, false, true, taken, any);
 }

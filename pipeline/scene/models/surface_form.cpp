@@ -22,7 +22,7 @@ namespace {
 
 /// Cosine of the angle between triangles from which an edge is a crease.
 constexpr float kCreaseCosine = 0.64F;  // 50°
-/// Patches below this part of a mesh's area join a neighbour: a gear's teeth, a bolt's sides.
+/// Patches below this part of the area of the connected surface join a neighbour: a gear's teeth.
 constexpr double kSmallPatch = 0.03;
 constexpr int kSmoothing = 2;  // rounds over which curvatures are averaged with neighbours'
 /// Curvature times the radius of the mesh at which a direction begins to count, and counts fully.
@@ -145,7 +145,13 @@ std::vector<std::size_t> limbsOfTriangles(const Mesh& mesh, std::span<const std:
 void joinSmallPatches(Sets& patches, const std::vector<double>& areas,
                       const std::vector<Neighbours>& neighbours,
                       const std::vector<std::size_t>& limbs) {
-  const double limit = kSmallPatch * std::accumulate(areas.begin(), areas.end(), 0.0);
+  Sets connected(areas.size());
+  for (const Neighbours& each : neighbours) connected.join(each.a, each.b);
+  std::unordered_map<std::size_t, double> wholes;
+  for (std::size_t i = 0; i < areas.size(); ++i) wholes[connected.of(i)] += areas[i];
+  const auto limitOf = [&](std::size_t triangle) {
+    return kSmallPatch * wholes[connected.of(triangle)];
+  };
   for (int round = 0; round < 16; ++round) {
     std::unordered_map<std::size_t, double> sizes;
     for (std::size_t i = 0; i < areas.size(); ++i) sizes[patches.of(i)] += areas[i];
@@ -154,8 +160,8 @@ void joinSmallPatches(Sets& patches, const std::vector<double>& areas,
       const std::size_t a = patches.of(each.a);
       const std::size_t b = patches.of(each.b);
       if (a == b || limbs[each.a] != limbs[each.b]) continue;
-      if (sizes[a] < limit) borders[{a, b}] += static_cast<double>(each.edge);
-      if (sizes[b] < limit) borders[{b, a}] += static_cast<double>(each.edge);
+      if (sizes[a] < limitOf(a)) borders[{a, b}] += static_cast<double>(each.edge);
+      if (sizes[b] < limitOf(b)) borders[{b, a}] += static_cast<double>(each.edge);
     }
     std::map<std::size_t, std::pair<double, std::size_t>> best;  // border, neighbour
     for (const auto& [pair, length] : borders) {
@@ -170,7 +176,7 @@ void joinSmallPatches(Sets& patches, const std::vector<double>& areas,
     }
     std::ranges::sort(order);
     for (const auto& [size, patch, neighbour] : order) {
-      if (sizes[patches.of(patch)] >= limit) continue;  // it has grown in this round
+      if (sizes[patches.of(patch)] >= limitOf(patch)) continue;  // it has grown in this round
       const std::size_t a = patches.of(patch);
       const std::size_t b = patches.of(neighbour);
       if (a == b) continue;

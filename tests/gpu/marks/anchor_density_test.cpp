@@ -48,7 +48,7 @@ TEST_F(AnchorDensity, IsEvenNearAndFarWhereAreaSamplingIsNot) {
   ASSERT_GT(farGrid.cells(), 20U);
   const CellCounts far = farGrid.count(stage.places());
   EXPECT_EQ(far.empty, 0.0);
-  EXPECT_LE(far.most, 4);
+  EXPECT_LE(far.most, 6) << "a cell at a corner shows three faces";
   EXPECT_GT(farGrid.count(stage.seen(samples)).mean, 8.0) << "they crowd";
 }
 
