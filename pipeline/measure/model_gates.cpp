@@ -1,0 +1,145 @@
+#include "pipeline/measure/model_gates.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "pipeline/measure/limit_verdict.h"
+
+namespace pleinair::measure {
+namespace {
+
+using State = Verdict::State;
+using styles::CoherenceGate;
+using styles::CoherenceGates;
+using styles::CoherenceMeasure;
+using styles::GateMotion;
+
+constexpr double kMaxNHw2 = 0.2;
+constexpr double kMinS10Percent = 80;
+constexpr double kMaxPopPercent = 2.0;
+constexpr double kMaxOutlinePopPercent = 3.0;
+constexpr double kMaxSlipPixels = 0.05;
+constexpr double kMaxTurnoverPercent = 2.0;
+constexpr double kMinForgettingRatio = 2.0;
+
+constexpr const char* kNothingReal = "the camera's motion is not known, or nothing of it is seen";
+constexpr const char* kNothingVirtual =
+    "no model was seen far enough from outlines for as many frames";
+constexpr const char* kNoSeam = "no model was seen, or the camera's motion is not known";
+constexpr const char* kNoAnchors = "no mark was on a model for two frames";
+constexpr const char* kNothingMoves = "no model moves by 2 px in two frames";
+
+constexpr Limit kForgetting{
+    "motion that forgets the models: the input's EW2 on them, of that along the true motion", "",
+    kMinForgettingRatio, "no model moves by 2 px in two frames against what is behind it", false};
+
+/// The limit that a style sets under motion that is known, but not one vector.
+double limitOf(const CoherenceGates& gates, CoherenceMeasure measure, double otherwise) {
+  const auto isMeant = [measure](const CoherenceGate& gate) {
+    return gate.measure == measure && !gate.isOfTiling && gate.motion != GateMotion::kPan;
+  };
+  const auto gate = std::ranges::find_if(gates.gates, isMeant);
+  return gate == gates.gates.end() ? otherwise : gate->limit;
+}
+
+/// The limits of a region.
+struct RegionLimits {
+  Limit nHw2, s10, pop;
+};
+
+RegionLimits limitsOf(const CoherenceGates& gates, Region region) {
+  const bool isReal = region == Region::kReal;
+  const char* const missing = isReal ? kNothingReal : kNothingVirtual;
+  return {.nHw2 = {isReal ? "REAL nHW2" : "VIRTUAL nHW2", "",
+                   limitOf(gates, CoherenceMeasure::kNHw2, kMaxNHw2), missing},
+          .s10 = {isReal ? "REAL S10" : "VIRTUAL S10", " %",
+                  limitOf(gates, CoherenceMeasure::kS10, kMinS10Percent), missing, false},
+          .pop = {isReal ? "REAL POP" : "VIRTUAL POP", " %",
+                  limitOf(gates, CoherenceMeasure::kPop, kMaxPopPercent), missing}};
+}
+
+/// As verdictAlong() for a lower limit of a share: half of what is left to 100 % is the input's.
+Verdict verdictAlongBelow(const Limit& limit, std::optional<double> value,
+                          std::optional<double> ofInput) {
+  if (!ofInput || *ofInput >= 50 + limit.value / 2) return verdictOf(limit, value);
+  Limit unexplained = limit;
+  unexplained.missing = "the input itself loses more than half of what it may";
+  return verdictOf(unexplained, std::nullopt);
+}
+
+std::vector<Verdict> regionVerdicts(const RegionLimits& limits, const RegionSummary& painting,
+                                    const RegionSummary& input) {
+  return {verdictAlong(limits.nHw2, painting.nHw2, input.nHw2),
+          verdictAlong(limits.pop, painting.popPercent, input.popPercent),
+          verdictAlongBelow(limits.s10, painting.s10Percent, input.s10Percent)};
+}
+
+std::vector<Verdict> slipVerdicts(const std::optional<ModelAnchorSummary>& anchors) {
+  const auto value = [&anchors](auto read) {
+    return anchors ? read(*anchors) : std::optional<double>();
+  };
+  return {verdictOf({"slip of marks on models, 95 %", " px a frame", kMaxSlipPixels, kNoAnchors},
+                    value([](const ModelAnchorSummary& each) {
+                      return each.slip ? std::optional(each.slip->percentile95) : std::nullopt;
+                    })),
+          verdictOf({"births and deaths on models that stay in sight", " % of the marks a frame",
+                     kMaxTurnoverPercent, kNoAnchors},
+                    value([](const ModelAnchorSummary& each) {
+                      return std::optional(each.turnoverPercent);
+                    }))};
+}
+
+/// A control has to fail at least one of the gates of models.
+Verdict controlVerdict(std::string what, const std::vector<Verdict>& gates, const char* missing) {
+  Verdict verdict{.what = std::move(what), .found = missing};
+  for (const Verdict& gate : gates) {
+    if (gate.state == State::kNotMeasured) continue;
+    if (verdict.state == State::kNotMeasured) {
+      verdict.state = State::kFailed;
+      verdict.found = "they pass; the models are too plain";
+    }
+    if (gate.state != State::kFailed) continue;
+    verdict.found = verdict.state == State::kPassed ? verdict.found + ", " : "";
+    verdict.found += fmt::format("{} fails with {}", gate.what, gate.found);
+    verdict.state = State::kPassed;
+  }
+  return verdict;
+}
+
+}  // namespace
+
+std::vector<Verdict> modelVerdicts(const ModelReport& models, const CoherenceGates& gates) {
+  std::vector<Verdict> verdicts;
+  const auto add = [&verdicts](std::vector<Verdict> more) {
+    for (Verdict& verdict : more) verdicts.push_back(std::move(verdict));
+  };
+  for (const Region region : {Region::kReal, Region::kVirtual}) {
+    const auto& of = models.regions[region];
+    add(regionVerdicts(limitsOf(gates, region), of[Subject::kPainting], of[Subject::kInput]));
+  }
+  const auto& seam = models.regions[Region::kSeam];
+  verdicts.push_back(verdictAlong({"SEAM POP", " %", kMaxOutlinePopPercent, kNoSeam},
+                                  seam[Subject::kPainting].popPercent,
+                                  seam[Subject::kInput].popPercent));
+  if (gates.holdsAnchors) add(slipVerdicts(models.anchors));
+  return verdicts;
+}
+
+std::vector<Verdict> modelControlVerdicts(const ModelReport& models, const CoherenceGates& gates) {
+  const RegionLimits limits = limitsOf(gates, Region::kVirtual);
+  const auto& all = models.regions[Region::kVirtual];
+  const auto& moving = models.regions[Region::kMoving];
+  return {
+      verdictOf(kForgetting, models.forgettingRatio),
+      controlVerdict("marks redrawn each frame fail VIRTUAL nHW2, POP or S10",
+                     regionVerdicts(limits, all[Subject::kFresh], all[Subject::kInput]),
+                     kNothingVirtual),
+      controlVerdict("marks fixed to the screen fail them where models move by 2 px",
+                     regionVerdicts(limits, moving[Subject::kFixed], moving[Subject::kInput]),
+                     kNothingMoves)};
+}
+
+}  // namespace pleinair::measure

@@ -1,0 +1,138 @@
+#include "pipeline/measure/model_regions.h"
+
+#include <cmath>
+#include <utility>
+
+#include "pipeline/measure/image_measures.h"
+#include "pipeline/measure/input/picture.h"
+#include "pipeline/measure/mover_masks.h"
+#include "pipeline/measure/output_measures.h"
+
+namespace pleinair::measure {
+namespace {
+
+constexpr int kOutlinePixels = 8;
+/// Marks that are displaced by less could pass as carried.
+constexpr float kMovedPixels = 2.0F;
+
+/// 255 where two displacements, or one and none, differ clearly.
+cv::Mat1b differing(const cv::Mat2f& a, const cv::Mat2f& b, const cv::Mat1b& within) {
+  cv::Mat1b mask(within.size(), 0);
+  for (int y = 0; y < mask.rows; ++y) {
+    for (int x = 0; x < mask.cols; ++x) {
+      if (within(y, x) == 0) continue;
+      const cv::Vec2f by = b.empty() ? a(y, x) : a(y, x) - b(y, x);
+      mask(y, x) = std::hypot(by[0], by[1]) >= kMovedPixels ? 255 : 0;
+    }
+  }
+  return mask;
+}
+
+/// The masks of all regions for a frame with these models, which then move so.
+PerRegion<cv::Mat1b> regionsOf(const cv::Mat1b& models, const MotionMap& motion) {
+  const cv::Mat1b outer = grown(models, kOutlinePixels);
+  PerRegion<cv::Mat1b> regions;
+  cv::bitwise_not(outer, regions[Region::kReal]);
+  regions[Region::kVirtual] = models;
+  cv::subtract(outer, eroded(models, kOutlinePixels), regions[Region::kSeam]);
+  cv::Mat1b followed;
+  cv::bitwise_and(models, motion.valid, followed);
+  regions[Region::kMoving] = differing(motion.displacement, {}, followed);
+  return regions;
+}
+
+std::optional<double> scaled(std::optional<double> value, double factor) {
+  return value ? std::optional(*value * factor) : std::nullopt;
+}
+
+}  // namespace
+
+void ModelRegions::add(const PerSubject<cv::Mat3f>& pictures, const cv::Mat1b& models,
+                       const ModelMotionFromPast& motion) {
+  Earlier now{.greys = {}, .models = models};
+  for (const Subject subject : kAllSubjects) now.greys[subject] = greyOf(pictures[subject]);
+  recent_.push_back({.pictures = pictures, .models = models});
+  earlier_.push_back(std::move(now));
+  if (motion.shortLag != nullptr && recent_.size() > kShortLag) {
+    compareShortLag(*motion.shortLag, motion.forgetting);
+  }
+  if (motion.longLag != nullptr && earlier_.size() > kLongLag) compareLongLag(*motion.longLag);
+  if (recent_.size() > kShortLag) recent_.pop_front();
+  if (earlier_.size() > kLongLag) earlier_.pop_front();
+}
+
+void ModelRegions::compareShortLag(const MotionMap& motion, const MotionMap* forgetting) {
+  const Recent& earlier = recent_.front();
+  const Recent& later = recent_.back();
+  const PerRegion<cv::Mat1b> regions = regionsOf(earlier.models, motion);
+  PerRegion<MotionMap> maps, innerMaps;
+  for (const Region region : kAllRegions) {
+    covered_[region] += shareWithinBorder(regions[region]);
+    maps[region] = limitedTo(regions[region], motion);
+    innerMaps[region] = limitedTo(regions[region], motion, kHighPassReach);
+  }
+  for (const Subject subject : kAllSubjects) {
+    const cv::Mat3f& from = earlier.pictures[subject];
+    const cv::Mat3f& to = later.pictures[subject];
+    const cv::Mat3f fine = highPass(from);
+    const cv::Mat3f fineLater = highPass(to);
+    for (const Region region : kAllRegions) {
+      Sums& sums = sums_[region][subject];
+      const Warped<cv::Mat3f> carried = warpedBack(to, maps[region]);
+      sums.error += warpingError(from, carried);
+      sums.popped += poppedShare(from, carried);
+      sums.highPassError += warpingError(fine, warpedBack(fineLater, innerMaps[region]));
+      sums.misaligned += warpingError(
+          fine, warpedBack(fineLater, innerMaps[region], {kMisalignedX, kMisalignedY}));
+    }
+  }
+  if (forgetting != nullptr) compareForgetting(earlier, later, motion, *forgetting);
+}
+
+void ModelRegions::compareForgetting(const Recent& earlier, const Recent& later,
+                                     const MotionMap& motion, const MotionMap& forgetting) {
+  cv::Mat1b known;
+  cv::bitwise_and(motion.valid, forgetting.valid, known);
+  cv::bitwise_and(known, earlier.models, known);
+  const cv::Mat1b where = differing(motion.displacement, forgetting.displacement, known);
+  const cv::Mat3f& from = earlier.pictures[Subject::kInput];
+  const cv::Mat3f& to = later.pictures[Subject::kInput];
+  followed_ += warpingError(from, warpedBack(to, limitedTo(where, motion)));
+  forgotten_ += warpingError(from, warpedBack(to, limitedTo(where, forgetting)));
+}
+
+void ModelRegions::compareLongLag(const MotionMap& motion) {
+  const Earlier& earlier = earlier_.front();
+  const Earlier& later = earlier_.back();
+  const PerRegion<cv::Mat1b> regions = regionsOf(earlier.models, motion);
+  for (const Region region : kAllRegions) {
+    const MotionMap map = limitedTo(regions[region], motion);
+    if (cv::countNonZero(map.valid) == 0) continue;
+    for (const Subject subject : kAllSubjects) {
+      sums_[region][subject].lasting +=
+          lastingMarks(earlier.greys[subject], warpedBack(later.greys[subject], map));
+    }
+  }
+}
+
+PerRegion<PerSubject<RegionSummary>> ModelRegions::summary() const {
+  PerRegion<PerSubject<RegionSummary>> summary;
+  for (const Region region : kAllRegions) {
+    for (const Subject subject : kAllSubjects) {
+      const Sums& sums = sums_[region][subject];
+      summary[region][subject] = {
+          .coveredPercent = percentOf(covered_[region]).value_or(0),
+          .ew2 = scaled(sums.error.value(), 1000.0),
+          .nHw2 = ratio(sums.highPassError.value(), sums.misaligned.value()),
+          .popPercent = percentOf(sums.popped),
+          .s10Percent = percentOf(sums.lasting)};
+    }
+  }
+  return summary;
+}
+
+std::optional<double> ModelRegions::forgettingRatio() const {
+  return ratio(forgotten_.value(), followed_.value());
+}
+
+}  // namespace pleinair::measure
