@@ -193,8 +193,7 @@ void refuseGatesOf(const std::string& style) {
 }
 
 /// What models need: the style at the picture's own size, and something to compare.
-void refuseModelsOf(const MeasureOptions& options, const scene::Scene& scene,
-                    std::size_t quality) {
+void refuseModelsOf(const MeasureOptions& options, const scene::Scene& scene, std::size_t quality) {
   if (options.imageSpace && !hasModels(scene)) {
     throw refusal("--image-space", "there are no models to paint as part of the video",
                   "give a --scene with models, or leave it out");

@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <vector>
 
@@ -17,8 +18,10 @@ static_assert(measure::PaintedModels::kTriangleBits == scene::kTriangleBits);
 measure::PaintedModels modelsOf(scene::SurfaceSnapshot snapshot) {
   const auto shown = std::make_shared<const scene::SurfaceSnapshot>(std::move(snapshot));
   const cv::Size size(shown->size().width, shown->size().height);
-  measure::PaintedModels models{
-      .ids = cv::Mat1i(size, 0), .barycentrics = cv::Mat2f(size, cv::Vec2f()), .place = {}};
+  measure::PaintedModels models{.ids = cv::Mat1i(size, 0),
+                                .barycentrics = cv::Mat2f(size, cv::Vec2f()),
+                                .place = {},
+                                .changed = {}};
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
       const std::uint32_t id = shown->id(x, y);
@@ -34,6 +37,23 @@ measure::PaintedModels modelsOf(scene::SurfaceSnapshot snapshot) {
     return cv::Point2f(static_cast<float>(px->x - 0.5), static_cast<float>(px->y - 0.5));
   };
   return models;
+}
+
+/// 255 where two RGB8 pictures of one size differ.
+cv::Mat1b differing(const hal::Image& a, const hal::Image& b) {
+  constexpr int kLevels = 4;
+  const hal::FrameSize size = a.size();
+  cv::Mat1b mask(size.height, size.width, std::uint8_t{0});
+  const hal::ImageView left = a.view();
+  const hal::ImageView right = b.view();
+  for (int y = 0; y < size.height; ++y) {
+    const auto in = left.row(0, y);
+    const auto other = right.row(0, y);
+    for (std::size_t i = 0; i < 3 * static_cast<std::size_t>(size.width); ++i) {
+      if (std::abs(in[i] - other[i]) > kLevels) mask(y, static_cast<int>(i / 3)) = 255;
+    }
+  }
+  return mask;
 }
 
 }  // namespace
@@ -96,6 +116,8 @@ hal::Result<void> MeasuredEngine::readModels(const Painter& shown, const hal::Ca
   painted.input = std::move(*composed);
   painted.camera = std::move(*camera);
   painted.models = modelsOf(std::move(*surfaces));
+  cv::bitwise_or(painted.models->mask(), differing(painted.input, painted.camera),
+                 painted.models->changed);
   return {};
 }
 

@@ -47,9 +47,9 @@ AnchorFrame AnchorMeasures::compare(std::span<const Anchor> anchors,
     const Anchor& current = anchors[slot];
     const bool same = isSame(previous, current);
     const bool isBirth = current.isAlive() && !same && counts(current);
-    const bool isDeath =
-        previous.isStaying() && !(same && (current.isStaying() || current.isCovered())) &&
-        counts(previous);
+    const bool isDeath = previous.isStaying() &&
+                         !(same && (current.isStaying() || current.isCovered())) &&
+                         counts(previous);
     frame.alive += current.isAlive() ? 1 : 0;
     frame.births += isBirth ? 1 : 0;
     frame.deaths += isDeath ? 1 : 0;

@@ -214,9 +214,9 @@ class Measurement {
                           .timestampSource = hal::TimestampSource::kSimulated});
       if (!painted) return tl::unexpected(painted.error());
       if (i >= options_.stillSettle) {
-        // Models may move on their own, and follow a pose that noise moves.
+        // Models may move on their own, and follow a pose that noise moves, with their shadows.
         std::optional<cv::Mat1b> models;
-        if (painted->models) models = grown(painted->models->mask(), kFarPixels);
+        if (painted->models) models = grown(painted->models->changed, kFarPixels);
         const cv::Mat1b* const ignored = models ? &*models : nullptr;
         still.add(toFloat(painted->input.view()), toFloat(painted->output.view()), ignored);
         if (!painted->anchors.empty()) anchors.add(painted->anchors, nullptr, nullptr, ignored);
@@ -253,7 +253,8 @@ class Measurement {
                       *options_.frames, report_.frames));
     }
     report_.leftOut = leftOut();
-    report_.controls = controlVerdicts(report_.measures, options_.coherence, runConditions());
+    report_.controls = controlVerdicts(report_.measures, options_.coherence, runConditions(),
+                                       sequence_->displacedXEw2());
     const std::vector<styles::CoherenceGate> judged = judgedGates();
     styles::CoherenceGates gates = options_.coherence;
     gates.gates = judged;

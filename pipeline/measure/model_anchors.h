@@ -27,8 +27,8 @@ struct ModelMotionOfAnchors {
 struct ModelAnchorSummary {
   std::size_t frames = 0;
   double anchors = 0, births = 0, deaths = 0;
-  double turnoverPercent = 0;  ///< births and deaths, relative to the anchors
-  std::optional<Drift> slip;   ///< from where the surface goes, a frame
+  double turnoverPercent = 0;     ///< births and deaths, relative to the anchors
+  std::optional<Drift> slip;      ///< from where the surface goes, a frame
   std::optional<Drift> longSlip;  ///< over ten frames
 };
 

@@ -23,6 +23,7 @@ constexpr double kMaxPopPercent = 2.0;
 constexpr double kMaxOutlinePopPercent = 3.0;
 constexpr double kMaxSlipPixels = 0.05;
 constexpr double kMaxTurnoverPercent = 2.0;
+constexpr double kMaxInputNHw2 = 0.5;
 constexpr double kMinForgettingRatio = 2.0;
 
 constexpr const char* kNothingReal = "the camera's motion is not known, or nothing of it is seen";
@@ -32,6 +33,8 @@ constexpr const char* kNoSeam = "no model was seen, or the camera's motion is no
 constexpr const char* kNoAnchors = "no mark was on a model for two frames";
 constexpr const char* kNothingMoves = "no model moves by 2 px in two frames";
 
+constexpr Limit kModelsFollow{"the input follows the models' motion: VIRTUAL nHW2", "",
+                              kMaxInputNHw2, kNothingVirtual};
 constexpr Limit kForgetting{
     "motion that forgets the models: the input's EW2 on them, of that along the true motion", "",
     kMinForgettingRatio, "no model moves by 2 px in two frames against what is behind it", false};
@@ -61,20 +64,24 @@ RegionLimits limitsOf(const CoherenceGates& gates, Region region) {
                   limitOf(gates, CoherenceMeasure::kPop, kMaxPopPercent), missing}};
 }
 
-/// As verdictAlong() for a lower limit of a share: half of what is left to 100 % is the input's.
-Verdict verdictAlongBelow(const Limit& limit, std::optional<double> value,
-                          std::optional<double> ofInput) {
-  if (!ofInput || *ofInput >= 50 + limit.value / 2) return verdictOf(limit, value);
-  Limit unexplained = limit;
-  unexplained.missing = "the input itself loses more than half of what it may";
-  return verdictOf(unexplained, std::nullopt);
+/// A painting need not be calmer than what it paints: where the input itself reads worse than the
+/// limit (outlines within models are not smoothed, shadows move), its reading is the limit.
+Verdict verdictOrInputs(Limit limit, std::optional<double> value, std::optional<double> ofInput) {
+  const bool isWorse = ofInput && (limit.isUpper ? *ofInput > limit.value : *ofInput < limit.value);
+  if (!isWorse) return verdictOf(limit, value);
+  const Verdict own = verdictOf(limit, value);
+  // Equal to the input's is good enough, and rounding decides nothing.
+  limit.value = *ofInput + (limit.isUpper ? 1e-9 : -1e-9);
+  Verdict verdict = verdictOf(limit, value);
+  verdict.what = fmt::format("{}, or the input's {:.3g}{}", own.what, *ofInput, limit.unit);
+  return verdict;
 }
 
 std::vector<Verdict> regionVerdicts(const RegionLimits& limits, const RegionSummary& painting,
                                     const RegionSummary& input) {
-  return {verdictAlong(limits.nHw2, painting.nHw2, input.nHw2),
-          verdictAlong(limits.pop, painting.popPercent, input.popPercent),
-          verdictAlongBelow(limits.s10, painting.s10Percent, input.s10Percent)};
+  return {verdictOrInputs(limits.nHw2, painting.nHw2, input.nHw2),
+          verdictOrInputs(limits.pop, painting.popPercent, input.popPercent),
+          verdictOrInputs(limits.s10, painting.s10Percent, input.s10Percent)};
 }
 
 std::vector<Verdict> slipVerdicts(const std::optional<ModelAnchorSummary>& anchors) {
@@ -121,9 +128,9 @@ std::vector<Verdict> modelVerdicts(const ModelReport& models, const CoherenceGat
     add(regionVerdicts(limitsOf(gates, region), of[Subject::kPainting], of[Subject::kInput]));
   }
   const auto& seam = models.regions[Region::kSeam];
-  verdicts.push_back(verdictAlong({"SEAM POP", " %", kMaxOutlinePopPercent, kNoSeam},
-                                  seam[Subject::kPainting].popPercent,
-                                  seam[Subject::kInput].popPercent));
+  verdicts.push_back(verdictOrInputs({"SEAM POP", " %", kMaxOutlinePopPercent, kNoSeam},
+                                     seam[Subject::kPainting].popPercent,
+                                     seam[Subject::kInput].popPercent));
   if (gates.holdsAnchors) add(slipVerdicts(models.anchors));
   return verdicts;
 }
@@ -132,14 +139,14 @@ std::vector<Verdict> modelControlVerdicts(const ModelReport& models, const Coher
   const RegionLimits limits = limitsOf(gates, Region::kVirtual);
   const auto& all = models.regions[Region::kVirtual];
   const auto& moving = models.regions[Region::kMoving];
-  return {
-      verdictOf(kForgetting, models.forgettingRatio),
-      controlVerdict("marks redrawn each frame fail VIRTUAL nHW2, POP or S10",
-                     regionVerdicts(limits, all[Subject::kFresh], all[Subject::kInput]),
-                     kNothingVirtual),
-      controlVerdict("marks fixed to the screen fail them where models move by 2 px",
-                     regionVerdicts(limits, moving[Subject::kFixed], moving[Subject::kInput]),
-                     kNothingMoves)};
+  return {verdictOf(kModelsFollow, all[Subject::kInput].nHw2),
+          verdictOf(kForgetting, models.forgettingRatio),
+          controlVerdict("marks redrawn each frame fail VIRTUAL nHW2, POP or S10",
+                         regionVerdicts(limits, all[Subject::kFresh], all[Subject::kInput]),
+                         kNothingVirtual),
+          controlVerdict("marks fixed to the screen fail them where models move by 2 px",
+                         regionVerdicts(limits, moving[Subject::kFixed], moving[Subject::kInput]),
+                         kNothingMoves)};
 }
 
 }  // namespace pleinair::measure

@@ -1,7 +1,10 @@
 #include "pipeline/measure/model_regions.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include <opencv2/imgproc.hpp>
 
 #include "pipeline/measure/image_measures.h"
 #include "pipeline/measure/input/picture.h"
@@ -29,16 +32,62 @@ cv::Mat1b differing(const cv::Mat2f& a, const cv::Mat2f& b, const cv::Mat1b& wit
 }
 
 /// The masks of all regions for a frame with these models, which then move so.
-PerRegion<cv::Mat1b> regionsOf(const cv::Mat1b& models, const MotionMap& motion) {
+PerRegion<cv::Mat1b> regionsOf(const cv::Mat1b& models, const cv::Mat1b& changed,
+                               const MotionMap& motion) {
   const cv::Mat1b outer = grown(models, kOutlinePixels);
   PerRegion<cv::Mat1b> regions;
-  cv::bitwise_not(outer, regions[Region::kReal]);
+  cv::bitwise_or(outer, grown(changed, kOutlinePixels), regions[Region::kReal]);
+  cv::bitwise_not(regions[Region::kReal], regions[Region::kReal]);
   regions[Region::kVirtual] = models;
   cv::subtract(outer, eroded(models, kOutlinePixels), regions[Region::kSeam]);
   cv::Mat1b followed;
   cv::bitwise_and(models, motion.valid, followed);
   regions[Region::kMoving] = differing(motion.displacement, {}, followed);
   return regions;
+}
+
+/// Smooths what a mask (0 or 1) shows, without what is beside it.
+cv::Mat3f smoothedWithin(const cv::Mat3f& picture, const cv::Mat1f& mask) {
+  cv::Mat1f weight;
+  cv::GaussianBlur(mask, weight, {}, kHighPassSigmaPixels);
+  cv::Mat3f sum(picture.size());
+  for (int y = 0; y < picture.rows; ++y) {
+    for (int x = 0; x < picture.cols; ++x) sum(y, x) = picture(y, x) * mask(y, x);
+  }
+  cv::GaussianBlur(sum, sum, {}, kHighPassSigmaPixels);
+  for (int y = 0; y < picture.rows; ++y) {
+    for (int x = 0; x < picture.cols; ++x) sum(y, x) *= 1.0F / std::max(weight(y, x), 1e-6F);
+  }
+  return sum;
+}
+
+/// The high pass of models and of the camera's image, each without the other: their difference in
+/// colour, which moves on its own, would show up to 15 px beside outlines.
+cv::Mat3f highPassOfEach(const cv::Mat3f& picture, const cv::Mat1b& models) {
+  cv::Mat1f mask;
+  models.convertTo(mask, CV_32F, 1.0 / 255.0);
+  cv::Mat1f around;
+  cv::subtract(1.0F, mask, around);
+  cv::Mat3f smooth = smoothedWithin(picture, around);
+  smoothedWithin(picture, mask).copyTo(smooth, models);
+  cv::Mat3f fine;
+  cv::subtract(picture, smooth, fine);
+  return fine;
+}
+
+/// Mean square of two high passes at the same point: what unrelated marks would read. Where models
+/// are small, there is no room to misalign them.
+Mean energyOf(const cv::Mat3f& earlier, const Warped<cv::Mat3f>& later) {
+  Mean energy;
+  for (int y = 0; y < earlier.rows; ++y) {
+    for (int x = 0; x < earlier.cols; ++x) {
+      if (later.mask(y, x) == 0) continue;
+      const cv::Vec3f& a = earlier(y, x);
+      const cv::Vec3f& b = later.picture(y, x);
+      energy += {static_cast<double>(a.dot(a) + b.dot(b)), 3.0};
+    }
+  }
+  return energy;
 }
 
 std::optional<double> scaled(std::optional<double> value, double factor) {
@@ -48,10 +97,10 @@ std::optional<double> scaled(std::optional<double> value, double factor) {
 }  // namespace
 
 void ModelRegions::add(const PerSubject<cv::Mat3f>& pictures, const cv::Mat1b& models,
-                       const ModelMotionFromPast& motion) {
-  Earlier now{.greys = {}, .models = models};
+                       const cv::Mat1b& changed, const ModelMotionFromPast& motion) {
+  Earlier now{.greys = {}, .models = models, .changed = changed};
   for (const Subject subject : kAllSubjects) now.greys[subject] = greyOf(pictures[subject]);
-  recent_.push_back({.pictures = pictures, .models = models});
+  recent_.push_back({.pictures = pictures, .models = models, .changed = changed});
   earlier_.push_back(std::move(now));
   if (motion.shortLag != nullptr && recent_.size() > kShortLag) {
     compareShortLag(*motion.shortLag, motion.forgetting);
@@ -64,26 +113,25 @@ void ModelRegions::add(const PerSubject<cv::Mat3f>& pictures, const cv::Mat1b& m
 void ModelRegions::compareShortLag(const MotionMap& motion, const MotionMap* forgetting) {
   const Recent& earlier = recent_.front();
   const Recent& later = recent_.back();
-  const PerRegion<cv::Mat1b> regions = regionsOf(earlier.models, motion);
-  PerRegion<MotionMap> maps, innerMaps;
+  const PerRegion<cv::Mat1b> regions = regionsOf(earlier.models, earlier.changed, motion);
+  PerRegion<MotionMap> maps;
   for (const Region region : kAllRegions) {
     covered_[region] += shareWithinBorder(regions[region]);
     maps[region] = limitedTo(regions[region], motion);
-    innerMaps[region] = limitedTo(regions[region], motion, kHighPassReach);
   }
   for (const Subject subject : kAllSubjects) {
     const cv::Mat3f& from = earlier.pictures[subject];
     const cv::Mat3f& to = later.pictures[subject];
-    const cv::Mat3f fine = highPass(from);
-    const cv::Mat3f fineLater = highPass(to);
+    const cv::Mat3f fine = highPassOfEach(from, earlier.models);
+    const cv::Mat3f fineLater = highPassOfEach(to, later.models);
     for (const Region region : kAllRegions) {
       Sums& sums = sums_[region][subject];
       const Warped<cv::Mat3f> carried = warpedBack(to, maps[region]);
       sums.error += warpingError(from, carried);
       sums.popped += poppedShare(from, carried);
-      sums.highPassError += warpingError(fine, warpedBack(fineLater, innerMaps[region]));
-      sums.misaligned += warpingError(
-          fine, warpedBack(fineLater, innerMaps[region], {kMisalignedX, kMisalignedY}));
+      const Warped<cv::Mat3f> fineCarried = warpedBack(fineLater, maps[region]);
+      sums.highPassError += warpingError(fine, fineCarried);
+      sums.unrelated += energyOf(fine, fineCarried);
     }
   }
   if (forgetting != nullptr) compareForgetting(earlier, later, motion, *forgetting);
@@ -104,7 +152,7 @@ void ModelRegions::compareForgetting(const Recent& earlier, const Recent& later,
 void ModelRegions::compareLongLag(const MotionMap& motion) {
   const Earlier& earlier = earlier_.front();
   const Earlier& later = earlier_.back();
-  const PerRegion<cv::Mat1b> regions = regionsOf(earlier.models, motion);
+  const PerRegion<cv::Mat1b> regions = regionsOf(earlier.models, earlier.changed, motion);
   for (const Region region : kAllRegions) {
     const MotionMap map = limitedTo(regions[region], motion);
     if (cv::countNonZero(map.valid) == 0) continue;
@@ -120,12 +168,11 @@ PerRegion<PerSubject<RegionSummary>> ModelRegions::summary() const {
   for (const Region region : kAllRegions) {
     for (const Subject subject : kAllSubjects) {
       const Sums& sums = sums_[region][subject];
-      summary[region][subject] = {
-          .coveredPercent = percentOf(covered_[region]).value_or(0),
-          .ew2 = scaled(sums.error.value(), 1000.0),
-          .nHw2 = ratio(sums.highPassError.value(), sums.misaligned.value()),
-          .popPercent = percentOf(sums.popped),
-          .s10Percent = percentOf(sums.lasting)};
+      summary[region][subject] = {.coveredPercent = percentOf(covered_[region]).value_or(0),
+                                  .ew2 = scaled(sums.error.value(), 1000.0),
+                                  .nHw2 = ratio(sums.highPassError.value(), sums.unrelated.value()),
+                                  .popPercent = percentOf(sums.popped),
+                                  .s10Percent = percentOf(sums.lasting)};
     }
   }
   return summary;

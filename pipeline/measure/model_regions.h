@@ -16,11 +16,11 @@ namespace pleinair::measure {
 
 /// The regions of a picture with virtual models.
 enum class Region : std::size_t {
-  kReal,     ///< the camera's image, but for the seam
+  kReal,     ///< the camera's image, 8 px away from models and their shadows
   kVirtual,  ///< models
   kSeam,     ///< within 8 px on both sides of a model's outline
-  /// the part of models that moves by 2 px or more between the compared frames, on the screen: there
-  /// marks that are fixed to the screen are wrong
+  /// the part of models that moves by 2 px or more between the compared frames, on the screen:
+  /// there marks that are fixed to the screen are wrong
   kMoving,
 };
 inline constexpr std::size_t kRegions = 4;
@@ -51,11 +51,14 @@ struct ModelMotionFromPast {
 
 /// EW2, nHW2, POP (lag 2) and S10 (lag 10) in each region, of a painting and of the controls. The
 /// region is that of the earlier frame. What is hidden and what is within 3 px of a motion boundary
-/// (15 px for nHW2) is left out, as everywhere.
+/// is left out, as everywhere. The high pass of nHW2 is that of models and of the camera's image,
+/// each without the other, so that it needs no wider margin; its error is taken over the energy of
+/// both frames, which unrelated marks would read.
 class ModelRegions {
  public:
-  /// Takes the next frame: RGB in [0, 1], and 255 where it shows a model.
-  void add(const PerSubject<cv::Mat3f>& pictures, const cv::Mat1b& models,
+  /// Takes the next frame: RGB in [0, 1], 255 where it shows a model, and where models and their
+  /// shadows have changed it.
+  void add(const PerSubject<cv::Mat3f>& pictures, const cv::Mat1b& models, const cv::Mat1b& changed,
            const ModelMotionFromPast& motion);
 
   PerRegion<PerSubject<RegionSummary>> summary() const;
@@ -66,21 +69,21 @@ class ModelRegions {
  private:
   struct Recent {
     PerSubject<cv::Mat3f> pictures;
-    cv::Mat1b models;
+    cv::Mat1b models, changed;
   };
   struct Earlier {
     PerSubject<cv::Mat1f> greys;
-    cv::Mat1b models;
+    cv::Mat1b models, changed;
   };
   struct Sums {
-    Mean error, highPassError, misaligned, popped, lasting;
+    Mean error, highPassError, unrelated, popped, lasting;
   };
   void compareShortLag(const MotionMap& motion, const MotionMap* forgetting);
   void compareForgetting(const Recent& earlier, const Recent& later, const MotionMap& motion,
                          const MotionMap& forgetting);
   void compareLongLag(const MotionMap& motion);
 
-  std::deque<Recent> recent_;   ///< three at most, the newest last
+  std::deque<Recent> recent_;    ///< three at most, the newest last
   std::deque<Earlier> earlier_;  ///< eleven at most
   PerRegion<PerSubject<Sums>> sums_;
   PerRegion<Mean> covered_;

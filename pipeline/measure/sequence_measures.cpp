@@ -1,5 +1,6 @@
 #include "pipeline/measure/sequence_measures.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -8,8 +9,7 @@
 
 namespace pleinair::measure {
 
-void StillMeasures::add(const cv::Mat3f& input, const cv::Mat3f& output,
-                        const cv::Mat1b* ignored) {
+void StillMeasures::add(const cv::Mat3f& input, const cv::Mat3f& output, const cv::Mat1b* ignored) {
   PerSubject<cv::Mat3f> pictures = controls_.paint(input, output, frames_);
   if (frames_ > 0) {
     cv::Mat1b without = lastIgnored_.empty() ? cv::Mat1b(input.size(), 0) : lastIgnored_;
@@ -65,6 +65,7 @@ hal::Result<void> SequenceMeasures::add(std::uint64_t index, const cv::Mat3f& in
   if (!longLag) return tl::unexpected(longLag.error());
   const MotionFromPast toHere{.shortLag = *shortLag ? &**shortLag : nullptr,
                               .longLag = *longLag ? &**longLag : nullptr};
+  compareDisplaced(input, toHere.shortLag);
   const PerSubject<cv::Mat3f> pictures = controls_.paint(input, output, index);
   for (const Subject subject : kAllSubjects) {
     outputs_[subject].add(pictures[subject], input, toHere);
@@ -87,6 +88,22 @@ hal::Result<void> SequenceMeasures::add(std::uint64_t index, const cv::Mat3f& in
   return {};
 }
 
+void SequenceMeasures::compareDisplaced(const cv::Mat3f& input, const MotionMap* motion) {
+  constexpr int kDisplacedPixels = 2;
+  inputs_.push_back(input);
+  if (motion != nullptr && inputs_.size() > kShortLag) {
+    followed_ += warpingError(inputs_.front(), warpedBack(input, *motion));
+    displaced_ += warpingError(inputs_.front(), warpedBack(input, *motion, {kDisplacedPixels, 0}));
+  }
+  if (inputs_.size() > kShortLag) inputs_.pop_front();
+}
+
+std::optional<double> SequenceMeasures::displacedXEw2() const {
+  constexpr double kRounding = 1e-9;  // without noise and interpolation, the input has no error
+  if (!followed_.value() || !displaced_.value()) return std::nullopt;
+  return *displaced_.value() / std::max(*followed_.value(), kRounding);
+}
+
 /// The motion of models is known even where the camera's is not.
 hal::Result<void> SequenceMeasures::addModels(std::uint64_t index,
                                               const PerSubject<cv::Mat3f>& pictures,
@@ -96,7 +113,7 @@ hal::Result<void> SequenceMeasures::addModels(std::uint64_t index,
   if (!shortLag) return tl::unexpected(shortLag.error());
   auto longLag = motionOver(isKnown ? nullptr : models_, index, kLongLag);
   if (!longLag) return tl::unexpected(longLag.error());
-  ModelMotionFromPast fromPast{.shortLag = isKnown    ? toHere.shortLag
+  ModelMotionFromPast fromPast{.shortLag = isKnown     ? toHere.shortLag
                                            : *shortLag ? &**shortLag
                                                        : nullptr,
                                .longLag = isKnown    ? toHere.longLag
@@ -109,7 +126,8 @@ hal::Result<void> SequenceMeasures::addModels(std::uint64_t index,
     forgetting = std::move(*found);
     fromPast.forgetting = &*forgetting;
   }
-  regions_.add(pictures, models_->models(index).mask(), fromPast);
+  const PaintedModels& shown = models_->models(index);
+  regions_.add(pictures, shown.mask(), shown.changed, fromPast);
   return {};
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <span>
 
@@ -57,6 +58,9 @@ class SequenceMeasures {
   std::optional<Flatness> flatness() const { return flatness_.total(); }
   /// All measures but xFLK.
   PerSubject<Measures> totals() const;
+  /// EW2 of the input displaced by 2 px against its motion, over its own: a negative control.
+  /// Nothing where its motion is not known.
+  std::optional<double> displacedXEw2() const;
   MotionKind motionKind() const;
   /// The motion from the frame two before to the last one; null if it is not known.
   const MotionMap* lastMotion() const { return lastMotion_ ? &*lastMotion_ : nullptr; }
@@ -65,6 +69,7 @@ class SequenceMeasures {
   /// Nothing if there is no motion, or no such frame was measured.
   hal::Result<std::optional<MotionMap>> motionOver(TrueMotion* motion, std::uint64_t index,
                                                    std::size_t lag) const;
+  void compareDisplaced(const cv::Mat3f& input, const MotionMap* motion);
   hal::Result<void> addModels(std::uint64_t index, const PerSubject<cv::Mat3f>& pictures,
                               const MotionFromPast& toHere);
   void addAnchorsOnModels(std::uint64_t index, std::span<const marks::Anchor> anchors);
@@ -77,6 +82,8 @@ class SequenceMeasures {
   FlatnessMeasures flatness_;
   ModelRegions regions_;
   ModelAnchors anchorsOnModels_;
+  std::deque<cv::Mat3f> inputs_;  ///< three at most, the newest last
+  Mean followed_, displaced_;     ///< errors of the input
   std::optional<MotionMap> lastMotion_;
   std::size_t frames_ = 0;
 };

@@ -158,12 +158,10 @@ hal::Result<MotionMap> ModelMotion::forgettingModels(std::uint64_t from, std::ui
   const cv::Size size = recent_.at(from).ids.size();
   const MotionMap* const behind = *camera;
   if (behind != nullptr && !behind->shift) return *behind;
-  const cv::Vec2f by = behind == nullptr
-                           ? cv::Vec2f()
-                           : cv::Vec2f(static_cast<float>(behind->shift->x),
-                                       static_cast<float>(behind->shift->y));
-  return MotionMap{
-      .shift = {}, .displacement = cv::Mat2f(size, by), .valid = cv::Mat1b(size, 255)};
+  const cv::Vec2f by = behind == nullptr ? cv::Vec2f()
+                                         : cv::Vec2f(static_cast<float>(behind->shift->x),
+                                                     static_cast<float>(behind->shift->y));
+  return MotionMap{.shift = {}, .displacement = cv::Mat2f(size, by), .valid = cv::Mat1b(size, 255)};
 }
 
 }  // namespace pleinair::measure

@@ -25,6 +25,10 @@ struct PaintedModels {
   /// numbers); nothing where it is not in front of the camera.
   std::function<std::optional<cv::Point2f>(int id, const cv::Vec2f& barycentrics)> place;
 
+  /// 255 where the picture with models differs from the camera's: on models and their shadows,
+  /// which no motion explains.
+  cv::Mat1b changed;
+
   /// 255 on models.
   cv::Mat1b mask() const;
 };

@@ -124,9 +124,9 @@ std::string modelsTable(const Report& report) {
                         escaped(descriptionOf(region)), of[Subject::kPainting].coveredPercent);
     for (const Subject subject : kAllSubjects) {
       const RegionSummary& values = of[subject];
-      html += fmt::format("<tr{}><td>{}</td>",
-                          subject == Subject::kPainting ? " class=\"own\"" : "",
-                          escaped(nameOf(subject, report)));
+      html +=
+          fmt::format("<tr{}><td>{}</td>", subject == Subject::kPainting ? " class=\"own\"" : "",
+                      escaped(nameOf(subject, report)));
       html += cell(values.ew2) + cell(values.nHw2) + cell(values.popPercent) +
               cell(values.s10Percent) + "</tr>\n";
     }

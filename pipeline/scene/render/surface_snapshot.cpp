@@ -60,8 +60,7 @@ std::optional<glm::dvec2> SurfaceSnapshot::place(std::uint32_t id, glm::vec2 bar
   const std::uint32_t triangle = object->firstTriangle + (id & (kMaxTriangles - 1U));
   if (triangle >= content_.triangles->size()) return std::nullopt;
   const auto& corners = (*content_.triangles)[triangle].corners;
-  const glm::dvec3 weights(barycentrics.x, barycentrics.y,
-                           1.0 - barycentrics.x - barycentrics.y);
+  const glm::dvec3 weights(barycentrics.x, barycentrics.y, 1.0 - barycentrics.x - barycentrics.y);
   glm::dvec3 inModel(0.0);
   for (int i = 0; i < 3; ++i) {
     const std::uint32_t corner = corners.at(static_cast<std::size_t>(i));

@@ -68,9 +68,9 @@ class SurfaceReader {
   /// The frame as it was composed: `visible` are indices of models in the scene, `objects` the ids
   /// of all models. Models that the GPU cannot give (it is lost) are left out.
   SurfaceSnapshot read(const PosedGeometry& geometry, const SceneBodies& bodies,
-                       std::span<const std::size_t> visible,
-                       std::span<const std::uint32_t> objects, const tracking::CameraModel& camera,
-                       const gpu::Texture& ids, const gpu::Texture& barycentrics);
+                       std::span<const std::size_t> visible, std::span<const std::uint32_t> objects,
+                       const tracking::CameraModel& camera, const gpu::Texture& ids,
+                       const gpu::Texture& barycentrics);
 
  private:
   std::shared_ptr<const std::vector<DrawnTriangle>> triangles_;  // they never change

@@ -1,5 +1,7 @@
-// Snapshots of surfaces: where each pixel's point is, in its own frame and in others, against points
-// that the CPU poses and projects.
+// Snapshots of surfaces: where each pixel's point is, in its own frame and in others, against
+// points that the CPU poses and projects.
+#include "pipeline/scene/render/surface_snapshot.h"
+
 #include <chrono>
 #include <memory>
 #include <string>
@@ -10,7 +12,6 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "pipeline/scene/render/surface_snapshot.h"
 #include "tests/gpu/scene/moving_models.h"
 #include "tests/gpu/scene/scene_gl_test.h"
 #include "tests/gpu/scene/two_poses.h"
