@@ -5,14 +5,17 @@
 namespace pleinair::measure {
 
 Verdict verdictOf(const Limit& limit, std::optional<double> value) {
-  Verdict verdict{.what = fmt::format("{} {} {:g}{}", limit.name, limit.isUpper ? "≤" : ">",
-                                      limit.value, limit.unit),
-                  .found = limit.missing,
-                  .comparison = Verdict::Comparison{
-                      .value = value, .limit = limit.value, .isUpperLimit = limit.isUpper}};
+  const char* const relation = limit.isUpper ? "≤" : limit.isReached ? "≥" : ">";
+  Verdict verdict{
+      .what = fmt::format("{} {} {:g}{}", limit.name, relation, limit.value, limit.unit),
+      .found = limit.missing,
+      .comparison =
+          Verdict::Comparison{.value = value, .limit = limit.value, .isUpperLimit = limit.isUpper}};
   if (!value) return verdict;
   verdict.found = fmt::format("{:.3g}{}", *value, limit.unit);
-  const bool isPassed = limit.isUpper ? *value <= limit.value : *value > limit.value;
+  const bool isPassed = limit.isUpper     ? *value <= limit.value
+                        : limit.isReached ? *value >= limit.value
+                                          : *value > limit.value;
   verdict.state = isPassed ? Verdict::State::kPassed : Verdict::State::kFailed;
   return verdict;
 }

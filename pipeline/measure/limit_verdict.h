@@ -13,9 +13,9 @@ struct Limit {
   double value;
   const char* missing;  ///< why there may be nothing to compare
   bool isUpper = true;
+  bool isReached = false;  ///< of a lower limit: whether equality passes
 };
 
-/// A lower limit has to be exceeded.
 Verdict verdictOf(const Limit& limit, std::optional<double> value);
 
 /// Half of an upper limit is left to the painting: a motion along which the input itself reads more

@@ -37,7 +37,8 @@ constexpr Limit kModelsFollow{"the input follows the models' motion: VIRTUAL nHW
                               kMaxInputNHw2, kNothingVirtual};
 constexpr Limit kForgetting{
     "motion that forgets the models: the input's EW2 on them, of that along the true motion", "",
-    kMinForgettingRatio, "no model moves by 2 px in two frames against what is behind it", false};
+    kMinForgettingRatio,
+    "no model with detail moves by 2 px in two frames against what is behind it", false};
 
 /// The limit that a style sets under motion that is known, but not one vector.
 double limitOf(const CoherenceGates& gates, CoherenceMeasure measure, double otherwise) {
@@ -59,7 +60,7 @@ RegionLimits limitsOf(const CoherenceGates& gates, Region region) {
   return {.nHw2 = {isReal ? "REAL nHW2" : "VIRTUAL nHW2", "",
                    limitOf(gates, CoherenceMeasure::kNHw2, kMaxNHw2), missing},
           .s10 = {isReal ? "REAL S10" : "VIRTUAL S10", " %",
-                  limitOf(gates, CoherenceMeasure::kS10, kMinS10Percent), missing, false},
+                  limitOf(gates, CoherenceMeasure::kS10, kMinS10Percent), missing, false, true},
           .pop = {isReal ? "REAL POP" : "VIRTUAL POP", " %",
                   limitOf(gates, CoherenceMeasure::kPop, kMaxPopPercent), missing}};
 }

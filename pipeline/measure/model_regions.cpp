@@ -15,6 +15,12 @@ namespace pleinair::measure {
 namespace {
 
 constexpr int kOutlinePixels = 8;
+/// The later picture tells two motions apart where it differs by more; as in POP.
+constexpr double kToldLevels = 24.0;
+/// Fewer marks of a whole sequence are no share.
+constexpr double kMinMarks = 30;
+/// With fewer pixels, noise could decide.
+constexpr double kMinTold = 300;
 /// Marks that are displaced by less could pass as carried.
 constexpr float kMovedPixels = 2.0F;
 
@@ -145,8 +151,19 @@ void ModelRegions::compareForgetting(const Recent& earlier, const Recent& later,
   const cv::Mat1b where = differing(motion.displacement, forgetting.displacement, known);
   const cv::Mat3f& from = earlier.pictures[Subject::kInput];
   const cv::Mat3f& to = later.pictures[Subject::kInput];
-  followed_ += warpingError(from, warpedBack(to, limitedTo(where, motion)));
-  forgotten_ += warpingError(from, warpedBack(to, limitedTo(where, forgetting)));
+  Warped<cv::Mat3f> followed = warpedBack(to, limitedTo(where, motion));
+  Warped<cv::Mat3f> forgotten = warpedBack(to, limitedTo(where, forgetting));
+  // A plain wheel looks the same wherever its points are said to have come from.
+  cv::bitwise_and(followed.mask, forgotten.mask, followed.mask);
+  for (int y = 0; y < from.rows; ++y) {
+    for (int x = 0; x < from.cols; ++x) {
+      const cv::Vec3f by = followed.picture(y, x) - forgotten.picture(y, x);
+      if (cv::norm(by, cv::NORM_INF) <= kToldLevels / 255) followed.mask(y, x) = 0;
+    }
+  }
+  forgotten.mask = followed.mask;
+  followed_ += warpingError(from, followed);
+  forgotten_ += warpingError(from, forgotten);
 }
 
 void ModelRegions::compareLongLag(const MotionMap& motion) {
@@ -168,17 +185,19 @@ PerRegion<PerSubject<RegionSummary>> ModelRegions::summary() const {
   for (const Region region : kAllRegions) {
     for (const Subject subject : kAllSubjects) {
       const Sums& sums = sums_[region][subject];
-      summary[region][subject] = {.coveredPercent = percentOf(covered_[region]).value_or(0),
-                                  .ew2 = scaled(sums.error.value(), 1000.0),
-                                  .nHw2 = ratio(sums.highPassError.value(), sums.unrelated.value()),
-                                  .popPercent = percentOf(sums.popped),
-                                  .s10Percent = percentOf(sums.lasting)};
+      summary[region][subject] = {
+          .coveredPercent = percentOf(covered_[region]).value_or(0),
+          .ew2 = scaled(sums.error.value(), 1000.0),
+          .nHw2 = ratio(sums.highPassError.value(), sums.unrelated.value()),
+          .popPercent = percentOf(sums.popped),
+          .s10Percent = sums.lasting.weight < kMinMarks ? std::nullopt : percentOf(sums.lasting)};
     }
   }
   return summary;
 }
 
 std::optional<double> ModelRegions::forgettingRatio() const {
+  if (followed_.weight < kMinTold) return std::nullopt;
   return ratio(forgotten_.value(), followed_.value());
 }
 

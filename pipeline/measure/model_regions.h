@@ -63,7 +63,7 @@ class ModelRegions {
 
   PerRegion<PerSubject<RegionSummary>> summary() const;
   /// EW2 of the input along a motion that forgets the models over that along the true one, where
-  /// both differ by 2 px or more; nothing if this is nowhere so.
+  /// both differ by 2 px or more and lead to different colours; nothing if this is hardly so.
   std::optional<double> forgettingRatio() const;
 
  private:

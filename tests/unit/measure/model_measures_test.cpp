@@ -252,7 +252,7 @@ std::vector<std::string> failedGates(const ModelReport& report) {
   std::vector<std::string> failed;
   for (const Verdict& verdict : modelVerdicts(report, painterlyGates())) {
     if (verdict.state == State::kFailed) {
-      failed.push_back(verdict.what.substr(0, verdict.what.find_first_of("≤>") - 1));
+      failed.push_back(verdict.what.substr(0, verdict.what.find(' ', verdict.what.find(' ') + 1)));
     }
   }
   return failed;
