@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
 
 #include "pipeline/measure/input/picture.h"
 #include "pipeline/measure/measurement_report.h"
@@ -88,6 +89,11 @@ void WorstFrames::offer(std::uint64_t frame, double ew2, const cv::Mat3f& input,
                      .difference = toImage(stronger),
                      .differenceGain = gain});
   std::ranges::sort(frames_, std::greater<>(), &WorstFrame::ew2);
+}
+
+/// What is within the width of the border.
+cv::Mat farSquare() {
+  return cv::getStructuringElement(cv::MORPH_RECT, {2 * kBorderPixels + 1, 2 * kBorderPixels + 1});
 }
 
 /// One measurement, from the first frame to the report.
@@ -219,6 +225,8 @@ class Measurement {
         if (painted->models) models = grown(painted->models->changed, kFarPixels);
         const cv::Mat1b* const ignored = models ? &*models : nullptr;
         still.add(toFloat(painted->input.view()), toFloat(painted->output.view()), ignored);
+        // Cells of the coarsest marks reach further than what is seen to change.
+        if (models) cv::dilate(painted->models->changed, *models, farSquare());
         if (!painted->anchors.empty()) anchors.add(painted->anchors, nullptr, nullptr, ignored);
         if (options_.isStanding && painted->movers) {
           const cv::Mat1b nothingMoves(still_.size(), 0);

@@ -312,7 +312,7 @@ TEST(ModelGates, TakeTheInputsReadingWhereItIsWorse) {
 
 TEST(ModelGates, ControlsThatPassAreWrong) {
   ModelReport report;
-  report.forgettingRatio = 1.5;
+  report.forgettingRatio = 1.2;
   for (const Region region : kAllRegions) {
     for (const Subject subject : kAllSubjects) {
       report.regions[region][subject] = {.nHw2 = 0.1, .popPercent = 1, .s10Percent = 95};
