@@ -323,6 +323,9 @@ void addMeasure(CLI::App& app, MeasureOptions& options, std::function<int()>& ch
                               .add_flag("--standing", options.standing,
                                         "the camera stands: measure also what moves before it")
                               ->excludes(motion);
+  command.add_flag("--image-space", options.imageSpace,
+                   "paint the film with the models of --scene in it as a plain video, without "
+                   "knowing the models, to compare");
   addPhotographMotion(command, {motion, standing}, options);
   command
       .add_option_function<std::string>(

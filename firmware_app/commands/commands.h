@@ -60,6 +60,7 @@ struct MeasureOptions {
   std::optional<std::filesystem::path> motion;  ///< file with the motion of a recording
   measure::PhotographMotion photograph;         ///< motion of a photograph
   bool standing = false;                        ///< the camera stands
+  bool imageSpace = false;                      ///< models are painted as part of a plain video
   std::string movedBy;                          ///< "--pan", "--still" …; empty: none was given
   double noiseLevels = 2.0;
   std::optional<std::uint64_t> frames;

@@ -115,6 +115,12 @@ hal::FrameSize pictureSizeOf(const Configuration& configuration, measure::Measur
   return {asked.width, asked.height};
 }
 
+/// Whether there is anything to see of models: occluders show the camera's picture.
+bool hasModels(const scene::Scene& scene) {
+  return std::ranges::any_of(scene.models,
+                             [](const scene::SceneModel& each) { return !each.isOccluder; });
+}
+
 std::string settingsText(const Configuration& configuration, hal::FrameSize size,
                          const std::string& quality) {
   const PaintingSettings painting = configuration.painting();
@@ -186,6 +192,30 @@ void refuseGatesOf(const std::string& style) {
                 fmt::format("leave it out, or measure one of {}", config::listText(gated)));
 }
 
+/// What models need: the style at the picture's own size, and something to compare.
+void refuseModelsOf(const MeasureOptions& options, const scene::Scene& scene, std::size_t quality) {
+  if (options.imageSpace && !hasModels(scene)) {
+    throw refusal("--image-space", "there are no models to paint as part of the video",
+                  "give a --scene with models, or leave it out");
+  }
+  if (hasModels(scene) && quality != 0) {
+    throw refusal("--quality", "models are measured at the best quality only",
+                  "leave it out, or leave the models out");
+  }
+}
+
+/// Puts the models into the pictures that are painted as a plain video; null otherwise.
+std::unique_ptr<Painter> makeComposer(const MeasureOptions& options, const scene::Scene& scene,
+                                      hal::FrameSize size, const hal::FrameFormat& format) {
+  if (!options.imageSpace) return nullptr;
+  return std::make_unique<Painter>(PainterOptions{.pictureSize = size,
+                                                  .scene = scene,
+                                                  .style = "none",
+                                                  .tracksTags = !scene.tags.empty(),
+                                                  .expectedFormat = format,
+                                                  .readsSurfaces = true});
+}
+
 int measureConfigured(const MeasureOptions& options, const Configuration& configuration) {
   if (options.gates) refuseGatesOf(configuration.painting().style);
   const scene::Scene scene = configuredScene(configuration);
@@ -198,16 +228,22 @@ int measureConfigured(const MeasureOptions& options, const Configuration& config
   const std::size_t quality =
       level == levels.end() ? 0 : static_cast<std::size_t>(level - levels.begin());
   const PaintingOptions painting = configuredPainting(configuration, {});
+  refuseModelsOf(options, scene, quality);
 
+  const auto composer = makeComposer(options, scene, size, input->format());
   Painter painter({.pictureSize = size,
-                   .scene = scene,
+                   .scene = composer ? scene::Scene{} : scene,
                    .style = painting.style,
-                   .tracksTags = !scene.tags.empty(),
+                   .tracksTags = !composer && !scene.tags.empty(),
                    .expectedFormat = input->format(),
-                   .qualityLevels = quality != 0});
+                   .qualityLevels = quality != 0,
+                   .readsSurfaces = !composer && hasModels(scene)});
   PaintParameters parameters = startParameters(painting);
   parameters.quality = quality;
-  MeasuredEngine engine(painter, std::move(parameters), size, options.standing);
+  MeasuredEngine engine(painter, std::move(parameters), size,
+                        {.readsMovers = options.standing,
+                         .readsModels = hasModels(scene),
+                         .composer = composer.get()});
 
   const std::uint64_t settle = options.settle.value_or(input->isEndless() ? kSettleByDefault : 0);
   std::optional<std::uint64_t> frames = options.frames;
@@ -219,7 +255,8 @@ int measureConfigured(const MeasureOptions& options, const Configuration& config
       measured(*input, engine,
                {.style = painting.style,
                 .coherence = styles::styleKind(painting.style).coherence,
-                .settings = settingsText(configuration, size, levels.at(quality)),
+                .settings = settingsText(configuration, size, levels.at(quality)) +
+                            (options.imageSpace ? ", models in image space" : ""),
                 .frames = frames,
                 .settle = settle,
                 .stillNoiseLevels = options.noiseLevels,

@@ -1,57 +1,49 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "pipeline/engine/painter.h"
 #include "pipeline/measure/measurement.h"
 
 namespace pleinair::app {
 
+/// What a MeasuredEngine reads back besides the painting.
+struct MeasuredEngineOptions {
+  bool readsMovers = false;  ///< labels of movers
+  /// Which points of models are seen, and the picture with them. Precondition: the painter, or the
+  /// composer, was made with PainterOptions::readsSurfaces.
+  bool readsModels = false;
+  /// Puts the models into the camera's picture, for a painter without a scene, which then paints
+  /// it as a plain video: models in image space. Null: the painter's scene has them. It paints the
+  /// style `none` and must outlive the engine.
+  Painter* composer = nullptr;
+};
+
 /// The engine as a MeasuredPainter.
 class MeasuredEngine final : public measure::MeasuredPainter {
  public:
-  /// `painter` must outlive it and paints frames of `size`. `readsMovers`: labels of movers are
-  /// read back as well.
+  /// `painter` must outlive it and paints frames of `size`.
   MeasuredEngine(Painter& painter, PaintParameters parameters, hal::FrameSize size,
-                 bool readsMovers)
-      : painter_(painter),
-        parameters_(std::move(parameters)),
-        size_(size),
-        readsMovers_(readsMovers) {}
+                 MeasuredEngineOptions options = {})
+      : painter_(painter), parameters_(std::move(parameters)), size_(size), options_(options) {}
 
-  hal::Result<measure::PaintedFrame> paint(const hal::CapturedFrame& frame) override {
-    const hal::Result<Picture> picture = painter_.paint(frame, parameters_);
-    if (!picture) return tl::unexpected(picture.error());
-    hal::Result<hal::Image> output = painter_.snapshot();
-    if (!output) return tl::unexpected(output.error());
-    hal::Result<std::vector<marks::Anchor>> anchors = painter_.anchors();
-    if (!anchors) return tl::unexpected(anchors.error());
-    hal::Result<std::optional<hal::Image>> movers;
-    if (readsMovers_) movers = painter_.movers();
-    if (!movers) return tl::unexpected(movers.error());
-    measure::PaintedFrame painted{.input = {},
-                                  .output = std::move(*output),
-                                  .anchors = std::move(*anchors),
-                                  .movers = std::move(*movers)};
-    const hal::FrameFormat& format = frame.image.format;
-    if (format.pixelFormat == hal::PixelFormat::kRgb8 && format.size == size_) {
-      painted.input = hal::Image(frame.image);
-      return painted;
-    }
-    hal::Result<hal::Image> input = painter_.cameraSnapshot();
-    if (!input) return tl::unexpected(input.error());
-    painted.input = std::move(*input);
-    return painted;
-  }
-  void reset() override { painter_.reset(); }
+  hal::Result<measure::PaintedFrame> paint(const hal::CapturedFrame& frame) override;
+  void reset() override;
 
  private:
+  hal::Result<measure::PaintedFrame> paintComposed(const hal::CapturedFrame& frame);
+  hal::Result<measure::PaintedFrame> paintAlone(const hal::CapturedFrame& frame);
+  hal::Result<void> readModels(const Painter& shown, const hal::CapturedFrame& frame,
+                               measure::PaintedFrame& painted) const;
+  hal::Result<hal::Image> cameraPicture(const Painter& painter,
+                                        const hal::CapturedFrame& frame) const;
+
   Painter& painter_;
   PaintParameters parameters_;
   hal::FrameSize size_;
-  bool readsMovers_;
+  MeasuredEngineOptions options_;
 };
 
 }  // namespace pleinair::app

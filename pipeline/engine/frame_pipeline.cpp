@@ -84,6 +84,7 @@ FramePipeline::FramePipeline(const PainterOptions& options, PainterGl gl)
       pictureSize_(options.pictureSize),
       scene_(options.scene),
       tracksTags_(options.tracksTags),
+      readsSurfaces_(options.readsSurfaces),
       library_(makeLibrary(options)),
       timer_(options.passTiming, &gl_.info),
       uploader_(library_),
@@ -248,7 +249,9 @@ hal::Result<Picture> FramePipeline::paintChecked(const hal::CapturedFrame& frame
   const tracking::ImageMotion* const motion = measureMotion(frame.sequence, needs);
   if (motion != nullptr && motion->isCut) forgetPast();
   if (tracker_) tracked = tracker_->track(luma_, frame.captureTime);
-  picture_ = &paintView(compose(frame, tracked, level, needs, motion), parameters);
+  const scene::ArFrame composed = compose(frame, tracked, level, needs, motion);
+  composed_ = composed.colour;
+  picture_ = &paintView(composed, parameters);
   submitReadbacks(frame);
   glFlush();  // the GPU works on while the next frame is tracked
   return Picture{.texture = picture_->name(),
@@ -262,7 +265,8 @@ hal::Result<Picture> FramePipeline::paintChecked(const hal::CapturedFrame& frame
 scene::ArFrameNeeds FramePipeline::needsOf(const std::string& view) const {
   const scene::BufferView* buffer = scene::findBufferView(view);
   scene::ArFrameNeeds needs = style_->kind().needs;
-  needs.surfaces = needs.surfaces || (buffer != nullptr && buffer->needs.surfaces);
+  needs.surfaces =
+      needs.surfaces || readsSurfaces_ || (buffer != nullptr && buffer->needs.surfaces);
   return needs;
 }
 

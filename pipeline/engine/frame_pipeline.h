@@ -112,6 +112,7 @@ class FramePipeline {
   std::vector<Level> levels_;
   scene::Scene scene_;
   bool tracksTags_;
+  bool readsSurfaces_;
   gpu::ShaderLibrary library_;
   gpu::PassTimer timer_;
   gpu::FrameUploader uploader_;
@@ -132,6 +133,7 @@ class FramePipeline {
   std::optional<present::Readback> snapshots_;  // created for the first snapshot
   const gpu::Texture* picture_ = nullptr;       // the last picture
   const gpu::Texture* camera_ = nullptr;
+  const gpu::Texture* composed_ = nullptr;
 };
 
 }  // namespace pleinair

@@ -146,6 +146,27 @@ hal::Result<hal::Image> Painter::cameraSnapshot() const {
   return pipeline_->read(pipeline_->camera_);
 }
 
+hal::Result<hal::Image> Painter::composedSnapshot() const {
+  const ContextScope scope = pipeline_->enter();
+  return pipeline_->read(pipeline_->composed_);
+}
+
+hal::Result<scene::SurfaceSnapshot> Painter::surfaces() const {
+  FramePipeline& p = *pipeline_;
+  assert(p.readsSurfaces_);
+  const ContextScope scope = p.enter();
+  if (auto valid = p.resetMonitor_.check(); !valid) return tl::unexpected(std::move(valid.error()));
+  try {
+    scene::SurfaceSnapshot surfaces = p.renderer_.snapshot();
+    if (auto valid = p.resetMonitor_.check(); !valid) {
+      return tl::unexpected(std::move(valid.error()));
+    }
+    return surfaces;
+  } catch (const hal::Failure& error) {
+    return tl::unexpected(p.orLoss(error.error()));
+  }
+}
+
 hal::Result<std::vector<marks::Anchor>> Painter::anchors() const {
   FramePipeline& p = *pipeline_;
   const ContextScope scope = p.enter();

@@ -19,6 +19,7 @@
 #include "pipeline/gpu/pass_timer.h"
 #include "pipeline/marks/anchor.h"
 #include "pipeline/scene/description/scene.h"
+#include "pipeline/scene/render/surface_snapshot.h"
 #include "pipeline/tracking/pose/tracker.h"
 
 namespace pleinair {
@@ -65,6 +66,8 @@ struct PainterOptions {
   /// Allows PaintParameters::quality other than 0. All levels are allocated and warmed up then,
   /// which takes about twice the memory (docs/decisions/0008-quality-levels.md).
   bool qualityLevels = false;
+  /// Whether surfaces() may be called; costs a pass over the models for styles without marks.
+  bool readsSurfaces = false;
   /// Called before each program that the constructor compiles, which takes up to 20 s without a
   /// shader cache in all: true ends it with a hal::Failure (kCancelled). Null: it cannot be
   /// cancelled.
@@ -166,11 +169,18 @@ class Painter {
   bool hasRoom(int readback) const;
   std::uint64_t skipped(int readback) const;  ///< number of skipped pictures
 
-  /// snapshot() reads the last picture, cameraSnapshot() the camera's part of it, as RGB8 of the
-  /// full size; both wait for the GPU. Errors: kDeviceLost (permanent), kUnsupported (no memory).
-  /// Precondition: a picture was painted.
+  /// snapshot() reads the last picture, cameraSnapshot() the camera's part of it, and
+  /// composedSnapshot() the camera's picture with the models in it, before the style; as RGB8 of
+  /// the full size. They wait for the GPU. Errors: kDeviceLost (permanent), kUnsupported (no
+  /// memory). Precondition: a picture was painted.
   hal::Result<hal::Image> snapshot() const;
   hal::Result<hal::Image> cameraSnapshot() const;
+  hal::Result<hal::Image> composedSnapshot() const;
+
+  /// Waits for the GPU and reads which points of the models the last picture shows, for measures;
+  /// in px of its quality level. Permanent error: kDeviceLost. Preconditions: a picture was
+  /// painted, and PainterOptions::readsSurfaces.
+  hal::Result<scene::SurfaceSnapshot> surfaces() const;
 
   /// Waits for the GPU and reads the style's anchors for measures: all slots of all layers, free
   /// ones too. Empty for a style without anchors. Permanent error: kDeviceLost.

@@ -14,50 +14,6 @@ using marks::Anchor;
 
 constexpr int kCellPixels = 8;
 
-bool isSame(const Anchor& previous, const Anchor& current) {
-  return previous.isAlive() && current.isAlive() && previous.seed == current.seed &&
-         !current.isBorn();
-}
-
-/// Anchors have pixel centres at +0.5; images here have them at whole numbers.
-cv::Point2f imagePoint(const Anchor& anchor) {
-  return {anchor.px.x - 0.5F, anchor.px.y - 0.5F};
-}
-
-std::optional<Drift> driftOf(std::vector<float> distances) {
-  if (distances.empty()) return std::nullopt;
-  double squares = 0;
-  for (const float distance : distances) squares += static_cast<double>(distance) * distance;
-  std::ranges::sort(distances);
-  const auto at = [&distances](double share) {
-    const double last = static_cast<double>(distances.size() - 1);
-    return static_cast<double>(distances[static_cast<std::size_t>(share * last)]);
-  };
-  return Drift{.median = at(0.5),
-               .percentile95 = at(0.95),
-               .rms = std::sqrt(squares / static_cast<double>(distances.size()))};
-}
-
-/// Mean drift over frames.
-class MeanDrift {
- public:
-  void add(const std::optional<Drift>& drift) {
-    if (!drift) return;
-    median_ += {drift->median, 1.0};
-    percentile95_ += {drift->percentile95, 1.0};
-    square_ += {drift->rms * drift->rms, 1.0};
-  }
-  std::optional<Drift> value() const {
-    if (!median_.value()) return std::nullopt;
-    return Drift{.median = *median_.value(),
-                 .percentile95 = *percentile95_.value(),
-                 .rms = std::sqrt(*square_.value())};
-  }
-
- private:
-  Mean median_, percentile95_, square_;
-};
-
 }  // namespace
 
 bool AnchorMeasures::isInner(const Anchor& anchor) const {
@@ -65,9 +21,9 @@ bool AnchorMeasures::isInner(const Anchor& anchor) const {
 }
 
 void AnchorMeasures::add(std::span<const Anchor> anchors, const MotionMap* sinceLast,
-                         const MotionMap* sinceLong) {
+                         const MotionMap* sinceLong, const cv::Mat1b* ignored) {
   if (!past_.empty() && past_.back().size() == anchors.size()) {
-    AnchorFrame frame = compare(anchors);
+    AnchorFrame frame = compare(anchors, ignored);
     frame.drift = driftSince(past_.back(), anchors, sinceLast);
     if (past_.size() >= kLongLag) {
       frame.longDrift = driftSince(past_[past_.size() - kLongLag], anchors, sinceLong);
@@ -79,15 +35,21 @@ void AnchorMeasures::add(std::span<const Anchor> anchors, const MotionMap* since
   if (past_.size() > kLongLag) past_.pop_front();
 }
 
-AnchorFrame AnchorMeasures::compare(std::span<const Anchor> anchors) const {
+AnchorFrame AnchorMeasures::compare(std::span<const Anchor> anchors,
+                                    const cv::Mat1b* ignored) const {
   AnchorFrame frame;
+  const auto counts = [&](const Anchor& anchor) {
+    const cv::Point at(imagePoint(anchor));
+    return ignored == nullptr || !cv::Rect({}, frame_).contains(at) || (*ignored)(at) == 0;
+  };
   for (std::size_t slot = 0; slot < anchors.size(); ++slot) {
     const Anchor& previous = past_.back()[slot];
     const Anchor& current = anchors[slot];
     const bool same = isSame(previous, current);
-    const bool isBirth = current.isAlive() && !same;
-    const bool isDeath =
-        previous.isStaying() && !(same && (current.isStaying() || current.isCovered()));
+    const bool isBirth = current.isAlive() && !same && counts(current);
+    const bool isDeath = previous.isStaying() &&
+                         !(same && (current.isStaying() || current.isCovered())) &&
+                         counts(previous);
     frame.alive += current.isAlive() ? 1 : 0;
     frame.births += isBirth ? 1 : 0;
     frame.deaths += isDeath ? 1 : 0;

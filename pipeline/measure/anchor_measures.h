@@ -9,17 +9,11 @@
 #include <opencv2/core.hpp>
 
 #include "pipeline/marks/anchor.h"
+#include "pipeline/measure/anchor_drift.h"
 #include "pipeline/measure/input/motion_map.h"
 #include "pipeline/measure/mean.h"
 
 namespace pleinair::measure {
-
-/// Distances (px) of anchors from where the true motion moved the points that they were on.
-struct Drift {
-  double median = 0;
-  double percentile95 = 0;
-  double rms = 0;
-};
 
 /// Internal state of the engine: its anchors in one frame, compared with the previous one.
 struct AnchorFrame {
@@ -52,8 +46,9 @@ class AnchorMeasures {
 
   /// Takes the anchors after the next frame, free slots included, and the motion to this frame from
   /// the previous one and from ten frames before, where it is known.
+  /// Births and deaths in `ignored` (255), if given, do not count.
   void add(std::span<const marks::Anchor> anchors, const MotionMap* sinceLast,
-           const MotionMap* sinceLong);
+           const MotionMap* sinceLong, const cv::Mat1b* ignored = nullptr);
 
   /// All frames but the first, which has no previous one.
   const std::vector<AnchorFrame>& frames() const { return frames_; }
@@ -61,7 +56,7 @@ class AnchorMeasures {
   std::optional<AnchorSummary> total(std::size_t first = 0) const;
 
  private:
-  AnchorFrame compare(std::span<const marks::Anchor> anchors) const;
+  AnchorFrame compare(std::span<const marks::Anchor> anchors, const cv::Mat1b* ignored) const;
   std::optional<Drift> driftSince(std::span<const marks::Anchor> previous,
                                   std::span<const marks::Anchor> current,
                                   const MotionMap* motion) const;

@@ -9,10 +9,13 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
 
 #include "pipeline/measure/input/picture.h"
 #include "pipeline/measure/measurement_report.h"
+#include "pipeline/measure/model_gates.h"
 #include "pipeline/measure/mover_gates.h"
+#include "pipeline/measure/mover_masks.h"
 #include "pipeline/measure/sequence_measures.h"
 
 namespace pleinair::measure {
@@ -88,6 +91,11 @@ void WorstFrames::offer(std::uint64_t frame, double ew2, const cv::Mat3f& input,
   std::ranges::sort(frames_, std::greater<>(), &WorstFrame::ew2);
 }
 
+/// What is within the width of the border.
+cv::Mat farSquare() {
+  return cv::getStructuringElement(cv::MORPH_RECT, {2 * kBorderPixels + 1, 2 * kBorderPixels + 1});
+}
+
 /// One measurement, from the first frame to the report.
 class Measurement {
  public:
@@ -150,10 +158,10 @@ class Measurement {
             unfit(input_, fmt::format("has frames of {}x{} px", input.cols, input.rows),
                   fmt::format("give frames of {0}x{0} px at least", kMinSidePixels)));
       }
-      sequence_.emplace(input.size(), input_.motion());
-      still_ = input;
+      start(painted, input);
     }
     ++report_.frames;
+    if (models_) models_->add(index, *painted.models);
     const cv::Mat3f output = toFloat(painted.output.view());
     if (auto added = sequence_->add(index, input, output, painted.anchors); !added) return added;
     report_.overTime.push_back(valuesOfLast(index));
@@ -161,6 +169,14 @@ class Measurement {
       worst_.offer(index, *ew2, input, output, sequence_->of(Subject::kPainting).lastDifference());
     }
     return {};
+  }
+
+  void start(const PaintedFrame& first, const cv::Mat3f& input) {
+    TrueMotion* const ofCamera = input_.motion();
+    if (first.models) models_.emplace(ofCamera);
+    TrueMotion* const motion = models_ && ofCamera != nullptr ? &*models_ : ofCamera;
+    sequence_.emplace(input.size(), motion, models_ ? &*models_ : nullptr);
+    still_ = models_ ? toFloat(first.camera.view()) : input;
   }
 
   void observeMovers(std::uint64_t index, hal::TimePoint time, const PaintedFrame& painted) {
@@ -204,8 +220,14 @@ class Measurement {
                           .timestampSource = hal::TimestampSource::kSimulated});
       if (!painted) return tl::unexpected(painted.error());
       if (i >= options_.stillSettle) {
-        still.add(toFloat(painted->input.view()), toFloat(painted->output.view()));
-        if (!painted->anchors.empty()) anchors.add(painted->anchors, nullptr, nullptr);
+        // Models may move on their own, and follow a pose that noise moves, with their shadows.
+        std::optional<cv::Mat1b> models;
+        if (painted->models) models = grown(painted->models->changed, kFarPixels);
+        const cv::Mat1b* const ignored = models ? &*models : nullptr;
+        still.add(toFloat(painted->input.view()), toFloat(painted->output.view()), ignored);
+        // Cells of the coarsest marks reach further than what is seen to change.
+        if (models) cv::dilate(painted->models->changed, *models, farSquare());
+        if (!painted->anchors.empty()) anchors.add(painted->anchors, nullptr, nullptr, ignored);
         if (options_.isStanding && painted->movers) {
           const cv::Mat1b nothingMoves(still_.size(), 0);
           labels.add(i, time, toLevels(painted->movers->view()), nothingMoves);
@@ -223,8 +245,9 @@ class Measurement {
 
   void judge() {
     report_.motionKind = sequence_->motionKind();
-    report_.motion =
-        input_.motion() == nullptr ? "its motion is not known" : input_.motion()->description();
+    report_.motion = models_                      ? models_->description()
+                     : input_.motion() == nullptr ? "its motion is not known"
+                                                  : input_.motion()->description();
     report_.measures = sequence_->totals();
     for (const Subject subject : kAllSubjects) report_.measures[subject].xFlk = flicker_[subject];
     report_.flatness = sequence_->flatness();
@@ -238,13 +261,15 @@ class Measurement {
                       *options_.frames, report_.frames));
     }
     report_.leftOut = leftOut();
-    report_.controls = controlVerdicts(report_.measures, options_.coherence, runConditions());
+    report_.controls = controlVerdicts(report_.measures, options_.coherence, runConditions(),
+                                       sequence_->displacedXEw2());
     const std::vector<styles::CoherenceGate> judged = judgedGates();
     styles::CoherenceGates gates = options_.coherence;
     gates.gates = judged;
     report_.gates = gateVerdicts(gates, runConditions(), report_.measures[Subject::kPainting],
                                  report_.measures[Subject::kFixed]);
     if (options_.isStanding) judgeMovers();
+    if (models_) judgeModels();
     for (Verdict& verdict : anchorVerdicts(options_.coherence, report_.motionKind, settledAnchors(),
                                            report_.insideStill)) {
       report_.gates.push_back(std::move(verdict));
@@ -271,6 +296,18 @@ class Measurement {
       report_.gates.push_back(std::move(verdict));
     }
     judgeLabels();
+  }
+
+  void judgeModels() {
+    report_.models = ModelReport{.regions = sequence_->regions().summary(),
+                                 .forgettingRatio = sequence_->regions().forgettingRatio(),
+                                 .anchors = sequence_->anchorsOnModels().summary()};
+    for (Verdict& verdict : modelControlVerdicts(*report_.models, options_.coherence)) {
+      report_.controls.push_back(std::move(verdict));
+    }
+    for (Verdict& verdict : modelVerdicts(*report_.models, options_.coherence)) {
+      report_.gates.push_back(std::move(verdict));
+    }
   }
 
   void judgeLabels() {
@@ -316,6 +353,7 @@ class Measurement {
   MeasuredPainter& painter_;
   const MeasurementOptions& options_;
   Report report_;
+  std::optional<ModelMotion> models_;  // if the pictures show any
   std::optional<SequenceMeasures> sequence_;
   MoverMeasures movers_;
   std::optional<LabelMeasures> labels_;

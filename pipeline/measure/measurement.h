@@ -11,6 +11,7 @@
 #include "hal/image.h"
 #include "pipeline/marks/anchor.h"
 #include "pipeline/measure/input/measured_input.h"
+#include "pipeline/measure/input/model_motion.h"
 #include "pipeline/measure/measurement_report.h"
 #include "pipeline/styles/coherence_gates.h"
 
@@ -18,12 +19,17 @@ namespace pleinair::measure {
 
 /// A painted frame and its source, both RGB8 of one size.
 struct PaintedFrame {
+  /// What the painting is compared with: the camera's picture, with virtual models in it if there
+  /// are any.
   hal::Image input;
   hal::Image output;
   std::vector<marks::Anchor> anchors;  ///< anchors of its marks; empty if there are none
   /// Which places the painter takes for movers: grey, 255 on them, at half the size. Nothing if it
   /// tells no movers.
   std::optional<hal::Image> movers = {};
+  /// Which points of virtual models it shows: in all frames, or in none.
+  std::optional<PaintedModels> models = {};
+  hal::Image camera = {};  ///< the camera's picture alone, where there are `models`
 };
 
 /// The subject of a measurement: the engine with a style, or a filter to compare with. One thread.

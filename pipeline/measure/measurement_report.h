@@ -13,6 +13,7 @@
 #include "pipeline/measure/input/true_motion.h"
 #include "pipeline/measure/label_measures.h"
 #include "pipeline/measure/measures.h"
+#include "pipeline/measure/model_gates.h"
 #include "pipeline/measure/mover_measures.h"
 #include "pipeline/measure/negative_controls.h"
 
@@ -56,6 +57,7 @@ struct Report {
   std::optional<MoverReport> movers;
   std::optional<LabelSummary> labels;  ///< where true masks are known
   std::optional<double> labelFlipsOnStillPercent;
+  std::optional<ModelReport> models;  ///< if the pictures show virtual models
   std::vector<FrameValues> overTime;
   std::vector<WorstFrame> worst;  ///< worst first
   std::vector<Verdict> controls;
@@ -71,6 +73,7 @@ struct Report {
 
 /// Name of a subject in tables.
 std::string nameOf(Subject subject, const Report& report);
+std::string descriptionOf(Region region);
 
 // Sentences that reports of every kind share.
 std::string framesText(const Report& report);
@@ -78,6 +81,8 @@ std::vector<std::string> insideLines(const Report& report);
 std::vector<std::string> flatnessLines(const Report& report);
 std::vector<std::string> moverLines(const Report& report);
 std::vector<std::string> labelLines(const Report& report);
+std::vector<std::string> anchorsOnModelsLines(const Report& report);
+std::vector<std::string> modelLines(const Report& report);
 
 /// The report as text for a terminal.
 std::string reportText(const Report& report);

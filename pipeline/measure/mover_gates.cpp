@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "hal/clock.h"
+#include "pipeline/measure/limit_verdict.h"
 #include "pipeline/measure/mover_masks.h"
 
 namespace pleinair::measure {
@@ -24,27 +25,6 @@ constexpr double kMaxFlipsPercent = 0.0;
 constexpr double kMaxDisplacedIou = 0.8;
 constexpr std::uint64_t kDetectionFrames = 3;
 constexpr hal::Duration kDetectionTime = std::chrono::milliseconds(100);
-
-struct Limit {
-  const char* name;
-  const char* unit;
-  double value;
-  const char* missing;  ///< why there may be nothing to compare
-  bool isUpper = true;
-};
-
-Verdict verdictOf(const Limit& limit, std::optional<double> value) {
-  Verdict verdict{.what = fmt::format("{} {} {:g}{}", limit.name, limit.isUpper ? "≤" : ">",
-                                      limit.value, limit.unit),
-                  .found = limit.missing,
-                  .comparison = Verdict::Comparison{
-                      .value = value, .limit = limit.value, .isUpperLimit = limit.isUpper}};
-  if (!value) return verdict;
-  verdict.found = fmt::format("{:.3g}{}", *value, limit.unit);
-  const bool isPassed = limit.isUpper ? *value <= limit.value : *value > limit.value;
-  verdict.state = isPassed ? Verdict::State::kPassed : Verdict::State::kFailed;
-  return verdict;
-}
 
 constexpr const char* kNothingUncovered = "no mover came and went";
 constexpr const char* kNoClearMover = "no mover came that differs from the ground";
@@ -73,16 +53,6 @@ constexpr Limit kFlipsLimit{"labels that flip where nothing moves", " %", kMaxFl
                             "fewer than two frames"};
 constexpr Limit kStillFlipsLimit{"labels that flip on the still scene", " %", kMaxFlipsPercent,
                                  "no still scene"};
-
-/// Half of the limit is left to the painting: a motion along which the input itself reads more says
-/// nothing about the marks.
-Verdict verdictAlong(const Limit& limit, std::optional<double> value,
-                     std::optional<double> ofInput) {
-  if (!ofInput || *ofInput <= limit.value / 2) return verdictOf(limit, value);
-  Limit unexplained = limit;
-  unexplained.missing = "the input itself reads more than half of it";
-  return verdictOf(unexplained, std::nullopt);
-}
 
 std::vector<Verdict> verdictsAlong(const MoverMotionSummary& painting,
                                    const MoverMotionSummary& input) {

@@ -82,6 +82,7 @@ constexpr std::uint64_t kFixedSeed = 0;
 constexpr double kMinScreenPattern = 0.25;
 /// Images carried along the true motion read up to 0.1, those under a wrong motion 0.8 and more.
 constexpr double kMaxInputError = 0.5;
+constexpr double kMinDisplacedXEw2 = 2;
 /// Below this, in levels, tiles are hardly visible and cannot be told apart.
 constexpr double kSmoothDeviation = 3.0;
 
@@ -120,6 +121,20 @@ Verdict motionVerdict(const PerSubject<Measures>& measures) {
   if (isPassed) return verdict;
   const std::string smooth = likelyCause(measures);
   verdict.found += smooth.empty() ? "; the motion is another, or noise hides it" : smooth;
+  return verdict;
+}
+
+/// A displacement by less than a mark's size must show.
+Verdict displacedVerdict(const PerSubject<Measures>& measures,
+                         const std::optional<double>& displacedXEw2) {
+  Verdict verdict{.what = fmt::format("the input displaced by 2 px against it reads xEW2 > {:g}",
+                                      kMinDisplacedXEw2),
+                  .found = "nothing to compare along a true motion"};
+  verdict.comparison = {.value = displacedXEw2, .limit = kMinDisplacedXEw2, .isUpperLimit = false};
+  if (!displacedXEw2) return verdict;
+  const bool isPassed = *displacedXEw2 > kMinDisplacedXEw2;
+  verdict.state = isPassed ? State::kPassed : State::kFailed;
+  verdict.found = fmt::format("{:.3g}", *displacedXEw2) + (isPassed ? "" : likelyCause(measures));
   return verdict;
 }
 
@@ -187,11 +202,12 @@ PerSubject<cv::Mat3f> ControlPainter::paint(const cv::Mat3f& input, const cv::Ma
 
 std::vector<Verdict> controlVerdicts(const PerSubject<Measures>& measures,
                                      const styles::CoherenceGates& gates,
-                                     const RunConditions& runConditions) {
+                                     const RunConditions& runConditions,
+                                     const std::optional<double>& displacedXEw2) {
   const styles::CoherenceGates judged =
       gates.empty() ? styles::CoherenceGates{kReferenceGates} : gates;
   return {motionVerdict(measures), freshVerdict(measures, judged, runConditions),
-          fixedVerdict(measures, runConditions)};
+          fixedVerdict(measures, runConditions), displacedVerdict(measures, displacedXEw2)};
 }
 
 }  // namespace pleinair::measure

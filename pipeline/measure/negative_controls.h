@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -62,9 +63,10 @@ class ControlPainter {
 };
 
 /// Whether the controls read as they must; a control that cannot be evaluated says why. A style
-/// without gates is judged by reference gates.
+/// without gates is judged by reference gates. `displacedXEw2`: SequenceMeasures::displacedXEw2().
 std::vector<Verdict> controlVerdicts(const PerSubject<Measures>& measures,
                                      const styles::CoherenceGates& gates,
-                                     const RunConditions& runConditions);
+                                     const RunConditions& runConditions,
+                                     const std::optional<double>& displacedXEw2);
 
 }  // namespace pleinair::measure

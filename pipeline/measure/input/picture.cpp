@@ -48,9 +48,8 @@ cv::Mat1f greyOf(const cv::Mat3f& picture) {
 }
 
 cv::Mat3f highPass(const cv::Mat3f& picture) {
-  constexpr double kSigmaPixels = 6.0;
   cv::Mat3f coarse;
-  cv::GaussianBlur(picture, coarse, {}, kSigmaPixels);
+  cv::GaussianBlur(picture, coarse, {}, kHighPassSigmaPixels);
   cv::Mat3f fine;
   cv::subtract(picture, coarse, fine);
   return fine;

@@ -23,6 +23,7 @@ hal::Image toImage(const cv::Mat3f& picture);
 /// Luma (BT.601) of RGB.
 cv::Mat1f greyOf(const cv::Mat3f& picture);
 
+inline constexpr double kHighPassSigmaPixels = 6.0;
 /// Removes structure coarser than marks: a − Gaussian(6 px) ∗ a.
 cv::Mat3f highPass(const cv::Mat3f& picture);
 

@@ -110,6 +110,34 @@ std::string listHtml(const std::string& title, const std::vector<std::string>& l
   return html + "</ul>\n";
 }
 
+std::string modelsTable(const Report& report) {
+  if (!report.models) return "";
+  const auto cell = [](std::optional<double> value) {
+    return value ? fmt::format("<td>{:.3g}</td>", *value) : std::string("<td>–</td>");
+  };
+  std::string html =
+      "<h2>Models</h2><div class=\"scroll\"><table><tr><th></th><th>EW2</th><th>nHW2</th>"
+      "<th>POP %</th><th>S10 %</th></tr>\n";
+  for (const Region region : kAllRegions) {
+    const PerSubject<RegionSummary>& of = report.models->regions[region];
+    html += fmt::format("<tr><th colspan=\"5\">{}: {:.1f} % of the frames</th></tr>\n",
+                        escaped(descriptionOf(region)), of[Subject::kPainting].coveredPercent);
+    for (const Subject subject : kAllSubjects) {
+      const RegionSummary& values = of[subject];
+      html +=
+          fmt::format("<tr{}><td>{}</td>", subject == Subject::kPainting ? " class=\"own\"" : "",
+                      escaped(nameOf(subject, report)));
+      html += cell(values.ew2) + cell(values.nHw2) + cell(values.popPercent) +
+              cell(values.s10Percent) + "</tr>\n";
+    }
+  }
+  html += "</table></div>\n";
+  for (const std::string& line : anchorsOnModelsLines(report)) {
+    html += "<p>" + escaped(line) + "</p>";
+  }
+  return html;
+}
+
 std::string plotsHtml(const Report& report) {
   std::vector<std::uint64_t> frames;
   for (const FrameValues& values : report.overTime) frames.push_back(values.frame);
@@ -190,6 +218,7 @@ std::string reportHtml(const Report& report) {
   html += listHtml("Inside", insideLines(report));
   html += listHtml("Movers", moverLines(report));
   html += listHtml("Labels of movers", labelLines(report));
+  html += modelsTable(report);
   html += listHtml("Flatness", flatnessLines(report));
   html += plotsHtml(report) + worstHtml(report);
   html += listHtml("Left out", report.leftOut) + listHtml("Notes", report.notices);

@@ -103,6 +103,13 @@ Json jsonOf(const MoverMotionSummary& along) {
           {"seam_pop_percent", orNull(along.seamPopPercent)}};
 }
 
+Json jsonOf(const RegionSummary& region) {
+  return {{"ew2", orNull(region.ew2)},
+          {"nhw2", orNull(region.nHw2)},
+          {"pop_percent", orNull(region.popPercent)},
+          {"s10_percent", orNull(region.s10Percent)}};
+}
+
 template <class Value>
 Json jsonOf(const PerSubject<Value>& values) {
   return {{"painting", jsonOf(values[Subject::kPainting])},
@@ -118,6 +125,33 @@ Json jsonOf(const std::optional<MoverReport>& movers) {
           {"averaging", jsonOf(movers->averaging)},
           {"along_motion", jsonOf(movers->alongMotion)},
           {"displaced_still_percent", orNull(movers->displacedStillPercent)}};
+}
+
+Json jsonOf(const std::optional<ModelAnchorSummary>& anchors) {
+  if (!anchors) return nullptr;
+  return {{"frames", anchors->frames},
+          {"anchors", anchors->anchors},
+          {"births_a_frame", anchors->births},
+          {"deaths_a_frame", anchors->deaths},
+          {"turnover_percent", anchors->turnoverPercent},
+          {"slip", jsonOf(anchors->slip)},
+          {"slip_over_10_frames", jsonOf(anchors->longSlip)}};
+}
+
+Json jsonOf(const std::optional<ModelReport>& models) {
+  if (!models) return nullptr;
+  Json json = Json::object();
+  const auto add = [&](const char* name, Region region) {
+    json[name] = jsonOf(models->regions[region]);
+    json[name]["covered_percent"] = models->regions[region][Subject::kPainting].coveredPercent;
+  };
+  add("real", Region::kReal);
+  add("virtual", Region::kVirtual);
+  add("seam", Region::kSeam);
+  add("virtual_moving", Region::kMoving);
+  json["forgetting_ew2_ratio"] = orNull(models->forgettingRatio);
+  json["anchors"] = jsonOf(models->anchors);
+  return json;
 }
 
 Json labelsOf(const Report& report) {
@@ -178,6 +212,7 @@ std::string reportJson(const Report& report) {
             {"flatness", jsonOf(report.flatness)},
             {"movers", jsonOf(report.movers)},
             {"labels", labelsOf(report)},
+            {"models", jsonOf(report.models)},
             {"left_out", report.leftOut},
             {"notes", report.notices},
             {"over_time", Json::array()}};

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -199,6 +200,54 @@ std::vector<std::string> labelLines(const Report& report) {
   return lines;
 }
 
+std::vector<std::string> anchorsOnModelsLines(const Report& report) {
+  std::vector<std::string> lines;
+  if (!report.models || !report.models->anchors) return lines;
+  const ModelAnchorSummary& anchors = *report.models->anchors;
+  lines.push_back(fmt::format(
+      "{:.0f} anchors on what stays in sight of models; a frame {:.2f} births and {:.2f} deaths "
+      "there: {:.2f} % of them",
+      anchors.anchors, anchors.births, anchors.deaths, anchors.turnoverPercent));
+  if (anchors.slip) lines.push_back("slip a frame: " + driftText(*anchors.slip));
+  if (anchors.longSlip) lines.push_back("slip over ten frames: " + driftText(*anchors.longSlip));
+  return lines;
+}
+
+std::vector<std::string> modelLines(const Report& report) {
+  if (!report.models) return {};
+  const auto text = [](std::optional<double> value, const char* unit) {
+    return value ? fmt::format("{:.3g}{}", *value, unit) : std::string("–");
+  };
+  std::vector<std::string> lines;
+  for (const Region region : kAllRegions) {
+    const PerSubject<RegionSummary>& of = report.models->regions[region];
+    lines.push_back(fmt::format("{}: {:.1f} % of the frames", descriptionOf(region),
+                                of[Subject::kPainting].coveredPercent));
+    for (const Subject subject : kAllSubjects) {
+      const RegionSummary& values = of[subject];
+      lines.push_back(fmt::format("  {}: EW2 {}, nHW2 {}, POP {}, S10 {}", nameOf(subject, report),
+                                  text(values.ew2, ""), text(values.nHw2, ""),
+                                  text(values.popPercent, " %"), text(values.s10Percent, " %")));
+    }
+  }
+  for (std::string& line : anchorsOnModelsLines(report)) lines.push_back(std::move(line));
+  return lines;
+}
+
+std::string descriptionOf(Region region) {
+  switch (region) {
+    case Region::kReal:
+      return "REAL, the camera's picture beyond the seam";
+    case Region::kVirtual:
+      return "VIRTUAL, models";
+    case Region::kSeam:
+      return "SEAM, 8 px on both sides of their outlines";
+    case Region::kMoving:
+      return "models where they move by 2 px in two frames";
+  }
+  return "";
+}
+
 std::string reportText(const Report& report) {
   std::string text = fmt::format("{} ({}) on {}\n{}; {}\n\n", report.style, report.settings,
                                  report.input, report.motion, framesText(report));
@@ -218,6 +267,7 @@ std::string reportText(const Report& report) {
   text += listLines("Flatness", flatnessLines(report));
   text += listLines("Movers", moverLines(report));
   text += listLines("Labels of movers", labelLines(report));
+  text += listLines("Models", modelLines(report));
   text += listLines("Left out", report.leftOut);
   text += listLines("Notes", report.notices);
   return text;

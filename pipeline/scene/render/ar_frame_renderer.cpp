@@ -165,6 +165,14 @@ const ArFrame& ArFrameRenderer::compose(const gpu::Texture& picture,
   return frame_;
 }
 
+SurfaceSnapshot ArFrameRenderer::snapshot() {
+  if (visible_.empty() || frame_.barycentrics == nullptr) {
+    return SurfaceSnapshot(frame_.ids->size());
+  }
+  return reader_.read(geometry_, bodies_, visible_, objects_, *camera_, *frame_.ids,
+                      *frame_.barycentrics);
+}
+
 void ArFrameRenderer::poseModels(hal::TimePoint captureTime) {
   geometry_.beginFrame();
   for (std::size_t i = 0; i < scene_.models.size(); ++i) {

@@ -18,6 +18,7 @@
 #include "pipeline/scene/render/posed_geometry.h"
 #include "pipeline/scene/render/scene_bodies.h"
 #include "pipeline/scene/render/surface_pass.h"
+#include "pipeline/scene/render/surface_snapshot.h"
 #include "pipeline/scene/scene_shaders.h"
 
 namespace pleinair::scene {
@@ -49,6 +50,10 @@ class ArFrameRenderer {
   const ArFrame& compose(const gpu::Texture& picture, const tracking::CameraModel& camera,
                          const PoseSet& poses, std::uint64_t sequence, hal::TimePoint captureTime,
                          ArFrameNeeds needs = {}, std::span<const PlaceLighting> lights = {});
+
+  /// Reads which points of the models the last frame shows, for measures and tests; waits for the
+  /// GPU. Precondition: a frame was composed, and asked for surfaces.
+  SurfaceSnapshot snapshot();
 
   /// Forgets the previous frames: the next one is the first, has no motion, and restarts the time.
   void reset();
@@ -114,6 +119,7 @@ class ArFrameRenderer {
   std::optional<hal::TimePoint> firstTime_;
   std::optional<Stamp> lastStamp_;  // the frame for which bodies and poses were last advanced
   ArFrame frame_;
+  SurfaceReader reader_;
 };
 
 }  // namespace pleinair::scene

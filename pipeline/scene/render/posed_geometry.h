@@ -61,6 +61,10 @@ class PosedGeometry {
   const std::vector<DrawBatch>& batches(std::size_t object) const {
     return models_[objects_[object].model].batches;
   }
+  /// Number of an object's vertices in posed().
+  std::size_t vertexCount(std::size_t object) const {
+    return models_[objects_[object].model].vertexCount;
+  }
   /// Offsets of an object posed in this frame.
   ObjectPlace place(std::size_t object) const;
 

@@ -76,7 +76,7 @@ measure::Report CoherenceParts::measured(const CoherenceVariant& variant) {
   }
   painter_->reset();
   const std::unique_ptr<measure::MeasuredInput> input = open_();
-  app::MeasuredEngine engine(*painter_, parameters, input->format().size, false);
+  app::MeasuredEngine engine(*painter_, parameters, input->format().size);
   std::optional<measure::Report> report =
       hal::orThrow(measure::measure(*input, engine,
                                     {.style = "painterly",

@@ -41,6 +41,47 @@ class FunctionPainter final : public MeasuredPainter {
   Function function_;
 };
 
+/// Shows a sheet of blobs that moves by (2, 1) px a frame over the picture, and paints faithfully.
+class SheetPainter final : public MeasuredPainter {
+ public:
+  /// What it says of the sheet's motion, px a frame.
+  explicit SheetPainter(cv::Point2f told) : told_(told) {}
+  hal::Result<PaintedFrame> paint(const hal::CapturedFrame& frame) override {
+    const cv::Rect sheet(cv::Point(50, 45) + calls_ * cv::Point(2, 1), cv::Size(60, 56));
+    cv::Mat3f shown = toFloat(frame.image);
+    windowOf(sheet_, {0, 0}, sheet.size()).copyTo(shown(sheet));
+    PaintedModels models{.ids = cv::Mat1i(shown.size(), 0),
+                         .barycentrics = cv::Mat2f(shown.size(), cv::Vec2f()),
+                         .place = {},
+                         .changed = {}};
+    constexpr int kObject = 1 << PaintedModels::kTriangleBits;
+    models.ids(sheet).setTo(kObject);
+    models.changed = models.mask();
+    const cv::Point2f origin = cv::Point2f(50, 45) + static_cast<float>(calls_) * told_;
+    for (int y = sheet.y; y < sheet.br().y; ++y) {
+      for (int x = sheet.x; x < sheet.br().x; ++x) {
+        models.barycentrics(y, x) = {static_cast<float>(x) - origin.x,
+                                     static_cast<float>(y) - origin.y};
+      }
+    }
+    models.place = [origin](int, const cv::Vec2f& at) {
+      return std::optional(cv::Point2f(at[0] + origin.x, at[1] + origin.y));
+    };
+    ++calls_;
+    return PaintedFrame{.input = toImage(shown),
+                        .output = toImage(shown),
+                        .anchors = {},
+                        .models = std::move(models),
+                        .camera = hal::Image(frame.image)};
+  }
+  void reset() override { calls_ = 0; }
+
+ private:
+  cv::Mat3f sheet_ = strongBlobs({60, 56}, 9);
+  cv::Point2f told_;
+  int calls_ = 0;
+};
+
 class MeasurementTest : public testing::Test {
  protected:
   MeasurementTest() {
@@ -65,6 +106,15 @@ class MeasurementTest : public testing::Test {
   void write(const std::string& name, const std::string& text) {
     std::ofstream(path(name)) << text;
   }
+  Report runWithSheet(cv::Point2f told) {
+    const auto input = photograph({.pan = {-1, 0}});
+    SheetPainter painter(told);
+    return *hal::orThrow(measure(*input, painter,
+                                 {.style = "painterly",
+                                  .coherence = styles::styleKind("painterly").coherence,
+                                  .stillFrames = 4,
+                                  .stillSettle = 1}));
+  }
   static Report run(MeasuredInput& input, const FunctionPainter::Function& function,
                     MeasurementOptions options = {
                         .style = "watercolor",
@@ -80,6 +130,26 @@ class MeasurementTest : public testing::Test {
 
 cv::Mat3f itself(const cv::Mat3f& input, int) {
   return input;
+}
+
+TEST_F(MeasurementTest, ComposesTheTruthOfTheCameraAndTheModels) {
+  const Report report = runWithSheet({2, 1});
+  EXPECT_THAT(report.motion, HasSubstr("and the models' own motion"));
+  EXPECT_EQ(report.motionKind, MotionKind::kOther);
+  EXPECT_TRUE(report.areControlsValid()) << reportText(report);
+  ASSERT_TRUE(report.models);
+  EXPECT_LT(*report.models->regions[Region::kVirtual][Subject::kPainting].nHw2, 0.01);
+  EXPECT_LT(*report.models->regions[Region::kReal][Subject::kPainting].nHw2, 0.01);
+  EXPECT_LT(*report.measures[Subject::kPainting].nHw2, 0.01);
+  // Beside the sheet, whose still scene moves, only the noise of the camera is seen.
+  EXPECT_NEAR(*report.measures[Subject::kPainting].xFlk, 1.0, 1e-6);
+}
+
+/// With the camera's motion for the models', nothing in the report is to be relied on.
+TEST_F(MeasurementTest, ATruthThatForgetsTheModelsMakesTheControlsWrong) {
+  const Report report = runWithSheet({-1, 0});
+  EXPECT_FALSE(report.areControlsValid());
+  EXPECT_THAT(reportText(report), HasSubstr("WRONG         the input follows the models' motion"));
 }
 
 TEST_F(MeasurementTest, OfTheInputItselfIsPerfectButForItsNoise) {

@@ -27,6 +27,9 @@ const styles::CoherenceGates& gatesOf(std::string_view style) {
   return styles::styleKind(style).coherence;
 }
 
+/// xEW2 of an input with detail that is displaced by 2 px.
+constexpr std::optional<double> kDisplaced = 40.0;
+
 /// Plausible measures of a pan over a canvas.
 PerSubject<Measures> measuresOf(const cv::Mat3f& canvas, double noiseLevels = 2) {
   const auto motion = constantMotion(kSize, 2 * kPan);
@@ -50,7 +53,7 @@ TEST(Controls, ReadAsTheyMustOnAPictureWithDetail) {
   EXPECT_GT(*measures[Subject::kFresh].nHw2, 0.5);
   EXPECT_GT(*measures[Subject::kFixed].scr, 0.25);
   for (const std::string_view style : {"watercolor", "painterly", "none"}) {
-    for (const Verdict& verdict : controlVerdicts(measures, gatesOf(style), kPanned)) {
+    for (const Verdict& verdict : controlVerdicts(measures, gatesOf(style), kPanned, kDisplaced)) {
       EXPECT_EQ(verdict.state, State::kPassed) << style << ": " << verdict.what << verdict.found;
     }
   }
@@ -59,7 +62,7 @@ TEST(Controls, ReadAsTheyMustOnAPictureWithDetail) {
 TEST(Controls, SayThatTheMotionIsAnother) {
   PerSubject<Measures> measures = measuresOf(strongBlobs({400, 300}, 1));
   measures[Subject::kInput].nHw2 = 0.87;
-  const auto verdicts = controlVerdicts(measures, gatesOf("watercolor"), kPanned);
+  const auto verdicts = controlVerdicts(measures, gatesOf("watercolor"), kPanned, kDisplaced);
   EXPECT_EQ(verdicts[0].state, State::kFailed);
   EXPECT_THAT(verdicts[0].found, HasSubstr("the motion is another"));
 }
@@ -67,7 +70,7 @@ TEST(Controls, SayThatTheMotionIsAnother) {
 TEST(Controls, SayThatAPictureIsTooSmooth) {
   const cv::Mat3f flat(300, 400, cv::Vec3f(0.5F, 0.4F, 0.3F));
   const PerSubject<Measures> measures = measuresOf(flat, 0);
-  const auto verdicts = controlVerdicts(measures, gatesOf("painterly"), kPanned);
+  const auto verdicts = controlVerdicts(measures, gatesOf("painterly"), kPanned, kDisplaced);
   bool isAnyWrong = false;
   for (const Verdict& verdict : verdicts) {
     if (verdict.state != State::kFailed) continue;
@@ -80,7 +83,7 @@ TEST(Controls, SayThatAPictureIsTooSmooth) {
 TEST(Controls, SayWhatCouldNotBeTold) {
   PerSubject<Measures> measures;
   measures[Subject::kInput].ew2 = 0.0;
-  for (const Verdict& verdict : controlVerdicts(measures, gatesOf("watercolor"), kPanned)) {
+  for (const Verdict& verdict : controlVerdicts(measures, gatesOf("watercolor"), kPanned, {})) {
     EXPECT_EQ(verdict.state, State::kNotMeasured) << verdict.what;
     EXPECT_NE(verdict.found, "");
   }
@@ -112,7 +115,7 @@ TEST(Controls, MarksRedrawnEachFrameMustFailAGateOfCoherence) {
   measures[Subject::kFixed] = {.scr = 0.5, .dep = 20};
   const auto freshReads = [&](const Measures& fresh) {
     measures[Subject::kFresh] = fresh;
-    const auto verdicts = controlVerdicts(measures, gatesOf("painterly"), kPanned);
+    const auto verdicts = controlVerdicts(measures, gatesOf("painterly"), kPanned, kDisplaced);
     return std::ranges::find_if(
                verdicts, [](const Verdict& each) { return each.what.starts_with("marks redrawn"); })
         ->state;
@@ -140,9 +143,27 @@ TEST(Controls, EachCanFail) {
   measures[Subject::kInput] = {.nHw2 = 0.9};
   measures[Subject::kFresh] = good();
   measures[Subject::kFixed] = {.scr = 0.01, .dep = 20};
-  for (const Verdict& verdict : controlVerdicts(measures, gatesOf("painterly"), kPanned)) {
+  for (const Verdict& verdict : controlVerdicts(measures, gatesOf("painterly"), kPanned, 1.9)) {
     EXPECT_EQ(verdict.state, State::kFailed) << verdict.what;
   }
+}
+
+/// EW2 of the input over itself is 1 and could not fail; displaced by 2 px, it can.
+TEST(Controls, TellADisplacementOfTwoPixels) {
+  const auto displacedOf = [](cv::Point2d perFrame, const cv::Mat3f& canvas) {
+    const auto motion = constantMotion(kSize, perFrame);
+    SequenceMeasures measures(kSize, motion.get());
+    for (std::uint64_t i = 0; i < 6; ++i) {
+      const cv::Point at(8 + 3 * static_cast<int>(i), 8 + static_cast<int>(i));
+      const cv::Mat3f frame = toFloat(withSensorNoise(windowOf(canvas, at, kSize), 2, i).view());
+      EXPECT_TRUE(measures.add(i, frame, frame, {}));
+    }
+    return *measures.displacedXEw2();
+  };
+  const cv::Mat3f blobs = strongBlobs({400, 300}, 1);
+  EXPECT_GT(displacedOf({-3, -1}, blobs), 10.0);
+  EXPECT_LT(displacedOf({-4, -1}, blobs), 1.0) << "a motion that is 2 px off in two frames";
+  EXPECT_NEAR(displacedOf({-3, -1}, cv::Mat3f(300, 400, cv::Vec3f(0.5F, 0.4F, 0.3F))), 1.0, 0.05);
 }
 
 TEST(Gates, PassWhatIsWithinAndStopTheRest) {

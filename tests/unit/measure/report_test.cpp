@@ -42,6 +42,37 @@ Report report() {
   return report;
 }
 
+TEST(Report, HasATableOfEachRegionWithModels) {
+  Report with = report();
+  EXPECT_TRUE(nlohmann::json::parse(reportJson(with))["models"].is_null());
+  EXPECT_THAT(reportHtml(with), Not(HasSubstr("Models")));
+  with.models = ModelReport{
+      .forgettingRatio = 7.5,
+      .anchors = ModelAnchorSummary{.frames = 4,
+                                    .anchors = 80,
+                                    .births = 0.5,
+                                    .deaths = 0.3,
+                                    .turnoverPercent = 1,
+                                    .slip = Drift{.median = 0.001, .percentile95 = 0.02}}};
+  with.models->regions[Region::kVirtual][Subject::kPainting] = {
+      .coveredPercent = 9.5, .ew2 = 0.5, .nHw2 = 0.07, .popPercent = 2.5};
+  with.models->regions[Region::kSeam][Subject::kFixed].popPercent = 12;
+  const auto json = nlohmann::json::parse(reportJson(with))["models"];
+  EXPECT_EQ(json["virtual"]["covered_percent"], 9.5);
+  EXPECT_EQ(json["virtual"]["painting"]["nhw2"], 0.07);
+  EXPECT_TRUE(json["virtual"]["painting"]["s10_percent"].is_null());
+  EXPECT_EQ(json["seam"]["fixed"]["pop_percent"], 12);
+  EXPECT_EQ(json["forgetting_ew2_ratio"], 7.5);
+  EXPECT_EQ(json["anchors"]["slip"]["p95_px"], 0.02);
+  EXPECT_TRUE(json["anchors"]["slip_over_10_frames"].is_null());
+  EXPECT_THAT(reportText(with), AllOf(HasSubstr("VIRTUAL, models: 9.5 % of the frames"),
+                                      HasSubstr("EW2 0.5, nHW2 0.07, POP 2.5 %, S10 –"),
+                                      HasSubstr("80 anchors on what stays in sight"),
+                                      HasSubstr("slip a frame: median 0.001 px")));
+  EXPECT_THAT(reportHtml(with), AllOf(HasSubstr("<h2>Models</h2>"), HasSubstr("<td>0.07</td>"),
+                                      HasSubstr("80 anchors on what stays in sight")));
+}
+
 TEST(Report, IsJsonWithNullForWhatCouldNotBeHad) {
   const auto json = nlohmann::json::parse(reportJson(report()));
   EXPECT_EQ(json["measures"]["painting"]["ew2"], 0.25);
