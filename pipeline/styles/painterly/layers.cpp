@@ -5,8 +5,8 @@
 
 #include <glm/trigonometric.hpp>
 
-#include "pipeline/styles/painterly/brushes.h"
 #include "pipeline/styles/painterly/coherence.h"
+#include "pipeline/styles/strokes/brushes.h"
 
 namespace pleinair::styles {
 namespace {

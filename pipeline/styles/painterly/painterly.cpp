@@ -19,14 +19,15 @@
 #include "pipeline/marks/motion_layers.h"
 #include "pipeline/marks/stroke_set.h"
 #include "pipeline/marks/tensor_field.h"
-#include "pipeline/styles/painterly/brush_cache.h"
 #include "pipeline/styles/painterly/coherence.h"
 #include "pipeline/styles/painterly/layers.h"
 #include "pipeline/styles/painterly/painterly_shaders.h"
 #include "pipeline/styles/painterly/painterly_views.h"
 #include "pipeline/styles/painterly/palette.h"
 #include "pipeline/styles/painterly/reduced_images.h"
-#include "pipeline/styles/painterly/stroke_drawing.h"
+#include "pipeline/styles/strokes/brush_cache.h"
+#include "pipeline/styles/strokes/stroke_drawing.h"
+#include "pipeline/styles/strokes/strokes_shaders.h"
 #include "pipeline/styles/substrate/substrate_shaders.h"
 
 namespace pleinair::styles {
@@ -141,7 +142,7 @@ struct Painterly::State {
         linen(library, Substrate::Kind::kLinen),
         paper(library, Substrate::Kind::kPaper),
         strips(library),
-        drawing(library),
+        drawing(library, painterlyViews()),
         brushes(library),
         noIds(TextureFormat::kR32ui, {1, 1}) {}
 
@@ -354,7 +355,7 @@ const StyleKind& painterlyKind() {
                 .canvas = true,
                 .shading = scene::Shading::kSmooth},
       .coherence = {.gates = kGates, .holdsAnchors = true, .paperLooks = kPaperLooks},
-      .shaders = {gpu::painterlyShaders(), gpu::substrateShaders()},
+      .shaders = {gpu::painterlyShaders(), gpu::strokesShaders(), gpu::substrateShaders()},
       .check = checkBrush,
       .make = [](const gpu::ShaderLibrary& library) -> std::unique_ptr<Style> {
         return std::make_unique<Painterly>(library);

@@ -28,8 +28,8 @@ const StyleKind& painterlyKind();
 /// `coherence`.
 class Painterly final : public Style {
  public:
-  /// The library, which outlives it, holds gpu::painterlyShaders(), substrateShaders(),
-  /// marksShaders(), sceneShaders(), gpuShaders().
+  /// The library, which outlives it, holds gpu::painterlyShaders(), strokesShaders(),
+  /// substrateShaders(), marksShaders(), sceneShaders(), gpuShaders().
   explicit Painterly(const gpu::ShaderLibrary& library);
   ~Painterly() override;
   Painterly(const Painterly&) = delete;

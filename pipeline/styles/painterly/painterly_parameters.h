@@ -6,9 +6,9 @@
 #include <string>
 
 #include "config/parameter_table.h"
-#include "pipeline/styles/painterly/brush_cache.h"
-#include "pipeline/styles/painterly/brushes.h"
-#include "pipeline/styles/painterly/stroke_strips.h"
+#include "pipeline/styles/strokes/brush_cache.h"
+#include "pipeline/styles/strokes/brushes.h"
+#include "pipeline/styles/strokes/stroke_strips.h"
 #include "pipeline/styles/style.h"
 #include "pipeline/styles/substrate/substrate.h"
 

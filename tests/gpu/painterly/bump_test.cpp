@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "pipeline/gpu/render_target.h"
-#include "pipeline/styles/painterly/stroke_drawing.h"
+#include "pipeline/styles/strokes/stroke_drawing.h"
 #include "tests/gpu/painterly/strip_fixture.h"
 #include "tests/oracles/stroke_oracle.h"
 

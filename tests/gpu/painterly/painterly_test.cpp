@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 
 #include "pipeline/marks/anchor_set.h"
-#include "pipeline/styles/painterly/brushes.h"
 #include "pipeline/styles/painterly/painterly_parameters.h"
+#include "pipeline/styles/strokes/brushes.h"
 #include "tests/gpu/painterly/painterly_fixture.h"
 #include "tests/support/allocation_count.h"
 

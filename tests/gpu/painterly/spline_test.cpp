@@ -17,8 +17,9 @@
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/marks/marks_shaders.h"
-#include "pipeline/styles/painterly/brushes.h"
 #include "pipeline/styles/painterly/painterly_shaders.h"
+#include "pipeline/styles/strokes/brushes.h"
+#include "pipeline/styles/strokes/strokes_shaders.h"
 #include "tests/oracles/stroke_oracle.h"
 #include "tests/support/gl_test.h"
 
@@ -34,7 +35,7 @@ struct Instance {
 /// Each vertex of each stroke writes where it would lie into a texel of its own.
 constexpr std::array<gpu::EmbeddedShader, 2> kShaders{
     {{"tests/spline_points.vert",
-      "#include \"pipeline/styles/painterly/shaders/stroke_spline.glsl\"\n"
+      "#include \"pipeline/styles/strokes/shaders/stroke_spline.glsl\"\n"
       "uniform vec2 texels;\n"
       "flat out vec4 found;\n"
       "void main() {\n"
@@ -64,6 +65,7 @@ TEST_F(SplineTest, PointsAreTheOracles) {
   library.add(gpu::gpuShaders());
   library.add(gpu::marksShaders());
   library.add(gpu::painterlyShaders());
+  library.add(gpu::strokesShaders());
   library.add(kShaders);
   std::mt19937 random(3);
   std::uniform_real_distribution<float> step(-6.0F, 6.0F);

@@ -11,7 +11,8 @@
 
 #include "pipeline/marks/marks_shaders.h"
 #include "pipeline/styles/painterly/painterly_shaders.h"
-#include "pipeline/styles/painterly/stroke_strips.h"
+#include "pipeline/styles/strokes/stroke_strips.h"
+#include "pipeline/styles/strokes/strokes_shaders.h"
 #include "tests/support/gl_test.h"
 
 namespace pleinair::styles {
@@ -56,6 +57,7 @@ class StripTest : public support::GlTest {
     if (IsSkipped()) return;
     library_.add(gpu::marksShaders());
     library_.add(gpu::painterlyShaders());
+    library_.add(gpu::strokesShaders());
     maker_.emplace(library_);
   }
 

@@ -92,7 +92,7 @@ std::vector<ShaderText> shadersOfTheTree() {
 TEST(ShaderRules, AreHeldAgainstEveryVariant) {
   std::set<std::string> variants;
   for (const ShaderText& shader : shadersOfTheTree()) variants.insert(shader.variant);
-  const std::string strokes = "pipeline/styles/painterly/shaders/stroke.frag";
+  const std::string strokes = "pipeline/styles/strokes/shaders/stroke.frag";
   for (const char* flags : {"", " BUMPED", " CLIPPED", " BUMPED CLIPPED"}) {
     EXPECT_TRUE(variants.contains(strokes + flags)) << flags;
   }

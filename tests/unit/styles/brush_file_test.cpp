@@ -1,5 +1,5 @@
 // Brushes from PNG files: what of a picture is paint and height, and what is refused how.
-#include "pipeline/styles/painterly/brush_file.h"
+#include "pipeline/styles/strokes/brush_file.h"
 
 #include <array>
 #include <cstdint>

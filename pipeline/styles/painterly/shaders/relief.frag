@@ -7,7 +7,7 @@
 // Outputs: RGBA8, sRGB-coded, opaque.
 // Precision: highp for places.
 #include "pipeline/gpu/shaders/luma.glsl"
-#include "pipeline/styles/painterly/shaders/paint_light.glsl"
+#include "pipeline/styles/strokes/shaders/paint_light.glsl"
 #include "pipeline/styles/substrate/shaders/substrate.glsl"
 uniform sampler2D colours;
 uniform sampler2D heights;

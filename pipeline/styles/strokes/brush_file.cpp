@@ -1,4 +1,4 @@
-#include "pipeline/styles/painterly/brush_file.h"
+#include "pipeline/styles/strokes/brush_file.h"
 
 #include <algorithm>
 #include <optional>

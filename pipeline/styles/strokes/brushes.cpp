@@ -1,4 +1,4 @@
-#include "pipeline/styles/painterly/brushes.h"
+#include "pipeline/styles/strokes/brushes.h"
 
 #include <algorithm>
 #include <array>

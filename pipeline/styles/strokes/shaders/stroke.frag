@@ -3,9 +3,9 @@
 //          object's border.
 // Inputs, outputs: stroke_mark.glsl's; BUMPED: stroke_bump.glsl's; CLIPPED: stroke_clip.glsl's.
 // Precision: as there.
-#include "pipeline/styles/painterly/shaders/stroke_mark.glsl"
+#include "pipeline/styles/strokes/shaders/stroke_mark.glsl"
 #ifdef BUMPED
-#include "pipeline/styles/painterly/shaders/stroke_bump.glsl"
+#include "pipeline/styles/strokes/shaders/stroke_bump.glsl"
 #endif
 #ifdef CLIPPED
 #include "pipeline/styles/painterly/shaders/stroke_clip.glsl"

@@ -1,4 +1,4 @@
-#include "pipeline/styles/painterly/brush_cache.h"
+#include "pipeline/styles/strokes/brush_cache.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "pipeline/styles/painterly/stroke_strips.h"
+#include "pipeline/styles/strokes/stroke_strips.h"
 
 #include <algorithm>
 #include <string>
@@ -6,7 +6,7 @@
 namespace pleinair::styles {
 namespace {
 
-const std::string kShaders = "pipeline/styles/painterly/shaders/";
+const std::string kShaders = "pipeline/styles/strokes/shaders/";
 constexpr std::size_t kPlanBytes = 8;
 constexpr std::size_t kCurvatureQuads = 7;  // at most: the spline's 9 spans, but for the outer ones
 constexpr std::size_t kThesisQuads = 36;

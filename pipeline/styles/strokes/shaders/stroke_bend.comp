@@ -4,7 +4,7 @@
 // Outputs: plans: breaks. One invocation per stroke.
 // Precision: highp.
 #include "pipeline/marks/shaders/spline.glsl"
-#include "pipeline/styles/painterly/shaders/stroke_strip.glsl"
+#include "pipeline/styles/strokes/shaders/stroke_strip.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Instances { Instance instances[]; };
 layout(std430, binding = 1) readonly buffer Drawn { DrawCommand drawn; };

@@ -2,7 +2,7 @@
 // Inputs:  stroke_spline.glsl's; fullSize: px; view: as stroke_view.frag.
 // Outputs: across: in [-1, 1]; paint; age: of the anchor, s.
 // Precision: highp.
-#include "pipeline/styles/painterly/shaders/stroke_spline.glsl"
+#include "pipeline/styles/strokes/shaders/stroke_spline.glsl"
 uniform vec2 fullSize;
 uniform int view;
 out float across;

@@ -8,8 +8,8 @@
 #include "hal/error.h"
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
-#include "pipeline/styles/painterly/brush_file.h"
-#include "pipeline/styles/painterly/brushes.h"
+#include "pipeline/styles/strokes/brush_file.h"
+#include "pipeline/styles/strokes/brushes.h"
 
 namespace pleinair::styles {
 

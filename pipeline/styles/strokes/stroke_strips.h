@@ -30,7 +30,7 @@ struct StrokeStrips {
 /// context it was made in.
 class StrokeStripMaker {
  public:
-  /// `library` has gpu::painterlyShaders() and gpu::marksShaders().
+  /// `library` has gpu::strokesShaders() and gpu::marksShaders().
   explicit StrokeStripMaker(const gpu::ShaderLibrary& library);
 
   /// Fills `strips` with what marks::StrokeSet laid out: its instances() and command(). They are

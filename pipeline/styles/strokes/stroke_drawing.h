@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <span>
 
 #include "pipeline/gpu/handle.h"
 #include "pipeline/gpu/program.h"
@@ -8,7 +10,8 @@
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/marks/stroke_set.h"
-#include "pipeline/styles/painterly/stroke_strips.h"
+#include "pipeline/styles/debug_views.h"
+#include "pipeline/styles/strokes/stroke_strips.h"
 
 namespace pleinair::styles {
 
@@ -23,8 +26,11 @@ struct StrokeLight {
 /// height together. All calls on the thread of the GL context it was made in.
 class StrokeDrawing {
  public:
-  /// `library` has gpu::painterlyShaders() and gpu::marksShaders().
-  explicit StrokeDrawing(const gpu::ShaderLibrary& library);
+  /// `library` has gpu::strokesShaders(), gpu::painterlyShaders() (for borders) and
+  /// gpu::marksShaders(). `views` are the style's; show() shows those named layers, skeletons and
+  /// anchors, without which show() must not be called.
+  explicit StrokeDrawing(const gpu::ShaderLibrary& library,
+                         std::span<const DebugViewInfo> views = {});
 
   /// Draws a layer into `target`: colour (sRGB-coded, premultiplied) and height, both RGBA8, over
   /// what is there. `brush` is makeBrush()'s; `borders`, of the target's size, says where strokes
@@ -33,14 +39,14 @@ class StrokeDrawing {
             const gpu::Texture* borders, hal::FrameSize full, const gpu::RenderTarget& target);
 
   /// Draws a view of a layer's strokes, in its colour, or anchors by their age; `view` is its place
-  /// in painterlyViews(), one whose viewer is kStrokes. `quads` is the StrokeRule's
+  /// in the style's views. `quads` is the StrokeRule's
   /// that the strokes were laid out by.
   void show(const marks::StrokeSet& strokes, int quads, std::size_t view, const glm::vec3& layer,
             hal::FrameSize full, const gpu::RenderTarget& target);
 
  private:
   std::array<std::array<gpu::Program, 2>, 2> paint_;  // each in the light? clipped?
-  gpu::Program view_;
+  std::optional<gpu::Program> view_;
   gpu::VertexArrayHandle strips_;
   gpu::VertexArrayHandle instances_;
 };

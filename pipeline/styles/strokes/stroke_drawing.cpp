@@ -1,14 +1,13 @@
-#include "pipeline/styles/painterly/stroke_drawing.h"
+#include "pipeline/styles/strokes/stroke_drawing.h"
 
+#include <cassert>
 #include <cstddef>
 #include <string>
-
-#include "pipeline/styles/painterly/painterly_views.h"
 
 namespace pleinair::styles {
 namespace {
 
-const std::string kShaders = "pipeline/styles/painterly/shaders/";
+const std::string kShaders = "pipeline/styles/strokes/shaders/";
 constexpr GLuint kInstanceAttributes = 6;  // of stroke_spline.glsl, four floats each
 
 gpu::Program paintProgram(const gpu::ShaderLibrary& library, const gpu::ShaderDefines& defines) {
@@ -70,14 +69,17 @@ void drawOver(const gpu::Program& program, const gpu::RenderTarget& target,
 
 }  // namespace
 
-StrokeDrawing::StrokeDrawing(const gpu::ShaderLibrary& library)
+StrokeDrawing::StrokeDrawing(const gpu::ShaderLibrary& library,
+                             std::span<const DebugViewInfo> views)
     : paint_{{{paintProgram(library, {}), paintProgram(library, {{"CLIPPED"}})},
               {paintProgram(library, {{"BUMPED"}}),
                paintProgram(library, {{"BUMPED"}, {"CLIPPED"}})}}},
-      view_(library.draw(kShaders + "stroke_view.vert", kShaders + "stroke_view.frag",
-                         viewDefines(painterlyViews()))),
       strips_(stripLayout()),
-      instances_(instanceLayout()) {}
+      instances_(instanceLayout()) {
+  if (views.empty()) return;
+  view_ = library.draw(kShaders + "stroke_view.vert", kShaders + "stroke_view.frag",
+                       viewDefines(views));
+}
 
 void StrokeDrawing::draw(const StrokeStrips& strips, const gpu::Texture& brush,
                          const StrokeLight& light, const gpu::Texture* borders, hal::FrameSize full,
@@ -92,12 +94,13 @@ void StrokeDrawing::draw(const StrokeStrips& strips, const gpu::Texture& brush,
 void StrokeDrawing::show(const marks::StrokeSet& strokes, int quads, std::size_t view,
                          const glm::vec3& layer, hal::FrameSize full,
                          const gpu::RenderTarget& target) {
-  view_.use()
+  assert(view_);
+  view_->use()
       .set("quads", static_cast<float>(quads))
       .set("view", static_cast<int>(view))
       .set("layer", layer)
       .set("fullSize", glm::vec2(full.width, full.height));
-  drawOver(view_, target, instances_, strokes.instances(), marks::StrokeSet::kInstanceBytes,
+  drawOver(*view_, target, instances_, strokes.instances(), marks::StrokeSet::kInstanceBytes,
            strokes.command());
 }
 

@@ -3,7 +3,7 @@
 //          every strip.
 // Outputs: plans: first; command: glDrawArraysIndirect's.
 // Precision: integers.
-#include "pipeline/styles/painterly/shaders/stroke_strip.glsl"
+#include "pipeline/styles/strokes/shaders/stroke_strip.glsl"
 layout(local_size_x = 128) in;
 layout(std430, binding = 0) readonly buffer Drawn { DrawCommand drawn; };
 layout(std430, binding = 1) buffer Plans { StripPlan plans[]; };

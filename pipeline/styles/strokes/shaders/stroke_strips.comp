@@ -5,7 +5,7 @@
 // Outputs: vertices in the layout of stroke.vert. One invocation per stroke.
 // Precision: highp.
 #include "pipeline/marks/shaders/spline.glsl"
-#include "pipeline/styles/painterly/shaders/stroke_strip.glsl"
+#include "pipeline/styles/strokes/shaders/stroke_strip.glsl"
 layout(local_size_x = 64) in;
 struct Vertex {
   vec2 at;

@@ -4,7 +4,7 @@
 //          brush across it.
 // Outputs: the lit paint.
 // Precision: mediump suffices.
-#include "pipeline/styles/painterly/shaders/paint_light.glsl"
+#include "pipeline/styles/strokes/shaders/paint_light.glsl"
 uniform float relief;
 uniform float gloss;
 in vec2 along;
