@@ -1,0 +1,153 @@
+// Purpose: traces each anchor's line along the field, both ways, and blends it with its past, so
+//          that a line lives as long as its anchor. It ends at borders of objects and movers, and
+//          where the field turns too sharply; where the tone asks for no line, its width is 0.
+// Inputs:  anchors; field.glsl's and tone.glsl's; mover_labels.glsl's; ids if hasObjects; aligned:
+//          of each slot, the offset that line_align.comp found (px), if hasAligned; anew: lines
+//          have no past; segment: px; steps: an arm's length in segments, at most kArm; cutOff:
+//          cosine; wander: rad; past: the past's share.
+// Outputs: lines. One invocation per anchor.
+// Precision: highp.
+#include "pipeline/gpu/shaders/hash.glsl"
+#include "pipeline/marks/shaders/anchor.glsl"
+#include "pipeline/marks/shaders/mover_labels.glsl"
+#include "pipeline/marks/shaders/stroke_history.glsl"
+#include "pipeline/scene/render/shaders/object_id.glsl"
+#include "pipeline/styles/hatching/shaders/line.glsl"
+layout(local_size_x = 64) in;
+layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
+layout(std430, binding = 1) buffer Lines { Line lines[]; };
+#include "pipeline/styles/hatching/shaders/field.glsl"
+#include "pipeline/styles/hatching/shaders/tone.glsl"
+uniform highp usampler2D ids;
+uniform bool hasObjects;
+uniform vec2 pixelsOfFull;
+uniform uint slots;
+uniform bool anew;
+uniform float cellPixels;
+uniform float segment;
+uniform float steps;
+uniform float cutOff;
+uniform float wander;
+uniform float spread;  // px: the random part of a new line's offset, ±
+uniform float past;
+
+// 0 for all real content: the camera image goes on over occluders.
+uint paintedObject(uint object) { return isVirtual(object) ? object : 0u; }
+
+uint objectAt(vec2 px) {
+  ivec2 pixel = clamp(ivec2(floor(px * pixelsOfFull)), ivec2(0), textureSize(ids, 0) - 1);
+  return paintedObject(objectOf(texelFetch(ids, pixel, 0).r));
+}
+
+bool isOther(vec2 px, uint object, bool isOnMover) {
+  if (hasObjects && objectAt(px) != object) return true;
+  return object == 0u && (moverAt(px).r > 0.5) != isOnMover;
+}
+
+vec2 turned(vec2 way, float angle) {
+  float c = cos(angle);
+  float s = sin(angle);
+  return vec2(c * way.x - s * way.y, s * way.x + c * way.y);
+}
+
+struct Arm {
+  vec2 ways[kArm];
+  float length;
+};
+
+Arm walk(vec2 from, vec2 heading, float bend, float most, uint object, bool isOnMover) {
+  Arm arm;
+  arm.length = most;
+  bool goesOn = true;
+  vec2 at = from;
+  for (int i = 0; i < kArm; ++i) {
+    vec2 way = turned(directionAt(at + 0.5 * segment * heading, isOnMover),
+                      bend * (float(i) + 0.5) / float(kArm));
+    float along = dot(way, heading);
+    if (along < 0.0) way = -way;
+    if (goesOn && abs(along) < cutOff) {
+      goesOn = false;
+      arm.length = min(arm.length, float(i));
+    }
+    arm.ways[i] = way;
+    vec2 to = at + segment * way;
+    if (goesOn && isOther(to, object, isOnMover)) {
+      bool isEarly = isOther(at + 0.5 * segment * way, object, isOnMover);
+      arm.length = min(arm.length, float(i) + (isEarly ? 0.25 : 0.75));
+      goesOn = false;
+    }
+    at = to;
+    heading = way;
+  }
+  return arm;
+}
+
+// Low discrepancy: ranks of neighbouring cells are far apart, so that any tone is even (Roberts,
+// "The unreasonable effectiveness of quasirandom sequences", 2018).
+float rankOf(vec2 px, uint seed) {
+  vec2 cell = floor(px / cellPixels);
+  float base = dot(cell, vec2(0.7548776662, 0.5698402910));
+  return fract(base + 0.5 * float(seed & 1u) + 0.25 * unitOf(hashOf(seed ^ 0x41u)));
+}
+
+void main() {
+  uint slot = gl_GlobalInvocationID.x;
+  if (slot >= slots) return;
+  uint state = anchors[slot].state;
+  if (!isAlive(state)) {
+    lines[slot].seen = 0.0;
+    return;
+  }
+  vec2 px = anchors[slot].px;
+  uint seed = anchors[slot].seed;
+  uint object = hasObjects ? paintedObject(objectOf(anchors[slot].surface)) : 0u;
+  bool isNew = anew || (state & kBorn) != 0u;
+  bool isOnMover = (state & kMover) != 0u;
+  Line line = lines[slot];
+  if (isNew) {
+    line.rank = rankOf(px, seed);
+    line.bend = 2.0 * unitOf(hashOf(seed ^ 0x42u)) - 1.0;
+    line.offset = spread * (2.0 * unitOf(hashOf(seed ^ 0x43u)) - 1.0);
+  }
+  // What is before it has other directions: it stays as it is.
+  bool isHeld = !isNew && (state & (kHidden | kCovered)) != 0u;
+  if (!isHeld) {
+    float stray = wander * (2.0 * unitOf(hashOf(seed ^ 0x44u)) - 1.0);
+    vec2 heading = turned(directionAt(px, isOnMover), stray);
+    vec4 jacobian = anchors[slot].jacobian;
+    if (!isNew) {
+      // Keeps the previous orientation.
+      vec2 was = wayOf(line.ways, 0, 0);
+      if (dot(jacobian.xy * was.x + jacobian.zw * was.y, heading) < 0.0) heading = -heading;
+    }
+    vec2 from = px + line.offset * acrossOf(heading);
+    if (isOther(from, object, isOnMover)) from = px;
+    float most = steps * (0.75 + 0.25 * line.bend);
+    float bend = stray + 0.5 * wander * line.bend;
+    for (int side = 0; side < 2; ++side) {
+      Arm arm = walk(from, side == 0 ? heading : -heading, side == 0 ? bend : -bend, most, object,
+                     isOnMover);
+      vec2 before = side == 0 ? heading : -heading;
+      for (int i = 0; i < kArm; ++i) {
+        vec2 way = arm.ways[i];
+        if (!isNew) way = heldDirection(way, wayOf(line.ways, side, i), jacobian, past);
+        if (dot(way, before) < 0.0) way = -way;
+        before = way;
+        int at = side * kArm + i;
+        line.ways[at >> 2][at & 3] = packSnorm2x16(way);
+      }
+      line.lengths[side] = isNew ? arm.length : mix(arm.length, line.lengths[side], past);
+    }
+  }
+  bool isFront = isOnMover || object != 0u;
+  float most = toneAt(px, isFront);
+  for (int side = 0; side < 2; ++side) {
+    vec2 at = px;
+    for (int i = 0; i < kArm; ++i) {
+      at += segment * wayOf(line.ways, side, i);
+      if (float(i) < line.lengths[side]) most = max(most, toneAt(at, isFront));
+    }
+  }
+  line.seen = anchors[slot].fade * halfWidthOf(most, line.rank);
+  lines[slot] = line;
+}
