@@ -11,7 +11,19 @@ namespace pleinair::styles {
 namespace {
 
 const std::string kShaders = "pipeline/styles/hatching/shaders/";
-constexpr int kArm = 8;  // shaders/line.glsl
+constexpr int kArm = 8;             // shaders/line.glsl
+constexpr int kShiftColumns = 128;  // shaders/line_shift.glsl
+/// Lines that far apart, in spacings, are kept in step.
+constexpr double kReachSpacings = 5.0;
+constexpr double kAlignSeconds = 2.0;
+/// Of a first frame, from random places.
+constexpr int kFirstSteps = 24;
+constexpr float kFirstPast = 0.3F;
+
+gpu::Texture shiftsOf(std::uint32_t slots) {
+  const int rows = (static_cast<int>(slots) + kShiftColumns - 1) / kShiftColumns;
+  return {gpu::TextureFormat::kRgba32f, {kShiftColumns, rows}};
+}
 
 int cellOf(const HatchPlan& plan) {
   constexpr double kAnchorsOfCell = 2.0;  // marks::DensityRule::target
@@ -45,15 +57,22 @@ HatchLines::HatchLines(const gpu::ShaderLibrary& library, hal::FrameSize full,
       anchors_(library, full, {.density = {.cellPixels = cellOf(plan)}, .seed = plan.seed}),
       slots_(anchors_.slotCount()),
       segmentPx_(static_cast<float>(plan.lengthPx / (2 * kArm))),
+      points_(library.compute(kShaders + "line_points.comp")),
+      align_(library.compute(kShaders + "line_align.comp")),
       trace_(library.compute(kShaders + "line_trace.comp")),
       order_(library.compute(kShaders + "line_order.comp")),
       lay_(library.compute(kShaders + "line_instances.comp")),
       stripMaker_(library, StrokeForm::kLong),
+      bins_(library),
+      binned_(slots_ * sizeof(marks::BinnedPoint), gpu::BufferUsage::kDynamic),
+      shifts_{shiftsOf(slots_), shiftsOf(slots_)},
       lines_(slots_ * kLineBytes, gpu::BufferUsage::kDynamic),
       ranks_(slots_ * sizeof(std::uint32_t), gpu::BufferUsage::kDynamic),
       command_(gpu::kDrawCommandBytes, gpu::BufferUsage::kDynamic),
       instances_(slots_ * instanceBytesOf(StrokeForm::kLong), gpu::BufferUsage::kDynamic),
       noIds_(gpu::TextureFormat::kR32ui, {1, 1}) {
+  const int bin = static_cast<int>(std::lround(kReachSpacings * plan.spacingPx));
+  bins_.allocate({std::max(1, full.width / bin), std::max(1, full.height / bin)}, slots_);
   lines_.write(std::vector<std::byte>(lines_.sizeBytes()));
 }
 
@@ -61,8 +80,53 @@ void HatchLines::update(const scene::ArFrame& frame, const Inputs& inputs, const
   const hal::Duration step = marks::timeStep(lastTime_, frame.captureTime);
   lastTime_ = frame.captureTime;
   anchors_.advance(frame, *inputs.motion, {}, inputs.movers);
+  align(frame, inputs, rule, step);
   trace(frame, inputs, rule, step);
   layOut(frame, inputs, rule);
+}
+
+void HatchLines::bindField(gpu::Program& program, const marks::TensorField& field,
+                           const HatchRule& rule, std::size_t level) const {
+  program.texture("field", field.resolved(level))
+      .texture("moverField", field.movers())
+      .set("fieldScale", scaleOf(field, level))
+      .set("moverScale", scaleOf(field, 0))
+      .set("slope", rule.slope)
+      .set("lead", rule.lead)
+      .set("turn", glm::vec2(std::cos(rule.turnRad), std::sin(rule.turnRad)));
+}
+
+void HatchLines::align(const scene::ArFrame& frame, const Inputs& inputs, const HatchRule& rule,
+                       hal::Duration step) {
+  points_.use()
+      .storage("Anchors", anchors_.anchors())
+      .storage("Points", binned_)
+      .set("slots", slots_)
+      .dispatch({static_cast<int>(slots_), 1}, GL_SHADER_STORAGE_BARRIER_BIT);
+  bins_.sort(binned_, frame.full());
+  const bool isAnew = anchors_.hasBegunAnew();
+  const int steps = isAnew ? kFirstSteps : 1;
+  const std::size_t level = std::min(rule.fieldLevel, inputs.field->levelCount() - 1);
+  for (int i = 0; i < steps; ++i) {
+    align_.use()
+        .storage("Anchors", anchors_.anchors())
+        .storage("Starts", bins_.starts())
+        .storage("Sorted", bins_.sorted())
+        .texture("before", shifts_[latest_])
+        .image("shifts", shifts_[1 - latest_], gpu::ImageAccess::kWrite)
+        .set("bins", bins_.bins())
+        .set("binPixels", bins_.binPixels(frame.full()))
+        .set("slots", slots_)
+        .set("anew", isAnew && i == 0 ? 1 : 0)
+        .set("isFirst", isAnew ? 1 : 0)
+        .set("spacing", static_cast<float>(plan_.spacingPx))
+        .set("reach", static_cast<float>(kReachSpacings * plan_.spacingPx))
+        .set("past", isAnew ? kFirstPast : marks::keptAfter(step, kAlignSeconds));
+    bindField(align_, *inputs.field, rule, level);
+    align_.dispatch({static_cast<int>(slots_), 1},
+                    GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    latest_ = 1 - latest_;
+  }
 }
 
 void HatchLines::trace(const scene::ArFrame& frame, const Inputs& inputs, const HatchRule& rule,
@@ -72,17 +136,11 @@ void HatchLines::trace(const scene::ArFrame& frame, const Inputs& inputs, const 
   trace_.use()
       .storage("Anchors", anchors_.anchors())
       .storage("Lines", lines_)
-      .texture("field", field.resolved(level))
-      .texture("moverField", field.movers())
+      .texture("shifts", shifts_[latest_])
       .texture("movers", layerTextures_.labelsOf(inputs.movers))
       .texture("ids", frame.hasObjects ? *frame.ids : noIds_)
       .set("hasObjects", frame.hasObjects ? 1 : 0)
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
-      .set("fieldScale", scaleOf(field, level))
-      .set("moverScale", scaleOf(field, 0))
-      .set("slope", rule.slope)
-      .set("lead", rule.lead)
-      .set("turn", glm::vec2(std::cos(rule.turnRad), std::sin(rule.turnRad)))
       .set("slots", slots_)
       .set("anew", anchors_.hasBegunAnew() ? 1 : 0)
       .set("cellPixels", static_cast<float>(anchors_.options().density.cellPixels))
@@ -90,8 +148,9 @@ void HatchLines::trace(const scene::ArFrame& frame, const Inputs& inputs, const 
       .set("steps", static_cast<float>(kArm))
       .set("cutOff", std::cos(rule.cutOffRad))
       .set("wander", rule.wanderRad)
-      .set("spread", 0.5F * static_cast<float>(plan_.spacingPx))
+      .set("jitter", (1.0F - rule.evenness) * 0.5F * static_cast<float>(plan_.spacingPx))
       .set("past", marks::keptAfter(step, hal::toSeconds(rule.shapeMemory)));
+  bindField(trace_, field, rule, level);
   bindHatchTone(trace_, frame, *inputs.tone, rule);
   trace_.dispatch({static_cast<int>(slots_), 1}, GL_SHADER_STORAGE_BARRIER_BIT);
 }

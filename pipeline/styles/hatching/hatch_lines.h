@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -15,6 +16,7 @@
 #include "pipeline/marks/layer_textures.h"
 #include "pipeline/marks/motion_field.h"
 #include "pipeline/marks/motion_layers.h"
+#include "pipeline/marks/point_bins.h"
 #include "pipeline/marks/tensor_field.h"
 #include "pipeline/scene/render/ar_frame.h"
 #include "pipeline/styles/strokes/stroke_strips.h"
@@ -45,7 +47,7 @@ struct HatchRule {
   float wanderRad = 0.0F;
   float cutOffRad = 0.6F;
   float taper = 0.2F;
-  float evenness = 0.0F;
+  float evenness = 0.0F;  ///< of the spacing; 0: by chance
   std::size_t fieldLevel = 0;
   hal::Duration shapeMemory = std::chrono::milliseconds(650);  ///< time constant; 0: none
   glm::vec4 paint{0.0F, 0.0F, 0.0F, 1.0F};
@@ -88,6 +90,10 @@ class HatchLines {
   void reset() { anchors_.reset(); }
 
  private:
+  void bindField(gpu::Program& program, const marks::TensorField& field, const HatchRule& rule,
+                 std::size_t level) const;
+  void align(const scene::ArFrame& frame, const Inputs& inputs, const HatchRule& rule,
+             hal::Duration step);
   void trace(const scene::ArFrame& frame, const Inputs& inputs, const HatchRule& rule,
              hal::Duration step);
   void layOut(const scene::ArFrame& frame, const Inputs& inputs, const HatchRule& rule);
@@ -96,10 +102,16 @@ class HatchLines {
   marks::AnchorSet anchors_;
   std::uint32_t slots_;
   float segmentPx_;
+  gpu::Program points_;
+  gpu::Program align_;
   gpu::Program trace_;
   gpu::Program order_;
   gpu::Program lay_;
   StrokeStripMaker stripMaker_;
+  marks::PointBins bins_;
+  gpu::Buffer binned_;
+  std::array<gpu::Texture, 2> shifts_;  // of this step and the previous one
+  std::size_t latest_ = 0;
   gpu::Buffer lines_;
   gpu::Buffer ranks_;
   gpu::Buffer command_;

@@ -6,7 +6,8 @@
 // Precision: highp for places.
 #ifdef CLIPPED
 #include "pipeline/marks/shaders/mover_labels.glsl"
-#include "pipeline/scene/render/shaders/object_id.glsl"
+#include "pipeline/marks/shaders/anchor.glsl"
+#include "pipeline/styles/hatching/shaders/line_support.glsl"
 uniform highp usampler2D ids;
 uniform bool hasObjects;
 #endif
@@ -24,8 +25,6 @@ const float kVariants = 4.0;
 const float kAspect = 4.0;    // of a brush's mark
 
 #ifdef CLIPPED
-const uint kOnMover = 511u;
-
 bool isWithin() {
   uint own = object & 0xFFFFu;
   uint here = hasObjects ? objectOf(texelFetch(ids, ivec2(gl_FragCoord.xy), 0).r) : 0u;

@@ -8,16 +8,12 @@ struct Line {
   vec2 lengths;   // of each arm, in segments
   float rank;     // the line exists where its set's tone exceeds it; in [0, 1), for life
   float seen;     // half of its largest width, px
-  float offset;   // from the anchor, across the line: px
+  vec2 shift;     // from the anchor to the line, px
   float bend;     // random for life: how the hand strays, in [-1, 1]
-  float spare0;
-  float spare1;
+  float spare;
 };
 
 vec2 wayOf(uvec4 ways[4], int arm, int i) {
   int at = arm * kArm + i;
   return unpackSnorm2x16(ways[at >> 2][at & 3]);
 }
-
-// To the line's left.
-vec2 acrossOf(vec2 way) { return vec2(-way.y, way.x); }

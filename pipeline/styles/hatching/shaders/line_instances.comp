@@ -7,8 +7,8 @@
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
-#include "pipeline/scene/render/shaders/object_id.glsl"
 #include "pipeline/styles/hatching/shaders/line.glsl"
+#include "pipeline/styles/hatching/shaders/line_support.glsl"
 #include "pipeline/styles/strokes/shaders/long_instance.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
@@ -22,7 +22,6 @@ uniform float taper;
 uniform vec4 paint;
 uniform float rankColour;
 
-const uint kOnMover = 511u;  // in place of an object
 const int kPoints = 16;
 
 void main() {
@@ -31,10 +30,9 @@ void main() {
   uint place = ranks[slot];
   if (place == 0xFFFFFFFFu) return;
   Line line = lines[slot];
-  uint object = objectOf(anchors[slot].surface);
-  bool isOnMover = (anchors[slot].state & kMover) != 0u;
-  bool isFront = isOnMover || isVirtual(object);
-  vec2 from = anchors[slot].px + line.offset * acrossOf(wayOf(line.ways, 0, 0));
+  uint support = supportOf(anchors[slot].surface, anchors[slot].state);
+  bool isFront = support != 0u;
+  vec2 from = anchors[slot].px + line.shift;
   Instance made;
   float widest = 0.0;
   int arm = 1;
@@ -58,8 +56,7 @@ void main() {
   for (int i = 0; i < 8; ++i) made.points[i] = vec4(points[2 * i], points[2 * i + 1]);
   vec3 byRank = mix(vec3(0.9, 0.15, 0.1), vec3(0.1, 0.3, 0.95), line.rank);
   made.paint = vec4(mix(paint.rgb, byRank, rankColour), paint.a);
-  uint clipped = isVirtual(object) ? object : isOnMover ? kOnMover : 0u;
-  made.shape = vec4(widest, float(hashOf(anchors[slot].seed ^ 0x31u) & 3u), float(clipped),
+  made.shape = vec4(widest, float(hashOf(anchors[slot].seed ^ 0x31u) & 3u), float(support),
                     line.rank);
   instances[place] = made;
 }

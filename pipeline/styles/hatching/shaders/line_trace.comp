@@ -1,9 +1,9 @@
 // Purpose: traces each anchor's line along the field, both ways, and blends it with its past, so
 //          that a line lives as long as its anchor. It ends at borders of objects and movers, and
 //          where the field turns too sharply; where the tone asks for no line, its width is 0.
-// Inputs:  anchors; field.glsl's and tone.glsl's; mover_labels.glsl's; ids if hasObjects; aligned:
-//          of each slot, the offset that line_align.comp found (px), if hasAligned; anew: lines
-//          have no past; segment: px; steps: an arm's length in segments, at most kArm; cutOff:
+// Inputs:  anchors; field.glsl's and tone.glsl's; mover_labels.glsl's; ids if hasObjects; shifts:
+//          those of line_align.comp; jitter: px by which lines are off at random, ±; anew: lines
+//          have no past; cellPixels: of the anchors; segment: px; steps: an arm's length in segments, at most kArm; cutOff:
 //          cosine; wander: rad; past: the past's share.
 // Outputs: lines. One invocation per anchor.
 // Precision: highp.
@@ -11,8 +11,9 @@
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/mover_labels.glsl"
 #include "pipeline/marks/shaders/stroke_history.glsl"
-#include "pipeline/scene/render/shaders/object_id.glsl"
 #include "pipeline/styles/hatching/shaders/line.glsl"
+#include "pipeline/styles/hatching/shaders/line_shift.glsl"
+#include "pipeline/styles/hatching/shaders/line_support.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
 layout(std430, binding = 1) buffer Lines { Line lines[]; };
@@ -28,20 +29,16 @@ uniform float segment;
 uniform float steps;
 uniform float cutOff;
 uniform float wander;
-uniform float spread;  // px: the random part of a new line's offset, ±
+uniform highp sampler2D shifts;
+uniform float jitter;
 uniform float past;
 
-// 0 for all real content: the camera image goes on over occluders.
-uint paintedObject(uint object) { return isVirtual(object) ? object : 0u; }
-
-uint objectAt(vec2 px) {
+uint supportAt(vec2 px) {
   ivec2 pixel = clamp(ivec2(floor(px * pixelsOfFull)), ivec2(0), textureSize(ids, 0) - 1);
-  return paintedObject(objectOf(texelFetch(ids, pixel, 0).r));
-}
-
-bool isOther(vec2 px, uint object, bool isOnMover) {
-  if (hasObjects && objectAt(px) != object) return true;
-  return object == 0u && (moverAt(px).r > 0.5) != isOnMover;
+  uint object = hasObjects ? objectOf(texelFetch(ids, pixel, 0).r) : 0u;
+  if (isVirtual(object)) return object;
+  // The camera image goes on over occluders.
+  return moverAt(px).r > 0.5 ? kOnMover : 0u;
 }
 
 vec2 turned(vec2 way, float angle) {
@@ -55,13 +52,13 @@ struct Arm {
   float length;
 };
 
-Arm walk(vec2 from, vec2 heading, float bend, float most, uint object, bool isOnMover) {
+Arm walk(vec2 from, vec2 heading, float bend, float most, uint support) {
   Arm arm;
   arm.length = most;
   bool goesOn = true;
   vec2 at = from;
   for (int i = 0; i < kArm; ++i) {
-    vec2 way = turned(directionAt(at + 0.5 * segment * heading, isOnMover),
+    vec2 way = turned(directionAt(at + 0.5 * segment * heading, support == kOnMover),
                       bend * (float(i) + 0.5) / float(kArm));
     float along = dot(way, heading);
     if (along < 0.0) way = -way;
@@ -71,8 +68,8 @@ Arm walk(vec2 from, vec2 heading, float bend, float most, uint object, bool isOn
     }
     arm.ways[i] = way;
     vec2 to = at + segment * way;
-    if (goesOn && isOther(to, object, isOnMover)) {
-      bool isEarly = isOther(at + 0.5 * segment * way, object, isOnMover);
+    if (goesOn && supportAt(to) != support) {
+      bool isEarly = supportAt(at + 0.5 * segment * way) != support;
       arm.length = min(arm.length, float(i) + (isEarly ? 0.25 : 0.75));
       goesOn = false;
     }
@@ -100,33 +97,32 @@ void main() {
   }
   vec2 px = anchors[slot].px;
   uint seed = anchors[slot].seed;
-  uint object = hasObjects ? paintedObject(objectOf(anchors[slot].surface)) : 0u;
+  uint support = supportOf(anchors[slot].surface, state);
   bool isNew = anew || (state & kBorn) != 0u;
-  bool isOnMover = (state & kMover) != 0u;
   Line line = lines[slot];
   if (isNew) {
     line.rank = rankOf(px, seed);
     line.bend = 2.0 * unitOf(hashOf(seed ^ 0x42u)) - 1.0;
-    line.offset = spread * (2.0 * unitOf(hashOf(seed ^ 0x43u)) - 1.0);
   }
   // What is before it has other directions: it stays as it is.
   bool isHeld = !isNew && (state & (kHidden | kCovered)) != 0u;
   if (!isHeld) {
     float stray = wander * (2.0 * unitOf(hashOf(seed ^ 0x44u)) - 1.0);
-    vec2 heading = turned(directionAt(px, isOnMover), stray);
+    vec2 heading = turned(directionAt(px, support == kOnMover), stray);
     vec4 jacobian = anchors[slot].jacobian;
     if (!isNew) {
       // Keeps the previous orientation.
       vec2 was = wayOf(line.ways, 0, 0);
       if (dot(jacobian.xy * was.x + jacobian.zw * was.y, heading) < 0.0) heading = -heading;
     }
-    vec2 from = px + line.offset * acrossOf(heading);
-    if (isOther(from, object, isOnMover)) from = px;
+    vec2 shift = texelFetch(shifts, shiftTexel(int(slot)), 0).xy;
+    shift += jitter * (2.0 * unitOf(hashOf(seed ^ 0x45u)) - 1.0) * vec2(-heading.y, heading.x);
+    line.shift = shift;
+    vec2 from = px + shift;
     float most = steps * (0.75 + 0.25 * line.bend);
     float bend = stray + 0.5 * wander * line.bend;
     for (int side = 0; side < 2; ++side) {
-      Arm arm = walk(from, side == 0 ? heading : -heading, side == 0 ? bend : -bend, most, object,
-                     isOnMover);
+      Arm arm = walk(from, side == 0 ? heading : -heading, side == 0 ? bend : -bend, most, support);
       vec2 before = side == 0 ? heading : -heading;
       for (int i = 0; i < kArm; ++i) {
         vec2 way = arm.ways[i];
@@ -139,10 +135,10 @@ void main() {
       line.lengths[side] = isNew ? arm.length : mix(arm.length, line.lengths[side], past);
     }
   }
-  bool isFront = isOnMover || object != 0u;
-  float most = toneAt(px, isFront);
+  bool isFront = support != 0u;
+  float most = toneAt(px + line.shift, isFront);
   for (int side = 0; side < 2; ++side) {
-    vec2 at = px;
+    vec2 at = px + line.shift;
     for (int i = 0; i < kArm; ++i) {
       at += segment * wayOf(line.ways, side, i);
       if (float(i) < line.lengths[side]) most = max(most, toneAt(at, isFront));
