@@ -15,7 +15,7 @@ constexpr int kArm = 8;             // shaders/line.glsl
 constexpr int kShiftColumns = 128;  // shaders/line_shift.glsl
 /// Lines that far apart, in spacings, are kept in step.
 constexpr double kReachSpacings = 5.0;
-constexpr double kAlignSeconds = 2.0;
+constexpr double kAlignSeconds = 6.0;
 /// Of a first frame, from random places.
 constexpr int kFirstSteps = 24;
 constexpr float kFirstPast = 0.3F;

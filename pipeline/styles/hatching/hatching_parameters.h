@@ -43,7 +43,7 @@ struct HatchingParameters {
   double paperRed = 0.97;
   double paperGreen = 0.955;
   double paperBlue = 0.92;
-  double shapeTimeSeconds = 0.65;
+  double shapeTimeSeconds = 2.0;
   double filterTimeSeconds = 0.3;
   bool movers = true;
 };
