@@ -128,7 +128,7 @@ struct Canvas {
         halfTone(TextureFormat::kRgba16f, halfOf(size), TextureFilter::kLinear),
         tone(TextureFormat::kRgba16f, halfOf(halfOf(size)), TextureFilter::kLinear),
         edges(TextureFormat::kRg16f, size, TextureFilter::kLinear),
-        contours(TextureFormat::kR8, size, TextureFilter::kLinear),
+        contours(TextureFormat::kRg8, size, TextureFilter::kLinear),
         ink(TextureFormat::kRgba8, size, TextureFilter::kLinear),
         picture(TextureFormat::kRgba8, size, TextureFilter::kLinear),
         halfToneTarget({&halfTone}),
@@ -350,6 +350,7 @@ void Hatching::State::finish(const scene::ArFrame& frame, const HatchingParamete
       .texture("normalFocus", frame.hasFocus ? *frame.normalFocus : *frame.colour)
       .set("hasFocus", frame.hasFocus ? 1 : 0)
       .set("contourWeight", static_cast<float>(p.contours))
+      .set("lift", static_cast<float>(p.lift))
       .set("inkColour", inkOf(p))
       .set("paperColour", glm::vec3(p.paperRed, p.paperGreen, p.paperBlue))
       .set("tooth", static_cast<float>(p.tooth))

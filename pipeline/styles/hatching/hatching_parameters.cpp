@@ -62,6 +62,8 @@ const config::ParameterTable<HatchingParameters>& hatchingParameters() {
       switchParameter("inverted", &P::inverted,
                       "Light lines on a dark ground: they draw what is light."),
       numberParameter("contours", &P::contours, kPart, "How strong contour lines are."),
+      numberParameter("lift", &P::lift, kPart,
+                      "How bare lines leave the light side of edges, which is seen in the darks."),
       numberParameter("contour_threshold", &P::contourThreshold, {.min = 0.002, .max = 0.3},
                       "The least edge of the picture that is a contour line."),
       numberParameter("contour_width", &P::contourWidth, {.min = 0.5, .max = 4, .unit = "px"},
@@ -103,8 +105,8 @@ lead = 0.35
 cross = 30
 evenness = 0.3
 wander = 0.14
-opacity = 0.5
-darkness = 1.15
+opacity = 0.55
+darkness = 1.2
 gamma = 1.0
 brush = "pencil"
 grain = 0.55
@@ -120,7 +122,7 @@ directions = 2
 spacing = 4.4
 length = 110
 coverage = 2.6
-width = 3.4
+width = 2.9
 swell = 1
 lead = 1
 cross = 70
@@ -128,9 +130,10 @@ evenness = 1
 wander = 0
 cut_off = 25
 taper = 0.1
-gamma = 1
-paper_tone = 0.03
-contours = 0.7
+darkness = 1.05
+gamma = 1.35
+paper_tone = 0.04
+contours = 0.8
 grain = 0
 tooth = 0
 relief = 0.03
@@ -147,12 +150,11 @@ lead = 0.3
 evenness = 1
 wander = 0.01
 inverted = true
-darkness = 0.9
-gamma = 1.6
-paper_tone = 0.25
+gamma = 1.3
+paper_tone = 0.12
 contours = 1
-contour_threshold = 0.018
-opacity = 0.6
+contour_threshold = 0.014
+opacity = 0.65
 grain = 0
 tooth = 0.1
 ink_red = 0.86

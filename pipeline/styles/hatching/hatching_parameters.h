@@ -31,7 +31,8 @@ struct HatchingParameters {
   double paperTone = 0.06;  // lighter tones are left bare
   bool inverted = false;
   double contours = 0.9;
-  double contourThreshold = 0.025;
+  double lift = 0.75;
+  double contourThreshold = 0.018;
   double contourWidth = 1.0;
   Brush brush = Brush::kMarker;
   double grain = 0.15;

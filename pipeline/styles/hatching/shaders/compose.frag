@@ -1,6 +1,7 @@
 // Purpose: ink on paper: the paper's tooth keeps dry ink from its hollows. What is in focus stays
 //          as the camera sees it.
-// Inputs:  ink (line.frag); contours (contours.frag); contourWeight; substrate.glsl's: the paper;
+// Inputs:  ink (line.frag); contours (contours.frag); contourWeight; lift: how bare lines leave the
+//          other side of edges; substrate.glsl's: the paper;
 //          inkColour; paperColour; tooth: how much the hollows stay bare; relief: how much of the
 //          paper's relief is seen; frame, normalFocus if hasFocus.
 // Outputs: RGBA8, sRGB-coded, opaque.
@@ -12,6 +13,7 @@ uniform sampler2D frame;
 uniform sampler2D normalFocus;
 uniform bool hasFocus;
 uniform float contourWeight;
+uniform float lift;
 uniform vec3 inkColour;
 uniform vec3 paperColour;
 uniform float tooth;
@@ -28,7 +30,9 @@ void main() {
   ivec2 p = ivec2(gl_FragCoord.xy);
   vec4 paper_ = sheetAt(onPaper(gl_FragCoord.xy), 1.0);
   vec4 lines = texelFetch(ink, p, 0);
-  float contour = contourWeight * texelFetch(contours, p, 0).r;
+  vec2 edge = texelFetch(contours, p, 0).rg;
+  float contour = contourWeight * edge.r;
+  lines *= 1.0 - lift * edge.g;
   float amount = 1.0 - (1.0 - lines.a) * (1.0 - contour);
   vec3 colour = (lines.rgb * (1.0 - contour) + inkColour * contour) / max(amount, 1e-4);
   amount *= caught(paper_.r, amount);

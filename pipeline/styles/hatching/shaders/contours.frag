@@ -5,7 +5,8 @@
 //          px between taps; threshold: the least difference that is a line, in luma; sign: -1 for
 //          lines on the dark side of edges, 1 for the light one; MODELS: ids, parts (if hasParts),
 //          normalFocus (ArFrame).
-// Outputs: R8: ink, in [0, 1].
+// Outputs: RG8: R ink, in [0, 1]; G the other side of edges, which stays bare where all around is
+//          dark (light, in inverted looks).
 // Precision: highp.
 #include "pipeline/marks/shaders/mover_labels.glsl"
 #include "pipeline/styles/hatching/shaders/contour_field.glsl"
@@ -20,7 +21,7 @@ uniform sampler2D edges;
 uniform float step_;
 uniform float threshold;
 uniform float sign_;
-layout(location = 0) out float contour;
+layout(location = 0) out vec2 contour;
 
 const float kSmooth[4] = float[4](0.24, 0.2, 0.12, 0.06);
 
@@ -37,21 +38,29 @@ uvec2 thingAt(ivec2 p) {
 
 vec3 normalAt(ivec2 p) { return normalize(texelFetch(normalFocus, p, 0).xyz * 2.0 - 1.0); }
 
-// The share of the surroundings that is another object, part or side.
+// Silhouettes, on both sides, by the share of the surroundings that is another object; lighter and
+// a pixel wide, borders between parts, and creases.
 float modelLines(ivec2 p) {
+  const float kPart = 0.7;
   ivec2 last = textureSize(ids, 0) - 1;
   uvec2 own = thingAt(p);
   float other = 0.0;
+  float inner = 0.0;
   for (int i = 0; i < 9; ++i) {
-    ivec2 at = clamp(p + ivec2(i % 3, i / 3) - 1, ivec2(0), last);
+    ivec2 step = ivec2(i % 3, i / 3) - 1;
+    ivec2 at = clamp(p + step, ivec2(0), last);
     uvec2 thing = thingAt(at);
-    bool isOther = thing != own;
-    if (!isOther && own.x != 0u) isOther = dot(normalAt(p), normalAt(at)) < kCrease;
-    ivec2 step = at - p;
     float weight = float((2 - abs(step.x)) * (2 - abs(step.y))) / 16.0;
-    other += isOther ? weight : 0.0;
+    if (thing.x != own.x) other += weight;
+    if (thing.x != own.x || own.x == 0u || (i != 5 && i != 7)) continue;
+    if (thing.y != own.y) {
+      inner = kPart;
+    } else {
+      float turn = dot(normalAt(p), normalAt(at));
+      inner = max(inner, kPart * (1.0 - smoothstep(kCrease - 0.3, kCrease, turn)));
+    }
   }
-  return smoothstep(0.05, 0.25, other);
+  return max(smoothstep(0.05, 0.25, other), inner);
 }
 #endif
 
@@ -66,9 +75,9 @@ void main() {
       sum += kSmooth[i] * edgeAt(at);
     }
   }
-  contour = smoothstep(0.6 * threshold, 1.4 * threshold, sign_ * sum);
+  contour = smoothstep(vec2(0.6 * threshold), vec2(1.4 * threshold), vec2(sign_, -sign_) * sum);
 #ifdef MODELS
   ivec2 p = ivec2(gl_FragCoord.xy);
-  contour = max(contour, modelLines(p));
+  contour.r = max(contour.r, modelLines(p));
 #endif
 }
