@@ -71,7 +71,7 @@ HatchLines::HatchLines(const gpu::ShaderLibrary& library, hal::FrameSize full,
       command_(gpu::kDrawCommandBytes, gpu::BufferUsage::kDynamic),
       instances_(slots_ * instanceBytesOf(StrokeForm::kLong), gpu::BufferUsage::kDynamic),
       noIds_(gpu::TextureFormat::kR32ui, {1, 1}) {
-  const int bin = static_cast<int>(std::lround(kReachSpacings * plan.spacingPx));
+  const int bin = std::max(8, static_cast<int>(std::lround(kReachSpacings * plan.spacingPx)));
   bins_.allocate({std::max(1, full.width / bin), std::max(1, full.height / bin)}, slots_);
   lines_.write(std::vector<std::byte>(lines_.sizeBytes()));
 }

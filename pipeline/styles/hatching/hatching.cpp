@@ -29,6 +29,9 @@ using gpu::TextureFormat;
 const std::string kShaders = "pipeline/styles/hatching/shaders/";
 /// Lengths are given for pictures of so many px (640x480).
 constexpr double kReferencePixels = 307200.0;
+/// In smaller images, lines would be thinner than a pixel.
+constexpr double kMinScale = 0.6;
+constexpr float kMinContourStep = 0.8F;  // px of the image
 constexpr std::size_t kMaxSets = 3;
 constexpr std::size_t kFieldLevel = 1;
 constexpr int kBrushTexelsAcross = 16;
@@ -66,7 +69,7 @@ constexpr std::array<std::array<glm::vec2, kMaxSets>, kMaxSets> kBands{{
 }};
 
 double scaleOf(hal::FrameSize full) {
-  return std::sqrt(static_cast<double>(full.pixels()) / kReferencePixels);
+  return std::max(kMinScale, std::sqrt(static_cast<double>(full.pixels()) / kReferencePixels));
 }
 
 /// What a change of makes new lines.
@@ -284,7 +287,8 @@ void Hatching::State::findContours(const scene::ArFrame& frame, const HatchingPa
   const glm::vec2 fieldScale(1.0 /
                              (field.regionPixels(0) * glm::dvec2(regions.width, regions.height)));
   const auto step =
-      static_cast<float>(p.contourWidth * scaleOf(frame.full()) * frame.pixelsOfFull().x);
+      std::max(kMinContourStep,
+               static_cast<float>(p.contourWidth * scaleOf(frame.full()) * frame.pixelsOfFull().x));
   const auto bindField = [&](gpu::Program& pass) {
     pass.texture("field", field.resolved(0))
         .texture("moverField", field.movers())

@@ -9,7 +9,7 @@
 namespace pleinair::styles {
 
 /// The parameters of the style, with their defaults. Lengths are in px of a full picture of
-/// 640x480.
+/// 640x480; they grow with the picture, and in small ones stay above 0.6 times as many.
 struct HatchingParameters {
   int seed = 1;
   int directions = 3;

@@ -56,7 +56,9 @@ void main() {
     uint end = starts[row * bins.x + high.x + 1];
     for (uint i = starts[row * bins.x + low.x]; i < end; ++i) {
       ivec4 point = sorted[i];
-      if (point.w == int(slot) || uint(point.z) != support) continue;
+      // A new line has no place yet, unless all are new.
+      uint other = isFirst ? uint(point.z) & ~kJustBorn : uint(point.z);
+      if (point.w == int(slot) || other != support) continue;
       vec2 there = pointPlace(point);
       vec2 apart = there - px;
       float near = dot(apart, apart) / (reach * reach);

@@ -1,6 +1,6 @@
 // Purpose: anchors as points for their neighbours to find (marks/point_bins.h).
 // Inputs:  anchors, slots of them.
-// Outputs: points, whose penalty is here the object that they lie on. One invocation per anchor.
+// Outputs: points, whose penalty is here what they lie on, and kJustBorn of new ones. One invocation per anchor.
 // Precision: integers.
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/point.glsl"
@@ -15,6 +15,6 @@ void main() {
   if (slot >= slots) return;
   uint state = anchors[slot].state;
   ivec4 point = pointAt(anchors[slot].px, 0.0, int(slot));
-  point.z = int(supportOf(anchors[slot].surface, state));
+  point.z = int(supportOf(anchors[slot].surface, state) | ((state & kBorn) != 0u ? kJustBorn : 0u));
   points[slot] = isAlive(state) ? point : kNoPoint;
 }

@@ -4,6 +4,7 @@
 // Precision: integers.
 #include "pipeline/scene/render/shaders/object_id.glsl"
 const uint kOnMover = 511u;  // in place of an object
+const uint kJustBorn = 0x10000u;
 
 uint supportOf(uint surface, uint state) {
   uint object = objectOf(surface);
