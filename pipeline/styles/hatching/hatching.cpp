@@ -51,6 +51,7 @@ constexpr auto kMin = CoherenceGate::Side::kMin;
 /// The limits that its drawings are held to (docs/measuring.md).
 constexpr std::array kGates{
     CoherenceGate{CoherenceMeasure::kNHw2, kMax, 0.10, false, GateMotion::kPan},
+    CoherenceGate{CoherenceMeasure::kNHw2, kMax, 0.20, false, GateMotion::kOtherKnown},
     CoherenceGate{CoherenceMeasure::kS10, kMin, 90, false, GateMotion::kPan},
     CoherenceGate{CoherenceMeasure::kPop, kMax, 5, false, GateMotion::kPan},
     CoherenceGate{CoherenceMeasure::kXFlk, kMax, 0.5},
