@@ -132,6 +132,7 @@ cut_off = 25
 taper = 0.1
 darkness = 1.05
 gamma = 1.35
+shape_time = 5
 paper_tone = 0.04
 contours = 0.8
 grain = 0

@@ -55,7 +55,7 @@ TEST_F(ContourTest, EdgesAreTheOracles) {
     }
     const double difference = narrow / narrowSum - wide / wideSum;
     most = std::max(most, std::abs(difference));
-    EXPECT_NEAR(row[static_cast<std::size_t>(x)], 0.5 + 8.0 * difference, 0.02) << x;
+    EXPECT_NEAR(row[static_cast<std::size_t>(x)], 0.5 + 8.0 * difference, 0.01) << x;
   }
   EXPECT_GT(most, 0.02);
 }

@@ -29,13 +29,15 @@ TEST_F(HatchingStyle, SameFramesGiveTheSameBytes) {
 TEST_F(HatchingStyle, AResetStartsAsNew) {
   Hatching style(library_);
   Hatching other(library_);
-  drawn(style, 5);
+  const auto first = drawn(style, 5);
   const hal::Image image = testPicture(kSize, 9);
   const auto wentOn = paint(style, next(image));
   style.reset();
   const auto anew = paint(style, next(image));
   EXPECT_NE(wentOn, anew) << "the past is to count";
   EXPECT_EQ(paint(other, next(image)), anew);
+  style.reset();
+  EXPECT_EQ(drawn(style, 5), first) << "lines that are born later know nothing of earlier ones";
 }
 
 TEST_F(HatchingStyle, EveryViewIsPaintedAtEverySize) {
