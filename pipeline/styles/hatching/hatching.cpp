@@ -129,12 +129,14 @@ HatchRule ruleOf(const HatchingParameters& p, const scene::ArFrame& frame, std::
 struct Canvas {
   explicit Canvas(hal::FrameSize pictureSize)
       : size(pictureSize),
+        luma(TextureFormat::kR8, size, TextureFilter::kLinear),
         halfTone(TextureFormat::kRgba16f, halfOf(size), TextureFilter::kLinear),
         tone(TextureFormat::kRgba16f, halfOf(halfOf(size)), TextureFilter::kLinear),
         edges(TextureFormat::kRg16f, size, TextureFilter::kLinear),
         contours(TextureFormat::kRg8, size, TextureFilter::kLinear),
         ink(TextureFormat::kRgba8, size, TextureFilter::kLinear),
         picture(TextureFormat::kRgba8, size, TextureFilter::kLinear),
+        lumaTarget({&luma}),
         halfToneTarget({&halfTone}),
         toneTarget({&tone}),
         edgesTarget({&edges}),
@@ -147,12 +149,14 @@ struct Canvas {
   }
 
   hal::FrameSize size;
+  Texture luma;
   Texture halfTone;
   Texture tone;
   Texture edges;
   Texture contours;
   Texture ink;
   Texture picture;
+  gpu::RenderTarget lumaTarget;
   gpu::RenderTarget halfToneTarget;
   gpu::RenderTarget toneTarget;
   gpu::RenderTarget edgesTarget;
@@ -189,6 +193,7 @@ struct Hatching::State {
   explicit State(const gpu::ShaderLibrary& shaders)
       : library(shaders),
         filtered(library),
+        lumaOnce(library.fragmentPass(kShaders + "luma.frag")),
         toneFirst(library.fragmentPass(kShaders + "tone.frag")),
         toneBlur(library.fragmentPass(kShaders + "tone_blur.frag")),
         contourEdges(library.fragmentPass(kShaders + "contour_edges.frag")),
@@ -204,6 +209,7 @@ struct Hatching::State {
 
   const gpu::ShaderLibrary& library;
   marks::FilteredFrame filtered;
+  gpu::Program lumaOnce;
   gpu::Program toneFirst;
   gpu::Program toneBlur;
   gpu::Program contourEdges;
@@ -267,8 +273,9 @@ void Hatching::State::follow(const scene::ArFrame& frame, const HatchingParamete
 }
 
 void Hatching::State::findTone(const scene::ArFrame& frame, const HatchingParameters& p) {
+  lumaOnce.use().texture("picture", *source).drawFullscreen(canvas->lumaTarget);
   toneFirst.use()
-      .texture("picture", *source)
+      .texture("lumas", canvas->luma)
       .texture("ids", frame.hasObjects ? *frame.ids : noIds)
       .texture("movers", layerTextures.labelsOf(moversOf(p)))
       .texture("background", layerTextures.backgroundOf(moversOf(p)))
@@ -300,7 +307,7 @@ void Hatching::State::findContours(const scene::ArFrame& frame, const HatchingPa
         .set("step_", step);
   };
   bindField(contourEdges.use());
-  contourEdges.texture("picture", *source).drawFullscreen(canvas->edgesTarget);
+  contourEdges.texture("luma", canvas->luma).drawFullscreen(canvas->edgesTarget);
   gpu::Program& pass = frame.hasObjects ? contourLinesOfModels : contourLines;
   bindField(pass.use());
   pass.texture("edges", canvas->edges)

@@ -1,14 +1,13 @@
 // Purpose: the difference of two Gaussians across the edges' direction (Kang et al., "Coherent line
 //          drawing", 2007): below 0 on the dark side of an edge, above it on the light one.
-// Inputs:  picture (marks::FilteredFrame, LINEAR), size: px; field: the finest tensors, moverField
+// Inputs:  luma (luma.frag, LINEAR), size: px; field: the finest tensors, moverField
 //          those of movers, fieldScale; mover_labels.glsl's; pixelsOfFull; step: px between taps,
 //          which is the narrower Gaussian's width.
 // Outputs: RG16F: the difference, in luma.
 // Precision: highp.
-#include "pipeline/gpu/shaders/luma.glsl"
 #include "pipeline/marks/shaders/mover_labels.glsl"
 #include "pipeline/styles/hatching/shaders/contour_field.glsl"
-uniform sampler2D picture;
+uniform sampler2D luma;
 uniform float step_;
 layout(location = 0) out vec2 edge;
 
@@ -22,7 +21,7 @@ void main() {
   for (int i = -4; i <= 4; ++i) {
     vec2 at = gl_FragCoord.xy + float(i) * step_ * gradient;
     int k = i < 0 ? -i : i;
-    difference += (kNarrow[k] - kWide[k]) * lumaOf(textureLod(picture, at / size, 0.0).rgb);
+    difference += (kNarrow[k] - kWide[k]) * textureLod(luma, at / size, 0.0).r;
   }
   edge = vec2(difference, 0.0);
 }

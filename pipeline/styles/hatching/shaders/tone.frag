@@ -1,6 +1,6 @@
 // Purpose: the luma of the image at half size, apart for the background, also behind movers, and
 //          for what is before it: models and movers.
-// Inputs:  picture (marks::FilteredFrame); ids (ArFrame) if hasObjects; mover_labels.glsl's;
+// Inputs:  lumas (luma.frag); ids (ArFrame) if hasObjects; mover_labels.glsl's;
 //          background (marks::MotionLayers); pixelsOfFull.
 // Outputs: RGBA16F: the background's luma, premultiplied by the share of the 2x2 pixels where it is
 //          known, which follows; the same of models and movers.
@@ -8,7 +8,7 @@
 #include "pipeline/gpu/shaders/luma.glsl"
 #include "pipeline/marks/shaders/mover_labels.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
-uniform sampler2D picture;
+uniform sampler2D lumas;
 uniform highp usampler2D ids;
 uniform highp sampler2D background;
 uniform bool hasObjects;
@@ -16,14 +16,14 @@ uniform highp vec2 pixelsOfFull;
 layout(location = 0) out vec4 tone;
 
 void main() {
-  ivec2 last = textureSize(picture, 0) - 1;
+  ivec2 last = textureSize(lumas, 0) - 1;
   ivec2 first = 2 * ivec2(gl_FragCoord.xy);
   vec2 px = 2.0 * gl_FragCoord.xy / pixelsOfFull;
   float mover = moverAt(px).r;
   vec4 sum = vec4(0.0);
   for (int i = 0; i < 4; ++i) {
     ivec2 at = min(first + ivec2(i & 1, i >> 1), last);
-    vec2 seen = vec2(0.25 * lumaOf(texelFetch(picture, at, 0).rgb), 0.25);
+    vec2 seen = vec2(0.25 * texelFetch(lumas, at, 0).r, 0.25);
     if (hasObjects && isVirtual(objectOf(texelFetch(ids, at, 0).r))) {
       sum.zw += seen;
     } else {
