@@ -47,6 +47,19 @@ vec2 turned(vec2 way, float angle) {
   return vec2(c * way.x - s * way.y, s * way.x + c * way.y);
 }
 
+// Whether a mover is at a line of the background, or at its end.
+bool reachesMover(vec2 px, Line line) {
+  float most = moverAt(px).r;
+  for (int side = 0; side < 2; ++side) {
+    vec2 at = px + line.shift;
+    for (int i = 0; i < kArm; ++i) {
+      at += segment * wayOf(line.ways, side, i);
+      if (float(i) < line.lengths[side] + 1.0) most = max(most, moverAt(at).r);
+    }
+  }
+  return most > 0.1;
+}
+
 struct Arm {
   vec2 ways[kArm];
   float length;
@@ -104,8 +117,9 @@ void main() {
     line.rank = rankOf(px, seed);
     line.bend = 2.0 * unitOf(hashOf(seed ^ 0x42u)) - 1.0;
   }
-  // What is before it has other directions: it stays as it is.
-  bool isHeld = !isNew && (state & (kHidden | kCovered)) != 0u;
+  // What is before it has other directions: it stays as it is, and is clipped.
+  bool isHeld = !isNew && ((state & (kHidden | kCovered)) != 0u ||
+                           (support == 0u && reachesMover(px, line)));
   if (!isHeld) {
     float stray = wander * (2.0 * unitOf(hashOf(seed ^ 0x44u)) - 1.0);
     vec2 heading = turned(directionAt(px, support == kOnMover), stray);
