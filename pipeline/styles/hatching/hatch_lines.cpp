@@ -16,6 +16,9 @@ constexpr int kShiftColumns = 128;  // shaders/line_shift.glsl
 /// Lines that far apart, in spacings, are kept in step.
 constexpr double kReachSpacings = 5.0;
 constexpr double kAlignSeconds = 6.0;
+/// Before a camera that stands, lines of the background are held so much longer: what passes beside
+/// them must not turn them.
+constexpr double kStandingHold = 100.0;
 /// Of a first frame, from random places.
 constexpr int kFirstSteps = 24;
 constexpr float kFirstPast = 0.3F;
@@ -29,6 +32,13 @@ int cellOf(const HatchPlan& plan) {
   constexpr double kAnchorsOfCell = 2.0;  // marks::DensityRule::target
   const double area = plan.spacingPx * plan.lengthPx / plan.coverage;
   return std::max(4, static_cast<int>(std::lround(std::sqrt(kAnchorsOfCell * area))));
+}
+
+/// The past's shares: of lines on models and movers, and of the background.
+glm::vec2 pastOf(hal::Duration step, double seconds, const marks::MotionLayers* movers) {
+  const bool isStanding = movers != nullptr && movers->hasStood();
+  return {marks::keptAfter(step, seconds),
+          marks::keptAfter(step, isStanding ? kStandingHold * seconds : seconds)};
 }
 
 /// Scale from px of the full image to texture coordinates of a field's level.
@@ -121,7 +131,7 @@ void HatchLines::align(const scene::ArFrame& frame, const Inputs& inputs, const 
         .set("isFirst", isAnew ? 1 : 0)
         .set("spacing", static_cast<float>(plan_.spacingPx))
         .set("reach", static_cast<float>(kReachSpacings * plan_.spacingPx))
-        .set("past", isAnew ? kFirstPast : marks::keptAfter(step, kAlignSeconds));
+        .set("past", isAnew ? glm::vec2(kFirstPast) : pastOf(step, kAlignSeconds, inputs.movers));
     bindField(align_, *inputs.field, rule, level);
     align_.dispatch({static_cast<int>(slots_), 1},
                     GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
@@ -149,7 +159,7 @@ void HatchLines::trace(const scene::ArFrame& frame, const Inputs& inputs, const 
       .set("cutOff", std::cos(rule.cutOffRad))
       .set("wander", rule.wanderRad)
       .set("jitter", (1.0F - rule.evenness) * 0.5F * static_cast<float>(plan_.spacingPx))
-      .set("past", marks::keptAfter(step, hal::toSeconds(rule.shapeMemory)));
+      .set("past", pastOf(step, hal::toSeconds(rule.shapeMemory), inputs.movers));
   bindField(trace_, field, rule, level);
   bindHatchTone(trace_, frame, *inputs.tone, rule);
   trace_.dispatch({static_cast<int>(slots_), 1}, GL_SHADER_STORAGE_BARRIER_BIT);

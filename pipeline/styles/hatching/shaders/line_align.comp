@@ -4,7 +4,7 @@
 //          "Procedural phasor noise", 2019).
 // Inputs:  anchors; starts, sorted, bins, binPixels: all of them (line_points.comp); before: the
 //          shifts of the previous step; field.glsl's; spacing, reach: px; anew, isFirst: lines have
-//          no past; past: its share.
+//          no past; past: its share, and that of the background.
 // Outputs: shifts (RGBA32F, a texel a slot: line_shift.glsl): px. One invocation per anchor.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
@@ -24,7 +24,7 @@ uniform bool anew;     // the first of the first steps
 uniform bool isFirst;  // one of them
 uniform float spacing;
 uniform float reach;
-uniform float past;
+uniform vec2 past;
 
 const float kTurn = 6.2831853;
 
@@ -79,7 +79,7 @@ void main() {
   if (agreement > 0.02) {
     float target = spacing / kTurn * atan(sum.y, sum.x);
     target += spacing * round((own - target) / spacing);
-    own = isNew ? target : mix(target, own, past);
+    own = isNew ? target : mix(target, own, support == 0u ? past.y : past.x);
   }
   own = clamp(own, -spacing, spacing);
   imageStore(shifts, shiftTexel(int(slot)), vec4(own * across, agreement, 0.0));

@@ -4,7 +4,8 @@
 // Inputs:  anchors; field.glsl's and tone.glsl's; mover_labels.glsl's; ids if hasObjects; shifts:
 //          those of line_align.comp; jitter: px by which lines are off at random, ±; anew: lines
 //          have no past; cellPixels: of the anchors; segment: px; steps: an arm's length in segments, at most kArm; cutOff:
-//          cosine; wander: rad; past: the past's share.
+//          cosine; wander: rad; past: the past's
+//          share, and that of the background, which before a standing camera nothing changes.
 // Outputs: lines. One invocation per anchor.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
@@ -31,7 +32,7 @@ uniform float cutOff;
 uniform float wander;
 uniform highp sampler2D shifts;
 uniform float jitter;
-uniform float past;
+uniform vec2 past;
 
 uint supportAt(vec2 px) {
   ivec2 pixel = clamp(ivec2(floor(px * pixelsOfFull)), ivec2(0), textureSize(ids, 0) - 1);
@@ -133,6 +134,7 @@ void main() {
     shift += jitter * (2.0 * unitOf(hashOf(seed ^ 0x45u)) - 1.0) * vec2(-heading.y, heading.x);
     line.shift = shift;
     vec2 from = px + shift;
+    float stays = support == 0u ? past.y : past.x;
     float most = steps * (0.75 + 0.25 * line.bend);
     float bend = stray + 0.5 * wander * line.bend;
     for (int side = 0; side < 2; ++side) {
@@ -140,13 +142,13 @@ void main() {
       vec2 before = side == 0 ? heading : -heading;
       for (int i = 0; i < kArm; ++i) {
         vec2 way = arm.ways[i];
-        if (!isNew) way = heldDirection(way, wayOf(line.ways, side, i), jacobian, past);
+        if (!isNew) way = heldDirection(way, wayOf(line.ways, side, i), jacobian, stays);
         if (dot(way, before) < 0.0) way = -way;
         before = way;
         int at = side * kArm + i;
         line.ways[at >> 2][at & 3] = packSnorm2x16(way);
       }
-      line.lengths[side] = isNew ? arm.length : mix(arm.length, line.lengths[side], past);
+      line.lengths[side] = isNew ? arm.length : mix(arm.length, line.lengths[side], stays);
     }
   }
   bool isFront = support != 0u;
