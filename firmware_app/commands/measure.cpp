@@ -121,19 +121,23 @@ bool hasModels(const scene::Scene& scene) {
                              [](const scene::SceneModel& each) { return !each.isOccluder; });
 }
 
+/// The look in force; empty where the style has none.
+std::string lookOf(const PaintingSettings& painting) {
+  const auto looks = styles::styleKind(painting.style).looks;
+  if (painting.look != kDefaultLook) return painting.look;
+  return looks.empty() ? "" : std::string(looks.front().name);
+}
+
 std::string settingsText(const Configuration& configuration, hal::FrameSize size,
                          const std::string& quality) {
-  const PaintingSettings painting = configuration.painting();
-  const auto looks = styles::styleKind(painting.style).looks;
-  std::string look = painting.look;
-  if (look == kDefaultLook) look = looks.empty() ? "" : std::string(looks.front().name);
+  const std::string look = lookOf(configuration.painting());
   return fmt::format("{}{}x{}, quality {}", look.empty() ? "" : fmt::format("look {}, ", look),
                      size.width, size.height, quality);
 }
 
 bool isOnPaper(const PaintingSettings& painting) {
   const auto looks = styles::styleKind(painting.style).coherence.paperLooks;
-  return std::ranges::find(looks, painting.look) != looks.end();
+  return std::ranges::find(looks, lookOf(painting)) != looks.end();
 }
 
 /// Runs the measurement with progress; nothing if it was interrupted.

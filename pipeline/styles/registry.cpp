@@ -16,6 +16,7 @@ namespace pleinair::styles {
 #define PLEINAIR_STYLES(STYLE) \
   STYLE(watercolorKind)        \
   STYLE(painterlyKind)         \
+  STYLE(hatchingKind)          \
   STYLE(plainKind)
 
 #define PLEINAIR_DECLARE(kind) const StyleKind& kind();

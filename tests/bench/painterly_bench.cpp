@@ -1,4 +1,4 @@
-// Cost of the painterly style, in the thesis's four stages (table 1: tensor field, features and
+// Cost of the painterly style and of hatching, in the thesis's four stages (table 1: tensor field, features and
 // matching, warping of anchors, painting), beside OpenCV's stylization of the same frames in the
 // same run. Stages are timed by fences, which makes their sum more than the whole.
 #include <algorithm>
@@ -128,8 +128,8 @@ void start(benchmark::State& state) {
   }
 }
 
-void stages(benchmark::State& state) {
-  Bench bench(sizeOf(state), "painterly", gpu::PassTiming::kFences);
+void stages(benchmark::State& state, const char* style) {
+  Bench bench(sizeOf(state), style, gpu::PassTiming::kFences);
   std::map<std::string, double, std::less<>> before;
   for (const gpu::PassTime& each : bench.painter.passTimes()) {
     before[each.pass] = std::chrono::duration<double, std::milli>(each.total).count();
@@ -170,6 +170,8 @@ void atOneSize(benchmark::internal::Benchmark* benchmark) {
   benchmark->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()->MinTime(2.0);
 }
 
+BENCHMARK_CAPTURE(whole, hatching, "hatching")->Name("hatching/whole")->Apply(atOneSize);
+BENCHMARK_CAPTURE(stages, hatching, "hatching")->Name("hatching/stages")->Apply(atOneSize);
 BENCHMARK_CAPTURE(with, quads, "quads", "thesis")->Name("painterly/4 (n + 2)")->Apply(atSizes);
 BENCHMARK_CAPTURE(with, walk, "walk", "ahead")->Name("painterly/one way")->Apply(atOneSize);
 BENCHMARK_CAPTURE(with, bump, "bump", "each")->Name("painterly/bump each")->Apply(atSizes);
@@ -180,7 +182,7 @@ BENCHMARK_CAPTURE(change, plan, "stroke_size", "4", "5")
     ->Name("painterly/another plan")
     ->Apply(atOneSize);
 BENCHMARK(start)->Name("painterly/start")->Apply(atOneSize);
-BENCHMARK(stages)->Name("painterly/stages")->Apply(atSizes);
+BENCHMARK_CAPTURE(stages, painterly, "painterly")->Name("painterly/stages")->Apply(atSizes);
 BENCHMARK(stylization)->Name("OpenCV/stylization")->Apply(atSizes);
 
 }  // namespace

@@ -78,7 +78,7 @@ TEST_F(BadInput, UnknownStyleListsTheStyles) {
   expectFailure(
       {"--style", "watercolour"},
       HasSubstr("--style: found \"watercolour\" (did you mean \"watercolor\"?), allowed: one of "
-                "watercolor, painterly, none\n"));
+                "watercolor, painterly, hatching, none\n"));
 }
 
 TEST_F(BadInput, UnknownViewListsTheViews) {

@@ -1,10 +1,16 @@
 // Purpose: a cubic B-spline with tripled end points, so that it begins and ends there (thesis
-//          §4.4): 8 control points, 9 spans.
+//          §4.4).
+// Defines: LONG: of 16 control points and 17 spans; else of 8 and 9.
 // Inputs:  its points; s in [0, kSplineSpans].
 // Outputs: the place at s, the direction, and the part of the stroke's length up to it.
 // Precision: highp.
-const int kSplineLast = 7;
-const int kSplineSpans = 9;
+#ifdef LONG
+const int kSplinePoints = 16;
+#else
+const int kSplinePoints = 8;
+#endif
+const int kSplineLast = kSplinePoints - 1;
+const int kSplineSpans = kSplinePoints + 1;
 
 struct SplinePlace {
   vec2 at;
@@ -12,7 +18,7 @@ struct SplinePlace {
   float part;  // of its length, in [0, 1], if its points are evenly spaced
 };
 
-SplinePlace splineAt(vec2 points[8], float s) {
+SplinePlace splineAt(vec2 points[kSplinePoints], float s) {
   int span = min(int(s), kSplineSpans - 1);
   float u = s - float(span);
   float v = 1.0 - u;
@@ -32,7 +38,7 @@ SplinePlace splineAt(vec2 points[8], float s) {
 }
 
 // Length of the polyline through the points, px.
-float splineLength(vec2 points[8]) {
+float splineLength(vec2 points[kSplinePoints]) {
   float sum = 0.0;
   for (int i = 0; i < kSplineLast; ++i) sum += distance(points[i], points[i + 1]);
   return sum;

@@ -69,12 +69,18 @@ void drawOver(const gpu::Program& program, const gpu::RenderTarget& target,
 
 }  // namespace
 
+StripDrawing::StripDrawing() : layout_(stripLayout()) {}
+
+void StripDrawing::draw(const gpu::Program& program, const StrokeStrips& strips,
+                        const gpu::RenderTarget& target) const {
+  drawOver(program, target, layout_, strips.vertices, StrokeStrips::kVertexBytes, strips.command);
+}
+
 StrokeDrawing::StrokeDrawing(const gpu::ShaderLibrary& library,
                              std::span<const DebugViewInfo> views)
     : paint_{{{paintProgram(library, {}), paintProgram(library, {{"CLIPPED"}})},
               {paintProgram(library, {{"BUMPED"}}),
                paintProgram(library, {{"BUMPED"}, {"CLIPPED"}})}}},
-      strips_(stripLayout()),
       instances_(instanceLayout()) {
   if (views.empty()) return;
   view_ = library.draw(kShaders + "stroke_view.vert", kShaders + "stroke_view.frag",
@@ -88,7 +94,7 @@ void StrokeDrawing::draw(const StrokeStrips& strips, const gpu::Texture& brush,
   program.use().texture("brushes", brush).set("fullSize", glm::vec2(full.width, full.height));
   if (light.each) program.set("relief", light.relief).set("gloss", light.gloss);
   if (borders != nullptr) program.texture("borders", *borders);
-  drawOver(program, target, strips_, strips.vertices, StrokeStrips::kVertexBytes, strips.command);
+  strips_.draw(program, strips, target);
 }
 
 void StrokeDrawing::show(const marks::StrokeSet& strokes, int quads, std::size_t view,

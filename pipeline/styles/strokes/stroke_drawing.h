@@ -22,6 +22,19 @@ struct StrokeLight {
   float gloss = 0.0F;
 };
 
+/// Draws strips with a style's own program, whose vertices are laid out as for shaders/stroke.vert,
+/// over what is in `target`, premultiplied. On the thread of the GL context.
+class StripDrawing {
+ public:
+  StripDrawing();
+  /// Precondition: `program` is in use and filled.
+  void draw(const gpu::Program& program, const StrokeStrips& strips,
+            const gpu::RenderTarget& target) const;
+
+ private:
+  gpu::VertexArrayHandle layout_;
+};
+
 /// Draws strokes: each a strip of quads along its spline, blended over what is there, colour and
 /// height together. All calls on the thread of the GL context it was made in.
 class StrokeDrawing {
@@ -47,7 +60,7 @@ class StrokeDrawing {
  private:
   std::array<std::array<gpu::Program, 2>, 2> paint_;  // each in the light? clipped?
   std::optional<gpu::Program> view_;
-  gpu::VertexArrayHandle strips_;
+  StripDrawing strips_;
   gpu::VertexArrayHandle instances_;
 };
 

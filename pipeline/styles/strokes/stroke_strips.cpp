@@ -8,7 +8,6 @@ namespace {
 
 const std::string kShaders = "pipeline/styles/strokes/shaders/";
 constexpr std::size_t kPlanBytes = 8;
-constexpr std::size_t kCurvatureQuads = 7;  // at most: the spline's 9 spans, but for the outer ones
 constexpr std::size_t kThesisQuads = 36;
 /// The size of a storage buffer that every GPU supports (GL ES 3.1, table 20.45).
 constexpr std::size_t kMaxBytes = std::size_t{1} << 27U;
@@ -19,27 +18,37 @@ std::size_t verticesOf(std::size_t quads) {
   return 2 * quads + 4;
 }
 
+/// At most: a quad for each span of the spline but the outer ones.
+std::size_t curvatureQuads(StrokeForm form) {
+  return form == StrokeForm::kLong ? 15 : 7;
+}
+
+gpu::ShaderDefines definesOf(StrokeForm form) {
+  return form == StrokeForm::kLong ? gpu::ShaderDefines{{"LONG"}} : gpu::ShaderDefines{};
+}
+
 /// The number of quads for which each slot has room.
-std::size_t evenQuads(std::size_t slots) {
+std::size_t evenQuads(std::size_t slots, StrokeForm form) {
   const std::size_t vertices = kMaxBytes / StrokeStrips::kVertexBytes / slots;
-  return std::clamp(std::max<std::size_t>(vertices / 2, 2) - 2, kCurvatureQuads, kThesisQuads);
+  return std::clamp(std::max<std::size_t>(vertices / 2, 2) - 2, curvatureQuads(form), kThesisQuads);
 }
 
 }  // namespace
 
-StrokeStripMaker::StrokeStripMaker(const gpu::ShaderLibrary& library)
-    : bend_(library.compute(kShaders + "stroke_bend.comp")),
+StrokeStripMaker::StrokeStripMaker(const gpu::ShaderLibrary& library, StrokeForm form)
+    : form_(form),
+      bend_(library.compute(kShaders + "stroke_bend.comp", definesOf(form))),
       offsets_(library.compute(kShaders + "stroke_offsets.comp")),
-      lay_(library.compute(kShaders + "stroke_strips.comp")) {}
+      lay_(library.compute(kShaders + "stroke_strips.comp", definesOf(form))) {}
 
 void StrokeStripMaker::lay(const gpu::Buffer& instances, const gpu::Buffer& drawn,
                            StrokeQuads quads, StrokeStrips& strips) {
-  const std::size_t slots = instances.sizeBytes() / marks::StrokeSet::kInstanceBytes;
+  const std::size_t slots = instances.sizeBytes() / instanceBytesOf(form_);
   const glm::ivec2 all(static_cast<int>(slots), 1);
   const bool isEven = quads == StrokeQuads::kThesis;
-  const std::size_t even = isEven ? evenQuads(slots) : 0;
+  const std::size_t even = isEven ? evenQuads(slots, form_) : 0;
   if (!strips.vertices || strips.quads != quads) {
-    const std::size_t each = verticesOf(isEven ? even : kCurvatureQuads);
+    const std::size_t each = verticesOf(isEven ? even : curvatureQuads(form_));
     strips.plans = gpu::Buffer(slots * kPlanBytes, gpu::BufferUsage::kDynamic);
     strips.command = gpu::Buffer(gpu::kDrawCommandBytes, gpu::BufferUsage::kDynamic);
     strips.vertices = {};

@@ -16,6 +16,16 @@ enum class StrokeQuads {
                ///< short of them
 };
 
+/// Which strokes a StrokeStripMaker lays out.
+enum class StrokeForm {
+  kShort,  ///< marks::StrokeSet's, of 8 points and one width
+  kLong,   ///< of 16 points, with a width at each (shaders/long_instance.glsl)
+};
+/// Bytes of a stroke's instance.
+constexpr std::size_t instanceBytesOf(StrokeForm form) {
+  return form == StrokeForm::kLong ? 224 : marks::StrokeSet::kInstanceBytes;
+}
+
 /// The vertices of a layer's strokes, all one strip, in the order of painting.
 struct StrokeStrips {
   StrokeQuads quads = StrokeQuads::kCurvature;  ///< that there is room for
@@ -31,15 +41,18 @@ struct StrokeStrips {
 class StrokeStripMaker {
  public:
   /// `library` has gpu::strokesShaders() and gpu::marksShaders().
-  explicit StrokeStripMaker(const gpu::ShaderLibrary& library);
+  explicit StrokeStripMaker(const gpu::ShaderLibrary& library,
+                            StrokeForm form = StrokeForm::kShort);
 
-  /// Fills `strips` with what marks::StrokeSet laid out: its instances() and command(). They are
+  /// Fills `strips` with strokes of the constructor's form, such as marks::StrokeSet's instances()
+  /// and command(). They are
   /// allocated at the first call and where `quads` is other than before: hal::Failure where
   /// the GPU has no memory for it.
   void lay(const gpu::Buffer& instances, const gpu::Buffer& drawn, StrokeQuads quads,
            StrokeStrips& strips);
 
  private:
+  StrokeForm form_;
   gpu::Program bend_;
   gpu::Program offsets_;
   gpu::Program lay_;

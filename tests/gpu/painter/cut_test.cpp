@@ -77,7 +77,7 @@ struct LookCase {
 
 std::vector<LookCase> allLooks() {
   std::vector<LookCase> looks;
-  for (const char* const style : {"painterly", "watercolor"}) {
+  for (const char* const style : {"painterly", "watercolor", "hatching"}) {
     for (const styles::Look& look : styles::styleKind(style).looks) {
       looks.push_back({style, std::string(look.name)});
     }

@@ -355,7 +355,7 @@ TEST_F(WatercolorTest, MakesStylesByNameAndRefusesOthersWithTheList) {
   } catch (const hal::Failure& error) {
     EXPECT_EQ(error.error().kind, hal::ErrorKind::kInvalidArgument);
     EXPECT_THAT(error.what(), testing::HasSubstr("watercolour"));
-    EXPECT_THAT(error.what(), testing::HasSubstr("watercolor, painterly, none"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("watercolor, painterly, hatching, none"));
   }
   EXPECT_EQ(makeStyle("watercolor", library_)->kind().name, "watercolor");
 }

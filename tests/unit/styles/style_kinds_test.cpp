@@ -27,7 +27,7 @@ TEST(StyleKinds, AreDescribedInFull) {
     }
     EXPECT_FALSE(kind->coherence.holdsAnchors && kind->coherence.empty());
   }
-  EXPECT_THAT(names, testing::IsSupersetOf({"watercolor", "painterly", "none"}));
+  EXPECT_THAT(names, testing::IsSupersetOf({"watercolor", "painterly", "hatching", "none"}));
 }
 
 TEST(DebugViews, GiveShadersTheirOwnNumbers) {

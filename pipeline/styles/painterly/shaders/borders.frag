@@ -7,7 +7,7 @@
 // Outputs: R32UI, packed as in border.glsl.
 // Precision: integers; highp for places.
 #include "pipeline/scene/render/shaders/surface_form.glsl"
-#include "pipeline/styles/painterly/shaders/border.glsl"
+#include "pipeline/styles/strokes/shaders/border.glsl"
 uniform highp usampler2D forms;
 uniform bool hasObjects;
 uniform vec2 size;

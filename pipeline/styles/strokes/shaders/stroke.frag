@@ -8,7 +8,7 @@
 #include "pipeline/styles/strokes/shaders/stroke_bump.glsl"
 #endif
 #ifdef CLIPPED
-#include "pipeline/styles/painterly/shaders/stroke_clip.glsl"
+#include "pipeline/styles/strokes/shaders/stroke_clip.glsl"
 #endif
 
 void main() {

@@ -1,9 +1,9 @@
 // Purpose: chooses the knots of the spline at which a stroke's strip bends: as few quads as its
 //          curvature needs.
+// Defines: LONG: stroke_strip.glsl's; it also bends where the width changes.
 // Inputs:  instances, instanceCount of them in drawn; bend: px that a quad's chord may deviate.
 // Outputs: plans: breaks. One invocation per stroke.
 // Precision: highp.
-#include "pipeline/marks/shaders/spline.glsl"
 #include "pipeline/styles/strokes/shaders/stroke_strip.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Instances { Instance instances[]; };
@@ -14,12 +14,16 @@ uniform float bend;
 void main() {
   uint rank = gl_GlobalInvocationID.x;
   if (rank >= drawn.instanceCount) return;
-  vec2 points[8];
+  vec2 points[kSplinePoints];
   pointsOf(instances[rank].points, points);
   float halfWidth = instances[rank].shape.x;
   uint breaks = 0u;
   float way = 0.0;
   float turn = 0.0;
+#ifdef LONG
+  const float kWidth = 0.25;  // px
+  float wide = halfWidthAt(instances[rank].widths, 0.0);
+#endif
   // the first span, a sixth of a full span long, is straight
   SplinePlace before = splineAt(points, 1.0);
   for (int knot = 2; knot < kSplineSpans; ++knot) {
@@ -30,6 +34,10 @@ void main() {
     // width away, deviate by another half width × θ² / 8.
     float turns = turn + turned;
     bool isOff = (way + further + halfWidth * turns) * turns > 8.0 * bend;
+#ifdef LONG
+    if (abs(halfWidthAt(instances[rank].widths, here.part) - wide) > kWidth) isOff = true;
+    if (isOff) wide = halfWidthAt(instances[rank].widths, before.part);
+#endif
     if (isOff && way > 0.0) breaks |= 1u << uint(knot - 1);
     way = isOff ? further : way + further;
     turn = isOff ? turned : turns;

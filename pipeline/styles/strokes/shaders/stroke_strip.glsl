@@ -1,8 +1,14 @@
 // Purpose: a stroke's strip of quads, as planned by stroke_bend.comp and stroke_offsets.comp.
+// Defines: LONG: of long strokes (long_instance.glsl), whose width is given at each point.
 // Inputs, outputs: px of the full image.
 // Precision: highp.
 #include "pipeline/gpu/shaders/draw_command.glsl"
+#include "pipeline/marks/shaders/spline.glsl"
+#ifdef LONG
+#include "pipeline/styles/strokes/shaders/long_instance.glsl"
+#else
 #include "pipeline/marks/shaders/stroke_instance.glsl"
+#endif
 
 // The knots at which a stroke's strip is divided into quads, and its first vertex.
 struct StripPlan {
@@ -13,8 +19,8 @@ struct StripPlan {
 // Each strip's first and last vertex are doubled, which joins all strips into one.
 uint stripVertices(uint quads) { return 2u * quads + 4u; }
 
-void pointsOf(vec4 pairs[4], out vec2 points[8]) {
-  for (int i = 0; i < 4; ++i) {
+void pointsOf(vec4 pairs[kSplinePoints / 2], out vec2 points[kSplinePoints]) {
+  for (int i = 0; i < kSplinePoints / 2; ++i) {
     points[2 * i] = pairs[i].xy;
     points[2 * i + 1] = pairs[i].zw;
   }

@@ -1,0 +1,494 @@
+#include "pipeline/styles/hatching/hatching.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include <glm/trigonometric.hpp>
+
+#include "pipeline/gpu/per_size.h"
+#include "pipeline/gpu/program.h"
+#include "pipeline/gpu/render_target.h"
+#include "pipeline/marks/filtered_frame.h"
+#include "pipeline/marks/layer_textures.h"
+#include "pipeline/styles/hatching/hatching_shaders.h"
+#include "pipeline/styles/strokes/brush_cache.h"
+#include "pipeline/styles/strokes/stroke_drawing.h"
+#include "pipeline/styles/strokes/strokes_shaders.h"
+#include "pipeline/styles/substrate/substrate.h"
+#include "pipeline/styles/substrate/substrate_shaders.h"
+
+namespace pleinair::styles {
+namespace {
+
+using gpu::Texture;
+using gpu::TextureFilter;
+using gpu::TextureFormat;
+
+const std::string kShaders = "pipeline/styles/hatching/shaders/";
+/// Lengths are given for pictures of so many px (640x480).
+constexpr double kReferencePixels = 307200.0;
+/// In smaller images, lines would be thinner than a pixel.
+constexpr double kMinScale = 0.6;
+constexpr float kMinContourStep = 0.8F;  // px of the image
+constexpr std::size_t kMaxSets = 3;
+constexpr std::size_t kFieldLevel = 1;
+constexpr int kBrushTexelsAcross = 16;
+
+constexpr std::array kViews{
+    DebugViewInfo{"sets", "the lines of each direction in a colour of their own"},
+    DebugViewInfo{"ranks", "lines by their rank: red ones are drawn in light tones already"},
+    DebugViewInfo{"tone", "the tone that lines render"},
+    DebugViewInfo{"edges", "differences across edges, from which contours are found"},
+    DebugViewInfo{"contours", "contour lines alone"},
+};
+constexpr std::array<glm::vec3, kMaxSets> kSetColours{
+    {{0.1F, 0.3F, 0.8F}, {0.85F, 0.25F, 0.1F}, {0.1F, 0.6F, 0.25F}}};
+
+constexpr auto kMax = CoherenceGate::Side::kMax;
+constexpr auto kMin = CoherenceGate::Side::kMin;
+/// The limits that its drawings are held to (docs/measuring.md).
+constexpr std::array kGates{
+    CoherenceGate{CoherenceMeasure::kNHw2, kMax, 0.10, false, GateMotion::kPan},
+    CoherenceGate{CoherenceMeasure::kNHw2, kMax, 0.20, false, GateMotion::kOtherKnown},
+    CoherenceGate{CoherenceMeasure::kS10, kMin, 90, false, GateMotion::kPan},
+    CoherenceGate{CoherenceMeasure::kPop, kMax, 5, false, GateMotion::kPan},
+    CoherenceGate{CoherenceMeasure::kXFlk, kMax, 0.5},
+    CoherenceGate{CoherenceMeasure::kDep, kMin, 0.75, true, GateMotion::kPan},
+};
+/// All of them: lines leave most of the paper bare.
+constexpr std::array<std::string_view, 5> kPaperLooks{"pen", "pencil", "engraving", "blueprint",
+                                                      "chalk"};
+
+/// Where each set draws, in the tones that are not left bare: the more sets, the earlier the first
+/// has drawn all its lines.
+constexpr std::array<std::array<glm::vec2, kMaxSets>, kMaxSets> kBands{{
+    {{{0.0F, 1.0F}, {0.0F, 1.0F}, {0.0F, 1.0F}}},
+    {{{0.0F, 0.75F}, {0.4F, 1.0F}, {0.0F, 1.0F}}},
+    {{{0.0F, 0.65F}, {0.35F, 0.85F}, {0.6F, 1.0F}}},
+}};
+
+double scaleOf(hal::FrameSize full) {
+  return std::max(kMinScale, std::sqrt(static_cast<double>(full.pixels()) / kReferencePixels));
+}
+
+/// What a change of makes new lines.
+struct DrawingPlan {
+  std::size_t sets = 0;
+  HatchPlan lines;
+  bool operator==(const DrawingPlan&) const = default;
+};
+
+DrawingPlan planOf(const HatchingParameters& p, hal::FrameSize full) {
+  const double scale = scaleOf(full);
+  return {static_cast<std::size_t>(p.directions),
+          {.spacingPx = p.spacing * scale,
+           .lengthPx = p.length * scale,
+           .coverage = p.coverage,
+           .seed = static_cast<unsigned>(p.seed)}};
+}
+
+glm::vec3 inkOf(const HatchingParameters& p) {
+  return {p.inkRed, p.inkGreen, p.inkBlue};
+}
+
+/// The tensor (shaders/field.glsl) of lines at a slope on the paper, which has turned with the
+/// image.
+glm::vec2 slopeOf(const HatchingParameters& p, const scene::ArFrame& frame) {
+  const double line = -glm::radians(p.slopeDegrees) - frame.canvasFromPicture.angleRad();
+  return {-std::cos(2.0 * line), -std::sin(2.0 * line)};
+}
+
+HatchRule ruleOf(const HatchingParameters& p, const scene::ArFrame& frame, std::size_t set) {
+  const auto scale = static_cast<float>(scaleOf(frame.full()));
+  const auto bare = static_cast<float>(p.paperTone);
+  HatchRule rule;
+  rule.band = bare + (1.0F - bare) * kBands.at(static_cast<std::size_t>(p.directions) - 1).at(set);
+  rule.swell = static_cast<float>(p.swell);
+  rule.widthPx = static_cast<float>(p.width) * scale;
+  rule.isInverted = p.inverted;
+  rule.darkness = static_cast<float>(p.darkness);
+  rule.gamma = static_cast<float>(p.gamma);
+  rule.lead = static_cast<float>(p.lead);
+  rule.slope = slopeOf(p, frame);
+  const std::array<double, kMaxSets> turns{0.0, p.crossDegrees, -p.crossDegrees};
+  rule.turnRad = glm::radians(static_cast<float>(turns.at(set)));
+  rule.wanderRad = static_cast<float>(p.wander);
+  rule.cutOffRad = glm::radians(static_cast<float>(p.cutOffDegrees));
+  rule.taper = static_cast<float>(p.taper);
+  rule.evenness = static_cast<float>(p.evenness);
+  rule.fieldLevel = kFieldLevel;
+  rule.shapeMemory =
+      std::chrono::duration_cast<hal::Duration>(std::chrono::duration<double>(p.shapeTimeSeconds));
+  rule.paint = glm::vec4(inkOf(p), static_cast<float>(p.opacity));
+  return rule;
+}
+
+/// The textures that are drawn on, of one image size.
+struct Canvas {
+  explicit Canvas(hal::FrameSize pictureSize)
+      : size(pictureSize),
+        luma(TextureFormat::kR8, size, TextureFilter::kLinear),
+        halfTone(TextureFormat::kRgba16f, halfOf(size), TextureFilter::kLinear),
+        tone(TextureFormat::kRgba16f, halfOf(halfOf(size)), TextureFilter::kLinear),
+        edges(TextureFormat::kRg16f, size, TextureFilter::kLinear),
+        contours(TextureFormat::kRg8, size, TextureFilter::kLinear),
+        ink(TextureFormat::kRgba8, size, TextureFilter::kLinear),
+        picture(TextureFormat::kRgba8, size, TextureFilter::kLinear),
+        lumaTarget({&luma}),
+        halfToneTarget({&halfTone}),
+        toneTarget({&tone}),
+        edgesTarget({&edges}),
+        contoursTarget({&contours}),
+        inkTarget({&ink}),
+        pictureTarget({&picture}) {}
+
+  static hal::FrameSize halfOf(hal::FrameSize size) {
+    return {std::max(1, size.width / 2), std::max(1, size.height / 2)};
+  }
+
+  hal::FrameSize size;
+  Texture luma;
+  Texture halfTone;
+  Texture tone;
+  Texture edges;
+  Texture contours;
+  Texture ink;
+  Texture picture;
+  gpu::RenderTarget lumaTarget;
+  gpu::RenderTarget halfToneTarget;
+  gpu::RenderTarget toneTarget;
+  gpu::RenderTarget edgesTarget;
+  gpu::RenderTarget contoursTarget;
+  gpu::RenderTarget inkTarget;
+  gpu::RenderTarget pictureTarget;
+};
+
+/// The state that belongs to one full size and plan.
+struct Drawing {
+  Drawing(const gpu::ShaderLibrary& library, hal::FrameSize fullSize, const DrawingPlan& given)
+      : full(fullSize),
+        plan(given),
+        motion(library, full),
+        movers(library, full),
+        field(library, full) {
+    for (std::size_t i = 0; i < plan.sets; ++i) {
+      HatchPlan lines = plan.lines;
+      lines.seed = lines.seed * 8U + static_cast<unsigned>(i);
+      sets.push_back(std::make_unique<HatchLines>(library, full, lines));
+    }
+  }
+  hal::FrameSize full;
+  DrawingPlan plan;
+  marks::MotionField motion;
+  marks::MotionLayers movers;
+  marks::TensorField field;
+  std::vector<std::unique_ptr<HatchLines>> sets;
+};
+
+}  // namespace
+
+struct Hatching::State {
+  explicit State(const gpu::ShaderLibrary& shaders)
+      : library(shaders),
+        filtered(library),
+        lumaOnce(library.fragmentPass(kShaders + "luma.frag")),
+        toneFirst(library.fragmentPass(kShaders + "tone.frag")),
+        toneBlur(library.fragmentPass(kShaders + "tone_blur.frag")),
+        contourEdges(library.fragmentPass(kShaders + "contour_edges.frag")),
+        contourLines(library.fragmentPass(kShaders + "contours.frag")),
+        contourLinesOfModels(library.fragmentPass(kShaders + "contours.frag", {{"MODELS"}})),
+        lines(library.draw(kShaders + "line.vert", kShaders + "line.frag")),
+        linesClipped(library.draw(kShaders + "line.vert", kShaders + "line.frag", {{"CLIPPED"}})),
+        compose(library.fragmentPass(kShaders + "compose.frag")),
+        view(library.fragmentPass(kShaders + "view.frag", viewDefines(kViews))),
+        paper(library, Substrate::Kind::kPaper),
+        brushes(library),
+        noIds(TextureFormat::kR32ui, {1, 1}) {}
+
+  const gpu::ShaderLibrary& library;
+  marks::FilteredFrame filtered;
+  gpu::Program lumaOnce;
+  gpu::Program toneFirst;
+  gpu::Program toneBlur;
+  gpu::Program contourEdges;
+  gpu::Program contourLines;
+  gpu::Program contourLinesOfModels;
+  gpu::Program lines;
+  gpu::Program linesClipped;
+  gpu::Program compose;
+  gpu::Program view;
+  Substrate paper;
+  StripDrawing strips;
+  BrushCache brushes;
+  Texture noIds;
+  marks::LayerTextures layerTextures;
+  std::unique_ptr<Drawing> drawing;
+  gpu::PerSize<Canvas> canvases;
+  Canvas* canvas = nullptr;         // of this frame
+  const Texture* source = nullptr;  // the image that tones and contours are taken from
+
+  const marks::MotionLayers* moversOf(const HatchingParameters& p) const {
+    return p.movers ? &drawing->movers : nullptr;
+  }
+  void take(const scene::ArFrame& frame, const HatchingParameters& p);
+  void follow(const scene::ArFrame& frame, const HatchingParameters& p);
+  void findTone(const scene::ArFrame& frame, const HatchingParameters& p);
+  void findContours(const scene::ArFrame& frame, const HatchingParameters& p);
+  void drawLines(const scene::ArFrame& frame, const HatchingParameters& p, std::string_view name);
+  void finish(const scene::ArFrame& frame, const HatchingParameters& p);
+  void show(const scene::ArFrame& frame, const HatchingParameters& p, std::string_view name);
+};
+
+void Hatching::State::take(const scene::ArFrame& frame, const HatchingParameters& p) {
+  canvas = nullptr;
+  const DrawingPlan plan = planOf(p, frame.full());
+  if (drawing == nullptr || drawing->full != frame.full() || drawing->plan != plan) {
+    if (drawing != nullptr && drawing->full != frame.full()) canvases.clear();
+    drawing.reset();
+    drawing = std::make_unique<Drawing>(library, frame.full(), plan);
+  }
+  canvas = &canvases.of(frame.size(), frame.size());
+}
+
+void Hatching::State::follow(const scene::ArFrame& frame, const HatchingParameters& p) {
+  drawing->motion.update(frame);
+  if (p.movers) {
+    drawing->movers.update(frame, drawing->motion);
+  } else {
+    drawing->movers.reset();
+  }
+  drawing->field.update(frame, *frame.colour, drawing->motion, {}, moversOf(p));
+  if (p.filterTimeSeconds > 0.0) {
+    filtered.update(frame, {.backward = &drawing->motion.backward(),
+                            .isCut = drawing->motion.isCut(),
+                            .timeConstantSeconds = p.filterTimeSeconds,
+                            .noiseLevels = drawing->motion.noiseLevels()});
+    source = &filtered.picture();
+  } else {
+    filtered.reset();
+    source = frame.colour;
+  }
+}
+
+void Hatching::State::findTone(const scene::ArFrame& frame, const HatchingParameters& p) {
+  lumaOnce.use().texture("picture", *source).drawFullscreen(canvas->lumaTarget);
+  toneFirst.use()
+      .texture("lumas", canvas->luma)
+      .texture("ids", frame.hasObjects ? *frame.ids : noIds)
+      .texture("movers", layerTextures.labelsOf(moversOf(p)))
+      .texture("background", layerTextures.backgroundOf(moversOf(p)))
+      .set("hasObjects", frame.hasObjects ? 1 : 0)
+      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
+      .drawFullscreen(canvas->halfToneTarget);
+  const hal::FrameSize size = canvas->tone.size();
+  toneBlur.use()
+      .texture("picture", canvas->halfTone)
+      .set("size", glm::vec2(size.width, size.height))
+      .drawFullscreen(canvas->toneTarget);
+}
+
+void Hatching::State::findContours(const scene::ArFrame& frame, const HatchingParameters& p) {
+  const marks::TensorField& field = drawing->field;
+  const hal::FrameSize regions = field.resolved(0).size();
+  const glm::vec2 fieldScale(1.0 /
+                             (field.regionPixels(0) * glm::dvec2(regions.width, regions.height)));
+  const auto step =
+      std::max(kMinContourStep,
+               static_cast<float>(p.contourWidth * scaleOf(frame.full()) * frame.pixelsOfFull().x));
+  const auto bindField = [&](gpu::Program& pass) {
+    pass.texture("field", field.resolved(0))
+        .texture("moverField", field.movers())
+        .texture("movers", layerTextures.labelsOf(moversOf(p)))
+        .set("fieldScale", fieldScale)
+        .set("size", glm::vec2(canvas->size.width, canvas->size.height))
+        .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
+        .set("step_", step);
+  };
+  bindField(contourEdges.use());
+  contourEdges.texture("luma", canvas->luma).drawFullscreen(canvas->edgesTarget);
+  gpu::Program& pass = frame.hasObjects ? contourLinesOfModels : contourLines;
+  bindField(pass.use());
+  pass.texture("edges", canvas->edges)
+      .set("threshold", static_cast<float>(p.contourThreshold))
+      .set("sign_", p.inverted ? 1.0F : -1.0F);
+  if (frame.hasObjects) {
+    pass.texture("ids", *frame.ids)
+        .texture("parts", frame.parts != nullptr ? *frame.parts : noIds)
+        .texture("normalFocus", *frame.normalFocus)
+        .set("hasParts", frame.parts != nullptr ? 1 : 0);
+  }
+  pass.drawFullscreen(canvas->contoursTarget);
+}
+
+void Hatching::State::drawLines(const scene::ArFrame& frame, const HatchingParameters& p,
+                                std::string_view name) {
+  for (std::size_t i = 0; i < drawing->sets.size(); ++i) {
+    HatchRule rule = ruleOf(p, frame, i);
+    if (!name.empty()) rule.paint = glm::vec4(kSetColours.at(i), 1.0F);
+    if (name == "ranks") rule.rankColour = 1.0F;
+    drawing->sets[i]->update(frame,
+                             {.motion = &drawing->motion,
+                              .field = &drawing->field,
+                              .tone = &canvas->tone,
+                              .movers = moversOf(p)},
+                             rule);
+  }
+  const bool isClipped = frame.hasObjects || p.movers;
+  canvas->inkTarget.beginDiscarding();
+  canvas->inkTarget.clearColour(0, glm::vec4(0.0F));
+  for (const auto& set : drawing->sets) {
+    gpu::Program& program = isClipped ? linesClipped : lines;
+    program.use()
+        .texture("brushes", brushes.brush(p.brush, kBrushTexelsAcross))
+        .set("grain", static_cast<float>(p.grain))
+        .set("scale", static_cast<float>(frame.pixelsOfFull().x))
+        .set("fullSize", glm::vec2(frame.full().width, frame.full().height));
+    if (isClipped) {
+      program.texture("ids", frame.hasObjects ? *frame.ids : noIds)
+          .texture("movers", layerTextures.labelsOf(moversOf(p)))
+          .set("hasObjects", frame.hasObjects ? 1 : 0);
+    }
+    strips.draw(program, set->strips(), canvas->inkTarget);
+  }
+}
+
+void Hatching::State::finish(const scene::ArFrame& frame, const HatchingParameters& p) {
+  paper.bind(compose.use(), frame);
+  compose.texture("ink", canvas->ink)
+      .texture("contours", canvas->contours)
+      .texture("frame", *frame.colour)
+      .texture("normalFocus", frame.hasFocus ? *frame.normalFocus : *frame.colour)
+      .set("hasFocus", frame.hasFocus ? 1 : 0)
+      .set("contourWeight", static_cast<float>(p.contours))
+      .set("lift", static_cast<float>(p.lift))
+      .set("inkColour", inkOf(p))
+      .set("paperColour", glm::vec3(p.paperRed, p.paperGreen, p.paperBlue))
+      .set("tooth", static_cast<float>(p.tooth))
+      .set("relief", static_cast<float>(p.relief))
+      .drawFullscreen(canvas->pictureTarget);
+}
+
+void Hatching::State::show(const scene::ArFrame& frame, const HatchingParameters& p,
+                           std::string_view name) {
+  view.use()
+      .texture("ink", canvas->ink)
+      .texture("contours", canvas->contours)
+      .texture("edges", canvas->edges)
+      .set("view", static_cast<int>(viewIndex(kViews, name)))
+      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()));
+  bindHatchTone(view, frame, canvas->tone, ruleOf(p, frame, 0));
+  view.drawFullscreen(canvas->pictureTarget);
+}
+
+const StyleKind& hatchingKind() {
+  static const StyleKind kKind{
+      .name = "hatching",
+      .help = "tone by lines of ink that cross in the darks, and contours",
+      .defaults = hatchingParameters().defaults(),
+      .looks = hatchingLooks(),
+      .views = kViews,
+      .needs = {.surfaces = true,
+                .measuredMotion = true,
+                .canvas = true,
+                .shading = scene::Shading::kSmooth},
+      .coherence = {.gates = kGates, .paperLooks = kPaperLooks},
+      .shaders = {gpu::hatchingShaders(), gpu::strokesShaders(), gpu::substrateShaders()},
+      .make = [](const gpu::ShaderLibrary& library) -> std::unique_ptr<Style> {
+        return std::make_unique<Hatching>(library);
+      }};
+  return kKind;
+}
+
+Hatching::Hatching(const gpu::ShaderLibrary& library)
+    : values_(hatchingParameters().defaults()), state_(std::make_unique<State>(library)) {
+  warmUp();
+}
+
+Hatching::~Hatching() = default;
+
+/// A program's real cost on software renderers is at its first use: here, not in the first frame
+/// that shows a model, has a focus or is looked at in another way.
+void Hatching::warmUp() {
+  constexpr hal::FrameSize kSize{16, 16};
+  const std::vector<std::uint8_t> zeros(std::size_t{16} * 16 * 4);
+  Texture grey(TextureFormat::kRgba8, kSize, TextureFilter::kLinear);
+  grey.upload(zeros, std::size_t{16} * 4);
+  Texture ids(TextureFormat::kR32ui, kSize);
+  ids.upload(zeros, std::size_t{16} * 4);
+  scene::ArFrame frame{.colour = &grey, .ids = &ids, .normalFocus = &grey, .barycentrics = &ids};
+  paint(frame, kViews.front().name);
+  for (const bool hasMore : {true, false}) {
+    p_.movers = hasMore;
+    frame.hasObjects = frame.hasFocus = hasMore;
+    ++frame.sequence;
+    paint(frame, {});
+  }
+  p_ = hatchingParameters().typed(values_);
+  state_->drawing.reset();
+  state_->filtered.reset();
+  state_->canvas = nullptr;
+  state_->canvases.clear();
+}
+
+void Hatching::setParameters(const config::ParameterValues& values) {
+  if (values == values_) return;
+  p_ = hatchingParameters().typed(values);
+  values_ = values;
+}
+
+const Texture& Hatching::paint(const scene::ArFrame& frame, std::string_view view) {
+  State& s = *state_;
+  s.take(frame, p_);
+  s.follow(frame, p_);
+  s.findTone(frame, p_);
+  s.findContours(frame, p_);
+  s.drawLines(frame, p_, view);
+  if (view.empty()) {
+    s.finish(frame, p_);
+  } else {
+    s.show(frame, p_, view);
+  }
+  return s.canvas->picture;
+}
+
+const marks::AnchorSet* Hatching::anchors() const {
+  return state_->drawing ? &state_->drawing->sets.front()->anchors() : nullptr;
+}
+
+std::vector<marks::Anchor> Hatching::readAnchors() const {
+  std::vector<marks::Anchor> all;
+  for (std::size_t i = 0; i < setCount(); ++i) {
+    const std::vector<marks::Anchor> some = set(i).anchors().read();
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return all;
+}
+
+const marks::MotionLayers* Hatching::movers() const {
+  return state_->drawing && p_.movers ? &state_->drawing->movers : nullptr;
+}
+
+std::size_t Hatching::setCount() const {
+  return state_->drawing ? state_->drawing->sets.size() : 0;
+}
+
+const HatchLines& Hatching::set(std::size_t number) const {
+  return *state_->drawing->sets.at(number);
+}
+
+const Texture& Hatching::ink() const {
+  return state_->canvas->ink;
+}
+
+void Hatching::reset() {
+  state_->filtered.reset();
+  if (!state_->drawing) return;
+  state_->drawing->motion.reset();
+  state_->drawing->movers.reset();
+  state_->drawing->field.reset();
+  for (const auto& set : state_->drawing->sets) set->reset();
+}
+
+}  // namespace pleinair::styles

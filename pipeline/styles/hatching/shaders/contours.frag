@@ -1,0 +1,83 @@
+// Purpose: contour lines: edges of the image, smoothed along their direction, and the silhouettes,
+//          creases and part borders of models.
+// Defines: MODELS: the latter.
+// Inputs:  edges (contour_edges.frag, LINEAR); contour_field.glsl's and mover_labels.glsl's; step_:
+//          px between taps; threshold: the least difference that is a line, in luma; sign: -1 for
+//          lines on the dark side of edges, 1 for the light one; MODELS: ids, parts (if hasParts),
+//          normalFocus (ArFrame).
+// Outputs: RG8: R ink, in [0, 1]; G the other side of edges, which stays bare where all around is
+//          dark (light, in inverted looks).
+// Precision: highp.
+#include "pipeline/marks/shaders/mover_labels.glsl"
+#include "pipeline/styles/hatching/shaders/contour_field.glsl"
+#ifdef MODELS
+#include "pipeline/scene/render/shaders/object_id.glsl"
+uniform highp usampler2D ids;
+uniform highp usampler2D parts;
+uniform sampler2D normalFocus;
+uniform bool hasParts;
+#endif
+uniform sampler2D edges;
+uniform float step_;
+uniform float threshold;
+uniform float sign_;
+layout(location = 0) out vec2 contour;
+
+const float kSmooth[4] = float[4](0.24, 0.2, 0.12, 0.06);
+
+float edgeAt(vec2 pixel) { return textureLod(edges, pixel / size, 0.0).r; }
+
+#ifdef MODELS
+const float kCrease = 0.8;  // cosine between the normals of neighbouring pixels
+
+uvec2 thingAt(ivec2 p) {
+  uint object = objectOf(texelFetch(ids, p, 0).r);
+  if (!isVirtual(object)) return uvec2(0u);
+  return uvec2(object, hasParts ? texelFetch(parts, p, 0).r : 0u);
+}
+
+vec3 normalAt(ivec2 p) { return normalize(texelFetch(normalFocus, p, 0).xyz * 2.0 - 1.0); }
+
+// Silhouettes, on both sides, by the share of the surroundings that is another object; lighter and
+// a pixel wide, borders between parts, and creases.
+float modelLines(ivec2 p) {
+  const float kPart = 0.7;
+  ivec2 last = textureSize(ids, 0) - 1;
+  uvec2 own = thingAt(p);
+  float other = 0.0;
+  float inner = 0.0;
+  for (int i = 0; i < 9; ++i) {
+    ivec2 step = ivec2(i % 3, i / 3) - 1;
+    ivec2 at = clamp(p + step, ivec2(0), last);
+    uvec2 thing = thingAt(at);
+    float weight = float((2 - abs(step.x)) * (2 - abs(step.y))) / 16.0;
+    if (thing.x != own.x) other += weight;
+    if (thing.x != own.x || own.x == 0u || (i != 5 && i != 7)) continue;
+    if (thing.y != own.y) {
+      inner = kPart;
+    } else {
+      float turn = dot(normalAt(p), normalAt(at));
+      inner = max(inner, kPart * (1.0 - smoothstep(kCrease - 0.3, kCrease, turn)));
+    }
+  }
+  return max(smoothstep(0.05, 0.25, other), inner);
+}
+#endif
+
+void main() {
+  vec2 gradient = gradientAt(gl_FragCoord.xy);
+  float sum = kSmooth[0] * edgeAt(gl_FragCoord.xy);
+  for (int side = -1; side <= 1; side += 2) {
+    vec2 at = gl_FragCoord.xy;
+    vec2 along = float(side) * vec2(-gradient.y, gradient.x);
+    for (int i = 1; i < 4; ++i) {
+      at += step_ * along;
+      sum += kSmooth[i] * edgeAt(at);
+    }
+  }
+  contour = smoothstep(vec2(0.6 * threshold), vec2(1.4 * threshold), vec2(sign_, -sign_) * sum);
+#ifdef MODELS
+  ivec2 p = ivec2(gl_FragCoord.xy);
+  contour.r = max(contour.r, modelLines(p));
+#endif
+}

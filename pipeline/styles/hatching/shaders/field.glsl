@@ -1,0 +1,29 @@
+// Purpose: the direction of a set's lines: along the tensor field, or at one slope on the paper, or
+//          in between, turned by the set's angle.
+// Inputs:  field (marks::TensorField), fieldScale; moverField, moverScale; slope: a tensor; lead:
+//          weight of the field beside it; turn: cosine and sine of the set's angle.
+// Outputs: unit vectors; a direction and its opposite are the same.
+// Precision: highp.
+uniform highp sampler2D field;
+uniform highp sampler2D moverField;
+uniform vec2 fieldScale;  // px of the full image to texture coordinates
+uniform vec2 moverScale;
+uniform vec2 slope;
+uniform float lead;
+uniform vec2 turn;
+
+vec2 unitTensor(vec2 tensor) { return tensor * inversesqrt(max(dot(tensor, tensor), 1e-12)); }
+
+vec2 directionAt(vec2 px, bool isOnMover) {
+  vec2 tensor = textureLod(field, px * fieldScale, 0.0).xy;
+  if (isOnMover) {
+    tensor = textureLod(moverField, px * moverScale, 0.0).xy;
+    tensor = dot(tensor, tensor) > 1e-3 ? tensor : slope;
+  }
+  tensor = unitTensor(mix(slope, unitTensor(tensor), lead));
+  // Half the angle by square roots; lines run across the gradient.
+  vec2 gradient = vec2(sqrt(max(0.0, 0.5 + 0.5 * tensor.x)), sqrt(max(0.0, 0.5 - 0.5 * tensor.x)));
+  if (tensor.y < 0.0) gradient.y = -gradient.y;
+  vec2 way = vec2(-gradient.y, gradient.x);
+  return vec2(turn.x * way.x - turn.y * way.y, turn.y * way.x + turn.x * way.y);
+}
