@@ -109,6 +109,21 @@ ivec2 pixelAt(vec2 px) {
   return isInside ? pixel : ivec2(-1);
 }
 
+// Whether an object of the camera image, 0 for none, is seen at a pixel or at an outline beside it,
+// which a pose is not exact enough to place. Virtual models are where they are drawn.
+bool isSeenAt(ivec2 pixel, uint object) {
+  const float kOutlineError = 1.5;  // px
+  uint here = objectOf(texelFetch(ids, pixel, 0).r);
+  if (here == object || isVirtual(here)) return here == object;
+  ivec2 reach = ivec2(kOutlineError * pixelsOfFull + 0.5);
+  for (int i = 0; i < 4; ++i) {
+    ivec2 at = pixel + (i < 2 ? ivec2(reach.x, 0) : ivec2(0, reach.y)) * (1 - 2 * (i & 1));
+    at = clamp(at, ivec2(0), textureSize(ids, 0) - 1);
+    if (objectOf(texelFetch(ids, at, 0).r) == object) return true;
+  }
+  return false;
+}
+
 // Whether a real thing's model was not known in the previous frame. It has not come before what was
 // seen here: that was the thing.
 bool isNewlyKnown(uint object) {
@@ -160,7 +175,8 @@ void main() {
     object = objectOf(id);
   }
   // Movers are seen before all real things.
-  bool isHidden = pixel.x >= 0 && (isOnMover ? isVirtual(objectOf(id)) : objectOf(id) != object);
+  bool isHidden =
+      pixel.x >= 0 && (isOnMover ? isVirtual(objectOf(id)) : !isSeenAt(pixel, object));
   isHidden = isHidden || (state & kTurnedAway) != 0u;
   // Appearance is not compared behind a model, nor for an anchor known to lie on another real
   // object.

@@ -89,7 +89,7 @@ HatchLines::HatchLines(const gpu::ShaderLibrary& library, hal::FrameSize full,
 void HatchLines::update(const scene::ArFrame& frame, const Inputs& inputs, const HatchRule& rule) {
   const hal::Duration step = marks::timeStep(lastTime_, frame.captureTime);
   lastTime_ = frame.captureTime;
-  anchors_.advance(frame, *inputs.motion, {}, inputs.movers);
+  anchors_.advance(frame, *inputs.motion, {}, inputs.movers, inputs.field);
   align(frame, inputs, rule, step);
   trace(frame, inputs, rule, step);
   layOut(frame, inputs, rule);
@@ -98,6 +98,7 @@ void HatchLines::update(const scene::ArFrame& frame, const Inputs& inputs, const
 void HatchLines::bindField(gpu::Program& program, const marks::TensorField& field,
                            const HatchRule& rule, std::size_t level) const {
   program.texture("field", field.resolved(level))
+      .texture("modelField", field.resolvedModels(level))
       .texture("moverField", field.movers())
       .set("fieldScale", scaleOf(field, level))
       .set("moverScale", scaleOf(field, 0))

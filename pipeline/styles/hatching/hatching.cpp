@@ -299,6 +299,9 @@ void Hatching::State::findContours(const scene::ArFrame& frame, const HatchingPa
                static_cast<float>(p.contourWidth * scaleOf(frame.full()) * frame.pixelsOfFull().x));
   const auto bindField = [&](gpu::Program& pass) {
     pass.texture("field", field.resolved(0))
+        .texture("modelField", field.resolvedModels(0))
+        .texture("forms", frame.hasObjects ? *frame.forms : noIds)
+        .set("hasForms", frame.hasObjects ? 1 : 0)
         .texture("moverField", field.movers())
         .texture("movers", layerTextures.labelsOf(moversOf(p)))
         .set("fieldScale", fieldScale)

@@ -1,10 +1,12 @@
 // Purpose: the direction of a set's lines: along the tensor field, or at one slope on the paper, or
 //          in between, turned by the set's angle.
-// Inputs:  field (marks::TensorField), fieldScale; moverField, moverScale; slope: a tensor; lead:
+//          On a model, always along its own field, so that lines go with it.
+// Inputs:  field, modelField (marks::TensorField), fieldScale; moverField, moverScale; slope: a tensor; lead:
 //          weight of the field beside it; turn: cosine and sine of the set's angle.
 // Outputs: unit vectors; a direction and its opposite are the same.
 // Precision: highp.
 uniform highp sampler2D field;
+uniform highp sampler2D modelField;
 uniform highp sampler2D moverField;
 uniform vec2 fieldScale;  // px of the full image to texture coordinates
 uniform vec2 moverScale;
@@ -14,13 +16,19 @@ uniform vec2 turn;
 
 vec2 unitTensor(vec2 tensor) { return tensor * inversesqrt(max(dot(tensor, tensor), 1e-12)); }
 
-vec2 directionAt(vec2 px, bool isOnMover) {
-  vec2 tensor = textureLod(field, px * fieldScale, 0.0).xy;
-  if (isOnMover) {
+// `support`: of line_support.glsl.
+vec2 directionAt(vec2 px, uint support) {
+  bool isOnModel = support != 0u && support != kOnMover;
+  vec2 tensor;
+  if (isOnModel) {
+    tensor = textureLod(modelField, px * fieldScale, 0.0).xy;
+  } else if (support == 0u) {
+    tensor = textureLod(field, px * fieldScale, 0.0).xy;
+  } else {
     tensor = textureLod(moverField, px * moverScale, 0.0).xy;
     tensor = dot(tensor, tensor) > 1e-3 ? tensor : slope;
   }
-  tensor = unitTensor(mix(slope, unitTensor(tensor), lead));
+  tensor = unitTensor(mix(slope, unitTensor(tensor), isOnModel ? 1.0 : lead));
   // Half the angle by square roots; lines run across the gradient.
   vec2 gradient = vec2(sqrt(max(0.0, 0.5 + 0.5 * tensor.x)), sqrt(max(0.0, 0.5 - 0.5 * tensor.x)));
   if (tensor.y < 0.0) gradient.y = -gradient.y;

@@ -29,7 +29,7 @@ uniform vec2 past;
 const float kTurn = 6.2831853;
 
 vec2 acrossAt(vec2 px, uint support) {
-  vec2 way = directionAt(px, support == kOnMover);
+  vec2 way = directionAt(px, support);
   return vec2(-way.y, way.x);
 }
 

@@ -72,7 +72,7 @@ Arm walk(vec2 from, vec2 heading, float bend, float most, uint support) {
   bool goesOn = true;
   vec2 at = from;
   for (int i = 0; i < kArm; ++i) {
-    vec2 way = turned(directionAt(at + 0.5 * segment * heading, support == kOnMover),
+    vec2 way = turned(directionAt(at + 0.5 * segment * heading, support),
                       bend * (float(i) + 0.5) / float(kArm));
     float along = dot(way, heading);
     if (along < 0.0) way = -way;
@@ -123,7 +123,7 @@ void main() {
                            (support == 0u && reachesMover(px, line)));
   if (!isHeld) {
     float stray = wander * (2.0 * unitOf(hashOf(seed ^ 0x44u)) - 1.0);
-    vec2 heading = turned(directionAt(px, support == kOnMover), stray);
+    vec2 heading = turned(directionAt(px, support), stray);
     vec4 jacobian = anchors[slot].jacobian;
     if (!isNew) {
       // Keeps the previous orientation.
