@@ -420,7 +420,7 @@ void Hatching::warmUp() {
   grey.upload(zeros, std::size_t{16} * 4);
   Texture ids(TextureFormat::kR32ui, kSize);
   ids.upload(zeros, std::size_t{16} * 4);
-  scene::ArFrame frame{.colour = &grey, .ids = &ids, .normalFocus = &grey, .barycentrics = &ids};
+  scene::ArFrame frame{.colour = &grey, .ids = &ids, .normalFocus = &grey, .barycentrics = &ids, .forms = &ids};
   paint(frame, kViews.front().name);
   for (const bool hasMore : {true, false}) {
     p_.movers = hasMore;

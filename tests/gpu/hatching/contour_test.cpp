@@ -110,6 +110,11 @@ TEST_F(ContourTest, ModelsHaveSilhouettesPartBordersAndCreases) {
     return texture;
   };
   const gpu::Texture idTexture = textureOf(ids);
+  std::vector<std::uint32_t> forms;  // labels without directions
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    forms.push_back(ids[i] == 0U ? 0U : 1U + (parts[i] & 1U));
+  }
+  const gpu::Texture formTexture = textureOf(forms);
   const gpu::Texture partTexture = textureOf(parts);
   const gpu::Texture normalTexture = support::textureOf(normals.view());
   Hatching style(library_);
@@ -117,6 +122,7 @@ TEST_F(ContourTest, ModelsHaveSilhouettesPartBordersAndCreases) {
   frame.hasObjects = true;
   frame.ids = &idTexture;
   frame.barycentrics = &idTexture;
+  frame.forms = &formTexture;
   frame.parts = &partTexture;
   frame.normalFocus = &normalTexture;
   const auto bytes = paint(style, frame, "contours");

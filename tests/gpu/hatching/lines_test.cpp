@@ -218,6 +218,9 @@ class HatchBorders : public HatchLinesTest {
     const std::size_t stride = static_cast<std::size_t>(kSize.width) * 4;
     gpu::Texture idTexture(gpu::TextureFormat::kR32ui, kSize);
     idTexture.upload({reinterpret_cast<const std::uint8_t*>(ids.data()), ids.size() * 4}, stride);
+    for (std::uint32_t& id : ids) id = id != 0U ? 1U : 0U;
+    gpu::Texture labels(gpu::TextureFormat::kR32ui, kSize);
+    labels.upload({reinterpret_cast<const std::uint8_t*>(ids.data()), ids.size() * 4}, stride);
     gpu::Texture zeros(gpu::TextureFormat::kR32ui, kSize);
     zeros.upload(std::vector<std::uint8_t>(ids.size() * 4), stride);
     Hatching style(library_);
@@ -227,6 +230,7 @@ class HatchBorders : public HatchLinesTest {
     frame.hasObjects = isKnown;
     frame.ids = &idTexture;
     frame.barycentrics = &zeros;
+    frame.forms = &labels;
     frame.normalFocus = &picture_;
     style.paint(frame, {});
     int count = 0;

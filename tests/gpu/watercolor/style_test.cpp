@@ -329,6 +329,7 @@ TEST_F(WatercolorTest, SilhouettesOfObjectsAreEdges) {
   scene::ArFrame frame = frameOf(picture);
   frame.ids = &idTexture;
   frame.barycentrics = &barycentrics;
+  frame.forms = &barycentrics;
   frame.hasObjects = true;
   Watercolor style(library_);
   style.paint(frame, "");
