@@ -80,6 +80,7 @@ struct Bench {
     const scene::ArFrame frame{.colour = &frames[static_cast<std::size_t>(number % kFrames)],
                                .ids = &ids,
                                .barycentrics = &barycentrics,
+                               .forms = &barycentrics,
                                .hasObjects = hasObjects,
                                .sequence = static_cast<std::uint64_t>(number),
                                .captureTime = timeOfFrame(static_cast<std::uint64_t>(number))};

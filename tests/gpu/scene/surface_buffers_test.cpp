@@ -2,14 +2,19 @@
 // and plain arithmetic on the CPU.
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numbers>
 #include <string>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <glm/packing.hpp>
 #include <gmock/gmock.h>
 
+#include "pipeline/scene/models/surface_form.h"
 #include "pipeline/scene/render/drawn_model.h"
 #include "tests/gpu/scene/moving_models.h"
 #include "tests/gpu/scene/scene_gl_test.h"
@@ -36,6 +41,7 @@ struct Frames {
   std::vector<std::uint32_t> ids;
   std::vector<std::uint32_t> barycentrics;
   std::vector<std::uint32_t> parts;
+  std::vector<std::uint32_t> forms;
   std::vector<float> motion;  // four numbers per pixel
   oracles::PosedModel previous;
   oracles::PosedModel current;
@@ -81,6 +87,7 @@ class SurfaceBuffers : public SceneGlTest, public testing::WithParamInterface<Ca
     return {.ids = support::readR32ui(*frame.ids),
             .barycentrics = support::readR32ui(*frame.barycentrics),
             .parts = support::readR32ui(*frame.parts),
+            .forms = support::readR32ui(*frame.forms),
             .motion = support::readRgba32f(*frame.motion->texture),
             .previous = posed(scene, kPrevious.time_since_epoch(), previousAslant()),
             .current = posed(scene, kCurrent.time_since_epoch(), currentAslant())};
@@ -179,6 +186,66 @@ TEST_P(SurfaceBuffers, BarycentricsAndPartsAreThoseOfTheSurface) {
   }
   EXPECT_GT(judged, 3000);
   EXPECT_LE(wrong, judged / 1000);
+}
+
+/// The direction at rest is carried along by the posed triangle, and seen through the camera.
+TEST_P(SurfaceBuffers, FormsAreThoseOfThePosedSurface) {
+  const Scene scene = sceneOf(GetParam().make());
+  const Frames frames = twoFrames(scene);
+  const Model& model = *scene.models[0].model;
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<TriangleForm>> forms;
+  std::map<std::uint32_t, std::tuple<std::size_t, std::size_t, std::uint32_t>> patches;
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < frames.ids.size(); ++i) {
+    if (frames.ids[i] == 0) {
+      ASSERT_EQ(frames.forms[i], 0U);
+      continue;
+    }
+    const auto point =
+        oracles::pointBehind(frames.current, frames.ids[i] & kNumbers, camera(), pixelCentre(i));
+    if (!point) continue;
+    const ModelPart& part = model.parts[point->part];
+    const Mesh& mesh = model.surfaces[part.firstSurface + point->surface].mesh;
+    std::vector<TriangleForm>& known = forms[{point->part, point->surface}];
+    if (known.empty()) {
+      std::vector<std::size_t> limbs;
+      if (part.skin) limbs = limbsOf(model.rig, model.rig.skins[*part.skin]);
+      known = formsOf(mesh, limbs);
+    }
+    const TriangleForm& form = known[point->triangle];
+    const std::tuple patch(point->part, point->surface, form.patch);
+    const std::uint32_t label = frames.forms[i] & 4095U;
+    EXPECT_NE(label, 0U);
+    EXPECT_EQ(patches.try_emplace(label, patch).first->second, patch);
+
+    const double clarity = static_cast<double>(frames.forms[i] >> 24U) / 255.0;
+    if (clarity < 0.1) continue;
+    const auto& corners = mesh.triangles[point->triangle];
+    const glm::dvec3 last(mesh.vertices[corners[2]].position);
+    const glm::dvec3 a = glm::dvec3(mesh.vertices[corners[0]].position) - last;
+    const glm::dvec3 b = glm::dvec3(mesh.vertices[corners[1]].position) - last;
+    const glm::dvec3 along(form.along);
+    const double det = glm::dot(a, a) * glm::dot(b, b) - glm::dot(a, b) * glm::dot(a, b);
+    const double u =
+        (glm::dot(along, a) * glm::dot(b, b) - glm::dot(along, b) * glm::dot(a, b)) / det;
+    const double v =
+        (glm::dot(along, b) * glm::dot(a, a) - glm::dot(along, a) * glm::dot(a, b)) / det;
+    const double small = 1e-4 / std::max({std::abs(u), std::abs(v), 1e-6});
+    oracles::TrianglePoint ahead = *point;
+    ahead.barycentrics += small * glm::dvec3(u, v, -u - v);
+    const glm::dvec2 seen = camera().project(oracles::cameraPoint(frames.current, ahead)) -
+                            camera().project(oracles::cameraPoint(frames.current, *point));
+    const double found =
+        static_cast<double>(frames.forms[i] >> 12U & 4095U) * std::numbers::pi / 4096.0;
+    const double apart = std::remainder(found - std::atan2(seen.y, seen.x), std::numbers::pi);
+    errors.push_back(std::abs(apart) * 180.0 / std::numbers::pi);
+  }
+  EXPECT_GE(patches.size(), 1U);
+  if (errors.empty()) return;  // a box and a ball have no directions
+  std::ranges::sort(errors);
+  RecordProperty("pixels", static_cast<int>(errors.size()));
+  // The lens turns directions by less than this, and is not asked.
+  EXPECT_LT(errors[errors.size() * 99 / 100], GetParam().lens.k1 == 0.0 ? 0.3 : 4.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, SurfaceBuffers,
