@@ -102,7 +102,7 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .set("paintTexel", paint.modelTexelPx)
       .texture("ids", frame.hasObjects ? *frame.ids : noIds)
       .texture("forms", frame.hasObjects ? *frame.forms : noIds)
-      .texture("depth", hasDepth ? *frame.depth : noIds)
+      .texture("depth", hasDepth ? *frame.depth : anyColour)
       .set("depthRange", hasDepth ? glm::vec2(frame.nearMetres, frame.farMetres) : glm::vec2(0.0F))
       .set("hasObjects", frame.hasObjects ? 1 : 0)
       .set("anew", anchors.hasBegunAnew() ? 1 : 0)

@@ -108,9 +108,10 @@ void main() {
   Cell cell = cells[index];
   Objects objects = Objects(0.0, 0u, 0u);
   if (hasObjects) objects = objectsIn(at, cell.patches);
-  // Each further patch may have an anchor of its own.
+  // Each further patch may have an anchor of its own; room for it is made at its birth, or it
+  // would be the youngest that goes in the next frame.
   uint more = max(objects.patches, 1u) - 1u;
-  if (cell.inImage + cell.onObjects > uint(deathAbove) + more) {
+  if (cell.inImage + cell.onObjects + objects.unpainted > uint(deathAbove) + more) {
     anchors[cell.nextToRemove & kSlotMask].state |= kDying;
   }
   if (cell.onMovers > uint(deathAbove)) anchors[cell.nextMoverToRemove & kSlotMask].state |= kDying;

@@ -335,7 +335,8 @@ void main() {
     // What is before it has other colours and directions: the stroke stays, or fades out,
     // unchanged, unless it is of a colour that is not there.
     vec4 behind = textureLod(background, inLayers(background, px), 0.0);
-    bool isStale = !isOnMover && behind.a >= 1.0 && apart(old.colour, behind.rgb) > otherColour.y;
+    bool isReal = !isVirtual(objectOf(anchors[slot].surface));
+    bool isStale = isReal && !isOnMover && behind.a >= 1.0 && apart(old.colour, behind.rgb) > otherColour.y;
     if (!isStale || isBehind) {
       old.seen = isStale ? 0.0 : old.exists * anchors[slot].fade;
       strokes[slot] = old;

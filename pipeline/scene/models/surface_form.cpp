@@ -210,7 +210,9 @@ glm::mat3 curvatureOf(const std::array<glm::vec3, 3>& places,
     }
   }
   const float scale = normal[0][0] + normal[1][1] + normal[2][2];
-  if (std::abs(glm::determinant(normal)) < 1e-9F * scale * scale * scale) return glm::mat3(0.0F);
+  if (!(std::abs(glm::determinant(normal)) > 1e-9F * scale * scale * scale)) {
+    return glm::mat3(0.0F);
+  }
   const glm::vec3 form = glm::inverse(normal) * right;
   return form.x * glm::outerProduct(u, u) +
          form.y * (glm::outerProduct(u, v) + glm::outerProduct(v, u)) +
