@@ -196,7 +196,7 @@ void refuseGatesOf(const std::string& style) {
                 fmt::format("leave it out, or measure one of {}", config::listText(gated)));
 }
 
-/// What models need: the style at the picture's own size, and something to compare.
+/// Refuses options with which the scene's models cannot be measured.
 void refuseModelsOf(const MeasureOptions& options, const scene::Scene& scene, std::size_t quality) {
   if (options.imageSpace && !hasModels(scene)) {
     throw refusal("--image-space", "there are no models to paint as part of the video",

@@ -9,7 +9,7 @@
 
 namespace pleinair::app {
 
-/// What a MeasuredEngine reads back besides the painting.
+/// The optional contents of a PaintedFrame that a MeasuredEngine reads back.
 struct MeasuredEngineOptions {
   bool readsMovers = false;  ///< labels of movers
   /// Which points of models are seen, and the picture with them. Precondition: the painter, or the

@@ -170,6 +170,7 @@ void AnchorSet::State::countAnchors(const scene::ArFrame& frame, const AnchorHol
                                     hal::Duration step) {
   setFrame(beginCells(count), frame)
       .texture("forms", frame.hasObjects ? *frame.forms : noIds)
+      .set("hasObjects", frame.hasObjects ? 1 : 0)
       .set("slots", slots)
       .storage("Anchors", anchors)
       .storage("Cells", cells)
@@ -198,16 +199,16 @@ void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionFiel
       .storage("Plan", births)
       .set("cellCount", static_cast<unsigned>(grid.x * grid.y))
       .dispatch({1, 1}, kStored);
-  const gpu::Texture* const patches =
-      field != nullptr && frame.motion ? field->patchesBefore() : nullptr;
+  const gpu::Texture* const before = field != nullptr ? field->patchesBefore() : nullptr;
   setFrame(beginCells(spawn), frame)
       .set("hasObjects", frame.hasObjects ? 1 : 0)
       .texture("barycentrics", frame.barycentrics != nullptr ? *frame.barycentrics : noIds)
       .texture("motion", motion.backward())
       .texture("forms", frame.hasObjects ? *frame.forms : noIds)
       .texture("surfaceMotion", frame.motion ? *frame.motion->texture : motion.backward())
-      .texture("patchesBefore", patches != nullptr ? *patches : noIds)
-      .set("hasPatches", patches != nullptr && frame.hasObjects ? 1 : 0)
+      .texture("patches", before != nullptr ? *field->patches() : noIds)
+      .texture("patchesBefore", before != nullptr ? *before : noIds)
+      .set("hasPatches", before != nullptr && frame.hasObjects ? 1 : 0)
       .set("patchPixels", static_cast<float>(field != nullptr ? field->regionPixels(0) : 1.0))
       .texture("movers", layerTextures.labelsOf(layers))
       .storage("Anchors", anchors)
@@ -231,7 +232,7 @@ void AnchorSet::advance(const scene::ArFrame& frame, const MotionField& motion,
                         const TensorField* field) {
   State& s = *state_;
   assert(frame.full() == s.full);
-  assert(!frame.hasObjects || frame.barycentrics != nullptr);
+  assert(!frame.hasObjects || (frame.barycentrics != nullptr && frame.forms != nullptr));
   s.hasBegunAnew = !s.hasPast || motion.isCut();
   const hal::Duration step = s.hasPast ? timeStep(s.lastTime, frame.captureTime) : hal::Duration(0);
   s.lastTime = frame.captureTime;

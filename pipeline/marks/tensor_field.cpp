@@ -5,6 +5,7 @@
 #include <cassert>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -108,7 +109,7 @@ struct TensorField::State {
     return *gradients.emplace_back(std::make_unique<Gradient>(size));
   }
 
-  /// What remains of the previous frame.
+  /// The past of the field, and how much of it remains.
   struct Past {
     bool isThere = false;
     float share = 0.0F;
@@ -245,6 +246,10 @@ const gpu::Texture& TensorField::movers() const {
 
 const gpu::Texture& TensorField::resolvedModels(std::size_t level) const {
   return (state_->models ? state_->models->levels : state_->background)[level].resolved;
+}
+
+const gpu::Texture* TensorField::patches() const {
+  return state_->models ? &state_->models->labels : nullptr;
 }
 
 const gpu::Texture* TensorField::patchesBefore() const {

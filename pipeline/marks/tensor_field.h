@@ -59,8 +59,12 @@ class TensorField {
   const gpu::Texture& movers() const;
   /// Like resolved(): the tensors of virtual objects. Valid if the last frame had any.
   const gpu::Texture& resolvedModels(std::size_t level) const;
-  /// R32UI: the label of the patch of a model (scene/surface_form.glsl) in each region of the frame
-  /// before the last one; null if that had none or there was none.
+  /// R32UI: the label of the patch of a model (shaders/surface_form.glsl) that most of each region's
+  /// virtual pixels are of, 0 for none; null until a frame had models. Valid until the next
+  /// update(), like the following.
+  const gpu::Texture* patches() const;
+  /// The same of the previous frame; null if that had no models or ArFrame::motion is not set, so
+  /// that nobody knows where they were.
   const gpu::Texture* patchesBefore() const;
   /// Side of a region on a level, px of the full image.
   double regionPixels(std::size_t level) const;

@@ -17,7 +17,7 @@ struct Drift {
   double rms = 0;
 };
 
-/// Of the distances of one frame; nothing if there are none.
+/// The drift of one frame's distances; nothing if there are none.
 std::optional<Drift> driftOf(std::vector<float> distances);
 
 /// Mean drift over frames.

@@ -91,7 +91,7 @@ void WorstFrames::offer(std::uint64_t frame, double ew2, const cv::Mat3f& input,
   std::ranges::sort(frames_, std::greater<>(), &WorstFrame::ew2);
 }
 
-/// What is within the width of the border.
+/// The structuring element that reaches as far as the border is wide.
 cv::Mat farSquare() {
   return cv::getStructuringElement(cv::MORPH_RECT, {2 * kBorderPixels + 1, 2 * kBorderPixels + 1});
 }

@@ -1,5 +1,6 @@
 // Purpose: fades anchors in and out, and counts the staying ones in each cell.
-// Inputs:  anchor_cells.glsl's; ids and forms (ArFrame), pixelsOfFull, fullSize; fadeIn, fadeOut: the part of a fade that this frame completes.
+// Inputs:  anchor_cells.glsl's; ids and forms (ArFrame) and their pixelsOfFull if hasObjects;
+//          fadeIn, fadeOut: the part of a fade that this frame completes.
 // Outputs: anchors; cells, whose counts were 0 (anchor_spawn.comp). One invocation per anchor.
 // Precision: highp; counts are integers, so that order does not matter.
 #include "pipeline/marks/shaders/anchor.glsl"
@@ -13,6 +14,7 @@ uniform float fadeOut;
 uniform uint slots;
 uniform highp usampler2D ids;
 uniform highp usampler2D forms;
+uniform bool hasObjects;
 uniform vec2 pixelsOfFull;
 uniform vec2 fullSize;
 #include "pipeline/scene/render/shaders/surface_form.glsl"
@@ -20,7 +22,7 @@ uniform vec2 fullSize;
 // The bit of the patch that an anchor's pixel shows, if it shows its object.
 uint patchBitAt(vec2 px, uint object) {
   ivec2 pixel = clamp(ivec2(floor(px * pixelsOfFull)), ivec2(0), textureSize(forms, 0) - 1);
-  if (objectOf(texelFetch(ids, pixel, 0).r) != object) return 0u;
+  if (!hasObjects || objectOf(texelFetch(ids, pixel, 0).r) != object) return 0u;
   return patchBit(labelOf(texelFetch(forms, pixel, 0).r));
 }
 

@@ -1,9 +1,9 @@
 // Purpose: controls the density of anchors in a cell: the number of spawns, and the anchor to
 //          remove (thesis §5.3, with hysteresis).
 // Inputs:  anchor_cells.glsl's; the rule (marks::DensityRule): target, birthBelow, deathAbove; ids
-//          and its pixelsOfFull if hasObjects; fullSize; mover_labels.glsl's.
-//          forms (ArFrame). Anchors of the background and of movers are counted apart; each
-//          patch of a model that shows enough of itself gets one at least.
+//          and forms (ArFrame) and their pixelsOfFull if hasObjects; fullSize; mover_labels.glsl's.
+//          Anchors of the background and of movers are counted apart; each patch of a model that
+//          shows enough of itself gets one at least.
 // Outputs: births of each cell; anchors: those to remove. One invocation per cell.
 // Precision: integers; highp for places.
 #include "pipeline/marks/shaders/anchor.glsl"
@@ -30,9 +30,9 @@ const int kMaxPatches = 6;  // that are told apart in a cell
 
 // What models show in a cell.
 struct Objects {
-  float share;      // of the cell
-  uint patches;     // how many there are with a share of their own
-  uint unpainted;   // how many of these have no anchor
+  float share;     // of the cell
+  uint patches;    // how many show enough of themselves
+  uint unpainted;  // how many of these have no anchor
 };
 
 Objects objectsIn(ivec2 cell, uint painted) {
@@ -52,7 +52,13 @@ Objects objectsIn(ivec2 cell, uint painted) {
       uint label = labelOf(texelFetch(forms, ivec2(x, y), 0).r);
       int i = 0;
       while (i < known && labels[i] != label) ++i;
-      if (i == kMaxPatches) continue;
+      if (i == kMaxPatches) {
+        // The smallest so far makes room, so that slivers at the top hide nothing larger below.
+        i = 0;
+        for (int k = 1; k < kMaxPatches; ++k) i = counts[k] < counts[i] ? k : i;
+        labels[i] = label;
+        counts[i] = 0;
+      }
       if (i == known) {
         labels[i] = label;
         counts[i] = 0;

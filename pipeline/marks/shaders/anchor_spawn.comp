@@ -3,7 +3,9 @@
 //          of a model or of a real thing, or else a place of the camera image.
 // Inputs:  anchor_cells.glsl's; births and slots (anchor_plan.comp); ids, barycentrics (ArFrame)
 //          and their pixelsOfFull if hasObjects; fullSize; salt: another one each frame; atOnce:
-//          whether anchors appear without a fade; motion: MotionField's field; mover_labels.glsl's.
+//          whether anchors appear without a fade; motion: MotionField's field; forms, surfaceMotion
+//          (ArFrame), patches, patchesBefore: TensorField's, with patchPixels a side, if
+//          hasPatches; mover_labels.glsl's.
 // Outputs: anchors; counts cleared for the next frame. One invocation per cell.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
@@ -24,6 +26,7 @@ uniform bool atOnce;
 uniform highp sampler2D motion;
 uniform highp usampler2D forms;
 uniform highp sampler2D surfaceMotion;
+uniform highp usampler2D patches;
 uniform highp usampler2D patchesBefore;
 uniform bool hasPatches;
 uniform float patchPixels;
@@ -31,9 +34,12 @@ uniform float patchPixels;
 
 #include "pipeline/marks/shaders/mover_labels.glsl"
 
+const int kScan = 8;  // places along a cell's side
 const int kTries = 6;  // attempts in one part of the cell, then as many in the whole cell
 
-ivec2 pixelAt(vec2 px) { return clamp(ivec2(floor(px * pixelsOfFull)), ivec2(0), textureSize(ids, 0) - 1); }
+ivec2 pixelAt(vec2 px) {
+  return clamp(ivec2(floor(px * pixelsOfFull)), ivec2(0), textureSize(ids, 0) - 1);
+}
 
 // The next free part of the cell that is not in `taken`; any part if all are. One colour of a
 // chequerboard over all cells is filled first: then nearly every square of a cell's size holds an
@@ -67,16 +73,23 @@ bool hasBeenUncovered(vec2 px) {
   ivec2 pixel = pixelAt(px);
   uint label = labelAt(px);
   if (!hasPatches || label == 0u) return false;
-  vec2 from = px - texelFetch(surfaceMotion, pixel, 0).xy / pixelsOfFull;
+  // A narrow patch is in no region's majority: nothing is known of where it was.
   ivec2 last = textureSize(patchesBefore, 0) - 1;
-  ivec2 at = clamp(ivec2(floor(from / patchPixels)), ivec2(0), last);
-  return texelFetch(patchesBefore, at, 0).r != label;
+  ivec2 region = min(ivec2(px / patchPixels), last);
+  if (texelFetch(patches, region, 0).r != label) return false;
+  vec4 moved = texelFetch(surfaceMotion, pixel, 0);
+  if (moved.w == 0.0) return false;
+  ivec2 was = ivec2(floor((px - moved.xy / pixelsOfFull) / patchPixels));
+  for (int i = 0; i < 9; ++i) {
+    ivec2 at = clamp(was + ivec2(i % 3, i / 3) - 1, ivec2(0), last);
+    if (texelFetch(patchesBefore, at, 0).r == label) return false;
+  }
+  return true;
 }
 
-// `patches`: those that have anchors; the anchor is to lie on another one, unless all are taken. Adds
-// its own.
+// `patchesTaken`: those that the anchor is not to lie on; its own is added.
 void spawn(ivec2 cell, uint number, bool onObject, bool onMover, inout uint taken,
-           inout uint patches) {
+           inout uint patchesTaken) {
   if (number >= freeCount) return;
   uint hash = hashOf(cell, hashOf(salt) + number);  // separates the sequences of different frames
   int part = freePart(cell, taken, hash);
@@ -86,20 +99,26 @@ void spawn(ivec2 cell, uint number, bool onObject, bool onMover, inout uint take
   vec2 px = vec2(0.0);
   vec2 mover = vec2(0.0);
   bool isFound = false;
-  for (int i = 0; i < 2 * kTries && !isFound; ++i) {
+  int scanned = patchesTaken != 0u ? kScan * kScan : 0;
+  for (int i = 0; i < 2 * kTries + scanned && !isFound; ++i) {
     hash = hashOf(hash);
     vec2 jitter = vec2(unitOf(hash), unitOf(hashOf(hash)));
     vec2 inCell = i < kTries ? (corner + 0.1 + 0.8 * jitter) / float(strataSide) : jitter;
+    if (i >= 2 * kTries) {
+      // A small patch that chance has missed is found place by place.
+      int place = i - 2 * kTries;
+      inCell = (vec2(place % kScan, place / kScan) + jitter) / float(kScan);
+    }
     px = (vec2(cell) + inCell) * float(cellPixels);
     if (any(greaterThanEqual(px, fullSize))) continue;
     id = hasObjects ? texelFetch(ids, pixelAt(px), 0).r : 0u;
     mover = moverAt(px);
     bool isMover = !isVirtual(objectOf(id)) && mover.r > 0.5;
     isFound = isVirtual(objectOf(id)) == onObject && isMover == onMover &&
-              !(onObject && (patches & patchBit(labelAt(px))) != 0u);
+              !(onObject && (patchesTaken & patchBit(labelAt(px))) != 0u);
   }
   if (!isFound) return;
-  if (onObject) patches |= patchBit(labelAt(px));
+  if (onObject) patchesTaken |= patchBit(labelAt(px));
   Anchor born;
   born.px = px;
   born.displacement = vec2(0.0);
@@ -130,7 +149,7 @@ void main() {
   int index = indexOf(at);
   uint births = cells[index].births;
   uint strata = cells[index].strata;
-  uint patches = cells[index].patches;
+  uint painted = cells[index].patches;
   cells[index].patches = 0u;
   cells[index].strata = 0u;
   cells[index].inImage = 0u;
@@ -141,7 +160,6 @@ void main() {
   cells[index].nextMoverToRemove = 0u;
   if (births + moverBirths == 0u) return;
   uint number = cells[index].firstBirth;
-  uint painted = patches;
   uint any = 0u;
   uint taken = strata & 0xFFFFu;
   for (uint i = 0u; i < birthsInImage(births); ++i) spawn(at, number++, false, false, taken, any);

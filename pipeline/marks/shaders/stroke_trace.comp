@@ -4,12 +4,12 @@
 //          A stroke stays on what it lies on: it ends where the label of the surface changes
 //          (surface_form.glsl), or its depth by a step.
 // Inputs:  anchors; field: tensors to follow, detailField: tensors with the detail; modelField,
-//          modelDetailField, moverField: those of virtual objects and of movers; mover_labels.glsl's and mover_motion.glsl's; background
-//          (marks::MotionLayers); paint, modelPaint, moverPaint: the reduced images of the
-//          background, of models and of movers; finePaint: of models, two px a texel; paintTexel:
-//          of modelPaint, in px of the full image; ids, forms and depth (ArFrame) if hasObjects,
-//          depthRange: the near and the far plane in metres, 0: no depth; the rest as in
-//          marks::StrokeRule.
+//          modelDetailField, moverField: those of virtual objects and of movers;
+//          mover_labels.glsl's and mover_motion.glsl's; background (marks::MotionLayers); paint,
+//          modelPaint, moverPaint: the reduced images of the background, of models and of movers;
+//          finePaint: the finest of models; paintTexel: the width of modelPaint's texels, px of the
+//          full image; ids, forms and depth (ArFrame) if hasObjects, depthRange: the near and the
+//          far plane in metres, 0: no depth; the rest as in marks::StrokeRule.
 // Outputs: strokes. One invocation per anchor.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
@@ -87,7 +87,8 @@ ivec2 pixelAt(vec2 px) {
 
 uint labelAt(vec2 px) { return hasObjects ? labelOf(texelFetch(forms, pixelAt(px), 0).r) : 0u; }
 
-// The label of the anchor's triangle: of its pixel, or of the one beside it that shows the triangle.
+// The label of the anchor's triangle: that of its pixel, or of the one beside it that shows the
+// triangle.
 uint labelOfAnchor(vec2 px, uint surface) {
   ivec2 middle = pixelAt(px);
   ivec2 last = textureSize(ids, 0) - 1;
@@ -100,10 +101,13 @@ uint labelOfAnchor(vec2 px, uint surface) {
   return labelOf(texelFetch(forms, found, 0).r);
 }
 
+// Whether another patch is within a texel of the reduced image, at a third of it, two or all.
 bool isMixedAt(vec2 px, uint label) {
-  for (int i = 0; i < 4; ++i) {
-    vec2 arm = vec2(i < 2 ? float(2 * i - 1) : 0.0, i < 2 ? 0.0 : float(2 * i - 5));
-    if (labelAt(px + paintTexel * arm) != label) return true;
+  for (int i = 0; i < 12; ++i) {
+    float reach = paintTexel * float(1 + i / 4) / 3.0;
+    float side = (i & 1) == 0 ? -reach : reach;
+    vec2 arm = (i & 2) == 0 ? vec2(side, 0.0) : vec2(0.0, side);
+    if (labelAt(px + arm) != label) return true;
   }
   return false;
 }
@@ -336,7 +340,8 @@ void main() {
     // unchanged, unless it is of a colour that is not there.
     vec4 behind = textureLod(background, inLayers(background, px), 0.0);
     bool isReal = !isVirtual(objectOf(anchors[slot].surface));
-    bool isStale = isReal && !isOnMover && behind.a >= 1.0 && apart(old.colour, behind.rgb) > otherColour.y;
+    bool isStale = isReal && !isOnMover && behind.a >= 1.0 &&
+                   apart(old.colour, behind.rgb) > otherColour.y;
     if (!isStale || isBehind) {
       old.seen = isStale ? 0.0 : old.exists * anchors[slot].fade;
       strokes[slot] = old;

@@ -53,7 +53,8 @@ vec2 formAt(ivec2 p) {
   vec2 bent = tensorOf(texelFetch(forms, p, 0).r);
   vec2 tilt = 2.0 * texelFetch(normals, p, 0).xy - 1.0;
   float steep = dot(tilt, tilt);
-  vec2 silhouette = vec2(tilt.x * tilt.x - tilt.y * tilt.y, 2.0 * tilt.x * tilt.y) / max(steep, 1e-4);
+  vec2 silhouette =
+      vec2(tilt.x * tilt.x - tilt.y * tilt.y, 2.0 * tilt.x * tilt.y) / max(steep, 1e-4);
   return mix(bent, silhouette, smoothstep(0.7, 0.95, steep));
 }
 
@@ -90,7 +91,8 @@ void main() {
   ivec2 region = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(region, imageSize(regions)))) return;
   ivec2 low = ivec2(floor(vec2(region) * regionPixels * pixelsOfFull));
-  ivec2 high = min(ivec2(floor(vec2(region + 1) * regionPixels * pixelsOfFull)), textureSize(forms, 0));
+  ivec2 high =
+      min(ivec2(floor(vec2(region + 1) * regionPixels * pixelsOfFull)), textureSize(forms, 0));
   uint label = labelOfMost(low, high);
   imageStore(labels, region, uvec4(label));
   if (label == 0u) {

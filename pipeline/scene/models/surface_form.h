@@ -18,8 +18,9 @@ struct TriangleForm {
   /// where the limbs of a skeleton begin; small ones have joined a neighbour.
   std::uint32_t patch = 0;
   /// Along the least principal curvature (the axis of a cylinder), in the mesh's frame. Its length
-  /// says how clear that is: 0 on flat and on spherical surfaces, 1 where the surface bends in one
-  /// direction only.
+  /// says how clear that is: 1 where the surface bends in one direction only, with a radius at most
+  /// 1.25 times the mesh's; 0 where it bends alike in both (a sphere, an even saddle) or hardly at
+  /// all, with a radius above five times the mesh's.
   glm::vec3 along{0.0F};
 };
 
@@ -30,7 +31,7 @@ std::vector<TriangleForm> formsOf(const Mesh& mesh, std::span<const std::size_t>
 
 /// For each joint of a skin the limb that it belongs to; 0: the trunk. Limbs are long chains of
 /// joints that leave the trunk where it branches; what branches off a limb, like fingers, is part of
-/// it.
+/// it. A joint below a node that is no joint begins a trunk of its own.
 std::vector<std::size_t> limbsOf(const Rig& rig, const Skin& skin);
 
 }  // namespace pleinair::scene

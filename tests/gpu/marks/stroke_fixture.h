@@ -130,15 +130,16 @@ class StrokeTest : public TensorTest {
       frame.nearMetres = kNear;
       frame.farMetres = kFar;
     }
-    motionField_->update(frame);
+    motionField_->update(frame, {.follows = follows_});
     if (layers_) layers_->update(frame, *motionField_);
     const MotionLayers* const layers = layers_ ? &*layers_ : nullptr;
     field_->update(frame, texture, *motionField_, kNoMemory, layers);
     anchors_->advance(frame, *motionField_, {}, layers);
     const StrokePaint paints{.background = &colours,
-                             .models = &colours,
+                             .models = mixed_ ? &*mixed_ : &colours,
                              .movers = &colours,
-                             .fineModels = &colours};
+                             .fineModels = &colours,
+                             .modelTexelPx = mixed_ ? kMixedPx : 1.0F};
     strokes_->update(frame, *anchors_, *field_, paints, rule, layers);
   }
 
@@ -195,6 +196,9 @@ class StrokeTest : public TensorTest {
   std::optional<TensorField> field_;
   std::optional<AnchorSet> anchors_;
   std::optional<StrokeSet> strokes_;
+  static constexpr float kMixedPx = 16.0F;
+  std::optional<gpu::Texture> mixed_;  ///< the image of models, of texels so wide, if not the paint
+  bool follows_ = true;                ///< anchors move with the picture; without, none is hidden
   gpu::Texture ids_;
   gpu::Texture forms_;
   std::optional<gpu::Texture> depth_;  ///< as a depth buffer holds it

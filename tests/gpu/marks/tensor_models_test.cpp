@@ -1,8 +1,10 @@
 // The tensors of virtual objects: they go with their object and leave nothing behind.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -51,7 +53,8 @@ class TensorModels : public TensorFieldFixture {
   void see(const std::optional<Place>& place, const std::optional<Place>& before = {},
            bool tellsMotion = true) {
     const hal::Image image = greyPicture(kSize, [&](glm::dvec2 px) {
-      return place && isQuad(px, *place) ? quadLuma(onQuad(px, *place)) : wall(px);
+      if (!place || !isQuad(px, *place)) return wall(px);
+      return isPlain_ ? 0.5 : quadLuma(onQuad(px, *place));
     });
     std::vector<std::uint32_t> ids;
     std::vector<std::uint32_t> forms;  // labels without directions
@@ -61,7 +64,7 @@ class TensorModels : public TensorFieldFixture {
         const glm::dvec2 px(x + 0.5, y + 0.5);
         const bool isIt = place && isQuad(px, *place);
         ids.push_back(isIt ? object_ << scene::kTriangleBits : 0U);
-        forms.push_back(isIt ? object_ : 0U);
+        forms.push_back(isIt ? object_ | line_ : 0U);
         glm::dvec2 by(0.0);
         if (isIt && before && tellsMotion) by = px - fromQuad(onQuad(px, *place), *before);
         moved.emplace_back(by, 0.0, isIt && before ? 1.0 : 0.0);
@@ -77,8 +80,11 @@ class TensorModels : public TensorFieldFixture {
     moved_ = gpu::Texture(gpu::TextureFormat::kRgba32f, kSize);
     moved_.upload({reinterpret_cast<const std::uint8_t*>(moved.data()), 16 * moved.size()},
                   16 * width);
-    normals_ = support::textureOf(
-        hal::Image({.pixelFormat = hal::PixelFormat::kRgba8, .size = kSize}).view());
+    hal::Image normals({.pixelFormat = hal::PixelFormat::kRgba8, .size = kSize});
+    for (std::size_t i = 0; i < normals.plane(0).size(); ++i) {
+      normals.plane(0)[i] = normal_.at(i % 4);
+    }
+    normals_ = support::textureOf(normals.view());
     scene::ArFrame frame = frameOf(colour_);
     frame.hasObjects = place.has_value();
     frame.ids = &ids_;
@@ -86,7 +92,7 @@ class TensorModels : public TensorFieldFixture {
     frame.normalFocus = &normals_;
     frame.motion = scene::SurfaceMotion{.texture = &moved_};
     motionField_->update(frame);
-    field_->update(frame, colour_, *motionField_, {.form = 0.0});
+    field_->update(frame, colour_, *motionField_, {.form = form_});
   }
 
   /// The angles, in degrees, between the quad's directions and those of one that stands there, over
@@ -110,6 +116,10 @@ class TensorModels : public TensorFieldFixture {
   }
 
   std::uint32_t object_ = 1;
+  std::uint32_t line_ = 0;  // the direction of its form, as in surface_form.glsl
+  bool isPlain_ = false;
+  double form_ = 0.0;
+  std::array<std::uint8_t, 4> normal_{128, 128, 255, 0};  // towards the camera
   gpu::Texture colour_;
   gpu::Texture ids_;
   gpu::Texture forms_;
@@ -150,6 +160,7 @@ TEST_F(TensorModels, DirectionsTurnWithTheModel) {
       see(place, before, tellsMotion);
     }
     const std::vector<double> errors = errorsOnQuad(place);
+    ASSERT_GT(errors.size(), 20U);
     const double median = errors[errors.size() / 2];
     if (tellsMotion) {
       EXPECT_LT(median, 1.0);
@@ -187,12 +198,39 @@ TEST_F(TensorModels, AnotherPatchBeginsAnew) {
   see(level);
   see(turned, turned);
   const std::vector<double> held = errorsOnQuad(turned);
+  ASSERT_FALSE(held.empty());
   EXPECT_GT(held[held.size() / 2], 5.0) << "the control: the same patch, whose past counts";
   field_->reset();
   see(level);
   object_ = 2;
   see(turned, turned);
   EXPECT_LT(errorsOnQuad(turned).back(), 0.01);
+}
+
+/// On plain surfaces strokes follow the form, towards a silhouette the silhouette.
+TEST_F(TensorModels, FormLeadsWhereThePictureDoesNot) {
+  const Place place{{128.0, 64.0}};
+  constexpr double kAngle = 0.7;  // of the line
+  line_ = static_cast<std::uint32_t>(std::lround(kAngle / std::numbers::pi * 4096.0)) << 12U |
+          255U << 24U;
+  isPlain_ = true;
+  const auto worstOff = [&](double gradient) {
+    see(place);
+    const glm::dvec2 truth(std::cos(2.0 * gradient), std::sin(2.0 * gradient));
+    const std::vector<FieldTexel> found = read(field_->resolvedModels(0));
+    double worst = 0.0;
+    for (const glm::ivec2 at : {glm::ivec2(14, 6), {16, 8}, {17, 9}, {15, 7}}) {
+      worst = std::max(worst, degrees(oracles::angleBetween(found[placeOf(at.x, at.y)].tensor, truth)));
+    }
+    field_->reset();
+    return worst;
+  };
+  const double across = kAngle + std::numbers::pi / 2.0;
+  EXPECT_GT(worstOff(across), 10.0) << "the control: form has no weight";
+  form_ = 0.5;
+  EXPECT_LT(worstOff(across), 1.0);
+  normal_ = {255, 128, 128, 0};  // to the right: the silhouette is upright
+  EXPECT_LT(worstOff(0.0), 1.0);
 }
 
 /// The limit of a strong edge is that of the camera's picture.

@@ -76,12 +76,16 @@ TEST(SurfaceForm, GoesWithTheMesh) {
   const std::vector<TriangleForm> here = formsOf(mesh);
   const std::vector<TriangleForm> there = formsOf(moved);
   ASSERT_EQ(here.size(), there.size());
+  int compared = 0;
   for (std::size_t i = 0; i < here.size(); ++i) {
     EXPECT_EQ(here[i].patch, there[i].patch);
+    EXPECT_NEAR(glm::length(here[i].along), glm::length(there[i].along), 0.02F);
     if (glm::length(here[i].along) < 0.5F) continue;
     const glm::vec3 turned = glm::normalize(glm::vec3(place * glm::dvec4(here[i].along, 0.0)));
     EXPECT_GT(std::abs(glm::dot(turned, glm::normalize(there[i].along))), 0.999F);
+    ++compared;
   }
+  EXPECT_GT(compared, 40);
 }
 
 TEST(SurfaceForm, PatchesEndAtCreases) {
@@ -94,7 +98,9 @@ TEST(SurfaceForm, PatchesEndAtCreases) {
 TEST(SurfaceForm, SmallPatchesJoinTheirNeighbours) {
   GearParameters gear;
   gear.form.teeth = 40;
-  EXPECT_LE(patchesOf(gearMesh(gear)), 16U);
+  const std::size_t patches = patchesOf(gearMesh(gear));
+  EXPECT_LE(patches, 16U);
+  EXPECT_GE(patches, 3U) << "both faces and the rim";
 }
 
 /// A skeleton with a spine, a neck, two arms with three fingers each and two legs.
@@ -159,6 +165,8 @@ TEST(SurfaceForm, PatchesEndAtLimbs) {
     if (z < 0.14F) below.insert(forms[i].patch);
     if (z > 0.26F) above.insert(forms[i].patch);
   }
+  EXPECT_FALSE(below.empty());
+  EXPECT_FALSE(above.empty());
   for (const std::uint32_t patch : above) EXPECT_FALSE(below.contains(patch));
 }
 

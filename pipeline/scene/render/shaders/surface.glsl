@@ -30,7 +30,8 @@ const float kSurface = 1.0;
 // file.
 float errorAt(vec3 current);
 
-// A direction at a point of the camera frame, as seen in the image: px per metre.
+// A direction at a point of the camera frame, as seen in the image: px per metre. The lens, which bends it
+// by few degrees, is left out.
 vec2 seenAlong(vec3 direction, vec3 at) {
   return focal * (direction.xy - at.xy / at.z * direction.z) / at.z;
 }

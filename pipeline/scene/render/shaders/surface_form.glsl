@@ -19,7 +19,9 @@ float clarityOf(uint form) { return float(form >> 24u) / 255.0; }
 // Up to 4,094 patches of one object have different labels; the ranges of objects whose numbers
 // differ by less than 12 begin 222 apart at least. 0 is the camera image's, also where an occluder
 // is.
-uint labelOfPatch(uint object, uint number) { return 1u + (object * 2531u + number) % (kLabels - 2u); }
+uint labelOfPatch(uint object, uint number) {
+  return 1u + (object * 2531u + number) % (kLabels - 2u);
+}
 uint labelOf(uint form) { return form & 4095u; }
 
 uint formOf(uint label, vec2 along, float clarity) {

@@ -1,8 +1,8 @@
 // Purpose: the direction of a set's lines: along the tensor field, or at one slope on the paper, or
 //          in between, turned by the set's angle.
 //          On a model, always along its own field, so that lines go with it.
-// Inputs:  field, modelField (marks::TensorField), fieldScale; moverField, moverScale; slope: a tensor; lead:
-//          weight of the field beside it; turn: cosine and sine of the set's angle.
+// Inputs:  field, modelField (marks::TensorField), fieldScale; moverField, moverScale; slope: a tensor;
+//          lead: weight of the field beside it; turn: cosine and sine of the set's angle.
 // Outputs: unit vectors; a direction and its opposite are the same.
 // Precision: highp.
 uniform highp sampler2D field;

@@ -1,6 +1,7 @@
 // Purpose: anchors as points for their neighbours to find (marks/point_bins.h).
 // Inputs:  anchors, slots of them.
-// Outputs: points, whose penalty is here what they lie on, and kJustBorn of new ones. One invocation per anchor.
+// Outputs: points, whose penalty is here what they lie on, and kJustBorn of new ones. One
+//          invocation per anchor.
 // Precision: integers.
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/point.glsl"

@@ -3,8 +3,8 @@
 //          where the field turns too sharply; where the tone asks for no line, its width is 0.
 // Inputs:  anchors; field.glsl's and tone.glsl's; mover_labels.glsl's; ids if hasObjects; shifts:
 //          those of line_align.comp; jitter: px by which lines are off at random, ±; anew: lines
-//          have no past; cellPixels: of the anchors; segment: px; steps: an arm's length in segments, at most kArm; cutOff:
-//          cosine; wander: rad; past: the past's
+//          have no past; cellPixels: of the anchors; segment: px; steps: an arm's length in segments, at most
+//          kArm; cutOff: cosine; wander: rad; past: the past's
 //          share, and that of the background, which before a standing camera nothing changes.
 // Outputs: lines. One invocation per anchor.
 // Precision: highp.

@@ -1,6 +1,6 @@
 // Purpose: the paint of a brush mark and its thickness.
-// Defines: BUMPED: each stroke is lit by itself. CLIPPED: for a frame with models: no paint beyond the
-//          border of what it lies on.
+// Defines: BUMPED: each stroke is lit by itself. CLIPPED: for a frame with models: no paint beyond
+//          the border of what it lies on.
 // Inputs, outputs: stroke_mark.glsl's; BUMPED: stroke_bump.glsl's; CLIPPED: stroke_clip.glsl's.
 // Precision: as there.
 #include "pipeline/styles/strokes/shaders/stroke_mark.glsl"
