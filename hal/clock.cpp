@@ -6,6 +6,11 @@
 
 namespace pleinair::hal {
 
+const Clock& steadyClock() {
+  static const SteadyClock clock;
+  return clock;
+}
+
 TimePoint SteadyClock::now() const {
   return TimePoint(
       std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch()));

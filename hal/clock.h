@@ -39,6 +39,9 @@ class SteadyClock final : public Clock {
   bool sleepUntil(TimePoint time, std::stop_token stop = {}) override;
 };
 
+/// One SteadyClock for all, which need not keep it alive.
+const Clock& steadyClock();
+
 /// Simulated time: a sleeper jumps to its wake-up time without waiting.
 class SteppedClock final : public Clock {
  public:

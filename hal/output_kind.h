@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hal/error.h"
@@ -23,11 +24,15 @@ struct OutputTraits {
   bool isOnMainThread = false;
 };
 
-/// A setting that outputs of a kind have, one of some words: a key of [output.KIND].
+/// A setting that outputs of a kind have: a key of [output.KIND]. One of some words, or a text.
 struct OutputOption {
   std::string name;
   std::string help;
-  std::vector<std::string> choices;  ///< the first is the default
+  std::vector<std::string> choices;  ///< the first is the default; empty: it is a text
+  // Of a text:
+  std::string initial;                        ///< the default
+  std::string allowed;                        ///< for messages: "auto, or 1920x1080"
+  bool (*takes)(std::string_view) = nullptr;  ///< whether it may be that
 };
 
 /// The values of a kind's options, by name. One that is missing has its default.

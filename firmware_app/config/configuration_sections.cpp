@@ -129,17 +129,27 @@ std::string sectionOf(const hal::OutputKind& kind) {
   return fmt::format("output.{}", kind.name);
 }
 
+config::ParameterDescriptor descriptorOf(const hal::OutputOption& option) {
+  config::ParameterDescriptor descriptor{.name = option.name, .help = option.help};
+  if (option.choices.empty()) {
+    descriptor.defaultValue = option.initial;
+    descriptor.textAllowed = option.allowed;
+    descriptor.takesText = option.takes;
+  } else {
+    descriptor.defaultValue = config::ChoiceIndex{0};
+    descriptor.choices = option.choices;
+  }
+  descriptor.takesEffect = TakesEffect::kRestart;
+  return descriptor;
+}
+
 /// [output.KIND] of each kind that has options.
 std::vector<config::Section> outputKindSections() {
   std::vector<config::Section> sections;
   for (const hal::OutputKind& kind : hal::outputKinds()) {
     std::vector<config::ParameterDescriptor> descriptors;
     for (const hal::OutputOption& option : kind.options) {
-      descriptors.push_back({.name = option.name,
-                             .help = option.help,
-                             .defaultValue = config::ChoiceIndex{0},
-                             .choices = option.choices,
-                             .takesEffect = TakesEffect::kRestart});
+      descriptors.push_back(descriptorOf(option));
     }
     if (descriptors.empty()) continue;
     sections.push_back({sectionOf(kind), fmt::format("Outputs of the kind {}.", kind.name),

@@ -6,11 +6,10 @@
 namespace pleinair::app {
 
 LivePainter::LivePainter(const PainterOptions& options,
-                         const std::vector<hal::FrameFormat>& outputs, LiveControls& controls)
+                         const std::vector<hal::OutputFormat>& outputs, LiveControls& controls)
     : painter_(options), controls_(controls), seen_(controls.parameters()), parameters_(*seen_) {
   warmUp(options);
-  for (const hal::FrameFormat& format : outputs)
-    readbacks_.push_back(painter_.openReadback(format));
+  for (std::size_t i = 0; i < outputs.size(); ++i) open(i, outputs[i]);
 }
 
 void LivePainter::warmUp(const PainterOptions& options) {
@@ -56,9 +55,9 @@ void LivePainter::wait(hal::Duration limit) {
   [[maybe_unused]] const auto isReady = painter_.waitForAny(limit);
 }
 
-void LivePainter::open(std::size_t output, const hal::FrameFormat& format) {
+void LivePainter::open(std::size_t output, const hal::OutputFormat& format) {
   assert(output == readbacks_.size());
-  readbacks_.push_back(painter_.openReadback(format));
+  readbacks_.push_back(painter_.openReadback(format.frame, format.quarterTurns));
 }
 
 void LivePainter::close(std::size_t output) {

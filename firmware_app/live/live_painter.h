@@ -16,13 +16,13 @@ namespace pleinair::app {
 class LivePainter final : public runtime::FramePainter {
  public:
   /// Throws hal::Failure.
-  LivePainter(const PainterOptions& options, const std::vector<hal::FrameFormat>& outputs,
+  LivePainter(const PainterOptions& options, const std::vector<hal::OutputFormat>& outputs,
               LiveControls& controls);
 
   hal::Result<void> paint(const hal::CapturedFrame& frame, std::size_t quality) override;
   hal::Answer poll(std::size_t output, OutputFrame& frame) override;
   void wait(hal::Duration limit) override;
-  void open(std::size_t output, const hal::FrameFormat& format) override;
+  void open(std::size_t output, const hal::OutputFormat& format) override;
   void close(std::size_t output) override;
   std::span<const gpu::PassTime> passTimes() const override { return painter_.passTimes(); }
 

@@ -173,7 +173,7 @@ class LivePainting {
     if (kind.traits.isOnMainThread) stepped_.push_back(&output);
   }
 
-  std::unique_ptr<runtime::FramePainter> makePainter(const std::vector<hal::FrameFormat>& formats) {
+  std::unique_ptr<runtime::FramePainter> makePainter(const std::vector<hal::OutputFormat>& formats) {
     const PainterOptions options{.pictureSize = pictureSize(),
                                  .scene = job_.scene,
                                  .style = job_.options.style,

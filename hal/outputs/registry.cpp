@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "hal/outputs/display/display_output.h"
 #include "hal/outputs/frames/frames_output.h"
 #include "hal/outputs/headless/headless_output.h"
 #include "hal/outputs/movie/movie_output.h"
@@ -35,7 +36,7 @@ bool isDevicePlace(const std::string& target) {
 
 std::span<const OutputKind> outputKinds() {
   static const std::array kKinds{
-      windowKind(), loopbackKind(), headlessKind(), movieKind(), framesKind(),
+      windowKind(), displayKind(), loopbackKind(), headlessKind(), movieKind(), framesKind(),
   };
   return kKinds;
 }

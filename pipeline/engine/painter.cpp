@@ -76,14 +76,14 @@ hal::Result<Picture> Painter::paint(const hal::CapturedFrame& frame,
   return pipeline_->paint(frame, parameters);
 }
 
-int Painter::openReadback(const hal::FrameFormat& format) {
+int Painter::openReadback(const hal::FrameFormat& format, int quarterTurns) {
   FramePipeline& p = *pipeline_;
   const ContextScope scope = p.enter();
   hal::orThrow(gpu::checkDeviceLimit(p.gl_.info, present::Readback::packedSize(format),
                                      "picture to be read"));
   hal::orThrow(p.resetMonitor_.check());
   try {
-    present::Readback ring(p.library_, format, kReadbackDepth, p.testHook_);
+    present::Readback ring(p.library_, format, kReadbackDepth, p.testHook_, quarterTurns);
     for (const FramePipeline::Level& level : p.levels_) ring.warmUp(level.size);
     p.readbacks_.emplace(p.nextReadback_, std::move(ring));
     return p.nextReadback_++;

@@ -85,14 +85,16 @@ FrameSize Readback::packedSize(const FrameFormat& format) {
 }
 
 Readback::Readback(const gpu::ShaderLibrary& library, FrameFormat format, int depth,
-                   gpu::GpuTestHook testHook)
+                   gpu::GpuTestHook testHook, int quarterTurns)
     : format_(format),
+      quarterTurns_(quarterTurns),
       testHook_(std::move(testHook)),
       resampler_(library),
       packed_(gpu::TextureFormat::kRgba8, packedSize(format)),
       target_({&packed_}),
       ring_(static_cast<std::size_t>(depth)) {
   assert(depth >= 1);
+  assert(quarterTurns == 0 || format.pixelFormat == PixelFormat::kRgba8);
   const std::size_t bytes = static_cast<std::size_t>(packed_.size().pixels()) * 4;
   for (int plane = 0; plane < planeCount(format.pixelFormat); ++plane) {
     passes_.push_back({library.fragmentPass(shaderOf(format.pixelFormat, plane)),
@@ -121,17 +123,23 @@ void Readback::pack(const gpu::Texture& picture) {
         .set("chromaLeftSited", gpu::isChromaLeftSited(encoding) ? 1 : 0);
     if (pass.program.hasUniform("plane")) pass.program.set("plane", static_cast<int>(plane));
     if (pass.program.hasUniform("origin")) pass.program.set("origin", pass.origin);
+    if (pass.program.hasUniform("quarterTurns")) pass.program.set("quarterTurns", quarterTurns_);
     pass.program.drawArea(target_, pass.origin, pass.texels);
   }
+}
+
+FrameSize Readback::unturnedSize() const {
+  const FrameSize size = format_.size;
+  return quarterTurns_ % 2 == 0 ? size : FrameSize{size.height, size.width};
 }
 
 void Readback::submit(const gpu::Texture& picture, FrameSize fullSize) {
   assert(hasRoom());
   const glm::dvec2 pixelsOfFull = glm::dvec2(picture.size().width, picture.size().height) /
                                   glm::dvec2(fullSize.width, fullSize.height);
+  const FrameSize size = unturnedSize();
   pack(resampler_.resample(
-      picture, format_.size,
-      gpu::aspectFill(fullSize, format_.size).withPixels(pixelsOfFull, glm::dvec2(1.0))));
+      picture, size, gpu::aspectFill(fullSize, size).withPixels(pixelsOfFull, glm::dvec2(1.0))));
   Slot& slot = ring_[submitted_ % ring_.size()];
   target_.beginKeeping();
   glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer.name());

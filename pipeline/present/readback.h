@@ -24,9 +24,10 @@ namespace pleinair::present {
 class Readback {
  public:
   /// `library` has presentShaders(); `format`: RGBA8, RGB8, grey, I420, NV12 or YUYV; `depth`: how
-  /// many pictures may be in flight.
+  /// many pictures may be in flight; `quarterTurns`: by how many right angles pictures are turned
+  /// clockwise, of RGBA8 only, whose size is the turned one.
   Readback(const gpu::ShaderLibrary& library, hal::FrameFormat format, int depth = 3,
-           gpu::GpuTestHook testHook = {});
+           gpu::GpuTestHook testHook = {}, int quarterTurns = 0);
 
   /// The size of the texture that a picture of this format is packed into. A read-back cannot be
   /// made if it exceeds the device's limit.
@@ -70,7 +71,10 @@ class Readback {
   hal::Answer copyOldest(hal::Image& image);
   void unpack(const std::uint8_t* bytes, hal::Image& image) const;
 
+  hal::FrameSize unturnedSize() const;
+
   hal::FrameFormat format_;
+  int quarterTurns_ = 0;
   gpu::GpuTestHook testHook_;
   std::vector<PlanePass> passes_;
   gpu::Resampler resampler_;

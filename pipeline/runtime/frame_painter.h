@@ -9,7 +9,7 @@
 #include "hal/captured_frame.h"
 #include "hal/clock.h"
 #include "hal/error.h"
-#include "hal/pixel_format.h"
+#include "hal/output.h"
 #include "pipeline/engine/painter.h"
 
 namespace pleinair::runtime {
@@ -35,7 +35,7 @@ class FramePainter {
 
   /// Opens an output: from the next paint() on, frames are read back for it in `format`. `output`:
   /// the number of outputs opened so far. Throws hal::Failure.
-  virtual void open(std::size_t output, const hal::FrameFormat& format) = 0;
+  virtual void open(std::size_t output, const hal::OutputFormat& format) = 0;
   /// Closes an output; its frames in flight are dropped.
   virtual void close(std::size_t output) = 0;
 
@@ -45,6 +45,6 @@ class FramePainter {
 
 /// Makes a painter with an open output for each format, numbered from 0. Throws hal::Failure.
 using PainterFactory =
-    std::function<std::unique_ptr<FramePainter>(const std::vector<hal::FrameFormat>& outputs)>;
+    std::function<std::unique_ptr<FramePainter>(const std::vector<hal::OutputFormat>& outputs)>;
 
 }  // namespace pleinair::runtime

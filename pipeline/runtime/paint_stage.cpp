@@ -65,10 +65,10 @@ PaintStage::PaintStage(PainterFactory factory, const std::vector<OutputStage*>& 
 PaintStage::~PaintStage() = default;
 
 void PaintStage::start() {
-  std::vector<hal::FrameFormat> formats;
+  std::vector<hal::OutputFormat> formats;
   for (Output& output : outputs_) {
     output.id = formats.size();
-    formats.push_back(output.stage->format().frame);
+    formats.push_back(output.stage->format());
   }
   nextId_ = formats.size();
   painter_ = factory_(formats);
@@ -141,7 +141,7 @@ void PaintStage::open(OutputStage& output) {
   outputs_.push_back({.stage = &output, .id = nextId_++, .taken = inFlight_.size()});
   if (!painter_) return;
   try {
-    painter_->open(outputs_.back().id, output.format().frame);
+    painter_->open(outputs_.back().id, output.format());
   } catch (const hal::Failure& error) {
     lose(error.error());
   }

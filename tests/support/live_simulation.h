@@ -119,7 +119,7 @@ struct SimulatedGpu {
 /// Paints one frame after another.
 class SimulatedPainter final : public runtime::FramePainter {
  public:
-  SimulatedPainter(SimulatedGpu& gpu, const std::vector<hal::FrameFormat>& outputs,
+  SimulatedPainter(SimulatedGpu& gpu, const std::vector<hal::OutputFormat>& outputs,
                    hal::Clock& clock)
       : gpu_(gpu), formats_(outputs), clock_(clock), taken_(outputs.size(), 0u) {
     ++gpu_.painters;
@@ -145,7 +145,8 @@ class SimulatedPainter final : public runtime::FramePainter {
     if (gpu_.isLost) return tl::unexpected(lost());
     const std::size_t index = taken_.at(output).value() - done_;
     if (index >= work_.size() || work_.at(index).ready > clock_.now()) return false;
-    if (picture.image.format() != formats_.at(output)) picture.image = hal::Image(formats_[output]);
+    const hal::FrameFormat& format = formats_.at(output).frame;
+    if (picture.image.format() != format) picture.image = hal::Image(format);
     picture.sequence = work_.at(index).sequence;
     picture.captureTime = work_.at(index).captured;
     ++*taken_.at(output);
@@ -154,7 +155,7 @@ class SimulatedPainter final : public runtime::FramePainter {
   }
   void wait(hal::Duration) override {}  // who steps the clock knows nextReady
 
-  void open(std::size_t output, const hal::FrameFormat& format) override {
+  void open(std::size_t output, const hal::OutputFormat& format) override {
     assert(output == taken_.size());
     formats_.push_back(format);
     taken_.emplace_back(done_ + work_.size());
@@ -186,7 +187,7 @@ class SimulatedPainter final : public runtime::FramePainter {
   }
 
   SimulatedGpu& gpu_;
-  std::vector<hal::FrameFormat> formats_;
+  std::vector<hal::OutputFormat> formats_;
   hal::Clock& clock_;
   hal::TimePoint busyUntil_;
   std::deque<Work> work_;
@@ -252,7 +253,7 @@ class LiveSimulation {
   }
   void start() {
     chain->makePaintStage(
-        [this](const std::vector<hal::FrameFormat>& outputs)
+        [this](const std::vector<hal::OutputFormat>& outputs)
             -> std::unique_ptr<runtime::FramePainter> {
           if (gpu.failingStarts > 0) {
             --gpu.failingStarts;

@@ -21,7 +21,7 @@ class PassThroughPainter final : public runtime::FramePainter {
     }
     return {};
   }
-  void open(std::size_t, const hal::FrameFormat&) override {
+  void open(std::size_t, const hal::OutputFormat&) override {
     waiting_.emplace_back();
     isOpen_.push_back(true);
   }

@@ -1,7 +1,9 @@
 #include <memory>
 #include <vector>
 
+#include "hal/outputs/display/display_output.h"
 #include "tests/conformance/surface_conformance.h"
+#include "tests/support/fake_card.h"
 #include "tests/support/fake_display_output.h"
 
 namespace pleinair::hal::conformance {
@@ -17,6 +19,29 @@ SurfaceCase fakeDisplay(const std::string& name, support::FakeDisplay display) {
           .backend = "fake_display",
           .missing = {}};
 }
+
+/// A display of a fake card.
+SurfaceCase display(const std::string& name, const support::FakeCardSpec& spec) {
+  const auto cards = std::make_shared<std::unique_ptr<support::FakeCards>>();
+  return {.name = name,
+          .make =
+              [cards, spec](Clock& clock) {
+                *cards = std::make_unique<support::FakeCards>(clock);
+                (*cards)->add(spec);
+                return std::unique_ptr<Output>(*openDisplay("display", {}, **cards, clock));
+              },
+          .backend = "display",
+          .missing = {},
+          .hasOwnSize = true};
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Displays, SurfaceConformance,
+    testing::Values(display("At60Hz", {}),
+                    display("At24HzWithBars",
+                            {.connectors = {{.modes = {{.size = {100, 48}, .hertz = 24.0}}}}}),
+                    display("WithoutVerticalBlanking", {.hasVblank = false})),
+    surfaceCaseName);
 
 INSTANTIATE_TEST_SUITE_P(
     Surfaces, SurfaceConformance,

@@ -1,0 +1,174 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/clock.h"
+#include "hal/error.h"
+#include "hal/pixel_format.h"
+
+namespace pleinair::hal::display {
+
+/// A connector, CRTC, plane, property, framebuffer or blob of a card. 0: none.
+using ObjectId = std::uint32_t;
+
+/// A property of an object, with its value when the card was read.
+struct Property {
+  std::string name;  ///< "CRTC_ID", "MODE_ID", "FB_ID" …
+  ObjectId id = 0;
+  std::uint64_t value = 0;
+};
+
+/// The property of that name; null where the object has none.
+const Property* find(std::span<const Property> properties, std::string_view name);
+
+/// A mode of a display.
+struct Mode {
+  std::string name;  ///< "1920x1080"
+  FrameSize size;
+  Duration period{0};  ///< between refreshes: total lines × total columns ÷ pixel clock
+  bool isPreferred = false;
+  bool isInterlaced = false;
+  /// struct drm_mode_modeinfo, as MODE_ID takes it.
+  std::array<std::uint8_t, 68> timings{};
+};
+
+/// A socket of a card, with the display that is plugged into it.
+struct Connector {
+  ObjectId id = 0;
+  std::string name;  ///< as the kernel writes it: "HDMI-A-1"
+  bool isConnected = false;
+  std::vector<Mode> modes;  ///< the display's, best first
+  std::uint32_t crtcs = 0;  ///< a bit for each CRTC, by index, that can drive it
+  std::vector<Property> properties;
+};
+
+struct Crtc {
+  ObjectId id = 0;
+  std::vector<Property> properties;
+};
+
+struct Plane {
+  ObjectId id = 0;
+  bool isPrimary = false;
+  std::uint32_t crtcs = 0;  ///< a bit for each CRTC, by index, that can show it
+  std::vector<std::uint32_t> fourccs;
+  std::vector<Property> properties;
+};
+
+/// What a card has, in its own order. CRTCs are meant by index in masks.
+struct CardState {
+  std::vector<Connector> connectors;
+  std::vector<Crtc> crtcs;
+  std::vector<Plane> planes;
+};
+
+/// A property that a commit changes.
+struct Change {
+  ObjectId object = 0;
+  ObjectId property = 0;
+  std::uint64_t value = 0;
+};
+
+enum class Commit {
+  kTest,     ///< only asks whether the card would take it, a modeset included
+  kModeset,  ///< may change modes; returns when it is done
+  kFlip,     ///< returns at once; a FlipEvent follows
+};
+
+/// A flip that took place.
+struct FlipEvent {
+  ObjectId crtc = 0;
+  std::uint32_t sequence = 0;  ///< of the refresh; 0 where the driver has no vblank
+  TimePoint time;
+};
+
+/// Memory that a CRTC can scan out, which the processor writes ("dumb" buffer): rows of 4-byte
+/// pixels.
+struct ScanOutBuffer {
+  ObjectId framebuffer = 0;
+  std::uint32_t handle = 0;
+  int dmaBuf = -1;  ///< −1 where the driver does not export it; closed with the buffer
+  std::span<std::uint8_t> memory;
+  std::size_t strideBytes = 0;
+};
+
+/// What a CRTC showed before an output took it.
+struct ShownBefore {
+  ObjectId crtc = 0;
+  ObjectId framebuffer = 0;
+  int x = 0;
+  int y = 0;
+  ObjectId connector = 0;
+  std::array<std::uint8_t, 68> timings{};  ///< of the mode
+};
+
+/// The kernel's interface to a graphics card (DRM/KMS, atomic): behind it a kernel's card, or a
+/// test's. Calls answer 0, or −errno where they fail. Thread-safe.
+class Card {
+ public:
+  virtual ~Card() = default;
+  Card() = default;
+  Card(const Card&) = delete;
+  Card& operator=(const Card&) = delete;
+
+  virtual const std::string& node() const = 0;    ///< "/dev/dri/card0"
+  virtual const std::string& driver() const = 0;  ///< "virtio_gpu"
+
+  /// Reads what the card has. `looksForDisplays`: asks the displays, which takes up to some 100 ms;
+  /// otherwise what is known of them. Errors: kDeviceLost, kUnsupported (no modes), kIo.
+  virtual Result<CardState> read(bool looksForDisplays) = 0;
+
+  /// Whether a display is plugged into the connector, with this mode, as far as is known without
+  /// asking it. Errors: kDeviceLost.
+  virtual Answer stillHas(ObjectId connector, const Mode& mode) = 0;
+
+  /// What a CRTC shows now, and the way back to it. Nothing of a CRTC that is off.
+  virtual std::optional<ShownBefore> shownNow(ObjectId crtc) = 0;
+  virtual void restore(const ShownBefore& before) = 0;
+
+  /// Only the master may commit. Another program's may become it once this one has dropped it.
+  virtual bool isMaster() = 0;
+  virtual int becomeMaster() = 0;
+  virtual void dropMaster() = 0;
+
+  /// EBUSY: a flip of the same CRTC is pending. EACCES: not the master.
+  virtual int commit(std::span<const Change> changes, Commit kind) = 0;
+  virtual int createBlob(std::span<const std::uint8_t> bytes, ObjectId& blob) = 0;
+  virtual void destroyBlob(ObjectId blob) = 0;
+
+  /// XRGB8888, black.
+  virtual int createBuffer(FrameSize size, ScanOutBuffer& buffer) = 0;
+  virtual void destroyBuffer(const ScanOutBuffer& buffer) = 0;
+
+  /// Whether the CRTC, which is on, counts refreshes and times flips by them.
+  virtual bool hasVblank(ObjectId crtc) = 0;
+  /// Appends the flips since the last call, of all CRTCs. Never waits.
+  virtual int takeFlips(std::vector<FlipEvent>& flips) = 0;
+};
+
+/// Opens cards; tests replace it with fakes.
+class Cards {
+ public:
+  virtual ~Cards() = default;
+  Cards() = default;
+  Cards(const Cards&) = delete;
+  Cards& operator=(const Cards&) = delete;
+
+  /// The nodes of the cards that are there, sorted: "/dev/dri/card0".
+  virtual std::vector<std::string> nodes() = 0;
+  /// Errors: kPermissionDenied, kNotFound, kUnsupported (it cannot show pictures, or not by atomic
+  /// commits), kIo.
+  virtual Result<std::unique_ptr<Card>> open(const std::string& node) = 0;
+};
+
+/// The kernel's.
+Cards& kernelCards();
+
+}  // namespace pleinair::hal::display

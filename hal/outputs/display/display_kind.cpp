@@ -1,0 +1,155 @@
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "hal/outputs/display/display_errors.h"
+#include "hal/outputs/display/display_name.h"
+#include "hal/outputs/display/display_output.h"
+#include "hal/outputs/display/route.h"
+#include "hal/outputs/display/shared_card.h"
+
+namespace pleinair::hal {
+namespace {
+
+using namespace display;
+namespace fs = std::filesystem;
+
+constexpr double kMaxMarginPercent = 20.0;
+
+std::optional<double> percentOf(std::string_view text) {
+  double percent = 0.0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), percent);
+  const bool isWhole = read.ec == std::errc() && read.ptr == text.data() + text.size();
+  if (!isWhole || !(percent >= 0.0 && percent <= kMaxMarginPercent)) return std::nullopt;
+  return percent;
+}
+
+bool isMargin(std::string_view text) {
+  return percentOf(text).has_value();
+}
+
+bool isMode(std::string_view text) {
+  return isModeText(std::string(text));
+}
+
+std::string valueOf(const OutputOptions& options, std::string_view name, std::string initial) {
+  const auto given = options.find(name);
+  return given == options.end() ? std::move(initial) : given->second;
+}
+
+DisplaySettings settingsOf(const OutputOptions& options) {
+  DisplaySettings settings;
+  settings.mode = valueOf(options, "mode", "auto");
+  Placement& placement = settings.placement;
+  placement.fit = valueOf(options, "fit", "letterbox") == "fill" ? Placement::Fit::kFill
+                                                                 : Placement::Fit::kLetterbox;
+  const std::string rotation = valueOf(options, "rotation", "0");
+  placement.quarterTurns = rotation == "90" ? 1 : rotation == "180" ? 2 : rotation == "270" ? 3 : 0;
+  placement.marginPercent = percentOf(valueOf(options, "margin", "0")).value_or(0.0);
+  return settings;
+}
+
+/// The kernel's list of sockets, which opens no card and needs no permission.
+std::vector<std::string> linesOf(const fs::path& path) {
+  constexpr std::size_t kMaxLines = 256;
+  std::vector<std::string> lines;
+  std::ifstream file(path);
+  for (std::string line; lines.size() < kMaxLines && std::getline(file, line);) {
+    // The kernel lists a size once for each of its rates.
+    if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
+  }
+  return lines;
+}
+
+/// Whether the display could be taken now: it is, and given back.
+std::optional<Error> problemOf(const std::string& target) {
+  const DisplayName name = parseDisplayName(target);
+  std::optional<Error> problem;
+  for (const std::string& node : kernelCards().nodes()) {
+    if (!name.isOn(node)) continue;
+    const Result<std::shared_ptr<SharedCard>> shared = SharedCard::of(kernelCards(), node);
+    if (!shared) {
+      if (!problem) problem = shared.error();
+      continue;
+    }
+    const Result<DisplayRoute> route = (*shared)->take({.connector = name.connector});
+    if (!route) {
+      if (!problem || problem->kind == ErrorKind::kNotFound) problem = route.error();
+      continue;
+    }
+    const bool isOurs = (*shared)->card().isMaster() || (*shared)->card().becomeMaster() == 0;
+    (*shared)->giveBack(*route);
+    if (isOurs) return std::nullopt;
+    return notMaster(node, route->connector.name);
+  }
+  if (!problem) problem = noCard(target);
+  return problem;
+}
+
+Result<std::unique_ptr<Output>> make(const std::string& target, const OutputOptions& options) {
+  return openDisplay(target, settingsOf(options));
+}
+
+}  // namespace
+
+OutputListing listDisplays(const fs::path& folder) {
+  OutputListing listing;
+  std::error_code failure;
+  for (fs::directory_iterator each(folder, failure), end; !failure && each != end;
+       each.increment(failure)) {
+    std::error_code ignored;
+    if (!fs::exists(each->path() / "status", ignored)) continue;  // a card, or a render node
+    const std::string socket = each->path().filename().string();
+    if (socket.find("Writeback") != std::string::npos) continue;
+    const std::vector<std::string> status = linesOf(each->path() / "status");
+    OutputDescription output{.target = std::string(kDisplayName) + ":" + socket,
+                             .formats = linesOf(each->path() / "modes")};
+    if (status.empty() || status.front() != "connected") {
+      output.problem = Error{.kind = ErrorKind::kDeviceLost,
+                             .subject = socket,
+                             .problem = "no display is plugged in"};
+    }
+    listing.outputs.push_back(std::move(output));
+  }
+  std::ranges::sort(listing.outputs, {}, &OutputDescription::target);
+  if (listing.outputs.empty()) listing.problem = noCard(std::string(kDisplayName));
+  return listing;
+}
+
+OutputKind displayKind() {
+  return {.name = std::string(kDisplayName),
+          .help = "a screen without a desktop, through the kernel (DRM/KMS)",
+          .forms = {"display", "display:SOCKET"},
+          .traits = {.isPaced = true, .reopens = true},
+          .options = {{.name = "mode",
+                       .help = "The mode; \"auto\": the display's own size at the rate that fits "
+                               "the camera's best.",
+                       .initial = "auto",
+                       .allowed = "auto, preferred, 1920x1080 or 1920x1080@60",
+                       .takes = isMode},
+                      {.name = "fit",
+                       .help = "Whether pictures are shown whole, with black bars, or fill the "
+                               "display.",
+                       .choices = {"letterbox", "fill"}},
+                      {.name = "rotation",
+                       .help = "How far pictures are turned clockwise, in degrees.",
+                       .choices = {"0", "90", "180", "270"}},
+                      {.name = "margin",
+                       .help = "What stays black at each edge, for screens that hide theirs, in "
+                               "percent of the side.",
+                       .initial = "0",
+                       .allowed = "a number from 0 to 20",
+                       .takes = isMargin}},
+          .recognizes = isDisplayName,
+          .list = [] { return listDisplays(); },
+          .problemOf = problemOf,
+          .make = make};
+}
+
+}  // namespace pleinair::hal

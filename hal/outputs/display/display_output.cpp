@@ -1,0 +1,491 @@
+#include "hal/outputs/display/display_output.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cerrno>
+#include <deque>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <poll.h>
+
+#include "hal/outputs/display/display_errors.h"
+#include "hal/outputs/display/display_name.h"
+#include "hal/outputs/display/shared_card.h"
+
+namespace pleinair::hal {
+namespace {
+
+using namespace display;
+
+/// One is shown, one waits for its refresh, and one is filled.
+constexpr std::size_t kBuffers = 3;
+constexpr Duration kFlipPatience = std::chrono::seconds(1);
+constexpr Duration kLookInterval = std::chrono::seconds(1);
+constexpr Duration kRetryInterval = std::chrono::milliseconds(1);
+constexpr std::size_t kPixelBytes = 4;
+
+bool hasSignalled(const Fence& fence) {
+  if (fence.syncFile() < 0) return true;
+  pollfd file{.fd = fence.syncFile(), .events = POLLIN, .revents = 0};
+  return ::poll(&file, 1, 0) == 1;
+}
+
+/// The first of `phase` ± n periods at or after `time`.
+TimePoint refreshAtOrAfter(TimePoint time, TimePoint phase, Duration period) {
+  Duration past = (time - phase) % period;
+  if (past < Duration::zero()) past += period;
+  return past == Duration::zero() ? time : time + (period - past);
+}
+
+class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
+ public:
+  DisplayOutput(std::string name, DisplaySettings settings, Cards& cards, const Clock& clock)
+      : name_(std::move(name)), settings_(std::move(settings)), cards_(cards), clock_(clock) {}
+  ~DisplayOutput() override { leave(); }
+  DisplayOutput(const DisplayOutput&) = delete;
+  DisplayOutput& operator=(const DisplayOutput&) = delete;
+
+  OutputIdentity identity() const override {
+    return {.backend = std::string(kDisplayName),
+            .id = route_ ? route_->connector.name : "display"};
+  }
+
+  Result<OutputFormat> start(const OutputRequest& request) override;
+  Result<void> finish() override;
+  Result<std::optional<Surface>> acquire() override;
+  Result<SurfaceMapping> map(const Surface& surface) override;
+  void release(const Surface& surface) override;
+  Result<void> submit(const Surface& surface, Fence fence, TimePoint due) override;
+  Result<void> takeEvents(std::vector<PresentationEvent>& events) override;
+  std::optional<TimePoint> nextEvent() const override;
+
+ private:
+  enum class State { kFree, kLent, kQueued, kFlipping, kOnScreen };
+  struct Buffer {
+    ScanOutBuffer memory;
+    Surface surface;
+    State state = State::kFree;
+    bool isMapped = false;
+  };
+  struct Queued {
+    Buffer* buffer = nullptr;
+    Fence fence;
+    TimePoint due;
+  };
+
+  Card& card() const { return shared_->card(); }
+  Result<void> takeDisplay(const OutputRequest& request);
+  Result<void> makeBuffers();
+  Result<void> setMode();
+  Result<Mode> acceptedMode();
+  int tryMode(const Mode& mode);
+  std::vector<Change> everything(ObjectId modeBlob, ObjectId framebuffer) const;
+  void readTiming();
+  void leave();
+
+  void unmap(SurfaceId surface) override {
+    buffers_.at(static_cast<std::size_t>(surface)).isMapped = false;
+  }
+  Buffer& of(const Surface& surface) {
+    return buffers_.at(static_cast<std::size_t>(surface.id));
+  }
+
+  Result<void> proceed();
+  Result<void> takeFlips(TimePoint now);
+  Result<void> look(TimePoint now);
+  void flipped(const FlipEvent& flip);
+  TimePoint commitTime(const Queued& queued) const;
+  Result<void> flipNext(TimePoint now);
+  void end(Buffer& buffer, PresentationEvent::Result result, TimePoint time);
+  std::uint64_t extended(std::uint32_t sequence);
+  Error failure(int error, std::string problem) const;
+
+  std::string name_;
+  DisplaySettings settings_;
+  Cards& cards_;
+  const Clock& clock_;
+
+  std::shared_ptr<SharedCard> shared_;
+  std::optional<DisplayRoute> route_;
+  std::optional<ShownBefore> before_;
+  ObjectId modeBlob_ = 0;
+  ObjectId flipProperty_ = 0;  ///< the plane's FB_ID
+  PictureArea area_;
+  std::vector<Buffer> buffers_;
+
+  bool hasVblank_ = false;
+  Duration period_{0};
+  std::optional<TimePoint> phase_;  ///< a refresh
+  std::deque<Queued> queue_;
+  Buffer* flipping_ = nullptr;
+  Buffer* onScreen_ = nullptr;
+  TimePoint committed_;
+  TimePoint retryAt_;
+  TimePoint lookAt_;
+  std::uint64_t lastSequence_ = 0;
+  std::vector<FlipEvent> flips_;
+  std::vector<PresentationEvent> events_;
+};
+
+Result<OutputFormat> DisplayOutput::start(const OutputRequest& request) {
+  assert(!shared_);
+  if (!isAcceptedSize(request.size)) {
+    return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
+                                .subject = name_,
+                                .problem = "cannot take this size",
+                                .remedy = "use 1 to 8192 px a side and at most 64 Mpx"});
+  }
+  if (const auto taken = takeDisplay(request); !taken) return tl::unexpected(taken.error());
+  if (const auto set = setMode(); !set) return tl::unexpected(set.error());
+  area_ = areaOf(request.size, route_->mode.size, settings_.placement);
+  for (Buffer& each : buffers_) {
+    const std::size_t offset = static_cast<std::size_t>(area_.y) * each.memory.strideBytes +
+                               static_cast<std::size_t>(area_.x) * kPixelBytes;
+    each.surface.format = {.pixelFormat = PixelFormat::kRgba8, .size = area_.size, .encoding = {}};
+    each.surface.planes[0] = {.dmaBuf = each.memory.dmaBuf,
+                              .offsetBytes = offset,
+                              .strideBytes = each.memory.strideBytes};
+  }
+  readTiming();
+  return OutputFormat{.frame = buffers_.front().surface.format,
+                      .refresh = Refresh{.period = period_, .phase = phase_},
+                      .quarterTurns = settings_.placement.quarterTurns};
+}
+
+/// The first card that has the display; otherwise the error that tells most.
+Result<void> DisplayOutput::takeDisplay(const OutputRequest& request) {
+  const DisplayName name = parseDisplayName(name_);
+  const DisplayWish wish{
+      .connector = name.connector, .mode = settings_.mode, .framePeriod = request.framePeriod};
+  std::optional<Error> problem;
+  for (const std::string& node : cards_.nodes()) {
+    if (!name.isOn(node)) continue;
+    const Result<std::shared_ptr<SharedCard>> shared = SharedCard::of(cards_, node);
+    Result<DisplayRoute> route = shared ? (*shared)->take(wish)
+                                        : Result<DisplayRoute>(tl::unexpected(shared.error()));
+    if (route) {
+      shared_ = *shared;
+      route_ = *std::move(route);
+      return {};
+    }
+    // A socket that another card lacks says less than one that is empty or taken.
+    if (!problem || problem->kind == ErrorKind::kNotFound) problem = std::move(route.error());
+  }
+  if (problem) return tl::unexpected(*std::move(problem));
+  return tl::unexpected(noCard(name_));
+}
+
+Result<void> DisplayOutput::makeBuffers() {
+  for (std::size_t i = 0; i < kBuffers; ++i) {
+    Buffer buffer;
+    const int failed = card().createBuffer(route_->mode.size, buffer.memory);
+    if (failed != 0) {
+      return tl::unexpected(errnoError(route_->connector.name,
+                                       "has no memory for a picture of its size", -failed,
+                                       "use a smaller mode"));
+    }
+    buffer.surface.id = SurfaceId{static_cast<std::uint32_t>(i)};
+    buffer.surface.fourcc = kXrgb8888;
+    buffers_.push_back(buffer);
+  }
+  return {};
+}
+
+std::vector<Change> DisplayOutput::everything(ObjectId modeBlob, ObjectId framebuffer) const {
+  const FrameSize size = route_->mode.size;
+  std::vector<Change> changes;
+  const auto add = [&](ObjectId object, const std::vector<Property>& properties,
+                       std::string_view name, std::uint64_t value) {
+    if (const Property* property = find(properties, name)) {
+      changes.push_back({object, property->id, value});
+    }
+  };
+  const Connector& connector = route_->connector;
+  const Crtc& crtc = route_->crtc;
+  const Plane& plane = route_->plane;
+  add(connector.id, connector.properties, "CRTC_ID", crtc.id);
+  add(crtc.id, crtc.properties, "MODE_ID", modeBlob);
+  add(crtc.id, crtc.properties, "ACTIVE", 1);
+  add(plane.id, plane.properties, "FB_ID", framebuffer);
+  add(plane.id, plane.properties, "CRTC_ID", crtc.id);
+  add(plane.id, plane.properties, "SRC_X", 0);
+  add(plane.id, plane.properties, "SRC_Y", 0);
+  // In 1/65536 px.
+  add(plane.id, plane.properties, "SRC_W", static_cast<std::uint64_t>(size.width) << 16U);
+  add(plane.id, plane.properties, "SRC_H", static_cast<std::uint64_t>(size.height) << 16U);
+  add(plane.id, plane.properties, "CRTC_X", 0);
+  add(plane.id, plane.properties, "CRTC_Y", 0);
+  add(plane.id, plane.properties, "CRTC_W", static_cast<std::uint64_t>(size.width));
+  add(plane.id, plane.properties, "CRTC_H", static_cast<std::uint64_t>(size.height));
+  return changes;
+}
+
+/// Makes buffers of the mode's size and asks whether the card would show them. 0, or −errno.
+int DisplayOutput::tryMode(const Mode& mode) {
+  route_->mode = mode;
+  for (const Buffer& each : buffers_) card().destroyBuffer(each.memory);
+  buffers_.clear();
+  if (modeBlob_ != 0) card().destroyBlob(std::exchange(modeBlob_, 0));
+  if (const int failed = card().createBlob(mode.timings, modeBlob_); failed != 0) return failed;
+  if (!makeBuffers()) return -ENOMEM;
+  return card().commit(everything(modeBlob_, buffers_.front().memory.framebuffer), Commit::kTest);
+}
+
+/// The chosen mode; where that was the program's choice and the card refuses it, the largest one
+/// that it takes.
+Result<Mode> DisplayOutput::acceptedMode() {
+  const Mode chosen = route_->mode;
+  int failed = tryMode(chosen);
+  if (failed == 0) return chosen;
+  if (settings_.mode == "auto" && (failed == -EINVAL || failed == -ENOMEM || failed == -ENOSPC)) {
+    std::vector<Mode> others = route_->connector.modes;
+    std::ranges::stable_sort(others, std::greater<>(), [](const Mode& m) { return m.size.pixels(); });
+    for (const Mode& each : others) {
+      if (each.timings == chosen.timings || each.isInterlaced) continue;
+      failed = tryMode(each);
+      if (failed == 0) return each;
+    }
+  }
+  return tl::unexpected(failure(failed, "refuses the mode " + chosen.name));
+}
+
+Result<void> DisplayOutput::setMode() {
+  if (!card().isMaster()) {
+    const int failed = card().becomeMaster();
+    if (failed != 0) return tl::unexpected(failure(-EACCES, "cannot be had"));
+  }
+  before_ = card().shownNow(route_->crtc.id);
+  const Result<Mode> mode = acceptedMode();
+  if (!mode) return tl::unexpected(mode.error());
+  route_->mode = *mode;
+  const int failed = card().commit(everything(modeBlob_, buffers_.front().memory.framebuffer),
+                                   Commit::kModeset);
+  if (failed != 0) return tl::unexpected(failure(failed, "cannot set the mode " + mode->name));
+  onScreen_ = &buffers_.front();
+  onScreen_->state = State::kOnScreen;
+  const Property* framebuffer = find(route_->plane.properties, "FB_ID");
+  flipProperty_ = framebuffer == nullptr ? 0 : framebuffer->id;
+  return {};
+}
+
+void DisplayOutput::readTiming() {
+  period_ = route_->mode.period;
+  hasVblank_ = card().hasVblank(route_->crtc.id);
+  // Without vertical blanking, any instant will do for a refresh.
+  if (!hasVblank_) phase_ = clock_.now();
+  lookAt_ = clock_.now() + kLookInterval;
+  // Flips that an earlier output of this CRTC did not live to see.
+  shared_->takeFlips(route_->crtc.id, flips_);
+  flips_.clear();
+}
+
+void DisplayOutput::leave() {
+  if (!shared_) return;
+  for ([[maybe_unused]] const Buffer& each : buffers_) assert(!each.isMapped);
+  if (onScreen_ != nullptr && before_) card().restore(*before_);
+  for (const Buffer& each : buffers_) card().destroyBuffer(each.memory);
+  buffers_.clear();
+  if (modeBlob_ != 0) card().destroyBlob(modeBlob_);
+  if (route_) shared_->giveBack(*route_);
+  shared_.reset();
+}
+
+Result<void> DisplayOutput::finish() {
+  assert(shared_);
+  const Result<void> proceeded = proceed();
+  if (onScreen_ != nullptr && before_) card().restore(*std::exchange(before_, std::nullopt));
+  return proceeded;
+}
+
+Result<std::optional<Surface>> DisplayOutput::acquire() {
+  if (const auto proceeded = proceed(); !proceeded) return tl::unexpected(proceeded.error());
+  const auto free = std::ranges::find(buffers_, State::kFree, &Buffer::state);
+  if (free == buffers_.end()) return std::nullopt;
+  free->state = State::kLent;
+  return free->surface;
+}
+
+Result<SurfaceMapping> DisplayOutput::map(const Surface& surface) {
+  Buffer& buffer = of(surface);
+  assert(buffer.state == State::kLent && !buffer.isMapped);
+  buffer.isMapped = true;
+  return SurfaceMapping(*this, surface.id,
+                        {buffer.memory.memory.subspan(surface.planes[0].offsetBytes)});
+}
+
+void DisplayOutput::release(const Surface& surface) {
+  Buffer& buffer = of(surface);
+  assert(buffer.state == State::kLent && !buffer.isMapped);
+  buffer.state = State::kFree;
+}
+
+Result<void> DisplayOutput::submit(const Surface& surface, Fence fence, TimePoint due) {
+  Buffer& buffer = of(surface);
+  assert(buffer.state == State::kLent && !buffer.isMapped);
+  buffer.state = State::kQueued;
+  queue_.push_back({.buffer = &buffer, .fence = std::move(fence), .due = due});
+  return proceed();
+}
+
+Result<void> DisplayOutput::takeEvents(std::vector<PresentationEvent>& events) {
+  Result<void> proceeded = proceed();
+  std::ranges::copy(events_, std::back_inserter(events));
+  events_.clear();
+  return proceeded;
+}
+
+std::optional<TimePoint> DisplayOutput::nextEvent() const {
+  const TimePoint now = clock_.now();
+  if (!events_.empty()) return now;
+  if (flipping_ != nullptr) {
+    // The event follows the refresh; it is asked for again and again once that has passed.
+    const TimePoint refresh = phase_ ? refreshAtOrAfter(committed_, *phase_, period_) : committed_;
+    return std::max(refresh, now + kRetryInterval);
+  }
+  if (queue_.empty()) return std::nullopt;
+  return std::max(commitTime(queue_.front()), std::max(retryAt_, now));
+}
+
+Result<void> DisplayOutput::proceed() {
+  const TimePoint now = clock_.now();
+  if (auto taken = takeFlips(now); !taken) return taken;
+  if (auto looked = look(now); !looked) return looked;
+  return flipNext(now);
+}
+
+Result<void> DisplayOutput::takeFlips(TimePoint now) {
+  flips_.clear();
+  const int failed = shared_->takeFlips(route_->crtc.id, flips_);
+  for (const FlipEvent& each : flips_) flipped(each);
+  if (failed != 0) return tl::unexpected(failure(failed, "has gone"));
+  if (flipping_ != nullptr && now - committed_ > kFlipPatience) {
+    return tl::unexpected(Error{.kind = ErrorKind::kDeviceLost,
+                                .subject = route_->connector.name,
+                                .problem = "has not shown a picture for a second",
+                                .remedy = "its mode is set anew"});
+  }
+  return {};
+}
+
+/// Whether the display is still there.
+Result<void> DisplayOutput::look(TimePoint now) {
+  if (now < lookAt_) return {};
+  lookAt_ = now + kLookInterval;
+  const Answer has = card().stillHas(route_->connector.id, route_->mode);
+  if (has.hasError()) {
+    shared_->markGone();
+    return tl::unexpected(has.error());
+  }
+  if (has.isYes()) return {};
+  return tl::unexpected(Error{.kind = ErrorKind::kDeviceLost,
+                              .subject = route_->connector.name,
+                              .problem = "the display was unplugged, or has other modes now",
+                              .remedy = {}});
+}
+
+void DisplayOutput::flipped(const FlipEvent& flip) {
+  if (flipping_ == nullptr) return;
+  if (onScreen_ != nullptr) onScreen_->state = State::kFree;
+  onScreen_ = std::exchange(flipping_, nullptr);
+  onScreen_->state = State::kOnScreen;
+  PresentationEvent event{.surface = onScreen_->surface.id,
+                          .result = PresentationEvent::Result::kShown,
+                          .sequence = std::nullopt,
+                          .time = flip.time};
+  if (hasVblank_) {
+    event.sequence = extended(flip.sequence);
+    phase_ = flip.time;
+  }
+  events_.push_back(event);
+}
+
+/// The count in 64 bits, which the kernel tells the lower 32 of.
+std::uint64_t DisplayOutput::extended(std::uint32_t sequence) {
+  const auto step = static_cast<std::uint32_t>(sequence - static_cast<std::uint32_t>(lastSequence_));
+  lastSequence_ += step;
+  return lastSequence_;
+}
+
+/// When to hand a surface to the card, so that it is shown at the refresh nearest to its due time.
+TimePoint DisplayOutput::commitTime(const Queued& queued) const {
+  const TimePoint earliest = queued.due - period_ / 2;
+  // With vertical blanking the card waits for the refresh, else it shows the surface at once.
+  return hasVblank_ ? earliest : refreshAtOrAfter(earliest, *phase_, period_);
+}
+
+void DisplayOutput::end(Buffer& buffer, PresentationEvent::Result result, TimePoint time) {
+  buffer.state = State::kFree;
+  events_.push_back(
+      {.surface = buffer.surface.id, .result = result, .sequence = std::nullopt, .time = time});
+}
+
+/// Commits the newest of the surfaces whose refresh is next, up to the first that is not ready.
+Result<void> DisplayOutput::flipNext(TimePoint now) {
+  if (flipping_ != nullptr || now < retryAt_) return {};
+  std::size_t ready = 0;
+  while (ready < queue_.size() && commitTime(queue_[ready]) <= now &&
+         hasSignalled(queue_[ready].fence)) {
+    ++ready;
+  }
+  if (ready == 0) return {};
+  for (; ready > 1; --ready) {
+    end(*queue_.front().buffer, PresentationEvent::Result::kSuperseded, now);
+    queue_.pop_front();
+  }
+  Buffer& next = *queue_.front().buffer;
+  const Change change{route_->plane.id, flipProperty_, next.memory.framebuffer};
+  const int failed = card().commit({&change, 1}, Commit::kFlip);
+  if (failed == -EBUSY) {
+    // The flip before is not quite over.
+    retryAt_ = now + kRetryInterval;
+    return {};
+  }
+  queue_.pop_front();
+  if (failed == -ENOMEM) {
+    end(next, PresentationEvent::Result::kSkipped, now);
+    return {};
+  }
+  if (failed != 0) return tl::unexpected(failure(failed, "cannot show a picture"));
+  next.state = State::kFlipping;
+  flipping_ = &next;
+  committed_ = now;
+  return {};
+}
+
+Error DisplayOutput::failure(int error, std::string problem) const {
+  const std::string& place = route_->connector.name;
+  if (error == -EACCES || error == -EPERM) {
+    return notMaster(card().node(), place);
+  }
+  if (error == -ENODEV || error == -ENXIO || error == -EIO) {
+    shared_->markGone();
+    return {.kind = ErrorKind::kDeviceLost,
+            .subject = card().node(),
+            .problem = "the graphics card is gone",
+            .remedy = {},
+            .domain = ErrorDomain::kErrno,
+            .code = -error};
+  }
+  Error other = errnoError(place, std::move(problem), -error);
+  if (error == -EINVAL) other.kind = ErrorKind::kUnsupported;
+  return other;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<SurfaceOutput>> openDisplay(const std::string& name,
+                                                   const DisplaySettings& settings, Cards& cards,
+                                                   const Clock& clock) {
+  if (!isDisplayName(name)) {
+    return tl::unexpected(Error{.kind = ErrorKind::kInvalidArgument,
+                                .subject = name,
+                                .problem = "names no display",
+                                .remedy = "give display, display:HDMI-A-1 or "
+                                          "display:card1-HDMI-A-1"});
+  }
+  return std::make_unique<DisplayOutput>(name, settings, cards, clock);
+}
+
+}  // namespace pleinair::hal

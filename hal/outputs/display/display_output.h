@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "hal/clock.h"
+#include "hal/output.h"
+#include "hal/output_kind.h"
+#include "hal/outputs/display/card.h"
+#include "hal/outputs/display/picture_area.h"
+
+namespace pleinair::hal {
+
+struct DisplaySettings {
+  std::string mode = "auto";  ///< display::DisplayWish::mode
+  display::Placement placement;
+};
+
+/// A display without a desktop, through the kernel's mode setting (DRM/KMS), by atomic commits.
+/// `name`: "display", the first that is plugged in; "display:HDMI-A-1", by its socket;
+/// "display:card1-HDMI-A-1", where two cards have sockets of one name. Opens nothing yet. `cards`
+/// and `clock`, which is CLOCK_MONOTONIC but for tests, outlive it.
+///
+/// start() sets the mode, black, and answers the part of the display that pictures cover, and its
+/// refresh. A driver without vertical blanking (virtual cards) counts none: surfaces are then shown
+/// at the mode's rate by the clock, and their events have no sequence. Errors also: kDeviceLost
+/// (nothing is plugged in), kBusy (another program or output shows on it), kUnsupported (the card
+/// refuses the mode).
+///
+/// Surfaces are buffers that the processor writes. Whether the display is still plugged in is looked
+/// at once a second; it is lost then, and where a flip does not take place within a second.
+///
+/// finish() and destruction bring back what was shown before; where the process is killed, the
+/// kernel brings back its console.
+///
+/// Errors: kInvalidArgument (no such name).
+Result<std::unique_ptr<SurfaceOutput>> openDisplay(const std::string& name,
+                                                   const DisplaySettings& settings = {},
+                                                   display::Cards& cards = display::kernelCards(),
+                                                   const Clock& clock = steadyClock());
+
+/// The sockets of all cards, with the sizes of the displays in them, from the kernel's list
+/// (`folder`, as /sys/class/drm). Opens no card.
+OutputListing listDisplays(const std::filesystem::path& folder = "/sys/class/drm");
+
+/// "display" and "display:SOCKET"; its options are `mode`, `fit`, `rotation` and `margin`.
+OutputKind displayKind();
+
+}  // namespace pleinair::hal

@@ -1,0 +1,80 @@
+#include "hal/outputs/display/shared_card.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace pleinair::hal::display {
+namespace {
+
+/// The cards that are open, by where they come from and their nodes.
+struct OpenCards {
+  std::mutex mutex;
+  std::map<std::pair<Cards*, std::string>, std::weak_ptr<SharedCard>> cards;
+};
+
+OpenCards& openCards() {
+  static OpenCards cards;
+  return cards;
+}
+
+}  // namespace
+
+Result<std::shared_ptr<SharedCard>> SharedCard::of(Cards& cards, const std::string& node) {
+  OpenCards& open = openCards();
+  const std::scoped_lock lock(open.mutex);
+  std::weak_ptr<SharedCard>& known = open.cards[{&cards, node}];
+  if (std::shared_ptr<SharedCard> shared = known.lock()) return shared;
+  Result<std::unique_ptr<Card>> opened = cards.open(node);
+  if (!opened) return tl::unexpected(opened.error());
+  auto shared = std::make_shared<SharedCard>(cards, *std::move(opened));
+  known = shared;
+  return shared;
+}
+
+void SharedCard::markGone() {
+  OpenCards& open = openCards();
+  const std::scoped_lock lock(open.mutex, mutex_);
+  if (!std::exchange(isGone_, true)) open.cards.erase({&cards_, card_->node()});
+}
+
+Result<DisplayRoute> SharedCard::take(const DisplayWish& wish) {
+  const std::scoped_lock lock(mutex_);
+  const Result<CardState> state = card_->read(true);
+  if (!state) return tl::unexpected(state.error());
+  const Result<Connector> connector = chooseConnector(*state, wish.connector, connectors_);
+  if (!connector) return tl::unexpected(connector.error());
+  const Result<Mode> mode = chooseMode(*connector, wish);
+  if (!mode) return tl::unexpected(mode.error());
+  Result<DisplayRoute> route = routeTo(*state, *connector, *mode, inUse_);
+  if (!route) return route;
+  inUse_.crtcs |= std::uint32_t{1} << route->crtcIndex;
+  inUse_.planes |= std::uint64_t{1} << route->planeIndex;
+  connectors_.push_back(route->connector.id);
+  flips_[route->crtc.id].clear();
+  return route;
+}
+
+void SharedCard::giveBack(const DisplayRoute& route) {
+  const std::scoped_lock lock(mutex_);
+  inUse_.crtcs &= ~(std::uint32_t{1} << route.crtcIndex);
+  inUse_.planes &= ~(std::uint64_t{1} << route.planeIndex);
+  std::erase(connectors_, route.connector.id);
+  flips_.erase(route.crtc.id);
+}
+
+int SharedCard::takeFlips(ObjectId crtc, std::vector<FlipEvent>& flips) {
+  const std::scoped_lock lock(mutex_);
+  read_.clear();
+  const int failed = card_->takeFlips(read_);
+  for (const FlipEvent& each : read_) {
+    // Flips of an output that has gone are nobody's.
+    if (const auto of = flips_.find(each.crtc); of != flips_.end()) of->second.push_back(each);
+  }
+  std::vector<FlipEvent>& own = flips_[crtc];
+  std::ranges::copy(own, std::back_inserter(flips));
+  own.clear();
+  return failed;
+}
+
+}  // namespace pleinair::hal::display

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "hal/outputs/display/card.h"
+#include "hal/outputs/display/route.h"
+
+namespace pleinair::hal::display {
+
+/// A card that all outputs of the process share, since only one descriptor of it can be the master:
+/// who uses which of its parts, and whose flips are whose. Thread-safe.
+class SharedCard {
+ public:
+  /// Opens the card, or gives the one that is open already. Errors: those of Cards::open().
+  static Result<std::shared_ptr<SharedCard>> of(Cards& cards, const std::string& node);
+
+  SharedCard(Cards& cards, std::unique_ptr<Card> card) : cards_(cards), card_(std::move(card)) {}
+
+  Card& card() { return *card_; }
+
+  /// Looks for the display that is wished, chooses how to reach it, and takes those parts of the
+  /// card. Errors: those of chooseConnector(), chooseMode() and routeTo().
+  Result<DisplayRoute> take(const DisplayWish& wish);
+  void giveBack(const DisplayRoute& route);
+
+  /// Appends the flips of a CRTC since the last call. 0, or −errno.
+  int takeFlips(ObjectId crtc, std::vector<FlipEvent>& flips);
+
+  /// The card is not there any more: of() opens it anew.
+  void markGone();
+
+ private:
+  Cards& cards_;
+  std::unique_ptr<Card> card_;
+  std::mutex mutex_;  // guards the members below
+  InUse inUse_;
+  std::vector<ObjectId> connectors_;
+  std::vector<FlipEvent> read_;
+  std::map<ObjectId, std::vector<FlipEvent>> flips_;  ///< by CRTC, not taken yet
+  bool isGone_ = false;
+};
+
+}  // namespace pleinair::hal::display

@@ -1,0 +1,371 @@
+#include "tests/support/fake_card.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include "hal/surface.h"
+
+namespace pleinair::support {
+
+using hal::display::Card;
+using hal::display::CardState;
+using hal::display::Change;
+using hal::display::Commit;
+using hal::display::FlipEvent;
+using hal::display::ObjectId;
+using hal::display::Property;
+using hal::display::ScanOutBuffer;
+using hal::display::ShownBefore;
+
+namespace {
+
+constexpr ObjectId kFirstCrtc = 100;
+constexpr ObjectId kFirstConnector = 200;
+constexpr ObjectId kFirstPlane = 300;
+constexpr ObjectId kConsole = 900;  ///< the console's framebuffer
+constexpr std::size_t kPixelBytes = 4;
+
+/// Property ids are those of a kernel: one for each name, whatever the object.
+constexpr std::array<std::string_view, 14> kNames{
+    "CRTC_ID", "MODE_ID", "ACTIVE", "FB_ID",  "SRC_X",  "SRC_Y",  "SRC_W",
+    "SRC_H",   "CRTC_X",  "CRTC_Y", "CRTC_W", "CRTC_H", "type",   "EDID"};
+
+ObjectId idOf(std::string_view name) {
+  const auto at = std::ranges::find(kNames, name);
+  assert(at != kNames.end());
+  return static_cast<ObjectId>(at - kNames.begin()) + 1;
+}
+
+hal::display::Mode modeOf(const FakeMode& from) {
+  hal::display::Mode mode{
+      .name = std::to_string(from.size.width) + "x" + std::to_string(from.size.height),
+      .size = from.size,
+      .period = hal::fromSeconds(1.0 / from.hertz),
+      .isPreferred = from.isPreferred,
+      .isInterlaced = from.isInterlaced,
+      .timings = {}};
+  std::memcpy(mode.timings.data(), &from.size, sizeof(from.size));
+  std::memcpy(mode.timings.data() + sizeof(from.size), &from.hertz, sizeof(from.hertz));
+  return mode;
+}
+
+struct Crtc {
+  bool isActive = false;
+  std::optional<FakeMode> mode;
+  ObjectId framebuffer = 0;
+  ObjectId connector = 0;
+  ObjectId pending = 0;  ///< framebuffer of the flip that waits
+  hal::TimePoint committed;
+};
+
+struct Framebuffer {
+  ScanOutBuffer buffer;
+  hal::FrameSize size;
+};
+
+}  // namespace
+
+class FakeCard final : public Card {
+ public:
+  FakeCard(FakeCards& cards, FakeCardSpec& spec)
+      : cards_(cards), spec_(spec), crtcs_(static_cast<std::size_t>(spec.crtcs)) {
+    ++cards_.openCards;
+    if (spec.hasConsole) {
+      crtcs_.front() = {.isActive = true,
+                        .mode = spec.connectors.front().modes.front(),
+                        .framebuffer = kConsole,
+                        .connector = kFirstConnector};
+    }
+  }
+  ~FakeCard() override {
+    assert(framebuffers_.empty() && "a buffer was left behind");
+    --cards_.openCards;
+  }
+  FakeCard(const FakeCard&) = delete;
+  FakeCard& operator=(const FakeCard&) = delete;
+
+  const std::string& node() const override { return spec_.node; }
+  const std::string& driver() const override { return driver_; }
+
+  hal::Result<CardState> read(bool) override {
+    if (spec_.isGone) return tl::unexpected(lost());
+    CardState state;
+    for (std::size_t i = 0; i < crtcs_.size(); ++i) {
+      state.crtcs.push_back({kFirstCrtc + static_cast<ObjectId>(i), properties({"MODE_ID", "ACTIVE"})});
+    }
+    for (std::size_t i = 0; i < spec_.connectors.size(); ++i) {
+      const FakeConnector& from = spec_.connectors[i];
+      hal::display::Connector connector{.id = kFirstConnector + static_cast<ObjectId>(i),
+                                        .name = from.name,
+                                        .isConnected = from.isConnected,
+                                        .modes = {},
+                                        .crtcs = from.crtcs,
+                                        .properties = properties({"CRTC_ID", "EDID"})};
+      if (from.isConnected) {
+        for (const FakeMode& each : from.modes) connector.modes.push_back(modeOf(each));
+      }
+      for (std::size_t crtc = 0; crtc < crtcs_.size(); ++crtc) {
+        if (crtcs_[crtc].isActive && crtcs_[crtc].connector == connector.id) {
+          connector.properties.front().value = kFirstCrtc + crtc;
+        }
+      }
+      state.connectors.push_back(std::move(connector));
+    }
+    for (int i = 0; i < spec_.crtcs * spec_.planesPerCrtc; ++i) {
+      state.planes.push_back({.id = kFirstPlane + static_cast<ObjectId>(i),
+                              .isPrimary = i % spec_.planesPerCrtc == 0,
+                              .crtcs = std::uint32_t{1} << (i / spec_.planesPerCrtc),
+                              .fourccs = {hal::kXrgb8888},
+                              .properties = properties({"FB_ID", "CRTC_ID", "SRC_X", "SRC_Y",
+                                                        "SRC_W", "SRC_H", "CRTC_X", "CRTC_Y",
+                                                        "CRTC_W", "CRTC_H", "type"})});
+    }
+    return state;
+  }
+
+  hal::Answer stillHas(ObjectId connector, const hal::display::Mode& mode) override {
+    if (spec_.isGone) return tl::unexpected(lost());
+    const FakeConnector& at = spec_.connectors.at(connector - kFirstConnector);
+    const auto isIt = [&](const FakeMode& each) { return modeOf(each).timings == mode.timings; };
+    return at.isConnected && std::ranges::any_of(at.modes, isIt);
+  }
+
+  std::optional<ShownBefore> shownNow(ObjectId crtc) override {
+    const Crtc& of = crtcs_.at(crtc - kFirstCrtc);
+    if (!of.isActive || of.framebuffer == 0) return std::nullopt;
+    return ShownBefore{.crtc = crtc,
+                       .framebuffer = of.framebuffer,
+                       .x = 0,
+                       .y = 0,
+                       .connector = of.connector,
+                       .timings = modeOf(*of.mode).timings};
+  }
+  void restore(const ShownBefore& before) override {
+    if (spec_.isGone || !isMaster()) return;
+    ++cards_.restores;
+    crtcs_.at(before.crtc - kFirstCrtc).framebuffer = before.framebuffer;
+  }
+
+  bool isMaster() override { return !spec_.hasOtherMaster; }
+  int becomeMaster() override { return spec_.hasOtherMaster ? -EBUSY : 0; }
+  void dropMaster() override {}
+
+  int commit(std::span<const Change> changes, Commit kind) override {
+    if (spec_.isGone) return -ENODEV;
+    if (!isMaster()) return -EACCES;
+    runTo(cards_.clock_.now());
+    if (kind == Commit::kFlip) return flip(changes);
+    const int failed = modeset(changes, kind == Commit::kModeset);
+    ++(kind == Commit::kTest ? cards_.tests : cards_.modesets);
+    return failed;
+  }
+
+  int createBlob(std::span<const std::uint8_t> bytes, ObjectId& blob) override {
+    if (spec_.isGone) return -ENODEV;
+    blob = ++lastId_;
+    blobs_[blob].assign(bytes.begin(), bytes.end());
+    ++cards_.blobs;
+    return 0;
+  }
+  void destroyBlob(ObjectId blob) override {
+    assert(blobs_.contains(blob));
+    blobs_.erase(blob);
+    --cards_.blobs;
+  }
+
+  int createBuffer(hal::FrameSize size, ScanOutBuffer& buffer) override {
+    if (spec_.isGone) return -ENODEV;
+    const std::size_t stride =
+        static_cast<std::size_t>(size.width) * kPixelBytes + spec_.rowPadding;
+    const std::size_t bytes = stride * static_cast<std::size_t>(size.height);
+    if (usedBytes_ + bytes > spec_.memoryBytes) return -ENOMEM;
+    const int file = ::memfd_create("scan-out", MFD_CLOEXEC);
+    if (file < 0 || ::ftruncate(file, static_cast<off_t>(bytes)) != 0) return -ENOMEM;
+    void* memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    assert(memory != MAP_FAILED);
+    buffer = {.framebuffer = ++lastId_,
+              .handle = ++lastId_,
+              .dmaBuf = spec_.exportsDmaBufs ? file : -1,
+              .memory = {static_cast<std::uint8_t*>(memory), bytes},
+              .strideBytes = stride};
+    if (!spec_.exportsDmaBufs) ::close(file);
+    framebuffers_[buffer.framebuffer] = {buffer, size};
+    usedBytes_ += bytes;
+    ++cards_.buffers;
+    return 0;
+  }
+  void destroyBuffer(const ScanOutBuffer& buffer) override {
+    assert(framebuffers_.contains(buffer.framebuffer));
+    framebuffers_.erase(buffer.framebuffer);
+    for (Crtc& each : crtcs_) {
+      if (each.pending == buffer.framebuffer) each.pending = 0;
+    }
+    usedBytes_ -= buffer.memory.size();
+    ::munmap(buffer.memory.data(), buffer.memory.size());
+    if (buffer.dmaBuf >= 0) ::close(buffer.dmaBuf);
+    --cards_.buffers;
+  }
+
+  bool hasVblank(ObjectId) override { return spec_.hasVblank; }
+
+  int takeFlips(std::vector<FlipEvent>& flips) override {
+    if (spec_.isGone) return -ENODEV;
+    runTo(cards_.clock_.now());
+    flips.insert(flips.end(), events_.begin(), events_.end());
+    events_.clear();
+    return 0;
+  }
+
+ private:
+  static std::vector<Property> properties(std::initializer_list<std::string_view> names) {
+    std::vector<Property> properties;
+    for (const std::string_view each : names) {
+      properties.push_back({std::string(each), idOf(each), each == "type" ? 1U : 0U});
+    }
+    return properties;
+  }
+  hal::Error lost() const {
+    return {.kind = hal::ErrorKind::kDeviceLost, .subject = spec_.node, .problem = "is gone"};
+  }
+
+  /// The values that a commit gives an object.
+  static std::optional<std::uint64_t> valueOf(std::span<const Change> changes, ObjectId object,
+                                              std::string_view name) {
+    for (const Change& each : changes) {
+      if (each.object == object && each.property == idOf(name)) return each.value;
+    }
+    return std::nullopt;
+  }
+
+  int modeset(std::span<const Change> changes, bool applies) {
+    const auto connector = std::ranges::find_if(changes, [](const Change& each) {
+      return each.object >= kFirstConnector && each.object < kFirstPlane;
+    });
+    if (connector == changes.end() || connector->property != idOf("CRTC_ID")) return -EINVAL;
+    const auto crtcId = static_cast<ObjectId>(connector->value);
+    if (crtcId < kFirstCrtc || crtcId >= kFirstCrtc + crtcs_.size()) return -EINVAL;
+    const auto blob = valueOf(changes, crtcId, "MODE_ID");
+    if (!blob || !blobs_.contains(static_cast<ObjectId>(*blob))) return -EINVAL;
+    if (valueOf(changes, crtcId, "ACTIVE") != 1U) return -EINVAL;
+    const ObjectId plane = planeOf(changes);
+    const auto framebuffer = valueOf(changes, plane, "FB_ID");
+    if (!framebuffer || valueOf(changes, plane, "CRTC_ID") != crtcId) return -EINVAL;
+    const auto buffer = framebuffers_.find(static_cast<ObjectId>(*framebuffer));
+    const FakeMode* mode = modeIn(connector->object, blobs_.at(static_cast<ObjectId>(*blob)));
+    if (buffer == framebuffers_.end() || mode == nullptr || mode->isRefused) return -EINVAL;
+    // The picture fills the display, as most cards demand of a primary plane.
+    const auto width = static_cast<std::uint64_t>(mode->size.width);
+    const auto height = static_cast<std::uint64_t>(mode->size.height);
+    if (buffer->second.size != mode->size || valueOf(changes, plane, "CRTC_W") != width ||
+        valueOf(changes, plane, "CRTC_H") != height ||
+        valueOf(changes, plane, "SRC_W") != width << 16U ||
+        valueOf(changes, plane, "SRC_H") != height << 16U) {
+      return -EINVAL;
+    }
+    if (!applies) return 0;
+    Crtc& crtc = crtcs_.at(crtcId - kFirstCrtc);
+    crtc = {.isActive = true,
+            .mode = *mode,
+            .framebuffer = buffer->first,
+            .connector = connector->object};
+    return 0;
+  }
+
+  static ObjectId planeOf(std::span<const Change> changes) {
+    for (const Change& each : changes) {
+      if (each.object >= kFirstPlane) return each.object;
+    }
+    return 0;
+  }
+
+  const FakeMode* modeIn(ObjectId connector, const std::vector<std::uint8_t>& timings) const {
+    for (const FakeMode& each : spec_.connectors.at(connector - kFirstConnector).modes) {
+      if (std::ranges::equal(modeOf(each).timings, timings)) return &each;
+    }
+    return nullptr;
+  }
+
+  int flip(std::span<const Change> changes) {
+    const ObjectId plane = planeOf(changes);
+    const auto framebuffer = valueOf(changes, plane, "FB_ID");
+    if (plane == 0 || !framebuffer) return -EINVAL;
+    Crtc& crtc = crtcs_.at((plane - kFirstPlane) / static_cast<ObjectId>(spec_.planesPerCrtc));
+    const auto id = static_cast<ObjectId>(*framebuffer);
+    if (!crtc.isActive || !framebuffers_.contains(id)) return -EINVAL;
+    if (framebuffers_.at(id).size != crtc.mode->size) return -EINVAL;
+    if (crtc.pending != 0) return -EBUSY;
+    if (std::exchange(spec_.busyFlips, std::max(0, spec_.busyFlips - 1)) > 0) return -EBUSY;
+    if (std::exchange(spec_.memorylessFlips, std::max(0, spec_.memorylessFlips - 1)) > 0) {
+      return -ENOMEM;
+    }
+    ++cards_.flips;
+    cards_.changesOfFlips.push_back(changes.size());
+    crtc.pending = id;
+    crtc.committed = cards_.clock_.now();
+    if (!spec_.hasVblank) runTo(crtc.committed);
+    return 0;
+  }
+
+  void runTo(hal::TimePoint now) {
+    if (spec_.losesFlips) return;
+    for (std::size_t i = 0; i < crtcs_.size(); ++i) {
+      Crtc& crtc = crtcs_[i];
+      if (crtc.pending == 0) continue;
+      const hal::Duration period = hal::fromSeconds(1.0 / crtc.mode->hertz);
+      const std::int64_t count = crtc.committed.time_since_epoch() / period + 1;
+      const hal::TimePoint refresh =
+          spec_.hasVblank ? hal::TimePoint(count * period) : crtc.committed;
+      if (refresh > now) continue;
+      crtc.framebuffer = std::exchange(crtc.pending, 0);
+      const auto crtcId = kFirstCrtc + static_cast<ObjectId>(i);
+      const std::uint64_t sequence = spec_.hasVblank ? static_cast<std::uint64_t>(count) : 0;
+      events_.push_back(
+          {.crtc = crtcId, .sequence = static_cast<std::uint32_t>(sequence), .time = refresh});
+      std::uint32_t pixel = 0;
+      std::memcpy(&pixel, framebuffers_.at(crtc.framebuffer).buffer.memory.data(), sizeof(pixel));
+      cards_.shown.push_back(
+          {.crtc = crtcId, .sequence = sequence, .time = refresh, .firstPixel = pixel});
+    }
+  }
+
+  FakeCards& cards_;
+  FakeCardSpec& spec_;
+  std::string driver_ = "fake";
+  std::vector<Crtc> crtcs_;
+  std::map<ObjectId, Framebuffer> framebuffers_;
+  std::map<ObjectId, std::vector<std::uint8_t>> blobs_;
+  std::vector<FlipEvent> events_;
+  ObjectId lastId_ = 1000;
+  std::size_t usedBytes_ = 0;
+};
+
+FakeCardSpec& FakeCards::add(FakeCardSpec spec) {
+  std::string node = spec.node;
+  return specs_.emplace(std::move(node), std::move(spec)).first->second;
+}
+
+std::vector<std::string> FakeCards::nodes() {
+  std::vector<std::string> nodes;
+  for (const auto& [node, spec] : specs_) {
+    if (!spec.isGone) nodes.push_back(node);
+  }
+  return nodes;
+}
+
+hal::Result<std::unique_ptr<Card>> FakeCards::open(const std::string& node) {
+  const auto found = specs_.find(node);
+  if (found == specs_.end() || found->second.isGone) {
+    return tl::unexpected(hal::Error{.kind = hal::ErrorKind::kNotFound, .subject = node});
+  }
+  return std::make_unique<FakeCard>(*this, found->second);
+}
+
+}  // namespace pleinair::support

@@ -1,0 +1,333 @@
+#include "hal/outputs/display/display_output.h"
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/fake_card.h"
+
+namespace pleinair::hal {
+namespace {
+
+using display::Placement;
+using support::FakeCards;
+using support::FakeCardSpec;
+
+constexpr std::uint32_t kPainted = 0x00A0B0C0;
+
+class DisplayTest : public testing::Test {
+ protected:
+  static constexpr FrameSize kSize{64, 48};
+
+  FakeCardSpec& plug(FakeCardSpec spec = {}) { return cards_.add(std::move(spec)); }
+
+  Result<OutputFormat> start(const std::string& name = "display", DisplaySettings settings = {}) {
+    output_ = *openDisplay(name, settings, cards_, clock_);
+    Result<OutputFormat> format = output_->start({.size = kSize, .framePeriod = {}});
+    if (format && format->refresh) period_ = format->refresh->period;
+    return format;
+  }
+
+  /// Fills one with a colour and has it shown.
+  Result<void> show(TimePoint due, std::uint32_t pixel = kPainted) {
+    const auto surface = output_->acquire();
+    if (!surface) return tl::unexpected(surface.error());
+    if (!*surface) return tl::unexpected(Error{.kind = ErrorKind::kBusy, .problem = "none free"});
+    {
+      const auto mapping = output_->map(**surface);
+      const std::span<std::uint8_t> bytes = mapping->plane(0);
+      for (std::size_t i = 0; i + 4 <= bytes.size(); i += 4) {
+        std::memcpy(bytes.data() + i, &pixel, sizeof(pixel));
+      }
+    }
+    return output_->submit(**surface, Fence(), due);
+  }
+  Result<void> runTo(TimePoint time) {
+    while (clock_.now() < time) {
+      const auto next = output_->nextEvent();
+      clock_.sleepUntil(next ? std::clamp(*next, clock_.now() + Duration{1}, time) : time);
+      if (auto taken = output_->takeEvents(events_); !taken) return taken;
+    }
+    return {};
+  }
+  Result<void> showAndWait(std::uint32_t pixel = kPainted) {
+    const TimePoint due = clock_.now() + period_;
+    if (auto shown = show(due, pixel); !shown) return shown;
+    return runTo(due + 2 * period_);
+  }
+
+  SteppedClock clock_{TimePoint(std::chrono::seconds(100))};
+  FakeCards cards_{clock_};
+  std::unique_ptr<SurfaceOutput> output_;
+  Duration period_ = std::chrono::milliseconds(17);
+  std::vector<PresentationEvent> events_;
+};
+
+TEST_F(DisplayTest, SetsTheModeOnceAndThenChangesThePictureOnly) {
+  plug();
+  ASSERT_TRUE(start().has_value());
+  EXPECT_EQ(cards_.tests, 1);
+  EXPECT_EQ(cards_.modesets, 1);
+  for (int i = 0; i < 10; ++i) ASSERT_TRUE(showAndWait().has_value());
+  EXPECT_EQ(cards_.modesets, 1);
+  ASSERT_EQ(cards_.changesOfFlips.size(), 10u);
+  EXPECT_EQ(std::ranges::count(cards_.changesOfFlips, 1u), 10);
+  EXPECT_EQ(cards_.shown.back().firstPixel, kPainted);
+}
+
+TEST_F(DisplayTest, ReportsTheRefreshesThatTheCardCounted) {
+  plug();
+  ASSERT_TRUE(start().has_value());
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(showAndWait().has_value());
+  ASSERT_EQ(events_.size(), 5u);
+  for (std::size_t i = 0; i < events_.size(); ++i) {
+    EXPECT_EQ(events_[i].sequence, cards_.shown[i].sequence);
+    EXPECT_EQ(events_[i].time, cards_.shown[i].time);
+  }
+}
+
+TEST_F(DisplayTest, ACardWithoutVerticalBlankingIsPacedByTheClock) {
+  plug({.hasVblank = false});
+  const Result<OutputFormat> format = start();
+  ASSERT_TRUE(format.has_value());
+  ASSERT_TRUE(format->refresh->phase.has_value());
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(showAndWait().has_value());
+  ASSERT_EQ(events_.size(), 5u);
+  for (const PresentationEvent& each : events_) {
+    EXPECT_FALSE(each.sequence.has_value());
+    EXPECT_EQ((each.time - *format->refresh->phase) % period_, Duration::zero());
+  }
+}
+
+TEST_F(DisplayTest, PicturesLieBetweenBlackBars) {
+  plug({.connectors = {{.modes = {{.size = {128, 48}}}}}});
+  const Result<OutputFormat> format = start();
+  EXPECT_EQ(format->frame.size, kSize);
+  const auto surface = output_->acquire();
+  ASSERT_TRUE(surface->has_value());
+  EXPECT_EQ((*surface)->planes[0].offsetBytes, 32u * 4);
+  const auto mapping = output_->map(**surface);
+  // The last row ends within the buffer.
+  EXPECT_GE(mapping->plane(0).size(), (*surface)->planes[0].strideBytes * 47 + 64u * 4);
+}
+
+TEST_F(DisplayTest, ATurnedDisplayWantsUprightPicturesTurned) {
+  plug({.connectors = {{.modes = {{.size = {480, 640}}}}}});
+  const Result<OutputFormat> format =
+      start("display", {.placement = {.quarterTurns = 1}});
+  EXPECT_EQ(format->frame.size, (FrameSize{480, 640}));
+  EXPECT_EQ(format->quarterTurns, 1);
+}
+
+TEST_F(DisplayTest, BringsBackWhatWasShownBefore) {
+  plug();
+  ASSERT_TRUE(start().has_value());
+  ASSERT_TRUE(showAndWait().has_value());
+  ASSERT_TRUE(output_->finish().has_value());
+  EXPECT_EQ(cards_.restores, 1);
+  output_.reset();
+  EXPECT_EQ(cards_.restores, 1);
+  EXPECT_EQ(cards_.buffers, 0);
+  EXPECT_EQ(cards_.blobs, 0);
+  EXPECT_EQ(cards_.openCards, 0);
+}
+
+TEST_F(DisplayTest, BringsItBackWithoutFinish) {
+  plug();
+  ASSERT_TRUE(start().has_value());
+  output_.reset();
+  EXPECT_EQ(cards_.restores, 1);
+}
+
+TEST_F(DisplayTest, AMonitorThatIsSwitchedOffDuringAFlipIsLostWithinASecond) {
+  FakeCardSpec& card = plug();
+  ASSERT_TRUE(start().has_value());
+  ASSERT_TRUE(showAndWait().has_value());
+  ASSERT_TRUE(show(clock_.now() + period_).has_value());
+  card.connectors.front().isConnected = false;
+  const TimePoint off = clock_.now();
+  Result<void> ran;
+  while (ran.has_value() && clock_.now() < off + std::chrono::seconds(3)) ran = showAndWait();
+  ASSERT_FALSE(ran.has_value());
+  EXPECT_EQ(ran.error().kind, ErrorKind::kDeviceLost);
+  EXPECT_LE(clock_.now() - off, std::chrono::milliseconds(1100));
+  // It is there again with another mode.
+  output_.reset();
+  card.connectors.front().isConnected = true;
+  card.connectors.front().modes = {{.size = {80, 60}, .hertz = 50.0}};
+  const Result<OutputFormat> format = start();
+  ASSERT_TRUE(format.has_value());
+  EXPECT_EQ(format->frame.size, (FrameSize{80, 60}));
+  EXPECT_TRUE(showAndWait().has_value());
+}
+
+TEST_F(DisplayTest, NoMonitorAtStartIsADisplayThatMayCome) {
+  plug({.connectors = {{.isConnected = false}}});
+  const Result<OutputFormat> format = start();
+  ASSERT_FALSE(format.has_value());
+  EXPECT_EQ(format.error().kind, ErrorKind::kDeviceLost);
+}
+
+TEST_F(DisplayTest, TwoDisplaysOfACardAreIndependent) {
+  FakeCardSpec& card = plug({.connectors = {{.name = "HDMI-A-1"}, {.name = "DP-1"}}});
+  ASSERT_TRUE(start("display:HDMI-A-1").has_value());
+  auto first = std::move(output_);
+  ASSERT_TRUE(start("display:DP-1").has_value());
+  EXPECT_EQ(cards_.openCards, 1);  // there is only one master
+  ASSERT_TRUE(showAndWait().has_value());
+  std::swap(first, output_);
+  events_.clear();
+  ASSERT_TRUE(showAndWait().has_value());
+  EXPECT_EQ(events_.size(), 1u);
+  std::swap(first, output_);
+  // One leaves, the other goes on.
+  card.connectors.back().isConnected = false;
+  clock_.advance(std::chrono::seconds(2));
+  EXPECT_FALSE(showAndWait().has_value());
+  std::swap(first, output_);
+  first.reset();
+  EXPECT_TRUE(showAndWait().has_value());
+}
+
+TEST_F(DisplayTest, ACardThatIsPulledOutIsLostAndCanComeBack) {
+  FakeCardSpec& card = plug();
+  ASSERT_TRUE(start().has_value());
+  ASSERT_TRUE(showAndWait().has_value());
+  card.isGone = true;
+  const Result<void> ran = showAndWait();
+  ASSERT_FALSE(ran.has_value());
+  EXPECT_EQ(ran.error().kind, ErrorKind::kDeviceLost);
+  output_.reset();
+  EXPECT_EQ(start().error().kind, ErrorKind::kNotFound);
+  card.isGone = false;
+  ASSERT_TRUE(start().has_value());
+  EXPECT_TRUE(showAndWait().has_value());
+}
+
+TEST_F(DisplayTest, AnotherMasterIsToldAtStartAndLater) {
+  FakeCardSpec& card = plug({.hasOtherMaster = true});
+  EXPECT_EQ(start().error().kind, ErrorKind::kBusy);
+  card.hasOtherMaster = false;
+  ASSERT_TRUE(start().has_value());
+  card.hasOtherMaster = true;
+  const Result<void> ran = showAndWait();
+  ASSERT_FALSE(ran.has_value());
+  EXPECT_EQ(ran.error().kind, ErrorKind::kBusy);
+  output_.reset();
+  card.hasOtherMaster = false;
+  ASSERT_TRUE(start().has_value());
+  EXPECT_TRUE(showAndWait().has_value());
+}
+
+TEST_F(DisplayTest, ARefusedModeGivesWayToOneThatIsTakenIfTheChoiceIsOurs) {
+  plug({.connectors = {{.modes = {{.size = {200, 100}, .isPreferred = true, .isRefused = true},
+                                  {.size = {100, 50}, .isRefused = true},
+                                  {.size = {64, 48}}}}}});
+  const Result<OutputFormat> format = start();
+  ASSERT_TRUE(format.has_value()) << format.error().message();
+  EXPECT_EQ(format->frame.size, (FrameSize{64, 48}));
+  EXPECT_EQ(cards_.modesets, 1);
+  output_.reset();
+  EXPECT_EQ(cards_.buffers, 0);
+}
+
+TEST_F(DisplayTest, ARefusedModeThatWasNamedIsAnError) {
+  plug({.connectors = {{.modes = {{.size = {200, 100}, .isRefused = true}, {.size = {64, 48}}}}}});
+  const Result<OutputFormat> format = start("display", {.mode = "200x100"});
+  ASSERT_FALSE(format.has_value());
+  EXPECT_EQ(format.error().kind, ErrorKind::kUnsupported);
+  EXPECT_NE(format.error().message().find("200x100"), std::string::npos);
+  EXPECT_EQ(cards_.modesets, 0);
+}
+
+TEST_F(DisplayTest, AFlipThatNeverComesIsLostWithinASecond) {
+  FakeCardSpec& card = plug();
+  ASSERT_TRUE(start().has_value());
+  card.losesFlips = true;
+  const TimePoint began = clock_.now();
+  ASSERT_TRUE(show(began + period_).has_value());
+  const Result<void> ran = runTo(began + std::chrono::seconds(3));
+  ASSERT_FALSE(ran.has_value());
+  EXPECT_EQ(ran.error().kind, ErrorKind::kDeviceLost);
+  EXPECT_LE(clock_.now() - began, std::chrono::milliseconds(1100));
+  card.losesFlips = false;
+  output_.reset();
+  ASSERT_TRUE(start().has_value());
+  EXPECT_EQ(cards_.modesets, 2);
+  EXPECT_TRUE(showAndWait().has_value());
+}
+
+TEST_F(DisplayTest, ABusyCardDropsNothing) {
+  FakeCardSpec& card = plug();
+  ASSERT_TRUE(start().has_value());
+  for (int i = 0; i < 20; ++i) {
+    card.busyFlips = 5;
+    ASSERT_TRUE(showAndWait().has_value());
+  }
+  EXPECT_EQ(events_.size(), 20u);
+  EXPECT_EQ(std::ranges::count(events_, PresentationEvent::Result::kShown,
+                               &PresentationEvent::result),
+            20);
+}
+
+TEST_F(DisplayTest, AFlipWithoutMemoryIsSkipped) {
+  FakeCardSpec& card = plug();
+  ASSERT_TRUE(start().has_value());
+  card.memorylessFlips = 1;
+  ASSERT_TRUE(showAndWait().has_value());
+  ASSERT_TRUE(showAndWait().has_value());
+  ASSERT_EQ(events_.size(), 2u);
+  EXPECT_EQ(events_[0].result, PresentationEvent::Result::kSkipped);
+  EXPECT_EQ(events_[1].result, PresentationEvent::Result::kShown);
+}
+
+TEST_F(DisplayTest, NoMemoryForTheBuffersIsAnErrorThatLeavesNothingBehind) {
+  plug({.memoryBytes = 64 * 48 * 4});
+  const Result<OutputFormat> format = start();
+  ASSERT_FALSE(format.has_value());
+  output_.reset();
+  EXPECT_EQ(cards_.buffers, 0);
+  EXPECT_EQ(cards_.blobs, 0);
+}
+
+TEST_F(DisplayTest, ASuspendedMachineGoesOnWithTheNextPicture) {
+  plug();
+  ASSERT_TRUE(start().has_value());
+  ASSERT_TRUE(show(clock_.now() + period_).has_value());
+  ASSERT_TRUE(runTo(clock_.now() + 2 * period_).has_value());
+  clock_.advance(std::chrono::hours(8));
+  ASSERT_TRUE(showAndWait().has_value());
+  EXPECT_EQ(events_.size(), 2u);
+}
+
+TEST_F(DisplayTest, AHundredUnplugsLeaveNothingBehind) {
+  FakeCardSpec& card = plug();
+  for (int i = 0; i < 100; ++i) {
+    ASSERT_TRUE(start().has_value());
+    ASSERT_TRUE(showAndWait().has_value());
+    card.isGone = true;
+    ASSERT_FALSE(showAndWait().has_value());
+    output_.reset();
+    card.isGone = false;
+    ASSERT_EQ(cards_.buffers, 0);
+    ASSERT_EQ(cards_.openCards, 0);
+  }
+}
+
+TEST_F(DisplayTest, DisplaysAreListedFromTheKernelsFiles) {
+  const OutputListing none = listDisplays("/nowhere");
+  ASSERT_TRUE(none.problem.has_value());
+  EXPECT_EQ(none.problem->kind, ErrorKind::kNotFound);
+}
+
+TEST_F(DisplayTest, NamesNoDisplay) {
+  EXPECT_FALSE(openDisplay("display:", {}, cards_, clock_).has_value());
+}
+
+}  // namespace
+}  // namespace pleinair::hal
