@@ -10,8 +10,7 @@ namespace {
 
 Inventory takeInventory() {
   return {.cameras = listDeviceCameras(deviceBackends()),
-          .outputs = listOutputs(hal::outputKinds()),
-          .displays = listDisplays()};
+          .outputs = listOutputs(hal::outputKinds())};
 }
 
 }  // namespace

@@ -90,6 +90,7 @@ int run(const RunOptions& options) {
                return configuredStatusServer(configuration, std::move(pages));
              },
          .waitsForCamera = camera.wait,
+         .waitsForOutputs = output.wait,
          .scene = std::move(scene),
          .snapshots = output.snapshots});
   });

@@ -84,15 +84,14 @@ std::unique_ptr<hal::Camera> chosenCamera(const CameraSettings& settings, hal::C
   return std::move(opened.camera);
 }
 
-std::unique_ptr<hal::HotplugMonitor> watchDevices(hal::CameraSupervisor& supervisor,
-                                                  std::string& why) {
+std::unique_ptr<hal::HotplugMonitor> watchDevices(
+    std::function<void(const hal::DeviceEvent&)> changed, std::string& why) {
   hal::Result<std::unique_ptr<hal::DeviceEvents>> events = hal::udevEvents();
   if (!events) {
     why = events.error().message();
     return nullptr;
   }
-  return std::make_unique<hal::HotplugMonitor>(
-      std::move(*events), [&supervisor](const hal::DeviceEvent&) { supervisor.devicesChanged(); });
+  return std::make_unique<hal::HotplugMonitor>(std::move(*events), std::move(changed));
 }
 
 }  // namespace pleinair::app

@@ -26,10 +26,10 @@ std::unique_ptr<hal::CameraSelector> makeCameraSelector(const CameraSettings& se
 /// cannot be opened, with each candidate's reason where there are several.
 std::unique_ptr<hal::Camera> chosenCamera(const CameraSettings& settings, hal::Clock& clock);
 
-/// Tells the supervisor when something is plugged or unplugged, while what is returned lives, which
-/// the supervisor outlives. Nothing, and `why` set, where udev is not to be had: a lost camera is
-/// then found again by the supervisor's back-off alone.
-std::unique_ptr<hal::HotplugMonitor> watchDevices(hal::CameraSupervisor& supervisor,
-                                                  std::string& why);
+/// Calls `changed`, on a thread of its own, when a camera or a display is plugged or unplugged,
+/// while what is returned lives. Nothing, and `why` set, where udev is not to be had: lost devices
+/// are then found again by back-off alone.
+std::unique_ptr<hal::HotplugMonitor> watchDevices(
+    std::function<void(const hal::DeviceEvent&)> changed, std::string& why);
 
 }  // namespace pleinair::app

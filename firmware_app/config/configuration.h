@@ -47,6 +47,7 @@ struct PaintingSettings {
 struct OutputSettings {
   std::vector<std::filesystem::path> targets{"window"};  ///< as of hal::openOutput()
   std::filesystem::path snapshots = ".";                 ///< the folder that snapshots are saved to
+  bool wait = false;                                     ///< for one that is not there at the start
   hal::OutputOptionsByKind options;                      ///< [output.KIND]
 };
 

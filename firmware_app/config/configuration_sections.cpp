@@ -120,6 +120,10 @@ const ParameterTable<OutputSettings>& outputTable() {
                           // Other mistakes are told when it is opened.
                           return !hal::isBareWord(target) || hal::outputKindOf(target).has_value();
                         }),
+      switchParameter("wait", &OutputSettings::wait,
+                      "Whether to wait for a display or loopback that is not there at the start; "
+                      "one that is lost later is always waited for.",
+                      TakesEffect::kRestart),
       pathParameter("snapshots", &OutputSettings::snapshots, {"."},
                     "The folder that the window's key s saves to; \".\": where the program runs.")};
   return kTable;

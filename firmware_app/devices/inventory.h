@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,16 +20,6 @@ struct DeviceCameras {
 
 DeviceCameras listDeviceCameras(std::span<const hal::SelectableBackend> backends);
 
-/// A connector of a graphics card, as the kernel lists it.
-struct Display {
-  std::string name;  ///< "card0-HDMI-A-1"
-  bool isConnected = false;
-  std::vector<std::string> modes;  ///< "1920x1080", the preferred one first, each size once
-};
-
-/// Lists the connectors in `folder`, which is /sys/class/drm; empty if the folder does not exist.
-std::vector<Display> listDisplays(const std::filesystem::path& folder = "/sys/class/drm");
-
 /// The outputs of a kind that are there, or how files of it are named.
 struct KindOfOutputs {
   std::string kind;
@@ -46,7 +35,6 @@ std::vector<KindOfOutputs> listOutputs(std::span<const hal::OutputKind> kinds);
 struct Inventory {
   DeviceCameras cameras;
   std::vector<KindOfOutputs> outputs;
-  std::vector<Display> displays;
 };
 
 /// Text for the terminal: a line per device, its formats below. An empty list says so and gives the
@@ -55,8 +43,7 @@ std::string asText(const Inventory& inventory);
 
 /// For programs: {"cameras": [{"backend", "id", "name", "serial", "node", "formats": [{"layout",
 /// "width", "height", "rates", "read"} …], "problem"} …], "outputs": [{"kind", "target", "name",
-/// "formats", "busy", "problem"} …], "displays": [{"name", "connected", "modes"} …], "problems":
-/// [text …]}; "problem" is null where there is none.
+/// "formats", "busy", "problem"} …], "problems": [text …]}; "problem" is null where there is none.
 std::string asJson(const Inventory& inventory);
 
 }  // namespace pleinair::app

@@ -41,10 +41,6 @@ Json outputOf(const std::string& kind, const hal::OutputDescription& output) {
           {"busy", output.isBusy}, {"problem", problemOf(output.problem)}};
 }
 
-Json displayOf(const Display& display) {
-  return {{"name", display.name}, {"connected", display.isConnected}, {"modes", display.modes}};
-}
-
 template <class Items, class Make>
 Json arrayOf(const Items& items, Make make) {
   Json array = Json::array();
@@ -63,7 +59,6 @@ std::string asJson(const Inventory& inventory) {
   }
   const Json document{{"cameras", arrayOf(inventory.cameras.cameras, cameraOf)},
                       {"outputs", std::move(outputs)},
-                      {"displays", arrayOf(inventory.displays, displayOf)},
                       {"problems", arrayOf(inventory.cameras.problems, [](const hal::Error& error) {
                          return error.message();
                        })}};

@@ -105,21 +105,10 @@ std::string outputsText(const Inventory& inventory) {
   return text;
 }
 
-std::string displaysText(const Inventory& inventory) {
-  std::string text = "Displays\n";
-  for (const Display& each : inventory.displays) {
-    text += fmt::format("  {}  {}\n", each.name,
-                        each.isConnected ? fmt::format("{}", fmt::join(each.modes, " "))
-                                         : std::string("not connected"));
-  }
-  if (inventory.displays.empty()) text += "  the kernel lists none\n";
-  return text;
-}
-
 }  // namespace
 
 std::string asText(const Inventory& inventory) {
-  return camerasText(inventory) + "\n" + outputsText(inventory) + "\n" + displaysText(inventory);
+  return camerasText(inventory) + "\n" + outputsText(inventory);
 }
 
 }  // namespace pleinair::app

@@ -6,8 +6,8 @@ namespace pleinair::app::doctor {
 
 std::vector<Finding> examine(const Probes& probes) {
   std::vector<Finding> findings;
-  for (const auto& check : {checkGraphics, checkRenderNodes, checkCameras, checkUsbCameras,
-                            checkLoopback, checkSocketBuffers, checkPriority, checkLockedMemory,
+  for (const auto& check : {checkGraphics, checkRenderNodes, checkDisplays, checkCameras,
+                            checkUsbCameras, checkLoopback, checkSocketBuffers, checkPriority, checkLockedMemory,
                             checkClock, checkUdev, checkConfiguration, checkDisk, checkMemory}) {
     findings.push_back(check(probes));
   }

@@ -8,6 +8,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "hal/outputs/display/display_output.h"
+
 namespace pleinair::app::doctor {
 namespace {
 
@@ -73,6 +75,8 @@ Probes systemProbes() {
           .graphics = makeContext,
           .cameras = {},
           .loopbacks = [] { return hal::listLoopbacks(); },
+          .displays = [] { return hal::listDisplays(); },
+          .displayProblem = [] { return hal::displayKind().problemOf("display"); },
           .configurationError = {},
           .snapshots = {}};
 }

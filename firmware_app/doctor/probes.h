@@ -9,6 +9,7 @@
 
 #include "firmware_app/devices/inventory.h"
 #include "hal/error.h"
+#include "hal/output_kind.h"
 #include "hal/outputs/v4l2_loopback/loopback_devices.h"
 #include "pipeline/gpu/egl_context.h"
 
@@ -38,6 +39,9 @@ struct Probes {
   std::function<hal::Result<gpu::ContextInfo>()> graphics;
   std::function<DeviceCameras()> cameras;
   std::function<std::vector<hal::LoopbackDevice>()> loopbacks;
+  std::function<hal::OutputListing()> displays;
+  /// Why the first display that is plugged in could not be taken now.
+  std::function<std::optional<hal::Error>()> displayProblem;
   /// The error of the configuration, in a line; nothing where it is valid.
   std::function<std::optional<std::string>()> configurationError;
   /// The parts that the configuration asks for; none where it is not valid.

@@ -83,7 +83,7 @@ class LivePainting {
     began_ = job_.clock->now();
     threads_.emplace(pipeline_);
     std::string why;
-    hotplug_ = watchDevices(supervisor_, why);
+    hotplug_ = watchDevices([this](const hal::DeviceEvent& event) { devicesChanged(event); }, why);
     if (!hotplug_) spdlog::debug("no hot-plug events: {}", why);
     waitingSince_ = began_;
     if (job_.serveStatus) server_ = job_.serveStatus(statusPages());
@@ -95,6 +95,15 @@ class LivePainting {
   }
 
  private:
+  /// Any thread.
+  void devicesChanged(const hal::DeviceEvent& event) {
+    if (event.subsystem == "drm") {
+      haveDisplaysChanged_ = true;
+    } else {
+      supervisor_.devicesChanged();
+    }
+  }
+
   /// Returns false if a signal ended the wait.
   bool awaitStream() {
     for (;;) {
@@ -158,16 +167,32 @@ class LivePainting {
             .healthy = [this] { return statusNow().isHealthy(); }};
   }
 
+  /// Whether an output that cannot be opened may be there later.
+  static bool mayCome(const hal::Error& error) {
+    using enum hal::ErrorKind;
+    return error.kind == kNotFound || error.kind == kDeviceLost || error.kind == kBusy;
+  }
+
   void startOutput(std::size_t index) {
     const hal::OutputRequest request{.size = pictureSize(), .framePeriod = stream_.framePeriod};
     auto* window = dynamic_cast<hal::Window*>(opened_.at(index).get());
-    const hal::OutputFormat format = orThrow(opened_.at(index)->start(request));
-    if (window != nullptr) window_.emplace(*window, tuning_, *job_.clock);
-    const hal::OutputKind& kind = *orThrow(hal::outputKindOf(job_.outputs.at(index)));
+    const std::string& target = job_.outputs.at(index);
+    const hal::OutputKind& kind = *orThrow(hal::outputKindOf(target));
     runtime::OutputStageOptions options =
-        outputRules(job_.outputs.at(index), job_.outputOptions, job_.runtime, stream_);
+        outputRules(target, job_.outputOptions, job_.runtime, stream_);
     options.request = request;
     options.limit = job_.options.frames;
+    hal::Result<hal::OutputFormat> started = opened_.at(index)->start(request);
+    if (!started && job_.waitsForOutputs && kind.traits.reopens && mayCome(started.error())) {
+      spdlog::warn("waiting for an output: {}", started.error().message());
+      options.absence = std::move(started.error());
+      opened_.at(index).reset();
+      started = hal::OutputFormat{.frame = {.pixelFormat = hal::PixelFormat::kRgba8,
+                                            .size = request.size},
+                                  .refresh = std::nullopt};
+    }
+    const hal::OutputFormat format = orThrow(std::move(started));
+    if (window != nullptr) window_.emplace(*window, tuning_, *job_.clock);
     runtime::OutputStage& output =
         pipeline_.addOutput(std::move(opened_.at(index)), format, std::move(options));
     if (kind.traits.isOnMainThread) stepped_.push_back(&output);
@@ -221,6 +246,7 @@ class LivePainting {
     for (runtime::OutputStage* output : stepped_) {
       if (const auto next = output->step()) wake = std::min(wake, *next);
     }
+    if (haveDisplaysChanged_.exchange(false)) retryOutputs();
     handleWindow();
     handleSnapshots();
     report();
@@ -229,6 +255,10 @@ class LivePainting {
     } else {
       stepped_.front()->wait(wake);
     }
+  }
+
+  void retryOutputs() {
+    for (std::size_t i = 0; i < pipeline_.outputCount(); ++i) pipeline_.output(i).retry();
   }
 
   void handleWindow() {
@@ -351,6 +381,7 @@ class LivePainting {
   std::optional<LiveWindow> window_;
   std::optional<runtime::LiveThreads> threads_;
   std::unique_ptr<hal::HotplugMonitor> hotplug_;  ///< notifies the supervisor
+  std::atomic<bool> haveDisplaysChanged_ = false;
   std::atomic<bool> isPipelineMade_ = false;      ///< outputs and paint stage exist
   std::unique_ptr<StatusServer> server_;          ///< reads the pipeline's status
 

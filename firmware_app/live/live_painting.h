@@ -28,7 +28,8 @@ struct LiveJob {
   RuntimeSettings runtime;
   /// Starts the status server; may return null.
   std::function<std::unique_ptr<StatusServer>(StatusPages)> serveStatus;
-  bool waitsForCamera = false;  ///< at the start; after a loss it always waits
+  bool waitsForCamera = false;   ///< at the start; after a loss it always waits
+  bool waitsForOutputs = false;  ///< the same
   scene::Scene scene;
   std::filesystem::path snapshots;  ///< the folder that snapshots go to
 };

@@ -12,7 +12,7 @@ namespace pleinair::hal {
 /// An event of a device that was plugged, unplugged or changed.
 struct DeviceEvent {
   std::string action;     ///< "add", "remove", "change" …
-  std::string subsystem;  ///< "video4linux", "usb"
+  std::string subsystem;  ///< "video4linux", "usb", "drm"
   std::string node;       ///< "/dev/video0"; empty if it has none
 };
 
@@ -31,7 +31,7 @@ class DeviceEvents {
   virtual void interrupt() = 0;
 };
 
-/// udev's events of the subsystems of cameras. Errors: kUnsupported (built without udev), kIo (udev
+/// udev's events of the subsystems of cameras and displays. Errors: kUnsupported (built without udev), kIo (udev
 /// does not run).
 Result<std::unique_ptr<DeviceEvents>> udevEvents();
 

@@ -30,7 +30,8 @@ class LivePipeline {
   /// The camera and the clock outlive this.
   LivePipeline(hal::CameraSupervisor& camera, hal::Clock& clock);
 
-  /// Adds an output that was started and answered `format`. Once there is a paint stage, frames are
+  /// Adds an output that was started and answered `format`, or null for one that is waited for
+  /// (OutputStageOptions::absence). Once there is a paint stage, frames are
   /// painted for it from that stage's next step on.
   OutputStage& addOutput(std::unique_ptr<hal::Output> output, hal::OutputFormat format,
                          OutputStageOptions options);

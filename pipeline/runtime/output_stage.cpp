@@ -9,15 +9,16 @@ namespace pleinair::runtime {
 namespace {
 
 constexpr hal::Duration kFirstReopenDelay = std::chrono::milliseconds(500);
-constexpr hal::Duration kMaxReopenDelay = std::chrono::seconds(8);
+/// A display that comes without an event is found after this.
+constexpr hal::Duration kMaxReopenDelay = std::chrono::seconds(5);
 /// More surfaces than any display lends.
 constexpr std::size_t kMaxSurfaces = 16;
 
 /// A surface is submitted half a refresh before its due time, so that the display flips it at that
 /// refresh; only then it counts as shown in time.
-PresentationRules rulesOf(hal::Output& output, const hal::OutputFormat& format,
+PresentationRules rulesOf(hal::Output* output, const hal::OutputFormat& format,
                           PresentationRules rules) {
-  if (output.surfaces() == nullptr) return rules;
+  if (output == nullptr || output->surfaces() == nullptr) return rules;
   rules.lead = format.refresh ? format.refresh->period / 2 : hal::Duration{0};
   rules.tolerance = hal::Duration{0};
   return rules;
@@ -37,13 +38,14 @@ hal::Result<hal::Fence> copyOutputFrame(const OutputFrame& frame, hal::SurfaceOu
 OutputStage::OutputStage(std::unique_ptr<hal::Output> output, hal::OutputFormat format,
                          OutputStageOptions options, hal::Clock& clock, FrameLedger& ledger)
     : output_(std::move(output)),
-      format_(format),
       options_(std::move(options)),
       clock_(clock),
       ledger_(ledger),
-      reopenAfter_(kFirstReopenDelay),
-      queue_(rulesOf(*output_, format_, options_.rules), options_.waiting),
-      refresh_(format_.refresh) {
+      format_(format),
+      queue_(rulesOf(output_.get(), format_, options_.rules), options_.waiting),
+      refresh_(format_.refresh),
+      reopenAfter_(kFirstReopenDelay) {
+  assert((output_ == nullptr) == options_.absence.has_value());
   queued_.reserve(kMaxSurfaces);
   events_.reserve(kMaxSurfaces);
   // One is written and one is filled while the others wait. The last one freed is reused first, so
@@ -54,6 +56,16 @@ OutputStage::OutputStage(std::unique_ptr<hal::Output> output, hal::OutputFormat 
   }
   status_.name = options_.name;
   status_.format = format.frame;
+  if (output_ == nullptr) {
+    status_.isFailed = true;
+    status_.failure = options_.absence;
+    reopenAt_ = clock_.now() + reopenAfter_;
+  }
+}
+
+hal::OutputFormat OutputStage::format() const {
+  const std::scoped_lock lock(mutex_);
+  return format_;
 }
 
 OutputFrame& OutputStage::buffer() {
@@ -84,7 +96,9 @@ void OutputStage::submit(std::optional<FrameLedger::Ticket> ticket, hal::TimePoi
                            .captured = captured,
                            .ready = ready,
                            .due = dueTime(captured, latency, refresh_)};
-  if (status_.isFinal) {
+  // A frame of the format before, that was in flight while the output was opened again.
+  const bool isOutdated = buffers_.at(buffer)->image.format() != format_.frame;
+  if (status_.isFinal || isOutdated) {
     end(frame, Outcome::kOutputFailed);
     return;
   }
@@ -291,17 +305,16 @@ void OutputStage::tryToReopen() {
   auto format = opened ? (*opened)->start(options_.request)
                        : hal::Result<hal::OutputFormat>(tl::unexpected(opened.error()));
   const std::scoped_lock lock(mutex_);
-  if (format && format->frame != format_.frame) {
-    format = tl::unexpected(hal::Error{.kind = hal::ErrorKind::kUnsupported,
-                                       .subject = options_.name,
-                                       .problem = "takes another format than before"});
-  }
   if (!format) {
     fail(std::move(format.error()));
     return;
   }
   output_ = std::move(*opened);
-  refresh_ = format->refresh;
+  endAll(Outcome::kOutputFailed);
+  format_ = *format;
+  status_.format = format_.frame;
+  queue_ = PresentationQueue(rulesOf(output_.get(), format_, options_.rules), options_.waiting);
+  refresh_ = format_.refresh;
   firstTime_.reset();
   status_.isFailed = false;
 }
@@ -332,6 +345,14 @@ hal::Result<void> OutputStage::finish() {
     if (status_.presented == 0) return {};
   }
   return output_->finish();
+}
+
+void OutputStage::retry() {
+  const std::scoped_lock lock(mutex_);
+  reopenAt_ = clock_.now();
+  reopenAfter_ = kFirstReopenDelay;
+  isWoken_ = true;
+  changed_.notify_all();
 }
 
 bool OutputStage::isFull() const {

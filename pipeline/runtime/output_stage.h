@@ -38,10 +38,12 @@ struct OutputStageOptions {
   std::optional<std::uint64_t> limit = std::nullopt;
   /// Fills surfaces, for an output that lends them; called on the output thread.
   SurfaceFill fill = copyOutputFrame;
-  /// Opens the output again after a failure, on the output thread; it has to answer the same
-  /// format. Null: the first failure is final.
+  /// Opens the output again after a failure, on the output thread. Null: the first failure is
+  /// final.
   std::function<hal::Result<std::unique_ptr<hal::Output>>()> reopen;
   hal::OutputRequest request;  ///< for start() after reopen()
+  /// Why there is no output yet, which is waited for.
+  std::optional<hal::Error> absence = std::nullopt;
 };
 
 /// Hands frames to an output, each at its due time on the output's own refresh. It runs on an
@@ -53,12 +55,14 @@ struct OutputStageOptions {
 /// once a presentation event says so; until then the frame counts as waiting.
 class OutputStage {
  public:
-  /// `output` was started and answered `format`. Ledger and clock outlive this.
+  /// `output` was started and answered `format`; or it is null, for OutputStageOptions::absence, and
+  /// `format` stands in for its own. Ledger and clock outlive this.
   OutputStage(std::unique_ptr<hal::Output> output, hal::OutputFormat format,
               OutputStageOptions options, hal::Clock& clock, FrameLedger& ledger);
 
   const std::string& name() const { return options_.name; }
-  const hal::OutputFormat& format() const { return format_; }
+  /// It may be another after the output was opened again: another display. Any thread.
+  hal::OutputFormat format() const;
   bool isPaced() const { return options_.rules.isPaced; }
   /// Time between refreshes of its display; unset if it has none. Any thread.
   std::optional<hal::Duration> refreshPeriod() const;
@@ -87,6 +91,8 @@ class OutputStage {
   // Any thread.
 
   void wake();  ///< ends wait(), now or at its next call
+  /// Opens a failed output again at the next step(), without waiting further: a device has come.
+  void retry();
   /// Whether OutputStageOptions::limit is reached.
   bool isFull() const;
   /// Whether all submitted frames have an outcome.
@@ -143,18 +149,17 @@ class OutputStage {
   hal::Duration timeOf(const WaitingFrame& frame);
 
   std::unique_ptr<hal::Output> output_;
-  hal::OutputFormat format_;
   OutputStageOptions options_;
   hal::Clock& clock_;
   FrameLedger& ledger_;
   std::optional<hal::TimePoint> firstTime_;  ///< capture time of the first frame since opening
-  hal::Duration reopenAfter_;                ///< grows until a frame is shown
   std::vector<std::unique_ptr<OutputFrame>> buffers_;
   std::vector<hal::PresentationEvent> events_;  ///< a member so that its memory is reused
 
   mutable std::mutex mutex_;  // guards the members below
   std::condition_variable changed_;
   bool isWoken_ = false;
+  hal::OutputFormat format_;
   PresentationQueue queue_;
   std::vector<std::size_t> free_;
   std::optional<std::size_t> filling_;
@@ -162,6 +167,7 @@ class OutputStage {
   std::optional<hal::Refresh> refresh_;
   bool isWriting_ = false;
   hal::TimePoint reopenAt_;
+  hal::Duration reopenAfter_;  ///< grows until a frame is shown
   Status status_;
   FrameRate rate_;
   RecentDurations latency_;

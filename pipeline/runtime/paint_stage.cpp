@@ -68,7 +68,8 @@ void PaintStage::start() {
   std::vector<hal::OutputFormat> formats;
   for (Output& output : outputs_) {
     output.id = formats.size();
-    formats.push_back(output.stage->format());
+    output.format = output.stage->format();
+    formats.push_back(output.format);
   }
   nextId_ = formats.size();
   painter_ = factory_(formats);
@@ -79,6 +80,7 @@ void PaintStage::start() {
 bool PaintStage::step() {
   noteSuspension();
   handleRequests();
+  followFormats();
   if (!painter_ && !revive()) return false;
   bool didAnything = collect();
   if (painter_ && inFlight_.size() < kMaxInFlight) didAnything = paintNewest() || didAnything;
@@ -138,24 +140,50 @@ void PaintStage::handleRequests() {
 }
 
 void PaintStage::open(OutputStage& output) {
-  outputs_.push_back({.stage = &output, .id = nextId_++, .taken = inFlight_.size()});
+  outputs_.push_back({.stage = &output, .taken = inFlight_.size()});
+  openInPainter(outputs_.back());
+}
+
+void PaintStage::openInPainter(Output& output) {
+  output.id = nextId_++;
+  output.format = output.stage->format();
   if (!painter_) return;
   try {
-    painter_->open(outputs_.back().id, output.format());
+    painter_->open(output.id, output.format);
   } catch (const hal::Failure& error) {
     lose(error.error());
+  }
+}
+
+/// Ends the frames in flight that an output has not got.
+void PaintStage::dropInFlight(const Output& output) {
+  for (std::size_t i = output.taken; i < inFlight_.size(); ++i) {
+    if (inFlight_[i].ticket) ledger_.end(*inFlight_[i].ticket, Outcome::kStopped);
+    --inFlight_[i].pendingOutputs;
   }
 }
 
 void PaintStage::close(OutputStage& output) {
   const auto closed = std::ranges::find(outputs_, &output, &Output::stage);
   if (closed == outputs_.end()) return;
-  for (std::size_t i = closed->taken; i < inFlight_.size(); ++i) {
-    if (inFlight_[i].ticket) ledger_.end(*inFlight_[i].ticket, Outcome::kStopped);
-    --inFlight_[i].pendingOutputs;
-  }
+  dropInFlight(*closed);
   if (painter_) painter_->close(closed->id);
   outputs_.erase(closed);
+}
+
+/// Outputs that were opened again may want other pictures than before.
+void PaintStage::followFormats() {
+  for (Output& output : outputs_) {
+    const hal::OutputFormat format = output.stage->format();
+    if (!painter_) return;  // the next one is made with the formats of that time
+    if (format.frame == output.format.frame && format.quarterTurns == output.format.quarterTurns) {
+      continue;
+    }
+    dropInFlight(output);
+    output.taken = inFlight_.size();
+    painter_->close(output.id);
+    openInPainter(output);
+  }
 }
 
 bool PaintStage::collect() {

@@ -107,7 +107,8 @@ class PaintStage {
   };
   struct Output {
     OutputStage* stage = nullptr;
-    std::size_t id = 0;     ///< its number in the painter
+    std::size_t id = 0;        ///< its number in the painter
+    hal::OutputFormat format;  ///< that the painter brings its frames to
     std::size_t taken = 0;  ///< number of the first frames of inFlight_ that it has got or missed
   };
   /// One on the GPU while the next is tracked. More would only wait there and add latency.
@@ -115,8 +116,11 @@ class PaintStage {
 
   void noteSuspension();
   void handleRequests();
+  void followFormats();
   void open(OutputStage& output);
+  void openInPainter(Output& output);
   void close(OutputStage& output);
+  void dropInFlight(const Output& output);
   bool collect();
   bool collectFor(Output& output);
   void removeFinished();

@@ -50,18 +50,12 @@ def uptime(guest):
     return float(guest.run("cut -d' ' -f1 /proc/uptime").output)
 
 
-class Program:
-    """`pleinair run` with a V4L2 camera and loopbacks."""
+class Watched:
+    """A running `pleinair run`, a Background, with its status server at STATUS."""
 
-    def __init__(self, guest, arguments="", camera=f"v4l2:{CAMERA}", outputs=(LOOPBACK,),
-                 style="none"):
+    def __init__(self, guest, command):
         self._guest = guest
-        targets = " ".join(f"--output loopback:{node}" for node in outputs)
-        # Under emulation, compiling shaders costs more than running them: Mesa's compiler does not
-        # optimise, which halves the time to start.
-        self.command = guest.start(
-            f"env GALLIVM_PERF=nopt ./pleinair run --camera {camera} {targets} --style {style} "
-            f"--size {SIZE[0]}x{SIZE[1]} --set status.listen={STATUS} {arguments}", "pleinair")
+        self.command = command
 
     def status(self):
         """The JSON of its status page; None until the page exists."""
@@ -95,7 +89,7 @@ class Program:
         return seen[-1]
 
     def wait_for_more(self, count, seconds=60):
-        """Waits until it has shown this many more frames."""
+        """Waits until it has shown this many more frames; returns its status."""
         goal = self.shown() + count
         return self.wait_until(lambda status: shown_of(status) >= goal, f"{goal} frames shown",
                                seconds)
@@ -115,6 +109,19 @@ class Program:
             print("too slow here for a clean end: the painter was left behind")
         assert took < self._guest.patient(seconds), f"it took {took:.1f} s to end"
         return closing_line.ledger(finished.output)
+
+
+class Program(Watched):
+    """`pleinair run` with a V4L2 camera and loopbacks."""
+
+    def __init__(self, guest, arguments="", camera=f"v4l2:{CAMERA}", outputs=(LOOPBACK,),
+                 style="none"):
+        targets = " ".join(f"--output loopback:{node}" for node in outputs)
+        # Under emulation, compiling shaders costs more than running them: Mesa's compiler does not
+        # optimise, which halves the time to start.
+        super().__init__(guest, guest.start(
+            f"env GALLIVM_PERF=nopt ./pleinair run --camera {camera} {targets} --style {style} "
+            f"--size {SIZE[0]}x{SIZE[1]} --set status.listen={STATUS} {arguments}", "pleinair"))
 
 
 def shown_of(status):

@@ -60,7 +60,8 @@ def run_scenario(folder, name):
     shared = os.path.join(folder, name)
     shutil.rmtree(shared, ignore_errors=True)
     shutil.copytree(os.path.join(folder, "programs"), shared)
-    guest = machine.Guest(state["image"], shared, state["accelerator"])
+    guest = machine.Guest(state["image"], shared, state["accelerator"],
+                          devices=getattr(scenario, "DEVICES", ()))
     try:
         with guest:
             try:

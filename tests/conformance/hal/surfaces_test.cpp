@@ -22,13 +22,15 @@ SurfaceCase fakeDisplay(const std::string& name, support::FakeDisplay display) {
 
 /// A display of a fake card.
 SurfaceCase display(const std::string& name, const support::FakeCardSpec& spec) {
-  const auto cards = std::make_shared<std::unique_ptr<support::FakeCards>>();
+  // Each output has a card of its own, which outlives it.
+  const auto machines = std::make_shared<std::vector<std::unique_ptr<support::FakeCards>>>();
   return {.name = name,
           .make =
-              [cards, spec](Clock& clock) {
-                *cards = std::make_unique<support::FakeCards>(clock);
-                (*cards)->add(spec);
-                return std::unique_ptr<Output>(*openDisplay("display", {}, **cards, clock));
+              [machines, spec](Clock& clock) {
+                machines->push_back(std::make_unique<support::FakeCards>(clock));
+                support::FakeCards& cards = *machines->back();
+                cards.add(spec);
+                return std::unique_ptr<Output>(*openDisplay("display", {}, cards, clock));
               },
           .backend = "display",
           .missing = {},

@@ -3,6 +3,7 @@
 #include <array>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -177,6 +178,39 @@ TEST_F(ReadbackTest, WarmsUpWithoutATrace) {
   for (const int expected : {7, 8}) {
     ASSERT_TRUE(hal::orThrow(reader.wait(image)));
     EXPECT_EQ(image.plane(0)[15], expected);
+  }
+}
+
+TEST_F(ReadbackTest, TurnsPicturesClockwiseToTheBit) {
+  const hal::FrameFormat upright{.pixelFormat = PixelFormat::kRgba8, .size = {5, 3}};
+  hal::Image picture(upright);
+  for (std::size_t i = 0; i < picture.plane(0).size(); ++i) {
+    picture.plane(0)[i] = static_cast<std::uint8_t>(i % 4 == 3 ? 255 : 7 * i);
+  }
+  const gpu::Texture texture = textureOf(picture.view());
+  const auto at = [](const hal::Image& image, int x, int y) {
+    return image.view().row(0, y).subspan(static_cast<std::size_t>(4 * x), 4);
+  };
+  for (int turns = 0; turns < 4; ++turns) {
+    hal::FrameFormat format = upright;
+    if (turns % 2 != 0) std::swap(format.size.width, format.size.height);
+    Readback reader(library_, format, 1, {}, turns);
+    reader.submit(texture);
+    hal::Image turned;
+    ASSERT_TRUE(hal::orThrow(reader.wait(turned)));
+    for (int y = 0; y < upright.size.height; ++y) {
+      for (int x = 0; x < upright.size.width; ++x) {
+        // Where a turn takes the pixel: the upper left corner goes to the upper right one.
+        int toX = x, toY = y, height = upright.size.height, width = upright.size.width;
+        for (int i = 0; i < turns; ++i) {
+          toX = std::exchange(toY, toX);
+          toX = height - 1 - toX;
+          std::swap(width, height);
+        }
+        EXPECT_TRUE(std::ranges::equal(at(turned, toX, toY), at(picture, x, y)))
+            << turns << " turns, " << x << ", " << y;
+      }
+    }
   }
 }
 

@@ -81,8 +81,11 @@ class Guest:
     """A guest whose boot hangs, which happens under emulation, is restarted with a message;
     `boots` is the number of attempts."""
 
-    def __init__(self, image, folder, accelerator, boot_seconds=BOOT_SECONDS, boots=2):
+    def __init__(self, image, folder, accelerator, boot_seconds=BOOT_SECONDS, boots=2, devices=()):
+        """`devices`: further ones of QEMU's, as `-device` takes them."""
         self.folder = os.path.abspath(folder)
+        self._devices = devices
+        self._monitor = None
         self.accelerator = accelerator
         self._patience = 1.0
         self._image = image
@@ -113,6 +116,9 @@ class Guest:
 
     def close(self):
         """Switches it off."""
+        if self._monitor:
+            self._monitor.close()
+            self._monitor = None
         if self._agent:
             self._agent.close()
             self._agent = None
@@ -155,6 +161,35 @@ class Guest:
             f"mv {base}.status.new {base}.status ) >{base}.out 2>&1 </dev/null &")
         return Background(self, name)
 
+    def qemu(self, command, **arguments):
+        """Carries out a command of QEMU's monitor (QMP) and returns its answer."""
+        try:
+            self._monitor.write(json.dumps({"execute": command, "arguments": arguments}) + "\n")
+            self._monitor.flush()
+        except ConnectionError:
+            raise GuestError(f"QEMU is gone at: {command}\n" + self._log("qemu.log")) from None
+        while True:
+            answer = self._monitor_line(command)
+            if "error" in answer:
+                raise GuestError(f"{command}: {answer['error']['desc']}")
+            if "return" in answer:
+                return answer["return"]
+
+    def _monitor_line(self, what):
+        try:
+            line = self._monitor.readline()
+        except ConnectionError:
+            line = ""
+        if not line:
+            raise GuestError(f"QEMU is gone at: {what}\n" + self._log("qemu.log"))
+        return json.loads(line)
+
+    def screenshot(self, name, device, head=0):
+        """What a display of a graphics card shows, as NAME.ppm in the shared folder. Returns its path."""
+        path = os.path.join(self.folder, name + ".ppm")
+        self.qemu("screendump", filename=path, device=device, head=head)
+        return path
+
     def wait_for(self, condition, what, seconds=20):
         """Waits until the condition, a function, holds."""
         deadline = time.monotonic() + seconds * self._patience
@@ -174,9 +209,13 @@ class Guest:
         # QEMU's sockets live at a short path: their names may have 107 characters.
         with tempfile.TemporaryDirectory(prefix="pleinair-") as sockets:
             agent = os.path.join(sockets, "agent")
+            monitor = os.path.join(sockets, "monitor")
             with open(os.path.join(self.folder, ".guest", "qemu.log"), "w") as log:
-                self._qemu = start_with_parent(self._command(agent), log)
+                self._qemu = start_with_parent(self._command(agent, monitor), log)
             self._agent = self._connect(agent)
+            self._monitor = self._connect(monitor).makefile("rw")
+        self._monitor_line("its greeting")
+        self.qemu("qmp_capabilities")
         try:
             self._answer("READY", "the boot", self._boot_deadline)
         except GuestError as error:
@@ -184,7 +223,7 @@ class Guest:
         self._patience = min(
             max(1, (time.monotonic() - begin) / USUAL_BOOT_SECONDS), MOST_PATIENCE)
 
-    def _command(self, agent):
+    def _command(self, agent, monitor):
         cpu = "host" if self.accelerator == "kvm" else "Nehalem"  # AVX is slow to emulate
         return [
             "qemu-system-x86_64", "-nodefaults", "-no-user-config", "-no-reboot",
@@ -201,7 +240,9 @@ class Guest:
             "-device", "virtio-serial-pci",
             "-chardev", f"socket,id=agent,path={agent},server=on,wait=off",
             "-device", "virtserialport,chardev=agent,name=agent",
-            "-serial", f"file:{self.serial_log}", "-display", "none", "-vga", "none"]
+            "-qmp", f"unix:{monitor},server=on,wait=off",
+            "-serial", f"file:{self.serial_log}", "-display", "none", "-vga", "none",
+            *(word for device in self._devices for word in ("-device", device))]
 
     def _connect(self, path):
         deadline = time.monotonic() + 10

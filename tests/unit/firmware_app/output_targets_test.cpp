@@ -49,12 +49,12 @@ TEST_F(OutputTargets, AreNamesOrPathsFromTheirFile) {
 }
 
 TEST_F(OutputTargets, AreRefusedWhereAWordIsNoKindOfOutput) {
-  for (const std::string name : {"display", "display:HDMI-A-1", "windw", "loopback:", ""}) {
+  for (const std::string name : {"screen", "screen:HDMI-A-1", "windw", "loopback:", ""}) {
     const std::string refusal = refusalOf("targets = [\"window\", \"" + name + "\"]");
     EXPECT_THAT(refusal, HasSubstr("site.toml:2: output.targets: found \"" + name + "\"")) << name;
   }
-  const std::string refusal = refusalOf("targets = [\"display\"]");
-  EXPECT_THAT(refusal, HasSubstr("window, loopback, headless, loopback:DEVICE"));
+  const std::string refusal = refusalOf("targets = [\"screen\"]");
+  EXPECT_THAT(refusal, HasSubstr("window, display, loopback, headless, display:SOCKET, loopback:DEVICE"));
   EXPECT_THAT(refusal, HasSubstr("./NAME or NAME/"));
   EXPECT_THAT(refusalOf("targets = [\"windw\"]"), HasSubstr("did you mean \"window\"?"));
   for (const std::string list : {"[]", "\"window\"", "[1]", "[\"window\", [\"a.mp4\"]]"}) {
@@ -67,7 +67,7 @@ TEST_F(OutputTargets, OfSetAndOfVariablesAreSeparatedByCommas) {
               ElementsAre("window", "a,b.mp4", "c\\.png"));
   EXPECT_THROW(withSet("output.targets=window,"), config::ConfigError);
   EXPECT_THROW(withSet("output.targets=a\\b.mp4"), config::ConfigError);
-  EXPECT_THROW(withSet("output.targets=display"), config::ConfigError);
+  EXPECT_THROW(withSet("output.targets=screen"), config::ConfigError);
 }
 
 TEST_F(OutputTargets, ArePrintedAsTheyAreRead) {

@@ -69,15 +69,20 @@ class OutputStageTest : public testing::Test {
     }
     auto output = std::make_unique<DeviceOutput>(device_);
     const auto format = output->start({});
-    stage_ = std::make_unique<OutputStage>(std::move(output), *format, std::move(options), clock_,
-                                           ledger_);
+    if (!format) {
+      output.reset();
+      options.absence = format.error();
+    }
+    stage_ = std::make_unique<OutputStage>(
+        std::move(output), format.value_or(hal::OutputFormat{.frame = kFormat}),
+        std::move(options), clock_, ledger_);
   }
   /// Submits so many frames, all on time.
   void run(int frames) {
     for (int i = 0; i < frames; ++i) {
       const hal::TimePoint now = clock_.now();
       OutputFrame& picture = stage_->buffer();
-      picture.image = hal::Image(kFormat);
+      picture.image = hal::Image(submitted_);
       picture.captureTime = now;
       stage_->submit(ledger_.open(), now, 10ms);
       for (const hal::TimePoint end = now + 33ms; clock_.now() < end;) {
@@ -94,6 +99,7 @@ class OutputStageTest : public testing::Test {
 
   hal::SteppedClock clock_{hal::TimePoint(100s)};
   FrameLedger ledger_;
+  hal::FrameFormat submitted_ = kFormat;
   Device device_;
   std::unique_ptr<OutputStage> stage_;
 };
@@ -119,19 +125,48 @@ TEST_F(OutputStageTest, TriesLessAndLessOftenWhereWhatOpensTakesNoPicture) {
   begin(true);
   device_.isBroken = true;
   run(30 * 60);  // a minute
-  EXPECT_EQ(device_.opened, 11) << "at first; after 0.5, 1, 2, 4 s; then each 8 s";
+  EXPECT_EQ(device_.opened, 15) << "at first; after 0.5, 1, 2, 4 s; then each 5 s";
   expectSumsToAgree();
 }
 
-TEST_F(OutputStageTest, RefusesADeviceThatHasAnotherFormatThanBefore) {
+TEST_F(OutputStageTest, TakesFramesOfTheNewFormatOnlyOnceADeviceHasAnother) {
   begin(true);
+  run(1);
   device_.isBroken = true;
   run(1);
   device_.isBroken = false;
   device_.format.size.width = 16;
+  run(30);  // still of the format before
+  EXPECT_FALSE(stage_->status().isFailed);
+  EXPECT_EQ(stage_->format().frame, device_.format);
+  EXPECT_EQ(device_.written, 1);
+  submitted_ = device_.format;
+  run(30);
+  EXPECT_EQ(device_.written, 31);
+  expectSumsToAgree();
+}
+
+TEST_F(OutputStageTest, WaitsForADeviceThatIsNotThereYet) {
+  device_.isGone = true;
+  begin(true);
   run(30);
   EXPECT_TRUE(stage_->status().isFailed);
-  EXPECT_EQ(device_.written, 0);
+  EXPECT_FALSE(stage_->status().isFinal);
+  EXPECT_EQ(stage_->status().failure->problem, "is not there");
+  device_.isGone = false;
+  run(90);
+  EXPECT_GT(device_.written, 60);
+  expectSumsToAgree();
+}
+
+TEST_F(OutputStageTest, TriesAtOnceWhenADeviceHasCome) {
+  device_.isGone = true;
+  begin(true);
+  run(20 * 30);
+  device_.isGone = false;
+  stage_->retry();
+  run(1);
+  EXPECT_EQ(device_.opened, 1);
 }
 
 TEST_F(OutputStageTest, EndsForGoodWhatCannotBeOpenedAnew) {

@@ -39,9 +39,6 @@ Inventory full() {
                          .formats = {"YUYV", "NV12"}},
                         {.target = "loopback:/dev/video51", .name = "other", .isBusy = true}}}},
       {.kind = "movie", .help = "a movie", .forms = {"a.mp4", "a.mkv"}, .isFile = true}};
-  inventory.displays = {
-      {.name = "card0-HDMI-A-1", .isConnected = true, .modes = {"1920x1080", "1280x720"}},
-      {.name = "card0-DP-1"}};
   return inventory;
 }
 
@@ -59,11 +56,7 @@ TEST(Inventory, IsALineADeviceAndALayout) {
             "  window\n"
             "  loopback:/dev/video50  pleinair  YUYV NV12\n"
             "  loopback:/dev/video51  other  (another program writes to it)\n"
-            "  a.mp4, a.mkv: a movie\n"
-            "\n"
-            "Displays\n"
-            "  card0-HDMI-A-1  1920x1080 1280x720\n"
-            "  card0-DP-1  not connected\n");
+            "  a.mp4, a.mkv: a movie\n");
 }
 
 TEST(Inventory, SaysWhatToDoWhereThereIsNothing) {
@@ -76,7 +69,6 @@ TEST(Inventory, SaysWhatToDoWhereThereIsNothing) {
   const std::string text = asText(empty);
   EXPECT_THAT(text, HasSubstr("  none. Plug one in, see `pleinair doctor`"));
   EXPECT_THAT(text, HasSubstr("  no window\n    there is no display\n    -> start a desktop\n"));
-  EXPECT_THAT(text, HasSubstr("  the kernel lists none\n"));
 }
 
 TEST(Inventory, TellsOfBackEndsThatFail) {
@@ -105,7 +97,6 @@ TEST(Inventory, IsJson) {
   EXPECT_EQ(document["outputs"][1]["target"], "loopback:/dev/video50");
   EXPECT_EQ(document["outputs"][1]["formats"][1], "NV12");
   EXPECT_EQ(document["outputs"][2]["busy"], true);
-  EXPECT_EQ(document["displays"][0]["connected"], true);
   EXPECT_TRUE(document["problems"].empty());
 }
 

@@ -120,5 +120,41 @@ TEST(CheckLoopback, AsksForTheGroup) {
   EXPECT_THAT(finding.remedy, HasSubstr("usermod -aG video"));
 }
 
+TEST(CheckDisplays, NamesTheFirstThatIsPluggedIn) {
+  HealthyMachine machine;
+  const Finding finding = checkDisplays(machine.probes());
+  EXPECT_EQ(finding.verdict, Verdict::kOk);
+  EXPECT_EQ(finding.text, "display:card0-HDMI-A-1, 1920x1080");
+}
+
+TEST(CheckDisplays, WarnsWithoutADisplay) {
+  HealthyMachine machine;
+  machine.displays.outputs.front().problem =
+      errorOf(hal::ErrorKind::kDeviceLost, "no display is plugged in");
+  EXPECT_THAT(checkDisplays(machine.probes()).text, HasSubstr("none of 1 sockets"));
+  machine.displays.outputs.clear();
+  EXPECT_THAT(checkDisplays(machine.probes()).text, HasSubstr("no graphics card"));
+}
+
+TEST(CheckDisplays, SaysWhoHasTheDisplay) {
+  HealthyMachine machine;
+  machine.displayProblem =
+      hal::Error{.kind = hal::ErrorKind::kBusy,
+                 .problem = "another program shows pictures there: Xorg (712)",
+                 .remedy = "end it"};
+  const Finding finding = checkDisplays(machine.probes());
+  EXPECT_EQ(finding.verdict, Verdict::kWarning);
+  EXPECT_THAT(finding.text, HasSubstr("Xorg (712)"));
+  EXPECT_EQ(finding.remedy, "end it");
+}
+
+TEST(CheckDisplays, AsksForTheGroup) {
+  HealthyMachine machine;
+  machine.displayProblem = errorOf(hal::ErrorKind::kPermissionDenied, "cannot open");
+  const Finding finding = checkDisplays(machine.probes());
+  EXPECT_EQ(finding.verdict, Verdict::kWrong);
+  EXPECT_THAT(finding.remedy, HasSubstr("usermod -aG video"));
+}
+
 }  // namespace
 }  // namespace pleinair::app::doctor

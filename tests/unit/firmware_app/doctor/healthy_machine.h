@@ -40,6 +40,9 @@ struct HealthyMachine {
                                               .driver = "v4l2 loopback",
                                               .isLoopback = true,
                                               .isWritable = true}};
+  hal::OutputListing displays{
+      .outputs = {{.target = "display:card0-HDMI-A-1", .formats = {"1920x1080"}}}};
+  std::optional<hal::Error> displayProblem;
   std::optional<std::string> configurationError;
   std::vector<RequestedPart> requested{{.part = "camera", .value = "auto"}};
 
@@ -57,6 +60,8 @@ struct HealthyMachine {
             .graphics = [this] { return graphics; },
             .cameras = [this] { return cameras; },
             .loopbacks = [this] { return loopbacks; },
+            .displays = [this] { return displays; },
+            .displayProblem = [this] { return displayProblem; },
             .configurationError = [this] { return configurationError; },
             .requested = [this] { return requested; },
             .snapshots = "/srv/snapshots"};

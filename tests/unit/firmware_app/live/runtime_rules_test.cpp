@@ -36,7 +36,7 @@ TEST(OutputRules, OpenADeviceAnewWithItsOptions) {
 }
 
 TEST(OutputRules, AreNoneOfAnUnknownTarget) {
-  EXPECT_THROW(rulesOf("display"), hal::Failure);
+  EXPECT_THROW(rulesOf("screen"), hal::Failure);
 }
 
 }  // namespace

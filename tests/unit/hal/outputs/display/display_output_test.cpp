@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,7 +11,9 @@
 
 #include <gtest/gtest.h>
 
+#include "hal/outputs/display/card_users.h"
 #include "tests/support/fake_card.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pleinair::hal {
 namespace {
@@ -319,10 +323,40 @@ TEST_F(DisplayTest, AHundredUnplugsLeaveNothingBehind) {
   }
 }
 
-TEST_F(DisplayTest, DisplaysAreListedFromTheKernelsFiles) {
+TEST(DisplayListing, IsReadFromTheKernelsFiles) {
+  const support::TemporaryFolder folder;
+  const auto add = [&](const std::string& name, const std::string& status,
+                       const std::string& modes) {
+    std::filesystem::create_directory(folder.path() / name);
+    std::ofstream(folder.path() / name / "status") << status;
+    std::ofstream(folder.path() / name / "modes") << modes;
+  };
+  add("card0-HDMI-A-1", "connected\n", "1920x1080\n1920x1080\n1280x720\n1920x1080\n");
+  add("card0-DP-1", "disconnected\n", "");
+  add("card0-Writeback-1", "unknown\n", "");
+  std::filesystem::create_directory(folder.path() / "card0");
+  const OutputListing listing = listDisplays(folder.path());
+  ASSERT_EQ(listing.outputs.size(), 2u);
+  EXPECT_EQ(listing.outputs[0].target, "display:card0-DP-1");
+  EXPECT_TRUE(listing.outputs[0].problem.has_value());
+  EXPECT_EQ(listing.outputs[1].target, "display:card0-HDMI-A-1");
+  EXPECT_FALSE(listing.outputs[1].problem.has_value());
+  EXPECT_EQ(listing.outputs[1].formats, (std::vector<std::string>{"1920x1080", "1280x720"}));
+}
+
+TEST(DisplayListing, SaysThatThereIsNoCard) {
   const OutputListing none = listDisplays("/nowhere");
   ASSERT_TRUE(none.problem.has_value());
   EXPECT_EQ(none.problem->kind, ErrorKind::kNotFound);
+}
+
+TEST(CardUsers, AreTheProgramsThatHaveItOpen) {
+  const support::TemporaryFolder proc;
+  std::filesystem::create_directories(proc.path() / "712" / "fd");
+  std::filesystem::create_symlink("/dev/dri/card0", proc.path() / "712" / "fd" / "7");
+  std::ofstream(proc.path() / "712" / "comm") << "Xorg\n";
+  EXPECT_EQ(display::usersText("/dev/dri/card0", proc.path()), "Xorg (712)");
+  EXPECT_EQ(display::usersText("/dev/dri/card1", proc.path()), "");
 }
 
 TEST_F(DisplayTest, NamesNoDisplay) {

@@ -1,0 +1,50 @@
+"""A display that is switched off and on, and a whole card that is pulled out and plugged in again: the loopback
+beside it goes on, and the picture is back."""
+import live
+import screens
+
+DEVICES = ("pcie-root-port,id=port,chassis=1", "virtio-gpu-pci,id=card,bus=port,max_outputs=1")
+CONNECTOR = "/sys/class/drm/card0-Virtual-1/status"
+
+
+def run(guest):
+    live.load_drivers(guest)
+    live.control(guest, osd_text_mode=2)
+    guest.run("modprobe pciehp 2>/dev/null; until [ -e /dev/dri/card0 ]; do sleep 0.1; done; udevadm settle")
+    program = guest.start(
+        f"env GALLIVM_PERF=nopt ./pleinair run --camera v4l2:{live.CAMERA} --style none "
+        f"--size 160x90 --output display --set output.display.mode=640x480 "
+        f"--output loopback:{live.LOOPBACK} --set status.listen={live.STATUS}", "pleinair")
+    watched = live.Watched(guest, program)
+    watched.wait_for_more(5)
+
+    # No event is sent for this: the program looks for itself.
+    guest.run(f"echo off >{CONNECTOR}")
+    watched.wait_until(lambda s: display(s)["state"] != "taking", "the loss of the display")
+    before = loopback(watched.status())["presented"]
+    watched.wait_until(lambda s: loopback(s)["presented"] > before + 5, "more on the loopback")
+    guest.run(f"echo on >{CONNECTOR}; echo detect >{CONNECTOR}")
+    shown = display(watched.status())["presented"]
+    watched.wait_until(lambda s: display(s)["presented"] > shown + 3, "the picture again")
+    print("switched off and on: the loopback went on, the picture is back")
+
+    guest.qemu("device_del", id="card")
+    watched.wait_until(lambda s: display(s)["state"] != "taking", "the loss of the card")
+    guest.wait_for(lambda: guest.run("ls /dev/dri/card0", check=False).status != 0, "the card's end")
+    before = loopback(watched.status())["presented"]
+    watched.wait_until(lambda s: loopback(s)["presented"] > before + 5, "more on the loopback")
+    guest.qemu("device_add", driver="virtio-gpu-pci", id="card", bus="port", max_outputs=1)
+    shown = display(watched.status())["presented"]
+    watched.wait_until(lambda s: display(s)["presented"] > shown + 3, "the picture again", seconds=60)
+    picture = screens.read_ppm(guest.screenshot("back", "card"))
+    assert max(picture.mean(0.2, 0.4, 0.4, 0.6)) > 30, "the display is black"
+    live.check_sums(watched.status())
+    print(watched.stop())
+
+
+def display(status):
+    return next(each for each in status["outputs"] if each["name"].startswith("display"))
+
+
+def loopback(status):
+    return next(each for each in status["outputs"] if each["name"].startswith("loopback"))
