@@ -56,7 +56,7 @@ def show(guest, name, turns, fit):
         f"env GALLIVM_PERF=nopt ./pleinair run --camera v4l2:{live.CAMERA} --style none "
         f"--size {SIZE[0]}x{SIZE[1]} --output display:Virtual-1 "
         f"--set output.display.mode={SIZE[0]}x{SIZE[1]} --set output.display.fit={fit} "
-        f"--set output.display.rotation={90 * turns} --set status.listen={live.STATUS}", "display-" + name)
+        f"--set output.display.rotation={90 * turns} --set runtime.quality=full --set status.listen={live.STATUS}", "display-" + name)
     watched = live.Watched(guest, program)
     status = watched.wait_for_more(5)
     (output,) = status["outputs"]
