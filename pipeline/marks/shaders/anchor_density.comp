@@ -99,6 +99,16 @@ bool isAmongFull(ivec2 cell) {
   return around >= 8u * uint(target);
 }
 
+// The patches that have anchors in the cell or beside it, whose strokes reach into it.
+uint paintedAround(ivec2 cell) {
+  uint painted = cells[indexOf(cell)].patches;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 at = cell + (i < 2 ? ivec2(2 * i - 1, 0) : ivec2(0, 2 * i - 5));
+    if (isInGrid(at)) painted |= cells[indexOf(at)].patches;
+  }
+  return painted;
+}
+
 uint wanted(float share, uint count, bool isGap) {
   if (share < kMinShare) return 0u;
   uint least = uint(max(1.0, floor(share * float(birthBelow) + 0.5)));
@@ -127,7 +137,7 @@ void main() {
   int index = indexOf(at);
   Cell cell = cells[index];
   Objects objects = Objects(0.0, 0u, 0u);
-  if (hasObjects) objects = objectsIn(at, cell.patches);
+  if (hasObjects) objects = objectsIn(at, paintedAround(at));
   // Each further patch may have an anchor of its own; room for it is made at its birth, so that no
   // other one has to go in the next frame.
   uint more = max(objects.patches, 1u) - 1u;
