@@ -303,6 +303,10 @@ const AnchorOptions& AnchorSet::options() const {
   return state_->options;
 }
 
+double AnchorSet::imageScale() const {
+  return state_->scaleOctaves;
+}
+
 std::vector<Anchor> AnchorSet::read() const {
   std::vector<Anchor> read(state_->slots);
   state_->anchors.read(std::as_writable_bytes(std::span(read)));  // stays free if the GPU was lost
