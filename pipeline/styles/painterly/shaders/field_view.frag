@@ -2,8 +2,8 @@
 //          figures 15, 16), blue on edges and red where interpolated; the pyramid's levels; or the
 //          regions, by their detail; or the focus, darker where strokes are broad.
 // Inputs:  picture; field0 to field3: four levels (marks::TensorField::resolved); size and
-//          pixelsOfFull: of the frame; view: VIEW_TENSORS, VIEW_PYRAMID, VIEW_REGIONS or VIEW_FOCUS; bands:
-//          the detail at which middling and fine strokes begin; focus.glsl's.
+//          pixelsOfFull: of the frame; view: VIEW_TENSORS, VIEW_PYRAMID, VIEW_REGIONS or VIEW_FOCUS;
+//          bands: the detail at which middling and fine strokes begin; focus.glsl's.
 // Outputs: RGBA8, sRGB-coded, opaque. Precision: highp for places.
 #include "pipeline/marks/shaders/focus.glsl"
 uniform sampler2D picture;
