@@ -166,9 +166,9 @@ void main() {
                (sleeping > 0u && lacks(whole * share, cell.onObjects));
   if (wakes) wake(slotOf(cell.nextToWake));
   cells[index].nextToWake = wakes ? cell.nextToWake : 0u;
-  uint onPatchesBorn = onPatches - min(onPatches, onEmpty);
-  onObjects -= min(onObjects, sleeping - min(sleeping, onEmpty));
-  onPatches = onPatchesBorn;
+  uint waking = min(onPatches, onEmpty);
+  onPatches -= waking;
+  onObjects -= min(onObjects, sleeping - waking);
   cells[index].births = inImage | min(onObjects, 255u) << 16u | onPatches << 24u;
   cells[index].moverBirths = wanted(whole * moverShare(at), cell.onMovers, false);
 }

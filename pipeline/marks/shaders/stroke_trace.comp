@@ -350,11 +350,10 @@ float scaleAt(vec2 px, bool isModel) {
 // Whether the anchor is among the share of the layer that is painted. The largest shares include
 // anchors beyond the target.
 bool isAmong(float share, float part, bool was) {
-  const float kSlack = 0.12;
+  const float kSlack = 0.05;
   const float kMost = 0.75;
-  if (share >= 1.0) return true;
-  float limit = share + 12.0 * max(share - kMost, 0.0);
-  return part < limit * (was ? 1.0 + kSlack : 1.0);
+  if (was) share += min(kSlack, 0.5 * share);
+  return share >= 1.0 || part < share + 12.0 * max(share - kMost, 0.0);
 }
 
 void main() {

@@ -73,16 +73,17 @@ TEST_F(StrokeFocus, ATargetIsKeptBySpreadAndNestedParts) {
   const Slots some = wantedAfter(evenly(0.6F), 2);
   const Slots few = wantedAfter(evenly(0.85F), 2);
   const auto count = static_cast<double>(all.size());
-  EXPECT_NEAR(static_cast<double>(most.size()) / count, 0.7, 0.1);
-  EXPECT_NEAR(static_cast<double>(some.size()) / count, 0.4, 0.08);
-  EXPECT_NEAR(static_cast<double>(few.size()) / count, 0.15, 0.06);
+  constexpr double kSlack = 0.05;  // by which existing strokes stay longer
+  EXPECT_NEAR(static_cast<double>(most.size()) / count, 0.7 + kSlack, 0.05);
+  EXPECT_NEAR(static_cast<double>(some.size()) / count, 0.4 + kSlack, 0.05);
+  EXPECT_NEAR(static_cast<double>(few.size()) / count, 0.15 + kSlack, 0.05);
   EXPECT_EQ(common(most, all), most.size());
   EXPECT_EQ(common(some, most), some.size());
   EXPECT_EQ(common(few, some), few.size());
   EXPECT_TRUE(wantedAfter(evenly(1.0F), 2).empty());
 
-  // Spread: squares of four cells hold 0.4 · 2 · 4 = 3.2 anchors each; of a random part, 4 % would
-  // hold none and the standard deviation be 1.4 (binomial, of 8).
+  // Squares of four cells hold 0.45 · 2 · 4 = 3.6 anchors each; of a random part, the standard
+  // deviation would be 1.4 (binomial, of 8).
   std::vector<int> counts(std::size_t{10} * 5);
   for (const auto& [slot, anchor] : alive()) {
     const glm::ivec2 at(anchor.px / 24.0F);
@@ -111,7 +112,7 @@ TEST_F(StrokeFocus, MovesWithoutBirthsAndComesBackToTheSameStrokes) {
       const Slots now =
           wantedAfter(focusAt(from + (to - from) * static_cast<float>(i) / 32.0F), 1);
       const std::size_t changed = last.size() + now.size() - 2 * common(last, now);
-      EXPECT_LT(static_cast<double>(changed), 0.12 * static_cast<double>(last.size())) << i;
+      EXPECT_LT(static_cast<double>(changed), 0.25 * static_cast<double>(last.size())) << i;
       last = now;
     }
   };
