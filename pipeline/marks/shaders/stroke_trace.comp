@@ -424,7 +424,9 @@ void main() {
   bool wanted = detail >= detailBand.x * wider && detail <= detailBand.y / wider;
   if (focusStrength > 0.0) {
     float part = partOf(rankOf(anchors[slot].ageAndRank), scaleAt(px, isModel));
-    float fineness = finenessAt(px);
+    // Patches of models are often smaller than broad strokes: only the finest layer thins out there.
+    float least = isModel && layer.y > 2.0 ? (layer.y - 2.0) / (layer.y - 1.0) : 0.0;
+    float fineness = max(finenessAt(px), least);
     // What finer strokes would hide is seen where they are not painted.
     wanted = wanted || (detail >= detailBand.x * wider &&
                         !isAmong(layerShare(fineness, layer.x + 1.0, layer.y), part, !was));
