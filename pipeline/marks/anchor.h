@@ -33,7 +33,8 @@ struct Anchor {
   std::uint32_t appearance = 0;
   float errorPx = 0.0F;  ///< predicted error of the displacement
   float fade = 0.0F;     ///< visible share of its mark, in [0, 1]
-  float ageSeconds = 0.0F;
+  /// lower half: its age in 1/1024 s, at most 64 s; upper half: its rank
+  std::uint32_t ageAndRank = 0;
   std::uint32_t seed = 0;  ///< seeds all its random properties, for its whole life
   /// The object and triangle that it lies on (ArFrame::ids), a virtual or a real one; 0: a part of
   /// the image without a model. The triangle only with kOnSurface.
@@ -42,8 +43,11 @@ struct Anchor {
   /// (shaders/anchor.glsl)
   std::uint32_t state = 0;
 
-  static constexpr std::uint32_t kSourceBits = 0xFF;
-  /// without this flag, the slot is free and its content has no meaning
+  static constexpr std::uint32_t kSourceBits = 0x0F;
+  /// not alive, but its place on a virtual surface is remembered, so that the same mark can be seen
+  /// again; with kHidden, that place is not seen now
+  static constexpr std::uint32_t kDormant = 0x80;
+  /// without this flag, the slot has no mark
   static constexpr std::uint32_t kAlive = 0x100;
   static constexpr std::uint32_t kDying = 0x200;  ///< fading out for good: its cell was too crowded
   static constexpr std::uint32_t kHidden = 0x400;  ///< fading out: its surface is occluded
@@ -56,6 +60,12 @@ struct Anchor {
   static constexpr std::uint32_t kOnSurface = 0x4000;
 
   bool isAlive() const { return (state & kAlive) != 0; }
+  bool isDormant() const { return (state & (kAlive | kDormant)) == kDormant; }
+  float ageSeconds() const { return static_cast<float>(ageAndRank & 0xFFFFU) / 1024.0F; }
+  /// Which anchors go first where there are too many: those of the highest rank, which is kept for
+  /// life. It is the scale from which on the anchor is needed, in 1/1024 octaves of px per metre
+  /// on virtual surfaces, of the image's length elsewhere.
+  std::uint32_t rank() const { return ageAndRank >> 16U; }
   bool isCovered() const { return (state & (kAlive | kCovered)) == (kAlive | kCovered); }
   bool isOnSurface() const { return (state & (kAlive | kOnSurface)) == (kAlive | kOnSurface); }
   bool isBorn() const { return (state & kBorn) != 0; }

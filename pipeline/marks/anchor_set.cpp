@@ -18,7 +18,7 @@ namespace pleinair::marks {
 namespace {
 
 const std::string kShaders = "pipeline/marks/shaders/";
-constexpr std::size_t kCellBytes = 40;  // shaders/anchor_cells.glsl
+constexpr std::size_t kCellBytes = 56;  // shaders/anchor_cells.glsl
 constexpr int kMaxStrata = 4;           // along a cell's side (shaders/anchor_cells.glsl)
 constexpr unsigned kFirstModel = scene::kMaxPlanes;  // in SurfaceAccess::bodies
 constexpr GLbitfield kStored = GL_SHADER_STORAGE_BARRIER_BIT;
@@ -34,6 +34,27 @@ std::uint32_t slotsFor(glm::ivec2 grid, const DensityRule& rule) {
   const int fading = twice / 10;
   const int covered = twice / 4;
   return static_cast<std::uint32_t>((twice + fading + covered + 1) / 2);
+}
+
+/// Of the full image's camera, px. Precondition: the frame has surfaces.
+glm::vec2 focalOf(const scene::ArFrame& frame) {
+  const tracking::Intrinsics& pinhole = frame.surfaces->camera->intrinsics();
+  return glm::vec2(pinhole.fx, pinhole.fy) / glm::vec2(frame.pixelsOfFull());
+}
+
+/// By how much most of the image has grown since the previous frame, in octaves of length.
+double zoomOctaves(const scene::ArFrame& frame) {
+  if (!frame.measuredMotion || frame.measuredMotion->motion == nullptr) return 0.0;
+  const tracking::ImageMotion& measured = *frame.measuredMotion->motion;
+  if (!measured.picture) return 0.0;
+  const glm::dmat3& h = measured.picture->currentFromPrevious;
+  const glm::dvec2 centre(0.5 * measured.frameSize.width, 0.5 * measured.frameSize.height);
+  const glm::dvec3 middle = h * glm::dvec3(centre, 1.0);
+  if (middle.z <= 0.0) return 0.0;
+  // The determinant of a homography's Jacobian is det H / w³.
+  const double area = glm::determinant(h) / (middle.z * middle.z * middle.z);
+  constexpr double kMostOctaves = 0.5;  // a frame: more is no zoom
+  return area > 0.0 ? std::clamp(0.5 * std::log2(area), -kMostOctaves, kMostOctaves) : 0.0;
 }
 
 /// The part of a fade of this length that `step` completes.
@@ -54,6 +75,7 @@ struct AnchorSet::State {
         image(library.compute(kShaders + "anchor_image.comp")),
         surface(library.compute(kShaders + "anchor_surface.comp")),
         count(library.compute(kShaders + "anchor_count.comp")),
+        choice(library.compute(kShaders + "anchor_choice.comp")),
         density(library.compute(kShaders + "anchor_density.comp")),
         plan(library.compute(kShaders + "anchor_plan.comp")),
         spawn(library.compute(kShaders + "anchor_spawn.comp")),
@@ -73,6 +95,7 @@ struct AnchorSet::State {
   gpu::Program image;
   gpu::Program surface;
   gpu::Program count;
+  gpu::Program choice;
   gpu::Program density;
   gpu::Program plan;
   gpu::Program spawn;
@@ -86,6 +109,7 @@ struct AnchorSet::State {
   const TensorField* field = nullptr;
   hal::TimePoint lastTime;
   std::uint32_t salt = 0;  // of this frame's spawns
+  double scaleOctaves = 0.0;  // of the image, as compared to when it began
   bool hasPast = false;
   bool hasBegunAnew = true;
 
@@ -137,7 +161,7 @@ void AnchorSet::State::carryOnSurfaces(const scene::ArFrame& frame) {
       .set("firstModel", kFirstModel)
       .set("nearMetres", frame.nearMetres)
       .set("farMetres", frame.farMetres)
-      .set("focal", glm::vec2(pinhole.fx, pinhole.fy) / pixelsOfFull)
+      .set("focal", focalOf(frame))
       .set("centre", glm::vec2(pinhole.cx, pinhole.cy) / pixelsOfFull);
   scene::setLens(surface, *access.camera);
   surface.dispatch(allSlots(), kStored);
@@ -177,6 +201,13 @@ void AnchorSet::State::countAnchors(const scene::ArFrame& frame, const AnchorHol
       .set("fadeIn", fadeOf(step, hold.fadeIn))
       .set("fadeOut", fadeOf(step, hold.fadeOut))
       .dispatch(allSlots(), kStored);
+  setFrame(beginCells(choice), frame)
+      .texture("forms", frame.hasObjects ? *frame.forms : noIds)
+      .set("hasObjects", frame.hasObjects ? 1 : 0)
+      .set("slots", slots)
+      .storage("Anchors", anchors)
+      .storage("Cells", cells)
+      .dispatch(allSlots(), kStored);
 }
 
 void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionField& motion,
@@ -199,6 +230,7 @@ void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionFiel
       .storage("Plan", births)
       .set("cellCount", static_cast<unsigned>(grid.x * grid.y))
       .dispatch({1, 1}, kStored);
+  const bool hasDepth = frame.hasObjects && frame.depth != nullptr && frame.surfaces.has_value();
   const gpu::Texture* const before = field != nullptr ? field->patchesBefore() : nullptr;
   setFrame(beginCells(spawn), frame)
       .set("hasObjects", frame.hasObjects ? 1 : 0)
@@ -211,6 +243,11 @@ void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionFiel
       .set("hasPatches", before != nullptr && frame.hasObjects ? 1 : 0)
       .set("patchPixels", static_cast<float>(field != nullptr ? field->regionPixels(0) : 1.0))
       .texture("movers", layerTextures.labelsOf(layers))
+      .texture("depth", hasDepth ? *frame.depth : motion.backward())
+      .set("depthRange", hasDepth ? glm::vec2(frame.nearMetres, frame.farMetres) : glm::vec2(0.0F))
+      .set("focalPx", hasDepth ? focalOf(frame).y : 1.0F)
+      .set("scale", static_cast<float>(scaleOctaves))
+      .set("target", rule.target)
       .storage("Anchors", anchors)
       .storage("Cells", cells)
       .storage("Plan", births)
@@ -240,6 +277,7 @@ void AnchorSet::advance(const scene::ArFrame& frame, const MotionField& motion,
   s.layers = layers;
   s.field = field;
   if (motion.isCut()) s.salt = 0;  // as in a first frame
+  s.scaleOctaves = s.hasBegunAnew ? 0.0 : s.scaleOctaves + zoomOctaves(frame);
   ++s.salt;
   const bool onSurfaces =
       frame.surfaces && frame.surfaces->posed != nullptr && !s.hasBegunAnew && motion.follows();
@@ -263,6 +301,10 @@ std::uint32_t AnchorSet::slotCount() const {
 
 const AnchorOptions& AnchorSet::options() const {
   return state_->options;
+}
+
+double AnchorSet::imageScale() const {
+  return state_->scaleOctaves;
 }
 
 std::vector<Anchor> AnchorSet::read() const {

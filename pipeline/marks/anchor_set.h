@@ -78,6 +78,9 @@ class AnchorSet {
   const gpu::Buffer& anchors() const;
   std::uint32_t slotCount() const;
   const AnchorOptions& options() const;
+  /// The scale of the image as compared to when the anchors began, in octaves of length: that of
+  /// Anchor::rank() elsewhere than on virtual surfaces.
+  double imageScale() const;
 
   /// Waits for the GPU and reads all slots: for measures and tests. All slots are free if the GPU
   /// was lost.

@@ -66,6 +66,11 @@ struct StrokeSet::State {
 
 namespace {
 
+/// The focal length of the full image's camera, px.
+float focalOf(const scene::SurfaceAccess& surfaces, const scene::ArFrame& frame) {
+  return static_cast<float>(surfaces.camera->intrinsics().fy / frame.pixelsOfFull().y);
+}
+
 /// Scale from px of the full image to texture coordinates of a field's level.
 glm::vec2 scaleOf(const TensorField& field, std::size_t level) {
   const hal::FrameSize size = field.resolved(level).size();
@@ -134,7 +139,11 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
                           static_cast<float>(frame.full().height))
       .set("isStanding", layers != nullptr && layers->hasStood() ? 1 : 0)
       .set("maxColour", rule.maxColourPerSecond * static_cast<float>(hal::toSeconds(step)))
-      .dispatch(allSlots(), GL_SHADER_STORAGE_BARRIER_BIT);
+      .set("imageScale", static_cast<float>(anchors.imageScale()))
+      .set("focalPx", frame.surfaces ? focalOf(*frame.surfaces, frame) : 0.0F)
+      .set("layer", glm::vec2(rule.layer, rule.layers));
+  rule.focus.bind(trace);
+  trace.dispatch(allSlots(), GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 void StrokeSet::State::layOut(const AnchorSet& anchors, const StrokeRule& rule) {

@@ -11,6 +11,7 @@
 #include "pipeline/gpu/shader_library.h"
 #include "pipeline/gpu/texture.h"
 #include "pipeline/marks/anchor_set.h"
+#include "pipeline/marks/focus_field.h"
 #include "pipeline/marks/motion_layers.h"
 #include "pipeline/marks/tensor_field.h"
 #include "pipeline/scene/render/ar_frame.h"
@@ -63,6 +64,11 @@ struct StrokeRule {
   /// image per second.
   float looseness = 0.0F;
   glm::vec2 looseSpeed{0.3F, 1.0F};
+  /// Away from its places, the layer is painted by the part of its anchors that
+  /// shaders/focus.glsl gives, those of the lowest ranks; within them, detail counts more.
+  FocusField focus;
+  int layer = 0;  ///< from the broadest, 0
+  int layers = 1;
 };
 
 /// The images that strokes take their colours from, of any size (LINEAR, sRGB-coded,

@@ -4,15 +4,20 @@
 struct Cell {
   uint inImage;  // staying anchors in the camera image, also those that movers cover
   uint onObjects;  // staying anchors on virtual objects
-  uint nextToRemove;  // age and slot of the next anchor to remove
+  uint nextInImage;  // key of the next anchor to remove in the camera image (removalKey()); 0: none
   uint strata;  // the occupied parts of the cell: 16 bits for the image, 16 for objects
   // wanted spawns: 16 bits for the image, 8 for objects, 8 for patches of objects without anchors
   uint births;
   uint firstBirth;  // index in the frame's spawns
   uint onMovers;  // staying anchors on movers
-  uint nextMoverToRemove;
+  uint nextOnMovers;  // of movers
   uint moverBirths;
   uint patches;  // which patches of objects have staying anchors (patchBit())
+  uint crowdedPatches;  // which have two or more
+  uint nextOnObjects;  // as nextInImage, of virtual objects
+  uint nextToWake;  // key of the next dormant anchor to wake (wakingKey()); 0: none
+  // visible dormant anchors: 16 bits for all, 16 for those on patches without any staying anchor
+  uint dormant;
 };
 
 // Of the patch with this label (surface_form.glsl). Neighbours' differ, but for one pair in 31.
@@ -20,6 +25,22 @@ uint patchBit(uint label) { return 1u << (label % 31u); }
 uint birthsInImage(uint births) { return births & 0xFFFFu; }
 uint birthsOnObjects(uint births) { return births >> 16u & 0xFFu; }
 uint birthsOnPatches(uint births) { return births >> 24u; }
+
+
+// Keys of slots, the largest of which comes first; never 0. Their numbers are below 2^20.
+const uint kSlotBits = 20u;
+const uint kKeyRankShift = 6u;  // ranks are compared by 1/16 octave
+const uint kKeyRanks = 1023u;
+uint slotOf(uint key) { return key & ((1u << kSlotBits) - 1u); }
+// The highest rank goes first, and the only anchor of a patch last.
+uint removalKey(uint slot, uint rank, bool isOnly) {
+  return (isOnly ? 1u : 2u) << 30u | (rank >> kKeyRankShift) << kSlotBits | slot;
+}
+// The lowest rank wakes first, before all others on a patch that has no anchor.
+uint wakingKey(uint slot, uint rank, bool isFirst) {
+  return (isFirst ? 2u : 1u) << 30u | (kKeyRanks - (rank >> kKeyRankShift)) << kSlotBits | slot;
+}
+bool wakesOnEmptyPatch(uint key) { return key >> 31u != 0u; }
 
 uniform ivec2 grid;
 uniform int cellPixels;  // side of a cell

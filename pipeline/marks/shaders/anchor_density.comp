@@ -1,10 +1,11 @@
-// Purpose: controls the density of anchors in a cell: the number of spawns, and the anchor to
-//          remove (thesis §5.3, with hysteresis).
+// Purpose: controls the density of anchors in a cell: the number of spawns, the anchor to remove and
+//          the dormant one to wake (thesis §5.3, with hysteresis).
 // Inputs:  anchor_cells.glsl's; the rule (marks::DensityRule): target, birthBelow, deathAbove; ids
 //          and forms (ArFrame) and their pixelsOfFull if hasObjects; fullSize; mover_labels.glsl's.
 //          Anchors of the background and of movers are counted apart; each patch of a model that
 //          shows enough of itself gets one at least.
-// Outputs: births of each cell; anchors: those to remove. One invocation per cell.
+// Outputs: births of each cell; anchors: those to remove, and dormant ones that wake; nextToWake: 0
+//          where none does. One invocation per cell.
 // Precision: integers; highp for places.
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/anchor_cells.glsl"
@@ -23,7 +24,6 @@ uniform int birthBelow;
 uniform int deathAbove;
 #include "pipeline/marks/shaders/mover_labels.glsl"
 
-const uint kSlotMask = 0xFFFFFu;
 const float kMinShare = 0.12;  // of a cell: a smaller part gets no anchor of its own
 
 const int kMaxPatches = 6;  // that are told apart in a cell
@@ -99,6 +99,16 @@ bool isAmongFull(ivec2 cell) {
   return around >= 8u * uint(target);
 }
 
+// The patches that have anchors in the cell or beside it, whose strokes reach into it.
+uint paintedAround(ivec2 cell) {
+  uint painted = cells[indexOf(cell)].patches;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 at = cell + (i < 2 ? ivec2(2 * i - 1, 0) : ivec2(0, 2 * i - 5));
+    if (isInGrid(at)) painted |= cells[indexOf(at)].patches;
+  }
+  return painted;
+}
+
 uint wanted(float share, uint count, bool isGap) {
   if (share < kMinShare) return 0u;
   uint least = uint(max(1.0, floor(share * float(birthBelow) + 0.5)));
@@ -107,20 +117,38 @@ uint wanted(float share, uint count, bool isGap) {
   return isGap ? least - count : full - count;
 }
 
+// Whether a part of the cell holds fewer anchors than its target.
+bool lacks(float share, uint count) {
+  return share >= kMinShare && count < uint(max(1.0, floor(share * float(target) + 0.5)));
+}
+
+// Its mark has the same random properties as before; anchor_spawn.comp gives its fade.
+void wake(uint slot) {
+  anchors[slot].state = kAlive | kBorn | kOnSurface | kSourceUnknown;
+  anchors[slot].ageAndRank &= ~kMaxAge;
+  anchors[slot].displacement = vec2(0.0);
+  anchors[slot].jacobian = vec4(1.0, 0.0, 0.0, 1.0);
+  anchors[slot].error = 0.0;
+}
+
 void main() {
   ivec2 at = ivec2(gl_GlobalInvocationID.xy);
   if (!isInGrid(at)) return;
   int index = indexOf(at);
   Cell cell = cells[index];
   Objects objects = Objects(0.0, 0u, 0u);
-  if (hasObjects) objects = objectsIn(at, cell.patches);
-  // Each further patch may have an anchor of its own; room for it is made at its birth, or it
-  // would be the youngest that goes in the next frame.
+  if (hasObjects) objects = objectsIn(at, paintedAround(at));
+  // Each further patch may have an anchor of its own; room for it is made at its birth, so that no
+  // other one has to go in the next frame.
   uint more = max(objects.patches, 1u) - 1u;
   if (cell.inImage + cell.onObjects + objects.unpainted > uint(deathAbove) + more) {
-    anchors[cell.nextToRemove & kSlotMask].state |= kDying;
+    // Of the two kinds, the one that has more of its share.
+    float ofObjects = float(cell.onObjects + objects.unpainted) * (1.0 - objects.share);
+    bool isObject = cell.nextInImage == 0u ||
+                    (cell.nextOnObjects != 0u && ofObjects >= float(cell.inImage) * objects.share);
+    anchors[slotOf(isObject ? cell.nextOnObjects : cell.nextInImage)].state |= kDying;
   }
-  if (cell.onMovers > uint(deathAbove)) anchors[cell.nextMoverToRemove & kSlotMask].state |= kDying;
+  if (cell.onMovers > uint(deathAbove)) anchors[slotOf(cell.nextOnMovers)].state |= kDying;
   // Border cells may be cut off.
   vec2 inside = clamp((fullSize - vec2(at * cellPixels)) / float(cellPixels), 0.0, 1.0);
   float whole = inside.x * inside.y;
@@ -131,6 +159,16 @@ void main() {
   // A stroke paints its own patch only.
   uint onPatches = min(objects.unpainted, 255u);
   onObjects = max(onObjects, onPatches) - onPatches;
+  // Dormant anchors wake before others are born, one a frame.
+  uint sleeping = cell.dormant & 0xFFFFu;
+  uint onEmpty = cell.dormant >> 16u;
+  bool wakes = (onPatches > 0u && wakesOnEmptyPatch(cell.nextToWake)) ||
+               (sleeping > 0u && lacks(whole * share, cell.onObjects));
+  if (wakes) wake(slotOf(cell.nextToWake));
+  cells[index].nextToWake = wakes ? cell.nextToWake : 0u;
+  uint waking = min(onPatches, onEmpty);
+  onPatches -= waking;
+  onObjects -= min(onObjects, sleeping - waking);
   cells[index].births = inImage | min(onObjects, 255u) << 16u | onPatches << 24u;
   cells[index].moverBirths = wanted(whole * moverShare(at), cell.onMovers, false);
 }

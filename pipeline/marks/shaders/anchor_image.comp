@@ -4,7 +4,7 @@
 //          hasObjects; bodies, the first of a model at firstModel; fullSize; onSurfaces: whether
 //          anchor_surface.comp has run;
 //          anchor_appearance.glsl's; margin: px beyond the border at which an anchor is removed;
-//          stepSeconds; memorySeconds: how long a covered anchor is kept; mover_labels.glsl's and
+//          stepSeconds; memorySeconds: how long a covered or dormant anchor is kept; mover_labels.glsl's and
 //          mover_motion.glsl's; restsWithCamera: the camera stands, and movers are told apart;
 //          follows: whether anchors move; if not, surface anchors rest like all others, and neither
 //          appearance nor labels count; anew: whether all anchors are removed.
@@ -134,12 +134,19 @@ void main() {
   uint slot = gl_GlobalInvocationID.x;
   if (slot >= slots) return;
   uint state = anchors[slot].state;
-  if (!isAlive(state)) return;
   if (anew) {
     anchors[slot].state = 0u;
     return;
   }
-  anchors[slot].age += stepSeconds;
+  uint longer = min((state >> kCoveredShift) + uint(256.0 * stepSeconds + 0.5), kMaxCovered);
+  bool isForgotten = float(longer) > 256.0 * memorySeconds;
+  if (isDormant(state)) {
+    uint flags = (state & (kDormant | kOnSurface | kHidden)) | (onSurfaces ? 0u : kHidden);
+    anchors[slot].state = isForgotten ? 0u : flags | longer << kCoveredShift;
+    return;
+  }
+  if (!isAlive(state)) return;
+  anchors[slot].ageAndRank = aged(anchors[slot].ageAndRank, stepSeconds);
   uint surface = anchors[slot].surface;
   uint object = objectOf(surface);
   vec2 px = anchors[slot].px;
@@ -222,8 +229,8 @@ void main() {
   uint covered = 0u;
   uint flags = (state & (kAlive | kDying)) | onSurface | (isHidden ? kHidden : 0u);
   if (isBehind) {
-    covered = min((state >> kCoveredShift) + uint(256.0 * stepSeconds + 0.5), kMaxCovered);
-    isGone = isGone || (state & kDying) != 0u || float(covered) > 256.0 * memorySeconds;
+    covered = longer;
+    isGone = isGone || (state & kDying) != 0u || isForgotten;
   }
   flags |= (isBehind ? kCovered : 0u) | (isOnMover ? kMover : 0u);
   anchors[slot].state = isGone ? 0u : flags | moved.source | (covered << kCoveredShift);

@@ -1,5 +1,5 @@
 // Purpose: assigns a free slot to each spawn, both in order, so that every GPU assigns the same
-//          slots; where none is free, one of a covered anchor. A single work group.
+//          slots; where none is free, one of a dormant anchor, then of a covered one. A single work group.
 // Inputs:  anchors, slots of them; births of the cells, cellCount of them.
 // Outputs: cells: the index of the cell's first spawn; plan: the number of free slots, then the
 //          slots.
@@ -16,6 +16,7 @@ uniform uint cellCount;
 shared uint freeBefore[128];
 shared uint bornBefore[128];
 shared uint coveredBefore[128];
+shared uint dormantBefore[128];
 
 uint birthsOf(uint cell) {
   uint births = cells[cell].births;
@@ -33,33 +34,46 @@ void main() {
   uint endCell = min(firstCell + cellsEach, cellCount);
   uint free = 0u;
   uint covered = 0u;
+  uint dormant = 0u;
   for (uint i = firstSlot; i < endSlot; ++i) {
-    free += isAlive(anchors[i].state) ? 0u : 1u;
-    covered += isCovered(anchors[i].state) ? 1u : 0u;
+    uint state = anchors[i].state;
+    free += isAlive(state) || isDormant(state) ? 0u : 1u;
+    covered += isCovered(state) ? 1u : 0u;
+    dormant += isDormant(state) ? 1u : 0u;
   }
   uint born = 0u;
   for (uint i = firstCell; i < endCell; ++i) born += birthsOf(i);
   freeBefore[me] = free;
   bornBefore[me] = born;
   coveredBefore[me] = covered;
+  dormantBefore[me] = dormant;
   barrier();
   for (uint reach = 1u; reach < 128u; reach *= 2u) {
     uint freeThere = me >= reach ? freeBefore[me - reach] : 0u;
     uint bornThere = me >= reach ? bornBefore[me - reach] : 0u;
     uint coveredThere = me >= reach ? coveredBefore[me - reach] : 0u;
+    uint dormantThere = me >= reach ? dormantBefore[me - reach] : 0u;
     barrier();
     freeBefore[me] += freeThere;
     bornBefore[me] += bornThere;
     coveredBefore[me] += coveredThere;
+    dormantBefore[me] += dormantThere;
     barrier();
   }
-  if (me == 127u) freeCount = freeBefore[127] + coveredBefore[127];
+  uint unused = freeBefore[127] + dormantBefore[127];
+  if (me == 127u) freeCount = unused + coveredBefore[127];
   uint next = freeBefore[me] - free;
-  uint nextCovered = freeBefore[127] + coveredBefore[me] - covered;
+  uint nextDormant = freeBefore[127] + dormantBefore[me] - dormant;
+  uint nextCovered = unused + coveredBefore[me] - covered;
   for (uint i = firstSlot; i < endSlot; ++i) {
     uint state = anchors[i].state;
-    if (!isAlive(state)) freeSlots[next++] = i;
-    if (isCovered(state)) freeSlots[nextCovered++] = i;
+    if (isDormant(state)) {
+      freeSlots[nextDormant++] = i;
+    } else if (!isAlive(state)) {
+      freeSlots[next++] = i;
+    } else if (isCovered(state)) {
+      freeSlots[nextCovered++] = i;
+    }
   }
   uint number = bornBefore[me] - born;
   for (uint i = firstCell; i < endCell; ++i) {

@@ -3,7 +3,9 @@
 //          of a model or of a real thing, or else a place of the camera image.
 // Inputs:  anchor_cells.glsl's; births and slots (anchor_plan.comp); ids, barycentrics (ArFrame)
 //          and their pixelsOfFull if hasObjects; fullSize; salt: another one each frame; atOnce:
-//          whether anchors appear without a fade; motion: MotionField's field; forms, surfaceMotion
+//          whether anchors appear without a fade; target: of a cell;
+//          scale: of the image, in octaves; depth and depthRange, near and far in metres, 0: no depth;
+//          focalPx: of the full image; motion: MotionField's field; forms, surfaceMotion
 //          (ArFrame), patches, patchesBefore: TensorField's, with patchPixels a side, if
 //          hasPatches; mover_labels.glsl's.
 // Outputs: anchors; counts cleared for the next frame. One invocation per cell.
@@ -14,7 +16,7 @@
 #include "pipeline/marks/shaders/anchor_slots.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(std430, binding = 0) writeonly buffer Anchors { Anchor anchors[]; };
+layout(std430, binding = 0) buffer Anchors { Anchor anchors[]; };
 layout(std430, binding = 1) buffer Cells { Cell cells[]; };
 uniform highp usampler2D ids;
 uniform highp usampler2D barycentrics;
@@ -30,6 +32,11 @@ uniform highp usampler2D patches;
 uniform highp usampler2D patchesBefore;
 uniform bool hasPatches;
 uniform float patchPixels;
+uniform highp sampler2D depth;
+uniform vec2 depthRange;
+uniform float focalPx;
+uniform float scale;
+uniform int target;
 #include "pipeline/scene/render/shaders/surface_form.glsl"
 
 #include "pipeline/marks/shaders/mover_labels.glsl"
@@ -87,8 +94,33 @@ bool hasBeenUncovered(vec2 px) {
   return true;
 }
 
+float metresAt(ivec2 pixel) {
+  float ndc = 2.0 * texelFetch(depth, pixel, 0).r - 1.0;
+  float near = depthRange.x;
+  float far = depthRange.y;
+  return 2.0 * far * near / (far + near - ndc * (far - near));
+}
+
+// Octaves of a model's px per metre.
+float objectScaleAt(vec2 px) {
+  if (depthRange.y <= 0.0) return scale;
+  return log2(focalPx / max(metresAt(pixelAt(px)), 1e-3));
+}
+
+// Where a cell with its target of anchors comes to show s times the length on each side, 1 / s^2 of
+// them are to remain. So the anchor that is the part u of the target from the lowest is needed from
+// the scale sqrt(u) on, as compared to now. Neighbouring cells have parts far apart (Roberts, "The
+// unreasonable effectiveness of quasirandom sequences", 2018), so that what remains is spread evenly.
+uint rankOfBirth(ivec2 cell, uint before, float octaves) {
+  vec2 lattice = vec2(cell) * vec2(0.7548776662, 0.5698402910);
+  float within = fract(lattice.x + lattice.y + float(salt & 1023u) * 0.6180339887);
+  float part = (float(before) + max(within, 1.0 / 64.0)) / float(target);
+  return rankAt(octaves + 0.5 * log2(part));
+}
+
 // `patchesTaken`: those that the anchor is not to lie on; its own is added.
-void spawn(ivec2 cell, uint number, bool onObject, bool onMover, inout uint taken,
+// `before`: how many anchors of its kind the cell has.
+void spawn(ivec2 cell, uint number, uint before, bool onObject, bool onMover, inout uint taken,
            inout uint patchesTaken) {
   if (number >= freeCount) return;
   uint hash = hashOf(cell, hashOf(salt) + number);  // separates the sequences of different frames
@@ -129,7 +161,7 @@ void spawn(ivec2 cell, uint number, bool onObject, bool onMover, inout uint take
   born.fade = atOnce || onMover || mover.g > 0.0 || hasComeIn(px) ||
                       (onObject && hasBeenUncovered(px))
                   ? 1.0 : 0.0;
-  born.age = 0.0;
+  born.ageAndRank = rankOfBirth(cell, before, onObject ? objectScaleAt(px) : scale) << 16u;
   // independent of the place, which came from the same hash
   born.seed = hashOf(hash ^ 0x9E3779B9u);
   born.surface = onMover ? 0u : id;  // a mover is before all real things
@@ -150,27 +182,43 @@ void main() {
   uint births = cells[index].births;
   uint strata = cells[index].strata;
   uint painted = cells[index].patches;
+  uint inImage = cells[index].inImage;
+  uint onObjects = cells[index].onObjects;
+  uint onMovers = cells[index].onMovers;
   cells[index].patches = 0u;
   cells[index].strata = 0u;
   cells[index].inImage = 0u;
   cells[index].onObjects = 0u;
-  cells[index].nextToRemove = 0u;
+  cells[index].nextInImage = 0u;
+  cells[index].nextOnObjects = 0u;
+  cells[index].crowdedPatches = 0u;
+  cells[index].dormant = 0u;
   uint moverBirths = cells[index].moverBirths;
   cells[index].onMovers = 0u;
-  cells[index].nextMoverToRemove = 0u;
+  cells[index].nextOnMovers = 0u;
+  if (cells[index].nextToWake != 0u) {
+    uint slot = slotOf(cells[index].nextToWake);
+    cells[index].nextToWake = 0u;
+    anchors[slot].fade = atOnce || hasComeIn(anchors[slot].px) || hasBeenUncovered(anchors[slot].px)
+                             ? 1.0 : 0.0;
+  }
   if (births + moverBirths == 0u) return;
   uint number = cells[index].firstBirth;
   uint any = 0u;
   uint taken = strata & 0xFFFFu;
-  for (uint i = 0u; i < birthsInImage(births); ++i) spawn(at, number++, false, false, taken, any);
+  for (uint i = 0u; i < birthsInImage(births); ++i) {
+    spawn(at, number++, inImage++, false, false, taken, any);
+  }
   taken = strata >> 16u;
   for (uint i = 0u; i < birthsOnPatches(births); ++i) {
-    spawn(at, number++, true, false, taken, painted);
+    spawn(at, number++, onObjects++, true, false, taken, painted);
   }
   for (uint i = 0u; i < birthsOnObjects(births); ++i) {
     any = 0u;
-    spawn(at, number++, true, false, taken, any);
+    spawn(at, number++, onObjects++, true, false, taken, any);
   }
   taken = 0u;
-  for (uint i = 0u; i < moverBirths; ++i) spawn(at, number++, false, true, taken, any);
+  for (uint i = 0u; i < moverBirths; ++i) {
+    spawn(at, number++, onMovers++, false, true, taken, any);
+  }
 }

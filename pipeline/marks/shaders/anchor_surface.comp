@@ -1,7 +1,7 @@
 // Purpose: the motion of the anchors on all models, by the surfaces that they lie on: each is a point
 //          of its triangle (thesis §5.3). On a virtual model that is its place, and it is hidden where
-//          another surface is visible instead. On a real thing it is one of several measurements, of
-//          which anchor_image.comp takes the best.
+//          another surface is visible instead; so are the places of dormant ones. On a real thing it is one of
+//          several measurements, of which anchor_image.comp takes the best.
 // Inputs:  posed_surface.glsl's; bodies, the first of a model at firstModel; bodies.glsl's, of a
 //          camera with the full image's pixels; ids, depth, nearMetres, farMetres (ArFrame),
 //          pixelsOfFull, fullSize, margin.
@@ -51,11 +51,16 @@ uint seenAt(vec2 px, uint object, vec3 place, vec3 normal) {
   return abs(depthAt(pixel) - place.z) < tolerance * place.z ? kSeen : kOtherPart;
 }
 
+bool isInImage(vec2 px) {
+  return all(greaterThanEqual(px, vec2(0.0))) && all(lessThan(px, fullSize));
+}
+
 void main() {
   uint slot = gl_GlobalInvocationID.x;
   if (slot >= slots) return;
   uint state = anchors[slot].state;
-  if ((state & (kAlive | kOnSurface)) != (kAlive | kOnSurface)) return;
+  bool sleeps = isDormant(state);
+  if ((!isAlive(state) && !sleeps) || (state & kOnSurface) == 0u) return;
   uint surface = anchors[slot].surface;
   uint object = objectOf(surface);
   bool isReal = !isVirtual(object);
@@ -65,6 +70,25 @@ void main() {
   anchors[slot].jacobian = kNoTurn;
   anchors[slot].error = kUnknownError;
   uint kept = state & ~kSourceBits;
+  if (sleeps) {
+    anchors[slot].state = state | kHidden;
+    if (places.w == 0u) return;
+    uvec4 entry = triangles[places.x + numberOf(surface)];
+    vec2 part = unpackUnorm2x16(anchors[slot].barycentrics);
+    SurfacePoint point = SurfacePoint(entry.xyz, entry.w, vec3(part, 1.0 - part.x - part.y));
+    vec3 place = transformed(bodies[index].current, positionOf(point, places.y));
+    if (place.z <= 0.0) return;
+    vec2 px = projected(place);
+    anchors[slot].px = px;
+    if (!isInImage(px)) return;
+    vec3 corners[3];
+    for (int i = 0; i < 3; ++i) {
+      corners[i] = transformed(bodies[index].current, cornerOf(point, i, places.y));
+    }
+    vec3 normal = normalize(cross(corners[1] - corners[0], corners[2] - corners[0]));
+    if (seenAt(px, object, place, normal) == kSeen) anchors[slot].state = state & ~kHidden;
+    return;
+  }
   if (places.w == 0u) {
     // A real thing is still to be seen without its model: the anchor goes on in the image.
     if (isReal) anchors[slot].surface = 0u;
@@ -78,7 +102,7 @@ void main() {
   SurfacePoint point = SurfacePoint(entry.xyz, entry.w, vec3(part, 1.0 - part.x - part.y));
   vec3 place = transformed(bodies[index].current, positionOf(point, places.y));
   if (place.z <= 0.0) {
-    anchors[slot].state = isReal ? kept & ~(kOnSurface | kTurnedAway) : 0u;
+    anchors[slot].state = isReal ? kept & ~(kOnSurface | kTurnedAway) : stateAfter(state, true);
     return;
   }
   vec3 corners[3];
@@ -138,5 +162,5 @@ void main() {
   anchors[slot].px = px;
   bool isGone = any(lessThan(px, vec2(-margin))) || any(greaterThan(px, fullSize + margin));
   uint flags = (state & (kAlive | kDying | kOnSurface)) | (seen == kSeen ? 0u : kHidden);
-  anchors[slot].state = isGone ? 0u : flags | source;
+  anchors[slot].state = isGone ? stateAfter(state, true) : flags | source;
 }

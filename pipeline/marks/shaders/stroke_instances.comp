@@ -77,6 +77,6 @@ void main() {
   if (isLimited) colour = mixtureOf(colour);
   made.paint = vec4(colour, opacity * stands * (1.0 - leaveLight * light) * stroke.seen);
   made.shape = vec4(0.5 * wide, float(hashOf(seed ^ 0x31u) & 7u),
-                    float(labelOfStroke(stroke.state)), anchors[slot].age);
+                    float(labelOfStroke(stroke.state)), ageOf(anchors[slot].ageAndRank));
   instances[rank] = made;
 }

@@ -9,12 +9,15 @@
 //          modelPaint, moverPaint: the reduced images of the background, of models and of movers;
 //          finePaint: the finest of models; paintTexel: the width of modelPaint's texels, px of the
 //          full image; ids, forms and depth (ArFrame) if hasObjects, depthRange: the near and the
-//          far plane in metres, 0: no depth; the rest as in marks::StrokeRule.
+//          far plane in metres, 0: no depth; focalPx: of the full image, 0: not known; imageScale: the
+//          anchors', octaves; focus.glsl's; layer: its number and how many; the rest as in
+//          marks::StrokeRule.
 // Outputs: strokes. One invocation per anchor.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/colour_difference.glsl"
+#include "pipeline/marks/shaders/focus.glsl"
 #include "pipeline/marks/shaders/stroke.glsl"
 #include "pipeline/marks/shaders/stroke_history.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
@@ -68,8 +71,13 @@ uniform bool isStanding;  // the camera
 uniform float restSlack;
 uniform float looseness;
 uniform vec2 loosePx;  // a frame
+uniform float imageScale;
+uniform float focalPx;
+uniform vec2 layer;
 
 const vec2 kUpright = vec2(1.0, 0.0);  // a tensor: strokes of movers without any edge
+
+const float kFocusDetail = 1.0;  // how much more detail counts in a focus
 
 // What the stroke is painted on.
 struct Support {
@@ -173,10 +181,16 @@ const float kDepthStep = 0.02;
 
 float depthAt(vec2 px) { return texelFetch(depth, pixelAt(px), 0).r; }
 
+float metresOf(float window) {
+  float near = depthRange.x;
+  float far = depthRange.y;
+  return near * far / (far - window * (far - near));
+}
+
 bool isStep(float first, float second, float third) {
   float near = depthRange.x;
   float far = depthRange.y;
-  float metres = near * far / (far - second * (far - near));
+  float metres = metresOf(second);
   float perWindow = metres * metres * (far - near) / (near * far);
   return abs(first - 2.0 * second + third) * perWindow > kDepthStep * metres;
 }
@@ -321,6 +335,27 @@ bool reachesMover(vec2 px, Stroke stroke) {
   return most > 0.1;
 }
 
+// The part of its cell's target below this anchor: it is above 1 where there are more anchors than
+// the target asks for. At its birth it is the part that anchor_spawn.comp has drawn.
+float partOf(uint rank, float octaves) {
+  return exp2(2.0 * (float(rank) / kRankUnits - kRankOrigin - octaves));
+}
+
+// Octaves of scale, as ranks have them, of a place.
+float scaleAt(vec2 px, bool isModel) {
+  if (!isModel || depthRange.y <= 0.0 || focalPx <= 0.0) return imageScale;
+  return log2(focalPx / max(metresOf(depthAt(px)), 1e-3));
+}
+
+// Whether the anchor is among the share of the layer that is painted. The largest shares include
+// anchors beyond the target.
+bool isAmong(float share, float part, bool was) {
+  const float kSlack = 0.05;
+  const float kMost = 0.75;
+  if (was) share += min(kSlack, 0.5 * share);
+  return share >= 1.0 || part < share + 12.0 * max(share - kMost, 0.0);
+}
+
 void main() {
   uint slot = gl_GlobalInvocationID.x;
   if (slot >= slots) return;
@@ -380,12 +415,23 @@ void main() {
 
   // A stroke is wanted where the detail lies in its band; an existing one stays a little longer.
   float seen = detailAt(px, on);
-  float detail = seen + detailSpread * (hash - 0.5);
+  float focused = focusStrength * focusAt(px);
+  float detail = (1.0 + kFocusDetail * focused) * seen + detailSpread * (hash - 0.5);
   // Before a standing camera, nothing but its content changes a stroke of the background.
   bool isResting = isStanding && !isNew && !isOnMover && !isModel;
   bool was = !isNew && (old.state & kWanted) != 0u;
   float wider = was ? 1.0 - (isResting ? restSlack : slack) : isResting ? 1.0 + 0.5 * restSlack : 1.0;
   bool wanted = detail >= detailBand.x * wider && detail <= detailBand.y / wider;
+  if (focusStrength > 0.0) {
+    float part = partOf(rankOf(anchors[slot].ageAndRank), scaleAt(px, isModel));
+    // Patches of models are often smaller than broad strokes: only the finest layer thins out there.
+    float least = isModel && layer.y > 2.0 ? (layer.y - 2.0) / (layer.y - 1.0) : 0.0;
+    float fineness = max(finenessAt(px), least);
+    // What finer strokes would hide is seen where they are not painted.
+    wanted = wanted || (detail >= detailBand.x * wider &&
+                        !isAmong(layerShare(fineness, layer.x + 1.0, layer.y), part, !was));
+    wanted = wanted && isAmong(layerShare(fineness, layer.x, layer.y), part, was);
+  }
   float goal = wanted ? 1.0 : 0.0;
 
   // The past ends where the stroke stands on clearly other content.

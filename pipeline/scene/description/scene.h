@@ -47,6 +47,15 @@ struct ScenePlane {
   glm::dvec2 sizeMetres{0.0};       ///< along its x and y, centred on the origin
 };
 
+/// A place that styles paint finely, and the rest broadly: a ball.
+struct SceneFocus {
+  std::optional<int> tagId;           ///< the tag it is attached to; nothing: the world
+  glm::dvec3 attachFromCentre{0.0};   ///< metres
+  double radiusMetres = 0.0;
+  double falloffMetres = 0.0;  ///< beyond the radius, over which it fades out
+  double strength = 1.0;       ///< in [0, 1]: how much more broadly the rest is painted
+};
+
 /// The light that shades models: a distant key light, and uniform ambient light.
 struct Light {
   enum class Frame {
@@ -72,6 +81,7 @@ struct Light {
 };
 
 inline constexpr std::size_t kMaxPlanes = 8;
+inline constexpr std::size_t kMaxFoci = 3;
 
 /// The contents of a scene file. A value; immutable once made, so any thread may read it.
 struct Scene {
@@ -82,6 +92,7 @@ struct Scene {
   std::vector<tracking::TagMarker> tags;
   std::vector<SceneModel> models;  ///< at most kMaxObjects
   std::vector<ScenePlane> planes;  ///< at most kMaxPlanes
+  std::vector<SceneFocus> foci;    ///< at most kMaxFoci
   Light light;
   std::vector<std::string> notices;  ///< one line for each thing in its files that is not shown
   /// Files that the scene was read from besides the scene file: its calibration and models.

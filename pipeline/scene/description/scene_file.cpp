@@ -194,6 +194,7 @@ Scene readScene(const TomlDocument& document, const std::filesystem::path& direc
   if (const auto light = root.optionalTable("light")) scene.light = readLight(*light);
   readTags(root, scene);
   readPlanes(root, scene);
+  readFoci(root, scene);
   readModels(root, directory, scene);
   root.finish();
   return scene;

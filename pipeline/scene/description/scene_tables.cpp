@@ -77,6 +77,37 @@ void readPlanes(const TomlTable& root, Scene& scene) {
 
 namespace {
 
+constexpr double kMaxFocusMetres = 1000.0;
+
+SceneFocus readFocus(const TomlTable& table, const Scene& scene) {
+  const config::NumberRange length{
+      .min = 0.0, .max = kMaxFocusMetres, .minOpen = true, .unit = "metres"};
+  SceneFocus focus;
+  focus.tagId = readAttachment(table, scene);
+  for (const char* key : {"position_m", "radius_m", "falloff_m"}) refuseOtherUnits(table, key);
+  const auto centre = table.optionalVector<3>(
+      "position_m", {.min = -kMaxFocusMetres, .max = kMaxFocusMetres, .unit = "metres"});
+  if (centre) focus.attachFromCentre = {(*centre)[0], (*centre)[1], (*centre)[2]};
+  focus.radiusMetres = table.number("radius_m", length);
+  focus.falloffMetres = table.optionalNumber("falloff_m", length).value_or(focus.radiusMetres);
+  focus.strength =
+      table.optionalNumber("strength", {.min = 0.0, .max = 1.0}).value_or(focus.strength);
+  return focus;
+}
+
+}  // namespace
+
+void readFoci(const TomlTable& root, Scene& scene) {
+  const std::vector<TomlTable> tables = root.tables("focus");
+  if (tables.size() > kMaxFoci) {
+    throw root.error("focus", fmt::format("found {} foci", tables.size()),
+                     fmt::format("at most {}", kMaxFoci));
+  }
+  for (const TomlTable& table : tables) scene.foci.push_back(readFocus(table, scene));
+}
+
+namespace {
+
 std::vector<std::string> namesOf(const Rig& rig) {
   std::vector<std::string> names;
   for (const Clip& clip : rig.clips) names.push_back(clip.name);

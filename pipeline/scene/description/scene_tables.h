@@ -17,6 +17,17 @@ std::optional<int> readAttachment(const config::TomlTable& table, const Scene& s
 /// config::ConfigError.
 void readPlanes(const config::TomlTable& root, Scene& scene);
 
+/// Reads the [[focus]] tables into `scene`, whose tags must be read already:
+///
+///     attach = "tag:0"
+///     position_m = [0, 0.1, 0.05]  # its centre, in the frame of what it is attached to
+///     radius_m = 0.2
+///     falloff_m = 0.2              # beyond the radius; left out, as much as the radius
+///     strength = 1                 # 0: no effect
+///
+/// Throws config::ConfigError.
+void readFoci(const config::TomlTable& root, Scene& scene);
+
 /// Reads clip, speed, loop and start of a [[model]] with this rig. The clip may be left out if
 /// there is only one. Throws config::ConfigError for an unknown clip, and for keys without effect.
 Playback readPlayback(const config::TomlTable& table, const Rig& rig);

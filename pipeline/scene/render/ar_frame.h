@@ -69,6 +69,14 @@ struct MeasuredMotion {
   glm::dvec2 frameOrigin{0.0};
 };
 
+/// Where a style paints finely (SceneFocus): a disc in the image. Px are those of this image.
+struct FocusPlace {
+  glm::vec2 px{0.0F};
+  float radiusPx = 0.0F;
+  float falloffPx = 0.0F;  ///< beyond the radius
+  float strength = 1.0F;   ///< in [0, 1]
+};
+
 /// Optional contents of an AR frame that a style may ask for.
 struct ArFrameNeeds {
   /// ArFrame::motion, barycentrics, parts, forms and surfaces, if the scene has any
@@ -106,6 +114,8 @@ struct ArFrame {
   bool hasFocus = false;    ///< whether any pixel's focus may be above 0
   float nearMetres = 0.0F;  ///< planes of the depth range, for linear depth
   float farMetres = 0.0F;
+  /// The scene's foci that have been seen since the last reset, each where it is, or was last.
+  std::span<const FocusPlace> foci;
   /// Maps px of the full image to px of a flat canvas that moves with the whole image
   /// (tracking::CanvasMotion); the identity if the motion is not followed.
   tracking::PlaneSimilarity canvasFromPicture;

@@ -50,9 +50,11 @@ ArFrameRenderer::ArFrameRenderer(const gpu::ShaderLibrary& library, Scene scene)
       geometry_(library, scene_),
       bodies_(scene_),
       lights_(scene_.models.size()),
+      lastFoci_(scene_.foci.size()),
       firstSight_(scene_.models.size()) {
   assert(scene_.models.size() <= kMaxObjects && scene_.planes.size() <= kMaxPlanes);
   visible_.reserve(scene_.models.size());
+  foci_.reserve(scene_.foci.size());
   makePrograms(library);
 }
 
@@ -135,6 +137,7 @@ void ArFrameRenderer::reset() {
   lastStamp_.reset();
   firstTime_.reset();
   std::ranges::fill(firstSight_, std::nullopt);
+  std::ranges::fill(lastFoci_, std::nullopt);
 }
 
 const ArFrame& ArFrameRenderer::compose(const gpu::Texture& picture,
@@ -148,6 +151,7 @@ const ArFrame& ArFrameRenderer::compose(const gpu::Texture& picture,
   poseModels(captureTime);
   findVisible();
   findLights(lights);
+  findFoci(poses, camera);
   shading_ = needs.shading;
   if (shadow_) shadow_->cast(visible_, bodies_, lights_);
   drawFrame(picture, camera);
@@ -158,6 +162,7 @@ const ArFrame& ArFrameRenderer::compose(const gpu::Texture& picture,
   frame_.hasObjects = !visible_.empty();
   frame_.hasFocus = std::ranges::any_of(
       visible_, [&](std::size_t each) { return scene_.models[each].focus > 0.0F; });
+  frame_.foci = foci_;
   frame_.sequence = sequence;
   frame_.captureTime = captureTime;
   if (needs.surfaces && surfacePass_) findSurfaces(camera);
@@ -226,6 +231,26 @@ void ArFrameRenderer::clearToCamera() {
   surfacesNow_->withoutColour.clearColour(1, kNoNormal);
   surfacesNow_->withoutColour.clearDepth();
   surfacesNow_->showsCameraOnly = true;
+}
+
+/// A focus whose tag is not seen, or that is behind the camera, stays where it was last.
+void ArFrameRenderer::findFoci(const PoseSet& poses, const tracking::CameraModel& camera) {
+  foci_.clear();
+  for (std::size_t i = 0; i < scene_.foci.size(); ++i) {
+    const SceneFocus& focus = scene_.foci[i];
+    if (const auto attachment = attachmentOf(scene_, focus.tagId, poses)) {
+      const glm::dvec3 centre(attachment->cameraFromAttach *
+                              glm::dvec4(focus.attachFromCentre, 1.0));
+      if (centre.z > kMinNearMetres) {
+        const double pxPerMetre = camera.intrinsics().fx / centre.z;
+        lastFoci_[i] = FocusPlace{.px = camera.project(centre),
+                                  .radiusPx = static_cast<float>(pxPerMetre * focus.radiusMetres),
+                                  .falloffPx = static_cast<float>(pxPerMetre * focus.falloffMetres),
+                                  .strength = static_cast<float>(focus.strength)};
+      }
+    }
+    if (lastFoci_[i]) foci_.push_back(*lastFoci_[i]);
+  }
 }
 
 void ArFrameRenderer::drawBackground(const gpu::Texture& picture) {

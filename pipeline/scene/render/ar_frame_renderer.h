@@ -90,6 +90,7 @@ class ArFrameRenderer {
   void drawFrame(const gpu::Texture& picture, const tracking::CameraModel& camera);
   void findVisible();
   void findLights(std::span<const PlaceLighting> lights);
+  void findFoci(const PoseSet& poses, const tracking::CameraModel& camera);
   void clearToCamera();
   void drawBackground(const gpu::Texture& picture);
   void setCamera(const tracking::CameraModel& camera);
@@ -112,6 +113,8 @@ class ArFrameRenderer {
   std::vector<Lighting> lights_;                    // per model, in the camera's frame
   std::vector<std::uint32_t> objects_;              // ids of all models
   std::optional<tracking::CameraModel> camera_;     // for ArFrame::surfaces
+  std::vector<std::optional<FocusPlace>> lastFoci_;  // of all foci; nothing: never seen
+  std::vector<FocusPlace> foci_;                     // for ArFrame::foci
   Shading shading_ = Shading::kToon;
   std::vector<std::optional<hal::TimePoint>> firstSight_;  // per model
   gpu::PerSize<Surfaces> surfaces_;                        // per composed size

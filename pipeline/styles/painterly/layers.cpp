@@ -85,6 +85,8 @@ marks::StrokeRule ruleOf(const PainterlyParameters& p, const LayerPlan& plan, st
   rule.jitter = {static_cast<float>(p.hueJitter), static_cast<float>(p.saturationJitter),
                  static_cast<float>(p.valueJitter)};
   rule.quads = kQuads;
+  rule.layer = static_cast<int>(layer);
+  rule.layers = static_cast<int>(plan.layers);
   holdOn(rule, p, noiseLevels);
   return rule;
 }

@@ -14,11 +14,13 @@
 #include "pipeline/gpu/program.h"
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/marks/anchor_set.h"
+#include "pipeline/marks/focus_field.h"
 #include "pipeline/marks/layer_textures.h"
 #include "pipeline/marks/motion_field.h"
 #include "pipeline/marks/motion_layers.h"
 #include "pipeline/marks/stroke_set.h"
 #include "pipeline/marks/tensor_field.h"
+#include "pipeline/scene/description/scene.h"
 #include "pipeline/styles/painterly/coherence.h"
 #include "pipeline/styles/painterly/layers.h"
 #include "pipeline/styles/painterly/painterly_shaders.h"
@@ -47,6 +49,24 @@ Texture colours(hal::FrameSize size) {
 
 glm::vec3 groundOf(const PainterlyParameters& p) {
   return {p.groundRed, p.groundGreen, p.groundBlue};
+}
+
+/// The picture's focus and the scene's.
+marks::FocusField focusOf(const scene::ArFrame& frame, const PainterlyParameters& p) {
+  static_assert(scene::kMaxFoci + 1 <= marks::FocusField::kMaxPlaces);
+  const glm::vec2 full(frame.full().width, frame.full().height);
+  const glm::vec2 pixelsOfFull(frame.pixelsOfFull());
+  marks::FocusField field;
+  if (p.focus > 0.0) {
+    field.add(full * glm::vec2(p.focusX, p.focusY), full.y * static_cast<float>(p.focusRadius),
+              full.y * static_cast<float>(p.focusFalloff), static_cast<float>(p.focus));
+  }
+  for (const scene::FocusPlace& each : frame.foci) {
+    if (each.strength <= 0.0F) continue;
+    field.add(each.px / pixelsOfFull, each.radiusPx / pixelsOfFull.y,
+              each.falloffPx / pixelsOfFull.y, each.strength);
+  }
+  return field;
 }
 
 /// The textures that are painted on, of one image size.
@@ -212,12 +232,14 @@ void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParamete
   }
   reduced.update(frame, movers);
   painting->field.update(frame, *frame.colour, painting->motion, fieldOf(p), movers);
+  const marks::FocusField focus = focusOf(frame, p);
   for (std::size_t i = 0; i < painting->layers.size(); ++i) {
     Layer& layer = *painting->layers[i];
     if (p.coherence <= 0.0) layer.anchors.beginAnew();
     layer.anchors.advance(frame, painting->motion, anchorHoldOf(p), movers, &painting->field);
     marks::StrokeRule rule = ruleOf(p, painting->plan, i, painting->motion.noiseLevels());
     rule.mixtures = mixtures ? &*mixtures : nullptr;
+    rule.focus = focus;
     const double width = widthOf(painting->plan, i) * frame.pixelsOfFull().x;
     layer.strokes.update(frame, layer.anchors, painting->field,
                          reduced.paintOf(kTexelOfWidth * width), rule, movers);
@@ -294,8 +316,9 @@ void Painterly::State::showField(const scene::ArFrame& frame, const PainterlyPar
       .set("size", glm::vec2(canvas->size.width, canvas->size.height))
       .set("view", static_cast<int>(view))
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
-      .set("bands", glm::vec2(p.middleDetail, p.detail))
-      .drawFullscreen(canvas->finished);
+      .set("bands", glm::vec2(p.middleDetail, p.detail));
+  focusOf(frame, p).bind(fieldView);
+  fieldView.drawFullscreen(canvas->finished);
 }
 
 /// Over a pale picture.

@@ -36,6 +36,11 @@ struct PainterlyParameters {
   double cutOffDegrees = 45.0;
   double wander = 0.12;
   double looseness = 0.8;  // of fast movers
+  double focus = 0.0;
+  double focusX = 0.5;
+  double focusY = 0.5;
+  double focusRadius = 0.25;
+  double focusFalloff = 0.25;
   double opacity = 0.95;
   double leaveLight = 0.0;
   double widthVariation = 0.25;

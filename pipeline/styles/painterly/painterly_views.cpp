@@ -18,6 +18,8 @@ constexpr std::array kViews{
     View{{"pyramid", "four levels of its pyramid"}, PainterlyViewer::kField},
     View{{"regions", "what is painted finely (red), middlingly (yellow) and broadly (blue)"},
          PainterlyViewer::kField},
+    View{{"focus", "how finely a place may be painted: dark where only broad strokes are"},
+         PainterlyViewer::kField},
     View{{"layers", "strokes in their layer's colour"}, PainterlyViewer::kStrokes},
     View{{"skeletons", "the strokes' skeletons in their layer's colour"},
          PainterlyViewer::kStrokes},

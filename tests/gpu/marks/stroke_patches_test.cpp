@@ -130,7 +130,7 @@ TEST_F(StrokePatches, LabelsLastForLife) {
   int crossed = 0;
   int compared = 0;
   for (const auto& [slot, anchor] : alive()) {
-    if (anchor.ageSeconds < 0.15F || !anchor.isStaying()) continue;  // born with the first frame
+    if (anchor.ageSeconds() < 0.15F || !anchor.isStaying()) continue;  // born with the first frame
     EXPECT_EQ(labelOf(first[slot]), labelOf(then[slot]));
     crossed += labelOf(then[slot]) != (isBelt(anchor.px) ? kBelt : kBody) ? 1 : 0;
     ++compared;

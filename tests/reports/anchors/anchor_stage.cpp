@@ -41,7 +41,7 @@ AnchorStage::AnchorStage(std::shared_ptr<const scene::Model> model, DensityRule 
 }
 
 void AnchorStage::advance(const glm::dmat4& cameraFromModel,
-                          const glm::dmat3& currentFromPrevious) {
+                          const glm::dmat3& currentFromPrevious, const AnchorHold& hold) {
   tracking::ImageMotion motion;
   motion.frameSize = kSize;
   motion.sinceSequence = sequence_;
@@ -54,7 +54,7 @@ void AnchorStage::advance(const glm::dmat4& cameraFromModel,
                               {.surfaces = true, .measuredMotion = true});
   frame_.measuredMotion = scene::MeasuredMotion{.motion = &motion};
   field_->update(frame_);
-  anchors_->advance(frame_, *field_);
+  anchors_->advance(frame_, *field_, hold);
   frame_.measuredMotion.reset();  // it does not outlive this call
 }
 

@@ -30,7 +30,7 @@ class AnchorStage {
 
   /// The next frame: the model is placed so, the picture moved so.
   void advance(const glm::dmat4& cameraFromModel,
-               const glm::dmat3& currentFromPrevious = glm::dmat3(1.0));
+               const glm::dmat3& currentFromPrevious = glm::dmat3(1.0), const AnchorHold& hold = {});
 
   std::vector<Anchor> anchors() const { return anchors_->read(); }
   /// The places of the staying anchors on the model; without a model, of all.

@@ -56,6 +56,41 @@ TEST(ScenePlanes, MistakesAreNamed) {
   EXPECT_EQ(errorOf(many), "scene.toml:5: plane: found 9 planes, allowed: at most 8");
 }
 
+TEST(SceneFoci, AreRead) {
+  const Scene scene = parseScene(kTag +
+                                     "[[focus]]\nattach = \"tag:0\"\nposition_m = [0, 0.1, 0.2]\n"
+                                     "radius_m = 0.25\n"
+                                     "[[focus]]\nattach = \"world\"\nradius_m = 1\n"
+                                     "falloff_m = 0.5\nstrength = 0.6\n",
+                                 "scene.toml", {});
+  ASSERT_EQ(scene.foci.size(), 2U);
+  EXPECT_EQ(scene.foci[0].tagId, 0);
+  EXPECT_EQ(scene.foci[0].attachFromCentre, glm::dvec3(0.0, 0.1, 0.2));
+  EXPECT_EQ(scene.foci[0].radiusMetres, 0.25);
+  EXPECT_EQ(scene.foci[0].falloffMetres, 0.25) << "as much as the radius";
+  EXPECT_EQ(scene.foci[0].strength, 1.0);
+  EXPECT_EQ(scene.foci[1].tagId, std::nullopt);
+  EXPECT_EQ(scene.foci[1].attachFromCentre, glm::dvec3(0.0));
+  EXPECT_EQ(scene.foci[1].falloffMetres, 0.5);
+  EXPECT_EQ(scene.foci[1].strength, 0.6);
+}
+
+TEST(SceneFoci, MistakesAreNamed) {
+  const std::string focus = kTag + "[[focus]]\nattach = \"tag:0\"\n";
+  EXPECT_EQ(errorOf(focus),
+            "scene.toml:5: focus[0].radius_m: missing, allowed: a number of metres in (0, 1000]");
+  EXPECT_EQ(errorOf(focus + "radius_m = 0\n"),
+            "scene.toml:7: focus[0].radius_m: found 0, allowed: a number of metres in (0, 1000]");
+  EXPECT_EQ(errorOf(focus + "radius_m = 1\nstrength = 2\n"),
+            "scene.toml:8: focus[0].strength: found 2, allowed: a number in [0, 1]");
+  EXPECT_EQ(errorOf(kTag + "[[focus]]\nattach = \"tag:1\"\nradius_m = 1\n"),
+            "scene.toml:6: focus[0].attach: found \"tag:1\", allowed: \"world\", \"tag:0\"");
+  EXPECT_NE(errorOf(focus + "radius_m = 1\nradius_mm = 1\n"), "(nothing thrown)");
+  std::string many = kTag;
+  for (int i = 0; i < 4; ++i) many += "[[focus]]\nattach = \"world\"\nradius_m = 1\n";
+  EXPECT_EQ(errorOf(many), "scene.toml:5: focus: found 4 foci, allowed: at most 3");
+}
+
 TEST(SceneOccluders, AreRead) {
   const Scene scene =
       parseScene(kTag +

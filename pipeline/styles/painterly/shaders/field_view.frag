@@ -1,10 +1,11 @@
 // Purpose: debug views of the tensor field: short lines along the direction of strokes (thesis
 //          figures 15, 16), blue on edges and red where interpolated; the pyramid's levels; or the
-//          regions, by their detail.
+//          regions, by their detail; or the focus, darker where strokes are broad.
 // Inputs:  picture; field0 to field3: four levels (marks::TensorField::resolved); size and
-//          pixelsOfFull: of the frame; view: VIEW_TENSORS, VIEW_PYRAMID or VIEW_REGIONS; bands:
-//          the detail at which middling and fine strokes begin.
+//          pixelsOfFull: of the frame; view: VIEW_TENSORS, VIEW_PYRAMID, VIEW_REGIONS or VIEW_FOCUS;
+//          bands: the detail at which middling and fine strokes begin; focus.glsl's.
 // Outputs: RGBA8, sRGB-coded, opaque. Precision: highp for places.
+#include "pipeline/marks/shaders/focus.glsl"
 uniform sampler2D picture;
 uniform highp sampler2D field0;
 uniform highp sampler2D field1;
@@ -53,6 +54,10 @@ void main() {
     vec3 region = detail > bands.y ? vec3(0.9, 0.3, 0.2)
                   : detail > bands.x ? vec3(0.95, 0.8, 0.3) : vec3(0.3, 0.45, 0.8);
     colour = vec4(mix(region, seen, 0.35), 1.0);
+    return;
+  }
+  if (view == VIEW_FOCUS) {
+    colour = vec4(seen * mix(0.25, 1.0, finenessAt(px)), 1.0);
     return;
   }
   colour = vec4(linesOver(0.5 + 0.5 * seen, px, 0), 1.0);

@@ -27,5 +27,5 @@ void main() {
   ivec2 texel = texelOf(uint(slot));
   imageStore(places, texel, vec4(at, anchor.px * pixelsOfFull));
   imageStore(ways, texel,
-             vec4(float(anchor.state & kSourceBits), min(anchor.age, 1000.0), anchor.fade, moving));
+             vec4(float(anchor.state & kSourceBits), ageOf(anchor.ageAndRank), anchor.fade, moving));
 }

@@ -1,0 +1,39 @@
+// Purpose: chooses, in each cell and by rank, the anchors that are the next to be removed and the
+//          dormant one that is the next to wake.
+// Inputs:  anchors, slots of them; cells with the counts of anchor_count.comp; anchor_patch.glsl's.
+// Outputs: cells: keys, and the number of dormant anchors. One invocation per anchor.
+// Precision: integers, so that order does not matter; highp for places.
+#include "pipeline/marks/shaders/anchor.glsl"
+#include "pipeline/marks/shaders/anchor_cells.glsl"
+#include "pipeline/scene/render/shaders/object_id.glsl"
+layout(local_size_x = 64) in;
+layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
+layout(std430, binding = 1) buffer Cells { Cell cells[]; };
+uniform uint slots;
+#include "pipeline/marks/shaders/anchor_patch.glsl"
+
+void main() {
+  uint slot = gl_GlobalInvocationID.x;
+  if (slot >= slots) return;
+  uint state = anchors[slot].state;
+  bool sleeps = isDormant(state) && (state & kHidden) == 0u;
+  if (!sleeps && !isCovered(state) && !isStaying(state)) return;
+  vec2 px = anchors[slot].px;
+  ivec2 at = cellAt(px);
+  if (!isInGrid(at)) return;
+  int index = indexOf(at);
+  uint rank = rankOf(anchors[slot].ageAndRank);
+  uint object = objectOf(anchors[slot].surface);
+  if (sleeps) {
+    bool isFirst = (patchBitAt(px, object) & ~cells[index].patches) != 0u;
+    atomicAdd(cells[index].dormant, 1u + (isFirst ? 1u << 16u : 0u));
+    atomicMax(cells[index].nextToWake, wakingKey(slot, rank, isFirst));
+  } else if ((state & kMover) != 0u) {
+    atomicMax(cells[index].nextOnMovers, removalKey(slot, rank, false));
+  } else if (isVirtual(object)) {
+    bool isOnly = (patchBitAt(px, object) & ~cells[index].crowdedPatches) != 0u;
+    atomicMax(cells[index].nextOnObjects, removalKey(slot, rank, isOnly));
+  } else {
+    atomicMax(cells[index].nextInImage, removalKey(slot, rank, false));
+  }
+}
