@@ -1,7 +1,7 @@
 // Purpose: the tensors of the virtual objects in each region, apart from the background's
 //          (tensor_regions.comp): of the patch that most of the region's virtual pixels are of,
 //          from the edges of its picture and from its form: the direction in which it bends least,
-//          and towards a silhouette that of the silhouette. Carried along the motion of its
+//          or that its author declares, and towards a silhouette that of the silhouette. Carried along the motion of its
 //          surface; another patch has no part in its past.
 // Inputs:  tensors (gradient.frag), threshold (edge_threshold.comp), pixelsOfFull; regionPixels: a
 //          region's side in px of the full image; forms, normals, surfaceMotion (ArFrame); form: the
@@ -48,14 +48,18 @@ uint labelOfMost(ivec2 low, ivec2 high) {
   return most;
 }
 
+const float kDeclaredLead = 4.0;  // times a curvature's: shading does not turn strokes from it
+
 // The tensor of strokes that the form asks for; its length says how clearly.
 vec2 formAt(ivec2 p) {
-  vec2 bent = tensorOf(texelFetch(forms, p, 0).r);
+  uint own = texelFetch(forms, p, 0).r;
+  vec2 bent = tensorOf(own);
   vec2 tilt = 2.0 * texelFetch(normals, p, 0).xy - 1.0;
   float steep = dot(tilt, tilt);
   vec2 silhouette =
       vec2(tilt.x * tilt.x - tilt.y * tilt.y, 2.0 * tilt.x * tilt.y) / max(steep, 1e-4);
-  return mix(bent, silhouette, smoothstep(0.7, 0.95, steep));
+  float lead = isDeclared(own) ? kDeclaredLead : 1.0;
+  return lead * mix(bent, silhouette, smoothstep(0.7, 0.95, steep));
 }
 
 // The motion of the patch's pixels, and their moments for its rotation.

@@ -18,6 +18,7 @@
 #include <glm/matrix.hpp>
 #include <glm/packing.hpp>
 
+#include "pipeline/scene/models/declared_directions.h"
 #include "pipeline/scene/models/surface_form.h"
 
 namespace pleinair::scene {
@@ -93,7 +94,7 @@ std::vector<std::array<std::uint32_t, 3>> withOwnLastVertices(const Mesh& mesh, 
 }
 
 /// `along` in the coordinates of a triangle's corners.
-DrawnForm drawnForm(std::uint32_t patch, const glm::vec3& along,
+DrawnForm drawnForm(std::uint32_t patch, const glm::vec3& along, bool isDeclared,
                     const std::array<glm::vec3, 3>& corners) {
   const glm::vec3 a = corners[0] - corners[2];
   const glm::vec3 b = corners[1] - corners[2];
@@ -107,7 +108,8 @@ DrawnForm drawnForm(std::uint32_t patch, const glm::vec3& along,
   float angle = std::atan2(at.y, at.x);
   if (angle < 0.0F) angle += kPi;
   form |= (static_cast<std::uint32_t>(std::lround(angle / kPi * 4096.0F)) & 0xFFFU) << 12U;
-  form |= static_cast<std::uint32_t>(std::lround(255.0F * clarity)) << 24U;
+  form |= static_cast<std::uint32_t>(std::lround(127.0F * clarity)) << 24U;
+  if (isDeclared) form |= 1U << 31U;
   return form;
 }
 
@@ -128,6 +130,9 @@ class Layout {
     const Surface& surface = model_.surfaces[surfaceIndex];
     const auto triangles = withOwnLastVertices(surface.mesh, isMirrored(part));
     const std::vector<TriangleForm>& forms = formsOfSurface(surfaceIndex, part);
+    const bool isDeclared = declaresDirections(model_, surface.mesh);
+    std::vector<glm::vec3> declared;
+    if (isDeclared) declared = declaredDirections(model_, part, surfaceIndex - part.firstSurface);
     const auto firstTriangle = static_cast<std::uint32_t>(drawn_.triangles.size());
     const std::uint32_t firstExtra = nextExtra_;
     source_.clear();
@@ -145,7 +150,9 @@ class Layout {
       for (std::size_t k = 0; k < 3; ++k) {
         corners[k] = surface.mesh.vertices[triangles[i][k]].position;
       }
-      drawn_.forms.push_back(drawnForm(firstPatch_ + forms[i].patch, forms[i].along, corners));
+      drawn_.forms.push_back(drawnForm(firstPatch_ + forms[i].patch,
+                                       isDeclared ? declared[i] : forms[i].along, isDeclared,
+                                       corners));
       materials_.push_back(surface.material);
     }
     for (const TriangleForm& form : forms) patches_ = std::max(patches_, firstPatch_ + form.patch);

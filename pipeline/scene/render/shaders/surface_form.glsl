@@ -1,7 +1,8 @@
 // Purpose: packs and unpacks the form of surfaces: of triangles (scene::DrawnForm), and of pixels
 //          (ArFrame::forms): from the lowest bit, 12 bits of a label, which differs where a painter
 //          sees a border (objects, parts, materials, creases, limbs); 12 bits of the angle of a
-//          line in the image, k · π / 4096; 8 bits of how clear that direction is.
+//          line in the image, k · π / 4096; 7 bits of how clear that direction is; one bit:
+//          whether the model's author declares it.
 // Inputs, outputs: packed, or in parts.
 // Precision: integers; highp.
 const uint kLabels = 4096u;
@@ -14,7 +15,8 @@ vec2 cornersAlong(uint drawn) {
   float angle = float(drawn >> 12u & 4095u) * kLineStep;
   return vec2(cos(angle), sin(angle));
 }
-float clarityOf(uint form) { return float(form >> 24u) / 255.0; }
+float clarityOf(uint form) { return float(form >> 24u & 127u) / 127.0; }
+bool isDeclared(uint form) { return form >> 31u != 0u; }
 
 // Up to 4,094 patches of one object have different labels; the ranges of objects whose numbers
 // differ by less than 12 begin 222 apart at least. 0 is the camera image's, also where an occluder
@@ -24,10 +26,10 @@ uint labelOfPatch(uint object, uint number) {
 }
 uint labelOf(uint form) { return form & 4095u; }
 
-uint formOf(uint label, vec2 along, float clarity) {
+uint formOf(uint label, vec2 along, float clarity, bool declared) {
   float angle = atan(along.y, along.x);
   uint line = uint(int(round(angle / kLineStep)) + 8192) & 4095u;
-  return label | line << 12u | uint(clarity * 255.0 + 0.5) << 24u;
+  return label | line << 12u | uint(clarity * 127.0 + 0.5) << 24u | (declared ? 1u << 31u : 0u);
 }
 // The tensor of a gradient across the line, as strokes run across gradients; its length is the
 // clarity.
