@@ -218,7 +218,7 @@ TEST_P(SurfaceBuffers, FormsAreThoseOfThePosedSurface) {
     EXPECT_NE(label, 0U);
     EXPECT_EQ(patches.try_emplace(label, patch).first->second, patch);
 
-    const double clarity = static_cast<double>(frames.forms[i] >> 24U & 127U) / 127.0;
+    const double clarity = static_cast<double>(frames.forms[i] >> 24U & 31U) / 31.0;
     if (clarity < 0.1) continue;
     const auto& corners = mesh.triangles[point->triangle];
     const glm::dvec3 last(mesh.vertices[corners[2]].position);

@@ -164,6 +164,11 @@ TEST(SurfaceForm, PatchesEndAtLimbs) {
     const float z = middleOf(mesh, i).z;
     if (z < 0.14F) below.insert(forms[i].patch);
     if (z > 0.26F) above.insert(forms[i].patch);
+    // The joint is where they meet, on the tube's sides; a crease is none.
+    if (z < 0.14F || z > 0.26F) EXPECT_FALSE(forms[i].isAtJoint);
+    if (z > 0.19F && z < 0.21F) EXPECT_TRUE(forms[i].isAtJoint);
+    if (z < 0.14F) EXPECT_FALSE(forms[i].isOnLimb);
+    if (z > 0.26F) EXPECT_TRUE(forms[i].isOnLimb);
   }
   EXPECT_FALSE(below.empty());
   EXPECT_FALSE(above.empty());
