@@ -149,7 +149,7 @@ void TensorField::State::sumRegions(const scene::ArFrame& frame, const MotionFie
   std::swap(moverRegions, moversBefore);
   // Where the motion of the image is not followed, neither is that of real surfaces.
   const bool hasSurfaces = frame.motion && motion.follows();
-  motion.bind(regions.use());
+  motion.bindBackward(regions.use());
   regions.texture("tensors", gradientOf(frame.size()).texture)
       .texture("before", before)
       .texture("moversBefore", moversBefore)

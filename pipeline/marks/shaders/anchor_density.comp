@@ -3,7 +3,7 @@
 // Inputs:  anchor_cells.glsl's; the rule (marks::DensityRule): target, birthBelow, deathAbove; ids
 //          and forms (ArFrame) and their pixelsOfFull if hasObjects; fullSize; mover_labels.glsl's.
 //          Anchors of the background and of movers are counted apart; each patch of a model that
-//          shows enough of itself gets one at least.
+//          shows enough of itself gets one at least, not counting joints, which strokes cross.
 // Outputs: births of each cell; anchors: those to remove. One invocation per cell.
 // Precision: integers; highp for places.
 #include "pipeline/marks/shaders/anchor.glsl"
@@ -49,7 +49,9 @@ Objects objectsIn(ivec2 cell, uint painted) {
       ++seen;
       if (!isVirtual(objectOf(texelFetch(ids, ivec2(x, y), 0).r))) continue;
       ++shown;
-      uint label = labelOf(texelFetch(forms, ivec2(x, y), 0).r);
+      uint form = texelFetch(forms, ivec2(x, y), 0).r;
+      if ((form & kAtJoint) != 0u) continue;
+      uint label = labelOf(form);
       int i = 0;
       while (i < known && labels[i] != label) ++i;
       if (i == kMaxPatches) {

@@ -7,8 +7,8 @@
 // Inputs:  tensors (gradient.frag), threshold (edge_threshold.comp), pixelsOfFull; regionPixels: a
 //          region's side in px of the full image; before, moversBefore: the previous frame's
 //          regions, motion (MotionField's), if hasPast; past: the share of them that remains;
-//          slack: by which part detail may differ from the held value; image_motion.glsl's, of
-//          which only the homography is used; mover_labels.glsl's; ids (ArFrame) if hasObjects;
+//          slack: by which part detail may differ from the held value; image_motion.glsl's, flow
+//          backward; mover_labels.glsl's; ids (ArFrame) if hasObjects;
 //          surfaceMotion (ArFrame::motion) if hasSurfaces.
 // Outputs: regions, moverRegions RGBA16F: as in tensor_region.glsl. One invocation per region.
 // Precision: highp.
@@ -39,7 +39,7 @@ uniform float slack;
 const float kLeastSeen = 0.35;  // of a region: less of the background says nothing about it
 
 const float kLeastSurface = 0.5;  // of a region: planes and real things that fill less say nothing
-const float kSlackPx = 0.05;  // between the errors of two estimates that may be one
+const float kKnownPx = 4.0;  // of error: a motion that is less certain carries no past
 
 const float kReach = 6.0;  // px: half a region, and the width of an edge
 
@@ -107,6 +107,21 @@ Source sourceOf(Surface surface, vec2 at) {
   return source;
 }
 
+// Whether a surface's motion is to be trusted more than the measured one at `at` (decision 0027):
+// each is held against the other, and the surface against flow and what stands still.
+// `displacement`: backward; `moved`: of the motion field.
+bool isSurer(vec2 displacement, float error, vec4 moved, vec2 at, bool isNearMover) {
+  float apart = max(0.0, distance(displacement, -moved.xy) - 2.5 * error);
+  Moved surface = Moved(displacement, kNoTurn, error, kSourceSurface);
+  if (!isNearMover) {
+    Moved flowed = byFlow(at);
+    float ofFlow = contradicted(surface, flowed.displacement, flowed.error);
+    float ofRest = contradicted(surface, vec2(0.0), stillError(at));
+    surface.error = length(vec3(error, ofFlow, ofRest));
+  }
+  return surface.error < kKnownPx && (isNearMover || surface.error <= length(vec2(moved.z, apart)));
+}
+
 void main() {
   ivec2 region = ivec2(gl_GlobalInvocationID.xy);
   ivec2 size = imageSize(regions);
@@ -158,7 +173,7 @@ void main() {
     vec2 dy = textureLod(motion, at / fullSize + vec2(0.0, texel.y), 0.0).xy -
               textureLod(motion, at / fullSize - vec2(0.0, texel.y), 0.0).xy;
     float turn = 0.5 * (dx.y - dy.x) / 32.0;
-    bool isKnown = isInPicture(from) && moved.z < 4.0;
+    bool isKnown = isInPicture(from) && moved.z < kKnownPx;
     vec2 scale = 1.0 / (vec2(size) * regionPixels);
     // Near a mover, the measured motion is not the background's.
     bool isNear = near > 0.0 && known.z != 0.0;
@@ -167,12 +182,10 @@ void main() {
     Source source = Source(behind, mat2(cos(angle), sin(angle), -sin(angle), cos(angle)),
                        isNear ? isInPicture(behind) : isKnown);
     if (surface.pixels > kLeastSurface * extent.x * extent.y) {
-      float error = surface.error / surface.pixels;
-      float apart = distance(surface.displacement / surface.pixels, moved.xy);
-      float contradicted = isNear ? 0.0 : max(0.0, apart - 2.5 * moved.z);
-      if (length(vec2(error, contradicted)) < moved.z + kSlackPx || isNear) {
-        source = sourceOf(surface, at);
-        source.isKnown = isInPicture(source.from) && error < 4.0;
+      Source onSurface = sourceOf(surface, at);
+      if (isSurer(onSurface.from - at, surface.error / surface.pixels, moved, at, isNear)) {
+        source = onSurface;
+        source.isKnown = isInPicture(source.from);
       }
     }
     if (source.isKnown) {

@@ -105,7 +105,7 @@ class DeclaredStrokes : public TensorFieldFixture {
     field_->update(frame, *frame.colour, *motionField_, kNoMemory);
     const std::vector<FieldTexel> found = read(field_->resolvedModels(0));
     const std::vector<std::uint32_t> ids = support::readR32ui(*frame.ids);
-    const hal::Image normals = support::readRgba8(*frame.normalFocus);
+    hal::Image normals = support::readRgba8(*frame.normalFocus);
     oracles::PosedModel posed{.model = placed.model.get(), .cameraFromModel = place()};
     scene::poseModel(*placed.model, momentOf(placed.model->rig, placed.playback, elapsed), elapsed,
                      posed.pose);
@@ -180,7 +180,7 @@ TEST_F(DeclaredStrokes, TheFieldFollowsAPosedModel) {
   const std::vector<double> on = errorsOf(scene::bendingArm(), declared, axis, bent);
   ASSERT_GT(on.size(), 5U);
   EXPECT_LT(on[on.size() / 2], kMostOff);
-  EXPECT_LT(on.back(), 10.0) << "within a region, triangles differ";
+  EXPECT_LT(on[on.size() * 9 / 10], 9.0) << "within a region, triangles differ";
   const std::vector<double> off = errorsOf(scene::bendingArm(), {}, axis, bent);
   EXPECT_GT(off[off.size() / 2], 15.0) << "the control";
 }

@@ -83,7 +83,9 @@ class TensorPlanes : public TensorFieldFixture {
     scene::ArFrame frame =
         renderer_->compose(picture_, camera(), {.cameraFromWorld = cameraFromPlate}, ++sequence_,
                            time_, {.surfaces = true});
-    motion_ = {.frameSize = kSize, .sinceSequence = sequence_ - 1};
+    motion_ = standing();
+    motion_.frameSize = kSize;
+    motion_.sinceSequence = sequence_ - 1;
     frame.measuredMotion = scene::MeasuredMotion{.motion = &motion_};
     motionField_->update(frame);
     field_->update(frame, picture_, *motionField_, {});

@@ -37,7 +37,7 @@ bool isOneJoint(uint a, uint b) {
   return (a & b & kAtJoint) != 0u && ((a ^ b) & kOnLimb) != 0u;
 }
 
-const float kOverJoint = 8.0;  // px of the full image, so far do strokes go on beyond a joint
+const float kOverJoint = 16.0;  // px of the full image, so far do strokes go on beyond a joint
 
 // `marks`: any of kMarks.
 uint formOf(uint label, vec2 along, float clarity, uint marks) {

@@ -44,12 +44,13 @@ uint acrossJoint(ivec2 p, ivec2 last, out float near) {
   float here = depthAt(p, last);
   vec2 slope = vec2(slopeOf(depthAt(p - ivec2(1, 0), last), here, depthAt(p + ivec2(1, 0), last)),
                     slopeOf(depthAt(p - ivec2(0, 1), last), here, depthAt(p + ivec2(0, 1), last)));
+  const int kStride = 2;  // px: a quarter of the reads
   float reach = kOverJoint * pixelsOfFull.x;
-  int most = int(reach);
+  int most = int(0.5 * reach) * kStride;
   uint found = 0u;
   float nearest = reach;
-  for (int y = -most; y <= most; ++y) {
-    for (int x = -most; x <= most; ++x) {
+  for (int y = -most; y <= most; y += kStride) {
+    for (int x = -most; x <= most; x += kStride) {
       float away = length(vec2(x, y));
       ivec2 at = p + ivec2(x, y);
       if (away >= nearest || any(lessThan(at, ivec2(0))) || any(greaterThan(at, last))) continue;
