@@ -51,8 +51,7 @@ class StrokesOfAClip : public StrokeTest {
     return {{.fx = 260.0, .fy = 260.0, .cx = 128.0, .cy = 64.0}, {}, kSize};
   }
 
-  /// One round of a clip in so many frames, in light from everywhere, so that colours are the
-  /// material's. Without `follows` the painter knows nothing of the model.
+  /// One round of a clip in so many frames, in light from everywhere. Without `follows` the painter knows nothing of the model.
   Verdict play(const std::shared_ptr<const scene::Model>& model, std::size_t clip,
                const glm::dmat4& cameraFromModel, int frames, bool follows) {
     scene::Scene scene;
@@ -119,7 +118,7 @@ class StrokesOfAClip : public StrokeTest {
         life.longest = std::max(life.longest, length);
         life.shortest = std::min(life.shortest, length);
         life.colourChange =
-            std::max(life.colourChange, glm::distance(stroke.colour, life.first.colour));
+            std::max(life.colourChange, glm::distance(hueOf(stroke.colour), hueOf(life.first.colour)));
         still.emplace(slot, life);
       }
       lives = std::move(still);
@@ -136,6 +135,11 @@ class StrokesOfAClip : public StrokeTest {
     int wrongColour = 0;
     int wrongLength = 0;
     for (const auto& [slot, life] : lives) {
+      if (life.last.seen < 0.25F) {
+        --verdict.lives;
+        ++verdict.ended;
+        continue;
+      }
       byTriangle[life.surface].push_back(&life);
       wrongColour += life.colourChange > kSameColour ? 1 : 0;
       wrongLength += life.longest - life.shortest > kSameLength ? 1 : 0;
@@ -146,8 +150,8 @@ class StrokesOfAClip : public StrokeTest {
         const Life& a = *alike[i - 1];
         const Life& b = *alike[i];
         ++verdict.pairs;
-        const float before = glm::distance(a.first.colour, b.first.colour);
-        const float after = glm::distance(a.last.colour, b.last.colour);
+        const float before = glm::distance(hueOf(a.first.colour), hueOf(b.first.colour));
+        const float after = glm::distance(hueOf(a.last.colour), hueOf(b.last.colour));
         apart += std::abs(after - before) > kSameColour ? 1 : 0;
       }
     }
@@ -157,7 +161,11 @@ class StrokesOfAClip : public StrokeTest {
     return verdict;
   }
 
-  static constexpr float kSameColour = 0.06F;  // of colours in [0, 1]
+  /// Without its brightness, which the light changes as the surface turns.
+  static glm::vec3 hueOf(const glm::vec3& colour) {
+    return colour / std::max(colour.r + colour.g + colour.b, 0.1F);
+  }
+  static constexpr float kSameColour = 0.05F;  // of hueOf()
   static constexpr float kSameLength = 2.0F;   // segments of the eight
 
   void expectKept(const std::shared_ptr<const scene::Model>& model, std::size_t clip,
@@ -167,13 +175,14 @@ class StrokesOfAClip : public StrokeTest {
     RecordProperty("pairs", kept.pairs);
     EXPECT_GT(kept.lives, 60);
     EXPECT_GT(kept.pairs, 10);
-    EXPECT_LT(kept.wrongColour, 0.1);
+    RecordProperty("wrong_colour", std::to_string(kept.wrongColour));
+    RecordProperty("wrong_length", std::to_string(kept.wrongLength));
+    EXPECT_LT(kept.wrongColour, 0.05);
     EXPECT_LT(kept.wrongLength, 0.15);
     EXPECT_LT(kept.apart, 0.1);
     const Verdict bound = play(model, clip, cameraFromModel, frames, false);
-    EXPECT_TRUE(bound.wrongColour > 0.3 || bound.lives < kept.lives / 2)
-        << "the control, strokes bound to the screen: " << bound.wrongColour << " of "
-        << bound.lives << ", of the model: " << kept.lives;
+    EXPECT_GT(bound.wrongColour, std::max(0.12, 3.0 * kept.wrongColour))
+        << "the control: strokes bound to the screen";
   }
 };
 
@@ -181,9 +190,9 @@ class StrokesOfAClip : public StrokeTest {
 TEST_F(StrokesOfAClip, AreThoseOfTheirTriangle) {
   scene::Model arm = scene::bendingArm();
   for (scene::MeshVertex& vertex : arm.surfaces[0].mesh.vertices) {
-    const bool isFront = vertex.normal.z < 0.3F;
-    vertex.colour = isFront == (vertex.position.x < 0.02F) ? glm::vec4(0.5F, 0.15F, 0.1F, 1.0F)
-                                                           : glm::vec4(0.1F, 0.25F, 0.5F, 1.0F);
+    const bool isRed = std::fmod(std::round((vertex.position.x + 0.12F) / 0.06F), 2.0F) < 0.5F;
+    vertex.colour =
+        isRed ? glm::vec4(0.5F, 0.15F, 0.1F, 1.0F) : glm::vec4(0.1F, 0.25F, 0.5F, 1.0F);
   }
   const glm::dmat4 before = glm::translate(glm::dmat4(1.0), {0.05, -0.05, 0.36});
   expectKept(std::make_shared<const scene::Model>(std::move(arm)), 0, before, 30);
