@@ -220,7 +220,7 @@ TEST_F(StrokePatches, StrokesGoOnOverAJointAndNotOverAStep) {
   EXPECT_EQ(acrossEdge(kAtJoint, 0.0F), 0) << "the control: a crease beside a joint";
 }
 
-/// What strokes of another patch reach needs no anchor of its own.
+/// What strokes of another patch reach needs hardly any anchors of its own.
 TEST_F(StrokePatches, AJointNeedsNoAnchorsOfItsOwn) {
   constexpr std::uint32_t kAtJoint = 1U << 30U;
   const hal::Image picture = greyPicture(kSize, upright);
