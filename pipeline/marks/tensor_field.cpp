@@ -147,7 +147,9 @@ void TensorField::State::sumRegions(const scene::ArFrame& frame, const MotionFie
   TensorPyramidMaker::Level& finest = background.front();
   std::swap(finest.regions, before);
   std::swap(moverRegions, moversBefore);
-  motion.bind(regions.use());
+  // Where the motion of the image is not followed, neither is that of real surfaces.
+  const bool hasSurfaces = frame.motion && motion.follows();
+  motion.bindBackward(regions.use());
   regions.texture("tensors", gradientOf(frame.size()).texture)
       .texture("before", before)
       .texture("moversBefore", moversBefore)
@@ -155,6 +157,8 @@ void TensorField::State::sumRegions(const scene::ArFrame& frame, const MotionFie
       .texture("motion", motion.backward())
       .texture("ids", frame.hasObjects ? *frame.ids : noIds)
       .set("hasObjects", frame.hasObjects ? 1 : 0)
+      .texture("surfaceMotion", hasSurfaces ? *frame.motion->texture : before)
+      .set("hasSurfaces", hasSurfaces ? 1 : 0)
       .storage("Edges", edges)
       .image("regions", finest.regions, gpu::ImageAccess::kWrite)
       .image("moverRegions", moverRegions, gpu::ImageAccess::kWrite)
@@ -190,7 +194,7 @@ void TensorField::State::sumModels(const scene::ArFrame& frame, double form, con
       .image("labels", models->labels, gpu::ImageAccess::kWrite)
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .set("regionPixels", static_cast<float>(kRegionPixels))
-      .set("form", static_cast<float>(form))
+      .set("formWeight", static_cast<float>(form))
       .set("hasPast", goesOn ? 1 : 0)
       .set("past", past.share)
       .set("slack", past.slack)

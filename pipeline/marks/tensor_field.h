@@ -41,7 +41,8 @@ class TensorField {
 
   /// Adds a frame's image (RGBA8, of frame.size()) and carries the past along `motion`, which has
   /// been updated for the frame, like `layers`, and past tensors of virtual objects along
-  /// ArFrame::motion. Behind movers and virtual objects, the background's tensors stay as they
+  /// ArFrame::motion, like those of planes and real things whose poses are known more surely than
+  /// the image's motion. Behind movers and virtual objects, the background's tensors stay as they
   /// were. Precondition: frame.full() is the constructor's size.
   void update(const scene::ArFrame& frame, const gpu::Texture& picture, const MotionField& motion,
               const TensorFieldOptions& options, const MotionLayers* layers = nullptr);
@@ -60,7 +61,7 @@ class TensorField {
   /// Like resolved(): the tensors of virtual objects. Valid if the last frame had any.
   const gpu::Texture& resolvedModels(std::size_t level) const;
   /// R32UI: the label of the patch of a model (shaders/surface_form.glsl) that most of each region's
-  /// virtual pixels are of, 0 for none; null until a frame had models. Valid until the next
+  /// virtual pixels are of, with its marks of limbs and joints, 0 for none; null until a frame had models. Valid until the next
   /// update(), like the following.
   const gpu::Texture* patches() const;
   /// The same of the previous frame; null if that had no models or ArFrame::motion is not set, so

@@ -3,7 +3,7 @@
 // Inputs:  anchor_cells.glsl's; the rule (marks::DensityRule): target, birthBelow, deathAbove; ids
 //          and forms (ArFrame) and their pixelsOfFull if hasObjects; fullSize; mover_labels.glsl's.
 //          Anchors of the background and of movers are counted apart; each patch of a model that
-//          shows enough of itself gets one at least.
+//          shows enough of itself gets one at least; joints count less.
 // Outputs: births of each cell; anchors: those to remove, and dormant ones that wake; nextToWake: 0
 //          where none does. One invocation per cell.
 // Precision: integers; highp for places.
@@ -28,6 +28,8 @@ const float kMinShare = 0.12;  // of a cell: a smaller part gets no anchor of it
 
 const int kMaxPatches = 6;  // that are told apart in a cell
 
+const int kBesideJoints = 3;  // so much more a pixel counts there: strokes cross joints
+
 // What models show in a cell.
 struct Objects {
   float share;     // of the cell
@@ -49,7 +51,9 @@ Objects objectsIn(ivec2 cell, uint painted) {
       ++seen;
       if (!isVirtual(objectOf(texelFetch(ids, ivec2(x, y), 0).r))) continue;
       ++shown;
-      uint label = labelOf(texelFetch(forms, ivec2(x, y), 0).r);
+      uint form = texelFetch(forms, ivec2(x, y), 0).r;
+      int weight = (form & kAtJoint) != 0u ? 1 : kBesideJoints;
+      uint label = labelOf(form);
       int i = 0;
       while (i < known && labels[i] != label) ++i;
       if (i == kMaxPatches) {
@@ -64,12 +68,12 @@ Objects objectsIn(ivec2 cell, uint painted) {
         counts[i] = 0;
         ++known;
       }
-      ++counts[i];
+      counts[i] += weight;
     }
   }
   Objects found = Objects(seen == 0 ? 0.0 : float(shown) / float(seen), 0u, 0u);
   for (int i = 0; i < known; ++i) {
-    if (float(counts[i]) < kMinShare * float(seen)) continue;
+    if (float(counts[i]) < float(kBesideJoints) * kMinShare * float(seen)) continue;
     ++found.patches;
     if ((painted & patchBit(labels[i])) == 0u) ++found.unpainted;
   }

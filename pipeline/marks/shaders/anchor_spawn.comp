@@ -83,13 +83,13 @@ bool hasBeenUncovered(vec2 px) {
   // A narrow patch is in no region's majority: nothing is known of where it was.
   ivec2 last = textureSize(patchesBefore, 0) - 1;
   ivec2 region = min(ivec2(px / patchPixels), last);
-  if (texelFetch(patches, region, 0).r != label) return false;
+  if (labelOf(texelFetch(patches, region, 0).r) != label) return false;
   vec4 moved = texelFetch(surfaceMotion, pixel, 0);
   if (moved.w == 0.0) return false;
   ivec2 was = ivec2(floor((px - moved.xy / pixelsOfFull) / patchPixels));
   for (int i = 0; i < 9; ++i) {
     ivec2 at = clamp(was + ivec2(i % 3, i / 3) - 1, ivec2(0), last);
-    if (texelFetch(patchesBefore, at, 0).r == label) return false;
+    if (labelOf(texelFetch(patchesBefore, at, 0).r) == label) return false;
   }
   return true;
 }

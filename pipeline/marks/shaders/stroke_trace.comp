@@ -20,6 +20,7 @@
 #include "pipeline/marks/shaders/focus.glsl"
 #include "pipeline/marks/shaders/stroke.glsl"
 #include "pipeline/marks/shaders/stroke_history.glsl"
+#include "pipeline/scene/render/shaders/depth_step.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 #include "pipeline/scene/render/shaders/surface_form.glsl"
 #include "pipeline/marks/shaders/layer_blocks.glsl"
@@ -42,7 +43,6 @@ uniform float paintTexel;
 uniform highp usampler2D ids;
 uniform highp usampler2D forms;
 uniform highp sampler2D depth;
-uniform vec2 depthRange;
 uniform bool hasObjects;
 uniform bool anew;
 uniform vec2 fullSize;
@@ -93,7 +93,8 @@ ivec2 pixelAt(vec2 px) {
   return clamp(ivec2(floor(px * pixelsOfFull)), ivec2(0), textureSize(forms, 0) - 1);
 }
 
-uint labelAt(vec2 px) { return hasObjects ? labelOf(texelFetch(forms, pixelAt(px), 0).r) : 0u; }
+uint formAt(vec2 px) { return hasObjects ? texelFetch(forms, pixelAt(px), 0).r : 0u; }
+uint labelAt(vec2 px) { return labelOf(formAt(px)); }
 
 // The label of the anchor's triangle: that of its pixel, or of the one beside it that shows the
 // triangle.
@@ -175,40 +176,31 @@ vec3 colourAt(vec2 px, Support on) {
   return seen.rgb / max(seen.a, 1e-4);
 }
 
-// Window depth is linear on a plane in the image: where it is not, by so much, another surface
-// begins. In metres per metre of distance.
-const float kDepthStep = 0.02;
-
 float depthAt(vec2 px) { return texelFetch(depth, pixelAt(px), 0).r; }
 
-float metresOf(float window) {
-  float near = depthRange.x;
-  float far = depthRange.y;
-  return near * far / (far - window * (far - near));
-}
-
-bool isStep(float first, float second, float third) {
-  float near = depthRange.x;
-  float far = depthRange.y;
-  float metres = metresOf(second);
-  float perWindow = metres * metres * (far - near) / (near * far);
-  return abs(first - 2.0 * second + third) * perWindow > kDepthStep * metres;
-}
-
-// The part of a segment that lies on its patch, in [0, 1]; a step of a pixel at a time.
-float partOnPatch(vec2 from, vec2 to, Support on) {
+// The part of a segment that lies on its patch, in [0, 1]; a step of a pixel at a time. Where trunk
+// and limb meet on a smooth surface, it may go on for kOverJoint; `strayed`: the px so far, of the
+// whole arm.
+float partOnPatch(vec2 from, vec2 to, Support on, inout float strayed) {
   float count = max(1.0, ceil(distance(from, to) * max(pixelsOfFull.x, pixelsOfFull.y)));
   vec2 pace = (to - from) / count;
   uint label = on.isOnMover ? 0u : on.label;  // models alone have labels in the image
   bool isDeep = on.isModel && depthRange.y > 0.0;
   float before = isDeep ? depthAt(from - pace) : 0.0;
   float here = isDeep ? depthAt(from) : 0.0;
+  uint last = formAt(from);
   for (float i = 1.0; i <= count; i += 1.0) {
     vec2 at = from + i * pace;
-    if (labelAt(at) != label) return max(0.0, (i - 0.5) / count);
+    uint form = formAt(at);
+    if (labelOf(form) != label) {
+      bool goesOn = isDeep && (labelOf(form) == labelOf(last) || isOneJoint(form, last));
+      strayed += length(pace);
+      if (!goesOn || strayed > kOverJoint) return max(0.0, (i - 0.5) / count);
+    }
+    last = form;
     if (!isDeep) continue;
     float next = depthAt(at);
-    if (isStep(before, here, next)) return max(0.0, (i - 1.5) / count);
+    if (isDepthStep(before - 2.0 * here + next, here)) return max(0.0, (i - 1.5) / count);
     before = here;
     here = next;
   }
@@ -243,6 +235,7 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {
   bool goesOn = true;
   float before = 0.0;
   vec2 at = from;
+  float strayed = 0.0;
   for (int i = 0; i < kArm; ++i) {
     vec2 direction = directionAt(at + 0.5 * segment * heading, on);
     direction = vec2(hand.x * direction.x - hand.y * direction.y,
@@ -256,7 +249,7 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {
     arm.directions[i] = direction;
     if (goesOn && hasObjects) {
       // An arm ends where another surface begins.
-      float part = partOnPatch(at, at + segment * direction, on);
+      float part = partOnPatch(at, at + segment * direction, on, strayed);
       if (part < 1.0) {
         arm.length = min(arm.length, float(i) + part);
         goesOn = false;

@@ -1,14 +1,15 @@
 // Purpose: the tensors of the virtual objects in each region, apart from the background's
 //          (tensor_regions.comp): of the patch that most of the region's virtual pixels are of,
 //          from the edges of its picture and from its form: the direction in which it bends least,
-//          and towards a silhouette that of the silhouette. Carried along the motion of its
+//          or that its author declares, and towards a silhouette that of the silhouette. Carried along the motion of its
 //          surface; another patch has no part in its past.
 // Inputs:  tensors (gradient.frag), threshold (edge_threshold.comp), pixelsOfFull; regionPixels: a
-//          region's side in px of the full image; forms, normals, surfaceMotion (ArFrame); form: the
-//          weight of the surface's form; before, labelsBefore: the previous frame's, if hasPast;
+//          region's side in px of the full image; forms, normals, surfaceMotion (ArFrame); formWeight: of
+//          the surface's form; before, labelsBefore: the previous frame's, if hasPast;
 //          past: the share of them that remains; slack: by which part detail may differ from the
 //          held value.
-// Outputs: regions RGBA16F: as in tensor_region.glsl; labels R32UI: the patch's, 0 for none. One
+// Outputs: regions RGBA16F: as in tensor_region.glsl; labels R32UI: the patch's, 0 for none, with the
+//          marks of surface_form.glsl for limbs and joints. One
 //          invocation per region.
 // Precision: highp.
 #include "pipeline/marks/shaders/edge_bins.glsl"
@@ -26,7 +27,7 @@ uniform highp sampler2D before;
 uniform highp usampler2D labelsBefore;
 uniform vec2 pixelsOfFull;
 uniform float regionPixels;
-uniform float form;
+uniform float formWeight;
 uniform bool hasPast;
 uniform float past;
 uniform float slack;
@@ -48,14 +49,18 @@ uint labelOfMost(ivec2 low, ivec2 high) {
   return most;
 }
 
+const float kDeclaredLead = 4.0;  // times a curvature's: shading does not turn strokes from it
+
 // The tensor of strokes that the form asks for; its length says how clearly.
 vec2 formAt(ivec2 p) {
-  vec2 bent = tensorOf(texelFetch(forms, p, 0).r);
+  uint own = texelFetch(forms, p, 0).r;
+  vec2 bent = tensorOf(own);
   vec2 tilt = 2.0 * texelFetch(normals, p, 0).xy - 1.0;
   float steep = dot(tilt, tilt);
   vec2 silhouette =
       vec2(tilt.x * tilt.x - tilt.y * tilt.y, 2.0 * tilt.x * tilt.y) / max(steep, 1e-4);
-  return mix(bent, silhouette, smoothstep(0.7, 0.95, steep));
+  float lead = isDeclared(own) ? kDeclaredLead : 1.0;
+  return lead * mix(bent, silhouette, smoothstep(0.7, 0.95, steep));
 }
 
 // The motion of the patch's pixels, and their moments for its rotation.
@@ -67,8 +72,8 @@ struct Carried {
   float pixels;
 };
 
-// The mean of the past around a place, of this patch only; w < 0: there is none.
-vec4 pastAt(vec2 px, uint label) {
+// The mean of the past around a place, of this patch only, or across a joint; w < 0: there is none.
+vec4 pastAt(vec2 px, uint own) {
   vec2 texel = px / regionPixels - 0.5;
   ivec2 first = ivec2(floor(texel));
   vec2 part = texel - floor(texel);
@@ -79,7 +84,8 @@ vec4 pastAt(vec2 px, uint label) {
     ivec2 step = ivec2(i & 1, i >> 1);
     ivec2 at = first + step;
     if (any(lessThan(at, ivec2(0))) || any(greaterThan(at, last))) continue;
-    if (texelFetch(labelsBefore, at, 0).r != label) continue;
+    uint there = texelFetch(labelsBefore, at, 0).r;
+    if (labelOf(there) != labelOf(own) && !isOneJoint(there, own)) continue;
     vec2 near = mix(1.0 - part, part, vec2(step));
     sum += near.x * near.y * texelFetch(before, at, 0);
     weights += near.x * near.y;
@@ -94,20 +100,27 @@ void main() {
   ivec2 high =
       min(ivec2(floor(vec2(region + 1) * regionPixels * pixelsOfFull)), textureSize(forms, 0));
   uint label = labelOfMost(low, high);
-  imageStore(labels, region, uvec4(label));
   if (label == 0u) {
+    imageStore(labels, region, uvec4(0u));
     imageStore(regions, region, vec4(0.0));
     return;
   }
   vec2 at = (vec2(region) + 0.5) * regionPixels;
   Edge seen = kNoEdge;
+  uint limb = 0u;
+  float atJoint = 0.0;
+  float pixels = 0.0;
   Carried carried = Carried(vec2(0.0), vec2(0.0), 0.0, 0.0, 0.0);
   for (int y = low.y; y < high.y; ++y) {
     for (int x = low.x; x < high.x; ++x) {
       ivec2 p = ivec2(x, y);
-      if (labelAt(p) != label) continue;
+      uint form = texelFetch(forms, p, 0).r;
+      if (labelOf(form) != label) continue;
+      limb = form & kOnLimb;
+      atJoint += (form & kAtJoint) != 0u ? 1.0 : 0.0;
+      pixels += 1.0;
       add(seen, texelFetch(tensors, p, 0).xy, 1.0, frameEdges.threshold);
-      vec2 lead = form * formAt(p);
+      vec2 lead = formWeight * formAt(p);
       seen.sum += lead;
       seen.strengths += length(lead);
       seen.sure += length(lead);
@@ -122,6 +135,8 @@ void main() {
       carried.pixels += 1.0;
     }
   }
+  uint own = label | limb | (atJoint > 0.3 * pixels ? kAtJoint : 0u);
+  imageStore(labels, region, uvec4(own));
   vec4 now = regionOf(seen, frameEdges.threshold, pixelsOfFull.x);
   if (carried.pixels > 0.0) {
     vec2 arm = carried.place / carried.pixels;
@@ -130,7 +145,7 @@ void main() {
     float squares = carried.squares - carried.pixels * dot(arm, arm) + 1.0;
     float turn = (carried.turning -
                   carried.pixels * (arm.x * displacement.y - arm.y * displacement.x)) / squares;
-    vec4 old = pastAt(at - displacement, label);
+    vec4 old = pastAt(at - displacement, own);
     if (old.w >= 0.0) {
       old.xy = turned(old.xy, turn);
       now = held(now, old, past, slack);

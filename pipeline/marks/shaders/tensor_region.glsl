@@ -15,6 +15,19 @@ vec2 turned(vec2 tensor, float angle) {
   return vec2(c * tensor.x - s * tensor.y, s * tensor.x + c * tensor.y);
 }
 
+// A tensor whose strokes lie on a surface, after the surface's motion; `jacobian`: of its places in
+// the image. Strokes run across the gradient.
+vec2 carriedBy(vec2 tensor, mat2 jacobian) {
+  float size = length(tensor);
+  if (size < 1e-6) return tensor;
+  vec2 cosines = tensor / size;
+  vec2 gradient = sqrt(max(vec2(0.5 + 0.5 * cosines.x, 0.5 - 0.5 * cosines.x), 0.0));
+  if (tensor.y < 0.0) gradient.y = -gradient.y;
+  vec2 stroke = jacobian * vec2(-gradient.y, gradient.x);
+  return size * vec2(stroke.y * stroke.y - stroke.x * stroke.x, -2.0 * stroke.x * stroke.y) /
+         max(dot(stroke, stroke), 1e-12);
+}
+
 // Sums over the pixels of one kind.
 struct Edge {
   vec2 sum;

@@ -1,12 +1,15 @@
 // Purpose: the tensors of a region's edge pixels, summed and divided by their strengths (thesis
 //          §4.2, step 1), and carried along the motion from frame to frame: those of the background
 //          and, by themselves, those of movers. Behind a mover and behind virtual objects
-//          (tensor_models.comp), the background's stay as they were.
+//          (tensor_models.comp), the background's stay as they were. On planes and real things whose
+//          poses are known they go with the surface (thesis §6.2), unless the measured motion is
+//          surer or contradicts it; its perspective turns them as it does the surface's lines.
 // Inputs:  tensors (gradient.frag), threshold (edge_threshold.comp), pixelsOfFull; regionPixels: a
 //          region's side in px of the full image; before, moversBefore: the previous frame's
 //          regions, motion (MotionField's), if hasPast; past: the share of them that remains;
-//          slack: by which part detail may differ from the held value; image_motion.glsl's, of
-//          which only the homography is used; mover_labels.glsl's; ids (ArFrame) if hasObjects.
+//          slack: by which part detail may differ from the held value; image_motion.glsl's, flow
+//          backward; mover_labels.glsl's; ids (ArFrame) if hasObjects;
+//          surfaceMotion (ArFrame::motion) if hasSurfaces.
 // Outputs: regions, moverRegions RGBA16F: as in tensor_region.glsl. One invocation per region.
 // Precision: highp.
 #include "pipeline/marks/shaders/edge_bins.glsl"
@@ -23,6 +26,8 @@ uniform highp sampler2D moversBefore;
 uniform highp sampler2D motion;
 uniform highp usampler2D ids;
 uniform bool hasObjects;
+uniform highp sampler2D surfaceMotion;
+uniform bool hasSurfaces;
 uniform vec2 pixelsOfFull;
 uniform vec2 fullSize;
 uniform float regionPixels;
@@ -32,6 +37,9 @@ uniform float slack;
 #include "pipeline/marks/shaders/mover_labels.glsl"
 
 const float kLeastSeen = 0.35;  // of a region: less of the background says nothing about it
+
+const float kLeastSurface = 0.5;  // of a region: planes and real things that fill less say nothing
+const float kKnownPx = 4.0;  // of error: a motion that is less certain carries no past
 
 const float kReach = 6.0;  // px: half a region, and the width of an edge
 
@@ -51,6 +59,69 @@ vec2 partsAt(vec2 px) {
   return vec2(1.0 - around, mover);
 }
 
+// The motion of the pixels of a region that show a plane or a real thing, and its moments.
+struct Surface {
+  vec2 place;
+  vec2 displacement;
+  vec3 squares;   // of places: xx, yy, xy
+  vec4 products;  // of places and displacements: dx · x, dx · y, dy · x, dy · y
+  float error;
+  float pixels;
+};
+
+void add(inout Surface surface, vec2 arm, vec4 moved) {
+  vec2 displacement = moved.xy / pixelsOfFull;
+  surface.place += arm;
+  surface.displacement += displacement;
+  surface.squares += vec3(arm * arm, arm.x * arm.y);
+  surface.products += vec4(displacement.x * arm, displacement.y * arm);
+  surface.error += moved.z / pixelsOfFull.x;
+  surface.pixels += 1.0;
+}
+
+// Where the region's content was, and how it has been turned and sheared since.
+struct Source {
+  vec2 from;
+  mat2 jacobian;
+  bool isKnown;
+};
+
+Source sourceOf(Surface surface, vec2 at) {
+  vec2 arm = surface.place / surface.pixels;
+  vec2 mean = surface.displacement / surface.pixels;
+  vec3 squares = surface.squares - surface.pixels * vec3(arm * arm, arm.x * arm.y);
+  vec4 products = surface.products - surface.pixels * vec4(mean.x * arm, mean.y * arm);
+  float determinant = squares.x * squares.y - squares.z * squares.z;
+  Source source = Source(at - mean, mat2(1.0), true);
+  // Pixels in a row tell no motion across it.
+  if (determinant < 1.0 || determinant < 0.02 * squares.x * squares.y) return source;
+  mat2 inverted = mat2(squares.y, -squares.z, -squares.z, squares.x) / determinant;
+  // Displacements by places: rows dx, dy.
+  vec2 ofX = inverted * products.xy;
+  vec2 ofY = inverted * products.zw;
+  source.from = at - mean + vec2(dot(ofX, arm), dot(ofY, arm));
+  // Columns; the places were the present ones less the displacements.
+  mat2 back = mat2(1.0 - ofX.x, -ofY.x, -ofX.y, 1.0 - ofY.y);
+  float area = back[0].x * back[1].y - back[1].x * back[0].y;
+  if (abs(area) > 0.1) source.jacobian = mat2(back[1].y, -back[0].y, -back[1].x, back[0].x) / area;
+  return source;
+}
+
+// Whether a surface's motion is to be trusted more than the measured one at `at` (decision 0027):
+// each is held against the other, and the surface against flow and what stands still.
+// `displacement`: backward; `moved`: of the motion field.
+bool isSurer(vec2 displacement, float error, vec4 moved, vec2 at, bool isNearMover) {
+  float apart = max(0.0, distance(displacement, -moved.xy) - 2.5 * error);
+  Moved surface = Moved(displacement, kNoTurn, error, kSourceSurface);
+  if (!isNearMover) {
+    Moved flowed = byFlow(at);
+    float ofFlow = contradicted(surface, flowed.displacement, flowed.error);
+    float ofRest = contradicted(surface, vec2(0.0), stillError(at));
+    surface.error = length(vec3(error, ofFlow, ofRest));
+  }
+  return surface.error < kKnownPx && (isNearMover || surface.error <= length(vec2(moved.z, apart)));
+}
+
 void main() {
   ivec2 region = ivec2(gl_GlobalInvocationID.xy);
   ivec2 size = imageSize(regions);
@@ -67,12 +138,17 @@ void main() {
   float threshold = frameEdges.threshold;
   Edge ground = kNoEdge;
   Edge mover = kNoEdge;
+  Surface surface = Surface(vec2(0.0), vec2(0.0), vec3(0.0), vec4(0.0), 0.0, 0.0);
   float hidden = 0.0;  // by virtual objects
   for (int y = low.y; y < high.y; ++y) {
     for (int x = low.x; x < high.x; ++x) {
       if (hasObjects && isVirtual(objectOf(texelFetch(ids, ivec2(x, y), 0).r))) {
         hidden += 1.0;
         continue;
+      }
+      if (hasSurfaces && hasPast) {
+        vec4 moved = texelFetch(surfaceMotion, ivec2(x, y), 0);
+        if (moved.w != 0.0) add(surface, (vec2(x, y) + 0.5) / pixelsOfFull - at, moved);
       }
       vec2 tensor = texelFetch(tensors, ivec2(x, y), 0).xy;
       vec2 parts = near > 0.0 ? partsAt((vec2(x, y) + 0.5) / pixelsOfFull) : vec2(1.0, 0.0);
@@ -97,14 +173,24 @@ void main() {
     vec2 dy = textureLod(motion, at / fullSize + vec2(0.0, texel.y), 0.0).xy -
               textureLod(motion, at / fullSize - vec2(0.0, texel.y), 0.0).xy;
     float turn = 0.5 * (dx.y - dy.x) / 32.0;
-    bool isKnown = isInPicture(from) && moved.z < 4.0;
+    bool isKnown = isInPicture(from) && moved.z < kKnownPx;
     vec2 scale = 1.0 / (vec2(size) * regionPixels);
     // Near a mover, the measured motion is not the background's.
     bool isNear = near > 0.0 && known.z != 0.0;
     vec2 behind = isNear ? at + byPicture(at, true).displacement : from;
-    if (isNear ? isInPicture(behind) : isKnown) {
-      vec4 old = textureLod(before, behind * scale, 0.0);
-      old.xy = turned(old.xy, isNear ? 0.0 : turn);
+    float angle = isNear ? 0.0 : turn;
+    Source source = Source(behind, mat2(cos(angle), sin(angle), -sin(angle), cos(angle)),
+                       isNear ? isInPicture(behind) : isKnown);
+    if (surface.pixels > kLeastSurface * extent.x * extent.y) {
+      Source onSurface = sourceOf(surface, at);
+      if (isSurer(onSurface.from - at, surface.error / surface.pixels, moved, at, isNear)) {
+        source = onSurface;
+        source.isKnown = isInPicture(source.from);
+      }
+    }
+    if (source.isKnown) {
+      vec4 old = textureLod(before, source.from * scale, 0.0);
+      old.xy = carriedBy(old.xy, source.jacobian);
       if (isHeld) {
         now = old;
       } else if (old.w > 0.0) {

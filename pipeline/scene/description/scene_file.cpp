@@ -93,8 +93,8 @@ void readTags(const TomlTable& root, Scene& scene) {
 }
 
 /// Loads or makes a model, unless an earlier one has the same source.
-std::shared_ptr<const Model> sharedModel(const ModelSource& source, const TomlTable& table,
-                                         const Scene& scene) {
+std::shared_ptr<const Model> modelOfSource(const ModelSource& source, const TomlTable& table,
+                                           const Scene& scene) {
   for (const SceneModel& model : scene.models) {
     if (model.source == source) return model.model;
   }
@@ -115,6 +115,20 @@ std::shared_ptr<const Model> sharedModel(const ModelSource& source, const TomlTa
   return std::make_shared<const Model>(*std::move(model));
 }
 
+/// The model with these directions of strokes; shared with an earlier one of the same source and
+/// directions.
+std::shared_ptr<const Model> withStrokes(std::shared_ptr<const Model> model,
+                                         const StrokeDirection& direction,
+                                         const ModelSource& source, const Scene& scene) {
+  if (model->strokeDirection == direction) return model;
+  for (const SceneModel& each : scene.models) {
+    if (each.source == source && each.model->strokeDirection == direction) return each.model;
+  }
+  Model made = *model;
+  made.strokeDirection = direction;
+  return std::make_shared<const Model>(std::move(made));
+}
+
 SceneModel readModel(const TomlTable& table, const std::filesystem::path& directory,
                      const Scene& scene) {
   SceneModel model;
@@ -133,7 +147,9 @@ SceneModel readModel(const TomlTable& table, const std::filesystem::path& direct
   model.isOccluder = table.optionalBoolean("occluder").value_or(false);
   model.focus =
       static_cast<float>(table.optionalNumber("focus", {.min = 0.0, .max = 1.0}).value_or(0.0));
-  model.model = sharedModel(model.source, table, scene);
+  model.model = modelOfSource(model.source, table, scene);
+  const StrokeDirection strokes = readStrokeDirection(table, *model.model, model.isOccluder);
+  model.model = withStrokes(std::move(model.model), strokes, model.source, scene);
   model.playback = readPlayback(table, model.model->rig);
   return model;
 }

@@ -32,6 +32,7 @@ namespace pleinair::scene {
 ///     scale = 1.0
 ///     colour = [0.8, 0.5, 0.2]    # sRGB; or "#cc8033"
 ///     focus = 0.0                 # 1: kept crisp by every style
+///     stroke_direction = "curvature"  # or "tangents", "picture", or a direction [x, y, z]
 ///     teeth = 18                  # of a gear, as are module_m, thickness_m, pressure_angle_deg,
 ///                                 # bore_diameter_m, hub_diameter_m, holes
 ///

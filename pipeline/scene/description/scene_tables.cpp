@@ -145,6 +145,42 @@ Playback readPlayback(const config::TomlTable& table, const Rig& rig) {
   return playback;
 }
 
+StrokeDirection readStrokeDirection(const config::TomlTable& table, const Model& model,
+                                    bool isOccluder) {
+  using Source = StrokeDirection::Source;
+  static constexpr std::string_view kKey = "stroke_direction";
+  static constexpr std::array<config::Choice<Source>, 3> kSources{
+      {{"curvature", Source::kCurvature},
+       {"tangents", Source::kTangents},
+       {"picture", Source::kPicture}}};
+  if (!table.has(kKey)) return {};
+  if (isOccluder) {
+    throw table.error(kKey, "has no effect on an occluder, which is not painted",
+                      "a model without occluder = true");
+  }
+  if (!table.isString(kKey)) {
+    const auto axis = table.vector<3>(kKey, {.min = -1e6, .max = 1e6});
+    const glm::dvec3 along(axis[0], axis[1], axis[2]);
+    if (!(glm::length(along) > 1e-6)) {
+      throw table.error(kKey, "has no length", "a direction in the model's axes");
+    }
+    return {.source = Source::kAxis, .axis = glm::vec3(glm::normalize(along))};
+  }
+  const std::string name = table.string(kKey);
+  const auto found = std::ranges::find(kSources, name, &config::Choice<Source>::name);
+  if (found == kSources.end()) {
+    const std::vector<std::string> names = config::namesOf(kSources);
+    throw table.error(kKey, "found " + config::foundText(name, names),
+                      config::listText(names) + ", or a direction [x, y, z]");
+  }
+  const bool hasTangents = std::ranges::any_of(
+      model.surfaces, [](const Surface& surface) { return !surface.mesh.tangents.empty(); });
+  if (found->value == Source::kTangents && !hasTangents) {
+    throw table.error(kKey, "the model has no tangents", "a glTF file with the attribute TANGENT");
+  }
+  return {.source = found->value};
+}
+
 std::optional<std::string> unplayedClipsNotice(const Rig& rig, const Playback& playback) {
   if (playback.clip || rig.clips.empty()) return std::nullopt;
   return fmt::format("stands at rest; clip = \"NAME\" plays one of its animations: {}",

@@ -5,6 +5,7 @@
 
 #include "config/toml_reader.h"
 #include "pipeline/scene/description/scene.h"
+#include "pipeline/scene/models/model.h"
 #include "pipeline/scene/models/rig.h"
 
 namespace pleinair::scene {
@@ -31,6 +32,11 @@ void readFoci(const config::TomlTable& root, Scene& scene);
 /// Reads clip, speed, loop and start of a [[model]] with this rig. The clip may be left out if
 /// there is only one. Throws config::ConfigError for an unknown clip, and for keys without effect.
 Playback readPlayback(const config::TomlTable& table, const Rig& rig);
+
+/// Reads stroke_direction of a [[model]]: `"curvature"`, `"tangents"`, `"picture"` or `[x, y, z]`.
+/// Throws config::ConfigError, also where `model` has no tangents or `isOccluder`.
+StrokeDirection readStrokeDirection(const config::TomlTable& table, const Model& model,
+                                    bool isOccluder);
 
 /// A notice for a model that has clips, none of which is played; it names the key to set.
 std::optional<std::string> unplayedClipsNotice(const Rig& rig, const Playback& playback);

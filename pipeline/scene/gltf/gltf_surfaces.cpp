@@ -55,6 +55,7 @@ Mesh flatShaded(const Mesh& mesh) {
       flat.vertices.push_back(mesh.vertices[corner]);
       flat.vertices.back().normal = normal;
       if (!mesh.joints.empty()) flat.joints.push_back(mesh.joints[corner]);
+      if (!mesh.tangents.empty()) flat.tangents.push_back(mesh.tangents[corner]);
       for (std::size_t i = 0; i < mesh.morphTargets.size(); ++i) {
         flat.morphTargets[i].positions.push_back(mesh.morphTargets[i].positions[corner]);
       }
@@ -163,6 +164,10 @@ void SurfaceReader::readVertices(const tinygltf::Primitive& primitive,
     for (std::size_t i = 0; i < normals.size(); ++i) {
       mesh.vertices[i].normal = glm::vec3(normals[i]);
     }
+  }
+  if (const auto tangents = attribute("TANGENT"); !tangents.empty()) {
+    checkCount(tangents.size(), positions.size(), where + ".attributes.TANGENT");
+    mesh.tangents.assign(tangents.begin(), tangents.end());
   }
   const std::string set = fmt::format("TEXCOORD_{}", mapping.set);
   if (const auto places = attribute(set); !places.empty()) {

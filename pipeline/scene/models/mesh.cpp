@@ -159,6 +159,9 @@ class EdgeCutter {
     };
     addMiddle(result_.vertices, [](const auto& x, const auto& y) { return midpoint(x, y); });
     addMiddle(result_.joints, [](const auto& x, const auto& y) { return midpoint(x, y); });
+    addMiddle(result_.tangents, [](const glm::vec3& x, const glm::vec3& y) {
+      return glm::dot(x, y) < 0.0F ? x - y : x + y;  // lines without a sign
+    });
     const auto mean = [](const glm::vec3& x, const glm::vec3& y) { return 0.5F * (x + y); };
     for (MorphTarget& target : result_.morphTargets) {
       addMiddle(target.positions, mean);

@@ -39,6 +39,9 @@ struct Mesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<JointWeights> joints{};       ///< per vertex if a skin deforms it, else empty
   std::vector<MorphTarget> morphTargets{};  ///< applied before joints
+  /// Per vertex a direction along the surface (glTF's TANGENT), in the model's frame; or none. Only
+  /// StrokeDirection asks for it.
+  std::vector<glm::vec3> tangents{};
 };
 
 struct BoundingSphere {

@@ -37,6 +37,19 @@ struct Material {
   bool isDoubleSided = false;   ///< false: visible from outside only
 };
 
+/// What gives strokes on a model their direction.
+struct StrokeDirection {
+  enum class Source {
+    kCurvature,  ///< the surface's form (surface_form.h)
+    kTangents,   ///< Mesh::tangents; curvature where a surface has none
+    kAxis,       ///< `axis`, seen along the surface
+    kPicture     ///< the edges of its shaded picture alone
+  };
+  Source source = Source::kCurvature;
+  glm::vec3 axis{0.0F};  ///< unit length, in the frame of the model at rest; only for kAxis
+  friend bool operator==(const StrokeDirection&, const StrokeDirection&) = default;
+};
+
 /// Triangles of one material.
 struct Surface {
   Mesh mesh;
@@ -72,6 +85,7 @@ struct Model {
   std::vector<ModelPart> parts;
   std::vector<SurfaceBounds> bounds;  ///< per surface; set by numberParts()
   Rig rig;                            ///< empty unless something moves that does not turn by itself
+  StrokeDirection strokeDirection;
   std::vector<std::string> notices;   ///< one line for each thing in its file that is not shown
 
   /// Triangles drawn: a surface counts once for each part that shows it.

@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -185,6 +186,32 @@ void joinSmallPatches(Sets& patches, const std::vector<double>& areas,
   }
 }
 
+/// The triangles that touch a border between trunk and limb on a smooth surface, and belong to the
+/// patches on both sides of it.
+std::vector<bool> trianglesAtJoints(const Welded& mesh, const std::vector<Neighbours>& neighbours,
+                                    const std::vector<std::size_t>& limbOf,
+                                    const std::vector<glm::vec3>& areaVectors, Sets& patches) {
+  std::vector<bool> found(mesh.triangles.size(), false);
+  std::set<std::pair<std::uint32_t, std::size_t>> touched;  // place and patch
+  for (const Neighbours& each : neighbours) {
+    if ((limbOf[each.a] == 0) == (limbOf[each.b] == 0)) continue;
+    const float cosine = glm::dot(unitOf(areaVectors[each.a]), unitOf(areaVectors[each.b]));
+    if (!(cosine > kCreaseCosine)) continue;
+    for (const std::uint32_t place : mesh.triangles[each.a]) {
+      if (std::ranges::find(mesh.triangles[each.b], place) == mesh.triangles[each.b].end()) continue;
+      touched.emplace(place, patches.of(each.a));
+      touched.emplace(place, patches.of(each.b));
+    }
+  }
+  if (touched.empty()) return found;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    found[i] = std::ranges::any_of(mesh.triangles[i], [&](std::uint32_t place) {
+      return touched.contains({place, patches.of(i)});
+    });
+  }
+  return found;
+}
+
 /// From the change of the normals along a triangle's edges: the second fundamental form as a tensor
 /// in space.
 glm::mat3 curvatureOf(const std::array<glm::vec3, 3>& places,
@@ -258,6 +285,9 @@ std::vector<TriangleForm> formsOf(const Mesh& mesh, std::span<const std::size_t>
     if (cosine > kCreaseCosine && limbOf[each.a] == limbOf[each.b]) patches.join(each.a, each.b);
   }
 
+  const std::vector<bool> isAtJoint =
+      trianglesAtJoints(welded, neighbours, limbOf, areaVectors, patches);
+
   // Smooth vertices: one for each patch at a place.
   std::unordered_map<std::uint64_t, std::uint32_t> known;
   std::vector<Corners> corners(count);
@@ -307,6 +337,8 @@ std::vector<TriangleForm> formsOf(const Mesh& mesh, std::span<const std::size_t>
   for (std::size_t i = 0; i < count; ++i) {
     const auto next = static_cast<std::uint32_t>(numbers.size());
     forms[i].patch = numbers.try_emplace(patches.of(i), next).first->second;
+    forms[i].isOnLimb = limbOf[i] != 0;
+    forms[i].isAtJoint = isAtJoint[i];
     forms[i].along = leastCurved(curvatures[i], unitOf(areaVectors[i]), radius);
   }
   return forms;

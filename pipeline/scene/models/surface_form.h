@@ -17,6 +17,10 @@ struct TriangleForm {
   /// The smooth patch that it belongs to, counted from 0 on each mesh. Patches end at creases, and
   /// where the limbs of a skeleton begin; small ones have joined a neighbour.
   std::uint32_t patch = 0;
+  bool isOnLimb = false;  ///< of a skeleton, not on its trunk
+  /// Where a limb begins on a smooth surface: the triangle touches the border between the patches
+  /// of a limb and of the trunk. Painters go on over such a border where the surface does.
+  bool isAtJoint = false;
   /// Along the least principal curvature (the axis of a cylinder), in the mesh's frame. Its length
   /// says how clear that is: 1 where the surface bends in one direction only, with a radius at most
   /// 1.25 times the mesh's; 0 where it bends alike in both (a sphere, an even saddle) or hardly at

@@ -18,6 +18,7 @@
 #include <glm/matrix.hpp>
 #include <glm/packing.hpp>
 
+#include "pipeline/scene/models/declared_directions.h"
 #include "pipeline/scene/models/surface_form.h"
 
 namespace pleinair::scene {
@@ -92,23 +93,28 @@ std::vector<std::array<std::uint32_t, 3>> withOwnLastVertices(const Mesh& mesh, 
   return triangles;
 }
 
-/// `along` in the coordinates of a triangle's corners.
-DrawnForm drawnForm(std::uint32_t patch, const glm::vec3& along,
-                    const std::array<glm::vec3, 3>& corners) {
+/// Where DrawnForm has what.
+constexpr unsigned kLineBit = 12;
+constexpr unsigned kClarityBit = 24;
+constexpr float kMostClarity = 31.0F;
+constexpr std::uint32_t kOnLimb = 1U << 29U;
+constexpr std::uint32_t kAtJoint = 1U << 30U;
+constexpr std::uint32_t kDeclared = 1U << 31U;
+
+/// `along` in the coordinates of a triangle's corners: a line and its clarity.
+std::uint32_t drawnLine(const glm::vec3& along, const std::array<glm::vec3, 3>& corners) {
   const glm::vec3 a = corners[0] - corners[2];
   const glm::vec3 b = corners[1] - corners[2];
   // Least squares: `along` lies in the triangle's plane.
   const glm::mat2 sides(glm::dot(a, a), glm::dot(a, b), glm::dot(a, b), glm::dot(b, b));
-  DrawnForm form = patch & 0xFFFU;
   const float clarity = std::min(glm::length(along), 1.0F);
-  if (clarity <= 0.0F || std::abs(glm::determinant(sides)) < 1e-30F) return form;
+  if (clarity <= 0.0F || std::abs(glm::determinant(sides)) < 1e-30F) return 0;
   const glm::vec2 at = glm::inverse(sides) * glm::vec2(glm::dot(along, a), glm::dot(along, b));
   constexpr float kPi = std::numbers::pi_v<float>;
   float angle = std::atan2(at.y, at.x);
   if (angle < 0.0F) angle += kPi;
-  form |= (static_cast<std::uint32_t>(std::lround(angle / kPi * 4096.0F)) & 0xFFFU) << 12U;
-  form |= static_cast<std::uint32_t>(std::lround(255.0F * clarity)) << 24U;
-  return form;
+  return (static_cast<std::uint32_t>(std::lround(angle / kPi * 4096.0F)) & 0xFFFU) << kLineBit |
+         static_cast<std::uint32_t>(std::lround(kMostClarity * clarity)) << kClarityBit;
 }
 
 /// Lays out a model, one surface of a part after another.
@@ -128,6 +134,9 @@ class Layout {
     const Surface& surface = model_.surfaces[surfaceIndex];
     const auto triangles = withOwnLastVertices(surface.mesh, isMirrored(part));
     const std::vector<TriangleForm>& forms = formsOfSurface(surfaceIndex, part);
+    const bool isDeclared = declaresDirections(model_, surface.mesh);
+    std::vector<glm::vec3> declared;
+    if (isDeclared) declared = declaredDirections(model_, part, surfaceIndex - part.firstSurface);
     const auto firstTriangle = static_cast<std::uint32_t>(drawn_.triangles.size());
     const std::uint32_t firstExtra = nextExtra_;
     source_.clear();
@@ -145,7 +154,10 @@ class Layout {
       for (std::size_t k = 0; k < 3; ++k) {
         corners[k] = surface.mesh.vertices[triangles[i][k]].position;
       }
-      drawn_.forms.push_back(drawnForm(firstPatch_ + forms[i].patch, forms[i].along, corners));
+      drawn_.forms.push_back(((firstPatch_ + forms[i].patch) & 0xFFFU) |
+                             drawnLine(isDeclared ? declared[i] : forms[i].along, corners) |
+                             (forms[i].isOnLimb ? kOnLimb : 0U) |
+                             (forms[i].isAtJoint ? kAtJoint : 0U) | (isDeclared ? kDeclared : 0U));
       materials_.push_back(surface.material);
     }
     for (const TriangleForm& form : forms) patches_ = std::max(patches_, firstPatch_ + form.patch);

@@ -45,8 +45,8 @@ struct DrawnTriangle {
 /// The form of a triangle's surface, as shaders/surface_form.glsl reads it. From the lowest bit: 12
 /// bits of its patch (modulo 4096; unlike those of other parts and materials); 12 bits of the angle
 /// of its direction, a line at the angle k · π / 4096, in the coordinates in which the triangle's
-/// first corner is (1, 0), its second (0, 1) and its last the origin; 8 bits of the direction's
-/// clarity.
+/// first corner is (1, 0), its second (0, 1) and its last the origin; 5 bits of the direction's
+/// clarity; TriangleForm::isOnLimb; isAtJoint; whether the model declares the direction.
 using DrawnForm = std::uint32_t;
 
 /// Vertices that are posed in the same way. Deltas are stored target by target, `vertexCount` each.

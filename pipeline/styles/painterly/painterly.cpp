@@ -249,8 +249,11 @@ void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParamete
 const Texture* Painterly::State::findBorders(const scene::ArFrame& frame,
                                              const PainterlyParameters& p) {
   if (!frame.hasObjects && !tellsMovers(p)) return nullptr;
+  const bool hasDepth = frame.hasObjects && frame.depth != nullptr;
   borders.use()
       .texture("forms", frame.hasObjects ? *frame.forms : noIds)
+      .texture("depth", hasDepth ? *frame.depth : *frame.colour)
+      .set("depthRange", hasDepth ? glm::vec2(frame.nearMetres, frame.farMetres) : glm::vec2(0.0F))
       .texture("movers", layerTextures.labelsOf(moversOf(p)))
       .set("hasObjects", frame.hasObjects ? 1 : 0)
       .set("size", glm::vec2(canvas->size.width, canvas->size.height))

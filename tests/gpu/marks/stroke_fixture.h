@@ -81,13 +81,15 @@ class StrokeTest : public TensorTest {
     usePatches([&](glm::vec2 px) { return isInside(px) ? 1U : 0U; });
   }
   /// The patches of a virtual object (1), each a triangle; 0: the camera's picture.
+  /// With the marks of surface_form.glsl.
   void usePatches(const std::function<std::uint32_t(glm::vec2)>& patchAt) {
     std::vector<std::uint32_t> ids;
     std::vector<std::uint32_t> forms;  // labels without directions
     for (int y = 0; y < kSize.height; ++y) {
       for (int x = 0; x < kSize.width; ++x) {
         forms.push_back(patchAt({x, y}));
-        ids.push_back(forms.back() != 0U ? (1U << scene::kTriangleBits) | forms.back() : 0U);
+        const std::uint32_t label = forms.back() & 4095U;
+        ids.push_back(label != 0U ? (1U << scene::kTriangleBits) | label : 0U);
       }
     }
     const std::size_t stride = std::size_t{kSize.width} * 4;

@@ -186,5 +186,61 @@ TEST_F(StrokePatches, AStepOfDepthEndsAStroke) {
   EXPECT_GT(acrossEdge(0.0F), 10) << "the control: a slope without a step";
 }
 
+/// An arm and a torso are two patches of one smooth surface: strokes go on over the joint, for a
+/// short way, but not from an arm that lies before the torso.
+TEST_F(StrokePatches, StrokesGoOnOverAJointAndNotOverAStep) {
+  constexpr std::uint32_t kOnLimb = 1U << 29U;
+  constexpr std::uint32_t kAtJoint = 1U << 30U;
+  constexpr float kEdge = 120.0F;
+  constexpr float kOverJoint = 16.0F;
+  const hal::Image picture =
+      greyPicture(kSize, [](glm::dvec2 px) { return 0.5 + 0.3 * std::sin(0.9 * px.y); });
+  const auto acrossEdge = [&](std::uint32_t marks, float step) {
+    beginAnew();
+    usePatches([=](glm::vec2 px) {
+      return px.x < kEdge ? kBody | (marks & kAtJoint) : kBelt | marks;
+    });
+    useDepth([=](glm::vec2 px) { return 1.0F + 0.002F * px.x + (px.x < kEdge ? 0.0F : step); });
+    advance(picture, broad());
+    int count = 0;
+    for (const StrokeTips& each : tips(broad().segmentPx)) {
+      const auto [low, high] = std::minmax({each.anchor.x, each.ahead.x, each.behind.x});
+      if (each.anchor.x < kEdge) {
+        EXPECT_LT(high, kEdge + kOverJoint + 2.0F);
+      } else {
+        EXPECT_GT(low, kEdge - kOverJoint - 2.0F);
+      }
+      count += low < kEdge - 2.0F && high > kEdge + 2.0F ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_GT(acrossEdge(kOnLimb | kAtJoint, 0.0F), 10);
+  EXPECT_EQ(acrossEdge(kOnLimb | kAtJoint, 0.1F), 0) << "the arm is before the torso";
+  EXPECT_EQ(acrossEdge(kOnLimb, 0.0F), 0) << "the control: away from a joint";
+  EXPECT_EQ(acrossEdge(kAtJoint, 0.0F), 0) << "the control: a crease beside a joint";
+}
+
+/// What strokes of another patch reach needs hardly any anchors of its own.
+TEST_F(StrokePatches, AJointNeedsNoAnchorsOfItsOwn) {
+  constexpr std::uint32_t kAtJoint = 1U << 30U;
+  const hal::Image picture = greyPicture(kSize, upright);
+  follows_ = false;
+  usePatches([](glm::vec2) { return kBody; });
+  for (int i = 0; i < 3; ++i) advance(picture, broad());
+  const auto bornOnBelt = [&](std::uint32_t marks) {
+    top_ = marks == 0U ? 60.0F : 84.0F;
+    bottom_ = top_ + 3.0F;
+    usePatches([&](glm::vec2 px) { return isBelt(px) ? kBelt | marks : kBody; });
+    for (int i = 0; i < 2; ++i) advance(picture, broad());
+    int count = 0;
+    for (const auto& [slot, anchor] : alive()) {
+      count += isBelt(anchor.px) && anchor.ageSeconds < 0.09F ? 1 : 0;
+    }
+    return count;
+  };
+  const int atJoint = bornOnBelt(kAtJoint);
+  EXPECT_LT(atJoint, bornOnBelt(0U) / 2);
+}
+
 }  // namespace
 }  // namespace pleinair::marks

@@ -212,7 +212,7 @@ TEST_F(TensorModels, FormLeadsWhereThePictureDoesNot) {
   const Place place{{128.0, 64.0}};
   constexpr double kAngle = 0.7;  // of the line
   line_ = static_cast<std::uint32_t>(std::lround(kAngle / std::numbers::pi * 4096.0)) << 12U |
-          255U << 24U;
+          31U << 24U;
   isPlain_ = true;
   const auto worstOff = [&](double gradient) {
     see(place);

@@ -3,6 +3,9 @@
 #include <cmath>
 #include <functional>
 #include <random>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 
@@ -58,10 +61,13 @@ TEST_F(ClipTest, BordersAreTheOracles) {
   setIds(kSmall, at);
   const auto seen = [&](int x, int y) { return at(x, y) == real ? 0U : at(x, y); };
   const gpu::Texture borders(gpu::TextureFormat::kR32ui, kSmall);
+  const gpu::Texture noDepth(gpu::TextureFormat::kR32f, {1, 1});
   const marks::LayerTextures layerTextures;
   library_.fragmentPass("pipeline/styles/painterly/shaders/borders.frag")
       .use()
       .texture("forms", forms_)
+      .texture("depth", noDepth)
+      .set("depthRange", glm::vec2(0.0F))
       .texture("movers", layerTextures.labelsOf(nullptr))
       .set("hasObjects", 1)
       .set("size", glm::vec2(kSmall.width, kSmall.height))
@@ -82,13 +88,80 @@ TEST_F(ClipTest, BordersAreTheOracles) {
         its.push_back(there == own);
         isNear = isNear || there == other;
       }
-      EXPECT_NEAR((border >> 24U) / 255.0, oracles::paintableShare(its), 0.5 / 255.0 + 1e-6);
+      EXPECT_NEAR((border >> 24U) / 127.0, oracles::paintableShare(its), 0.5 / 127.0 + 1e-6);
       EXPECT_TRUE(isNear);
       others += other != own ? 1 : 0;
       EXPECT_EQ(other == own, std::ranges::all_of(its, [](bool each) { return each; }));
     }
   }
   EXPECT_GT(others, 100);
+}
+
+/// Where trunk and limb meet, strokes of both fade out beyond the border; where the limb lies before
+/// the trunk, they are clipped.
+TEST_F(ClipTest, AJointIsOpenUnlessDepthStepsThere) {
+  constexpr hal::FrameSize kSmall{64, 9};
+  constexpr int kEdge = 32;
+  constexpr std::uint32_t kOnLimb = 1U << 29U;
+  constexpr std::uint32_t kAtJoint = 1U << 30U;
+  constexpr std::uint32_t kOpen = 1U << 31U;
+  constexpr float kNear = 0.1F;
+  constexpr float kFar = 10.0F;
+  const auto bordersOf = [&](std::uint32_t marks, float step) {
+    std::vector<std::uint32_t> forms;
+    std::vector<float> windows;
+    for (int y = 0; y < kSmall.height; ++y) {
+      for (int x = 0; x < kSmall.width; ++x) {
+        const bool isLimb = x >= kEdge;
+        forms.push_back((isLimb ? 2U | kOnLimb : 1U) | marks);
+        const float metres =
+            1.0F + 0.004F * static_cast<float>(x) - (isLimb ? step : 0.0F);
+        windows.push_back((kFar - kNear * kFar / metres) / (kFar - kNear));
+      }
+    }
+    const auto bytesOf = [](const auto& values) {
+      return std::span(reinterpret_cast<const std::uint8_t*>(values.data()), values.size() * 4);
+    };
+    forms_ = gpu::Texture(gpu::TextureFormat::kR32ui, kSmall);
+    forms_.upload(bytesOf(forms), std::size_t{kSmall.width} * 4);
+    gpu::Texture depth(gpu::TextureFormat::kR32f, kSmall);
+    depth.upload(bytesOf(windows), std::size_t{kSmall.width} * 4);
+    const gpu::Texture borders(gpu::TextureFormat::kR32ui, kSmall);
+    const marks::LayerTextures layerTextures;
+    library_.fragmentPass("pipeline/styles/painterly/shaders/borders.frag")
+        .use()
+        .texture("forms", forms_)
+        .texture("depth", depth)
+        .set("depthRange", glm::vec2(kNear, kFar))
+        .texture("movers", layerTextures.labelsOf(nullptr))
+        .set("hasObjects", 1)
+        .set("size", glm::vec2(kSmall.width, kSmall.height))
+        .set("pixelsOfFull", glm::vec2(1.0F))
+        .drawFullscreen(gpu::RenderTarget({&borders}));
+    const std::vector<std::uint32_t> all = support::readR32ui(borders);
+    return std::vector<std::uint32_t>(all.begin() + 4 * kSmall.width,
+                                      all.begin() + 5 * kSmall.width);
+  };
+  const std::vector<std::uint32_t> open = bordersOf(kAtJoint, 0.0F);
+  for (int x = 0; x < kSmall.width; ++x) {
+    const std::uint32_t border = open[static_cast<std::size_t>(x)];
+    const int away = x < kEdge ? kEdge - x : x - kEdge + 1;
+    EXPECT_EQ(border & 4095U, x < kEdge ? 1U : 2U);
+    // Every second pixel is looked at.
+    EXPECT_TRUE(away <= 16 || (border & kOpen) == 0U) << x;
+    if (away >= 14) continue;
+    EXPECT_NE(border & kOpen, 0U) << x;
+    EXPECT_EQ(border >> 12U & 4095U, x < kEdge ? 2U : 1U) << x;
+    EXPECT_NEAR((border >> 24U & 127U) / 127.0, 1.0 - away / 16.0, 0.07) << x;
+  }
+  for (const auto& [marks, step] : {std::pair{kAtJoint, 0.1F}, {0U, 0.0F}}) {
+    const std::vector<std::uint32_t> closed = bordersOf(marks, step);
+    for (int x = 0; x < kSmall.width; ++x) {
+      const std::uint32_t border = closed[static_cast<std::size_t>(x)];
+      EXPECT_EQ(border & kOpen, 0U) << x << " step " << step;
+      EXPECT_EQ((border >> 12U & 4095U) != (border & 4095U), x == kEdge || x == kEdge - 1) << x;
+    }
+  }
 }
 
 /// The borders of movers, from random labels. The oracle samples labels as a LINEAR texture does,
@@ -157,9 +230,12 @@ TEST_F(MoverBordersTest, AreTheOracles) {
       return moverAt(x, y, each.pixelsOfFull) > 0.5 ? kMover : 0U;
     };
     const gpu::Texture borders(gpu::TextureFormat::kR32ui, kSmall);
+    const gpu::Texture noDepth(gpu::TextureFormat::kR32f, {1, 1});
     library_.fragmentPass("pipeline/styles/painterly/shaders/borders.frag")
         .use()
         .texture("forms", forms_)
+        .texture("depth", noDepth)
+        .set("depthRange", glm::vec2(0.0F))
         .texture("movers", labels_)
         .set("hasObjects", each.hasObjects ? 1 : 0)
         .set("size", glm::vec2(kSmall.width, kSmall.height))
@@ -181,7 +257,7 @@ TEST_F(MoverBordersTest, AreTheOracles) {
         }
         EXPECT_EQ(border & 4095U, own) << x << "," << y;
         EXPECT_EQ(border >> 12U & 4095U, other) << x << "," << y;
-        EXPECT_NEAR((border >> 24U) / 255.0, oracles::paintableShare(its), 0.5 / 255.0 + 1e-6);
+        EXPECT_NEAR((border >> 24U) / 127.0, oracles::paintableShare(its), 0.5 / 127.0 + 1e-6);
         ofMovers += own == kMover ? 1 : 0;
         clipped += other != own ? 1 : 0;
       }

@@ -218,13 +218,19 @@ TEST_P(SurfaceBuffers, FormsAreThoseOfThePosedSurface) {
     EXPECT_NE(label, 0U);
     EXPECT_EQ(patches.try_emplace(label, patch).first->second, patch);
 
-    const double clarity = static_cast<double>(frames.forms[i] >> 24U) / 255.0;
+    const double clarity = static_cast<double>(frames.forms[i] >> 24U & 31U) / 31.0;
     if (clarity < 0.1) continue;
     const auto& corners = mesh.triangles[point->triangle];
     const glm::dvec3 last(mesh.vertices[corners[2]].position);
     const glm::dvec3 a = glm::dvec3(mesh.vertices[corners[0]].position) - last;
     const glm::dvec3 b = glm::dvec3(mesh.vertices[corners[1]].position) - last;
-    const glm::dvec3 along(form.along);
+    const bool isDeclared = model.strokeDirection.source == StrokeDirection::Source::kAxis;
+    EXPECT_EQ(frames.forms[i] >> 31U != 0U, isDeclared);
+    // These models' meshes are at rest in the model's own axes.
+    const glm::dvec3 normal = glm::normalize(glm::cross(a, b));
+    const glm::dvec3 axis(model.strokeDirection.axis);
+    const glm::dvec3 along =
+        isDeclared ? axis - glm::dot(axis, normal) * normal : glm::dvec3(form.along);
     const double det = glm::dot(a, a) * glm::dot(b, b) - glm::dot(a, b) * glm::dot(a, b);
     const double u =
         (glm::dot(along, a) * glm::dot(b, b) - glm::dot(along, b) * glm::dot(a, b)) / det;
@@ -248,6 +254,14 @@ TEST_P(SurfaceBuffers, FormsAreThoseOfThePosedSurface) {
   EXPECT_LT(errors[errors.size() * 99 / 100], GetParam().lens.k1 == 0.0 ? 0.3 : 4.0);
 }
 
+Model declaring(Model model) {
+  model.strokeDirection = {.source = StrokeDirection::Source::kAxis,
+                           .axis = glm::normalize(glm::vec3(1.0F, 1.0F, 0.5F))};
+  return model;
+}
+Model declaringArm() { return declaring(bendingArm()); }
+Model declaringBall() { return declaring(breathingBall()); }
+
 INSTANTIATE_TEST_SUITE_P(Models, SurfaceBuffers,
                          testing::Values(Case{"Static", staticBox, {}},
                                          Case{"StaticThroughALens", staticBox, kBarrel},
@@ -255,7 +269,9 @@ INSTANTIATE_TEST_SUITE_P(Models, SurfaceBuffers,
                                          Case{"Rigid", swingingBoxes, {}},
                                          Case{"Skinned", bendingArm, {}},
                                          Case{"SkinnedThroughALens", bendingArm, kBarrel},
-                                         Case{"Morphed", breathingBall, {}}),
+                                         Case{"Morphed", breathingBall, {}},
+                                         Case{"SkinnedDeclared", declaringArm, {}},
+                                         Case{"MorphedDeclared", declaringBall, {}}),
                          [](const auto& instance) { return instance.param.name; });
 
 class SteadyState : public SceneGlTest {};

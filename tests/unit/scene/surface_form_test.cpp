@@ -159,14 +159,21 @@ TEST(SurfaceForm, PatchesEndAtLimbs) {
   const std::vector<std::size_t> limbs{0, 1};
   std::set<std::uint32_t> below;
   std::set<std::uint32_t> above;
+  int atJoint = 0;
   const std::vector<TriangleForm> forms = formsOf(mesh, limbs);
   for (std::size_t i = 0; i < forms.size(); ++i) {
     const float z = middleOf(mesh, i).z;
     if (z < 0.14F) below.insert(forms[i].patch);
     if (z > 0.26F) above.insert(forms[i].patch);
+    // The joint is where they meet, on the tube's sides; a crease is none.
+    const bool isAway = z < 0.14F || z > 0.26F;
+    EXPECT_FALSE(isAway && forms[i].isAtJoint);
+    atJoint += forms[i].isAtJoint ? 1 : 0;
+    EXPECT_TRUE(!isAway || forms[i].isOnLimb == (z > 0.26F));
   }
   EXPECT_FALSE(below.empty());
   EXPECT_FALSE(above.empty());
+  EXPECT_GT(atJoint, 40);
   for (const std::uint32_t patch : above) EXPECT_FALSE(below.contains(patch));
 }
 

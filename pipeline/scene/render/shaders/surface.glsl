@@ -48,12 +48,12 @@ uint formAt(uint triangle, SurfacePoint point, vec3 current) {
                corners.y * (cameraPosition(point.corners.y) - last);
   float size = length(along);
   if (clarityOf(drawn) == 0.0 || !(size > 0.0) || !(current.z > 0.0)) {
-    return formOf(label, vec2(1.0, 0.0), 0.0);
+    return formOf(label, vec2(1.0, 0.0), 0.0, drawn & kMarks);
   }
   vec2 seen = seenAlong(along / size, current);
   float foreshortening = length(seen) * current.z / max(focal.x, focal.y);
   float clarity = clarityOf(drawn) * smoothstep(kLeast, kMost, foreshortening);
-  return formOf(label, seen, clarity);
+  return formOf(label, seen, clarity, drawn & kMarks);
 }
 
 void main() {

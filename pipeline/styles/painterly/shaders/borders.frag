@@ -1,14 +1,17 @@
 // Purpose: the borders at which strokes are clipped: those of virtual objects and of their patches
 //          against each other and against real content, and those of movers against the
 //          background, two pixels wide, so that a clipped edge is smooth. Occluders count as real:
-//          they hide models, but the image goes on over their edges.
-// Inputs:  forms (scene::ArFrame) if hasObjects; mover_labels.glsl's; size, pixelsOfFull: of the
-//          frame.
+//          they hide models, but the image goes on over their edges. Where trunk and limb meet on a
+//          smooth surface, the border is open: strokes of both fade out beyond it.
+// Inputs:  forms and depth (scene::ArFrame) if hasObjects, depthRange: 0: no depth;
+//          mover_labels.glsl's; size, pixelsOfFull: of the frame.
 // Outputs: R32UI, packed as in border.glsl.
 // Precision: integers; highp for places.
+#include "pipeline/scene/render/shaders/depth_step.glsl"
 #include "pipeline/scene/render/shaders/surface_form.glsl"
 #include "pipeline/styles/strokes/shaders/border.glsl"
 uniform highp usampler2D forms;
+uniform highp sampler2D depth;
 uniform bool hasObjects;
 uniform vec2 size;
 uniform vec2 pixelsOfFull;
@@ -21,6 +24,45 @@ uint labelAt(ivec2 p) {
   uint label = hasObjects ? labelOf(texelFetch(forms, p, 0).r) : 0u;
   if (label != 0u) return label;
   return moverOf(p) > 0.5 ? kMoverLabel : 0u;
+}
+
+float depthAt(ivec2 p, ivec2 last) {
+  return texelFetch(depth, clamp(p, ivec2(0), last), 0).r;
+}
+
+// The smaller change to both sides: at an outline, the one on the surface.
+float slopeOf(float before, float here, float after) {
+  return abs(after - here) < abs(here - before) ? after - here : here - before;
+}
+
+// The label across a joint, if one is near: its pixels see the same surface. `near`: how near, in
+// [0, 1].
+uint acrossJoint(ivec2 p, ivec2 last, out float near) {
+  near = 0.0;
+  uint form = texelFetch(forms, p, 0).r;
+  if ((form & kAtJoint) == 0u || labelOf(form) == 0u || depthRange.y == 0.0) return 0u;
+  float here = depthAt(p, last);
+  vec2 slope = vec2(slopeOf(depthAt(p - ivec2(1, 0), last), here, depthAt(p + ivec2(1, 0), last)),
+                    slopeOf(depthAt(p - ivec2(0, 1), last), here, depthAt(p + ivec2(0, 1), last)));
+  const int kStride = 2;  // px: a quarter of the reads
+  float reach = kOverJoint * pixelsOfFull.x;
+  int most = int(0.5 * reach) * kStride;
+  uint found = 0u;
+  float nearest = reach;
+  for (int y = -most; y <= most; y += kStride) {
+    for (int x = -most; x <= most; x += kStride) {
+      float away = length(vec2(x, y));
+      ivec2 at = p + ivec2(x, y);
+      if (away >= nearest || any(lessThan(at, ivec2(0))) || any(greaterThan(at, last))) continue;
+      uint there = texelFetch(forms, at, 0).r;
+      if (labelOf(there) == labelOf(form) || !isOneJoint(form, there)) continue;
+      if (isDepthStep(depthAt(at, last) - here - dot(slope, vec2(x, y)), here)) continue;
+      nearest = away;
+      found = labelOf(there);
+    }
+  }
+  near = 1.0 - nearest / reach;
+  return found;
 }
 
 void main() {
@@ -43,5 +85,13 @@ void main() {
       other = label;
     }
   }
-  border = borderOf(own, other, isUniform ? 1.0 : share);
+  float near = 0.0;
+  uint across = hasObjects ? acrossJoint(p, last, near) : 0u;
+  // A border that is not open, such as an outline, clips as ever.
+  bool isClosed = other != own && other != across;
+  if (across != 0u && !isClosed) {
+    border = borderOf(own, across, near, true);
+  } else {
+    border = borderOf(own, other, isUniform ? 1.0 : share, false);
+  }
 }

@@ -9,5 +9,7 @@ flat in uint label;
 float within() {
   uint border = texelFetch(borders, ivec2(gl_FragCoord.xy), 0).r;
   float share = shareOf(border);
-  return ownOf(border) == label ? share : (otherOf(border) == label ? 1.0 - share : 0.0);
+  float ofOwn = isOpen(border) ? 1.0 : share;
+  float ofOther = isOpen(border) ? share : 1.0 - share;
+  return ownOf(border) == label ? ofOwn : (otherOf(border) == label ? ofOther : 0.0);
 }
