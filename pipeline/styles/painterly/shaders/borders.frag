@@ -1,18 +1,24 @@
 // Purpose: the borders at which strokes are clipped: those of virtual objects and of their patches
 //          against each other and against real content, and those of movers against the
-//          background, two pixels wide, so that a clipped edge is smooth. Occluders count as real:
-//          they hide models, but the image goes on over their edges.
-// Inputs:  forms (scene::ArFrame) if hasObjects; mover_labels.glsl's; size, pixelsOfFull: of the
-//          frame.
+//          background, two pixels wide, so that a clipped edge is smooth; and those of the camera
+//          image's segments. Occluders count as real: they hide models, but the image goes on over
+//          their edges.
+// Inputs:  forms (scene::ArFrame) if hasObjects; mover_labels.glsl's; segments.glsl's; picture: the
+//          frame's; before: the previous frame's output if isHeld, while the camera stands; size,
+//          pixelsOfFull: of the frame.
 // Outputs: R32UI, packed as in border.glsl.
 // Precision: integers; highp for places.
 #include "pipeline/scene/render/shaders/surface_form.glsl"
 #include "pipeline/styles/strokes/shaders/border.glsl"
 uniform highp usampler2D forms;
+uniform highp usampler2D before;
+uniform highp sampler2D picture;
 uniform bool hasObjects;
+uniform bool isHeld;
 uniform vec2 size;
 uniform vec2 pixelsOfFull;
 #include "pipeline/marks/shaders/mover_labels.glsl"
+#include "pipeline/marks/shaders/segments.glsl"
 layout(location = 0) out uint border;
 
 float moverOf(ivec2 p) { return moverAt((vec2(p) + 0.5) / pixelsOfFull).r; }
@@ -21,6 +27,19 @@ uint labelAt(ivec2 p) {
   uint label = hasObjects ? labelOf(texelFetch(forms, p, 0).r) : 0u;
   if (label != 0u) return label;
   return moverOf(p) > 0.5 ? kMoverLabel : 0u;
+}
+
+// While the camera stands, the border between two segments stays where it is but for clear changes,
+// so that noise does not move it.
+uint held(SegmentBorder now, ivec2 p) {
+  const float kSlack = 0.35;
+  uint found = borderOf(now.own, now.other, now.share);
+  if (!isHeld) return found;
+  uint was = texelFetch(before, p, 0).r;
+  bool isSame = ownOf(was) == now.own && otherOf(was) == now.other;
+  bool isSwapped = ownOf(was) == now.other && otherOf(was) == now.own;
+  float share = isSwapped ? 1.0 - shareOf(was) : shareOf(was);
+  return (isSame || isSwapped) && abs(share - now.share) < kSlack ? was : found;
 }
 
 void main() {
@@ -44,4 +63,8 @@ void main() {
     }
   }
   border = borderOf(own, other, isUniform ? 1.0 : share);
+  if (!hasSegments || own != 0u) return;
+  SegmentBorder between =
+      segmentBorderAt((vec2(p) + 0.5) / pixelsOfFull, texelFetch(picture, p, 0).rgb);
+  border = other == own ? held(between, p) : borderOf(between.own, other, share);
 }

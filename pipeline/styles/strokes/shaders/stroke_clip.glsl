@@ -9,5 +9,6 @@ flat in uint label;
 float within() {
   uint border = texelFetch(borders, ivec2(gl_FragCoord.xy), 0).r;
   float share = shareOf(border);
-  return ownOf(border) == label ? share : (otherOf(border) == label ? 1.0 - share : 0.0);
+  return (mayCover(label, ownOf(border)) ? share : 0.0) +
+         (mayCover(label, otherOf(border)) ? 1.0 - share : 0.0);
 }
