@@ -13,6 +13,8 @@
 
 namespace pleinair::marks {
 
+class SegmentMap;
+
 struct TensorFieldOptions {
   /// The weight of a virtual surface's own form: the edge strength (gradient.frag's P) of the form
   /// at its clearest.
@@ -42,9 +44,11 @@ class TensorField {
   /// Adds a frame's image (RGBA8, of frame.size()) and carries the past along `motion`, which has
   /// been updated for the frame, like `layers`, and past tensors of virtual objects along
   /// ArFrame::motion. Behind movers and virtual objects, the background's tensors stay as they
-  /// were. Precondition: frame.full() is the constructor's size.
+  /// were. With `segments`, directions do not spread from one segment of the camera image to
+  /// another. Precondition: frame.full() is the constructor's size.
   void update(const scene::ArFrame& frame, const gpu::Texture& picture, const MotionField& motion,
-              const TensorFieldOptions& options, const MotionLayers* layers = nullptr);
+              const TensorFieldOptions& options, const MotionLayers* layers = nullptr,
+              const SegmentMap* segments = nullptr);
 
   std::size_t levelCount() const;
   /// RGBA16F, LINEAR: a level's tensors after the look-up in coarser levels: tensor; confidence of

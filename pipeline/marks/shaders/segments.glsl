@@ -26,18 +26,6 @@ uint coarseSegmentAt(vec2 px) {
   return segmentOf(cellAt(ivec2(floor(px * segmentGrid.xy + segmentGrid.zw))));
 }
 
-// The segment of a square, or 0 if it has several.
-uint segmentOfSquare(vec2 middle, float side) {
-  if (!hasSegments) return 0u;
-  uint first = coarseSegmentAt(middle - 0.25 * side);
-  uint same = first;
-  for (int i = 1; i < 4; ++i) {
-    vec2 corner = 2.0 * vec2(i & 1, i >> 1) - 1.0;
-    if (coarseSegmentAt(middle + 0.25 * side * corner) != first) same = 0u;
-  }
-  return same;
-}
-
 vec3 lumaAndChroma(vec3 colour) {
   float luma = dot(colour, vec3(0.299, 0.587, 0.114));
   return vec3(luma, 0.564 * (colour.b - luma), 0.713 * (colour.r - luma));
@@ -56,48 +44,87 @@ struct SegmentBorder {
   float share;
 };
 
-SegmentBorder segmentBorderAt(vec2 px, vec3 seen) {
+// The colour around a pixel: noise and fine texture move no border.
+vec3 colourAround(highp sampler2D picture, vec2 at) {
+  vec2 reach = 0.75 / vec2(textureSize(picture, 0));
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < 4; ++i) {
+    sum += textureLod(picture, at + reach * (2.0 * vec2(i & 1, i >> 1) - 1.0), 0.0).rgb;
+  }
+  return 0.25 * sum;
+}
+
+float awayFrom(vec3 colour, vec3 other) {
+  vec3 difference = colour - other;
+  return sqrt(dot(difference * difference, kPerceived));
+}
+
+// `picture`: the frame's; `place`: px in its texture coordinates. The two segments are those whose
+// colours around are the nearest to the pixel's; where it lies between these colours is its share.
+// The colours are means over cells, weighted so that a shift of the grid changes little.
+SegmentBorder segmentBorderAt(vec2 px, highp sampler2D picture, vec2 place) {
   if (!hasSegments) return SegmentBorder(0u, 0u, 1.0);
-  const float kAway = 0.05;  // of colour, for each cell of distance
+  const int kCells = 25;
+  const int kAcross = 5;
+  const float kWidth = 0.35;  // of the weights: exp(-0.35 d²), d in cells
   vec2 at = px * segmentGrid.xy + segmentGrid.zw;
   ivec2 middle = ivec2(floor(at));
   uint here = cellAt(middle);
   uint label = segmentOf(here);
   SegmentBorder border = SegmentBorder(label, label, 1.0);
-  vec3 own = lumaAndChroma(seen);
-  vec3 first = own;
-  vec3 second = own;
-  float least = 1e6;
-  float next = 1e6;
-  // A loop that no invocation enters costs nothing on software renderers.
+  // Loops that no invocation enters cost nothing on software renderers.
   bool isInside = (here >> 12u & 1u) != 0u;
-  for (int i = isInside ? 9 : 0; i < 9; ++i) {
-    ivec2 there = middle + ivec2(i % 3, i / 3) - 1;
-    uint cell = cellAt(there);
-    uint segment = segmentOf(cell);
-    vec3 colour = colourOfCell(cell);
-    vec3 difference = colour - own;
-    float away = sqrt(dot(difference * difference, kPerceived)) +
-                 kAway * distance(at, vec2(there) + 0.5);
-    if (away < least) {
-      if (segment != border.own || least > 1e5) {
-        border.other = least > 1e5 ? segment : border.own;
-        next = least;
-        second = first;
+  for (int once = isInside ? 1 : 0; once < 1; ++once) {
+    vec3 own = lumaAndChroma(colourAround(picture, place));
+    // Up to three segments: that of the pixel's cell, and the next ones.
+    uvec3 labels = uvec3(label, label, label);
+    vec4 first = vec4(0.0);
+    vec4 second = vec4(0.0);
+    vec4 third = vec4(0.0);
+    for (int i = 0; i < kCells; ++i) {
+      ivec2 there = middle + ivec2(i % kAcross, i / kAcross) - kAcross / 2;
+      uint cell = cellAt(there);
+      uint segment = segmentOf(cell);
+      vec2 arm = at - (vec2(there) + 0.5);
+      vec4 weighted = exp(-kWidth * dot(arm, arm)) * vec4(colourOfCell(cell), 1.0);
+      if (segment == labels.x) {
+        first += weighted;
+      } else if (segment == labels.y || labels.y == labels.x) {
+        labels.y = segment;
+        second += weighted;
+      } else if (segment == labels.z || labels.z == labels.x) {
+        labels.z = segment;
+        third += weighted;
       }
-      border.own = segment;
-      least = away;
-      first = colour;
-    } else if (segment != border.own && away < next) {
-      border.other = segment;
-      next = away;
-      second = colour;
     }
+    const float kNegligible = 0.02;  // weight: too far away
+    vec3 aways = vec3(awayFrom(first.rgb / first.a, own), 1e3, 1e3);
+    if (second.a > kNegligible) aways.y = awayFrom(second.rgb / second.a, own);
+    if (third.a > kNegligible) aways.z = awayFrom(third.rgb / third.a, own);
+    if (aways.z < min(aways.x, aways.y) || (aways.z < aways.y && aways.y < 1e3)) {
+      // The third one is among the nearest two.
+      labels.yz = labels.zy;
+      aways.yz = aways.zy;
+      vec4 swapped = second;
+      second = third;
+      third = swapped;
+    }
+    if (aways.z < aways.x) {
+      labels.xz = labels.zx;
+      aways.xz = aways.zx;
+      first = third;
+    }
+    if (aways.y > 100.0) continue;
+    bool isSecond = aways.y < aways.x;
+    border.own = isSecond ? labels.y : labels.x;
+    border.other = isSecond ? labels.x : labels.y;
+    if (border.own == 0u || border.other == 0u) border.other = border.own;
+    if (border.other == border.own) continue;
+    vec3 one = isSecond ? second.rgb / second.a : first.rgb / first.a;
+    vec3 two = isSecond ? first.rgb / first.a : second.rgb / second.a;
+    vec3 between = one - two;
+    float part = dot(own - two, kPerceived * between) / max(dot(between, kPerceived * between), 1e-6);
+    border.share = smoothstep(0.2, 0.8, part);
   }
-  if (border.own == 0u || border.other == 0u) border.other = border.own;
-  if (border.other == border.own) return border;
-  vec3 between = first - second;
-  border.share = clamp(dot(own - second, kPerceived * between) /
-                           max(dot(between, kPerceived * between), 1e-6), 0.0, 1.0);
   return border;
 }

@@ -215,8 +215,8 @@ bool isStep(float first, float second, float third) {
 // The part of a segment that lies on its patch, in [0, 1]; a step of a pixel at a time. Segments of
 // the image are never as narrow as patches.
 float partOnPatch(vec2 from, vec2 to, Support on) {
-  float pace_ = hasObjects ? 1.0 : 3.0;
-  float count = max(1.0, ceil(distance(from, to) * max(pixelsOfFull.x, pixelsOfFull.y) / pace_));
+  float stride = hasObjects ? 1.0 : 3.0;
+  float count = max(1.0, ceil(distance(from, to) * max(pixelsOfFull.x, pixelsOfFull.y) / stride));
   vec2 pace = (to - from) / count;
   uint label = on.isOnMover ? 0u : on.label;  // models alone have labels in the image
   bool isDeep = on.isModel && depthRange.y > 0.0;
@@ -224,7 +224,10 @@ float partOnPatch(vec2 from, vec2 to, Support on) {
   float here = isDeep ? depthAt(from) : 0.0;
   for (float i = 1.0; i <= count; i += 1.0) {
     vec2 at = from + i * pace;
-    if (!mayCover(label, labelAt(at))) return max(0.0, (i - 0.5) / count);
+    if (!mayCover(label, labelAt(at))) {
+      bool isEarly = stride > 1.0 && !mayCover(label, labelAt(at - 0.5 * pace));
+      return max(0.0, (i - (isEarly ? 0.75 : stride > 1.0 ? 0.25 : 0.5)) / count);
+    }
     if (!isDeep) continue;
     float next = depthAt(at);
     if (isStep(before, here, next)) return max(0.0, (i - 1.5) / count);

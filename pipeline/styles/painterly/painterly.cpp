@@ -224,7 +224,8 @@ void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParamete
   findBorders(frame, p);
   const Texture* const labels = painting->segments.hasSegments() ? clip : nullptr;
   reduced.update(frame, movers);
-  painting->field.update(frame, *frame.colour, painting->motion, fieldOf(p), movers);
+  painting->field.update(frame, *frame.colour, painting->motion, fieldOf(p), movers,
+                         &painting->segments);
   for (std::size_t i = 0; i < painting->layers.size(); ++i) {
     Layer& layer = *painting->layers[i];
     if (p.coherence <= 0.0) layer.anchors.beginAnew();

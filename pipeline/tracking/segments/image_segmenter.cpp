@@ -18,11 +18,14 @@ namespace pleinair::tracking {
 namespace {
 
 constexpr double kLeastStepPx = 2.0;
-constexpr float kHeldNoises = 6.0F;  // standard deviations of a cell that count as noise
+constexpr float kHeldNoises = 12.0F;  // of a cell; as a distance, noise is 2.5 standard deviations long
 constexpr float kHeldLevels = 3.0F;  // of colour, beyond them
 /// Frames without a change after which the labels rest: hysteresis has settled.
-constexpr int kSettledFrames = 4;
+constexpr int kSettledFrames = 16;
 constexpr int kLeastOverlap = 3;
+/// A new segment is shown once it has been found in so many frames: till then, its cells count as
+/// what they were.
+constexpr std::uint8_t kMatureFrames = 12;
 constexpr float kGoodFlowPx = 1.5F;
 constexpr float kUsableFlowPx = 4.0F;
 
@@ -81,6 +84,7 @@ struct ImageSegmenter::State {
   void carry(const ImageMotion& motion, bool isStanding);
   void assignLabels();
   std::uint16_t newLabel();
+  void showMature();
   void smoothColours();
 
   hal::FrameSize frameSize;
@@ -90,7 +94,10 @@ struct ImageSegmenter::State {
   CellColours reduced;
   std::vector<CellColour> colours;  // held
   SegmentMerger merger;
-  std::vector<std::uint16_t> carried;
+  std::vector<std::uint16_t> carried;  // of `found`
+  std::vector<std::uint16_t> shown;    // what the carried labels were shown as
+  std::vector<std::uint16_t> found;    // labels of this frame, young ones, too
+  std::array<std::uint8_t, kMaxSegmentLabel + 1> ages{};  // frames, up to kMatureFrames
   std::vector<std::uint32_t> pairs;  // segment and carried label of each cell
   std::vector<Overlap> overlaps;
   std::vector<std::uint16_t> labels;  // of the segments
@@ -133,6 +140,7 @@ bool ImageSegmenter::State::takeColours(bool isStanding, double noiseLevels) {
 void ImageSegmenter::State::carry(const ImageMotion& motion, bool isStanding) {
   if (!hasPast) {
     std::ranges::fill(carried, std::uint16_t{0});
+    std::ranges::fill(shown, std::uint16_t{0});
     return;
   }
   const glm::dvec2 side = cellPx();
@@ -145,8 +153,10 @@ void ImageSegmenter::State::carry(const ImageMotion& motion, bool isStanding) {
       const glm::ivec2 cell(glm::floor(from / side));
       const bool isThere =
           cell.x >= 0 && cell.y >= 0 && cell.x < grid.width && cell.y < grid.height;
-      carried[indexOf(y * grid.width + x)] =
-          isThere ? cells[indexOf(cell.y * grid.width + cell.x)].label : std::uint16_t{0};
+      const std::size_t to = indexOf(y * grid.width + x);
+      const std::size_t at = isThere ? indexOf(cell.y * grid.width + cell.x) : 0;
+      carried[to] = isThere ? found[at] : std::uint16_t{0};
+      shown[to] = isThere ? cells[at].label : std::uint16_t{0};
     }
   }
 }
@@ -194,10 +204,22 @@ void ImageSegmenter::State::assignLabels() {
     if (label != 0) continue;
     label = newLabel();
     isUsed.at(label) = true;
+    ages.at(label) = hasPast ? 0 : kMatureFrames;
   }
   for (std::size_t i = 0; i < segmentOf.size(); ++i) {
-    cells[i].label =
+    found[i] =
         segmentOf[i] == SegmentMerger::kUnsure ? std::uint16_t{0} : labels[indexOf(segmentOf[i])];
+  }
+}
+
+/// Young segments are not shown yet: each of their cells is what it was, or else unsure.
+void ImageSegmenter::State::showMature() {
+  for (const std::uint16_t label : labels) {
+    ages.at(label) = std::min<std::uint8_t>(kMatureFrames, ages.at(label) + 1U);
+  }
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const bool isMature = found[i] != 0 && ages.at(found[i]) >= kMatureFrames;
+    cells[i].label = isMature || found[i] == 0 ? found[i] : shown[i];
   }
 }
 
@@ -256,7 +278,12 @@ const ImageSegments& ImageSegmenter::follow(const hal::ImageView& image,
   const auto count = static_cast<std::size_t>(s.grid.pixels());
   s.colours.resize(count);
   s.carried.resize(count);
+  s.shown.resize(count);
+  s.found.resize(count);
   s.cells.resize(count);
+  s.pairs.reserve(count);
+  s.overlaps.reserve(count);
+  s.labels.reserve(count);
   s.reduced.reduce(image, s.grid);
   const bool isStanding = s.hasPast && isStandingStill(motion);
   const bool hasChanged = s.takeColours(isStanding, motion.noiseLevels);
@@ -265,6 +292,7 @@ const ImageSegments& ImageSegmenter::follow(const hal::ImageView& image,
     s.carry(motion, isStanding);
     s.merger.merge(s.grid, s.colours, s.carried);
     s.assignLabels();
+    s.showMature();
     s.smoothColours();
   }
   s.hasPast = true;

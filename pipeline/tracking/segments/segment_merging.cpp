@@ -14,14 +14,13 @@ namespace {
 constexpr int kMaxWeight = 127;      // levels of colour; cells further apart are not merged by means
 constexpr float kAlikeMeans = 22.0F;  // levels of colour
 constexpr float kSmallSlack = 2.0F;   // cells: by what small regions may be less alike
-constexpr float kClearBorder = 26.0F;
-constexpr float kTexture = 1.6F;  // times the contrast within both segments
-constexpr float kHold = 0.35F;    // hysteresis, as a part
-constexpr int kLeastCells = 20;
-constexpr int kLeastCores = 4;
+constexpr float kClearBorder = 40.0F;
+constexpr float kTexture = 2.0F;  // times the contrast within both segments
+constexpr float kHold = 0.45F;    // hysteresis, as a part
+constexpr int kLeastCells = 40;
+constexpr int kLeastCores = 10;
 constexpr int kRounds = 3;
-constexpr int kRim = 2;  // cells that a segment takes of specks beside it
-constexpr float kRimAlike = 2.0F * kAlikeMeans;
+constexpr int kLargestSpeck = 24;  // cells that are filled; larger gaps lose their rim only
 
 float biasOf(std::uint16_t first, std::uint16_t second) {
   if (first == 0 || second == 0) return 1.0F;
@@ -33,6 +32,15 @@ std::size_t indexOf(int i) {
 }
 
 }  // namespace
+
+template <class Body>
+void SegmentMerger::forNeighbours(int cell, const Body& body) const {
+  const int x = cell % grid_.width;
+  if (x > 0) body(cell - 1);
+  if (x + 1 < grid_.width) body(cell + 1);
+  if (cell >= grid_.width) body(cell - grid_.width);
+  if (cell + grid_.width < static_cast<int>(segments_.size())) body(cell + grid_.width);
+}
 
 int SegmentMerger::rootOf(int cell) {
   while (parents_[indexOf(cell)] != cell) {
@@ -110,13 +118,14 @@ void SegmentMerger::addBorder(int first, int second, float contrast) {
     Border& known = borders_[indexOf(slots_[slot])];
     if (known.first == first && known.second == second) {
       known.contrast += contrast;
+      known.squares += contrast * contrast;
       ++known.length;
       return;
     }
     slot = (slot + 1) & mask;
   }
   slots_[slot] = static_cast<int>(borders_.size());
-  borders_.push_back({first, second, contrast, 1});
+  borders_.push_back({first, second, contrast, contrast * contrast, 1});
 }
 
 /// The contrast across the borders of regions, and of what is within them, between cells three
@@ -157,8 +166,8 @@ void SegmentMerger::findBorders() {
 /// Merges what no clear border separates; whether there was anything.
 bool SegmentMerger::mergeByBorders() {
   std::ranges::sort(borders_, [](const Border& a, const Border& b) {
-    const float one = a.mean();
-    const float other = b.mean();
+    const float one = a.clear();
+    const float other = b.clear();
     if (one != other) return one < other;
     return a.first != b.first ? a.first < b.first : a.second < b.second;
   });
@@ -169,18 +178,17 @@ bool SegmentMerger::mergeByBorders() {
     if (first == second) continue;
     const Region& a = regions_[indexOf(first)];
     const Region& b = regions_[indexOf(second)];
-    const float texture = kTexture * std::min(a.texture, b.texture);
+    const float texture = kTexture * 0.5F * (a.texture + b.texture);
     const float limit = std::max(kClearBorder, texture) * biasOf(a.label, b.label);
-    if (border.mean() >= limit) continue;
+    if (border.clear() >= limit) continue;
     join(first, second);
     hasMerged = true;
   }
   return hasMerged;
 }
 
-/// Regions that are too small, or nowhere three cells wide, are no segments: cells at their rim go
-/// to the segment beside them that is the most alike.
-void SegmentMerger::dissolveSpecks() {
+/// Regions that are too small, or nowhere three cells wide, are no segments.
+void SegmentMerger::leaveOutSpecks() {
   const int width = grid_.width;
   for (int i = 0; i < static_cast<int>(segments_.size()); ++i) segments_[indexOf(i)] = rootOf(i);
   cores_.assign(segments_.size(), 0);
@@ -202,29 +210,49 @@ void SegmentMerger::dissolveSpecks() {
                          static_cast<float>(cores_[indexOf(segment)]) >= slack * kLeastCores;
     if (!isLarge) segment = kUnsure;
   }
-  for (int rim = 0; rim < kRim; ++rim) {
+}
+
+/// The number of cells in each connected gap, at its cells.
+void SegmentMerger::measureGaps() {
+  gaps_.assign(segments_.size(), 0);
+  for (int first = 0; first < static_cast<int>(segments_.size()); ++first) {
+    if (segments_[indexOf(first)] != kUnsure || gaps_[indexOf(first)] != 0) continue;
+    queue_.assign(1, first);
+    gaps_[indexOf(first)] = 1;
+    for (std::size_t i = 0; i < queue_.size(); ++i) {
+      forNeighbours(queue_[i], [this](int at) {
+        if (segments_[indexOf(at)] != kUnsure || gaps_[indexOf(at)] != 0) return;
+        gaps_[indexOf(at)] = 1;
+        queue_.push_back(at);
+      });
+    }
+    for (const int cell : queue_) gaps_[indexOf(cell)] = static_cast<int>(queue_.size());
+  }
+}
+
+/// Cells of gaps go to the segment beside them that is the most alike: all of small gaps, the rim
+/// of larger ones.
+void SegmentMerger::fillGaps() {
+  measureGaps();
+  bool isFirst = true;
+  for (bool hasFilled = true; hasFilled; isFirst = false) {
+    hasFilled = false;
     next_.assign(segments_.begin(), segments_.end());
-    for (int y = 0; y < grid_.height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        const int cell = y * width + x;
-        if (segments_[indexOf(cell)] != kUnsure) continue;
-        float least = rim == 0 ? std::numeric_limits<float>::max() : kRimAlike;
-        const auto look = [&](bool isThere, int at) {
-          if (!isThere || segments_[indexOf(at)] == kUnsure) return;
-          const int segment = segments_[indexOf(at)];
-          const std::uint16_t label = regions_[indexOf(segment)].label;
-          const float away =
-              distanceOf(colours_[indexOf(cell)], regions_[indexOf(segment)].mean()) /
-              biasOf(label, carried_[indexOf(cell)]);
-          if (away >= least) return;
-          least = away;
-          next_[indexOf(cell)] = segment;
-        };
-        look(x > 0, cell - 1);
-        look(x + 1 < width, cell + 1);
-        look(y > 0, cell - width);
-        look(y + 1 < grid_.height, cell + width);
-      }
+    for (int cell = 0; cell < static_cast<int>(segments_.size()); ++cell) {
+      if (segments_[indexOf(cell)] != kUnsure) continue;
+      if (!isFirst && gaps_[indexOf(cell)] > kLargestSpeck) continue;
+      float least = std::numeric_limits<float>::max();
+      forNeighbours(cell, [&](int at) {
+        const int segment = segments_[indexOf(at)];
+        if (segment == kUnsure) return;
+        const Region& region = regions_[indexOf(segment)];
+        const float away = distanceOf(colours_[indexOf(cell)], region.mean()) /
+                           biasOf(region.label, carried_[indexOf(cell)]);
+        if (away >= least) return;
+        least = away;
+        next_[indexOf(cell)] = segment;
+        hasFilled = true;
+      });
     }
     segments_.swap(next_);
   }
@@ -258,6 +286,10 @@ void SegmentMerger::merge(hal::FrameSize grid, std::span<const CellColour> colou
   std::size_t slots = 1;
   while (slots < 4 * cells) slots *= 2;  // two borders a cell at most
   slots_.resize(slots);
+  for (auto* const each : {&edges_, &sorted_}) each->reserve(2 * cells);
+  weights_.reserve(2 * cells);
+  borders_.reserve(2 * cells);
+  queue_.reserve(cells);
   for (std::size_t i = 0; i < cells; ++i) {
     regions_[i] = {colours[i].luma, colours[i].cb, colours[i].cr, 1, carried[i], 0.0F};
   }
@@ -267,7 +299,8 @@ void SegmentMerger::merge(hal::FrameSize grid, std::span<const CellColour> colou
     findBorders();
     if (!mergeByBorders()) break;
   }
-  dissolveSpecks();
+  leaveOutSpecks();
+  fillGaps();
   number();
 }
 

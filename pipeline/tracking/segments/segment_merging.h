@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -14,7 +16,7 @@ namespace pleinair::tracking {
 /// region merging", 2004). Segments are merged whose common border has little contrast, measured
 /// beyond the cells that the border crosses, or no more than they have within: so soft shading and
 /// texture make no borders. Strips of mixed colour along a border, and specks, go to the segments
-/// beside them; what is left has no segment.
+/// beside them; larger patches of small-scaled content have no segment.
 ///
 /// Hysteresis: what had the same label in the previous frame is merged more readily, what had
 /// different ones less, so that noise changes nothing. The result depends on nothing else; it is
@@ -51,11 +53,20 @@ class SegmentMerger {
   struct Border {
     int first;
     int second;
-    double contrast;
+    double contrast;  // sums
+    double squares;
     int length;
-    float mean() const { return static_cast<float>(contrast / length); }
+    /// What most of the border has: its mean contrast less a part of its deviation.
+    float clear() const {
+      const double mean = contrast / length;
+      const double variance = std::max(0.0, squares / length - mean * mean);
+      return static_cast<float>(mean - kDeviations * std::sqrt(variance));
+    }
+    static constexpr double kDeviations = 0.6;
   };
 
+  template <class Body>
+  void forNeighbours(int cell, const Body& body) const;
   int rootOf(int cell);
   void join(int first, int second);
   void sortEdges();
@@ -63,7 +74,9 @@ class SegmentMerger {
   void findBorders();
   void addBorder(int first, int second, float contrast);
   bool mergeByBorders();
-  void dissolveSpecks();
+  void leaveOutSpecks();
+  void measureGaps();
+  void fillGaps();
   void number();
 
   hal::FrameSize grid_;
@@ -82,6 +95,8 @@ class SegmentMerger {
   std::vector<int> cores_;
   std::vector<int> segments_;
   std::vector<int> next_;
+  std::vector<int> gaps_;
+  std::vector<int> queue_;
   std::vector<int> numbers_;
   int count_ = 0;
 };

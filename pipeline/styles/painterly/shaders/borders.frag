@@ -65,6 +65,6 @@ void main() {
   border = borderOf(own, other, isUniform ? 1.0 : share);
   if (!hasSegments || own != 0u) return;
   SegmentBorder between =
-      segmentBorderAt((vec2(p) + 0.5) / pixelsOfFull, texelFetch(picture, p, 0).rgb);
+      segmentBorderAt((vec2(p) + 0.5) / pixelsOfFull, picture, (vec2(p) + 0.5) / size);
   border = other == own ? held(between, p) : borderOf(between.own, other, share);
 }
