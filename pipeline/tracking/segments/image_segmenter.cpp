@@ -21,11 +21,13 @@ constexpr double kLeastStepPx = 2.0;
 constexpr float kHeldNoises = 12.0F;  // of a cell; as a distance, noise is 2.5 standard deviations long
 constexpr float kHeldLevels = 3.0F;  // of colour, beyond them
 /// Frames without a change after which the labels rest: hysteresis has settled.
-constexpr int kSettledFrames = 16;
+constexpr int kSettledFrames = 24;
 constexpr int kLeastOverlap = 3;
 /// A new segment is shown once it has been found in so many frames: till then, its cells count as
 /// what they were.
 constexpr std::uint8_t kMatureFrames = 12;
+/// A cell becomes unsure, or sure again, after so many frames.
+constexpr std::uint8_t kDoubtFrames = 8;
 constexpr float kGoodFlowPx = 1.5F;
 constexpr float kUsableFlowPx = 4.0F;
 
@@ -96,6 +98,8 @@ struct ImageSegmenter::State {
   SegmentMerger merger;
   std::vector<std::uint16_t> carried;  // of `found`
   std::vector<std::uint16_t> shown;    // what the carried labels were shown as
+  std::vector<std::uint8_t> waited;    // frames since the carried cell should be unsure, or sure
+  std::vector<std::uint8_t> waiting;   // the same of this frame
   std::vector<std::uint16_t> found;    // labels of this frame, young ones, too
   std::array<std::uint8_t, kMaxSegmentLabel + 1> ages{};  // frames, up to kMatureFrames
   std::vector<std::uint32_t> pairs;  // segment and carried label of each cell
@@ -141,6 +145,7 @@ void ImageSegmenter::State::carry(const ImageMotion& motion, bool isStanding) {
   if (!hasPast) {
     std::ranges::fill(carried, std::uint16_t{0});
     std::ranges::fill(shown, std::uint16_t{0});
+    std::ranges::fill(waited, kDoubtFrames);
     return;
   }
   const glm::dvec2 side = cellPx();
@@ -157,6 +162,7 @@ void ImageSegmenter::State::carry(const ImageMotion& motion, bool isStanding) {
       const std::size_t at = isThere ? indexOf(cell.y * grid.width + cell.x) : 0;
       carried[to] = isThere ? found[at] : std::uint16_t{0};
       shown[to] = isThere ? cells[at].label : std::uint16_t{0};
+      waited[to] = isThere ? waiting[at] : kDoubtFrames;  // what comes to sight does not wait
     }
   }
 }
@@ -212,14 +218,19 @@ void ImageSegmenter::State::assignLabels() {
   }
 }
 
-/// Young segments are not shown yet: each of their cells is what it was, or else unsure.
+/// Young segments are not shown yet: each of their cells is what it was, or else unsure. So is for
+/// a while what has lost its segment or got one.
 void ImageSegmenter::State::showMature() {
   for (const std::uint16_t label : labels) {
     ages.at(label) = std::min<std::uint8_t>(kMatureFrames, ages.at(label) + 1U);
   }
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const bool isMature = found[i] != 0 && ages.at(found[i]) >= kMatureFrames;
-    cells[i].label = isMature || found[i] == 0 ? found[i] : shown[i];
+    const bool isYoung = found[i] != 0 && ages.at(found[i]) < kMatureFrames;
+    const std::uint16_t label = isYoung ? shown[i] : found[i];
+    const bool isDoubtful = (label == 0) != (shown[i] == 0);
+    const bool isLate = isDoubtful && waited[i] < kDoubtFrames;
+    waiting[i] = isLate ? static_cast<std::uint8_t>(waited[i] + 1U) : std::uint8_t{0};
+    cells[i].label = isLate ? shown[i] : label;
   }
 }
 
@@ -279,6 +290,8 @@ const ImageSegments& ImageSegmenter::follow(const hal::ImageView& image,
   s.colours.resize(count);
   s.carried.resize(count);
   s.shown.resize(count);
+  s.waited.resize(count);
+  s.waiting.resize(count);
   s.found.resize(count);
   s.cells.resize(count);
   s.pairs.reserve(count);
