@@ -120,11 +120,19 @@ SegmentBorder segmentBorderAt(vec2 px, highp sampler2D picture, vec2 place) {
     border.other = isSecond ? labels.x : labels.y;
     if (border.own == 0u || border.other == 0u) border.other = border.own;
     if (border.other == border.own) continue;
-    vec3 one = isSecond ? second.rgb / second.a : first.rgb / first.a;
-    vec3 two = isSecond ? first.rgb / first.a : second.rgb / second.a;
-    vec3 between = one - two;
-    float part = dot(own - two, kPerceived * between) / max(dot(between, kPerceived * between), 1e-6);
+    vec4 one = isSecond ? second : first;
+    vec4 two = isSecond ? first : second;
+    vec3 between = one.rgb / one.a - two.rgb / two.a;
+    float contrast = dot(between, kPerceived * between);
+    float part = dot(own - two.rgb / two.a, kPerceived * between) / max(contrast, 1e-6);
+    // Where the colours are alike, the cells decide.
+    part = mix(one.a / (one.a + two.a), part, smoothstep(0.06, 0.16, sqrt(contrast)));
     border.share = smoothstep(0.2, 0.8, part);
+    if (border.share < 0.5) {
+      border.share = 1.0 - border.share;
+      border.own = isSecond ? labels.x : labels.y;
+      border.other = isSecond ? labels.y : labels.x;
+    }
   }
   return border;
 }

@@ -173,7 +173,9 @@ TEST_F(SegmentsTest, BordersRestWhileTheCameraStands) {
   std::vector<std::uint32_t> before;
   for (unsigned i = 0; i < 32; ++i) {
     const std::vector<std::uint32_t> now = borders(segmented(disc(3.0, i)), i > 0);
-    if (i > 26) EXPECT_TRUE(now == before) << i;
+    if (i > 26) {
+      EXPECT_TRUE(now == before) << i;
+    }
     before = now;
   }
   EXPECT_FALSE(borders(segmented(disc(3.0, 99)), false) == before) << "the control: not held";
