@@ -237,6 +237,7 @@ hal::Result<Picture> FramePipeline::paintChecked(const hal::CapturedFrame& frame
   if (auto valid = checkFrame(frame, parameters); !valid) {
     return tl::unexpected(std::move(valid.error()));
   }
+  style_->setParameters(parameters.style);
   timer_.beginFrame();
   tracking::TrackingResult tracked;
   luma_.take(frame.image);
@@ -264,7 +265,7 @@ hal::Result<Picture> FramePipeline::paintChecked(const hal::CapturedFrame& frame
 
 scene::ArFrameNeeds FramePipeline::needsOf(const std::string& view) const {
   const scene::BufferView* buffer = scene::findBufferView(view);
-  scene::ArFrameNeeds needs = style_->kind().needs;
+  scene::ArFrameNeeds needs = style_->needs();
   needs.surfaces =
       needs.surfaces || readsSurfaces_ || (buffer != nullptr && buffer->needs.surfaces);
   return needs;
@@ -290,6 +291,11 @@ scene::ArFrame FramePipeline::compose(const hal::CapturedFrame& frame,
                                               frame.sequence, frame.captureTime, needs, lights);
   composed.fullSize = pictureSize_;
   if (motion != nullptr) addMotion(*motion, needs, composed);
+  if (motion != nullptr && needs.segments) {
+    addSegments(frame.image, *motion, composed);
+  } else {
+    segmenter_.reset();
+  }
   return composed;
 }
 
@@ -315,6 +321,17 @@ void FramePipeline::addMotion(const tracking::ImageMotion& motion, scene::ArFram
   composed.canvasFromPicture = frameFromPicture.inverse() * moved * frameFromPicture;
 }
 
+/// Adds the segments of the camera image.
+void FramePipeline::addSegments(const hal::ImageView& image, const tracking::ImageMotion& motion,
+                                scene::ArFrame& composed) {
+  const auto scope = timer_.measure("segment picture");
+  const gpu::AspectFill fit = gpu::aspectFill(image.format.size, pictureSize_);
+  composed.measuredSegments = scene::MeasuredSegments{
+      .segments = &segmenter_.follow(image, motion),
+      .frameScale = fit.scale,
+      .frameOrigin = fit.origin};
+}
+
 /// Discards all that earlier frames have left, but for the estimator of image motion, which
 /// discards its own at a cut.
 void FramePipeline::forgetPast() {
@@ -328,7 +345,6 @@ void FramePipeline::forgetPast() {
 const gpu::Texture& FramePipeline::paintView(const scene::ArFrame& frame,
                                              const PaintParameters& parameters) {
   const std::string_view view = parameters.view;
-  style_->setParameters(parameters.style);
   // The style paints for every view, so that its history does not depend on the view.
   const gpu::Texture& painted =
       style_->paint(frame, isEngineView(view) ? std::string_view{} : view);

@@ -24,6 +24,7 @@
 #include "pipeline/tracking/image/luma.h"
 #include "pipeline/tracking/motion/canvas_motion.h"
 #include "pipeline/tracking/motion/image_motion_estimator.h"
+#include "pipeline/tracking/segments/image_segmenter.h"
 #include "pipeline/tracking/pose/tracker.h"
 
 namespace pleinair {
@@ -92,6 +93,8 @@ class FramePipeline {
   const tracking::ImageMotion* measureMotion(std::uint64_t sequence, scene::ArFrameNeeds needs);
   void addMotion(const tracking::ImageMotion& motion, scene::ArFrameNeeds needs,
                  scene::ArFrame& composed);
+  void addSegments(const hal::ImageView& image, const tracking::ImageMotion& motion,
+                   scene::ArFrame& composed);
   void forgetPast();
   const gpu::Texture& paintView(const scene::ArFrame& frame, const PaintParameters& parameters);
   hal::Result<hal::Image> read(const gpu::Texture* texture);
@@ -125,6 +128,7 @@ class FramePipeline {
   tracking::LumaFrame luma_;  // of the frame being painted
   tracking::CanvasMotion motion_;
   tracking::ImageMotionEstimator imageMotion_;
+  tracking::ImageSegmenter segmenter_;
   std::optional<scene::LightEstimator> light_;  // if the scene's light is estimated
   std::vector<scene::TagSighting> sightings_;
   std::map<int, OpenReadback> readbacks_;

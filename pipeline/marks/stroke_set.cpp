@@ -16,6 +16,9 @@ namespace {
 
 const std::string kShaders = "pipeline/marks/shaders/";
 constexpr std::size_t kStrokeBytes = 96;  // shaders/stroke.glsl
+// The bits of labels in borders (shaders/stroke_label.glsl) and in forms (surface_form.glsl).
+constexpr unsigned kBorderLabels = 8191;
+constexpr unsigned kFormLabels = 4095;
 // the level of the field whose detail decides where a layer is painted
 constexpr std::size_t kDetailLevel = 1;
 
@@ -60,7 +63,7 @@ struct StrokeSet::State {
   glm::ivec2 allSlots() const { return {static_cast<int>(slots), 1}; }
   void grow(const scene::ArFrame& frame, const AnchorSet& anchors, const TensorField& field,
             const StrokePaint& paint, const StrokeRule& rule, const MotionLayers* layers,
-            hal::Duration step);
+            const gpu::Texture* borders, hal::Duration step);
   void layOut(const AnchorSet& anchors, const StrokeRule& rule);
 };
 
@@ -82,7 +85,7 @@ glm::vec2 scaleOf(const TensorField& field, std::size_t level) {
 void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchors,
                             const TensorField& field, const StrokePaint& paint,
                             const StrokeRule& rule, const MotionLayers* layers,
-                            hal::Duration step) {
+                            const gpu::Texture* borders, hal::Duration step) {
   const auto stays = [step](hal::Duration timeConstant) {
     return keptAfter(step, hal::toSeconds(timeConstant));
   };
@@ -104,9 +107,13 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .texture("background", layerTextures.backgroundOf(layers))
       .texture("moverMotion", layerTextures.moverMotionOf(layers))
       .texture("finePaint", *paint.fineModels)
+      .texture("fineGround", paint.fineBackground != nullptr ? *paint.fineBackground : *paint.background)
       .set("paintTexel", paint.modelTexelPx)
       .texture("ids", frame.hasObjects ? *frame.ids : noIds)
-      .texture("forms", frame.hasObjects ? *frame.forms : noIds)
+      .texture("labels", borders != nullptr ? *borders : frame.hasObjects ? *frame.forms : noIds)
+      .set("labelMask", borders != nullptr ? kBorderLabels : kFormLabels)
+      .set("hasLabels", borders != nullptr || frame.hasObjects ? 1 : 0)
+      .set("hasSegments", borders != nullptr ? 1 : 0)
       .texture("depth", hasDepth ? *frame.depth : anyColour)
       .set("depthRange", hasDepth ? glm::vec2(frame.nearMetres, frame.farMetres) : glm::vec2(0.0F))
       .set("hasObjects", frame.hasObjects ? 1 : 0)
@@ -179,12 +186,12 @@ StrokeSet::~StrokeSet() = default;
 
 void StrokeSet::update(const scene::ArFrame& frame, const AnchorSet& anchors,
                        const TensorField& field, const StrokePaint& paint, const StrokeRule& rule,
-                       const MotionLayers* layers) {
+                       const MotionLayers* layers, const gpu::Texture* borders) {
   State& s = *state_;
   assert(anchors.slotCount() == s.slots);
   const hal::Duration step = timeStep(s.lastTime, frame.captureTime);
   s.lastTime = frame.captureTime;
-  s.grow(frame, anchors, field, paint, rule, layers, step);
+  s.grow(frame, anchors, field, paint, rule, layers, borders, step);
   s.layOut(anchors, rule);
 }
 

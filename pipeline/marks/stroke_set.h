@@ -77,9 +77,10 @@ struct StrokePaint {
   const gpu::Texture* background = nullptr;
   const gpu::Texture* models = nullptr;
   const gpu::Texture* movers = nullptr;
-  /// The image of models at its finest, for strokes beside another patch, whose colours the texels
-  /// of `models` mix in.
+  /// The images of models and of the background at their finest, for strokes beside another patch
+  /// or segment, whose colours the texels of the others mix in.
   const gpu::Texture* fineModels = nullptr;
+  const gpu::Texture* fineBackground = nullptr;
   float modelTexelPx = 1.0F;  ///< width of a texel of `models`, in px of the full image
 };
 
@@ -100,11 +101,13 @@ class StrokeSet {
 
   /// Traces the strokes of the frame for which `anchors` and `field` were updated. If the anchors
   /// have started anew, the strokes have no past. With the anchors' `layers`, strokes end at the
-  /// borders of movers. Preconditions: both are of frame.full(), and the anchors have the
-  /// constructor's number of slots.
+  /// borders of movers; with `borders`, at those of the camera image's segments: R32UI of the
+  /// frame's size, the label of each pixel in its lowest 13 bits (shaders/stroke_label.glsl).
+  /// Preconditions: anchors and field are of frame.full(), and the anchors have the constructor's
+  /// number of slots.
   void update(const scene::ArFrame& frame, const AnchorSet& anchors, const TensorField& field,
               const StrokePaint& paint, const StrokeRule& rule,
-              const MotionLayers* layers = nullptr);
+              const MotionLayers* layers = nullptr, const gpu::Texture* borders = nullptr);
 
   /// The visible strokes, in painting order, 96 bytes each: four pairs of points, paint, shape
   /// (shaders/stroke_instances.comp). Also glDrawArraysIndirect's command for triangle strips of

@@ -210,7 +210,7 @@ TensorField::~TensorField() = default;
 
 void TensorField::update(const scene::ArFrame& frame, const gpu::Texture& picture,
                          const MotionField& motion, const TensorFieldOptions& options,
-                         const MotionLayers* layers) {
+                         const MotionLayers* layers, const SegmentMap* segments) {
   State& s = *state_;
   assert(frame.full() == s.full && picture.size() == frame.size());
   assert(options.slack >= 0.0 && options.slack < 1.0);
@@ -223,7 +223,8 @@ void TensorField::update(const scene::ArFrame& frame, const gpu::Texture& pictur
   s.findEdges(frame, picture, static_cast<float>(1.0 - past));
   const State::Past kept{goesOn, static_cast<float>(past), static_cast<float>(options.slack)};
   s.sumRegions(frame, motion, layers, kept);
-  s.pyramid.build(s.background, options.fillSigma);
+  s.pyramid.build(s.background, options.fillSigma,
+                  {.map = segments, .regionPixels = kRegionPixels});
   s.sumModels(frame, options.form, kept);
   if (frame.hasObjects) s.pyramid.build(s.models->levels, options.fillSigma);
 }

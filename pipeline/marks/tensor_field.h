@@ -13,6 +13,8 @@
 
 namespace pleinair::marks {
 
+class SegmentMap;
+
 struct TensorFieldOptions {
   /// The weight of a virtual surface's own form: the edge strength (gradient.frag's P) of the form
   /// at its clearest.
@@ -43,9 +45,11 @@ class TensorField {
   /// been updated for the frame, like `layers`, and past tensors of virtual objects along
   /// ArFrame::motion, like those of planes and real things whose poses are known more surely than
   /// the image's motion. Behind movers and virtual objects, the background's tensors stay as they
-  /// were. Precondition: frame.full() is the constructor's size.
+  /// were. With `segments`, directions do not spread from one segment of the camera image to
+  /// another. Precondition: frame.full() is the constructor's size.
   void update(const scene::ArFrame& frame, const gpu::Texture& picture, const MotionField& motion,
-              const TensorFieldOptions& options, const MotionLayers* layers = nullptr);
+              const TensorFieldOptions& options, const MotionLayers* layers = nullptr,
+              const SegmentMap* segments = nullptr);
 
   std::size_t levelCount() const;
   /// RGBA16F, LINEAR: a level's tensors after the look-up in coarser levels: tensor; confidence of

@@ -1,6 +1,9 @@
 #include "pipeline/marks/tensor_pyramid.h"
 
+#include <cmath>
 #include <string>
+
+#include "pipeline/marks/segment_map.h"
 
 namespace pleinair::marks {
 namespace {
@@ -21,7 +24,8 @@ gpu::Texture tensors(hal::FrameSize size) {
 TensorPyramidMaker::TensorPyramidMaker(const gpu::ShaderLibrary& library)
     : fill_(library.compute(kShaders + "tensor_fill.comp")),
       reduce_(library.compute(kShaders + "tensor_reduce.comp")),
-      resolve_(library.compute(kShaders + "tensor_resolve.comp")) {}
+      resolve_(library.compute(kShaders + "tensor_resolve.comp")),
+      noCells_(gpu::TextureFormat::kR32ui, {1, 1}) {}
 
 TensorPyramidMaker::Level::Level(hal::FrameSize size)
     : regions(tensors(size)), filled(tensors(size)), resolved(tensors(size)) {}
@@ -36,15 +40,17 @@ std::vector<TensorPyramidMaker::Level> TensorPyramidMaker::levelsOf(hal::FrameSi
 }
 
 void TensorPyramidMaker::fill(const gpu::Texture& regions, double sigma,
-                              const gpu::Texture& filled) {
-  fill_.use()
-      .texture("regions", regions)
+                              const gpu::Texture& filled, const TensorSegments& segments) {
+  SegmentMap::bind(fill_.use(), segments.map, noCells_);
+  fill_.texture("regions", regions)
       .image("filled", filled, gpu::ImageAccess::kWrite)
       .set("sigma", static_cast<float>(sigma))
+      .set("regionPixels", static_cast<float>(segments.regionPixels))
       .dispatch(itemsOf(filled), kWritten);
 }
 
-void TensorPyramidMaker::build(std::vector<Level>& levels, double sigma) {
+void TensorPyramidMaker::build(std::vector<Level>& levels, double sigma,
+                               const TensorSegments& segments) {
   for (std::size_t i = 0; i < levels.size(); ++i) {
     if (i > 0) {
       reduce_.use()
@@ -52,7 +58,8 @@ void TensorPyramidMaker::build(std::vector<Level>& levels, double sigma) {
           .image("reduced", levels[i].regions, gpu::ImageAccess::kWrite)
           .dispatch(itemsOf(levels[i].regions), kWritten);
     }
-    fill(levels[i].regions, sigma, levels[i].filled);
+    fill(levels[i].regions, sigma, levels[i].filled,
+         {segments.map, std::ldexp(segments.regionPixels, static_cast<int>(i))});
   }
   for (std::size_t i = levels.size(); i-- > 0;) {
     const bool isTop = i + 1 == levels.size();

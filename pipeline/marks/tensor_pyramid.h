@@ -10,6 +10,15 @@
 
 namespace pleinair::marks {
 
+class SegmentMap;
+
+/// The segments that directions do not spread across, and the side of a region, px of the full
+/// image; without a map, they spread everywhere.
+struct TensorSegments {
+  const SegmentMap* map = nullptr;
+  double regionPixels = 1.0;
+};
+
 /// Programs that extend tensors to regions without any, by a pyramid (thesis §4.2, steps 2 to 4).
 /// All calls on the thread of the GL context that was current at construction.
 class TensorPyramidMaker {
@@ -29,14 +38,16 @@ class TensorPyramidMaker {
   static std::vector<Level> levelsOf(hal::FrameSize finest);
 
   /// Fills a level: `sigma` is the width of the radial-basis interpolation, in regions.
-  void fill(const gpu::Texture& regions, double sigma, const gpu::Texture& filled);
-  /// Makes all levels from the finest one's regions.
-  void build(std::vector<Level>& levels, double sigma);
+  void fill(const gpu::Texture& regions, double sigma, const gpu::Texture& filled,
+            const TensorSegments& segments = {});
+  /// Makes all levels from the finest one's regions, whose side `segments` tells.
+  void build(std::vector<Level>& levels, double sigma, const TensorSegments& segments = {});
 
  private:
   gpu::Program fill_;
   gpu::Program reduce_;
   gpu::Program resolve_;
+  gpu::Texture noCells_;
 };
 
 }  // namespace pleinair::marks

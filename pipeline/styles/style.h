@@ -66,6 +66,9 @@ class Style {
   /// The style's descriptor.
   virtual const StyleKind& kind() const = 0;
 
+  /// What the parameters in force need of AR frames: at most what the descriptor says.
+  virtual scene::ArFrameNeeds needs() const { return kind().needs; }
+
   /// The parameter set in force. At first the defaults.
   virtual const config::ParameterValues& parameters() const = 0;
   /// Loads the files that a parameter set names. Errors: those of the file; the set in force stays

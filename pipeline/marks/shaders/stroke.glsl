@@ -10,9 +10,9 @@ struct Stroke {
   vec4 behind[2];
   vec2 lengths;  // visible length of each arm, in segments
   float exists;  // opacity, in [0, 1]
-  uint state;  // the label of what it lies on (surface_form.glsl), and the flag below
+  uint state;  // the label of what it lies on (stroke_label.glsl), and the flag below
   vec3 colour;     // sRGB-coded
   float seen;  // exists × its anchor's fade
 };
 
-uint labelOfStroke(uint state) { return state & 4095u; }
+uint labelOfStroke(uint state) { return state & 8191u; }

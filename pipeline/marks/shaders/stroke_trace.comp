@@ -1,16 +1,19 @@
 // Purpose: traces each anchor's stroke along the tensor field (thesis §4.4), both ways, and blends
 //          it with its past: directions one by one, lengths, colour and existence with time
 //          constants (§5.4), so that a stroke lives as long as its anchor.
-//          A stroke stays on what it lies on: it ends where the label of the surface changes
-//          (surface_form.glsl), or its depth by a step.
+//          A stroke stays on what it lies on: it ends where its label does (stroke_label.glsl), or
+//          its depth makes a step.
 // Inputs:  anchors; field: tensors to follow, detailField: tensors with the detail; modelField,
 //          modelDetailField, moverField: those of virtual objects and of movers;
 //          mover_labels.glsl's and mover_motion.glsl's; background (marks::MotionLayers); paint,
 //          modelPaint, moverPaint: the reduced images of the background, of models and of movers;
-//          finePaint: the finest of models; paintTexel: the width of modelPaint's texels, px of the
-//          full image; ids, forms and depth (ArFrame) if hasObjects, depthRange: the near and the
-//          far plane in metres, 0: no depth; focalPx: of the full image, 0: not known; imageScale: the
-//          anchors', octaves; focus.glsl's; layer: its number and how many; the rest as in
+//          finePaint, fineGround: the finest of models and of the background; paintTexel: the width
+//          of modelPaint's texels, px of the full image; labels if hasLabels: of pixels, in the
+//          lower bits of ArFrame::forms or of StrokeSet::update()'s borders, which labelMask tells;
+//          hasSegments: they have segments' labels, too; ids, forms and depth (ArFrame) if
+//          hasObjects, depthRange: the near and the far plane in metres, 0: no depth; focalPx: of
+//          the full image, 0: not known; imageScale: the anchors', octaves; focus.glsl's; layer: its
+//          number and how many; the rest as in
 //          marks::StrokeRule.
 // Outputs: strokes. One invocation per anchor.
 // Precision: highp.
@@ -20,6 +23,7 @@
 #include "pipeline/marks/shaders/focus.glsl"
 #include "pipeline/marks/shaders/stroke.glsl"
 #include "pipeline/marks/shaders/stroke_history.glsl"
+#include "pipeline/marks/shaders/stroke_label.glsl"
 #include "pipeline/scene/render/shaders/depth_step.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 #include "pipeline/scene/render/shaders/surface_form.glsl"
@@ -39,9 +43,14 @@ uniform highp sampler2D paint;
 uniform highp sampler2D modelPaint;
 uniform highp sampler2D moverPaint;
 uniform highp sampler2D finePaint;
+uniform highp sampler2D fineGround;
 uniform float paintTexel;
 uniform highp usampler2D ids;
 uniform highp usampler2D forms;
+uniform highp usampler2D labels;
+uniform uint labelMask;
+uniform bool hasLabels;
+uniform bool hasSegments;
 uniform highp sampler2D depth;
 uniform bool hasObjects;
 uniform bool anew;
@@ -90,11 +99,17 @@ struct Support {
 };
 
 ivec2 pixelAt(vec2 px) {
-  return clamp(ivec2(floor(px * pixelsOfFull)), ivec2(0), textureSize(forms, 0) - 1);
+  return clamp(ivec2(floor(px * pixelsOfFull)), ivec2(0), textureSize(labels, 0) - 1);
 }
 
+// Of models; 0 elsewhere.
 uint formAt(vec2 px) { return hasObjects ? texelFetch(forms, pixelAt(px), 0).r : 0u; }
-uint labelAt(vec2 px) { return labelOf(formAt(px)); }
+
+// The label of a surface; movers are told by mover_labels.glsl.
+uint labelAt(vec2 px) {
+  uint label = hasLabels ? texelFetch(labels, pixelAt(px), 0).r & labelMask : 0u;
+  return label == kMoverLabel ? 0u : label;
+}
 
 // The label of the anchor's triangle: that of its pixel, or of the one beside it that shows the
 // triangle.
@@ -107,7 +122,22 @@ uint labelOfAnchor(vec2 px, uint surface) {
     if (texelFetch(ids, at, 0).r == surface && (i == 4 || found == middle)) found = at;
   }
   if (texelFetch(ids, middle, 0).r == surface) found = middle;
-  return labelOf(texelFetch(forms, found, 0).r);
+  return texelFetch(labels, found, 0).r & labelMask;
+}
+
+// The label of a stroke of the background: that of its anchor's pixel, or, as before, of one that is
+// near, so that an anchor on a border does not change sides.
+uint labelOfGround(vec2 px, uint before, bool isNew) {
+  const float kNear = 3.0;  // px
+  if (!hasSegments) return 0u;
+  uint now = labelAt(px);
+  if (!isGround(now)) return isNew || !isGround(before) ? 0u : before;
+  if (isNew || now == before || !isGround(before)) return now;
+  for (int i = 0; i < 4; ++i) {
+    float side = (i & 1) == 0 ? -kNear : kNear;
+    if (labelAt(px + ((i & 2) == 0 ? vec2(side, 0.0) : vec2(0.0, side))) == before) return before;
+  }
+  return now;
 }
 
 // Whether another patch is within a texel of the reduced image, at a third of it, two or all.
@@ -116,14 +146,15 @@ bool isMixedAt(vec2 px, uint label) {
     float reach = paintTexel * float(1 + i / 4) / 3.0;
     float side = (i & 1) == 0 ? -reach : reach;
     vec2 arm = (i & 2) == 0 ? vec2(side, 0.0) : vec2(0.0, side);
-    if (labelAt(px + arm) != label) return true;
+    if (!mayCover(label, labelAt(px + arm))) return true;
   }
   return false;
 }
 
 Support supportOf(bool isModel, uint label, bool isOnMover, vec2 px) {
   Support on = Support(isModel, label, false, isOnMover, 0.0, kUpright);
-  on.isMixed = isModel && isMixedAt(px, label);
+  bool hasOthers = isModel || (hasSegments && !isOnMover && label != 0u);
+  on.isMixed = hasOthers && isMixedAt(px, label);
   vec2 moved;
   if (!isOnMover || looseness <= 0.0 || !findMoverMotion(px, moved)) return on;
   on.looseness = looseness * smoothstep(loosePx.x, max(loosePx.y, loosePx.x + 1e-3), length(moved));
@@ -151,12 +182,14 @@ vec2 directionAt(vec2 px, Support on) {
   return vec2(-gradient.y, gradient.x);
 }
 
-// The colour of a patch within a texel of the reduced image.
-vec4 ownColour(vec2 px, uint label) {
+// The colour of a patch or segment within a texel of the reduced image.
+vec4 ownColour(vec2 px, Support on) {
   vec4 sum = vec4(0.0);
   for (int i = 0; i < 9; ++i) {
     vec2 at = px + 0.4 * paintTexel * (vec2(i % 3, i / 3) - 1.0);
-    if (labelAt(at) == label) sum += textureLod(finePaint, at / fullSize, 0.0);
+    if (!mayCover(on.label, labelAt(at))) continue;
+    sum += on.isModel ? textureLod(finePaint, at / fullSize, 0.0)
+                      : textureLod(fineGround, at / fullSize, 0.0);
   }
   return sum;
 }
@@ -166,11 +199,12 @@ vec3 colourAt(vec2 px, Support on) {
   const float kOthers = 1e-3;  // weight of the other layer
   vec2 at = px / fullSize;
   if (on.isModel) {
-    vec4 seen = on.isMixed ? ownColour(px, on.label) : vec4(0.0);
+    vec4 seen = on.isMixed ? ownColour(px, on) : vec4(0.0);
     if (seen.a <= 0.0) seen = textureLod(modelPaint, at, 0.0);
     return seen.rgb / max(seen.a, 1e-4);
   }
-  vec4 ground = textureLod(paint, at, 0.0);
+  vec4 ground = on.isMixed ? ownColour(px, on) : vec4(0.0);
+  if (ground.a <= 0.0) ground = textureLod(paint, at, 0.0);
   vec4 mover = textureLod(moverPaint, at, 0.0);
   vec4 seen = on.isOnMover ? mover + kOthers * ground : ground + kOthers * mover;
   return seen.rgb / max(seen.a, 1e-4);
@@ -178,11 +212,12 @@ vec3 colourAt(vec2 px, Support on) {
 
 float depthAt(vec2 px) { return texelFetch(depth, pixelAt(px), 0).r; }
 
-// The part of a segment that lies on its patch, in [0, 1]; a step of a pixel at a time. Where trunk
-// and limb meet on a smooth surface, it may go on for kOverJoint; `strayed`: the px so far, of the
-// whole arm.
+// The part of a segment that lies on its patch, in [0, 1]; a step of a pixel at a time; segments of
+// the image are never as narrow as patches. Where trunk and limb meet on a smooth surface, it may go
+// on for kOverJoint; `strayed`: the px so far, of the whole arm.
 float partOnPatch(vec2 from, vec2 to, Support on, inout float strayed) {
-  float count = max(1.0, ceil(distance(from, to) * max(pixelsOfFull.x, pixelsOfFull.y)));
+  float stride = hasObjects ? 1.0 : 3.0;
+  float count = max(1.0, ceil(distance(from, to) * max(pixelsOfFull.x, pixelsOfFull.y) / stride));
   vec2 pace = (to - from) / count;
   uint label = on.isOnMover ? 0u : on.label;  // models alone have labels in the image
   bool isDeep = on.isModel && depthRange.y > 0.0;
@@ -192,10 +227,13 @@ float partOnPatch(vec2 from, vec2 to, Support on, inout float strayed) {
   for (float i = 1.0; i <= count; i += 1.0) {
     vec2 at = from + i * pace;
     uint form = formAt(at);
-    if (labelOf(form) != label) {
+    if (!mayCover(label, labelAt(at))) {
       bool goesOn = isDeep && (labelOf(form) == labelOf(last) || isOneJoint(form, last));
       strayed += length(pace);
-      if (!goesOn || strayed > kOverJoint) return max(0.0, (i - 0.5) / count);
+      if (!goesOn || strayed > kOverJoint) {
+        bool isEarly = stride > 1.0 && !mayCover(label, labelAt(at - 0.5 * pace));
+        return max(0.0, (i - (isEarly ? 0.75 : stride > 1.0 ? 0.25 : 0.5)) / count);
+      }
     }
     last = form;
     if (!isDeep) continue;
@@ -247,7 +285,7 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {
       arm.length = min(arm.length, float(i));
     }
     arm.directions[i] = direction;
-    if (goesOn && hasObjects) {
+    if (goesOn && hasLabels) {
       // An arm ends where another surface begins.
       float part = partOnPatch(at, at + segment * direction, on, strayed);
       if (part < 1.0) {
@@ -371,6 +409,10 @@ void main() {
     bool isStale = isReal && !isOnMover && behind.a >= 1.0 &&
                    apart(old.colour, behind.rgb) > otherColour.y;
     if (!isStale || isBehind) {
+      // Segments may have been labelled anew.
+      bool isFrozen = isReal && !isOnMover && isGround(labelOfStroke(old.state));
+      if (isFrozen) old.state = (old.state & ~kLabelMask) |
+                                labelOfGround(px, labelOfStroke(old.state), false);
       old.seen = isStale ? 0.0 : old.exists * anchors[slot].fade;
       strokes[slot] = old;
       return;
@@ -379,6 +421,7 @@ void main() {
   }
   bool isModel = hasObjects && isVirtual(objectOf(anchors[slot].surface));
   uint label = isOnMover ? kMoverLabel : 0u;
+  if (!isModel && !isOnMover) label = labelOfGround(px, labelOfStroke(old.state), isNew);
   if (isModel) {
     // That of its birth: its triangle does not change.
     label = isNew ? labelOfAnchor(px, anchors[slot].surface) : labelOfStroke(old.state);

@@ -14,6 +14,7 @@
 #include "pipeline/scene/models/limits.h"
 #include "pipeline/tracking/camera/camera_model.h"
 #include "pipeline/tracking/motion/image_motion.h"
+#include "pipeline/tracking/segments/image_segments.h"
 
 namespace pleinair::scene {
 
@@ -77,11 +78,20 @@ struct FocusPlace {
   float strength = 1.0F;   ///< in [0, 1]
 };
 
+/// Segments of the camera image, if a style asks for them.
+struct MeasuredSegments {
+  const tracking::ImageSegments* segments = nullptr;  ///< in px of the captured frame
+  /// px of the frame = px of the full picture · scale + origin.
+  glm::dvec2 frameScale{1.0};
+  glm::dvec2 frameOrigin{0.0};
+};
+
 /// Optional contents of an AR frame that a style may ask for.
 struct ArFrameNeeds {
   /// ArFrame::motion, barycentrics, parts, forms and surfaces, if the scene has any
   bool surfaces = false;
   bool measuredMotion = false;       ///< ArFrame::measuredMotion
+  bool segments = false;             ///< ArFrame::measuredSegments
   bool canvas = false;               ///< ArFrame::canvasFromPicture, which costs a little to find
   Shading shading = Shading::kToon;  ///< of models
 };
@@ -110,6 +120,8 @@ struct ArFrame {
   std::optional<SurfaceAccess> surfaces;  ///< set if asked for and if the scene has any
   /// Set if asked for.
   std::optional<MeasuredMotion> measuredMotion;
+  /// Set if asked for.
+  std::optional<MeasuredSegments> measuredSegments;
   bool hasObjects = false;  ///< whether any virtual object may be visible; if not, all ids are 0
   bool hasFocus = false;    ///< whether any pixel's focus may be above 0
   float nearMetres = 0.0F;  ///< planes of the depth range, for linear depth

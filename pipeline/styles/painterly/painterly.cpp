@@ -18,6 +18,7 @@
 #include "pipeline/marks/layer_textures.h"
 #include "pipeline/marks/motion_field.h"
 #include "pipeline/marks/motion_layers.h"
+#include "pipeline/marks/segment_map.h"
 #include "pipeline/marks/stroke_set.h"
 #include "pipeline/marks/tensor_field.h"
 #include "pipeline/scene/description/scene.h"
@@ -76,19 +77,20 @@ struct Canvas {
         colour(colours(size)),
         height(colours(size)),
         picture(colours(size)),
-        borders(TextureFormat::kR32ui, size),
+        borders{Texture(TextureFormat::kR32ui, size), Texture(TextureFormat::kR32ui, size)},
         strokes({&colour, &height}),
         finished({&picture}),
-        bordered({&borders}) {}
+        bordered{gpu::RenderTarget({borders.data()}), gpu::RenderTarget({&borders[1]})} {}
 
   hal::FrameSize size;
   Texture colour;
   Texture height;
   Texture picture;
-  Texture borders;  // where strokes are clipped
+  std::array<Texture, 2> borders;  // where strokes are clipped: of this frame and the last one
+  std::size_t now = 0;             // which of the two is this frame's
   gpu::RenderTarget strokes;
   gpu::RenderTarget finished;
-  gpu::RenderTarget bordered;
+  std::array<gpu::RenderTarget, 2> bordered;
 };
 
 struct Layer {
@@ -116,6 +118,7 @@ struct Painting {
   LayerPlan plan;
   marks::MotionField motion;
   marks::MotionLayers movers;
+  marks::SegmentMap segments;
   marks::TensorField field;
   std::vector<std::unique_ptr<Layer>> layers;
 };
@@ -157,6 +160,7 @@ struct Painterly::State {
             library.fragmentPass(kShaders + "field_view.frag", viewDefines(painterlyViews()))),
         moverView(
             library.fragmentPass(kShaders + "mover_view.frag", viewDefines(painterlyViews()))),
+        segmentView(library.fragmentPass(kShaders + "segment_view.frag")),
         heightView(library.fragmentPass(kShaders + "height_view.frag")),
         borders(library.fragmentPass(kShaders + "borders.frag")),
         linen(library, Substrate::Kind::kLinen),
@@ -172,6 +176,7 @@ struct Painterly::State {
   gpu::Program relief;
   gpu::Program fieldView;
   gpu::Program moverView;
+  gpu::Program segmentView;
   gpu::Program heightView;
   gpu::Program borders;
   Substrate linen;
@@ -185,7 +190,9 @@ struct Painterly::State {
   std::optional<Texture> mixtures;
   std::unique_ptr<Painting> painting;
   gpu::PerSize<Canvas> canvases;
-  Canvas* canvas = nullptr;  // of this frame
+  Canvas* canvas = nullptr;       // of this frame
+  Canvas* bordered = nullptr;     // that of the last frame, if it has its borders
+  const Texture* clip = nullptr;  // this frame's borders, if there can be any
 
   /// Null where movers are not told apart.
   const marks::MotionLayers* moversOf(const PainterlyParameters& p) const {
@@ -193,8 +200,9 @@ struct Painterly::State {
   }
   void take(const scene::ArFrame& frame, const PainterlyParameters& p);
   void grow(const scene::ArFrame& frame, const PainterlyParameters& p);
-  /// Where strokes are clipped; null where nothing virtual is seen and movers are not told apart.
-  const Texture* findBorders(const scene::ArFrame& frame, const PainterlyParameters& p);
+  /// Finds where strokes are clipped: nowhere where nothing virtual is seen, movers are not told
+  /// apart, and there are no segments.
+  void findBorders(const scene::ArFrame& frame, const PainterlyParameters& p);
   void drawStrokes(const scene::ArFrame& frame, const PainterlyParameters& p);
   void light(const scene::ArFrame& frame, const PainterlyParameters& p);
   void showField(const scene::ArFrame& frame, const PainterlyParameters& p, std::size_t view);
@@ -204,11 +212,13 @@ struct Painterly::State {
 
 void Painterly::State::take(const scene::ArFrame& frame, const PainterlyParameters& p) {
   canvas = nullptr;
+  clip = nullptr;
   const LayerPlan plan = planOf(p, frame.full());
   if (painting == nullptr || painting->full != frame.full() || painting->plan != plan) {
     if (painting != nullptr && painting->full != frame.full()) {
       canvases.clear();
       reduced.clear();
+      bordered = nullptr;
     }
     painting.reset();
     painting = std::make_unique<Painting>(library, frame.full(), plan);
@@ -230,8 +240,12 @@ void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParamete
   } else {
     painting->movers.reset();
   }
+  painting->segments.update(frame);
+  findBorders(frame, p);
+  const Texture* const labels = painting->segments.hasSegments() ? clip : nullptr;
   reduced.update(frame, movers);
-  painting->field.update(frame, *frame.colour, painting->motion, fieldOf(p), movers);
+  painting->field.update(frame, *frame.colour, painting->motion, fieldOf(p), movers,
+                         &painting->segments);
   const marks::FocusField focus = focusOf(frame, p);
   for (std::size_t i = 0; i < painting->layers.size(); ++i) {
     Layer& layer = *painting->layers[i];
@@ -242,28 +256,36 @@ void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParamete
     rule.focus = focus;
     const double width = widthOf(painting->plan, i) * frame.pixelsOfFull().x;
     layer.strokes.update(frame, layer.anchors, painting->field,
-                         reduced.paintOf(kTexelOfWidth * width), rule, movers);
+                         reduced.paintOf(kTexelOfWidth * width), rule, movers, labels);
   }
 }
 
-const Texture* Painterly::State::findBorders(const scene::ArFrame& frame,
-                                             const PainterlyParameters& p) {
-  if (!frame.hasObjects && !tellsMovers(p)) return nullptr;
+void Painterly::State::findBorders(const scene::ArFrame& frame, const PainterlyParameters& p) {
+  const marks::SegmentMap& segments = painting->segments;
+  const Canvas* const last = bordered;
+  bordered = nullptr;
+  if (!frame.hasObjects && !tellsMovers(p) && !segments.hasSegments()) return;
+  const bool isHeld = last == canvas && painting->motion.isStanding() && !painting->motion.isCut();
+  const Texture& before = canvas->borders.at(canvas->now);
+  canvas->now = 1 - canvas->now;
   const bool hasDepth = frame.hasObjects && frame.depth != nullptr;
-  borders.use()
-      .texture("forms", frame.hasObjects ? *frame.forms : noIds)
+  marks::SegmentMap::bind(borders.use(), &segments, noIds);
+  borders.texture("forms", frame.hasObjects ? *frame.forms : noIds)
       .texture("depth", hasDepth ? *frame.depth : *frame.colour)
       .set("depthRange", hasDepth ? glm::vec2(frame.nearMetres, frame.farMetres) : glm::vec2(0.0F))
       .texture("movers", layerTextures.labelsOf(moversOf(p)))
+      .texture("picture", *frame.colour)
+      .texture("before", before)
       .set("hasObjects", frame.hasObjects ? 1 : 0)
+      .set("isHeld", isHeld ? 1 : 0)
       .set("size", glm::vec2(canvas->size.width, canvas->size.height))
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
-      .drawFullscreen(canvas->bordered);
-  return &canvas->borders;
+      .drawFullscreen(canvas->bordered.at(canvas->now));
+  bordered = canvas;
+  clip = &canvas->borders.at(canvas->now);
 }
 
 void Painterly::State::drawStrokes(const scene::ArFrame& frame, const PainterlyParameters& p) {
-  const Texture* const clip = findBorders(frame, p);
   // All of them before any is drawn: what is drawn on stays in a tile's memory (docs/gpu.md).
   for (const auto& layer : painting->layers) {
     strips.lay(layer->strokes.instances(), layer->strokes.command(), p.quads, layer->strips);
@@ -361,6 +383,14 @@ const Texture& Painterly::State::show(const scene::ArFrame& frame, const Painter
           .set("view", static_cast<int>(view))
           .drawFullscreen(canvas->finished);
       return canvas->picture;
+    case PainterlyViewer::kSegments:
+      segmentView.use()
+          .texture("picture", *frame.colour)
+          .texture("borders", clip != nullptr ? *clip : noIds)
+          .set("hasBorders", clip != nullptr ? 1 : 0)
+          .set("size", glm::vec2(canvas->size.width, canvas->size.height))
+          .drawFullscreen(canvas->finished);
+      return canvas->picture;
     case PainterlyViewer::kHeight:
       break;
   }
@@ -378,6 +408,7 @@ const StyleKind& painterlyKind() {
       .views = painterlyViews(),
       .needs = {.surfaces = true,
                 .measuredMotion = true,
+                .segments = true,
                 .canvas = true,
                 .shading = scene::Shading::kSmooth},
       .coherence = {.gates = kGates, .holdsAnchors = true, .paperLooks = kPaperLooks},
@@ -418,8 +449,15 @@ void Painterly::warmUp() {
   p_ = painterlyParameters().typed(values_);
   state_->painting.reset();
   state_->canvas = nullptr;
+  state_->bordered = nullptr;
   state_->canvases.clear();
   state_->reduced.clear();
+}
+
+scene::ArFrameNeeds Painterly::needs() const {
+  scene::ArFrameNeeds needs = kind().needs;
+  needs.segments = p_.segments;
+  return needs;
 }
 
 hal::Result<void> Painterly::prepare(const config::ParameterValues& values) {
@@ -470,6 +508,7 @@ Painterly::PaintedLayer Painterly::layer(std::size_t number) const {
 
 void Painterly::reset() {
   if (!state_->painting) return;
+  state_->bordered = nullptr;
   state_->painting->motion.reset();
   state_->painting->movers.reset();
   state_->painting->field.reset();

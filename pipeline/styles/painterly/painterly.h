@@ -38,6 +38,7 @@ class Painterly final : public Style {
   Painterly& operator=(Painterly&&) = delete;
 
   const StyleKind& kind() const override { return painterlyKind(); }
+  scene::ArFrameNeeds needs() const override;
   const config::ParameterValues& parameters() const override { return values_; }
   hal::Result<void> prepare(const config::ParameterValues& values) override;
   void setParameters(const config::ParameterValues& values) override;

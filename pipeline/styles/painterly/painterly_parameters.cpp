@@ -123,6 +123,8 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
       switchParameter("fades", &P::fades, "Whether strokes come and go gradually."),
       switchParameter("movers", &P::movers,
                       "Whether what moves by itself is told from the background."),
+      switchParameter("segments", &P::segments,
+                      "Whether strokes end at the borders of the camera image's segments."),
   };
   return table;
 }

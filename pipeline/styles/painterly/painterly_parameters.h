@@ -70,6 +70,7 @@ struct PainterlyParameters {
   bool hysteresis = true;
   bool fades = true;
   bool movers = true;
+  bool segments = true;
 };
 
 const config::ParameterTable<PainterlyParameters>& painterlyParameters();

@@ -28,6 +28,8 @@ constexpr std::array kViews{
          PainterlyViewer::kMovers},
     View{{"background", "the background as it is remembered; black: never seen"},
          PainterlyViewer::kMovers},
+    View{{"segments", "the camera image's segments, in colours of their own; grey: none"},
+         PainterlyViewer::kSegments},
     View{{"height", "how thick the paint lies"}, PainterlyViewer::kHeight},
 };
 

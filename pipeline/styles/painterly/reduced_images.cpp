@@ -84,6 +84,7 @@ marks::StrokePaint ReducedImages::paintOf(double px) const {
             .models = picture_,
             .movers = picture_,
             .fineModels = picture_,
+            .fineBackground = picture_,
             .modelTexelPx = texelPx(0)};
   }
   const std::size_t level = std::min(static_cast<std::size_t>(halvings), kHalvings) - 1;
@@ -94,6 +95,7 @@ marks::StrokePaint ReducedImages::paintOf(double px) const {
             .models = whole,
             .movers = whole,
             .fineModels = whole,
+            .fineBackground = now_->whole.levels.data(),
             .modelTexelPx = modelTexelPx};
   }
   const Apart& apart = *now_->apart;
@@ -101,6 +103,7 @@ marks::StrokePaint ReducedImages::paintOf(double px) const {
           .models = hasObjects_ ? &apart.models.levels[level] : &apart.background.levels[level],
           .movers = hasMovers_ ? &apart.movers.levels[level] : &apart.background.levels[level],
           .fineModels = hasObjects_ ? apart.models.levels.data() : &apart.background.levels[level],
+          .fineBackground = apart.background.levels.data(),
           .modelTexelPx = modelTexelPx};
 }
 

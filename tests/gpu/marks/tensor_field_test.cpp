@@ -3,11 +3,13 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
 #include "pipeline/gpu/render_target.h"
+#include "pipeline/marks/segment_map.h"
 #include "tests/gpu/marks/tensor_field_fixture.h"
 #include "tests/oracles/tensor_oracle.h"
 
@@ -270,6 +272,40 @@ TEST_F(TensorFieldTest, GoesWithTheGlobalInterpolation) {
   ASSERT_GT(apart.size(), 20U);
   std::ranges::sort(apart);
   EXPECT_LT(apart[apart.size() / 2], 8.0);
+}
+
+/// Upright stripes on the left; on the right, two segments without edges, of which the left one
+/// belongs to the stripes: only that has their direction, the other that of the level lines below.
+TEST_F(TensorFieldTest, DirectionsDoNotSpreadFromOneSegmentToAnother) {
+  constexpr double kStripes = 96.0;
+  constexpr double kBorder = 116.0;
+  const auto luma = [](glm::dvec2 px) {
+    if (px.x < kStripes) return 0.5 + 0.3 * std::sin(0.9 * px.x);
+    return px.y > 88.0 ? 0.5 + 0.3 * std::sin(0.9 * px.y) : 0.5;
+  };
+  const hal::Image image = greyPicture(kSize, luma);
+  const gpu::Texture texture = textureOf(image.view());
+  constexpr hal::FrameSize kGrid{64, 32};
+  std::vector<tracking::SegmentCell> cells;
+  for (int i = 0; i < kGrid.width * kGrid.height; ++i) {
+    const bool isLeft = 4.0 * (i % kGrid.width) < kBorder;
+    cells.push_back({.label = static_cast<std::uint16_t>(isLeft ? 1 : 2)});
+  }
+  const tracking::ImageSegments segments{.frameSize = kSize, .grid = kGrid, .cells = cells};
+  const auto directionBeyondTheBorder = [&](bool isSegmented) {
+    field_.emplace(library_, kSize);
+    scene::ArFrame frame = frameOf(texture);
+    if (isSegmented) frame.measuredSegments = scene::MeasuredSegments{.segments = &segments};
+    SegmentMap map;
+    map.update(frame);
+    motionField_->update(frame);
+    field_->update(frame, texture, *motionField_, kNoMemory, nullptr, &map);
+    // The gradient of stripes is level: its tensor is (1, 0); that of level lines is (-1, 0).
+    return read(field_->resolved(0))[placeOf(15, 8)].tensor;  // px 120 to 128, 64 to 72
+  };
+  EXPECT_LT(directionBeyondTheBorder(true).x, -0.5);
+  EXPECT_GT(directionBeyondTheBorder(false).x, directionBeyondTheBorder(true).x + 0.3)
+      << "the control: without segments";
 }
 
 TEST(TensorOracle, RadialBasisFormsDifferByTheWeights) {

@@ -12,11 +12,20 @@
 #include "pipeline/gpu/render_target.h"
 #include "pipeline/marks/layer_textures.h"
 #include "pipeline/marks/motion_layers.h"
+#include "pipeline/marks/segment_map.h"
 #include "tests/gpu/painterly/painterly_fixture.h"
 #include "tests/oracles/stroke_oracle.h"
 
 namespace pleinair::styles {
 namespace {
+
+// As strokes/shaders/border.glsl packs them.
+constexpr unsigned kLabelBits = 13;
+constexpr std::uint32_t kLabelMask = (1U << kLabelBits) - 1U;
+constexpr double kShareStep = 0.5 / 63.0 + 1e-6;
+double shareOf(std::uint32_t border) {
+  return (border >> 26U) / 63.0;
+}
 
 class ClipTest : public PainterlyTest {
  protected:
@@ -39,9 +48,17 @@ class ClipTest : public PainterlyTest {
     zeros_.upload(std::vector<std::uint8_t>(ids.size() * 4), stride);
   }
 
+  /// In use, without segments.
+  gpu::Program& bordersProgram() {
+    program_ = library_.fragmentPass("pipeline/styles/painterly/shaders/borders.frag");
+    marks::SegmentMap::bind(program_.use(), nullptr, forms_);
+    return program_.texture("picture", forms_).texture("before", forms_).set("isHeld", 0);
+  }
+
   gpu::Texture ids_;
   gpu::Texture forms_;
   gpu::Texture zeros_;
+  gpu::Program program_;
 };
 
 TEST_F(ClipTest, BordersAreTheOracles) {
@@ -63,8 +80,7 @@ TEST_F(ClipTest, BordersAreTheOracles) {
   const gpu::Texture borders(gpu::TextureFormat::kR32ui, kSmall);
   const gpu::Texture noDepth(gpu::TextureFormat::kR32f, {1, 1});
   const marks::LayerTextures layerTextures;
-  library_.fragmentPass("pipeline/styles/painterly/shaders/borders.frag")
-      .use()
+  bordersProgram()
       .texture("forms", forms_)
       .texture("depth", noDepth)
       .set("depthRange", glm::vec2(0.0F))
@@ -78,8 +94,8 @@ TEST_F(ClipTest, BordersAreTheOracles) {
   for (int y = 0; y < kSmall.height; ++y) {
     for (int x = 0; x < kSmall.width; ++x) {
       const std::uint32_t border = found[static_cast<std::size_t>(y * kSmall.width + x)];
-      const std::uint32_t own = border & 4095U;
-      const std::uint32_t other = border >> 12U & 4095U;
+      const std::uint32_t own = border & kLabelMask;
+      const std::uint32_t other = border >> kLabelBits & kLabelMask;
       EXPECT_EQ(own, seen(x, y));
       std::vector<bool> its;
       bool isNear = false;
@@ -88,7 +104,7 @@ TEST_F(ClipTest, BordersAreTheOracles) {
         its.push_back(there == own);
         isNear = isNear || there == other;
       }
-      EXPECT_NEAR((border >> 24U) / 127.0, oracles::paintableShare(its), 0.5 / 127.0 + 1e-6);
+      EXPECT_NEAR(shareOf(border), oracles::paintableShare(its), kShareStep);
       EXPECT_TRUE(isNear);
       others += other != own ? 1 : 0;
       EXPECT_EQ(other == own, std::ranges::all_of(its, [](bool each) { return each; }));
@@ -231,8 +247,7 @@ TEST_F(MoverBordersTest, AreTheOracles) {
     };
     const gpu::Texture borders(gpu::TextureFormat::kR32ui, kSmall);
     const gpu::Texture noDepth(gpu::TextureFormat::kR32f, {1, 1});
-    library_.fragmentPass("pipeline/styles/painterly/shaders/borders.frag")
-        .use()
+    bordersProgram()
         .texture("forms", forms_)
         .texture("depth", noDepth)
         .set("depthRange", glm::vec2(0.0F))
@@ -255,9 +270,9 @@ TEST_F(MoverBordersTest, AreTheOracles) {
           its.push_back(there == own);
           if (there != own && (other == own || there > other)) other = there;
         }
-        EXPECT_EQ(border & 4095U, own) << x << "," << y;
-        EXPECT_EQ(border >> 12U & 4095U, other) << x << "," << y;
-        EXPECT_NEAR((border >> 24U) / 127.0, oracles::paintableShare(its), 0.5 / 127.0 + 1e-6);
+        EXPECT_EQ(border & kLabelMask, own) << x << "," << y;
+        EXPECT_EQ(border >> kLabelBits & kLabelMask, other) << x << "," << y;
+        EXPECT_NEAR(shareOf(border), oracles::paintableShare(its), kShareStep);
         ofMovers += own == kMover ? 1 : 0;
         clipped += other != own ? 1 : 0;
       }

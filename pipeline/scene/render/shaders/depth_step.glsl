@@ -8,11 +8,17 @@ uniform vec2 depthRange;
 // begins. In metres per metre of distance.
 const float kDepthStep = 0.02;
 
+float metresOf(float window) {
+  float near = depthRange.x;
+  float far = depthRange.y;
+  return near * far / (far - window * (far - near));
+}
+
 // Whether a window depth differs from the expected one, `apart`, by a step. `window`: about there.
 bool isDepthStep(float apart, float window) {
   float near = depthRange.x;
   float far = depthRange.y;
-  float metres = near * far / (far - window * (far - near));
+  float metres = metresOf(window);
   float perWindow = metres * metres * (far - near) / (near * far);
   return abs(apart) * perWindow > kDepthStep * metres;
 }

@@ -1,10 +1,12 @@
 // Purpose: the borders at which strokes are clipped: those of virtual objects and of their patches
 //          against each other and against real content, and those of movers against the
-//          background, two pixels wide, so that a clipped edge is smooth. Occluders count as real:
-//          they hide models, but the image goes on over their edges. Where trunk and limb meet on a
-//          smooth surface, the border is open: strokes of both fade out beyond it.
+//          background, two pixels wide, so that a clipped edge is smooth; and those of the camera
+//          image's segments. Occluders count as real: they hide models, but the image goes on over
+//          their edges. Where trunk and limb meet on a smooth surface, the border is open: strokes
+//          of both fade out beyond it.
 // Inputs:  forms and depth (scene::ArFrame) if hasObjects, depthRange: 0: no depth;
-//          mover_labels.glsl's; size, pixelsOfFull: of the frame.
+//          mover_labels.glsl's; segments.glsl's; picture: the frame's; before: the previous frame's
+//          output if isHeld, while the camera stands; size, pixelsOfFull: of the frame.
 // Outputs: R32UI, packed as in border.glsl.
 // Precision: integers; highp for places.
 #include "pipeline/scene/render/shaders/depth_step.glsl"
@@ -12,10 +14,14 @@
 #include "pipeline/styles/strokes/shaders/border.glsl"
 uniform highp usampler2D forms;
 uniform highp sampler2D depth;
+uniform highp usampler2D before;
+uniform highp sampler2D picture;
 uniform bool hasObjects;
+uniform bool isHeld;
 uniform vec2 size;
 uniform vec2 pixelsOfFull;
 #include "pipeline/marks/shaders/mover_labels.glsl"
+#include "pipeline/marks/shaders/segments.glsl"
 layout(location = 0) out uint border;
 
 float moverOf(ivec2 p) { return moverAt((vec2(p) + 0.5) / pixelsOfFull).r; }
@@ -65,6 +71,19 @@ uint acrossJoint(ivec2 p, ivec2 last, out float near) {
   return found;
 }
 
+// While the camera stands, the border between two segments stays where it is but for clear changes,
+// so that noise does not move it.
+uint held(SegmentBorder now, ivec2 p) {
+  const float kSlack = 0.35;
+  uint found = borderOf(now.own, now.other, now.share, false);
+  if (!isHeld) return found;
+  uint was = texelFetch(before, p, 0).r;
+  bool isSame = ownOf(was) == now.own && otherOf(was) == now.other;
+  bool isSwapped = ownOf(was) == now.other && otherOf(was) == now.own;
+  float share = isSwapped ? 1.0 - shareOf(was) : shareOf(was);
+  return (isSame || isSwapped) && abs(share - now.share) < kSlack ? was : found;
+}
+
 void main() {
   ivec2 p = ivec2(gl_FragCoord.xy);
   ivec2 last = ivec2(size) - 1;
@@ -91,7 +110,11 @@ void main() {
   bool isClosed = other != own && other != across;
   if (across != 0u && !isClosed) {
     border = borderOf(own, across, near, true);
-  } else {
-    border = borderOf(own, other, isUniform ? 1.0 : share, false);
+    return;
   }
+  border = borderOf(own, other, isUniform ? 1.0 : share, false);
+  if (!hasSegments || own != 0u) return;
+  SegmentBorder between =
+      segmentBorderAt((vec2(p) + 0.5) / pixelsOfFull, picture, (vec2(p) + 0.5) / size);
+  border = other == own ? held(between, p) : borderOf(between.own, other, share, false);
 }

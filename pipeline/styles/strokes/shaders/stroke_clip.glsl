@@ -11,5 +11,7 @@ float within() {
   float share = shareOf(border);
   float ofOwn = isOpen(border) ? 1.0 : share;
   float ofOther = isOpen(border) ? share : 1.0 - share;
-  return ownOf(border) == label ? ofOwn : (otherOf(border) == label ? ofOther : 0.0);
+  // Both, where the stroke has no segment and may cover either.
+  return min((mayCover(label, ownOf(border)) ? ofOwn : 0.0) +
+                 (mayCover(label, otherOf(border)) ? ofOther : 0.0), 1.0);
 }
