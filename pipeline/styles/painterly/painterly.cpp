@@ -26,6 +26,7 @@
 #include "pipeline/styles/painterly/palette.h"
 #include "pipeline/styles/painterly/reduced_images.h"
 #include "pipeline/styles/strokes/brush_cache.h"
+#include "pipeline/styles/strokes/stroke_borders.h"
 #include "pipeline/styles/strokes/stroke_drawing.h"
 #include "pipeline/styles/strokes/strokes_shaders.h"
 #include "pipeline/styles/substrate/substrate_shaders.h"
@@ -119,10 +120,7 @@ constexpr std::array<std::string_view, 2> kPaperLooks{"sketch", "ink"};
 
 /// Whether the brush's file is there and valid. Reads it; any thread. Errors: readBrushFile()'s.
 hal::Result<void> checkBrush(const config::ParameterValues& values) {
-  const std::filesystem::path file = painterlyParameters().typed(values).brushFile;
-  if (file == kNoBrushFile) return {};
-  const hal::Result<BrushMarks> marks = readBrushFile(file);
-  return marks ? hal::Result<void>() : tl::unexpected(marks.error());
+  return checkBrushFile(painterlyParameters().typed(values).brushFile);
 }
 
 }  // namespace
@@ -138,7 +136,7 @@ struct Painterly::State {
         moverView(
             library.fragmentPass(kShaders + "mover_view.frag", viewDefines(painterlyViews()))),
         heightView(library.fragmentPass(kShaders + "height_view.frag")),
-        borders(library.fragmentPass(kShaders + "borders.frag")),
+        borders(library),
         linen(library, Substrate::Kind::kLinen),
         paper(library, Substrate::Kind::kPaper),
         strips(library),
@@ -153,7 +151,7 @@ struct Painterly::State {
   gpu::Program fieldView;
   gpu::Program moverView;
   gpu::Program heightView;
-  gpu::Program borders;
+  StrokeBorders borders;
   Substrate linen;
   Substrate paper;
   StrokeStripMaker strips;
@@ -227,13 +225,7 @@ void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParamete
 const Texture* Painterly::State::findBorders(const scene::ArFrame& frame,
                                              const PainterlyParameters& p) {
   if (!frame.hasObjects && !tellsMovers(p)) return nullptr;
-  borders.use()
-      .texture("forms", frame.hasObjects ? *frame.forms : noIds)
-      .texture("movers", layerTextures.labelsOf(moversOf(p)))
-      .set("hasObjects", frame.hasObjects ? 1 : 0)
-      .set("size", glm::vec2(canvas->size.width, canvas->size.height))
-      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
-      .drawFullscreen(canvas->bordered);
+  borders.draw(frame, moversOf(p), canvas->bordered);
   return &canvas->borders;
 }
 

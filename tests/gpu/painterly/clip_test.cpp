@@ -59,7 +59,7 @@ TEST_F(ClipTest, BordersAreTheOracles) {
   const auto seen = [&](int x, int y) { return at(x, y) == real ? 0U : at(x, y); };
   const gpu::Texture borders(gpu::TextureFormat::kR32ui, kSmall);
   const marks::LayerTextures layerTextures;
-  library_.fragmentPass("pipeline/styles/painterly/shaders/borders.frag")
+  library_.fragmentPass("pipeline/styles/strokes/shaders/borders.frag")
       .use()
       .texture("forms", forms_)
       .texture("movers", layerTextures.labelsOf(nullptr))
@@ -157,7 +157,7 @@ TEST_F(MoverBordersTest, AreTheOracles) {
       return moverAt(x, y, each.pixelsOfFull) > 0.5 ? kMover : 0U;
     };
     const gpu::Texture borders(gpu::TextureFormat::kR32ui, kSmall);
-    library_.fragmentPass("pipeline/styles/painterly/shaders/borders.frag")
+    library_.fragmentPass("pipeline/styles/strokes/shaders/borders.frag")
         .use()
         .texture("forms", forms_)
         .texture("movers", labels_)
