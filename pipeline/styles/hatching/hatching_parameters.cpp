@@ -105,7 +105,7 @@ constexpr std::array<Look, 6> kLooks{{
     {"pen", "black ink, crossed in the darks", ""},
     {"pencil", "soft grey lines that the paper's tooth breaks", R"(
 spacing = 3.6
-length = 52
+length = 64
 coverage = 2.6
 width = 2.6
 swell = 0.6
@@ -113,7 +113,7 @@ lead = 0.35
 cross = 30
 evenness = 0.3
 wander = 0.14
-opacity = 0.55
+opacity = 0.66
 darkness = 1.2
 gamma = 1.0
 brush = "pencil"
