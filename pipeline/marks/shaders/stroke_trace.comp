@@ -10,7 +10,7 @@
 //          finePaint, fineGround: the finest of models and of the background; paintTexel: the width
 //          of modelPaint's texels, px of the full image; labels if hasLabels: of pixels, in the
 //          lower bits of ArFrame::forms or of StrokeSet::update()'s borders, which labelMask tells;
-//          hasSegments: they have segments' labels, too; ids, forms and depth (ArFrame) if
+//          hasSegments: they have segments' labels, too; ids and depth (ArFrame) if
 //          hasObjects, depthRange: the near and the far plane in metres, 0: no depth; focalPx: of
 //          the full image, 0: not known; imageScale: the anchors', octaves; focus.glsl's; layer: its
 //          number and how many; the rest as in
@@ -23,7 +23,7 @@
 #include "pipeline/marks/shaders/focus.glsl"
 #include "pipeline/marks/shaders/stroke.glsl"
 #include "pipeline/marks/shaders/stroke_history.glsl"
-#include "pipeline/marks/shaders/stroke_label.glsl"
+#include "pipeline/marks/shaders/stroke_border.glsl"
 #include "pipeline/scene/render/shaders/depth_step.glsl"
 #include "pipeline/scene/render/shaders/object_id.glsl"
 #include "pipeline/scene/render/shaders/surface_form.glsl"
@@ -46,7 +46,6 @@ uniform highp sampler2D finePaint;
 uniform highp sampler2D fineGround;
 uniform float paintTexel;
 uniform highp usampler2D ids;
-uniform highp usampler2D forms;
 uniform highp usampler2D labels;
 uniform uint labelMask;
 uniform bool hasLabels;
@@ -102,13 +101,17 @@ ivec2 pixelAt(vec2 px) {
   return clamp(ivec2(floor(px * pixelsOfFull)), ivec2(0), textureSize(labels, 0) - 1);
 }
 
-// Of models; 0 elsewhere.
-uint formAt(vec2 px) { return hasObjects ? texelFetch(forms, pixelAt(px), 0).r : 0u; }
-
+uint labelsAt(vec2 px) { return hasLabels ? texelFetch(labels, pixelAt(px), 0).r : 0u; }
 // The label of a surface; movers are told by mover_labels.glsl.
-uint labelAt(vec2 px) {
-  uint label = hasLabels ? texelFetch(labels, pixelAt(px), 0).r & labelMask : 0u;
+uint labelOfSurface(uint texel) {
+  uint label = texel & labelMask;
   return label == kMoverLabel ? 0u : label;
+}
+uint labelAt(vec2 px) { return labelOfSurface(labelsAt(px)); }
+
+// Whether a step from one pixel of `labels` to the next goes over a joint of a smooth surface.
+bool isOverJoint(uint from, uint to) {
+  return hasSegments ? isOpen(to) && otherOf(to) == ownOf(from) : isOneJoint(from, to);
 }
 
 // The label of the anchor's triangle: that of its pixel, or of the one beside it that shows the
@@ -223,19 +226,20 @@ float partOnPatch(vec2 from, vec2 to, Support on, inout float strayed) {
   bool isDeep = on.isModel && depthRange.y > 0.0;
   float before = isDeep ? depthAt(from - pace) : 0.0;
   float here = isDeep ? depthAt(from) : 0.0;
-  uint last = formAt(from);
+  uint last = labelsAt(from);
   for (float i = 1.0; i <= count; i += 1.0) {
     vec2 at = from + i * pace;
-    uint form = formAt(at);
-    if (!mayCover(label, labelAt(at))) {
-      bool goesOn = isDeep && (labelOf(form) == labelOf(last) || isOneJoint(form, last));
+    uint texel = labelsAt(at);
+    if (!mayCover(label, labelOfSurface(texel))) {
+      bool isSame = labelOfSurface(texel) == labelOfSurface(last);
+      bool goesOn = isDeep && (isSame || isOverJoint(last, texel));
       strayed += length(pace);
       if (!goesOn || strayed > kOverJoint) {
         bool isEarly = stride > 1.0 && !mayCover(label, labelAt(at - 0.5 * pace));
         return max(0.0, (i - (isEarly ? 0.75 : stride > 1.0 ? 0.25 : 0.5)) / count);
       }
     }
-    last = form;
+    last = texel;
     if (!isDeep) continue;
     float next = depthAt(at);
     if (isDepthStep(before - 2.0 * here + next, here)) return max(0.0, (i - 1.5) / count);

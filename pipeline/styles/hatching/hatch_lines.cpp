@@ -89,7 +89,8 @@ HatchLines::HatchLines(const gpu::ShaderLibrary& library, hal::FrameSize full,
 void HatchLines::update(const scene::ArFrame& frame, const Inputs& inputs, const HatchRule& rule) {
   const hal::Duration step = marks::timeStep(lastTime_, frame.captureTime);
   lastTime_ = frame.captureTime;
-  anchors_.advance(frame, *inputs.motion, {}, inputs.movers, inputs.field);
+  anchors_.advance(frame, *inputs.motion, {.fadeIn = rule.fade, .fadeOut = rule.fade}, inputs.movers,
+                   inputs.field);
   align(frame, inputs, rule, step);
   trace(frame, inputs, rule, step);
   layOut(frame, inputs, rule);
@@ -107,12 +108,25 @@ void HatchLines::bindField(gpu::Program& program, const marks::TensorField& fiel
       .set("turn", glm::vec2(std::cos(rule.turnRad), std::sin(rule.turnRad)));
 }
 
+void HatchLines::bindSupport(gpu::Program& program, const scene::ArFrame& frame,
+                             const marks::MotionLayers* movers) const {
+  program.texture("movers", layerTextures_.labelsOf(movers))
+      .texture("ids", frame.hasObjects ? *frame.ids : noIds_)
+      .texture("forms", frame.hasObjects ? *frame.forms : noIds_)
+      .set("hasObjects", frame.hasObjects ? 1 : 0)
+      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()));
+}
+
 void HatchLines::align(const scene::ArFrame& frame, const Inputs& inputs, const HatchRule& rule,
                        hal::Duration step) {
   points_.use()
       .storage("Anchors", anchors_.anchors())
       .storage("Points", binned_)
+      .storage("Lines", lines_)
       .set("slots", slots_)
+      .set("anew", anchors_.hasBegunAnew() ? 1 : 0);
+  bindSupport(points_, frame, inputs.movers);
+  points_
       .dispatch({static_cast<int>(slots_), 1}, GL_SHADER_STORAGE_BARRIER_BIT);
   bins_.sort(binned_, frame.full());
   const bool isAnew = anchors_.hasBegunAnew();
@@ -123,6 +137,7 @@ void HatchLines::align(const scene::ArFrame& frame, const Inputs& inputs, const 
         .storage("Anchors", anchors_.anchors())
         .storage("Starts", bins_.starts())
         .storage("Sorted", bins_.sorted())
+        .storage("Lines", lines_)
         .texture("before", shifts_[latest_])
         .image("shifts", shifts_[1 - latest_], gpu::ImageAccess::kWrite)
         .set("bins", bins_.bins())
@@ -148,10 +163,6 @@ void HatchLines::trace(const scene::ArFrame& frame, const Inputs& inputs, const 
       .storage("Anchors", anchors_.anchors())
       .storage("Lines", lines_)
       .texture("shifts", shifts_[latest_])
-      .texture("movers", layerTextures_.labelsOf(inputs.movers))
-      .texture("ids", frame.hasObjects ? *frame.ids : noIds_)
-      .set("hasObjects", frame.hasObjects ? 1 : 0)
-      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .set("slots", slots_)
       .set("anew", anchors_.hasBegunAnew() ? 1 : 0)
       .set("cellPixels", static_cast<float>(anchors_.options().density.cellPixels))
@@ -161,6 +172,7 @@ void HatchLines::trace(const scene::ArFrame& frame, const Inputs& inputs, const 
       .set("wander", rule.wanderRad)
       .set("jitter", (1.0F - rule.evenness) * 0.5F * static_cast<float>(plan_.spacingPx))
       .set("past", pastOf(step, hal::toSeconds(rule.shapeMemory), inputs.movers));
+  bindSupport(trace_, frame, inputs.movers);
   bindField(trace_, field, rule, level);
   bindHatchTone(trace_, frame, *inputs.tone, rule);
   trace_.dispatch({static_cast<int>(slots_), 1}, GL_SHADER_STORAGE_BARRIER_BIT);
@@ -182,7 +194,9 @@ void HatchLines::layOut(const scene::ArFrame& frame, const Inputs& inputs, const
       .set("segment", segmentPx_)
       .set("taper", rule.taper)
       .set("paint", rule.paint)
-      .set("rankColour", rule.rankColour);
+      .set("rankColour", rule.rankColour)
+      .texture("colours", inputs.colours != nullptr ? *inputs.colours : *frame.colour)
+      .set("colour", rule.colour);
   bindHatchTone(lay_, frame, *inputs.tone, rule);
   lay_.dispatch({static_cast<int>(slots_), 1}, GL_SHADER_STORAGE_BARRIER_BIT);
   stripMaker_.lay(instances_, command_, StrokeQuads::kCurvature, strips_);

@@ -50,7 +50,9 @@ struct HatchRule {
   float evenness = 0.0F;  ///< of the spacing; 0: by chance
   std::size_t fieldLevel = 0;
   hal::Duration shapeMemory = std::chrono::milliseconds(650);  ///< time constant; 0: none
+  hal::Duration fade = std::chrono::milliseconds(700);  ///< in which a line comes or goes; 0: at once
   glm::vec4 paint{0.0F, 0.0F, 0.0F, 1.0F};
+  float colour = 0.0F;  ///< in [0, 1]: how much of the image's colour the paint takes
   float rankColour = 0.0F;
 };
 
@@ -70,6 +72,7 @@ class HatchLines {
     const marks::TensorField* field = nullptr;
     const gpu::Texture* tone = nullptr;  ///< shaders/tone.frag's
     const marks::MotionLayers* movers = nullptr;
+    const gpu::Texture* colours = nullptr;  ///< the image whose colours lines may take (LINEAR)
   };
   /// Traces the lines of a frame, for which the inputs were updated. The lines of a first frame,
   /// after reset() and after a cut have no past.
@@ -92,6 +95,8 @@ class HatchLines {
  private:
   void bindField(gpu::Program& program, const marks::TensorField& field, const HatchRule& rule,
                  std::size_t level) const;
+  void bindSupport(gpu::Program& program, const scene::ArFrame& frame,
+                   const marks::MotionLayers* movers) const;
   void align(const scene::ArFrame& frame, const Inputs& inputs, const HatchRule& rule,
              hal::Duration step);
   void trace(const scene::ArFrame& frame, const Inputs& inputs, const HatchRule& rule,

@@ -14,6 +14,7 @@
 #include "pipeline/marks/layer_textures.h"
 #include "pipeline/styles/hatching/hatching_shaders.h"
 #include "pipeline/styles/strokes/brush_cache.h"
+#include "pipeline/styles/strokes/stroke_borders.h"
 #include "pipeline/styles/strokes/stroke_drawing.h"
 #include "pipeline/styles/strokes/strokes_shaders.h"
 #include "pipeline/styles/substrate/substrate.h"
@@ -58,8 +59,8 @@ constexpr std::array kGates{
     CoherenceGate{CoherenceMeasure::kDep, kMin, 0.75, true, GateMotion::kPan},
 };
 /// All of them: lines leave most of the paper bare.
-constexpr std::array<std::string_view, 5> kPaperLooks{"pen", "pencil", "engraving", "blueprint",
-                                                      "chalk"};
+constexpr std::array<std::string_view, 6> kPaperLooks{"pen",       "pencil", "engraving",
+                                                      "blueprint", "chalk",  "crayon"};
 
 /// Where each set draws, in the tones that are not left bare: the more sets, the earlier the first
 /// has drawn all its lines.
@@ -121,7 +122,10 @@ HatchRule ruleOf(const HatchingParameters& p, const scene::ArFrame& frame, std::
   rule.fieldLevel = kFieldLevel;
   rule.shapeMemory =
       std::chrono::duration_cast<hal::Duration>(std::chrono::duration<double>(p.shapeTimeSeconds));
+  rule.fade =
+      std::chrono::duration_cast<hal::Duration>(std::chrono::duration<double>(p.fadeTimeSeconds));
   rule.paint = glm::vec4(inkOf(p), static_cast<float>(p.opacity));
+  rule.colour = static_cast<float>(p.colour);
   return rule;
 }
 
@@ -134,6 +138,7 @@ struct Canvas {
         tone(TextureFormat::kRgba16f, halfOf(halfOf(size)), TextureFilter::kLinear),
         edges(TextureFormat::kRg16f, size, TextureFilter::kLinear),
         contours(TextureFormat::kRg8, size, TextureFilter::kLinear),
+        borders(TextureFormat::kR32ui, size),
         ink(TextureFormat::kRgba8, size, TextureFilter::kLinear),
         picture(TextureFormat::kRgba8, size, TextureFilter::kLinear),
         lumaTarget({&luma}),
@@ -141,6 +146,7 @@ struct Canvas {
         toneTarget({&tone}),
         edgesTarget({&edges}),
         contoursTarget({&contours}),
+        bordersTarget({&borders}),
         inkTarget({&ink}),
         pictureTarget({&picture}) {}
 
@@ -154,6 +160,7 @@ struct Canvas {
   Texture tone;
   Texture edges;
   Texture contours;
+  Texture borders;  // where lines are clipped
   Texture ink;
   Texture picture;
   gpu::RenderTarget lumaTarget;
@@ -161,6 +168,7 @@ struct Canvas {
   gpu::RenderTarget toneTarget;
   gpu::RenderTarget edgesTarget;
   gpu::RenderTarget contoursTarget;
+  gpu::RenderTarget bordersTarget;
   gpu::RenderTarget inkTarget;
   gpu::RenderTarget pictureTarget;
 };
@@ -201,6 +209,7 @@ struct Hatching::State {
         contourLinesOfModels(library.fragmentPass(kShaders + "contours.frag", {{"MODELS"}})),
         lines(library.draw(kShaders + "line.vert", kShaders + "line.frag")),
         linesClipped(library.draw(kShaders + "line.vert", kShaders + "line.frag", {{"CLIPPED"}})),
+        borders(library),
         compose(library.fragmentPass(kShaders + "compose.frag")),
         view(library.fragmentPass(kShaders + "view.frag", viewDefines(kViews))),
         paper(library, Substrate::Kind::kPaper),
@@ -217,6 +226,7 @@ struct Hatching::State {
   gpu::Program contourLinesOfModels;
   gpu::Program lines;
   gpu::Program linesClipped;
+  StrokeBorders borders;
   gpu::Program compose;
   gpu::Program view;
   Substrate paper;
@@ -318,9 +328,7 @@ void Hatching::State::findContours(const scene::ArFrame& frame, const HatchingPa
       .set("sign_", p.inverted ? 1.0F : -1.0F);
   if (frame.hasObjects) {
     pass.texture("ids", *frame.ids)
-        .texture("parts", frame.parts != nullptr ? *frame.parts : noIds)
-        .texture("normalFocus", *frame.normalFocus)
-        .set("hasParts", frame.parts != nullptr ? 1 : 0);
+        .texture("normalFocus", *frame.normalFocus);
   }
   pass.drawFullscreen(canvas->contoursTarget);
 }
@@ -330,15 +338,18 @@ void Hatching::State::drawLines(const scene::ArFrame& frame, const HatchingParam
   for (std::size_t i = 0; i < drawing->sets.size(); ++i) {
     HatchRule rule = ruleOf(p, frame, i);
     if (!name.empty()) rule.paint = glm::vec4(kSetColours.at(i), 1.0F);
+    if (!name.empty()) rule.colour = 0.0F;
     if (name == "ranks") rule.rankColour = 1.0F;
     drawing->sets[i]->update(frame,
                              {.motion = &drawing->motion,
                               .field = &drawing->field,
                               .tone = &canvas->tone,
-                              .movers = moversOf(p)},
+                              .movers = moversOf(p),
+                              .colours = source},
                              rule);
   }
   const bool isClipped = frame.hasObjects || p.movers;
+  if (isClipped) borders.draw(frame, moversOf(p), canvas->bordersTarget);
   canvas->inkTarget.beginDiscarding();
   canvas->inkTarget.clearColour(0, glm::vec4(0.0F));
   for (const auto& set : drawing->sets) {
@@ -348,11 +359,7 @@ void Hatching::State::drawLines(const scene::ArFrame& frame, const HatchingParam
         .set("grain", static_cast<float>(p.grain))
         .set("scale", static_cast<float>(frame.pixelsOfFull().x))
         .set("fullSize", glm::vec2(frame.full().width, frame.full().height));
-    if (isClipped) {
-      program.texture("ids", frame.hasObjects ? *frame.ids : noIds)
-          .texture("movers", layerTextures.labelsOf(moversOf(p)))
-          .set("hasObjects", frame.hasObjects ? 1 : 0);
-    }
+    if (isClipped) program.texture("borders", canvas->borders);
     strips.draw(program, set->strips(), canvas->inkTarget);
   }
 }
@@ -367,6 +374,8 @@ void Hatching::State::finish(const scene::ArFrame& frame, const HatchingParamete
       .set("contourWeight", static_cast<float>(p.contours))
       .set("lift", static_cast<float>(p.lift))
       .set("inkColour", inkOf(p))
+      .texture("colours", *source)
+      .set("colour", static_cast<float>(p.colour))
       .set("paperColour", glm::vec3(p.paperRed, p.paperGreen, p.paperBlue))
       .set("tooth", static_cast<float>(p.tooth))
       .set("relief", static_cast<float>(p.relief))
@@ -398,6 +407,10 @@ const StyleKind& hatchingKind() {
                 .shading = scene::Shading::kSmooth},
       .coherence = {.gates = kGates, .paperLooks = kPaperLooks},
       .shaders = {gpu::hatchingShaders(), gpu::strokesShaders(), gpu::substrateShaders()},
+      .check =
+          [](const config::ParameterValues& values) {
+            return checkBrushFile(hatchingParameters().typed(values).brushFile);
+          },
       .make = [](const gpu::ShaderLibrary& library) -> std::unique_ptr<Style> {
         return std::make_unique<Hatching>(library);
       }};
@@ -433,6 +446,10 @@ void Hatching::warmUp() {
   state_->filtered.reset();
   state_->canvas = nullptr;
   state_->canvases.clear();
+}
+
+hal::Result<void> Hatching::prepare(const config::ParameterValues& values) {
+  return state_->brushes.take(hatchingParameters().typed(values).brushFile);
 }
 
 void Hatching::setParameters(const config::ParameterValues& values) {

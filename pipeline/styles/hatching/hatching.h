@@ -18,8 +18,8 @@ const StyleKind& hatchingKind();
 /// contour lines. Each line belongs to an anchor (marks::AnchorSet), goes with the thing it lies
 /// on, runs along the tensor field, and is as wide at each place as its tone asks for; ranks are
 /// nested, so that a tone that changes adds lines or takes them away, and none pops (HatchLines).
-/// Contours are the image's edges, smoothed along the field, and the silhouettes, creases and part
-/// borders of models. Paper goes with ArFrame::canvasFromPicture. All on the GPU, nothing is read
+/// Contours are the image's edges, smoothed along the field, and the silhouettes, creases and
+/// borders between patches of models. Paper goes with ArFrame::canvasFromPicture. All on the GPU, nothing is read
 /// back.
 ///
 /// Time: tones and contours are taken from an image that is averaged along its motion
@@ -38,6 +38,7 @@ class Hatching final : public Style {
 
   const StyleKind& kind() const override { return hatchingKind(); }
   const config::ParameterValues& parameters() const override { return values_; }
+  hal::Result<void> prepare(const config::ParameterValues& values) override;
   void setParameters(const config::ParameterValues& values) override;
   const gpu::Texture& paint(const scene::ArFrame& frame, std::string_view view) override;
   const marks::AnchorSet* anchors() const override;

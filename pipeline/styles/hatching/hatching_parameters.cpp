@@ -7,6 +7,7 @@ namespace pleinair::styles {
 using config::choiceParameter;
 using config::integerParameter;
 using config::numberParameter;
+using config::pathParameter;
 using config::switchParameter;
 using P = HatchingParameters;
 
@@ -69,6 +70,9 @@ const config::ParameterTable<HatchingParameters>& hatchingParameters() {
       numberParameter("contour_width", &P::contourWidth, {.min = 0.5, .max = 4, .unit = "px"},
                       "Of contour lines."),
       choiceParameter("brush", &P::brush, kBrushNames, "What lines are drawn with."),
+      pathParameter("brush_file", &P::brushFile, {kNoBrushFile},
+                    "A brush of your own instead: a PNG (docs/painting.md).",
+                    config::TakesEffect::kLive, ".png"),
       numberParameter("grain", &P::grain, kPart, "How much of the brush's own mark is seen."),
       numberParameter("tooth", &P::tooth, kPart,
                       "How much the paper's grain breaks lines: pencil, chalk."),
@@ -76,11 +80,15 @@ const config::ParameterTable<HatchingParameters>& hatchingParameters() {
       numberParameter("ink_red", &P::inkRed, kPart, "The ink's colour: red."),
       numberParameter("ink_green", &P::inkGreen, kPart, "The ink's colour: green."),
       numberParameter("ink_blue", &P::inkBlue, kPart, "The ink's colour: blue."),
+      numberParameter("colour", &P::colour, kPart,
+                      "How much of the picture's colour lines take, in place of the ink's."),
       numberParameter("paper_red", &P::paperRed, kPart, "The paper's colour: red."),
       numberParameter("paper_green", &P::paperGreen, kPart, "The paper's colour: green."),
       numberParameter("paper_blue", &P::paperBlue, kPart, "The paper's colour: blue."),
       numberParameter("shape_time", &P::shapeTimeSeconds, {.min = 0, .max = 10, .unit = "s"},
                       "Time constant of a line's shape; 0 takes each frame's."),
+      numberParameter("fade_time", &P::fadeTimeSeconds, {.min = 0, .max = 5, .unit = "s"},
+                      "In which a line comes, or goes that is no longer needed."),
       numberParameter("filter_time", &P::filterTimeSeconds, {.min = 0, .max = 5, .unit = "s"},
                       "Time constant of the picture that tones and contours are taken from, "
                       "averaged along its motion; 0 takes each frame as it is."),
@@ -93,11 +101,11 @@ const config::ParameterTable<HatchingParameters>& hatchingParameters() {
 
 namespace {
 
-constexpr std::array<Look, 5> kLooks{{
+constexpr std::array<Look, 6> kLooks{{
     {"pen", "black ink, crossed in the darks", ""},
     {"pencil", "soft grey lines that the paper's tooth breaks", R"(
 spacing = 3.6
-length = 52
+length = 64
 coverage = 2.6
 width = 2.6
 swell = 0.6
@@ -105,7 +113,7 @@ lead = 0.35
 cross = 30
 evenness = 0.3
 wander = 0.14
-opacity = 0.55
+opacity = 0.66
 darkness = 1.2
 gamma = 1.0
 brush = "pencil"
@@ -188,6 +196,27 @@ ink_blue = 0.88
 paper_red = 0.16
 paper_green = 0.19
 paper_blue = 0.18
+)"},
+    {"crayon", "soft lines in the picture's own colours", R"(
+spacing = 3.8
+length = 56
+coverage = 2.6
+width = 3.4
+swell = 0.6
+lead = 0.5
+cross = 35
+evenness = 0.3
+wander = 0.12
+opacity = 0.72
+darkness = 1.25
+gamma = 0.8
+paper_tone = 0.03
+colour = 1
+brush = "pencil"
+grain = 0.5
+tooth = 0.6
+contours = 0.6
+contour_width = 1.3
 )"},
 }};
 

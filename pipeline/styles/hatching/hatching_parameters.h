@@ -1,8 +1,10 @@
 #pragma once
 
+#include <filesystem>
 #include <span>
 
 #include "config/parameter_table.h"
+#include "pipeline/styles/strokes/brush_cache.h"
 #include "pipeline/styles/strokes/brushes.h"
 #include "pipeline/styles/style.h"
 
@@ -35,16 +37,19 @@ struct HatchingParameters {
   double contourThreshold = 0.018;
   double contourWidth = 1.0;
   Brush brush = Brush::kMarker;
+  std::filesystem::path brushFile = kNoBrushFile;
   double grain = 0.15;
   double tooth = 0.1;
   double relief = 0.05;
   double inkRed = 0.08;
   double inkGreen = 0.08;
   double inkBlue = 0.11;
+  double colour = 0.0;  // of the picture, in place of the ink's
   double paperRed = 0.97;
   double paperGreen = 0.955;
   double paperBlue = 0.92;
   double shapeTimeSeconds = 2.0;
+  double fadeTimeSeconds = 1.0;
   double filterTimeSeconds = 0.3;
   bool movers = true;
 };

@@ -29,6 +29,7 @@
 #include "pipeline/styles/painterly/palette.h"
 #include "pipeline/styles/painterly/reduced_images.h"
 #include "pipeline/styles/strokes/brush_cache.h"
+#include "pipeline/styles/strokes/stroke_borders.h"
 #include "pipeline/styles/strokes/stroke_drawing.h"
 #include "pipeline/styles/strokes/strokes_shaders.h"
 #include "pipeline/styles/substrate/substrate_shaders.h"
@@ -142,10 +143,7 @@ constexpr std::array<std::string_view, 2> kPaperLooks{"sketch", "ink"};
 
 /// Whether the brush's file is there and valid. Reads it; any thread. Errors: readBrushFile()'s.
 hal::Result<void> checkBrush(const config::ParameterValues& values) {
-  const std::filesystem::path file = painterlyParameters().typed(values).brushFile;
-  if (file == kNoBrushFile) return {};
-  const hal::Result<BrushMarks> marks = readBrushFile(file);
-  return marks ? hal::Result<void>() : tl::unexpected(marks.error());
+  return checkBrushFile(painterlyParameters().typed(values).brushFile);
 }
 
 }  // namespace
@@ -162,7 +160,7 @@ struct Painterly::State {
             library.fragmentPass(kShaders + "mover_view.frag", viewDefines(painterlyViews()))),
         segmentView(library.fragmentPass(kShaders + "segment_view.frag")),
         heightView(library.fragmentPass(kShaders + "height_view.frag")),
-        borders(library.fragmentPass(kShaders + "borders.frag")),
+        borders(library),
         linen(library, Substrate::Kind::kLinen),
         paper(library, Substrate::Kind::kPaper),
         strips(library),
@@ -178,7 +176,7 @@ struct Painterly::State {
   gpu::Program moverView;
   gpu::Program segmentView;
   gpu::Program heightView;
-  gpu::Program borders;
+  StrokeBorders borders;
   Substrate linen;
   Substrate paper;
   StrokeStripMaker strips;
@@ -268,19 +266,8 @@ void Painterly::State::findBorders(const scene::ArFrame& frame, const PainterlyP
   const bool isHeld = last == canvas && painting->motion.isStanding() && !painting->motion.isCut();
   const Texture& before = canvas->borders.at(canvas->now);
   canvas->now = 1 - canvas->now;
-  const bool hasDepth = frame.hasObjects && frame.depth != nullptr;
-  marks::SegmentMap::bind(borders.use(), &segments, noIds);
-  borders.texture("forms", frame.hasObjects ? *frame.forms : noIds)
-      .texture("depth", hasDepth ? *frame.depth : *frame.colour)
-      .set("depthRange", hasDepth ? glm::vec2(frame.nearMetres, frame.farMetres) : glm::vec2(0.0F))
-      .texture("movers", layerTextures.labelsOf(moversOf(p)))
-      .texture("picture", *frame.colour)
-      .texture("before", before)
-      .set("hasObjects", frame.hasObjects ? 1 : 0)
-      .set("isHeld", isHeld ? 1 : 0)
-      .set("size", glm::vec2(canvas->size.width, canvas->size.height))
-      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
-      .drawFullscreen(canvas->bordered.at(canvas->now));
+  borders.draw(frame, moversOf(p), canvas->bordered.at(canvas->now), &segments,
+               isHeld ? &before : nullptr);
   bordered = canvas;
   clip = &canvas->borders.at(canvas->now);
 }

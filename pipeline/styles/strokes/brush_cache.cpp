@@ -29,6 +29,12 @@ BrushCache::BrushCache(const gpu::ShaderLibrary& library) {
   }
 }
 
+hal::Result<void> checkBrushFile(const std::filesystem::path& file) {
+  if (file == kNoBrushFile) return {};
+  const hal::Result<BrushMarks> marks = readBrushFile(file);
+  return marks ? hal::Result<void>() : tl::unexpected(marks.error());
+}
+
 hal::Result<void> BrushCache::take(const std::filesystem::path& file) {
   if (file == file_) return {};
   std::optional<BrushMarks> marks;

@@ -15,6 +15,9 @@ namespace pleinair::styles {
 
 inline constexpr const char* kNoBrushFile = "none";
 
+/// Whether the file is a brush's, or kNoBrushFile. Reads it; any thread. Errors: readBrushFile()'s.
+hal::Result<void> checkBrushFile(const std::filesystem::path& file);
+
 /// The built-in brushes, all made by the constructor, so that no frame waits for one; and those of
 /// a file, made at their first use. On the thread of a GL context.
 class BrushCache {

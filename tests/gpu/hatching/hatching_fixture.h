@@ -24,7 +24,7 @@ struct StoredLine {
   float seen;
   glm::vec2 shift;
   float bend;
-  float spare;
+  std::uint32_t label;
 };
 static_assert(sizeof(StoredLine) == HatchLines::kLineBytes);
 

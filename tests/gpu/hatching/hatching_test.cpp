@@ -67,6 +67,15 @@ TEST_F(HatchingStyle, AnotherQualityKeepsTheLines) {
               0.15 * static_cast<double>(before.size()));
 }
 
+TEST_F(HatchingStyle, ABrushFileThatIsNotThereIsAnErrorAndChangesNothing) {
+  Hatching style(library_);
+  const config::ParameterValues values =
+      style.parameters().with("brush_file", "/nonexistent/brush.png");
+  EXPECT_FALSE(style.prepare(values));
+  EXPECT_FALSE(style.kind().check(values));
+  EXPECT_TRUE(style.prepare(style.parameters()));
+}
+
 TEST_F(HatchingStyle, FollowsTheSlopeOnThePaperAsTheImageTurns) {
   constexpr double kTurn = 0.4;
   const auto directionOf = [&](double turn) {

@@ -4,6 +4,7 @@
 #include <complex>
 #include <set>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <gmock/gmock.h>
@@ -208,7 +209,7 @@ class HatchBorders : public HatchLinesTest {
   }
   /// Control points of lines that lie clearly in another thing than their line's, on a picture of
   /// one tone with a model in its middle; unknown to the style, if so told.
-  int strays(bool isKnown) {
+  int strays(bool isKnown, bool hasPatches = false) {
     std::vector<std::uint32_t> ids;
     for (int y = 0; y < kSize.height; ++y) {
       for (int x = 0; x < kSize.width; ++x) {
@@ -218,7 +219,10 @@ class HatchBorders : public HatchLinesTest {
     const std::size_t stride = static_cast<std::size_t>(kSize.width) * 4;
     gpu::Texture idTexture(gpu::TextureFormat::kR32ui, kSize);
     idTexture.upload({reinterpret_cast<const std::uint8_t*>(ids.data()), ids.size() * 4}, stride);
-    for (std::uint32_t& id : ids) id = id != 0U ? 1U : 0U;
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      const bool isSecond = hasPatches && i % static_cast<std::size_t>(kSize.width) >= kPatches;
+      ids[i] = ids[i] == 0U ? 0U : (isSecond ? 2U : 1U);
+    }
     gpu::Texture labels(gpu::TextureFormat::kR32ui, kSize);
     labels.upload({reinterpret_cast<const std::uint8_t*>(ids.data()), ids.size() * 4}, stride);
     gpu::Texture zeros(gpu::TextureFormat::kR32ui, kSize);
@@ -235,11 +239,16 @@ class HatchBorders : public HatchLinesTest {
     style.paint(frame, {});
     int count = 0;
     onModel_ = 0;
+    overPatches_ = 0;
     for (std::size_t i = 0; i < style.setCount(); ++i) {
       // arms end within a segment behind the border
       const float margin = style.set(i).segmentPx();
       for (const DrawnLine& line : drawnLines(style.set(i))) {
-        onModel_ += line.object == 1.0F ? 1 : 0;
+        onModel_ += line.object != 0.0F ? 1 : 0;
+        const auto [left, right] = std::ranges::minmax(
+            line.points, {}, [](glm::vec2 point) { return point.x; });
+        const bool isOver = left.x < kPatches - margin && right.x > kPatches + margin;
+        overPatches_ += line.object != 0.0F && isOver ? 1 : 0;
         for (const glm::vec2 point : line.points) {
           count += line.object == 0.0F ? isInBox(point, margin) : !isInBox(point, -margin);
         }
@@ -247,13 +256,106 @@ class HatchBorders : public HatchLinesTest {
     }
     return count;
   }
+  static constexpr int kPatches = 95;  // x of the border between the model's patches
   int onModel_ = 0;
+  int overPatches_ = 0;
 };
 
 TEST_F(HatchBorders, NoLineCrossesAnObjectsBorder) {
   EXPECT_EQ(strays(true), 0);
   EXPECT_GT(onModel_, 20);
   EXPECT_GT(strays(false), 100);
+}
+
+TEST_F(HatchBorders, NoLineCrossesAPatchsBorder) {
+  EXPECT_EQ(strays(true, true), 0);
+  EXPECT_GT(onModel_, 20);
+  EXPECT_EQ(overPatches_, 0);
+  strays(true, false);
+  EXPECT_GT(overPatches_, 10) << "one patch has lines across its middle";
+}
+
+// Under a zoom, lines go with the image, and those that come and go do so gradually: from frame to
+// frame, no width changes by more than the fade's share of it.
+TEST_F(HatchLinesTest, UnderAZoomNoLinePops) {
+  constexpr double kZoom = 1.02;
+  constexpr int kFrames = 14;
+  double offPx = 0.0;
+  int comes = 0;
+  const auto largestStep = [&](const char* fadeSeconds) {
+    Hatching style(library_);
+    set(style, {{"fade_time", fadeSeconds}, {"directions", "1"}, {"lead", "0"}});
+    const float width = 1.7F * static_cast<float>(scaleOf(kSize));
+    restart();
+    std::vector<StoredLine> before;
+    std::vector<marks::Anchor> anchorsBefore;
+    double largest = 0.0;
+    double off = 0.0;
+    int carried = 0;
+    comes = 0;
+    for (int i = 0; i < kFrames; ++i) {
+      scene::ArFrame frame = next(flat(0.2));
+      const glm::dvec2 shift = (1.0 - kZoom) * 0.5 * glm::dvec2(kSize.width, kSize.height);
+      if (i > 0) {
+        motion_.picture->currentFromPrevious =
+            glm::dmat3(kZoom, 0, 0, 0, kZoom, 0, shift.x, shift.y, 1);
+      }
+      style.paint(frame, {});
+      const std::vector<StoredLine> lines = storedLines(style.set(0));
+      const std::vector<marks::Anchor> anchors = style.set(0).anchors().read();
+      for (std::size_t slot = 0; i > 0 && slot < lines.size(); ++slot) {
+        const glm::dvec2 from = glm::dvec2(anchors[slot].px) + glm::dvec2(lines[slot].shift);
+        // lines that come into the image are there at once
+        const double inside = std::min(std::min(from.x, kSize.width - from.x),
+                                       std::min(from.y, kSize.height - from.y));
+        if (!anchors[slot].isAlive() || inside < 30.0) continue;
+        const bool isNew = anchors[slot].isBorn();
+        comes += isNew ? 1 : 0;
+        const float was = isNew ? 0.0F : before[slot].seen;
+        largest = std::max(largest, double{std::abs(lines[slot].seen - was) / (0.5F * width)});
+        if (isNew || !anchorsBefore[slot].isAlive()) continue;
+        const glm::dvec2 wanted = kZoom * (glm::dvec2(anchorsBefore[slot].px) +
+                                           glm::dvec2(before[slot].shift)) + shift;
+        off += glm::distance(from, wanted);
+        ++carried;
+      }
+      before = lines;
+      anchorsBefore = anchors;
+    }
+    offPx = off / std::max(carried, 1);
+    return largest;
+  };
+  constexpr double kStepSeconds = 0.04;  // between frames
+  EXPECT_LE(largestStep("1"), 1.2 * kStepSeconds);
+  EXPECT_GT(comes, 10);
+  EXPECT_LT(offPx, 0.05);
+  EXPECT_GT(largestStep("0.1"), 3.0 * kStepSeconds) << "the control";
+}
+
+TEST_F(HatchLinesTest, TakeTheImagesColourAsFarAsAsked) {
+  hal::Image red = flat(0.5);
+  for (int y = 0; y < kSize.height; ++y) {
+    auto* p = red.row(0, y).data();
+    for (int x = 0; x < kSize.width; ++x, p += 4) {
+      p[0] = 180;
+      p[1] = 40;
+      p[2] = 20;
+    }
+  }
+  for (const double part : {0.0, 0.5, 1.0}) {
+    Hatching style(library_);
+    set(style, {{"colour", std::to_string(part).c_str()}});
+    restart();
+    style.paint(next(red), {});
+    const HatchingParameters p = hatchingParameters().typed(style.parameters());
+    const glm::dvec3 ink(p.inkRed, p.inkGreen, p.inkBlue);
+    const glm::dvec3 wanted = glm::mix(ink, glm::dvec3(180, 40, 20) / 255.0, part);
+    const std::vector<DrawnLine> lines = drawnLines(style.set(0));
+    ASSERT_GT(lines.size(), 20U);
+    for (const DrawnLine& line : lines) {
+      ASSERT_LT(glm::distance(glm::dvec3(line.paint), wanted), 0.01) << part;
+    }
+  }
 }
 
 }  // namespace

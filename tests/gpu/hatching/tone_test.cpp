@@ -96,7 +96,7 @@ class HatchTone : public HatchingTest, public testing::WithParamInterface<std::s
   }
 };
 INSTANTIATE_TEST_SUITE_P(Looks, HatchTone,
-                         testing::Values("pen", "pencil", "engraving", "blueprint", "chalk"));
+                         testing::Values("pen", "pencil", "engraving", "blueprint", "chalk", "crayon"));
 
 constexpr double kSigma = 6.0;
 

@@ -19,12 +19,12 @@
 namespace pleinair::styles {
 namespace {
 
-// As strokes/shaders/border.glsl packs them.
+// As marks/shaders/stroke_border.glsl packs them.
 constexpr unsigned kLabelBits = 13;
 constexpr std::uint32_t kLabelMask = (1U << kLabelBits) - 1U;
-constexpr double kShareStep = 0.5 / 63.0 + 1e-6;
+constexpr double kShareStep = 0.5 / 31.0 + 1e-6;
 double shareOf(std::uint32_t border) {
-  return (border >> 26U) / 63.0;
+  return (border >> 26U & 31U) / 31.0;
 }
 
 class ClipTest : public PainterlyTest {
@@ -50,7 +50,7 @@ class ClipTest : public PainterlyTest {
 
   /// In use, without segments.
   gpu::Program& bordersProgram() {
-    program_ = library_.fragmentPass("pipeline/styles/painterly/shaders/borders.frag");
+    program_ = library_.fragmentPass("pipeline/styles/strokes/shaders/borders.frag");
     marks::SegmentMap::bind(program_.use(), nullptr, forms_);
     return program_.texture("picture", forms_).texture("before", forms_).set("isHeld", 0);
   }
@@ -144,7 +144,7 @@ TEST_F(ClipTest, AJointIsOpenUnlessDepthStepsThere) {
     depth.upload(bytesOf(windows), std::size_t{kSmall.width} * 4);
     const gpu::Texture borders(gpu::TextureFormat::kR32ui, kSmall);
     const marks::LayerTextures layerTextures;
-    library_.fragmentPass("pipeline/styles/painterly/shaders/borders.frag")
+    library_.fragmentPass("pipeline/styles/strokes/shaders/borders.frag")
         .use()
         .texture("forms", forms_)
         .texture("depth", depth)
@@ -162,20 +162,20 @@ TEST_F(ClipTest, AJointIsOpenUnlessDepthStepsThere) {
   for (int x = 0; x < kSmall.width; ++x) {
     const std::uint32_t border = open[static_cast<std::size_t>(x)];
     const int away = x < kEdge ? kEdge - x : x - kEdge + 1;
-    EXPECT_EQ(border & 4095U, x < kEdge ? 1U : 2U);
+    EXPECT_EQ(border & kLabelMask, x < kEdge ? 1U : 2U);
     // Every second pixel is looked at.
     EXPECT_TRUE(away <= 16 || (border & kOpen) == 0U) << x;
     if (away >= 14) continue;
     EXPECT_NE(border & kOpen, 0U) << x;
-    EXPECT_EQ(border >> 12U & 4095U, x < kEdge ? 2U : 1U) << x;
-    EXPECT_NEAR((border >> 24U & 127U) / 127.0, 1.0 - away / 16.0, 0.07) << x;
+    EXPECT_EQ(border >> kLabelBits & kLabelMask, x < kEdge ? 2U : 1U) << x;
+    EXPECT_NEAR(shareOf(border), 1.0 - away / 16.0, 0.09) << x;
   }
   for (const auto& [marks, step] : {std::pair{kAtJoint, 0.1F}, {0U, 0.0F}}) {
     const std::vector<std::uint32_t> closed = bordersOf(marks, step);
     for (int x = 0; x < kSmall.width; ++x) {
       const std::uint32_t border = closed[static_cast<std::size_t>(x)];
       EXPECT_EQ(border & kOpen, 0U) << x << " step " << step;
-      EXPECT_EQ((border >> 12U & 4095U) != (border & 4095U), x == kEdge || x == kEdge - 1) << x;
+      EXPECT_EQ((border >> kLabelBits & kLabelMask) != (border & kLabelMask), x == kEdge || x == kEdge - 1) << x;
     }
   }
 }

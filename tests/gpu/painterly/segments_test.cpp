@@ -98,7 +98,7 @@ class SegmentsTest : public PainterlyTest {
     }
     now_ = 1 - now_;
     gpu::Program program =
-        library_.fragmentPass("pipeline/styles/painterly/shaders/borders.frag");
+        library_.fragmentPass("pipeline/styles/strokes/shaders/borders.frag");
     marks::SegmentMap::bind(program.use(), &map_, borders_[0]);
     program.texture("forms", borders_.at(1 - now_))
         .texture("movers", layerTextures().labelsOf(nullptr))
@@ -159,7 +159,7 @@ TEST_F(SegmentsTest, BordersFollowThePixels) {
       for (int x = 0; x < kSize.width; ++x) {
         const double beyond = beyondDisc(x, y, shift);
         const std::uint32_t border = found[static_cast<std::size_t>(y * kSize.width + x)];
-        const double share = (border >> 26U) / 63.0;
+        const double share = (border >> 26U & 31U) / 31.0;
         area += (border & kLabelMask) == inside ? share : 1.0 - share;
         if (std::abs(beyond) > 1.5) wrong += labelAt(x, y) != (beyond < 0.0 ? inside : outside);
       }

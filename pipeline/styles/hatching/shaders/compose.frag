@@ -2,7 +2,7 @@
 //          as the camera sees it.
 // Inputs:  ink (line.frag); contours (contours.frag); contourWeight; lift: how bare lines leave the
 //          other side of edges; substrate.glsl's: the paper;
-//          inkColour; paperColour; tooth: how much the hollows stay bare; relief: how much of the
+//          inkColour; colours: the image, colour: how much of it contours take; paperColour; tooth: how much the hollows stay bare; relief: how much of the
 //          paper's relief is seen; frame, normalFocus if hasFocus.
 // Outputs: RGBA8, sRGB-coded, opaque.
 // Precision: highp for places.
@@ -12,6 +12,8 @@ uniform sampler2D contours;
 uniform sampler2D frame;
 uniform sampler2D normalFocus;
 uniform bool hasFocus;
+uniform sampler2D colours;
+uniform float colour;
 uniform float contourWeight;
 uniform float lift;
 uniform vec3 inkColour;
@@ -33,8 +35,9 @@ void main() {
   vec2 edge = texelFetch(contours, p, 0).rg;
   float contour = contourWeight * edge.r;
   lines *= 1.0 - lift * edge.g;
+  vec3 contourInk = mix(inkColour, texelFetch(colours, p, 0).rgb, colour);
   float amount = 1.0 - (1.0 - lines.a) * (1.0 - contour);
-  vec3 colour = (lines.rgb * (1.0 - contour) + inkColour * contour) / max(amount, 1e-4);
+  vec3 colour = (lines.rgb * (1.0 - contour) + contourInk * contour) / max(amount, 1e-4);
   amount *= caught(paper_.r, amount);
   vec3 sheet = paperColour * (1.0 + relief * (2.0 * paper_.g - 1.0));
   vec3 rgb = mix(sheet, colour, amount);

@@ -3,7 +3,7 @@
 // Defines: MODELS: the latter.
 // Inputs:  edges (contour_edges.frag, LINEAR); contour_field.glsl's and mover_labels.glsl's; step_:
 //          px between taps; threshold: the least difference that is a line, in luma; sign: -1 for
-//          lines on the dark side of edges, 1 for the light one; MODELS: ids, parts (if hasParts),
+//          lines on the dark side of edges, 1 for the light one; MODELS: ids,
 //          normalFocus (ArFrame).
 // Outputs: RG8: R ink, in [0, 1]; G the other side of edges, which stays bare where all around is
 //          dark (light, in inverted looks).
@@ -13,9 +13,7 @@
 #ifdef MODELS
 #include "pipeline/scene/render/shaders/object_id.glsl"
 uniform highp usampler2D ids;
-uniform highp usampler2D parts;
 uniform sampler2D normalFocus;
-uniform bool hasParts;
 #endif
 uniform sampler2D edges;
 uniform float step_;
@@ -23,6 +21,7 @@ uniform float threshold;
 uniform float sign_;
 layout(location = 0) out vec2 contour;
 
+const float kStride = 1.8;  // steps between taps: specks of a texture are shorter than a line
 const float kSmooth[4] = float[4](0.24, 0.2, 0.12, 0.06);
 
 float edgeAt(vec2 pixel) { return textureLod(edges, pixel / size, 0.0).r; }
@@ -33,13 +32,13 @@ const float kCrease = 0.8;  // cosine between the normals of neighbouring pixels
 uvec2 thingAt(ivec2 p) {
   uint object = objectOf(texelFetch(ids, p, 0).r);
   if (!isVirtual(object)) return uvec2(0u);
-  return uvec2(object, hasParts ? texelFetch(parts, p, 0).r : 0u);
+  return uvec2(object, labelOf(texelFetch(forms, p, 0).r));
 }
 
 vec3 normalAt(ivec2 p) { return normalize(texelFetch(normalFocus, p, 0).xyz * 2.0 - 1.0); }
 
 // Silhouettes, on both sides, by the share of the surroundings that is another object; lighter and
-// a pixel wide, borders between parts, and creases.
+// a pixel wide, borders between patches, and creases.
 float modelLines(ivec2 p) {
   const float kPart = 0.7;
   ivec2 last = textureSize(ids, 0) - 1;
@@ -71,7 +70,7 @@ void main() {
     vec2 at = gl_FragCoord.xy;
     vec2 along = float(side) * vec2(-gradient.y, gradient.x);
     for (int i = 1; i < 4; ++i) {
-      at += step_ * along;
+      at += kStride * step_ * along;
       sum += kSmooth[i] * edgeAt(at);
     }
   }

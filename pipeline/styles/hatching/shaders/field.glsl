@@ -18,7 +18,7 @@ vec2 unitTensor(vec2 tensor) { return tensor * inversesqrt(max(dot(tensor, tenso
 
 // `support`: of line_support.glsl.
 vec2 directionAt(vec2 px, uint support) {
-  bool isOnModel = support != 0u && support != kOnMover;
+  bool isOnModel = support != 0u && support != kMoverLabel;
   vec2 tensor;
   if (isOnModel) {
     tensor = textureLod(modelField, px * fieldScale, 0.0).xy;

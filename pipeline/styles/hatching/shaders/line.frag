@@ -1,15 +1,11 @@
 // Purpose: ink of hatching lines, smooth at its edges: what is thinner than a pixel is paler.
-// Defines: CLIPPED: keeps a line on its own object, or on movers, or on the background.
+// Defines: CLIPPED: keeps a line on its own patch, or on movers, or on the background.
 // Inputs:  line.vert's; brushes: R how much ink is there (makeBrush()); grain: its weight; scale:
-//          px of the image per px of the full one; CLIPPED: ids if hasObjects, mover_labels.glsl's.
+//          px of the image per px of the full one; CLIPPED: stroke_clip.glsl's.
 // Outputs: sRGB-coded colour, premultiplied, and coverage, to be blended over the existing ink.
 // Precision: highp for places.
 #ifdef CLIPPED
-#include "pipeline/marks/shaders/mover_labels.glsl"
-#include "pipeline/marks/shaders/anchor.glsl"
-#include "pipeline/styles/hatching/shaders/line_support.glsl"
-uniform highp usampler2D ids;
-uniform bool hasObjects;
+#include "pipeline/styles/strokes/shaders/stroke_clip.glsl"
 #endif
 uniform sampler2D brushes;
 uniform float grain;
@@ -17,22 +13,12 @@ uniform float scale;
 in vec2 brush;
 in vec2 shape;
 flat in vec4 paint;
-flat in uint object;
+flat in uint variant;
 layout(location = 0) out vec4 ink;
 
 const float kSmooth = 0.75;   // stroke_strips.comp's
 const float kVariants = 4.0;
 const float kAspect = 4.0;    // of a brush's mark
-
-#ifdef CLIPPED
-bool isWithin() {
-  uint own = object & 0xFFFFu;
-  uint here = hasObjects ? objectOf(texelFetch(ids, ivec2(gl_FragCoord.xy), 0).r) : 0u;
-  if (isVirtual(here)) return here == own;
-  return (moverAt(gl_FragCoord.xy / scale).r > 0.5) == (own == kOnMover) &&
-         (own == 0u || own == kOnMover);
-}
-#endif
 
 void main() {
   float across = 2.0 * brush.y - 1.0;
@@ -42,10 +28,10 @@ void main() {
   // The middle half of the brush's mark, to and fro along the line.
   float times = brush.x * shape.y / (kAspect * max(2.0 * shape.x, 1.5));
   float onward = 0.25 + 0.5 * abs(1.0 - 2.0 * fract(0.5 * times));
-  float row = (float(object >> 16u) + 0.5 + 0.3 * across) / kVariants;
+  float row = (float(variant) + 0.5 + 0.3 * across) / kVariants;
   cover *= mix(1.0, texture(brushes, vec2(onward, row)).r, grain);
 #ifdef CLIPPED
-  if (!isWithin()) cover = 0.0;
+  cover *= within();
 #endif
   cover *= paint.a;
   ink = vec4(paint.rgb * cover, cover);

@@ -10,7 +10,7 @@ struct Line {
   float seen;     // half of its largest width, px
   vec2 shift;     // from the anchor to the line, px
   float bend;     // random for life: how the hand strays, in [-1, 1]
-  float spare;
+  uint label;     // of what it lies on (line_support.glsl)
 };
 
 vec2 wayOf(uvec4 ways[4], int arm, int i) {

@@ -2,7 +2,7 @@
 //          would have a line if all were a whole number of spacings apart. A line's phase is kept
 //          in step with its neighbours', as that of the kernels of phasor noise (Tricard et al.,
 //          "Procedural phasor noise", 2019).
-// Inputs:  anchors; starts, sorted, bins, binPixels: all of them (line_points.comp); before: the
+// Inputs:  anchors; lines: labels; starts, sorted, bins, binPixels: all of them (line_points.comp); before: the
 //          shifts of the previous step; field.glsl's; spacing, reach: px; anew, isFirst: lines have
 //          no past; past: its share, and that of the background.
 // Outputs: shifts (RGBA32F, a texel a slot: line_shift.glsl): px. One invocation per anchor.
@@ -10,12 +10,14 @@
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/point_bins.glsl"
+#include "pipeline/scene/render/shaders/surface_form.glsl"
+#include "pipeline/styles/hatching/shaders/line.glsl"
 #include "pipeline/styles/hatching/shaders/line_shift.glsl"
-#include "pipeline/styles/hatching/shaders/line_support.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
 layout(std430, binding = 1) readonly buffer Starts { uint starts[]; };
 layout(std430, binding = 2) readonly buffer Sorted { ivec4 sorted[]; };
+layout(std430, binding = 3) readonly buffer Lines { Line lines[]; };
 layout(rgba32f, binding = 0) writeonly uniform highp image2D shifts;
 #include "pipeline/styles/hatching/shaders/field.glsl"
 uniform highp sampler2D before;
@@ -39,7 +41,7 @@ void main() {
   uint state = anchors[slot].state;
   if (!isAlive(state)) return;
   vec2 px = anchors[slot].px;
-  uint support = supportOf(anchors[slot].surface, state);
+  uint support = lines[slot].label;
   bool isNew = anew || (!isFirst && (state & kBorn) != 0u);
   vec2 was = texelFetch(before, shiftTexel(int(slot)), 0).xy;
   vec4 jacobian = anchors[slot].jacobian;

@@ -1,14 +1,14 @@
 // Purpose: the drawn form of each line: the control points of its spline, and its width at each:
 //          what the tone there asks for, less where the pen is set down and lifted.
 // Inputs:  anchors, lines, ranks (line_order.comp); tone.glsl's; segment: px; taper: the part of
-//          a line on each side in which it thins out; paint: colour and opacity; rankColour: how
-//          much a line is coloured by its rank, for views.
+//          a line on each side in which it thins out; paint: colour and opacity; colours: the
+//          image (LINEAR), colour: how much of it the paint takes; rankColour: how much a line is
+//          coloured by its rank, for views.
 // Outputs: instances (long_instance.glsl). One invocation per anchor.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/styles/hatching/shaders/line.glsl"
-#include "pipeline/styles/hatching/shaders/line_support.glsl"
 #include "pipeline/styles/strokes/shaders/long_instance.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
@@ -21,6 +21,8 @@ uniform float segment;
 uniform float taper;
 uniform vec4 paint;
 uniform float rankColour;
+uniform sampler2D colours;
+uniform float colour;
 
 const int kPoints = 16;
 
@@ -30,8 +32,7 @@ void main() {
   uint place = ranks[slot];
   if (place == 0xFFFFFFFFu) return;
   Line line = lines[slot];
-  uint support = supportOf(anchors[slot].surface, anchors[slot].state);
-  bool isFront = support != 0u;
+  bool isFront = line.label != 0u;
   vec2 from = anchors[slot].px + line.shift;
   Instance made;
   float widest = 0.0;
@@ -55,8 +56,9 @@ void main() {
   }
   for (int i = 0; i < 8; ++i) made.points[i] = vec4(points[2 * i], points[2 * i + 1]);
   vec3 byRank = mix(vec3(0.9, 0.15, 0.1), vec3(0.1, 0.3, 0.95), line.rank);
-  made.paint = vec4(mix(paint.rgb, byRank, rankColour), paint.a);
-  made.shape = vec4(widest, float(hashOf(anchors[slot].seed ^ 0x31u) & 3u), float(support),
+  vec3 ink = mix(paint.rgb, textureLod(colours, from / fullSize, 0.0).rgb, colour);
+  made.paint = vec4(mix(ink, byRank, rankColour), paint.a);
+  made.shape = vec4(widest, float(hashOf(anchors[slot].seed ^ 0x31u) & 3u), float(line.label),
                     line.rank);
   instances[place] = made;
 }

@@ -1,7 +1,7 @@
 // Purpose: traces each anchor's line along the field, both ways, and blends it with its past, so
-//          that a line lives as long as its anchor. It ends at borders of objects and movers, and
+//          that a line lives as long as its anchor. It ends at borders of patches and movers, and
 //          where the field turns too sharply; where the tone asks for no line, its width is 0.
-// Inputs:  anchors; field.glsl's and tone.glsl's; mover_labels.glsl's; ids if hasObjects; shifts:
+// Inputs:  anchors; field.glsl's and tone.glsl's; line_support.glsl's; shifts:
 //          those of line_align.comp; jitter: px by which lines are off at random, ±; anew: lines
 //          have no past; cellPixels: of the anchors; segment: px; steps: an arm's length in segments, at most
 //          kArm; cutOff: cosine; wander: rad; past: the past's
@@ -10,7 +10,6 @@
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
-#include "pipeline/marks/shaders/mover_labels.glsl"
 #include "pipeline/marks/shaders/stroke_history.glsl"
 #include "pipeline/styles/hatching/shaders/line.glsl"
 #include "pipeline/styles/hatching/shaders/line_shift.glsl"
@@ -20,9 +19,6 @@ layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
 layout(std430, binding = 1) buffer Lines { Line lines[]; };
 #include "pipeline/styles/hatching/shaders/field.glsl"
 #include "pipeline/styles/hatching/shaders/tone.glsl"
-uniform highp usampler2D ids;
-uniform bool hasObjects;
-uniform vec2 pixelsOfFull;
 uniform uint slots;
 uniform bool anew;
 uniform float cellPixels;
@@ -33,14 +29,6 @@ uniform float wander;
 uniform highp sampler2D shifts;
 uniform float jitter;
 uniform vec2 past;
-
-uint supportAt(vec2 px) {
-  ivec2 pixel = clamp(ivec2(floor(px * pixelsOfFull)), ivec2(0), textureSize(ids, 0) - 1);
-  uint object = hasObjects ? objectOf(texelFetch(ids, pixel, 0).r) : 0u;
-  if (isVirtual(object)) return object;
-  // The camera image goes on over occluders.
-  return moverAt(px).r > 0.5 ? kOnMover : 0u;
-}
 
 vec2 turned(vec2 way, float angle) {
   float c = cos(angle);
@@ -111,9 +99,9 @@ void main() {
   }
   vec2 px = anchors[slot].px;
   uint seed = anchors[slot].seed;
-  uint support = supportOf(anchors[slot].surface, state);
   bool isNew = anew || (state & kBorn) != 0u;
   Line line = lines[slot];
+  uint support = line.label;
   if (isNew) {
     line.rank = rankOf(px, seed);
     line.bend = 2.0 * unitOf(hashOf(seed ^ 0x42u)) - 1.0;

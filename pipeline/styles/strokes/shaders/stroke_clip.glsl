@@ -2,7 +2,7 @@
 // Inputs:  borders (borders.frag); label: the stroke's.
 // Outputs: the share of a fragment that the stroke may paint, in [0, 1].
 // Precision: integers.
-#include "pipeline/styles/strokes/shaders/border.glsl"
+#include "pipeline/marks/shaders/stroke_border.glsl"
 uniform usampler2D borders;
 flat in uint label;
 

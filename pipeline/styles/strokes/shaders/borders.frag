@@ -7,11 +7,11 @@
 // Inputs:  forms and depth (scene::ArFrame) if hasObjects, depthRange: 0: no depth;
 //          mover_labels.glsl's; segments.glsl's; picture: the frame's; before: the previous frame's
 //          output if isHeld, while the camera stands; size, pixelsOfFull: of the frame.
-// Outputs: R32UI, packed as in border.glsl.
+// Outputs: R32UI, packed as in stroke_border.glsl.
 // Precision: integers; highp for places.
 #include "pipeline/scene/render/shaders/depth_step.glsl"
 #include "pipeline/scene/render/shaders/surface_form.glsl"
-#include "pipeline/styles/strokes/shaders/border.glsl"
+#include "pipeline/marks/shaders/stroke_border.glsl"
 uniform highp usampler2D forms;
 uniform highp sampler2D depth;
 uniform highp usampler2D before;
