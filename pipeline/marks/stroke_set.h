@@ -63,6 +63,9 @@ struct StrokeRule {
   /// image per second.
   float looseness = 0.0F;
   glm::vec2 looseSpeed{0.3F, 1.0F};
+  /// Whether strokes end at the borders of models, their patches and movers (thesis §5.5). If not,
+  /// the images of StrokePaint should be of the whole picture.
+  bool clips = true;
 };
 
 /// The images that strokes take their colours from, of any size (LINEAR, sRGB-coded,

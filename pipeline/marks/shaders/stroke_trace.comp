@@ -67,6 +67,7 @@ uniform float flatHold;
 uniform bool isStanding;  // the camera
 uniform float restSlack;
 uniform float looseness;
+uniform bool clips;  // strokes end at the borders of models, patches and movers
 uniform vec2 loosePx;  // a frame
 
 const vec2 kUpright = vec2(1.0, 0.0);  // a tensor: strokes of movers without any edge
@@ -114,7 +115,7 @@ bool isMixedAt(vec2 px, uint label) {
 
 Support supportOf(bool isModel, uint label, bool isOnMover, vec2 px) {
   Support on = Support(isModel, label, false, isOnMover, 0.0, kUpright);
-  on.isMixed = isModel && isMixedAt(px, label);
+  on.isMixed = clips && isModel && isMixedAt(px, label);
   vec2 moved;
   if (!isOnMover || looseness <= 0.0 || !findMoverMotion(px, moved)) return on;
   on.looseness = looseness * smoothstep(loosePx.x, max(loosePx.y, loosePx.x + 1e-3), length(moved));
@@ -240,7 +241,7 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {
       arm.length = min(arm.length, float(i));
     }
     arm.directions[i] = direction;
-    if (goesOn && hasObjects) {
+    if (goesOn && clips && hasObjects) {
       // An arm ends where another surface begins.
       float part = partOnPatch(at, at + segment * direction, on);
       if (part < 1.0) {
@@ -251,7 +252,7 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {
     at += segment * direction;
     vec3 there = goesOn ? colourAt(at, on) : own;
     float difference = apart(there, own);
-    if (goesOn && (moverAt(at).r > 0.5) != on.isOnMover) {
+    if (goesOn && clips && (moverAt(at).r > 0.5) != on.isOnMover) {
       // It does not cross a mover's border.
       bool isEarly = (moverAt(at - 0.5 * segment * direction).r > 0.5) != on.isOnMover;
       arm.length = min(arm.length, float(i) + (isEarly ? 0.25 : 0.75));

@@ -85,6 +85,7 @@ marks::StrokeRule ruleOf(const PainterlyParameters& p, const LayerPlan& plan, st
   rule.jitter = {static_cast<float>(p.hueJitter), static_cast<float>(p.saturationJitter),
                  static_cast<float>(p.valueJitter)};
   rule.quads = kQuads;
+  rule.clips = p.clip;
   holdOn(rule, p, noiseLevels);
   return rule;
 }

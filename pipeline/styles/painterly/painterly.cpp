@@ -117,6 +117,15 @@ constexpr std::array kGates{
 
 constexpr std::array<std::string_view, 2> kPaperLooks{"sketch", "ink"};
 
+/// The same image as if a camera had taken all of it.
+scene::ArFrame withoutModels(const scene::ArFrame& frame) {
+  scene::ArFrame image = frame;
+  image.hasObjects = false;
+  image.motion.reset();
+  image.surfaces.reset();
+  return image;
+}
+
 /// Whether the brush's file is there and valid. Reads it; any thread. Errors: readBrushFile()'s.
 hal::Result<void> checkBrush(const config::ParameterValues& values) {
   const std::filesystem::path file = painterlyParameters().typed(values).brushFile;
@@ -173,7 +182,8 @@ struct Painterly::State {
   }
   void take(const scene::ArFrame& frame, const PainterlyParameters& p);
   void grow(const scene::ArFrame& frame, const PainterlyParameters& p);
-  /// Where strokes are clipped; null where nothing virtual is seen and movers are not told apart.
+  /// Where strokes are clipped; null where nothing virtual is seen and movers are not told apart,
+  /// and where strokes are not clipped.
   const Texture* findBorders(const scene::ArFrame& frame, const PainterlyParameters& p);
   void drawStrokes(const scene::ArFrame& frame, const PainterlyParameters& p);
   void light(const scene::ArFrame& frame, const PainterlyParameters& p);
@@ -219,14 +229,16 @@ void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParamete
     marks::StrokeRule rule = ruleOf(p, painting->plan, i, painting->motion.noiseLevels());
     rule.mixtures = mixtures ? &*mixtures : nullptr;
     const double width = widthOf(painting->plan, i) * frame.pixelsOfFull().x;
+    const double texel = kTexelOfWidth * width;
     layer.strokes.update(frame, layer.anchors, painting->field,
-                         reduced.paintOf(kTexelOfWidth * width), rule, movers);
+                         p.clip ? reduced.paintOf(texel) : reduced.wholePaintOf(texel), rule,
+                         movers);
   }
 }
 
 const Texture* Painterly::State::findBorders(const scene::ArFrame& frame,
                                              const PainterlyParameters& p) {
-  if (!frame.hasObjects && !tellsMovers(p)) return nullptr;
+  if (!p.clip || (!frame.hasObjects && !tellsMovers(p))) return nullptr;
   borders.use()
       .texture("forms", frame.hasObjects ? *frame.forms : noIds)
       .texture("movers", layerTextures.labelsOf(moversOf(p)))
@@ -408,11 +420,12 @@ void Painterly::setParameters(const config::ParameterValues& values) {
 
 const Texture& Painterly::paint(const scene::ArFrame& frame, std::string_view view) {
   State& s = *state_;
-  s.take(frame, p_);
-  s.grow(frame, p_);
-  if (!view.empty()) return s.show(frame, p_, viewIndex(painterlyViews(), view));
-  s.drawStrokes(frame, p_);
-  s.light(frame, p_);
+  const scene::ArFrame seen = p_.modelSpace ? frame : withoutModels(frame);
+  s.take(seen, p_);
+  s.grow(seen, p_);
+  if (!view.empty()) return s.show(seen, p_, viewIndex(painterlyViews(), view));
+  s.drawStrokes(seen, p_);
+  s.light(seen, p_);
   return s.canvas->picture;
 }
 

@@ -214,7 +214,8 @@ class SpillTest : public ClipTest {
   }
 
   /// How many pixels, two away from the disc's rim at least, have the other side's colour.
-  int spilled(std::uint32_t object, bool isKnown, const char* bump = "once") {
+  int spilled(std::uint32_t object, bool isKnown, const char* bump = "once",
+              const char* clip = "true", const char* modelSpace = "true") {
     restart();
     setIds(kSize, [&](int x, int y) { return isInDisc(x, y, 0.0) ? object : 0U; });
     Painterly style(library_);
@@ -234,6 +235,8 @@ class SpillTest : public ClipTest {
                                                                     {"saturation_jitter", "0"},
                                                                     {"value_jitter", "0"},
                                                                     {"bump", bump},
+                                                                    {"clip", clip},
+                                                                    {"model_space", modelSpace},
                                                                     {"wander", "1"},
                                                                     {"colour_threshold", "1"},
                                                                     {"detail", "0.01"}}) {
@@ -269,6 +272,13 @@ TEST_F(SpillTest, NoPaintRunsOverAModelsBoundary) {
   EXPECT_GT(unclipped, 100) << "strokes are to reach over where nothing is known";
   EXPECT_EQ(clipped, 0);
   EXPECT_EQ(spilled(1, true, "each"), 0);
+  EXPECT_GT(spilled(1, true, "once", "false"), 100) << "clip = false lets paint run over it";
+}
+
+TEST_F(SpillTest, OutOfModelSpaceNoModelIsKnown) {
+  const int unknown = spilled(1, false);
+  EXPECT_GT(unknown, 100);
+  EXPECT_EQ(spilled(1, true, "once", "true", "false"), unknown);
 }
 
 /// An occluder's outline is where its model was put, not where the picture has an edge.
