@@ -239,7 +239,8 @@ ThesisFigure densityFigure(ThesisBench& bench) {
       "spread unevenly over the screen; anchors that are kept by a grid of 8×8 px cells on the "
       "screen (blue) are spread evenly, and stay so as the model moves.";
   figure.ours =
-      "The gearbox at the first and at the last frame of the film. Red: area-weighted samples, as "
+      "The gearbox at the first and at the last frame of a film that approaches it. Red: "
+      "area-weighted samples, as "
       "many as give the first frame's cells the same mean. Blue: our anchors, one layer with "
       "cells of 8×8 px.";
   constexpr std::size_t kSamples = 60'000;
@@ -256,6 +257,7 @@ ThesisFigure densityFigure(ThesisBench& bench) {
   const std::uint64_t first = bench.size().settle;
   const std::uint64_t last = first + bench.size().frames - 1;
   bench.paint({.model = FilmModel::kGearbox,
+               .shot = hal::SyntheticShot::kDolly,
                .parameters = {{"layers", "1"}, {"stroke_size", fmt::format("{:.4f}", strokes)}}},
               [](std::uint64_t) { return ""; },
               [&](std::uint64_t frame, Painter& painter) {

@@ -87,10 +87,20 @@ cv::Mat3b zoomedRow(const MeasuredFilm& film) {
   return inRow(parts);
 }
 
-/// Anchors, skeletons and paintings at four moments.
+/// Anchors and skeletons of the model from near, and paintings, at four moments.
 struct Views {
   std::vector<cv::Mat3b> anchors, skeletons, paintings;
 };
+
+cv::Mat1b maskOf(const scene::SurfaceSnapshot& surfaces) {
+  cv::Mat1b mask(surfaces.size().height, surfaces.size().width);
+  for (int y = 0; y < mask.rows; ++y) {
+    for (int x = 0; x < mask.cols; ++x) {
+      mask(y, x) = surfaces.id(x, y) >> scene::kTriangleBits == 1U ? 255 : 0;
+    }
+  }
+  return mask;
+}
 
 Views viewsOf(ThesisBench& bench, FilmModel model) {
   Views views;
@@ -107,7 +117,11 @@ Views viewsOf(ThesisBench& bench, FilmModel model) {
       },
       [&](std::uint64_t frame, Painter& painter) {
         if (phase(frame) == 3 || views.skeletons.size() == 4) return;
-        const cv::Mat3b shown = matrixOf(hal::orThrow(painter.snapshot()));
+        cv::Mat3b shown = matrixOf(hal::orThrow(painter.snapshot()));
+        if (phase(frame) != 0) {
+          const cv::Size half(shown.cols / 2, shown.rows / 2);
+          shown = enlarged(shown, partAround(maskOf(hal::orThrow(painter.surfaces())), half), 2);
+        }
         (phase(frame) == 0   ? views.paintings
          : phase(frame) == 1 ? views.anchors
                              : views.skeletons)
@@ -132,7 +146,7 @@ ThesisFigure modelFigure(ThesisBench& bench, FilmModel model, const std::string&
                          const std::string& text) {
   ThesisFigure figure;
   const Views views = viewsOf(bench, model);
-  figure.pictures = {{"Anchors of all layers, red ones are young; four moments",
+  figure.pictures = {{"Anchors of all layers, on the model and beside it, red ones are young; four moments",
                       sheetOf(views.anchors)},
                      {"Skeletons in their layer's colour, a frame later", sheetOf(views.skeletons)},
                      {"The paintings", sheetOf(views.paintings)}};

@@ -457,7 +457,11 @@ ThesisFigure photographFigure(ThesisBench& bench) {
   const hal::CapturedFrame frame = photograph(bench);
   const StillPainting ours = paintedStill(bench, frame, {});
   const hal::Image image(frame.image);
-  const measure::StraightStrokePainting straight = measure::paintWithStraightStrokes(image);
+  // As wide as the painter's own.
+  const double scale = std::sqrt(static_cast<double>(image.size().pixels()) / 307200.0);
+  measure::StraightStrokeOptions widths;
+  widths.finestPixels = std::max(3.0, 4.0 * scale);
+  const measure::StraightStrokePainting straight = measure::paintWithStraightStrokes(image, widths);
   const cv::Mat3b input = matrixOf(image);
   const cv::Mat3b baseline = matrixOf(straight.picture);
   const cv::Rect part = middleOf(input, {104, 80});

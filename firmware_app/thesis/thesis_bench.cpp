@@ -51,14 +51,15 @@ diameter_m = 0.32
   return "";
 }
 
-hal::SyntheticOptions shotOf(const ThesisSize& size) {
-  return {.size = size.picture, .frameCount = size.settle + size.frames};
+hal::SyntheticOptions filmOf(const ThesisSize& size,
+                             hal::SyntheticShot shot = hal::SyntheticShot::kWalkaround) {
+  return {.size = size.picture, .frameCount = size.settle + size.frames, .shot = shot};
 }
 
 scene::Scene sceneOf(FilmModel model, const ThesisSize& size) {
   if (model == FilmModel::kNone) return {};
   hal::SteppedClock clock;
-  const hal::SyntheticCamera camera(shotOf(size), clock);
+  const hal::SyntheticCamera camera(filmOf(size), clock);
   return scene::parseScene(workbenchSetting(camera.truth(0), size.picture) + tableOf(model),
                            "the film's scene", ".");
 }
@@ -119,7 +120,8 @@ class KeepingPainter final : public measure::MeasuredPainter {
 }  // namespace
 
 ThesisSize quickThesisSize() {
-  return {.picture = {208, 160}, .settle = 6, .frames = 13, .runs = 1, .isQuick = true};
+  // Smaller frames would show tags too small to be found.
+  return {.picture = {320, 240}, .settle = 3, .frames = 11, .runs = 1, .isQuick = true};
 }
 
 ThesisBench::ThesisBench(ThesisSize size, std::function<bool()> goesOn)
@@ -156,7 +158,7 @@ const MeasuredFilm& ThesisBench::measured(const FilmRequest& request) {
   Painter* const composer =
       request.isImageSpace ? &painterOf(request.model, true) : nullptr;
   Painter& painter = composer != nullptr ? plainPainter() : painterOf(request.model, false);
-  const auto input = orThrow(measure::openWorkbench(shotOf(size_)));
+  const auto input = orThrow(measure::openWorkbench(filmOf(size_, request.shot)));
   MeasuredEngine engine(painter, parametersOf(painter, request), size_.picture,
                         {.readsModels = request.model != FilmModel::kNone, .composer = composer});
   KeepingPainter keeping(engine, size_);
@@ -176,7 +178,16 @@ const MeasuredFilm& ThesisBench::measured(const FilmRequest& request) {
     failedControls_.push_back(
         fmt::format("{}: {}: {}", nameOf(request), control.what, control.found));
   }
-  return films_.emplace(request, MeasuredFilm{std::move(*report), keeping.take()}).first->second;
+  std::vector<FilmFrame> frames = keeping.take();
+  const bool isSeen = std::ranges::all_of(
+      frames, [](const FilmFrame& each) { return cv::countNonZero(each.models) > 0; });
+  if (request.model != FilmModel::kNone && !isSeen) {
+    throw hal::Failure({.kind = hal::ErrorKind::kInternal,
+                        .subject = nameOf(request),
+                        .problem = "the model is not seen in all frames of the film",
+                        .remedy = "report this with the size of the films"});
+  }
+  return films_.emplace(request, MeasuredFilm{std::move(*report), std::move(frames)}).first->second;
 }
 
 void ThesisBench::paint(const FilmRequest& request,
@@ -185,7 +196,7 @@ void ThesisBench::paint(const FilmRequest& request,
   Painter& painter = painterOf(request.model, false);
   painter.reset();
   PaintParameters parameters = parametersOf(painter, request);
-  const auto input = orThrow(measure::openWorkbench(shotOf(size_)));
+  const auto input = orThrow(measure::openWorkbench(filmOf(size_, request.shot)));
   for (std::uint64_t i = 0; i < size_.settle + size_.frames; ++i) {
     throwIfInterrupted();
     const std::optional<hal::CapturedFrame> frame = orThrow(input->next());
@@ -198,7 +209,7 @@ void ThesisBench::paint(const FilmRequest& request,
 
 std::vector<hal::CapturedFrame> ThesisBench::cameraFrames(std::uint64_t count) {
   std::vector<hal::CapturedFrame> frames;
-  const auto input = orThrow(measure::openWorkbench(shotOf(size_)));
+  const auto input = orThrow(measure::openWorkbench(filmOf(size_)));
   while (frames.size() < count) {
     throwIfInterrupted();
     const std::optional<hal::CapturedFrame> frame = orThrow(input->next());

@@ -11,6 +11,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "hal/cameras/synthetic/render/shot.h"
 #include "hal/captured_frame.h"
 #include "pipeline/engine/painter.h"
 #include "pipeline/marks/anchor.h"
@@ -20,15 +21,15 @@ namespace pleinair::app {
 
 /// How large and how long the films are.
 struct ThesisSize {
-  hal::FrameSize picture{480, 360};
-  std::uint64_t settle = 20;  ///< frames painted before the shown and measured ones
-  std::uint64_t frames = 31;  ///< of these
+  hal::FrameSize picture{432, 324};
+  std::uint64_t settle = 16;  ///< frames painted before the shown and measured ones
+  std::uint64_t frames = 25;  ///< of these
   int runs = 15;              ///< of what is timed
   bool isQuick = false;
 };
 ThesisSize quickThesisSize();
 
-/// The models of the films: on the workbench's tag, around which a hand-held camera walks.
+/// The models of the films, on the workbench's tag.
 enum class FilmModel {
   kNone,
   kGearbox,  ///< static: for the thesis's spaceship, tower and dragon
@@ -40,6 +41,7 @@ enum class FilmModel {
 struct FilmRequest {
   FilmModel model = FilmModel::kGearbox;
   bool isImageSpace = false;  ///< as measure's --image-space
+  hal::SyntheticShot shot = hal::SyntheticShot::kWalkaround;
   std::vector<std::pair<std::string, std::string>> parameters = {};  ///< other than the defaults
   auto operator<=>(const FilmRequest&) const = default;
 };

@@ -56,7 +56,7 @@ double reach(const cv::Mat1f& strengths, glm::dvec2 from, glm::dvec2 way, double
 StraightStrokePainting paintWithStraightStrokes(const hal::Image& image,
                                                 const StraightStrokeOptions& options) {
   constexpr int kShift = 4;  // fractional bits of OpenCV's places
-  constexpr double kDetailOfLayers = 0.35;
+  constexpr double kDetailOfLayers = 0.6;  // of the image's mean
   const hal::FrameSize size = image.size();
   hal::Image copy(image.view());
   const cv::Mat3b source(size.height, size.width,
@@ -84,10 +84,10 @@ StraightStrokePainting paintWithStraightStrokes(const hal::Image& image,
     std::ranges::shuffle(places, random);
     cv::Mat1f detail;
     cv::GaussianBlur(strengths, detail, {}, 2.0 * width);
+    const double least = kDetailOfLayers * cv::mean(detail)[0];
     if (layer > 0) {
       std::erase_if(places, [&](const glm::dvec2& at) {
-        return detail(pixelOf(at)) <
-               kDetailOfLayers * threshold;
+        return double{detail(pixelOf(at))} < least;
       });
     }
     const auto start = std::chrono::steady_clock::now();

@@ -146,6 +146,7 @@ struct Painterly::State {
             library.fragmentPass(kShaders + "field_view.frag", viewDefines(painterlyViews()))),
         moverView(
             library.fragmentPass(kShaders + "mover_view.frag", viewDefines(painterlyViews()))),
+        featureView(library.fragmentPass(kShaders + "feature_view.frag")),
         heightView(library.fragmentPass(kShaders + "height_view.frag")),
         borders(library.fragmentPass(kShaders + "borders.frag")),
         linen(library, Substrate::Kind::kLinen),
@@ -153,7 +154,8 @@ struct Painterly::State {
         strips(library),
         drawing(library, painterlyViews()),
         brushes(library),
-        noIds(TextureFormat::kR32ui, {1, 1}) {}
+        noIds(TextureFormat::kR32ui, {1, 1}),
+        features(TextureFormat::kRgba32f, {static_cast<int>(tracking::kMaxMovedFeatures), 1}) {}
 
   const gpu::ShaderLibrary& library;
   ReducedImages reduced;
@@ -161,6 +163,7 @@ struct Painterly::State {
   gpu::Program relief;
   gpu::Program fieldView;
   gpu::Program moverView;
+  gpu::Program featureView;
   gpu::Program heightView;
   gpu::Program borders;
   Substrate linen;
@@ -169,6 +172,7 @@ struct Painterly::State {
   StrokeDrawing drawing;
   BrushCache brushes;
   Texture noIds;
+  Texture features;  // of the view of that name: where each was, and where it is
   marks::LayerTextures layerTextures;
   std::string palette = "all";  // that `mixtures` are of
   std::optional<Texture> mixtures;
@@ -189,6 +193,7 @@ struct Painterly::State {
   void light(const scene::ArFrame& frame, const PainterlyParameters& p);
   void showField(const scene::ArFrame& frame, const PainterlyParameters& p, std::size_t view);
   void showStrokes(const scene::ArFrame& frame, std::size_t view);
+  void showFeatures(const scene::ArFrame& frame);
   const Texture& show(const scene::ArFrame& frame, const PainterlyParameters& p, std::size_t view);
 };
 
@@ -310,6 +315,30 @@ void Painterly::State::showField(const scene::ArFrame& frame, const PainterlyPar
       .drawFullscreen(canvas->finished);
 }
 
+void Painterly::State::showFeatures(const scene::ArFrame& frame) {
+  std::vector<glm::vec4> places(tracking::kMaxMovedFeatures);
+  std::size_t count = 0;
+  if (frame.measuredMotion) {
+    const scene::MeasuredMotion& measured = *frame.measuredMotion;
+    const auto inFull = [&](glm::vec2 px) {
+      return glm::vec2((glm::dvec2(px) - measured.frameOrigin) / measured.frameScale);
+    };
+    for (const tracking::FeatureMotion& each : measured.motion->features) {
+      places[count++] = glm::vec4(inFull(each.previous), inFull(each.current));
+    }
+  }
+  features.upload({reinterpret_cast<const std::uint8_t*>(places.data()),
+                   places.size() * sizeof(glm::vec4)},
+                  places.size() * sizeof(glm::vec4));
+  featureView.use()
+      .texture("picture", *frame.colour)
+      .texture("features", features)
+      .set("count", static_cast<int>(count))
+      .set("size", glm::vec2(canvas->size.width, canvas->size.height))
+      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
+      .drawFullscreen(canvas->finished);
+}
+
 /// Over a pale picture.
 void Painterly::State::showStrokes(const scene::ArFrame& frame, std::size_t view) {
   ground.use()
@@ -346,6 +375,9 @@ const Texture& Painterly::State::show(const scene::ArFrame& frame, const Painter
           .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
           .set("view", static_cast<int>(view))
           .drawFullscreen(canvas->finished);
+      return canvas->picture;
+    case PainterlyViewer::kFeatures:
+      showFeatures(frame);
       return canvas->picture;
     case PainterlyViewer::kHeight:
       break;

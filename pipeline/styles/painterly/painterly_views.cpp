@@ -26,6 +26,8 @@ constexpr std::array kViews{
          PainterlyViewer::kMovers},
     View{{"background", "the background as it is remembered; black: never seen"},
          PainterlyViewer::kMovers},
+    View{{"features", "the camera image's features (rings), and whence they came (lines)"},
+         PainterlyViewer::kFeatures},
     View{{"height", "how thick the paint lies"}, PainterlyViewer::kHeight},
 };
 

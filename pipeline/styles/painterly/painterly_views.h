@@ -19,6 +19,7 @@ enum class PainterlyViewer {
   kField,    ///< shaders/field_view.frag
   kStrokes,  ///< shaders/stroke_view.frag, over a pale picture
   kMovers,   ///< shaders/mover_view.frag
+  kFeatures,  ///< shaders/feature_view.frag
   kHeight,   ///< shaders/height_view.frag, once the strokes are painted
 };
 PainterlyViewer viewerOf(std::size_t viewIndex);
