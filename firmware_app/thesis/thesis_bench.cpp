@@ -6,7 +6,6 @@
 
 #include "firmware_app/offline/measured_engine.h"
 #include "firmware_app/scene/workbench_scene.h"
-#include "hal/cameras/synthetic/synthetic_camera.h"
 #include "hal/error.h"
 #include "pipeline/measure/input/measured_input.h"
 #include "pipeline/scene/description/scene_file.h"

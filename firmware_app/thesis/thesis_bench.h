@@ -11,7 +11,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "hal/cameras/synthetic/render/shot.h"
+#include "hal/cameras/synthetic/synthetic_camera.h"
 #include "hal/captured_frame.h"
 #include "pipeline/engine/painter.h"
 #include "pipeline/marks/anchor.h"
