@@ -365,6 +365,22 @@ void addMeasure(CLI::App& app, MeasureOptions& options, std::function<int()>& ch
   command.callback([&] { chosen = [&options] { return runMeasure(options); }; });
 }
 
+void addThesis(CLI::App& app, ThesisOptions& options, std::function<int()>& chosen) {
+  CLI::App& command = *app.add_subcommand(
+      "thesis", "make and measure the thesis's figures, with built-in films and models");
+  command.add_option("--output", options.output, "the folder of the report: thesis.html")
+      ->required()
+      ->check(refuseStandardOutput)
+      ->type_name("DIR");
+  command.add_flag("--quick", options.quick, "small and short films: a trial of the report");
+  command
+      .add_option("--only", options.only, "only these figures, by the names of their files")
+      ->delimiter(',')
+      ->type_name("NAME[,NAME]");
+  refuseEmptyValues(command);
+  command.callback([&] { chosen = [&options] { return makeThesisReport(options); }; });
+}
+
 }  // namespace
 
 void addSubcommands(CLI::App& app, SubcommandOptions& options, std::function<int()>& chosen) {
@@ -382,6 +398,7 @@ void addSubcommands(CLI::App& app, SubcommandOptions& options, std::function<int
   addConfig(app, options.config, chosen);
   addDevices(app, options.devices, chosen);
   addDoctor(app, options.doctor, chosen);
+  addThesis(app, options.thesis, chosen);
   app.add_subcommand("styles", "list styles with their looks, parameters and debug views")
       ->callback([&] { chosen = listStyles; });
 }

@@ -14,6 +14,7 @@ struct SubcommandOptions {
   RecordOptions record;
   CalibrateOptions calibrate;
   MeasureOptions measure;
+  ThesisOptions thesis;
   ConfigOptions config;
   RunOptions run;
   DevicesOptions devices;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "firmware_app/cli/board_option.h"
 #include "firmware_app/config/configuration.h"
@@ -107,6 +108,18 @@ struct RunOptions {
 /// Paints a camera live: `pleinair run`. Throws hal::Failure and config::ConfigError. Returns the
 /// exit status: 0, also after a signal.
 int run(const RunOptions& options);
+
+struct ThesisOptions {
+  std::filesystem::path output;   ///< the report's folder
+  bool quick = false;             ///< small and short
+  std::vector<std::string> only;  ///< names of figures; empty: all
+};
+
+/// Makes the thesis's figures with built-in films and models, measures them, and writes a page with
+/// its pictures, and the numbers as JSON: `pleinair thesis`. Throws hal::Failure. Returns the exit
+/// status: 0; 2 if a negative control of a film failed; or 128 + the signal that interrupted it,
+/// after which there is no page.
+int makeThesisReport(const ThesisOptions& options);
 
 /// Lists the styles with their looks, parameters and debug views, without a GPU: `pleinair styles`.
 int listStyles();

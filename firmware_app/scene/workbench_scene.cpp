@@ -59,14 +59,18 @@ std::string tagTable(const hal::BenchTag& tag) {
 
 }  // namespace
 
-std::string workbenchScene(const hal::GroundTruth& truth, hal::FrameSize size) {
+std::string workbenchSetting(const hal::GroundTruth& truth, hal::FrameSize size) {
   std::string text = fmt::format(
       "# The synthetic camera and its workbench.\n[camera]\nimage_size = [{}, {}]\n"
       "fx = {:.6f}\nfy = {:.6f}\ncx = {:.6f}\ncy = {:.6f}\npixel_centres = \"half\"\n",
       size.width, size.height, truth.intrinsics.fx, truth.intrinsics.fy, truth.intrinsics.cx,
       truth.intrinsics.cy);
   for (const hal::TagTruth& tag : truth.tags) text += tagTable(tag.tag);
-  return text + kModels;
+  return text;
+}
+
+std::string workbenchScene(const hal::GroundTruth& truth, hal::FrameSize size) {
+  return workbenchSetting(truth, size) + kModels;
 }
 
 hal::Result<void> writeWorkbenchScene(const std::filesystem::path& path,

@@ -13,6 +13,9 @@ namespace pleinair::app {
 /// workbench, and models on some of them.
 std::string workbenchScene(const hal::GroundTruth& truth, hal::FrameSize size);
 
+/// The part of it without models.
+std::string workbenchSetting(const hal::GroundTruth& truth, hal::FrameSize size);
+
 /// Writes workbenchScene() to `path`. Errors as hal::PendingFile.
 hal::Result<void> writeWorkbenchScene(const std::filesystem::path& path,
                                       const hal::GroundTruth& truth, hal::FrameSize size);

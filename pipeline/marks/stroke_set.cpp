@@ -142,6 +142,7 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .set("flatHold", rule.flatHold)
       .set("restSlack", rule.restSlack)
       .set("looseness", rule.looseness)
+      .set("clips", rule.clips ? 1 : 0)
       .set("loosePx", rule.looseSpeed * static_cast<float>(hal::toSeconds(step)) *
                           static_cast<float>(frame.full().height))
       .set("isStanding", layers != nullptr && layers->hasStood() ? 1 : 0)

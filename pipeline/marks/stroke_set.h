@@ -69,6 +69,9 @@ struct StrokeRule {
   FocusField focus;
   int layer = 0;  ///< from the broadest, 0
   int layers = 1;
+  /// Whether strokes end at the borders of models, their patches and movers (thesis §5.5). If not,
+  /// the images of StrokePaint should be of the whole picture.
+  bool clips = true;
 };
 
 /// The images that strokes take their colours from, of any size (LINEAR, sRGB-coded,

@@ -8,8 +8,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "tests/oracles/watercolor_oracle.h"
-
 namespace pleinair::oracles {
 namespace {
 
@@ -18,11 +16,6 @@ const glm::dvec2 kNothingAnywhere(-0.94, -0.342);
 std::size_t indexOf(hal::FrameSize size, int x, int y) {
   return static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) +
          static_cast<std::size_t>(x);
-}
-
-double lumaAt(const hal::ImageView& image, int x, int y) {
-  const glm::dvec3 rgb = pixelAt(image, x, y);
-  return 0.299 * rgb.r + 0.587 * rgb.g + 0.114 * rgb.b;
 }
 
 /// Whether `x` is above 0; gradual: 0 to 1, with 1 from `enough` on.
@@ -67,31 +60,6 @@ std::vector<glm::dvec2> resolved(const std::vector<TensorGrid>& pyramid, std::si
 }
 
 }  // namespace
-
-TensorImage gradientTensors(const hal::ImageView& image) {
-  TensorImage made{.size = image.format.size, .tensors = {}};
-  for (int y = 0; y < made.size.height; ++y) {
-    for (int x = 0; x < made.size.width; ++x) {
-      const auto i = [&](int dx, int dy) { return lumaAt(image, x + dx, y + dy); };
-      const double gx = 2 * i(1, 0) - 2 * i(-1, 0) + i(1, 1) - i(-1, 1) + i(1, -1) - i(-1, -1);
-      const double gy = i(-1, 1) + 2 * i(0, 1) + i(1, 1) - i(-1, -1) - 2 * i(0, -1) - i(1, -1);
-      const double theta = std::atan2(gy, gx);
-      made.tensors.push_back(std::hypot(gx, gy) *
-                             glm::dvec2(std::cos(2.0 * theta), std::sin(2.0 * theta)));
-    }
-  }
-  return made;
-}
-
-double edgePercentile(const TensorImage& image, double part) {
-  std::vector<double> strengths;
-  for (const glm::dvec2& each : image.tensors) strengths.push_back(glm::length(each));
-  const auto rank = static_cast<std::ptrdiff_t>(part * static_cast<double>(strengths.size()));
-  const auto place =
-      strengths.begin() + std::min(rank, static_cast<std::ptrdiff_t>(strengths.size()) - 1);
-  std::ranges::nth_element(strengths, place);
-  return *place;
-}
 
 const TensorRegion& TensorGrid::at(int x, int y) const {
   return regions[indexOf(size, x, y)];
@@ -210,29 +178,6 @@ glm::dvec2 lookedUp(const std::vector<TensorGrid>& pyramid, std::size_t level, g
     if (found.known > 0.0 && glm::length(found.tensor) > 1e-6) return found.tensor;
   }
   return kNothingAnywhere;
-}
-
-glm::dvec2 radialBasisTensor(const TensorImage& image, double threshold, double sigma,
-                             RadialBasis form, glm::dvec2 px) {
-  glm::dvec2 sum(0.0);
-  double weights = 0.0;
-  for (int y = 0; y < image.size.height; ++y) {
-    for (int x = 0; x < image.size.width; ++x) {
-      const glm::dvec2 tensor = image.tensors[indexOf(image.size, x, y)];
-      if (glm::length(tensor) < threshold) continue;
-      const double weight = std::exp(-glm::distance(px, glm::dvec2(x, y) + 0.5) / sigma);
-      sum += weight * tensor;
-      weights += weight;
-    }
-  }
-  if (form == RadialBasis::kEq11) return sum;
-  return weights > 0.0 ? sum / weights : glm::dvec2(0.0);
-}
-
-double angleBetween(glm::dvec2 a, glm::dvec2 b) {
-  const double lengths = glm::length(a) * glm::length(b);
-  if (lengths <= 0.0) return 0.0;
-  return 0.5 * std::acos(std::clamp(glm::dot(a, b) / lengths, -1.0, 1.0));
 }
 
 }  // namespace pleinair::oracles

@@ -6,22 +6,18 @@
 #include <glm/vec2.hpp>
 
 #include "hal/image.h"
+#include "pipeline/measure/baselines/edge_tensors.h"
 
-/// A plain CPU version of the tensor field of the thesis's chapter IV (§4.2).
+/// A plain CPU version of the tensor field of the thesis's chapter IV (§4.2). What the product's
+/// reports compare with, too, is in pipeline/measure/baselines.
 namespace pleinair::oracles {
 
-/// Each pixel's tensor, row by row: P (cos 2θ, sin 2θ) (eq. 9), θ the gradient's direction, P of
-/// luma in [0, 1].
-struct TensorImage {
-  hal::FrameSize size;
-  std::vector<glm::dvec2> tensors;
-};
-
-/// Eq. 5-9 of an RGBA8 or RGB8 picture's luma (BT.601, sRGB-coded); clamped at the border.
-TensorImage gradientTensors(const hal::ImageView& image);
-
-/// The quantile `part` of P over all pixels, by sorting.
-double edgePercentile(const TensorImage& image, double part);
+using measure::angleBetween;
+using measure::edgePercentile;
+using measure::gradientTensors;
+using measure::RadialBasis;
+using measure::radialBasisTensor;
+using measure::TensorImage;
 
 /// Whether a region has a tensor: yes or no, as in the thesis, or gradual, so that noise does not
 /// switch it.
@@ -55,14 +51,5 @@ std::vector<TensorGrid> tensorPyramid(TensorGrid regions, double sigma, Decision
 /// reads coarser levels bilinearly, and skips tensors that cancel.
 glm::dvec2 lookedUp(const std::vector<TensorGrid>& pyramid, std::size_t level, glm::ivec2 region,
                     Decision decision);
-
-/// Global radial-basis interpolation at a place (px) from all pixels with P ≥ threshold, by eq. 11
-/// or by eq. 12, which divides by the weights. σ in px. Zero without an edge.
-enum class RadialBasis { kEq11, kEq12 };
-glm::dvec2 radialBasisTensor(const TensorImage& image, double threshold, double sigma,
-                             RadialBasis form, glm::dvec2 px);
-
-/// The angle between two tensors' directions, in [0, π/2]; their lengths do not matter.
-double angleBetween(glm::dvec2 a, glm::dvec2 b);
 
 }  // namespace pleinair::oracles

@@ -78,6 +78,7 @@ uniform float flatHold;
 uniform bool isStanding;  // the camera
 uniform float restSlack;
 uniform float looseness;
+uniform bool clips;  // strokes end at the borders of models, patches and movers
 uniform vec2 loosePx;  // a frame
 uniform float imageScale;
 uniform float focalPx;
@@ -157,7 +158,7 @@ bool isMixedAt(vec2 px, uint label) {
 Support supportOf(bool isModel, uint label, bool isOnMover, vec2 px) {
   Support on = Support(isModel, label, false, isOnMover, 0.0, kUpright);
   bool hasOthers = isModel || (hasSegments && !isOnMover && label != 0u);
-  on.isMixed = hasOthers && isMixedAt(px, label);
+  on.isMixed = clips && hasOthers && isMixedAt(px, label);
   vec2 moved;
   if (!isOnMover || looseness <= 0.0 || !findMoverMotion(px, moved)) return on;
   on.looseness = looseness * smoothstep(loosePx.x, max(loosePx.y, loosePx.x + 1e-3), length(moved));
@@ -289,7 +290,7 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {
       arm.length = min(arm.length, float(i));
     }
     arm.directions[i] = direction;
-    if (goesOn && hasLabels) {
+    if (goesOn && clips && hasLabels) {
       // An arm ends where another surface begins.
       float part = partOnPatch(at, at + segment * direction, on, strayed);
       if (part < 1.0) {
@@ -300,7 +301,7 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {
     at += segment * direction;
     vec3 there = goesOn ? colourAt(at, on) : own;
     float difference = apart(there, own);
-    if (goesOn && (moverAt(at).r > 0.5) != on.isOnMover) {
+    if (goesOn && clips && (moverAt(at).r > 0.5) != on.isOnMover) {
       // It does not cross a mover's border.
       bool isEarly = (moverAt(at - 0.5 * segment * direction).r > 0.5) != on.isOnMover;
       arm.length = min(arm.length, float(i) + (isEarly ? 0.25 : 0.75));

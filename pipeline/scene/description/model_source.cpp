@@ -16,6 +16,8 @@ struct ModelMaker {
   hal::Result<Model> operator()(const GearboxSource& gearbox) const {
     return gearboxModel(gearbox);
   }
+  hal::Result<Model> operator()(const TubeSource& tube) const { return tubeModel(tube); }
+  hal::Result<Model> operator()(const BallSource& ball) const { return ballModel(ball); }
   hal::Result<Model> operator()(const FileSource& file) const { return readGltf(file.path); }
 };
 
@@ -26,8 +28,7 @@ hal::Result<Model> modelOf(const ModelSource& source) {
 }
 
 bool hasOwnColours(const ModelSource& source) {
-  return std::holds_alternative<FileSource>(source) ||
-         std::holds_alternative<GearboxSource>(source);
+  return !std::holds_alternative<BoxSource>(source) && !std::holds_alternative<GearSource>(source);
 }
 
 }  // namespace pleinair::scene

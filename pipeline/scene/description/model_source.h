@@ -8,6 +8,7 @@
 #include "hal/error.h"
 #include "pipeline/scene/builtin/builtin_gear.h"
 #include "pipeline/scene/builtin/builtin_gearbox.h"
+#include "pipeline/scene/builtin/builtin_moving.h"
 #include "pipeline/scene/models/model.h"
 
 namespace pleinair::scene {
@@ -21,6 +22,10 @@ using GearSource = GearParameters;
 
 using GearboxSource = GearboxParameters;
 
+using TubeSource = TubeParameters;
+
+using BallSource = BallParameters;
+
 /// A glTF file.
 struct FileSource {
   std::filesystem::path path;
@@ -28,7 +33,7 @@ struct FileSource {
 };
 
 /// Source of a model. Equal sources give equal models.
-using ModelSource = std::variant<BoxSource, GearSource, GearboxSource, FileSource>;
+using ModelSource = std::variant<BoxSource, GearSource, GearboxSource, TubeSource, BallSource, FileSource>;
 
 /// Loads or makes the model. Errors: those of readGltf(), for files only. Preconditions: faultOf()
 /// a gear is nothing; a gearbox has numbers of teeth in range.

@@ -59,6 +59,18 @@ std::array<int, 2> readStage(const config::TomlTable& table, std::string_view ke
   return stage;
 }
 
+TubeSource readTube(const config::TomlTable& table) {
+  TubeSource tube;
+  tube.lengthMetres = table.optionalNumber("length_m", kLength).value_or(tube.lengthMetres);
+  return tube;
+}
+
+BallSource readBall(const config::TomlTable& table) {
+  BallSource ball;
+  ball.diameterMetres = table.optionalNumber("diameter_m", kLength).value_or(ball.diameterMetres);
+  return ball;
+}
+
 GearboxSource readGearbox(const config::TomlTable& table) {
   static constexpr std::array<config::Choice<bool>, 2> kCovers{{{"open", false}, {"closed", true}}};
   GearboxSource gearbox;
@@ -139,11 +151,13 @@ std::optional<glm::vec3> readColour(const config::TomlTable& table, std::string_
 }
 
 ModelSource readSource(const config::TomlTable& table, const std::filesystem::path& directory) {
-  enum class Kind { kBox, kGear, kGearbox };
-  static constexpr std::array<config::Choice<Kind>, 3> kKinds{
+  enum class Kind { kBox, kGear, kGearbox, kTube, kBall };
+  static constexpr std::array<config::Choice<Kind>, 5> kKinds{
       {{"builtin:box", Kind::kBox},
        {"builtin:gear", Kind::kGear},
-       {"builtin:gearbox", Kind::kGearbox}}};
+       {"builtin:gearbox", Kind::kGearbox},
+       {"builtin:tube", Kind::kTube},
+       {"builtin:ball", Kind::kBall}}};
   const std::string name = table.string("source");
   if (isModelFile(name)) return FileSource{directory / name};
   const auto kind = std::ranges::find(kKinds, name, &config::Choice<Kind>::name);
@@ -159,6 +173,10 @@ ModelSource readSource(const config::TomlTable& table, const std::filesystem::pa
       return readGear(table);
     case Kind::kGearbox:
       return readGearbox(table);
+    case Kind::kTube:
+      return readTube(table);
+    case Kind::kBall:
+      return readBall(table);
   }
   return readBox(table);
 }

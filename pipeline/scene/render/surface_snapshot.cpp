@@ -53,7 +53,8 @@ glm::vec2 SurfaceSnapshot::barycentrics(int x, int y) const {
   return glm::unpackUnorm2x16(content_.barycentrics[index(x, y)]);
 }
 
-std::optional<glm::dvec2> SurfaceSnapshot::place(std::uint32_t id, glm::vec2 barycentrics) const {
+std::optional<glm::dvec3> SurfaceSnapshot::inCamera(std::uint32_t id,
+                                                    glm::vec2 barycentrics) const {
   const auto object =
       std::ranges::find(content_.objects, id >> kTriangleBits, &PosedObject::object);
   if (object == content_.objects.end()) return std::nullopt;
@@ -67,9 +68,13 @@ std::optional<glm::dvec2> SurfaceSnapshot::place(std::uint32_t id, glm::vec2 bar
     if (corner >= object->vertices.size()) return std::nullopt;
     inModel += weights[i] * glm::dvec3(object->vertices[corner]);
   }
-  const glm::dvec3 inCamera(object->cameraFromModel * glm::dvec4(inModel, 1.0));
-  if (!(inCamera.z > 0.0)) return std::nullopt;
-  return content_.camera->project(inCamera);
+  return glm::dvec3(object->cameraFromModel * glm::dvec4(inModel, 1.0));
+}
+
+std::optional<glm::dvec2> SurfaceSnapshot::place(std::uint32_t id, glm::vec2 barycentrics) const {
+  const std::optional<glm::dvec3> point = inCamera(id, barycentrics);
+  if (!point || !(point->z > 0.0)) return std::nullopt;
+  return content_.camera->project(*point);
 }
 
 SurfaceSnapshot SurfaceReader::read(const PosedGeometry& geometry, const SceneBodies& bodies,

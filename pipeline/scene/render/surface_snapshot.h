@@ -53,6 +53,8 @@ class SurfaceSnapshot {
   /// Where a point of a surface is in this frame (px, pixel centres at +0.5), whether it is hidden
   /// or not. Nothing where its model is not visible, or the point is behind the camera.
   std::optional<glm::dvec2> place(std::uint32_t id, glm::vec2 barycentrics) const;
+  /// The same point in the camera's frame, metres. Nothing where its model is not visible.
+  std::optional<glm::dvec3> inCamera(std::uint32_t id, glm::vec2 barycentrics) const;
 
  private:
   std::size_t index(int x, int y) const {

@@ -8,7 +8,8 @@
 namespace pleinair::styles {
 namespace {
 
-/// The thesis's weight of 0.95 on the past, at 30 frames a second (thesis §5.4).
+/// The `memory` at which other time constants have their own values: the thesis's weight of 0.95 on
+/// the past, at 30 frames a second (thesis §5.4).
 constexpr double kMemorySeconds = 0.65;
 constexpr double kAppearingSeconds = 0.3;
 constexpr double kForever = 1e6;
@@ -28,6 +29,11 @@ hal::Duration secondsOf(double seconds) {
   return std::chrono::duration_cast<hal::Duration>(std::chrono::duration<double>(seconds));
 }
 
+/// `memory`, as a factor of what it is by default.
+double memoryOf(const PainterlyParameters& p) {
+  return p.memorySeconds / kMemorySeconds;
+}
+
 }  // namespace
 
 double holdOf(const PainterlyParameters& p) {
@@ -41,7 +47,7 @@ marks::MotionFieldOptions motionOf(const PainterlyParameters& p) {
 
 marks::TensorFieldOptions fieldOf(const PainterlyParameters& p) {
   marks::TensorFieldOptions options;
-  const double hold = p.history ? std::min(holdOf(p), kMaxHold) : 0.0;
+  const double hold = p.history ? std::min(holdOf(p) * memoryOf(p), kMaxHold) : 0.0;
   options.memory = scaled(options.memory, hold);
   if (!p.hysteresis || p.coherence <= 0.0) options.slack = 0.0;
   return options;
@@ -61,14 +67,15 @@ bool tellsMovers(const PainterlyParameters& p) {
 }
 
 void holdOn(marks::StrokeRule& rule, const PainterlyParameters& p, double noiseLevels) {
-  const double history = p.history ? holdOf(p) : 0.0;
+  const double history = p.history ? holdOf(p) * memoryOf(p) : 0.0;
   rule.shapeMemory = rule.colourMemory = secondsOf(history * kMemorySeconds);
   const double quickest = rule.maxColourPerSecond / std::max(history, 1e-6);
   rule.maxColourPerSecond = std::min(kAnyColour, static_cast<float>(quickest));
   if (p.history && p.coherence < 1.0) {
     const auto noise = static_cast<float>(noiseLevels / 255.0);
     rule.otherColour = kOtherColour + kOtherColourNoises * noise;
-    rule.flatHold = kFlatHold;
+    // What is plain is held longer only by strokes that are held at all.
+    rule.flatHold = 1.0F + (kFlatHold - 1.0F) * static_cast<float>(std::min(1.0, memoryOf(p)));
   }
   const double fades = p.fades ? holdOf(p) : 0.0;
   rule.appearing = rule.vanishing = secondsOf(fades * kAppearingSeconds);

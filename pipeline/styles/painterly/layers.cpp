@@ -87,6 +87,7 @@ marks::StrokeRule ruleOf(const PainterlyParameters& p, const LayerPlan& plan, st
   rule.quads = kQuads;
   rule.layer = static_cast<int>(layer);
   rule.layers = static_cast<int>(plan.layers);
+  rule.clips = p.clip;
   holdOn(rule, p, noiseLevels);
   return rule;
 }

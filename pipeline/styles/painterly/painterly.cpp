@@ -141,6 +141,15 @@ constexpr std::array kGates{
 
 constexpr std::array<std::string_view, 2> kPaperLooks{"sketch", "ink"};
 
+/// The same image as if a camera had taken all of it.
+scene::ArFrame withoutModels(const scene::ArFrame& frame) {
+  scene::ArFrame image = frame;
+  image.hasObjects = false;
+  image.motion.reset();
+  image.surfaces.reset();
+  return image;
+}
+
 /// Whether the brush's file is there and valid. Reads it; any thread. Errors: readBrushFile()'s.
 hal::Result<void> checkBrush(const config::ParameterValues& values) {
   return checkBrushFile(painterlyParameters().typed(values).brushFile);
@@ -159,6 +168,7 @@ struct Painterly::State {
         moverView(
             library.fragmentPass(kShaders + "mover_view.frag", viewDefines(painterlyViews()))),
         segmentView(library.fragmentPass(kShaders + "segment_view.frag")),
+        featureView(library.fragmentPass(kShaders + "feature_view.frag")),
         heightView(library.fragmentPass(kShaders + "height_view.frag")),
         borders(library),
         linen(library, Substrate::Kind::kLinen),
@@ -166,7 +176,8 @@ struct Painterly::State {
         strips(library),
         drawing(library, painterlyViews()),
         brushes(library),
-        noIds(TextureFormat::kR32ui, {1, 1}) {}
+        noIds(TextureFormat::kR32ui, {1, 1}),
+        features(TextureFormat::kRgba32f, {static_cast<int>(tracking::kMaxMovedFeatures), 1}) {}
 
   const gpu::ShaderLibrary& library;
   ReducedImages reduced;
@@ -175,6 +186,7 @@ struct Painterly::State {
   gpu::Program fieldView;
   gpu::Program moverView;
   gpu::Program segmentView;
+  gpu::Program featureView;
   gpu::Program heightView;
   StrokeBorders borders;
   Substrate linen;
@@ -183,6 +195,7 @@ struct Painterly::State {
   StrokeDrawing drawing;
   BrushCache brushes;
   Texture noIds;
+  Texture features;  // of the view of that name: where each was, and where it is
   marks::LayerTextures layerTextures;
   std::string palette = "all";  // that `mixtures` are of
   std::optional<Texture> mixtures;
@@ -198,13 +211,14 @@ struct Painterly::State {
   }
   void take(const scene::ArFrame& frame, const PainterlyParameters& p);
   void grow(const scene::ArFrame& frame, const PainterlyParameters& p);
-  /// Finds where strokes are clipped: nowhere where nothing virtual is seen, movers are not told
-  /// apart, and there are no segments.
+  /// Finds where strokes are clipped: nowhere where they are not, or where nothing virtual is seen,
+  /// movers are not told apart, and there are no segments.
   void findBorders(const scene::ArFrame& frame, const PainterlyParameters& p);
   void drawStrokes(const scene::ArFrame& frame, const PainterlyParameters& p);
   void light(const scene::ArFrame& frame, const PainterlyParameters& p);
   void showField(const scene::ArFrame& frame, const PainterlyParameters& p, std::size_t view);
   void showStrokes(const scene::ArFrame& frame, std::size_t view);
+  void showFeatures(const scene::ArFrame& frame);
   const Texture& show(const scene::ArFrame& frame, const PainterlyParameters& p, std::size_t view);
 };
 
@@ -253,8 +267,10 @@ void Painterly::State::grow(const scene::ArFrame& frame, const PainterlyParamete
     rule.mixtures = mixtures ? &*mixtures : nullptr;
     rule.focus = focus;
     const double width = widthOf(painting->plan, i) * frame.pixelsOfFull().x;
+    const double texel = kTexelOfWidth * width;
     layer.strokes.update(frame, layer.anchors, painting->field,
-                         reduced.paintOf(kTexelOfWidth * width), rule, movers, labels);
+                         p.clip ? reduced.paintOf(texel) : reduced.wholePaintOf(texel), rule,
+                         movers, labels);
   }
 }
 
@@ -262,6 +278,8 @@ void Painterly::State::findBorders(const scene::ArFrame& frame, const PainterlyP
   const marks::SegmentMap& segments = painting->segments;
   const Canvas* const last = bordered;
   bordered = nullptr;
+  clip = nullptr;
+  if (!p.clip) return;
   if (!frame.hasObjects && !tellsMovers(p) && !segments.hasSegments()) return;
   const bool isHeld = last == canvas && painting->motion.isStanding() && !painting->motion.isCut();
   const Texture& before = canvas->borders.at(canvas->now);
@@ -333,6 +351,30 @@ void Painterly::State::showField(const scene::ArFrame& frame, const PainterlyPar
   fieldView.drawFullscreen(canvas->finished);
 }
 
+void Painterly::State::showFeatures(const scene::ArFrame& frame) {
+  std::vector<glm::vec4> places(tracking::kMaxMovedFeatures);
+  std::size_t count = 0;
+  if (frame.measuredMotion) {
+    const scene::MeasuredMotion& measured = *frame.measuredMotion;
+    const auto inFull = [&](glm::vec2 px) {
+      return glm::vec2((glm::dvec2(px) - measured.frameOrigin) / measured.frameScale);
+    };
+    for (const tracking::FeatureMotion& each : measured.motion->features) {
+      places[count++] = glm::vec4(inFull(each.previous), inFull(each.current));
+    }
+  }
+  features.upload({reinterpret_cast<const std::uint8_t*>(places.data()),
+                   places.size() * sizeof(glm::vec4)},
+                  places.size() * sizeof(glm::vec4));
+  featureView.use()
+      .texture("picture", *frame.colour)
+      .texture("features", features)
+      .set("count", static_cast<int>(count))
+      .set("size", glm::vec2(canvas->size.width, canvas->size.height))
+      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
+      .drawFullscreen(canvas->finished);
+}
+
 /// Over a pale picture.
 void Painterly::State::showStrokes(const scene::ArFrame& frame, std::size_t view) {
   ground.use()
@@ -377,6 +419,9 @@ const Texture& Painterly::State::show(const scene::ArFrame& frame, const Painter
           .set("hasBorders", clip != nullptr ? 1 : 0)
           .set("size", glm::vec2(canvas->size.width, canvas->size.height))
           .drawFullscreen(canvas->finished);
+      break;
+    case PainterlyViewer::kFeatures:
+      showFeatures(frame);
       return canvas->picture;
     case PainterlyViewer::kHeight:
       break;
@@ -459,11 +504,12 @@ void Painterly::setParameters(const config::ParameterValues& values) {
 
 const Texture& Painterly::paint(const scene::ArFrame& frame, std::string_view view) {
   State& s = *state_;
-  s.take(frame, p_);
-  s.grow(frame, p_);
-  if (!view.empty()) return s.show(frame, p_, viewIndex(painterlyViews(), view));
-  s.drawStrokes(frame, p_);
-  s.light(frame, p_);
+  const scene::ArFrame seen = p_.modelSpace ? frame : withoutModels(frame);
+  s.take(seen, p_);
+  s.grow(seen, p_);
+  if (!view.empty()) return s.show(seen, p_, viewIndex(painterlyViews(), view));
+  s.drawStrokes(seen, p_);
+  s.light(seen, p_);
   return s.canvas->picture;
 }
 

@@ -17,8 +17,8 @@ namespace pleinair::styles {
 /// Which way a stroke is grown from its anchor.
 enum class StrokeWalk { kBoth, kAhead };
 
-/// Where paint's relief is lit: once, when all is painted, or on each stroke by itself.
-enum class StrokeBump { kOnce, kEach };
+/// Where paint's relief is lit: once, when all is painted, on each stroke by itself, or nowhere.
+enum class StrokeBump { kOnce, kEach, kOff };
 
 /// The parameters of the style, with their defaults. Lengths are in px of a full
 /// picture of 640x480.
@@ -62,6 +62,7 @@ struct PainterlyParameters {
   double saturation = 1.12;
   double warmth = 0.15;
   double coherence = 0.5;
+  double memorySeconds = 0.65;  // of a stroke's colour, shape and directions (thesis §5.4)
   StrokeWalk walk = StrokeWalk::kBoth;
   StrokeBump bump = StrokeBump::kOnce;
   StrokeQuads quads = StrokeQuads::kCurvature;
@@ -71,6 +72,8 @@ struct PainterlyParameters {
   bool fades = true;
   bool movers = true;
   bool segments = true;
+  bool clip = true;
+  bool modelSpace = true;
 };
 
 const config::ParameterTable<PainterlyParameters>& painterlyParameters();

@@ -30,6 +30,8 @@ constexpr std::array kViews{
          PainterlyViewer::kMovers},
     View{{"segments", "the camera image's segments, in colours of their own; grey: none"},
          PainterlyViewer::kSegments},
+    View{{"features", "the camera image's features (rings), and whence they came (lines)"},
+         PainterlyViewer::kFeatures},
     View{{"height", "how thick the paint lies"}, PainterlyViewer::kHeight},
 };
 

@@ -20,6 +20,7 @@ enum class PainterlyViewer {
   kStrokes,  ///< shaders/stroke_view.frag, over a pale picture
   kMovers,   ///< shaders/mover_view.frag
   kSegments,  ///< shaders/segment_view.frag
+  kFeatures,  ///< shaders/feature_view.frag
   kHeight,   ///< shaders/height_view.frag, once the strokes are painted
 };
 PainterlyViewer viewerOf(std::size_t viewIndex);

@@ -72,39 +72,41 @@ void ReducedImages::halve(const Pyramid& pyramid, std::size_t from) {
   }
 }
 
+std::optional<std::size_t> ReducedImages::levelOf(double px) {
+  const auto halvings = static_cast<int>(std::floor(std::log2(px)));
+  if (halvings < 1) return std::nullopt;
+  return std::min(static_cast<std::size_t>(halvings), kHalvings) - 1;
+}
+
+float ReducedImages::texelPx(std::size_t halvings) const {
+  return static_cast<float>(std::ldexp(1.0 / pixelsOfFull_, static_cast<int>(halvings)));
+}
+
+marks::StrokePaint ReducedImages::wholePaintOf(double px) const {
+  assert(now_ != nullptr);
+  const std::optional<std::size_t> level = levelOf(px);
+  const gpu::Texture* const all = level ? &now_->whole.levels[*level] : picture_;
+  return {.background = all,
+          .models = all,
+          .movers = all,
+          .fineModels = all,
+          .fineBackground = level ? now_->whole.levels.data() : picture_,
+          .modelTexelPx = texelPx(level ? *level + 1 : 0)};
+}
+
 marks::StrokePaint ReducedImages::paintOf(double px) const {
   assert(now_ != nullptr);
-  const auto halvings = static_cast<int>(std::floor(std::log2(px)));
+  const std::optional<std::size_t> level = levelOf(px);
   // The picture itself knows nothing of parts; its pixels are fine enough.
-  const auto texelPx = [this](int halved) {
-    return static_cast<float>(std::ldexp(1.0 / pixelsOfFull_, halved));
-  };
-  if (halvings < 1) {
-    return {.background = picture_,
-            .models = picture_,
-            .movers = picture_,
-            .fineModels = picture_,
-            .fineBackground = picture_,
-            .modelTexelPx = texelPx(0)};
-  }
-  const std::size_t level = std::min(static_cast<std::size_t>(halvings), kHalvings) - 1;
-  const float modelTexelPx = texelPx(static_cast<int>(level) + 1);
-  if (!isApart_) {
-    const gpu::Texture* whole = &now_->whole.levels[level];
-    return {.background = whole,
-            .models = whole,
-            .movers = whole,
-            .fineModels = whole,
-            .fineBackground = now_->whole.levels.data(),
-            .modelTexelPx = modelTexelPx};
-  }
+  if (!isApart_ || !level) return wholePaintOf(px);
   const Apart& apart = *now_->apart;
-  return {.background = &apart.background.levels[level],
-          .models = hasObjects_ ? &apart.models.levels[level] : &apart.background.levels[level],
-          .movers = hasMovers_ ? &apart.movers.levels[level] : &apart.background.levels[level],
-          .fineModels = hasObjects_ ? apart.models.levels.data() : &apart.background.levels[level],
+  const gpu::Texture* const background = &apart.background.levels[*level];
+  return {.background = background,
+          .models = hasObjects_ ? &apart.models.levels[*level] : background,
+          .movers = hasMovers_ ? &apart.movers.levels[*level] : background,
+          .fineModels = hasObjects_ ? apart.models.levels.data() : background,
           .fineBackground = apart.background.levels.data(),
-          .modelTexelPx = modelTexelPx};
+          .modelTexelPx = texelPx(*level + 1)};
 }
 
 const gpu::Texture& ReducedImages::whole(std::size_t halvings) const {

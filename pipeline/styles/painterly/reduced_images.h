@@ -34,6 +34,8 @@ class ReducedImages {
   void update(const scene::ArFrame& frame, const marks::MotionLayers* layers = nullptr);
   /// The images whose texels are at most `px` of the frame wide. Valid until the next update().
   marks::StrokePaint paintOf(double px) const;
+  /// The same of all of the picture, whatever it shows.
+  marks::StrokePaint wholePaintOf(double px) const;
   /// All of the picture, `halvings` times reduced. Precondition: 1 to kHalvings.
   const gpu::Texture& whole(std::size_t halvings) const;
   /// Frees what it keeps.
@@ -61,6 +63,9 @@ class ReducedImages {
   };
 
   void halve(const Pyramid& pyramid, std::size_t from);
+  /// The level whose texels are at most `px` wide; nothing: the picture's own.
+  static std::optional<std::size_t> levelOf(double px);
+  float texelPx(std::size_t halvings) const;
 
   gpu::Program halve_;
   gpu::Program part_;

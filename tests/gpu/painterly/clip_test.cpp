@@ -144,8 +144,7 @@ TEST_F(ClipTest, AJointIsOpenUnlessDepthStepsThere) {
     depth.upload(bytesOf(windows), std::size_t{kSmall.width} * 4);
     const gpu::Texture borders(gpu::TextureFormat::kR32ui, kSmall);
     const marks::LayerTextures layerTextures;
-    library_.fragmentPass("pipeline/styles/strokes/shaders/borders.frag")
-        .use()
+    bordersProgram()
         .texture("forms", forms_)
         .texture("depth", depth)
         .set("depthRange", glm::vec2(kNear, kFar))
@@ -305,7 +304,8 @@ class SpillTest : public ClipTest {
   }
 
   /// How many pixels, two away from the disc's rim at least, have the other side's colour.
-  int spilled(std::uint32_t object, bool isKnown, const char* bump = "once") {
+  int spilled(std::uint32_t object, bool isKnown, const char* bump = "once",
+              const char* clip = "true", const char* modelSpace = "true") {
     restart();
     setIds(kSize, [&](int x, int y) { return isInDisc(x, y, 0.0) ? object : 0U; });
     Painterly style(library_);
@@ -325,6 +325,8 @@ class SpillTest : public ClipTest {
                                                                     {"saturation_jitter", "0"},
                                                                     {"value_jitter", "0"},
                                                                     {"bump", bump},
+                                                                    {"clip", clip},
+                                                                    {"model_space", modelSpace},
                                                                     {"wander", "1"},
                                                                     {"colour_threshold", "1"},
                                                                     {"detail", "0.01"}}) {
@@ -360,6 +362,13 @@ TEST_F(SpillTest, NoPaintRunsOverAModelsBoundary) {
   EXPECT_GT(unclipped, 100) << "strokes are to reach over where nothing is known";
   EXPECT_EQ(clipped, 0);
   EXPECT_EQ(spilled(1, true, "each"), 0);
+  EXPECT_GT(spilled(1, true, "once", "false"), 100) << "clip = false lets paint run over it";
+}
+
+TEST_F(SpillTest, OutOfModelSpaceNoModelIsKnown) {
+  const int unknown = spilled(1, false);
+  EXPECT_GT(unknown, 100);
+  EXPECT_EQ(spilled(1, true, "once", "true", "false"), unknown);
 }
 
 /// An occluder's outline is where its model was put, not where the picture has an edge.

@@ -35,6 +35,19 @@ TEST(CoherenceDial, InTheMiddleIsTheThesiss) {
   EXPECT_NEAR(hal::toSeconds(fieldOf(p).memory), 0.4, 1e-6);
 }
 
+/// Thesis figure 40: weights of 0.05 and of 0.95 on the past.
+TEST(CoherenceDial, MemoryIsTheTimeConstantOfTheHistory) {
+  const PainterlyParameters little{.memorySeconds = 0.0111};
+  EXPECT_NEAR(std::exp(-1.0 / 30.0 / hal::toSeconds(held(little).shapeMemory)), 0.05, 0.001);
+  EXPECT_EQ(held(little).colourMemory, held(little).shapeMemory);
+  EXPECT_NEAR(hal::toSeconds(fieldOf(little).memory), 0.4 * 0.0111 / 0.65, 1e-6);
+  EXPECT_LT(held(little).flatHold, 3.0F);
+  EXPECT_GT(held(little).maxColourPerSecond, 50.0F);
+  EXPECT_EQ(held(little).appearing, held({}).appearing) << "of the history alone";
+  EXPECT_NEAR(hal::toSeconds(held({.memorySeconds = 2.0}).shapeMemory), 2.0, 1e-6);
+  EXPECT_EQ(held({.memorySeconds = 2.0}).flatHold, held({}).flatHold);
+}
+
 TEST(CoherenceDial, AtItsEndsNothingAndAllIsHeld) {
   const PainterlyParameters none{.coherence = 0.0};
   EXPECT_EQ(held(none).shapeMemory, hal::Duration(0));
@@ -106,7 +119,7 @@ class Coherence : public PainterlyTest {
 /// When the picture turns dark, α of the past is left after each frame of 1/30 s.
 TEST_F(Coherence, ColoursAreBlendedAsTheThesisDoes) {
   for (const auto& [parameter, value, weight] :
-       {std::tuple("coherence", "0.5", 0.95), {"history", "false", 0.0}}) {
+       {std::tuple("coherence", "0.5", 0.95), {"history", "false", 0.0}, {"memory", "0.0111", 0.05}}) {
     restart();
     Painterly style(library_);
     style.setParameters(style.parameters().with(parameter, value));

@@ -1,5 +1,7 @@
 // The painter as a whole: what it promises about time, sizes, views and looks.
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <set>
 #include <string>
 
@@ -327,6 +329,31 @@ TEST_F(PainterlyTest, AllocatesNothingAfterTheFirstFrameOfASize) {
       << support::allocationSites();
   const scene::ArFrame other = next(0.0, 0.0, {64, 64});
   EXPECT_GT(support::allocationsIn([&] { style.paint(other, ""); }), 0) << "the counter counts";
+}
+
+/// Rings where features are, and lines from where they were: only there.
+TEST_F(PainterlyTest, TheViewOfFeaturesShowsThemInTheirPlaces) {
+  Painterly style(library_);
+  scene::ArFrame frame = next(testPicture(kSize, 5));
+  const std::vector<std::uint8_t> none = paint(style, frame, "features");
+  const std::array<tracking::FeatureMotion, 2> features{
+      tracking::FeatureMotion{.id = 1, .previous = {40.0F, 100.0F}, .current = {70.0F, 100.0F}},
+      {.id = 2, .previous = {150.0F, 30.0F}, .current = {150.0F, 30.0F}}};
+  frame = next(testPicture(kSize, 5));
+  motion_.features = features;
+  // Px of the captured frame lie 10 below those of the picture.
+  frame.measuredMotion->frameOrigin = {0.0, 10.0};
+  const std::vector<std::uint8_t> some = paint(style, frame, "features");
+  const auto differs = [&](int x, int y) {
+    const auto at = static_cast<std::size_t>(y * kSize.width + x) * 4;
+    return std::abs(none[at] - some[at]) + std::abs(none[at + 2] - some[at + 2]) > 40;
+  };
+  EXPECT_TRUE(differs(55, 90)) << "the line";
+  EXPECT_TRUE(differs(70, 94)) << "the ring";
+  EXPECT_TRUE(differs(154, 20)) << "the other ring";
+  EXPECT_FALSE(differs(55, 100));
+  EXPECT_FALSE(differs(120, 60));
+  EXPECT_FALSE(differs(150, 30));
 }
 
 }  // namespace

@@ -52,6 +52,12 @@ TEST_F(StrokeOptionsTest, ReliefIsLitOnceOrOnEachStrokeAndNeverTwice) {
   EXPECT_GT(meanDifference(each, flat), 0.3);
 }
 
+TEST_F(StrokeOptionsTest, WithoutBumpPaintHasNoRelief) {
+  const Bytes off = paintedWith("bump", "off");
+  EXPECT_EQ(paintedWith("bump", "off", "8"), off) << "its height does not count";
+  EXPECT_GT(meanDifference(paintedWith("bump", "once"), off), 0.3);
+}
+
 TEST_F(StrokeOptionsTest, HeightIsGrey) {
   Painterly style(library_);
   const Bytes height = paint(style, next(testPicture(kSize, 5)), "height");

@@ -12,10 +12,17 @@
 #include "hal/image.h"
 #include "pipeline/marks/anchor_set.h"
 #include "pipeline/scene/render/ar_frame_renderer.h"
-#include "tests/reports/anchors/area_sampling.h"
-#include "tests/reports/anchors/cell_counts.h"
+#include "pipeline/measure/baselines/area_sampling.h"
+#include "pipeline/measure/baselines/cell_counts.h"
 
 namespace pleinair::marks {
+
+using measure::CellCounts;
+using measure::CellGrid;
+using measure::sampleByArea;
+using measure::SurfaceSample;
+using measure::Triangle;
+using measure::trianglesOf;
 
 /// A sequence of frames of a scene with at most one model, and its anchors. All calls on the thread
 /// of the GL context that was current at construction.

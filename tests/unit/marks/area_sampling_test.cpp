@@ -1,5 +1,5 @@
 // The baseline that anchors are compared with, and how both are counted.
-#include "tests/reports/anchors/area_sampling.h"
+#include "pipeline/measure/baselines/area_sampling.h"
 
 #include <array>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
-#include "tests/reports/anchors/cell_counts.h"
+#include "pipeline/measure/baselines/cell_counts.h"
 
-namespace pleinair::marks {
+namespace pleinair::measure {
 namespace {
 
 TEST(AreaSampling, ChoosesTrianglesByTheirAreaAndPointsEvenly) {
@@ -59,4 +59,4 @@ TEST(CellCounts, AreOfCoveredCellsOnly) {
 }
 
 }  // namespace
-}  // namespace pleinair::marks
+}  // namespace pleinair::measure

@@ -9,7 +9,7 @@
 
 #include "hal/pixel_format.h"
 
-namespace pleinair::marks {
+namespace pleinair::measure {
 
 /// Statistics of the number of points per cell.
 struct CellCounts {
@@ -43,4 +43,4 @@ class CellGrid {
   std::vector<bool> counts_;
 };
 
-}  // namespace pleinair::marks
+}  // namespace pleinair::measure

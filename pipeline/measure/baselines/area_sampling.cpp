@@ -1,4 +1,4 @@
-#include "tests/reports/anchors/area_sampling.h"
+#include "pipeline/measure/baselines/area_sampling.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace pleinair::marks {
+namespace pleinair::measure {
 
 std::vector<Triangle> trianglesOf(const scene::Model& model, const scene::ModelPose& pose,
                                   const glm::dmat4& frameFromModel) {
@@ -54,4 +54,4 @@ std::vector<SurfaceSample> sampleByArea(std::span<const Triangle> triangles, std
   return samples;
 }
 
-}  // namespace pleinair::marks
+}  // namespace pleinair::measure

@@ -12,7 +12,7 @@
 #include "pipeline/scene/models/model.h"
 #include "pipeline/scene/models/model_pose.h"
 
-namespace pleinair::marks {
+namespace pleinair::measure {
 
 using Triangle = std::array<glm::dvec3, 3>;
 
@@ -36,4 +36,4 @@ struct SurfaceSample {
 std::vector<SurfaceSample> sampleByArea(std::span<const Triangle> triangles, std::size_t count,
                                         unsigned seed);
 
-}  // namespace pleinair::marks
+}  // namespace pleinair::measure

@@ -1,11 +1,11 @@
-#include "tests/reports/anchors/cell_counts.h"
+#include "pipeline/measure/baselines/cell_counts.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-namespace pleinair::marks {
+namespace pleinair::measure {
 
 std::string CellCounts::text() const {
   return fmt::format("{:.2f} ± {:.2f}, {:.1f} % empty", mean, spread, 100.0 * empty);
@@ -65,4 +65,4 @@ CellCounts CellGrid::count(std::span<const glm::dvec2> points) const {
   return all;
 }
 
-}  // namespace pleinair::marks
+}  // namespace pleinair::measure

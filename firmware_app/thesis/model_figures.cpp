@@ -1,0 +1,373 @@
+// Figures 29, 30, 32 to 42: models.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include "firmware_app/thesis/thesis_drawing.h"
+#include "firmware_app/thesis/thesis_figures.h"
+#include "hal/error.h"
+#include "pipeline/measure/input/picture.h"
+#include "pipeline/scene/models/limits.h"
+
+namespace pleinair::app {
+namespace {
+
+using measure::Region;
+using measure::Subject;
+
+const cv::Size kCrop(120, 90);
+constexpr int kCropFactor = 4;
+
+/// What follows from measuring a film: the same sentence for all.
+std::string howMeasured(const ThesisBench& bench) {
+  return fmt::format(
+      "Over {} frames at {}x{} of a film whose true motion is known: the hand-held camera's, and "
+      "that of each point of the model as it was posed (docs/measuring.md).",
+      bench.size().frames, bench.size().picture.width, bench.size().picture.height);
+}
+
+void addIf(ThesisFigure& figure, const std::string& key, const std::string& text,
+           const std::optional<double>& value, const std::string& unit) {
+  if (value) figure.readings.push_back({key, text, *value, unit});
+}
+
+const measure::RegionSummary& onModels(const measure::Report& report) {
+  static const measure::RegionSummary kNone;
+  return report.models ? report.models->regions[Region::kVirtual][Subject::kPainting] : kNone;
+}
+
+/// nHW2, POP and S10 on the model.
+void addCoherence(ThesisFigure& figure, const std::string& key, const std::string& text,
+                  const measure::Report& report) {
+  const measure::RegionSummary& values = onModels(report);
+  addIf(figure, key + "_nhw2", text + ": nHW2 on the model (0: carried, 1: unrelated)",
+        values.nHw2, "");
+  addIf(figure, key + "_pop", text + ": POP on the model", values.popPercent, "%");
+  addIf(figure, key + "_s10", text + ": S10 on the model, marks found ten frames later",
+        values.s10Percent, "%");
+}
+
+/// Marks on the model, and how far they are from where the surface goes.
+void addSlip(ThesisFigure& figure, const std::string& key, const std::string& text,
+             const measure::Report& report) {
+  if (!report.models || !report.models->anchors) return;
+  const measure::ModelAnchorSummary& anchors = *report.models->anchors;
+  figure.readings.push_back({key + "_anchors", text + ": anchors that stay in sight",
+                             anchors.anchors, ""});
+  figure.readings.push_back({key + "_turnover", text + ": born or gone a frame, of these",
+                             anchors.turnoverPercent, "%"});
+  if (anchors.slip) {
+    figure.readings.push_back(
+        {key + "_slip", text + ": slip a frame, median", anchors.slip->median, "px"});
+    figure.readings.push_back(
+        {key + "_slip95", text + ": slip a frame, 95 %", anchors.slip->percentile95, "px"});
+  }
+  if (anchors.longSlip) {
+    figure.readings.push_back({key + "_slip10", text + ": slip over ten frames, 95 %",
+                               anchors.longSlip->percentile95, "px"});
+  }
+}
+
+std::vector<cv::Mat3b> outputsOf(const MeasuredFilm& film) {
+  std::vector<cv::Mat3b> pictures;
+  for (const FilmFrame& frame : film.frames) pictures.push_back(frame.output);
+  return pictures;
+}
+
+/// The same part of the model, enlarged, in three frames that follow each other.
+cv::Mat3b zoomedRow(const MeasuredFilm& film) {
+  std::vector<cv::Mat3b> parts;
+  for (const FilmFrame& frame : film.frames) {
+    parts.push_back(enlarged(frame.output, partAround(frame.models, kCrop), kCropFactor / 2));
+  }
+  return inRow(parts);
+}
+
+/// Anchors and skeletons of the model from near, and paintings, at four moments.
+struct Views {
+  std::vector<cv::Mat3b> anchors, skeletons, paintings;
+};
+
+cv::Mat1b maskOf(const scene::SurfaceSnapshot& surfaces) {
+  cv::Mat1b mask(surfaces.size().height, surfaces.size().width);
+  for (int y = 0; y < mask.rows; ++y) {
+    for (int x = 0; x < mask.cols; ++x) {
+      mask(y, x) = surfaces.id(x, y) >> scene::kTriangleBits == 1U ? 255 : 0;
+    }
+  }
+  return mask;
+}
+
+Views viewsOf(ThesisBench& bench, FilmModel model) {
+  Views views;
+  const std::uint64_t settle = bench.size().settle;
+  const std::uint64_t apart = (bench.size().frames - 1) / 3;
+  // Each moment is of three frames that follow each other.
+  const auto phase = [=](std::uint64_t frame) -> std::uint64_t {
+    return frame < settle ? 3 : std::min<std::uint64_t>((frame - settle) % apart, 3);
+  };
+  bench.paint(
+      {.model = model},
+      [&](std::uint64_t frame) -> std::string {
+        return phase(frame) == 1 ? "anchors" : phase(frame) == 2 ? "skeletons" : "";
+      },
+      [&](std::uint64_t frame, Painter& painter) {
+        if (phase(frame) == 3 || views.skeletons.size() == 4) return;
+        cv::Mat3b shown = matrixOf(hal::orThrow(painter.snapshot()));
+        if (phase(frame) != 0) {
+          const cv::Size half(shown.cols / 2, shown.rows / 2);
+          shown = enlarged(shown, partAround(maskOf(hal::orThrow(painter.surfaces())), half), 2);
+        }
+        (phase(frame) == 0   ? views.paintings
+         : phase(frame) == 1 ? views.anchors
+                             : views.skeletons)
+            .push_back(shown);
+      });
+  for (std::vector<cv::Mat3b>* each : {&views.paintings, &views.anchors, &views.skeletons}) {
+    each->resize(std::min<std::size_t>(each->size(), 4));
+  }
+  return views;
+}
+
+/// Two in a row.
+cv::Mat3b sheetOf(const std::vector<cv::Mat3b>& pictures) {
+  std::vector<cv::Mat3b> rows;
+  for (std::size_t i = 0; i + 1 < pictures.size(); i += 2) {
+    rows.push_back(inRow({pictures[i], pictures[i + 1]}));
+  }
+  return rows.empty() ? pictures.front() : inColumn(rows);
+}
+
+ThesisFigure modelFigure(ThesisBench& bench, FilmModel model, const std::string& key,
+                         const std::string& text) {
+  ThesisFigure figure;
+  const Views views = viewsOf(bench, model);
+  figure.pictures = {{"Anchors of all layers, on the model and beside it, red ones are young; four moments",
+                      sheetOf(views.anchors)},
+                     {"Skeletons in their layer's colour, a frame later", sheetOf(views.skeletons)},
+                     {"The paintings", sheetOf(views.paintings)}};
+  addSlip(figure, key, text, bench.measured({.model = model}).report);
+  figure.measured =
+      howMeasured(bench) +
+      " Slip is the distance of an anchor from where its point of the surface goes.";
+  return figure;
+}
+
+/// Root mean square of the painting's high pass, in levels, on models.
+double reliefOf(const FilmFrame& frame) {
+  cv::Mat3f picture;
+  frame.output.convertTo(picture, CV_32FC3, 1.0 / 255.0);
+  const cv::Mat1f grey = measure::greyOf(measure::highPass(picture));
+  double sum = 0.0;
+  double count = 0.0;
+  for (int y = 0; y < grey.rows; ++y) {
+    for (int x = 0; x < grey.cols; ++x) {
+      if (frame.models(y, x) == 0) continue;
+      sum += double{grey(y, x)} * double{grey(y, x)};
+      count += 1.0;
+    }
+  }
+  return count > 0.0 ? 255.0 * std::sqrt(sum / count) : 0.0;
+}
+
+/// How far the painting's colours are from the picture's, both smoothed, within 5 px on both sides
+/// of models' outlines: levels.
+double bleedingOf(const FilmFrame& frame) {
+  constexpr int kReach = 11;
+  cv::Mat1b inner;
+  cv::Mat1b outer;
+  const cv::Mat disc = cv::getStructuringElement(cv::MORPH_ELLIPSE, {kReach, kReach});
+  cv::erode(frame.models, inner, disc);
+  cv::dilate(frame.models, outer, disc);
+  cv::Mat3f painted;
+  cv::Mat3f seen;
+  frame.output.convertTo(painted, CV_32FC3);
+  frame.input.convertTo(seen, CV_32FC3);
+  cv::GaussianBlur(painted, painted, {}, 1.5);
+  cv::GaussianBlur(seen, seen, {}, 1.5);
+  cv::Mat3f apart;
+  cv::absdiff(painted, seen, apart);
+  const cv::Scalar mean = cv::mean(apart, outer & ~inner);
+  return (mean[0] + mean[1] + mean[2]) / 3.0;
+}
+
+template <class Value>
+double meanOver(const MeasuredFilm& film, const Value& valueOf) {
+  double sum = 0.0;
+  for (const FilmFrame& frame : film.frames) sum += valueOf(frame);
+  return sum / static_cast<double>(std::max<std::size_t>(1, film.frames.size()));
+}
+
+/// Left and right of one film painted in two ways: two whole frames each, then enlarged parts.
+void addComparison(ThesisFigure& figure, const MeasuredFilm& left, const std::string& leftName,
+                   const MeasuredFilm& right, const std::string& rightName) {
+  const std::vector<cv::Mat3b> a = outputsOf(left);
+  const std::vector<cv::Mat3b> b = outputsOf(right);
+  const std::size_t last = a.size() - 1;
+  figure.pictures.push_back(
+      {fmt::format("Left: {}. Right: {}. The first and the last measured frame", leftName,
+                   rightName),
+       inColumn({inRow({a.front(), b.front()}), inRow({a[last], b[last]})})});
+  figure.pictures.push_back({fmt::format("The model from near at four moments. Above: {}. Below: "
+                                         "{}",
+                                         leftName, rightName),
+                             inColumn({zoomedRow(left), zoomedRow(right)})});
+}
+
+ThesisFigure spacesFigure(ThesisBench& bench, FilmModel model) {
+  ThesisFigure figure;
+  const MeasuredFilm& image = bench.measured({.model = model, .isImageSpace = true});
+  const MeasuredFilm& own = bench.measured({.model = model});
+  addComparison(figure, image, "image space", own, "model space");
+  addCoherence(figure, "image_space", "image space", image.report);
+  addCoherence(figure, "model_space", "model space", own.report);
+  addSlip(figure, "image_space", "image space", image.report);
+  addSlip(figure, "model_space", "model space", own.report);
+  figure.measured =
+      howMeasured(bench) +
+      " Both paint the very same film. In image space, the models are put into the pictures "
+      "first, and the painter and its tracker see a plain video.";
+  return figure;
+}
+
+}  // namespace
+
+ThesisFigure staticModelFigure(ThesisBench& bench) {
+  ThesisFigure figure = modelFigure(bench, FilmModel::kGearbox, "static", "static model");
+  figure.title = "Figures 29, 32, 34 and 35: a static model";
+  figure.numbers = {29, 32, 34, 35};
+  figure.thesis =
+      "The brush anchors (29) and brush skeletons (32) of an alien spaceship at four moments of a "
+      "film, and the paintings of that spaceship (34) and of a tower (35) before a real "
+      "background. Few anchors are new in each frame, and skeletons stick to the surface.";
+  figure.ours =
+      "The built-in gearbox, at rest, while a hand-held camera walks around it: anchors, "
+      "skeletons and paintings of model and background together.";
+  return figure;
+}
+
+ThesisFigure skinnedModelFigure(ThesisBench& bench) {
+  ThesisFigure figure = modelFigure(bench, FilmModel::kTube, "skinned", "skinned model");
+  figure.title = "Figures 30 and 33: a skinned model";
+  figure.numbers = {30, 33};
+  figure.thesis =
+      "Anchors (30) and skeletons (33) of a running figure whose mesh is skinned: anchors stick to "
+      "the deformed surface, since they are kept as a triangle with barycentric coordinates.";
+  figure.ours = "The built-in tube, a skin over seven joints, which sways.";
+  return figure;
+}
+
+ThesisFigure morphingModelFigure(ThesisBench& bench) {
+  ThesisFigure figure = modelFigure(bench, FilmModel::kBall, "morphing", "morphing model");
+  figure.title = "Beyond figures 30 and 33: a morphing model";
+  figure.thesis = "Morph targets do not occur in the thesis.";
+  figure.ours = "The built-in ball, which two morph targets deform.";
+  return figure;
+}
+
+ThesisFigure staticSpacesFigure(ThesisBench& bench) {
+  ThesisFigure figure = spacesFigure(bench, FilmModel::kGearbox);
+  figure.title = "Figures 36 and 37: image space against model space, static model";
+  figure.numbers = {36, 37};
+  figure.thesis =
+      "A dragon painted by the image-space and by the model-space algorithm, whole and with its "
+      "wing from near: single frames look alike, but in model space strokes are much more stable "
+      "from frame to frame.";
+  figure.ours = "The gearbox at rest, while the camera walks around it.";
+  return figure;
+}
+
+ThesisFigure animatedSpacesFigure(ThesisBench& bench) {
+  ThesisFigure figure = spacesFigure(bench, FilmModel::kTube);
+  figure.title = "Figures 38 and 39: image space against model space, animated model";
+  figure.numbers = {38, 39};
+  figure.thesis =
+      "The same for the running figure, and its chest from near: in model space the strokes on "
+      "the chest stay as they are.";
+  figure.ours = "The swaying tube.";
+  return figure;
+}
+
+ThesisFigure memoryFigure(ThesisBench& bench) {
+  ThesisFigure figure;
+  figure.title = "Figure 40: weight of the brush history, 0.05 against 0.95";
+  figure.numbers = {40};
+  figure.thesis =
+      "The spaceship with a weight of 0.05 and of 0.95 on the previous strokes' colours and "
+      "skeletons. With the small weight the painting flickers, although the anchors are right, "
+      "because skeletons change between frames.";
+  figure.ours =
+      "The gearbox with the parameter memory at 0.0111 s and at 0.65 s: these are the thesis's "
+      "weights at 30 frames a second, as time constants, τ = −(1/30)/ln α.";
+  const MeasuredFilm& small =
+      bench.measured({.model = FilmModel::kGearbox, .parameters = {{"memory", "0.0111"}}});
+  const MeasuredFilm& large = bench.measured({.model = FilmModel::kGearbox});
+  addComparison(figure, small, "weight 0.05", large, "weight 0.95");
+  addCoherence(figure, "weight_005", "weight 0.05", small.report);
+  addCoherence(figure, "weight_095", "weight 0.95", large.report);
+  figure.measured = howMeasured(bench) + " Anchors are carried in the same way in both.";
+  return figure;
+}
+
+ThesisFigure clipFigure(ThesisBench& bench) {
+  ThesisFigure figure;
+  figure.title = "Figure 41: without and with edge clipping";
+  figure.numbers = {41};
+  figure.thesis =
+      "The running figure without and with strokes that are clipped at the border of virtual and "
+      "real. Without, colours bleed over the border, and strokes that cross it are carried along "
+      "by the model.";
+  figure.ours = "The swaying tube with clip = false and with clip = true.";
+  const MeasuredFilm& off =
+      bench.measured({.model = FilmModel::kTube, .parameters = {{"clip", "false"}}});
+  const MeasuredFilm& on = bench.measured({.model = FilmModel::kTube});
+  addComparison(figure, off, "without clipping", on, "with clipping");
+  figure.readings.push_back({"bleeding_off", "without: colours off at the outline",
+                             meanOver(off, bleedingOf), "levels"});
+  figure.readings.push_back(
+      {"bleeding_on", "with: colours off at the outline", meanOver(on, bleedingOf), "levels"});
+  const auto seam = [](const MeasuredFilm& film) {
+    return film.report.models
+               ? film.report.models->regions[Region::kSeam][Subject::kPainting].popPercent
+               : std::nullopt;
+  };
+  addIf(figure, "seam_pop_off", "without: POP within 8 px of the outline", seam(off), "%");
+  addIf(figure, "seam_pop_on", "with: POP within 8 px of the outline", seam(on), "%");
+  figure.measured =
+      howMeasured(bench) +
+      " Colours off at the outline: mean difference of painting and picture, both smoothed by "
+      "1.5 px, within 5 px on both sides of the model's outline. Part of it is the look's own: "
+      "oil is warmer and more saturated than the picture.";
+  return figure;
+}
+
+ThesisFigure bumpFigure(ThesisBench& bench) {
+  ThesisFigure figure;
+  figure.title = "Figure 42: without and with bump mapping";
+  figure.numbers = {42};
+  figure.thesis =
+      "The spaceship painted with the brushes' texture only, and with bump mapping, which gives "
+      "the light of real paint.";
+  figure.ours = "The gearbox with bump = \"off\" and with bump = \"once\".";
+  const MeasuredFilm& off =
+      bench.measured({.model = FilmModel::kGearbox, .parameters = {{"bump", "off"}}});
+  const MeasuredFilm& on = bench.measured({.model = FilmModel::kGearbox});
+  addComparison(figure, off, "texture only", on, "bump mapping");
+  figure.readings.push_back({"fine_contrast_off", "texture only: fine contrast on the model",
+                             meanOver(off, reliefOf), "levels"});
+  figure.readings.push_back({"fine_contrast_on", "bump mapping: fine contrast on the model",
+                             meanOver(on, reliefOf), "levels"});
+  addCoherence(figure, "bump_off", "texture only", off.report);
+  addCoherence(figure, "bump_on", "bump mapping", on.report);
+  figure.measured =
+      "Fine contrast: root mean square of the luma that is finer than a Gaussian of 6 px. "
+      "Relief must not cost coherence: " +
+      howMeasured(bench);
+  return figure;
+}
+
+}  // namespace pleinair::app
