@@ -1,11 +1,12 @@
 // Purpose: the tensors of the virtual objects in each region, apart from the background's
 //          (tensor_regions.comp): of the patch that most of the region's virtual pixels are of,
 //          from the edges of its picture and from its form: the direction in which it bends least,
-//          or that its author declares, and towards a silhouette that of the silhouette. Carried along the motion of its
-//          surface; another patch has no part in its past.
+//          or that its author declares, and towards a silhouette that of the silhouette. Carried
+//          along the motion of its surface; another patch has no part in its past, unless it is the
+//          other side of a joint.
 // Inputs:  tensors (gradient.frag), threshold (edge_threshold.comp), pixelsOfFull; regionPixels: a
-//          region's side in px of the full image; forms, normals, surfaceMotion (ArFrame); formWeight: of
-//          the surface's form; before, labelsBefore: the previous frame's, if hasPast;
+//          region's side in px of the full image; forms, normals, surfaceMotion (ArFrame);
+//          formWeight: of the surface's form; before, labelsBefore: the previous frame's, if hasPast;
 //          past: the share of them that remains; slack: by which part detail may differ from the
 //          held value.
 // Outputs: regions RGBA16F: as in tensor_region.glsl; labels R32UI: the patch's, 0 for none, with the

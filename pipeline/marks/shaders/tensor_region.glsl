@@ -19,7 +19,8 @@ vec2 turned(vec2 tensor, float angle) {
 // the image. Strokes run across the gradient.
 vec2 carriedBy(vec2 tensor, mat2 jacobian) {
   float size = length(tensor);
-  if (size < 1e-6) return tensor;
+  // Exact at rest: what is held must not drift by rounding.
+  if (size < 1e-6 || jacobian == mat2(1.0)) return tensor;
   vec2 cosines = tensor / size;
   vec2 gradient = sqrt(max(vec2(0.5 + 0.5 * cosines.x, 0.5 - 0.5 * cosines.x), 0.0));
   if (tensor.y < 0.0) gradient.y = -gradient.y;

@@ -198,7 +198,8 @@ std::vector<bool> trianglesAtJoints(const Welded& mesh, const std::vector<Neighb
     const float cosine = glm::dot(unitOf(areaVectors[each.a]), unitOf(areaVectors[each.b]));
     if (!(cosine > kCreaseCosine)) continue;
     for (const std::uint32_t place : mesh.triangles[each.a]) {
-      if (std::ranges::find(mesh.triangles[each.b], place) == mesh.triangles[each.b].end()) continue;
+      const Corners& other = mesh.triangles[each.b];
+      if (std::ranges::find(other, place) == other.end()) continue;
       touched.emplace(place, patches.of(each.a));
       touched.emplace(place, patches.of(each.b));
     }

@@ -54,7 +54,8 @@ class DeclaredStrokes : public TensorFieldFixture {
     scene::ModelPose rest;
     scene::poseModel(model, std::nullopt, {}, rest);
     const auto restAt = [&](std::size_t i) {
-      return glm::dvec3(scene::posedVertex(model, part, point.surface, corners.at(i), rest).position);
+      return glm::dvec3(
+          scene::posedVertex(model, part, point.surface, corners.at(i), rest).position);
     };
     const glm::dvec3 a = restAt(0) - restAt(2);
     const glm::dvec3 b = restAt(1) - restAt(2);
@@ -70,8 +71,9 @@ class DeclaredStrokes : public TensorFieldFixture {
     const glm::dvec2 seen = camera().project(oracles::cameraPoint(posed, ahead)) -
                             camera().project(oracles::cameraPoint(posed, point));
     const double distance = oracles::cameraPoint(posed, point).z;
-    if (glm::length(seen) * distance / camera().intrinsics().fx <
-        0.6 * glm::distance(oracles::cameraPoint(posed, ahead), oracles::cameraPoint(posed, point))) {
+    const double step =
+        glm::distance(oracles::cameraPoint(posed, ahead), oracles::cameraPoint(posed, point));
+    if (glm::length(seen) * distance / camera().intrinsics().fx < 0.6 * step) {
       return std::nullopt;
     }
     return std::atan2(seen.y, seen.x);

@@ -51,7 +51,8 @@ class StrokesOfAClip : public StrokeTest {
     return {{.fx = 260.0, .fy = 260.0, .cx = 128.0, .cy = 64.0}, {}, kSize};
   }
 
-  /// One round of a clip in so many frames, in light from everywhere. Without `follows` the painter knows nothing of the model.
+  /// One round of a clip in so many frames, in light from everywhere. Without `follows` the painter
+  /// knows nothing of the model.
   Verdict play(const std::shared_ptr<const scene::Model>& model, std::size_t clip,
                const glm::dmat4& cameraFromModel, int frames, bool follows) {
     scene::Scene scene;
@@ -118,7 +119,8 @@ class StrokesOfAClip : public StrokeTest {
         life.longest = std::max(life.longest, length);
         life.shortest = std::min(life.shortest, length);
         life.colourChange =
-            std::max(life.colourChange, glm::distance(hueOf(stroke.colour), hueOf(life.first.colour)));
+            std::max(life.colourChange,
+                     glm::distance(hueOf(stroke.colour), hueOf(life.first.colour)));
         still.emplace(slot, life);
       }
       lives = std::move(still);
