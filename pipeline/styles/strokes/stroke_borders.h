@@ -10,8 +10,8 @@
 
 namespace pleinair::styles {
 
-/// Draws the borders at which strokes are clipped (shaders/borders.frag): those of objects, of their
-/// patches and of movers. All calls on the thread of the GL context it was made in.
+/// Draws the borders at which strokes are clipped (shaders/borders.frag): those of objects, of
+/// their patches and of movers. All calls on the thread of the GL context it was made in.
 class StrokeBorders {
  public:
   /// `library` has gpu::strokesShaders(), marksShaders() and sceneShaders().
