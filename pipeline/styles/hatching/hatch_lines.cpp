@@ -89,8 +89,8 @@ HatchLines::HatchLines(const gpu::ShaderLibrary& library, hal::FrameSize full,
 void HatchLines::update(const scene::ArFrame& frame, const Inputs& inputs, const HatchRule& rule) {
   const hal::Duration step = marks::timeStep(lastTime_, frame.captureTime);
   lastTime_ = frame.captureTime;
-  anchors_.advance(frame, *inputs.motion, {.fadeIn = rule.fade, .fadeOut = rule.fade}, inputs.movers,
-                   inputs.field);
+  anchors_.advance(frame, *inputs.motion, {.fadeIn = rule.fade, .fadeOut = rule.fade},
+                   inputs.movers, inputs.field);
   align(frame, inputs, rule, step);
   trace(frame, inputs, rule, step);
   layOut(frame, inputs, rule);
@@ -126,8 +126,7 @@ void HatchLines::align(const scene::ArFrame& frame, const Inputs& inputs, const 
       .set("slots", slots_)
       .set("anew", anchors_.hasBegunAnew() ? 1 : 0);
   bindSupport(points_, frame, inputs.movers);
-  points_
-      .dispatch({static_cast<int>(slots_), 1}, GL_SHADER_STORAGE_BARRIER_BIT);
+  points_.dispatch({static_cast<int>(slots_), 1}, GL_SHADER_STORAGE_BARRIER_BIT);
   bins_.sort(binned_, frame.full());
   const bool isAnew = anchors_.hasBegunAnew();
   const int steps = isAnew ? kFirstSteps : 1;

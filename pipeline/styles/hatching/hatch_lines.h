@@ -50,7 +50,8 @@ struct HatchRule {
   float evenness = 0.0F;  ///< of the spacing; 0: by chance
   std::size_t fieldLevel = 0;
   hal::Duration shapeMemory = std::chrono::milliseconds(650);  ///< time constant; 0: none
-  hal::Duration fade = std::chrono::milliseconds(700);  ///< in which a line comes or goes; 0: at once
+  hal::Duration fade =
+      std::chrono::milliseconds(700);  ///< in which a line comes or goes; 0: at once
   glm::vec4 paint{0.0F, 0.0F, 0.0F, 1.0F};
   float colour = 0.0F;  ///< in [0, 1]: how much of the image's colour the paint takes
   float rankColour = 0.0F;

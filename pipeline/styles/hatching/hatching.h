@@ -19,8 +19,8 @@ const StyleKind& hatchingKind();
 /// on, runs along the tensor field, and is as wide at each place as its tone asks for; ranks are
 /// nested, so that a tone that changes adds lines or takes them away, and none pops (HatchLines).
 /// Contours are the image's edges, smoothed along the field, and the silhouettes, creases and
-/// borders between patches of models. Paper goes with ArFrame::canvasFromPicture. All on the GPU, nothing is read
-/// back.
+/// borders between patches of models. Paper goes with ArFrame::canvasFromPicture. All on the GPU,
+/// nothing is read back.
 ///
 /// Time: tones and contours are taken from an image that is averaged along its motion
 /// (marks::FilteredFrame). A first frame (after reset(), a cut, another full size, another

@@ -11,8 +11,9 @@
 
 namespace pleinair::styles {
 
-/// Draws the borders at which strokes are clipped (shaders/borders.frag): those of objects, of their
-/// patches, of movers and of segments of the camera image. All calls on the thread of the GL context it was made in.
+/// Draws the borders at which strokes are clipped (shaders/borders.frag): those of objects, of
+/// their patches, of movers and of segments of the camera image. All calls on the thread of the GL
+/// context it was made in.
 class StrokeBorders {
  public:
   /// `library` has gpu::strokesShaders(), marksShaders() and sceneShaders().

@@ -1,5 +1,5 @@
-// Lines where something moves before a camera that stands: the mover has lines of its own, which end
-// at its border, and those behind it and beside it stay as they are.
+// Lines where something moves before a camera that stands: the mover has lines of its own, which
+// end at its border, and those behind it and beside it stay as they are.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -20,10 +20,10 @@ constexpr float kOnMover = 4095.0F;  // scene/render/shaders/surface_form.glsl
 class HatchMovers : public HatchingTest {
  protected:
   struct Found {
-    int onMover = 0;   // drawn lines
-    int strays = 0;    // of their points, beyond the mover
-    int around = 0;    // lines of the background behind it and beside it
-    int changed = 0;   // of these, with another shape than before the mover came
+    int onMover = 0;  // drawn lines
+    int strays = 0;   // of their points, beyond the mover
+    int around = 0;   // lines of the background behind it and beside it
+    int changed = 0;  // of these, with another shape than before the mover came
   };
   Found see(const char* movers) {
     Hatching style(library_);

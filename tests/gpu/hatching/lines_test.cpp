@@ -245,8 +245,8 @@ class HatchBorders : public HatchLinesTest {
       const float margin = style.set(i).segmentPx();
       for (const DrawnLine& line : drawnLines(style.set(i))) {
         onModel_ += line.object != 0.0F ? 1 : 0;
-        const auto [left, right] = std::ranges::minmax(
-            line.points, {}, [](glm::vec2 point) { return point.x; });
+        const auto [left, right] =
+            std::ranges::minmax(line.points, {}, [](glm::vec2 point) { return point.x; });
         const bool isOver = left.x < kPatches - margin && right.x > kPatches + margin;
         overPatches_ += line.object != 0.0F && isOver ? 1 : 0;
         for (const glm::vec2 point : line.points) {
@@ -314,8 +314,8 @@ TEST_F(HatchLinesTest, UnderAZoomNoLinePops) {
         const float was = isNew ? 0.0F : before[slot].seen;
         largest = std::max(largest, double{std::abs(lines[slot].seen - was) / (0.5F * width)});
         if (isNew || !anchorsBefore[slot].isAlive()) continue;
-        const glm::dvec2 wanted = kZoom * (glm::dvec2(anchorsBefore[slot].px) +
-                                           glm::dvec2(before[slot].shift)) + shift;
+        const glm::dvec2 wanted =
+            kZoom * (glm::dvec2(anchorsBefore[slot].px) + glm::dvec2(before[slot].shift)) + shift;
         off += glm::distance(from, wanted);
         ++carried;
       }

@@ -35,7 +35,8 @@ void main() {
   vec2 edge = texelFetch(contours, p, 0).rg;
   float contour = contourWeight * edge.r;
   lines *= 1.0 - lift * edge.g;
-  vec3 contourInk = mix(inkColour, texelFetch(colours, p, 0).rgb, colour);
+  // More of the ink: contours are to be seen on what they bound.
+  vec3 contourInk = mix(inkColour, texelFetch(colours, p, 0).rgb, 0.5 * colour);
   float amount = 1.0 - (1.0 - lines.a) * (1.0 - contour);
   vec3 colour = (lines.rgb * (1.0 - contour) + contourInk * contour) / max(amount, 1e-4);
   amount *= caught(paper_.r, amount);

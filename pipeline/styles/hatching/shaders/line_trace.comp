@@ -72,7 +72,8 @@ Arm walk(vec2 from, vec2 heading, float bend, float most, uint support) {
     vec2 to = at + segment * way;
     if (goesOn && supportAt(to) != support) {
       bool isEarly = supportAt(at + 0.5 * segment * way) != support;
-      arm.length = min(arm.length, float(i) + (isEarly ? 0.25 : 0.75));
+      // As far as the border, at which it is clipped.
+      arm.length = min(arm.length, float(i) + (isEarly ? 0.5 : 1.0));
       goesOn = false;
     }
     at = to;
