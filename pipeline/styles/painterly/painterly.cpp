@@ -20,7 +20,6 @@
 #include "pipeline/marks/motion_layers.h"
 #include "pipeline/marks/stroke_set.h"
 #include "pipeline/marks/tensor_field.h"
-#include "pipeline/scene/description/scene.h"
 #include "pipeline/styles/painterly/coherence.h"
 #include "pipeline/styles/painterly/layers.h"
 #include "pipeline/styles/painterly/painterly_shaders.h"
@@ -53,7 +52,6 @@ glm::vec3 groundOf(const PainterlyParameters& p) {
 
 /// The picture's focus and the scene's.
 marks::FocusField focusOf(const scene::ArFrame& frame, const PainterlyParameters& p) {
-  static_assert(scene::kMaxFoci + 1 <= marks::FocusField::kMaxPlaces);
   const glm::vec2 full(frame.full().width, frame.full().height);
   const glm::vec2 pixelsOfFull(frame.pixelsOfFull());
   marks::FocusField field;
