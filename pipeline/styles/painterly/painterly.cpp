@@ -21,7 +21,6 @@
 #include "pipeline/marks/segment_map.h"
 #include "pipeline/marks/stroke_set.h"
 #include "pipeline/marks/tensor_field.h"
-#include "pipeline/scene/description/scene.h"
 #include "pipeline/styles/painterly/coherence.h"
 #include "pipeline/styles/painterly/layers.h"
 #include "pipeline/styles/painterly/painterly_shaders.h"
@@ -55,7 +54,6 @@ glm::vec3 groundOf(const PainterlyParameters& p) {
 
 /// The picture's focus and the scene's.
 marks::FocusField focusOf(const scene::ArFrame& frame, const PainterlyParameters& p) {
-  static_assert(scene::kMaxFoci + 1 <= marks::FocusField::kMaxPlaces);
   const glm::vec2 full(frame.full().width, frame.full().height);
   const glm::vec2 pixelsOfFull(frame.pixelsOfFull());
   marks::FocusField field;

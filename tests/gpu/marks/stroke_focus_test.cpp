@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "pipeline/scene/description/scene.h"
 #include "tests/gpu/marks/stroke_fixture.h"
 
 namespace pleinair::marks {
@@ -15,6 +16,7 @@ namespace {
 
 using Slots = std::set<std::size_t>;
 constexpr std::uint32_t kWanted = 0x80000000U;
+static_assert(scene::kMaxFoci + 1 <= FocusField::kMaxPlaces, "the picture has one, too");
 
 /// The finer of two layers, everywhere wanted but for the focus.
 StrokeRule fineRule() {

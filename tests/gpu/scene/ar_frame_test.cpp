@@ -69,6 +69,31 @@ TEST_F(ArFrameTest, AttachesToATagAsItsAuthorSeesIt) {
   EXPECT_EQ(frame.size(), kSize);
 }
 
+TEST_F(ArFrameTest, AFocusGoesWithItsTagAndStaysWhereItWasLast) {
+  Scene scene = signPost(4);
+  scene.foci.push_back({.tagId = 4,
+                        .attachFromCentre = {0.2, 0.1, 0.0},
+                        .radiusMetres = 0.05,
+                        .falloffMetres = 0.1,
+                        .strength = 0.5});
+  ArFrameRenderer renderer(library_, scene);
+  const gpu::Texture picture = plainPicture(kSize);
+  EXPECT_TRUE(compose(renderer, picture, plainCamera(), {}).foci.empty()) << "never seen";
+  const std::array sightings{TagSighting{.id = 4, .cameraFromTag = kOneMetreAhead}};
+  const auto expectPlace = [](const ArFrame& frame) {
+    ASSERT_EQ(frame.foci.size(), 1U);
+    EXPECT_NEAR(frame.foci[0].px.x, 80.0F + 200.0F * 0.2F, 1e-3F);
+    EXPECT_NEAR(frame.foci[0].px.y, 60.0F - 200.0F * 0.1F, 1e-3F);
+    EXPECT_NEAR(frame.foci[0].radiusPx, 10.0F, 1e-3F);
+    EXPECT_NEAR(frame.foci[0].falloffPx, 20.0F, 1e-3F);
+    EXPECT_EQ(frame.foci[0].strength, 0.5F);
+  };
+  expectPlace(compose(renderer, picture, plainCamera(), {.tags = sightings}));
+  expectPlace(compose(renderer, picture, plainCamera(), {}));
+  renderer.reset();
+  EXPECT_TRUE(compose(renderer, picture, plainCamera(), {}).foci.empty()) << "forgotten";
+}
+
 TEST_F(ArFrameTest, FindsAHiddenTagWhereTheWorldHasIt) {
   Scene scene = signPost(4);
   // the world's origin is 0.3 m left of the tag
