@@ -1,10 +1,13 @@
 // Segments of the camera image: strokes stay on theirs, whose border follows the pixels' colours,
 // and rests while the camera stands.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
+#include <memory>
 #include <random>
-#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -93,7 +96,8 @@ class SegmentsTest : public PainterlyTest {
   /// The labels of pixels and their shares (borders.frag), two textures in turn.
   std::vector<std::uint32_t> borders(const scene::ArFrame& frame, bool isHeld) {
     map_.update(frame);
-    if (!borders_[0]) {
+    if (!layerTextures_) {
+      layerTextures_ = std::make_unique<marks::LayerTextures>();
       for (gpu::Texture& each : borders_) each = {gpu::TextureFormat::kR32ui, kSize};
     }
     now_ = 1 - now_;
@@ -101,7 +105,7 @@ class SegmentsTest : public PainterlyTest {
         library_.fragmentPass("pipeline/styles/painterly/shaders/borders.frag");
     marks::SegmentMap::bind(program.use(), &map_, borders_[0]);
     program.texture("forms", borders_.at(1 - now_))
-        .texture("movers", layerTextures().labelsOf(nullptr))
+        .texture("movers", layerTextures_->labelsOf(nullptr))
         .texture("picture", *frame.colour)
         .texture("before", borders_.at(1 - now_))
         .set("hasObjects", 0)
@@ -111,11 +115,6 @@ class SegmentsTest : public PainterlyTest {
         .drawFullscreen(gpu::RenderTarget({&borders_.at(now_)}));
     return support::readR32ui(borders_.at(now_));
   }
-  marks::LayerTextures& layerTextures() {
-    if (!layerTextures_) layerTextures_ = std::make_unique<marks::LayerTextures>();
-    return *layerTextures_;
-  }
-
   tracking::ImageSegmenter segmenter_;
   marks::SegmentMap map_;
   std::array<gpu::Texture, 2> borders_;
