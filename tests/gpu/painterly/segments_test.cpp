@@ -64,13 +64,24 @@ class SegmentsTest : public PainterlyTest {
     restart();
     Painterly style(library_);
     config::ParameterValues values = style.parameters();
-    for (const auto& [name, value] : std::initializer_list<std::pair<const char*, const char*>>{
-             {"segments", segments}, {"stroke_size", "10"},    {"wash", "0"},
-             {"ground_red", "0"},    {"ground_green", "0"},    {"ground_blue", "0"},
-             {"canvas", "0"},        {"relief", "0"},          {"gloss", "0"},
-             {"saturation", "1"},    {"warmth", "0"},          {"hue_jitter", "0"},
-             {"saturation_jitter", "0"}, {"value_jitter", "0"}, {"wander", "1"},
-             {"colour_threshold", "1"}, {"detail", "0.01"}}) {
+    for (const auto& [name, value] :
+         std::initializer_list<std::pair<const char*, const char*>>{{"segments", segments},
+                                                                    {"stroke_size", "10"},
+                                                                    {"wash", "0"},
+                                                                    {"ground_red", "0"},
+                                                                    {"ground_green", "0"},
+                                                                    {"ground_blue", "0"},
+                                                                    {"canvas", "0"},
+                                                                    {"relief", "0"},
+                                                                    {"gloss", "0"},
+                                                                    {"saturation", "1"},
+                                                                    {"warmth", "0"},
+                                                                    {"hue_jitter", "0"},
+                                                                    {"saturation_jitter", "0"},
+                                                                    {"value_jitter", "0"},
+                                                                    {"wander", "1"},
+                                                                    {"colour_threshold", "1"},
+                                                                    {"detail", "0.01"}}) {
       values = values.with(name, value);
     }
     style.setParameters(values);
@@ -101,8 +112,7 @@ class SegmentsTest : public PainterlyTest {
       for (gpu::Texture& each : borders_) each = {gpu::TextureFormat::kR32ui, kSize};
     }
     now_ = 1 - now_;
-    gpu::Program program =
-        library_.fragmentPass("pipeline/styles/painterly/shaders/borders.frag");
+    gpu::Program program = library_.fragmentPass("pipeline/styles/painterly/shaders/borders.frag");
     marks::SegmentMap::bind(program.use(), &map_, borders_[0]);
     program.texture("forms", borders_.at(1 - now_))
         .texture("movers", layerTextures_->labelsOf(nullptr))
@@ -143,8 +153,8 @@ TEST_F(SegmentsTest, TheStyleAsksForThemIfTheyAreOn) {
 TEST_F(SegmentsTest, BordersFollowThePixels) {
   double shift = 0.0;
   for (int i = 0; i < 6; ++i, shift += 0.7) {
-    const std::vector<std::uint32_t> found =
-        borders(segmented(disc(3.0, 7U + static_cast<unsigned>(i), shift), i == 0 ? 0.0 : -0.7), false);
+    const std::vector<std::uint32_t> found = borders(
+        segmented(disc(3.0, 7U + static_cast<unsigned>(i), shift), i == 0 ? 0.0 : -0.7), false);
     const auto labelAt = [&](int x, int y) {
       return found[static_cast<std::size_t>(y * kSize.width + x)] & kLabelMask;
     };
