@@ -65,7 +65,7 @@ struct PainterlyParameters {
   bool hysteresis = true;
   bool fades = true;
   bool movers = true;
-  bool segments = true;
+  bool segments = false;
 };
 
 const config::ParameterTable<PainterlyParameters>& painterlyParameters();

@@ -144,9 +144,9 @@ TEST_F(SegmentsTest, NoPaintRunsOverASegmentsBorder) {
 
 TEST_F(SegmentsTest, TheStyleAsksForThemIfTheyAreOn) {
   Painterly style(library_);
-  EXPECT_TRUE(style.needs().segments);
-  style.setParameters(style.parameters().with("segments", "false"));
   EXPECT_FALSE(style.needs().segments);
+  style.setParameters(style.parameters().with("segments", "true"));
+  EXPECT_TRUE(style.needs().segments);
 }
 
 /// To the pixel, though cells are two px wide; and under a pan of fractions of a pixel.
