@@ -25,12 +25,11 @@ void SegmentMap::update(const scene::ArFrame& frame) {
   packed_.clear();
   for (const tracking::SegmentCell& each : segments.cells) packed_.push_back(packedOf(each));
   if (cells_.size() != segments.grid) cells_ = {gpu::TextureFormat::kR32ui, segments.grid};
-  cells_.upload({reinterpret_cast<const std::uint8_t*>(packed_.data()),
-                 packed_.size() * kTexelBytes},
-                static_cast<std::size_t>(segments.grid.width) * kTexelBytes);
-  const glm::dvec2 cellsOfFrame =
-      glm::dvec2(segments.grid.width, segments.grid.height) /
-      glm::dvec2(segments.frameSize.width, segments.frameSize.height);
+  cells_.upload(
+      {reinterpret_cast<const std::uint8_t*>(packed_.data()), packed_.size() * kTexelBytes},
+      static_cast<std::size_t>(segments.grid.width) * kTexelBytes);
+  const glm::dvec2 cellsOfFrame = glm::dvec2(segments.grid.width, segments.grid.height) /
+                                  glm::dvec2(segments.frameSize.width, segments.frameSize.height);
   grid_ = glm::vec4(measured.frameScale * cellsOfFrame, measured.frameOrigin * cellsOfFrame);
 }
 

@@ -107,7 +107,8 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .texture("background", layerTextures.backgroundOf(layers))
       .texture("moverMotion", layerTextures.moverMotionOf(layers))
       .texture("finePaint", *paint.fineModels)
-      .texture("fineGround", paint.fineBackground != nullptr ? *paint.fineBackground : *paint.background)
+      .texture("fineGround",
+               paint.fineBackground != nullptr ? *paint.fineBackground : *paint.background)
       .set("paintTexel", paint.modelTexelPx)
       .texture("ids", frame.hasObjects ? *frame.ids : noIds)
       .texture("labels", borders != nullptr ? *borders : frame.hasObjects ? *frame.forms : noIds)

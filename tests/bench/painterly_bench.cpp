@@ -174,8 +174,8 @@ BENCHMARK_CAPTURE(whole, hatching, "hatching")->Name("hatching/whole")->Apply(at
 BENCHMARK_CAPTURE(stages, hatching, "hatching")->Name("hatching/stages")->Apply(atOneSize);
 BENCHMARK_CAPTURE(with, quads, "quads", "thesis")->Name("painterly/4 (n + 2)")->Apply(atSizes);
 BENCHMARK_CAPTURE(with, walk, "walk", "ahead")->Name("painterly/one way")->Apply(atOneSize);
-BENCHMARK_CAPTURE(with, segments, "segments", "false")
-    ->Name("painterly/without segments")
+BENCHMARK_CAPTURE(with, segments, "segments", "true")
+    ->Name("painterly/with segments")
     ->Apply(atOneSize);
 BENCHMARK_CAPTURE(with, bump, "bump", "each")->Name("painterly/bump each")->Apply(atSizes);
 BENCHMARK_CAPTURE(change, brush, "brush", "dry", "round")

@@ -71,7 +71,7 @@ struct PainterlyParameters {
   bool hysteresis = true;
   bool fades = true;
   bool movers = true;
-  bool segments = true;
+  bool segments = false;
   bool clip = true;
   bool modelSpace = true;
 };

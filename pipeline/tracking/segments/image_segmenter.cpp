@@ -18,7 +18,8 @@ namespace pleinair::tracking {
 namespace {
 
 constexpr double kLeastStepPx = 2.0;
-constexpr float kHeldNoises = 12.0F;  // of a cell; as a distance, noise is 2.5 standard deviations long
+constexpr float kHeldNoises =
+    12.0F;  // of a cell; as a distance, noise is 2.5 standard deviations long
 constexpr float kHeldLevels = 3.0F;  // of colour, beyond them
 /// Frames without a change after which the labels rest: hysteresis has settled.
 constexpr int kSettledFrames = 24;
@@ -36,9 +37,9 @@ std::size_t indexOf(int i) {
 }
 
 hal::FrameSize gridOf(hal::FrameSize size) {
-  const double step = std::max(
-      kLeastStepPx,
-      static_cast<double>(std::max(size.width, size.height)) / ImageSegmenter::kLongSide);
+  const double step =
+      std::max(kLeastStepPx,
+               static_cast<double>(std::max(size.width, size.height)) / ImageSegmenter::kLongSide);
   const auto cells = [&](int side) {
     return std::max(1, static_cast<int>(std::lround(side / step)));
   };
@@ -102,7 +103,7 @@ struct ImageSegmenter::State {
   std::vector<std::uint8_t> waiting;   // the same of this frame
   std::vector<std::uint16_t> found;    // labels of this frame, young ones, too
   std::array<std::uint8_t, kMaxSegmentLabel + 1> ages{};  // frames, up to kMatureFrames
-  std::vector<std::uint32_t> pairs;  // segment and carried label of each cell
+  std::vector<std::uint32_t> pairs;                       // segment and carried label of each cell
   std::vector<Overlap> overlaps;
   std::vector<std::uint16_t> labels;  // of the segments
   std::array<bool, kMaxSegmentLabel + 1> isUsed{};
@@ -121,8 +122,7 @@ void ImageSegmenter::reset() {
 }
 
 glm::dvec2 ImageSegmenter::State::cellPx() const {
-  return glm::dvec2(frameSize.width, frameSize.height) /
-         glm::dvec2(grid.width, grid.height);
+  return glm::dvec2(frameSize.width, frameSize.height) / glm::dvec2(grid.width, grid.height);
 }
 
 /// Whether any colour has changed.
@@ -190,8 +190,7 @@ void ImageSegmenter::State::assignLabels() {
     std::size_t end = i;
     while (end < pairs.size() && pairs[end] == pairs[i]) ++end;
     overlaps.push_back({static_cast<int>(pairs[i] >> kLabelBits),
-                         static_cast<std::uint16_t>(pairs[i] & 0xFFFFU),
-                         static_cast<int>(end - i)});
+                        static_cast<std::uint16_t>(pairs[i] & 0xFFFFU), static_cast<int>(end - i)});
     i = end;
   }
   std::ranges::sort(overlaps, [](const Overlap& a, const Overlap& b) {

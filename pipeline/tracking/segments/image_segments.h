@@ -28,7 +28,7 @@ inline constexpr std::uint16_t kMaxSegmentLabel = 4095;
 /// buffers and is valid until that takes the next frame.
 struct ImageSegments {
   hal::FrameSize frameSize;
-  hal::FrameSize grid;  ///< cells across and down; they cover the frame evenly
+  hal::FrameSize grid;                 ///< cells across and down; they cover the frame evenly
   std::span<const SegmentCell> cells;  ///< row by row
 };
 

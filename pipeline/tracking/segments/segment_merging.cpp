@@ -11,7 +11,7 @@
 namespace pleinair::tracking {
 namespace {
 
-constexpr int kMaxWeight = 127;      // levels of colour; cells further apart are not merged by means
+constexpr int kMaxWeight = 127;  // levels of colour; cells further apart are not merged by means
 constexpr float kAlikeMeans = 22.0F;  // levels of colour
 constexpr float kSmallSlack = 2.0F;   // cells: by what small regions may be less alike
 constexpr float kClearBorder = 40.0F;
@@ -58,8 +58,8 @@ void SegmentMerger::join(int first, int second) {
   Region& larger = isFirst ? a : b;
   const Region& smaller = isFirst ? b : a;
   parents_[indexOf(isFirst ? second : first)] = isFirst ? first : second;
-  const auto part = static_cast<float>(larger.cells) /
-                    static_cast<float>(larger.cells + smaller.cells);
+  const auto part =
+      static_cast<float>(larger.cells) / static_cast<float>(larger.cells + smaller.cells);
   larger.texture = part * larger.texture + (1.0F - part) * smaller.texture;
   larger.luma += smaller.luma;
   larger.cb += smaller.cb;
@@ -157,9 +157,8 @@ void SegmentMerger::findBorders() {
     }
   }
   for (std::size_t i = 0; i < regions_.size(); ++i) {
-    regions_[i].texture = textureCounts_[i] > 0
-                              ? static_cast<float>(textureSums_[i] / textureCounts_[i])
-                              : 0.0F;
+    regions_[i].texture =
+        textureCounts_[i] > 0 ? static_cast<float>(textureSums_[i] / textureCounts_[i]) : 0.0F;
   }
 }
 

@@ -278,7 +278,7 @@ TEST_F(TensorFieldTest, GoesWithTheGlobalInterpolation) {
 /// belongs to the stripes: only that has their direction, the other that of the level lines below.
 TEST_F(TensorFieldTest, DirectionsDoNotSpreadFromOneSegmentToAnother) {
   constexpr double kStripes = 96.0;
-  constexpr double kBorder = 116.0;
+  constexpr double kBorder = 108.0;
   const auto luma = [](glm::dvec2 px) {
     if (px.x < kStripes) return 0.5 + 0.3 * std::sin(0.9 * px.x);
     return px.y > 88.0 ? 0.5 + 0.3 * std::sin(0.9 * px.y) : 0.5;
@@ -301,11 +301,10 @@ TEST_F(TensorFieldTest, DirectionsDoNotSpreadFromOneSegmentToAnother) {
     motionField_->update(frame);
     field_->update(frame, texture, *motionField_, kNoMemory, nullptr, &map);
     // The gradient of stripes is level: its tensor is (1, 0); that of level lines is (-1, 0).
-    return read(field_->resolved(0))[placeOf(15, 8)].tensor;  // px 120 to 128, 64 to 72
+    return read(field_->resolved(0))[placeOf(13, 9)].tensor;  // px 104 to 112, 72 to 80
   };
   EXPECT_LT(directionBeyondTheBorder(true).x, -0.5);
-  EXPECT_GT(directionBeyondTheBorder(false).x, directionBeyondTheBorder(true).x + 0.3)
-      << "the control: without segments";
+  EXPECT_GT(directionBeyondTheBorder(false).x, 0.0) << "the control: without segments";
 }
 
 TEST(TensorOracle, RadialBasisFormsDifferByTheWeights) {

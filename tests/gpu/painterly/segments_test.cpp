@@ -1,10 +1,13 @@
 // Segments of the camera image: strokes stay on theirs, whose border follows the pixels' colours,
 // and rests while the camera stands.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
+#include <memory>
 #include <random>
-#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -61,13 +64,24 @@ class SegmentsTest : public PainterlyTest {
     restart();
     Painterly style(library_);
     config::ParameterValues values = style.parameters();
-    for (const auto& [name, value] : std::initializer_list<std::pair<const char*, const char*>>{
-             {"segments", segments}, {"stroke_size", "10"},    {"wash", "0"},
-             {"ground_red", "0"},    {"ground_green", "0"},    {"ground_blue", "0"},
-             {"canvas", "0"},        {"relief", "0"},          {"gloss", "0"},
-             {"saturation", "1"},    {"warmth", "0"},          {"hue_jitter", "0"},
-             {"saturation_jitter", "0"}, {"value_jitter", "0"}, {"wander", "1"},
-             {"colour_threshold", "1"}, {"detail", "0.01"}}) {
+    for (const auto& [name, value] :
+         std::initializer_list<std::pair<const char*, const char*>>{{"segments", segments},
+                                                                    {"stroke_size", "10"},
+                                                                    {"wash", "0"},
+                                                                    {"ground_red", "0"},
+                                                                    {"ground_green", "0"},
+                                                                    {"ground_blue", "0"},
+                                                                    {"canvas", "0"},
+                                                                    {"relief", "0"},
+                                                                    {"gloss", "0"},
+                                                                    {"saturation", "1"},
+                                                                    {"warmth", "0"},
+                                                                    {"hue_jitter", "0"},
+                                                                    {"saturation_jitter", "0"},
+                                                                    {"value_jitter", "0"},
+                                                                    {"wander", "1"},
+                                                                    {"colour_threshold", "1"},
+                                                                    {"detail", "0.01"}}) {
       values = values.with(name, value);
     }
     style.setParameters(values);
@@ -93,7 +107,8 @@ class SegmentsTest : public PainterlyTest {
   /// The labels of pixels and their shares (borders.frag), two textures in turn.
   std::vector<std::uint32_t> borders(const scene::ArFrame& frame, bool isHeld) {
     map_.update(frame);
-    if (!borders_[0]) {
+    if (!layerTextures_) {
+      layerTextures_ = std::make_unique<marks::LayerTextures>();
       for (gpu::Texture& each : borders_) each = {gpu::TextureFormat::kR32ui, kSize};
     }
     now_ = 1 - now_;
@@ -101,7 +116,7 @@ class SegmentsTest : public PainterlyTest {
         library_.fragmentPass("pipeline/styles/strokes/shaders/borders.frag");
     marks::SegmentMap::bind(program.use(), &map_, borders_[0]);
     program.texture("forms", borders_.at(1 - now_))
-        .texture("movers", layerTextures().labelsOf(nullptr))
+        .texture("movers", layerTextures_->labelsOf(nullptr))
         .texture("picture", *frame.colour)
         .texture("before", borders_.at(1 - now_))
         .set("hasObjects", 0)
@@ -111,11 +126,6 @@ class SegmentsTest : public PainterlyTest {
         .drawFullscreen(gpu::RenderTarget({&borders_.at(now_)}));
     return support::readR32ui(borders_.at(now_));
   }
-  marks::LayerTextures& layerTextures() {
-    if (!layerTextures_) layerTextures_ = std::make_unique<marks::LayerTextures>();
-    return *layerTextures_;
-  }
-
   tracking::ImageSegmenter segmenter_;
   marks::SegmentMap map_;
   std::array<gpu::Texture, 2> borders_;
@@ -135,17 +145,17 @@ TEST_F(SegmentsTest, NoPaintRunsOverASegmentsBorder) {
 
 TEST_F(SegmentsTest, TheStyleAsksForThemIfTheyAreOn) {
   Painterly style(library_);
-  EXPECT_TRUE(style.needs().segments);
-  style.setParameters(style.parameters().with("segments", "false"));
   EXPECT_FALSE(style.needs().segments);
+  style.setParameters(style.parameters().with("segments", "true"));
+  EXPECT_TRUE(style.needs().segments);
 }
 
 /// To the pixel, though cells are two px wide; and under a pan of fractions of a pixel.
 TEST_F(SegmentsTest, BordersFollowThePixels) {
   double shift = 0.0;
   for (int i = 0; i < 6; ++i, shift += 0.7) {
-    const std::vector<std::uint32_t> found =
-        borders(segmented(disc(3.0, 7U + static_cast<unsigned>(i), shift), i == 0 ? 0.0 : -0.7), false);
+    const std::vector<std::uint32_t> found = borders(
+        segmented(disc(3.0, 7U + static_cast<unsigned>(i), shift), i == 0 ? 0.0 : -0.7), false);
     const auto labelAt = [&](int x, int y) {
       return found[static_cast<std::size_t>(y * kSize.width + x)] & kLabelMask;
     };

@@ -1,4 +1,5 @@
-// The segments of a camera image: found in spite of noise, followed, and at rest while nothing moves.
+// The segments of a camera image: found in spite of noise, followed, and at rest while nothing
+// moves.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -86,8 +87,7 @@ struct Segmented {
     int both = 0;
     for (int y = 0; y < grid.height; ++y) {
       for (int x = 0; x < grid.width; ++x) {
-        const glm::dvec2 middle = (glm::dvec2(x, y) + 0.5) *
-                                  glm::dvec2(kSize.width, kSize.height) /
+        const glm::dvec2 middle = (glm::dvec2(x, y) + 0.5) * glm::dvec2(kSize.width, kSize.height) /
                                   glm::dvec2(grid.width, grid.height);
         const bool has = at(middle) == at(px);
         either += has || isIts(middle) ? 1 : 0;
@@ -111,15 +111,18 @@ TEST(ImageSegmenter, FlatAreasAreFoundInNoise) {
   const Segmented found = segmented(discAt({110.0, 120.0}), 5.0);
   EXPECT_EQ(found.labels().size(), 3u);
   EXPECT_FALSE(found.labels().contains(0));
-  EXPECT_GT(found.iou({110.0, 120.0}, [](glm::dvec2 px) {
-    return glm::distance(px, {110.0, 120.0}) < 40.0;
-  }), 0.95);
+  EXPECT_GT(found.iou({110.0, 120.0},
+                      [](glm::dvec2 px) {
+                        return glm::distance(px, {110.0, 120.0}) < 40.0;
+                      }),
+            0.95);
   EXPECT_GT(found.iou({300.0, 20.0}, [](glm::dvec2 px) { return px.x >= 180.0; }), 0.97);
 }
 
 TEST(ImageSegmenter, SoftShadingAndTextureMakeNoBorders) {
-  EXPECT_EQ(segmented([](glm::dvec2 px) { return glm::dvec3(40.0 + 0.5 * px.x); }, 2.0).labels().size(),
-            1u);
+  EXPECT_EQ(
+      segmented([](glm::dvec2 px) { return glm::dvec3(40.0 + 0.5 * px.x); }, 2.0).labels().size(),
+      1u);
   const auto texture = [](glm::dvec2 px) {
     return glm::dvec3(120.0 + 25.0 * std::sin(0.9 * px.x) * std::sin(0.7 * px.y));
   };
@@ -162,7 +165,8 @@ TEST(ImageSegmenter, SegmentsKeepTheirLabelsUnderAPan) {
     const Segmented now = follow(segmenter, imageOf(discAt(disc), 3.0, i), moved(step));
     EXPECT_EQ(now.labels(), labels) << i;
     EXPECT_EQ(now.at(disc), first.at({90.0, 140.0})) << i;
-    EXPECT_GT(now.iou(disc, [&](glm::dvec2 px) { return glm::distance(px, disc) < 40.0; }), 0.94) << i;
+    EXPECT_GT(now.iou(disc, [&](glm::dvec2 px) { return glm::distance(px, disc) < 40.0; }), 0.94)
+        << i;
   }
 }
 
@@ -258,7 +262,9 @@ hal::Image halvesAs(PixelFormat format) {
           }
           break;
         case PixelFormat::kBayerGrbg8:
-          image.row(0, y)[i] = static_cast<std::uint8_t>((x + y) % 2 == 0 ? c.g : y % 2 == 0 ? c.r : c.b);
+          image.row(0, y)[i] = static_cast<std::uint8_t>((x + y) % 2 == 0 ? c.g
+                                                         : y % 2 == 0     ? c.r
+                                                                          : c.b);
           break;
         default:
           image.row(0, y)[i] = luma(c);

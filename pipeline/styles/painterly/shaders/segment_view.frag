@@ -13,7 +13,8 @@ layout(location = 0) out vec4 colour;
 vec3 colourOf(uint label, vec3 seen) {
   float grey = dot(seen, vec3(0.299, 0.587, 0.114));
   if (label == 0u) return vec3(0.35 * grey);
-  vec3 own = vec3(unitOf(hashOf(label)), unitOf(hashOf(label ^ 0x51u)), unitOf(hashOf(label ^ 0x77u)));
+  vec3 own = vec3(unitOf(hashOf(label)), unitOf(hashOf(label ^ 0x51u)),
+                  unitOf(hashOf(label ^ 0x77u)));
   return mix(own, vec3(grey), 0.35);
 }
 
