@@ -36,8 +36,8 @@ std::vector<ThesisFigureKind> chosenFigures(const std::vector<std::string>& only
     if (std::ranges::find(names, name) == names.end()) {
       throw hal::Failure({.kind = hal::ErrorKind::kInvalidArgument,
                           .subject = "--only",
-                          .problem = config::unknownText("figure", name, names),
-                          .remedy = ""});
+                          .problem = fmt::format("there is no figure \"{}\"", name),
+                          .remedy = "give " + config::listText(names)});
     }
   }
   for (const ThesisFigureKind& kind : thesisFigures()) {
