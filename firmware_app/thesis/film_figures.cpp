@@ -103,7 +103,7 @@ Lives livesOf(ThesisBench& bench, const char* coherence) {
         for (const marks::Anchor& each : hal::orThrow(painter.anchors())) {
           if (!each.isStaying()) continue;
           all += 1.0;
-          if (double{each.ageSeconds} >= lastSeconds - 1e-3) old += 1.0;
+          if (double{each.ageSeconds()} >= lastSeconds - 1e-3) old += 1.0;
         }
         lives.oldPercent = 100.0 * old / std::max(all, 1.0);
       });

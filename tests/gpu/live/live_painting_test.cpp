@@ -139,7 +139,7 @@ TEST(LivePainter, MakesNoBrushInAFrameWhateverTheLook) {
                        .style = "painterly",
                        .tracksTags = false,
                        .expectedFormat = kFormat},
-                      {kFormat}, controls);
+                      {hal::OutputFormat{.frame = kFormat}}, controls);
   const std::uint64_t before = styles::brushesMade();
   EXPECT_GT(before, 0U);
   const hal::Image image = support::testPicture(kFormat, 1);

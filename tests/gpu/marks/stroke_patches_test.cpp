@@ -238,7 +238,7 @@ TEST_F(StrokePatches, AJointNeedsNoAnchorsOfItsOwn) {
     for (int i = 0; i < 2; ++i) advance(picture, broad());
     int count = 0;
     for (const auto& [slot, anchor] : alive()) {
-      count += isBelt(anchor.px) && anchor.ageSeconds < 0.09F ? 1 : 0;
+      count += isBelt(anchor.px) && anchor.ageSeconds() < 0.09F ? 1 : 0;
     }
     return count;
   };
