@@ -303,7 +303,7 @@ INSTANTIATE_TEST_SUITE_P(
             "[light]\ndirection = [0, 0, 0]\n",
             "scene.toml:2: light.direction: has no length, allowed: a vector towards the light"},
         Mistake{"[lamp]\n",
-                "scene.toml:1: lamp: unknown key, allowed: camera, light, tag, plane, model"}));
+                "scene.toml:1: lamp: unknown key, allowed: camera, light, tag, plane, focus, model"}));
 
 TEST(SceneFileMistakes, NameEveryTagFamilyThereIs) {
   const std::string message = errorOf("[[tag]]\nfamily = \"36h11\"\nid = 0\nedge_m = 1\n");

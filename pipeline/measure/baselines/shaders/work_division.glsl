@@ -2,6 +2,7 @@
 //          by an invocation for all pixels of its row (ROWS), of its column (COLUMNS), or for its
 //          own pixel (PIXELS).
 // Inputs:  size: of the image, px.
+// Outputs: forEach()'s.
 // Precision: integers.
 #ifdef PIXELS
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -77,12 +77,12 @@ TEST(OutputRegistry, ChoosesTheKindByTheTarget) {
 }
 
 TEST(OutputRegistry, RefusesABareWordThatIsNoKind) {
-  for (const std::string word : {"display", "Window", "display:HDMI-A-1", "out"}) {
+  for (const std::string word : {"screen", "Window", "screen:HDMI-A-1", "out"}) {
     for (const hal::Error& error :
          {outputKindOf(word).error(), openOutput(word).error(), openFileOutput(word).error()}) {
       EXPECT_EQ(error.kind, ErrorKind::kInvalidArgument);
       EXPECT_THAT(error.message(), testing::HasSubstr("./" + word + " or " + word + "/"));
-      EXPECT_THAT(error.message(), testing::HasSubstr("window, loopback, loopback:DEVICE"));
+      EXPECT_THAT(error.message(), testing::HasSubstr("window, display, display:SOCKET, loopback, loopback:DEVICE"));
     }
   }
   EXPECT_THAT(openFileOutput("window").error().message(), testing::HasSubstr("is no file"));
@@ -97,10 +97,17 @@ TEST(OutputRegistry, ListsKindsWhoseFormsAreTheirs) {
       ASSERT_TRUE(found) << form;
       EXPECT_EQ((*found)->name, kind.name) << form;
     }
-    for (const OutputOption& option : kind.options) EXPECT_GE(option.choices.size(), 2u);
+    for (const OutputOption& option : kind.options) {
+      if (!option.choices.empty()) {
+        EXPECT_GE(option.choices.size(), 2u) << option.name;
+        continue;
+      }
+      EXPECT_TRUE(option.takes(option.initial)) << option.name;
+      EXPECT_FALSE(option.allowed.empty()) << option.name;
+    }
   }
-  EXPECT_THAT(outputWords(), testing::ElementsAre("window", "loopback", "headless"));
-  EXPECT_THAT(outputPrefixes(), testing::ElementsAre("loopback:DEVICE"));
+  EXPECT_THAT(outputWords(), testing::ElementsAre("window", "display", "loopback", "headless"));
+  EXPECT_THAT(outputPrefixes(), testing::ElementsAre("display:SOCKET", "loopback:DEVICE"));
 }
 
 TEST(OutputRegistry, GivesAKindItsOptions) {
