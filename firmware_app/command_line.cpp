@@ -114,7 +114,8 @@ int parseAndRun(int argc, const char* const* argv) {
     app.parse(argumentsReversed(argc, argv));
     if (!chosen)
       throw CLI::RequiredError(
-          "one of run, render, record, calibrate, measure, config, devices, doctor, thesis and styles");
+          "one of run, render, record, calibrate, measure, config, devices, doctor, thesis and "
+          "styles");
     return chosen();
   } catch (const CLI::ParseError& error) {
     return reportParseError(app, error);

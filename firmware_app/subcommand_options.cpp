@@ -373,8 +373,7 @@ void addThesis(CLI::App& app, ThesisOptions& options, std::function<int()>& chos
       ->check(refuseStandardOutput)
       ->type_name("DIR");
   command.add_flag("--quick", options.quick, "small and short films: a trial of the report");
-  command
-      .add_option("--only", options.only, "only these figures, by the names of their files")
+  command.add_option("--only", options.only, "only these figures, by the names of their files")
       ->delimiter(',')
       ->type_name("NAME[,NAME]");
   refuseEmptyValues(command);

@@ -29,8 +29,8 @@ struct Refresh {
 struct OutputFormat {
   FrameFormat frame;
   std::optional<Refresh> refresh;  ///< of a display; unset where there is none
-  /// By how many right angles pictures are turned clockwise, for a display that hangs so. `frame` is
-  /// their format when they have been turned.
+  /// By how many right angles pictures are turned clockwise, for a display that hangs so. `frame`
+  /// is their format when they have been turned.
   int quarterTurns = 0;
 };
 

@@ -71,8 +71,7 @@ ThesisEntry entryOf(const ThesisFigureKind& kind, ThesisBench& bench, const fs::
     const hal::Image image = imageOf(entry.figure.pictures[i].image);
     orThrow(hal::writePng(folder / entry.files.back(), image.view()));
   }
-  entry.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  entry.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   fmt::print("{:.1f} s  {}\n", entry.seconds, entry.figure.title);
   std::fflush(stdout);  // the next figure takes a while
   return entry;

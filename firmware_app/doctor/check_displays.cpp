@@ -25,8 +25,8 @@ Finding checkDisplays(const Probes& probes) {
     const bool isForbidden = problem->kind == hal::ErrorKind::kPermissionDenied;
     finding.verdict = isForbidden ? Verdict::kWrong : Verdict::kWarning;
     finding.text = fmt::format("{}: {}", plugged->target, problem->problem);
-    finding.remedy = isForbidden ? "sudo usermod -aG video $USER, then log in again"
-                                 : problem->remedy;
+    finding.remedy =
+        isForbidden ? "sudo usermod -aG video $USER, then log in again" : problem->remedy;
     return finding;
   }
   finding.verdict = Verdict::kOk;

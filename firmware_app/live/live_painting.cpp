@@ -187,9 +187,9 @@ class LivePainting {
       spdlog::warn("waiting for an output: {}", started.error().message());
       options.absence = std::move(started.error());
       opened_.at(index).reset();
-      started = hal::OutputFormat{.frame = {.pixelFormat = hal::PixelFormat::kRgba8,
-                                            .size = request.size},
-                                  .refresh = std::nullopt};
+      started = hal::OutputFormat{
+          .frame = {.pixelFormat = hal::PixelFormat::kRgba8, .size = request.size},
+          .refresh = std::nullopt};
     }
     const hal::OutputFormat format = orThrow(std::move(started));
     if (window != nullptr) window_.emplace(*window, tuning_, *job_.clock);
@@ -198,7 +198,8 @@ class LivePainting {
     if (kind.traits.isOnMainThread) stepped_.push_back(&output);
   }
 
-  std::unique_ptr<runtime::FramePainter> makePainter(const std::vector<hal::OutputFormat>& formats) {
+  std::unique_ptr<runtime::FramePainter> makePainter(
+      const std::vector<hal::OutputFormat>& formats) {
     const PainterOptions options{.pictureSize = pictureSize(),
                                  .scene = job_.scene,
                                  .style = job_.options.style,
@@ -382,8 +383,8 @@ class LivePainting {
   std::optional<runtime::LiveThreads> threads_;
   std::unique_ptr<hal::HotplugMonitor> hotplug_;  ///< notifies the supervisor
   std::atomic<bool> haveDisplaysChanged_ = false;
-  std::atomic<bool> isPipelineMade_ = false;      ///< outputs and paint stage exist
-  std::unique_ptr<StatusServer> server_;          ///< reads the pipeline's status
+  std::atomic<bool> isPipelineMade_ = false;  ///< outputs and paint stage exist
+  std::unique_ptr<StatusServer> server_;      ///< reads the pipeline's status
 
   hal::TimePoint waitingSince_;  ///< set before the status server starts
   hal::TimePoint began_;

@@ -110,8 +110,8 @@ FieldComparison compareField(const gpu::ShaderLibrary& library, const hal::Image
   const std::vector<glm::dvec2> baseline = measure::radialBasisTensors(
       gradients, threshold, sigmaPx, measure::RadialBasis::kEq12, middles);
   found.globalMs = global.ms();
-  found.holesPercent = holesOf(measure::radialBasisTensors(
-      gradients, threshold, sigmaPx, measure::RadialBasis::kEq11, middles));
+  found.holesPercent = holesOf(measure::radialBasisTensors(gradients, threshold, sigmaPx,
+                                                           measure::RadialBasis::kEq11, middles));
   const Stopwatch means;
   const std::vector<glm::dvec2> pyramidOfMeans =
       measure::meanPyramidTensors(gradients, kRegionPixels, threshold);

@@ -11,10 +11,10 @@ namespace pleinair::app {
 /// The painter's tensor field of an image, beside the thesis's alternatives: global radial-basis
 /// interpolation (eq. 11, 12), and the pyramid of 2×2 means (§6.1.2).
 struct FieldComparison {
-  hal::FrameSize regions;              ///< of 8×8 px
-  std::vector<double> apartRad;        ///< from eq. 12, region by region
-  std::vector<double> meansApartRad;   ///< of the pyramid of 2×2 means from eq. 12
-  std::vector<bool> hasEdges;          ///< whether the region has its own edge pixels
+  hal::FrameSize regions;             ///< of 8×8 px
+  std::vector<double> apartRad;       ///< from eq. 12, region by region
+  std::vector<double> meansApartRad;  ///< of the pyramid of 2×2 means from eq. 12
+  std::vector<bool> hasEdges;         ///< whether the region has its own edge pixels
   std::size_t edgePixels = 0;
   double holesPercent = 0.0;  ///< regions where eq. 11 is below a thousandth of its largest length
   double pyramidMs = 0.0;     ///< the product, on the GPU: gradient to look-up, all levels

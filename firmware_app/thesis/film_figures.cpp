@@ -40,17 +40,19 @@ struct Lives {
 std::map<std::uint32_t, cv::Point2f> seenAnchors(const Painter& painter) {
   std::map<std::uint32_t, cv::Point2f> seen;
   for (const marks::Anchor& each : hal::orThrow(painter.anchors())) {
-    if (each.isStaying() && each.fade > 0.9F) seen.emplace(each.seed, cv::Point2f(each.px.x, each.px.y));
+    if (each.isStaying() && each.fade > 0.9F)
+      seen.emplace(each.seed, cv::Point2f(each.px.x, each.px.y));
   }
   return seen;
 }
 
 /// Anchors far from each other, within the part that all frames show.
-std::map<std::uint32_t, cv::Point2f> chosenFrom(
-    const std::map<std::uint32_t, cv::Point2f>& anchors, cv::Size size) {
+std::map<std::uint32_t, cv::Point2f> chosenFrom(const std::map<std::uint32_t, cv::Point2f>& anchors,
+                                                cv::Size size) {
   constexpr std::size_t kCircles = 14;
-  const cv::Rect2f inner(0.2F * static_cast<float>(size.width), 0.2F * static_cast<float>(size.height),
-                         0.6F * static_cast<float>(size.width), 0.6F * static_cast<float>(size.height));
+  const cv::Rect2f inner(
+      0.2F * static_cast<float>(size.width), 0.2F * static_cast<float>(size.height),
+      0.6F * static_cast<float>(size.width), 0.6F * static_cast<float>(size.height));
   std::map<std::uint32_t, cv::Point2f> chosen;
   while (chosen.size() < kCircles) {
     double farthest = 0.0;
@@ -244,8 +246,8 @@ ThesisFigure densityFigure(ThesisBench& bench) {
       "many as give the first frame's cells the same mean. Blue: our anchors, one layer with "
       "cells of 8×8 px.";
   constexpr std::size_t kSamples = 60'000;
-  const scene::Model model =
-      hal::orThrow(scene::modelOf(scene::GearboxSource{.lengthMetres = 0.5, .inputRevolutions = 0}));
+  const scene::Model model = hal::orThrow(
+      scene::modelOf(scene::GearboxSource{.lengthMetres = 0.5, .inputRevolutions = 0}));
   scene::ModelPose pose;
   scene::poseModel(model, std::nullopt, {}, pose);
   const std::vector<measure::SurfaceSample> samples =
@@ -256,13 +258,14 @@ ThesisFigure densityFigure(ThesisBench& bench) {
   std::vector<DensityView> views;
   const std::uint64_t first = bench.size().settle;
   const std::uint64_t last = first + bench.size().frames - 1;
-  bench.paint({.model = FilmModel::kGearbox,
-               .shot = hal::SyntheticShot::kDolly,
-               .parameters = {{"layers", "1"}, {"stroke_size", fmt::format("{:.4f}", strokes)}}},
-              [](std::uint64_t) { return ""; },
-              [&](std::uint64_t frame, Painter& painter) {
-                if (frame == first || frame == last) views.push_back(densityView(painter, samples));
-              });
+  bench.paint(
+      {.model = FilmModel::kGearbox,
+       .shot = hal::SyntheticShot::kDolly,
+       .parameters = {{"layers", "1"}, {"stroke_size", fmt::format("{:.4f}", strokes)}}},
+      [](std::uint64_t) { return ""; },
+      [&](std::uint64_t frame, Painter& painter) {
+        if (frame == first || frame == last) views.push_back(densityView(painter, samples));
+      });
   const cv::Scalar red(200, 20, 20);
   const cv::Scalar blue(20, 40, 200);
   const double mean = views.front().grid.count(views.front().anchors).mean;
@@ -277,18 +280,18 @@ ThesisFigure densityFigure(ThesisBench& bench) {
     const measure::CellCounts ours = view.grid.count(view.anchors);
     const std::string key = i == 0 ? "first" : "last";
     const std::string text = i == 0 ? "first frame" : "last frame";
-    figure.readings.push_back({key + "_samples_mean", text + ", area-weighted: a cell, mean",
-                               theirs.mean, ""});
-    figure.readings.push_back({key + "_samples_spread", text + ", area-weighted: spread",
-                               theirs.spread, "±"});
-    figure.readings.push_back({key + "_samples_empty", text + ", area-weighted: empty cells",
-                               100.0 * theirs.empty, "%"});
-    figure.readings.push_back({key + "_anchors_mean", text + ", anchors: a cell, mean", ours.mean,
-                               ""});
-    figure.readings.push_back({key + "_anchors_spread", text + ", anchors: spread", ours.spread,
-                               "±"});
-    figure.readings.push_back({key + "_anchors_empty", text + ", anchors: empty cells",
-                               100.0 * ours.empty, "%"});
+    figure.readings.push_back(
+        {key + "_samples_mean", text + ", area-weighted: a cell, mean", theirs.mean, ""});
+    figure.readings.push_back(
+        {key + "_samples_spread", text + ", area-weighted: spread", theirs.spread, "±"});
+    figure.readings.push_back(
+        {key + "_samples_empty", text + ", area-weighted: empty cells", 100.0 * theirs.empty, "%"});
+    figure.readings.push_back(
+        {key + "_anchors_mean", text + ", anchors: a cell, mean", ours.mean, ""});
+    figure.readings.push_back(
+        {key + "_anchors_spread", text + ", anchors: spread", ours.spread, "±"});
+    figure.readings.push_back(
+        {key + "_anchors_empty", text + ", anchors: empty cells", 100.0 * ours.empty, "%"});
   }
   figure.pictures = {{"Left: area-weighted. Right: anchors. Above the first frame, below the last",
                       inColumn(rows)}};
@@ -332,8 +335,8 @@ ThesisFigure stagesFigure(ThesisBench& bench) {
       const std::string text = fmt::format("{}: {}", size, kNames.at(i));
       if (row.total > 0.0) chart.emplace_back(text + ", thesis", row.thesis.at(i));
       chart.emplace_back(text + ", ours", times.stages.at(i));
-      figure.readings.push_back({fmt::format("{}_{}", row.size.width, i), text,
-                                 times.stages.at(i), "ms"});
+      figure.readings.push_back(
+          {fmt::format("{}_{}", row.size.width, i), text, times.stages.at(i), "ms"});
     }
     if (row.total > 0.0) chart.emplace_back(size + ": whole, thesis", row.total);
     chart.emplace_back(size + ": whole, ours", times.whole);
@@ -390,17 +393,19 @@ ThesisFigure divisionsFigure(ThesisBench& bench) {
   figure.pictures = {{fmt::format("On {}", context.info().renderer), bars(chart, "ms")}};
   figure.readings.push_back(
       {"largest_difference", "largest difference of any of them from the processor's", apart, ""});
-  figure.readings.push_back({"painter_ms", "the painter's field: gradients and all levels",
-                             found.pyramidMs, "ms"});
+  figure.readings.push_back(
+      {"painter_ms", "the painter's field: gradients and all levels", found.pyramidMs, "ms"});
   figure.readings.push_back({"means_edges", "2×2 means, from eq. 12, regions with edges: median",
                              angle(found.meansApartRad, true), "°"});
   figure.readings.push_back({"means_filled", "2×2 means, from eq. 12, regions without: median",
                              angle(found.meansApartRad, false), "°"});
-  figure.readings.push_back({"painter_edges", "the painter's, from eq. 12, regions with edges: "
-                                              "median",
+  figure.readings.push_back({"painter_edges",
+                             "the painter's, from eq. 12, regions with edges: "
+                             "median",
                              angle(found.apartRad, true), "°"});
-  figure.readings.push_back({"painter_filled", "the painter's, from eq. 12, regions without: "
-                                               "median",
+  figure.readings.push_back({"painter_filled",
+                             "the painter's, from eq. 12, regions without: "
+                             "median",
                              angle(found.apartRad, false), "°"});
   figure.measured = fmt::format(
       "A frame of {}x{}; medians of {} runs, waiting for the GPU, on the GPU that the program "

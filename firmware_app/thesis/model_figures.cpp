@@ -44,8 +44,8 @@ const measure::RegionSummary& onModels(const measure::Report& report) {
 void addCoherence(ThesisFigure& figure, const std::string& key, const std::string& text,
                   const measure::Report& report) {
   const measure::RegionSummary& values = onModels(report);
-  addIf(figure, key + "_nhw2", text + ": nHW2 on the model (0: carried, 1: unrelated)",
-        values.nHw2, "");
+  addIf(figure, key + "_nhw2", text + ": nHW2 on the model (0: carried, 1: unrelated)", values.nHw2,
+        "");
   addIf(figure, key + "_pop", text + ": POP on the model", values.popPercent, "%");
   addIf(figure, key + "_s10", text + ": S10 on the model, marks found ten frames later",
         values.s10Percent, "%");
@@ -56,10 +56,10 @@ void addSlip(ThesisFigure& figure, const std::string& key, const std::string& te
              const measure::Report& report) {
   if (!report.models || !report.models->anchors) return;
   const measure::ModelAnchorSummary& anchors = *report.models->anchors;
-  figure.readings.push_back({key + "_anchors", text + ": anchors that stay in sight",
-                             anchors.anchors, ""});
-  figure.readings.push_back({key + "_turnover", text + ": born or gone a frame, of these",
-                             anchors.turnoverPercent, "%"});
+  figure.readings.push_back(
+      {key + "_anchors", text + ": anchors that stay in sight", anchors.anchors, ""});
+  figure.readings.push_back(
+      {key + "_turnover", text + ": born or gone a frame, of these", anchors.turnoverPercent, "%"});
   if (anchors.slip) {
     figure.readings.push_back(
         {key + "_slip", text + ": slip a frame, median", anchors.slip->median, "px"});
@@ -146,14 +146,14 @@ ThesisFigure modelFigure(ThesisBench& bench, FilmModel model, const std::string&
                          const std::string& text) {
   ThesisFigure figure;
   const Views views = viewsOf(bench, model);
-  figure.pictures = {{"Anchors of all layers, on the model and beside it, red ones are young; four moments",
-                      sheetOf(views.anchors)},
-                     {"Skeletons in their layer's colour, a frame later", sheetOf(views.skeletons)},
-                     {"The paintings", sheetOf(views.paintings)}};
+  figure.pictures = {
+      {"Anchors of all layers, on the model and beside it, red ones are young; four moments",
+       sheetOf(views.anchors)},
+      {"Skeletons in their layer's colour, a frame later", sheetOf(views.skeletons)},
+      {"The paintings", sheetOf(views.paintings)}};
   addSlip(figure, key, text, bench.measured({.model = model}).report);
-  figure.measured =
-      howMeasured(bench) +
-      " Slip is the distance of an anchor from where its point of the surface goes.";
+  figure.measured = howMeasured(bench) +
+                    " Slip is the distance of an anchor from where its point of the surface goes.";
   return figure;
 }
 
@@ -326,8 +326,8 @@ ThesisFigure clipFigure(ThesisBench& bench) {
       bench.measured({.model = FilmModel::kTube, .parameters = {{"clip", "false"}}});
   const MeasuredFilm& on = bench.measured({.model = FilmModel::kTube});
   addComparison(figure, off, "without clipping", on, "with clipping");
-  figure.readings.push_back({"bleeding_off", "without: colours off at the outline",
-                             meanOver(off, bleedingOf), "levels"});
+  figure.readings.push_back(
+      {"bleeding_off", "without: colours off at the outline", meanOver(off, bleedingOf), "levels"});
   figure.readings.push_back(
       {"bleeding_on", "with: colours off at the outline", meanOver(on, bleedingOf), "levels"});
   const auto seam = [](const MeasuredFilm& film) {

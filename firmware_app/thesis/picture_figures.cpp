@@ -107,9 +107,8 @@ struct Warp {
 };
 std::optional<Warp> warped(std::vector<Match> matches, glm::dvec2 px) {
   constexpr double kLeastArea = 4.0;  // twice the triangle's, px²
-  std::ranges::sort(matches, {}, [&](const Match& each) {
-    return glm::distance(each.previous, px);
-  });
+  std::ranges::sort(matches, {},
+                    [&](const Match& each) { return glm::distance(each.previous, px); });
   for (std::size_t third = 2; third < std::min<std::size_t>(matches.size(), 12); ++third) {
     const Match& a = matches[0];
     const Match& b = matches[1];
@@ -168,7 +167,8 @@ cv::Mat3b warpPicture(const cv::Mat3b& first, const cv::Mat3b& second,
                       const std::vector<Match>& matches) {
   constexpr int kFactor = 5;
   const cv::Size size(std::min(96, first.cols), std::min(72, first.rows));
-  const cv::Rect part(cv::Point((first.cols - size.width) / 2, (first.rows - size.height) / 2), size);
+  const cv::Rect part(cv::Point((first.cols - size.width) / 2, (first.rows - size.height) / 2),
+                      size);
   const glm::dvec2 px(part.x + 0.5 * size.width, part.y + 0.5 * size.height);
   cv::Mat3b before = enlarged(first, part, kFactor);
   cv::Mat3b after = enlarged(second, part, kFactor);
@@ -249,7 +249,8 @@ double meanApart(const cv::Mat3b& a, const cv::Mat3b& b) {
 
 /// DEP and DET (docs/measuring.md) of one painting.
 double departureOf(const cv::Mat3b& painted, const cv::Mat3b& input) {
-  return 255.0 * std::sqrt(measure::deviation(floatOf(painted), floatOf(input)).value().value_or(0));
+  return 255.0 *
+         std::sqrt(measure::deviation(floatOf(painted), floatOf(input)).value().value_or(0));
 }
 double detailOf(const cv::Mat3b& painted, const cv::Mat3b& input) {
   const auto rms = [](const cv::Mat3b& picture) {
@@ -311,14 +312,13 @@ ThesisFigure fieldFigure(ThesisBench& bench) {
     return degreesAt(found, apart, own, part);
   };
   figure.readings = {
-      {"edges_median", "from eq. 12, regions with edges: median",
-       angle(found.apartRad, true, 0.5), "°"},
-      {"edges_95", "from eq. 12, regions with edges: 95 %", angle(found.apartRad, true, 0.95),
+      {"edges_median", "from eq. 12, regions with edges: median", angle(found.apartRad, true, 0.5),
        "°"},
-      {"filled_median", "from eq. 12, regions without: median",
-       angle(found.apartRad, false, 0.5), "°"},
-      {"holes", "regions that eq. 11 leaves without a direction (below 1/1000)",
-       found.holesPercent, "%"},
+      {"edges_95", "from eq. 12, regions with edges: 95 %", angle(found.apartRad, true, 0.95), "°"},
+      {"filled_median", "from eq. 12, regions without: median", angle(found.apartRad, false, 0.5),
+       "°"},
+      {"holes", "regions that eq. 11 leaves without a direction (below 1/1000)", found.holesPercent,
+       "%"},
       {"pyramid_ms", "our field, gradients and all levels, on the GPU in use", found.pyramidMs,
        "ms"},
       {"global_ms", "eq. 12 at the middle of each region, one core", found.globalMs, "ms"}};
@@ -358,16 +358,14 @@ ThesisFigure featureFigure(ThesisBench& bench) {
   const Matched ours = matchedBy(tracking::FeatureMethod::kLucasKanade, lumas, flow);
   const cv::Mat3b before = matrixOf(hal::Image(frames[kFrames - 2].image));
   const cv::Mat3b after = matrixOf(hal::Image(frames[kFrames - 1].image));
-  figure.pictures = {
-      {"Above: Harris corners matched by SIFT. Below: Lucas-Kanade",
-       inColumn({joined(before, after, thesis), joined(before, after, ours)})},
-      {"An anchor and its three features in both frames", warpPicture(before, after, ours.matches)}};
+  figure.pictures = {{"Above: Harris corners matched by SIFT. Below: Lucas-Kanade",
+                      inColumn({joined(before, after, thesis), joined(before, after, ours)})},
+                     {"An anchor and its three features in both frames",
+                      warpPicture(before, after, ours.matches)}};
   for (const auto& [key, name, matched] :
        {std::tuple("thesis", "Harris and SIFT", &thesis), {"ours", "Lucas-Kanade", &ours}}) {
-    const std::vector<double> errors =
-        warpErrors(matched->matches, flow, bench.size().picture);
-    figure.readings.push_back({std::string(key) + "_matches",
-                               std::string(name) + ": matches",
+    const std::vector<double> errors = warpErrors(matched->matches, flow, bench.size().picture);
+    figure.readings.push_back({std::string(key) + "_matches", std::string(name) + ": matches",
                                static_cast<double>(matched->matches.size()), ""});
     figure.readings.push_back({std::string(key) + "_right",
                                std::string(name) + ": within 1 px of the true motion",
@@ -378,8 +376,8 @@ ThesisFigure featureFigure(ThesisBench& bench) {
     figure.readings.push_back({std::string(key) + "_warp_95",
                                std::string(name) + ": error of a warped anchor, 95 %",
                                quantileOf(errors, 0.95), "px"});
-    figure.readings.push_back({std::string(key) + "_ms", std::string(name) + ": time of a frame",
-                               matched->ms, "ms"});
+    figure.readings.push_back(
+        {std::string(key) + "_ms", std::string(name) + ": time of a frame", matched->ms, "ms"});
   }
   const MeasuredFilm& film = bench.measured({.model = FilmModel::kGearbox});
   if (film.report.inside && film.report.inside->drift) {
@@ -408,10 +406,10 @@ ThesisFigure strokeFigure(ThesisBench& bench) {
   const StillPainting ours = paintedStill(bench, frame, {});
   const StillPainting skeletons = paintedStill(bench, frame, {}, "skeletons");
   const cv::Rect part = middleOf(ours.picture, {104, 80});
-  figure.pictures.push_back({"Skeletons; 4 (n + 2) quads a stroke; as few as it bends",
-                             inRow({enlarged(skeletons.picture, part, 3),
-                                    enlarged(thesis.picture, part, 3),
-                                    enlarged(ours.picture, part, 3)})});
+  figure.pictures.push_back(
+      {"Skeletons; 4 (n + 2) quads a stroke; as few as it bends",
+       inRow({enlarged(skeletons.picture, part, 3), enlarged(thesis.picture, part, 3),
+              enlarged(ours.picture, part, 3)})});
   std::vector<cv::Mat3b> brushes;
   double least = 255.0;
   for (const char* brush : {"round", "flat", "dry", "knife", "marker", "pencil"}) {
@@ -423,17 +421,16 @@ ThesisFigure strokeFigure(ThesisBench& bench) {
     }
     brushes.push_back(enlarged(painted, part, 3));
   }
-  figure.pictures.push_back(
-      {"Round, flat, dry; knife, marker, pencil",
-       inColumn({inRow({brushes[0], brushes[1], brushes[2]}),
-                 inRow({brushes[3], brushes[4], brushes[5]})})});
+  figure.pictures.push_back({"Round, flat, dry; knife, marker, pencil",
+                             inColumn({inRow({brushes[0], brushes[1], brushes[2]}),
+                                       inRow({brushes[3], brushes[4], brushes[5]})})});
   figure.readings = {
       {"quads_apart", "paintings with either number of quads differ by",
        meanApart(thesis.picture, ours.picture), "levels"},
       {"quads_thesis_ms", "a frame with the thesis's quads", thesis.ms, "ms"},
       {"quads_ours_ms", "a frame with few quads", ours.ms, "ms"},
-      {"brushes_apart", "the two most alike of the brushes shown after each other differ by",
-       least, "levels"}};
+      {"brushes_apart", "the two most alike of the brushes shown after each other differ by", least,
+       "levels"}};
   figure.measured =
       "One frame each, from an empty canvas; times include tracking and reading the picture. "
       "Differences are means over all pixels and channels.";
@@ -476,8 +473,7 @@ ThesisFigure photographFigure(ThesisBench& bench) {
       {"dep_straight", "straight strokes: the same", departureOf(baseline, input), "levels"},
       {"det_ours", "ours: detail kept (DET)", detailOf(ours.picture, input), ""},
       {"det_straight", "straight strokes: detail kept", detailOf(baseline, input), ""},
-      {"strokes_straight", "straight strokes: how many",
-       static_cast<double>(straight.strokes), ""},
+      {"strokes_straight", "straight strokes: how many", static_cast<double>(straight.strokes), ""},
       {"ms_ours", "ours: a frame, on the GPU in use", ours.ms, "ms"},
       {"ms_straight_field", "straight strokes: their field, one core", straight.fieldMs, "ms"},
       {"ms_straight_draw", "straight strokes: drawing, one core", straight.drawMs, "ms"}};
@@ -512,8 +508,8 @@ ThesisFigure blendingFigure(ThesisBench& bench) {
     set.style = set.style.with("memory", memory);
     std::vector<cv::Mat3b> skeletons;
     for (int i = 0; i < kSettle + 2; ++i) {
-      const auto noisy = std::make_shared<const hal::Image>(measure::withSensorNoise(
-          exact, kNoiseLevels, static_cast<std::uint64_t>(i)));
+      const auto noisy = std::make_shared<const hal::Image>(
+          measure::withSensorNoise(exact, kNoiseLevels, static_cast<std::uint64_t>(i)));
       hal::CapturedFrame next = frame;
       next.image = noisy->view();
       next.lease = noisy;

@@ -136,14 +136,14 @@ Painter& ThesisBench::painterOf(FilmModel model, bool isComposer) {
   std::unique_ptr<Painter>& painter = painters_[{model, isComposer}];
   if (!painter) {
     const bool hasModel = model != FilmModel::kNone;
-    painter = std::make_unique<Painter>(
-        PainterOptions{.pictureSize = size_.picture,
-                       .scene = sceneOf(model, size_),
-                       .style = isComposer ? "none" : kStyle,
-                       .tracksTags = hasModel,
-                       .expectedFormat = hal::FrameFormat{.pixelFormat = hal::PixelFormat::kRgb8,
-                                                          .size = size_.picture},
-                       .readsSurfaces = hasModel});
+    painter = std::make_unique<Painter>(PainterOptions{
+        .pictureSize = size_.picture,
+        .scene = sceneOf(model, size_),
+        .style = isComposer ? "none" : kStyle,
+        .tracksTags = hasModel,
+        .expectedFormat =
+            hal::FrameFormat{.pixelFormat = hal::PixelFormat::kRgb8, .size = size_.picture},
+        .readsSurfaces = hasModel});
   }
   return *painter;
 }
@@ -154,8 +154,7 @@ Painter& ThesisBench::plainPainter() {
 
 const MeasuredFilm& ThesisBench::measured(const FilmRequest& request) {
   if (const auto known = films_.find(request); known != films_.end()) return known->second;
-  Painter* const composer =
-      request.isImageSpace ? &painterOf(request.model, true) : nullptr;
+  Painter* const composer = request.isImageSpace ? &painterOf(request.model, true) : nullptr;
   Painter& painter = composer != nullptr ? plainPainter() : painterOf(request.model, false);
   const auto input = orThrow(measure::openWorkbench(filmOf(size_, request.shot)));
   MeasuredEngine engine(painter, parametersOf(painter, request), size_.picture,

@@ -62,9 +62,9 @@ void addDot(cv::Mat3b& picture, cv::Point2d px, const cv::Scalar& colour) {
   const cv::Rect frame(cv::Point(), picture.size());
   for (const cv::Point step : {cv::Point(0, 0), {1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
     if (!frame.contains(at + step)) continue;
-    picture(at + step) = cv::Vec3b(static_cast<std::uint8_t>(colour[0]),
-                                   static_cast<std::uint8_t>(colour[1]),
-                                   static_cast<std::uint8_t>(colour[2]));
+    picture(at + step) =
+        cv::Vec3b(static_cast<std::uint8_t>(colour[0]), static_cast<std::uint8_t>(colour[1]),
+                  static_cast<std::uint8_t>(colour[2]));
   }
 }
 
@@ -82,8 +82,7 @@ cv::Rect partAround(const cv::Mat1b& mask, cv::Size size) {
   return {cv::Point(left, top), size};
 }
 
-cv::Mat3b bars(const std::vector<std::pair<std::string, double>>& values,
-               const std::string& unit) {
+cv::Mat3b bars(const std::vector<std::pair<std::string, double>>& values, const std::string& unit) {
   constexpr int kRow = 30;
   constexpr int kText = 260;
   constexpr int kLongest = 420;
@@ -101,8 +100,7 @@ cv::Mat3b bars(const std::vector<std::pair<std::string, double>>& values,
     cv::rectangle(chart, cv::Rect(kText, top + 5, length, kRow - 10), cv::Scalar(156, 60, 38),
                   cv::FILLED);
     cv::putText(chart, fmt::format("{} {}", readingText(value), unit),
-                {kText + length + 8, top + 20}, cv::FONT_HERSHEY_SIMPLEX, 0.5, ink, 1,
-                cv::LINE_AA);
+                {kText + length + 8, top + 20}, cv::FONT_HERSHEY_SIMPLEX, 0.5, ink, 1, cv::LINE_AA);
   }
   return chart;
 }

@@ -31,8 +31,8 @@ class DeviceEvents {
   virtual void interrupt() = 0;
 };
 
-/// udev's events of the subsystems of cameras and displays. Errors: kUnsupported (built without udev), kIo (udev
-/// does not run).
+/// udev's events of the subsystems of cameras and displays. Errors: kUnsupported (built without
+/// udev), kIo (udev does not run).
 Result<std::unique_ptr<DeviceEvents>> udevEvents();
 
 /// Reports each event, for example to CameraSupervisor::devicesChanged(), from its own thread. If

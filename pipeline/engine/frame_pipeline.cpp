@@ -326,10 +326,9 @@ void FramePipeline::addSegments(const hal::ImageView& image, const tracking::Ima
                                 scene::ArFrame& composed) {
   const auto scope = timer_.measure("segment picture");
   const gpu::AspectFill fit = gpu::aspectFill(image.format.size, pictureSize_);
-  composed.measuredSegments = scene::MeasuredSegments{
-      .segments = &segmenter_.follow(image, motion),
-      .frameScale = fit.scale,
-      .frameOrigin = fit.origin};
+  composed.measuredSegments = scene::MeasuredSegments{.segments = &segmenter_.follow(image, motion),
+                                                      .frameScale = fit.scale,
+                                                      .frameOrigin = fit.origin};
 }
 
 /// Discards all that earlier frames have left, but for the estimator of image motion, which

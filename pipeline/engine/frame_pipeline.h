@@ -24,8 +24,8 @@
 #include "pipeline/tracking/image/luma.h"
 #include "pipeline/tracking/motion/canvas_motion.h"
 #include "pipeline/tracking/motion/image_motion_estimator.h"
-#include "pipeline/tracking/segments/image_segmenter.h"
 #include "pipeline/tracking/pose/tracker.h"
+#include "pipeline/tracking/segments/image_segmenter.h"
 
 namespace pleinair {
 

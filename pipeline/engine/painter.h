@@ -150,8 +150,8 @@ class Painter {
   /// memory in `format` (RGBA8, RGB8, grey, I420, NV12, YUYV; any accepted size, which the picture
   /// fills). Up to 3 output frames are in flight; while there are 3, pictures are skipped and
   /// counted. RGBA8 may be turned clockwise by right angles; `format` has the turned size. Returns
-  /// the read-back's number, which is never reused. Compiles and allocates before it returns. Throws
-  /// hal::Failure (kUnsupported if the GPU's limits or memory do not suffice, kDeviceLost).
+  /// the read-back's number, which is never reused. Compiles and allocates before it returns.
+  /// Throws hal::Failure (kUnsupported if the GPU's limits or memory do not suffice, kDeviceLost).
   int openReadback(const hal::FrameFormat& format, int quarterTurns = 0);
   /// Closes a read-back, at any time, and drops its output frames in flight; other read-backs are
   /// not affected. Precondition, here and below: it is open.

@@ -108,7 +108,7 @@ struct AnchorSet::State {
   const MotionLayers* layers = nullptr;  // of this frame; null: movers are not told apart
   const TensorField* field = nullptr;
   hal::TimePoint lastTime;
-  std::uint32_t salt = 0;  // of this frame's spawns
+  std::uint32_t salt = 0;     // of this frame's spawns
   double scaleOctaves = 0.0;  // of the image, as compared to when it began
   bool hasPast = false;
   bool hasBegunAnew = true;

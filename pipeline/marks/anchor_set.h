@@ -64,10 +64,11 @@ class AnchorSet {
   AnchorSet& operator=(AnchorSet&&) = delete;
 
   /// Advances to the next frame, for which `motion` and `layers` have been updated; without layers,
-  /// no anchor is covered. `field`, which has been updated as well, knows what models showed before:
-  /// with it, the marks of surfaces that come to sight do not fade in. The first frame, a frame after reset() and a frame after a cut start
-  /// anew, with all anchors visible at once. Preconditions: frame.full() is the constructor's size;
-  /// the style's needs include surfaces and measuredMotion.
+  /// no anchor is covered. `field`, which has been updated as well, knows what models showed
+  /// before: with it, the marks of surfaces that come to sight do not fade in. The first frame, a
+  /// frame after reset() and a frame after a cut start anew, with all anchors visible at once.
+  /// Preconditions: frame.full() is the constructor's size; the style's needs include surfaces and
+  /// measuredMotion.
   void advance(const scene::ArFrame& frame, const MotionField& motion, const AnchorHold& hold = {},
                const MotionLayers* layers = nullptr, const TensorField* field = nullptr);
   /// Whether the last advance() started anew, so that data which a style stores per slot is

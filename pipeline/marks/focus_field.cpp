@@ -10,8 +10,7 @@ namespace pleinair::marks {
 void FocusField::add(glm::vec2 px, float radiusPx, float falloffPx, float strength) {
   constexpr float kLeastFalloff = 1.0F;
   assert(count_ < kMaxPlaces);
-  places_[static_cast<int>(count_++)] =
-      glm::vec4(px, radiusPx, std::max(falloffPx, kLeastFalloff));
+  places_[static_cast<int>(count_++)] = glm::vec4(px, radiusPx, std::max(falloffPx, kLeastFalloff));
   strength_ = std::max(strength_, strength);
 }
 

@@ -111,7 +111,9 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
                paint.fineBackground != nullptr ? *paint.fineBackground : *paint.background)
       .set("paintTexel", paint.modelTexelPx)
       .texture("ids", frame.hasObjects ? *frame.ids : noIds)
-      .texture("labels", borders != nullptr ? *borders : frame.hasObjects ? *frame.forms : noIds)
+      .texture("labels", borders != nullptr ? *borders
+                         : frame.hasObjects ? *frame.forms
+                                            : noIds)
       .set("labelMask", borders != nullptr ? kBorderLabels : kFormLabels)
       .set("hasLabels", borders != nullptr || frame.hasObjects ? 1 : 0)
       .set("hasSegments", borders != nullptr ? 1 : 0)

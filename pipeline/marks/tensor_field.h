@@ -64,9 +64,9 @@ class TensorField {
   const gpu::Texture& movers() const;
   /// Like resolved(): the tensors of virtual objects. Valid if the last frame had any.
   const gpu::Texture& resolvedModels(std::size_t level) const;
-  /// R32UI: the label of the patch of a model (shaders/surface_form.glsl) that most of each region's
-  /// virtual pixels are of, with its marks of limbs and joints, 0 for none; null until a frame had
-  /// models. Valid until the next update(), like the following.
+  /// R32UI: the label of the patch of a model (shaders/surface_form.glsl) that most of each
+  /// region's virtual pixels are of, with its marks of limbs and joints, 0 for none; null until a
+  /// frame had models. Valid until the next update(), like the following.
   const gpu::Texture* patches() const;
   /// The same of the previous frame; null if that had no models or ArFrame::motion is not set, so
   /// that nobody knows where they were.

@@ -39,8 +39,8 @@ std::vector<TensorPyramidMaker::Level> TensorPyramidMaker::levelsOf(hal::FrameSi
   }
 }
 
-void TensorPyramidMaker::fill(const gpu::Texture& regions, double sigma,
-                              const gpu::Texture& filled, const TensorSegments& segments) {
+void TensorPyramidMaker::fill(const gpu::Texture& regions, double sigma, const gpu::Texture& filled,
+                              const TensorSegments& segments) {
   SegmentMap::bind(fill_.use(), segments.map, noCells_);
   fill_.texture("regions", regions)
       .image("filled", filled, gpu::ImageAccess::kWrite)

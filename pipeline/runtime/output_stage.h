@@ -55,8 +55,8 @@ struct OutputStageOptions {
 /// once a presentation event says so; until then the frame counts as waiting.
 class OutputStage {
  public:
-  /// `output` was started and answered `format`; or it is null, for OutputStageOptions::absence, and
-  /// `format` stands in for its own. Ledger and clock outlive this.
+  /// `output` was started and answered `format`; or it is null, for OutputStageOptions::absence,
+  /// and `format` stands in for its own. Ledger and clock outlive this.
   OutputStage(std::unique_ptr<hal::Output> output, hal::OutputFormat format,
               OutputStageOptions options, hal::Clock& clock, FrameLedger& ledger);
 

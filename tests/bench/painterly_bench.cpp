@@ -1,6 +1,6 @@
-// Cost of the painterly style and of hatching, in the thesis's four stages (table 1: tensor field, features and
-// matching, warping of anchors, painting), beside OpenCV's stylization of the same frames in the
-// same run. Stages are timed by fences, which makes their sum more than the whole.
+// Cost of the painterly style and of hatching, in the thesis's four stages (table 1: tensor field,
+// features and matching, warping of anchors, painting), beside OpenCV's stylization of the same
+// frames in the same run. Stages are timed by fences, which makes their sum more than the whole.
 #include <algorithm>
 #include <array>
 #include <chrono>

@@ -107,8 +107,7 @@ TEST_F(Thesis, MakesTheFiguresOfPictures) {
 }
 
 TEST_F(Thesis, MakesTheFiguresOfAnchors) {
-  const auto report =
-      whole("26,28,29_32_34_35,30_33,morphing", {26, 28, 29, 30, 32, 33, 34, 35});
+  const auto report = whole("26,28,29_32_34_35,30_33,morphing", {26, 28, 29, 30, 32, 33, 34, 35});
   EXPECT_GT(readingOf(report, "26", "old_held"), 30.0);
   EXPECT_EQ(readingOf(report, "26", "old_anew"), 0.0);
   EXPECT_LT(readingOf(report, "28", "first_anchors_spread"),
@@ -118,14 +117,12 @@ TEST_F(Thesis, MakesTheFiguresOfAnchors) {
 }
 
 TEST_F(Thesis, MakesTheFiguresOfSettings) {
-  const auto report =
-      whole("36_37,38_39,40,41,42", {36, 37, 38, 39, 40, 41, 42});
+  const auto report = whole("36_37,38_39,40,41,42", {36, 37, 38, 39, 40, 41, 42});
   EXPECT_GT(readingOf(report, "38_39", "image_space_slip"),
             10.0 * readingOf(report, "38_39", "model_space_slip"));
   EXPECT_GT(readingOf(report, "40", "weight_005_pop"),
             2.0 * readingOf(report, "40", "weight_095_pop"));
-  EXPECT_GT(readingOf(report, "41", "bleeding_off"),
-            1.05 * readingOf(report, "41", "bleeding_on"));
+  EXPECT_GT(readingOf(report, "41", "bleeding_off"), 1.05 * readingOf(report, "41", "bleeding_on"));
   EXPECT_GT(readingOf(report, "42", "fine_contrast_on"),
             1.05 * readingOf(report, "42", "fine_contrast_off"));
 }
@@ -150,10 +147,9 @@ TEST_F(Thesis, MakesSomeFiguresOnRequestAndRefusesOthers) {
 }
 
 TEST_F(Thesis, ASignalLeavesNoPage) {
-  const ProgramRun run = runProgram(
-      {"thesis", "--output", path("report"), "--quick"},
-      {.time = std::chrono::seconds(240),
-       .terminateWhenExists = path("report/figure_15_16_21_1.png")});
+  const ProgramRun run = runProgram({"thesis", "--output", path("report"), "--quick"},
+                                    {.time = std::chrono::seconds(240),
+                                     .terminateWhenExists = path("report/figure_15_16_21_1.png")});
   EXPECT_EQ(run.status, 143) << run.error;
   EXPECT_EQ(read("report/thesis.html"), "");
 }

@@ -35,8 +35,8 @@ constexpr std::size_t kPixelBytes = 4;
 
 /// Property ids are those of a kernel: one for each name, whatever the object.
 constexpr std::array<std::string_view, 14> kNames{
-    "CRTC_ID", "MODE_ID", "ACTIVE", "FB_ID",  "SRC_X",  "SRC_Y",  "SRC_W",
-    "SRC_H",   "CRTC_X",  "CRTC_Y", "CRTC_W", "CRTC_H", "type",   "EDID"};
+    "CRTC_ID", "MODE_ID", "ACTIVE", "FB_ID",  "SRC_X",  "SRC_Y", "SRC_W",
+    "SRC_H",   "CRTC_X",  "CRTC_Y", "CRTC_W", "CRTC_H", "type",  "EDID"};
 
 ObjectId idOf(std::string_view name) {
   const auto at = std::ranges::find(kNames, name);
@@ -99,7 +99,8 @@ class FakeCard final : public Card {
     if (spec_.isGone) return tl::unexpected(lost());
     CardState state;
     for (std::size_t i = 0; i < crtcs_.size(); ++i) {
-      state.crtcs.push_back({kFirstCrtc + static_cast<ObjectId>(i), properties({"MODE_ID", "ACTIVE"})});
+      state.crtcs.push_back(
+          {kFirstCrtc + static_cast<ObjectId>(i), properties({"MODE_ID", "ACTIVE"})});
     }
     for (std::size_t i = 0; i < spec_.connectors.size(); ++i) {
       const FakeConnector& from = spec_.connectors[i];
@@ -120,13 +121,13 @@ class FakeCard final : public Card {
       state.connectors.push_back(std::move(connector));
     }
     for (int i = 0; i < spec_.crtcs * spec_.planesPerCrtc; ++i) {
-      state.planes.push_back({.id = kFirstPlane + static_cast<ObjectId>(i),
-                              .isPrimary = i % spec_.planesPerCrtc == 0,
-                              .crtcs = std::uint32_t{1} << (i / spec_.planesPerCrtc),
-                              .fourccs = {hal::kXrgb8888},
-                              .properties = properties({"FB_ID", "CRTC_ID", "SRC_X", "SRC_Y",
-                                                        "SRC_W", "SRC_H", "CRTC_X", "CRTC_Y",
-                                                        "CRTC_W", "CRTC_H", "type"})});
+      state.planes.push_back(
+          {.id = kFirstPlane + static_cast<ObjectId>(i),
+           .isPrimary = i % spec_.planesPerCrtc == 0,
+           .crtcs = std::uint32_t{1} << (i / spec_.planesPerCrtc),
+           .fourccs = {hal::kXrgb8888},
+           .properties = properties({"FB_ID", "CRTC_ID", "SRC_X", "SRC_Y", "SRC_W", "SRC_H",
+                                     "CRTC_X", "CRTC_Y", "CRTC_W", "CRTC_H", "type"})});
     }
     return state;
   }

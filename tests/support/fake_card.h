@@ -42,11 +42,11 @@ struct FakeCardSpec {
 
   // To be changed meanwhile:
 
-  bool isGone = false;           ///< unplugged: every call fails
-  bool hasOtherMaster = false;   ///< commits are refused
-  int busyFlips = 0;             ///< so many of the next flips are EBUSY
-  bool losesFlips = false;       ///< flips are taken, but no event comes
-  int memorylessFlips = 0;       ///< so many of the next flips are ENOMEM
+  bool isGone = false;          ///< unplugged: every call fails
+  bool hasOtherMaster = false;  ///< commits are refused
+  int busyFlips = 0;            ///< so many of the next flips are EBUSY
+  bool losesFlips = false;      ///< flips are taken, but no event comes
+  int memorylessFlips = 0;      ///< so many of the next flips are ENOMEM
 };
 
 /// A machine with fake cards, as strict about masters, properties, sizes and pending flips as the

@@ -111,9 +111,8 @@ OutputListing listDisplays(const fs::path& folder) {
     OutputDescription output{.target = std::string(kDisplayName) + ":" + socket,
                              .formats = linesOf(each->path() / "modes")};
     if (status.empty() || status.front() != "connected") {
-      output.problem = Error{.kind = ErrorKind::kDeviceLost,
-                             .subject = socket,
-                             .problem = "no display is plugged in"};
+      output.problem = Error{
+          .kind = ErrorKind::kDeviceLost, .subject = socket, .problem = "no display is plugged in"};
     }
     listing.outputs.push_back(std::move(output));
   }

@@ -88,9 +88,7 @@ class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
   void unmap(SurfaceId surface) override {
     buffers_.at(static_cast<std::size_t>(surface)).isMapped = false;
   }
-  Buffer& of(const Surface& surface) {
-    return buffers_.at(static_cast<std::size_t>(surface.id));
-  }
+  Buffer& of(const Surface& surface) { return buffers_.at(static_cast<std::size_t>(surface.id)); }
 
   Result<void> proceed();
   Result<void> takeFlips(TimePoint now);
@@ -163,8 +161,8 @@ Result<void> DisplayOutput::takeDisplay(const OutputRequest& request) {
   for (const std::string& node : cards_.nodes()) {
     if (!name.isOn(node)) continue;
     const Result<std::shared_ptr<SharedCard>> shared = SharedCard::of(cards_, node);
-    Result<DisplayRoute> route = shared ? (*shared)->take(wish)
-                                        : Result<DisplayRoute>(tl::unexpected(shared.error()));
+    Result<DisplayRoute> route =
+        shared ? (*shared)->take(wish) : Result<DisplayRoute>(tl::unexpected(shared.error()));
     if (route) {
       shared_ = *shared;
       route_ = *std::move(route);
@@ -241,7 +239,8 @@ Result<Mode> DisplayOutput::acceptedMode() {
   if (failed == 0) return chosen;
   if (settings_.mode == "auto" && (failed == -EINVAL || failed == -ENOMEM || failed == -ENOSPC)) {
     std::vector<Mode> others = route_->connector.modes;
-    std::ranges::stable_sort(others, std::greater<>(), [](const Mode& m) { return m.size.pixels(); });
+    std::ranges::stable_sort(others, std::greater<>(),
+                             [](const Mode& m) { return m.size.pixels(); });
     for (const Mode& each : others) {
       if (each.timings == chosen.timings || each.isInterlaced) continue;
       failed = tryMode(each);
@@ -260,8 +259,8 @@ Result<void> DisplayOutput::setMode() {
   const Result<Mode> mode = acceptedMode();
   if (!mode) return tl::unexpected(mode.error());
   route_->mode = *mode;
-  const int failed = card().commit(everything(modeBlob_, buffers_.front().memory.framebuffer),
-                                   Commit::kModeset);
+  const int failed =
+      card().commit(everything(modeBlob_, buffers_.front().memory.framebuffer), Commit::kModeset);
   if (failed != 0) return tl::unexpected(failure(failed, "cannot set the mode " + mode->name));
   onScreen_ = &buffers_.front();
   onScreen_->state = State::kOnScreen;
@@ -403,7 +402,8 @@ void DisplayOutput::flipped(const FlipEvent& flip) {
 
 /// The count in 64 bits, which the kernel tells the lower 32 of.
 std::uint64_t DisplayOutput::extended(std::uint32_t sequence) {
-  const auto step = static_cast<std::uint32_t>(sequence - static_cast<std::uint32_t>(lastSequence_));
+  const auto step =
+      static_cast<std::uint32_t>(sequence - static_cast<std::uint32_t>(lastSequence_));
   lastSequence_ += step;
   return lastSequence_;
 }

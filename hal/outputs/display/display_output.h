@@ -28,8 +28,8 @@ struct DisplaySettings {
 /// (nothing is plugged in), kBusy (another program or output shows on it), kUnsupported (the card
 /// refuses the mode).
 ///
-/// Surfaces are buffers that the processor writes. Whether the display is still plugged in is looked
-/// at once a second; it is lost then, and where a flip does not take place within a second.
+/// Surfaces are buffers that the processor writes. Whether the display is still plugged in is
+/// looked at once a second; it is lost then, and where a flip does not take place within a second.
 ///
 /// finish() and destruction bring back what was shown before; where the process is killed, the
 /// kernel brings back its console.

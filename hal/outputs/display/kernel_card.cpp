@@ -48,7 +48,8 @@ std::vector<Property> propertiesOf(int card, ObjectId object, std::uint32_t type
   for (std::uint32_t i = 0; all && i < all->count_props; ++i) {
     const PropertyHandle each(drmModeGetProperty(card, all->props[i]));
     if (!each) continue;
-    properties.push_back({static_cast<const char*>(each->name), each->prop_id, all->prop_values[i]});
+    properties.push_back(
+        {static_cast<const char*>(each->name), each->prop_id, all->prop_values[i]});
   }
   return properties;
 }
@@ -84,7 +85,8 @@ std::string nameOf(const drmModeConnector& connector) {
 
 class KernelCard final : public Card {
  public:
-  KernelCard(std::string node, FileDescriptor file) : node_(std::move(node)), file_(std::move(file)) {
+  KernelCard(std::string node, FileDescriptor file)
+      : node_(std::move(node)), file_(std::move(file)) {
     const Version version(drmGetVersion(file_.get()));
     if (version) driver_ = version->name;
     std::uint64_t isMonotonic = 0;
@@ -121,7 +123,9 @@ class KernelCard final : public Card {
     const ConnectorHandle current(drmModeGetConnectorCurrent(file_.get(), connector));
     if (!current) return tl::unexpected(lost("has lost its display"));
     const std::span modes(current->modes, static_cast<std::size_t>(current->count_modes));
-    const auto isIt = [&](const drmModeModeInfo& each) { return modeOf(each).timings == mode.timings; };
+    const auto isIt = [&](const drmModeModeInfo& each) {
+      return modeOf(each).timings == mode.timings;
+    };
     return current->connection == DRM_MODE_CONNECTED && std::ranges::any_of(modes, isIt);
   }
 
@@ -144,8 +148,9 @@ class KernelCard final : public Card {
     drmModeModeInfo mode{};
     std::memcpy(&mode, before.timings.data(), sizeof(mode));
     ObjectId connector = before.connector;
-    drmModeSetCrtc(file_.get(), before.crtc, before.framebuffer, static_cast<std::uint32_t>(before.x),
-                   static_cast<std::uint32_t>(before.y), &connector, 1, &mode);
+    drmModeSetCrtc(file_.get(), before.crtc, before.framebuffer,
+                   static_cast<std::uint32_t>(before.x), static_cast<std::uint32_t>(before.y),
+                   &connector, 1, &mode);
   }
 
   bool isMaster() override { return drmIsMaster(file_.get()) != 0; }
@@ -238,7 +243,8 @@ class KernelCard final : public Card {
   }
 
   FlipEvent flipOf(const drm_event_vblank& flip) const {
-    const Duration time = std::chrono::seconds(flip.tv_sec) + std::chrono::microseconds(flip.tv_usec);
+    const Duration time =
+        std::chrono::seconds(flip.tv_sec) + std::chrono::microseconds(flip.tv_usec);
     return {.crtc = flip.crtc_id,
             .sequence = flip.sequence,
             .time = hasMonotonicTime_ ? TimePoint(time) : SteadyClock().now()};
@@ -276,8 +282,7 @@ class KernelCard final : public Card {
         .isConnected = from.connection == DRM_MODE_CONNECTED && from.count_modes > 0,
         .modes = {},
         .crtcs = 0,
-        .properties =
-            propertiesOf(file_.get(), from.connector_id, DRM_MODE_OBJECT_CONNECTOR)};
+        .properties = propertiesOf(file_.get(), from.connector_id, DRM_MODE_OBJECT_CONNECTOR)};
     for (int i = 0; i < from.count_modes; ++i) connector.modes.push_back(modeOf(from.modes[i]));
     for (int i = 0; i < from.count_encoders; ++i) {
       const EncoderHandle encoder(drmModeGetEncoder(file_.get(), from.encoders[i]));
@@ -302,8 +307,9 @@ class KernelCard final : public Card {
     const Resources resources(drmModeGetResources(file_.get()));
     for (int i = 0; resources && i < resources->count_connectors; ++i) {
       const ConnectorHandle each(drmModeGetConnectorCurrent(file_.get(), resources->connectors[i]));
-      const EncoderHandle encoder(
-          each && each->encoder_id != 0 ? drmModeGetEncoder(file_.get(), each->encoder_id) : nullptr);
+      const EncoderHandle encoder(each && each->encoder_id != 0
+                                      ? drmModeGetEncoder(file_.get(), each->encoder_id)
+                                      : nullptr);
       if (encoder && encoder->crtc_id == crtc) return each->connector_id;
     }
     return 0;

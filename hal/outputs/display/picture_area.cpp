@@ -20,9 +20,8 @@ PictureArea areaOf(FrameSize picture, FrameSize display, const Placement& placem
     size = {std::clamp(static_cast<int>(std::lround(picture.width * scale)), 1, room.width),
             std::clamp(static_cast<int>(std::lround(picture.height * scale)), 1, room.height)};
   }
-  return {.x = (display.width - size.width) / 2,
-          .y = (display.height - size.height) / 2,
-          .size = size};
+  return {
+      .x = (display.width - size.width) / 2, .y = (display.height - size.height) / 2, .size = size};
 }
 
 }  // namespace pleinair::hal::display

@@ -25,8 +25,8 @@ std::string namesOf(std::span<const Connector> connectors) {
   return names.empty() ? "none" : names;
 }
 
-/// How far a refresh is from a whole multiple of the camera's rate, relative to the camera's period;
-/// one that is slower than the camera loses frames and comes last.
+/// How far a refresh is from a whole multiple of the camera's rate, relative to the camera's
+/// period; one that is slower than the camera loses frames and comes last.
 double misfit(Duration refresh, Duration framePeriod) {
   const double refreshes = toSeconds(framePeriod) / toSeconds(refresh);
   constexpr double kSlow = 1.0;

@@ -38,16 +38,16 @@ struct InUse {
 };
 
 /// The connector by its name, or the first connected one that is free. Errors: kNotFound (no such
-/// connector: lists those there are), kDeviceLost (nothing is plugged in), kBusy (another output has
-/// it).
+/// connector: lists those there are), kDeviceLost (nothing is plugged in), kBusy (another output
+/// has it).
 Result<Connector> chooseConnector(const CardState& card, const std::string& name,
                                   std::span<const ObjectId> taken);
 
 /// Whether it is a DisplayWish::mode.
 bool isModeText(const std::string& text);
 
-/// Precondition: there are modes. Errors: kInvalidArgument (what is no mode), kNotFound (the display
-/// has no such mode: lists the sizes).
+/// Precondition: there are modes. Errors: kInvalidArgument (what is no mode), kNotFound (the
+/// display has no such mode: lists the sizes).
 Result<Mode> chooseMode(const Connector& connector, const DisplayWish& wish);
 
 /// A free CRTC for the connector, preferably the one that drives it now, and that CRTC's primary

@@ -83,8 +83,8 @@ glm::dvec2 radialBasisTensor(const TensorImage& image, double threshold, double 
   return interpolated(edgesOf(image, threshold), sigma, form, px);
 }
 
-std::vector<glm::dvec2> radialBasisTensors(const TensorImage& image, double threshold,
-                                           double sigma, RadialBasis form,
+std::vector<glm::dvec2> radialBasisTensors(const TensorImage& image, double threshold, double sigma,
+                                           RadialBasis form,
                                            const std::vector<glm::dvec2>& places) {
   const std::vector<Edge> edges = edgesOf(image, threshold);
   std::vector<glm::dvec2> tensors;

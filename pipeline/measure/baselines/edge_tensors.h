@@ -32,9 +32,8 @@ glm::dvec2 radialBasisTensor(const TensorImage& image, double threshold, double 
                              RadialBasis form, glm::dvec2 px);
 
 /// The same at many places: the edge pixels are collected once.
-std::vector<glm::dvec2> radialBasisTensors(const TensorImage& image, double threshold,
-                                           double sigma, RadialBasis form,
-                                           const std::vector<glm::dvec2>& places);
+std::vector<glm::dvec2> radialBasisTensors(const TensorImage& image, double threshold, double sigma,
+                                           RadialBasis form, const std::vector<glm::dvec2>& places);
 
 /// The middles of square regions, row by row, px; those at the right and lower border may be cut.
 std::vector<glm::dvec2> regionMiddles(hal::FrameSize size, int regionPixels);

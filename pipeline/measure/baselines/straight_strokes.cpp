@@ -55,7 +55,7 @@ double reach(const cv::Mat1f& strengths, glm::dvec2 from, glm::dvec2 way, double
 
 StraightStrokePainting paintWithStraightStrokes(const hal::Image& image,
                                                 const StraightStrokeOptions& options) {
-  constexpr int kShift = 4;  // fractional bits of OpenCV's places
+  constexpr int kShift = 4;                // fractional bits of OpenCV's places
   constexpr double kDetailOfLayers = 0.6;  // of the image's mean
   const hal::FrameSize size = image.size();
   hal::Image copy(image.view());
@@ -86,13 +86,12 @@ StraightStrokePainting paintWithStraightStrokes(const hal::Image& image,
     cv::GaussianBlur(strengths, detail, {}, 2.0 * width);
     const double least = kDetailOfLayers * cv::mean(detail)[0];
     if (layer > 0) {
-      std::erase_if(places, [&](const glm::dvec2& at) {
-        return double{detail(pixelOf(at))} < least;
-      });
+      std::erase_if(places,
+                    [&](const glm::dvec2& at) { return double{detail(pixelOf(at))} < least; });
     }
     const auto start = std::chrono::steady_clock::now();
-    const std::vector<glm::dvec2> tensors = radialBasisTensors(
-        gradients, threshold, options.sigmaPx, RadialBasis::kEq12, places);
+    const std::vector<glm::dvec2> tensors =
+        radialBasisTensors(gradients, threshold, options.sigmaPx, RadialBasis::kEq12, places);
     painted.fieldMs += msSince(start);
 
     const auto drawing = std::chrono::steady_clock::now();
@@ -104,8 +103,7 @@ StraightStrokePainting paintWithStraightStrokes(const hal::Image& image,
       const double edge = options.edgePart * strongest;
       const glm::dvec2 from = places[i] - reach(strengths, places[i], -way, most, edge) * way;
       const glm::dvec2 to = places[i] + reach(strengths, places[i], way, most, edge) * way;
-      const cv::Vec3b colour =
-          colours(pixelOf(places[i]));
+      const cv::Vec3b colour = colours(pixelOf(places[i]));
       const auto fixed = [&](glm::dvec2 px) {
         return cv::Point(static_cast<int>(std::lround(px.x * (1 << kShift))),
                          static_cast<int>(std::lround(px.y * (1 << kShift))));

@@ -116,10 +116,9 @@ std::vector<WorkDivision> timeWorkDivisions(const gpu::ShaderLibrary& library,
         }
         mean.dispatch(invocations(way, half), GL_SHADER_STORAGE_BARRIER_BIT);
       };
-      WorkDivision each{
-          .name = std::string(way.text) + (isTexture ? ", texture" : ", buffer"),
-          .gradientMs = medianMs(runs, makeTensors),
-          .levelMs = medianMs(runs, makeLevel)};
+      WorkDivision each{.name = std::string(way.text) + (isTexture ? ", texture" : ", buffer"),
+                        .gradientMs = medianMs(runs, makeTensors),
+                        .levelMs = medianMs(runs, makeLevel)};
       std::vector<float> read(two.size());
       glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
       if (made.read(std::as_writable_bytes(std::span(read)))) {
@@ -138,9 +137,9 @@ std::vector<WorkDivision> timeWorkDivisions(const gpu::ShaderLibrary& library,
           for (std::size_t part = 0; part < 2; ++part) {
             const double mean2x2 = 0.25 * (belowAt(x, y, part) + belowAt(x + 1, y, part) +
                                            belowAt(x, y + 1, part) + belowAt(x + 1, y + 1, part));
-            each.apart = std::max(
-                each.apart,
-                std::abs(double{means[2 * static_cast<std::size_t>(i) + part]} - mean2x2));
+            each.apart =
+                std::max(each.apart,
+                         std::abs(double{means[2 * static_cast<std::size_t>(i) + part]} - mean2x2));
           }
         }
       }

@@ -18,8 +18,8 @@ struct WorkDivision {
 };
 
 /// Times the six ways on an image (RGB8), `runs` times each, waiting for the GPU. `library` has
-/// gpu::baselinesShaders() and gpu::gpuShaders(). On the thread of a GL context; throws hal::Failure
-/// if GPU memory runs out.
+/// gpu::baselinesShaders() and gpu::gpuShaders(). On the thread of a GL context; throws
+/// hal::Failure if GPU memory runs out.
 std::vector<WorkDivision> timeWorkDivisions(const gpu::ShaderLibrary& library,
                                             const hal::Image& image, int runs);
 

@@ -30,7 +30,8 @@ Mesh rolled(std::uint32_t rows, const std::function<MeshVertex(double, double)>&
   Mesh mesh;
   for (std::uint32_t row = 0; row <= rows; ++row) {
     for (std::uint32_t i = 0; i <= kAround; ++i) {
-      mesh.vertices.push_back(vertexAt(kTurn * (i % kAround) / kAround, static_cast<double>(row) / rows));
+      mesh.vertices.push_back(
+          vertexAt(kTurn * (i % kAround) / kAround, static_cast<double>(row) / rows));
     }
   }
   const auto at = [](std::uint32_t row, std::uint32_t i) { return row * (kAround + 1) + i; };
@@ -179,8 +180,7 @@ Model ballModel(const BallParameters& parameters) {
        {std::function<glm::dvec3(const glm::dvec3&)>(lobes), {squeezed}}) {
     std::vector<glm::dvec3> places;
     for (const MeshVertex& vertex : mesh.vertices) {
-      places.push_back(centre +
-                       radius * shape((glm::dvec3(vertex.position) - centre) / radius));
+      places.push_back(centre + radius * shape((glm::dvec3(vertex.position) - centre) / radius));
     }
     const std::vector<glm::vec3> normals = normalsOf(mesh, places);
     MorphTarget target;

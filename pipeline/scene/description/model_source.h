@@ -33,7 +33,8 @@ struct FileSource {
 };
 
 /// Source of a model. Equal sources give equal models.
-using ModelSource = std::variant<BoxSource, GearSource, GearboxSource, TubeSource, BallSource, FileSource>;
+using ModelSource =
+    std::variant<BoxSource, GearSource, GearboxSource, TubeSource, BallSource, FileSource>;
 
 /// Loads or makes the model. Errors: those of readGltf(), for files only. Preconditions: faultOf()
 /// a gear is nothing; a gearbox has numbers of teeth in range.

@@ -49,8 +49,8 @@ struct ScenePlane {
 
 /// A place that styles paint finely, and the rest broadly: a ball.
 struct SceneFocus {
-  std::optional<int> tagId;           ///< the tag it is attached to; nothing: the world
-  glm::dvec3 attachFromCentre{0.0};   ///< metres
+  std::optional<int> tagId;          ///< the tag it is attached to; nothing: the world
+  glm::dvec3 attachFromCentre{0.0};  ///< metres
   double radiusMetres = 0.0;
   double falloffMetres = 0.0;  ///< beyond the radius, over which it fades out
   double strength = 1.0;       ///< in [0, 1]: how much more broadly the rest is painted

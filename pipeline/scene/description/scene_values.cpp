@@ -152,12 +152,11 @@ std::optional<glm::vec3> readColour(const config::TomlTable& table, std::string_
 
 ModelSource readSource(const config::TomlTable& table, const std::filesystem::path& directory) {
   enum class Kind { kBox, kGear, kGearbox, kTube, kBall };
-  static constexpr std::array<config::Choice<Kind>, 5> kKinds{
-      {{"builtin:box", Kind::kBox},
-       {"builtin:gear", Kind::kGear},
-       {"builtin:gearbox", Kind::kGearbox},
-       {"builtin:tube", Kind::kTube},
-       {"builtin:ball", Kind::kBall}}};
+  static constexpr std::array<config::Choice<Kind>, 5> kKinds{{{"builtin:box", Kind::kBox},
+                                                               {"builtin:gear", Kind::kGear},
+                                                               {"builtin:gearbox", Kind::kGearbox},
+                                                               {"builtin:tube", Kind::kTube},
+                                                               {"builtin:ball", Kind::kBall}}};
   const std::string name = table.string("source");
   if (isModelFile(name)) return FileSource{directory / name};
   const auto kind = std::ranges::find(kKinds, name, &config::Choice<Kind>::name);

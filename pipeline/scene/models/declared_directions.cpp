@@ -92,9 +92,9 @@ std::vector<glm::vec3> declaredDirections(const Model& model, const ModelPart& p
   if (declared.source == StrokeDirection::Source::kTangents) {
     for (std::size_t i = 0; i < found.size(); ++i) {
       const auto& corners = mesh.triangles[i];
-      found[i] = meanOf(
-          {mesh.tangents[corners[0]], mesh.tangents[corners[1]], mesh.tangents[corners[2]]},
-          placesOf(mesh, corners));
+      found[i] =
+          meanOf({mesh.tangents[corners[0]], mesh.tangents[corners[1]], mesh.tangents[corners[2]]},
+                 placesOf(mesh, corners));
     }
   } else if (declared.source == StrokeDirection::Source::kAxis) {
     ModelPose rest;

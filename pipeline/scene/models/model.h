@@ -86,7 +86,7 @@ struct Model {
   std::vector<SurfaceBounds> bounds;  ///< per surface; set by numberParts()
   Rig rig;                            ///< empty unless something moves that does not turn by itself
   StrokeDirection strokeDirection;
-  std::vector<std::string> notices;   ///< one line for each thing in its file that is not shown
+  std::vector<std::string> notices;  ///< one line for each thing in its file that is not shown
 
   /// Triangles drawn: a surface counts once for each part that shows it.
   std::uint32_t triangleCount() const;

@@ -34,8 +34,8 @@ struct TriangleForm {
 std::vector<TriangleForm> formsOf(const Mesh& mesh, std::span<const std::size_t> limbs = {});
 
 /// For each joint of a skin the limb that it belongs to; 0: the trunk. Limbs are long chains of
-/// joints that leave the trunk where it branches; what branches off a limb, like fingers, is part of
-/// it. A joint below a node that is no joint begins a trunk of its own.
+/// joints that leave the trunk where it branches; what branches off a limb, like fingers, is part
+/// of it. A joint below a node that is no joint begins a trunk of its own.
 std::vector<std::size_t> limbsOf(const Rig& rig, const Skin& skin);
 
 }  // namespace pleinair::scene

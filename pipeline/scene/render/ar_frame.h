@@ -111,9 +111,9 @@ struct ArFrame {
   const gpu::Texture* barycentrics = nullptr;
   /// Null unless asked for. R32UI: like ids, with the number of the part (Model::parts).
   const gpu::Texture* parts = nullptr;
-  /// Null unless asked for. R32UI: what a painter needs of models' form (shaders/surface_form.glsl):
-  /// a label that changes where one thing ends and another begins, and the direction in which the
-  /// surface bends least. 0 where there is no object.
+  /// Null unless asked for. R32UI: what a painter needs of models' form
+  /// (shaders/surface_form.glsl): a label that changes where one thing ends and another begins, and
+  /// the direction in which the surface bends least. 0 where there is no object.
   const gpu::Texture* forms = nullptr;
   /// Set if asked for and if there is a previous frame since the last reset.
   std::optional<SurfaceMotion> motion;

@@ -105,14 +105,14 @@ class ArFrameRenderer {
   SceneBodies bodies_;
   std::optional<SurfacePass> surfacePass_;  // only if there are bodies
   gpu::Program background_;
-  std::optional<ContactShadow> shadow_;             // only if a model may cast a shadow
-  std::array<SurfacePrograms, 2> surfacePrograms_;  // per Shading
-  gpu::Program occluder_;                           // only if a model is one
-  gpu::Texture white_;                              // for materials without a texture
-  std::vector<std::size_t> visible_;                // models of this frame
-  std::vector<Lighting> lights_;                    // per model, in the camera's frame
-  std::vector<std::uint32_t> objects_;              // ids of all models
-  std::optional<tracking::CameraModel> camera_;     // for ArFrame::surfaces
+  std::optional<ContactShadow> shadow_;              // only if a model may cast a shadow
+  std::array<SurfacePrograms, 2> surfacePrograms_;   // per Shading
+  gpu::Program occluder_;                            // only if a model is one
+  gpu::Texture white_;                               // for materials without a texture
+  std::vector<std::size_t> visible_;                 // models of this frame
+  std::vector<Lighting> lights_;                     // per model, in the camera's frame
+  std::vector<std::uint32_t> objects_;               // ids of all models
+  std::optional<tracking::CameraModel> camera_;      // for ArFrame::surfaces
   std::vector<std::optional<FocusPlace>> lastFoci_;  // of all foci; nothing: never seen
   std::vector<FocusPlace> foci_;                     // for ArFrame::foci
   Shading shading_ = Shading::kToon;

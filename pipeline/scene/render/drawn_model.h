@@ -77,7 +77,7 @@ struct DrawnModel {
   std::vector<RestVertex> rest;
   std::vector<VertexAttributes> attributes;  ///< one per element of `rest`
   std::vector<DrawnTriangle> triangles;
-  std::vector<DrawnForm> forms;  ///< one per triangle
+  std::vector<DrawnForm> forms;        ///< one per triangle
   std::vector<std::uint32_t> indices;  ///< of all batches
   std::vector<DrawBatch> batches;
   std::vector<PoseRange> ranges;  ///< cover each vertex once

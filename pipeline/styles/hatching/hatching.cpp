@@ -327,8 +327,7 @@ void Hatching::State::findContours(const scene::ArFrame& frame, const HatchingPa
       .set("threshold", static_cast<float>(p.contourThreshold))
       .set("sign_", p.inverted ? 1.0F : -1.0F);
   if (frame.hasObjects) {
-    pass.texture("ids", *frame.ids)
-        .texture("normalFocus", *frame.normalFocus);
+    pass.texture("ids", *frame.ids).texture("normalFocus", *frame.normalFocus);
   }
   pass.drawFullscreen(canvas->contoursTarget);
 }
@@ -433,7 +432,8 @@ void Hatching::warmUp() {
   grey.upload(zeros, std::size_t{16} * 4);
   Texture ids(TextureFormat::kR32ui, kSize);
   ids.upload(zeros, std::size_t{16} * 4);
-  scene::ArFrame frame{.colour = &grey, .ids = &ids, .normalFocus = &grey, .barycentrics = &ids, .forms = &ids};
+  scene::ArFrame frame{
+      .colour = &grey, .ids = &ids, .normalFocus = &grey, .barycentrics = &ids, .forms = &ids};
   paint(frame, kViews.front().name);
   for (const bool hasMore : {true, false}) {
     p_.movers = hasMore;

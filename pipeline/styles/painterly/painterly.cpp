@@ -361,9 +361,9 @@ void Painterly::State::showFeatures(const scene::ArFrame& frame) {
       places[count++] = glm::vec4(inFull(each.previous), inFull(each.current));
     }
   }
-  features.upload({reinterpret_cast<const std::uint8_t*>(places.data()),
-                   places.size() * sizeof(glm::vec4)},
-                  places.size() * sizeof(glm::vec4));
+  features.upload(
+      {reinterpret_cast<const std::uint8_t*>(places.data()), places.size() * sizeof(glm::vec4)},
+      places.size() * sizeof(glm::vec4));
   featureView.use()
       .texture("picture", *frame.colour)
       .texture("features", features)
@@ -466,7 +466,8 @@ void Painterly::warmUp() {
   grey.upload(zeros, std::size_t{16} * 4);
   Texture ids(TextureFormat::kR32ui, kSize);
   ids.upload(zeros, std::size_t{16} * 4);
-  scene::ArFrame frame{.colour = &grey, .ids = &ids, .normalFocus = &grey, .barycentrics = &ids, .forms = &ids};
+  scene::ArFrame frame{
+      .colour = &grey, .ids = &ids, .normalFocus = &grey, .barycentrics = &ids, .forms = &ids};
   for (const DebugViewInfo& view : painterlyViews()) paint(frame, view.name);
   for (const StrokeBump bump : {StrokeBump::kEach, StrokeBump::kOnce}) {
     p_.bump = bump;

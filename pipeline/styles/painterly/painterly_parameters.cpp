@@ -108,14 +108,16 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
                       "How warm all paint is; below 0: cold."),
       numberParameter("coherence", &P::coherence, kPart,
                       "How strokes hold on to their past: 0 redraws each frame, 1 never lets go."),
-      numberParameter("memory", &P::memorySeconds, {.min = 0, .max = 10, .unit = "s"},
-                      "The time constant with which colours, shapes and directions of strokes follow "
-                      "the frames, at coherence 0.5: 0.65 is the thesis's weight of 0.95 on the past "
-                      "at 30 frames a second, 0.0111 its weight of 0.05 (figure 40)."),
+      numberParameter(
+          "memory", &P::memorySeconds, {.min = 0, .max = 10, .unit = "s"},
+          "The time constant with which colours, shapes and directions of strokes follow "
+          "the frames, at coherence 0.5: 0.65 is the thesis's weight of 0.95 on the past "
+          "at 30 frames a second, 0.0111 its weight of 0.05 (figure 40)."),
       choiceParameter("walk", &P::walk, kWalks,
                       "Which way strokes grow from their anchors; ahead only is the thesis's."),
-      choiceParameter("bump", &P::bump, kBumps,
-                      "The paint's relief is lit once, or, as the thesis does, on each stroke, or not."),
+      choiceParameter(
+          "bump", &P::bump, kBumps,
+          "The paint's relief is lit once, or, as the thesis does, on each stroke, or not."),
       choiceParameter("quads", &P::quads, kQuadCounts,
                       "What strokes are drawn of: as few as they bend, or the thesis's 4 (n + 2)."),
       switchParameter("warp", &P::warp,
@@ -129,9 +131,10 @@ const config::ParameterTable<PainterlyParameters>& painterlyParameters() {
                       "Whether what moves by itself is told from the background."),
       switchParameter("segments", &P::segments,
                       "Whether strokes end at the borders of the camera image's segments."),
-      switchParameter("clip", &P::clip,
-                      "Whether strokes and their colours end where models, their patches and movers "
-                      "do (thesis §5.5, figure 41)."),
+      switchParameter(
+          "clip", &P::clip,
+          "Whether strokes and their colours end where models, their patches and movers "
+          "do (thesis §5.5, figure 41)."),
       switchParameter("model_space", &P::modelSpace,
                       "Whether models carry the strokes that are on them; off, they are painted as "
                       "part of the camera's image, whose motion is not theirs."),

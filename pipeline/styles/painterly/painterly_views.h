@@ -16,12 +16,12 @@ std::span<const DebugViewInfo> painterlyViews();
 /// The program that shows a view. It gets the view's number, which its shader compares with
 /// `VIEW_NAME` (viewDefines()).
 enum class PainterlyViewer {
-  kField,    ///< shaders/field_view.frag
-  kStrokes,  ///< shaders/stroke_view.frag, over a pale picture
-  kMovers,   ///< shaders/mover_view.frag
+  kField,     ///< shaders/field_view.frag
+  kStrokes,   ///< shaders/stroke_view.frag, over a pale picture
+  kMovers,    ///< shaders/mover_view.frag
   kSegments,  ///< shaders/segment_view.frag
   kFeatures,  ///< shaders/feature_view.frag
-  kHeight,   ///< shaders/height_view.frag, once the strokes are painted
+  kHeight,    ///< shaders/height_view.frag, once the strokes are painted
 };
 PainterlyViewer viewerOf(std::size_t viewIndex);
 

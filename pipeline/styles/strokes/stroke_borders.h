@@ -19,9 +19,9 @@ class StrokeBorders {
   /// `library` has gpu::strokesShaders(), marksShaders() and sceneShaders().
   explicit StrokeBorders(const gpu::ShaderLibrary& library);
 
-  /// Draws the borders of a frame; without `movers` and `segments` there are none of these. `target`
-  /// has one R32UI texture of the frame's size; `before`: the previous frame's, to hold borders of
-  /// segments to while the camera stands.
+  /// Draws the borders of a frame; without `movers` and `segments` there are none of these.
+  /// `target` has one R32UI texture of the frame's size; `before`: the previous frame's, to hold
+  /// borders of segments to while the camera stands.
   void draw(const scene::ArFrame& frame, const marks::MotionLayers* movers,
             const gpu::RenderTarget& target, const marks::SegmentMap* segments = nullptr,
             const gpu::Texture* before = nullptr);

@@ -39,8 +39,8 @@ class StripDrawing {
 /// height together. All calls on the thread of the GL context it was made in.
 class StrokeDrawing {
  public:
-  /// `library` has gpu::strokesShaders() and gpu::marksShaders(). `views` are the style's; show() shows those named layers, skeletons and
-  /// anchors, without which show() must not be called.
+  /// `library` has gpu::strokesShaders() and gpu::marksShaders(). `views` are the style's; show()
+  /// shows those named layers, skeletons and anchors, without which show() must not be called.
   explicit StrokeDrawing(const gpu::ShaderLibrary& library,
                          std::span<const DebugViewInfo> views = {});
 

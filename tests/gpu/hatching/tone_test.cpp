@@ -96,7 +96,8 @@ class HatchTone : public HatchingTest, public testing::WithParamInterface<std::s
   }
 };
 INSTANTIATE_TEST_SUITE_P(Looks, HatchTone,
-                         testing::Values("pen", "pencil", "engraving", "blueprint", "chalk", "crayon"));
+                         testing::Values("pen", "pencil", "engraving", "blueprint", "chalk",
+                                         "crayon"));
 
 constexpr double kSigma = 6.0;
 

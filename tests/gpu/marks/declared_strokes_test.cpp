@@ -139,8 +139,7 @@ class DeclaredStrokes : public TensorFieldFixture {
         if (!along) continue;
         const double across = *along + 0.5 * std::numbers::pi;
         const glm::dvec2 truth(std::cos(2.0 * across), std::sin(2.0 * across));
-        errors.push_back(
-            degrees(oracles::angleBetween(found[placeOf(x, y)].tensor, truth)));
+        errors.push_back(degrees(oracles::angleBetween(found[placeOf(x, y)].tensor, truth)));
       }
     }
     std::ranges::sort(errors);
@@ -152,8 +151,7 @@ constexpr double kMostOff = 3.0;  // degrees
 
 TEST_F(DeclaredStrokes, TheFieldFollowsAnAxisWhereCurvatureSaysOtherwise) {
   const glm::dvec3 axis = glm::normalize(glm::dvec3(1.0, 1.0, 0.3));
-  const StrokeDirection declared{.source = StrokeDirection::Source::kAxis,
-                                 .axis = glm::vec3(axis)};
+  const StrokeDirection declared{.source = StrokeDirection::Source::kAxis, .axis = glm::vec3(axis)};
   const std::vector<double> on = errorsOf(tube(), declared, axis);
   ASSERT_GT(on.size(), 10U);
   EXPECT_LT(on.back(), kMostOff);
@@ -164,8 +162,7 @@ TEST_F(DeclaredStrokes, TheFieldFollowsAnAxisWhereCurvatureSaysOtherwise) {
 TEST_F(DeclaredStrokes, AFlatBoxHasADirectionOnceDeclared) {
   const scene::Model box = scene::singlePartModel("box", scene::boxMesh({0.2, 0.12, 0.08}));
   const glm::dvec3 axis = glm::normalize(glm::dvec3(0.3, 1.0, 0.0));
-  const StrokeDirection declared{.source = StrokeDirection::Source::kAxis,
-                                 .axis = glm::vec3(axis)};
+  const StrokeDirection declared{.source = StrokeDirection::Source::kAxis, .axis = glm::vec3(axis)};
   const std::vector<double> on = errorsOf(box, declared, axis);
   ASSERT_GT(on.size(), 10U);
   EXPECT_LT(on[on.size() * 9 / 10], kMostOff);  // at an edge of the box, two sides meet
@@ -176,8 +173,7 @@ TEST_F(DeclaredStrokes, AFlatBoxHasADirectionOnceDeclared) {
 /// A skin carries the direction along.
 TEST_F(DeclaredStrokes, TheFieldFollowsAPosedModel) {
   const glm::dvec3 axis = glm::normalize(glm::dvec3(1.0, 1.0, 0.3));
-  const StrokeDirection declared{.source = StrokeDirection::Source::kAxis,
-                                 .axis = glm::vec3(axis)};
+  const StrokeDirection declared{.source = StrokeDirection::Source::kAxis, .axis = glm::vec3(axis)};
   const hal::Duration bent = std::chrono::milliseconds(500);
   const std::vector<double> on = errorsOf(scene::bendingArm(), declared, axis, bent);
   ASSERT_GT(on.size(), 5U);

@@ -40,8 +40,8 @@ class StrokesOfAClip : public StrokeTest {
   };
   struct Verdict {
     int lives = 0;
-    int pairs = 0;       // of strokes that were born on one triangle
-    int ended = 0;       // strokes of the first frame that are not there at the end
+    int pairs = 0;             // of strokes that were born on one triangle
+    int ended = 0;             // strokes of the first frame that are not there at the end
     double wrongColour = 0.0;  // the share of strokes
     double wrongLength = 0.0;
     double apart = 0.0;  // the share of pairs that are unlike each other though they were alike
@@ -79,10 +79,10 @@ class StrokesOfAClip : public StrokeTest {
     std::map<std::size_t, Life> lives;
     int began = 0;
     for (int i = 0; i <= frames; ++i) {
-      scene::ArFrame frame = renderer.compose(
-          picture, camera(), {.cameraFromWorld = cameraFromModel}, ++sequence_,
-          hal::TimePoint(i * whole / frames),
-          {.surfaces = true, .shading = scene::Shading::kSmooth});
+      scene::ArFrame frame =
+          renderer.compose(picture, camera(), {.cameraFromWorld = cameraFromModel}, ++sequence_,
+                           hal::TimePoint(i * whole / frames),
+                           {.surfaces = true, .shading = scene::Shading::kSmooth});
       motion_ = standing();
       motion_.frameSize = kSize;
       motion_.sinceSequence = sequence_ - 1;
@@ -112,15 +112,14 @@ class StrokesOfAClip : public StrokeTest {
                                          glm::ivec2(kSize.width - 1, kSize.height - 1));
         const std::uint32_t surface = ids[static_cast<std::size_t>(px.y * kSize.width + px.x)];
         if (i == 0 && surface == 0U) continue;
-        Life life = i == 0 ? Life{.first = stroke, .surface = surface, .seed = anchor.seed}
-                           : known->second;
+        Life life =
+            i == 0 ? Life{.first = stroke, .surface = surface, .seed = anchor.seed} : known->second;
         life.last = stroke;
         const float length = stroke.lengths.x + stroke.lengths.y;
         life.longest = std::max(life.longest, length);
         life.shortest = std::min(life.shortest, length);
-        life.colourChange =
-            std::max(life.colourChange,
-                     glm::distance(hueOf(stroke.colour), hueOf(life.first.colour)));
+        life.colourChange = std::max(life.colourChange,
+                                     glm::distance(hueOf(stroke.colour), hueOf(life.first.colour)));
         still.emplace(slot, life);
       }
       lives = std::move(still);
@@ -193,8 +192,7 @@ TEST_F(StrokesOfAClip, AreThoseOfTheirTriangle) {
   scene::Model arm = scene::bendingArm();
   for (scene::MeshVertex& vertex : arm.surfaces[0].mesh.vertices) {
     const bool isRed = std::fmod(std::round((vertex.position.x + 0.12F) / 0.06F), 2.0F) < 0.5F;
-    vertex.colour =
-        isRed ? glm::vec4(0.5F, 0.15F, 0.1F, 1.0F) : glm::vec4(0.1F, 0.25F, 0.5F, 1.0F);
+    vertex.colour = isRed ? glm::vec4(0.5F, 0.15F, 0.1F, 1.0F) : glm::vec4(0.1F, 0.25F, 0.5F, 1.0F);
   }
   const glm::dmat4 before = glm::translate(glm::dmat4(1.0), {0.05, -0.05, 0.36});
   expectKept(std::make_shared<const scene::Model>(std::move(arm)), 0, before, 30);

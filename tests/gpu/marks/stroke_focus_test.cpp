@@ -111,8 +111,7 @@ TEST_F(StrokeFocus, MovesWithoutBirthsAndComesBackToTheSameStrokes) {
   const auto moves = [&](float from, float to) {
     Slots last = wanted();
     for (int i = 1; i <= 32; ++i) {
-      const Slots now =
-          wantedAfter(focusAt(from + (to - from) * static_cast<float>(i) / 32.0F), 1);
+      const Slots now = wantedAfter(focusAt(from + (to - from) * static_cast<float>(i) / 32.0F), 1);
       const std::size_t changed = last.size() + now.size() - 2 * common(last, now);
       EXPECT_LT(static_cast<double>(changed), 0.25 * static_cast<double>(last.size())) << i;
       last = now;

@@ -163,7 +163,8 @@ TEST_F(StrokeLife, ThePastTurnsWithWhatItIsOn) {
     const glm::vec2 expected(std::cos(angle), std::sin(angle));
     for (const auto& [slot, anchor] : alive()) {
       // Who was born on the way has no past.
-      if (anchor.ageSeconds() < 0.25F || glm::distance(anchor.px, {128.0F, 64.0F}) > 40.0F) continue;
+      if (anchor.ageSeconds() < 0.25F || glm::distance(anchor.px, {128.0F, 64.0F}) > 40.0F)
+        continue;
       const StrokeSlot stroke = readStrokes()[slot];
       EXPECT_LT(angleBetween(stroke.ahead[0], expected), 0.02) << along;
       EXPECT_LT(angleBetween(stroke.behind[0], expected), 0.02) << along;

@@ -104,8 +104,7 @@ TEST_F(StrokePatches, ABeltIsPaintedByItself) {
   EXPECT_EQ(across(), 0);
   int onBelt = 0;
   for (const StrokeTips& each : tips(broad().segmentPx)) {
-    const float away =
-        std::min(std::abs(each.anchor.y - top_), std::abs(each.anchor.y - bottom_));
+    const float away = std::min(std::abs(each.anchor.y - top_), std::abs(each.anchor.y - bottom_));
     if (away < 1.0F || away > kMixedPx - 2.0F) continue;
     const bool isOn = isBelt(each.anchor);
     onBelt += isOn ? 1 : 0;
@@ -158,7 +157,8 @@ TEST_F(StrokePatches, EachPatchOfACellHasAnAnchor) {
   const std::vector<std::size_t> born = onBelt();
   std::set<int> cells;
   for (const auto& [slot, anchor] : alive()) {
-    if (anchor.isStaying() && isBelt(anchor.px)) cells.insert(static_cast<int>(anchor.px.x / 12.0F));
+    if (anchor.isStaying() && isBelt(anchor.px))
+      cells.insert(static_cast<int>(anchor.px.x / 12.0F));
   }
   EXPECT_FALSE(cells.empty());
   for (int cell = 0; cell < 22; ++cell) {
@@ -201,9 +201,8 @@ TEST_F(StrokePatches, StrokesGoOnOverAJointAndNotOverAStep) {
       greyPicture(kSize, [](glm::dvec2 px) { return 0.5 + 0.3 * std::sin(0.9 * px.y); });
   const auto acrossEdge = [&](std::uint32_t marks, float step) {
     beginAnew();
-    usePatches([=](glm::vec2 px) {
-      return px.x < kEdge ? kBody | (marks & kAtJoint) : kBelt | marks;
-    });
+    usePatches(
+        [=](glm::vec2 px) { return px.x < kEdge ? kBody | (marks & kAtJoint) : kBelt | marks; });
     useDepth([=](glm::vec2 px) { return 1.0F + 0.002F * px.x + (px.x < kEdge ? 0.0F : step); });
     advance(picture, broad());
     int count = 0;

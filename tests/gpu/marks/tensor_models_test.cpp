@@ -220,7 +220,8 @@ TEST_F(TensorModels, FormLeadsWhereThePictureDoesNot) {
     const std::vector<FieldTexel> found = read(field_->resolvedModels(0));
     double worst = 0.0;
     for (const glm::ivec2 at : {glm::ivec2(14, 6), {16, 8}, {17, 9}, {15, 7}}) {
-      worst = std::max(worst, degrees(oracles::angleBetween(found[placeOf(at.x, at.y)].tensor, truth)));
+      worst =
+          std::max(worst, degrees(oracles::angleBetween(found[placeOf(at.x, at.y)].tensor, truth)));
     }
     field_->reset();
     return worst;

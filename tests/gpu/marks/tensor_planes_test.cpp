@@ -35,9 +35,9 @@ class TensorPlanes : public TensorFieldFixture {
     return glm::rotate(glm::translate(glm::dmat4(1.0), {0.0, 0.0, 0.5}), angle, {0.0, 0.0, 1.0});
   }
   static glm::dmat4 tilted(double angle) {
-    return glm::rotate(glm::rotate(glm::translate(glm::dmat4(1.0), {0.0, 0.0, 0.5}), angle,
-                                   {0.0, 1.0, 0.2}),
-                       3.1415926535 / 4.0, {0.0, 0.0, 1.0});
+    return glm::rotate(
+        glm::rotate(glm::translate(glm::dmat4(1.0), {0.0, 0.0, 0.5}), angle, {0.0, 1.0, 0.2}),
+        3.1415926535 / 4.0, {0.0, 0.0, 1.0});
   }
 
   /// The place on the plate, metres; nothing beside it.

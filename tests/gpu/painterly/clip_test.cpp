@@ -113,8 +113,8 @@ TEST_F(ClipTest, BordersAreTheOracles) {
   EXPECT_GT(others, 100);
 }
 
-/// Where trunk and limb meet, strokes of both fade out beyond the border; where the limb lies before
-/// the trunk, they are clipped.
+/// Where trunk and limb meet, strokes of both fade out beyond the border; where the limb lies
+/// before the trunk, they are clipped.
 TEST_F(ClipTest, AJointIsOpenUnlessDepthStepsThere) {
   constexpr hal::FrameSize kSmall{64, 9};
   constexpr int kEdge = 32;
@@ -130,8 +130,7 @@ TEST_F(ClipTest, AJointIsOpenUnlessDepthStepsThere) {
       for (int x = 0; x < kSmall.width; ++x) {
         const bool isLimb = x >= kEdge;
         forms.push_back((isLimb ? 2U | kOnLimb : 1U) | marks);
-        const float metres =
-            1.0F + 0.004F * static_cast<float>(x) - (isLimb ? step : 0.0F);
+        const float metres = 1.0F + 0.004F * static_cast<float>(x) - (isLimb ? step : 0.0F);
         windows.push_back((kFar - kNear * kFar / metres) / (kFar - kNear));
       }
     }
@@ -174,7 +173,9 @@ TEST_F(ClipTest, AJointIsOpenUnlessDepthStepsThere) {
     for (int x = 0; x < kSmall.width; ++x) {
       const std::uint32_t border = closed[static_cast<std::size_t>(x)];
       EXPECT_EQ(border & kOpen, 0U) << x << " step " << step;
-      EXPECT_EQ((border >> kLabelBits & kLabelMask) != (border & kLabelMask), x == kEdge || x == kEdge - 1) << x;
+      EXPECT_EQ((border >> kLabelBits & kLabelMask) != (border & kLabelMask),
+                x == kEdge || x == kEdge - 1)
+          << x;
     }
   }
 }

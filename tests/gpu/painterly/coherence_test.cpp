@@ -118,8 +118,9 @@ class Coherence : public PainterlyTest {
 
 /// When the picture turns dark, α of the past is left after each frame of 1/30 s.
 TEST_F(Coherence, ColoursAreBlendedAsTheThesisDoes) {
-  for (const auto& [parameter, value, weight] :
-       {std::tuple("coherence", "0.5", 0.95), {"history", "false", 0.0}, {"memory", "0.0111", 0.05}}) {
+  for (const auto& [parameter, value, weight] : {std::tuple("coherence", "0.5", 0.95),
+                                                 {"history", "false", 0.0},
+                                                 {"memory", "0.0111", 0.05}}) {
     restart();
     Painterly style(library_);
     style.setParameters(style.parameters().with(parameter, value));

@@ -112,8 +112,7 @@ class SegmentsTest : public PainterlyTest {
       for (gpu::Texture& each : borders_) each = {gpu::TextureFormat::kR32ui, kSize};
     }
     now_ = 1 - now_;
-    gpu::Program program =
-        library_.fragmentPass("pipeline/styles/strokes/shaders/borders.frag");
+    gpu::Program program = library_.fragmentPass("pipeline/styles/strokes/shaders/borders.frag");
     marks::SegmentMap::bind(program.use(), &map_, borders_[0]);
     program.texture("forms", borders_.at(1 - now_))
         .texture("movers", layerTextures_->labelsOf(nullptr))

@@ -259,20 +259,22 @@ Model declaring(Model model) {
                            .axis = glm::normalize(glm::vec3(1.0F, 1.0F, 0.5F))};
   return model;
 }
-Model declaringArm() { return declaring(bendingArm()); }
-Model declaringBall() { return declaring(breathingBall()); }
+Model declaringArm() {
+  return declaring(bendingArm());
+}
+Model declaringBall() {
+  return declaring(breathingBall());
+}
 
-INSTANTIATE_TEST_SUITE_P(Models, SurfaceBuffers,
-                         testing::Values(Case{"Static", staticBox, {}},
-                                         Case{"StaticThroughALens", staticBox, kBarrel},
-                                         Case{"Turning", turningGears, {}},
-                                         Case{"Rigid", swingingBoxes, {}},
-                                         Case{"Skinned", bendingArm, {}},
-                                         Case{"SkinnedThroughALens", bendingArm, kBarrel},
-                                         Case{"Morphed", breathingBall, {}},
-                                         Case{"SkinnedDeclared", declaringArm, {}},
-                                         Case{"MorphedDeclared", declaringBall, {}}),
-                         [](const auto& instance) { return instance.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Models, SurfaceBuffers,
+    testing::Values(Case{"Static", staticBox, {}}, Case{"StaticThroughALens", staticBox, kBarrel},
+                    Case{"Turning", turningGears, {}}, Case{"Rigid", swingingBoxes, {}},
+                    Case{"Skinned", bendingArm, {}},
+                    Case{"SkinnedThroughALens", bendingArm, kBarrel},
+                    Case{"Morphed", breathingBall, {}}, Case{"SkinnedDeclared", declaringArm, {}},
+                    Case{"MorphedDeclared", declaringBall, {}}),
+    [](const auto& instance) { return instance.param.name; });
 
 class SteadyState : public SceneGlTest {};
 

@@ -40,8 +40,8 @@ AnchorStage::AnchorStage(std::shared_ptr<const scene::Model> model, DensityRule 
   anchors_.emplace(library_, kSize, AnchorOptions{.density = rule});
 }
 
-void AnchorStage::advance(const glm::dmat4& cameraFromModel,
-                          const glm::dmat3& currentFromPrevious, const AnchorHold& hold) {
+void AnchorStage::advance(const glm::dmat4& cameraFromModel, const glm::dmat3& currentFromPrevious,
+                          const AnchorHold& hold) {
   tracking::ImageMotion motion;
   motion.frameSize = kSize;
   motion.sinceSequence = sequence_;

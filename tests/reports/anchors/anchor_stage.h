@@ -11,9 +11,9 @@
 
 #include "hal/image.h"
 #include "pipeline/marks/anchor_set.h"
-#include "pipeline/scene/render/ar_frame_renderer.h"
 #include "pipeline/measure/baselines/area_sampling.h"
 #include "pipeline/measure/baselines/cell_counts.h"
+#include "pipeline/scene/render/ar_frame_renderer.h"
 
 namespace pleinair::marks {
 
@@ -37,7 +37,8 @@ class AnchorStage {
 
   /// The next frame: the model is placed so, the picture moved so.
   void advance(const glm::dmat4& cameraFromModel,
-               const glm::dmat3& currentFromPrevious = glm::dmat3(1.0), const AnchorHold& hold = {});
+               const glm::dmat3& currentFromPrevious = glm::dmat3(1.0),
+               const AnchorHold& hold = {});
 
   std::vector<Anchor> anchors() const { return anchors_->read(); }
   /// The places of the staying anchors on the model; without a model, of all.

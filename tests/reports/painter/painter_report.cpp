@@ -72,8 +72,8 @@ void compareFields(const std::filesystem::path& folder,
         "| {} | {}x{} | {} | {:.1f} / {:.1f} | {:.1f} / {:.1f} | {:.1f} ms | {:.1f} ms | "
         "{:.0f} ms |\n",
         path.stem().string(), image.size().width, image.size().height, found.edgePixels,
-        angle(true, 0.5), angle(true, 0.95), angle(false, 0.5), angle(false, 0.95),
-        found.pyramidMs, found.meansMs, found.globalMs);
+        angle(true, 0.5), angle(true, 0.95), angle(false, 0.5), angle(false, 0.95), found.pyramidMs,
+        found.meansMs, found.globalMs);
     std::fflush(stdout);
     const hal::Image map = app::errorMap(found, image);
     hal::orThrow(hal::writePng(folder / (path.stem().string() + "_field_error.png"), map.view()));

@@ -54,7 +54,8 @@ TEST_F(OutputTargets, AreRefusedWhereAWordIsNoKindOfOutput) {
     EXPECT_THAT(refusal, HasSubstr("site.toml:2: output.targets: found \"" + name + "\"")) << name;
   }
   const std::string refusal = refusalOf("targets = [\"screen\"]");
-  EXPECT_THAT(refusal, HasSubstr("window, display, loopback, headless, display:SOCKET, loopback:DEVICE"));
+  EXPECT_THAT(refusal,
+              HasSubstr("window, display, loopback, headless, display:SOCKET, loopback:DEVICE"));
   EXPECT_THAT(refusal, HasSubstr("./NAME or NAME/"));
   EXPECT_THAT(refusalOf("targets = [\"windw\"]"), HasSubstr("did you mean \"window\"?"));
   for (const std::string list : {"[]", "\"window\"", "[1]", "[\"window\", [\"a.mp4\"]]"}) {

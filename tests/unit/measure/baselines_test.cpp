@@ -48,12 +48,11 @@ TEST(EdgeTensors, AllInterpolationsFollowTheRim) {
   const TensorImage gradients = gradientTensors(disc().view());
   const double threshold = edgePercentile(gradients, 0.995) / 3.0;
   const std::vector<glm::dvec2> middles = regionMiddles(kSize, 8);
-  const auto tensors =
-      radialBasisTensors(gradients, threshold, 8.0, RadialBasis::kEq12, middles);
+  const auto tensors = radialBasisTensors(gradients, threshold, 8.0, RadialBasis::kEq12, middles);
   ASSERT_EQ(tensors.size(), 20U * 15U);
   EXPECT_LT(fromRadial(tensors), 6.0);
-  EXPECT_EQ(tensors[40], radialBasisTensor(gradients, threshold, 8.0, RadialBasis::kEq12,
-                                           middles[40]));
+  EXPECT_EQ(tensors[40],
+            radialBasisTensor(gradients, threshold, 8.0, RadialBasis::kEq12, middles[40]));
   EXPECT_LT(fromRadial(meanPyramidTensors(gradients, 8, threshold)), 12.0);
   EXPECT_GT(fromRadial(std::vector<glm::dvec2>(tensors.size(), {1.0, 0.0})), 30.0)
       << "the measure can fail";

@@ -73,9 +73,9 @@ class OutputStageTest : public testing::Test {
       output.reset();
       options.absence = format.error();
     }
-    stage_ = std::make_unique<OutputStage>(
-        std::move(output), format.value_or(hal::OutputFormat{.frame = kFormat}),
-        std::move(options), clock_, ledger_);
+    stage_ = std::make_unique<OutputStage>(std::move(output),
+                                           format.value_or(hal::OutputFormat{.frame = kFormat}),
+                                           std::move(options), clock_, ledger_);
   }
   /// Submits so many frames, all on time.
   void run(int frames) {

@@ -31,8 +31,8 @@ double apart(const Mesh& a, const Mesh& b, std::size_t vertex) {
 }
 
 double lowest(const Mesh& mesh) {
-  const auto low = std::ranges::min_element(
-      mesh.vertices, {}, [](const MeshVertex& each) { return each.position.z; });
+  const auto low = std::ranges::min_element(mesh.vertices, {},
+                                            [](const MeshVertex& each) { return each.position.z; });
   return low->position.z;
 }
 
@@ -57,8 +57,8 @@ TEST(MovingModels, TheTubeStandsAndSways) {
   const Model model = tubeModel({.lengthMetres = kLength});
   expectSound(model);
   const double radius = 0.15 * kLength;
-  const double volume = std::numbers::pi * radius * radius *
-                        ((kLength - radius) + 2.0 / 3.0 * radius);
+  const double volume =
+      std::numbers::pi * radius * radius * ((kLength - radius) + 2.0 / 3.0 * radius);
   EXPECT_NEAR(volumeOf(model.surfaces.front().mesh), volume, 0.02 * volume);
   for (const JointWeights& each : model.surfaces.front().mesh.joints) {
     EXPECT_NEAR(each.weights[0] + each.weights[1], 1.0F, 1e-6F);

@@ -258,10 +258,11 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kTag + "[[tag]]\nfamily = \"tag25h9\"\nid = 1\nedge_m = 1\n",
                 "scene.toml:6: tag[1].family: found \"tag25h9\", allowed: one family a scene, and "
                 "tag[0] has \"tag36h11\""},
-        Mistake{kTag + "[[model]]\nsource = \"builtin:gera\"\nattach = \"tag:0\"\n",
-                "scene.toml:6: model[0].source: found \"builtin:gera\", allowed: "
-                "builtin:box, builtin:gear, builtin:gearbox, builtin:tube, builtin:ball, or a .glb or "
-                ".gltf file"},
+        Mistake{
+            kTag + "[[model]]\nsource = \"builtin:gera\"\nattach = \"tag:0\"\n",
+            "scene.toml:6: model[0].source: found \"builtin:gera\", allowed: "
+            "builtin:box, builtin:gear, builtin:gearbox, builtin:tube, builtin:ball, or a .glb or "
+            ".gltf file"},
         Mistake{kTag + "[[model]]\nsource = \"builtin:box\"\nattach = \"tag:1\"\n",
                 "scene.toml:7: model[0].attach: found \"tag:1\", allowed: \"world\", \"tag:0\""},
         Mistake{"[[model]]\nsource = \"builtin:box\"\nattach = \"tag:1\"\n",
@@ -302,8 +303,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{
             "[light]\ndirection = [0, 0, 0]\n",
             "scene.toml:2: light.direction: has no length, allowed: a vector towards the light"},
-        Mistake{"[lamp]\n",
-                "scene.toml:1: lamp: unknown key, allowed: camera, light, tag, plane, focus, model"}));
+        Mistake{
+            "[lamp]\n",
+            "scene.toml:1: lamp: unknown key, allowed: camera, light, tag, plane, focus, model"}));
 
 TEST(SceneFileMistakes, NameEveryTagFamilyThereIs) {
   const std::string message = errorOf("[[tag]]\nfamily = \"36h11\"\nid = 0\nedge_m = 1\n");

@@ -97,13 +97,13 @@ TEST_F(StrokeDirections, RefusesWhatIsNone) {
 }
 
 TEST_F(StrokeDirections, ModelsOfOneSourceAndDirectionAreShared) {
-  const Scene scene = sceneWith(
-      "builtin:box",
-      "stroke_direction = [0, 0, 2]\n"
-      "[[model]]\nname = \"b\"\nattach = \"tag:0\"\nsource = \"builtin:box\"\n"
-      "stroke_direction = [0, 0, 1]\n"
-      "[[model]]\nname = \"c\"\nattach = \"tag:0\"\nsource = \"builtin:box\"\n"
-      "stroke_direction = \"curvature\"\n");
+  const Scene scene =
+      sceneWith("builtin:box",
+                "stroke_direction = [0, 0, 2]\n"
+                "[[model]]\nname = \"b\"\nattach = \"tag:0\"\nsource = \"builtin:box\"\n"
+                "stroke_direction = [0, 0, 1]\n"
+                "[[model]]\nname = \"c\"\nattach = \"tag:0\"\nsource = \"builtin:box\"\n"
+                "stroke_direction = \"curvature\"\n");
   EXPECT_EQ(scene.models[0].model, scene.models[1].model);
   EXPECT_NE(scene.models[0].model, scene.models[2].model);
   EXPECT_EQ(scene.models[2].model->strokeDirection.source, Source::kCurvature);

@@ -138,10 +138,9 @@ TEST(CheckDisplays, WarnsWithoutADisplay) {
 
 TEST(CheckDisplays, SaysWhoHasTheDisplay) {
   HealthyMachine machine;
-  machine.displayProblem =
-      hal::Error{.kind = hal::ErrorKind::kBusy,
-                 .problem = "another program shows pictures there: Xorg (712)",
-                 .remedy = "end it"};
+  machine.displayProblem = hal::Error{.kind = hal::ErrorKind::kBusy,
+                                      .problem = "another program shows pictures there: Xorg (712)",
+                                      .remedy = "end it"};
   const Finding finding = checkDisplays(machine.probes());
   EXPECT_EQ(finding.verdict, Verdict::kWarning);
   EXPECT_THAT(finding.text, HasSubstr("Xorg (712)"));

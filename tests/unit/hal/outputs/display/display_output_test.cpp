@@ -122,8 +122,7 @@ TEST_F(DisplayTest, PicturesLieBetweenBlackBars) {
 
 TEST_F(DisplayTest, ATurnedDisplayWantsUprightPicturesTurned) {
   plug({.connectors = {{.modes = {{.size = {480, 640}}}}}});
-  const Result<OutputFormat> format =
-      start("display", {.placement = {.quarterTurns = 1}});
+  const Result<OutputFormat> format = start("display", {.placement = {.quarterTurns = 1}});
   EXPECT_EQ(format->frame.size, (FrameSize{480, 640}));
   EXPECT_EQ(format->quarterTurns, 1);
 }
@@ -274,9 +273,9 @@ TEST_F(DisplayTest, ABusyCardDropsNothing) {
     ASSERT_TRUE(showAndWait().has_value());
   }
   EXPECT_EQ(events_.size(), 20u);
-  EXPECT_EQ(std::ranges::count(events_, PresentationEvent::Result::kShown,
-                               &PresentationEvent::result),
-            20);
+  EXPECT_EQ(
+      std::ranges::count(events_, PresentationEvent::Result::kShown, &PresentationEvent::result),
+      20);
 }
 
 TEST_F(DisplayTest, AFlipWithoutMemoryIsSkipped) {

@@ -111,9 +111,11 @@ TEST_F(Route, GoesThroughTheCrtcThatDrivesTheSocketAlready) {
   EXPECT_EQ(routeTo(state, first, first.modes.front(), {})->crtcIndex, 0u);
 }
 TEST_F(Route, GoesThroughAFreeCrtcAndItsPlane) {
-  const CardState state = stateOf({.connectors = {{}, {.name = "DP-1", .crtcs = 0b110}}, .crtcs = 3});
+  const CardState state =
+      stateOf({.connectors = {{}, {.name = "DP-1", .crtcs = 0b110}}, .crtcs = 3});
   const Connector& second = state.connectors.back();
-  const auto route = routeTo(state, second, second.modes.front(), {.crtcs = 0b011, .planes = 0b011});
+  const auto route =
+      routeTo(state, second, second.modes.front(), {.crtcs = 0b011, .planes = 0b011});
   ASSERT_TRUE(route.has_value());
   EXPECT_EQ(route->crtcIndex, 2u);
   EXPECT_EQ(route->planeIndex, 2u);
