@@ -14,12 +14,13 @@ constexpr hal::Duration kMaxReopenDelay = std::chrono::seconds(5);
 /// More surfaces than any display lends.
 constexpr std::size_t kMaxSurfaces = 16;
 
-/// A surface is submitted half a refresh before its due time, so that the display flips it at that
-/// refresh; only then it counts as shown in time.
+/// A surface is filled a refresh before its due time: the copy into a display's memory may take
+/// milliseconds, and the display, which holds it until half a refresh before, flips it at that one.
+/// Only then it counts as shown in time.
 PresentationRules rulesOf(hal::Output* output, const hal::OutputFormat& format,
                           PresentationRules rules) {
   if (output == nullptr || output->surfaces() == nullptr) return rules;
-  rules.lead = format.refresh ? format.refresh->period / 2 : hal::Duration{0};
+  rules.lead = format.refresh ? format.refresh->period : hal::Duration{0};
   rules.tolerance = hal::Duration{0};
   return rules;
 }

@@ -208,6 +208,7 @@ std::vector<Change> DisplayOutput::everything(ObjectId modeBlob, ObjectId frameb
   add(crtc.id, crtc.properties, "ACTIVE", 1);
   add(plane.id, plane.properties, "FB_ID", framebuffer);
   add(plane.id, plane.properties, "CRTC_ID", crtc.id);
+  add(plane.id, plane.properties, "rotation", 1);  // none, whatever another program left
   add(plane.id, plane.properties, "SRC_X", 0);
   add(plane.id, plane.properties, "SRC_Y", 0);
   // In 1/65536 px.
