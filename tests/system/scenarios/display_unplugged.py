@@ -3,14 +3,14 @@ beside it goes on, and the picture is back."""
 import live
 import screens
 
-DEVICES = ("pcie-root-port,id=root1,chassis=1", "virtio-gpu-pci,id=card,bus=root1,max_outputs=1")
+DEVICES = ("virtio-gpu-pci,id=card,max_outputs=1",)
 CONNECTOR = "/sys/class/drm/card0-Virtual-1/status"
 
 
 def run(guest):
     live.load_drivers(guest)
     live.control(guest, osd_text_mode=2)
-    guest.run("modprobe pciehp 2>/dev/null; until [ -e /dev/dri/card0 ]; do sleep 0.1; done; udevadm settle")
+    guest.run("until [ -e /dev/dri/card0 ]; do sleep 0.1; done; udevadm settle")
     program = guest.start(
         f"env GALLIVM_PERF=nopt ./pleinair run --camera v4l2:{live.CAMERA} --style none "
         f"--size 160x90 --output display --set output.display.mode=640x480 "
@@ -28,13 +28,14 @@ def run(guest):
     watched.wait_until(lambda s: shown_on(display(s)) > shown + 3, "the picture again")
     print("switched off and on: the loopback went on, the picture is back")
 
-    guest.qemu("device_del", id="card")
+    # QEMU does not unplug such a card; the kernel can be told to let go of it.
+    guest.run("echo 1 >/sys/class/drm/card0/device/remove")
     watched.wait_until(lambda s: display(s)["state"] != "taking", "the loss of the card")
     guest.wait_for(lambda: guest.run("ls /dev/dri/card0", check=False).status != 0, "the card's end")
     before = shown_on(loopback(watched.status()))
     watched.wait_until(lambda s: shown_on(loopback(s)) > before + 5, "more on the loopback")
-    guest.qemu("device_add", driver="virtio-gpu-pci", id="card", bus="root1", max_outputs=1)
     shown = shown_on(display(watched.status()))
+    guest.run("echo 1 >/sys/bus/pci/rescan")
     watched.wait_until(lambda s: shown_on(display(s)) > shown + 3, "the picture again", seconds=60)
     picture = screens.read_ppm(guest.screenshot("back", "card"))
     assert max(picture.mean(0.2, 0.4, 0.4, 0.6)) > 30, "the display is black"
