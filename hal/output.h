@@ -25,6 +25,14 @@ struct Refresh {
   friend bool operator==(const Refresh&, const Refresh&) = default;
 };
 
+/// The first of the refreshes `phase` ± n · `period` at or after `time`. Precondition: a period
+/// above zero.
+constexpr TimePoint refreshAtOrAfter(TimePoint time, TimePoint phase, Duration period) {
+  Duration past = (time - phase) % period;
+  if (past < Duration::zero()) past += period;
+  return past == Duration::zero() ? time : time + (period - past);
+}
+
 /// The format that an output takes. The pipeline scales and converts to it (pipeline/present).
 struct OutputFormat {
   FrameFormat frame;

@@ -29,7 +29,7 @@ struct OutputOption {
   std::string name;
   std::string help;
   std::vector<std::string> choices;  ///< the first is the default; empty: it is a text
-  // Of a text:
+  // The members below describe a text.
   std::string initial;                        ///< the default
   std::string allowed;                        ///< for messages: "auto, or 1920x1080"
   bool (*takes)(std::string_view) = nullptr;  ///< whether it may be that

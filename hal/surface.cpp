@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include <poll.h>
 #include <unistd.h>
 
 namespace pleinair::hal {
@@ -29,6 +30,12 @@ Error refusal(ErrorKind kind, std::string problem) {
 }
 
 }  // namespace
+
+bool Fence::hasSignalled() const {
+  if (syncFile_ < 0) return true;
+  pollfd file{.fd = syncFile_, .events = POLLIN, .revents = 0};
+  return ::poll(&file, 1, 0) == 1;
+}
 
 Fence::~Fence() {
   if (syncFile_ >= 0) ::close(syncFile_);

@@ -65,6 +65,8 @@ class Fence {
 
   /// −1: signalled.
   int syncFile() const { return syncFile_; }
+  /// Never waits.
+  bool hasSignalled() const;
 
  private:
   int syncFile_ = -1;

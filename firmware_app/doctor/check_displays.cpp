@@ -17,7 +17,7 @@ Finding checkDisplays(const Probes& probes) {
   const auto plugged = std::ranges::find_if(
       listing.outputs, [](const hal::OutputDescription& each) { return !each.problem; });
   if (plugged == listing.outputs.end()) {
-    finding.text = fmt::format("none of {} sockets has a display", listing.outputs.size());
+    finding.text = fmt::format("none of {} connectors has a display", listing.outputs.size());
     finding.remedy = "plug one in and switch it on";
     return finding;
   }

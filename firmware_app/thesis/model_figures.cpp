@@ -22,7 +22,7 @@ using measure::Subject;
 const cv::Size kCrop(120, 90);
 constexpr int kCropFactor = 4;
 
-/// What follows from measuring a film: the same sentence for all.
+/// The sentence that says how the figures of a film were measured.
 std::string howMeasured(const ThesisBench& bench) {
   return fmt::format(
       "Over {} frames at {}x{} of a film whose true motion is known: the hand-held camera's, and "

@@ -10,9 +10,7 @@ hal::TimePoint dueTime(hal::TimePoint captured, hal::Duration latency,
   const hal::TimePoint earliest = captured + latency;
   if (!refresh || !refresh->phase) return earliest;
   assert(refresh->period > hal::Duration::zero());
-  hal::Duration past = (earliest - *refresh->phase) % refresh->period;
-  if (past < hal::Duration::zero()) past += refresh->period;
-  return past == hal::Duration::zero() ? earliest : earliest + (refresh->period - past);
+  return hal::refreshAtOrAfter(earliest, *refresh->phase, refresh->period);
 }
 
 PresentationQueue::PresentationQueue(PresentationRules rules, std::size_t capacity)

@@ -22,8 +22,8 @@ using hal::display::Commit;
 using hal::display::FlipEvent;
 using hal::display::ObjectId;
 using hal::display::Property;
+using hal::display::SavedCrtc;
 using hal::display::ScanOutBuffer;
-using hal::display::ShownBefore;
 
 namespace {
 
@@ -132,24 +132,24 @@ class FakeCard final : public Card {
     return state;
   }
 
-  hal::Answer stillHas(ObjectId connector, const hal::display::Mode& mode) override {
+  hal::Answer isStillConnected(ObjectId connector, const hal::display::Mode& mode) override {
     if (spec_.isGone) return tl::unexpected(lost());
     const FakeConnector& at = spec_.connectors.at(connector - kFirstConnector);
     const auto isIt = [&](const FakeMode& each) { return modeOf(each).timings == mode.timings; };
     return at.isConnected && std::ranges::any_of(at.modes, isIt);
   }
 
-  std::optional<ShownBefore> shownNow(ObjectId crtc) override {
+  std::optional<SavedCrtc> saveCrtc(ObjectId crtc) override {
     const Crtc& of = crtcs_.at(crtc - kFirstCrtc);
     if (!of.isActive || of.framebuffer == 0) return std::nullopt;
-    return ShownBefore{.crtc = crtc,
-                       .framebuffer = of.framebuffer,
-                       .x = 0,
-                       .y = 0,
-                       .connector = of.connector,
-                       .timings = modeOf(*of.mode).timings};
+    return SavedCrtc{.crtc = crtc,
+                     .framebuffer = of.framebuffer,
+                     .x = 0,
+                     .y = 0,
+                     .connector = of.connector,
+                     .timings = modeOf(*of.mode).timings};
   }
-  void restore(const ShownBefore& before) override {
+  void restore(const SavedCrtc& before) override {
     if (spec_.isGone || !isMaster()) return;
     ++cards_.restores;
     crtcs_.at(before.crtc - kFirstCrtc).framebuffer = before.framebuffer;

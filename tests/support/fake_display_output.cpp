@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include <poll.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -21,12 +20,6 @@ hal::Error error(hal::ErrorKind kind, std::string problem) {
 
 hal::Error lost() {
   return error(hal::ErrorKind::kDeviceLost, "was unplugged");
-}
-
-bool hasSignalled(const hal::Fence& fence) {
-  if (fence.syncFile() < 0) return true;
-  pollfd file{.fd = fence.syncFile(), .events = POLLIN, .revents = 0};
-  return ::poll(&file, 1, 0) == 1;
 }
 
 }  // namespace
@@ -136,15 +129,13 @@ hal::Result<void> FakeDisplayOutput::submit(const hal::Surface& surface, hal::Fe
 }
 
 hal::TimePoint FakeDisplayOutput::refreshAtOrAfter(hal::TimePoint time) const {
-  hal::Duration past = (time - display_.phase) % display_.period;
-  if (past < hal::Duration::zero()) past += display_.period;
-  return past == hal::Duration::zero() ? time : time + (display_.period - past);
+  return hal::refreshAtOrAfter(time, display_.phase, display_.period);
 }
 
 /// Whether this refresh, or one before it, is the nearest to the due time, and it may be shown.
 bool FakeDisplayOutput::isReady(const Queued& queued, hal::TimePoint refresh) const {
   return queued.submitted <= refresh && queued.due <= refresh + display_.period / 2 &&
-         hasSignalled(queued.fence);
+         queued.fence.hasSignalled();
 }
 
 void FakeDisplayOutput::runTo(hal::TimePoint now) {

@@ -39,7 +39,7 @@ struct Mode {
   std::array<std::uint8_t, 68> timings{};
 };
 
-/// A socket of a card, with the display that is plugged into it.
+/// A connector of a card, with the display that is plugged into it.
 struct Connector {
   ObjectId id = 0;
   std::string name;  ///< as the kernel writes it: "HDMI-A-1"
@@ -62,7 +62,7 @@ struct Plane {
   std::vector<Property> properties;
 };
 
-/// What a card has, in its own order. CRTCs are meant by index in masks.
+/// The connectors, CRTCs and planes of a card, in its own order, which bits of masks refer to.
 struct CardState {
   std::vector<Connector> connectors;
   std::vector<Crtc> crtcs;
@@ -99,8 +99,8 @@ struct ScanOutBuffer {
   std::size_t strideBytes = 0;
 };
 
-/// What a CRTC showed before an output took it.
-struct ShownBefore {
+/// A CRTC's framebuffer, mode and connector before an output claimed it.
+struct SavedCrtc {
   ObjectId crtc = 0;
   ObjectId framebuffer = 0;
   int x = 0;
@@ -127,11 +127,11 @@ class Card {
 
   /// Whether a display is plugged into the connector, with this mode, as far as is known without
   /// asking it. Errors: kDeviceLost.
-  virtual Answer stillHas(ObjectId connector, const Mode& mode) = 0;
+  virtual Answer isStillConnected(ObjectId connector, const Mode& mode) = 0;
 
-  /// What a CRTC shows now, and the way back to it. Nothing of a CRTC that is off.
-  virtual std::optional<ShownBefore> shownNow(ObjectId crtc) = 0;
-  virtual void restore(const ShownBefore& before) = 0;
+  /// A CRTC's state, for restore(); unset if the CRTC is off.
+  virtual std::optional<SavedCrtc> saveCrtc(ObjectId crtc) = 0;
+  virtual void restore(const SavedCrtc& before) = 0;
 
   /// Only the master may commit. Another program's may become it once this one has dropped it.
   virtual bool isMaster() = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "hal/error.h"
@@ -10,5 +11,9 @@ namespace pleinair::hal::display {
 Error noCard(std::string subject);
 /// kBusy: another program is the card's master; names those that have it open.
 Error notMaster(const std::string& node, std::string subject);
+
+/// The other programs that have a card open, as far as this user may see: "Xorg (712), kmscube
+/// (801)". Empty where none is seen.
+std::string usersText(const std::string& node, const std::filesystem::path& proc = "/proc");
 
 }  // namespace pleinair::hal::display

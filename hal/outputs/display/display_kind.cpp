@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "hal/outputs/display/display_errors.h"
-#include "hal/outputs/display/display_name.h"
 #include "hal/outputs/display/display_output.h"
 #include "hal/outputs/display/route.h"
 #include "hal/outputs/display/shared_card.h"
@@ -55,7 +54,7 @@ DisplaySettings settingsOf(const OutputOptions& options) {
   return settings;
 }
 
-/// The kernel's list of sockets, which opens no card and needs no permission.
+/// The kernel's list of connectors, which opens no card and needs no permission.
 std::vector<std::string> linesOf(const fs::path& path) {
   constexpr std::size_t kMaxLines = 256;
   std::vector<std::string> lines;
@@ -67,29 +66,15 @@ std::vector<std::string> linesOf(const fs::path& path) {
   return lines;
 }
 
-/// Whether the display could be taken now: it is, and given back.
+/// Why the display could not be claimed now; it is claimed, and released.
 std::optional<Error> problemOf(const std::string& target) {
-  const DisplayName name = parseDisplayName(target);
-  std::optional<Error> problem;
-  for (const std::string& node : kernelCards().nodes()) {
-    if (!name.isOn(node)) continue;
-    const Result<std::shared_ptr<SharedCard>> shared = SharedCard::of(kernelCards(), node);
-    if (!shared) {
-      if (!problem) problem = shared.error();
-      continue;
-    }
-    const Result<DisplayRoute> route = (*shared)->take({.connector = name.connector});
-    if (!route) {
-      if (!problem || problem->kind == ErrorKind::kNotFound) problem = route.error();
-      continue;
-    }
-    const bool isOurs = (*shared)->card().isMaster() || (*shared)->card().becomeMaster() == 0;
-    (*shared)->giveBack(*route);
-    if (isOurs) return std::nullopt;
-    return notMaster(node, route->connector.name);
-  }
-  if (!problem) problem = noCard(target);
-  return problem;
+  const Result<ClaimedDisplay> claimed = claimDisplay(kernelCards(), target, {});
+  if (!claimed) return claimed.error();
+  Card& card = claimed->card->card();
+  const bool isMaster = card.isMaster() || card.becomeMaster() == 0;
+  claimed->card->release(claimed->route);
+  if (isMaster) return std::nullopt;
+  return notMaster(card.node(), claimed->route.connector.name);
 }
 
 Result<std::unique_ptr<Output>> make(const std::string& target, const OutputOptions& options) {
@@ -105,14 +90,15 @@ OutputListing listDisplays(const fs::path& folder) {
        each.increment(failure)) {
     std::error_code ignored;
     if (!fs::exists(each->path() / "status", ignored)) continue;  // a card, or a render node
-    const std::string socket = each->path().filename().string();
-    if (socket.find("Writeback") != std::string::npos) continue;
+    const std::string connector = each->path().filename().string();
+    if (connector.find("Writeback") != std::string::npos) continue;
     const std::vector<std::string> status = linesOf(each->path() / "status");
-    OutputDescription output{.target = std::string(kDisplayName) + ":" + socket,
+    OutputDescription output{.target = std::string(kDisplayName) + ":" + connector,
                              .formats = linesOf(each->path() / "modes")};
     if (status.empty() || status.front() != "connected") {
-      output.problem = Error{
-          .kind = ErrorKind::kDeviceLost, .subject = socket, .problem = "no display is plugged in"};
+      output.problem = Error{.kind = ErrorKind::kDeviceLost,
+                             .subject = connector,
+                             .problem = "no display is plugged in"};
     }
     listing.outputs.push_back(std::move(output));
   }
@@ -124,7 +110,7 @@ OutputListing listDisplays(const fs::path& folder) {
 OutputKind displayKind() {
   return {.name = std::string(kDisplayName),
           .help = "a screen without a desktop, through the kernel (DRM/KMS)",
-          .forms = {"display", "display:SOCKET"},
+          .forms = {"display", "display:CONNECTOR"},
           .traits = {.isPaced = true, .reopens = true},
           .options = {{.name = "mode",
                        .help = "The mode; \"auto\": the display's own size at the rate that fits "

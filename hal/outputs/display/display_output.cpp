@@ -8,10 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include <poll.h>
 
 #include "hal/outputs/display/display_errors.h"
-#include "hal/outputs/display/display_name.h"
+#include "hal/outputs/display/route.h"
 #include "hal/outputs/display/shared_card.h"
 
 namespace pleinair::hal {
@@ -22,28 +21,15 @@ using namespace display;
 /// One is shown, one waits for its refresh, and one is filled.
 constexpr std::size_t kBuffers = 3;
 constexpr Duration kFlipPatience = std::chrono::seconds(1);
-constexpr Duration kLookInterval = std::chrono::seconds(1);
+constexpr Duration kCheckInterval = std::chrono::seconds(1);
 constexpr Duration kRetryInterval = std::chrono::milliseconds(1);
 constexpr std::size_t kPixelBytes = 4;
-
-bool hasSignalled(const Fence& fence) {
-  if (fence.syncFile() < 0) return true;
-  pollfd file{.fd = fence.syncFile(), .events = POLLIN, .revents = 0};
-  return ::poll(&file, 1, 0) == 1;
-}
-
-/// The first of `phase` ± n periods at or after `time`.
-TimePoint refreshAtOrAfter(TimePoint time, TimePoint phase, Duration period) {
-  Duration past = (time - phase) % period;
-  if (past < Duration::zero()) past += period;
-  return past == Duration::zero() ? time : time + (period - past);
-}
 
 class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
  public:
   DisplayOutput(std::string name, DisplaySettings settings, Cards& cards, const Clock& clock)
       : name_(std::move(name)), settings_(std::move(settings)), cards_(cards), clock_(clock) {}
-  ~DisplayOutput() override { leave(); }
+  ~DisplayOutput() override { close(); }
   DisplayOutput(const DisplayOutput&) = delete;
   DisplayOutput& operator=(const DisplayOutput&) = delete;
 
@@ -76,23 +62,22 @@ class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
   };
 
   Card& card() const { return shared_->card(); }
-  Result<void> takeDisplay(const OutputRequest& request);
   Result<void> makeBuffers();
   Result<void> setMode();
   Result<Mode> acceptedMode();
   int tryMode(const Mode& mode);
-  std::vector<Change> everything(ObjectId modeBlob, ObjectId framebuffer) const;
+  std::vector<Change> modesetChanges(ObjectId modeBlob, ObjectId framebuffer) const;
   void readTiming();
-  void leave();
+  void close();
 
   void unmap(SurfaceId surface) override {
     buffers_.at(static_cast<std::size_t>(surface)).isMapped = false;
   }
   Buffer& of(const Surface& surface) { return buffers_.at(static_cast<std::size_t>(surface.id)); }
 
-  Result<void> proceed();
+  Result<void> advance();
   Result<void> takeFlips(TimePoint now);
-  Result<void> look(TimePoint now);
+  Result<void> checkConnection(TimePoint now);
   void flipped(const FlipEvent& flip);
   TimePoint commitTime(const Queued& queued) const;
   Result<void> flipNext(TimePoint now);
@@ -107,7 +92,7 @@ class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
 
   std::shared_ptr<SharedCard> shared_;
   std::optional<DisplayRoute> route_;
-  std::optional<ShownBefore> before_;
+  std::optional<SavedCrtc> saved_;
   ObjectId modeBlob_ = 0;
   ObjectId flipProperty_ = 0;  ///< the plane's FB_ID
   PictureArea area_;
@@ -121,7 +106,7 @@ class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
   Buffer* onScreen_ = nullptr;
   TimePoint committed_;
   TimePoint retryAt_;
-  TimePoint lookAt_;
+  TimePoint checkAt_;
   std::uint64_t lastSequence_ = 0;
   std::vector<FlipEvent> flips_;
   std::vector<PresentationEvent> events_;
@@ -135,7 +120,11 @@ Result<OutputFormat> DisplayOutput::start(const OutputRequest& request) {
                                 .problem = "cannot take this size",
                                 .remedy = "use 1 to 8192 px a side and at most 64 Mpx"});
   }
-  if (const auto taken = takeDisplay(request); !taken) return tl::unexpected(taken.error());
+  Result<ClaimedDisplay> claimed = claimDisplay(
+      cards_, name_, {.connector = {}, .mode = settings_.mode, .framePeriod = request.framePeriod});
+  if (!claimed) return tl::unexpected(claimed.error());
+  shared_ = std::move(claimed->card);
+  route_ = std::move(claimed->route);
   if (const auto set = setMode(); !set) return tl::unexpected(set.error());
   area_ = areaOf(request.size, route_->mode.size, settings_.placement);
   for (Buffer& each : buffers_) {
@@ -150,29 +139,6 @@ Result<OutputFormat> DisplayOutput::start(const OutputRequest& request) {
   return OutputFormat{.frame = buffers_.front().surface.format,
                       .refresh = Refresh{.period = period_, .phase = phase_},
                       .quarterTurns = settings_.placement.quarterTurns};
-}
-
-/// The first card that has the display; otherwise the error that tells most.
-Result<void> DisplayOutput::takeDisplay(const OutputRequest& request) {
-  const DisplayName name = parseDisplayName(name_);
-  const DisplayWish wish{
-      .connector = name.connector, .mode = settings_.mode, .framePeriod = request.framePeriod};
-  std::optional<Error> problem;
-  for (const std::string& node : cards_.nodes()) {
-    if (!name.isOn(node)) continue;
-    const Result<std::shared_ptr<SharedCard>> shared = SharedCard::of(cards_, node);
-    Result<DisplayRoute> route =
-        shared ? (*shared)->take(wish) : Result<DisplayRoute>(tl::unexpected(shared.error()));
-    if (route) {
-      shared_ = *shared;
-      route_ = *std::move(route);
-      return {};
-    }
-    // A socket that another card lacks says less than one that is empty or taken.
-    if (!problem || problem->kind == ErrorKind::kNotFound) problem = std::move(route.error());
-  }
-  if (problem) return tl::unexpected(*std::move(problem));
-  return tl::unexpected(noCard(name_));
 }
 
 Result<void> DisplayOutput::makeBuffers() {
@@ -191,7 +157,7 @@ Result<void> DisplayOutput::makeBuffers() {
   return {};
 }
 
-std::vector<Change> DisplayOutput::everything(ObjectId modeBlob, ObjectId framebuffer) const {
+std::vector<Change> DisplayOutput::modesetChanges(ObjectId modeBlob, ObjectId framebuffer) const {
   const FrameSize size = route_->mode.size;
   std::vector<Change> changes;
   const auto add = [&](ObjectId object, const std::vector<Property>& properties,
@@ -229,7 +195,8 @@ int DisplayOutput::tryMode(const Mode& mode) {
   if (modeBlob_ != 0) card().destroyBlob(std::exchange(modeBlob_, 0));
   if (const int failed = card().createBlob(mode.timings, modeBlob_); failed != 0) return failed;
   if (!makeBuffers()) return -ENOMEM;
-  return card().commit(everything(modeBlob_, buffers_.front().memory.framebuffer), Commit::kTest);
+  return card().commit(modesetChanges(modeBlob_, buffers_.front().memory.framebuffer),
+                       Commit::kTest);
 }
 
 /// The chosen mode; where that was the program's choice and the card refuses it, the largest one
@@ -256,12 +223,12 @@ Result<void> DisplayOutput::setMode() {
     const int failed = card().becomeMaster();
     if (failed != 0) return tl::unexpected(failure(-EACCES, "cannot be had"));
   }
-  before_ = card().shownNow(route_->crtc.id);
+  saved_ = card().saveCrtc(route_->crtc.id);
   const Result<Mode> mode = acceptedMode();
   if (!mode) return tl::unexpected(mode.error());
   route_->mode = *mode;
-  const int failed =
-      card().commit(everything(modeBlob_, buffers_.front().memory.framebuffer), Commit::kModeset);
+  const int failed = card().commit(modesetChanges(modeBlob_, buffers_.front().memory.framebuffer),
+                                   Commit::kModeset);
   if (failed != 0) return tl::unexpected(failure(failed, "cannot set the mode " + mode->name));
   onScreen_ = &buffers_.front();
   onScreen_->state = State::kOnScreen;
@@ -275,32 +242,32 @@ void DisplayOutput::readTiming() {
   hasVblank_ = card().hasVblank(route_->crtc.id);
   // Without vertical blanking, any instant will do for a refresh.
   if (!hasVblank_) phase_ = clock_.now();
-  lookAt_ = clock_.now() + kLookInterval;
+  checkAt_ = clock_.now() + kCheckInterval;
   // Flips that an earlier output of this CRTC did not live to see.
   shared_->takeFlips(route_->crtc.id, flips_);
   flips_.clear();
 }
 
-void DisplayOutput::leave() {
+void DisplayOutput::close() {
   if (!shared_) return;
   for ([[maybe_unused]] const Buffer& each : buffers_) assert(!each.isMapped);
-  if (onScreen_ != nullptr && before_) card().restore(*before_);
+  if (onScreen_ != nullptr && saved_) card().restore(*saved_);
   for (const Buffer& each : buffers_) card().destroyBuffer(each.memory);
   buffers_.clear();
   if (modeBlob_ != 0) card().destroyBlob(modeBlob_);
-  if (route_) shared_->giveBack(*route_);
+  if (route_) shared_->release(*route_);
   shared_.reset();
 }
 
 Result<void> DisplayOutput::finish() {
   assert(shared_);
-  const Result<void> proceeded = proceed();
-  if (onScreen_ != nullptr && before_) card().restore(*std::exchange(before_, std::nullopt));
-  return proceeded;
+  const Result<void> advanced = advance();
+  if (onScreen_ != nullptr && saved_) card().restore(*std::exchange(saved_, std::nullopt));
+  return advanced;
 }
 
 Result<std::optional<Surface>> DisplayOutput::acquire() {
-  if (const auto proceeded = proceed(); !proceeded) return tl::unexpected(proceeded.error());
+  if (const auto advanced = advance(); !advanced) return tl::unexpected(advanced.error());
   const auto free = std::ranges::find(buffers_, State::kFree, &Buffer::state);
   if (free == buffers_.end()) return std::nullopt;
   free->state = State::kLent;
@@ -326,14 +293,14 @@ Result<void> DisplayOutput::submit(const Surface& surface, Fence fence, TimePoin
   assert(buffer.state == State::kLent && !buffer.isMapped);
   buffer.state = State::kQueued;
   queue_.push_back({.buffer = &buffer, .fence = std::move(fence), .due = due});
-  return proceed();
+  return advance();
 }
 
 Result<void> DisplayOutput::takeEvents(std::vector<PresentationEvent>& events) {
-  Result<void> proceeded = proceed();
+  Result<void> advanced = advance();
   std::ranges::copy(events_, std::back_inserter(events));
   events_.clear();
-  return proceeded;
+  return advanced;
 }
 
 std::optional<TimePoint> DisplayOutput::nextEvent() const {
@@ -348,10 +315,10 @@ std::optional<TimePoint> DisplayOutput::nextEvent() const {
   return std::max(commitTime(queue_.front()), std::max(retryAt_, now));
 }
 
-Result<void> DisplayOutput::proceed() {
+Result<void> DisplayOutput::advance() {
   const TimePoint now = clock_.now();
   if (auto taken = takeFlips(now); !taken) return taken;
-  if (auto looked = look(now); !looked) return looked;
+  if (auto checked = checkConnection(now); !checked) return checked;
   return flipNext(now);
 }
 
@@ -370,12 +337,12 @@ Result<void> DisplayOutput::takeFlips(TimePoint now) {
 }
 
 /// Whether the display is still there.
-Result<void> DisplayOutput::look(TimePoint now) {
-  if (now < lookAt_) return {};
-  lookAt_ = now + kLookInterval;
-  const Answer has = card().stillHas(route_->connector.id, route_->mode);
+Result<void> DisplayOutput::checkConnection(TimePoint now) {
+  if (now < checkAt_) return {};
+  checkAt_ = now + kCheckInterval;
+  const Answer has = card().isStillConnected(route_->connector.id, route_->mode);
   if (has.hasError()) {
-    shared_->markGone();
+    shared_->markRemoved();
     return tl::unexpected(has.error());
   }
   if (has.isYes()) return {};
@@ -427,7 +394,7 @@ Result<void> DisplayOutput::flipNext(TimePoint now) {
   if (flipping_ != nullptr || now < retryAt_) return {};
   std::size_t ready = 0;
   while (ready < queue_.size() && commitTime(queue_[ready]) <= now &&
-         hasSignalled(queue_[ready].fence)) {
+         queue_[ready].fence.hasSignalled()) {
     ++ready;
   }
   if (ready == 0) return {};
@@ -461,7 +428,7 @@ Error DisplayOutput::failure(int error, std::string problem) const {
     return notMaster(card().node(), place);
   }
   if (error == -ENODEV || error == -ENXIO || error == -EIO) {
-    shared_->markGone();
+    shared_->markRemoved();
     return {.kind = ErrorKind::kDeviceLost,
             .subject = card().node(),
             .problem = "the graphics card is gone",

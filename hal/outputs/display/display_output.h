@@ -13,14 +13,14 @@
 namespace pleinair::hal {
 
 struct DisplaySettings {
-  std::string mode = "auto";  ///< display::DisplayWish::mode
+  std::string mode = "auto";  ///< display::DisplayRequest::mode
   display::Placement placement;
 };
 
 /// A display without a desktop, through the kernel's mode setting (DRM/KMS), by atomic commits.
-/// `name`: "display", the first that is plugged in; "display:HDMI-A-1", by its socket;
-/// "display:card1-HDMI-A-1", where two cards have sockets of one name. Opens nothing yet. `cards`
-/// and `clock`, which is CLOCK_MONOTONIC but for tests, outlive it.
+/// `name`: "display", the first that is plugged in; "display:HDMI-A-1", by its connector;
+/// "display:card1-HDMI-A-1", where two cards have connectors of one name. Opens nothing yet.
+/// `cards` and `clock`, which is CLOCK_MONOTONIC but for tests, outlive it.
 ///
 /// start() sets the mode, black, and answers the part of the display that pictures cover, and its
 /// refresh. A driver without vertical blanking (virtual cards) counts none: surfaces are then shown
@@ -40,11 +40,11 @@ Result<std::unique_ptr<SurfaceOutput>> openDisplay(const std::string& name,
                                                    display::Cards& cards = display::kernelCards(),
                                                    const Clock& clock = steadyClock());
 
-/// The sockets of all cards, with the sizes of the displays in them, from the kernel's list
+/// The connectors of all cards, with the sizes of the displays in them, from the kernel's list
 /// (`folder`, as /sys/class/drm). Opens no card.
 OutputListing listDisplays(const std::filesystem::path& folder = "/sys/class/drm");
 
-/// "display" and "display:SOCKET"; its options are `mode`, `fit`, `rotation` and `margin`.
+/// "display" and "display:CONNECTOR"; its options are `mode`, `fit`, `rotation` and `margin`.
 OutputKind displayKind();
 
 }  // namespace pleinair::hal

@@ -119,7 +119,7 @@ class KernelCard final : public Card {
     return state;
   }
 
-  Answer stillHas(ObjectId connector, const Mode& mode) override {
+  Answer isStillConnected(ObjectId connector, const Mode& mode) override {
     const ConnectorHandle current(drmModeGetConnectorCurrent(file_.get(), connector));
     if (!current) return tl::unexpected(lost("has lost its display"));
     const std::span modes(current->modes, static_cast<std::size_t>(current->count_modes));
@@ -129,22 +129,22 @@ class KernelCard final : public Card {
     return current->connection == DRM_MODE_CONNECTED && std::ranges::any_of(modes, isIt);
   }
 
-  std::optional<ShownBefore> shownNow(ObjectId crtc) override {
+  std::optional<SavedCrtc> saveCrtc(ObjectId crtc) override {
     const CrtcHandle now(drmModeGetCrtc(file_.get(), crtc));
     if (!now || now->mode_valid == 0 || now->buffer_id == 0) return std::nullopt;
-    ShownBefore before{.crtc = crtc,
-                       .framebuffer = now->buffer_id,
-                       .x = static_cast<int>(now->x),
-                       .y = static_cast<int>(now->y),
-                       .connector = connectorOn(crtc),
-                       .timings = modeOf(now->mode).timings};
+    SavedCrtc before{.crtc = crtc,
+                     .framebuffer = now->buffer_id,
+                     .x = static_cast<int>(now->x),
+                     .y = static_cast<int>(now->y),
+                     .connector = connectorOn(crtc),
+                     .timings = modeOf(now->mode).timings};
     if (before.connector == 0) return std::nullopt;
     return before;
   }
 
   // By the older interface, which takes a mode instead of its blob: that of another program is gone
   // with the first modeset.
-  void restore(const ShownBefore& before) override {
+  void restore(const SavedCrtc& before) override {
     drmModeModeInfo mode{};
     std::memcpy(&mode, before.timings.data(), sizeof(mode));
     ObjectId connector = before.connector;

@@ -90,6 +90,23 @@ bool takesXrgb(const Plane& plane) {
 
 }  // namespace
 
+bool isDisplayName(const std::string& name) {
+  if (name == kDisplayName) return true;
+  return name.starts_with("display:") && name.size() > kDisplayName.size() + 1 &&
+         name.find('/') == std::string::npos;
+}
+
+DisplayName parseDisplayName(const std::string& name) {
+  if (name == kDisplayName) return {};
+  const std::string rest = name.substr(kDisplayName.size() + 1);
+  const std::size_t dash = rest.find('-');
+  const bool hasCard = rest.starts_with("card") && dash != std::string::npos && dash > 4 &&
+                       std::all_of(rest.begin() + 4, rest.begin() + static_cast<long>(dash),
+                                   [](char c) { return c >= '0' && c <= '9'; });
+  if (!hasCard) return {.card = {}, .connector = rest};
+  return {.card = rest.substr(0, dash), .connector = rest.substr(dash + 1)};
+}
+
 Result<Connector> chooseConnector(const CardState& card, const std::string& name,
                                   std::span<const ObjectId> taken) {
   const auto isTaken = [&](const Connector& each) {
@@ -100,11 +117,11 @@ Result<Connector> chooseConnector(const CardState& card, const std::string& name
       if (each.isConnected && !isTaken(each)) return each;
     }
     return tl::unexpected(error(ErrorKind::kDeviceLost, "display", "no display is plugged in",
-                                "plug one in; sockets: " + namesOf(card.connectors)));
+                                "plug one in; connectors: " + namesOf(card.connectors)));
   }
   const auto found = std::ranges::find(card.connectors, name, &Connector::name);
   if (found == card.connectors.end()) {
-    return tl::unexpected(error(ErrorKind::kNotFound, name, "there is no such socket",
+    return tl::unexpected(error(ErrorKind::kNotFound, name, "there is no such connector",
                                 "choose one of: " + namesOf(card.connectors)));
   }
   if (isTaken(*found)) {
@@ -120,12 +137,12 @@ bool isModeText(const std::string& text) {
   return text == "auto" || text == "preferred" || parse(text).has_value();
 }
 
-Result<Mode> chooseMode(const Connector& connector, const DisplayWish& wish) {
+Result<Mode> chooseMode(const Connector& connector, const DisplayRequest& request) {
   const Mode& preferred = preferredOf(connector);
-  if (wish.mode == "preferred") return preferred;
-  if (wish.mode == "auto") {
-    if (!wish.framePeriod) return preferred;
-    const auto cost = [&](const Mode& mode) { return misfit(mode.period, *wish.framePeriod); };
+  if (request.mode == "preferred") return preferred;
+  if (request.mode == "auto") {
+    if (!request.framePeriod) return preferred;
+    const auto cost = [&](const Mode& mode) { return misfit(mode.period, *request.framePeriod); };
     const Mode* best = bestOfSize(connector, preferred.size, cost);
     if (best == nullptr) return preferred;
     // The display's own choice, unless another rate is really better.
@@ -133,9 +150,9 @@ Result<Mode> chooseMode(const Connector& connector, const DisplayWish& wish) {
     const bool keeps = !preferred.isInterlaced && cost(preferred) <= cost(*best) + kBetter;
     return keeps ? preferred : *best;
   }
-  const std::optional<ModeText> asked = parse(wish.mode);
+  const std::optional<ModeText> asked = parse(request.mode);
   if (!asked) {
-    return tl::unexpected(error(ErrorKind::kInvalidArgument, wish.mode, "is no mode",
+    return tl::unexpected(error(ErrorKind::kInvalidArgument, request.mode, "is no mode",
                                 "give auto, preferred, 1920x1080 or 1920x1080@60"));
   }
   const Mode* best = bestOfSize(connector, asked->size, [&](const Mode& mode) {
@@ -147,7 +164,7 @@ Result<Mode> chooseMode(const Connector& connector, const DisplayWish& wish) {
       best != nullptr &&
       (!asked->hertz || std::abs(1.0 / toSeconds(best->period) - *asked->hertz) < kMaxOff);
   if (isNear) return *best;
-  return tl::unexpected(error(ErrorKind::kNotFound, connector.name, "has no mode " + wish.mode,
+  return tl::unexpected(error(ErrorKind::kNotFound, connector.name, "has no mode " + request.mode,
                               "it has " + sizesOf(connector)));
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "hal/clock.h"
 #include "hal/error.h"
@@ -12,8 +13,26 @@
 
 namespace pleinair::hal::display {
 
-/// What a display is asked for.
-struct DisplayWish {
+inline constexpr std::string_view kDisplayName = "display";
+
+/// A display's name: "display", "display:HDMI-A-1" or "display:card1-HDMI-A-1".
+struct DisplayName {
+  std::string card;       ///< "card1"; empty: any
+  std::string connector;  ///< "HDMI-A-1"; empty: the first connected
+
+  /// Whether a card's node can be meant.
+  bool isOn(std::string_view node) const {
+    return card.empty() || node.substr(node.rfind('/') + 1) == card;
+  }
+};
+
+/// Whether a text has one of these forms.
+bool isDisplayName(const std::string& name);
+/// Precondition: isDisplayName().
+DisplayName parseDisplayName(const std::string& name);
+
+/// What is asked of a display.
+struct DisplayRequest {
   std::string connector;  ///< "HDMI-A-1"; empty: the first that is connected
   /// "auto": the preferred size at the rate that fits the camera's best; "preferred"; "1920x1080",
   /// the fastest of that size; "1920x1080@60", the nearest to that rate.
@@ -43,12 +62,12 @@ struct InUse {
 Result<Connector> chooseConnector(const CardState& card, const std::string& name,
                                   std::span<const ObjectId> taken);
 
-/// Whether it is a DisplayWish::mode.
+/// Whether it is a DisplayRequest::mode.
 bool isModeText(const std::string& text);
 
 /// Precondition: there are modes. Errors: kInvalidArgument (what is no mode), kNotFound (the
 /// display has no such mode: lists the sizes).
-Result<Mode> chooseMode(const Connector& connector, const DisplayWish& wish);
+Result<Mode> chooseMode(const Connector& connector, const DisplayRequest& request);
 
 /// A free CRTC for the connector, preferably the one that drives it now, and that CRTC's primary
 /// plane. Errors: kBusy (all are in use), kUnsupported (no plane takes XRGB8888).

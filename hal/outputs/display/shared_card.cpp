@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <utility>
+
+#include "hal/outputs/display/display_errors.h"
 
 namespace pleinair::hal::display {
 namespace {
@@ -32,19 +35,19 @@ Result<std::shared_ptr<SharedCard>> SharedCard::of(Cards& cards, const std::stri
   return shared;
 }
 
-void SharedCard::markGone() {
+void SharedCard::markRemoved() {
   OpenCards& open = openCards();
   const std::scoped_lock lock(open.mutex, mutex_);
-  if (!std::exchange(isGone_, true)) open.cards.erase({&cards_, card_->node()});
+  if (!std::exchange(isRemoved_, true)) open.cards.erase({&cards_, card_->node()});
 }
 
-Result<DisplayRoute> SharedCard::take(const DisplayWish& wish) {
+Result<DisplayRoute> SharedCard::claim(const DisplayRequest& request) {
   const std::scoped_lock lock(mutex_);
   const Result<CardState> state = card_->read(true);
   if (!state) return tl::unexpected(state.error());
-  const Result<Connector> connector = chooseConnector(*state, wish.connector, connectors_);
+  const Result<Connector> connector = chooseConnector(*state, request.connector, connectors_);
   if (!connector) return tl::unexpected(connector.error());
-  const Result<Mode> mode = chooseMode(*connector, wish);
+  const Result<Mode> mode = chooseMode(*connector, request);
   if (!mode) return tl::unexpected(mode.error());
   Result<DisplayRoute> route = routeTo(*state, *connector, *mode, inUse_);
   if (!route) return route;
@@ -55,7 +58,7 @@ Result<DisplayRoute> SharedCard::take(const DisplayWish& wish) {
   return route;
 }
 
-void SharedCard::giveBack(const DisplayRoute& route) {
+void SharedCard::release(const DisplayRoute& route) {
   const std::scoped_lock lock(mutex_);
   inUse_.crtcs &= ~(std::uint32_t{1} << route.crtcIndex);
   inUse_.planes &= ~(std::uint64_t{1} << route.planeIndex);
@@ -75,6 +78,22 @@ int SharedCard::takeFlips(ObjectId crtc, std::vector<FlipEvent>& flips) {
   std::ranges::copy(own, std::back_inserter(flips));
   own.clear();
   return failed;
+}
+
+Result<ClaimedDisplay> claimDisplay(Cards& cards, const std::string& name, DisplayRequest request) {
+  const DisplayName parsed = parseDisplayName(name);
+  request.connector = parsed.connector;
+  std::optional<Error> problem;
+  for (const std::string& node : cards.nodes()) {
+    if (!parsed.isOn(node)) continue;
+    const Result<std::shared_ptr<SharedCard>> card = SharedCard::of(cards, node);
+    Result<DisplayRoute> route =
+        card ? (*card)->claim(request) : Result<DisplayRoute>(tl::unexpected(card.error()));
+    if (route) return ClaimedDisplay{*card, *std::move(route)};
+    // A connector that another card lacks says less than one that is empty or taken.
+    if (!problem || problem->kind == ErrorKind::kNotFound) problem = std::move(route.error());
+  }
+  return tl::unexpected(problem ? *std::move(problem) : noCard(name));
 }
 
 }  // namespace pleinair::hal::display

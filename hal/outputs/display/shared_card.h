@@ -23,16 +23,16 @@ class SharedCard {
 
   Card& card() { return *card_; }
 
-  /// Looks for the display that is wished, chooses how to reach it, and takes those parts of the
-  /// card. Errors: those of chooseConnector(), chooseMode() and routeTo().
-  Result<DisplayRoute> take(const DisplayWish& wish);
-  void giveBack(const DisplayRoute& route);
+  /// Looks for the display that is asked for, chooses how to reach it, and claims those parts of
+  /// the card. Errors: those of chooseConnector(), chooseMode() and routeTo().
+  Result<DisplayRoute> claim(const DisplayRequest& request);
+  void release(const DisplayRoute& route);
 
   /// Appends the flips of a CRTC since the last call. 0, or −errno.
   int takeFlips(ObjectId crtc, std::vector<FlipEvent>& flips);
 
   /// The card is not there any more: of() opens it anew.
-  void markGone();
+  void markRemoved();
 
  private:
   Cards& cards_;
@@ -42,7 +42,18 @@ class SharedCard {
   std::vector<ObjectId> connectors_;
   std::vector<FlipEvent> read_;
   std::map<ObjectId, std::vector<FlipEvent>> flips_;  ///< by CRTC, not taken yet
-  bool isGone_ = false;
+  bool isRemoved_ = false;
 };
+
+/// A display of a card, claimed for an output.
+struct ClaimedDisplay {
+  std::shared_ptr<SharedCard> card;
+  DisplayRoute route;
+};
+
+/// Claims a display of the first card that has it. `name`: isDisplayName(); its connector takes the
+/// place of the request's. Errors: those of SharedCard::of() and claim(), of the card whose error
+/// tells most; kNotFound (there is no card).
+Result<ClaimedDisplay> claimDisplay(Cards& cards, const std::string& name, DisplayRequest request);
 
 }  // namespace pleinair::hal::display

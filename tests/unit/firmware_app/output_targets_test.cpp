@@ -55,7 +55,7 @@ TEST_F(OutputTargets, AreRefusedWhereAWordIsNoKindOfOutput) {
   }
   const std::string refusal = refusalOf("targets = [\"screen\"]");
   EXPECT_THAT(refusal,
-              HasSubstr("window, display, loopback, headless, display:SOCKET, loopback:DEVICE"));
+              HasSubstr("window, display, loopback, headless, display:CONNECTOR, loopback:DEVICE"));
   EXPECT_THAT(refusal, HasSubstr("./NAME or NAME/"));
   EXPECT_THAT(refusalOf("targets = [\"windw\"]"), HasSubstr("did you mean \"window\"?"));
   for (const std::string list : {"[]", "\"window\"", "[1]", "[\"window\", [\"a.mp4\"]]"}) {

@@ -131,7 +131,7 @@ TEST(CheckDisplays, WarnsWithoutADisplay) {
   HealthyMachine machine;
   machine.displays.outputs.front().problem =
       errorOf(hal::ErrorKind::kDeviceLost, "no display is plugged in");
-  EXPECT_THAT(checkDisplays(machine.probes()).text, HasSubstr("none of 1 sockets"));
+  EXPECT_THAT(checkDisplays(machine.probes()).text, HasSubstr("none of 1 connectors"));
   machine.displays.outputs.clear();
   EXPECT_THAT(checkDisplays(machine.probes()).text, HasSubstr("no graphics card"));
 }

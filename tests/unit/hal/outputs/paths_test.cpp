@@ -83,7 +83,7 @@ TEST(OutputRegistry, RefusesABareWordThatIsNoKind) {
       EXPECT_EQ(error.kind, ErrorKind::kInvalidArgument);
       EXPECT_THAT(error.message(), testing::HasSubstr("./" + word + " or " + word + "/"));
       EXPECT_THAT(error.message(),
-                  testing::HasSubstr("window, display, display:SOCKET, loopback, loopback:DEVICE"));
+                  testing::HasSubstr("window, display, display:CONNECTOR, loopback, loopback:DEVICE"));
     }
   }
   EXPECT_THAT(openFileOutput("window").error().message(), testing::HasSubstr("is no file"));
@@ -108,7 +108,7 @@ TEST(OutputRegistry, ListsKindsWhoseFormsAreTheirs) {
     }
   }
   EXPECT_THAT(outputWords(), testing::ElementsAre("window", "display", "loopback", "headless"));
-  EXPECT_THAT(outputPrefixes(), testing::ElementsAre("display:SOCKET", "loopback:DEVICE"));
+  EXPECT_THAT(outputPrefixes(), testing::ElementsAre("display:CONNECTOR", "loopback:DEVICE"));
 }
 
 TEST(OutputRegistry, GivesAKindItsOptions) {

@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/outputs/display/card_users.h"
+#include "hal/outputs/display/display_errors.h"
 #include "tests/support/fake_card.h"
 #include "tests/support/temporary_folder.h"
 
@@ -127,7 +127,7 @@ TEST_F(DisplayTest, ATurnedDisplayWantsUprightPicturesTurned) {
   EXPECT_EQ(format->quarterTurns, 1);
 }
 
-TEST_F(DisplayTest, BringsBackWhatWasShownBefore) {
+TEST_F(DisplayTest, BringsBackWhatWasSavedCrtc) {
   plug();
   ASSERT_TRUE(start().has_value());
   ASSERT_TRUE(showAndWait().has_value());

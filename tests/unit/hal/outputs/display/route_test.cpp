@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/outputs/display/display_name.h"
 #include "tests/support/fake_card.h"
 
 namespace pleinair::hal::display {
@@ -22,7 +21,7 @@ class Route : public testing::Test {
   Mode modeFor(std::vector<FakeMode> modes, const std::string& mode,
                std::optional<double> framesPerSecond = std::nullopt) {
     const CardState state = stateOf({.connectors = {{.modes = std::move(modes)}}});
-    DisplayWish wish{.mode = mode};
+    DisplayRequest wish{.mode = mode};
     if (framesPerSecond) wish.framePeriod = fromSeconds(1.0 / *framesPerSecond);
     const Result<Mode> chosen = chooseMode(state.connectors.front(), wish);
     EXPECT_TRUE(chosen.has_value()) << (chosen ? "" : chosen.error().message());
@@ -41,26 +40,26 @@ const std::vector<FakeMode> kTelevision{{.size = {1920, 1080}, .hertz = 60.0, .i
                                         {.size = {1280, 720}, .hertz = 75.0},
                                         {.size = {1280, 720}, .hertz = 60.0}};
 
-TEST_F(Route, TheFirstConnectedSocketIsTaken) {
+TEST_F(Route, TheFirstConnectedConnectorIsTaken) {
   const CardState state =
       stateOf({.connectors = {{.name = "DP-1", .isConnected = false}, {.name = "HDMI-A-1"}}});
   EXPECT_EQ(chooseConnector(state, "", {})->name, "HDMI-A-1");
 }
 
-TEST_F(Route, ATakenSocketIsLeftToItsOutput) {
+TEST_F(Route, ATakenConnectorIsLeftToItsOutput) {
   const CardState state = stateOf({.connectors = {{.name = "DP-1"}, {.name = "HDMI-A-1"}}});
   const std::vector<ObjectId> taken{state.connectors[0].id};
   EXPECT_EQ(chooseConnector(state, "", taken)->name, "HDMI-A-1");
   EXPECT_EQ(chooseConnector(state, "DP-1", taken).error().kind, ErrorKind::kBusy);
 }
 
-TEST_F(Route, AnEmptySocketIsADisplayThatMayCome) {
+TEST_F(Route, AnEmptyConnectorIsADisplayThatMayCome) {
   const CardState state = stateOf({.connectors = {{.name = "DP-1", .isConnected = false}}});
   EXPECT_EQ(chooseConnector(state, "", {}).error().kind, ErrorKind::kDeviceLost);
   EXPECT_EQ(chooseConnector(state, "DP-1", {}).error().kind, ErrorKind::kDeviceLost);
 }
 
-TEST_F(Route, ASocketThatIsNotThereListsThoseThatAre) {
+TEST_F(Route, AConnectorThatIsNotThereListsThoseThatAre) {
   const CardState state = stateOf({.connectors = {{.name = "DP-1"}, {.name = "HDMI-A-1"}}});
   const Error error = chooseConnector(state, "VGA-1", {}).error();
   EXPECT_EQ(error.kind, ErrorKind::kNotFound);
@@ -105,7 +104,7 @@ TEST_F(Route, TextThatIsNoModeIsRefused) {
   }
 }
 
-TEST_F(Route, GoesThroughTheCrtcThatDrivesTheSocketAlready) {
+TEST_F(Route, GoesThroughTheCrtcThatDrivesTheConnectorAlready) {
   const CardState state = stateOf({.connectors = {{}, {.name = "DP-1"}}, .crtcs = 3});
   const Connector& first = state.connectors.front();
   EXPECT_EQ(routeTo(state, first, first.modes.front(), {})->crtcIndex, 0u);
@@ -127,7 +126,7 @@ TEST_F(Route, IsRefusedWhereAllCrtcsAreInUse) {
   EXPECT_EQ(route.error().kind, ErrorKind::kBusy);
 }
 
-TEST(DisplayName, SaysTheSocketAndMaybeTheCard) {
+TEST(DisplayName, SaysTheConnectorAndMaybeTheCard) {
   EXPECT_TRUE(isDisplayName("display"));
   EXPECT_FALSE(isDisplayName("display:"));
   EXPECT_FALSE(isDisplayName("displays"));
