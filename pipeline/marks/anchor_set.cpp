@@ -200,6 +200,7 @@ void AnchorSet::State::countAnchors(const scene::ArFrame& frame, const AnchorHol
       .storage("Cells", cells)
       .set("fadeIn", fadeOf(step, hold.fadeIn))
       .set("fadeOut", fadeOf(step, hold.fadeOut))
+      .set("moverFadeOut", fadeOf(step, std::min(hold.fadeOut, hold.moverFadeOut)))
       .dispatch(allSlots(), kStored);
   setFrame(beginCells(choice), frame)
       .texture("forms", frame.hasObjects ? *frame.forms : noIds)
@@ -222,6 +223,7 @@ void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionFiel
       .set("target", rule.target)
       .set("birthBelow", hold.hasSlack ? rule.birthBelow : rule.target)
       .set("deathAbove", hold.hasSlack ? rule.deathAbove : rule.target)
+      .set("hasMoverSlack", hold.hasMoverSlack ? 1 : 0)
       .dispatch(grid, kStored);
   beginCells(plan)
       .set("slots", slots)

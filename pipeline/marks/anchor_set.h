@@ -39,10 +39,14 @@ struct AnchorHold {
   hal::Duration fadeIn = std::chrono::milliseconds(300);
   /// time from visible to invisible; 0: at once
   hal::Duration fadeOut = std::chrono::milliseconds(200);
+  /// the longest that it is on movers, whose anchors are soon too many on one side
+  hal::Duration moverFadeOut = std::chrono::milliseconds(200);
   /// how long an anchor is kept that other content covers, so that its mark is the same one when it
   /// is seen again; at most 255 s. Where slots run short, it is given up earlier.
   hal::Duration memory = std::chrono::seconds(30);
   bool hasSlack = true;  ///< hysteresis of DensityRule; if false, density is kept at the target
+  /// the same on movers; if false, density is kept at their share of the target, but for one anchor
+  bool hasMoverSlack = true;
 };
 
 /// The anchors of a style's marks. They are spawned where the image has too few, follow the surface

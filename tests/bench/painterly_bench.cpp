@@ -17,8 +17,10 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/photo.hpp>
 
+#include "firmware_app/scene/workbench_scene.h"
 #include "hal/cameras/synthetic/synthetic_camera.h"
 #include "pipeline/engine/painter.h"
+#include "pipeline/scene/description/scene_file.h"
 
 namespace {
 
@@ -26,9 +28,13 @@ using namespace pleinair;  // NOLINT(google-build-using-namespace): a program, n
 
 constexpr std::uint64_t kFrames = 16;
 
+hal::SyntheticOptions workbenchOf(hal::FrameSize size) {
+  return {.size = size, .frameCount = kFrames};
+}
+
 std::vector<hal::CapturedFrame> workbench(hal::FrameSize size) {
   hal::SteppedClock clock;
-  hal::SyntheticCamera camera({.size = size, .frameCount = kFrames}, clock);
+  hal::SyntheticCamera camera(workbenchOf(size), clock);
   hal::orThrow(camera.start({}));
   std::vector<hal::CapturedFrame> frames;
   for (std::uint64_t i = 0; i < kFrames; ++i) {
@@ -45,13 +51,26 @@ std::size_t frameAt(std::uint64_t number) {
   return place < kFrames ? place : 2 * kFrames - 2 - place;
 }
 
+/// What is on the bench. `kTags`: only what models would be attached to.
+enum class Shown { kNothing, kTags, kModels };
+
+scene::Scene sceneOf(hal::FrameSize size, Shown shown) {
+  if (shown == Shown::kNothing) return {};
+  hal::SteppedClock clock;
+  const hal::GroundTruth truth = hal::SyntheticCamera(workbenchOf(size), clock).truth(0);
+  return scene::parseScene(shown == Shown::kModels ? app::workbenchScene(truth, size)
+                                                   : app::workbenchSetting(truth, size),
+                           "bench", {});
+}
+
 struct Bench {
-  Bench(hal::FrameSize size, const char* style, gpu::PassTiming timing)
+  Bench(hal::FrameSize size, const char* style, gpu::PassTiming timing,
+        Shown shown = Shown::kNothing)
       : frames(workbench(size)),
         painter({.pictureSize = size,
-                 .scene = {},
+                 .scene = sceneOf(size, shown),
                  .style = style,
-                 .tracksTags = false,
+                 .tracksTags = shown != Shown::kNothing,
                  .passTiming = timing}),
         parameters(painter.defaultParameters()) {
     for (int i = 0; i < 8; ++i) paint();
@@ -74,8 +93,8 @@ hal::FrameSize sizeOf(const benchmark::State& state) {
   return {static_cast<int>(state.range(0)), static_cast<int>(state.range(1))};
 }
 
-void whole(benchmark::State& state, const char* style) {
-  Bench bench(sizeOf(state), style, gpu::PassTiming::kOff);
+void whole(benchmark::State& state, const char* style, Shown shown = Shown::kNothing) {
+  Bench bench(sizeOf(state), style, gpu::PassTiming::kOff, shown);
   for ([[maybe_unused]] auto _ : state) {
     bench.paint();
     hal::orThrow(bench.painter.snapshot());  // waits; reading it back counts, too
@@ -128,8 +147,8 @@ void start(benchmark::State& state) {
   }
 }
 
-void stages(benchmark::State& state, const char* style) {
-  Bench bench(sizeOf(state), style, gpu::PassTiming::kFences);
+void stages(benchmark::State& state, const char* style, Shown shown = Shown::kNothing) {
+  Bench bench(sizeOf(state), style, gpu::PassTiming::kFences, shown);
   std::map<std::string, double, std::less<>> before;
   for (const gpu::PassTime& each : bench.painter.passTimes()) {
     before[each.pass] = std::chrono::duration<double, std::milli>(each.total).count();
@@ -170,6 +189,18 @@ void atOneSize(benchmark::internal::Benchmark* benchmark) {
   benchmark->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()->MinTime(2.0);
 }
 
+BENCHMARK_CAPTURE(whole, tags, "painterly", Shown::kTags)
+    ->Name("painterly/tags tracked")
+    ->Apply(atOneSize);
+BENCHMARK_CAPTURE(whole, models, "painterly", Shown::kModels)
+    ->Name("painterly/with models")
+    ->Apply(atOneSize);
+BENCHMARK_CAPTURE(stages, tags, "painterly", Shown::kTags)
+    ->Name("painterly/stages/tags tracked")
+    ->Apply(atOneSize);
+BENCHMARK_CAPTURE(stages, models, "painterly", Shown::kModels)
+    ->Name("painterly/stages/with models")
+    ->Apply(atOneSize);
 BENCHMARK_CAPTURE(whole, hatching, "hatching")->Name("hatching/whole")->Apply(atOneSize);
 BENCHMARK_CAPTURE(stages, hatching, "hatching")->Name("hatching/stages")->Apply(atOneSize);
 BENCHMARK_CAPTURE(with, quads, "quads", "thesis")->Name("painterly/4 (n + 2)")->Apply(atSizes);

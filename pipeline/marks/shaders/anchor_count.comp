@@ -1,7 +1,7 @@
 // Purpose: fades anchors in and out, and counts the staying ones in each cell. One on a virtual
 //          surface that has faded out becomes dormant.
 // Inputs:  anchor_cells.glsl's; ids and forms (ArFrame) and their pixelsOfFull if hasObjects;
-//          fadeIn, fadeOut: the part of a fade that this frame completes.
+//          fadeIn, fadeOut, moverFadeOut: the part of a fade that this frame completes.
 // Outputs: anchors; cells, whose counts were 0 (anchor_spawn.comp). One invocation per anchor.
 // Precision: highp; counts are integers, so that order does not matter.
 #include "pipeline/marks/shaders/anchor.glsl"
@@ -12,6 +12,7 @@ layout(std430, binding = 0) buffer Anchors { Anchor anchors[]; };
 layout(std430, binding = 1) buffer Cells { Cell cells[]; };
 uniform float fadeIn;
 uniform float fadeOut;
+uniform float moverFadeOut;
 uniform uint slots;
 #include "pipeline/marks/shaders/anchor_patch.glsl"
 
@@ -23,7 +24,8 @@ void main() {
   bool isBehind = isCovered(state);
   bool stays = isBehind || isStaying(state);
   if (!isBehind) {
-    float fade = clamp(anchors[slot].fade + (stays ? fadeIn : -fadeOut), 0.0, 1.0);
+    float out_ = (state & kMover) != 0u ? moverFadeOut : fadeOut;
+    float fade = clamp(anchors[slot].fade + (stays ? fadeIn : -out_), 0.0, 1.0);
     anchors[slot].fade = fade;
     if (!stays && fade == 0.0) anchors[slot].state = stateAfter(state, isVirtual(objectOf(anchors[slot].surface)));
   }

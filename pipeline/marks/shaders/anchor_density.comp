@@ -1,7 +1,8 @@
 // Purpose: controls the density of anchors in a cell: the number of spawns, the anchor to remove and
 //          the dormant one to wake (thesis §5.3, with hysteresis).
-// Inputs:  anchor_cells.glsl's; the rule (marks::DensityRule): target, birthBelow, deathAbove; ids
-//          and forms (ArFrame) and their pixelsOfFull if hasObjects; fullSize; mover_labels.glsl's.
+// Inputs:  anchor_cells.glsl's; the rule (marks::DensityRule): target, birthBelow, deathAbove: on
+//          movers only if hasMoverSlack, else the target holds there; ids and forms (ArFrame) and
+//          their pixelsOfFull if hasObjects; fullSize; mover_labels.glsl's.
 //          Anchors of the background and of movers are counted apart; each patch of a model that
 //          shows enough of itself gets one at least; joints count less.
 // Outputs: births of each cell; anchors: those to remove, and dormant ones that wake; nextToWake: 0
@@ -22,6 +23,7 @@ uniform vec2 fullSize;
 uniform int target;
 uniform int birthBelow;
 uniform int deathAbove;
+uniform bool hasMoverSlack;
 #include "pipeline/marks/shaders/mover_labels.glsl"
 
 const float kMinShare = 0.12;  // of a cell: a smaller part gets no anchor of its own
@@ -113,9 +115,10 @@ uint paintedAround(ivec2 cell) {
   return painted;
 }
 
-uint wanted(float share, uint count, bool isGap) {
+// `isTight`: the target is wanted, not just `birthBelow`.
+uint wanted(float share, uint count, bool isGap, bool isTight) {
   if (share < kMinShare) return 0u;
-  uint least = uint(max(1.0, floor(share * float(birthBelow) + 0.5)));
+  uint least = uint(max(1.0, floor(share * float(isTight ? target : birthBelow) + 0.5)));
   uint full = uint(max(1.0, floor(share * float(target) + 0.5)));
   if (count >= least || full <= count) return 0u;
   return isGap ? least - count : full - count;
@@ -152,14 +155,17 @@ void main() {
                     (cell.nextOnObjects != 0u && ofObjects >= float(cell.inImage) * objects.share);
     anchors[slotOf(isObject ? cell.nextOnObjects : cell.nextInImage)].state |= kDying;
   }
-  if (cell.onMovers > uint(deathAbove)) anchors[slotOf(cell.nextOnMovers)].state |= kDying;
+  float moving = moverShare(at);
+  uint mostOnMovers =
+      uint(hasMoverSlack ? float(deathAbove) : floor(moving * float(target) + 1.5));
+  if (cell.onMovers > mostOnMovers) anchors[slotOf(cell.nextOnMovers)].state |= kDying;
   // Border cells may be cut off.
   vec2 inside = clamp((fullSize - vec2(at * cellPixels)) / float(cellPixels), 0.0, 1.0);
   float whole = inside.x * inside.y;
   float share = objects.share;
   bool isGap = isAmongFull(at);
-  uint inImage = wanted(whole * (1.0 - share), cell.inImage, isGap);
-  uint onObjects = wanted(whole * share, cell.onObjects, isGap);
+  uint inImage = wanted(whole * (1.0 - share), cell.inImage, isGap, false);
+  uint onObjects = wanted(whole * share, cell.onObjects, isGap, false);
   // A stroke paints its own patch only.
   uint onPatches = min(objects.unpainted, 255u);
   onObjects = max(onObjects, onPatches) - onPatches;
@@ -174,5 +180,5 @@ void main() {
   onPatches -= waking;
   onObjects -= min(onObjects, sleeping - waking);
   cells[index].births = inImage | min(onObjects, 255u) << 16u | onPatches << 24u;
-  cells[index].moverBirths = wanted(whole * moverShare(at), cell.onMovers, false);
+  cells[index].moverBirths = wanted(whole * moving, cell.onMovers, false, !hasMoverSlack);
 }

@@ -19,6 +19,10 @@ constexpr double kAlignSeconds = 6.0;
 /// Before a camera that stands, lines of the background are held so much longer: what passes beside
 /// them must not turn them.
 constexpr double kStandingHold = 100.0;
+/// What moves by itself changes its shape: lines on it are held no longer.
+constexpr double kMoverShapeSeconds = 0.25;
+constexpr double kMoverAlignSeconds = 0.3;
+constexpr hal::Duration kMoverFade = std::chrono::milliseconds(170);
 /// Of a first frame, from random places.
 constexpr int kFirstSteps = 24;
 constexpr float kFirstPast = 0.3F;
@@ -34,11 +38,13 @@ int cellOf(const HatchPlan& plan) {
   return std::max(4, static_cast<int>(std::lround(std::sqrt(kAnchorsOfCell * area))));
 }
 
-/// The past's shares: of lines on models and movers, and of the background.
-glm::vec2 pastOf(hal::Duration step, double seconds, const marks::MotionLayers* movers) {
+/// The past's shares (shaders/line_past.glsl).
+glm::vec3 pastOf(hal::Duration step, double seconds, double moverSeconds,
+                 const marks::MotionLayers* movers) {
   const bool isStanding = movers != nullptr && movers->hasStood();
   return {marks::keptAfter(step, seconds),
-          marks::keptAfter(step, isStanding ? kStandingHold * seconds : seconds)};
+          marks::keptAfter(step, isStanding ? kStandingHold * seconds : seconds),
+          marks::keptAfter(step, std::min(seconds, moverSeconds))};
 }
 
 /// Scale from px of the full image to texture coordinates of a field's level.
@@ -89,8 +95,12 @@ HatchLines::HatchLines(const gpu::ShaderLibrary& library, hal::FrameSize full,
 void HatchLines::update(const scene::ArFrame& frame, const Inputs& inputs, const HatchRule& rule) {
   const hal::Duration step = marks::timeStep(lastTime_, frame.captureTime);
   lastTime_ = frame.captureTime;
-  anchors_.advance(frame, *inputs.motion, {.fadeIn = rule.fade, .fadeOut = rule.fade},
-                   inputs.movers, inputs.field);
+  // Lines that a mover carries gather on one side of it; each that is too many is seen.
+  const marks::AnchorHold hold{.fadeIn = rule.fade,
+                               .fadeOut = rule.fade,
+                               .moverFadeOut = kMoverFade,
+                               .hasMoverSlack = false};
+  anchors_.advance(frame, *inputs.motion, hold, inputs.movers, inputs.field);
   align(frame, inputs, rule, step);
   trace(frame, inputs, rule, step);
   layOut(frame, inputs, rule);
@@ -146,7 +156,8 @@ void HatchLines::align(const scene::ArFrame& frame, const Inputs& inputs, const 
         .set("isFirst", isAnew ? 1 : 0)
         .set("spacing", static_cast<float>(plan_.spacingPx))
         .set("reach", static_cast<float>(kReachSpacings * plan_.spacingPx))
-        .set("past", isAnew ? glm::vec2(kFirstPast) : pastOf(step, kAlignSeconds, inputs.movers));
+        .set("past", isAnew ? glm::vec3(kFirstPast)
+                            : pastOf(step, kAlignSeconds, kMoverAlignSeconds, inputs.movers));
     bindField(align_, *inputs.field, rule, level);
     align_.dispatch({static_cast<int>(slots_), 1},
                     GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
@@ -170,7 +181,8 @@ void HatchLines::trace(const scene::ArFrame& frame, const Inputs& inputs, const 
       .set("cutOff", std::cos(rule.cutOffRad))
       .set("wander", rule.wanderRad)
       .set("jitter", (1.0F - rule.evenness) * 0.5F * static_cast<float>(plan_.spacingPx))
-      .set("past", pastOf(step, hal::toSeconds(rule.shapeMemory), inputs.movers));
+      .set("past",
+           pastOf(step, hal::toSeconds(rule.shapeMemory), kMoverShapeSeconds, inputs.movers));
   bindSupport(trace_, frame, inputs.movers);
   bindField(trace_, field, rule, level);
   bindHatchTone(trace_, frame, *inputs.tone, rule);

@@ -1,8 +1,10 @@
 // Lines where something moves before a camera that stands: the mover has lines of its own, which
 // end at its border, and those behind it and beside it stay as they are.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
+#include <string>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -76,6 +78,76 @@ TEST_F(HatchMovers, HaveLinesOfTheirOwnAndLeaveTheOthersAsTheyAre) {
   const Found untold = see("false");
   EXPECT_EQ(untold.onMover, 0);
   EXPECT_GT(untold.changed, 5);
+}
+
+/// Something dark that walks, and swells and shrinks with each step.
+class HatchWalker : public HatchingTest {
+ protected:
+  struct Body {
+    double x = 0.0;
+    double halfWidth = 0.0;
+    bool isAt(int px, int py, double border) const {
+      return std::abs(px - x) < halfWidth - border && py > 24.0 + border && py < 120.0 - border;
+    }
+  };
+  static constexpr double kBorder = 4.0;
+  static double lumaAt(const Body* body, int x, int y) {
+    if (body == nullptr || !body->isAt(x, y, 0.0)) return 0.75 + 0.1 * std::sin(0.6 * x);
+    return 0.2 + 0.08 * std::sin(6.0 * (x - body->x) / body->halfWidth) * std::cos(0.3 * y);
+  }
+  hal::Image imageOf(const Body* body, int seed) const {
+    std::mt19937 random(static_cast<unsigned>(seed));
+    std::normal_distribution<double> noise(0.0, 2.0 / 255.0);
+    return HatchingTest::imageOf(kSize,
+                                 [&](int x, int y) { return lumaAt(body, x, y) + noise(random); });
+  }
+  /// Ink on each third of the body from its trailing side on, in [0, 1].
+  static std::array<double, 3> inkOn(const Body& body, const Hatching& style) {
+    const std::vector<std::uint8_t> ink = inkOf(style);
+    std::array<double, 3> sums{};
+    std::array<double, 3> counts{};
+    for (int y = 0; y < kSize.height; ++y) {
+      for (int x = 0; x < kSize.width; ++x) {
+        if (!body.isAt(x, y, kBorder)) continue;
+        const double across = 0.5 + 0.5 * (x - body.x) / (body.halfWidth - kBorder);
+        const auto third = static_cast<std::size_t>(std::clamp(3.0 * across, 0.0, 2.0));
+        sums.at(third) += ink[static_cast<std::size_t>(y * kSize.width + x)] / 255.0;
+        counts.at(third) += 1.0;
+      }
+    }
+    for (std::size_t i = 0; i < 3; ++i) sums.at(i) /= std::max(1.0, counts.at(i));
+    return sums;
+  }
+};
+
+TEST_F(HatchWalker, IsDrawnInTheToneThatItWouldHaveIfItStood) {
+  Hatching style(library_);
+  restart();
+  int seed = 0;
+  for (int i = 0; i < 10; ++i) style.paint(next(imageOf(nullptr, ++seed)), {});
+  std::array<double, 3> walking{};
+  std::array<double, 3> standing{};
+  constexpr int kSamples = 3;
+  Hatching still(library_);
+  for (int i = 0; i < 12 + 7 * kSamples; ++i) {
+    const Body body{.x = 30.0 + 3.0 * i, .halfWidth = 22.0 + 9.0 * std::sin(0.5 * i)};
+    const scene::ArFrame frame = next(imageOf(&body, ++seed));
+    style.paint(frame, {});
+    if (i < 12 || i % 7 != 0) continue;
+    still.reset();
+    still.paint(frame, {});
+    const std::array<double, 3> now = inkOn(body, style);
+    const std::array<double, 3> fresh = inkOn(body, still);
+    for (std::size_t third = 0; third < 3; ++third) {
+      walking.at(third) += now.at(third) / kSamples;
+      standing.at(third) += fresh.at(third) / kSamples;
+    }
+  }
+  for (std::size_t third = 0; third < 3; ++third) {
+    RecordProperty("walking" + std::to_string(third), std::to_string(walking.at(third)));
+    RecordProperty("standing" + std::to_string(third), std::to_string(standing.at(third)));
+    EXPECT_NEAR(walking.at(third), standing.at(third), 0.3 * standing.at(third)) << third;
+  }
 }
 
 }  // namespace

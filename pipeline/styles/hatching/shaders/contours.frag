@@ -1,5 +1,5 @@
 // Purpose: contour lines: edges of the image, smoothed along their direction, and the silhouettes,
-//          creases and part borders of models.
+//          creases and part borders of models; and the outlines of movers.
 // Defines: MODELS: the latter.
 // Inputs:  edges (contour_edges.frag, LINEAR); contour_field.glsl's and mover_labels.glsl's; step_:
 //          px between taps; threshold: the least difference that is a line, in luma; sign: -1 for
@@ -23,6 +23,12 @@ layout(location = 0) out vec2 contour;
 
 const float kStride = 1.8;  // steps between taps: specks of a texture are shorter than a line
 const float kSmooth[4] = float[4](0.24, 0.2, 0.12, 0.06);
+
+// Labels are blurred over two or three pixels.
+float moverLine(vec2 px) {
+  float mover = moverAt(px).r;
+  return smoothstep(0.1, 0.7, 1.0 - abs(2.0 * mover - 1.0));
+}
 
 float edgeAt(vec2 pixel) { return textureLod(edges, pixel / size, 0.0).r; }
 
@@ -75,6 +81,7 @@ void main() {
     }
   }
   contour = smoothstep(vec2(0.6 * threshold), vec2(1.4 * threshold), vec2(sign_, -sign_) * sum);
+  contour.r = max(contour.r, moverLine(gl_FragCoord.xy / pixelsOfFull));
 #ifdef MODELS
   ivec2 p = ivec2(gl_FragCoord.xy);
   contour.r = max(contour.r, modelLines(p));

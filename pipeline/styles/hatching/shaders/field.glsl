@@ -1,6 +1,7 @@
 // Purpose: the direction of a set's lines: along the tensor field, or at one slope on the paper, or
 //          in between, turned by the set's angle.
-//          On a model, always along its own field, so that lines go with it.
+//          On a model, always along its own field, so that lines go with it; on a mover, whose
+//          field changes with every step, mostly at the slope.
 // Inputs:  field, modelField (marks::TensorField), fieldScale; moverField, moverScale; slope: a tensor;
 //          lead: weight of the field beside it; turn: cosine and sine of the set's angle.
 // Outputs: unit vectors; a direction and its opposite are the same.
@@ -13,6 +14,8 @@ uniform vec2 moverScale;
 uniform vec2 slope;
 uniform float lead;
 uniform vec2 turn;
+
+const float kMoverLead = 0.3;  // part of lead
 
 vec2 unitTensor(vec2 tensor) { return tensor * inversesqrt(max(dot(tensor, tensor), 1e-12)); }
 
@@ -28,7 +31,8 @@ vec2 directionAt(vec2 px, uint support) {
     tensor = textureLod(moverField, px * moverScale, 0.0).xy;
     tensor = dot(tensor, tensor) > 1e-3 ? tensor : slope;
   }
-  tensor = unitTensor(mix(slope, unitTensor(tensor), isOnModel ? 1.0 : lead));
+  float weight = isOnModel ? 1.0 : support == 0u ? lead : kMoverLead * lead;
+  tensor = unitTensor(mix(slope, unitTensor(tensor), weight));
   // Half the angle by square roots; lines run across the gradient.
   vec2 gradient = vec2(sqrt(max(0.0, 0.5 + 0.5 * tensor.x)), sqrt(max(0.0, 0.5 - 0.5 * tensor.x)));
   if (tensor.y < 0.0) gradient.y = -gradient.y;

@@ -4,14 +4,14 @@
 //          "Procedural phasor noise", 2019).
 // Inputs:  anchors; lines: labels; starts, sorted, bins, binPixels: all of them (line_points.comp); before: the
 //          shifts of the previous step; field.glsl's; spacing, reach: px; anew, isFirst: lines have
-//          no past; past: its share, and that of the background.
+//          no past; line_past.glsl's.
 // Outputs: shifts (RGBA32F, a texel a slot: line_shift.glsl): px. One invocation per anchor.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/point_bins.glsl"
-#include "pipeline/scene/render/shaders/surface_form.glsl"
 #include "pipeline/styles/hatching/shaders/line.glsl"
+#include "pipeline/styles/hatching/shaders/line_past.glsl"
 #include "pipeline/styles/hatching/shaders/line_shift.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Anchors { Anchor anchors[]; };
@@ -26,7 +26,6 @@ uniform bool anew;     // the first of the first steps
 uniform bool isFirst;  // one of them
 uniform float spacing;
 uniform float reach;
-uniform vec2 past;
 
 const float kTurn = 6.2831853;
 
@@ -81,7 +80,7 @@ void main() {
   if (agreement > 0.02) {
     float target = spacing / kTurn * atan(sum.y, sum.x);
     target += spacing * round((own - target) / spacing);
-    own = isNew ? target : mix(target, own, support == 0u ? past.y : past.x);
+    own = isNew ? target : mix(target, own, pastOn(support));
   }
   own = clamp(own, -spacing, spacing);
   imageStore(shifts, shiftTexel(int(slot)), vec4(own * across, agreement, 0.0));

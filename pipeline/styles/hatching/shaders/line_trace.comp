@@ -4,14 +4,14 @@
 // Inputs:  anchors; field.glsl's and tone.glsl's; line_support.glsl's; shifts:
 //          those of line_align.comp; jitter: px by which lines are off at random, ±; anew: lines
 //          have no past; cellPixels: of the anchors; segment: px; steps: an arm's length in segments, at most
-//          kArm; cutOff: cosine; wander: rad; past: the past's
-//          share, and that of the background, which before a standing camera nothing changes.
+//          kArm; cutOff: cosine; wander: rad; past: line_past.glsl's.
 // Outputs: lines. One invocation per anchor.
 // Precision: highp.
 #include "pipeline/gpu/shaders/hash.glsl"
 #include "pipeline/marks/shaders/anchor.glsl"
 #include "pipeline/marks/shaders/stroke_history.glsl"
 #include "pipeline/styles/hatching/shaders/line.glsl"
+#include "pipeline/styles/hatching/shaders/line_past.glsl"
 #include "pipeline/styles/hatching/shaders/line_shift.glsl"
 #include "pipeline/styles/hatching/shaders/line_support.glsl"
 layout(local_size_x = 64) in;
@@ -28,7 +28,6 @@ uniform float cutOff;
 uniform float wander;
 uniform highp sampler2D shifts;
 uniform float jitter;
-uniform vec2 past;
 
 vec2 turned(vec2 way, float angle) {
   float c = cos(angle);
@@ -123,7 +122,7 @@ void main() {
     shift += jitter * (2.0 * unitOf(hashOf(seed ^ 0x45u)) - 1.0) * vec2(-heading.y, heading.x);
     line.shift = shift;
     vec2 from = px + shift;
-    float stays = support == 0u ? past.y : past.x;
+    float stays = pastOn(support);
     float most = steps * (0.75 + 0.25 * line.bend);
     float bend = stray + 0.5 * wander * line.bend;
     for (int side = 0; side < 2; ++side) {
