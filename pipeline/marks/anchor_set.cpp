@@ -216,6 +216,7 @@ void AnchorSet::State::keepDensity(const scene::ArFrame& frame, const MotionFiel
   const DensityRule& rule = options.density;
   setFrame(beginCells(density), frame)
       .set("hasObjects", frame.hasObjects ? 1 : 0)
+      .set("objectBounds", frame.objectBoundsOrAll())
       .storage("Anchors", anchors)
       .storage("Cells", cells)
       .texture("movers", layerTextures.labelsOf(layers))

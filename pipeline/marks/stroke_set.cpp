@@ -120,6 +120,7 @@ void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchor
       .texture("depth", hasDepth ? *frame.depth : anyColour)
       .set("depthRange", hasDepth ? glm::vec2(frame.nearMetres, frame.farMetres) : glm::vec2(0.0F))
       .set("hasObjects", frame.hasObjects ? 1 : 0)
+      .set("objectBounds", frame.objectBoundsOrAll())
       .set("anew", anchors.hasBegunAnew() ? 1 : 0)
       .set("fullSize", glm::vec2(frame.full().width, frame.full().height))
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))

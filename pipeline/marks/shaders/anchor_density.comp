@@ -2,7 +2,7 @@
 //          the dormant one to wake (thesis §5.3, with hysteresis).
 // Inputs:  anchor_cells.glsl's; the rule (marks::DensityRule): target, birthBelow, deathAbove: on
 //          movers only if hasMoverSlack, else the target holds there; ids and forms (ArFrame) and
-//          their pixelsOfFull if hasObjects; fullSize; mover_labels.glsl's.
+//          their pixelsOfFull if hasObjects, within objectBounds; fullSize; mover_labels.glsl's.
 //          Anchors of the background and of movers are counted apart; each patch of a model that
 //          shows enough of itself gets one at least; joints count less.
 // Outputs: births of each cell; anchors: those to remove, and dormant ones that wake; nextToWake: 0
@@ -18,6 +18,7 @@ layout(std430, binding = 1) buffer Cells { Cell cells[]; };
 uniform highp usampler2D ids;
 uniform highp usampler2D forms;
 uniform bool hasObjects;
+uniform vec4 objectBounds;
 uniform vec2 pixelsOfFull;
 uniform vec2 fullSize;
 uniform int target;
@@ -42,6 +43,10 @@ struct Objects {
 Objects objectsIn(ivec2 cell, uint painted) {
   ivec2 low = ivec2(floor(vec2(cell * cellPixels) * pixelsOfFull));
   ivec2 high = min(ivec2(ceil(vec2((cell + 1) * cellPixels) * pixelsOfFull)), textureSize(ids, 0));
+  if (any(greaterThanEqual(vec2(low), objectBounds.zw)) ||
+      any(lessThan(vec2(high), objectBounds.xy))) {
+    return Objects(0.0, 0u, 0u);
+  }
   int stride = max(1, (high.y - low.y) / 8);
   int shown = 0;
   int seen = 0;

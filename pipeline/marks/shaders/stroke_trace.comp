@@ -11,7 +11,7 @@
 //          of modelPaint's texels, px of the full image; labels if hasLabels: of pixels, in the
 //          lower bits of ArFrame::forms or of StrokeSet::update()'s borders, which labelMask tells;
 //          hasSegments: they have segments' labels, too; ids and depth (ArFrame) if
-//          hasObjects, depthRange: the near and the far plane in metres, 0: no depth; focalPx: of
+//          hasObjects, within objectBounds; depthRange: the near and the far plane in metres, 0: no depth; focalPx: of
 //          the full image, 0: not known; imageScale: the anchors', octaves; focus.glsl's; layer: its
 //          number and how many; the rest as in
 //          marks::StrokeRule.
@@ -52,6 +52,7 @@ uniform bool hasLabels;
 uniform bool hasSegments;
 uniform highp sampler2D depth;
 uniform bool hasObjects;
+uniform vec4 objectBounds;
 uniform bool anew;
 uniform vec2 fullSize;
 uniform vec2 pixelsOfFull;
@@ -270,6 +271,15 @@ float detailAt(vec2 px, Support on) {
   return mix(1.0, kLooseDetail, on.looseness) * detail;
 }
 
+// Whether an arm may come to labels other than the background's 0.
+bool reachesLabels(vec2 px) {
+  if (hasSegments || !hasLabels) return hasLabels;
+  vec2 reach = (segment * float(kArm) + 2.0) * pixelsOfFull;
+  vec2 at = px * pixelsOfFull;
+  return all(greaterThanEqual(at, objectBounds.xy - reach)) &&
+         all(lessThanEqual(at, objectBounds.zw + reach));
+}
+
 Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {
   Arm arm;
   arm.length = steps;
@@ -279,6 +289,7 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {
   float before = 0.0;
   vec2 at = from;
   float strayed = 0.0;
+  bool mayLeave = clips && reachesLabels(from);
   for (int i = 0; i < kArm; ++i) {
     vec2 direction = directionAt(at + 0.5 * segment * heading, on);
     direction = vec2(hand.x * direction.x - hand.y * direction.y,
@@ -290,7 +301,7 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {
       arm.length = min(arm.length, float(i));
     }
     arm.directions[i] = direction;
-    if (goesOn && clips && hasLabels) {
+    if (goesOn && mayLeave) {
       // An arm ends where another surface begins.
       float part = partOnPatch(at, at + segment * direction, on, strayed);
       if (part < 1.0) {

@@ -6,6 +6,7 @@
 #include <span>
 
 #include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 
 #include "hal/clock.h"
 #include "hal/pixel_format.h"
@@ -123,6 +124,9 @@ struct ArFrame {
   /// Set if asked for.
   std::optional<MeasuredSegments> measuredSegments;
   bool hasObjects = false;  ///< whether any virtual object may be visible; if not, all ids are 0
+  /// Where ids and forms may be other than 0: low and high corner, px of this image. Unset:
+  /// anywhere.
+  std::optional<glm::ivec4> objectBounds;
   bool hasFocus = false;    ///< whether any pixel's focus may be above 0
   float nearMetres = 0.0F;  ///< planes of the depth range, for linear depth
   float farMetres = 0.0F;
@@ -139,6 +143,11 @@ struct ArFrame {
   std::optional<hal::FrameSize> fullSize;
 
   hal::FrameSize size() const { return colour->size(); }
+  /// The same for shaders, which skip the rest of the image; empty if there are no objects.
+  glm::vec4 objectBoundsOrAll() const {
+    if (!hasObjects) return glm::vec4(0.0F);
+    return glm::vec4(objectBounds.value_or(glm::ivec4(0, 0, size().width, size().height)));
+  }
   hal::FrameSize full() const { return fullSize.value_or(size()); }
   /// Px of this image per px of the full one.
   glm::dvec2 pixelsOfFull() const {

@@ -357,6 +357,8 @@ void ArFrameRenderer::findSurfaces(const tracking::CameraModel& camera) {
   frame_.barycentrics = &surfacesNow_->buffers->barycentrics;
   frame_.parts = &surfacesNow_->buffers->parts;
   frame_.forms = &surfacesNow_->buffers->forms;
+  const ScreenArea& objects = surfacesNow_->buffers->objects;
+  frame_.objectBounds = glm::ivec4(objects.origin, objects.origin + objects.size);
   camera_ = camera;
   frame_.surfaces =
       SurfaceAccess{.posed = geometry_.isEmpty() ? nullptr : &geometry_.posed(),

@@ -30,7 +30,8 @@ constexpr std::array<BufferView, 11> kViews{
       "a colour for each smooth patch of a model, at whose borders strokes end",
       {.surfaces = true}},
      {"form",
-      "the direction in which surfaces bend least: its hue (red: level, blue-green: upright); grey: "
+      "the direction in which surfaces bend least: its hue (red: level, blue-green: upright); "
+      "grey: "
       "none",
       {.surfaces = true}}}};
 

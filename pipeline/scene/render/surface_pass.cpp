@@ -190,6 +190,7 @@ void SurfacePass::clear(Buffers& buffers) {
   glDisable(GL_SCISSOR_TEST);
   glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);  // compute writes come after the clear
   buffers.written = {};
+  buffers.objects = {};
 }
 
 void SurfacePass::run(const gpu::Texture& ids, const tracking::CameraModel& camera,
@@ -205,9 +206,10 @@ void SurfacePass::run(const gpu::Texture& ids, const tracking::CameraModel& came
   for (const std::size_t i : models) {
     const ScreenArea area = areaOfModel(i, bodies.model(i), camera);
     if (area.isEmpty() || geometry_.batches(i).empty()) continue;
-    buffers.written = unionOf(buffers.written, area);
+    buffers.objects = unionOf(buffers.objects, area);
     runModel(scene_.models[i].isOccluder ? realSurface_ : surface_, i, ids, camera, area, buffers);
   }
+  buffers.written = unionOf(buffers.written, buffers.objects);
   // for later readers, and for the next frame's clear()
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                   GL_FRAMEBUFFER_BARRIER_BIT);

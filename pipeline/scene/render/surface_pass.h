@@ -38,6 +38,7 @@ class SurfacePass {
     gpu::Texture forms;
     gpu::RenderTarget target;  // all textures, for clearing
     ScreenArea written;        // area that may be non-zero; at first the whole image
+    ScreenArea objects;        // of models alone
   };
 
   /// Runs each program once (docs/gpu.md, rule 14), independent of the bodies' positions.

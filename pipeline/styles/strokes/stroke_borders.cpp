@@ -19,6 +19,7 @@ void StrokeBorders::draw(const scene::ArFrame& frame, const marks::MotionLayers*
       .texture("picture", *frame.colour)
       .texture("before", before != nullptr ? *before : noForms_)
       .set("hasObjects", frame.hasObjects ? 1 : 0)
+      .set("objectBounds", frame.objectBoundsOrAll())
       .set("isHeld", before != nullptr ? 1 : 0)
       .set("size", glm::vec2(size.width, size.height))
       .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))

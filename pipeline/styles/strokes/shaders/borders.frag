@@ -4,7 +4,7 @@
 //          image's segments. Occluders count as real: they hide models, but the image goes on over
 //          their edges. Where trunk and limb meet on a smooth surface, the border is open: strokes
 //          of both fade out beyond it.
-// Inputs:  forms and depth (scene::ArFrame) if hasObjects, depthRange: 0: no depth;
+// Inputs:  forms and depth (scene::ArFrame) if hasObjects, within objectBounds; depthRange: 0: no depth;
 //          mover_labels.glsl's; segments.glsl's; picture: the frame's; before: the previous frame's
 //          output if isHeld, while the camera stands; size, pixelsOfFull: of the frame.
 // Outputs: R32UI, packed as in stroke_border.glsl.
@@ -17,6 +17,7 @@ uniform highp sampler2D depth;
 uniform highp usampler2D before;
 uniform highp sampler2D picture;
 uniform bool hasObjects;
+uniform vec4 objectBounds;
 uniform bool isHeld;
 uniform vec2 size;
 uniform vec2 pixelsOfFull;
@@ -26,8 +27,14 @@ layout(location = 0) out uint border;
 
 float moverOf(ivec2 p) { return moverAt((vec2(p) + 0.5) / pixelsOfFull).r; }
 
-uint labelAt(ivec2 p) {
-  uint label = hasObjects ? labelOf(texelFetch(forms, p, 0).r) : 0u;
+// Whether objects are seen at the pixel or beside it.
+bool isNearObjects(vec2 p) {
+  return hasObjects && all(greaterThanEqual(p, objectBounds.xy - 1.0)) &&
+         all(lessThanEqual(p, objectBounds.zw + 1.0));
+}
+
+uint labelAt(ivec2 p, bool isNearObjects) {
+  uint label = isNearObjects ? labelOf(texelFetch(forms, p, 0).r) : 0u;
   if (label != 0u) return label;
   return moverOf(p) > 0.5 ? kMoverLabel : 0u;
 }
@@ -87,16 +94,17 @@ uint held(SegmentBorder now, ivec2 p) {
 void main() {
   ivec2 p = ivec2(gl_FragCoord.xy);
   ivec2 last = ivec2(size) - 1;
-  uint own = labelAt(p);
+  bool isNear = isNearObjects(gl_FragCoord.xy);
+  uint own = labelAt(p, isNear);
   uint other = own;
   float share = 0.0;
   // Labels are half as fine as the full image: where one is exactly 0 or 1, so it is all around. A
   // loop that no invocation enters costs nothing on software renderers.
   float mover = moverOf(p);
-  bool isUniform = !hasObjects && pixelsOfFull.x > 0.99 && (mover == 0.0 || mover == 1.0);
+  bool isUniform = !isNear && pixelsOfFull.x > 0.99 && (mover == 0.0 || mover == 1.0);
   for (int i = isUniform ? 9 : 0; i < 9; ++i) {
     ivec2 step = ivec2(i % 3, i / 3) - 1;
-    uint label = i == 4 ? own : labelAt(clamp(p + step, ivec2(0), last));
+    uint label = i == 4 ? own : labelAt(clamp(p + step, ivec2(0), last), isNear);
     float weight = float((2 - abs(step.x)) * (2 - abs(step.y))) / 16.0;
     if (label == own) {
       share += weight;
@@ -105,7 +113,7 @@ void main() {
     }
   }
   float near = 0.0;
-  uint across = hasObjects ? acrossJoint(p, last, near) : 0u;
+  uint across = isNear ? acrossJoint(p, last, near) : 0u;
   // A border that is not open, such as an outline, clips as ever.
   bool isClosed = other != own && other != across;
   if (across != 0u && !isClosed) {
