@@ -18,7 +18,6 @@
 #include "firmware_app/cli/interrupt.h"
 #include "firmware_app/config/camera_selection.h"
 #include "firmware_app/config/requested_parts.h"
-#include "firmware_app/live/last_painting.h"
 #include "firmware_app/live/live_controls.h"
 #include "firmware_app/live/live_painter.h"
 #include "firmware_app/live/live_reporter.h"
@@ -79,8 +78,7 @@ class LivePainting {
         controls_(startParameters(job.options)),
         saver_(job.snapshots),
         reporter_(qualityNames()),
-        lastPainting_(job.state),
-        screens_(job.selector->choice(), keptPainting(), *job.clock) {
+        screens_(job.selector->choice(), job.state, *job.clock) {
     for (const std::string& name : job.outputs) {
       orThrow(checkOutputFolder(name));  // now, because the camera may come much later
       opened_.push_back(orThrow(job.openOutput(name)));
@@ -117,16 +115,6 @@ class LivePainting {
     }
   }
 
-  /// What the run before kept, for the first picture.
-  std::optional<hal::Image> keptPainting() const {
-    const auto showsWaiting = [this](const std::string& target) { return isScreen(target); };
-    if (std::ranges::none_of(job_.outputs, showsWaiting)) return std::nullopt;
-    hal::Result<std::optional<hal::Image>> kept = lastPainting_.read();
-    if (kept) return *std::move(kept);
-    spdlog::warn("the last painting is not shown: {}", kept.error().message());
-    return std::nullopt;
-  }
-
   bool isScreen(const std::string& target) const {
     return job_.showsWaiting && orThrow(hal::outputKindOf(target))->traits.showsWaiting;
   }
@@ -155,23 +143,14 @@ class LivePainting {
     screens_.update({.camera = pipeline_.capture().status(),
                      .hasBegun = hasBegun_,
                      .hasPainter = isMade && pipeline_.paint().status().hasPainter});
-    if (const auto failure = lastPainting_.takeFailure()) warnOfKeeping(*failure);
-    if (hasBegun_ && lastPainting_.isDue(now)) keepPainting(now);
+    reportKeeping();
   }
 
-  void keepPainting(hal::TimePoint now) {
-    if (auto painting = screens_.lastPainting()) lastPainting_.save(*std::move(painting), now);
-  }
-
-  void warnOfKeeping(const hal::Error& failure) {
+  void reportKeeping() {
+    const std::optional<hal::Error> failure = screens_.takeFailure();
+    if (!failure) return;
     reporter_.interrupt();
-    spdlog::warn("the last painting was not kept: {}", failure.message());
-  }
-
-  void keepPaintingAtEnd() {
-    const hal::TimePoint now = job_.clock->now();
-    if (lastPainting_.isDueAtEnd(now)) keepPainting(now);
-    if (const auto failure = lastPainting_.takeFailure(true)) warnOfKeeping(*failure);
+    spdlog::warn("the last painting: {}", failure->message());
   }
 
   /// Has the screens, which were opened without knowing the stream, take it.
@@ -423,7 +402,8 @@ class LivePainting {
     const hal::Duration elapsed = job_.clock->now() - began_;
     stopThreads();
     finishSnapshots();
-    keepPaintingAtEnd();
+    screens_.finish();
+    reportKeeping();
     reporter_.interrupt();
     const runtime::LedgerCounts ledger = pipeline_.ledger().counts();
     fmt::print("{}: {}\n", ledger.summary(elapsed), fmt::join(job_.outputs, ", "));
@@ -473,7 +453,6 @@ class LivePainting {
   LiveControls controls_;
   SnapshotSaver saver_;
   LiveReporter reporter_;
-  LastPainting lastPainting_;
   Screens screens_;
   std::vector<std::unique_ptr<hal::Output>> opened_;  ///< until the pipeline owns them
   std::vector<runtime::OutputStage*> stepped_;  ///< outputs stepped on the main thread: the window

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <utility>
 
 #include "pipeline/present/waiting_picture.h"
@@ -14,8 +15,20 @@ constexpr hal::Duration kPollInterval = std::chrono::milliseconds(1);
 
 }  // namespace
 
-Screens::Screens(std::string choice, std::optional<hal::Image> last, const hal::Clock& clock)
-    : choice_(std::move(choice)), last_(std::move(last)), clock_(clock) {}
+Screens::Screens(std::string choice, const std::filesystem::path& state, const hal::Clock& clock)
+    : choice_(std::move(choice)), store_(state), clock_(clock) {}
+
+void Screens::add(runtime::OutputStage& stage) {
+  if (screens_.empty()) {
+    hal::Result<std::optional<hal::Image>> kept = store_.read();
+    if (kept) {
+      last_ = *std::move(kept);
+    } else {
+      failure_ = std::move(kept.error());
+    }
+  }
+  screens_.push_back({.stage = &stage, .shown = {}});
+}
 
 std::vector<runtime::OutputStage*> Screens::stages() const {
   std::vector<runtime::OutputStage*> stages;
@@ -42,6 +55,18 @@ void Screens::update(const LiveProgress& progress) {
     const bool isReplaced = !status.isWaitingShown && !status.isWaitingDue;
     if (each.shown != wanted || isReplaced) draw(each, wanted, awaited != Awaited::kPace);
   }
+  if (auto failure = store_.takeFailure()) failure_ = std::move(failure);
+  if (progress.hasBegun && store_.isDue(now)) keep(now);
+}
+
+void Screens::keep(hal::TimePoint now) {
+  if (auto painting = lastPainting()) store_.save(*std::move(painting), now);
+}
+
+void Screens::finish() {
+  const hal::TimePoint now = clock_.now();
+  if (store_.isDueAtEnd(now)) keep(now);
+  if (auto failure = store_.takeFailure(true)) failure_ = std::move(failure);
 }
 
 void Screens::draw(Screen& screen, const Drawn& wanted, bool fades) const {
@@ -68,6 +93,7 @@ void Screens::showFirst(hal::Clock& clock) {
   }
 }
 
+/// The last frame of the first screen that has shown one, upright.
 std::optional<hal::Image> Screens::lastPainting() const {
   for (const Screen& each : screens_) {
     if (auto frame = uprightFrameOf(*each.stage)) return frame;

@@ -1,13 +1,16 @@
 #pragma once
 
-#include <memory>
+#include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "firmware_app/live/last_painting.h"
 #include "firmware_app/live/waiting_state.h"
 #include "hal/clock.h"
+#include "hal/error.h"
 #include "hal/image.h"
 #include "pipeline/runtime/output_stage.h"
 
@@ -17,24 +20,26 @@ namespace pleinair::app {
 /// show while there are no paintings. Main thread.
 class Screens {
  public:
-  /// `choice`: the camera that was asked for. `last`: the painting that the run before kept. The
-  /// clock outlives this.
-  Screens(std::string choice, std::optional<hal::Image> last, const hal::Clock& clock);
+  /// `choice`: the camera that was asked for. `state`: where the last painting is kept, and was by
+  /// the run before; empty: nowhere. The clock outlives this.
+  Screens(std::string choice, const std::filesystem::path& state, const hal::Clock& clock);
 
   /// The stage outlives this, and keeps its last frame. It lends surfaces, or is waited for.
-  void add(runtime::OutputStage& stage) { screens_.push_back({.stage = &stage, .shown = {}}); }
+  void add(runtime::OutputStage& stage);
   bool isEmpty() const { return screens_.empty(); }
   std::vector<runtime::OutputStage*> stages() const;
 
-  /// Draws the waiting pictures that are due and hands them to the stages. To be called several
-  /// times a second.
+  /// Draws the waiting pictures that are due and hands them to the stages, and keeps the last
+  /// painting where that is due. To be called several times a second.
   void update(const LiveProgress& progress);
   /// Steps the stages, which have no threads yet, until each has shown its first picture, has
   /// failed or takes longer than a second.
   void showFirst(hal::Clock& clock);
 
-  /// The last frame of the first screen that has shown one, upright.
-  std::optional<hal::Image> lastPainting() const;
+  /// Keeps the last painting where that is due at the end of the run. The stages still exist.
+  void finish();
+  /// Why a painting could not be read or kept, once.
+  std::optional<hal::Error> takeFailure() { return std::exchange(failure_, std::nullopt); }
 
  private:
   /// What a waiting picture depends on.
@@ -50,10 +55,14 @@ class Screens {
     std::optional<Drawn> shown;
   };
   void draw(Screen& screen, const Drawn& wanted, bool fades) const;
+  void keep(hal::TimePoint now);
+  std::optional<hal::Image> lastPainting() const;
   static std::optional<hal::Image> uprightFrameOf(const runtime::OutputStage& stage);
 
   std::string choice_;
-  std::optional<hal::Image> last_;
+  LastPainting store_;
+  std::optional<hal::Image> last_;  ///< the one of the run before
+  std::optional<hal::Error> failure_;
   const hal::Clock& clock_;
   WaitingState state_;
   std::vector<Screen> screens_;

@@ -27,22 +27,18 @@ PresentationRules rulesOf(hal::Output* output, const hal::OutputFormat& format,
 
 }  // namespace
 
-namespace {
-
-hal::Result<hal::Fence> copyImage(const hal::Image& image, hal::SurfaceOutput& output,
+hal::Result<hal::Fence> copyImage(const hal::ImageView& image, hal::SurfaceOutput& output,
                                   const hal::Surface& surface) {
   const hal::Result<hal::SurfaceMapping> mapping = output.map(surface);
   if (!mapping) return tl::unexpected(mapping.error());
-  const auto copied = hal::copyToSurface(image.view(), surface, *mapping);
+  const auto copied = hal::copyToSurface(image, surface, *mapping);
   if (!copied) return tl::unexpected(copied.error());
   return hal::Fence();
 }
 
-}  // namespace
-
 hal::Result<hal::Fence> copyOutputFrame(const OutputFrame& frame, hal::SurfaceOutput& output,
                                         const hal::Surface& surface) {
-  return copyImage(frame.image, output, surface);
+  return copyImage(frame.image.view(), output, surface);
 }
 
 OutputStage::OutputStage(std::unique_ptr<hal::Output> output, hal::OutputFormat format,
@@ -195,13 +191,6 @@ std::optional<hal::TimePoint> OutputStage::step() {
 hal::Duration OutputStage::timeOf(const WaitingFrame& frame) {
   if (!firstTime_) firstTime_ = frame.captured;
   return frame.captured - *firstTime_;
-}
-
-/// Blends what a waiting picture leaves of itself into a frame.
-void OutputStage::fadeIn(const Due& due) {
-  isFaded_ = false;
-  if (!fade_.isOn()) return;
-  isFaded_ = !fade_.apply(buffers_.at(due.frame.buffer)->image, due.frame.due);
 }
 
 void OutputStage::present(const Due& due) {
@@ -411,68 +400,6 @@ void OutputStage::applyRequest() {
   endAll(Outcome::kStopped);
   waiting_.reset();
   started(*format);
-}
-
-void OutputStage::showWaiting(std::shared_ptr<const hal::Image> picture, bool fades) {
-  const std::scoped_lock lock(mutex_);
-  waiting_ = std::move(picture);
-  waitingFades_ = fades;
-  isWoken_ = true;
-  changed_.notify_all();
-}
-
-void OutputStage::cancelWaiting() {
-  const std::scoped_lock lock(mutex_);
-  waiting_.reset();
-}
-
-/// Hands the waiting picture over, once no frame is left that would be shown after it.
-void OutputStage::presentWaiting() {
-  std::shared_ptr<const hal::Image> picture;
-  bool fades = false;
-  {
-    const std::scoped_lock lock(mutex_);
-    if (!waiting_ || status_.isFailed || queue_.size() > 0 || !queued_.empty() || waitingSurface_) {
-      return;
-    }
-    picture = waiting_;
-    fades = waitingFades_;
-  }
-  hal::SurfaceOutput* surfaces = output_->surfaces();
-  const bool fits = surfaces != nullptr && picture->format() == format_.frame;
-  const hal::Answer submitted = fits ? submitWaiting(*surfaces, *picture) : hal::Answer(true);
-  if (submitted.hasError() || (fits && submitted.isYes())) fade_.end();
-  if (fits && submitted.isYes() && fades) fade_.begin(picture);
-  const std::scoped_lock lock(mutex_);
-  if (submitted.hasError()) {
-    fail(submitted.error());
-  } else if (submitted.isYes()) {
-    if (waiting_ == picture) waiting_.reset();  // else another one has come meanwhile
-    status_.isWaitingShown = status_.isWaitingShown || fits;
-  }
-}
-
-/// False if no surface is free.
-hal::Answer OutputStage::submitWaiting(hal::SurfaceOutput& output, const hal::Image& picture) {
-  const hal::Result<std::optional<hal::Surface>> surface = output.acquire();
-  if (!surface) return tl::unexpected(surface.error());
-  if (!*surface) return false;
-  hal::Result<hal::Fence> fence = copyImage(picture, output, **surface);
-  if (!fence) {
-    output.release(**surface);
-    return tl::unexpected(fence.error());
-  }
-  const auto submitted = output.submit(**surface, *std::move(fence), clock_.now());
-  if (!submitted) return tl::unexpected(submitted.error());
-  const std::scoped_lock lock(mutex_);
-  waitingSurface_ = (*surface)->id;
-  return true;
-}
-
-std::optional<hal::Image> OutputStage::lastFrame() const {
-  const std::scoped_lock lock(mutex_);
-  if (!last_) return std::nullopt;
-  return buffers_.at(*last_)->image;
 }
 
 void OutputStage::wait(std::optional<hal::TimePoint> time) {

@@ -25,7 +25,11 @@ namespace pleinair::runtime {
 using SurfaceFill = std::function<hal::Result<hal::Fence>(
     const OutputFrame& frame, hal::SurfaceOutput& output, const hal::Surface& surface)>;
 
-/// A SurfaceFill for the processor: maps the surface and copies the frame (hal::copyToSurface()).
+/// Maps a surface and copies an image of its size. Errors: those of the output;
+/// hal::copyToSurface()'s.
+hal::Result<hal::Fence> copyImage(const hal::ImageView& image, hal::SurfaceOutput& output,
+                                  const hal::Surface& surface);
+/// A SurfaceFill for the processor, by copyImage().
 hal::Result<hal::Fence> copyOutputFrame(const OutputFrame& frame, hal::SurfaceOutput& output,
                                         const hal::Surface& surface);
 

@@ -23,7 +23,6 @@ def run(guest):
     assert is_paper(take(guest, "2-still-waiting")), "the picture did not stay"
 
     live.plug(guest)
-    live.set_camera(guest, "YUYV")
     live.control(guest, osd_text_mode=2)
     watched.wait_until(lambda s: s["outputs"] and shown_on(s) > 0, "a painting", seconds=90)
     take(guest, "3-fading")
@@ -34,7 +33,6 @@ def run(guest):
     assert ink(lost) > 300, "it says nothing"
     assert reddest(lost) == reddest(painted), "it does not show the last painting"
     live.plug(guest)
-    live.set_camera(guest, "YUYV")
     live.control(guest, osd_text_mode=2)
     wait_for(guest, "6-back", is_bars, "the painting again", seconds=60)
     status = watched.status()

@@ -3,8 +3,9 @@
 #include "firmware_app/live/screens.h"
 
 #include <chrono>
+#include <fstream>
 #include <memory>
-#include <optional>
+#include <string>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -13,6 +14,7 @@
 #include "pipeline/runtime/live_pipeline.h"
 #include "tests/support/fake_card.h"
 #include "tests/support/live_simulation.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pleinair::app {
 namespace {
@@ -96,7 +98,8 @@ class ScreensTest : public testing::Test {
   hal::CameraSelector selector_;
   hal::CameraSupervisor supervisor_;
   runtime::LivePipeline pipeline_;
-  Screens screens_{"v4l2", std::nullopt, clock_};
+  support::TemporaryFolder folder_;
+  Screens screens_{"v4l2", folder_.path(), clock_};
 };
 
 TEST_F(ScreensTest, ShowAPictureBeforeThereIsACameraOrAPainter) {
@@ -126,7 +129,6 @@ TEST_F(ScreensTest, GoOverToPaintingsAndBack) {
   runFor(2s);
   EXPECT_FALSE(showsPaper());
   EXPECT_EQ(cards_.shown.back().firstPixel, 0u) << "whole, after it has faded in";
-  ASSERT_TRUE(screens_.lastPainting().has_value());
   EXPECT_EQ(stage.status().starts, 1u);
   gpu_.isLost = isGpuGone_ = true;
   runFor(200ms);
@@ -171,6 +173,31 @@ TEST_F(ScreensTest, GiveUpWaitingForADisplayThatShowsNothing) {
   const hal::TimePoint began = clock_.now();
   screens_.showFirst(clock_);
   EXPECT_LE(clock_.now() - began, 1100ms);
+}
+
+TEST_F(ScreensTest, KeepTheLastPaintingForTheNextRun) {
+  plug();
+  update();
+  screens_.showFirst(clock_);
+  screens_.finish();
+  EXPECT_EQ(folder_.entryCount(), 0u) << "a control: no painting was shown";
+  beginToPaint();
+  runFor(2s);
+  EXPECT_EQ(folder_.entryCount(), 0u) << "not within the first minute";
+  screens_.finish();
+  EXPECT_FALSE(screens_.takeFailure().has_value());
+  EXPECT_EQ(folder_.entryCount(), 1u);
+}
+
+TEST_F(ScreensTest, IgnoreAKeptPaintingThatIsBroken) {
+  std::ofstream(folder_.path() / "last-painting.png") << "no picture";
+  plug();
+  const auto failure = screens_.takeFailure();
+  ASSERT_TRUE(failure.has_value());
+  EXPECT_NE(failure->message().find("last-painting.png"), std::string::npos);
+  update();
+  screens_.showFirst(clock_);
+  EXPECT_TRUE(showsPaper());
 }
 
 TEST_F(ScreensTest, TurnThePictureAsTheDisplayHangs) {
