@@ -49,11 +49,12 @@ present::WaitingText waitingText(Awaited awaited, const runtime::CaptureStage::S
     case Awaited::kCamera:
       return {.title = "Waiting for the camera", .detail = absenceOf(camera, choice)};
     case Awaited::kPainter:
-      return {.title = "The painter sets up", .detail = nameOf(camera, choice)};
+      return {.title = "Preparing to paint", .detail = nameOf(camera, choice)};
     case Awaited::kCameraAgain:
       return {.title = "Waiting for the camera to come back", .detail = nameOf(camera, choice)};
     case Awaited::kGpu:
-      return {.title = "The graphics processor starts again", .detail = "it was lost"};
+      return {.title = "Waiting for the graphics processor",
+              .detail = "it was lost and is started again"};
     case Awaited::kPace:
       return {.title = "The next painting takes a while",
               .detail = "the computer is too slow for this style or size"};

@@ -25,6 +25,10 @@ PresentationRules rulesOf(hal::Output* output, const hal::OutputFormat& format,
   return rules;
 }
 
+bool isSame(const hal::OutputRequest& one, const hal::OutputRequest& other) {
+  return one.size == other.size && one.framePeriod == other.framePeriod;
+}
+
 }  // namespace
 
 hal::Result<hal::Fence> copyImage(const hal::ImageView& image, hal::SurfaceOutput& output,
@@ -386,6 +390,10 @@ void OutputStage::applyRequest() {
     const std::scoped_lock lock(mutex_);
     if (!request_ || status_.isFailed || !queued_.empty() || waitingSurface_) return;
     request = *request_;
+    if (isSame(request, options_.request)) {
+      request_.reset();
+      return;
+    }
   }
   hal::SurfaceOutput* surfaces = output_->surfaces();
   assert(surfaces != nullptr);

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -139,17 +140,17 @@ TEST_F(LivePaintingTest, ShowsAPictureOnADisplayBeforeTheCameraIsMade) {
   hal::SteadyClock clock;
   support::FakeCards cards(clock);
   cards.add();
-  std::size_t shownBeforeCamera = 0;
+  std::optional<std::size_t> shownBeforeCamera;
   hal::CameraSelector selector = support::selectorOf(
       [&](hal::Clock& cameraClock) {
-        shownBeforeCamera = cards.shown.size();
+        if (!shownBeforeCamera) shownBeforeCamera = cards.shown.size();
         return std::make_unique<LostCamera>(1000, cameraClock);
       },
       clock, true);
   const hal::TimePoint began = clock.now();
   runLive(
       {.selector = &selector,
-       .request = {},
+       .request = {.size = kFormat.size, .pixelFormat = {}, .framePeriod = {}, .controls = {}},
        .clock = &clock,
        .options = {.output = {}, .style = "none", .frames = 3},
        .outputs = {"display"},

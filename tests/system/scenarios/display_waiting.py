@@ -80,10 +80,10 @@ def is_paper(picture):
 
 
 def is_bars(picture):
-    """Whether vivid's bars, of which a picture of this shape shows yellow to blue, reach the lower corners undimmed."""
+    """Whether vivid's bars, of which the first is white and the last black, reach the lower corners undimmed."""
     left = picture.mean(0.01, 0.9, 0.06, 0.98)
     right = picture.mean(0.94, 0.9, 0.99, 0.98)
-    return left[0] > 150 and left[2] < 80 and right[2] > 120 and max(right[:2]) < 60
+    return 150 < min(left) and max(left) < 210 and max(right) < 30
 
 
 def ink(picture):

@@ -174,6 +174,15 @@ TEST_F(WaitingPictureStage, TakesAnotherStreamThatThePainterFollows) {
   EXPECT_EQ(display_.shown.back().size, kOther);
 }
 
+TEST_F(WaitingPictureStage, IsLeftAloneByTheStreamThatItWasOpenedFor) {
+  OutputStage& stage = begin(30);
+  stage.reconfigure({.size = kSize, .framePeriod = {}});
+  stepFor(stage, 40ms);
+  EXPECT_TRUE(stage.isReconfigured());
+  EXPECT_EQ(display_.reconfigured, 0);
+  EXPECT_EQ(stage.status().starts, 1u);
+}
+
 TEST_F(WaitingPictureStage, KeepsTheLastFrameThatWasShownWhole) {
   OutputStage& stage = begin(60);
   stage.showWaiting(paper());
