@@ -22,6 +22,9 @@ struct OutputTraits {
   bool writesFiles = false;
   /// It has to be used on the main thread, as windows have.
   bool isOnMainThread = false;
+  /// All that people see of the program, with nothing behind it: it is opened before the camera,
+  /// and shows a waiting picture while there is no painting. It lends surfaces that can be mapped.
+  bool showsWaiting = false;
 };
 
 /// A setting that outputs of a kind have: a key of [output.KIND]. One of some words, or a text.

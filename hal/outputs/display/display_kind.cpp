@@ -111,7 +111,7 @@ OutputKind displayKind() {
   return {.name = std::string(kDisplayName),
           .help = "a screen without a desktop, through the kernel (DRM/KMS)",
           .forms = {"display", "display:CONNECTOR"},
-          .traits = {.isPaced = true, .reopens = true},
+          .traits = {.isPaced = true, .reopens = true, .showsWaiting = true},
           .options = {{.name = "mode",
                        .help = "The mode; \"auto\": the display's own size at the rate that fits "
                                "the camera's best.",
