@@ -33,6 +33,8 @@ void main() {
   } else if (isVirtual(object)) {
     bool isOnly = (patchBitAt(px, object) & ~cells[index].crowdedPatches) != 0u;
     atomicMax(cells[index].nextOnObjects, removalKey(slot, rank, isOnly));
+  } else if (isCovered(state) && showsModel(px)) {
+    atomicMax(cells[index].nextUnderModels, removalKey(slot, rank, false));
   } else {
     atomicMax(cells[index].nextInImage, removalKey(slot, rank, false));
   }

@@ -41,6 +41,9 @@ void main() {
     uint own = patchBitAt(anchors[slot].px, object);
     uint before = atomicOr(cells[index].patches, own);
     if ((before & own) != 0u) atomicOr(cells[index].crowdedPatches, own);
+  } else if (isBehind && showsModel(anchors[slot].px)) {
+    atomicAdd(cells[index].underModels, 1u);
+    return;
   } else {
     atomicAdd(cells[index].inImage, 1u);
   }

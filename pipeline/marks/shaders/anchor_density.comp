@@ -152,13 +152,17 @@ void main() {
                     (cell.nextOnObjects != 0u && ofObjects >= float(cell.inImage) * objects.share);
     anchors[slotOf(isObject ? cell.nextOnObjects : cell.nextInImage)].state |= kDying;
   }
+  if (cell.underModels > 0u && cell.inImage + cell.underModels > uint(deathAbove)) {
+    anchors[slotOf(cell.nextUnderModels)].state |= kDying;
+  }
   if (cell.onMovers > uint(deathAbove)) anchors[slotOf(cell.nextOnMovers)].state |= kDying;
   // Border cells may be cut off.
   vec2 inside = clamp((fullSize - vec2(at * cellPixels)) / float(cellPixels), 0.0, 1.0);
   float whole = inside.x * inside.y;
   float share = objects.share;
   bool isGap = isAmongFull(at);
-  uint inImage = wanted(whole * (1.0 - share), cell.inImage, isGap);
+  // The strokes of those under models reach beyond them.
+  uint inImage = wanted(whole * (1.0 - share), cell.inImage + cell.underModels, isGap);
   uint onObjects = wanted(whole * share, cell.onObjects, isGap);
   // A stroke paints its own patch only.
   uint onPatches = min(objects.unpainted, 255u);
