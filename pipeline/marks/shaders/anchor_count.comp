@@ -38,7 +38,7 @@ void main() {
   bool isOnObject = isVirtual(object);
   if (isOnObject) {
     atomicAdd(cells[index].onObjects, 1u);
-    uint own = patchBitAt(anchors[slot].px, object);
+    uint own = patchBitAt(anchors[slot].px, anchors[slot].surface);
     uint before = atomicOr(cells[index].patches, own);
     if ((before & own) != 0u) atomicOr(cells[index].crowdedPatches, own);
   } else if (isBehind && showsModel(anchors[slot].px)) {

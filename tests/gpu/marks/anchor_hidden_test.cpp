@@ -4,12 +4,14 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <ranges>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "pipeline/scene/description/model_source.h"
 #include "tests/gpu/marks/anchor_life_fixture.h"
 
 namespace pleinair::marks {
@@ -121,6 +123,52 @@ TEST_F(AnchorLife, BehindAModelAnchorsAreNeitherCrowdedNorKeptForEver) {
   EXPECT_EQ(std::ranges::count_if(set_->read(), &Anchor::isCovered), 0);
   EXPECT_GT(fades.ended(), 50);
   fades.expectNoPop();
+}
+
+/// Of a gearbox that comes nearer by 1 % a frame, an anchor that is hidden is behind something: it
+/// does not come back in the next frames.
+TEST_F(AnchorLife, AlongEdgesNoAnchorIsHiddenInEveryOtherFrame) {
+  scene::Scene scene;
+  scene::SceneModel gearbox;
+  gearbox.model = std::make_shared<const scene::Model>(
+      scene::modelOf(scene::GearboxSource{.lengthMetres = 0.5, .inputRevolutions = 0}).value());
+  scene.models.push_back(std::move(gearbox));
+  useScene(scene);
+  const auto from = [](double metres) {
+    const glm::dmat4 away = glm::translate(glm::dmat4(1.0), {0.0, 0.08, metres});
+    return scene::PoseSet{.cameraFromWorld = glm::rotate(glm::rotate(away, 1.9, {1.0, 0.0, 0.0}),
+                                                         0.4, {0.0, 0.0, 1.0})};
+  };
+  constexpr int kFrames = 24;
+  std::vector<int> hiddenAt;
+  int hidden = 0;
+  int back = 0;
+  int staying = 0;
+  double metres = 0.75;
+  std::vector<Anchor> before = next({}, from(metres));
+  for (int i = 1; i <= kFrames; ++i) {
+    metres *= 0.99;
+    const std::vector<Anchor> now = next(panning(0.0, 0.0), from(metres));
+    hiddenAt.resize(now.size(), -kFrames);
+    for (std::size_t slot = 0; slot < now.size(); ++slot) {
+      const Anchor& each = now[slot];
+      if (each.surface == 0 || each.seed != before[slot].seed || each.isBorn()) continue;
+      const bool isHidden = each.isAlive() && (each.state & Anchor::kHidden) != 0;
+      staying += each.isStaying() ? 1 : 0;
+      if (isHidden && before[slot].isStaying()) {
+        ++hidden;
+        hiddenAt[slot] = i;
+      }
+      back += each.isStaying() && !before[slot].isStaying() && i - hiddenAt[slot] <= 2 ? 1 : 0;
+    }
+    before = now;
+  }
+  RecordProperty("anchors", staying / kFrames);
+  RecordProperty("hidden", hidden);
+  RecordProperty("back", back);
+  EXPECT_GT(staying, 500 * kFrames);
+  EXPECT_GT(hidden, 20) << "parts do hide others";
+  EXPECT_LT(1000 * back, 4 * staying);
 }
 
 TEST_F(AnchorLife, WithoutItsPoseAModelsAnchorsFadeOut) {
