@@ -65,14 +65,14 @@ void writeText(const fs::path& path, const std::string& text) {
 
 ThesisEntry entryOf(const ThesisFigureKind& kind, ThesisBench& bench, const fs::path& folder) {
   const auto start = std::chrono::steady_clock::now();
-  ThesisEntry entry{.name = kind.name, .figure = kind.make(bench), .files = {}};
+  ThesisEntry entry{.kind = kind, .figure = kind.make(bench), .files = {}};
   for (std::size_t i = 0; i < entry.figure.pictures.size(); ++i) {
     entry.files.push_back(fmt::format("figure_{}_{}.png", kind.name, i + 1));
     const hal::Image image = imageOf(entry.figure.pictures[i].image);
     orThrow(hal::writePng(folder / entry.files.back(), image.view()));
   }
   entry.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  fmt::print("{:.1f} s  {}\n", entry.seconds, entry.figure.title);
+  fmt::print("{:.1f} s  {}\n", entry.seconds, kind.title);
   std::fflush(stdout);  // the next figure takes a while
   return entry;
 }

@@ -205,15 +205,6 @@ gpu::ShaderLibrary fieldShaders() {
 
 ThesisFigure livesFigure(ThesisBench& bench) {
   ThesisFigure figure;
-  figure.title = "Figure 26: strokes that live";
-  figure.numbers = {26};
-  figure.thesis =
-      "Painted AR frames without and with coherence: without, strokes in circles appear and "
-      "disappear from frame to frame; with it, they stay.";
-  figure.ours =
-      "The swaying tube before the walking camera. Strokes of the first frame are circled in "
-      "later ones; a cross stands where a stroke has gone. Above coherence 0.5, below coherence "
-      "0: each frame is painted anew.";
   const Lives held = livesOf(bench, "0.5");
   const Lives anew = livesOf(bench, "0");
   const std::uint64_t apart = (bench.size().frames - 1) / 2;
@@ -234,17 +225,6 @@ ThesisFigure livesFigure(ThesisBench& bench) {
 
 ThesisFigure densityFigure(ThesisBench& bench) {
   ThesisFigure figure;
-  figure.title = "Figure 28: anchors against area-weighted samples of the surface";
-  figure.numbers = {28};
-  figure.thesis =
-      "Points drawn on a model in proportion to the area of its triangles (eq. 20 to 25, red) are "
-      "spread unevenly over the screen; anchors that are kept by a grid of 8×8 px cells on the "
-      "screen (blue) are spread evenly, and stay so as the model moves.";
-  figure.ours =
-      "The gearbox at the first and at the last frame of a film that approaches it. Red: "
-      "area-weighted samples, as "
-      "many as give the first frame's cells the same mean. Blue: our anchors, one layer with "
-      "cells of 8×8 px.";
   constexpr std::size_t kSamples = 60'000;
   const scene::Model model = hal::orThrow(
       scene::modelOf(scene::GearboxSource{.lengthMetres = 0.5, .inputRevolutions = 0}));
@@ -306,16 +286,6 @@ ThesisFigure densityFigure(ThesisBench& bench) {
 
 ThesisFigure stagesFigure(ThesisBench& bench) {
   ThesisFigure figure;
-  figure.title = "Table 1 and figures 14 and 27: the stages, and their times";
-  figure.numbers = {14, 27};
-  figure.thesis =
-      "Flow charts of the method in image space (14) and in model space (27): tensor field, "
-      "anchors, strokes, painting; and the times of four stages a frame, on a Core2Duo of 2 GHz "
-      "with an ATI 5730 (table 1): 375 ms in all at 1024×768, 740 ms at 1440×1050.";
-  figure.ours =
-      "The same four stages of this program in the order of its chart (docs/architecture.md has "
-      "the whole): tensor field; features; warping, which carries anchors by whatever source is "
-      "surest and controls their density; painting.";
   const bool isQuick = bench.size().isQuick;
   struct Row {
     hal::FrameSize size;
@@ -353,16 +323,6 @@ ThesisFigure stagesFigure(ThesisBench& bench) {
 
 ThesisFigure divisionsFigure(ThesisBench& bench) {
   ThesisFigure figure;
-  figure.title = "§6.1: six divisions of the work, and the pyramid of 2×2 means";
-  figure.thesis =
-      "Future work: tensors on the GPU, in six ways: a thread for each row, column or pixel, which "
-      "reads from global memory or from a texture; and a pyramid each level of which is the mean "
-      "of 2×2 tensors of the level below. The best way is left open.";
-  figure.ours =
-      "All six as compute shaders, for the initial tensors and for the first level of such a "
-      "pyramid. The painter does neither: its gradients are a fragment pass, a pixel each from a "
-      "texture, because its next pass reads them as a texture and tilers like that best "
-      "(docs/gpu.md); its pyramid interpolates within 5×5 regions and filters before it halves.";
   const gpu::EglContext context;
   const gpu::ShaderLibrary library = fieldShaders();
   const hal::CapturedFrame frame = bench.cameraFrames(1).front();

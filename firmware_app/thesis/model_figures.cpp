@@ -218,15 +218,43 @@ void addComparison(ThesisFigure& figure, const MeasuredFilm& left, const std::st
                              inColumn({zoomedRow(left), zoomedRow(right)})});
 }
 
+/// One way of painting a film.
+struct Arm {
+  std::string key;   // of its readings
+  std::string name;  // for people
+  FilmRequest request;
+};
+
+/// The same film painted in two ways: pictures side by side, and coherence on the model.
+struct Arms {
+  const MeasuredFilm& first;
+  const MeasuredFilm& second;
+};
+
+Arms compared(ThesisFigure& figure, ThesisBench& bench, const Arm& first, const Arm& second) {
+  const Arms arms{bench.measured(first.request), bench.measured(second.request)};
+  addComparison(figure, arms.first, first.name, arms.second, second.name);
+  addCoherence(figure, first.key, first.name, arms.first.report);
+  addCoherence(figure, second.key, second.name, arms.second.report);
+  return arms;
+}
+
+/// A value of both arms, as means over the shown frames.
+void addMeans(ThesisFigure& figure, const Arms& arms, const std::string& key,
+              const std::string& text, double (*valueOf)(const FilmFrame&)) {
+  figure.readings.push_back(
+      {key + "_off", "without: " + text, meanOver(arms.first, valueOf), "levels"});
+  figure.readings.push_back(
+      {key + "_on", "with: " + text, meanOver(arms.second, valueOf), "levels"});
+}
+
 ThesisFigure spacesFigure(ThesisBench& bench, FilmModel model) {
   ThesisFigure figure;
-  const MeasuredFilm& image = bench.measured({.model = model, .isImageSpace = true});
-  const MeasuredFilm& own = bench.measured({.model = model});
-  addComparison(figure, image, "image space", own, "model space");
-  addCoherence(figure, "image_space", "image space", image.report);
-  addCoherence(figure, "model_space", "model space", own.report);
-  addSlip(figure, "image_space", "image space", image.report);
-  addSlip(figure, "model_space", "model space", own.report);
+  const Arm image{"image_space", "image space", {.model = model, .isImageSpace = true}};
+  const Arm own{"model_space", "model space", {.model = model}};
+  const Arms arms = compared(figure, bench, image, own);
+  addSlip(figure, image.key, image.name, arms.first.report);
+  addSlip(figure, own.key, own.name, arms.second.report);
   figure.measured =
       howMeasured(bench) +
       " Both paint the very same film. In image space, the models are put into the pictures "
@@ -237,106 +265,51 @@ ThesisFigure spacesFigure(ThesisBench& bench, FilmModel model) {
 }  // namespace
 
 ThesisFigure staticModelFigure(ThesisBench& bench) {
-  ThesisFigure figure = modelFigure(bench, FilmModel::kGearbox, "static", "static model");
-  figure.title = "Figures 29, 32, 34 and 35: a static model";
-  figure.numbers = {29, 32, 34, 35};
-  figure.thesis =
-      "The brush anchors (29) and brush skeletons (32) of an alien spaceship at four moments of a "
-      "film, and the paintings of that spaceship (34) and of a tower (35) before a real "
-      "background. Few anchors are new in each frame, and skeletons stick to the surface.";
-  figure.ours =
-      "The built-in gearbox, at rest, while a hand-held camera walks around it: anchors, "
-      "skeletons and paintings of model and background together.";
-  return figure;
+  return modelFigure(bench, FilmModel::kGearbox, "static", "static model");
 }
 
 ThesisFigure skinnedModelFigure(ThesisBench& bench) {
-  ThesisFigure figure = modelFigure(bench, FilmModel::kTube, "skinned", "skinned model");
-  figure.title = "Figures 30 and 33: a skinned model";
-  figure.numbers = {30, 33};
-  figure.thesis =
-      "Anchors (30) and skeletons (33) of a running figure whose mesh is skinned: anchors stick to "
-      "the deformed surface, since they are kept as a triangle with barycentric coordinates.";
-  figure.ours = "The built-in tube, a skin over seven joints, which sways.";
-  return figure;
+  return modelFigure(bench, FilmModel::kTube, "skinned", "skinned model");
 }
 
 ThesisFigure morphingModelFigure(ThesisBench& bench) {
-  ThesisFigure figure = modelFigure(bench, FilmModel::kBall, "morphing", "morphing model");
-  figure.title = "Beyond figures 30 and 33: a morphing model";
-  figure.thesis = "Morph targets do not occur in the thesis.";
-  figure.ours = "The built-in ball, which two morph targets deform.";
-  return figure;
+  return modelFigure(bench, FilmModel::kBall, "morphing", "morphing model");
 }
 
 ThesisFigure staticSpacesFigure(ThesisBench& bench) {
-  ThesisFigure figure = spacesFigure(bench, FilmModel::kGearbox);
-  figure.title = "Figures 36 and 37: image space against model space, static model";
-  figure.numbers = {36, 37};
-  figure.thesis =
-      "A dragon painted by the image-space and by the model-space algorithm, whole and with its "
-      "wing from near: single frames look alike, but in model space strokes are much more stable "
-      "from frame to frame.";
-  figure.ours = "The gearbox at rest, while the camera walks around it.";
-  return figure;
+  return spacesFigure(bench, FilmModel::kGearbox);
 }
 
 ThesisFigure animatedSpacesFigure(ThesisBench& bench) {
-  ThesisFigure figure = spacesFigure(bench, FilmModel::kTube);
-  figure.title = "Figures 38 and 39: image space against model space, animated model";
-  figure.numbers = {38, 39};
-  figure.thesis =
-      "The same for the running figure, and its chest from near: in model space the strokes on "
-      "the chest stay as they are.";
-  figure.ours = "The swaying tube.";
-  return figure;
+  return spacesFigure(bench, FilmModel::kTube);
 }
 
 ThesisFigure memoryFigure(ThesisBench& bench) {
   ThesisFigure figure;
-  figure.title = "Figure 40: weight of the brush history, 0.05 against 0.95";
-  figure.numbers = {40};
-  figure.thesis =
-      "The spaceship with a weight of 0.05 and of 0.95 on the previous strokes' colours and "
-      "skeletons. With the small weight the painting flickers, although the anchors are right, "
-      "because skeletons change between frames.";
-  figure.ours =
-      "The gearbox with the parameter memory at 0.0111 s and at 0.65 s: these are the thesis's "
-      "weights at 30 frames a second, as time constants, τ = −(1/30)/ln α.";
-  const MeasuredFilm& small =
-      bench.measured({.model = FilmModel::kGearbox, .parameters = {{"memory", "0.0111"}}});
-  const MeasuredFilm& large = bench.measured({.model = FilmModel::kGearbox});
-  addComparison(figure, small, "weight 0.05", large, "weight 0.95");
-  addCoherence(figure, "weight_005", "weight 0.05", small.report);
-  addCoherence(figure, "weight_095", "weight 0.95", large.report);
+  compared(figure, bench,
+           {"weight_005",
+            "weight 0.05",
+            {.model = FilmModel::kGearbox, .parameters = {{"memory", "0.0111"}}}},
+           {"weight_095", "weight 0.95", {.model = FilmModel::kGearbox}});
   figure.measured = howMeasured(bench) + " Anchors are carried in the same way in both.";
   return figure;
 }
 
 ThesisFigure clipFigure(ThesisBench& bench) {
   ThesisFigure figure;
-  figure.title = "Figure 41: without and with edge clipping";
-  figure.numbers = {41};
-  figure.thesis =
-      "The running figure without and with strokes that are clipped at the border of virtual and "
-      "real. Without, colours bleed over the border, and strokes that cross it are carried along "
-      "by the model.";
-  figure.ours = "The swaying tube with clip = false and with clip = true.";
-  const MeasuredFilm& off =
-      bench.measured({.model = FilmModel::kTube, .parameters = {{"clip", "false"}}});
-  const MeasuredFilm& on = bench.measured({.model = FilmModel::kTube});
-  addComparison(figure, off, "without clipping", on, "with clipping");
-  figure.readings.push_back(
-      {"bleeding_off", "without: colours off at the outline", meanOver(off, bleedingOf), "levels"});
-  figure.readings.push_back(
-      {"bleeding_on", "with: colours off at the outline", meanOver(on, bleedingOf), "levels"});
+  const Arms arms = compared(figure, bench,
+                             {"clip_off",
+                              "without clipping",
+                              {.model = FilmModel::kTube, .parameters = {{"clip", "false"}}}},
+                             {"clip_on", "with clipping", {.model = FilmModel::kTube}});
+  addMeans(figure, arms, "bleeding", "colours off at the outline", bleedingOf);
   const auto seam = [](const MeasuredFilm& film) {
     return film.report.models
                ? film.report.models->regions[Region::kSeam][Subject::kPainting].popPercent
                : std::nullopt;
   };
-  addIf(figure, "seam_pop_off", "without: POP within 8 px of the outline", seam(off), "%");
-  addIf(figure, "seam_pop_on", "with: POP within 8 px of the outline", seam(on), "%");
+  addIf(figure, "seam_pop_off", "without: POP within 8 px of the outline", seam(arms.first), "%");
+  addIf(figure, "seam_pop_on", "with: POP within 8 px of the outline", seam(arms.second), "%");
   figure.measured =
       howMeasured(bench) +
       " Colours off at the outline: mean difference of painting and picture, both smoothed by "
@@ -347,22 +320,11 @@ ThesisFigure clipFigure(ThesisBench& bench) {
 
 ThesisFigure bumpFigure(ThesisBench& bench) {
   ThesisFigure figure;
-  figure.title = "Figure 42: without and with bump mapping";
-  figure.numbers = {42};
-  figure.thesis =
-      "The spaceship painted with the brushes' texture only, and with bump mapping, which gives "
-      "the light of real paint.";
-  figure.ours = "The gearbox with bump = \"off\" and with bump = \"once\".";
-  const MeasuredFilm& off =
-      bench.measured({.model = FilmModel::kGearbox, .parameters = {{"bump", "off"}}});
-  const MeasuredFilm& on = bench.measured({.model = FilmModel::kGearbox});
-  addComparison(figure, off, "texture only", on, "bump mapping");
-  figure.readings.push_back({"fine_contrast_off", "texture only: fine contrast on the model",
-                             meanOver(off, reliefOf), "levels"});
-  figure.readings.push_back({"fine_contrast_on", "bump mapping: fine contrast on the model",
-                             meanOver(on, reliefOf), "levels"});
-  addCoherence(figure, "bump_off", "texture only", off.report);
-  addCoherence(figure, "bump_on", "bump mapping", on.report);
+  const Arms arms = compared(
+      figure, bench,
+      {"bump_off", "texture only", {.model = FilmModel::kGearbox, .parameters = {{"bump", "off"}}}},
+      {"bump_on", "bump mapping", {.model = FilmModel::kGearbox}});
+  addMeans(figure, arms, "fine_contrast", "fine contrast on the model", reliefOf);
   figure.measured =
       "Fine contrast: root mean square of the luma that is finer than a Gaussian of 6 px. "
       "Relief must not cost coherence: " +

@@ -267,17 +267,6 @@ cv::Rect middleOf(const cv::Mat3b& picture, cv::Size size) {
 
 ThesisFigure fieldFigure(ThesisBench& bench) {
   ThesisFigure figure;
-  figure.title = "Figures 15, 16 and 21: tensor field, pyramid, layers";
-  figure.numbers = {15, 16, 21};
-  figure.thesis =
-      "Three levels of the pyramid that spreads the directions of strong edges to regions without "
-      "any (15), the field of an AR frame as short lines (16), and the skeletons of the coarse "
-      "layer's strokes (21). The pyramid is proposed in place of a global radial-basis "
-      "interpolation (eq. 11 and 12), which visits every edge pixel for every place.";
-  figure.ours =
-      "An AR frame with the gearbox: its field, four levels of its pyramid, which regions are "
-      "painted how finely, the strokes' layers and skeletons. The last picture shows in red where "
-      "our field differs from eq. 12: white at 0°, full red at 45° and more.";
   const std::uint64_t first = bench.size().settle;
   const std::vector<std::string> views{"tensors", "pyramid", "regions", "layers", "skeletons"};
   std::vector<cv::Mat3b> shown;
@@ -333,17 +322,6 @@ ThesisFigure fieldFigure(ThesisBench& bench) {
 
 ThesisFigure featureFigure(ThesisBench& bench) {
   ThesisFigure figure;
-  figure.title = "Figures 17 and 18: features, matches, and warped anchors";
-  figure.numbers = {17, 18};
-  figure.thesis =
-      "An anchor is carried by the triangle of its three nearest features, in barycentric "
-      "coordinates (17). Harris corners with SIFT descriptors are matched between two AR frames "
-      "(18: 80 matches of 256 and 206 features), and the anchors in four areas of the paintings "
-      "go with them.";
-  figure.ours =
-      "Two frames of the hand-held camera, with the features of the thesis's method above and of "
-      "this program's (Lucas-Kanade from key frames) below; then one anchor (red) and its "
-      "triangle (blue) before and after. The picture is pale so that lines can be seen.";
   constexpr std::uint64_t kFrames = 6;
   const std::vector<hal::CapturedFrame> frames = bench.cameraFrames(kFrames);
   hal::SteppedClock clock;
@@ -393,14 +371,6 @@ ThesisFigure featureFigure(ThesisBench& bench) {
 
 ThesisFigure strokeFigure(ThesisBench& bench) {
   ThesisFigure figure;
-  figure.title = "Figures 19 and 20: a stroke's quads, and brushes";
-  figure.numbers = {19, 20};
-  figure.thesis =
-      "A curly stroke with eleven control points is divided into quads along its spline, 4 (n + 2) "
-      "of them (19); brushes have an alpha mask and a texture (20).";
-  figure.ours =
-      "The same part of a painting with the thesis's quads and with as few quads as strokes bend, "
-      "beside their skeletons; then painted with each of the six built-in brushes.";
   const hal::CapturedFrame frame = photograph(bench);
   const StillPainting thesis = paintedStill(bench, frame, {{"quads", "thesis"}});
   const StillPainting ours = paintedStill(bench, frame, {});
@@ -439,18 +409,6 @@ ThesisFigure strokeFigure(ThesisBench& bench) {
 
 ThesisFigure photographFigure(ThesisBench& bench) {
   ThesisFigure figure;
-  figure.title = "Figures 22, 24 and 25: a still picture, and Hays and Essa's way";
-  figure.numbers = {22, 24, 25};
-  figure.thesis =
-      "A finished painting with its fine details (22), paintings of photographs, said to be "
-      "comparable with Hays and Essa's (24), and one of them from near (25).";
-  figure.ours =
-      "The workbench without noise, painted by this program and by a baseline of Hays and Essa's "
-      "method. Their program, brush scans and pictures are not published, so that their results "
-      "themselves cannot be shown or measured; the baseline is made from their paper: straight "
-      "strokes of one segment along a global radial-basis field, clipped at edges, finer layers "
-      "only where there is detail, here with plain round strokes. A judgement of taste, which of "
-      "both looks better, would need viewers and is not made.";
   const hal::CapturedFrame frame = photograph(bench);
   const StillPainting ours = paintedStill(bench, frame, {});
   const hal::Image image(frame.image);
@@ -485,15 +443,6 @@ ThesisFigure photographFigure(ThesisBench& bench) {
 
 ThesisFigure blendingFigure(ThesisBench& bench) {
   ThesisFigure figure;
-  figure.title = "Figures 23 and 31: a stroke is blended with what it was";
-  figure.numbers = {23, 31};
-  figure.thesis =
-      "Two diagrams: the mean of two parameterised strokes (23), and strokes of different lengths, "
-      "which are all grown to full length for the mean, while only the valid part is painted (31).";
-  figure.ours =
-      "The skeletons of the same strokes in two frames of a still scene that differ by sensor "
-      "noise alone: a pixel is red where they differ. Above with hardly any memory, below with the "
-      "thesis's.";
   const hal::CapturedFrame frame = photograph(bench);
   const cv::Mat3f exact = floatOf(matrixOf(hal::Image(frame.image)));
   constexpr int kSettle = 12;

@@ -19,35 +19,29 @@ using hal::orThrow;
 constexpr const char* kStyle = "painterly";
 constexpr std::size_t kShownFrames = 4;
 
-const char* tableOf(FilmModel model) {
+const char* nameOf(FilmModel model) {
   switch (model) {
     case FilmModel::kNone:
-      return "";
+      return "workbench";
     case FilmModel::kGearbox:
-      return R"(
-[[model]]
-source = "builtin:gearbox"
-attach = "tag:0"
-length_m = 0.5
-speed_rpm = 0
-rotation_deg = [0, 0, 12]
-)";
+      return "gearbox";
     case FilmModel::kTube:
-      return R"(
-[[model]]
-source = "builtin:tube"
-attach = "tag:0"
-length_m = 0.5
-)";
+      return "tube";
     case FilmModel::kBall:
-      return R"(
-[[model]]
-source = "builtin:ball"
-attach = "tag:0"
-diameter_m = 0.32
-)";
+      return "ball";
   }
   return "";
+}
+
+/// The film's [[model]] in a scene.
+std::string tableOf(FilmModel model) {
+  if (model == FilmModel::kNone) return "";
+  const char* const keys = model == FilmModel::kBall   ? "diameter_m = 0.32"
+                           : model == FilmModel::kTube ? "length_m = 0.5"
+                                                       : "length_m = 0.5\nspeed_rpm = 0\n"
+                                                         "rotation_deg = [0, 0, 12]";
+  return fmt::format("\n[[model]]\nsource = \"builtin:{}\"\nattach = \"tag:0\"\n{}\n",
+                     nameOf(model), keys);
 }
 
 hal::SyntheticOptions filmOf(const ThesisSize& size,
@@ -72,10 +66,7 @@ PaintParameters parametersOf(const Painter& painter, const FilmRequest& request)
 }
 
 std::string nameOf(const FilmRequest& request) {
-  std::string name = request.model == FilmModel::kGearbox ? "gearbox"
-                     : request.model == FilmModel::kTube  ? "tube"
-                     : request.model == FilmModel::kBall  ? "ball"
-                                                          : "workbench";
+  std::string name = nameOf(request.model);
   if (request.isImageSpace) name += ", image space";
   for (const auto& [key, value] : request.parameters) name += fmt::format(", {} = {}", key, value);
   return name;

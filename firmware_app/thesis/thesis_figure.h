@@ -20,15 +20,11 @@ struct ThesisPicture {
   cv::Mat3b image;  ///< RGB
 };
 
-/// A figure of the thesis, or its table, as this program makes it.
+/// What is made for a figure of the thesis.
 struct ThesisFigure {
-  std::string title;         ///< "Figures 29 and 32: …"
-  std::vector<int> numbers;  ///< of the thesis's figures; none for its table and §6.1
-  std::string thesis;        ///< what the thesis shows, in our words
-  std::string ours;          ///< what is shown here
-  std::string measured;      ///< what the numbers say and how they were measured
   std::vector<ThesisPicture> pictures = {};
   std::vector<ThesisReading> readings = {};
+  std::string measured = {};  ///< what the numbers say and how they were measured
 };
 
 }  // namespace pleinair::app

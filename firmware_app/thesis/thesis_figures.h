@@ -1,6 +1,6 @@
 #pragma once
 
-#include <span>
+#include <string>
 #include <vector>
 
 #include "firmware_app/thesis/thesis_bench.h"
@@ -8,14 +8,18 @@
 
 namespace pleinair::app {
 
-/// How a figure of the report is made.
+/// A figure of the thesis, or its table: what is said of it, and how it is made.
 struct ThesisFigureKind {
-  const char* name;  ///< of its files, and for --only: "29_32"
+  std::string name;          ///< of its files, and for --only: "29_32"
+  std::string title;         ///< "Figures 29 and 32: …"
+  std::vector<int> numbers;  ///< of the thesis's figures; none for its table and §6.1
+  std::string thesis;        ///< what the thesis shows, in our words
+  std::string ours;          ///< what is shown here
   ThesisFigure (*make)(ThesisBench& bench);
 };
 
 /// All of them, in the thesis's order.
-std::span<const ThesisFigureKind> thesisFigures();
+const std::vector<ThesisFigureKind>& thesisFigures();
 
 // One for each subject; see their texts.
 ThesisFigure fieldFigure(ThesisBench& bench);           // 15, 16, 21

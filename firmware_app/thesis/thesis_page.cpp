@@ -45,9 +45,9 @@ std::string paragraph(const char* who, const std::string& text) {
 
 std::string sectionOf(const ThesisEntry& entry) {
   const ThesisFigure& figure = entry.figure;
-  std::string html =
-      fmt::format("<section id=\"f{}\">\n<h2>{}</h2>\n", entry.name, escaped(figure.title));
-  html += paragraph("The thesis.", figure.thesis) + paragraph("Here.", figure.ours);
+  std::string html = fmt::format("<section id=\"f{}\">\n<h2>{}</h2>\n", entry.kind.name,
+                                 escaped(entry.kind.title));
+  html += paragraph("The thesis.", entry.kind.thesis) + paragraph("Here.", entry.kind.ours);
   for (std::size_t i = 0; i < figure.pictures.size(); ++i) {
     const ThesisPicture& picture = figure.pictures[i];
     html += fmt::format(
@@ -94,8 +94,8 @@ std::string thesisHtml(const ThesisReport& report) {
   }
   html += "<nav>";
   for (const ThesisEntry& entry : report.entries) {
-    const std::string& title = entry.figure.title;
-    html += fmt::format("<a href=\"#f{}\">{}</a>", entry.name,
+    const std::string& title = entry.kind.title;
+    html += fmt::format("<a href=\"#f{}\">{}</a>", entry.kind.name,
                         escaped(title.substr(0, title.find(':'))));
   }
   html += "</nav>\n";
@@ -110,9 +110,9 @@ std::string thesisJson(const ThesisReport& report) {
   json["figures"] = nlohmann::ordered_json::array();
   for (const ThesisEntry& entry : report.entries) {
     nlohmann::ordered_json figure;
-    figure["name"] = entry.name;
-    figure["title"] = entry.figure.title;
-    figure["numbers"] = entry.figure.numbers;
+    figure["name"] = entry.kind.name;
+    figure["title"] = entry.kind.title;
+    figure["numbers"] = entry.kind.numbers;
     figure["pictures"] = entry.files;
     figure["seconds"] = entry.seconds;
     nlohmann::ordered_json readings = nlohmann::ordered_json::object();

@@ -3,13 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "firmware_app/thesis/thesis_figure.h"
+#include "firmware_app/thesis/thesis_figures.h"
 
 namespace pleinair::app {
 
 /// A finished figure and the names of its picture files, one for each of its pictures.
 struct ThesisEntry {
-  std::string name;  ///< its key: "29_32"
+  ThesisFigureKind kind;
   ThesisFigure figure;
   std::vector<std::string> files;
   double seconds = 0.0;  ///< that it took

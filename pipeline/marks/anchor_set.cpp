@@ -18,7 +18,7 @@ namespace pleinair::marks {
 namespace {
 
 const std::string kShaders = "pipeline/marks/shaders/";
-constexpr std::size_t kCellBytes = 56;  // shaders/anchor_cells.glsl
+constexpr std::size_t kCellBytes = 64;  // shaders/anchor_cells.glsl
 constexpr int kMaxStrata = 4;           // along a cell's side (shaders/anchor_cells.glsl)
 constexpr unsigned kFirstModel = scene::kMaxPlanes;  // in SurfaceAccess::bodies
 constexpr GLbitfield kStored = GL_SHADER_STORAGE_BARRIER_BIT;
@@ -185,6 +185,7 @@ void AnchorSet::State::carryInImage(const scene::ArFrame& frame, const MotionFie
       .set("stepSeconds", std::chrono::duration<float>(step).count())
       .set("memorySeconds", static_cast<float>(hal::toSeconds(hold.memory)))
       .set("restsWithCamera", layers != nullptr && layers->isStanding() ? 1 : 0)
+      .set("underModels", hold.underModels ? 1 : 0)
       .set("follows", motion.follows() ? 1 : 0)
       .set("anew", hasBegunAnew ? 1 : 0)
       .dispatch(allSlots(), kStored);

@@ -44,6 +44,9 @@ struct AnchorHold {
   /// how long an anchor is kept that other content covers, so that its mark is the same one when it
   /// is seen again; at most 255 s. Where slots run short, it is given up earlier.
   hal::Duration memory = std::chrono::seconds(30);
+  /// Whether anchors of the camera image that a virtual model covers are kept in the same way, for
+  /// styles that clip their marks there. If false, they fade out.
+  bool underModels = false;
   bool hasSlack = true;  ///< hysteresis of DensityRule; if false, density is kept at the target
   /// the same on movers; if false, density is kept at their share of the target, but for one anchor
   bool hasMoverSlack = true;

@@ -18,6 +18,8 @@ struct Cell {
   uint nextToWake;  // key of the next dormant anchor to wake (wakingKey()); 0: none
   // visible dormant anchors: 16 bits for all, 16 for those on patches without any staying anchor
   uint dormant;
+  uint underModels;  // staying anchors in the camera image that models cover; not counted above
+  uint nextUnderModels;  // as nextInImage, of these
 };
 
 // Of the patch with this label (surface_form.glsl). Neighbours' differ, but for one pair in 31.

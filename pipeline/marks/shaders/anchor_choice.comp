@@ -25,14 +25,16 @@ void main() {
   uint rank = rankOf(anchors[slot].ageAndRank);
   uint object = objectOf(anchors[slot].surface);
   if (sleeps) {
-    bool isFirst = (patchBitAt(px, object) & ~cells[index].patches) != 0u;
+    bool isFirst = (patchBitAt(px, anchors[slot].surface) & ~cells[index].patches) != 0u;
     atomicAdd(cells[index].dormant, 1u + (isFirst ? 1u << 16u : 0u));
     atomicMax(cells[index].nextToWake, wakingKey(slot, rank, isFirst));
   } else if ((state & kMover) != 0u) {
     atomicMax(cells[index].nextOnMovers, removalKey(slot, rank, false));
   } else if (isVirtual(object)) {
-    bool isOnly = (patchBitAt(px, object) & ~cells[index].crowdedPatches) != 0u;
+    bool isOnly = (patchBitAt(px, anchors[slot].surface) & ~cells[index].crowdedPatches) != 0u;
     atomicMax(cells[index].nextOnObjects, removalKey(slot, rank, isOnly));
+  } else if (isCovered(state) && showsModel(px)) {
+    atomicMax(cells[index].nextUnderModels, removalKey(slot, rank, false));
   } else {
     atomicMax(cells[index].nextInImage, removalKey(slot, rank, false));
   }

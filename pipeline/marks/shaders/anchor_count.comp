@@ -40,9 +40,12 @@ void main() {
   bool isOnObject = isVirtual(object);
   if (isOnObject) {
     atomicAdd(cells[index].onObjects, 1u);
-    uint own = patchBitAt(anchors[slot].px, object);
+    uint own = patchBitAt(anchors[slot].px, anchors[slot].surface);
     uint before = atomicOr(cells[index].patches, own);
     if ((before & own) != 0u) atomicOr(cells[index].crowdedPatches, own);
+  } else if (isBehind && showsModel(anchors[slot].px)) {
+    atomicAdd(cells[index].underModels, 1u);
+    return;
   } else {
     atomicAdd(cells[index].inImage, 1u);
   }

@@ -160,6 +160,9 @@ void main() {
                     (cell.nextOnObjects != 0u && ofObjects >= float(cell.inImage) * objects.share);
     anchors[slotOf(isObject ? cell.nextOnObjects : cell.nextInImage)].state |= kDying;
   }
+  if (cell.underModels > 0u && cell.inImage + cell.underModels > uint(deathAbove)) {
+    anchors[slotOf(cell.nextUnderModels)].state |= kDying;
+  }
   float moving = moverShare(at);
   uint mostOnMovers =
       uint(hasMoverSlack ? float(deathAbove) : floor(moving * float(target) + 1.5));
@@ -169,7 +172,8 @@ void main() {
   float whole = inside.x * inside.y;
   float share = objects.share;
   bool isGap = isAmongFull(at);
-  uint inImage = wanted(whole * (1.0 - share), cell.inImage, isGap, false);
+  // The strokes of those under models reach beyond them.
+  uint inImage = wanted(whole * (1.0 - share), cell.inImage + cell.underModels, isGap, false);
   uint onObjects = wanted(whole * share, cell.onObjects, isGap, false);
   // A stroke paints its own patch only.
   uint onPatches = min(objects.unpainted, 255u);

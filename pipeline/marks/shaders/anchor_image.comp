@@ -6,6 +6,7 @@
 //          anchor_appearance.glsl's; margin: px beyond the border at which an anchor is removed;
 //          stepSeconds; memorySeconds: how long a covered or dormant anchor is kept; mover_labels.glsl's and
 //          mover_motion.glsl's; restsWithCamera: the camera stands, and movers are told apart;
+//          underModels: anchors that a model covers stay, as those do that a mover covers;
 //          follows: whether anchors move; if not, surface anchors rest like all others, and neither
 //          appearance nor labels count; anew: whether all anchors are removed.
 // Outputs: anchors. One invocation per anchor.
@@ -28,6 +29,7 @@ uniform bool anew;
 uniform bool onSurfaces;
 uniform uint firstModel;
 uniform bool restsWithCamera;
+uniform bool underModels;
 uniform uint slots;
 #include "pipeline/marks/shaders/anchor_appearance.glsl"
 #include "pipeline/marks/shaders/layer_blocks.glsl"
@@ -181,16 +183,21 @@ void main() {
   if (object == 0u && !isOnMover && isReal(objectOf(id)) && isNewlyKnown(objectOf(id))) {
     object = objectOf(id);
   }
+  // The image goes on behind a model: what is carried there is seen again, sooner or later.
+  bool isUnderModel = underModels && follows && !isOnMover && isVirtual(objectOf(id)) &&
+                      (state & (kDying | kHidden | kTurnedAway)) == 0u && !isForgotten;
   // Movers are seen before all real things.
   bool isHidden =
       pixel.x >= 0 && (isOnMover ? isVirtual(objectOf(id)) : !isSeenAt(pixel, object));
-  isHidden = isHidden || (state & kTurnedAway) != 0u;
+  isHidden = !isUnderModel && (isHidden || (state & kTurnedAway) != 0u);
   // Appearance is not compared behind a model, nor for an anchor known to lie on another real
   // object.
   vec2 looks = unpackedLooks(anchors[slot].appearance);
   bool isBehind = false;
   bool isInside = all(greaterThan(px, vec2(0.0))) && all(lessThan(px, fullSize));
-  if (follows && !isHidden && isInside) {
+  if (isUnderModel) {
+    isBehind = true;
+  } else if (follows && !isHidden && isInside) {
     vec2 mover = moverAt(px);
     isBehind = !isOnMover && mover.r > (wasCovered ? 0.1 : 0.25);
     bool isOther = false;

@@ -94,6 +94,18 @@ bool hasBeenUncovered(vec2 px) {
   return true;
 }
 
+// Whether a model has just uncovered a place of the camera image.
+bool hasModelLeft(vec2 px) {
+  if (!hasPatches) return false;
+  ivec2 last = textureSize(patchesBefore, 0) - 1;
+  ivec2 was = ivec2(floor((px - textureLod(motion, px / fullSize, 0.0).xy) / patchPixels));
+  for (int i = 0; i < 9; ++i) {
+    ivec2 at = clamp(was + ivec2(i % 3, i / 3) - 1, ivec2(0), last);
+    if (labelOf(texelFetch(patchesBefore, at, 0).r) != 0u) return true;
+  }
+  return false;
+}
+
 float metresAt(ivec2 pixel) {
   float ndc = 2.0 * texelFetch(depth, pixel, 0).r - 1.0;
   float near = depthRange.x;
@@ -159,7 +171,7 @@ void spawn(ivec2 cell, uint number, uint before, bool onObject, bool onMover, in
   born.appearance = 0u;
   born.error = 0.0;
   born.fade = atOnce || onMover || mover.g > 0.0 || hasComeIn(px) ||
-                      (onObject && hasBeenUncovered(px))
+                      (onObject ? hasBeenUncovered(px) : hasModelLeft(px))
                   ? 1.0 : 0.0;
   born.ageAndRank = rankOfBirth(cell, before, onObject ? objectScaleAt(px) : scale) << 16u;
   // independent of the place, which came from the same hash
@@ -193,6 +205,8 @@ void main() {
   cells[index].nextOnObjects = 0u;
   cells[index].crowdedPatches = 0u;
   cells[index].dormant = 0u;
+  cells[index].underModels = 0u;
+  cells[index].nextUnderModels = 0u;
   uint moverBirths = cells[index].moverBirths;
   cells[index].onMovers = 0u;
   cells[index].nextOnMovers = 0u;

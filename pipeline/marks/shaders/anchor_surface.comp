@@ -40,15 +40,29 @@ const uint kSeen = 0u;
 const uint kOtherObject = 1u;
 const uint kOtherPart = 2u;
 
-// What is visible at px, of which the anchor's point is at `place`.
+// What is visible at px, of which the anchor's point is at `place`. A pixel shows what is at its
+// middle, which at an edge may be something else: then the other three of the four around px count,
+// or anchors along edges would be hidden in every other frame of a model that moves.
 uint seenAt(vec2 px, uint object, vec3 place, vec3 normal) {
-  ivec2 pixel = ivec2(floor(px * pixelsOfFull));
-  if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, textureSize(ids, 0)))) return kSeen;
-  if (objectOf(texelFetch(ids, pixel, 0).r) != object) return kOtherObject;
+  vec2 at = px * pixelsOfFull;
+  ivec2 pixel = ivec2(floor(at));
+  ivec2 last = textureSize(ids, 0) - 1;
+  if (any(lessThan(pixel, ivec2(0))) || any(greaterThan(pixel, last))) return kSeen;
   // The relative change of the surface's distance per pixel.
   float slope = length(normal.xy / (focal * pixelsOfFull)) * place.z / max(abs(dot(normal, place)), 1e-9);
   float tolerance = kDepthTolerance + min(slope, kMaxSlope);
-  return abs(depthAt(pixel) - place.z) < tolerance * place.z ? kSeen : kOtherPart;
+  ivec2 aside = ivec2(greaterThan(fract(at), vec2(0.5))) * 2 - 1;
+  uint seen = kSeen;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 there = clamp(pixel + aside * ivec2(i & 1, i >> 1), ivec2(0), last);
+    uint found = kOtherObject;
+    if (objectOf(texelFetch(ids, there, 0).r) == object) {
+      found = abs(depthAt(there) - place.z) < tolerance * place.z ? kSeen : kOtherPart;
+    }
+    if (found == kSeen) return kSeen;
+    if (i == 0) seen = found;
+  }
+  return seen;
 }
 
 bool isInImage(vec2 px) {

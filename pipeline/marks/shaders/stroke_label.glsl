@@ -9,6 +9,9 @@ const uint kSegmentLabel = 4096u;
 // Whether a label is the camera image's, but for movers.
 bool isGround(uint label) { return label == 0u || label >= kSegmentLabel; }
 
+// Whether a label is a model's.
+bool isPatch(uint label) { return label != 0u && label < kSegmentLabel - 1u; }
+
 // Whether a stroke may cover a place. Where the image has no segment, none ends a stroke, nor does
 // any end a stroke without one.
 bool mayCover(uint label, uint there) {

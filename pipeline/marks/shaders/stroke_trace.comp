@@ -225,6 +225,7 @@ float partOnPatch(vec2 from, vec2 to, Support on, inout float strayed) {
   float count = max(1.0, ceil(distance(from, to) * max(pixelsOfFull.x, pixelsOfFull.y) / stride));
   vec2 pace = (to - from) / count;
   uint label = on.isOnMover ? 0u : on.label;  // models alone have labels in the image
+  if (!on.isModel && !hasSegments) return 1.0;
   bool isDeep = on.isModel && depthRange.y > 0.0;
   float before = isDeep ? depthAt(from - pace) : 0.0;
   float here = isDeep ? depthAt(from) : 0.0;
@@ -232,7 +233,8 @@ float partOnPatch(vec2 from, vec2 to, Support on, inout float strayed) {
   for (float i = 1.0; i <= count; i += 1.0) {
     vec2 at = from + i * pace;
     uint texel = labelsAt(at);
-    if (!mayCover(label, labelOfSurface(texel))) {
+    bool isUnder = !on.isModel && isPatch(labelOfSurface(texel));
+    if (!isUnder && !mayCover(label, labelOfSurface(texel))) {
       bool isSame = labelOfSurface(texel) == labelOfSurface(last);
       bool goesOn = isDeep && (isSame || isOverJoint(last, texel));
       strayed += length(pace);
@@ -280,7 +282,14 @@ bool reachesLabels(vec2 px) {
          all(lessThanEqual(at, objectBounds.zw + reach));
 }
 
+const float kBehind = 0.025;  // of the image's width: so far strokes go on behind models
+
 Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {
+  bool mayLeave = clips && reachesLabels(from);
+  // The camera image goes on behind a model: strokes do, too, and are clipped where it is drawn. They
+  // do not go far: nothing is known of what is there.
+  bool goesBehind = mayLeave && !on.isModel;
+  float left = kBehind * fullSize.x;
   Arm arm;
   arm.length = steps;
   arm.colour = vec3(0.0);
@@ -289,7 +298,6 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {
   float before = 0.0;
   vec2 at = from;
   float strayed = 0.0;
-  bool mayLeave = clips && reachesLabels(from);
   for (int i = 0; i < kArm; ++i) {
     vec2 direction = directionAt(at + 0.5 * segment * heading, on);
     direction = vec2(hand.x * direction.x - hand.y * direction.y,
@@ -310,6 +318,13 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {
       }
     }
     at += segment * direction;
+    if (goesBehind && goesOn && isPatch(labelAt(at))) {
+      if (left < segment) arm.length = min(arm.length, float(i) + left / segment);
+      goesOn = left >= segment;
+      left -= segment;
+      heading = direction;
+      continue;
+    }
     vec3 there = goesOn ? colourAt(at, on) : own;
     float difference = apart(there, own);
     if (goesOn && clips && (moverAt(at).r > 0.5) != on.isOnMover) {
@@ -350,6 +365,19 @@ vec2[kArm] heldArm(vec2 now[kArm], vec4 was[2], vec2 heading, vec4 jacobian, flo
     heading = held[i];
   }
   return held;
+}
+
+vec2 turned(vec2 direction, vec4 jacobian) { return heldDirection(direction, direction, jacobian, 1.0); }
+
+// The stroke after its place has turned.
+Stroke turned(Stroke stroke, vec4 jacobian) {
+  if (jacobian == vec4(1.0, 0.0, 0.0, 1.0)) return stroke;
+  for (int i = 0; i < 2; ++i) {
+    stroke.ahead[i] = vec4(turned(stroke.ahead[i].xy, jacobian), turned(stroke.ahead[i].zw, jacobian));
+    stroke.behind[i] =
+        vec4(turned(stroke.behind[i].xy, jacobian), turned(stroke.behind[i].zw, jacobian));
+  }
+  return stroke;
 }
 
 const float kShrinking = 4.0;  // times as fast as shapes change
@@ -424,6 +452,9 @@ void main() {
     bool isReal = !isVirtual(objectOf(anchors[slot].surface));
     bool isStale = isReal && !isOnMover && behind.a >= 1.0 &&
                    apart(old.colour, behind.rgb) > otherColour.y;
+    bool isUnder = isBehind && isPatch(labelAt(px));
+    isStale = isStale && !isUnder;
+    if (isUnder) old = turned(old, anchors[slot].jacobian);
     if (!isStale || isBehind) {
       // Segments may have been labelled anew.
       bool isFrozen = isReal && !isOnMover && isGround(labelOfStroke(old.state));

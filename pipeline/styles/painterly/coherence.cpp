@@ -59,6 +59,7 @@ marks::AnchorHold anchorHoldOf(const PainterlyParameters& p) {
   anchors.fadeIn = scaled(anchors.fadeIn, hold);
   anchors.fadeOut = scaled(anchors.fadeOut, hold);
   anchors.hasSlack = p.hysteresis;
+  anchors.underModels = p.clip;
   return anchors;
 }
 

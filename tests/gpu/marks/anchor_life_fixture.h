@@ -54,7 +54,7 @@ class AnchorLife : public MarksTest {
   void advance(const tracking::ImageMotion& motion, const scene::PoseSet& poses = {}) {
     const scene::ArFrame frame = compose(*renderer_, poses, motion);
     field_->update(frame);
-    set_->advance(frame, *field_);
+    set_->advance(frame, *field_, hold_);
   }
   std::vector<Anchor> next(const tracking::ImageMotion& motion, const scene::PoseSet& poses = {}) {
     advance(motion, poses);
@@ -64,6 +64,7 @@ class AnchorLife : public MarksTest {
   std::optional<scene::ArFrameRenderer> renderer_;
   std::optional<MotionField> field_;
   std::optional<AnchorSet> set_;
+  AnchorHold hold_;
 };
 
 inline bool isWithin(glm::vec2 px, float border) {

@@ -14,6 +14,7 @@
 #include "pipeline/marks/motion_layers.h"
 #include "pipeline/marks/segment_map.h"
 #include "tests/gpu/painterly/painterly_fixture.h"
+#include "tests/gpu/painterly/spill.h"
 #include "tests/oracles/stroke_oracle.h"
 
 namespace pleinair::styles {
@@ -282,19 +283,16 @@ TEST_F(MoverBordersTest, AreTheOracles) {
   }
 }
 
-/// A red disc on blue, painted with broad strokes that go astray and nothing that could be taken
-/// for a spill.
+/// A red disc on blue.
 class SpillTest : public ClipTest {
  protected:
-  static bool isInDisc(double x, double y, double more) {
-    return std::hypot(x - 96.0, y - 72.0) < 40.0 + more;
-  }
+  static double beyondDisc(double x, double y) { return std::hypot(x - 96.0, y - 72.0) - 40.0; }
   static hal::Image disc() {
     hal::Image image({.pixelFormat = hal::PixelFormat::kRgba8, .size = kSize});
     for (int y = 0; y < kSize.height; ++y) {
       for (int x = 0; x < kSize.width; ++x) {
         auto* p = image.row(0, y).data() + std::ptrdiff_t{x} * 4;
-        const bool isIn = isInDisc(x, y, 0.0);
+        const bool isIn = beyondDisc(x, y) < 0.0;
         p[0] = isIn ? 220 : 20;
         p[1] = 20;
         p[2] = isIn ? 20 : 220;
@@ -304,36 +302,13 @@ class SpillTest : public ClipTest {
     return image;
   }
 
-  /// How many pixels, two away from the disc's rim at least, have the other side's colour.
   int spilled(std::uint32_t object, bool isKnown, const char* bump = "once",
               const char* clip = "true", const char* modelSpace = "true") {
     restart();
-    setIds(kSize, [&](int x, int y) { return isInDisc(x, y, 0.0) ? object : 0U; });
+    setIds(kSize, [&](int x, int y) { return beyondDisc(x, y) < 0.0 ? object : 0U; });
     Painterly style(library_);
-    config::ParameterValues values = style.parameters();
-    for (const auto& [name, value] :
-         std::initializer_list<std::pair<const char*, const char*>>{{"stroke_size", "10"},
-                                                                    {"wash", "0"},
-                                                                    {"ground_red", "0"},
-                                                                    {"ground_green", "0"},
-                                                                    {"ground_blue", "0"},
-                                                                    {"canvas", "0"},
-                                                                    {"relief", "0"},
-                                                                    {"gloss", "0"},
-                                                                    {"saturation", "1"},
-                                                                    {"warmth", "0"},
-                                                                    {"hue_jitter", "0"},
-                                                                    {"saturation_jitter", "0"},
-                                                                    {"value_jitter", "0"},
-                                                                    {"bump", bump},
-                                                                    {"clip", clip},
-                                                                    {"model_space", modelSpace},
-                                                                    {"wander", "1"},
-                                                                    {"colour_threshold", "1"},
-                                                                    {"detail", "0.01"}}) {
-      values = values.with(name, value);
-    }
-    style.setParameters(values);
+    style.setParameters(spilling(style.parameters(),
+                                 {{"bump", bump}, {"clip", clip}, {"model_space", modelSpace}}));
     std::vector<std::uint8_t> painted;
     for (int i = 0; i < 3; ++i) {
       scene::ArFrame frame = next(disc());
@@ -344,15 +319,7 @@ class SpillTest : public ClipTest {
       frame.normalFocus = &picture_;
       painted = paint(style, frame);
     }
-    int count = 0;
-    for (int y = 0; y < kSize.height; ++y) {
-      for (int x = 0; x < kSize.width; ++x) {
-        const auto* p = &painted[static_cast<std::size_t>(y * kSize.width + x) * 4];
-        if (isInDisc(x, y, -2.0) && p[2] > p[0] + 20) ++count;
-        if (!isInDisc(x, y, 2.0) && p[0] > p[2] + 20) ++count;
-      }
-    }
-    return count;
+    return spilledPixels(painted, kSize, beyondDisc);
   }
 };
 

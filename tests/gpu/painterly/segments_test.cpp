@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <initializer_list>
 #include <memory>
 #include <random>
 #include <string>
@@ -18,6 +17,7 @@
 #include "pipeline/marks/segment_map.h"
 #include "pipeline/tracking/segments/image_segmenter.h"
 #include "tests/gpu/painterly/painterly_fixture.h"
+#include "tests/gpu/painterly/spill.h"
 
 namespace pleinair::styles {
 namespace {
@@ -59,32 +59,10 @@ class SegmentsTest : public PainterlyTest {
     return frame;
   }
 
-  /// How many pixels, two away from the disc's rim at least, have the other side's colour.
   int spilled(const char* segments) {
     restart();
     Painterly style(library_);
-    config::ParameterValues values = style.parameters();
-    for (const auto& [name, value] :
-         std::initializer_list<std::pair<const char*, const char*>>{{"segments", segments},
-                                                                    {"stroke_size", "10"},
-                                                                    {"wash", "0"},
-                                                                    {"ground_red", "0"},
-                                                                    {"ground_green", "0"},
-                                                                    {"ground_blue", "0"},
-                                                                    {"canvas", "0"},
-                                                                    {"relief", "0"},
-                                                                    {"gloss", "0"},
-                                                                    {"saturation", "1"},
-                                                                    {"warmth", "0"},
-                                                                    {"hue_jitter", "0"},
-                                                                    {"saturation_jitter", "0"},
-                                                                    {"value_jitter", "0"},
-                                                                    {"wander", "1"},
-                                                                    {"colour_threshold", "1"},
-                                                                    {"detail", "0.01"}}) {
-      values = values.with(name, value);
-    }
-    style.setParameters(values);
+    style.setParameters(spilling(style.parameters(), {{"segments", segments}}));
     std::vector<std::uint8_t> painted;
     for (int i = 0; i < 3; ++i) {
       // As the engine does.
@@ -93,15 +71,7 @@ class SegmentsTest : public PainterlyTest {
       if (!isAsked) frame.measuredSegments.reset();
       painted = paint(style, frame);
     }
-    int count = 0;
-    for (int y = 0; y < kSize.height; ++y) {
-      for (int x = 0; x < kSize.width; ++x) {
-        const auto* p = &painted[static_cast<std::size_t>(y * kSize.width + x) * 4];
-        if (beyondDisc(x, y, 0.0) < -2.0 && p[2] > p[0] + 20) ++count;
-        if (beyondDisc(x, y, 0.0) > 2.0 && p[0] > p[2] + 20) ++count;
-      }
-    }
-    return count;
+    return spilledPixels(painted, kSize, [](int x, int y) { return beyondDisc(x, y, 0.0); });
   }
 
   /// The labels of pixels and their shares (borders.frag), two textures in turn.

@@ -1,25 +1,23 @@
 // Keys of a [[model]] that control its clips.
-#include <fstream>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 
-#include "config/config_error.h"
-#include "pipeline/scene/description/scene_file.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/unit/scene/gltf_builder.h"
+#include "tests/unit/scene/model_scene.h"
 
 namespace pleinair::scene {
 namespace {
 
-class ScenePlayback : public testing::Test {
+class ScenePlayback : public ModelScene {
  protected:
   ScenePlayback() {
-    write("still.glb", {});
-    write("turner.glb", {"Turn"});
-    write("walker.glb", {"Survey", "Walk", "Run"});
+    writeClips("still.glb", {});
+    writeClips("turner.glb", {"Turn"});
+    writeClips("walker.glb", {"Survey", "Walk", "Run"});
   }
 
-  void write(const std::string& file, const std::vector<std::string>& clips) {
+  void writeClips(const std::string& file, const std::vector<std::string>& clips) {
     GltfBuilder builder;
     builder.addMesh({0, 0, 0, 1, 0, 0, 0, 1, 0});
     const int times = builder.addFloats({0, 1}, "SCALAR", 1);
@@ -30,34 +28,12 @@ class ScenePlayback : public testing::Test {
            {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}}}},
            {"samplers", {{{"input", times}, {"output", moves}}}}});
     }
-    const auto bytes = builder.bytes();
-    std::ofstream(folder_.path() / file, std::ios::binary)
-        .write(reinterpret_cast<const char*>(bytes.data()),
-               static_cast<std::streamsize>(bytes.size()));
-  }
-
-  Scene sceneWith(const std::string& source, const std::string& keys) {
-    return parseScene(
-        "[[tag]]\nid = 0\nedge_m = 0.1\n[[model]]\nname = \"it\"\nattach = \"tag:0\"\n"
-        "source = \"" +
-            source + "\"\n" + keys,
-        "scene.toml", folder_.path());
+    write(file, builder);
   }
 
   Playback playbackOf(const std::string& source, const std::string& keys) {
     return sceneWith(source, keys).models[0].playback;
   }
-
-  std::string errorOf(const std::string& source, const std::string& keys) {
-    try {
-      sceneWith(source, keys);
-    } catch (const config::ConfigError& error) {
-      return error.what();
-    }
-    return "(nothing thrown)";
-  }
-
-  support::TemporaryFolder folder_;
 };
 
 TEST_F(ScenePlayback, PlaysAnOnlyClip) {

@@ -1,7 +1,6 @@
 // Directions of strokes that a scene or a file declares.
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -9,60 +8,37 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
-#include "config/config_error.h"
 #include "pipeline/scene/builtin/builtin_box.h"
-#include "pipeline/scene/description/scene_file.h"
 #include "pipeline/scene/models/declared_directions.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/unit/scene/gltf_builder.h"
+#include "tests/unit/scene/model_scene.h"
 
 namespace pleinair::scene {
 namespace {
 
 using Source = StrokeDirection::Source;
 
-class StrokeDirections : public testing::Test {
+class StrokeDirections : public ModelScene {
  protected:
   StrokeDirections() {
-    write("plain.glb", {});
-    write("brushed.glb", {1, 1, 0, 1, -1, -1, 0, 1, 1, 1, 0, -1});  // one line, of any sign
-    write("short.glb", {1, 0, 0, 1});
+    writeTriangle("plain.glb", {});
+    writeTriangle("brushed.glb", {1, 1, 0, 1, -1, -1, 0, 1, 1, 1, 0, -1});  // a line, of any sign
+    writeTriangle("short.glb", {1, 0, 0, 1});
   }
 
-  /// A triangle on z = 0.
-  void write(const std::string& file, const std::vector<float>& tangents) {
+  /// On z = 0.
+  void writeTriangle(const std::string& file, const std::vector<float>& tangents) {
     GltfBuilder builder;
     builder.addMesh({0, 0, 0, 1, 0, 0, 0, 1, 0});
     if (!tangents.empty()) {
       const int accessor = builder.addFloats(tangents, "VEC4", 4);
       builder.root["meshes"][0]["primitives"][0]["attributes"]["TANGENT"] = accessor;
     }
-    const auto bytes = builder.bytes();
-    std::ofstream(folder_.path() / file, std::ios::binary)
-        .write(reinterpret_cast<const char*>(bytes.data()),
-               static_cast<std::streamsize>(bytes.size()));
+    write(file, builder);
   }
 
-  Scene sceneWith(const std::string& source, const std::string& keys) {
-    return parseScene(
-        "[[tag]]\nid = 0\nedge_m = 0.1\n[[model]]\nname = \"it\"\nattach = \"tag:0\"\n"
-        "source = \"" +
-            source + "\"\n" + keys,
-        "scene.toml", folder_.path());
-  }
   StrokeDirection directionOf(const std::string& source, const std::string& keys) {
     return sceneWith(source, keys).models[0].model->strokeDirection;
   }
-  std::string errorOf(const std::string& source, const std::string& keys) {
-    try {
-      sceneWith(source, keys);
-    } catch (const config::ConfigError& error) {
-      return error.what();
-    }
-    return "(nothing thrown)";
-  }
-
-  support::TemporaryFolder folder_;
 };
 
 TEST_F(StrokeDirections, AreThoseOfTheKey) {
