@@ -22,6 +22,8 @@ struct OutputTraits {
   bool writesFiles = false;
   /// It has to be used on the main thread, as windows have.
   bool isOnMainThread = false;
+  /// A screen without a desktop: keys come from keyboards, and consoles take turns on it.
+  bool isOnConsole = false;
 };
 
 /// A setting that outputs of a kind have: a key of [output.KIND]. One of some words, or a text.

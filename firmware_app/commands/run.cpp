@@ -85,6 +85,7 @@ int run(const RunOptions& options) {
          .outputs = targetsOf(output),
          .outputOptions = output.options,
          .runtime = configuration.runtime(),
+         .keyboards = configuredKeyboards(configuration),
          .serveStatus =
              [&](StatusPages pages) {
                return configuredStatusServer(configuration, std::move(pages));
