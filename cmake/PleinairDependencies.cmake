@@ -60,6 +60,14 @@ else()
   pleinair_optional("hot-plug by udev" "not in: libudev-dev is not installed")
 endif()
 
+# Keys on a screen without a desktop.
+pkg_check_modules(LIBEVDEV QUIET IMPORTED_TARGET libevdev)
+if(LIBEVDEV_FOUND)
+  pleinair_optional("keys without a desktop" "in (libevdev ${LIBEVDEV_VERSION})")
+else()
+  pleinair_optional("keys without a desktop" "not in: libevdev-dev is not installed")
+endif()
+
 # The status server.
 pkg_check_modules(MICROHTTPD QUIET IMPORTED_TARGET libmicrohttpd)
 set(PLEINAIR_STATUS_SERVER OFF)

@@ -113,6 +113,17 @@ struct PresentationEvent {
   TimePoint time;  ///< of that refresh; where it was not shown, when that was known
 };
 
+/// Why an output that works shows nothing for now. It goes on by itself.
+struct Suspension {
+  enum class Cause {
+    kConsole,  ///< another console is in front, or another program shows pictures on the display
+    kBlank,    ///< the display is off: by its schedule, or because nobody is there
+  };
+  Cause cause = Cause::kConsole;
+  std::string reason;  ///< "another console is in front"
+  friend bool operator==(const Suspension&, const Suspension&) = default;
+};
+
 /// An output that lends its buffers, so that pictures reach a display without a copy in between.
 ///
 /// A surface is free → acquire() → lent → submit() → queued → its event. It is free again once its
@@ -154,6 +165,13 @@ class SurfaceOutput : public Output {
 
   /// When takeEvents() will have the next one, as far as can be told; none where nothing is queued.
   virtual std::optional<TimePoint> nextEvent() const = 0;
+
+  /// Set while it shows nothing though it works: acquire() lends nothing, and queued surfaces have
+  /// ended as kSkipped. Valid until the next call.
+  virtual const Suspension* suspension() const { return nullptr; }
+
+  /// Somebody is there: a key was pressed, or something moved. A display that is off goes on.
+  virtual void noteActivity() {}
 };
 
 }  // namespace pleinair::hal

@@ -10,7 +10,8 @@ namespace {
 
 Inventory takeInventory() {
   return {.cameras = listDeviceCameras(deviceBackends()),
-          .outputs = listOutputs(hal::outputKinds())};
+          .outputs = listOutputs(hal::outputKinds()),
+          .keyboards = listKeyboards(hal::kernelKeyboards())};
 }
 
 }  // namespace

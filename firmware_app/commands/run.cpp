@@ -87,6 +87,7 @@ int run(const RunOptions& options) {
          .openOutput = [options = output.options](
                            const std::string& target) { return hal::openOutput(target, options); },
          .runtime = configuration.runtime(),
+         .keyboards = configuredKeyboards(configuration),
          .serveStatus =
              [&](StatusPages pages) {
                return configuredStatusServer(configuration, std::move(pages));

@@ -254,6 +254,10 @@ OutputSettings Configuration::output() const {
   return outputOf(sections_);
 }
 
+InputSettings Configuration::input() const {
+  return inputOf(sections_);
+}
+
 RuntimeSettings Configuration::runtime() const {
   return runtimeOf(sections_);
 }

@@ -53,6 +53,12 @@ struct OutputSettings {
   hal::OutputOptionsByKind options;  ///< [output.KIND]
 };
 
+/// [input]
+struct InputSettings {
+  std::string keyboards = "auto";  ///< hal::KeyboardChoice::parsed()
+  bool grab = false;
+};
+
 /// [runtime]
 struct RuntimeSettings {
   double latencyMs = 120;  ///< from capture to being shown
@@ -103,6 +109,7 @@ class Configuration {
   CameraSettings camera() const;
   PaintingSettings painting() const;
   OutputSettings output() const;
+  InputSettings input() const;
   RuntimeSettings runtime() const;
   StatusSettings status() const;
   /// The parameters of the style in force.

@@ -13,6 +13,7 @@
 #include "firmware_app/config/renamed.h"
 #include "firmware_app/status_server/listen_address.h"
 #include "hal/cameras/registry.h"
+#include "hal/keyboards/keyboards.h"
 #include "hal/pixel_format.h"
 #include "pipeline/engine/painter.h"
 #include "pipeline/styles/registry.h"
@@ -171,6 +172,22 @@ std::vector<config::Section> outputKindSections() {
   return sections;
 }
 
+const ParameterTable<InputSettings>& inputTable() {
+  static const ParameterTable<InputSettings> kTable{
+      textParameter(
+          "keyboards", &InputSettings::keyboards,
+          "auto, none, or names and paths with commas between them",
+          "Keyboards whose keys do what a window's do; \"auto\": all, where there is a "
+          "screen without a desktop and no window.",
+          TakesEffect::kRestart,
+          [](std::string_view text) { return hal::KeyboardChoice::parsed(text).has_value(); }),
+      switchParameter("grab", &InputSettings::grab,
+                      "Whether their keys reach pleinair alone, and neither the console nor other "
+                      "programs; Ctrl+Alt+F2 too then does nothing.",
+                      TakesEffect::kRestart)};
+  return kTable;
+}
+
 std::vector<std::string> qualityChoices() {
   std::vector<std::string> names{"auto"};
   for (const QualityLevel& level : qualityLevels()) names.push_back(level.name);
@@ -249,6 +266,7 @@ config::Sections defaultSections() {
   sections.push_back({"painting", "The painting.", paintingTable().defaults()});
   sections.push_back({"output", "The outputs of the painting.", outputTable().defaults()});
   for (config::Section& section : outputKindSections()) sections.push_back(std::move(section));
+  sections.push_back({"input", "Keys without a desktop.", inputTable().defaults()});
   sections.push_back(
       {"runtime", "Latency and quality of live painting.", runtimeTable().defaults()});
   sections.push_back(
@@ -286,6 +304,10 @@ OutputSettings outputOf(const config::Sections& sections) {
     }
   }
   return settings;
+}
+
+InputSettings inputOf(const config::Sections& sections) {
+  return inputTable().typed(sections.values("input"));
 }
 
 RuntimeSettings runtimeOf(const config::Sections& sections) {

@@ -33,6 +33,7 @@ std::filesystem::path profileOf(const config::Sections& sections);
 CameraSettings cameraOf(const config::Sections& sections);
 PaintingSettings paintingOf(const config::Sections& sections);
 OutputSettings outputOf(const config::Sections& sections);
+InputSettings inputOf(const config::Sections& sections);
 RuntimeSettings runtimeOf(const config::Sections& sections);
 StatusSettings statusOf(const config::Sections& sections);
 

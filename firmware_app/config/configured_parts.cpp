@@ -14,6 +14,7 @@
 #include "hal/cameras/registry.h"
 #include "hal/cameras/synthetic/synthetic_kind.h"
 #include "hal/error.h"
+#include "hal/outputs/registry.h"
 #include "pipeline/scene/description/scene_file.h"
 #include "pipeline/styles/registry.h"
 
@@ -139,6 +140,22 @@ hal::StreamRequest streamRequestOf(const CameraSettings& camera) {
                                                 : hal::fromMilliseconds(*time);
   }
   return request;
+}
+
+std::optional<hal::KeyboardChoice> configuredKeyboards(const Configuration& configuration) {
+  const InputSettings input = configuration.input();
+  auto choice = hal::KeyboardChoice::parsed(input.keyboards);
+  if (!choice) return std::nullopt;
+  choice->grabs = input.grab;
+  if (!choice->all) return choice->named.empty() ? std::nullopt : choice;
+  bool isOnConsole = false;
+  for (const std::filesystem::path& target : configuration.output().targets) {
+    const auto kind = hal::outputKindOf(target.string());
+    if (!kind) continue;  // told when it is opened
+    if ((*kind)->traits.isOnMainThread) return std::nullopt;
+    isOnConsole = isOnConsole || (*kind)->traits.isOnConsole;
+  }
+  return isOnConsole ? choice : std::nullopt;
 }
 
 std::unique_ptr<StatusServer> configuredStatusServer(const Configuration& configuration,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "firmware_app/cli/path_collisions.h"
@@ -9,6 +10,7 @@
 #include "firmware_app/status_server/status_server.h"
 #include "hal/camera.h"
 #include "hal/cameras/synthetic/synthetic_camera.h"
+#include "hal/keyboards/keyboards.h"
 #include "pipeline/scene/description/scene.h"
 
 namespace pleinair::app {
@@ -37,6 +39,10 @@ hal::CameraBackendOptions backendOptionsOf(const CameraSettings& camera, hal::Pa
 hal::SyntheticOptions syntheticOptions(const CameraSettings& camera);
 /// The request to a device: size, rate and controls.
 hal::StreamRequest streamRequestOf(const CameraSettings& camera);
+
+/// [input]'s keyboards; nothing where none are read. "auto": all, where there is an output on the
+/// console (hal::OutputTraits::isOnConsole) and no window.
+std::optional<hal::KeyboardChoice> configuredKeyboards(const Configuration& configuration);
 
 /// [status]'s server, started; null where it is off. Throws hal::Failure as
 /// startStatusServer().

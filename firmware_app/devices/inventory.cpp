@@ -19,6 +19,19 @@ DeviceCameras listDeviceCameras(std::span<const hal::SelectableBackend> backends
   return all;
 }
 
+std::vector<ListedKeyboard> listKeyboards(hal::KeyboardDevices& devices) {
+  std::vector<ListedKeyboard> all;
+  for (hal::KeyboardDescription& each : devices.list()) {
+    auto opened = devices.open(each.node);
+    std::optional<hal::Error> problem;
+    if (!opened) problem = std::move(opened.error());
+    all.push_back({.description = std::move(each), .problem = std::move(problem)});
+  }
+  std::ranges::stable_partition(
+      all, [](const ListedKeyboard& each) { return each.description.isKeyboard; });
+  return all;
+}
+
 std::vector<KindOfOutputs> listOutputs(std::span<const hal::OutputKind> kinds) {
   std::vector<KindOfOutputs> all;
   for (const hal::OutputKind& kind : kinds) {

@@ -7,6 +7,7 @@
 
 #include "hal/camera_backend.h"
 #include "hal/error.h"
+#include "hal/keyboards/keyboard_device.h"
 #include "hal/output_kind.h"
 #include "hal/supervisor/camera_selector.h"
 
@@ -31,10 +32,20 @@ struct KindOfOutputs {
 
 std::vector<KindOfOutputs> listOutputs(std::span<const hal::OutputKind> kinds);
 
-/// The cameras and outputs of this machine.
+/// A keyboard or pedal, for [input] keyboards.
+struct ListedKeyboard {
+  hal::KeyboardDescription description;
+  std::optional<hal::Error> problem;  ///< why it cannot be opened
+};
+
+/// Those of the machine, keyboards first. Opens each.
+std::vector<ListedKeyboard> listKeyboards(hal::KeyboardDevices& devices);
+
+/// The cameras, outputs and keyboards of this machine.
 struct Inventory {
   DeviceCameras cameras;
   std::vector<KindOfOutputs> outputs;
+  std::vector<ListedKeyboard> keyboards;
 };
 
 /// Text for the terminal: a line per device, its formats below. An empty list says so and gives the
@@ -43,7 +54,8 @@ std::string asText(const Inventory& inventory);
 
 /// For programs: {"cameras": [{"backend", "id", "name", "serial", "node", "formats": [{"layout",
 /// "width", "height", "rates", "read"} …], "problem"} …], "outputs": [{"kind", "target", "name",
-/// "formats", "busy", "problem"} …], "problems": [text …]}; "problem" is null where there is none.
+/// "formats", "busy", "problem"} …], "keyboards": [{"node", "name", "keyboard", "problem"} …],
+/// "problems": [text …]}; "problem" is null where there is none.
 std::string asJson(const Inventory& inventory);
 
 }  // namespace pleinair::app

@@ -41,6 +41,13 @@ Json outputOf(const std::string& kind, const hal::OutputDescription& output) {
           {"busy", output.isBusy}, {"problem", problemOf(output.problem)}};
 }
 
+Json keyboardOf(const ListedKeyboard& keyboard) {
+  return {{"node", keyboard.description.node},
+          {"name", keyboard.description.name},
+          {"keyboard", keyboard.description.isKeyboard},
+          {"problem", problemOf(keyboard.problem)}};
+}
+
 template <class Items, class Make>
 Json arrayOf(const Items& items, Make make) {
   Json array = Json::array();
@@ -59,6 +66,7 @@ std::string asJson(const Inventory& inventory) {
   }
   const Json document{{"cameras", arrayOf(inventory.cameras.cameras, cameraOf)},
                       {"outputs", std::move(outputs)},
+                      {"keyboards", arrayOf(inventory.keyboards, keyboardOf)},
                       {"problems", arrayOf(inventory.cameras.problems, [](const hal::Error& error) {
                          return error.message();
                        })}};

@@ -105,10 +105,21 @@ std::string outputsText(const Inventory& inventory) {
   return text;
 }
 
+std::string keyboardsText(const Inventory& inventory) {
+  std::string text = "Keyboards (--set input.keyboards=NAME)\n";
+  for (const ListedKeyboard& each : inventory.keyboards) {
+    text += fmt::format("  {}  {}{}\n", each.description.name, each.description.node,
+                        each.description.isKeyboard ? "" : "  (not in \"auto\")");
+    if (each.problem) text += problemText(*each.problem);
+  }
+  if (inventory.keyboards.empty()) text += "  none\n";
+  return text;
+}
+
 }  // namespace
 
 std::string asText(const Inventory& inventory) {
-  return camerasText(inventory) + "\n" + outputsText(inventory);
+  return camerasText(inventory) + "\n" + outputsText(inventory) + "\n" + keyboardsText(inventory);
 }
 
 }  // namespace pleinair::app

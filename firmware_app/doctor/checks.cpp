@@ -7,9 +7,9 @@ namespace pleinair::app::doctor {
 std::vector<Finding> examine(const Probes& probes) {
   std::vector<Finding> findings;
   for (const auto& check :
-       {checkGraphics, checkRenderNodes, checkDisplays, checkCameras, checkUsbCameras,
-        checkLoopback, checkSocketBuffers, checkPriority, checkLockedMemory, checkClock, checkUdev,
-        checkConfiguration, checkDisk, checkMemory}) {
+       {checkGraphics, checkRenderNodes, checkDisplays, checkKeyboards, checkCameras,
+        checkUsbCameras, checkLoopback, checkSocketBuffers, checkPriority, checkLockedMemory,
+        checkClock, checkUdev, checkConfiguration, checkDisk, checkMemory}) {
     findings.push_back(check(probes));
   }
   for (Finding& finding : checkRequested(probes)) findings.push_back(std::move(finding));

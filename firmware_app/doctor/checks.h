@@ -13,6 +13,7 @@ namespace pleinair::app::doctor {
 Finding checkGraphics(const Probes& probes);       ///< an OpenGL ES 3.1 context, and on what
 Finding checkRenderNodes(const Probes& probes);    ///< /dev/dri may be used
 Finding checkDisplays(const Probes& probes);       ///< plugged in, permitted, not another program's
+Finding checkKeyboards(const Probes& probes);      ///< permitted, for keys without a desktop
 Finding checkCameras(const Probes& probes);        ///< there, permitted, not in use
 Finding checkUsbCameras(const Probes& probes);     ///< the module uvcvideo
 Finding checkLoopback(const Probes& probes);       ///< the module v4l2loopback, for all readers

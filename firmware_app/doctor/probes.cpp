@@ -77,6 +77,7 @@ Probes systemProbes() {
           .loopbacks = [] { return hal::listLoopbacks(); },
           .displays = [] { return hal::listDisplays(); },
           .displayProblem = [] { return hal::displayKind().problemOf("display"); },
+          .keyboards = [] { return listKeyboards(hal::kernelKeyboards()); },
           .configurationError = {},
           .snapshots = {}};
 }

@@ -42,6 +42,7 @@ struct Probes {
   std::function<hal::OutputListing()> displays;
   /// Why the first display that is plugged in could not be taken now.
   std::function<std::optional<hal::Error>()> displayProblem;
+  std::function<std::vector<ListedKeyboard>()> keyboards;
   /// The error of the configuration, in a line; nothing where it is valid.
   std::function<std::optional<std::string>()> configurationError;
   /// The parts that the configuration asks for; none where it is not valid.

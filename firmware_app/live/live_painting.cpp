@@ -19,6 +19,7 @@
 #include "firmware_app/config/camera_selection.h"
 #include "firmware_app/config/requested_parts.h"
 #include "firmware_app/live/live_controls.h"
+#include "firmware_app/live/live_keys.h"
 #include "firmware_app/live/live_painter.h"
 #include "firmware_app/live/live_reporter.h"
 #include "firmware_app/live/live_tuning.h"
@@ -27,6 +28,8 @@
 #include "firmware_app/live/screens.h"
 #include "firmware_app/live/snapshot_saver.h"
 #include "firmware_app/scene/scene_warnings.h"
+#include "hal/console/virtual_terminal.h"
+#include "hal/outputs/display/display_output.h"
 #include "hal/outputs/window/window.h"
 #include "hal/supervisor/camera_supervisor.h"
 #include "hal/supervisor/hotplug_monitor.h"
@@ -79,6 +82,10 @@ class LivePainting {
         saver_(job.snapshots),
         reporter_(qualityNames()),
         screens_(job.selector->choice(), job.state, *job.clock) {
+    if (std::ranges::any_of(job.outputs, isOnConsole)) takeConsole();
+    if (job.keyboards) {
+      keys_.emplace(*job.keyboards, hal::kernelKeyboards(), tuning_, *job.clock);
+    }
     for (const std::string& name : job.outputs) {
       orThrow(checkOutputFolder(name));  // now, because the camera may come much later
       opened_.push_back(orThrow(job.openOutput(name)));
@@ -110,6 +117,8 @@ class LivePainting {
   void devicesChanged(const hal::DeviceEvent& event) {
     if (event.subsystem == "drm") {
       haveDisplaysChanged_ = true;
+    } else if (event.subsystem == "input") {
+      if (keys_) keys_->devicesChanged();
     } else {
       supervisor_.devicesChanged();
     }
@@ -167,7 +176,8 @@ class LivePainting {
   /// Returns false if a signal ended the wait.
   bool awaitStream() {
     for (;;) {
-      if (Interrupt::received() != 0) return false;
+      attend();
+      if (Interrupt::received() != 0 || wantsToQuit_) return false;
       const runtime::CaptureStage::Status camera = pipeline_.capture().status();
       if (camera.format) {
         stream_ = *camera.format;
@@ -285,9 +295,10 @@ class LivePainting {
   }
 
   bool awaitPainter() {
-    while (Interrupt::received() == 0) {
+    while (Interrupt::received() == 0 && !wantsToQuit_) {
       if (threads_->isPainterReady()) return true;
       updateScreens();
+      attend();
       job_.clock->sleepUntil(job_.clock->now() + kPollInterval);
     }
     return false;
@@ -322,6 +333,7 @@ class LivePainting {
     }
     updateScreens();
     handleWindow();
+    attend();
     handleSnapshots();
     report();
     if (stepped_.empty()) {
@@ -337,10 +349,7 @@ class LivePainting {
 
   void handleWindow() {
     if (!window_) return;
-    const LiveWindow::Requests requests = window_->takeRequests();
-    wantsToQuit_ = wantsToQuit_ || requests.quit;
-    wantsSnapshot_ = wantsSnapshot_ || requests.snapshot;
-    if (requests.tuned) controls_.setParameters(tuning_.parameters());
+    handle(window_->takeRequests());
     pipeline_.paint().setPaused(tuning_.isPaused());
     const hal::TimePoint now = job_.clock->now();
     if (now - captioned_ < kCaptionInterval) return;
@@ -349,6 +358,65 @@ class LivePainting {
     const auto drawn = window_->update(rate, rate > kMinCaptionRate);
     // If there are other outputs, the window alone fails, at its next image.
     if (!drawn && pipeline_.outputCount() == 1) failure_ = drawn.error();
+  }
+
+  void handle(const LiveRequests& requests) {
+    wantsToQuit_ = wantsToQuit_ || requests.quit;
+    wantsSnapshot_ = wantsSnapshot_ || requests.snapshot;
+    if (requests.tuned) controls_.setParameters(tuning_.parameters());
+  }
+
+  static bool isOnConsole(const std::string& target) {
+    const auto kind = hal::outputKindOf(target);
+    return kind && (*kind)->traits.isOnConsole;
+  }
+
+  /// Without a console of our own, displays are kept whichever is in front.
+  void takeConsole() {
+    auto taken = hal::VirtualTerminal::open(
+        hal::kernelTerminals(), {.leave = hal::leaveConsole, .enter = hal::enterConsole});
+    if (taken) {
+      terminal_ = *std::move(taken);
+    } else {
+      spdlog::debug("no console of our own: {}", taken.error().message());
+    }
+  }
+
+  /// What comes from people: consoles that they switch to, keys, movements before the camera.
+  void attend() {
+    followConsole();
+    handleKeys();
+    const auto moved = pipeline_.capture().movedAt();
+    if (std::exchange(movedAt_, moved) != moved) noteActivity();
+  }
+
+  void followConsole() {
+    const bool hasSwitched = terminal_ && terminal_->follow();
+    const bool isInFront = !terminal_ || terminal_->isInFront();
+    if (hasSwitched && isInFront) haveDisplaysChanged_ = true;  // those that could not be opened
+    if (keys_) keys_->setPaused(!isInFront || isDisplayTaken_);
+  }
+
+  /// Whether another console or program has a display: keys are for that one.
+  static bool isTaken(const runtime::OutputStage::Status& output) {
+    if (output.isFailed) return output.failure && output.failure->kind == hal::ErrorKind::kBusy;
+    return output.suspension && output.suspension->cause == hal::Suspension::Cause::kConsole;
+  }
+
+  void noteActivity() {
+    if (!isPipelineMade_) return;
+    for (std::size_t i = 0; i < pipeline_.outputCount(); ++i) pipeline_.output(i).noteActivity();
+  }
+
+  void handleKeys() {
+    if (!keys_) return;
+    const LiveKeys::Taken taken = keys_->take();
+    if (taken.anyKey) noteActivity();
+    handle(taken.requests);
+    if (isPipelineMade_) pipeline_.paint().setPaused(tuning_.isPaused());
+    if (!taken.problems.empty() || !taken.state.empty()) reporter_.interrupt();
+    for (const hal::Error& each : taken.problems) spdlog::warn("keyboard {}", each.message());
+    for (const std::string& each : taken.state) spdlog::info("{}", each);
   }
 
   void handleSnapshots() {
@@ -393,6 +461,7 @@ class LivePainting {
     reported_ = now;
     const runtime::RuntimeStatus status = pipeline_.status();
     reporter_.update(status, now);
+    isDisplayTaken_ = std::ranges::any_of(status.outputs, isTaken);
     // If the first frames cannot be painted, no later one can.
     const bool isHopeless = status.painting.painted == 0 && status.painting.failures > 0;
     if (isHopeless) failure_ = status.painting.failure;
@@ -430,6 +499,7 @@ class LivePainting {
   /// program, and nothing has been painted that could be lost.
   [[noreturn]] void exitWithStuckThreads(const std::vector<std::string>& stuck) {
     reporter_.interrupt();
+    terminal_.reset();
     const auto isOutput = [](const std::string& name) { return name.starts_with("output"); };
     if (!hasBegun_ && std::ranges::none_of(stuck, isOutput)) {
       for (std::size_t i = 0; i < pipeline_.outputCount(); ++i) pipeline_.output(i).discard();
@@ -446,6 +516,7 @@ class LivePainting {
   }
 
   const LiveJob& job_;
+  std::unique_ptr<hal::VirtualTerminal> terminal_;  ///< outlives the displays, which it lets go of
   hal::CameraSupervisor supervisor_;
   runtime::LivePipeline pipeline_;
   hal::StreamFormat stream_;
@@ -457,6 +528,7 @@ class LivePainting {
   std::vector<std::unique_ptr<hal::Output>> opened_;  ///< until the pipeline owns them
   std::vector<runtime::OutputStage*> stepped_;  ///< outputs stepped on the main thread: the window
   std::optional<LiveWindow> window_;
+  std::optional<LiveKeys> keys_;  ///< before the hot-plug monitor, which notifies it
   std::optional<runtime::LiveThreads> threads_;
   std::unique_ptr<hal::HotplugMonitor> hotplug_;  ///< notifies the supervisor
   std::atomic<bool> haveDisplaysChanged_ = false;
@@ -469,10 +541,12 @@ class LivePainting {
   hal::TimePoint captioned_;
   hal::TimePoint screensUpdated_;
   std::string waitingCause_;
+  std::optional<hal::TimePoint> movedAt_;
   std::vector<hal::Error> failures_;   ///< errors of outputs, at the end
   std::optional<hal::Error> failure_;  ///< the error that ended the painting
   bool hasBegun_ = false;              ///< frames flow to the outputs
   bool wantsToQuit_ = false;
+  bool isDisplayTaken_ = false;
   bool wantsSnapshot_ = false;
 };
 

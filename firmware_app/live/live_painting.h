@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "firmware_app/status_server/status_server.h"
 #include "hal/camera.h"
 #include "hal/clock.h"
+#include "hal/keyboards/keyboards.h"
 #include "hal/outputs/registry.h"
 #include "hal/supervisor/camera_selector.h"
 #include "pipeline/scene/description/scene.h"
@@ -27,6 +29,7 @@ struct LiveJob {
   std::vector<std::string> outputs;  ///< targets, as of hal::openOutput(); at least one
   OutputOpener openOutput;
   RuntimeSettings runtime;
+  std::optional<hal::KeyboardChoice> keyboards;  ///< whose keys do what a window's do
   /// Starts the status server; may return null.
   std::function<std::unique_ptr<StatusServer>(StatusPages)> serveStatus;
   bool waitsForCamera = false;   ///< at the start; after a loss it always waits

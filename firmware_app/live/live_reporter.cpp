@@ -117,6 +117,13 @@ void LiveReporter::reportOutputs(const runtime::RuntimeStatus& status) {
       warn("{}{}", output.failure->message(), output.isFinal ? "" : "; trying again");
     }
     if (wasFailed && !output.isFailed) inform("{}: takes images again", output.name);
+    const bool wasSuspended = last != nullptr && last->suspension;
+    if (output.suspension && !wasSuspended) {
+      inform("{}: shows nothing: {}", output.name, output.suspension->reason);
+    }
+    if (wasSuspended && !output.suspension && !output.isFailed) {
+      inform("{}: shows pictures again", output.name);
+    }
   }
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "config/parameter_values.h"
-#include "hal/outputs/window/window.h"
+#include "hal/key_pressed.h"
 #include "pipeline/engine/painter.h"
 
 namespace pleinair::app {
@@ -15,6 +15,13 @@ namespace pleinair::app {
 struct LiveLook {
   std::string name;
   config::ParameterValues values;
+};
+
+/// What a user asked for by keys, or by closing the window.
+struct LiveRequests {
+  bool quit = false;
+  bool snapshot = false;
+  bool tuned = false;  ///< parameters, debug view or look may have changed
 };
 
 /// Changes the parameters of a live painting by keys: keys in, parameter sets out. One thread.

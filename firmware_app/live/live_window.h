@@ -40,11 +40,7 @@ class LiveWindow {
   LiveWindow(hal::Window& window, LiveTuning& tuning, const hal::Clock& clock);
 
   /// The user's requests since the last call.
-  struct Requests {
-    bool quit = false;
-    bool snapshot = false;
-    bool tuned = false;  ///< parameters, debug view or look may have changed
-  };
+  using Requests = LiveRequests;
   Requests takeRequests();
 
   /// Shows a notice in the caption until the next key.

@@ -12,7 +12,7 @@ namespace pleinair::hal {
 /// An event of a device that was plugged, unplugged or changed.
 struct DeviceEvent {
   std::string action;     ///< "add", "remove", "change" …
-  std::string subsystem;  ///< "video4linux", "usb", "drm"
+  std::string subsystem;  ///< "video4linux", "usb", "drm", "input"
   std::string node;       ///< "/dev/video0"; empty if it has none
 };
 
@@ -31,8 +31,8 @@ class DeviceEvents {
   virtual void interrupt() = 0;
 };
 
-/// udev's events of the subsystems of cameras and displays. Errors: kUnsupported (built without
-/// udev), kIo (udev does not run).
+/// udev's events of the subsystems of cameras, displays and keyboards. Errors: kUnsupported (built
+/// without udev), kIo (udev does not run).
 Result<std::unique_ptr<DeviceEvents>> udevEvents();
 
 /// Reports each event, for example to CameraSupervisor::devicesChanged(), from its own thread. If

@@ -41,7 +41,7 @@ class UdevEvents final : public DeviceEvents {
     // udev's events, not the kernel's, because only then the node has its name and permissions.
     monitor_.reset(udev_monitor_new_from_netlink(context_.get(), "udev"));
     if (!monitor_ || !interrupted_) return tl::unexpected(failed("cannot listen", errno));
-    for (const char* subsystem : {"video4linux", "usb", "drm"}) {
+    for (const char* subsystem : {"video4linux", "usb", "drm", "input"}) {
       const int error =
           udev_monitor_filter_add_match_subsystem_devtype(monitor_.get(), subsystem, nullptr);
       if (error < 0) return tl::unexpected(failed("cannot choose among events", -error));

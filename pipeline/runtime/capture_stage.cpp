@@ -28,6 +28,7 @@ void CaptureStage::step(hal::TimePoint deadline) {
   const std::scoped_lock lock(mutex_);
   if (auto* changed = std::get_if<hal::FormatChanged>(&next)) {
     status_.format = changed->format;
+    movedAt_ = clock_.now();
   } else if (auto* state = std::get_if<hal::CameraStateChanged>(&next)) {
     status_.state = state->state;
     status_.reason = std::move(state->reason);
@@ -59,8 +60,10 @@ void CaptureStage::countLost() {
 
 void CaptureStage::handOn(hal::CapturedFrame frame) {
   const hal::TimePoint now = clock_.now();
+  const bool moved = movement_.look(frame.image, frame.captureTime);
   {
     const std::scoped_lock lock(mutex_);
+    if (moved) movedAt_ = now;
     rate_.count(now);
     delay_.add(now - frame.captureTime, now);
     if (!isOpen_) {
@@ -83,7 +86,13 @@ CaptureStage::Status CaptureStage::status() const {
   status.losses = counts.losses;
   status.opens = counts.opens;
   status.delay = delay_.recent(now).percentile(0.5);
+  if (movedAt_) status.quiet = now - *movedAt_;
   return status;
+}
+
+std::optional<hal::TimePoint> CaptureStage::movedAt() const {
+  const std::scoped_lock lock(mutex_);
+  return movedAt_;
 }
 
 }  // namespace pleinair::runtime

@@ -11,6 +11,7 @@
 #include "pipeline/runtime/frame_ledger.h"
 #include "pipeline/runtime/frame_rate.h"
 #include "pipeline/runtime/mailbox.h"
+#include "pipeline/runtime/movement_detector.h"
 
 namespace pleinair::runtime {
 
@@ -45,11 +46,16 @@ class CaptureStage {
     std::optional<hal::StreamFormat> format;  ///< the last one announced
     double perSecond = 0.0;
     std::uint64_t stalls = 0, losses = 0, opens = 0;
-    hal::Duration delay{0};           ///< recent median time from capture to arrival
-    bool hasEnded = false;            ///< no more frames will come
-    std::optional<hal::Error> cause;  ///< of the last loss, or of a truncated recording
+    std::optional<hal::Duration> quiet;  ///< since movedAt()
+    hal::Duration delay{0};              ///< recent median time from capture to arrival
+    bool hasEnded = false;               ///< no more frames will come
+    std::optional<hal::Error> cause;     ///< of the last loss, or of a truncated recording
   };
   Status status() const;
+
+  /// When something last moved before the camera, as far as it was looked at; unset: not yet. Each
+  /// time that a camera begins counts as a movement.
+  std::optional<hal::TimePoint> movedAt() const;
 
  private:
   void countLost();
@@ -61,10 +67,12 @@ class CaptureStage {
   Mailbox<ArrivedFrame>& frames_;
   bool hasEnded_ = false;
   hal::FrameCounts counted_;  ///< the supervisor's counts that are in the ledger
+  MovementDetector movement_;
 
   mutable std::mutex mutex_;  // guards the members below
   bool isOpen_ = false;
   Status status_;
+  std::optional<hal::TimePoint> movedAt_;
   FrameRate rate_;
   RecentDurations delay_;
 };

@@ -40,8 +40,11 @@ StateReading cameraState(hal::CameraState current) {
 }
 
 StateReading outputState(const OutputStage::Status& output) {
-  const std::size_t current = output.isFinal ? 2 : output.isFailed ? 1 : 0;
-  return {.names = {"taking", "reopening", "failed"}, .current = current};
+  std::size_t current = output.isFinal ? 2 : output.isFailed ? 1 : 0;
+  if (output.suspension) {
+    current = output.suspension->cause == hal::Suspension::Cause::kBlank ? 4 : 3;
+  }
+  return {.names = {"taking", "reopening", "failed", "suspended", "blanked"}, .current = current};
 }
 
 Readings paintStages(const PaintStage::Status& painting) {
@@ -102,6 +105,11 @@ std::vector<Metric> cameraMetrics() {
        [](Moment m) {
          const std::string& why = m.status.camera.lastLoss;
          return why.empty() ? one({}) : one(why);
+       }},
+      {kCamera, "quiet", "", kGauge, kS, "Time since something moved before the camera.",
+       [](Moment m) {
+         const std::optional<hal::Duration>& quiet = m.status.camera.quiet;
+         return quiet ? one(*quiet) : one({});
        }},
       {kCamera, "backend", "", kText, kNoUnit, "Kind of the camera, such as v4l2.",
        [](Moment m) { return cameraText(m, &hal::CameraIdentity::backend); }},
@@ -189,6 +197,12 @@ std::vector<Metric> outputMetrics() {
        }},
       {kOutput, "state", "", kState, kNoUnit, "Whether the output takes images.",
        [](Moment m) { return one(outputState(*m.output)); }, "output_up"},
+      {kOutput, "suspension", "", kText, kNoUnit,
+       "Why a display that works shows nothing: who has it, or why it is off.",
+       [](Moment m) {
+         const std::optional<hal::Suspension>& suspension = m.output->suspension;
+         return suspension ? one(suspension->reason) : one({});
+       }},
       {kOutput, "frames_per_second", "", kGauge, kNoUnit,
        "Images that the output took in the last second.",
        [](Moment m) { return one(m.output->perSecond); }, "output_per_second"},

@@ -16,6 +16,8 @@ constexpr std::array<Words, kOutcomes> kWords{{
     {"superseded", "superseded by a newer one"},
     {"output_busy", "while an output was busy"},
     {"no_surface", "without a free surface"},
+    {"suspended", "while another console was in front"},
+    {"blanked", "while the display was off"},
     {"output_failed", "by a failed output"},
     {"replaced", "replaced by a newer one"},
     {"paused", "while paused"},

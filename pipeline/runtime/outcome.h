@@ -14,6 +14,8 @@ enum class Outcome {
   kSuperseded,        ///< a newer frame fell due at the same time
   kOutputBusy,        ///< its outputs were busy with an earlier one
   kNoSurface,         ///< its outputs had no free surface for it
+  kSuspended,         ///< another console or program had its outputs' displays
+  kBlanked,           ///< its outputs' displays were switched off
   kOutputFailed,      ///< its outputs had failed
   kReplaced,          ///< a newer frame came before it was painted: the painter was too slow
   kPaused,            ///< it came during a pause
@@ -28,7 +30,7 @@ enum class Outcome {
   kStalled,           ///< it was lost while the camera stalled
   kDroppedByDriver,   ///< the camera or its driver dropped it for another reason
 };
-inline constexpr std::size_t kOutcomes = 19;
+inline constexpr std::size_t kOutcomes = 21;
 
 /// The name in JSON and metrics: "shown_off_schedule".
 std::string_view nameOf(Outcome outcome);

@@ -254,7 +254,7 @@ void OutputStage::presentSurface(hal::SurfaceOutput& output, const Due& due) {
     end(due.frame, Outcome::kOutputFailed);
     fail(submitted.error());
   } else if (!submitted.isYes()) {
-    end(due.frame, Outcome::kNoSurface);
+    end(due.frame, outcomeWithoutSurface());
   } else {
     retire(due.frame);
   }
@@ -281,18 +281,49 @@ hal::Answer OutputStage::submitSurface(hal::SurfaceOutput& output, const Due& du
 }
 
 void OutputStage::takeEvents() {
-  if (!output_ || output_->surfaces() == nullptr) return;
+  hal::SurfaceOutput* const surfaces = output_ ? output_->surfaces() : nullptr;
+  if (surfaces == nullptr) return;
+  bool isSomebodyThere = false;
   {
-    // Without frames nothing else would notice that the output is gone.
     const std::scoped_lock lock(mutex_);
-    if (status_.isFailed || (queued_.empty() && !waitingSurface_ && !status_.isWaitingShown))
-      return;
+    if (status_.isFailed) return;
+    isSomebodyThere = std::exchange(isSomebodyThere_, false);
   }
+  if (isSomebodyThere) surfaces->noteActivity();
   events_.clear();
-  hal::Result<void> taken = output_->surfaces()->takeEvents(events_);
+  // Also where nothing is queued, because a display comes and goes without pictures.
+  hal::Result<void> taken = surfaces->takeEvents(events_);
   const std::scoped_lock lock(mutex_);
+  followSuspension(*surfaces);
   for (const hal::PresentationEvent& event : events_) ended(event);
   if (!taken) fail(std::move(taken.error()));
+}
+
+/// Precondition: the mutex is held.
+void OutputStage::followSuspension(const hal::SurfaceOutput& output) {
+  const hal::Suspension* const now = output.suspension();
+  if (now == nullptr) {
+    status_.suspension.reset();
+  } else if (!status_.suspension || *status_.suspension != *now) {
+    status_.suspension = *now;
+  }
+}
+
+/// Precondition: the mutex is held.
+Outcome OutputStage::outcomeWithoutSurface() const {
+  const hal::Suspension* const suspension = output_->surfaces()->suspension();
+  if (suspension == nullptr) return Outcome::kNoSurface;
+  return suspension->cause == hal::Suspension::Cause::kBlank ? Outcome::kBlanked
+                                                             : Outcome::kSuspended;
+}
+
+void OutputStage::noteActivity() {
+  const std::scoped_lock lock(mutex_);
+  isSomebodyThere_ = true;
+  // An output that shows pictures has time until the next one.
+  if (!status_.suspension) return;
+  isWoken_ = true;
+  changed_.notify_all();
 }
 
 /// Precondition: the mutex is held.
@@ -319,7 +350,10 @@ void OutputStage::ended(const hal::PresentationEvent& event) {
 Outcome OutputStage::outcomeOf(const hal::PresentationEvent& event, const Queued& queued) const {
   using Result = hal::PresentationEvent::Result;
   if (event.result == Result::kSuperseded) return Outcome::kSuperseded;
-  if (event.result == Result::kSkipped) return Outcome::kOutputBusy;
+  if (event.result == Result::kSkipped) {
+    const Outcome outcome = outcomeWithoutSurface();
+    return outcome == Outcome::kNoSurface ? Outcome::kOutputBusy : outcome;
+  }
   // Any refresh but the due one is at least one period away.
   const hal::Duration off = event.time - queued.frame.due;
   const hal::Duration tolerance = refresh_ ? refresh_->period / 2 : options_.rules.tolerance;
@@ -329,6 +363,7 @@ Outcome OutputStage::outcomeOf(const hal::PresentationEvent& event, const Queued
 
 void OutputStage::fail(hal::Error error) {
   status_.isFailed = true;
+  status_.suspension.reset();
   status_.isFinal = !options_.reopen;
   ++status_.failures;
   status_.failure = std::move(error);

@@ -117,6 +117,8 @@ class OutputStage {
   // Any thread.
 
   void wake();  ///< ends wait(), now or at its next call
+  /// Somebody is there: a key was pressed, or something moved (hal::SurfaceOutput::noteActivity()).
+  void noteActivity();
   /// Opens a failed output again at the next step(), without waiting further: a device has come.
   void retry();
   /// Whether OutputStageOptions::limit is reached.
@@ -145,9 +147,10 @@ class OutputStage {
     bool isWaitingDue = false;                ///< a waiting picture is to be shown
     bool isWaitingShown = false;  ///< one was handed over, and no frame has been shown since
     bool isFailed = false;
-    bool isFinal = false;               ///< failed, and will not be opened again
-    std::optional<hal::Error> failure;  ///< the last one
-    bool addsUp() const;                ///< submitted = waiting + sum of ended
+    bool isFinal = false;                       ///< failed, and will not be opened again
+    std::optional<hal::Error> failure;          ///< the last one
+    std::optional<hal::Suspension> suspension;  ///< of a display that shows nothing for now
+    bool addsUp() const;                        ///< submitted = waiting + sum of ended
   };
   Status status() const;
 
@@ -168,6 +171,8 @@ class OutputStage {
   void presentSurface(hal::SurfaceOutput& output, const Due& due);
   hal::Answer submitSurface(hal::SurfaceOutput& output, const Due& due);
   void takeEvents();
+  void followSuspension(const hal::SurfaceOutput& output);
+  Outcome outcomeWithoutSurface() const;
   void ended(const hal::PresentationEvent& event);
   Outcome outcomeOf(const hal::PresentationEvent& event, const Queued& queued) const;
   void countShown(const WaitingFrame& frame, hal::TimePoint time);
@@ -197,6 +202,7 @@ class OutputStage {
   mutable std::mutex mutex_;  // guards the members below
   std::condition_variable changed_;
   bool isWoken_ = false;
+  bool isSomebodyThere_ = false;  ///< since the last step()
   hal::OutputFormat format_;
   PresentationQueue queue_;
   std::vector<std::size_t> free_;

@@ -6,7 +6,7 @@ namespace pleinair::runtime {
 
 bool RuntimeStatus::isHealthy() const {
   const auto takes = [](const OutputStage::Status& output) {
-    return !output.isFailed && output.perSecond > 0.0;
+    return !output.isFailed && (output.perSecond > 0.0 || output.suspension);
   };
   return camera.state == hal::CameraState::kStreaming && painting.hasPainter &&
          std::ranges::all_of(outputs, takes);

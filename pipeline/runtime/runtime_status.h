@@ -18,7 +18,8 @@ struct RuntimeStatus {
   std::vector<OutputStage::Status> outputs;
   LedgerCounts ledger;
 
-  /// Whether the camera streams, there is a painter, and every output takes frames.
+  /// Whether the camera streams, there is a painter, and every output takes frames or is
+  /// suspended.
   bool isHealthy() const;
 };
 

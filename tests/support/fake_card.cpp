@@ -76,7 +76,10 @@ struct Framebuffer {
 class FakeCard final : public Card {
  public:
   FakeCard(FakeCards& cards, FakeCardSpec& spec)
-      : cards_(cards), spec_(spec), crtcs_(static_cast<std::size_t>(spec.crtcs)) {
+      : cards_(cards),
+        spec_(spec),
+        crtcs_(static_cast<std::size_t>(spec.crtcs)),
+        isMaster_(!spec.hasOtherMaster) {
     ++cards_.openCards;
     if (spec.hasConsole) {
       crtcs_.front() = {.isActive = true,
@@ -84,9 +87,12 @@ class FakeCard final : public Card {
                         .framebuffer = kConsole,
                         .connector = kFirstConnector};
     }
+    spec_.firstPixel = [this] { return firstPixelOf(crtcs_.front().framebuffer); };
+    look();
   }
   ~FakeCard() override {
     assert(framebuffers_.empty() && "a buffer was left behind");
+    spec_.firstPixel = nullptr;
     --cards_.openCards;
   }
   FakeCard(const FakeCard&) = delete;
@@ -152,20 +158,33 @@ class FakeCard final : public Card {
   void restore(const SavedCrtc& before) override {
     if (spec_.isGone || !isMaster()) return;
     ++cards_.restores;
-    crtcs_.at(before.crtc - kFirstCrtc).framebuffer = before.framebuffer;
+    Crtc& crtc = crtcs_.at(before.crtc - kFirstCrtc);
+    endFlip(before.crtc - kFirstCrtc, cards_.clock_.now());  // a kernel waits for it
+    crtc.framebuffer = before.framebuffer;
+    crtc.isActive = true;
+    look();
   }
 
-  bool isMaster() override { return !spec_.hasOtherMaster; }
-  int becomeMaster() override { return spec_.hasOtherMaster ? -EBUSY : 0; }
-  void dropMaster() override {}
+  bool isMaster() override {
+    isMaster_ = isMaster_ && !spec_.hasOtherMaster;
+    return isMaster_;
+  }
+  int becomeMaster() override {
+    if (spec_.hasOtherMaster) return -EBUSY;
+    isMaster_ = true;
+    return 0;
+  }
+  void dropMaster() override { isMaster_ = false; }
 
   int commit(std::span<const Change> changes, Commit kind) override {
     if (spec_.isGone) return -ENODEV;
     if (!isMaster()) return -EACCES;
     runTo(cards_.clock_.now());
     if (kind == Commit::kFlip) return flip(changes);
+    if (isSwitchingOff(changes)) return switchOff(changes.front().object);
     const int failed = modeset(changes, kind == Commit::kModeset);
     ++(kind == Commit::kTest ? cards_.tests : cards_.modesets);
+    look();
     return failed;
   }
 
@@ -246,6 +265,27 @@ class FakeCard final : public Card {
     return std::nullopt;
   }
 
+  static bool isSwitchingOff(std::span<const Change> changes) {
+    return changes.size() == 1 && changes.front().property == idOf("ACTIVE") &&
+           changes.front().value == 0;
+  }
+
+  int switchOff(ObjectId crtcId) {
+    Crtc& crtc = crtcs_.at(crtcId - kFirstCrtc);
+    // A kernel waits for it; a display that asks then would block.
+    if (crtc.pending != 0) return -EBUSY;
+    crtc.isActive = false;
+    ++cards_.switchedOff;
+    look();
+    return 0;
+  }
+
+  /// What is seen of CRTC 0.
+  void look() {
+    spec_.isOn = crtcs_.front().isActive;
+    spec_.showsConsole = spec_.isOn && crtcs_.front().framebuffer == kConsole;
+  }
+
   int modeset(std::span<const Change> changes, bool applies) {
     const auto connector = std::ranges::find_if(changes, [](const Change& each) {
       return each.object >= kFirstConnector && each.object < kFirstPlane;
@@ -324,17 +364,30 @@ class FakeCard final : public Card {
       const std::int64_t count = crtc.committed.time_since_epoch() / period + 1;
       const hal::TimePoint refresh =
           spec_.hasVblank ? hal::TimePoint(count * period) : crtc.committed;
-      if (refresh > now) continue;
-      crtc.framebuffer = std::exchange(crtc.pending, 0);
-      const auto crtcId = kFirstCrtc + static_cast<ObjectId>(i);
-      const std::uint64_t sequence = spec_.hasVblank ? static_cast<std::uint64_t>(count) : 0;
-      events_.push_back(
-          {.crtc = crtcId, .sequence = static_cast<std::uint32_t>(sequence), .time = refresh});
-      std::uint32_t pixel = 0;
-      std::memcpy(&pixel, framebuffers_.at(crtc.framebuffer).buffer.memory.data(), sizeof(pixel));
-      cards_.shown.push_back(
-          {.crtc = crtcId, .sequence = sequence, .time = refresh, .firstPixel = pixel});
+      if (refresh <= now) endFlip(i, refresh);
     }
+  }
+
+  void endFlip(std::size_t i, hal::TimePoint refresh) {
+    Crtc& crtc = crtcs_[i];
+    if (crtc.pending == 0) return;
+    const std::int64_t count =
+        refresh.time_since_epoch() / hal::Duration(hal::fromSeconds(1.0 / crtc.mode->hertz));
+    crtc.framebuffer = std::exchange(crtc.pending, 0);
+    const auto crtcId = kFirstCrtc + static_cast<ObjectId>(i);
+    const std::uint64_t sequence = spec_.hasVblank ? static_cast<std::uint64_t>(count) : 0;
+    events_.push_back(
+        {.crtc = crtcId, .sequence = static_cast<std::uint32_t>(sequence), .time = refresh});
+    cards_.shown.push_back({.crtc = crtcId,
+                            .sequence = sequence,
+                            .time = refresh,
+                            .firstPixel = firstPixelOf(crtc.framebuffer)});
+  }
+
+  std::uint32_t firstPixelOf(ObjectId framebuffer) const {
+    std::uint32_t pixel = 0;
+    std::memcpy(&pixel, framebuffers_.at(framebuffer).buffer.memory.data(), sizeof(pixel));
+    return pixel;
   }
 
   FakeCards& cards_;
@@ -345,6 +398,7 @@ class FakeCard final : public Card {
   std::map<ObjectId, std::vector<std::uint8_t>> blobs_;
   std::vector<FlipEvent> events_;
   ObjectId lastId_ = 1000;
+  bool isMaster_ = true;
   std::size_t usedBytes_ = 0;
 };
 

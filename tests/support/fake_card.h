@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -47,6 +48,12 @@ struct FakeCardSpec {
   int busyFlips = 0;            ///< so many of the next flips are EBUSY
   bool losesFlips = false;      ///< flips are taken, but no event comes
   int memorylessFlips = 0;      ///< so many of the next flips are ENOMEM
+
+  // What is seen of CRTC 0:
+
+  bool isOn = false;                          ///< not switched off (ACTIVE)
+  bool showsConsole = false;                  ///< and no picture of ours
+  std::function<std::uint32_t()> firstPixel;  ///< of the picture that it has, also while it is off
 };
 
 /// A machine with fake cards, as strict about masters, properties, sizes and pending flips as the
@@ -60,6 +67,11 @@ class FakeCards final : public hal::display::Cards {
 
   std::vector<std::string> nodes() override;
   hal::Result<std::unique_ptr<hal::display::Card>> open(const std::string& node) override;
+  hal::Duration timeOfDay() override { return localTime; }
+  hal::Duration timeSuspended() override { return suspended; }
+
+  hal::Duration localTime = std::chrono::hours(12);
+  hal::Duration suspended{0};
 
   // What was seen of the cards. Of the only one, or of the card at `node`.
 
@@ -74,6 +86,7 @@ class FakeCards final : public hal::display::Cards {
   int tests = 0;
   int flips = 0;
   int restores = 0;
+  int switchedOff = 0;                      ///< CRTCs, by ACTIVE
   std::vector<std::size_t> changesOfFlips;  ///< how many properties each changed
   int buffers = 0;                          ///< that exist now
   int blobs = 0;                            ///< that exist now

@@ -33,6 +33,8 @@ struct PacedCameraOptions {
   };
   std::optional<std::uint64_t> frames;  ///< unset: endless
   hal::FrameSize size{8, 6};
+  /// Draws a frame over the one before; null: all are black.
+  std::function<void(std::uint64_t, hal::Image&)> draw;
 };
 
 class PacedCamera final : public hal::Camera {
@@ -55,6 +57,7 @@ class PacedCamera final : public hal::Camera {
     clock_.sleepUntil(std::min(arrival, deadline));
     if (clock_.now() < arrival) return hal::CameraTimeout{};
     const std::uint64_t sequence = next_++;
+    if (options_.draw) options_.draw(sequence, *image_);
     return hal::CapturedFrame{.image = image_->view(),
                               .sequence = sequence,
                               .captureTime = captured,

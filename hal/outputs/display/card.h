@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -166,6 +167,21 @@ class Cards {
   /// Errors: kPermissionDenied, kNotFound, kUnsupported (it cannot show pictures, or not by atomic
   /// commits), kIo.
   virtual Result<std::unique_ptr<Card>> open(const std::string& node) = 0;
+
+  // What displays ask of the machine besides. Any thread.
+
+  /// Local time, since midnight.
+  virtual Duration timeOfDay() = 0;
+  /// How long the machine has been suspended since it was switched on.
+  virtual Duration timeSuspended() = 0;
+
+  /// Somebody was there, for all displays alike, also for one that is opened again.
+  void noteActivity(TimePoint time) { lastActivity_ = time.time_since_epoch().count(); }
+  /// When that was last; TimePoint{}: not yet.
+  TimePoint lastActivity() const { return TimePoint(Duration(lastActivity_.load())); }
+
+ private:
+  std::atomic<Duration::rep> lastActivity_ = 0;
 };
 
 /// The kernel's.

@@ -37,6 +37,14 @@ bool isMode(std::string_view text) {
   return isModeText(std::string(text));
 }
 
+bool isBlankTimes(std::string_view text) {
+  return text == "never" || DailyTimes::parsed(text).has_value();
+}
+
+bool isQuietTime(std::string_view text) {
+  return QuietTime::parsed(text).has_value();
+}
+
 std::string valueOf(const OutputOptions& options, std::string_view name, std::string initial) {
   const auto given = options.find(name);
   return given == options.end() ? std::move(initial) : given->second;
@@ -51,6 +59,9 @@ DisplaySettings settingsOf(const OutputOptions& options) {
   const std::string rotation = valueOf(options, "rotation", "0");
   placement.quarterTurns = rotation == "90" ? 1 : rotation == "180" ? 2 : rotation == "270" ? 3 : 0;
   placement.marginPercent = percentOf(valueOf(options, "margin", "0")).value_or(0.0);
+  settings.blanking.times = DailyTimes::parsed(valueOf(options, "blank", "never"));
+  const auto quiet = QuietTime::parsed(valueOf(options, "blank_after", "never"));
+  settings.blanking.after = quiet.value_or(QuietTime{}).after;
   return settings;
 }
 
@@ -111,7 +122,7 @@ OutputKind displayKind() {
   return {.name = std::string(kDisplayName),
           .help = "a screen without a desktop, through the kernel (DRM/KMS)",
           .forms = {"display", "display:CONNECTOR"},
-          .traits = {.isPaced = true, .reopens = true, .showsWaiting = true},
+          .traits = {.isPaced = true, .reopens = true, .showsWaiting = true, .isOnConsole = true},
           .options = {{.name = "mode",
                        .help = "The mode; \"auto\": the display's own size at the rate that fits "
                                "the camera's best.",
@@ -130,7 +141,19 @@ OutputKind displayKind() {
                                "percent of the side.",
                        .initial = "0",
                        .allowed = "a number from 0 to 20",
-                       .takes = isMargin}},
+                       .takes = isMargin},
+                      {.name = "blank",
+                       .help = "From when to when the display is switched off while nobody is "
+                               "there.",
+                       .initial = "never",
+                       .allowed = "never, or times such as 22:00-08:00",
+                       .takes = isBlankTimes},
+                      {.name = "blank_after",
+                       .help = "After how many seconds without a key or a movement before the "
+                               "camera the display is switched off.",
+                       .initial = "never",
+                       .allowed = "never, or a whole number from 1 to 86400",
+                       .takes = isQuietTime}},
           .recognizes = isDisplayName,
           .list = [] { return listDisplays(); },
           .problemOf = problemOf,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hal/outputs/display/display_errors.h"
+#include "hal/outputs/display/modeset.h"
 #include "hal/outputs/display/route.h"
 #include "hal/outputs/display/shared_card.h"
 
@@ -24,6 +25,7 @@ constexpr Duration kFlipPatience = std::chrono::seconds(1);
 constexpr Duration kCheckInterval = std::chrono::seconds(1);
 constexpr Duration kRetryInterval = std::chrono::milliseconds(1);
 constexpr std::size_t kPixelBytes = 4;
+constexpr const char* kOtherConsole = "another console is in front";
 
 class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
  public:
@@ -47,6 +49,8 @@ class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
   Result<void> submit(const Surface& surface, Fence fence, TimePoint due) override;
   Result<void> takeEvents(std::vector<PresentationEvent>& events) override;
   std::optional<TimePoint> nextEvent() const override;
+  const Suspension* suspension() const override { return suspension_ ? &*suspension_ : nullptr; }
+  void noteActivity() override { cards_.noteActivity(clock_.now()); }
 
  private:
   enum class State { kFree, kLent, kQueued, kFlipping, kOnScreen };
@@ -68,7 +72,6 @@ class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
   Result<void> setMode();
   Result<Mode> acceptedMode();
   int tryMode(const Mode& mode);
-  std::vector<Change> modesetChanges(ObjectId modeBlob, ObjectId framebuffer) const;
   void readTiming();
   Result<void> changeMode(const Mode& mode);
   OutputFormat place(FrameSize picture);
@@ -85,6 +88,14 @@ class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
   void flipped(const FlipEvent& flip);
   TimePoint commitTime(const Queued& queued) const;
   Result<void> flipNext(TimePoint now);
+  void skipQueued(TimePoint now);
+  void suspend(Suspension::Cause cause, std::string reason, TimePoint now);
+  Result<void> resume(TimePoint now);
+  Result<void> followConsole(TimePoint now);
+  Result<void> followBlanking(TimePoint now);
+  Result<void> switchOff(TimePoint now);
+  bool isToBeOff(TimePoint now) const;
+  std::string whoIsMaster() const;
   void end(Buffer& buffer, PresentationEvent::Result result, TimePoint time);
   std::uint64_t extended(std::uint32_t sequence);
   Error failure(int error, std::string problem) const;
@@ -121,6 +132,12 @@ class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
   std::uint64_t lastSequence_ = 0;
   std::vector<FlipEvent> flips_;
   std::vector<PresentationEvent> events_;
+
+  std::optional<Suspension> suspension_;
+  std::uint64_t yields_ = 0;     ///< timesYielded() when the mode was set
+  TimePoint resumeAt_;           ///< when to ask for the master again
+  bool isInBlankTimes_ = false;  ///< as of the last check
+  Duration asleep_{0};           ///< Cards::timeSuspended() when the mode was set
 };
 
 Result<OutputFormat> DisplayOutput::start(const OutputRequest& request) {
@@ -170,36 +187,6 @@ Result<void> DisplayOutput::makeBuffers() {
   return {};
 }
 
-std::vector<Change> DisplayOutput::modesetChanges(ObjectId modeBlob, ObjectId framebuffer) const {
-  const FrameSize size = route_->mode.size;
-  std::vector<Change> changes;
-  const auto add = [&](ObjectId object, const std::vector<Property>& properties,
-                       std::string_view name, std::uint64_t value) {
-    if (const Property* property = find(properties, name)) {
-      changes.push_back({object, property->id, value});
-    }
-  };
-  const Connector& connector = route_->connector;
-  const Crtc& crtc = route_->crtc;
-  const Plane& plane = route_->plane;
-  add(connector.id, connector.properties, "CRTC_ID", crtc.id);
-  add(crtc.id, crtc.properties, "MODE_ID", modeBlob);
-  add(crtc.id, crtc.properties, "ACTIVE", 1);
-  add(plane.id, plane.properties, "FB_ID", framebuffer);
-  add(plane.id, plane.properties, "CRTC_ID", crtc.id);
-  add(plane.id, plane.properties, "rotation", 1);  // none, whatever another program left
-  add(plane.id, plane.properties, "SRC_X", 0);
-  add(plane.id, plane.properties, "SRC_Y", 0);
-  // In 1/65536 px.
-  add(plane.id, plane.properties, "SRC_W", static_cast<std::uint64_t>(size.width) << 16U);
-  add(plane.id, plane.properties, "SRC_H", static_cast<std::uint64_t>(size.height) << 16U);
-  add(plane.id, plane.properties, "CRTC_X", 0);
-  add(plane.id, plane.properties, "CRTC_Y", 0);
-  add(plane.id, plane.properties, "CRTC_W", static_cast<std::uint64_t>(size.width));
-  add(plane.id, plane.properties, "CRTC_H", static_cast<std::uint64_t>(size.height));
-  return changes;
-}
-
 /// Makes buffers of the mode's size and asks whether the card would show them. 0, or −errno.
 int DisplayOutput::tryMode(const Mode& mode) {
   route_->mode = mode;
@@ -208,8 +195,8 @@ int DisplayOutput::tryMode(const Mode& mode) {
   if (modeBlob_ != 0) card().destroyBlob(std::exchange(modeBlob_, 0));
   if (const int failed = card().createBlob(mode.timings, modeBlob_); failed != 0) return failed;
   if (!makeBuffers()) return -ENOMEM;
-  return card().commit(modesetChanges(modeBlob_, buffers_.front().memory.framebuffer),
-                       Commit::kTest);
+  return shared_->commit(modesetChanges(*route_, modeBlob_, buffers_.front().memory.framebuffer),
+                         Commit::kTest);
 }
 
 /// The chosen mode; where that was the program's choice and the card refuses it, the largest one
@@ -232,17 +219,15 @@ Result<Mode> DisplayOutput::acceptedMode() {
 }
 
 Result<void> DisplayOutput::setMode() {
-  if (!card().isMaster()) {
-    const int failed = card().becomeMaster();
-    if (failed != 0) return tl::unexpected(failure(-EACCES, "cannot be had"));
-  }
+  yields_ = timesYielded();
+  if (shared_->takeMaster() != 0) return tl::unexpected(failure(-EACCES, "cannot be had"));
   if (buffers_.empty()) saved_ = card().saveCrtc(route_->crtc.id);
   chosen_ = route_->mode;
   const Result<Mode> mode = acceptedMode();
   if (!mode) return tl::unexpected(mode.error());
   route_->mode = *mode;
-  const int failed = card().commit(modesetChanges(modeBlob_, buffers_.front().memory.framebuffer),
-                                   Commit::kModeset);
+  const int failed = shared_->commit(
+      modesetChanges(*route_, modeBlob_, buffers_.front().memory.framebuffer), Commit::kModeset);
   if (failed != 0) return tl::unexpected(failure(failed, "cannot set the mode " + mode->name));
   onScreen_ = &buffers_.front();
   onScreen_->state = State::kOnScreen;
@@ -260,6 +245,8 @@ void DisplayOutput::readTiming() {
   // Flips that an earlier output of this CRTC did not live to see.
   shared_->takeFlips(route_->crtc.id, flips_);
   flips_.clear();
+  asleep_ = cards_.timeSuspended();
+  if (cards_.lastActivity() == TimePoint{}) noteActivity();
 }
 
 void DisplayOutput::close() {
@@ -298,6 +285,7 @@ Result<void> DisplayOutput::changeMode(const Mode& mode) {
   onScreen_ = nullptr;
   route_->mode = mode;
   if (auto set = setMode(); !set) return set;
+  suspension_.reset();  // a display that is to be off is switched off again
   readTiming();
   return {};
 }
@@ -311,6 +299,7 @@ Result<void> DisplayOutput::finish() {
 
 Result<std::optional<Surface>> DisplayOutput::acquire() {
   if (const auto advanced = advance(); !advanced) return tl::unexpected(advanced.error());
+  if (suspension_) return std::nullopt;
   const auto free = std::ranges::find(buffers_, State::kFree, &Buffer::state);
   if (free == buffers_.end()) return std::nullopt;
   if (std::exchange(free->hasRemains, false)) {
@@ -365,7 +354,11 @@ Result<void> DisplayOutput::advance() {
   const TimePoint now = clock_.now();
   if (auto taken = takeFlips(now); !taken) return taken;
   if (auto checked = checkConnection(now); !checked) return checked;
-  return flipNext(now);
+  if (auto followed = followConsole(now); !followed) return followed;
+  if (auto followed = followBlanking(now); !followed) return followed;
+  if (!suspension_) return flipNext(now);
+  skipQueued(now);
+  return {};
 }
 
 Result<void> DisplayOutput::takeFlips(TimePoint now) {
@@ -373,7 +366,10 @@ Result<void> DisplayOutput::takeFlips(TimePoint now) {
   const int failed = shared_->takeFlips(route_->crtc.id, flips_);
   for (const FlipEvent& each : flips_) flipped(each);
   if (failed != 0) return tl::unexpected(failure(failed, "has gone"));
-  if (flipping_ != nullptr && now - committed_ > kFlipPatience) {
+  const bool isOverdue = flipping_ != nullptr && now - committed_ > kFlipPatience;
+  if (isOverdue && suspension_) {
+    end(*std::exchange(flipping_, nullptr), PresentationEvent::Result::kSkipped, now);
+  } else if (isOverdue) {
     return tl::unexpected(Error{.kind = ErrorKind::kDeviceLost,
                                 .subject = route_->connector.name,
                                 .problem = "has not shown a picture for a second",
@@ -391,6 +387,8 @@ Result<void> DisplayOutput::checkConnection(TimePoint now) {
     shared_->markRemoved();
     return tl::unexpected(has.error());
   }
+  isInBlankTimes_ =
+      settings_.blanking.times && settings_.blanking.times->contain(cards_.timeOfDay());
   if (has.isYes()) return {};
   return tl::unexpected(Error{.kind = ErrorKind::kDeviceLost,
                               .subject = route_->connector.name,
@@ -450,13 +448,18 @@ Result<void> DisplayOutput::flipNext(TimePoint now) {
   }
   Buffer& next = *queue_.front().buffer;
   const Change change{route_->plane.id, flipProperty_, next.memory.framebuffer};
-  const int failed = card().commit({&change, 1}, Commit::kFlip);
+  const int failed = shared_->commit({&change, 1}, Commit::kFlip);
   if (failed == -EBUSY) {
     // The flip before is not quite over.
     retryAt_ = now + kRetryInterval;
     return {};
   }
   queue_.pop_front();
+  if (failed == -EACCES) {
+    end(next, PresentationEvent::Result::kSkipped, now);
+    suspend(Suspension::Cause::kConsole, whoIsMaster(), now);
+    return {};
+  }
   if (failed == -ENOMEM) {
     end(next, PresentationEvent::Result::kSkipped, now);
     return {};
@@ -468,9 +471,111 @@ Result<void> DisplayOutput::flipNext(TimePoint now) {
   return {};
 }
 
+void DisplayOutput::skipQueued(TimePoint now) {
+  for (; !queue_.empty(); queue_.pop_front()) {
+    end(*queue_.front().buffer, PresentationEvent::Result::kSkipped, now);
+  }
+}
+
+/// Queued surfaces are not shown; one that is flipping may still be.
+void DisplayOutput::suspend(Suspension::Cause cause, std::string reason, TimePoint now) {
+  skipQueued(now);
+  suspension_ = Suspension{.cause = cause, .reason = std::move(reason)};
+  resumeAt_ = now;
+}
+
+std::string DisplayOutput::whoIsMaster() const {
+  return areCardsYielded() ? kOtherConsole : notMaster(card().node(), {}).problem;
+}
+
+/// Sets the mode anew, with the last picture.
+Result<void> DisplayOutput::resume(TimePoint now) {
+  if (flipping_ != nullptr) {
+    end(*std::exchange(flipping_, nullptr), PresentationEvent::Result::kSkipped, now);
+  }
+  const std::uint64_t yields = timesYielded();
+  const Buffer& last = onScreen_ == nullptr ? buffers_.front() : *onScreen_;
+  const int failed = shared_->commit(modesetChanges(*route_, modeBlob_, last.memory.framebuffer),
+                                     Commit::kModeset);
+  if (failed == -EBUSY) {  // the next call tries again
+    if (!suspension_) suspend(Suspension::Cause::kConsole, "the card is busy", now);
+    return {};
+  }
+  if (failed == -EACCES) {
+    suspend(Suspension::Cause::kConsole, whoIsMaster(), now);
+    return {};
+  }
+  if (failed != 0) return tl::unexpected(failure(failed, "cannot set the mode again"));
+  suspension_.reset();
+  yields_ = yields;
+  readTiming();
+  return {};
+}
+
+/// Suspends while another console is in front, or another program is the master. A computer that
+/// was suspended may have forgotten the mode.
+Result<void> DisplayOutput::followConsole(TimePoint now) {
+  const bool isAway = areCardsYielded();
+  const auto isConsole = [this] {
+    return suspension_ && suspension_->cause == Suspension::Cause::kConsole;
+  };
+  // One may have come to the front and gone since the last call.
+  if (!isConsole() && (isAway || yields_ != timesYielded())) {
+    suspend(Suspension::Cause::kConsole, kOtherConsole, now);
+  }
+  if (isConsole()) {
+    if (isAway || now < resumeAt_) return {};
+    resumeAt_ = now + kCheckInterval;
+    if (shared_->takeMaster() == 0) return resume(now);
+    // To look who it is takes a while.
+    if (suspension_->reason == kOtherConsole) suspension_->reason = whoIsMaster();
+    return {};
+  }
+  constexpr Duration kNap = std::chrono::milliseconds(500);
+  const bool hasSlept = cards_.timeSuspended() - asleep_ > kNap;
+  return hasSlept && !suspension_ ? resume(now) : Result<void>();
+}
+
+bool DisplayOutput::isToBeOff(TimePoint now) const {
+  return settings_.blanking.isOff(isInBlankTimes_, now - cards_.lastActivity());
+}
+
+Result<void> DisplayOutput::followBlanking(TimePoint now) {
+  const bool isOff = suspension_ && suspension_->cause == Suspension::Cause::kBlank;
+  const bool isToBe = isToBeOff(now);
+  if (isOff) return isToBe ? Result<void>() : resume(now);
+  // A flip in progress is waited for.
+  return isToBe && !suspension_ && flipping_ == nullptr ? switchOff(now) : Result<void>();
+}
+
+Result<void> DisplayOutput::switchOff(TimePoint now) {
+  const int failed = shared_->commit(switchOffChanges(*route_), Commit::kModeset);
+  if (failed == -EBUSY) return {};
+  if (failed == -EACCES) {
+    suspend(Suspension::Cause::kConsole, whoIsMaster(), now);
+    return {};
+  }
+  if (failed != 0) return tl::unexpected(failure(failed, "cannot be switched off"));
+  const auto& after = settings_.blanking.after;
+  const bool isByTime = !after || now - cards_.lastActivity() < *after;
+  suspend(Suspension::Cause::kBlank,
+          isByTime ? std::string("off at this time of day")
+                   : "nothing has moved for " + durationText(*after),
+          now);
+  // Hours later, it must not be seen for the time of a frame.
+  if (onScreen_ != nullptr) std::ranges::fill(onScreen_->memory.memory, std::uint8_t{0});
+  return {};
+}
+
 Error DisplayOutput::failure(int error, std::string problem) const {
   const std::string& place = route_->connector.name;
   if (error == -EACCES || error == -EPERM) {
+    if (areCardsYielded()) {
+      return {.kind = ErrorKind::kBusy,
+              .subject = place,
+              .problem = kOtherConsole,
+              .remedy = "go back to pleinair's: Ctrl+Alt+F1 … F12, or chvt"};
+    }
     return notMaster(card().node(), place);
   }
   if (error == -ENODEV || error == -ENXIO || error == -EIO) {
@@ -488,6 +593,14 @@ Error DisplayOutput::failure(int error, std::string problem) const {
 }
 
 }  // namespace
+
+void leaveConsole() {
+  yieldCards();
+}
+
+void enterConsole() {
+  regainCards();
+}
 
 Result<std::unique_ptr<SurfaceOutput>> openDisplay(const std::string& name,
                                                    const DisplaySettings& settings, Cards& cards,

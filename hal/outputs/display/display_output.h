@@ -7,6 +7,7 @@
 #include "hal/clock.h"
 #include "hal/output.h"
 #include "hal/output_kind.h"
+#include "hal/outputs/display/blanking.h"
 #include "hal/outputs/display/card.h"
 #include "hal/outputs/display/picture_area.h"
 
@@ -15,6 +16,7 @@ namespace pleinair::hal {
 struct DisplaySettings {
   std::string mode = "auto";  ///< display::DisplayRequest::mode
   display::Placement placement;
+  display::BlankingRules blanking;
 };
 
 /// A display without a desktop, through the kernel's mode setting (DRM/KMS), by atomic commits.
@@ -31,6 +33,11 @@ struct DisplaySettings {
 /// Surfaces are buffers that the processor writes. Whether the display is still plugged in is
 /// looked at once a second; it is lost then, and where a flip does not take place within a second.
 ///
+/// While another console is in front (leaveConsole()) or another program has become the card's
+/// master, it is suspended, and afterwards sets its mode anew, as it does after the computer was
+/// suspended. While it is blanked, it is suspended with the display switched off; noteActivity(),
+/// which counts for all displays of `cards`, switches it on.
+///
 /// finish() and destruction bring back what was shown before; where the process is killed, the
 /// kernel brings back its console.
 ///
@@ -40,11 +47,17 @@ Result<std::unique_ptr<SurfaceOutput>> openDisplay(const std::string& name,
                                                    display::Cards& cards = display::kernelCards(),
                                                    const Clock& clock = steadyClock());
 
+/// For hal::VirtualTerminal: lets go of all displays of the process, which show what they showed
+/// before, and has them go on. Any thread.
+void leaveConsole();
+void enterConsole();
+
 /// The connectors of all cards, with the sizes of the displays in them, from the kernel's list
 /// (`folder`, as /sys/class/drm). Opens no card.
 OutputListing listDisplays(const std::filesystem::path& folder = "/sys/class/drm");
 
-/// "display" and "display:CONNECTOR"; its options are `mode`, `fit`, `rotation` and `margin`.
+/// "display" and "display:CONNECTOR"; its options are `mode`, `fit`, `rotation`, `margin`,
+/// `blank` and `blank_after`.
 OutputKind displayKind();
 
 }  // namespace pleinair::hal

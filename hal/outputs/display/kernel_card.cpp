@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <mutex>
 #include <system_error>
@@ -358,6 +359,23 @@ class KernelCards final : public Cards {
                                   .remedy = "its driver is too old, or it has no displays"});
     }
     return std::make_unique<KernelCard>(node, std::move(file));
+  }
+
+  Duration timeOfDay() override {
+    const std::time_t now = std::time(nullptr);
+    std::tm local{};
+    ::localtime_r(&now, &local);
+    return std::chrono::hours(local.tm_hour) + std::chrono::minutes(local.tm_min) +
+           std::chrono::seconds(local.tm_sec);
+  }
+
+  Duration timeSuspended() override {
+    timespec with{};
+    timespec without{};
+    ::clock_gettime(CLOCK_MONOTONIC, &without);
+    ::clock_gettime(CLOCK_BOOTTIME, &with);
+    return std::chrono::seconds(with.tv_sec - without.tv_sec) +
+           std::chrono::nanoseconds(with.tv_nsec - without.tv_nsec);
   }
 };
 

@@ -1,11 +1,14 @@
 #include "hal/outputs/display/shared_card.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cerrno>
 #include <iterator>
 #include <optional>
 #include <utility>
 
 #include "hal/outputs/display/display_errors.h"
+#include "hal/outputs/display/modeset.h"
 
 namespace pleinair::hal::display {
 namespace {
@@ -21,6 +24,9 @@ OpenCards& openCards() {
   return cards;
 }
 
+std::atomic<bool> isYielded{false};
+std::atomic<std::uint64_t> yields{0};
+
 }  // namespace
 
 Result<std::shared_ptr<SharedCard>> SharedCard::of(Cards& cards, const std::string& node) {
@@ -31,6 +37,8 @@ Result<std::shared_ptr<SharedCard>> SharedCard::of(Cards& cards, const std::stri
   Result<std::unique_ptr<Card>> opened = cards.open(node);
   if (!opened) return tl::unexpected(opened.error());
   auto shared = std::make_shared<SharedCard>(cards, *std::move(opened));
+  // The kernel makes the first program that opens a card its master.
+  if (isYielded) shared->card().dropMaster();
   known = shared;
   return shared;
 }
@@ -54,6 +62,7 @@ Result<DisplayRoute> SharedCard::claim(const DisplayRequest& request) {
   inUse_.crtcs |= std::uint32_t{1} << route->crtcIndex;
   inUse_.planes |= std::uint64_t{1} << route->planeIndex;
   connectors_.push_back(route->connector.id);
+  before_[route->crtc.id] = {card_->saveCrtc(route->crtc.id), switchOffChanges(*route)};
   flips_[route->crtc.id].clear();
   return route;
 }
@@ -64,6 +73,53 @@ void SharedCard::release(const DisplayRoute& route) {
   inUse_.planes &= ~(std::uint64_t{1} << route.planeIndex);
   std::erase(connectors_, route.connector.id);
   flips_.erase(route.crtc.id);
+  before_.erase(route.crtc.id);
+}
+
+int SharedCard::takeMaster() {
+  const std::scoped_lock lock(commits_);
+  if (isYielded) return -EACCES;
+  return card_->isMaster() ? 0 : card_->becomeMaster();
+}
+
+int SharedCard::commit(std::span<const Change> changes, Commit kind) {
+  const std::scoped_lock lock(commits_);
+  if (isYielded) return -EACCES;
+  return card_->commit(changes, kind);
+}
+
+void SharedCard::yield() {
+  const std::scoped_lock lock(mutex_, commits_);
+  for (const auto& [crtc, before] : before_) {
+    if (before.shown) {
+      card_->restore(*before.shown);
+    } else {
+      card_->commit(before.off, Commit::kModeset);
+    }
+  }
+  card_->dropMaster();
+}
+
+void yieldCards() {
+  OpenCards& open = openCards();
+  const std::scoped_lock lock(open.mutex);
+  isYielded = true;
+  ++yields;
+  for (const auto& [place, card] : open.cards) {
+    if (const std::shared_ptr<SharedCard> shared = card.lock()) shared->yield();
+  }
+}
+
+void regainCards() {
+  isYielded = false;
+}
+
+bool areCardsYielded() {
+  return isYielded;
+}
+
+std::uint64_t timesYielded() {
+  return yields;
 }
 
 int SharedCard::takeFlips(ObjectId crtc, std::vector<FlipEvent>& flips) {

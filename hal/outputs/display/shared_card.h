@@ -4,6 +4,8 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,6 +33,12 @@ class SharedCard {
   /// Appends the flips of a CRTC since the last call. 0, or −errno.
   int takeFlips(ObjectId crtc, std::vector<FlipEvent>& flips);
 
+  /// Becomes the master, unless it is. 0, or −errno: EACCES while another console is in front,
+  /// EBUSY where another program is.
+  int takeMaster();
+  /// As Card::commit(); EACCES also while another console is in front.
+  int commit(std::span<const Change> changes, Commit kind);
+
   /// The card is not there any more: of() opens it anew.
   void markRemoved();
 
@@ -42,8 +50,29 @@ class SharedCard {
   std::vector<ObjectId> connectors_;
   std::vector<FlipEvent> read_;
   std::map<ObjectId, std::vector<FlipEvent>> flips_;  ///< by CRTC, not taken yet
+  /// What a claimed CRTC showed then; where it was off, what switches it off again.
+  struct Before {
+    std::optional<SavedCrtc> shown;
+    std::vector<Change> off;
+  };
+  std::map<ObjectId, Before> before_;
   bool isRemoved_ = false;
+  std::mutex commits_;  ///< held while one is made, and to yield between two
+
+  friend void yieldCards();
+  void yield();
 };
+
+/// Another console is about to come to the front: brings back what claimed CRTCs showed before, on
+/// all open cards, and is their master no more. Nothing is committed until regainCards(). Any
+/// thread; waits for a commit in progress.
+void yieldCards();
+/// Ours is in front again: displays take the master and set their modes anew.
+void regainCards();
+/// Whether another console is in front. Any thread.
+bool areCardsYielded();
+/// How often one came to the front. Any thread.
+std::uint64_t timesYielded();
 
 /// A display of a card, claimed for an output.
 struct ClaimedDisplay {

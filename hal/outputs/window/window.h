@@ -5,21 +5,12 @@
 #include <variant>
 #include <vector>
 
+#include "hal/key_pressed.h"
 #include "hal/output.h"
 #include "hal/output_kind.h"
 
 namespace pleinair::hal {
 
-/// A key went down, or repeats while it is held. Keys with Control, Alt or the logo key are the
-/// desktop's and do not come.
-struct KeyPressed {
-  /// The name of the key without Shift, in lower case: "a", "1", "tab", "left", "pagedown", "f1",
-  /// "space", "escape"; and "?", on its own key or on that of "/".
-  std::string name;
-  bool shift = false;
-  bool isRepeat = false;
-  friend bool operator==(const KeyPressed&, const KeyPressed&) = default;
-};
 /// The user wants it gone; it stays until it is destroyed.
 struct WindowClosed {
   friend bool operator==(const WindowClosed&, const WindowClosed&) = default;

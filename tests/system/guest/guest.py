@@ -8,6 +8,7 @@
 The folder is shared: it is /host in the guest, and commands run in it. Each guest writes into its own
 copy of the image. QEMU always ends with the process that started it, and every wait has a deadline.
 """
+import contextlib
 import ctypes
 import json
 import os
@@ -117,7 +118,8 @@ class Guest:
     def close(self):
         """Switches it off."""
         if self._monitor:
-            self._monitor.close()
+            with contextlib.suppress(OSError):  # it flushes, to a QEMU that may be gone
+                self._monitor.close()
             self._monitor = None
         if self._agent:
             self._agent.close()

@@ -145,6 +145,20 @@ TEST_F(ConfigurationTest, RefusesAnAddressThatIsNone) {
 
 // ---- what it means
 
+TEST_F(ConfigurationTest, BecomesKeyboardsWhereThereIsADisplayAndNoWindow) {
+  const auto with = [&](const std::string& targets, const std::string& keyboards) {
+    request_.set = {"output.targets=" + targets, "input.keyboards=" + keyboards, "input.grab=true"};
+    return configuredKeyboards(resolved());
+  };
+  EXPECT_TRUE(with("display", "auto")->all);
+  EXPECT_TRUE(with("display", "auto")->grabs);
+  EXPECT_TRUE(with("loopback:x,display:HDMI-A-1", "auto").has_value());
+  EXPECT_FALSE(with("window,display", "auto").has_value()) << "the keys are the window's";
+  EXPECT_FALSE(with("out.mp4", "auto").has_value());
+  EXPECT_FALSE(with("display", "none").has_value());
+  EXPECT_EQ(with("out.mp4", "USB Foot Switch")->named, std::vector<std::string>{"USB Foot Switch"});
+}
+
 TEST_F(ConfigurationTest, BecomesAPaintersOptions) {
   request_.set = {"painting.view=cells", "painting.size=320x240", "cell_size=20"};
   const PaintingOptions options = configuredPainting(resolved(), {.output = "o.mp4"});

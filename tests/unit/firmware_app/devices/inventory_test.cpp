@@ -39,6 +39,13 @@ Inventory full() {
                          .formats = {"YUYV", "NV12"}},
                         {.target = "loopback:/dev/video51", .name = "other", .isBusy = true}}}},
       {.kind = "movie", .help = "a movie", .forms = {"a.mp4", "a.mkv"}, .isFile = true}};
+  inventory.keyboards = {
+      {.description = {.node = "/dev/input/event2", .name = "AT keyboard", .isKeyboard = true}},
+      {.description = {.node = "/dev/input/event4", .name = "Foot Switch"},
+       .problem = hal::Error{.kind = hal::ErrorKind::kPermissionDenied,
+                             .subject = "/dev/input/event4",
+                             .problem = "cannot open: Permission denied",
+                             .remedy = "join the group input"}}};
   return inventory;
 }
 
@@ -56,7 +63,13 @@ TEST(Inventory, IsALineADeviceAndALayout) {
             "  window\n"
             "  loopback:/dev/video50  pleinair  YUYV NV12\n"
             "  loopback:/dev/video51  other  (another program writes to it)\n"
-            "  a.mp4, a.mkv: a movie\n");
+            "  a.mp4, a.mkv: a movie\n"
+            "\n"
+            "Keyboards (--set input.keyboards=NAME)\n"
+            "  AT keyboard  /dev/input/event2\n"
+            "  Foot Switch  /dev/input/event4  (not in \"auto\")\n"
+            "    cannot open: Permission denied\n"
+            "    -> join the group input\n");
 }
 
 TEST(Inventory, SaysWhatToDoWhereThereIsNothing) {

@@ -120,6 +120,29 @@ TEST(CheckLoopback, AsksForTheGroup) {
   EXPECT_THAT(finding.remedy, HasSubstr("usermod -aG video"));
 }
 
+TEST(CheckKeyboards, NamesTheFirst) {
+  HealthyMachine machine;
+  const Finding finding = checkKeyboards(machine.probes());
+  EXPECT_EQ(finding.verdict, Verdict::kOk);
+  EXPECT_EQ(finding.text, "/dev/input/event2 (AT keyboard)");
+}
+
+TEST(CheckKeyboards, AsksForTheGroup) {
+  HealthyMachine machine;
+  machine.keyboards.front().problem =
+      errorOf(hal::ErrorKind::kPermissionDenied, "cannot open: Permission denied");
+  const Finding finding = checkKeyboards(machine.probes());
+  EXPECT_EQ(finding.verdict, Verdict::kWarning);
+  EXPECT_THAT(finding.remedy, HasSubstr("usermod -aG input"));
+}
+
+TEST(CheckKeyboards, APowerButtonThatIsRefusedIsNoKeyboard) {
+  HealthyMachine machine;
+  machine.keyboards.front().description.isKeyboard = false;
+  machine.keyboards.front().problem = errorOf(hal::ErrorKind::kPermissionDenied, "cannot open");
+  EXPECT_EQ(checkKeyboards(machine.probes()).verdict, Verdict::kOk);
+}
+
 TEST(CheckDisplays, NamesTheFirstThatIsPluggedIn) {
   HealthyMachine machine;
   const Finding finding = checkDisplays(machine.probes());

@@ -43,6 +43,8 @@ struct HealthyMachine {
   hal::OutputListing displays{
       .outputs = {{.target = "display:card0-HDMI-A-1", .formats = {"1920x1080"}}}};
   std::optional<hal::Error> displayProblem;
+  std::vector<ListedKeyboard> keyboards{
+      {.description = {.node = "/dev/input/event2", .name = "AT keyboard", .isKeyboard = true}}};
   std::optional<std::string> configurationError;
   std::vector<RequestedPart> requested{{.part = "camera", .value = "auto"}};
 
@@ -62,6 +64,7 @@ struct HealthyMachine {
             .loopbacks = [this] { return loopbacks; },
             .displays = [this] { return displays; },
             .displayProblem = [this] { return displayProblem; },
+            .keyboards = [this] { return keyboards; },
             .configurationError = [this] { return configurationError; },
             .requested = [this] { return requested; },
             .snapshots = "/srv/snapshots"};
