@@ -58,6 +58,8 @@ def show(guest, name, turns, fit):
         f"--set output.display.mode={SIZE[0]}x{SIZE[1]} --set output.display.fit={fit} "
         f"--set output.display.rotation={90 * turns} --set runtime.quality=full --set status.listen={live.STATUS}", "display-" + name)
     watched = live.Watched(guest, program)
+    watched.wait_for_more(1)
+    guest.run("sleep 1")  # the painting fades in
     status = watched.wait_for_more(5)
     (output,) = status["outputs"]
     assert output["failures"] == 0, output
