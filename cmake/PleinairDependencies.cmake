@@ -12,6 +12,7 @@ pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
 pkg_check_modules(LIBDRM REQUIRED IMPORTED_TARGET libdrm)
 pkg_check_modules(GBM REQUIRED IMPORTED_TARGET gbm)
 pkg_check_modules(GLES REQUIRED IMPORTED_TARGET glesv2)
+pkg_check_modules(PANGOCAIRO REQUIRED IMPORTED_TARGET pangocairo)
 pkg_check_modules(TOMLPLUSPLUS REQUIRED IMPORTED_TARGET tomlplusplus)
 pkg_check_modules(APRILTAG REQUIRED IMPORTED_TARGET apriltag)
 
@@ -41,14 +42,11 @@ function(pleinair_optional name state)
   set_property(GLOBAL APPEND PROPERTY PLEINAIR_OPTIONAL "${name}|${state}")
 endfunction()
 
-# The window needs SDL, and Pango for the text over its image.
+# The window needs SDL.
 pkg_check_modules(SDL2 QUIET IMPORTED_TARGET sdl2)
-pkg_check_modules(PANGOCAIRO QUIET IMPORTED_TARGET pangocairo)
 set(PLEINAIR_WINDOW OFF)
 if(NOT SDL2_FOUND)
   pleinair_optional("window" "not in: libsdl2-dev is not installed")
-elseif(NOT PANGOCAIRO_FOUND)
-  pleinair_optional("window" "not in: libpango1.0-dev is not installed")
 else()
   set(PLEINAIR_WINDOW ON)
   pleinair_optional("window" "in (SDL ${SDL2_VERSION})")

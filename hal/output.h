@@ -133,12 +133,18 @@ struct Suspension {
 /// display, for a fence or for a free surface.
 ///
 /// Surfaces, their ids and file descriptors belong to the output, which keeps them open from
-/// start() until it is destroyed.
+/// start() until it is reconfigured or destroyed.
 class SurfaceOutput : public Output {
  public:
   SurfaceOutput* surfaces() final { return this; }
 
-  /// A free surface of the format that start() answered; nothing where all are in use. Errors:
+  /// Takes another stream than the one that start() was asked for, such as a camera's that has come
+  /// later, and answers anew as start() does. What is shown stays, unless the stream needs another
+  /// mode; surfaces that are queued end as kSkipped. Surfaces are others from then on, even where
+  /// their ids are the same. Precondition: started, and none is lent. Errors: as start().
+  virtual Result<OutputFormat> reconfigure(const OutputRequest& request) = 0;
+
+  /// A free surface of the format that was answered last; nothing where all are in use. Errors:
   /// kDeviceLost.
   virtual Result<std::optional<Surface>> acquire() = 0;
 

@@ -24,6 +24,9 @@ struct OutputTraits {
   bool isOnMainThread = false;
   /// A screen without a desktop: keys come from keyboards, and consoles take turns on it.
   bool isOnConsole = false;
+  /// All that people see of the program, with nothing behind it: it is opened before the camera,
+  /// and shows a waiting picture while there is no painting. It lends surfaces that can be mapped.
+  bool showsWaiting = false;
 };
 
 /// A setting that outputs of a kind have: a key of [output.KIND]. One of some words, or a text.

@@ -10,6 +10,7 @@
 #include "firmware_app/commands/commands.h"
 #include "firmware_app/config/camera_selection.h"
 #include "firmware_app/config/configured_parts.h"
+#include "firmware_app/live/last_painting.h"
 #include "firmware_app/live/live_painting.h"
 #include "hal/clock.h"
 #include "hal/error.h"
@@ -83,7 +84,8 @@ int run(const RunOptions& options) {
              configuration,
              {.output = {}, .frames = options.frames, .shaderDirectory = options.shaderDirectory}),
          .outputs = targetsOf(output),
-         .outputOptions = output.options,
+         .openOutput = [options = output.options](
+                           const std::string& target) { return hal::openOutput(target, options); },
          .runtime = configuration.runtime(),
          .keyboards = configuredKeyboards(configuration),
          .serveStatus =
@@ -92,6 +94,8 @@ int run(const RunOptions& options) {
              },
          .waitsForCamera = camera.wait,
          .waitsForOutputs = output.wait,
+         .showsWaiting = output.waitingPictures,
+         .state = output.keepsLastPainting ? stateFolder() : std::filesystem::path(),
          .scene = std::move(scene),
          .snapshots = output.snapshots});
   });

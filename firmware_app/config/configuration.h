@@ -48,7 +48,9 @@ struct OutputSettings {
   std::vector<std::filesystem::path> targets{"window"};  ///< as of hal::openOutput()
   std::filesystem::path snapshots = ".";                 ///< the folder that snapshots are saved to
   bool wait = false;                                     ///< for one that is not there at the start
-  hal::OutputOptionsByKind options;                      ///< [output.KIND]
+  bool waitingPictures = true;       ///< on displays, while there is no painting
+  bool keepsLastPainting = true;     ///< of displays, for the first picture of the next run
+  hal::OutputOptionsByKind options;  ///< [output.KIND]
 };
 
 /// [input]

@@ -125,6 +125,14 @@ const ParameterTable<OutputSettings>& outputTable() {
                       "Whether to wait for a display or loopback that is not there at the start; "
                       "one that is lost later is always waited for.",
                       TakesEffect::kRestart),
+      switchParameter("waiting_pictures", &OutputSettings::waitingPictures,
+                      "Whether a display shows a picture that says what it waits for while there "
+                      "is no painting; else the last one stays, or black.",
+                      TakesEffect::kRestart),
+      switchParameter("keep_last_painting", &OutputSettings::keepsLastPainting,
+                      "Whether the last painting of a display is kept for the first picture of the "
+                      "next run, in the state folder, at most once a minute.",
+                      TakesEffect::kRestart),
       pathParameter("snapshots", &OutputSettings::snapshots, {"."},
                     "The folder that the window's key s saves to; \".\": where the program runs.")};
   return kTable;

@@ -25,6 +25,7 @@
 #include "firmware_app/live/live_tuning.h"
 #include "firmware_app/live/live_window.h"
 #include "firmware_app/live/runtime_rules.h"
+#include "firmware_app/live/screens.h"
 #include "firmware_app/live/snapshot_saver.h"
 #include "firmware_app/scene/scene_warnings.h"
 #include "hal/console/virtual_terminal.h"
@@ -48,6 +49,13 @@ using namespace std::chrono_literals;
 constexpr hal::Duration kPollInterval = 10ms;
 constexpr hal::Duration kReportInterval = 100ms;
 constexpr hal::Duration kCaptionInterval = 33ms;
+/// A change of what is waited for is seen on screens after this.
+constexpr hal::Duration kScreensInterval = 50ms;
+/// How long a screen may take to another mode before painting begins without it.
+constexpr hal::Duration kModePatience = 3s;
+/// The stream before there is a camera: the queues of screens are made for fast ones.
+constexpr hal::Duration kShortestPeriod = 4ms;
+constexpr hal::FrameSize kUsualSize{1280, 720};
 /// From this many frames a second on, the next image draws the caption soon enough.
 constexpr double kMinCaptionRate = 8.0;
 /// Part of the two seconds that ending may take; the rest is for the exit itself.
@@ -72,14 +80,15 @@ class LivePainting {
         tuning_(tuningOf(job.options)),
         controls_(startParameters(job.options)),
         saver_(job.snapshots),
-        reporter_(qualityNames()) {
+        reporter_(qualityNames()),
+        screens_(job.selector->choice(), job.state, *job.clock) {
     if (std::ranges::any_of(job.outputs, isOnConsole)) takeConsole();
     if (job.keyboards) {
       keys_.emplace(*job.keyboards, hal::kernelKeyboards(), tuning_, *job.clock);
     }
     for (const std::string& name : job.outputs) {
       orThrow(checkOutputFolder(name));  // now, because the camera may come much later
-      opened_.push_back(orThrow(hal::openOutput(name, job.outputOptions)));
+      opened_.push_back(orThrow(job.openOutput(name)));
     }
   }
   ~LivePainting() { stopThreads(); }
@@ -88,7 +97,9 @@ class LivePainting {
 
   void run() {
     began_ = job_.clock->now();
+    openScreens();  // before the camera, which the camera thread opens
     threads_.emplace(pipeline_);
+    for (runtime::OutputStage* each : screens_.stages()) threads_->startOutput(*each);
     std::string why;
     hotplug_ = watchDevices([this](const hal::DeviceEvent& event) { devicesChanged(event); }, why);
     if (!hotplug_) spdlog::debug("no hot-plug events: {}", why);
@@ -113,6 +124,55 @@ class LivePainting {
     }
   }
 
+  bool isScreen(const std::string& target) const {
+    return job_.showsWaiting && orThrow(hal::outputKindOf(target))->traits.showsWaiting;
+  }
+
+  void openScreens() {
+    stream_ = {.frame = {.pixelFormat = hal::PixelFormat::kRgb8,
+                         .size = job_.request.size.value_or(kUsualSize),
+                         .encoding = {}},
+               .framePeriod = job_.request.framePeriod,
+               .frameCount = {}};
+    for (std::size_t i = 0; i < opened_.size(); ++i) {
+      if (isScreen(job_.outputs[i])) screens_.add(startOutput(i));
+    }
+    if (screens_.isEmpty()) return;
+    updateScreens();
+    screens_.showFirst(*job_.clock);
+  }
+
+  void updateScreens() {
+    if (haveDisplaysChanged_.exchange(false)) retryOutputs();
+    if (screens_.isEmpty()) return;
+    const hal::TimePoint now = job_.clock->now();
+    if (now - screensUpdated_ < kScreensInterval) return;
+    screensUpdated_ = now;
+    const bool isMade = isPipelineMade_.load(std::memory_order_acquire);
+    screens_.update({.camera = pipeline_.capture().status(),
+                     .hasBegun = hasBegun_,
+                     .hasPainter = isMade && pipeline_.paint().status().hasPainter});
+    reportKeeping();
+  }
+
+  void reportKeeping() {
+    const std::optional<hal::Error> failure = screens_.takeFailure();
+    if (!failure) return;
+    reporter_.interrupt();
+    spdlog::warn("the last painting: {}", failure->message());
+  }
+
+  /// Has the screens, which were opened without knowing the stream, take it.
+  void reconfigureScreens() {
+    const std::vector<runtime::OutputStage*> stages = screens_.stages();
+    for (runtime::OutputStage* each : stages) each->reconfigure(outputRequest());
+    const hal::TimePoint deadline = job_.clock->now() + kModePatience;
+    const auto isDone = [](const runtime::OutputStage* each) { return each->isReconfigured(); };
+    while (!std::ranges::all_of(stages, isDone) && job_.clock->now() < deadline) {
+      job_.clock->sleepUntil(job_.clock->now() + kPollInterval);
+    }
+  }
+
   /// Returns false if a signal ended the wait.
   bool awaitStream() {
     for (;;) {
@@ -126,6 +186,7 @@ class LivePainting {
       const bool gaveUp = camera.hasEnded || (camera.cause && !job_.waitsForCamera);
       if (gaveUp) throw hal::Failure(camera.cause.value_or(noFrames()));
       if (camera.cause) reportWaiting(camera.cause->message());
+      updateScreens();
       job_.clock->sleepUntil(job_.clock->now() + kPollInterval);
     }
   }
@@ -150,7 +211,10 @@ class LivePainting {
                                 blackViewWarning(job_.scene, job_.options.view)}) {
       if (warning) spdlog::warn("{}", *warning);
     }
-    for (std::size_t i = 0; i < opened_.size(); ++i) startOutput(i);
+    reconfigureScreens();
+    for (std::size_t i = 0; i < opened_.size(); ++i) {
+      if (!isScreen(job_.outputs[i])) startOutput(i);
+    }
     pipeline_.makePaintStage([this](const auto& formats) { return makePainter(formats); },
                              paintRules(job_.runtime, stream_));
     threads_->startPainter();
@@ -183,14 +247,21 @@ class LivePainting {
     return error.kind == kNotFound || error.kind == kDeviceLost || error.kind == kBusy;
   }
 
-  void startOutput(std::size_t index) {
-    const hal::OutputRequest request{.size = pictureSize(), .framePeriod = stream_.framePeriod};
+  hal::OutputRequest outputRequest() const {
+    return {.size = pictureSize(), .framePeriod = stream_.framePeriod};
+  }
+
+  runtime::OutputStage& startOutput(std::size_t index) {
+    const hal::OutputRequest request = outputRequest();
     auto* window = dynamic_cast<hal::Window*>(opened_.at(index).get());
     const std::string& target = job_.outputs.at(index);
     const hal::OutputKind& kind = *orThrow(hal::outputKindOf(target));
+    hal::StreamFormat stream = stream_;
+    if (isScreen(target)) stream.framePeriod = kShortestPeriod;
     runtime::OutputStageOptions options =
-        outputRules(target, job_.outputOptions, job_.runtime, stream_);
+        outputRules(target, job_.openOutput, job_.runtime, stream);
     options.request = request;
+    options.keepsLastFrame = isScreen(target);
     options.limit = job_.options.frames;
     hal::Result<hal::OutputFormat> started = opened_.at(index)->start(request);
     if (!started && job_.waitsForOutputs && kind.traits.reopens && mayCome(started.error())) {
@@ -206,6 +277,7 @@ class LivePainting {
     runtime::OutputStage& output =
         pipeline_.addOutput(std::move(opened_.at(index)), format, std::move(options));
     if (kind.traits.isOnMainThread) stepped_.push_back(&output);
+    return output;
   }
 
   std::unique_ptr<runtime::FramePainter> makePainter(
@@ -226,6 +298,7 @@ class LivePainting {
     while (Interrupt::received() == 0 && !wantsToQuit_) {
       if (threads_->isPainterReady()) return true;
       attend();
+      updateScreens();
       job_.clock->sleepUntil(job_.clock->now() + kPollInterval);
     }
     return false;
@@ -258,7 +331,7 @@ class LivePainting {
     for (runtime::OutputStage* output : stepped_) {
       if (const auto next = output->step()) wake = std::min(wake, *next);
     }
-    if (haveDisplaysChanged_.exchange(false)) retryOutputs();
+    updateScreens();
     handleWindow();
     attend();
     handleSnapshots();
@@ -331,7 +404,6 @@ class LivePainting {
   }
 
   void noteActivity() {
-    if (!isPipelineMade_) return;
     for (std::size_t i = 0; i < pipeline_.outputCount(); ++i) pipeline_.output(i).noteActivity();
   }
 
@@ -398,6 +470,8 @@ class LivePainting {
     const hal::Duration elapsed = job_.clock->now() - began_;
     stopThreads();
     finishSnapshots();
+    screens_.finish();
+    reportKeeping();
     reporter_.interrupt();
     const runtime::LedgerCounts ledger = pipeline_.ledger().counts();
     fmt::print("{}: {}\n", ledger.summary(elapsed), fmt::join(job_.outputs, ", "));
@@ -425,7 +499,8 @@ class LivePainting {
   [[noreturn]] void exitWithStuckThreads(const std::vector<std::string>& stuck) {
     reporter_.interrupt();
     terminal_.reset();
-    if (!hasBegun_) {
+    const auto isOutput = [](const std::string& name) { return name.starts_with("output"); };
+    if (!hasBegun_ && std::ranges::none_of(stuck, isOutput)) {
       for (std::size_t i = 0; i < pipeline_.outputCount(); ++i) pipeline_.output(i).discard();
     }
     fmt::print("{}: {}\n", pipeline_.ledger().counts().summary(job_.clock->now() - began_),
@@ -448,6 +523,7 @@ class LivePainting {
   LiveControls controls_;
   SnapshotSaver saver_;
   LiveReporter reporter_;
+  Screens screens_;
   std::vector<std::unique_ptr<hal::Output>> opened_;  ///< until the pipeline owns them
   std::vector<runtime::OutputStage*> stepped_;  ///< outputs stepped on the main thread: the window
   std::optional<LiveWindow> window_;
@@ -462,6 +538,7 @@ class LivePainting {
   hal::TimePoint began_;
   hal::TimePoint reported_;
   hal::TimePoint captioned_;
+  hal::TimePoint screensUpdated_;
   std::string waitingCause_;
   std::optional<hal::TimePoint> movedAt_;
   std::vector<hal::Error> failures_;   ///< errors of outputs, at the end

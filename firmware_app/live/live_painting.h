@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "firmware_app/config/configuration.h"
+#include "firmware_app/live/runtime_rules.h"
 #include "firmware_app/offline/painting.h"
 #include "firmware_app/status_server/status_server.h"
 #include "hal/camera.h"
@@ -25,14 +26,17 @@ struct LiveJob {
   hal::StreamRequest request;
   hal::Clock* clock = nullptr;
   PaintingOptions options;           ///< its output is ignored
-  std::vector<std::string> outputs;  ///< targets for hal::openOutput(); at least one
-  hal::OutputOptionsByKind outputOptions;
+  std::vector<std::string> outputs;  ///< targets, as of hal::openOutput(); at least one
+  OutputOpener openOutput;
   RuntimeSettings runtime;
   std::optional<hal::KeyboardChoice> keyboards;  ///< whose keys do what a window's do
   /// Starts the status server; may return null.
   std::function<std::unique_ptr<StatusServer>(StatusPages)> serveStatus;
   bool waitsForCamera = false;   ///< at the start; after a loss it always waits
   bool waitsForOutputs = false;  ///< the same
+  bool showsWaiting = true;      ///< on outputs of kinds that do (hal::OutputTraits)
+  /// Where the last painting of such an output is kept, and was by the run before; empty: nowhere.
+  std::filesystem::path state;
   scene::Scene scene;
   std::filesystem::path snapshots;  ///< the folder that snapshots go to
 };
@@ -41,6 +45,9 @@ struct LiveJob {
 /// signal ends it; then completes the outputs, prints the ledger on standard output and returns 0.
 /// It waits for a lost camera or GPU, and for outputs that can be opened again. Throws hal::Failure
 /// and config::ConfigError; if an output failed for good, after printing the ledger.
+///
+/// Outputs of kinds that show waiting pictures are opened, and show one, before the camera is
+/// opened and the GL context is made.
 ///
 /// It ends within two seconds of a signal, which the caller's Interrupt receives. If a thread hangs
 /// in a driver, the process exits here, with status 1, or 0 if nothing had been painted yet.

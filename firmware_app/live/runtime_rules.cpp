@@ -45,8 +45,7 @@ runtime::PaintStageOptions paintRules(const RuntimeSettings& settings,
   return options;
 }
 
-runtime::OutputStageOptions outputRules(const std::string& target,
-                                        const hal::OutputOptionsByKind& outputOptions,
+runtime::OutputStageOptions outputRules(const std::string& target, const OutputOpener& open,
                                         const RuntimeSettings& settings,
                                         const hal::StreamFormat& stream) {
   const hal::OutputTraits& traits = hal::orThrow(hal::outputKindOf(target))->traits;
@@ -61,7 +60,7 @@ runtime::OutputStageOptions outputRules(const std::string& target,
       .reopen = {},
       .request = {}};
   if (traits.reopens) {
-    options.reopen = [target, outputOptions] { return hal::openOutput(target, outputOptions); };
+    options.reopen = [target, open] { return open(target); };
   }
   return options;
 }

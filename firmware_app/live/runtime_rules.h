@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,10 +22,13 @@ std::vector<std::string> qualityNames();
 runtime::PaintStageOptions paintRules(const RuntimeSettings& settings,
                                       const hal::StreamFormat& stream);
 
+/// Opens an output, not started, by its target, as hal::openOutput() does.
+using OutputOpener =
+    std::function<hal::Result<std::unique_ptr<hal::Output>>(const std::string& target)>;
+
 /// Options of the output stage of a target, from the traits of its kind. Throws hal::Failure for a
 /// target of no kind.
-runtime::OutputStageOptions outputRules(const std::string& target,
-                                        const hal::OutputOptionsByKind& outputOptions,
+runtime::OutputStageOptions outputRules(const std::string& target, const OutputOpener& open,
                                         const RuntimeSettings& settings,
                                         const hal::StreamFormat& stream);
 

@@ -64,9 +64,16 @@ bool LiveThreads::isPainterReady() {
   return isPainterReady_;
 }
 
+void LiveThreads::startOutput(OutputStage& output) {
+  launchOutput(nextOutputName(), output);
+}
+
 void LiveThreads::startOutputs(const std::vector<const OutputStage*>& stepped) {
   for (std::size_t i = 0; i < pipeline_.outputCount(); ++i) {
     OutputStage& output = pipeline_.output(i);
+    if (std::ranges::find(outputThreads_, &output, &OutputThread::output) != outputThreads_.end()) {
+      continue;
+    }
     const std::string name = nextOutputName();
     if (std::ranges::find(stepped, &output) == stepped.end()) launchOutput(name, output);
   }

@@ -37,8 +37,11 @@ class LiveThreads {
   void startPainter();
   /// Whether the painter is ready. Throws hal::Failure if it could not be made.
   bool isPainterReady();
-  /// Starts a thread for each output except those in `stepped`, which the caller steps itself, and
-  /// lets frames flow.
+  /// Starts an output's thread before the others', for waiting pictures. Precondition:
+  /// startOutputs() has not been called.
+  void startOutput(OutputStage& output);
+  /// Starts a thread for each other output except those in `stepped`, which the caller steps
+  /// itself, and lets frames flow.
   void startOutputs(const std::vector<const OutputStage*>& stepped = {});
 
   /// Adds an output to the pipeline while frames flow, and starts its thread. `output` was started

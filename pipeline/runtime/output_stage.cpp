@@ -27,13 +27,18 @@ PresentationRules rulesOf(hal::Output* output, const hal::OutputFormat& format,
 
 }  // namespace
 
-hal::Result<hal::Fence> copyOutputFrame(const OutputFrame& frame, hal::SurfaceOutput& output,
-                                        const hal::Surface& surface) {
+hal::Result<hal::Fence> copyImage(const hal::ImageView& image, hal::SurfaceOutput& output,
+                                  const hal::Surface& surface) {
   const hal::Result<hal::SurfaceMapping> mapping = output.map(surface);
   if (!mapping) return tl::unexpected(mapping.error());
-  const auto copied = hal::copyToSurface(frame.image.view(), surface, *mapping);
+  const auto copied = hal::copyToSurface(image, surface, *mapping);
   if (!copied) return tl::unexpected(copied.error());
   return hal::Fence();
+}
+
+hal::Result<hal::Fence> copyOutputFrame(const OutputFrame& frame, hal::SurfaceOutput& output,
+                                        const hal::Surface& surface) {
+  return copyImage(frame.image.view(), output, surface);
 }
 
 OutputStage::OutputStage(std::unique_ptr<hal::Output> output, hal::OutputFormat format,
@@ -51,12 +56,14 @@ OutputStage::OutputStage(std::unique_ptr<hal::Output> output, hal::OutputFormat 
   events_.reserve(kMaxSurfaces);
   // One is written and one is filled while the others wait. The last one freed is reused first, so
   // that buffers which are never needed take no memory.
-  for (std::size_t i = 0; i < options_.waiting + 2; ++i) {
+  const std::size_t buffers = options_.waiting + 2 + (options_.keepsLastFrame ? 1 : 0);
+  for (std::size_t i = 0; i < buffers; ++i) {
     buffers_.push_back(std::make_unique<OutputFrame>());
-    free_.push_back(options_.waiting + 1 - i);
+    free_.push_back(buffers - 1 - i);
   }
   status_.name = options_.name;
   status_.format = format.frame;
+  status_.starts = output_ == nullptr ? 0 : 1;
   if (output_ == nullptr) {
     status_.isFailed = true;
     status_.failure = options_.absence;
@@ -127,6 +134,17 @@ void OutputStage::count(const WaitingFrame& frame, Outcome outcome) {
   if (frame.ticket) ledger_.end(*frame.ticket, outcome);
 }
 
+/// As end(), for a frame that was handed over; its buffer may be kept. Precondition: the mutex is
+/// held.
+void OutputStage::retire(const WaitingFrame& frame) {
+  if (!options_.keepsLastFrame || isFaded_) {
+    free_.push_back(frame.buffer);
+    return;
+  }
+  if (last_) free_.push_back(*last_);
+  last_ = frame.buffer;
+}
+
 void OutputStage::endAll(Outcome outcome) {
   for (const Queued& each : queued_) count(each.frame, outcome);
   queued_.clear();
@@ -155,11 +173,13 @@ void OutputStage::handOver() {
 
 std::optional<hal::TimePoint> OutputStage::step() {
   tryToReopen();
+  applyRequest();
   takeEvents();
   handOver();
+  presentWaiting();
   const std::scoped_lock lock(mutex_);
   std::optional<hal::TimePoint> next = queue_.nextTime();
-  if (!queued_.empty()) {
+  if (!queued_.empty() || waitingSurface_) {
     const auto event = output_->surfaces()->nextEvent();
     if (event) next = next ? std::min(*next, *event) : event;
   }
@@ -174,6 +194,7 @@ hal::Duration OutputStage::timeOf(const WaitingFrame& frame) {
 }
 
 void OutputStage::present(const Due& due) {
+  fadeIn(due);
   if (hal::SurfaceOutput* surfaces = output_->surfaces()) {
     presentSurface(*surfaces, due);
   } else {
@@ -185,6 +206,8 @@ void OutputStage::present(const Due& due) {
 void OutputStage::countShown(const WaitingFrame& frame, hal::TimePoint time) {
   reopenAfter_ = kFirstReopenDelay;
   ++status_.presented;
+  status_.lastShown = time;
+  status_.isWaitingShown = false;
   rate_.count(time);
   latency_.add(time - frame.captured, time);
 }
@@ -211,7 +234,8 @@ void OutputStage::presentInMemory(hal::MemoryOutput& output, const Due& due) {
     return;
   }
   countShown(due.frame, began);
-  end(due.frame, due.outcome);
+  retire(due.frame);
+  count(due.frame, due.outcome);
 }
 
 void OutputStage::presentSurface(hal::SurfaceOutput& output, const Due& due) {
@@ -228,7 +252,7 @@ void OutputStage::presentSurface(hal::SurfaceOutput& output, const Due& due) {
   } else if (!submitted.isYes()) {
     end(due.frame, outcomeWithoutSurface());
   } else {
-    free_.push_back(due.frame.buffer);
+    retire(due.frame);
   }
 }
 
@@ -257,13 +281,13 @@ void OutputStage::takeEvents() {
   if (surfaces == nullptr) return;
   bool isSomebodyThere = false;
   {
+    // Also where nothing is queued, because a display comes and goes without pictures.
     const std::scoped_lock lock(mutex_);
     if (status_.isFailed) return;
     isSomebodyThere = std::exchange(isSomebodyThere_, false);
   }
   if (isSomebodyThere) surfaces->noteActivity();
   events_.clear();
-  // Also where nothing is queued, because a display comes and goes without pictures.
   hal::Result<void> taken = surfaces->takeEvents(events_);
   const std::scoped_lock lock(mutex_);
   followSuspension(*surfaces);
@@ -275,6 +299,8 @@ void OutputStage::takeEvents() {
 void OutputStage::followSuspension(const hal::SurfaceOutput& output) {
   const hal::Suspension* const now = output.suspension();
   if (now == nullptr) {
+    // Nothing could be shown meanwhile: that is no slow painting.
+    if (status_.suspension && status_.lastShown) status_.lastShown = clock_.now();
     status_.suspension.reset();
   } else if (!status_.suspension || *status_.suspension != *now) {
     status_.suspension = *now;
@@ -300,6 +326,13 @@ void OutputStage::noteActivity() {
 
 /// Precondition: the mutex is held.
 void OutputStage::ended(const hal::PresentationEvent& event) {
+  if (waitingSurface_ == event.surface) {
+    waitingSurface_.reset();
+    if (event.result == hal::PresentationEvent::Result::kShown && refresh_) {
+      refresh_->phase = event.time;
+    }
+    return;
+  }
   const auto queued = std::ranges::find(queued_, event.surface, &Queued::surface);
   assert(queued != queued_.end());
   const bool isShown = event.result == hal::PresentationEvent::Result::kShown;
@@ -335,12 +368,17 @@ void OutputStage::fail(hal::Error error) {
   reopenAt_ = clock_.now() + reopenAfter_;
   reopenAfter_ = std::min(2 * reopenAfter_, kMaxReopenDelay);
   endAll(Outcome::kOutputFailed);
+  waiting_.reset();
+  waitingSurface_.reset();
+  status_.isWaitingShown = false;
+  fade_.end();
 }
 
 void OutputStage::tryToReopen() {
   {
     const std::scoped_lock lock(mutex_);
     if (!status_.isFailed || status_.isFinal || clock_.now() < reopenAt_) return;
+    if (request_) options_.request = *std::exchange(request_, std::nullopt);
   }
   output_.reset();  // releases the device, which the new output opens
   auto opened = options_.reopen();
@@ -353,12 +391,52 @@ void OutputStage::tryToReopen() {
   }
   output_ = std::move(*opened);
   endAll(Outcome::kOutputFailed);
-  format_ = *format;
+  started(*format);
+  firstTime_.reset();
+  status_.isFailed = false;
+}
+
+/// Precondition: the mutex is held, and no frame waits.
+void OutputStage::started(const hal::OutputFormat& format) {
+  format_ = format;
   status_.format = format_.frame;
   queue_ = PresentationQueue(rulesOf(output_.get(), format_, options_.rules), options_.waiting);
   refresh_ = format_.refresh;
-  firstTime_.reset();
-  status_.isFailed = false;
+  ++status_.starts;
+}
+
+void OutputStage::reconfigure(const hal::OutputRequest& request) {
+  const std::scoped_lock lock(mutex_);
+  request_ = request;
+  isWoken_ = true;
+  changed_.notify_all();
+}
+
+bool OutputStage::isReconfigured() const {
+  const std::scoped_lock lock(mutex_);
+  return !request_ || status_.isFailed;
+}
+
+void OutputStage::applyRequest() {
+  hal::OutputRequest request;
+  {
+    const std::scoped_lock lock(mutex_);
+    if (!request_ || status_.isFailed || !queued_.empty() || waitingSurface_) return;
+    request = *request_;
+  }
+  hal::SurfaceOutput* surfaces = output_->surfaces();
+  assert(surfaces != nullptr);
+  hal::Result<hal::OutputFormat> format = surfaces->reconfigure(request);
+  const std::scoped_lock lock(mutex_);
+  request_.reset();
+  options_.request = request;
+  if (!format) {
+    fail(std::move(format.error()));
+    return;
+  }
+  endAll(Outcome::kStopped);
+  waiting_.reset();
+  started(*format);
 }
 
 void OutputStage::wait(std::optional<hal::TimePoint> time) {
@@ -404,7 +482,7 @@ bool OutputStage::isFull() const {
 
 bool OutputStage::isIdle() const {
   const std::scoped_lock lock(mutex_);
-  return queue_.size() == 0 && queued_.empty() && !isWriting_;
+  return queue_.size() == 0 && queued_.empty() && !waitingSurface_ && !isWriting_;
 }
 
 bool OutputStage::Status::addsUp() const {
@@ -416,6 +494,7 @@ OutputStage::Status OutputStage::status() const {
   Status status = status_;
   status.waiting = queue_.size() + queued_.size() + (isWriting_ ? 1 : 0);
   status.refresh = refresh_;
+  status.isWaitingDue = waiting_ != nullptr;
   const hal::TimePoint now = clock_.now();
   status.perSecond = rate_.perSecond(now);
   status.latency = latency_.recent(now);

@@ -13,6 +13,7 @@
 #include "hal/output.h"
 #include "pipeline/engine/painter.h"
 #include "pipeline/runtime/duration_histogram.h"
+#include "pipeline/runtime/fade_in.h"
 #include "pipeline/runtime/frame_ledger.h"
 #include "pipeline/runtime/frame_rate.h"
 #include "pipeline/runtime/presentation_queue.h"
@@ -24,7 +25,11 @@ namespace pleinair::runtime {
 using SurfaceFill = std::function<hal::Result<hal::Fence>(
     const OutputFrame& frame, hal::SurfaceOutput& output, const hal::Surface& surface)>;
 
-/// A SurfaceFill for the processor: maps the surface and copies the frame (hal::copyToSurface()).
+/// Maps a surface and copies an image of its size. Errors: those of the output;
+/// hal::copyToSurface()'s.
+hal::Result<hal::Fence> copyImage(const hal::ImageView& image, hal::SurfaceOutput& output,
+                                  const hal::Surface& surface);
+/// A SurfaceFill for the processor, by copyImage().
 hal::Result<hal::Fence> copyOutputFrame(const OutputFrame& frame, hal::SurfaceOutput& output,
                                         const hal::Surface& surface);
 
@@ -44,6 +49,8 @@ struct OutputStageOptions {
   hal::OutputRequest request;  ///< for start() after reopen()
   /// Why there is no output yet, which is waited for.
   std::optional<hal::Error> absence = std::nullopt;
+  /// Keeps the last frame that was shown, for lastFrame(); takes the memory of one.
+  bool keepsLastFrame = false;
 };
 
 /// Hands frames to an output, each at its due time on the output's own refresh. It runs on an
@@ -53,6 +60,8 @@ struct OutputStageOptions {
 ///
 /// A memory output has shown a frame once write() returns. A surface-lending output has shown it
 /// once a presentation event says so; until then the frame counts as waiting.
+///
+/// A surface-lending output can show a waiting picture in place of frames, which fade in over it.
 class OutputStage {
  public:
   /// `output` was started and answered `format`; or it is null, for OutputStageOptions::absence,
@@ -76,6 +85,23 @@ class OutputStage {
   void submit(std::optional<FrameLedger::Ticket> ticket, hal::TimePoint ready,
               hal::Duration latency);
 
+  // Any thread.
+
+  /// Has `picture` (RGBA8, of format()'s size) shown as soon as no frame waits; where the output
+  /// lends no surfaces or they have another size, it is dropped. Frames that come later fade in
+  /// over it where `fades`, else replace it. It is neither a frame nor counted as one.
+  void showWaiting(std::shared_ptr<const hal::Image> picture, bool fades = true);
+  /// Drops a waiting picture that is not shown yet.
+  void cancelWaiting();
+  /// Has the output take another stream, at the next step(); one that fails or is absent, once it
+  /// is opened.
+  void reconfigure(const hal::OutputRequest& request);
+  /// Whether what reconfigure() asked for is done.
+  bool isReconfigured() const;
+  /// A copy of the last frame that was shown whole; nothing before the first one, or without
+  /// OutputStageOptions::keepsLastFrame.
+  std::optional<hal::Image> lastFrame() const;
+
   // Output thread.
 
   /// Hands over the frames that are due. Returns when to call again; unset while none waits.
@@ -97,7 +123,7 @@ class OutputStage {
   void retry();
   /// Whether OutputStageOptions::limit is reached.
   bool isFull() const;
-  /// Whether all submitted frames have an outcome.
+  /// Whether all submitted frames have an outcome, and no waiting picture is on its way.
   bool isIdle() const;
 
   struct Status {
@@ -116,6 +142,10 @@ class OutputStage {
     /// The display's refresh; its phase is the last refresh that was reported.
     std::optional<hal::Refresh> refresh;
     std::uint64_t failures = 0;
+    std::uint64_t starts = 0;                 ///< times that the output was opened or reconfigured
+    std::optional<hal::TimePoint> lastShown;  ///< when a frame was, or could be again
+    bool isWaitingDue = false;                ///< a waiting picture is to be shown
+    bool isWaitingShown = false;  ///< one was handed over, and no frame has been shown since
     bool isFailed = false;
     bool isFinal = false;                       ///< failed, and will not be opened again
     std::optional<hal::Error> failure;          ///< the last one
@@ -151,6 +181,12 @@ class OutputStage {
   void endAll(Outcome outcome);
   void fail(hal::Error error);
   void tryToReopen();
+  void applyRequest();
+  void started(const hal::OutputFormat& format);
+  void presentWaiting();
+  hal::Answer submitWaiting(hal::SurfaceOutput& output, const hal::Image& picture);
+  void fadeIn(const Due& due);
+  void retire(const WaitingFrame& frame);
   hal::Duration timeOf(const WaitingFrame& frame);
 
   std::unique_ptr<hal::Output> output_;
@@ -160,6 +196,8 @@ class OutputStage {
   std::optional<hal::TimePoint> firstTime_;  ///< capture time of the first frame since opening
   std::vector<std::unique_ptr<OutputFrame>> buffers_;
   std::vector<hal::PresentationEvent> events_;  ///< a member so that its memory is reused
+  FadeIn fade_;
+  bool isFaded_ = false;  ///< the frame that is being presented is not as it was painted
 
   mutable std::mutex mutex_;  // guards the members below
   std::condition_variable changed_;
@@ -172,6 +210,11 @@ class OutputStage {
   std::vector<Queued> queued_;  ///< submitted surfaces without an event, oldest first
   std::optional<hal::Refresh> refresh_;
   bool isWriting_ = false;
+  std::shared_ptr<const hal::Image> waiting_;  ///< to be shown
+  bool waitingFades_ = true;
+  std::optional<hal::SurfaceId> waitingSurface_;  ///< submitted, without an event
+  std::optional<hal::OutputRequest> request_;     ///< for applyRequest()
+  std::optional<std::size_t> last_;               ///< buffer of the last whole frame
   hal::TimePoint reopenAt_;
   hal::Duration reopenAfter_;  ///< grows until a frame is shown
   Status status_;

@@ -187,6 +187,29 @@ TEST_P(SurfaceConformance, SupersedesASurfaceByALaterOneForTheSameRefresh) {
   EXPECT_EQ(events_[1].result, PresentationEvent::Result::kShown);
 }
 
+TEST_P(SurfaceConformance, TakesAnotherStreamAndGoesOn) {
+  start();
+  ASSERT_TRUE(show(clock_.now() + period_));
+  runTo(clock_.now() + 2 * period_);
+  ASSERT_TRUE(show(clock_.now() + 10 * period_));
+  const FrameSize size{kSize.width / 2, kSize.height};
+  const Result<OutputFormat> format = surfaces_->reconfigure({.size = size, .framePeriod = {}});
+  ASSERT_TRUE(format.has_value()) << format.error().message();
+  EXPECT_EQ(format->frame.pixelFormat, PixelFormat::kRgba8);
+  if (!GetParam().hasOwnSize) {
+    EXPECT_EQ(format->frame.size, size);
+  }
+  const auto surface = acquire();
+  ASSERT_TRUE(surface.has_value());
+  EXPECT_EQ(surface->format, format->frame);
+  surfaces_->release(*surface);
+  ASSERT_TRUE(show(clock_.now() + 2 * period_));
+  runTo(clock_.now() + 5 * period_);
+  ASSERT_EQ(events_.size(), 3u);
+  EXPECT_EQ(events_[1].result, PresentationEvent::Result::kSkipped) << "the queued one";
+  EXPECT_EQ(events_[2].result, PresentationEvent::Result::kShown);
+}
+
 TEST_P(SurfaceConformance, FinishesWithSurfacesLentQueuedAndShown) {
   start();
   ASSERT_TRUE(show(clock_.now() + period_));

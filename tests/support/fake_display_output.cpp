@@ -28,11 +28,17 @@ FakeDisplayOutput::FakeDisplayOutput(FakeDisplay& display, const hal::Clock& clo
     : display_(display), clock_(clock) {}
 
 FakeDisplayOutput::~FakeDisplayOutput() {
+  destroyBuffers();
+}
+
+void FakeDisplayOutput::destroyBuffers() {
   for (const Buffer& each : buffers_) {
     assert(!each.isMapped);
     ::munmap(each.memory, each.bytes);
     ::close(each.surface.planes[0].dmaBuf);
   }
+  buffers_.clear();
+  onScreen_ = nullptr;
 }
 
 bool FakeDisplayOutput::makeBuffer(hal::FrameSize size, std::uint32_t id) {
@@ -65,13 +71,36 @@ hal::Result<hal::OutputFormat> FakeDisplayOutput::start(const hal::OutputRequest
   if (!hal::isAcceptedSize(request.size)) {
     return tl::unexpected(error(hal::ErrorKind::kUnsupported, "cannot take this size"));
   }
+  if (auto made = makeBuffers(request.size); !made) return tl::unexpected(made.error());
+  ++display_.opened;
+  ranTo_ = clock_.now();
+  return format();
+}
+
+hal::Result<hal::OutputFormat> FakeDisplayOutput::reconfigure(const hal::OutputRequest& request) {
+  if (display_.isLost) return tl::unexpected(lost());
+  runTo(clock_.now());
+  for (; !queue_.empty(); queue_.pop_front()) {
+    end(queue_.front(), hal::PresentationEvent::Result::kSkipped, clock_.now());
+  }
+  if (request.size != buffers_.front().surface.format.size) {
+    destroyBuffers();
+    if (auto made = makeBuffers(request.size); !made) return tl::unexpected(made.error());
+  }
+  ++display_.reconfigured;
+  return format();
+}
+
+hal::Result<void> FakeDisplayOutput::makeBuffers(hal::FrameSize size) {
   for (int i = 0; i < display_.surfaces; ++i) {
-    if (!makeBuffer(request.size, static_cast<std::uint32_t>(i))) {
+    if (!makeBuffer(size, static_cast<std::uint32_t>(i))) {
       return tl::unexpected(error(hal::ErrorKind::kIo, "has no memory"));
     }
   }
-  ++display_.opened;
-  ranTo_ = clock_.now();
+  return {};
+}
+
+hal::OutputFormat FakeDisplayOutput::format() const {
   hal::Refresh refresh{.period = display_.period, .phase = {}};
   if (display_.tellsPhase) refresh.phase = display_.phase;
   return hal::OutputFormat{.frame = buffers_.front().surface.format, .refresh = refresh};
@@ -155,7 +184,10 @@ void FakeDisplayOutput::end(Queued& queued, hal::PresentationEvent::Result resul
     onScreen_ = queued.buffer;
     std::uint32_t pixel = 0;
     std::memcpy(&pixel, onScreen_->memory, sizeof(pixel));
-    display_.shown.push_back({.sequence = sequence, .time = time, .firstPixel = pixel});
+    display_.shown.push_back({.sequence = sequence,
+                              .time = time,
+                              .firstPixel = pixel,
+                              .size = onScreen_->surface.format.size});
   }
   queued.buffer->state = isShown ? State::kOnScreen : State::kFree;
   events_.push_back({.surface = queued.buffer->surface.id,

@@ -29,9 +29,11 @@ struct FakeDisplay {
     std::uint64_t sequence = 0;
     hal::TimePoint time;
     std::uint32_t firstPixel = 0;  ///< its bytes, little-endian
+    hal::FrameSize size;
   };
   std::vector<Shown> shown;
   int opened = 0;
+  int reconfigured = 0;
   int lent = 0;  ///< surfaces that were acquired, and neither submitted nor released
 };
 
@@ -49,6 +51,7 @@ class FakeDisplayOutput final : public hal::SurfaceOutput, private hal::SurfaceU
   hal::OutputIdentity identity() const override { return {"fake_display", "fake"}; }
   hal::Result<hal::OutputFormat> start(const hal::OutputRequest& request) override;
   hal::Result<void> finish() override;
+  hal::Result<hal::OutputFormat> reconfigure(const hal::OutputRequest& request) override;
   hal::Result<std::optional<hal::Surface>> acquire() override;
   hal::Result<hal::SurfaceMapping> map(const hal::Surface& surface) override;
   void release(const hal::Surface& surface) override;
@@ -75,6 +78,9 @@ class FakeDisplayOutput final : public hal::SurfaceOutput, private hal::SurfaceU
 
   void unmap(hal::SurfaceId surface) override;
   Buffer& of(const hal::Surface& surface);
+  hal::Result<void> makeBuffers(hal::FrameSize size);
+  void destroyBuffers();
+  hal::OutputFormat format() const;
   bool makeBuffer(hal::FrameSize size, std::uint32_t id);
   hal::TimePoint refreshAtOrAfter(hal::TimePoint time) const;
   bool isReady(const Queued& queued, hal::TimePoint refresh) const;

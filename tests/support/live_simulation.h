@@ -150,6 +150,7 @@ class SimulatedPainter final : public runtime::FramePainter {
     if (index >= work_.size() || work_.at(index).ready > clock_.now()) return false;
     const hal::FrameFormat& format = formats_.at(output).frame;
     if (picture.image.format() != format) picture.image = hal::Image(format);
+    std::ranges::fill(picture.image.plane(0), std::uint8_t{0});  // painted black
     picture.sequence = work_.at(index).sequence;
     picture.captureTime = work_.at(index).captured;
     ++*taken_.at(output);

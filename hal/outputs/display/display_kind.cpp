@@ -122,7 +122,7 @@ OutputKind displayKind() {
   return {.name = std::string(kDisplayName),
           .help = "a screen without a desktop, through the kernel (DRM/KMS)",
           .forms = {"display", "display:CONNECTOR"},
-          .traits = {.isPaced = true, .reopens = true, .isOnConsole = true},
+          .traits = {.isPaced = true, .reopens = true, .isOnConsole = true, .showsWaiting = true},
           .options = {{.name = "mode",
                        .help = "The mode; \"auto\": the display's own size at the rate that fits "
                                "the camera's best.",

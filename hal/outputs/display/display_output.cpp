@@ -42,6 +42,7 @@ class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
 
   Result<OutputFormat> start(const OutputRequest& request) override;
   Result<void> finish() override;
+  Result<OutputFormat> reconfigure(const OutputRequest& request) override;
   Result<std::optional<Surface>> acquire() override;
   Result<SurfaceMapping> map(const Surface& surface) override;
   void release(const Surface& surface) override;
@@ -58,6 +59,7 @@ class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
     Surface surface;
     State state = State::kFree;
     bool isMapped = false;
+    bool hasRemains = false;  ///< of a picture that lay elsewhere
   };
   struct Queued {
     Buffer* buffer = nullptr;
@@ -71,6 +73,8 @@ class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
   Result<Mode> acceptedMode();
   int tryMode(const Mode& mode);
   void readTiming();
+  Result<void> changeMode(const Mode& mode);
+  OutputFormat place(FrameSize picture);
   void close();
 
   void unmap(SurfaceId surface) override {
@@ -95,6 +99,12 @@ class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
   void end(Buffer& buffer, PresentationEvent::Result result, TimePoint time);
   std::uint64_t extended(std::uint32_t sequence);
   Error failure(int error, std::string problem) const;
+  Error unusableSize() const {
+    return {.kind = ErrorKind::kUnsupported,
+            .subject = name_,
+            .problem = "cannot take this size",
+            .remedy = "use 1 to 8192 px a side and at most 64 Mpx"};
+  }
 
   std::string name_;
   DisplaySettings settings_;
@@ -104,6 +114,7 @@ class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
   std::shared_ptr<SharedCard> shared_;
   std::optional<DisplayRoute> route_;
   std::optional<SavedCrtc> saved_;
+  Mode chosen_;  ///< before the card was asked
   ObjectId modeBlob_ = 0;
   ObjectId flipProperty_ = 0;  ///< the plane's FB_ID
   PictureArea area_;
@@ -131,20 +142,23 @@ class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
 
 Result<OutputFormat> DisplayOutput::start(const OutputRequest& request) {
   assert(!shared_);
-  if (!isAcceptedSize(request.size)) {
-    return tl::unexpected(Error{.kind = ErrorKind::kUnsupported,
-                                .subject = name_,
-                                .problem = "cannot take this size",
-                                .remedy = "use 1 to 8192 px a side and at most 64 Mpx"});
-  }
+  if (!isAcceptedSize(request.size)) return tl::unexpected(unusableSize());
   Result<ClaimedDisplay> claimed = claimDisplay(
       cards_, name_, {.connector = {}, .mode = settings_.mode, .framePeriod = request.framePeriod});
   if (!claimed) return tl::unexpected(claimed.error());
   shared_ = std::move(claimed->card);
   route_ = std::move(claimed->route);
   if (const auto set = setMode(); !set) return tl::unexpected(set.error());
-  area_ = areaOf(request.size, route_->mode.size, settings_.placement);
+  readTiming();
+  return place(request.size);
+}
+
+/// Lays pictures of this size onto the display.
+OutputFormat DisplayOutput::place(FrameSize picture) {
+  const PictureArea before = area_;
+  area_ = areaOf(picture, route_->mode.size, settings_.placement);
   for (Buffer& each : buffers_) {
+    if (before != PictureArea() && before != area_) each.hasRemains = true;
     const std::size_t offset = static_cast<std::size_t>(area_.y) * each.memory.strideBytes +
                                static_cast<std::size_t>(area_.x) * kPixelBytes;
     each.surface.format = {.pixelFormat = PixelFormat::kRgba8, .size = area_.size, .encoding = {}};
@@ -152,7 +166,6 @@ Result<OutputFormat> DisplayOutput::start(const OutputRequest& request) {
                               .offsetBytes = offset,
                               .strideBytes = each.memory.strideBytes};
   }
-  readTiming();
   return OutputFormat{.frame = buffers_.front().surface.format,
                       .refresh = Refresh{.period = period_, .phase = phase_},
                       .quarterTurns = settings_.placement.quarterTurns};
@@ -208,7 +221,8 @@ Result<Mode> DisplayOutput::acceptedMode() {
 Result<void> DisplayOutput::setMode() {
   yields_ = timesYielded();
   if (shared_->takeMaster() != 0) return tl::unexpected(failure(-EACCES, "cannot be had"));
-  saved_ = card().saveCrtc(route_->crtc.id);
+  if (buffers_.empty()) saved_ = card().saveCrtc(route_->crtc.id);
+  chosen_ = route_->mode;
   const Result<Mode> mode = acceptedMode();
   if (!mode) return tl::unexpected(mode.error());
   route_->mode = *mode;
@@ -246,6 +260,36 @@ void DisplayOutput::close() {
   shared_.reset();
 }
 
+Result<OutputFormat> DisplayOutput::reconfigure(const OutputRequest& request) {
+  assert(shared_);
+  if (!isAcceptedSize(request.size)) return tl::unexpected(unusableSize());
+  const TimePoint now = clock_.now();
+  for (; !queue_.empty(); queue_.pop_front()) {
+    end(*queue_.front().buffer, PresentationEvent::Result::kSkipped, now);
+  }
+  const Result<Mode> mode =
+      chooseMode(route_->connector,
+                 {.connector = {}, .mode = settings_.mode, .framePeriod = request.framePeriod});
+  if (!mode) return tl::unexpected(mode.error());
+  // The mode in force may be another than the one that was chosen, because that was refused.
+  if (mode->timings != chosen_.timings) {
+    if (const auto changed = changeMode(*mode); !changed) return tl::unexpected(changed.error());
+  }
+  return place(request.size);
+}
+
+Result<void> DisplayOutput::changeMode(const Mode& mode) {
+  if (flipping_ != nullptr) {
+    end(*std::exchange(flipping_, nullptr), PresentationEvent::Result::kSkipped, clock_.now());
+  }
+  onScreen_ = nullptr;
+  route_->mode = mode;
+  if (auto set = setMode(); !set) return set;
+  suspension_.reset();
+  readTiming();
+  return {};
+}
+
 Result<void> DisplayOutput::finish() {
   assert(shared_);
   const Result<void> advanced = advance();
@@ -258,6 +302,9 @@ Result<std::optional<Surface>> DisplayOutput::acquire() {
   if (suspension_) return std::nullopt;
   const auto free = std::ranges::find(buffers_, State::kFree, &Buffer::state);
   if (free == buffers_.end()) return std::nullopt;
+  if (std::exchange(free->hasRemains, false)) {
+    std::ranges::fill(free->memory.memory, std::uint8_t{0});
+  }
   free->state = State::kLent;
   return free->surface;
 }

@@ -17,8 +17,11 @@
 #include "firmware_app/cli/interrupt.h"
 #include "firmware_app/live/live_painter.h"
 #include "hal/error.h"
+#include "hal/outputs/display/display_output.h"
+#include "hal/outputs/registry.h"
 #include "pipeline/styles/registry.h"
 #include "pipeline/styles/strokes/brushes.h"
+#include "tests/support/fake_card.h"
 #include "tests/support/live_simulation.h"
 #include "tests/support/media_files.h"
 #include "tests/support/temporary_folder.h"
@@ -81,7 +84,7 @@ class LivePaintingTest : public testing::Test {
                .clock = &clock,
                .options = {.output = {}, .style = "none", .frames = frames},
                .outputs = {output_.string()},
-               .outputOptions = {},
+               .openOutput = [](const std::string& target) { return hal::openOutput(target); },
                .runtime = {},
                .serveStatus =
                    [this](StatusPages pages) {
@@ -130,6 +133,40 @@ TEST_F(LivePaintingTest, GoesOnWhenTheCameraComesBack) {
 TEST_F(LivePaintingTest, SaysAtTheStartThatThereIsNoCamera) {
   EXPECT_THAT(paintFrom(-1, 3), testing::HasSubstr("is not there"));
   EXPECT_EQ(folder_.entryCount(), 0u) << "and leaves no file";
+}
+
+TEST_F(LivePaintingTest, ShowsAPictureOnADisplayBeforeTheCameraIsMade) {
+  hal::SteadyClock clock;
+  support::FakeCards cards(clock);
+  cards.add();
+  std::size_t shownBeforeCamera = 0;
+  hal::CameraSelector selector = support::selectorOf(
+      [&](hal::Clock& cameraClock) {
+        shownBeforeCamera = cards.shown.size();
+        return std::make_unique<LostCamera>(1000, cameraClock);
+      },
+      clock, true);
+  const hal::TimePoint began = clock.now();
+  runLive(
+      {.selector = &selector,
+       .request = {},
+       .clock = &clock,
+       .options = {.output = {}, .style = "none", .frames = 3},
+       .outputs = {"display"},
+       .openOutput = [&](const std::string& target) -> hal::Result<std::unique_ptr<hal::Output>> {
+         return hal::openDisplay(target, {}, cards, clock);
+       },
+       .runtime = {},
+       .state = folder_.path() / "state",
+       .scene = {},
+       .snapshots = folder_.path()});
+  EXPECT_EQ(shownBeforeCamera, 1u);
+  ASSERT_GE(cards.shown.size(), 2u);
+  EXPECT_GT(cards.shown.front().firstPixel & 0xFFU, 200U) << "paper";
+  EXPECT_EQ(cards.restores, 1);
+  const hal::Duration took = cards.shown.front().time - began;
+  EXPECT_LT(took, std::chrono::seconds(3));
+  RecordProperty("first_picture_ms", std::to_string(hal::toMilliseconds(took)));
 }
 
 TEST(LivePainter, MakesNoBrushInAFrameWhateverTheLook) {

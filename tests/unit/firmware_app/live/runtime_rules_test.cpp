@@ -11,8 +11,12 @@
 namespace pleinair::app {
 namespace {
 
+OutputOpener openerWith(const hal::OutputOptionsByKind& options = {}) {
+  return [options](const std::string& target) { return hal::openOutput(target, options); };
+}
+
 runtime::OutputStageOptions rulesOf(const std::string& target) {
-  return outputRules(target, {}, {}, {.framePeriod = std::chrono::milliseconds(40)});
+  return outputRules(target, openerWith(), {}, {.framePeriod = std::chrono::milliseconds(40)});
 }
 
 TEST(OutputRules, FollowTheTraitsOfTheKind) {
@@ -31,7 +35,8 @@ TEST(OutputRules, FollowTheTraitsOfTheKind) {
 
 TEST(OutputRules, OpenADeviceAnewWithItsOptions) {
   EXPECT_TRUE(rulesOf("loopback").reopen());
-  const auto rules = outputRules("loopback", {{"loopback", {{"format", "rgb"}}}}, {}, {});
+  const auto rules =
+      outputRules("loopback", openerWith({{"loopback", {{"format", "rgb"}}}}), {}, {});
   EXPECT_FALSE(rules.reopen());
 }
 

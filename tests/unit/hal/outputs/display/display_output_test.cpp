@@ -62,6 +62,46 @@ TEST_F(DisplayTest, ACardWithoutVerticalBlankingIsPacedByTheClock) {
   }
 }
 
+TEST_F(DisplayTest, TakesAnotherStreamInTheSameModeWithoutAModeset) {
+  plug({.connectors = {{.modes = {{.size = {128, 48}}}}}});
+  ASSERT_TRUE(start().has_value());
+  ASSERT_TRUE(showAndWait().has_value());
+  ASSERT_TRUE(showAndWait().has_value());
+  const Result<OutputFormat> format = output_->reconfigure({.size = {32, 48}, .framePeriod = {}});
+  ASSERT_TRUE(format.has_value()) << format.error().message();
+  EXPECT_EQ(format->frame.size, (FrameSize{32, 48}));
+  EXPECT_EQ(cards_.modesets, 1);
+  EXPECT_EQ(cards_.restores, 0);
+  // Whatever lay beside the smaller picture is black.
+  const auto surface = output_->acquire();
+  ASSERT_TRUE(surface->has_value());
+  {
+    const auto mapping = output_->map(**surface);
+    EXPECT_TRUE(std::ranges::all_of(mapping->plane(0), [](std::uint8_t b) { return b == 0; }));
+  }
+  output_->release(**surface);
+  ASSERT_TRUE(showAndWait().has_value());
+  EXPECT_EQ(cards_.flips, 3);
+}
+
+TEST_F(DisplayTest, AnotherRateOfTheCameraMayTakeAnotherMode) {
+  plug({.connectors = {{.modes = {{.size = {64, 48}, .hertz = 60.0, .isPreferred = true},
+                                  {.size = {64, 48}, .hertz = 50.0}}}}});
+  ASSERT_TRUE(start().has_value());
+  ASSERT_TRUE(showAndWait().has_value());
+  const auto format =
+      output_->reconfigure({.size = kSize, .framePeriod = std::chrono::milliseconds(40)});
+  ASSERT_TRUE(format.has_value()) << format.error().message();
+  EXPECT_EQ(cards_.modesets, 2);
+  EXPECT_NEAR(toSeconds(format->refresh->period), 0.02, 1e-6);
+  ASSERT_TRUE(showAndWait().has_value());
+  EXPECT_EQ(cards_.shown.back().firstPixel, kPainted);
+  EXPECT_EQ(cards_.buffers, 3);
+  EXPECT_EQ(cards_.blobs, 1);
+  output_.reset();
+  EXPECT_EQ(cards_.restores, 1) << "what was shown before all of it";
+}
+
 TEST_F(DisplayTest, PicturesLieBetweenBlackBars) {
   plug({.connectors = {{.modes = {{.size = {128, 48}}}}}});
   const Result<OutputFormat> format = start();

@@ -1,0 +1,110 @@
+#include "firmware_app/live/screens.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <utility>
+
+#include "pipeline/present/waiting_picture.h"
+
+namespace pleinair::app {
+namespace {
+
+constexpr hal::Duration kFirstPatience = std::chrono::seconds(1);
+constexpr hal::Duration kPollInterval = std::chrono::milliseconds(1);
+
+}  // namespace
+
+Screens::Screens(std::string choice, const std::filesystem::path& state, const hal::Clock& clock)
+    : choice_(std::move(choice)), store_(state), clock_(clock) {}
+
+void Screens::add(runtime::OutputStage& stage) {
+  if (screens_.empty()) {
+    hal::Result<std::optional<hal::Image>> kept = store_.read();
+    if (kept) {
+      last_ = *std::move(kept);
+    } else {
+      failure_ = std::move(kept.error());
+    }
+  }
+  screens_.push_back({.stage = &stage, .shown = {}});
+}
+
+std::vector<runtime::OutputStage*> Screens::stages() const {
+  std::vector<runtime::OutputStage*> stages;
+  for (const Screen& each : screens_) stages.push_back(each.stage);
+  return stages;
+}
+
+void Screens::update(const LiveProgress& progress) {
+  const hal::TimePoint now = clock_.now();
+  state_.update(progress, now);
+  for (Screen& each : screens_) {
+    const runtime::OutputStage::Status status = each.stage->status();
+    const Awaited awaited = state_.of(status.lastShown, now);
+    if (awaited == Awaited::kNothing || status.isFailed || status.suspension) {
+      if (std::exchange(each.shown, std::nullopt)) each.stage->cancelWaiting();
+      continue;
+    }
+    const hal::OutputFormat format = each.stage->format();
+    const Drawn wanted{.text = waitingText(awaited, progress.camera, choice_),
+                       .format = format.frame,
+                       .quarterTurns = format.quarterTurns,
+                       .starts = status.starts};
+    // A frame that was painted late may have taken the picture's place.
+    const bool isReplaced = !status.isWaitingShown && !status.isWaitingDue;
+    if (each.shown != wanted || isReplaced) draw(each, wanted, awaited != Awaited::kPace);
+  }
+  if (auto failure = store_.takeFailure()) failure_ = std::move(failure);
+  if (progress.hasBegun && store_.isDue(now)) keep(now);
+}
+
+void Screens::keep(hal::TimePoint now) {
+  if (auto painting = lastPainting()) store_.save(*std::move(painting), now);
+}
+
+void Screens::finish() {
+  const hal::TimePoint now = clock_.now();
+  if (store_.isDueAtEnd(now)) keep(now);
+  if (auto failure = store_.takeFailure(true)) failure_ = std::move(failure);
+}
+
+void Screens::draw(Screen& screen, const Drawn& wanted, bool fades) const {
+  screen.shown = wanted;
+  hal::FrameSize upright = wanted.format.size;
+  if (wanted.quarterTurns % 2 != 0) std::swap(upright.width, upright.height);
+  const std::optional<hal::Image> frame = uprightFrameOf(*screen.stage);
+  const hal::ImageView painting = frame ? frame->view() : last_ ? last_->view() : hal::ImageView();
+  const hal::Image picture = present::waitingPicture(upright, painting, wanted.text);
+  screen.stage->showWaiting(
+      std::make_shared<const hal::Image>(present::turned(picture, wanted.quarterTurns)), fades);
+}
+
+void Screens::showFirst(hal::Clock& clock) {
+  const hal::TimePoint deadline = clock.now() + kFirstPatience;
+  const auto isDone = [](const Screen& screen) {
+    const runtime::OutputStage::Status status = screen.stage->status();
+    return status.isFailed || (status.isWaitingShown && screen.stage->isIdle());
+  };
+  for (;;) {
+    for (Screen& each : screens_) each.stage->step();
+    if (std::ranges::all_of(screens_, isDone) || clock.now() >= deadline) return;
+    clock.sleepUntil(clock.now() + kPollInterval);
+  }
+}
+
+/// The last frame of the first screen that has shown one, upright.
+std::optional<hal::Image> Screens::lastPainting() const {
+  for (const Screen& each : screens_) {
+    if (auto frame = uprightFrameOf(*each.stage)) return frame;
+  }
+  return std::nullopt;
+}
+
+std::optional<hal::Image> Screens::uprightFrameOf(const runtime::OutputStage& stage) {
+  const std::optional<hal::Image> frame = stage.lastFrame();
+  if (!frame) return std::nullopt;
+  return present::turned(*frame, -stage.format().quarterTurns);
+}
+
+}  // namespace pleinair::app

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "firmware_app/live/last_painting.h"
+#include "firmware_app/live/waiting_state.h"
+#include "hal/clock.h"
+#include "hal/error.h"
+#include "hal/image.h"
+#include "pipeline/runtime/output_stage.h"
+
+namespace pleinair::app {
+
+/// The outputs of a live painting that are all that people see of it, and the pictures that they
+/// show while there are no paintings. Main thread.
+class Screens {
+ public:
+  /// `choice`: the camera that was asked for. `state`: where the last painting is kept, and was by
+  /// the run before; empty: nowhere. The clock outlives this.
+  Screens(std::string choice, const std::filesystem::path& state, const hal::Clock& clock);
+
+  /// The stage outlives this, and keeps its last frame. It lends surfaces, or is waited for.
+  void add(runtime::OutputStage& stage);
+  bool isEmpty() const { return screens_.empty(); }
+  std::vector<runtime::OutputStage*> stages() const;
+
+  /// Draws the waiting pictures that are due and hands them to the stages, and keeps the last
+  /// painting where that is due. To be called several times a second.
+  void update(const LiveProgress& progress);
+  /// Steps the stages, which have no threads yet, until each has shown its first picture, has
+  /// failed or takes longer than a second.
+  void showFirst(hal::Clock& clock);
+
+  /// Keeps the last painting where that is due at the end of the run. The stages still exist.
+  void finish();
+  /// Why a painting could not be read or kept, once.
+  std::optional<hal::Error> takeFailure() { return std::exchange(failure_, std::nullopt); }
+
+ private:
+  /// What a waiting picture depends on.
+  struct Drawn {
+    present::WaitingText text;
+    hal::FrameFormat format;
+    int quarterTurns = 0;
+    std::uint64_t starts = 0;  ///< of the output, which forgets its picture
+    friend bool operator==(const Drawn&, const Drawn&) = default;
+  };
+  struct Screen {
+    runtime::OutputStage* stage = nullptr;
+    std::optional<Drawn> shown;
+  };
+  void draw(Screen& screen, const Drawn& wanted, bool fades) const;
+  void keep(hal::TimePoint now);
+  std::optional<hal::Image> lastPainting() const;
+  static std::optional<hal::Image> uprightFrameOf(const runtime::OutputStage& stage);
+
+  std::string choice_;
+  LastPainting store_;
+  std::optional<hal::Image> last_;  ///< the one of the run before
+  std::optional<hal::Error> failure_;
+  const hal::Clock& clock_;
+  WaitingState state_;
+  std::vector<Screen> screens_;
+};
+
+}  // namespace pleinair::app

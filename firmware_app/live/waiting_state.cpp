@@ -1,0 +1,64 @@
+#include "firmware_app/live/waiting_state.h"
+
+#include <algorithm>
+
+namespace pleinair::app {
+namespace {
+
+Awaited awaitedBy(const LiveProgress& progress) {
+  const runtime::CaptureStage::Status& camera = progress.camera;
+  if (camera.hasEnded || camera.state == hal::CameraState::kEnded) return Awaited::kNothing;
+  if (!camera.format) return Awaited::kCamera;
+  if (!progress.hasBegun) return Awaited::kPainter;
+  if (camera.state != hal::CameraState::kStreaming) return Awaited::kCameraAgain;
+  return progress.hasPainter ? Awaited::kNothing : Awaited::kGpu;
+}
+
+std::string nameOf(const runtime::CaptureStage::Status& camera, const std::string& choice) {
+  if (!camera.camera) return choice;
+  const hal::CameraIdentity& identity = *camera.camera;
+  return identity.description.empty() ? identity.id : identity.description;
+}
+
+/// The camera that is waited for, or why there is none.
+std::string absenceOf(const runtime::CaptureStage::Status& camera, const std::string& choice) {
+  if (!camera.cause) return nameOf(camera, choice);
+  const hal::Error& cause = *camera.cause;
+  return cause.subject.empty() ? cause.problem : cause.subject + ": " + cause.problem;
+}
+
+}  // namespace
+
+void WaitingState::update(const LiveProgress& progress, hal::TimePoint now) {
+  const Awaited next = awaitedBy(progress);
+  if (next != awaited_) since_ = now;
+  awaited_ = next;
+}
+
+Awaited WaitingState::of(std::optional<hal::TimePoint> lastShown, hal::TimePoint now) const {
+  if (awaited_ != Awaited::kNothing) return awaited_;
+  const hal::TimePoint since = std::max(lastShown.value_or(since_), since_);
+  return now - since > kTooSlow ? Awaited::kPace : Awaited::kNothing;
+}
+
+present::WaitingText waitingText(Awaited awaited, const runtime::CaptureStage::Status& camera,
+                                 const std::string& choice) {
+  switch (awaited) {
+    case Awaited::kNothing:
+      break;
+    case Awaited::kCamera:
+      return {.title = "Waiting for the camera", .detail = absenceOf(camera, choice)};
+    case Awaited::kPainter:
+      return {.title = "The painter sets up", .detail = nameOf(camera, choice)};
+    case Awaited::kCameraAgain:
+      return {.title = "Waiting for the camera to come back", .detail = nameOf(camera, choice)};
+    case Awaited::kGpu:
+      return {.title = "The graphics processor starts again", .detail = "it was lost"};
+    case Awaited::kPace:
+      return {.title = "The next painting takes a while",
+              .detail = "the computer is too slow for this style or size"};
+  }
+  return {};
+}
+
+}  // namespace pleinair::app

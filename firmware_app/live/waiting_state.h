@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "hal/clock.h"
+#include "pipeline/present/waiting_picture.h"
+#include "pipeline/runtime/capture_stage.h"
+
+namespace pleinair::app {
+
+/// What a screen waits for.
+enum class Awaited {
+  kNothing,      ///< it shows paintings
+  kCamera,       ///< the first frame of one
+  kPainter,      ///< that is made for the first time
+  kCameraAgain,  ///< that was lost or is silent
+  kGpu,          ///< that was lost
+  kPace,         ///< the camera streams, but nothing is painted in time
+};
+
+/// What is known of the live pipeline.
+struct LiveProgress {
+  const runtime::CaptureStage::Status& camera;
+  bool hasBegun = false;    ///< frames may flow to the outputs
+  bool hasPainter = false;  ///< it has one now
+};
+
+/// Decides what the screens wait for. One thread.
+class WaitingState {
+ public:
+  /// So long nothing is shown before painting counts as too slow.
+  static constexpr hal::Duration kTooSlow = std::chrono::seconds(4);
+
+  void update(const LiveProgress& progress, hal::TimePoint now);
+  /// For a screen that showed its last painting at `lastShown`.
+  Awaited of(std::optional<hal::TimePoint> lastShown, hal::TimePoint now) const;
+
+ private:
+  Awaited awaited_ = Awaited::kCamera;
+  hal::TimePoint since_;  ///< when that began
+};
+
+/// What a picture says meanwhile. `choice`: the camera that was asked for.
+present::WaitingText waitingText(Awaited awaited, const runtime::CaptureStage::Status& camera,
+                                 const std::string& choice);
+
+}  // namespace pleinair::app

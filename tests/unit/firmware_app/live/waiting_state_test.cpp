@@ -1,0 +1,101 @@
+#include "firmware_app/live/waiting_state.h"
+
+#include <chrono>
+
+#include <gtest/gtest.h>
+
+namespace pleinair::app {
+namespace {
+
+using namespace std::chrono_literals;
+using hal::CameraState;
+
+constexpr hal::TimePoint kStart{100s};
+
+class WaitingStateTest : public testing::Test {
+ protected:
+  Awaited update(hal::TimePoint now, std::optional<hal::TimePoint> lastShown = {}) {
+    state_.update({.camera = camera_, .hasBegun = hasBegun_, .hasPainter = hasPainter_}, now);
+    return state_.of(lastShown, now);
+  }
+  void paint() {
+    camera_.format = hal::StreamFormat{};
+    camera_.state = CameraState::kStreaming;
+    hasBegun_ = hasPainter_ = true;
+  }
+
+  runtime::CaptureStage::Status camera_;
+  bool hasBegun_ = false;
+  bool hasPainter_ = false;
+  WaitingState state_;
+};
+
+TEST_F(WaitingStateTest, FollowsTheStartOfARun) {
+  EXPECT_EQ(update(kStart), Awaited::kCamera);
+  camera_.state = CameraState::kBackingOff;
+  EXPECT_EQ(update(kStart + 60s), Awaited::kCamera) << "it waits for as long as it takes";
+  camera_.format = hal::StreamFormat{};
+  camera_.state = CameraState::kStreaming;
+  EXPECT_EQ(update(kStart + 61s), Awaited::kPainter);
+  EXPECT_EQ(update(kStart + 91s), Awaited::kPainter) << "compiling may take long";
+  hasBegun_ = hasPainter_ = true;
+  EXPECT_EQ(update(kStart + 92s), Awaited::kNothing);
+}
+
+TEST_F(WaitingStateTest, NamesTheCameraThatIsLostOrSilent) {
+  paint();
+  EXPECT_EQ(update(kStart, kStart), Awaited::kNothing);
+  for (const CameraState state : {CameraState::kStalled, CameraState::kLost,
+                                  CameraState::kBackingOff, CameraState::kOpening}) {
+    camera_.state = state;
+    EXPECT_EQ(update(kStart + 1s, kStart), Awaited::kCameraAgain) << hal::toString(state);
+  }
+  camera_.state = CameraState::kStreaming;
+  EXPECT_EQ(update(kStart + 60s, kStart), Awaited::kNothing) << "not too slow: it has just come";
+}
+
+TEST_F(WaitingStateTest, TheCameraComesBeforeTheGpu) {
+  paint();
+  hasPainter_ = false;
+  EXPECT_EQ(update(kStart, kStart), Awaited::kGpu);
+  camera_.state = CameraState::kLost;
+  EXPECT_EQ(update(kStart, kStart), Awaited::kCameraAgain);
+}
+
+TEST_F(WaitingStateTest, IsTooSlowOnceNothingIsShownForAWhile) {
+  paint();
+  EXPECT_EQ(update(kStart), Awaited::kNothing);
+  EXPECT_EQ(update(kStart + WaitingState::kTooSlow), Awaited::kNothing);
+  EXPECT_EQ(update(kStart + WaitingState::kTooSlow + 1ms), Awaited::kPace) << "none at all";
+  const hal::TimePoint shown = kStart + 10s;
+  EXPECT_EQ(update(shown + 1s, shown), Awaited::kNothing);
+  EXPECT_EQ(update(shown + 5s, shown), Awaited::kPace);
+}
+
+TEST_F(WaitingStateTest, TheEndOfARecordingIsNothingToWaitFor) {
+  paint();
+  camera_.state = CameraState::kEnded;
+  camera_.hasEnded = true;
+  EXPECT_EQ(update(kStart, kStart), Awaited::kNothing);
+}
+
+TEST(WaitingText, NamesWhatIsAwaited) {
+  runtime::CaptureStage::Status camera;
+  const std::string choice = "v4l2:/dev/video7";
+  EXPECT_EQ(waitingText(Awaited::kCamera, camera, choice),
+            (present::WaitingText{.title = "Waiting for the camera", .detail = choice}));
+  camera.cause = hal::Error{.kind = hal::ErrorKind::kNotFound,
+                            .subject = "/dev/video7",
+                            .problem = "no such camera",
+                            .remedy = "plug it in"};
+  EXPECT_EQ(waitingText(Awaited::kCamera, camera, choice).detail, "/dev/video7: no such camera");
+  camera.camera = hal::CameraIdentity{.backend = "v4l2", .id = "usb-1", .description = "C920"};
+  EXPECT_EQ(waitingText(Awaited::kCameraAgain, camera, choice).detail, "C920");
+  for (const Awaited each : {Awaited::kCamera, Awaited::kPainter, Awaited::kCameraAgain,
+                             Awaited::kGpu, Awaited::kPace}) {
+    EXPECT_FALSE(waitingText(each, camera, choice).title.empty());
+  }
+}
+
+}  // namespace
+}  // namespace pleinair::app
