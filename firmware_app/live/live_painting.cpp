@@ -149,9 +149,11 @@ class LivePainting {
     if (now - screensUpdated_ < kScreensInterval) return;
     screensUpdated_ = now;
     const bool isMade = isPipelineMade_.load(std::memory_order_acquire);
+    const auto painting = isMade ? pipeline_.paint().status() : runtime::PaintStage::Status();
     screens_.update({.camera = pipeline_.capture().status(),
                      .hasBegun = hasBegun_,
-                     .hasPainter = isMade && pipeline_.paint().status().hasPainter});
+                     .hasPainter = painting.hasPainter,
+                     .painted = painting.painted});
     reportKeeping();
   }
 

@@ -39,9 +39,9 @@ std::vector<runtime::OutputStage*> Screens::stages() const {
 void Screens::update(const LiveProgress& progress) {
   const hal::TimePoint now = clock_.now();
   state_.update(progress, now);
+  const Awaited awaited = state_.awaited(now);
   for (Screen& each : screens_) {
     const runtime::OutputStage::Status status = each.stage->status();
-    const Awaited awaited = state_.of(status.lastShown, now);
     if (awaited == Awaited::kNothing || status.isFailed) {
       if (std::exchange(each.shown, std::nullopt)) each.stage->cancelWaiting();
       continue;

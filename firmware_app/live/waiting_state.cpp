@@ -1,13 +1,15 @@
 #include "firmware_app/live/waiting_state.h"
 
-#include <algorithm>
-
 namespace pleinair::app {
 namespace {
 
+bool hasEnded(const runtime::CaptureStage::Status& camera) {
+  return camera.hasEnded || camera.state == hal::CameraState::kEnded;
+}
+
 Awaited awaitedBy(const LiveProgress& progress) {
   const runtime::CaptureStage::Status& camera = progress.camera;
-  if (camera.hasEnded || camera.state == hal::CameraState::kEnded) return Awaited::kNothing;
+  if (hasEnded(camera)) return Awaited::kNothing;
   if (!camera.format) return Awaited::kCamera;
   if (!progress.hasBegun) return Awaited::kPainter;
   if (camera.state != hal::CameraState::kStreaming) return Awaited::kCameraAgain;
@@ -31,14 +33,15 @@ std::string absenceOf(const runtime::CaptureStage::Status& camera, const std::st
 
 void WaitingState::update(const LiveProgress& progress, hal::TimePoint now) {
   const Awaited next = awaitedBy(progress);
-  if (next != awaited_) since_ = now;
+  if (next != awaited_ || progress.painted != painted_) since_ = now;
   awaited_ = next;
+  painted_ = progress.painted;
+  isOver_ = hasEnded(progress.camera);
 }
 
-Awaited WaitingState::of(std::optional<hal::TimePoint> lastShown, hal::TimePoint now) const {
-  if (awaited_ != Awaited::kNothing) return awaited_;
-  const hal::TimePoint since = std::max(lastShown.value_or(since_), since_);
-  return now - since > kTooSlow ? Awaited::kPace : Awaited::kNothing;
+Awaited WaitingState::awaited(hal::TimePoint now) const {
+  const bool isTooSlow = awaited_ == Awaited::kNothing && !isOver_ && now - since_ > kTooSlow;
+  return isTooSlow ? Awaited::kPace : awaited_;
 }
 
 present::WaitingText waitingText(Awaited awaited, const runtime::CaptureStage::Status& camera,

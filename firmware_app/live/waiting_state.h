@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <cstdint>
 #include <string>
 
 #include "hal/clock.h"
@@ -22,23 +22,25 @@ enum class Awaited {
 /// What is known of the live pipeline.
 struct LiveProgress {
   const runtime::CaptureStage::Status& camera;
-  bool hasBegun = false;    ///< frames may flow to the outputs
-  bool hasPainter = false;  ///< it has one now
+  bool hasBegun = false;      ///< frames may flow to the outputs
+  bool hasPainter = false;    ///< it has one now
+  std::uint64_t painted = 0;  ///< frames so far
 };
 
 /// Decides what the screens wait for. One thread.
 class WaitingState {
  public:
-  /// So long nothing is shown before painting counts as too slow.
+  /// So long nothing is painted before painting counts as too slow.
   static constexpr hal::Duration kTooSlow = std::chrono::seconds(4);
 
   void update(const LiveProgress& progress, hal::TimePoint now);
-  /// For a screen that showed its last painting at `lastShown`.
-  Awaited of(std::optional<hal::TimePoint> lastShown, hal::TimePoint now) const;
+  Awaited awaited(hal::TimePoint now) const;
 
  private:
   Awaited awaited_ = Awaited::kCamera;
-  hal::TimePoint since_;  ///< when that began
+  bool isOver_ = false;  ///< no more frames come
+  std::uint64_t painted_ = 0;
+  hal::TimePoint since_;  ///< when these changed
 };
 
 /// What a picture says meanwhile. `choice`: the camera that was asked for.

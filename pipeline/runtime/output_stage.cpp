@@ -210,7 +210,6 @@ void OutputStage::present(const Due& due) {
 void OutputStage::countShown(const WaitingFrame& frame, hal::TimePoint time) {
   reopenAfter_ = kFirstReopenDelay;
   ++status_.presented;
-  status_.lastShown = time;
   status_.isWaitingShown = false;
   rate_.count(time);
   latency_.add(time - frame.captured, time);
@@ -330,6 +329,7 @@ void OutputStage::noteActivity() {
 void OutputStage::ended(const hal::PresentationEvent& event) {
   if (waitingSurface_ == event.surface) {
     waitingSurface_.reset();
+    if (event.result != hal::PresentationEvent::Result::kShown) status_.isWaitingShown = false;
     if (event.result == hal::PresentationEvent::Result::kShown && refresh_) {
       refresh_->phase = event.time;
     }

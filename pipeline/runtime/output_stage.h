@@ -142,9 +142,8 @@ class OutputStage {
     /// The display's refresh; its phase is the last refresh that was reported.
     std::optional<hal::Refresh> refresh;
     std::uint64_t failures = 0;
-    std::uint64_t starts = 0;                 ///< times that the output was opened or reconfigured
-    std::optional<hal::TimePoint> lastShown;  ///< when a frame was
-    bool isWaitingDue = false;                ///< a waiting picture is to be shown
+    std::uint64_t starts = 0;     ///< times that the output was opened or reconfigured
+    bool isWaitingDue = false;    ///< a waiting picture is to be shown
     bool isWaitingShown = false;  ///< one was handed over, and no frame has been shown since
     bool isFailed = false;
     bool isFinal = false;                       ///< failed, and will not be opened again

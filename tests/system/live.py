@@ -102,7 +102,7 @@ class Watched:
         self.command.signal("TERM")
         finished = self.command.wait(seconds + 5)
         took = uptime(self._guest) - begin
-        is_left = finished.status == 1 and "painter did not end in time" in finished.output
+        is_left = finished.status == 1 and "paint did not end in time" in finished.output
         assert finished.status == 0 or (is_left and self._guest.accelerator != "kvm"), \
             f"status {finished.status}:\n{finished.output}"
         if is_left:

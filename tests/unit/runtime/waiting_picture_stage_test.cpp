@@ -174,6 +174,16 @@ TEST_F(WaitingPictureStage, TakesAnotherStreamThatThePainterFollows) {
   EXPECT_EQ(display_.shown.back().size, kOther);
 }
 
+TEST_F(WaitingPictureStage, TellsThatTheDisplayDidNotTakeIt) {
+  OutputStage& stage = begin(30);
+  display_.skips = 1;
+  stage.showWaiting(paper());
+  stepFor(stage, 40ms);
+  EXPECT_TRUE(display_.shown.empty());
+  EXPECT_FALSE(stage.status().isWaitingShown);
+  EXPECT_TRUE(stage.isIdle());
+}
+
 TEST_F(WaitingPictureStage, IsLeftAloneByTheStreamThatItWasOpenedFor) {
   OutputStage& stage = begin(30);
   stage.reconfigure({.size = kSize, .framePeriod = {}});

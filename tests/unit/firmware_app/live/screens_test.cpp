@@ -56,9 +56,11 @@ class ScreensTest : public testing::Test {
     return stage;
   }
   void update() {
+    const auto painting = hasBegun_ ? pipeline_.paint().status() : runtime::PaintStage::Status();
     screens_.update({.camera = pipeline_.capture().status(),
                      .hasBegun = hasBegun_,
-                     .hasPainter = hasBegun_ && pipeline_.paint().status().hasPainter});
+                     .hasPainter = painting.hasPainter,
+                     .painted = painting.painted});
   }
   void beginToPaint() {
     while (!pipeline_.capture().status().format) pipeline_.capture().step(clock_.now());
@@ -152,6 +154,21 @@ TEST_F(ScreensTest, DrawAgainOnADisplayThatCameBack) {
   ASSERT_FALSE(cards_.shown.empty());
   EXPECT_TRUE(showsPaper());
   EXPECT_EQ(pipeline_.output(0).status().starts, 2u);
+}
+
+TEST_F(ScreensTest, ShowPaintingsAtOnceOnADisplayThatCameBackWhilePaintingWentOn) {
+  plug();
+  update();
+  screens_.showFirst(clock_);
+  beginToPaint();
+  runFor(2s);
+  spec_->connectors.front().isConnected = false;
+  runFor(10s);
+  spec_->connectors.front().isConnected = true;
+  cards_.shown.clear();
+  runFor(6s);
+  ASSERT_FALSE(cards_.shown.empty());
+  EXPECT_EQ(cards_.shown.front().firstPixel, 0u) << "not that painting is too slow";
 }
 
 TEST_F(ScreensTest, FollowTheCamerasFormatWithoutAnotherModeset) {
