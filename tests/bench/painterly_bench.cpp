@@ -52,15 +52,24 @@ std::size_t frameAt(std::uint64_t number) {
 }
 
 /// What is on the bench. `kTags`: only what models would be attached to.
-enum class Shown { kNothing, kTags, kModels };
+enum class Shown { kNothing, kTags, kModels, kLargeModel };
+
+/// As wide as half of the picture.
+constexpr const char* kLargeModel = R"(
+[[model]]
+source = "builtin:gearbox"
+attach = "tag:0"
+length_m = 0.5
+)";
 
 scene::Scene sceneOf(hal::FrameSize size, Shown shown) {
   if (shown == Shown::kNothing) return {};
   hal::SteppedClock clock;
   const hal::GroundTruth truth = hal::SyntheticCamera(workbenchOf(size), clock).truth(0);
-  return scene::parseScene(shown == Shown::kModels ? app::workbenchScene(truth, size)
-                                                   : app::workbenchSetting(truth, size),
-                           "bench", {});
+  std::string text = shown == Shown::kModels ? app::workbenchScene(truth, size)
+                                             : app::workbenchSetting(truth, size);
+  if (shown == Shown::kLargeModel) text += kLargeModel;
+  return scene::parseScene(text, "bench", {});
 }
 
 struct Bench {
@@ -194,6 +203,12 @@ BENCHMARK_CAPTURE(whole, tags, "painterly", Shown::kTags)
     ->Apply(atOneSize);
 BENCHMARK_CAPTURE(whole, models, "painterly", Shown::kModels)
     ->Name("painterly/with models")
+    ->Apply(atOneSize);
+BENCHMARK_CAPTURE(whole, large, "painterly", Shown::kLargeModel)
+    ->Name("painterly/with a large model")
+    ->Apply(atOneSize);
+BENCHMARK_CAPTURE(stages, large, "painterly", Shown::kLargeModel)
+    ->Name("painterly/stages/with a large model")
     ->Apply(atOneSize);
 BENCHMARK_CAPTURE(stages, tags, "painterly", Shown::kTags)
     ->Name("painterly/stages/tags tracked")

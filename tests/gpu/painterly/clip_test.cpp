@@ -87,6 +87,7 @@ TEST_F(ClipTest, BordersAreTheOracles) {
       .set("depthRange", glm::vec2(0.0F))
       .texture("movers", layerTextures.labelsOf(nullptr))
       .set("hasObjects", 1)
+      .set("objectBounds", glm::vec4(0, 0, kSmall.width, kSmall.height))
       .set("size", glm::vec2(kSmall.width, kSmall.height))
       .set("pixelsOfFull", glm::vec2(1.0F))
       .drawFullscreen(gpu::RenderTarget({&borders}));
@@ -150,6 +151,7 @@ TEST_F(ClipTest, AJointIsOpenUnlessDepthStepsThere) {
         .set("depthRange", glm::vec2(kNear, kFar))
         .texture("movers", layerTextures.labelsOf(nullptr))
         .set("hasObjects", 1)
+        .set("objectBounds", glm::vec4(0, 0, kSmall.width, kSmall.height))
         .set("size", glm::vec2(kSmall.width, kSmall.height))
         .set("pixelsOfFull", glm::vec2(1.0F))
         .drawFullscreen(gpu::RenderTarget({&borders}));
@@ -254,6 +256,7 @@ TEST_F(MoverBordersTest, AreTheOracles) {
         .set("depthRange", glm::vec2(0.0F))
         .texture("movers", labels_)
         .set("hasObjects", each.hasObjects ? 1 : 0)
+        .set("objectBounds", glm::vec4(9, 6, 15, kSmall.height))
         .set("size", glm::vec2(kSmall.width, kSmall.height))
         .set("pixelsOfFull", glm::vec2(static_cast<float>(each.pixelsOfFull)))
         .drawFullscreen(gpu::RenderTarget({&borders}));

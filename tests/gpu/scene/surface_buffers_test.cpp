@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <glm/packing.hpp>
@@ -43,6 +44,7 @@ struct Frames {
   std::vector<std::uint32_t> parts;
   std::vector<std::uint32_t> forms;
   std::vector<float> motion;  // four numbers per pixel
+  glm::ivec4 bounds{0};
   oracles::PosedModel previous;
   oracles::PosedModel current;
 };
@@ -89,6 +91,7 @@ class SurfaceBuffers : public SceneGlTest, public testing::WithParamInterface<Ca
             .parts = support::readR32ui(*frame.parts),
             .forms = support::readR32ui(*frame.forms),
             .motion = support::readRgba32f(*frame.motion->texture),
+            .bounds = glm::ivec4(frame.objectBoundsOrAll()),
             .previous = posed(scene, kPrevious.time_since_epoch(), previousAslant()),
             .current = posed(scene, kCurrent.time_since_epoch(), currentAslant())};
   }
@@ -133,6 +136,25 @@ TEST_P(SurfaceBuffers, MotionIsTheDifferenceOfProjectedPoints) {
   const auto at = static_cast<std::size_t>(4 * (first - frames.ids.begin()));
   EXPECT_EQ(frames.motion[at + 3], 1.0F);  // SurfaceMotionSource::kSurface
   EXPECT_EQ(frames.motion[at + 2], 0.0F);  // exact
+}
+
+TEST_P(SurfaceBuffers, ObjectsAreWithinTheirBounds) {
+  const Frames frames = twoFrames(sceneOf(GetParam().make()));
+  glm::ivec2 low(kSize.width, kSize.height);
+  glm::ivec2 high(0);
+  for (std::size_t i = 0; i < frames.ids.size(); ++i) {
+    if (frames.ids[i] == 0 && frames.forms[i] == 0) continue;
+    const glm::ivec2 pixel(pixelCentre(i));
+    low = glm::min(low, pixel);
+    high = glm::max(high, pixel + 1);
+  }
+  ASSERT_TRUE(low.x < high.x && low.y < high.y);
+  EXPECT_TRUE(frames.bounds.x <= low.x && frames.bounds.y <= low.y);
+  EXPECT_TRUE(frames.bounds.z >= high.x && frames.bounds.w >= high.y);
+  // Else they are of no use: a ball around the model is seldom twice as wide.
+  const glm::ivec2 margin = (high - low) / 2 + 8;
+  EXPECT_TRUE(frames.bounds.x >= std::max(0, low.x - margin.x));
+  EXPECT_TRUE(frames.bounds.z <= std::min(kSize.width, high.x + margin.x));
 }
 
 /// Negative control: motion without the model's animation, or without the camera's motion, must

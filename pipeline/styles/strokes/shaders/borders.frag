@@ -33,9 +33,17 @@ bool isNearObjects(vec2 p) {
          all(lessThanEqual(p, objectBounds.zw + 1.0));
 }
 
-uint labelAt(ivec2 p, bool isNearObjects) {
-  uint label = isNearObjects ? labelOf(texelFetch(forms, p, 0).r) : 0u;
+// What is known of all pixels around one.
+struct Around {
+  bool hasObjects;  // there may be some
+  bool isPlain;     // all of them belong to movers, or none does
+  uint plain;       // their label then
+};
+
+uint labelAt(ivec2 p, Around around) {
+  uint label = around.hasObjects ? labelOf(texelFetch(forms, p, 0).r) : 0u;
   if (label != 0u) return label;
+  if (around.isPlain) return around.plain;
   return moverOf(p) > 0.5 ? kMoverLabel : 0u;
 }
 
@@ -94,17 +102,19 @@ uint held(SegmentBorder now, ivec2 p) {
 void main() {
   ivec2 p = ivec2(gl_FragCoord.xy);
   ivec2 last = ivec2(size) - 1;
-  bool isNear = isNearObjects(gl_FragCoord.xy);
-  uint own = labelAt(p, isNear);
+  // Labels of movers are half as fine as the full image: where one is exactly 0 or 1, so it is all
+  // around. A loop that no invocation enters costs nothing on software renderers.
+  float mover = moverOf(p);
+  Around around = Around(isNearObjects(gl_FragCoord.xy),
+                         pixelsOfFull.x > 0.99 && (mover == 0.0 || mover == 1.0),
+                         mover > 0.5 ? kMoverLabel : 0u);
+  uint own = labelAt(p, around);
   uint other = own;
   float share = 0.0;
-  // Labels are half as fine as the full image: where one is exactly 0 or 1, so it is all around. A
-  // loop that no invocation enters costs nothing on software renderers.
-  float mover = moverOf(p);
-  bool isUniform = !isNear && pixelsOfFull.x > 0.99 && (mover == 0.0 || mover == 1.0);
+  bool isUniform = !around.hasObjects && around.isPlain;
   for (int i = isUniform ? 9 : 0; i < 9; ++i) {
     ivec2 step = ivec2(i % 3, i / 3) - 1;
-    uint label = i == 4 ? own : labelAt(clamp(p + step, ivec2(0), last), isNear);
+    uint label = i == 4 ? own : labelAt(clamp(p + step, ivec2(0), last), around);
     float weight = float((2 - abs(step.x)) * (2 - abs(step.y))) / 16.0;
     if (label == own) {
       share += weight;
@@ -113,7 +123,7 @@ void main() {
     }
   }
   float near = 0.0;
-  uint across = isNear ? acrossJoint(p, last, near) : 0u;
+  uint across = around.hasObjects ? acrossJoint(p, last, near) : 0u;
   // A border that is not open, such as an outline, clips as ever.
   bool isClosed = other != own && other != across;
   if (across != 0u && !isClosed) {
