@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cerrno>
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -123,7 +122,7 @@ class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
   bool hasVblank_ = false;
   Duration period_{0};
   std::optional<TimePoint> phase_;  ///< a refresh
-  std::deque<Queued> queue_;
+  std::vector<Queued> queue_;  ///< the earliest first
   Buffer* flipping_ = nullptr;
   Buffer* onScreen_ = nullptr;
   TimePoint committed_;
@@ -172,6 +171,7 @@ OutputFormat DisplayOutput::place(FrameSize picture) {
 }
 
 Result<void> DisplayOutput::makeBuffers() {
+  queue_.reserve(kBuffers);
   for (std::size_t i = 0; i < kBuffers; ++i) {
     Buffer buffer;
     const int failed = card().createBuffer(route_->mode.size, buffer.memory);
@@ -264,9 +264,7 @@ Result<OutputFormat> DisplayOutput::reconfigure(const OutputRequest& request) {
   assert(shared_);
   if (!isAcceptedSize(request.size)) return tl::unexpected(unusableSize());
   const TimePoint now = clock_.now();
-  for (; !queue_.empty(); queue_.pop_front()) {
-    end(*queue_.front().buffer, PresentationEvent::Result::kSkipped, now);
-  }
+  skipQueued(now);
   const Result<Mode> mode =
       chooseMode(route_->connector,
                  {.connector = {}, .mode = settings_.mode, .framePeriod = request.framePeriod});
@@ -444,7 +442,7 @@ Result<void> DisplayOutput::flipNext(TimePoint now) {
   if (ready == 0) return {};
   for (; ready > 1; --ready) {
     end(*queue_.front().buffer, PresentationEvent::Result::kSuperseded, now);
-    queue_.pop_front();
+    queue_.erase(queue_.begin());
   }
   Buffer& next = *queue_.front().buffer;
   const Change change{route_->plane.id, flipProperty_, next.memory.framebuffer};
@@ -454,7 +452,7 @@ Result<void> DisplayOutput::flipNext(TimePoint now) {
     retryAt_ = now + kRetryInterval;
     return {};
   }
-  queue_.pop_front();
+  queue_.erase(queue_.begin());
   if (failed == -EACCES) {
     end(next, PresentationEvent::Result::kSkipped, now);
     suspend(Suspension::Cause::kConsole, whoIsMaster(), now);
@@ -472,9 +470,8 @@ Result<void> DisplayOutput::flipNext(TimePoint now) {
 }
 
 void DisplayOutput::skipQueued(TimePoint now) {
-  for (; !queue_.empty(); queue_.pop_front()) {
-    end(*queue_.front().buffer, PresentationEvent::Result::kSkipped, now);
-  }
+  for (const Queued& each : queue_) end(*each.buffer, PresentationEvent::Result::kSkipped, now);
+  queue_.clear();
 }
 
 /// Queued surfaces are not shown; one that is flipping may still be.
