@@ -389,7 +389,12 @@ class LivePainting {
     followConsole();
     handleKeys();
     const auto moved = pipeline_.capture().movedAt();
-    if (std::exchange(movedAt_, moved) != moved) noteActivity();
+    if (std::exchange(movedAt_, moved) != moved || isPreparing()) noteActivity();
+  }
+
+  /// Whether there is a camera and no painting yet, which is not to come to a display that is off.
+  bool isPreparing() {
+    return movedAt_ && isPipelineMade_ && pipeline_.paint().status().painted == 0;
   }
 
   void followConsole() {
