@@ -122,7 +122,7 @@ class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
   bool hasVblank_ = false;
   Duration period_{0};
   std::optional<TimePoint> phase_;  ///< a refresh
-  std::vector<Queued> queue_;  ///< the earliest first
+  std::vector<Queued> queue_;       ///< the earliest first
   Buffer* flipping_ = nullptr;
   Buffer* onScreen_ = nullptr;
   TimePoint committed_;

@@ -20,10 +20,10 @@
 
 namespace pleinair::scene {
 
-/// Computes per pixel the motion, the point on the surface, the part and the form (layouts: ArFrame), from
-/// the drawn ids and the poses of all bodies in this frame and the previous one. Compute passes
-/// work on the visible areas of bodies only, so that drawing itself outputs no more than ids. All
-/// calls on the thread of the GL context that it was made in.
+/// Computes per pixel the motion, the point on the surface, the part and the form (layouts:
+/// ArFrame), from the drawn ids and the poses of all bodies in this frame and the previous one.
+/// Compute passes work on the visible areas of bodies only, so that drawing itself outputs no more
+/// than ids. All calls on the thread of the GL context that it was made in.
 class SurfacePass {
  public:
   /// `library` has gpu::sceneShaders(). Both outlive the pass.

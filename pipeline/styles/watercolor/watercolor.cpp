@@ -358,7 +358,12 @@ void Watercolor::warmUp() {
   const std::vector<std::uint8_t> noObjects(std::size_t{16} * 16 * 4);
   Texture ids(TextureFormat::kR32ui, grey.size());
   ids.upload(noObjects, std::size_t{16} * 4);
-  paint({.colour = &grey, .ids = &ids, .barycentrics = &ids, .forms = &ids, .hasObjects = true, .sequence = 3},
+  paint({.colour = &grey,
+         .ids = &ids,
+         .barycentrics = &ids,
+         .forms = &ids,
+         .hasObjects = true,
+         .sequence = 3},
         "");
   canvas_ = previousCanvas_ = nullptr;
   canvases_.clear();

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <string>
-#include <numeric>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -55,7 +55,8 @@ TEST_F(ManyParts, NeedNoMorePassesThanOne) {
   EXPECT_EQ(passesOf(support::wallOfBoxes(25, 20, Parts::kApart)), ofOne);
 }
 
-/// As many, in as even a spread; labels of patches, which have a part in it, are numbered otherwise.
+/// As many, in as even a spread; labels of patches, which have a part in it, are numbered
+/// otherwise.
 TEST_F(ManyParts, HaveAsManyAnchorsAsOneWouldHave) {
   const auto play = [&](Parts parts) {
     sequence_ = 0;

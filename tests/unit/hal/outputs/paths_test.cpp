@@ -82,8 +82,9 @@ TEST(OutputRegistry, RefusesABareWordThatIsNoKind) {
          {outputKindOf(word).error(), openOutput(word).error(), openFileOutput(word).error()}) {
       EXPECT_EQ(error.kind, ErrorKind::kInvalidArgument);
       EXPECT_THAT(error.message(), testing::HasSubstr("./" + word + " or " + word + "/"));
-      EXPECT_THAT(error.message(),
-                  testing::HasSubstr("window, display, display:CONNECTOR, loopback, loopback:DEVICE"));
+      EXPECT_THAT(
+          error.message(),
+          testing::HasSubstr("window, display, display:CONNECTOR, loopback, loopback:DEVICE"));
     }
   }
   EXPECT_THAT(openFileOutput("window").error().message(), testing::HasSubstr("is no file"));

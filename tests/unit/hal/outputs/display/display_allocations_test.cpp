@@ -25,8 +25,7 @@ TEST_F(DisplayAllocations, TenThousandFlipsAllocateNothing) {
   ASSERT_TRUE(start().has_value());
   showPictures(50);
   const int before = cards_.flips;
-  EXPECT_EQ(support::allocationsIn([&] { showPictures(kFlips); }), 0)
-      << support::allocationSites();
+  EXPECT_EQ(support::allocationsIn([&] { showPictures(kFlips); }), 0) << support::allocationSites();
   EXPECT_EQ(cards_.flips - before, kFlips);
   EXPECT_EQ(cards_.modesets, 1);
   // The control: a mode that is set makes buffers.
