@@ -25,8 +25,8 @@ class LastPainting {
   /// Keeps it in `folder`, which is made at need; an empty one: nowhere.
   explicit LastPainting(const std::filesystem::path& folder);
 
-  /// What was kept, as RGB8; nothing if there is none. Errors: those of reading; kInvalidInput (not
-  /// a file of save()'s).
+  /// The painting that was kept, as RGB8; nothing if there is none. Errors: those of reading;
+  /// kInvalidInput (not a file of save()'s).
   hal::Result<std::optional<hal::Image>> read() const;
 
   /// Whether another one may be kept: a minute after the first call and after each save().

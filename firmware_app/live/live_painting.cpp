@@ -384,7 +384,7 @@ class LivePainting {
     }
   }
 
-  /// What comes from people: consoles that they switch to, keys, movements before the camera.
+  /// Follows people: consoles that they switch to, keys, movements before the camera.
   void attend() {
     followConsole();
     handleKeys();

@@ -17,7 +17,7 @@ struct LiveLook {
   config::ParameterValues values;
 };
 
-/// What a user asked for by keys, or by closing the window.
+/// The requests of a user, made by keys or by closing the window.
 struct LiveRequests {
   bool quit = false;
   bool snapshot = false;

@@ -42,7 +42,7 @@ class Screens {
   std::optional<hal::Error> takeFailure() { return std::exchange(failure_, std::nullopt); }
 
  private:
-  /// What a waiting picture depends on.
+  /// The text and the shape that a waiting picture was drawn for.
   struct Drawn {
     present::WaitingText text;
     hal::FrameFormat format;

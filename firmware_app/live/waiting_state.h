@@ -9,7 +9,7 @@
 
 namespace pleinair::app {
 
-/// What a screen waits for.
+/// The thing that a screen waits for.
 enum class Awaited {
   kNothing,      ///< it shows paintings
   kCamera,       ///< the first frame of one
