@@ -35,6 +35,7 @@ std::uint32_t strideFor(std::uint32_t n) {
 struct StrokeSet::State {
   State(const gpu::ShaderLibrary& library, std::uint32_t slotCount)
       : slots(slotCount),
+        carry(library.compute(kShaders + "stroke_carry.comp")),
         trace(library.compute(kShaders + "stroke_trace.comp")),
         order(library.compute(kShaders + "stroke_order.comp")),
         lay(library.compute(kShaders + "stroke_instances.comp")),
@@ -48,6 +49,7 @@ struct StrokeSet::State {
   }
 
   std::uint32_t slots;
+  gpu::Program carry;
   gpu::Program trace;
   gpu::Program order;
   gpu::Program lay;
@@ -61,6 +63,8 @@ struct StrokeSet::State {
   hal::TimePoint lastTime;
 
   glm::ivec2 allSlots() const { return {static_cast<int>(slots), 1}; }
+  void carryWithObjects(const scene::ArFrame& frame, const AnchorSet& anchors,
+                        const StrokeRule& rule);
   void grow(const scene::ArFrame& frame, const AnchorSet& anchors, const TensorField& field,
             const StrokePaint& paint, const StrokeRule& rule, const MotionLayers* layers,
             const gpu::Texture* borders, hal::Duration step);
@@ -81,6 +85,21 @@ glm::vec2 scaleOf(const TensorField& field, std::size_t level) {
 }
 
 }  // namespace
+
+void StrokeSet::State::carryWithObjects(const scene::ArFrame& frame, const AnchorSet& anchors,
+                                        const StrokeRule& rule) {
+  if (!frame.hasObjects || anchors.hasBegunAnew()) return;
+  carry.use()
+      .storage("Anchors", anchors.anchors())
+      .storage("Strokes", strokes)
+      .texture("motion", frame.motion ? *frame.motion->texture : anyColour)
+      .set("hasMotion", frame.motion ? 1 : 0)
+      .texture("ids", *frame.ids)
+      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
+      .set("segment", rule.segmentPx)
+      .set("slots", slots)
+      .dispatch(allSlots(), GL_SHADER_STORAGE_BARRIER_BIT);
+}
 
 void StrokeSet::State::grow(const scene::ArFrame& frame, const AnchorSet& anchors,
                             const TensorField& field, const StrokePaint& paint,
@@ -196,6 +215,7 @@ void StrokeSet::update(const scene::ArFrame& frame, const AnchorSet& anchors,
   assert(anchors.slotCount() == s.slots);
   const hal::Duration step = timeStep(s.lastTime, frame.captureTime);
   s.lastTime = frame.captureTime;
+  s.carryWithObjects(frame, anchors, rule);
   s.grow(frame, anchors, field, paint, rule, layers, borders, step);
   s.layOut(anchors, rule);
 }

@@ -1,5 +1,6 @@
 // Purpose: the state of a stroke, stored in its anchor's slot from frame to frame (thesis §5.4).
-// Inputs, outputs: directions are unit vectors in px of the full image, away from the anchor.
+// Inputs, outputs: px of the full image; directions lead away from the anchor. They are unit vectors;
+//          on virtual objects, whose surfaces stretch, as long as the stretch.
 // Precision: highp.
 const int kArm = 4;  // segments on each side of the anchor
 
@@ -10,9 +11,20 @@ struct Stroke {
   vec4 behind[2];
   vec2 lengths;  // visible length of each arm, in segments
   float exists;  // opacity, in [0, 1]
-  uint state;  // the label of what it lies on (stroke_label.glsl), and the flag below
+  uint state;  // the label of what it lies on (stroke_label.glsl), its girth, and the flag below
   vec3 colour;     // sRGB-coded
   float seen;  // exists × its anchor's fade
 };
 
 uint labelOfStroke(uint state) { return state & 8191u; }
+
+// Of the width: the stretch of the surface across the stroke, in [1/2, 2). 0 stands for 1.
+const int kGirthBits = 12;
+const int kGirthShift = 13;
+float girthOf(uint state) {
+  return exp2(float(bitfieldExtract(int(state), kGirthShift, kGirthBits)) / 2048.0);
+}
+uint withGirth(uint state, float girth) {
+  int octaves = int(round(2048.0 * clamp(log2(girth), -1.0, 0.999)));
+  return bitfieldInsert(state, uint(octaves), kGirthShift, kGirthBits);
+}

@@ -50,7 +50,7 @@ void main() {
   float grown = mix(0.35, 1.0, stroke.seen);
   // Lengths vary randomly, but never beyond the traced end.
   vec2 lengths = stroke.lengths * grown * (0.875 + 0.25 * randomOf(seed, 0x3u));
-  float wide = width * (1.0 + widthSpread * 2.0 * randomOf(seed, 0x11u)) * mix(0.6, 1.0, stroke.seen);
+  float wide = width * girthOf(stroke.state) * (1.0 + widthSpread * 2.0 * randomOf(seed, 0x11u)) * mix(0.6, 1.0, stroke.seen);
   lengths = max(lengths, vec2(0.3 * wide / segment));  // a dab, not a speck
   vec2 points[kPoints];
   for (int i = 0; i < kPoints; ++i) {

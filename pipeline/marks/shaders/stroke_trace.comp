@@ -356,11 +356,13 @@ Arm walk(vec2 from, vec2 heading, vec2 hand, vec3 own, Support on) {
 
 // An arm blended with its past. The stored directions are lines; the heading gives the first one
 // its sign, and each one gives the next its sign.
-vec2[kArm] heldArm(vec2 now[kArm], vec4 was[2], vec2 heading, vec4 jacobian, float stays) {
+vec2[kArm] heldArm(vec2 now[kArm], vec4 was[2], vec2 heading, vec4 jacobian, float stays, bool relaxes) {
   vec2 before[kArm] = vec2[kArm](was[0].xy, was[0].zw, was[1].xy, was[1].zw);
   vec2 held[kArm];
   for (int i = 0; i < kArm; ++i) {
     held[i] = heldDirection(now[i], before[i], jacobian, stays);
+    // The stretch of a surface is taken back with time, or strokes would grow with what comes nearer.
+    if (relaxes) held[i] *= mix(1.0, length(before[i]), past.x);
     if (dot(held[i], heading) < 0.0) held[i] = -held[i];
     heading = held[i];
   }
@@ -440,6 +442,9 @@ void main() {
     return;
   }
   vec2 px = anchors[slot].px;
+  // Strokes on virtual objects have been carried by stroke_carry.comp.
+  bool isCarried = hasObjects && isVirtual(objectOf(anchors[slot].surface));
+  vec4 jacobian = isCarried ? vec4(1.0, 0.0, 0.0, 1.0) : anchors[slot].jacobian;
   uint seed = anchors[slot].seed;
   bool isNew = anew || (state & kBorn) != 0u;
   Stroke old = strokes[slot];
@@ -454,7 +459,7 @@ void main() {
                    apart(old.colour, behind.rgb) > otherColour.y;
     bool isUnder = isBehind && isPatch(labelAt(px));
     isStale = isStale && !isUnder;
-    if (isUnder) old = turned(old, anchors[slot].jacobian);
+    if (isUnder) old = turned(old, jacobian);
     if (!isStale || isBehind) {
       // Segments may have been labelled anew.
       bool isFrozen = isReal && !isOnMover && isGround(labelOfStroke(old.state));
@@ -483,7 +488,7 @@ void main() {
   heading = vec2(hand.x * heading.x - hand.y * heading.y, hand.y * heading.x + hand.x * heading.y);
   if (!isNew) {
     // Keeps the previous orientation.
-    vec2 was = anchors[slot].jacobian.xy * old.ahead[0].x + anchors[slot].jacobian.zw * old.ahead[0].y;
+    vec2 was = jacobian.xy * old.ahead[0].x + jacobian.zw * old.ahead[0].y;
     if (dot(was, heading) < 0.0) heading = -heading;
   }
   Arm ahead = walk(px, heading, hand, own, on);
@@ -523,12 +528,15 @@ void main() {
   float changed = isNew ? 0.0 : smoothstep(otherColour.x, otherColour.y, apart(colour, old.colour));
   Stroke made;
   made.state = label | (wanted ? kWanted : 0u);
+  if (isCarried && !isNew) {
+    made.state = withGirth(made.state, mix(1.0, girthOf(old.state), past.x));
+  }
   if (!isNew) {
-    vec4 jacobian = anchors[slot].jacobian;
     if (changed < 0.5) {
-      ahead.directions = heldArm(ahead.directions, old.ahead, heading, jacobian, stays);
+      ahead.directions = heldArm(ahead.directions, old.ahead, heading, jacobian, stays, isCarried);
       behind.directions =
-          heldArm(behind.directions, old.behind, -ahead.directions[0], jacobian, stays);
+          heldArm(behind.directions, old.behind, -ahead.directions[0], jacobian, stays,
+                  isCarried);
     }
   }
   made.ahead[0] = vec4(ahead.directions[0], ahead.directions[1]);
