@@ -101,7 +101,8 @@ TEST_F(StrokesAtMovers, StrokesBehindAMoverAreDrawnAsBefore) {
   EXPECT_GT(behind, 8);
 }
 
-/// What it uncovers was never seen before, so that marks which it leaves there are no worse than any.
+/// What it uncovers was never seen before, so that marks which it leaves there are no worse than
+/// any.
 TEST_F(StrokesAtMovers, WhatAMoverLeavesBehindIsNoLongerDrawnOnIt) {
   constexpr std::uint32_t kLabelMask = 0x1FFF;  // shaders/stroke.glsl
   constexpr std::uint32_t kOnMover = 4095;      // scene/render/shaders/surface_form.glsl
