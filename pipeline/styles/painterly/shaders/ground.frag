@@ -9,8 +9,8 @@
 #include "pipeline/marks/shaders/mixture.glsl"
 uniform sampler2D paint;
 uniform sampler2D moverPaint;
-uniform highp vec2 size;
-uniform highp vec2 pixelsOfFull;
+uniform vec2 size;
+uniform vec2 pixelsOfFull;
 uniform vec3 ground;
 uniform float wash;
 uniform bool isLimited;
@@ -23,7 +23,8 @@ void main() {
   vec3 seen = texture(paint, gl_FragCoord.xy / size).rgb;
   float moving = movingAt(gl_FragCoord.xy / pixelsOfFull);
   float bare = 1.0 - wash;
-  if (moving > 0.0) {
+  // A loop that no invocation enters costs nothing on software renderers.
+  for (int i = moving > 0.0 ? 0 : 1; i < 1; ++i) {
     vec4 mover = texture(moverPaint, gl_FragCoord.xy / size);
     if (mover.a > 0.0) seen = mix(seen, mover.rgb / mover.a, moving);
     bare = mix(bare, pow(bare, kCoats), moving);

@@ -49,9 +49,12 @@ void main() {
   float lit = litBy(normal);
   vec4 substrate = sheetAt(onPaper(gl_FragCoord.xy), 1.0);
   lit += weave * (1.0 - 0.7 * here) * (2.0 * substrate.g - 1.0);
-  float bare = tooth > 0.0 ? tooth * (1.0 - movingAt(gl_FragCoord.xy / pixelsOfFull)) : 0.0;
-  bare *= 1.0 - caught(substrate.r, texelFetch(heights, p, 0).g);
-  rgb = mix(rgb, ground, bare * (1.0 - wash));
+  // A loop that no invocation enters costs nothing on software renderers.
+  for (int i = tooth > 0.0 ? 0 : 1; i < 1; ++i) {
+    float bare = 1.0 - caught(substrate.r, texelFetch(heights, p, 0).g);
+    bare *= tooth * (1.0 - movingAt(gl_FragCoord.xy / pixelsOfFull));
+    rgb = mix(rgb, ground, bare * (1.0 - wash));
+  }
   float luma = lumaOf(rgb);
   rgb = luma + (rgb - luma) * saturation;
   rgb *= vec3(1.0 + 0.12 * warmth, 1.0, 1.0 - 0.15 * warmth);
