@@ -7,6 +7,14 @@ uniform highp sampler2D movers;
 
 vec2 moverAt(vec2 px) { return textureLod(movers, inLayers(movers, px), 0.0).rg; }
 
+// The label, falling to 0 while a mover rests, before it joins the background: what has been seen to
+// move for kMatureSeconds (motion_layers.glsl) rests for longer.
+float movingAt(vec2 px) {
+  vec4 label = textureLod(movers, inLayers(movers, px), 0.0);
+  vec2 fade = label.a > 0.2 ? vec2(0.5, 3.5) : vec2(0.4, 0.7);
+  return label.r * (1.0 - smoothstep(fade.x, fade.y, label.b));
+}
+
 // The largest label at a place and at this distance from it, in px.
 float nearestMover(vec2 px, float reach) {
   float most = moverAt(px).r;

@@ -450,7 +450,10 @@ void main() {
   Stroke old = strokes[slot];
   bool isOnMover = (state & kMover) != 0u;
   bool isBehind = (state & kCovered) != 0u;
-  if (!isNew && ((state & kHidden) != 0u || isBehind || (!isOnMover && reachesMover(px, old)))) {
+  // A mover has left it behind. It would be drawn over the mover as long as it kept its label.
+  bool isLeft = !isOnMover && labelOfStroke(old.state) == kMoverLabel;
+  bool isBeside = !isNew && !isOnMover && !isLeft && reachesMover(px, old);
+  if (!isNew && ((state & kHidden) != 0u || isBehind || isBeside)) {
     // What is before it has other colours and directions: the stroke stays, or fades out,
     // unchanged, unless it is of a colour that is not there.
     vec4 behind = textureLod(background, inLayers(background, px), 0.0);
@@ -465,7 +468,7 @@ void main() {
       bool isFrozen = isReal && !isOnMover && isGround(labelOfStroke(old.state));
       if (isFrozen) old.state = (old.state & ~kLabelMask) |
                                 labelOfGround(px, labelOfStroke(old.state), false);
-      old.seen = isStale ? 0.0 : old.exists * anchors[slot].fade;
+      old.seen = isStale || isLeft ? 0.0 : old.exists * anchors[slot].fade;
       strokes[slot] = old;
       return;
     }

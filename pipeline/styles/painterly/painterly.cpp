@@ -43,6 +43,7 @@ using gpu::TextureFormat;
 const std::string kShaders = "pipeline/styles/painterly/shaders/";
 constexpr double kTexelOfWidth = 0.6;       // that a stroke's colours are of, at most
 constexpr std::size_t kGroundHalvings = 3;  // of the first wash
+constexpr double kMoverGroundPixels = 4.0;  // that the wash of movers is of, at most
 
 Texture colours(hal::FrameSize size) {
   return {TextureFormat::kRgba8, size, TextureFilter::kLinear};
@@ -295,6 +296,9 @@ void Painterly::State::drawStrokes(const scene::ArFrame& frame, const PainterlyP
   }
   ground.use()
       .texture("paint", reduced.whole(kGroundHalvings))
+      .texture("moverPaint", *reduced.paintOf(kMoverGroundPixels).movers)
+      .texture("movers", layerTextures.labelsOf(moversOf(p)))
+      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .set("size", glm::vec2(canvas->size.width, canvas->size.height))
       .set("ground", groundOf(p))
       .set("wash", static_cast<float>(p.wash))
@@ -315,7 +319,9 @@ void Painterly::State::light(const scene::ArFrame& frame, const PainterlyParamet
   substrate.bind(relief.use(), frame);
   relief.texture("colours", canvas->colour)
       .texture("heights", canvas->height)
+      .texture("movers", layerTextures.labelsOf(moversOf(p)))
       .texture("frame", *frame.colour)
+      .set("pixelsOfFull", glm::vec2(frame.pixelsOfFull()))
       .texture("normalFocus", frame.hasFocus ? *frame.normalFocus : *frame.colour)
       .set("hasFocus", frame.hasFocus ? 1 : 0)
       .set("relief", p.bump == StrokeBump::kOnce ? static_cast<float>(p.relief) : 0.0F)

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -38,7 +39,7 @@ class StrokesAtMovers : public StrokeTest {
     layers_.emplace(library_, kSize);
   }
   /// Noise differs from frame to frame, so that strokes change that are not held.
-  void see(double (*luma)(glm::dvec2), int frames = 1) {
+  void see(const std::function<double(glm::dvec2)>& luma, int frames = 1) {
     for (int i = 0; i < frames; ++i) advance(greyPicture(kSize, luma, 3.0, ++seed_), {});
   }
 
@@ -98,6 +99,33 @@ TEST_F(StrokesAtMovers, StrokesBehindAMoverAreDrawnAsBefore) {
         << was.points[0].x << "," << was.points[0].y;
   }
   EXPECT_GT(behind, 8);
+}
+
+/// What it uncovers was never seen before, so that marks which it leaves there are no worse than
+/// any.
+TEST_F(StrokesAtMovers, WhatAMoverLeavesBehindIsNoLongerDrawnOnIt) {
+  constexpr std::uint32_t kLabelMask = 0x1FFF;  // shaders/stroke.glsl
+  constexpr std::uint32_t kOnMover = 4095;      // scene/render/shaders/surface_form.glsl
+  int onMover = 0;
+  int left = 0;
+  for (int frame = 0; frame < 24; ++frame) {
+    // To and fro over the place that it has uncovered.
+    const double x = 90.0 + 60.0 * std::abs(std::sin(0.26 * frame));
+    see([x](glm::dvec2 px) {
+      return glm::distance(px, {x, 64.0}) < kRadius ? 0.8 + 0.15 * std::sin(0.6 * px.y) : wall(px);
+    });
+    const std::vector<Anchor> anchors = anchors_->read();
+    const std::vector<StrokeSlot> strokes = readStrokes();
+    for (std::size_t slot = 0; slot < strokes.size(); ++slot) {
+      const Anchor& anchor = anchors[slot];
+      if (!anchor.isAlive() || strokes[slot].seen <= 0.0F) continue;
+      const bool isOnMover = (anchor.state & Anchor::kMover) != 0U;
+      onMover += isOnMover ? 1 : 0;
+      left += !isOnMover && (strokes[slot].state & kLabelMask) == kOnMover ? 1 : 0;
+    }
+  }
+  EXPECT_GT(onMover, 200);
+  EXPECT_EQ(left, 0);
 }
 
 }  // namespace

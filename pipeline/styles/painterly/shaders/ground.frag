@@ -1,20 +1,35 @@
-// Purpose: the ground under the strokes: its colour, with a thin first wash of the image.
-// Inputs:  paint: the image, much reduced (LINEAR); ground: sRGB-coded; wash: its share;
+// Purpose: the ground under the strokes: its colour, with a thin first wash of the image. Movers
+//          get kCoats of their own colours: what their strokes leave bare differs with each step.
+// Inputs:  paint: the image, much reduced (LINEAR); moverPaint: movers, less reduced,
+//          premultiplied; mover_labels.glsl's; pixelsOfFull; ground: sRGB-coded; wash: its share;
 //          mixture.glsl's if isLimited.
 // Outputs: 0: sRGB-coded colour; 1: no height.
 // Precision: mediump suffices, except for places.
+#include "pipeline/marks/shaders/mover_labels.glsl"
 #include "pipeline/marks/shaders/mixture.glsl"
 uniform sampler2D paint;
+uniform sampler2D moverPaint;
 uniform vec2 size;
+uniform vec2 pixelsOfFull;
 uniform vec3 ground;
 uniform float wash;
 uniform bool isLimited;
 layout(location = 0) out vec4 colour;
 layout(location = 1) out vec4 height;
 
+const float kCoats = 3.0;
+
 void main() {
   vec3 seen = texture(paint, gl_FragCoord.xy / size).rgb;
+  float moving = movingAt(gl_FragCoord.xy / pixelsOfFull);
+  float bare = 1.0 - wash;
+  // A loop that no invocation enters costs nothing on software renderers.
+  for (int i = moving > 0.0 ? 0 : 1; i < 1; ++i) {
+    vec4 mover = texture(moverPaint, gl_FragCoord.xy / size);
+    if (mover.a > 0.0) seen = mix(seen, mover.rgb / mover.a, moving);
+    bare = mix(bare, pow(bare, kCoats), moving);
+  }
   if (isLimited) seen = mixtureOf(seen);
-  colour = vec4(mix(ground, seen, wash), 1.0);
+  colour = vec4(mix(seen, ground, bare), 1.0);
   height = vec4(0.0);
 }

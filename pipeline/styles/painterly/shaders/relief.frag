@@ -2,11 +2,13 @@
 //          sharp.
 // Inputs:  colours, heights (stroke_mark.glsl); substrate.glsl's: the canvas; frame, normalFocus if
 //          hasFocus; relief, gloss, weave: the weight of each; tooth: how much the substrate's
-//          grain keeps paint from its hollows, where the washed ground shows; palette: saturation,
-//          warmth.
+//          grain keeps paint from its hollows, where the washed ground shows, but not from those
+//          under movers, which would glide over it; mover_labels.glsl's; pixelsOfFull; palette:
+//          saturation, warmth.
 // Outputs: RGBA8, sRGB-coded, opaque.
 // Precision: highp for places.
 #include "pipeline/gpu/shaders/luma.glsl"
+#include "pipeline/marks/shaders/mover_labels.glsl"
 #include "pipeline/styles/strokes/shaders/paint_light.glsl"
 #include "pipeline/styles/substrate/shaders/substrate.glsl"
 uniform sampler2D colours;
@@ -18,6 +20,7 @@ uniform float relief;
 uniform float gloss;
 uniform float weave;
 uniform float tooth;
+uniform vec2 pixelsOfFull;
 uniform vec3 ground;
 uniform float wash;
 uniform float saturation;
@@ -27,7 +30,7 @@ layout(location = 0) out vec4 picture;
 // Dry paint stays on the substrate's heights; more paint reaches deeper.
 float caught(float height, float amount) {
   float level = mix(0.9, 0.4, amount);
-  return mix(1.0, smoothstep(level - 0.16, level + 0.16, height), tooth);
+  return smoothstep(level - 0.16, level + 0.16, height);
 }
 
 void main() {
@@ -46,7 +49,12 @@ void main() {
   float lit = litBy(normal);
   vec4 substrate = sheetAt(onPaper(gl_FragCoord.xy), 1.0);
   lit += weave * (1.0 - 0.7 * here) * (2.0 * substrate.g - 1.0);
-  rgb = mix(mix(ground, rgb, wash), rgb, caught(substrate.r, texelFetch(heights, p, 0).g));
+  // A loop that no invocation enters costs nothing on software renderers.
+  for (int i = tooth > 0.0 ? 0 : 1; i < 1; ++i) {
+    float bare = 1.0 - caught(substrate.r, texelFetch(heights, p, 0).g);
+    bare *= tooth * (1.0 - movingAt(gl_FragCoord.xy / pixelsOfFull));
+    rgb = mix(rgb, ground, bare * (1.0 - wash));
+  }
   float luma = lumaOf(rgb);
   rgb = luma + (rgb - luma) * saturation;
   rgb *= vec3(1.0 + 0.12 * warmth, 1.0, 1.0 - 0.15 * warmth);
