@@ -154,6 +154,8 @@ class OutputStage {
   Status status() const;
 
  private:
+  static constexpr hal::Duration kFirstReopenDelay = std::chrono::milliseconds(500);
+
   struct Due {
     WaitingFrame frame;
     Outcome outcome{};
