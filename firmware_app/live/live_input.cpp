@@ -50,8 +50,8 @@ LiveInput::~LiveInput() = default;
 
 /// Without a console of our own, displays are kept whichever is in front.
 void LiveInput::takeConsole() {
-  auto taken = hal::VirtualTerminal::open(
-      hal::kernelTerminals(), {.leave = hal::leaveConsole, .enter = hal::enterConsole});
+  auto taken = hal::VirtualTerminal::open(hal::kernelTerminals(),
+                                          {.leave = hal::leaveConsole, .enter = hal::enterConsole});
   if (taken) {
     terminal_ = *std::move(taken);
   } else {

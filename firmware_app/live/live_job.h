@@ -38,6 +38,7 @@ struct LiveJob {
   std::filesystem::path state;
   scene::Scene scene;
   std::filesystem::path snapshots;  ///< the folder that snapshots go to
+  std::filesystem::path frameLog;   ///< the file that FrameLogFile writes; empty: none
 };
 
 }  // namespace pleinair::app

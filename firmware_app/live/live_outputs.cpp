@@ -35,10 +35,11 @@ bool mayCome(const hal::Error& error) {
 }  // namespace
 
 LiveOutputs::LiveOutputs(const LiveJob& job, runtime::LivePipeline& pipeline,
-                         LiveReporter& reporter)
+                         LiveReporter& reporter, runtime::FrameLog* log)
     : job_(job),
       pipeline_(pipeline),
       reporter_(reporter),
+      log_(log),
       stream_({.frame = {.pixelFormat = hal::PixelFormat::kRgb8,
                          .size = job.request.size.value_or(kUsualSize),
                          .encoding = {}},
@@ -101,6 +102,8 @@ runtime::OutputStage& LiveOutputs::startOutput(std::size_t index) {
   options.request = request();
   options.keepsLastFrame = isScreen(target);
   options.limit = job_.options.frames;
+  options.log = log_;
+  options.logNumber = index;
   hal::Result<hal::OutputFormat> started = opened->start(options.request);
   if (!started && job_.waitsForOutputs && kind.traits.reopens && mayCome(started.error())) {
     spdlog::warn("waiting for an output: {}", started.error().message());
@@ -112,8 +115,7 @@ runtime::OutputStage& LiveOutputs::startOutput(std::size_t index) {
   }
   const hal::OutputFormat format = orThrow(std::move(started));
   if (auto* window = dynamic_cast<hal::Window*>(opened.get())) window_ = window;
-  runtime::OutputStage& output =
-      pipeline_.addOutput(std::move(opened), format, std::move(options));
+  runtime::OutputStage& output = pipeline_.addOutput(std::move(opened), format, std::move(options));
   if (kind.traits.isOnMainThread) stepped_.push_back(&output);
   return output;
 }

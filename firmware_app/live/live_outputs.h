@@ -12,6 +12,7 @@
 #include "hal/camera.h"
 #include "hal/output.h"
 #include "hal/outputs/window/window.h"
+#include "pipeline/runtime/frame_log.h"
 #include "pipeline/runtime/live_pipeline.h"
 
 namespace pleinair::app {
@@ -20,8 +21,10 @@ namespace pleinair::app {
 /// waiting pictures of those that show some (screens). Main thread.
 class LiveOutputs {
  public:
-  /// All references outlive this. Throws hal::Failure for a target that cannot be an output.
-  LiveOutputs(const LiveJob& job, runtime::LivePipeline& pipeline, LiveReporter& reporter);
+  /// All references, and the log, outlive this; null: no log. Throws hal::Failure for a target that
+  /// cannot be an output.
+  LiveOutputs(const LiveJob& job, runtime::LivePipeline& pipeline, LiveReporter& reporter,
+              runtime::FrameLog* log);
 
   /// Starts the screens, for the stream that the job asks for, as the camera's is not known yet;
   /// each has shown its first picture, has failed, or takes longer than a second. Throws
@@ -60,6 +63,7 @@ class LiveOutputs {
   const LiveJob& job_;
   runtime::LivePipeline& pipeline_;
   LiveReporter& reporter_;
+  runtime::FrameLog* log_;
   hal::StreamFormat stream_;
   Screens screens_;
   std::vector<std::unique_ptr<hal::Output>> opened_;  ///< until the pipeline owns them

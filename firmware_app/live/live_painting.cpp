@@ -16,6 +16,7 @@
 #include <spdlog/spdlog.h>
 
 #include "firmware_app/cli/interrupt.h"
+#include "firmware_app/live/frame_log_file.h"
 #include "firmware_app/live/live_controls.h"
 #include "firmware_app/live/live_input.h"
 #include "firmware_app/live/live_outputs.h"
@@ -53,7 +54,7 @@ class LivePainting {
         input_(job, controls_, reporter_),
         supervisor_(*job.selector, *job.clock, {}, job.request),
         pipeline_(supervisor_, *job.clock),
-        outputs_(job, pipeline_, reporter_),
+        outputs_(job, pipeline_, reporter_, openFrameLog()),
         saver_(job.snapshots) {}
   ~LivePainting() { stopThreads(); }
   LivePainting(const LivePainting&) = delete;
@@ -86,6 +87,18 @@ class LivePainting {
     } else {
       supervisor_.devicesChanged();
     }
+  }
+
+  /// Null where the job wants none.
+  runtime::FrameLog* openFrameLog() {
+    if (job_.frameLog.empty()) return nullptr;
+    return &frameLog_.emplace(job_.frameLog, job_.outputs).log();
+  }
+
+  void writeFrameLog() {
+    if (!frameLog_) return;
+    const auto written = frameLog_->update();
+    if (!written) notify("the log of frames: " + written.error().message(), false);
   }
 
   /// Null until it is complete. Any thread.
@@ -273,6 +286,7 @@ class LivePainting {
     reported_ = now;
     const runtime::RuntimeStatus status = pipeline_.status();
     reporter_.update(status, now);
+    writeFrameLog();
     input_.noteOutputs(status.outputs);
     // If the first frames cannot be painted, no later one can.
     const bool isHopeless = status.painting.painted == 0 && status.painting.failures > 0;
@@ -284,6 +298,7 @@ class LivePainting {
     stopThreads();
     finishSnapshots();
     outputs_.finish();
+    writeFrameLog();
     reporter_.interrupt();
     const runtime::LedgerCounts ledger = pipeline_.ledger().counts();
     fmt::print("{}: {}\n", ledger.summary(elapsed), fmt::join(job_.outputs, ", "));
@@ -330,6 +345,7 @@ class LivePainting {
   LiveControls controls_;
   LiveReporter reporter_;
   LiveInput input_;  ///< its console outlives the displays, which it lets go of
+  std::optional<FrameLogFile> frameLog_;
   hal::CameraSupervisor supervisor_;
   runtime::LivePipeline pipeline_;
   hal::StreamFormat stream_;  ///< the camera's

@@ -13,9 +13,9 @@ constexpr hal::Duration kMaxReopenDelay = std::chrono::seconds(5);
 /// More surfaces than any display lends.
 constexpr std::size_t kMaxSurfaces = 16;
 
-/// A surface is filled a refresh before its due time: the copy into a display's memory may take
-/// milliseconds, and the display, which holds it until half a refresh before, flips it at that one.
-/// Only then it counts as shown in time.
+/// A surface is filled a refresh before its due time, or earlier where that takes long
+/// (noteFilling()): a display wants it half a refresh before. It counts as shown in time only if it
+/// is flipped at that one.
 PresentationRules rulesOf(hal::Output* output, const hal::OutputFormat& format,
                           PresentationRules rules) {
   if (output == nullptr || output->surfaces() == nullptr) return rules;
@@ -89,6 +89,7 @@ void OutputStage::submit(std::optional<FrameLedger::Ticket> ticket, hal::TimePoi
   if (!ticket) ++status_.repeats;
   const hal::TimePoint captured = buffers_.at(buffer)->captureTime;
   const WaitingFrame frame{.buffer = buffer,
+                           .sequence = buffers_.at(buffer)->sequence,
                            .ticket = ticket,
                            .captured = captured,
                            .ready = ready,
@@ -117,10 +118,19 @@ void OutputStage::end(const WaitingFrame& frame, Outcome outcome) {
   count(frame, outcome);
 }
 
-/// As end(), for a frame whose buffer is free already.
-void OutputStage::count(const WaitingFrame& frame, Outcome outcome) {
+/// As end(), for a frame whose buffer is free already. `known`: when it was shown, and which
+/// refreshes it was and should have been.
+void OutputStage::count(const WaitingFrame& frame, Outcome outcome, FrameRecord known) {
   ++status_.ended.at(static_cast<std::size_t>(outcome));
   if (frame.ticket) ledger_.end(*frame.ticket, outcome);
+  if (options_.log == nullptr) return;
+  known.output = options_.logNumber;
+  known.sequence = frame.sequence;
+  known.captured = frame.captured;
+  known.ready = frame.ready;
+  known.due = frame.due;
+  known.outcome = outcome;
+  options_.log->add(known);
 }
 
 /// As end(), for a frame that was handed over; its buffer may be kept. Precondition: the mutex is
@@ -219,6 +229,7 @@ void OutputStage::started(const hal::OutputFormat& format) {
   status_.format = format_.frame;
   queue_ = PresentationQueue(rulesOf(output_.get(), format_, options_.rules), options_.waiting);
   refresh_ = format_.refresh;
+  fillTime_ = {};
   ++status_.starts;
 }
 

@@ -1,6 +1,8 @@
 // How an output stage hands frames to its output, and learns what became of them.
 #include <algorithm>
 #include <cassert>
+#include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "pipeline/runtime/output_stage.h"
@@ -68,7 +70,7 @@ void OutputStage::presentInMemory(hal::MemoryOutput& output, const Due& due) {
   }
   countShown(due.frame, began);
   retire(due.frame);
-  count(due.frame, due.outcome);
+  count(due.frame, due.outcome, {.shown = began});
 }
 
 void OutputStage::presentSurface(hal::SurfaceOutput& output, const Due& due) {
@@ -86,7 +88,18 @@ void OutputStage::presentSurface(hal::SurfaceOutput& output, const Due& due) {
     end(due.frame, outcomeWithoutSurface());
   } else {
     retire(due.frame);
+    noteFilling(ended - began);
   }
+}
+
+/// Hands later frames over so early that surfaces are filled when a display wants them: half a
+/// refresh before the due one. Not two refreshes before, when the surface that it replaces may
+/// still be in use. Precondition: the mutex is held.
+void OutputStage::noteFilling(hal::Duration took) {
+  if (!refresh_) return;
+  fillTime_ = std::max(took, fillTime_ - fillTime_ / 16);
+  const hal::Duration half = refresh_->period / 2;
+  queue_.setLead(half + std::clamp(fillTime_ + fillTime_ / 4, half, half * 5 / 2));
 }
 
 /// False if no surface is free.
@@ -105,7 +118,10 @@ hal::Answer OutputStage::submitSurface(hal::SurfaceOutput& output, const Due& du
   const auto submitted = output.submit(**surface, *std::move(fence), time);
   if (!submitted) return tl::unexpected(submitted.error());
   const std::scoped_lock lock(mutex_);
-  queued_.push_back({.surface = (*surface)->id, .frame = due.frame});
+  // Told by the newest flip, which is at most some refreshes ago.
+  const auto dueRefresh =
+      refresh_ ? hal::sequenceAt(due.frame.due, *refresh_) : std::optional<std::uint64_t>();
+  queued_.push_back({.surface = (*surface)->id, .frame = due.frame, .dueRefresh = dueRefresh});
   return true;
 }
 
@@ -148,23 +164,24 @@ Outcome OutputStage::outcomeWithoutSurface() const {
 
 /// Precondition: the mutex is held.
 void OutputStage::ended(const hal::PresentationEvent& event) {
+  const bool isShown = event.result == hal::PresentationEvent::Result::kShown;
+  if (isShown && refresh_) {
+    refresh_->phase = event.time;
+    refresh_->sequence = event.sequence;
+  }
   if (waitingSurface_ == event.surface) {
     waitingSurface_.reset();
-    if (event.result != hal::PresentationEvent::Result::kShown) status_.isWaitingShown = false;
-    if (event.result == hal::PresentationEvent::Result::kShown && refresh_) {
-      refresh_->phase = event.time;
-    }
+    if (!isShown) status_.isWaitingShown = false;
     return;
   }
   const auto queued = std::ranges::find(queued_, event.surface, &Queued::surface);
   assert(queued != queued_.end());
-  const bool isShown = event.result == hal::PresentationEvent::Result::kShown;
   const Outcome outcome = outcomeOf(event, *queued);
-  if (isShown) {
-    countShown(queued->frame, event.time);
-    if (refresh_) refresh_->phase = event.time;
-  }
-  count(queued->frame, outcome);
+  if (isShown) countShown(queued->frame, event.time);
+  count(queued->frame, outcome,
+        {.dueRefresh = queued->dueRefresh,
+         .shown = isShown ? std::optional(event.time) : std::nullopt,
+         .refresh = event.sequence});
   queued_.erase(queued);
 }
 
@@ -175,11 +192,17 @@ Outcome OutputStage::outcomeOf(const hal::PresentationEvent& event, const Queued
     const Outcome outcome = outcomeWithoutSurface();
     return outcome == Outcome::kNoSurface ? Outcome::kOutputBusy : outcome;
   }
+  return isOnTime(event, queued) ? Outcome::kShown : Outcome::kShownOffSchedule;
+}
+
+/// By the display's count where it has one: the times that drivers give may be off, and a clock
+/// cannot tell a refresh from the next as well as the display can.
+bool OutputStage::isOnTime(const hal::PresentationEvent& event, const Queued& queued) const {
+  if (event.sequence && queued.dueRefresh) return *event.sequence == *queued.dueRefresh;
   // Any refresh but the due one is at least one period away.
   const hal::Duration off = event.time - queued.frame.due;
   const hal::Duration tolerance = refresh_ ? refresh_->period / 2 : options_.rules.tolerance;
-  const bool isOnTime = off > -tolerance && off < tolerance;
-  return isOnTime ? Outcome::kShown : Outcome::kShownOffSchedule;
+  return off > -tolerance && off < tolerance;
 }
 
 }  // namespace pleinair::runtime

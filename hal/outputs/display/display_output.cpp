@@ -29,7 +29,8 @@ class DisplayOutput final : public SurfaceOutput, private SurfaceUnmapper {
       : name_(std::move(name)), settings_(std::move(settings)), cards_(cards), clock_(clock) {}
 
   OutputIdentity identity() const override {
-    return {.backend = std::string(kDisplayName), .id = pipe_ ? pipe_->connector().name : "display"};
+    return {.backend = std::string(kDisplayName),
+            .id = pipe_ ? pipe_->connector().name : "display"};
   }
 
   Result<OutputFormat> start(const OutputRequest& request) override;
@@ -221,6 +222,7 @@ Result<void> DisplayOutput::checkConnection(TimePoint now) {
     pipe_->shared().markRemoved();
     return tl::unexpected(has.error());
   }
+  flips_->followRefresh();
   isInBlankTimes_ =
       settings_.blanking.times && settings_.blanking.times->contain(cards_.timeOfDay());
   if (has.isYes()) return {};

@@ -25,13 +25,30 @@ void FlipQueue::begin(DisplayBuffer& shown) {
 
 void FlipQueue::readTiming() {
   period_ = pipe_.mode().period;
-  hasVblank_ = pipe_.card().hasVblank(pipe_.crtc());
+  const std::optional<Vblank> last = pipe_.card().lastVblank(pipe_.crtc());
+  hasVblank_ = last.has_value();
   // Without vertical blanking, any instant will do for a refresh.
-  if (!hasVblank_) phase_ = clock_.now();
+  phase_ = last ? last->time : clock_.now();
+  lastSequence_ = last ? last->sequence : 0;
   // Flips that an earlier output of this CRTC did not live to see.
   flips_.clear();
   pipe_.shared().takeFlips(pipe_.crtc(), flips_);
   flips_.clear();
+}
+
+/// A driver that nobody asks stops counting, and may begin with another phase.
+void FlipQueue::followRefresh() {
+  if (!hasVblank_ || flipping_ != nullptr) return;
+  const std::optional<Vblank> last = pipe_.card().lastVblank(pipe_.crtc());
+  if (!last || last->sequence < lastSequence_) return;
+  phase_ = last->time;
+  lastSequence_ = last->sequence;
+}
+
+Refresh FlipQueue::refresh() const {
+  Refresh refresh{.period = period_, .phase = phase_};
+  if (hasVblank_) refresh.sequence = lastSequence_;
+  return refresh;
 }
 
 void FlipQueue::push(DisplayBuffer& buffer, Fence fence, TimePoint due) {
@@ -75,7 +92,7 @@ std::uint64_t FlipQueue::extended(std::uint32_t sequence) {
 TimePoint FlipQueue::commitTime(const Queued& queued) const {
   const TimePoint earliest = queued.due - period_ / 2;
   // With vertical blanking the card waits for the refresh, else it shows the surface at once.
-  return hasVblank_ ? earliest : refreshAtOrAfter(earliest, *phase_, period_);
+  return hasVblank_ ? earliest : refreshAtOrAfter(earliest, phase_, period_);
 }
 
 int FlipQueue::commitNext(TimePoint now) {
@@ -142,7 +159,7 @@ std::optional<TimePoint> FlipQueue::nextEvent() const {
   if (!events_.empty()) return now;
   if (flipping_ != nullptr) {
     // The event follows the refresh; it is asked for again and again once that has passed.
-    const TimePoint refresh = phase_ ? refreshAtOrAfter(committed_, *phase_, period_) : committed_;
+    const TimePoint refresh = refreshAtOrAfter(committed_, phase_, period_);
     return std::max(refresh, now + kRetryInterval);
   }
   if (queue_.empty()) return std::nullopt;

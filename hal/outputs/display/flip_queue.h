@@ -24,6 +24,8 @@ class FlipQueue {
   void begin(DisplayBuffer& shown);
   /// The mode in force was set anew: another phase.
   void readTiming();
+  /// Follows the refreshes while there are no flips, about once a second.
+  void followRefresh();
 
   /// Queues a buffer that was lent.
   void push(DisplayBuffer& buffer, Fence fence, TimePoint due);
@@ -47,7 +49,7 @@ class FlipQueue {
   /// Its memory, which is black from then on.
   void blackenScreen();
 
-  Refresh refresh() const { return {.period = period_, .phase = phase_}; }
+  Refresh refresh() const;
   /// Moves the events since the last call to the end of `events`.
   void takeEvents(std::vector<PresentationEvent>& events);
   /// When to call takeFlips() and commitNext() next; unset where nothing is on its way.
@@ -69,8 +71,8 @@ class FlipQueue {
 
   bool hasVblank_ = false;
   Duration period_{0};
-  std::optional<TimePoint> phase_;  ///< a refresh
-  std::uint64_t lastSequence_ = 0;
+  TimePoint phase_;                 ///< the last refresh that is known
+  std::uint64_t lastSequence_ = 0;  ///< its number
 
   std::vector<Queued> queue_;  ///< the earliest first
   DisplayBuffer* flipping_ = nullptr;
