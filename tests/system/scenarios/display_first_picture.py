@@ -2,11 +2,13 @@
 the kernel's own clock: its trace of programs, flips and frames."""
 import os
 import re
+import resource
 import statistics
 import subprocess
 import time
 
 import live
+from guest import TooBusy
 
 TRACE = "/sys/kernel/tracing"
 EXEC = "sched_process_exec: filename=/tmp/pleinair"
@@ -15,37 +17,42 @@ FRAME = "v4l2_dqbuf"
 FIRST_MS = 300  # on hardware
 NEXT_MS = 100
 RUNS = 5
+BUSY = 2.5  # so many times its processor's time a start may take on a machine that does nothing else
 
 
 def run(guest):
     live.load_drivers(guest)
-    guest.run("modprobe vkms; udevadm settle; cp pleinair /tmp; /tmp/pleinair --version")
+    guest.run("modprobe vkms; udevadm settle; cp pleinair /tmp; /tmp/pleinair --version", seconds=60)
     live.unplug(guest)
-    patience = measured_patience(guest)
-    print(f"this guest takes {patience:.1f} times as long to start the program as this machine")
     trace = Trace(guest)
-
-    firsts = []
+    firsts, here, there = [], [], []
     for i in range(RUNS):
+        here.append(start_time_here(guest))
+        there.append(start_time_there(guest))
         program = start(guest, f"first-{i}")
         begun = trace.wait_for(EXEC)
-        firsts.append(1000 * (trace.wait_for(FLIP, begun) - begun))
+        firsts.append(trace.wait_for(FLIP, begun) - begun)
         watched = live.Watched(guest, program)
         if i < RUNS - 1:
-            watched.stop()
-    print("first flip after", *(f"{each:.0f}" for each in firsts), "ms")
+            watched.stop(10)
+    wall, processor = (statistics.median(each) for each in zip(*here))
+    patience = statistics.median(there) / wall
+    first = statistics.median(firsts)
+    print(f"the program starts in {wall:.2f} s here, in {patience:.0f} times that in the guest; first flip after",
+          *(f"{each:.1f}" for each in firsts), f"s: {1000 * first / patience:.0f} ms × patience")
 
     guest.run("sleep 2")
     plugged = live.uptime(guest)
     live.plug(guest)
     came = trace.wait_for(FRAME, plugged)
-    told = 1000 * (trace.wait_for(FLIP, came) - came)
-    print(f"the picture of the camera's first frame after {told:.0f} ms")
-    print(watched.stop())
-    limit = FIRST_MS * patience
-    assert statistics.median(firsts) <= limit, f"first flip: more than {limit:.0f} ms"
-    limit = NEXT_MS * patience
-    assert told <= limit, f"new state: more than {limit:.0f} ms"
+    told = trace.wait_for(FLIP, came) - came
+    print(f"the picture of the camera's first frame after {told:.2f} s: {1000 * told / patience:.0f} ms × patience")
+    print(watched.stop(10))
+    if wall > BUSY * processor:
+        raise TooBusy(f"a start takes {wall:.2f} s here, of which {processor:.2f} s of a processor: other work's time "
+                      "cannot be told from the guest's slowness")
+    assert 1000 * first <= FIRST_MS * patience
+    assert 1000 * told <= NEXT_MS * patience
 
 
 class Trace:
@@ -77,28 +84,27 @@ class Trace:
                         return True
             return False
 
-        self._guest.wait_for(is_there, event, seconds=30)
+        self._guest.wait_for(is_there, event, seconds=60)
         self._last = found[0]
         return found[0]
 
 
-def measured_patience(guest):
-    """The median time of five runs of one program in the guest over that on this machine. It is the start of pleinair
-    itself: an emulator translates code that runs for the first time, which takes longer than code that is
-    repeated."""
-    program = os.path.join(guest.folder, "pleinair")
+# Patience is how long the start of pleinair itself takes in the guest, over that on this machine: an emulator translates
+# code that runs for the first time, which takes longer than code that is repeated.
 
-    def here():
-        begin = time.monotonic()
-        subprocess.run([program, "--version"], check=True, stdout=subprocess.DEVNULL)
-        return time.monotonic() - begin
 
-    def there():
-        taken = guest.run("a=$EPOCHREALTIME; /tmp/pleinair --version >/dev/null; b=$EPOCHREALTIME; echo $a $b")
-        begin, end = (float(each) for each in taken.output.split())
-        return end - begin
+def start_time_here(guest):
+    """In seconds: of the clock, and of a processor."""
+    before, begin = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
+    subprocess.run([os.path.join(guest.folder, "pleinair"), "--version"], check=True, stdout=subprocess.DEVNULL)
+    after, end = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
+    return end - begin, after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
 
-    return statistics.median(there() for _ in range(5)) / statistics.median(here() for _ in range(5))
+
+def start_time_there(guest):
+    taken = guest.run("a=$EPOCHREALTIME; /tmp/pleinair --version >/dev/null; b=$EPOCHREALTIME; echo $a $b", seconds=60)
+    begin, end = (float(each) for each in taken.output.split())
+    return end - begin
 
 
 def start(guest, name):
