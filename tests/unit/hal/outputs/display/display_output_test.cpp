@@ -56,6 +56,8 @@ TEST_F(DisplayTest, KnowsTheRefreshesBeforeTheFirstFlip) {
   ASSERT_TRUE(format.has_value());
   const Refresh refresh = *format->refresh;
   ASSERT_TRUE(refresh.phase && refresh.sequence);
+  EXPECT_EQ(refresh.phase->time_since_epoch(),
+            static_cast<std::int64_t>(*refresh.sequence) * refresh.period);
   const TimePoint due = *refresh.phase + 7 * refresh.period;
   ASSERT_TRUE(show(due).has_value());
   ASSERT_TRUE(runTo(due + refresh.period).has_value());
