@@ -22,6 +22,8 @@ struct OutputRequest {
 struct Refresh {
   Duration period;
   std::optional<TimePoint> phase;  ///< one of those moments, on the steady clock; unset: unknown
+  /// The display's count at `phase`; unset where it does not count, or the phase is unknown.
+  std::optional<std::uint64_t> sequence = std::nullopt;
   friend bool operator==(const Refresh&, const Refresh&) = default;
 };
 
@@ -31,6 +33,15 @@ constexpr TimePoint refreshAtOrAfter(TimePoint time, TimePoint phase, Duration p
   Duration past = (time - phase) % period;
   if (past < Duration::zero()) past += period;
   return past == Duration::zero() ? time : time + (period - past);
+}
+
+/// The display's count at the refresh nearest to `time`; nothing where the display does not count.
+/// Precondition: a period above zero.
+constexpr std::optional<std::uint64_t> sequenceAt(TimePoint time, const Refresh& refresh) {
+  if (!refresh.phase || !refresh.sequence) return std::nullopt;
+  const Duration half = refresh.period / 2;
+  const TimePoint next = refreshAtOrAfter(time - half, *refresh.phase, refresh.period);
+  return *refresh.sequence + static_cast<std::uint64_t>((next - *refresh.phase) / refresh.period);
 }
 
 /// The format that an output takes. The pipeline scales and converts to it (pipeline/present).

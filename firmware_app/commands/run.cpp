@@ -9,6 +9,7 @@
 #include "firmware_app/cli/interrupt.h"
 #include "firmware_app/commands/commands.h"
 #include "firmware_app/config/camera_selection.h"
+#include "firmware_app/config/configuration_sections.h"
 #include "firmware_app/config/configured_parts.h"
 #include "firmware_app/live/last_painting.h"
 #include "firmware_app/live/live_painting.h"
@@ -40,6 +41,12 @@ void refuseTwice(std::vector<std::string> targets) {
                                 .remedy = "give each output once"});
 }
 
+/// Empty: none.
+std::filesystem::path frameLogOf(const Configuration& configuration) {
+  std::filesystem::path file = configuration.runtime().frameLog;
+  return file == kNoFile ? std::filesystem::path() : file;
+}
+
 /// Refuses outputs that would overwrite an input or one another.
 void refuseCollisionsOf(const Configuration& configuration, const scene::Scene& scene) {
   std::vector<NamedPath> read = configuredFiles(configuration, scene);
@@ -48,6 +55,9 @@ void refuseCollisionsOf(const Configuration& configuration, const scene::Scene& 
   std::vector<NamedPath> written;
   for (const std::string& target : targetsOf(configuration.output())) {
     if (isFile(target)) written.push_back({"--output", target});
+  }
+  if (const auto log = frameLogOf(configuration); !log.empty()) {
+    written.push_back({"runtime.frame_log", log});
   }
   refuseCollisions(read, written);
   refuseTwice(targetsOf(configuration.output()));
@@ -97,7 +107,8 @@ int run(const RunOptions& options) {
          .showsWaiting = output.waitingPictures,
          .state = output.keepsLastPainting ? stateFolder() : std::filesystem::path(),
          .scene = std::move(scene),
-         .snapshots = output.snapshots});
+         .snapshots = output.snapshots,
+         .frameLog = frameLogOf(configuration)});
   });
 }
 

@@ -208,7 +208,10 @@ const ParameterTable<RuntimeSettings>& runtimeTable() {
                       TakesEffect::kRestart),
       numberParameter("rate", &R::rate, {.min = 0, .max = 240, .unit = "frames a second"},
                       "Frame rate that quality is lowered for; 0: the camera's.",
-                      TakesEffect::kRestart)};
+                      TakesEffect::kRestart),
+      pathParameter("frame_log", &R::frameLog, {std::string(kNoFile)},
+                    "A file (CSV) that gets a row for each frame of each output: when it was due, "
+                    "when it was shown, at which refresh, or why not.")};
   return kTable;
 }
 

@@ -8,15 +8,14 @@
 namespace pleinair::runtime {
 namespace {
 
-constexpr hal::Duration kFirstReopenDelay = std::chrono::milliseconds(500);
 /// A display that comes without an event is found after this.
 constexpr hal::Duration kMaxReopenDelay = std::chrono::seconds(5);
 /// More surfaces than any display lends.
 constexpr std::size_t kMaxSurfaces = 16;
 
-/// A surface is filled a refresh before its due time: the copy into a display's memory may take
-/// milliseconds, and the display, which holds it until half a refresh before, flips it at that one.
-/// Only then it counts as shown in time.
+/// A surface is filled a refresh before its due time, or earlier where that takes long
+/// (noteFilling()): a display wants it half a refresh before. It counts as shown in time only if it
+/// is flipped at that one.
 PresentationRules rulesOf(hal::Output* output, const hal::OutputFormat& format,
                           PresentationRules rules) {
   if (output == nullptr || output->surfaces() == nullptr) return rules;
@@ -30,20 +29,6 @@ bool isSame(const hal::OutputRequest& one, const hal::OutputRequest& other) {
 }
 
 }  // namespace
-
-hal::Result<hal::Fence> copyImage(const hal::ImageView& image, hal::SurfaceOutput& output,
-                                  const hal::Surface& surface) {
-  const hal::Result<hal::SurfaceMapping> mapping = output.map(surface);
-  if (!mapping) return tl::unexpected(mapping.error());
-  const auto copied = hal::copyToSurface(image, surface, *mapping);
-  if (!copied) return tl::unexpected(copied.error());
-  return hal::Fence();
-}
-
-hal::Result<hal::Fence> copyOutputFrame(const OutputFrame& frame, hal::SurfaceOutput& output,
-                                        const hal::Surface& surface) {
-  return copyImage(frame.image.view(), output, surface);
-}
 
 OutputStage::OutputStage(std::unique_ptr<hal::Output> output, hal::OutputFormat format,
                          OutputStageOptions options, hal::Clock& clock, FrameLedger& ledger)
@@ -104,6 +89,7 @@ void OutputStage::submit(std::optional<FrameLedger::Ticket> ticket, hal::TimePoi
   if (!ticket) ++status_.repeats;
   const hal::TimePoint captured = buffers_.at(buffer)->captureTime;
   const WaitingFrame frame{.buffer = buffer,
+                           .sequence = buffers_.at(buffer)->sequence,
                            .ticket = ticket,
                            .captured = captured,
                            .ready = ready,
@@ -132,10 +118,19 @@ void OutputStage::end(const WaitingFrame& frame, Outcome outcome) {
   count(frame, outcome);
 }
 
-/// As end(), for a frame whose buffer is free already.
-void OutputStage::count(const WaitingFrame& frame, Outcome outcome) {
+/// As end(), for a frame whose buffer is free already. `known`: when it was shown, and which
+/// refreshes it was and should have been.
+void OutputStage::count(const WaitingFrame& frame, Outcome outcome, FrameRecord known) {
   ++status_.ended.at(static_cast<std::size_t>(outcome));
   if (frame.ticket) ledger_.end(*frame.ticket, outcome);
+  if (options_.log == nullptr) return;
+  known.output = options_.logNumber;
+  known.sequence = frame.sequence;
+  known.captured = frame.captured;
+  known.ready = frame.ready;
+  known.due = frame.due;
+  known.outcome = outcome;
+  options_.log->add(known);
 }
 
 /// As end(), for a frame that was handed over; its buffer may be kept. Precondition: the mutex is
@@ -191,176 +186,6 @@ std::optional<hal::TimePoint> OutputStage::step() {
   return next;
 }
 
-/// Capture time since the first frame that this opening of the output has got.
-hal::Duration OutputStage::timeOf(const WaitingFrame& frame) {
-  if (!firstTime_) firstTime_ = frame.captured;
-  return frame.captured - *firstTime_;
-}
-
-void OutputStage::present(const Due& due) {
-  fadeIn(due);
-  if (hal::SurfaceOutput* surfaces = output_->surfaces()) {
-    presentSurface(*surfaces, due);
-  } else {
-    presentInMemory(*output_->memory(), due);
-  }
-}
-
-/// Precondition: the mutex is held.
-void OutputStage::countShown(const WaitingFrame& frame, hal::TimePoint time) {
-  reopenAfter_ = kFirstReopenDelay;
-  ++status_.presented;
-  status_.isWaitingShown = false;
-  rate_.count(time);
-  latency_.add(time - frame.captured, time);
-}
-
-void OutputStage::presentInMemory(hal::MemoryOutput& output, const Due& due) {
-  const hal::TimePoint began = clock_.now();
-  const hal::ImageView view = buffers_.at(due.frame.buffer)->image.view();
-  const std::uint64_t skippedBefore = output.skippedPictures();
-  hal::Result<void> written = output.write(view, timeOf(due.frame));
-  const bool isSkipped = output.skippedPictures() > skippedBefore;
-  const hal::TimePoint ended = clock_.now();
-  const std::scoped_lock lock(mutex_);
-  isWriting_ = false;
-  queue_.presented(ended);
-  writing_.add(ended - began, ended);
-  if (!written) {
-    end(due.frame, Outcome::kOutputFailed);
-    fail(std::move(written.error()));
-    return;
-  }
-  if (isSkipped) {
-    reopenAfter_ = kFirstReopenDelay;
-    end(due.frame, Outcome::kOutputBusy);
-    return;
-  }
-  countShown(due.frame, began);
-  retire(due.frame);
-  count(due.frame, due.outcome);
-}
-
-void OutputStage::presentSurface(hal::SurfaceOutput& output, const Due& due) {
-  const hal::TimePoint began = clock_.now();
-  const hal::Answer submitted = submitSurface(output, due);
-  const hal::TimePoint ended = clock_.now();
-  const std::scoped_lock lock(mutex_);
-  isWriting_ = false;
-  queue_.presented(ended);
-  writing_.add(ended - began, ended);
-  if (submitted.hasError()) {
-    end(due.frame, Outcome::kOutputFailed);
-    fail(submitted.error());
-  } else if (!submitted.isYes()) {
-    end(due.frame, outcomeWithoutSurface());
-  } else {
-    retire(due.frame);
-  }
-}
-
-/// False if no surface is free.
-hal::Answer OutputStage::submitSurface(hal::SurfaceOutput& output, const Due& due) {
-  const hal::Result<std::optional<hal::Surface>> surface = output.acquire();
-  if (!surface) return tl::unexpected(surface.error());
-  if (!*surface) return false;
-  hal::Result<hal::Fence> fence = options_.fill(*buffers_.at(due.frame.buffer), output, **surface);
-  if (!fence) {
-    output.release(**surface);
-    return tl::unexpected(fence.error());
-  }
-  // A frame shown early, to avoid a freeze, is submitted for immediate display.
-  const hal::TimePoint time =
-      due.outcome == Outcome::kShown ? due.frame.due : std::min(due.frame.due, clock_.now());
-  const auto submitted = output.submit(**surface, *std::move(fence), time);
-  if (!submitted) return tl::unexpected(submitted.error());
-  const std::scoped_lock lock(mutex_);
-  queued_.push_back({.surface = (*surface)->id, .frame = due.frame});
-  return true;
-}
-
-void OutputStage::takeEvents() {
-  hal::SurfaceOutput* const surfaces = output_ ? output_->surfaces() : nullptr;
-  if (surfaces == nullptr) return;
-  bool isSomebodyThere = false;
-  {
-    const std::scoped_lock lock(mutex_);
-    if (status_.isFailed) return;
-    isSomebodyThere = std::exchange(isSomebodyThere_, false);
-  }
-  if (isSomebodyThere) surfaces->noteActivity();
-  events_.clear();
-  // Also where nothing is queued, because a display comes and goes without pictures.
-  hal::Result<void> taken = surfaces->takeEvents(events_);
-  const std::scoped_lock lock(mutex_);
-  followSuspension(*surfaces);
-  for (const hal::PresentationEvent& event : events_) ended(event);
-  if (!taken) fail(std::move(taken.error()));
-}
-
-/// Precondition: the mutex is held.
-void OutputStage::followSuspension(const hal::SurfaceOutput& output) {
-  const hal::Suspension* const now = output.suspension();
-  if (now == nullptr) {
-    status_.suspension.reset();
-  } else if (!status_.suspension || *status_.suspension != *now) {
-    status_.suspension = *now;
-  }
-}
-
-/// Precondition: the mutex is held.
-Outcome OutputStage::outcomeWithoutSurface() const {
-  const hal::Suspension* const suspension = output_->surfaces()->suspension();
-  if (suspension == nullptr) return Outcome::kNoSurface;
-  return suspension->cause == hal::Suspension::Cause::kBlank ? Outcome::kBlanked
-                                                             : Outcome::kSuspended;
-}
-
-void OutputStage::noteActivity() {
-  const std::scoped_lock lock(mutex_);
-  isSomebodyThere_ = true;
-  // An output that shows pictures has time until the next one.
-  if (!status_.suspension) return;
-  isWoken_ = true;
-  changed_.notify_all();
-}
-
-/// Precondition: the mutex is held.
-void OutputStage::ended(const hal::PresentationEvent& event) {
-  if (waitingSurface_ == event.surface) {
-    waitingSurface_.reset();
-    if (event.result != hal::PresentationEvent::Result::kShown) status_.isWaitingShown = false;
-    if (event.result == hal::PresentationEvent::Result::kShown && refresh_) {
-      refresh_->phase = event.time;
-    }
-    return;
-  }
-  const auto queued = std::ranges::find(queued_, event.surface, &Queued::surface);
-  assert(queued != queued_.end());
-  const bool isShown = event.result == hal::PresentationEvent::Result::kShown;
-  const Outcome outcome = outcomeOf(event, *queued);
-  if (isShown) {
-    countShown(queued->frame, event.time);
-    if (refresh_) refresh_->phase = event.time;
-  }
-  count(queued->frame, outcome);
-  queued_.erase(queued);
-}
-
-Outcome OutputStage::outcomeOf(const hal::PresentationEvent& event, const Queued& queued) const {
-  using Result = hal::PresentationEvent::Result;
-  if (event.result == Result::kSuperseded) return Outcome::kSuperseded;
-  if (event.result == Result::kSkipped) {
-    const Outcome outcome = outcomeWithoutSurface();
-    return outcome == Outcome::kNoSurface ? Outcome::kOutputBusy : outcome;
-  }
-  // Any refresh but the due one is at least one period away.
-  const hal::Duration off = event.time - queued.frame.due;
-  const hal::Duration tolerance = refresh_ ? refresh_->period / 2 : options_.rules.tolerance;
-  const bool isOnTime = off > -tolerance && off < tolerance;
-  return isOnTime ? Outcome::kShown : Outcome::kShownOffSchedule;
-}
-
 void OutputStage::fail(hal::Error error) {
   status_.isFailed = true;
   status_.suspension.reset();
@@ -404,6 +229,7 @@ void OutputStage::started(const hal::OutputFormat& format) {
   status_.format = format_.frame;
   queue_ = PresentationQueue(rulesOf(output_.get(), format_, options_.rules), options_.waiting);
   refresh_ = format_.refresh;
+  fillTime_ = {};
   ++status_.starts;
 }
 
@@ -477,6 +303,15 @@ void OutputStage::retry() {
   const std::scoped_lock lock(mutex_);
   reopenAt_ = clock_.now();
   reopenAfter_ = kFirstReopenDelay;
+  isWoken_ = true;
+  changed_.notify_all();
+}
+
+void OutputStage::noteActivity() {
+  const std::scoped_lock lock(mutex_);
+  isSomebodyThere_ = true;
+  // An output that shows pictures has time until the next one.
+  if (!status_.suspension) return;
   isWoken_ = true;
   changed_.notify_all();
 }

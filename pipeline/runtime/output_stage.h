@@ -15,6 +15,7 @@
 #include "pipeline/runtime/duration_histogram.h"
 #include "pipeline/runtime/fade_in.h"
 #include "pipeline/runtime/frame_ledger.h"
+#include "pipeline/runtime/frame_log.h"
 #include "pipeline/runtime/frame_rate.h"
 #include "pipeline/runtime/presentation_queue.h"
 
@@ -51,6 +52,9 @@ struct OutputStageOptions {
   std::optional<hal::Error> absence = std::nullopt;
   /// Keeps the last frame that was shown, for lastFrame(); takes the memory of one.
   bool keepsLastFrame = false;
+  /// Gets a record of each frame, under this number; outlives the stage. Null: none.
+  FrameLog* log = nullptr;
+  std::size_t logNumber = 0;
 };
 
 /// Hands frames to an output, each at its due time on the output's own refresh. It runs on an
@@ -154,6 +158,8 @@ class OutputStage {
   Status status() const;
 
  private:
+  static constexpr hal::Duration kFirstReopenDelay = std::chrono::milliseconds(500);
+
   struct Due {
     WaitingFrame frame;
     Outcome outcome{};
@@ -162,6 +168,8 @@ class OutputStage {
   struct Queued {
     hal::SurfaceId surface{};
     WaitingFrame frame;
+    /// The refresh that it is due at, by the display's count; unset where that is not known.
+    std::optional<std::uint64_t> dueRefresh;
   };
   void handOver();
   std::optional<Due> takeDue();
@@ -174,9 +182,11 @@ class OutputStage {
   Outcome outcomeWithoutSurface() const;
   void ended(const hal::PresentationEvent& event);
   Outcome outcomeOf(const hal::PresentationEvent& event, const Queued& queued) const;
+  bool isOnTime(const hal::PresentationEvent& event, const Queued& queued) const;
   void countShown(const WaitingFrame& frame, hal::TimePoint time);
+  void noteFilling(hal::Duration took);
   void end(const WaitingFrame& frame, Outcome outcome);
-  void count(const WaitingFrame& frame, Outcome outcome);
+  void count(const WaitingFrame& frame, Outcome outcome, FrameRecord known = {});
   void endAll(Outcome outcome);
   void fail(hal::Error error);
   void tryToReopen();
@@ -208,6 +218,7 @@ class OutputStage {
   std::optional<std::size_t> filling_;
   std::vector<Queued> queued_;  ///< submitted surfaces without an event, oldest first
   std::optional<hal::Refresh> refresh_;
+  hal::Duration fillTime_{0};  ///< the longest recent one of a surface
   bool isWriting_ = false;
   std::shared_ptr<const hal::Image> waiting_;  ///< to be shown
   bool waitingFades_ = true;

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -20,6 +21,7 @@ hal::TimePoint dueTime(hal::TimePoint captured, hal::Duration latency,
 /// An output frame that waits to be shown.
 struct WaitingFrame {
   std::size_t buffer = 0;                     ///< index of the buffer with its pixels
+  std::uint64_t sequence = 0;                 ///< the camera's
   std::optional<FrameLedger::Ticket> ticket;  ///< of the captured frame; unset for repeats
   hal::TimePoint captured;
   hal::TimePoint ready;  ///< when the output frame was complete
@@ -65,6 +67,8 @@ class PresentationQueue {
   /// When next() will give something; unset while the queue is empty.
   std::optional<hal::TimePoint> nextTime() const;
 
+  /// From now on.
+  void setLead(hal::Duration lead) { rules_.lead = lead; }
   /// The output has taken the last frame at `now`: it was busy when frames fell due before that.
   void presented(hal::TimePoint now) { busyUntil_ = now; }
 

@@ -234,7 +234,14 @@ class FakeCard final : public Card {
     --cards_.buffers;
   }
 
-  bool hasVblank(ObjectId) override { return spec_.hasVblank; }
+  std::optional<hal::display::Vblank> lastVblank(ObjectId crtcId) override {
+    const Crtc& crtc = crtcs_.at(crtcId - kFirstCrtc);
+    if (!spec_.hasVblank || !crtc.isActive) return std::nullopt;
+    const hal::Duration period = hal::fromSeconds(1.0 / crtc.mode->hertz);
+    const std::int64_t count = cards_.clock_.now().time_since_epoch() / period;
+    return hal::display::Vblank{.sequence = static_cast<std::uint64_t>(count),
+                                .time = hal::TimePoint(count * period)};
+  }
 
   int takeFlips(std::vector<FlipEvent>& flips) override {
     if (spec_.isGone) return -ENODEV;

@@ -178,7 +178,8 @@ void FakeDisplayOutput::runTo(hal::TimePoint now) {
 void FakeDisplayOutput::end(Queued& queued, hal::PresentationEvent::Result result,
                             hal::TimePoint time) {
   const bool isShown = result == hal::PresentationEvent::Result::kShown;
-  const auto sequence = static_cast<std::uint64_t>((time - display_.phase) / display_.period);
+  const auto sequence =
+      static_cast<std::uint64_t>((time - display_.phase) / display_.period) + display_.sequenceJump;
   if (isShown) {
     if (onScreen_ != nullptr) onScreen_->state = State::kFree;
     onScreen_ = queued.buffer;

@@ -24,6 +24,7 @@ struct FakeDisplay {
   bool isLost = false;  ///< every call fails; it cannot be opened
   int skips = 0;        ///< so many of the next flips end as kSkipped
   int holds = 0;        ///< so many of the next flips are missed: the surface is shown one later
+  std::uint64_t sequenceJump = 0;  ///< added to its count of refreshes
 
   struct Shown {
     std::uint64_t sequence = 0;

@@ -69,6 +69,9 @@ def run_scenario(folder, name):
             except (AssertionError, machine.GuestError):
                 show_logs(guest)
                 raise
+    except machine.TooBusy as reason:
+        print("skipped:", reason)
+        return SKIPPED
     except (AssertionError, machine.GuestError):
         traceback.print_exc(file=sys.stdout)
         print("all it left:", shared)

@@ -90,6 +90,12 @@ struct FlipEvent {
   TimePoint time;
 };
 
+/// A vertical blanking of a CRTC: the instant of a refresh.
+struct Vblank {
+  std::uint64_t sequence = 0;  ///< how many there were
+  TimePoint time;
+};
+
 /// Memory that a CRTC can scan out, which the processor writes ("dumb" buffer): rows of 4-byte
 /// pixels.
 struct ScanOutBuffer {
@@ -148,8 +154,9 @@ class Card {
   virtual int createBuffer(FrameSize size, ScanOutBuffer& buffer) = 0;
   virtual void destroyBuffer(const ScanOutBuffer& buffer) = 0;
 
-  /// Whether the CRTC, which is on, counts refreshes and times flips by them.
-  virtual bool hasVblank(ObjectId crtc) = 0;
+  /// The last vertical blanking of a CRTC that is on; nothing where its driver has none, and flips
+  /// take place at once.
+  virtual std::optional<Vblank> lastVblank(ObjectId crtc) = 0;
   /// Appends the flips since the last call, of all CRTCs. Never waits.
   virtual int takeFlips(std::vector<FlipEvent>& flips) = 0;
 };

@@ -201,10 +201,12 @@ class KernelCard final : public Card {
     drmIoctl(file_.get(), DRM_IOCTL_MODE_DESTROY_DUMB, &destroyed);
   }
 
-  bool hasVblank(ObjectId crtc) override {
-    std::uint64_t sequence = 0;
+  std::optional<Vblank> lastVblank(ObjectId crtc) override {
+    Vblank last;
     std::uint64_t time = 0;
-    return drmCrtcGetSequence(file_.get(), crtc, &sequence, &time) == 0;
+    if (drmCrtcGetSequence(file_.get(), crtc, &last.sequence, &time) != 0) return std::nullopt;
+    last.time = hasMonotonicTime_ ? TimePoint(std::chrono::nanoseconds(time)) : SteadyClock().now();
+    return last;
   }
 
   int takeFlips(std::vector<FlipEvent>& flips) override {

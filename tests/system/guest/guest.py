@@ -28,6 +28,10 @@ class GuestError(Exception):
     """The guest failed: no boot, no answer, or a command with an error."""
 
 
+class TooBusy(Exception):
+    """The machine was too busy with other work for a judgement: a skip."""
+
+
 class Finished:
     """The result of a command: its exit status (128 + the signal, as in a shell) and its output."""
 

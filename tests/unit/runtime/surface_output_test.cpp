@@ -118,6 +118,73 @@ TEST_F(SurfaceOutputTest, CountsFramesByWhatTheDisplayDidWithThem) {
   expectSumsToAgree();
 }
 
+TEST_F(SurfaceOutputTest, JudgesByTheDisplaysOwnCount) {
+  FakeDisplay display;
+  begin(300);
+  OutputStage& stage = add(display, {.name = "display", .waiting = 16});
+  live_.start();
+  live_.runFor(2s);
+  display.sequenceJump = 1;  // its times go on as they did
+  live_.drain();
+  EXPECT_EQ(of(stage, Outcome::kShownOffSchedule), 1u) << "the one that was on its way then";
+  EXPECT_EQ(of(stage, Outcome::kShown), 299u);
+  expectSumsToAgree();
+}
+
+TEST_F(SurfaceOutputTest, LogsWhatBecameOfEachFrame) {
+  FakeDisplay display;
+  FrameLog log;
+  begin(90);
+  add(display, {.name = "display", .waiting = 16, .log = &log, .logNumber = 1});
+  live_.start();
+  live_.runFor(1s);
+  display.holds = 1;
+  live_.runFor(1s);
+  display.skips = 1;
+  live_.drain();
+  std::vector<FrameRecord> records;
+  EXPECT_EQ(log.take(records), 0u);
+  ASSERT_EQ(records.size(), 90u);
+  std::size_t late = 0;
+  std::size_t skipped = 0;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const FrameRecord& each = records[i];
+    EXPECT_EQ(each.output, 1u);
+    EXPECT_EQ(each.sequence, i);
+    EXPECT_EQ(each.captured, began_ + static_cast<int>(i) * camera_.period);
+    EXPECT_GE(each.due, each.captured + 120ms);
+    EXPECT_GT(each.ready, each.captured);
+    if (each.outcome == Outcome::kOutputBusy) {
+      ++skipped;
+      EXPECT_FALSE(each.shown || each.refresh);
+      continue;
+    }
+    const std::uint64_t off = each.outcome == Outcome::kShownOffSchedule ? 1 : 0;
+    late += off;
+    ASSERT_TRUE(each.shown);
+    EXPECT_EQ(*each.shown, each.due + static_cast<int>(off) * display.period);
+    // The first ones were due before a flip had told the display's count.
+    if (each.dueRefresh) {
+      EXPECT_EQ(*each.refresh, *each.dueRefresh + off);
+    }
+    EXPECT_EQ(each.dueRefresh.has_value(), i > 0) << i;
+  }
+  EXPECT_EQ(late, 1u);
+  EXPECT_EQ(skipped, 1u);
+}
+
+TEST(Refresh, IsTheNearestToATime) {
+  const hal::Refresh refresh{.period = 10ms, .phase = hal::TimePoint(100ms), .sequence = 50};
+  EXPECT_EQ(hal::sequenceAt(hal::TimePoint(100ms), refresh), 50u);
+  EXPECT_EQ(hal::sequenceAt(hal::TimePoint(104ms), refresh), 50u);
+  EXPECT_EQ(hal::sequenceAt(hal::TimePoint(106ms), refresh), 51u);
+  EXPECT_EQ(hal::sequenceAt(hal::TimePoint(96ms), refresh), 50u);
+  EXPECT_EQ(hal::sequenceAt(hal::TimePoint(94ms), refresh), 49u);
+  EXPECT_EQ(hal::sequenceAt(hal::TimePoint(1100ms), refresh), 150u);
+  EXPECT_EQ(hal::sequenceAt(hal::TimePoint(0ms), hal::Refresh{.period = 10ms, .phase = {}}),
+            std::nullopt);
+}
+
 TEST_F(SurfaceOutputTest, OpensADisplayAnewThatWasUnplugged) {
   FakeDisplay display;
   begin(900);
@@ -162,6 +229,22 @@ TEST_F(SurfaceOutputTest, HasASurfaceFilledInAnotherWay) {
   ASSERT_EQ(display.shown.size(), 50u);
   EXPECT_EQ(display.shown.front().firstPixel, 0x01010101u);
   EXPECT_EQ(display.shown.back().firstPixel, 0x32323232u);
+}
+
+TEST_F(SurfaceOutputTest, BeginsEarlierWhereFillingTakesLong) {
+  FakeDisplay display;
+  OutputStageOptions options{.name = "display", .waiting = 16};
+  options.fill = [&](const OutputFrame&, hal::SurfaceOutput&, const hal::Surface&) {
+    live_.clock.sleepUntil(live_.clock.now() + 18ms);  // more than a refresh
+    return hal::Result<hal::Fence>(hal::Fence());
+  };
+  begin(100);
+  const OutputStage& stage = add(display, std::move(options));
+  live_.start();
+  live_.drain();
+  EXPECT_EQ(of(stage, Outcome::kShownOffSchedule), 1u) << "the first, of which that is not known";
+  EXPECT_EQ(of(stage, Outcome::kShown), 99u);
+  expectSumsToAgree();
 }
 
 TEST_F(SurfaceOutputTest, ReleasesASurfaceThatCannotBeFilled) {

@@ -49,6 +49,34 @@ TEST_F(DisplayTest, ReportsTheRefreshesThatTheCardCounted) {
   }
 }
 
+TEST_F(DisplayTest, KnowsTheRefreshesBeforeTheFirstFlip) {
+  plug();
+  clock_.sleepUntil(clock_.now() + std::chrono::milliseconds(5));
+  const Result<OutputFormat> format = start();
+  ASSERT_TRUE(format.has_value());
+  const Refresh refresh = *format->refresh;
+  ASSERT_TRUE(refresh.phase && refresh.sequence);
+  EXPECT_EQ(refresh.phase->time_since_epoch(),
+            static_cast<std::int64_t>(*refresh.sequence) * refresh.period);
+  const TimePoint due = *refresh.phase + 7 * refresh.period;
+  ASSERT_TRUE(show(due).has_value());
+  ASSERT_TRUE(runTo(due + refresh.period).has_value());
+  ASSERT_EQ(events_.size(), 1u);
+  EXPECT_EQ(events_.front().sequence, sequenceAt(due, refresh));
+  EXPECT_EQ(events_.front().sequence, *refresh.sequence + 7);
+}
+
+TEST_F(DisplayTest, FollowsTheRefreshesWhileNothingIsShown) {
+  plug();
+  ASSERT_TRUE(start().has_value());
+  ASSERT_TRUE(showAndWait().has_value());
+  ASSERT_TRUE(runTo(clock_.now() + std::chrono::seconds(60)).has_value());
+  const Result<OutputFormat> format = output_->reconfigure({.size = {32, 48}, .framePeriod = {}});
+  ASSERT_TRUE(format.has_value());
+  EXPECT_LE(clock_.now() - *format->refresh->phase, std::chrono::seconds(1) + period_);
+  EXPECT_GT(*format->refresh->sequence, *events_.front().sequence + 3500);
+}
+
 TEST_F(DisplayTest, ACardWithoutVerticalBlankingIsPacedByTheClock) {
   plug({.hasVblank = false});
   const Result<OutputFormat> format = start();

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "firmware_app/live/live_job.h"
+#include "firmware_app/live/live_reporter.h"
+#include "firmware_app/live/screens.h"
+#include "hal/camera.h"
+#include "hal/output.h"
+#include "hal/outputs/window/window.h"
+#include "pipeline/runtime/frame_log.h"
+#include "pipeline/runtime/live_pipeline.h"
+
+namespace pleinair::app {
+
+/// The outputs of a live painting: from their targets to their stages in the pipeline, and the
+/// waiting pictures of those that show some (screens). Main thread.
+class LiveOutputs {
+ public:
+  /// All references, and the log, outlive this; null: no log. Throws hal::Failure for a target that
+  /// cannot be an output.
+  LiveOutputs(const LiveJob& job, runtime::LivePipeline& pipeline, LiveReporter& reporter,
+              runtime::FrameLog* log);
+
+  /// Starts the screens, for the stream that the job asks for, as the camera's is not known yet;
+  /// each has shown its first picture, has failed, or takes longer than a second. Throws
+  /// hal::Failure.
+  void startScreens();
+  /// Starts the others, for the camera's stream, which the screens take too. Throws hal::Failure.
+  void start(const hal::StreamFormat& stream);
+
+  /// Whether update() is to be called.
+  bool isUpdateDue() const;
+  /// Draws the waiting pictures that are due, and opens failed displays again after
+  /// devicesChanged().
+  void update(const LiveProgress& progress);
+  /// Displays may have come or gone. Any thread.
+  void devicesChanged() { haveDisplaysChanged_ = true; }
+  /// Keeps the last painting of a screen. The stages still exist.
+  void finish();
+
+  std::vector<runtime::OutputStage*> screens() const { return screens_.stages(); }
+  /// Those that the main thread steps: the window.
+  const std::vector<runtime::OutputStage*>& stepped() const { return stepped_; }
+  /// Null where there is none.
+  hal::Window* window() const { return window_; }
+  /// The size of paintings.
+  hal::FrameSize pictureSize() const;
+  /// Whether each output has got its frames or has failed for good.
+  bool haveEnded() const;
+
+ private:
+  bool isScreen(const std::string& target) const;
+  runtime::OutputStage& startOutput(std::size_t index);
+  void reconfigureScreens();
+  hal::OutputRequest request() const;
+  void reportKeeping();
+
+  const LiveJob& job_;
+  runtime::LivePipeline& pipeline_;
+  LiveReporter& reporter_;
+  runtime::FrameLog* log_;
+  hal::StreamFormat stream_;
+  Screens screens_;
+  std::vector<std::unique_ptr<hal::Output>> opened_;  ///< until the pipeline owns them
+  std::vector<runtime::OutputStage*> stepped_;
+  hal::Window* window_ = nullptr;
+  std::atomic<bool> haveDisplaysChanged_ = false;
+  hal::TimePoint updated_;
+};
+
+}  // namespace pleinair::app
