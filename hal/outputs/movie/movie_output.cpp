@@ -28,8 +28,8 @@ std::optional<MovieKind> kindOf(const std::filesystem::path& path) {
 
 class MovieOutput final : public MemoryOutput {
  public:
-  MovieOutput(std::filesystem::path path, FileSystem& files)
-      : path_(std::move(path)), files_(files) {}
+  MovieOutput(std::filesystem::path path, MovieOptions options, FileSystem& files)
+      : path_(std::move(path)), options_(std::move(options)), files_(files) {}
 
   OutputIdentity identity() const override { return {.backend = "movie", .id = path_.string()}; }
 
@@ -49,8 +49,10 @@ class MovieOutput final : public MemoryOutput {
 
  private:
   Result<std::unique_ptr<movie::MovieWriter>> openWriter(MovieKind kind);
+  Result<std::unique_ptr<movie::SoundTrack>> openSound(std::optional<movie::Container> container);
 
   std::filesystem::path path_;
+  MovieOptions options_;
   FileSystem& files_;
   movie::MovieFormat format_{};
   std::optional<PendingFile> file_;
@@ -80,7 +82,8 @@ Result<OutputFormat> MovieOutput::start(const OutputRequest& request) {
   format_ = {.frame = {.pixelFormat = PixelFormat::kI420,
                        .size = request.size,
                        .encoding = {.matrix = matrix, .range = ColorRange::kLimited}},
-             .framePeriod = period > Duration::zero() ? period : kDefaultPeriod};
+             .framePeriod = period > Duration::zero() ? period : kDefaultPeriod,
+             .crf = options_.crf};
   Result<PendingFile> file = PendingFile::create(path_, files_);
   if (!file) return tl::unexpected(file.error());
   file_.emplace(*std::move(file));
@@ -91,15 +94,40 @@ Result<OutputFormat> MovieOutput::start(const OutputRequest& request) {
 }
 
 Result<std::unique_ptr<movie::MovieWriter>> MovieOutput::openWriter(MovieKind kind) {
-  if (kind == MovieKind::kY4m) return movie::openY4mWriter(format_, *file_);
+  if (kind == MovieKind::kY4m) {
+    if (auto sound = openSound(std::nullopt); !sound) return tl::unexpected(sound.error());
+    return movie::openY4mWriter(format_, *file_);
+  }
   const auto container = kind == MovieKind::kMp4 ? movie::Container::kMp4 : movie::Container::kMkv;
-  return movie::openH264Writer(container, format_, path_.string(), *file_);
+  auto sound = openSound(container);
+  if (!sound) return tl::unexpected(sound.error());
+  return movie::openH264Writer(container, format_, path_.string(), *file_, *std::move(sound));
+}
+
+/// Null where there is none, or where the file cannot hold it, of which a notice tells.
+Result<std::unique_ptr<movie::SoundTrack>> MovieOutput::openSound(
+    std::optional<movie::Container> container) {
+  if (!options_.soundOf) return nullptr;
+  auto sound = movie::SoundTrack::open(*options_.soundOf, options_.soundFrom);
+  if (!sound || *sound == nullptr) return sound;
+  const AVCodecID coding = (*sound)->coding().codec_id;
+  if (container && movie::canHold(*container, coding)) return sound;
+  if (options_.onNotice) {
+    options_.onNotice(path_.string() + ": holds no sound coded as " + avcodec_get_name(coding) +
+                      ", which is left out; an .mkv would hold it");
+  }
+  return nullptr;
 }
 
 }  // namespace
 
 std::unique_ptr<MemoryOutput> openMovieOutput(std::filesystem::path path, FileSystem& files) {
-  return std::make_unique<MovieOutput>(std::move(path), files);
+  return openMovieOutput(std::move(path), {}, files);
+}
+
+std::unique_ptr<MemoryOutput> openMovieOutput(std::filesystem::path path, MovieOptions options,
+                                              FileSystem& files) {
+  return std::make_unique<MovieOutput>(std::move(path), std::move(options), files);
 }
 
 OutputKind movieKind() {
