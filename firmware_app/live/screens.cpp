@@ -11,7 +11,7 @@ namespace pleinair::app {
 namespace {
 
 constexpr hal::Duration kFirstPatience = std::chrono::seconds(1);
-constexpr hal::Duration kPollInterval = std::chrono::milliseconds(1);
+constexpr hal::Duration kFirstPollInterval = std::chrono::milliseconds(1);
 
 }  // namespace
 
@@ -89,7 +89,7 @@ void Screens::showFirst(hal::Clock& clock) {
   for (;;) {
     for (Screen& each : screens_) each.stage->step();
     if (std::ranges::all_of(screens_, isDone) || clock.now() >= deadline) return;
-    clock.sleepUntil(clock.now() + kPollInterval);
+    clock.sleepUntil(clock.now() + kFirstPollInterval);
   }
 }
 

@@ -39,9 +39,8 @@ void expectRefused(const std::vector<const char*>& arguments, const std::string&
 
 TEST(CommandLine, RefusesWhatItDoesNotKnow) {
   expectRefused({},
-                "one of run, render, record, calibrate, measure, config, devices, doctor, thesis "
-                "and styles is "
-                "required");
+                "one of run, render, record, looks, scene, calibrate, measure, config, devices, "
+                "doctor, warm-up, thesis and styles is required");
   expectRefused({"paint"}, "paint");
   expectRefused({"--verbose"}, "--verbose");
   expectRefused({"styles", "styles"}, "styles");
