@@ -102,15 +102,18 @@ void addPart(CLI::App& command, RenderOptions& options) {
 void addRender(CLI::App& app, RenderOptions& options, std::function<int()>& chosen) {
   CLI::App& command = *app.add_subcommand("render", "paint a recording: every frame, none dropped");
   command
-      .add_option("--input", options.input,
-                  "movie, Y4M, folder, one picture, or a pattern such as in/%04d.png")
+      .add_option(
+          "--input", options.input,
+          "movie, Y4M, folder, one picture, a pattern such as in/%04d.png, or - for a movie "
+          "on standard input")
       ->required()
       ->type_name("PATH");
   command
-      .add_option("--output", options.painting.output,
-                  "movie (.mp4, .mkv), .y4m, one .png, a folder, or a pattern such as out/%04d.png")
+      .add_option(
+          "--output", options.painting.output,
+          "movie (.mp4, .mkv), .y4m, one .png, a folder, a pattern such as out/%04d.png, or "
+          "- for Y4M on standard output")
       ->required()
-      ->check(refuseStandardOutput)
       ->type_name("PATH");
   addPainting(command, options.configuration);
   addKey(command, options.configuration, "--size", "painting.size",

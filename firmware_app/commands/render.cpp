@@ -19,7 +19,8 @@ namespace {
 void refuseCollisionsOf(const RenderOptions& options, std::vector<NamedPath> read) {
   read.insert(read.begin(), {"--input", options.input});
   const PaintingOptions& painting = options.painting;
-  std::vector<NamedPath> written{{"--output", painting.output}};
+  std::vector<NamedPath> written;
+  if (painting.output != kStandardOutput) written.push_back({"--output", painting.output});
   if (painting.poses) written.push_back({"--poses", *painting.poses});
   if (painting.contactSheet) written.push_back({"--contact-sheet", *painting.contactSheet});
   refuseCollisions(read, written);

@@ -53,7 +53,12 @@ std::optional<File> created(const std::optional<std::filesystem::path>& path) {
   return orThrow(File::create(*path));
 }
 
+bool isStandardOutput(const std::filesystem::path& output) {
+  return output == kStandardOutput;
+}
+
 std::unique_ptr<hal::MemoryOutput> openOutput(const PaintingOptions& options) {
+  if (isStandardOutput(options.output)) return hal::openMovieStream();
   const bool isMovie = hal::isMovieName(options.output) && !isFrameSeries(options.output);
   if (!isMovie) return orThrow(hal::openFileOutput(options.output));
   return hal::openMovieOutput(options.output, options.movie);
@@ -81,8 +86,10 @@ class Painting {
         outputFormat_(
             orThrow(output_->start({.size = pictureSize(), .framePeriod = stream_.framePeriod}))),
         reader_(painter_.openReadback(outputFormat_.frame)) {
-    for (const std::string& notice : stalePartNotices(job.options.output)) {
-      spdlog::warn("{}", notice);
+    if (!isStandardOutput(job.options.output)) {
+      for (const std::string& notice : stalePartNotices(job.options.output)) {
+        spdlog::warn("{}", notice);
+      }
     }
     for (const std::string& notice : job.scene.notices) spdlog::warn("{}", notice);
     warn(assumedCameraWarning(job.scene, stream_.frame.size));
@@ -109,7 +116,8 @@ class Painting {
     if (signal == 0 && !lost_) {
       for (const std::string& finding : observer_.findings()) spdlog::warn("{}", finding);
     }
-    writeText(stdout, summary);  // whether it arrived is checked at the end of the program
+    // Whether it arrived is checked at the end of the program.
+    writeText(isStandardOutput(job_.options.output) ? stderr : stdout, summary);
     if (lost_) throw hal::Failure(*lost_);
     return signal;
   }
@@ -148,7 +156,8 @@ class Painting {
         // stays.
         [](hal::FormatChanged&) { return kGoesOn; },
         [&](hal::EndOfStream& end) {
-          if (end.truncated) {
+          // A signal ends the reading of a pipe, too.
+          if (end.truncated && Interrupt::received() == 0) {
             progress.interrupt();
             spdlog::warn("{}", end.truncated->message());
           }

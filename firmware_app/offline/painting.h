@@ -15,6 +15,9 @@
 
 namespace pleinair::app {
 
+/// The output that means Y4M on standard output; the summary then goes to standard error.
+inline constexpr const char* kStandardOutput = "-";
+
 /// The options of one run.
 struct PaintingOptions {
   std::filesystem::path output;

@@ -4,10 +4,12 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "hal/media/picture_file.h"
 #include "tests/program/program.h"
@@ -108,6 +110,45 @@ TEST_F(Everyday, PaintsOneMomentOfAMovie) {
   EXPECT_THAT(refused.error, HasSubstr("seconds such as 12.5, or 1:02.5"));
 }
 
+TEST_F(Everyday, PaintsFromPipeToPipe) {
+  writeMedia(path("in.y4m"), 5);
+  writeAvMovie(path("in.mkv"), {.frames = 5});
+  ASSERT_EQ(
+      runProgram({"render", "--input", path("in.y4m"), "--output", path("direct.y4m")}).status, 0);
+  ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+  for (const std::string input : {"in.y4m", "in.mkv"}) {
+    std::ofstream(path("out.y4m")) << "";
+    ProgramLimits limits;
+    limits.readsFrom = path("pipe");
+    limits.printsInto = path("out.y4m");
+    limits.meanwhile = [&](pid_t) {
+      std::ifstream from(path(input), std::ios::binary);
+      std::ofstream(path("pipe"), std::ios::binary) << from.rdbuf();
+    };
+    const ProgramRun run = runProgram({"render", "--input", "-", "--output", "-"}, limits);
+    ASSERT_EQ(run.status, 0) << run.error;
+    EXPECT_THAT(run.error, testing::StartsWith("painted 5 frames in "));
+    const auto played = play(path("out.y4m"));
+    ASSERT_TRUE(played) << played.error().message();
+    EXPECT_EQ(played->frames.size(), 5U);
+    EXPECT_FALSE(std::get<hal::EndOfStream>(played->ending).truncated);
+    if (input == "in.y4m") {
+      EXPECT_EQ(bytesOf("out.y4m"), bytesOf("direct.y4m"));
+    }
+  }
+  EXPECT_EQ(folder_.entryCount(), 5U) << "no file of the name -";
+}
+
+TEST_F(Everyday, StopsPaintingIntoAPipeThatNobodyReads) {
+  writeMedia(path("in.y4m"), 50, {320, 240});
+  ProgramLimits limits;
+  limits.streams = Streams::kBrokenOutput;
+  const ProgramRun run =
+      runProgram({"render", "--input", path("in.y4m"), "--output", "-", "--style", "none"}, limits);
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(run.error, "pleinair: standard output: cannot write: Broken pipe\n");
+}
+
 TEST_F(Everyday, NamesTheFilesOfAFolderThatItLeavesOut) {
   std::filesystem::create_directory(path("in"));
   writeMedia(path("in/"), 3);
@@ -161,6 +202,17 @@ TEST_F(Everyday, TooLittleAddressSpaceIsNotBlamedOnTheDriver) {
   EXPECT_THAT(run.error, testing::Not(HasSubstr("install Mesa")));
 }
 
+TEST_F(Everyday, SaysThatShadersAreCompiled) {
+  writeMedia(path("in.png"), 1);
+  ProgramLimits limits;
+  limits.environment = {"MESA_SHADER_CACHE_DISABLE=true"};
+  limits.keepsCompileNotice = true;
+  const ProgramRun run =
+      runProgram({"render", "--input", path("in.png"), "--output", path("out.png")}, limits);
+  EXPECT_EQ(run.status, 0);
+  EXPECT_THAT(run.error, testing::StartsWith("pleinair: info: compiling shaders"));
+}
+
 TEST_F(Looks, ArePaintedOnOneSheet) {
   writeMedia(path("in.png"), 1, {160, 120});
   const ProgramRun run = runProgram(
@@ -202,6 +254,11 @@ TEST_F(SceneChecked, IsDescribedAndDrawnOverARecording) {
                         path("bench.toml")})
                 .status,
             0);
+  // The last model's tag comes into view later.
+  std::ifstream file(path("bench.toml"));
+  std::string scene{std::istreambuf_iterator<char>(file), {}};
+  scene.resize(scene.rfind("[[model]]"));
+  std::ofstream(path("bench.toml")) << scene;
   const ProgramRun run = runProgram({"scene", "check", path("bench.toml"), "--input",
                                      path("bench.mkv"), "--output", path("check.png")});
   EXPECT_EQ(run.status, 0) << run.error;

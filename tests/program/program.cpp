@@ -95,6 +95,10 @@ void enterRemovedFolder() {
       limits.printsInto.empty() ? out.write : open(limits.printsInto.c_str(), O_WRONLY);
   if (dup2(file, STDOUT_FILENO) < 0) _exit(127);
   dup2(error.write, STDERR_FILENO);
+  if (!limits.readsFrom.empty() &&
+      dup2(open(limits.readsFrom.c_str(), O_RDONLY), STDIN_FILENO) < 0) {
+    _exit(127);
+  }
   spoilStreams(limits.streams);
   if (limits.fileBytes > 0) {
     // A write beyond the limit then fails instead of killing.

@@ -40,6 +40,8 @@ struct ProgramLimits {
   std::string terminateWhenExists;
   /// The file that takes its standard output, instead of ProgramRun::out; empty: none.
   std::string printsInto;
+  /// What is its standard input, instead of the test's; empty: the test's.
+  std::string readsFrom = {};
   Streams streams = Streams::kPipes;
   /// Keeps the line that says that shaders are compiled, which depends on the driver's cache, in
   /// ProgramRun::error.

@@ -45,6 +45,7 @@ Result<RecordingKind> kindOf(const std::filesystem::path& path) {
 }  // namespace
 
 SourceResult openSource(const std::filesystem::path& path, const RecordingOptions& options) {
+  if (path == kStandardInput) return openMovie(path, options);
   std::error_code status;
   const std::filesystem::file_status file = std::filesystem::status(path, status);
   if (std::filesystem::is_directory(file)) return pictures(picturesIn(path), options);

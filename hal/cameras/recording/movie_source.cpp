@@ -337,8 +337,8 @@ std::optional<Error> MovieSource::whyTruncated(const libav::LogCapture& log) con
     cut = indexIsShort || samplesAreLost || (boxes_.fragmentSamples > 0 && boxes_.aborted);
   } else if (isY4m()) {
     // libav reports no error if the last frame is too short.
-    cut = lastPacketEnd_ != file_.io.file().sizeBytes();
-  } else if (isMatroska() && segmentBreaksOff(file_.io.file())) {
+    cut = !file_.io.file().isStream() && lastPacketEnd_ != file_.io.file().sizeBytes();
+  } else if (isMatroska() && !file_.io.file().isStream() && segmentBreaksOff(file_.io.file())) {
     cut = true;
   } else if (!log.firstError().empty()) {
     return aborted(subject_, "is truncated: " + log.firstError());
@@ -352,8 +352,10 @@ std::optional<Error> MovieSource::whyTruncated(const libav::LogCapture& log) con
 Result<std::unique_ptr<FrameSource>> openMovie(const std::filesystem::path& path,
                                                const RecordingOptions& options) {
   libav::redirectLog();
-  const std::string subject = path.string();
-  Result<libav::FileInput> input = libav::FileInput::open(path);
+  const bool isStandardInput = path == kStandardInput;
+  const std::string subject = isStandardInput ? "standard input" : path.string();
+  Result<libav::FileInput> input =
+      isStandardInput ? libav::FileInput::standardInput() : libav::FileInput::open(path);
   if (!input) return tl::unexpected(input.error());
   DemuxedFile file{.io = libav::DemuxerIo(*std::move(input)), .context = nullptr, .complaint = {}};
   if (Result<void> opened = openContainer(file, subject); !opened) {

@@ -11,6 +11,10 @@
 
 namespace pleinair::hal {
 
+/// The path that means standard input: a movie in a container that can be read from its beginning
+/// to its end, such as Y4M or Matroska.
+inline constexpr const char* kStandardInput = "-";
+
 struct RecordingOptions {
   Pacing pacing = Pacing::kStepped;
   /// Starts over at the end, also at the end of a truncated recording; sequence numbers and times
@@ -28,6 +32,7 @@ struct RecordingOptions {
 };
 
 /// A recorded camera. `path` is
+/// - kStandardInput,
 /// - a movie (MP4, MKV, Y4M, or any other local file that libav demuxes),
 /// - one picture (PNG, JPEG, BMP, TIFF, WebP, PNM; HEIC and AVIF where libheif is built in),
 /// - a folder of such pictures, in natural order of their names; other files in it are ignored,

@@ -43,6 +43,10 @@ struct MovieOptions {
 std::unique_ptr<MemoryOutput> openMovieOutput(std::filesystem::path path, MovieOptions options,
                                               FileSystem& files = systemFiles());
 
+/// Y4M on standard output, frame by frame, for a program that reads it from a pipe: as .y4m above.
+/// Errors of write() also: kIo (the reader is gone). Nothing else may write to standard output.
+std::unique_ptr<MemoryOutput> openMovieStream();
+
 /// Whether the ending is one of the above (".MP4" as well).
 bool isMovieName(const std::filesystem::path& path);
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "hal/error.h"
@@ -36,6 +39,8 @@ Result<std::unique_ptr<MovieWriter>> openH264Writer(Container container, const M
                                                     std::unique_ptr<SoundTrack> sound);
 /// Whether a container can hold a coding of sound without a change.
 bool canHold(Container container, AVCodecID coding);
-Result<std::unique_ptr<MovieWriter>> openY4mWriter(const MovieFormat& format, PendingFile& file);
+/// Takes the bytes of a file in their order.
+using ByteSink = std::function<Result<void>(std::span<const std::uint8_t>)>;
+Result<std::unique_ptr<MovieWriter>> openY4mWriter(const MovieFormat& format, ByteSink sink);
 
 }  // namespace pleinair::hal::movie
