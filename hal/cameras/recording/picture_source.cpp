@@ -159,7 +159,7 @@ class PictureSource final : public FrameSource {
       }
       if (frame.error().kind != ErrorKind::kInvalidInput) return frame.error();
       lastBroken = frame.error();
-      if (onSkipped_) onSkipped_(*lastBroken);
+      if (period_ && onSkipped_) onSkipped_(*lastBroken);
     }
     return SourceEnd{.truncated = lastBroken};
   }
