@@ -235,7 +235,8 @@ TEST_F(WarmUp, LeavesNothingToCompile) {
   limits.time = std::chrono::seconds(280);
   limits.environment = {"MESA_SHADER_CACHE_DIR=" + path("cache")};
   limits.keepsCompileNotice = true;
-  const ProgramRun warm = runProgram({"warm-up", "--style", "watercolor", "--size", "320x240"}, limits);
+  const ProgramRun warm =
+      runProgram({"warm-up", "--style", "watercolor", "--size", "320x240"}, limits);
   ASSERT_EQ(warm.status, 0) << warm.error;
   EXPECT_THAT(warm.out, testing::MatchesRegex("watercolor: [0-9.]+ s\n"));
   const std::size_t compiled = filesIn("cache");
