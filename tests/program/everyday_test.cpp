@@ -229,14 +229,13 @@ TEST_F(Looks, ArePaintedOnOneSheet) {
 }
 
 TEST_F(WarmUp, LeavesNothingToCompile) {
-  writeMedia(path("in.mp4"), 4, {320, 240});
+  writeMedia(path("in.mp4"), 4, {640, 480});
   std::filesystem::create_directory(path("cache"));
   ProgramLimits limits;
   limits.time = std::chrono::seconds(280);
   limits.environment = {"MESA_SHADER_CACHE_DIR=" + path("cache")};
   limits.keepsCompileNotice = true;
-  const ProgramRun warm =
-      runProgram({"warm-up", "--style", "watercolor", "--size", "320x240"}, limits);
+  const ProgramRun warm = runProgram({"warm-up", "--style", "watercolor"}, limits);
   ASSERT_EQ(warm.status, 0) << warm.error;
   EXPECT_THAT(warm.out, testing::MatchesRegex("watercolor: [0-9.]+ s\n"));
   const std::size_t compiled = filesIn("cache");
